@@ -1,0 +1,232 @@
+use crate::error::{Error, Result};
+use crate::real::Real;
+
+mod exponential;
+mod maugis_dugdale;
+mod none;
+
+pub use exponential::Exponential;
+pub use maugis_dugdale::MaugisDugdale;
+pub use none::NoAdhesion;
+
+/// How two surfaces attract each other across a gap: an energy per area, a function of the gap alone.
+///
+/// A law is three functions of one gap `g ≥ 0`: the energy φ(g) ≤ 0, its derivative φ'(g), the
+/// adhesive traction, positive where the surfaces attract each other, and the traction's slope φ''(g). Everything else
+/// has a default. The energy falls to zero, or to any constant, at large gaps.
+///
+/// [`check_law`] tells whether the three functions agree with one another; call it in a test of your law.
+///
+/// ```
+/// use asperity::{AdhesionLaw, Real, check_law};
+///
+/// /// φ = −w (1 − g/ρ)³ for g < ρ, 0 beyond.
+/// struct Cubic<T> { w: T, rho: T }
+///
+/// impl<T: Real> AdhesionLaw<T> for Cubic<T> {
+///     fn energy(&self, gap: T) -> T {
+///         let x = (T::one() - gap / self.rho).max(T::zero());
+///         -self.w * x * x * x
+///     }
+///     fn traction(&self, gap: T) -> T {
+///         let x = (T::one() - gap / self.rho).max(T::zero());
+///         T::lit(3.0) * self.w / self.rho * x * x
+///     }
+///     fn slope(&self, gap: T) -> T {
+///         let x = (T::one() - gap / self.rho).max(T::zero());
+///         T::lit(-6.0) * self.w / (self.rho * self.rho) * x
+///     }
+/// }
+///
+/// check_law(&Cubic { w: 1e-4, rho: 2e-3 }, 1e-2)?;
+/// # Ok::<(), asperity::Error>(())
+/// ```
+pub trait AdhesionLaw<T: Real>: Sync {
+    /// The adhesive energy φ(g), energy per area; usually negative.
+    fn energy(&self, gap: T) -> T;
+
+    /// The adhesive traction φ'(g), force per area; positive attracts.
+    fn traction(&self, gap: T) -> T;
+
+    /// The slope of the traction φ''(g), traction per length. Where the traction jumps, its slope beside the jump.
+    fn slope(&self, gap: T) -> T;
+
+    /// The work of adhesion w = −φ(0), energy per area.
+    fn work_of_adhesion(&self) -> T {
+        -self.energy(T::zero())
+    }
+
+    /// The length ρ over which the traction decays, for the resolution measure μ_ρ.
+    ///
+    /// The default is w/φ'(0), which is ρ for an exponential and for a constant traction. A law that attracts
+    /// most at some distance from contact should say its own.
+    fn range(&self) -> T {
+        let (w, traction) = (self.work_of_adhesion(), self.traction(T::zero()));
+        if w > T::zero() && traction > T::zero() { w / traction } else { T::zero() }
+    }
+
+    /// Whether the law is zero at all gaps, so that it need not be evaluated. The default is that it is not.
+    fn is_zero(&self) -> bool {
+        false
+    }
+
+    /// The energies at many gaps. The three slice functions exist so that a law behind `dyn` costs one virtual call
+    /// for many nodes, and so that a law can use vector instructions.
+    fn energies(&self, gaps: &[T], energies: &mut [T]) {
+        energies.iter_mut().zip(gaps).for_each(|(e, &g)| *e = self.energy(g));
+    }
+
+    /// The tractions at many gaps.
+    fn tractions(&self, gaps: &[T], tractions: &mut [T]) {
+        tractions.iter_mut().zip(gaps).for_each(|(t, &g)| *t = self.traction(g));
+    }
+
+    /// The slopes of the traction at many gaps.
+    fn slopes(&self, gaps: &[T], slopes: &mut [T]) {
+        slopes.iter_mut().zip(gaps).for_each(|(s, &g)| *s = self.slope(g));
+    }
+}
+
+macro_rules! forward {
+    ($($type:ty),*) => {$(
+        impl<T: Real, L: AdhesionLaw<T> + ?Sized> AdhesionLaw<T> for $type {
+            fn energy(&self, gap: T) -> T { (**self).energy(gap) }
+            fn traction(&self, gap: T) -> T { (**self).traction(gap) }
+            fn slope(&self, gap: T) -> T { (**self).slope(gap) }
+            fn work_of_adhesion(&self) -> T { (**self).work_of_adhesion() }
+            fn range(&self) -> T { (**self).range() }
+            fn is_zero(&self) -> bool { (**self).is_zero() }
+            fn energies(&self, gaps: &[T], energies: &mut [T]) { (**self).energies(gaps, energies) }
+            fn tractions(&self, gaps: &[T], tractions: &mut [T]) { (**self).tractions(gaps, tractions) }
+            fn slopes(&self, gaps: &[T], slopes: &mut [T]) { (**self).slopes(gaps, slopes) }
+        }
+    )*};
+}
+forward!(&L, Box<L>);
+
+/// Tells whether the three functions of a law agree with one another.
+///
+/// Compares, at 200 gaps between 0 and `largest_gap`, the traction with central differences of the energy
+/// and the slope with central differences of the traction, in the precision of the law, to a hundredth of the
+/// largest value of that function. A function may jump (as the traction of Maugis–Dugdale does at ρ): gaps
+/// beside a jump, where the differences grow as their step shrinks, are passed over.
+///
+/// # Errors
+/// [`Error::Law`] with the function, the first gap at which it is not finite or is not the derivative of the one
+/// before it, and what it should be there; [`Error::Value`] if `largest_gap` is not positive and finite.
+///
+/// ```
+/// use asperity::{Exponential, MaugisDugdale, check_law};
+/// check_law(&Exponential::new(1e-4_f64, 2e-3)?, 0.02)?;
+/// check_law(&MaugisDugdale::new(1e-4_f32, 2e-3)?, 0.02)?;
+/// # Ok::<(), asperity::Error>(())
+/// ```
+pub fn check_law<T: Real>(law: &impl AdhesionLaw<T>, largest_gap: f64) -> Result<()> {
+    const GAPS: usize = 200;
+    Error::positive("largest gap", largest_gap)?;
+    // the step that balances truncation against rounding in a central difference of what varies over the range
+    let step = law.range().widen().clamp(1e-3 * largest_gap, largest_gap) * T::epsilon().widen().cbrt();
+    let gaps = || (0..=GAPS).map(|i| 2.0 * step + (largest_gap - 2.0 * step) * i as f64 / GAPS as f64);
+    let functions: [(&str, &dyn Fn(f64) -> f64); 3] = [
+        ("adhesive energy", &|g| law.energy(T::lit(g)).widen()),
+        ("adhesive traction", &|g| law.traction(T::lit(g)).widen()),
+        ("slope of the adhesive traction", &|g| law.slope(T::lit(g)).widen()),
+    ];
+    for (function, f) in functions {
+        if let Some(gap) = std::iter::once(0.0).chain(gaps()).find(|&g| !f(g).is_finite()) {
+            return Err(Error::Law { function, gap, value: f(gap), expected: None });
+        }
+    }
+    for pair in functions.windows(2) {
+        let (f, (function, derivative)) = (pair[0].1, pair[1]);
+        let difference = |g: f64, step: f64| {
+            // the gaps as the law sees them
+            let (a, b) = (T::lit(g - step).widen(), T::lit(g + step).widen());
+            (f(b) - f(a)) / (b - a)
+        };
+        let rounding = 8.0 * T::epsilon().widen() * gaps().map(|g| f(g).abs()).fold(0.0, f64::max) / step;
+        let size = gaps().map(|g| derivative(g).abs()).fold(0.0, f64::max);
+        for gap in gaps() {
+            let (wide, narrow) = (difference(gap, step), difference(gap, 0.5 * step));
+            let jump = (wide - narrow).abs() > rounding + 0.2 * wide.abs().max(narrow.abs());
+            let value = derivative(gap);
+            if !jump && (narrow - value).abs() > rounding + 1e-2 * size {
+                return Err(Error::Law { function, gap, value, expected: Some(narrow) });
+            }
+        }
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// An exponential of unit size with one of its functions spoiled.
+    struct Spoiled(f64, f64, f64);
+
+    impl AdhesionLaw<f64> for Spoiled {
+        fn energy(&self, gap: f64) -> f64 {
+            -self.0 * (-gap).exp()
+        }
+        fn traction(&self, gap: f64) -> f64 {
+            self.1 * (-gap).exp()
+        }
+        fn slope(&self, gap: f64) -> f64 {
+            -self.2 * (-gap).exp()
+        }
+    }
+
+    #[test]
+    fn the_checker_accepts_every_built_in_law_in_both_precisions() {
+        for range in [1e-9, 1e-3, 10.0] {
+            for reach in [0.5, 5.0, 50.0] {
+                let (w, far) = (1e-2, reach * range);
+                check_law(&Exponential::new(w, range).unwrap(), far).unwrap();
+                check_law(&MaugisDugdale::new(w, range).unwrap(), far).unwrap();
+                check_law(&Exponential::new(w as f32, range as f32).unwrap(), far).unwrap();
+                check_law(&MaugisDugdale::new(w as f32, range as f32).unwrap(), far).unwrap();
+            }
+        }
+        check_law::<f64>(&NoAdhesion, 1.0).unwrap();
+    }
+
+    #[test]
+    fn the_checker_names_the_function_that_is_wrong() {
+        check_law(&Spoiled(1.0, 1.0, 1.0), 5.0).unwrap();
+        for (law, wrong) in [
+            (Spoiled(1.0, 1.1, 1.1), "adhesive traction"),
+            (Spoiled(1.0, -1.0, -1.0), "adhesive traction"),
+            (Spoiled(1.0, 1.0, 0.9), "slope of the adhesive traction"),
+            (Spoiled(1.0, f64::NAN, 1.0), "adhesive traction"),
+            (Spoiled(f64::INFINITY, 1.0, 1.0), "adhesive energy"),
+        ] {
+            match check_law(&law, 5.0) {
+                Err(Error::Law { function, .. }) => assert_eq!(function, wrong),
+                other => panic!("{other:?}"),
+            }
+        }
+    }
+
+    #[test]
+    fn a_boxed_law_is_the_law() {
+        let law = Exponential::new(2.0, 0.5).unwrap();
+        let boxed: Box<dyn AdhesionLaw<f64>> = Box::new(law);
+        assert_eq!(AdhesionLaw::range(&boxed), 0.5);
+        assert_eq!(AdhesionLaw::work_of_adhesion(&boxed), 2.0);
+        assert!(!AdhesionLaw::is_zero(&boxed));
+        let gaps = [0.0, 0.1, 3.0];
+        let (mut a, mut b) = ([0.0; 3], [0.0; 3]);
+        law.tractions(&gaps, &mut a);
+        AdhesionLaw::tractions(&boxed, &gaps, &mut b);
+        assert_eq!(a, b);
+    }
+
+    #[test]
+    fn laws_refuse_what_is_not_a_law() {
+        assert!(Exponential::new(-1.0, 1.0).is_err());
+        assert!(Exponential::new(1.0, 0.0).is_err());
+        assert!(MaugisDugdale::new(f64::NAN, 1.0).is_err());
+        assert!(MaugisDugdale::new(1.0, f64::INFINITY).is_err());
+    }
+}

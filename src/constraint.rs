@@ -1,0 +1,55 @@
+use ndarray::ArrayView2;
+
+use crate::error::Result;
+use crate::grid::Grid;
+use crate::real::Real;
+
+mod projection;
+
+pub use projection::Projection;
+
+/// How the solver keeps the surfaces from passing through each other.
+///
+/// Either the gap is confined to g ≥ 0 ([`Projection`]), or any gap is feasible and the energy gains a term, node by
+/// node, that resists negative gaps; such a term may carry multipliers, updated between solves.
+pub trait ContactConstraint<T: Real>: Sync {
+    /// Whether the gap is confined to g ≥ 0. If so the other methods are not asked.
+    fn projects(&self) -> bool;
+
+    /// Prepares for a solve on a grid.
+    ///
+    /// # Errors
+    /// Whatever cannot be used on that grid.
+    fn start(&mut self, _grid: &Grid) -> Result<()> {
+        Ok(())
+    }
+
+    /// The energy per area that the term adds at a node (in row-major order) with this gap.
+    fn energy(&self, _node: usize, _gap: T) -> T {
+        T::zero()
+    }
+
+    /// The derivative of that energy by the gap: minus the contact pressure.
+    fn traction(&self, _node: usize, _gap: T) -> T {
+        T::zero()
+    }
+
+    /// The second derivative of that energy by the gap.
+    fn slope(&self, _node: usize, _gap: T) -> T {
+        T::zero()
+    }
+
+    /// Called when a solve has converged: updates the multipliers, and tells whether to solve again with them.
+    fn update(&mut self, _gap: ArrayView2<'_, T>) -> Outer {
+        Outer::Done
+    }
+}
+
+/// What [`ContactConstraint::update`] decides.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Outer {
+    /// The constraint is met: the solution stands.
+    Done,
+    /// The energy has changed: go on minimising from here.
+    Again,
+}

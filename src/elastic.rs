@@ -1,0 +1,120 @@
+use ndarray::{Array2, ArrayView2, ArrayViewMut2, Zip};
+
+use crate::error::{Error, Result};
+use crate::grid::Grid;
+use crate::real::Real;
+
+mod spectral;
+mod westergaard;
+
+pub use spectral::Spectral;
+pub use westergaard::Westergaard;
+
+/// The elastic half-space: what pressure a displacement of its surface needs, and the other way round.
+///
+/// The operator is linear, symmetric, and positive on fields without mean. A rigid translation costs nothing, so
+/// both applications return fields of zero mean and ignore the mean of what they are given. [`Westergaard`] is the
+/// homogeneous half-space, [`Spectral`] is any operator that acts on each wave by a factor; implement
+/// the trait for anything else. The first four methods and [`modulus`](Self::modulus) are required.
+///
+/// Every application writes into the caller's array and, for the operators of this crate, allocates nothing.
+pub trait ElasticOperator<T: Real> {
+    /// The grid of the fields that the operator takes and returns.
+    fn grid(&self) -> &Grid;
+
+    /// The elastic pressure p = K⁻¹u of a normal displacement u, both of shape (Nx, Ny). The mean of p is zero.
+    ///
+    /// # Errors
+    /// [`Error::Shape`] if a field does not fit the grid.
+    fn pressure(&mut self, displacement: ArrayView2<'_, T>, pressure: ArrayViewMut2<'_, T>) -> Result<()>;
+
+    /// The displacement u = Kp of a pressure p, both of shape (Nx, Ny). The mean of u is zero.
+    ///
+    /// # Errors
+    /// [`Error::Shape`] if a field does not fit the grid.
+    fn displacement(&mut self, pressure: ArrayView2<'_, T>, displacement: ArrayViewMut2<'_, T>) -> Result<()>;
+
+    /// The stiffness of the softest and of the stiffest wave on the grid, pressure per length, the mean excluded.
+    ///
+    /// They scale steps; estimates will do. Both are zero only where there is no wave, on a grid of one node.
+    fn stiffness_range(&self) -> (f64, f64);
+
+    /// The contact modulus E* that the half-space has for waves as short as the grid's spacing.
+    fn modulus(&self) -> f64;
+
+    /// The elastic pressure K⁻¹h of the surface pressed flat, and the mean of h·K⁻¹h.
+    ///
+    /// The heights come in `f64` whatever the operator's precision, without their mean. The default rounds them first;
+    /// [`Spectral`] applies itself in `f64` and rounds the pressure.
+    ///
+    /// # Errors
+    /// [`Error::Shape`] if a field does not fit the grid.
+    fn surface_pressure(&mut self, heights: ArrayView2<'_, f64>, mut pressure: ArrayViewMut2<'_, T>) -> Result<f64> {
+        let rounded = heights.mapv(T::lit);
+        self.pressure(rounded.view(), pressure.view_mut())?;
+        Ok(mean_product(heights, pressure.view()))
+    }
+
+    /// Applies the preconditioner, M r, and returns the mean of r·Kr.
+    ///
+    /// M is close to the compliance K, with a finite value `1/mean_stiffness` for the mean; it must be symmetric and
+    /// positive. The returned number is what bounds the error (see [`Report::relative_error`](crate::Report)); it
+    /// must be that of K itself, without the mean. The default applies [`displacement`](Self::displacement).
+    ///
+    /// # Errors
+    /// [`Error::Shape`] if a field does not fit the grid.
+    fn precondition(
+        &mut self,
+        residual: ArrayView2<'_, T>,
+        mean_stiffness: f64,
+        mut preconditioned: ArrayViewMut2<'_, T>,
+    ) -> Result<f64> {
+        self.displacement(residual, preconditioned.view_mut())?;
+        let product =
+            Zip::from(&residual).and(&preconditioned).fold(0.0, |sum: f64, &r, &u| sum + r.widen() * u.widen());
+        let mean = residual.iter().map(|r| r.widen()).sum::<f64>() / residual.len() as f64;
+        let shift = T::lit(mean / mean_stiffness);
+        preconditioned.mapv_inplace(|u| u + shift);
+        Ok(product / residual.len() as f64)
+    }
+}
+
+/// The mean over the nodes of a product.
+fn mean_product<T: Real>(heights: ArrayView2<'_, f64>, pressure: ArrayView2<'_, T>) -> f64 {
+    let sum = Zip::from(&heights).and(&pressure).fold(0.0, |sum, &h, &p| sum + h * p.widen());
+    sum / heights.len() as f64
+}
+
+macro_rules! forward {
+    ($($type:ty),*) => {$(
+        impl<T: Real, O: ElasticOperator<T> + ?Sized> ElasticOperator<T> for $type {
+            fn grid(&self) -> &Grid {
+                (**self).grid()
+            }
+            fn pressure(&mut self, displacement: ArrayView2<'_, T>, pressure: ArrayViewMut2<'_, T>) -> Result<()> {
+                (**self).pressure(displacement, pressure)
+            }
+            fn displacement(&mut self, pressure: ArrayView2<'_, T>, displacement: ArrayViewMut2<'_, T>) -> Result<()> {
+                (**self).displacement(pressure, displacement)
+            }
+            fn stiffness_range(&self) -> (f64, f64) {
+                (**self).stiffness_range()
+            }
+            fn modulus(&self) -> f64 {
+                (**self).modulus()
+            }
+            fn surface_pressure(&mut self, heights: ArrayView2<'_, f64>, pressure: ArrayViewMut2<'_, T>) -> Result<f64> {
+                (**self).surface_pressure(heights, pressure)
+            }
+            fn precondition(
+                &mut self,
+                residual: ArrayView2<'_, T>,
+                mean_stiffness: f64,
+                preconditioned: ArrayViewMut2<'_, T>,
+            ) -> Result<f64> {
+                (**self).precondition(residual, mean_stiffness, preconditioned)
+            }
+        }
+    )*};
+}
+forward!(&mut O, Box<O>);

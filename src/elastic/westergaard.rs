@@ -1,0 +1,57 @@
+use super::*;
+
+/// The homogeneous elastic half-space under periodic loads: a wave with wave number q needs p̂ = E*|q|/2 û.
+///
+/// Westergaard (1939); Stanley and Kato (1997). E* = E/(1 − ν²) is the contact modulus, in units of pressure.
+///
+/// ```
+/// use asperity::{ElasticOperator, Grid, Westergaard};
+/// let grid = Grid::square(16, 1.0)?;
+/// let mut half_space = Westergaard::new(grid, 2.0)?;
+/// let u = grid.sample(|x, _| (std::f64::consts::TAU * x).cos());
+/// let mut p = u.clone();
+/// half_space.pressure(u.view(), p.view_mut())?;
+/// assert!((p[[8, 0]] - std::f64::consts::TAU).abs() < 1e-12); // E*q/2 at the crest
+/// # Ok::<(), asperity::Error>(())
+/// ```
+#[derive(Debug)]
+pub struct Westergaard<T: Real>(Spectral<T>);
+
+impl<T: Real> Westergaard<T> {
+    /// The half-space of contact modulus E* under a periodic grid.
+    ///
+    /// # Errors
+    /// [`Error::Value`] if the modulus is not positive and finite, or if a stiffness leaves the range of T.
+    pub fn new(grid: Grid, modulus: f64) -> Result<Self> {
+        Ok(Self(Spectral::isotropic(grid, modulus, move |q| 0.5 * modulus * q)?))
+    }
+}
+
+impl<T: Real> ElasticOperator<T> for Westergaard<T> {
+    fn grid(&self) -> &Grid {
+        self.0.grid()
+    }
+    fn pressure(&mut self, displacement: ArrayView2<'_, T>, pressure: ArrayViewMut2<'_, T>) -> Result<()> {
+        self.0.pressure(displacement, pressure)
+    }
+    fn displacement(&mut self, pressure: ArrayView2<'_, T>, displacement: ArrayViewMut2<'_, T>) -> Result<()> {
+        self.0.displacement(pressure, displacement)
+    }
+    fn stiffness_range(&self) -> (f64, f64) {
+        self.0.stiffness_range()
+    }
+    fn modulus(&self) -> f64 {
+        self.0.modulus()
+    }
+    fn surface_pressure(&mut self, heights: ArrayView2<'_, f64>, pressure: ArrayViewMut2<'_, T>) -> Result<f64> {
+        self.0.surface_pressure(heights, pressure)
+    }
+    fn precondition(
+        &mut self,
+        residual: ArrayView2<'_, T>,
+        mean_stiffness: f64,
+        preconditioned: ArrayViewMut2<'_, T>,
+    ) -> Result<f64> {
+        self.0.precondition(residual, mean_stiffness, preconditioned)
+    }
+}

@@ -1,0 +1,149 @@
+use std::fmt;
+use std::path::{Path, PathBuf};
+
+use ndarray::ArrayView2;
+
+use crate::real::Real;
+
+/// What the library returns where it can refuse its input.
+pub type Result<T> = std::result::Result<T, Error>;
+
+/// An input that was refused. Each variant names the value and what would have been accepted.
+///
+/// A solve that does not converge is not an error: it returns its fields with a
+/// [`Status`](crate::Status) that says so.
+///
+/// ```
+/// use asperity::{Error, Grid};
+/// let error = Grid::new((64, 64), (1.0, -1.0)).unwrap_err();
+/// assert!(matches!(error, Error::Value { name: "side length Ly", .. }));
+/// assert_eq!(error.to_string(), "side length Ly is -1: it must be positive and finite");
+/// ```
+#[non_exhaustive]
+#[derive(Clone, Debug, PartialEq)]
+pub enum Error {
+    /// A number that its quantity does not allow.
+    Value {
+        /// The quantity.
+        name: &'static str,
+        /// What was given.
+        value: f64,
+        /// What is allowed, to follow "it must be".
+        requirement: &'static str,
+    },
+    /// A field of another shape than the grid on which it is used.
+    Shape {
+        /// The field.
+        name: &'static str,
+        /// Its shape, `(Nx, Ny)`.
+        found: (usize, usize),
+        /// The shape that it must have.
+        expected: (usize, usize),
+    },
+    /// A field that holds NaN or infinities.
+    NotFinite {
+        /// The field.
+        name: &'static str,
+        /// How many of its nodes are not finite.
+        count: usize,
+        /// How many nodes it has.
+        nodes: usize,
+        /// The first such node in row-major order, `(ix, iy)`.
+        first: (usize, usize),
+        /// What stands there.
+        value: f64,
+    },
+    /// A function of an adhesion law that is not finite, or not the derivative of the one before it
+    /// (energy, traction, slope of the traction).
+    Law {
+        /// The function.
+        function: &'static str,
+        /// The gap at which it is wrong.
+        gap: f64,
+        /// What it returns there.
+        value: f64,
+        /// What it should return there; nothing if it is not finite.
+        expected: Option<f64>,
+    },
+    /// A file that could not be read or written.
+    File {
+        /// Where it is.
+        path: PathBuf,
+        /// What went wrong, and what would help.
+        reason: String,
+    },
+}
+
+impl Error {
+    /// A file that could not be read or written, for `reason`.
+    pub fn file(path: &Path, reason: impl fmt::Display) -> Self {
+        Self::File { path: path.to_owned(), reason: reason.to_string() }
+    }
+
+    /// Passes `value` on if it is positive and finite.
+    pub(crate) fn positive(name: &'static str, value: f64) -> Result<f64> {
+        if value > 0.0 && value.is_finite() {
+            Ok(value)
+        } else {
+            Err(Self::Value { name, value, requirement: "positive and finite" })
+        }
+    }
+
+    /// Passes `value` on if it is zero, or positive and finite.
+    pub(crate) fn non_negative(name: &'static str, value: f64) -> Result<f64> {
+        if value >= 0.0 && value.is_finite() {
+            Ok(value)
+        } else {
+            Err(Self::Value { name, value, requirement: "zero, or positive and finite" })
+        }
+    }
+
+    /// Passes `value` on if it is finite.
+    pub(crate) fn finite(name: &'static str, value: f64) -> Result<f64> {
+        if value.is_finite() { Ok(value) } else { Err(Self::Value { name, value, requirement: "finite" }) }
+    }
+
+    /// Refuses a field of another shape than `expected`.
+    pub(crate) fn shape(name: &'static str, found: (usize, usize), expected: (usize, usize)) -> Result<()> {
+        if found == expected { Ok(()) } else { Err(Self::Shape { name, found, expected }) }
+    }
+
+    /// Refuses a field that holds NaN or infinities.
+    pub(crate) fn all_finite<T: Real>(name: &'static str, field: ArrayView2<'_, T>) -> Result<()> {
+        let mut wrong = field.indexed_iter().filter(|(_, value)| !value.is_finite());
+        match wrong.next() {
+            None => Ok(()),
+            Some((first, value)) => {
+                let value = value.widen();
+                Err(Self::NotFinite { name, count: 1 + wrong.count(), nodes: field.len(), first, value })
+            }
+        }
+    }
+}
+
+impl fmt::Display for Error {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Value { name, value, requirement } => write!(f, "{name} is {value}: it must be {requirement}"),
+            Self::Shape { name, found, expected } => {
+                write!(f, "{name} has shape {} x {}: it must be {} x {}", found.0, found.1, expected.0, expected.1)
+            }
+            Self::NotFinite { name, count, nodes, first, value } => write!(
+                f,
+                "{name}: {count} of {nodes} nodes are not finite, the first ({value}) at index [{}, {}]: \
+                 fill missing points first",
+                first.0, first.1
+            ),
+            Self::Law { function, gap, value, expected: None } => {
+                write!(f, "the {function} is {value} at a gap of {gap}: it must be finite at every gap")
+            }
+            Self::Law { function, gap, value, expected: Some(expected) } => write!(
+                f,
+                "the {function} is {value} at a gap of {gap}: the function of which it is the derivative gives {expected}"
+            ),
+            Self::File { path, reason } => write!(f, "{}: {reason}", path.display()),
+        }
+    }
+}
+
+impl std::error::Error for Error {}

@@ -1,0 +1,279 @@
+//! The two-dimensional real transform, as a convolution: forward, a factor per mode, inverse.
+
+use std::fmt;
+use std::sync::Arc;
+
+use ndarray::{Array2, ArrayView1, ArrayView2, ArrayViewMut2, Axis};
+use num_traits::Zero;
+use rustfft::num_complex::Complex;
+use rustfft::{Fft, FftPlanner};
+
+use crate::error::{Error, Result};
+use crate::par::{self, Pool};
+use crate::real::Real;
+
+/// Rows that are transformed together, so that the transposed store moves whole cache lines.
+const TILE: usize = 32;
+
+/// Slack after each line of a tile: with a power-of-two stride a column of the tile would fall into one cache set.
+const SLACK: usize = 8;
+
+/// The transform of a real `(n0, n1)` field, and its spectrum.
+///
+/// Two real rows ride in one complex transform. The half spectrum is stored transposed, `(n1/2 + 1, n0)`, so
+/// that a column of the field is contiguous: it is transformed, multiplied and transformed back while it is
+/// in cache. Memory: the spectrum, one field's worth and `n0` complex numbers more, and a tile per worker.
+pub(crate) struct Convolver<T: Real> {
+    shape: (usize, usize),
+    rows: Transform<T>,
+    columns: Transform<T>,
+    spectrum: Array2<Complex<T>>,
+    sums: Vec<f64>,
+    pool: Pool<Workspace<T>>,
+}
+
+struct Transform<T> {
+    forward: Arc<dyn Fft<T>>,
+    inverse: Arc<dyn Fft<T>>,
+}
+
+struct Workspace<T> {
+    tile: Vec<Complex<T>>,
+    scratch: Vec<Complex<T>>,
+}
+
+impl<T: Real> Transform<T> {
+    fn new(len: usize, planner: &mut FftPlanner<T>) -> Self {
+        Self { forward: planner.plan_fft_forward(len), inverse: planner.plan_fft_inverse(len) }
+    }
+
+    fn scratch_len(&self) -> usize {
+        self.forward.get_inplace_scratch_len().max(self.inverse.get_inplace_scratch_len())
+    }
+}
+
+impl<T: Real> fmt::Debug for Convolver<T> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Convolver").field("shape", &self.shape).finish_non_exhaustive()
+    }
+}
+
+impl<T: Real> Convolver<T> {
+    /// Plans for fields of the given shape.
+    pub(crate) fn new(shape: (usize, usize)) -> Self {
+        let (n0, n1) = shape;
+        let mut planner = FftPlanner::new();
+        let rows = Transform::new(n1, &mut planner);
+        let columns = Transform::new(n0, &mut planner);
+        let scratch = rows.scratch_len().max(columns.scratch_len());
+        let pool = Pool::new(|| Workspace {
+            tile: vec![Complex::zero(); TILE.div_ceil(2) * (n1 + SLACK)],
+            scratch: vec![Complex::zero(); scratch],
+        });
+        let spectrum = Array2::zeros((n1 / 2 + 1, n0));
+        Self { shape, rows, columns, spectrum, sums: vec![0.0; n1 / 2 + 1], pool }
+    }
+
+    /// Transforms `input`, hands every column of the half spectrum to `modify`, and transforms back into `output`.
+    ///
+    /// `modify` gets the column's index along the second axis, its modes along the first, unnormalised, and
+    /// returns a number; the sum of these numbers, in order, is returned. The inverse is normalised: a `modify` that
+    /// changes nothing gives back the input.
+    pub(crate) fn convolve(
+        &mut self,
+        input: ArrayView2<'_, T>,
+        mut output: ArrayViewMut2<'_, T>,
+        modify: impl Fn(usize, &mut [Complex<T>]) -> f64 + Sync + Send,
+    ) -> Result<f64> {
+        Error::shape("operator input", input.dim(), self.shape)?;
+        Error::shape("operator output", output.dim(), self.shape)?;
+        let Self { rows, columns, spectrum, sums, pool, shape: (n0, n1) } = self;
+        let norm = T::lit(1.0 / (*n0 as f64 * *n1 as f64));
+
+        par::for_each(input.axis_chunks_iter(Axis(0), TILE), spectrum.axis_chunks_iter_mut(Axis(1), TILE), |x, z| {
+            let Workspace { tile, scratch } = &mut *pool.get();
+            pack(x, tile);
+            for line in lines_mut(tile, *n1).take(x.nrows().div_ceil(2)) {
+                rows.forward.process_with_scratch(line, scratch);
+            }
+            separate(tile, *n1, z);
+        });
+        par::map_into(par::chunks_mut(contiguous(spectrum), *n0), sums, |k, column| {
+            let Workspace { scratch, .. } = &mut *pool.get();
+            columns.forward.process_with_scratch(column, scratch);
+            let sum = modify(k, column);
+            columns.inverse.process_with_scratch(column, scratch);
+            sum
+        });
+        par::for_each(output.axis_chunks_iter_mut(Axis(0), TILE), spectrum.axis_chunks_iter(Axis(1), TILE), |x, z| {
+            let Workspace { tile, scratch } = &mut *pool.get();
+            join(z, *n1, norm, tile);
+            for line in lines_mut(tile, *n1).take(x.nrows().div_ceil(2)) {
+                rows.inverse.process_with_scratch(line, scratch);
+            }
+            unpack(tile, x);
+        });
+        Ok(sums.iter().sum())
+    }
+}
+
+/// The elements of an array that this module made, and that is in standard layout therefore.
+fn contiguous<T>(array: &mut Array2<T>) -> &mut [T] {
+    array.as_slice_mut().unwrap_or_default()
+}
+
+fn lines<T>(tile: &[Complex<T>], n: usize) -> impl Iterator<Item = &[Complex<T>]> {
+    tile.chunks_exact(n + SLACK).map(move |line| &line[..n])
+}
+
+fn lines_mut<T>(tile: &mut [Complex<T>], n: usize) -> impl Iterator<Item = &mut [Complex<T>]> {
+    tile.chunks_exact_mut(n + SLACK).map(move |line| &mut line[..n])
+}
+
+/// Rows `2j` and `2j + 1` become the real and the imaginary part of line `j`.
+fn pack<T: Real>(x: ArrayView2<'_, T>, tile: &mut [Complex<T>]) {
+    for (pair, line) in x.axis_chunks_iter(Axis(0), 2).zip(lines_mut(tile, x.ncols())) {
+        let re = pair.row(0);
+        if pair.nrows() == 1 {
+            line.iter_mut().zip(re).for_each(|(z, &re)| *z = Complex::new(re, T::zero()));
+            continue;
+        }
+        let im = pair.row(1);
+        match (re.to_slice(), im.to_slice()) {
+            (Some(re), Some(im)) => {
+                line.iter_mut().zip(re).zip(im).for_each(|((z, &re), &im)| *z = Complex::new(re, im));
+            }
+            _ => line.iter_mut().zip(re).zip(im).for_each(|((z, &re), &im)| *z = Complex::new(re, im)),
+        }
+    }
+}
+
+fn unpack<T: Real>(tile: &[Complex<T>], mut x: ArrayViewMut2<'_, T>) {
+    let n = x.ncols();
+    for (mut pair, line) in x.axis_chunks_iter_mut(Axis(0), 2).zip(lines(tile, n)) {
+        for (mut row, part) in pair.rows_mut().into_iter().zip([|z: &Complex<T>| z.re, |z: &Complex<T>| z.im]) {
+            match row.as_slice_mut() {
+                Some(row) => row.iter_mut().zip(line).for_each(|(x, z)| *x = part(z)),
+                None => row.iter_mut().zip(line).for_each(|(x, z)| *x = part(z)),
+            }
+        }
+    }
+}
+
+/// The spectra `A`, `B` of the two rows in each line, `Z = A + iB`, go to the columns of `z`.
+fn separate<T: Real>(tile: &[Complex<T>], n: usize, mut z: ArrayViewMut2<'_, Complex<T>>) {
+    let half = T::lit(0.5);
+    for (k, mut column) in z.rows_mut().into_iter().enumerate() {
+        let mirror = (n - k) % n;
+        let column = column.as_slice_mut().unwrap_or_default();
+        let mut pairs = column.chunks_exact_mut(2);
+        let mut lines = lines(tile, n);
+        for (pair, line) in pairs.by_ref().zip(lines.by_ref()) {
+            let (p, q) = (line[k], line[mirror]);
+            pair[0] = Complex::new((p.re + q.re) * half, (p.im - q.im) * half);
+            pair[1] = Complex::new((p.im + q.im) * half, (q.re - p.re) * half);
+        }
+        if let ([a], Some(line)) = (pairs.into_remainder(), lines.next()) {
+            *a = line[k];
+        }
+    }
+}
+
+fn join<T: Real>(z: ArrayView2<'_, Complex<T>>, n: usize, norm: T, tile: &mut [Complex<T>]) {
+    for (k, column) in z.rows().into_iter().enumerate() {
+        let mirror = (n - k) % n;
+        let column = ArrayView1::to_slice(&column).unwrap_or_default();
+        let pairs = column.chunks_exact(2);
+        let last = pairs.remainder();
+        let mut lines = lines_mut(tile, n);
+        for (pair, line) in pairs.zip(lines.by_ref()) {
+            let (a, b) = (pair[0].scale(norm), pair[1].scale(norm));
+            // the mirror first: at k = 0 and k = n/2 the second store wins, and A, B are real there
+            line[mirror] = Complex::new(a.re + b.im, b.re - a.im);
+            line[k] = Complex::new(a.re - b.im, a.im + b.re);
+        }
+        if let ([a], Some(line)) = (last, lines.next()) {
+            let a = a.scale(norm);
+            line[mirror] = a.conj();
+            line[k] = a;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use approx::assert_relative_eq;
+    use ndarray::{Array2, ShapeBuilder};
+    use std::f64::consts::TAU;
+
+    fn field(shape: (usize, usize)) -> Array2<f64> {
+        Array2::from_shape_fn(shape, |(i, j)| ((i * 37 + j * 61 + i * j * 7) % 101) as f64 / 50.0 - 1.0)
+    }
+
+    /// The defining sum, for a factor that depends on the mode.
+    fn oracle(x: &Array2<f64>, factor: impl Fn(usize, usize) -> f64) -> Array2<f64> {
+        let (n0, n1) = x.dim();
+        let turn = |a: usize, b: usize, n: usize| Complex::from_polar(1.0, TAU * ((a * b) % n) as f64 / n as f64);
+        let mut y = Array2::zeros((n0, n1));
+        for k0 in 0..n0 {
+            for k1 in 0..n1 {
+                let mode: Complex<f64> =
+                    x.indexed_iter().map(|((i, j), &x)| turn(i, k0, n0).conj() * turn(j, k1, n1).conj() * x).sum();
+                let mode = mode * factor(k0, k1) / (n0 * n1) as f64;
+                for ((i, j), y) in y.indexed_iter_mut() {
+                    *y += (mode * turn(i, k0, n0) * turn(j, k1, n1)).re;
+                }
+            }
+        }
+        y
+    }
+
+    #[test]
+    fn convolution_is_the_defining_sum_for_every_parity_and_shape() {
+        for shape in [(1, 1), (1, 7), (7, 1), (2, 2), (4, 6), (5, 6), (6, 5), (7, 3), (1, 8), (33, 2), (34, 5), (65, 3)]
+        {
+            let x = field(shape);
+            let even = |k: usize, n: usize| k.min(n - k) as f64;
+            let factor = |k0: usize, k1: usize| 1.0 / (1.0 + even(k0, shape.0).hypot(2.0 * even(k1, shape.1)));
+            let mut convolver = Convolver::new(shape);
+            let mut y = Array2::from_elem(shape, f64::NAN);
+            for _ in 0..2 {
+                // the second time with a dirty workspace
+                convolver
+                    .convolve(x.view(), y.view_mut(), |k1, column| {
+                        column.iter_mut().enumerate().for_each(|(k0, z)| *z = z.scale(factor(k0, k1)));
+                        0.0
+                    })
+                    .unwrap();
+            }
+            for (y, expected) in y.iter().zip(&oracle(&x, factor)) {
+                assert_relative_eq!(*y, *expected, epsilon = 1e-13);
+            }
+        }
+    }
+
+    #[test]
+    fn any_memory_layout_will_do() {
+        let shape = (6, 9);
+        let x = field(shape);
+        let mut fortran = Array2::zeros(shape.f());
+        fortran.assign(&x);
+        let (mut a, mut b) = (Array2::zeros(shape), Array2::zeros(shape.f()));
+        let double = |_: usize, column: &mut [Complex<f64>]| {
+            column.iter_mut().for_each(|z| *z = z.scale(2.0));
+            1.0
+        };
+        let mut convolver = Convolver::new(shape);
+        assert_eq!(convolver.convolve(x.view(), a.view_mut(), double), Ok(5.0));
+        convolver.convolve(fortran.view(), b.view_mut(), double).unwrap();
+        assert_eq!(a, b);
+    }
+
+    #[test]
+    fn wrong_shapes_are_refused() {
+        let mut convolver = Convolver::<f64>::new((4, 4));
+        let (x, mut y) = (Array2::zeros((4, 5)), Array2::zeros((4, 4)));
+        assert!(convolver.convolve(x.view(), y.view_mut(), |_, _| 0.0).is_err());
+    }
+}

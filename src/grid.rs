@@ -1,0 +1,146 @@
+use std::f64::consts::TAU;
+
+use ndarray::Array2;
+
+use crate::error::{Error, Result};
+
+/// A periodic rectangle with its nodes: Nx × Ny of them on sides Lx × Ly.
+///
+/// Any sizes will do, odd and prime ones too; `Ny = 1` is the one-dimensional case, in which Ly has no
+/// influence. Fields on a grid have shape `(Nx, Ny)`, row-major. The origin is the node
+/// `(Nx / 2, Ny / 2)` (integer division), so that a shape centred on it has its apex on a node.
+///
+/// ```
+/// use asperity::Grid;
+/// let grid = Grid::new((4, 5), (1.0, 2.0))?;
+/// assert_eq!(grid.spacing(), (0.25, 0.4));
+/// assert_eq!((grid.x(0), grid.x(2)), (-0.5, 0.0));
+/// # Ok::<(), asperity::Error>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Grid {
+    shape: (usize, usize),
+    lengths: (f64, f64),
+}
+
+impl Grid {
+    /// A grid of `shape = (Nx, Ny)` nodes on sides `lengths = (Lx, Ly)`, in any unit of length.
+    ///
+    /// # Errors
+    /// [`Error::Value`] if a number of nodes is zero, or a length is not positive and finite.
+    pub fn new(shape: (usize, usize), lengths: (f64, f64)) -> Result<Self> {
+        for (name, n) in [("number of nodes Nx", shape.0), ("number of nodes Ny", shape.1)] {
+            if n == 0 {
+                return Err(Error::Value { name, value: 0.0, requirement: "at least 1" });
+            }
+        }
+        Error::positive("side length Lx", lengths.0)?;
+        Error::positive("side length Ly", lengths.1)?;
+        Ok(Self { shape, lengths })
+    }
+
+    /// A square grid: `n` × `n` nodes on sides of `length`.
+    ///
+    /// # Errors
+    /// As for [`Grid::new`].
+    pub fn square(n: usize, length: f64) -> Result<Self> {
+        Self::new((n, n), (length, length))
+    }
+
+    /// A line: `n` nodes on `length`, `Ny = 1`.
+    ///
+    /// # Errors
+    /// As for [`Grid::new`].
+    pub fn line(n: usize, length: f64) -> Result<Self> {
+        Self::new((n, 1), (length, length))
+    }
+
+    /// The numbers of nodes `(Nx, Ny)`.
+    pub fn shape(&self) -> (usize, usize) {
+        self.shape
+    }
+
+    /// The side lengths `(Lx, Ly)`.
+    pub fn lengths(&self) -> (f64, f64) {
+        self.lengths
+    }
+
+    /// How many nodes there are, Nx·Ny.
+    pub fn nodes(&self) -> usize {
+        self.shape.0 * self.shape.1
+    }
+
+    /// Whether there is only one row of nodes, `Ny = 1`.
+    pub fn is_line(&self) -> bool {
+        self.shape.1 == 1
+    }
+
+    /// The distances between nodes `(Δx, Δy) = (Lx/Nx, Ly/Ny)`.
+    pub fn spacing(&self) -> (f64, f64) {
+        (self.lengths.0 / self.shape.0 as f64, self.lengths.1 / self.shape.1 as f64)
+    }
+
+    /// The coordinate of row `i` along x; zero at `i = Nx / 2`.
+    pub fn x(&self, i: usize) -> f64 {
+        coordinate(i, self.shape.0, self.lengths.0)
+    }
+
+    /// The coordinate of column `j` along y; zero at `j = Ny / 2`.
+    pub fn y(&self, j: usize) -> f64 {
+        coordinate(j, self.shape.1, self.lengths.1)
+    }
+
+    /// The wave number along x of line `k` of a spectrum: 2πk/Lx, the upper half standing for negative ones.
+    ///
+    /// For even Nx the line `Nx / 2` is the Nyquist frequency, returned as positive.
+    pub fn wave_number_x(&self, k: usize) -> f64 {
+        wave_number(k, self.shape.0, self.lengths.0)
+    }
+
+    /// The wave number along y, as [`Grid::wave_number_x`] along x.
+    pub fn wave_number_y(&self, k: usize) -> f64 {
+        wave_number(k, self.shape.1, self.lengths.1)
+    }
+
+    /// The field of a function of the coordinates, `(x, y) → f`.
+    pub fn sample(&self, f: impl Fn(f64, f64) -> f64) -> Array2<f64> {
+        Array2::from_shape_fn(self.shape, |(i, j)| f(self.x(i), self.y(j)))
+    }
+}
+
+fn coordinate(i: usize, n: usize, length: f64) -> f64 {
+    (i as f64 - (n / 2) as f64) * (length / n as f64)
+}
+
+fn wave_number(k: usize, n: usize, length: f64) -> f64 {
+    let k = if k > n / 2 { k as f64 - n as f64 } else { k as f64 };
+    TAU / length * k
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn wave_numbers_mirror_and_the_nyquist_line_is_positive() {
+        let grid = Grid::new((6, 5), (1.0, 2.0)).unwrap();
+        let x: Vec<_> = (0..6).map(|k| (grid.wave_number_x(k) / TAU).round()).collect();
+        assert_eq!(x, [0.0, 1.0, 2.0, 3.0, -2.0, -1.0]);
+        let y: Vec<_> = (0..5).map(|k| (grid.wave_number_y(k) * 2.0 / TAU).round()).collect();
+        assert_eq!(y, [0.0, 1.0, 2.0, -2.0, -1.0]);
+    }
+
+    #[test]
+    fn bad_grids_are_refused_by_name() {
+        for (shape, lengths, text) in [
+            ((0, 4), (1.0, 1.0), "Nx is 0"),
+            ((4, 0), (1.0, 1.0), "Ny is 0"),
+            ((4, 4), (f64::NAN, 1.0), "Lx is NaN"),
+            ((4, 4), (1.0, f64::INFINITY), "Ly is inf"),
+            ((4, 4), (0.0, 1.0), "Lx is 0"),
+        ] {
+            let message = Grid::new(shape, lengths).unwrap_err().to_string();
+            assert!(message.contains(text), "{message}");
+        }
+    }
+}

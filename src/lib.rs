@@ -1,0 +1,90 @@
+//! How rough surfaces touch and stick: frictionless normal contact of an elastic half-space with a rigid rough
+//! surface, with adhesion, by an FFT-based boundary element method.
+//!
+//! A periodic half-space with normal displacement u faces a rigid surface of heights h. The gap g = u − h ≥ 0 at
+//! equilibrium minimises the energy per area
+//!
+//! ```math
+//! e(g) = \tfrac12 \langle u,\, K^{-1} u \rangle + \langle \phi(g) \rangle ,
+//! \qquad u = g + h, \qquad \widehat{K^{-1}u}(q) = \tfrac12 E^* |q|\, \hat u(q)
+//! ```
+//!
+//! with ⟨·⟩ the mean over the surface, E* the contact modulus and φ(g) ≤ 0 the adhesive energy, either at a given mean
+//! gap or at a given mean pressure p̄, of which the work p̄⟨g⟩ is added. With p = K⁻¹u the elastic pressure, the
+//! contact pressure λ = p + p̄ + φ'(g) is the multiplier of g ≥ 0:
+//!
+//! ```math
+//! \lambda \ge 0, \qquad g \ge 0, \qquad \lambda\, g = 0 .
+//! ```
+//!
+//! The method is that of Rey, Anciaux and Molinari, *Normal adhesive contact on rough surfaces: efficient algorithm for
+//! FFT-based BEM resolution*, Computational Mechanics 60 (2017), with a preconditioner, a certificate of the error, and
+//! the paper's misprints corrected.
+//!
+//! # A sphere, without and with adhesion
+//!
+//! ```
+//! use asperity::{Control, Grid, MaugisDugdale, NoAdhesion, Problem, Solver, Status, Surface, Westergaard};
+//!
+//! let grid = Grid::square(64, 1.0)?; // nodes, side length
+//! let sphere = Surface::paraboloid(grid, 2.0)?; // radius of curvature
+//! let half_space = Westergaard::<f64>::new(grid, 1.0)?; // contact modulus
+//! let mut hertz = Problem::new(&sphere, half_space, NoAdhesion)?;
+//! let pressed = Solver::default().solve(&mut hertz, Control::MeanGap(0.0398))?;
+//! assert_eq!(pressed.report.status, Status::Converged);
+//! assert!(pressed.report.relative_error < 1e-6); // a bound, not a wish
+//!
+//! let law = MaugisDugdale::new(1e-4, 2e-3)?; // work of adhesion, range
+//! let mut sticky = Problem::new(&sphere, Westergaard::<f64>::new(grid, 1.0)?, law)?;
+//! let stuck = Solver::default().solve(&mut sticky, Control::MeanGap(0.0398))?;
+//! assert!(stuck.report.contact_points > pressed.report.contact_points);
+//! # Ok::<(), asperity::Error>(())
+//! ```
+//!
+//! # Conventions
+//!
+//! Any consistent units; the answers scale with them. Fields are [`ndarray`] arrays of shape (Nx, Ny). Compression is
+//! positive. Two mean pressures exist and both are reported: the external one p̄, and the mean contact pressure ⟨λ⟩ =
+//! p̄ + ⟨φ'⟩. All is generic over `f32` and `f64`; sums accumulate in `f64`.
+//!
+//! # Seams
+//!
+//! | trait | what | implementations |
+//! |---|---|---|
+//! | [`ElasticOperator`] | pressure of a displacement | [`Westergaard`], [`Spectral`] (any symbol) |
+//! | [`AdhesionLaw`] | energy, traction, slope at a gap | [`NoAdhesion`], [`MaugisDugdale`], [`Exponential`] |
+//! | [`ContactConstraint`] | how g ≥ 0 is imposed | [`Projection`] |
+//!
+//! # Features
+//!
+//! `parallel` (default): threads, with the same results bit for bit. `cli` (default): files, pictures and the
+//! command-line tool. Without both the library depends on ndarray, num-traits and rustfft alone.
+
+mod adhesion;
+mod constraint;
+mod elastic;
+mod error;
+mod fft;
+mod field;
+mod grid;
+#[cfg(feature = "cli")]
+pub mod io;
+mod par;
+#[cfg(feature = "cli")]
+mod picture;
+mod problem;
+mod real;
+mod solver;
+mod surface;
+
+pub use adhesion::{AdhesionLaw, Exponential, MaugisDugdale, NoAdhesion, check_law};
+pub use constraint::{ContactConstraint, Outer, Projection};
+pub use elastic::{ElasticOperator, Spectral, Westergaard};
+pub use error::{Error, Result};
+pub use grid::Grid;
+#[cfg(feature = "cli")]
+pub use picture::{Colouring, Map};
+pub use problem::{Control, Problem};
+pub use real::Real;
+pub use solver::{Criterion, Iteration, Method, Report, Settings, Solution, Solver, Status};
+pub use surface::Surface;

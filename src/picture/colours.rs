@@ -1,0 +1,184 @@
+use colorous::{RED_BLUE, VIRIDIS};
+use embedded_graphics::pixelcolor::Rgb888;
+use ndarray::ArrayView2;
+
+use super::scale::TINY;
+
+/// What is not finite; on none of the colour maps.
+pub(super) const MISSING: Rgb888 = Rgb888::new(201, 120, 199);
+
+/// Values of one sign that are all weaker than this share of the other sign's greatest are not shown.
+const NOISE: f64 = 1e-6;
+
+/// How the values of a [`Map`](crate::Map) become colours.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Colouring {
+    /// From dark blue at the least value to yellow at the greatest: heights, gaps.
+    Sequential,
+    /// Zero in light grey, positive values (compression) in red, negative ones (attraction) in blue.
+    ///
+    /// Each sign has a scale of its own, so that an attraction much weaker than the compression is as
+    /// visible: the two halves of the colour bar have different scales, with the numbers of each. Only a
+    /// sign that nowhere reaches 1e-6 of the other, mere rounding, is drawn as zero.
+    ///
+    /// A scale ends at the greatest magnitude, unless a few nodes reach more than twice as far as all others
+    /// (a singular peak). It then ends where the others do, and the colour bar has an arrow and the extreme
+    /// value at this end.
+    Diverging,
+    /// Black where the value is not zero, on white: contact.
+    ///
+    /// The legend calls black by [`Map::label`](crate::Map::label), say "contact", and white "no contact".
+    /// On a map drawn with fewer pixels than nodes, grey is the share of black.
+    Binary,
+}
+
+/// The values between which colours range, and what they are.
+pub(super) struct Colours {
+    colouring: Colouring,
+    /// The extreme values; zero if there are none.
+    pub(super) extremes: (f64, f64),
+    /// The values at the ends of the colour bar.
+    pub(super) limits: (f64, f64),
+}
+
+impl Colours {
+    pub(super) fn new(values: ArrayView2<'_, f64>, colouring: Colouring) -> Self {
+        let of_all = values.iter().filter(|v| drawable(**v));
+        let extremes = of_all.fold(None, |range: Option<(f64, f64)>, v| {
+            Some(range.map_or((*v, *v), |(low, high)| (low.min(*v), high.max(*v))))
+        });
+        let (low, high) = extremes.unwrap_or((0.0, 0.0));
+        let limits = match colouring {
+            Colouring::Sequential => widened(low, high),
+            Colouring::Diverging => {
+                let noise = NOISE * high.max(-low);
+                let end = |sign, largest| if largest > noise.max(TINY) { limit(values, sign, largest) } else { 0.0 };
+                match (-end(-1.0, -low), end(1.0, high)) {
+                    (0.0, 0.0) => (0.0, 1.0),
+                    limits => limits,
+                }
+            }
+            Colouring::Binary => (0.0, 1.0),
+        };
+        Self { colouring, extremes: (low, high), limits }
+    }
+
+    /// What of a value is averaged.
+    pub(super) fn shown(&self, value: f64) -> f64 {
+        match self.colouring {
+            _ if !drawable(value) => f64::NAN,
+            Colouring::Binary => f64::from(value != 0.0),
+            _ => value,
+        }
+    }
+
+    pub(super) fn of(&self, value: f64) -> Rgb888 {
+        let (low, high) = self.limits;
+        let colour = match self.colouring {
+            _ if value.is_nan() => return MISSING,
+            Colouring::Binary => {
+                let grey = (255.0 * (1.0 - value)).round() as u8;
+                return Rgb888::new(grey, grey, grey);
+            }
+            Colouring::Sequential => VIRIDIS.eval_continuous((value - low) / (high - low)),
+            // A sign without a scale is noise.
+            Colouring::Diverging => {
+                let end = if value < 0.0 { -low } else { high };
+                RED_BLUE.eval_continuous(if end > 0.0 { 0.5 - 0.5 * value / end } else { 0.5 })
+            }
+        };
+        Rgb888::new(colour.r, colour.g, colour.b)
+    }
+
+    /// Whether values are below the lower end of the colour bar, and above the upper end.
+    pub(super) fn beyond(&self) -> (bool, bool) {
+        let ((min, max), (low, high)) = (self.extremes, self.limits);
+        (low != 0.0 && min < low, high != 0.0 && max > high)
+    }
+
+    /// The ranges of values that share the colour bar equally.
+    pub(super) fn ranges(&self) -> Vec<(f64, f64)> {
+        match (self.colouring, self.limits) {
+            (Colouring::Diverging, (low, high)) if low < 0.0 && high > 0.0 => vec![(low, 0.0), (0.0, high)],
+            (_, limits) => vec![limits],
+        }
+    }
+
+    /// The values on the axis of a curve.
+    pub(super) fn range_of_curve(&self) -> (f64, f64) {
+        let (low, high) = self.extremes;
+        let signed = self.colouring == Colouring::Diverging;
+        let (low, high) = if signed { widened(low.min(0.0), high.max(0.0)) } else { widened(low, high) };
+        let space = 0.05 * (high - low);
+        (low - space, high + space)
+    }
+}
+
+/// Whether a value has a place on a scale: it is finite, and so are sums of it and its neighbours.
+pub(super) fn drawable(value: f64) -> bool {
+    value.abs() < 1.0 / TINY
+}
+
+/// A range that has some width.
+fn widened(low: f64, high: f64) -> (f64, f64) {
+    let largest = low.abs().max(high.abs());
+    if largest < TINY {
+        (-1.0, 1.0)
+    } else if high - low < 1e-12 * largest {
+        (low - 0.5 * largest, high + 0.5 * largest)
+    } else {
+        (low, high)
+    }
+}
+
+/// Where the scale of the values of one sign ends, as a magnitude; their greatest magnitude is `largest`.
+///
+/// The few nodes that may be left out are those that make 1 % of the sum of the roots of the magnitudes. A
+/// share of the number of nodes would leave out a small contact among many nodes with rounding noise, and a
+/// share of the sum itself would not leave out a peak that carries much of the load.
+fn limit(values: ArrayView2<'_, f64>, sign: f64, largest: f64) -> f64 {
+    // A million nodes tell enough of the distribution; the odd step avoids always the same columns.
+    let some = values.iter().step_by((values.len() / 1_000_000) | 1).map(|v| sign * v);
+    let mut magnitudes: Vec<f64> = some.filter(|v| *v > 0.0 && drawable(*v)).collect();
+    magnitudes.sort_unstable_by(|a, b| b.total_cmp(a));
+    let (total, mut stronger) = (magnitudes.iter().map(|v| v.sqrt()).sum::<f64>(), 0.0);
+    let end_of_others = magnitudes.into_iter().find(|v| {
+        stronger += v.sqrt();
+        stronger > 0.01 * total
+    });
+    end_of_others.filter(|end| largest > 2.0 * end).unwrap_or(largest)
+}
+
+#[cfg(test)]
+mod tests {
+    use embedded_graphics::prelude::RgbColor;
+    use ndarray::Array2;
+
+    use super::*;
+
+    #[test]
+    fn each_sign_has_its_own_scale_and_zero_is_neutral() {
+        let values = Array2::from_shape_fn((10, 10), |(i, _)| if i < 5 { -2.5e7 } else { 2e9 });
+        let colours = Colours::new(values.view(), Colouring::Diverging);
+        assert_eq!((colours.limits, colours.beyond()), ((-2.5e7, 2e9), (false, false)));
+        let zero = colours.of(0.0);
+        assert!([zero.r(), zero.g(), zero.b()].iter().all(|c| *c > 230));
+        let (attraction, compression) = (colours.of(-2.5e7), colours.of(2e9));
+        assert!(attraction.b() > attraction.r() + 80 && compression.r() > compression.b() + 60);
+    }
+
+    #[test]
+    fn a_singular_peak_is_cut_and_a_tail_of_noise_is_not() {
+        let mut values = Array2::from_elem((100, 100), 1.0);
+        values[[3, 4]] = 50.0;
+        let colours = Colours::new(values.view(), Colouring::Diverging);
+        assert_eq!((colours.limits, colours.beyond()), ((0.0, 1.0), (false, true)));
+        // Of 10 000 nodes, 5 are in contact: these, and not the noise, are the scale.
+        let mut values = Array2::from_elem((100, 100), -1e-9);
+        values.iter_mut().step_by(2).for_each(|v| *v = 1e-9);
+        values.iter_mut().take(5).for_each(|v| *v = 3.0);
+        let colours = Colours::new(values.view(), Colouring::Diverging);
+        assert_eq!((colours.limits, colours.beyond()), ((0.0, 3.0), (false, false)));
+        assert_eq!(colours.of(-1e-9), colours.of(0.0));
+    }
+}

@@ -1,0 +1,99 @@
+use ndarray::Array2;
+
+use crate::adhesion::AdhesionLaw;
+use crate::elastic::ElasticOperator;
+use crate::error::{Error, Result};
+use crate::grid::Grid;
+use crate::real::Real;
+use crate::surface::Surface;
+
+/// What is held fixed while the energy is minimised.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Control {
+    /// The mean gap ḡ ≥ 0 is given; the external pressure follows.
+    MeanGap(f64),
+    /// The mean external pressure p̄ is given, compression positive; the mean gap follows.
+    MeanPressure(f64),
+}
+
+/// A contact problem: a rough surface, an elastic operator and an adhesion law.
+///
+/// The surface enters only through the pressure K⁻¹h that would press it flat, which is computed here, once, in
+/// `f64`; it may be dropped afterwards. A problem can be solved many times, under any [`Control`].
+///
+/// Memory per node: one scalar, beside those of the operator.
+///
+/// ```
+/// use asperity::{Control, Grid, NoAdhesion, Problem, Solver, Surface, Westergaard};
+/// let grid = Grid::square(64, 1.0)?;
+/// let surface = Surface::paraboloid(grid, 2.0)?;
+/// let mut problem = Problem::new(&surface, Westergaard::<f64>::new(grid, 1.0)?, NoAdhesion)?;
+/// let solution = Solver::default().solve(&mut problem, Control::MeanGap(0.0398))?;
+/// assert_eq!(solution.report.contact_points, 61);
+/// # Ok::<(), asperity::Error>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct Problem<T, O, L> {
+    pub(crate) operator: O,
+    pub(crate) law: L,
+    /// K⁻¹h
+    pub(crate) surface_pressure: Array2<T>,
+    /// the mean of h·K⁻¹h
+    pub(crate) surface_work: f64,
+    pub(crate) rms_height: f64,
+}
+
+impl<T: Real, O: ElasticOperator<T>, L: AdhesionLaw<T>> Problem<T, O, L> {
+    /// The problem of pressing `surface` against what `operator` describes. Takes one operator application.
+    ///
+    /// # Errors
+    /// [`Error::Shape`] or [`Error::Value`] if the grids differ; [`Error::Law`] if the law is not finite at zero gap;
+    /// [`Error::NotFinite`] if K⁻¹h leaves the range of T.
+    pub fn new(surface: &Surface, mut operator: O, law: L) -> Result<Self> {
+        let (grid, expected) = (surface.grid(), operator.grid());
+        Error::shape("surface", grid.shape(), expected.shape())?;
+        if grid.lengths() != expected.lengths() {
+            let (value, requirement) = (grid.lengths().0, "the same as of the elastic operator's grid (Lx and Ly)");
+            return Err(Error::Value { name: "side length Lx of the surface", value, requirement });
+        }
+        let at_zero = [("adhesive energy", law.energy(T::zero())), ("adhesive traction", law.traction(T::zero()))];
+        if let Some((function, value)) = at_zero.into_iter().find(|(_, value)| !value.is_finite()) {
+            return Err(Error::Law { function, gap: 0.0, value: value.widen(), expected: None });
+        }
+        let mean = surface.mean();
+        let centred = surface.heights().mapv(|h| h - mean);
+        let mut surface_pressure = Array2::zeros(grid.shape());
+        let surface_work = operator.surface_pressure(centred.view(), surface_pressure.view_mut())?.max(0.0);
+        Error::all_finite("pressure K⁻¹h of the surface pressed flat", surface_pressure.view())?;
+        Ok(Self { operator, law, surface_pressure, surface_work, rms_height: surface.rms_height() })
+    }
+
+    /// The grid.
+    pub fn grid(&self) -> &Grid {
+        self.operator.grid()
+    }
+
+    /// The elastic operator.
+    pub fn operator(&self) -> &O {
+        &self.operator
+    }
+
+    /// The adhesion law.
+    pub fn law(&self) -> &L {
+        &self.law
+    }
+
+    /// Whether the grid resolves the adhesive zone: μ_ρ = √(wΔx/E*)/ρ, with the larger of Δx and Δy.
+    ///
+    /// Below about 0.5 it does. Above, contact edges are pinned to the grid, there are many equilibria, and which
+    /// one is found depends on the start. Zero without adhesion.
+    pub fn resolution(&self) -> f64 {
+        let (w, range) = (self.law.work_of_adhesion().widen(), self.law.range().widen());
+        if self.law.is_zero() || w <= 0.0 || range <= 0.0 {
+            return 0.0;
+        }
+        let (dx, dy) = self.grid().spacing();
+        let spacing = if self.grid().is_line() { dx } else { dx.max(dy) };
+        (w * spacing / self.operator.modulus()).sqrt() / range
+    }
+}

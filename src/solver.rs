@@ -1,0 +1,203 @@
+use std::ops::ControlFlow;
+
+use ndarray::ArrayView2;
+
+use crate::adhesion::AdhesionLaw;
+use crate::constraint::{ContactConstraint, Outer, Projection};
+use crate::elastic::ElasticOperator;
+use crate::error::{Error, Result};
+use crate::problem::{Control, Problem};
+use crate::real::Real;
+
+mod potential;
+mod preconditioned;
+mod report;
+mod rey2017;
+mod state;
+
+pub use report::{Iteration, Report, Solution, Status};
+use state::State;
+
+/// How the iteration goes: which of the two presets of the driver.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Method {
+    /// Conjugate gradients preconditioned with the compliance; the energy falls in every iteration.
+    #[default]
+    Preconditioned,
+    /// Algorithm 3 of Rey, Anciaux and Molinari (2017), with its misprints corrected.
+    Rey2017,
+}
+
+impl Method {
+    /// The name that the tool and the report use: `"default"` or `"rey2017"`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Preconditioned => "default",
+            Self::Rey2017 => "rey2017",
+        }
+    }
+}
+
+/// What has to fall below the tolerance.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Criterion {
+    /// The certified relative error in the energy norm, [`Report::relative_error`].
+    #[default]
+    EnergyNorm,
+    /// The criterion ε = Σ|g r'| of the paper, over the nodes and in units of E*·√(Lx·Ly). It is not a bound of an error,
+    /// and its rounding floor grows with the number of nodes.
+    Orthogonality,
+}
+
+/// How a problem is solved.
+///
+/// | field | default | meaning | range |
+/// |---|---|---|---|
+/// | `method` | [`Method::Preconditioned`] | the iteration | |
+/// | `criterion` | [`Criterion::EnergyNorm`] | what is compared with the tolerance | |
+/// | `tolerance` | 1e-6 | dimensionless; `f32` reaches about 1e-5 | positive |
+/// | `max_iterations` | 2000 | where to give up | any |
+///
+/// ```
+/// use asperity::Settings;
+/// let loose = Settings { tolerance: 1e-3, ..Settings::default() };
+/// assert_eq!(loose.max_iterations, 2000);
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Settings {
+    /// The iteration.
+    pub method: Method,
+    /// What is compared with the tolerance.
+    pub criterion: Criterion,
+    /// The tolerance of the criterion, and under pressure control of the relative error of the load.
+    pub tolerance: f64,
+    /// The number of iterations after which the solve ends without having converged.
+    pub max_iterations: usize,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self { method: Method::Preconditioned, criterion: Criterion::EnergyNorm, tolerance: 1e-6, max_iterations: 2000 }
+    }
+}
+
+impl Settings {
+    /// The paper's Algorithm 3 with its own criterion, ε < 1e-9.
+    pub fn rey2017() -> Self {
+        Self { method: Method::Rey2017, criterion: Criterion::Orthogonality, tolerance: 1e-9, max_iterations: 20_000 }
+    }
+}
+
+/// The driver: minimises the energy of a [`Problem`] under a [`Control`].
+///
+/// One loop serves both controls, every law, operator, way to keep the gap from becoming negative, and precision.
+/// With W the nodes that may move, r = K⁻¹(g + h) + φ'(g) (+ p̄) the gradient, and μ its mean where g > 0:
+///
+/// 1. residual r' = r − mean r on W = {g > 0} ∪ {g = 0, r < μ}, zero elsewhere;
+/// 2. z = M r', and the certificate ⟨r', K r'⟩ from the same transform;
+/// 3. step −τz + c·d, with d the step before and c such that the new one is conjugate to d and d's own remainder is
+///    minimised away;
+/// 4. clip it to g ≥ 0, restore the mean gap: d; K⁻¹d, exact energies along d, and the best (or the whole) of it.
+///
+/// That is two operator applications an iteration, whether or not anything was clipped. τ follows the best
+/// lengths of the steps before.
+///
+/// Memory per node, in scalars: six, of which the solution keeps three, beside those of the problem.
+///
+/// ```
+/// use asperity::{Control, Grid, NoAdhesion, Problem, Settings, Solver, Status, Surface, Westergaard};
+/// let grid = Grid::line(256, 1.0)?;
+/// let surface = Surface::wave(grid, 0.02, 1)?;
+/// let mut problem = Problem::new(&surface, Westergaard::<f64>::new(grid, 1.0)?, NoAdhesion)?;
+/// let mut solver = Solver::new(Settings { tolerance: 1e-8, ..Settings::default() });
+/// let solution = solver.solve(&mut problem, Control::MeanPressure(0.03))?;
+/// assert_eq!(solution.report.status, Status::Converged);
+/// # Ok::<(), asperity::Error>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct Solver<C = Projection> {
+    /// How to solve.
+    pub settings: Settings,
+    /// How the gap is kept from becoming negative.
+    pub constraint: C,
+}
+
+impl Solver {
+    /// A solver that confines the gap to g ≥ 0 by projection.
+    pub fn new(settings: Settings) -> Self {
+        Self { settings, constraint: Projection }
+    }
+}
+
+impl Default for Solver {
+    /// The default settings, and projection.
+    fn default() -> Self {
+        Self::new(Settings::default())
+    }
+}
+
+impl<C> Solver<C> {
+    /// Solves from the default start.
+    ///
+    /// That is a uniform gap: the mean gap, if that is given; under a given pressure twice the rms height without
+    /// adhesion, and full contact with adhesion. The start matters only with adhesion, where there may be several
+    /// equilibria.
+    ///
+    /// # Errors
+    /// Those of [`Solver::solve_from`].
+    pub fn solve<T, O, L>(&mut self, problem: &mut Problem<T, O, L>, control: Control) -> Result<Solution<T>>
+    where
+        T: Real,
+        O: ElasticOperator<T>,
+        L: AdhesionLaw<T>,
+        C: ContactConstraint<T>,
+    {
+        self.solve_from(problem, control, None, |_| ControlFlow::Continue(()))
+    }
+
+    /// Solves from a given gap, and calls `observe` in every iteration; it may stop the solve.
+    ///
+    /// A given gap of shape (Nx, Ny) is scaled to the mean gap, if that is given; `None` is the default start.
+    ///
+    /// # Errors
+    /// [`Error::Value`] for a negative or infinite mean gap, an infinite pressure, or a tolerance that is not positive;
+    /// [`Error::Shape`], [`Error::NotFinite`] or [`Error::Value`] for a start that does not fit, is not finite, or is negative
+    /// somewhere. A solve that does not converge is no error: see [`Report::status`].
+    pub fn solve_from<T, O, L>(
+        &mut self,
+        problem: &mut Problem<T, O, L>,
+        control: Control,
+        start: Option<ArrayView2<'_, T>>,
+        mut observe: impl FnMut(&Iteration) -> ControlFlow<()>,
+    ) -> Result<Solution<T>>
+    where
+        T: Real,
+        O: ElasticOperator<T>,
+        L: AdhesionLaw<T>,
+        C: ContactConstraint<T>,
+    {
+        Error::positive("tolerance", self.settings.tolerance)?;
+        let mut state = State::new(problem, &mut self.constraint, control, start, self.settings)?;
+        let status = loop {
+            state.residual();
+            state.precondition()?;
+            let converged = state.converged() && state.confirm()?;
+            if observe(&state.iteration()).is_break() {
+                break Status::Stopped;
+            }
+            if converged {
+                match state.update_constraint() {
+                    Outer::Done => break Status::Converged,
+                    Outer::Again => continue,
+                }
+            }
+            if let Some(status) = state.verdict() {
+                break status;
+            }
+            if !state.step()? {
+                break Status::Stalled;
+            }
+        };
+        state.finish(status)
+    }
+}

@@ -1,0 +1,120 @@
+use std::fmt;
+
+use ndarray::Array2;
+
+use super::Method;
+
+/// How a solve ended, and what its fields are then worth.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Status {
+    /// The criterion was met, on the fields that were returned: they are the solution to the tolerance.
+    Converged,
+    /// The iterations ran out: a feasible state whose [`relative_error`](Report::relative_error) says how far it got.
+    IterationLimit,
+    /// No more progress is possible in this precision: the best accuracy to be had is in the report.
+    Stalled,
+    /// The observer stopped the solve: a feasible state.
+    Stopped,
+    /// A tensile mean pressure beyond pull-off: there is no equilibrium, and the fields are of surfaces that have
+    /// lost contact.
+    Detached,
+}
+
+impl Status {
+    /// The name that the tool and `report.json` use.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Converged => "converged",
+            Self::IterationLimit => "iteration-limit",
+            Self::Stalled => "stalled",
+            Self::Stopped => "stopped",
+            Self::Detached => "detached",
+        }
+    }
+}
+
+impl fmt::Display for Status {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+/// What an observer is told in every iteration.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Iteration {
+    /// How many steps were made.
+    pub iteration: usize,
+    /// How many operator applications this solve has taken so far.
+    pub operator_applications: usize,
+    /// The certified relative error in the energy norm, [`Report::relative_error`]. [`Method::Rey2017`] does not need it
+    /// and computes it only now and then; it is infinite before.
+    pub relative_error: f64,
+    /// The relative error of the load, [`Report::load_error`].
+    pub load_error: f64,
+    /// What is minimised, per area: elastic and adhesive energy, and under pressure control p̄ times the mean gap.
+    pub energy: f64,
+    /// The mean gap.
+    pub mean_gap: f64,
+    /// How many nodes are in contact.
+    pub contact_points: usize,
+}
+
+/// The account of a solve. Energies are per area; all numbers are in the units of the input.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Report {
+    /// How the solve ended.
+    pub status: Status,
+    /// The certified relative error of the gap in the energy norm, √(⟨r', K r'⟩/⟨u, p⟩), evaluated on the returned fields.
+    ///
+    /// Without adhesion it bounds the distance from the exact discrete solution (under pressure control: the one at the
+    /// same mean gap). With adhesion it measures how far the state is from equilibrium, and bounds the error
+    /// where that equilibrium is stable. As long as no node is in contact, ⟨h, K⁻¹h⟩ stands for a smaller ⟨u, p⟩, which
+    /// may vanish then.
+    pub relative_error: f64,
+    /// Under pressure control, the residual of the load relative to the larger of |p̄| and the mean contact pressure
+    /// (and to no less than 1e-6 of the pressure that presses the surface flat); zero under gap control.
+    pub load_error: f64,
+    /// The paper's criterion ε = Σ|g r'|, in units of E*·√(Lx·Ly), on the returned fields.
+    pub orthogonality: f64,
+    /// How many steps were made.
+    pub iterations: usize,
+    /// How many forward and inverse transforms the solve took; the construction of the problem takes one more.
+    pub operator_applications: usize,
+    /// The mean gap.
+    pub mean_gap: f64,
+    /// The mean external pressure p̄, compression positive; under pressure control the given one.
+    pub mean_pressure: f64,
+    /// The mean contact (repulsive) pressure, the paper's q₀.
+    pub mean_contact_pressure: f64,
+    /// The share of nodes in contact.
+    pub contact_fraction: f64,
+    /// How many nodes are in contact.
+    pub contact_points: usize,
+    /// The smallest gap: zero in contact, negative only where the constraint lets the surfaces interpenetrate.
+    pub min_gap: f64,
+    /// The elastic energy, the mean of u·p/2.
+    pub elastic_energy: f64,
+    /// The adhesive energy, the mean of φ(g).
+    pub adhesive_energy: f64,
+    /// The resolution measure μ_ρ of [`Problem::resolution`](crate::Problem::resolution).
+    pub mu_rho: f64,
+    /// Whether μ_ρ exceeds 0.5: the answer then depends on the grid and on the start.
+    pub under_resolved: bool,
+    /// The precision of the fields, `"f32"` or `"f64"`.
+    pub precision: &'static str,
+    /// The iteration that was used.
+    pub method: Method,
+}
+
+/// The fields of a solved problem, each of shape (Nx, Ny), and the account of the solve.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Solution<T> {
+    /// The gap g ≥ 0 between the surfaces.
+    pub gap: Array2<T>,
+    /// The full elastic pressure p + p̄ on the half-space: the contact pressure less the adhesive traction.
+    pub pressure: Array2<T>,
+    /// The contact pressure λ ≥ 0, zero wherever the gap is not.
+    pub contact_pressure: Array2<T>,
+    /// The account.
+    pub report: Report,
+}

@@ -1,0 +1,127 @@
+//! Algorithm 3 of Rey, Anciaux and Molinari (2017), with its misprints corrected.
+
+use super::state::State;
+use crate::adhesion::AdhesionLaw;
+use crate::constraint::ContactConstraint;
+use crate::elastic::ElasticOperator;
+use crate::error::Result;
+use crate::field::{Partial, read, write};
+use crate::par::IndexedParallelIterator;
+use crate::problem::Control;
+use crate::real::Real;
+
+impl<T, O, L, C> State<'_, T, O, L, C>
+where
+    T: Real,
+    O: ElasticOperator<T>,
+    L: AdhesionLaw<T>,
+    C: ContactConstraint<T>,
+{
+    /// One pass of the algorithm's loop: one operator application for the direction, and one for the new gap where
+    /// nodes were clipped or released.
+    pub(super) fn rey2017_step(&mut self) -> Result<bool> {
+        let projects = self.constraint.projects();
+        let apart = move |gap: T| !projects || gap > T::zero();
+
+        let Self { reducer, gap, residual, .. } = self;
+        let norm = reducer.run(read(gap).zip(read(residual)), |_, (gap, residual)| {
+            let mut part = Partial::NONE;
+            for (&gap, &r) in gap.iter().zip(residual) {
+                part.sum[0] += if apart(gap) { r.widen().powi(2) } else { 0.0 };
+            }
+            part
+        });
+        let conjugate = self.residual_norm.map_or(0.0, |before| norm.sum[0] / before);
+        let conjugate = T::lit(if conjugate.is_finite() { conjugate } else { 0.0 });
+
+        let Self { reducer, gap, residual, change, .. } = self;
+        reducer.run(read(gap).zip(read(residual)).zip(write(change)), |_, ((gap, residual), direction)| {
+            for ((&gap, &r), t) in gap.iter().zip(residual).zip(direction) {
+                *t = if apart(gap) {
+                    r + if conjugate > T::zero() { conjugate * *t } else { T::zero() }
+                } else {
+                    T::zero()
+                };
+            }
+            Partial::NONE
+        });
+        self.problem.operator.pressure(self.change.view(), self.response.view_mut())?;
+        self.applications += 1;
+
+        let Self { reducer, gap, residual, change, response, .. } = self;
+        let fields = read(gap).zip(read(residual)).zip(read(change)).zip(read(response));
+        let total = reducer.run(fields, |_, (((gap, residual), direction), response)| {
+            let mut part = Partial::NONE;
+            for (((&gap, &r), &t), &response) in gap.iter().zip(residual).zip(direction).zip(response) {
+                if apart(gap) {
+                    let [r, t, response] = [r, t, response].map(T::widen);
+                    part.sum[0] += r * t;
+                    part.sum[1] += response * t;
+                    part.sum[2] += response;
+                    part.sum[3] += t;
+                }
+            }
+            part
+        });
+        let [rt, curvature, response, t, ..] = total.sum;
+        let mean = if self.is_gap_controlled() { response / self.tally.free } else { 0.0 };
+        let length = rt / (curvature - mean * t);
+        // a uniform direction has no curvature: the softest wave's stiffness bounds what the mean can need
+        let length =
+            if length.is_finite() && length > 0.0 { length } else { 1.0 / self.problem.operator.stiffness_range().0 };
+        if !length.is_finite() {
+            return Ok(false);
+        }
+
+        let length = T::lit(length);
+        let Self { reducer, gap, residual, change, .. } = self;
+        let total = reducer.run(write(gap).zip(read(residual)).zip(read(change)), |_, ((gap, residual), direction)| {
+            let mut part = Partial::NONE;
+            for ((gap, &r), &t) in gap.iter_mut().zip(residual).zip(direction) {
+                let next = *gap - length * t;
+                part.sum[2] += f64::from(u8::from(projects && next < T::zero()));
+                *gap = if projects { next.max(T::zero()) } else { next };
+                if projects && *gap <= T::zero() && r < T::zero() {
+                    *gap = -length * r;
+                    part.sum[1] += 1.0;
+                }
+                part.sum[0] += gap.widen();
+            }
+            part
+        });
+        let [sum, released, clipped, ..] = total.sum;
+        let scale = match self.control {
+            Control::MeanGap(mean) => mean * self.nodes() / sum,
+            Control::MeanPressure(_) => 1.0,
+        };
+        if !scale.is_finite() {
+            return Ok(false);
+        }
+        self.residual_norm = (released == 0.0).then_some(norm.sum[0]);
+        let linear = released == 0.0 && clipped == 0.0;
+        self.scale(T::lit(scale), length, linear);
+        if !linear {
+            self.refresh()?;
+        }
+        Ok(true)
+    }
+
+    /// Scales the gap to its mean and, if the step was `linear`, the pressure with it: K⁻¹(s(g − τt) + h).
+    fn scale(&mut self, scale: T, length: T, linear: bool) {
+        let Self { reducer, gap, pressure, response, problem, .. } = self;
+        let fields = write(gap).zip(write(pressure)).zip(read(response)).zip(read(&problem.surface_pressure));
+        reducer.run(fields, |_, (((gap, pressure), response), surface)| {
+            gap.iter_mut().for_each(|gap| *gap *= scale);
+            if linear {
+                for ((p, &response), &surface) in pressure.iter_mut().zip(response).zip(surface) {
+                    *p = scale * (*p - surface - length * response) + surface;
+                }
+            }
+            Partial::NONE
+        });
+        if linear {
+            self.age += 1;
+            self.count();
+        }
+    }
+}

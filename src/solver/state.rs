@@ -1,0 +1,577 @@
+use ndarray::{Array2, ArrayView2};
+
+use super::potential::{Buffer, Of, Potential};
+use super::report::{Iteration, Report, Solution, Status};
+use super::{Criterion, Method, Settings};
+use crate::adhesion::AdhesionLaw;
+use crate::constraint::{ContactConstraint, Outer};
+use crate::elastic::ElasticOperator;
+use crate::error::{Error, Result};
+use crate::field::{Partial, Reducer, flat, read, write};
+use crate::par::IndexedParallelIterator;
+use crate::problem::{Control, Problem};
+use crate::real::Real;
+
+/// Iterations without progress after which the direction is dropped, and after which the solve has stalled.
+const STALL: (usize, usize) = (6, 16);
+
+/// The same for [`Method::Rey2017`], whose energy and residual need not fall.
+const STALL_REY2017: (usize, usize) = (400, 800);
+
+/// Iterations after which the pressure, updated step by step, is computed anew.
+const REFRESH: usize = 50;
+
+/// How often [`Method::Rey2017`] computes the certificate, which it needs for nothing else.
+const CERTIFY: usize = 10;
+
+/// A solve under way: its fields, and what is known of them.
+pub(super) struct State<'a, T, O, L, C> {
+    pub(super) problem: &'a mut Problem<T, O, L>,
+    pub(super) constraint: &'a mut C,
+    pub(super) control: Control,
+    pub(super) settings: Settings,
+    pub(super) reducer: Reducer,
+
+    /// g
+    pub(super) gap: Array2<T>,
+    /// K⁻¹(g + h), of zero mean
+    pub(super) pressure: Array2<T>,
+    /// r', zero outside of the working set
+    pub(super) residual: Array2<T>,
+    /// z = M r'
+    pub(super) preconditioned: Array2<T>,
+    /// d, the step from the state before; the direction t of [`Method::Rey2017`]
+    pub(super) change: Array2<T>,
+    /// K⁻¹d, then what the step changed in r
+    pub(super) response: Array2<T>,
+
+    pub(super) tally: Tally,
+    /// the mean of r over the working set, which r' is without; zero under pressure control
+    pub(super) level: f64,
+    /// how many nodes may move
+    pub(super) working: f64,
+    /// Σ|g r'|
+    orthogonality: f64,
+    /// the mean of r'·K r'
+    certificate: f64,
+    pub(super) iterations: usize,
+    pub(super) applications: usize,
+    /// steps since the pressure was last computed from the gap
+    pub(super) age: usize,
+    /// ⟨d, y⟩ of the last step, if the next one may use it
+    pub(super) momentum: Option<f64>,
+    pub(super) step_length: f64,
+    /// ⟨r', r'⟩ of the step before, for [`Method::Rey2017`]
+    pub(super) residual_norm: Option<f64>,
+    best_error: f64,
+    lowest_energy: f64,
+    idle: usize,
+}
+
+/// Sums over the nodes, of a gap and its pressure.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Tally {
+    /// how many nodes are not held by the constraint
+    pub(super) free: f64,
+    /// Σ r over these
+    sum_r: f64,
+    /// the least r over all
+    min_r: f64,
+    pub(super) sum_gap: f64,
+    /// Σ g·(p + K⁻¹h), which with Σ h·K⁻¹h makes Σ u·p
+    work: f64,
+    /// Σ φ of the law
+    adhesive: f64,
+    /// Σ φ' of the law
+    traction: f64,
+    /// Σ of the constraint's energy
+    penalty: f64,
+    /// how many nodes have no gap
+    pub(super) contact: f64,
+}
+
+impl Tally {
+    pub(super) fn new(total: &Partial) -> Self {
+        let [free, sum_r, sum_gap, work, adhesive, traction, penalty, contact, _] = total.sum;
+        Self { free, sum_r, min_r: total.min, sum_gap, work, adhesive, traction, penalty, contact }
+    }
+}
+
+/// The part of a [`Tally`] that a chunk of nodes gives; `tractions` are those of its gaps.
+pub(super) fn tally<T: Real, L: AdhesionLaw<T>, C: ContactConstraint<T>>(
+    potential: &Potential<'_, L, C>,
+    offset: T,
+    first: usize,
+    (gaps, pressures, surface): (&[T], &[T], &[T]),
+    tractions: &[T],
+    buffer: &mut Buffer<T>,
+) -> Partial {
+    let projects = potential.constraint.projects();
+    let [mut free, mut sum_r, mut sum_gap, mut work, mut contact] = [0.0; 5];
+    let mut min = f64::INFINITY;
+    for (i, ((&gap, &pressure), &surface)) in gaps.iter().zip(pressures).zip(surface).enumerate() {
+        let r = (pressure + offset + if tractions.is_empty() { T::zero() } else { tractions[i] }).widen();
+        if gap > T::zero() || !projects {
+            free += 1.0;
+            sum_r += r;
+        }
+        if gap <= T::zero() {
+            contact += 1.0;
+        }
+        min = min.min(r);
+        sum_gap += gap.widen();
+        work += gap.widen() * (pressure.widen() + surface.widen());
+    }
+    let [mut adhesive, mut traction, mut penalty] = [0.0; 3];
+    if !potential.law.is_zero() {
+        let out = &mut buffer[..gaps.len()];
+        potential.law.energies(gaps, out);
+        adhesive = out.iter().map(|e| e.widen()).sum();
+        potential.law.tractions(gaps, out);
+        traction = out.iter().map(|t| t.widen()).sum();
+    }
+    if !projects {
+        penalty = gaps.iter().enumerate().map(|(i, &gap)| potential.constraint.energy(first + i, gap).widen()).sum();
+    }
+    Partial { sum: [free, sum_r, sum_gap, work, adhesive, traction, penalty, contact, 0.0], min }
+}
+
+impl<'a, T, O, L, C> State<'a, T, O, L, C>
+where
+    T: Real,
+    O: ElasticOperator<T>,
+    L: AdhesionLaw<T>,
+    C: ContactConstraint<T>,
+{
+    pub(super) fn new(
+        problem: &'a mut Problem<T, O, L>,
+        constraint: &'a mut C,
+        control: Control,
+        start: Option<ArrayView2<'_, T>>,
+        settings: Settings,
+    ) -> Result<Self> {
+        let shape = problem.grid().shape();
+        constraint.start(problem.grid())?;
+        match control {
+            Control::MeanGap(gap) => Error::non_negative("mean gap", gap)?,
+            Control::MeanPressure(pressure) => Error::finite("mean pressure", pressure)?,
+        };
+        let gap = match start {
+            Some(start) => given_start(start, shape, control, constraint.projects())?,
+            None => Array2::from_elem(shape, T::lit(uniform_start(problem, control))),
+        };
+        let nodes = problem.grid().nodes();
+        let field = || Array2::zeros(shape);
+        let uniform = start.is_none();
+        let pressure = if uniform { problem.surface_pressure.clone() } else { field() };
+        let nothing = Tally::new(&Partial::NONE);
+        let mut state = Self {
+            problem,
+            constraint,
+            control,
+            settings,
+            reducer: Reducer::new(nodes),
+            gap,
+            pressure,
+            residual: field(),
+            preconditioned: field(),
+            change: field(),
+            response: field(),
+            tally: nothing,
+            level: 0.0,
+            working: 0.0,
+            orthogonality: 0.0,
+            certificate: f64::INFINITY,
+            iterations: 0,
+            applications: 0,
+            age: 0,
+            momentum: None,
+            step_length: 1.0,
+            residual_norm: None,
+            best_error: f64::INFINITY,
+            lowest_energy: f64::INFINITY,
+            idle: 0,
+        };
+        if uniform {
+            state.count();
+        } else {
+            state.refresh()?;
+        }
+        Ok(state)
+    }
+
+    pub(super) fn nodes(&self) -> f64 {
+        self.gap.len() as f64
+    }
+
+    /// The mean pressure that is given, or zero.
+    pub(super) fn offset(&self) -> f64 {
+        match self.control {
+            Control::MeanGap(_) => 0.0,
+            Control::MeanPressure(pressure) => pressure,
+        }
+    }
+
+    pub(super) fn is_gap_controlled(&self) -> bool {
+        matches!(self.control, Control::MeanGap(_))
+    }
+
+    /// Computes the pressure from the gap, p = K⁻¹g + K⁻¹h, and counts anew.
+    pub(super) fn refresh(&mut self) -> Result<()> {
+        self.problem.operator.pressure(self.gap.view(), self.pressure.view_mut())?;
+        self.applications += 1;
+        self.age = 0;
+        self.reducer.run(write(&mut self.pressure).zip(read(&self.problem.surface_pressure)), |_, (p, surface)| {
+            p.iter_mut().zip(surface).for_each(|(p, &surface)| *p += surface);
+            Partial::NONE
+        });
+        self.count();
+        Ok(())
+    }
+
+    /// Takes the tally of the present gap and pressure.
+    pub(super) fn count(&mut self) {
+        let offset = T::lit(self.offset());
+        let Self { reducer, gap, pressure, problem, constraint, .. } = self;
+        let potential = Potential { law: &problem.law, constraint: &**constraint };
+        let nothing_local = potential.is_zero::<T>();
+        let fields = read(gap).zip(read(pressure)).zip(read(&problem.surface_pressure));
+        let total = reducer.run(fields, |first, ((gap, pressure), surface)| {
+            let (mut values, mut buffer) = ([T::zero(); _], [T::zero(); _]);
+            let tractions: &[T] =
+                if nothing_local { &[] } else { potential.evaluate(Of::Traction, first, gap, &mut values) };
+            tally(&potential, offset, first, (gap, pressure, surface), tractions, &mut buffer)
+        });
+        self.tally = Tally::new(&total);
+    }
+
+    /// μ: the mean of r where the surfaces are apart, under gap control.
+    fn multiplier(&self) -> f64 {
+        match self.control {
+            Control::MeanPressure(_) => 0.0,
+            Control::MeanGap(_) if self.tally.free > 0.0 => self.tally.sum_r / self.tally.free,
+            // no node is free: the least pressure that keeps them all in contact
+            Control::MeanGap(_) => self.tally.min_r,
+        }
+    }
+
+    /// r' and the working set: the nodes that are apart, and those in contact under tension.
+    pub(super) fn residual(&mut self) {
+        let (offset, mu) = (T::lit(self.offset()), T::lit(self.multiplier()));
+        let centred = self.is_gap_controlled() && self.settings.method == Method::Preconditioned;
+        let Self { reducer, gap, pressure, residual, problem, constraint, tally, .. } = self;
+        let potential = Potential { law: &problem.law, constraint: &**constraint };
+        let nothing_local = potential.is_zero::<T>();
+        // contact nodes have one and the same adhesive traction
+        let at_contact = if constraint.projects() { problem.law.traction(T::zero()) } else { T::zero() } + offset;
+        let (mut level, mut working) = (mu.widen(), tally.free);
+        if centred && tally.free < gap.len() as f64 && constraint.projects() {
+            let released = reducer.run(read(gap).zip(read(pressure)), |_, (gap, pressure)| {
+                let mut part = Partial::NONE;
+                for (&gap, &p) in gap.iter().zip(pressure) {
+                    let r = p + at_contact;
+                    if gap <= T::zero() && r < mu {
+                        part.sum[0] += 1.0;
+                        part.sum[1] += r.widen();
+                    }
+                }
+                part
+            });
+            working += released.sum[0];
+            level = if working > 0.0 { (tally.sum_r + released.sum[1]) / working } else { level };
+        }
+        let (projects, mean) = (constraint.projects(), T::lit(level));
+        let fields = read(gap).zip(read(pressure)).zip(write(residual));
+        let total = reducer.run(fields, |first, ((gap, pressure), residual)| {
+            let mut values = [T::zero(); _];
+            if !nothing_local {
+                potential.evaluate(Of::Traction, first, gap, &mut values);
+            }
+            let mut part = Partial::NONE;
+            for (((residual, &gap), &p), &traction) in residual.iter_mut().zip(gap).zip(pressure).zip(&values) {
+                let r = p + traction + offset;
+                let works = !projects || gap > T::zero() || r < mu;
+                *residual = if works { r - mean } else { T::zero() };
+                part.sum[0] += (gap * *residual).abs().widen();
+                part.sum[1] += f64::from(u8::from(works));
+            }
+            part
+        });
+        self.level = level;
+        self.orthogonality = total.sum[0];
+        self.working = total.sum[1];
+    }
+
+    /// z = M r' and the certificate, from one application.
+    pub(super) fn precondition(&mut self) -> Result<()> {
+        if self.settings.method == Method::Rey2017 {
+            let due = self.settings.criterion == Criterion::EnergyNorm && self.iterations.is_multiple_of(CERTIFY);
+            if !due {
+                self.certificate = f64::INFINITY;
+                return Ok(());
+            }
+        }
+        self.certify()
+    }
+
+    fn certify(&mut self) -> Result<()> {
+        let stiffness = self.mean_stiffness();
+        let certificate =
+            self.problem.operator.precondition(self.residual.view(), stiffness, self.preconditioned.view_mut())?;
+        self.certificate = certificate.max(0.0);
+        self.applications += 1;
+        Ok(())
+    }
+
+    /// How stiff the mean gap is taken to be. A rough contact's stiffness is about p̄/h_rms, far below that of the softest
+    /// wave for light loads; between the two, their geometric mean serves all loads.
+    fn mean_stiffness(&self) -> f64 {
+        let (softest, stiffest) = self.problem.operator.stiffness_range();
+        if stiffest <= 0.0 {
+            return self.problem.operator.modulus() / self.problem.grid().lengths().0;
+        }
+        let contact = self.offset().abs() / self.problem.rms_height;
+        let mean = (softest * contact).sqrt();
+        if mean.is_finite() { mean.clamp(0.01 * softest, stiffest) } else { softest }
+    }
+
+    /// The mean of u·p, twice the elastic energy.
+    fn work(&self) -> f64 {
+        (self.tally.work / self.nodes() + self.problem.surface_work).max(0.0)
+    }
+
+    pub(super) fn relative_error(&self) -> f64 {
+        let reference = if self.tally.contact > 0.0 { self.work() } else { self.work().max(self.problem.surface_work) };
+        if self.certificate == 0.0 { 0.0 } else { (self.certificate / reference).sqrt() }
+    }
+
+    fn load_error(&self) -> f64 {
+        let Control::MeanPressure(pressure) = self.control else { return 0.0 };
+        if self.tally.free == 0.0 {
+            return 0.0;
+        }
+        let residual = (self.tally.sum_r / self.tally.free).abs();
+        let contact = pressure + self.tally.traction / self.nodes();
+        // the pressure that presses the surface flat, as far as loads matter beside it
+        let floor = 1e-6 * (self.problem.surface_work * self.problem.operator.stiffness_range().0).sqrt();
+        let scale = pressure.abs().max(contact.abs()).max(floor);
+        if residual == 0.0 { 0.0 } else { residual / scale }
+    }
+
+    fn scaled_orthogonality(&self) -> f64 {
+        let (lx, ly) = self.problem.grid().lengths();
+        self.orthogonality / (self.problem.operator.modulus() * (lx * ly).sqrt())
+    }
+
+    pub(super) fn converged(&self) -> bool {
+        let criterion = match self.settings.criterion {
+            Criterion::EnergyNorm => self.relative_error(),
+            Criterion::Orthogonality if self.working > self.tally.free => f64::INFINITY,
+            Criterion::Orthogonality => self.scaled_orthogonality(),
+        };
+        criterion <= self.settings.tolerance && self.load_error() <= self.settings.tolerance
+    }
+
+    /// Whether the state is converged with the pressure of its own gap, computed anew if it was only updated.
+    pub(super) fn confirm(&mut self) -> Result<bool> {
+        if self.age == 0 {
+            return Ok(true);
+        }
+        let before = self.certificate;
+        // K's largest value bounds what the difference of the two residuals can add to the certificate
+        std::mem::swap(&mut self.residual, &mut self.response);
+        self.momentum = None;
+        self.refresh()?;
+        self.residual();
+        let Self { reducer, residual, response, .. } = self;
+        let total = reducer.run(read(residual).zip(read(response)), |_, (new, old)| {
+            let mut part = Partial::NONE;
+            part.sum[0] = new.iter().zip(old).map(|(&new, &old)| (new - old).widen().powi(2)).sum();
+            part
+        });
+        let softest = self.problem.operator.stiffness_range().0;
+        let difference = if total.sum[0] == 0.0 { 0.0 } else { total.sum[0] / self.nodes() / softest };
+        self.certificate = (before.sqrt() + difference.sqrt()).powi(2);
+        if self.converged() {
+            return Ok(true);
+        }
+        self.certify()?;
+        Ok(self.converged())
+    }
+
+    pub(super) fn update_constraint(&mut self) -> Outer {
+        let outer = self.constraint.update(self.gap.view());
+        if outer == Outer::Again {
+            (self.momentum, self.residual_norm) = (None, None);
+            (self.best_error, self.lowest_energy, self.idle) = (f64::INFINITY, f64::INFINITY, 0);
+            self.count();
+        }
+        outer
+    }
+
+    /// The energy that is minimised, per area.
+    fn energy(&self) -> f64 {
+        let local = (self.tally.adhesive + self.tally.penalty + self.offset() * self.tally.sum_gap) / self.nodes();
+        0.5 * self.work() + local
+    }
+
+    /// What rounding of the fields can do to the energy, per area.
+    pub(super) fn energy_noise(&self) -> f64 {
+        let local = self.tally.adhesive.abs() + self.tally.penalty.abs() + (self.offset() * self.tally.sum_gap).abs();
+        2.0 * T::epsilon().widen() * (0.5 * self.work() + local / self.nodes())
+    }
+
+    /// Whether the solve has to end without having converged.
+    pub(super) fn verdict(&mut self) -> Option<Status> {
+        if self.is_detached() {
+            return Some(Status::Detached);
+        }
+        if self.iterations >= self.settings.max_iterations {
+            return Some(Status::IterationLimit);
+        }
+        let (error, energy) = (self.relative_error().min(self.scaled_orthogonality()), self.energy());
+        if !energy.is_finite() {
+            return Some(Status::Stalled);
+        }
+        if error < 0.95 * self.best_error || energy < self.lowest_energy - self.energy_noise() {
+            self.idle = 0;
+        } else {
+            self.idle += 1;
+        }
+        self.best_error = self.best_error.min(error);
+        self.lowest_energy = self.lowest_energy.min(energy);
+        let (restart, stall) = match self.settings.method {
+            Method::Preconditioned => STALL,
+            Method::Rey2017 => STALL_REY2017,
+        };
+        if self.idle >= restart {
+            (self.momentum, self.residual_norm) = (None, None);
+        }
+        (self.idle >= stall).then_some(Status::Stalled)
+    }
+
+    /// Under tension: no contact, and hardly any traction left to hold the surfaces.
+    fn is_detached(&self) -> bool {
+        let Control::MeanPressure(pressure) = self.control else { return false };
+        let held = self.tally.traction / self.nodes();
+        pressure < 0.0 && self.constraint.projects() && self.tally.contact == 0.0 && held <= 1e-3 * -pressure
+    }
+
+    /// One step of the chosen method; `false` if none is possible.
+    pub(super) fn step(&mut self) -> Result<bool> {
+        let moved = match self.settings.method {
+            Method::Preconditioned => self.preconditioned_step()?,
+            Method::Rey2017 => self.rey2017_step()?,
+        };
+        if moved {
+            self.iterations += 1;
+            if self.age >= REFRESH {
+                self.refresh()?;
+            }
+        }
+        Ok(moved)
+    }
+
+    pub(super) fn iteration(&self) -> Iteration {
+        Iteration {
+            iteration: self.iterations,
+            operator_applications: self.applications,
+            relative_error: self.relative_error(),
+            load_error: self.load_error(),
+            energy: self.energy(),
+            mean_gap: self.tally.sum_gap / self.nodes(),
+            contact_points: self.tally.contact as usize,
+        }
+    }
+
+    /// The fields as they are returned, with the certificate of just these.
+    pub(super) fn finish(mut self, status: Status) -> Result<Solution<T>> {
+        if self.age > 0 {
+            self.refresh()?;
+            self.residual();
+            self.certificate = f64::INFINITY;
+        }
+        if self.certificate.is_infinite() {
+            self.certify()?;
+        }
+        let mean_pressure = match self.control {
+            Control::MeanGap(_) => -self.multiplier(),
+            Control::MeanPressure(pressure) => pressure,
+        };
+        let Self { reducer, gap, pressure, preconditioned, problem, constraint, .. } = &mut self;
+        let (mean, projects) = (T::lit(mean_pressure), constraint.projects());
+        let at_contact = problem.law.traction(T::zero());
+        let fields = read(gap).zip(write(pressure)).zip(write(preconditioned));
+        let total = reducer.run(fields, |first, ((gap, pressure), contact)| {
+            let mut part = Partial::NONE;
+            for (i, ((&gap, p), contact)) in gap.iter().zip(pressure).zip(contact).enumerate() {
+                *p += mean;
+                *contact = match projects {
+                    true if gap <= T::zero() => (*p + at_contact).max(T::zero()),
+                    true => T::zero(),
+                    false => -constraint.traction(first + i, gap),
+                };
+                part.sum[0] += contact.widen();
+                part.min = part.min.min(gap.widen());
+            }
+            part
+        });
+        let mu_rho = self.problem.resolution();
+        let report = Report {
+            status,
+            relative_error: self.relative_error(),
+            load_error: self.load_error(),
+            orthogonality: self.scaled_orthogonality(),
+            iterations: self.iterations,
+            operator_applications: self.applications,
+            mean_gap: self.tally.sum_gap / self.nodes(),
+            mean_pressure,
+            mean_contact_pressure: total.sum[0] / self.nodes(),
+            contact_fraction: self.tally.contact / self.nodes(),
+            contact_points: self.tally.contact as usize,
+            min_gap: total.min,
+            elastic_energy: 0.5 * self.work(),
+            adhesive_energy: self.tally.adhesive / self.nodes(),
+            mu_rho,
+            under_resolved: mu_rho > 0.5,
+            precision: T::NAME,
+            method: self.settings.method,
+        };
+        Ok(Solution { gap: self.gap, pressure: self.pressure, contact_pressure: self.preconditioned, report })
+    }
+}
+
+fn uniform_start<T: Real, O: ElasticOperator<T>, L: AdhesionLaw<T>>(
+    problem: &Problem<T, O, L>,
+    control: Control,
+) -> f64 {
+    match control {
+        Control::MeanGap(gap) => gap,
+        Control::MeanPressure(_) if problem.law.is_zero() => 2.0 * problem.rms_height,
+        Control::MeanPressure(_) => 0.0,
+    }
+}
+
+fn given_start<T: Real>(
+    start: ArrayView2<'_, T>,
+    shape: (usize, usize),
+    control: Control,
+    projects: bool,
+) -> Result<Array2<T>> {
+    Error::shape("starting gap", start.dim(), shape)?;
+    Error::all_finite("starting gap", start)?;
+    if let Some(gap) = start.iter().find(|&&gap| projects && gap < T::zero()) {
+        let requirement = "zero or positive at every node";
+        return Err(Error::Value { name: "starting gap", value: gap.widen(), requirement });
+    }
+    let mut gap = start.as_standard_layout().into_owned();
+    if let Control::MeanGap(mean) = control {
+        let present = flat(&gap).iter().map(|g| g.widen()).sum::<f64>() / gap.len() as f64;
+        if present > 0.0 {
+            gap.mapv_inplace(|g| g * T::lit(mean / present));
+        } else {
+            gap.fill(T::lit(mean));
+        }
+    }
+    Ok(gap)
+}

@@ -1,0 +1,109 @@
+use std::f64::consts::TAU;
+
+use ndarray::Array2;
+
+use crate::error::{Error, Result};
+use crate::grid::Grid;
+
+/// The heights of the rigid rough surface on a grid: peaks have the larger height.
+///
+/// Only heights up to a constant matter. They are kept in `f64` whatever the precision of the solve.
+///
+/// ```
+/// use asperity::{Grid, Surface};
+/// let grid = Grid::square(64, 1.0)?;
+/// let sphere = Surface::paraboloid(grid, 2.0)?;
+/// assert_eq!(sphere.heights()[[32, 32]], 0.0);
+/// assert_eq!(sphere.heights()[[0, 32]], -0.0625); // −r²/2R
+/// # Ok::<(), asperity::Error>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct Surface {
+    grid: Grid,
+    heights: Array2<f64>,
+}
+
+impl Surface {
+    /// A surface from heights of shape (Nx, Ny), in the unit of the grid's lengths; any memory layout.
+    ///
+    /// # Errors
+    /// [`Error::Shape`] if they do not fit the grid, [`Error::NotFinite`] with the number and place of missing points.
+    pub fn new(grid: Grid, heights: Array2<f64>) -> Result<Self> {
+        Error::shape("heights", heights.dim(), grid.shape())?;
+        Error::all_finite("heights", heights.view())?;
+        let heights = if heights.is_standard_layout() { heights } else { heights.as_standard_layout().into_owned() };
+        Ok(Self { grid, heights })
+    }
+
+    /// A surface from a function of the coordinates, `(x, y) → h`.
+    ///
+    /// # Errors
+    /// [`Error::NotFinite`] if the function is not finite at a node.
+    pub fn from_fn(grid: Grid, height: impl Fn(f64, f64) -> f64) -> Result<Self> {
+        Self::new(grid, grid.sample(height))
+    }
+
+    /// A paraboloid −r²/2R with its apex on the node at the origin; a cylinder on a line.
+    ///
+    /// # Errors
+    /// [`Error::Value`] if the radius of curvature is not positive and finite.
+    pub fn paraboloid(grid: Grid, radius: f64) -> Result<Self> {
+        Error::positive("radius of curvature", radius)?;
+        let line = grid.is_line();
+        Self::from_fn(grid, |x, y| -(x * x + if line { 0.0 } else { y * y }) / (2.0 * radius))
+    }
+
+    /// A wave h₀ cos(2πmx/Lx) with `periods` m along x.
+    ///
+    /// # Errors
+    /// [`Error::Value`] if the amplitude h₀ is not finite or the grid does not resolve the wave (2m > Nx).
+    pub fn wave(grid: Grid, amplitude: f64, periods: usize) -> Result<Self> {
+        Error::finite("amplitude", amplitude)?;
+        resolved(periods, grid.shape().0)?;
+        let q = TAU * periods as f64 / grid.lengths().0;
+        Self::from_fn(grid, |x, _| amplitude * (q * x).cos())
+    }
+
+    /// A two-dimensional wave h₀ cos(2πmx/Lx) cos(2πmy/Ly) with `periods` m along both sides.
+    ///
+    /// # Errors
+    /// [`Error::Value`] if the amplitude h₀ is not finite or the grid does not resolve the wave.
+    pub fn wave_2d(grid: Grid, amplitude: f64, periods: usize) -> Result<Self> {
+        Error::finite("amplitude", amplitude)?;
+        resolved(periods, grid.shape().0.min(grid.shape().1))?;
+        let (lx, ly) = grid.lengths();
+        let q = TAU * periods as f64;
+        Self::from_fn(grid, |x, y| amplitude * (q * x / lx).cos() * (q * y / ly).cos())
+    }
+
+    /// The grid.
+    pub fn grid(&self) -> &Grid {
+        &self.grid
+    }
+
+    /// The heights, of shape (Nx, Ny), in row-major layout.
+    pub fn heights(&self) -> &Array2<f64> {
+        &self.heights
+    }
+
+    /// The mean height.
+    pub fn mean(&self) -> f64 {
+        // about the first height, so that a large datum costs no digits
+        let datum = self.heights[[0, 0]];
+        datum + self.heights.iter().map(|h| h - datum).sum::<f64>() / self.heights.len() as f64
+    }
+
+    /// The root mean square of the heights about their mean.
+    pub fn rms_height(&self) -> f64 {
+        let mean = self.mean();
+        (self.heights.iter().map(|h| (h - mean).powi(2)).sum::<f64>() / self.heights.len() as f64).sqrt()
+    }
+}
+
+fn resolved(periods: usize, nodes: usize) -> Result<()> {
+    if periods > 0 && 2 * periods <= nodes {
+        return Ok(());
+    }
+    let requirement = "at least 1, and at most half the number of nodes along the side";
+    Err(Error::Value { name: "number of periods", value: periods as f64, requirement })
+}
