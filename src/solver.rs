@@ -9,11 +9,13 @@ use crate::error::{Error, Result};
 use crate::problem::{Control, Problem};
 use crate::real::Real;
 
+mod certificate;
 mod potential;
 mod preconditioned;
 mod report;
 mod rey2017;
 mod state;
+mod tally;
 
 pub use report::{Iteration, Report, Solution, Status};
 use state::State;

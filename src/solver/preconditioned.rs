@@ -1,7 +1,8 @@
 //! Conjugate gradients with the compliance as preconditioner, two operator applications a step.
 
 use super::potential::{Of, Potential};
-use super::state::{State, Tally, tally};
+use super::state::State;
+use super::tally::{Tally, tally};
 use crate::adhesion::AdhesionLaw;
 use crate::constraint::ContactConstraint;
 use crate::elastic::ElasticOperator;

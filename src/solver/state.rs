@@ -1,7 +1,8 @@
 use ndarray::{Array2, ArrayView2};
 
-use super::potential::{Buffer, Of, Potential};
+use super::potential::{Of, Potential};
 use super::report::{Iteration, Report, Solution, Status};
+use super::tally::{Tally, tally};
 use super::{Criterion, Method, Settings};
 use crate::adhesion::AdhesionLaw;
 use crate::constraint::{ContactConstraint, Outer};
@@ -11,12 +12,6 @@ use crate::field::{Partial, Reducer, flat, read, write};
 use crate::par::IndexedParallelIterator;
 use crate::problem::{Control, Problem};
 use crate::real::Real;
-
-/// Iterations without progress after which the direction is dropped, and after which the solve has stalled.
-const STALL: (usize, usize) = (6, 16);
-
-/// The same for [`Method::Rey2017`], whose energy and residual need not fall.
-const STALL_REY2017: (usize, usize) = (400, 800);
 
 /// Iterations after which the pressure, updated step by step, is computed anew.
 const REFRESH: usize = 50;
@@ -51,9 +46,9 @@ pub(super) struct State<'a, T, O, L, C> {
     /// how many nodes may move
     pub(super) working: f64,
     /// Σ|g r'|
-    orthogonality: f64,
+    pub(super) orthogonality: f64,
     /// the mean of r'·K r'
-    certificate: f64,
+    pub(super) certificate: f64,
     pub(super) iterations: usize,
     pub(super) applications: usize,
     /// steps since the pressure was last computed from the gap
@@ -63,77 +58,9 @@ pub(super) struct State<'a, T, O, L, C> {
     pub(super) step_length: f64,
     /// ⟨r', r'⟩ of the step before, for [`Method::Rey2017`]
     pub(super) residual_norm: Option<f64>,
-    best_error: f64,
-    lowest_energy: f64,
-    idle: usize,
-}
-
-/// Sums over the nodes, of a gap and its pressure.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Tally {
-    /// how many nodes are not held by the constraint
-    pub(super) free: f64,
-    /// Σ r over these
-    sum_r: f64,
-    /// the least r over all
-    min_r: f64,
-    pub(super) sum_gap: f64,
-    /// Σ g·(p + K⁻¹h), which with Σ h·K⁻¹h makes Σ u·p
-    work: f64,
-    /// Σ φ of the law
-    adhesive: f64,
-    /// Σ φ' of the law
-    traction: f64,
-    /// Σ of the constraint's energy
-    penalty: f64,
-    /// how many nodes have no gap
-    pub(super) contact: f64,
-}
-
-impl Tally {
-    pub(super) fn new(total: &Partial) -> Self {
-        let [free, sum_r, sum_gap, work, adhesive, traction, penalty, contact, _] = total.sum;
-        Self { free, sum_r, min_r: total.min, sum_gap, work, adhesive, traction, penalty, contact }
-    }
-}
-
-/// The part of a [`Tally`] that a chunk of nodes gives; `tractions` are those of its gaps.
-pub(super) fn tally<T: Real, L: AdhesionLaw<T>, C: ContactConstraint<T>>(
-    potential: &Potential<'_, L, C>,
-    offset: T,
-    first: usize,
-    (gaps, pressures, surface): (&[T], &[T], &[T]),
-    tractions: &[T],
-    buffer: &mut Buffer<T>,
-) -> Partial {
-    let projects = potential.constraint.projects();
-    let [mut free, mut sum_r, mut sum_gap, mut work, mut contact] = [0.0; 5];
-    let mut min = f64::INFINITY;
-    for (i, ((&gap, &pressure), &surface)) in gaps.iter().zip(pressures).zip(surface).enumerate() {
-        let r = (pressure + offset + if tractions.is_empty() { T::zero() } else { tractions[i] }).widen();
-        if gap > T::zero() || !projects {
-            free += 1.0;
-            sum_r += r;
-        }
-        if gap <= T::zero() {
-            contact += 1.0;
-        }
-        min = min.min(r);
-        sum_gap += gap.widen();
-        work += gap.widen() * (pressure.widen() + surface.widen());
-    }
-    let [mut adhesive, mut traction, mut penalty] = [0.0; 3];
-    if !potential.law.is_zero() {
-        let out = &mut buffer[..gaps.len()];
-        potential.law.energies(gaps, out);
-        adhesive = out.iter().map(|e| e.widen()).sum();
-        potential.law.tractions(gaps, out);
-        traction = out.iter().map(|t| t.widen()).sum();
-    }
-    if !projects {
-        penalty = gaps.iter().enumerate().map(|(i, &gap)| potential.constraint.energy(first + i, gap).widen()).sum();
-    }
-    Partial { sum: [free, sum_r, sum_gap, work, adhesive, traction, penalty, contact, 0.0], min }
+    pub(super) best_error: f64,
+    pub(super) lowest_energy: f64,
+    pub(super) idle: usize,
 }
 
 impl<'a, T, O, L, C> State<'a, T, O, L, C>
@@ -314,7 +241,7 @@ where
         self.certify()
     }
 
-    fn certify(&mut self) -> Result<()> {
+    pub(super) fn certify(&mut self) -> Result<()> {
         let stiffness = self.mean_stiffness();
         let certificate =
             self.problem.operator.precondition(self.residual.view(), stiffness, self.preconditioned.view_mut())?;
@@ -335,70 +262,6 @@ where
         if mean.is_finite() { mean.clamp(0.01 * softest, stiffest) } else { softest }
     }
 
-    /// The mean of u·p, twice the elastic energy.
-    fn work(&self) -> f64 {
-        (self.tally.work / self.nodes() + self.problem.surface_work).max(0.0)
-    }
-
-    pub(super) fn relative_error(&self) -> f64 {
-        let reference = if self.tally.contact > 0.0 { self.work() } else { self.work().max(self.problem.surface_work) };
-        if self.certificate == 0.0 { 0.0 } else { (self.certificate / reference).sqrt() }
-    }
-
-    fn load_error(&self) -> f64 {
-        let Control::MeanPressure(pressure) = self.control else { return 0.0 };
-        if self.tally.free == 0.0 {
-            return 0.0;
-        }
-        let residual = (self.tally.sum_r / self.tally.free).abs();
-        let contact = pressure + self.tally.traction / self.nodes();
-        // the pressure that presses the surface flat, as far as loads matter beside it
-        let floor = 1e-6 * (self.problem.surface_work * self.problem.operator.stiffness_range().0).sqrt();
-        let scale = pressure.abs().max(contact.abs()).max(floor);
-        if residual == 0.0 { 0.0 } else { residual / scale }
-    }
-
-    fn scaled_orthogonality(&self) -> f64 {
-        let (lx, ly) = self.problem.grid().lengths();
-        self.orthogonality / (self.problem.operator.modulus() * (lx * ly).sqrt())
-    }
-
-    pub(super) fn converged(&self) -> bool {
-        let criterion = match self.settings.criterion {
-            Criterion::EnergyNorm => self.relative_error(),
-            Criterion::Orthogonality if self.working > self.tally.free => f64::INFINITY,
-            Criterion::Orthogonality => self.scaled_orthogonality(),
-        };
-        criterion <= self.settings.tolerance && self.load_error() <= self.settings.tolerance
-    }
-
-    /// Whether the state is converged with the pressure of its own gap, computed anew if it was only updated.
-    pub(super) fn confirm(&mut self) -> Result<bool> {
-        if self.age == 0 {
-            return Ok(true);
-        }
-        let before = self.certificate;
-        // K's largest value bounds what the difference of the two residuals can add to the certificate
-        std::mem::swap(&mut self.residual, &mut self.response);
-        self.momentum = None;
-        self.refresh()?;
-        self.residual();
-        let Self { reducer, residual, response, .. } = self;
-        let total = reducer.run(read(residual).zip(read(response)), |_, (new, old)| {
-            let mut part = Partial::NONE;
-            part.sum[0] = new.iter().zip(old).map(|(&new, &old)| (new - old).widen().powi(2)).sum();
-            part
-        });
-        let softest = self.problem.operator.stiffness_range().0;
-        let difference = if total.sum[0] == 0.0 { 0.0 } else { total.sum[0] / self.nodes() / softest };
-        self.certificate = (before.sqrt() + difference.sqrt()).powi(2);
-        if self.converged() {
-            return Ok(true);
-        }
-        self.certify()?;
-        Ok(self.converged())
-    }
-
     pub(super) fn update_constraint(&mut self) -> Outer {
         let outer = self.constraint.update(self.gap.view());
         if outer == Outer::Again {
@@ -407,54 +270,6 @@ where
             self.count();
         }
         outer
-    }
-
-    /// The energy that is minimised, per area.
-    fn energy(&self) -> f64 {
-        let local = (self.tally.adhesive + self.tally.penalty + self.offset() * self.tally.sum_gap) / self.nodes();
-        0.5 * self.work() + local
-    }
-
-    /// What rounding of the fields can do to the energy, per area.
-    pub(super) fn energy_noise(&self) -> f64 {
-        let local = self.tally.adhesive.abs() + self.tally.penalty.abs() + (self.offset() * self.tally.sum_gap).abs();
-        2.0 * T::epsilon().widen() * (0.5 * self.work() + local / self.nodes())
-    }
-
-    /// Whether the solve has to end without having converged.
-    pub(super) fn verdict(&mut self) -> Option<Status> {
-        if self.is_detached() {
-            return Some(Status::Detached);
-        }
-        if self.iterations >= self.settings.max_iterations {
-            return Some(Status::IterationLimit);
-        }
-        let (error, energy) = (self.relative_error().min(self.scaled_orthogonality()), self.energy());
-        if !energy.is_finite() {
-            return Some(Status::Stalled);
-        }
-        if error < 0.95 * self.best_error || energy < self.lowest_energy - self.energy_noise() {
-            self.idle = 0;
-        } else {
-            self.idle += 1;
-        }
-        self.best_error = self.best_error.min(error);
-        self.lowest_energy = self.lowest_energy.min(energy);
-        let (restart, stall) = match self.settings.method {
-            Method::Preconditioned => STALL,
-            Method::Rey2017 => STALL_REY2017,
-        };
-        if self.idle >= restart {
-            (self.momentum, self.residual_norm) = (None, None);
-        }
-        (self.idle >= stall).then_some(Status::Stalled)
-    }
-
-    /// Under tension: no contact, and hardly any traction left to hold the surfaces.
-    fn is_detached(&self) -> bool {
-        let Control::MeanPressure(pressure) = self.control else { return false };
-        let held = self.tally.traction / self.nodes();
-        pressure < 0.0 && self.constraint.projects() && self.tally.contact == 0.0 && held <= 1e-3 * -pressure
     }
 
     /// One step of the chosen method; `false` if none is possible.

@@ -1,0 +1,144 @@
+//! How far the state is from the solution, and whether the solve has to end.
+
+use super::report::Status;
+use super::state::State;
+use super::{Criterion, Method};
+use crate::adhesion::AdhesionLaw;
+use crate::constraint::ContactConstraint;
+use crate::elastic::ElasticOperator;
+use crate::error::Result;
+use crate::field::{Partial, read};
+use crate::par::IndexedParallelIterator;
+use crate::problem::Control;
+use crate::real::Real;
+
+/// Iterations without progress after which the direction is dropped, and after which the solve has stalled.
+const STALL: (usize, usize) = (6, 16);
+
+/// The same for [`Method::Rey2017`], whose energy and residual need not fall.
+const STALL_REY2017: (usize, usize) = (400, 800);
+
+/// Iterations after which surfaces that drift apart are called detached even if their waves have not settled.
+const PATIENCE: usize = 100;
+
+impl<T, O, L, C> State<'_, T, O, L, C>
+where
+    T: Real,
+    O: ElasticOperator<T>,
+    L: AdhesionLaw<T>,
+    C: ContactConstraint<T>,
+{
+    /// The mean of u·p, twice the elastic energy.
+    pub(super) fn work(&self) -> f64 {
+        (self.tally.work / self.nodes() + self.problem.surface_work).max(0.0)
+    }
+
+    pub(super) fn relative_error(&self) -> f64 {
+        let reference = if self.tally.contact > 0.0 { self.work() } else { self.work().max(self.problem.surface_work) };
+        if self.certificate == 0.0 { 0.0 } else { (self.certificate / reference).sqrt() }
+    }
+
+    pub(super) fn load_error(&self) -> f64 {
+        let Control::MeanPressure(pressure) = self.control else { return 0.0 };
+        if self.tally.free == 0.0 {
+            return 0.0;
+        }
+        let residual = (self.tally.sum_r / self.tally.free).abs();
+        let contact = pressure + self.tally.traction / self.nodes();
+        // the pressure that presses the surface flat, as far as loads matter beside it
+        let floor = 1e-6 * (self.problem.surface_work * self.problem.operator.stiffness_range().0).sqrt();
+        let scale = pressure.abs().max(contact.abs()).max(floor);
+        if residual == 0.0 { 0.0 } else { residual / scale }
+    }
+
+    pub(super) fn scaled_orthogonality(&self) -> f64 {
+        let (lx, ly) = self.problem.grid().lengths();
+        self.orthogonality / (self.problem.operator.modulus() * (lx * ly).sqrt())
+    }
+
+    pub(super) fn converged(&self) -> bool {
+        let criterion = match self.settings.criterion {
+            Criterion::EnergyNorm => self.relative_error(),
+            Criterion::Orthogonality if self.working > self.tally.free => f64::INFINITY,
+            Criterion::Orthogonality => self.scaled_orthogonality(),
+        };
+        criterion <= self.settings.tolerance && self.load_error() <= self.settings.tolerance
+    }
+
+    /// Whether the state is converged with the pressure of its own gap, computed anew if it was only updated.
+    pub(super) fn confirm(&mut self) -> Result<bool> {
+        if self.age == 0 {
+            return Ok(true);
+        }
+        let before = self.certificate;
+        // K's largest value bounds what the difference of the two residuals can add to the certificate
+        std::mem::swap(&mut self.residual, &mut self.response);
+        self.momentum = None;
+        self.refresh()?;
+        self.residual();
+        let Self { reducer, residual, response, .. } = self;
+        let total = reducer.run(read(residual).zip(read(response)), |_, (new, old)| {
+            let mut part = Partial::NONE;
+            part.sum[0] = new.iter().zip(old).map(|(&new, &old)| (new - old).widen().powi(2)).sum();
+            part
+        });
+        let softest = self.problem.operator.stiffness_range().0;
+        let difference = if total.sum[0] == 0.0 { 0.0 } else { total.sum[0] / self.nodes() / softest };
+        self.certificate = (before.sqrt() + difference.sqrt()).powi(2);
+        if self.converged() {
+            return Ok(true);
+        }
+        self.certify()?;
+        Ok(self.converged())
+    }
+
+    /// The energy that is minimised, per area.
+    pub(super) fn energy(&self) -> f64 {
+        let local = (self.tally.adhesive + self.tally.penalty + self.offset() * self.tally.sum_gap) / self.nodes();
+        0.5 * self.work() + local
+    }
+
+    /// What rounding of the fields can do to the energy, per area.
+    pub(super) fn energy_noise(&self) -> f64 {
+        let local = self.tally.adhesive.abs() + self.tally.penalty.abs() + (self.offset() * self.tally.sum_gap).abs();
+        2.0 * T::epsilon().widen() * (0.5 * self.work() + local / self.nodes())
+    }
+
+    /// Whether the solve has to end without having converged.
+    pub(super) fn verdict(&mut self) -> Option<Status> {
+        if self.is_detached() {
+            return Some(Status::Detached);
+        }
+        if self.iterations >= self.settings.max_iterations {
+            return Some(Status::IterationLimit);
+        }
+        let (error, energy) = (self.relative_error().min(self.scaled_orthogonality()), self.energy());
+        if !energy.is_finite() {
+            return Some(Status::Stalled);
+        }
+        if error < 0.95 * self.best_error || energy < self.lowest_energy - self.energy_noise() {
+            self.idle = 0;
+        } else {
+            self.idle += 1;
+        }
+        self.best_error = self.best_error.min(error);
+        self.lowest_energy = self.lowest_energy.min(energy);
+        let (restart, stall) = match self.settings.method {
+            Method::Preconditioned => STALL,
+            Method::Rey2017 => STALL_REY2017,
+        };
+        if self.idle >= restart {
+            (self.momentum, self.residual_norm) = (None, None);
+        }
+        (self.idle >= stall).then_some(Status::Stalled)
+    }
+
+    /// Under tension: no contact, hardly any traction left to hold the surfaces, and apart from that at rest.
+    fn is_detached(&self) -> bool {
+        let Control::MeanPressure(pressure) = self.control else { return false };
+        let held = self.tally.traction / self.nodes();
+        let apart = self.constraint.projects() && self.tally.contact == 0.0 && held <= 1e-3 * -pressure;
+        let at_rest = self.relative_error() <= self.settings.tolerance || self.iterations >= PATIENCE;
+        pressure < 0.0 && apart && at_rest
+    }
+}
