@@ -1,0 +1,99 @@
+//! Problems with known solutions, and the properties that every solution must have.
+#![allow(dead_code, reason = "each test uses its part")]
+
+pub mod rough;
+
+use std::ops::ControlFlow;
+
+use asperity::*;
+use ndarray::{Array2, ArrayView2};
+
+/// Solves from the default start, watching that the energy falls, and checks the solution's invariants.
+pub fn solve<T: Real, O: ElasticOperator<T>, L: AdhesionLaw<T>>(
+    problem: &mut Problem<T, O, L>,
+    control: Control,
+    tolerance: f64,
+) -> Solution<T> {
+    solve_from(problem, control, tolerance, None)
+}
+
+/// The same from a given start.
+pub fn solve_from<T: Real, O: ElasticOperator<T>, L: AdhesionLaw<T>>(
+    problem: &mut Problem<T, O, L>,
+    control: Control,
+    tolerance: f64,
+    start: Option<ArrayView2<'_, T>>,
+) -> Solution<T> {
+    let settings = Settings { tolerance, ..Settings::default() };
+    let mut history: Vec<Iteration> = Vec::new();
+    let solution = Solver::new(settings)
+        .solve_from(problem, control, start, |iteration| {
+            history.push(*iteration);
+            ControlFlow::Continue(())
+        })
+        .expect("the input is good");
+    falls(&history, T::epsilon().widen());
+    check(&solution, problem.law(), control);
+    solution
+}
+
+/// The energy never rises by more than the rounding of its own sum.
+pub fn falls(history: &[Iteration], epsilon: f64) {
+    let size = history.iter().map(|i| i.energy.abs()).fold(0.0, f64::max);
+    for pair in history.windows(2) {
+        let rise = pair[1].energy - pair[0].energy;
+        assert!(rise <= 64.0 * epsilon * size, "energy rises by {rise:e} of {size:e} in iteration {}", pair[1].iteration);
+    }
+}
+
+/// What holds for every state that the solver returns, converged or not.
+pub fn check<T: Real>(solution: &Solution<T>, law: &impl AdhesionLaw<T>, control: Control) {
+    let Solution { gap, pressure, contact_pressure, report } = solution;
+    let (nodes, epsilon) = (gap.len() as f64, T::epsilon().widen());
+    let mut contact = 0;
+    for ((&g, &p), &lambda) in gap.iter().zip(pressure).zip(contact_pressure) {
+        assert!(g >= T::zero() && lambda >= T::zero() && lambda * g == T::zero());
+        assert!(p.is_finite());
+        contact += usize::from(g == T::zero());
+    }
+    assert_eq!(report.contact_points, contact);
+    assert_eq!(report.contact_fraction, contact as f64 / nodes);
+    assert_eq!(report.min_gap, gap.iter().map(|g| g.widen()).fold(f64::INFINITY, f64::min));
+    let mean = |field: &Array2<T>| field.iter().map(|x| x.widen()).sum::<f64>() / nodes;
+    assert!((report.mean_gap - mean(gap)).abs() <= 64.0 * epsilon * mean(gap));
+    assert!((report.mean_contact_pressure - mean(contact_pressure)).abs() <= 64.0 * epsilon * mean(contact_pressure));
+    match control {
+        Control::MeanGap(given) => assert!((mean(gap) - given).abs() <= 64.0 * epsilon * given),
+        Control::MeanPressure(given) => assert_eq!(report.mean_pressure, given),
+    }
+    if report.status == Status::Converged {
+        // the balance of forces, of which the residual is what the criterion leaves
+        let traction = gap.iter().map(|&g| law.traction(g).widen()).sum::<f64>() / nodes;
+        let size = mean(&pressure.mapv(|p| p.abs())).max(traction);
+        let balance = report.mean_contact_pressure - traction - report.mean_pressure;
+        let allowed = 10.0 * report.relative_error.max(report.load_error) + 1e3 * epsilon;
+        assert!(balance.abs() <= allowed * size, "forces are off by {balance:e} of {size:e}");
+    }
+}
+
+/// A sphere of radius 2 on the unit square of a half-space of unit modulus, as in the paper.
+pub fn sphere<T: Real, L: AdhesionLaw<T>>(n: usize, law: L) -> Problem<T, Westergaard<T>, L> {
+    let grid = Grid::square(n, 1.0).unwrap();
+    Problem::new(&Surface::paraboloid(grid, 2.0).unwrap(), Westergaard::new(grid, 1.0).unwrap(), law).unwrap()
+}
+
+/// A rough surface of unit rms slope on the unit square of a half-space of unit modulus.
+pub fn rough<T: Real, L: AdhesionLaw<T>>(n: usize, shortest: i32, law: L) -> Problem<T, Westergaard<T>, L> {
+    let grid = Grid::square(n, 1.0).unwrap();
+    Problem::new(&rough::rough(grid, shortest, 1), Westergaard::new(grid, 1.0).unwrap(), law).unwrap()
+}
+
+/// ⟨u, K⁻¹u⟩ of the difference of two gaps, and of the displacement that belongs to the second, as means.
+pub fn energy_norms(surface: &Surface, operator: &mut Westergaard<f64>, a: &Array2<f64>, b: &Array2<f64>) -> (f64, f64) {
+    let mut norm = |u: &Array2<f64>| {
+        let mut p = Array2::zeros(u.dim());
+        operator.pressure(u.view(), p.view_mut()).unwrap();
+        (u * &p).sum() / u.len() as f64
+    };
+    (norm(&(a - b)), norm(&(b + surface.heights())))
+}

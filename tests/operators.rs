@@ -1,0 +1,210 @@
+//! Elastic operators: every mode, every parity, adjointness, inverses, threads, allocations.
+
+mod common;
+
+use std::f64::consts::{PI, TAU};
+
+use approx::assert_relative_eq;
+use asperity::*;
+use ndarray::{Array2, ArrayView2, ArrayViewMut2};
+use proptest::prelude::*;
+
+const SHAPES: [(usize, usize); 11] =
+    [(1, 2), (2, 1), (2, 2), (4, 4), (5, 4), (4, 5), (7, 7), (1, 9), (8, 1), (6, 10), (13, 3)];
+
+fn noise(shape: (usize, usize), seed: u64) -> Array2<f64> {
+    use rand::{RngExt, SeedableRng};
+    let mut random = rand::rngs::ChaCha8Rng::seed_from_u64(seed);
+    Array2::from_shape_simple_fn(shape, || random.random::<f64>() - 0.5)
+}
+
+fn apply(operator: &mut impl ElasticOperator<f64>, u: &Array2<f64>) -> Array2<f64> {
+    let mut p = Array2::from_elem(u.dim(), f64::NAN);
+    operator.pressure(u.view(), p.view_mut()).unwrap();
+    p
+}
+
+fn dot(a: &Array2<f64>, b: &Array2<f64>) -> f64 {
+    (a * b).sum() / a.len() as f64
+}
+
+#[test]
+fn every_wave_needs_its_pressure_to_rounding() {
+    for shape in SHAPES {
+        let (lengths, modulus) = ((1.5, 0.7), 3.0);
+        let grid = Grid::new(shape, lengths).unwrap();
+        let mut operator = Westergaard::new(grid, modulus).unwrap();
+        for kx in 0..shape.0 {
+            for ky in 0..shape.1 {
+                let q = grid.wave_number_x(kx).hypot(grid.wave_number_y(ky));
+                for phase in [0.0, 0.5 * PI] {
+                    let wave = Array2::from_shape_fn(shape, |(i, j)| {
+                        // the turns are reduced as integers, so that their rounding does not grow with the index
+                        let turn = |a: usize, n: usize| (a % n) as f64 / n as f64;
+                        (TAU * (turn(i * kx, shape.0) + turn(j * ky, shape.1)) + phase).cos()
+                    });
+                    let p = apply(&mut operator, &wave);
+                    for (&p, &u) in p.iter().zip(&wave) {
+                        assert_relative_eq!(p, 0.5 * modulus * q * u, epsilon = 1e-14 * modulus * (q + 1.0) * 8.0);
+                    }
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn displacement_inverts_pressure_and_both_ignore_the_mean() {
+    for shape in SHAPES {
+        let grid = Grid::new(shape, (1.0, 2.0)).unwrap();
+        let mut operator = Westergaard::new(grid, 0.3).unwrap();
+        let u = noise(shape, 3) + 7.0;
+        let p = apply(&mut operator, &u);
+        assert!(p.sum().abs() < 1e-12);
+        let mut back = Array2::zeros(shape);
+        operator.displacement((&p + 11.0).view(), back.view_mut()).unwrap();
+        let mean = u.sum() / u.len() as f64;
+        for (&back, &u) in back.iter().zip(&u) {
+            assert_relative_eq!(back, u - mean, epsilon = 1e-12);
+        }
+    }
+}
+
+#[test]
+fn the_stiffness_range_is_that_of_the_grid() {
+    let grid = Grid::new((8, 6), (1.0, 2.0)).unwrap();
+    let (softest, stiffest) = Westergaard::<f64>::new(grid, 2.0).unwrap().stiffness_range();
+    assert_relative_eq!(softest, PI, max_relative = 1e-15);
+    assert_relative_eq!(stiffest, (8.0 * PI).hypot(3.0 * PI), max_relative = 1e-15);
+}
+
+/// An operator with the required methods alone.
+struct Plain(Westergaard<f64>);
+
+impl ElasticOperator<f64> for Plain {
+    fn grid(&self) -> &Grid {
+        self.0.grid()
+    }
+    fn pressure(&mut self, u: ArrayView2<'_, f64>, p: ArrayViewMut2<'_, f64>) -> Result<()> {
+        self.0.pressure(u, p)
+    }
+    fn displacement(&mut self, p: ArrayView2<'_, f64>, u: ArrayViewMut2<'_, f64>) -> Result<()> {
+        self.0.displacement(p, u)
+    }
+    fn stiffness_range(&self) -> (f64, f64) {
+        self.0.stiffness_range()
+    }
+    fn modulus(&self) -> f64 {
+        self.0.modulus()
+    }
+}
+
+#[test]
+fn the_preconditioner_is_symmetric_positive_and_returns_the_compliance_product() {
+    for shape in SHAPES {
+        let grid = Grid::new(shape, (1.0, 1.0)).unwrap();
+        let mut operator = Westergaard::<f64>::new(grid, 1.0).unwrap();
+        let (a, b) = (noise(shape, 1), noise(shape, 2));
+        let mut compliant = Array2::zeros(shape);
+        operator.displacement(a.view(), compliant.view_mut()).unwrap();
+        let operators: [&mut dyn ElasticOperator<f64>; 2] =
+            [&mut operator, &mut Plain(Westergaard::new(grid, 1.0).unwrap())];
+        for mut operator in operators {
+            let (mut ma, mut mb) = (Array2::zeros(shape), Array2::zeros(shape));
+            let product = operator.precondition(a.view(), 0.7, ma.view_mut()).unwrap();
+            ElasticOperator::precondition(&mut operator, b.view(), 0.7, mb.view_mut()).unwrap();
+            assert_relative_eq!(product, dot(&a, &compliant), epsilon = 1e-14, max_relative = 1e-12);
+            assert_relative_eq!(dot(&a, &mb), dot(&b, &ma), epsilon = 1e-14, max_relative = 1e-12);
+            assert!(dot(&a, &ma) > 0.0);
+        }
+    }
+}
+
+#[test]
+fn a_plain_operator_solves_the_same_problem() {
+    let grid = Grid::square(64, 1.0).unwrap();
+    let surface = common::rough::rough(grid, 16, 1);
+    let mut fast = Problem::new(&surface, Westergaard::<f64>::new(grid, 1.0).unwrap(), NoAdhesion).unwrap();
+    let mut plain = Problem::new(&surface, Plain(Westergaard::new(grid, 1.0).unwrap()), NoAdhesion).unwrap();
+    for control in [Control::MeanPressure(0.05), Control::MeanGap(0.02)] {
+        let a = common::solve(&mut fast, control, 1e-10);
+        let b = common::solve(&mut plain, control, 1e-10);
+        assert_eq!((a.report.status, b.report.status), (Status::Converged, Status::Converged));
+        assert_eq!(a.report.contact_points, b.report.contact_points);
+        assert_relative_eq!(a.report.mean_gap, b.report.mean_gap, max_relative = 1e-9);
+    }
+}
+
+#[test]
+fn anisotropic_symbols_act_on_their_waves() {
+    for shape in [(8, 8), (7, 8), (8, 7), (5, 9)] {
+        let grid = Grid::new(shape, (1.0, 1.0)).unwrap();
+        let symbol = |qx: f64, qy: f64| (qx * qx + 0.25 * qy * qy + 0.3 * qx * qy).sqrt();
+        let mut operator = Spectral::<f64>::new(grid, 1.0, symbol).unwrap();
+        for (kx, ky) in [(1, 0), (0, 1), (2, 1), (shape.0 - 1, 2), (3, shape.1 - 1)] {
+            let (qx, qy) = (grid.wave_number_x(kx), grid.wave_number_y(ky));
+            let wave = Array2::from_shape_fn(shape, |(i, j)| {
+                (TAU * ((i * kx) as f64 / shape.0 as f64 + (j * ky) as f64 / shape.1 as f64)).cos()
+            });
+            let p = apply(&mut operator, &wave);
+            for (&p, &u) in p.iter().zip(&wave) {
+                assert_relative_eq!(p, symbol(qx, qy) * u, epsilon = 1e-11);
+            }
+        }
+        // the Nyquist waves, whose sign of q is undefined, keep the operator symmetric
+        let (a, b) = (noise(shape, 5), noise(shape, 6));
+        assert_relative_eq!(dot(&a, &apply(&mut operator, &b)), dot(&b, &apply(&mut operator, &a)), epsilon = 1e-13);
+    }
+}
+
+#[test]
+fn bad_operators_are_refused() {
+    let grid = Grid::square(4, 1.0).unwrap();
+    for modulus in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        assert!(Westergaard::<f64>::new(grid, modulus).is_err());
+    }
+    assert!(Westergaard::<f32>::new(grid, 1e300).is_err(), "the stiffness does not fit f32");
+    assert!(Spectral::<f64>::new(grid, 1.0, |qx, _| qx).is_err(), "negative and zero stiffness");
+    let mut operator = Westergaard::<f64>::new(grid, 1.0).unwrap();
+    let mut out = Array2::zeros((4, 4));
+    let error = operator.pressure(Array2::zeros((4, 5)).view(), out.view_mut()).unwrap_err();
+    assert_eq!(error.to_string(), "operator input has shape 4 x 5: it must be 4 x 4");
+}
+
+#[test]
+fn an_application_allocates_nothing() {
+    let grid = Grid::square(64, 1.0).unwrap();
+    rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap().install(|| {
+        let mut operator = Westergaard::<f64>::new(grid, 1.0).unwrap();
+        let (u, mut p) = (noise((64, 64), 1), Array2::zeros((64, 64)));
+        let count = allocation_counter::measure(|| {
+            operator.pressure(u.view(), p.view_mut()).unwrap();
+            operator.displacement(u.view(), p.view_mut()).unwrap();
+            operator.precondition(u.view(), 1.0, p.view_mut()).unwrap();
+        });
+        assert_eq!(count.count_total, 0);
+    });
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 64, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn the_operator_is_linear_symmetric_and_positive(
+        nx in 1_usize..14, ny in 1_usize..14, lx in 0.1_f64..10.0, ly in 0.1_f64..10.0, seed in 0_u64..1000,
+    ) {
+        let grid = Grid::new((nx, ny), (lx, ly)).unwrap();
+        prop_assume!(nx * ny > 1);
+        let mut operator = Westergaard::new(grid, 1.0).unwrap();
+        let (a, b) = (noise((nx, ny), seed), noise((nx, ny), seed + 1));
+        let (ka, kb) = (apply(&mut operator, &a), apply(&mut operator, &b));
+        let sum = apply(&mut operator, &(&a + &b));
+        let size = operator.stiffness_range().1;
+        for ((s, a), b) in sum.iter().zip(&ka).zip(&kb) {
+            prop_assert!((s - a - b).abs() <= 1e-13 * size);
+        }
+        prop_assert!((dot(&a, &kb) - dot(&b, &ka)).abs() <= 1e-13 * size);
+        let varies = a.iter().any(|x| (x - a[[0, 0]]).abs() > 1e-3);
+        prop_assert!(!varies || dot(&a, &ka) > 0.0);
+    }
+}
