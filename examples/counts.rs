@@ -1,50 +1,53 @@
-//! Iterations and operator applications of both presets, side by side.
+//! Operator applications of the default and of the paper's Algorithm 3, on the same cases.
+//!
+//! `cargo run --release --example counts [largest size]`
+
 #[path = "../tests/common/rough.rs"]
 mod rough;
 
-use asperity::*;
-use std::time::Instant;
+use asperity::{
+    AdhesionLaw, Control, Grid, MaugisDugdale, NoAdhesion, Problem, Result, Settings, Solver, Surface, Westergaard,
+};
 
 fn main() -> Result<()> {
-    for n in [64, 128, 256, 512] {
+    let largest = std::env::args().nth(1).and_then(|n| n.parse().ok()).unwrap_or(512);
+    println!("Applications of the operator until the certified error is below 1e-6 (default), and until");
+    println!("the paper's eps is below 1e-9 (Algorithm 3), with the one that constructs the problem.\n");
+    println!("{:<37} {:>5} {:>8} {:>11} {:>9}  contact nodes", "case", "n", "default", "Algorithm 3", "ratio");
+    for n in [128, 256, 512, 1024, 2048].into_iter().filter(|&n| n <= largest) {
         let grid = Grid::square(n, 1.0)?;
-        run("Hertz", &Surface::paraboloid(grid, 2.0)?, NoAdhesion, Control::MeanGap(0.0398))?;
-        run("Hertz P", &Surface::paraboloid(grid, 2.0)?, NoAdhesion, Control::MeanPressure(1.8e-4))?;
-        run("MD", &Surface::paraboloid(grid, 2.0)?, MaugisDugdale::new(1e-4, 2e-3)?, Control::MeanGap(0.0429))?;
-        if n > 64 {
-            let surface = rough::rough(grid, (n as i32 / 2 - 1).min(64), 1);
-            for p in [0.012, 0.2] {
-                let g = run("rough P", &surface, NoAdhesion, Control::MeanPressure(p))?;
-                run("rough G", &surface, NoAdhesion, Control::MeanGap(g))?;
-            }
+        let sphere = Surface::paraboloid(grid, 2.0)?;
+        compare("Hertz, mean gap 0.0398", &sphere, NoAdhesion, Control::MeanGap(0.0398))?;
+        let law = MaugisDugdale::new(1e-4, 2e-3)?;
+        compare("Maugis-Dugdale, mean gap 0.0429", &sphere, law, Control::MeanGap(0.0429))?;
+        let surface = rough::rough(grid, if n < 256 { 63 } else { 64 }, 1);
+        for (share, pressure) in [(3, 0.0125), (40, 0.205)] {
+            let name = format!("rough, {share} % contact, mean pressure");
+            let gap = compare(&name, &surface, NoAdhesion, Control::MeanPressure(pressure))?;
+            let name = format!("rough, {share} % contact, mean gap");
+            compare(&name, &surface, NoAdhesion, Control::MeanGap(gap))?;
         }
     }
     Ok(())
 }
 
-fn run<L: AdhesionLaw<f64> + Copy>(name: &str, surface: &Surface, law: L, control: Control) -> Result<f64> {
-    let mut out = 0.0;
-    print!("{name:10} {:4} ", surface.grid().shape().0);
-    for settings in [Settings::default(), Settings { max_iterations: 3000, ..Settings::rey2017() }] {
-        let mut problem = Problem::new(surface, Westergaard::new(*surface.grid(), 1.0)?, law)?;
-        let t = Instant::now();
-        let r = Solver::new(settings).solve(&mut problem, control)?.report;
-        if settings.method == Method::Preconditioned {
-            out = r.mean_gap;
-        }
-        print!(
-            "| {:10} {:4} it {:5} apps err {:.1e} load {:.0e} eps {:.0e} c {:6} p {:.7e} {:.2}s ",
-            r.status,
-            r.iterations,
-            r.operator_applications,
-            r.relative_error,
-            r.load_error,
-            r.orthogonality,
-            r.contact_points,
-            r.mean_pressure,
-            t.elapsed().as_secs_f64()
-        );
-    }
-    println!();
-    Ok(out)
+/// Prints both presets' counts, and returns the mean gap.
+fn compare<L: AdhesionLaw<f64>>(name: &str, surface: &Surface, law: L, control: Control) -> Result<f64> {
+    let grid = *surface.grid();
+    let mut problem = Problem::new(surface, Westergaard::new(grid, 1.0)?, law)?;
+    let default = Solver::default().solve(&mut problem, control)?.report;
+    let paper =
+        Solver::new(Settings { max_iterations: 5000, ..Settings::rey2017() }).solve(&mut problem, control)?.report;
+    let (ours, theirs) = (default.operator_applications + 1, paper.operator_applications + 1);
+    let ended = |status: asperity::Status| if status == asperity::Status::Converged { "" } else { "!" };
+    println!(
+        "{name:<37} {:>5} {:>8} {:>11} {:>9.1}  {} / {}",
+        grid.shape().0,
+        format!("{ours}{}", ended(default.status)),
+        format!("{theirs}{}", ended(paper.status)),
+        theirs as f64 / ours as f64,
+        default.contact_points,
+        paper.contact_points,
+    );
+    Ok(default.mean_gap)
 }

@@ -98,7 +98,7 @@ impl<T: Real> Convolver<T> {
             }
             separate(tile, *n1, z);
         });
-        par::map_into(par::chunks_mut(contiguous(spectrum), *n0), sums, |k, column| {
+        par::map_into(par::chunks_mut(contiguous(spectrum), *n0), sums, 1, |k, column| {
             let Workspace { scratch, .. } = &mut *pool.get();
             columns.forward.process_with_scratch(column, scratch);
             let sum = modify(k, column);

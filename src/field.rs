@@ -4,8 +4,12 @@ use ndarray::Array2;
 
 use crate::par::{self, IndexedParallelIterator};
 
-/// Nodes that one work item treats: a few of its fields and two buffers stay in a core's cache.
-pub(crate) const CHUNK: usize = 2048;
+/// Nodes that are summed one after the other. Sums of sums keep the rounding small: it grows with the length of a
+/// run, not with the number of nodes.
+pub(crate) const CHUNK: usize = 256;
+
+/// Chunks that a worker takes at once.
+const BATCH: usize = 8;
 
 /// How many numbers a pass can sum at once.
 const SUMS: usize = 9;
@@ -19,6 +23,12 @@ pub(crate) struct Partial {
 
 impl Partial {
     pub(crate) const NONE: Self = Self { sum: [0.0; SUMS], min: f64::INFINITY };
+
+    fn add(mut self, other: &Self) -> Self {
+        self.sum.iter_mut().zip(other.sum).for_each(|(sum, other)| *sum += other);
+        self.min = self.min.min(other.min);
+        self
+    }
 }
 
 /// Runs the passes over fields of one size, and adds up what the chunks return, in their order.
@@ -36,12 +46,12 @@ impl Reducer {
         chunks: A,
         f: impl Fn(usize, A::Item) -> Partial + Sync + Send,
     ) -> Partial {
-        par::map_into(chunks, &mut self.0, |i, chunk| f(i * CHUNK, chunk));
-        self.0.iter().fold(Partial::NONE, |mut total, part| {
-            total.sum.iter_mut().zip(part.sum).for_each(|(total, part)| *total += part);
-            total.min = total.min.min(part.min);
-            total
-        })
+        par::map_into(chunks, &mut self.0, BATCH, |i, chunk| f(i * CHUNK, chunk));
+        // the sums of chunks are summed as nodes are: in runs, and then the runs
+        self.0
+            .chunks(CHUNK)
+            .map(|run| run.iter().fold(Partial::NONE, Partial::add))
+            .fold(Partial::NONE, |a, b| a.add(&b))
     }
 }
 

@@ -53,12 +53,16 @@ mod parallel {
         (a, b).into_par_iter().for_each(|(a, b)| f(a, b));
     }
 
-    /// Stores `f(index, item)` for every item.
-    pub(crate) fn map_into<A, R: Send>(items: A, results: &mut [R], f: impl Fn(usize, A::Item) -> R + Sync + Send)
-    where
+    /// Stores `f(index, item)` for every item; a worker takes at least `batch` of them at once.
+    pub(crate) fn map_into<A, R: Send>(
+        items: A,
+        results: &mut [R],
+        batch: usize,
+        f: impl Fn(usize, A::Item) -> R + Sync + Send,
+    ) where
         A: IndexedParallelIterator,
     {
-        items.zip(results).enumerate().for_each(|(i, (item, result))| *result = f(i, item));
+        items.zip(results).enumerate().with_min_len(batch).for_each(|(i, (item, result))| *result = f(i, item));
     }
 }
 
@@ -90,7 +94,7 @@ mod serial {
     }
 
     /// Stores `f(index, item)` for every item.
-    pub(crate) fn map_into<A: Iterator, R>(items: A, results: &mut [R], f: impl Fn(usize, A::Item) -> R) {
+    pub(crate) fn map_into<A: Iterator, R>(items: A, results: &mut [R], _: usize, f: impl Fn(usize, A::Item) -> R) {
         items.zip(results).enumerate().for_each(|(i, (item, result))| *result = f(i, item));
     }
 }

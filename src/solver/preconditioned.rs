@@ -22,8 +22,8 @@ const LEAST_CURVATURE: f64 = 0.05;
 /// contact then, to the last bit.
 const WHOLE: f64 = 0.7;
 
-/// How far a step may go beyond its trial length where the energy's curvature does not limit it.
-const FARTHEST: f64 = 4.0;
+/// How many times its trial length a step may take: the mean gap has no elastic curvature to limit it.
+const FARTHEST: f64 = 10.0;
 
 /// How much the trial length may change from one step to the next, and what it may not exceed.
 const ADAPT: (f64, f64) = (0.7, 1.3);
@@ -281,10 +281,7 @@ where
         let [elastic, work, slopes, ..] = total.sum;
         let stiff = elastic + slopes > LEAST_CURVATURE * elastic;
         let curvature = if stiff { elastic + slopes } else { LEAST_CURVATURE * elastic };
-        let mut best = -trial.slope / curvature;
-        if !stiff || best.is_nan() {
-            best = best.min(FARTHEST);
-        }
+        let best = (-trial.slope / curvature).min(FARTHEST);
         let reach = if projects { total.min.max(1.0) } else { f64::INFINITY };
         let mut length = match trial.clipped {
             true if best >= WHOLE => 1.0,

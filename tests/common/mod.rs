@@ -42,7 +42,11 @@ pub fn falls(history: &[Iteration], epsilon: f64) {
     let size = history.iter().map(|i| i.energy.abs()).fold(0.0, f64::max);
     for pair in history.windows(2) {
         let rise = pair[1].energy - pair[0].energy;
-        assert!(rise <= 64.0 * epsilon * size, "energy rises by {rise:e} of {size:e} in iteration {}", pair[1].iteration);
+        assert!(
+            rise <= 64.0 * epsilon * size,
+            "energy rises by {rise:e} of {size:e} in iteration {}",
+            pair[1].iteration
+        );
     }
 }
 
@@ -59,14 +63,17 @@ pub fn check<T: Real>(solution: &Solution<T>, law: &impl AdhesionLaw<T>, control
     assert_eq!(report.contact_points, contact);
     assert_eq!(report.contact_fraction, contact as f64 / nodes);
     assert_eq!(report.min_gap, gap.iter().map(|g| g.widen()).fold(f64::INFINITY, f64::min));
-    let mean = |field: &Array2<T>| field.iter().map(|x| x.widen()).sum::<f64>() / nodes;
+    // in runs, as long sums of equal numbers round badly
+    let values = |field: &Array2<T>| field.iter().map(|x| x.widen()).collect::<Vec<_>>();
+    let mean = |field: &Array2<T>| values(field).chunks(64).map(|run| run.iter().sum::<f64>()).sum::<f64>() / nodes;
     assert!((report.mean_gap - mean(gap)).abs() <= 64.0 * epsilon * mean(gap));
     assert!((report.mean_contact_pressure - mean(contact_pressure)).abs() <= 64.0 * epsilon * mean(contact_pressure));
     match control {
-        Control::MeanGap(given) => assert!((mean(gap) - given).abs() <= 64.0 * epsilon * given),
+        // a step of ten times the trial length carries ten times the rounding of the mean
+        Control::MeanGap(given) => assert!((mean(gap) - given).abs() <= 1e3 * epsilon * given),
         Control::MeanPressure(given) => assert_eq!(report.mean_pressure, given),
     }
-    if report.status == Status::Converged {
+    if report.status == Status::Converged && contact > 0 {
         // the balance of forces, of which the residual is what the criterion leaves
         let traction = gap.iter().map(|&g| law.traction(g).widen()).sum::<f64>() / nodes;
         let size = mean(&pressure.mapv(|p| p.abs())).max(traction);
@@ -88,12 +95,17 @@ pub fn rough<T: Real, L: AdhesionLaw<T>>(n: usize, shortest: i32, law: L) -> Pro
     Problem::new(&rough::rough(grid, shortest, 1), Westergaard::new(grid, 1.0).unwrap(), law).unwrap()
 }
 
-/// ⟨u, K⁻¹u⟩ of the difference of two gaps, and of the displacement that belongs to the second, as means.
-pub fn energy_norms(surface: &Surface, operator: &mut Westergaard<f64>, a: &Array2<f64>, b: &Array2<f64>) -> (f64, f64) {
+/// The mean of u·K⁻¹u for the difference of two gaps, for the displacement of the second, and for the surface.
+pub fn energy_norms(
+    surface: &Surface,
+    operator: &mut Westergaard<f64>,
+    a: &Array2<f64>,
+    b: &Array2<f64>,
+) -> (f64, f64, f64) {
     let mut norm = |u: &Array2<f64>| {
         let mut p = Array2::zeros(u.dim());
         operator.pressure(u.view(), p.view_mut()).unwrap();
         (u * &p).sum() / u.len() as f64
     };
-    (norm(&(a - b)), norm(&(b + surface.heights())))
+    (norm(&(a - b)), norm(&(b + surface.heights())), norm(surface.heights()))
 }

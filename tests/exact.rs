@@ -1,0 +1,173 @@
+//! Against exact solutions. Section numbers of the references are in each test.
+
+mod common;
+
+use std::f64::consts::{PI, SQRT_2, TAU};
+
+use approx::assert_relative_eq;
+use asperity::*;
+use common::{solve, sphere};
+use ndarray::Array2;
+
+#[test]
+fn hertz_contact_nodes_and_pressure() {
+    // independent numerical solution at the same nodes, to seven digits
+    for (n, points, pressure) in [(64, 61, 1.831421e-4), (128, 221, 1.809886e-4), (256, 877, 1.803445e-4)] {
+        let solution = solve(&mut sphere::<f64, _>(n, NoAdhesion), Control::MeanGap(0.0398), 1e-10);
+        assert_eq!(solution.report.status, Status::Converged);
+        assert_eq!(solution.report.contact_points, points);
+        assert!((solution.report.mean_pressure - pressure).abs() <= 0.5e-10, "{}", solution.report.mean_pressure);
+    }
+}
+
+/// The load of a Hertz contact among its periodic images on the unit square, E* = 1, at a mean gap: the lattice sums of the
+/// images' displacement give the approach and the curvature that they add.
+fn periodic_hertz(radius: f64, mean_gap: f64, mean_height: f64) -> f64 {
+    const M1: f64 = 3.900_264_920_0;
+    const C2: f64 = 2.258_405;
+    let gap = |load: f64| {
+        let radius = 1.0 / (1.0 / radius + 2.0 * C2 * load / PI);
+        let a = (0.75 * load * radius).cbrt();
+        -mean_height - a * a / radius + M1 * load / PI - C2 * load * 0.4 * a * a / PI
+    };
+    let (mut low, mut high) = (0.0, 1e-2);
+    for _ in 0..200 {
+        let middle = 0.5 * (low + high);
+        if gap(middle) > mean_gap { low = middle } else { high = middle }
+    }
+    low
+}
+
+#[test]
+fn hertz_with_periodic_images() {
+    for gap in [0.0398, 0.0390, 0.0405] {
+        let grid = Grid::square(512, 1.0).unwrap();
+        let surface = Surface::paraboloid(grid, 2.0).unwrap();
+        let exact = periodic_hertz(2.0, gap, surface.mean());
+        let solution = solve(&mut sphere::<f64, _>(512, NoAdhesion), Control::MeanGap(gap), 1e-8);
+        // the contact radius is 30 to 45 nodes here: the load's discretisation error is of the order of its inverse square
+        assert_relative_eq!(solution.report.mean_pressure, exact, max_relative = 1e-4);
+    }
+}
+
+/// A wave on a line, in partial contact: amplitude 0.02, unit wavelength and modulus.
+fn line(n: usize) -> Problem<f64, Westergaard<f64>, NoAdhesion> {
+    let grid = Grid::line(n, 1.0).unwrap();
+    Problem::new(&Surface::wave(grid, 0.02, 1).unwrap(), Westergaard::new(grid, 1.0).unwrap(), NoAdhesion).unwrap()
+}
+
+/// Westergaard's mean gap and pressure, in terms of s = sin²(πa/λ), for [`line`].
+fn westergaard(s: f64) -> (f64, f64) {
+    (0.02 * (1.0 - s + s * s.ln()), PI * 0.02 * s)
+}
+
+#[test]
+fn westergaards_wave_by_its_mean_gap_is_of_second_order() {
+    let states: Vec<f64> = (1..20).map(|i| f64::from(i) / 20.0).collect();
+    let error = |n: usize| {
+        let errors = states.iter().map(|&s| {
+            let (gap, pressure) = westergaard(s);
+            let solution = solve(&mut line(n), Control::MeanGap(gap), 1e-11);
+            assert_eq!(solution.report.status, Status::Converged);
+            // the edge of the contact is at half a node of the exact one, give or take
+            let edge = (s.sqrt().asin() / PI) * n as f64;
+            assert!((0.5 * solution.report.contact_points as f64 - edge).abs() <= 1.0);
+            (solution.report.mean_pressure - pressure) / (PI * 0.02)
+        });
+        errors.map(|e| e * e).sum::<f64>().sqrt() / (states.len() as f64).sqrt()
+    };
+    let (coarse, fine) = (error(64), error(1024));
+    assert!(coarse <= 4.4e-4 && fine <= 8e-6, "{coarse:e} {fine:e}");
+    let order = (coarse / fine).log2() / 4.0;
+    assert!((1.7..2.3).contains(&order), "order {order}");
+}
+
+#[test]
+fn westergaards_wave_by_its_mean_pressure() {
+    for s in [0.1, 0.5, 0.9] {
+        let (gap, pressure) = westergaard(s);
+        let solution = solve(&mut line(1024), Control::MeanPressure(pressure), 1e-10);
+        assert_eq!(solution.report.status, Status::Converged);
+        // the error of the pressure at given gap, 8e-6 p*, as an error of the gap: dg/dp = h ln(s) / p*
+        assert!((solution.report.mean_gap - gap).abs() <= 8e-6 * 0.02 * (1.0 - s.ln()));
+        let edge = s.sqrt().asin() / PI;
+        for (i, &p) in solution.pressure.iter().enumerate() {
+            let psi = PI * (i as f64 / 1024.0 - 0.5);
+            let under = (s - psi.sin().powi(2)).max(0.0);
+            let exact = 2.0 * pressure * psi.cos() / s * under.sqrt();
+            // the pressure falls like a square root at the edge: compare two nodes away from it
+            if (psi.abs() / PI - edge).abs() > 2.0 / 1024.0 {
+                assert!((p - exact).abs() <= 0.02 * PI * 0.02, "{i} {p} {exact}");
+            }
+        }
+    }
+}
+
+#[test]
+fn the_two_dimensional_wave_closes_at_its_pressure() {
+    let (n, amplitude) = (96, 0.01);
+    let grid = Grid::square(n, 1.0).unwrap();
+    let surface = Surface::wave_2d(grid, amplitude, 1).unwrap();
+    let closing = SQRT_2 * PI * amplitude;
+    let mut problem = Problem::new(&surface, Westergaard::<f64>::new(grid, 1.0).unwrap(), NoAdhesion).unwrap();
+
+    let full = solve(&mut problem, Control::MeanPressure(1.001 * closing), 1e-12);
+    assert_eq!((full.report.status, full.report.contact_points), (Status::Converged, n * n));
+    let exact = Array2::from_shape_fn((n, n), |(i, j)| {
+        1.001 * closing + closing * (TAU * grid.x(i)).cos() * (TAU * grid.y(j)).cos()
+    });
+    for (p, exact) in full.pressure.iter().zip(&exact) {
+        assert_relative_eq!(p, exact, epsilon = 1e-14);
+    }
+
+    // near closing the gaps are small: 1 − A/A₀ ≈ (3/2π)(1 − p̄/p*), to the area of the nodes along their edge
+    let nearly = solve(&mut problem, Control::MeanPressure(0.95 * closing), 1e-8);
+    let open = 1.0 - nearly.report.contact_fraction;
+    assert_relative_eq!(open, 1.5 / PI * 0.05, max_relative = 0.1);
+}
+
+#[test]
+fn surfaces_apart_do_not_press() {
+    let mut problem = line(63);
+    let solution = solve(&mut problem, Control::MeanGap(0.05), 1e-6);
+    assert_eq!((solution.report.status, solution.report.contact_points), (Status::Converged, 0));
+    assert!(solution.pressure.iter().all(|p| p.abs() < 1e-7 * 0.02 * PI));
+    assert!(solution.report.mean_pressure.abs() < 1e-15);
+}
+
+#[test]
+fn no_gap_is_full_contact_at_the_least_pressure_that_closes_it() {
+    let solution = solve(&mut line(64), Control::MeanGap(0.0), 1e-6);
+    assert_eq!((solution.report.status, solution.report.contact_points), (Status::Converged, 64));
+    assert_relative_eq!(solution.report.mean_pressure, PI * 0.02, max_relative = 1e-12);
+    assert_eq!(solution.contact_pressure.iter().copied().fold(f64::INFINITY, f64::min), 0.0);
+}
+
+#[test]
+fn units_and_size_do_not_matter() {
+    let (n, gap) = (48, 0.3);
+    let run = |length: f64, height: f64, modulus: f64| {
+        let grid = Grid::square(n, length).unwrap();
+        let unit = common::rough::rough(Grid::square(n, 1.0).unwrap(), 16, 3);
+        let surface = Surface::new(grid, unit.heights().mapv(|h| h * height)).unwrap();
+        let pressure = modulus * height / length;
+        let law = Exponential::new(0.3 * pressure * 0.004 * height, 0.004 * height).unwrap();
+        let mut problem = Problem::new(&surface, Westergaard::<f64>::new(grid, modulus).unwrap(), law).unwrap();
+        let control = Control::MeanGap(gap * surface.rms_height());
+        let report = solve(&mut problem, control, 1e-9).report;
+        let energy = pressure * height;
+        (
+            (report.iterations, report.contact_points, report.status),
+            [report.mean_pressure / pressure, report.elastic_energy / energy, report.adhesive_energy / energy],
+        )
+    };
+    let reference = run(1.0, 1.0, 1.0);
+    for (length, height, modulus) in [(1e-6, 1e-8, 7e10), (1e3, 1e-2, 1e-3), (1.0, 1e-12, 1e12)] {
+        let (counts, numbers) = run(length, height, modulus);
+        assert_eq!(counts.1, reference.0.1);
+        assert_eq!(counts.2, Status::Converged);
+        for (number, expected) in numbers.into_iter().zip(reference.1) {
+            assert_relative_eq!(number, expected, max_relative = 1e-7);
+        }
+    }
+}

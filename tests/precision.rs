@@ -1,0 +1,76 @@
+//! f32 beside f64, and the same bits from any number of threads.
+
+mod common;
+
+use approx::assert_relative_eq;
+use asperity::*;
+use common::{rough, solve, sphere};
+
+#[test]
+fn f32_reaches_what_it_certifies() {
+    let single = solve(&mut rough::<f32, _>(128, 31, NoAdhesion), Control::MeanPressure(0.2), 1e-6);
+    let double = solve(&mut rough::<f64, _>(128, 31, NoAdhesion), Control::MeanPressure(0.2), 1e-6);
+    assert_eq!((single.report.precision, double.report.precision), ("f32", "f64"));
+    assert_eq!((single.report.status, double.report.status), (Status::Converged, Status::Converged));
+    assert!(single.report.relative_error <= 1e-6);
+    assert_relative_eq!(single.report.mean_gap, double.report.mean_gap, max_relative = 1e-5);
+}
+
+#[test]
+fn f32_converges_or_says_where_it_stalled() {
+    let mut stalled = 0;
+    for pressure in [1e-3, 1e-2, 0.1, 0.5] {
+        let single = solve(&mut rough::<f32, _>(128, 32, NoAdhesion), Control::MeanPressure(pressure), 1e-5);
+        let double = solve(&mut rough::<f64, _>(128, 32, NoAdhesion), Control::MeanPressure(pressure), 1e-10);
+        let report = &single.report;
+        match report.status {
+            Status::Converged => assert!(report.relative_error <= 1e-5),
+            Status::Stalled => {
+                stalled += 1;
+                assert!(report.relative_error > 1e-5 && report.relative_error < 1e-3, "{}", report.relative_error);
+            }
+            other => panic!("{other}"),
+        }
+        assert!(report.iterations < 100);
+        assert_relative_eq!(report.mean_gap, double.report.mean_gap, max_relative = 1e-4);
+    }
+    assert!(stalled < 3);
+    // what no f32 can reach is not called converged, and is given up quickly
+    let report = solve(&mut rough::<f32, _>(128, 32, NoAdhesion), Control::MeanPressure(0.1), 1e-10).report;
+    assert_eq!(report.status, Status::Stalled);
+    assert!(report.iterations < 100 && report.relative_error > 1e-10);
+}
+
+#[test]
+fn the_datum_of_the_heights_costs_no_digits() {
+    let grid = Grid::square(64, 1.0).unwrap();
+    let surface = common::rough::rough(grid, 16, 1);
+    let raised =
+        Surface::new(grid, surface.heights().mapv(|h| (h * 2_f64.powi(30)).round() / 2_f64.powi(30) + 1024.0)).unwrap();
+    let lowered = Surface::new(grid, raised.heights().mapv(|h| h - 1024.0)).unwrap();
+    let solve = |surface: &Surface| {
+        let operator = Westergaard::<f32>::new(grid, 1.0).unwrap();
+        solve(&mut Problem::new(surface, operator, NoAdhesion).unwrap(), Control::MeanPressure(0.1), 1e-5)
+    };
+    let (a, b) = (solve(&raised), solve(&lowered));
+    assert_eq!(a.report.contact_points, b.report.contact_points);
+    assert_relative_eq!(a.report.mean_gap, b.report.mean_gap, max_relative = 1e-6);
+}
+
+#[cfg(feature = "parallel")]
+#[test]
+fn any_number_of_threads_gives_the_same_bits() {
+    let run = |threads: usize| {
+        rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap().install(|| {
+            let law = Exponential::new(1e-5, 1e-3).unwrap();
+            let rough = solve(&mut rough::<f64, _>(150, 32, law), Control::MeanPressure(0.01), 1e-8);
+            let single = solve(&mut sphere::<f32, _>(128, NoAdhesion), Control::MeanGap(0.0398), 1e-5);
+            (rough, single)
+        })
+    };
+    let one = run(1);
+    for threads in [2, 3, 7] {
+        assert_eq!(run(threads), one);
+    }
+    assert_eq!(run(1), one, "from run to run");
+}

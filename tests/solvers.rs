@@ -1,0 +1,271 @@
+//! The driver: what its certificate promises, how many applications it takes, how it starts and ends.
+
+mod common;
+
+use std::ops::ControlFlow;
+
+use approx::assert_relative_eq;
+use asperity::*;
+use common::{rough, solve, solve_from, sphere};
+use ndarray::Array2;
+
+fn limited(max_iterations: usize, tolerance: f64) -> Solver {
+    Solver::new(Settings { max_iterations, tolerance, ..Settings::default() })
+}
+
+#[test]
+fn the_certificate_is_never_below_the_true_error() {
+    let grid = Grid::new((60, 49), (1.0, 0.8)).unwrap();
+    let surface = Surface::from_fn(grid, |x, y| 0.02 * (6.0 * x + 9.0 * y).sin() * (20.0 * y).cos() - x * x).unwrap();
+    let mut operator = Westergaard::new(grid, 1.0).unwrap();
+    let mut problem = Problem::new(&surface, Westergaard::new(grid, 1.0).unwrap(), NoAdhesion).unwrap();
+    for control in [Control::MeanGap(0.03), Control::MeanGap(0.1), Control::MeanPressure(0.05)] {
+        let mut sharpest = f64::INFINITY;
+        for iterations in 0..24 {
+            let state = limited(iterations, 1e-14).solve(&mut problem, control).unwrap();
+            common::check(&state, &NoAdhesion, control);
+            // a state under pressure control is certified at its own mean gap
+            let exact = solve(&mut problem, Control::MeanGap(state.report.mean_gap), 1e-12);
+            assert_eq!(exact.report.status, Status::Converged);
+            let (error, size, flat) = common::energy_norms(&surface, &mut operator, &exact.gap, &state.gap);
+            // without contact the surface's own size may stand for that of the displacement
+            let size = if state.report.contact_points > 0 { size } else { size.max(flat) };
+            let (error, bound) = ((error / size).sqrt(), state.report.relative_error);
+            assert!(error <= bound * (1.0 + 1e-6) + 2e-12, "{control:?} {iterations}: {error:e} > {bound:e}");
+            if error > 1e-8 {
+                sharpest = sharpest.min(bound / error);
+            }
+        }
+        assert!(sharpest < 2.0, "the bound is {sharpest} times the error at best");
+    }
+}
+
+/// Operator applications to 1e-6, with the one that the problem itself takes.
+fn applications<L: AdhesionLaw<f64>>(problem: &mut Problem<f64, Westergaard<f64>, L>, control: Control) -> usize {
+    let report = solve(problem, control, 1e-6).report;
+    assert_eq!(report.status, Status::Converged);
+    report.operator_applications + 1
+}
+
+#[test]
+fn hertz_takes_few_applications_and_hardly_more_on_finer_grids() {
+    let count = |n| applications(&mut sphere(n, NoAdhesion), Control::MeanGap(0.0398));
+    let (coarse, fine) = (count(128), count(512));
+    assert!(fine <= 40 && fine as f64 <= 1.5 * coarse as f64, "{coarse} {fine}");
+}
+
+#[test]
+fn maugis_dugdale_takes_few_applications_and_hardly_more_on_finer_grids() {
+    let count = |n| applications(&mut sphere(n, MaugisDugdale::new(1e-4, 2e-3).unwrap()), Control::MeanGap(0.0429));
+    let (coarse, fine) = (count(128), count(512));
+    assert!(fine <= 90 && fine as f64 <= 1.8 * coarse as f64, "{coarse} {fine}");
+}
+
+#[test]
+fn rough_contact_takes_few_applications_under_both_controls() {
+    // mean pressures that give about 3 and 40 % contact
+    for (pressure, share, limit) in [(0.0125, 0.03, 50), (0.205, 0.4, 65)] {
+        // the same waves on both grids; the coarser one just resolves them
+        let mut counts = Vec::new();
+        for n in [128, 512] {
+            let mut problem = rough::<f64, _>(n, 63, NoAdhesion);
+            let solution = solve(&mut problem, Control::MeanPressure(pressure), 1e-6);
+            let by_gap = applications(&mut problem, Control::MeanGap(solution.report.mean_gap));
+            counts.push([solution.report.operator_applications + 1, by_gap]);
+            if n == 512 {
+                assert!((solution.report.contact_fraction / share - 1.0).abs() < 0.1);
+            }
+        }
+        for i in 0..2 {
+            let (coarse, fine) = (counts[0][i], counts[1][i]);
+            assert!(fine <= limit && fine as f64 <= 1.5 * coarse as f64, "{pressure}: {counts:?}");
+        }
+    }
+}
+
+#[test]
+fn pressure_control_needs_no_more_from_a_touch_to_full_contact() {
+    let mut problem = rough::<f64, _>(128, 32, NoAdhesion);
+    let mut last = 0.0;
+    for pressure in [1e-4, 1e-3, 1e-2, 0.1, 0.3, 0.6, 1.0, 4.0] {
+        let report = solve(&mut problem, Control::MeanPressure(pressure), 1e-6).report;
+        assert_eq!(report.status, Status::Converged);
+        assert!(report.operator_applications <= 60, "{pressure}: {}", report.operator_applications);
+        assert!(report.contact_fraction > last);
+        last = report.contact_fraction;
+    }
+    assert_eq!(last, 1.0);
+}
+
+#[test]
+fn both_controls_find_the_same_state() {
+    let mut problem = rough::<f64, _>(96, 24, NoAdhesion);
+    let pressed = solve(&mut problem, Control::MeanPressure(0.08), 1e-10);
+    let held = solve(&mut problem, Control::MeanGap(pressed.report.mean_gap), 1e-10);
+    assert_relative_eq!(held.report.mean_pressure, 0.08, max_relative = 1e-8);
+    assert_eq!(pressed.report.contact_points, held.report.contact_points);
+}
+
+#[test]
+fn both_presets_find_the_same_state() {
+    for control in [Control::MeanGap(0.03), Control::MeanPressure(0.05)] {
+        let mut problem = rough::<f64, _>(64, 16, NoAdhesion);
+        let ours = solve(&mut problem, control, 1e-9);
+        let mut paper = Solver::new(Settings { tolerance: 1e-11, ..Settings::rey2017() });
+        let paper = paper.solve(&mut problem, control).unwrap();
+        common::check(&paper, &NoAdhesion, control);
+        assert_eq!((paper.report.status, paper.report.method), (Status::Converged, Method::Rey2017));
+        assert!(paper.report.orthogonality <= 1e-11 && paper.report.relative_error < 1e-5);
+        assert_eq!(ours.report.contact_points, paper.report.contact_points);
+        assert_relative_eq!(ours.report.mean_gap, paper.report.mean_gap, max_relative = 1e-7);
+        assert!(paper.report.operator_applications > 2 * ours.report.operator_applications);
+    }
+}
+
+#[test]
+fn the_papers_preset_can_be_held_to_the_certified_error() {
+    let settings = Settings { criterion: Criterion::EnergyNorm, tolerance: 1e-7, ..Settings::rey2017() };
+    let solution =
+        Solver::new(settings).solve(&mut sphere::<f64, _>(64, NoAdhesion), Control::MeanGap(0.0398)).unwrap();
+    assert_eq!((solution.report.status, solution.report.contact_points), (Status::Converged, 61));
+    assert!(solution.report.relative_error <= 1e-7);
+}
+
+#[test]
+fn adhesion_raises_the_contact_and_satisfies_the_envelope_theorem() {
+    let rms = 0.0085;
+    let law = Exponential::new(2e-4, 0.3 * rms).unwrap();
+    let mut problem = rough::<f64, _>(128, 24, law);
+    assert!(problem.resolution() < 0.51);
+    let mut bare = rough::<f64, _>(128, 24, NoAdhesion);
+    let (stuck, pressed) =
+        (solve(&mut problem, Control::MeanGap(0.015), 1e-10), solve(&mut bare, Control::MeanGap(0.015), 1e-10));
+    assert_eq!(stuck.report.status, Status::Converged);
+    assert!(stuck.report.contact_points > pressed.report.contact_points);
+    assert!(stuck.report.adhesive_energy < 0.0 && stuck.report.mean_pressure < pressed.report.mean_pressure);
+
+    // de/dg = −p, by central differences that stay on the branch
+    let step = 1e-7;
+    let mut energy = |gap: f64| {
+        let report = solve_from(&mut problem, Control::MeanGap(gap), 1e-10, Some(stuck.gap.view())).report;
+        report.elastic_energy + report.adhesive_energy
+    };
+    let slope = (energy(0.015 + step) - energy(0.015 - step)) / (2.0 * step);
+    assert_relative_eq!(slope, -stuck.report.mean_pressure, max_relative = 1e-5);
+}
+
+#[test]
+fn strong_and_unresolved_adhesion_ends_and_says_so() {
+    for (range, work) in [(2e-4, 1e-4), (2e-5, 2e-5), (5e-4, 5e-3)] {
+        let mut problem = rough::<f64, _>(64, 16, Exponential::new(work, range).unwrap());
+        let solution = solve(&mut problem, Control::MeanGap(0.02), 1e-6);
+        let report = &solution.report;
+        assert!(report.under_resolved && report.mu_rho > 0.5);
+        assert!(report.status == Status::Converged || report.status == Status::Stalled);
+        assert!(report.status != Status::Converged || report.relative_error <= 1e-6);
+    }
+}
+
+#[test]
+fn a_zero_law_is_no_law() {
+    let mut none = rough::<f64, _>(64, 16, NoAdhesion);
+    let mut zero = rough::<f64, _>(64, 16, Exponential::new(0.0, 1e-3).unwrap());
+    let control = Control::MeanPressure(0.02);
+    assert_eq!(solve(&mut none, control, 1e-6), solve(&mut zero, control, 1e-6));
+}
+
+#[test]
+fn a_warm_start_from_the_solution_is_the_solution() {
+    let law = MaugisDugdale::new(1e-4, 2e-3).unwrap();
+    for control in [Control::MeanGap(0.0429), Control::MeanPressure(-5e-4)] {
+        let mut problem = sphere::<f64, _>(64, law);
+        let first = solve(&mut problem, control, 1e-9);
+        let again = solve_from(&mut problem, control, 1e-8, Some(first.gap.view()));
+        assert_eq!((first.report.status, again.report.status), (Status::Converged, Status::Converged));
+        assert!(again.report.iterations <= 1);
+        assert_eq!(first.report.contact_points, again.report.contact_points);
+    }
+}
+
+#[test]
+fn tension_is_held_by_adhesion_up_to_pull_off_and_detaches_beyond() {
+    // pull-off of this state is near −9.76e-4 in the paper's units
+    let mut problem = sphere::<f64, _>(128, MaugisDugdale::new(1e-4, 2e-3).unwrap());
+    let held = solve(&mut problem, Control::MeanPressure(-7e-4), 1e-7);
+    assert_eq!(held.report.status, Status::Converged);
+    assert!(held.report.contact_points > 100 && held.report.mean_contact_pressure > 0.0);
+    let lost = solve(&mut problem, Control::MeanPressure(-1.2e-3), 1e-7);
+    assert_eq!((lost.report.status, lost.report.contact_points), (Status::Detached, 0));
+    assert!(lost.report.iterations < 200 && lost.gap.iter().all(|g| g.is_finite()));
+    let mut bare = sphere::<f64, _>(128, NoAdhesion);
+    let lost = solve(&mut bare, Control::MeanPressure(-1e-9), 1e-7);
+    assert_eq!(lost.report.status, Status::Detached);
+    assert!(lost.report.iterations < 100 && lost.report.mean_gap.is_finite());
+}
+
+#[test]
+fn an_observer_can_stop_and_the_limit_is_kept() {
+    let mut problem = sphere::<f64, _>(64, NoAdhesion);
+    let control = Control::MeanGap(0.0398);
+    let mut seen = Vec::new();
+    let stopped = Solver::default()
+        .solve_from(&mut problem, control, None, |iteration| {
+            seen.push(iteration.iteration);
+            if iteration.iteration == 3 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        })
+        .unwrap();
+    assert_eq!((seen, stopped.report.status), (vec![0, 1, 2, 3], Status::Stopped));
+    common::check(&stopped, &NoAdhesion, control);
+    let ended = limited(5, 1e-6).solve(&mut problem, control).unwrap();
+    assert_eq!((ended.report.status, ended.report.iterations), (Status::IterationLimit, 5));
+    assert!(ended.report.relative_error > 1e-6);
+}
+
+#[test]
+fn impossible_inputs_are_refused_by_name() {
+    let mut problem = sphere::<f64, _>(16, NoAdhesion);
+    let mut refuse = |control, start: Option<Array2<f64>>, tolerance, text: &str| {
+        let settings = Settings { tolerance, ..Settings::default() };
+        let start = start.as_ref().map(|s| s.view());
+        let error = Solver::new(settings)
+            .solve_from(&mut problem, control, start, |_| ControlFlow::Continue(()))
+            .unwrap_err()
+            .to_string();
+        assert!(error.contains(text), "{error}");
+    };
+    let gap = Control::MeanGap(0.04);
+    refuse(Control::MeanGap(-1.0), None, 1e-6, "mean gap is -1");
+    refuse(Control::MeanGap(f64::NAN), None, 1e-6, "mean gap is NaN");
+    refuse(Control::MeanPressure(f64::INFINITY), None, 1e-6, "mean pressure is inf");
+    refuse(gap, None, 0.0, "tolerance is 0");
+    refuse(gap, Some(Array2::zeros((16, 15))), 1e-6, "starting gap has shape 16 x 15");
+    refuse(gap, Some(Array2::from_elem((16, 16), -0.5)), 1e-6, "starting gap is -0.5");
+    refuse(gap, Some(Array2::from_elem((16, 16), f64::NAN)), 1e-6, "256 of 256");
+
+    let grid = Grid::square(16, 1.0).unwrap();
+    let other = Surface::paraboloid(Grid::square(16, 2.0).unwrap(), 1.0).unwrap();
+    let operator = || Westergaard::<f64>::new(grid, 1.0).unwrap();
+    assert!(Problem::new(&other, operator(), NoAdhesion).is_err());
+    let mut heights = Array2::zeros((16, 16));
+    heights[[3, 5]] = f64::NAN;
+    let error = Surface::new(grid, heights).unwrap_err().to_string();
+    assert!(error.contains("1 of 256") && error.contains("[3, 5]"), "{error}");
+}
+
+#[test]
+fn an_iteration_allocates_nothing() {
+    use std::cell::RefCell;
+    let mut problem = rough::<f64, _>(64, 16, Exponential::new(1e-5, 1e-3).unwrap());
+    rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap().install(|| {
+        let count = |iterations: usize| {
+            let problem = RefCell::new(&mut problem);
+            let info = allocation_counter::measure(|| {
+                limited(iterations, 1e-14).solve(&mut problem.borrow_mut(), Control::MeanGap(0.01)).unwrap();
+            });
+            info.count_total
+        };
+        let mut count = count;
+        count(1);
+        assert_eq!(count(2), count(12));
+    });
+}
