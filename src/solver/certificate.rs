@@ -112,7 +112,11 @@ where
         if self.iterations >= self.settings.max_iterations {
             return Some(Status::IterationLimit);
         }
-        let (error, energy) = (self.relative_error().min(self.scaled_orthogonality()), self.energy());
+        let energy = self.energy();
+        let error = match self.settings.method {
+            Method::Preconditioned => self.relative_error().max(self.load_error()),
+            Method::Rey2017 => self.scaled_orthogonality(),
+        };
         if !energy.is_finite() {
             return Some(Status::Stalled);
         }
