@@ -41,6 +41,8 @@ pub struct Problem<T, O, L> {
     /// the mean of h·K⁻¹h
     pub(crate) surface_work: f64,
     pub(crate) rms_height: f64,
+    /// the highest height less the lowest
+    pub(crate) height_span: f64,
 }
 
 impl<T: Real, O: ElasticOperator<T>, L: AdhesionLaw<T>> Problem<T, O, L> {
@@ -65,7 +67,9 @@ impl<T: Real, O: ElasticOperator<T>, L: AdhesionLaw<T>> Problem<T, O, L> {
         let mut surface_pressure = Array2::zeros(grid.shape());
         let surface_work = operator.surface_pressure(centred.view(), surface_pressure.view_mut())?.max(0.0);
         Error::all_finite("pressure K⁻¹h of the surface pressed flat", surface_pressure.view())?;
-        Ok(Self { operator, law, surface_pressure, surface_work, rms_height: surface.rms_height() })
+        let (low, high) = centred.iter().fold((0.0_f64, 0.0_f64), |(low, high), &h| (low.min(h), high.max(h)));
+        let (rms_height, height_span) = (surface.rms_height(), high - low);
+        Ok(Self { operator, law, surface_pressure, surface_work, rms_height, height_span })
     }
 
     /// The grid.

@@ -164,7 +164,7 @@ impl<C> Solver<C> {
     /// # Errors
     /// [`Error::Value`] for a negative or infinite mean gap, an infinite pressure, or a tolerance that is not positive;
     /// [`Error::Shape`], [`Error::NotFinite`] or [`Error::Value`] for a start that does not fit, is not finite, or is negative
-    /// somewhere. A solve that does not converge is no error: see [`Report::status`].
+    /// somewhere; [`Error::Law`] if the law is not finite at the start. A solve that does not converge is no error: see [`Report::status`].
     pub fn solve_from<T, O, L>(
         &mut self,
         problem: &mut Problem<T, O, L>,
@@ -195,6 +195,10 @@ impl<C> Solver<C> {
             }
             if let Some(status) = state.verdict() {
                 break status;
+            }
+            if state.is_adrift() {
+                state.hold_apart();
+                continue;
             }
             if !state.step()? {
                 break Status::Stalled;

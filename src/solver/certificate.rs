@@ -7,19 +7,16 @@ use crate::adhesion::AdhesionLaw;
 use crate::constraint::ContactConstraint;
 use crate::elastic::ElasticOperator;
 use crate::error::Result;
-use crate::field::{Partial, read};
+use crate::field::{Partial, read, write};
 use crate::par::IndexedParallelIterator;
 use crate::problem::Control;
 use crate::real::Real;
 
 /// Iterations without progress after which the direction is dropped, and after which the solve has stalled.
-const STALL: (usize, usize) = (6, 16);
+const STALL: (usize, usize) = (10, 30);
 
 /// The same for [`Method::Rey2017`], whose energy and residual need not fall.
 const STALL_REY2017: (usize, usize) = (400, 800);
-
-/// Iterations after which surfaces that drift apart are called detached even if their waves have not settled.
-const PATIENCE: usize = 100;
 
 impl<T, O, L, C> State<'_, T, O, L, C>
 where
@@ -34,16 +31,28 @@ where
     }
 
     pub(super) fn relative_error(&self) -> f64 {
-        let reference = if self.tally.contact > 0.0 { self.work() } else { self.work().max(self.problem.surface_work) };
-        if self.certificate == 0.0 { 0.0 } else { (self.certificate / reference).sqrt() }
+        if self.certificate == 0.0 {
+            return 0.0;
+        }
+        let epsilon = T::epsilon().widen();
+        // u·p is the small difference of large sums for light loads: what may be their rounding does not count
+        let rounding = 8.0 * (epsilon / self.nodes().sqrt() + f64::EPSILON) * self.problem.surface_work;
+        let touching = (self.work() - rounding).max(0.0);
+        let apart = if self.tally.contact > 0.0 { 0.0 } else { self.problem.surface_work };
+        // flats that attract each other have no waves but those of rounding
+        let traction = self.tally.traction / self.nodes();
+        let softest = self.problem.operator.stiffness_range().0;
+        let flat = if softest > 0.0 { epsilon * traction * traction / softest } else { 0.0 };
+        (self.certificate / touching.max(apart).max(flat)).sqrt()
     }
 
     pub(super) fn load_error(&self) -> f64 {
         let Control::MeanPressure(pressure) = self.control else { return 0.0 };
-        if self.tally.free == 0.0 {
-            return 0.0;
-        }
-        let residual = (self.tally.sum_r / self.tally.free).abs();
+        let residual = match self.tally.free {
+            // contact everywhere: in balance, unless it is under tension somewhere
+            0.0 => (-self.tally.min_r).max(0.0),
+            free => (self.tally.sum_r / free).abs(),
+        };
         let contact = pressure + self.tally.traction / self.nodes();
         // the pressure that presses the surface flat, as far as loads matter beside it
         let floor = 1e-6 * (self.problem.surface_work * self.problem.operator.stiffness_range().0).sqrt();
@@ -94,8 +103,8 @@ where
 
     /// The energy that is minimised, per area.
     pub(super) fn energy(&self) -> f64 {
-        let local = (self.tally.adhesive + self.tally.penalty + self.offset() * self.tally.sum_gap) / self.nodes();
-        0.5 * self.work() + local
+        let load = self.detached.unwrap_or(self.offset());
+        0.5 * self.work() + (self.tally.adhesive + self.tally.penalty + load * self.tally.sum_gap) / self.nodes()
     }
 
     /// What rounding of the fields can do to the energy, per area.
@@ -106,9 +115,6 @@ where
 
     /// Whether the solve has to end without having converged.
     pub(super) fn verdict(&mut self) -> Option<Status> {
-        if self.is_detached() {
-            return Some(Status::Detached);
-        }
         if self.iterations >= self.settings.max_iterations {
             return Some(Status::IterationLimit);
         }
@@ -131,18 +137,31 @@ where
             Method::Preconditioned => STALL,
             Method::Rey2017 => STALL_REY2017,
         };
-        if self.idle >= restart {
+        if self.idle == restart {
             (self.momentum, self.residual_norm) = (None, None);
         }
         (self.idle >= stall).then_some(Status::Stalled)
     }
 
-    /// Under tension: no contact, hardly any traction left to hold the surfaces, and apart from that at rest.
-    fn is_detached(&self) -> bool {
+    /// Whether a tensile load has pulled the surfaces apart: no contact, and hardly any traction left to hold them.
+    pub(super) fn is_adrift(&self) -> bool {
         let Control::MeanPressure(pressure) = self.control else { return false };
         let held = self.tally.traction / self.nodes();
-        let apart = self.constraint.projects() && self.tally.contact == 0.0 && held <= 1e-3 * -pressure;
-        let at_rest = self.relative_error() <= self.settings.tolerance || self.iterations >= PATIENCE;
-        pressure < 0.0 && apart && at_rest
+        pressure < 0.0 && self.constraint.projects() && self.tally.contact == 0.0 && held <= 1e-3 * -pressure
+    }
+
+    /// Holds surfaces that drift apart at a mean gap at which they do not reach each other, to let them come to rest.
+    pub(super) fn hold_apart(&mut self) {
+        let far = 2.0 * (self.problem.height_span + 10.0 * self.problem.law.range().widen());
+        let mean = self.tally.sum_gap / self.nodes();
+        let target = mean.max(far);
+        let lift = T::lit(target - mean);
+        self.reducer.run(write(&mut self.gap), |_, gap| {
+            gap.iter_mut().for_each(|gap| *gap += lift);
+            Partial::NONE
+        });
+        self.detached = Some(self.offset());
+        self.control = Control::MeanGap(target);
+        self.restart();
     }
 }

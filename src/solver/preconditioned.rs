@@ -22,6 +22,10 @@ const LEAST_CURVATURE: f64 = 0.05;
 /// contact then, to the last bit.
 const WHOLE: f64 = 0.7;
 
+/// A clipped step of which a smaller share than this is good is tried anew, shorter, at most so many times.
+const SHORT: f64 = 0.01;
+const SHORTENINGS: usize = 8;
+
 /// How many times its trial length a step may take: the mean gap has no elastic curvature to limit it.
 const FARTHEST: f64 = 10.0;
 
@@ -58,13 +62,21 @@ where
 {
     /// A step along the projected, conjugate, preconditioned residual; `false` if no step lowers the energy.
     pub(super) fn preconditioned_step(&mut self) -> Result<bool> {
-        let (centre, momentum) = self.direction();
-        let Some(trial) = self.descend(centre, momentum) else { return Ok(false) };
-        self.problem.operator.pressure(self.change.view(), self.response.view_mut())?;
-        self.applications += 1;
-        let Some(length) = self.search(&trial) else { return Ok(false) };
-        self.advance(length);
-        Ok(true)
+        let (mut centre, mut momentum) = self.direction();
+        for _ in 0..SHORTENINGS {
+            let trial_length = self.step_length;
+            let Some(trial) = self.descend(&mut centre, momentum.take()) else { return Ok(false) };
+            self.problem.operator.pressure(self.change.view(), self.response.view_mut())?;
+            self.applications += 1;
+            let Some(length) = self.search(&trial) else { return Ok(false) };
+            if !trial.blocked || length >= SHORT {
+                self.advance(length);
+                return Ok(true);
+            }
+            // so short a part would leave the nodes that should land hanging: clip a shorter step instead
+            self.step_length = trial_length * length.max(1e-3);
+        }
+        Ok(false)
     }
 
     /// The mean of z over the working set, and how much of the last change to keep.
@@ -93,7 +105,7 @@ where
         let share = if self.is_gap_controlled() && self.working > 0.0 { 1.0 / self.working } else { 0.0 };
         let (centre, mean) = (z * share, d * share);
         let conjugate = ((zy - centre * y) / curvature).max(0.0);
-        (centre, Some(Momentum { conjugate, remainder: -rd / curvature, mean }))
+        (centre, Some(Momentum { conjugate, remainder: (-rd / curvature).min(FARTHEST), mean }))
     }
 
     /// The mean of z over the working set, under gap control.
@@ -118,9 +130,9 @@ where
     /// Clipping and scaling can turn a step uphill. Then it is tried without the last change; then the nodes that
     /// the gradient drives into contact are put there, alone; or, if there are none, nodes that the gradient releases
     /// but the preconditioner presses are held, and the step is shortened.
-    fn descend(&mut self, mut centre: f64, mut momentum: Option<Momentum>) -> Option<Trial> {
+    fn descend(&mut self, centre: &mut f64, mut momentum: Option<Momentum>) -> Option<Trial> {
         for _ in 0..ATTEMPTS {
-            let trial = self.trial(centre, momentum);
+            let trial = self.trial(*centre, momentum);
             if trial.slope < 0.0 {
                 return Some(trial);
             }
@@ -128,11 +140,11 @@ where
                 continue;
             }
             if trial.blocked {
-                let slope = self.land(centre);
+                let slope = self.land(*centre);
                 return (slope < 0.0).then_some(Trial { slope, ..trial });
             }
-            self.hold(centre);
-            centre = 0.0;
+            self.hold(*centre);
+            *centre = 0.0;
             self.step_length *= 0.25;
         }
         None
@@ -168,8 +180,9 @@ where
             part
         });
         let [sum, clipped, blocked, ..] = total.sum;
+        // the present mean, not the one that is given: a long step would multiply the rounding of their difference
         let scale = match self.control {
-            Control::MeanGap(mean) => mean * self.nodes() / sum,
+            Control::MeanGap(_) => self.tally.sum_gap / sum,
             Control::MeanPressure(_) => 1.0,
         };
         let slope = if scale.is_finite() && scale > 0.0 { self.subtract_gap(scale) } else { f64::INFINITY };
@@ -279,6 +292,8 @@ where
             part
         });
         let [elastic, work, slopes, ..] = total.sum;
+        // a uniform change has none, but for rounding
+        let elastic = elastic.max(0.0);
         let stiff = elastic + slopes > LEAST_CURVATURE * elastic;
         let curvature = if stiff { elastic + slopes } else { LEAST_CURVATURE * elastic };
         let best = (-trial.slope / curvature).min(FARTHEST);
@@ -290,7 +305,7 @@ where
         };
         let rise = |length: f64, local: f64| length * work + 0.5 * length * length * elastic + local;
         if local {
-            while rise(length, self.local_rise(length)) > noise {
+            while rise(length, self.local_rise(length)).partial_cmp(&noise).is_none_or(|order| order.is_gt()) {
                 length *= 0.5;
                 if length < 1e-12 {
                     return None;
@@ -362,7 +377,8 @@ fn works<T: Real>(projects: bool, gap: T, residual: T) -> bool {
     !projects || gap > T::zero() || residual != T::zero()
 }
 
-/// The gap after a change, without what rounding leaves below zero.
+/// The gap after a change, zero where only rounding keeps it from that.
 fn moved<T: Real>(projects: bool, gap: T, change: T) -> T {
-    if projects { (gap + change).max(T::zero()) } else { gap + change }
+    let next = gap + change;
+    if projects && next <= T::lit(4.0) * T::epsilon() * gap { T::zero() } else { next }
 }

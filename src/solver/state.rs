@@ -61,6 +61,8 @@ pub(super) struct State<'a, T, O, L, C> {
     pub(super) best_error: f64,
     pub(super) lowest_energy: f64,
     pub(super) idle: usize,
+    /// the load that pulled the surfaces apart
+    pub(super) detached: Option<f64>,
 }
 
 impl<'a, T, O, L, C> State<'a, T, O, L, C>
@@ -79,9 +81,10 @@ where
     ) -> Result<Self> {
         let shape = problem.grid().shape();
         constraint.start(problem.grid())?;
+        // the control as the fields can hold it
         match control {
-            Control::MeanGap(gap) => Error::non_negative("mean gap", gap)?,
-            Control::MeanPressure(pressure) => Error::finite("mean pressure", pressure)?,
+            Control::MeanGap(gap) => Error::non_negative("mean gap", T::lit(gap).widen())?,
+            Control::MeanPressure(pressure) => Error::finite("mean pressure", T::lit(pressure).widen())?,
         };
         let gap = match start {
             Some(start) => given_start(start, shape, control, constraint.projects())?,
@@ -118,13 +121,31 @@ where
             best_error: f64::INFINITY,
             lowest_energy: f64::INFINITY,
             idle: 0,
+            detached: None,
         };
         if uniform {
             state.count();
         } else {
             state.refresh()?;
         }
+        state.check_law()?;
         Ok(state)
+    }
+
+    /// Refuses a law that is not finite at the gaps of the start.
+    fn check_law(&self) -> Result<()> {
+        if self.energy().is_finite() && self.tally.sum_r.is_finite() {
+            return Ok(());
+        }
+        let law = &self.problem.law;
+        let functions: [(_, &dyn Fn(T) -> T); 2] =
+            [("adhesive energy", &|g| law.energy(g)), ("adhesive traction", &|g| law.traction(g))];
+        for (function, f) in functions {
+            if let Some(&gap) = flat(&self.gap).iter().find(|&&gap| !f(gap).is_finite()) {
+                return Err(Error::Law { function, gap: gap.widen(), value: f(gap).widen(), expected: None });
+            }
+        }
+        Ok(())
     }
 
     pub(super) fn nodes(&self) -> f64 {
@@ -143,8 +164,17 @@ where
         matches!(self.control, Control::MeanGap(_))
     }
 
-    /// Computes the pressure from the gap, p = K⁻¹g + K⁻¹h, and counts anew.
+    /// Restores the mean gap, computes the pressure from the gap, p = K⁻¹g + K⁻¹h, and counts anew.
     pub(super) fn refresh(&mut self) -> Result<()> {
+        if let Control::MeanGap(mean) = self.control
+            && self.tally.sum_gap > 0.0
+        {
+            let scale = T::lit(mean * self.nodes() / self.tally.sum_gap);
+            self.reducer.run(write(&mut self.gap), |_, gap| {
+                gap.iter_mut().for_each(|gap| *gap *= scale);
+                Partial::NONE
+            });
+        }
         self.problem.operator.pressure(self.gap.view(), self.pressure.view_mut())?;
         self.applications += 1;
         self.age = 0;
@@ -245,7 +275,7 @@ where
         let stiffness = self.mean_stiffness();
         let certificate =
             self.problem.operator.precondition(self.residual.view(), stiffness, self.preconditioned.view_mut())?;
-        self.certificate = certificate.max(0.0);
+        self.certificate = if certificate.is_nan() { f64::INFINITY } else { certificate.max(0.0) };
         self.applications += 1;
         Ok(())
     }
@@ -265,11 +295,16 @@ where
     pub(super) fn update_constraint(&mut self) -> Outer {
         let outer = self.constraint.update(self.gap.view());
         if outer == Outer::Again {
-            (self.momentum, self.residual_norm) = (None, None);
-            (self.best_error, self.lowest_energy, self.idle) = (f64::INFINITY, f64::INFINITY, 0);
-            self.count();
+            self.restart();
         }
         outer
+    }
+
+    /// Forgets what was known of an energy, or a gap, that has changed.
+    pub(super) fn restart(&mut self) {
+        (self.momentum, self.residual_norm) = (None, None);
+        (self.best_error, self.lowest_energy, self.idle) = (f64::INFINITY, f64::INFINITY, 0);
+        self.count();
     }
 
     /// One step of the chosen method; `false` if none is possible.
@@ -301,6 +336,7 @@ where
 
     /// The fields as they are returned, with the certificate of just these.
     pub(super) fn finish(mut self, status: Status) -> Result<Solution<T>> {
+        let status = if self.detached.is_some() && status != Status::Stopped { Status::Detached } else { status };
         if self.age > 0 {
             self.refresh()?;
             self.residual();
@@ -309,12 +345,14 @@ where
         if self.certificate.is_infinite() {
             self.certify()?;
         }
-        let mean_pressure = match self.control {
+        let mean = match self.control {
             Control::MeanGap(_) => -self.multiplier(),
             Control::MeanPressure(pressure) => pressure,
         };
+        let load_error = if self.detached.is_some() { 1.0 } else { self.load_error() };
+        let mean_pressure = self.detached.unwrap_or(mean);
         let Self { reducer, gap, pressure, preconditioned, problem, constraint, .. } = &mut self;
-        let (mean, projects) = (T::lit(mean_pressure), constraint.projects());
+        let (mean, projects) = (T::lit(mean), constraint.projects());
         let at_contact = problem.law.traction(T::zero());
         let fields = read(gap).zip(write(pressure)).zip(write(preconditioned));
         let total = reducer.run(fields, |first, ((gap, pressure), contact)| {
@@ -335,7 +373,7 @@ where
         let report = Report {
             status,
             relative_error: self.relative_error(),
-            load_error: self.load_error(),
+            load_error,
             orthogonality: self.scaled_orthogonality(),
             iterations: self.iterations,
             operator_applications: self.applications,
