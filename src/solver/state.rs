@@ -164,16 +164,18 @@ where
         matches!(self.control, Control::MeanGap(_))
     }
 
-    /// Restores the mean gap, computes the pressure from the gap, p = K⁻¹g + K⁻¹h, and counts anew.
+    /// Computes the pressure from the gap, p = K⁻¹g + K⁻¹h, and counts anew.
     pub(super) fn refresh(&mut self) -> Result<()> {
-        if let Control::MeanGap(mean) = self.control
-            && self.tally.sum_gap > 0.0
-        {
-            let scale = T::lit(mean * self.nodes() / self.tally.sum_gap);
-            self.reducer.run(write(&mut self.gap), |_, gap| {
-                gap.iter_mut().for_each(|gap| *gap *= scale);
-                Partial::NONE
-            });
+        if let Control::MeanGap(mean) = self.control {
+            let scale = mean * self.nodes() / self.tally.sum_gap;
+            // what rounding has added up to, if it is worth a pass
+            if scale.is_finite() && (scale - 1.0).abs() > 64.0 * T::epsilon().widen() {
+                let scale = T::lit(scale);
+                self.reducer.run(write(&mut self.gap), |_, gap| {
+                    gap.iter_mut().for_each(|gap| *gap *= scale);
+                    Partial::NONE
+                });
+            }
         }
         self.problem.operator.pressure(self.gap.view(), self.pressure.view_mut())?;
         self.applications += 1;
