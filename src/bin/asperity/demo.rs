@@ -29,7 +29,7 @@ const SIDE: f64 = 1e-6;
 const NODES: usize = 512;
 const RMS_HEIGHT: f64 = 5e-9;
 const MODULUS: f64 = 1e9;
-const PRESSURE: f64 = 4e6;
+const PRESSURE: f64 = 5e6;
 const WORK_OF_ADHESION: f64 = 0.05;
 const RANGE: f64 = 1e-9;
 const UNITS: Units<'static> = Units { length: Some("m"), pressure: Some("Pa") };
@@ -72,12 +72,12 @@ pub fn run(options: &Options) -> Outcome<bool> {
     let draw = || {
         draw_heights(&folder.path("heights.png"), grid, &heights)?;
         write_npy(&folder.path("heights.npy"), &heights)?;
-        for (name, solution) in [("without adhesion", &bare), ("with adhesion", &sticky)] {
+        for (name, solution, adhesive) in [("without adhesion", &bare, false), ("with adhesion", &sticky, true)] {
             let path = |what: &str| folder.path(&format!("{what}-{}.png", name.replace(' ', "-")));
             run::draw_contact(&path("contact"), grid, &format!("Contact {name}"), UNITS, &solution.gap)?;
-            let caption = format!("mean {}", si(PRESSURE, "Pa"));
-            let title = format!("Pressure {name}");
-            run::draw_pressure(&path("pressure"), grid, &title, &caption, UNITS, &solution.pressure)?;
+            let (caption, title) = (format!("mean {}", si(PRESSURE, "Pa")), format!("Pressure {name}"));
+            let pressure = run::pressure_to_draw(solution, adhesive);
+            run::draw_pressure(&path("pressure"), grid, &title, &caption, UNITS, pressure)?;
         }
         Ok(())
     };

@@ -17,7 +17,7 @@ pub struct Progress {
 impl Progress {
     pub fn new(name: &str, tolerance: f64, nodes: usize, quiet: bool) -> Self {
         let bar = if quiet { ProgressBar::hidden() } else { ProgressBar::new(STEPS as u64) };
-        let template = "{prefix}{spinner} [{bar:30}] {wide_msg}";
+        let template = "{prefix}{spinner} [{bar:20}] {wide_msg}";
         if let Ok(style) = ProgressStyle::with_template(template) {
             bar.set_style(style.progress_chars("=> "));
         }
@@ -43,7 +43,7 @@ impl Progress {
         }
         let error = if state.relative_error.is_finite() { format!("{:.1e}", state.relative_error) } else { "?".into() };
         let contact = 100.0 * state.contact_points as f64 / self.nodes;
-        self.bar.set_message(format!("iteration {}, error {error}, contact {contact:.2} %", state.iteration));
+        self.bar.set_message(format!("{}: error {error}, contact {contact:.2} %", state.iteration));
     }
 }
 

@@ -114,11 +114,10 @@ fn plain(value: f64) -> String {
     if !(1e-3..1e6).contains(&magnitude) {
         let text = format!("{value:.6e}");
         let Some((digits, exponent)) = text.split_once('e') else { return text };
-        return format!("{}e{exponent}", digits.trim_end_matches('0').trim_end_matches('.'));
+        return format!("{}e{exponent}", trimmed(digits.to_owned()));
     }
     let decimals = (6.0 - magnitude.log10().floor()).max(0.0) as usize;
-    let text = format!("{value:.decimals$}");
-    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
+    trimmed(format!("{value:.decimals$}"))
 }
 
 /// A number to four digits with its unit, and the prefix that makes it readable.
@@ -128,11 +127,13 @@ pub fn si(value: f64, unit: &str) -> String {
     let rounded: f64 = format!("{value:.3e}").parse().unwrap_or(value);
     let power = if rounded == 0.0 { 0 } else { (rounded.abs().log10() + 1e-9).floor() as i32 }.div_euclid(3);
     let power = power.clamp(-4, 4);
-    let digits = plain_digits(rounded / 10f64.powi(3 * power));
+    let value = rounded / 10f64.powi(3 * power);
+    let decimals = if value == 0.0 { 0.0 } else { (3.0 - value.abs().log10().floor()).clamp(0.0, 6.0) };
+    let digits = trimmed(format!("{value:.*}", decimals as usize));
     format!("{digits} {}{unit}", PREFIXES[(power + 4) as usize])
 }
 
-fn plain_digits(value: f64) -> String {
-    let decimals = if value == 0.0 { 0.0 } else { (3.0 - value.abs().log10().floor()).clamp(0.0, 6.0) };
-    format!("{value:.*}", decimals as usize)
+/// A number without zeros at the end of its decimals.
+fn trimmed(digits: String) -> String {
+    if digits.contains('.') { digits.trim_end_matches('0').trim_end_matches('.').to_owned() } else { digits }
 }

@@ -102,7 +102,13 @@ pub fn draw_contact<T: Scalar>(path: &Path, grid: Grid, title: &str, units: Unit
     map.write_png(path)
 }
 
-/// Draws the elastic pressure, compression red and attraction blue.
+/// The pressure that a map should show: without adhesion, what there is outside of the contact is only what remains of
+/// the error, and would look like attraction on a scale of its own.
+pub fn pressure_to_draw<T>(solution: &Solution<T>, adhesive: bool) -> &Array2<T> {
+    if adhesive { &solution.pressure } else { &solution.contact_pressure }
+}
+
+/// Draws a pressure, compression red and attraction blue.
 pub fn draw_pressure<T: Scalar>(
     path: &Path,
     grid: Grid,

@@ -258,7 +258,8 @@ impl Job<'_> {
             let Options { length_unit, pressure_unit, .. } = self.options;
             let units = Units { length: length_unit.as_deref(), pressure: pressure_unit.as_deref() };
             run::draw_contact(&path("contact.png"), grid, "Contact", units, &solution.gap)?;
-            run::draw_pressure(&path("pressure.png"), grid, "Elastic pressure", "", units, &solution.pressure)?;
+            let pressure = run::pressure_to_draw(solution, self.options.law != Law::None);
+            run::draw_pressure(&path("pressure.png"), grid, "Pressure", "", units, pressure)?;
         }
         Ok(())
     }
