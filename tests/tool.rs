@@ -402,6 +402,7 @@ fn bad_input_is_refused_on_one_line_and_writes_nothing() {
         (format!("{good} --initial-gap small.npy"), vec!["--initial-gap", "8 x 8", "64 x 64"]),
         (format!("{good} --initial-gap missing.npy"), vec!["--initial-gap", "8 x 8", "64 x 64"]),
         (format!("{good} --initial-gap negative.npy"), vec!["gap", "-0.125000001", "zero or positive"]),
+        ("--heights heights.npy --precision f32 --mean-gap 1e300".to_owned(), vec!["gap", "f32", "--precision f64"]),
         (format!("{good} --colour red"), vec!["--colour", "see --help"]),
         ("--heights heights.npy --mean-gap -0.1".to_owned(), vec!["--mean-gap", "-0.1", "zero or positive"]),
         ("--heights heights.npy --mean-gap much".to_owned(), vec!["--mean-gap", "much", "a number"]),

@@ -41,7 +41,7 @@ pub fn solve<T: Scalar, L: AdhesionLaw<T>>(
     case: &Case,
     start: Option<Array2<T>>,
     mut progress: Progress,
-) -> Result<(Solution<T>, Account)> {
+) -> Outcome<(Solution<T>, Account)> {
     let clock = Instant::now();
     let grid = *surface.grid();
     let mut problem = Problem::new(&surface, Westergaard::new(grid, case.modulus)?, law)?;
@@ -52,6 +52,11 @@ pub fn solve<T: Scalar, L: AdhesionLaw<T>>(
         ControlFlow::Continue(())
     })?;
     let seconds = clock.elapsed().as_secs_f64();
+    let fields = [("gap", &solution.gap), ("pressure", &solution.pressure), ("pressure", &solution.contact_pressure)];
+    if let Some((name, _)) = fields.iter().find(|(_, field)| field.iter().any(|v| !v.is_finite())) {
+        let remedy = "use --precision f64, or units in which the numbers are moderate";
+        return Err(format!("the {name} leaves the range of {}: {remedy}", T::NAME).into());
+    }
     let pressures = solution
         .pressure
         .iter()
