@@ -96,14 +96,14 @@ const EXAMPLES: &str = "\
 Examples:
   Press a map of 1 by 1, with a contact modulus of 1, to a mean gap of 0.04:
     asperity solve --heights heights.npy --mean-gap 0.04 --out results
-  A square micrometre under 2.5 MPa in SI units, with adhesion:
+  The surface of the demo (asperity-demo/heights.npy) in SI units, with adhesion:
     asperity solve --heights heights.npy --lengths 1e-6 1e-6 --modulus 1e9 \\
       --law exponential --work-of-adhesion 0.05 --range 1e-9 \\
       --mean-pressure 2.5e6 --length-unit m --pressure-unit Pa --out sticky
   On from there to a tension:
     asperity solve --heights heights.npy --lengths 1e-6 1e-6 --modulus 1e9 \\
       --law exponential --work-of-adhesion 0.05 --range 1e-9 \\
-      --mean-pressure -1e6 --initial-gap sticky/gap.npy --out pulled";
+      --mean-pressure -1e4 --initial-gap sticky/gap.npy --out pulled";
 
 #[derive(Clone, Copy, PartialEq, ValueEnum)]
 enum Law {
