@@ -113,16 +113,17 @@ impl Canvas {
 
     /// Writes the picture as an 8-bit RGB PNG file.
     pub(super) fn write_png(&self, path: &Path) -> Result<()> {
+        let unwritable = |e: std::io::Error| Error::file(path, format!("cannot be written: {e}"));
         let data: Vec<u8> = self.pixels.iter().flat_map(|c| [c.r(), c.g(), c.b()]).collect();
-        let mut file = BufWriter::new(File::create(path).map_err(|e| Error::file(path, e))?);
+        let mut file = BufWriter::new(File::create(path).map_err(unwritable)?);
         let mut encoder = png::Encoder::new(&mut file, self.size.width, self.size.height);
         encoder.set_color(png::ColorType::Rgb);
         encoder.set_compression(png::Compression::Balanced);
         encoder
             .write_header()
             .and_then(|mut writer| writer.write_image_data(&data).and_then(|()| writer.finish()))
-            .map_err(|e| Error::file(path, e))?;
-        file.flush().map_err(|e| Error::file(path, e))
+            .map_err(|e| unwritable(e.into()))?;
+        file.flush().map_err(unwritable)
     }
 }
 

@@ -1,0 +1,54 @@
+use std::time::Duration;
+
+use asperity::Iteration;
+use indicatif::{ProgressBar, ProgressStyle};
+
+/// The steps from the first error to the tolerance, on a logarithmic scale.
+const STEPS: f64 = 1000.0;
+
+/// The progress of a solve, drawn on standard error if that is a terminal, and gone when dropped.
+pub struct Progress {
+    bar: ProgressBar,
+    tolerance: f64,
+    nodes: f64,
+    first_error: Option<f64>,
+}
+
+impl Progress {
+    pub fn new(name: &str, tolerance: f64, nodes: usize, quiet: bool) -> Self {
+        let bar = if quiet { ProgressBar::hidden() } else { ProgressBar::new(STEPS as u64) };
+        let template = "{prefix}{spinner} [{bar:20}] {wide_msg}";
+        if let Ok(style) = ProgressStyle::with_template(template) {
+            bar.set_style(style.progress_chars("=> "));
+        }
+        bar.set_prefix(if name.is_empty() { String::new() } else { format!("{name} ") });
+        bar.set_message("preparing");
+        // On large grids an iteration takes a while, and the time before the first one longer.
+        if !bar.is_hidden() {
+            bar.enable_steady_tick(Duration::from_millis(100));
+        }
+        Self { bar, tolerance, nodes: nodes as f64, first_error: None }
+    }
+
+    pub fn update(&mut self, state: &Iteration) {
+        if self.bar.is_hidden() {
+            return;
+        }
+        // The paper's method knows its error only now and then.
+        let error = state.relative_error.max(state.load_error);
+        if error.is_finite() && error > 0.0 {
+            let first = *self.first_error.get_or_insert(error.max(10.0 * self.tolerance));
+            let way = (first / error).ln() / (first / self.tolerance).ln();
+            self.bar.set_position(((STEPS * way.clamp(0.0, 1.0)) as u64).max(self.bar.position()));
+        }
+        let error = if state.relative_error.is_finite() { format!("{:.1e}", state.relative_error) } else { "?".into() };
+        let contact = 100.0 * state.contact_points as f64 / self.nodes;
+        self.bar.set_message(format!("{}: error {error}, contact {contact:.2} %", state.iteration));
+    }
+}
+
+impl Drop for Progress {
+    fn drop(&mut self) {
+        self.bar.finish_and_clear();
+    }
+}

@@ -1,0 +1,139 @@
+use asperity::{Report, Status};
+
+use crate::complain;
+use crate::run::{Account, Case};
+
+/// How the numbers of a table are printed.
+#[derive(Clone, Copy, PartialEq)]
+pub enum Style {
+    /// In the unknown units of the input.
+    Plain,
+    /// In metres, pascals and joules.
+    Si,
+}
+
+impl Style {
+    pub fn number(self, value: f64, unit: &str) -> String {
+        match self {
+            Self::Plain => plain(value),
+            Self::Si => si(value, unit),
+        }
+    }
+}
+
+/// A table with a column for each of the solves.
+pub fn table(names: &[&str], solves: &[&Account], style: Style) -> String {
+    let mut rows: Vec<(&str, Vec<String>)> = Vec::new();
+    if !names.is_empty() {
+        rows.push(("", names.iter().map(|name| (*name).to_owned()).collect()));
+    }
+    let mut row = |name, of: &dyn Fn(&Account, &Report) -> String| {
+        rows.push((name, solves.iter().map(|solve| of(solve, &solve.report)).collect()));
+    };
+    row("contact", &|_, r| format!("{} %", percent(r.contact_fraction)));
+    row("points in contact", &|s, r| format!("{} of {}", r.contact_points, s.nodes));
+    row("mean gap", &|_, r| style.number(r.mean_gap, "m"));
+    row("mean pressure", &|_, r| style.number(r.mean_pressure, "Pa"));
+    row("mean contact pressure", &|_, r| style.number(r.mean_contact_pressure, "Pa"));
+    row("least pressure", &|s, _| style.number(s.pressures.0, "Pa"));
+    row("greatest pressure", &|s, _| style.number(s.pressures.1, "Pa"));
+    row("elastic energy per area", &|_, r| style.number(r.elastic_energy, "J/m²"));
+    row("adhesive energy per area", &|_, r| style.number(r.adhesive_energy, "J/m²"));
+    row("mu_rho", &|_, r| plain(r.mu_rho));
+    row("certified error", &|_, r| format!("{:.1e}", r.relative_error));
+    row("iterations", &|_, r| r.iterations.to_string());
+    row("operator applications", &|_, r| r.operator_applications.to_string());
+    row("time", &|s, _| format!("{:.3} s", s.seconds));
+    row("status", &|_, r| r.status.to_string());
+
+    let length = |text: &str| text.chars().count();
+    let first = rows.iter().map(|(name, _)| length(name)).max().unwrap_or(0);
+    let widths: Vec<_> =
+        (0..solves.len()).map(|k| rows.iter().map(|(_, cells)| length(&cells[k])).max().unwrap_or(0)).collect();
+    let line = |(name, cells): &(&str, Vec<String>)| {
+        let cells = cells.iter().zip(&widths).map(|(cell, &width)| {
+            // A single column reads better from the left.
+            if solves.len() == 1 { format!("  {cell}") } else { format!("  {cell:>width$}") }
+        });
+        format!("{name:first$}{}", cells.collect::<String>())
+    };
+    rows.iter().map(line).collect::<Vec<_>>().join("\n")
+}
+
+/// Says on standard error what there is to know of a solve before trusting it, of which `name` tells the case.
+pub fn warn(name: &str, account: &Account, case: &Case, range: f64) {
+    let (report, tolerance) = (&account.report, case.settings.tolerance);
+    let name = if name.is_empty() { String::new() } else { format!("{name}: ") };
+    if report.status != Status::Converged {
+        let remedy = match report.status {
+            Status::Detached => "there is no equilibrium under this tension: use less tension, or more adhesion",
+            Status::IterationLimit => "the fields are not accurate: raise --max-iterations",
+            _ if report.precision == "f32" => "this is what f32 can do: use --precision f64, or a larger --tolerance",
+            _ => "this is the best to be had: use a larger --tolerance, or another start by --initial-gap",
+        };
+        let load = match report.load_error {
+            load if load > tolerance => format!(" and load error {load:.1e}"),
+            _ => String::new(),
+        };
+        let text = format!(
+            "{name}not converged ({}): error {:.1e}{load} after {} iterations, tolerance {tolerance:e}; {remedy}",
+            report.status, report.relative_error, report.iterations
+        );
+        complain("warning", &text);
+    }
+    if report.under_resolved {
+        // mu_rho goes with the root of the spacing, and with the inverse of the range.
+        let (finer, longer) = ((report.mu_rho / 0.5).powi(2).ceil(), range * report.mu_rho / 0.5);
+        let text = format!(
+            "{name}adhesion is under-resolved, mu_rho = {} exceeds 0.5: the answer depends on the grid and on the \
+             start; use a grid {finer} times finer, or a range of at least {longer:.1e}",
+            plain(report.mu_rho)
+        );
+        complain("warning", &text);
+    }
+}
+
+/// A share in percent, with enough digits that a little contact is not none.
+pub fn percent(share: f64) -> String {
+    let percent = 100.0 * share;
+    if percent == 0.0 || percent >= 1.0 {
+        format!("{percent:.1}")
+    } else if percent >= 0.01 {
+        format!("{percent:.2}")
+    } else {
+        format!("{percent:.0e}")
+    }
+}
+
+/// A number to seven digits.
+fn plain(value: f64) -> String {
+    let magnitude = value.abs();
+    if value == 0.0 {
+        return "0".to_owned();
+    }
+    if !(1e-3..1e6).contains(&magnitude) {
+        let text = format!("{value:.6e}");
+        let Some((digits, exponent)) = text.split_once('e') else { return text };
+        return format!("{}e{exponent}", trimmed(digits.to_owned()));
+    }
+    let decimals = (6.0 - magnitude.log10().floor()).max(0.0) as usize;
+    trimmed(format!("{value:.decimals$}"))
+}
+
+/// A number to four digits with its unit, and the prefix that makes it readable.
+pub fn si(value: f64, unit: &str) -> String {
+    const PREFIXES: [&str; 9] = ["p", "n", "µ", "m", "", "k", "M", "G", "T"];
+    // Rounded first, so that 999.96 n is 1 µ.
+    let rounded: f64 = format!("{value:.3e}").parse().unwrap_or(value);
+    let power = if rounded == 0.0 { 0 } else { (rounded.abs().log10() + 1e-9).floor() as i32 }.div_euclid(3);
+    let power = power.clamp(-4, 4);
+    let value = rounded / 10f64.powi(3 * power);
+    let decimals = if value == 0.0 { 0.0 } else { (3.0 - value.abs().log10().floor()).clamp(0.0, 6.0) };
+    let digits = trimmed(format!("{value:.*}", decimals as usize));
+    format!("{digits} {}{unit}", PREFIXES[(power + 4) as usize])
+}
+
+/// A number without zeros at the end of its decimals.
+fn trimmed(digits: String) -> String {
+    if digits.contains('.') { digits.trim_end_matches('0').trim_end_matches('.').to_owned() } else { digits }
+}

@@ -1,0 +1,145 @@
+use std::ops::ControlFlow;
+use std::path::Path;
+use std::time::Instant;
+
+use asperity::{
+    AdhesionLaw, Colouring, Control, Error, Grid, Map, Problem, Real, Report, Result, Settings, Solution, Solver,
+    Surface, Westergaard,
+};
+use ndarray::Array2;
+use ndarray_npy::WritableElement;
+
+use crate::Outcome;
+use crate::progress::Progress;
+use crate::report::percent;
+
+/// A scalar in which one can solve, and that can be written.
+pub trait Scalar: Real + WritableElement {}
+impl<T: Real + WritableElement> Scalar for T {}
+
+/// What is to be solved, beside the surface and the law.
+pub struct Case {
+    pub modulus: f64,
+    pub control: Control,
+    pub settings: Settings,
+}
+
+/// What the table and the report say of a solve.
+pub struct Account {
+    pub report: Report,
+    pub nodes: usize,
+    /// The least (most tensile) and the greatest elastic pressure.
+    pub pressures: (f64, f64),
+    /// The time for setting up and solving, without that for files and pictures.
+    pub seconds: f64,
+}
+
+/// Solves, and drops the surface as soon as it is not needed.
+pub fn solve<T: Scalar, L: AdhesionLaw<T>>(
+    surface: Surface,
+    law: L,
+    case: &Case,
+    start: Option<Array2<T>>,
+    mut progress: Progress,
+) -> Outcome<(Solution<T>, Account)> {
+    let clock = Instant::now();
+    let grid = *surface.grid();
+    let mut problem = Problem::new(&surface, Westergaard::new(grid, case.modulus)?, law)?;
+    drop(surface);
+    let start = start.as_ref().map(|start| start.view());
+    let solution = Solver::new(case.settings).solve_from(&mut problem, case.control, start, |state| {
+        progress.update(state);
+        ControlFlow::Continue(())
+    })?;
+    let seconds = clock.elapsed().as_secs_f64();
+    let fields = [("gap", &solution.gap), ("pressure", &solution.pressure), ("pressure", &solution.contact_pressure)];
+    if let Some((name, _)) = fields.iter().find(|(_, field)| field.iter().any(|v| !v.is_finite())) {
+        let remedy = "use --precision f64, or units in which the numbers are moderate";
+        return Err(format!("the {name} leaves the range of {}: {remedy}", T::NAME).into());
+    }
+    let pressures = solution
+        .pressure
+        .iter()
+        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), p| (low.min(p.widen()), high.max(p.widen())));
+    let account = Account { report: solution.report.clone(), nodes: grid.nodes(), pressures, seconds };
+    Ok((solution, account))
+}
+
+/// Makes every solve of this process use so many threads.
+#[cfg(feature = "parallel")]
+pub fn use_threads(threads: Option<usize>) -> Outcome<usize> {
+    if let Some(threads) = threads {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build_global();
+        pool.map_err(|e| format!("{threads} threads cannot be started ({e}): use fewer --threads"))?;
+    }
+    Ok(rayon::current_num_threads())
+}
+
+/// Refuses more threads than one, the only one there is.
+#[cfg(not(feature = "parallel"))]
+pub fn use_threads(threads: Option<usize>) -> Outcome<usize> {
+    match threads {
+        Some(threads) if threads > 1 => {
+            Err(format!("--threads is {threads}: this tool was built without threads, leave the option out").into())
+        }
+        _ => Ok(1),
+    }
+}
+
+/// The units that pictures have on their axes.
+#[derive(Clone, Copy)]
+pub struct Units<'a> {
+    pub length: Option<&'a str>,
+    pub pressure: Option<&'a str>,
+}
+
+/// Draws the nodes in contact, black on white.
+pub fn draw_contact<T: Scalar>(path: &Path, grid: Grid, title: &str, units: Units<'_>, gap: &Array2<T>) -> Result<()> {
+    let contact = gap.mapv(|g| f64::from(u8::from(g <= T::zero())));
+    let caption = format!("{} % contact", percent(contact.sum() / contact.len() as f64));
+    let map = Map {
+        title,
+        caption: &caption,
+        length_unit: units.length,
+        label: "contact",
+        ..Map::new(contact.view(), grid, Colouring::Binary)
+    };
+    map.write_png(path)
+}
+
+/// The pressure that a map should show: without adhesion, what there is outside of the contact is only what remains of
+/// the error, and would look like attraction on a scale of its own.
+pub fn pressure_to_draw<T>(solution: &Solution<T>, adhesive: bool) -> &Array2<T> {
+    if adhesive { &solution.pressure } else { &solution.contact_pressure }
+}
+
+/// Draws a pressure, compression red and attraction blue.
+pub fn draw_pressure<T: Scalar>(
+    path: &Path,
+    grid: Grid,
+    title: &str,
+    caption: &str,
+    units: Units<'_>,
+    pressure: &Array2<T>,
+) -> Result<()> {
+    let pressure = pressure.mapv(T::widen);
+    let map = Map {
+        title,
+        caption,
+        length_unit: units.length,
+        label: "pressure",
+        unit: units.pressure,
+        ..Map::new(pressure.view(), grid, Colouring::Diverging)
+    };
+    map.write_png(path)
+}
+
+/// Names the place where a file would have appeared, and not the hidden one where it could not be written.
+pub fn at_destination(error: Error, folder: &Path) -> Error {
+    match error {
+        Error::File { path, reason } => {
+            Error::File { path: path.file_name().map_or_else(|| folder.to_owned(), |name| folder.join(name)), reason }
+        }
+        other => other,
+    }
+}

@@ -1,0 +1,378 @@
+use std::fs::File;
+use std::io::{BufReader, Read};
+
+use ndarray::Array2;
+use zip::ZipArchive;
+
+use super::{DAMAGED, Parsed, TRUNCATED, quoted, unreadable};
+
+pub(super) const NPY: &[u8] = b"\x93NUMPY";
+/// How a zip file starts: with its first entry, or with its end if it has none.
+pub(super) const ZIP: [&[u8]; 2] = [b"PK\x03\x04", b"PK\x05\x06"];
+/// Deflate cannot do better than this: a zip entry that claims more is damaged.
+const MAX_COMPRESSION: u64 = 1032;
+/// Numbers converted at a time, so that a file and its array are never both in memory.
+const CHUNK: usize = 8192;
+
+/// The width in bytes of a stored value, and how to take one from its bytes in little-endian order.
+type Decoder = (usize, fn(&[u8]) -> f64);
+
+/// Reads the only array of an archive of `size` bytes.
+pub(super) fn read_npz(reader: BufReader<File>, size: u64) -> Parsed<Array2<f64>> {
+    let damaged = |e| format!("is not a .npz file that can be read ({e}): copy or save it again");
+    let mut archive = ZipArchive::new(reader).map_err(damaged)?;
+    if archive.len() != 1 {
+        let names = archive.file_names().take(10).map(|name| quoted(name.strip_suffix(".npy").unwrap_or(name)));
+        let (count, names) = (archive.len(), names.collect::<Vec<_>>().join(", "));
+        return Err(format!("holds {count} arrays ({names}), expected one: save the heights alone, as .npy or .npz"));
+    }
+    let mut entry = archive.by_index(0).map_err(damaged)?;
+    let entry_size = entry.size();
+    if entry_size / MAX_COMPRESSION > size { Err(DAMAGED.to_owned()) } else { read_npy(&mut entry, entry_size) }
+}
+
+/// Reads a `.npy` array that takes `size` bytes, which bounds what its header may make us allocate.
+pub(super) fn read_npy(reader: &mut impl Read, size: u64) -> Parsed<Array2<f64>> {
+    let mut start = [0; 8];
+    reader.read_exact(&mut start).map_err(unreadable)?;
+    if !start.starts_with(NPY) {
+        return Err("holds something else than a .npy array: save the heights with numpy.save or savez".to_owned());
+    }
+    let prefix = match start[6] {
+        1 => 2,
+        2 | 3 => 4,
+        version => return Err(format!("is .npy of version {version}, expected 1 to 3: save it again with numpy.save")),
+    };
+    let mut length = [0; 4];
+    reader.read_exact(&mut length[..prefix]).map_err(unreadable)?;
+    let length = u32::from_le_bytes(length);
+    let Some(data_size) = size.checked_sub(8 + prefix as u64 + u64::from(length)) else {
+        return Err(TRUNCATED.to_owned());
+    };
+    let mut header = vec![0; length as usize];
+    reader.read_exact(&mut header).map_err(unreadable)?;
+    let header = String::from_utf8_lossy(&header);
+    let (dtype, fortran, shape) =
+        parse_header(&header).ok_or("has a .npy header that cannot be understood: save it again with numpy.save")?;
+    let Some(decoder) = decoder(dtype) else {
+        let dtype = quoted(dtype);
+        return Err(format!(
+            "has dtype {dtype}, expected real numbers (f4, f8 or integers): convert with .astype('f8')"
+        ));
+    };
+    let (rows, columns) = match shape[..] {
+        [rows] => (rows, 1),
+        [rows, columns] => (rows, columns),
+        _ => return Err(format!("has shape {shape:?}, expected two dimensions [Nx, Ny], or one: save one height map")),
+    };
+    if rows == 0 || columns == 0 {
+        return Err(format!("has shape {shape:?}, expected at least one value: save the heights again"));
+    }
+    let promised = rows.checked_mul(columns).and_then(|n| n.checked_mul(decoder.0));
+    if promised.is_none_or(|bytes| bytes as u64 != data_size) {
+        return Err(format!(
+            "has shape {shape:?} of dtype {dtype} but {data_size} bytes of data: \
+             it is truncated or damaged, save it again"
+        ));
+    }
+    let values = read_values(reader, rows * columns, decoder, dtype.starts_with('>'))?;
+    if fortran {
+        let transposed = Array2::from_shape_vec((columns, rows), values).map_err(|e| e.to_string())?;
+        Ok(transposed.t().as_standard_layout().into_owned())
+    } else {
+        Array2::from_shape_vec((rows, columns), values).map_err(|e| e.to_string())
+    }
+}
+
+/// Reads the rest of `reader`, `count` values, each with its bytes `reversed` if they are big-endian.
+fn read_values(reader: &mut impl Read, count: usize, (width, decode): Decoder, reversed: bool) -> Parsed<Vec<f64>> {
+    let mut values = Vec::new();
+    values.try_reserve_exact(count).map_err(|_| format!("needs too much memory for its {count} values"))?;
+    let mut buffer = vec![0; CHUNK * width];
+    while values.len() < count {
+        let chunk = &mut buffer[..(count - values.len()).min(CHUNK) * width];
+        reader.read_exact(chunk).map_err(unreadable)?;
+        for item in chunk.chunks_exact_mut(width) {
+            if reversed {
+                item.reverse();
+            }
+            values.push(decode(item));
+        }
+    }
+    // A zip entry is checked against its checksum when its end is reached.
+    if reader.read(&mut [0]).map_err(unreadable)? == 0 { Ok(values) } else { Err(DAMAGED.to_owned()) }
+}
+
+/// Takes the dtype, whether the order is Fortran's, and the shape from the dictionary in a `.npy` header.
+/// The dtype of structured arrays, which are refused, comes as whatever text stands there.
+fn parse_header(header: &str) -> Option<(&str, bool, Vec<usize>)> {
+    let value = |key: &str| Some(header.split_once(key)?.1.trim_start().strip_prefix(':')?.trim_start());
+    let descr = value("'descr'")?;
+    let Some((dtype, _)) = descr.strip_prefix('\'').and_then(|d| d.split_once('\'')) else {
+        let (dtype, _) = descr.split_once(", 'fortran_order'").unwrap_or((descr, ""));
+        return Some((dtype, false, Vec::new()));
+    };
+    let order = value("'fortran_order'")?;
+    let fortran = order.starts_with("True");
+    if !fortran && !order.starts_with("False") {
+        return None;
+    }
+    let (shape, _) = value("'shape'")?.strip_prefix('(')?.split_once(')')?;
+    // Python 2 wrote `(3L, 4L)`.
+    let lengths = shape.split(',').map(|n| n.trim().trim_end_matches('L')).filter(|n| !n.is_empty());
+    Some((dtype, fortran, lengths.map(|n| n.parse().ok()).collect::<Option<_>>()?))
+}
+
+fn decoder(dtype: &str) -> Option<Decoder> {
+    macro_rules! decoder {
+        ($type:ty) => {{
+            fn decode(bytes: &[u8]) -> f64 {
+                let mut value = [0; size_of::<$type>()];
+                value.copy_from_slice(bytes);
+                <$type>::from_le_bytes(value) as f64
+            }
+            Some((size_of::<$type>(), decode))
+        }};
+    }
+    match dtype.strip_prefix(['<', '>', '|'])? {
+        "f4" => decoder!(f32),
+        "f8" => decoder!(f64),
+        "i1" => decoder!(i8),
+        "i2" => decoder!(i16),
+        "i4" => decoder!(i32),
+        "i8" => decoder!(i64),
+        "u1" => decoder!(u8),
+        "u2" => decoder!(u16),
+        "u4" => decoder!(u32),
+        "u8" => decoder!(u64),
+        _ => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::io::{Cursor, Write};
+
+    use ndarray::array;
+    use zip::write::SimpleFileOptions;
+    use zip::{CompressionMethod, ZipWriter};
+
+    use super::super::tests::{assert_refused, read, reason};
+    use super::*;
+
+    fn npy(dtype: &str, fortran: &str, shape: &str, data: &[u8]) -> Vec<u8> {
+        npy_from(&format!("{{'descr': {dtype}, 'fortran_order': {fortran}, 'shape': {shape}, }}"), data)
+    }
+
+    fn npy_from(header: &str, data: &[u8]) -> Vec<u8> {
+        let header = format!("{header:117}\n");
+        let length = u16::try_from(header.len()).unwrap().to_le_bytes();
+        [NPY, &[1, 0], &length, header.as_bytes(), data].concat()
+    }
+
+    fn npz(method: CompressionMethod, entries: &[(&str, &[u8])]) -> Vec<u8> {
+        let mut zip = ZipWriter::new(Cursor::new(Vec::new()));
+        for (name, bytes) in entries {
+            zip.start_file(*name, SimpleFileOptions::default().compression_method(method)).unwrap();
+            zip.write_all(bytes).unwrap();
+        }
+        zip.finish().unwrap().into_inner()
+    }
+
+    fn f8(values: &[f64]) -> Vec<u8> {
+        values.iter().flat_map(|v| v.to_le_bytes()).collect()
+    }
+
+    #[test]
+    fn npy_of_every_dtype() {
+        macro_rules! check {
+            ($type:ty, $code:expr, $values:expr) => {{
+                let values: [$type; 6] = $values;
+                let expected = Array2::from_shape_vec((2, 3), values.map(|v| v as f64).to_vec()).unwrap();
+                let little: Vec<u8> = values.iter().flat_map(|v| v.to_le_bytes()).collect();
+                let big: Vec<u8> = values.iter().flat_map(|v| v.to_be_bytes()).collect();
+                let orders = if size_of::<$type>() == 1 { ["|", "|"] } else { ["<", ">"] };
+                for (order, data) in orders.iter().zip([little, big]) {
+                    let file = npy(&format!("'{order}{}'", $code), "False", "(2, 3)", &data);
+                    assert_eq!(read(file).unwrap(), expected, "{order}{}", $code);
+                }
+            }};
+        }
+        check!(f32, "f4", [0.5, -1.25, 3e-30, 4e30, f32::INFINITY, 6.0]);
+        check!(f64, "f8", [0.5, -1.25, 3e-300, 4e300, f64::NEG_INFINITY, 6.0]);
+        check!(i8, "i1", [i8::MIN, -1, 0, 1, 2, i8::MAX]);
+        check!(i16, "i2", [i16::MIN, -1, 0, 1, 2, i16::MAX]);
+        check!(i32, "i4", [i32::MIN, -1, 0, 1, 2, i32::MAX]);
+        check!(i64, "i8", [i64::MIN, -1, 0, 1, 2, i64::MAX]);
+        check!(u8, "u1", [0, 1, 2, 3, 4, u8::MAX]);
+        check!(u16, "u2", [0, 1, 2, 3, 4, u16::MAX]);
+        check!(u32, "u4", [0, 1, 2, 3, 4, u32::MAX]);
+        check!(u64, "u8", [0, 1, 2, 3, 4, u64::MAX]);
+    }
+
+    #[test]
+    fn npy_orders_and_shapes() {
+        let expected = array![[1.0, 2.0, 3.0], [4.0, 5.0, 6.0]];
+        let fortran = read(npy("'<f8'", "True", "(2, 3)", &f8(&[1.0, 4.0, 2.0, 5.0, 3.0, 6.0]))).unwrap();
+        assert_eq!(fortran, expected);
+        assert!(fortran.is_standard_layout());
+        for order in ["True", "False"] {
+            for shape in ["(3,)", "(3, 1)", "(3L,)"] {
+                let line = read(npy("'<f8'", order, shape, &f8(&[1.0, 2.0, 3.0]))).unwrap();
+                assert_eq!(line, array![[1.0], [2.0], [3.0]]);
+                assert!(line.is_standard_layout() && line.as_slice().is_some());
+            }
+            let row = read(npy("'<f8'", order, "(1, 3)", &f8(&[1.0, 2.0, 3.0]))).unwrap();
+            assert_eq!(row, array![[1.0, 2.0, 3.0]]);
+            assert!(row.is_standard_layout() && row.as_slice().is_some());
+        }
+        assert!(read(npy("'<f8'", "False", "(1, 1)", &f8(&[f64::NAN]))).unwrap()[[0, 0]].is_nan());
+        let reordered = "{'shape': (1, 2), 'fortran_order': False, 'descr': '<f8'}";
+        assert_eq!(read(npy_from(reordered, &f8(&[1.0, 2.0]))).unwrap(), array![[1.0, 2.0]]);
+    }
+
+    #[test]
+    fn npy_longer_than_a_chunk() {
+        let values: Vec<f64> = (0..3 * CHUNK + 17).map(|i| i as f64).collect();
+        let shape = format!("({},)", values.len());
+        let field = read(npy("'<f8'", "False", &shape, &f8(&values))).unwrap();
+        assert_eq!(field.into_raw_vec_and_offset().0, values);
+    }
+
+    #[test]
+    fn npy_versions() {
+        for version in [2, 3] {
+            let header = b"{'descr': '<f8', 'fortran_order': False, 'shape': (1,), }\n";
+            let length = (header.len() as u32).to_le_bytes();
+            let file = [NPY, &[version, 0], &length, header, &f8(&[7.0])].concat();
+            assert_eq!(read(file).unwrap(), array![[7.0]]);
+        }
+        let mut file = npy("'<f8'", "False", "(1,)", &f8(&[7.0]));
+        file[6] = 9;
+        assert_refused(read(file), &["version 9", "1 to 3"]);
+    }
+
+    #[test]
+    fn npy_of_other_dimensions_is_refused() {
+        let data = f8(&[0.0; 8]);
+        assert_refused(read(npy("'<f8'", "False", "(2, 2, 2)", &data)), &["shape [2, 2, 2]", "two dimensions"]);
+        assert_refused(read(npy("'<f8'", "False", "()", &data[..8])), &["shape []", "two dimensions"]);
+        assert_refused(read(npy("'<f8'", "False", "(0, 5)", &[])), &["shape [0, 5]", "at least one value"]);
+        assert_refused(read(npy("'<f8'", "False", "(0,)", &[])), &["shape [0]", "at least one value"]);
+    }
+
+    #[test]
+    fn npy_of_other_dtypes_is_refused() {
+        for dtype in ["<c8", "<c16", "|b1", "|O", "<f2", "<f16", "<U5", "|S5", "<M8[ns]", "|V8", "f8", "", "é"] {
+            let file = npy(&format!("'{dtype}'"), "False", "(2,)", &[0; 16]);
+            assert_refused(read(file), &[&format!("dtype \"{dtype}\""), "astype"]);
+        }
+        let fields = "[('shape', '<f8'), ('y', '<i4')]";
+        assert_refused(read(npy(fields, "False", "(1,)", &[0; 12])), &[&format!("dtype \"{fields}\""), "astype"]);
+    }
+
+    #[test]
+    fn npy_of_another_length_than_promised_is_refused() {
+        let file = npy("'<f8'", "False", "(2, 2)", &f8(&[1.0, 2.0, 3.0, 4.0]));
+        assert!(read(&file).is_ok());
+        for length in 0..file.len() {
+            assert!(read(&file[..length]).is_err(), "{length}");
+        }
+        assert_refused(read(&file[..file.len() - 1]), &["shape [2, 2]", "<f8", "31 bytes", "truncated"]);
+        assert_refused(read([&file[..], &[0]].concat()), &["33 bytes", "damaged"]);
+        // More than memory, more than usize, and more than usize only in bytes.
+        for shape in ["(1000000, 1000000)", "(99999999999999999, 99999999999999999)", "(4611686018427387904, 1)"] {
+            assert_refused(read(npy("'<f8'", "False", shape, &[0; 64])), &["64 bytes", "truncated"]);
+        }
+        // A header that claims 4 GB.
+        assert_refused(read([NPY, &[2, 0, 255, 255, 255, 255, b'{']].concat()), &["truncated"]);
+    }
+
+    #[test]
+    fn damaged_npy_header_is_refused() {
+        for header in [
+            "",
+            "garbage",
+            "{'descr'}",
+            "{'descr': '<f8', 'fortran_order': False}",
+            "{'descr': '<f8', 'fortran_order': 1, 'shape': (1,)}",
+            "{'descr': '<f8', 'fortran_order': False, 'shape': (-1,)}",
+            "{'descr': '<f8', 'fortran_order': False, 'shape': (99999999999999999999,)}",
+            "{'descr': '<f8', 'fortran_order': False, 'shape': (1,",
+            "{'descr': '<f8', 'fortran_order': False, 'shape': 1}",
+        ] {
+            assert_refused(read(npy_from(header, &[0; 8])), &["header", "numpy.save"]);
+        }
+        let nested = "(".repeat(60_000);
+        assert_refused(read(npy_from(&nested, &[])), &["header"]);
+        assert_refused(read(npy_from(&format!("{{'descr': {nested}"), &[])), &["dtype \"((", "...\""]);
+        assert_refused(read(npy_from("{'descr': '\n\x1b[31m'", &[])), &["header"]);
+        assert_refused(read(npy("'\n\x1b[31m'", "False", "(1,)", &[0; 8])), &["dtype \"\\n\\u{1b}[31m\""]);
+    }
+
+    #[test]
+    fn npz_with_one_array() {
+        let heights = npy("'>i2'", "False", "(1, 2)", &[1, 0, 255, 255]);
+        for method in [CompressionMethod::Stored, CompressionMethod::Deflated] {
+            assert_eq!(read(npz(method, &[("heights.npy", &heights)])).unwrap(), array![[256.0, -1.0]]);
+            // All zeros compress as well as anything does.
+            let zeros = npy("'<f8'", "False", "(1000, 1000)", &[0; 8_000_000]);
+            assert_eq!(read(npz(method, &[("heights.npy", &zeros)])).unwrap(), Array2::zeros((1000, 1000)));
+        }
+    }
+
+    #[test]
+    fn npz_with_another_content_is_refused() {
+        let method = CompressionMethod::Stored;
+        let heights = npy("'<f8'", "False", "(1,)", &f8(&[1.0]));
+        let two = npz(method, &[("heights.npy", &heights), ("x.npy", &heights)]);
+        assert_refused(read(two), &["2 arrays", "\"heights\"", "\"x\"", "save the heights alone"]);
+        let names: Vec<_> = (0..50).map(|i| format!("array{i}.npy")).collect();
+        let many: Vec<_> = names.iter().map(|name| (&name[..], &heights[..])).collect();
+        assert!(reason(read(npz(method, &many))).len() < 300);
+        assert_refused(read(npz(method, &[])), &["0 arrays", "expected one"]);
+        assert_refused(read(npz(method, &[("notes.txt", b"no array")])), &["something else than a .npy array"]);
+        assert_refused(read(npz(method, &[("empty.npy", b"")])), &["truncated"]);
+        let complex = npy("'<c16'", "False", "(1,)", &[0; 16]);
+        assert_refused(read(npz(method, &[("heights.npy", &complex)])), &["dtype \"<c16\""]);
+        let bomb = npy("'<f8'", "False", "(1000000, 1000000)", &[]);
+        assert_refused(read(npz(method, &[("heights.npy", &bomb)])), &["0 bytes of data", "truncated"]);
+        assert_refused(read(b"PK\x03\x04 and then something else"), &["not a .npz file"]);
+    }
+
+    #[test]
+    fn damaged_npz_is_refused_without_panic() {
+        let heights = npy("'<f8'", "False", "(2,)", &f8(&[1.5, 2.5]));
+        for method in [CompressionMethod::Stored, CompressionMethod::Deflated] {
+            let file = npz(method, &[("heights.npy", &heights)]);
+            for length in 0..file.len() {
+                assert!(read(&file[..length]).is_err(), "{length}");
+            }
+            for position in 0..file.len() {
+                for flip in [1, 0x80, 0xff] {
+                    let mut damaged = file.clone();
+                    damaged[position] ^= flip;
+                    // Some bytes, as the date, do not matter; the values never change unnoticed.
+                    if let Ok(field) = read(damaged) {
+                        assert_eq!(field, array![[1.5], [2.5]], "{position}");
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn npz_that_claims_a_huge_entry_is_refused() {
+        let bomb = npy("'<f8'", "False", "(100000000,)", &[0; 8]);
+        for method in [CompressionMethod::Stored, CompressionMethod::Deflated] {
+            let mut file = npz(method, &[("heights.npy", &bomb)]);
+            let claimed = (bomb.len() as u32 - 8 + 800_000_000).to_le_bytes();
+            let local = 22;
+            let central = file.windows(4).rposition(|w| w == b"PK\x01\x02").unwrap() + 24;
+            for position in [local, central] {
+                file[position..position + 4].copy_from_slice(&claimed);
+            }
+            assert_refused(read(file), &["is damaged"]);
+        }
+    }
+}
