@@ -78,14 +78,8 @@ fn pull_off_ends_detached_and_at_rest() {
 #[test]
 fn sharp_surfaces_do_not_jam() {
     // peaks that a rounding's width keeps from landing; changes that are uniform but for rounding
-    let cases: [((usize, usize), (f64, f64), f64); 4] = [
-        ((40, 24), (1.0, 1.0), 8.85e-3),
-        ((101, 1), (1.0, 1.0), 16.1),
-        ((12, 7), (1.0, 1.0), 9.0),
-        ((2, 3), (1.0, 1.0), 1e-2),
-    ];
-    for (shape, lengths, load) in cases {
-        let mut problem = problem(shape, lengths, checkerboard, NoAdhesion);
+    for (shape, load) in [((40, 24), 8.85e-3), ((101, 1), 16.1), ((12, 7), 9.0), ((2, 3), 1e-2)] {
+        let mut problem = problem(shape, (1.0, 1.0), checkerboard, NoAdhesion);
         let report = solve(&mut problem, Control::MeanPressure(load), 1e-6).report;
         assert_eq!(report.status, Status::Converged, "{shape:?} {load}");
     }

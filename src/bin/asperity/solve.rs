@@ -56,7 +56,7 @@ pub struct Options {
     /// Preconditioned conjugate gradients, or the algorithm of Rey et al. (2017)
     #[arg(long, value_enum, default_value_t = Iteration::Default, help_heading = "Solver")]
     method: Iteration,
-    /// Certified relative error at which to stop [default: 1e-6, in f32 1e-4]
+    /// Certified relative error at which to stop [default: 1e-6, in f32 1e-5]
     #[arg(long, value_name = "T", allow_hyphen_values = true, value_parser = positive, help_heading = "Solver")]
     tolerance: Option<f64>,
     /// Iterations after which to give up [default: 2000, with rey2017 20000]
@@ -192,7 +192,7 @@ impl Options {
             Iteration::Default => Settings::default(),
             Iteration::Rey2017 => Settings { criterion: Criterion::EnergyNorm, ..Settings::rey2017() },
         };
-        let reachable = if self.precision == Precision::F32 { 1e-4 } else { 1e-6 };
+        let reachable = if self.precision == Precision::F32 { 1e-5 } else { 1e-6 };
         let settings = Settings {
             tolerance: self.tolerance.unwrap_or(reachable),
             max_iterations: self.max_iterations.unwrap_or(default.max_iterations),

@@ -1,6 +1,8 @@
 use std::f64::consts::TAU;
 
 use asperity::{Grid, Surface};
+use rand::rngs::ChaCha8Rng;
+use rand::{RngExt, SeedableRng};
 
 /// The waves of the terrain, in periods per side.
 const WAVES: std::ops::RangeInclusive<f64> = 3.0..=40.0;
@@ -9,7 +11,7 @@ const HURST: f64 = 0.8;
 /// A self-affine rough surface with random phases, the same every time and on every grid that resolves its waves.
 pub fn rough(grid: Grid, rms_height: f64) -> asperity::Result<Surface> {
     let shortest = *WAVES.end() as i32;
-    let mut random = Random(2017);
+    let mut random = ChaCha8Rng::seed_from_u64(2017);
     let mut power = 0.0;
     // The wave along x with kx periods has amplitudes (cosine, sine) that vary along y.
     let mut rows = vec![(0.0, 0.0); (shortest as usize + 1) * grid.shape().1];
@@ -19,7 +21,7 @@ pub fn rough(grid: Grid, rms_height: f64) -> asperity::Result<Surface> {
             if !WAVES.contains(&k) || (kx == 0 && ky < 0) {
                 continue;
             }
-            let (amplitude, phase) = (k.powf(-1.0 - HURST), TAU * random.next());
+            let (amplitude, phase) = (k.powf(-1.0 - HURST), TAU * random.random::<f64>());
             power += 0.5 * amplitude * amplitude;
             for (j, (cosine, sine)) in row.iter_mut().enumerate() {
                 let (s, c) = (TAU * f64::from(ky) * j as f64 / grid.shape().1 as f64 + phase).sin_cos();
@@ -38,17 +40,4 @@ pub fn rough(grid: Grid, rms_height: f64) -> asperity::Result<Surface> {
         }
     }
     Surface::new(grid, heights)
-}
-
-/// The generator SplitMix64: small, and good enough for phases.
-struct Random(u64);
-
-impl Random {
-    /// A number from 0 to 1.
-    fn next(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        (z ^ (z >> 31)) as f64 / u64::MAX as f64
-    }
 }
