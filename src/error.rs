@@ -124,7 +124,9 @@ impl Error {
 impl fmt::Display for Error {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Value { name, value, requirement } => write!(f, "{name} is {value}: it must be {requirement}"),
+            Self::Value { name, value, requirement } => {
+                write!(f, "{name} is {}: it must be {requirement}", Short(*value))
+            }
             Self::Shape { name, found, expected } => {
                 write!(f, "{name} has shape {} x {}: it must be {} x {}", found.0, found.1, expected.0, expected.1)
             }
@@ -135,11 +137,14 @@ impl fmt::Display for Error {
                 first.0, first.1
             ),
             Self::Law { function, gap, value, expected: None } => {
-                write!(f, "the {function} is {value} at a gap of {gap}: it must be finite at every gap")
+                write!(f, "the {function} is {value} at a gap of {}: it must be finite at every gap", Short(*gap))
             }
             Self::Law { function, gap, value, expected: Some(expected) } => write!(
                 f,
-                "the {function} is {value} at a gap of {gap}: the function of which it is the derivative gives {expected}"
+                "the {function} is {} at a gap of {}: the function of which it is the derivative gives {}",
+                Short(*value),
+                Short(*gap),
+                Short(*expected)
             ),
             Self::File { path, reason } => write!(f, "{}: {reason}", path.display()),
         }
@@ -147,3 +152,13 @@ impl fmt::Display for Error {
 }
 
 impl std::error::Error for Error {}
+
+/// A number without rows of zeros.
+struct Short(f64);
+
+impl fmt::Display for Short {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self(value) = self;
+        if *value == 0.0 || (1e-4..1e6).contains(&value.abs()) { write!(f, "{value}") } else { write!(f, "{value:e}") }
+    }
+}

@@ -359,7 +359,8 @@ fn what_did_not_converge_is_written_and_said() {
         assert_eq!(bench.names(status), RESULTS);
         let report = bench.report(status);
         assert_eq!(report["status"], *status);
-        assert!(number(&report, "relative_error") > number(&report, "tolerance"));
+        let worst = number(&report, "relative_error").max(number(&report, "load_error"));
+        assert!(worst > number(&report, "tolerance"));
         for key in ["mean_gap", "mean_pressure", "mean_contact_pressure", "elastic_energy", "min_pressure"] {
             assert!(report[key].is_f64(), "{arguments}: {key} is {}", report[key]);
         }
@@ -402,7 +403,7 @@ fn bad_input_is_refused_on_one_line_and_writes_nothing() {
         (format!("{good} --initial-gap small.npy"), vec!["--initial-gap", "8 x 8", "64 x 64"]),
         (format!("{good} --initial-gap missing.npy"), vec!["--initial-gap", "8 x 8", "64 x 64"]),
         (format!("{good} --initial-gap negative.npy"), vec!["gap", "-0.125000001", "zero or positive"]),
-        ("--heights heights.npy --precision f32 --mean-gap 1e300".to_owned(), vec!["gap", "f32", "--precision f64"]),
+        ("--heights heights.npy --precision f32 --mean-gap 1e300".to_owned(), vec!["mean gap", "1e300", "precision"]),
         (format!("{good} --colour red"), vec!["--colour", "see --help"]),
         ("--heights heights.npy --mean-gap -0.1".to_owned(), vec!["--mean-gap", "-0.1", "zero or positive"]),
         ("--heights heights.npy --mean-gap much".to_owned(), vec!["--mean-gap", "much", "a number"]),
@@ -489,7 +490,7 @@ fn help_and_version() {
         ("demo --help", vec!["--out", "asperity-demo"]),
         (
             "solve --help",
-            vec!["--heights", "[default: 1 1]", "[default: 1e-6, in f32 1e-4]", "Examples", "--range 1e-9"],
+            vec!["--heights", "[default: 1 1]", "[default: 1e-6, in f32 1e-5]", "Examples", "--range 1e-9"],
         ),
         ("--version", vec![env!("CARGO_PKG_VERSION")]),
     ] {

@@ -81,11 +81,13 @@ where
     ) -> Result<Self> {
         let shape = problem.grid().shape();
         constraint.start(problem.grid())?;
-        // the control as the fields can hold it
-        match control {
-            Control::MeanGap(gap) => Error::non_negative("mean gap", T::lit(gap).widen())?,
-            Control::MeanPressure(pressure) => Error::finite("mean pressure", T::lit(pressure).widen())?,
+        let (name, value) = match control {
+            Control::MeanGap(gap) => ("mean gap", Error::non_negative("mean gap", gap)?),
+            Control::MeanPressure(pressure) => ("mean pressure", Error::finite("mean pressure", pressure)?),
         };
+        if !T::lit(value).is_finite() {
+            return Err(Error::Value { name, value, requirement: "finite in the precision of the fields" });
+        }
         let gap = match start {
             Some(start) => given_start(start, shape, control, constraint.projects())?,
             None => Array2::from_elem(shape, T::lit(uniform_start(problem, control))),
