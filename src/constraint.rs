@@ -4,14 +4,19 @@ use crate::error::Result;
 use crate::grid::Grid;
 use crate::real::Real;
 
+mod penalty;
 mod projection;
+mod uzawa;
 
+pub use penalty::Penalty;
 pub use projection::Projection;
+pub use uzawa::Uzawa;
 
 /// How the solver keeps the surfaces from passing through each other.
 ///
 /// Either the gap is confined to g ≥ 0 ([`Projection`]), or any gap is feasible and the energy gains a term, node by
-/// node, that resists negative gaps; such a term may carry multipliers, updated between solves.
+/// node, that resists negative gaps ([`Penalty`]); such a term may carry multipliers, updated between solves
+/// ([`Uzawa`]). A node is in contact where the gap is zero, or where the term presses.
 pub trait ContactConstraint<T: Real>: Sync {
     /// Whether the gap is confined to g ≥ 0. If so the other methods are not asked.
     fn projects(&self) -> bool;
@@ -52,4 +57,6 @@ pub enum Outer {
     Done,
     /// The energy has changed: go on minimising from here.
     Again,
+    /// No more updates are allowed, and the constraint is not met: end without having converged.
+    Failed,
 }

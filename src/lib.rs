@@ -53,7 +53,7 @@
 //! |---|---|---|
 //! | [`ElasticOperator`] | pressure of a displacement | [`Westergaard`], [`Spectral`] (any symbol) |
 //! | [`AdhesionLaw`] | energy, traction, slope at a gap | [`NoAdhesion`], [`MaugisDugdale`], [`Exponential`] |
-//! | [`ContactConstraint`] | how g ≥ 0 is imposed | [`Projection`] |
+//! | [`ContactConstraint`] | how g ≥ 0 is imposed | [`Projection`], [`Penalty`], [`Uzawa`] |
 //!
 //! # Features
 //!
@@ -78,7 +78,7 @@ mod solver;
 mod surface;
 
 pub use adhesion::{AdhesionLaw, Exponential, MaugisDugdale, NoAdhesion, check_law};
-pub use constraint::{ContactConstraint, Outer, Projection};
+pub use constraint::{ContactConstraint, Outer, Penalty, Projection, Uzawa};
 pub use elastic::{ElasticOperator, Spectral, Westergaard};
 pub use error::{Error, Result};
 pub use grid::Grid;

@@ -191,6 +191,7 @@ impl<C> Solver<C> {
                 match state.update_constraint() {
                     Outer::Done => break Status::Converged,
                     Outer::Again => continue,
+                    Outer::Failed => break Status::IterationLimit,
                 }
             }
             if let Some(status) = state.verdict() {

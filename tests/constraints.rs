@@ -1,82 +1,88 @@
-//! The third seam: constraints that are terms of the energy fit the driver as it is.
+//! Penalty and Uzawa beside projection: the same solution, at the price that each of them asks.
 
 mod common;
 
 use approx::assert_relative_eq;
 use asperity::*;
-use common::sphere;
-use ndarray::{Array2, ArrayView2};
+use common::{rough, solve, sphere};
 
-/// Resists interpenetration by ½k g² and, with multipliers, removes it step by step.
-struct Augmented {
-    stiffness: f64,
-    multipliers: Option<Array2<f64>>,
-    updates: usize,
-}
-
-impl Augmented {
-    fn pressure(&self, node: usize, gap: f64) -> f64 {
-        let multiplier = self.multipliers.as_ref().and_then(|m| m.as_slice()).map_or(0.0, |m| m[node]);
-        (multiplier - self.stiffness * gap).max(0.0)
-    }
-}
-
-impl ContactConstraint<f64> for Augmented {
-    fn projects(&self) -> bool {
-        false
-    }
-    fn start(&mut self, grid: &Grid) -> Result<()> {
-        if let Some(multipliers) = &mut self.multipliers {
-            *multipliers = Array2::zeros(grid.shape());
-        }
-        Ok(())
-    }
-    fn energy(&self, node: usize, gap: f64) -> f64 {
-        let multiplier = self.pressure(node, 0.0);
-        0.5 * (self.pressure(node, gap).powi(2) - multiplier * multiplier) / self.stiffness
-    }
-    fn traction(&self, node: usize, gap: f64) -> f64 {
-        -self.pressure(node, gap)
-    }
-    fn slope(&self, node: usize, gap: f64) -> f64 {
-        if self.pressure(node, gap) > 0.0 { self.stiffness } else { 0.0 }
-    }
-    fn update(&mut self, gap: ArrayView2<'_, f64>) -> Outer {
-        if self.multipliers.is_none() || gap.iter().all(|&g| g > -1e-9) {
-            return Outer::Done;
-        }
-        self.updates += 1;
-        let gaps = gap.as_slice().expect("the solver's fields are in standard layout");
-        let next: Vec<f64> = gaps.iter().enumerate().map(|(i, &g)| self.pressure(i, g)).collect();
-        self.multipliers = Some(Array2::from_shape_vec(gap.dim(), next).expect("one per node"));
-        Outer::Again
-    }
+fn with<T: Real, C: ContactConstraint<T>, L: AdhesionLaw<T>>(
+    problem: &mut Problem<T, Westergaard<T>, L>,
+    constraint: C,
+    control: Control,
+    tolerance: f64,
+) -> (Solution<T>, C) {
+    let mut solver = Solver { settings: Settings { tolerance, ..Settings::default() }, constraint };
+    let solution = solver.solve(problem, control).unwrap();
+    (solution, solver.constraint)
 }
 
 #[test]
 fn a_penalty_interpenetrates_by_the_pressure_over_its_stiffness() {
-    let exact = common::solve(&mut sphere::<f64, _>(64, NoAdhesion), Control::MeanGap(0.0398), 1e-9);
+    let control = Control::MeanGap(0.0398);
+    let exact = solve(&mut sphere::<f64, _>(64, NoAdhesion), control, 1e-9).report;
     let mut last = f64::INFINITY;
-    for stiffness in [50.0, 500.0] {
-        let constraint = Augmented { stiffness, multipliers: None, updates: 0 };
-        let mut solver = Solver { settings: Settings { tolerance: 1e-8, ..Settings::default() }, constraint };
-        let solution = solver.solve(&mut sphere(64, NoAdhesion), Control::MeanGap(0.0398)).unwrap();
-        assert_eq!(solution.report.status, Status::Converged);
+    for stiffness in [50.0, 500.0, 5000.0] {
+        let constraint = Penalty::new(stiffness).unwrap();
+        let (solution, _) = with(&mut sphere(64, NoAdhesion), constraint, control, 1e-8);
+        let report = &solution.report;
+        assert_eq!(report.status, Status::Converged);
         let deepest = solution.contact_pressure.iter().copied().fold(0.0, f64::max);
-        assert_relative_eq!(solution.report.min_gap, -deepest / stiffness, max_relative = 1e-9);
-        let error = (solution.report.mean_pressure / exact.report.mean_pressure - 1.0).abs();
+        assert_relative_eq!(report.min_gap, -deepest / stiffness, max_relative = 1e-9);
+        assert_eq!(report.contact_points, solution.gap.iter().filter(|&&g| g < 0.0).count());
+        // the pressure is softer than the rigid one by about the springs' compliance beside the contact's
+        let error = (report.mean_pressure / exact.mean_pressure - 1.0).abs();
         assert!(error < last && error < 20.0 / stiffness, "{error}");
         last = error;
     }
 }
 
 #[test]
-fn multipliers_remove_the_interpenetration() {
-    let exact = common::solve(&mut sphere::<f64, _>(64, NoAdhesion), Control::MeanGap(0.0398), 1e-9);
-    let constraint = Augmented { stiffness: 200.0, multipliers: Some(Array2::zeros((0, 0))), updates: 0 };
-    let mut solver = Solver { settings: Settings { tolerance: 1e-9, ..Settings::default() }, constraint };
-    let solution = solver.solve(&mut sphere(64, NoAdhesion), Control::MeanGap(0.0398)).unwrap();
-    assert_eq!(solution.report.status, Status::Converged);
-    assert!(solution.report.min_gap > -1e-9 && solver.constraint.updates > 1);
-    assert_relative_eq!(solution.report.mean_pressure, exact.report.mean_pressure, max_relative = 1e-5);
+fn uzawa_removes_the_interpenetration_whatever_its_stiffness() {
+    let control = Control::MeanGap(0.0398);
+    let exact = solve(&mut sphere::<f64, _>(64, NoAdhesion), control, 1e-9).report;
+    for stiffness in [50.0, 500.0] {
+        let (solution, uzawa) = with(&mut sphere(64, NoAdhesion), Uzawa::new(stiffness).unwrap(), control, 1e-9);
+        assert_eq!((solution.report.status, solution.report.contact_points), (Status::Converged, exact.contact_points));
+        assert!(uzawa.outer_iterations() > 2);
+        // the last update changed no multiplier by more than its tolerance
+        let deepest = solution.contact_pressure.iter().copied().fold(0.0, f64::max);
+        assert!(-solution.report.min_gap <= 1e-6 * deepest / stiffness);
+        assert_relative_eq!(solution.report.mean_pressure, exact.mean_pressure, max_relative = 1e-6);
+    }
+}
+
+#[test]
+fn uzawa_that_may_not_update_enough_has_not_converged() {
+    let mut constraint = Uzawa::new(100.0).unwrap();
+    constraint.max_outer_iterations = 2;
+    let (solution, uzawa) = with(&mut sphere(32, NoAdhesion), constraint, Control::MeanGap(0.0398), 1e-8);
+    assert_eq!((solution.report.status, uzawa.outer_iterations()), (Status::IterationLimit, 2));
+    assert!(solution.report.min_gap < 0.0);
+}
+
+#[test]
+fn every_law_control_and_precision_works_with_them() {
+    let law = MaugisDugdale::new(1e-4, 4e-3).unwrap();
+    let pull = Control::MeanPressure(-3e-4);
+    let exact = solve(&mut sphere::<f64, _>(48, law), pull, 1e-8).report;
+    let (uzawa, _) = with(&mut sphere(48, law), Uzawa::new(300.0).unwrap(), pull, 1e-8);
+    assert_eq!(uzawa.report.status, Status::Converged);
+    assert_relative_eq!(uzawa.report.mean_gap, exact.mean_gap, max_relative = 1e-2);
+
+    let press = Control::MeanPressure(0.1);
+    let exact = solve(&mut rough::<f64, _>(64, 16, NoAdhesion), press, 1e-8).report;
+    let (penalty, _) = with(&mut rough::<f64, _>(64, 16, NoAdhesion), Penalty::new(1e4).unwrap(), press, 1e-7);
+    assert_eq!(penalty.report.status, Status::Converged);
+    assert_relative_eq!(penalty.report.mean_gap, exact.mean_gap, max_relative = 1e-2);
+    let (single, _) = with(&mut rough::<f32, _>(64, 16, NoAdhesion), Uzawa::new(500.0).unwrap(), press, 1e-5);
+    assert!(single.report.status == Status::Converged || single.report.status == Status::Stalled);
+    assert_relative_eq!(single.report.mean_gap, exact.mean_gap, max_relative = 1e-3);
+}
+
+#[test]
+fn bad_stiffnesses_are_refused() {
+    for stiffness in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        assert!(Penalty::new(stiffness).is_err() && Uzawa::new(stiffness).is_err());
+    }
 }

@@ -47,13 +47,13 @@ pub(super) fn tally<T: Real, L: AdhesionLaw<T>, C: ContactConstraint<T>>(
     let mut min = f64::INFINITY;
     for (i, ((&gap, &pressure), &surface)) in gaps.iter().zip(pressures).zip(surface).enumerate() {
         let r = (pressure + offset + if tractions.is_empty() { T::zero() } else { tractions[i] }).widen();
-        if gap > T::zero() || !projects {
+        let touches =
+            if projects { gap <= T::zero() } else { potential.constraint.traction(first + i, gap) < T::zero() };
+        if !(touches && projects) {
             free += 1.0;
             sum_r += r;
         }
-        if gap <= T::zero() {
-            contact += 1.0;
-        }
+        contact += f64::from(u8::from(touches));
         min = min.min(r);
         sum_gap += gap.widen();
         work += gap.widen() * (pressure.widen() + surface.widen());

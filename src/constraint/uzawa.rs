@@ -1,0 +1,101 @@
+use ndarray::{Array2, ArrayView2};
+
+use super::{ContactConstraint, Outer};
+use crate::error::{Error, Result};
+use crate::field::flat;
+use crate::grid::Grid;
+use crate::real::Real;
+
+/// The augmented Lagrangian of Uzawa: springs of stiffness k, and multipliers λ that take over the contact pressure from
+/// them, λ ← ⟨λ − kg⟩₊, after each solve.
+///
+/// The energy gains (⟨λ − kg⟩₊² − λ²)/2k at each node. The interpenetration falls with every outer iteration, whatever
+/// k is; they end when an update changes no multiplier by more than `tolerance` of the largest. Memory per node: one
+/// scalar.
+///
+/// ```
+/// use asperity::{Control, Grid, NoAdhesion, Problem, Settings, Solver, Surface, Uzawa, Westergaard};
+/// let grid = Grid::square(32, 1.0)?;
+/// let sphere = Surface::paraboloid(grid, 2.0)?;
+/// let mut problem = Problem::new(&sphere, Westergaard::<f64>::new(grid, 1.0)?, NoAdhesion)?;
+/// let mut solver = Solver { settings: Settings::default(), constraint: Uzawa::new(200.0)? };
+/// let report = solver.solve(&mut problem, Control::MeanGap(0.0398))?.report;
+/// assert!(report.min_gap > -1e-8 && solver.constraint.outer_iterations() > 1);
+/// # Ok::<(), asperity::Error>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct Uzawa<T> {
+    /// The largest change of a multiplier, relative to the largest multiplier, with which the outer iterations end;
+    /// 1e-6 unless changed, in `f32` a thousand times its rounding, 1.2e-4.
+    pub tolerance: f64,
+    /// How many outer iterations there may be before the solve ends without having converged; 100 unless changed.
+    pub max_outer_iterations: usize,
+    stiffness: T,
+    multipliers: Array2<T>,
+    outer_iterations: usize,
+}
+
+impl<T: Real> Uzawa<T> {
+    /// Springs of stiffness k, pressure per length, and multipliers that start from zero.
+    ///
+    /// # Errors
+    /// [`Error::Value`] if the stiffness is not positive and finite.
+    pub fn new(stiffness: T) -> Result<Self> {
+        Error::positive("penalty stiffness", stiffness.widen())?;
+        let tolerance = (1e3 * T::epsilon().widen()).max(1e-6);
+        let multipliers = Array2::zeros((0, 0));
+        Ok(Self { tolerance, max_outer_iterations: 100, stiffness, multipliers, outer_iterations: 0 })
+    }
+
+    /// How often the multipliers of the last solve were updated.
+    pub fn outer_iterations(&self) -> usize {
+        self.outer_iterations
+    }
+
+    /// ⟨λ − kg⟩₊
+    fn pressure(&self, node: usize, gap: T) -> T {
+        (self.multiplier(node) - self.stiffness * gap).max(T::zero())
+    }
+
+    fn multiplier(&self, node: usize) -> T {
+        flat(&self.multipliers).get(node).copied().unwrap_or_default()
+    }
+}
+
+impl<T: Real> ContactConstraint<T> for Uzawa<T> {
+    fn projects(&self) -> bool {
+        false
+    }
+    fn start(&mut self, grid: &Grid) -> Result<()> {
+        self.multipliers = Array2::zeros(grid.shape());
+        self.outer_iterations = 0;
+        Ok(())
+    }
+    fn energy(&self, node: usize, gap: T) -> T {
+        let (pressure, multiplier) = (self.pressure(node, gap), self.multiplier(node));
+        T::lit(0.5) * (pressure - multiplier) * (pressure + multiplier) / self.stiffness
+    }
+    fn traction(&self, node: usize, gap: T) -> T {
+        -self.pressure(node, gap)
+    }
+    fn slope(&self, node: usize, gap: T) -> T {
+        if self.pressure(node, gap) > T::zero() { self.stiffness } else { T::zero() }
+    }
+    fn update(&mut self, gap: ArrayView2<'_, T>) -> Outer {
+        self.outer_iterations += 1;
+        let (mut change, mut largest) = (T::zero(), T::zero());
+        for (multiplier, &gap) in self.multipliers.iter_mut().zip(gap) {
+            let next = (*multiplier - self.stiffness * gap).max(T::zero());
+            change = change.max((next - *multiplier).max(*multiplier - next));
+            largest = largest.max(next);
+            *multiplier = next;
+        }
+        if change.widen() <= self.tolerance * largest.widen() {
+            Outer::Done
+        } else if self.outer_iterations >= self.max_outer_iterations {
+            Outer::Failed
+        } else {
+            Outer::Again
+        }
+    }
+}
