@@ -85,36 +85,50 @@ fn mean_product<T: Real>(heights: ArrayView2<'_, f64>, pressure: ArrayView2<'_, 
     sum / heights.len() as f64
 }
 
-macro_rules! forward {
-    ($($type:ty),*) => {$(
-        impl<T: Real, O: ElasticOperator<T> + ?Sized> ElasticOperator<T> for $type {
-            fn grid(&self) -> &Grid {
-                (**self).grid()
-            }
-            fn pressure(&mut self, displacement: ArrayView2<'_, T>, pressure: ArrayViewMut2<'_, T>) -> Result<()> {
-                (**self).pressure(displacement, pressure)
-            }
-            fn displacement(&mut self, pressure: ArrayView2<'_, T>, displacement: ArrayViewMut2<'_, T>) -> Result<()> {
-                (**self).displacement(pressure, displacement)
-            }
-            fn stiffness_range(&self) -> (f64, f64) {
-                (**self).stiffness_range()
-            }
-            fn modulus(&self) -> f64 {
-                (**self).modulus()
-            }
-            fn surface_pressure(&mut self, heights: ArrayView2<'_, f64>, pressure: ArrayViewMut2<'_, T>) -> Result<f64> {
-                (**self).surface_pressure(heights, pressure)
-            }
-            fn precondition(
-                &mut self,
-                residual: ArrayView2<'_, T>,
-                mean_stiffness: f64,
-                preconditioned: ArrayViewMut2<'_, T>,
-            ) -> Result<f64> {
-                (**self).precondition(residual, mean_stiffness, preconditioned)
-            }
+/// The methods of an operator that is another one, `$inner` of `$this`.
+macro_rules! delegate {
+    ($this:ident => $inner:expr) => {
+        fn grid(&self) -> &Grid {
+            let $this = self;
+            $inner.grid()
         }
-    )*};
+        fn pressure(&mut self, displacement: ArrayView2<'_, T>, pressure: ArrayViewMut2<'_, T>) -> Result<()> {
+            let $this = self;
+            $inner.pressure(displacement, pressure)
+        }
+        fn displacement(&mut self, pressure: ArrayView2<'_, T>, displacement: ArrayViewMut2<'_, T>) -> Result<()> {
+            let $this = self;
+            $inner.displacement(pressure, displacement)
+        }
+        fn stiffness_range(&self) -> (f64, f64) {
+            let $this = self;
+            $inner.stiffness_range()
+        }
+        fn modulus(&self) -> f64 {
+            let $this = self;
+            $inner.modulus()
+        }
+        fn surface_pressure(&mut self, heights: ArrayView2<'_, f64>, pressure: ArrayViewMut2<'_, T>) -> Result<f64> {
+            let $this = self;
+            $inner.surface_pressure(heights, pressure)
+        }
+        fn precondition(
+            &mut self,
+            residual: ArrayView2<'_, T>,
+            mean_stiffness: f64,
+            preconditioned: ArrayViewMut2<'_, T>,
+        ) -> Result<f64> {
+            let $this = self;
+            $inner.precondition(residual, mean_stiffness, preconditioned)
+        }
+    };
 }
-forward!(&mut O, Box<O>);
+use delegate;
+
+impl<T: Real, O: ElasticOperator<T> + ?Sized> ElasticOperator<T> for &mut O {
+    delegate!(this => (**this));
+}
+
+impl<T: Real, O: ElasticOperator<T> + ?Sized> ElasticOperator<T> for Box<O> {
+    delegate!(this => (**this));
+}

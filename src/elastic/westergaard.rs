@@ -28,30 +28,5 @@ impl<T: Real> Westergaard<T> {
 }
 
 impl<T: Real> ElasticOperator<T> for Westergaard<T> {
-    fn grid(&self) -> &Grid {
-        self.0.grid()
-    }
-    fn pressure(&mut self, displacement: ArrayView2<'_, T>, pressure: ArrayViewMut2<'_, T>) -> Result<()> {
-        self.0.pressure(displacement, pressure)
-    }
-    fn displacement(&mut self, pressure: ArrayView2<'_, T>, displacement: ArrayViewMut2<'_, T>) -> Result<()> {
-        self.0.displacement(pressure, displacement)
-    }
-    fn stiffness_range(&self) -> (f64, f64) {
-        self.0.stiffness_range()
-    }
-    fn modulus(&self) -> f64 {
-        self.0.modulus()
-    }
-    fn surface_pressure(&mut self, heights: ArrayView2<'_, f64>, pressure: ArrayViewMut2<'_, T>) -> Result<f64> {
-        self.0.surface_pressure(heights, pressure)
-    }
-    fn precondition(
-        &mut self,
-        residual: ArrayView2<'_, T>,
-        mean_stiffness: f64,
-        preconditioned: ArrayViewMut2<'_, T>,
-    ) -> Result<f64> {
-        self.0.precondition(residual, mean_stiffness, preconditioned)
-    }
+    delegate!(this => this.0);
 }
