@@ -120,9 +120,9 @@ fn the_gap_is_the_range_where_dugdales_traction_ends() {
             // c/a − 1 is as small as 1e-8, and c known only to rounding: an error of the gap by its slope there
             let slope = (contact.gap(c * (1.0 + 1e-6)) - contact.gap(c)) / (1e-6 * c);
             assert!((contact.gap(c) - range).abs() < 1e-12 * range + 1e-15 * c * slope.abs(), "{tabor} {a}");
-            assert!(
-                (contact.gap(c * (1.0 - 1e-12)) - contact.gap(c * (1.0 + 1e-12))).abs() < 1e-9 * range.max(c * 1e-3)
-            );
+            // no jump there: the two formulas meet, to the slope, which is up to some times as large on the inner side
+            let jump = contact.gap(c * (1.0 - 1e-12)) - contact.gap(c * (1.0 + 1e-12));
+            assert!(jump.abs() < 10.0 * 2e-12 * c * slope, "{tabor} {a} {jump:e}");
         }
     }
 }
@@ -165,7 +165,7 @@ fn maugis_tends_to_jkr_and_dmt() {
         let dmt = Hertz::new(2.0, 1.0).unwrap().at_contact_radius(a).unwrap().load() - 2.0 * unit;
         let differences = [1e-1, 1e-2, 1e-3, 1e-4, 1e-5]
             .map(|tabor| ((of_tabor(tabor).at_contact_radius(a).unwrap().load() - dmt) / unit).abs());
-        assert!(differences[4] < 1e-3 && differences.windows(2).all(|d| d[1] < 0.2 * d[0]), "{differences:?}");
+        assert!(differences[4] < 1e-2 * a && differences.windows(2).all(|d| d[1] < 0.2 * d[0]), "{differences:?}");
     }
     // a smaller contact at any load in between, and never an invalid state
     for tabor in TABOR {
@@ -310,7 +310,7 @@ fn the_papers_states_among_images() {
     }
 }
 
-fn checks_images(sphere: impl Sphere, gap: f64, quartic: f64) {
+fn checks_images(sphere: impl Sphere, gap: f64, quartic: f64, lattice: f64) {
     let grid = Grid::square(256, 1.0).unwrap();
     let surface = Surface::paraboloid(grid, 2.0).unwrap();
     let state = Periodic::new(sphere, 1.0).unwrap().at_mean_gap(gap, surface.mean()).unwrap();
@@ -325,28 +325,21 @@ fn checks_images(sphere: impl Sphere, gap: f64, quartic: f64) {
         }
     }
     assert!(worst < allowed, "{worst:e} {allowed:e}");
-    // u is periodic of zero mean but for its datum, which was never imposed: the same mean gap to the same order, and to the
-    // error of a sum over nodes of a function with a singularity of order 3/2 (1/2 for JKR, whose edge is a vertical slope)
+    // u has zero mean but for its datum, which was never imposed: the given mean gap, to the same order and to the error of a
+    // sum over nodes for a function that is not smooth at the edge of the contact
     let mean = u.mean().unwrap() - surface.mean();
-    assert!((mean - gap).abs() < allowed + 1e-4 * contact.contact_radius().powi(2) / 256.0, "{mean} {gap}");
-    let reloaded = Periodic::new(sphere_of(contact), 1.0);
-    assert!(reloaded.is_ok());
-}
-
-/// The sphere without adhesion that a state sits on.
-fn sphere_of(contact: &Contact) -> Hertz {
-    Hertz::new(contact.radius_of_curvature(), 1.0).unwrap()
+    assert!((mean - gap).abs() < allowed + lattice, "{mean} {gap}");
 }
 
 #[test]
 fn the_images_flatten_the_surface_and_keep_the_mean_gap() {
     for gap in [0.041, 0.0398, 0.0390] {
         let state = Periodic::new(Hertz::new(2.0, 1.0).unwrap(), 1.0).unwrap().at_mean_gap(gap, -1.0 / 24.0).unwrap();
-        checks_images(Hertz::new(2.0, 1.0).unwrap(), gap, 5.0 * state.mean_pressure());
+        checks_images(Hertz::new(2.0, 1.0).unwrap(), gap, 5.0 * state.mean_pressure(), 3e-10);
     }
-    checks_images(Jkr::new(2.0, 1.0, 1e-5).unwrap(), 0.0405, 1e-4);
+    checks_images(Jkr::new(2.0, 1.0, 1e-5).unwrap(), 0.0405, 1e-4, 3e-8);
     for (w, range, gap) in PAPER {
-        checks_images(MaugisDugdale::new(2.0, 1.0, w, range).unwrap(), gap, 5.0 * 40.0 * w);
+        checks_images(MaugisDugdale::new(2.0, 1.0, w, range).unwrap(), gap, 5.0 * 10.0 * w, 2e-8);
     }
     // few loads, many images: a sphere alone
     let hertz = Hertz::new(2.0, 1.0).unwrap();

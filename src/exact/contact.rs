@@ -13,9 +13,10 @@ pub(super) enum Adhesion {
     Crack {
         edge: f64,
     },
-    /// A constant traction σ₀ up to the radius c.
+    /// A constant traction σ₀ up to the radius c; `width` is √(c² − a²), which c and a have lost where they are close.
     Dugdale {
         stress: f64,
+        width: f64,
     },
 }
 
@@ -93,10 +94,8 @@ impl Contact {
         let hertz = 2.0 * self.modulus * self.curvature / PI * depth;
         match self.adhesion {
             Adhesion::Crack { edge } if r < a => hertz - edge / depth,
-            Adhesion::Dugdale { stress } if r < a => {
-                hertz - 2.0 / PI * stress * ((c - a) * (c + a)).sqrt().atan2(depth)
-            }
-            Adhesion::Dugdale { stress } if r < c => -stress,
+            Adhesion::Dugdale { stress, width } if r < a => hertz - 2.0 / PI * stress * width.atan2(depth),
+            Adhesion::Dugdale { stress, .. } if r < c => -stress,
             _ => hertz,
         }
     }
@@ -113,10 +112,9 @@ impl Contact {
             + match self.adhesion {
                 Adhesion::None => 0.0,
                 Adhesion::Crack { edge } => 2.0 * edge / self.modulus * angle,
-                Adhesion::Dugdale { stress } => {
-                    let width = self.dugdale_width();
-                    // a ring of traction outside the contact opens the gap; what is left of the difference is positive
-                    4.0 * stress / (PI * self.modulus) * (width * angle - self.dugdale_integral(r)).max(0.0)
+                // a ring of traction outside the contact opens the gap: what is left of the difference is positive
+                Adhesion::Dugdale { stress, width } => {
+                    4.0 * stress / (PI * self.modulus) * (width * angle - self.dugdale_integral(width, r)).max(0.0)
                 }
             }
     }
@@ -141,8 +139,8 @@ impl Contact {
             - match self.adhesion {
                 Adhesion::None => 0.0,
                 Adhesion::Crack { edge } => 2.0 * edge / self.modulus * angle,
-                Adhesion::Dugdale { stress } => {
-                    4.0 * stress / (PI * self.modulus) * (self.dugdale_width() * angle + self.dugdale_integral(r))
+                Adhesion::Dugdale { stress, width } => {
+                    4.0 * stress / (PI * self.modulus) * (width * angle + self.dugdale_integral(width, r))
                 }
             }
     }
@@ -157,18 +155,12 @@ impl Contact {
         grid.sample(|x, y| self.displacement(x.hypot(y)))
     }
 
-    /// √(c² − a²)
-    fn dugdale_width(&self) -> f64 {
-        let (a, c) = (self.contact_radius, self.adhesion_radius);
-        ((c - a) * (c + a)).sqrt()
-    }
-
     /// What Dugdale's traction adds to the displacement for r > a is 4σ₀/(πE*) times √(c² − a²) acos(a/r) less this:
     ///
     /// for r < c, c·[E(k) − E(asin(a/r), k)] with k = r/c; for r > c, (c²/r)·∫₀^Y x² (1 + x²)^(−3/2) (κ² + x²)^(−1/2) dx
     /// with Y² = c²/a² − 1, κ² = 1 − c²/r². This is the integral of equation (30) after x² = r²/t² − 1 and x² = c²/t² − 1,
     /// less the terms that cancel as a → 0; every summand below is positive.
-    fn dugdale_integral(&self, r: f64) -> f64 {
+    fn dugdale_integral(&self, width: f64, r: f64) -> f64 {
         let (a, c) = (self.contact_radius, self.adhesion_radius);
         // with x from 0 to X, z = 1/X², and m = 1/κ²
         let half = |z: f64, m: f64| m.sqrt() / 3.0 * carlson_rd(z, m + z, 1.0 + z);
@@ -176,10 +168,10 @@ impl Contact {
             let (z, m) = (a * a / ((r - a) * (r + a)), c * c / ((c - r) * (c + r)));
             c * (carlson_rf(z, 1.0 + z, m + z) / m.sqrt() + (r / c).powi(2) * half(z, m))
         } else if r > c {
-            let (z, m) = (a * a / ((c - a) * (c + a)), r * r / ((r - c) * (r + c)));
+            let (z, m) = ((a / width).powi(2), r * r / ((r - c) * (r + c)));
             c * c / r * half(z, m)
         } else {
-            c - a
+            width * width / (c + a)
         }
     }
 }

@@ -84,7 +84,7 @@ impl Family for MaugisDugdale {
             approach: contact.approach - 2.0 * stress / self.modulus * width,
             second_moment: contact.second_moment
                 - stress * (c.powi(4) * theta + a * width * (5.0 / 3.0 * a * a + width * width)),
-            adhesion: Adhesion::Dugdale { stress },
+            adhesion: Adhesion::Dugdale { stress, width },
             ..contact
         }
     }
