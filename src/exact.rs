@@ -28,7 +28,8 @@
 //! let exact = Periodic::new(exact::Hertz::new(2.0, 1.0)?, 1.0)?.at_mean_gap(0.0398, sphere.mean())?;
 //! assert!((found.report.mean_pressure / exact.mean_pressure() - 1.0).abs() < 5e-3);
 //! let error = &found.gap + sphere.heights() - exact.displacement_field(&grid)?;
-//! assert!(error.iter().all(|e| e.abs() < 1e-4 * 0.03)); // of the depth of the surface
+//! let largest = error.iter().fold(0.0f64, |m, e| m.max(e.abs()));
+//! assert!(largest < 0.01 * exact.contact().approach(), "{largest}");
 //! # Ok::<(), asperity::Error>(())
 //! ```
 
@@ -48,7 +49,7 @@ pub use hertz::Hertz;
 pub use jkr::Jkr;
 pub use johnson::AdhesiveWavyLine;
 pub use maugis_dugdale::MaugisDugdale;
-pub use periodic::{Periodic, PeriodicContact};
+pub use periodic::{C2, M1, Periodic, PeriodicContact};
 pub use sphere::Sphere;
 pub use wave::WaveContact;
 pub use westergaard::{WavyLine, closing_pressure_2d};

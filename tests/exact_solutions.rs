@@ -130,7 +130,7 @@ fn the_gap_is_the_range_where_dugdales_traction_ends() {
 #[test]
 fn maugis_pull_off_between_jkr_and_dmt() {
     let force = |tabor: f64| -of_tabor(tabor).pull_off().load() / (PI * 1e-5 * 2.0);
-    // METHOD 10.5: an independent solution, for these Tabor parameters to the digits printed
+    // an independent solution in m = c/a, to the digits given
     for (tabor, expected, digit) in [
         (27.144, 1.50017, 1e-5),
         (2.7144, 1.516, 1e-3),
@@ -142,7 +142,7 @@ fn maugis_pull_off_between_jkr_and_dmt() {
     }
     let forces = TABOR.map(force);
     assert!(forces.is_sorted_by(|a, b| a > b) && forces[0] < 2.0 && forces[8] > 1.5);
-    // the corrections: of second order in 1/μ_T to JKR, of order μ_T to the power 3/2 … 1 to DMT
+    // the correction to JKR is of second order in 1/μ_T
     assert_relative_eq!((force(30.0) - 1.5) / (force(100.0) - 1.5), 100.0f64.powi(2) / 900.0, max_relative = 0.02);
     assert!((force(1000.0) - 1.5).abs() < 2e-7);
     assert!((2.0 - force(1e-4)) < 1e-5);
@@ -262,8 +262,8 @@ fn zeta_beta(s: f64) -> (f64, f64) {
 fn lattice_constants() {
     // (their sums over the lattice are in the module's own tests)
     let ((zeta_1, beta_1), (zeta_3, beta_3)) = (zeta_beta(0.5), zeta_beta(1.5));
-    assert_relative_eq!(Periodic::<Hertz>::M1, -4.0 * zeta_1 * beta_1, max_relative = 4e-15);
-    assert_relative_eq!(Periodic::<Hertz>::C2, zeta_3 * beta_3, max_relative = 4e-15);
+    assert_relative_eq!(M1, -4.0 * zeta_1 * beta_1, max_relative = 4e-15);
+    assert_relative_eq!(C2, zeta_3 * beta_3, max_relative = 4e-15);
     assert_relative_eq!(zeta_3, 2.612_375_348_685_488, max_relative = 1e-15);
 }
 
@@ -272,12 +272,12 @@ const PAPER: [(f64, f64, f64); 2] = [(1e-5, 3e-4, 0.0405), (1e-4, 2e-3, 0.0429)]
 
 #[test]
 fn the_papers_states_with_the_images_shift_alone() {
-    // METHOD 9 has the shift M₁ of the images without their curvature c₂
+    // an independent solution, with the shift M₁ of the images but without their curvature c₂
     let expected = [(0.07984, 0.08538, 2.0e-6, 0.1e-6), (0.09546, 0.11837, -9.749e-4, 0.001e-4)];
     for ((w, range, gap), (a, c, pressure, digit)) in PAPER.into_iter().zip(expected) {
         let sphere = MaugisDugdale::new(2.0, 1.0, w, range).unwrap();
         let at = |a: f64| sphere.at_contact_radius(a).unwrap();
-        let level = |contact: &Contact| 1.0 / 24.0 - contact.approach() + Periodic::<Hertz>::M1 * contact.load() / PI;
+        let level = |contact: &Contact| 1.0 / 24.0 - contact.approach() + M1 * contact.load() / PI;
         let (mut low, mut high) = (0.07, 0.15);
         for _ in 0..60 {
             let middle = 0.5 * (low + high);
@@ -294,7 +294,7 @@ fn the_papers_states_with_the_images_shift_alone() {
 
 #[test]
 fn the_papers_states_among_images() {
-    // the same with all of the correction, by an independent iteration on a here
+    // the same with all of the correction: found once by a bisection on a, outside of the library
     let expected = [(0.079846, 0.085391, 2.1001e-6), (0.095749, 0.118669, -9.7763e-4)];
     for ((w, range, gap), (a, c, pressure)) in PAPER.into_iter().zip(expected) {
         let sphere = MaugisDugdale::new(2.0, 1.0, w, range).unwrap();
@@ -341,7 +341,7 @@ fn the_images_flatten_the_surface_and_keep_the_mean_gap() {
     for (w, range, gap) in PAPER {
         checks_images(MaugisDugdale::new(2.0, 1.0, w, range).unwrap(), gap, 5.0 * 10.0 * w, 2e-8);
     }
-    // few loads, many images: a sphere alone
+    // images far away: a sphere alone
     let hertz = Hertz::new(2.0, 1.0).unwrap();
     let (alone, among) = (hertz.at_load(1e-4).unwrap(), Periodic::new(hertz, 1e4).unwrap().at_load(1e-4).unwrap());
     assert_relative_eq!(alone.contact_radius(), among.contact().contact_radius(), max_relative = 1e-13);
@@ -480,7 +480,7 @@ fn johnsons_wave() {
 
 #[test]
 fn johnsons_parameter_gives_the_known_pull_off() {
-    // METHOD: −0.0556 p* for α = 0.2; no load at all gives full contact from α = 0.57 on
+    // −0.0556 p* for α = 0.2 (Johnson, 1995); no load at all gives full contact from α = 0.57 on
     let wave = |alpha: f64| AdhesiveWavyLine::new(1.0 / PI, 1.0, 1.0, 0.5 * alpha * alpha).unwrap();
     let pull_off = wave(0.2).pull_off().unwrap().mean_pressure();
     assert!((pull_off + 0.0556).abs() < 0.5e-4, "{pull_off}");
@@ -513,6 +513,9 @@ fn what_has_no_solution_is_refused_by_name() {
     named(periodic.at_mean_gap(f64::NAN, 0.0).unwrap_err(), "mean gap");
     named(periodic.at_contact_radius(0.4).unwrap_err(), "contact radius");
     named(periodic.at_load(1.0).unwrap_err(), "load");
+    let strong = Jkr::new(2.0, 1.0, 0.1).unwrap();
+    named(Periodic::new(strong, 1.0).unwrap().pull_off().unwrap_err(), "period");
+    named(Periodic::new(strong, 1.0).unwrap().at_mean_gap(0.04, 0.0).unwrap_err(), "mean gap");
     named(Periodic::new(maugis, 1e-3).unwrap().pull_off().unwrap_err(), "period");
     let state = periodic.at_load(1e-4).unwrap();
     named(state.pressure_field(&Grid::square(4, 2.0).unwrap()).unwrap_err(), "side length Lx");

@@ -8,6 +8,13 @@ use super::sphere::Sphere;
 use crate::error::{Error, Result};
 use crate::grid::Grid;
 
+/// The lattice constant M₁ = −4ζ(½)β(½) of the square lattice: minus the sum of 1/n over the lattice without its
+/// origin, the mean removed.
+pub const M1: f64 = 3.900_264_920_001_956;
+
+/// The lattice constant c₂ = ζ(3/2)β(3/2) of the square lattice: a quarter of the sum of 1/n³ without the origin.
+pub const C2: f64 = 2.258_405_420_775_237_6;
+
 /// A sphere among its periodic images on a square of side L: the images' displacement, to the second order in the distance
 /// from the axis, shifts the surface and bends it, and leaves an exact solution on a paraboloid of radius R_e.
 ///
@@ -40,13 +47,6 @@ pub struct Periodic<S> {
 }
 
 impl<S: Sphere> Periodic<S> {
-    /// The lattice constant M₁ = −4ζ(½)β(½) of the square lattice: minus the sum of 1/n over the lattice without its
-    /// origin, the mean removed.
-    pub const M1: f64 = 3.900_264_920_001_956;
-
-    /// The lattice constant c₂ = ζ(3/2)β(3/2) of the square lattice: a quarter of the sum of 1/n³ without the origin.
-    pub const C2: f64 = 2.258_405_420_775_237_6;
-
     /// A sphere at every point of a square lattice of period L.
     ///
     /// # Errors
@@ -102,7 +102,7 @@ impl<S: Sphere> Periodic<S> {
         if target < f(high) {
             return Err(too_wide("mean gap", mean_gap));
         }
-        Ok(self.at(falls_to(f, target, start, high)))
+        self.checked("mean gap", mean_gap, self.at(falls_to(f, target, start, high)).contact)
     }
 
     /// The contact of least load: the pull-off force of each sphere is minus its load.
@@ -111,13 +111,18 @@ impl<S: Sphere> Periodic<S> {
     /// [`Error::Value`] if the contact is too large for the approximation.
     pub fn pull_off(&self) -> Result<PeriodicContact> {
         let (low, high) = self.parameters()?;
-        Ok(self.at(peak(|s| -self.at(s).contact.load(), low, high)))
+        let f = |s: f64| -self.at(s).contact.load();
+        let least = peak(f, low, high);
+        if f(high) >= f(least) {
+            return Err(too_wide("period", self.length));
+        }
+        self.checked("period", self.length, self.at(least).contact)
     }
 
     /// 1/R_e under a load.
     fn curvature(&self, load: f64) -> f64 {
         let (radius, modulus) = self.sphere.body();
-        radius.recip() + 2.0 * Self::C2 * load / (PI * modulus * self.length.powi(3))
+        radius.recip() + 2.0 * C2 * load / (PI * modulus * self.length.powi(3))
     }
 
     fn widest(&self) -> f64 {
@@ -148,7 +153,7 @@ impl<S: Sphere> Periodic<S> {
         let curvature = self.sphere.body().0.recip();
         let (low, mut high) = self.sphere.range();
         let narrow = |s: f64| self.sphere.at(s, curvature).adhesion_radius() <= self.widest();
-        if !narrow(low) {
+        if !narrow(low) || !self.at(low).level().is_finite() {
             return Err(too_wide("period", self.length));
         }
         while narrow(high) {
@@ -158,7 +163,8 @@ impl<S: Sphere> Periodic<S> {
     }
 
     fn checked(&self, name: &'static str, value: f64, contact: Contact) -> Result<PeriodicContact> {
-        if contact.adhesion_radius() > self.widest() {
+        // (the images of a strong tension may leave no paraboloid)
+        if contact.adhesion_radius() > self.widest() || !(contact.curvature > 0.0 && contact.load.is_finite()) {
             return Err(too_wide(name, value));
         }
         Ok(PeriodicContact { contact, length: self.length })
@@ -231,8 +237,7 @@ impl PeriodicContact {
     fn level(&self) -> f64 {
         let Contact { modulus, load, second_moment, approach, .. } = self.contact;
         let l = self.length;
-        let (m1, c2) = (Periodic::<super::Hertz>::M1, Periodic::<super::Hertz>::C2);
-        (m1 * load - c2 * second_moment / (l * l)) / (PI * modulus * l) - approach
+        (M1 * load - C2 * second_moment / (l * l)) / (PI * modulus * l) - approach
     }
 
     fn fits(&self, grid: &Grid) -> Result<()> {
@@ -312,14 +317,13 @@ fn origin(square: f64) -> (f64, f64) {
 mod tests {
     use approx::assert_relative_eq;
 
-    use super::super::Hertz;
     use super::*;
 
     #[test]
     fn the_images_have_the_lattice_constants_and_the_periodicity() {
         let (value, laplacian) = images(0.0, 0.0);
-        assert_relative_eq!(value, -Periodic::<Hertz>::M1, max_relative = 1e-14);
-        assert_relative_eq!(laplacian, 4.0 * Periodic::<Hertz>::C2, max_relative = 1e-13);
+        assert_relative_eq!(value, -M1, max_relative = 1e-14);
+        assert_relative_eq!(laplacian, 4.0 * C2, max_relative = 1e-13);
         // with 1/r of the origin restored the sum is periodic
         for y in [0.0, 0.2, 0.5] {
             let [left, right] = [-0.7, 0.3].map(|x: f64| images(x, y).0 + 1.0 / x.hypot(y));
