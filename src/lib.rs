@@ -55,15 +55,21 @@
 //! | [`AdhesionLaw`] | energy, traction, slope at a gap | [`NoAdhesion`], [`MaugisDugdale`], [`Exponential`] |
 //! | [`ContactConstraint`] | how g ≥ 0 is imposed | [`Projection`], [`Penalty`], [`Uzawa`] |
 //!
+//! # Exact solutions
+//!
+//! [`exact`] has the closed forms to compare with: spheres by Hertz, JKR and Maugis, alone or among their periodic images,
+//! and waves by Westergaard and Johnson.
+//!
 //! # Features
 //!
 //! `parallel` (default): threads, with the same results bit for bit. `cli` (default): files, pictures and the
-//! command-line tool. Without both the library depends on ndarray, num-traits and rustfft alone.
+//! command-line tool. Without both the library depends on ndarray, num-traits, rustfft and libm alone.
 
 mod adhesion;
 mod constraint;
 mod elastic;
 mod error;
+pub mod exact;
 mod fft;
 mod field;
 mod grid;

@@ -1,0 +1,343 @@
+use std::f64::consts::PI;
+
+use ndarray::Array2;
+
+use super::contact::Contact;
+use super::numerics::{falls_to, peak};
+use super::sphere::Sphere;
+use crate::error::{Error, Result};
+use crate::grid::Grid;
+
+/// The lattice constant M₁ = −4ζ(½)β(½) of the square lattice: minus the sum of 1/n over the lattice without its
+/// origin, the mean removed.
+pub const M1: f64 = 3.900_264_920_001_956;
+
+/// The lattice constant c₂ = ζ(3/2)β(3/2) of the square lattice: a quarter of the sum of 1/n³ without the origin.
+pub const C2: f64 = 2.258_405_420_775_237_6;
+
+/// A sphere among its periodic images on a square of side L: the images' displacement, to the second order in the distance
+/// from the axis, shifts the surface and bends it, and leaves an exact solution on a paraboloid of radius R_e.
+///
+/// ```math
+/// \frac1{R_e} = \frac1R + \frac{2c_2P}{\pi E^*L^3}, \qquad
+/// \bar g = -\langle h\rangle - \delta(R_e) + \frac{M_1P}{\pi E^*L} - \frac{c_2}{\pi E^*L^3}\int r^2p\,dA
+/// ```
+///
+/// with M₁ = −4ζ(½)β(½), c₂ = ζ(3/2)β(3/2), δ the approach of the sphere, and ⟨h⟩ the mean of the heights, h = 0 at the apex:
+/// −L²/12R for the paraboloid itself, and [`Surface::mean`](crate::Surface::mean) for its nodes, which is what a numerical
+/// solution sees. Without adhesion the integral is 2a²P/5. There is no free parameter; the images' next term, of relative
+/// order (a/L)⁵ in the shape of the surface, is neglected. Contacts with c ≤ L/3 are accepted.
+///
+/// ```
+/// use asperity::exact::{Hertz, Periodic};
+/// use asperity::{Grid, Surface};
+/// let grid = Grid::square(512, 1.0)?;
+/// let surface = Surface::paraboloid(grid, 2.0)?;
+/// let periodic = Periodic::new(Hertz::new(2.0, 1.0)?, 1.0)?;
+/// let state = periodic.at_mean_gap(0.0398, surface.mean())?;
+/// assert!((state.mean_pressure() - 1.8e-4).abs() < 1e-6);
+/// let u = state.displacement_field(&grid)?;
+/// assert_eq!(u[[256, 256]], 0.0); // the apex is in contact
+/// # Ok::<(), asperity::Error>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Periodic<S> {
+    sphere: S,
+    length: f64,
+}
+
+impl<S: Sphere> Periodic<S> {
+    /// A sphere at every point of a square lattice of period L.
+    ///
+    /// # Errors
+    /// [`Error::Value`] if the period is not positive and finite.
+    pub fn new(sphere: S, period: f64) -> Result<Self> {
+        Error::positive("period", period)?;
+        Ok(Self { sphere, length: period })
+    }
+
+    /// The stable contact at the load P of each sphere, compression positive.
+    ///
+    /// # Errors
+    /// [`Error::Value`] if the load is not finite, beyond the pull-off, or too large for the approximation.
+    pub fn at_load(&self, load: f64) -> Result<PeriodicContact> {
+        Error::finite("load", load)?;
+        let curvature = self.curvature(load);
+        // the images of a tension flatten the surface: to a hollow if it is large
+        Error::positive("effective curvature under the load", curvature)?;
+        self.checked("load", load, self.sphere.at_load_on(load, curvature)?)
+    }
+
+    /// The contact of radius a ≥ 0.
+    ///
+    /// # Errors
+    /// [`Error::Value`] if the radius is negative, not finite, or too large for the approximation.
+    pub fn at_contact_radius(&self, radius: f64) -> Result<PeriodicContact> {
+        Error::non_negative("contact radius", radius)?;
+        if radius > self.widest() {
+            return Err(too_wide("contact radius", radius));
+        }
+        let contact = self.settle(|curvature| self.sphere.at_radius_on(radius, curvature));
+        self.checked("contact radius", radius, contact)
+    }
+
+    /// The stable contact at the mean gap ḡ over heights of the mean ⟨h⟩, with h = 0 at the apex.
+    ///
+    /// The mean gap has a maximum, at which contact is lost; the solution is that of the larger contact radius.
+    ///
+    /// # Errors
+    /// [`Error::Value`] if a number is not finite, the gap is larger than in any contact, or so small that the contact is
+    /// too large for the approximation.
+    pub fn at_mean_gap(&self, mean_gap: f64, mean_height: f64) -> Result<PeriodicContact> {
+        Error::finite("mean gap", mean_gap)?;
+        Error::finite("mean height", mean_height)?;
+        let (low, high) = self.parameters()?;
+        let f = |s: f64| self.at(s).level();
+        let target = mean_gap + mean_height;
+        let start = peak(f, low, high);
+        if target > f(start) {
+            let requirement = "no more than the mean gap at which contact is lost";
+            return Err(Error::Value { name: "mean gap", value: mean_gap, requirement });
+        }
+        if target < f(high) {
+            return Err(too_wide("mean gap", mean_gap));
+        }
+        self.checked("mean gap", mean_gap, self.at(falls_to(f, target, start, high)).contact)
+    }
+
+    /// The contact of least load: the pull-off force of each sphere is minus its load.
+    ///
+    /// # Errors
+    /// [`Error::Value`] if the contact is too large for the approximation.
+    pub fn pull_off(&self) -> Result<PeriodicContact> {
+        let (low, high) = self.parameters()?;
+        let f = |s: f64| -self.at(s).contact.load();
+        let least = peak(f, low, high);
+        if f(high) >= f(least) {
+            return Err(too_wide("period", self.length));
+        }
+        self.checked("period", self.length, self.at(least).contact)
+    }
+
+    /// 1/R_e under a load.
+    fn curvature(&self, load: f64) -> f64 {
+        let (radius, modulus) = self.sphere.body();
+        radius.recip() + 2.0 * C2 * load / (PI * modulus * self.length.powi(3))
+    }
+
+    fn widest(&self) -> f64 {
+        self.length / 3.0
+    }
+
+    fn at(&self, parameter: f64) -> PeriodicContact {
+        PeriodicContact { contact: self.settle(|curvature| self.sphere.at(parameter, curvature)), length: self.length }
+    }
+
+    /// The contact that is consistent with the curvature that its load adds: a fixed point, with an error that falls by
+    /// (8c₂/3π)(a/L)³ ≤ 0.07 in each step.
+    fn settle(&self, at: impl Fn(f64) -> Contact) -> Contact {
+        let mut contact = at(self.sphere.body().0.recip());
+        for _ in 0..40 {
+            let next = at(self.curvature(contact.load()));
+            let change = (next.load() - contact.load()).abs();
+            contact = next;
+            if change <= 0.25 * f64::EPSILON * contact.load().abs() {
+                break;
+            }
+        }
+        contact
+    }
+
+    /// The parameters of the contacts to which the approximation applies.
+    fn parameters(&self) -> Result<(f64, f64)> {
+        let curvature = self.sphere.body().0.recip();
+        let (low, mut high) = self.sphere.range();
+        let narrow = |s: f64| self.sphere.at(s, curvature).adhesion_radius() <= self.widest();
+        if !narrow(low) || !self.at(low).level().is_finite() {
+            return Err(too_wide("period", self.length));
+        }
+        while narrow(high) {
+            high += 8.0;
+        }
+        Ok((low, falls_to(|s| if narrow(s) { 1.0 } else { -1.0 }, 0.0, low, high)))
+    }
+
+    fn checked(&self, name: &'static str, value: f64, contact: Contact) -> Result<PeriodicContact> {
+        // (the images of a strong tension may leave no paraboloid)
+        if contact.adhesion_radius() > self.widest() || !(contact.curvature > 0.0 && contact.load.is_finite()) {
+            return Err(too_wide(name, value));
+        }
+        Ok(PeriodicContact { contact, length: self.length })
+    }
+}
+
+fn too_wide(name: &'static str, value: f64) -> Error {
+    Error::Value {
+        name,
+        value,
+        requirement: "such that the contact, with its adhesive zone, stays within a third of the period",
+    }
+}
+
+/// A contact among its periodic images, as [`Periodic`] returns it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PeriodicContact {
+    contact: Contact,
+    length: f64,
+}
+
+impl PeriodicContact {
+    /// The contact on the paraboloid of the effective radius R_e.
+    pub fn contact(&self) -> &Contact {
+        &self.contact
+    }
+
+    /// The mean pressure p̄ = P/L².
+    pub fn mean_pressure(&self) -> f64 {
+        self.contact.load / (self.length * self.length)
+    }
+
+    /// The mean gap ḡ over heights of the mean ⟨h⟩, with h = 0 at the apex.
+    pub fn mean_gap(&self, mean_height: f64) -> f64 {
+        self.level() - mean_height
+    }
+
+    /// The pressure at the nodes of a grid of this period, with the axis through its origin; on a line the profile y = 0.
+    ///
+    /// # Errors
+    /// [`Error::Value`] if a side of the grid is not the period.
+    pub fn pressure_field(&self, grid: &Grid) -> Result<Array2<f64>> {
+        self.fits(grid)?;
+        Ok(self.contact.pressure_field(grid))
+    }
+
+    /// The displacement at the nodes of a grid of this period, with the axis through its origin; on a line the profile
+    /// y = 0. The datum is u = h = 0 at the apex, so that u = h + g.
+    ///
+    /// It is that of the pressure alone, [`Contact::deflection`], and of all its images, as those of a load P and of the
+    /// second moment of the pressure, by Ewald's sum: valid everywhere, but for terms of relative order (a/L)⁴. In the
+    /// contact it follows the surface, h = −r²/2R, up to the term that [`Periodic`] neglects.
+    ///
+    /// # Errors
+    /// [`Error::Value`] if a side of the grid is not the period.
+    pub fn displacement_field(&self, grid: &Grid) -> Result<Array2<f64>> {
+        self.fits(grid)?;
+        let Contact { modulus, load, second_moment, approach, .. } = self.contact;
+        let l = self.length;
+        let (order_0, order_2) = (load / (PI * modulus * l), second_moment / (4.0 * PI * modulus * l.powi(3)));
+        let images = |x: f64, y: f64| {
+            let (value, laplacian) = images(x / l, y / l);
+            order_0 * value + order_2 * laplacian
+        };
+        let apex = approach + images(0.0, 0.0);
+        Ok(grid.sample(|x, y| self.contact.deflection(x.hypot(y)) + images(x, y) - apex))
+    }
+
+    /// The mean displacement in the datum of the surface, ḡ + ⟨h⟩.
+    fn level(&self) -> f64 {
+        let Contact { modulus, load, second_moment, approach, .. } = self.contact;
+        let l = self.length;
+        (M1 * load - C2 * second_moment / (l * l)) / (PI * modulus * l) - approach
+    }
+
+    fn fits(&self, grid: &Grid) -> Result<()> {
+        let (lx, ly) = grid.lengths();
+        let sides = [("side length Lx", lx), ("side length Ly", if grid.is_line() { self.length } else { ly })];
+        for (name, value) in sides {
+            if (value - self.length).abs() > 1e-12 * self.length {
+                return Err(Error::Value { name, value, requirement: "the period of the solution" });
+            }
+        }
+        Ok(())
+    }
+}
+
+/// The sum of 1/r over the points of the unit lattice but the origin, its mean with 1/r of the origin removed, at a point of
+/// the cell; and its Laplacian. Ewald's sum with α² = π; terms below 1e-16 are left out.
+fn images(x: f64, y: f64) -> (f64, f64) {
+    const REACH: i32 = 3;
+    let alpha = PI.sqrt();
+    let (mut value, mut laplacian) = (-2.0, 0.0);
+    for i in -REACH..=REACH {
+        for j in -REACH..=REACH {
+            let square = (x - f64::from(i)).powi(2) + (y - f64::from(j)).powi(2);
+            if (i, j) == (0, 0) {
+                let (v, l) = origin(square);
+                value += v;
+                laplacian += l;
+            } else if square < 12.0 {
+                let r = square.sqrt();
+                let (far, near) = (libm::erfc(alpha * r), 2.0 * (-PI * square).exp());
+                value += far / r;
+                laplacian += far / (r * square) + near / square + 2.0 * PI * near;
+            }
+        }
+    }
+    let harmonics = |t: f64| {
+        let first = (2.0 * PI * t).cos();
+        let second = 2.0 * first * first - 1.0;
+        [1.0, first, second, 2.0 * first * second - first]
+    };
+    let (cx, cy) = (harmonics(x), harmonics(y));
+    for (i, cx) in cx.iter().enumerate() {
+        for (j, cy) in cy.iter().enumerate() {
+            let square = (i * i + j * j) as f64;
+            if (1.0..12.0).contains(&square) {
+                let order = square.sqrt();
+                let both = if i > 0 { 2.0 } else { 1.0 } * if j > 0 { 2.0 } else { 1.0 };
+                let term = both * libm::erfc(alpha * order) / order * cx * cy;
+                value += term;
+                laplacian -= 4.0 * PI * PI * square * term;
+            }
+        }
+    }
+    (value, laplacian)
+}
+
+/// −erf(αr)/r and its Laplacian, α² = π, from r².
+fn origin(square: f64) -> (f64, f64) {
+    if square > 0.1 {
+        let r = square.sqrt();
+        let (inner, near) = (libm::erf(PI.sqrt() * r), 2.0 * (-PI * square).exp());
+        return (-inner / r, -inner / (r * square) + near / square + 2.0 * PI * near);
+    }
+    // −2 Σ (−z)ᵏ/(k! (2k + 1)), z = πr²
+    let (mut value, mut laplacian, mut term) = (-2.0, 0.0, -2.0);
+    for k in 1..=16 {
+        let k = f64::from(k);
+        term *= -PI / k; // of r^(2k−2)
+        laplacian += 4.0 * k * k * term / (2.0 * k + 1.0);
+        term *= square;
+        value += term / (2.0 * k + 1.0);
+    }
+    (value, laplacian)
+}
+
+#[cfg(test)]
+mod tests {
+    use approx::assert_relative_eq;
+
+    use super::*;
+
+    #[test]
+    fn the_images_have_the_lattice_constants_and_the_periodicity() {
+        let (value, laplacian) = images(0.0, 0.0);
+        assert_relative_eq!(value, -M1, max_relative = 1e-14);
+        assert_relative_eq!(laplacian, 4.0 * C2, max_relative = 1e-13);
+        // with 1/r of the origin restored the sum is periodic
+        for y in [0.0, 0.2, 0.5] {
+            let [left, right] = [-0.7, 0.3].map(|x: f64| images(x, y).0 + 1.0 / x.hypot(y));
+            assert_relative_eq!(left, right, epsilon = 1e-13);
+        }
+        // the series at the origin meets the formula, and the Laplacian is that of the value
+        let (below, above) = (origin(0.1), origin(0.1 + 1e-15));
+        assert_relative_eq!(below.0, above.0, max_relative = 1e-13);
+        assert_relative_eq!(below.1, above.1, max_relative = 1e-12);
+        for (x, y) in [(0.1, 0.2), (0.5, 0.5), (0.35, 0.0)] {
+            let step = 1e-3;
+            let around = images(x + step, y).0 + images(x - step, y).0 + images(x, y + step).0 + images(x, y - step).0;
+            let (value, laplacian) = images(x, y);
+            assert_relative_eq!((around - 4.0 * value) / (step * step), laplacian, max_relative = 1e-4);
+        }
+    }
+}
