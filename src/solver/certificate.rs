@@ -43,7 +43,8 @@ where
         let traction = self.tally.traction / self.nodes();
         let softest = self.problem.operator.stiffness_range().0;
         let flat = if softest > 0.0 { epsilon * traction * traction / softest } else { 0.0 };
-        (self.certificate / touching.max(apart).max(flat)).sqrt()
+        let error = (self.certificate / touching.max(apart).max(flat)).sqrt();
+        if error.is_nan() { f64::INFINITY } else { error }
     }
 
     pub(super) fn load_error(&self) -> f64 {

@@ -305,7 +305,8 @@ where
         };
         let rise = |length: f64, local: f64| length * work + 0.5 * length * length * elastic + local;
         if local {
-            while rise(length, self.local_rise(length)).partial_cmp(&noise).is_none_or(|order| order.is_gt()) {
+            let falls = |rise: f64| rise.is_finite() && rise <= noise;
+            while !falls(rise(length, self.local_rise(length))) {
                 length *= 0.5;
                 if length < 1e-12 {
                     return None;
