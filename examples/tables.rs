@@ -2,20 +2,20 @@
 //!
 //! `cargo run --release --example tables [largest size]`, 1024 unless given.
 
+#[path = "../tests/common/authors.rs"]
+mod authors;
 #[path = "../tests/common/rough.rs"]
 mod rough;
 
 use std::time::Instant;
 
-use asperity::exact::{Hertz, Jkr, MaugisDugdale as ExactMaugisDugdale, Periodic, PeriodicContact, Sphere};
+use asperity::exact::{Hertz, Jkr, MaugisDugdale as ExactMaugisDugdale, Periodic, PeriodicContact};
 use asperity::{
     AdhesionLaw, ContactConstraint, Control, ElasticOperator, Exponential, Grid, MaugisDugdale, NoAdhesion, Penalty,
     Problem, Projection, Result, Settings, Solution, Solver, Surface, Uzawa, Westergaard,
 };
+use authors::RADIUS;
 use ndarray::Array2;
-
-/// The radius of the sphere, in units of the side length; the modulus is the unit of pressure.
-const RADIUS: f64 = 2.0;
 
 fn main() -> Result<()> {
     let largest = std::env::args().nth(1).and_then(|n| n.parse().ok()).unwrap_or(1024);
@@ -40,36 +40,6 @@ fn settings(tolerance: f64) -> Settings {
     Settings { tolerance, ..Settings::default() }
 }
 
-/// Nodes as the authors place them: from one side to the other with both ends, on a grid that counts one end.
-fn authors_coordinate(i: usize, n: usize) -> f64 {
-    i as f64 / (n - 1) as f64 - 0.5
-}
-
-fn authors_surface(n: usize) -> Result<Surface> {
-    let heights = Array2::from_shape_fn((n, n), |(i, j)| {
-        let (x, y) = (authors_coordinate(i, n), authors_coordinate(j, n));
-        -(x * x + y * y) / (2.0 * RADIUS)
-    });
-    Surface::new(Grid::square(n, 1.0)?, heights)
-}
-
-/// The paper's η² and θ²: sums over the nodes, against the Hertz contact of a single sphere under the load.
-fn authors_errors(surface: &Surface, load: f64, gap: &Array2<f64>, pressure: &Array2<f64>) -> Result<(f64, f64)> {
-    let exact = Hertz::new(RADIUS, 1.0)?.at_load(load)?;
-    let n = gap.nrows();
-    let [mut eta, mut theta, mut work, mut square] = [0.0; 4];
-    for ((i, j), &g) in gap.indexed_iter() {
-        let r = authors_coordinate(i, n).hypot(authors_coordinate(j, n));
-        let (u, p) = (g + surface.heights()[[i, j]], pressure[[i, j]]);
-        let (u_exact, p_exact) = (exact.displacement(r), exact.pressure(r));
-        eta += (u - u_exact) * (p - p_exact);
-        theta += (u - u_exact).powi(2);
-        work += u_exact * p_exact;
-        square += u_exact * u_exact;
-    }
-    Ok((eta / work, theta / square))
-}
-
 fn table_1(sizes: &[usize]) -> Result<()> {
     println!(
         "Table 1: Hertz, load 2e-4. eta as the authors place nodes and sum; on a periodic grid, the errors against"
@@ -84,10 +54,10 @@ fn table_1(sizes: &[usize]) -> Result<()> {
     let paper: [f64; 6] = [1.40e-2, 4.08e-3, 7.78e-4, 3.66e-4, 1.20e-4, 1.66e-5];
     let mut rates = Rates::default();
     for (&n, paper) in sizes.iter().zip(paper) {
-        let surface = authors_surface(n)?;
+        let surface = authors::surface(n)?;
         let mut problem = Problem::new(&surface, Westergaard::new(*surface.grid(), 1.0)?, NoAdhesion)?;
         let solution = Solver::new(settings(1e-11)).solve(&mut problem, Control::MeanPressure(2e-4))?;
-        let (eta, _) = authors_errors(&surface, 2e-4, &solution.gap, &solution.contact_pressure)?;
+        let (eta, _) = authors::errors(&surface, 2e-4, &solution.gap, &solution.contact_pressure)?;
         let eta = eta.sqrt();
 
         let periodic = Periodic::new(Hertz::new(RADIUS, 1.0)?, 1.0)?;
@@ -195,7 +165,7 @@ fn table_2() -> Result<()> {
         "appl.",
         "seconds"
     );
-    let surface = authors_surface(n)?;
+    let surface = authors::surface(n)?;
     let control = Control::MeanPressure(2e-4);
     let row = |name: &str, k: Option<f64>, printed: [&str; 3], run: &mut Run<'_>| -> Result<()> {
         let mut problem = Problem::new(&surface, Westergaard::new(*surface.grid(), 1.0)?, NoAdhesion)?;
@@ -203,12 +173,12 @@ fn table_2() -> Result<()> {
         let (solution, outer) = run(&mut problem)?;
         let seconds = clock.elapsed().as_secs_f64();
         let report = &solution.report;
-        let (eta, theta) = authors_errors(&surface, 2e-4, &solution.gap, &solution.contact_pressure)?;
+        let (eta, theta) = authors::errors(&surface, 2e-4, &solution.gap, &solution.contact_pressure)?;
         // the elastic pressure without its mean, from which the paper recovers the mean
         let centred = solution.pressure.mapv(|p| p - report.mean_pressure);
         let (low, high) = centred.iter().fold((0.0_f64, 0.0_f64), |(a, b), &p| (a.min(p), b.max(p)));
-        let by_min = authors_errors(&surface, 2e-4, &solution.gap, &centred.mapv(|p| p - low))?.0;
-        let by_max = authors_errors(&surface, 2e-4, &solution.gap, &centred.mapv(|p| p - high))?.0;
+        let by_min = authors::errors(&surface, 2e-4, &solution.gap, &centred.mapv(|p| p - low))?.0;
+        let by_max = authors::errors(&surface, 2e-4, &solution.gap, &centred.mapv(|p| p - high))?.0;
         let k = k.map_or_else(|| "-".to_owned(), |k| k.to_string());
         println!(
             "{name:<22} {k:>9} {eta:>9.3e} {theta:>9.3e} {:>9.1e} | {:>9} {:>9} {:>9} {by_min:>9.2e} {by_max:>9.2e} {outer:>6} {:>6} {:>6} {seconds:>8.2}  {}",
