@@ -19,7 +19,7 @@
 //!
 //! The method is that of Rey, Anciaux and Molinari, *Normal adhesive contact on rough surfaces: efficient algorithm for
 //! FFT-based BEM resolution*, Computational Mechanics 60 (2017), with a preconditioner, a certificate of the error, and
-//! the paper's misprints corrected.
+//! the paper's misprints corrected: see [`paper_checked`].
 //!
 //! # A sphere, without and with adhesion
 //!
@@ -75,6 +75,9 @@ mod field;
 mod grid;
 #[cfg(feature = "cli")]
 pub mod io;
+pub mod paper_checked {
+    #![doc = include_str!("paper_checked.md")]
+}
 mod par;
 #[cfg(feature = "cli")]
 mod picture;
