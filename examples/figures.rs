@@ -32,6 +32,17 @@ const RADIUS: f64 = 2.0;
 const MODULUS: f64 = 1.0;
 const SMALLEST: usize = 64;
 
+/// Of the lines of figure 4: without adhesion, and from each start with the first and with the second law.
+const COLOURS: [RGBColor; 7] = [
+    BLACK,
+    RGBColor(250, 170, 120),
+    RGBColor(225, 95, 30),
+    RGBColor(140, 20, 10),
+    RGBColor(140, 190, 240),
+    RGBColor(50, 120, 210),
+    RGBColor(10, 30, 130),
+];
+
 /// Where a solve starts.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Start {
@@ -99,7 +110,6 @@ fn main() -> Outcome<()> {
         sticky.push((name, runs));
     }
 
-    // what the convergence of each case is shown from: the start that the solver takes by itself
     let mut cases = vec![("Hertz".to_owned(), bare.iter().collect::<Vec<_>>())];
     for (name, runs) in &sticky {
         for start in starts {
@@ -240,17 +250,20 @@ fn profile_computed(run: &Run) -> Profile {
 fn profiles(path: &Path, title: &str, run: &Run, name: &str, other: (&str, Profile), floor: f64) -> Outcome<()> {
     let (computed, exact) = (profile_computed(run), profile_among_images(&run.exact)?);
     let end = 1.5 * run.exact.contact().adhesion_radius();
+    let far = if floor < 0.0 { 2.0 * end } else { 0.5 };
     let root = SVGBackend::new(path, (1240, 560)).into_drawing_area();
     root.fill(&WHITE)?;
     let root = root.titled(title, ("sans-serif", 18))?;
     let (left, right) = root.split_horizontally(620);
     let names = [name, other.0, "computed"];
+    // where the curves leave room
+    use SeriesLabelPosition::{LowerLeft, LowerRight, UpperRight};
+    let corners = if floor < 0.0 { (LowerLeft, LowerRight) } else { (UpperRight, UpperRight) };
     let lowest = if floor < 0.0 { floor } else { -0.05 * computed.pressure[0].1 };
     let curves = [&exact.pressure, &other.1.pressure, &computed.pressure];
-    panel(&left, "p / E*", end, (lowest, f64::INFINITY), names, curves, SeriesLabelPosition::UpperRight)?;
+    panel(&left, "p / E*", end, lowest, names, curves, corners.0)?;
     let curves = [&exact.displacement, &other.1.displacement, &computed.displacement];
-    let all = (f64::NEG_INFINITY, f64::INFINITY);
-    panel(&right, "u / L", 0.5, all, names, curves, SeriesLabelPosition::UpperRight)?;
+    panel(&right, "u / L", far, f64::NEG_INFINITY, names, curves, corners.1)?;
     root.present()?;
     Ok(())
 }
@@ -260,13 +273,13 @@ fn panel(
     area: &Panel<'_>,
     ordinate: &str,
     end: f64,
-    (lowest, highest): (f64, f64),
+    lowest: f64,
     names: [&str; 3],
     curves: [&Vec<(f64, f64)>; 3],
     legend: SeriesLabelPosition,
 ) -> Outcome<()> {
-    let curves = curves
-        .map(|c| c.iter().filter(|p| p.0 <= end).map(|&(x, y)| (x, y.clamp(lowest, highest))).collect::<Vec<_>>());
+    // (JKR's pressure falls to −∞ at the edge: what is below the panel is left out)
+    let curves = curves.map(|c| c.iter().copied().filter(|p| p.0 <= end && p.1 >= lowest).collect::<Vec<_>>());
     let values = || curves.iter().flatten().map(|p| p.1);
     let (low, high) = (values().fold(f64::INFINITY, f64::min), values().fold(f64::NEG_INFINITY, f64::max));
     let margin = 0.05 * (high - low);
@@ -294,10 +307,9 @@ fn panel(
         .draw_series(LineSeries::new(exact, red))?
         .label(names[0])
         .legend(move |(x, y)| PathElement::new([(x, y), (x + 24, y)], red));
-    chart
-        .draw_series(DashedLineSeries::new(other, 8, 5, blue))?
-        .label(names[1])
-        .legend(move |(x, y)| PathElement::new([(x, y), (x + 10, y), (x + 24, y)], blue));
+    chart.draw_series(DashedLineSeries::new(other, 8, 5, blue))?.label(names[1]).legend(move |(x, y)| {
+        EmptyElement::at((x, y)) + PathElement::new([(0, 0), (9, 0)], blue) + PathElement::new([(14, 0), (23, 0)], blue)
+    });
     let stride = (computed.len() / 80).max(1);
     chart
         .draw_series(computed.into_iter().step_by(stride).map(|p| Circle::new(p, 3, BLACK)))?
@@ -357,7 +369,7 @@ fn rates(
         .x_desc("nodes along a side, n")
         .y_desc(ordinate)
         .x_labels(6)
-        .x_label_formatter(&|x| format!("{:.0}", x.exp2()))
+        .x_label_formatter(&|x| if x.fract() == 0.0 { format!("{:.0}", x.exp2()) } else { String::new() })
         .y_label_formatter(&|y| format!("{y:.0e}"))
         .label_style(("sans-serif", 15))
         .axis_desc_style(("sans-serif", 17))
@@ -367,7 +379,7 @@ fn rates(
         let points = points(runs);
         let (level, exponent) = fit(&points);
         exponents.push(-exponent);
-        let colour = Palette99::pick(k).to_rgba();
+        let colour = COLOURS[k % COLOURS.len()];
         let (first, last) = ((SMALLEST as f64).log2(), finest);
         let line = [first, last].map(|x| (x, (level + exponent * x).exp2()));
         chart.draw_series(LineSeries::new(line, colour.stroke_width(1)))?;
