@@ -36,7 +36,8 @@ pub trait ElasticOperator<T: Real> {
 
     /// The stiffness of the softest and of the stiffest wave on the grid, pressure per length, the mean excluded.
     ///
-    /// They scale steps; estimates will do. Both are zero only where there is no wave, on a grid of one node.
+    /// The softest must not be overestimated: it bounds what the rounding of an updated pressure adds to the certificate.
+    /// Otherwise they scale steps, and estimates will do. Both are zero only where there is no wave, on a grid of one node.
     fn stiffness_range(&self) -> (f64, f64);
 
     /// The contact modulus E* that the half-space has for waves as short as the grid's spacing.

@@ -9,6 +9,7 @@ use rustfft::num_complex::Complex;
 use rustfft::{Fft, FftPlanner};
 
 use crate::error::{Error, Result};
+use crate::field::flat_mut;
 use crate::par::{self, Pool};
 use crate::real::Real;
 
@@ -98,7 +99,7 @@ impl<T: Real> Convolver<T> {
             }
             separate(tile, *n1, z);
         });
-        par::map_into(par::chunks_mut(contiguous(spectrum), *n0), sums, 1, |k, column| {
+        par::map_into(par::chunks_mut(flat_mut(spectrum), *n0), sums, 1, |k, column| {
             let Workspace { scratch, .. } = &mut *pool.get();
             columns.forward.process_with_scratch(column, scratch);
             let sum = modify(k, column);
@@ -115,11 +116,6 @@ impl<T: Real> Convolver<T> {
         });
         Ok(sums.iter().sum())
     }
-}
-
-/// The elements of an array that this module made, and that is in standard layout therefore.
-fn contiguous<T>(array: &mut Array2<T>) -> &mut [T] {
-    array.as_slice_mut().unwrap_or_default()
 }
 
 fn lines<T>(tile: &[Complex<T>], n: usize) -> impl Iterator<Item = &[Complex<T>]> {

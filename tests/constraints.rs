@@ -93,6 +93,6 @@ fn a_law_that_outruns_the_springs_is_not_called_converged() {
     let law = Exponential::new(2e-6, 3e-4).unwrap();
     let control = Control::MeanGap(0.03);
     let (solution, _) = with(&mut rough::<f64, _>(64, 16, law), Penalty::new(50.0).unwrap(), control, 1e-6);
-    assert!(solution.report.status != Status::Converged || solution.report.min_gap > -1e-2);
+    assert_eq!(solution.report.status, Status::Stalled);
     assert!(!solution.report.relative_error.is_nan() && solution.gap.iter().all(|g| g.is_finite()));
 }

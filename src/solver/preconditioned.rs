@@ -1,6 +1,6 @@
 //! Conjugate gradients with the compliance as preconditioner, two operator applications a step.
 
-use super::potential::{Of, Potential};
+use super::potential::{Buffer, Of, Potential};
 use super::state::State;
 use super::tally::{Tally, tally};
 use crate::adhesion::AdhesionLaw;
@@ -323,8 +323,8 @@ where
         let Self { reducer, gap, change, problem, constraint, .. } = self;
         let potential = Potential { law: &problem.law, constraint: &**constraint };
         let total = reducer.run(read(gap).zip(read(change)), |first, (gap, change)| {
-            let (mut next, mut before, mut after) = ([T::zero(); _], [T::zero(); _], [T::zero(); _]);
-            let next: &mut [T; crate::field::CHUNK] = &mut next;
+            let mut next: Buffer<T> = [T::zero(); _];
+            let (mut before, mut after) = ([T::zero(); _], [T::zero(); _]);
             for ((next, &gap), &d) in next.iter_mut().zip(gap).zip(change) {
                 *next = moved(projects, gap, length * d);
             }

@@ -130,12 +130,12 @@ where
         } else {
             state.refresh()?;
         }
-        state.check_law()?;
+        state.check_start()?;
         Ok(state)
     }
 
     /// Refuses a law that is not finite at the gaps of the start.
-    fn check_law(&self) -> Result<()> {
+    fn check_start(&self) -> Result<()> {
         if self.energy().is_finite() && self.tally.sum_r.is_finite() {
             return Ok(());
         }

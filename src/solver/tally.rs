@@ -33,7 +33,7 @@ impl Tally {
     }
 }
 
-/// The part of a [`Tally`] that a chunk of nodes gives; `tractions` are those of its gaps.
+/// The part of a [`Tally`] that a chunk of nodes gives; `tractions` are those of its gaps, of law and constraint.
 pub(super) fn tally<T: Real, L: AdhesionLaw<T>, C: ContactConstraint<T>>(
     potential: &Potential<'_, L, C>,
     offset: T,
@@ -63,14 +63,15 @@ pub(super) fn tally<T: Real, L: AdhesionLaw<T>, C: ContactConstraint<T>>(
         let out = &mut buffer[..gaps.len()];
         potential.law.energies(gaps, out);
         adhesive = out.iter().map(|e| e.widen()).sum();
+        let tractions = if projects {
+            tractions
+        } else {
+            potential.law.tractions(gaps, out);
+            out
+        };
         traction = tractions.iter().map(|t| t.widen()).sum();
     }
     if !projects {
-        if !potential.law.is_zero() {
-            let out = &mut buffer[..gaps.len()];
-            potential.law.tractions(gaps, out);
-            traction = out.iter().map(|t| t.widen()).sum();
-        }
         penalty = gaps.iter().enumerate().map(|(i, &gap)| potential.constraint.energy(first + i, gap).widen()).sum();
     }
     Partial { sum: [free, sum_r, sum_gap, work, adhesive, traction, penalty, contact, 0.0], min }
