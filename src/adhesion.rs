@@ -70,6 +70,20 @@ pub trait AdhesionLaw<T: Real>: Sync {
         false
     }
 
+    /// Replaces jumps of the traction by slopes no steeper than 1/`compliance`, and says whether there were any; a
+    /// compliance of zero brings the jumps back.
+    ///
+    /// Where the traction falls by Δ at one gap, a node with the traction and one without it are both in
+    /// equilibrium over a whole range of the gap, Δ times the node's compliance: the edge of the adhesive zone is
+    /// pinned to the nodes, and stays where an iteration happened to leave it. The default start of a solve therefore
+    /// comes from the smoothed law, of which the equilibrium does not depend on the way there. Energy, traction
+    /// and slope have to agree for the smoothed law too, and the work of adhesion stays the same. The default has no
+    /// jumps and does nothing.
+    fn smooth(&mut self, compliance: T) -> bool {
+        let _ = compliance;
+        false
+    }
+
     /// The energies at many gaps. The three slice functions exist so that a law behind `dyn` costs one virtual call
     /// for many nodes, and so that a law can use vector instructions.
     fn energies(&self, gaps: &[T], energies: &mut [T]) {
@@ -88,7 +102,7 @@ pub trait AdhesionLaw<T: Real>: Sync {
 }
 
 macro_rules! forward {
-    ($($type:ty),*) => {$(
+    ($($type:ty: { $($smooth:item)? }),*) => {$(
         impl<T: Real, L: AdhesionLaw<T> + ?Sized> AdhesionLaw<T> for $type {
             fn energy(&self, gap: T) -> T { (**self).energy(gap) }
             fn traction(&self, gap: T) -> T { (**self).traction(gap) }
@@ -96,13 +110,19 @@ macro_rules! forward {
             fn work_of_adhesion(&self) -> T { (**self).work_of_adhesion() }
             fn range(&self) -> T { (**self).range() }
             fn is_zero(&self) -> bool { (**self).is_zero() }
+            $($smooth)?
             fn energies(&self, gaps: &[T], energies: &mut [T]) { (**self).energies(gaps, energies) }
             fn tractions(&self, gaps: &[T], tractions: &mut [T]) { (**self).tractions(gaps, tractions) }
             fn slopes(&self, gaps: &[T], slopes: &mut [T]) { (**self).slopes(gaps, slopes) }
         }
     )*};
 }
-forward!(&L, Box<L>);
+// a law behind a shared reference cannot change: its start is that of a law without jumps
+forward!(&L: {}, Box<L>: {
+    fn smooth(&mut self, compliance: T) -> bool {
+        (**self).smooth(compliance)
+    }
+});
 
 /// Tells whether the three functions of a law agree with one another.
 ///
@@ -184,6 +204,13 @@ mod tests {
                 let (w, far) = (1e-2, reach * range);
                 check_law(&Exponential::new(w, range).unwrap(), far).unwrap();
                 check_law(&MaugisDugdale::new(w, range).unwrap(), far).unwrap();
+                for compliance in [1e-3, 0.7, 1e9] {
+                    let mut smoothed = MaugisDugdale::new(w, range).unwrap();
+                    assert!(smoothed.smooth(compliance * range * range / w));
+                    check_law(&smoothed, far).unwrap();
+                    assert_eq!(smoothed.work_of_adhesion(), w);
+                    assert!(!smoothed.smooth(0.0) && smoothed == MaugisDugdale::new(w, range).unwrap());
+                }
                 check_law(&Exponential::new(w as f32, range as f32).unwrap(), far).unwrap();
                 check_law(&MaugisDugdale::new(w as f32, range as f32).unwrap(), far).unwrap();
             }

@@ -142,8 +142,9 @@ impl<C> Solver<C> {
     /// Solves from the default start.
     ///
     /// That is a uniform gap: the mean gap, if that is given; under a given pressure twice the rms height without
-    /// adhesion, and full contact with adhesion. The start matters only with adhesion, where there may be several
-    /// equilibria.
+    /// adhesion, and full contact with adhesion. If the traction of the law jumps, as that of
+    /// [`MaugisDugdale`](crate::MaugisDugdale) does, what is found from there with the jump [smoothed](AdhesionLaw::smooth)
+    /// becomes the start, within the same solve. The start matters only with adhesion, where there may be several equilibria.
     ///
     /// # Errors
     /// Those of [`Solver::solve_from`].
@@ -170,7 +171,7 @@ impl<C> Solver<C> {
         problem: &mut Problem<T, O, L>,
         control: Control,
         start: Option<ArrayView2<'_, T>>,
-        mut observe: impl FnMut(&Iteration) -> ControlFlow<()>,
+        observe: impl FnMut(&Iteration) -> ControlFlow<()>,
     ) -> Result<Solution<T>>
     where
         T: Real,
@@ -180,31 +181,57 @@ impl<C> Solver<C> {
     {
         Error::positive("tolerance", self.settings.tolerance)?;
         let mut state = State::new(problem, &mut self.constraint, control, start, self.settings)?;
-        let status = loop {
-            state.residual();
-            state.precondition()?;
-            let converged = state.converged() && state.confirm()?;
-            if observe(&state.iteration()).is_break() {
-                break Status::Stopped;
+        match iterate(&mut state, observe) {
+            Ok(status) => state.finish(status),
+            Err(error) => {
+                state.problem.law.smooth(T::zero());
+                Err(error)
             }
-            if converged {
-                match state.update_constraint() {
-                    Outer::Done => break Status::Converged,
-                    Outer::Again => continue,
-                    Outer::Failed => break Status::IterationLimit,
-                }
-            }
-            if let Some(status) = state.verdict() {
-                break status;
-            }
-            if state.is_adrift() {
-                state.hold_apart();
+        }
+    }
+}
+
+fn iterate<T, O, L, C>(
+    state: &mut State<'_, T, O, L, C>,
+    mut observe: impl FnMut(&Iteration) -> ControlFlow<()>,
+) -> Result<Status>
+where
+    T: Real,
+    O: ElasticOperator<T>,
+    L: AdhesionLaw<T>,
+    C: ContactConstraint<T>,
+{
+    loop {
+        state.residual();
+        state.precondition()?;
+        let converged = state.converged() && state.confirm()?;
+        if observe(&state.iteration()).is_break() {
+            return Ok(Status::Stopped);
+        }
+        if converged {
+            if state.sharpen()? {
                 continue;
             }
-            if !state.step()? {
-                break Status::Stalled;
+            match state.update_constraint() {
+                Outer::Done => return Ok(Status::Converged),
+                Outer::Again => continue,
+                Outer::Failed => return Ok(Status::IterationLimit),
             }
-        };
-        state.finish(status)
+        }
+        if let Some(status) = state.verdict() {
+            if status == Status::Stalled && state.sharpen()? {
+                continue;
+            }
+            return Ok(status);
+        }
+        if state.is_adrift() {
+            if !state.sharpen()? {
+                state.hold_apart();
+            }
+            continue;
+        }
+        if !state.step()? && !state.sharpen()? {
+            return Ok(Status::Stalled);
+        }
     }
 }

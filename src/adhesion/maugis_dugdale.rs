@@ -9,8 +9,9 @@ use crate::real::Real;
 /// ```
 ///
 /// Maugis (1992); equations (26) and (27) of Rey, Anciaux and Molinari (2017), of which (26) is misprinted.
-/// The traction jumps at g = ρ: there are many equilibria at one mean gap, and which of them a solve
-/// finds depends on its start.
+/// The traction jumps at g = ρ: there are many equilibria at one mean gap, and which of them a solve finds depends on
+/// its start. [`smooth`](AdhesionLaw::smooth) lets the traction fall evenly between ρ − d/2 and ρ + d/2 instead, over
+/// d = σ₀·compliance, at most 2ρ.
 ///
 /// ```
 /// use asperity::{AdhesionLaw, MaugisDugdale};
@@ -22,6 +23,8 @@ use crate::real::Real;
 pub struct MaugisDugdale<T> {
     work_of_adhesion: T,
     range: T,
+    /// the width d over which the traction falls; zero for the law itself
+    smoothing: T,
 }
 
 impl<T: Real> MaugisDugdale<T> {
@@ -32,22 +35,47 @@ impl<T: Real> MaugisDugdale<T> {
     pub fn new(work_of_adhesion: T, range: T) -> Result<Self> {
         Error::non_negative("work of adhesion", work_of_adhesion.widen())?;
         Error::positive("range of adhesion", range.widen())?;
-        Ok(Self { work_of_adhesion, range })
+        Ok(Self { work_of_adhesion, range, smoothing: T::zero() })
+    }
+}
+
+impl<T: Real> MaugisDugdale<T> {
+    fn is_falling(&self, gap: T) -> bool {
+        (gap - self.range).abs() < T::lit(0.5) * self.smoothing
     }
 }
 
 impl<T: Real> AdhesionLaw<T> for MaugisDugdale<T> {
     fn energy(&self, gap: T) -> T {
-        -self.work_of_adhesion * (T::one() - gap / self.range).max(T::zero())
+        let (width, x) = (self.smoothing, self.range - gap);
+        let inside = if self.is_falling(gap) {
+            let left = x + T::lit(0.5) * width;
+            T::lit(0.5) * left * (left / width)
+        } else {
+            x.max(T::zero())
+        };
+        -self.work_of_adhesion * (inside / self.range)
     }
     fn traction(&self, gap: T) -> T {
-        if gap < self.range { self.work_of_adhesion / self.range } else { T::zero() }
+        let largest = self.work_of_adhesion / self.range;
+        if self.is_falling(gap) {
+            largest * ((self.range - gap) / self.smoothing + T::lit(0.5))
+        } else if gap < self.range {
+            largest
+        } else {
+            T::zero()
+        }
     }
-    fn slope(&self, _: T) -> T {
-        T::zero()
+    fn slope(&self, gap: T) -> T {
+        if self.is_falling(gap) { -self.work_of_adhesion / self.range / self.smoothing } else { T::zero() }
     }
     fn range(&self) -> T {
         self.range
+    }
+    fn smooth(&mut self, compliance: T) -> bool {
+        let width = self.work_of_adhesion / self.range * compliance;
+        self.smoothing = width.min(T::lit(2.0) * self.range);
+        self.smoothing > T::zero()
     }
     fn is_zero(&self) -> bool {
         self.work_of_adhesion == T::zero()

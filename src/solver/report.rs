@@ -57,6 +57,9 @@ pub struct Iteration {
     pub mean_gap: f64,
     /// How many nodes are in contact.
     pub contact_points: usize,
+    /// Whether the solve is still on the way to its start, with the jumps of the law smoothed: then the energy and the
+    /// error are those of the smoothed law. See [`AdhesionLaw::smooth`](crate::AdhesionLaw::smooth).
+    pub smoothed: bool,
 }
 
 /// The account of a solve. Energies are per area; all numbers are in the units of the input.

@@ -16,6 +16,10 @@ use crate::real::Real;
 /// Iterations after which the pressure, updated step by step, is computed anew.
 const REFRESH: usize = 50;
 
+/// The compliance with which the law is smoothed for the default start, in Δx/E*. A node alone has 1.1, the nodes
+/// along an edge some 3 together.
+const SMOOTHING: f64 = 5.0;
+
 /// How often [`Method::Rey2017`] computes the certificate, which it needs for nothing else.
 const CERTIFY: usize = 10;
 
@@ -61,6 +65,8 @@ pub(super) struct State<'a, T, O, L, C> {
     pub(super) best_error: f64,
     pub(super) lowest_energy: f64,
     pub(super) idle: usize,
+    /// whether the jumps of the law are smoothed
+    pub(super) smoothed: bool,
     /// the load that pulled the surfaces apart
     pub(super) detached: Option<f64>,
 }
@@ -123,8 +129,14 @@ where
             best_error: f64::INFINITY,
             lowest_energy: f64::INFINITY,
             idle: 0,
+            smoothed: false,
             detached: None,
         };
+        if uniform && settings.method == Method::Preconditioned {
+            let (dx, dy) = state.problem.grid().spacing();
+            let compliance = SMOOTHING * dx.max(dy) / state.problem.operator.modulus();
+            state.smoothed = state.problem.law.smooth(T::lit(compliance));
+        }
         if uniform {
             state.count();
         } else {
@@ -335,11 +347,32 @@ where
             energy: self.energy(),
             mean_gap: self.tally.sum_gap / self.nodes(),
             contact_points: self.tally.contact as usize,
+            smoothed: self.smoothed,
         }
+    }
+
+    /// Brings back the jumps of a law that was smoothed, for which the state becomes the start; `false` if it was not.
+    pub(super) fn sharpen(&mut self) -> Result<bool> {
+        if !self.smoothed {
+            return Ok(false);
+        }
+        self.smoothed = false;
+        self.problem.law.smooth(T::zero());
+        if self.is_adrift() {
+            // the law itself may hold what the smoothed one does not
+            self.gap.fill(T::lit(uniform_start(self.problem, self.control)));
+            self.refresh()?;
+        }
+        self.restart();
+        Ok(true)
     }
 
     /// The fields as they are returned, with the certificate of just these.
     pub(super) fn finish(mut self, status: Status) -> Result<Solution<T>> {
+        if self.sharpen()? {
+            self.residual();
+            self.certificate = f64::INFINITY;
+        }
         let status = if self.detached.is_some() && status != Status::Stopped { Status::Detached } else { status };
         if self.age > 0 {
             self.refresh()?;

@@ -1,0 +1,102 @@
+//! The two spheres of Rey, Anciaux and Molinari (2017) with the law of Maugis and Dugdale, from a start that does not know
+//! the answer, against the exact solution among periodic images.
+
+use std::ops::ControlFlow;
+
+use asperity::exact::{MaugisDugdale as Exact, Periodic};
+use asperity::*;
+use ndarray::Array2;
+
+const RADIUS: f64 = 2.0;
+
+/// Range, work of adhesion and mean gap of Figures 2 and 3.
+const STATES: [(f64, f64, f64); 2] = [(3e-4, 1e-5, 0.0405), (2e-3, 1e-4, 0.0429)];
+
+/// Relative errors in the energy norm and in L² of u without its mean, and the absolute one of p̄.
+fn errors(n: usize, (range, work, gap): (f64, f64, f64), start: Option<f64>) -> [f64; 3] {
+    let grid = Grid::square(n, 1.0).unwrap();
+    let surface = Surface::paraboloid(grid, RADIUS).unwrap();
+    let sphere = Exact::new(RADIUS, 1.0, work, range).unwrap();
+    let exact = Periodic::new(sphere, 1.0).unwrap().at_mean_gap(gap, surface.mean()).unwrap();
+    let law = MaugisDugdale::new(work, range).unwrap();
+    let mut problem = Problem::new(&surface, Westergaard::new(grid, 1.0).unwrap(), law).unwrap();
+    let mut solver = Solver::new(Settings { tolerance: 1e-7, ..Settings::default() });
+    let start = start.map(|gap| Array2::from_elem(grid.shape(), gap));
+    let start = start.as_ref().map(|gap| gap.view());
+    let control = Control::MeanGap(gap);
+    let found = solver.solve_from(&mut problem, control, start, |_| ControlFlow::Continue(())).unwrap();
+    assert_eq!(found.report.status, Status::Converged);
+    assert_eq!(problem.law(), &law);
+
+    let reference = exact.displacement_field(&grid).unwrap();
+    let mut half_space = Westergaard::<f64>::new(grid, 1.0).unwrap();
+    let mut norms = |u: Array2<f64>| {
+        let mean = u.sum() / u.len() as f64;
+        let (u, mut p) = (u.mapv(|u| u - mean), Array2::zeros(grid.shape()));
+        half_space.pressure(u.view(), p.view_mut()).unwrap();
+        ((&u * &p).sum().sqrt(), (&u * &u).sum().sqrt())
+    };
+    let (energy, l2) = norms(&found.gap + surface.heights() - &reference);
+    let (whole_energy, whole_l2) = norms(reference);
+    [energy / whole_energy, l2 / whole_l2, (found.report.mean_pressure - exact.mean_pressure()).abs()]
+}
+
+#[test]
+fn errors_fall_from_grid_to_grid_from_the_default_start() {
+    // the pressure is of order √(distance) at the contact edge and jumps at c: its energy norm converges like Δx
+    for state in STATES {
+        let found = [64, 128, 256, 512].map(|n| errors(n, state, None));
+        for (k, least) in [(0, 0.9), (1, 1.2)] {
+            assert!(found.windows(2).all(|pair| pair[1][k] < pair[0][k]), "{found:?}");
+            let rate = (found[0][k] / found[3][k]).log2() / 3.0;
+            assert!(rate > least, "{rate} {found:?}");
+        }
+        assert!(found[3][0] < 0.025 && found[3][1] < 0.01, "{found:?}");
+        // half a per cent of the JKR pull-off pressure, 1.5 π w R
+        assert!(found[3][2] < 0.005 * 1.5 * std::f64::consts::PI * state.1 * RADIUS, "{found:?}");
+    }
+}
+
+#[test]
+#[ignore = "a minute: cargo test --release --test maugis_dugdale -- --ignored"]
+fn errors_go_on_falling_to_2048() {
+    for state in STATES {
+        let found = [512, 1024, 2048].map(|n| errors(n, state, None));
+        assert!((0..2).all(|k| found.windows(2).all(|pair| pair[1][k] < 0.7 * pair[0][k])), "{found:?}");
+    }
+}
+
+#[test]
+fn a_uniform_gap_that_is_given_is_taken_as_it_is() {
+    // the edge of the adhesive zone stays pinned where the approach left it
+    let [default, given] = [None, Some(STATES[1].2)].map(|start| errors(128, STATES[1], start));
+    assert!(given[1] > 3.0 * default[1], "{default:?} {given:?}");
+}
+
+#[test]
+fn a_law_comes_back_as_it_was_however_the_solve_ends() {
+    let grid = Grid::square(64, 1.0).unwrap();
+    let surface = Surface::paraboloid(grid, RADIUS).unwrap();
+    let law = MaugisDugdale::new(1e-4, 2e-3).unwrap();
+    let mut problem = Problem::new(&surface, Westergaard::<f64>::new(grid, 1.0).unwrap(), law).unwrap();
+    let control = Control::MeanGap(0.0429);
+    let adhesive =
+        |solution: &Solution<f64>| solution.gap.iter().map(|&g| law.energy(g)).sum::<f64>() / solution.gap.len() as f64;
+    for limit in [0, 3, 12, 2000] {
+        let mut solver = Solver::new(Settings { max_iterations: limit, ..Settings::default() });
+        let limited = solver.solve(&mut problem, control).unwrap();
+        assert_eq!(limited.report.status == Status::Converged, limit == 2000);
+        let mut smoothed = 0;
+        let stopped = Solver::default()
+            .solve_from(&mut problem, control, None, |iteration| {
+                smoothed += usize::from(iteration.smoothed);
+                if iteration.iteration < limit { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+            })
+            .unwrap();
+        assert!(smoothed > 0 && stopped.report.iterations <= limit);
+        for solution in [limited, stopped] {
+            assert!((solution.report.adhesive_energy - adhesive(&solution)).abs() <= 1e-12 * 1e-4);
+            assert_eq!(problem.law(), &law);
+        }
+    }
+}
