@@ -363,10 +363,13 @@ fn rates(
         let (first, last) = ((SMALLEST as f64).log2(), finest);
         let line = [first, last].map(|x| (x, (level + exponent * x).exp2()));
         chart.draw_series(LineSeries::new(line, colour.stroke_width(1)))?;
+        // rings, so that what they coincide with shows
+        let ring = name.ends_with(Start::Exact.name());
+        let (radius, style) = if ring { (7, colour.stroke_width(2)) } else { (4, colour.filled()) };
         chart
-            .draw_series(points.into_iter().map(|p| Circle::new(p, 4, colour.filled())))?
+            .draw_series(points.into_iter().map(|p| Circle::new(p, radius, style)))?
             .label(format!("{name}: n^−{:.2}", -exponent))
-            .legend(move |(x, y)| Circle::new((x + 12, y), 4, colour.filled()));
+            .legend(move |(x, y)| Circle::new((x + 12, y), radius, style));
     }
     chart
         .configure_series_labels()
