@@ -55,6 +55,10 @@
 //! | [`AdhesionLaw`] | energy, traction, slope at a gap | [`NoAdhesion`], [`MaugisDugdale`], [`Exponential`] |
 //! | [`ContactConstraint`] | how g ≥ 0 is imposed | [`Projection`], [`Penalty`], [`Uzawa`] |
 //!
+//! # More than one number
+//!
+//! [`ContactStatistics`], [`Clusters`] and [`PressureDistribution`] say what the contact of a solution is like.
+//!
 //! # Exact solutions
 //!
 //! [`exact`] has the closed forms to compare with: spheres by Hertz, JKR and Maugis, alone or among their periodic images,
@@ -67,6 +71,7 @@
 
 mod adhesion;
 mod constraint;
+mod contact;
 mod elastic;
 mod error;
 pub mod exact;
@@ -88,6 +93,7 @@ mod surface;
 
 pub use adhesion::{AdhesionLaw, Exponential, MaugisDugdale, NoAdhesion, check_law};
 pub use constraint::{ContactConstraint, Outer, Penalty, Projection, Uzawa};
+pub use contact::{Clusters, Connectivity, ContactStatistics, PressureDistribution};
 pub use elastic::{ElasticOperator, Spectral, Westergaard};
 pub use error::{Error, Result};
 pub use grid::Grid;
