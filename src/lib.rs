@@ -55,9 +55,10 @@
 //! | [`AdhesionLaw`] | energy, traction, slope at a gap | [`NoAdhesion`], [`MaugisDugdale`], [`Exponential`] |
 //! | [`ContactConstraint`] | how g ≥ 0 is imposed | [`Projection`], [`Penalty`], [`Uzawa`] |
 //!
-//! # More than one number
+//! # More than one number, more than one load
 //!
-//! [`ContactStatistics`], [`Clusters`] and [`PressureDistribution`] say what the contact of a solution is like.
+//! [`ContactStatistics`], [`Clusters`] and [`PressureDistribution`] say what the contact of a solution is like; [`Sweep`]
+//! solves under a sequence of loads, each from where the last ones lead.
 //!
 //! # Exact solutions
 //!
@@ -90,6 +91,7 @@ mod problem;
 mod real;
 mod solver;
 mod surface;
+mod sweep;
 
 pub use adhesion::{AdhesionLaw, Exponential, MaugisDugdale, NoAdhesion, check_law};
 pub use constraint::{ContactConstraint, Outer, Penalty, Projection, Uzawa};
@@ -103,6 +105,7 @@ pub use problem::{Control, Problem};
 pub use real::Real;
 pub use solver::{Criterion, Iteration, Method, Report, Settings, Solution, Solver, Status};
 pub use surface::Surface;
+pub use sweep::Sweep;
 
 /// Runs the code of the README as a test.
 #[cfg(doctest)]
