@@ -1,6 +1,7 @@
 //! The command-line tool: `asperity demo` shows what the library does, `asperity solve` does it on files.
 
 mod demo;
+mod options;
 mod progress;
 mod report;
 mod run;
