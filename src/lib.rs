@@ -55,6 +55,11 @@
 //! | [`AdhesionLaw`] | energy, traction, slope at a gap | [`NoAdhesion`], [`MaugisDugdale`], [`Exponential`] |
 //! | [`ContactConstraint`] | how g ≥ 0 is imposed | [`Projection`], [`Penalty`], [`Uzawa`] |
 //!
+//! # More than one number, more than one load
+//!
+//! [`ContactStatistics`], [`Clusters`] and [`PressureDistribution`] say what the contact of a solution is like; [`Sweep`]
+//! solves under a sequence of loads, each from where the last ones lead.
+//!
 //! # Exact solutions
 //!
 //! [`exact`] has the closed forms to compare with: spheres by Hertz, JKR and Maugis, alone or among their periodic images,
@@ -67,6 +72,7 @@
 
 mod adhesion;
 mod constraint;
+mod contact;
 mod elastic;
 mod error;
 pub mod exact;
@@ -85,9 +91,11 @@ mod problem;
 mod real;
 mod solver;
 mod surface;
+mod sweep;
 
 pub use adhesion::{AdhesionLaw, Exponential, MaugisDugdale, NoAdhesion, check_law};
 pub use constraint::{ContactConstraint, Outer, Penalty, Projection, Uzawa};
+pub use contact::{Clusters, Connectivity, ContactStatistics, PressureDistribution};
 pub use elastic::{ElasticOperator, Spectral, Westergaard};
 pub use error::{Error, Result};
 pub use grid::Grid;
@@ -97,6 +105,7 @@ pub use problem::{Control, Problem};
 pub use real::Real;
 pub use solver::{Criterion, Iteration, Method, Report, Settings, Solution, Solver, Status};
 pub use surface::Surface;
+pub use sweep::Sweep;
 
 /// Runs the code of the README as a test.
 #[cfg(doctest)]

@@ -5,10 +5,10 @@ use asperity::{Colouring, Control, Exponential, Grid, Map, NoAdhesion, Settings,
 use clap::Args;
 use ndarray::Array2;
 
+use crate::options::threads;
 use crate::progress::Progress;
 use crate::report::{Style, si, table, warn};
 use crate::run::{self, Case, Units};
-use crate::solve::threads;
 use crate::terrain::rough;
 use crate::{Outcome, say};
 

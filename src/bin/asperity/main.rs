@@ -1,10 +1,15 @@
-//! The command-line tool: `asperity demo` shows what the library does, `asperity solve` does it on files.
+//! The command-line tool: `asperity demo` shows what the library does, `asperity solve` does it on files,
+//! and `asperity sweep` under many loads.
 
 mod demo;
+mod journal;
+mod loads;
+mod options;
 mod progress;
 mod report;
 mod run;
 mod solve;
+mod sweep;
 mod terrain;
 
 use std::error::Error;
@@ -29,12 +34,14 @@ const EXAMPLES: &str = "\
 Examples:
   asperity demo
   asperity solve --heights heights.npy --mean-pressure 0.01 --out results
+  asperity sweep --heights heights.npy --mean-pressures 1e-3:1e-1:20:log --out sweep.csv
   asperity solve --help";
 
 #[derive(Subcommand)]
 enum Command {
     Demo(demo::Options),
     Solve(Box<solve::Options>),
+    Sweep(Box<sweep::Options>),
 }
 
 /// What a command may fail with: one line that names the value and the remedy.
@@ -52,6 +59,7 @@ fn main() -> ExitCode {
     let converged = match tool.command {
         Command::Demo(options) => demo::run(&options),
         Command::Solve(options) => solve::run(&options),
+        Command::Sweep(options) => sweep::run(&options),
     };
     match converged {
         Ok(true) => CONVERGED,

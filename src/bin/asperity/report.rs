@@ -81,6 +81,11 @@ pub fn warn(name: &str, account: &Account, case: &Case, range: f64) {
         );
         complain("warning", &text);
     }
+    warn_of_resolution(&name, report, range);
+}
+
+/// Says on standard error if the grid does not resolve the range of adhesion; `name` comes before that.
+pub fn warn_of_resolution(name: &str, report: &Report, range: f64) {
     if report.under_resolved {
         // mu_rho goes with the root of the spacing, and with the inverse of the range.
         let (finer, longer) = ((report.mu_rho / 0.5).powi(2).ceil(), range * report.mu_rho / 0.5);

@@ -52,17 +52,23 @@ pub fn solve<T: Scalar, L: AdhesionLaw<T>>(
         ControlFlow::Continue(())
     })?;
     let seconds = clock.elapsed().as_secs_f64();
-    let fields = [("gap", &solution.gap), ("pressure", &solution.pressure), ("pressure", &solution.contact_pressure)];
-    if let Some((name, _)) = fields.iter().find(|(_, field)| field.iter().any(|v| !v.is_finite())) {
-        let remedy = "use --precision f64, or units in which the numbers are moderate";
-        return Err(format!("the {name} leaves the range of {}: {remedy}", T::NAME).into());
-    }
+    check_range(&solution)?;
     let pressures = solution
         .pressure
         .iter()
         .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), p| (low.min(p.widen()), high.max(p.widen())));
     let account = Account { report: solution.report.clone(), nodes: grid.nodes(), pressures, seconds };
     Ok((solution, account))
+}
+
+/// Refuses fields that the precision cannot hold.
+pub fn check_range<T: Scalar>(solution: &Solution<T>) -> Outcome<()> {
+    let fields = [("gap", &solution.gap), ("pressure", &solution.pressure), ("pressure", &solution.contact_pressure)];
+    if let Some((name, _)) = fields.iter().find(|(_, field)| field.iter().any(|v| !v.is_finite())) {
+        let remedy = "use --precision f64, or units in which the numbers are moderate";
+        return Err(format!("the {name} leaves the range of {}: {remedy}", T::NAME).into());
+    }
+    Ok(())
 }
 
 /// Makes every solve of this process use so many threads.

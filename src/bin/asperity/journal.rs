@@ -1,0 +1,391 @@
+//! A file to which rows are appended as they come, and from which an interrupted sweep goes on.
+//!
+//! Beside the file stands its state, an archive with the gaps from which the next row starts, and with a comment that says
+//! how far the file had got by then, and to what it belongs. A row is appended and brought to the disk before the
+//! state is replaced, in one go: the state never runs ahead of the file, and what the file has beyond the state is at most
+//! one row, whole or not, which is taken back and computed again.
+
+use std::ffi::OsString;
+use std::fs::{self, File, OpenOptions};
+use std::io::{self, BufWriter, Write};
+use std::path::{Path, PathBuf};
+
+use asperity::Error;
+use asperity::io::read_field;
+use ndarray::{Array2, ArrayView2, Axis};
+use ndarray_npy::{WritableElement, WriteNpyExt};
+use serde_json::{Map, Value, json};
+use zip::write::SimpleFileOptions;
+use zip::{CompressionMethod, ZipArchive, ZipWriter};
+
+use crate::Outcome;
+
+/// What the rows depend on, by name; all of it has to be the same for going on.
+pub type Identity = Map<String, Value>;
+
+/// The rows of a sweep on disk, and how to go on with them.
+#[derive(Debug)]
+pub struct Journal {
+    path: PathBuf,
+    header: String,
+    identity: Identity,
+    file: File,
+    written: Written,
+}
+
+/// What the file holds.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Written {
+    rows: usize,
+    /// how many of them did not converge
+    unconverged: usize,
+    /// the loads of the rows
+    loads: Hash,
+    bytes: u64,
+    content: Hash,
+}
+
+impl Written {
+    const NOTHING: Self = Self { rows: 0, unconverged: 0, loads: Hash::NEW, bytes: 0, content: Hash::NEW };
+}
+
+const REMEDY: &str = "choose another --out, or --force to start over";
+
+impl Journal {
+    /// Opens the file for the rows of `loads`, new or to go on with, and returns the gaps from which to go on, the latest
+    /// last. With `force` it is new in any case.
+    pub fn open(
+        path: &Path,
+        header: &str,
+        identity: Identity,
+        loads: &[f64],
+        force: bool,
+    ) -> Outcome<(Self, Vec<Array2<f64>>)> {
+        let unwritable = |path: &Path, e: io::Error| Error::file(path, format!("cannot be written: {e}"));
+        let found = match fs::metadata(path) {
+            Ok(metadata) if !metadata.is_file() => {
+                return Err(Error::file(path, "is not a regular file: choose another --out").into());
+            }
+            Ok(_) => !force,
+            Err(_) => false,
+        };
+        let (written, gaps) = if found {
+            resume(path, header, &identity, loads)?
+        } else {
+            if let Some(folder) = path.parent() {
+                fs::create_dir_all(folder).map_err(|e| unwritable(folder, e))?;
+            }
+            save(path, &identity, &Written::NOTHING, &[] as &[ArrayView2<'_, f64>])?;
+            (Written::NOTHING, Vec::new())
+        };
+        let open = || {
+            let file = OpenOptions::new().append(true).create(true).open(path)?;
+            file.set_len(written.bytes)?;
+            Ok(file)
+        };
+        let file = open().map_err(|e| unwritable(path, e))?;
+        Ok((Self { path: path.to_owned(), header: header.to_owned(), identity, file, written }, gaps))
+    }
+
+    /// How many rows there are.
+    pub fn rows(&self) -> usize {
+        self.written.rows
+    }
+
+    /// How many of them did not converge.
+    pub fn unconverged(&self) -> usize {
+        self.written.unconverged
+    }
+
+    /// Appends a row, and saves the gaps from which the next one starts, the latest last.
+    pub fn append<T: WritableElement + Clone>(
+        &mut self,
+        row: &str,
+        load: f64,
+        converged: bool,
+        gaps: &[ArrayView2<'_, T>],
+    ) -> Outcome<()> {
+        let text = if self.written.rows == 0 { format!("{}{row}\n", self.header) } else { format!("{row}\n") };
+        let mut write = || {
+            if self.file.metadata()?.len() != self.written.bytes {
+                return Err(io::Error::other("it was changed by another program meanwhile"));
+            }
+            self.file.write_all(text.as_bytes())?;
+            self.file.sync_data()
+        };
+        write().map_err(|e| Error::file(&self.path, format!("cannot be written: {e}")))?;
+        self.written = Written {
+            rows: self.written.rows + 1,
+            unconverged: self.written.unconverged + usize::from(!converged),
+            loads: self.written.loads.of(&load.to_bits().to_le_bytes()),
+            bytes: self.written.bytes + text.len() as u64,
+            content: self.written.content.of(text.as_bytes()),
+        };
+        save(&self.path, &self.identity, &self.written, gaps)
+    }
+}
+
+/// Where the state of a file is.
+fn state_path(path: &Path) -> PathBuf {
+    with_suffix(path, ".state.npz")
+}
+
+fn with_suffix(path: &Path, suffix: &str) -> PathBuf {
+    let mut name = OsString::from(path);
+    name.push(suffix);
+    name.into()
+}
+
+/// What of a file is to be kept, and the gaps from which to go on.
+fn resume(path: &Path, header: &str, identity: &Identity, loads: &[f64]) -> Outcome<(Written, Vec<Array2<f64>>)> {
+    let refuse = |reason: String| Err(Error::file(path, format!("{reason}: {REMEDY}")).into());
+    let state = state_path(path);
+    let comment = match File::open(&state) {
+        Ok(file) => ZipArchive::new(file).map(|archive| archive.comment().to_vec()).unwrap_or_default(),
+        Err(e) if e.kind() == io::ErrorKind::NotFound => {
+            return refuse(format!("exists, but its state to go on from, {}, does not", state.display()));
+        }
+        Err(e) => return refuse(format!("cannot be continued, {} cannot be read ({e})", state.display())),
+    };
+    let Some((theirs, written, count)) = parse(&comment) else {
+        return refuse(format!("cannot be continued, {} is damaged", state.display()));
+    };
+    for (key, here) in identity {
+        let there = theirs.get(key).unwrap_or(&Value::Null);
+        if there != here {
+            let name = key.replace('_', " ");
+            return refuse(match key.as_str() {
+                "heights" | "initial_gap" => format!("belongs to another sweep, with another file of its {name}"),
+                _ => format!("belongs to another sweep, whose {name} is {}, and not {}", bare(there), bare(here)),
+            });
+        }
+    }
+    let same_loads = loads.get(..written.rows).is_some_and(|loads| Hash::NEW.of_numbers(loads) == written.loads);
+    if !same_loads {
+        return refuse(format!("belongs to another sweep, whose first {} loads are others", written.rows));
+    }
+    let content = fs::read(path).map_err(|e| Error::file(path, format!("cannot be read: {e}")))?;
+    let (kept, rest) = content.split_at((written.bytes as usize).min(content.len()));
+    // an interrupted write leaves at most one row, whole or not, and before the first one the header, whole or not
+    let rest = match rest.strip_prefix(header.as_bytes()) {
+        _ if written.rows > 0 => Some(rest),
+        Some(rest) => Some(rest),
+        None if header.as_bytes().starts_with(rest) => Some(&[][..]),
+        None => None,
+    };
+    let one_row = rest.is_some_and(|rest| rest.split_inclusive(|c| *c == b'\n').count() <= 1);
+    if Hash::NEW.of(kept) != written.content || !one_row {
+        return refuse("was changed since it was written".to_owned());
+    }
+    let mut gaps = Vec::new();
+    if written.rows > 0 {
+        let stack = read_field(&state)?;
+        let rows = stack.nrows().checked_div(count).unwrap_or_default().max(1);
+        gaps.extend(stack.axis_chunks_iter(Axis(0), rows).map(|gap| gap.to_owned()));
+    }
+    Ok((written, gaps))
+}
+
+/// A value without quotation marks.
+fn bare(value: &Value) -> String {
+    value.as_str().map_or_else(|| value.to_string(), str::to_owned)
+}
+
+/// Replaces the state, in one go.
+fn save<T: WritableElement + Clone>(
+    path: &Path,
+    identity: &Identity,
+    written: &Written,
+    gaps: &[ArrayView2<'_, T>],
+) -> Outcome<()> {
+    let (state, temporary) = (state_path(path), with_suffix(path, ".state.tmp"));
+    let comment = json!({
+        "rows": written.rows,
+        "gaps": gaps.len(),
+        "unconverged": written.unconverged,
+        "loads": written.loads.to_string(),
+        "bytes": written.bytes,
+        "content": written.content.to_string(),
+        "sweep": identity,
+    });
+    let write = || -> Outcome<()> {
+        let mut zip = ZipWriter::new(BufWriter::new(File::create(&temporary)?));
+        zip.set_comment(comment.to_string());
+        if !gaps.is_empty() {
+            let stack = ndarray::concatenate(Axis(0), gaps)?;
+            let large = stack.len() as u64 * size_of::<T>() as u64 > u64::from(u32::MAX) / 2;
+            let options = SimpleFileOptions::default().compression_method(CompressionMethod::Stored).large_file(large);
+            zip.start_file("gap.npy", options)?;
+            stack.write_npy(&mut zip)?;
+        }
+        let file = zip.finish()?.into_inner().map_err(io::IntoInnerError::into_error)?;
+        file.sync_all()?;
+        Ok(fs::rename(&temporary, &state)?)
+    };
+    write().map_err(|e| Error::file(&state, format!("cannot be written: {e}")).into())
+}
+
+/// To what a state belongs, how far it is, and how many gaps it has.
+fn parse(comment: &[u8]) -> Option<(Identity, Written, usize)> {
+    let state: Value = serde_json::from_slice(comment).ok()?;
+    let number = |key: &str| state.get(key)?.as_u64();
+    let hash = |key: &str| Some(Hash(u64::from_str_radix(state.get(key)?.as_str()?, 16).ok()?));
+    let written = Written {
+        rows: number("rows")?.try_into().ok()?,
+        unconverged: number("unconverged")?.try_into().ok()?,
+        loads: hash("loads")?,
+        bytes: number("bytes")?,
+        content: hash("content")?,
+    };
+    Some((state.get("sweep")?.as_object()?.clone(), written, number("gaps")?.try_into().ok()?))
+}
+
+/// A fingerprint of bytes: FNV-1a, the same on every platform and in every version.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hash(u64);
+
+impl Hash {
+    pub const NEW: Self = Self(0xcbf2_9ce4_8422_2325);
+
+    /// That of some more bytes.
+    pub fn of(self, bytes: &[u8]) -> Self {
+        Self(bytes.iter().fold(self.0, |hash, byte| (hash ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3)))
+    }
+
+    /// That of some more numbers.
+    pub fn of_numbers<'a>(self, numbers: impl IntoIterator<Item = &'a f64>) -> Self {
+        numbers.into_iter().fold(self, |hash, number| hash.of(&number.to_bits().to_le_bytes()))
+    }
+}
+
+impl std::fmt::Display for Hash {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{:016x}", self.0)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use ndarray::array;
+
+    use super::*;
+
+    const HEADER: &str = "load,answer\n";
+    const LOADS: [f64; 3] = [1.0, 2.0, 3.0];
+
+    fn identity(modulus: &str) -> Identity {
+        let Value::Object(identity) = json!({ "shape": "2 1", "modulus": modulus, "heights": "0123" }) else {
+            panic!()
+        };
+        identity
+    }
+
+    fn open(path: &Path, loads: &[f64]) -> Outcome<(Journal, Vec<Array2<f64>>)> {
+        Journal::open(path, HEADER, identity("1"), loads, false)
+    }
+
+    /// A sweep whose answer depends on the two gaps before, killed after so many rows.
+    fn sweep(path: &Path, loads: &[f64], killed: usize) -> Outcome<String> {
+        let (mut journal, mut gaps) = open(path, loads)?;
+        for &load in &loads[journal.rows()..killed] {
+            let sum = gaps.iter().fold(0.0, |sum, gap| sum + gap[[0, 0]] + 2.0 * gap[[1, 0]]);
+            gaps.push(array![[load], [sum]]);
+            gaps.drain(..gaps.len().saturating_sub(2));
+            let views: Vec<_> = gaps.iter().map(|gap| gap.view()).collect();
+            journal.append(&format!("{load},{sum}"), load, load != 2.0, &views)?;
+        }
+        assert_eq!(journal.unconverged(), usize::from(journal.rows() > 1));
+        Ok(fs::read_to_string(path)?)
+    }
+
+    fn reason(result: Outcome<impl std::fmt::Debug>) -> String {
+        result.unwrap_err().to_string()
+    }
+
+    #[test]
+    fn a_sweep_killed_anywhere_ends_as_one_that_was_not() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("new/sweep.csv");
+        let whole = sweep(&path, &LOADS, 3).unwrap();
+        assert_eq!(whole, "load,answer\n1,0\n2,1\n3,5\n");
+        assert_eq!(sweep(&path, &LOADS, 3).unwrap(), whole);
+        let rows: Vec<usize> = (0..whole.len()).filter(|&i| whole.as_bytes()[i] == b'\n').map(|i| i + 1).collect();
+        for killed in 0..=3 {
+            // all that an interrupted write of the next row may leave
+            let (from, to) = match killed {
+                0 => (0, rows[1]),
+                3 => (whole.len(), whole.len()),
+                k => (rows[k], rows[k + 1]),
+            };
+            for length in from..=to {
+                let path = folder.path().join(format!("{killed}-{length}.csv"));
+                sweep(&path, &LOADS, killed).unwrap();
+                fs::write(&path, &whole[..length]).unwrap();
+                fs::write(with_suffix(&path, ".state.tmp"), "half of it").unwrap();
+                assert_eq!(sweep(&path, &LOADS, 3).unwrap(), whole, "{killed} {length}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_sweep_can_be_made_longer_but_not_another() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("sweep.csv");
+        sweep(&path, &LOADS[..2], 2).unwrap();
+        let whole = sweep(&path, &LOADS, 3).unwrap();
+        assert!(reason(sweep(&path, &LOADS[..2], 2)).contains("loads are others"));
+        assert!(reason(sweep(&path, &[1.0, 2.5, 3.0], 3)).contains("loads are others"));
+        let other = |modulus, force| Journal::open(&path, HEADER, identity(modulus), &LOADS, force);
+        let refused = reason(other("2", false));
+        assert!(["modulus is 1, and not 2", "--force"].iter().all(|part| refused.contains(part)), "{refused}");
+        assert_eq!(fs::read_to_string(&path).unwrap(), whole);
+        assert_eq!(other("2", true).unwrap().0.rows(), 0);
+        assert_eq!(fs::read_to_string(&path).unwrap(), "");
+        assert!(reason(open(&path, &LOADS)).contains("modulus is 2, and not 1"));
+    }
+
+    #[test]
+    fn files_that_were_changed_are_refused_and_kept() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("sweep.csv");
+        let whole = sweep(&path, &LOADS, 3).unwrap();
+        let partly = folder.path().join("partly.csv");
+        sweep(&partly, &LOADS, 0).unwrap();
+        for (path, content) in [
+            (&path, whole.replace("2,1", "2,7")),
+            (&path, whole.replace("2,1\n", "")),
+            (&path, String::new()),
+            (&path, format!("{whole}4,5\n5,6\n")),
+            (&path, format!("{whole}4,5\n5")),
+            (&partly, "a note\n".to_owned()),
+            (&partly, "a note\n".to_owned() + &whole),
+            (&partly, whole.clone()),
+        ] {
+            fs::write(path, &content).unwrap();
+            assert!(reason(open(path, &LOADS)).contains("was changed"), "{content}");
+            assert_eq!(fs::read_to_string(path).unwrap(), content);
+        }
+        fs::write(&path, &whole).unwrap();
+        let state = fs::read(state_path(&path)).unwrap();
+        for length in 0..state.len() {
+            fs::write(state_path(&path), &state[..length]).unwrap();
+            assert!(reason(open(&path, &LOADS)).contains("is damaged"));
+        }
+        fs::remove_file(state_path(&path)).unwrap();
+        let refused = reason(open(&path, &LOADS));
+        assert!(["sweep.csv.state.npz", "does not", "--force"].iter().all(|part| refused.contains(part)), "{refused}");
+        assert_eq!(fs::read_to_string(&path).unwrap(), whole);
+        assert!(reason(open(folder.path(), &LOADS)).contains("not a regular file"));
+    }
+
+    #[test]
+    fn two_sweeps_do_not_write_into_one_file() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("sweep.csv");
+        let (mut first, _) = open(&path, &LOADS).unwrap();
+        let (mut second, _) = open(&path, &LOADS).unwrap();
+        let gap = array![[1.0], [2.0]];
+        first.append("1,0", 1.0, true, &[gap.view()]).unwrap();
+        assert!(reason(second.append("1,0", 1.0, true, &[gap.view()])).contains("another program"));
+    }
+}

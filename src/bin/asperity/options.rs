@@ -1,0 +1,193 @@
+//! The options that more than one command has.
+
+use std::fmt;
+use std::path::PathBuf;
+
+use asperity::io::read_field;
+use asperity::{AdhesionLaw, Criterion, Error, Exponential, Grid, MaugisDugdale, NoAdhesion, Real, Settings, Surface};
+use clap::{Args, ValueEnum};
+use ndarray::Array2;
+
+use crate::Outcome;
+
+/// The surface, and what it is pressed against.
+#[derive(Args)]
+pub struct SurfaceOptions {
+    /// Heights of the rough surface, shape (Nx, Ny), peaks up: .npy, .npz with one array, or a text matrix
+    #[arg(long, value_name = "FILE", help_heading = "Surface")]
+    pub heights: PathBuf,
+    /// Side lengths of the map, in the unit of the heights; LX alone means square cells [default: 1 1]
+    #[arg(long, value_names = ["LX", "LY"], num_args = 1..=2, allow_negative_numbers = true, value_parser = positive)]
+    #[arg(help_heading = "Surface")]
+    pub lengths: Option<Vec<f64>>,
+    /// Contact modulus E*, a pressure
+    #[arg(long, value_name = "E", default_value = "1", allow_hyphen_values = true, value_parser = positive)]
+    #[arg(help_heading = "Surface")]
+    pub modulus: f64,
+}
+
+/// What holds the surfaces together.
+#[derive(Args)]
+pub struct AdhesionOptions {
+    /// Adhesion law
+    #[arg(long, value_enum, default_value_t = Law::None, help_heading = "Adhesion")]
+    pub law: Law,
+    /// Work of adhesion, an energy per area
+    #[arg(long, value_name = "W", allow_hyphen_values = true, value_parser = non_negative, help_heading = "Adhesion")]
+    pub work_of_adhesion: Option<f64>,
+    /// Range of adhesion, a length
+    #[arg(long, value_name = "RHO", allow_hyphen_values = true, value_parser = positive, help_heading = "Adhesion")]
+    pub range: Option<f64>,
+}
+
+/// How to solve, and from where.
+#[derive(Args)]
+pub struct SolverOptions {
+    /// Preconditioned conjugate gradients, or the algorithm of Rey et al. (2017)
+    #[arg(long, value_enum, default_value_t = Iteration::Default, help_heading = "Solver")]
+    pub method: Iteration,
+    /// Certified relative error at which to stop [default: 1e-6, in f32 1e-5]
+    #[arg(long, value_name = "T", allow_hyphen_values = true, value_parser = positive, help_heading = "Solver")]
+    pub tolerance: Option<f64>,
+    /// Iterations after which to give up [default: 2000, with rey2017 20000]
+    #[arg(long, value_name = "N", allow_hyphen_values = true, help_heading = "Solver")]
+    pub max_iterations: Option<usize>,
+    /// Precision of the solve, and of the fields it writes
+    #[arg(long, value_enum, default_value_t = Precision::F64, help_heading = "Solver")]
+    pub precision: Precision,
+    /// Threads; the results do not depend on it [default: one per core]
+    #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = threads, help_heading = "Solver")]
+    pub threads: Option<usize>,
+    /// Gap from which to start, of the shape of the heights; scaled to the mean gap where that is given
+    #[arg(long, value_name = "FILE", help_heading = "Solver")]
+    pub initial_gap: Option<PathBuf>,
+}
+
+#[derive(Clone, Copy, PartialEq, ValueEnum)]
+pub enum Law {
+    /// no adhesion
+    None,
+    /// constant traction W/RHO up to a gap of RHO
+    MaugisDugdale,
+    /// traction W/RHO exp(-gap/RHO)
+    Exponential,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+pub enum Iteration {
+    Default,
+    Rey2017,
+}
+
+#[derive(Clone, Copy, PartialEq, ValueEnum)]
+pub enum Precision {
+    F32,
+    F64,
+}
+
+impl SurfaceOptions {
+    /// The surface of the file.
+    pub fn surface(&self) -> Outcome<Surface> {
+        let heights = read_field(&self.heights)?;
+        let (nx, ny) = heights.dim();
+        let lengths = match self.lengths.as_deref() {
+            None => (1.0, 1.0),
+            Some([lx]) => (*lx, lx / nx as f64 * ny as f64),
+            Some(lengths) => (lengths[0], lengths[1]),
+        };
+        Ok(Surface::new(Grid::new((nx, ny), lengths)?, heights)?)
+    }
+}
+
+impl AdhesionOptions {
+    /// Refuses a law without its parameters, and parameters without a law.
+    pub fn check(&self) -> Outcome<()> {
+        let parameters =
+            [("--work-of-adhesion", self.work_of_adhesion, "an energy per area"), ("--range", self.range, "a length")];
+        for (name, value, what) in parameters {
+            match (self.law, value) {
+                (Law::None, Some(value)) => {
+                    let remedy = "choose --law exponential or --law maugis-dugdale, or leave it out";
+                    return Err(format!("{name} is {value}, but there is no adhesion: {remedy}").into());
+                }
+                (Law::None, None) | (_, Some(_)) => {}
+                (law, None) => return Err(format!("--law {law} lacks {name}: give it, {what}").into()),
+            }
+        }
+        Ok(())
+    }
+
+    /// The law; its parameters are there after [`Self::check`].
+    pub fn law<T: Real>(&self) -> asperity::Result<Box<dyn AdhesionLaw<T>>> {
+        let parameter = |value: Option<f64>| T::lit(value.unwrap_or_default());
+        let (work, range) = (parameter(self.work_of_adhesion), parameter(self.range));
+        Ok(match self.law {
+            Law::None => Box::new(NoAdhesion),
+            Law::MaugisDugdale => Box::new(MaugisDugdale::new(work, range)?),
+            Law::Exponential => Box::new(Exponential::new(work, range)?),
+        })
+    }
+}
+
+impl SolverOptions {
+    /// The gap from which to start, if it is given.
+    pub fn start(&self, grid: &Grid) -> Outcome<Option<Array2<f64>>> {
+        let Some(path) = &self.initial_gap else { return Ok(None) };
+        let start = read_field(path)?;
+        if start.dim() != grid.shape() {
+            return Err(Error::Shape { name: "--initial-gap", found: start.dim(), expected: grid.shape() }.into());
+        }
+        Ok(Some(start))
+    }
+
+    /// The settings, with the defaults of the method and of the precision.
+    pub fn settings(&self) -> Settings {
+        let default = match self.method {
+            Iteration::Default => Settings::default(),
+            Iteration::Rey2017 => Settings { criterion: Criterion::EnergyNorm, ..Settings::rey2017() },
+        };
+        let reachable = if self.precision == Precision::F32 { 1e-5 } else { 1e-6 };
+        Settings {
+            tolerance: self.tolerance.unwrap_or(reachable),
+            max_iterations: self.max_iterations.unwrap_or(default.max_iterations),
+            ..default
+        }
+    }
+}
+
+impl fmt::Display for Law {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::None => "none",
+            Self::MaugisDugdale => "maugis-dugdale",
+            Self::Exponential => "exponential",
+        })
+    }
+}
+
+fn number(text: &str, allowed: fn(f64) -> bool, requirement: &str) -> Result<f64, String> {
+    match text.trim().parse() {
+        Ok(value) if allowed(value) => Ok(value),
+        _ => Err(format!("it must be {requirement}")),
+    }
+}
+
+pub fn positive(text: &str) -> Result<f64, String> {
+    number(text, |v| v > 0.0 && v.is_finite(), "a number, positive and finite")
+}
+
+pub fn non_negative(text: &str) -> Result<f64, String> {
+    number(text, |v| v >= 0.0 && v.is_finite(), "a number, zero or positive and finite")
+}
+
+pub fn finite(text: &str) -> Result<f64, String> {
+    number(text, f64::is_finite, "a number, and finite")
+}
+
+/// How many threads; far more than there are cores are a slip of the pen.
+pub fn threads(text: &str) -> Result<usize, String> {
+    match text.parse() {
+        Ok(threads @ 1..=1024) => Ok(threads),
+        _ => Err("it must be from 1 to 1024; leave the option out for one per core".to_owned()),
+    }
+}

@@ -1,0 +1,323 @@
+use std::ops::ControlFlow;
+use std::path::{Path, PathBuf};
+
+use asperity::io::write_npy;
+use asperity::{
+    ContactStatistics, Control, Error, Problem, Report, Solution, Solver, Status, Surface, Sweep, Westergaard,
+};
+use clap::{ArgGroup, Args, ValueEnum};
+use ndarray::Array2;
+use serde_json::{Map, Value, json};
+
+use crate::journal::{Hash, Identity, Journal};
+use crate::loads::{self, Loads};
+use crate::options::{AdhesionOptions, Precision, SolverOptions, SurfaceOptions};
+use crate::progress::Progress;
+use crate::report::{Style, percent, warn_of_resolution};
+use crate::run::{self, Scalar};
+use crate::{Outcome, complain, say};
+
+/// Solve a contact problem under many loads, one after the other.
+///
+/// Each load starts from where the ones before lead. A row for each is appended to the file as it comes, with the loads, the
+/// mean gap, the contact area and its statistics, the energies, and how the solve ended; contact_fraction counts
+/// nodes, corrected_contact_fraction takes off what they count too much along the edge of the contact, and clusters are in
+/// nodes. The same command again goes on where an interrupted one was, or with loads that were added to the end of
+/// the list, and comes to the same file, byte for byte; for that it keeps FILE.state.npz beside the file, which may be deleted at
+/// the end. Exits with 0 if all rows converged, 2 if not (they are written all the same), and 1 if the input is refused
+/// or the file cannot be written.
+#[derive(Args)]
+#[command(after_help = EXAMPLES, group(ArgGroup::new("loads").required(true).args(["mean_gaps", "mean_pressures"])))]
+pub struct Options {
+    #[command(flatten)]
+    surface: SurfaceOptions,
+
+    /// Mean gaps that are held, lengths: numbers and ranges FROM:TO:COUNT or FROM:TO:COUNT:log, with commas between
+    #[arg(long, value_name = "LIST", allow_hyphen_values = true, value_parser = loads::gaps, help_heading = "Loads")]
+    mean_gaps: Option<Loads>,
+    /// Mean external pressures that are held, compression positive: a list as for the gaps
+    #[arg(long, value_name = "LIST", allow_hyphen_values = true, value_parser = loads::pressures, help_heading = "Loads")]
+    mean_pressures: Option<Loads>,
+
+    #[command(flatten)]
+    adhesion: AdhesionOptions,
+    #[command(flatten)]
+    solver: SolverOptions,
+
+    /// File for the rows, .csv or .jsonl (one JSON object per line)
+    #[arg(long, value_name = "FILE", help_heading = "Output")]
+    out: PathBuf,
+    /// Format of the file, whatever its name is
+    #[arg(long, value_enum, help_heading = "Output")]
+    format: Option<Format>,
+    /// Folder for the fields, made if needed: gap-0001.npy, pressure-0001.npy, contact_pressure-0001.npy and so on
+    #[arg(long, value_name = "DIR", help_heading = "Output")]
+    fields: Option<PathBuf>,
+    /// Start over, and replace files that are there
+    #[arg(long, help_heading = "Output")]
+    force: bool,
+    /// Print no rows and no progress
+    #[arg(long, help_heading = "Output")]
+    quiet: bool,
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  Contact area against load, twenty loads over two decades:
+    asperity sweep --heights heights.npy --mean-pressures 1e-3:1e-1:20:log --out area.csv
+  Approach and withdrawal with adhesion, eleven mean gaps each:
+    asperity sweep --heights heights.npy --law exponential --work-of-adhesion 1e-4 \\
+      --range 4e-3 --mean-gaps 0.05:0.03:11,0.03:0.05:11 --out hysteresis.jsonl";
+
+#[derive(Clone, Copy, PartialEq, ValueEnum)]
+enum Format {
+    Csv,
+    Jsonl,
+}
+
+/// The names of the columns, in the order of [`row`].
+const COLUMNS: [&str; 20] = [
+    "control",
+    "control_value",
+    "mean_pressure",
+    "mean_contact_pressure",
+    "mean_gap",
+    "contact_fraction",
+    "corrected_contact_fraction",
+    "perimeter",
+    "clusters",
+    "largest_cluster",
+    "repulsive_fraction",
+    "attractive_fraction",
+    "elastic_energy",
+    "adhesive_energy",
+    "min_gap",
+    "relative_error",
+    "load_error",
+    "iterations",
+    "operator_applications",
+    "status",
+];
+
+const FIELDS: [&str; 3] = ["gap", "pressure", "contact_pressure"];
+
+/// Runs the command; whether all rows converged.
+pub fn run(options: &Options) -> Outcome<bool> {
+    options.adhesion.check()?;
+    options.format()?;
+    let surface = options.surface.surface()?;
+    let start = options.solver.start(surface.grid())?;
+    run::use_threads(options.solver.threads)?;
+    match options.solver.precision {
+        Precision::F32 => options.run::<f32>(surface, start),
+        Precision::F64 => options.run::<f64>(surface, start),
+    }
+}
+
+impl Options {
+    fn run<T: Scalar>(&self, surface: Surface, start: Option<Array2<f64>>) -> Outcome<bool> {
+        let (control, loads) = self.loads();
+        if let Some(&value) = loads.iter().find(|&&load| !T::lit(load).is_finite()) {
+            let (name, requirement) = ("load", "finite in the precision of the fields");
+            return Err(Error::Value { name, value, requirement }.into());
+        }
+        let (settings, grid) = (self.solver.settings(), *surface.grid());
+        let identity = self.identity(&surface, start.as_ref());
+        let law = self.adhesion.law::<T>()?;
+        let operator = Westergaard::new(grid, self.surface.modulus)?;
+        let mut problem = Problem::new(&surface, operator, law)?;
+        drop(surface);
+        let format = self.format()?;
+        let header = if format == Format::Csv { COLUMNS.join(",") + "\n" } else { String::new() };
+        self.check_fields(loads.len())?;
+        let (mut journal, gaps) = Journal::open(&self.out, &header, identity, loads, self.force)?;
+        let done = journal.rows();
+        let controls: Vec<_> = loads.iter().map(|&load| control(load)).collect();
+        if done > 0 && !self.quiet {
+            say(&format!("{} has {done} of {} rows already", self.out.display(), loads.len()));
+        }
+
+        let law = self.adhesion.law::<T>()?;
+        let mut solver = Solver::new(settings);
+        // in place, if the precision is that of the file
+        let narrow = |gap: Array2<f64>| gap.mapv_into_any(T::lit);
+        let first = done.saturating_sub(gaps.len());
+        let history = controls[first..done].iter().copied().zip(gaps.into_iter().map(narrow)).collect();
+        let mut sweep = Sweep::new(&mut solver, &mut problem, controls[done..].iter().copied()).continuing(history);
+        if let (0, Some(start)) = (done, start) {
+            sweep = sweep.starting_from(narrow(start));
+        }
+        let (mut resolution, count) = (None, loads.len());
+        for (k, &load) in loads.iter().enumerate().skip(done) {
+            let mut progress =
+                Progress::new(&format!("{}/{count}", k + 1), settings.tolerance, grid.nodes(), self.quiet);
+            let step = sweep.next_observed(|state| {
+                progress.update(state);
+                ControlFlow::Continue(())
+            });
+            drop(progress);
+            let Some(step) = step else { break };
+            let (control, solution) = step?;
+            run::check_range(&solution)?;
+            let statistics = ContactStatistics::of(&solution, &grid, &law)?;
+            let row = row(control, &solution.report, &statistics);
+            let text = match format {
+                Format::Csv => row.iter().map(|(_, value)| cell(value)).collect::<Vec<_>>().join(","),
+                Format::Jsonl => Value::Object(row).to_string(),
+            };
+            self.write_fields(k, &solution)?;
+            let history: Vec<_> = sweep.history().iter().map(|(_, gap)| gap.view()).collect();
+            journal.append(&text, load, solution.report.status == Status::Converged, &history)?;
+            if !self.quiet {
+                say(&format!("{:>width$}/{count}  {}", k + 1, line(&solution.report), width = count.to_string().len()));
+            }
+            resolution = Some(solution.report).filter(|report| report.under_resolved);
+        }
+        if let Some(report) = resolution {
+            warn_of_resolution("", &report, self.adhesion.range.unwrap_or_default());
+        }
+        if journal.unconverged() > 0 {
+            let text = format!(
+                "{} of {} rows not converged, their status and errors are in {}: raise --max-iterations, use a larger \
+                 --tolerance or finer steps, or less tension where they are detached",
+                journal.unconverged(),
+                journal.rows(),
+                self.out.display()
+            );
+            complain("warning", &text);
+        }
+        if !self.quiet {
+            say(&format!("{count} rows in {}", self.out.display()));
+        }
+        Ok(journal.unconverged() == 0)
+    }
+
+    /// What the loads are, and their values.
+    fn loads(&self) -> (fn(f64) -> Control, &[f64]) {
+        match (&self.mean_gaps, &self.mean_pressures) {
+            (Some(Loads(gaps)), _) => (Control::MeanGap, gaps),
+            (None, Some(Loads(pressures))) => (Control::MeanPressure, pressures),
+            (None, None) => (Control::MeanGap, &[]),
+        }
+    }
+
+    fn format(&self) -> Outcome<Format> {
+        let extension = self.out.extension().map(|extension| extension.to_string_lossy().to_lowercase());
+        match (self.format, extension.as_deref()) {
+            (Some(format), _) => Ok(format),
+            (None, Some("csv")) => Ok(Format::Csv),
+            (None, Some("jsonl")) => Ok(Format::Jsonl),
+            _ => Err(Error::file(&self.out, "does not end in .csv or .jsonl: rename it, or give --format").into()),
+        }
+    }
+
+    /// All that the rows depend on beside the loads. Numbers come as text, which can be compared exactly.
+    fn identity(&self, surface: &Surface, start: Option<&Array2<f64>>) -> Identity {
+        let (grid, settings) = (surface.grid(), self.solver.settings());
+        let number = |value: Option<f64>| value.map_or("none".to_owned(), |value| value.to_string());
+        let field = |field: &Array2<f64>| Hash::NEW.of_numbers(field).to_string();
+        let pair = |a: String, b: String| format!("{a} {b}");
+        let (control, _) = name_and_value(self.loads().0(0.0));
+        let identity = json!({
+            "shape": pair(grid.shape().0.to_string(), grid.shape().1.to_string()),
+            "heights": field(surface.heights()),
+            "lengths": pair(grid.lengths().0.to_string(), grid.lengths().1.to_string()),
+            "modulus": self.surface.modulus.to_string(),
+            "law": self.adhesion.law.to_string(),
+            "work_of_adhesion": number(self.adhesion.work_of_adhesion),
+            "range": number(self.adhesion.range),
+            "control": control,
+            "precision": if self.solver.precision == Precision::F32 { "f32" } else { "f64" },
+            "method": settings.method.name(),
+            "tolerance": settings.tolerance.to_string(),
+            "max_iterations": settings.max_iterations.to_string(),
+            "initial_gap": start.map_or("none".to_owned(), field),
+            "fields": if self.fields.is_some() { "kept" } else { "not kept" },
+            "format": if self.format().is_ok_and(|format| format == Format::Csv) { "csv" } else { "jsonl" },
+            "version": env!("CARGO_PKG_VERSION"),
+        });
+        identity.as_object().cloned().unwrap_or_default()
+    }
+
+    /// Refuses to replace fields, if this is not the continuation of what wrote them.
+    fn check_fields(&self, count: usize) -> Outcome<()> {
+        let Some(folder) = &self.fields else { return Ok(()) };
+        std::fs::create_dir_all(folder).map_err(|e| Error::file(folder, format!("cannot be written: {e}")))?;
+        if self.force || self.out.exists() {
+            return Ok(());
+        }
+        let mut paths = (0..count).flat_map(|k| FIELDS.map(|name| field_path(folder, name, k)));
+        match paths.find(|path| path.exists()) {
+            Some(path) => {
+                Err(Error::file(&path, "exists: use --force to replace it, or choose another --fields").into())
+            }
+            None => Ok(()),
+        }
+    }
+
+    fn write_fields<T: Scalar>(&self, k: usize, solution: &Solution<T>) -> asperity::Result<()> {
+        let Some(folder) = &self.fields else { return Ok(()) };
+        let fields = [&solution.gap, &solution.pressure, &solution.contact_pressure];
+        FIELDS.iter().zip(fields).try_for_each(|(name, field)| write_npy(&field_path(folder, name, k), field))
+    }
+}
+
+fn field_path(folder: &Path, name: &str, k: usize) -> PathBuf {
+    folder.join(format!("{name}-{:04}.npy", k + 1))
+}
+
+fn name_and_value(control: Control) -> (&'static str, f64) {
+    match control {
+        Control::MeanGap(gap) => ("mean-gap", gap),
+        Control::MeanPressure(pressure) => ("mean-pressure", pressure),
+    }
+}
+
+/// What a row says, by the names of the columns. Nothing in it depends on the clock.
+fn row(control: Control, report: &Report, statistics: &ContactStatistics) -> Map<String, Value> {
+    let (control, value) = name_and_value(control);
+    let values: [Value; COLUMNS.len()] = [
+        control.into(),
+        value.into(),
+        report.mean_pressure.into(),
+        report.mean_contact_pressure.into(),
+        report.mean_gap.into(),
+        report.contact_fraction.into(),
+        statistics.corrected_contact_fraction.into(),
+        statistics.perimeter.into(),
+        statistics.cluster_sizes.len().into(),
+        statistics.cluster_sizes.first().copied().unwrap_or(0).into(),
+        statistics.repulsive_fraction.into(),
+        statistics.attractive_fraction.into(),
+        report.elastic_energy.into(),
+        report.adhesive_energy.into(),
+        report.min_gap.into(),
+        report.relative_error.into(),
+        report.load_error.into(),
+        report.iterations.into(),
+        report.operator_applications.into(),
+        report.status.name().into(),
+    ];
+    COLUMNS.iter().map(|name| (*name).to_owned()).zip(values).collect()
+}
+
+/// A value in a table: words without quotation marks, and nothing for a number that is not finite.
+fn cell(value: &Value) -> String {
+    match value {
+        Value::Null => String::new(),
+        Value::String(word) => word.clone(),
+        number => number.to_string(),
+    }
+}
+
+/// What there is to see of a row.
+fn line(report: &Report) -> String {
+    let number = |value| Style::Plain.number(value, "");
+    format!(
+        "mean pressure {}  mean gap {}  contact {} %  {}",
+        number(report.mean_pressure),
+        number(report.mean_gap),
+        percent(report.contact_fraction),
+        report.status
+    )
+}

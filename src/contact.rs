@@ -1,0 +1,174 @@
+use ndarray::{Array2, ArrayView2, Zip};
+
+use crate::adhesion::AdhesionLaw;
+use crate::error::{Error, Result};
+use crate::grid::Grid;
+use crate::real::Real;
+use crate::solver::Solution;
+
+mod clusters;
+mod distribution;
+
+pub use clusters::{Clusters, Connectivity};
+pub use distribution::PressureDistribution;
+
+/// What a contact map counts too much per edge between a node in contact and one that is not, in cells: (π − 1 + ln 2)/24.
+const EDGE_EXCESS: f64 = (std::f64::consts::PI - 1.0 + std::f64::consts::LN_2) / 24.0;
+
+/// The share of w/ρ that the adhesive traction must exceed where surfaces are said to attract each other.
+const NOTICEABLE: f64 = 0.01;
+
+impl<T: Real> Solution<T> {
+    /// Which nodes are in contact: those without a gap, and those with a contact pressure, which there may be at a gap
+    /// that is not quite zero where the constraint is a term of the energy. [`Report::contact_points`](crate::Report)
+    /// counts the same nodes.
+    ///
+    /// ```
+    /// use asperity::{Control, Grid, NoAdhesion, Problem, Solver, Surface, Westergaard};
+    /// let grid = Grid::square(64, 1.0)?;
+    /// let sphere = Surface::paraboloid(grid, 2.0)?;
+    /// let mut problem = Problem::new(&sphere, Westergaard::<f64>::new(grid, 1.0)?, NoAdhesion)?;
+    /// let contact = Solver::default().solve(&mut problem, Control::MeanGap(0.0398))?.contact_map();
+    /// assert!(contact[[32, 32]] && !contact[[0, 0]]);
+    /// # Ok::<(), asperity::Error>(())
+    /// ```
+    pub fn contact_map(&self) -> Array2<bool> {
+        Zip::from(&self.gap)
+            .and(&self.contact_pressure)
+            .map_collect(|&gap, &pressure| gap <= T::zero() || pressure > T::zero())
+    }
+}
+
+/// How much of the surfaces touches, in how many pieces, and how much attracts without touching.
+///
+/// Fractions are of the nominal area Lx·Ly. Contact, attractive and apart fraction add up to one.
+///
+/// The corrected contact area is that of Yastrebov, Anciaux and Molinari (2017), *On the accurate computation of the true
+/// contact-area in mechanical contact of random rough surfaces*: a map of nodes counts too much along the edge of the
+/// contact, by
+///
+/// ```math
+/// A \approx A_\mathrm{nodes} - \frac{\pi - 1 + \ln 2}{24}\, S\, \Delta x
+/// ```
+///
+/// with S the perimeter along the cells, averaged over the directions of the edge. That is 0.118 cells for each side of
+/// a cell on the perimeter; for Δx ≠ Δy the area Δx·Δy of the cell is taken for Δx². What
+/// is left is the scatter of the nodes about the edge: over Hertz contacts with radii of 3 to 7 nodes the mean error
+/// falls from 6 % to −0.5 %, the root mean square from 8 % to 5 %; with radii of 14 to 28 nodes from 1.5 % to −0.1 %, and
+/// from 1.6 % to 0.5 %.
+///
+/// On a line nothing is corrected, as the derivation is for edges in the plane; there the map counts about 0.19 nodes too
+/// many for each end point, measured on waves.
+///
+/// ```
+/// use asperity::{ContactStatistics, Control, Exponential, Grid, Problem, Solver, Surface, Westergaard};
+/// let grid = Grid::square(64, 1.0)?;
+/// let surface = Surface::wave_2d(grid, 0.01, 2)?; // eight peaks
+/// let law = Exponential::new(1e-5, 2e-3)?;
+/// let mut problem = Problem::new(&surface, Westergaard::<f64>::new(grid, 1.0)?, law)?;
+/// let solution = Solver::default().solve(&mut problem, Control::MeanPressure(0.01))?;
+/// let statistics = ContactStatistics::of(&solution, &grid, &law)?;
+/// assert_eq!(statistics.cluster_sizes.len(), 8);
+/// assert!(statistics.corrected_contact_fraction < statistics.contact_fraction);
+/// let all = statistics.contact_fraction + statistics.attractive_fraction + statistics.apart_fraction;
+/// assert!((all - 1.0).abs() < 1e-15);
+/// # Ok::<(), asperity::Error>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct ContactStatistics {
+    /// How many nodes are in contact, as [`Solution::contact_map`] says.
+    pub contact_points: usize,
+    /// The share of nodes in contact.
+    pub contact_fraction: f64,
+    /// The contact area without what the map counts too much along its edge, as a share of the nominal area.
+    pub corrected_contact_fraction: f64,
+    /// The length of the edge of the contact, along the sides of the cells, across the periodic boundaries too: Δy for
+    /// neighbours along x of which one is in contact, Δx for neighbours along y. On a line the number of end points.
+    pub perimeter: f64,
+    /// The sizes of the clusters of contact in nodes, the largest first; neighbours along a side hang together
+    /// ([`Connectivity::Sides`]), across the periodic boundaries too.
+    pub cluster_sizes: Vec<usize>,
+    /// The share of nodes that repel each other: those with a contact pressure. Nodes may touch without one.
+    pub repulsive_fraction: f64,
+    /// The share of nodes that attract each other without being in contact: those with an adhesive traction of more than
+    /// 1 % of w/ρ. That is g < ρ for [`MaugisDugdale`](crate::MaugisDugdale), and g < 4.6 ρ for
+    /// [`Exponential`](crate::Exponential).
+    pub attractive_fraction: f64,
+    /// The share of the other nodes, which do not notice each other.
+    pub apart_fraction: f64,
+}
+
+impl ContactStatistics {
+    /// The statistics of a solution on its grid, with the law with which it was found.
+    ///
+    /// Memory per node, until it returns: nine bytes.
+    ///
+    /// # Errors
+    /// [`Error::Shape`] if a field does not have the shape of the grid.
+    pub fn of<T: Real>(solution: &Solution<T>, grid: &Grid, law: &impl AdhesionLaw<T>) -> Result<Self> {
+        Error::shape("gap", solution.gap.dim(), grid.shape())?;
+        Error::shape("contact pressure", solution.contact_pressure.dim(), grid.shape())?;
+        let contact = solution.contact_map();
+        let share = |count: usize| count as f64 / grid.nodes() as f64;
+        let contact_points = contact.iter().filter(|&&touches| touches).count();
+        let attracting = if law.is_zero() {
+            0
+        } else {
+            let scale = (law.work_of_adhesion() / law.range()).widen();
+            let least = T::lit(if scale.is_finite() { NOTICEABLE * scale } else { 0.0 });
+            let free = contact.iter().zip(&solution.gap).filter(|(touches, _)| !**touches);
+            free.filter(|(_, gap)| law.traction(**gap) > least).count()
+        };
+        let (along_x, along_y) = edges(contact.view());
+        let (dx, dy) = grid.spacing();
+        let (perimeter, excess) = if grid.is_line() {
+            (along_x as f64, 0.0)
+        } else {
+            (along_x as f64 * dy + along_y as f64 * dx, EDGE_EXCESS * (along_x + along_y) as f64)
+        };
+        Ok(Self {
+            contact_points,
+            contact_fraction: share(contact_points),
+            corrected_contact_fraction: (contact_points as f64 - excess) / grid.nodes() as f64,
+            perimeter,
+            cluster_sizes: Clusters::of(contact.view(), Connectivity::Sides).sizes,
+            repulsive_fraction: share(solution.contact_pressure.iter().filter(|&&p| p > T::zero()).count()),
+            attractive_fraction: share(attracting),
+            apart_fraction: share(grid.nodes() - contact_points - attracting),
+        })
+    }
+}
+
+/// How many neighbours along x, and along y, are on the two sides of the edge of a map.
+fn edges(map: ArrayView2<'_, bool>) -> (usize, usize) {
+    let (nx, ny) = map.dim();
+    let (mut along_x, mut along_y) = (0, 0);
+    for ((i, j), here) in map.indexed_iter() {
+        along_x += usize::from(*here != map[[(i + 1) % nx, j]]);
+        along_y += usize::from(*here != map[[i, (j + 1) % ny]]);
+    }
+    (along_x, along_y)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn edges_are_counted_across_the_boundaries() {
+        let count = |rows: &[&str]| edges(clusters::tests::map(rows).view());
+        assert_eq!(count(&["....", "....", "...."]), (0, 0));
+        assert_eq!(count(&["####", "####", "####"]), (0, 0));
+        assert_eq!(count(&["....", ".#..", "...."]), (2, 2));
+        // a corner, whose sides are on the other end
+        assert_eq!(count(&["#...", "....", "...."]), (2, 2));
+        // two neighbours across the boundary are one piece, as anywhere else
+        assert_eq!(count(&["#...", "....", "#..."]), (2, 4));
+        assert_eq!(count(&["#..#", "....", "...."]), (4, 2));
+        // a band around the cell has two straight edges
+        assert_eq!(count(&["....", "####", "...."]), (8, 0));
+        // where a side has two nodes they are neighbours twice, and a single one is its own
+        assert_eq!(count(&["#...", "...."]), (2, 2));
+        assert_eq!(count(&["##..#"]), (0, 2));
+    }
+}

@@ -1,0 +1,178 @@
+use std::cmp::Reverse;
+
+use ndarray::{Array2, ArrayView2};
+
+/// Which nodes of a map are neighbours.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Connectivity {
+    /// The four whose cells share a side.
+    #[default]
+    Sides,
+    /// These and the four whose cells share a corner.
+    Corners,
+}
+
+/// The pieces of a periodic map that hang together.
+///
+/// ```
+/// use asperity::{Clusters, Connectivity};
+/// let map = ndarray::array![
+///     [true, false, false, true],
+///     [false, true, false, false],
+///     [false, false, false, false],
+/// ];
+/// let clusters = Clusters::of(map.view(), Connectivity::Sides);
+/// assert_eq!(clusters.sizes, [2, 1]); // the upper corners are neighbours across the boundary
+/// assert_eq!((clusters.labels[[0, 3]], clusters.labels[[1, 1]], clusters.labels[[2, 2]]), (1, 2, 0));
+/// assert_eq!(Clusters::of(map.view(), Connectivity::Corners).sizes, [3]);
+/// ```
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Clusters {
+    /// How many nodes each cluster has, the largest first; of equals the one that comes first in row-major order.
+    pub sizes: Vec<usize>,
+    /// To which cluster each node belongs: k for the k-th of the sizes, counted from 1, and 0 for none.
+    pub labels: Array2<usize>,
+}
+
+impl Clusters {
+    /// The clusters of the nodes that are `true`, on a map whose opposite sides meet.
+    ///
+    /// Takes a few passes over the map. Memory per node: eight bytes, those of the labels.
+    pub fn of(map: ArrayView2<'_, bool>, connectivity: Connectivity) -> Self {
+        let (nx, ny) = map.dim();
+        // each node's parent, which comes before it in its tree; nodes of no cluster have none
+        let mut tree: Vec<usize> = map.iter().enumerate().map(|(k, &inside)| if inside { k } else { NONE }).collect();
+        for i in 0..nx {
+            let below = (i + 1) % nx;
+            for j in 0..ny {
+                let (left, right) = ((j + ny - 1) % ny, (j + 1) % ny);
+                unite(&mut tree, i * ny + j, i * ny + right);
+                unite(&mut tree, i * ny + j, below * ny + j);
+                if connectivity == Connectivity::Corners {
+                    unite(&mut tree, i * ny + j, below * ny + left);
+                    unite(&mut tree, i * ny + j, below * ny + right);
+                }
+            }
+        }
+        // from parents to numbers, in place: a parent has its number before its children ask for it
+        let mut sizes = Vec::new();
+        for k in 0..tree.len() {
+            if tree[k] == k {
+                tree[k] = sizes.len();
+                sizes.push(1);
+            } else if tree[k] != NONE {
+                tree[k] = tree[tree[k]];
+                sizes[tree[k]] += 1;
+            }
+        }
+        let mut order: Vec<usize> = (0..sizes.len()).collect();
+        order.sort_by_key(|&cluster| Reverse(sizes[cluster]));
+        let mut label = vec![0; sizes.len()];
+        order.iter().enumerate().for_each(|(rank, &cluster)| label[cluster] = rank + 1);
+        tree.iter_mut().for_each(|k| *k = label.get(*k).copied().unwrap_or(0));
+        sizes.sort_by_key(|&size| Reverse(size));
+        let labels = Array2::from_shape_vec((nx, ny), tree).unwrap_or_else(|_| Array2::zeros((nx, ny)));
+        Self { sizes, labels }
+    }
+}
+
+/// The parent of a node that belongs to no cluster.
+const NONE: usize = usize::MAX;
+
+/// Makes one cluster of those of two nodes, if both have one.
+fn unite(tree: &mut [usize], a: usize, b: usize) {
+    if tree[a] == NONE || tree[b] == NONE {
+        return;
+    }
+    let (a, b) = (root(tree, a), root(tree, b));
+    tree[a.max(b)] = a.min(b);
+}
+
+/// The first node of a cluster; on the way there, every other node gets its grandparent as parent.
+fn root(tree: &mut [usize], mut node: usize) -> usize {
+    while tree[node] != node {
+        tree[node] = tree[tree[node]];
+        node = tree[node];
+    }
+    node
+}
+
+#[cfg(test)]
+pub(super) mod tests {
+    use super::*;
+
+    /// A map from a drawing: `#` is contact.
+    pub fn map(rows: &[&str]) -> Array2<bool> {
+        let nodes = rows.iter().flat_map(|row| row.bytes().map(|c| c == b'#')).collect();
+        Array2::from_shape_vec((rows.len(), rows[0].len()), nodes).unwrap()
+    }
+
+    #[track_caller]
+    fn check(rows: &[&str], by_sides: &[usize], by_corners: &[usize]) {
+        let map = map(rows);
+        for (connectivity, sizes) in [(Connectivity::Sides, by_sides), (Connectivity::Corners, by_corners)] {
+            let clusters = Clusters::of(map.view(), connectivity);
+            assert_eq!(clusters.sizes, sizes, "{connectivity:?}");
+            assert!(clusters.labels.iter().zip(&map).all(|(label, inside)| (*label > 0) == *inside));
+            for (k, &size) in sizes.iter().enumerate() {
+                assert_eq!(clusters.labels.iter().filter(|label| **label == k + 1).count(), size);
+            }
+        }
+    }
+
+    #[test]
+    fn clusters_that_can_be_counted_by_hand() {
+        check(&["....", "....", "...."], &[], &[]);
+        check(&["####", "####", "####"], &[12], &[12]);
+        check(&["#....", ".....", "..##.", "....."], &[2, 1], &[2, 1]);
+        // corners alone hang together only where they count
+        check(&[".....", ".#...", "..#..", "....."], &[1, 1], &[2]);
+        check(&[".....", "..#..", ".#...", "....."], &[1, 1], &[2]);
+        // a ring, a spiral, and a comb whose teeth meet late
+        check(&["......", ".####.", ".#..#.", ".####.", "......"], &[10], &[10]);
+        check(&[".......", ".#####.", ".....#.", ".###.#.", ".#...#.", ".#####.", "......."], &[17], &[17]);
+        check(&["........", ".#.#.#..", ".#.#.#..", ".#####..", "........"], &[11], &[11]);
+    }
+
+    #[test]
+    fn clusters_go_across_the_boundaries() {
+        check(&["#..#", "....", "...."], &[2], &[2]);
+        check(&["#...", "....", "#..."], &[2], &[2]);
+        check(&["#..#", "....", "#..#"], &[4], &[4]);
+        // diagonally across a side, and across the corner
+        check(&[".....", "#....", "....#", "....."], &[1, 1], &[2]);
+        check(&["..#..", ".....", ".....", "...#."], &[1, 1], &[2]);
+        check(&["#....", ".....", ".....", "....#"], &[1, 1], &[2]);
+        check(&["....#", ".....", ".....", "#...."], &[1, 1], &[2]);
+        // a band that closes on itself, and one that winds
+        check(&["....", "####", "...."], &[4], &[4]);
+        check(&["##..", ".##.", "..##", "#..#"], &[8], &[8]);
+    }
+
+    #[test]
+    fn clusters_of_lines_and_of_a_single_node() {
+        check(&["#.##.#"], &[2, 2], &[2, 2]);
+        check(&["#", ".", "#", "#"], &[3], &[3]);
+        check(&["#"], &[1], &[1]);
+        check(&["."], &[], &[]);
+        check(&["#.", ".#"], &[1, 1], &[2]);
+        assert!(Clusters::of(Array2::default((0, 3)).view(), Connectivity::Sides).sizes.is_empty());
+    }
+
+    #[test]
+    fn clusters_do_not_depend_on_where_the_cell_begins() {
+        let (nx, ny) = (23, 31);
+        let hash = |i: usize, j: usize| (i * 7919 + j * 104_729 + i * j * 31) % 97;
+        let sizes = |di: usize, dj: usize, connectivity| {
+            let map = Array2::from_shape_fn((nx, ny), |(i, j)| hash((i + di) % nx, (j + dj) % ny) < 48);
+            Clusters::of(map.view(), connectivity).sizes
+        };
+        for connectivity in [Connectivity::Sides, Connectivity::Corners] {
+            let there = sizes(0, 0, connectivity);
+            assert!(there.len() > 1);
+            for shift in [(1, 0), (0, 1), (11, 17), (22, 30)] {
+                assert_eq!(sizes(shift.0, shift.1, connectivity), there);
+            }
+        }
+    }
+}

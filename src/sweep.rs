@@ -1,0 +1,183 @@
+use std::ops::ControlFlow;
+
+use ndarray::Array2;
+
+use crate::adhesion::AdhesionLaw;
+use crate::constraint::{ContactConstraint, Projection};
+use crate::elastic::ElasticOperator;
+use crate::error::Result;
+use crate::problem::{Control, Problem};
+use crate::real::Real;
+use crate::solver::{Iteration, Solution, Solver};
+
+/// Solves one problem under a sequence of loads, each from where the ones before lead: an iterator over the solutions.
+///
+/// A load is a mean gap or a mean pressure. A solution comes as soon as it is found; the sweep keeps no more than two
+/// gaps, two scalars per node, beside the problem and the solver. The first load starts from the solver's default start, or
+/// from [`Sweep::starting_from`]; the others
+///
+/// - without adhesion, from the last two gaps, extrapolated linearly in the mean gap or in the logarithm of the mean pressure,
+///   and clipped to g ≥ 0; the solution is unique, and the start matters only for the work;
+/// - with adhesion, or where the last two loads and this one are not all mean gaps, or all positive mean pressures, from the last gap. So a sweep
+///   follows the branch of equilibria that its loads lead along, up to the instability at which it jumps: loading takes another
+///   one than unloading, and surfaces that were pulled apart ([`Status::Detached`](crate::Status)) stay so until they are pressed
+///   together again.
+///
+/// A mean gap that is given scales the start, as in [`Solver::solve_from`]; where there is no gap left to scale, after full
+/// contact, the start is uniform. Fine steps save a third of the work without adhesion. Steps that change the load by half
+/// or more save little, and with adhesion under pressure control may take more than the default start does.
+///
+/// A solve that does not converge is no error, and the next load starts from where it ended. Refused input is: it comes
+/// as an error, and the sweep ends.
+///
+/// ```
+/// use asperity::{Control, Grid, NoAdhesion, Problem, Solver, Surface, Sweep, Westergaard};
+/// let grid = Grid::square(64, 1.0)?;
+/// let surface = Surface::paraboloid(grid, 2.0)?;
+/// let mut problem = Problem::new(&surface, Westergaard::<f64>::new(grid, 1.0)?, NoAdhesion)?;
+/// let mut solver = Solver::default();
+/// let mut contact = Vec::new();
+/// for step in Sweep::new(&mut solver, &mut problem, [1e-4, 2e-4, 4e-4].map(Control::MeanPressure)) {
+///     let (_, solution) = step?;
+///     contact.push(solution.report.contact_points);
+/// }
+/// assert!(contact[0] < contact[1] && contact[1] < contact[2]);
+/// # Ok::<(), asperity::Error>(())
+/// ```
+#[derive(Debug)]
+pub struct Sweep<'a, T, O, L, I, C = Projection> {
+    solver: &'a mut Solver<C>,
+    problem: &'a mut Problem<T, O, L>,
+    loads: I,
+    start: Option<Array2<T>>,
+    history: Vec<(Control, Array2<T>)>,
+    failed: bool,
+}
+
+/// How far the last step may be extrapolated, in steps.
+const FARTHEST: f64 = 2.0;
+
+impl<'a, T, O, L, I, C> Sweep<'a, T, O, L, I, C>
+where
+    T: Real,
+    O: ElasticOperator<T>,
+    L: AdhesionLaw<T>,
+    I: Iterator<Item = Control>,
+    C: ContactConstraint<T>,
+{
+    /// A sweep over `loads`, in their order.
+    pub fn new(
+        solver: &'a mut Solver<C>,
+        problem: &'a mut Problem<T, O, L>,
+        loads: impl IntoIterator<Item = Control, IntoIter = I>,
+    ) -> Self {
+        Self { solver, problem, loads: loads.into_iter(), start: None, history: Vec::new(), failed: false }
+    }
+
+    /// The same sweep, with a gap of shape (Nx, Ny) from which its next load starts.
+    pub fn starting_from(self, gap: Array2<T>) -> Self {
+        Self { start: Some(gap), ..self }
+    }
+
+    /// The loads and gaps from which the next start is made, the latest last: at most two.
+    pub fn history(&self) -> &[(Control, Array2<T>)] {
+        &self.history
+    }
+
+    /// The same sweep, as if it came after others: with the [`Sweep::history`] of another sweep it goes on just as that one
+    /// would have, bit for bit. Of more than two gaps the first ones are not used.
+    ///
+    /// ```
+    /// use asperity::{Control, Grid, NoAdhesion, Problem, Solver, Surface, Sweep, Westergaard};
+    /// let grid = Grid::square(32, 1.0)?;
+    /// let mut problem =
+    ///     Problem::new(&Surface::paraboloid(grid, 2.0)?, Westergaard::<f64>::new(grid, 1.0)?, NoAdhesion)?;
+    /// let (mut solver, loads) = (Solver::default(), [0.04, 0.039, 0.038].map(Control::MeanGap));
+    /// let all: Vec<_> = Sweep::new(&mut solver, &mut problem, loads).collect::<Result<_, _>>()?;
+    ///
+    /// let mut first = Sweep::new(&mut solver, &mut problem, loads[..2].to_vec());
+    /// while first.next().transpose()?.is_some() {}
+    /// let history = first.history().to_vec();
+    /// let mut rest = Sweep::new(&mut solver, &mut problem, loads[2..].to_vec()).continuing(history);
+    /// assert_eq!(rest.next().transpose()?.as_ref(), all.last());
+    /// # Ok::<(), asperity::Error>(())
+    /// ```
+    pub fn continuing(self, mut history: Vec<(Control, Array2<T>)>) -> Self {
+        history.drain(..history.len().saturating_sub(2));
+        Self { history, ..self }
+    }
+
+    /// What [`Iterator::next`] does, with an observer of the iterations, as in [`Solver::solve_from`].
+    ///
+    /// # Errors
+    /// Those of [`Solver::solve_from`]; after one there is no next load.
+    pub fn next_observed(
+        &mut self,
+        observe: impl FnMut(&Iteration) -> ControlFlow<()>,
+    ) -> Option<Result<(Control, Solution<T>)>> {
+        if self.failed {
+            return None;
+        }
+        let control = self.loads.next()?;
+        self.extrapolate(control);
+        let start = self.start.as_ref().or(self.history.last().map(|(_, gap)| gap)).map(|gap| gap.view());
+        let solution = self.solver.solve_from(self.problem, control, start, observe);
+        match &solution {
+            Ok(solution) => self.remember(control, solution),
+            Err(_) => self.failed = true,
+        }
+        Some(solution.map(|solution| (control, solution)))
+    }
+
+    /// Makes the start from the last two gaps, in the place of the older one, if that is possible.
+    fn extrapolate(&mut self, control: Control) {
+        let [(before, _), (last, _)] = &self.history[..] else { return };
+        let steps = match (*before, *last, control) {
+            (Control::MeanGap(a), Control::MeanGap(b), Control::MeanGap(c)) => (c - b) / (b - a),
+            (Control::MeanPressure(a), Control::MeanPressure(b), Control::MeanPressure(c)) => {
+                (c / b).ln() / (b / a).ln()
+            }
+            _ => f64::NAN,
+        };
+        let (_, mut start) = self.history.remove(0);
+        let last = &self.history[0].1;
+        if steps.is_finite() && self.problem.law.is_zero() && start.dim() == last.dim() {
+            let (steps, projects) = (T::lit(steps.clamp(-FARTHEST, FARTHEST)), self.solver.constraint.projects());
+            start.zip_mut_with(last, |start, &last| {
+                let next = last + steps * (last - *start);
+                *start = if projects { next.max(T::zero()) } else { next };
+            });
+            self.start = Some(start);
+        }
+    }
+
+    /// Keeps the gap, and the one before it if the next start may be extrapolated from both.
+    fn remember(&mut self, control: Control, solution: &Solution<T>) {
+        let gap = match self.start.take() {
+            Some(mut room) if room.dim() == solution.gap.dim() => {
+                room.assign(&solution.gap);
+                room
+            }
+            _ => solution.gap.clone(),
+        };
+        if !self.problem.law.is_zero() {
+            self.history.clear();
+        }
+        self.history.push((control, gap));
+    }
+}
+
+impl<T, O, L, I, C> Iterator for Sweep<'_, T, O, L, I, C>
+where
+    T: Real,
+    O: ElasticOperator<T>,
+    L: AdhesionLaw<T>,
+    I: Iterator<Item = Control>,
+    C: ContactConstraint<T>,
+{
+    type Item = Result<(Control, Solution<T>)>;
+
+    fn next(&mut self) -> Option<Self::Item> {
+        self.next_observed(|_| ControlFlow::Continue(()))
+    }
+}

@@ -1,0 +1,201 @@
+//! Contact statistics on solutions whose contact is known.
+
+mod common;
+
+use std::f64::consts::PI;
+
+use asperity::exact::{self, Periodic};
+use asperity::*;
+use common::{rough, sphere};
+use ndarray::Array2;
+
+fn statistics<T: Real, L: AdhesionLaw<T>>(
+    problem: &mut Problem<T, Westergaard<T>, L>,
+    control: Control,
+) -> (Solution<T>, ContactStatistics) {
+    let solution = Solver::default().solve(problem, control).unwrap();
+    let statistics = ContactStatistics::of(&solution, problem.grid(), problem.law()).unwrap();
+    (solution, statistics)
+}
+
+/// A disc of contact, as nodes in it see it.
+fn disc(grid: &Grid, radius: f64) -> Solution<f64> {
+    let mut problem =
+        Problem::new(&Surface::wave(*grid, 0.1, 1).unwrap(), Westergaard::new(*grid, 1.0).unwrap(), NoAdhesion)
+            .unwrap();
+    let settings = Settings { max_iterations: 0, ..Settings::default() };
+    let mut solution = Solver::new(settings).solve(&mut problem, Control::MeanGap(1.0)).unwrap();
+    solution.gap = grid.sample(|x, y| (x.hypot(y) - radius).max(0.0));
+    solution.contact_pressure = grid.sample(|x, y| (radius - x.hypot(y)).max(0.0));
+    solution
+}
+
+/// The error of the contact area by nodes and of the corrected one, each as mean and root mean square over loads, relative to
+/// Hertz among periodic images.
+fn area_errors(n: usize) -> [f64; 4] {
+    let mut problem = sphere::<f64, _>(n, NoAdhesion);
+    let periodic = Periodic::new(exact::Hertz::new(2.0, 1.0).unwrap(), 1.0).unwrap();
+    let mut sums = [0.0; 4];
+    for k in 0..24 {
+        let load = 1e-4 * 1.1_f64.powi(k);
+        let (_, found) = statistics(&mut problem, Control::MeanPressure(load));
+        let area = PI * periodic.at_load(load).unwrap().contact().contact_radius().powi(2);
+        let (nodes, corrected) = (found.contact_fraction / area - 1.0, found.corrected_contact_fraction / area - 1.0);
+        let terms = [nodes, corrected, nodes * nodes, corrected * corrected];
+        sums.iter_mut().zip(terms).for_each(|(sum, term)| *sum += term / 24.0);
+    }
+    [sums[0], sums[1], sums[2].sqrt(), sums[3].sqrt()]
+}
+
+#[test]
+fn the_correction_takes_the_bias_off_the_area_of_hertz() {
+    let mut last = [f64::INFINITY; 4];
+    for (n, bias, corrected) in [(64, 0.059, 0.006), (128, 0.028, 0.005), (256, 0.015, 0.0015)] {
+        let errors = area_errors(n);
+        assert!((errors[0] - bias).abs() < 1e-3, "{n}: {errors:?}");
+        assert!(errors[1].abs() < corrected, "{n}: {errors:?}");
+        // what is left is the scatter of the nodes about the circle
+        assert!(errors[3] < 0.65 * errors[2], "{n}: {errors:?}");
+        assert!(errors.iter().zip(last).all(|(now, last)| now.abs() < last.abs()), "{n}: {errors:?}");
+        last = errors;
+    }
+}
+
+#[test]
+fn the_perimeter_of_a_disc_is_that_of_its_square() {
+    // along the sides of the cells a circle is 8 radii around; a disc of nodes is not biased, and the correction takes off
+    // what a contact has beyond the edge that is sampled
+    for (shape, lengths) in [((256, 256), (1.0, 1.0)), ((256, 128), (1.0, 1.0)), ((200, 300), (2.0, 1.0))] {
+        let grid = Grid::new(shape, lengths).unwrap();
+        let solution = disc(&grid, 0.3);
+        let found = ContactStatistics::of(&solution, &grid, &NoAdhesion).unwrap();
+        let (dx, dy) = grid.spacing();
+        assert!((found.perimeter - 2.4).abs() <= 4.0 * dx.max(dy), "{}", found.perimeter);
+        let area = found.contact_fraction * lengths.0 * lengths.1;
+        assert!((area / (0.09 * PI) - 1.0).abs() < 0.01);
+        let share = (PI - 1.0 + 2.0_f64.ln()) / 24.0;
+        let expected = share * found.perimeter * dx / (lengths.0 * lengths.1);
+        if dx == dy {
+            assert!((found.contact_fraction - found.corrected_contact_fraction - expected).abs() < 1e-9);
+        }
+        assert_eq!(found.cluster_sizes, [found.contact_points]);
+    }
+}
+
+#[test]
+fn the_nodes_in_contact_are_those_of_the_report_whatever_the_constraint() {
+    let mut problem = rough::<f64, _>(64, 16, NoAdhesion);
+    let control = Control::MeanPressure(0.1);
+    let settings = Settings::default();
+    let projected = Solver::new(settings).solve(&mut problem, control).unwrap();
+    let constraint = Penalty::new(5000.0).unwrap();
+    let soft = Solver { settings, constraint }.solve(&mut problem, control).unwrap();
+    let hard = Solver { settings, constraint: Uzawa::new(500.0).unwrap() }.solve(&mut problem, control).unwrap();
+    for solution in [projected, soft, hard] {
+        let found = ContactStatistics::of(&solution, problem.grid(), &NoAdhesion).unwrap();
+        assert_eq!(found.contact_points, solution.report.contact_points);
+        assert_eq!(found.contact_fraction, solution.report.contact_fraction);
+        assert_eq!(found.cluster_sizes.iter().sum::<usize>(), found.contact_points);
+        assert!(found.cluster_sizes.is_sorted_by(|a, b| a >= b) && found.cluster_sizes.len() > 5);
+        assert!(found.repulsive_fraction <= found.contact_fraction);
+        assert!(found.repulsive_fraction > 0.99 * found.contact_fraction);
+        assert_eq!(found.attractive_fraction, 0.0);
+        let distribution = PressureDistribution::of_contact_pressure(&solution, 50).unwrap();
+        assert!((distribution.integral() - found.contact_fraction).abs() < 1e-14);
+        let middles = distribution.edges.windows(2).map(|edges| 0.5 * (edges[0] + edges[1]));
+        let width = distribution.edges[1];
+        let mean: f64 = middles.zip(&distribution.density).map(|(p, density)| p * density * width).sum();
+        assert!((mean / solution.report.mean_contact_pressure - 1.0).abs() < 0.01);
+    }
+}
+
+#[test]
+fn adhesion_divides_the_surface_in_three() {
+    let single = Exponential::new(2e-4_f32, 4e-3).unwrap();
+    let (solution, found) = statistics(&mut rough::<f32, _>(64, 16, single), Control::MeanGap(0.02));
+    let reach = 4e-3 * 100.0_f32.ln();
+    let near = solution.gap.iter().filter(|g| **g > 0.0 && **g < reach).count();
+    assert!((found.attractive_fraction * 4096.0 - near as f64).abs() <= 1.0 && near > 100);
+
+    let law = MaugisDugdale::new(1e-4, 4e-3).unwrap();
+    let (solution, found) = statistics(&mut sphere::<f64, _>(128, law), Control::MeanGap(0.042));
+    let near = solution.gap.iter().filter(|g| **g > 0.0 && **g < 4e-3).count();
+    assert_eq!(found.attractive_fraction, near as f64 / 16384.0);
+    let sum = found.contact_fraction + found.attractive_fraction + found.apart_fraction;
+    assert!((sum - 1.0).abs() < 1e-15);
+    // the ring c² − a² of the exact solution
+    let exact = exact::MaugisDugdale::new(2.0, 1.0, 1e-4, 4e-3).unwrap();
+    let contact = Periodic::new(exact, 1.0).unwrap().at_mean_gap(0.042, -1.0 / 24.0).unwrap();
+    let (a, c) = (contact.contact().contact_radius(), contact.contact().adhesion_radius());
+    assert!((found.attractive_fraction / (PI * (c * c - a * a)) - 1.0).abs() < 0.1);
+
+    let distribution = PressureDistribution::of_pressure(&solution, 40).unwrap();
+    assert!((distribution.integral() - 1.0).abs() < 1e-14);
+    let least = solution.pressure.iter().copied().fold(f64::INFINITY, f64::min);
+    assert!(distribution.edges[0] == least && least < -1e-2);
+    // all of the ring is under the law's traction, within a bin of it
+    let traction = distribution.edges.iter().position(|edge| *edge > -1e-4 / 4e-3).unwrap();
+    let width = distribution.edges[1] - distribution.edges[0];
+    let there: f64 = distribution.density[traction.saturating_sub(2)..=traction].iter().map(|d| d * width).sum();
+    assert!(there > 0.9 * found.attractive_fraction, "{there} {found:?}");
+}
+
+#[test]
+fn lines_have_end_points_and_are_not_corrected() {
+    let grid = Grid::line(256, 1.0).unwrap();
+    let surface = Surface::wave(grid, 0.01, 3).unwrap();
+    let mut problem = Problem::new(&surface, Westergaard::<f64>::new(grid, 1.0).unwrap(), NoAdhesion).unwrap();
+    let (_, found) = statistics(&mut problem, Control::MeanPressure(0.02));
+    assert_eq!((found.perimeter, found.cluster_sizes.len()), (6.0, 3));
+    assert_eq!(found.corrected_contact_fraction, found.contact_fraction);
+
+    // what the nodes count too much at each end
+    let grid = Grid::line(128, 1.0).unwrap();
+    let surface = Surface::wave(grid, 0.02, 1).unwrap();
+    let mut problem = Problem::new(&surface, Westergaard::<f64>::new(grid, 1.0).unwrap(), NoAdhesion).unwrap();
+    let wave = exact::WavyLine::new(0.02, 1.0, 1.0).unwrap();
+    let excess = (0..100).map(|k| {
+        let pressure = wave.closing_pressure() * (0.3 + 0.002 * f64::from(k));
+        let (_, found) = statistics(&mut problem, Control::MeanPressure(pressure));
+        let width = 2.0 * wave.at_mean_pressure(pressure).unwrap().half_width();
+        (found.contact_fraction - width) * 128.0 / found.perimeter
+    });
+    let mean = excess.sum::<f64>() / 100.0;
+    assert!((mean - 0.19).abs() < 0.02, "{mean}");
+}
+
+#[test]
+fn full_contact_and_none_have_statistics() {
+    let mut problem = rough::<f64, _>(32, 8, NoAdhesion);
+    let (solution, full) = statistics(&mut problem, Control::MeanGap(0.0));
+    assert_eq!((full.contact_fraction, full.corrected_contact_fraction, full.perimeter), (1.0, 1.0, 0.0));
+    assert_eq!((&full.cluster_sizes[..], full.apart_fraction), (&[1024][..], 0.0));
+    assert!((PressureDistribution::of_contact_pressure(&solution, 7).unwrap().integral() - 1.0).abs() < 1e-14);
+    let (solution, none) = statistics(&mut problem, Control::MeanGap(1.0));
+    assert_eq!((none.contact_fraction, none.corrected_contact_fraction, none.perimeter), (0.0, 0.0, 0.0));
+    assert_eq!((none.cluster_sizes.len(), none.apart_fraction), (0, 1.0));
+    let distribution = PressureDistribution::of_contact_pressure(&solution, 4).unwrap();
+    assert_eq!((distribution.edges, distribution.density), (vec![0.0, 0.25, 0.5, 0.75, 1.0], vec![0.0; 4]));
+}
+
+#[test]
+fn statistics_refuse_what_does_not_fit() {
+    let mut problem = sphere::<f64, _>(16, NoAdhesion);
+    let mut solution = Solver::default().solve(&mut problem, Control::MeanGap(0.04)).unwrap();
+    for bins in [0, usize::MAX] {
+        let refused = PressureDistribution::of_pressure(&solution, bins);
+        assert!(matches!(refused, Err(Error::Value { name: "number of bins", .. })));
+    }
+    let other = Grid::square(8, 1.0).unwrap();
+    assert!(matches!(ContactStatistics::of(&solution, &other, &NoAdhesion), Err(Error::Shape { name: "gap", .. })));
+    solution.contact_pressure[[3, 4]] = f64::NAN;
+    let refused = PressureDistribution::of_contact_pressure(&solution, 3);
+    assert!(matches!(refused, Err(Error::NotFinite { name: "contact pressure", first: (3, 4), .. })));
+    solution.contact_pressure = Array2::zeros((4, 4));
+    assert!(ContactStatistics::of(&solution, problem.grid(), &NoAdhesion).is_err());
+    assert!(PressureDistribution::of_contact_pressure(&solution, 3).is_err());
+    // a uniform pressure has a bin around it
+    solution.pressure.fill(-2.0);
+    let uniform = PressureDistribution::of_pressure(&solution, 1).unwrap();
+    assert_eq!((uniform.edges, uniform.density), (vec![-3.0, -1.0], vec![0.5]));
+}

@@ -1,0 +1,158 @@
+//! Sweeps: they find what single solves find, with less work, and can be continued.
+
+mod common;
+
+use asperity::*;
+use common::{check, rough, sphere};
+
+fn gaps(values: &[f64]) -> Vec<Control> {
+    values.iter().copied().map(Control::MeanGap).collect()
+}
+
+fn pressures(values: &[f64]) -> Vec<Control> {
+    values.iter().copied().map(Control::MeanPressure).collect()
+}
+
+fn evenly(from: f64, to: f64, count: usize) -> Vec<f64> {
+    (0..count).map(|k| from + (to - from) * k as f64 / (count - 1) as f64).collect()
+}
+
+fn sweep<T: Real, L: AdhesionLaw<T>>(
+    problem: &mut Problem<T, Westergaard<T>, L>,
+    loads: &[Control],
+) -> Vec<(Control, Solution<T>)> {
+    let steps: Result<Vec<_>> = Sweep::new(&mut Solver::default(), problem, loads.to_vec()).collect();
+    steps.unwrap()
+}
+
+fn applications<T>(steps: &[(Control, Solution<T>)]) -> usize {
+    steps.iter().map(|(_, solution)| solution.report.operator_applications).sum()
+}
+
+/// Sweeps, compares with single solves, and returns the operator applications of both.
+#[track_caller]
+fn compare<L: AdhesionLaw<f64>>(problem: &mut Problem<f64, Westergaard<f64>, L>, loads: &[Control]) -> (usize, usize) {
+    let steps = sweep(problem, loads);
+    assert_eq!(steps.iter().map(|(control, _)| *control).collect::<Vec<_>>(), loads);
+    let mut cold = 0;
+    for (control, found) in &steps {
+        check(found, problem.law(), *control);
+        assert_eq!(found.report.status, Status::Converged);
+        let single = Solver::default().solve(problem, *control).unwrap().report;
+        cold += single.operator_applications;
+        assert!((found.report.mean_gap - single.mean_gap).abs() <= 1e-5 * single.mean_gap);
+        assert!(found.report.contact_points.abs_diff(single.contact_points) <= 3);
+    }
+    (applications(&steps), cold)
+}
+
+#[test]
+fn a_sweep_takes_fewer_applications_than_single_solves() {
+    let bare = || rough::<f64, _>(128, 32, NoAdhesion);
+    assert_eq!(compare(&mut bare(), &gaps(&evenly(0.02, 0.0125, 16))), (293, 466));
+    assert_eq!(compare(&mut bare(), &pressures(&evenly(0.02, 0.095, 16))), (375, 544));
+    let doubled: Vec<f64> = (0..7).map(|k| 0.005 * f64::from(1 << k)).collect();
+    let halved: Vec<f64> = doubled.iter().rev().copied().collect();
+    assert_eq!(compare(&mut bare(), &pressures(&doubled)), (210, 232));
+    assert_eq!(compare(&mut bare(), &pressures(&halved)), (218, 232));
+    assert_eq!(compare(&mut sphere(128, NoAdhesion), &gaps(&evenly(0.041, 0.039, 5))), (114, 144));
+    let law = Exponential::new(2e-4, 2e-3).unwrap();
+    assert_eq!(compare(&mut rough(128, 32, law), &pressures(&doubled)), (262, 266));
+    assert_eq!(compare(&mut rough(128, 32, law), &pressures(&halved)), (240, 266));
+    assert_eq!(compare(&mut rough(128, 32, law), &gaps(&[0.03, 0.02, 0.01, 0.005])), (123, 130));
+}
+
+#[test]
+fn a_sweep_goes_on_from_its_history_bit_for_bit() {
+    let loads = gaps(&evenly(0.03, 0.01, 6));
+    let law = MaugisDugdale::new(1e-4, 4e-3).unwrap();
+    for kept in 0..loads.len() {
+        continued(&mut rough::<f64, _>(48, 12, NoAdhesion), &loads, kept, 2);
+        continued(&mut rough::<f32, _>(48, 12, NoAdhesion), &loads, kept, 2);
+        continued(&mut sphere::<f64, _>(48, law), &gaps(&evenly(0.045, 0.04, 6)), kept, 1);
+    }
+}
+
+fn continued<T: Real, L: AdhesionLaw<T>>(
+    problem: &mut Problem<T, Westergaard<T>, L>,
+    loads: &[Control],
+    kept: usize,
+    most: usize,
+) {
+    let all = sweep(problem, loads);
+    let mut solver = Solver::default();
+    let mut first = Sweep::new(&mut solver, problem, loads[..kept].to_vec());
+    assert!(first.by_ref().all(|step| step.is_ok()));
+    let history = first.history().to_vec();
+    assert_eq!(history.len(), kept.min(most));
+    let rest = Sweep::new(&mut solver, problem, loads[kept..].to_vec()).continuing(history);
+    assert!(rest.map(Result::unwrap).eq(all[kept..].iter().cloned()));
+}
+
+#[test]
+fn sweeps_go_through_full_contact_and_back() {
+    let mut problem = rough::<f64, _>(32, 8, NoAdhesion);
+    for loads in [
+        gaps(&[0.01, 0.0, 0.0, 0.005, 0.02, 0.0, 0.01]),
+        pressures(&[0.1, 100.0, 100.0, 200.0, 0.1, 0.01, 50.0]),
+        [gaps(&[0.01, 0.0]), pressures(&[0.1]), gaps(&[0.0, 0.01, 0.02]), pressures(&[100.0, 0.1])].concat(),
+    ] {
+        for (control, solution) in sweep(&mut problem, &loads) {
+            assert_eq!(solution.report.status, Status::Converged, "{control:?}");
+            let single = Solver::default().solve(&mut problem, control).unwrap().report;
+            assert!((solution.report.mean_gap - single.mean_gap).abs() <= 1e-5 * single.mean_gap, "{control:?}");
+            assert_eq!(solution.report.contact_fraction == 1.0, single.contact_fraction == 1.0, "{control:?}");
+        }
+    }
+}
+
+#[test]
+fn a_sweep_with_adhesion_follows_its_branch() {
+    let law = MaugisDugdale::new(1e-3, 1e-2).unwrap();
+    let mut problem = sphere::<f64, _>(32, law);
+    let pressed = pressures(&[1e-3, 0.0, -1e-3, -2e-2, -1e-3, 1e-3]);
+    let steps = sweep(&mut problem, &pressed);
+    let status: Vec<_> = steps.iter().map(|(_, solution)| solution.report.status).collect();
+    let contact: Vec<_> = steps.iter().map(|(_, solution)| solution.report.contact_points).collect();
+    // pulled apart by the fourth load, the surfaces do not come together again under the fifth
+    assert_eq!(status[..3], [Status::Converged; 3]);
+    assert_eq!(status[3..5], [Status::Detached; 2]);
+    assert_eq!(status[5], Status::Converged);
+    assert!(contact[2] > 0 && contact[4] == 0 && contact[5] > 0, "{contact:?}");
+}
+
+#[test]
+fn every_constraint_can_be_swept() {
+    let loads = pressures(&[0.02, 0.03, 0.045, 0.03]);
+    let mut problem = rough::<f64, _>(48, 12, NoAdhesion);
+    let exact = sweep(&mut problem, &loads);
+    let settings = Settings::default();
+    let mut penalty = Solver { settings, constraint: Penalty::new(5000.0).unwrap() };
+    let mut uzawa = Solver { settings, constraint: Uzawa::new(500.0).unwrap() };
+    let soft: Vec<_> = Sweep::new(&mut penalty, &mut problem, loads.clone()).map(Result::unwrap).collect();
+    let hard: Vec<_> = Sweep::new(&mut uzawa, &mut problem, loads).map(Result::unwrap).collect();
+    for (steps, allowed) in [(soft, 1e-2), (hard, 1e-4)] {
+        for ((_, found), (_, exact)) in steps.iter().zip(&exact) {
+            assert_eq!(found.report.status, Status::Converged);
+            assert!((found.report.mean_gap / exact.report.mean_gap - 1.0).abs() < allowed);
+        }
+    }
+}
+
+#[test]
+fn refused_loads_end_a_sweep_and_bad_histories_are_refused() {
+    let mut problem = sphere::<f64, _>(16, NoAdhesion);
+    let mut solver = Solver::default();
+    let loads = gaps(&[0.04, f64::NAN, 0.04]);
+    let mut steps = Sweep::new(&mut solver, &mut problem, loads);
+    assert!(steps.next().unwrap().is_ok());
+    assert!(matches!(steps.next(), Some(Err(Error::Value { name: "mean gap", .. }))));
+    assert!(steps.next().is_none());
+    for shapes in [vec![(8, 8)], vec![(16, 16), (8, 8)], vec![(8, 8), (8, 8), (8, 8)]] {
+        let history = shapes.into_iter().zip([0.03, 0.035, 0.038]);
+        let history = history.map(|(shape, gap)| (Control::MeanGap(gap), ndarray::Array2::zeros(shape))).collect();
+        let mut steps = Sweep::new(&mut solver, &mut problem, gaps(&[0.04])).continuing(history);
+        assert!(matches!(steps.next(), Some(Err(Error::Shape { name: "starting gap", .. }))));
+    }
+    assert!(Sweep::new(&mut solver, &mut problem, []).next().is_none());
+}

@@ -1,0 +1,307 @@
+//! `asperity sweep`, end to end.
+#![cfg(feature = "cli")]
+
+use std::fs;
+use std::path::PathBuf;
+use std::process::{Child, Command, Output, Stdio};
+use std::thread::sleep;
+use std::time::Duration;
+
+use asperity::io::{read_field, write_npy};
+use asperity::{Grid, Surface};
+use ndarray::Array2;
+use serde_json::Value;
+use tempfile::TempDir;
+
+/// A folder with a wavy surface in it, in which the tool is run.
+struct Bench(TempDir);
+
+impl Bench {
+    fn new(n: usize) -> Self {
+        let bench = Self(tempfile::tempdir().unwrap());
+        write_npy(&bench.path("heights.npy"), &wavy(n)).unwrap();
+        bench
+    }
+
+    fn path(&self, name: &str) -> PathBuf {
+        self.0.path().join(name)
+    }
+
+    fn command(&self, arguments: &str) -> Command {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_asperity"));
+        command.current_dir(&self.0).args(["sweep", "--heights", "heights.npy"]).args(arguments.split_whitespace());
+        command
+    }
+
+    /// Sweeps to the end, and expects this exit code.
+    #[track_caller]
+    fn sweep(&self, arguments: &str, code: i32) -> Output {
+        let output = self.command(arguments).output().unwrap();
+        assert_eq!(output.status.code(), Some(code), "{arguments}: {}", text(&output.stderr));
+        output
+    }
+
+    /// Expects a refusal on one line with these parts in it.
+    #[track_caller]
+    fn refuse(&self, arguments: &str, parts: &[&str]) {
+        let output = self.sweep(arguments, 1);
+        let error = text(&output.stderr);
+        assert_eq!((error.lines().count(), output.stdout.len()), (1, 0), "{arguments}: {error}");
+        assert!(parts.iter().all(|part| error.contains(part)), "{arguments}: {error}");
+    }
+
+    fn read(&self, name: &str) -> String {
+        fs::read_to_string(self.path(name)).unwrap()
+    }
+
+    /// How many complete rows a table has.
+    fn rows(&self, name: &str) -> usize {
+        let table = fs::read_to_string(self.path(name)).unwrap_or_default();
+        table.matches('\n').count().saturating_sub(usize::from(table.starts_with("control,")))
+    }
+
+    fn names(&self, folder: &str) -> Vec<String> {
+        let entries = fs::read_dir(self.path(folder)).unwrap();
+        let mut names: Vec<_> = entries.map(|e| e.unwrap().file_name().into_string().unwrap()).collect();
+        names.sort();
+        names
+    }
+}
+
+fn wavy(n: usize) -> Array2<f64> {
+    let height = |x: f64, y: f64| 0.01 * (19.0 * x).sin() * (31.0 * y * x).cos() + 0.02 * (6.0 * x * x - 5.0 * y).sin();
+    Surface::from_fn(Grid::square(n, 1.0).unwrap(), height).unwrap().heights().clone()
+}
+
+fn text(bytes: &[u8]) -> String {
+    String::from_utf8(bytes.to_vec()).unwrap()
+}
+
+/// The column of a table, as numbers.
+fn column(table: &str, name: &str) -> Vec<f64> {
+    let k = table.lines().next().unwrap().split(',').position(|column| column == name).unwrap();
+    table.lines().skip(1).map(|row| row.split(',').nth(k).unwrap().parse().unwrap()).collect()
+}
+
+#[test]
+fn a_sweep_writes_a_row_for_each_load() {
+    let bench = Bench::new(64);
+    let output = bench.sweep("--mean-pressures 1e-3:4e-3:3:log,0.01 --out new/sweep.csv", 0);
+    assert_eq!(text(&output.stdout).lines().count(), 5);
+    assert_eq!(output.stderr.len(), 0);
+    let table = bench.read("new/sweep.csv");
+    assert_eq!(
+        table.lines().next().unwrap(),
+        "control,control_value,mean_pressure,mean_contact_pressure,mean_gap,contact_fraction,\
+         corrected_contact_fraction,perimeter,clusters,largest_cluster,repulsive_fraction,attractive_fraction,\
+         elastic_energy,adhesive_energy,min_gap,relative_error,load_error,iterations,operator_applications,status"
+    );
+    assert_eq!(bench.names("new"), ["sweep.csv", "sweep.csv.state.npz"]);
+    assert_eq!(column(&table, "control_value"), [1e-3, 2e-3, 4e-3, 0.01]);
+    assert_eq!(column(&table, "mean_pressure"), [1e-3, 2e-3, 4e-3, 0.01]);
+    let [nodes, corrected] = ["contact_fraction", "corrected_contact_fraction"].map(|name| column(&table, name));
+    assert!(nodes.is_sorted() && nodes.iter().zip(&corrected).all(|(nodes, corrected)| corrected < nodes));
+    assert!(column(&table, "relative_error").iter().all(|error| *error <= 1e-6));
+    assert!(table.lines().skip(1).all(|row| row.starts_with("mean-pressure,") && row.ends_with(",converged")));
+
+    // the first row is what a single solve gives
+    let solve = "solve --heights heights.npy --mean-pressure 1e-3 --no-pictures --out single";
+    let output = Command::new(env!("CARGO_BIN_EXE_asperity")).current_dir(&bench.0).args(solve.split(' ')).output();
+    assert!(output.unwrap().status.success());
+    let report: Value = serde_json::from_str(&bench.read("single/report.json")).unwrap();
+    for name in ["mean_gap", "contact_fraction", "elastic_energy", "relative_error", "iterations"] {
+        assert_eq!(column(&table, name)[0], report[name].as_f64().unwrap(), "{name}");
+    }
+
+    // JSON lines say the same, and the state is of the last gaps
+    bench.sweep("--mean-pressures 1e-3,2e-3,4e-3,1e-2 --quiet --threads 1 --out sweep.jsonl", 0);
+    for (object, row) in bench.read("sweep.jsonl").lines().zip(table.lines().skip(1)) {
+        assert!(serde_json::from_str::<Value>(object).unwrap().is_object());
+        // as text, which reading would round
+        let cells =
+            object.trim_matches(['{', '}']).split(',').map(|pair| pair.split_once(':').unwrap().1.trim_matches('"'));
+        assert_eq!(cells.collect::<Vec<_>>().join(","), row);
+    }
+    let state = read_field(&bench.path("sweep.jsonl.state.npz")).unwrap();
+    assert_eq!(state.dim(), (128, 64));
+    assert!((state.sum() / 8192.0 - 0.5 * column(&table, "mean_gap")[2..].iter().sum::<f64>()).abs() < 1e-12);
+}
+
+/// Waits until a table has so many rows, and kills what writes it.
+fn kill_at(child: &mut Child, bench: &Bench, name: &str, rows: usize) {
+    while bench.rows(name) < rows && child.try_wait().unwrap().is_none() {
+        sleep(Duration::from_millis(1));
+    }
+    child.kill().unwrap();
+    child.wait().unwrap();
+}
+
+#[test]
+fn a_sweep_that_is_killed_goes_on_where_it_was() {
+    let bench = Bench::new(192);
+    for (options, loads, rows) in [
+        ("", "--mean-pressures 1e-3:0.02:30", 30),
+        ("--law exponential --work-of-adhesion 1e-5 --range 2e-3", "--mean-gaps 0.03:0.02:12,0.02:0.03:12", 24),
+        ("--precision f32 --tolerance 1e-4", "--mean-pressures 2e-3:0.02:30:log", 30),
+    ] {
+        bench.sweep(&format!("{options} {loads} --quiet --force --out whole.csv"), 0);
+        let arguments = format!("{options} {loads} --quiet --out killed.csv");
+        let mut seen = 0;
+        for kill in 1..=4 {
+            let mut child = bench.command(&arguments).stderr(Stdio::null()).spawn().unwrap();
+            kill_at(&mut child, &bench, "killed.csv", 4 * kill);
+            assert!((seen..rows).contains(&bench.rows("killed.csv")), "{} rows", bench.rows("killed.csv"));
+            seen = bench.rows("killed.csv");
+        }
+        let whole = bench.read("whole.csv");
+        assert!(whole.starts_with(bench.read("killed.csv").rsplit_once('\n').unwrap().0));
+        bench.sweep(&arguments, 0);
+        assert!(bench.read("killed.csv") == whole, "{arguments}");
+        for name in ["killed.csv", "killed.csv.state.npz"] {
+            fs::remove_file(bench.path(name)).unwrap();
+        }
+    }
+}
+
+#[test]
+fn a_last_row_that_is_not_whole_is_made_again() {
+    let bench = Bench::new(48);
+    let loads: Vec<String> = (1..=5).map(|k| format!("{}", f64::from(k) * 0.002)).collect();
+    let arguments = |k: usize| format!("--mean-pressures {} --out sweep.csv", loads[..k].join(","));
+    bench.sweep(&arguments(5), 0);
+    let whole = bench.read("sweep.csv");
+    let ends: Vec<usize> = whole.match_indices('\n').map(|(at, _)| at + 1).collect();
+    for (k, length) in [(3, ends[3] + 1), (3, ends[4] - 1), (3, ends[4]), (4, ends[4] + 40), (5, ends[5])] {
+        bench.sweep(&format!("{} --force", arguments(k)), 0);
+        fs::write(bench.path("sweep.csv"), &whole[..length]).unwrap();
+        let output = bench.sweep(&arguments(5), 0);
+        assert!(text(&output.stdout).contains(&format!("{k} of 5 rows already")));
+        assert_eq!(bench.read("sweep.csv"), whole);
+    }
+}
+
+#[test]
+fn the_file_of_another_sweep_is_refused_and_kept() {
+    let bench = Bench::new(32);
+    let good = "--mean-pressures 2e-3,4e-3 --out sweep.csv";
+    bench.sweep(good, 0);
+    write_npy(&bench.path("start.npy"), &Array2::from_elem((32, 32), 0.01)).unwrap();
+    let (before, names) = (bench.read("sweep.csv"), bench.names("."));
+    for (arguments, part) in [
+        (format!("{good} --modulus 2"), "modulus is 1, and not 2"),
+        (format!("{good} --lengths 2"), "lengths is 1 1, and not 2 2"),
+        (format!("{good} --tolerance 1e-7"), "tolerance"),
+        (format!("{good} --max-iterations 7"), "max iterations is 2000, and not 7"),
+        (format!("{good} --method rey2017"), "method"),
+        (format!("{good} --precision f32"), "precision"),
+        (format!("{good} --law exponential --work-of-adhesion 1e-4 --range 1e-2"), "law is none, and not exponential"),
+        (format!("{good} --initial-gap start.npy"), "initial gap"),
+        (format!("{good} --format jsonl"), "format is csv, and not jsonl"),
+        ("--mean-gaps 2e-3,4e-3 --out sweep.csv".to_owned(), "control is mean-pressure, and not mean-gap"),
+        ("--mean-pressures 2e-3,5e-3 --out sweep.csv".to_owned(), "first 2 loads"),
+        ("--mean-pressures 2e-3 --out sweep.csv".to_owned(), "first 2 loads"),
+    ] {
+        bench.refuse(&arguments, &["sweep.csv", "another sweep", part, "--force"]);
+        assert_eq!((bench.read("sweep.csv"), bench.names(".")), (before.clone(), names.clone()), "{arguments}");
+    }
+    let mut heights = wavy(32);
+    heights[[3, 4]] += 1e-9;
+    write_npy(&bench.path("heights.npy"), &heights).unwrap();
+    bench.refuse(good, &["another file of its heights"]);
+    write_npy(&bench.path("heights.npy"), &wavy(32)).unwrap();
+    bench.sweep(good, 0);
+    assert_eq!(bench.read("sweep.csv"), before);
+
+    fs::write(bench.path("notes.csv"), "mine\n").unwrap();
+    bench.refuse("--mean-pressures 2e-3 --out notes.csv", &["notes.csv", "exists", "--force"]);
+    assert_eq!(bench.read("notes.csv"), "mine\n");
+    bench.sweep("--mean-pressures 2e-3 --out notes.csv --force", 0);
+    assert_eq!(bench.rows("notes.csv"), 1);
+}
+
+#[test]
+fn bad_lists_and_files_are_refused() {
+    let bench = Bench::new(16);
+    for (arguments, parts) in [
+        ("--out sweep.csv", vec!["--mean-gaps", "--mean-pressures"]),
+        ("--mean-gaps 0.1 --mean-pressures 0.1 --out sweep.csv", vec!["cannot be used with"]),
+        ("--mean-pressures , --out sweep.csv", vec!["--mean-pressures", "must be a number"]),
+        ("--mean-pressures nan --out sweep.csv", vec!["nan", "finite"]),
+        ("--mean-pressures 1,two --out sweep.csv", vec!["two", "a number"]),
+        ("--mean-pressures -1e-3:inf:4 --out sweep.csv", vec!["inf", "finite"]),
+        ("--mean-gaps 0.1,-0.1 --out sweep.csv", vec!["--mean-gaps", "-0.1", "zero or positive"]),
+        ("--mean-gaps 0.1:0.2 --out sweep.csv", vec!["0.1:0.2", "FROM:TO:COUNT"]),
+        ("--mean-gaps 0:0.2:3:log --out sweep.csv", vec!["0:0.2:3:log", "positive"]),
+        ("--mean-gaps 0.1,1e300 --precision f32 --out sweep.csv", vec!["1e300", "precision"]),
+        ("--mean-gaps 0.1 --out sweep.txt", vec!["sweep.txt", ".csv", ".jsonl", "--format"]),
+        ("--mean-gaps 0.1 --out sweep", vec![".csv", ".jsonl", "--format"]),
+        ("--mean-gaps 0.1", vec!["--out"]),
+        ("--mean-gaps 0.1 --law exponential --out sweep.csv", vec!["--work-of-adhesion"]),
+        ("--mean-gaps 0.1 --out heights.npy/sweep.csv", vec!["heights.npy", "cannot be written"]),
+    ] {
+        bench.refuse(arguments, &parts);
+        assert_eq!(bench.names("."), ["heights.npy"], "{arguments}");
+    }
+    let empty = bench.command("--out sweep.csv").args(["--mean-gaps", ""]).output().unwrap();
+    assert_eq!((empty.status.code(), text(&empty.stderr).lines().count()), (Some(1), 1));
+    fs::create_dir(bench.path("folder.csv")).unwrap();
+    bench.refuse("--mean-gaps 0.1 --out folder.csv", &["folder.csv", "not a regular file"]);
+    if cfg!(target_os = "linux") {
+        bench.refuse("--mean-gaps 0.1 --out /proc/asperity/sweep.csv", &["/proc/asperity", "cannot be written"]);
+        bench.refuse("--mean-gaps 0.1 --out /dev/null --format csv", &["/dev/null", "not a regular file"]);
+    }
+}
+
+#[test]
+fn rows_that_did_not_converge_are_written_and_counted() {
+    let bench = Bench::new(32);
+    let arguments = "--mean-pressures 4e-3,-4e-3,4e-3 --out sweep.csv";
+    let first = bench.sweep(arguments, 2);
+    let warning = text(&first.stderr);
+    assert!(warning.contains("1 of 3 rows") && warning.lines().count() == 1, "{warning}");
+    let table = bench.read("sweep.csv");
+    let ends: Vec<_> = table.lines().skip(1).map(|row| row.rsplit(',').next().unwrap()).collect();
+    assert_eq!(ends, ["converged", "detached", "converged"]);
+    // what there is already counts too
+    let again = bench.sweep(arguments, 2);
+    assert!(text(&again.stdout).contains("3 of 3 rows already") && text(&again.stderr).contains("1 of 3 rows"));
+    assert_eq!(bench.read("sweep.csv"), table);
+
+    let law = "--law maugis-dugdale --work-of-adhesion 1e-4 --range 1e-3";
+    let output = bench.sweep(&format!("{law} --mean-gaps 0.03,0.02 --out unresolved.csv"), 0);
+    let warning = text(&output.stderr);
+    assert!(warning.contains("under-resolved") && warning.lines().count() == 1, "{warning}");
+}
+
+#[test]
+fn fields_are_kept_for_every_load() {
+    let bench = Bench::new(32);
+    let arguments = "--mean-gaps 0.02,0.01 --fields fields --out sweep.csv";
+    bench.sweep(arguments, 0);
+    let names = ["contact_pressure-0001.npy", "contact_pressure-0002.npy", "gap-0001.npy", "gap-0002.npy"];
+    assert_eq!(bench.names("fields")[..4], names);
+    assert_eq!(bench.names("fields").len(), 6);
+    let [first, second] = [0, 1].map(|k| read_field(&bench.path("fields").join(names[2 + k])).unwrap());
+    assert!((first.mean().unwrap() - 0.02).abs() < 1e-12 && (second.mean().unwrap() - 0.01).abs() < 1e-12);
+    let table = bench.read("sweep.csv");
+    let contact = second.iter().filter(|gap| **gap == 0.0).count() as f64 / 1024.0;
+    assert_eq!(column(&table, "contact_fraction")[1], contact);
+    bench.refuse("--mean-gaps 0.02,0.01 --fields fields --out other.csv", &["gap-0001.npy", "exists", "--force"]);
+    bench.refuse("--mean-gaps 0.02,0.01 --out sweep.csv", &["another sweep", "fields"]);
+    // more loads go on from there
+    bench.sweep("--mean-gaps 0.02,0.01,0.005 --fields fields --out sweep.csv", 0);
+    assert!(bench.read("sweep.csv").starts_with(&table) && bench.rows("sweep.csv") == 3);
+    assert_eq!(bench.names("fields").len(), 9);
+}
+
+#[test]
+fn help_tells_the_lists_and_the_exit_codes() {
+    let help = text(&bench_help().stdout).split_whitespace().collect::<Vec<_>>().join(" ");
+    for part in ["FROM:TO:COUNT:log", "--mean-gaps", ".csv or .jsonl", "Exits with 0", "Examples"] {
+        assert!(help.contains(part), "{part}: {help}");
+    }
+}
+
+fn bench_help() -> Output {
+    Command::new(env!("CARGO_BIN_EXE_asperity")).args(["sweep", "--help"]).output().unwrap()
+}
