@@ -96,7 +96,7 @@ pub use picture::{Colouring, Map};
 pub use problem::{Control, Problem};
 pub use real::Real;
 pub use solver::{Criterion, Iteration, Method, Report, Settings, Solution, Solver, Status};
-pub use surface::Surface;
+pub use surface::{Amplitude, Psd, SelfAffine, Spectrum, Surface, SurfaceStatistics};
 
 /// Runs the code of the README as a test.
 #[cfg(doctest)]
