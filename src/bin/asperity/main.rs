@@ -1,11 +1,14 @@
-//! The command-line tool: `asperity demo` shows what the library does, `asperity solve` does it on files.
+//! The command-line tool: `asperity demo` shows what the library does, `asperity solve` does it on files,
+//! `asperity surface` makes such files and `asperity stats` measures them.
 
 mod demo;
+mod output;
 mod progress;
 mod report;
 mod run;
 mod solve;
-mod terrain;
+mod stats;
+mod surface;
 
 use std::error::Error;
 use std::io::{self, Write};
@@ -28,6 +31,8 @@ struct Tool {
 const EXAMPLES: &str = "\
 Examples:
   asperity demo
+  asperity surface --size 512 --rms-slope 0.1 --out heights.npy
+  asperity stats heights.npy
   asperity solve --heights heights.npy --mean-pressure 0.01 --out results
   asperity solve --help";
 
@@ -35,6 +40,8 @@ Examples:
 enum Command {
     Demo(demo::Options),
     Solve(Box<solve::Options>),
+    Surface(surface::Options),
+    Stats(stats::Options),
 }
 
 /// What a command may fail with: one line that names the value and the remedy.
@@ -52,6 +59,8 @@ fn main() -> ExitCode {
     let converged = match tool.command {
         Command::Demo(options) => demo::run(&options),
         Command::Solve(options) => solve::run(&options),
+        Command::Surface(options) => surface::run(&options),
+        Command::Stats(options) => stats::run(&options),
     };
     match converged {
         Ok(true) => CONVERGED,

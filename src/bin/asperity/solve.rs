@@ -165,13 +165,7 @@ impl Options {
 
     fn surface(&self) -> Outcome<Surface> {
         let heights = read_field(&self.heights)?;
-        let (nx, ny) = heights.dim();
-        let lengths = match self.lengths.as_deref() {
-            None => (1.0, 1.0),
-            Some([lx]) => (*lx, lx / nx as f64 * ny as f64),
-            Some(lengths) => (lengths[0], lengths[1]),
-        };
-        Ok(Surface::new(Grid::new((nx, ny), lengths)?, heights)?)
+        Ok(Surface::new(run::grid(heights.dim(), self.lengths.as_deref())?, heights)?)
     }
 
     fn start(&self, grid: &Grid) -> Outcome<Option<Array2<f64>>> {
@@ -311,7 +305,7 @@ impl Job<'_> {
     }
 }
 
-fn write_text(path: &Path, text: &str) -> asperity::Result<()> {
+pub fn write_text(path: &Path, text: &str) -> asperity::Result<()> {
     fs::write(path, text).map_err(|e| Error::file(path, format!("cannot be written: {e}")))
 }
 
@@ -332,7 +326,7 @@ fn number(text: &str, allowed: fn(f64) -> bool, requirement: &str) -> Result<f64
     }
 }
 
-fn positive(text: &str) -> Result<f64, String> {
+pub fn positive(text: &str) -> Result<f64, String> {
     number(text, |v| v > 0.0 && v.is_finite(), "a number, positive and finite")
 }
 
