@@ -65,6 +65,15 @@ pub enum Error {
         /// What it should return there; nothing if it is not finite.
         expected: Option<f64>,
     },
+    /// A surface with waves that are too short for the grid.
+    Unresolved {
+        /// The wave number k_s of the shortest waves, in units of 2π/Lx.
+        k_s: f64,
+        /// What it must stay below on this grid, in the same unit.
+        limit: f64,
+        /// The grid's shape, `(Nx, Ny)`.
+        shape: (usize, usize),
+    },
     /// A file that could not be read or written.
     File {
         /// Where it is.
@@ -145,6 +154,14 @@ impl fmt::Display for Error {
                 Short(*value),
                 Short(*gap),
                 Short(*expected)
+            ),
+            Self::Unresolved { k_s, limit, shape } => write!(
+                f,
+                "k_s is {}: it must be below {} for {} x {} nodes to resolve it: use more nodes, or a smaller k_s",
+                Short(*k_s),
+                Short(*limit),
+                shape.0,
+                shape.1
             ),
             Self::File { path, reason } => write!(f, "{}: {reason}", path.display()),
         }

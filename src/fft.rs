@@ -83,14 +83,27 @@ impl<T: Real> Convolver<T> {
     pub(crate) fn convolve(
         &mut self,
         input: ArrayView2<'_, T>,
-        mut output: ArrayViewMut2<'_, T>,
+        output: ArrayViewMut2<'_, T>,
         modify: impl Fn(usize, &mut [Complex<T>]) -> f64 + Sync + Send,
     ) -> Result<f64> {
         Error::shape("operator input", input.dim(), self.shape)?;
         Error::shape("operator output", output.dim(), self.shape)?;
-        let Self { rows, columns, spectrum, sums, pool, shape: (n0, n1) } = self;
-        let norm = T::lit(1.0 / (*n0 as f64 * *n1 as f64));
+        let norm = T::lit(1.0 / (self.shape.0 as f64 * self.shape.1 as f64));
+        self.rows_forward(input);
+        let Self { columns, spectrum, sums, pool, shape: (n0, _), .. } = self;
+        par::map_into(par::chunks_mut(flat_mut(spectrum), *n0), sums, 1, |k, column| {
+            let Workspace { scratch, .. } = &mut *pool.get();
+            columns.forward.process_with_scratch(column, scratch);
+            let sum = modify(k, column);
+            columns.inverse.process_with_scratch(column, scratch);
+            sum
+        });
+        self.rows_inverse(output, norm);
+        Ok(self.sums.iter().sum())
+    }
 
+    fn rows_forward(&mut self, input: ArrayView2<'_, T>) {
+        let Self { rows, spectrum, pool, shape: (_, n1), .. } = self;
         par::for_each(input.axis_chunks_iter(Axis(0), TILE), spectrum.axis_chunks_iter_mut(Axis(1), TILE), |x, z| {
             let Workspace { tile, scratch } = &mut *pool.get();
             pack(x, tile);
@@ -99,13 +112,10 @@ impl<T: Real> Convolver<T> {
             }
             separate(tile, *n1, z);
         });
-        par::map_into(par::chunks_mut(flat_mut(spectrum), *n0), sums, 1, |k, column| {
-            let Workspace { scratch, .. } = &mut *pool.get();
-            columns.forward.process_with_scratch(column, scratch);
-            let sum = modify(k, column);
-            columns.inverse.process_with_scratch(column, scratch);
-            sum
-        });
+    }
+
+    fn rows_inverse(&mut self, mut output: ArrayViewMut2<'_, T>, norm: T) {
+        let Self { rows, spectrum, pool, shape: (_, n1), .. } = self;
         par::for_each(output.axis_chunks_iter_mut(Axis(0), TILE), spectrum.axis_chunks_iter(Axis(1), TILE), |x, z| {
             let Workspace { tile, scratch } = &mut *pool.get();
             join(z, *n1, norm, tile);
@@ -114,8 +124,43 @@ impl<T: Real> Convolver<T> {
             }
             unpack(tile, x);
         });
-        Ok(sums.iter().sum())
     }
+}
+
+/// The squared modulus of each mode of a field, the amplitude of a constant being its value.
+///
+/// In the layout of the half spectrum, `(n1/2 + 1, n0)`.
+pub(crate) fn powers(field: ArrayView2<'_, f64>) -> Array2<f64> {
+    let mut convolver = Convolver::new(field.dim());
+    convolver.rows_forward(field);
+    let Convolver { columns, spectrum, pool, shape: (n0, n1), .. } = &mut convolver;
+    let norm = (*n0 as f64 * *n1 as f64).recip().powi(2);
+    let mut powers = Array2::zeros(spectrum.dim());
+    par::for_each(par::chunks_mut(flat_mut(spectrum), *n0), par::chunks_mut(flat_mut(&mut powers), *n0), |z, power| {
+        columns.forward.process_with_scratch(z, &mut pool.get().scratch);
+        power.iter_mut().zip(z).for_each(|(power, z)| *power = norm * z.norm_sqr());
+    });
+    powers
+}
+
+/// The field of given modes, and the sum of what `fill` returns, in order.
+///
+/// `fill` gets the column's index along the second axis, and zeros to overwrite by its modes along the first. Those of
+/// column 0, and of the Nyquist column, must be even with conjugation.
+pub(crate) fn synthesise(
+    shape: (usize, usize),
+    fill: impl Fn(usize, &mut [Complex<f64>]) -> f64 + Sync + Send,
+) -> (Array2<f64>, f64) {
+    let mut convolver = Convolver::new(shape);
+    let Convolver { columns, spectrum, sums, pool, .. } = &mut convolver;
+    par::map_into(par::chunks_mut(flat_mut(spectrum), shape.0), sums, 1, |k, column| {
+        let sum = fill(k, column);
+        columns.inverse.process_with_scratch(column, &mut pool.get().scratch);
+        sum
+    });
+    let mut field = Array2::zeros(shape);
+    convolver.rows_inverse(field.view_mut(), 1.0);
+    (field, convolver.sums.iter().sum())
 }
 
 fn lines<T>(tile: &[Complex<T>], n: usize) -> impl Iterator<Item = &[Complex<T>]> {
@@ -245,6 +290,37 @@ mod tests {
             }
             for (y, expected) in y.iter().zip(&oracle(&x, factor)) {
                 assert_relative_eq!(*y, *expected, epsilon = 1e-13);
+            }
+        }
+    }
+
+    #[test]
+    fn fields_are_analysed_and_synthesised_in_every_shape() {
+        for (n0, n1) in [(1, 1), (1, 7), (7, 1), (4, 6), (5, 6), (6, 5), (7, 3), (34, 5)] {
+            let x = field((n0, n1));
+            let sum: f64 = x.iter().map(|x| x * x).sum();
+            let powers = powers(x.view());
+            let weight = |k: usize| if k == 0 || 2 * k == n1 { 1.0 } else { 2.0 };
+            let parseval: f64 = powers.outer_iter().enumerate().map(|(k, row)| weight(k) * row.sum()).sum();
+            assert_relative_eq!(parseval, sum / x.len() as f64, max_relative = 1e-13);
+
+            // one wave along both axes, where there is room for it
+            let (k0, k1) = (n0.min(2) - 1, (n1 - 1) / 2);
+            let amplitude = Complex::new(0.25, if k1 > 0 { -0.5 } else { 0.0 });
+            let (wave, returned) = synthesise((n0, n1), |k, column| {
+                if k == k1 {
+                    column[k0] += amplitude;
+                    if k1 == 0 {
+                        column[(n0 - k0) % n0] += amplitude.conj();
+                    }
+                }
+                k as f64
+            });
+            assert_eq!(returned, (0..=n1 / 2).sum::<usize>() as f64);
+            for ((i, j), value) in wave.indexed_iter() {
+                let phase = TAU * ((i * k0) as f64 / n0 as f64 + (j * k1) as f64 / n1 as f64);
+                let expected = 2.0 * (amplitude * Complex::from_polar(1.0, phase)).re;
+                assert_relative_eq!(*value, expected, epsilon = 1e-13);
             }
         }
     }

@@ -104,7 +104,7 @@ pub use picture::{Colouring, Map};
 pub use problem::{Control, Problem};
 pub use real::Real;
 pub use solver::{Criterion, Iteration, Method, Report, Settings, Solution, Solver, Status};
-pub use surface::Surface;
+pub use surface::{Amplitude, Psd, SelfAffine, Spectrum, Surface, SurfaceStatistics};
 pub use sweep::Sweep;
 
 /// Runs the code of the README as a test.

@@ -3,7 +3,17 @@ use std::f64::consts::TAU;
 use ndarray::Array2;
 
 use crate::error::{Error, Result};
+use crate::field::flat_mut;
 use crate::grid::Grid;
+
+mod philox;
+mod self_affine;
+mod spectrum;
+mod statistics;
+
+pub use self_affine::{Amplitude, SelfAffine};
+pub use spectrum::{Psd, Spectrum};
+pub use statistics::SurfaceStatistics;
 
 /// The heights of the rigid rough surface on a grid: peaks have the larger height.
 ///
@@ -98,6 +108,13 @@ impl Surface {
         let mean = self.mean();
         (self.heights.iter().map(|h| (h - mean).powi(2)).sum::<f64>() / self.heights.len() as f64).sqrt()
     }
+}
+
+/// Moves what is at index zero to the origin of the grid.
+fn centre(field: &mut Array2<f64>) {
+    let (nx, ny) = field.dim();
+    flat_mut(field).rotate_right(nx / 2 * ny);
+    field.rows_mut().into_iter().filter_map(|row| row.into_slice()).for_each(|row| row.rotate_right(ny / 2));
 }
 
 fn resolved(periods: usize, nodes: usize) -> Result<()> {

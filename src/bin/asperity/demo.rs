@@ -1,7 +1,9 @@
 use std::path::{Path, PathBuf};
 
 use asperity::io::{OutputFolder, write_npy};
-use asperity::{Colouring, Control, Exponential, Grid, Map, NoAdhesion, Settings, Status};
+use asperity::{
+    Amplitude, Colouring, Control, Exponential, Grid, Map, NoAdhesion, SelfAffine, Settings, Status, Surface,
+};
 use clap::Args;
 use ndarray::Array2;
 
@@ -9,7 +11,6 @@ use crate::options::threads;
 use crate::progress::Progress;
 use crate::report::{Style, si, table, warn};
 use crate::run::{self, Case, Units};
-use crate::terrain::rough;
 use crate::{Outcome, say};
 
 /// Press a built-in rough surface, without and with adhesion at the same load.
@@ -50,7 +51,7 @@ pub fn run(options: &Options) -> Outcome<bool> {
     run::use_threads(options.threads)?;
 
     let grid = Grid::square(NODES, SIDE)?;
-    let surface = rough(grid, RMS_HEIGHT)?;
+    let surface = rough(grid)?;
     say(&format!(
         "A rough surface of {side} by {side} ({NODES} x {NODES} nodes, rms height {}) pressed with {}\n\
          against a half-space of contact modulus {}, without and with adhesion (exponential law, {} over {}).\n",
@@ -92,6 +93,12 @@ pub fn run(options: &Options) -> Outcome<bool> {
     Ok([without, with].iter().all(|account| account.report.status == Status::Converged))
 }
 
+/// The same every time, and on every grid that resolves its waves.
+fn rough(grid: Grid) -> asperity::Result<Surface> {
+    let amplitude = Amplitude::RmsHeight(RMS_HEIGHT);
+    SelfAffine { k_l: 3.0, k_r: 3.0, k_s: 40.0, amplitude, seed: 2017, ..SelfAffine::default() }.surface(grid)
+}
+
 fn draw_heights(path: &Path, grid: Grid, heights: &Array2<f64>) -> asperity::Result<()> {
     let map = Map {
         title: "Rough surface",
@@ -126,8 +133,8 @@ mod tests {
 
     #[test]
     fn the_surface_has_its_rms_height_and_the_adhesion_is_resolved() {
-        let surface = rough(Grid::square(128, SIDE).unwrap(), RMS_HEIGHT).unwrap();
-        assert!((surface.rms_height() / RMS_HEIGHT - 1.0).abs() < 1e-9);
+        let surface = rough(Grid::square(128, SIDE).unwrap()).unwrap();
+        assert!((surface.rms_height() / RMS_HEIGHT - 1.0).abs() < 1e-12);
         let spacing = SIDE / NODES as f64;
         assert!((WORK_OF_ADHESION * spacing / MODULUS).sqrt() / RANGE < 0.5);
     }

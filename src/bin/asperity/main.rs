@@ -1,16 +1,18 @@
 //! The command-line tool: `asperity demo` shows what the library does, `asperity solve` does it on files,
-//! and `asperity sweep` under many loads.
+//! `asperity sweep` under many loads; `asperity surface` makes such files and `asperity stats` measures them.
 
 mod demo;
 mod journal;
 mod loads;
 mod options;
+mod output;
 mod progress;
 mod report;
 mod run;
 mod solve;
+mod stats;
+mod surface;
 mod sweep;
-mod terrain;
 
 use std::error::Error;
 use std::io::{self, Write};
@@ -33,6 +35,8 @@ struct Tool {
 const EXAMPLES: &str = "\
 Examples:
   asperity demo
+  asperity surface --size 512 --rms-slope 0.1 --out heights.npy
+  asperity stats heights.npy
   asperity solve --heights heights.npy --mean-pressure 0.01 --out results
   asperity sweep --heights heights.npy --mean-pressures 1e-3:1e-1:20:log --out sweep.csv
   asperity solve --help";
@@ -42,6 +46,8 @@ enum Command {
     Demo(demo::Options),
     Solve(Box<solve::Options>),
     Sweep(Box<sweep::Options>),
+    Surface(surface::Options),
+    Stats(stats::Options),
 }
 
 /// What a command may fail with: one line that names the value and the remedy.
@@ -60,6 +66,8 @@ fn main() -> ExitCode {
         Command::Demo(options) => demo::run(&options),
         Command::Solve(options) => solve::run(&options),
         Command::Sweep(options) => sweep::run(&options),
+        Command::Surface(options) => surface::run(&options),
+        Command::Stats(options) => stats::run(&options),
     };
     match converged {
         Ok(true) => CONVERGED,

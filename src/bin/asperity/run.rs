@@ -92,6 +92,16 @@ pub fn use_threads(threads: Option<usize>) -> Outcome<usize> {
     }
 }
 
+/// The grid of a map with the given `--lengths`: one of them means square cells, none the unit square.
+pub fn grid((nx, ny): (usize, usize), lengths: Option<&[f64]>) -> Result<Grid> {
+    let lengths = match lengths {
+        Some([lx, ly, ..]) => (*lx, *ly),
+        Some([lx]) => (*lx, lx / nx as f64 * ny as f64),
+        _ => (1.0, 1.0),
+    };
+    Grid::new((nx, ny), lengths)
+}
+
 /// The units that pictures have on their axes.
 #[derive(Clone, Copy)]
 pub struct Units<'a> {

@@ -198,6 +198,6 @@ impl Job<'_> {
     }
 }
 
-fn write_text(path: &Path, text: &str) -> asperity::Result<()> {
+pub fn write_text(path: &Path, text: &str) -> asperity::Result<()> {
     fs::write(path, text).map_err(|e| Error::file(path, format!("cannot be written: {e}")))
 }

@@ -1,0 +1,43 @@
+use std::path::{Path, PathBuf};
+
+use asperity::Error;
+use asperity::io::OutputFolder;
+
+use crate::Outcome;
+use crate::run::at_destination;
+
+/// A single file that appears complete or not at all.
+pub struct OutputFile {
+    folder: OutputFolder,
+    parent: PathBuf,
+    name: String,
+}
+
+impl OutputFile {
+    /// Prepares a file at `path`, which with `force` may replace one that is there.
+    pub fn create(path: &Path, force: bool) -> Outcome<Self> {
+        let parent = match path.parent() {
+            Some(parent) if parent != Path::new("") => parent,
+            _ => Path::new("."),
+        };
+        let name = path.file_name().and_then(|name| name.to_str());
+        let name = name.ok_or_else(|| Error::file(path, "is no name for a file: choose another"))?;
+        let folder = OutputFolder::create(parent, &[name], force)?;
+        Ok(Self { folder, parent: parent.to_owned(), name: name.to_owned() })
+    }
+
+    /// Whether another file has the same place.
+    pub fn is(&self, other: &Self) -> bool {
+        self.parent == other.parent && self.name == other.name
+    }
+
+    /// Writes the file by `write`, which gets the path of a temporary one.
+    pub fn write(&self, write: impl FnOnce(&Path) -> asperity::Result<()>) -> asperity::Result<()> {
+        write(&self.folder.path(&self.name)).map_err(|error| at_destination(error, &self.parent))
+    }
+
+    /// Puts the file in its place.
+    pub fn commit(self) -> asperity::Result<()> {
+        self.folder.commit()
+    }
+}

@@ -1,0 +1,97 @@
+use std::fmt::Write;
+use std::path::PathBuf;
+
+use asperity::io::read_field;
+use asperity::{Spectrum, Surface};
+use clap::Args;
+
+use crate::options::positive;
+use crate::output::OutputFile;
+use crate::report::Style;
+use crate::run;
+use crate::solve::write_text;
+use crate::{Outcome, say};
+
+/// Print the statistics of a rough surface.
+///
+/// Heights, slopes, curvatures and Nayak's parameter, of the surface as it stands, continued periodically: a tilt, or
+/// edges that do not meet, count as roughness. Slopes and curvatures come from the Fourier spectrum and from differences
+/// between neighbours; if they differ much, the map does not resolve the surface.
+#[derive(Args)]
+#[command(after_help = EXAMPLES)]
+pub struct Options {
+    /// Heights, shape (Nx, Ny), peaks up: .npy, .npz with one array, or a text matrix
+    #[arg(value_name = "FILE")]
+    heights: PathBuf,
+    /// Side lengths of the map, in the unit of the heights; LX alone means square cells [default: 1 1]
+    #[arg(long, value_names = ["LX", "LY"], num_args = 1..=2, allow_negative_numbers = true, value_parser = positive)]
+    lengths: Option<Vec<f64>>,
+    /// File for the radially averaged power spectral density, comma-separated: the wave number in radians per length, the
+    /// density, of which the integral over both wave numbers is the mean square height, and of how many waves it is the mean
+    #[arg(long, value_name = "FILE")]
+    psd: Option<PathBuf>,
+    /// Replace a file that is there
+    #[arg(long)]
+    force: bool,
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  asperity stats heights.npy
+  asperity stats asperity-demo/heights.npy --lengths 1e-6 --psd psd.csv";
+
+/// Runs the command; always successful if it ends.
+pub fn run(options: &Options) -> Outcome<bool> {
+    let psd = options.psd.as_deref().map(|path| OutputFile::create(path, options.force)).transpose()?;
+    let heights = read_field(&options.heights)?;
+    let surface = Surface::new(run::grid(heights.dim(), options.lengths.as_deref())?, heights)?;
+    if let Some(file) = psd {
+        let text = density_table(&surface.spectrum(), None);
+        file.write(|path| write_text(path, &text))?;
+        file.commit()?;
+    }
+    say(&table(&surface));
+    Ok(true)
+}
+
+/// The statistics, one to a line.
+pub fn table(surface: &Surface) -> String {
+    let (grid, found) = (surface.grid(), surface.statistics());
+    let ((nx, ny), (lx, ly)) = (grid.shape(), grid.lengths());
+    // Shape and Nayak's parameter have no meaning on a flat surface.
+    let number = |value: f64| if value.is_nan() { "-".to_owned() } else { Style::Plain.number(value, "") };
+    let sides = if grid.is_line() { number(lx) } else { format!("{} x {}", number(lx), number(ly)) };
+    let mut rows = vec![("nodes", format!("{nx} x {ny}")), ("side lengths", sides)];
+    for (name, value) in [
+        ("mean height", found.mean),
+        ("lowest", found.lowest),
+        ("highest", found.highest),
+        ("rms height", found.rms_height),
+        ("skewness", found.skewness),
+        ("kurtosis", found.kurtosis),
+        ("rms slope", found.rms_slope),
+        ("  by differences", found.rms_slope_differences),
+        ("rms curvature", found.rms_curvature),
+        ("  by differences", found.rms_curvature_differences),
+        ("Nayak's parameter", found.nayak),
+    ] {
+        rows.push((name, number(value)));
+    }
+    let width = rows.iter().map(|(name, _)| name.len()).max().unwrap_or(0);
+    let lines = rows.iter().map(|(name, value)| format!("{name:width$}  {value}"));
+    lines.collect::<Vec<_>>().join("\n")
+}
+
+/// The radially averaged density as comma-separated values, beside that of a target.
+pub fn density_table(spectrum: &Spectrum, target: Option<&Spectrum>) -> String {
+    let psd = spectrum.radial_psd();
+    let target = target.map(|target| target.radial_psd().densities);
+    let mut text = String::from("wave_number,density,waves");
+    text.push_str(if target.is_some() { ",target\n" } else { "\n" });
+    for (i, ((q, density), waves)) in psd.wave_numbers.iter().zip(&psd.densities).zip(&psd.waves).enumerate() {
+        let aim = target.as_ref().map_or_else(String::new, |target| format!(",{:e}", target[i]));
+        // Writing to a string cannot fail.
+        let _ = writeln!(text, "{q:e},{density:e},{waves}{aim}");
+    }
+    text
+}

@@ -1,0 +1,133 @@
+use std::path::PathBuf;
+
+use asperity::io::write_npy;
+use asperity::{Amplitude, SelfAffine};
+use clap::{ArgGroup, Args};
+
+use crate::options::{positive, threads};
+use crate::output::OutputFile;
+use crate::run;
+use crate::solve::write_text;
+use crate::stats::{density_table, table};
+use crate::{Outcome, say};
+
+/// Make a self-affine rough surface, and print its statistics.
+///
+/// The surface is periodic and isotropic. Its power spectral density is constant from KL to KR, falls as k^(-2-2H) from KR
+/// to KS, on a line as k^(-1-2H), and is zero elsewhere. Wave numbers count periods along x. A seed stands for the same
+/// surface on every grid that resolves KS, with the given rms height or slope to rounding.
+#[derive(Args)]
+#[command(after_help = EXAMPLES)]
+#[command(group(ArgGroup::new("nodes").required(true).args(["size", "shape"])))]
+#[command(group(ArgGroup::new("roughness").required(true).args(["rms_height", "rms_slope"])))]
+pub struct Options {
+    /// Nodes along each side of a square
+    #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = nodes, help_heading = "Grid")]
+    size: Option<usize>,
+    /// Nodes along each side of a rectangle; NY = 1 makes a line
+    #[arg(long, value_names = ["NX", "NY"], num_args = 2, allow_negative_numbers = true, value_parser = nodes)]
+    #[arg(help_heading = "Grid")]
+    shape: Option<Vec<usize>>,
+    /// Side lengths; LX alone means square cells [default: 1 1]
+    #[arg(long, value_names = ["LX", "LY"], num_args = 1..=2, allow_negative_numbers = true, value_parser = positive)]
+    #[arg(help_heading = "Grid")]
+    lengths: Option<Vec<f64>>,
+
+    /// Root mean square of the heights, a length
+    #[arg(long, value_name = "H", allow_hyphen_values = true, value_parser = positive, help_heading = "Roughness")]
+    rms_height: Option<f64>,
+    /// Root mean square of the slope
+    #[arg(long, value_name = "S", allow_hyphen_values = true, value_parser = positive, help_heading = "Roughness")]
+    rms_slope: Option<f64>,
+    /// Hurst exponent, from 0 to 1
+    #[arg(long, value_name = "H", default_value = "0.8", allow_hyphen_values = true, help_heading = "Roughness")]
+    hurst: f64,
+    /// Wave number of the longest waves, in units of 2 pi/LX
+    #[arg(long, value_name = "KL", default_value = "4", allow_hyphen_values = true, help_heading = "Roughness")]
+    k_l: f64,
+    /// Wave number up to which the spectrum is constant [default: KL, for none]
+    #[arg(long, value_name = "KR", allow_hyphen_values = true, help_heading = "Roughness")]
+    k_r: Option<f64>,
+    /// Wave number of the shortest waves, below half the number of nodes
+    #[arg(long, value_name = "KS", default_value = "64", allow_hyphen_values = true, help_heading = "Roughness")]
+    k_s: f64,
+    /// Let only phases be random, and not the moduli of the waves
+    #[arg(long, help_heading = "Roughness")]
+    random_phase: bool,
+    /// Which surface of all those, a number from 0
+    #[arg(long, value_name = "N", default_value = "0", allow_hyphen_values = true, help_heading = "Roughness")]
+    seed: u64,
+
+    /// File for the heights, .npy
+    #[arg(long, value_name = "FILE", help_heading = "Output")]
+    out: PathBuf,
+    /// File for the radially averaged power spectral density as by asperity stats, beside its target
+    #[arg(long, value_name = "FILE", help_heading = "Output")]
+    psd: Option<PathBuf>,
+    /// Replace files that are there
+    #[arg(long, help_heading = "Output")]
+    force: bool,
+    /// Print no statistics
+    #[arg(long, help_heading = "Output")]
+    quiet: bool,
+    /// Threads; the surface does not depend on it [default: one per core]
+    #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = threads, help_heading = "Output")]
+    threads: Option<usize>,
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  The surface of the paper's figures, with a slope that can be pressed:
+    asperity surface --size 1024 --rms-slope 0.1 --out heights.npy
+  A rectangle of a micrometre by two, with a plateau in the spectrum, and the spectrum:
+    asperity surface --shape 256 512 --lengths 1e-6 2e-6 --rms-height 5e-9 --hurst 0.7 \\
+      --k-l 2 --k-r 6 --k-s 50 --seed 7 --out heights.npy --psd psd.csv
+  A profile:
+    asperity surface --shape 4096 1 --rms-slope 0.1 --k-s 1000 --out profile.npy";
+
+/// Runs the command; always successful if it ends.
+pub fn run(options: &Options) -> Outcome<bool> {
+    let &Options { hurst, k_l, k_s, random_phase, seed, .. } = options;
+    let shape = match (options.size, options.shape.as_deref()) {
+        (None, Some([nx, ny])) => (*nx, *ny),
+        (size, _) => (size.unwrap_or_default(), size.unwrap_or_default()),
+    };
+    let amplitude = match (options.rms_height, options.rms_slope) {
+        (Some(height), _) => Amplitude::RmsHeight(height),
+        (None, slope) => Amplitude::RmsSlope(slope.unwrap_or_default()),
+    };
+    let rough = SelfAffine { hurst, k_l, k_r: options.k_r.unwrap_or(k_l), k_s, amplitude, random_phase, seed };
+    let grid = run::grid(shape, options.lengths.as_deref())?;
+    let heights = OutputFile::create(&options.out, options.force)?;
+    let psd = options.psd.as_deref().map(|path| OutputFile::create(path, options.force)).transpose()?;
+    if psd.as_ref().is_some_and(|psd| psd.is(&heights)) {
+        return Err(format!("--psd is {}, as --out: give it a name of its own", options.out.display()).into());
+    }
+    run::use_threads(options.threads)?;
+    // Running out of memory cannot be caught later: heights, transform and spectrum take four numbers per node at most.
+    if Vec::<f64>::new().try_reserve_exact(4 * grid.nodes()).is_err() {
+        return Err(format!("{} x {} nodes do not fit into memory: use fewer", shape.0, shape.1).into());
+    }
+
+    let surface = rough.surface(grid)?;
+    heights.write(|path| write_npy(path, surface.heights()))?;
+    if let Some(file) = psd {
+        let text = density_table(&surface.spectrum(), Some(&rough.spectrum(grid)?));
+        file.write(|path| write_text(path, &text))?;
+        file.commit()?;
+    }
+    heights.commit()?;
+    if !options.quiet {
+        say(&table(&surface));
+        say(&format!("heights in {}", options.out.display()));
+    }
+    Ok(true)
+}
+
+/// How many nodes along a side; more than the solver could ever hold are a slip of the pen.
+fn nodes(text: &str) -> Result<usize, String> {
+    match text.parse() {
+        Ok(nodes @ 1..=16_777_216) => Ok(nodes),
+        _ => Err("it must be a whole number from 1 to 16777216".to_owned()),
+    }
+}

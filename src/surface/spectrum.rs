@@ -1,0 +1,248 @@
+use std::f64::consts::TAU;
+
+use ndarray::Array2;
+use rustfft::num_complex::Complex;
+
+use super::{Surface, centre};
+use crate::fft::{powers, synthesise};
+use crate::grid::Grid;
+
+/// The power spectrum of a periodic surface: |ĥ(q)|² of each of its waves.
+///
+/// With ĥ(q) = ⟨h e^(−iq·x)⟩, the mean over the nodes, Parseval's theorem reads ⟨h²⟩ = Σ|ĥ|², the mean height left out.
+/// Where a direction has an even number of nodes, its shortest wave, which the nodes cannot tell from its mirror image,
+/// counts with the power that it has at the nodes.
+///
+/// ```
+/// use asperity::{Grid, Surface};
+/// let surface = Surface::wave(Grid::square(32, 1.0)?, 0.01, 3)?;
+/// let psd = surface.spectrum().radial_psd();
+/// assert!((psd.total() - 0.5e-4).abs() < 1e-18); // h₀²/2
+/// # Ok::<(), asperity::Error>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct Spectrum {
+    grid: Grid,
+    /// of each mode of the half spectrum, `(Ny/2 + 1, Nx)`
+    powers: Array2<f64>,
+}
+
+/// A power spectral density: of each wave, or averaged over those of like wave number.
+///
+/// Densities are over wave numbers in radians per length, over both signs. Sums reproduce the variance of the heights:
+/// [`total`](Self::total).
+#[derive(Clone, Debug, PartialEq)]
+pub struct Psd {
+    /// The wave number |q| in radians per length, ascending: the mean over the waves of an entry.
+    pub wave_numbers: Vec<f64>,
+    /// The density at each wave number.
+    pub densities: Vec<f64>,
+    /// How many waves each entry is the mean of, with their mirror images.
+    pub waves: Vec<usize>,
+    /// What one wave takes of the space of wave numbers: 4π²/(Lx·Ly), or 2π/L of a profile.
+    pub cell: f64,
+}
+
+impl Psd {
+    /// The sum of density × waves × cell: ⟨h²⟩, the variance of the heights.
+    pub fn total(&self) -> f64 {
+        self.cell * self.densities.iter().zip(&self.waves).map(|(density, waves)| density * *waves as f64).sum::<f64>()
+    }
+}
+
+impl Surface {
+    /// The power spectrum, by a Fourier transform.
+    pub fn spectrum(&self) -> Spectrum {
+        let mean = self.mean();
+        let mut powers = powers(self.heights.mapv(|h| h - mean).view());
+        powers[[0, 0]] = 0.0;
+        Spectrum::new(self.grid, powers)
+    }
+}
+
+impl Spectrum {
+    pub(super) fn new(grid: Grid, powers: Array2<f64>) -> Self {
+        Self { grid, powers }
+    }
+
+    /// |ĥ|² in the layout of the half spectrum, `(Ny/2 + 1, Nx)`.
+    #[cfg(test)]
+    pub(super) fn powers(&self) -> &Array2<f64> {
+        &self.powers
+    }
+
+    /// The grid of the surface.
+    pub fn grid(&self) -> &Grid {
+        &self.grid
+    }
+
+    /// The root mean square of the heights, √Σ|ĥ|².
+    pub fn rms_height(&self) -> f64 {
+        self.mean_square(0).sqrt()
+    }
+
+    /// The root mean square of the slope, √⟨|∇h|²⟩ = √Σ|q|²|ĥ|².
+    pub fn rms_slope(&self) -> f64 {
+        self.mean_square(1).sqrt()
+    }
+
+    /// The root mean square of the mean curvature, ½√⟨(∇²h)²⟩ = ½√Σ|q|⁴|ĥ|²; on a line of h'', without the ½.
+    pub fn rms_curvature(&self) -> f64 {
+        (if is_line(&self.grid) { 1.0 } else { 0.5 }) * self.mean_square(2).sqrt()
+    }
+
+    /// The spectral moments m₀, m₂ and m₄ of a profile, of height, slope and curvature.
+    ///
+    /// On a line mₙ = Σ|q|ⁿ|ĥ|². On a surface they are means over profiles in all directions, m₂ = ½Σ|q|²|ĥ|² and
+    /// m₄ = ⅜Σ|q|⁴|ĥ|², as is usual for isotropic ones.
+    pub fn moments(&self) -> [f64; 3] {
+        let shares = if is_line(&self.grid) { [1.0; 3] } else { [1.0, 0.5, 0.375] };
+        std::array::from_fn(|n| shares[n] * self.mean_square(n as i32))
+    }
+
+    /// Nayak's parameter α = m₀m₄/m₂², the width of the spectrum; not a number for a flat surface.
+    ///
+    /// One wave number alone gives 1.5 on a surface and 1 on a line, the least there is.
+    pub fn nayak(&self) -> f64 {
+        let [m0, m2, m4] = self.moments();
+        // one after the other, as the square of a moment leaves the range of the doubles first
+        (m0 / m2) * (m4 / m2)
+    }
+
+    /// The radially averaged power spectral density.
+    ///
+    /// The density of a wave is Φ = |ĥ|² Lx·Ly/4π², a length⁴, so that ⟨h²⟩ = ∫Φ dqx dqy over the whole plane. It
+    /// is averaged over rings of the width of 2π/Lx or 2π/Ly, whichever is larger, around the multiples of it; those
+    /// without any wave are left out. On a line Φ = |ĥ|² L/2π, a length³, and nothing needs averaging.
+    pub fn radial_psd(&self) -> Psd {
+        let ((nx, ny), (lx, ly)) = (self.grid.shape(), self.grid.lengths());
+        let (width, cell) = match (nx, ny) {
+            (_, 1) => (TAU / lx, TAU / lx),
+            (1, _) => (TAU / ly, TAU / ly),
+            _ => (TAU / lx.min(ly), TAU / lx * (TAU / ly)),
+        };
+        let mut rings = Rings::default();
+        for (ky, row) in self.powers.outer_iter().enumerate() {
+            let (weight, qy) = (self.weight(ky), self.grid.wave_number_y(ky));
+            for (kx, power) in row.iter().enumerate().skip(usize::from(ky == 0)) {
+                let q = self.grid.wave_number_x(kx).hypot(qy);
+                rings.add((q / width).round() as usize, q, *power, weight);
+            }
+        }
+        rings.psd(cell)
+    }
+
+    /// The power spectral density of profiles along x, the mean over all of them.
+    ///
+    /// The density is C(qx) = Σ|ĥ(qx, qy)|² Lx/2π, summed over qy, a length³, so that ⟨h²⟩ = ∫C dqx from −∞ to ∞. The
+    /// first entry, at qx = 0, holds how much the mean height differs from profile to profile.
+    pub fn profile_psd_x(&self) -> Psd {
+        let mut sums = vec![0.0; self.grid.shape().0];
+        for (ky, row) in self.powers.outer_iter().enumerate() {
+            sums.iter_mut().zip(row).for_each(|(sum, power)| *sum += self.weight(ky) as f64 * power);
+        }
+        let mut rings = Rings::default();
+        for (kx, sum) in sums.iter().enumerate() {
+            rings.add(kx.min(sums.len() - kx), self.grid.wave_number_x(kx).abs(), *sum, 1);
+        }
+        rings.psd(TAU / self.grid.lengths().0)
+    }
+
+    /// The power spectral density of profiles along y, as [`profile_psd_x`](Self::profile_psd_x) along x.
+    pub fn profile_psd_y(&self) -> Psd {
+        let mut rings = Rings::default();
+        for (ky, row) in self.powers.outer_iter().enumerate() {
+            rings.add(ky, self.grid.wave_number_y(ky), row.sum(), self.weight(ky));
+        }
+        rings.psd(TAU / self.grid.lengths().1)
+    }
+
+    /// The autocorrelation R(Δx) = ⟨h(x) h(x + Δx)⟩ about the mean height, of shape (Nx, Ny).
+    ///
+    /// The lag of an element is its coordinate on the grid: Δx = 0, where R = ⟨h²⟩, is at the node `(Nx / 2, Ny / 2)`.
+    pub fn autocorrelation(&self) -> Array2<f64> {
+        let (mut field, _) = synthesise(self.grid.shape(), |ky, column| {
+            column.iter_mut().zip(self.powers.row(ky)).for_each(|(z, power)| *z = Complex::from(*power));
+            0.0
+        });
+        centre(&mut field);
+        field
+    }
+
+    /// The autocorrelation averaged over directions: (lag, R), up to half of the shorter side.
+    ///
+    /// It is averaged over rings of the width of the larger of Δx and Δy, around the multiples of it, and the lag is
+    /// the mean over the ring. On a line nothing needs averaging.
+    pub fn radial_autocorrelation(&self) -> Vec<(f64, f64)> {
+        let ((lx, ly), (nx, ny), (dx, dy)) = (self.grid.lengths(), self.grid.shape(), self.grid.spacing());
+        let (end, width) = match (nx, ny) {
+            (_, 1) => (lx, dx),
+            (1, _) => (ly, dy),
+            _ => (lx.min(ly), dx.max(dy)),
+        };
+        let mut rings = Rings::default();
+        for ((i, j), r) in self.autocorrelation().indexed_iter() {
+            let lag = self.grid.x(i).hypot(self.grid.y(j));
+            if lag <= 0.5 * end * (1.0 + 1e-12) {
+                rings.add((lag / width).round() as usize, lag, *r, 1);
+            }
+        }
+        let Psd { wave_numbers: lags, densities: means, .. } = rings.psd(1.0);
+        lags.into_iter().zip(means).collect()
+    }
+
+    /// The sum of |q|²ⁿ|ĥ|².
+    fn mean_square(&self, n: i32) -> f64 {
+        let rows = self.powers.outer_iter().enumerate().map(|(ky, row)| {
+            let qy2 = self.grid.wave_number_y(ky).powi(2);
+            let waves = row.iter().enumerate().map(|(kx, p)| p * (self.grid.wave_number_x(kx).powi(2) + qy2).powi(n));
+            self.weight(ky) as f64 * waves.sum::<f64>()
+        });
+        rows.sum()
+    }
+
+    /// How many waves a mode of the half spectrum stands for.
+    fn weight(&self, ky: usize) -> usize {
+        if ky == 0 || 2 * ky == self.grid.shape().1 { 1 } else { 2 }
+    }
+}
+
+/// Whether the heights are those of one profile.
+pub(super) fn is_line(grid: &Grid) -> bool {
+    grid.shape().0 == 1 || grid.shape().1 == 1
+}
+
+/// Sums over what falls into each of a row of bins.
+#[derive(Default)]
+struct Rings(Vec<Ring>);
+
+#[derive(Clone, Default)]
+struct Ring {
+    count: usize,
+    position: f64,
+    value: f64,
+}
+
+impl Rings {
+    fn add(&mut self, index: usize, position: f64, value: f64, count: usize) {
+        if self.0.len() <= index {
+            self.0.resize(index + 1, Ring::default());
+        }
+        let ring = &mut self.0[index];
+        ring.count += count;
+        ring.position += count as f64 * position;
+        ring.value += count as f64 * value;
+    }
+
+    /// The means over each ring, divided by `cell`.
+    fn psd(self, cell: f64) -> Psd {
+        let rings = || self.0.iter().filter(|ring| ring.count > 0);
+        let mean = |sum: f64, ring: &Ring| sum / ring.count as f64;
+        Psd {
+            wave_numbers: rings().map(|ring| mean(ring.position, ring)).collect(),
+            densities: rings().map(|ring| mean(ring.value, ring) / cell).collect(),
+            waves: rings().map(|ring| ring.count).collect(),
+            cell,
+        }
+    }
+}

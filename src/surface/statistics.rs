@@ -1,0 +1,97 @@
+use ndarray::ArrayView1;
+
+use super::Surface;
+use super::spectrum::is_line;
+
+/// What characterises a rough surface: [`Surface::statistics`].
+///
+/// Slopes and curvatures come in two forms. The spectral ones are those of the smooth periodic surface through the
+/// nodes. The finite differences, periodic too, are what the nodes show: they are smaller, by (qΔ)²/24 of a slope and
+/// (qΔ)²/12 of a curvature along an axis for a wave number q and a spacing Δ. If the two differ much, the grid does not resolve the
+/// surface, or its edges do not meet.
+#[non_exhaustive]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SurfaceStatistics {
+    /// The mean height.
+    pub mean: f64,
+    /// The least height.
+    pub lowest: f64,
+    /// The greatest height.
+    pub highest: f64,
+    /// The root mean square of the heights about their mean.
+    pub rms_height: f64,
+    /// ⟨(h − ⟨h⟩)³⟩ over the cube of the rms height: zero for Gaussian heights; not a number for a flat surface.
+    pub skewness: f64,
+    /// ⟨(h − ⟨h⟩)⁴⟩ over the fourth power of the rms height: 3 for Gaussian heights; not a number for a flat surface.
+    pub kurtosis: f64,
+    /// The root mean square of the slope, √⟨|∇h|²⟩, from the spectrum.
+    pub rms_slope: f64,
+    /// The same from differences between neighbours, (h(x + Δx) − h(x))/Δx and likewise along y.
+    pub rms_slope_differences: f64,
+    /// The root mean square of the mean curvature ½∇²h, on a line of h'', from the spectrum; one over a length.
+    pub rms_curvature: f64,
+    /// The same from second differences, (h(x + Δx) − 2h(x) + h(x − Δx))/Δx² and likewise along y.
+    pub rms_curvature_differences: f64,
+    /// Nayak's parameter α = m₀m₄/m₂², from the spectrum; see [`Spectrum::nayak`](crate::Spectrum::nayak).
+    pub nayak: f64,
+}
+
+impl Surface {
+    /// Heights, slopes and curvatures in numbers.
+    ///
+    /// ```
+    /// use asperity::{Grid, Surface};
+    /// // h₀ cos qx has an rms height of h₀/√2, and q times that for its rms slope
+    /// let statistics = Surface::wave(Grid::line(64, 1.0)?, 0.01, 3)?.statistics();
+    /// let q = 6.0 * std::f64::consts::PI;
+    /// assert!((statistics.rms_slope - q * statistics.rms_height).abs() < 1e-14);
+    /// assert!((statistics.nayak - 1.0).abs() < 1e-12);
+    /// # Ok::<(), asperity::Error>(())
+    /// ```
+    pub fn statistics(&self) -> SurfaceStatistics {
+        let (mean, rms_height) = (self.mean(), self.rms_height());
+        // of heights over the rms height, whose fourth powers stay in range
+        let power = |n: i32| {
+            let rows = self.heights.rows();
+            let sums = rows.into_iter().map(|row| row.iter().map(|h| ((h - mean) / rms_height).powi(n)).sum::<f64>());
+            sums.sum::<f64>() / self.heights.len() as f64
+        };
+        let (slope, laplacian) = self.differences();
+        let spectrum = self.spectrum();
+        SurfaceStatistics {
+            mean,
+            lowest: self.heights.iter().copied().fold(f64::INFINITY, f64::min),
+            highest: self.heights.iter().copied().fold(f64::NEG_INFINITY, f64::max),
+            rms_height,
+            skewness: power(3),
+            kurtosis: power(4),
+            rms_slope: spectrum.rms_slope(),
+            rms_slope_differences: slope,
+            rms_curvature: spectrum.rms_curvature(),
+            rms_curvature_differences: if is_line(&self.grid) { laplacian } else { 0.5 * laplacian },
+            nayak: spectrum.nayak(),
+        }
+    }
+
+    /// The rms slope and the rms Laplacian from differences between neighbours.
+    fn differences(&self) -> (f64, f64) {
+        let ((nx, ny), (dx, dy)) = (self.grid.shape(), self.grid.spacing());
+        let (mut slopes, mut laplacians) = (0.0, 0.0);
+        for i in 0..nx {
+            let row = |i: usize| self.heights.row(i % nx);
+            let [before, here, after]: [ArrayView1<'_, f64>; 3] = [row(i + nx - 1), row(i), row(i + 1)];
+            let (mut slope, mut laplacian) = (0.0, 0.0);
+            for j in 0..ny {
+                let (h, above) = (here[j], here[(j + 1) % ny]);
+                let (along, across) = ((after[j] - h) / dx, (above - h) / dy);
+                slope += along * along + across * across;
+                let back = ((h - before[j]) / dx, (h - here[(j + ny - 1) % ny]) / dy);
+                laplacian += ((along - back.0) / dx + (across - back.1) / dy).powi(2);
+            }
+            slopes += slope;
+            laplacians += laplacian;
+        }
+        let nodes = self.grid.nodes() as f64;
+        ((slopes / nodes).sqrt(), (laplacians / nodes).sqrt())
+    }
+}

@@ -1,0 +1,231 @@
+//! `asperity surface` and `asperity stats`, end to end.
+#![cfg(feature = "cli")]
+
+use std::f64::consts::TAU;
+use std::fs;
+use std::process::{Command, Output};
+
+use asperity::io::{read_field, write_npy};
+use asperity::{Amplitude, Grid, SelfAffine, Surface};
+use tempfile::TempDir;
+
+/// A folder in which the tool is run.
+struct Bench(TempDir);
+
+impl Bench {
+    fn new() -> Self {
+        Self(tempfile::tempdir().unwrap())
+    }
+
+    fn run(&self, arguments: &str) -> Output {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_asperity"));
+        command.current_dir(&self.0).args(arguments.split_whitespace()).output().unwrap()
+    }
+
+    /// Runs what must succeed in silence on standard error, and returns what it prints.
+    #[track_caller]
+    fn said(&self, arguments: &str) -> String {
+        let output = self.run(arguments);
+        assert_eq!((output.status.code(), text(&output.stderr)), (Some(0), String::new()), "{arguments}");
+        text(&output.stdout)
+    }
+
+    fn bytes(&self, name: &str) -> Vec<u8> {
+        fs::read(self.0.path().join(name)).unwrap()
+    }
+
+    /// What is in the folder, hidden files too.
+    fn names(&self) -> Vec<String> {
+        let entries = fs::read_dir(&self.0).unwrap();
+        let mut names: Vec<_> = entries.map(|e| e.unwrap().file_name().into_string().unwrap()).collect();
+        names.sort();
+        names
+    }
+
+    /// The columns of a comma-separated file, with its header.
+    fn csv(&self, name: &str) -> (String, Vec<Vec<f64>>) {
+        let content = text(&self.bytes(name));
+        let (header, rows) = content.split_once('\n').unwrap();
+        let rows = rows.lines().map(|row| row.split(',').map(|value| value.parse().unwrap()).collect());
+        (header.to_owned(), rows.collect())
+    }
+}
+
+fn text(bytes: &[u8]) -> String {
+    String::from_utf8(bytes.to_vec()).unwrap()
+}
+
+/// The number in the row of a table, of which there may be several with the same name.
+#[track_caller]
+fn numbers(table: &str, name: &str) -> Vec<f64> {
+    let rows = table.lines().filter_map(|line| line.strip_prefix(name));
+    rows.filter_map(|rest| rest.trim().parse().ok()).collect()
+}
+
+#[test]
+fn a_surface_is_the_librarys_and_is_measured_alike() {
+    let bench = Bench::new();
+    let options = "--shape 100 90 --lengths 2e-6 3e-6 --rms-height 1e-8 --hurst 0.6 --k-l 2 --k-r 5 --k-s 25 --seed 12";
+    let said = bench.said(&format!("surface {options} --out rough.npy --psd psd.csv"));
+    assert_eq!(bench.names(), ["psd.csv", "rough.npy"]);
+
+    let grid = Grid::new((100, 90), (2e-6, 3e-6)).unwrap();
+    let rough = SelfAffine {
+        hurst: 0.6,
+        k_l: 2.0,
+        k_r: 5.0,
+        k_s: 25.0,
+        amplitude: Amplitude::RmsHeight(1e-8),
+        random_phase: false,
+        seed: 12,
+    };
+    let surface = rough.surface(grid).unwrap();
+    assert_eq!(read_field(&bench.0.path().join("rough.npy")).unwrap(), surface.heights());
+    let expected = surface.statistics();
+    for (name, values) in [
+        ("rms height", vec![1e-8]),
+        ("lowest", vec![expected.lowest]),
+        ("highest", vec![expected.highest]),
+        ("rms slope", vec![expected.rms_slope]),
+        ("rms curvature", vec![expected.rms_curvature]),
+        ("  by differences", vec![expected.rms_slope_differences, expected.rms_curvature_differences]),
+        ("Nayak's parameter", vec![expected.nayak]),
+        ("kurtosis", vec![expected.kurtosis]),
+    ] {
+        let found = numbers(&said, name);
+        assert_eq!(found.len(), values.len(), "{name}: {said}");
+        for (found, value) in found.into_iter().zip(values) {
+            assert!((found / value - 1.0).abs() < 1e-6, "{name}: {found} is not {value}");
+        }
+    }
+    assert!(
+        said.contains("100 x 90") && said.contains("2e-6 x 3e-6") && said.contains("heights in rough.npy"),
+        "{said}"
+    );
+
+    let measured = bench.said("stats rough.npy --lengths 2e-6 3e-6 --psd measured.csv");
+    assert!(said.starts_with(measured.trim_end()), "{measured}");
+    let ((with_target, rows), (header, same)) = (bench.csv("psd.csv"), bench.csv("measured.csv"));
+    assert_eq!(
+        (with_target.as_str(), header.as_str()),
+        ("wave_number,density,waves,target", "wave_number,density,waves")
+    );
+    assert_eq!(rows.iter().map(|row| row[..3].to_vec()).collect::<Vec<_>>(), same);
+    let cell = TAU / 2e-6 * TAU / 3e-6;
+    for column in [1, 3] {
+        let variance = cell * rows.iter().map(|row| row[column] * row[2]).sum::<f64>();
+        assert!((variance / 1e-16 - 1.0).abs() < 1e-10, "{variance}");
+    }
+}
+
+#[test]
+fn sizes_seeds_phases_and_threads() {
+    let bench = Bench::new();
+    let made = |options: &str| {
+        let said =
+            bench.said(&format!("surface --rms-slope 0.1 --k-s 20 --force --quiet --out a/b/rough.npy {options}"));
+        assert_eq!(said, "");
+        bench.bytes("a/b/rough.npy")
+    };
+    let first = made("--size 64");
+    assert!(first == made("--shape 64 64 --seed 0 --k-l 4 --k-r 4 --hurst 0.8 --threads 1"));
+    for other in
+        ["--size 64 --seed 1", "--size 64 --random-phase", "--size 65", "--size 64 --k-r 6", "--size 64 --hurst 1"]
+    {
+        assert!(first != made(other), "{other}");
+    }
+    // the target is what random phases give
+    bench.said("surface --rms-slope 0.1 --size 64 --k-s 20 --random-phase --out r.npy --psd r.csv");
+    let (_, rows) = bench.csv("r.csv");
+    assert!(rows.iter().filter(|row| row[3] > 0.0).all(|row| (row[1] / row[3] - 1.0).abs() < 1e-9));
+
+    let line = bench.said("surface --rms-slope 0.1 --shape 4096 1 --lengths 5 --k-s 1000 --out line.npy");
+    assert!(
+        line.contains("4096 x 1") && numbers(&line, "side lengths") == [5.0] && numbers(&line, "rms slope") == [0.1]
+    );
+    assert_eq!(bench.said("stats line.npy --lengths 5"), line[..line.find("heights in").unwrap()]);
+    // a surface can be solved as it comes
+    assert!(bench.said("solve --heights r.npy --mean-pressure 0.01 --no-pictures --out solved").contains("converged"));
+}
+
+#[test]
+fn statistics_of_text_and_of_flat_maps() {
+    let bench = Bench::new();
+    fs::write(bench.0.path().join("wave.txt"), "0 1 0 -1\n".repeat(3)).unwrap();
+    let said = bench.said("stats wave.txt --lengths 3 4");
+    assert!((numbers(&said, "rms slope")[0] - 0.5_f64.sqrt() * TAU / 4.0).abs() < 1e-6, "{said}");
+    assert_eq!((numbers(&said, "  by differences")[0], numbers(&said, "mean height")[0]), (1.0, 0.0), "{said}");
+    write_npy(
+        &bench.0.path().join("flat.npy"),
+        Surface::from_fn(Grid::square(4, 1.0).unwrap(), |_, _| 2.0).unwrap().heights(),
+    )
+    .unwrap();
+    let said = bench.said("stats flat.npy --psd flat.csv");
+    assert_eq!(numbers(&said, "rms height"), [0.0]);
+    assert!(said.contains("Nayak's parameter  -"), "{said}");
+    assert!(bench.csv("flat.csv").1.iter().all(|row| row[1] == 0.0));
+}
+
+#[test]
+fn bad_input_is_refused_on_one_line_and_writes_nothing() {
+    let bench = Bench::new();
+    fs::write(bench.0.path().join("old.npy"), "old").unwrap();
+    fs::write(bench.0.path().join("wave.txt"), "0 1 0 -1\n0 1 0 nan\n").unwrap();
+    let good = "surface --size 64 --k-s 20 --rms-slope 0.1";
+    for (arguments, parts) in [
+        (format!("{good} --out old.npy"), vec!["old.npy", "exists", "--force"]),
+        (format!("{good} --out new.npy --psd old.npy"), vec!["old.npy", "exists", "--force"]),
+        (format!("{good} --out new.npy --psd ./new.npy"), vec!["--psd", "new.npy", "a name of its own"]),
+        (format!("{good} --out wave.txt/new.npy"), vec!["wave.txt", "not a folder"]),
+        (format!("{good} --out .."), vec!["..", "no name for a file"]),
+        (good.to_owned(), vec!["--out"]),
+        (
+            "surface --size 64 --rms-slope 0.1 --out n.npy".to_owned(),
+            vec!["k_s is 64", "below 32", "64 x 64", "more nodes"],
+        ),
+        ("surface --size 64 --k-s 20 --out n.npy".to_owned(), vec!["--rms-height", "--rms-slope"]),
+        ("surface --k-s 20 --rms-slope 1 --out n.npy".to_owned(), vec!["--size", "--shape"]),
+        (format!("{good} --rms-height 1 --out n.npy"), vec!["--rms-height", "cannot be used with"]),
+        (format!("{good} --shape 3 4 --out n.npy"), vec!["--shape", "cannot be used with"]),
+        (format!("{good} --hurst 1.5 --out n.npy"), vec!["Hurst exponent", "1.5", "from 0 to 1"]),
+        (format!("{good} --hurst -0.5 --out n.npy"), vec!["Hurst exponent", "-0.5", "from 0 to 1"]),
+        (format!("{good} --k-l 0 --out n.npy"), vec!["k_l is 0", "positive"]),
+        (format!("{good} --k-r 2 --out n.npy"), vec!["k_r is 2", "at least k_l"]),
+        (
+            "surface --size 64 --rms-slope 1 --k-l 19.95 --k-s 19.97 --out n.npy".to_owned(),
+            vec!["number of waves", "is 0"],
+        ),
+        (format!("{good} --seed -1 --out n.npy"), vec!["--seed", "-1"]),
+        (format!("{good} --lengths 0 --out n.npy"), vec!["--lengths", "'0'", "positive"]),
+        ("surface --size 0 --rms-slope 1 --out n.npy".to_owned(), vec!["--size", "'0'", "from 1"]),
+        ("surface --size -3 --rms-slope 1 --out n.npy".to_owned(), vec!["--size", "-3", "from 1"]),
+        ("surface --size 16000000 --rms-slope 1 --out n.npy".to_owned(), vec!["16000000", "memory", "fewer"]),
+        ("surface --size 64 --k-s 20 --rms-slope 0 --out n.npy".to_owned(), vec!["--rms-slope", "'0'", "positive"]),
+        ("stats".to_owned(), vec!["FILE"]),
+        ("stats nothing.npy".to_owned(), vec!["nothing.npy", "does not exist"]),
+        ("stats wave.txt".to_owned(), vec!["1 of 8", "[1, 3]", "fill missing points"]),
+        ("stats wave.txt --psd old.npy".to_owned(), vec!["old.npy", "exists", "--force"]),
+        ("stats wave.txt --lengths -1".to_owned(), vec!["--lengths", "-1", "positive"]),
+    ] {
+        let output = bench.run(&arguments);
+        let error = text(&output.stderr);
+        assert_eq!(output.status.code(), Some(1), "{arguments}: {error}");
+        assert_eq!((error.lines().count(), output.stdout.len()), (1, 0), "{arguments}: {error}");
+        assert!(parts.iter().all(|part| error.contains(part)), "{arguments}: {error}");
+        assert_eq!(bench.names(), ["old.npy", "wave.txt"], "{arguments}");
+    }
+    assert_eq!(bench.bytes("old.npy"), b"old");
+}
+
+#[test]
+fn help_has_examples() {
+    let bench = Bench::new();
+    for (arguments, parts) in [
+        ("--help", vec!["surface", "stats"]),
+        ("surface --help", vec!["--rms-slope", "k^(-2-2H)", "[default: 64]", "Examples", "--shape 4096 1"]),
+        ("stats --help", vec!["FILE", "--psd", "Examples", "[default: 1 1]"]),
+    ] {
+        let help = bench.said(arguments).split_whitespace().collect::<Vec<_>>().join(" ");
+        assert!(parts.iter().all(|part| help.contains(part)), "{arguments}: {help}");
+    }
+}
