@@ -186,8 +186,8 @@ struct Band {
     exponent: f64,
     /// (Lx/Ly)²
     aspect2: f64,
-    /// the largest kx and ky
-    last: (i64, usize),
+    /// the largest kx
+    last: i64,
 }
 
 impl Band {
@@ -222,16 +222,15 @@ impl Band {
             ends: [(k_l * (1.0 - SLACK)).powi(2), k_r * k_r, longest * longest],
             exponent: if is_line(grid) { -0.5 - hurst } else { -1.0 - hurst },
             aspect2: aspect * aspect,
-            last: (longest as i64, (longest / aspect) as usize),
+            last: longest as i64,
         })
     }
 
     /// The waves with `ky` periods along y, in the half plane ky > 0, or ky = 0 and kx > 0.
     fn waves(&self, ky: usize) -> impl Iterator<Item = Wave> + '_ {
-        let ([k_l2, k_r2, k_s2], (last_x, last_y)) = (self.ends, self.last);
-        let (first, across) = if ky == 0 { (1, 0.0) } else { (-last_x, (ky * ky) as f64 * self.aspect2) };
-        let range = if ky > last_y { 0..=-1 } else { first..=last_x };
-        range.filter_map(move |kx| {
+        let [k_l2, k_r2, k_s2] = self.ends;
+        let (first, across) = if ky == 0 { (1, 0.0) } else { (-self.last, (ky * ky) as f64 * self.aspect2) };
+        (first..=self.last).filter_map(move |kx| {
             let k2 = (kx * kx) as f64 + across;
             (k_l2 <= k2 && k2 <= k_s2).then(|| {
                 let density = if k2 <= k_r2 { 1.0 } else { libm::pow(k2 / k_r2, self.exponent) };
