@@ -1,6 +1,7 @@
 use std::fmt::{Display, LowerExp};
 
-use num_traits::{Float, NumAssign};
+use num_traits::{Float, FloatConst, NumAssign};
+use pulp::Arch;
 use rustfft::FftNum;
 
 /// The scalar of every field: `f32` or `f64`.
@@ -23,7 +24,73 @@ pub trait Real: FftNum + Float + NumAssign + Default + Display + LowerExp {
 
     /// The value in `f64`, exactly.
     fn widen(self) -> f64;
+
+    /// `factor·exp(rate·x)` for many x, to two units in the last place; zero where it would be subnormal.
+    ///
+    /// Without branches and tables, so that it runs on vector instructions, with the same bits on every platform.
+    fn exponentials(factor: Self, rate: Self, x: &[Self], results: &mut [Self]);
 }
+
+/// exp x = 2ᵏ exp r with |r| ≤ ½ ln 2: a Taylor series of r in Horner's form, and k into the bits of the exponent.
+macro_rules! exponentials {
+    ($float:ty, $mantissa:literal, $bias:literal, $magic:expr, $ln2:expr, $low:expr, $high:expr, $series:expr) => {
+        fn exponentials(factor: Self, rate: Self, x: &[Self], results: &mut [Self]) {
+            Arch::new().dispatch(
+                #[inline(always)]
+                || {
+                    for (result, &x) in results.iter_mut().zip(x) {
+                        let x = rate * x;
+                        let held = if x < $low {
+                            $low
+                        } else if x > $high {
+                            $high
+                        } else {
+                            x
+                        };
+                        // adding it rounds to an integer, which stays in the last bits
+                        let shifted = held * <$float as FloatConst>::LOG2_E() + $magic;
+                        let k = shifted - $magic;
+                        let r = held - k * $ln2.0 - k * $ln2.1;
+                        let series = $series.iter().rev().fold(
+                            0.0,
+                            #[inline(always)]
+                            |sum, &c: &$float| sum * r + c,
+                        );
+                        let power = <$float>::from_bits(shifted.to_bits().wrapping_add($bias) << $mantissa);
+                        let exp = if x < $low {
+                            0.0
+                        } else if x > $high {
+                            <$float>::INFINITY
+                        } else {
+                            series * power
+                        };
+                        *result = factor * exp;
+                    }
+                },
+            );
+        }
+    };
+}
+
+const fn reciprocal_factorials<const N: usize>() -> [f64; N] {
+    let mut terms = [1.0; N];
+    let mut k = 1;
+    while k < N {
+        terms[k] = terms[k - 1] / k as f64;
+        k += 1;
+    }
+    terms
+}
+
+const SERIES_F64: [f64; 14] = reciprocal_factorials();
+const SERIES_F32: [f32; 8] = {
+    let (terms, mut single, mut k) = (reciprocal_factorials::<8>(), [0.0; 8], 0);
+    while k < 8 {
+        single[k] = terms[k] as f32;
+        k += 1;
+    }
+    single
+};
 
 impl Real for f32 {
     const NAME: &'static str = "f32";
@@ -35,6 +102,7 @@ impl Real for f32 {
     fn widen(self) -> f64 {
         f64::from(self)
     }
+    exponentials!(f32, 23, 127, 12_582_912.0, (0.693_359_4_f32, -2.121_944_4e-4_f32), -87.0, 88.0, SERIES_F32);
 }
 
 impl Real for f64 {
@@ -46,5 +114,62 @@ impl Real for f64 {
     #[inline]
     fn widen(self) -> f64 {
         self
+    }
+    exponentials!(
+        f64,
+        52,
+        1023,
+        6_755_399_441_055_744.0,
+        (0.693_147_180_369_123_8, 1.908_214_929_270_587_7e-10),
+        -708.0,
+        709.0,
+        SERIES_F64
+    );
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exponentials_are_right_to_two_units_in_the_last_place() {
+        let x: Vec<f64> =
+            (0..200_000).map(|i| -720.0 + 1.44e3 * f64::from(i) / 2e5 + 1e-3 * f64::from(i).sin()).collect();
+        let mut found = vec![0.0; x.len()];
+        f64::exponentials(1.0, 1.0, &x, &mut found);
+        for (&x, &found) in x.iter().zip(&found) {
+            let exact = if x < -708.0 {
+                0.0
+            } else if x > 709.0 {
+                f64::INFINITY
+            } else {
+                x.exp()
+            };
+            assert!(found == exact || (found - exact).abs() <= 2.0 * f64::EPSILON * exact, "{x} {found:e} {exact:e}");
+        }
+        let x: Vec<f32> = (0..200_000).map(|i| (-89.0 + 179.0 * f64::from(i) / 2e5) as f32).collect();
+        let mut found = vec![0.0; x.len()];
+        f32::exponentials(1.0, 1.0, &x, &mut found);
+        for (&x, &found) in x.iter().zip(&found) {
+            let exact = if x < -87.0 {
+                0.0
+            } else if x > 88.0 {
+                f64::INFINITY
+            } else {
+                f64::from(x).exp()
+            };
+            let error = (f64::from(found) - exact).abs();
+            assert!(
+                f64::from(found) == exact || error <= 2.0 * f64::from(f32::EPSILON) * exact,
+                "{x} {found:e} {exact:e}"
+            );
+        }
+    }
+
+    #[test]
+    fn exponentials_of_what_is_not_finite() {
+        let mut found = [0.0; 3];
+        f64::exponentials(2.0, -1.0, &[f64::INFINITY, f64::NAN, 0.0], &mut found);
+        assert!(found[0] == 0.0 && found[1].is_nan() && found[2] == 2.0);
     }
 }

@@ -45,6 +45,15 @@ impl<T: Real> AdhesionLaw<T> for Exponential<T> {
     fn slope(&self, gap: T) -> T {
         -self.work_of_adhesion / self.range / self.range * (-gap / self.range).exp()
     }
+    fn energies(&self, gaps: &[T], energies: &mut [T]) {
+        T::exponentials(-self.work_of_adhesion, -self.range.recip(), gaps, energies);
+    }
+    fn tractions(&self, gaps: &[T], tractions: &mut [T]) {
+        T::exponentials(self.work_of_adhesion / self.range, -self.range.recip(), gaps, tractions);
+    }
+    fn slopes(&self, gaps: &[T], slopes: &mut [T]) {
+        T::exponentials(-self.work_of_adhesion / self.range / self.range, -self.range.recip(), gaps, slopes);
+    }
     fn range(&self) -> T {
         self.range
     }
