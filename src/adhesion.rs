@@ -13,7 +13,8 @@ pub use none::NoAdhesion;
 ///
 /// A law is three functions of one gap `g ≥ 0`: the energy φ(g) ≤ 0, its derivative φ'(g), the
 /// adhesive traction, positive where the surfaces attract each other, and the traction's slope φ''(g). Everything else
-/// has a default. The energy falls to zero, or to any constant, at large gaps.
+/// has a default. The energy falls to zero, or to any constant, at large gaps. No law is asked for a negative gap; what
+/// becomes of it where a [`ContactConstraint`](crate::ContactConstraint) lets the surfaces interpenetrate is said there.
 ///
 /// [`check_law`] tells whether the three functions agree with one another; call it in a test of your law.
 ///

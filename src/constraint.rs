@@ -17,6 +17,10 @@ pub use uzawa::Uzawa;
 /// Either the gap is confined to g ≥ 0 ([`Projection`]), or any gap is feasible and the energy gains a term, node by
 /// node, that resists negative gaps ([`Penalty`]); such a term may carry multipliers, updated between solves
 /// ([`Uzawa`]). A node is in contact where the gap is zero, or where the term presses.
+///
+/// An [`AdhesionLaw`](crate::AdhesionLaw) is defined for g ≥ 0. Where the surfaces interpenetrate it goes on as its tangent,
+/// φ(0) + φ'(0)g: the traction is that of contact, and springs of any stiffness bound the energy below. As these stiffen
+/// the solution tends to that of [`Projection`]. An exponential, evaluated at negative gaps, would outrun any springs.
 pub trait ContactConstraint<T: Real>: Sync {
     /// Whether the gap is confined to g ≥ 0. If so the other methods are not asked.
     fn projects(&self) -> bool;

@@ -87,12 +87,104 @@ fn bad_stiffnesses_are_refused() {
     }
 }
 
+/// A rough surface, and a law that attracts ten times its range deep into the peaks at the default start.
+fn sticky() -> (Problem<f64, Westergaard<f64>, Exponential<f64>>, Exponential<f64>, Control) {
+    let law = Exponential::new(2e-4, 3e-3).unwrap();
+    (rough(64, 8, law), law, Control::MeanGap(0.05))
+}
+
 #[test]
-fn a_law_that_outruns_the_springs_is_not_called_converged() {
-    // the exponential law's energy falls without bound as the gap becomes negative
-    let law = Exponential::new(2e-6, 3e-4).unwrap();
-    let control = Control::MeanGap(0.03);
-    let (solution, _) = with(&mut rough::<f64, _>(64, 16, law), Penalty::new(50.0).unwrap(), control, 1e-6);
-    assert_eq!(solution.report.status, Status::Stalled);
-    assert!(!solution.report.relative_error.is_nan() && solution.gap.iter().all(|g| g.is_finite()));
+fn penalty_and_uzawa_find_the_adhesive_state_of_a_rough_surface() {
+    let (mut problem, law, control) = sticky();
+    assert!(problem.resolution() < 0.7);
+    let exact = solve(&mut problem, control, 1e-8).report;
+    let mut last = f64::INFINITY;
+    for stiffness in [30.0, 300.0, 3000.0] {
+        let (solution, _) = with(&mut problem, Penalty::new(stiffness).unwrap(), control, 1e-7);
+        let report = &solution.report;
+        assert_eq!(report.status, Status::Converged);
+        // the springs carry the contact pressure, and the adhesion of contact
+        let deepest = solution.contact_pressure.iter().copied().fold(0.0, f64::max);
+        assert_relative_eq!(report.min_gap, -deepest / stiffness, max_relative = 1e-9);
+        for ((&g, &p), &lambda) in solution.gap.iter().zip(&solution.pressure).zip(&solution.contact_pressure) {
+            let balance = p + law.traction(g.max(0.0)) - lambda;
+            assert!(balance.abs() < 1e-3 * deepest, "{g} {p} {lambda}");
+        }
+        let error = (report.mean_pressure / exact.mean_pressure - 1.0).abs();
+        assert!(error < 0.2 * last, "{stiffness} {error}");
+        last = error;
+        let (solution, uzawa) = with(&mut problem, Uzawa::new(stiffness).unwrap(), control, 1e-8);
+        assert_eq!((solution.report.status, uzawa.outer_iterations() > 2), (Status::Converged, true));
+        assert_eq!(solution.report.contact_points, exact.contact_points);
+        assert_relative_eq!(solution.report.mean_pressure, exact.mean_pressure, max_relative = 1e-5);
+    }
+    assert!(last < 0.02, "{last}");
+}
+
+/// Springs with what an exponential law adds to its tangent where the surfaces interpenetrate: its energy then has no
+/// lower bound.
+struct Outrun(Penalty<f64>, Exponential<f64>);
+
+impl Outrun {
+    fn excess(&self, gap: f64, of_law: f64, of_tangent: f64) -> f64 {
+        if gap < 0.0 { of_law - of_tangent } else { 0.0 }
+    }
+}
+
+impl ContactConstraint<f64> for Outrun {
+    fn projects(&self) -> bool {
+        false
+    }
+    fn energy(&self, node: usize, gap: f64) -> f64 {
+        let tangent = self.1.energy(0.0) + gap * self.1.traction(0.0);
+        self.0.energy(node, gap) + self.excess(gap, self.1.energy(gap), tangent)
+    }
+    fn traction(&self, node: usize, gap: f64) -> f64 {
+        self.0.traction(node, gap) + self.excess(gap, self.1.traction(gap), self.1.traction(0.0))
+    }
+    fn slope(&self, node: usize, gap: f64) -> f64 {
+        self.0.slope(node, gap) + self.excess(gap, self.1.slope(gap), 0.0)
+    }
+}
+
+#[test]
+fn an_exponential_evaluated_at_negative_gaps_diverges_and_is_not_called_converged() {
+    let (mut problem, law, control) = sticky();
+    for stiffness in [30.0, 300.0] {
+        let constraint = Outrun(Penalty::new(stiffness).unwrap(), law);
+        let (solution, _) = with(&mut problem, constraint, control, 1e-6);
+        assert_eq!(solution.report.status, Status::Stalled);
+        assert!(!solution.report.relative_error.is_nan() && solution.gap.iter().all(|g| g.is_finite()));
+    }
+}
+
+/// A law that is undefined, as it may be, where the surfaces interpenetrate.
+struct Positive(Exponential<f64>);
+
+impl AdhesionLaw<f64> for Positive {
+    fn energy(&self, gap: f64) -> f64 {
+        if gap < 0.0 { f64::NAN } else { self.0.energy(gap) }
+    }
+    fn traction(&self, gap: f64) -> f64 {
+        if gap < 0.0 { f64::NAN } else { self.0.traction(gap) }
+    }
+    fn slope(&self, gap: f64) -> f64 {
+        if gap < 0.0 { f64::NAN } else { self.0.slope(gap) }
+    }
+}
+
+#[test]
+fn no_law_is_asked_for_a_negative_gap() {
+    let (mut problem, law, control) = sticky();
+    let (expected, _) = with(&mut problem, Penalty::new(300.0).unwrap(), control, 1e-6);
+    let mut problem = rough::<f64, _>(64, 8, Positive(law));
+    let (found, _) = with(&mut problem, Penalty::new(300.0).unwrap(), control, 1e-6);
+    assert!(found.report.status == Status::Converged && found.report.min_gap < 0.0);
+    assert_eq!(found.gap, expected.gap);
+    // nor where a start interpenetrates
+    let mut solver = Solver { settings: Settings::default(), constraint: Penalty::new(300.0).unwrap() };
+    let again = solver
+        .solve_from(&mut problem, control, Some(found.gap.view()), |_| std::ops::ControlFlow::Continue(()))
+        .unwrap();
+    assert_eq!(again.report.status, Status::Converged);
 }

@@ -5,9 +5,8 @@ use crate::real::Real;
 /// Interpenetration is allowed, and resisted by springs of stiffness k: the energy gains ½k⟨−g⟩₊² at each node.
 ///
 /// The surfaces interpenetrate by the contact pressure over k, [`Report::min_gap`](crate::Report) says how far at worst. The
-/// larger k, the less, and the more iterations: beside [`Projection`](super::Projection) this is for comparison. A law
-/// whose energy falls faster than a parabola as the gap becomes negative, as the exponential law's does, makes the
-/// energy unbounded below: the solve then does not converge, and says so.
+/// larger k, the less, and the more iterations: beside [`Projection`](super::Projection) this is for comparison.
+/// Adhesion goes on into negative gaps as [`ContactConstraint`] says.
 ///
 /// ```
 /// use asperity::{Control, Grid, NoAdhesion, Penalty, Problem, Settings, Solver, Surface, Westergaard};

@@ -10,8 +10,8 @@ use crate::real::Real;
 /// them, λ ← ⟨λ − kg⟩₊, after each solve.
 ///
 /// The energy gains (⟨λ − kg⟩₊² − λ²)/2k at each node. The interpenetration falls with every outer iteration, whatever
-/// k is; they end when an update changes no multiplier by more than `tolerance` of the largest. Memory per node: one
-/// scalar.
+/// k is; they end when an update changes no multiplier by more than `tolerance` of the largest. Adhesion goes on into
+/// negative gaps as [`ContactConstraint`] says. Memory per node: one scalar.
 ///
 /// ```
 /// use asperity::{Control, Grid, NoAdhesion, Problem, Settings, Solver, Surface, Uzawa, Westergaard};

@@ -143,7 +143,8 @@ where
         let functions: [(_, &dyn Fn(T) -> T); 2] =
             [("adhesive energy", &|g| law.energy(g)), ("adhesive traction", &|g| law.traction(g))];
         for (function, f) in functions {
-            if let Some(&gap) = flat(&self.gap).iter().find(|&&gap| !f(gap).is_finite()) {
+            let mut gaps = flat(&self.gap).iter().map(|gap| gap.max(T::zero()));
+            if let Some(gap) = gaps.find(|&gap| !f(gap).is_finite()) {
                 return Err(Error::Law { function, gap: gap.widen(), value: f(gap).widen(), expected: None });
             }
         }

@@ -1,4 +1,4 @@
-use super::potential::{Buffer, Potential};
+use super::potential::{Buffer, Of, Potential};
 use crate::adhesion::AdhesionLaw;
 use crate::constraint::ContactConstraint;
 use crate::field::Partial;
@@ -61,12 +61,12 @@ pub(super) fn tally<T: Real, L: AdhesionLaw<T>, C: ContactConstraint<T>>(
     let [mut adhesive, mut traction, mut penalty] = [0.0; 3];
     if !potential.law.is_zero() {
         let out = &mut buffer[..gaps.len()];
-        potential.law.energies(gaps, out);
+        potential.law(Of::Energy, gaps, out);
         adhesive = out.iter().map(|e| e.widen()).sum();
         let tractions = if projects {
             tractions
         } else {
-            potential.law.tractions(gaps, out);
+            potential.law(Of::Traction, gaps, out);
             out
         };
         traction = tractions.iter().map(|t| t.widen()).sum();
