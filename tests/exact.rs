@@ -227,3 +227,21 @@ fn units_and_size_do_not_matter() {
         }
     }
 }
+
+/// φ in (37) is an energy per area: w scales like E*·length, not like E*·length³ as printed.
+#[test]
+fn the_work_of_adhesion_is_a_pressure_times_a_length() {
+    let pressure = |length: f64, modulus: f64, work: f64| {
+        let grid = Grid::square(48, length).unwrap();
+        let surface = Surface::paraboloid(grid, 2.0 * length).unwrap();
+        let law = Exponential::new(work, 4e-3 * length).unwrap();
+        let mut problem = Problem::new(&surface, Westergaard::<f64>::new(grid, modulus).unwrap(), law).unwrap();
+        solve(&mut problem, Control::MeanGap(0.0405 * length), 1e-9).report.mean_pressure / modulus
+    };
+    let (work, length, modulus) = (1e-4, 1e-3, 7.0);
+    let unit = pressure(1.0, 1.0, work);
+    assert_relative_eq!(pressure(length, modulus, work * modulus * length), unit, max_relative = 1e-7);
+    // scaled as printed it is lost: the answer is that without adhesion, of the other sign
+    let printed = pressure(length, modulus, work * modulus * length.powi(3));
+    assert!(unit < -5e-4 && printed > 0.0, "{unit:e} {printed:e}");
+}
