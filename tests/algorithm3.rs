@@ -257,7 +257,8 @@ fn stopped_on_epsilon_alone_it_returns_contact_under_tension() {
 fn directions_kept_in_contact_spoil_the_step() {
     for (surface, gap) in hard_cases() {
         let kept = algorithm_3(&surface, &NoAdhesion, gap, PAPER, Printed { direction_kept: true, ..RIGHT });
-        assert!(kept.end != End::Converged && !(kept.epsilon <= 1e-8), "{:e}", kept.epsilon);
+        assert_ne!(kept.end, End::Converged);
+        assert!(kept.epsilon.is_nan() || kept.epsilon > 10.0 * PAPER.0, "{:e}", kept.epsilon);
     }
 }
 

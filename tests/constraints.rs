@@ -88,8 +88,10 @@ fn bad_stiffnesses_are_refused() {
     }
 }
 
+type Sticky = Problem<f64, Westergaard<f64>, Exponential<f64>>;
+
 /// A rough surface, and a law that attracts ten times its range deep into the peaks at the default start.
-fn sticky() -> (Problem<f64, Westergaard<f64>, Exponential<f64>>, Exponential<f64>, Control) {
+fn sticky() -> (Sticky, Exponential<f64>, Control) {
     let law = Exponential::new(2e-4, 3e-3).unwrap();
     (rough(64, 8, law), law, Control::MeanGap(0.05))
 }
