@@ -4,6 +4,7 @@ mod common;
 
 use approx::assert_relative_eq;
 use asperity::*;
+use common::outrun::Outrun;
 use common::{rough, solve, sphere};
 
 fn with<T: Real, C: ContactConstraint<T>, L: AdhesionLaw<T>>(
@@ -87,8 +88,10 @@ fn bad_stiffnesses_are_refused() {
     }
 }
 
+type Sticky = Problem<f64, Westergaard<f64>, Exponential<f64>>;
+
 /// A rough surface, and a law that attracts ten times its range deep into the peaks at the default start.
-fn sticky() -> (Problem<f64, Westergaard<f64>, Exponential<f64>>, Exponential<f64>, Control) {
+fn sticky() -> (Sticky, Exponential<f64>, Control) {
     let law = Exponential::new(2e-4, 3e-3).unwrap();
     (rough(64, 8, law), law, Control::MeanGap(0.05))
 }
@@ -121,41 +124,30 @@ fn penalty_and_uzawa_find_the_adhesive_state_of_a_rough_surface() {
     assert!(last < 0.02, "{last}");
 }
 
-/// Springs with what an exponential law adds to its tangent where the surfaces interpenetrate: its energy then has no
-/// lower bound.
-struct Outrun(Penalty<f64>, Exponential<f64>);
-
-impl Outrun {
-    fn excess(&self, gap: f64, of_law: f64, of_tangent: f64) -> f64 {
-        if gap < 0.0 { of_law - of_tangent } else { 0.0 }
-    }
-}
-
-impl ContactConstraint<f64> for Outrun {
-    fn projects(&self) -> bool {
-        false
-    }
-    fn energy(&self, node: usize, gap: f64) -> f64 {
-        let tangent = self.1.energy(0.0) + gap * self.1.traction(0.0);
-        self.0.energy(node, gap) + self.excess(gap, self.1.energy(gap), tangent)
-    }
-    fn traction(&self, node: usize, gap: f64) -> f64 {
-        self.0.traction(node, gap) + self.excess(gap, self.1.traction(gap), self.1.traction(0.0))
-    }
-    fn slope(&self, node: usize, gap: f64) -> f64 {
-        self.0.slope(node, gap) + self.excess(gap, self.1.slope(gap), 0.0)
-    }
-}
-
 #[test]
 fn an_exponential_evaluated_at_negative_gaps_diverges_and_is_not_called_converged() {
     let (mut problem, law, control) = sticky();
     for stiffness in [30.0, 300.0] {
-        let constraint = Outrun(Penalty::new(stiffness).unwrap(), law);
-        let (solution, _) = with(&mut problem, constraint, control, 1e-6);
-        assert_eq!(solution.report.status, Status::Stalled);
-        assert!(!solution.report.relative_error.is_nan() && solution.gap.iter().all(|g| g.is_finite()));
+        let diverged = [
+            with(&mut problem, Outrun(Penalty::new(stiffness).unwrap(), law), control, 1e-6).0,
+            with(&mut problem, Outrun(Uzawa::new(stiffness).unwrap(), law), control, 1e-6).0,
+        ];
+        for solution in diverged {
+            assert_eq!(solution.report.status, Status::Stalled);
+            // it is past the barrier that springs and law leave, where k|g| = φ'(g)
+            assert!(stiffness * -solution.report.min_gap < law.traction(solution.report.min_gap));
+            assert!(!solution.report.relative_error.is_nan() && solution.gap.iter().all(|g| g.is_finite()));
+        }
     }
+    // stiff springs leave a local minimum, which is found from next to it, where the law goes on as its tangent
+    let springs = Penalty::new(3000.0).unwrap();
+    let (near, _) = with(&mut problem, springs, control, 1e-7);
+    let mut solver = Solver { settings: Settings::default(), constraint: Outrun(springs, law) };
+    let held = solver
+        .solve_from(&mut problem, control, Some(near.gap.view()), |_| std::ops::ControlFlow::Continue(()))
+        .unwrap();
+    assert_eq!(held.report.status, Status::Converged);
+    assert_relative_eq!(held.report.mean_pressure, near.report.mean_pressure, max_relative = 1e-2);
 }
 
 /// A law that is undefined, as it may be, where the surfaces interpenetrate.

@@ -32,40 +32,30 @@ where
             part
         });
         let conjugate = self.residual_norm.map_or(0.0, |before| norm.sum[0] / before);
-        let conjugate = T::lit(if conjugate.is_finite() { conjugate } else { 0.0 });
-
-        let Self { reducer, gap, residual, change, .. } = self;
-        reducer.run(read(gap).zip(read(residual)).zip(write(change)), |_, ((gap, residual), direction)| {
-            for ((&gap, &r), t) in gap.iter().zip(residual).zip(direction) {
-                *t = if apart(gap) {
-                    r + if conjugate > T::zero() { conjugate * *t } else { T::zero() }
-                } else {
-                    T::zero()
-                };
-            }
-            Partial::NONE
-        });
+        let mut slope = self.conjugate_direction(if conjugate.is_finite() { conjugate } else { 0.0 });
+        if slope <= 0.0 && conjugate > 0.0 {
+            // uphill: the residual's norm has jumped, as it may where rounding is all that is left of it
+            slope = self.conjugate_direction(0.0);
+        }
         self.problem.operator.pressure(self.change.view(), self.response.view_mut())?;
         self.applications += 1;
 
-        let Self { reducer, gap, residual, change, response, .. } = self;
-        let fields = read(gap).zip(read(residual)).zip(read(change)).zip(read(response));
-        let total = reducer.run(fields, |_, (((gap, residual), direction), response)| {
+        let Self { reducer, gap, change, response, .. } = self;
+        let total = reducer.run(read(gap).zip(read(change)).zip(read(response)), |_, ((gap, direction), response)| {
             let mut part = Partial::NONE;
-            for (((&gap, &r), &t), &response) in gap.iter().zip(residual).zip(direction).zip(response) {
+            for ((&gap, &t), &response) in gap.iter().zip(direction).zip(response) {
                 if apart(gap) {
-                    let [r, t, response] = [r, t, response].map(T::widen);
-                    part.sum[0] += r * t;
-                    part.sum[1] += response * t;
-                    part.sum[2] += response;
-                    part.sum[3] += t;
+                    let [t, response] = [t, response].map(T::widen);
+                    part.sum[0] += response * t;
+                    part.sum[1] += response;
+                    part.sum[2] += t;
                 }
             }
             part
         });
-        let [rt, curvature, response, t, ..] = total.sum;
+        let [curvature, response, t, ..] = total.sum;
         let mean = if self.is_gap_controlled() { response / self.tally.free } else { 0.0 };
-        let length = rt / (curvature - mean * t);
+        let length = slope / (curvature - mean * t);
         // a uniform direction has no curvature: the softest wave's stiffness bounds what the mean can need
         let length =
             if length.is_finite() && length > 0.0 { length } else { 1.0 / self.problem.operator.stiffness_range().0 };
@@ -104,6 +94,26 @@ where
             self.refresh()?;
         }
         Ok(true)
+    }
+
+    /// The direction t = r' + `conjugate` t where the surfaces are apart, zero elsewhere; returns ⟨r', t⟩.
+    fn conjugate_direction(&mut self, conjugate: f64) -> f64 {
+        let projects = self.constraint.projects();
+        let conjugate = T::lit(conjugate);
+        let Self { reducer, gap, residual, change, .. } = self;
+        let total = reducer.run(read(gap).zip(read(residual)).zip(write(change)), |_, ((gap, residual), direction)| {
+            let mut part = Partial::NONE;
+            for ((&gap, &r), t) in gap.iter().zip(residual).zip(direction) {
+                *t = if !projects || gap > T::zero() {
+                    r + if conjugate > T::zero() { conjugate * *t } else { T::zero() }
+                } else {
+                    T::zero()
+                };
+                part.sum[0] += r.widen() * t.widen();
+            }
+            part
+        });
+        total.sum[0]
     }
 
     /// Scales the gap to its mean and, if the step was `linear`, the pressure with it: K⁻¹(s(g − τt) + h).

@@ -1,6 +1,7 @@
 //! Problems with known solutions, and the properties that every solution must have.
 #![allow(dead_code, reason = "each test uses its part")]
 
+pub mod outrun;
 pub mod rough;
 
 use std::ops::ControlFlow;

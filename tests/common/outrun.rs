@@ -1,0 +1,36 @@
+//! An exponential law that is evaluated at negative gaps, as it stands.
+
+use asperity::{AdhesionLaw, ContactConstraint, Exponential, Grid, Outer, Result};
+use ndarray::ArrayView2;
+
+/// Another constraint, with what an exponential law adds to its tangent where the surfaces interpenetrate: the energy
+/// then has no lower bound.
+pub struct Outrun<C>(pub C, pub Exponential<f64>);
+
+impl<C> Outrun<C> {
+    fn excess(&self, gap: f64, of_law: f64, of_tangent: f64) -> f64 {
+        if gap < 0.0 { of_law - of_tangent } else { 0.0 }
+    }
+}
+
+impl<C: ContactConstraint<f64>> ContactConstraint<f64> for Outrun<C> {
+    fn projects(&self) -> bool {
+        false
+    }
+    fn start(&mut self, grid: &Grid) -> Result<()> {
+        self.0.start(grid)
+    }
+    fn energy(&self, node: usize, gap: f64) -> f64 {
+        let tangent = self.1.energy(0.0) + gap * self.1.traction(0.0);
+        self.0.energy(node, gap) + self.excess(gap, self.1.energy(gap), tangent)
+    }
+    fn traction(&self, node: usize, gap: f64) -> f64 {
+        self.0.traction(node, gap) + self.excess(gap, self.1.traction(gap), self.1.traction(0.0))
+    }
+    fn slope(&self, node: usize, gap: f64) -> f64 {
+        self.0.slope(node, gap) + self.excess(gap, self.1.slope(gap), 0.0)
+    }
+    fn update(&mut self, gap: ArrayView2<'_, f64>) -> Outer {
+        self.0.update(gap)
+    }
+}
