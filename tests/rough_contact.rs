@@ -115,6 +115,30 @@ fn adhesion_opens_no_gap_at_the_same_external_load_and_adds_contact() {
     }
 }
 
+/// Equation (37) gives the work of adhesion in units of E*·L³. It is an energy per area: E*·L.
+///
+/// In units that are powers of two of each other every number is the same but for its exponent.
+#[test]
+fn the_work_of_adhesion_goes_with_modulus_times_length() {
+    let scaled = |modulus: f64, length: f64, height: f64, work: f64| {
+        let grid = Grid::square(160, length).unwrap();
+        let unit = SelfAffine::default().surface(Grid::square(160, 1.0).unwrap()).unwrap();
+        let surface = Surface::new(grid, unit.heights() * height).unwrap();
+        let law = Exponential::new(2e-6 * work, 4e-4 * height).unwrap();
+        let mut problem = Problem::new(&surface, Westergaard::<f64>::new(grid, modulus).unwrap(), law).unwrap();
+        let load = LOAD * modulus * height / length;
+        let found = solve(&mut problem, Control::MeanPressure(load), 1e-8, None);
+        (found.report.contact_points, found.gap / height, problem.resolution())
+    };
+    let (modulus, length) = (f64::from(1 << 30), 1.0 / f64::from(1 << 20));
+    let unit = scaled(1.0, 1.0, 1.0, 1.0);
+    assert!(unit == scaled(modulus, length, length, modulus * length));
+    assert_ne!(unit.0, scaled(modulus, length, length, modulus * length.powi(3)).0);
+    // heights and pressures may be stretched alone, and then it goes with their product
+    let (points, gap, _) = scaled(1.0, 1.0, 0.125, 0.125 * 0.125);
+    assert!((points, gap) == (unit.0, unit.1));
+}
+
 /// de/dḡ = −p̄, by central differences of half-width δḡ.
 ///
 /// Their error is δ²(ḡ/ℓ)²/6, with ℓ the length over which p̄ falls by e; here ḡ/ℓ is 2 to 6. As long as the same nodes
