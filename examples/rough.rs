@@ -1,0 +1,484 @@
+//! Figures 5 to 8 of Rey, Anciaux and Molinari (2017): a rough surface, pressed without and with adhesion.
+//!
+//! ```text
+//! cargo run --release --example rough -- [--size N] [--out DIR]
+//! ```
+//!
+//! `--size` is the number of nodes along a side (1024 unless given, as in the paper); the surface is the same on every
+//! grid, so it must be above 2 k_s = 128. `--out` is the folder for the pictures (`target/figures`).
+//!
+//! The surface is the paper's, H = 0.8 and k from 4 to 64 periods a side, but of rms slope 0.1: with the paper's 0.001 the
+//! load of Figures 6 and 7 presses it flat. The range of adhesion is one that the grid resolves; the paper's own is shown
+//! beside. Two loads are told apart: the external mean pressure p̄, which is the one that is given, and the mean contact
+//! pressure ⟨λ⟩ = p̄ + ⟨φ'⟩, which exceeds it by the adhesive traction.
+
+use std::error::Error;
+use std::f64::consts::PI;
+use std::ops::ControlFlow;
+use std::path::{Path, PathBuf};
+
+use asperity::{
+    AdhesionLaw, Amplitude, Colouring, ContactStatistics, Control, Exponential, Grid, Map, Problem, SelfAffine,
+    Solution, Solver, Status, Surface, Sweep, Westergaard,
+};
+use ndarray::{Array2, Zip};
+use plotters::coord::Shift;
+use plotters::prelude::*;
+
+type Outcome<T> = Result<T, Box<dyn Error>>;
+type Panel<'a> = DrawingArea<SVGBackend<'a>, Shift>;
+
+const SLOPE: f64 = 0.1;
+/// The load of Figures 6 and 7, in units of E*.
+const LOAD: f64 = 0.003;
+/// The range of adhesion in units of L, and the work of adhesion of Figures 6 and 7 in units of E*L.
+const RANGE: f64 = 2e-4;
+const WORK: f64 = 2e-6;
+/// What the paper states for both.
+const PAPER: f64 = 2e-5;
+/// The works of adhesion of Figure 8.
+const WORKS: [f64; 4] = [0.0, 5e-7, WORK, 8e-6];
+const COLOURS: [RGBColor; 4] = [BLACK, RGBColor(10, 90, 200), RGBColor(225, 110, 20), RGBColor(160, 20, 30)];
+/// Its loads p̄/(E* h'_rms), in the order of the sweep: unloading. Without adhesion there is no contact at the last.
+const LOADS: [f64; 11] = [0.05, 0.04, 0.03, 0.02, 0.01, 0.007, 0.005, 0.003, 0.002, 0.001, 0.0];
+/// The loads from which the tangents at the origin are found: those above zero and up to this.
+const SMALL: f64 = 0.01;
+
+/// One load, in numbers. Loads are in units of E* h'_rms, areas are shares of the nominal area.
+#[derive(Clone, Copy, Debug)]
+struct Point {
+    external: f64,
+    contact: f64,
+    nodes: f64,
+    corrected: f64,
+}
+
+/// Contact areas on one grid, for one work of adhesion.
+struct Curve {
+    work: f64,
+    n: usize,
+    points: Vec<Point>,
+    /// the solution under the load of Figures 6 and 7
+    shown: Option<Solution<f64>>,
+}
+
+fn main() -> Outcome<()> {
+    let (size, out) = arguments()?;
+    let surface = rough(size, SLOPE)?;
+    std::fs::create_dir_all(&out)?;
+    figure5(&out, &surface)?;
+    println!(
+        "loads and pressures in units of E*; areas in % of the nominal area; attraction: traction above 1 % of w/ρ"
+    );
+    println!(
+        "{:>20} {:>5} {:>5} {:>9} {:>9} {:>8} {:>9} {:>8} {:>8} {:>5}  status",
+        "case", "n", "μ_ρ", "p̄", "⟨λ⟩", "contact", "corrected", "attract.", "clusters", "appl."
+    );
+    let mut failures = 0;
+
+    let mut curves = Vec::new();
+    for work in WORKS {
+        curves.push(sweep(&surface, work, &mut failures)?);
+    }
+    let coarser: Vec<usize> = [size / 4, size / 2].into_iter().filter(|n| rough(*n, SLOPE).is_ok()).collect();
+    let mut grids = Vec::new();
+    for &n in &coarser {
+        grids.push(sweep(&rough(n, SLOPE)?, 0.0, &mut failures)?);
+    }
+
+    let grid = *surface.grid();
+    let law = Exponential::new(WORK, RANGE)?;
+    let (bare, sticky) = (&curves[0], &curves[2]);
+    let (bare, sticky) = bare.shown.as_ref().zip(sticky.shown.as_ref()).ok_or("no solution to be shown")?;
+    let same_contact = at_contact_pressure(&surface, law, &curves[2], &mut failures)?;
+    let none = Exponential::new(0.0, RANGE)?;
+    maps(&out, "without", "No adhesion", grid, bare, &none)?;
+    maps(&out, "with", "Adhesion, same external pressure", grid, sticky, &law)?;
+    maps(&out, "with-same-contact-pressure", "Adhesion, same contact pressure", grid, &same_contact, &law)?;
+
+    papers_own(&out, &surface, &mut failures)?;
+
+    println!(
+        "\nslope κ of the tangent at the origin, area over load/(E* h'_rms), from loads p̄ up to {SMALL} E* h'_rms"
+    );
+    let limit = extrapolated(&curves[0], grids.last());
+    for curve in grids.iter().chain(&curves) {
+        let [external, contact] = [Load::External, Load::Contact].map(|load| {
+            [|p: &Point| p.nodes, |p: &Point| p.corrected].map(|area| tangent(&curve.points, load, area, curve.work).1)
+        });
+        println!(
+            "  {:<12} {:>4}²: over p̄ {:.2}, corrected for the perimeter {:.2}; over ⟨λ⟩ {:.2}, {:.2}",
+            named(curve.work),
+            curve.n,
+            external[0],
+            external[1],
+            contact[0],
+            contact[1]
+        );
+    }
+    let [persson, bush] = [(8.0 / PI).sqrt(), (2.0 * PI).sqrt()];
+    match &limit {
+        Some([nodes, corrected]) => println!(
+            "  w = 0, extrapolated to Δx = 0: from nodes {:.2}, from corrected areas {:.2}",
+            slope_without_adhesion(nodes),
+            slope_without_adhesion(corrected)
+        ),
+        None => println!("  no extrapolation to Δx = 0: half of {size} nodes do not resolve the surface"),
+    }
+    println!("  Persson {persson:.2}, Bush, Gibson and Thomas {bush:.2}");
+    figure8(&out.join("figure8.svg"), size, &curves, limit.as_ref().map(|[nodes, _]| &nodes[..]))?;
+
+    println!("\nfigures 5 to 8 are in {}", out.display());
+    match failures {
+        0 => println!("every solve has converged"),
+        count => println!("{count} solves have NOT converged: see the table"),
+    }
+    Ok(())
+}
+
+fn arguments() -> Outcome<(usize, PathBuf)> {
+    let (mut size, mut out) = (1024_usize, PathBuf::from("target/figures"));
+    let mut arguments = std::env::args().skip(1);
+    while let Some(name) = arguments.next() {
+        let value = arguments.next().ok_or_else(|| format!("{name}: a value must follow"))?;
+        match name.as_str() {
+            "--size" => size = value.parse().map_err(|e| format!("--size {value}: {e}"))?,
+            "--out" => out = value.into(),
+            _ => return Err(format!("{name}: the options are --size N and --out DIR").into()),
+        }
+    }
+    // (the error of the library, in words)
+    rough(size, SLOPE).map_err(|e| format!("--size {size}: {e}"))?;
+    Ok((size, out))
+}
+
+/// The surface of the figures, of side 1, on n × n nodes.
+fn rough(n: usize, slope: f64) -> Outcome<Surface> {
+    let rough = SelfAffine { amplitude: Amplitude::RmsSlope(slope), ..SelfAffine::default() };
+    Ok(rough.surface(Grid::square(n, 1.0)?)?)
+}
+
+fn named(work: f64) -> String {
+    if work > 0.0 { format!("w = {work:e} E*L") } else { "w = 0".to_owned() }
+}
+
+/// Solves under all loads of Figure 8, from the largest to the least.
+fn sweep(surface: &Surface, work: f64, failures: &mut usize) -> Outcome<Curve> {
+    let (grid, law) = (*surface.grid(), Exponential::new(work, RANGE)?);
+    let mut problem = Problem::new(surface, Westergaard::<f64>::new(grid, 1.0)?, law)?;
+    let loads = LOADS.iter().filter(|load| work > 0.0 || **load > 0.0).map(|load| load * SLOPE);
+    let (mut solver, mut points, mut shown) = (Solver::default(), Vec::new(), None);
+    let name = named(work);
+    for step in Sweep::new(&mut solver, &mut problem, loads.map(Control::MeanPressure)) {
+        let (_, solution) = step?;
+        points.push(tell(&name, &grid, &solution, &law, failures)?);
+        if (solution.report.mean_pressure / LOAD - 1.0).abs() < 1e-9 {
+            shown = Some(solution);
+        }
+    }
+    Ok(Curve { work, n: grid.shape().0, points, shown })
+}
+
+/// Prints the row of a solve, and counts it if it has not converged.
+fn tell(
+    name: &str,
+    grid: &Grid,
+    solution: &Solution<f64>,
+    law: &Exponential<f64>,
+    failures: &mut usize,
+) -> Outcome<Point> {
+    let (report, found) = (&solution.report, ContactStatistics::of(solution, grid, law)?);
+    *failures += usize::from(report.status != Status::Converged);
+    println!(
+        "{name:>20} {:>5} {:>5.2} {:>9.6} {:>9.6} {:>8.4} {:>9.4} {:>8.4} {:>8} {:>5}  {}{}",
+        grid.shape().0,
+        report.mu_rho,
+        report.mean_pressure,
+        report.mean_contact_pressure,
+        100.0 * found.contact_fraction,
+        100.0 * found.corrected_contact_fraction,
+        100.0 * found.attractive_fraction,
+        found.cluster_sizes.len(),
+        report.operator_applications,
+        report.status,
+        if report.under_resolved { ", under-resolved" } else { "" }
+    );
+    Ok(Point {
+        external: report.mean_pressure / SLOPE,
+        contact: report.mean_contact_pressure / SLOPE,
+        nodes: found.contact_fraction,
+        corrected: found.corrected_contact_fraction,
+    })
+}
+
+/// The solution with adhesion whose mean contact pressure is the load, by the secant method over external pressures.
+fn at_contact_pressure(
+    surface: &Surface,
+    law: Exponential<f64>,
+    curve: &Curve,
+    failures: &mut usize,
+) -> Outcome<Solution<f64>> {
+    let goal = LOAD / SLOPE;
+    let mut problem = Problem::new(surface, Westergaard::<f64>::new(*surface.grid(), 1.0)?, law)?;
+    let above = curve.points.iter().position(|p| p.contact < goal).ok_or("the load is below those of Figure 8")?;
+    let [mut before, mut last] = [above - 1, above].map(|i| (curve.points[i].external, curve.points[i].contact));
+    let mut gap = curve.shown.as_ref().ok_or("no solution to start from")?.gap.clone();
+    for _ in 0..8 {
+        let load = last.0 + (goal - last.1) * (last.0 - before.0) / (last.1 - before.1);
+        let control = Control::MeanPressure(load * SLOPE);
+        let solution =
+            Solver::default().solve_from(&mut problem, control, Some(gap.view()), |_| ControlFlow::Continue(()))?;
+        (before, last) = (last, (load, solution.report.mean_contact_pressure / SLOPE));
+        if (last.1 / goal - 1.0).abs() < 1e-5 {
+            tell("same ⟨λ⟩", surface.grid(), &solution, &law, failures)?;
+            return Ok(solution);
+        }
+        gap = solution.gap;
+    }
+    Err(format!("no external pressure found for a mean contact pressure of {LOAD} E*").into())
+}
+
+/// What the paper states: on the surface of the figures, where it depends on the start and on the grid, and on the flatter
+/// one, which is pressed flat.
+fn papers_own(out: &Path, surface: &Surface, failures: &mut usize) -> Outcome<()> {
+    let size = surface.grid().shape().0;
+    let law = Exponential::new(PAPER, PAPER)?;
+    let flat = rough(size, 0.001)?;
+    let mut problem = Problem::new(&flat, Westergaard::<f64>::new(*flat.grid(), 1.0)?, Exponential::new(0.0, PAPER)?)?;
+    let solution = Solver::default().solve(&mut problem, Control::MeanPressure(LOAD))?;
+    tell("rms slope 1e-3, w = 0", flat.grid(), &solution, problem.law(), failures)?;
+    let coarse = rough(size / 2, SLOPE).ok();
+    for surface in coarse.iter().chain([surface]) {
+        let (grid, shape) = (*surface.grid(), surface.grid().shape());
+        let mut problem = Problem::new(surface, Westergaard::<f64>::new(grid, 1.0)?, law)?;
+        let apart = Array2::from_elem(shape, 5.0 * surface.rms_height());
+        for (name, start) in [("from full contact", None), ("from far apart", Some(apart.view()))] {
+            let control = Control::MeanPressure(LOAD);
+            let solution = Solver::default().solve_from(&mut problem, control, start, |_| ControlFlow::Continue(()))?;
+            tell(name, &grid, &solution, &law, failures)?;
+            if shape.0 == size && start.is_some() {
+                maps(out, "papers-own", "Not resolved: the paper's adhesion", grid, &solution, &law)?;
+            }
+        }
+    }
+    println!(
+        "warning: with w = {PAPER:e} E*L and ρ = {PAPER:e} L, as in the paper, adhesion is under-resolved, μ_ρ = {:.1} exceeds 0.5: \
+         the answer depends on the grid and on the start",
+        (PAPER / size as f64).sqrt() / PAPER
+    );
+    Ok(())
+}
+
+fn figure5(out: &Path, surface: &Surface) -> Outcome<()> {
+    let (grid, found) = (*surface.grid(), surface.statistics());
+    let map = Map {
+        title: "Figure 5: the rough surface",
+        caption: &format!("rms slope {:.3}, rms height {:.3e} L", found.rms_slope, found.rms_height),
+        length_unit: Some("L"),
+        label: "height",
+        unit: Some("L"),
+        ..Map::new(surface.heights().view(), grid, Colouring::Sequential)
+    };
+    Ok(map.write_png(&out.join("figure5.png"))?)
+}
+
+/// Figures 6 and 7 of one solution.
+fn maps(
+    out: &Path,
+    file: &str,
+    title: &str,
+    grid: Grid,
+    solution: &Solution<f64>,
+    law: &Exponential<f64>,
+) -> Outcome<()> {
+    let report = &solution.report;
+    let adhesion = if law.is_zero() {
+        String::new()
+    } else {
+        format!("w = {:e} E*L, range {:e} L, ", law.work_of_adhesion(), law.range())
+    };
+    let loads =
+        format!("external pressure {:.4} E*, contact {:.4} E*", report.mean_pressure, report.mean_contact_pressure);
+    // without adhesion, what there is outside of the contact is only what remains of the error
+    let pressure = if law.is_zero() { &solution.contact_pressure } else { &solution.pressure };
+    let map = Map {
+        title: &format!("Figure 6: {title}"),
+        caption: &loads,
+        length_unit: Some("L"),
+        label: "pressure",
+        unit: Some("E*"),
+        ..Map::new(pressure.view(), grid, Colouring::Diverging)
+    };
+    map.write_png(&out.join(format!("figure6-{file}.png")))?;
+
+    let found = ContactStatistics::of(solution, &grid, law)?;
+    let least = 0.01 * law.work_of_adhesion() / law.range();
+    let parts = Zip::from(&solution.contact_map()).and(&solution.gap).map_collect(|&touches, &gap| {
+        // in this order, so that the mean of neighbours in contact and attraction is not taken for apart
+        if touches {
+            2.0
+        } else if !law.is_zero() && law.traction(gap) > least {
+            1.0
+        } else {
+            0.0
+        }
+    });
+    let percent = |share: f64| format!("{:.1} %", 100.0 * share);
+    let map = Map {
+        title: &format!("Figure 7: {title}"),
+        caption: &format!(
+            "{adhesion}{} contact, {} attraction",
+            percent(found.contact_fraction),
+            percent(found.attractive_fraction)
+        ),
+        length_unit: Some("L"),
+        label: "apart 0, attraction 1, contact 2",
+        ..Map::new(parts.view(), grid, Colouring::Sequential)
+    };
+    Ok(map.write_png(&out.join(format!("figure7-{file}.png")))?)
+}
+
+/// Which of the two loads is meant.
+#[derive(Clone, Copy, PartialEq)]
+enum Load {
+    External,
+    Contact,
+}
+
+impl Load {
+    fn of(self, point: &Point) -> f64 {
+        match self {
+            Self::External => point.external,
+            Self::Contact => point.contact,
+        }
+    }
+}
+
+/// Area at no load, and slope there, of the parabola through the small loads with the least relative errors.
+///
+/// There is no area at no load without adhesion, nor under no contact pressure. Over the external pressure the curves with
+/// adhesion get steeper towards the tension at which the surfaces part, so that their slope depends on the range of the fit.
+fn tangent(points: &[Point], load: Load, area: fn(&Point) -> f64, work: f64) -> (f64, f64) {
+    let small = points.iter().filter(|p| p.external > 0.0 && p.external <= SMALL * (1.0 + 1e-9));
+    let small: Vec<(f64, f64)> = small.map(|p| (load.of(p), area(p))).collect();
+    let largest = small.iter().fold(f64::MIN_POSITIVE, |m, p| m.max(p.0));
+    let first = usize::from(work == 0.0 || load == Load::Contact);
+    // the normal equations of area/x = Σ cₖ xᵏ⁻¹, x in units of the largest load
+    let mut rows = [[0.0; 4]; 3];
+    for (x, area) in small.iter().map(|(x, area)| (x / largest, area)) {
+        let powers = [x.recip(), 1.0, x];
+        for i in first..3 {
+            (first..3).for_each(|j| rows[i][j] += powers[i] * powers[j]);
+            rows[i][3] += powers[i] * area / x;
+        }
+    }
+    for i in first..3 {
+        for j in (first..3).filter(|j| *j != i) {
+            let (factor, row) = (rows[j][i] / rows[i][i], rows[i]);
+            rows[j].iter_mut().zip(row).for_each(|(x, y)| *x -= factor * y);
+        }
+    }
+    let offset = if first == 0 { rows[0][3] / rows[0][0] } else { 0.0 };
+    (offset, rows[1][3] / rows[1][1] / largest)
+}
+
+/// κ of points (load, area).
+fn slope_without_adhesion(points: &[(f64, f64)]) -> f64 {
+    let points: Vec<Point> =
+        points.iter().map(|&(x, area)| Point { external: x, contact: x, nodes: area, corrected: area }).collect();
+    tangent(&points, Load::External, |p| p.nodes, 0.0).1
+}
+
+/// Load and area extrapolated linearly in Δx from two grids: from nodes, and from areas with the perimeter's part taken off.
+fn extrapolated(fine: &Curve, coarse: Option<&Curve>) -> Option<[Vec<(f64, f64)>; 2]> {
+    let coarse = coarse?;
+    let share = coarse.n as f64 / (fine.n - coarse.n) as f64;
+    Some([|p: &Point| p.nodes, |p: &Point| p.corrected].map(|area| {
+        let pairs = fine.points.iter().zip(&coarse.points);
+        pairs.map(|(fine, coarse)| (fine.external, area(fine) + share * (area(fine) - area(coarse)))).collect()
+    }))
+}
+
+/// Area over the external pressure, its beginning, and over the mean contact pressure.
+fn figure8(path: &Path, size: usize, curves: &[Curve], limit: Option<&[(f64, f64)]>) -> Outcome<()> {
+    let root = SVGBackend::new(path, (1560, 640)).into_drawing_area();
+    root.fill(&WHITE)?;
+    let title = format!(
+        "Figure 8: contact area against load, rms slope 0.1, exponential adhesion of range ρ = {RANGE:e} L, {size} × {size} nodes, unloading"
+    );
+    let root = root.titled(&title, ("sans-serif", 20))?;
+    let panels = root.split_evenly((1, 3));
+    let external = "external mean pressure p̄ / (E* h'rms)";
+    panel(&panels[0], external, Load::External, (0.052, 0.32), curves, limit)?;
+    panel(&panels[1], &format!("{external}, its beginning"), Load::External, (0.0052, 0.07), curves, limit)?;
+    panel(&panels[2], "mean contact pressure ⟨λ⟩ / (E* h'rms)", Load::Contact, (0.052, 0.15), curves, limit)?;
+    root.present()?;
+    Ok(())
+}
+
+fn panel(
+    area: &Panel<'_>,
+    abscissa: &str,
+    load: Load,
+    (right, top): (f64, f64),
+    curves: &[Curve],
+    limit: Option<&[(f64, f64)]>,
+) -> Outcome<()> {
+    let mut chart = ChartBuilder::on(area)
+        .margin(12)
+        .margin_right(20)
+        .x_label_area_size(48)
+        .y_label_area_size(64)
+        .build_cartesian_2d(0.0..right, 0.0..100.0 * top)?;
+    let decimals = if right < 0.01 { 3 } else { 2 };
+    chart
+        .configure_mesh()
+        .light_line_style(TRANSPARENT)
+        .x_desc(abscissa)
+        .y_desc("contact area A / A₀, by nodes (%)")
+        .x_labels(6)
+        .y_labels(8)
+        .x_label_formatter(&|x| format!("{x:.decimals$}"))
+        .y_label_formatter(&|y| format!("{y:.0}"))
+        .label_style(("sans-serif", 15))
+        .axis_desc_style(("sans-serif", 16))
+        .draw()?;
+    let inside = |p: &(f64, f64)| p.0 <= right && p.1 <= 100.0 * top;
+    let [low, high] = [(8.0 / PI).sqrt(), (2.0 * PI).sqrt()].map(|slope| (right, 100.0 * slope * right));
+    let grey = RGBColor(150, 150, 150).mix(0.35);
+    chart
+        .draw_series([Polygon::new(vec![(0.0, 0.0), low, high], grey)])?
+        .label("κ from 1.60 (Persson) to 2.51 (BGT)")
+        .legend(move |(x, y)| Rectangle::new([(x, y - 5), (x + 24, y + 5)], grey.filled()));
+    for (curve, colour) in curves.iter().zip(COLOURS) {
+        let points: Vec<_> = curve.points.iter().map(|p| (load.of(p), 100.0 * p.nodes)).filter(|p| inside(p)).collect();
+        let (offset, slope) = tangent(&curve.points, load, |p| p.nodes, curve.work);
+        // (the tangent as far as there is room)
+        let end = right.min((top - offset) / slope).min(SMALL);
+        let line = [0.0, end].map(|x| (x, 100.0 * (offset + slope * x)));
+        chart.draw_series(DashedLineSeries::new(line, 3, 4, colour.stroke_width(1)))?;
+        let label = format!("{}, κ = {slope:.2}", named(curve.work));
+        chart.draw_series(LineSeries::new(points.clone(), colour.stroke_width(2)))?;
+        chart
+            .draw_series(points.into_iter().map(|p| Circle::new(p, 4, colour.filled())))?
+            .label(label)
+            .legend(move |(x, y)| Circle::new((x + 12, y), 4, colour.filled()));
+    }
+    if let Some(limit) = limit {
+        let ring = BLACK.stroke_width(1);
+        let points: Vec<_> = limit.iter().map(|(x, area)| (*x, 100.0 * area)).filter(|p| inside(p)).collect();
+        chart
+            .draw_series(points.into_iter().map(|p| Circle::new(p, 6, ring)))?
+            .label(format!("w = 0, Δx → 0: κ = {:.2}", slope_without_adhesion(limit)))
+            .legend(move |(x, y)| Circle::new((x + 12, y), 6, ring));
+    }
+    chart
+        .configure_series_labels()
+        .position(SeriesLabelPosition::UpperLeft)
+        .background_style(WHITE.mix(0.9))
+        .border_style(BLACK)
+        .label_font(("sans-serif", 14))
+        .legend_area_size(30)
+        .draw()?;
+    Ok(())
+}
