@@ -310,7 +310,7 @@ fn table_2_rough() -> Result<()> {
         barrier(5e3 * law.range() / law.traction(0.0))
     );
     println!(
-        "k = 5000 and at {:.1} rho for 50 000, where the springs still turn it back. With the law's tangent there is no barrier.\n",
+        "k = 5000 and at {:.1} rho for 50 000, with which both converge all the same. With the law's tangent there is no barrier.\n",
         barrier(5e4 * law.range() / law.traction(0.0))
     );
     Ok(())
