@@ -67,7 +67,7 @@ fn at_the_papers_load_and_a_resolved_slope_some_seven_percent_are_in_contact() {
 }
 
 #[test]
-#[ignore = "takes ten seconds and 400 MB"]
+#[ignore = "grids of 1024 x 1024 nodes"]
 fn on_the_papers_grid_likewise() {
     (0..6).for_each(|seed| check_area(1024, seed));
 }
