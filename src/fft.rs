@@ -5,8 +5,8 @@ use std::sync::Arc;
 
 use ndarray::{Array2, ArrayView1, ArrayView2, ArrayViewMut2, Axis};
 use num_traits::Zero;
+use rustfft::Fft;
 use rustfft::num_complex::Complex;
-use rustfft::{Fft, FftPlanner};
 
 use crate::error::{Error, Result};
 use crate::field::flat_mut;
@@ -44,8 +44,9 @@ struct Workspace<T> {
 }
 
 impl<T: Real> Transform<T> {
-    fn new(len: usize, planner: &mut FftPlanner<T>) -> Self {
-        Self { forward: planner.plan_fft_forward(len), inverse: planner.plan_fft_inverse(len) }
+    fn new(len: usize) -> Self {
+        let [forward, inverse] = T::transforms(len);
+        Self { forward, inverse }
     }
 
     fn scratch_len(&self) -> usize {
@@ -63,9 +64,7 @@ impl<T: Real> Convolver<T> {
     /// Plans for fields of the given shape.
     pub(crate) fn new(shape: (usize, usize)) -> Self {
         let (n0, n1) = shape;
-        let mut planner = FftPlanner::new();
-        let rows = Transform::new(n1, &mut planner);
-        let columns = Transform::new(n0, &mut planner);
+        let (rows, columns) = (Transform::new(n1), Transform::new(n0));
         let scratch = rows.scratch_len().max(columns.scratch_len());
         let pool = Pool::new(|| Workspace {
             tile: vec![Complex::zero(); TILE.div_ceil(2) * (n1 + SLACK)],

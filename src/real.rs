@@ -1,8 +1,9 @@
 use std::fmt::{Display, LowerExp};
+use std::sync::Arc;
 
 use num_traits::{Float, FloatConst, NumAssign};
 use pulp::Arch;
-use rustfft::FftNum;
+use rustfft::{Fft, FftNum, FftPlanner};
 
 /// The scalar of every field: `f32` or `f64`.
 ///
@@ -29,6 +30,16 @@ pub trait Real: FftNum + Float + NumAssign + Default + Display + LowerExp {
     ///
     /// Without branches and tables, so that it runs on vector instructions, with the same bits on every platform.
     fn exponentials(factor: Self, rate: Self, x: &[Self], results: &mut [Self]);
+
+    /// The forward and the inverse Fourier transform of a length.
+    ///
+    /// Here so that the transforms are compiled with this crate, and not again with each that uses it.
+    fn transforms(len: usize) -> [Arc<dyn Fft<Self>>; 2];
+}
+
+fn plan<T: FftNum>(len: usize) -> [Arc<dyn Fft<T>>; 2] {
+    let mut planner = FftPlanner::new();
+    [planner.plan_fft_forward(len), planner.plan_fft_inverse(len)]
 }
 
 /// exp x = 2ᵏ exp r with |r| ≤ ½ ln 2: a Taylor series of r in Horner's form, and k into the bits of the exponent.
@@ -102,6 +113,9 @@ impl Real for f32 {
     fn widen(self) -> f64 {
         f64::from(self)
     }
+    fn transforms(len: usize) -> [Arc<dyn Fft<Self>>; 2] {
+        plan(len)
+    }
     exponentials!(f32, 23, 127, 12_582_912.0, (0.693_359_4_f32, -2.121_944_4e-4_f32), -87.0, 88.0, SERIES_F32);
 }
 
@@ -114,6 +128,9 @@ impl Real for f64 {
     #[inline]
     fn widen(self) -> f64 {
         self
+    }
+    fn transforms(len: usize) -> [Arc<dyn Fft<Self>>; 2] {
+        plan(len)
     }
     exponentials!(
         f64,
