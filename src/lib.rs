@@ -68,7 +68,7 @@
 //! # Features
 //!
 //! `parallel` (default): threads, with the same results bit for bit. `cli` (default): files, pictures and the
-//! command-line tool. Without both the library depends on ndarray, num-traits, rustfft and libm alone.
+//! command-line tool. Without both the library depends on libm, ndarray, num-traits, pulp and rustfft alone.
 
 mod adhesion;
 mod constraint;
