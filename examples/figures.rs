@@ -11,10 +11,14 @@
 //! With adhesion there are several discrete equilibria, and the start chooses among them. Each grid is solved from the
 //! default start, shown in figures 2 and 3, and from the exact gap, to tell the start's part of the error.
 
+#[path = "common/arguments.rs"]
+mod arguments;
+
 use std::error::Error;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
+use arguments::size_and_out;
 use asperity::exact::{Contact, Hertz, Jkr, MaugisDugdale as Maugis, Periodic, PeriodicContact, Sphere};
 use asperity::{
     AdhesionLaw, Control, ElasticOperator, Grid, MaugisDugdale, NoAdhesion, Problem, Settings, Solution, Solver,
@@ -110,16 +114,7 @@ fn main() -> Outcome<()> {
 }
 
 fn arguments() -> Outcome<(usize, PathBuf)> {
-    let (mut size, mut out) = (1024_usize, PathBuf::from("target/figures"));
-    let mut arguments = std::env::args().skip(1);
-    while let Some(name) = arguments.next() {
-        let value = arguments.next().ok_or_else(|| format!("{name}: a value must follow"))?;
-        match name.as_str() {
-            "--size" => size = value.parse().map_err(|e| format!("--size {value}: {e}"))?,
-            "--out" => out = value.into(),
-            _ => return Err(format!("{name}: the options are --size N and --out DIR").into()),
-        }
-    }
+    let (size, out) = size_and_out(1024, "target/figures")?;
     if size < 2 * SMALLEST || !size.is_power_of_two() {
         return Err(format!("--size {size}: it must be a power of two, at least {}", 2 * SMALLEST).into());
     }

@@ -2,10 +2,14 @@
 //!
 //! `cargo run --release --example psd -- [--size N] [--out FILE.svg]`
 
+#[path = "common/arguments.rs"]
+mod arguments;
+
 use std::error::Error;
 use std::f64::consts::TAU;
 use std::path::PathBuf;
 
+use arguments::size_and_out;
 use asperity::{Grid, Psd, SelfAffine};
 use plotters::prelude::*;
 
@@ -40,16 +44,7 @@ fn main() -> Outcome<()> {
 }
 
 fn arguments() -> Outcome<(usize, PathBuf)> {
-    let (mut size, mut out) = (512_usize, PathBuf::from("target/figures/psd.svg"));
-    let mut arguments = std::env::args().skip(1);
-    while let Some(name) = arguments.next() {
-        let value = arguments.next().ok_or_else(|| format!("{name}: a value must follow"))?;
-        match name.as_str() {
-            "--size" => size = value.parse().map_err(|e| format!("--size {value}: {e}"))?,
-            "--out" => out = value.into(),
-            _ => return Err(format!("{name}: the options are --size N and --out FILE").into()),
-        }
-    }
+    let (size, out) = size_and_out(512, "target/figures/psd.svg")?;
     if size < 64 {
         return Err(format!("--size {size}: it must be at least 64").into());
     }

@@ -12,11 +12,15 @@
 //! beside. Two loads are told apart: the external mean pressure p̄, which is the one that is given, and the mean contact
 //! pressure ⟨λ⟩ = p̄ + ⟨φ'⟩, which exceeds it by the adhesive traction.
 
+#[path = "common/arguments.rs"]
+mod arguments;
+
 use std::error::Error;
 use std::f64::consts::PI;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
+use arguments::size_and_out;
 use asperity::{
     AdhesionLaw, Amplitude, Colouring, ContactStatistics, Control, Exponential, Grid, Map, Problem, SelfAffine,
     Solution, Solver, Status, Surface, Sweep, Westergaard,
@@ -137,16 +141,7 @@ fn main() -> Outcome<()> {
 }
 
 fn arguments() -> Outcome<(usize, PathBuf)> {
-    let (mut size, mut out) = (1024_usize, PathBuf::from("target/figures"));
-    let mut arguments = std::env::args().skip(1);
-    while let Some(name) = arguments.next() {
-        let value = arguments.next().ok_or_else(|| format!("{name}: a value must follow"))?;
-        match name.as_str() {
-            "--size" => size = value.parse().map_err(|e| format!("--size {value}: {e}"))?,
-            "--out" => out = value.into(),
-            _ => return Err(format!("{name}: the options are --size N and --out DIR").into()),
-        }
-    }
+    let (size, out) = size_and_out(1024, "target/figures")?;
     // (the error of the library, in words)
     rough(size, SLOPE).map_err(|e| format!("--size {size}: {e}"))?;
     Ok((size, out))
