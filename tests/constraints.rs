@@ -172,7 +172,8 @@ fn no_law_is_asked_for_a_negative_gap() {
     let mut problem = rough::<f64, _>(64, 8, Positive(law));
     let (found, _) = with(&mut problem, Penalty::new(300.0).unwrap(), control, 1e-6);
     assert!(found.report.status == Status::Converged && found.report.min_gap < 0.0);
-    assert_eq!(found.gap, expected.gap);
+    // the same steps, but for the last bits of the exponential, which the law computes for many gaps at once
+    assert!(found.gap.iter().zip(&expected.gap).all(|(found, expected)| (found - expected).abs() < 1e-9));
     // nor where a start interpenetrates
     let mut solver = Solver { settings: Settings::default(), constraint: Penalty::new(300.0).unwrap() };
     let again = solver

@@ -216,7 +216,9 @@ mod tool {
             ("mean_contact_pressure", single.mean_contact_pressure),
             ("mean_gap", single.mean_gap),
         ] {
-            assert_eq!(report[name].as_f64().unwrap(), expected, "{name}");
+            // serde_json may read the last digit wrongly
+            let found = report[name].as_f64().unwrap();
+            assert!((found - expected).abs() <= 2.0 * f64::EPSILON * expected, "{name}: {found} {expected}");
         }
 
         let loads = [0.001, 0.002, LOAD];
