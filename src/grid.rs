@@ -80,6 +80,12 @@ impl Grid {
         (self.lengths.0 / self.shape.0 as f64, self.lengths.1 / self.shape.1 as f64)
     }
 
+    /// The larger of Δx and Δy; on a line Δx.
+    pub(crate) fn largest_spacing(&self) -> f64 {
+        let (dx, dy) = self.spacing();
+        if self.is_line() { dx } else { dx.max(dy) }
+    }
+
     /// The coordinate of row `i` along x; zero at `i = Nx / 2`.
     pub fn x(&self, i: usize) -> f64 {
         coordinate(i, self.shape.0, self.lengths.0)

@@ -96,8 +96,6 @@ impl<T: Real, O: ElasticOperator<T>, L: AdhesionLaw<T>> Problem<T, O, L> {
         if self.law.is_zero() || w <= 0.0 || range <= 0.0 {
             return 0.0;
         }
-        let (dx, dy) = self.grid().spacing();
-        let spacing = if self.grid().is_line() { dx } else { dx.max(dy) };
-        (w * spacing / self.operator.modulus()).sqrt() / range
+        (w * self.grid().largest_spacing() / self.operator.modulus()).sqrt() / range
     }
 }

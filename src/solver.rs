@@ -14,6 +14,7 @@ mod potential;
 mod preconditioned;
 mod report;
 mod rey2017;
+mod start;
 mod state;
 mod tally;
 

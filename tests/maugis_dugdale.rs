@@ -100,3 +100,19 @@ fn a_law_comes_back_as_it_was_however_the_solve_ends() {
         }
     }
 }
+
+#[test]
+fn on_a_line_too_the_pressure_converges_from_the_default_start() {
+    // (the spacing that sets the smoothing is that along the line, not the width)
+    let (amplitude, law) = (0.02, MaugisDugdale::new(2e-5, 4e-4).unwrap());
+    let found = [512, 1024, 2048].map(|n| {
+        let grid = Grid::line(n, 1.0).unwrap();
+        let surface = Surface::wave(grid, amplitude, 1).unwrap();
+        let mut problem = Problem::new(&surface, Westergaard::<f64>::new(grid, 1.0).unwrap(), law).unwrap();
+        let report = Solver::default().solve(&mut problem, Control::MeanGap(0.5 * amplitude)).unwrap().report;
+        assert_eq!(report.status, Status::Converged);
+        report.mean_pressure
+    });
+    let [coarse, fine] = [found[1] - found[0], found[2] - found[1]].map(f64::abs);
+    assert!(coarse < 5e-3 * found[2].abs() && fine < coarse, "{found:?}");
+}

@@ -2,23 +2,20 @@ use ndarray::{Array2, ArrayView2};
 
 use super::potential::{Of, Potential};
 use super::report::{Iteration, Report, Solution, Status};
+use super::start::{given_start, uniform_start};
 use super::tally::{Tally, tally};
 use super::{Criterion, Method, Settings};
 use crate::adhesion::AdhesionLaw;
 use crate::constraint::{ContactConstraint, Outer};
 use crate::elastic::ElasticOperator;
 use crate::error::{Error, Result};
-use crate::field::{Partial, Reducer, flat, read, write};
+use crate::field::{Partial, Reducer, read, write};
 use crate::par::IndexedParallelIterator;
 use crate::problem::{Control, Problem};
 use crate::real::Real;
 
 /// Iterations after which the pressure, updated step by step, is computed anew.
 const REFRESH: usize = 50;
-
-/// The compliance with which the law is smoothed for the default start, in Δx/E*. A node alone has 1.1, the nodes
-/// along an edge some 3 together.
-const SMOOTHING: f64 = 5.0;
 
 /// How often [`Method::Rey2017`] computes the certificate, which it needs for nothing else.
 const CERTIFY: usize = 10;
@@ -132,35 +129,16 @@ where
             smoothed: false,
             detached: None,
         };
-        if uniform && settings.method == Method::Preconditioned {
-            let (dx, dy) = state.problem.grid().spacing();
-            let compliance = SMOOTHING * dx.max(dy) / state.problem.operator.modulus();
-            state.smoothed = state.problem.law.smooth(T::lit(compliance));
-        }
         if uniform {
             state.count();
         } else {
             state.refresh()?;
         }
         state.check_start()?;
+        if uniform && settings.method == Method::Preconditioned {
+            state.smooth();
+        }
         Ok(state)
-    }
-
-    /// Refuses a law that is not finite at the gaps of the start.
-    fn check_start(&self) -> Result<()> {
-        if self.energy().is_finite() && self.tally.sum_r.is_finite() {
-            return Ok(());
-        }
-        let law = &self.problem.law;
-        let functions: [(_, &dyn Fn(T) -> T); 2] =
-            [("adhesive energy", &|g| law.energy(g)), ("adhesive traction", &|g| law.traction(g))];
-        for (function, f) in functions {
-            let mut gaps = flat(&self.gap).iter().map(|gap| gap.max(T::zero()));
-            if let Some(gap) = gaps.find(|&gap| !f(gap).is_finite()) {
-                return Err(Error::Law { function, gap: gap.widen(), value: f(gap).widen(), expected: None });
-            }
-        }
-        Ok(())
     }
 
     pub(super) fn nodes(&self) -> f64 {
@@ -352,22 +330,6 @@ where
         }
     }
 
-    /// Brings back the jumps of a law that was smoothed, for which the state becomes the start; `false` if it was not.
-    pub(super) fn sharpen(&mut self) -> Result<bool> {
-        if !self.smoothed {
-            return Ok(false);
-        }
-        self.smoothed = false;
-        self.problem.law.smooth(T::zero());
-        if self.is_adrift() {
-            // the law itself may hold what the smoothed one does not
-            self.gap.fill(T::lit(uniform_start(self.problem, self.control)));
-            self.refresh()?;
-        }
-        self.restart();
-        Ok(true)
-    }
-
     /// The fields as they are returned, with the certificate of just these.
     pub(super) fn finish(mut self, status: Status) -> Result<Solution<T>> {
         if self.sharpen()? {
@@ -430,39 +392,4 @@ where
         };
         Ok(Solution { gap: self.gap, pressure: self.pressure, contact_pressure: self.preconditioned, report })
     }
-}
-
-fn uniform_start<T: Real, O: ElasticOperator<T>, L: AdhesionLaw<T>>(
-    problem: &Problem<T, O, L>,
-    control: Control,
-) -> f64 {
-    match control {
-        Control::MeanGap(gap) => gap,
-        Control::MeanPressure(_) if problem.law.is_zero() => 2.0 * problem.rms_height,
-        Control::MeanPressure(_) => 0.0,
-    }
-}
-
-fn given_start<T: Real>(
-    start: ArrayView2<'_, T>,
-    shape: (usize, usize),
-    control: Control,
-    projects: bool,
-) -> Result<Array2<T>> {
-    Error::shape("starting gap", start.dim(), shape)?;
-    Error::all_finite("starting gap", start)?;
-    if let Some(gap) = start.iter().find(|&&gap| projects && gap < T::zero()) {
-        let requirement = "zero or positive at every node";
-        return Err(Error::Value { name: "starting gap", value: gap.widen(), requirement });
-    }
-    let mut gap = start.as_standard_layout().into_owned();
-    if let Control::MeanGap(mean) = control {
-        let present = flat(&gap).iter().map(|g| g.widen()).sum::<f64>() / gap.len() as f64;
-        if present > 0.0 {
-            gap.mapv_inplace(|g| g * T::lit(mean / present));
-        } else {
-            gap.fill(T::lit(mean));
-        }
-    }
-    Ok(gap)
 }

@@ -1,0 +1,101 @@
+//! Where a solve starts.
+
+use ndarray::{Array2, ArrayView2};
+
+use super::state::State;
+use crate::adhesion::AdhesionLaw;
+use crate::constraint::ContactConstraint;
+use crate::elastic::ElasticOperator;
+use crate::error::{Error, Result};
+use crate::field::flat;
+use crate::problem::{Control, Problem};
+use crate::real::Real;
+
+/// The compliance with which the law is smoothed for the default start, in Δx/E*. A node alone has 1.1, the nodes
+/// along an edge some 3 together.
+const SMOOTHING: f64 = 5.0;
+
+impl<T, O, L, C> State<'_, T, O, L, C>
+where
+    T: Real,
+    O: ElasticOperator<T>,
+    L: AdhesionLaw<T>,
+    C: ContactConstraint<T>,
+{
+    /// Refuses a law that is not finite at the gaps of the start.
+    pub(super) fn check_start(&self) -> Result<()> {
+        if self.energy().is_finite() && self.tally.sum_r.is_finite() {
+            return Ok(());
+        }
+        let law = &self.problem.law;
+        let functions: [(_, &dyn Fn(T) -> T); 2] =
+            [("adhesive energy", &|g| law.energy(g)), ("adhesive traction", &|g| law.traction(g))];
+        for (function, f) in functions {
+            let mut gaps = flat(&self.gap).iter().map(|gap| gap.max(T::zero()));
+            if let Some(gap) = gaps.find(|&gap| !f(gap).is_finite()) {
+                return Err(Error::Law { function, gap: gap.widen(), value: f(gap).widen(), expected: None });
+            }
+        }
+        Ok(())
+    }
+
+    /// Smooths the jumps of the law, if it has any, to find the start.
+    pub(super) fn smooth(&mut self) {
+        let compliance = SMOOTHING * self.problem.grid().largest_spacing() / self.problem.operator.modulus();
+        self.smoothed = self.problem.law.smooth(T::lit(compliance));
+        if self.smoothed {
+            self.count();
+        }
+    }
+
+    /// Brings back the jumps of a law that was smoothed, for which the state becomes the start; `false` if it was not.
+    pub(super) fn sharpen(&mut self) -> Result<bool> {
+        if !self.smoothed {
+            return Ok(false);
+        }
+        self.smoothed = false;
+        self.problem.law.smooth(T::zero());
+        if self.is_adrift() {
+            // the law itself may hold what the smoothed one does not
+            self.gap.fill(T::lit(uniform_start(self.problem, self.control)));
+            self.refresh()?;
+        }
+        self.restart();
+        Ok(true)
+    }
+}
+
+pub(super) fn uniform_start<T: Real, O: ElasticOperator<T>, L: AdhesionLaw<T>>(
+    problem: &Problem<T, O, L>,
+    control: Control,
+) -> f64 {
+    match control {
+        Control::MeanGap(gap) => gap,
+        Control::MeanPressure(_) if problem.law.is_zero() => 2.0 * problem.rms_height,
+        Control::MeanPressure(_) => 0.0,
+    }
+}
+
+pub(super) fn given_start<T: Real>(
+    start: ArrayView2<'_, T>,
+    shape: (usize, usize),
+    control: Control,
+    projects: bool,
+) -> Result<Array2<T>> {
+    Error::shape("starting gap", start.dim(), shape)?;
+    Error::all_finite("starting gap", start)?;
+    if let Some(gap) = start.iter().find(|&&gap| projects && gap < T::zero()) {
+        let requirement = "zero or positive at every node";
+        return Err(Error::Value { name: "starting gap", value: gap.widen(), requirement });
+    }
+    let mut gap = start.as_standard_layout().into_owned();
+    if let Control::MeanGap(mean) = control {
+        let present = flat(&gap).iter().map(|g| g.widen()).sum::<f64>() / gap.len() as f64;
+        if present > 0.0 {
+            gap.mapv_inplace(|g| g * T::lit(mean / present));
+        } else {
+            gap.fill(T::lit(mean));
+        }
+    }
+    Ok(gap)
+}
