@@ -78,8 +78,9 @@ pub trait AdhesionLaw<T: Real>: Sync {
     /// equilibrium over a whole range of the gap, Δ times the node's compliance: the edge of the adhesive zone is
     /// pinned to the nodes, and stays where an iteration happened to leave it. The default start of a solve therefore
     /// comes from the smoothed law, of which the equilibrium does not depend on the way there. Energy, traction
-    /// and slope have to agree for the smoothed law too, and the work of adhesion stays the same. The default has no
-    /// jumps and does nothing.
+    /// and slope have to agree for the smoothed law too, and the work of adhesion stays the same. A solve
+    /// from the default start sets the compliance itself, and leaves the law with its jumps. The default has no jumps and
+    /// does nothing.
     fn smooth(&mut self, compliance: T) -> bool {
         let _ = compliance;
         false

@@ -185,7 +185,9 @@ impl<C> Solver<C> {
         match iterate(&mut state, observe) {
             Ok(status) => state.finish(status),
             Err(error) => {
-                state.problem.law.smooth(T::zero());
+                if state.smoothed {
+                    state.problem.law.smooth(T::zero());
+                }
                 Err(error)
             }
         }

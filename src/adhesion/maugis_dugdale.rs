@@ -37,9 +37,7 @@ impl<T: Real> MaugisDugdale<T> {
         Error::positive("range of adhesion", range.widen())?;
         Ok(Self { work_of_adhesion, range, smoothing: T::zero() })
     }
-}
 
-impl<T: Real> MaugisDugdale<T> {
     fn is_falling(&self, gap: T) -> bool {
         (gap - self.range).abs() < T::lit(0.5) * self.smoothing
     }
