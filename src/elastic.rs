@@ -28,6 +28,22 @@ pub trait ElasticOperator<T: Real> {
     /// [`Error::Shape`] if a field does not fit the grid.
     fn pressure(&mut self, displacement: ArrayView2<'_, T>, pressure: ArrayViewMut2<'_, T>) -> Result<()>;
 
+    /// The same as [`pressure`](Self::pressure), and the mean of u·K⁻¹u.
+    ///
+    /// The default multiplies the two fields; [`Spectral`] has the mean from the transform.
+    ///
+    /// # Errors
+    /// [`Error::Shape`] if a field does not fit the grid.
+    fn pressure_and_work(
+        &mut self,
+        displacement: ArrayView2<'_, T>,
+        mut pressure: ArrayViewMut2<'_, T>,
+    ) -> Result<f64> {
+        self.pressure(displacement, pressure.view_mut())?;
+        let product = Zip::from(&displacement).and(&pressure).fold(0.0, |sum, &u, &p| sum + u.widen() * p.widen());
+        Ok(product / displacement.len() as f64)
+    }
+
     /// The displacement u = Kp of a pressure p, both of shape (Nx, Ny). The mean of u is zero.
     ///
     /// # Errors
@@ -56,11 +72,10 @@ pub trait ElasticOperator<T: Real> {
         Ok(mean_product(heights, pressure.view()))
     }
 
-    /// Applies the preconditioner, M r, and returns the mean of r·Kr.
+    /// Applies the preconditioner, M r.
     ///
     /// M is close to the compliance K, with a finite value `1/mean_stiffness` for the mean; it must be symmetric and
-    /// positive. The returned number is what bounds the error (see [`Report::relative_error`](crate::Report)); it
-    /// must be that of K itself, without the mean. The default applies [`displacement`](Self::displacement).
+    /// positive. The default applies [`displacement`](Self::displacement).
     ///
     /// # Errors
     /// [`Error::Shape`] if a field does not fit the grid.
@@ -69,15 +84,28 @@ pub trait ElasticOperator<T: Real> {
         residual: ArrayView2<'_, T>,
         mean_stiffness: f64,
         mut preconditioned: ArrayViewMut2<'_, T>,
-    ) -> Result<f64> {
+    ) -> Result<Preconditioned> {
         self.displacement(residual, preconditioned.view_mut())?;
         let product =
             Zip::from(&residual).and(&preconditioned).fold(0.0, |sum: f64, &r, &u| sum + r.widen() * u.widen());
-        let mean = residual.iter().map(|r| r.widen()).sum::<f64>() / residual.len() as f64;
-        let shift = T::lit(mean / mean_stiffness);
+        let nodes = residual.len() as f64;
+        let (error, mean_residual) = (product / nodes, residual.iter().map(|r| r.widen()).sum::<f64>() / nodes);
+        let mean = mean_residual / mean_stiffness;
+        let shift = T::lit(mean);
         preconditioned.mapv_inplace(|u| u + shift);
-        Ok(product / residual.len() as f64)
+        Ok(Preconditioned { error, descent: error + mean_residual * mean, mean })
     }
+}
+
+/// What [`ElasticOperator::precondition`] finds beside M r, all of them means over the nodes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Preconditioned {
+    /// r·Kr without the mean of r, which bounds the error (see [`Report::relative_error`](crate::Report)): it must be that of K itself
+    pub error: f64,
+    /// r·Mr
+    pub descent: f64,
+    /// M r
+    pub mean: f64,
 }
 
 /// The mean over the nodes of a product.
@@ -96,6 +124,14 @@ macro_rules! delegate {
         fn pressure(&mut self, displacement: ArrayView2<'_, T>, pressure: ArrayViewMut2<'_, T>) -> Result<()> {
             let $this = self;
             $inner.pressure(displacement, pressure)
+        }
+        fn pressure_and_work(
+            &mut self,
+            displacement: ArrayView2<'_, T>,
+            pressure: ArrayViewMut2<'_, T>,
+        ) -> Result<f64> {
+            let $this = self;
+            $inner.pressure_and_work(displacement, pressure)
         }
         fn displacement(&mut self, pressure: ArrayView2<'_, T>, displacement: ArrayViewMut2<'_, T>) -> Result<()> {
             let $this = self;
@@ -118,7 +154,7 @@ macro_rules! delegate {
             residual: ArrayView2<'_, T>,
             mean_stiffness: f64,
             preconditioned: ArrayViewMut2<'_, T>,
-        ) -> Result<f64> {
+        ) -> Result<Preconditioned> {
             let $this = self;
             $inner.precondition(residual, mean_stiffness, preconditioned)
         }

@@ -29,9 +29,12 @@ pub(crate) struct Convolver<T: Real> {
     rows: Transform<T>,
     columns: Transform<T>,
     spectrum: Array2<Complex<T>>,
-    sums: Vec<f64>,
+    sums: Vec<Sums>,
     pool: Pool<Workspace<T>>,
 }
+
+/// What the columns of the spectrum can add up.
+pub(crate) type Sums = [f64; 3];
 
 struct Transform<T> {
     forward: Arc<dyn Fft<T>>,
@@ -71,34 +74,33 @@ impl<T: Real> Convolver<T> {
             scratch: vec![Complex::zero(); scratch],
         });
         let spectrum = Array2::zeros((n1 / 2 + 1, n0));
-        Self { shape, rows, columns, spectrum, sums: vec![0.0; n1 / 2 + 1], pool }
+        Self { shape, rows, columns, spectrum, sums: vec![[0.0; 3]; n1 / 2 + 1], pool }
     }
 
     /// Transforms `input`, hands every column of the half spectrum to `modify`, and transforms back into `output`.
     ///
     /// `modify` gets the column's index along the second axis, its modes along the first, unnormalised, and
-    /// returns a number; the sum of these numbers, in order, is returned. The inverse is normalised: a `modify` that
+    /// returns numbers; their sums, in the order of the columns, are returned. The inverse is normalised: a `modify` that
     /// changes nothing gives back the input.
-    pub(crate) fn convolve(
+    pub(crate) fn convolve<U: Real>(
         &mut self,
         input: ArrayView2<'_, T>,
-        output: ArrayViewMut2<'_, T>,
-        modify: impl Fn(usize, &mut [Complex<T>]) -> f64 + Sync + Send,
-    ) -> Result<f64> {
+        output: ArrayViewMut2<'_, U>,
+        modify: impl Fn(usize, &mut [Complex<T>]) -> Sums + Sync + Send,
+    ) -> Result<Sums> {
         Error::shape("operator input", input.dim(), self.shape)?;
         Error::shape("operator output", output.dim(), self.shape)?;
         let norm = T::lit(1.0 / (self.shape.0 as f64 * self.shape.1 as f64));
         self.rows_forward(input);
         let Self { columns, spectrum, sums, pool, shape: (n0, _), .. } = self;
-        par::map_into(par::chunks_mut(flat_mut(spectrum), *n0), sums, 1, |k, column| {
+        par::update(par::chunks_mut(flat_mut(spectrum), *n0), sums, 1, |k, column, sum| {
             let Workspace { scratch, .. } = &mut *pool.get();
             columns.forward.process_with_scratch(column, scratch);
-            let sum = modify(k, column);
+            *sum = modify(k, column);
             columns.inverse.process_with_scratch(column, scratch);
-            sum
         });
         self.rows_inverse(output, norm);
-        Ok(self.sums.iter().sum())
+        Ok(self.sums.iter().fold([0.0; 3], |a, b| std::array::from_fn(|i| a[i] + b[i])))
     }
 
     fn rows_forward(&mut self, input: ArrayView2<'_, T>) {
@@ -113,7 +115,7 @@ impl<T: Real> Convolver<T> {
         });
     }
 
-    fn rows_inverse(&mut self, mut output: ArrayViewMut2<'_, T>, norm: T) {
+    fn rows_inverse<U: Real>(&mut self, mut output: ArrayViewMut2<'_, U>, norm: T) {
         let Self { rows, spectrum, pool, shape: (_, n1), .. } = self;
         par::for_each(output.axis_chunks_iter_mut(Axis(0), TILE), spectrum.axis_chunks_iter(Axis(1), TILE), |x, z| {
             let Workspace { tile, scratch } = &mut *pool.get();
@@ -152,14 +154,13 @@ pub(crate) fn synthesise(
 ) -> (Array2<f64>, f64) {
     let mut convolver = Convolver::new(shape);
     let Convolver { columns, spectrum, sums, pool, .. } = &mut convolver;
-    par::map_into(par::chunks_mut(flat_mut(spectrum), shape.0), sums, 1, |k, column| {
-        let sum = fill(k, column);
+    par::update(par::chunks_mut(flat_mut(spectrum), shape.0), sums, 1, |k, column, sum| {
+        *sum = [fill(k, column), 0.0, 0.0];
         columns.inverse.process_with_scratch(column, &mut pool.get().scratch);
-        sum
     });
     let mut field = Array2::zeros(shape);
     convolver.rows_inverse(field.view_mut(), 1.0);
-    (field, convolver.sums.iter().sum())
+    (field, convolver.sums.iter().map(|[sum, ..]| sum).sum())
 }
 
 fn lines<T>(tile: &[Complex<T>], n: usize) -> impl Iterator<Item = &[Complex<T>]> {
@@ -188,13 +189,16 @@ fn pack<T: Real>(x: ArrayView2<'_, T>, tile: &mut [Complex<T>]) {
     }
 }
 
-fn unpack<T: Real>(tile: &[Complex<T>], mut x: ArrayViewMut2<'_, T>) {
+/// The other way, rounded to another precision if need be.
+fn unpack<T: Real, U: Real>(tile: &[Complex<T>], mut x: ArrayViewMut2<'_, U>) {
     let n = x.ncols();
+    let part = |part: T| U::lit(part.widen());
     for (mut pair, line) in x.axis_chunks_iter_mut(Axis(0), 2).zip(lines(tile, n)) {
-        for (mut row, part) in pair.rows_mut().into_iter().zip([|z: &Complex<T>| z.re, |z: &Complex<T>| z.im]) {
-            match row.as_slice_mut() {
-                Some(row) => row.iter_mut().zip(line).for_each(|(x, z)| *x = part(z)),
-                None => row.iter_mut().zip(line).for_each(|(x, z)| *x = part(z)),
+        for (i, mut row) in pair.rows_mut().into_iter().enumerate() {
+            match (i, row.as_slice_mut()) {
+                (0, Some(row)) => row.iter_mut().zip(line).for_each(|(x, z)| *x = part(z.re)),
+                (_, Some(row)) => row.iter_mut().zip(line).for_each(|(x, z)| *x = part(z.im)),
+                (_, None) => row.iter_mut().zip(line).for_each(|(x, z)| *x = part(if i == 0 { z.re } else { z.im })),
             }
         }
     }
@@ -283,7 +287,7 @@ mod tests {
                 convolver
                     .convolve(x.view(), y.view_mut(), |k1, column| {
                         column.iter_mut().enumerate().for_each(|(k0, z)| *z = z.scale(factor(k0, k1)));
-                        0.0
+                        [0.0; 3]
                     })
                     .unwrap();
             }
@@ -330,13 +334,13 @@ mod tests {
         let x = field(shape);
         let mut fortran = Array2::zeros(shape.f());
         fortran.assign(&x);
-        let (mut a, mut b) = (Array2::zeros(shape), Array2::zeros(shape.f()));
+        let (mut a, mut b) = (Array2::<f64>::zeros(shape), Array2::<f64>::zeros(shape.f()));
         let double = |_: usize, column: &mut [Complex<f64>]| {
             column.iter_mut().for_each(|z| *z = z.scale(2.0));
-            1.0
+            [1.0, 0.0, -2.0]
         };
         let mut convolver = Convolver::new(shape);
-        assert_eq!(convolver.convolve(x.view(), a.view_mut(), double), Ok(5.0));
+        assert_eq!(convolver.convolve(x.view(), a.view_mut(), double), Ok([5.0, 0.0, -10.0]));
         convolver.convolve(fortran.view(), b.view_mut(), double).unwrap();
         assert_eq!(a, b);
     }
@@ -344,7 +348,7 @@ mod tests {
     #[test]
     fn wrong_shapes_are_refused() {
         let mut convolver = Convolver::<f64>::new((4, 4));
-        let (x, mut y) = (Array2::zeros((4, 5)), Array2::zeros((4, 4)));
-        assert!(convolver.convolve(x.view(), y.view_mut(), |_, _| 0.0).is_err());
+        let (x, mut y) = (Array2::zeros((4, 5)), Array2::<f64>::zeros((4, 4)));
+        assert!(convolver.convolve(x.view(), y.view_mut(), |_, _| [0.0; 3]).is_err());
     }
 }

@@ -12,11 +12,11 @@ pub(crate) const CHUNK: usize = 256;
 const BATCH: usize = 8;
 
 /// How many numbers a pass can sum at once.
-const SUMS: usize = 9;
+const SUMS: usize = 13;
 
 /// What a pass over a chunk found: sums, and a minimum.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Partial {
+pub struct Partial {
     pub(crate) sum: [f64; SUMS],
     pub(crate) min: f64,
 }
@@ -33,7 +33,7 @@ impl Partial {
 
 /// Runs the passes over fields of one size, and adds up what the chunks return, in their order.
 #[derive(Debug)]
-pub(crate) struct Reducer(Vec<Partial>);
+pub struct Reducer(Vec<Partial>);
 
 impl Reducer {
     pub(crate) fn new(nodes: usize) -> Self {
@@ -46,7 +46,24 @@ impl Reducer {
         chunks: A,
         f: impl Fn(usize, A::Item) -> Partial + Sync + Send,
     ) -> Partial {
-        par::map_into(chunks, &mut self.0, BATCH, |i, chunk| f(i * CHUNK, chunk));
+        par::update(chunks, &mut self.0, BATCH, |i, chunk, part| *part = f(i * CHUNK, chunk));
+        self.total()
+    }
+
+    /// The same over the chunks of which the last pass found what `wanted` asks for.
+    pub(crate) fn run_where<A: IndexedParallelIterator>(
+        &mut self,
+        wanted: impl Fn(&Partial) -> bool + Sync + Send,
+        chunks: A,
+        f: impl Fn(usize, A::Item) -> Partial + Sync + Send,
+    ) -> Partial {
+        par::update(chunks, &mut self.0, BATCH, |i, chunk, part| {
+            *part = if wanted(part) { f(i * CHUNK, chunk) } else { Partial::NONE };
+        });
+        self.total()
+    }
+
+    fn total(&self) -> Partial {
         // the sums of chunks are summed as nodes are: in runs, and then the runs
         self.0
             .chunks(CHUNK)

@@ -85,6 +85,7 @@ pub mod paper_checked {
     #![doc = include_str!("paper_checked.md")]
 }
 mod par;
+mod passes;
 #[cfg(feature = "cli")]
 mod picture;
 mod problem;
@@ -96,7 +97,7 @@ mod sweep;
 pub use adhesion::{AdhesionLaw, Exponential, MaugisDugdale, NoAdhesion, check_law};
 pub use constraint::{ContactConstraint, Outer, Penalty, Projection, Uzawa};
 pub use contact::{Clusters, Connectivity, ContactStatistics, PressureDistribution};
-pub use elastic::{ElasticOperator, Spectral, Westergaard};
+pub use elastic::{ElasticOperator, Preconditioned, Spectral, Westergaard};
 pub use error::{Error, Result};
 pub use grid::Grid;
 #[cfg(feature = "cli")]

@@ -53,16 +53,16 @@ mod parallel {
         (a, b).into_par_iter().for_each(|(a, b)| f(a, b));
     }
 
-    /// Stores `f(index, item)` for every item; a worker takes at least `batch` of them at once.
-    pub(crate) fn map_into<A, R: Send>(
+    /// Runs `f(index, item, result)` on every item; a worker takes at least `batch` of them at once.
+    pub(crate) fn update<A, R: Send>(
         items: A,
         results: &mut [R],
         batch: usize,
-        f: impl Fn(usize, A::Item) -> R + Sync + Send,
+        f: impl Fn(usize, A::Item, &mut R) + Sync + Send,
     ) where
         A: IndexedParallelIterator,
     {
-        items.zip(results).enumerate().with_min_len(batch).for_each(|(i, (item, result))| *result = f(i, item));
+        items.zip(results).enumerate().with_min_len(batch).for_each(|(i, (item, result))| f(i, item, result));
     }
 }
 
@@ -93,8 +93,8 @@ mod serial {
         std::iter::zip(a, b).for_each(|(a, b)| f(a, b));
     }
 
-    /// Stores `f(index, item)` for every item.
-    pub(crate) fn map_into<A: Iterator, R>(items: A, results: &mut [R], _: usize, f: impl Fn(usize, A::Item) -> R) {
-        items.zip(results).enumerate().for_each(|(i, (item, result))| *result = f(i, item));
+    /// Runs `f(index, item, result)` on every item.
+    pub(crate) fn update<A: Iterator, R>(items: A, results: &mut [R], _: usize, f: impl Fn(usize, A::Item, &mut R)) {
+        items.zip(results).enumerate().for_each(|(i, (item, result))| f(i, item, result));
     }
 }

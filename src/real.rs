@@ -2,13 +2,14 @@ use std::fmt::{Display, LowerExp};
 use std::sync::Arc;
 
 use num_traits::{Float, FloatConst, NumAssign};
-use pulp::Arch;
 use rustfft::{Fft, FftNum, FftPlanner};
+
+use crate::passes::{Passes, vectorised};
 
 /// The scalar of every field: `f32` or `f64`.
 ///
 /// One trait gathers what the transforms and the field arithmetic need; sums over fields accumulate in
-/// `f64` whichever it is.
+/// `f64` whichever it is. It cannot be implemented for other types.
 ///
 /// ```
 /// use asperity::Real;
@@ -16,7 +17,7 @@ use rustfft::{Fft, FftNum, FftPlanner};
 /// assert_eq!(half(3.0_f32), 1.5);
 /// assert_eq!(half(3.0_f64).widen(), 1.5);
 /// ```
-pub trait Real: FftNum + Float + NumAssign + Default + Display + LowerExp {
+pub trait Real: FftNum + Float + NumAssign + Default + Display + LowerExp + Passes {
     /// The name of the precision, as the report prints it: `"f32"` or `"f64"`.
     const NAME: &'static str;
 
@@ -46,7 +47,7 @@ fn plan<T: FftNum>(len: usize) -> [Arc<dyn Fft<T>>; 2] {
 macro_rules! exponentials {
     ($float:ty, $mantissa:literal, $bias:literal, $magic:expr, $ln2:expr, $low:expr, $high:expr, $series:expr) => {
         fn exponentials(factor: Self, rate: Self, x: &[Self], results: &mut [Self]) {
-            Arch::new().dispatch(
+            vectorised(
                 #[inline(always)]
                 || {
                     for (result, &x) in results.iter_mut().zip(x) {

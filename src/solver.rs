@@ -16,7 +16,6 @@ mod report;
 mod rey2017;
 mod start;
 mod state;
-mod tally;
 
 pub use report::{Iteration, Report, Solution, Status};
 use state::State;

@@ -100,20 +100,27 @@ impl ElasticOperator<f64> for Plain {
 }
 
 #[test]
-fn the_preconditioner_is_symmetric_positive_and_returns_the_compliance_product() {
+fn the_preconditioner_is_symmetric_and_positive_and_the_products_are_those_of_the_fields() {
     for shape in SHAPES {
         let grid = Grid::new(shape, (1.0, 1.0)).unwrap();
         let mut operator = Westergaard::<f64>::new(grid, 1.0).unwrap();
         let (a, b) = (noise(shape, 1), noise(shape, 2));
         let mut compliant = Array2::zeros(shape);
         operator.displacement(a.view(), compliant.view_mut()).unwrap();
+        let stiff = apply(&mut operator, &a);
         let operators: [&mut dyn ElasticOperator<f64>; 2] =
             [&mut operator, &mut Plain(Westergaard::new(grid, 1.0).unwrap())];
         for mut operator in operators {
             let (mut ma, mut mb) = (Array2::zeros(shape), Array2::zeros(shape));
-            let product = operator.precondition(a.view(), 0.7, ma.view_mut()).unwrap();
+            let found = operator.precondition(a.view(), 0.7, ma.view_mut()).unwrap();
             ElasticOperator::precondition(&mut operator, b.view(), 0.7, mb.view_mut()).unwrap();
-            assert_relative_eq!(product, dot(&a, &compliant), epsilon = 1e-14, max_relative = 1e-12);
+            assert_relative_eq!(found.error, dot(&a, &compliant), epsilon = 1e-14, max_relative = 1e-12);
+            assert_relative_eq!(found.descent, dot(&a, &ma), epsilon = 1e-14, max_relative = 1e-12);
+            assert_relative_eq!(found.mean, ma.sum() / ma.len() as f64, epsilon = 1e-14);
+            let mut pressure = Array2::zeros(shape);
+            let work = operator.pressure_and_work(a.view(), pressure.view_mut()).unwrap();
+            assert_relative_eq!(work, dot(&a, &stiff), epsilon = 1e-14, max_relative = 1e-12);
+            assert_eq!(pressure, stiff);
             assert_relative_eq!(dot(&a, &mb), dot(&b, &ma), epsilon = 1e-14, max_relative = 1e-12);
             assert!(dot(&a, &ma) > 0.0);
         }

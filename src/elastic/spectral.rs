@@ -1,9 +1,12 @@
+use std::f64::consts::PI;
 use std::fmt;
 
 use rustfft::num_complex::Complex;
 
 use super::*;
-use crate::fft::Convolver;
+use crate::fft::{Convolver, Sums};
+use crate::field::Partial;
+use crate::passes::{BLOCK, LANES, sums};
 
 /// What a wave with wave numbers (qx, qy) needs: pressure per displacement.
 type Symbol = Box<dyn Fn(f64, f64) -> f64 + Send + Sync>;
@@ -31,10 +34,20 @@ pub struct Spectral<T: Real> {
     grid: Grid,
     modulus: f64,
     symbol: Symbol,
-    /// the stiffness of each mode, in the layout of the spectrum
-    stiffness: Array2<T>,
+    stiffness: Stiffness<T>,
     range: (f64, f64),
     convolver: Convolver<T>,
+}
+
+/// The stiffness of each mode, in the layout of the spectrum.
+enum Stiffness<T> {
+    Stored(Array2<T>),
+    /// that of the half-space, `unit·√(x² + y²)`, which is faster computed than stored: the squares along both axes
+    HalfSpace {
+        unit: T,
+        x: Vec<T>,
+        y: Vec<T>,
+    },
 }
 
 impl<T: Real> fmt::Debug for Spectral<T> {
@@ -62,6 +75,15 @@ impl<T: Real> Spectral<T> {
         } else {
             (modes().fold(f64::INFINITY, f64::min), modes().fold(0.0, f64::max))
         };
+        let (stiffness, convolver) = (Stiffness::Stored(stiffness), Convolver::new(grid.shape()));
+        Ok(Self { grid, modulus, symbol, stiffness, range, convolver })
+    }
+
+    /// The homogeneous half-space.
+    pub(super) fn half_space(grid: Grid, modulus: f64) -> Result<Self> {
+        Error::positive("contact modulus", modulus)?;
+        let symbol: Symbol = Box::new(move |qx, qy| 0.5 * modulus * qx.hypot(qy));
+        let (stiffness, range) = half_space(&grid, modulus)?;
         Ok(Self { grid, modulus, symbol, stiffness, range, convolver: Convolver::new(grid.shape()) })
     }
 
@@ -73,6 +95,30 @@ impl<T: Real> Spectral<T> {
         Self::new(grid, modulus, move |qx, qy| symbol(qx.hypot(qy)))
     }
 }
+
+/// The stiffness of the homogeneous half-space, and that of its softest and stiffest wave.
+fn half_space<T: Real>(grid: &Grid, modulus: f64) -> Result<(Stiffness<T>, (f64, f64))> {
+    let ((nx, ny), (lx, ly)) = (grid.shape(), grid.lengths());
+    let unit = PI * modulus / lx;
+    let squares = |n: usize, modes: usize, ratio: f64| -> Vec<T> {
+        (0..modes).map(|k| T::lit((ratio * k.min(n - k) as f64).powi(2))).collect()
+    };
+    let (x, y) = (squares(nx, nx, 1.0), squares(ny, ny / 2 + 1, lx / ly));
+    let softest = match (nx, ny) {
+        (1, 1) => 0.0,
+        (1, _) => unit * (lx / ly),
+        (_, 1) => unit,
+        _ => unit * (lx / ly).min(1.0),
+    };
+    let stiffest = unit * (nx as f64 / 2.0).floor().hypot((lx / ly) * (ny as f64 / 2.0).floor());
+    let representable = |value: f64| T::lit(value) >= T::min_positive_value() && T::lit(value).is_finite();
+    if let Some(&value) = [softest, stiffest].iter().find(|&&k| grid.nodes() > 1 && !representable(k)) {
+        return Err(Error::Value { name: "stiffness of a wave", value, requirement: REPRESENTABLE });
+    }
+    Ok((Stiffness::HalfSpace { unit: T::lit(unit), x, y }, (softest, stiffest)))
+}
+
+const REPRESENTABLE: &str = "positive and finite in the precision of the fields";
 
 /// The symbol at every mode of the half spectrum, transposed as the convolver stores it: `(Ny/2 + 1, Nx)`.
 fn stiffness<T: Real>(grid: &Grid, symbol: &Symbol) -> Result<Array2<T>> {
@@ -92,24 +138,95 @@ fn stiffness<T: Real>(grid: &Grid, symbol: &Symbol) -> Result<Array2<T>> {
         rounded
     });
     match wrong {
-        Some(value) => Err(Error::Value {
-            name: "stiffness of a wave",
-            value,
-            requirement: "positive and finite in the precision of the fields",
-        }),
+        Some(value) => Err(Error::Value { name: "stiffness of a wave", value, requirement: REPRESENTABLE }),
         None => Ok(modes),
     }
 }
 
-/// Multiplies the modes of one column by their stiffness.
-fn stiffen<T: Real>(column: &mut [Complex<T>], stiffness: &[T]) -> f64 {
-    column.iter_mut().zip(stiffness).for_each(|(z, &k)| *z = z.scale(k));
-    0.0
+impl<T: Real> Stiffness<T> {
+    /// Hands the stiffness of the modes of column `k` of the spectrum to a loop, which is compiled for both ways to have it.
+    fn modify(&self, k: usize, column: &mut [Complex<T>], by: impl Modify<T>) -> Sums {
+        match self {
+            Self::Stored(stiffness) => {
+                let stiffness = stiffness.row(k).to_slice().unwrap_or_default();
+                by.modify(
+                    column,
+                    stiffness,
+                    #[inline(always)]
+                    |k| k,
+                )
+            }
+            Self::HalfSpace { unit, x, y } => by.modify(
+                column,
+                x,
+                #[inline(always)]
+                |x| *unit * (x + y[k]).sqrt(),
+            ),
+        }
+    }
 }
 
-/// The row of the stiffness that belongs to column `k` of the spectrum.
-fn row<T>(stiffness: &Array2<T>, k: usize) -> &[T] {
-    stiffness.row(k).to_slice().unwrap_or_default()
+/// What becomes of the modes of a column, of which `stiffness` tells each the stiffness from a number of its own.
+trait Modify<T: Real> {
+    fn modify(self, column: &mut [Complex<T>], of: &[T], stiffness: impl Fn(T) -> T) -> Sums;
+}
+
+#[inline(always)]
+fn power<T: Real>(z: Complex<T>) -> f64 {
+    z.re.widen() * z.re.widen() + z.im.widen() * z.im.widen()
+}
+
+/// Multiplies by the stiffness, and sums k|z|².
+struct Stiffen;
+
+impl<T: Real> Modify<T> for Stiffen {
+    fn modify(self, column: &mut [Complex<T>], of: &[T], stiffness: impl Fn(T) -> T) -> Sums {
+        let part = sums!(1, [of], [column], |i| {
+            let (k, z) = (stiffness(of[i]), column[i]);
+            column[i] = Complex::new(z.re * k, z.im * k);
+            ([power(z) * k.widen()], f64::INFINITY)
+        });
+        [part.sum[0], 0.0, 0.0]
+    }
+}
+
+/// Divides by the stiffness and `softest`; sums |z|²/k, and |z|² divided alike.
+struct Soften<T> {
+    softest: T,
+}
+
+impl<T: Real> Modify<T> for Soften<T> {
+    fn modify(self, column: &mut [Complex<T>], of: &[T], stiffness: impl Fn(T) -> T) -> Sums {
+        let softest = self.softest;
+        let part = sums!(2, [of], [column], |i| {
+            let (k, z) = (stiffness(of[i]), column[i]);
+            // the mean, which has no stiffness, is seen to by the caller
+            let k = if k > T::zero() { k } else { T::one() };
+            let factor = T::one() / (k + softest);
+            column[i] = Complex::new(z.re * factor, z.im * factor);
+            let power = power(z);
+            ([power / k.widen(), power * factor.widen()], f64::INFINITY)
+        });
+        [part.sum[0], part.sum[1], 0.0]
+    }
+}
+
+/// Divides by the stiffness and `softest`, and multiplies the mean by `mean`; the sums are those of [`Preconditioned`].
+fn soften<T: Real>(stiffness: &Stiffness<T>, k: usize, column: &mut [Complex<T>], softest: T, mean: T) -> Sums {
+    let still = if k == 0 { column.first_mut().map(std::mem::take).unwrap_or_default() } else { Complex::default() };
+    let mut sums = stiffness.modify(k, column, Soften { softest });
+    if let (0, Some(first)) = (k, column.first_mut()) {
+        *first = still.scale(mean);
+        sums[1] += still.re.widen() * first.re.widen();
+        sums[2] = first.re.widen();
+    }
+    sums
+}
+
+/// The sums over all modes: each column but that of the mean and the Nyquist line stands for two.
+fn weigh(column: usize, ny: usize, sums: Sums) -> Sums {
+    let weight = if column == 0 || 2 * column == ny { 1.0 } else { 2.0 };
+    sums.map(|sum| weight * sum)
 }
 
 impl<T: Real> ElasticOperator<T> for Spectral<T> {
@@ -118,19 +235,21 @@ impl<T: Real> ElasticOperator<T> for Spectral<T> {
     }
 
     fn pressure(&mut self, displacement: ArrayView2<'_, T>, pressure: ArrayViewMut2<'_, T>) -> Result<()> {
-        let stiffness = &self.stiffness;
-        self.convolver.convolve(displacement, pressure, |k, column| stiffen(column, row(stiffness, k)))?;
-        Ok(())
+        self.pressure_and_work(displacement, pressure).map(|_| ())
+    }
+
+    fn pressure_and_work(&mut self, displacement: ArrayView2<'_, T>, pressure: ArrayViewMut2<'_, T>) -> Result<f64> {
+        let (stiffness, ny) = (&self.stiffness, self.grid.shape().1);
+        let [sum, ..] = self
+            .convolver
+            .convolve(displacement, pressure, |k, column| weigh(k, ny, stiffness.modify(k, column, Stiffen)))?;
+        Ok(sum / (self.grid.nodes() as f64).powi(2))
     }
 
     fn displacement(&mut self, pressure: ArrayView2<'_, T>, displacement: ArrayViewMut2<'_, T>) -> Result<()> {
         let stiffness = &self.stiffness;
-        self.convolver.convolve(pressure, displacement, |k, column| {
-            for (z, &k) in column.iter_mut().zip(row(stiffness, k)) {
-                *z = if k > T::zero() { z.scale(k.recip()) } else { Complex::default() };
-            }
-            0.0
-        })?;
+        self.convolver
+            .convolve(pressure, displacement, |k, column| soften(stiffness, k, column, T::zero(), T::zero()))?;
         Ok(())
     }
 
@@ -142,38 +261,29 @@ impl<T: Real> ElasticOperator<T> for Spectral<T> {
         self.modulus
     }
 
-    fn surface_pressure(&mut self, heights: ArrayView2<'_, f64>, mut pressure: ArrayViewMut2<'_, T>) -> Result<f64> {
-        Error::shape("pressure", pressure.dim(), self.grid.shape())?;
-        let stiffness = stiffness::<f64>(&self.grid, &self.symbol)?;
-        let mut precise = Array2::zeros(self.grid.shape());
-        Convolver::new(self.grid.shape())
-            .convolve(heights, precise.view_mut(), |k, column| stiffen(column, row(&stiffness, k)))?;
-        Zip::from(&mut pressure).and(&precise).for_each(|p, &precise| *p = T::lit(precise));
-        Ok(mean_product(heights, precise.view()))
+    fn surface_pressure(&mut self, heights: ArrayView2<'_, f64>, pressure: ArrayViewMut2<'_, T>) -> Result<f64> {
+        let stiffness = match &self.stiffness {
+            Stiffness::Stored(_) => Stiffness::Stored(stiffness(&self.grid, &self.symbol)?),
+            Stiffness::HalfSpace { .. } => half_space(&self.grid, self.modulus)?.0,
+        };
+        let ny = self.grid.shape().1;
+        let [sum, ..] = Convolver::<f64>::new(self.grid.shape())
+            .convolve(heights, pressure, |k, column| weigh(k, ny, stiffness.modify(k, column, Stiffen)))?;
+        Ok(sum / (self.grid.nodes() as f64).powi(2))
     }
 
-    /// M has the symbol 1/(k + s), s the softest stiffness; the returned product comes from the same transform.
+    /// M has the symbol 1/(k + s), s the softest stiffness; the products come from the same transform.
     fn precondition(
         &mut self,
         residual: ArrayView2<'_, T>,
         mean_stiffness: f64,
         preconditioned: ArrayViewMut2<'_, T>,
-    ) -> Result<f64> {
-        let (stiffness, ny) = (&self.stiffness, self.grid.shape().1);
+    ) -> Result<Preconditioned> {
+        let (stiffness, ny, nodes) = (&self.stiffness, self.grid.shape().1, self.grid.nodes() as f64);
         let (softest, mean) = (T::lit(self.range.0), T::lit(1.0 / mean_stiffness));
-        let sum = self.convolver.convolve(residual, preconditioned, |k, column| {
-            let mut sum = 0.0;
-            for (z, &k) in column.iter_mut().zip(row(stiffness, k)) {
-                if k > T::zero() {
-                    sum += (z.re.widen().powi(2) + z.im.widen().powi(2)) / k.widen();
-                    *z = z.scale((k + softest).recip());
-                } else {
-                    *z = z.scale(mean);
-                }
-            }
-            // each stored mode stands for its mirror image too, but on the axis and the Nyquist line
-            if k == 0 || 2 * k == ny { sum } else { 2.0 * sum }
+        let [error, descent, mean] = self.convolver.convolve(residual, preconditioned, |k, column| {
+            weigh(k, ny, soften(stiffness, k, column, softest, mean))
         })?;
-        Ok(sum / (self.grid.nodes() as f64).powi(2))
+        Ok(Preconditioned { error: error / nodes.powi(2), descent: descent / nodes.powi(2), mean: mean / nodes })
     }
 }

@@ -23,7 +23,7 @@ impl<T: Real> Westergaard<T> {
     /// # Errors
     /// [`Error::Value`] if the modulus is not positive and finite, or if a stiffness leaves the range of T.
     pub fn new(grid: Grid, modulus: f64) -> Result<Self> {
-        Ok(Self(Spectral::isotropic(grid, modulus, move |q| 0.5 * modulus * q)?))
+        Ok(Self(Spectral::half_space(grid, modulus)?))
     }
 }
 

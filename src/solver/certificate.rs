@@ -7,8 +7,7 @@ use crate::adhesion::AdhesionLaw;
 use crate::constraint::ContactConstraint;
 use crate::elastic::ElasticOperator;
 use crate::error::Result;
-use crate::field::{Partial, read, write};
-use crate::par::IndexedParallelIterator;
+use crate::field::{Partial, write};
 use crate::problem::Control;
 use crate::real::Real;
 
@@ -90,18 +89,12 @@ where
         }
         let before = self.certificate;
         // K's largest value bounds what the difference of the two residuals can add to the certificate
-        std::mem::swap(&mut self.residual, &mut self.response);
         self.momentum = None;
         self.refresh()?;
         self.residual();
-        let Self { reducer, residual, response, .. } = self;
-        let total = reducer.run(read(residual).zip(read(response)), |_, (new, old)| {
-            let mut part = Partial::NONE;
-            part.sum[0] = new.iter().zip(old).map(|(&new, &old)| (new - old).widen().powi(2)).sum();
-            part
-        });
         let softest = self.problem.operator.stiffness_range().0;
-        let difference = if total.sum[0] == 0.0 { 0.0 } else { total.sum[0] / self.nodes() / softest };
+        let change = self.residual_change;
+        let difference = if change == 0.0 { 0.0 } else { change / self.nodes() / softest };
         self.certificate = (before.sqrt() + difference.sqrt()).powi(2);
         if self.converged() {
             return Ok(true);
@@ -165,7 +158,7 @@ where
         let mean = self.tally.sum_gap / self.nodes();
         let target = mean.max(far);
         let lift = T::lit(target - mean);
-        self.reducer.run(write(&mut self.gap), |_, gap| {
+        self.fields.reducer.run(write(&mut self.fields.gap), |_, gap| {
             gap.iter_mut().for_each(|gap| *gap += lift);
             Partial::NONE
         });

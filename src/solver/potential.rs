@@ -1,47 +1,36 @@
+use std::marker::PhantomData;
+
 use crate::adhesion::AdhesionLaw;
 use crate::constraint::ContactConstraint;
 use crate::field::CHUNK;
+use crate::passes::{Local, Of};
 use crate::real::Real;
 
 /// What each node feels by its own gap: the adhesion law, and the constraint where it is a term of the energy.
-pub(super) struct Potential<'a, L, C> {
-    pub(super) law: &'a L,
-    pub(super) constraint: &'a C,
+pub(super) struct Potential<'a, T, L, C> {
+    law: &'a L,
+    constraint: &'a C,
+    scalar: PhantomData<T>,
 }
 
-/// Room for one value per node of a chunk.
-pub(super) type Buffer<T> = [T; CHUNK];
-
-/// Which derivative of the potential.
-#[derive(Clone, Copy)]
-pub(super) enum Of {
-    Energy,
-    Traction,
-    Slope,
+impl<'a, T: Real, L: AdhesionLaw<T>, C: ContactConstraint<T>> Potential<'a, T, L, C> {
+    pub(super) fn new(law: &'a L, constraint: &'a C) -> Self {
+        Self { law, constraint, scalar: PhantomData }
+    }
 }
 
-impl<L, C> Potential<'_, L, C> {
-    /// Whether there is nothing to evaluate: then [`Self::evaluate`] leaves its buffer as it is.
-    pub(super) fn is_zero<T: Real>(&self) -> bool
-    where
-        L: AdhesionLaw<T>,
-        C: ContactConstraint<T>,
-    {
+impl<T: Real, L: AdhesionLaw<T>, C: ContactConstraint<T>> Local<T> for Potential<'_, T, L, C> {
+    fn is_zero(&self) -> bool {
         self.law.is_zero() && self.constraint.projects()
     }
 
-    /// The energies, tractions or slopes of law and constraint at the nodes from `first` on.
-    pub(super) fn evaluate<'b, T: Real>(&self, of: Of, first: usize, gaps: &[T], buffer: &'b mut Buffer<T>) -> &'b [T]
-    where
-        L: AdhesionLaw<T>,
-        C: ContactConstraint<T>,
-    {
-        let out = &mut buffer[..gaps.len()];
+    fn projects(&self) -> bool {
+        self.constraint.projects()
+    }
+
+    fn evaluate(&self, of: Of, first: usize, gaps: &[T], out: &mut [T]) {
         self.law(of, gaps, out);
         if !self.constraint.projects() {
-            if self.law.is_zero() {
-                out.fill(T::zero());
-            }
             for (i, (out, &gap)) in out.iter_mut().zip(gaps).enumerate() {
                 *out += match of {
                     Of::Energy => self.constraint.energy(first + i, gap),
@@ -50,21 +39,17 @@ impl<L, C> Potential<'_, L, C> {
                 };
             }
         }
-        out
     }
-    /// The law alone. It is defined for g ≥ 0; where the surfaces interpenetrate it goes on as its tangent at g = 0.
-    pub(super) fn law<T: Real>(&self, of: Of, gaps: &[T], out: &mut [T])
-    where
-        L: AdhesionLaw<T>,
-        C: ContactConstraint<T>,
-    {
+
+    /// A law is defined for g ≥ 0; where the surfaces interpenetrate it goes on as its tangent at g = 0.
+    fn law(&self, of: Of, gaps: &[T], out: &mut [T]) {
         if self.law.is_zero() {
-            return;
+            return out.fill(T::zero());
         }
         if self.constraint.projects() || gaps.iter().all(|&gap| gap >= T::zero()) {
             return evaluate(self.law, of, gaps, out);
         }
-        let mut buffer: Buffer<T> = [T::zero(); _];
+        let mut buffer = [T::zero(); CHUNK];
         let apart = &mut buffer[..gaps.len()];
         apart.iter_mut().zip(gaps).for_each(|(apart, &gap)| *apart = gap.max(T::zero()));
         evaluate(self.law, of, apart, out);
@@ -76,6 +61,15 @@ impl<L, C> Potential<'_, L, C> {
                 Of::Slope => *out = T::zero(),
             }
         }
+    }
+
+    fn pressed(&self, first: usize, gaps: &[T]) -> [f64; 2] {
+        let mut sums = [0.0; 2];
+        for (i, &gap) in gaps.iter().enumerate() {
+            sums[0] += f64::from(u8::from(self.constraint.traction(first + i, gap) < T::zero()));
+            sums[1] += self.constraint.energy(first + i, gap).widen();
+        }
+        sums
     }
 }
 
@@ -95,11 +89,13 @@ mod tests {
     #[test]
     fn the_law_goes_on_as_its_tangent_into_interpenetration() {
         let (law, springs) = (Exponential::new(2.0, 0.5).unwrap(), Penalty::new(30.0).unwrap());
-        let potential = Potential { law: &law, constraint: &springs };
+        let potential = Potential::new(&law, &springs);
         let gaps: Vec<f64> = (-20..=20).map(|i| 0.1 * f64::from(i) + 0.05).collect();
         let at = |of, shift: f64| {
-            let (gaps, mut buffer) = (gaps.iter().map(|g| g + shift).collect::<Vec<_>>(), [0.0; _]);
-            potential.evaluate(of, 0, &gaps, &mut buffer).to_vec()
+            let gaps: Vec<f64> = gaps.iter().map(|g| g + shift).collect();
+            let mut values = vec![0.0; gaps.len()];
+            potential.evaluate(of, 0, &gaps, &mut values);
+            values
         };
         let step = 1e-5;
         for (of, derivative) in [(Of::Energy, Of::Traction), (Of::Traction, Of::Slope)] {
@@ -108,11 +104,11 @@ mod tests {
                 assert!(((high - low) / (2.0 * step) - exact).abs() < 1e-6, "{low} {high} {exact}");
             }
         }
-        let (mut law_alone, mut buffer) = ([0.0; 3], [0.0; _]);
+        let (mut law_alone, mut confined) = ([0.0; 3], [0.0; 2]);
         potential.law(Of::Energy, &[-0.25, 0.0, 0.5], &mut law_alone);
         assert_eq!(law_alone, [-2.0 - 4.0 * 0.25, -2.0, -2.0 * (-1.0f64).exp()]);
         // where nothing interpenetrates, the law itself
-        let hard = Potential { law: &law, constraint: &Projection };
-        assert_eq!(hard.evaluate(Of::Energy, 0, &[0.0, 0.5], &mut buffer), &law_alone[1..]);
+        Potential::new(&law, &Projection).evaluate(Of::Energy, 0, &[0.0, 0.5], &mut confined);
+        assert_eq!(confined, law_alone[1..]);
     }
 }

@@ -1,14 +1,14 @@
 //! Conjugate gradients with the compliance as preconditioner, two operator applications a step.
 
-use super::potential::{Buffer, Of, Potential};
-use super::state::State;
-use super::tally::{Tally, tally};
+use super::potential::Potential;
+use super::state::{Made, State};
 use crate::adhesion::AdhesionLaw;
 use crate::constraint::ContactConstraint;
 use crate::elastic::ElasticOperator;
 use crate::error::Result;
 use crate::field::{Partial, read, write};
 use crate::par::IndexedParallelIterator;
+use crate::passes::{Advance, Attempt, Fields, Local, Tally, idles};
 use crate::problem::Control;
 use crate::real::Real;
 
@@ -44,13 +44,33 @@ struct Momentum {
     mean: f64,
 }
 
-/// What a trial step found.
+/// What a trial step found. Its change c makes the step d = scale·(g + c) − g.
 struct Trial {
     clipped: bool,
     /// whether nodes that the gradient drives into contact were clipped
     blocked: bool,
     /// ⟨r', d⟩
     slope: f64,
+    scale: f64,
+    /// Σ c
+    change: f64,
+    /// ⟨r', c⟩
+    descent: f64,
+    /// Σ c·K⁻¹h and Σ g·K⁻¹h, if the scale is not one
+    surface: [f64; 2],
+    /// how many times the change the gap can take
+    reach: f64,
+}
+
+/// What is known of a step that is about to be taken.
+struct Step {
+    length: f64,
+    scale: f64,
+    /// Σ d·p and ⟨d, K⁻¹d⟩
+    work: f64,
+    elastic: f64,
+    /// Σ of the local energy that it leads to
+    local: f64,
 }
 
 impl<T, O, L, C> State<'_, T, O, L, C>
@@ -66,63 +86,31 @@ where
         for _ in 0..SHORTENINGS {
             let trial_length = self.step_length;
             let Some(trial) = self.descend(&mut centre, momentum.take()) else { return Ok(false) };
-            self.problem.operator.pressure(self.change.view(), self.response.view_mut())?;
+            let Fields { change, residual: response, .. } = &mut self.fields;
+            let elastic = self.problem.operator.pressure_and_work(change.view(), response.view_mut())?;
             self.applications += 1;
-            let Some(length) = self.search(&trial) else { return Ok(false) };
-            if !trial.blocked || length >= SHORT {
-                self.advance(length);
+            let Some(step) = self.search(&trial, elastic * self.nodes()) else { return Ok(false) };
+            if !trial.blocked || step.length >= SHORT {
+                self.advance(&step);
                 return Ok(true);
             }
             // so short a part would leave the nodes that should land hanging: clip a shorter step instead
-            self.step_length = trial_length * length.max(1e-3);
+            self.step_length = trial_length * step.length.max(1e-3);
+            self.residual();
         }
         Ok(false)
     }
 
     /// The mean of z over the working set, and how much of the last change to keep.
     fn direction(&mut self) -> (f64, Option<Momentum>) {
-        let Some(curvature) = self.momentum.filter(|&curvature| curvature > 0.0) else {
-            return (self.centre(), None);
-        };
-        let projects = self.constraint.projects();
-        let Self { reducer, gap, residual, preconditioned, change, response, .. } = self;
-        let fields = read(gap).zip(read(residual)).zip(read(preconditioned)).zip(read(change)).zip(read(response));
-        let total = reducer.run(fields, |_, ((((gap, residual), z), d), y)| {
-            let mut part = Partial::NONE;
-            for ((((&gap, &r), &z), &d), &y) in gap.iter().zip(residual).zip(z).zip(d).zip(y) {
-                if works(projects, gap, r) {
-                    let [z, d, y, r] = [z, d, y, r].map(T::widen);
-                    part.sum[0] += z;
-                    part.sum[1] += d;
-                    part.sum[2] += y;
-                    part.sum[3] += z * y;
-                    part.sum[4] += r * d;
-                }
-            }
-            part
-        });
-        let [z, d, y, zy, rd, ..] = total.sum;
         let share = if self.is_gap_controlled() && self.working > 0.0 { 1.0 / self.working } else { 0.0 };
-        let (centre, mean) = (z * share, d * share);
-        let conjugate = ((zy - centre * y) / curvature).max(0.0);
-        (centre, Some(Momentum { conjugate, remainder: (-rd / curvature).min(FARTHEST), mean }))
-    }
-
-    /// The mean of z over the working set, under gap control.
-    fn centre(&mut self) -> f64 {
-        if !self.is_gap_controlled() || self.working == 0.0 {
-            return 0.0;
-        }
-        let projects = self.constraint.projects();
-        let Self { reducer, gap, residual, preconditioned, .. } = self;
-        let total = reducer.run(read(gap).zip(read(residual)).zip(read(preconditioned)), |_, ((gap, residual), z)| {
-            let mut part = Partial::NONE;
-            for ((&gap, &r), &z) in gap.iter().zip(residual).zip(z) {
-                part.sum[0] += if works(projects, gap, r) { z.widen() } else { 0.0 };
-            }
-            part
+        let centre = if share > 0.0 { (self.preconditioned_sum - T::idle(&mut self.fields)) * share } else { 0.0 };
+        let momentum = self.momentum.take().filter(|made| made.curvature > 0.0).map(|made| Momentum {
+            conjugate: made.factor * ((self.preconditioned_descent - made.overlap) / made.curvature).max(0.0),
+            remainder: made.factor * (-made.factor * made.descent / made.curvature).min(FARTHEST),
+            mean: made.sum * share,
         });
-        total.sum[0] / self.working
+        (centre, momentum)
     }
 
     /// Puts a feasible change into `change` along which the energy falls.
@@ -140,8 +128,8 @@ where
                 continue;
             }
             if trial.blocked {
-                let slope = self.land(*centre);
-                return (slope < 0.0).then_some(Trial { slope, ..trial });
+                let (slope, change) = self.land(*centre);
+                return (slope < 0.0).then_some(Trial { slope, scale: 1.0, change, descent: slope, ..trial });
             }
             self.hold(*centre);
             *centre = 0.0;
@@ -150,72 +138,37 @@ where
         None
     }
 
-    /// The change that a step of the trial length makes, clipped and of unchanged mean gap.
+    /// The change that a step of the trial length makes, clipped; scaled, it leaves the mean gap as it is.
     fn trial(&mut self, centre: f64, momentum: Option<Momentum>) -> Trial {
-        let projects = self.constraint.projects();
-        let length = T::lit(self.step_length);
-        let centre = T::lit(centre);
-        let (keep, mean) = momentum
-            .map_or((T::zero(), T::zero()), |m| (T::lit(self.step_length * m.conjugate + m.remainder), T::lit(m.mean)));
-        let Self { reducer, gap, residual, preconditioned, change, .. } = self;
-        let fields = read(gap).zip(read(residual)).zip(read(preconditioned)).zip(write(change));
-        let total = reducer.run(fields, |_, (((gap, residual), z), change)| {
-            let mut part = Partial::NONE;
-            for (((&gap, &r), &z), d) in gap.iter().zip(residual).zip(z).zip(change) {
-                let mut next = gap;
-                if works(projects, gap, r) {
-                    next -= length * (z - centre);
-                    if keep != T::zero() {
-                        next += keep * (*d - mean);
-                    }
-                }
-                if projects && next < T::zero() {
-                    next = T::zero();
-                    part.sum[1] += 1.0;
-                    part.sum[2] += f64::from(u8::from(r > T::zero() && gap > T::zero()));
-                }
-                part.sum[0] += next.widen();
-                *d = next;
-            }
-            part
-        });
-        let [sum, clipped, blocked, ..] = total.sum;
+        let length = self.step_length;
+        let (keep, mean) = momentum.map_or((0.0, 0.0), |m| (length * m.conjugate + m.remainder, m.mean));
+        let [length, centre, keep, mean] = [length, centre, keep, mean].map(T::lit);
+        let attempt = Attempt { length, centre, keep, mean, projects: self.constraint.projects() };
+        let surface = self.is_gap_controlled().then_some(&self.problem.surface_pressure);
+        let total = T::trial(&mut self.fields, attempt, surface);
+        let [change, clipped, blocked, descent, gap_descent, change_surface, gap_surface, ..] = total.sum;
         // the present mean, not the one that is given: a long step would multiply the rounding of their difference
-        let scale = match self.control {
-            Control::MeanGap(_) => self.tally.sum_gap / sum,
-            Control::MeanPressure(_) => 1.0,
-        };
-        let slope = if scale.is_finite() && scale > 0.0 { self.subtract_gap(scale) } else { f64::INFINITY };
-        Trial { clipped: clipped > 0.0, blocked: blocked > 0.0, slope }
+        let present = self.tally.sum_gap;
+        let scale = if self.is_gap_controlled() && clipped > 0.0 { present / (present + change) } else { 1.0 };
+        let possible = scale.is_finite() && scale > 0.0;
+        // as the passes will have it
+        let scale = T::lit(scale).widen();
+        let slope = if possible { scale * descent + (scale - 1.0) * gap_descent } else { f64::INFINITY };
+        let (clipped, blocked, reach) = (clipped > 0.0, blocked > 0.0, total.min);
+        Trial { clipped, blocked, slope, scale, change, descent, surface: [change_surface, gap_surface], reach }
     }
 
-    /// `change` becomes the scaled gap that it holds less the present one; returns ⟨r', d⟩.
-    fn subtract_gap(&mut self, scale: f64) -> f64 {
-        let scale = T::lit(scale);
-        let Self { reducer, gap, residual, change, .. } = self;
-        let total = reducer.run(read(gap).zip(read(residual)).zip(write(change)), |_, ((gap, residual), change)| {
-            let mut part = Partial::NONE;
-            for ((&gap, &r), d) in gap.iter().zip(residual).zip(change) {
-                *d = scale * *d - gap;
-                part.sum[0] += r.widen() * d.widen();
-            }
-            part
-        });
-        total.sum[0]
-    }
-
-    /// A change that puts the blocked nodes into contact and lifts the others evenly; both lower the energy.
-    fn land(&mut self, centre: f64) -> f64 {
+    /// A change that puts the blocked nodes into contact and lifts the others evenly; both lower the energy. Returns ⟨r', d⟩ and Σ d.
+    fn land(&mut self, centre: f64) -> (f64, f64) {
         let (length, centre) = (T::lit(self.step_length), T::lit(centre));
-        let projects = self.constraint.projects();
         let lands = move |gap: T, r: T, z: T| gap > T::zero() && r > T::zero() && gap < length * (z - centre);
-        let Self { reducer, gap, residual, preconditioned, change, .. } = self;
+        let Fields { reducer, gap, residual, preconditioned, change, .. } = &mut self.fields;
         let total = reducer.run(read(gap).zip(read(residual)).zip(read(preconditioned)), |_, ((gap, residual), z)| {
             let mut part = Partial::NONE;
             for ((&gap, &r), &z) in gap.iter().zip(residual).zip(z) {
                 if lands(gap, r, z) {
                     part.sum[0] += gap.widen();
-                } else if works(projects, gap, r) {
+                } else if !idles(r) {
                     part.sum[1] += 1.0;
                 }
             }
@@ -229,23 +182,24 @@ where
             for (((&gap, &r), &z), d) in gap.iter().zip(residual).zip(z).zip(change) {
                 *d = if lands(gap, r, z) {
                     -gap
-                } else if works(projects, gap, r) {
+                } else if !idles(r) {
                     lift
                 } else {
                     T::zero()
                 };
                 part.sum[0] += r.widen() * d.widen();
+                part.sum[1] += d.widen();
             }
             part
         });
-        total.sum[0]
+        (total.sum[0], total.sum[1])
     }
 
     /// Takes the mean from z, and takes nodes in contact that z would press out of the step.
     fn hold(&mut self, centre: f64) {
-        let (centre, projects, centred) = (T::lit(centre), self.constraint.projects(), self.is_gap_controlled());
-        let Self { reducer, gap, residual, preconditioned, .. } = self;
-        let moves = move |gap: T, r: T, z: T| works(projects, gap, r) && (gap > T::zero() || z < centre);
+        let (centre, centred) = (T::lit(centre), self.is_gap_controlled());
+        let Fields { reducer, gap, residual, preconditioned, .. } = &mut self.fields;
+        let moves = move |gap: T, r: T, z: T| !idles(r) && (gap > T::zero() || z < centre);
         let total = reducer.run(read(gap).zip(read(residual)).zip(read(preconditioned)), |_, ((gap, residual), z)| {
             let mut part = Partial::NONE;
             for ((&gap, &r), &z) in gap.iter().zip(residual).zip(z) {
@@ -266,47 +220,48 @@ where
         });
     }
 
-    /// How much of `change` to take, with its elastic response known; nothing if the energy rises all the same.
-    fn search(&mut self, trial: &Trial) -> Option<f64> {
-        let shift = T::lit(self.offset() - self.level);
-        let projects = self.constraint.projects();
-        let noise = self.energy_noise() * self.nodes();
-        let Self { reducer, gap, pressure, change, response, problem, constraint, .. } = self;
-        let potential = Potential { law: &problem.law, constraint: &**constraint };
-        let local = !potential.is_zero::<T>();
-        let fields = read(gap).zip(read(pressure)).zip(read(change)).zip(read(response));
-        let total = reducer.run(fields, |first, (((gap, pressure), change), response)| {
-            let mut part = Partial::NONE;
-            for (((&gap, &p), &d), &response) in gap.iter().zip(pressure).zip(change).zip(response) {
-                part.sum[0] += d.widen() * response.widen();
-                part.sum[1] += d.widen() * (p + shift).widen();
-                if d < T::zero() {
-                    part.min = part.min.min(gap.widen() / -d.widen());
-                }
-            }
-            if local {
-                let mut slopes = [T::zero(); _];
-                let slopes = potential.evaluate(Of::Slope, first, gap, &mut slopes);
-                part.sum[2] = slopes.iter().zip(change).map(|(s, d)| s.widen() * d.widen().powi(2)).sum();
-            }
-            part
-        });
-        let [elastic, work, slopes, ..] = total.sum;
+    /// How much of the step to take, of which ⟨c, K⁻¹c⟩ is known; nothing if the energy rises all the same.
+    fn search(&mut self, trial: &Trial, elastic: f64) -> Option<Step> {
+        let (shift, nodes) = (self.offset() - self.level, self.nodes());
+        let noise = self.energy_noise() * nodes;
+        let Self { fields, problem, constraint, tally, .. } = self;
+        let local = Potential::new(&problem.law, &**constraint);
+        let (scale, rest) = (T::lit(trial.scale), trial.scale - 1.0);
+        let (pressed, slopes) = if local.is_zero() {
+            // where the change is not zero, p is r' but for two constants
+            (trial.descent - shift * trial.change, 0.0)
+        } else {
+            let total = T::slopes(fields, &local, scale);
+            (total.sum[0], total.sum[1])
+        };
+        let [change_surface, gap_surface] = trial.surface;
+        let cross = if rest == 0.0 {
+            0.0
+        } else {
+            2.0 * trial.scale * rest * (pressed - change_surface) + rest * rest * (tally.sum_gp - gap_surface)
+        };
         // a uniform change has none, but for rounding
-        let elastic = elastic.max(0.0);
+        let elastic = (trial.scale * trial.scale * elastic + cross).max(0.0);
+        let work = trial.scale * pressed + rest * tally.sum_gp;
+        let shifted = work + shift * (trial.scale * trial.change + rest * tally.sum_gap);
         let stiff = elastic + slopes > LEAST_CURVATURE * elastic;
         let curvature = if stiff { elastic + slopes } else { LEAST_CURVATURE * elastic };
         let best = (-trial.slope / curvature).min(FARTHEST);
-        let reach = if projects { total.min.max(1.0) } else { f64::INFINITY };
+        let reach = if local.projects() { trial.reach.max(1.0) } else { f64::INFINITY };
         let mut length = match trial.clipped {
             true if best >= WHOLE => 1.0,
             true => best,
             false => best.min(reach),
         };
-        let rise = |length: f64, local: f64| length * work + 0.5 * length * length * elastic + local;
-        if local {
-            let falls = |rise: f64| rise.is_finite() && rise <= noise;
-            while !falls(rise(length, self.local_rise(length))) {
+        let mut after = 0.0;
+        if !local.is_zero() {
+            let before = tally.adhesive + tally.penalty;
+            loop {
+                after = T::energy_after(fields, &local, T::lit(length), scale);
+                let rise = length * shifted + 0.5 * length * length * elastic + (after - before);
+                if rise.is_finite() && rise <= noise {
+                    break;
+                }
                 length *= 0.5;
                 if length < 1e-12 {
                     return None;
@@ -314,72 +269,30 @@ where
             }
         }
         self.step_length = (self.step_length * best.clamp(ADAPT.0, ADAPT.1)).min(LONGEST);
-        (length > 0.0).then_some(length)
+        (length > 0.0).then_some(Step { length, scale: trial.scale, work, elastic, local: after })
     }
 
-    /// Σ φ(g + ℓd) − φ(g).
-    fn local_rise(&mut self, length: f64) -> f64 {
-        let (length, projects) = (T::lit(length), self.constraint.projects());
-        let Self { reducer, gap, change, problem, constraint, .. } = self;
-        let potential = Potential { law: &problem.law, constraint: &**constraint };
-        let total = reducer.run(read(gap).zip(read(change)), |first, (gap, change)| {
-            let mut next: Buffer<T> = [T::zero(); _];
-            let (mut before, mut after) = ([T::zero(); _], [T::zero(); _]);
-            for ((next, &gap), &d) in next.iter_mut().zip(gap).zip(change) {
-                *next = moved(projects, gap, length * d);
-            }
-            let before = potential.evaluate(Of::Energy, first, gap, &mut before);
-            let after = potential.evaluate(Of::Energy, first, &next[..gap.len()], &mut after);
-            let mut part = Partial::NONE;
-            part.sum[0] = after.iter().zip(before).map(|(after, before)| after.widen() - before.widen()).sum();
-            part
-        });
-        total.sum[0]
-    }
-
-    /// Takes `length` of the change: gap, pressure, what the step changed in r, and the tally of the new state.
-    fn advance(&mut self, length: f64) {
-        let (length, offset) = (T::lit(length), T::lit(self.offset()));
+    /// Takes a step: gap, pressure, and the tally of the new state.
+    fn advance(&mut self, step: &Step) {
         let projects = self.constraint.projects();
-        let Self { reducer, gap, pressure, change, response, problem, constraint, .. } = self;
-        let potential = Potential { law: &problem.law, constraint: &**constraint };
-        let local = !potential.is_zero::<T>();
-        let fields = write(gap).zip(write(pressure)).zip(write(change)).zip(write(response));
-        let fields = fields.zip(read(&problem.surface_pressure));
-        let total = reducer.run(fields, |first, ((((gap, pressure), change), response), surface)| {
-            let (mut before, mut after, mut buffer) = ([T::zero(); _], [T::zero(); _], [T::zero(); _]);
-            if local {
-                potential.evaluate(Of::Traction, first, gap, &mut before);
-            }
-            for (((gap, p), d), y) in
-                gap.iter_mut().zip(pressure.iter_mut()).zip(change.iter_mut()).zip(response.iter_mut())
-            {
-                *d *= length;
-                *y *= length;
-                *gap = moved(projects, *gap, *d);
-                *p += *y;
-            }
-            let tractions: &[T] = if local { potential.evaluate(Of::Traction, first, gap, &mut after) } else { &[] };
-            for ((y, &after), &before) in response.iter_mut().zip(tractions).zip(&before) {
-                *y += after - before;
-            }
-            let mut part = tally(&potential, offset, first, (gap, pressure, surface), tractions, &mut buffer);
-            part.sum[8] = change.iter().zip(response).map(|(d, y)| d.widen() * y.widen()).sum();
-            part
-        });
+        let residual = !self.is_gap_controlled();
+        let &Step { length, scale, work, elastic, local: after } = step;
+        let advance = Advance { length: T::lit(length), scale: T::lit(scale), offset: T::lit(self.offset()), residual };
+        let Self { fields, problem, constraint, .. } = self;
+        let local = Potential::new(&problem.law, &**constraint);
+        let total = T::advance(fields, &local, advance, &problem.surface_pressure);
+        let before = self.tally.work;
         self.tally = Tally::new(&total);
-        self.momentum = Some(total.sum[8]);
+        self.tally.work = before + length * (2.0 * work + length * elastic);
+        if projects {
+            self.tally.adhesive = after;
+        }
+        let [.., curvature, orthogonality, working, descent, overlap] = total.sum;
+        let curvature = length * (length * elastic + curvature);
+        self.momentum = Some(Made { factor: length, curvature, descent, overlap, sum: 0.0 });
+        if residual {
+            (self.level, self.orthogonality, self.working, self.has_residual) = (0.0, orthogonality, working, true);
+        }
         self.age += 1;
     }
-}
-
-/// Whether a node may move: it is apart, or its residual says that it is released.
-fn works<T: Real>(projects: bool, gap: T, residual: T) -> bool {
-    !projects || gap > T::zero() || residual != T::zero()
-}
-
-/// The gap after a change, zero where only rounding keeps it from that.
-fn moved<T: Real>(projects: bool, gap: T, change: T) -> T {
-    let next = gap + change;
-    if projects && next <= T::lit(4.0) * T::epsilon() * gap { T::zero() } else { next }
 }

@@ -7,6 +7,7 @@ use crate::elastic::ElasticOperator;
 use crate::error::Result;
 use crate::field::{Partial, read, write};
 use crate::par::IndexedParallelIterator;
+use crate::passes::Fields;
 use crate::problem::Control;
 use crate::real::Real;
 
@@ -23,7 +24,7 @@ where
         let projects = self.constraint.projects();
         let apart = move |gap: T| !projects || gap > T::zero();
 
-        let Self { reducer, gap, residual, .. } = self;
+        let Fields { reducer, gap, residual, .. } = &mut self.fields;
         let norm = reducer.run(read(gap).zip(read(residual)), |_, (gap, residual)| {
             let mut part = Partial::NONE;
             for (&gap, &r) in gap.iter().zip(residual) {
@@ -37,10 +38,10 @@ where
             // uphill: the residual's norm has jumped, as it may where rounding is all that is left of it
             slope = self.conjugate_direction(0.0);
         }
-        self.problem.operator.pressure(self.change.view(), self.response.view_mut())?;
+        self.problem.operator.pressure(self.fields.change.view(), self.fields.preconditioned.view_mut())?;
         self.applications += 1;
 
-        let Self { reducer, gap, change, response, .. } = self;
+        let Fields { reducer, gap, change, preconditioned: response, .. } = &mut self.fields;
         let total = reducer.run(read(gap).zip(read(change)).zip(read(response)), |_, ((gap, direction), response)| {
             let mut part = Partial::NONE;
             for ((&gap, &t), &response) in gap.iter().zip(direction).zip(response) {
@@ -64,7 +65,7 @@ where
         }
 
         let length = T::lit(length);
-        let Self { reducer, gap, residual, change, .. } = self;
+        let Fields { reducer, gap, residual, change, .. } = &mut self.fields;
         let total = reducer.run(write(gap).zip(read(residual)).zip(read(change)), |_, ((gap, residual), direction)| {
             let mut part = Partial::NONE;
             for ((gap, &r), &t) in gap.iter_mut().zip(residual).zip(direction) {
@@ -100,7 +101,7 @@ where
     fn conjugate_direction(&mut self, conjugate: f64) -> f64 {
         let projects = self.constraint.projects();
         let conjugate = T::lit(conjugate);
-        let Self { reducer, gap, residual, change, .. } = self;
+        let Fields { reducer, gap, residual, change, .. } = &mut self.fields;
         let total = reducer.run(read(gap).zip(read(residual)).zip(write(change)), |_, ((gap, residual), direction)| {
             let mut part = Partial::NONE;
             for ((&gap, &r), t) in gap.iter().zip(residual).zip(direction) {
@@ -118,7 +119,7 @@ where
 
     /// Scales the gap to its mean and, if the step was `linear`, the pressure with it: K⁻¹(s(g − τt) + h).
     fn scale(&mut self, scale: T, length: T, linear: bool) {
-        let Self { reducer, gap, pressure, response, problem, .. } = self;
+        let Self { fields: Fields { reducer, gap, pressure, preconditioned: response, .. }, problem, .. } = self;
         let fields = write(gap).zip(write(pressure)).zip(read(response)).zip(read(&problem.surface_pressure));
         reducer.run(fields, |_, (((gap, pressure), response), surface)| {
             gap.iter_mut().for_each(|gap| *gap *= scale);

@@ -31,7 +31,7 @@ where
         let functions: [(_, &dyn Fn(T) -> T); 2] =
             [("adhesive energy", &|g| law.energy(g)), ("adhesive traction", &|g| law.traction(g))];
         for (function, f) in functions {
-            let mut gaps = flat(&self.gap).iter().map(|gap| gap.max(T::zero()));
+            let mut gaps = flat(&self.fields.gap).iter().map(|gap| gap.max(T::zero()));
             if let Some(gap) = gaps.find(|&gap| !f(gap).is_finite()) {
                 return Err(Error::Law { function, gap: gap.widen(), value: f(gap).widen(), expected: None });
             }
@@ -57,7 +57,7 @@ where
         self.problem.law.smooth(T::zero());
         if self.is_adrift() {
             // the law itself may hold what the smoothed one does not
-            self.gap.fill(T::lit(uniform_start(self.problem, self.control)));
+            self.fields.gap.fill(T::lit(uniform_start(self.problem, self.control)));
             self.refresh()?;
         }
         self.restart();

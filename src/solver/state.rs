@@ -1,9 +1,8 @@
 use ndarray::{Array2, ArrayView2};
 
-use super::potential::{Of, Potential};
+use super::potential::Potential;
 use super::report::{Iteration, Report, Solution, Status};
 use super::start::{given_start, uniform_start};
-use super::tally::{Tally, tally};
 use super::{Criterion, Method, Settings};
 use crate::adhesion::AdhesionLaw;
 use crate::constraint::{ContactConstraint, Outer};
@@ -11,6 +10,7 @@ use crate::elastic::ElasticOperator;
 use crate::error::{Error, Result};
 use crate::field::{Partial, Reducer, read, write};
 use crate::par::IndexedParallelIterator;
+use crate::passes::{Fields, Local, Tally, Working};
 use crate::problem::{Control, Problem};
 use crate::real::Real;
 
@@ -20,28 +20,29 @@ const REFRESH: usize = 50;
 /// How often [`Method::Rey2017`] computes the certificate, which it needs for nothing else.
 const CERTIFY: usize = 10;
 
+/// The step from the state before.
+#[derive(Clone, Copy)]
+pub(super) struct Made {
+    /// how many times the field of the change it is
+    pub(super) factor: f64,
+    /// ⟨d, y⟩ with y what it changed in r
+    pub(super) curvature: f64,
+    /// with c the field of the change, and z' that of the state before: ⟨r', c⟩, ⟨r', z'⟩, and Σ c over the working set
+    pub(super) descent: f64,
+    pub(super) overlap: f64,
+    pub(super) sum: f64,
+}
+
 /// A solve under way: its fields, and what is known of them.
 pub(super) struct State<'a, T, O, L, C> {
     pub(super) problem: &'a mut Problem<T, O, L>,
     pub(super) constraint: &'a mut C,
     pub(super) control: Control,
     pub(super) settings: Settings,
-    pub(super) reducer: Reducer,
-
-    /// g
-    pub(super) gap: Array2<T>,
-    /// K⁻¹(g + h), of zero mean
-    pub(super) pressure: Array2<T>,
-    /// r', zero outside of the working set
-    pub(super) residual: Array2<T>,
-    /// z = M r'
-    pub(super) preconditioned: Array2<T>,
-    /// d, the step from the state before; the direction t of [`Method::Rey2017`]
-    pub(super) change: Array2<T>,
-    /// K⁻¹d, then what the step changed in r
-    pub(super) response: Array2<T>,
-
+    pub(super) fields: Fields<T>,
     pub(super) tally: Tally,
+    /// whether the last step has left the residual of the state
+    pub(super) has_residual: bool,
     /// the mean of r over the working set, which r' is without; zero under pressure control
     pub(super) level: f64,
     /// how many nodes may move
@@ -50,12 +51,17 @@ pub(super) struct State<'a, T, O, L, C> {
     pub(super) orthogonality: f64,
     /// the mean of r'·K r'
     pub(super) certificate: f64,
+    /// ⟨r', z⟩ and Σ z
+    pub(super) preconditioned_descent: f64,
+    pub(super) preconditioned_sum: f64,
+    /// what the last pass for r' changed in it, squared and summed
+    pub(super) residual_change: f64,
     pub(super) iterations: usize,
     pub(super) applications: usize,
     /// steps since the pressure was last computed from the gap
     pub(super) age: usize,
-    /// ⟨d, y⟩ of the last step, if the next one may use it
-    pub(super) momentum: Option<f64>,
+    /// the last step, if the next one may use it
+    pub(super) momentum: Option<Made>,
     pub(super) step_length: f64,
     /// ⟨r', r'⟩ of the step before, for [`Method::Rey2017`]
     pub(super) residual_norm: Option<f64>,
@@ -105,18 +111,23 @@ where
             constraint,
             control,
             settings,
-            reducer: Reducer::new(nodes),
-            gap,
-            pressure,
-            residual: field(),
-            preconditioned: field(),
-            change: field(),
-            response: field(),
+            fields: Fields {
+                reducer: Reducer::new(nodes),
+                gap,
+                pressure,
+                residual: field(),
+                preconditioned: field(),
+                change: field(),
+            },
             tally: nothing,
+            has_residual: false,
             level: 0.0,
             working: 0.0,
             orthogonality: 0.0,
             certificate: f64::INFINITY,
+            preconditioned_descent: 0.0,
+            preconditioned_sum: 0.0,
+            residual_change: 0.0,
             iterations: 0,
             applications: 0,
             age: 0,
@@ -142,7 +153,7 @@ where
     }
 
     pub(super) fn nodes(&self) -> f64 {
-        self.gap.len() as f64
+        self.fields.gap.len() as f64
     }
 
     /// The mean pressure that is given, or zero.
@@ -164,16 +175,17 @@ where
             // what rounding has added up to, if it is worth a pass
             if scale.is_finite() && (scale - 1.0).abs() > 64.0 * T::epsilon().widen() {
                 let scale = T::lit(scale);
-                self.reducer.run(write(&mut self.gap), |_, gap| {
+                self.fields.reducer.run(write(&mut self.fields.gap), |_, gap| {
                     gap.iter_mut().for_each(|gap| *gap *= scale);
                     Partial::NONE
                 });
             }
         }
-        self.problem.operator.pressure(self.gap.view(), self.pressure.view_mut())?;
+        self.problem.operator.pressure(self.fields.gap.view(), self.fields.pressure.view_mut())?;
         self.applications += 1;
         self.age = 0;
-        self.reducer.run(write(&mut self.pressure).zip(read(&self.problem.surface_pressure)), |_, (p, surface)| {
+        let Fields { reducer, pressure, .. } = &mut self.fields;
+        reducer.run(write(pressure).zip(read(&self.problem.surface_pressure)), |_, (p, surface)| {
             p.iter_mut().zip(surface).for_each(|(p, &surface)| *p += surface);
             Partial::NONE
         });
@@ -184,17 +196,10 @@ where
     /// Takes the tally of the present gap and pressure.
     pub(super) fn count(&mut self) {
         let offset = T::lit(self.offset());
-        let Self { reducer, gap, pressure, problem, constraint, .. } = self;
-        let potential = Potential { law: &problem.law, constraint: &**constraint };
-        let nothing_local = potential.is_zero::<T>();
-        let fields = read(gap).zip(read(pressure)).zip(read(&problem.surface_pressure));
-        let total = reducer.run(fields, |first, ((gap, pressure), surface)| {
-            let (mut values, mut buffer) = ([T::zero(); _], [T::zero(); _]);
-            let tractions: &[T] =
-                if nothing_local { &[] } else { potential.evaluate(Of::Traction, first, gap, &mut values) };
-            tally(&potential, offset, first, (gap, pressure, surface), tractions, &mut buffer)
-        });
-        self.tally = Tally::new(&total);
+        let Self { fields, problem, constraint, .. } = self;
+        let local = Potential::new(&problem.law, &**constraint);
+        self.tally = Tally::new(&T::tally(fields, &local, offset, &problem.surface_pressure));
+        self.has_residual = false;
     }
 
     /// μ: the mean of r where the surfaces are apart, under gap control.
@@ -209,49 +214,27 @@ where
 
     /// r' and the working set: the nodes that are apart, and those in contact under tension.
     pub(super) fn residual(&mut self) {
-        let (offset, mu) = (T::lit(self.offset()), T::lit(self.multiplier()));
-        let centred = self.is_gap_controlled() && self.settings.method == Method::Preconditioned;
-        let Self { reducer, gap, pressure, residual, problem, constraint, tally, .. } = self;
-        let potential = Potential { law: &problem.law, constraint: &**constraint };
-        let nothing_local = potential.is_zero::<T>();
-        // contact nodes have one and the same adhesive traction
-        let at_contact = if constraint.projects() { problem.law.traction(T::zero()) } else { T::zero() } + offset;
-        let (mut level, mut working) = (mu.widen(), tally.free);
-        if centred && tally.free < gap.len() as f64 && constraint.projects() {
-            let released = reducer.run(read(gap).zip(read(pressure)), |_, (gap, pressure)| {
-                let mut part = Partial::NONE;
-                for (&gap, &p) in gap.iter().zip(pressure) {
-                    let r = p + at_contact;
-                    if gap <= T::zero() && r < mu {
-                        part.sum[0] += 1.0;
-                        part.sum[1] += r.widen();
-                    }
-                }
-                part
-            });
-            working += released.sum[0];
-            level = if working > 0.0 { (tally.sum_r + released.sum[1]) / working } else { level };
+        if std::mem::take(&mut self.has_residual) {
+            return;
         }
-        let (projects, mean) = (constraint.projects(), T::lit(level));
-        let fields = read(gap).zip(read(pressure)).zip(write(residual));
-        let total = reducer.run(fields, |first, ((gap, pressure), residual)| {
-            let mut values = [T::zero(); _];
-            if !nothing_local {
-                potential.evaluate(Of::Traction, first, gap, &mut values);
+        let (offset, release) = (T::lit(self.offset()), T::lit(self.multiplier()));
+        let centred = self.is_gap_controlled() && self.settings.method == Method::Preconditioned;
+        let Self { fields, problem, constraint, tally, .. } = self;
+        let local = Potential::new(&problem.law, &**constraint);
+        self.level = release.widen();
+        if centred && tally.contact > 0.0 && local.projects() {
+            // contact nodes have one and the same adhesive traction
+            let released = T::released(fields, problem.law.traction(T::zero()) + offset, release);
+            let working = tally.free + released.sum[0];
+            if working > 0.0 {
+                self.level = (tally.sum_r + released.sum[1]) / working;
             }
-            let mut part = Partial::NONE;
-            for (((residual, &gap), &p), &traction) in residual.iter_mut().zip(gap).zip(pressure).zip(&values) {
-                let r = p + traction + offset;
-                let works = !projects || gap > T::zero() || r < mu;
-                *residual = if works { r - mean } else { T::zero() };
-                part.sum[0] += (gap * *residual).abs().widen();
-                part.sum[1] += f64::from(u8::from(works));
-            }
-            part
-        });
-        self.level = level;
-        self.orthogonality = total.sum[0];
-        self.working = total.sum[1];
+        }
+        let working = Working { offset, release, level: T::lit(self.level) };
+        let total = T::residual(fields, &local, working, self.momentum.is_some());
+        let (descent, overlap, sum);
+        [self.orthogonality, self.working, self.residual_change, descent, overlap, sum, ..] = total.sum;
+        self.momentum = self.momentum.map(|made| Made { descent, overlap, sum, ..made });
     }
 
     /// z = M r' and the certificate, from one application.
@@ -268,9 +251,11 @@ where
 
     pub(super) fn certify(&mut self) -> Result<()> {
         let stiffness = self.mean_stiffness();
-        let certificate =
-            self.problem.operator.precondition(self.residual.view(), stiffness, self.preconditioned.view_mut())?;
-        self.certificate = if certificate.is_nan() { f64::INFINITY } else { certificate.max(0.0) };
+        let Fields { residual, preconditioned, .. } = &mut self.fields;
+        let found = self.problem.operator.precondition(residual.view(), stiffness, preconditioned.view_mut())?;
+        self.certificate = if found.error.is_nan() { f64::INFINITY } else { found.error.max(0.0) };
+        self.preconditioned_descent = found.descent * self.nodes();
+        self.preconditioned_sum = found.mean * self.nodes();
         self.applications += 1;
         Ok(())
     }
@@ -288,7 +273,7 @@ where
     }
 
     pub(super) fn update_constraint(&mut self) -> Outer {
-        let outer = self.constraint.update(self.gap.view());
+        let outer = self.constraint.update(self.fields.gap.view());
         if outer == Outer::Again {
             self.restart();
         }
@@ -351,7 +336,7 @@ where
         };
         let load_error = if self.detached.is_some() { 1.0 } else { self.load_error() };
         let mean_pressure = self.detached.unwrap_or(mean);
-        let Self { reducer, gap, pressure, preconditioned, problem, constraint, .. } = &mut self;
+        let Self { fields: Fields { reducer, gap, pressure, preconditioned, .. }, problem, constraint, .. } = &mut self;
         let (mean, projects) = (T::lit(mean), constraint.projects());
         let at_contact = problem.law.traction(T::zero());
         let fields = read(gap).zip(write(pressure)).zip(write(preconditioned));
@@ -390,6 +375,7 @@ where
             precision: T::NAME,
             method: self.settings.method,
         };
-        Ok(Solution { gap: self.gap, pressure: self.pressure, contact_pressure: self.preconditioned, report })
+        let Fields { gap, pressure, preconditioned, .. } = self.fields;
+        Ok(Solution { gap, pressure, contact_pressure: preconditioned, report })
     }
 }

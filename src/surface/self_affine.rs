@@ -263,7 +263,7 @@ mod tests {
             for (z, power) in column.iter_mut().zip(target.powers().row(k)) {
                 *z = z.scale(if root { (power / flat).sqrt() } else { power / flat });
             }
-            0.0
+            [0.0; 3]
         };
         Convolver::new((n, n)).convolve(noise.view(), heights.view_mut(), filter).unwrap();
         (Surface::new(grid, heights).unwrap().spectrum(), target)

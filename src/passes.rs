@@ -1,0 +1,583 @@
+//! The passes over fields that make an iteration.
+//!
+//! Their cost is memory traffic, so that each does all that can be done while its nodes are in cache. They are
+//! compiled with this crate, once for each precision, for AVX2 too: the seams come in behind [`Local`], at one virtual
+//! call for a chunk of nodes.
+
+use ndarray::Array2;
+use pulp::{Arch, Simd, WithSimd};
+
+use crate::field::{CHUNK, Partial, Reducer, read, write};
+use crate::par::IndexedParallelIterator;
+use crate::real::Real;
+
+/// Nodes whose terms are written down before they are summed: the loop over them has no sums to keep it from vectors.
+pub(crate) const BLOCK: usize = 64;
+
+/// Sums that run side by side.
+pub(crate) const LANES: usize = 8;
+
+/// The fields of a solve.
+#[derive(Debug)]
+pub struct Fields<T> {
+    pub(crate) reducer: Reducer,
+    /// g
+    pub(crate) gap: Array2<T>,
+    /// K⁻¹(g + h), of zero mean
+    pub(crate) pressure: Array2<T>,
+    /// r', negative zero outside of the working set and never within; while a step is made, K⁻¹ of the change
+    pub(crate) residual: Array2<T>,
+    /// z = M r'; between two steps, that of the state before
+    pub(crate) preconditioned: Array2<T>,
+    /// the last step, up to a factor and, while the next one is made, up to the scale that restores the mean gap; the
+    /// direction t of [`Method::Rey2017`](crate::Method)
+    pub(crate) change: Array2<T>,
+}
+
+/// What each node feels by its own gap, of a chunk of nodes.
+pub trait Local<T>: Sync {
+    /// Whether there is nothing to evaluate.
+    fn is_zero(&self) -> bool;
+    /// Whether the gap is confined to g ≥ 0.
+    fn projects(&self) -> bool;
+    /// The energies, tractions or slopes of law and constraint at the nodes from `first` on.
+    fn evaluate(&self, of: Of, first: usize, gaps: &[T], out: &mut [T]);
+    /// The same of the law alone.
+    fn law(&self, of: Of, gaps: &[T], out: &mut [T]);
+    /// How many nodes a constraint that does not project presses, and its energy.
+    fn pressed(&self, first: usize, gaps: &[T]) -> [f64; 2];
+}
+
+/// Which derivative of an energy.
+#[derive(Clone, Copy, Debug)]
+pub enum Of {
+    Energy,
+    Traction,
+    Slope,
+}
+
+/// Which nodes may move, and what their residual is.
+#[derive(Clone, Copy, Debug)]
+pub struct Working<T> {
+    /// the mean pressure that is given, or zero
+    pub(crate) offset: T,
+    /// a node in contact is released where r is below it
+    pub(crate) release: T,
+    /// what r' is without
+    pub(crate) level: T,
+}
+
+/// A step before it is clipped.
+#[derive(Clone, Copy, Debug)]
+pub struct Attempt<T> {
+    /// how much of z to take
+    pub(crate) length: T,
+    /// the mean of z over the working set
+    pub(crate) centre: T,
+    /// how much of the last change to keep
+    pub(crate) keep: T,
+    /// its mean over the working set
+    pub(crate) mean: T,
+    /// whether the gap is confined to g ≥ 0
+    pub(crate) projects: bool,
+}
+
+/// A step that is taken: `length` of scale·(g + change) − g.
+#[derive(Clone, Copy, Debug)]
+pub struct Advance<T> {
+    pub(crate) length: T,
+    pub(crate) scale: T,
+    /// the mean pressure that is given, or zero
+    pub(crate) offset: T,
+    /// whether the residual of the new state follows from it alone, and is wanted
+    pub(crate) residual: bool,
+}
+
+/// The passes, as what a precision brings with it: so they are compiled with this crate, and not again with each that uses it.
+pub trait Passes: Sized {
+    /// Of the present gap and pressure; see [`Tally`].
+    fn tally(fields: &mut Fields<Self>, local: &dyn Local<Self>, offset: Self, surface: &Array2<Self>) -> Partial;
+    /// How many contact nodes are released, and Σ r over them, after a pass that took the tally.
+    fn released(fields: &mut Fields<Self>, at_contact: Self, release: Self) -> Partial;
+    /// r': Σ|g r'|, how many nodes may move, and Σ of the squares of what changed in r'. With a last step also what the
+    /// next one needs of it, Σ r'·change, Σ r'·z with the z of the state before, and Σ change over the working set.
+    fn residual(fields: &mut Fields<Self>, local: &dyn Local<Self>, working: Working<Self>, moved: bool) -> Partial;
+    /// Σ z outside of the working set, after a pass for r'.
+    fn idle(fields: &mut Fields<Self>) -> f64;
+    /// The change that a step makes, clipped: Σ change, how many nodes were clipped, and how many that the gradient drives
+    /// into contact, Σ r'·change; with the pressure of the surface also Σ r'·g, and its products with change and g. The least is how
+    /// many times the change a gap can take.
+    fn trial(fields: &mut Fields<Self>, attempt: Attempt<Self>, surface: Option<&Array2<Self>>) -> Partial;
+    /// Σ change·p, and Σ slope·d² for d = scale·(g + change) − g.
+    fn slopes(fields: &mut Fields<Self>, local: &dyn Local<Self>, scale: Self) -> Partial;
+    /// Σ of the local energy after a step.
+    fn energy_after(fields: &mut Fields<Self>, local: &dyn Local<Self>, length: Self, scale: Self) -> f64;
+    /// Takes a step: gap, pressure, and the tally of the new state. Σ d·(what the step changed in the local traction) beside it;
+    /// with the new residual also Σ|g r'|, how many nodes may move, Σ r'·change and Σ r'·z.
+    fn advance(
+        fields: &mut Fields<Self>,
+        local: &dyn Local<Self>,
+        step: Advance<Self>,
+        surface: &Array2<Self>,
+    ) -> Partial;
+}
+
+/// Where the sums of a tally are among those of its pass.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Tally {
+    /// how many nodes are apart
+    pub(crate) free: f64,
+    /// Σ r over these
+    pub(crate) sum_r: f64,
+    /// the least r in contact
+    pub(crate) min_r: f64,
+    pub(crate) sum_gap: f64,
+    /// Σ g·p
+    pub(crate) sum_gp: f64,
+    /// how many nodes are in contact
+    pub(crate) contact: f64,
+    /// Σ φ' of the law
+    pub(crate) traction: f64,
+    /// Σ φ of the law
+    pub(crate) adhesive: f64,
+    /// Σ of the constraint's energy
+    pub(crate) penalty: f64,
+    /// Σ g·(p + K⁻¹h), which with Σ h·K⁻¹h makes Σ u·p
+    pub(crate) work: f64,
+}
+
+impl Tally {
+    pub(crate) fn new(total: &Partial) -> Self {
+        let [free, sum_r, sum_gap, sum_gp, contact, traction, adhesive, penalty, surface, ..] = total.sum;
+        let work = sum_gp + surface;
+        Self { free, sum_r, min_r: total.min, sum_gap, sum_gp, contact, traction, adhesive, penalty, work }
+    }
+}
+
+/// What runs on vector instructions. A closure that is called by value would be a call of its own, and leave them behind.
+struct Vectorised<F>(F);
+
+impl<F: FnMut()> WithSimd for Vectorised<F> {
+    type Output = ();
+    #[inline(always)]
+    fn with_simd<S: Simd>(mut self, _: S) {
+        (self.0)();
+    }
+}
+
+/// Runs a closure, which has to be `#[inline(always)]` and to change something, on vector instructions.
+#[inline(always)]
+pub(crate) fn vectorised(f: impl FnMut()) {
+    Arch::new().dispatch(Vectorised(f));
+}
+
+/// Sums the terms of a chunk's nodes, and finds the least of one more number.
+macro_rules! sums {
+    ($count:literal, [$($read:ident),*], [$($write:ident),*], |$i:ident| $terms:expr) => {{
+        let mut part = Partial::NONE;
+        $crate::passes::vectorised(
+            #[inline(always)]
+            || {
+                let len = usize::MAX$(.min($read.len()))*$(.min($write.len()))*;
+                let (mut lanes, mut least) = ([[0.0_f64; LANES]; $count], [f64::INFINITY; LANES]);
+                let (mut block, mut lows) = ([[0.0_f64; BLOCK]; $count], [f64::INFINITY; BLOCK]);
+                let mut start = 0;
+                while start < len {
+                    let size = BLOCK.min(len - start);
+                    $(let $read = &$read[start..start + size];)*
+                    $(let $write = &mut $write[start..start + size];)*
+                    for $i in 0..size {
+                        let (terms, low): ([f64; $count], f64) = $terms;
+                        for s in 0..$count {
+                            block[s][$i] = terms[s];
+                        }
+                        lows[$i] = low;
+                    }
+                    if size < BLOCK {
+                        for s in 0..$count {
+                            block[s][size..].fill(0.0);
+                        }
+                        lows[size..].fill(f64::INFINITY);
+                    }
+                    for s in 0..$count {
+                        for k in 0..BLOCK / LANES {
+                            for l in 0..LANES {
+                                lanes[s][l] += block[s][k * LANES + l];
+                            }
+                        }
+                    }
+                    for k in 0..BLOCK / LANES {
+                        for l in 0..LANES {
+                            let low = lows[k * LANES + l];
+                            least[l] = if low < least[l] { low } else { least[l] };
+                        }
+                    }
+                    start += size;
+                }
+                for s in 0..$count {
+                    let l = &lanes[s];
+                    part.sum[s] = ((l[0] + l[4]) + (l[2] + l[6])) + ((l[1] + l[5]) + (l[3] + l[7]));
+                }
+                for low in least {
+                    part.min = if low < part.min { low } else { part.min };
+                }
+            },
+        );
+        part
+    }};
+}
+
+pub(crate) use sums;
+
+/// Runs a loop that sums nothing on vector instructions.
+macro_rules! vectors {
+    ([$($read:ident),*], [$($write:ident),*], |$i:ident| $body:block) => {
+        vectorised(
+            #[inline(always)]
+            || {
+                let len = usize::MAX$(.min($read.len()))*$(.min($write.len()))*;
+                $(let $read = &$read[..len];)*
+                $(let $write = &mut $write[..len];)*
+                for $i in 0..len $body
+            },
+        )
+    };
+}
+
+#[inline(always)]
+fn count(condition: bool) -> f64 {
+    if condition { 1.0 } else { 0.0 }
+}
+
+/// Whether a node is outside of the working set, by its residual.
+#[inline(always)]
+pub(crate) fn idles<T: Real>(residual: T) -> bool {
+    (residual == T::zero()) & residual.is_sign_negative()
+}
+
+/// The residual of a node of the working set.
+#[inline(always)]
+fn works<T: Real>(residual: T) -> T {
+    // no negative zero
+    residual + T::zero()
+}
+
+/// The gap after a change, zero where only rounding keeps it from that.
+#[inline(always)]
+fn moved<T: Real>(projects: bool, gap: T, change: T) -> T {
+    let next = gap + change;
+    if projects & (next <= T::lit(4.0) * T::epsilon() * gap) { T::zero() } else { next }
+}
+
+/// The step of unit length.
+#[inline(always)]
+fn whole<T: Real>(scale: T, gap: T, change: T) -> T {
+    if scale == T::one() { change } else { scale * (gap + change) - gap }
+}
+
+/// The part of a tally that gap, pressure and traction of a chunk give.
+fn tally_of<T: Real>(projects: bool, offset: T, gap: &[T], pressure: &[T], traction: &[T]) -> Partial {
+    sums!(5, [gap, pressure, traction], [], |i| {
+        let (g, p) = (gap[i], pressure[i]);
+        let r = (p + traction[i] + offset).widen();
+        let touches = projects & (g <= T::zero());
+        let free = count(!touches);
+        let terms = [free, if touches { 0.0 } else { r }, g.widen(), g.widen() * p.widen(), 1.0 - free];
+        (terms, if touches { r } else { f64::INFINITY })
+    })
+}
+
+/// Adds the energies and tractions of law and constraint.
+fn tally_local<T: Real>(
+    part: &mut Partial,
+    local: &dyn Local<T>,
+    first: usize,
+    gaps: &[T],
+    tractions: &[T],
+    energies: bool,
+) {
+    let mut buffer = [T::zero(); CHUNK];
+    let out = &mut buffer[..gaps.len()];
+    let sum = |values: &[T]| sums!(1, [values], [], |i| ([values[i].widen()], f64::INFINITY)).sum[0];
+    if local.projects() {
+        part.sum[5] = sum(tractions);
+    } else {
+        local.law(Of::Traction, gaps, out);
+        part.sum[5] = sum(out);
+        [part.sum[4], part.sum[7]] = local.pressed(first, gaps);
+    }
+    if energies {
+        local.law(Of::Energy, gaps, out);
+        part.sum[6] = sum(out);
+    }
+}
+
+fn tally<T: Real>(fields: &mut Fields<T>, local: &dyn Local<T>, offset: T, surface: &Array2<T>) -> Partial {
+    let Fields { reducer, gap, pressure, .. } = fields;
+    reducer.run(read(gap).zip(read(pressure)).zip(read(surface)), |first, ((gap, pressure), surface)| {
+        let mut buffer = [T::zero(); CHUNK];
+        let tractions = &mut buffer[..gap.len()];
+        if !local.is_zero() {
+            local.evaluate(Of::Traction, first, gap, tractions);
+        }
+        let mut part = tally_of(local.projects(), offset, gap, pressure, tractions);
+        if !local.is_zero() {
+            tally_local(&mut part, local, first, gap, tractions, true);
+        }
+        let product = sums!(1, [gap, surface], [], |i| ([gap[i].widen() * surface[i].widen()], f64::INFINITY));
+        part.sum[8] = product.sum[0];
+        part
+    })
+}
+
+fn released<T: Real>(fields: &mut Fields<T>, at_contact: T, release: T) -> Partial {
+    let Fields { reducer, gap, pressure, .. } = fields;
+    let limit = release.widen();
+    reducer.run_where(
+        |tally| tally.min < limit,
+        read(gap).zip(read(pressure)),
+        |_, (gap, pressure)| {
+            sums!(2, [gap, pressure], [], |i| {
+                let r = pressure[i] + at_contact;
+                let released = (gap[i] <= T::zero()) & (r < release);
+                ([count(released), if released { r.widen() } else { 0.0 }], f64::INFINITY)
+            })
+        },
+    )
+}
+
+/// r' of a node, and whether it may move.
+#[inline(always)]
+fn residual_of<T: Real>(projects: bool, w: Working<T>, gap: T, pressure: T, traction: T) -> (T, bool) {
+    let r = pressure + traction + w.offset;
+    let may = !projects | (gap > T::zero()) | (r < w.release);
+    (if may { works(r - w.level) } else { T::neg_zero() }, may)
+}
+
+fn residual<T: Real>(fields: &mut Fields<T>, local: &dyn Local<T>, working: Working<T>, moved: bool) -> Partial {
+    let Fields { reducer, gap, pressure, residual, preconditioned, change, .. } = fields;
+    let projects = local.projects();
+    let evaluate = |first, gap: &[T], buffer: &mut [T; CHUNK]| {
+        if !local.is_zero() {
+            local.evaluate(Of::Traction, first, gap, &mut buffer[..gap.len()]);
+        }
+    };
+    let chunks = read(gap).zip(read(pressure)).zip(write(residual));
+    if !moved {
+        return reducer.run(chunks, |first, ((gap, pressure), residual)| {
+            let mut tractions = [T::zero(); CHUNK];
+            evaluate(first, gap, &mut tractions);
+            sums!(3, [gap, pressure, tractions], [residual], |i| {
+                let (r, may) = residual_of(projects, working, gap[i], pressure[i], tractions[i]);
+                let difference = (r - residual[i]).widen();
+                residual[i] = r;
+                ([(gap[i] * r).abs().widen(), count(may), difference * difference], f64::INFINITY)
+            })
+        });
+    }
+    reducer.run(
+        chunks.zip(read(change)).zip(read(preconditioned)),
+        |first, ((((gap, pressure), residual), change), z)| {
+            let mut tractions = [T::zero(); CHUNK];
+            evaluate(first, gap, &mut tractions);
+            sums!(6, [gap, pressure, tractions, change, z], [residual], |i| {
+                let (r, may) = residual_of(projects, working, gap[i], pressure[i], tractions[i]);
+                let difference = (r - residual[i]).widen();
+                residual[i] = r;
+                let orthogonality = (gap[i] * r).abs().widen();
+                let [r, d, z] = [r, change[i], z[i]].map(T::widen);
+                let mobile = if may { d } else { 0.0 };
+                ([orthogonality, count(may), difference * difference, r * d, r * z, mobile], f64::INFINITY)
+            })
+        },
+    )
+}
+
+fn idle<T: Real>(fields: &mut Fields<T>) -> f64 {
+    let Fields { reducer, residual, preconditioned, .. } = fields;
+    let total = reducer.run_where(
+        |residual| residual.sum[1] < CHUNK as f64,
+        read(residual).zip(read(preconditioned)),
+        |_, (residual, z)| {
+            sums!(1, [residual, z], [], |i| { ([if idles(residual[i]) { z[i].widen() } else { 0.0 }], f64::INFINITY) })
+        },
+    );
+    total.sum[0]
+}
+
+/// The change that a step makes at one node, and whether that was clipped.
+#[inline(always)]
+fn clipped_change<T: Real>(attempt: Attempt<T>, gap: T, residual: T, z: T, change: T) -> (T, bool) {
+    let Attempt { length, centre, keep, mean, projects } = attempt;
+    let kept = if keep == T::zero() { T::zero() } else { keep * (change - mean) };
+    let next = if idles(residual) { gap } else { gap - length * (z - centre) + kept };
+    let clipped = projects & (next < T::zero());
+    (if clipped { -gap } else { next - gap }, clipped)
+}
+
+/// How many times a change a gap can take.
+#[inline(always)]
+fn reach<T: Real>(gap: T, change: T) -> f64 {
+    if change < T::zero() { (gap / -change).widen() } else { f64::INFINITY }
+}
+
+fn trial<T: Real>(fields: &mut Fields<T>, attempt: Attempt<T>, surface: Option<&Array2<T>>) -> Partial {
+    let Fields { reducer, gap, residual, preconditioned, change, .. } = fields;
+    let chunks = read(gap).zip(read(residual)).zip(read(preconditioned)).zip(write(change));
+    match surface {
+        None => reducer.run(chunks, |_, (((gap, residual), z), change)| {
+            sums!(4, [gap, residual, z], [change], |i| {
+                let (g, r) = (gap[i], residual[i]);
+                let (c, clipped) = clipped_change(attempt, g, r, z[i], change[i]);
+                change[i] = c;
+                let blocked = clipped & (r > T::zero()) & (g > T::zero());
+                ([c.widen(), count(clipped), count(blocked), r.widen() * c.widen()], reach(g, c))
+            })
+        }),
+        Some(surface) => reducer.run(chunks.zip(read(surface)), |_, ((((gap, residual), z), change), surface)| {
+            sums!(7, [gap, residual, z, surface], [change], |i| {
+                let (g, r) = (gap[i], residual[i]);
+                let (c, clipped) = clipped_change(attempt, g, r, z[i], change[i]);
+                change[i] = c;
+                let blocked = count(clipped & (r > T::zero()) & (g > T::zero()));
+                let low = reach(g, c);
+                let [g, r, c, h] = [g, r, c, surface[i]].map(T::widen);
+                ([c, count(clipped), blocked, r * c, r * g, c * h, g * h], low)
+            })
+        }),
+    }
+}
+
+fn slopes<T: Real>(fields: &mut Fields<T>, local: &dyn Local<T>, scale: T) -> Partial {
+    let Fields { reducer, gap, pressure, change, .. } = fields;
+    reducer.run(read(gap).zip(read(pressure)).zip(read(change)), |first, ((gap, pressure), change)| {
+        let mut buffer = [T::zero(); CHUNK];
+        let slopes = &mut buffer[..gap.len()];
+        local.evaluate(Of::Slope, first, gap, slopes);
+        sums!(2, [gap, pressure, change, slopes], [], |i| {
+            let d = whole(scale, gap[i], change[i]).widen();
+            ([change[i].widen() * pressure[i].widen(), slopes[i].widen() * d * d], f64::INFINITY)
+        })
+    })
+}
+
+fn energy_after<T: Real>(fields: &mut Fields<T>, local: &dyn Local<T>, length: T, scale: T) -> f64 {
+    let Fields { reducer, gap, change, .. } = fields;
+    let projects = local.projects();
+    let total = reducer.run(read(gap).zip(read(change)), |first, (gap, change)| {
+        let (mut next, mut buffer) = ([T::zero(); CHUNK], [T::zero(); CHUNK]);
+        let (next, energies) = (&mut next[..gap.len()], &mut buffer[..gap.len()]);
+        vectors!([gap, change], [next], |i| {
+            next[i] = moved(projects, gap[i], length * whole(scale, gap[i], change[i]));
+        });
+        local.evaluate(Of::Energy, first, next, energies);
+        sums!(1, [energies], [], |i| ([energies[i].widen()], f64::INFINITY))
+    });
+    total.sum[0]
+}
+
+fn advance<T: Real>(fields: &mut Fields<T>, local: &dyn Local<T>, step: Advance<T>, surface: &Array2<T>) -> Partial {
+    let Advance { length, scale, offset, residual: wanted } = step;
+    let Fields { reducer, gap, pressure, residual: response, preconditioned, change, .. } = fields;
+    let (projects, nothing_local) = (local.projects(), local.is_zero());
+    let finish = |first, gap: &[T], pressure: &[T], before: &[T], step: &[T], residual: &mut [T], z: &[T]| {
+        let mut buffer = [T::zero(); CHUNK];
+        let tractions = &mut buffer[..gap.len()];
+        if !nothing_local {
+            local.evaluate(Of::Traction, first, gap, tractions);
+        }
+        let mut part = tally_of(projects, offset, gap, pressure, tractions);
+        if !nothing_local {
+            tally_local(&mut part, local, first, gap, tractions, !projects);
+            let curvature = sums!(1, [before, step, tractions], [], |i| {
+                ([step[i].widen() * (tractions[i] - before[i]).widen()], f64::INFINITY)
+            });
+            part.sum[8] = curvature.sum[0];
+        }
+        if wanted {
+            let working = Working { offset, release: T::zero(), level: T::zero() };
+            let new = sums!(4, [gap, pressure, tractions, step, z], [residual], |i| {
+                let (r, may) = residual_of(projects, working, gap[i], pressure[i], tractions[i]);
+                residual[i] = r;
+                let orthogonality = (gap[i] * r).abs().widen();
+                let [r, d, z] = [r, step[i], z[i]].map(T::widen);
+                ([orthogonality, count(may), r * d, r * z], f64::INFINITY)
+            });
+            part.sum[9..13].copy_from_slice(&new.sum[..4]);
+        }
+        part
+    };
+    let before = |first, gap: &[T], buffer: &mut [T; CHUNK]| {
+        if !nothing_local {
+            local.evaluate(Of::Traction, first, gap, &mut buffer[..gap.len()]);
+        }
+    };
+    let chunks = write(gap).zip(write(pressure)).zip(write(response)).zip(read(preconditioned));
+    if scale == T::one() {
+        return reducer.run(chunks.zip(read(change)), |first, ((((gap, pressure), response), z), change)| {
+            let mut tractions = [T::zero(); CHUNK];
+            before(first, gap, &mut tractions);
+            vectors!([change, response], [gap, pressure], |i| {
+                gap[i] = moved(projects, gap[i], length * change[i]);
+                pressure[i] += length * response[i];
+            });
+            finish(first, gap, pressure, &tractions[..gap.len()], change, response, z)
+        });
+    }
+    let rest = scale - T::one();
+    let chunks = chunks.zip(write(change)).zip(read(surface));
+    reducer.run(chunks, |first, (((((gap, pressure), response), z), change), surface)| {
+        let mut tractions = [T::zero(); CHUNK];
+        before(first, gap, &mut tractions);
+        vectors!([response, surface], [gap, pressure, change], |i| {
+            let (g, p) = (gap[i], pressure[i]);
+            let d = whole(scale, g, change[i]);
+            change[i] = d;
+            gap[i] = moved(projects, g, length * d);
+            pressure[i] = p + length * (scale * response[i] + rest * (p - surface[i]));
+        });
+        finish(first, gap, pressure, &tractions[..gap.len()], change, response, z)
+    })
+}
+
+macro_rules! passes {
+    ($($float:ty),*) => {$(
+        impl Passes for $float {
+            fn tally(fields: &mut Fields<Self>, local: &dyn Local<Self>, offset: Self, surface: &Array2<Self>) -> Partial {
+                tally(fields, local, offset, surface)
+            }
+            fn released(fields: &mut Fields<Self>, at_contact: Self, release: Self) -> Partial {
+                released(fields, at_contact, release)
+            }
+            fn residual(
+                fields: &mut Fields<Self>,
+                local: &dyn Local<Self>,
+                working: Working<Self>,
+                moved: bool,
+            ) -> Partial {
+                residual(fields, local, working, moved)
+            }
+            fn idle(fields: &mut Fields<Self>) -> f64 {
+                idle(fields)
+            }
+            fn trial(fields: &mut Fields<Self>, attempt: Attempt<Self>, surface: Option<&Array2<Self>>) -> Partial {
+                trial(fields, attempt, surface)
+            }
+            fn slopes(fields: &mut Fields<Self>, local: &dyn Local<Self>, scale: Self) -> Partial {
+                slopes(fields, local, scale)
+            }
+            fn energy_after(fields: &mut Fields<Self>, local: &dyn Local<Self>, length: Self, scale: Self) -> f64 {
+                energy_after(fields, local, length, scale)
+            }
+            fn advance(
+                fields: &mut Fields<Self>,
+                local: &dyn Local<Self>,
+                step: Advance<Self>,
+                surface: &Array2<Self>,
+            ) -> Partial {
+                advance(fields, local, step, surface)
+            }
+        }
+    )*};
+}
+passes!(f32, f64);
