@@ -86,7 +86,7 @@ pub trait AdhesionLaw<T: Real>: Sync {
         false
     }
 
-    /// The energies at many gaps. The three slice functions exist so that a law behind `dyn` costs one virtual call
+    /// The energies at many gaps. The slice functions exist so that a law behind `dyn` costs one virtual call
     /// for many nodes, and so that a law can use vector instructions.
     fn energies(&self, gaps: &[T], energies: &mut [T]) {
         energies.iter_mut().zip(gaps).for_each(|(e, &g)| *e = self.energy(g));
@@ -100,6 +100,12 @@ pub trait AdhesionLaw<T: Real>: Sync {
     /// The slopes of the traction at many gaps.
     fn slopes(&self, gaps: &[T], slopes: &mut [T]) {
         slopes.iter_mut().zip(gaps).for_each(|(s, &g)| *s = self.slope(g));
+    }
+
+    /// Both at once, for a law of which one follows from the other.
+    fn tractions_and_slopes(&self, gaps: &[T], tractions: &mut [T], slopes: &mut [T]) {
+        self.tractions(gaps, tractions);
+        self.slopes(gaps, slopes);
     }
 }
 
@@ -116,6 +122,9 @@ macro_rules! forward {
             fn energies(&self, gaps: &[T], energies: &mut [T]) { (**self).energies(gaps, energies) }
             fn tractions(&self, gaps: &[T], tractions: &mut [T]) { (**self).tractions(gaps, tractions) }
             fn slopes(&self, gaps: &[T], slopes: &mut [T]) { (**self).slopes(gaps, slopes) }
+            fn tractions_and_slopes(&self, gaps: &[T], tractions: &mut [T], slopes: &mut [T]) {
+                (**self).tractions_and_slopes(gaps, tractions, slopes)
+            }
         }
     )*};
 }

@@ -42,6 +42,8 @@ pub trait Local<T>: Sync {
     fn projects(&self) -> bool;
     /// The energies, tractions or slopes of law and constraint at the nodes from `first` on.
     fn evaluate(&self, of: Of, first: usize, gaps: &[T], out: &mut [T]);
+    /// Tractions and slopes at once.
+    fn tractions_and_slopes(&self, first: usize, gaps: &[T], tractions: &mut [T], slopes: &mut [T]);
     /// The same of the law alone.
     fn law(&self, of: Of, gaps: &[T], out: &mut [T]);
     /// How many nodes a constraint that does not project presses, and its energy.
@@ -89,8 +91,8 @@ pub struct Advance<T> {
     pub(crate) scale: T,
     /// the mean pressure that is given, or zero
     pub(crate) offset: T,
-    /// whether the residual of the new state follows from it alone, and is wanted
-    pub(crate) residual: bool,
+    /// what r was without; nothing if r' is without nothing
+    pub(crate) level: Option<T>,
 }
 
 /// The passes, as what a precision brings with it: so they are compiled with this crate, and not again with each that uses it.
@@ -99,21 +101,27 @@ pub trait Passes: Sized {
     fn tally(fields: &mut Fields<Self>, local: &dyn Local<Self>, offset: Self, surface: &Array2<Self>) -> Partial;
     /// How many contact nodes are released, and Σ r over them, after a pass that took the tally.
     fn released(fields: &mut Fields<Self>, at_contact: Self, release: Self) -> Partial;
-    /// r': Σ|g r'|, how many nodes may move, and Σ of the squares of what changed in r'. With a last step also what the
-    /// next one needs of it, Σ r'·change, Σ r'·z with the z of the state before, and Σ change over the working set.
-    fn residual(fields: &mut Fields<Self>, local: &dyn Local<Self>, working: Working<Self>, moved: bool) -> Partial;
+    /// r' from gap and pressure: Σ|g r'|, how many nodes may move, and Σ of the squares of what changed in r'.
+    fn residual(fields: &mut Fields<Self>, local: &dyn Local<Self>, working: Working<Self>) -> Partial;
+    /// r' from the r that a step has left in its place: Σ|g r'|, how many nodes may move, Σ r'·change, Σ r'·z with the
+    /// z of the state before, and Σ change over the working set.
+    fn release(fields: &mut Fields<Self>, projects: bool, working: Working<Self>) -> Partial;
     /// Σ z outside of the working set, after a pass for r'.
     fn idle(fields: &mut Fields<Self>) -> f64;
     /// The change that a step makes, clipped: Σ change, how many nodes were clipped, and how many that the gradient drives
-    /// into contact, Σ r'·change; with the pressure of the surface also Σ r'·g, and its products with change and g. The least is how
-    /// many times the change a gap can take.
-    fn trial(fields: &mut Fields<Self>, attempt: Attempt<Self>, surface: Option<&Array2<Self>>) -> Partial;
-    /// Σ change·p, and Σ slope·d² for d = scale·(g + change) − g.
-    fn slopes(fields: &mut Fields<Self>, local: &dyn Local<Self>, scale: Self) -> Partial;
+    /// into contact, Σ r'·change; of the local traction Σ traction·change, and of its slope Σ slope·change²; with the pressure of the surface
+    /// also Σ r'·g, and its products with change and g, and Σ slope·change·g and Σ slope·g². The least is how many times the
+    /// change a gap can take.
+    fn trial(
+        fields: &mut Fields<Self>,
+        local: &dyn Local<Self>,
+        attempt: Attempt<Self>,
+        surface: Option<&Array2<Self>>,
+    ) -> Partial;
     /// Σ of the local energy after a step.
     fn energy_after(fields: &mut Fields<Self>, local: &dyn Local<Self>, length: Self, scale: Self) -> f64;
-    /// Takes a step: gap, pressure, and the tally of the new state. Σ d·(what the step changed in the local traction) beside it;
-    /// with the new residual also Σ|g r'|, how many nodes may move, Σ r'·change and Σ r'·z.
+    /// Takes a step: gap, pressure, r, and the tally of the new state. Beside it Σ change·r, less the level; under pressure control,
+    /// where the level is zero, r' in the place of r, Σ|g r'|, how many nodes may move, Σ r'·change and Σ r'·z.
     fn advance(
         fields: &mut Fields<Self>,
         local: &dyn Local<Self>,
@@ -348,49 +356,42 @@ fn released<T: Real>(fields: &mut Fields<T>, at_contact: T, release: T) -> Parti
 
 /// r' of a node, and whether it may move.
 #[inline(always)]
-fn residual_of<T: Real>(projects: bool, w: Working<T>, gap: T, pressure: T, traction: T) -> (T, bool) {
-    let r = pressure + traction + w.offset;
+fn residual_of<T: Real>(projects: bool, w: Working<T>, gap: T, r: T) -> (T, bool) {
     let may = !projects | (gap > T::zero()) | (r < w.release);
     (if may { works(r - w.level) } else { T::neg_zero() }, may)
 }
 
-fn residual<T: Real>(fields: &mut Fields<T>, local: &dyn Local<T>, working: Working<T>, moved: bool) -> Partial {
-    let Fields { reducer, gap, pressure, residual, preconditioned, change, .. } = fields;
+fn residual<T: Real>(fields: &mut Fields<T>, local: &dyn Local<T>, working: Working<T>) -> Partial {
+    let Fields { reducer, gap, pressure, residual, .. } = fields;
     let projects = local.projects();
-    let evaluate = |first, gap: &[T], buffer: &mut [T; CHUNK]| {
+    reducer.run(read(gap).zip(read(pressure)).zip(write(residual)), |first, ((gap, pressure), residual)| {
+        let mut buffer = [T::zero(); CHUNK];
+        let tractions = &mut buffer[..gap.len()];
         if !local.is_zero() {
-            local.evaluate(Of::Traction, first, gap, &mut buffer[..gap.len()]);
+            local.evaluate(Of::Traction, first, gap, tractions);
         }
-    };
-    let chunks = read(gap).zip(read(pressure)).zip(write(residual));
-    if !moved {
-        return reducer.run(chunks, |first, ((gap, pressure), residual)| {
-            let mut tractions = [T::zero(); CHUNK];
-            evaluate(first, gap, &mut tractions);
-            sums!(3, [gap, pressure, tractions], [residual], |i| {
-                let (r, may) = residual_of(projects, working, gap[i], pressure[i], tractions[i]);
-                let difference = (r - residual[i]).widen();
-                residual[i] = r;
-                ([(gap[i] * r).abs().widen(), count(may), difference * difference], f64::INFINITY)
-            })
-        });
-    }
-    reducer.run(
-        chunks.zip(read(change)).zip(read(preconditioned)),
-        |first, ((((gap, pressure), residual), change), z)| {
-            let mut tractions = [T::zero(); CHUNK];
-            evaluate(first, gap, &mut tractions);
-            sums!(6, [gap, pressure, tractions, change, z], [residual], |i| {
-                let (r, may) = residual_of(projects, working, gap[i], pressure[i], tractions[i]);
-                let difference = (r - residual[i]).widen();
-                residual[i] = r;
-                let orthogonality = (gap[i] * r).abs().widen();
-                let [r, d, z] = [r, change[i], z[i]].map(T::widen);
-                let mobile = if may { d } else { 0.0 };
-                ([orthogonality, count(may), difference * difference, r * d, r * z, mobile], f64::INFINITY)
-            })
-        },
-    )
+        sums!(3, [gap, pressure, tractions], [residual], |i| {
+            let r = pressure[i] + tractions[i] + working.offset;
+            let (r, may) = residual_of(projects, working, gap[i], r);
+            let difference = (r - residual[i]).widen();
+            residual[i] = r;
+            ([(gap[i] * r).abs().widen(), count(may), difference * difference], f64::INFINITY)
+        })
+    })
+}
+
+fn release<T: Real>(fields: &mut Fields<T>, projects: bool, working: Working<T>) -> Partial {
+    let Fields { reducer, gap, residual, preconditioned, change, .. } = fields;
+    let chunks = read(gap).zip(write(residual)).zip(read(preconditioned)).zip(read(change));
+    reducer.run(chunks, |_, (((gap, residual), z), change)| {
+        sums!(5, [gap, z, change], [residual], |i| {
+            let (r, may) = residual_of(projects, working, gap[i], residual[i]);
+            residual[i] = r;
+            let orthogonality = (gap[i] * r).abs().widen();
+            let [r, d, z] = [r, change[i], z[i]].map(T::widen);
+            ([orthogonality, count(may), r * d, r * z, if may { d } else { 0.0 }], f64::INFINITY)
+        })
+    })
 }
 
 fn idle<T: Real>(fields: &mut Fields<T>) -> f64 {
@@ -421,21 +422,42 @@ fn reach<T: Real>(gap: T, change: T) -> f64 {
     if change < T::zero() { (gap / -change).widen() } else { f64::INFINITY }
 }
 
-fn trial<T: Real>(fields: &mut Fields<T>, attempt: Attempt<T>, surface: Option<&Array2<T>>) -> Partial {
+fn trial<T: Real>(
+    fields: &mut Fields<T>,
+    local: &dyn Local<T>,
+    attempt: Attempt<T>,
+    surface: Option<&Array2<T>>,
+) -> Partial {
     let Fields { reducer, gap, residual, preconditioned, change, .. } = fields;
+    let nothing_local = local.is_zero();
     let chunks = read(gap).zip(read(residual)).zip(read(preconditioned)).zip(write(change));
+    let slopes = |part: &mut Partial, first, gap: &[T], change: &[T]| {
+        if nothing_local {
+            return;
+        }
+        let (mut tractions, mut slopes) = ([T::zero(); CHUNK], [T::zero(); CHUNK]);
+        let (tractions, slopes) = (&mut tractions[..gap.len()], &mut slopes[..gap.len()]);
+        local.tractions_and_slopes(first, gap, tractions, slopes);
+        let found = sums!(4, [gap, change, tractions, slopes], [], |i| {
+            let [g, c, t, s] = [gap[i], change[i], tractions[i], slopes[i]].map(T::widen);
+            ([t * c, s * c * c, s * c * g, s * g * g], f64::INFINITY)
+        });
+        part.sum[7..11].copy_from_slice(&found.sum[..4]);
+    };
     match surface {
-        None => reducer.run(chunks, |_, (((gap, residual), z), change)| {
-            sums!(4, [gap, residual, z], [change], |i| {
+        None => reducer.run(chunks, |first, (((gap, residual), z), change)| {
+            let mut part = sums!(4, [gap, residual, z], [change], |i| {
                 let (g, r) = (gap[i], residual[i]);
                 let (c, clipped) = clipped_change(attempt, g, r, z[i], change[i]);
                 change[i] = c;
                 let blocked = clipped & (r > T::zero()) & (g > T::zero());
                 ([c.widen(), count(clipped), count(blocked), r.widen() * c.widen()], reach(g, c))
-            })
+            });
+            slopes(&mut part, first, gap, change);
+            part
         }),
-        Some(surface) => reducer.run(chunks.zip(read(surface)), |_, ((((gap, residual), z), change), surface)| {
-            sums!(7, [gap, residual, z, surface], [change], |i| {
+        Some(surface) => reducer.run(chunks.zip(read(surface)), |first, ((((gap, residual), z), change), surface)| {
+            let mut part = sums!(7, [gap, residual, z, surface], [change], |i| {
                 let (g, r) = (gap[i], residual[i]);
                 let (c, clipped) = clipped_change(attempt, g, r, z[i], change[i]);
                 change[i] = c;
@@ -443,22 +465,11 @@ fn trial<T: Real>(fields: &mut Fields<T>, attempt: Attempt<T>, surface: Option<&
                 let low = reach(g, c);
                 let [g, r, c, h] = [g, r, c, surface[i]].map(T::widen);
                 ([c, count(clipped), blocked, r * c, r * g, c * h, g * h], low)
-            })
+            });
+            slopes(&mut part, first, gap, change);
+            part
         }),
     }
-}
-
-fn slopes<T: Real>(fields: &mut Fields<T>, local: &dyn Local<T>, scale: T) -> Partial {
-    let Fields { reducer, gap, pressure, change, .. } = fields;
-    reducer.run(read(gap).zip(read(pressure)).zip(read(change)), |first, ((gap, pressure), change)| {
-        let mut buffer = [T::zero(); CHUNK];
-        let slopes = &mut buffer[..gap.len()];
-        local.evaluate(Of::Slope, first, gap, slopes);
-        sums!(2, [gap, pressure, change, slopes], [], |i| {
-            let d = whole(scale, gap[i], change[i]).widen();
-            ([change[i].widen() * pressure[i].widen(), slopes[i].widen() * d * d], f64::INFINITY)
-        })
-    })
 }
 
 fn energy_after<T: Real>(fields: &mut Fields<T>, local: &dyn Local<T>, length: T, scale: T) -> f64 {
@@ -477,58 +488,66 @@ fn energy_after<T: Real>(fields: &mut Fields<T>, local: &dyn Local<T>, length: T
 }
 
 fn advance<T: Real>(fields: &mut Fields<T>, local: &dyn Local<T>, step: Advance<T>, surface: &Array2<T>) -> Partial {
-    let Advance { length, scale, offset, residual: wanted } = step;
+    let Advance { length, scale, offset, level } = step;
     let Fields { reducer, gap, pressure, residual: response, preconditioned, change, .. } = fields;
     let (projects, nothing_local) = (local.projects(), local.is_zero());
-    let finish = |first, gap: &[T], pressure: &[T], before: &[T], step: &[T], residual: &mut [T], z: &[T]| {
+    // r into the place of the response, and the tally
+    let finish = |first, gap: &[T], pressure: &[T], step: &[T], residual: &mut [T]| {
         let mut buffer = [T::zero(); CHUNK];
         let tractions = &mut buffer[..gap.len()];
         if !nothing_local {
             local.evaluate(Of::Traction, first, gap, tractions);
         }
         let mut part = tally_of(projects, offset, gap, pressure, tractions);
+        vectors!([pressure, tractions], [residual], |i| {
+            residual[i] = pressure[i] + tractions[i] + offset;
+        });
         if !nothing_local {
             tally_local(&mut part, local, first, gap, tractions, !projects);
-            let curvature = sums!(1, [before, step, tractions], [], |i| {
-                ([step[i].widen() * (tractions[i] - before[i]).widen()], f64::INFINITY)
+            let level = level.unwrap_or(T::zero());
+            let product = sums!(1, [step, residual], [], |i| {
+                ([step[i].widen() * (residual[i] - level).widen()], f64::INFINITY)
             });
-            part.sum[8] = curvature.sum[0];
-        }
-        if wanted {
-            let working = Working { offset, release: T::zero(), level: T::zero() };
-            let new = sums!(4, [gap, pressure, tractions, step, z], [residual], |i| {
-                let (r, may) = residual_of(projects, working, gap[i], pressure[i], tractions[i]);
-                residual[i] = r;
-                let orthogonality = (gap[i] * r).abs().widen();
-                let [r, d, z] = [r, step[i], z[i]].map(T::widen);
-                ([orthogonality, count(may), r * d, r * z], f64::INFINITY)
-            });
-            part.sum[9..13].copy_from_slice(&new.sum[..4]);
+            part.sum[8] = product.sum[0];
         }
         part
     };
-    let before = |first, gap: &[T], buffer: &mut [T; CHUNK]| {
-        if !nothing_local {
-            local.evaluate(Of::Traction, first, gap, &mut buffer[..gap.len()]);
-        }
-    };
-    let chunks = write(gap).zip(write(pressure)).zip(write(response)).zip(read(preconditioned));
-    if scale == T::one() {
-        return reducer.run(chunks.zip(read(change)), |first, ((((gap, pressure), response), z), change)| {
-            let mut tractions = [T::zero(); CHUNK];
-            before(first, gap, &mut tractions);
+    let rest = scale - T::one();
+    let chunks = write(gap).zip(write(pressure)).zip(write(response));
+    if level.is_none() {
+        let working = Working { offset, release: T::zero(), level: T::zero() };
+        return reducer.run(
+            chunks.zip(read(change)).zip(read(preconditioned)),
+            |first, ((((gap, pressure), response), change), z)| {
+                vectors!([change, response], [gap, pressure], |i| {
+                    gap[i] = moved(projects, gap[i], length * change[i]);
+                    pressure[i] += length * response[i];
+                });
+                let mut part = finish(first, gap, pressure, change, response);
+                let residual = response;
+                let new = sums!(4, [gap, change, z], [residual], |i| {
+                    let (r, may) = residual_of(projects, working, gap[i], residual[i]);
+                    residual[i] = r;
+                    let orthogonality = (gap[i] * r).abs().widen();
+                    let [r, d, z] = [r, change[i], z[i]].map(T::widen);
+                    ([orthogonality, count(may), r * d, r * z], f64::INFINITY)
+                });
+                part.sum[9..13].copy_from_slice(&new.sum[..4]);
+                part
+            },
+        );
+    }
+    if rest == T::zero() {
+        return reducer.run(chunks.zip(read(change)), |first, (((gap, pressure), response), change)| {
             vectors!([change, response], [gap, pressure], |i| {
                 gap[i] = moved(projects, gap[i], length * change[i]);
                 pressure[i] += length * response[i];
             });
-            finish(first, gap, pressure, &tractions[..gap.len()], change, response, z)
+            finish(first, gap, pressure, change, response)
         });
     }
-    let rest = scale - T::one();
     let chunks = chunks.zip(write(change)).zip(read(surface));
-    reducer.run(chunks, |first, (((((gap, pressure), response), z), change), surface)| {
-        let mut tractions = [T::zero(); CHUNK];
-        before(first, gap, &mut tractions);
+    reducer.run(chunks, |first, ((((gap, pressure), response), change), surface)| {
         vectors!([response, surface], [gap, pressure, change], |i| {
             let (g, p) = (gap[i], pressure[i]);
             let d = whole(scale, g, change[i]);
@@ -536,7 +555,7 @@ fn advance<T: Real>(fields: &mut Fields<T>, local: &dyn Local<T>, step: Advance<
             gap[i] = moved(projects, g, length * d);
             pressure[i] = p + length * (scale * response[i] + rest * (p - surface[i]));
         });
-        finish(first, gap, pressure, &tractions[..gap.len()], change, response, z)
+        finish(first, gap, pressure, change, response)
     })
 }
 
@@ -549,22 +568,22 @@ macro_rules! passes {
             fn released(fields: &mut Fields<Self>, at_contact: Self, release: Self) -> Partial {
                 released(fields, at_contact, release)
             }
-            fn residual(
-                fields: &mut Fields<Self>,
-                local: &dyn Local<Self>,
-                working: Working<Self>,
-                moved: bool,
-            ) -> Partial {
-                residual(fields, local, working, moved)
+            fn residual(fields: &mut Fields<Self>, local: &dyn Local<Self>, working: Working<Self>) -> Partial {
+                residual(fields, local, working)
+            }
+            fn release(fields: &mut Fields<Self>, projects: bool, working: Working<Self>) -> Partial {
+                release(fields, projects, working)
             }
             fn idle(fields: &mut Fields<Self>) -> f64 {
                 idle(fields)
             }
-            fn trial(fields: &mut Fields<Self>, attempt: Attempt<Self>, surface: Option<&Array2<Self>>) -> Partial {
-                trial(fields, attempt, surface)
-            }
-            fn slopes(fields: &mut Fields<Self>, local: &dyn Local<Self>, scale: Self) -> Partial {
-                slopes(fields, local, scale)
+            fn trial(
+                fields: &mut Fields<Self>,
+                local: &dyn Local<Self>,
+                attempt: Attempt<Self>,
+                surface: Option<&Array2<Self>>,
+            ) -> Partial {
+                trial(fields, local, attempt, surface)
             }
             fn energy_after(fields: &mut Fields<Self>, local: &dyn Local<Self>, length: Self, scale: Self) -> f64 {
                 energy_after(fields, local, length, scale)

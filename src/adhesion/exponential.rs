@@ -54,6 +54,11 @@ impl<T: Real> AdhesionLaw<T> for Exponential<T> {
     fn slopes(&self, gaps: &[T], slopes: &mut [T]) {
         T::exponentials(-self.work_of_adhesion / self.range / self.range, -self.range.recip(), gaps, slopes);
     }
+    fn tractions_and_slopes(&self, gaps: &[T], tractions: &mut [T], slopes: &mut [T]) {
+        self.tractions(gaps, tractions);
+        let rate = -self.range.recip();
+        slopes.iter_mut().zip(tractions).for_each(|(s, t)| *s = *t * rate);
+    }
     fn range(&self) -> T {
         self.range
     }

@@ -41,6 +41,14 @@ impl<T: Real, L: AdhesionLaw<T>, C: ContactConstraint<T>> Local<T> for Potential
         }
     }
 
+    fn tractions_and_slopes(&self, first: usize, gaps: &[T], tractions: &mut [T], slopes: &mut [T]) {
+        if self.constraint.projects() {
+            return self.law.tractions_and_slopes(gaps, tractions, slopes);
+        }
+        self.evaluate(Of::Traction, first, gaps, tractions);
+        self.evaluate(Of::Slope, first, gaps, slopes);
+    }
+
     /// A law is defined for g ≥ 0; where the surfaces interpenetrate it goes on as its tangent at g = 0.
     fn law(&self, of: Of, gaps: &[T], out: &mut [T]) {
         if self.law.is_zero() {

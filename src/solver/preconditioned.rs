@@ -1,12 +1,12 @@
 //! Conjugate gradients with the compliance as preconditioner, two operator applications a step.
 
 use super::potential::Potential;
-use super::state::{Made, State};
+use super::state::{Left, Made, State};
 use crate::adhesion::AdhesionLaw;
 use crate::constraint::ContactConstraint;
 use crate::elastic::ElasticOperator;
 use crate::error::Result;
-use crate::field::{Partial, read, write};
+use crate::field::{CHUNK, Partial, read, write};
 use crate::par::IndexedParallelIterator;
 use crate::passes::{Advance, Attempt, Fields, Local, Tally, idles};
 use crate::problem::Control;
@@ -58,6 +58,9 @@ struct Trial {
     descent: f64,
     /// Σ c·K⁻¹h and Σ g·K⁻¹h, if the scale is not one
     surface: [f64; 2],
+    /// Σ φ'·c, and Σ φ''·d²
+    traction: f64,
+    slopes: f64,
     /// how many times the change the gap can take
     reach: f64,
 }
@@ -66,6 +69,8 @@ struct Trial {
 struct Step {
     length: f64,
     scale: f64,
+    /// ⟨r', d⟩
+    slope: f64,
     /// Σ d·p and ⟨d, K⁻¹d⟩
     work: f64,
     elastic: f64,
@@ -128,8 +133,7 @@ where
                 continue;
             }
             if trial.blocked {
-                let (slope, change) = self.land(*centre);
-                return (slope < 0.0).then_some(Trial { slope, scale: 1.0, change, descent: slope, ..trial });
+                return Some(self.land(*centre, trial)).filter(|trial| trial.slope < 0.0);
             }
             self.hold(*centre);
             *centre = 0.0;
@@ -145,21 +149,33 @@ where
         let [length, centre, keep, mean] = [length, centre, keep, mean].map(T::lit);
         let attempt = Attempt { length, centre, keep, mean, projects: self.constraint.projects() };
         let surface = self.is_gap_controlled().then_some(&self.problem.surface_pressure);
-        let total = T::trial(&mut self.fields, attempt, surface);
+        let local = Potential::new(&self.problem.law, &*self.constraint);
+        let total = T::trial(&mut self.fields, &local, attempt, surface);
         let [change, clipped, blocked, descent, gap_descent, change_surface, gap_surface, ..] = total.sum;
+        let [.., traction, curvature, mixed, gap_curvature, _, _] = total.sum;
         // the present mean, not the one that is given: a long step would multiply the rounding of their difference
         let present = self.tally.sum_gap;
         let scale = if self.is_gap_controlled() && clipped > 0.0 { present / (present + change) } else { 1.0 };
         let possible = scale.is_finite() && scale > 0.0;
         // as the passes will have it
         let scale = T::lit(scale).widen();
-        let slope = if possible { scale * descent + (scale - 1.0) * gap_descent } else { f64::INFINITY };
-        let (clipped, blocked, reach) = (clipped > 0.0, blocked > 0.0, total.min);
-        Trial { clipped, blocked, slope, scale, change, descent, surface: [change_surface, gap_surface], reach }
+        let rest = scale - 1.0;
+        Trial {
+            clipped: clipped > 0.0,
+            blocked: blocked > 0.0,
+            slope: if possible { scale * descent + rest * gap_descent } else { f64::INFINITY },
+            scale,
+            change,
+            descent,
+            surface: [change_surface, gap_surface],
+            traction,
+            slopes: scale * scale * curvature + 2.0 * scale * rest * mixed + rest * rest * gap_curvature,
+            reach: total.min,
+        }
     }
 
-    /// A change that puts the blocked nodes into contact and lifts the others evenly; both lower the energy. Returns ⟨r', d⟩ and Σ d.
-    fn land(&mut self, centre: f64) -> (f64, f64) {
+    /// A change that puts the blocked nodes into contact and lifts the others evenly; both lower the energy.
+    fn land(&mut self, centre: f64, trial: Trial) -> Trial {
         let (length, centre) = (T::lit(self.step_length), T::lit(centre));
         let lands = move |gap: T, r: T, z: T| gap > T::zero() && r > T::zero() && gap < length * (z - centre);
         let Fields { reducer, gap, residual, preconditioned, change, .. } = &mut self.fields;
@@ -176,10 +192,16 @@ where
         });
         let [landed, others, ..] = total.sum;
         let lift = T::lit(if matches!(self.control, Control::MeanGap(_)) { landed / others } else { 0.0 });
+        let local = Potential::new(&self.problem.law, &*self.constraint);
         let fields = read(gap).zip(read(residual)).zip(read(preconditioned)).zip(write(change));
-        let total = reducer.run(fields, |_, (((gap, residual), z), change)| {
+        let total = reducer.run(fields, |first, (((gap, residual), z), change)| {
+            let (mut tractions, mut slopes) = ([T::zero(); CHUNK], [T::zero(); CHUNK]);
+            if !local.is_zero() {
+                let (tractions, slopes) = (&mut tractions[..gap.len()], &mut slopes[..gap.len()]);
+                local.tractions_and_slopes(first, gap, tractions, slopes);
+            }
             let mut part = Partial::NONE;
-            for (((&gap, &r), &z), d) in gap.iter().zip(residual).zip(z).zip(change) {
+            for (i, (((&gap, &r), &z), d)) in gap.iter().zip(residual).zip(z).zip(change).enumerate() {
                 *d = if lands(gap, r, z) {
                     -gap
                 } else if !idles(r) {
@@ -187,12 +209,16 @@ where
                 } else {
                     T::zero()
                 };
-                part.sum[0] += r.widen() * d.widen();
-                part.sum[1] += d.widen();
+                let [r, d, t, s] = [r, *d, tractions[i], slopes[i]].map(T::widen);
+                part.sum[0] += r * d;
+                part.sum[1] += d;
+                part.sum[2] += t * d;
+                part.sum[3] += s * d * d;
             }
             part
         });
-        (total.sum[0], total.sum[1])
+        let [slope, change, traction, slopes, ..] = total.sum;
+        Trial { slope, scale: 1.0, change, descent: slope, traction, slopes, ..trial }
     }
 
     /// Takes the mean from z, and takes nodes in contact that z would press out of the step.
@@ -227,13 +253,8 @@ where
         let Self { fields, problem, constraint, tally, .. } = self;
         let local = Potential::new(&problem.law, &**constraint);
         let (scale, rest) = (T::lit(trial.scale), trial.scale - 1.0);
-        let (pressed, slopes) = if local.is_zero() {
-            // where the change is not zero, p is r' but for two constants
-            (trial.descent - shift * trial.change, 0.0)
-        } else {
-            let total = T::slopes(fields, &local, scale);
-            (total.sum[0], total.sum[1])
-        };
+        // where the change is not zero, p is r' but for two constants and the traction
+        let pressed = trial.descent - shift * trial.change - trial.traction;
         let [change_surface, gap_surface] = trial.surface;
         let cross = if rest == 0.0 {
             0.0
@@ -244,6 +265,7 @@ where
         let elastic = (trial.scale * trial.scale * elastic + cross).max(0.0);
         let work = trial.scale * pressed + rest * tally.sum_gp;
         let shifted = work + shift * (trial.scale * trial.change + rest * tally.sum_gap);
+        let slopes = trial.slopes;
         let stiff = elastic + slopes > LEAST_CURVATURE * elastic;
         let curvature = if stiff { elastic + slopes } else { LEAST_CURVATURE * elastic };
         let best = (-trial.slope / curvature).min(FARTHEST);
@@ -269,15 +291,15 @@ where
             }
         }
         self.step_length = (self.step_length * best.clamp(ADAPT.0, ADAPT.1)).min(LONGEST);
-        (length > 0.0).then_some(Step { length, scale: trial.scale, work, elastic, local: after })
+        (length > 0.0).then_some(Step { length, scale: trial.scale, slope: trial.slope, work, elastic, local: after })
     }
 
     /// Takes a step: gap, pressure, and the tally of the new state.
     fn advance(&mut self, step: &Step) {
         let projects = self.constraint.projects();
-        let residual = !self.is_gap_controlled();
-        let &Step { length, scale, work, elastic, local: after } = step;
-        let advance = Advance { length: T::lit(length), scale: T::lit(scale), offset: T::lit(self.offset()), residual };
+        let &Step { length, scale, slope, work, elastic, local: after } = step;
+        let level = self.is_gap_controlled().then_some(T::lit(self.level));
+        let advance = Advance { length: T::lit(length), scale: T::lit(scale), offset: T::lit(self.offset()), level };
         let Self { fields, problem, constraint, .. } = self;
         let local = Potential::new(&problem.law, &**constraint);
         let total = T::advance(fields, &local, advance, &problem.surface_pressure);
@@ -287,11 +309,13 @@ where
         if projects {
             self.tally.adhesive = after;
         }
-        let [.., curvature, orthogonality, working, descent, overlap] = total.sum;
-        let curvature = length * (length * elastic + curvature);
+        let [.., product, orthogonality, working, descent, overlap] = total.sum;
+        // the field of the change holds d where it was scaled
+        let curvature = if local.is_zero() { length * length * elastic } else { length * (product - slope) };
         self.momentum = Some(Made { factor: length, curvature, descent, overlap, sum: 0.0 });
-        if residual {
-            (self.level, self.orthogonality, self.working, self.has_residual) = (0.0, orthogonality, working, true);
+        self.left = Left::Gradient;
+        if level.is_none() {
+            (self.level, self.orthogonality, self.working, self.left) = (0.0, orthogonality, working, Left::Residual);
         }
         self.age += 1;
     }

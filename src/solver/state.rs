@@ -33,6 +33,18 @@ pub(super) struct Made {
     pub(super) sum: f64,
 }
 
+/// What a step has left in the place of r'.
+#[derive(Clone, Copy, Default, PartialEq)]
+pub(super) enum Left {
+    /// nothing of use
+    #[default]
+    Nothing,
+    /// r
+    Gradient,
+    /// r'
+    Residual,
+}
+
 /// A solve under way: its fields, and what is known of them.
 pub(super) struct State<'a, T, O, L, C> {
     pub(super) problem: &'a mut Problem<T, O, L>,
@@ -41,8 +53,8 @@ pub(super) struct State<'a, T, O, L, C> {
     pub(super) settings: Settings,
     pub(super) fields: Fields<T>,
     pub(super) tally: Tally,
-    /// whether the last step has left the residual of the state
-    pub(super) has_residual: bool,
+    /// what the last step has left of the residual
+    pub(super) left: Left,
     /// the mean of r over the working set, which r' is without; zero under pressure control
     pub(super) level: f64,
     /// how many nodes may move
@@ -120,7 +132,7 @@ where
                 change: field(),
             },
             tally: nothing,
-            has_residual: false,
+            left: Left::Nothing,
             level: 0.0,
             working: 0.0,
             orthogonality: 0.0,
@@ -199,7 +211,7 @@ where
         let Self { fields, problem, constraint, .. } = self;
         let local = Potential::new(&problem.law, &**constraint);
         self.tally = Tally::new(&T::tally(fields, &local, offset, &problem.surface_pressure));
-        self.has_residual = false;
+        self.left = Left::Nothing;
     }
 
     /// μ: the mean of r where the surfaces are apart, under gap control.
@@ -214,7 +226,8 @@ where
 
     /// r' and the working set: the nodes that are apart, and those in contact under tension.
     pub(super) fn residual(&mut self) {
-        if std::mem::take(&mut self.has_residual) {
+        let left = std::mem::take(&mut self.left);
+        if left == Left::Residual {
             return;
         }
         let (offset, release) = (T::lit(self.offset()), T::lit(self.multiplier()));
@@ -231,10 +244,15 @@ where
             }
         }
         let working = Working { offset, release, level: T::lit(self.level) };
-        let total = T::residual(fields, &local, working, self.momentum.is_some());
-        let (descent, overlap, sum);
-        [self.orthogonality, self.working, self.residual_change, descent, overlap, sum, ..] = total.sum;
-        self.momentum = self.momentum.map(|made| Made { descent, overlap, sum, ..made });
+        if let (Left::Gradient, Some(made)) = (left, self.momentum) {
+            let (descent, overlap, sum);
+            [self.orthogonality, self.working, descent, overlap, sum, ..] =
+                T::release(fields, local.projects(), working).sum;
+            self.momentum = Some(Made { descent, overlap, sum, ..made });
+        } else {
+            [self.orthogonality, self.working, self.residual_change, ..] = T::residual(fields, &local, working).sum;
+            self.momentum = None;
+        }
     }
 
     /// z = M r' and the certificate, from one application.
