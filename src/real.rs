@@ -43,7 +43,7 @@ fn plan<T: FftNum>(len: usize) -> [Arc<dyn Fft<T>>; 2] {
     [planner.plan_fft_forward(len), planner.plan_fft_inverse(len)]
 }
 
-/// exp x = 2ᵏ exp r with |r| ≤ ½ ln 2: a Taylor series of r in Horner's form, and k into the bits of the exponent.
+/// exp x = 2ᵏ exp r with |r| ≤ ½ ln 2: a Taylor series of r, and k into the bits of the exponent.
 macro_rules! exponentials {
     ($float:ty, $mantissa:literal, $bias:literal, $magic:expr, $ln2:expr, $low:expr, $high:expr, $series:expr) => {
         fn exponentials(factor: Self, rate: Self, x: &[Self], results: &mut [Self]) {
@@ -63,11 +63,7 @@ macro_rules! exponentials {
                         let shifted = held * <$float as FloatConst>::LOG2_E() + $magic;
                         let k = shifted - $magic;
                         let r = held - k * $ln2.0 - k * $ln2.1;
-                        let series = $series.iter().rev().fold(
-                            0.0,
-                            #[inline(always)]
-                            |sum, &c: &$float| sum * r + c,
-                        );
+                        let series = $series(r);
                         let power = <$float>::from_bits(shifted.to_bits().wrapping_add($bias) << $mantissa);
                         let exp = if x < $low {
                             0.0
@@ -94,15 +90,29 @@ const fn reciprocal_factorials<const N: usize>() -> [f64; N] {
     terms
 }
 
-const SERIES_F64: [f64; 14] = reciprocal_factorials();
-const SERIES_F32: [f32; 8] = {
-    let (terms, mut single, mut k) = (reciprocal_factorials::<8>(), [0.0; 8], 0);
-    while k < 8 {
-        single[k] = terms[k] as f32;
-        k += 1;
-    }
-    single
-};
+// The terms are summed in pairs, and the pairs in pairs (Estrin), so that few operations wait for one another; the first
+// two, which carry the rounding, come last.
+
+#[inline(always)]
+fn series_f64(r: f64) -> f64 {
+    const C: [f64; 14] = reciprocal_factorials();
+    let r2 = r * r;
+    let r4 = r2 * r2;
+    let low = (C[2] + C[3] * r) + (C[4] + C[5] * r) * r2;
+    let middle = (C[6] + C[7] * r) + (C[8] + C[9] * r) * r2;
+    let high = (C[10] + C[11] * r) + (C[12] + C[13] * r) * r2;
+    1.0 + (r + r2 * (low + r4 * (middle + r4 * high)))
+}
+
+#[inline(always)]
+fn series_f32(r: f32) -> f32 {
+    const C: [f64; 8] = reciprocal_factorials();
+    let c = |k: usize| C[k] as f32;
+    let r2 = r * r;
+    let low = (c(2) + c(3) * r) + (c(4) + c(5) * r) * r2;
+    let high = c(6) + c(7) * r;
+    1.0 + (r + r2 * (low + r2 * r2 * high))
+}
 
 impl Real for f32 {
     const NAME: &'static str = "f32";
@@ -117,7 +127,7 @@ impl Real for f32 {
     fn transforms(len: usize) -> [Arc<dyn Fft<Self>>; 2] {
         plan(len)
     }
-    exponentials!(f32, 23, 127, 12_582_912.0, (0.693_359_4_f32, -2.121_944_4e-4_f32), -87.0, 88.0, SERIES_F32);
+    exponentials!(f32, 23, 127, 12_582_912.0, (0.693_359_4_f32, -2.121_944_4e-4_f32), -87.0, 88.0, series_f32);
 }
 
 impl Real for f64 {
@@ -141,7 +151,7 @@ impl Real for f64 {
         (0.693_147_180_369_123_8, 1.908_214_929_270_587_7e-10),
         -708.0,
         709.0,
-        SERIES_F64
+        series_f64
     );
 }
 
