@@ -182,10 +182,14 @@ pub(crate) fn vectorised(f: impl FnMut()) {
 /// Sums the terms of a chunk's nodes, and finds the least of one more number.
 macro_rules! sums {
     ($count:literal, [$($read:ident),*], [$($write:ident),*], |$i:ident| $terms:expr) => {{
-        let mut part = Partial::NONE;
+        let mut total = Partial::NONE;
+        let part = &mut total;
+        $(let $read = &$read[..];)*
+        $(let $write = &mut *$write;)*
+        // what it uses it holds itself: behind references the compiler would have to read it anew for every node
         $crate::passes::vectorised(
             #[inline(always)]
-            || {
+            move || {
                 let len = usize::MAX$(.min($read.len()))*$(.min($write.len()))*;
                 let (mut lanes, mut least) = ([[0.0_f64; LANES]; $count], [f64::INFINITY; LANES]);
                 let (mut block, mut lows) = ([[0.0_f64; BLOCK]; $count], [f64::INFINITY; BLOCK]);
@@ -231,25 +235,25 @@ macro_rules! sums {
                 }
             },
         );
-        part
+        total
     }};
 }
 
-pub(crate) use sums;
-
 /// Runs a loop that sums nothing on vector instructions.
 macro_rules! vectors {
-    ([$($read:ident),*], [$($write:ident),*], |$i:ident| $body:block) => {
+    ([$($read:ident),*], [$($write:ident),*], |$i:ident| $body:block) => {{
+        $(let $read = &$read[..];)*
+        $(let $write = &mut *$write;)*
         vectorised(
             #[inline(always)]
-            || {
+            move || {
                 let len = usize::MAX$(.min($read.len()))*$(.min($write.len()))*;
                 $(let $read = &$read[..len];)*
                 $(let $write = &mut $write[..len];)*
                 for $i in 0..len $body
             },
-        )
-    };
+        );
+    }};
 }
 
 #[inline(always)]

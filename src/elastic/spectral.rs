@@ -5,8 +5,7 @@ use rustfft::num_complex::Complex;
 
 use super::*;
 use crate::fft::{Convolver, Sums};
-use crate::field::Partial;
-use crate::passes::{BLOCK, LANES, sums};
+use crate::passes::{BLOCK, LANES, vectorised};
 
 /// What a wave with wave numbers (qx, qy) needs: pressure per displacement.
 type Symbol = Box<dyn Fn(f64, f64) -> f64 + Send + Sync>;
@@ -144,77 +143,99 @@ fn stiffness<T: Real>(grid: &Grid, symbol: &Symbol) -> Result<Array2<T>> {
 }
 
 impl<T: Real> Stiffness<T> {
-    /// Hands the stiffness of the modes of column `k` of the spectrum to a loop, which is compiled for both ways to have it.
-    fn modify(&self, k: usize, column: &mut [Complex<T>], by: impl Modify<T>) -> Sums {
+    /// Multiplies the modes z of column `k` of the spectrum by a function of their stiffness; the sums over the column
+    /// are those of |z|² times two more.
+    fn modify(&self, k: usize, column: &mut [Complex<T>], by: impl Fn(T) -> [T; 3]) -> Sums {
         match self {
             Self::Stored(stiffness) => {
                 let stiffness = stiffness.row(k).to_slice().unwrap_or_default();
-                by.modify(
+                modify(column, stiffness, by)
+            }
+            Self::HalfSpace { unit, x, y } => {
+                let (unit, y) = (*unit, y[k]);
+                modify(
                     column,
-                    stiffness,
+                    x,
                     #[inline(always)]
-                    |k| k,
+                    move |x| by(unit * (x + y).sqrt()),
                 )
             }
-            Self::HalfSpace { unit, x, y } => by.modify(
-                column,
-                x,
-                #[inline(always)]
-                |x| *unit * (x + y[k]).sqrt(),
-            ),
         }
     }
 }
 
-/// What becomes of the modes of a column, of which `stiffness` tells each the stiffness from a number of its own.
-trait Modify<T: Real> {
-    fn modify(self, column: &mut [Complex<T>], of: &[T], stiffness: impl Fn(T) -> T) -> Sums;
+fn modify<T: Real>(column: &mut [Complex<T>], of: &[T], by: impl Fn(T) -> [T; 3]) -> Sums {
+    let mut sums = [0.0; 3];
+    let mut factors = [[T::zero(); BLOCK]; 3];
+    let total = &mut sums;
+    vectorised(
+        #[inline(always)]
+        move || {
+            let mut lanes = [[0.0; LANES]; 2];
+            for (modes, of) in column.chunks_mut(BLOCK).zip(of.chunks(BLOCK)) {
+                for (i, &of) in of.iter().enumerate() {
+                    let [factor, a, b] = by(of);
+                    (factors[0][i], factors[1][i], factors[2][i]) = (factor, a, b);
+                }
+                for factors in &mut factors[1..] {
+                    factors[of.len()..].fill(T::zero());
+                }
+                let mut powers = [0.0; BLOCK];
+                for (power, z) in powers.iter_mut().zip(modes.iter()) {
+                    *power = z.re.widen() * z.re.widen() + z.im.widen() * z.im.widen();
+                }
+                for (z, &factor) in modes.iter_mut().zip(&factors[0]) {
+                    *z = Complex::new(z.re * factor, z.im * factor);
+                }
+                for (lanes, factors) in lanes.iter_mut().zip(&factors[1..]) {
+                    for k in 0..BLOCK / LANES {
+                        for l in 0..LANES {
+                            lanes[l] += powers[k * LANES + l] * factors[k * LANES + l].widen();
+                        }
+                    }
+                }
+            }
+            for (total, lanes) in total.iter_mut().zip(&lanes) {
+                *total = lanes.iter().sum();
+            }
+        },
+    );
+    sums
 }
 
+/// The factor of the pressure, and what |z|² is multiplied by for the work.
 #[inline(always)]
-fn power<T: Real>(z: Complex<T>) -> f64 {
-    z.re.widen() * z.re.widen() + z.im.widen() * z.im.widen()
+fn stiffen<T: Real>(stiffness: T) -> [T; 3] {
+    [stiffness, stiffness, T::zero()]
 }
 
-/// Multiplies by the stiffness, and sums k|z|².
-struct Stiffen;
-
-impl<T: Real> Modify<T> for Stiffen {
-    fn modify(self, column: &mut [Complex<T>], of: &[T], stiffness: impl Fn(T) -> T) -> Sums {
-        let part = sums!(1, [of], [column], |i| {
-            let (k, z) = (stiffness(of[i]), column[i]);
-            column[i] = Complex::new(z.re * k, z.im * k);
-            ([power(z) * k.widen()], f64::INFINITY)
-        });
-        [part.sum[0], 0.0, 0.0]
-    }
-}
-
-/// Divides by the stiffness and `softest`; sums |z|²/k, and |z|² divided alike.
-struct Soften<T> {
-    softest: T,
-}
-
-impl<T: Real> Modify<T> for Soften<T> {
-    fn modify(self, column: &mut [Complex<T>], of: &[T], stiffness: impl Fn(T) -> T) -> Sums {
-        let softest = self.softest;
-        let part = sums!(2, [of], [column], |i| {
-            let (k, z) = (stiffness(of[i]), column[i]);
-            // the mean, which has no stiffness, is seen to by the caller
-            let k = if k > T::zero() { k } else { T::one() };
-            let factor = T::one() / (k + softest);
-            column[i] = Complex::new(z.re * factor, z.im * factor);
-            let power = power(z);
-            ([power / k.widen(), power * factor.widen()], f64::INFINITY)
-        });
-        [part.sum[0], part.sum[1], 0.0]
-    }
-}
-
-/// Divides by the stiffness and `softest`, and multiplies the mean by `mean`; the sums are those of [`Preconditioned`].
-fn soften<T: Real>(stiffness: &Stiffness<T>, k: usize, column: &mut [Complex<T>], softest: T, mean: T) -> Sums {
+/// Divides by the stiffness and `shift` times the softest, and multiplies the mean by `mean`; the sums are those of
+/// [`Preconditioned`].
+fn soften<T: Real>(
+    (stiffness, softest): (&Stiffness<T>, f64),
+    k: usize,
+    column: &mut [Complex<T>],
+    shift: T,
+    mean: T,
+) -> Sums {
+    let softest = if softest > 0.0 { T::lit(softest) } else { T::one() };
     let still = if k == 0 { column.first_mut().map(std::mem::take).unwrap_or_default() } else { Complex::default() };
-    let mut sums = stiffness.modify(k, column, Soften { softest });
+    let compliance = softest.recip();
+    let mut sums = stiffness.modify(
+        k,
+        column,
+        #[inline(always)]
+        move |k| {
+            // in units of the softest
+            let k = k * compliance;
+            // the mean, which has no stiffness, is seen to below
+            let k = if k > T::zero() { k } else { T::one() };
+            // one division for both
+            let inverse = T::one() / (k * (k + shift));
+            [k * inverse * compliance, (k + shift) * inverse, k * inverse]
+        },
+    );
+    sums.iter_mut().for_each(|sum| *sum *= compliance.widen());
     if let (0, Some(first)) = (k, column.first_mut()) {
         *first = still.scale(mean);
         sums[1] += still.re.widen() * first.re.widen();
@@ -242,12 +263,12 @@ impl<T: Real> ElasticOperator<T> for Spectral<T> {
         let (stiffness, ny) = (&self.stiffness, self.grid.shape().1);
         let [sum, ..] = self
             .convolver
-            .convolve(displacement, pressure, |k, column| weigh(k, ny, stiffness.modify(k, column, Stiffen)))?;
+            .convolve(displacement, pressure, |k, column| weigh(k, ny, stiffness.modify(k, column, stiffen)))?;
         Ok(sum / (self.grid.nodes() as f64).powi(2))
     }
 
     fn displacement(&mut self, pressure: ArrayView2<'_, T>, displacement: ArrayViewMut2<'_, T>) -> Result<()> {
-        let stiffness = &self.stiffness;
+        let stiffness = (&self.stiffness, self.range.0);
         self.convolver
             .convolve(pressure, displacement, |k, column| soften(stiffness, k, column, T::zero(), T::zero()))?;
         Ok(())
@@ -268,7 +289,7 @@ impl<T: Real> ElasticOperator<T> for Spectral<T> {
         };
         let ny = self.grid.shape().1;
         let [sum, ..] = Convolver::<f64>::new(self.grid.shape())
-            .convolve(heights, pressure, |k, column| weigh(k, ny, stiffness.modify(k, column, Stiffen)))?;
+            .convolve(heights, pressure, |k, column| weigh(k, ny, stiffness.modify(k, column, stiffen)))?;
         Ok(sum / (self.grid.nodes() as f64).powi(2))
     }
 
@@ -279,10 +300,10 @@ impl<T: Real> ElasticOperator<T> for Spectral<T> {
         mean_stiffness: f64,
         preconditioned: ArrayViewMut2<'_, T>,
     ) -> Result<Preconditioned> {
-        let (stiffness, ny, nodes) = (&self.stiffness, self.grid.shape().1, self.grid.nodes() as f64);
-        let (softest, mean) = (T::lit(self.range.0), T::lit(1.0 / mean_stiffness));
+        let (stiffness, ny) = ((&self.stiffness, self.range.0), self.grid.shape().1);
+        let (mean, nodes) = (T::lit(1.0 / mean_stiffness), self.grid.nodes() as f64);
         let [error, descent, mean] = self.convolver.convolve(residual, preconditioned, |k, column| {
-            weigh(k, ny, soften(stiffness, k, column, softest, mean))
+            weigh(k, ny, soften(stiffness, k, column, T::one(), mean))
         })?;
         Ok(Preconditioned { error: error / nodes.powi(2), descent: descent / nodes.powi(2), mean: mean / nodes })
     }
