@@ -58,23 +58,25 @@ pub trait ElasticOperator<T: Real> {
 
     /// Applies the preconditioner, M r, and returns the mean of r·Kr.
     ///
-    /// M is close to the compliance K, with a finite value `1/mean_stiffness` for the mean; it must be symmetric and
-    /// positive. The returned number is what bounds the error (see [`Report::relative_error`](crate::Report)); it
-    /// must be that of K itself, without the mean. The default applies [`displacement`](Self::displacement).
+    /// M is close to (K⁻¹ + `foundation`)⁻¹, the compliance of the half-space on a foundation of that stiffness, pressure
+    /// per length, which is finite for the mean too: the waves that are longer than the distances between contacts meet
+    /// the stiffness of the contacts. M must be symmetric and positive. The returned number is what bounds the error (see [`Report::relative_error`](crate::Report)); it
+    /// must be that of K itself, without the mean. The default applies [`displacement`](Self::displacement), and the foundation to
+    /// the mean alone.
     ///
     /// # Errors
     /// [`Error::Shape`] if a field does not fit the grid.
     fn precondition(
         &mut self,
         residual: ArrayView2<'_, T>,
-        mean_stiffness: f64,
+        foundation: f64,
         mut preconditioned: ArrayViewMut2<'_, T>,
     ) -> Result<f64> {
         self.displacement(residual, preconditioned.view_mut())?;
         let product =
             Zip::from(&residual).and(&preconditioned).fold(0.0, |sum: f64, &r, &u| sum + r.widen() * u.widen());
         let mean = residual.iter().map(|r| r.widen()).sum::<f64>() / residual.len() as f64;
-        let shift = T::lit(mean / mean_stiffness);
+        let shift = T::lit(mean / foundation);
         preconditioned.mapv_inplace(|u| u + shift);
         Ok(product / residual.len() as f64)
     }
@@ -116,11 +118,11 @@ macro_rules! delegate {
         fn precondition(
             &mut self,
             residual: ArrayView2<'_, T>,
-            mean_stiffness: f64,
+            foundation: f64,
             preconditioned: ArrayViewMut2<'_, T>,
         ) -> Result<f64> {
             let $this = self;
-            $inner.precondition(residual, mean_stiffness, preconditioned)
+            $inner.precondition(residual, foundation, preconditioned)
         }
     };
 }

@@ -152,24 +152,21 @@ impl<T: Real> ElasticOperator<T> for Spectral<T> {
         Ok(mean_product(heights, precise.view()))
     }
 
-    /// M has the symbol 1/(k + s), s the softest stiffness; the returned product comes from the same transform.
+    /// M has the symbol 1/(k + s), s the foundation; the returned product comes from the same transform.
     fn precondition(
         &mut self,
         residual: ArrayView2<'_, T>,
-        mean_stiffness: f64,
+        foundation: f64,
         preconditioned: ArrayViewMut2<'_, T>,
     ) -> Result<f64> {
-        let (stiffness, ny) = (&self.stiffness, self.grid.shape().1);
-        let (softest, mean) = (T::lit(self.range.0), T::lit(1.0 / mean_stiffness));
+        let (stiffness, ny, foundation) = (&self.stiffness, self.grid.shape().1, T::lit(foundation));
         let sum = self.convolver.convolve(residual, preconditioned, |k, column| {
             let mut sum = 0.0;
             for (z, &k) in column.iter_mut().zip(row(stiffness, k)) {
                 if k > T::zero() {
                     sum += (z.re.widen().powi(2) + z.im.widen().powi(2)) / k.widen();
-                    *z = z.scale((k + softest).recip());
-                } else {
-                    *z = z.scale(mean);
                 }
+                *z = z.scale((k + foundation).recip());
             }
             // each stored mode stands for its mirror image too, but on the axis and the Nyquist line
             if k == 0 || 2 * k == ny { sum } else { 2.0 * sum }
