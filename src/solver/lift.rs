@@ -14,7 +14,7 @@ use crate::real::Real;
 const SOFTEST: f64 = 0.1;
 
 /// How much stiffer than the contacts the lift is taken to be, as its shape is only an estimate.
-const STIFFER: f64 = 2.0;
+const STIFFER: f64 = 1.5;
 
 /// The gap, in rms heights, at which a node follows the mean by 1/√2; and the least gap that counts, in units of that.
 const HALF: f64 = 0.3;
