@@ -74,17 +74,23 @@ pub trait ElasticOperator<T: Real> {
 
     /// Applies the preconditioner, M r.
     ///
-    /// M is close to the compliance K, with a finite value `1/mean_stiffness` for the mean; it must be symmetric and
-    /// positive. The default applies [`displacement`](Self::displacement).
+    /// Applies the preconditioner, M r.
+    ///
+    /// M is close to (K⁻¹ + `foundation`)⁻¹, the compliance of the half-space on a foundation of that stiffness, pressure
+    /// per length: the waves that are longer than the distances between contacts meet the stiffness of the contacts. For
+    /// the mean it has the value `1/mean_stiffness`, which may be zero. It must be symmetric, and positive but for that. The
+    /// default applies [`displacement`](Self::displacement), and the stiffness to the mean.
     ///
     /// # Errors
     /// [`Error::Shape`] if a field does not fit the grid.
     fn precondition(
         &mut self,
         residual: ArrayView2<'_, T>,
+        foundation: f64,
         mean_stiffness: f64,
         mut preconditioned: ArrayViewMut2<'_, T>,
     ) -> Result<Preconditioned> {
+        let _ = foundation;
         self.displacement(residual, preconditioned.view_mut())?;
         let product =
             Zip::from(&residual).and(&preconditioned).fold(0.0, |sum: f64, &r, &u| sum + r.widen() * u.widen());
@@ -152,11 +158,12 @@ macro_rules! delegate {
         fn precondition(
             &mut self,
             residual: ArrayView2<'_, T>,
+            foundation: f64,
             mean_stiffness: f64,
             preconditioned: ArrayViewMut2<'_, T>,
         ) -> Result<Preconditioned> {
             let $this = self;
-            $inner.precondition(residual, mean_stiffness, preconditioned)
+            $inner.precondition(residual, foundation, mean_stiffness, preconditioned)
         }
     };
 }

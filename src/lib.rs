@@ -58,7 +58,7 @@
 //! # More than one number, more than one load
 //!
 //! [`ContactStatistics`], [`Clusters`] and [`PressureDistribution`] say what the contact of a solution is like; [`Sweep`]
-//! solves under a sequence of loads, each from where the last ones lead.
+//! solves under a sequence of loads, each from where the last ones lead, and [`Nested`] on coarser grids first.
 //!
 //! # Exact solutions
 //!
@@ -81,6 +81,7 @@ mod field;
 mod grid;
 #[cfg(feature = "cli")]
 pub mod io;
+mod nested;
 pub mod paper_checked {
     #![doc = include_str!("paper_checked.md")]
 }
@@ -100,6 +101,7 @@ pub use contact::{Clusters, Connectivity, ContactStatistics, PressureDistributio
 pub use elastic::{ElasticOperator, Preconditioned, Spectral, Westergaard};
 pub use error::{Error, Result};
 pub use grid::Grid;
+pub use nested::{Level, Nested, NestedSolution};
 #[cfg(feature = "cli")]
 pub use picture::{Colouring, Map};
 pub use problem::{Control, Problem};

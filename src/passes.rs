@@ -69,6 +69,13 @@ pub struct Working<T> {
     pub(crate) level: T,
 }
 
+/// How a node follows the mean gap: v = √((g + least)/(g + half)).
+#[derive(Clone, Copy, Debug)]
+pub struct Follows<T> {
+    pub(crate) half: T,
+    pub(crate) least: T,
+}
+
 /// A step before it is clipped.
 #[derive(Clone, Copy, Debug)]
 pub struct Attempt<T> {
@@ -106,6 +113,10 @@ pub trait Passes: Sized {
     /// r' from the r that a step has left in its place: Σ|g r'|, how many nodes may move, Σ r'·change, Σ r'·z with the
     /// z of the state before, and Σ change over the working set.
     fn release(fields: &mut Fields<Self>, projects: bool, working: Working<Self>) -> Partial;
+    /// Σ v and Σ v·r' for how nodes follow the mean gap.
+    fn lift_sums(fields: &mut Fields<Self>, follows: Follows<Self>) -> [f64; 2];
+    /// Adds `scale`·v to z.
+    fn lift(fields: &mut Fields<Self>, follows: Follows<Self>, scale: Self);
     /// Σ z outside of the working set, after a pass for r'.
     fn idle(fields: &mut Fields<Self>) -> f64;
     /// The change that a step makes, clipped: Σ change, how many nodes were clipped, and how many that the gradient drives
@@ -398,6 +409,32 @@ fn release<T: Real>(fields: &mut Fields<T>, projects: bool, working: Working<T>)
     })
 }
 
+#[inline(always)]
+fn follow<T: Real>(follows: Follows<T>, gap: T) -> T {
+    ((gap + follows.least) / (gap + follows.half)).sqrt()
+}
+
+fn lift_sums<T: Real>(fields: &mut Fields<T>, follows: Follows<T>) -> [f64; 2] {
+    let Fields { reducer, gap, residual, .. } = fields;
+    let total = reducer.run(read(gap).zip(read(residual)), |_, (gap, residual)| {
+        sums!(2, [gap, residual], [], |i| {
+            let v = follow(follows, gap[i]).widen();
+            ([v, v * residual[i].widen()], f64::INFINITY)
+        })
+    });
+    [total.sum[0], total.sum[1]]
+}
+
+fn lift<T: Real>(fields: &mut Fields<T>, follows: Follows<T>, scale: T) {
+    let Fields { reducer, gap, preconditioned, .. } = fields;
+    reducer.run(read(gap).zip(write(preconditioned)), |_, (gap, z)| {
+        vectors!([gap], [z], |i| {
+            z[i] += scale * follow(follows, gap[i]);
+        });
+        Partial::NONE
+    });
+}
+
 fn idle<T: Real>(fields: &mut Fields<T>) -> f64 {
     let Fields { reducer, residual, preconditioned, .. } = fields;
     let total = reducer.run_where(
@@ -577,6 +614,12 @@ macro_rules! passes {
             }
             fn release(fields: &mut Fields<Self>, projects: bool, working: Working<Self>) -> Partial {
                 release(fields, projects, working)
+            }
+            fn lift_sums(fields: &mut Fields<Self>, follows: Follows<Self>) -> [f64; 2] {
+                lift_sums(fields, follows)
+            }
+            fn lift(fields: &mut Fields<Self>, follows: Follows<Self>, scale: Self) {
+                lift(fields, follows, scale)
             }
             fn idle(fields: &mut Fields<Self>) -> f64 {
                 idle(fields)

@@ -1,6 +1,6 @@
 use std::ops::ControlFlow;
 
-use ndarray::ArrayView2;
+use ndarray::{ArrayView2, CowArray, Ix2};
 
 use crate::adhesion::AdhesionLaw;
 use crate::constraint::{ContactConstraint, Outer, Projection};
@@ -10,6 +10,7 @@ use crate::problem::{Control, Problem};
 use crate::real::Real;
 
 mod certificate;
+mod lift;
 mod potential;
 mod preconditioned;
 mod report;
@@ -179,8 +180,31 @@ impl<C> Solver<C> {
         L: AdhesionLaw<T>,
         C: ContactConstraint<T>,
     {
+        self.run(problem, control, start.map(CowArray::from), false, observe)
+    }
+
+    /// What [`Solver::solve_from`] does, from a start that may be given away; with `smooth` the jumps of the law are smoothed
+    /// on the way from it.
+    pub(crate) fn run<T, O, L>(
+        &mut self,
+        problem: &mut Problem<T, O, L>,
+        control: Control,
+        start: Option<CowArray<'_, T, Ix2>>,
+        smooth: bool,
+        observe: impl FnMut(&Iteration) -> ControlFlow<()>,
+    ) -> Result<Solution<T>>
+    where
+        T: Real,
+        O: ElasticOperator<T>,
+        L: AdhesionLaw<T>,
+        C: ContactConstraint<T>,
+    {
         Error::positive("tolerance", self.settings.tolerance)?;
+        let smooth = (smooth || start.is_none()) && self.settings.method == Method::Preconditioned;
         let mut state = State::new(problem, &mut self.constraint, control, start, self.settings)?;
+        if smooth {
+            state.smooth();
+        }
         match iterate(&mut state, observe) {
             Ok(status) => state.finish(status),
             Err(error) => {

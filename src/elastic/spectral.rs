@@ -293,18 +293,20 @@ impl<T: Real> ElasticOperator<T> for Spectral<T> {
         Ok(sum / (self.grid.nodes() as f64).powi(2))
     }
 
-    /// M has the symbol 1/(k + s), s the softest stiffness; the products come from the same transform.
+    /// M has the symbol 1/(k + s), s the foundation; the products come from the same transform.
     fn precondition(
         &mut self,
         residual: ArrayView2<'_, T>,
+        foundation: f64,
         mean_stiffness: f64,
         preconditioned: ArrayViewMut2<'_, T>,
     ) -> Result<Preconditioned> {
         let (stiffness, ny) = ((&self.stiffness, self.range.0), self.grid.shape().1);
+        let shift = T::lit(if self.range.0 > 0.0 { foundation / self.range.0 } else { 0.0 });
         let (mean, nodes) = (T::lit(1.0 / mean_stiffness), self.grid.nodes() as f64);
-        let [error, descent, mean] = self.convolver.convolve(residual, preconditioned, |k, column| {
-            weigh(k, ny, soften(stiffness, k, column, T::one(), mean))
-        })?;
+        let [error, descent, mean] = self
+            .convolver
+            .convolve(residual, preconditioned, |k, column| weigh(k, ny, soften(stiffness, k, column, shift, mean)))?;
         Ok(Preconditioned { error: error / nodes.powi(2), descent: descent / nodes.powi(2), mean: mean / nodes })
     }
 }

@@ -1,8 +1,8 @@
-use ndarray::{Array2, ArrayView2};
+use ndarray::{Array2, CowArray, Ix2};
 
 use super::potential::Potential;
 use super::report::{Iteration, Report, Solution, Status};
-use super::start::{given_start, uniform_start};
+use super::start::{GIVEN, given_start, uniform_start};
 use super::{Criterion, Method, Settings};
 use crate::adhesion::AdhesionLaw;
 use crate::constraint::{ContactConstraint, Outer};
@@ -75,6 +75,8 @@ pub(super) struct State<'a, T, O, L, C> {
     /// the last step, if the next one may use it
     pub(super) momentum: Option<Made>,
     pub(super) step_length: f64,
+    /// whether the start was given, and is near the solution
+    pub(super) given: bool,
     /// ⟨r', r'⟩ of the step before, for [`Method::Rey2017`]
     pub(super) residual_norm: Option<f64>,
     pub(super) best_error: f64,
@@ -97,7 +99,7 @@ where
         problem: &'a mut Problem<T, O, L>,
         constraint: &'a mut C,
         control: Control,
-        start: Option<ArrayView2<'_, T>>,
+        start: Option<CowArray<'_, T, Ix2>>,
         settings: Settings,
     ) -> Result<Self> {
         let shape = problem.grid().shape();
@@ -109,13 +111,13 @@ where
         if !T::lit(value).is_finite() {
             return Err(Error::Value { name, value, requirement: "finite in the precision of the fields" });
         }
+        let uniform = start.is_none();
         let gap = match start {
             Some(start) => given_start(start, shape, control, constraint.projects())?,
             None => Array2::from_elem(shape, T::lit(uniform_start(problem, control))),
         };
         let nodes = problem.grid().nodes();
         let field = || Array2::zeros(shape);
-        let uniform = start.is_none();
         let pressure = if uniform { problem.surface_pressure.clone() } else { field() };
         let nothing = Tally::new(&Partial::NONE);
         let mut state = Self {
@@ -144,7 +146,8 @@ where
             applications: 0,
             age: 0,
             momentum: None,
-            step_length: 1.0,
+            step_length: if uniform { 1.0 } else { GIVEN },
+            given: !uniform,
             residual_norm: None,
             best_error: f64::INFINITY,
             lowest_energy: f64::INFINITY,
@@ -158,9 +161,6 @@ where
             state.refresh()?;
         }
         state.check_start()?;
-        if uniform && settings.method == Method::Preconditioned {
-            state.smooth();
-        }
         Ok(state)
     }
 
@@ -215,7 +215,7 @@ where
     }
 
     /// μ: the mean of r where the surfaces are apart, under gap control.
-    fn multiplier(&self) -> f64 {
+    pub(super) fn multiplier(&self) -> f64 {
         match self.control {
             Control::MeanPressure(_) => 0.0,
             Control::MeanGap(_) if self.tally.free > 0.0 => self.tally.sum_r / self.tally.free,
@@ -268,26 +268,20 @@ where
     }
 
     pub(super) fn certify(&mut self) -> Result<()> {
-        let stiffness = self.mean_stiffness();
+        let (foundation, mean_stiffness) = (self.foundation(), self.mean_stiffness());
         let Fields { residual, preconditioned, .. } = &mut self.fields;
-        let found = self.problem.operator.precondition(residual.view(), stiffness, preconditioned.view_mut())?;
+        let found = self.problem.operator.precondition(
+            residual.view(),
+            foundation,
+            mean_stiffness,
+            preconditioned.view_mut(),
+        )?;
         self.certificate = if found.error.is_nan() { f64::INFINITY } else { found.error.max(0.0) };
         self.preconditioned_descent = found.descent * self.nodes();
         self.preconditioned_sum = found.mean * self.nodes();
         self.applications += 1;
+        self.lift(foundation);
         Ok(())
-    }
-
-    /// How stiff the mean gap is taken to be. A rough contact's stiffness is about p̄/h_rms, far below that of the softest
-    /// wave for light loads; between the two, their geometric mean serves all loads.
-    fn mean_stiffness(&self) -> f64 {
-        let (softest, stiffest) = self.problem.operator.stiffness_range();
-        if stiffest <= 0.0 {
-            return self.problem.operator.modulus() / self.problem.grid().lengths().0;
-        }
-        let contact = self.offset().abs() / self.problem.rms_height;
-        let mean = (softest * contact).sqrt();
-        if mean.is_finite() { mean.clamp(0.01 * softest, stiffest) } else { softest }
     }
 
     pub(super) fn update_constraint(&mut self) -> Outer {

@@ -1,0 +1,317 @@
+use std::ops::ControlFlow;
+
+use ndarray::{Array2, CowArray};
+
+use crate::adhesion::AdhesionLaw;
+use crate::constraint::{ContactConstraint, Projection};
+use crate::elastic::ElasticOperator;
+use crate::error::{Error, Result};
+use crate::field::flat_mut;
+use crate::grid::Grid;
+use crate::par;
+use crate::problem::{Control, Problem};
+use crate::real::Real;
+use crate::solver::{Iteration, Settings, Solution, Solver, Status};
+use crate::surface::Surface;
+
+/// The resolution measure above which a coarse grid would pin the contact.
+const RESOLVED: f64 = 0.5;
+
+/// Solves on coarser grids first, each the start of the next finer one.
+///
+/// A coarser grid has every second node of the finer one, along both sides (along x on a line); its heights are those of
+/// its nodes. Its solution is prolonged by cubic interpolation of the displacement g + h; nodes between nodes in contact
+/// are in contact. On the finest grid the iteration, the certificate and the tolerance are those of [`Solver`].
+///
+/// Sizes are halved while they are even and both sides keep `coarsest` nodes; an odd size has no coarser grid. With adhesion
+/// only grids that resolve it ([`Problem::resolution`] up to 0.5) are used, as a coarser one may pin the contact on another
+/// branch. If the traction of the law jumps, the coarser grids [smooth](AdhesionLaw::smooth) it, and so does the finest one on
+/// its way from their solution, as it does from the default start. Without a coarser grid all is as with [`Solver::solve`].
+///
+/// Memory: no more than a solve on the finest grid alone.
+///
+/// ```
+/// use asperity::{Control, Grid, Nested, NoAdhesion, SelfAffine, Status, Westergaard};
+/// let grid = Grid::square(256, 1.0)?;
+/// let surface = SelfAffine { k_s: 32.0, ..SelfAffine::default() }.surface(grid)?;
+/// let half_space = |grid| Westergaard::<f64>::new(grid, 1.0);
+/// let nested = Nested::default().solve(&surface, half_space, NoAdhesion, Control::MeanPressure(0.01))?;
+/// assert_eq!(nested.solution.report.status, Status::Converged);
+/// assert_eq!(nested.levels.len(), 3); // 64², 128², 256²
+/// assert!(nested.equivalent_applications() < 40.0);
+/// # Ok::<(), asperity::Error>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct Nested<C = Projection> {
+    /// The solver of all grids; its tolerance is that of the finest.
+    pub solver: Solver<C>,
+    /// The tolerance on the coarser grids, or that of the solver if it is larger. Default 1e-2: what a coarser grid leaves out
+    /// is more than that.
+    pub coarse_tolerance: f64,
+    /// The least number of nodes along a side of a coarser grid. Default 64.
+    pub coarsest: usize,
+}
+
+/// What the solve on one of nested grids took.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Level {
+    /// The nodes (Nx, Ny) of the grid.
+    pub shape: (usize, usize),
+    /// How the solve ended.
+    pub status: Status,
+    /// How many steps were made.
+    pub iterations: usize,
+    /// How many applications it took, with the one that constructs the problem.
+    pub operator_applications: usize,
+}
+
+/// The solution on the finest of nested grids.
+#[derive(Clone, Debug, PartialEq)]
+pub struct NestedSolution<T> {
+    /// The solution; its report counts the finest grid alone.
+    pub solution: Solution<T>,
+    /// The grids, the finest last.
+    pub levels: Vec<Level>,
+}
+
+impl<T> NestedSolution<T> {
+    /// All operator applications in units of one on the finest grid, those that construct the problems included: one on a
+    /// grid with a quarter of the nodes counts as a quarter.
+    pub fn equivalent_applications(&self) -> f64 {
+        let nodes = |level: &Level| (level.shape.0 * level.shape.1) as f64;
+        let finest = self.levels.last().map_or(1.0, nodes);
+        self.levels.iter().map(|level| level.operator_applications as f64 * nodes(level) / finest).sum()
+    }
+}
+
+impl Nested {
+    /// Nested grids for a solver that confines the gap to g ≥ 0 by projection.
+    pub fn new(settings: Settings) -> Self {
+        Self { solver: Solver::new(settings), coarse_tolerance: 1e-2, coarsest: 64 }
+    }
+}
+
+impl Default for Nested {
+    /// The default settings, and projection.
+    fn default() -> Self {
+        Self::new(Settings::default())
+    }
+}
+
+impl<C> Nested<C> {
+    /// Solves the problem of pressing `surface` against what `operator` makes for a grid.
+    ///
+    /// # Errors
+    /// Those of `operator`, [`Problem::new`] and [`Solver::solve_from`]; [`Error::Value`] if the coarse tolerance is not
+    /// positive.
+    pub fn solve<T, O, L>(
+        &mut self,
+        surface: &Surface,
+        operator: impl FnMut(Grid) -> Result<O>,
+        law: L,
+        control: Control,
+    ) -> Result<NestedSolution<T>>
+    where
+        T: Real,
+        O: ElasticOperator<T>,
+        L: AdhesionLaw<T>,
+        C: ContactConstraint<T>,
+    {
+        self.solve_observed(surface, operator, law, control, |_, _| ControlFlow::Continue(()))
+    }
+
+    /// The same, and calls `observe` with the grid in every iteration. Where it stops a solve, the finer grids end with their
+    /// first iteration.
+    ///
+    /// # Errors
+    /// Those of [`Nested::solve`].
+    pub fn solve_observed<T, O, L>(
+        &mut self,
+        surface: &Surface,
+        mut operator: impl FnMut(Grid) -> Result<O>,
+        mut law: L,
+        control: Control,
+        mut observe: impl FnMut(&Grid, &Iteration) -> ControlFlow<()>,
+    ) -> Result<NestedSolution<T>>
+    where
+        T: Real,
+        O: ElasticOperator<T>,
+        L: AdhesionLaw<T>,
+        C: ContactConstraint<T>,
+    {
+        Error::positive("coarse tolerance", self.coarse_tolerance)?;
+        let settings = self.solver.settings;
+        let strides = strides(surface.grid().shape(), self.coarsest);
+        let (mut levels, mut start) = (Vec::new(), None);
+        let mut stopped = false;
+        for &stride in strides.iter().rev().filter(|&&stride| stride > (1, 1)) {
+            let coarse = coarsen(surface, stride)?;
+            let mut problem = Problem::new(&coarse, operator(*coarse.grid())?, law)?;
+            if problem.resolution() > RESOLVED {
+                law = problem.law;
+                continue;
+            }
+            let tolerance = self.coarse_tolerance.max(settings.tolerance);
+            self.solver.settings = Settings { tolerance, ..settings };
+            let mut smoothed = false;
+            let begin = start.take().map(CowArray::from);
+            let result = self.solver.run(&mut problem, control, begin, true, |iteration| {
+                stopped = stopped || observe(coarse.grid(), iteration).is_break();
+                // the equilibrium of the smoothed law is all that the next grid needs
+                let done = smoothed && !iteration.smoothed;
+                smoothed = iteration.smoothed;
+                if stopped || done { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+            });
+            self.solver.settings = settings;
+            let Solution { gap, report, .. } = result?;
+            levels.push(Level {
+                shape: coarse.grid().shape(),
+                status: report.status,
+                iterations: report.iterations,
+                operator_applications: report.operator_applications + 1,
+            });
+            law = problem.law;
+            drop(problem.operator);
+            // a coarse grid that does not hold a tension says nothing of a finer one
+            if report.status != Status::Detached {
+                let finer = finer(&strides, stride);
+                start = Some(prolong(surface, finer, &coarse, &gap, self.solver.constraint.projects()));
+            }
+        }
+        let mut problem = Problem::new(surface, operator(*surface.grid())?, law)?;
+        let begin = start.take().map(CowArray::from);
+        let solution = self.solver.run(&mut problem, control, begin, true, |iteration| {
+            stopped = stopped || observe(surface.grid(), iteration).is_break();
+            if stopped { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        })?;
+        levels.push(Level {
+            shape: surface.grid().shape(),
+            status: solution.report.status,
+            iterations: solution.report.iterations,
+            operator_applications: solution.report.operator_applications + 1,
+        });
+        Ok(NestedSolution { solution, levels })
+    }
+}
+
+/// Of how many nodes of the finest grid along each side each grid has one, the finest first.
+fn strides((nx, ny): (usize, usize), coarsest: usize) -> Vec<(usize, usize)> {
+    let coarsest = coarsest.max(4);
+    let halves = |n: usize, stride: usize| n % (2 * stride) == 0 && n / (2 * stride) >= coarsest;
+    let mut all = vec![(1, 1)];
+    let mut stride = (1, 1);
+    while halves(nx, stride.0) && (ny == 1 || halves(ny, stride.1)) {
+        stride = (2 * stride.0, if ny == 1 { 1 } else { 2 * stride.1 });
+        all.push(stride);
+    }
+    all
+}
+
+/// The next finer grid.
+fn finer(strides: &[(usize, usize)], stride: (usize, usize)) -> (usize, usize) {
+    strides.iter().rev().copied().find(|finer| finer.0 < stride.0).unwrap_or((1, 1))
+}
+
+fn coarsen(surface: &Surface, (x, y): (usize, usize)) -> Result<Surface> {
+    let (nx, ny) = surface.grid().shape();
+    let grid = Grid::new((nx / x, ny / y), surface.grid().lengths())?;
+    Surface::new(grid, Array2::from_shape_fn(grid.shape(), |(i, j)| surface.heights()[[i * x, j * y]]))
+}
+
+/// The gap on the next finer grid, of which the nodes are `stride` nodes of the surface apart.
+fn prolong<T: Real>(
+    surface: &Surface,
+    stride: (usize, usize),
+    coarse: &Surface,
+    gap: &Array2<T>,
+    projects: bool,
+) -> Array2<T> {
+    let (cx, cy) = coarse.grid().shape();
+    let (nx, ny) = surface.grid().shape();
+    let shape = (nx / stride.0, ny / stride.1);
+    // how many finer nodes there are to a coarse one
+    let (rx, ry) = (shape.0 / cx, shape.1 / cy);
+    let displacement = |i: usize, j: usize| gap[[i, j]].widen() + coarse.heights()[[i, j]];
+    // whether the interpolation has only nodes in contact about it
+    let touches = |i: usize, j: usize| gap[[i, j]] <= T::zero();
+    let mut fine = Array2::zeros(shape);
+    let rows: Vec<usize> = (0..shape.0).collect();
+    par::for_each(par::chunks_mut(flat_mut(&mut fine), shape.1), par::chunks(&rows, 1), |row, index| {
+        let (i, between) = (index[0] / rx, !index[0].is_multiple_of(rx));
+        let at = |shift: usize| (i + cx + shift - 1) % cx;
+        let (mut line, mut contact) = (vec![0.0; cy], vec![false; cy]);
+        for j in 0..cy {
+            let u = |shift: usize| displacement(at(shift), j);
+            (line[j], contact[j]) = if between {
+                (middle(u(0), u(1), u(2), u(3)), touches(i, j) && touches(at(2), j))
+            } else {
+                (u(1), touches(i, j))
+            };
+        }
+        for (k, g) in row.iter_mut().enumerate() {
+            let (j, next) = (k / ry, (k / ry + 1) % cy);
+            let (u, contact) = if k.is_multiple_of(ry) {
+                (line[j], contact[j])
+            } else {
+                let before = (j + cy - 1) % cy;
+                (middle(line[before], line[j], line[next], line[(j + 2) % cy]), contact[j] && contact[next])
+            };
+            let apart = u - surface.heights()[[index[0] * stride.0, k * stride.1]];
+            *g = match projects {
+                true if contact => T::zero(),
+                true => T::lit(apart.max(0.0)),
+                false => T::lit(apart),
+            };
+        }
+    });
+    fine
+}
+
+/// Half-way between the second and the third of four equidistant values, on the cubic through all four.
+fn middle(a: f64, b: f64, c: f64, d: f64) -> f64 {
+    (9.0 * (b + c) - (a + d)) / 16.0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn even_sizes_are_halved() {
+        let squares = |n| strides((n, n), 64).len();
+        assert_eq!([64, 96, 127, 128, 192, 256, 1023, 1024, 1536].map(squares), [1, 1, 1, 2, 2, 3, 1, 5, 4]);
+        assert_eq!(strides((512, 1), 64), [(1, 1), (2, 1), (4, 1), (8, 1)]);
+        assert_eq!(strides((512, 192), 64), [(1, 1), (2, 2)]);
+        assert_eq!(strides((512, 95), 64), [(1, 1)]);
+    }
+
+    #[test]
+    fn a_wave_is_prolonged_to_fourth_order() {
+        for shape in [(64, 64), (64, 32), (64, 1)] {
+            let grid = Grid::new(shape, (1.0, 1.0)).unwrap();
+            let surface = Surface::wave(grid, 1e-3, 3).unwrap();
+            let stride = (2, if shape.1 == 1 { 1 } else { 2 });
+            let coarse = coarsen(&surface, stride).unwrap();
+            let wave = |grid: &Grid| {
+                grid.sample(|x, y| 2.0 + (std::f64::consts::TAU * x).sin() * (std::f64::consts::TAU * y).cos())
+            };
+            let (gap, exact) = (wave(coarse.grid()) - coarse.heights(), wave(&grid) - surface.heights());
+            let fine = prolong(&surface, (1, 1), &coarse, &gap, true);
+            // the error of the cubic in the middle, 3/128 of the fourth derivative, along both sides
+            let spacing = std::f64::consts::TAU / f64::from(16_u32.min(shape.1 as u32 / 2).max(16));
+            let worst = (&fine - &exact).iter().fold(0.0_f64, |worst, e| worst.max(e.abs()));
+            assert!(worst < 2.1 * 3.0 / 128.0 * spacing.powi(4), "{worst}");
+        }
+    }
+
+    #[test]
+    fn nodes_between_nodes_in_contact_are_in_contact() {
+        let grid = Grid::square(16, 1.0).unwrap();
+        let surface = Surface::wave_2d(grid, 0.1, 3).unwrap();
+        let coarse = coarsen(&surface, (2, 2)).unwrap();
+        let gap = Array2::from_shape_fn((8, 8), |(i, _)| if i < 4 { 0.0_f32 } else { 1.0 });
+        let fine = prolong(&surface, (1, 1), &coarse, &gap, true);
+        assert!(fine.rows().into_iter().take(7).all(|row| row.iter().all(|&g| g == 0.0)));
+        assert!(fine.rows().into_iter().skip(8).step_by(2).all(|row| row.iter().all(|&g| g > 0.0)));
+    }
+}

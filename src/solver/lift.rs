@@ -1,0 +1,91 @@
+//! The mean gap under a given pressure: how stiff the contacts are, and what moves when it changes.
+
+use super::Method;
+use super::state::State;
+use crate::adhesion::AdhesionLaw;
+use crate::constraint::ContactConstraint;
+use crate::elastic::ElasticOperator;
+use crate::passes::Follows;
+use crate::problem::Control;
+use crate::real::Real;
+
+/// The stiffness of the contacts is not taken to be less than this share of that of the softest wave.
+const SOFTEST: f64 = 0.1;
+
+/// How much stiffer than the contacts the lift is taken to be, as its shape is only an estimate.
+const STIFFER: f64 = 1.5;
+
+/// The gap, in rms heights, at which a node follows the mean by 1/√2; and the least gap that counts, in units of that.
+const HALF: f64 = 0.3;
+const LEAST: f64 = 1e-3;
+
+impl<T, O, L, C> State<'_, T, O, L, C>
+where
+    T: Real,
+    O: ElasticOperator<T>,
+    L: AdhesionLaw<T>,
+    C: ContactConstraint<T>,
+{
+    /// The stiffness of the contacts against a change of the mean gap, about λ̄/h_rms for rough surfaces.
+    fn contact_stiffness(&self) -> f64 {
+        let external = match self.control {
+            Control::MeanGap(_) => -self.multiplier(),
+            Control::MeanPressure(pressure) => pressure,
+        };
+        (external + self.tally.traction / self.nodes()).abs() / self.problem.rms_height
+    }
+
+    /// The stiffness that long waves meet beside their own: that of the contacts. On the way from a far start under a given
+    /// pressure it is not known yet.
+    pub(super) fn foundation(&self) -> f64 {
+        let (softest, stiffest) = self.problem.operator.stiffness_range();
+        if stiffest <= 0.0 {
+            return self.problem.operator.modulus() / self.problem.grid().lengths().0;
+        }
+        let contact = self.contact_stiffness();
+        let near = self.given || self.is_gap_controlled();
+        if near && contact.is_finite() { contact.clamp(SOFTEST * softest, stiffest) } else { softest }
+    }
+
+    /// Whether the mean gap follows the load by [`Self::lift`].
+    fn lifts(&self) -> bool {
+        let stiffest = self.problem.operator.stiffness_range().1;
+        let preconditioned = self.settings.method == Method::Preconditioned;
+        self.given && !self.is_gap_controlled() && preconditioned && self.constraint.projects() && stiffest > 0.0
+    }
+
+    /// How stiff the mean gap is taken to be, where it is not lifted.
+    ///
+    /// On the way from a far start, the geometric mean of the stiffness of the contacts, far too small for light loads, and
+    /// that of the softest wave.
+    pub(super) fn mean_stiffness(&self) -> f64 {
+        if self.lifts() {
+            return f64::INFINITY;
+        }
+        let (softest, stiffest) = self.problem.operator.stiffness_range();
+        if stiffest <= 0.0 {
+            return self.foundation();
+        }
+        let mean = (softest * self.contact_stiffness()).sqrt();
+        if mean.is_finite() { mean.clamp(0.01 * softest, stiffest) } else { softest }
+    }
+
+    /// Lets the mean gap follow the load, under a given pressure and near the solution.
+    ///
+    /// Nodes that are far apart follow the mean, and those near the edge of a contact hardly move. A uniform lift would tear
+    /// all edges open. In its place z gains v⟨v r'⟩/(⟨v⟩²k), with v = √(g/(g + g₀)) and k the stiffness of the contacts.
+    pub(super) fn lift(&mut self, foundation: f64) {
+        if !self.lifts() {
+            return;
+        }
+        let half = HALF * self.problem.rms_height;
+        let follows = Follows { half: T::lit(half), least: T::lit(LEAST * half) };
+        let [v, product] = T::lift_sums(&mut self.fields, follows);
+        let scale = product / v / (v / self.nodes()) / (STIFFER * foundation);
+        if scale.is_finite() {
+            T::lift(&mut self.fields, follows, T::lit(scale));
+            self.preconditioned_descent += scale * product;
+            self.preconditioned_sum += scale * v;
+        }
+    }
+}
