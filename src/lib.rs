@@ -90,6 +90,7 @@ mod picture;
 mod problem;
 mod real;
 mod solver;
+mod stability;
 mod surface;
 mod sweep;
 
@@ -104,6 +105,7 @@ pub use picture::{Colouring, Map};
 pub use problem::{Control, Problem};
 pub use real::Real;
 pub use solver::{Criterion, Iteration, Method, Report, Settings, Solution, Solver, Status};
+pub use stability::{Departure, Stability, StabilityTest, Verdict};
 pub use surface::{Amplitude, Psd, SelfAffine, Spectrum, Surface, SurfaceStatistics};
 pub use sweep::Sweep;
 
