@@ -85,6 +85,7 @@ pub mod paper_checked {
     #![doc = include_str!("paper_checked.md")]
 }
 mod par;
+mod path;
 #[cfg(feature = "cli")]
 mod picture;
 mod problem;
@@ -100,6 +101,7 @@ pub use contact::{Clusters, Connectivity, ContactStatistics, PressureDistributio
 pub use elastic::{ElasticOperator, Spectral, Westergaard};
 pub use error::{Error, Result};
 pub use grid::Grid;
+pub use path::{Event, Jump, Path, PathCheckpoint, PathSettings, PathStep};
 #[cfg(feature = "cli")]
 pub use picture::{Colouring, Map};
 pub use problem::{Control, Problem};
