@@ -21,6 +21,7 @@ use track::{Mode, State, Track};
 /// |---|---|---|---|
 /// | `steps` | 50 | the least number of steps in a leg | at least 1 |
 /// | `resolution` | 1e-4 | the step, as a share of the leg, to which a jump is located | positive, below 1 |
+/// | `smooth` | true | whether jumps of the law's traction are smoothed, by what the grid can resolve | |
 /// | `tolerance` | 1e-4 | how far the energy may be from the work done in a step, as a share of how much the energy has changed along the path (or of w/1000, if that is more) | positive |
 ///
 /// A smaller tolerance asks for a smaller tolerance of the solver too: its square must be well below.
@@ -32,11 +33,13 @@ pub struct PathSettings {
     pub resolution: f64,
     /// The imbalance of energy that a step may have without being a jump.
     pub tolerance: f64,
+    /// Whether jumps of the law's traction are smoothed.
+    pub smooth: bool,
 }
 
 impl Default for PathSettings {
     fn default() -> Self {
-        Self { steps: 50, resolution: 1e-4, tolerance: 1e-4 }
+        Self { steps: 50, resolution: 1e-4, tolerance: 1e-4, smooth: true }
     }
 }
 
@@ -70,9 +73,12 @@ pub struct PathStep<T> {
 /// Along a branch the energy changes by the work of the load, de = −p̄ dḡ. A step in which it falls by more has jumped to another
 /// branch, or is too long for the quadrature of the work (by up to four states, of fourth order): it is taken back and halved.
 /// When it cannot be halved any more, at [`PathSettings::resolution`], what is missing is the energy that the jump
-/// dissipates, if it is more than the step could do at either end's load; the step is taken, and its [`Event`] says so. Where the
-/// traction of the law jumps, as that of [`MaugisDugdale`](crate::MaugisDugdale), every node that enters or leaves the adhesive zone
-/// is a small jump: those below the tolerance go into [`PathStep::imbalance`].
+/// dissipates, if it is more than the step could do at either end's load; the step is taken, and its [`Event`] says so.
+///
+/// Where the traction of the law jumps, as that of [`MaugisDugdale`](crate::MaugisDugdale), every node that enters or leaves the adhesive zone
+/// is a small jump, and the grid holds the edge of that zone back: a hysteresis that the continuum has not. Unless
+/// [`PathSettings::smooth`] is off, the path is therefore one of the [smoothed](AdhesionLaw::smooth) law, of which the pull-off force
+/// converges faster; energies and errors in the reports are that law's.
 ///
 /// # Limit points
 ///
@@ -125,6 +131,9 @@ pub struct PathCheckpoint<T> {
     /// The last gaps.
     pub gaps: Vec<Array2<T>>,
 }
+
+/// How often a solve that did not converge is taken up again, where the step cannot be halved.
+const RETRIES: usize = 3;
 
 /// How far the last step may be extrapolated, in steps.
 const FARTHEST: f64 = 2.0;
@@ -217,11 +226,7 @@ where
         if !self.state.solved {
             let control = *self.legs.first()?;
             let start = self.start.take();
-            let solution =
-                self.solver.solve_from(self.problem, control, start.as_ref().map(|gap| gap.view()), |iteration| {
-                    observe(iteration)
-                });
-            return Some(solution.map(|solution| {
+            return Some(self.first(control, start, observe).map(|solution| {
                 self.state.begin(&solution.report);
                 self.gaps.push(solution.gap.clone());
                 self.step(solution, control, None)
@@ -241,13 +246,55 @@ where
         None
     }
 
+    /// The first state. The default start is an equilibrium of the law itself.
+    fn first(
+        &mut self,
+        control: Control,
+        start: Option<Array2<T>>,
+        observe: &mut dyn FnMut(&Iteration) -> ControlFlow<()>,
+    ) -> Result<Solution<T>> {
+        let jumps = self.settings.smooth && self.problem.smooth_law();
+        if jumps {
+            self.problem.law.smooth(T::zero());
+        }
+        match start {
+            Some(start) => self.solve(control, Some(&start), observe),
+            None if jumps => {
+                let sharp = self.solve(control, None, observe)?;
+                self.solve(control, Some(&sharp.gap), observe)
+            }
+            None => self.solve(control, None, observe),
+        }
+    }
+
+    /// A solve with the jumps of the law smoothed, if they are to be.
+    fn solve(
+        &mut self,
+        control: Control,
+        start: Option<&Array2<T>>,
+        observe: &mut dyn FnMut(&Iteration) -> ControlFlow<()>,
+    ) -> Result<Solution<T>> {
+        let smoothed = self.settings.smooth && start.is_some() && self.problem.smooth_law();
+        let start = start.map(|gap| gap.view());
+        let solution = self.solver.solve_from(self.problem, control, start, |iteration| observe(iteration));
+        if smoothed {
+            self.problem.law.smooth(T::zero());
+        }
+        solution
+    }
+
     /// One step, if it was good.
     fn attempt(&mut self, observe: &mut dyn FnMut(&Iteration) -> ControlFlow<()>) -> Result<Option<PathStep<T>>> {
         let (target, smallest) = self.state.next_target(&self.settings);
         let control = self.state.mode.control(target);
         let start = self.predict(target);
-        let solution =
-            self.solver.solve_from(self.problem, control, Some(start.view()), |iteration| observe(iteration))?;
+        let mut solution = self.solve(control, Some(&start), observe)?;
+        // a long way after a jump may need another run-up
+        for _ in 0..RETRIES {
+            if smallest && matches!(solution.report.status, Status::Stalled | Status::IterationLimit) {
+                solution = self.solve(control, Some(&solution.gap), observe)?;
+            }
+        }
         let report = &solution.report;
         if report.status == Status::Stopped {
             self.failed = true;

@@ -221,6 +221,11 @@ impl State {
     pub(super) fn leave_pressure_control(&mut self, far: f64, settings: &PathSettings) {
         let here = self.here();
         let (from, to) = self.span;
+        if here.gap == 0.0 && to > from {
+            // pressed flat, and no way to go on
+            self.span = (here.pressure, here.pressure);
+            return;
+        }
         self.limit = Some((here.gap, here.pressure));
         self.pressures = Some((to, from));
         let end = if to > from { 0.0 } else { far.max(2.0 * here.gap) };
@@ -292,12 +297,17 @@ impl State {
         }
         self.places.push(next);
         self.at.push(next);
-        if self.pressures.is_some_and(|(end, start)| {
-            (next.pressure - end).abs() <= LANDING * (end - start).abs() || (next.pressure - end) * (end - start) > 0.0
-        }) {
-            // the leg ends here
-            let x = next.slope(self.mode).0;
-            self.span = (x, x);
+        if let Some((end, start)) = self.pressures {
+            let short = (end - next.pressure) * (end - start).signum();
+            if short <= LANDING * (end - start).abs() {
+                // the leg ends here
+                let x = next.slope(self.mode).0;
+                self.span = (x, x);
+            } else if next.gap == 0.0 {
+                // pressed flat, the surfaces bear any pressure
+                self.pressures = None;
+                self.turn(Mode::Pressure, end, settings);
+            }
         }
         event
     }
