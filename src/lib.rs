@@ -103,7 +103,7 @@ pub use error::{Error, Result};
 pub use grid::Grid;
 pub use path::{Event, Jump, Path, PathCheckpoint, PathSettings, PathStep};
 #[cfg(feature = "cli")]
-pub use picture::{Colouring, Map};
+pub use picture::{Chart, Colouring, Map};
 pub use problem::{Control, Problem};
 pub use real::Real;
 pub use solver::{Criterion, Iteration, Method, Report, Settings, Solution, Solver, Status};
