@@ -196,7 +196,7 @@ fn rough(size: usize, path: &File) -> Outcome<()> {
     println!("{:>8} {:>8} {:>6} {:>12} {:>12}", "w", "ρ", "μ_ρ", "pull-off", "dissipated");
     let mut curves = Vec::new();
     for ((work, range), colour) in [(2e-5, 1e-3), (5e-5, 1e-3), (1e-4, 1e-3)].into_iter().zip(COLOURS) {
-        let gaps = [0.028, 0.008];
+        let gaps = [0.022, 0.005];
         let settings = PathSettings { resolution: 1e-3, ..PathSettings::default() };
         let found = cycle(&surface, Exponential::new(work, range)?, gaps, settings)?;
         println!(

@@ -60,6 +60,12 @@
 //! [`ContactStatistics`], [`Clusters`] and [`PressureDistribution`] say what the contact of a solution is like; [`Sweep`]
 //! solves under a sequence of loads, each from where the last ones lead.
 //!
+//! # Branches, jumps and stability
+//!
+//! With adhesion there may be several equilibria at one load, and none next to some of them at the next. [`Path`] follows a branch in
+//! steps that adapt themselves, locates its jumps and keeps the balance of energy; [`StabilityTest`] tells whether an equilibrium
+//! lasts, with the smallest eigenvalue of the second derivative of the energy, and [`Stability::leave`] leaves one that does not.
+//!
 //! # Exact solutions
 //!
 //! [`exact`] has the closed forms to compare with: spheres by Hertz, JKR and Maugis, alone or among their periodic images,

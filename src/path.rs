@@ -194,7 +194,7 @@ where
         }
         let state = State::of_numbers(&from.numbers).filter(|state| {
             state.leg < self.legs.len().max(1)
-                && state.solved == !from.gaps.is_empty()
+                && state.solved != from.gaps.is_empty()
                 && from.gaps.len() == state.at.len()
         });
         let Some(state) = state else {

@@ -62,7 +62,7 @@ pub(super) fn lowest<T: Real>(hessian: &mut Hessian<'_, T>, tolerance: f64, most
         let (gram, energy) = products(hessian, [&x, &w, &p], [&ax, &aw, &ap]);
         let [of_x, of_w, of_p] = ritz(&gram, &energy, directions);
         let size = (of_w * of_w * gram[1][1] + 2.0 * of_w * of_p * gram[1][2] + of_p * of_p * gram[2][2]).sqrt();
-        if !(size > 0.0) {
+        if size.is_nan() || size <= 0.0 {
             // the best of the three is what there was
             return Ok(Eigenpair { value, residual, noise, vector: x });
         }
@@ -162,15 +162,11 @@ fn lowest_of(mut m: Matrix, size: usize) -> [f64; 3] {
             let sin = tangent * cos;
             let turn = |a: &mut f64, b: &mut f64| (*a, *b) = (cos * *a - sin * *b, sin * *a + cos * *b);
             for row in m.iter_mut().chain(vectors.iter_mut()) {
-                let (mut a, mut b) = (row[i], row[j]);
-                turn(&mut a, &mut b);
-                (row[i], row[j]) = (a, b);
+                let (head, tail) = row.split_at_mut(j);
+                turn(&mut head[i], &mut tail[0]);
             }
-            for k in 0..3 {
-                let (mut a, mut b) = (m[i][k], m[j][k]);
-                turn(&mut a, &mut b);
-                (m[i][k], m[j][k]) = (a, b);
-            }
+            let (head, tail) = m.split_at_mut(j);
+            head[i].iter_mut().zip(&mut tail[0]).for_each(|(a, b)| turn(a, b));
             (m[i][j], m[j][i]) = (0.0, 0.0);
         }
     }
