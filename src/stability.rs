@@ -90,7 +90,8 @@ impl fmt::Display for Verdict {
 /// for (gap, verdict) in [(0.011, Verdict::Unstable), (0.012, Verdict::Stable)] {
 ///     let control = Control::MeanGap(gap);
 ///     let solution = Solver::default().solve(&mut problem, control)?;
-///     let stability = StabilityTest::default().run(&mut problem, control, &solution)?;
+///     let test = StabilityTest { tolerance: 1e-3, ..StabilityTest::default() };
+///     let stability = test.run(&mut problem, control, &solution)?;
 ///     let exact = std::f64::consts::PI - 10.0 * (-gap / 1e-2_f64).exp();
 ///     assert_eq!(stability.verdict, verdict);
 ///     assert!((stability.eigenvalue - exact).abs() < 1e-5);

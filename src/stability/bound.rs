@@ -160,7 +160,8 @@ mod tests {
             for share in [0.1, 0.5, 1.0] {
                 let bound = lower_bound(&pair, lift, share * lifted);
                 assert!(bound <= e * (1.0 + 1e-12), "{bound} {e}");
-                assert!(bound > 0.05 * e.min(share * lifted), "{bound} {e} {share}");
+                // and close to it, or to what was known, unless the vector is far off
+                assert!(angle > 0.05 || bound > 0.05 * e.min(share * lifted), "{bound} {e} {share}");
             }
         }
     }
