@@ -10,6 +10,7 @@ use crate::real::Real;
 use crate::solver::{Iteration, Solution, Solver, Status};
 
 mod event;
+mod quadrature;
 mod track;
 
 pub use event::{Event, Jump};
