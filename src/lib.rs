@@ -60,6 +60,12 @@
 //! [`ContactStatistics`], [`Clusters`] and [`PressureDistribution`] say what the contact of a solution is like; [`Sweep`]
 //! solves under a sequence of loads, each from where the last ones lead, and [`Nested`] on coarser grids first.
 //!
+//! # Branches, jumps and stability
+//!
+//! With adhesion there may be several equilibria at one load, and none next to some of them at the next. [`Path`] follows a branch in
+//! steps that adapt themselves, locates its jumps and keeps the balance of energy; [`StabilityTest`] tells whether an equilibrium
+//! lasts, with the smallest eigenvalue of the second derivative of the energy, and [`Stability::leave`] leaves one that does not.
+//!
 //! # Exact solutions
 //!
 //! [`exact`] has the closed forms to compare with: spheres by Hertz, JKR and Maugis, alone or among their periodic images,
@@ -87,11 +93,13 @@ pub mod paper_checked {
 }
 mod par;
 mod passes;
+mod path;
 #[cfg(feature = "cli")]
 mod picture;
 mod problem;
 mod real;
 mod solver;
+mod stability;
 mod surface;
 mod sweep;
 
@@ -102,11 +110,13 @@ pub use elastic::{ElasticOperator, Preconditioned, Spectral, Westergaard};
 pub use error::{Error, Result};
 pub use grid::Grid;
 pub use nested::{Level, Nested, NestedSolution};
+pub use path::{Event, Jump, Path, PathCheckpoint, PathSettings, PathStep};
 #[cfg(feature = "cli")]
-pub use picture::{Colouring, Map};
+pub use picture::{Chart, Colouring, Map};
 pub use problem::{Control, Problem};
 pub use real::Real;
 pub use solver::{Criterion, Iteration, Method, Report, Settings, Solution, Solver, Status};
+pub use stability::{Departure, Stability, StabilityTest, Verdict};
 pub use surface::{Amplitude, Psd, SelfAffine, Spectrum, Surface, SurfaceStatistics};
 pub use sweep::Sweep;
 

@@ -1,6 +1,7 @@
 //! Fields drawn as labelled maps.
 
 mod canvas;
+mod chart;
 mod colours;
 mod scale;
 
@@ -17,6 +18,7 @@ use ndarray::ArrayView2;
 use crate::error::{Error, Result};
 use crate::grid::Grid;
 use canvas::{CHARACTER, Canvas, text_width};
+pub use chart::Chart;
 pub use colours::Colouring;
 use colours::{Colours, MISSING, drawable};
 use scale::{Axis, Part, three_digits};

@@ -7,6 +7,10 @@ use crate::grid::Grid;
 use crate::real::Real;
 use crate::surface::Surface;
 
+/// The compliance with which the jumps of a law are smoothed, in Δx/E*. A node alone has 1.1, the nodes along an
+/// edge some 3 together.
+const SMOOTHING: f64 = 5.0;
+
 /// What is held fixed while the energy is minimised.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Control {
@@ -85,6 +89,12 @@ impl<T: Real, O: ElasticOperator<T>, L: AdhesionLaw<T>> Problem<T, O, L> {
     /// The adhesion law.
     pub fn law(&self) -> &L {
         &self.law
+    }
+
+    /// Smooths the jumps of the law by what the grid can resolve; `false` if it has none.
+    pub(crate) fn smooth_law(&mut self) -> bool {
+        let compliance = SMOOTHING * self.grid().largest_spacing() / self.operator.modulus();
+        self.law.smooth(T::lit(compliance))
     }
 
     /// Whether the grid resolves the adhesive zone: μ_ρ = √(wΔx/E*)/ρ, with the larger of Δx and Δy.

@@ -11,6 +11,7 @@ mod self_affine;
 mod spectrum;
 mod statistics;
 
+pub(crate) use philox::uniform;
 pub use self_affine::{Amplitude, SelfAffine};
 pub use spectrum::{Psd, Spectrum};
 pub use statistics::SurfaceStatistics;

@@ -28,9 +28,21 @@ impl Bench {
     }
 
     fn command(&self, arguments: &str) -> Command {
+        self.command_of("sweep", arguments)
+    }
+
+    fn command_of(&self, name: &str, arguments: &str) -> Command {
         let mut command = Command::new(env!("CARGO_BIN_EXE_asperity"));
-        command.current_dir(&self.0).args(["sweep", "--heights", "heights.npy"]).args(arguments.split_whitespace());
+        command.current_dir(&self.0).args([name, "--heights", "heights.npy"]).args(arguments.split_whitespace());
         command
+    }
+
+    /// Follows a cycle to the end, and expects this exit code.
+    #[track_caller]
+    fn cycle(&self, arguments: &str, code: i32) -> Output {
+        let output = self.command_of("cycle", arguments).output().unwrap();
+        assert_eq!(output.status.code(), Some(code), "{arguments}: {}", text(&output.stderr));
+        output
     }
 
     /// Sweeps to the end, and expects this exit code.
@@ -201,7 +213,7 @@ fn the_file_of_another_sweep_is_refused_and_kept() {
         ("--mean-pressures 2e-3,5e-3 --out sweep.csv".to_owned(), "first 2 loads"),
         ("--mean-pressures 2e-3 --out sweep.csv".to_owned(), "first 2 loads"),
     ] {
-        bench.refuse(&arguments, &["sweep.csv", "another sweep", part, "--force"]);
+        bench.refuse(&arguments, &["sweep.csv", "another run", part, "--force"]);
         assert_eq!((bench.read("sweep.csv"), bench.names(".")), (before.clone(), names.clone()), "{arguments}");
     }
     let mut heights = wavy(32);
@@ -287,7 +299,7 @@ fn fields_are_kept_for_every_load() {
     let contact = second.iter().filter(|gap| **gap == 0.0).count() as f64 / 1024.0;
     assert_eq!(column(&table, "contact_fraction")[1], contact);
     bench.refuse("--mean-gaps 0.02,0.01 --fields fields --out other.csv", &["gap-0001.npy", "exists", "--force"]);
-    bench.refuse("--mean-gaps 0.02,0.01 --out sweep.csv", &["another sweep", "fields"]);
+    bench.refuse("--mean-gaps 0.02,0.01 --out sweep.csv", &["another run", "fields"]);
     // more loads go on from there
     bench.sweep("--mean-gaps 0.02,0.01,0.005 --fields fields --out sweep.csv", 0);
     assert!(bench.read("sweep.csv").starts_with(&table) && bench.rows("sweep.csv") == 3);
@@ -304,4 +316,73 @@ fn help_tells_the_lists_and_the_exit_codes() {
 
 fn bench_help() -> Output {
     Command::new(env!("CARGO_BIN_EXE_asperity")).args(["sweep", "--help"]).output().unwrap()
+}
+
+/// A wave that jumps into and out of contact.
+const CYCLE: &str = "--law exponential --work-of-adhesion 8e-5 --range 2e-3 --mean-gaps 0.03,0.02,0.03 --steps 20";
+
+fn bench_with_a_wave() -> Bench {
+    let bench = Bench::new(4);
+    let wave = Surface::wave(Grid::line(64, 1.0).unwrap(), 0.02, 1).unwrap();
+    write_npy(&bench.path("heights.npy"), wave.heights()).unwrap();
+    bench
+}
+
+#[test]
+fn a_cycle_has_its_jumps_and_a_picture() {
+    let bench = bench_with_a_wave();
+    let said = text(&bench.cycle(&format!("{CYCLE} --out cycle.csv --plot loop.png"), 0).stdout);
+    for part in ["jump-in", "pull-off", "greatest tension", "dissipated in jumps"] {
+        assert!(said.contains(part), "{said}");
+    }
+    let table = bench.read("cycle.csv");
+    let rows: Vec<Vec<&str>> = table.lines().map(|row| row.split(',').collect()).collect();
+    let at = |name: &str| rows[0].iter().position(|column| *column == name).unwrap();
+    assert!(rows.iter().all(|row| row.len() == rows[0].len()));
+    let events: Vec<_> = rows[1..].iter().map(|row| row[at("event")]).filter(|event| !event.is_empty()).collect();
+    assert_eq!(events, ["jump-in", "pull-off"]);
+    let last = &rows[rows.len() - 1];
+    let number = |name: &str| last[at(name)].parse::<f64>().unwrap();
+    assert!(number("dissipated") > 0.0);
+    assert!((number("work") - number("dissipated") + number("imbalance")).abs() < 1e-4 * number("dissipated"));
+    assert!(fs::read(bench.path("loop.png")).unwrap().starts_with(b"\x89PNG"));
+}
+
+#[test]
+fn an_interrupted_cycle_goes_on_to_the_same_file() {
+    let bench = bench_with_a_wave();
+    bench.cycle(&format!("{CYCLE} --quiet --out whole.csv"), 0);
+    let whole = bench.read("whole.csv");
+    for pause in [20, 60, 150] {
+        let name = format!("{pause}.csv");
+        let arguments = format!("{CYCLE} --quiet --out {name}");
+        let mut child = bench.command_of("cycle", &arguments).spawn().unwrap();
+        sleep(Duration::from_millis(pause));
+        let _ = child.kill();
+        child.wait().unwrap();
+        bench.cycle(&arguments, 0);
+        assert_eq!(bench.read(&name), whole);
+    }
+    // and there is nothing to add to it
+    bench.cycle(&format!("{CYCLE} --quiet --out whole.csv"), 0);
+    assert_eq!(bench.read("whole.csv"), whole);
+}
+
+#[test]
+fn bad_cycles_are_refused_on_one_line() {
+    let bench = bench_with_a_wave();
+    bench.cycle(&format!("{CYCLE} --quiet --out cycle.csv"), 0);
+    for (arguments, part) in [
+        ("--mean-gaps 0.03 --out a.csv", "two turning points"),
+        ("--mean-gaps 0.03,0.02 --out a.txt", ".csv"),
+        ("--mean-gaps 0.03,0.02 --out a.csv --plot a.svg", ".png"),
+        ("--mean-gaps 0.03,0.02 --resolution 2 --out a.csv", "resolution is 2"),
+        ("--mean-gaps 0.03,0.02 --steps 0 --out a.csv", "number of steps is 0"),
+        ("--out a.csv", "--mean-gaps"),
+        ("--mean-gaps 0.03,0.02 --out cycle.csv", "another run"),
+    ] {
+        let output = bench.cycle(arguments, 1);
+        let error = text(&output.stderr);
+        assert!(error.lines().count() == 1 && error.contains(part), "{arguments}: {error}");
+    }
 }

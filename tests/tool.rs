@@ -507,3 +507,21 @@ fn help_and_version() {
     }
     assert!(fs::read_dir(Path::new(bench.0.path())).unwrap().next().is_none());
 }
+
+#[test]
+fn stability_is_in_the_report_and_its_mode_beside_it() {
+    let bench = Bench::new();
+    let law = "--law exponential --work-of-adhesion 1e-4 --range 4e-3";
+    let report = bench.solve(&format!("--mean-gap 0.043 --stability {law}"), "held", 0);
+    let stability = &report["stability"];
+    assert_eq!(stability["verdict"], "stable");
+    let number = |name: &str| stability[name].as_f64().unwrap();
+    assert!(number("lower_bound") > 0.0 && number("lower_bound") <= number("eigenvalue"));
+    assert!(number("error_bound") >= report["relative_error"].as_f64().unwrap());
+    let mode = bench.field("held", "mode.npy");
+    assert!((mode.mapv(|value| value * value).mean().unwrap() - 1.0).abs() < 1e-9);
+    let (gap, none) = (bench.field("held", "gap.npy"), bench.solve("--mean-gap 0.04", "plain", 0));
+    assert!(gap.iter().zip(&mode).all(|(gap, mode)| *gap > 0.0 || *mode == 0.0));
+    assert_eq!(none["stability"], Value::Null);
+    assert_eq!(bench.names("plain"), RESULTS);
+}

@@ -11,10 +11,6 @@ use crate::field::flat;
 use crate::problem::{Control, Problem};
 use crate::real::Real;
 
-/// The compliance with which the law is smoothed for the default start, in Δx/E*. A node alone has 1.1, the nodes
-/// along an edge some 3 together.
-const SMOOTHING: f64 = 5.0;
-
 /// The first trial length from a start that is given: its residual is that of short waves at the edges of contacts,
 /// where less than a whole step is good.
 pub(super) const GIVEN: f64 = 0.5;
@@ -45,8 +41,7 @@ where
 
     /// Smooths the jumps of the law, if it has any, to find the start.
     pub(super) fn smooth(&mut self) {
-        let compliance = SMOOTHING * self.problem.grid().largest_spacing() / self.problem.operator.modulus();
-        self.smoothed = self.problem.law.smooth(T::lit(compliance));
+        self.smoothed = self.problem.smooth_law();
         if self.smoothed {
             self.count();
         }

@@ -12,7 +12,7 @@ pub(super) fn philox(counter: [u32; 4], key: [u32; 2]) -> [u32; 4] {
 }
 
 /// Two independent numbers of 53 bits, uniform from 0 up to and without 1.
-pub(super) fn uniform(counter: [u32; 4], key: [u32; 2]) -> [f64; 2] {
+pub(crate) fn uniform(counter: [u32; 4], key: [u32; 2]) -> [f64; 2] {
     let [a, b, c, d] = philox(counter, key).map(u64::from);
     [a << 32 | b, c << 32 | d].map(|bits| (bits >> 11) as f64 / (1_u64 << 53) as f64)
 }

@@ -63,7 +63,12 @@ pub fn run(options: &Options) -> Outcome<bool> {
         side = si(SIDE, "m"),
     ));
     let heights = surface.heights().clone();
-    let case = Case { modulus: MODULUS, control: Control::MeanPressure(PRESSURE), settings: Settings::default() };
+    let case = Case {
+        modulus: MODULUS,
+        control: Control::MeanPressure(PRESSURE),
+        settings: Settings::default(),
+        stability: false,
+    };
     let progress = |name| Progress::new(name, case.settings.tolerance, grid.nodes(), false);
     let law = Exponential::new(WORK_OF_ADHESION, RANGE)?;
     let (bare, without) = run::solve::<f64, _>(surface.clone(), NoAdhesion, &case, None, progress("without adhesion"))?;

@@ -31,6 +31,8 @@ pub struct Journal {
     identity: Identity,
     file: File,
     written: Written,
+    /// what else the next row depends on
+    numbers: Vec<f64>,
 }
 
 /// What the file holds.
@@ -61,6 +63,26 @@ impl Journal {
         loads: &[f64],
         force: bool,
     ) -> Outcome<(Self, Vec<Array2<f64>>)> {
+        Self::open_for(path, header, identity, Some(loads), force)
+    }
+
+    /// The same for rows of which nobody knows how many there will be.
+    pub fn open_endless(
+        path: &Path,
+        header: &str,
+        identity: Identity,
+        force: bool,
+    ) -> Outcome<(Self, Vec<Array2<f64>>)> {
+        Self::open_for(path, header, identity, None, force)
+    }
+
+    fn open_for(
+        path: &Path,
+        header: &str,
+        identity: Identity,
+        loads: Option<&[f64]>,
+        force: bool,
+    ) -> Outcome<(Self, Vec<Array2<f64>>)> {
         let unwritable = |path: &Path, e: io::Error| Error::file(path, format!("cannot be written: {e}"));
         let found = match fs::metadata(path) {
             Ok(metadata) if !metadata.is_file() => {
@@ -69,14 +91,14 @@ impl Journal {
             Ok(_) => !force,
             Err(_) => false,
         };
-        let (written, gaps) = if found {
+        let (written, gaps, numbers) = if found {
             resume(path, header, &identity, loads)?
         } else {
             if let Some(folder) = path.parent() {
                 fs::create_dir_all(folder).map_err(|e| unwritable(folder, e))?;
             }
-            save(path, &identity, &Written::NOTHING, &[] as &[ArrayView2<'_, f64>])?;
-            (Written::NOTHING, Vec::new())
+            save(path, &identity, &Written::NOTHING, &[] as &[ArrayView2<'_, f64>], &[])?;
+            (Written::NOTHING, Vec::new(), Vec::new())
         };
         let open = || {
             let file = OpenOptions::new().append(true).create(true).open(path)?;
@@ -84,7 +106,7 @@ impl Journal {
             Ok(file)
         };
         let file = open().map_err(|e| unwritable(path, e))?;
-        Ok((Self { path: path.to_owned(), header: header.to_owned(), identity, file, written }, gaps))
+        Ok((Self { path: path.to_owned(), header: header.to_owned(), identity, file, written, numbers }, gaps))
     }
 
     /// How many rows there are.
@@ -95,6 +117,23 @@ impl Journal {
     /// How many of them did not converge.
     pub fn unconverged(&self) -> usize {
         self.written.unconverged
+    }
+
+    /// The numbers that were saved with the last row.
+    pub fn numbers(&self) -> &[f64] {
+        &self.numbers
+    }
+
+    /// Appends a row, and saves the gaps and numbers from which the next one starts.
+    pub fn append_endless<T: WritableElement + Clone>(
+        &mut self,
+        row: &str,
+        converged: bool,
+        gaps: &[ArrayView2<'_, T>],
+        numbers: &[f64],
+    ) -> Outcome<()> {
+        self.numbers = numbers.to_vec();
+        self.append(row, 0.0, converged, gaps)
     }
 
     /// Appends a row, and saves the gaps from which the next one starts, the latest last.
@@ -121,7 +160,7 @@ impl Journal {
             bytes: self.written.bytes + text.len() as u64,
             content: self.written.content.of(text.as_bytes()),
         };
-        save(&self.path, &self.identity, &self.written, gaps)
+        save(&self.path, &self.identity, &self.written, gaps, &self.numbers)
     }
 }
 
@@ -137,7 +176,12 @@ fn with_suffix(path: &Path, suffix: &str) -> PathBuf {
 }
 
 /// What of a file is to be kept, and the gaps from which to go on.
-fn resume(path: &Path, header: &str, identity: &Identity, loads: &[f64]) -> Outcome<(Written, Vec<Array2<f64>>)> {
+fn resume(
+    path: &Path,
+    header: &str,
+    identity: &Identity,
+    loads: Option<&[f64]>,
+) -> Outcome<(Written, Vec<Array2<f64>>, Vec<f64>)> {
     let refuse = |reason: String| Err(Error::file(path, format!("{reason}: {REMEDY}")).into());
     let state = state_path(path);
     let comment = match File::open(&state) {
@@ -147,7 +191,7 @@ fn resume(path: &Path, header: &str, identity: &Identity, loads: &[f64]) -> Outc
         }
         Err(e) => return refuse(format!("cannot be continued, {} cannot be read ({e})", state.display())),
     };
-    let Some((theirs, written, count)) = parse(&comment) else {
+    let Some((theirs, written, count, numbers)) = parse(&comment) else {
         return refuse(format!("cannot be continued, {} is damaged", state.display()));
     };
     for (key, here) in identity {
@@ -155,14 +199,16 @@ fn resume(path: &Path, header: &str, identity: &Identity, loads: &[f64]) -> Outc
         if there != here {
             let name = key.replace('_', " ");
             return refuse(match key.as_str() {
-                "heights" | "initial_gap" => format!("belongs to another sweep, with another file of its {name}"),
-                _ => format!("belongs to another sweep, whose {name} is {}, and not {}", bare(there), bare(here)),
+                "heights" | "initial_gap" => format!("belongs to another run, with another file of its {name}"),
+                _ => format!("belongs to another run, whose {name} is {}, and not {}", bare(there), bare(here)),
             });
         }
     }
-    let same_loads = loads.get(..written.rows).is_some_and(|loads| Hash::NEW.of_numbers(loads) == written.loads);
+    let same_loads = loads.is_none_or(|loads| {
+        loads.get(..written.rows).is_some_and(|loads| Hash::NEW.of_numbers(loads) == written.loads)
+    });
     if !same_loads {
-        return refuse(format!("belongs to another sweep, whose first {} loads are others", written.rows));
+        return refuse(format!("belongs to another run, whose first {} loads are others", written.rows));
     }
     let content = fs::read(path).map_err(|e| Error::file(path, format!("cannot be read: {e}")))?;
     let (kept, rest) = content.split_at((written.bytes as usize).min(content.len()));
@@ -183,7 +229,7 @@ fn resume(path: &Path, header: &str, identity: &Identity, loads: &[f64]) -> Outc
         let rows = stack.nrows().checked_div(count).unwrap_or_default().max(1);
         gaps.extend(stack.axis_chunks_iter(Axis(0), rows).map(|gap| gap.to_owned()));
     }
-    Ok((written, gaps))
+    Ok((written, gaps, numbers))
 }
 
 /// A value without quotation marks.
@@ -197,6 +243,7 @@ fn save<T: WritableElement + Clone>(
     identity: &Identity,
     written: &Written,
     gaps: &[ArrayView2<'_, T>],
+    numbers: &[f64],
 ) -> Outcome<()> {
     let (state, temporary) = (state_path(path), with_suffix(path, ".state.tmp"));
     let comment = json!({
@@ -206,6 +253,7 @@ fn save<T: WritableElement + Clone>(
         "loads": written.loads.to_string(),
         "bytes": written.bytes,
         "content": written.content.to_string(),
+        "numbers": numbers.iter().map(|number| format!("{:016x}", number.to_bits())).collect::<Vec<_>>(),
         "sweep": identity,
     });
     let write = || -> Outcome<()> {
@@ -225,8 +273,8 @@ fn save<T: WritableElement + Clone>(
     write().map_err(|e| Error::file(&state, format!("cannot be written: {e}")).into())
 }
 
-/// To what a state belongs, how far it is, and how many gaps it has.
-fn parse(comment: &[u8]) -> Option<(Identity, Written, usize)> {
+/// To what a state belongs, how far it is, how many gaps it has, and its numbers.
+fn parse(comment: &[u8]) -> Option<(Identity, Written, usize, Vec<f64>)> {
     let state: Value = serde_json::from_slice(comment).ok()?;
     let number = |key: &str| state.get(key)?.as_u64();
     let hash = |key: &str| Some(Hash(u64::from_str_radix(state.get(key)?.as_str()?, 16).ok()?));
@@ -237,7 +285,10 @@ fn parse(comment: &[u8]) -> Option<(Identity, Written, usize)> {
         bytes: number("bytes")?,
         content: hash("content")?,
     };
-    Some((state.get("sweep")?.as_object()?.clone(), written, number("gaps")?.try_into().ok()?))
+    let bits = |text: &Value| u64::from_str_radix(text.as_str()?, 16).ok();
+    let numbers = state.get("numbers")?.as_array()?.iter().map(|text| Some(f64::from_bits(bits(text)?)));
+    let numbers = numbers.collect::<Option<_>>()?;
+    Some((state.get("sweep")?.as_object()?.clone(), written, number("gaps")?.try_into().ok()?, numbers))
 }
 
 /// A fingerprint of bytes: FNV-1a, the same on every platform and in every version.

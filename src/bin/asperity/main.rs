@@ -1,6 +1,7 @@
 //! The command-line tool: `asperity demo` shows what the library does, `asperity solve` does it on files,
-//! `asperity sweep` under many loads; `asperity surface` makes such files and `asperity stats` measures them.
+//! `asperity sweep` under many loads and `asperity cycle` through jumps; `asperity surface` makes such files and `asperity stats` measures them.
 
+mod cycle;
 mod demo;
 mod journal;
 mod loads;
@@ -39,6 +40,8 @@ Examples:
   asperity stats heights.npy
   asperity solve --heights heights.npy --mean-pressure 0.01 --out results
   asperity sweep --heights heights.npy --mean-pressures 1e-3:1e-1:20:log --out sweep.csv
+  asperity cycle --heights heights.npy --law exponential --work-of-adhesion 1e-4 --range 4e-3 \
+    --mean-gaps 0.05,0.02,0.05 --out cycle.csv --plot cycle.png
   asperity solve --help";
 
 #[derive(Subcommand)]
@@ -46,6 +49,7 @@ enum Command {
     Demo(demo::Options),
     Solve(Box<solve::Options>),
     Sweep(Box<sweep::Options>),
+    Cycle(Box<cycle::Options>),
     Surface(surface::Options),
     Stats(stats::Options),
 }
@@ -66,6 +70,7 @@ fn main() -> ExitCode {
         Command::Demo(options) => demo::run(&options),
         Command::Solve(options) => solve::run(&options),
         Command::Sweep(options) => sweep::run(&options),
+        Command::Cycle(options) => cycle::run(&options),
         Command::Surface(options) => surface::run(&options),
         Command::Stats(options) => stats::run(&options),
     };

@@ -1,7 +1,7 @@
 use asperity::{Report, Status};
 
 use crate::complain;
-use crate::run::{Account, Case};
+use crate::run::{Account, Case, Steadiness};
 
 /// How the numbers of a table are printed.
 #[derive(Clone, Copy, PartialEq)]
@@ -41,6 +41,17 @@ pub fn table(names: &[&str], solves: &[&Account], style: Style) -> String {
     row("adhesive energy per area", &|_, r| style.number(r.adhesive_energy, "J/m²"));
     row("mu_rho", &|_, r| plain(r.mu_rho));
     row("certified error", &|_, r| format!("{:.1e}", r.relative_error));
+    if solves.iter().any(|solve| solve.stability.is_some()) {
+        let of = |account: &Account, text: &dyn Fn(&Steadiness) -> String| {
+            account.stability.as_ref().map_or(String::new(), text)
+        };
+        row("stability", &|s, _| {
+            of(s, &|s| format!("{}{}", s.verdict, if s.smoothed { ", the law smoothed" } else { "" }))
+        });
+        row("smallest eigenvalue", &|s, _| of(s, &|s| plain(s.eigenvalue)));
+        row("its lower bound", &|s, _| of(s, &|s| plain(s.lower_bound)));
+        row("error bound", &|s, _| of(s, &|s| s.error_bound.map_or("none".to_owned(), |bound| format!("{bound:.1e}"))));
+    }
     row("iterations", &|_, r| r.iterations.to_string());
     row("operator applications", &|_, r| r.operator_applications.to_string());
     row("time", &|s, _| format!("{:.3} s", s.seconds));

@@ -4,7 +4,7 @@ use std::time::Instant;
 
 use asperity::{
     AdhesionLaw, Colouring, Control, Error, Grid, Map, Problem, Real, Report, Result, Settings, Solution, Solver,
-    Surface, Westergaard,
+    StabilityTest, Surface, Verdict, Westergaard,
 };
 use ndarray::Array2;
 use ndarray_npy::WritableElement;
@@ -22,6 +22,20 @@ pub struct Case {
     pub modulus: f64,
     pub control: Control,
     pub settings: Settings,
+    /// Whether to find out if the solution is stable.
+    pub stability: bool,
+}
+
+/// Whether a solution is stable; see [`asperity::Stability`].
+pub struct Steadiness {
+    pub verdict: Verdict,
+    pub eigenvalue: f64,
+    pub residual: f64,
+    pub lower_bound: f64,
+    pub error_bound: Option<f64>,
+    pub smoothed: bool,
+    pub operator_applications: usize,
+    pub mode: Array2<f64>,
 }
 
 /// What the table and the report say of a solve.
@@ -32,6 +46,7 @@ pub struct Account {
     pub pressures: (f64, f64),
     /// The time for setting up and solving, without that for files and pictures.
     pub seconds: f64,
+    pub stability: Option<Steadiness>,
 }
 
 /// Solves, and drops the surface as soon as it is not needed.
@@ -57,8 +72,27 @@ pub fn solve<T: Scalar, L: AdhesionLaw<T>>(
         .pressure
         .iter()
         .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), p| (low.min(p.widen()), high.max(p.widen())));
-    let account = Account { report: solution.report.clone(), nodes: grid.nodes(), pressures, seconds };
+    let stability = if case.stability { Some(steadiness(&mut problem, case.control, &solution)?) } else { None };
+    let account = Account { report: solution.report.clone(), nodes: grid.nodes(), pressures, seconds, stability };
     Ok((solution, account))
+}
+
+fn steadiness<T: Scalar, L: AdhesionLaw<T>>(
+    problem: &mut Problem<T, Westergaard<T>, L>,
+    control: Control,
+    solution: &Solution<T>,
+) -> Result<Steadiness> {
+    let found = StabilityTest::default().run(problem, control, solution)?;
+    Ok(Steadiness {
+        verdict: found.verdict,
+        eigenvalue: found.eigenvalue,
+        residual: found.residual,
+        lower_bound: found.lower_bound,
+        error_bound: found.error_bound,
+        smoothed: found.smoothed,
+        operator_applications: found.operator_applications + found.bound_applications,
+        mode: found.mode.mapv_into_any(T::widen),
+    })
 }
 
 /// Refuses fields that the precision cannot hold.

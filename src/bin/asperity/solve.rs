@@ -43,6 +43,9 @@ pub struct Options {
     /// Replace results that are there
     #[arg(long, help_heading = "Output")]
     force: bool,
+    /// Find out whether the solution is stable, and write its softest mode to mode.npy
+    #[arg(long, help_heading = "Output")]
+    stability: bool,
     /// Print no table and no progress
     #[arg(long, help_heading = "Output")]
     quiet: bool,
@@ -71,12 +74,15 @@ Examples:
       --mean-pressure -1e4 --initial-gap sticky/gap.npy --out pulled";
 
 const FIELDS: [&str; 4] = ["gap.npy", "pressure.npy", "contact_pressure.npy", "report.json"];
+const MODE: &str = "mode.npy";
 const PICTURES: [&str; 2] = ["contact.png", "pressure.png"];
 
 /// Runs the command; whether it converged.
 pub fn run(options: &Options) -> Outcome<bool> {
     options.adhesion.check()?;
-    let names: Vec<_> = FIELDS.iter().chain(PICTURES.iter().filter(|_| !options.no_pictures)).copied().collect();
+    let pictures = PICTURES.iter().filter(|_| !options.no_pictures);
+    let mode = options.stability.then_some(&MODE);
+    let names: Vec<_> = FIELDS.iter().chain(mode).chain(pictures).copied().collect();
     // Only a trial: a solve that is interrupted leaves nothing behind.
     drop(OutputFolder::create(&options.out, &names, options.force)?);
     let surface = options.surface.surface()?;
@@ -94,7 +100,8 @@ impl Options {
             (Some(gap), _) => Control::MeanGap(gap),
             (None, pressure) => Control::MeanPressure(pressure.unwrap_or_default()),
         };
-        Case { modulus: self.surface.modulus, control, settings: self.solver.settings() }
+        let (modulus, settings) = (self.surface.modulus, self.solver.settings());
+        Case { modulus, control, settings, stability: self.stability }
     }
 }
 
@@ -140,6 +147,9 @@ impl Job<'_> {
         write_npy(&path("gap.npy"), &solution.gap)?;
         write_npy(&path("pressure.npy"), &solution.pressure)?;
         write_npy(&path("contact_pressure.npy"), &solution.contact_pressure)?;
+        if let Some(stability) = &account.stability {
+            write_npy(&path(MODE), &stability.mode)?;
+        }
         write_text(&path("report.json"), &format!("{:#}\n", self.report(grid, account)))?;
         if !self.options.no_pictures {
             let Options { length_unit, pressure_unit, .. } = self.options;
@@ -175,6 +185,15 @@ impl Job<'_> {
             "max_pressure": account.pressures.1,
             "elastic_energy": report.elastic_energy,
             "adhesive_energy": report.adhesive_energy,
+            "stability": account.stability.as_ref().map(|stability| json!({
+                "verdict": stability.verdict.name(),
+                "eigenvalue": stability.eigenvalue,
+                "residual": stability.residual,
+                "lower_bound": stability.lower_bound,
+                "error_bound": stability.error_bound,
+                "smoothed": stability.smoothed,
+                "operator_applications": stability.operator_applications,
+            })),
             "mu_rho": report.mu_rho,
             "under_resolved": report.under_resolved,
             "precision": report.precision,

@@ -211,32 +211,15 @@ impl Options {
         }
     }
 
-    /// All that the rows depend on beside the loads. Numbers come as text, which can be compared exactly.
+    /// All that the rows depend on beside the loads.
     fn identity(&self, surface: &Surface, start: Option<&Array2<f64>>) -> Identity {
-        let (grid, settings) = (surface.grid(), self.solver.settings());
-        let number = |value: Option<f64>| value.map_or("none".to_owned(), |value| value.to_string());
-        let field = |field: &Array2<f64>| Hash::NEW.of_numbers(field).to_string();
-        let pair = |a: String, b: String| format!("{a} {b}");
         let (control, _) = name_and_value(self.loads().0(0.0));
-        let identity = json!({
-            "shape": pair(grid.shape().0.to_string(), grid.shape().1.to_string()),
-            "heights": field(surface.heights()),
-            "lengths": pair(grid.lengths().0.to_string(), grid.lengths().1.to_string()),
-            "modulus": self.surface.modulus.to_string(),
-            "law": self.adhesion.law.to_string(),
-            "work_of_adhesion": number(self.adhesion.work_of_adhesion),
-            "range": number(self.adhesion.range),
-            "control": control,
-            "precision": if self.solver.precision == Precision::F32 { "f32" } else { "f64" },
-            "method": settings.method.name(),
-            "tolerance": settings.tolerance.to_string(),
-            "max_iterations": settings.max_iterations.to_string(),
-            "initial_gap": start.map_or("none".to_owned(), field),
-            "fields": if self.fields.is_some() { "kept" } else { "not kept" },
-            "format": if self.format().is_ok_and(|format| format == Format::Csv) { "csv" } else { "jsonl" },
-            "version": env!("CARGO_PKG_VERSION"),
-        });
-        identity.as_object().cloned().unwrap_or_default()
+        let mut identity = identity(&self.surface, &self.adhesion, &self.solver, surface, start);
+        let csv = self.format().is_ok_and(|format| format == Format::Csv);
+        identity.insert("control".to_owned(), control.into());
+        identity.insert("fields".to_owned(), if self.fields.is_some() { "kept" } else { "not kept" }.into());
+        identity.insert("format".to_owned(), if csv { "csv" } else { "jsonl" }.into());
+        identity
     }
 
     /// Refuses to replace fields, if this is not the continuation of what wrote them.
@@ -262,11 +245,41 @@ impl Options {
     }
 }
 
+/// All that solutions depend on beside the loads. Numbers come as text, which can be compared exactly.
+pub fn identity(
+    options: &SurfaceOptions,
+    adhesion: &AdhesionOptions,
+    solver: &SolverOptions,
+    surface: &Surface,
+    start: Option<&Array2<f64>>,
+) -> Identity {
+    let (grid, settings) = (surface.grid(), solver.settings());
+    let number = |value: Option<f64>| value.map_or("none".to_owned(), |value| value.to_string());
+    let field = |field: &Array2<f64>| Hash::NEW.of_numbers(field).to_string();
+    let pair = |a: String, b: String| format!("{a} {b}");
+    let identity = json!({
+        "shape": pair(grid.shape().0.to_string(), grid.shape().1.to_string()),
+        "heights": field(surface.heights()),
+        "lengths": pair(grid.lengths().0.to_string(), grid.lengths().1.to_string()),
+        "modulus": options.modulus.to_string(),
+        "law": adhesion.law.to_string(),
+        "work_of_adhesion": number(adhesion.work_of_adhesion),
+        "range": number(adhesion.range),
+        "precision": if solver.precision == Precision::F32 { "f32" } else { "f64" },
+        "method": settings.method.name(),
+        "tolerance": settings.tolerance.to_string(),
+        "max_iterations": settings.max_iterations.to_string(),
+        "initial_gap": start.map_or("none".to_owned(), field),
+        "version": env!("CARGO_PKG_VERSION"),
+    });
+    identity.as_object().cloned().unwrap_or_default()
+}
+
 fn field_path(folder: &Path, name: &str, k: usize) -> PathBuf {
     folder.join(format!("{name}-{:04}.npy", k + 1))
 }
 
-fn name_and_value(control: Control) -> (&'static str, f64) {
+pub fn name_and_value(control: Control) -> (&'static str, f64) {
     match control {
         Control::MeanGap(gap) => ("mean-gap", gap),
         Control::MeanPressure(pressure) => ("mean-pressure", pressure),
@@ -302,7 +315,7 @@ fn row(control: Control, report: &Report, statistics: &ContactStatistics) -> Map
 }
 
 /// A value in a table: words without quotation marks, and nothing for a number that is not finite.
-fn cell(value: &Value) -> String {
+pub fn cell(value: &Value) -> String {
     match value {
         Value::Null => String::new(),
         Value::String(word) => word.clone(),
@@ -311,7 +324,7 @@ fn cell(value: &Value) -> String {
 }
 
 /// What there is to see of a row.
-fn line(report: &Report) -> String {
+pub fn line(report: &Report) -> String {
     let number = |value| Style::Plain.number(value, "");
     format!(
         "mean pressure {}  mean gap {}  contact {} %  {}",

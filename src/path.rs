@@ -1,0 +1,366 @@
+use std::ops::ControlFlow;
+
+use ndarray::Array2;
+
+use crate::adhesion::AdhesionLaw;
+use crate::elastic::ElasticOperator;
+use crate::error::{Error, Result};
+use crate::problem::{Control, Problem};
+use crate::real::Real;
+use crate::solver::{Iteration, Solution, Solver, Status};
+
+mod event;
+mod quadrature;
+mod track;
+
+pub use event::{Event, Jump};
+use track::{Mode, State, Track};
+
+/// How a path of equilibria is followed.
+///
+/// | field | default | meaning | range |
+/// |---|---|---|---|
+/// | `steps` | 50 | the least number of steps in a leg | at least 1 |
+/// | `resolution` | 1e-4 | the step, as a share of the leg, to which a jump is located | positive, below 1 |
+/// | `smooth` | true | whether jumps of the law's traction are smoothed, by what the grid can resolve | |
+/// | `tolerance` | 1e-4 | how far the energy may be from the work done in a step, as a share of how much the energy has changed along the path (or of w/1000, if that is more) | positive |
+///
+/// A smaller tolerance asks for a smaller tolerance of the solver too: its square must be well below.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PathSettings {
+    /// The least number of steps in a leg.
+    pub steps: usize,
+    /// The step to which a jump is located, as a share of the leg.
+    pub resolution: f64,
+    /// The imbalance of energy that a step may have without being a jump.
+    pub tolerance: f64,
+    /// Whether jumps of the law's traction are smoothed.
+    pub smooth: bool,
+}
+
+impl Default for PathSettings {
+    fn default() -> Self {
+        Self { steps: 50, resolution: 1e-4, tolerance: 1e-4, smooth: true }
+    }
+}
+
+/// A state on a path.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PathStep<T> {
+    /// The state.
+    pub solution: Solution<T>,
+    /// Under which control it was found.
+    pub control: Control,
+    /// On which leg it is: 0 is the start, 1 the way to the second load.
+    pub leg: usize,
+    /// The work done by the load since the start, −∫p̄ dḡ, per area.
+    pub work: f64,
+    /// The energy dropped in jumps since the start, per area. Over a closed cycle it is the work of adhesion that was lost.
+    pub dissipated: f64,
+    /// What is missing from the balance: the change of the energy, plus what was dissipated, less the work. It is what the
+    /// quadrature of the work, the solver's tolerance, and jumps smaller than the tolerance leave.
+    pub imbalance: f64,
+    /// What happened on the way here from the state before.
+    pub event: Option<Event>,
+}
+
+/// Follows a branch of equilibria from load to load, in small steps, and tells where it breaks off: an iterator over the states.
+///
+/// Each load is a mean gap or a mean pressure; the first one is where the path starts, and from each to the next leads a *leg*. A step starts from the
+/// extrapolation of the last two states, clipped to g ≥ 0, so that it stays on the branch; its length adapts to how much the branch bends.
+///
+/// # Jumps
+///
+/// Along a branch the energy changes by the work of the load, de = −p̄ dḡ. A step in which it falls by more has jumped to another
+/// branch, or is too long for the quadrature of the work (by up to four states, of fourth order): it is taken back and halved.
+/// When it cannot be halved any more, at [`PathSettings::resolution`], what is missing is the energy that the jump
+/// dissipates, if it is more than the step could do at either end's load; the step is taken, and its [`Event`] says so.
+///
+/// Where the traction of the law jumps, as that of [`MaugisDugdale`](crate::MaugisDugdale), every node that enters or leaves the adhesive zone
+/// is a small jump, and the grid holds the edge of that zone back: a hysteresis that the continuum has not. Unless
+/// [`PathSettings::smooth`] is off, the path is therefore one of the [smoothed](AdhesionLaw::smooth) law, of which the pull-off force
+/// converges faster; energies and errors in the reports are that law's.
+///
+/// # Limit points
+///
+/// Under a given pressure a branch ends where dp̄/dḡ = 0: the jump that is met there is not taken. The path goes on at given mean
+/// gaps, through the states that are unstable under the pressure, in the same direction, until the pressure comes to where the leg ends, or
+/// the surfaces to full contact or out of each other's reach. Under a given mean gap there are limit points
+/// too, at which it jumps.
+///
+/// # Going on
+///
+/// A path can be interrupted, kept as a [`PathCheckpoint`], and continued, bit for bit.
+///
+/// ```
+/// use asperity::{Control, Event, Exponential, Grid, Path, PathSettings, Problem, Solver, Surface, Westergaard};
+/// let grid = Grid::line(128, 1.0)?;
+/// let surface = Surface::wave(grid, 0.02, 1)?;
+/// let law = Exponential::new(2e-4, 4e-3)?;
+/// let mut problem = Problem::new(&surface, Westergaard::<f64>::new(grid, 1.0)?, law)?;
+/// // together, and apart again
+/// let legs = [0.05, 0.012, 0.05].map(Control::MeanGap);
+/// let (mut strongest, mut jumps, mut dissipated) = (0.0_f64, 0, 0.0);
+/// for step in Path::new(&mut Solver::default(), &mut problem, legs, PathSettings::default())? {
+///     let step = step?;
+///     strongest = strongest.min(step.solution.report.mean_pressure);
+///     jumps += usize::from(matches!(step.event, Some(Event::Jump(_))));
+///     dissipated = step.dissipated;
+/// }
+/// assert!(strongest < 0.0); // the pull-off stress
+/// assert!((jumps > 0) == (dissipated > 0.0));
+/// # Ok::<(), asperity::Error>(())
+/// ```
+#[derive(Debug)]
+pub struct Path<'a, T, O, L> {
+    solver: &'a mut Solver,
+    problem: &'a mut Problem<T, O, L>,
+    legs: Vec<Control>,
+    settings: PathSettings,
+    start: Option<Array2<T>>,
+    state: State,
+    /// the last gaps, the latest last: at most two
+    gaps: Vec<Array2<T>>,
+    failed: bool,
+}
+
+/// All that a path needs to go on: opaque numbers, and gaps of shape (Nx, Ny). Both must come back bit for bit.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PathCheckpoint<T> {
+    /// Where the path is.
+    pub numbers: Vec<f64>,
+    /// The last gaps.
+    pub gaps: Vec<Array2<T>>,
+}
+
+/// How often a solve that did not converge is taken up again, where the step cannot be halved.
+const RETRIES: usize = 3;
+
+/// How far the last step may be extrapolated, in steps.
+const FARTHEST: f64 = 2.0;
+
+impl<'a, T, O, L> Path<'a, T, O, L>
+where
+    T: Real,
+    O: ElasticOperator<T>,
+    L: AdhesionLaw<T>,
+{
+    /// The path through `loads`, of which the first is the start.
+    ///
+    /// # Errors
+    /// [`Error::Value`] for settings that are out of range, or a load that is not finite, or a negative mean gap.
+    pub fn new(
+        solver: &'a mut Solver,
+        problem: &'a mut Problem<T, O, L>,
+        loads: impl IntoIterator<Item = Control>,
+        settings: PathSettings,
+    ) -> Result<Self> {
+        let legs: Vec<_> = loads.into_iter().collect();
+        for load in &legs {
+            match *load {
+                Control::MeanGap(gap) => Error::non_negative("mean gap", gap)?,
+                Control::MeanPressure(pressure) => Error::finite("mean pressure", pressure)?,
+            };
+        }
+        if settings.steps == 0 {
+            return Err(Error::Value { name: "number of steps", value: 0.0, requirement: "at least 1" });
+        }
+        Error::positive("tolerance", settings.tolerance)?;
+        if !(settings.resolution > 0.0 && settings.resolution < 1.0) {
+            let (name, value) = ("resolution", settings.resolution);
+            return Err(Error::Value { name, value, requirement: "positive and below 1" });
+        }
+        let state = State::default();
+        Ok(Self { solver, problem, legs, settings, start: None, state, gaps: Vec::new(), failed: false })
+    }
+
+    /// The same path, with a gap of shape (Nx, Ny) from which the first load starts.
+    pub fn starting_from(self, gap: Array2<T>) -> Self {
+        Self { start: Some(gap), ..self }
+    }
+
+    /// Where the path is.
+    pub fn checkpoint(&self) -> PathCheckpoint<T> {
+        PathCheckpoint { numbers: self.state.numbers(), gaps: self.gaps.clone() }
+    }
+
+    /// The same path, from where another one was that had the same problem, loads and settings.
+    ///
+    /// # Errors
+    /// [`Error::Shape`] if the gaps are of another grid, [`Error::Value`] if the numbers are not those of a checkpoint.
+    pub fn continuing(mut self, from: PathCheckpoint<T>) -> Result<Self> {
+        let shape = self.problem.grid().shape();
+        for gap in &from.gaps {
+            Error::shape("gap of the checkpoint", gap.dim(), shape)?;
+        }
+        let state = State::of_numbers(&from.numbers).filter(|state| {
+            state.leg < self.legs.len().max(1)
+                && state.solved != from.gaps.is_empty()
+                && from.gaps.len() == state.at.len()
+        });
+        let Some(state) = state else {
+            let (name, value) = ("number of numbers in the checkpoint", from.numbers.len() as f64);
+            return Err(Error::Value { name, value, requirement: "as in PathCheckpoint, with all of its gaps" });
+        };
+        (self.state, self.gaps) = (state, from.gaps);
+        Ok(self)
+    }
+
+    /// What [`Iterator::next`] does, with an observer of the iterations, as in [`Solver::solve_from`]. If it stops a solve,
+    /// the path ends with the state before.
+    ///
+    /// # Errors
+    /// Those of [`Solver::solve_from`]; after one the path ends.
+    pub fn next_observed(
+        &mut self,
+        mut observe: impl FnMut(&Iteration) -> ControlFlow<()>,
+    ) -> Option<Result<PathStep<T>>> {
+        if self.failed {
+            return None;
+        }
+        let step = self.advance(&mut observe);
+        self.failed = matches!(step, Some(Err(_)));
+        step
+    }
+
+    fn advance(&mut self, observe: &mut dyn FnMut(&Iteration) -> ControlFlow<()>) -> Option<Result<PathStep<T>>> {
+        if !self.state.solved {
+            let control = *self.legs.first()?;
+            let start = self.start.take();
+            return Some(self.first(control, start, observe).map(|solution| {
+                self.state.begin(&solution.report);
+                self.gaps.push(solution.gap.clone());
+                self.step(solution, control, None)
+            }));
+        }
+        while !self.failed {
+            while self.state.is_at_end() {
+                let next = self.state.leg + 1;
+                self.state.enter(next, *self.legs.get(next)?, &self.settings);
+            }
+            match self.attempt(observe) {
+                Ok(Some(step)) => return Some(Ok(step)),
+                Ok(None) => {}
+                Err(error) => return Some(Err(error)),
+            }
+        }
+        None
+    }
+
+    /// The first state. The default start is an equilibrium of the law itself.
+    fn first(
+        &mut self,
+        control: Control,
+        start: Option<Array2<T>>,
+        observe: &mut dyn FnMut(&Iteration) -> ControlFlow<()>,
+    ) -> Result<Solution<T>> {
+        let jumps = self.settings.smooth && self.problem.smooth_law();
+        if jumps {
+            self.problem.law.smooth(T::zero());
+        }
+        match start {
+            Some(start) => self.solve(control, Some(&start), observe),
+            None if jumps => {
+                let sharp = self.solve(control, None, observe)?;
+                self.solve(control, Some(&sharp.gap), observe)
+            }
+            None => self.solve(control, None, observe),
+        }
+    }
+
+    /// A solve with the jumps of the law smoothed, if they are to be.
+    fn solve(
+        &mut self,
+        control: Control,
+        start: Option<&Array2<T>>,
+        observe: &mut dyn FnMut(&Iteration) -> ControlFlow<()>,
+    ) -> Result<Solution<T>> {
+        let smoothed = self.settings.smooth && start.is_some() && self.problem.smooth_law();
+        let start = start.map(|gap| gap.view());
+        let solution = self.solver.solve_from(self.problem, control, start, |iteration| observe(iteration));
+        if smoothed {
+            self.problem.law.smooth(T::zero());
+        }
+        solution
+    }
+
+    /// One step, if it was good.
+    fn attempt(&mut self, observe: &mut dyn FnMut(&Iteration) -> ControlFlow<()>) -> Result<Option<PathStep<T>>> {
+        let (target, smallest) = self.state.next_target(&self.settings);
+        let control = self.state.mode.control(target);
+        let start = self.predict(target);
+        let mut solution = self.solve(control, Some(&start), observe)?;
+        // a long way after a jump may need another run-up
+        for _ in 0..RETRIES {
+            if smallest && matches!(solution.report.status, Status::Stalled | Status::IterationLimit) {
+                solution = self.solve(control, Some(&solution.gap), observe)?;
+            }
+        }
+        let report = &solution.report;
+        if report.status == Status::Stopped {
+            self.failed = true;
+            return Ok(None);
+        }
+        let w = self.problem.law.work_of_adhesion().widen();
+        let rounding = T::epsilon().widen() / (solution.gap.len() as f64).sqrt() + f64::EPSILON;
+        let noise = 8.0 * rounding * self.problem.surface_work;
+        let trial = self.state.judge(target, report, self.settings.tolerance, 1e-3 * w, noise);
+        let good = trial.balanced && report.status == Status::Converged;
+        if !good && !smallest {
+            self.state.halve(&self.settings);
+            return Ok(None);
+        }
+        if self.state.mode == Mode::Pressure && (trial.jumped && !good || report.status == Status::Detached) {
+            let law = &self.problem.law;
+            let far = 2.0 * (self.problem.height_span + 10.0 * law.range().widen());
+            self.state.leave_pressure_control(far, &self.settings);
+            return Ok(None);
+        }
+        if self.state.overshoots(report, &self.settings) {
+            return Ok(None);
+        }
+        let jumped = trial.jumped && !good;
+        let event = self.state.accept(target, report, trial, jumped, &self.settings);
+        if jumped {
+            self.gaps.clear();
+        } else if self.gaps.len() == 2 {
+            self.gaps.remove(0);
+        }
+        self.gaps.push(solution.gap.clone());
+        Ok(Some(self.step(solution, control, event)))
+    }
+
+    /// Where the last two gaps lead.
+    fn predict(&self, target: f64) -> Array2<T> {
+        let shape = self.problem.grid().shape();
+        match &self.gaps[..] {
+            [before, last] => {
+                let steps = self.state.extrapolation(target).clamp(-FARTHEST, FARTHEST);
+                let steps = T::lit(if steps.is_finite() { steps } else { 0.0 });
+                let mut start = last.clone();
+                start.zip_mut_with(before, |last, &before| *last = (*last + steps * (*last - before)).max(T::zero()));
+                start
+            }
+            [.., last] => last.clone(),
+            [] => Array2::zeros(shape),
+        }
+    }
+
+    fn step(&self, solution: Solution<T>, control: Control, event: Option<Event>) -> PathStep<T> {
+        let Track { work, dissipated, imbalance, .. } = self.state.track;
+        PathStep { solution, control, leg: self.state.leg, work, dissipated, imbalance, event }
+    }
+}
+
+impl<T, O, L> Iterator for Path<'_, T, O, L>
+where
+    T: Real,
+    O: ElasticOperator<T>,
+    L: AdhesionLaw<T>,
+{
+    type Item = Result<PathStep<T>>;
+
+    fn next(&mut self) -> Option<Self::Item> {
+        self.next_observed(|_| ControlFlow::Continue(()))
+    }
+}

@@ -1,0 +1,55 @@
+use std::fmt;
+
+/// What happens between two states on a path.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Event {
+    /// The state jumped to another branch.
+    Jump(Jump),
+    /// The mean pressure is at a maximum or a minimum: from the state before this one the path goes on at given mean gaps.
+    LimitPoint {
+        /// The mean gap there.
+        mean_gap: f64,
+        /// The mean pressure there.
+        mean_pressure: f64,
+    },
+}
+
+/// A jump: where it starts, to the resolution of the path, and where it ends.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Jump {
+    /// The mean gaps before and after.
+    pub mean_gap: (f64, f64),
+    /// The mean pressures before and after.
+    pub mean_pressure: (f64, f64),
+    /// The shares of nodes in contact before and after.
+    pub contact_fraction: (f64, f64),
+    /// The energy that it dissipates, per area.
+    pub energy_drop: f64,
+}
+
+impl Event {
+    /// The name that the tool uses: `"jump-in"` where contact or adhesion grows, `"pull-off"` where the last contact is lost,
+    /// `"jump-out"` where contact shrinks, and `"limit-point"`.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::LimitPoint { .. } => "limit-point",
+            Self::Jump(Jump { contact_fraction: (before, after), mean_pressure, .. }) => {
+                if after > before {
+                    "jump-in"
+                } else if after < before {
+                    if *after == 0.0 { "pull-off" } else { "jump-out" }
+                } else if mean_pressure.1 < mean_pressure.0 {
+                    "jump-in"
+                } else {
+                    "jump-out"
+                }
+            }
+        }
+    }
+}
+
+impl fmt::Display for Event {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}

@@ -1,0 +1,384 @@
+//! Where a path is, in numbers: how long a step may be, and whether one was on the branch.
+
+use super::quadrature::integral;
+use super::{Event, Jump, PathSettings};
+use crate::problem::Control;
+use crate::solver::Report;
+
+/// What is held in a step.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) enum Mode {
+    #[default]
+    Gap,
+    Pressure,
+}
+
+impl Mode {
+    pub(super) fn control(self, value: f64) -> Control {
+        match self {
+            Self::Gap => Control::MeanGap(value),
+            Self::Pressure => Control::MeanPressure(value),
+        }
+    }
+}
+
+/// A state, as far as the balance of energy goes.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Place {
+    gap: f64,
+    pressure: f64,
+    /// elastic and adhesive
+    energy: f64,
+    contact: f64,
+}
+
+impl Place {
+    fn of(report: &Report) -> Self {
+        Self {
+            gap: report.mean_gap,
+            pressure: report.mean_pressure,
+            energy: report.elastic_energy + report.adhesive_energy,
+            contact: report.contact_fraction,
+        }
+    }
+
+    /// What is held, and the derivative of the potential by it.
+    fn slope(&self, mode: Mode) -> (f64, f64) {
+        match mode {
+            Mode::Gap => (self.gap, -self.pressure),
+            Mode::Pressure => (self.pressure, self.gap),
+        }
+    }
+
+    /// What is at a minimum in equilibrium.
+    fn potential(&self, mode: Mode) -> f64 {
+        match mode {
+            Mode::Gap => self.energy,
+            Mode::Pressure => self.energy + self.pressure * self.gap,
+        }
+    }
+}
+
+/// The account of energy so far.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Track {
+    pub(super) work: f64,
+    pub(super) dissipated: f64,
+    pub(super) imbalance: f64,
+    /// the least and the largest energy
+    range: (f64, f64),
+}
+
+/// What a trial step came to.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Trial {
+    /// whether the energy changed by what the load did
+    pub(super) balanced: bool,
+    /// whether it fell by more than any work of the load in such a step
+    pub(super) jumped: bool,
+    /// the work by quadrature
+    work: f64,
+    /// how much the energy changed beyond that
+    excess: f64,
+    /// by how much the next step may be longer
+    growth: f64,
+}
+
+/// Where a path is.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct State {
+    pub(super) solved: bool,
+    pub(super) leg: usize,
+    pub(super) mode: Mode,
+    /// where this leg, or the rest of it under another control, began and ends
+    span: (f64, f64),
+    /// the length of the next step
+    step: f64,
+    /// of the pressure at which the leg ends, if mean gaps are given on the way there: itself, and where the leg began
+    pressures: Option<(f64, f64)>,
+    /// the limit point that was just met
+    limit: Option<(f64, f64)>,
+    pub(super) track: Track,
+    /// the last states on the branch, the latest last: at most four
+    places: Vec<Place>,
+    /// the states of which the gaps are kept
+    pub(super) at: Vec<Place>,
+}
+
+/// The largest factor between the lengths of two steps.
+const GROWTH: f64 = 2.0;
+
+/// How close a leg to a pressure comes to it at given mean gaps, as a share of the leg.
+const LANDING: f64 = 1e-3;
+
+/// How many states the quadrature uses at most.
+const PLACES: usize = 4;
+
+impl State {
+    fn here(&self) -> Place {
+        self.places.last().copied().unwrap_or_default()
+    }
+
+    pub(super) fn begin(&mut self, report: &Report) {
+        let place = Place::of(report);
+        self.solved = true;
+        self.track.range = (place.energy, place.energy);
+        (self.places, self.at) = (vec![place], vec![place]);
+        let (x, _) = place.slope(self.mode);
+        self.span = (x, x);
+    }
+
+    pub(super) fn is_at_end(&self) -> bool {
+        self.span.0 == self.span.1 || self.here().slope(self.mode).0 == self.span.1
+    }
+
+    /// Begins a leg.
+    pub(super) fn enter(&mut self, leg: usize, load: Control, settings: &PathSettings) {
+        let (mode, end) = match load {
+            Control::MeanGap(gap) => (Mode::Gap, gap),
+            Control::MeanPressure(pressure) => (Mode::Pressure, pressure),
+        };
+        (self.leg, self.pressures) = (leg, None);
+        self.turn(mode, end, settings);
+    }
+
+    /// Heads for another end.
+    fn turn(&mut self, mode: Mode, end: f64, settings: &PathSettings) {
+        let here = self.here();
+        self.mode = mode;
+        self.span = (here.slope(mode).0, end);
+        // nothing is known of the branch in that direction
+        self.places = vec![here];
+        self.step = (self.length() / settings.steps as f64 / 16.0).max(self.smallest(settings));
+    }
+
+    fn length(&self) -> f64 {
+        (self.span.1 - self.span.0).abs()
+    }
+
+    fn smallest(&self, settings: &PathSettings) -> f64 {
+        settings.resolution * self.length()
+    }
+
+    /// What is held in the next step, and whether the step cannot be halved.
+    pub(super) fn next_target(&self, settings: &PathSettings) -> (f64, bool) {
+        let (from, end) = (self.here().slope(self.mode).0, self.span.1);
+        let left = (end - from).abs();
+        let smallest = self.smallest(settings);
+        // no tiny step at the end
+        let step = if self.step >= left {
+            left
+        } else if 1.5 * self.step >= left {
+            0.5 * left
+        } else {
+            self.step
+        };
+        let target = if step == left { end } else { from + step * (end - from).signum() };
+        // as close as numbers can be
+        let target = if target == from { end } else { target };
+        (target, step <= smallest)
+    }
+
+    pub(super) fn halve(&mut self, settings: &PathSettings) {
+        let (target, _) = self.next_target(settings);
+        let tried = (target - self.here().slope(self.mode).0).abs();
+        self.step = (0.5 * tried).max(self.smallest(settings));
+    }
+
+    /// How many of the last step the next one makes.
+    pub(super) fn extrapolation(&self, target: f64) -> f64 {
+        let at: Vec<_> = self.at.iter().map(|place| place.slope(self.mode).0).collect();
+        match at[..] {
+            [before, last] => (target - last) / (last - before),
+            _ => 0.0,
+        }
+    }
+
+    pub(super) fn judge(&self, target: f64, report: &Report, tolerance: f64, least: f64, noise: f64) -> Trial {
+        let (here, next) = (self.here(), Place::of(report));
+        let ((from, before), (_, after)) = (here.slope(self.mode), next.slope(self.mode));
+        let step = target - from;
+        let mut points: Vec<_> = self.places.iter().map(|place| place.slope(self.mode)).collect();
+        points.push((target, after));
+        let first = points.len().saturating_sub(PLACES);
+        let change = next.potential(self.mode) - here.potential(self.mode);
+        let excess = change - integral(&points[first..]);
+        let (low, high) = self.track.range;
+        let scale = (high.max(next.energy) - low.min(next.energy)).max(least);
+        let allowed = tolerance * scale + noise;
+        let order = 1.0 + (points.len() - first) as f64;
+        let growth = (0.5 * allowed / excess.abs()).powf(order.recip());
+        let energy = next.energy - here.energy;
+        Trial {
+            balanced: excess.abs() <= allowed,
+            jumped: -excess > allowed.max((step * (after - before)).abs()),
+            work: energy - excess,
+            excess,
+            growth: if growth.is_nan() { GROWTH } else { growth.clamp(0.5, GROWTH) },
+        }
+    }
+
+    /// Goes on at given mean gaps, from a limit point.
+    pub(super) fn leave_pressure_control(&mut self, far: f64, settings: &PathSettings) {
+        let here = self.here();
+        let (from, to) = self.span;
+        if here.gap == 0.0 && to > from {
+            // pressed flat, and no way to go on
+            self.span = (here.pressure, here.pressure);
+            return;
+        }
+        self.limit = Some((here.gap, here.pressure));
+        self.pressures = Some((to, from));
+        let end = if to > from { 0.0 } else { far.max(2.0 * here.gap) };
+        self.turn(Mode::Gap, end, settings);
+        self.step = self.smallest(settings);
+    }
+
+    /// Whether a step at a given mean gap goes beyond the pressure at which the leg ends: then the next one is shorter.
+    pub(super) fn overshoots(&mut self, report: &Report, settings: &PathSettings) -> bool {
+        let Some((end, start)) = self.pressures else { return false };
+        let (before, after) = (self.here().pressure, report.mean_pressure);
+        let beyond = (after - end) * (end - start).signum();
+        if beyond <= LANDING * (end - start).abs() || (after - before) * (end - start) <= 0.0 {
+            return false;
+        }
+        let share = ((end - before) / (after - before)).clamp(0.1, 0.9);
+        let (target, smallest) = self.next_target(settings);
+        self.step = share * (target - self.here().slope(self.mode).0).abs();
+        !smallest
+    }
+
+    /// Takes a step.
+    pub(super) fn accept(
+        &mut self,
+        target: f64,
+        report: &Report,
+        trial: Trial,
+        jumped: bool,
+        settings: &PathSettings,
+    ) -> Option<Event> {
+        let (here, mut next) = (self.here(), Place::of(report));
+        // what was asked for, to the last bit
+        match self.mode {
+            Mode::Gap => next.gap = target,
+            Mode::Pressure => next.pressure = target,
+        }
+        let Track { work, dissipated, imbalance, range } = &mut self.track;
+        *range = (range.0.min(next.energy), range.1.max(next.energy));
+        let mut event =
+            self.limit.take().map(|(mean_gap, mean_pressure)| Event::LimitPoint { mean_gap, mean_pressure });
+        if jumped {
+            // the load before the jump does the work of the step
+            let done = -here.pressure * (next.gap - here.gap);
+            let energy_drop = done - (next.energy - here.energy);
+            *work += done;
+            *dissipated += energy_drop;
+            event = Some(Event::Jump(Jump {
+                mean_gap: (here.gap, next.gap),
+                mean_pressure: (here.pressure, next.pressure),
+                contact_fraction: (here.contact, next.contact),
+                energy_drop,
+            }));
+            self.places.clear();
+            self.at.clear();
+        } else {
+            *work += trial.work;
+            *imbalance += trial.excess;
+        }
+        let taken = (target - here.slope(self.mode).0).abs();
+        let largest = self.length() / settings.steps as f64;
+        // a short last step says nothing about the next one
+        let next_step = if jumped { taken } else { (taken * trial.growth).max(self.step.min(taken)) };
+        self.step = next_step.clamp(self.smallest(settings).min(largest), largest);
+        if self.places.len() == PLACES - 1 {
+            self.places.remove(0);
+        }
+        if self.at.len() == 2 {
+            self.at.remove(0);
+        }
+        self.places.push(next);
+        self.at.push(next);
+        if let Some((end, start)) = self.pressures {
+            let short = (end - next.pressure) * (end - start).signum();
+            if short <= LANDING * (end - start).abs() {
+                // the leg ends here
+                let x = next.slope(self.mode).0;
+                self.span = (x, x);
+            } else if next.gap == 0.0 {
+                // pressed flat, the surfaces bear any pressure
+                self.pressures = None;
+                self.turn(Mode::Pressure, end, settings);
+            }
+        }
+        event
+    }
+
+    pub(super) fn numbers(&self) -> Vec<f64> {
+        let flag = |flag: bool| f64::from(u8::from(flag));
+        let pair =
+            |pair: Option<(f64, f64)>| [flag(pair.is_some()), pair.unwrap_or_default().0, pair.unwrap_or_default().1];
+        let Track { work, dissipated, imbalance, range } = self.track;
+        let mut numbers = vec![flag(self.solved), self.leg as f64, flag(self.mode == Mode::Pressure)];
+        numbers.extend([self.span.0, self.span.1, self.step]);
+        numbers.extend(pair(self.pressures).into_iter().chain(pair(self.limit)));
+        numbers.extend([work, dissipated, imbalance, range.0, range.1]);
+        for places in [&self.places, &self.at] {
+            numbers.push(places.len() as f64);
+            numbers.extend(places.iter().flat_map(|p| [p.gap, p.pressure, p.energy, p.contact]));
+        }
+        numbers
+    }
+
+    pub(super) fn of_numbers(numbers: &[f64]) -> Option<Self> {
+        let mut rest = numbers.iter().copied();
+        let mut next = || rest.next();
+        let (solved, leg, mode) = (next()? != 0.0, next()?, next()?);
+        let (span, step) = ((next()?, next()?), next()?);
+        let mut pair = || Some((next()? != 0.0, (next()?, next()?)));
+        let [pressures, limit] = [pair()?, pair()?].map(|(there, pair)| there.then_some(pair));
+        let track = Track { work: next()?, dissipated: next()?, imbalance: next()?, range: (next()?, next()?) };
+        let mut places = || -> Option<Vec<Place>> {
+            let count = next()?;
+            if !(0.0..=PLACES as f64).contains(&count) {
+                return None;
+            }
+            (0..count as usize)
+                .map(|_| Some(Place { gap: next()?, pressure: next()?, energy: next()?, contact: next()? }))
+                .collect()
+        };
+        let (places, at) = (places()?, places()?);
+        let whole = leg >= 0.0 && leg.fract() == 0.0 && solved != places.is_empty();
+        let mode = if mode != 0.0 { Mode::Pressure } else { Mode::Gap };
+        let state = Self { solved, leg: leg as usize, mode, span, step, pressures, limit, track, places, at };
+        (whole && rest.next().is_none()).then_some(state)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_state_comes_back_from_its_numbers() {
+        let place = |x: f64| Place { gap: x, pressure: -x, energy: x * x, contact: 0.5 };
+        let state = State {
+            solved: true,
+            leg: 2,
+            mode: Mode::Pressure,
+            span: (0.1, 0.7),
+            step: 1e-3,
+            pressures: Some((0.2, 0.3)),
+            limit: None,
+            track: Track { work: 1.0, dissipated: 2.0, imbalance: -3.0, range: (4.0, 5.0) },
+            places: vec![place(0.1), place(0.2), place(0.3)],
+            at: vec![place(0.3)],
+        };
+        let numbers = state.numbers();
+        assert_eq!(State::of_numbers(&numbers).unwrap(), state);
+        assert_eq!(State::of_numbers(&State::default().numbers()).unwrap(), State::default());
+        for length in 0..numbers.len() {
+            assert_eq!(State::of_numbers(&numbers[..length]), None);
+        }
+        assert_eq!(State::of_numbers(&[numbers, vec![0.0]].concat()), None);
+    }
+}

@@ -1,0 +1,233 @@
+use std::fmt;
+
+use ndarray::Array2;
+
+use crate::adhesion::AdhesionLaw;
+use crate::elastic::ElasticOperator;
+use crate::error::{Error, Result};
+use crate::field::{Partial, Reducer, read, write};
+use crate::par::IndexedParallelIterator;
+use crate::problem::{Control, Problem};
+use crate::real::Real;
+use crate::solver::Solution;
+
+mod bound;
+mod departure;
+mod eigenpair;
+mod hessian;
+
+pub use departure::Departure;
+use eigenpair::{Eigenpair, lowest};
+use hessian::Hessian;
+
+/// Whether an equilibrium is one that lasts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Verdict {
+    /// The smallest eigenvalue is bounded below by a positive number: a strict local minimum of the energy.
+    Stable,
+    /// There is a change of the gap along which the curvature of the energy is negative: a saddle, or a maximum.
+    Unstable,
+    /// Neither was shown: the smallest eigenvalue is too close to zero, or the iterations ran out.
+    Undecided,
+}
+
+impl Verdict {
+    /// The name that the tool and `report.json` use.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Stable => "stable",
+            Self::Unstable => "unstable",
+            Self::Undecided => "undecided",
+        }
+    }
+}
+
+impl fmt::Display for Verdict {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+/// How the stability of an equilibrium is found out.
+///
+/// An equilibrium is a strict local minimum of the energy where the smallest eigenvalue of its second derivative is positive,
+///
+/// ```math
+/// \lambda = \min_v \frac{\langle v, (K^{-1} + \phi''(g))\, v\rangle}{\langle v, v\rangle} ,
+/// ```
+///
+/// over the changes v of the gap that vanish where the surfaces touch, and have no mean if the mean gap is given. It is found by
+/// locally optimal conjugate gradients (Knyazev, *SIAM J. Sci. Comput.* 23 (2001)) with the compliance as
+/// preconditioner, two operator applications an iteration.
+///
+/// The Rayleigh quotient that they end with is above the smallest eigenvalue. If it is negative, that proves instability. If it is
+/// positive, a bound from below is wanted: the softest stiffness plus the least φ'' if that will do, and otherwise one from a
+/// Lanczos iteration on what is left when the mode found is lifted out of the way, from a random start (the same in every run). Its
+/// bound holds but for a chance of one in a million over such starts, whatever the spectrum; by Temple's inequality it then
+/// bounds the smallest eigenvalue itself, and closely so where that is nearly zero: near limit points.
+///
+/// | field | default | meaning | range |
+/// |---|---|---|---|
+/// | `tolerance` | 3e-2 | the norm of the residual of the mode, over the larger of its eigenvalue and the softest stiffness; the eigenvalue is right to about its square | positive |
+/// | `max_iterations` | 500 | iterations for the mode, and again for the bound, after which the verdict is open | any |
+/// | `bound` | true | whether to look for a lower bound; without one only the simple bound can show stability | |
+///
+/// # Laws whose traction jumps
+///
+/// The slope φ'' of [`MaugisDugdale`](crate::MaugisDugdale) is nothing but −σ₀ times a measure on the line g = ρ. No node lies on that
+/// line: node by node φ'' is zero, every equilibrium of the discrete energy is a strict local minimum, and is pinned by
+/// the grid. That says nothing about the continuum. So the traction is smoothed as for the
+/// [default start](AdhesionLaw::smooth), which spreads the measure over a few nodes, and the verdict is about that second
+/// derivative, at the given gap: an estimate for the continuum, which gets better as the grid is refined, and no statement
+/// about the discrete energy. [`Stability::smoothed`] says so.
+///
+/// ```
+/// use asperity::{Control, Exponential, Grid, Problem, Solver, StabilityTest, Surface, Verdict, Westergaard};
+/// let grid = Grid::square(16, 1.0)?;
+/// let flat = Surface::from_fn(grid, |_, _| 0.0)?;
+/// let mut problem = Problem::new(&flat, Westergaard::<f64>::new(grid, 1.0)?, Exponential::new(1e-3, 1e-2)?)?;
+/// // two flats at a uniform gap: πE*/L + φ''(g), which changes sign at g = ρ ln(wL/(πE*ρ²))
+/// for (gap, verdict) in [(0.011, Verdict::Unstable), (0.012, Verdict::Stable)] {
+///     let control = Control::MeanGap(gap);
+///     let solution = Solver::default().solve(&mut problem, control)?;
+///     let test = StabilityTest { tolerance: 1e-3, ..StabilityTest::default() };
+///     let stability = test.run(&mut problem, control, &solution)?;
+///     let exact = std::f64::consts::PI - 10.0 * (-gap / 1e-2_f64).exp();
+///     assert_eq!(stability.verdict, verdict);
+///     assert!((stability.eigenvalue - exact).abs() < 1e-5);
+/// }
+/// # Ok::<(), asperity::Error>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StabilityTest {
+    /// The relative residual of the mode at which the iteration ends.
+    pub tolerance: f64,
+    /// The iterations after which it is given up.
+    pub max_iterations: usize,
+    /// Whether to look for a lower bound of the eigenvalue.
+    pub bound: bool,
+}
+
+impl Default for StabilityTest {
+    fn default() -> Self {
+        Self { tolerance: 3e-2, max_iterations: 500, bound: true }
+    }
+}
+
+/// The stability of an equilibrium. Eigenvalues are pressures per length.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Stability<T> {
+    /// What was shown.
+    pub verdict: Verdict,
+    /// The Rayleigh quotient of the mode: no smaller than the smallest eigenvalue. Infinite where no node can move.
+    pub eigenvalue: f64,
+    /// The norm of the mode's residual: some eigenvalue, not necessarily the smallest, is within this distance.
+    pub residual: f64,
+    /// A number that the smallest eigenvalue is no smaller than; see [`StabilityTest`] for how sure that is.
+    pub lower_bound: f64,
+    /// With a positive lower bound, the bound of the relative error in the energy norm that the certificate of the solve comes
+    /// to: [`Report::relative_error`](crate::Report::relative_error) times 1 + max(−φ'')/(lower bound). It holds to first order: as far as φ'' does
+    /// not change between the solution and the equilibrium next to it.
+    pub error_bound: Option<f64>,
+    /// The mode: the change of the gap along which the energy is softest, of shape (Nx, Ny) and mean square 1. Along
+    /// it, by the amount a, the energy changes by ½·eigenvalue·a².
+    pub mode: Array2<T>,
+    /// Whether the jumps of the law were smoothed: then all this is about the smoothed law.
+    pub smoothed: bool,
+    /// How many operator applications the mode took.
+    pub operator_applications: usize,
+    /// How many more the lower bound took.
+    pub bound_applications: usize,
+}
+
+impl StabilityTest {
+    /// Finds out whether a solution is stable under a control: the one under which it was found, or another one. Contact
+    /// is where its gap is not positive.
+    ///
+    /// # Errors
+    /// [`Error::Shape`] if the solution is of another grid; [`Error::Value`] if the tolerance is not positive;
+    /// [`Error::Law`] if φ'' is not finite somewhere.
+    pub fn run<T, O, L>(
+        &self,
+        problem: &mut Problem<T, O, L>,
+        control: Control,
+        solution: &Solution<T>,
+    ) -> Result<Stability<T>>
+    where
+        T: Real,
+        O: ElasticOperator<T>,
+        L: AdhesionLaw<T>,
+    {
+        Error::positive("tolerance", self.tolerance)?;
+        Error::shape("gap", solution.gap.dim(), problem.grid().shape())?;
+        Error::all_finite("gap", solution.gap.view())?;
+        let smoothed = problem.smooth_law();
+        let slopes = slopes(&solution.gap, &problem.law);
+        if smoothed {
+            problem.law.smooth(T::zero());
+        }
+        let centred = matches!(control, Control::MeanGap(_));
+        let hessian = Hessian::new(&mut problem.operator, slopes?, centred);
+        self.judge(hessian, solution.report.relative_error, smoothed)
+    }
+
+    fn judge<T: Real>(&self, mut hessian: Hessian<'_, T>, relative_error: f64, smoothed: bool) -> Result<Stability<T>> {
+        let steepest = (-hessian.least_slope()).max(0.0);
+        let simple = hessian.simple_bound();
+        let stability = |verdict, pair: Eigenpair<T>, lower_bound: f64, taken: usize, more: usize| Stability {
+            verdict,
+            eigenvalue: pair.value,
+            residual: pair.residual,
+            lower_bound,
+            error_bound: (lower_bound > 0.0).then(|| relative_error * (1.0 + steepest / lower_bound)),
+            mode: pair.vector,
+            smoothed,
+            operator_applications: taken,
+            bound_applications: more,
+        };
+        if hessian.dimension() == 0 {
+            let nothing = Array2::zeros(hessian.shape());
+            let pair = Eigenpair { value: f64::INFINITY, residual: 0.0, noise: 0.0, vector: nothing };
+            return Ok(stability(Verdict::Stable, pair, f64::INFINITY, 0, 0));
+        }
+        let pair = lowest(&mut hessian, self.tolerance, self.max_iterations)?;
+        let taken = hessian.applications();
+        if pair.value < -pair.noise {
+            return Ok(stability(Verdict::Unstable, pair, f64::NEG_INFINITY, taken, 0));
+        }
+        let mut lower = if simple.is_nan() { f64::NEG_INFINITY } else { simple };
+        if lower <= 0.0 && self.bound && pair.value > pair.noise {
+            lower = lower.max(bound::below(&mut hessian, &pair, self.max_iterations)?);
+        }
+        let verdict = if lower > pair.noise { Verdict::Stable } else { Verdict::Undecided };
+        let more = hessian.applications() - taken;
+        Ok(stability(verdict, pair, lower, taken, more))
+    }
+}
+
+/// φ'' at every node, and infinity on the contact.
+fn slopes<T: Real>(gap: &Array2<T>, law: &impl AdhesionLaw<T>) -> Result<Array2<T>> {
+    let mut slopes = Array2::zeros(gap.dim());
+    let mut reducer = Reducer::new(gap.len());
+    let wrong = reducer.run(read(gap).zip(write(&mut slopes)), |_, (gap, slopes)| {
+        let mut part = Partial::NONE;
+        if !law.is_zero() {
+            // no law is asked for a negative gap
+            let apart: Vec<T> = gap.iter().map(|gap| gap.max(T::zero())).collect();
+            law.slopes(&apart, slopes);
+        }
+        for (slope, &gap) in slopes.iter_mut().zip(gap) {
+            if gap <= T::zero() {
+                *slope = T::infinity();
+            } else if !slope.is_finite() {
+                part.min = part.min.min(gap.widen());
+            }
+        }
+        part
+    });
+    if wrong.min.is_finite() {
+        let (function, gap) = ("slope of the adhesive traction", wrong.min);
+        return Err(Error::Law { function, gap, value: law.slope(T::lit(gap)).widen(), expected: None });
+    }
+    Ok(slopes)
+}

@@ -1,0 +1,100 @@
+use std::ops::ControlFlow;
+
+use ndarray::Zip;
+
+use super::Stability;
+use crate::adhesion::AdhesionLaw;
+use crate::constraint::ContactConstraint;
+use crate::elastic::ElasticOperator;
+use crate::error::{Error, Result};
+use crate::problem::{Control, Problem};
+use crate::real::Real;
+use crate::solver::{Solution, Solver};
+
+/// Where a minimisation went that left an equilibrium along its softest mode.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Departure<T> {
+    /// Where it ended.
+    pub solution: Solution<T>,
+    /// How far the energy fell, per area: that of elasticity and adhesion, and under pressure control of the load. Zero or
+    /// less if there was nowhere to go.
+    pub energy_drop: f64,
+    /// The root mean square of the change of the gap.
+    pub distance: f64,
+    /// 1 if it left along the mode, −1 if against it: the way on which the energy fell further.
+    pub direction: f64,
+}
+
+/// The largest change of the gap that a perturbation makes, in ranges of adhesion.
+const PERTURBATION: f64 = 0.1;
+
+impl<T: Real> Stability<T> {
+    /// Leaves an equilibrium: perturbs its gap along the mode, both ways, minimises on from there, and returns the one
+    /// that comes to the lower energy.
+    ///
+    /// The perturbation changes the gap by a tenth of the range of adhesion at most. From a saddle the energy falls along the mode, and
+    /// the solver never raises it again: it does not come back. From a stable equilibrium it does, within that distance.
+    /// `None` if the mode is zero, as where all nodes are in contact, or without adhesion.
+    ///
+    /// # Errors
+    /// [`Error::Shape`] if the solution is of another grid, and those of [`Solver::solve_from`].
+    ///
+    /// ```
+    /// use asperity::{Control, Exponential, Grid, Problem, Solver, StabilityTest, Surface, Verdict, Westergaard};
+    /// let grid = Grid::line(64, 1.0)?;
+    /// let flat = Surface::from_fn(grid, |_, _| 0.0)?;
+    /// let mut problem = Problem::new(&flat, Westergaard::<f64>::new(grid, 1.0)?, Exponential::new(1e-3, 1e-2)?)?;
+    /// let (mut solver, control) = (Solver::default(), Control::MeanGap(0.011));
+    /// let even = solver.solve(&mut problem, control)?; // a uniform gap, which does not last
+    /// let stability = StabilityTest::default().run(&mut problem, control, &even)?;
+    /// assert_eq!(stability.verdict, Verdict::Unstable);
+    ///
+    /// let left = stability.leave(&mut solver, &mut problem, control, &even)?.expect("there is a mode");
+    /// assert!(left.energy_drop > 0.0 && left.solution.report.contact_points > 0);
+    /// let stability = StabilityTest::default().run(&mut problem, control, &left.solution)?;
+    /// assert_eq!(stability.verdict, Verdict::Stable);
+    /// # Ok::<(), asperity::Error>(())
+    /// ```
+    pub fn leave<O, L, C>(
+        &self,
+        solver: &mut Solver<C>,
+        problem: &mut Problem<T, O, L>,
+        control: Control,
+        from: &Solution<T>,
+    ) -> Result<Option<Departure<T>>>
+    where
+        O: ElasticOperator<T>,
+        L: AdhesionLaw<T>,
+        C: ContactConstraint<T>,
+    {
+        Error::shape("gap", from.gap.dim(), self.mode.dim())?;
+        let largest = self.mode.iter().fold(T::zero(), |largest, value| largest.max(value.abs()));
+        let amplitude = T::lit(PERTURBATION) * problem.law.range() / largest;
+        if !(amplitude > T::zero() && amplitude.is_finite()) {
+            return Ok(None);
+        }
+        let energy = |solution: &Solution<T>| {
+            let report = &solution.report;
+            let load = match control {
+                Control::MeanGap(_) => 0.0,
+                Control::MeanPressure(pressure) => pressure * report.mean_gap,
+            };
+            report.elastic_energy + report.adhesive_energy + load
+        };
+        let mut best: Option<Departure<T>> = None;
+        for direction in [1.0, -1.0] {
+            let step = T::lit(direction) * amplitude;
+            let mut start = from.gap.clone();
+            start.zip_mut_with(&self.mode, |gap, &mode| *gap = (*gap + step * mode).max(T::zero()));
+            let solution = solver.solve_from(problem, control, Some(start.view()), |_| ControlFlow::Continue(()))?;
+            let energy_drop = energy(from) - energy(&solution);
+            if best.as_ref().is_none_or(|best| energy_drop > best.energy_drop) {
+                let square =
+                    Zip::from(&solution.gap).and(&from.gap).fold(0.0, |sum: f64, &a, &b| sum + (a - b).widen().powi(2));
+                let distance = (square / from.gap.len() as f64).sqrt();
+                best = Some(Departure { solution, energy_drop, distance, direction });
+            }
+        }
+        Ok(best)
+    }
+}

@@ -1,0 +1,206 @@
+//! The smallest eigenvalue, by locally optimal preconditioned conjugate gradients (Knyazev 2001).
+
+use ndarray::Array2;
+
+use super::hessian::Hessian;
+use crate::error::Result;
+use crate::field::{Partial, read};
+use crate::par::IndexedParallelIterator;
+use crate::real::Real;
+
+/// What an iteration comes to.
+pub(super) struct Eigenpair<T> {
+    /// the Rayleigh quotient
+    pub(super) value: f64,
+    /// the norm of what is left of the equation
+    pub(super) residual: f64,
+    /// what rounding may have done to the value
+    pub(super) noise: f64,
+    /// of mean square 1
+    pub(super) vector: Array2<T>,
+}
+
+/// A share of a vector that is not in those before below which it counts as one of them.
+const DEPENDENT: f64 = 1e-10;
+
+type Matrix = [[f64; 3]; 3];
+
+/// The smallest eigenvalue with its mode.
+pub(super) fn lowest<T: Real>(hessian: &mut Hessian<'_, T>, tolerance: f64, most: usize) -> Result<Eigenpair<T>> {
+    let shape = hessian.shape();
+    let field = || Array2::<T>::zeros(shape);
+    let [mut x, mut ax, mut w, mut aw, mut p, mut ap] = std::array::from_fn(|_| field());
+    let mut rough = hessian.random(0);
+    hessian.weigh(&mut rough);
+    hessian.precondition(&rough, &mut x)?;
+    drop(rough);
+    normalise(hessian, &mut x);
+    hessian.apply(&x, &mut ax)?;
+    let (mut directions, mut fresh, mut iteration) = (2, true, 0);
+    loop {
+        let value = hessian.product(&x, &ax);
+        // w holds the residual for a while
+        w.assign(&ax);
+        hessian.combine(1.0, &mut w, -value, &x);
+        let residual = hessian.product(&w, &w).sqrt();
+        let noise = noise::<T>(hessian, &ax, value);
+        let enough = residual <= tolerance * value.abs().max(hessian.softest()) || residual <= noise;
+        if !residual.is_finite() || iteration >= most || enough {
+            if fresh {
+                return Ok(Eigenpair { value, residual, noise, vector: x });
+            }
+            // the image was only updated: the numbers that are reported come from an image of its own
+            normalise(hessian, &mut x);
+            hessian.apply(&x, &mut ax)?;
+            (fresh, directions) = (true, 2);
+            continue;
+        }
+        aw.assign(&w);
+        hessian.precondition(&aw, &mut w)?;
+        normalise(hessian, &mut w);
+        hessian.apply(&w, &mut aw)?;
+        let (gram, energy) = products(hessian, [&x, &w, &p], [&ax, &aw, &ap]);
+        let [of_x, of_w, of_p] = ritz(&gram, &energy, directions);
+        let size = (of_w * of_w * gram[1][1] + 2.0 * of_w * of_p * gram[1][2] + of_p * of_p * gram[2][2]).sqrt();
+        if size.is_nan() || size <= 0.0 {
+            // the best of the three is what there was
+            return Ok(Eigenpair { value, residual, noise, vector: x });
+        }
+        for (x, w, p) in [(&mut x, &w, &mut p), (&mut ax, &aw, &mut ap)] {
+            hessian.combine(of_p / size, p, of_w / size, w);
+            hessian.combine(of_x, x, size, p);
+        }
+        (directions, fresh) = (3, false);
+        iteration += 1;
+    }
+}
+
+/// What rounding may do to a Rayleigh quotient.
+fn noise<T: Real>(hessian: &mut Hessian<'_, T>, image: &Array2<T>, value: f64) -> f64 {
+    // the image is the sum of what K⁻¹ and φ'' make, neither of which need be small
+    let image = hessian.product(image, image).sqrt();
+    8.0 * T::epsilon().widen() * (image.max(value.abs()) + 2.0 * hessian.least_slope().abs() + hessian.softest())
+}
+
+fn normalise<T: Real>(hessian: &mut Hessian<'_, T>, field: &mut Array2<T>) {
+    let norm = hessian.product(field, field).sqrt();
+    if norm > 0.0 {
+        hessian.scale(field, 1.0 / norm);
+    }
+}
+
+/// The mean products of three fields with one another, and with their images.
+fn products<T: Real>(hessian: &mut Hessian<'_, T>, of: [&Array2<T>; 3], images: [&Array2<T>; 3]) -> (Matrix, Matrix) {
+    let [gram, energy] = [of, images].map(|others| {
+        let ([a, b, c], [u, v, w]) = (of.map(read), others.map(read));
+        let total = hessian.reducer.run(a.zip(b).zip(c).zip(u.zip(v).zip(w)), |_, (((a, b), c), ((u, v), w))| {
+            let mut part = Partial::NONE;
+            for i in 0..a.len() {
+                let ([a, b, c], [u, v, w]) = ([a[i], b[i], c[i]].map(T::widen), [u[i], v[i], w[i]].map(T::widen));
+                for (sum, product) in part.sum.iter_mut().zip([a * u, b * v, c * w, a * v, a * w, b * w]) {
+                    *sum += product;
+                }
+            }
+            part
+        });
+        let [aa, bb, cc, ab, ac, bc, ..] = total.sum.map(|sum| sum / of[0].len() as f64);
+        [[aa, ab, ac], [ab, bb, bc], [ac, bc, cc]]
+    });
+    (gram, energy)
+}
+
+/// The combination of the first so many of three fields that has the least energy for its norm, of norm 1.
+fn ritz(gram: &Matrix, energy: &Matrix, directions: usize) -> [f64; 3] {
+    // an orthonormal basis of their span, as combinations of them
+    let mut basis: Vec<[f64; 3]> = Vec::with_capacity(3);
+    for k in 0..directions {
+        let mut next = [0.0; 3];
+        next[k] = 1.0;
+        // twice, as once is not enough for nearly parallel ones
+        for _ in 0..2 {
+            for of in &basis {
+                let overlap = form(gram, of, &next);
+                next.iter_mut().zip(of).for_each(|(next, of)| *next -= overlap * of);
+            }
+        }
+        let left = form(gram, &next, &next);
+        if left > DEPENDENT * gram[k][k] {
+            basis.push(next.map(|c| c / left.sqrt()));
+        }
+    }
+    let mut small = [[0.0; 3]; 3];
+    for (i, a) in basis.iter().enumerate() {
+        for (j, b) in basis.iter().enumerate() {
+            small[i][j] = form(energy, a, b);
+        }
+    }
+    let lowest = lowest_of(small, basis.len());
+    let mut result = [0.0; 3];
+    for (share, of) in lowest.iter().zip(&basis) {
+        result.iter_mut().zip(of).for_each(|(result, of)| *result += share * of);
+    }
+    // the first field keeps its sign
+    if result[0] < 0.0 { result.map(|c| -c) } else { result }
+}
+
+/// aᵀ M b
+fn form(matrix: &Matrix, a: &[f64; 3], b: &[f64; 3]) -> f64 {
+    matrix.iter().zip(a).map(|(row, a)| a * row.iter().zip(b).map(|(m, b)| m * b).sum::<f64>()).sum()
+}
+
+/// The eigenvector of the least eigenvalue of the leading part of a symmetric matrix, by Jacobi's rotations.
+fn lowest_of(mut m: Matrix, size: usize) -> [f64; 3] {
+    let mut vectors = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+    for _ in 0..20 {
+        for (i, j) in [(0, 1), (0, 2), (1, 2)] {
+            if j >= size || m[i][j] == 0.0 {
+                continue;
+            }
+            let half = 0.5 * (m[j][j] - m[i][i]) / m[i][j];
+            let tangent = half.signum() / (half.abs() + half.hypot(1.0));
+            let cos = tangent.hypot(1.0).recip();
+            let sin = tangent * cos;
+            let turn = |a: &mut f64, b: &mut f64| (*a, *b) = (cos * *a - sin * *b, sin * *a + cos * *b);
+            for row in m.iter_mut().chain(vectors.iter_mut()) {
+                let (head, tail) = row.split_at_mut(j);
+                turn(&mut head[i], &mut tail[0]);
+            }
+            let (head, tail) = m.split_at_mut(j);
+            head[i].iter_mut().zip(&mut tail[0]).for_each(|(a, b)| turn(a, b));
+            (m[i][j], m[j][i]) = (0.0, 0.0);
+        }
+    }
+    let least = (0..size).min_by(|&a, &b| m[a][a].total_cmp(&m[b][b])).unwrap_or(0);
+    vectors.map(|row| row[least])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_least_of_three_combinations() {
+        let (gram, energy) = (
+            [[1.0, 0.2, 0.1], [0.2, 1.0, -0.3], [0.1, -0.3, 1.0]],
+            [[2.0, 0.4, -1.0], [0.4, 3.0, 0.7], [-1.0, 0.7, 0.5]],
+        );
+        let found = ritz(&gram, &energy, 3);
+        assert!((form(&gram, &found, &found) - 1.0).abs() < 1e-14);
+        let least = form(&energy, &found, &found);
+        for k in 0..3 {
+            // stationary
+            let mut unit = [0.0; 3];
+            unit[k] = 1.0;
+            assert!((form(&energy, &unit, &found) - least * form(&gram, &unit, &found)).abs() < 1e-14);
+        }
+        for i in 0..1000 {
+            let [a, b] = [0.1, 0.37].map(|step: f64| (step * f64::from(i)).sin());
+            let other = [a, b, 1.0 - a * b];
+            assert!(form(&energy, &other, &other) >= least * form(&gram, &other, &other));
+        }
+        // a field that is in the span of the others is left out
+        let twice = [[1.0, 1.0, 0.1], [1.0, 1.0, 0.1], [0.1, 0.1, 1.0]];
+        let found = ritz(&twice, &energy, 2);
+        assert_eq!(found, [1.0, 0.0, 0.0]);
+    }
+}

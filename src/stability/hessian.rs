@@ -1,0 +1,173 @@
+//! The second derivative of the energy, on the changes of the gap that are admissible.
+
+use ndarray::Array2;
+
+use crate::elastic::ElasticOperator;
+use crate::error::Result;
+use crate::field::{Partial, Reducer, flat, read, write};
+use crate::par::IndexedParallelIterator;
+use crate::real::Real;
+
+/// K⁻¹ + φ'' on fields that vanish on the contact, and have no mean if the mean gap is given.
+pub(super) struct Hessian<'a, T> {
+    operator: &'a mut dyn ElasticOperator<T>,
+    /// φ'', infinite on the contact
+    slopes: Array2<T>,
+    centred: bool,
+    free: f64,
+    least: f64,
+    pub(super) reducer: Reducer,
+    applications: usize,
+}
+
+impl<'a, T: Real> Hessian<'a, T> {
+    pub(super) fn new(operator: &'a mut dyn ElasticOperator<T>, slopes: Array2<T>, centred: bool) -> Self {
+        let free = flat(&slopes).iter().filter(|slope| slope.is_finite()).count() as f64;
+        let least = flat(&slopes).iter().fold(f64::INFINITY, |least, slope| least.min(slope.widen()));
+        let reducer = Reducer::new(slopes.len());
+        Self { operator, slopes, centred, free, least, reducer, applications: 0 }
+    }
+
+    pub(super) fn shape(&self) -> (usize, usize) {
+        self.slopes.dim()
+    }
+
+    pub(super) fn applications(&self) -> usize {
+        self.applications
+    }
+
+    /// How many admissible fields are independent.
+    pub(super) fn dimension(&self) -> usize {
+        let free = self.free as usize;
+        if self.centred { free.saturating_sub(1) } else { free }
+    }
+
+    /// The least φ''.
+    pub(super) fn least_slope(&self) -> f64 {
+        if self.least.is_finite() { self.least } else { 0.0 }
+    }
+
+    /// The stiffness of the softest wave, or what stands for it where there is none.
+    pub(super) fn softest(&self) -> f64 {
+        match self.operator.stiffness_range().0 {
+            softest if softest > 0.0 => softest,
+            _ => self.operator.modulus() / self.operator.grid().lengths().0,
+        }
+    }
+
+    pub(super) fn stiffest(&self) -> f64 {
+        self.operator.stiffness_range().1.max(self.softest())
+    }
+
+    /// What the eigenvalues are no smaller than, as K⁻¹ and φ'' alone are not.
+    pub(super) fn simple_bound(&self) -> f64 {
+        // a uniform change costs no elastic energy
+        let elastic = if self.centred { self.operator.stiffness_range().0 } else { 0.0 };
+        elastic + self.least_slope()
+    }
+
+    /// Makes a field admissible.
+    pub(super) fn project(&mut self, field: &mut Array2<T>) {
+        let Self { reducer, slopes, centred, free, .. } = self;
+        let mut mean = T::zero();
+        if *centred && *free > 0.0 {
+            let total = reducer.run(read(slopes).zip(read(field)), |_, (slopes, values)| {
+                let mut part = Partial::NONE;
+                for (slope, value) in slopes.iter().zip(values) {
+                    part.sum[0] += if slope.is_finite() { value.widen() } else { 0.0 };
+                }
+                part
+            });
+            mean = T::lit(total.sum[0] / *free);
+        }
+        reducer.run(read(slopes).zip(write(field)), |_, (slopes, values)| {
+            for (slope, value) in slopes.iter().zip(values) {
+                *value = if slope.is_finite() { *value - mean } else { T::zero() };
+            }
+            Partial::NONE
+        });
+    }
+
+    /// The image of an admissible field; takes one operator application.
+    pub(super) fn apply(&mut self, field: &Array2<T>, image: &mut Array2<T>) -> Result<()> {
+        self.operator.pressure(field.view(), image.view_mut())?;
+        self.applications += 1;
+        let Self { reducer, slopes, .. } = self;
+        reducer.run(read(slopes).zip(read(field)).zip(write(image)), |_, ((slopes, field), image)| {
+            for ((&slope, &value), image) in slopes.iter().zip(field).zip(image) {
+                if slope.is_finite() {
+                    *image += slope * value;
+                }
+            }
+            Partial::NONE
+        });
+        self.project(image);
+        Ok(())
+    }
+
+    /// The compliance, as preconditioner, of an admissible field; takes one operator application.
+    pub(super) fn precondition(&mut self, residual: &Array2<T>, result: &mut Array2<T>) -> Result<()> {
+        let softest = self.softest();
+        self.operator.precondition(residual.view(), softest, softest, result.view_mut())?;
+        self.applications += 1;
+        self.project(result);
+        Ok(())
+    }
+
+    /// The mean product of two fields.
+    pub(super) fn product(&mut self, a: &Array2<T>, b: &Array2<T>) -> f64 {
+        let total = self.reducer.run(read(a).zip(read(b)), |_, (a, b)| {
+            let mut part = Partial::NONE;
+            part.sum[0] = a.iter().zip(b).map(|(a, b)| a.widen() * b.widen()).sum();
+            part
+        });
+        total.sum[0] / a.len() as f64
+    }
+
+    pub(super) fn scale(&mut self, field: &mut Array2<T>, factor: f64) {
+        let factor = T::lit(factor);
+        self.reducer.run(write(field), |_, values| {
+            values.iter_mut().for_each(|value| *value *= factor);
+            Partial::NONE
+        });
+    }
+
+    /// a ← factor·a + other·b
+    pub(super) fn combine(&mut self, factor: f64, a: &mut Array2<T>, other: f64, b: &Array2<T>) {
+        let (factor, other) = (T::lit(factor), T::lit(other));
+        self.reducer.run(write(a).zip(read(b)), |_, (a, b)| {
+            a.iter_mut().zip(b).for_each(|(a, &b)| *a = factor * *a + other * b);
+            Partial::NONE
+        });
+    }
+
+    /// Multiplies a field by the curvature of the adhesive energy, where modes are soft.
+    pub(super) fn weigh(&mut self, field: &mut Array2<T>) {
+        let least = self.least_slope();
+        if least < 0.0 {
+            let least = T::lit(least);
+            let Self { reducer, slopes, .. } = self;
+            reducer.run(read(slopes).zip(write(field)), |_, (slopes, values)| {
+                for (&slope, value) in slopes.iter().zip(values) {
+                    if slope.is_finite() {
+                        *value *= (slope / least).max(T::lit(0.1));
+                    }
+                }
+                Partial::NONE
+            });
+            self.project(field);
+        }
+    }
+
+    /// An admissible field of independent normal numbers, the same for every `stream`.
+    pub(super) fn random(&mut self, stream: u32) -> Array2<T> {
+        let ny = self.shape().1;
+        let mut field = Array2::from_shape_fn(self.shape(), |(i, j)| {
+            let node = (i * ny + j) as u64;
+            let [a, b] = crate::surface::uniform([node as u32, (node >> 32) as u32, stream, 0], [0x5EED, 0]);
+            T::lit((-2.0 * (1.0 - a).ln()).sqrt() * (std::f64::consts::TAU * b).cos())
+        });
+        self.project(&mut field);
+        field
+    }
+}

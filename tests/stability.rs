@@ -1,0 +1,213 @@
+//! Whether equilibria are stable, against what is known exactly and against dense matrices.
+
+mod common;
+
+use std::f64::consts::PI;
+
+use asperity::*;
+use common::{rough, solve, sphere};
+use ndarray::Array2;
+
+const TIGHT: StabilityTest = StabilityTest { tolerance: 1e-6, max_iterations: 500, bound: true };
+
+fn flat<T: Real>(shape: (usize, usize), law: Exponential<T>) -> Problem<T, Westergaard<T>, Exponential<T>> {
+    let grid = Grid::new(shape, (1.0, if shape.1 == 1 { 1.0 } else { 0.7 })).unwrap();
+    let surface = Surface::from_fn(grid, |_, _| 0.0).unwrap();
+    Problem::new(&surface, Westergaard::new(grid, 2.0).unwrap(), law).unwrap()
+}
+
+#[test]
+fn flats_at_a_uniform_gap() {
+    let (w, range) = (1e-3, 1e-2);
+    for shape in [(32, 32), (21, 10), (64, 1), (2, 1)] {
+        let mut problem = flat(shape, Exponential::new(w, range).unwrap());
+        let softest = 2.0 * PI; // πE*/L
+        let critical = range * (w / (softest * range * range)).ln();
+        for offset in [-0.3, -1e-3, -1e-6, 1e-6, 1e-3, 0.3, 10.0] {
+            let gap = critical + offset * range;
+            let control = Control::MeanGap(gap);
+            let solution = solve(&mut problem, control, 1e-8);
+            let stability = TIGHT.run(&mut problem, control, &solution).unwrap();
+            let exact = softest - w / (range * range) * (-gap / range).exp();
+            assert!(
+                (stability.eigenvalue - exact).abs() < 1e-8,
+                "{shape:?} {offset}: {} {exact}",
+                stability.eigenvalue
+            );
+            assert_eq!(stability.verdict, if offset < 0.0 { Verdict::Unstable } else { Verdict::Stable });
+            assert!(stability.lower_bound <= exact + 1e-12);
+            // at a given pressure the flats move as one, and elasticity does not hold them
+            let pulled = Control::MeanPressure(-1e-3);
+            let stability = TIGHT.run(&mut problem, pulled, &solution).unwrap();
+            assert_eq!(stability.verdict, Verdict::Unstable);
+            assert!((stability.eigenvalue - (exact - softest)).abs() < 1e-8 * softest);
+        }
+    }
+}
+
+/// How many eigenvalues of the second derivative are below a number: the negative pivots of the dense matrix.
+fn below(
+    problem: &mut Problem<f64, Westergaard<f64>, Exponential<f64>>,
+    gap: &Array2<f64>,
+    centred: bool,
+    number: f64,
+) -> usize {
+    let (grid, law) = (*problem.grid(), *problem.law());
+    let mut operator = Westergaard::<f64>::new(grid, problem.operator().modulus()).unwrap();
+    let free: Vec<_> = gap.indexed_iter().filter(|(_, g)| **g > 0.0).map(|(at, _)| at).collect();
+    let mut rows: Vec<Vec<f64>> = Vec::new();
+    for &at in &free {
+        let (mut unit, mut image) = (Array2::zeros(gap.dim()), Array2::zeros(gap.dim()));
+        unit[at] = 1.0;
+        operator.pressure(unit.view(), image.view_mut()).unwrap();
+        image[at] += law.slope(gap[at]) - number;
+        rows.push(free.iter().map(|&at| image[at]).collect());
+    }
+    if centred {
+        // fields without mean, and a mode that is far up
+        let n = free.len() as f64;
+        for _ in 0..2 {
+            for row in &mut rows {
+                let mean = row.iter().sum::<f64>() / n;
+                row.iter_mut().for_each(|value| *value -= mean);
+            }
+            rows = (0..free.len()).map(|j| rows.iter().map(|row| row[j]).collect()).collect();
+        }
+        rows.iter_mut().flatten().for_each(|value| *value += 1e3 / n);
+    }
+    let mut negative = 0;
+    for k in 0..rows.len() {
+        let (pivot, tail) = (rows[k][k], rows[k].clone());
+        negative += usize::from(pivot < 0.0);
+        for row in &mut rows[k + 1..] {
+            let factor = row[k] / pivot;
+            row.iter_mut().zip(&tail).skip(k).for_each(|(value, above)| *value -= factor * above);
+        }
+    }
+    negative
+}
+
+#[test]
+fn eigenvalues_and_bounds_agree_with_dense_matrices() {
+    let mut seen = [0; 2];
+    for (range, w, gaps) in [(4e-3, 4e-4, [0.012, 0.02, 0.03]), (1e-2, 2e-3, [0.03, 0.11, 0.115])] {
+        let mut problem = rough::<f64, _>(24, 6, Exponential::new(w, range).unwrap());
+        for gap in gaps {
+            let given = Control::MeanGap(gap);
+            let solution = solve(&mut problem, given, 1e-8);
+            for control in [given, Control::MeanPressure(solution.report.mean_pressure)] {
+                let centred = control == given;
+                let stability = TIGHT.run(&mut problem, control, &solution).unwrap();
+                let value = stability.eigenvalue;
+                assert_eq!(below(&mut problem, &solution.gap, centred, value - 1e-7), 0, "{control:?} {value}");
+                assert!(below(&mut problem, &solution.gap, centred, value + 1e-7) >= 1, "{control:?} {value}");
+                assert!(stability.lower_bound <= value);
+                match stability.verdict {
+                    Verdict::Stable => {
+                        assert!(value > 0.0 && stability.lower_bound > 0.0);
+                        assert!(stability.error_bound.unwrap() >= solution.report.relative_error);
+                    }
+                    Verdict::Unstable => assert!(value < 0.0 && stability.error_bound.is_none()),
+                    Verdict::Undecided => panic!("{control:?} {value} {}", stability.lower_bound),
+                }
+                seen[usize::from(value > 0.0)] += 1;
+            }
+        }
+    }
+    assert!(seen[0] > 0 && seen[1] > 0, "{seen:?}");
+}
+
+#[test]
+fn a_mode_takes_about_as_many_applications_as_the_solve() {
+    let mut counts = Vec::new();
+    let law = |w, range| Exponential::new(w, range).unwrap();
+    let sphere = |w| sphere::<f64, _>(256, law(w, 2e-3));
+    let rough = |w, range| rough::<f64, _>(256, 32, law(w, range));
+    for (mut problem, gap) in [
+        (sphere(1e-4), 0.0429),
+        (sphere(2e-4), 0.0429),
+        (rough(2e-4, 2e-3), 0.01),
+        (rough(4e-4, 2e-3), 0.01),
+        (rough(4e-4, 2e-3), 0.03),
+    ] {
+        let control = Control::MeanGap(gap);
+        let solution = Solver::default().solve(&mut problem, control).unwrap();
+        assert_eq!(solution.report.status, Status::Converged);
+        let stability = StabilityTest::default().run(&mut problem, control, &solution).unwrap();
+        let tight = TIGHT.run(&mut problem, control, &solution).unwrap();
+        assert_eq!(stability.verdict, Verdict::Stable);
+        assert!((stability.eigenvalue / tight.eigenvalue - 1.0).abs() < 1e-3);
+        counts.push((
+            solution.report.operator_applications,
+            stability.operator_applications,
+            stability.bound_applications,
+        ));
+    }
+    // of the solve, of the mode, and of the bound
+    assert_eq!(counts, [(34, 43, 58), (65, 29, 66), (36, 43, 66), (40, 45, 82), (38, 33, 74)]);
+}
+
+#[test]
+fn the_certificate_bounds_the_error_of_a_stable_equilibrium() {
+    let mut problem = rough::<f64, _>(64, 16, Exponential::new(4e-4, 4e-3).unwrap());
+    let surface = common::rough::rough(*problem.grid(), 16, 1);
+    let mut operator = Westergaard::new(*problem.grid(), 1.0).unwrap();
+    let mut larger = 0;
+    for control in [Control::MeanGap(0.012), Control::MeanGap(0.03)] {
+        let Control::MeanGap(gap) = control else { unreachable!() };
+        let beside = solve(&mut problem, Control::MeanGap(1.05 * gap), 1e-6);
+        let start = Some(beside.gap.view());
+        let exact = common::solve_from(&mut problem, control, 1e-11, start);
+        for tolerance in [1e-2, 1e-3, 1e-4] {
+            let rough = common::solve_from(&mut problem, control, tolerance, start);
+            let stability = StabilityTest::default().run(&mut problem, control, &rough).unwrap();
+            let (error, work, _) = common::energy_norms(&surface, &mut operator, &rough.gap, &exact.gap);
+            let (error, bound) = ((error / work).sqrt(), stability.error_bound.unwrap());
+            assert!(error <= bound, "{error:e} {bound:e}");
+            larger += usize::from(error > rough.report.relative_error);
+        }
+    }
+    // what the solve certifies alone is no bound under adhesion
+    assert!(larger > 0);
+}
+
+#[test]
+fn a_law_that_jumps_is_smoothed_for_the_verdict() {
+    let law = MaugisDugdale::new(1e-4, 2e-3).unwrap();
+    let mut problem = sphere::<f64, _>(128, law);
+    let control = Control::MeanGap(0.0415);
+    let solution = solve(&mut problem, control, 1e-6);
+    let stability = StabilityTest::default().run(&mut problem, control, &solution).unwrap();
+    assert!(stability.smoothed && stability.verdict == Verdict::Stable);
+    assert_eq!(*problem.law(), law);
+}
+
+#[test]
+fn single_precision_comes_to_the_same() {
+    let control = Control::MeanGap(0.03);
+    let mut problem = rough::<f32, _>(64, 16, Exponential::new(4e-4, 4e-3).unwrap());
+    let solution = solve(&mut problem, control, 1e-5);
+    let single = StabilityTest::default().run(&mut problem, control, &solution).unwrap();
+    let mut problem = rough::<f64, _>(64, 16, Exponential::new(4e-4, 4e-3).unwrap());
+    let solution = solve(&mut problem, control, 1e-5);
+    let double = StabilityTest::default().run(&mut problem, control, &solution).unwrap();
+    assert_eq!((single.verdict, double.verdict), (Verdict::Stable, Verdict::Stable));
+    assert!((single.eigenvalue / double.eigenvalue - 1.0).abs() < 1e-3);
+}
+
+#[test]
+fn nothing_can_move_in_full_contact_and_bad_input_is_refused() {
+    let mut problem = rough::<f64, _>(16, 4, Exponential::new(4e-3, 4e-3).unwrap());
+    let control = Control::MeanPressure(10.0);
+    let solution = solve(&mut problem, control, 1e-6);
+    assert_eq!(solution.report.contact_fraction, 1.0);
+    let stability = StabilityTest::default().run(&mut problem, control, &solution).unwrap();
+    assert_eq!((stability.verdict, stability.eigenvalue), (Verdict::Stable, f64::INFINITY));
+    assert!(stability.leave(&mut Solver::default(), &mut problem, control, &solution).unwrap().is_none());
+
+    let mut other = rough::<f64, _>(12, 4, NoAdhesion);
+    let refused = StabilityTest::default().run(&mut other, control, &solution);
+    assert!(matches!(refused, Err(Error::Shape { name: "gap", .. })));
+    let test = StabilityTest { tolerance: 0.0, ..StabilityTest::default() };
+    assert!(matches!(test.run(&mut problem, control, &solution), Err(Error::Value { name: "tolerance", .. })));
+}
