@@ -279,7 +279,7 @@ mod tests {
     #[test]
     fn even_sizes_are_halved() {
         let squares = |n| strides((n, n), 64).len();
-        assert_eq!([64, 96, 127, 128, 192, 256, 1023, 1024, 1536].map(squares), [1, 1, 1, 2, 2, 3, 1, 5, 4]);
+        assert_eq!([64, 96, 127, 128, 192, 256, 1023, 1024, 1536].map(squares), [1, 1, 1, 2, 2, 3, 1, 5, 5]);
         assert_eq!(strides((512, 1), 64), [(1, 1), (2, 1), (4, 1), (8, 1)]);
         assert_eq!(strides((512, 192), 64), [(1, 1), (2, 2)]);
         assert_eq!(strides((512, 95), 64), [(1, 1)]);

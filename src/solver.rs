@@ -183,14 +183,14 @@ impl<C> Solver<C> {
         self.run(problem, control, start.map(CowArray::from), false, observe)
     }
 
-    /// What [`Solver::solve_from`] does, from a start that may be given away; with `smooth` the jumps of the law are smoothed
-    /// on the way from it.
+    /// What [`Solver::solve_from`] does, from a start that may be given away, and that may be `near`: the solution of the same
+    /// problem, but for what a coarser grid or precision left out. The jumps of the law are smoothed on the way from it.
     pub(crate) fn run<T, O, L>(
         &mut self,
         problem: &mut Problem<T, O, L>,
         control: Control,
         start: Option<CowArray<'_, T, Ix2>>,
-        smooth: bool,
+        near: bool,
         observe: impl FnMut(&Iteration) -> ControlFlow<()>,
     ) -> Result<Solution<T>>
     where
@@ -200,8 +200,12 @@ impl<C> Solver<C> {
         C: ContactConstraint<T>,
     {
         Error::positive("tolerance", self.settings.tolerance)?;
-        let smooth = (smooth || start.is_none()) && self.settings.method == Method::Preconditioned;
+        let smooth = (near || start.is_none()) && self.settings.method == Method::Preconditioned;
+        let near = near && start.is_some();
         let mut state = State::new(problem, &mut self.constraint, control, start, self.settings)?;
+        if near {
+            state.stays_near();
+        }
         if smooth {
             state.smooth();
         }

@@ -43,7 +43,7 @@ where
             return self.problem.operator.modulus() / self.problem.grid().lengths().0;
         }
         let contact = self.contact_stiffness();
-        let near = self.given || self.is_gap_controlled();
+        let near = self.near || self.is_gap_controlled();
         if near && contact.is_finite() { contact.clamp(SOFTEST * softest, stiffest) } else { softest }
     }
 
@@ -51,7 +51,7 @@ where
     fn lifts(&self) -> bool {
         let stiffest = self.problem.operator.stiffness_range().1;
         let preconditioned = self.settings.method == Method::Preconditioned;
-        self.given && !self.is_gap_controlled() && preconditioned && self.constraint.projects() && stiffest > 0.0
+        self.near && !self.is_gap_controlled() && preconditioned && self.constraint.projects() && stiffest > 0.0
     }
 
     /// How stiff the mean gap is taken to be, where it is not lifted.

@@ -291,7 +291,7 @@ where
             }
         }
         // near the solution the best lengths scatter about their mean, and only that is of use
-        let change = if self.given { best.sqrt() } else { best };
+        let change = if self.near { best.sqrt() } else { best };
         self.step_length = (self.step_length * change.clamp(ADAPT.0, ADAPT.1)).min(LONGEST);
         (length > 0.0).then_some(Step { length, scale: trial.scale, slope: trial.slope, work, elastic, local: after })
     }

@@ -11,9 +11,9 @@ use crate::field::flat;
 use crate::problem::{Control, Problem};
 use crate::real::Real;
 
-/// The first trial length from a start that is given: its residual is that of short waves at the edges of contacts,
-/// where less than a whole step is good.
-pub(super) const GIVEN: f64 = 0.5;
+/// The first trial length from a start that is near the solution: its residual is that of short waves at the edges of
+/// contacts, where less than a whole step is good.
+const NEAR: f64 = 0.5;
 
 impl<T, O, L, C> State<'_, T, O, L, C>
 where
@@ -22,6 +22,11 @@ where
     L: AdhesionLaw<T>,
     C: ContactConstraint<T>,
 {
+    /// Takes the start to be near the solution.
+    pub(super) fn stays_near(&mut self) {
+        (self.near, self.step_length) = (true, NEAR);
+    }
+
     /// Refuses a law that is not finite at the gaps of the start.
     pub(super) fn check_start(&self) -> Result<()> {
         if self.energy().is_finite() && self.tally.sum_r.is_finite() {

@@ -2,7 +2,7 @@ use ndarray::{Array2, CowArray, Ix2};
 
 use super::potential::Potential;
 use super::report::{Iteration, Report, Solution, Status};
-use super::start::{GIVEN, given_start, uniform_start};
+use super::start::{given_start, uniform_start};
 use super::{Criterion, Method, Settings};
 use crate::adhesion::AdhesionLaw;
 use crate::constraint::{ContactConstraint, Outer};
@@ -75,8 +75,8 @@ pub(super) struct State<'a, T, O, L, C> {
     /// the last step, if the next one may use it
     pub(super) momentum: Option<Made>,
     pub(super) step_length: f64,
-    /// whether the start was given, and is near the solution
-    pub(super) given: bool,
+    /// whether the start is near the solution
+    pub(super) near: bool,
     /// ⟨r', r'⟩ of the step before, for [`Method::Rey2017`]
     pub(super) residual_norm: Option<f64>,
     pub(super) best_error: f64,
@@ -146,8 +146,8 @@ where
             applications: 0,
             age: 0,
             momentum: None,
-            step_length: if uniform { 1.0 } else { GIVEN },
-            given: !uniform,
+            step_length: 1.0,
+            near: false,
             residual_norm: None,
             best_error: f64::INFINITY,
             lowest_energy: f64::INFINITY,
