@@ -1,6 +1,6 @@
 use std::ops::ControlFlow;
 
-use ndarray::{ArrayView2, CowArray, Ix2};
+use ndarray::{Array2, ArrayView2, CowArray, Ix2};
 
 use crate::adhesion::AdhesionLaw;
 use crate::constraint::{ContactConstraint, Outer, Projection};
@@ -181,6 +181,43 @@ impl<C> Solver<C> {
         C: ContactConstraint<T>,
     {
         self.run(problem, control, start.map(CowArray::from), false, observe)
+    }
+
+    /// Solves from the solution of the same problem in another precision or on another grid, which is taken, not copied.
+    ///
+    /// A start of which little is wrong is gone on from more carefully than one that [`Solver::solve_from`] is given, and the jumps
+    /// of a law are smoothed on the way from it, as from the default start. In `f32` as far as that goes, and from there in `f64`, a
+    /// solve takes less time than in `f64` alone. [`Nested`](crate::Nested) starts each grid so.
+    ///
+    /// ```
+    /// use asperity::{Control, Grid, NoAdhesion, Problem, Settings, Solver, Status, Surface, Westergaard};
+    /// let grid = Grid::square(128, 1.0)?;
+    /// let surface = Surface::wave_2d(grid, 0.02, 1)?;
+    /// let control = Control::MeanPressure(0.01);
+    /// let mut single = Problem::new(&surface, Westergaard::<f32>::new(grid, 1.0)?, NoAdhesion)?;
+    /// let near = Solver::new(Settings { tolerance: 1e-4, ..Settings::default() }).solve(&mut single, control)?;
+    /// let mut double = Problem::new(&surface, Westergaard::<f64>::new(grid, 1.0)?, NoAdhesion)?;
+    /// let solution = Solver::default().solve_near(&mut double, control, near.gap.mapv(f64::from))?;
+    /// assert_eq!(solution.report.status, Status::Converged);
+    /// assert!(solution.report.relative_error < 1e-6);
+    /// # Ok::<(), asperity::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Those of [`Solver::solve_from`].
+    pub fn solve_near<T, O, L>(
+        &mut self,
+        problem: &mut Problem<T, O, L>,
+        control: Control,
+        start: Array2<T>,
+    ) -> Result<Solution<T>>
+    where
+        T: Real,
+        O: ElasticOperator<T>,
+        L: AdhesionLaw<T>,
+        C: ContactConstraint<T>,
+    {
+        self.run(problem, control, Some(CowArray::from(start)), true, |_| ControlFlow::Continue(()))
     }
 
     /// What [`Solver::solve_from`] does, from a start that may be given away, and that may be `near`: the solution of the same
