@@ -106,7 +106,7 @@ impl Settings {
 /// lengths of the steps before.
 ///
 /// Memory per node, in scalars: five, of which the solution keeps three, beside those of the problem. With a
-/// [`Westergaard`](crate::Westergaard) half-space that makes seven in all.
+/// [`Westergaard`](crate::Westergaard) half-space that makes seven in all, of the precision of the solve.
 ///
 /// ```
 /// use asperity::{Control, Grid, NoAdhesion, Problem, Settings, Solver, Status, Surface, Westergaard};

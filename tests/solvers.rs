@@ -291,11 +291,13 @@ fn an_iteration_allocates_nothing() {
     });
 }
 
+type Law<T> = fn() -> Box<dyn AdhesionLaw<T>>;
+
 /// The most bytes at any time, in units of one field of precision T: of making the operator and the problem, and of that
 /// and the solve.
 fn peak<T: Real, O: ElasticOperator<T>>(
     operator: impl Fn(Grid) -> Result<O> + Sync,
-    law: fn() -> Box<dyn AdhesionLaw<T>>,
+    law: Law<T>,
     control: Control,
 ) -> [f64; 2] {
     let surface = rough::rough(Grid::square(512, 1.0).unwrap(), 64, 1);
@@ -319,7 +321,7 @@ fn a_solve_needs_seven_fields() {
         Westergaard::new(grid, 1.0)
     }
     for control in [Control::MeanGap(0.02), Control::MeanPressure(0.0125)] {
-        let laws: [fn() -> Box<dyn AdhesionLaw<f64>>; 3] = [
+        let laws: [Law<f64>; 3] = [
             || Box::new(NoAdhesion),
             || Box::new(MaugisDugdale::new(1.42e-4, 2.9e-3).unwrap()),
             || Box::new(Exponential::new(1.42e-4, 2.9e-3).unwrap()),
