@@ -1,5 +1,5 @@
-//! Solves of a rough surface by size, precision, law, control and preset, to a certified error of 1e-6, with all that it
-//! takes from the heights on; and one iteration.
+//! Solves of a rough surface by size, precision, law, control and preset, to a certified error of 1e-6 (in `f32` 1e-4, which
+//! it reaches on every grid), with all that it takes from the heights on; and one iteration.
 //!
 //! `RAYON_NUM_THREADS=1 cargo bench --bench solve`, some three minutes. With `ASPERITY_BENCH=all` also what takes
 //! longer, solves at 4096² and Algorithm 3 at 1024², some ten minutes more.
@@ -11,7 +11,7 @@ use common::{GAP, Law, Make, PRESSURE, exponential, group, half_space, maugis_du
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
 
 fn settings<T: Real>() -> Settings {
-    Settings { tolerance: if T::NAME == "f32" { 1e-5 } else { 1e-6 }, ..Settings::default() }
+    Settings { tolerance: if T::NAME == "f32" { 1e-4 } else { 1e-6 }, ..Settings::default() }
 }
 
 fn single<T: Real>(surface: &Surface, law: Law<T>, control: Control, settings: Settings) {
@@ -73,7 +73,7 @@ fn rey2017(criterion: &mut Criterion) {
 }
 
 fn iteration<T: Real>(criterion: &mut Criterion) {
-    const COUNT: usize = 6;
+    const COUNT: usize = 3;
     let laws: [(_, Make<T>); 2] = [("none", none), ("exponential", exponential)];
     for (name, law) in laws {
         let mut group = group(criterion, &format!("iteration {name} {}", T::NAME));
