@@ -67,7 +67,9 @@ fn draw(path: &Path, lines: &[Vec<(usize, f64)>]) -> Outcome<()> {
     let all = || lines.iter().flatten();
     let sides = (all().map(|p| p.0).min().unwrap_or(1) as f64, all().map(|p| p.0).max().unwrap_or(2) as f64);
     let (low, high) = all().fold((f64::INFINITY, 0.0_f64), |(low, high), p| (low.min(p.1), high.max(p.1)));
-    let root = SVGBackend::new(path, (900, 640)).into_drawing_area();
+    // room for the legend
+    let (low, high) = (0.5 * low, 50.0 * high);
+    let root = SVGBackend::new(path, (900, 760)).into_drawing_area();
     root.fill(&WHITE)?;
     let root = root.titled("Time against the number of nodes, one thread", ("sans-serif", 18))?;
     let mut chart = ChartBuilder::on(&root)
@@ -75,7 +77,7 @@ fn draw(path: &Path, lines: &[Vec<(usize, f64)>]) -> Outcome<()> {
         .margin_right(24)
         .x_label_area_size(44)
         .y_label_area_size(80)
-        .build_cartesian_2d(sides.0.log2() - 0.1..sides.1.log2() + 0.1, (0.5 * low..2.0 * high).log_scale())?;
+        .build_cartesian_2d(sides.0.log2() - 0.1..sides.1.log2() + 0.1, (low..high).log_scale())?;
     chart
         .configure_mesh()
         .light_line_style(TRANSPARENT)
