@@ -61,7 +61,7 @@ pub trait ElasticOperator<T: Real> {
 
     /// The elastic pressure K⁻¹h of the surface pressed flat, and the mean of h·K⁻¹h.
     ///
-    /// The heights come in `f64` whatever the operator's precision, without their mean. The default rounds them first;
+    /// The heights come in `f64` whatever the operator's precision, with no mean, or one not larger than their rms value. The default rounds them first;
     /// [`Spectral`] applies itself in `f64` and rounds the pressure.
     ///
     /// # Errors

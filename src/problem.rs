@@ -25,7 +25,8 @@ pub enum Control {
 /// The surface enters only through the pressure K⁻¹h that would press it flat, which is computed here, once, in
 /// `f64`; it may be dropped afterwards. A problem can be solved many times, under any [`Control`].
 ///
-/// Memory per node: one scalar, beside those of the operator.
+/// Memory per node: one scalar, beside those of the operator. [`Problem::new`] briefly needs more, but less than a solve: one
+/// `f64` for the heights without their mean and, for an operator of this crate, another for their spectrum.
 ///
 /// ```
 /// use asperity::{Control, Grid, NoAdhesion, Problem, Solver, Surface, Westergaard};
@@ -66,13 +67,16 @@ impl<T: Real, O: ElasticOperator<T>, L: AdhesionLaw<T>> Problem<T, O, L> {
         if let Some((function, value)) = at_zero.into_iter().find(|(_, value)| !value.is_finite()) {
             return Err(Error::Law { function, gap: 0.0, value: value.widen(), expected: None });
         }
-        let mean = surface.mean();
-        let centred = surface.heights().mapv(|h| h - mean);
+        let (mean, rms_height) = (surface.mean(), surface.rms_height());
+        let (low, high) = surface.heights().iter().fold((mean, mean), |(low, high), &h| (low.min(h), high.max(h)));
+        let height_span = high - low;
         let mut surface_pressure = Array2::zeros(grid.shape());
-        let surface_work = operator.surface_pressure(centred.view(), surface_pressure.view_mut())?.max(0.0);
+        // a large datum would drown the heights in its rounding; a small one is not worth a copy
+        let centred = (mean.abs() > rms_height).then(|| surface.heights().mapv(|h| h - mean));
+        let heights = centred.as_ref().unwrap_or(surface.heights()).view();
+        let surface_work = operator.surface_pressure(heights, surface_pressure.view_mut())?.max(0.0);
+        drop(centred);
         Error::all_finite("pressure K⁻¹h of the surface pressed flat", surface_pressure.view())?;
-        let (low, high) = centred.iter().fold((0.0_f64, 0.0_f64), |(low, high), &h| (low.min(h), high.max(h)));
-        let (rms_height, height_span) = (surface.rms_height(), high - low);
         Ok(Self { operator, law, surface_pressure, surface_work, rms_height, height_span })
     }
 

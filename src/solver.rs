@@ -105,7 +105,8 @@ impl Settings {
 /// That is two operator applications an iteration, whether or not anything was clipped. τ follows the best
 /// lengths of the steps before.
 ///
-/// Memory per node, in scalars: six, of which the solution keeps three, beside those of the problem.
+/// Memory per node, in scalars: five, of which the solution keeps three, beside those of the problem. With a
+/// [`Westergaard`](crate::Westergaard) half-space that makes seven in all, of the precision of the solve.
 ///
 /// ```
 /// use asperity::{Control, Grid, NoAdhesion, Problem, Settings, Solver, Status, Surface, Westergaard};

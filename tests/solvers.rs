@@ -47,40 +47,61 @@ fn applications<L: AdhesionLaw<f64>>(problem: &mut Problem<f64, Westergaard<f64>
     report.operator_applications + 1
 }
 
+/// The cases of which the applications are counted, on `n`² nodes.
+fn counts(n: usize) -> Vec<(&'static str, usize)> {
+    // where a grid is too coarse for waves of 64 periods it just resolves 63
+    let shortest = if n < 256 { 63 } else { 64 };
+    let hertz = applications(&mut sphere(n, NoAdhesion), Control::MeanGap(0.0398));
+    let mut counts = vec![("Hertz", hertz)];
+    // mean pressures that give about 3 and 40 % contact
+    for (names, pressure, share) in
+        [(["3 %, pressure", "3 %, gap"], 0.0125, 0.03), (["40 %, pressure", "40 %, gap"], 0.205, 0.4)]
+    {
+        let mut problem = rough::<f64, _>(n, shortest, NoAdhesion);
+        let report = solve(&mut problem, Control::MeanPressure(pressure), 1e-6).report;
+        assert!(n < 512 || (report.contact_fraction / share - 1.0).abs() < 0.1);
+        counts.push((names[0], report.operator_applications + 1));
+        counts.push((names[1], applications(&mut problem, Control::MeanGap(report.mean_gap))));
+    }
+    let mut problem = rough::<f64, _>(n, shortest, Exponential::new(1.42e-4, 2.9e-3).unwrap());
+    counts.push(("exponential, gap", applications(&mut problem, Control::MeanGap(0.022))));
+    counts.push(("exponential, pressure", applications(&mut problem, Control::MeanPressure(0.0125))));
+    counts
+}
+
+/// What rounding, which differs between processors, may add to a count.
+const SLACK: usize = 2;
+
+/// No case takes more than what was counted, and than `growth` times as many as on the coarser grid.
+#[track_caller]
+fn grows_little((coarse, fine): (usize, usize), counted: [usize; 7], growth: f64) {
+    for ((coarse, (name, fine)), most) in counts(coarse).into_iter().zip(counts(fine)).zip(counted) {
+        let grown = fine as f64 / coarse.1 as f64;
+        assert!(fine <= most + SLACK && grown <= growth, "{name}: {} and {fine}, {grown:.2} times", coarse.1);
+    }
+}
+
 #[test]
-fn hertz_takes_few_applications_and_hardly_more_on_finer_grids() {
-    let count = |n| applications(&mut sphere(n, NoAdhesion), Control::MeanGap(0.0398));
-    let (coarse, fine) = (count(128), count(512));
-    assert!(fine <= 40 && fine as f64 <= 1.5 * coarse as f64, "{coarse} {fine}");
+fn contacts_take_few_applications() {
+    grows_little((128, 512), [29, 43, 35, 45, 35, 37, 57], 1.5);
+}
+
+#[test]
+fn finer_grids_take_hardly_more_applications() {
+    grows_little((256, 1024), [33, 49, 41, 51, 41, 41, 61], 1.45);
+}
+
+#[test]
+#[ignore = "takes minutes, and 1.5 GB"]
+fn sixteen_times_finer_grids_take_hardly_more_applications() {
+    grows_little((256, 4096), [39, 57, 51, 57, 45, 47, 71], 1.65);
 }
 
 #[test]
 fn maugis_dugdale_takes_few_applications_and_hardly_more_on_finer_grids() {
     let count = |n| applications(&mut sphere(n, MaugisDugdale::new(1e-4, 2e-3).unwrap()), Control::MeanGap(0.0429));
     let (coarse, fine) = (count(128), count(512));
-    assert!(fine <= 90 && fine as f64 <= 1.8 * coarse as f64, "{coarse} {fine}");
-}
-
-#[test]
-fn rough_contact_takes_few_applications_under_both_controls() {
-    // mean pressures that give about 3 and 40 % contact
-    for (pressure, share, limit) in [(0.0125, 0.03, 50), (0.205, 0.4, 65)] {
-        // the same waves on both grids; the coarser one just resolves them
-        let mut counts = Vec::new();
-        for n in [128, 512] {
-            let mut problem = rough::<f64, _>(n, 63, NoAdhesion);
-            let solution = solve(&mut problem, Control::MeanPressure(pressure), 1e-6);
-            let by_gap = applications(&mut problem, Control::MeanGap(solution.report.mean_gap));
-            counts.push([solution.report.operator_applications + 1, by_gap]);
-            if n == 512 {
-                assert!((solution.report.contact_fraction / share - 1.0).abs() < 0.1);
-            }
-        }
-        for i in 0..2 {
-            let (coarse, fine) = (counts[0][i], counts[1][i]);
-            assert!(fine <= limit && fine as f64 <= 1.5 * coarse as f64, "{pressure}: {counts:?}");
-        }
-    }
+    assert!(fine <= 56 + SLACK && fine as f64 <= 1.5 * coarse as f64, "{coarse} {fine}");
 }
 
 #[test]
@@ -268,4 +289,54 @@ fn an_iteration_allocates_nothing() {
         count(1);
         assert_eq!(count(2), count(12));
     });
+}
+
+type Law<T> = fn() -> Box<dyn AdhesionLaw<T>>;
+
+/// The most bytes at any time, in units of one field of precision T: of making the operator and the problem, and of that
+/// and the solve.
+fn peak<T: Real, O: ElasticOperator<T>>(
+    operator: impl Fn(Grid) -> Result<O> + Sync,
+    law: Law<T>,
+    control: Control,
+) -> [f64; 2] {
+    let surface = rough::rough(Grid::square(512, 1.0).unwrap(), 64, 1);
+    let problem = || Problem::new(&surface, operator(*surface.grid()).unwrap(), law()).unwrap();
+    let field = (surface.grid().nodes() * size_of::<T>()) as f64;
+    rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap().install(|| {
+        let built = allocation_counter::measure(|| drop(problem()));
+        let solved = allocation_counter::measure(|| {
+            let report = limited(4, 1e-14).solve(&mut problem(), control).unwrap().report;
+            assert_eq!(report.iterations, 4);
+        });
+        [built, solved].map(|info| info.bytes_max as f64 / field)
+    })
+}
+
+#[test]
+fn a_solve_needs_seven_fields() {
+    // for what does not grow with the nodes: plans, tiles, and the partial sums of a reduction
+    let small = 0.3;
+    fn half_space<T: Real>(grid: Grid) -> Result<Westergaard<T>> {
+        Westergaard::new(grid, 1.0)
+    }
+    for control in [Control::MeanGap(0.02), Control::MeanPressure(0.0125)] {
+        let laws: [Law<f64>; 3] = [
+            || Box::new(NoAdhesion),
+            || Box::new(MaugisDugdale::new(1.42e-4, 2.9e-3).unwrap()),
+            || Box::new(Exponential::new(1.42e-4, 2.9e-3).unwrap()),
+        ];
+        for law in laws {
+            // the spectrum, K⁻¹h, and the heights without their mean; then five of the solver for these
+            let [built, solved] = peak(half_space, law, control);
+            assert!((3.0..4.0 + small).contains(&built) && (7.0..7.0 + small).contains(&solved), "{built} {solved}");
+        }
+        // the heights, and a spectrum of theirs, in f64
+        let [built, solved] = peak::<f32, _>(half_space, || Box::new(NoAdhesion), control);
+        assert!((6.0..6.0 + small).contains(&built) && (7.0..7.0 + small).contains(&solved), "{built} {solved}");
+    }
+    // half a field for the stiffness of any other operator
+    let layer = |grid| Spectral::isotropic(grid, 1.0, |q| q / 2.0 + 1.0);
+    let [built, solved] = peak::<f64, _>(layer, || Box::new(NoAdhesion), Control::MeanGap(0.02));
+    assert!(built < 8.0 && (7.5..7.5 + small).contains(&solved), "{built} {solved}");
 }

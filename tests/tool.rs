@@ -307,6 +307,42 @@ fn a_given_start_saves_iterations() {
 }
 
 #[test]
+fn nested_grids_give_the_same_for_less_and_say_what_they_took() {
+    let bench = Bench::empty();
+    let wavy = Surface::from_fn(Grid::square(256, 1.0).unwrap(), |x, y| 0.02 * (19.0 * x).sin() * (31.0 * y * x).cos());
+    write_npy(&bench.0.path().join("heights.npy"), wavy.unwrap().heights()).unwrap();
+    for load in ["--mean-pressure 0.02", "--mean-gap 0.01"] {
+        let single = bench.solve(&format!("{load} --no-pictures --force"), "single", 0);
+        let nested = bench.solve(&format!("{load} --no-pictures --force --nested"), "nested", 0);
+        assert_close(number(&nested, "mean_gap"), number(&single, "mean_gap"), 1e-5);
+        assert_close(number(&nested, "mean_pressure"), number(&single, "mean_pressure"), 1e-5);
+        assert_close(number(&nested, "contact_points"), number(&single, "contact_points"), 1e-3);
+        assert_eq!((&single["grids"], &single["equivalent_applications"]), (&Value::Null, &Value::Null));
+
+        let grids = nested["grids"].as_array().unwrap();
+        let shapes: Vec<_> = grids.iter().map(|grid| &grid["shape"]).collect();
+        assert_eq!(shapes, [&json!([64, 64]), &json!([128, 128]), &json!([256, 256])]);
+        assert!(grids.iter().all(|grid| grid["status"] == "converged"));
+        let counts: Vec<_> = grids.iter().map(|grid| number(grid, "operator_applications")).collect();
+        // the report counts the solve on the finest grid, without the one that makes the problem
+        assert_eq!(counts[2], number(&nested, "operator_applications") + 1.0);
+        let equivalent = counts[2] + counts[1] / 4.0 + counts[0] / 16.0;
+        assert_close(number(&nested, "equivalent_applications"), equivalent, 1e-12);
+        assert!(equivalent < number(&single, "operator_applications"));
+    }
+    // grids that do not resolve the adhesion are not used
+    let sticky = "--law exponential --work-of-adhesion 1e-4 --range 1.5e-3";
+    let report = bench.solve(&format!("--mean-gap 0.02 --nested {sticky}"), "sticky", 0);
+    assert_eq!(report["grids"].as_array().unwrap().len(), 1);
+
+    let refused =
+        bench.run("solve --heights heights.npy --mean-gap 0.02 --nested --initial-gap single/gap.npy --out no");
+    let error = text(&refused.stderr);
+    assert_eq!((refused.status.code(), error.lines().count()), (Some(1), 1), "{error}");
+    assert!(error.contains("--nested") && error.contains("--initial-gap"), "{error}");
+}
+
+#[test]
 fn lines_and_rectangles_have_sensible_lengths() {
     let (bench, hertz) = (Bench::empty(), hertz(64));
     let line = hertz.row(32).to_owned().insert_axis(ndarray::Axis(1));

@@ -15,8 +15,8 @@ type Symbol = Box<dyn Fn(f64, f64) -> f64 + Send + Sync>;
 /// A layered or an anisotropic half-space is one closure away. For the homogeneous one, k = E*|q|/2, see
 /// [`Westergaard`].
 ///
-/// Memory per node, in units of one scalar: 1 for the spectrum and ½ for the stiffness. On `f32` grids the
-/// constructor of a [`Problem`](crate::Problem) briefly needs 6 more, to transform the heights in `f64`.
+/// Memory per node, in units of one scalar: 1 for the spectrum and ½ for the stiffness; both once more, in `f64`, while the
+/// constructor of a [`Problem`](crate::Problem) transforms the heights.
 ///
 /// ```
 /// use asperity::{ElasticOperator, Grid, Spectral};

@@ -4,6 +4,9 @@ use super::*;
 ///
 /// Westergaard (1939); Stanley and Kato (1997). E* = E/(1 − ν²) is the contact modulus, in units of pressure.
 ///
+/// Memory per node, in units of one scalar: 1, for the spectrum; once more, in `f64`, while the constructor of a
+/// [`Problem`](crate::Problem) transforms the heights. The stiffness is computed on the way.
+///
 /// ```
 /// use asperity::{ElasticOperator, Grid, Westergaard};
 /// let grid = Grid::square(16, 1.0)?;

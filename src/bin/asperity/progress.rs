@@ -1,6 +1,6 @@
 use std::time::Duration;
 
-use asperity::Iteration;
+use asperity::{Grid, Iteration};
 use indicatif::{ProgressBar, ProgressStyle};
 
 /// The steps from the first error to the tolerance, on a logarithmic scale.
@@ -28,6 +28,17 @@ impl Progress {
             bar.enable_steady_tick(Duration::from_millis(100));
         }
         Self { bar, tolerance, nodes: nodes as f64, first_error: None }
+    }
+
+    /// The same for a solve on nested grids; the bar goes on from one to the next, as their errors do.
+    pub fn update_on(&mut self, grid: &Grid, state: &Iteration) {
+        let nodes = grid.nodes() as f64;
+        if self.nodes != nodes {
+            self.nodes = nodes;
+            let (nx, ny) = grid.shape();
+            self.bar.set_prefix(format!("{nx} x {ny} "));
+        }
+        self.update(state);
     }
 
     pub fn update(&mut self, state: &Iteration) {

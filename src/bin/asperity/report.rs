@@ -54,6 +54,10 @@ pub fn table(names: &[&str], solves: &[&Account], style: Style) -> String {
     }
     row("iterations", &|_, r| r.iterations.to_string());
     row("operator applications", &|_, r| r.operator_applications.to_string());
+    if solves.iter().any(|solve| solve.grids.is_some()) {
+        let count = |s: &Account| s.grids.as_ref().map_or(0.0, |(_, applications)| *applications);
+        row("with coarser grids", &|s, _| format!("{:.1}", count(s)));
+    }
     row("time", &|s, _| format!("{:.3} s", s.seconds));
     row("status", &|_, r| r.status.to_string());
 

@@ -3,8 +3,8 @@ use std::path::Path;
 use std::time::Instant;
 
 use asperity::{
-    AdhesionLaw, Colouring, Control, Error, Grid, Map, Problem, Real, Report, Result, Settings, Solution, Solver,
-    StabilityTest, Surface, Verdict, Westergaard,
+    AdhesionLaw, Colouring, Control, Error, Grid, Level, Map, Nested, NestedSolution, Problem, Real, Report, Result,
+    Settings, Solution, Solver, StabilityTest, Surface, Verdict, Westergaard,
 };
 use ndarray::Array2;
 use ndarray_npy::WritableElement;
@@ -44,6 +44,8 @@ pub struct Account {
     pub nodes: usize,
     /// The least (most tensile) and the greatest elastic pressure.
     pub pressures: (f64, f64),
+    /// The nested grids, if they were used, and their applications in units of one on the finest.
+    pub grids: Option<(Vec<Level>, f64)>,
     /// The time for setting up and solving, without that for files and pictures.
     pub seconds: f64,
     pub stability: Option<Steadiness>,
@@ -66,14 +68,50 @@ pub fn solve<T: Scalar, L: AdhesionLaw<T>>(
         progress.update(state);
         ControlFlow::Continue(())
     })?;
+    let (solution, mut account) = account(solution, None, clock)?;
+    if case.stability {
+        account.stability = Some(steadiness(&mut problem, case.control, &solution)?);
+    }
+    Ok((solution, account))
+}
+
+/// Solves on coarser grids first.
+pub fn solve_nested<T: Scalar, L: AdhesionLaw<T>>(
+    surface: &Surface,
+    law: L,
+    case: &Case,
+    mut progress: Progress,
+) -> Outcome<(Solution<T>, Account)> {
+    let clock = Instant::now();
+    let half_space = |grid| Westergaard::new(grid, case.modulus);
+    let found = Nested::new(case.settings).solve_observed(surface, half_space, law, case.control, |grid, state| {
+        progress.update_on(grid, state);
+        ControlFlow::Continue(())
+    })?;
+    let applications = found.equivalent_applications();
+    let NestedSolution { solution, levels } = found;
+    account(solution, Some((levels, applications)), clock)
+}
+
+fn account<T: Scalar>(
+    solution: Solution<T>,
+    grids: Option<(Vec<Level>, f64)>,
+    clock: Instant,
+) -> Outcome<(Solution<T>, Account)> {
     let seconds = clock.elapsed().as_secs_f64();
     check_range(&solution)?;
     let pressures = solution
         .pressure
         .iter()
         .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), p| (low.min(p.widen()), high.max(p.widen())));
-    let stability = if case.stability { Some(steadiness(&mut problem, case.control, &solution)?) } else { None };
-    let account = Account { report: solution.report.clone(), nodes: grid.nodes(), pressures, seconds, stability };
+    let account = Account {
+        report: solution.report.clone(),
+        nodes: solution.gap.len(),
+        pressures,
+        grids,
+        seconds,
+        stability: None,
+    };
     Ok((solution, account))
 }
 

@@ -2,7 +2,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use asperity::io::{OutputFolder, write_npy};
-use asperity::{Control, Error, Grid, Status, Surface};
+use asperity::{Control, Error, Grid, Level, Status, Surface};
 use clap::{ArgGroup, Args};
 use ndarray::Array2;
 use serde_json::{Value, json};
@@ -36,6 +36,9 @@ pub struct Options {
     adhesion: AdhesionOptions,
     #[command(flatten)]
     solver: SolverOptions,
+    /// Solve on coarser grids first, where sizes are even and the grids resolve the adhesion; faster on large maps
+    #[arg(long, help_heading = "Solver", conflicts_with = "initial_gap")]
+    nested: bool,
 
     /// Folder for the results, made if needed
     #[arg(long, value_name = "DIR", help_heading = "Output")]
@@ -44,7 +47,7 @@ pub struct Options {
     #[arg(long, help_heading = "Output")]
     force: bool,
     /// Find out whether the solution is stable, and write its softest mode to mode.npy
-    #[arg(long, help_heading = "Output")]
+    #[arg(long, help_heading = "Output", conflicts_with = "nested")]
     stability: bool,
     /// Print no table and no progress
     #[arg(long, help_heading = "Output")]
@@ -68,7 +71,10 @@ Examples:
     asperity solve --heights heights.npy --lengths 1e-6 1e-6 --modulus 1e9 \\
       --law exponential --work-of-adhesion 0.05 --range 1e-9 \\
       --mean-pressure 2.5e6 --length-unit m --pressure-unit Pa --out sticky
-  On from there to a tension:
+  The same load without adhesion on a large map, by way of coarser grids:
+    asperity solve --heights heights.npy --lengths 1e-6 1e-6 --modulus 1e9 \\
+      --mean-pressure 2.5e6 --nested --out nested
+  On from the case with adhesion to a tension:
     asperity solve --heights heights.npy --lengths 1e-6 1e-6 --modulus 1e9 \\
       --law exponential --work-of-adhesion 0.05 --range 1e-9 \\
       --mean-pressure -1e4 --initial-gap sticky/gap.npy --out pulled";
@@ -121,7 +127,11 @@ impl Job<'_> {
         let start = start.map(|gap| gap.mapv_into_any(T::lit));
         let progress = Progress::new("", self.case.settings.tolerance, grid.nodes(), *quiet);
         let law = self.options.adhesion.law()?;
-        let (solution, account) = run::solve::<T, _>(surface, law, &self.case, start, progress)?;
+        let (solution, account) = if self.options.nested {
+            run::solve_nested::<T, _>(&surface, law, &self.case, progress)?
+        } else {
+            run::solve::<T, _>(surface, law, &self.case, start, progress)?
+        };
 
         let folder = OutputFolder::create(out, &self.names, *force)?;
         let written = self.write(&folder, grid, &solution, &account);
@@ -169,12 +179,15 @@ impl Job<'_> {
             Control::MeanGap(gap) => ("mean-gap", gap),
             Control::MeanPressure(pressure) => ("mean-pressure", pressure),
         };
+        let grids = account.grids.as_ref().map(|(levels, _)| levels.iter().map(level).collect::<Vec<_>>());
         json!({
             "status": report.status.name(),
             "relative_error": report.relative_error,
             "load_error": report.load_error,
             "iterations": report.iterations,
             "operator_applications": report.operator_applications,
+            "grids": grids,
+            "equivalent_applications": account.grids.as_ref().map(|(_, applications)| applications),
             "mean_gap": report.mean_gap,
             "mean_pressure": report.mean_pressure,
             "mean_contact_pressure": report.mean_contact_pressure,
@@ -215,6 +228,16 @@ impl Job<'_> {
             "version": env!("CARGO_PKG_VERSION"),
         })
     }
+}
+
+/// What one of nested grids took; the applications include the one that constructs its problem.
+fn level(level: &Level) -> Value {
+    json!({
+        "shape": level.shape,
+        "status": level.status.name(),
+        "iterations": level.iterations,
+        "operator_applications": level.operator_applications,
+    })
 }
 
 pub fn write_text(path: &Path, text: &str) -> asperity::Result<()> {

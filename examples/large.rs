@@ -1,0 +1,75 @@
+//! One large solve: how long it takes, and how much memory the whole process needs.
+//!
+//! `cargo run --release --example large -- [size] [f32|f64] [none|exponential]`; 4096 f64 none if nothing is given.
+//! A rough surface of 4 to 64 waves a side at the pressure of 0.02 times modulus and rms slope, 5 % contact without adhesion; 16384²
+//! needs 15 GiB in f64 and 8 GiB in f32.
+
+use std::ops::ControlFlow;
+use std::time::Instant;
+
+use asperity::{
+    AdhesionLaw, Amplitude, Control, Exponential, Grid, NoAdhesion, Problem, Real, SelfAffine, Solver, Westergaard,
+};
+
+type Outcome = Result<(), Box<dyn std::error::Error>>;
+
+fn main() -> Outcome {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let argument = |i: usize, default: &str| arguments.get(i).map_or(default.to_string(), String::clone);
+    let size: usize = argument(0, "4096").parse()?;
+    match (argument(1, "f64").as_str(), argument(2, "none").as_str()) {
+        ("f64", "none") => run::<f64, _>(size, |_| Ok(NoAdhesion)),
+        ("f32", "none") => run::<f32, _>(size, |_| Ok(NoAdhesion)),
+        ("f64", "exponential") => run::<f64, _>(size, exponential),
+        ("f32", "exponential") => run::<f32, _>(size, exponential),
+        (precision, law) => Err(format!("{precision} {law}: f32 or f64, none or exponential").into()),
+    }
+}
+
+/// The law of a surface with the given rms height, the rms slope being one.
+fn exponential<T: Real>(rms_height: f64) -> asperity::Result<Exponential<T>> {
+    let range = 0.1 * rms_height;
+    Exponential::new(T::lit(0.1 * range), T::lit(range))
+}
+
+fn run<T: Real, L: AdhesionLaw<T>>(size: usize, law: impl Fn(f64) -> asperity::Result<L>) -> Outcome {
+    let clock = Instant::now();
+    let grid = Grid::square(size, 1.0)?;
+    let surface =
+        SelfAffine { k_s: 64.0, amplitude: Amplitude::RmsSlope(1.0), ..SelfAffine::default() }.surface(grid)?;
+    let law = law(surface.rms_height())?;
+    let mut problem = Problem::new(&surface, Westergaard::<T>::new(grid, 1.0)?, law)?;
+    drop(surface);
+    println!("{size} x {size} nodes in {}: the problem stands after {:.1} s", T::NAME, clock.elapsed().as_secs_f64());
+    let clock = Instant::now();
+    // single precision ends where its rounding does
+    let tolerance = if T::NAME == "f32" { 1e-4 } else { 1e-6 };
+    let mut solver = Solver::default();
+    solver.settings.tolerance = tolerance;
+    let solution = solver.solve_from(&mut problem, Control::MeanPressure(0.02), None, |state| {
+        let (seconds, error) = (clock.elapsed().as_secs_f64(), state.relative_error);
+        eprintln!("iteration {:3}: {error:.1e} after {seconds:.1} s", state.iteration);
+        ControlFlow::Continue(())
+    })?;
+    let report = &solution.report;
+    println!(
+        "{} to {:.1e} in {:.1} s, {} applications; contact {:.3} %",
+        report.status,
+        report.relative_error,
+        clock.elapsed().as_secs_f64(),
+        report.operator_applications,
+        100.0 * report.contact_fraction
+    );
+    if let Some(bytes) = peak() {
+        let fields = bytes / (size * size * size_of::<T>()) as f64;
+        println!("most memory of the process: {:.2} GiB, {fields:.2} fields", bytes / (1_u64 << 30) as f64);
+    }
+    Ok(())
+}
+
+/// The most memory that the process has held, in bytes, where the system tells.
+fn peak() -> Option<f64> {
+    let status = std::fs::read_to_string("/proc/self/status").ok()?;
+    let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;
+    Some(1024.0 * line.trim().trim_end_matches("kB").trim().parse::<f64>().ok()?)
+}
