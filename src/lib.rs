@@ -89,6 +89,9 @@ mod par;
 mod passes;
 #[cfg(feature = "cli")]
 mod picture;
+pub mod precision {
+    #![doc = include_str!("precision.md")]
+}
 mod problem;
 mod real;
 mod solver;
