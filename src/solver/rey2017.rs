@@ -34,8 +34,8 @@ where
         });
         let conjugate = self.residual_norm.map_or(0.0, |before| norm.sum[0] / before);
         let mut slope = self.conjugate_direction(if conjugate.is_finite() { conjugate } else { 0.0 });
-        if slope <= 0.0 && conjugate > 0.0 {
-            // uphill: the residual's norm has jumped, as it may where rounding is all that is left of it
+        if !(slope.is_finite() && slope > 0.0) && conjugate > 0.0 {
+            // uphill, or beyond all numbers: the residual's norm has jumped, as it may where rounding is all that is left of it
             slope = self.conjugate_direction(0.0);
         }
         self.problem.operator.pressure(self.fields.change.view(), self.fields.preconditioned.view_mut())?;
