@@ -197,7 +197,7 @@ impl<C> Nested<C> {
 /// Of how many nodes of the finest grid along each side each grid has one, the finest first.
 fn strides((nx, ny): (usize, usize), coarsest: usize) -> Vec<(usize, usize)> {
     let coarsest = coarsest.max(4);
-    let halves = |n: usize, stride: usize| n % (2 * stride) == 0 && n / (2 * stride) >= coarsest;
+    let halves = |n: usize, stride: usize| n.is_multiple_of(2 * stride) && n / (2 * stride) >= coarsest;
     let mut all = vec![(1, 1)];
     let mut stride = (1, 1);
     while halves(nx, stride.0) && (ny == 1 || halves(ny, stride.1)) {
