@@ -27,12 +27,22 @@ impl Grid {
     /// A grid of `shape = (Nx, Ny)` nodes on sides `lengths = (Lx, Ly)`, in any unit of length.
     ///
     /// # Errors
-    /// [`Error::Value`] if a number of nodes is zero, or a length is not positive and finite.
+    /// [`Error::Value`] if a number of nodes is zero, if fields of so many nodes have a size that no memory has, or if a
+    /// length is not positive and finite.
     pub fn new(shape: (usize, usize), lengths: (f64, f64)) -> Result<Self> {
         for (name, n) in [("number of nodes Nx", shape.0), ("number of nodes Ny", shape.1)] {
             if n == 0 {
                 return Err(Error::Value { name, value: 0.0, requirement: "at least 1" });
             }
+        }
+        // what a field of them takes has to be a size that an allocation can have
+        if shape.0.checked_mul(shape.1).is_none_or(|nodes| nodes > isize::MAX as usize / 32) {
+            let value = shape.0 as f64 * shape.1 as f64;
+            return Err(Error::Value {
+                name: "number of nodes",
+                value,
+                requirement: "such that fields fit into memory",
+            });
         }
         Error::positive("side length Lx", lengths.0)?;
         Error::positive("side length Ly", lengths.1)?;

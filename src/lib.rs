@@ -96,6 +96,9 @@ mod passes;
 mod path;
 #[cfg(feature = "cli")]
 mod picture;
+pub mod precision {
+    #![doc = include_str!("precision.md")]
+}
 mod problem;
 mod real;
 mod solver;

@@ -74,3 +74,32 @@ fn any_number_of_threads_gives_the_same_bits() {
     }
     assert_eq!(run(1), one, "from run to run");
 }
+
+/// The least certified error that a solve reaches, and in how many iterations it gives up.
+fn floor<T: Real>(n: usize, pressure: f64) -> (f64, usize) {
+    let report = solve(&mut rough::<T, _>(n, n as i32 / 4, NoAdhesion), Control::MeanPressure(pressure), 1e-30).report;
+    assert_eq!(report.status, Status::Stalled, "{n} {pressure}");
+    (report.relative_error, report.iterations)
+}
+
+#[test]
+fn a_tolerance_below_the_floor_ends_soon_with_what_was_reached() {
+    for n in [32, 64, 128] {
+        for pressure in [0.01, 0.2] {
+            let ((single, few), (double, some)) = (floor::<f32>(n, pressure), floor::<f64>(n, pressure));
+            assert!(single < 3e-4 && few < 200, "{n} {pressure}: {single:e} after {few}");
+            assert!(double < 1e-12 && some < 300, "{n} {pressure}: {double:e} after {some}");
+        }
+    }
+}
+
+#[test]
+#[ignore = "measures the table of the documentation's page `precision`"]
+fn floors_against_size() {
+    for n in [32, 64, 128, 256, 512, 1024] {
+        for pressure in [0.01, 0.2] {
+            let ((single, few), (double, some)) = (floor::<f32>(n, pressure), floor::<f64>(n, pressure));
+            println!("{n} {pressure}: f32 {single:.1e} after {few}, f64 {double:.1e} after {some}");
+        }
+    }
+}

@@ -44,7 +44,10 @@ where
         // flats that attract each other have no waves but those of rounding
         let traction = self.tally.traction / self.nodes();
         let softest = self.problem.operator.stiffness_range().0;
-        let flat = if softest > 0.0 { epsilon * traction * traction / softest } else { 0.0 };
+        // and so have flats that are held apart
+        let lifted = if self.tally.contact > 0.0 { 0.0 } else { self.tally.sum_gap / self.nodes() };
+        let flat =
+            if softest > 0.0 { epsilon * (traction * traction / softest + softest * lifted * lifted) } else { 0.0 };
         let error = (self.certificate / touching.max(apart).max(flat)).sqrt();
         if error.is_nan() { f64::INFINITY } else { error }
     }
@@ -149,7 +152,7 @@ where
     pub(super) fn is_adrift(&self) -> bool {
         let Control::MeanPressure(pressure) = self.control else { return false };
         let held = self.tally.traction / self.nodes();
-        pressure < 0.0 && self.constraint.projects() && self.tally.contact == 0.0 && held <= 1e-3 * -pressure
+        pressure < 0.0 && self.tally.contact == 0.0 && held <= 1e-3 * -pressure
     }
 
     /// Holds surfaces that drift apart at a mean gap at which they do not reach each other, to let them come to rest.

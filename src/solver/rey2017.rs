@@ -34,8 +34,8 @@ where
         });
         let conjugate = self.residual_norm.map_or(0.0, |before| norm.sum[0] / before);
         let mut slope = self.conjugate_direction(if conjugate.is_finite() { conjugate } else { 0.0 });
-        if slope <= 0.0 && conjugate > 0.0 {
-            // uphill: the residual's norm has jumped, as it may where rounding is all that is left of it
+        if !(slope.is_finite() && slope > 0.0) && conjugate > 0.0 {
+            // uphill, or beyond all numbers: the residual's norm has jumped, as it may where rounding is all that is left of it
             slope = self.conjugate_direction(0.0);
         }
         self.problem.operator.pressure(self.fields.change.view(), self.fields.preconditioned.view_mut())?;
@@ -58,8 +58,10 @@ where
         let mean = if self.is_gap_controlled() { response / self.tally.free } else { 0.0 };
         let length = slope / (curvature - mean * t);
         // a uniform direction has no curvature: the softest wave's stiffness bounds what the mean can need
-        let length =
-            if length.is_finite() && length > 0.0 { length } else { 1.0 / self.problem.operator.stiffness_range().0 };
+        let softest = self.problem.operator.stiffness_range().0;
+        let length = if length.is_finite() && length > 0.0 { length } else { 1.0 / softest };
+        // nor does one that is uniform but for rounding
+        let length = length.min(1.0 / (T::epsilon().widen().sqrt() * softest));
         if !length.is_finite() {
             return Ok(false);
         }
@@ -82,10 +84,17 @@ where
         });
         let [sum, released, clipped, ..] = total.sum;
         let scale = match self.control {
-            Control::MeanGap(mean) => mean * self.nodes() / sum,
-            Control::MeanPressure(_) => 1.0,
+            Control::MeanGap(mean) if projects => mean * self.nodes() / sum,
+            _ => 1.0,
         };
         if !scale.is_finite() {
+            // every node was clipped: what is left is to keep the mean gap
+            if let Control::MeanGap(mean) = self.control {
+                self.fields.gap.fill(T::lit(mean));
+                self.refresh()?;
+                self.residual();
+                self.certificate = f64::INFINITY;
+            }
             return Ok(false);
         }
         self.residual_norm = (released == 0.0).then_some(norm.sum[0]);

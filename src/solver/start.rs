@@ -95,7 +95,10 @@ pub(super) fn given_start<T: Real>(
     let mut gap = if start.is_standard_layout() { start.into_owned() } else { start.as_standard_layout().into_owned() };
     if let Control::MeanGap(mean) = control {
         let present = flat(&gap).iter().map(|g| g.widen()).sum::<f64>() / gap.len() as f64;
-        if present > 0.0 {
+        if gap.iter().any(|&g| g < T::zero()) {
+            // gaps of both signs may have hardly any mean
+            gap.mapv_inplace(|g| g + T::lit(mean - present));
+        } else if present > 0.0 {
             gap.mapv_inplace(|g| g * T::lit(mean / present));
         } else {
             gap.fill(T::lit(mean));

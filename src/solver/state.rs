@@ -183,12 +183,21 @@ where
     /// Computes the pressure from the gap, p = K⁻¹g + K⁻¹h, and counts anew.
     pub(super) fn refresh(&mut self) -> Result<()> {
         if let Control::MeanGap(mean) = self.control {
-            let scale = mean * self.nodes() / self.tally.sum_gap;
+            let (scale, present) = (mean * self.nodes() / self.tally.sum_gap, self.tally.sum_gap / self.nodes());
             // what rounding has added up to, if it is worth a pass
-            if scale.is_finite() && (scale - 1.0).abs() > 64.0 * T::epsilon().widen() {
-                let scale = T::lit(scale);
+            if self.constraint.projects() {
+                if scale.is_finite() && (scale - 1.0).abs() > 64.0 * T::epsilon().widen() {
+                    let scale = T::lit(scale);
+                    self.fields.reducer.run(write(&mut self.fields.gap), |_, gap| {
+                        gap.iter_mut().for_each(|gap| *gap *= scale);
+                        Partial::NONE
+                    });
+                }
+            } else if self.tally.free > 0.0 && present != mean {
+                // gaps of both signs may have hardly any mean
+                let shift = T::lit(mean - present);
                 self.fields.reducer.run(write(&mut self.fields.gap), |_, gap| {
-                    gap.iter_mut().for_each(|gap| *gap *= scale);
+                    gap.iter_mut().for_each(|gap| *gap += shift);
                     Partial::NONE
                 });
             }

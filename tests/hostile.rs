@@ -1,0 +1,455 @@
+//! Files and arguments made to break the readers and the tool: no panic, bounded memory, one line of error.
+//!
+//! `HOSTILE_SECONDS=600 cargo test --release --test hostile -- --ignored --nocapture` goes on for ten minutes,
+//! `HOSTILE_FIRST` says from which seed on. Whatever the seed, it is tried alone with `HOSTILE_FIRST=seed HOSTILE_SECONDS=0`.
+#![cfg(feature = "cli")]
+
+use std::fs;
+use std::io::{Cursor, Write};
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+use asperity::io::read_field;
+use rand::rngs::ChaCha8Rng;
+use rand::{RngExt, SeedableRng};
+
+/// What the reader may allocate at once: what it returns, its buffers, the windows of the decompression, and an error.
+fn allowed(bytes: usize, values: usize) -> u64 {
+    // the most entries that a zip file can claim are made room for, 7 MB;
+    // twice for an array in Fortran's order, and half as much again for how the vector of a text grows
+    (1 << 23) + 24 * values as u64 + 32 * bytes as u64
+}
+
+fn corpus() -> Vec<(String, Vec<u8>)> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/corpus");
+    let mut paths: Vec<PathBuf> = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
+    paths.sort();
+    paths.iter().map(|path| (path.file_name().unwrap().to_string_lossy().into(), fs::read(path).unwrap())).collect()
+}
+
+/// What numbers in headers are replaced by.
+const NUMBERS: [&str; 14] = [
+    "0",
+    "1",
+    "-1",
+    "2",
+    "3L",
+    "255",
+    "65535",
+    "4294967295",
+    "9223372036854775807",
+    "18446744073709551616",
+    "1e999",
+    "nan",
+    "inf",
+    "-0.0",
+];
+
+/// What is put into headers and texts.
+const PIECES: [&str; 22] = [
+    "'descr': '<f8'",
+    "'shape': (",
+    ")",
+    "'fortran_order': True",
+    "|O",
+    "<f4",
+    ">u8",
+    "(((((((((",
+    "{'",
+    "\n",
+    "\r",
+    ";",
+    ",",
+    "#",
+    "1e308",
+    "1e-400",
+    "0x10",
+    "\u{feff}",
+    "\0",
+    "PK\x03\x04",
+    "PK\x01\x02",
+    "PK\x05\x06",
+];
+
+/// One or more changes to a file of the corpus, or something made from nothing.
+fn mutated(random: &mut ChaCha8Rng, corpus: &[(String, Vec<u8>)]) -> Vec<u8> {
+    let mut file = corpus[random.random_range(0..corpus.len())].1.clone();
+    for _ in 0..random.random_range(1..6) {
+        let length = file.len();
+        let at = random.random_range(0..=length);
+        let end = (at + random.random_range(0..32)).min(length);
+        match random.random_range(0..14) {
+            0 | 1 if length > 0 => file[at.min(length - 1)] ^= 1 << random.random_range(0..8),
+            2 if length > 0 => file[at.min(length - 1)] = random.random_range(0..=255),
+            3 => file.truncate(at),
+            4 => drop(file.drain(at..end)),
+            5 => {
+                let piece = file[at..end].to_vec();
+                let to = random.random_range(0..=length);
+                file.splice(to..to, piece);
+            }
+            6 => {
+                let piece = PIECES[random.random_range(0..PIECES.len())].bytes();
+                file.splice(at..at, piece);
+            }
+            // lengths and offsets of headers
+            7 if length > 8 => {
+                let at = at.min(length - 4);
+                let claims = [0, 1, 0xff, 0xffff, 0x7fff_ffff, 0xffff_fffe, u32::MAX, length as u32, 1 << 24];
+                file[at..at + 4].copy_from_slice(&claims[random.random_range(0..claims.len())].to_le_bytes());
+            }
+            8 => {
+                // a number becomes another
+                if let Some(start) = (at..length).find(|&i| file[i].is_ascii_digit()) {
+                    let end = (start..length).find(|&i| !file[i].is_ascii_digit()).unwrap_or(length);
+                    file.splice(start..end, NUMBERS[random.random_range(0..NUMBERS.len())].bytes());
+                }
+            }
+            9 => {
+                let bytes: Vec<u8> = (0..random.random_range(0..300)).map(|_| random.random_range(0..=255)).collect();
+                file.splice(at..end, bytes);
+            }
+            10 => {
+                let nested = PIECES[random.random_range(0..PIECES.len())].repeat(random.random_range(1..2000));
+                file.splice(at..at, nested.bytes());
+            }
+            11 => {
+                let other = &corpus[random.random_range(0..corpus.len())].1;
+                let from = random.random_range(0..=other.len());
+                file.truncate(at);
+                file.extend_from_slice(&other[from..]);
+            }
+            // an array that was damaged before it was packed
+            12 => {
+                let mut zip = zip::ZipWriter::new(Cursor::new(Vec::new()));
+                let methods = [zip::CompressionMethod::Stored, zip::CompressionMethod::Deflated];
+                let options = zip::write::SimpleFileOptions::default();
+                let options = options.compression_method(methods[random.random_range(0..2)]);
+                zip.start_file("heights.npy", options).unwrap();
+                zip.write_all(&file).unwrap();
+                file = zip.finish().unwrap().into_inner();
+            }
+            _ => {
+                let letters = b"0123456789.,;-+eE \t\n\r#%nainf";
+                let text = (0..random.random_range(0..200)).map(|_| letters[random.random_range(0..letters.len())]);
+                file.splice(at..end, text.collect::<Vec<_>>());
+            }
+        }
+    }
+    file.truncate(1 << 16);
+    file
+}
+
+/// Reads it, and says what is wrong with how that went.
+fn wrong(path: &Path, bytes: &[u8]) -> Option<String> {
+    fs::write(path, bytes).unwrap();
+    let mut result = None;
+    let memory = allocation_counter::measure(|| result = catch_unwind(AssertUnwindSafe(|| read_field(path))).ok());
+    let Some(result) = result else { return Some("panic".into()) };
+    let values = match &result {
+        Ok(field) => field.len(),
+        Err(error) => {
+            let text = error.to_string();
+            if text.lines().count() != 1 || text.chars().any(char::is_control) || text.len() > 4000 {
+                return Some(format!("error {text:?}"));
+            }
+            0
+        }
+    };
+    let most = allowed(bytes.len(), values);
+    if memory.bytes_max > most {
+        return Some(format!("{} bytes of memory for {} of file, {values} values", memory.bytes_max, bytes.len()));
+    }
+    // deflate packs a thousandfold at best
+    (values > 1032 * bytes.len()).then(|| format!("{values} values from {} bytes", bytes.len()))
+}
+
+fn attack(seeds: impl Iterator<Item = u64>, until: impl Fn() -> bool) -> u64 {
+    let (corpus, folder) = (corpus(), tempfile::tempdir().unwrap());
+    assert!(corpus.len() >= 10);
+    let path = folder.path().join("heights");
+    let (mut count, mut found) = (0, Vec::new());
+    for seed in seeds {
+        let bytes = mutated(&mut ChaCha8Rng::seed_from_u64(seed), &corpus);
+        if let Some(wrong) = wrong(&path, &bytes) {
+            found.push(format!("seed {seed}: {wrong}"));
+        }
+        count += 1;
+        if until() || found.len() > 20 {
+            break;
+        }
+    }
+    assert!(found.is_empty(), "of {count} files: {found:#?}");
+    count
+}
+
+#[test]
+fn the_corpus_is_read_or_refused_as_its_names_say() {
+    let folder = tempfile::tempdir().unwrap();
+    for (name, bytes) in corpus() {
+        let path = folder.path().join(&name);
+        assert_eq!(wrong(&path, &bytes), None, "{name}");
+        assert_eq!(read_field(&path).is_ok(), !name.starts_with("bad-"), "{name}");
+    }
+}
+
+#[test]
+fn damaged_files_are_refused_without_panic_and_in_little_memory() {
+    attack(0..6000, || false);
+}
+
+#[test]
+#[ignore = "runs for HOSTILE_SECONDS, ten minutes unless told"]
+fn damaged_files_for_ten_minutes() {
+    let number = |name: &str, default| std::env::var(name).map_or(default, |value| value.parse().unwrap());
+    let (first, seconds) = (number("HOSTILE_FIRST", 6000), number("HOSTILE_SECONDS", 600));
+    let start = Instant::now();
+    let count = attack(first.., || start.elapsed() >= Duration::from_secs(seconds));
+    println!("{count} files from seed {first} on, none of them wrong");
+}
+
+/// The tool in a folder of its own, with a limit of virtual memory, of the size of files, and of time.
+#[cfg(unix)]
+mod tool {
+    use std::process::{Command, Output, Stdio};
+    use std::thread::sleep;
+
+    use asperity::io::write_npy;
+    use asperity::{Grid, Surface};
+
+    use super::*;
+
+    const GIGABYTE: u64 = 1 << 20;
+
+    fn bench(n: usize) -> tempfile::TempDir {
+        let bench = tempfile::tempdir().unwrap();
+        let surface = Surface::paraboloid(Grid::square(n, 1.0).unwrap(), 2.0).unwrap();
+        write_npy(&bench.path().join("heights.npy"), surface.heights()).unwrap();
+        bench
+    }
+
+    /// Runs the tool with this much memory in kB, and files of no more than so many blocks of 512 bytes.
+    fn limited(folder: &Path, memory: u64, blocks: &str, arguments: &[String]) -> Output {
+        Command::new("sh")
+            .current_dir(folder)
+            .args(["-c", "trap '' XFSZ; ulimit -v $1; ulimit -f $2; shift 2; exec \"$@\"", "sh"])
+            .args([memory.to_string().as_str(), blocks, "timeout", "60", env!("CARGO_BIN_EXE_asperity")])
+            .args(arguments)
+            .stdin(Stdio::null())
+            .output()
+            .unwrap()
+    }
+
+    fn words(text: &str) -> Vec<String> {
+        text.split_whitespace().map(str::to_owned).collect()
+    }
+
+    fn names(folder: &Path) -> Vec<String> {
+        let mut names: Vec<_> =
+            fs::read_dir(folder).unwrap().map(|e| e.unwrap().file_name().into_string().unwrap()).collect();
+        names.sort();
+        names
+    }
+
+    /// Ended by itself, with one line where it refused.
+    #[track_caller]
+    fn assert_orderly(output: &Output, what: &str) {
+        let said = String::from_utf8_lossy(&output.stderr);
+        assert!(matches!(output.status.code(), Some(0..=2)), "{what}: {:?} {said}", output.status);
+        if output.status.code() == Some(1) {
+            // help is printed where no command is given
+            let lines = said.lines().count();
+            assert!(lines == 1 || said.contains("Usage:"), "{what}: {said}");
+        }
+    }
+
+    const COMMANDS: [&str; 5] = [
+        "solve --heights heights.npy --mean-gap 0.0398",
+        "solve --heights heights.npy --mean-pressure 1e-3 --no-pictures",
+        "sweep --heights heights.npy --mean-gaps 0.04:0.03:3",
+        "surface --size 16 --rms-slope 0.1 --k-s 6",
+        "stats heights.npy",
+    ];
+
+    const OPTIONS: [&str; 34] = [
+        "--heights",
+        "--lengths",
+        "--modulus",
+        "--law",
+        "--work-of-adhesion",
+        "--range",
+        "--method",
+        "--tolerance",
+        "--max-iterations",
+        "--precision",
+        "--threads",
+        "--initial-gap",
+        "--out",
+        "--force",
+        "--quiet",
+        "--no-pictures",
+        "--mean-gap",
+        "--mean-pressure",
+        "--mean-gaps",
+        "--mean-pressures",
+        "--size",
+        "--shape",
+        "--rms-height",
+        "--rms-slope",
+        "--hurst",
+        "--k-l",
+        "--k-r",
+        "--k-s",
+        "--seed",
+        "--psd",
+        "--random-phase",
+        "--",
+        "--help",
+        "-",
+    ];
+
+    const VALUES: [&str; 36] = [
+        "0",
+        "-0",
+        "1",
+        "-1",
+        "1e-300",
+        "1e300",
+        "1e999",
+        "-1e-12",
+        "nan",
+        "inf",
+        "-inf",
+        "0x10",
+        "",
+        " ",
+        "none",
+        "exponential",
+        "maugis-dugdale",
+        "rey2017",
+        "f32",
+        "f64",
+        "heights.npy",
+        "nothing.npy",
+        ".",
+        "..",
+        "/",
+        "/dev/null",
+        "/dev/zero",
+        "new/out",
+        "1:2:3",
+        "1:2:100000000",
+        "1:1e300:5:log",
+        ",,,",
+        "9999999999",
+        "99999999999999999999999",
+        "é\u{301}",
+        "\n\u{1b}[31m",
+    ];
+
+    #[test]
+    fn no_arguments_break_the_tool() {
+        let bench = bench(16);
+        for seed in 0..300 {
+            let random = &mut ChaCha8Rng::seed_from_u64(seed);
+            let mut arguments = words(COMMANDS[random.random_range(0..COMMANDS.len())]);
+            for _ in 0..random.random_range(0..4) {
+                let value = VALUES[random.random_range(0..VALUES.len())].to_owned();
+                let at = random.random_range(1..=arguments.len());
+                match random.random_range(0..4) {
+                    0 => drop(arguments.remove(at.min(arguments.len() - 1))),
+                    1 => arguments.insert(at, value),
+                    2 => *arguments.last_mut().unwrap() = value,
+                    _ => arguments.extend([OPTIONS[random.random_range(0..OPTIONS.len())].to_owned(), value]),
+                }
+            }
+            if !arguments.iter().any(|a| a == "--out") && random.random_bool(0.9) {
+                arguments.extend(words("--out out --force"));
+            }
+            let output = limited(bench.path(), 4 * GIGABYTE, "200000", &arguments);
+            assert_orderly(&output, &format!("seed {seed}: {arguments:?}"));
+        }
+    }
+
+    #[test]
+    fn sizes_beyond_the_memory_are_refused() {
+        let bench = bench(16);
+        for size in ["--size 9999999", "--shape 9999999999 1", "--shape 4294967296 4294967296", "--size 100000"] {
+            let arguments = words(&format!("surface {size} --rms-slope 0.1 --out big.npy"));
+            let output = limited(bench.path(), 2 * GIGABYTE, "unlimited", &arguments);
+            assert_orderly(&output, size);
+            assert_eq!(output.status.code(), Some(1));
+        }
+        assert_eq!(names(bench.path()), ["heights.npy"]);
+    }
+
+    #[test]
+    fn small_files_take_little_memory() {
+        let bench = bench(16);
+        for (name, bytes) in corpus() {
+            fs::write(bench.path().join(&name), bytes).unwrap();
+            for command in [format!("stats {name}"), format!("solve --heights {name} --mean-gap 0.1 --out out --force")]
+            {
+                let output = limited(bench.path(), GIGABYTE / 2, "200000", &words(&format!("{command} --threads 1")));
+                assert_orderly(&output, &command);
+            }
+        }
+    }
+
+    #[test]
+    fn a_full_disk_leaves_nothing_that_passes_as_whole() {
+        let bench = bench(64);
+        let before = names(bench.path());
+        for (command, blocks) in [
+            ("solve --heights heights.npy --mean-gap 0.0398 --out results", "16"),
+            ("solve --heights heights.npy --mean-gap 0.0398 --no-pictures --out results", "0"),
+            ("surface --size 128 --rms-slope 0.1 --k-s 32 --out rough.npy", "64"),
+        ] {
+            let output = limited(bench.path(), 4 * GIGABYTE, blocks, &words(command));
+            assert_orderly(&output, command);
+            assert_eq!(output.status.code(), Some(1), "{command}");
+            assert_eq!(names(bench.path()), before, "{command}");
+        }
+        // what a sweep has got is kept, and it goes on from there when there is room
+        let sweep = "sweep --heights heights.npy --mean-gaps 0.04:0.03:12 --quiet --out sweep.csv";
+        let output = limited(bench.path(), 4 * GIGABYTE, "65", &words(sweep));
+        assert_orderly(&output, sweep);
+        assert_eq!(output.status.code(), Some(1));
+        for command in [sweep.to_owned(), sweep.replace("sweep.csv", "whole.csv")] {
+            assert_eq!(limited(bench.path(), 4 * GIGABYTE, "unlimited", &words(&command)).status.code(), Some(0));
+        }
+        let read = |name: &str| fs::read(bench.path().join(name)).unwrap();
+        assert!(read("sweep.csv") == read("whole.csv"));
+    }
+
+    #[test]
+    fn a_solve_that_is_killed_shows_all_of_its_results_or_none() {
+        let bench = bench(128);
+        let whole = ["contact.png", "contact_pressure.npy", "gap.npy", "pressure.npy", "pressure.png", "report.json"];
+        let mut finished = 0;
+        for delay in 0..40 {
+            let mut child = Command::new(env!("CARGO_BIN_EXE_asperity"))
+                .current_dir(bench.path())
+                .args(words("solve --heights heights.npy --mean-gap 0.0398 --quiet --out results"))
+                .stderr(Stdio::null())
+                .spawn()
+                .unwrap();
+            sleep(Duration::from_millis(3 * delay));
+            let _ = child.kill();
+            child.wait().unwrap();
+            let results = bench.path().join("results");
+            if results.exists() {
+                assert_eq!(names(&results), whole);
+                for name in whole.iter().filter(|name| name.ends_with(".npy")) {
+                    assert_eq!(read_field(&results.join(name)).unwrap().dim(), (128, 128));
+                }
+                fs::remove_dir_all(results).unwrap();
+                finished += 1;
+            }
+        }
+        assert!(finished < 40, "none was killed in time");
+        // what is left behind is hidden, and in the way of nothing
+        assert!(names(bench.path()).iter().all(|name| name == "heights.npy" || name.starts_with(".asperity-")));
+    }
+}
