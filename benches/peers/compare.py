@@ -28,6 +28,7 @@ import datetime
 import json
 import os
 import platform
+import shlex
 import statistics
 import subprocess
 import sys
@@ -74,13 +75,22 @@ class Bench:
         build = ["cargo", "build", "--release", "--quiet", "--bin", "asperity", "--example", "timed"]
         subprocess.run(build, cwd=ROOT, check=True)
 
-    def run(self, command):
-        command = [*self.options.prefix.split(), *map(str, command)]
-        done = subprocess.run(command, env=os.environ | ONE_THREAD, capture_output=True, text=True)
-        lines = [line for line in done.stdout.splitlines() if line.startswith("{")]
-        if done.returncode != 0 or not lines:
-            sys.exit(f"{' '.join(command)}\n{done.stderr}")
-        return json.loads(lines[-1])
+    def run(self, commands, seconds=0.0):
+        """The last line of JSON of each command. They run one after the other, in batches under the prefix.
+
+        `seconds` is about how long one command takes: a batch stays below a minute, if a single command does.
+        """
+        size = max(1, int(45 / (seconds + 0.5)))
+        reports = []
+        for begin in range(0, len(commands), size):
+            batch = commands[begin : begin + size]
+            lines = "\n".join(f"{shlex.join(map(str, command))} | tail -n 1" for command in batch)
+            command = [*self.options.prefix.split(), "bash", "-c", f"set -eo pipefail\n{lines}"]
+            done = subprocess.run(command, env=os.environ | ONE_THREAD, capture_output=True, text=True)
+            if done.returncode != 0:
+                sys.exit(f"{lines}\n{done.stderr}")
+            reports += map(json.loads, done.stdout.splitlines())
+        return reports
 
     def heights(self, n):
         path = self.work / f"{n}.npy"
@@ -91,18 +101,18 @@ class Bench:
         return path
 
     def ours(self, n, settings, save=None):
-        """A solve of ours: the only place that knows how it is called."""
+        """The command of a solve of ours: the only place that knows how it is called."""
         command = [self.timed, self.heights(n), *arguments(settings), *self.options.ours.split()]
-        return self.run(command + ([f"save={save}"] if save else []))
+        return command + ([f"save={save}"] if save else [])
 
     def theirs(self, program, n, settings, save=None):
         command = [self.python, HERE / "peer.py", program, self.heights(n), *arguments(settings)]
-        return self.run(command + ([f"save={save}"] if save else []))
+        return command + ([f"save={save}"] if save else [])
 
-    def rounds(self, first, second, count):
-        """Runs both in turns: the reports of the first, of the second."""
-        pairs = [(first(), second()) for _ in range(count)]
-        return [a for a, _ in pairs], [b for _, b in pairs]
+    def rounds(self, commands, count, seconds=0.0):
+        """Runs the commands in turns: the reports of each."""
+        reports = self.run(commands * count, seconds)
+        return [reports[i :: len(commands)] for i in range(len(commands))]
 
 
 def arguments(settings):
@@ -148,13 +158,10 @@ def application(bench):
             for i, library in enumerate(libraries):
                 wisdom = bench.work / f"wisdom-{bits}-{i}"
                 commands[i] = [bench.peers / f"fftw{bits}", library, n, repeat, wisdom]
-                bench.run(commands[i])  # makes the plans
+                bench.run([commands[i]])  # makes the plans
             scipy = [bench.python, HERE / "peer.py", "scipy", path, f"precision={precision}", f"apply={repeat}"]
             commands["scipy"] = scipy
-            found = {name: [] for name in commands}
-            for _ in range(count):
-                for name, command in commands.items():
-                    found[name].append(bench.run(command))
+            found = dict(zip(commands, bench.rounds(list(commands.values()), count, 1.5 * (n / 2048) ** 2)))
             squares = [found[name][0]["check"] for name in ("ours", "scipy")]
             if abs(squares[0] / squares[1] - 1) > 1e-3:
                 sys.exit(f"the applications of asperity and SciPy differ at {n}: {squares}")
@@ -188,7 +195,6 @@ class Case:
         from scipy import fft
 
         self.bench, self.n, self.problem, self.np, self.fft = bench, n, problem, np, fft
-        self.files = 0
         # K on the half spectrum, with the weights of Parseval's sum
         k = np.fft.fftfreq(n, 1 / n)[:, None]
         l = np.arange(n // 2 + 1)[None, :]
@@ -196,7 +202,7 @@ class Case:
         q[0, 0] = np.inf
         self.weights = np.where((l == 0) | (2 * l == n), 1.0, 2.0) / (np.pi * q)
         path = bench.work / "reference.npy"
-        self.reference = bench.ours(n, self.settings("f64", "1e-12"), path)
+        [self.reference] = bench.run([bench.ours(n, self.settings("f64", "1e-12"), path)])
         self.pressure = np.load(path)
         self.energy = self.square(self.pressure)
         log(n, "reference:", self.reference)
@@ -213,27 +219,29 @@ class Case:
         area = abs(report["area"] / self.reference["area"] - 1)
         return {"area": area, "energy": (self.square(pressure - self.pressure) / self.energy) ** 0.5}
 
-    def ladder(self, name, run, tolerances):
-        """Runs at all tolerances: [(tolerance, run, report, errors)]."""
-        path, steps = self.bench.work / "solution.npy", []
-        for tolerance in tolerances:
-            report = run(tolerance, path)
+    def ladder(self, name, command, tolerances, seconds):
+        """Runs at all tolerances: [(tolerance, command, report, errors)]."""
+        paths = [self.bench.work / f"solution-{tolerance}.npy" for tolerance in tolerances]
+        reports = self.bench.run([command(*pair) for pair in zip(tolerances, paths)], seconds)
+        steps = []
+        for tolerance, path, report in zip(tolerances, paths, reports):
             errors = self.errors(report, path)
-            steps.append((tolerance, run, report, errors))
+            path.unlink()
+            steps.append((tolerance, command(tolerance), report, errors))
             log(f"{self.n} {name} {tolerance}: {report['seconds']:.3f} s, {report['status']},", errors)
         return steps
 
     def ours(self, precision):
-        run = lambda tolerance, save=None: self.bench.ours(self.n, self.settings(precision, tolerance), save)
-        return self.ladder(f"asperity {precision}", run, OURS[precision])
+        command = lambda tolerance, save=None: self.bench.ours(self.n, self.settings(precision, tolerance), save)
+        return self.ladder(f"asperity {precision}", command, OURS[precision], 0.4 * (self.n / 512) ** 2)
 
     def aspher(self, mode, tolerances):
-        run = lambda tolerance, save=None: self.bench.theirs("aspher", self.n, self.settings(mode, tolerance), save)
-        return self.ladder(f"aspher {mode}", run, tolerances)
+        command = lambda tolerance, save=None: self.bench.theirs("aspher", self.n, self.settings(mode, tolerance), save)
+        return self.ladder(f"aspher {mode}", command, tolerances, 0.5 * (self.n / 512) ** 2)
 
     def tamaas(self, tolerances):
-        run = lambda tolerance, save=None: self.bench.theirs("tamaas", self.n, self.settings("f64", tolerance), save)
-        return self.ladder("tamaas", run, tolerances)
+        command = lambda tolerance, save=None: self.bench.theirs("tamaas", self.n, self.settings("f64", tolerance), save)
+        return self.ladder("tamaas", command, tolerances, 6 * (self.n / 512) ** 3)
 
     def agreement(self, steps):
         """How far the tightest of a peer is from the reference, as words."""
@@ -268,7 +276,8 @@ def compared(case, ours, modes, level, rounds):
     if mine is None or peer is None:
         row = [name, cell(mine, [mine[2]] if mine else []), cell(peer, [peer[2]] if peer else []), "–"]
         return row, [], []
-    first, second = case.bench.rounds(lambda: mine[1](mine[0]), lambda: peer[1](peer[0]), rounds)
+    seconds = 0.5 * (mine[2]["seconds"] + peer[2]["seconds"])
+    first, second = case.bench.rounds([mine[1], peer[1]], rounds, seconds)
     return [name, cell(mine, first), cell(peer, second), ratio(first, second)], first, second
 
 
@@ -322,7 +331,7 @@ def adhesion(bench):
         import numpy as np
 
         rms = float(np.load(bench.heights(n)).std())
-        gap = bench.ours(n, {"pressure": PRESSURE, "tolerance": "1e-8"})["mean_gap"]
+        gap = bench.run([bench.ours(n, {"pressure": PRESSURE, "tolerance": "1e-8"})])[0]["mean_gap"]
         law = {"range": 0.1 * rms, "work": 0.1 * 0.1 * rms}
         case = Case(bench, n, {"gap": gap} | law)
         ref = case.reference
