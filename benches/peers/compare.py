@@ -75,16 +75,21 @@ class Bench:
         build = ["cargo", "build", "--release", "--quiet", "--bin", "asperity", "--example", "timed"]
         subprocess.run(build, cwd=ROOT, check=True)
 
-    def run(self, commands, seconds=0.0):
-        """The last line of JSON of each command. They run one after the other, in batches under the prefix.
+    def run(self, commands):
+        """The last line of JSON of each (command, about how many seconds it takes).
 
-        `seconds` is about how long one command takes: a batch stays below a minute, if a single command does.
+        They run one after the other under the prefix, in batches of less than a minute, if a single command takes less.
         """
-        size = max(1, int(45 / (seconds + 0.5)))
+        batches, total = [], float("inf")
+        for command, seconds in commands:
+            total += seconds + 0.5
+            if total > 45:
+                batches.append([])
+                total = seconds + 0.5
+            batches[-1].append(f"{shlex.join(map(str, command))} | tail -n 1")
         reports = []
-        for begin in range(0, len(commands), size):
-            batch = commands[begin : begin + size]
-            lines = "\n".join(f"{shlex.join(map(str, command))} | tail -n 1" for command in batch)
+        for batch in batches:
+            lines = "\n".join(batch)
             command = [*self.options.prefix.split(), "bash", "-c", f"set -eo pipefail\n{lines}"]
             done = subprocess.run(command, env=os.environ | ONE_THREAD, capture_output=True, text=True)
             if done.returncode != 0:
@@ -108,11 +113,6 @@ class Bench:
     def theirs(self, program, n, settings, save=None):
         command = [self.python, HERE / "peer.py", program, self.heights(n), *arguments(settings)]
         return command + ([f"save={save}"] if save else [])
-
-    def rounds(self, commands, count, seconds=0.0):
-        """Runs the commands in turns: the reports of each."""
-        reports = self.run(commands * count, seconds)
-        return [reports[i :: len(commands)] for i in range(len(commands))]
 
 
 def arguments(settings):
@@ -147,38 +147,42 @@ def table(head, rows):
 
 def application(bench):
     sizes = [512, 1024] if bench.options.quick else [512, 1024, 2048, 4096]
-    count = 3 if bench.options.quick else 7
-    rows = []
+    rounds = 3 if bench.options.quick else 7
+    cases, todo = [], []
     for n in sizes:
         for precision, bits in [("f64", 64), ("f32", 32)]:
             repeat = max(5, 40 * 512 // n)
             path = bench.heights(n)
-            libraries = (bench.peers / f"fftw{bits}.libraries").read_text().split()
-            commands = {"ours": [bench.timed, path, f"precision={precision}", f"apply={repeat}"]}
-            for i, library in enumerate(libraries):
-                wisdom = bench.work / f"wisdom-{bits}-{i}"
-                commands[i] = [bench.peers / f"fftw{bits}", library, n, repeat, wisdom]
-                bench.run([commands[i]])  # makes the plans
-            scipy = [bench.python, HERE / "peer.py", "scipy", path, f"precision={precision}", f"apply={repeat}"]
-            commands["scipy"] = scipy
-            found = dict(zip(commands, bench.rounds(list(commands.values()), count, 1.5 * (n / 2048) ** 2)))
-            squares = [found[name][0]["check"] for name in ("ours", "scipy")]
-            if abs(squares[0] / squares[1] - 1) > 1e-3:
-                sys.exit(f"the applications of asperity and SciPy differ at {n}: {squares}")
-            best = min(range(len(libraries)), key=lambda i: median(found[i]))
-            others = [f"{1e3 * median(found[i]):.2f}" for i in range(len(libraries))]
-            log(n, precision, "FFTW builds", others)
-            rows.append(
-                [
-                    f"{n}²",
-                    precision,
-                    f"{1e3 * median(found['ours']):.2f}",
-                    " / ".join(f"**{t}**" if i == best else t for i, t in enumerate(others)),
-                    ratio(found["ours"], found[best]),
-                    f"{statistics.median(a['seconds'] / b['seconds'] for a, b in zip(found['ours'], found[best])):.2f}",
-                    ratio(found["ours"], found["scipy"]),
-                ]
-            )
+            kind = f"precision={precision}", f"apply={repeat}"
+            commands = {"ours": [bench.timed, path, *kind], "scipy": [bench.python, HERE / "peer.py", "scipy", path, *kind]}
+            for i, library in enumerate((bench.peers / f"fftw{bits}.libraries").read_text().split()):
+                commands[i] = [bench.peers / f"fftw{bits}", library, n, repeat, bench.work / f"wisdom-{bits}-{i}"]
+            cases.append((n, precision, list(commands)))
+            # the first round of FFTW makes the plans; it does not count
+            todo += [(command, 10 * (n / 4096) ** 2) for command in commands.values()]
+            todo += [(command, 4 * (n / 4096) ** 2) for command in commands.values()] * rounds
+    reports, rows = bench.run(todo), []
+    for n, precision, names in cases:
+        mine, reports = reports[: len(names) * (rounds + 1)], reports[len(names) * (rounds + 1) :]
+        found = {name: mine[len(names) + i :: len(names)] for i, name in enumerate(names)}
+        squares = [found[name][0]["check"] for name in ("ours", "scipy")]
+        if abs(squares[0] / squares[1] - 1) > 1e-3:
+            sys.exit(f"the applications of asperity and SciPy differ at {n}: {squares}")
+        builds = [name for name in names if isinstance(name, int)]
+        best = min(builds, key=lambda i: median(found[i]))
+        times = [f"{1e3 * median(found[i]):.2f}" for i in builds]
+        inverse = statistics.median(a["seconds"] / b["seconds"] for a, b in zip(found["ours"], found[best]))
+        rows.append(
+            [
+                f"{n}²",
+                precision,
+                f"{1e3 * median(found['ours']):.2f}",
+                " / ".join(f"**{t}**" if i == best else t for i, t in zip(builds, times)),
+                ratio(found["ours"], found[best]),
+                f"{inverse:.2f}",
+                ratio(found["ours"], found["scipy"]),
+            ]
+        )
     print("### One operator application: forward transform, product, inverse\n")
     head = ["grid", "", "asperity, ms", "FFTW, ms: as packaged / built for this machine"]
     table(head + ["FFTW / asperity", "asperity / FFTW", "SciPy / asperity"], rows)
@@ -201,11 +205,6 @@ class Case:
         q = np.hypot(k, l)
         q[0, 0] = np.inf
         self.weights = np.where((l == 0) | (2 * l == n), 1.0, 2.0) / (np.pi * q)
-        path = bench.work / "reference.npy"
-        [self.reference] = bench.run([bench.ours(n, self.settings("f64", "1e-12"), path)])
-        self.pressure = np.load(path)
-        self.energy = self.square(self.pressure)
-        log(n, "reference:", self.reference)
 
     def settings(self, precision, tolerance):
         return {"precision": precision, "tolerance": tolerance} | self.problem
@@ -219,29 +218,39 @@ class Case:
         area = abs(report["area"] / self.reference["area"] - 1)
         return {"area": area, "energy": (self.square(pressure - self.pressure) / self.energy) ** 0.5}
 
-    def ladder(self, name, command, tolerances, seconds):
-        """Runs at all tolerances: [(tolerance, command, report, errors)]."""
-        paths = [self.bench.work / f"solution-{tolerance}.npy" for tolerance in tolerances]
-        reports = self.bench.run([command(*pair) for pair in zip(tolerances, paths)], seconds)
-        steps = []
-        for tolerance, path, report in zip(tolerances, paths, reports):
-            errors = self.errors(report, path)
-            path.unlink()
-            steps.append((tolerance, command(tolerance), report, errors))
-            log(f"{self.n} {name} {tolerance}: {report['seconds']:.3f} s, {report['status']},", errors)
-        return steps
-
     def ours(self, precision):
         command = lambda tolerance, save=None: self.bench.ours(self.n, self.settings(precision, tolerance), save)
-        return self.ladder(f"asperity {precision}", command, OURS[precision], 0.4 * (self.n / 512) ** 2)
+        return f"asperity {precision}", command, OURS[precision], 0.4 * (self.n / 512) ** 2
 
     def aspher(self, mode, tolerances):
         command = lambda tolerance, save=None: self.bench.theirs("aspher", self.n, self.settings(mode, tolerance), save)
-        return self.ladder(f"aspher {mode}", command, tolerances, 0.5 * (self.n / 512) ** 2)
+        return f"aspher {mode}", command, tolerances, 0.5 * (self.n / 512) ** 2
 
     def tamaas(self, tolerances):
         command = lambda tolerance, save=None: self.bench.theirs("tamaas", self.n, self.settings("f64", tolerance), save)
-        return self.ladder("tamaas", command, tolerances, 6 * (self.n / 512) ** 3)
+        return "tamaas", command, tolerances, (6 if "work" in self.problem else 3) * (self.n / 512) ** 3
+
+    def climb(self, ladders):
+        """Finds the reference and runs the ladders: for each a list of (tolerance, command, report, errors)."""
+        reference = self.bench.work / "reference.npy"
+        todo = [(self.bench.ours(self.n, self.settings("f64", "1e-12"), reference), (self.n / 512) ** 2)]
+        path = lambda i, tolerance: self.bench.work / f"solution-{i}-{tolerance}.npy"
+        for i, (_, command, tolerances, seconds) in enumerate(ladders):
+            todo += [(command(tolerance, path(i, tolerance)), seconds) for tolerance in tolerances]
+        self.reference, *reports = self.bench.run(todo)
+        log(self.n, "reference:", self.reference)
+        self.pressure = self.np.load(reference)
+        self.energy = self.square(self.pressure)
+        steps = []
+        for i, (name, command, tolerances, _) in enumerate(ladders):
+            steps.append([])
+            for tolerance in tolerances:
+                report = reports.pop(0)
+                errors = self.errors(report, path(i, tolerance))
+                path(i, tolerance).unlink()
+                steps[-1].append((tolerance, command(tolerance), report, errors))
+                log(f"{self.n} {name} {tolerance}: {report['seconds']:.3f} s, {report['status']},", errors)
+        return steps
 
     def agreement(self, steps):
         """How far the tightest of a peer is from the reference, as words."""
@@ -261,24 +270,29 @@ def chosen(steps, error, limit):
 
 
 def cell(step, reports):
-    if step is None:
-        return "not reached"
     tolerance, _, _, errors = step
     return f"{median(reports):.3g} s ({tolerance}; {errors['area']:.0e}, {errors['energy']:.0e})"
 
 
-def compared(case, ours, modes, level, rounds):
-    """A row for a level: what is compared, and the reports of both."""
-    name, error, limit = level
-    mine = ours[-1] if name.startswith("certified") else chosen(ours, error, limit)
-    candidates = [step for step in (chosen(steps, error, limit) for steps in modes) if step]
-    peer = min(candidates, key=lambda step: step[2]["seconds"], default=None)
-    if mine is None or peer is None:
-        row = [name, cell(mine, [mine[2]] if mine else []), cell(peer, [peer[2]] if peer else []), "–"]
-        return row, [], []
-    seconds = 0.5 * (mine[2]["seconds"] + peer[2]["seconds"])
-    first, second = case.bench.rounds([mine[1], peer[1]], rounds, seconds)
-    return [name, cell(mine, first), cell(peer, second), ratio(first, second)], first, second
+def compared(case, wanted):
+    """A row and the reports of both for each (our ladder, those of a peer, level, rounds)."""
+    found, todo = [], []
+    for ours, modes, (name, error, limit), rounds in wanted:
+        mine = ours[-1] if name.startswith("certified") else chosen(ours, error, limit)
+        candidates = [step for step in (chosen(steps, error, limit) for steps in modes) if step]
+        peer = min(candidates, key=lambda step: step[2]["seconds"], default=None)
+        rounds = rounds if mine and peer else 0
+        found.append((name, mine, peer, rounds))
+        if rounds:
+            todo += [(mine[1], mine[2]["seconds"]), (peer[1], peer[2]["seconds"])] * rounds
+    reports, rows = case.bench.run(todo), []
+    for name, mine, peer, rounds in found:
+        both, reports = reports[: 2 * rounds], reports[2 * rounds :]
+        first, second = both[::2], both[1::2]
+        cells = [cell(step, times or [step[2]]) if step else "not reached" for step, times in ((mine, first), (peer, second))]
+        rows.append(([name, *cells, ratio(first, second) if rounds else "–"], first, second))
+        log(case.n, rows[-1][0])
+    return rows
 
 
 HEAD = ["grid", "", "peer", "level", "asperity (tolerance; errors of area, energy)", "peer (the same)", "peer / asperity"]
@@ -289,26 +303,23 @@ def wall(bench):
     for n in [512] if bench.options.quick else [512, 1024, 2048]:
         rounds = 3 if bench.options.quick or n > 1024 else 5
         case = Case(bench, n, {"pressure": PRESSURE})
-        ref = case.reference
-        notes.append(f"{n}²: reference {100 * ref['area']:.4f} % contact, certified to {ref['relative_error']:.0e}")
-        for precision in ["f64", "f32"]:
-            ours = case.ours(precision)
-            modes = [case.aspher(*mode) for mode in ASPHER[precision]]
-            if precision == "f64":
-                notes[-1] += f"; aspher: {case.agreement(modes[0])}"
-            for level in LEVELS[precision]:
-                row, first, second = compared(case, ours, modes, level, rounds)
-                rows.append([f"{n}²", precision, "aspher", *row])
-                log(rows[-1])
-            if first and second:
+        ladders = {precision: [case.ours(precision), *(case.aspher(*mode) for mode in ASPHER[precision])] for precision in OURS}
+        all_ladders = ladders["f64"] + ladders["f32"] + ([case.tamaas(TAMAAS)] if n <= 1024 else [])
+        steps = case.climb(all_ladders)
+        note = f"{n}²: reference {100 * case.reference['area']:.4f} % contact, certified to "
+        note += f"{case.reference['relative_error']:.0e}; aspher: {case.agreement(steps[1])}"
+        double, single = steps[: len(ladders["f64"])], steps[len(ladders["f64"]) :][: len(ladders["f32"])]
+        wanted = [("aspher", "f64", (double[0], double[1:], level, rounds)) for level in LEVELS["f64"]]
+        wanted += [("aspher", "f32", (single[0], single[1:], level, rounds)) for level in LEVELS["f32"]]
+        if n <= 1024:
+            few = 3 if n <= 512 else 1
+            wanted += [("Tamaas", "f64", (double[0], [steps[-1]], level, few)) for level in LEVELS["f64"]]
+            note += f"; Tamaas: {case.agreement(steps[-1])}"
+        notes.append(note)
+        for (peer, precision, (*_, level, _)), (row, first, second) in zip(wanted, compared(case, [w for *_, w in wanted])):
+            rows.append([f"{n}²", precision, peer, *row])
+            if first and peer == "aspher" and level is LEVELS[precision][-1]:
                 memory.append((n, precision, level[0], first, second))
-            if precision == "f64" and n <= 1024:
-                steps = case.tamaas(TAMAAS)
-                notes[-1] += f"; Tamaas: {case.agreement(steps)}"
-                for level in LEVELS[precision]:
-                    row, _, _ = compared(case, ours, [steps], level, 3 if n <= 512 else 1)
-                    rows.append([f"{n}²", precision, "Tamaas", *row])
-                    log(rows[-1])
     print(f"### Hard wall, p̄ = {PRESSURE} E*h', H = 0.8, k = 4…64, seed {SEED}\n")
     table(HEAD, rows)
     for note in notes:
@@ -325,33 +336,29 @@ def wall(bench):
 
 
 def adhesion(bench):
-    rows, notes = [], []
-    levels = LEVELS["f64"]
-    for n in [512] if bench.options.quick else [512, 1024]:
-        import numpy as np
+    import numpy as np
 
+    rows, notes = [], []
+    for n in [512] if bench.options.quick else [512, 1024]:
         rms = float(np.load(bench.heights(n)).std())
-        gap = bench.run([bench.ours(n, {"pressure": PRESSURE, "tolerance": "1e-8"})])[0]["mean_gap"]
-        law = {"range": 0.1 * rms, "work": 0.1 * 0.1 * rms}
-        case = Case(bench, n, {"gap": gap} | law)
-        ref = case.reference
-        notes.append(f"{n}²: reference {100 * ref['area']:.4f} % contact, certified to {ref['relative_error']:.0e}")
-        ours = case.ours("f64")
-        if n > 512:
-            # a minute or two: one run, at the tolerance that certified 1e-6 took on the smaller grid
-            steps = case.tamaas([certified])
-            notes[-1] += f"; Tamaas: {case.agreement(steps)}; one run"
-            mine, peer = ours[-1], steps[0]
-            row = [levels[-1][0], cell(mine, [mine[2]]), cell(peer, [peer[2]]), ratio([mine[2]], [peer[2]])]
-            rows.append([f"{n}²", "f64", "Tamaas", *row])
-            continue
-        steps = case.tamaas(ADHESIVE[1::2] if bench.options.quick else ADHESIVE)
-        notes[-1] += f"; Tamaas: {case.agreement(steps)}"
+        wall = bench.ours(n, {"pressure": PRESSURE, "tolerance": "1e-8"})
+        [wall] = bench.run([(wall, (n / 512) ** 2)])
+        case = Case(bench, n, {"gap": wall["mean_gap"], "range": 0.1 * rms, "work": 0.1 * 0.1 * rms})
+        large = n > 512
+        # a minute or two on the large grid: one run, at the tolerance that certified 1e-6 took on the small one
+        tolerances = [certified] if large else ADHESIVE[1::2] if bench.options.quick else ADHESIVE
+        ours, steps = case.climb([case.ours("f64"), case.tamaas(tolerances)])
         certified = (chosen(steps, "energy", 1e-6) or steps[-1])[0]
-        for level in levels:
-            row, _, _ = compared(case, ours, [steps], level, 1 if bench.options.quick else 3)
+        note = f"{n}²: reference {100 * case.reference['area']:.4f} % contact, certified to {case.reference['relative_error']:.0e}"
+        notes.append(f"{note}; Tamaas: {case.agreement(steps)}")
+        if large:
+            mine, peer = ours[-1], steps[0]
+            cells = [cell(step, [step[2]]) for step in (mine, peer)]
+            rows.append([f"{n}²", "f64", "Tamaas", LEVELS["f64"][-1][0], *cells, ratio([mine[2]], [peer[2]])])
+            continue
+        rounds = 1 if bench.options.quick else 3
+        for row, _, _ in compared(case, [(ours, [steps], level, rounds) for level in LEVELS["f64"]]):
             rows.append([f"{n}²", "f64", "Tamaas", *row])
-            log(rows[-1])
     print("### Exponential law, ρ = 0.1 h_rms, w = 0.1 E*h'ρ, at the mean gap of the hard wall\n")
     table(HEAD, rows)
     for note in notes:
@@ -364,9 +371,10 @@ def conditions(bench):
     flags = next((l for l in Path("/proc/cpuinfo").read_text().splitlines() if l.startswith("flags")), "")
     vectors = "AVX-512" if "avx512f" in flags else "AVX2" if "avx2" in flags else "SSE2"
     git = subprocess.run(["git", "describe", "--always", "--dirty"], cwd=ROOT, capture_output=True, text=True)
-    names = ["tamaas", "aspher", "numpy", "scipy"]
+    names = ["tamaas", "numpy", "scipy", "aspher"]
     code = f"from importlib.metadata import version; print(', '.join(f'{{p}} {{version(p)}}' for p in {names}))"
-    versions = subprocess.run([bench.python, "-c", code], capture_output=True, text=True).stdout.strip()
+    where = os.environ | {"PYTHONPATH": str(bench.peers / "aspher-native")}
+    versions = subprocess.run([bench.python, "-c", code], env=where, capture_output=True, text=True).stdout.strip()
     print(
         f"{datetime.date.today()}; {model} ({os.cpu_count()} cores, {vectors}), {platform.system()}; asperity "
         f"{git.stdout.strip() or '?'}; FFTW 3.3.10, {versions}. One thread. Ratios: median (least–largest of the rounds); "

@@ -34,7 +34,9 @@ def symbol(n, kind=np.float64):
 
 
 def aspher(path, options):
-    """Periodic, nested. Light result, coarse tolerance 1e-3: the fastest of those tried (see README.md)."""
+    """Periodic, nested. Light result, coarse tolerance 1e-3, build: the fastest of those tried (see README.md)."""
+    build = "portable" if options["precision"] == "float" else "native"
+    sys.path.insert(0, str(Path(sys.prefix).parent / f"aspher-{build}"))
     import aspher as program
 
     base = resident("VmRSS")

@@ -3,8 +3,8 @@
 #
 #     benches/peers/setup.sh [DIR]        (default: ${XDG_CACHE_HOME:-~/.cache}/asperity-peers)
 #
-# From PyPI: tamaas, aspher, numpy, scipy, in a virtual environment. aspher comes as source: it is built here for this
-# machine (-march=native), with the header-only Eigen of Debian, unpacked, not installed. From Debian: FFTW 3.3.10, both as
+# From PyPI: tamaas, aspher, numpy, scipy, in a virtual environment. aspher comes as source: it is built here, for any
+# machine and for this one (-march=native), with the header-only Eigen of Debian, unpacked, not installed. From Debian: FFTW 3.3.10, both as
 # it is packaged, and built from the same source with AVX2 and, where the processor has it, AVX-512, which the package
 # lacks. Needs python3 with venv, gcc, g++, make and, on Debian or Ubuntu, apt-get; no root. Takes some ten minutes.
 set -euo pipefail
@@ -58,9 +58,14 @@ gcc -O3 -march=native -DREAL=float -o fftw32 "$here/fftw.c" -lm -ldl
 echo "== PyPI, in $dir/venv"
 [ -e venv ] || python3 -m venv venv
 venv/bin/pip install --quiet numpy==2.4.6 scipy==1.17.1 tamaas==2.9.0
-venv/bin/pip install --quiet --no-deps --force-reinstall --no-cache-dir aspher==0.1.3.post1 \
-    --config-settings=cmake.define.Eigen3_DIR="$eigen" --config-settings=cmake.define.ASPHER_NATIVE=ON
-venv/bin/python -c 'import aspher, numpy, scipy, tamaas'
+# as pip builds it, and for this machine; each is the faster in one of the two precisions
+for build in portable:OFF native:ON; do
+    rm -rf "aspher-${build%:*}"
+    venv/bin/pip install --quiet --no-deps --no-cache-dir --target "aspher-${build%:*}" aspher==0.1.3.post1 \
+        --config-settings=cmake.define.Eigen3_DIR="$eigen" --config-settings=cmake.define.ASPHER_NATIVE="${build#*:}"
+    PYTHONPATH="aspher-${build%:*}" venv/bin/python -c 'import aspher'
+done
+venv/bin/python -c 'import numpy, scipy, tamaas'
 
 {
     printf '%s\n' "$libraries/libfftw3.so.3" "$dir/fftw/lib/libfftw3.so.3"
