@@ -33,8 +33,7 @@ type Outcome<T> = Result<T, Box<dyn Error>>;
 struct Options(HashMap<String, String>);
 
 impl Options {
-    const NAMES: [&str; 9] =
-        ["pressure", "gap", "apply", "precision", "tolerance", "work", "range", "repeat", "save"];
+    const NAMES: [&str; 9] = ["pressure", "gap", "apply", "precision", "tolerance", "work", "range", "repeat", "save"];
 
     fn new(arguments: impl Iterator<Item = String>) -> Outcome<Self> {
         let mut options = HashMap::new();
