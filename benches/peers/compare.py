@@ -71,7 +71,8 @@ class Bench:
         if not self.python.exists():
             sys.exit(f"{self.python} is not there: run benches/peers/setup.sh, or name its folder with --peers")
         self.timed = ROOT / "target/release/examples/timed"
-        self.work = Path(tempfile.mkdtemp(prefix="asperity-peers-"))
+        self.folder = tempfile.TemporaryDirectory(prefix="asperity-peers-")
+        self.work = Path(self.folder.name)
         build = ["cargo", "build", "--release", "--quiet", "--bin", "asperity", "--example", "timed"]
         subprocess.run(build, cwd=ROOT, check=True)
 

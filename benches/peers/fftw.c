@@ -5,7 +5,7 @@
  *     fftw LIBRARY N COUNT WISDOM
  *
  * LIBRARY is a shared libfftw3 or libfftw3f (compile with -DREAL=float); WISDOM a file that keeps the plans of a run. The
- * input is the sum over the nodes of a fixed pattern, the same as no one else's: only times are compared here.
+ * field is a fixed pattern, and `check` the sum of the squares of what comes out, the same for every build.
  */
 #define _GNU_SOURCE
 #include <dlfcn.h>
