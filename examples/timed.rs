@@ -1,0 +1,212 @@
+//! Times solves, or operator applications, of given heights: a line of JSON for each repetition.
+//!
+//! ```text
+//! cargo run --release --example timed -- HEIGHTS [NAME=VALUE ...]
+//! ```
+//!
+//! `HEIGHTS` is a file of heights on a periodic square of side 1 (or a rectangle of square cells, Lx = 1), whose contact
+//! modulus is 1. One of `pressure=P`, `gap=G` (the control) and `apply=N` (only the operator: the median of N applications,
+//! after two that do not count) must be there. Beside them: `precision=f64|f32`, `tolerance=1e-6`, `work=W range=R` (the
+//! exponential law), `method=single|nested|mixed` (one grid, nested grids, or these in f32 to 1e-4 and on in f64), `repeat=N`, `save=FILE.npy` (the elastic pressure p + p̄ of the last solve, in f64).
+//!
+//! `seconds` counts from the heights in memory to the solution in memory, `solve` only the solve without the construction
+//! of operator and problem. `peak` is the largest resident memory of the process, in bytes, from before the repetition to
+//! its end (Linux only). `benches/peers` runs this against other programs.
+
+use std::collections::HashMap;
+use std::error::Error;
+use std::fs;
+use std::path::Path;
+use std::time::Instant;
+
+use asperity::io::{read_field, write_npy};
+use asperity::{
+    AdhesionLaw, Control, ElasticOperator, Exponential, Grid, Nested, NoAdhesion, Problem, Real, Settings, Solution,
+    Solver, Surface, Westergaard,
+};
+use ndarray::Array2;
+use serde_json::json;
+
+/// How far single precision goes on every grid.
+const SINGLE: f64 = 1e-4;
+
+type Outcome<T> = Result<T, Box<dyn Error>>;
+
+/// The arguments NAME=VALUE.
+struct Options(HashMap<String, String>);
+
+impl Options {
+    const NAMES: [&str; 10] =
+        ["pressure", "gap", "apply", "precision", "tolerance", "work", "range", "method", "repeat", "save"];
+
+    fn new(arguments: impl Iterator<Item = String>) -> Outcome<Self> {
+        let mut options = HashMap::new();
+        for argument in arguments {
+            let (name, value) = argument.split_once('=').ok_or_else(|| format!("{argument}: write NAME=VALUE"))?;
+            if !Self::NAMES.contains(&name) {
+                return Err(format!("{name}: the names are {}", Self::NAMES.join(", ")).into());
+            }
+            options.insert(name.to_owned(), value.to_owned());
+        }
+        Ok(Self(options))
+    }
+
+    fn text(&self, name: &str) -> Option<&str> {
+        self.0.get(name).map(String::as_str)
+    }
+
+    fn number(&self, name: &str) -> Outcome<Option<f64>> {
+        let parse = |text: &str| text.parse().map_err(|e| format!("{name}={text}: {e}"));
+        Ok(self.text(name).map(parse).transpose()?)
+    }
+
+    fn count(&self, name: &str) -> Outcome<Option<usize>> {
+        let parse = |text: &str| text.parse().map_err(|e| format!("{name}={text}: {e}"));
+        Ok(self.text(name).map(parse).transpose()?)
+    }
+}
+
+fn main() -> Outcome<()> {
+    let mut arguments = std::env::args().skip(1);
+    let heights = arguments.next().ok_or("the file of heights must be given")?;
+    let options = Options::new(arguments)?;
+    let heights = read_field(Path::new(&heights))?;
+    match options.text("precision").unwrap_or("f64") {
+        "f64" => time::<f64>(heights, &options),
+        "f32" => time::<f32>(heights, &options),
+        other => Err(format!("precision={other}: f64 or f32").into()),
+    }
+}
+
+fn time<T: Real>(heights: Array2<f64>, options: &Options) -> Outcome<()> {
+    let (nx, ny) = heights.dim();
+    let grid = Grid::new((nx, ny), (1.0, ny as f64 / nx as f64))?;
+    if let Some(count) = options.count("apply")? {
+        return apply::<T>(grid, &heights, count, options.count("repeat")?.unwrap_or(1));
+    }
+    let surface = Surface::new(grid, heights)?;
+    match (options.number("work")?, options.number("range")?) {
+        (Some(work), Some(range)) => {
+            let single = Exponential::new(work as f32, range as f32)?;
+            solve::<T, _, _>(&surface, Exponential::new(T::lit(work), T::lit(range))?, single, options)
+        }
+        (None, None) => solve::<T, _, _>(&surface, NoAdhesion, NoAdhesion, options),
+        _ => Err("work and range must both be given, or neither".into()),
+    }
+}
+
+fn solve<T: Real, L: AdhesionLaw<T> + Clone, S: AdhesionLaw<f32> + Clone>(
+    surface: &Surface,
+    law: L,
+    single: S,
+    options: &Options,
+) -> Outcome<()> {
+    let control = match (options.number("pressure")?, options.number("gap")?) {
+        (Some(pressure), None) => Control::MeanPressure(pressure),
+        (None, Some(gap)) => Control::MeanGap(gap),
+        _ => return Err("give one of pressure=P, gap=G and apply=N".into()),
+    };
+    let tolerance = options.number("tolerance")?.unwrap_or(Settings::default().tolerance);
+    let settings = Settings { tolerance, ..Settings::default() };
+    for _ in 0..options.count("repeat")?.unwrap_or(1) {
+        forget_peak();
+        let begin = Instant::now();
+        let (solution, seconds) = match options.text("method").unwrap_or("single") {
+            "single" => run::<T, L>(surface, law.clone(), control, settings, None)?,
+            "nested" => nested::<T, L>(surface, law.clone(), control, settings)?,
+            // what single precision reaches is then all that is wanted
+            "mixed" if T::NAME == "f32" || tolerance >= SINGLE => {
+                nested::<T, L>(surface, law.clone(), control, settings)?
+            }
+            "mixed" => {
+                let settings_single = Settings { tolerance: SINGLE, ..settings };
+                let (near, seconds) = nested::<f32, S>(surface, single.clone(), control, settings_single)?;
+                let gap = near.gap.mapv(|g| T::lit(g.widen()));
+                drop(near);
+                let (solution, more) = run::<T, L>(surface, law.clone(), control, settings, Some(gap))?;
+                (solution, seconds + more)
+            }
+            other => return Err(format!("method={other}: single, nested or mixed").into()),
+        };
+        let (total, peak) = (begin.elapsed().as_secs_f64(), peak());
+        let report = &solution.report;
+        let line = json!({
+            "seconds": total,
+            "solve": seconds,
+            "area": report.contact_fraction,
+            "mean_gap": report.mean_gap,
+            "mean_pressure": report.mean_pressure,
+            "applications": report.operator_applications,
+            "relative_error": report.relative_error,
+            "status": report.status.name(),
+            "peak": peak,
+        });
+        println!("{line}");
+        if let Some(path) = options.text("save") {
+            write_npy(Path::new(path), &solution.pressure.mapv(Real::widen))?;
+        }
+    }
+    Ok(())
+}
+
+/// The solution, and the seconds that the solve alone took; `near` is where it starts, if that is known.
+fn run<T: Real, L: AdhesionLaw<T>>(
+    surface: &Surface,
+    law: L,
+    control: Control,
+    settings: Settings,
+    near: Option<Array2<T>>,
+) -> Outcome<(Solution<T>, f64)> {
+    let half_space = Westergaard::<T>::new(*surface.grid(), 1.0)?;
+    let mut problem = Problem::new(surface, half_space, law)?;
+    let begin = Instant::now();
+    let mut solver = Solver::new(settings);
+    let solution = match near {
+        None => solver.solve(&mut problem, control)?,
+        Some(gap) => solver.solve_near(&mut problem, control, gap)?,
+    };
+    Ok((solution, begin.elapsed().as_secs_f64()))
+}
+
+fn nested<T: Real, L: AdhesionLaw<T>>(
+    surface: &Surface,
+    law: L,
+    control: Control,
+    settings: Settings,
+) -> Outcome<(Solution<T>, f64)> {
+    let begin = Instant::now();
+    let half_space = |grid| Westergaard::<T>::new(grid, 1.0);
+    let solution = Nested::new(settings).solve(surface, half_space, law, control)?.solution;
+    Ok((solution, begin.elapsed().as_secs_f64()))
+}
+
+fn apply<T: Real>(grid: Grid, heights: &Array2<f64>, count: usize, repeat: usize) -> Outcome<()> {
+    let displacement = heights.mapv(T::lit);
+    let mut pressure = Array2::zeros(grid.shape());
+    let mut operator = Westergaard::<T>::new(grid, 1.0)?;
+    for _ in 0..repeat {
+        let mut seconds = Vec::new();
+        for _ in 0..count + 2 {
+            let begin = Instant::now();
+            operator.pressure(displacement.view(), pressure.view_mut())?;
+            seconds.push(begin.elapsed().as_secs_f64());
+        }
+        let counted = &mut seconds[2..];
+        counted.sort_by(f64::total_cmp);
+        let check = pressure.iter().map(|p| p.widen().powi(2)).sum::<f64>();
+        println!("{}", json!({"seconds": counted.get(count / 2), "check": check}));
+    }
+    Ok(())
+}
+
+/// Lets the kernel count the largest resident memory from here on.
+fn forget_peak() {
+    // where there is no such file there is no peak either
+    let _ = fs::write("/proc/self/clear_refs", "5");
+}
+
+fn peak() -> Option<u64> {
+    let status = fs::read_to_string("/proc/self/status").ok()?;
+    let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;
+    Some(line.trim().strip_suffix("kB")?.trim().parse::<u64>().ok()? * 1024)
+}
