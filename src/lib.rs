@@ -105,6 +105,7 @@ mod solver;
 mod stability;
 mod surface;
 mod sweep;
+mod vector;
 
 pub use adhesion::{AdhesionLaw, Exponential, MaugisDugdale, NoAdhesion, check_law};
 pub use constraint::{ContactConstraint, Outer, Penalty, Projection, Uzawa};

@@ -5,17 +5,11 @@
 //! call for a chunk of nodes.
 
 use ndarray::Array2;
-use pulp::{Arch, Simd, WithSimd};
 
 use crate::field::{CHUNK, Partial, Reducer, read, write};
 use crate::par::IndexedParallelIterator;
 use crate::real::Real;
-
-/// Nodes whose terms are written down before they are summed: the loop over them has no sums to keep it from vectors.
-pub(crate) const BLOCK: usize = 64;
-
-/// Sums that run side by side.
-pub(crate) const LANES: usize = 8;
+use crate::vector::{sums, vectors};
 
 /// The fields of a solve.
 #[derive(Debug)]
@@ -171,100 +165,6 @@ impl Tally {
         let work = sum_gp + surface;
         Self { free, sum_r, min_r: total.min, sum_gap, sum_gp, contact, traction, adhesive, penalty, work }
     }
-}
-
-/// What runs on vector instructions. A closure that is called by value would be a call of its own, and leave them behind.
-struct Vectorised<F>(F);
-
-impl<F: FnMut()> WithSimd for Vectorised<F> {
-    type Output = ();
-    #[inline(always)]
-    fn with_simd<S: Simd>(mut self, _: S) {
-        (self.0)();
-    }
-}
-
-/// Runs a closure, which has to be `#[inline(always)]` and to change something, on vector instructions.
-#[inline(always)]
-pub(crate) fn vectorised(f: impl FnMut()) {
-    Arch::new().dispatch(Vectorised(f));
-}
-
-/// Sums the terms of a chunk's nodes, and finds the least of one more number.
-macro_rules! sums {
-    ($count:literal, [$($read:ident),*], [$($write:ident),*], |$i:ident| $terms:expr) => {{
-        let mut total = Partial::NONE;
-        let part = &mut total;
-        $(let $read = &$read[..];)*
-        $(let $write = &mut *$write;)*
-        // what it uses it holds itself: behind references the compiler would have to read it anew for every node
-        $crate::passes::vectorised(
-            #[inline(always)]
-            move || {
-                let len = usize::MAX$(.min($read.len()))*$(.min($write.len()))*;
-                let (mut lanes, mut least) = ([[0.0_f64; LANES]; $count], [f64::INFINITY; LANES]);
-                let (mut block, mut lows) = ([[0.0_f64; BLOCK]; $count], [f64::INFINITY; BLOCK]);
-                let mut start = 0;
-                while start < len {
-                    let size = BLOCK.min(len - start);
-                    $(let $read = &$read[start..start + size];)*
-                    $(let $write = &mut $write[start..start + size];)*
-                    for $i in 0..size {
-                        let (terms, low): ([f64; $count], f64) = $terms;
-                        for s in 0..$count {
-                            block[s][$i] = terms[s];
-                        }
-                        lows[$i] = low;
-                    }
-                    if size < BLOCK {
-                        for s in 0..$count {
-                            block[s][size..].fill(0.0);
-                        }
-                        lows[size..].fill(f64::INFINITY);
-                    }
-                    for s in 0..$count {
-                        for k in 0..BLOCK / LANES {
-                            for l in 0..LANES {
-                                lanes[s][l] += block[s][k * LANES + l];
-                            }
-                        }
-                    }
-                    for k in 0..BLOCK / LANES {
-                        for l in 0..LANES {
-                            let low = lows[k * LANES + l];
-                            least[l] = if low < least[l] { low } else { least[l] };
-                        }
-                    }
-                    start += size;
-                }
-                for s in 0..$count {
-                    let l = &lanes[s];
-                    part.sum[s] = ((l[0] + l[4]) + (l[2] + l[6])) + ((l[1] + l[5]) + (l[3] + l[7]));
-                }
-                for low in least {
-                    part.min = if low < part.min { low } else { part.min };
-                }
-            },
-        );
-        total
-    }};
-}
-
-/// Runs a loop that sums nothing on vector instructions.
-macro_rules! vectors {
-    ([$($read:ident),*], [$($write:ident),*], |$i:ident| $body:block) => {{
-        $(let $read = &$read[..];)*
-        $(let $write = &mut *$write;)*
-        vectorised(
-            #[inline(always)]
-            move || {
-                let len = usize::MAX$(.min($read.len()))*$(.min($write.len()))*;
-                $(let $read = &$read[..len];)*
-                $(let $write = &mut $write[..len];)*
-                for $i in 0..len $body
-            },
-        );
-    }};
 }
 
 #[inline(always)]

@@ -25,8 +25,8 @@ pub enum Control {
 /// The surface enters only through the pressure K⁻¹h that would press it flat, which is computed here, once, in
 /// `f64`; it may be dropped afterwards. A problem can be solved many times, under any [`Control`].
 ///
-/// Memory per node: one scalar, beside those of the operator. [`Problem::new`] briefly needs more, but less than a solve: one
-/// `f64` for the heights without their mean and, for an operator of this crate, another for their spectrum.
+/// Memory per node: one scalar, beside those of the operator. [`Problem::new`] briefly needs more, but less than a solve: for an
+/// operator of this crate one `f64` for the spectrum of the heights, and another where their mean exceeds their rms value.
 ///
 /// ```
 /// use asperity::{Control, Grid, NoAdhesion, Problem, Solver, Surface, Westergaard};

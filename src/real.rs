@@ -4,7 +4,8 @@ use std::sync::Arc;
 use num_traits::{Float, FloatConst, NumAssign};
 use rustfft::{Fft, FftNum, FftPlanner};
 
-use crate::passes::{Passes, vectorised};
+use crate::passes::Passes;
+use crate::vector::vectorised;
 
 /// The scalar of every field: `f32` or `f64`.
 ///

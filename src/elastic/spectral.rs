@@ -5,7 +5,7 @@ use rustfft::num_complex::Complex;
 
 use super::*;
 use crate::fft::{Convolver, Sums};
-use crate::passes::{BLOCK, LANES, vectorised};
+use crate::vector::{BLOCK, LANES, vectorised};
 
 /// What a wave with wave numbers (qx, qy) needs: pressure per displacement.
 type Symbol = Box<dyn Fn(f64, f64) -> f64 + Send + Sync>;
