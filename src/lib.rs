@@ -96,6 +96,9 @@ mod passes;
 mod path;
 #[cfg(feature = "cli")]
 mod picture;
+pub mod performance {
+    #![doc = include_str!("performance.md")]
+}
 pub mod precision {
     #![doc = include_str!("precision.md")]
 }

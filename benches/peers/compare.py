@@ -304,7 +304,7 @@ HEAD = ["grid", "", "peer", "level", "asperity (tolerance; errors of area, energ
 
 def wall(bench):
     rows, notes, memory = [], [], []
-    for n in [512] if bench.options.quick else [512, 1024, 2048]:
+    for n in [512] if bench.options.quick else bench.options.sizes:
         rounds = 3 if bench.options.quick or n > 1024 else 5
         case = Case(bench, n, {"pressure": PRESSURE})
         ladders = {precision: [case.ours(precision), *(case.aspher(*mode) for mode in ASPHER[precision])] for precision in OURS}
@@ -343,7 +343,7 @@ def adhesion(bench):
     import numpy as np
 
     rows, notes = [], []
-    for n in [512] if bench.options.quick else [512, 1024]:
+    for n in [512] if bench.options.quick else [n for n in bench.options.sizes if n <= 1024]:
         rms = float(np.load(bench.heights(n)).std())
         wall = bench.ours(n, {"pressure": PRESSURE, "tolerance": "1e-8"})
         [wall] = bench.run([(wall, (n / 512) ** 2)])
@@ -391,6 +391,8 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--peers", type=Path, default=CACHE, help="the folder that setup.sh filled")
     parser.add_argument("--quick", action="store_true", help="512² (and 1024² applications) only, fewer rounds")
+    sizes = lambda text: [int(n) for n in text.split(",")]
+    parser.add_argument("--sizes", type=sizes, default=[512, 1024, 2048], help="nodes along a side, of the solves")
     parser.add_argument("--rows", default="application,wall,adhesion", help="which tables")
     parser.add_argument("--prefix", default="", help="a command to run every measurement under, such as 'taskset -c 1'")
     parser.add_argument("--ours", default="", help="further NAME=VALUE arguments for every solve of examples/timed.rs")
