@@ -4,7 +4,9 @@ mod common;
 
 use approx::assert_relative_eq;
 use asperity::*;
-use common::{rough, solve, sphere};
+#[cfg(feature = "parallel")]
+use common::sphere;
+use common::{rough, solve};
 
 #[test]
 fn f32_reaches_what_it_certifies() {
