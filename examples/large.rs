@@ -4,6 +4,9 @@
 //! A rough surface of 4 to 64 waves a side at the pressure of 0.02 times modulus and rms slope, 5 % contact without adhesion; 16384²
 //! needs 15 GiB in f64 and 8 GiB in f32.
 
+#[path = "common/memory.rs"]
+mod memory;
+
 use std::ops::ControlFlow;
 use std::time::Instant;
 
@@ -60,16 +63,10 @@ fn run<T: Real, L: AdhesionLaw<T>>(size: usize, law: impl Fn(f64) -> asperity::R
         report.operator_applications,
         100.0 * report.contact_fraction
     );
-    if let Some(bytes) = peak() {
+    if let Some(bytes) = memory::peak() {
+        let bytes = bytes as f64;
         let fields = bytes / (size * size * size_of::<T>()) as f64;
         println!("most memory of the process: {:.2} GiB, {fields:.2} fields", bytes / (1_u64 << 30) as f64);
     }
     Ok(())
-}
-
-/// The most memory that the process has held, in bytes, where the system tells.
-fn peak() -> Option<f64> {
-    let status = std::fs::read_to_string("/proc/self/status").ok()?;
-    let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;
-    Some(1024.0 * line.trim().trim_end_matches("kB").trim().parse::<f64>().ok()?)
 }

@@ -13,6 +13,9 @@
 //! of operator and problem. `peak` is the largest resident memory of the process, in bytes, from before the repetition to
 //! its end (Linux only). `benches/peers` runs this against other programs.
 
+#[path = "common/memory.rs"]
+mod memory;
+
 use std::collections::HashMap;
 use std::error::Error;
 use std::fs;
@@ -128,7 +131,7 @@ fn solve<T: Real, L: AdhesionLaw<T> + Clone, S: AdhesionLaw<f32> + Clone>(
             }
             other => return Err(format!("method={other}: single, nested or mixed").into()),
         };
-        let (total, peak) = (begin.elapsed().as_secs_f64(), peak());
+        let (total, peak) = (begin.elapsed().as_secs_f64(), memory::peak());
         let report = &solution.report;
         let line = json!({
             "seconds": total,
@@ -203,10 +206,4 @@ fn apply<T: Real>(grid: Grid, heights: &Array2<f64>, count: usize, repeat: usize
 fn forget_peak() {
     // where there is no such file there is no peak either
     let _ = fs::write("/proc/self/clear_refs", "5");
-}
-
-fn peak() -> Option<u64> {
-    let status = fs::read_to_string("/proc/self/status").ok()?;
-    let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;
-    Some(line.trim().strip_suffix("kB")?.trim().parse::<u64>().ok()? * 1024)
 }

@@ -40,8 +40,7 @@ pub trait ElasticOperator<T: Real> {
         mut pressure: ArrayViewMut2<'_, T>,
     ) -> Result<f64> {
         self.pressure(displacement, pressure.view_mut())?;
-        let product = Zip::from(&displacement).and(&pressure).fold(0.0, |sum, &u, &p| sum + u.widen() * p.widen());
-        Ok(product / displacement.len() as f64)
+        Ok(mean_product(displacement, pressure.view()))
     }
 
     /// The displacement u = Kp of a pressure p, both of shape (Nx, Ny). The mean of u is zero.
@@ -92,10 +91,8 @@ pub trait ElasticOperator<T: Real> {
     ) -> Result<Preconditioned> {
         let _ = foundation;
         self.displacement(residual, preconditioned.view_mut())?;
-        let product =
-            Zip::from(&residual).and(&preconditioned).fold(0.0, |sum: f64, &r, &u| sum + r.widen() * u.widen());
-        let nodes = residual.len() as f64;
-        let (error, mean_residual) = (product / nodes, residual.iter().map(|r| r.widen()).sum::<f64>() / nodes);
+        let error = mean_product(residual, preconditioned.view());
+        let mean_residual = residual.iter().map(|r| r.widen()).sum::<f64>() / residual.len() as f64;
         let mean = mean_residual / mean_stiffness;
         let shift = T::lit(mean);
         preconditioned.mapv_inplace(|u| u + shift);
@@ -115,9 +112,9 @@ pub struct Preconditioned {
 }
 
 /// The mean over the nodes of a product.
-fn mean_product<T: Real>(heights: ArrayView2<'_, f64>, pressure: ArrayView2<'_, T>) -> f64 {
-    let sum = Zip::from(&heights).and(&pressure).fold(0.0, |sum, &h, &p| sum + h * p.widen());
-    sum / heights.len() as f64
+fn mean_product<S: Real, T: Real>(a: ArrayView2<'_, S>, b: ArrayView2<'_, T>) -> f64 {
+    let sum = Zip::from(&a).and(&b).fold(0.0, |sum, &a, &b| sum + a.widen() * b.widen());
+    sum / a.len() as f64
 }
 
 /// The methods of an operator that is another one, `$inner` of `$this`.

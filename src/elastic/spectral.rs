@@ -74,6 +74,9 @@ impl<T: Real> Spectral<T> {
         } else {
             (modes().fold(f64::INFINITY, f64::min), modes().fold(0.0, f64::max))
         };
+        if grid.nodes() > 1 {
+            check_range::<T>(range.0, range.1)?;
+        }
         let (stiffness, convolver) = (Stiffness::Stored(stiffness), Convolver::new(grid.shape()));
         Ok(Self { grid, modulus, symbol, stiffness, range, convolver })
     }
@@ -110,11 +113,21 @@ fn half_space<T: Real>(grid: &Grid, modulus: f64) -> Result<(Stiffness<T>, (f64,
         _ => unit * (lx / ly).min(1.0),
     };
     let stiffest = unit * (nx as f64 / 2.0).floor().hypot((lx / ly) * (ny as f64 / 2.0).floor());
-    let representable = |value: f64| T::lit(value) >= T::min_positive_value() && T::lit(value).is_finite();
-    if let Some(&value) = [softest, stiffest].iter().find(|&&k| grid.nodes() > 1 && !representable(k)) {
-        return Err(Error::Value { name: "stiffness of a wave", value, requirement: REPRESENTABLE });
+    if grid.nodes() > 1 {
+        check_range::<T>(softest, stiffest)?;
+        // of the squares, too
+        check_range::<T>((softest / unit).powi(2), (stiffest / unit).powi(2))?;
     }
     Ok((Stiffness::HalfSpace { unit: T::lit(unit), x, y }, (softest, stiffest)))
+}
+
+/// Refuses stiffnesses of which one, or the square of their ratio, leaves the range of T.
+fn check_range<T: Real>(softest: f64, stiffest: f64) -> Result<()> {
+    let holds = |value: f64| T::lit(value) >= T::min_positive_value() && T::lit(value).is_finite();
+    match [softest, stiffest, (stiffest / softest).powi(2)].into_iter().find(|&value| !holds(value)) {
+        Some(value) => Err(Error::Value { name: "stiffness of a wave", value, requirement: REPRESENTABLE }),
+        None => Ok(()),
+    }
 }
 
 const REPRESENTABLE: &str = "positive and finite in the precision of the fields";

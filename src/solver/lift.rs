@@ -88,7 +88,6 @@ where
         if scale.is_finite() {
             T::lift(&mut self.fields, follows, T::lit(scale));
             self.preconditioned_descent += scale * product;
-            self.preconditioned_sum += scale * v;
         }
     }
 }

@@ -17,7 +17,7 @@ use crate::progress::Progress;
 use crate::report::{Style, warn_of_resolution};
 use crate::run::{self, Scalar};
 use crate::sweep::{cell, identity, line, name_and_value};
-use crate::{Outcome, complain, say};
+use crate::{Outcome, say};
 
 /// Follow the contact along a cycle of approach and withdrawal, and find its jumps.
 ///
@@ -188,16 +188,7 @@ impl Options {
         if let Some(report) = resolution {
             warn_of_resolution("", &report, self.adhesion.range.unwrap_or_default());
         }
-        if journal.unconverged() > 0 {
-            let text = format!(
-                "{} of {} rows not converged, their status and errors are in {}: raise --max-iterations, or use a larger \
-                 --tolerance",
-                journal.unconverged(),
-                journal.rows(),
-                self.out.display()
-            );
-            complain("warning", &text);
-        }
+        journal.warn_of_unconverged("or use a larger --tolerance");
         Ok(journal.unconverged() == 0)
     }
 

@@ -119,6 +119,17 @@ impl Journal {
         self.written.unconverged
     }
 
+    /// Warns of the rows that have not converged, if there are any; `remedy` is what else may help.
+    pub fn warn_of_unconverged(&self, remedy: &str) {
+        if self.unconverged() > 0 {
+            let (count, rows, path) = (self.unconverged(), self.rows(), self.path.display());
+            let text = format!(
+                "{count} of {rows} rows not converged, their status and errors are in {path}: raise --max-iterations, {remedy}"
+            );
+            crate::complain("warning", &text);
+        }
+    }
+
     /// The numbers that were saved with the last row.
     pub fn numbers(&self) -> &[f64] {
         &self.numbers

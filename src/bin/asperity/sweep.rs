@@ -15,7 +15,7 @@ use crate::options::{AdhesionOptions, Precision, SolverOptions, SurfaceOptions};
 use crate::progress::Progress;
 use crate::report::{Style, percent, warn_of_resolution};
 use crate::run::{self, Scalar};
-use crate::{Outcome, complain, say};
+use crate::{Outcome, say};
 
 /// Solve a contact problem under many loads, one after the other.
 ///
@@ -176,16 +176,7 @@ impl Options {
         if let Some(report) = resolution {
             warn_of_resolution("", &report, self.adhesion.range.unwrap_or_default());
         }
-        if journal.unconverged() > 0 {
-            let text = format!(
-                "{} of {} rows not converged, their status and errors are in {}: raise --max-iterations, use a larger \
-                 --tolerance or finer steps, or less tension where they are detached",
-                journal.unconverged(),
-                journal.rows(),
-                self.out.display()
-            );
-            complain("warning", &text);
-        }
+        journal.warn_of_unconverged("use a larger --tolerance or finer steps, or less tension where they are detached");
         if !self.quiet {
             say(&format!("{count} rows in {}", self.out.display()));
         }

@@ -1,0 +1,170 @@
+use ndarray::Array2;
+
+use super::residual::release_chunk;
+use super::tally::{tally_local, tally_of, tractions};
+use super::{Advance, Attempt, Fields, Local, Of, Working, count, idles};
+use crate::field::{CHUNK, Partial, read, write};
+use crate::par::IndexedParallelIterator;
+use crate::real::Real;
+use crate::vector::{sums, vectors};
+
+/// The gap after a change, zero where only rounding keeps it from that.
+#[inline(always)]
+fn moved<T: Real>(projects: bool, gap: T, change: T) -> T {
+    let next = gap + change;
+    if projects & (next <= T::lit(4.0) * T::epsilon() * gap) { T::zero() } else { next }
+}
+
+/// The step of unit length.
+#[inline(always)]
+fn whole<T: Real>(scale: T, gap: T, change: T) -> T {
+    if scale == T::one() { change } else { scale * (gap + change) - gap }
+}
+
+/// The change that a step makes at one node, and whether that was clipped.
+#[inline(always)]
+fn clipped_change<T: Real>(attempt: Attempt<T>, gap: T, residual: T, z: T, change: T) -> (T, bool) {
+    let Attempt { length, centre, keep, mean, projects } = attempt;
+    let kept = if keep == T::zero() { T::zero() } else { keep * (change - mean) };
+    let next = if idles(residual) { gap } else { gap - length * (z - centre) + kept };
+    let clipped = projects & (next < T::zero());
+    (if clipped { -gap } else { next - gap }, clipped)
+}
+
+/// How many times a change a gap can take.
+#[inline(always)]
+fn reach<T: Real>(gap: T, change: T) -> f64 {
+    if change < T::zero() { (gap / -change).widen() } else { f64::INFINITY }
+}
+
+pub(super) fn trial<T: Real>(
+    fields: &mut Fields<T>,
+    local: &dyn Local<T>,
+    attempt: Attempt<T>,
+    surface: Option<&Array2<T>>,
+) -> Partial {
+    let Fields { reducer, gap, residual, preconditioned, change, .. } = fields;
+    let nothing_local = local.is_zero();
+    let chunks = read(gap).zip(read(residual)).zip(read(preconditioned)).zip(write(change));
+    let slopes = |part: &mut Partial, first, gap: &[T], change: &[T]| {
+        if nothing_local {
+            return;
+        }
+        let (mut tractions, mut slopes) = ([T::zero(); CHUNK], [T::zero(); CHUNK]);
+        let (tractions, slopes) = (&mut tractions[..gap.len()], &mut slopes[..gap.len()]);
+        local.tractions_and_slopes(first, gap, tractions, slopes);
+        let found = sums!(4, [gap, change, tractions, slopes], [], |i| {
+            let [g, c, t, s] = [gap[i], change[i], tractions[i], slopes[i]].map(T::widen);
+            ([t * c, s * c * c, s * c * g, s * g * g], f64::INFINITY)
+        });
+        part.sum[7..11].copy_from_slice(&found.sum[..4]);
+    };
+    match surface {
+        None => reducer.run(chunks, |first, (((gap, residual), z), change)| {
+            let mut part = sums!(4, [gap, residual, z], [change], |i| {
+                let (g, r) = (gap[i], residual[i]);
+                let (c, clipped) = clipped_change(attempt, g, r, z[i], change[i]);
+                change[i] = c;
+                let blocked = clipped & (r > T::zero()) & (g > T::zero());
+                ([c.widen(), count(clipped), count(blocked), r.widen() * c.widen()], reach(g, c))
+            });
+            slopes(&mut part, first, gap, change);
+            part
+        }),
+        Some(surface) => reducer.run(chunks.zip(read(surface)), |first, ((((gap, residual), z), change), surface)| {
+            let mut part = sums!(7, [gap, residual, z, surface], [change], |i| {
+                let (g, r) = (gap[i], residual[i]);
+                let (c, clipped) = clipped_change(attempt, g, r, z[i], change[i]);
+                change[i] = c;
+                let blocked = count(clipped & (r > T::zero()) & (g > T::zero()));
+                let low = reach(g, c);
+                let [g, r, c, h] = [g, r, c, surface[i]].map(T::widen);
+                ([c, count(clipped), blocked, r * c, r * g, c * h, g * h], low)
+            });
+            slopes(&mut part, first, gap, change);
+            part
+        }),
+    }
+}
+
+pub(super) fn energy_after<T: Real>(fields: &mut Fields<T>, local: &dyn Local<T>, length: T, scale: T) -> f64 {
+    let Fields { reducer, gap, change, .. } = fields;
+    let projects = local.projects();
+    let total = reducer.run(read(gap).zip(read(change)), |first, (gap, change)| {
+        let (mut next, mut buffer) = ([T::zero(); CHUNK], [T::zero(); CHUNK]);
+        let (next, energies) = (&mut next[..gap.len()], &mut buffer[..gap.len()]);
+        vectors!([gap, change], [next], |i| {
+            next[i] = moved(projects, gap[i], length * whole(scale, gap[i], change[i]));
+        });
+        local.evaluate(Of::Energy, first, next, energies);
+        sums!(1, [energies], [], |i| ([energies[i].widen()], f64::INFINITY))
+    });
+    total.sum[0]
+}
+
+pub(super) fn advance<T: Real>(
+    fields: &mut Fields<T>,
+    local: &dyn Local<T>,
+    step: Advance<T>,
+    surface: &Array2<T>,
+) -> Partial {
+    let Advance { length, scale, offset, level } = step;
+    let Fields { reducer, gap, pressure, residual: response, preconditioned, change, .. } = fields;
+    let (projects, nothing_local) = (local.projects(), local.is_zero());
+    // r into the place of the response, and the tally
+    let finish = |first, gap: &[T], pressure: &[T], step: &[T], residual: &mut [T]| {
+        let mut buffer = [T::zero(); CHUNK];
+        let tractions = tractions(local, first, gap, &mut buffer);
+        let mut part = tally_of(projects, offset, gap, pressure, tractions);
+        vectors!([pressure, tractions], [residual], |i| {
+            residual[i] = pressure[i] + tractions[i] + offset;
+        });
+        if !nothing_local {
+            tally_local(&mut part, local, first, gap, tractions, !projects);
+            let level = level.unwrap_or(T::zero());
+            let product = sums!(1, [step, residual], [], |i| {
+                ([step[i].widen() * (residual[i] - level).widen()], f64::INFINITY)
+            });
+            part.sum[8] = product.sum[0];
+        }
+        part
+    };
+    let take = |gap: &mut [T], pressure: &mut [T], change: &[T], response: &[T]| {
+        vectors!([change, response], [gap, pressure], |i| {
+            gap[i] = moved(projects, gap[i], length * change[i]);
+            pressure[i] += length * response[i];
+        });
+    };
+    let rest = scale - T::one();
+    let chunks = write(gap).zip(write(pressure)).zip(write(response));
+    if level.is_none() {
+        let working = Working { offset, release: T::zero(), level: T::zero() };
+        return reducer.run(
+            chunks.zip(read(change)).zip(read(preconditioned)),
+            |first, ((((gap, pressure), response), change), z)| {
+                take(gap, pressure, change, response);
+                let mut part = finish(first, gap, pressure, change, response);
+                let new = release_chunk(projects, working, (gap, z, change), response);
+                part.sum[9..13].copy_from_slice(&new.sum[..4]);
+                part
+            },
+        );
+    }
+    if rest == T::zero() {
+        return reducer.run(chunks.zip(read(change)), |first, (((gap, pressure), response), change)| {
+            take(gap, pressure, change, response);
+            finish(first, gap, pressure, change, response)
+        });
+    }
+    let chunks = chunks.zip(write(change)).zip(read(surface));
+    reducer.run(chunks, |first, ((((gap, pressure), response), change), surface)| {
+        vectors!([response, surface], [gap, pressure, change], |i| {
+            let (g, p) = (gap[i], pressure[i]);
+            let d = whole(scale, g, change[i]);
+            change[i] = d;
+            gap[i] = moved(projects, g, length * d);
+            pressure[i] = p + length * (scale * response[i] + rest * (p - surface[i]));
+        });
+        finish(first, gap, pressure, change, response)
+    })
+}
