@@ -79,7 +79,7 @@ struct Axis {
 }
 
 impl Axis {
-    /// The coarsest axis of which all values are nodes, but for rounding and noise.
+    /// The finest axis of which all values are nodes, but for rounding and noise.
     fn new(mut values: Vec<f64>) -> Option<Self> {
         values.sort_unstable_by(f64::total_cmp);
         let (first, last) = (*values.first()?, *values.last()?);
@@ -88,8 +88,8 @@ impl Axis {
         }
         let gaps = || values.windows(2).map(|pair| pair[1] - pair[0]);
         let largest = gaps().fold(0.0, f64::max);
-        // how much smaller than the largest gap, which a missing line may widen, the distance of neighbours may be
-        for share in [0.3, 0.03, 0.003] {
+        // what is less than such a share of the largest gap, which missing lines may have widened, is noise
+        for share in [0.003, 0.03, 0.3] {
             let step = gaps().filter(|gap| *gap > share * largest).fold(f64::INFINITY, f64::min);
             // one after the other, so that the rounding of coordinates does not add up
             let indices = std::iter::once(0.0).chain(gaps().scan(0.0, |index, gap| {
