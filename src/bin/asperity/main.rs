@@ -41,7 +41,7 @@ Examples:
   asperity demo
   asperity surface --size 512 --rms-slope 0.1 --out heights.npy
   asperity stats heights.npy
-  asperity prepare measured.gsf --detrend plane --fill --window 0.1 --out surface.npz
+  asperity prepare measured.gsf --detrend plane --fill --mirror --out surface.npz
   asperity solve --heights heights.npy --mean-pressure 0.01 --out results
   asperity sweep --heights heights.npy --mean-pressures 1e-3:1e-1:20:log --out sweep.csv
   asperity cycle --heights heights.npy --law exponential --work-of-adhesion 1e-4 --range 4e-3 \

@@ -14,7 +14,7 @@ use crate::{Outcome, say};
 ///
 /// A measurement has missing points, a tilt, and edges that do not meet; a surface that is solved is complete and periodic.
 /// Nothing is done that is not asked for, and each step is told in a line. Whatever the order of the options, the steps
-/// are: --lengths and --scale, --crop, --flip, --detrend, --fill, --window or --mirror, --resample.
+/// are: --lengths, --scale, --unit, --crop, --flip, --detrend, --fill, --window or --mirror, --resample.
 #[derive(Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Options {
@@ -25,9 +25,12 @@ pub struct Options {
     /// Side lengths, instead of the file's; LX alone means square cells
     #[arg(long, value_names = ["LX", "LY"], num_args = 1..=2, allow_negative_numbers = true, value_parser = positive)]
     lengths: Option<Vec<f64>>,
-    /// Multiply the heights, as by 1e-9 for nm where the side lengths are in m; the unit of the file is forgotten
+    /// Multiply the heights, as by 1e-9 for nm where the side lengths are in m
     #[arg(long, value_name = "F", allow_hyphen_values = true, value_parser = positive)]
     scale: Option<f64>,
+    /// Unit of side lengths and heights as they are after that, instead of the file's; for the pictures of solve
+    #[arg(long, value_name = "UNIT")]
+    unit: Option<String>,
     /// Keep NX x NY nodes from index [X, Y] on
     #[arg(long, value_names = ["X", "Y", "NX", "NY"], num_args = 4, allow_negative_numbers = true)]
     crop: Option<Vec<usize>>,
@@ -40,7 +43,8 @@ pub struct Options {
     /// Fill missing points smoothly from their surroundings, by Laplace's equation
     #[arg(long)]
     fill: bool,
-    /// Make the map periodic: taper heights towards their mean within this share of the sides at each edge, up to 0.5
+    /// Make the map periodic: taper heights towards their mean within this share of the sides at each edge, up to 0.5. Fit for
+    /// spectra; under load the flat frame may come into contact, where --mirror keeps all heights
     #[arg(long, value_name = "F", allow_hyphen_values = true, conflicts_with = "mirror")]
     window: Option<f64>,
     /// Make the map periodic: continue it by its mirror images, to twice the size along both sides
@@ -64,11 +68,11 @@ pub struct Options {
 const EXAMPLES: &str = "\
 Examples:
   A measured map, tilted and with missing points, pressed against a half-space of 1 GPa:
-    asperity prepare measured.gsf --detrend plane --fill --window 0.1 --out surface.npz
+    asperity prepare measured.gsf --detrend plane --fill --mirror --out surface.npz
     asperity solve --heights surface.npz --modulus 1e9 --mean-pressure 1e6 --out results
-  Heights in nm, a map of 5 by 4 micrometres, a sphere subtracted, on a grid twice as fine:
-    asperity prepare heights.txt --scale 1e-9 --lengths 5e-6 4e-6 --detrend quadric --mirror \\
-      --resample 2048 1024 --out surface.npz";
+  Heights in nm of a map of 5 by 4 micrometres, a sphere subtracted, on a finer grid:
+    asperity prepare heights.txt --scale 1e-9 --lengths 5e-6 4e-6 --unit m --detrend quadric \\
+      --window 0.05 --resample 1024 1024 --out fine.npz";
 
 #[derive(Clone, Copy, ValueEnum)]
 enum Order {
@@ -121,8 +125,11 @@ fn prepared(options: &Options, lines: &mut Vec<(&'static str, String)>) -> Outco
     }
     if let Some(factor) = options.scale {
         map.heights.mapv_inplace(|h| factor * h);
-        map.unit = None;
-        tell("scale", format!("heights times {}: {}", plain(factor), rms(&map)));
+        tell("scale", format!("heights times {}: rms height {}", plain(factor), rms(&map)));
+    }
+    if let Some(unit) = &options.unit {
+        let before = map.unit.replace(unit.clone()).unwrap_or("unknown".to_owned());
+        tell("unit", format!("{unit}, before {before}"));
     }
     if let Some(&[x, y, nx, ny]) = options.crop.as_deref() {
         map = map.crop(x..x.saturating_add(nx), y..y.saturating_add(ny))?;
