@@ -247,8 +247,7 @@ mod tests {
                 assert!(worst < 1e-10, "{worst} at {n}");
                 steps
             });
-            println!("{steps:?}");
-            assert!(steps[3] <= 40, "{steps:?}");
+            assert!(steps.iter().all(|steps| *steps <= 20), "{steps:?}");
         }
     }
 }
