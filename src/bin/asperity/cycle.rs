@@ -119,17 +119,17 @@ const COLUMNS: [&str; 18] = [
 pub fn run(options: &Options) -> Outcome<bool> {
     options.adhesion.check()?;
     options.check_files()?;
-    let surface = options.surface.surface()?;
+    let (surface, unit) = options.surface.surface_and_unit()?;
     let start = options.solver.start(surface.grid())?;
     run::use_threads(options.solver.threads)?;
     match options.solver.precision {
-        Precision::F32 => options.run::<f32>(surface, start),
-        Precision::F64 => options.run::<f64>(surface, start),
+        Precision::F32 => options.run::<f32>(surface, start, unit),
+        Precision::F64 => options.run::<f64>(surface, start, unit),
     }
 }
 
 impl Options {
-    fn run<T: Scalar>(&self, surface: Surface, start: Option<Array2<f64>>) -> Outcome<bool> {
+    fn run<T: Scalar>(&self, surface: Surface, start: Option<Array2<f64>>, unit: Option<String>) -> Outcome<bool> {
         let loads = self.loads();
         if loads.len() < 2 {
             return Err("a cycle needs two turning points at least: give more loads, with commas between".into());
@@ -184,7 +184,7 @@ impl Options {
             resolution = Some(report.clone()).filter(|report| report.under_resolved);
         }
         drop(path);
-        self.conclude(&journal)?;
+        self.conclude(&journal, unit.as_deref())?;
         if let Some(report) = resolution {
             warn_of_resolution("", &report, self.adhesion.range.unwrap_or_default());
         }
@@ -237,7 +237,7 @@ impl Options {
     }
 
     /// Says what the cycle comes to, by all of its rows, and draws it.
-    fn conclude(&self, journal: &Journal) -> Outcome<()> {
+    fn conclude(&self, journal: &Journal, unit: Option<&str>) -> Outcome<()> {
         let text = fs::read_to_string(&self.out).map_err(|e| Error::file(&self.out, format!("cannot be read: {e}")))?;
         let rows: Vec<Vec<&str>> = text.lines().skip(1).map(|row| row.split(',').collect()).collect();
         let column = |name: &str| COLUMNS.iter().position(|column| *column == name).unwrap_or_default();
@@ -285,7 +285,7 @@ impl Options {
         let chart = Chart {
             title: "Mean pressure over mean gap",
             x_label: "mean gap",
-            x_unit: self.length_unit.as_deref(),
+            x_unit: self.length_unit.as_deref().or(unit),
             y_label: "mean pressure",
             y_unit: self.pressure_unit.as_deref(),
             curves: names.iter().map(String::as_str).zip(curves.into_iter().map(|(_, points)| points)).collect(),

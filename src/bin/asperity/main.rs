@@ -1,12 +1,15 @@
 //! The command-line tool: `asperity demo` shows what the library does, `asperity solve` does it on files,
-//! `asperity sweep` under many loads and `asperity cycle` through jumps; `asperity surface` makes such files and `asperity stats` measures them.
+//! `asperity sweep` under many loads and `asperity cycle` through jumps; `asperity surface` makes such files, `asperity prepare` makes them of
+//! measured maps, and `asperity stats` measures them.
 
 mod cycle;
 mod demo;
+mod input;
 mod journal;
 mod loads;
 mod options;
 mod output;
+mod prepare;
 mod progress;
 mod report;
 mod run;
@@ -38,6 +41,7 @@ Examples:
   asperity demo
   asperity surface --size 512 --rms-slope 0.1 --out heights.npy
   asperity stats heights.npy
+  asperity prepare measured.gsf --detrend plane --fill --mirror --out surface.npz
   asperity solve --heights heights.npy --mean-pressure 0.01 --out results
   asperity sweep --heights heights.npy --mean-pressures 1e-3:1e-1:20:log --out sweep.csv
   asperity cycle --heights heights.npy --law exponential --work-of-adhesion 1e-4 --range 4e-3 \
@@ -50,6 +54,7 @@ enum Command {
     Solve(Box<solve::Options>),
     Sweep(Box<sweep::Options>),
     Cycle(Box<cycle::Options>),
+    Prepare(prepare::Options),
     Surface(surface::Options),
     Stats(stats::Options),
 }
@@ -71,6 +76,7 @@ fn main() -> ExitCode {
         Command::Solve(options) => solve::run(&options),
         Command::Sweep(options) => sweep::run(&options),
         Command::Cycle(options) => cycle::run(&options),
+        Command::Prepare(options) => prepare::run(&options),
         Command::Surface(options) => surface::run(&options),
         Command::Stats(options) => stats::run(&options),
     };

@@ -1,9 +1,9 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use asperity::io::{OutputFolder, write_npy};
+use asperity::io::{OutputFolder, write_npy, write_npz, write_vti};
 use asperity::{Control, Error, Grid, Level, Status, Surface};
-use clap::{ArgGroup, Args};
+use clap::{ArgGroup, Args, ValueEnum};
 use ndarray::Array2;
 use serde_json::{Value, json};
 
@@ -15,10 +15,10 @@ use crate::{Outcome, say};
 
 /// Solve a contact problem given by files.
 ///
-/// All quantities are in any consistent units, as m, Pa and J/m². Writes gap.npy, pressure.npy (the full elastic
-/// pressure, compression positive), contact_pressure.npy (its repulsive part), report.json, contact.png and
-/// pressure.png, all or none. Exits with 0 if converged, 2 if not (the fields are written all the same), and 1 if
-/// the input is refused or the files cannot be written (then there are none).
+/// All quantities are in any consistent units, as m, Pa and J/m²; heights of files with units of length are in m. Writes
+/// gap.npy, pressure.npy (the full elastic pressure, compression positive) and contact_pressure.npy (its repulsive part),
+/// or files as --format says, report.json, contact.png and pressure.png, all or none. Exits with 0 if converged, 2 if not
+/// (the fields are written all the same), and 1 if the input is refused or the files cannot be written (then there are none).
 #[derive(Args)]
 #[command(after_help = EXAMPLES, group(ArgGroup::new("load").required(true).args(["mean_gap", "mean_pressure"])))]
 pub struct Options {
@@ -49,13 +49,23 @@ pub struct Options {
     /// Find out whether the solution is stable, and write its softest mode to mode.npy
     #[arg(long, help_heading = "Output", conflicts_with = "nested")]
     stability: bool,
+    /// Files for the fields: .npy one each, all in fields.npz for numpy, or in fields.vti for ParaView; may be repeated
+    #[arg(
+        long,
+        value_enum,
+        value_name = "FORMAT",
+        default_value = "npy",
+        value_delimiter = ',',
+        help_heading = "Output"
+    )]
+    format: Vec<Format>,
     /// Print no table and no progress
     #[arg(long, help_heading = "Output")]
     quiet: bool,
     /// Write no .png files
     #[arg(long, help_heading = "Output")]
     no_pictures: bool,
-    /// Unit of the lengths, on pictures only; m gets prefixes
+    /// Unit of the lengths, on pictures only; m gets prefixes [default: the file's]
     #[arg(long, value_name = "UNIT", help_heading = "Output")]
     length_unit: Option<String>,
     /// Unit of the pressures, on pictures only; Pa gets prefixes
@@ -79,21 +89,35 @@ Examples:
       --law exponential --work-of-adhesion 0.05 --range 1e-9 \\
       --mean-pressure -1e4 --initial-gap sticky/gap.npy --out pulled";
 
-const FIELDS: [&str; 4] = ["gap.npy", "pressure.npy", "contact_pressure.npy", "report.json"];
+#[derive(Clone, Copy, PartialEq, ValueEnum)]
+enum Format {
+    Npy,
+    Npz,
+    Vti,
+}
+
+const FIELDS: [&str; 3] = ["gap.npy", "pressure.npy", "contact_pressure.npy"];
 const MODE: &str = "mode.npy";
+const NPZ: &str = "fields.npz";
+const VTI: &str = "fields.vti";
+const REPORT: &str = "report.json";
 const PICTURES: [&str; 2] = ["contact.png", "pressure.png"];
 
 /// Runs the command; whether it converged.
 pub fn run(options: &Options) -> Outcome<bool> {
     options.adhesion.check()?;
     let pictures = PICTURES.iter().filter(|_| !options.no_pictures);
-    let mode = options.stability.then_some(&MODE);
-    let names: Vec<_> = FIELDS.iter().chain(mode).chain(pictures).copied().collect();
+    let arrays = FIELDS.iter().chain(options.stability.then_some(&MODE)).filter(|_| options.writes(Format::Npy));
+    let archives = [(Format::Npz, &NPZ), (Format::Vti, &VTI)].into_iter().filter(|(format, _)| options.writes(*format));
+    let fields = arrays.chain(archives.map(|(_, name)| name));
+    let names: Vec<_> = fields.chain([&REPORT]).chain(pictures).copied().collect();
     // Only a trial: a solve that is interrupted leaves nothing behind.
     drop(OutputFolder::create(&options.out, &names, options.force)?);
-    let surface = options.surface.surface()?;
+    let (surface, unit) = options.surface.surface_and_unit()?;
     let start = options.solver.start(surface.grid())?;
-    let job = Job { options, names, threads: run::use_threads(options.solver.threads)?, case: options.case() };
+    let length_unit = options.length_unit.clone().or(unit);
+    let threads = run::use_threads(options.solver.threads)?;
+    let job = Job { options, names, threads, case: options.case(), length_unit };
     match options.solver.precision {
         Precision::F32 => job.run::<f32>(surface, start),
         Precision::F64 => job.run::<f64>(surface, start),
@@ -101,6 +125,10 @@ pub fn run(options: &Options) -> Outcome<bool> {
 }
 
 impl Options {
+    fn writes(&self, format: Format) -> bool {
+        self.format.contains(&format)
+    }
+
     fn case(&self) -> Case {
         let control = match (self.mean_gap, self.mean_pressure) {
             (Some(gap), _) => Control::MeanGap(gap),
@@ -117,6 +145,7 @@ struct Job<'a> {
     names: Vec<&'static str>,
     threads: usize,
     case: Case,
+    length_unit: Option<String>,
 }
 
 impl Job<'_> {
@@ -154,16 +183,24 @@ impl Job<'_> {
         account: &Account,
     ) -> asperity::Result<()> {
         let path = |name: &str| folder.path(name);
-        write_npy(&path("gap.npy"), &solution.gap)?;
-        write_npy(&path("pressure.npy"), &solution.pressure)?;
-        write_npy(&path("contact_pressure.npy"), &solution.contact_pressure)?;
-        if let Some(stability) = &account.stability {
-            write_npy(&path(MODE), &stability.mode)?;
+        let mode = account.stability.as_ref().map(|stability| &stability.mode);
+        let fields = [&solution.gap, &solution.pressure, &solution.contact_pressure];
+        if self.options.writes(Format::Npy) {
+            FIELDS.iter().zip(fields).try_for_each(|(name, field)| write_npy(&path(name), field))?;
+            mode.map_or(Ok(()), |mode| write_npy(&path(MODE), mode))?;
         }
-        write_text(&path("report.json"), &format!("{:#}\n", self.report(grid, account)))?;
+        let mode = mode.map(|mode| mode.mapv(T::lit));
+        let named = FIELDS.into_iter().zip(fields).chain(mode.as_ref().map(|mode| (MODE, mode)));
+        let named: Vec<_> = named.map(|(name, field)| (name.trim_end_matches(".npy"), field)).collect();
+        if self.options.writes(Format::Npz) {
+            write_npz(&path(NPZ), &grid, &named)?;
+        }
+        if self.options.writes(Format::Vti) {
+            write_vti(&path(VTI), &grid, &named)?;
+        }
+        write_text(&path(REPORT), &format!("{:#}\n", self.report(grid, account)))?;
         if !self.options.no_pictures {
-            let Options { length_unit, pressure_unit, .. } = self.options;
-            let units = Units { length: length_unit.as_deref(), pressure: pressure_unit.as_deref() };
+            let units = Units { length: self.length_unit.as_deref(), pressure: self.options.pressure_unit.as_deref() };
             run::draw_contact(&path("contact.png"), grid, "Contact", units, &solution.gap)?;
             let pressure = run::pressure_to_draw(solution, self.options.adhesion.law != Law::None);
             run::draw_pressure(&path("pressure.png"), grid, "Pressure", "", units, pressure)?;
@@ -217,6 +254,7 @@ impl Job<'_> {
             "initial_gap": options.solver.initial_gap.as_deref().map(Path::to_string_lossy),
             "shape": grid.shape(),
             "lengths": grid.lengths(),
+            "length_unit": self.length_unit,
             "modulus": case.modulus,
             "law": options.adhesion.law.to_string(),
             "work_of_adhesion": options.adhesion.work_of_adhesion,

@@ -1,10 +1,10 @@
 use std::path::PathBuf;
 
-use asperity::io::write_npy;
-use asperity::{Amplitude, SelfAffine};
+use asperity::io::{write_npy, write_topography};
+use asperity::{Amplitude, SelfAffine, Topography};
 use clap::{ArgGroup, Args};
 
-use crate::options::{positive, threads};
+use crate::options::{nodes, positive, threads};
 use crate::output::OutputFile;
 use crate::run;
 use crate::solve::write_text;
@@ -58,7 +58,7 @@ pub struct Options {
     #[arg(long, value_name = "N", default_value = "0", allow_hyphen_values = true, help_heading = "Roughness")]
     seed: u64,
 
-    /// File for the heights, .npy
+    /// File for the heights: .npy, or with the side lengths .npz or .gsf (for Gwyddion, in f32)
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     out: PathBuf,
     /// File for the radially averaged power spectral density as by asperity stats, beside its target
@@ -110,24 +110,20 @@ pub fn run(options: &Options) -> Outcome<bool> {
     }
 
     let surface = rough.surface(grid)?;
-    heights.write(|path| write_npy(path, surface.heights()))?;
     if let Some(file) = psd {
         let text = density_table(&surface.spectrum(), Some(&rough.spectrum(grid)?));
         file.write(|path| write_text(path, &text))?;
         file.commit()?;
     }
+    let said = table(&surface, None);
+    heights.write(|path| match path.extension().map(|ending| ending.to_ascii_lowercase()) {
+        Some(ending) if ending == "gsf" || ending == "npz" => write_topography(path, &Topography::from(surface)),
+        _ => write_npy(path, surface.heights()),
+    })?;
     heights.commit()?;
     if !options.quiet {
-        say(&table(&surface));
+        say(&said);
         say(&format!("heights in {}", options.out.display()));
     }
     Ok(true)
-}
-
-/// How many nodes along a side; more than the solver could ever hold are a slip of the pen.
-fn nodes(text: &str) -> Result<usize, String> {
-    match text.parse() {
-        Ok(nodes @ 1..=16_777_216) => Ok(nodes),
-        _ => Err("it must be a whole number from 1 to 16777216".to_owned()),
-    }
 }
