@@ -7,17 +7,20 @@ use clap::{ArgGroup, Args};
 use ndarray::Array2;
 use serde_json::{Value, json};
 
+use crate::echo::{self, Echo};
+use crate::inputs;
 use crate::options::{self, AdhesionOptions, Law, Precision, SolverOptions, SurfaceOptions};
+use crate::printing::Printing;
 use crate::progress::Progress;
 use crate::report::{Style, table, warn};
-use crate::run::{self, Account, Case, Scalar, Units};
+use crate::run::{self, Account, Case, Left, Scalar, Units};
 use crate::{Outcome, say};
 
 /// Solve a contact problem given by files.
 ///
 /// All quantities are in any consistent units, as m, Pa and J/m². Writes gap.npy, pressure.npy (the full elastic
-/// pressure, compression positive), contact_pressure.npy (its repulsive part), report.json, contact.png and
-/// pressure.png, all or none. Exits with 0 if converged, 2 if not (the fields are written all the same), and 1 if
+/// pressure, compression positive), contact_pressure.npy (its repulsive part), report.json, contact.png, pressure.png, and
+/// scene.toml, which repeats the run, all or none. Exits with 0 if converged, 2 if not (the fields are written all the same), and 1 if
 /// the input is refused or the files cannot be written (then there are none).
 #[derive(Args)]
 #[command(after_help = EXAMPLES, group(ArgGroup::new("load").required(true).args(["mean_gap", "mean_pressure"])))]
@@ -49,9 +52,11 @@ pub struct Options {
     /// Find out whether the solution is stable, and write its softest mode to mode.npy
     #[arg(long, help_heading = "Output", conflicts_with = "nested")]
     stability: bool,
-    /// Print no table and no progress
-    #[arg(long, help_heading = "Output")]
-    quiet: bool,
+    /// Go on from an equilibrium that is unstable to one that is not, and say how far the energy falls; implies --stability
+    #[arg(long, help_heading = "Output", conflicts_with = "nested")]
+    leave: bool,
+    #[command(flatten)]
+    printing: Printing,
     /// Write no .png files
     #[arg(long, help_heading = "Output")]
     no_pictures: bool,
@@ -64,7 +69,7 @@ pub struct Options {
 }
 
 const EXAMPLES: &str = "\
-Examples:
+\u{1b}[1;4mExamples:\u{1b}[0m
   Press a map of 1 by 1, with a contact modulus of 1, to a mean gap of 0.04:
     asperity solve --heights heights.npy --mean-gap 0.04 --out results
   The surface of the demo (asperity-demo/heights.npy) in SI units, with adhesion:
@@ -79,21 +84,22 @@ Examples:
       --law exponential --work-of-adhesion 0.05 --range 1e-9 \\
       --mean-pressure -1e4 --initial-gap sticky/gap.npy --out pulled";
 
-const FIELDS: [&str; 4] = ["gap.npy", "pressure.npy", "contact_pressure.npy", "report.json"];
+const FIELDS: [&str; 5] = ["gap.npy", "pressure.npy", "contact_pressure.npy", "report.json", echo::NAME];
 const MODE: &str = "mode.npy";
 const PICTURES: [&str; 2] = ["contact.png", "pressure.png"];
 
 /// Runs the command; whether it converged.
-pub fn run(options: &Options) -> Outcome<bool> {
+pub fn run(options: &Options, echo: &Echo) -> Outcome<bool> {
     options.adhesion.check()?;
     let pictures = PICTURES.iter().filter(|_| !options.no_pictures);
-    let mode = options.stability.then_some(&MODE);
+    let mode = options.case().stability.then_some(&MODE);
     let names: Vec<_> = FIELDS.iter().chain(mode).chain(pictures).copied().collect();
+    Echo::check(&options.out.join(echo::NAME))?;
     // Only a trial: a solve that is interrupted leaves nothing behind.
     drop(OutputFolder::create(&options.out, &names, options.force)?);
     let surface = options.surface.surface()?;
     let start = options.solver.start(surface.grid())?;
-    let job = Job { options, names, threads: run::use_threads(options.solver.threads)?, case: options.case() };
+    let job = Job { options, echo, names, threads: run::use_threads(options.solver.threads)?, case: options.case() };
     match options.solver.precision {
         Precision::F32 => job.run::<f32>(surface, start),
         Precision::F64 => job.run::<f64>(surface, start),
@@ -101,86 +107,24 @@ pub fn run(options: &Options) -> Outcome<bool> {
 }
 
 impl Options {
-    fn case(&self) -> Case {
+    pub fn case(&self) -> Case {
         let control = match (self.mean_gap, self.mean_pressure) {
             (Some(gap), _) => Control::MeanGap(gap),
             (None, pressure) => Control::MeanPressure(pressure.unwrap_or_default()),
         };
         let (modulus, settings) = (self.surface.modulus, self.solver.settings());
-        Case { modulus, control, settings, stability: self.stability }
-    }
-}
-
-/// A solve with all that was chosen for it.
-struct Job<'a> {
-    options: &'a Options,
-    names: Vec<&'static str>,
-    threads: usize,
-    case: Case,
-}
-
-impl Job<'_> {
-    fn run<T: Scalar>(&self, surface: Surface, start: Option<Array2<f64>>) -> Outcome<bool> {
-        let Options { out, force, quiet, .. } = self.options;
-        let grid = *surface.grid();
-        // In place, if the precision is that of the file.
-        let start = start.map(|gap| gap.mapv_into_any(T::lit));
-        let progress = Progress::new("", self.case.settings.tolerance, grid.nodes(), *quiet);
-        let law = self.options.adhesion.law()?;
-        let (solution, account) = if self.options.nested {
-            run::solve_nested::<T, _>(&surface, law, &self.case, progress)?
-        } else {
-            run::solve::<T, _>(surface, law, &self.case, start, progress)?
-        };
-
-        let folder = OutputFolder::create(out, &self.names, *force)?;
-        let written = self.write(&folder, grid, &solution, &account);
-        written.map_err(|error| run::at_destination(error, out))?;
-        folder.commit()?;
-
-        if !quiet {
-            say(&table(&[], &[&account], Style::Plain));
-            say(&format!("results in {}: {}", out.display(), self.names.join(", ")));
-        }
-        warn("", &account, &self.case, self.options.adhesion.range.unwrap_or_default());
-        Ok(account.report.status == Status::Converged)
-    }
-
-    fn write<T: Scalar>(
-        &self,
-        folder: &OutputFolder,
-        grid: Grid,
-        solution: &asperity::Solution<T>,
-        account: &Account,
-    ) -> asperity::Result<()> {
-        let path = |name: &str| folder.path(name);
-        write_npy(&path("gap.npy"), &solution.gap)?;
-        write_npy(&path("pressure.npy"), &solution.pressure)?;
-        write_npy(&path("contact_pressure.npy"), &solution.contact_pressure)?;
-        if let Some(stability) = &account.stability {
-            write_npy(&path(MODE), &stability.mode)?;
-        }
-        write_text(&path("report.json"), &format!("{:#}\n", self.report(grid, account)))?;
-        if !self.options.no_pictures {
-            let Options { length_unit, pressure_unit, .. } = self.options;
-            let units = Units { length: length_unit.as_deref(), pressure: pressure_unit.as_deref() };
-            run::draw_contact(&path("contact.png"), grid, "Contact", units, &solution.gap)?;
-            let pressure = run::pressure_to_draw(solution, self.options.adhesion.law != Law::None);
-            run::draw_pressure(&path("pressure.png"), grid, "Pressure", "", units, pressure)?;
-        }
-        Ok(())
+        Case { modulus, control, settings, stability: self.stability || self.leave, leave: self.leave }
     }
 
     /// All that one needs for understanding a run later; numbers that are not finite become null.
-    fn report(&self, grid: Grid, account: &Account) -> Value {
-        let Self { options, case, .. } = self;
-        let report = &account.report;
+    pub fn report(&self, grid: Grid, account: &Account, threads: usize) -> Value {
+        let (case, report) = (self.case(), &account.report);
         let (control, held) = match case.control {
             Control::MeanGap(gap) => ("mean-gap", gap),
             Control::MeanPressure(pressure) => ("mean-pressure", pressure),
         };
         let grids = account.grids.as_ref().map(|(levels, _)| levels.iter().map(level).collect::<Vec<_>>());
-        json!({
+        let outcome = json!({
             "status": report.status.name(),
             "relative_error": report.relative_error,
             "load_error": report.load_error,
@@ -207,26 +151,79 @@ impl Job<'_> {
                 "smoothed": stability.smoothed,
                 "operator_applications": stability.operator_applications,
             })),
+            "departures": self.leave.then(|| account.departures.iter().map(departure).collect::<Vec<_>>()),
             "mu_rho": report.mu_rho,
             "under_resolved": report.under_resolved,
-            "precision": report.precision,
-            "method": report.method.name(),
             "seconds": account.seconds,
-            "threads": self.threads,
-            "heights": options.surface.heights.to_string_lossy(),
-            "initial_gap": options.solver.initial_gap.as_deref().map(Path::to_string_lossy),
-            "shape": grid.shape(),
-            "lengths": grid.lengths(),
-            "modulus": case.modulus,
-            "law": options.adhesion.law.to_string(),
-            "work_of_adhesion": options.adhesion.work_of_adhesion,
-            "range": options.adhesion.range,
             "control": control,
             "control_value": held,
-            "tolerance": case.settings.tolerance,
-            "max_iterations": case.settings.max_iterations,
-            "version": env!("CARGO_PKG_VERSION"),
-        })
+        });
+        let Self { surface, adhesion, solver, .. } = self;
+        inputs::report("solve", outcome, inputs::inputs(surface, adhesion, solver, &grid, threads))
+    }
+}
+
+/// A solve with all that was chosen for it.
+struct Job<'a> {
+    options: &'a Options,
+    echo: &'a Echo,
+    names: Vec<&'static str>,
+    threads: usize,
+    case: Case,
+}
+
+impl Job<'_> {
+    fn run<T: Scalar>(&self, surface: Surface, start: Option<Array2<f64>>) -> Outcome<bool> {
+        let Options { out, force, printing, .. } = self.options;
+        let grid = *surface.grid();
+        // In place, if the precision is that of the file.
+        let start = start.map(|gap| gap.mapv_into_any(T::lit));
+        let progress = Progress::new("", self.case.settings.tolerance, grid.nodes(), printing.without_bars());
+        let law = self.options.adhesion.law()?;
+        let (solution, account) = if self.options.nested {
+            run::solve_nested::<T, _>(&surface, law, &self.case, progress)?
+        } else {
+            run::solve::<T, _>(surface, law, &self.case, start, progress)?
+        };
+
+        let folder = OutputFolder::create(out, &self.names, *force)?;
+        let written = self.write(&folder, grid, &solution, &account);
+        written.map_err(|error| run::at_destination(error, out))?;
+        folder.commit()?;
+
+        if printing.for_people() {
+            say(&table(&[], &[&account], Style::Plain));
+            say(&format!("results in {}: {}", out.display(), self.names.join(", ")));
+        }
+        printing.report(|| self.options.report(grid, &account, self.threads));
+        warn("", &account, &self.case, self.options.adhesion.range.unwrap_or_default());
+        Ok(account.report.status == Status::Converged)
+    }
+
+    fn write<T: Scalar>(
+        &self,
+        folder: &OutputFolder,
+        grid: Grid,
+        solution: &asperity::Solution<T>,
+        account: &Account,
+    ) -> asperity::Result<()> {
+        let path = |name: &str| folder.path(name);
+        write_npy(&path("gap.npy"), &solution.gap)?;
+        write_npy(&path("pressure.npy"), &solution.pressure)?;
+        write_npy(&path("contact_pressure.npy"), &solution.contact_pressure)?;
+        if let Some(stability) = &account.stability {
+            write_npy(&path(MODE), &stability.mode)?;
+        }
+        write_text(&path("report.json"), &format!("{:#}\n", self.options.report(grid, account, self.threads)))?;
+        write_text(&path(echo::NAME), &self.echo.text(&self.options.out))?;
+        if !self.options.no_pictures {
+            let Options { length_unit, pressure_unit, .. } = self.options;
+            let units = Units { length: length_unit.as_deref(), pressure: pressure_unit.as_deref() };
+            run::draw_contact(&path("contact.png"), grid, "Contact", units, &solution.gap)?;
+            let pressure = run::pressure_to_draw(solution, self.options.adhesion.law != Law::None);
+            run::draw_pressure(&path("pressure.png"), grid, "Pressure", "", units, pressure)?;
+        }
+        Ok(())
     }
 }
 
@@ -238,6 +235,11 @@ fn level(level: &Level) -> Value {
         "iterations": level.iterations,
         "operator_applications": level.operator_applications,
     })
+}
+
+/// What it took to leave an unstable equilibrium.
+fn departure(left: &Left) -> Value {
+    json!({ "eigenvalue": left.eigenvalue, "energy_drop": left.energy_drop, "distance": left.distance })
 }
 
 pub fn write_text(path: &Path, text: &str) -> asperity::Result<()> {

@@ -1,16 +1,19 @@
 use std::fmt::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use asperity::io::read_field;
 use asperity::{Spectrum, Surface};
 use clap::Args;
+use serde_json::{Map, Value, json};
 
+use crate::Outcome;
+use crate::inputs;
 use crate::options::positive;
 use crate::output::OutputFile;
+use crate::printing::Printing;
 use crate::report::Style;
 use crate::run;
 use crate::solve::write_text;
-use crate::{Outcome, say};
 
 /// Print the statistics of a rough surface.
 ///
@@ -33,10 +36,12 @@ pub struct Options {
     /// Replace a file that is there
     #[arg(long)]
     force: bool,
+    #[command(flatten)]
+    printing: Printing,
 }
 
 const EXAMPLES: &str = "\
-Examples:
+\u{1b}[1;4mExamples:\u{1b}[0m
   asperity stats heights.npy
   asperity stats asperity-demo/heights.npy --lengths 1e-6 --psd psd.csv";
 
@@ -50,8 +55,33 @@ pub fn run(options: &Options) -> Outcome<bool> {
         file.write(|path| write_text(path, &text))?;
         file.commit()?;
     }
-    say(&table(&surface));
+    options.printing.say(&table(&surface));
+    options.printing.report(|| {
+        let version = Map::from_iter([("version".to_owned(), env!("CARGO_PKG_VERSION").into())]);
+        inputs::report("stats", report(&surface, &options.heights), version)
+    });
     Ok(true)
+}
+
+/// The statistics of the heights in a file, by name.
+pub fn report(surface: &Surface, heights: &Path) -> Value {
+    let (grid, found) = (surface.grid(), surface.statistics());
+    json!({
+        "heights": heights.to_string_lossy(),
+        "shape": grid.shape(),
+        "lengths": grid.lengths(),
+        "mean_height": found.mean,
+        "lowest": found.lowest,
+        "highest": found.highest,
+        "rms_height": found.rms_height,
+        "skewness": found.skewness,
+        "kurtosis": found.kurtosis,
+        "rms_slope": found.rms_slope,
+        "rms_slope_differences": found.rms_slope_differences,
+        "rms_curvature": found.rms_curvature,
+        "rms_curvature_differences": found.rms_curvature_differences,
+        "nayak": found.nayak,
+    })
 }
 
 /// The statistics, one to a line.
