@@ -108,6 +108,9 @@ mod solver;
 mod stability;
 mod surface;
 mod sweep;
+pub mod tool {
+    #![doc = include_str!("tool.md")]
+}
 mod vector;
 
 pub use adhesion::{AdhesionLaw, Exponential, MaugisDugdale, NoAdhesion, check_law};

@@ -77,7 +77,7 @@ impl Echo {
     pub fn check(path: &Path) -> Outcome<()> {
         match fs::read_to_string(path) {
             Ok(text) if !text.starts_with(FIRST) => {
-                let reason = "is not of asperity, and would be replaced by the scene of this run: rename it, or choose another --out";
+                let reason = "was not written by asperity, and would be replaced by the scene of this run: rename it, or choose another --out";
                 Err(Error::file(path, reason).into())
             }
             _ => Ok(()),

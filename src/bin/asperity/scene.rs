@@ -65,6 +65,7 @@ impl Scene {
         let refuse = |reason: String| Error::file(&path, reason);
         let text = fs::read_to_string(&path).map_err(|e| match e.kind() {
             std::io::ErrorKind::NotFound => refuse("does not exist: check the path".to_owned()),
+            std::io::ErrorKind::IsADirectory => refuse("is a folder: name a scene file in it".to_owned()),
             std::io::ErrorKind::InvalidData => refuse("is no text: give a scene file, in TOML".to_owned()),
             _ => refuse(format!("cannot be read: {e}")),
         })?;
@@ -72,13 +73,12 @@ impl Scene {
             let line = e.span().map_or(0, |span| text[..span.start.min(text.len())].matches('\n').count()) + 1;
             refuse(format!("line {line} is not TOML: {}", e.message().replace('\n', ", ")))
         })?;
-        let choice = "solve, sweep, cycle, surface or demo";
         let name = match table.remove("command") {
             Some(Value::String(name)) if COMMANDS.contains(&name.as_str()) => name,
-            Some(other) => return Err(refuse(format!("command is {other}: it must be {choice}")).into()),
-            None => {
-                return Err(refuse(format!("does not say what to do: add command = \"solve\", or {choice}")).into());
+            Some(other) => {
+                return Err(refuse(format!("command is {other}: it must be one of {}", COMMANDS.join(", "))).into());
             }
+            None => return Err(refuse("does not say what to do: add command = \"solve\"".to_owned()).into()),
         };
         let command = tool.find_subcommand(&name).ok_or_else(|| refuse(format!("{name} is not built in")))?;
         let entries = entries(table, command).map_err(refuse)?;
@@ -166,7 +166,9 @@ fn spelled(key: &str, value: &Value, option: Option<&Arg>, folder: &Path) -> Res
         };
     }
     let word = |value: &Value| match value {
-        Value::String(word) if is_path(option) && !word.is_empty() => Ok(folder.join(word).into_os_string()),
+        Value::String(word) if is_path(option) && !word.is_empty() => {
+            Ok(folder.join(word).components().collect::<PathBuf>().into())
+        }
         Value::String(word) => Ok(word.into()),
         Value::Integer(_) | Value::Float(_) if !is_path(option) => Ok(value.to_string().into()),
         other => Err(format!("{key} is {other}: it must be {}", wanted(option))),
