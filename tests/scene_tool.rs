@@ -80,9 +80,9 @@ fn a_solve_leaves_a_scene_that_repeats_it() {
     let scene = bench.read("a/first/scene.toml");
     for line in [
         "command = \"solve\"",
-        "[surface]\nheights = \"../../heights.npy\"\nlengths = [1, 1]\nmodulus = 1\n",
+        "[surface]\nheights = \"../../heights.npy\"\nlengths = [1.0, 1.0]\nmodulus = 1.0\n",
         "[load]\nmean-pressure = 0.01\n",
-        "[adhesion]\nlaw = \"exponential\"\nwork-of-adhesion = 1e-4\nrange = 4e-3\n",
+        "[adhesion]\nlaw = \"exponential\"\nwork-of-adhesion = 0.0001\nrange = 0.004\n",
         "[output]\nout = \".\"\n",
     ] {
         assert!(scene.contains(line), "{scene}");
@@ -176,7 +176,6 @@ fn a_scene_has_the_options_of_its_command_and_gives_way_to_those_beside_it() {
         bench.said("run sweep.toml --force");
         assert_eq!(bench.read("s.csv").lines().count(), 3, "{loads}");
     }
-    assert!(bench.said("run scenes/press.toml --help").contains("--mean-pressure"));
 }
 
 #[test]
@@ -193,7 +192,7 @@ fn bad_scenes_are_refused_on_one_line() {
         ("mean-gap = [1, 2]", vec!["'1,2'", "--mean-gap"]),
         ("mean-gap = 1\nmean-pressure = 1", vec!["cannot be used with"]),
         ("mean-gap = 1\nlaw = \"dupre\"", vec!["dupre", "exponential"]),
-        ("mean-gap = 1\nlengths = [1, 2, 3]", vec!["--lengths"]),
+        ("mean-gap = 1\nlengths = [1, 2, 3]", vec!["lengths has 3", "2 at most"]),
         ("mean-gap = 1\nnested = \"yes\"", vec!["nested is \"yes\"", "true or false"]),
         ("mean-gap = 1\ninitial-gap = 1", vec!["initial-gap is 1", "a name"]),
         ("mean-gap = 1\nhelp = true", vec!["help", "no option"]),
@@ -347,7 +346,7 @@ fn completions_know_commands_and_options() {
     let bench = Bench::new();
     for shell in ["bash", "zsh", "fish", "elvish", "powershell"] {
         let script = bench.said(&format!("completions {shell}"));
-        for word in ["completions", "solve", "mean-pressure", "maugis-dugdale"] {
+        for word in ["completions", "solve", "mean-pressure", "work-of-adhesion"] {
             assert!(script.contains(word), "{shell}: {word}");
         }
     }

@@ -169,7 +169,7 @@ fn a_sweep_that_is_killed_goes_on_where_it_was() {
         assert!(whole.starts_with(bench.read("killed.csv").rsplit_once('\n').unwrap().0));
         bench.sweep(&arguments, 0);
         assert!(bench.read("killed.csv") == whole, "{arguments}");
-        for name in ["killed.csv", "killed.csv.state.npz"] {
+        for name in ["killed.csv", "killed.csv.scene.toml", "killed.csv.state.npz"] {
             fs::remove_file(bench.path(name)).unwrap();
         }
     }

@@ -88,7 +88,9 @@ impl Echo {
     pub fn check_beside(&self, file: &Path, force: bool) -> Outcome<()> {
         let path = beside(file);
         Self::check(&path)?;
-        let same = fs::read_to_string(&path).is_ok_and(|text| text == self.text(folder_of(file)));
+        // whatever version has written it
+        let rest = |text: &str| text.split_once('\n').map(|(_, rest)| rest.to_owned());
+        let same = fs::read_to_string(&path).is_ok_and(|text| rest(&text) == rest(&self.text(folder_of(file))));
         if path.exists() && !force && !same {
             return Err(Error::file(&path, "exists: use --force to replace it, or choose another --out").into());
         }
@@ -148,13 +150,18 @@ fn entry(arg: &Arg, matches: &ArgMatches) -> Option<Entry> {
     Some(Entry { section: section(arg), key: key.to_owned(), values })
 }
 
-/// A number as it was given, if that is one in TOML too, and everything else in quotation marks.
+/// A number as a number, always in the same way, and everything else in quotation marks.
 fn literal(arg: &Arg, raw: &str) -> Literal {
-    let parser = arg.get_value_parser().type_id();
-    let is_number = [TypeId::of::<f64>(), TypeId::of::<usize>(), TypeId::of::<u64>()].iter().any(|id| parser == *id);
-    let as_number = is_number.then(|| format!("x = {raw}").parse::<toml::Table>().ok()).flatten();
-    let plain = as_number.is_some_and(|table| table.values().all(|value| value.is_integer() || value.is_float()));
-    Literal::Plain(if plain { raw.trim().to_owned() } else { Value::from(raw).to_string() })
+    let (parser, trimmed) = (arg.get_value_parser().type_id(), raw.trim());
+    let number = if parser == TypeId::of::<f64>() {
+        trimmed.parse::<f64>().ok().map(|number| format!("{number:?}"))
+    } else if parser == TypeId::of::<usize>() || parser == TypeId::of::<u64>() {
+        // TOML has no larger integers
+        trimmed.parse::<i64>().ok().map(|number| number.to_string())
+    } else {
+        None
+    };
+    Literal::Plain(number.unwrap_or_else(|| Value::from(raw).to_string()))
 }
 
 impl Literal {
@@ -174,7 +181,7 @@ fn seen_from(path: &Path, folder: &Path) -> PathBuf {
     let (path, folder) = (absolute(path), resolved(&absolute(folder)));
     // a link to a file stays a link
     let path = match (path.parent(), path.file_name()) {
-        (Some(parent), Some(name)) => resolved(parent).join(name),
+        (Some(parent), Some(name)) if !path.is_dir() => resolved(parent).join(name),
         _ => resolved(&path),
     };
     let (mut path, mut folder) = (path.components().peekable(), folder.components().peekable());

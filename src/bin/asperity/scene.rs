@@ -177,7 +177,11 @@ fn spelled(key: &str, value: &Value, option: Option<&Arg>, folder: &Path) -> Res
         Value::Array(values) => values.iter().map(word).collect::<Result<Vec<_>, _>>()?,
         value => vec![word(value)?],
     };
-    if option.get_num_args().is_some_and(|count| count.max_values() > 1) {
+    let most = option.get_num_args().map_or(1, |count| count.max_values());
+    if most > 1 {
+        if words.len() > most {
+            return Err(format!("{key} has {} values: give {most} at most", words.len()));
+        }
         return Ok(std::iter::once(name.into()).chain(words).collect());
     }
     let mut typed = OsString::from(name + "=");

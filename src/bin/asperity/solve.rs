@@ -20,8 +20,8 @@ use crate::{Outcome, say};
 ///
 /// All quantities are in any consistent units, as m, Pa and J/m². Writes gap.npy, pressure.npy (the full elastic
 /// pressure, compression positive), contact_pressure.npy (its repulsive part), report.json, contact.png, pressure.png, and
-/// scene.toml, which repeats the run, all or none. Exits with 0 if converged, 2 if not (the fields are written all the same), and 1 if
-/// the input is refused or the files cannot be written (then there are none).
+/// scene.toml, which repeats the run, all or none. Exits with 0 if converged, 2 if not (the fields are written all the
+/// same), and 1 if the input is refused or the files cannot be written (then there are none).
 #[derive(Args)]
 #[command(after_help = EXAMPLES, group(ArgGroup::new("load").required(true).args(["mean_gap", "mean_pressure"])))]
 pub struct Options {

@@ -85,7 +85,7 @@ const EXAMPLES: &str = "\
     asperity surface --size 1024 --rms-slope 0.1 --out heights.npy
   A rectangle of a micrometre by two, with a plateau in the spectrum, and the spectrum:
     asperity surface --shape 256 512 --lengths 1e-6 2e-6 --rms-height 5e-9 --hurst 0.7 \\
-      --k-l 2 --k-r 6 --k-s 50 --seed 7 --out heights.npy --psd psd.csv
+      --k-l 2 --k-r 6 --k-s 50 --seed 7 --out rectangle.npy --psd psd.csv
   A profile:
     asperity surface --shape 4096 1 --rms-slope 0.1 --k-s 1000 --out profile.npy";
 
