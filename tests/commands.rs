@@ -44,7 +44,12 @@ impl Reader {
         for word in words.iter().copied().chain(scene) {
             let reads = !results.contains(&Some(word));
             let ours = word == "heights.npy" || !self.folder.path().join(word).exists();
-            if reads && ours && word.ends_with(".npy") {
+            if !(reads && ours) {
+                continue;
+            }
+            if let Some((_, "txt" | "gsf")) = word.rsplit_once('.') {
+                fs::write(self.folder.path().join(word), measured(word.ends_with(".gsf"))).unwrap();
+            } else if word.ends_with(".npy") {
                 let roughness = format!("--lengths {side} --k-l 2 --k-s 20 --rms-height {}", 0.01 * side);
                 let made = self.shell(&format!("asperity surface --size 64 {roughness} --force --quiet --out {word}"));
                 assert!(made.status.success(), "{}", String::from_utf8_lossy(&made.stderr));
@@ -58,6 +63,22 @@ impl Reader {
         assert_eq!(output.status.code(), Some(0), "{text}: {command}\n{error}");
         self.run += 1;
     }
+}
+
+/// A map as an instrument may give it, of 5 by 4 micrometres: as a matrix in nanometres, or in the format of Gwyddion.
+fn measured(gwyddion: bool) -> Vec<u8> {
+    let (nx, ny) = (50, 40);
+    let height = |i: usize, j: usize| 30.0 * (0.7 * i as f32).sin() * (0.4 * j as f32).cos() + 0.5 * i as f32;
+    if !gwyddion {
+        let row = |i| (0..ny).map(|j| height(i, j).to_string()).collect::<Vec<_>>().join(" ") + "\n";
+        return (0..nx).map(row).collect::<String>().into_bytes();
+    }
+    let header = format!("XRes = {nx}\nYRes = {ny}\nXReal = 5e-6\nYReal = 4e-6\nXYUnits = m\nZUnits = m\n");
+    let mut bytes = format!("Gwyddion Simple Field 1.0\n{header}").into_bytes();
+    bytes.resize(bytes.len() + 4 - bytes.len() % 4, 0);
+    let heights = (0..ny).flat_map(|j| (0..nx).map(move |i| 1e-9 * height(i, j)));
+    bytes.extend(heights.flat_map(f32::to_le_bytes));
+    bytes
 }
 
 /// The lines of a text with those joined that a backslash splits, without comments.

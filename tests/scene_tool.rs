@@ -257,6 +257,14 @@ fn scenes_that_were_written_by_hand_are_not_replaced() {
     bench.said("run heights.npy.scene.toml --force");
 }
 
+#[test]
+fn a_scene_can_name_what_has_no_hyphens() {
+    let bench = Bench::new();
+    bench.write("measure.toml", "command = \"stats\"\nheights = \"heights.npy\"\nlengths = 2\n");
+    assert_eq!(bench.said("run measure.toml"), bench.said("stats heights.npy --lengths 2"));
+    assert!(bench.refused("run measure.toml --psd heights.npy").contains("exists"));
+}
+
 /// The keys of a report, with those of the reports in it.
 fn keys(report: &Value, found: &mut Vec<String>) {
     match report {

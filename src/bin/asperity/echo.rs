@@ -44,8 +44,7 @@ pub const NAME: &str = "scene.toml";
 impl Echo {
     /// What was chosen for a command.
     pub fn of(command: &Command, matches: &ArgMatches) -> Self {
-        let options = command.get_arguments().filter(|arg| is_option(arg));
-        let entries = options.filter_map(|arg| entry(arg, matches)).collect();
+        let entries = command.get_arguments().filter_map(|arg| entry(arg, matches)).collect();
         Self { command: command.get_name().to_owned(), entries }
     }
 
@@ -116,10 +115,11 @@ fn folder_of(file: &Path) -> &Path {
     file.parent().unwrap_or(Path::new(""))
 }
 
-/// Whether an argument is an option that a scene may have.
-pub fn is_option(arg: &Arg) -> bool {
-    arg.get_long().is_some()
-        && !matches!(arg.get_action(), ArgAction::Help | ArgAction::HelpShort | ArgAction::HelpLong)
+/// What an argument is called in a scene, if it may be there.
+pub fn key(arg: &Arg) -> Option<String> {
+    let asks_for_help = matches!(arg.get_action(), ArgAction::Help | ArgAction::HelpShort | ArgAction::HelpLong);
+    let key = || arg.get_long().map_or_else(|| arg.get_id().as_str().replace('_', "-"), str::to_owned);
+    (!asks_for_help).then(key)
 }
 
 /// Whether an argument is the name of a file or a folder.
@@ -133,8 +133,8 @@ pub fn section(arg: &Arg) -> String {
 }
 
 fn entry(arg: &Arg, matches: &ArgMatches) -> Option<Entry> {
-    let (id, key) = (arg.get_id().as_str(), arg.get_long()?);
-    if LEFT_OUT.contains(&key) || matches.value_source(id).is_none() {
+    let (id, key) = (arg.get_id().as_str(), key(arg)?);
+    if LEFT_OUT.contains(&key.as_str()) || matches.value_source(id).is_none() {
         return None;
     }
     let values = if matches!(arg.get_action(), ArgAction::SetTrue) {
@@ -147,7 +147,7 @@ fn entry(arg: &Arg, matches: &ArgMatches) -> Option<Entry> {
         raw.map(|raw| if is_path(arg) { Literal::Path(raw.into()) } else { literal(arg, &raw.to_string_lossy()) })
             .collect()
     };
-    Some(Entry { section: section(arg), key: key.to_owned(), values })
+    Some(Entry { section: section(arg), key, values })
 }
 
 /// A number as a number, always in the same way, and everything else in quotation marks.

@@ -114,7 +114,7 @@ pub fn warn(name: &str, account: &Account, case: &Case, range: f64) {
         complain("warning", &format!("{name}the equilibrium is unstable, it would not last: --leave goes on from it"));
     } else if unstable {
         let count = account.departures.len();
-        let text = format!("{name}still unstable after {count} departures: the energy falls no further from here");
+        let text = format!("{name}still unstable after {count} departures: try another start by --initial-gap");
         complain("warning", &text);
     }
     warn_of_resolution(&name, report, range);

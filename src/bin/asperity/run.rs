@@ -83,19 +83,21 @@ pub fn solve<T: Scalar, L: AdhesionLaw<T>>(
         progress.update(state);
         ControlFlow::Continue(())
     })?;
-    let (mut stability, mut departures) = (None, Vec::new());
-    while case.stability {
+    let mut departures = Vec::new();
+    let stability = loop {
+        if !case.stability {
+            break None;
+        }
         let found = StabilityTest::default().run(&mut problem, case.control, &solution)?;
         let leaves = case.leave && found.verdict == Verdict::Unstable && departures.len() < MOST_DEPARTURES;
         let left = if leaves { found.leave(&mut solver, &mut problem, case.control, &solution)? } else { None };
         let Some(left) = left.filter(|left| left.energy_drop > 0.0) else {
-            stability = Some(steadiness(found));
-            break;
+            break Some(steadiness(found));
         };
         let Departure { energy_drop, distance, .. } = left;
         departures.push(Left { eigenvalue: found.eigenvalue, energy_drop, distance });
         solution = left.solution;
-    }
+    };
     let (solution, account) = account(solution, None, clock)?;
     Ok((solution, Account { stability, departures, ..account }))
 }

@@ -7,12 +7,12 @@ use clap::{Arg, ArgAction, Args, Command};
 use toml::{Table, Value};
 
 use crate::Outcome;
-use crate::echo::{is_option, is_path, section};
+use crate::echo::{is_path, key, section};
 
 /// Do what a scene file says.
 ///
-/// A scene is a TOML file with the name of a command (solve, sweep, cycle, surface or demo) and its options by their long
-/// names, without the hyphens in front. Numbers, words and lists are written as TOML has them, an option without a value is set
+/// A scene is a TOML file with the name of a command (solve, sweep, cycle, surface, stats or demo) and its options by their
+/// long names, without the hyphens in front. Numbers, words and lists are written as TOML has them, an option without a value is set
 /// by true. Options may stand in sections, named as in the help of the command. File names are relative to the scene.
 /// Options after the name of the scene replace those in it.
 ///
@@ -47,7 +47,7 @@ const EXAMPLES: &str = "\
     asperity run sweep.csv.scene.toml";
 
 /// The commands that a scene may have.
-const COMMANDS: [&str; 5] = ["solve", "sweep", "cycle", "surface", "demo"];
+const COMMANDS: [&str; 6] = ["solve", "sweep", "cycle", "surface", "stats", "demo"];
 
 /// The arguments for which a scene stands.
 pub struct Scene {
@@ -70,7 +70,8 @@ impl Scene {
             _ => refuse(format!("cannot be read: {e}")),
         })?;
         let mut table: Table = text.parse().map_err(|e: toml::de::Error| {
-            let line = e.span().map_or(0, |span| text[..span.start.min(text.len())].matches('\n').count()) + 1;
+            let line =
+                e.span().map_or(0, |span| text.bytes().take(span.start).filter(|byte| *byte == b'\n').count()) + 1;
             refuse(format!("line {line} is not TOML: {}", e.message().replace('\n', ", ")))
         })?;
         let name = match table.remove("command") {
@@ -85,10 +86,10 @@ impl Scene {
         let replaced = replaced(command, &given);
         let mut arguments: Vec<OsString> = vec!["asperity".into(), name.into()];
         let folder = path.parent().unwrap_or(Path::new(""));
-        for (key, value) in &entries {
-            if !replaced.contains(key) {
-                let option = command.get_arguments().find(|arg| is_option(arg) && arg.get_long() == Some(key));
-                arguments.extend(spelled(key, value, option, folder).map_err(refuse)?);
+        for (name, value) in &entries {
+            if !replaced.contains(name) {
+                let option = command.get_arguments().find(|arg| key(arg).as_ref() == Some(name));
+                arguments.extend(spelled(name, value, option, folder).map_err(refuse)?);
             }
         }
         arguments.extend(given.iter().cloned());
@@ -105,13 +106,16 @@ impl Scene {
 
 /// The options of a scene, from its sections and from before them.
 fn entries(table: Table, command: &Command) -> Result<Vec<(String, Value)>, String> {
-    let mut sections: Vec<_> = command.get_arguments().filter(|arg| is_option(arg)).map(section).collect();
+    let mut sections: Vec<_> = command.get_arguments().map(section).collect();
     sections.retain(|section| !section.is_empty());
     sections.dedup();
     let mut entries: Vec<(String, Value)> = Vec::new();
     let mut add = |key: String, value: Value| {
-        let twice = entries.iter().any(|(other, _)| *other == key);
-        if twice { Err(format!("{key} is there twice: remove one of them")) } else { Ok(entries.push((key, value))) }
+        if entries.iter().any(|(other, _)| *other == key) {
+            return Err(format!("{key} is there twice: remove one of them"));
+        }
+        entries.push((key, value));
+        Ok(())
     };
     for (key, value) in table {
         match value {
@@ -132,16 +136,15 @@ fn entries(table: Table, command: &Command) -> Result<Vec<(String, Value)>, Stri
 /// The options that those given beside a scene replace: themselves, and those that exclude them.
 fn replaced(command: &Command, given: &[OsString]) -> Vec<String> {
     let mut replaced = Vec::new();
-    let long = |arg: &Arg| arg.get_long().map(str::to_owned);
     for word in given {
         let word = word.to_string_lossy();
         let Some(name) = word.strip_prefix("--").and_then(|word| word.split('=').next()) else { continue };
         let Some(option) = command.get_arguments().find(|arg| arg.get_long() == Some(name)) else { continue };
-        replaced.extend(long(option));
+        replaced.extend(key(option));
         for group in command.get_groups() {
             if group.get_args().any(|id| id == option.get_id()) && !group.clone().is_multiple() {
                 let members = group.get_args().filter_map(|id| command.get_arguments().find(|arg| arg.get_id() == id));
-                replaced.extend(members.filter_map(long));
+                replaced.extend(members.filter_map(key));
             }
         }
     }
@@ -177,6 +180,9 @@ fn spelled(key: &str, value: &Value, option: Option<&Arg>, folder: &Path) -> Res
         Value::Array(values) => values.iter().map(word).collect::<Result<Vec<_>, _>>()?,
         value => vec![word(value)?],
     };
+    if option.is_positional() {
+        return Ok(words);
+    }
     let most = option.get_num_args().map_or(1, |count| count.max_values());
     if most > 1 {
         if words.len() > most {
