@@ -134,7 +134,10 @@ fn commands_of_the_documentation_run() {
             {
                 fs::write(reader.folder.path().join(file), block).unwrap();
             }
-            for command in if language == "sh" { commands(block) } else { Vec::new() } {
+            let code = ["", "rust", "toml", "python"].iter().any(|code| language.split(',').any(|word| word == *code));
+            // in other blocks there may be anything else, too
+            let shell = |command: &String| language == "sh" || !code && command.starts_with("asperity ");
+            for command in commands(block).into_iter().filter(shell) {
                 let program = command.split_whitespace().next().unwrap();
                 match (program, command.split_once(" -- ")) {
                     ("asperity", _) => reader.follow(&command, &name),
