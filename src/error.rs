@@ -142,7 +142,7 @@ impl fmt::Display for Error {
             Self::NotFinite { name, count, nodes, first, value } => write!(
                 f,
                 "{name}: {count} of {nodes} nodes are not finite, the first ({value}) at index [{}, {}]: \
-                 fill missing points first",
+                 fill missing points first, as by Topography::fill",
                 first.0, first.1
             ),
             Self::Law { function, gap, value, expected: None } => {

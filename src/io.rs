@@ -1,11 +1,18 @@
 //! Reading height maps and gaps, and writing results.
 //!
-//! [`read_field`] takes what measuring instruments and numpy write: `.npy`, `.npz` and text matrices.
-//! [`OutputFolder`] collects the files of one run and shows them only once all of them are complete.
+//! [`read_topography`] takes what measuring instruments, Gwyddion and numpy write: `.npy`, `.npz`, `.gsf`, `.xyz` and text
+//! matrices, with side lengths and units where they are known; [`read_field`] takes the numbers alone.
+//! [`write_topography`] writes maps, [`write_npz`] and [`write_vti`] all fields of a solution into one file, for numpy and for
+//! ParaView. [`OutputFolder`] collects the files of one run and shows them only once all of them are complete.
 
+mod gsf;
 mod npy;
+mod npz;
 mod output;
 mod text;
+mod units;
+mod vti;
+mod xyz;
 
 use std::fs::{self, File};
 use std::io::{self, BufRead, BufReader};
@@ -15,9 +22,15 @@ use ndarray::Array2;
 use ndarray_npy::WritableElement;
 
 use crate::error::{Error, Result};
-use npy::{NPY, ZIP, read_npy, read_npz};
+use crate::surface::Topography;
+use gsf::{GSF, read_gsf, write_gsf};
+use npy::{NPY, read_npy};
+pub use npz::write_npz;
+use npz::{ZIP, read_npz};
 pub use output::OutputFolder;
 use text::read_text;
+pub use vti::write_vti;
+use xyz::read_xyz;
 
 const TRUNCATED: &str = "ends too early: it is truncated or damaged, copy or save it again";
 const DAMAGED: &str = "is damaged: copy or save it again";
@@ -25,22 +38,11 @@ const DAMAGED: &str = "is damaged: copy or save it again";
 /// What the readers return: they know the reason, [`read_field`] adds the path.
 type Parsed<T> = std::result::Result<T, String>;
 
-/// Reads a height map or a gap from a file, whose content and not whose ending decides on the format.
-///
-/// - `.npy`: floating-point numbers of 4 or 8 bytes or integers of 1 to 8 bytes, in either byte order and
-///   either memory order. Integers beyond 2^53 are rounded.
-/// - `.npz`: as `.npy`, compressed or not, with exactly one array in it.
-/// - text: one row per line; numbers separated by white space, or by commas, or by semicolons. `#` and `%`
-///   start a comment, blank lines are skipped. Decimal commas are not understood.
-///
-/// A one-dimensional array of n values, and a text file with a single column, give shape `(n, 1)`. NaN and
-/// infinities are read as they stand: they mark missing points, which a surface refuses later. The array is
-/// in standard layout.
+/// Reads a field, a height map or a gap, from a file of any of the formats of [`read_topography`]: its numbers alone.
 ///
 /// # Errors
 ///
-/// [`Error::File`] if the file cannot be read, is truncated or damaged, or holds anything but one array of
-/// real numbers with one or two dimensions and at least one value.
+/// As for [`read_topography`].
 ///
 /// ```
 /// use asperity::io::read_field;
@@ -56,7 +58,94 @@ type Parsed<T> = std::result::Result<T, String>;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn read_field(path: &Path) -> Result<Array2<f64>> {
+    read_topography(path).map(|map| map.heights)
+}
+
+/// Reads a height map from a file, with side lengths and unit where it has them. The content and not the ending of the file
+/// decides on the format, but for `.xyz`.
+///
+/// - `.npy`: floating-point numbers of 4 or 8 bytes or integers of 1 to 8 bytes, in either byte order and
+///   either memory order. Integers beyond 2^53 are rounded.
+/// - `.npz`: as `.npy`, compressed or not, with exactly one array in it, or with one named `heights`. Arrays `lengths`,
+///   two numbers, and `unit`, a text, are taken beside that.
+/// - Gwyddion Simple Field (`.gsf`): with the side lengths XReal and YReal, and units.
+/// - text: one row per line; numbers separated by white space, or by commas, or by semicolons. `#` and `%`
+///   start a comment, blank lines are skipped. Decimal commas are not understood.
+/// - Gwyddion's text export, which is a text with comments `# Width:`, `# Height:` and `# Value units:` in English.
+/// - text of which the name ends in `.xyz`: points x y z, one per line, of a regular grid parallel to the axes, in any order.
+///   Nodes without a point are missing. Rounded or noisy coordinates may be off the grid by a tenth of its spacing. All three in one
+///   unit, which the format does not tell. Nx and Ny follow from the spacings, and the side lengths are Nx Δx and Ny Δy.
+///
+/// **Orientation.** Arrays and plain texts have shape (Nx, Ny): the first index, in a text the line, runs along x. Images
+/// have lines along x, from the top to the bottom: line r of Ny in Gwyddion's two formats becomes column Ny − 1 − r of the map, so
+/// that y runs upwards and pictures of the map show what Gwyddion shows.
+///
+/// **Units.** Where the file gives units of length for both side lengths and heights, the map is in metres, whatever their
+/// prefixes. Where both are the same other unit it stays. All else that has units is refused, as are values that are no heights.
+///
+/// A one-dimensional array of n values, and a text file with a single column, give shape `(n, 1)`. NaN and
+/// infinities are read as they stand: they mark missing points, which a surface refuses later. The array is
+/// in standard layout.
+///
+/// # Errors
+///
+/// [`Error::File`] if the file cannot be read, is truncated or damaged, or holds anything but one array of
+/// real numbers with one or two dimensions and at least one value; for `.xyz`, if its points are scattered.
+///
+/// ```
+/// use asperity::io::read_topography;
+///
+/// let folder = tempfile::tempdir()?;
+/// let path = folder.path().join("exported.txt");
+/// std::fs::write(&path, "# Channel: Height\n# Width: 3 µm\n# Height: 2 µm\n# Value units: nm\n1 2 3\n4 5 6\n")?;
+///
+/// let map = read_topography(&path)?;
+/// assert_eq!(map.heights.dim(), (3, 2));
+/// assert_eq!(map.heights[[0, 1]], 1e-9); // at the left, on top
+/// assert_eq!((map.lengths, map.unit.as_deref()), (Some((3e-6, 2e-6)), Some("m")));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn read_topography(path: &Path) -> Result<Topography> {
     read_any(path).map_err(|reason| Error::file(path, reason))
+}
+
+/// Writes a map, over a file that may be there; the ending of `path` decides on the format.
+///
+/// - `.npz`: `heights`, and `lengths` and `unit` if they are known. Nothing is lost.
+/// - `.gsf`, for Gwyddion: the heights are rounded to `f32`.
+/// - `.npy`: the heights alone.
+///
+/// ```
+/// use asperity::io::{read_topography, write_topography};
+/// use asperity::{Grid, Surface, Topography};
+///
+/// let folder = tempfile::tempdir()?;
+/// let path = folder.path().join("wave.npz");
+/// let mut wave = Topography::from(Surface::wave(Grid::new((8, 4), (2e-6, 1e-6))?, 1e-9, 1)?);
+/// wave.unit = Some("m".into());
+/// write_topography(&path, &wave)?;
+/// assert_eq!(read_topography(&path)?, wave);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+///
+/// [`Error::File`] if the name has another ending, heights leave the range of the format, or the file cannot be written.
+pub fn write_topography(path: &Path, map: &Topography) -> Result<()> {
+    match ending(path).as_str() {
+        "npy" => write_npy(path, &map.heights),
+        "npz" => npz::write_map(path, map),
+        "gsf" if map.heights.iter().any(|h| h.is_finite() && !(*h as f32).is_finite()) => {
+            Err(Error::file(path, "cannot hold such heights, its numbers are f32: choose .npz or .npy"))
+        }
+        "gsf" => write_gsf(path, map).map_err(|e| Error::file(path, format!("cannot be written: {e}"))),
+        _ => Err(Error::file(path, "has no ending that names a format: choose .npz, .npy or .gsf")),
+    }
+}
+
+/// What stands behind the last point of a name, in small letters.
+fn ending(path: &Path) -> String {
+    path.extension().map(|ending| ending.to_string_lossy().to_lowercase()).unwrap_or_default()
 }
 
 /// Writes a field as `.npy`, over a file that may be there.
@@ -68,19 +157,23 @@ pub fn write_npy<T: WritableElement>(path: &Path, field: &Array2<T>) -> Result<(
     ndarray_npy::write_npy(path, field).map_err(|e| Error::file(path, format!("cannot be written: {e}")))
 }
 
-fn read_any(path: &Path) -> Parsed<Array2<f64>> {
+fn read_any(path: &Path) -> Parsed<Topography> {
     // Before opening, which would wait for ever on a named pipe.
     let metadata = fs::metadata(path).map_err(unreadable)?;
     if !metadata.is_file() {
         let kind = if metadata.is_dir() { "a folder" } else { "not a regular file" };
-        return Err(format!("is {kind}: name a .npy, .npz or text file"));
+        return Err(format!("is {kind}: name a .npy, .npz, .gsf, .xyz or text file"));
     }
     let mut reader = BufReader::new(File::open(path).map_err(unreadable)?);
     let start = reader.fill_buf().map_err(unreadable)?;
     if start.starts_with(NPY) {
-        read_npy(&mut reader, metadata.len())
+        read_npy(&mut reader, metadata.len()).map(Topography::new)
     } else if ZIP.iter().any(|magic| start.starts_with(magic)) {
         read_npz(reader, metadata.len())
+    } else if start.starts_with(GSF) {
+        read_gsf(&mut reader, metadata.len())
+    } else if ending(path) == "xyz" {
+        read_xyz(reader)
     } else {
         read_text(reader)
     }
@@ -110,10 +203,14 @@ mod tests {
     use super::*;
 
     pub(super) fn read(bytes: impl AsRef<[u8]>) -> Result<Array2<f64>> {
+        read_map(bytes, "heights").map(|map| map.heights)
+    }
+
+    pub(super) fn read_map(bytes: impl AsRef<[u8]>, name: &str) -> Result<Topography> {
         let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("heights");
+        let path = folder.path().join(name);
         fs::write(&path, bytes).unwrap();
-        read_field(&path)
+        read_topography(&path)
     }
 
     /// Why it was refused, after checking that the message names the file and is a single line.

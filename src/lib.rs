@@ -60,6 +60,10 @@
 //! [`ContactStatistics`], [`Clusters`] and [`PressureDistribution`] say what the contact of a solution is like; [`Sweep`]
 //! solves under a sequence of loads, each from where the last ones lead, and [`Nested`] on coarser grids first.
 //!
+//! # Measured surfaces
+//!
+//! [`Topography`] takes a measured map to a [`Surface`]: missing points, tilt, edges that do not meet, resampling.
+//!
 //! # Branches, jumps and stability
 //!
 //! With adhesion there may be several equilibria at one load, and none next to some of them at the next. [`Path`] follows a branch in
@@ -127,7 +131,7 @@ pub use problem::{Control, Problem};
 pub use real::Real;
 pub use solver::{Criterion, Iteration, Method, Report, Settings, Solution, Solver, Status};
 pub use stability::{Departure, Stability, StabilityTest, Verdict};
-pub use surface::{Amplitude, Psd, SelfAffine, Spectrum, Surface, SurfaceStatistics};
+pub use surface::{Amplitude, Fit, Psd, SelfAffine, Spectrum, Surface, SurfaceStatistics, Topography, Trend};
 pub use sweep::Sweep;
 
 /// Runs the code of the README as a test.

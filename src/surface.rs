@@ -10,11 +10,13 @@ mod philox;
 mod self_affine;
 mod spectrum;
 mod statistics;
+mod topography;
 
 pub(crate) use philox::uniform;
 pub use self_affine::{Amplitude, SelfAffine};
 pub use spectrum::{Psd, Spectrum};
 pub use statistics::SurfaceStatistics;
+pub use topography::{Fit, Topography, Trend};
 
 /// The heights of the rigid rough surface on a grid: peaks have the larger height.
 ///

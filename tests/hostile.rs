@@ -47,7 +47,7 @@ const NUMBERS: [&str; 14] = [
 ];
 
 /// What is put into headers and texts.
-const PIECES: [&str; 22] = [
+const PIECES: [&str; 29] = [
     "'descr': '<f8'",
     "'shape': (",
     ")",
@@ -70,6 +70,13 @@ const PIECES: [&str; 22] = [
     "PK\x03\x04",
     "PK\x01\x02",
     "PK\x05\x06",
+    "Gwyddion Simple Field 1.0\n",
+    "XRes = 4\nYRes = 3\n",
+    "XReal = 1e-6\nYReal = 1e-6\n",
+    "XYUnits = nm\nZUnits = V\n",
+    "# Width: 1 nm\n# Height: 1 nm\n# Value units: m\n",
+    "'descr': '<U4', 'fortran_order': False, 'shape': ()",
+    "1 1 1\n",
 ];
 
 /// One or more changes to a file of the corpus, or something made from nothing.
@@ -168,11 +175,12 @@ fn wrong(path: &Path, bytes: &[u8]) -> Option<String> {
 fn attack(seeds: impl Iterator<Item = u64>, until: impl Fn() -> bool) -> u64 {
     let (corpus, folder) = (corpus(), tempfile::tempdir().unwrap());
     assert!(corpus.len() >= 10);
-    let path = folder.path().join("heights");
+    let (path, points) = (folder.path().join("heights"), folder.path().join("heights.xyz"));
     let (mut count, mut found) = (0, Vec::new());
     for seed in seeds {
         let bytes = mutated(&mut ChaCha8Rng::seed_from_u64(seed), &corpus);
-        if let Some(wrong) = wrong(&path, &bytes) {
+        // the only format that goes by the name of the file
+        if let Some(wrong) = wrong(if seed % 4 == 0 { &points } else { &path }, &bytes) {
             found.push(format!("seed {seed}: {wrong}"));
         }
         count += 1;
@@ -264,15 +272,17 @@ mod tool {
         }
     }
 
-    const COMMANDS: [&str; 5] = [
+    const COMMANDS: [&str; 7] = [
         "solve --heights heights.npy --mean-gap 0.0398",
         "solve --heights heights.npy --mean-pressure 1e-3 --no-pictures",
         "sweep --heights heights.npy --mean-gaps 0.04:0.03:3",
         "surface --size 16 --rms-slope 0.1 --k-s 6",
         "stats heights.npy",
+        "prepare heights.npy --detrend plane --fill --window 0.2",
+        "prepare heights.npy --crop 1 2 9 8 --mirror --resample 20 30",
     ];
 
-    const OPTIONS: [&str; 34] = [
+    const OPTIONS: [&str; 43] = [
         "--heights",
         "--lengths",
         "--modulus",
@@ -304,6 +314,15 @@ mod tool {
         "--seed",
         "--psd",
         "--random-phase",
+        "--scale",
+        "--unit",
+        "--crop",
+        "--flip",
+        "--detrend",
+        "--mirror",
+        "--window",
+        "--resample",
+        "--format",
         "--",
         "--help",
         "-",
@@ -389,9 +408,21 @@ mod tool {
         let bench = bench(16);
         for (name, bytes) in corpus() {
             fs::write(bench.path().join(&name), bytes).unwrap();
-            for command in [format!("stats {name}"), format!("solve --heights {name} --mean-gap 0.1 --out out --force")]
-            {
-                let output = limited(bench.path(), GIGABYTE / 2, "200000", &words(&format!("{command} --threads 1")));
+            for command in [
+                format!("stats {name}"),
+                format!("solve --heights {name} --mean-gap 0.1 --out out --force"),
+                format!("prepare {name} --detrend quadric --fill --mirror --resample 5 7 --out out.npz --force"),
+            ] {
+                let output = limited(
+                    bench.path(),
+                    GIGABYTE / 2,
+                    "200000",
+                    &words(&if command.starts_with("prepare") {
+                        command.clone()
+                    } else {
+                        format!("{command} --threads 1")
+                    }),
+                );
                 assert_orderly(&output, &command);
             }
         }

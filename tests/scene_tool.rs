@@ -105,6 +105,12 @@ fn a_solve_leaves_a_scene_that_repeats_it() {
         bench.said("run link/scene.toml --force --quiet");
         assert_eq!(bench.read("link/scene.toml"), scene);
     }
+    // whatever the files
+    bench.said("run second/scene.toml --format npz,vti --no-pictures --out archives --quiet");
+    bench.said("run archives/scene.toml --out archives-again --quiet");
+    for name in ["fields.npz", "fields.vti"] {
+        assert!(bench.bytes(&format!("archives/{name}")) == bench.bytes(&format!("archives-again/{name}")), "{name}");
+    }
     let absolute = bench.0.path().join("heights.npy");
     bench.said(&format!("solve --heights {} --mean-gap 0.02 --no-pictures --quiet --out absolute", absolute.display()));
     let scene = bench.read("absolute/scene.toml");
@@ -293,6 +299,7 @@ fn reports_are_one_document_whose_keys_are_documented() {
         ),
         ("surface --size 32 --k-s 10 --rms-slope 0.1 --out other.npy".to_owned(), vec!["rms_slope", "seed"]),
         ("stats heights.npy".to_owned(), vec!["rms_height", "nayak"]),
+        ("prepare heights.npy --flip --out flipped.npz".to_owned(), vec!["input", "steps", "lengths"]),
     ] {
         let report = bench.reported(&arguments);
         assert!(expected.iter().all(|key| report.get(key).is_some()), "{arguments}: {report}");

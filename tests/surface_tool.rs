@@ -203,7 +203,7 @@ fn bad_input_is_refused_on_one_line_and_writes_nothing() {
         ("surface --size 64 --k-s 20 --rms-slope 0 --out n.npy".to_owned(), vec!["--rms-slope", "'0'", "positive"]),
         ("stats".to_owned(), vec!["FILE"]),
         ("stats nothing.npy".to_owned(), vec!["nothing.npy", "does not exist"]),
-        ("stats wave.txt".to_owned(), vec!["1 of 8", "[1, 3]", "fill missing points"]),
+        ("stats wave.txt".to_owned(), vec!["2 x 4 heights, 1 missing", "[1, 3]", "asperity prepare wave.txt --fill"]),
         ("stats wave.txt --psd old.npy".to_owned(), vec!["old.npy", "exists", "--force"]),
         ("stats wave.txt --lengths -1".to_owned(), vec!["--lengths", "-1", "positive"]),
     ] {
@@ -223,7 +223,7 @@ fn help_has_examples() {
     for (arguments, parts) in [
         ("--help", vec!["surface", "stats"]),
         ("surface --help", vec!["--rms-slope", "k^(-2-2H)", "[default: 64]", "Examples", "--shape 4096 1"]),
-        ("stats --help", vec!["FILE", "--psd", "Examples", "[default: 1 1]"]),
+        ("stats --help", vec!["FILE", "--psd", "Examples", "[default: the file's, else 1 1]"]),
     ] {
         let help = bench.said(arguments).split_whitespace().collect::<Vec<_>>().join(" ");
         assert!(parts.iter().all(|part| help.contains(part)), "{arguments}: {help}");

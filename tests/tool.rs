@@ -461,7 +461,10 @@ fn bad_input_is_refused_on_one_line_and_writes_nothing() {
         ("--mean-gap 1".to_owned(), vec!["--heights"]),
         ("--heights nothing.npy --mean-gap 1".to_owned(), vec!["nothing.npy", "does not exist", "check the path"]),
         ("--heights words.txt --mean-gap 1".to_owned(), vec!["words.txt", "line 1", "\"one\"", "expected"]),
-        ("--heights missing.npy --mean-gap 1".to_owned(), vec!["2 of 64", "[3, 5]", "fill missing points"]),
+        (
+            "--heights missing.npy --mean-gap 1".to_owned(),
+            vec!["8 x 8 heights, 2 missing", "[3, 5]", "asperity prepare missing.npy --fill"],
+        ),
     ] {
         let output = bench.run(&format!("solve {arguments} --out new/results"));
         let error = text(&output.stderr);
@@ -539,7 +542,13 @@ fn help_and_version() {
         ("demo --help", vec!["--out", "asperity-demo"]),
         (
             "solve --help",
-            vec!["--heights", "[default: 1 1]", "[default: 1e-6, in f32 1e-5]", "Examples", "--range 1e-9"],
+            vec![
+                "--heights",
+                "[default: the file's, else 1 1]",
+                "[default: 1e-6, in f32 1e-5]",
+                "Examples",
+                "--range 1e-9",
+            ],
         ),
         ("--version", vec![env!("CARGO_PKG_VERSION")]),
     ] {

@@ -1,59 +1,22 @@
-use std::fs::File;
-use std::io::{BufReader, Read};
-
-use ndarray::Array2;
-use zip::ZipArchive;
+use std::io::Read;
 
 use super::{DAMAGED, Parsed, TRUNCATED, quoted, unreadable};
+use ndarray::Array2;
 
 pub(super) const NPY: &[u8] = b"\x93NUMPY";
-/// How a zip file starts: with its first entry, or with its end if it has none.
-pub(super) const ZIP: [&[u8]; 2] = [b"PK\x03\x04", b"PK\x05\x06"];
-/// Deflate cannot do better than this: a zip entry that claims more is damaged.
-const MAX_COMPRESSION: u64 = 1032;
+const HEADER: &str = "has a .npy header that cannot be understood: save it again with numpy.save";
+/// Characters of a unit; far more than any has.
+const LONGEST: u64 = 64;
 /// Numbers converted at a time, so that a file and its array are never both in memory.
 const CHUNK: usize = 8192;
 
 /// The width in bytes of a stored value, and how to take one from its bytes in little-endian order.
 type Decoder = (usize, fn(&[u8]) -> f64);
 
-/// Reads the only array of an archive of `size` bytes.
-pub(super) fn read_npz(reader: BufReader<File>, size: u64) -> Parsed<Array2<f64>> {
-    let damaged = |e| format!("is not a .npz file that can be read ({e}): copy or save it again");
-    let mut archive = ZipArchive::new(reader).map_err(damaged)?;
-    if archive.len() != 1 {
-        let names = archive.file_names().take(10).map(|name| quoted(name.strip_suffix(".npy").unwrap_or(name)));
-        let (count, names) = (archive.len(), names.collect::<Vec<_>>().join(", "));
-        return Err(format!("holds {count} arrays ({names}), expected one: save the heights alone, as .npy or .npz"));
-    }
-    let mut entry = archive.by_index(0).map_err(damaged)?;
-    let entry_size = entry.size();
-    if entry_size / MAX_COMPRESSION > size { Err(DAMAGED.to_owned()) } else { read_npy(&mut entry, entry_size) }
-}
-
 /// Reads a `.npy` array that takes `size` bytes, which bounds what its header may make us allocate.
 pub(super) fn read_npy(reader: &mut impl Read, size: u64) -> Parsed<Array2<f64>> {
-    let mut start = [0; 8];
-    reader.read_exact(&mut start).map_err(unreadable)?;
-    if !start.starts_with(NPY) {
-        return Err("holds something else than a .npy array: save the heights with numpy.save or savez".to_owned());
-    }
-    let prefix = match start[6] {
-        1 => 2,
-        2 | 3 => 4,
-        version => return Err(format!("is .npy of version {version}, expected 1 to 3: save it again with numpy.save")),
-    };
-    let mut length = [0; 4];
-    reader.read_exact(&mut length[..prefix]).map_err(unreadable)?;
-    let length = u32::from_le_bytes(length);
-    let Some(data_size) = size.checked_sub(8 + prefix as u64 + u64::from(length)) else {
-        return Err(TRUNCATED.to_owned());
-    };
-    let mut header = vec![0; length as usize];
-    reader.read_exact(&mut header).map_err(unreadable)?;
-    let header = String::from_utf8_lossy(&header);
-    let (dtype, fortran, shape) =
-        parse_header(&header).ok_or("has a .npy header that cannot be understood: save it again with numpy.save")?;
+    let (header, data_size) = read_header(reader, size)?;
+    let (dtype, fortran, shape) = parse_header(&header).ok_or(HEADER)?;
     let Some(decoder) = decoder(dtype) else {
         let dtype = quoted(dtype);
         return Err(format!(
@@ -82,6 +45,53 @@ pub(super) fn read_npy(reader: &mut impl Read, size: u64) -> Parsed<Array2<f64>>
     } else {
         Array2::from_shape_vec((rows, columns), values).map_err(|e| e.to_string())
     }
+}
+
+/// Reads a `.npy` text, of no dimension, that takes `size` bytes.
+pub(super) fn read_npy_text(reader: &mut impl Read, size: u64) -> Parsed<String> {
+    let (header, data_size) = read_header(reader, size)?;
+    let (dtype, _, shape) = parse_header(&header).ok_or(HEADER)?;
+    let characters = dtype.strip_prefix("<U").and_then(|n| n.parse::<u64>().ok()).filter(|n| *n <= LONGEST);
+    if !shape.is_empty() || characters.and_then(|n| n.checked_mul(4)) != Some(data_size) {
+        return Err(format!("has a unit of dtype {}, expected a text: save it as numpy.array(\"m\")", quoted(dtype)));
+    }
+    let mut text = vec![0; data_size as usize];
+    reader.read_exact(&mut text).map_err(unreadable)?;
+    let characters = text.as_chunks().0.iter().map(|bytes| char::from_u32(u32::from_le_bytes(*bytes)));
+    characters.take_while(|c| *c != Some('\0')).collect::<Option<String>>().ok_or_else(|| DAMAGED.to_owned())
+}
+
+/// A text without dimensions in the form of `.npy`, of version 1.
+pub(super) fn text_as_npy(text: &str) -> Vec<u8> {
+    let dictionary = format!("{{'descr': '<U{}', 'fortran_order': False, 'shape': (), }}", text.chars().count());
+    // the data start at a multiple of 64 bytes
+    let header = format!("{dictionary:width$}\n", width = (dictionary.len() + 11).next_multiple_of(64) - 11);
+    let length = (header.len() as u16).to_le_bytes();
+    let characters = text.chars().flat_map(|c| u32::from(c).to_le_bytes());
+    [NPY, &[1, 0], &length, header.as_bytes()].concat().into_iter().chain(characters).collect()
+}
+
+/// Reads the dictionary of an array that takes `size` bytes, and finds how many bytes of data follow.
+fn read_header(reader: &mut impl Read, size: u64) -> Parsed<(String, u64)> {
+    let mut start = [0; 8];
+    reader.read_exact(&mut start).map_err(unreadable)?;
+    if !start.starts_with(NPY) {
+        return Err("holds something else than a .npy array: save the heights with numpy.save or savez".to_owned());
+    }
+    let prefix = match start[6] {
+        1 => 2,
+        2 | 3 => 4,
+        version => return Err(format!("is .npy of version {version}, expected 1 to 3: save it again with numpy.save")),
+    };
+    let mut length = [0; 4];
+    reader.read_exact(&mut length[..prefix]).map_err(unreadable)?;
+    let length = u32::from_le_bytes(length);
+    let Some(data_size) = size.checked_sub(8 + prefix as u64 + u64::from(length)) else {
+        return Err(TRUNCATED.to_owned());
+    };
+    let mut header = vec![0; length as usize];
+    reader.read_exact(&mut header).map_err(unreadable)?;
+    Ok((String::from_utf8(header).unwrap_or_else(|e| String::from_utf8_lossy(e.as_bytes()).into_owned()), data_size))
 }
 
 /// Reads the rest of `reader`, `count` values, each with its bytes `reversed` if they are big-endian.
@@ -150,17 +160,13 @@ fn decoder(dtype: &str) -> Option<Decoder> {
 }
 
 #[cfg(test)]
-mod tests {
-    use std::io::{Cursor, Write};
-
+pub(super) mod tests {
     use ndarray::array;
-    use zip::write::SimpleFileOptions;
-    use zip::{CompressionMethod, ZipWriter};
 
-    use super::super::tests::{assert_refused, read, reason};
+    use super::super::tests::{assert_refused, read};
     use super::*;
 
-    fn npy(dtype: &str, fortran: &str, shape: &str, data: &[u8]) -> Vec<u8> {
+    pub fn npy(dtype: &str, fortran: &str, shape: &str, data: &[u8]) -> Vec<u8> {
         npy_from(&format!("{{'descr': {dtype}, 'fortran_order': {fortran}, 'shape': {shape}, }}"), data)
     }
 
@@ -170,16 +176,7 @@ mod tests {
         [NPY, &[1, 0], &length, header.as_bytes(), data].concat()
     }
 
-    fn npz(method: CompressionMethod, entries: &[(&str, &[u8])]) -> Vec<u8> {
-        let mut zip = ZipWriter::new(Cursor::new(Vec::new()));
-        for (name, bytes) in entries {
-            zip.start_file(*name, SimpleFileOptions::default().compression_method(method)).unwrap();
-            zip.write_all(bytes).unwrap();
-        }
-        zip.finish().unwrap().into_inner()
-    }
-
-    fn f8(values: &[f64]) -> Vec<u8> {
+    pub fn f8(values: &[f64]) -> Vec<u8> {
         values.iter().flat_map(|v| v.to_le_bytes()).collect()
     }
 
@@ -308,71 +305,5 @@ mod tests {
         assert_refused(read(npy_from(&format!("{{'descr': {nested}"), &[])), &["dtype \"((", "...\""]);
         assert_refused(read(npy_from("{'descr': '\n\x1b[31m'", &[])), &["header"]);
         assert_refused(read(npy("'\n\x1b[31m'", "False", "(1,)", &[0; 8])), &["dtype \"\\n\\u{1b}[31m\""]);
-    }
-
-    #[test]
-    fn npz_with_one_array() {
-        let heights = npy("'>i2'", "False", "(1, 2)", &[1, 0, 255, 255]);
-        for method in [CompressionMethod::Stored, CompressionMethod::Deflated] {
-            assert_eq!(read(npz(method, &[("heights.npy", &heights)])).unwrap(), array![[256.0, -1.0]]);
-            // All zeros compress as well as anything does.
-            let zeros = npy("'<f8'", "False", "(1000, 1000)", &[0; 8_000_000]);
-            assert_eq!(read(npz(method, &[("heights.npy", &zeros)])).unwrap(), Array2::zeros((1000, 1000)));
-        }
-    }
-
-    #[test]
-    fn npz_with_another_content_is_refused() {
-        let method = CompressionMethod::Stored;
-        let heights = npy("'<f8'", "False", "(1,)", &f8(&[1.0]));
-        let two = npz(method, &[("heights.npy", &heights), ("x.npy", &heights)]);
-        assert_refused(read(two), &["2 arrays", "\"heights\"", "\"x\"", "save the heights alone"]);
-        let names: Vec<_> = (0..50).map(|i| format!("array{i}.npy")).collect();
-        let many: Vec<_> = names.iter().map(|name| (&name[..], &heights[..])).collect();
-        assert!(reason(read(npz(method, &many))).len() < 300);
-        assert_refused(read(npz(method, &[])), &["0 arrays", "expected one"]);
-        assert_refused(read(npz(method, &[("notes.txt", b"no array")])), &["something else than a .npy array"]);
-        assert_refused(read(npz(method, &[("empty.npy", b"")])), &["truncated"]);
-        let complex = npy("'<c16'", "False", "(1,)", &[0; 16]);
-        assert_refused(read(npz(method, &[("heights.npy", &complex)])), &["dtype \"<c16\""]);
-        let bomb = npy("'<f8'", "False", "(1000000, 1000000)", &[]);
-        assert_refused(read(npz(method, &[("heights.npy", &bomb)])), &["0 bytes of data", "truncated"]);
-        assert_refused(read(b"PK\x03\x04 and then something else"), &["not a .npz file"]);
-    }
-
-    #[test]
-    fn damaged_npz_is_refused_without_panic() {
-        let heights = npy("'<f8'", "False", "(2,)", &f8(&[1.5, 2.5]));
-        for method in [CompressionMethod::Stored, CompressionMethod::Deflated] {
-            let file = npz(method, &[("heights.npy", &heights)]);
-            for length in 0..file.len() {
-                assert!(read(&file[..length]).is_err(), "{length}");
-            }
-            for position in 0..file.len() {
-                for flip in [1, 0x80, 0xff] {
-                    let mut damaged = file.clone();
-                    damaged[position] ^= flip;
-                    // Some bytes, as the date, do not matter; the values never change unnoticed.
-                    if let Ok(field) = read(damaged) {
-                        assert_eq!(field, array![[1.5], [2.5]], "{position}");
-                    }
-                }
-            }
-        }
-    }
-
-    #[test]
-    fn npz_that_claims_a_huge_entry_is_refused() {
-        let bomb = npy("'<f8'", "False", "(100000000,)", &[0; 8]);
-        for method in [CompressionMethod::Stored, CompressionMethod::Deflated] {
-            let mut file = npz(method, &[("heights.npy", &bomb)]);
-            let claimed = (bomb.len() as u32 - 8 + 800_000_000).to_le_bytes();
-            let local = 22;
-            let central = file.windows(4).rposition(|w| w == b"PK\x01\x02").unwrap() + 24;
-            for position in [local, central] {
-                file[position..position + 4].copy_from_slice(&claimed);
-            }
-            assert_refused(read(file), &["is damaged"]);
-        }
     }
 }

@@ -122,12 +122,12 @@ const COLUMNS: [&str; 18] = [
 pub fn run(options: &Options, echo: &Echo) -> Outcome<bool> {
     options.adhesion.check()?;
     options.check_files()?;
-    let surface = options.surface.surface()?;
+    let (surface, unit) = options.surface.surface_and_unit()?;
     let start = options.solver.start(surface.grid())?;
     let threads = run::use_threads(options.solver.threads)?;
     match options.solver.precision {
-        Precision::F32 => options.run::<f32>(surface, start, echo, threads),
-        Precision::F64 => options.run::<f64>(surface, start, echo, threads),
+        Precision::F32 => options.run::<f32>(surface, start, unit, echo, threads),
+        Precision::F64 => options.run::<f64>(surface, start, unit, echo, threads),
     }
 }
 
@@ -136,6 +136,7 @@ impl Options {
         &self,
         surface: Surface,
         start: Option<Array2<f64>>,
+        unit: Option<String>,
         echo: &Echo,
         threads: usize,
     ) -> Outcome<bool> {
@@ -191,8 +192,9 @@ impl Options {
             resolution = Some(report.clone()).filter(|report| report.under_resolved);
         }
         drop(path);
-        let inputs = inputs::inputs(&self.surface, &self.adhesion, &self.solver, &grid, threads);
-        self.conclude(&journal, inputs)?;
+        let unit = self.length_unit.as_deref().or(unit.as_deref());
+        let inputs = inputs::inputs(&self.surface, &self.adhesion, &self.solver, &grid, unit, threads);
+        self.conclude(&journal, unit, inputs)?;
         if let Some(report) = resolution {
             warn_of_resolution("", &report, self.adhesion.range.unwrap_or_default());
         }
@@ -245,7 +247,7 @@ impl Options {
     }
 
     /// Says what the cycle comes to, by all of its rows, and draws it.
-    fn conclude(&self, journal: &Journal, inputs: Map<String, Value>) -> Outcome<()> {
+    fn conclude(&self, journal: &Journal, unit: Option<&str>, inputs: Map<String, Value>) -> Outcome<()> {
         let text = fs::read_to_string(&self.out).map_err(|e| Error::file(&self.out, format!("cannot be read: {e}")))?;
         let rows: Vec<Vec<&str>> = text.lines().skip(1).map(|row| row.split(',').collect()).collect();
         let column = |name: &str| COLUMNS.iter().position(|column| *column == name).unwrap_or_default();
@@ -315,7 +317,7 @@ impl Options {
         let chart = Chart {
             title: "Mean pressure over mean gap",
             x_label: "mean gap",
-            x_unit: self.length_unit.as_deref(),
+            x_unit: unit,
             y_label: "mean pressure",
             y_unit: self.pressure_unit.as_deref(),
             curves: names.iter().map(String::as_str).zip(curves.into_iter().map(|(_, points)| points)).collect(),

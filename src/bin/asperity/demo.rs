@@ -113,8 +113,8 @@ pub fn run(options: &Options) -> Outcome<bool> {
     printing.report(|| {
         json!({
             "command": "demo",
-            "without_adhesion": bare_options.report(grid, &without, threads),
-            "with_adhesion": sticky_options.report(grid, &with, threads),
+            "without_adhesion": bare_options.report(grid, &without, UNITS.length, threads),
+            "with_adhesion": sticky_options.report(grid, &with, UNITS.length, threads),
         })
     });
     warn("without adhesion", &without, &case, 0.0);

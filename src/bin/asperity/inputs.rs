@@ -11,6 +11,7 @@ pub fn inputs(
     adhesion: &AdhesionOptions,
     solver: &SolverOptions,
     grid: &Grid,
+    length_unit: Option<&str>,
     threads: usize,
 ) -> Map<String, Value> {
     let settings = solver.settings();
@@ -19,6 +20,7 @@ pub fn inputs(
         "initial_gap": solver.initial_gap.as_deref().map(Path::to_string_lossy),
         "shape": grid.shape(),
         "lengths": grid.lengths(),
+        "length_unit": length_unit,
         "modulus": surface.modulus,
         "law": adhesion.law.to_string(),
         "work_of_adhesion": adhesion.work_of_adhesion,

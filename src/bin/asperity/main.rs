@@ -1,16 +1,18 @@
 //! The command-line tool: `asperity demo` shows what the library does, `asperity solve` does it on files,
-//! `asperity sweep` under many loads and `asperity cycle` through jumps; `asperity surface` makes such files and `asperity stats` measures them.
-//! `asperity run` does any of it from a scene file, as every run leaves one.
+//! `asperity sweep` under many loads and `asperity cycle` through jumps; `asperity surface` makes such files, `asperity prepare` makes them of
+//! measured maps, and `asperity stats` measures them. `asperity run` does any of it from a scene file, as every run leaves one.
 
 mod completions;
 mod cycle;
 mod demo;
 mod echo;
+mod input;
 mod inputs;
 mod journal;
 mod loads;
 mod options;
 mod output;
+mod prepare;
 mod printing;
 mod progress;
 mod report;
@@ -49,6 +51,7 @@ const EXAMPLES: &str = "\
   asperity demo
   asperity surface --size 512 --rms-slope 0.1 --out heights.npy
   asperity stats heights.npy
+  asperity prepare measured.gsf --detrend plane --fill --mirror --out surface.npz
   asperity solve --heights heights.npy --mean-pressure 0.01 --out results
   asperity run results/scene.toml --mean-pressure 0.02 --out more
   asperity sweep --heights heights.npy --mean-pressures 1e-3:1e-1:20:log --out sweep.csv
@@ -63,6 +66,7 @@ enum Command {
     Sweep(Box<sweep::Options>),
     Cycle(Box<cycle::Options>),
     Run(scene::Options),
+    Prepare(prepare::Options),
     Surface(surface::Options),
     Stats(stats::Options),
     Completions(completions::Options),
@@ -108,6 +112,7 @@ fn execute(command: Command, echo: &Echo) -> ExitCode {
         Command::Solve(options) => solve::run(&options, echo),
         Command::Sweep(options) => sweep::run(&options, echo),
         Command::Cycle(options) => cycle::run(&options, echo),
+        Command::Prepare(options) => prepare::run(&options, echo),
         Command::Surface(options) => surface::run(&options, echo),
         Command::Stats(options) => stats::run(&options),
         Command::Completions(options) => completions::run(&options, Tool::command()),

@@ -8,15 +8,16 @@ use asperity::{AdhesionLaw, Criterion, Error, Exponential, Grid, MaugisDugdale, 
 use clap::{Args, ValueEnum};
 use ndarray::Array2;
 
-use crate::Outcome;
+use crate::{Outcome, input};
 
 /// The surface, and what it is pressed against.
 #[derive(Args)]
 pub struct SurfaceOptions {
-    /// Heights of the rough surface, shape (Nx, Ny), peaks up: .npy, .npz with one array, or a text matrix
+    /// Heights of the rough surface, shape (Nx, Ny), peaks up: .npy, .npz, .gsf (Gwyddion), .xyz, Gwyddion's text export, or
+    /// a text matrix
     #[arg(long, value_name = "FILE", help_heading = "Surface")]
     pub heights: PathBuf,
-    /// Side lengths of the map, in the unit of the heights; LX alone means square cells [default: 1 1]
+    /// Side lengths of the map, in the unit of the heights; LX alone means square cells [default: the file's, else 1 1]
     #[arg(long, value_names = ["LX", "LY"], num_args = 1..=2, allow_negative_numbers = true, value_parser = positive)]
     #[arg(help_heading = "Surface")]
     pub lengths: Option<Vec<f64>>,
@@ -86,16 +87,9 @@ pub enum Precision {
 }
 
 impl SurfaceOptions {
-    /// The surface of the file.
-    pub fn surface(&self) -> Outcome<Surface> {
-        let heights = read_field(&self.heights)?;
-        let (nx, ny) = heights.dim();
-        let lengths = match self.lengths.as_deref() {
-            None => (1.0, 1.0),
-            Some([lx]) => (*lx, lx / nx as f64 * ny as f64),
-            Some(lengths) => (lengths[0], lengths[1]),
-        };
-        Ok(Surface::new(Grid::new((nx, ny), lengths)?, heights)?)
+    /// The surface of the file, and its unit of length if the file has one.
+    pub fn surface_and_unit(&self) -> Outcome<(Surface, Option<String>)> {
+        input::surface(&self.heights, input::map(&self.heights, self.lengths.as_deref())?)
     }
 }
 
@@ -189,5 +183,13 @@ pub fn threads(text: &str) -> Result<usize, String> {
     match text.parse() {
         Ok(threads @ 1..=1024) => Ok(threads),
         _ => Err("it must be from 1 to 1024; leave the option out for one per core".to_owned()),
+    }
+}
+
+/// How many nodes along a side; more than the solver could ever hold are a slip of the pen.
+pub fn nodes(text: &str) -> Result<usize, String> {
+    match text.parse() {
+        Ok(nodes @ 1..=16_777_216) => Ok(nodes),
+        _ => Err("it must be a whole number from 1 to 16777216".to_owned()),
     }
 }

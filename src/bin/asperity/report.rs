@@ -147,7 +147,7 @@ pub fn percent(share: f64) -> String {
 }
 
 /// A number to seven digits.
-fn plain(value: f64) -> String {
+pub fn plain(value: f64) -> String {
     let magnitude = value.abs();
     if value == 0.0 {
         return "0".to_owned();

@@ -11,8 +11,8 @@ use crate::echo::{is_path, key, section};
 
 /// Do what a scene file says.
 ///
-/// A scene is a TOML file with the name of a command (solve, sweep, cycle, surface, stats or demo) and its options by their
-/// long names, without the hyphens in front. Numbers, words and lists are written as TOML has them, an option without a value is set
+/// A scene is a TOML file with the name of a command (solve, sweep, cycle, prepare, surface, stats or demo) and its
+/// options by their long names, without the hyphens in front. Numbers, words and lists are written as TOML has them, an option without a value is set
 /// by true. Options may stand in sections, named as in the help of the command. File names are relative to the scene.
 /// Options after the name of the scene replace those in it.
 ///
@@ -47,7 +47,7 @@ const EXAMPLES: &str = "\
     asperity run sweep.csv.scene.toml";
 
 /// The commands that a scene may have.
-const COMMANDS: [&str; 6] = ["solve", "sweep", "cycle", "surface", "stats", "demo"];
+const COMMANDS: [&str; 7] = ["solve", "sweep", "cycle", "prepare", "surface", "stats", "demo"];
 
 /// The arguments for which a scene stands.
 pub struct Scene {

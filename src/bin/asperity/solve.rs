@@ -1,9 +1,9 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use asperity::io::{OutputFolder, write_npy};
+use asperity::io::{OutputFolder, write_npy, write_npz, write_vti};
 use asperity::{Control, Error, Grid, Level, Status, Surface};
-use clap::{ArgGroup, Args};
+use clap::{ArgGroup, Args, ValueEnum};
 use ndarray::Array2;
 use serde_json::{Value, json};
 
@@ -18,10 +18,11 @@ use crate::{Outcome, say};
 
 /// Solve a contact problem given by files.
 ///
-/// All quantities are in any consistent units, as m, Pa and J/m². Writes gap.npy, pressure.npy (the full elastic
-/// pressure, compression positive), contact_pressure.npy (its repulsive part), report.json, contact.png, pressure.png, and
-/// scene.toml, which repeats the run, all or none. Exits with 0 if converged, 2 if not (the fields are written all the
-/// same), and 1 if the input is refused or the files cannot be written (then there are none).
+/// All quantities are in any consistent units, as m, Pa and J/m²; heights of files with units of length are in m. Writes
+/// gap.npy, pressure.npy (the full elastic pressure, compression positive) and contact_pressure.npy (its repulsive part),
+/// or files as --format says, report.json, contact.png, pressure.png, and scene.toml, which repeats the run, all or none.
+/// Exits with 0 if converged, 2 if not (the fields are written all the same), and 1 if the input is refused or the files
+/// cannot be written (then there are none).
 #[derive(Args)]
 #[command(after_help = EXAMPLES, group(ArgGroup::new("load").required(true).args(["mean_gap", "mean_pressure"])))]
 pub struct Options {
@@ -55,6 +56,16 @@ pub struct Options {
     /// Go on from an equilibrium that is unstable to one that is not, and say how far the energy falls; implies --stability
     #[arg(long, help_heading = "Output", conflicts_with = "nested")]
     leave: bool,
+    /// Files for the fields: .npy one each, all in fields.npz for numpy, or in fields.vti for ParaView; may be repeated
+    #[arg(
+        long,
+        value_enum,
+        value_name = "FORMAT",
+        default_value = "npy",
+        value_delimiter = ',',
+        help_heading = "Output"
+    )]
+    format: Vec<Format>,
     #[command(flatten)]
     printing: Printing,
     /// Write no .png files
@@ -84,8 +95,18 @@ const EXAMPLES: &str = "\
       --law exponential --work-of-adhesion 0.05 --range 1e-9 \\
       --mean-pressure -1e4 --initial-gap sticky/gap.npy --out pulled";
 
-const FIELDS: [&str; 5] = ["gap.npy", "pressure.npy", "contact_pressure.npy", "report.json", echo::NAME];
+#[derive(Clone, Copy, PartialEq, ValueEnum)]
+enum Format {
+    Npy,
+    Npz,
+    Vti,
+}
+
+const FIELDS: [&str; 3] = ["gap.npy", "pressure.npy", "contact_pressure.npy"];
 const MODE: &str = "mode.npy";
+const NPZ: &str = "fields.npz";
+const VTI: &str = "fields.vti";
+const REPORT: &str = "report.json";
 const PICTURES: [&str; 2] = ["contact.png", "pressure.png"];
 
 /// Runs the command; whether it converged.
@@ -93,13 +114,18 @@ pub fn run(options: &Options, echo: &Echo) -> Outcome<bool> {
     options.adhesion.check()?;
     let pictures = PICTURES.iter().filter(|_| !options.no_pictures);
     let mode = options.case().stability.then_some(&MODE);
-    let names: Vec<_> = FIELDS.iter().chain(mode).chain(pictures).copied().collect();
+    let arrays = FIELDS.iter().chain(mode).filter(|_| options.writes(Format::Npy));
+    let archives = [(Format::Npz, &NPZ), (Format::Vti, &VTI)].into_iter().filter(|(format, _)| options.writes(*format));
+    let fields = arrays.chain(archives.map(|(_, name)| name));
+    let names: Vec<_> = fields.chain([&REPORT, &echo::NAME]).chain(pictures).copied().collect();
     Echo::check(&options.out.join(echo::NAME))?;
     // Only a trial: a solve that is interrupted leaves nothing behind.
     drop(OutputFolder::create(&options.out, &names, options.force)?);
-    let surface = options.surface.surface()?;
+    let (surface, unit) = options.surface.surface_and_unit()?;
     let start = options.solver.start(surface.grid())?;
-    let job = Job { options, echo, names, threads: run::use_threads(options.solver.threads)?, case: options.case() };
+    let length_unit = options.length_unit.clone().or(unit);
+    let threads = run::use_threads(options.solver.threads)?;
+    let job = Job { options, echo, names, threads, case: options.case(), length_unit };
     match options.solver.precision {
         Precision::F32 => job.run::<f32>(surface, start),
         Precision::F64 => job.run::<f64>(surface, start),
@@ -107,6 +133,10 @@ pub fn run(options: &Options, echo: &Echo) -> Outcome<bool> {
 }
 
 impl Options {
+    fn writes(&self, format: Format) -> bool {
+        self.format.contains(&format)
+    }
+
     pub fn case(&self) -> Case {
         let control = match (self.mean_gap, self.mean_pressure) {
             (Some(gap), _) => Control::MeanGap(gap),
@@ -117,7 +147,7 @@ impl Options {
     }
 
     /// All that one needs for understanding a run later; numbers that are not finite become null.
-    pub fn report(&self, grid: Grid, account: &Account, threads: usize) -> Value {
+    pub fn report(&self, grid: Grid, account: &Account, length_unit: Option<&str>, threads: usize) -> Value {
         let (case, report) = (self.case(), &account.report);
         let (control, held) = match case.control {
             Control::MeanGap(gap) => ("mean-gap", gap),
@@ -159,7 +189,7 @@ impl Options {
             "control_value": held,
         });
         let Self { surface, adhesion, solver, .. } = self;
-        inputs::report("solve", outcome, inputs::inputs(surface, adhesion, solver, &grid, threads))
+        inputs::report("solve", outcome, inputs::inputs(surface, adhesion, solver, &grid, length_unit, threads))
     }
 }
 
@@ -170,6 +200,7 @@ struct Job<'a> {
     names: Vec<&'static str>,
     threads: usize,
     case: Case,
+    length_unit: Option<String>,
 }
 
 impl Job<'_> {
@@ -195,9 +226,13 @@ impl Job<'_> {
             say(&table(&[], &[&account], Style::Plain));
             say(&format!("results in {}: {}", out.display(), self.names.join(", ")));
         }
-        printing.report(|| self.options.report(grid, &account, self.threads));
+        printing.report(|| self.report(grid, &account));
         warn("", &account, &self.case, self.options.adhesion.range.unwrap_or_default());
         Ok(account.report.status == Status::Converged)
+    }
+
+    fn report(&self, grid: Grid, account: &Account) -> Value {
+        self.options.report(grid, account, self.length_unit.as_deref(), self.threads)
     }
 
     fn write<T: Scalar>(
@@ -208,17 +243,25 @@ impl Job<'_> {
         account: &Account,
     ) -> asperity::Result<()> {
         let path = |name: &str| folder.path(name);
-        write_npy(&path("gap.npy"), &solution.gap)?;
-        write_npy(&path("pressure.npy"), &solution.pressure)?;
-        write_npy(&path("contact_pressure.npy"), &solution.contact_pressure)?;
-        if let Some(stability) = &account.stability {
-            write_npy(&path(MODE), &stability.mode)?;
+        let mode = account.stability.as_ref().map(|stability| &stability.mode);
+        let fields = [&solution.gap, &solution.pressure, &solution.contact_pressure];
+        if self.options.writes(Format::Npy) {
+            FIELDS.iter().zip(fields).try_for_each(|(name, field)| write_npy(&path(name), field))?;
+            mode.map_or(Ok(()), |mode| write_npy(&path(MODE), mode))?;
         }
-        write_text(&path("report.json"), &format!("{:#}\n", self.options.report(grid, account, self.threads)))?;
+        let mode = mode.map(|mode| mode.mapv(T::lit));
+        let named = FIELDS.into_iter().zip(fields).chain(mode.as_ref().map(|mode| (MODE, mode)));
+        let named: Vec<_> = named.map(|(name, field)| (name.trim_end_matches(".npy"), field)).collect();
+        if self.options.writes(Format::Npz) {
+            write_npz(&path(NPZ), &grid, &named)?;
+        }
+        if self.options.writes(Format::Vti) {
+            write_vti(&path(VTI), &grid, &named)?;
+        }
+        write_text(&path(REPORT), &format!("{:#}\n", self.report(grid, account)))?;
         write_text(&path(echo::NAME), &self.echo.text(&self.options.out))?;
         if !self.options.no_pictures {
-            let Options { length_unit, pressure_unit, .. } = self.options;
-            let units = Units { length: length_unit.as_deref(), pressure: pressure_unit.as_deref() };
+            let units = Units { length: self.length_unit.as_deref(), pressure: self.options.pressure_unit.as_deref() };
             run::draw_contact(&path("contact.png"), grid, "Contact", units, &solution.gap)?;
             let pressure = run::pressure_to_draw(solution, self.options.adhesion.law != Law::None);
             run::draw_pressure(&path("pressure.png"), grid, "Pressure", "", units, pressure)?;

@@ -1,19 +1,17 @@
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
-use asperity::io::read_field;
 use asperity::{Spectrum, Surface};
 use clap::Args;
 use serde_json::{Map, Value, json};
 
-use crate::Outcome;
 use crate::inputs;
 use crate::options::positive;
 use crate::output::OutputFile;
 use crate::printing::Printing;
-use crate::report::Style;
-use crate::run;
+use crate::report::plain;
 use crate::solve::write_text;
+use crate::{Outcome, input};
 
 /// Print the statistics of a rough surface.
 ///
@@ -23,10 +21,10 @@ use crate::solve::write_text;
 #[derive(Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Options {
-    /// Heights, shape (Nx, Ny), peaks up: .npy, .npz with one array, or a text matrix
+    /// Heights, shape (Nx, Ny), peaks up: .npy, .npz, .gsf (Gwyddion), .xyz, Gwyddion's text export, or a text matrix
     #[arg(value_name = "FILE")]
     heights: PathBuf,
-    /// Side lengths of the map, in the unit of the heights; LX alone means square cells [default: 1 1]
+    /// Side lengths of the map, in the unit of the heights; LX alone means square cells [default: the file's, else 1 1]
     #[arg(long, value_names = ["LX", "LY"], num_args = 1..=2, allow_negative_numbers = true, value_parser = positive)]
     lengths: Option<Vec<f64>>,
     /// File for the radially averaged power spectral density, comma-separated: the wave number in radians per length, the
@@ -48,28 +46,29 @@ const EXAMPLES: &str = "\
 /// Runs the command; always successful if it ends.
 pub fn run(options: &Options) -> Outcome<bool> {
     let psd = options.psd.as_deref().map(|path| OutputFile::create(path, options.force)).transpose()?;
-    let heights = read_field(&options.heights)?;
-    let surface = Surface::new(run::grid(heights.dim(), options.lengths.as_deref())?, heights)?;
+    let map = input::map(&options.heights, options.lengths.as_deref())?;
+    let (surface, unit) = input::surface(&options.heights, map)?;
     if let Some(file) = psd {
         let text = density_table(&surface.spectrum(), None);
         file.write(|path| write_text(path, &text))?;
         file.commit()?;
     }
-    options.printing.say(&table(&surface));
+    options.printing.say(&table(&surface, unit.as_deref()));
     options.printing.report(|| {
         let version = Map::from_iter([("version".to_owned(), env!("CARGO_PKG_VERSION").into())]);
-        inputs::report("stats", report(&surface, &options.heights), version)
+        inputs::report("stats", report(&surface, &options.heights, unit.as_deref()), version)
     });
     Ok(true)
 }
 
 /// The statistics of the heights in a file, by name.
-pub fn report(surface: &Surface, heights: &Path) -> Value {
+pub fn report(surface: &Surface, heights: &Path, unit: Option<&str>) -> Value {
     let (grid, found) = (surface.grid(), surface.statistics());
     json!({
         "heights": heights.to_string_lossy(),
         "shape": grid.shape(),
         "lengths": grid.lengths(),
+        "length_unit": unit,
         "mean_height": found.mean,
         "lowest": found.lowest,
         "highest": found.highest,
@@ -84,28 +83,29 @@ pub fn report(surface: &Surface, heights: &Path) -> Value {
     })
 }
 
-/// The statistics, one to a line.
-pub fn table(surface: &Surface) -> String {
+/// The statistics, one to a line, with the unit of length if it is known.
+pub fn table(surface: &Surface, unit: Option<&str>) -> String {
     let (grid, found) = (surface.grid(), surface.statistics());
     let ((nx, ny), (lx, ly)) = (grid.shape(), grid.lengths());
     // Shape and Nayak's parameter have no meaning on a flat surface.
-    let number = |value: f64| if value.is_nan() { "-".to_owned() } else { Style::Plain.number(value, "") };
-    let sides = if grid.is_line() { number(lx) } else { format!("{} x {}", number(lx), number(ly)) };
+    let number = |value: f64| if value.is_nan() { "-".to_owned() } else { plain(value) };
+    let (length, inverse) = unit.map_or_else(Default::default, |unit| (format!(" {unit}"), format!(" 1/{unit}")));
+    let sides = if grid.is_line() { number(lx) } else { format!("{} x {}", number(lx), number(ly)) } + &length;
     let mut rows = vec![("nodes", format!("{nx} x {ny}")), ("side lengths", sides)];
-    for (name, value) in [
-        ("mean height", found.mean),
-        ("lowest", found.lowest),
-        ("highest", found.highest),
-        ("rms height", found.rms_height),
-        ("skewness", found.skewness),
-        ("kurtosis", found.kurtosis),
-        ("rms slope", found.rms_slope),
-        ("  by differences", found.rms_slope_differences),
-        ("rms curvature", found.rms_curvature),
-        ("  by differences", found.rms_curvature_differences),
-        ("Nayak's parameter", found.nayak),
+    for (name, value, unit) in [
+        ("mean height", found.mean, length.as_str()),
+        ("lowest", found.lowest, &length),
+        ("highest", found.highest, &length),
+        ("rms height", found.rms_height, &length),
+        ("skewness", found.skewness, ""),
+        ("kurtosis", found.kurtosis, ""),
+        ("rms slope", found.rms_slope, ""),
+        ("  by differences", found.rms_slope_differences, ""),
+        ("rms curvature", found.rms_curvature, &inverse),
+        ("  by differences", found.rms_curvature_differences, &inverse),
+        ("Nayak's parameter", found.nayak, ""),
     ] {
-        rows.push((name, number(value)));
+        rows.push((name, number(value) + unit));
     }
     let width = rows.iter().map(|(name, _)| name.len()).max().unwrap_or(0);
     let lines = rows.iter().map(|(name, value)| format!("{name:width$}  {value}"));

@@ -1,6 +1,6 @@
 use std::path::PathBuf;
 
-use asperity::io::write_npy;
+use asperity::io::{write_npy, write_topography};
 use asperity::{Amplitude, SelfAffine};
 use clap::{ArgGroup, Args};
 use serde_json::json;
@@ -8,7 +8,7 @@ use serde_json::json;
 use crate::Outcome;
 use crate::echo::Echo;
 use crate::inputs;
-use crate::options::{positive, threads};
+use crate::options::{nodes, positive, threads};
 use crate::output::OutputFile;
 use crate::printing::Printing;
 use crate::run;
@@ -63,7 +63,7 @@ pub struct Options {
     #[arg(long, value_name = "N", default_value = "0", allow_hyphen_values = true, help_heading = "Roughness")]
     seed: u64,
 
-    /// File for the heights, .npy
+    /// File for the heights: .npy, or with the side lengths .npz or .gsf (for Gwyddion, in f32)
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     out: PathBuf,
     /// File for the radially averaged power spectral density as by asperity stats, beside its target
@@ -115,7 +115,10 @@ pub fn run(options: &Options, echo: &Echo) -> Outcome<bool> {
     }
 
     let surface = rough.surface(grid)?;
-    heights.write(|path| write_npy(path, surface.heights()))?;
+    heights.write(|path| match path.extension().map(|ending| ending.to_ascii_lowercase()) {
+        Some(ending) if ending == "gsf" || ending == "npz" => write_topography(path, &surface.clone().into()),
+        _ => write_npy(path, surface.heights()),
+    })?;
     if let Some(file) = psd {
         let text = density_table(&surface.spectrum(), Some(&rough.spectrum(grid)?));
         file.write(|path| write_text(path, &text))?;
@@ -123,7 +126,7 @@ pub fn run(options: &Options, echo: &Echo) -> Outcome<bool> {
     }
     heights.commit()?;
     echo.write_beside(&options.out)?;
-    options.printing.say(&table(&surface));
+    options.printing.say(&table(&surface, None));
     options.printing.say(&format!("heights in {}", options.out.display()));
     options.printing.report(|| {
         let made = json!({
@@ -136,15 +139,7 @@ pub fn run(options: &Options, echo: &Echo) -> Outcome<bool> {
             "version": env!("CARGO_PKG_VERSION"),
         });
         let made = made.as_object().cloned().unwrap_or_default();
-        inputs::report("surface", report(&surface, &options.out), made)
+        inputs::report("surface", report(&surface, &options.out, None), made)
     });
     Ok(true)
-}
-
-/// How many nodes along a side; more than the solver could ever hold are a slip of the pen.
-fn nodes(text: &str) -> Result<usize, String> {
-    match text.parse() {
-        Ok(nodes @ 1..=16_777_216) => Ok(nodes),
-        _ => Err("it must be a whole number from 1 to 16777216".to_owned()),
-    }
 }

@@ -108,12 +108,12 @@ const FIELDS: [&str; 3] = ["gap", "pressure", "contact_pressure"];
 pub fn run(options: &Options, echo: &Echo) -> Outcome<bool> {
     options.adhesion.check()?;
     options.format()?;
-    let surface = options.surface.surface()?;
+    let (surface, unit) = options.surface.surface_and_unit()?;
     let start = options.solver.start(surface.grid())?;
     let threads = run::use_threads(options.solver.threads)?;
     match options.solver.precision {
-        Precision::F32 => options.run::<f32>(surface, start, echo, threads),
-        Precision::F64 => options.run::<f64>(surface, start, echo, threads),
+        Precision::F32 => options.run::<f32>(surface, start, unit, echo, threads),
+        Precision::F64 => options.run::<f64>(surface, start, unit, echo, threads),
     }
 }
 
@@ -122,6 +122,7 @@ impl Options {
         &self,
         surface: Surface,
         start: Option<Array2<f64>>,
+        unit: Option<String>,
         echo: &Echo,
         threads: usize,
     ) -> Outcome<bool> {
@@ -203,7 +204,7 @@ impl Options {
             inputs::report(
                 "sweep",
                 outcome,
-                inputs::inputs(&self.surface, &self.adhesion, &self.solver, &grid, threads),
+                inputs::inputs(&self.surface, &self.adhesion, &self.solver, &grid, unit.as_deref(), threads),
             )
         });
         Ok(journal.unconverged() == 0)

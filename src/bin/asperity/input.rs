@@ -1,0 +1,72 @@
+//! Heights from files, with the side lengths and units that those may have.
+
+use std::path::Path;
+
+use asperity::io::read_topography;
+use asperity::{Surface, Topography};
+
+use crate::Outcome;
+
+/// How far side lengths that are given may be from those of the file: headers round them.
+const ROUNDING: f64 = 1e-2;
+
+/// The map of a file with the given `--lengths`, of which one means square cells; without any, those of the file, or else
+/// the unit square. Lengths that contradict the file are refused.
+pub fn map(path: &Path, lengths: Option<&[f64]>) -> Outcome<Topography> {
+    let mut map = read_topography(path)?;
+    if let Some(given) = given(&map, lengths) {
+        if let Some(found) = map.lengths {
+            let near = |a: f64, b: f64| (a / b - 1.0).abs() <= ROUNDING;
+            // a line has no width
+            let agree = near(given.0, found.0) && (map.heights.ncols() == 1 || near(given.1, found.1));
+            if !agree {
+                let found = sides(found, map.unit.as_deref());
+                return Err(format!(
+                    "--lengths gives sides of {}, but {} has {found}: leave --lengths out, or change the file's by \
+                     asperity prepare --lengths",
+                    sides(given, None),
+                    path.display()
+                )
+                .into());
+            }
+        }
+        map.lengths = Some(given);
+    }
+    map.lengths = map.lengths.or(Some((1.0, 1.0)));
+    Ok(map)
+}
+
+/// The side lengths that `--lengths` means for a map.
+pub fn given(map: &Topography, lengths: Option<&[f64]>) -> Option<(f64, f64)> {
+    let (nx, ny) = map.heights.dim();
+    match lengths? {
+        [lx] => Some((*lx, lx / nx as f64 * ny as f64)),
+        [lx, ly, ..] => Some((*lx, *ly)),
+        [] => None,
+    }
+}
+
+/// The surface of a map, and its unit.
+pub fn surface(path: &Path, map: Topography) -> Outcome<(Surface, Option<String>)> {
+    let missing = map.missing();
+    if missing > 0 {
+        let (nx, ny) = map.heights.dim();
+        let first = map.heights.indexed_iter().find(|(_, h)| !h.is_finite()).map(|(node, _)| node).unwrap_or_default();
+        return Err(format!(
+            "{}: {nx} x {ny} heights, {missing} missing, the first at index [{}, {}]: fill missing points first, \
+             asperity prepare {0} --fill --out filled.npz",
+            path.display(),
+            first.0,
+            first.1
+        )
+        .into());
+    }
+    let unit = map.unit.clone();
+    Ok((map.surface()?, unit))
+}
+
+/// Side lengths with their unit.
+pub fn sides((lx, ly): (f64, f64), unit: Option<&str>) -> String {
+    let unit = unit.map_or(String::new(), |unit| format!(" {unit}"));
+    format!("{} x {}{unit}", crate::report::plain(lx), crate::report::plain(ly))
+}

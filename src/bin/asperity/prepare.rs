@@ -1,0 +1,233 @@
+use std::path::PathBuf;
+
+use asperity::io::{read_topography, write_topography};
+use asperity::{Topography, Trend};
+use clap::{Args, ValueEnum};
+use serde_json::json;
+
+use crate::echo::Echo;
+use crate::input::{given, sides};
+use crate::options::{nodes, positive};
+use crate::output::OutputFile;
+use crate::printing::Printing;
+use crate::report::plain;
+use crate::{Outcome, say};
+
+/// Make a surface that can be solved of a measured map.
+///
+/// A measurement has missing points, a tilt, and edges that do not meet; a surface that is solved is complete and periodic.
+/// Nothing is done that is not asked for, and each step is told in a line; FILE.scene.toml beside the result repeats them. Whatever the order of the options, the steps
+/// are: --lengths, --scale, --unit, --crop, --flip, --detrend, --fill, --window or --mirror, --resample.
+#[derive(Args)]
+#[command(after_help = EXAMPLES)]
+pub struct Options {
+    /// The map: .npy, .npz, .gsf (Gwyddion), .xyz, Gwyddion's text export, or a text matrix
+    #[arg(value_name = "IN")]
+    input: PathBuf,
+
+    /// Side lengths, instead of the file's; LX alone means square cells
+    #[arg(long, value_names = ["LX", "LY"], num_args = 1..=2, allow_negative_numbers = true, value_parser = positive)]
+    lengths: Option<Vec<f64>>,
+    /// Multiply the heights, as by 1e-9 for nm where the side lengths are in m
+    #[arg(long, value_name = "F", allow_hyphen_values = true, value_parser = positive)]
+    scale: Option<f64>,
+    /// Unit of side lengths and heights as they are after that, instead of the file's; for the pictures of solve
+    #[arg(long, value_name = "UNIT")]
+    unit: Option<String>,
+    /// Keep NX x NY nodes from index [X, Y] on
+    #[arg(long, value_names = ["X", "Y", "NX", "NY"], num_args = 4, allow_negative_numbers = true)]
+    crop: Option<Vec<usize>>,
+    /// Turn peaks into valleys: for a replica
+    #[arg(long)]
+    flip: bool,
+    /// Subtract the least-squares fit to all measured points
+    #[arg(long, value_enum)]
+    detrend: Option<Order>,
+    /// Fill missing points smoothly from their surroundings, by Laplace's equation
+    #[arg(long)]
+    fill: bool,
+    /// Make the map periodic: taper heights towards their mean within this share of the sides at each edge, up to 0.5. Fit for
+    /// spectra; under load the flat frame may come into contact, where --mirror keeps all heights
+    #[arg(long, value_name = "F", allow_hyphen_values = true, conflicts_with = "mirror")]
+    window: Option<f64>,
+    /// Make the map periodic: continue it by its mirror images, to twice the size along both sides
+    #[arg(long)]
+    mirror: bool,
+    /// Interpolate on NX x NY nodes by Fourier series, finer or coarser; the map should be periodic by then
+    #[arg(long, value_names = ["NX", "NY"], num_args = 2, allow_negative_numbers = true, value_parser = nodes)]
+    resample: Option<Vec<usize>>,
+
+    /// File for the result: .npz (with lengths and unit), .gsf (those too, for Gwyddion, in f32) or .npy (heights alone)
+    #[arg(long, value_name = "FILE")]
+    out: PathBuf,
+    /// Replace a file that is there
+    #[arg(long)]
+    force: bool,
+    #[command(flatten)]
+    printing: Printing,
+}
+
+const EXAMPLES: &str = "\
+\u{1b}[1;4mExamples:\u{1b}[0m
+  A measured map, tilted and with missing points, pressed against a half-space of 1 GPa:
+    asperity prepare measured.gsf --detrend plane --fill --mirror --out surface.npz
+    asperity solve --heights surface.npz --modulus 1e9 --mean-pressure 1e6 --out results
+  Heights in nm of a map of 5 by 4 micrometres, a sphere subtracted, on a finer grid:
+    asperity prepare heights.txt --scale 1e-9 --lengths 5e-6 4e-6 --unit m --detrend quadric \\
+      --window 0.05 --resample 1024 1024 --out fine.npz";
+
+#[derive(Clone, Copy, ValueEnum)]
+enum Order {
+    /// the mean height
+    Mean,
+    /// a plane: the tilt
+    Plane,
+    /// a plane and curvatures, as of a sphere or a cylinder
+    Quadric,
+}
+
+impl Order {
+    fn trend(self) -> Trend {
+        match self {
+            Self::Mean => Trend::Mean,
+            Self::Plane => Trend::Plane,
+            Self::Quadric => Trend::Quadric,
+        }
+    }
+}
+
+/// Runs the command; always successful if it ends.
+pub fn run(options: &Options, echo: &Echo) -> Outcome<bool> {
+    echo.check_beside(&options.out, options.force)?;
+    let file = OutputFile::create(&options.out, options.force)?;
+    let mut lines = Vec::new();
+    let map = prepared(options, &mut lines)?;
+    file.write(|path| write_topography(path, &map))?;
+    file.commit()?;
+    echo.write_beside(&options.out)?;
+    options.printing.report(|| {
+        json!({
+            "command": "prepare",
+            "input": options.input.to_string_lossy(),
+            "out": options.out.to_string_lossy(),
+            "shape": map.heights.dim(),
+            "lengths": map.lengths,
+            "length_unit": map.unit,
+            "steps": lines.iter().map(|(step, text)| json!({ "step": step, "what": text })).collect::<Vec<_>>(),
+            "version": env!("CARGO_PKG_VERSION"),
+        })
+    });
+    if options.printing.for_people() {
+        let known = map.lengths.is_some() && options.out.extension().is_some_and(|e| e.eq_ignore_ascii_case("npy"));
+        let hint = if known { ", without side lengths: give them again by --lengths" } else { "" };
+        lines.push(("written", format!("{}{hint}", options.out.display())));
+        let width = lines.iter().map(|(name, _)| name.len()).max().unwrap_or(0);
+        let lines = lines.iter().map(|(name, text)| format!("{name:width$}  {text}"));
+        say(&lines.collect::<Vec<_>>().join("\n"));
+    }
+    Ok(true)
+}
+
+/// Takes the steps, and tells them.
+fn prepared(options: &Options, lines: &mut Vec<(&'static str, String)>) -> Outcome<Topography> {
+    let mut map = read_topography(&options.input)?;
+    let mut tell = |step: &'static str, text: String| lines.push((step, text));
+    tell("read", described(&map));
+
+    if let Some(lengths) = given(&map, options.lengths.as_deref()) {
+        let before = map.lengths.map_or("unknown".to_owned(), |before| sides(before, map.unit.as_deref()));
+        map.lengths = Some(lengths);
+        tell("lengths", format!("{}, before {before}", sides(lengths, map.unit.as_deref())));
+    }
+    if let Some(factor) = options.scale {
+        map.heights.mapv_inplace(|h| factor * h);
+        tell("scale", format!("heights times {}: rms height {}", plain(factor), rms(&map)));
+    }
+    if let Some(unit) = &options.unit {
+        let before = map.unit.replace(unit.clone()).unwrap_or("unknown".to_owned());
+        tell("unit", format!("{unit}, before {before}"));
+    }
+    if let Some(&[x, y, nx, ny]) = options.crop.as_deref() {
+        map = map.crop(x..x.saturating_add(nx), y..y.saturating_add(ny))?;
+        tell("crop", format!("from index [{x}, {y}] on: {}", described(&map)));
+    }
+    if options.flip {
+        map = map.flip();
+        tell("flip", "peaks are valleys now".to_owned());
+    }
+    if let Some(order) = options.detrend {
+        let (fit, before) = (map.fit(order.trend())?, rms(&map));
+        map = map.detrend(order.trend())?;
+        let per = if map.lengths.is_some() { "" } else { " per spacing" };
+        let mut text = format!("mean {} removed", quantity(fit.height, &map));
+        if !matches!(order, Order::Mean) {
+            let (x, y) = fit.slopes;
+            text = format!("tilt {}{per} along x, {}{per} along y removed", plain(x), plain(y));
+        }
+        if matches!(order, Order::Quadric) {
+            let (xx, xy, yy) = fit.curvatures;
+            text.push_str(&format!(", curvatures xx {}, xy {}, yy {}", plain(xx), plain(xy), plain(yy)));
+        }
+        tell("detrend", format!("{text}: rms height {} from {before}", rms(&map)));
+    }
+    if options.fill {
+        let (missing, nodes) = (map.missing(), map.heights.len());
+        map = map.fill()?;
+        tell("fill", format!("{missing} of {nodes} points filled: rms height {}", rms(&map)));
+    }
+    // what follows has no place for holes
+    if map.missing() > 0 && (options.window.is_some() || options.resample.is_some()) {
+        let (missing, nodes) = (map.missing(), map.heights.len());
+        return Err(format!("{}: {missing} of {nodes} heights are missing: add --fill", options.input.display()).into());
+    }
+    if let Some(fraction) = options.window {
+        let before = rms(&map);
+        map = map.window(fraction)?;
+        let share = plain(100.0 * fraction);
+        tell("window", format!("{share} % of the sides tapered at each edge: rms height {} from {before}", rms(&map)));
+    }
+    if options.mirror {
+        reserve((2 * map.heights.nrows(), 2 * map.heights.ncols()))?;
+        map = map.mirror();
+        tell("mirror", described(&map));
+    }
+    if let Some(&[nx, ny]) = options.resample.as_deref() {
+        let before = rms(&map);
+        reserve((nx, map.heights.ncols().max(ny)))?;
+        map = map.resample((nx, ny))?;
+        tell("resample", format!("{}: rms height {} from {before}", described(&map), rms(&map)));
+    }
+    let missing = map.missing();
+    if missing > 0 {
+        tell("left", format!("{missing} points are missing still: add --fill before solving"));
+    }
+    Ok(map)
+}
+
+/// Running out of memory cannot be caught later.
+fn reserve((nx, ny): (usize, usize)) -> Outcome<()> {
+    let numbers = nx.checked_mul(ny).and_then(|nodes| nodes.checked_mul(4));
+    if numbers.is_none_or(|numbers| Vec::<f64>::new().try_reserve_exact(numbers).is_err()) {
+        return Err(format!("{nx} x {ny} nodes do not fit into memory: use fewer").into());
+    }
+    Ok(())
+}
+
+fn described(map: &Topography) -> String {
+    let (nx, ny) = map.heights.dim();
+    let lengths = map.lengths.map_or("unknown side lengths".to_owned(), |l| sides(l, map.unit.as_deref()));
+    let missing = match map.missing() {
+        0 => "none missing".to_owned(),
+        missing => format!("{missing} missing"),
+    };
+    format!("{nx} x {ny} heights, {missing}, {lengths}, rms height {}", rms(map))
+}
+
+fn rms(map: &Topography) -> String {
+    quantity(map.rms_height(), map)
+}
+
+fn quantity(value: f64, map: &Topography) -> String {
+    let unit = map.unit.as_deref().map_or(String::new(), |unit| format!(" {unit}"));
+    format!("{}{unit}", plain(value))
+}

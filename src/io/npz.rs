@@ -1,0 +1,244 @@
+use std::fs::File;
+use std::io::{BufReader, Write};
+use std::path::Path;
+
+use ndarray::{Array2, arr1};
+use ndarray_npy::{NpzWriter, WritableElement, WriteNpyError, WriteNpyExt, WriteNpzError};
+use zip::write::SimpleFileOptions;
+use zip::{CompressionMethod, ZipArchive};
+
+use super::npy::{read_npy, read_npy_text, text_as_npy};
+use super::{DAMAGED, Parsed, quoted};
+use crate::error::{Error, Result};
+use crate::grid::Grid;
+use crate::surface::Topography;
+
+/// How a zip file starts: with its first entry, or with its end if it has none.
+pub(super) const ZIP: [&[u8]; 2] = [b"PK\x03\x04", b"PK\x05\x06"];
+/// Deflate cannot do better than this: a zip entry that claims more is damaged.
+const MAX_COMPRESSION: u64 = 1032;
+
+/// Reads the array `heights`, or the only one, of an archive of `size` bytes; beside it `lengths` and `unit`.
+pub(super) fn read_npz(reader: BufReader<File>, size: u64) -> Parsed<Topography> {
+    let mut archive = ZipArchive::new(reader).map_err(damaged)?;
+    let index = match (archive.len(), archive.index_for_name("heights.npy")) {
+        (1, _) => 0,
+        (_, Some(index)) => index,
+        (count, None) => {
+            let names = archive.file_names().take(10).map(|name| quoted(name.strip_suffix(".npy").unwrap_or(name)));
+            let names = names.collect::<Vec<_>>().join(", ");
+            return Err(format!(
+                "holds {count} arrays ({names}), expected one, or one named heights: save the heights alone, as .npy or .npz"
+            ));
+        }
+    };
+    let mut map = Topography::new(read_entry(&mut archive, index, size, |entry, size| read_npy(entry, size))?);
+    if let Some(index) = archive.index_for_name("lengths.npy")
+        && archive.len() > 1
+    {
+        let lengths = read_entry(&mut archive, index, size, |entry, size| read_npy(entry, size))?;
+        match lengths.as_slice() {
+            Some(&[lx, ly]) if lx > 0.0 && ly > 0.0 && lx.is_finite() && ly.is_finite() => map.lengths = Some((lx, ly)),
+            _ => return Err("has an array lengths that is not two positive numbers: save it as [Lx, Ly]".to_owned()),
+        }
+    }
+    if let Some(index) = archive.index_for_name("unit.npy")
+        && archive.len() > 1
+    {
+        let unit = read_entry(&mut archive, index, size, |entry, size| read_npy_text(entry, size))?;
+        map.unit = Some(unit).filter(|unit| !unit.is_empty());
+    }
+    Ok(map)
+}
+
+fn damaged(error: zip::result::ZipError) -> String {
+    format!("is not a .npz file that can be read ({error}): copy or save it again")
+}
+
+type Entry<'a> = zip::read::ZipFile<'a, BufReader<File>>;
+
+fn read_entry<T>(
+    archive: &mut ZipArchive<BufReader<File>>,
+    index: usize,
+    size: u64,
+    read: impl FnOnce(&mut Entry<'_>, u64) -> Parsed<T>,
+) -> Parsed<T> {
+    let mut entry = archive.by_index(index).map_err(damaged)?;
+    let entry_size = entry.size();
+    if entry_size / MAX_COMPRESSION > size { Err(DAMAGED.to_owned()) } else { read(&mut entry, entry_size) }
+}
+
+/// Writes fields on a grid into one `.npz` file, over one that may be there, and the side lengths with them as `lengths`.
+///
+/// ```
+/// use asperity::{Grid, io::write_npz};
+/// let folder = tempfile::tempdir()?;
+/// let grid = Grid::new((4, 3), (2.0, 3.0))?;
+/// // numpy.load("fields.npz")["gap"] has the shape (4, 3)
+/// write_npz(&folder.path().join("fields.npz"), &grid, &[("gap", &grid.sample(|x, y| x * y))])?;
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+///
+/// [`Error::Shape`] if a field does not fit the grid, [`Error::File`] if the file cannot be written.
+pub fn write_npz<T: WritableElement>(path: &Path, grid: &Grid, fields: &[(&str, &Array2<T>)]) -> Result<()> {
+    fields.iter().try_for_each(|(_, field)| Error::shape("field", field.dim(), grid.shape()))?;
+    write(path, fields, Some(grid.lengths()), None).map_err(|e| unwritable(path, &e))
+}
+
+/// Writes a map with what is known of it.
+pub(super) fn write_map(path: &Path, map: &Topography) -> Result<()> {
+    let heights = [("heights", &map.heights)];
+    write(path, &heights, map.lengths, map.unit.as_deref()).map_err(|e| unwritable(path, &e))
+}
+
+fn unwritable(path: &Path, error: &WriteNpzError) -> Error {
+    Error::file(path, format!("cannot be written: {error}"))
+}
+
+fn write<T: WritableElement>(
+    path: &Path,
+    fields: &[(&str, &Array2<T>)],
+    lengths: Option<(f64, f64)>,
+    unit: Option<&str>,
+) -> std::result::Result<(), WriteNpzError> {
+    let file = File::create(path).map_err(WriteNpyError::from)?;
+    // in sizes of more than 32 bits, where one could need them
+    let large = fields.iter().any(|(_, field)| field.len() >= 1 << 28);
+    let options = SimpleFileOptions::default().compression_method(CompressionMethod::Stored).large_file(large);
+    let mut npz = NpzWriter::new_with_options(file, options);
+    fields.iter().try_for_each(|(name, field)| npz.add_array(*name, *field))?;
+    if let Some((lx, ly)) = lengths {
+        npz.add_array("lengths", &arr1(&[lx, ly]))?;
+    }
+    if let Some(unit) = unit {
+        npz.add_array("unit", &Text(unit))?;
+    }
+    npz.finish().map(drop)
+}
+
+/// A text, as numpy has it in an array without dimensions.
+struct Text<'a>(&'a str);
+
+impl WriteNpyExt for Text<'_> {
+    fn write_npy<W: Write>(&self, mut writer: W) -> std::result::Result<(), WriteNpyError> {
+        writer.write_all(&text_as_npy(self.0))?;
+        Ok(writer.flush()?)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::io::Cursor;
+
+    use ndarray::array;
+    use zip::ZipWriter;
+
+    use super::super::npy::tests::{f8, npy};
+    use super::super::tests::{assert_refused, read, read_map, reason};
+    use super::*;
+
+    fn npz(method: CompressionMethod, entries: &[(&str, &[u8])]) -> Vec<u8> {
+        let mut zip = ZipWriter::new(Cursor::new(Vec::new()));
+        for (name, bytes) in entries {
+            zip.start_file(*name, SimpleFileOptions::default().compression_method(method)).unwrap();
+            zip.write_all(bytes).unwrap();
+        }
+        zip.finish().unwrap().into_inner()
+    }
+
+    #[test]
+    fn npz_with_one_array() {
+        let heights = npy("'>i2'", "False", "(1, 2)", &[1, 0, 255, 255]);
+        for method in [CompressionMethod::Stored, CompressionMethod::Deflated] {
+            assert_eq!(read(npz(method, &[("heights.npy", &heights)])).unwrap(), array![[256.0, -1.0]]);
+            // All zeros compress as well as anything does.
+            let zeros = npy("'<f8'", "False", "(1000, 1000)", &[0; 8_000_000]);
+            assert_eq!(read(npz(method, &[("heights.npy", &zeros)])).unwrap(), Array2::zeros((1000, 1000)));
+        }
+    }
+
+    #[test]
+    fn npz_with_another_content_is_refused() {
+        let method = CompressionMethod::Stored;
+        let heights = npy("'<f8'", "False", "(1,)", &f8(&[1.0]));
+        let two = npz(method, &[("a.npy", &heights), ("x.npy", &heights)]);
+        assert_refused(read(two), &["2 arrays", "\"a\"", "\"x\"", "save the heights alone"]);
+        let names: Vec<_> = (0..50).map(|i| format!("array{i}.npy")).collect();
+        let many: Vec<_> = names.iter().map(|name| (&name[..], &heights[..])).collect();
+        assert!(reason(read(npz(method, &many))).len() < 300);
+        assert_refused(read(npz(method, &[])), &["0 arrays", "expected one"]);
+        assert_refused(read(npz(method, &[("notes.txt", b"no array")])), &["something else than a .npy array"]);
+        assert_refused(read(npz(method, &[("empty.npy", b"")])), &["truncated"]);
+        let complex = npy("'<c16'", "False", "(1,)", &[0; 16]);
+        assert_refused(read(npz(method, &[("heights.npy", &complex)])), &["dtype \"<c16\""]);
+        let bomb = npy("'<f8'", "False", "(1000000, 1000000)", &[]);
+        assert_refused(read(npz(method, &[("heights.npy", &bomb)])), &["0 bytes of data", "truncated"]);
+        assert_refused(read(b"PK\x03\x04 and then something else"), &["not a .npz file"]);
+    }
+
+    #[test]
+    fn damaged_npz_is_refused_without_panic() {
+        let heights = npy("'<f8'", "False", "(2,)", &f8(&[1.5, 2.5]));
+        for method in [CompressionMethod::Stored, CompressionMethod::Deflated] {
+            let file = npz(method, &[("heights.npy", &heights)]);
+            for length in 0..file.len() {
+                assert!(read(&file[..length]).is_err(), "{length}");
+            }
+            for position in 0..file.len() {
+                for flip in [1, 0x80, 0xff] {
+                    let mut damaged = file.clone();
+                    damaged[position] ^= flip;
+                    // Some bytes, as the date, do not matter; the values never change unnoticed.
+                    if let Ok(field) = read(damaged) {
+                        assert_eq!(field, array![[1.5], [2.5]], "{position}");
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn npz_that_claims_a_huge_entry_is_refused() {
+        let bomb = npy("'<f8'", "False", "(100000000,)", &[0; 8]);
+        for method in [CompressionMethod::Stored, CompressionMethod::Deflated] {
+            let mut file = npz(method, &[("heights.npy", &bomb)]);
+            let claimed = (bomb.len() as u32 - 8 + 800_000_000).to_le_bytes();
+            let local = 22;
+            let central = file.windows(4).rposition(|w| w == b"PK\x01\x02").unwrap() + 24;
+            for position in [local, central] {
+                file[position..position + 4].copy_from_slice(&claimed);
+            }
+            assert_refused(read(file), &["is damaged"]);
+        }
+    }
+
+    #[test]
+    fn npz_with_lengths_and_unit() {
+        let method = CompressionMethod::Stored;
+        let heights = npy("'<f8'", "False", "(1, 2)", &f8(&[1.0, 2.0]));
+        let lengths = npy("'<f8'", "False", "(2,)", &f8(&[3.0, 4.0]));
+        let unit = text_as_npy("\u{b5}m");
+        assert_eq!((unit.len() - 8) % 64, 0);
+        let file = npz(
+            method,
+            &[("unit.npy", &unit), ("other.npy", &lengths), ("lengths.npy", &lengths), ("heights.npy", &heights)],
+        );
+        let map = read_map(file, "heights.npz").unwrap();
+        assert_eq!(
+            (map.heights, map.lengths, map.unit.as_deref()),
+            (array![[1.0, 2.0]], Some((3.0, 4.0)), Some("\u{b5}m"))
+        );
+        for (name, wrong, part) in [
+            ("lengths.npy", npy("'<f8'", "False", "(3,)", &f8(&[1.0, 2.0, 3.0])), "lengths"),
+            ("lengths.npy", npy("'<f8'", "False", "(2,)", &f8(&[1.0, f64::NAN])), "two positive numbers"),
+            ("unit.npy", lengths, "a text"),
+            ("unit.npy", npy("'<U1'", "False", "()", &[0, 0, 0xff, 0xff]), "damaged"),
+            ("unit.npy", npy("'<U9999999999999999999'", "False", "()", &[0; 4]), "a text"),
+            ("unit.npy", npy("'<U1'", "False", "(1,)", &[b'm', 0, 0, 0]), "a text"),
+        ] {
+            assert_refused(read(npz(method, &[("heights.npy", &heights), (name, &wrong)])), &[part]);
+        }
+    }
+}

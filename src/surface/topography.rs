@@ -1,0 +1,201 @@
+use std::f64::consts::PI;
+use std::ops::Range;
+
+use ndarray::{Array2, Axis};
+
+use crate::error::{Error, Result};
+use crate::grid::Grid;
+use crate::surface::Surface;
+
+mod fill;
+mod resample;
+#[cfg(test)]
+mod tests;
+mod trend;
+
+pub use trend::{Fit, Trend};
+
+/// A measured map of heights on its way to a [`Surface`]: points may be missing, side lengths and unit unknown.
+///
+/// A surface is periodic and complete; a measurement is neither. Each step between the two is a method of its own, and
+/// nothing is done unasked: [`fill`](Self::fill) missing points, [`detrend`](Self::detrend), make the map periodic by
+/// [`window`](Self::window) or [`mirror`](Self::mirror), [`crop`](Self::crop) it, [`flip`](Self::flip) it, and
+/// [`resample`](Self::resample) it. Heights that are NaN or infinite are missing: all methods leave them missing, and out of
+/// their sums, but for `fill`, which gives them values, and `window` and `resample`, which refuse them.
+///
+/// ```
+/// use asperity::{Topography, Trend};
+/// use ndarray::Array2;
+///
+/// // tilted, with a hole
+/// let mut heights = Array2::from_shape_fn((41, 31), |(i, j)| 0.02 * i as f64 + (0.5 * j as f64).sin());
+/// heights[[20, 10]] = f64::NAN;
+/// let mut measured = Topography::new(heights);
+/// measured.lengths = Some((4.1, 3.1));
+/// assert_eq!(measured.missing(), 1);
+/// assert!(measured.clone().surface().is_err()); // incomplete
+///
+/// let surface = measured.detrend(Trend::Plane)?.fill()?.window(0.1)?.surface()?;
+/// assert_eq!(surface.grid().lengths(), (4.1, 3.1));
+/// # Ok::<(), asperity::Error>(())
+/// ```
+#[non_exhaustive]
+#[derive(Clone, Debug, PartialEq)]
+pub struct Topography {
+    /// The heights, of shape (Nx, Ny), peaks up; what is not finite is missing.
+    pub heights: Array2<f64>,
+    /// The side lengths (Lx, Ly) = (Nx Δx, Ny Δy), in the unit of the heights, if they are known.
+    pub lengths: Option<(f64, f64)>,
+    /// The unit of heights and side lengths, if it is known.
+    pub unit: Option<String>,
+}
+
+impl Topography {
+    /// A map of shape (Nx, Ny) with unknown side lengths and unit.
+    pub fn new(heights: Array2<f64>) -> Self {
+        Self { heights, lengths: None, unit: None }
+    }
+
+    /// How many heights are missing: NaN or infinite.
+    pub fn missing(&self) -> usize {
+        self.heights.iter().filter(|h| !h.is_finite()).count()
+    }
+
+    /// The mean of the heights that are not missing; NaN if all are.
+    pub fn mean(&self) -> f64 {
+        let mut known = self.heights.iter().copied().filter(|h| h.is_finite());
+        // about one of them, so that a large datum costs no digits
+        let Some(datum) = known.next() else { return f64::NAN };
+        let (sum, count) = known.fold((0.0, 1.0), |(sum, count), h| (sum + (h - datum), count + 1.0));
+        datum + sum / count
+    }
+
+    /// The root mean square about their mean of the heights that are not missing; NaN if all are.
+    pub fn rms_height(&self) -> f64 {
+        let mean = self.mean();
+        let known = self.heights.iter().filter(|h| h.is_finite());
+        let (sum, count) = known.fold((0.0, 0.0), |(sum, count), h| (sum + (h - mean).powi(2), count + 1.0));
+        f64::sqrt(sum / count)
+    }
+
+    /// The part of the map with the nodes `x` × `y`; the nodes keep their distances.
+    ///
+    /// ```
+    /// # use asperity::Topography;
+    /// let mut map = Topography::new(ndarray::Array2::from_shape_fn((8, 6), |(i, j)| (10 * i + j) as f64));
+    /// map.lengths = Some((4.0, 3.0));
+    /// let part = map.crop(2..6, 1..3)?;
+    /// assert_eq!((part.heights.dim(), part.heights[[0, 0]], part.lengths), ((4, 2), 21.0, Some((2.0, 1.0))));
+    /// # Ok::<(), asperity::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::Value`] if a range is empty or leaves the map.
+    pub fn crop(mut self, x: Range<usize>, y: Range<usize>) -> Result<Self> {
+        let (nx, ny) = self.heights.dim();
+        for (name, range, n) in [("end of the crop along x", &x, nx), ("end of the crop along y", &y, ny)] {
+            if range.start >= range.end || range.end > n {
+                let requirement = "after its start, and within the map";
+                return Err(Error::Value { name, value: range.end as f64, requirement });
+            }
+        }
+        let share = |length: f64, range: &Range<usize>, n: usize| length / n as f64 * range.len() as f64;
+        // on a line, Ly is nothing's distance but goes with Lx
+        self.lengths = self.lengths.map(|(lx, ly)| (share(lx, &x, nx), share(ly, &y, ny)));
+        self.heights = self.heights.slice_axis(Axis(0), x.into()).slice_axis(Axis(1), y.into()).to_owned();
+        Ok(self)
+    }
+
+    /// Peaks become valleys: h → −h, as between a surface and its replica.
+    #[must_use]
+    pub fn flip(mut self) -> Self {
+        self.heights.mapv_inplace(|h| -h);
+        self
+    }
+
+    /// Tapers the map towards its edges, so that it becomes periodic; mean height and number of nodes stay.
+    ///
+    /// ```math
+    /// h \to \langle h\rangle + w(x)\,w(y)\,(h - c), \qquad c = \frac{\langle w h\rangle}{\langle w\rangle},
+    /// \qquad w(x) = \tfrac12\Bigl(1 - \cos\frac{\pi d}{f L}\Bigr) \text{ for } d < fL, \quad 1 \text{ elsewhere}
+    /// ```
+    ///
+    /// with d the distance from the nearer edge of the side L, half a spacing more than that of the outermost node, and
+    /// `fraction` f the share of the side that is tapered at each of its two ends (Tukey's window). In the middle, heights are only
+    /// shifted by a common constant; in the tapered strips they shrink towards the mean, and with them the rms height of
+    /// the whole, by √⟨w²⟩ where heights do not know of the window. Remove a tilt first. On a line only x is tapered.
+    ///
+    /// That is made for spectra. In contact, the frame is a flat piece at the mean height that the surface does not have: it
+    /// touches under loads that bring the mean height close, or where long waves are deep. Look at the contact
+    /// map, or use [`mirror`](Self::mirror), which leaves all heights as they are.
+    ///
+    /// # Errors
+    /// [`Error::Value`] if the fraction is not from 0 to 0.5, [`Error::NotFinite`] if heights are missing.
+    pub fn window(mut self, fraction: f64) -> Result<Self> {
+        if !(fraction > 0.0 && fraction <= 0.5) {
+            return Err(Error::Value { name: "window", value: fraction, requirement: "more than 0, and at most 0.5" });
+        }
+        Error::all_finite("heights", self.heights.view())?;
+        let taper = |n: usize| -> Vec<f64> {
+            let distance = |i: usize| (i.min(n - 1 - i) as f64 + 0.5) / n as f64 / fraction;
+            (0..n)
+                .map(|i| if distance(i) < 1.0 && n > 1 { 0.5 - 0.5 * (PI * distance(i)).cos() } else { 1.0 })
+                .collect()
+        };
+        let (nx, ny) = self.heights.dim();
+        let (along_x, along_y) = (taper(nx), taper(ny));
+        let mean = self.mean();
+        let (mut weights, mut sum) = (0.0, 0.0);
+        for (row, wx) in self.heights.rows().into_iter().zip(&along_x) {
+            weights += wx * along_y.iter().sum::<f64>();
+            sum += wx * row.iter().zip(&along_y).map(|(h, wy)| wy * (h - mean)).sum::<f64>();
+        }
+        let level = mean + sum / weights;
+        for (mut row, wx) in self.heights.rows_mut().into_iter().zip(&along_x) {
+            row.iter_mut().zip(&along_y).for_each(|(h, wy)| *h = mean + wx * wy * (*h - level));
+        }
+        Ok(self)
+    }
+
+    /// Continues the map by its mirror image along both axes: 2Nx × 2Ny nodes on sides twice as long, periodic and
+    /// continuous, with the same mean and rms height. A line becomes twice as long.
+    ///
+    /// Row Nx + i is a copy of row Nx − 1 − i, and columns likewise, so that the outermost nodes have copies of themselves for
+    /// neighbours. Heights stay as they are; slopes across the seams jump to their opposite, and all that is found on the
+    /// result, as contact clusters or spectra, has the symmetry of the mirrors.
+    #[must_use]
+    pub fn mirror(mut self) -> Self {
+        let (nx, ny) = self.heights.dim();
+        // a single node along a side is already its own image
+        let (mx, my) = (if nx == 1 { 1 } else { 2 * nx }, if ny == 1 { 1 } else { 2 * ny });
+        let image = |i: usize, n: usize| if i < n { i } else { 2 * n - 1 - i };
+        let heights = Array2::from_shape_fn((mx, my), |(i, j)| self.heights[[image(i, nx), image(j, ny)]]);
+        self.lengths = self.lengths.map(|(lx, ly)| (lx * (mx / nx) as f64, ly * (my / ny) as f64));
+        self.heights = heights;
+        self
+    }
+
+    /// The surface, periodic as it stands.
+    ///
+    /// # Errors
+    /// [`Error::Value`] if the side lengths are unknown or no lengths, [`Error::NotFinite`] if heights are missing.
+    pub fn surface(self) -> Result<Surface> {
+        let requirement = "known: set Topography::lengths";
+        let missing = Error::Value { name: "side length Lx", value: f64::NAN, requirement };
+        let grid = Grid::new(self.heights.dim(), self.lengths.ok_or(missing)?)?;
+        Surface::new(grid, self.heights)
+    }
+
+    /// The distances between nodes; square cells of 1 if the side lengths are unknown.
+    fn spacing(&self) -> (f64, f64) {
+        let (nx, ny) = self.heights.dim();
+        self.lengths.map_or((1.0, 1.0), |(lx, ly)| (lx / nx as f64, ly / ny as f64))
+    }
+}
+
+impl From<Surface> for Topography {
+    /// The heights and side lengths of a surface.
+    fn from(surface: Surface) -> Self {
+        Self { lengths: Some(surface.grid().lengths()), heights: surface.heights, unit: None }
+    }
+}

@@ -1,0 +1,101 @@
+use ndarray::{Array2, Zip};
+use rustfft::num_complex::Complex;
+
+use super::Topography;
+use crate::error::{Error, Result};
+use crate::grid::Grid;
+use crate::real::Real;
+
+impl Topography {
+    /// The map on `nodes` = (Mx, My) nodes of the same sides, finer or coarser, by Fourier interpolation.
+    ///
+    /// The heights are the trigonometric polynomial through the Nx × Ny nodes, of which those of the new nodes are values:
+    ///
+    /// ```math
+    /// h(x, y) = \sum_{|k| \le N_x/2} \sum_{|l| \le N_y/2} \hat h_{kl}\, e^{2\pi i (k x / L_x + l y / L_y)}
+    /// ```
+    ///
+    /// The shortest wave of an even number of nodes, which the nodes cannot tell from its mirror image, counts half for k = N/2
+    /// and half for k = −N/2. Node (0, 0) stays in its place; with Mx and My multiples of Nx and Ny all old nodes are among the
+    /// new ones, and keep their heights. Coarser grids lose the waves that they do not resolve, which is no sampling of
+    /// every second node. The mean height stays, and so do all waves that both grids resolve.
+    ///
+    /// The polynomial is periodic: edges that do not meet make it ring. Use [`window`](Self::window) or
+    /// [`mirror`](Self::mirror) first. On a coarse grid, peaks between the nodes are there to be found, higher than any node.
+    ///
+    /// ```
+    /// use asperity::{Grid, Surface, Topography};
+    /// let coarse = Surface::wave(Grid::new((8, 1), (1.0, 1.0))?, 0.1, 3)?;
+    /// let fine = Topography::from(coarse.clone()).resample((32, 1))?;
+    /// for (i, h) in coarse.heights().iter().enumerate() {
+    ///     assert!((fine.heights[[4 * i, 0]] - h).abs() < 1e-15);
+    /// }
+    /// # Ok::<(), asperity::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::Value`] if a number of nodes is zero, or such that fields do not fit into memory; [`Error::NotFinite`] if
+    /// heights are missing.
+    pub fn resample(mut self, nodes: (usize, usize)) -> Result<Self> {
+        Grid::new(nodes, (1.0, 1.0))?;
+        Error::all_finite("heights", self.heights.view())?;
+        // about the mean, so that a large datum costs no digits
+        let mean = self.mean();
+        self.heights.mapv_inplace(|h| h - mean);
+        let along_y = resample_rows(&self.heights, nodes.1);
+        let along_x = resample_rows(&along_y.reversed_axes().as_standard_layout().into_owned(), nodes.0);
+        self.heights = along_x.reversed_axes().as_standard_layout().into_owned();
+        self.heights.mapv_inplace(|h| h + mean);
+        Ok(self)
+    }
+}
+
+/// Every row on `m` nodes. Two of them ride in one complex line: what interpolation multiplies their waves by is real.
+fn resample_rows(field: &Array2<f64>, m: usize) -> Array2<f64> {
+    let (rows, n) = field.dim();
+    if n == m {
+        return field.clone();
+    }
+    let (forward, inverse) = (&f64::transforms(n)[0], &f64::transforms(m)[1]);
+    let mut scratch =
+        vec![Complex::default(); forward.get_inplace_scratch_len().max(inverse.get_inplace_scratch_len())];
+    let (mut line, mut fine) = (vec![Complex::default(); n], vec![Complex::default(); m]);
+    let mut result = Array2::zeros((rows, m));
+    for first in (0..rows).step_by(2) {
+        let second = (first + 1).min(rows - 1);
+        Zip::from(&mut line[..])
+            .and(field.row(first))
+            .and(field.row(second))
+            .for_each(|z, &a, &b| *z = Complex::new(a, b));
+        forward.process_with_scratch(&mut line, &mut scratch);
+        spread(&line, &mut fine);
+        inverse.process_with_scratch(&mut fine, &mut scratch);
+        for (row, part) in [(second, 1), (first, 0)] {
+            let values = fine.iter().map(|z| if part == 0 { z.re } else { z.im } / n as f64);
+            result.row_mut(row).iter_mut().zip(values).for_each(|(h, value)| *h = value);
+        }
+    }
+    result
+}
+
+/// The modes of a line of other length: those that both resolve, with the shortest of the two shared between k and −k.
+fn spread(from: &[Complex<f64>], to: &mut [Complex<f64>]) {
+    let (n, m) = (from.len(), to.len());
+    let shorter = n.min(m);
+    to.fill(Complex::default());
+    to[0] = from[0];
+    for k in 1..shorter.div_ceil(2) {
+        to[k] = from[k];
+        to[m - k] = from[n - k];
+    }
+    if shorter.is_multiple_of(2) {
+        let k = shorter / 2;
+        if n < m {
+            to[k] = from[k].scale(0.5);
+            to[m - k] = to[k];
+        } else {
+            // the nodes cannot tell the two apart
+            to[k] = from[k] + from[n - k];
+        }
+    }
+}

@@ -1,0 +1,379 @@
+//! Measured surfaces from file to contact map, with the tool, and files shared with numpy, Gwyddion and ParaView.
+#![cfg(feature = "cli")]
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+use asperity::io::{read_field, read_topography, write_npy, write_topography};
+use asperity::{Amplitude, Grid, SelfAffine, Topography};
+use ndarray::Array2;
+use serde_json::Value;
+use tempfile::TempDir;
+
+/// A folder in which the tool is run.
+struct Bench(TempDir);
+
+impl Bench {
+    fn new() -> Self {
+        Self(tempfile::tempdir().unwrap())
+    }
+
+    fn path(&self, name: &str) -> PathBuf {
+        self.0.path().join(name)
+    }
+
+    fn run(&self, arguments: &str) -> Output {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_asperity"));
+        command.current_dir(&self.0).args(arguments.split_whitespace()).output().unwrap()
+    }
+
+    /// Runs what must succeed in silence on standard error, and returns what it prints.
+    #[track_caller]
+    fn said(&self, arguments: &str) -> String {
+        let output = self.run(arguments);
+        assert_eq!((output.status.code(), text(&output.stderr)), (Some(0), String::new()), "{arguments}");
+        text(&output.stdout)
+    }
+
+    /// Runs what must be refused on one line, with these parts.
+    #[track_caller]
+    fn refused(&self, arguments: &str, parts: &[&str]) {
+        let output = self.run(arguments);
+        let error = text(&output.stderr);
+        assert_eq!(
+            (output.status.code(), error.lines().count(), output.stdout.len()),
+            (Some(1), 1, 0),
+            "{arguments}: {error}"
+        );
+        assert!(parts.iter().all(|part| error.contains(part)), "{arguments}: {error}");
+    }
+
+    fn report(&self, folder: &str) -> Value {
+        serde_json::from_slice(&fs::read(self.path(folder).join("report.json")).unwrap()).unwrap()
+    }
+}
+
+fn text(bytes: &[u8]) -> String {
+    String::from_utf8(bytes.to_vec()).unwrap()
+}
+
+fn corpus(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/corpus").join(name)
+}
+
+/// What an instrument gives: 61 x 45 points on 3.05 by 2.25 µm, rough, tilted, bent, with a hole, a lost line and lost points.
+fn measured() -> Topography {
+    let grid = Grid::new((61, 45), (3.05e-6, 2.25e-6)).unwrap();
+    let amplitude = Amplitude::RmsHeight(20e-9);
+    let rough = SelfAffine { hurst: 0.8, k_l: 1.0, k_r: 2.0, k_s: 16.0, amplitude, random_phase: false, seed: 3 };
+    let mut map = Topography::from(rough.surface(grid).unwrap());
+    map.unit = Some("m".to_owned());
+    for ((i, j), h) in map.heights.indexed_iter_mut() {
+        *h += 1e-9 * (5.0 * i as f64 - 3.0 * j as f64) + 4e-7;
+        let hole = (i as f64 - 20.0).hypot(j as f64 - 10.0) < 4.0;
+        if hole || (i > 30 && j == 33) || (7 * i + 11 * j).is_multiple_of(97) {
+            *h = f64::NAN;
+        }
+    }
+    map
+}
+
+/// The number behind a word.
+#[track_caller]
+fn after(said: &str, word: &str) -> f64 {
+    let rest = said.split_once(word).unwrap_or_else(|| panic!("no {word:?} in {said}")).1;
+    rest.split_whitespace().next().unwrap().trim_end_matches([',', ':']).parse().unwrap()
+}
+
+#[test]
+fn a_measured_surface_goes_from_file_to_contact_map() {
+    let bench = Bench::new();
+    let map = measured();
+    write_topography(&bench.path("measured.gsf"), &map).unwrap();
+    let missing = map.missing();
+    let solve = "--modulus 1e9 --mean-pressure 1e6 --pressure-unit Pa --out";
+
+    // as it is, it cannot be solved, and the error says what to do
+    let remedy = "asperity prepare measured.gsf --fill --out filled.npz";
+    bench.refused(
+        &format!("solve --heights measured.gsf {solve} raw"),
+        &["61 x 45 heights", &format!("{missing} missing"), remedy],
+    );
+    bench.refused("stats measured.gsf", &[remedy]);
+    bench.said(remedy.strip_prefix("asperity ").unwrap());
+    assert!(bench.said("stats filled.npz").contains("3.05e-6 x 2.25e-6 m"));
+
+    let said = bench.said("prepare measured.gsf --detrend plane --fill --mirror --out surface.npz");
+    let lines: Vec<_> = said.lines().map(|line| line.split_whitespace().next().unwrap()).collect();
+    assert_eq!(lines, ["read", "detrend", "fill", "mirror", "written"], "{said}");
+    assert!(said.contains(&format!("{missing} of 2745 points filled")), "{said}");
+    // 5 nm and 3 nm per spacing of 50 nm, and what tilt the roughness has
+    assert!((after(&said, "tilt ") - 0.1).abs() < 0.02 && (after(&said, "along x, ") + 0.06).abs() < 0.02, "{said}");
+    let rms: Vec<f64> = said.split("rms height ").skip(1).map(|rest| after(rest, "")).collect();
+    assert!(rms[0] > 2.0 * rms[1] && (rms[2] / rms[1] - 1.0).abs() < 0.1 && rms[3] == rms[2], "{said}");
+
+    let surface = read_topography(&bench.path("surface.npz")).unwrap();
+    assert_eq!((surface.heights.dim(), surface.missing(), surface.unit.as_deref()), ((122, 90), 0, Some("m")));
+    let (lx, ly) = surface.lengths.unwrap();
+    assert!((lx / 6.1e-6 - 1.0).abs() < 1e-12 && (ly / 4.5e-6 - 1.0).abs() < 1e-12);
+
+    let said = bench.said(&format!("solve --heights surface.npz {solve} results --format npz,vti"));
+    assert!(said.contains("converged"), "{said}");
+    let report = bench.report("results");
+    assert_eq!((report["length_unit"].as_str(), report["lengths"][0].as_f64()), (Some("m"), Some(lx)));
+    let contact = report["contact_fraction"].as_f64().unwrap();
+    assert!(contact > 0.005 && contact < 0.5, "{contact}");
+    let names: Vec<_> = said.lines().last().unwrap().split(": ").last().unwrap().split(", ").collect();
+    assert_eq!(names, ["fields.npz", "fields.vti", "report.json", "contact.png", "pressure.png"]);
+    let written: Vec<_> = fs::read_dir(bench.path("results")).unwrap().collect();
+    assert_eq!(written.len(), names.len());
+    assert!(names.iter().all(|name| fs::metadata(bench.path("results").join(name)).unwrap().len() > 200));
+
+    // stats says units too
+    let stats = bench.said("stats surface.npz");
+    assert!(
+        stats.contains("6.1e-6 x 4.5e-6 m")
+            && stats.lines().any(|l| l.starts_with("rms curvature") && l.ends_with(" 1/m"))
+    );
+}
+
+#[test]
+fn steps_have_a_fixed_order_and_are_those_of_the_library() {
+    let bench = Bench::new();
+    let map = measured();
+    write_topography(&bench.path("measured.npz"), &map).unwrap();
+    let said = bench.said(
+        "prepare measured.npz --resample 100 64 --window 0.15 --fill --detrend quadric --flip --crop 3 2 50 40 --scale 2 \
+         --lengths 6.1e-6 4.5e-6 --unit m --out a.npz",
+    );
+    let order =
+        ["read", "lengths", "scale", "unit", "crop", "flip", "detrend", "fill", "window", "resample", "written"];
+    assert_eq!(said.lines().map(|line| line.split_whitespace().next().unwrap()).collect::<Vec<_>>(), order, "{said}");
+    let mut expected = map;
+    expected.lengths = Some((6.1e-6, 4.5e-6));
+    expected.heights.mapv_inplace(|h| 2.0 * h);
+    let expected = expected.crop(3..53, 2..42).unwrap().flip().detrend(asperity::Trend::Quadric).unwrap();
+    let expected = expected.fill().unwrap().window(0.15).unwrap().resample((100, 64)).unwrap();
+    assert_eq!(read_topography(&bench.path("a.npz")).unwrap(), expected);
+    assert!(said.contains("before 3.05e-6 x 2.25e-6 m") && said.contains("curvatures xx"), "{said}");
+
+    // nothing is done unasked, and what is left undone is said
+    let said = bench.said("prepare measured.npz --out same.npz");
+    assert!(said.contains("points are missing still") && said.lines().count() == 3, "{said}");
+    let (same, before) = (read_topography(&bench.path("same.npz")).unwrap(), measured());
+    assert!(same.heights.iter().zip(&before.heights).all(|(a, b)| a == b || a.is_nan() && b.is_nan()));
+    assert_eq!(bench.said("prepare measured.npz --fill --out heights.npy --quiet"), "");
+    assert!(bench.said("prepare measured.npz --fill --out h.npy").contains("give them again by --lengths"));
+    assert_eq!(read_topography(&bench.path("heights.npy")).unwrap().lengths, None);
+    let fit = bench.said("prepare heights.npy --detrend mean --out level.gsf");
+    assert!(fit.contains("unknown side lengths") && fit.contains("removed"), "{fit}");
+}
+
+#[test]
+fn lengths_of_files_and_of_options() {
+    let bench = Bench::new();
+    fs::write(bench.path("g.txt"), "# Width: 2 nm\n# Height: 1 nm\n# Value units: nm\n1 2 4\n3 5 9\n").unwrap();
+    fs::write(bench.path("plain.txt"), "1 2 4\n3 5 9\n").unwrap();
+    let sides = |arguments: &str| {
+        let said = bench.said(arguments);
+        said.lines().find_map(|line| line.strip_prefix("side lengths")).unwrap().trim().to_owned()
+    };
+    assert_eq!(sides("stats g.txt"), "2e-9 x 1e-9 m");
+    // headers are rounded: what is near is taken as given
+    assert_eq!(sides("stats g.txt --lengths 2.01e-9 1e-9"), "2.01e-9 x 1e-9 m");
+    assert_eq!(sides("stats plain.txt"), "1 x 1");
+    assert_eq!(sides("stats plain.txt --lengths 4"), "4 x 6");
+    for command in
+        ["stats g.txt", "solve --mean-gap 1 --out r --heights g.txt", "sweep --mean-gaps 1 --out r.csv --heights g.txt"]
+    {
+        bench.refused(
+            &format!("{command} --lengths 2 1"),
+            &["--lengths", "2 x 1", "2e-9 x 1e-9 m", "leave --lengths out", "asperity prepare"],
+        );
+    }
+    bench.said("prepare g.txt --lengths 2 1 --out g.npz");
+    assert_eq!(sides("stats g.npz"), "2 x 1 m");
+    // sweeps take the lengths and the unit too
+    bench.said("sweep --mean-gaps 1e-9 --heights g.txt --quiet --out s.csv");
+}
+
+#[test]
+fn what_cannot_be_prepared_is_refused_and_nothing_is_written() {
+    let bench = Bench::new();
+    fs::write(bench.path("holes.txt"), "1 nan 3\n4 5 6\n7 8 9\n").unwrap();
+    fs::write(bench.path("nothing.txt"), "nan nan\nnan nan\n").unwrap();
+    fs::write(bench.path("old.npz"), "old").unwrap();
+    for (arguments, parts) in [
+        ("prepare holes.txt --window 0.1 --out n.npz", vec!["holes.txt", "1 of 9", "add --fill"]),
+        ("prepare holes.txt --resample 6 6 --out n.npz", vec!["1 of 9", "add --fill"]),
+        ("prepare nothing.txt --fill --out n.npz", vec!["number of measured heights", "0"]),
+        ("prepare nothing.txt --detrend plane --out n.npz", vec!["number of measured heights"]),
+        ("prepare holes.txt --fill --out old.npz", vec!["old.npz", "exists", "--force"]),
+        ("prepare holes.txt --fill --out n.tif", vec!["n.tif", "ending", ".npz"]),
+        ("prepare holes.txt --fill --window 0.6 --out n.npz", vec!["window", "0.6", "0.5"]),
+        ("prepare holes.txt --fill --window 0.1 --mirror --out n.npz", vec!["--window", "--mirror"]),
+        ("prepare holes.txt --crop 0 0 4 1 --out n.npz", vec!["crop along x", "is 4", "within the map"]),
+        ("prepare holes.txt --crop 0 0 4 --out n.npz", vec!["--crop"]),
+        ("prepare holes.txt --fill --resample 0 4 --out n.npz", vec!["--resample", "'0'"]),
+        ("prepare holes.txt --fill --resample 16000000 16000000 --out n.npz", vec!["memory", "fewer"]),
+        ("prepare holes.txt --scale 0 --out n.npz", vec!["--scale", "'0'"]),
+        ("prepare holes.txt --detrend cubic --out n.npz", vec!["cubic", "quadric"]),
+        ("prepare none.txt --out n.npz", vec!["none.txt", "does not exist"]),
+        ("prepare holes.txt", vec!["--out"]),
+    ] {
+        bench.refused(arguments, &parts);
+        assert_eq!(fs::read_dir(&bench.0).unwrap().count(), 3, "{arguments}");
+    }
+    assert_eq!(fs::read(bench.path("old.npz")).unwrap(), b"old");
+    let help = bench.said("prepare --help").split_whitespace().collect::<Vec<_>>().join(" ");
+    for part in
+        ["Nothing is done that is not asked for", "--detrend, --fill, --window or --mirror, --resample", "Examples"]
+    {
+        assert!(help.contains(part), "{part}: {help}");
+    }
+}
+
+/// Written by numpy 2.4 and gsffile 0.5: h = i + 10 j on 4 x 3 nodes of 2 by 3 µm, and [2, 1] is missing.
+#[test]
+fn files_of_others_have_their_heights_where_they_belong() {
+    for (name, scale, lengths, unit) in [
+        ("map.npz", 1.0, Some((2e-6, 3e-6)), Some("m")),
+        ("map-deflated.npz", 1.0, Some((2.0, 3.0)), Some("\u{b5}m")),
+        ("map.gsf", 1.0, Some((2e-6, 3e-6)), Some("m")),
+        ("bare.gsf", 1.0, None, None),
+        ("gwyddion.txt", 1e-9, Some((2e-6, 3e-6)), Some("m")),
+        ("map.xyz", 1.0, Some((2.0, 3.0)), None),
+    ] {
+        let map = read_topography(&corpus(name)).unwrap();
+        assert_eq!((map.heights.dim(), map.missing(), map.unit.as_deref()), ((4, 3), 1, unit), "{name}");
+        assert!(map.heights.is_standard_layout());
+        for ((i, j), h) in map.heights.indexed_iter() {
+            let expected = scale * (i as f64 + 10.0 * j as f64);
+            assert!(
+                if (i, j) == (2, 1) { h.is_nan() } else { (h - expected).abs() < 1e-15 * scale },
+                "{name}: {h} at {i}, {j}"
+            );
+        }
+        assert_eq!(map.lengths.is_some(), lengths.is_some());
+        if let (Some(found), Some(lengths)) = (map.lengths, lengths) {
+            assert!((found.0 / lengths.0 - 1.0).abs() < 1e-12 && (found.1 / lengths.1 - 1.0).abs() < 1e-12, "{name}");
+        }
+    }
+}
+
+#[test]
+fn all_formats_hold_the_same_fields() {
+    let bench = Bench::new();
+    for precision in ["f32", "f64"] {
+        let heights = Array2::from_shape_fn((6, 4), |(i, j)| 0.01 * ((i * i + 2 * j) as f64).cos());
+        write_npy(&bench.path("h.npy"), &heights).unwrap();
+        bench.said(&format!(
+            "solve --heights h.npy --lengths 3 1 --mean-pressure 2e-3 --precision {precision} --law exponential \
+             --work-of-adhesion 1e-5 --range 1e-2 --stability --format npy --format npz --format vti --no-pictures --out {precision}"
+        ));
+        let folder = bench.path(precision);
+        let vti = fs::read(folder.join("fields.vti")).unwrap();
+        let start = vti.windows(2).position(|pair| pair == b"\n_").unwrap() + 2;
+        let head = text(&vti[..start]);
+        assert!(
+            head.contains(r#"WholeExtent="0 5 0 3 0 0" Origin="-1.5e0 -5e-1 0" Spacing="5e-1 2.5e-1 2.5e-1""#),
+            "{head}"
+        );
+        let width = if precision == "f32" { 4 } else { 8 };
+        assert_eq!(head.matches(if width == 4 { "Float32" } else { "Float64" }).count(), 4);
+        assert!(vti.ends_with(b"</AppendedData>\n</VTKFile>\n"));
+        let archive = fs::read(folder.join("fields.npz")).unwrap();
+        for (k, name) in ["gap", "pressure", "contact_pressure", "mode"].into_iter().enumerate() {
+            let field = read_field(&folder.join(format!("{name}.npy"))).unwrap();
+            let offset = k * (8 + 24 * width);
+            assert!(head.contains(&format!(r#"Name="{name}" format="appended" offset="{offset}""#)), "{head}");
+            let block = &vti[start + offset..];
+            assert_eq!(block[..8], (24 * width as u64).to_le_bytes());
+            for ((i, j), value) in field.indexed_iter() {
+                // x runs fastest
+                let bytes = &block[8 + (6 * j + i) * width..][..width];
+                let found = match width {
+                    4 => f64::from(f32::from_le_bytes(bytes.try_into().unwrap())),
+                    _ => f64::from_le_bytes(bytes.try_into().unwrap()),
+                };
+                // the mode is f64 on its own, and in the precision of the others with them
+                assert!(found == *value || name == "mode" && (found - value).abs() < 1e-6, "{name} at {i}, {j}");
+            }
+            // stored as the files are
+            let npy = fs::read(folder.join(format!("{name}.npy"))).unwrap();
+            assert!(name == "mode" || archive.windows(npy.len()).any(|window| window == npy), "{name}");
+        }
+        bench.refused(&format!("stats {precision}/fields.npz"), &["5 arrays", "named heights"]);
+    }
+    // what is there is not overwritten, whatever its format
+    bench.refused("solve --heights h.npy --mean-gap 1 --format vti --out f64", &["fields.vti", "exists", "--force"]);
+    bench.refused("solve --heights h.npy --mean-gap 1 --format hdf5 --out x", &["hdf5", "npy", "npz", "vti"]);
+}
+
+/// A Python with numpy: that of `.ci/run` in the target folder, or any.
+fn python() -> Option<PathBuf> {
+    let target = Path::new(env!("CARGO_BIN_EXE_asperity")).ancestors().nth(2)?;
+    let candidates = [target.join("numpy/bin/python"), PathBuf::from("python3")];
+    let has_numpy = |python: &PathBuf| {
+        Command::new(python).args(["-c", "import numpy"]).output().is_ok_and(|output| output.status.success())
+    };
+    candidates.into_iter().find(has_numpy)
+}
+
+#[test]
+fn numpy_reads_what_is_written_and_writes_what_is_read() {
+    let Some(python) = python() else {
+        println!("skipped: neither target/numpy/bin/python nor python3 has numpy; .ci/run installs it");
+        return;
+    };
+    let bench = Bench::new();
+    let run = |script: &str| {
+        let output = Command::new(&python).current_dir(&bench.0).args(["-c", script]).output().unwrap();
+        assert!(output.status.success(), "{}", text(&output.stderr));
+        text(&output.stdout)
+    };
+    // every kind of number, order and container: h = 3 i - j² is exact in all of them
+    run("import numpy as np
+h = np.array([[3 * i - j * j for j in range(4)] for i in range(7)])
+for dtype in ['<f4', '>f4', '<f8', '>f8', 'i1', '<i2', '>i4', '<i8']:
+    np.save(dtype.strip('<>') + ('b' if '>' in dtype else 'l') + '.npy', h.astype(dtype))
+np.save('fortran.npy', np.asfortranarray(h.astype('f8')))
+np.savez('one.npz', h)
+np.savez_compressed('named.npz', heights=h, lengths=(7e-6, 4e-6), unit='m', other=np.zeros((9, 9)))
+np.savetxt('text.txt', h, header='seven lines of four')");
+    let expected = Array2::from_shape_fn((7, 4), |(i, j)| 3.0 * i as f64 - (j * j) as f64);
+    let mut read = 0;
+    for entry in fs::read_dir(&bench.0).unwrap() {
+        let path = entry.unwrap().path();
+        assert_eq!(read_field(&path).unwrap(), expected, "{}", path.display());
+        read += 1;
+    }
+    assert_eq!(read, 12);
+    let named = read_topography(&bench.path("named.npz")).unwrap();
+    assert_eq!((named.lengths, named.unit.as_deref()), (Some((7e-6, 4e-6)), Some("m")));
+
+    // the other way, with the check that only the solution passes
+    bench.said("solve --heights named.npz --modulus 1 --mean-gap 20 --format npy,npz --no-pictures --out r");
+    bench.said("prepare named.npz --detrend plane --out back.npz");
+    let said = run("import numpy as np, json
+report = json.load(open('r/report.json'))
+fields = np.load('r/fields.npz')
+assert sorted(fields) == ['contact_pressure', 'gap', 'lengths', 'pressure'], sorted(fields)
+for name in ['gap', 'pressure', 'contact_pressure']:
+    alone = np.load('r/' + name + '.npy')
+    assert alone.dtype == np.float64 and alone.shape == (7, 4)
+    assert np.array_equal(fields[name], alone), name
+assert list(fields['lengths']) == report['lengths']
+assert abs(fields['gap'].mean() / 20 - 1) < 1e-12
+assert (fields['gap'] * fields['contact_pressure'] == 0).all()
+back = np.load('back.npz')
+assert back['unit'] == 'm' and back['unit'].shape == () and list(back['lengths']) == [7e-6, 4e-6]
+x, y = np.meshgrid(np.arange(7.0), np.arange(4.0), indexing='ij')
+terms = np.stack([np.ones(28), x.ravel(), y.ravel()], 1)
+h = np.load('one.npz')['arr_0'].ravel()
+rest = h - terms @ np.linalg.lstsq(terms, h, rcond=None)[0]
+assert abs(back['heights'].ravel() - rest).max() < 1e-13, abs(back['heights'].ravel() - rest).max()
+print('same')");
+    assert_eq!(said.trim(), "same");
+}
