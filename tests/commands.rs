@@ -171,7 +171,7 @@ fn targets(text: &str) -> impl Iterator<Item = (&'static str, String)> {
 }
 
 fn exists(folder: &str, name: &str) -> bool {
-    root().join(folder).join(format!("{name}.rs")).is_file()
+    [format!("{name}.rs"), format!("{name}/main.rs")].iter().any(|file| root().join(folder).join(file).is_file())
 }
 
 /// What a text names in passing.
