@@ -175,6 +175,13 @@ fn a_scene_has_the_options_of_its_command_and_gives_way_to_those_beside_it() {
     assert_eq!((report["modulus"].as_f64(), report["control"].as_str()), (Some(20.0), Some("mean-pressure")));
     assert_eq!(report["lengths"], serde_json::json!([1.0, 1.0]));
     assert_eq!(bench.names("other").len(), 5);
+    // without adhesion there are no parameters of it
+    bench.said(&format!("solve --heights heights.npy --mean-gap 0.02 {ADHESION} --quiet --out sticky"));
+    for none in ["--law none", "--law=none"] {
+        let report = bench.reported(&format!("run sticky/scene.toml {none} --out bare --force"));
+        assert_eq!((report["law"].as_str(), &report["range"]), (Some("none"), &Value::Null));
+    }
+    assert!(bench.refused("run sticky/scene.toml --law dupre").contains("exponential"));
     // numbers, words and lists for a list of loads
     for loads in ["[0.02, 0.01]", "[\"0.02:0.01:2\"]", "\"0.02,0.01\""] {
         let scene = format!("command = \"sweep\"\nheights = \"heights.npy\"\nmean-gaps = {loads}\nout = \"s.csv\"\n");

@@ -35,9 +35,10 @@ pub struct Options {
 
 const EXAMPLES: &str = "\
 \u{1b}[1;4mExamples:\u{1b}[0m
-  Then the case with adhesion at half the pressure:
+  Then the case with adhesion at half the pressure, and what is left of it without adhesion:
     asperity demo
-    asperity run asperity-demo/scene.toml --mean-pressure 2.5e6 --out lighter";
+    asperity run asperity-demo/scene.toml --mean-pressure 2.5e6 --out lighter
+    asperity run asperity-demo/scene.toml --mean-pressure 2.5e6 --law none --out bare";
 
 const SIDE: f64 = 1e-6;
 const NODES: usize = 512;

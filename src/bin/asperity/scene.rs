@@ -133,11 +133,15 @@ fn entries(table: Table, command: &Command) -> Result<Vec<(String, Value)>, Stri
     Ok(entries)
 }
 
-/// The options that those given beside a scene replace: themselves, and those that exclude them.
+/// The options that those given beside a scene replace: themselves, those that exclude them, and with the law of adhesion
+/// its parameters, if there is none any more.
 fn replaced(command: &Command, given: &[OsString]) -> Vec<String> {
     let mut replaced = Vec::new();
-    for word in given {
-        let word = word.to_string_lossy();
+    let words: Vec<_> = given.iter().map(|word| word.to_string_lossy()).collect();
+    if words.iter().any(|word| word == "--law=none") || words.windows(2).any(|pair| pair == ["--law", "none"]) {
+        replaced.extend(command.get_arguments().filter(|arg| section(arg) == "adhesion").filter_map(key));
+    }
+    for word in words {
         let Some(name) = word.strip_prefix("--").and_then(|word| word.split('=').next()) else { continue };
         let Some(option) = command.get_arguments().find(|arg| arg.get_long() == Some(name)) else { continue };
         replaced.extend(key(option));
