@@ -58,10 +58,10 @@ pub struct Options {
     resample: Option<Vec<usize>>,
 
     /// File for the result: .npz (with lengths and unit), .gsf (those too, for Gwyddion, in f32) or .npy (heights alone)
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", help_heading = "Output")]
     out: PathBuf,
     /// Replace a file that is there
-    #[arg(long)]
+    #[arg(long, help_heading = "Output")]
     force: bool,
     #[command(flatten)]
     printing: Printing,

@@ -29,10 +29,10 @@ pub struct Options {
     lengths: Option<Vec<f64>>,
     /// File for the radially averaged power spectral density, comma-separated: the wave number in radians per length, the
     /// density, of which the integral over both wave numbers is the mean square height, and of how many waves it is the mean
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", help_heading = "Output")]
     psd: Option<PathBuf>,
     /// Replace a file that is there
-    #[arg(long)]
+    #[arg(long, help_heading = "Output")]
     force: bool,
     #[command(flatten)]
     printing: Printing,
