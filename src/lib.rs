@@ -78,7 +78,7 @@
 //! # Features
 //!
 //! `parallel` (default): threads, with the same results bit for bit. `cli` (default): files, pictures and the
-//! command-line tool. Without both the library depends on libm, ndarray, num-traits, pulp and rustfft alone.
+//! command-line tool, of which the page [`tool`] tells. Without both the library depends on libm, ndarray, num-traits, pulp and rustfft alone.
 
 mod adhesion;
 mod constraint;
@@ -112,6 +112,9 @@ mod solver;
 mod stability;
 mod surface;
 mod sweep;
+pub mod tool {
+    #![doc = include_str!("tool.md")]
+}
 mod vector;
 
 pub use adhesion::{AdhesionLaw, Exponential, MaugisDugdale, NoAdhesion, check_law};

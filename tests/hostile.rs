@@ -392,6 +392,35 @@ mod tool {
     }
 
     #[test]
+    fn no_scenes_break_the_tool() {
+        let bench = bench(16);
+        for seed in 0..200 {
+            let random = &mut ChaCha8Rng::seed_from_u64(seed);
+            let mut scene =
+                ["command = \"solve\"\nheights = \"heights.npy\"\nmean-gap = 0.0398\n", "command = \"sweep\"\n", ""]
+                    [random.random_range(0..3)]
+                .to_owned();
+            for _ in 0..random.random_range(0..4) {
+                let (key, value) =
+                    (OPTIONS[random.random_range(0..OPTIONS.len())], VALUES[random.random_range(0..VALUES.len())]);
+                let key = key.trim_start_matches("--");
+                scene.push_str(&match random.random_range(0..6) {
+                    0 => format!("{key} = {value}\n"),
+                    1 => format!("{key} = [{value:?}, {value:?}]\n"),
+                    2 => format!("[{key}]\n"),
+                    3 => format!("{value:?} = true\n"),
+                    4 => value.to_owned(),
+                    _ => format!("{key} = {value:?}\n"),
+                });
+            }
+            std::fs::write(bench.path().join("scene.toml"), &scene).unwrap();
+            let out = if random.random_bool(0.9) { "--out out --force" } else { "--json" };
+            let output = limited(bench.path(), 4 * GIGABYTE, "200000", &words(&format!("run scene.toml {out}")));
+            assert_orderly(&output, &format!("seed {seed}: {scene}"));
+        }
+    }
+
+    #[test]
     fn sizes_beyond_the_memory_are_refused() {
         let bench = bench(16);
         for size in ["--size 9999999", "--shape 9999999999 1", "--shape 4294967296 4294967296", "--size 100000"] {
@@ -457,7 +486,8 @@ mod tool {
     #[test]
     fn a_solve_that_is_killed_shows_all_of_its_results_or_none() {
         let bench = bench(128);
-        let whole = ["contact.png", "contact_pressure.npy", "gap.npy", "pressure.npy", "pressure.png", "report.json"];
+        let fields = ["contact_pressure.npy", "gap.npy", "pressure.npy"];
+        let whole = [&["contact.png"], &fields[..], &["pressure.png", "report.json", "scene.toml"]].concat();
         let mut finished = 0;
         for delay in 0..40 {
             let mut child = Command::new(env!("CARGO_BIN_EXE_asperity"))

@@ -67,7 +67,7 @@ fn a_surface_is_the_librarys_and_is_measured_alike() {
     let bench = Bench::new();
     let options = "--shape 100 90 --lengths 2e-6 3e-6 --rms-height 1e-8 --hurst 0.6 --k-l 2 --k-r 5 --k-s 25 --seed 12";
     let said = bench.said(&format!("surface {options} --out rough.npy --psd psd.csv"));
-    assert_eq!(bench.names(), ["psd.csv", "rough.npy"]);
+    assert_eq!(bench.names(), ["psd.csv", "rough.npy", "rough.npy.scene.toml"]);
 
     let grid = Grid::new((100, 90), (2e-6, 3e-6)).unwrap();
     let rough = SelfAffine {

@@ -108,7 +108,7 @@ fn a_sweep_writes_a_row_for_each_load() {
          corrected_contact_fraction,perimeter,clusters,largest_cluster,repulsive_fraction,attractive_fraction,\
          elastic_energy,adhesive_energy,min_gap,relative_error,load_error,iterations,operator_applications,status"
     );
-    assert_eq!(bench.names("new"), ["sweep.csv", "sweep.csv.state.npz"]);
+    assert_eq!(bench.names("new"), ["sweep.csv", "sweep.csv.scene.toml", "sweep.csv.state.npz"]);
     assert_eq!(column(&table, "control_value"), [1e-3, 2e-3, 4e-3, 0.01]);
     assert_eq!(column(&table, "mean_pressure"), [1e-3, 2e-3, 4e-3, 0.01]);
     let [nodes, corrected] = ["contact_fraction", "corrected_contact_fraction"].map(|name| column(&table, name));
@@ -169,7 +169,7 @@ fn a_sweep_that_is_killed_goes_on_where_it_was() {
         assert!(whole.starts_with(bench.read("killed.csv").rsplit_once('\n').unwrap().0));
         bench.sweep(&arguments, 0);
         assert!(bench.read("killed.csv") == whole, "{arguments}");
-        for name in ["killed.csv", "killed.csv.state.npz"] {
+        for name in ["killed.csv", "killed.csv.scene.toml", "killed.csv.state.npz"] {
             fs::remove_file(bench.path(name)).unwrap();
         }
     }

@@ -13,8 +13,8 @@ use serde_json::{Value, json};
 use tempfile::TempDir;
 
 const FIELDS: [&str; 3] = ["gap.npy", "pressure.npy", "contact_pressure.npy"];
-const RESULTS: [&str; 6] =
-    ["contact.png", "contact_pressure.npy", "gap.npy", "pressure.npy", "pressure.png", "report.json"];
+const RESULTS: [&str; 7] =
+    ["contact.png", "contact_pressure.npy", "gap.npy", "pressure.npy", "pressure.png", "report.json", "scene.toml"];
 
 /// A folder with a paraboloid in it, in which the tool is run.
 struct Bench(TempDir);
@@ -113,6 +113,7 @@ fn demo() {
         "heights.png",
         "pressure-with-adhesion.png",
         "pressure-without-adhesion.png",
+        "scene.toml",
     ];
     assert_eq!(bench.names("asperity-demo"), names);
     assert_eq!(bench.names("."), ["asperity-demo"]);
@@ -137,13 +138,25 @@ fn demo() {
     assert!((100.0 * number(&report, "contact_fraction") - sticky).abs() <= 0.05);
     assert_eq!(row("iterations")[1], number(&report, "iterations"));
 
+    // and so does its scene
+    let again = bench.run("run asperity-demo/scene.toml --no-pictures --json --out scene");
+    assert_eq!((again.status.code(), text(&again.stderr)), (Some(0), String::new()));
+    assert!(bench.bytes("scene", "gap.npy") == bench.bytes("asperity-demo/with-adhesion", "gap.npy"));
+    let first = bench.run("demo --json --out other");
+    let reports: Value = serde_json::from_slice(&first.stdout).unwrap();
+    assert_eq!(reports["with_adhesion"]["contact_points"], report["contact_points"]);
+    assert_eq!(reports["without_adhesion"]["law"], "none");
+    for folder in ["scene", "other"] {
+        fs::remove_dir_all(bench.0.path().join(folder)).unwrap();
+    }
+
     // A second run replaces its own files by the same, and leaves others alone.
     let before: Vec<_> = names.iter().map(|name| bench.bytes("asperity-demo", name)).collect();
     fs::write(bench.0.path().join("asperity-demo/heights.png"), "old").unwrap();
     assert_eq!(bench.run("demo --threads 1").status.code(), Some(0));
     let after: Vec<_> = names.iter().map(|name| bench.bytes("asperity-demo", name)).collect();
     assert!(before == after, "the demo depends on something");
-    assert_eq!(bench.names("asperity-demo/with-adhesion").len(), 4);
+    assert_eq!(bench.names("asperity-demo/with-adhesion").len(), 5);
 }
 
 #[test]
@@ -496,7 +509,7 @@ fn threads_do_not_change_a_bit() {
     for threads in [1, 2, 3] {
         let report = bench.solve(&format!("{options} --threads {threads}"), &format!("by-{threads}"), 0);
         assert_eq!(report["threads"], threads);
-        for name in RESULTS.iter().filter(|name| **name != "report.json") {
+        for name in RESULTS.iter().filter(|name| !["report.json", "scene.toml"].contains(name)) {
             assert!(bench.bytes(&format!("by-{threads}"), name) == bench.bytes("by-1", name), "{threads}: {name}");
         }
     }
@@ -508,7 +521,7 @@ fn quiet_is_quiet_and_a_reader_that_left_does_no_harm() {
     let arguments = "solve --heights heights.npy --mean-gap 0.0398 --no-pictures --out";
     let output = bench.run(&format!("{arguments} quiet --quiet"));
     assert_eq!((output.status.code(), output.stdout.len(), output.stderr.len()), (Some(0), 0, 0));
-    assert_eq!(bench.names("quiet"), ["contact_pressure.npy", "gap.npy", "pressure.npy", "report.json"]);
+    assert_eq!(bench.names("quiet"), ["contact_pressure.npy", "gap.npy", "pressure.npy", "report.json", "scene.toml"]);
 
     let output = bench.run(&format!("{arguments} loud"));
     let table = text(&output.stdout);
@@ -518,7 +531,7 @@ fn quiet_is_quiet_and_a_reader_that_left_does_no_harm() {
     drop(child.as_mut().unwrap().stdout.take());
     let output = child.unwrap().wait_with_output().unwrap();
     assert_eq!((output.status.code(), text(&output.stderr)), (Some(0), String::new()));
-    assert_eq!(bench.names("left").len(), 4);
+    assert_eq!(bench.names("left").len(), 5);
 }
 
 #[test]

@@ -8,15 +8,18 @@ use asperity::{
 };
 use clap::{ArgGroup, Args};
 use ndarray::Array2;
-use serde_json::{Map, Value};
+use serde_json::{Map, Value, json};
 
+use crate::echo::Echo;
+use crate::inputs;
 use crate::journal::{Identity, Journal};
 use crate::loads::{self, Loads};
 use crate::options::{self, AdhesionOptions, Precision, SolverOptions, SurfaceOptions};
+use crate::printing::Printing;
 use crate::progress::Progress;
 use crate::report::{Style, warn_of_resolution};
 use crate::run::{self, Scalar};
-use crate::sweep::{cell, identity, line, name_and_value};
+use crate::sweep::{cell, identity, line, name_and_value, parsed};
 use crate::{Outcome, say};
 
 /// Follow the contact along a cycle of approach and withdrawal, and find its jumps.
@@ -27,7 +30,8 @@ use crate::{Outcome, say};
 /// no equilibrium close by. A row for each state is appended to the file as it comes, with the loads, the contact, the energies per area, the work
 /// done by the load so far, the energy dissipated in jumps so far, what is missing from the balance of the two, and what
 /// happened on the way: jump-in, jump-out, pull-off, limit-point. The same command again goes on where an interrupted one was; for
-/// that it keeps FILE.state.npz beside the file, which may be deleted at the end. Exits with 0 if all rows
+/// that it keeps FILE.state.npz beside the file, which may be deleted at the end. FILE.scene.toml beside it repeats or continues
+/// the cycle by asperity run. Exits with 0 if all rows
 /// converged, 2 if not, and 1 if the input is refused or a file cannot be written.
 #[derive(Args)]
 #[command(after_help = EXAMPLES, group(ArgGroup::new("loads").required(true).args(["mean_gaps", "mean_pressures"])))]
@@ -76,13 +80,12 @@ pub struct Options {
     /// Start over, and replace files that are there
     #[arg(long, help_heading = "Output")]
     force: bool,
-    /// Print no rows and no progress
-    #[arg(long, help_heading = "Output")]
-    quiet: bool,
+    #[command(flatten)]
+    printing: Printing,
 }
 
 const EXAMPLES: &str = "\
-Examples:
+\u{1b}[1;4mExamples:\u{1b}[0m
   Approach and withdrawal of a map of 1 by 1, with a picture of the loop:
     asperity cycle --heights heights.npy --law exponential --work-of-adhesion 1e-4 \\
       --range 4e-3 --mean-gaps 0.05,0.02,0.05 --out cycle.csv --plot cycle.png
@@ -116,20 +119,27 @@ const COLUMNS: [&str; 18] = [
 ];
 
 /// Runs the command; whether all rows converged.
-pub fn run(options: &Options) -> Outcome<bool> {
+pub fn run(options: &Options, echo: &Echo) -> Outcome<bool> {
     options.adhesion.check()?;
     options.check_files()?;
     let (surface, unit) = options.surface.surface_and_unit()?;
     let start = options.solver.start(surface.grid())?;
-    run::use_threads(options.solver.threads)?;
+    let threads = run::use_threads(options.solver.threads)?;
     match options.solver.precision {
-        Precision::F32 => options.run::<f32>(surface, start, unit),
-        Precision::F64 => options.run::<f64>(surface, start, unit),
+        Precision::F32 => options.run::<f32>(surface, start, unit, echo, threads),
+        Precision::F64 => options.run::<f64>(surface, start, unit, echo, threads),
     }
 }
 
 impl Options {
-    fn run<T: Scalar>(&self, surface: Surface, start: Option<Array2<f64>>, unit: Option<String>) -> Outcome<bool> {
+    fn run<T: Scalar>(
+        &self,
+        surface: Surface,
+        start: Option<Array2<f64>>,
+        unit: Option<String>,
+        echo: &Echo,
+        threads: usize,
+    ) -> Outcome<bool> {
         let loads = self.loads();
         if loads.len() < 2 {
             return Err("a cycle needs two turning points at least: give more loads, with commas between".into());
@@ -148,12 +158,12 @@ impl Options {
         };
         let mut path = Path::new(&mut solver, &mut problem, loads, path_settings)?;
         let header = COLUMNS.join(",") + "\n";
+        echo.check_beside(&self.out, self.force || self.out.exists())?;
         let (mut journal, gaps) = Journal::open_endless(&self.out, &header, identity, self.force)?;
+        echo.write_beside(&self.out)?;
         let narrow = |gap: Array2<f64>| gap.mapv_into_any(T::lit);
         if journal.rows() > 0 {
-            if !self.quiet {
-                say(&format!("{} has {} rows already", self.out.display(), journal.rows()));
-            }
+            self.printing.say(&format!("{} has {} rows already", self.out.display(), journal.rows()));
             let gaps = gaps.into_iter().map(narrow).collect();
             path = path.continuing(PathCheckpoint { numbers: journal.numbers().to_vec(), gaps })?;
         } else if let Some(start) = start {
@@ -162,7 +172,7 @@ impl Options {
         let mut resolution = None;
         loop {
             let name = format!("{}", journal.rows() + 1);
-            let mut progress = Progress::new(&name, settings.tolerance, grid.nodes(), self.quiet);
+            let mut progress = Progress::new(&name, settings.tolerance, grid.nodes(), self.printing.without_bars());
             let step = path.next_observed(|state| {
                 progress.update(state);
                 ControlFlow::Continue(())
@@ -177,14 +187,14 @@ impl Options {
             let gaps: Vec<_> = checkpoint.gaps.iter().map(|gap| gap.view()).collect();
             let report = &step.solution.report;
             journal.append_endless(&text, report.status == Status::Converged, &gaps, &checkpoint.numbers)?;
-            if !self.quiet {
-                let event = step.event.map_or(String::new(), |event| format!("  {event}"));
-                say(&format!("{:>4}  {}{event}", journal.rows(), line(report)));
-            }
+            let event = step.event.map_or(String::new(), |event| format!("  {event}"));
+            self.printing.say(&format!("{:>4}  {}{event}", journal.rows(), line(report)));
             resolution = Some(report.clone()).filter(|report| report.under_resolved);
         }
         drop(path);
-        self.conclude(&journal, unit.as_deref())?;
+        let unit = self.length_unit.as_deref().or(unit.as_deref());
+        let inputs = inputs::inputs(&self.surface, &self.adhesion, &self.solver, &grid, unit, threads);
+        self.conclude(&journal, unit, inputs)?;
         if let Some(report) = resolution {
             warn_of_resolution("", &report, self.adhesion.range.unwrap_or_default());
         }
@@ -237,20 +247,42 @@ impl Options {
     }
 
     /// Says what the cycle comes to, by all of its rows, and draws it.
-    fn conclude(&self, journal: &Journal, unit: Option<&str>) -> Outcome<()> {
+    fn conclude(&self, journal: &Journal, unit: Option<&str>, inputs: Map<String, Value>) -> Outcome<()> {
         let text = fs::read_to_string(&self.out).map_err(|e| Error::file(&self.out, format!("cannot be read: {e}")))?;
         let rows: Vec<Vec<&str>> = text.lines().skip(1).map(|row| row.split(',').collect()).collect();
         let column = |name: &str| COLUMNS.iter().position(|column| *column == name).unwrap_or_default();
         let number =
             |row: &[&str], name: &str| row.get(column(name)).and_then(|cell| cell.parse().ok()).unwrap_or(f64::NAN);
-        if !self.quiet {
+        let least = rows.iter().map(|row| number(row, "mean_pressure")).fold(f64::INFINITY, f64::min);
+        let event = |row: &[&str]| row.get(column("event")).copied().unwrap_or_default().to_owned();
+        self.printing.report(|| {
+            let rows: Vec<_> = text.lines().skip(1).map(|row| parsed(&COLUMNS, row)).collect();
+            let last = rows.last().cloned().unwrap_or_default();
+            let events = rows.iter().filter(|row| !row["event"].is_null());
+            let brief = |row: &Value| {
+                let kept = ["leg", "control_value", "mean_gap", "mean_pressure", "event", "energy_drop"];
+                kept.iter().map(|key| ((*key).to_owned(), row[key].clone())).collect::<Value>()
+            };
+            let outcome = json!({
+                "control": last["control"],
+                "rows": journal.rows(),
+                "unconverged": journal.unconverged(),
+                "out": self.out.to_string_lossy(),
+                "greatest_tension": (least < 0.0).then_some(-least),
+                "events": events.map(brief).collect::<Vec<_>>(),
+                "work": last["work"],
+                "dissipated": last["dissipated"],
+                "imbalance": last["imbalance"],
+                "last": last,
+            });
+            inputs::report("cycle", outcome, inputs)
+        });
+        if self.printing.for_people() {
             let plain = |value| Style::Plain.number(value, "");
-            let least = rows.iter().map(|row| number(row, "mean_pressure")).fold(f64::INFINITY, f64::min);
             say(&format!("{} rows in {}", journal.rows(), self.out.display()));
             if least < 0.0 {
                 say(&format!("greatest tension        {}", plain(-least)));
             }
-            let event = |row: &[&str]| row.get(column("event")).copied().unwrap_or_default().to_owned();
             let mut events: Vec<_> = rows.iter().filter(|row| !event(row).is_empty()).collect();
             let count = events.len();
             // limit points first, which dissipate nothing
@@ -285,7 +317,7 @@ impl Options {
         let chart = Chart {
             title: "Mean pressure over mean gap",
             x_label: "mean gap",
-            x_unit: self.length_unit.as_deref().or(unit),
+            x_unit: unit,
             y_label: "mean pressure",
             y_unit: self.pressure_unit.as_deref(),
             curves: names.iter().map(String::as_str).zip(curves.into_iter().map(|(_, points)| points)).collect(),

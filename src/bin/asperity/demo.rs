@@ -1,30 +1,44 @@
+use std::ffi::{OsStr, OsString};
 use std::path::{Path, PathBuf};
 
 use asperity::io::{OutputFolder, write_npy};
-use asperity::{
-    Amplitude, Colouring, Control, Exponential, Grid, Map, NoAdhesion, SelfAffine, Settings, Status, Surface,
-};
-use clap::Args;
+use asperity::{Amplitude, Colouring, Error, Exponential, Grid, Map, NoAdhesion, SelfAffine, Status, Surface};
+use clap::{Args, CommandFactory};
 use ndarray::Array2;
+use serde_json::json;
 
+use crate::Outcome;
+use crate::echo::{self, Echo};
 use crate::options::threads;
+use crate::printing::Printing;
 use crate::progress::Progress;
 use crate::report::{Style, si, table, warn};
-use crate::run::{self, Case, Units};
-use crate::{Outcome, say};
+use crate::run::{self, Units};
+use crate::solve::{self, write_text};
 
 /// Press a built-in rough surface, without and with adhesion at the same load.
 ///
-/// Prints a table and writes maps of the heights, the contact and the pressure. Needs no files.
+/// Prints a table and writes maps of the heights, the contact and the pressure. Needs no files. Beside the maps it writes
+/// scene.toml, with which asperity run does the case with adhesion again: something to change and to try.
 #[derive(Args)]
+#[command(after_help = EXAMPLES)]
 pub struct Options {
     /// Folder for the maps; those of an earlier demo are replaced
-    #[arg(long, value_name = "DIR", default_value = "asperity-demo")]
+    #[arg(long, value_name = "DIR", default_value = "asperity-demo", help_heading = "Output")]
     out: PathBuf,
+    #[command(flatten)]
+    printing: Printing,
     /// Threads; the results do not depend on it [default: one per core]
-    #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = threads)]
+    #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = threads, help_heading = "Output")]
     threads: Option<usize>,
 }
+
+const EXAMPLES: &str = "\
+\u{1b}[1;4mExamples:\u{1b}[0m
+  Then the case with adhesion at half the pressure, and what is left of it without adhesion:
+    asperity demo
+    asperity run asperity-demo/scene.toml --mean-pressure 2.5e6 --out lighter
+    asperity run asperity-demo/scene.toml --mean-pressure 2.5e6 --law none --out bare";
 
 const SIDE: f64 = 1e-6;
 const NODES: usize = 512;
@@ -35,24 +49,28 @@ const WORK_OF_ADHESION: f64 = 0.05;
 const RANGE: f64 = 1e-9;
 const UNITS: Units<'static> = Units { length: Some("m"), pressure: Some("Pa") };
 
-const NAMES: [&str; 6] = [
+const NAMES: [&str; 7] = [
     "heights.png",
     "contact-without-adhesion.png",
     "contact-with-adhesion.png",
     "pressure-without-adhesion.png",
     "pressure-with-adhesion.png",
     "heights.npy",
+    echo::NAME,
 ];
 
 /// Runs the command; whether both solves converged.
 pub fn run(options: &Options) -> Outcome<bool> {
-    let out = &options.out;
+    let &Options { ref out, printing, .. } = options;
+    let (bare_options, _) = solve_options(out, false)?;
+    let (sticky_options, echo) = solve_options(out, true)?;
+    Echo::check(&out.join(echo::NAME))?;
     drop(OutputFolder::create(out, &NAMES, true)?);
-    run::use_threads(options.threads)?;
+    let threads = run::use_threads(options.threads)?;
 
     let grid = Grid::square(NODES, SIDE)?;
     let surface = rough(grid)?;
-    say(&format!(
+    printing.say(&format!(
         "A rough surface of {side} by {side} ({NODES} x {NODES} nodes, rms height {}) pressed with {}\n\
          against a half-space of contact modulus {}, without and with adhesion (exponential law, {} over {}).\n",
         si(RMS_HEIGHT, "m"),
@@ -63,13 +81,8 @@ pub fn run(options: &Options) -> Outcome<bool> {
         side = si(SIDE, "m"),
     ));
     let heights = surface.heights().clone();
-    let case = Case {
-        modulus: MODULUS,
-        control: Control::MeanPressure(PRESSURE),
-        settings: Settings::default(),
-        stability: false,
-    };
-    let progress = |name| Progress::new(name, case.settings.tolerance, grid.nodes(), false);
+    let case = sticky_options.case();
+    let progress = |name| Progress::new(name, case.settings.tolerance, grid.nodes(), printing.without_bars());
     let law = Exponential::new(WORK_OF_ADHESION, RANGE)?;
     let (bare, without) = run::solve::<f64, _>(surface.clone(), NoAdhesion, &case, None, progress("without adhesion"))?;
     let (sticky, with) = run::solve::<f64, _>(surface, law, &case, None, progress("with adhesion"))?;
@@ -78,6 +91,7 @@ pub fn run(options: &Options) -> Outcome<bool> {
     let draw = || {
         draw_heights(&folder.path("heights.png"), grid, &heights)?;
         write_npy(&folder.path("heights.npy"), &heights)?;
+        write_text(&folder.path(echo::NAME), &echo.text(out))?;
         for (name, solution, adhesive) in [("without adhesion", &bare, false), ("with adhesion", &sticky, true)] {
             let path = |what: &str| folder.path(&format!("{what}-{}.png", name.replace(' ', "-")));
             run::draw_contact(&path("contact"), grid, &format!("Contact {name}"), UNITS, &solution.gap)?;
@@ -90,9 +104,20 @@ pub fn run(options: &Options) -> Outcome<bool> {
     draw().map_err(|error| run::at_destination(error, out))?;
     folder.commit()?;
 
-    say(&table(&["without adhesion", "with adhesion"], &[&without, &with], Style::Si));
-    say(&format!("\nmaps in {}: {}\n", out.display(), NAMES.join(", ")));
-    say(&format!("the case with adhesion again, from its file:\n  {}", command(out)));
+    printing.say(&table(&["without adhesion", "with adhesion"], &[&without, &with], Style::Si));
+    printing.say(&format!("\nmaps in {}: {}\n", out.display(), NAMES.join(", ")));
+    let command: Vec<_> = arguments(out, true).iter().map(|word| quoted(word)).collect();
+    let (command, scene) = (command.join(" "), quoted(out.join(echo::NAME).as_os_str()));
+    printing.say(&format!(
+        "the case with adhesion again, by its options or by its scene:\n  {command}\n  asperity run {scene}"
+    ));
+    printing.report(|| {
+        json!({
+            "command": "demo",
+            "without_adhesion": bare_options.report(grid, &without, UNITS.length, threads),
+            "with_adhesion": sticky_options.report(grid, &with, UNITS.length, threads),
+        })
+    });
     warn("without adhesion", &without, &case, 0.0);
     warn("with adhesion", &with, &case, RANGE);
     Ok([without, with].iter().all(|account| account.report.status == Status::Converged))
@@ -116,20 +141,33 @@ fn draw_heights(path: &Path, grid: Grid, heights: &Array2<f64>) -> asperity::Res
     map.write_png(path)
 }
 
-/// How to solve the case with adhesion from the heights in `folder`.
-fn command(folder: &Path) -> String {
-    let quoted = |path: PathBuf| {
-        let path = path.display().to_string();
-        let plain = path.chars().all(|c| c.is_alphanumeric() || "/._-+".contains(c));
-        if plain { path } else { format!("'{}'", path.replace('\'', r"'\''")) }
-    };
-    format!(
-        "asperity solve --heights {} --lengths {SIDE:e} {SIDE:e} --modulus {MODULUS:e} --mean-pressure {PRESSURE:e} \
-         --law exponential --work-of-adhesion {WORK_OF_ADHESION} --range {RANGE:e} --length-unit m --pressure-unit Pa \
-         --out {}",
-        quoted(folder.join("heights.npy")),
-        quoted(folder.join("with-adhesion")),
-    )
+/// How to solve one of the two cases from the heights in `folder`.
+fn arguments(folder: &Path, adhesive: bool) -> Vec<OsString> {
+    let law = format!("--law exponential --work-of-adhesion {WORK_OF_ADHESION} --range {RANGE:e}");
+    let given = format!(
+        "--lengths {SIDE:e} {SIDE:e} --modulus {MODULUS:e} --mean-pressure {PRESSURE:e} {} --length-unit m --pressure-unit Pa",
+        if adhesive { &law } else { "" }
+    );
+    let mut arguments: Vec<OsString> = ["asperity", "solve", "--heights"].map(OsString::from).into();
+    arguments.push(folder.join("heights.npy").into());
+    arguments.extend(given.split_whitespace().map(OsString::from));
+    arguments.extend(["--out".into(), folder.join(if adhesive { "with-adhesion" } else { "without-adhesion" }).into()]);
+    arguments
+}
+
+/// The same as options of `asperity solve`, and as a scene.
+fn solve_options(folder: &Path, adhesive: bool) -> Outcome<(Box<solve::Options>, Echo)> {
+    match crate::parsed(&mut crate::Tool::command(), arguments(folder, adhesive)) {
+        Ok((crate::Command::Solve(options), echo)) => Ok((options, echo)),
+        _ => Err(Error::file(folder, "is no name that solve takes: choose another --out").into()),
+    }
+}
+
+/// A word as a shell wants it.
+fn quoted(word: &OsStr) -> String {
+    let word = word.to_string_lossy();
+    let plain = word.chars().all(|c| c.is_alphanumeric() || "/._-+".contains(c));
+    if plain { word.into_owned() } else { format!("'{}'", word.replace('\'', r"'\''")) }
 }
 
 #[cfg(test)]

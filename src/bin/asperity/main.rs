@@ -1,29 +1,39 @@
 //! The command-line tool: `asperity demo` shows what the library does, `asperity solve` does it on files,
 //! `asperity sweep` under many loads and `asperity cycle` through jumps; `asperity surface` makes such files, `asperity prepare` makes them of
-//! measured maps, and `asperity stats` measures them.
+//! measured maps, and `asperity stats` measures them. `asperity run` does any of it from a scene file, as every run leaves one.
 
+mod completions;
 mod cycle;
 mod demo;
+mod echo;
 mod input;
+mod inputs;
 mod journal;
 mod loads;
 mod options;
 mod output;
 mod prepare;
+mod printing;
 mod progress;
 mod report;
 mod run;
+mod scene;
 mod solve;
 mod stats;
 mod surface;
 mod sweep;
 
+use std::env;
 use std::error::Error;
-use std::io::{self, Write};
+use std::ffi::OsString;
 use std::process::ExitCode;
 
-use clap::error::ErrorKind;
-use clap::{Parser, Subcommand};
+use clap::error::{ContextKind, ContextValue, ErrorKind};
+use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
+
+use crate::echo::Echo;
+use crate::printing::{complain, say};
+use crate::scene::Scene;
 
 /// Frictionless normal contact of rough surfaces, with adhesion.
 ///
@@ -37,15 +47,16 @@ struct Tool {
 }
 
 const EXAMPLES: &str = "\
-Examples:
+\u{1b}[1;4mExamples:\u{1b}[0m
   asperity demo
   asperity surface --size 512 --rms-slope 0.1 --out heights.npy
   asperity stats heights.npy
   asperity prepare measured.gsf --detrend plane --fill --mirror --out surface.npz
   asperity solve --heights heights.npy --mean-pressure 0.01 --out results
+  asperity run results/scene.toml --mean-pressure 0.02 --out more
   asperity sweep --heights heights.npy --mean-pressures 1e-3:1e-1:20:log --out sweep.csv
-  asperity cycle --heights heights.npy --law exponential --work-of-adhesion 1e-4 --range 4e-3 \
-    --mean-gaps 0.05,0.02,0.05 --out cycle.csv --plot cycle.png
+  asperity cycle --heights heights.npy --law exponential --work-of-adhesion 1e-4 \\
+    --range 4e-3 --mean-gaps 0.05,0.02,0.05 --out cycle.csv --plot cycle.png
   asperity solve --help";
 
 #[derive(Subcommand)]
@@ -54,9 +65,11 @@ enum Command {
     Solve(Box<solve::Options>),
     Sweep(Box<sweep::Options>),
     Cycle(Box<cycle::Options>),
+    Run(scene::Options),
     Prepare(prepare::Options),
     Surface(surface::Options),
     Stats(stats::Options),
+    Completions(completions::Options),
 }
 
 /// What a command may fail with: one line that names the value and the remedy.
@@ -67,58 +80,87 @@ const REFUSED: u8 = 1;
 const NOT_CONVERGED: u8 = 2;
 
 fn main() -> ExitCode {
-    let tool = match Tool::try_parse() {
-        Ok(tool) => tool,
-        Err(error) => return usage(&error),
-    };
-    let converged = match tool.command {
+    let mut tool = Tool::command();
+    tool.build();
+    match parsed(&mut tool, env::args_os()) {
+        Ok((Command::Run(options), _)) => match Scene::read(&tool, options) {
+            Ok(scene) => match parsed(&mut tool, scene.arguments.clone()) {
+                Ok((command, echo)) => execute(command, &echo),
+                Err(error) => usage(&error, |argument| scene.blamed(argument)),
+            },
+            Err(error) => refused(&*error),
+        },
+        Ok((command, echo)) => execute(command, &echo),
+        Err(error) => usage(&error, |_| None),
+    }
+}
+
+/// What the arguments ask for, and as a scene.
+fn parsed<I>(tool: &mut clap::Command, arguments: I) -> Result<(Command, Echo), clap::Error>
+where
+    I: IntoIterator<Item: Into<OsString> + Clone>,
+{
+    let matches = tool.try_get_matches_from_mut(arguments)?;
+    let command = Tool::from_arg_matches(&matches)?.command;
+    let chosen = matches.subcommand().and_then(|(name, matches)| Some((tool.find_subcommand(name)?, matches)));
+    Ok((command, chosen.map_or_else(Echo::default, |(command, matches)| Echo::of(command, matches))))
+}
+
+fn execute(command: Command, echo: &Echo) -> ExitCode {
+    let converged = match command {
         Command::Demo(options) => demo::run(&options),
-        Command::Solve(options) => solve::run(&options),
-        Command::Sweep(options) => sweep::run(&options),
-        Command::Cycle(options) => cycle::run(&options),
-        Command::Prepare(options) => prepare::run(&options),
-        Command::Surface(options) => surface::run(&options),
+        Command::Solve(options) => solve::run(&options, echo),
+        Command::Sweep(options) => sweep::run(&options, echo),
+        Command::Cycle(options) => cycle::run(&options, echo),
+        Command::Prepare(options) => prepare::run(&options, echo),
+        Command::Surface(options) => surface::run(&options, echo),
         Command::Stats(options) => stats::run(&options),
+        Command::Completions(options) => completions::run(&options, Tool::command()),
+        Command::Run(_) => Err("a scene cannot run another one: name a command in it".into()),
     };
     match converged {
         Ok(true) => CONVERGED,
         Ok(false) => NOT_CONVERGED.into(),
-        Err(error) => {
-            complain("error", &error.to_string());
-            REFUSED.into()
-        }
+        Err(error) => refused(&*error),
     }
 }
 
-/// Prints help where it was asked for, and otherwise what is wrong with the arguments, on one line.
-fn usage(error: &clap::Error) -> ExitCode {
+fn refused(error: &dyn Error) -> ExitCode {
+    complain("error", &error.to_string());
+    REFUSED.into()
+}
+
+/// Prints help where it was asked for, and otherwise what is wrong with the arguments, on one line; `blamed` says what to
+/// put before that, for an argument.
+fn usage(error: &clap::Error, blamed: impl Fn(&str) -> Option<String>) -> ExitCode {
     match error.kind() {
         ErrorKind::DisplayHelp | ErrorKind::DisplayVersion => {
             let _ = error.print();
-            CONVERGED
+            return CONVERGED;
         }
         ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand => {
             let _ = error.print();
-            REFUSED.into()
+            return REFUSED.into();
         }
-        _ => {
-            let text = error.to_string();
-            let text = text.split("\nUsage:").next().unwrap_or_default();
-            let text = text.split("\nFor more information").next().unwrap_or_default();
-            let lines: Vec<_> = text.lines().map(str::trim).filter(|line| !line.is_empty()).collect();
-            complain("error", &format!("{}; see --help", lines.join(" ").trim_start_matches("error: ")));
-            REFUSED.into()
-        }
+        _ => {}
     }
-}
-
-/// Prints to standard output. Nobody may be listening any more, as behind `| head`: the files are written all the same.
-fn say(text: &str) {
-    let _ = writeln!(io::stdout(), "{text}");
-}
-
-/// Prints one line to standard error, whatever names with line breaks it quotes.
-fn complain(kind: &str, text: &str) {
-    let line: String = text.chars().map(|c| if c.is_control() { ' ' } else { c }).collect();
-    let _ = writeln!(io::stderr(), "{kind}: {line}");
+    let text = error.to_string();
+    let text = text.split("\nUsage:").next().unwrap_or_default();
+    let text = text.split("\nFor more information").next().unwrap_or_default();
+    let mut line = String::new();
+    for part in text.trim_start_matches("error: ").lines().map(str::trim).filter(|part| !part.is_empty()) {
+        line.push_str(match part {
+            _ if line.is_empty() => "",
+            _ if part.starts_with('[') || line.ends_with(':') => " ",
+            _ if part.starts_with("tip: ") => "; ",
+            _ => ", ",
+        });
+        line.push_str(part.trim_start_matches("tip: "));
+    }
+    let argument = match error.get(ContextKind::InvalidArg) {
+        Some(ContextValue::String(argument)) => argument.as_str(),
+        _ => "",
+    };
+    complain("error", &format!("{}{line}; see --help", blamed(argument).unwrap_or_default()));
+    REFUSED.into()
 }

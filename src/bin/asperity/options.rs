@@ -87,11 +87,6 @@ pub enum Precision {
 }
 
 impl SurfaceOptions {
-    /// The surface of the file.
-    pub fn surface(&self) -> Outcome<Surface> {
-        Ok(self.surface_and_unit()?.0)
-    }
-
     /// The surface of the file, and its unit of length if the file has one.
     pub fn surface_and_unit(&self) -> Outcome<(Surface, Option<String>)> {
         input::surface(&self.heights, input::map(&self.heights, self.lengths.as_deref())?)

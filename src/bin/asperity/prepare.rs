@@ -3,17 +3,20 @@ use std::path::PathBuf;
 use asperity::io::{read_topography, write_topography};
 use asperity::{Topography, Trend};
 use clap::{Args, ValueEnum};
+use serde_json::json;
 
+use crate::echo::Echo;
 use crate::input::{given, sides};
 use crate::options::{nodes, positive};
 use crate::output::OutputFile;
+use crate::printing::Printing;
 use crate::report::plain;
 use crate::{Outcome, say};
 
 /// Make a surface that can be solved of a measured map.
 ///
 /// A measurement has missing points, a tilt, and edges that do not meet; a surface that is solved is complete and periodic.
-/// Nothing is done that is not asked for, and each step is told in a line. Whatever the order of the options, the steps
+/// Nothing is done that is not asked for, and each step is told in a line; FILE.scene.toml beside the result repeats them. Whatever the order of the options, the steps
 /// are: --lengths, --scale, --unit, --crop, --flip, --detrend, --fill, --window or --mirror, --resample.
 #[derive(Args)]
 #[command(after_help = EXAMPLES)]
@@ -55,18 +58,17 @@ pub struct Options {
     resample: Option<Vec<usize>>,
 
     /// File for the result: .npz (with lengths and unit), .gsf (those too, for Gwyddion, in f32) or .npy (heights alone)
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", help_heading = "Output")]
     out: PathBuf,
     /// Replace a file that is there
-    #[arg(long)]
+    #[arg(long, help_heading = "Output")]
     force: bool,
-    /// Do not tell the steps
-    #[arg(long)]
-    quiet: bool,
+    #[command(flatten)]
+    printing: Printing,
 }
 
 const EXAMPLES: &str = "\
-Examples:
+\u{1b}[1;4mExamples:\u{1b}[0m
   A measured map, tilted and with missing points, pressed against a half-space of 1 GPa:
     asperity prepare measured.gsf --detrend plane --fill --mirror --out surface.npz
     asperity solve --heights surface.npz --modulus 1e9 --mean-pressure 1e6 --out results
@@ -95,13 +97,27 @@ impl Order {
 }
 
 /// Runs the command; always successful if it ends.
-pub fn run(options: &Options) -> Outcome<bool> {
+pub fn run(options: &Options, echo: &Echo) -> Outcome<bool> {
+    echo.check_beside(&options.out, options.force)?;
     let file = OutputFile::create(&options.out, options.force)?;
     let mut lines = Vec::new();
     let map = prepared(options, &mut lines)?;
     file.write(|path| write_topography(path, &map))?;
     file.commit()?;
-    if !options.quiet {
+    echo.write_beside(&options.out)?;
+    options.printing.report(|| {
+        json!({
+            "command": "prepare",
+            "input": options.input.to_string_lossy(),
+            "out": options.out.to_string_lossy(),
+            "shape": map.heights.dim(),
+            "lengths": map.lengths,
+            "length_unit": map.unit,
+            "steps": lines.iter().map(|(step, text)| json!({ "step": step, "what": text })).collect::<Vec<_>>(),
+            "version": env!("CARGO_PKG_VERSION"),
+        })
+    });
+    if options.printing.for_people() {
         let known = map.lengths.is_some() && options.out.extension().is_some_and(|e| e.eq_ignore_ascii_case("npy"));
         let hint = if known { ", without side lengths: give them again by --lengths" } else { "" };
         lines.push(("written", format!("{}{hint}", options.out.display())));

@@ -1,6 +1,7 @@
-use asperity::{Report, Status};
+use asperity::{Report, Status, Verdict};
 
 use crate::complain;
+use crate::printing::{bold, green, yellow};
 use crate::run::{Account, Case, Steadiness};
 
 /// How the numbers of a table are printed.
@@ -50,6 +51,11 @@ pub fn table(names: &[&str], solves: &[&Account], style: Style) -> String {
         });
         row("smallest eigenvalue", &|s, _| of(s, &|s| plain(s.eigenvalue)));
         row("its lower bound", &|s, _| of(s, &|s| plain(s.lower_bound)));
+        if solves.iter().any(|solve| !solve.departures.is_empty()) {
+            row("energy drop in leaving", &|s, _| {
+                style.number(s.departures.iter().map(|left| left.energy_drop).sum(), "J/m²")
+            });
+        }
         row("error bound", &|s, _| of(s, &|s| s.error_bound.map_or("none".to_owned(), |bound| format!("{bound:.1e}"))));
     }
     row("iterations", &|_, r| r.iterations.to_string());
@@ -68,7 +74,14 @@ pub fn table(names: &[&str], solves: &[&Account], style: Style) -> String {
     let line = |(name, cells): &(&str, Vec<String>)| {
         let cells = cells.iter().zip(&widths).map(|(cell, &width)| {
             // A single column reads better from the left.
-            if solves.len() == 1 { format!("  {cell}") } else { format!("  {cell:>width$}") }
+            let cell = if solves.len() == 1 { cell.clone() } else { format!("{cell:>width$}") };
+            let cell = match *name {
+                "" => bold(&cell),
+                "status" if cell.trim() == Status::Converged.name() => green(&cell),
+                "status" => yellow(&cell),
+                _ => cell,
+            };
+            format!("  {cell}")
         });
         format!("{name:first$}{}", cells.collect::<String>())
     };
@@ -94,6 +107,14 @@ pub fn warn(name: &str, account: &Account, case: &Case, range: f64) {
             "{name}not converged ({}): error {:.1e}{load} after {} iterations, tolerance {tolerance:e}; {remedy}",
             report.status, report.relative_error, report.iterations
         );
+        complain("warning", &text);
+    }
+    let unstable = account.stability.as_ref().is_some_and(|stability| stability.verdict == Verdict::Unstable);
+    if unstable && !case.leave {
+        complain("warning", &format!("{name}the equilibrium is unstable, it would not last: --leave goes on from it"));
+    } else if unstable {
+        let count = account.departures.len();
+        let text = format!("{name}still unstable after {count} departures: try another start by --initial-gap");
         complain("warning", &text);
     }
     warn_of_resolution(&name, report, range);

@@ -3,8 +3,8 @@ use std::path::Path;
 use std::time::Instant;
 
 use asperity::{
-    AdhesionLaw, Colouring, Control, Error, Grid, Level, Map, Nested, NestedSolution, Problem, Real, Report, Result,
-    Settings, Solution, Solver, StabilityTest, Surface, Verdict, Westergaard,
+    AdhesionLaw, Colouring, Control, Departure, Error, Grid, Level, Map, Nested, NestedSolution, Problem, Real, Report,
+    Result, Settings, Solution, Solver, Stability, StabilityTest, Surface, Verdict, Westergaard,
 };
 use ndarray::Array2;
 use ndarray_npy::WritableElement;
@@ -24,6 +24,8 @@ pub struct Case {
     pub settings: Settings,
     /// Whether to find out if the solution is stable.
     pub stability: bool,
+    /// Whether to go on from a solution that is not.
+    pub leave: bool,
 }
 
 /// Whether a solution is stable; see [`asperity::Stability`].
@@ -38,6 +40,16 @@ pub struct Steadiness {
     pub mode: Array2<f64>,
 }
 
+/// An unstable equilibrium that was left; see [`asperity::Departure`].
+pub struct Left {
+    pub eigenvalue: f64,
+    pub energy_drop: f64,
+    pub distance: f64,
+}
+
+/// After so many departures something is wrong.
+const MOST_DEPARTURES: usize = 10;
+
 /// What the table and the report say of a solve.
 pub struct Account {
     pub report: Report,
@@ -46,9 +58,11 @@ pub struct Account {
     pub pressures: (f64, f64),
     /// The nested grids, if they were used, and their applications in units of one on the finest.
     pub grids: Option<(Vec<Level>, f64)>,
-    /// The time for setting up and solving, without that for files and pictures.
+    /// The time for setting up and solving, stability included, without that for files and pictures.
     pub seconds: f64,
     pub stability: Option<Steadiness>,
+    /// What was left on the way to the solution, the first first.
+    pub departures: Vec<Left>,
 }
 
 /// Solves, and drops the surface as soon as it is not needed.
@@ -64,15 +78,28 @@ pub fn solve<T: Scalar, L: AdhesionLaw<T>>(
     let mut problem = Problem::new(&surface, Westergaard::new(grid, case.modulus)?, law)?;
     drop(surface);
     let start = start.as_ref().map(|start| start.view());
-    let solution = Solver::new(case.settings).solve_from(&mut problem, case.control, start, |state| {
+    let mut solver = Solver::new(case.settings);
+    let mut solution = solver.solve_from(&mut problem, case.control, start, |state| {
         progress.update(state);
         ControlFlow::Continue(())
     })?;
-    let (solution, mut account) = account(solution, None, clock)?;
-    if case.stability {
-        account.stability = Some(steadiness(&mut problem, case.control, &solution)?);
-    }
-    Ok((solution, account))
+    let mut departures = Vec::new();
+    let stability = loop {
+        if !case.stability {
+            break None;
+        }
+        let found = StabilityTest::default().run(&mut problem, case.control, &solution)?;
+        let leaves = case.leave && found.verdict == Verdict::Unstable && departures.len() < MOST_DEPARTURES;
+        let left = if leaves { found.leave(&mut solver, &mut problem, case.control, &solution)? } else { None };
+        let Some(left) = left.filter(|left| left.energy_drop > 0.0) else {
+            break Some(steadiness(found));
+        };
+        let Departure { energy_drop, distance, .. } = left;
+        departures.push(Left { eigenvalue: found.eigenvalue, energy_drop, distance });
+        solution = left.solution;
+    };
+    let (solution, account) = account(solution, None, clock)?;
+    Ok((solution, Account { stability, departures, ..account }))
 }
 
 /// Solves on coarser grids first.
@@ -111,17 +138,13 @@ fn account<T: Scalar>(
         grids,
         seconds,
         stability: None,
+        departures: Vec::new(),
     };
     Ok((solution, account))
 }
 
-fn steadiness<T: Scalar, L: AdhesionLaw<T>>(
-    problem: &mut Problem<T, Westergaard<T>, L>,
-    control: Control,
-    solution: &Solution<T>,
-) -> Result<Steadiness> {
-    let found = StabilityTest::default().run(problem, control, solution)?;
-    Ok(Steadiness {
+fn steadiness<T: Scalar>(found: Stability<T>) -> Steadiness {
+    Steadiness {
         verdict: found.verdict,
         eigenvalue: found.eigenvalue,
         residual: found.residual,
@@ -130,7 +153,7 @@ fn steadiness<T: Scalar, L: AdhesionLaw<T>>(
         smoothed: found.smoothed,
         operator_applications: found.operator_applications + found.bound_applications,
         mode: found.mode.mapv_into_any(T::widen),
-    })
+    }
 }
 
 /// Refuses fields that the precision cannot hold.

@@ -7,18 +7,22 @@ use clap::{ArgGroup, Args, ValueEnum};
 use ndarray::Array2;
 use serde_json::{Value, json};
 
+use crate::echo::{self, Echo};
+use crate::inputs;
 use crate::options::{self, AdhesionOptions, Law, Precision, SolverOptions, SurfaceOptions};
+use crate::printing::Printing;
 use crate::progress::Progress;
 use crate::report::{Style, table, warn};
-use crate::run::{self, Account, Case, Scalar, Units};
+use crate::run::{self, Account, Case, Left, Scalar, Units};
 use crate::{Outcome, say};
 
 /// Solve a contact problem given by files.
 ///
 /// All quantities are in any consistent units, as m, Pa and J/m²; heights of files with units of length are in m. Writes
 /// gap.npy, pressure.npy (the full elastic pressure, compression positive) and contact_pressure.npy (its repulsive part),
-/// or files as --format says, report.json, contact.png and pressure.png, all or none. Exits with 0 if converged, 2 if not
-/// (the fields are written all the same), and 1 if the input is refused or the files cannot be written (then there are none).
+/// or files as --format says, report.json, contact.png, pressure.png, and scene.toml, which repeats the run, all or none.
+/// Exits with 0 if converged, 2 if not (the fields are written all the same), and 1 if the input is refused or the files
+/// cannot be written (then there are none).
 #[derive(Args)]
 #[command(after_help = EXAMPLES, group(ArgGroup::new("load").required(true).args(["mean_gap", "mean_pressure"])))]
 pub struct Options {
@@ -49,6 +53,9 @@ pub struct Options {
     /// Find out whether the solution is stable, and write its softest mode to mode.npy
     #[arg(long, help_heading = "Output", conflicts_with = "nested")]
     stability: bool,
+    /// Go on from an equilibrium that is unstable to one that is not, and say how far the energy falls; implies --stability
+    #[arg(long, help_heading = "Output", conflicts_with = "nested")]
+    leave: bool,
     /// Files for the fields: .npy one each, all in fields.npz for numpy, or in fields.vti for ParaView; may be repeated
     #[arg(
         long,
@@ -59,13 +66,12 @@ pub struct Options {
         help_heading = "Output"
     )]
     format: Vec<Format>,
-    /// Print no table and no progress
-    #[arg(long, help_heading = "Output")]
-    quiet: bool,
+    #[command(flatten)]
+    printing: Printing,
     /// Write no .png files
     #[arg(long, help_heading = "Output")]
     no_pictures: bool,
-    /// Unit of the lengths, on pictures only; m gets prefixes [default: the file's]
+    /// Unit of the lengths, on pictures only; m gets prefixes
     #[arg(long, value_name = "UNIT", help_heading = "Output")]
     length_unit: Option<String>,
     /// Unit of the pressures, on pictures only; Pa gets prefixes
@@ -74,7 +80,7 @@ pub struct Options {
 }
 
 const EXAMPLES: &str = "\
-Examples:
+\u{1b}[1;4mExamples:\u{1b}[0m
   Press a map of 1 by 1, with a contact modulus of 1, to a mean gap of 0.04:
     asperity solve --heights heights.npy --mean-gap 0.04 --out results
   The surface of the demo (asperity-demo/heights.npy) in SI units, with adhesion:
@@ -104,20 +110,22 @@ const REPORT: &str = "report.json";
 const PICTURES: [&str; 2] = ["contact.png", "pressure.png"];
 
 /// Runs the command; whether it converged.
-pub fn run(options: &Options) -> Outcome<bool> {
+pub fn run(options: &Options, echo: &Echo) -> Outcome<bool> {
     options.adhesion.check()?;
     let pictures = PICTURES.iter().filter(|_| !options.no_pictures);
-    let arrays = FIELDS.iter().chain(options.stability.then_some(&MODE)).filter(|_| options.writes(Format::Npy));
+    let mode = options.case().stability.then_some(&MODE);
+    let arrays = FIELDS.iter().chain(mode).filter(|_| options.writes(Format::Npy));
     let archives = [(Format::Npz, &NPZ), (Format::Vti, &VTI)].into_iter().filter(|(format, _)| options.writes(*format));
     let fields = arrays.chain(archives.map(|(_, name)| name));
-    let names: Vec<_> = fields.chain([&REPORT]).chain(pictures).copied().collect();
+    let names: Vec<_> = fields.chain([&REPORT, &echo::NAME]).chain(pictures).copied().collect();
+    Echo::check(&options.out.join(echo::NAME))?;
     // Only a trial: a solve that is interrupted leaves nothing behind.
     drop(OutputFolder::create(&options.out, &names, options.force)?);
     let (surface, unit) = options.surface.surface_and_unit()?;
     let start = options.solver.start(surface.grid())?;
     let length_unit = options.length_unit.clone().or(unit);
     let threads = run::use_threads(options.solver.threads)?;
-    let job = Job { options, names, threads, case: options.case(), length_unit };
+    let job = Job { options, echo, names, threads, case: options.case(), length_unit };
     match options.solver.precision {
         Precision::F32 => job.run::<f32>(surface, start),
         Precision::F64 => job.run::<f64>(surface, start),
@@ -129,95 +137,24 @@ impl Options {
         self.format.contains(&format)
     }
 
-    fn case(&self) -> Case {
+    pub fn case(&self) -> Case {
         let control = match (self.mean_gap, self.mean_pressure) {
             (Some(gap), _) => Control::MeanGap(gap),
             (None, pressure) => Control::MeanPressure(pressure.unwrap_or_default()),
         };
         let (modulus, settings) = (self.surface.modulus, self.solver.settings());
-        Case { modulus, control, settings, stability: self.stability }
-    }
-}
-
-/// A solve with all that was chosen for it.
-struct Job<'a> {
-    options: &'a Options,
-    names: Vec<&'static str>,
-    threads: usize,
-    case: Case,
-    length_unit: Option<String>,
-}
-
-impl Job<'_> {
-    fn run<T: Scalar>(&self, surface: Surface, start: Option<Array2<f64>>) -> Outcome<bool> {
-        let Options { out, force, quiet, .. } = self.options;
-        let grid = *surface.grid();
-        // In place, if the precision is that of the file.
-        let start = start.map(|gap| gap.mapv_into_any(T::lit));
-        let progress = Progress::new("", self.case.settings.tolerance, grid.nodes(), *quiet);
-        let law = self.options.adhesion.law()?;
-        let (solution, account) = if self.options.nested {
-            run::solve_nested::<T, _>(&surface, law, &self.case, progress)?
-        } else {
-            run::solve::<T, _>(surface, law, &self.case, start, progress)?
-        };
-
-        let folder = OutputFolder::create(out, &self.names, *force)?;
-        let written = self.write(&folder, grid, &solution, &account);
-        written.map_err(|error| run::at_destination(error, out))?;
-        folder.commit()?;
-
-        if !quiet {
-            say(&table(&[], &[&account], Style::Plain));
-            say(&format!("results in {}: {}", out.display(), self.names.join(", ")));
-        }
-        warn("", &account, &self.case, self.options.adhesion.range.unwrap_or_default());
-        Ok(account.report.status == Status::Converged)
-    }
-
-    fn write<T: Scalar>(
-        &self,
-        folder: &OutputFolder,
-        grid: Grid,
-        solution: &asperity::Solution<T>,
-        account: &Account,
-    ) -> asperity::Result<()> {
-        let path = |name: &str| folder.path(name);
-        let mode = account.stability.as_ref().map(|stability| &stability.mode);
-        let fields = [&solution.gap, &solution.pressure, &solution.contact_pressure];
-        if self.options.writes(Format::Npy) {
-            FIELDS.iter().zip(fields).try_for_each(|(name, field)| write_npy(&path(name), field))?;
-            mode.map_or(Ok(()), |mode| write_npy(&path(MODE), mode))?;
-        }
-        let mode = mode.map(|mode| mode.mapv(T::lit));
-        let named = FIELDS.into_iter().zip(fields).chain(mode.as_ref().map(|mode| (MODE, mode)));
-        let named: Vec<_> = named.map(|(name, field)| (name.trim_end_matches(".npy"), field)).collect();
-        if self.options.writes(Format::Npz) {
-            write_npz(&path(NPZ), &grid, &named)?;
-        }
-        if self.options.writes(Format::Vti) {
-            write_vti(&path(VTI), &grid, &named)?;
-        }
-        write_text(&path(REPORT), &format!("{:#}\n", self.report(grid, account)))?;
-        if !self.options.no_pictures {
-            let units = Units { length: self.length_unit.as_deref(), pressure: self.options.pressure_unit.as_deref() };
-            run::draw_contact(&path("contact.png"), grid, "Contact", units, &solution.gap)?;
-            let pressure = run::pressure_to_draw(solution, self.options.adhesion.law != Law::None);
-            run::draw_pressure(&path("pressure.png"), grid, "Pressure", "", units, pressure)?;
-        }
-        Ok(())
+        Case { modulus, control, settings, stability: self.stability || self.leave, leave: self.leave }
     }
 
     /// All that one needs for understanding a run later; numbers that are not finite become null.
-    fn report(&self, grid: Grid, account: &Account) -> Value {
-        let Self { options, case, .. } = self;
-        let report = &account.report;
+    pub fn report(&self, grid: Grid, account: &Account, length_unit: Option<&str>, threads: usize) -> Value {
+        let (case, report) = (self.case(), &account.report);
         let (control, held) = match case.control {
             Control::MeanGap(gap) => ("mean-gap", gap),
             Control::MeanPressure(pressure) => ("mean-pressure", pressure),
         };
         let grids = account.grids.as_ref().map(|(levels, _)| levels.iter().map(level).collect::<Vec<_>>());
-        json!({
+        let outcome = json!({
             "status": report.status.name(),
             "relative_error": report.relative_error,
             "load_error": report.load_error,
@@ -244,27 +181,92 @@ impl Job<'_> {
                 "smoothed": stability.smoothed,
                 "operator_applications": stability.operator_applications,
             })),
+            "departures": self.leave.then(|| account.departures.iter().map(departure).collect::<Vec<_>>()),
             "mu_rho": report.mu_rho,
             "under_resolved": report.under_resolved,
-            "precision": report.precision,
-            "method": report.method.name(),
             "seconds": account.seconds,
-            "threads": self.threads,
-            "heights": options.surface.heights.to_string_lossy(),
-            "initial_gap": options.solver.initial_gap.as_deref().map(Path::to_string_lossy),
-            "shape": grid.shape(),
-            "lengths": grid.lengths(),
-            "length_unit": self.length_unit,
-            "modulus": case.modulus,
-            "law": options.adhesion.law.to_string(),
-            "work_of_adhesion": options.adhesion.work_of_adhesion,
-            "range": options.adhesion.range,
             "control": control,
             "control_value": held,
-            "tolerance": case.settings.tolerance,
-            "max_iterations": case.settings.max_iterations,
-            "version": env!("CARGO_PKG_VERSION"),
-        })
+        });
+        let Self { surface, adhesion, solver, .. } = self;
+        inputs::report("solve", outcome, inputs::inputs(surface, adhesion, solver, &grid, length_unit, threads))
+    }
+}
+
+/// A solve with all that was chosen for it.
+struct Job<'a> {
+    options: &'a Options,
+    echo: &'a Echo,
+    names: Vec<&'static str>,
+    threads: usize,
+    case: Case,
+    length_unit: Option<String>,
+}
+
+impl Job<'_> {
+    fn run<T: Scalar>(&self, surface: Surface, start: Option<Array2<f64>>) -> Outcome<bool> {
+        let Options { out, force, printing, .. } = self.options;
+        let grid = *surface.grid();
+        // In place, if the precision is that of the file.
+        let start = start.map(|gap| gap.mapv_into_any(T::lit));
+        let progress = Progress::new("", self.case.settings.tolerance, grid.nodes(), printing.without_bars());
+        let law = self.options.adhesion.law()?;
+        let (solution, account) = if self.options.nested {
+            run::solve_nested::<T, _>(&surface, law, &self.case, progress)?
+        } else {
+            run::solve::<T, _>(surface, law, &self.case, start, progress)?
+        };
+
+        let folder = OutputFolder::create(out, &self.names, *force)?;
+        let written = self.write(&folder, grid, &solution, &account);
+        written.map_err(|error| run::at_destination(error, out))?;
+        folder.commit()?;
+
+        if printing.for_people() {
+            say(&table(&[], &[&account], Style::Plain));
+            say(&format!("results in {}: {}", out.display(), self.names.join(", ")));
+        }
+        printing.report(|| self.report(grid, &account));
+        warn("", &account, &self.case, self.options.adhesion.range.unwrap_or_default());
+        Ok(account.report.status == Status::Converged)
+    }
+
+    fn report(&self, grid: Grid, account: &Account) -> Value {
+        self.options.report(grid, account, self.length_unit.as_deref(), self.threads)
+    }
+
+    fn write<T: Scalar>(
+        &self,
+        folder: &OutputFolder,
+        grid: Grid,
+        solution: &asperity::Solution<T>,
+        account: &Account,
+    ) -> asperity::Result<()> {
+        let path = |name: &str| folder.path(name);
+        let mode = account.stability.as_ref().map(|stability| &stability.mode);
+        let fields = [&solution.gap, &solution.pressure, &solution.contact_pressure];
+        if self.options.writes(Format::Npy) {
+            FIELDS.iter().zip(fields).try_for_each(|(name, field)| write_npy(&path(name), field))?;
+            mode.map_or(Ok(()), |mode| write_npy(&path(MODE), mode))?;
+        }
+        let mode = mode.map(|mode| mode.mapv(T::lit));
+        let named = FIELDS.into_iter().zip(fields).chain(mode.as_ref().map(|mode| (MODE, mode)));
+        let named: Vec<_> = named.map(|(name, field)| (name.trim_end_matches(".npy"), field)).collect();
+        if self.options.writes(Format::Npz) {
+            write_npz(&path(NPZ), &grid, &named)?;
+        }
+        if self.options.writes(Format::Vti) {
+            write_vti(&path(VTI), &grid, &named)?;
+        }
+        write_text(&path(REPORT), &format!("{:#}\n", self.report(grid, account)))?;
+        write_text(&path(echo::NAME), &self.echo.text(&self.options.out))?;
+        if !self.options.no_pictures {
+            let units = Units { length: self.length_unit.as_deref(), pressure: self.options.pressure_unit.as_deref() };
+            run::draw_contact(&path("contact.png"), grid, "Contact", units, &solution.gap)?;
+            let pressure = run::pressure_to_draw(solution, self.options.adhesion.law != Law::None);
+            run::draw_pressure(&path("pressure.png"), grid, "Pressure", "", units, pressure)?;
+        }
+        Ok(())
     }
 }
 
@@ -276,6 +278,11 @@ fn level(level: &Level) -> Value {
         "iterations": level.iterations,
         "operator_applications": level.operator_applications,
     })
+}
+
+/// What it took to leave an unstable equilibrium.
+fn departure(left: &Left) -> Value {
+    json!({ "eigenvalue": left.eigenvalue, "energy_drop": left.energy_drop, "distance": left.distance })
 }
 
 pub fn write_text(path: &Path, text: &str) -> asperity::Result<()> {

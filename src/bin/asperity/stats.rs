@@ -1,14 +1,17 @@
 use std::fmt::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use asperity::{Spectrum, Surface};
 use clap::Args;
+use serde_json::{Map, Value, json};
 
+use crate::inputs;
 use crate::options::positive;
 use crate::output::OutputFile;
+use crate::printing::Printing;
 use crate::report::plain;
 use crate::solve::write_text;
-use crate::{Outcome, input, say};
+use crate::{Outcome, input};
 
 /// Print the statistics of a rough surface.
 ///
@@ -26,15 +29,17 @@ pub struct Options {
     lengths: Option<Vec<f64>>,
     /// File for the radially averaged power spectral density, comma-separated: the wave number in radians per length, the
     /// density, of which the integral over both wave numbers is the mean square height, and of how many waves it is the mean
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", help_heading = "Output")]
     psd: Option<PathBuf>,
     /// Replace a file that is there
-    #[arg(long)]
+    #[arg(long, help_heading = "Output")]
     force: bool,
+    #[command(flatten)]
+    printing: Printing,
 }
 
 const EXAMPLES: &str = "\
-Examples:
+\u{1b}[1;4mExamples:\u{1b}[0m
   asperity stats heights.npy
   asperity stats asperity-demo/heights.npy --lengths 1e-6 --psd psd.csv";
 
@@ -48,8 +53,34 @@ pub fn run(options: &Options) -> Outcome<bool> {
         file.write(|path| write_text(path, &text))?;
         file.commit()?;
     }
-    say(&table(&surface, unit.as_deref()));
+    options.printing.say(&table(&surface, unit.as_deref()));
+    options.printing.report(|| {
+        let version = Map::from_iter([("version".to_owned(), env!("CARGO_PKG_VERSION").into())]);
+        inputs::report("stats", report(&surface, &options.heights, unit.as_deref()), version)
+    });
     Ok(true)
+}
+
+/// The statistics of the heights in a file, by name.
+pub fn report(surface: &Surface, heights: &Path, unit: Option<&str>) -> Value {
+    let (grid, found) = (surface.grid(), surface.statistics());
+    json!({
+        "heights": heights.to_string_lossy(),
+        "shape": grid.shape(),
+        "lengths": grid.lengths(),
+        "length_unit": unit,
+        "mean_height": found.mean,
+        "lowest": found.lowest,
+        "highest": found.highest,
+        "rms_height": found.rms_height,
+        "skewness": found.skewness,
+        "kurtosis": found.kurtosis,
+        "rms_slope": found.rms_slope,
+        "rms_slope_differences": found.rms_slope_differences,
+        "rms_curvature": found.rms_curvature,
+        "rms_curvature_differences": found.rms_curvature_differences,
+        "nayak": found.nayak,
+    })
 }
 
 /// The statistics, one to a line, with the unit of length if it is known.

@@ -1,21 +1,26 @@
 use std::path::PathBuf;
 
 use asperity::io::{write_npy, write_topography};
-use asperity::{Amplitude, SelfAffine, Topography};
+use asperity::{Amplitude, SelfAffine};
 use clap::{ArgGroup, Args};
+use serde_json::json;
 
+use crate::Outcome;
+use crate::echo::Echo;
+use crate::inputs;
 use crate::options::{nodes, positive, threads};
 use crate::output::OutputFile;
+use crate::printing::Printing;
 use crate::run;
 use crate::solve::write_text;
-use crate::stats::{density_table, table};
-use crate::{Outcome, say};
+use crate::stats::{density_table, report, table};
 
 /// Make a self-affine rough surface, and print its statistics.
 ///
 /// The surface is periodic and isotropic. Its power spectral density is constant from KL to KR, falls as k^(-2-2H) from KR
 /// to KS, on a line as k^(-1-2H), and is zero elsewhere. Wave numbers count periods along x. A seed stands for the same
-/// surface on every grid that resolves KS, with the given rms height or slope to rounding.
+/// surface on every grid that resolves KS, with the given rms height or slope to rounding. FILE.scene.toml beside the heights
+/// makes them again by asperity run.
 #[derive(Args)]
 #[command(after_help = EXAMPLES)]
 #[command(group(ArgGroup::new("nodes").required(true).args(["size", "shape"])))]
@@ -67,26 +72,25 @@ pub struct Options {
     /// Replace files that are there
     #[arg(long, help_heading = "Output")]
     force: bool,
-    /// Print no statistics
-    #[arg(long, help_heading = "Output")]
-    quiet: bool,
+    #[command(flatten)]
+    printing: Printing,
     /// Threads; the surface does not depend on it [default: one per core]
     #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = threads, help_heading = "Output")]
     threads: Option<usize>,
 }
 
 const EXAMPLES: &str = "\
-Examples:
+\u{1b}[1;4mExamples:\u{1b}[0m
   The surface of the paper's figures, with a slope that can be pressed:
     asperity surface --size 1024 --rms-slope 0.1 --out heights.npy
   A rectangle of a micrometre by two, with a plateau in the spectrum, and the spectrum:
     asperity surface --shape 256 512 --lengths 1e-6 2e-6 --rms-height 5e-9 --hurst 0.7 \\
-      --k-l 2 --k-r 6 --k-s 50 --seed 7 --out heights.npy --psd psd.csv
+      --k-l 2 --k-r 6 --k-s 50 --seed 7 --out rectangle.npy --psd psd.csv
   A profile:
     asperity surface --shape 4096 1 --rms-slope 0.1 --k-s 1000 --out profile.npy";
 
 /// Runs the command; always successful if it ends.
-pub fn run(options: &Options) -> Outcome<bool> {
+pub fn run(options: &Options, echo: &Echo) -> Outcome<bool> {
     let &Options { hurst, k_l, k_s, random_phase, seed, .. } = options;
     let shape = match (options.size, options.shape.as_deref()) {
         (None, Some([nx, ny])) => (*nx, *ny),
@@ -103,6 +107,7 @@ pub fn run(options: &Options) -> Outcome<bool> {
     if psd.as_ref().is_some_and(|psd| psd.is(&heights)) {
         return Err(format!("--psd is {}, as --out: give it a name of its own", options.out.display()).into());
     }
+    echo.check_beside(&options.out, options.force)?;
     run::use_threads(options.threads)?;
     // Running out of memory cannot be caught later: heights, transform and spectrum take four numbers per node at most.
     if Vec::<f64>::new().try_reserve_exact(4 * grid.nodes()).is_err() {
@@ -110,20 +115,31 @@ pub fn run(options: &Options) -> Outcome<bool> {
     }
 
     let surface = rough.surface(grid)?;
+    heights.write(|path| match path.extension().map(|ending| ending.to_ascii_lowercase()) {
+        Some(ending) if ending == "gsf" || ending == "npz" => write_topography(path, &surface.clone().into()),
+        _ => write_npy(path, surface.heights()),
+    })?;
     if let Some(file) = psd {
         let text = density_table(&surface.spectrum(), Some(&rough.spectrum(grid)?));
         file.write(|path| write_text(path, &text))?;
         file.commit()?;
     }
-    let said = table(&surface, None);
-    heights.write(|path| match path.extension().map(|ending| ending.to_ascii_lowercase()) {
-        Some(ending) if ending == "gsf" || ending == "npz" => write_topography(path, &Topography::from(surface)),
-        _ => write_npy(path, surface.heights()),
-    })?;
     heights.commit()?;
-    if !options.quiet {
-        say(&said);
-        say(&format!("heights in {}", options.out.display()));
-    }
+    echo.write_beside(&options.out)?;
+    options.printing.say(&table(&surface, None));
+    options.printing.say(&format!("heights in {}", options.out.display()));
+    options.printing.report(|| {
+        let made = json!({
+            "hurst": hurst,
+            "k_l": k_l,
+            "k_r": rough.k_r,
+            "k_s": k_s,
+            "random_phase": random_phase,
+            "seed": seed,
+            "version": env!("CARGO_PKG_VERSION"),
+        });
+        let made = made.as_object().cloned().unwrap_or_default();
+        inputs::report("surface", report(&surface, &options.out, None), made)
+    });
     Ok(true)
 }

@@ -1,3 +1,4 @@
+use std::fs;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
@@ -9,13 +10,16 @@ use clap::{ArgGroup, Args, ValueEnum};
 use ndarray::Array2;
 use serde_json::{Map, Value, json};
 
+use crate::Outcome;
+use crate::echo::Echo;
+use crate::inputs;
 use crate::journal::{Hash, Identity, Journal};
 use crate::loads::{self, Loads};
 use crate::options::{AdhesionOptions, Precision, SolverOptions, SurfaceOptions};
+use crate::printing::Printing;
 use crate::progress::Progress;
 use crate::report::{Style, percent, warn_of_resolution};
 use crate::run::{self, Scalar};
-use crate::{Outcome, say};
 
 /// Solve a contact problem under many loads, one after the other.
 ///
@@ -24,7 +28,7 @@ use crate::{Outcome, say};
 /// nodes, corrected_contact_fraction takes off what they count too much along the edge of the contact, and clusters are in
 /// nodes. The same command again goes on where an interrupted one was, or with loads that were added to the end of
 /// the list, and comes to the same file, byte for byte; for that it keeps FILE.state.npz beside the file, which may be deleted at
-/// the end. Exits with 0 if all rows converged, 2 if not (they are written all the same), and 1 if the input is refused
+/// the end. FILE.scene.toml beside it repeats or continues the sweep by asperity run. Exits with 0 if all rows converged, 2 if not (they are written all the same), and 1 if the input is refused
 /// or the file cannot be written.
 #[derive(Args)]
 #[command(after_help = EXAMPLES, group(ArgGroup::new("loads").required(true).args(["mean_gaps", "mean_pressures"])))]
@@ -56,13 +60,12 @@ pub struct Options {
     /// Start over, and replace files that are there
     #[arg(long, help_heading = "Output")]
     force: bool,
-    /// Print no rows and no progress
-    #[arg(long, help_heading = "Output")]
-    quiet: bool,
+    #[command(flatten)]
+    printing: Printing,
 }
 
 const EXAMPLES: &str = "\
-Examples:
+\u{1b}[1;4mExamples:\u{1b}[0m
   Contact area against load, twenty loads over two decades:
     asperity sweep --heights heights.npy --mean-pressures 1e-3:1e-1:20:log --out area.csv
   Approach and withdrawal with adhesion, eleven mean gaps each:
@@ -102,20 +105,27 @@ const COLUMNS: [&str; 20] = [
 const FIELDS: [&str; 3] = ["gap", "pressure", "contact_pressure"];
 
 /// Runs the command; whether all rows converged.
-pub fn run(options: &Options) -> Outcome<bool> {
+pub fn run(options: &Options, echo: &Echo) -> Outcome<bool> {
     options.adhesion.check()?;
     options.format()?;
-    let surface = options.surface.surface()?;
+    let (surface, unit) = options.surface.surface_and_unit()?;
     let start = options.solver.start(surface.grid())?;
-    run::use_threads(options.solver.threads)?;
+    let threads = run::use_threads(options.solver.threads)?;
     match options.solver.precision {
-        Precision::F32 => options.run::<f32>(surface, start),
-        Precision::F64 => options.run::<f64>(surface, start),
+        Precision::F32 => options.run::<f32>(surface, start, unit, echo, threads),
+        Precision::F64 => options.run::<f64>(surface, start, unit, echo, threads),
     }
 }
 
 impl Options {
-    fn run<T: Scalar>(&self, surface: Surface, start: Option<Array2<f64>>) -> Outcome<bool> {
+    fn run<T: Scalar>(
+        &self,
+        surface: Surface,
+        start: Option<Array2<f64>>,
+        unit: Option<String>,
+        echo: &Echo,
+        threads: usize,
+    ) -> Outcome<bool> {
         let (control, loads) = self.loads();
         if let Some(&value) = loads.iter().find(|&&load| !T::lit(load).is_finite()) {
             let (name, requirement) = ("load", "finite in the precision of the fields");
@@ -130,11 +140,13 @@ impl Options {
         let format = self.format()?;
         let header = if format == Format::Csv { COLUMNS.join(",") + "\n" } else { String::new() };
         self.check_fields(loads.len())?;
+        echo.check_beside(&self.out, self.force || self.out.exists())?;
         let (mut journal, gaps) = Journal::open(&self.out, &header, identity, loads, self.force)?;
+        echo.write_beside(&self.out)?;
         let done = journal.rows();
         let controls: Vec<_> = loads.iter().map(|&load| control(load)).collect();
-        if done > 0 && !self.quiet {
-            say(&format!("{} has {done} of {} rows already", self.out.display(), loads.len()));
+        if done > 0 {
+            self.printing.say(&format!("{} has {done} of {} rows already", self.out.display(), loads.len()));
         }
 
         let law = self.adhesion.law::<T>()?;
@@ -149,8 +161,12 @@ impl Options {
         }
         let (mut resolution, count) = (None, loads.len());
         for (k, &load) in loads.iter().enumerate().skip(done) {
-            let mut progress =
-                Progress::new(&format!("{}/{count}", k + 1), settings.tolerance, grid.nodes(), self.quiet);
+            let mut progress = Progress::new(
+                &format!("{}/{count}", k + 1),
+                settings.tolerance,
+                grid.nodes(),
+                self.printing.without_bars(),
+            );
             let step = sweep.next_observed(|state| {
                 progress.update(state);
                 ControlFlow::Continue(())
@@ -168,18 +184,29 @@ impl Options {
             self.write_fields(k, &solution)?;
             let history: Vec<_> = sweep.history().iter().map(|(_, gap)| gap.view()).collect();
             journal.append(&text, load, solution.report.status == Status::Converged, &history)?;
-            if !self.quiet {
-                say(&format!("{:>width$}/{count}  {}", k + 1, line(&solution.report), width = count.to_string().len()));
-            }
+            let width = count.to_string().len();
+            self.printing.say(&format!("{:>width$}/{count}  {}", k + 1, line(&solution.report)));
             resolution = Some(solution.report).filter(|report| report.under_resolved);
         }
         if let Some(report) = resolution {
             warn_of_resolution("", &report, self.adhesion.range.unwrap_or_default());
         }
         journal.warn_of_unconverged("use a larger --tolerance or finer steps, or less tension where they are detached");
-        if !self.quiet {
-            say(&format!("{count} rows in {}", self.out.display()));
-        }
+        self.printing.say(&format!("{count} rows in {}", self.out.display()));
+        self.printing.report(|| {
+            let outcome = json!({
+                "control": name_and_value(control(0.0)).0,
+                "rows": journal.rows(),
+                "unconverged": journal.unconverged(),
+                "out": self.out.to_string_lossy(),
+                "last": self.last_row(format),
+            });
+            inputs::report(
+                "sweep",
+                outcome,
+                inputs::inputs(&self.surface, &self.adhesion, &self.solver, &grid, unit.as_deref(), threads),
+            )
+        });
         Ok(journal.unconverged() == 0)
     }
 
@@ -189,6 +216,16 @@ impl Options {
             (Some(Loads(gaps)), _) => (Control::MeanGap, gaps),
             (None, Some(Loads(pressures))) => (Control::MeanPressure, pressures),
             (None, None) => (Control::MeanGap, &[]),
+        }
+    }
+
+    /// The last row of the file.
+    fn last_row(&self, format: Format) -> Value {
+        let text = fs::read_to_string(&self.out).unwrap_or_default();
+        let last = text.lines().next_back().unwrap_or_default();
+        match format {
+            Format::Csv => parsed(&COLUMNS, last),
+            Format::Jsonl => serde_json::from_str(last).unwrap_or_default(),
         }
     }
 
@@ -216,7 +253,7 @@ impl Options {
     /// Refuses to replace fields, if this is not the continuation of what wrote them.
     fn check_fields(&self, count: usize) -> Outcome<()> {
         let Some(folder) = &self.fields else { return Ok(()) };
-        std::fs::create_dir_all(folder).map_err(|e| Error::file(folder, format!("cannot be written: {e}")))?;
+        fs::create_dir_all(folder).map_err(|e| Error::file(folder, format!("cannot be written: {e}")))?;
         if self.force || self.out.exists() {
             return Ok(());
         }
@@ -312,6 +349,15 @@ pub fn cell(value: &Value) -> String {
         Value::String(word) => word.clone(),
         number => number.to_string(),
     }
+}
+
+/// What [`cell`] made of a row.
+pub fn parsed(columns: &[&str], row: &str) -> Value {
+    let value = |cell: &str| match cell {
+        "" => Value::Null,
+        cell => serde_json::from_str(cell).unwrap_or_else(|_| cell.into()),
+    };
+    columns.iter().map(|name| (*name).to_owned()).zip(row.split(',').map(value)).collect::<Map<_, _>>().into()
 }
 
 /// What there is to see of a row.

@@ -1,0 +1,209 @@
+use std::any::TypeId;
+use std::fs;
+use std::path::{Component, Path, PathBuf};
+
+use asperity::Error;
+use clap::parser::ValueSource;
+use clap::{Arg, ArgAction, ArgMatches, Command};
+use toml::Value;
+
+use crate::Outcome;
+use crate::output::OutputFile;
+use crate::solve::write_text;
+
+/// A run as a scene file that repeats it: every option that was given or has a default.
+#[derive(Default)]
+pub struct Echo {
+    command: String,
+    entries: Vec<Entry>,
+}
+
+struct Entry {
+    /// The heading of the option in the help
+    section: String,
+    key: String,
+    values: Vec<Literal>,
+}
+
+enum Literal {
+    /// Written as it is
+    Plain(String),
+    /// Relative to the folder in which it was given
+    Path(PathBuf),
+}
+
+/// How the file begins; what does not begin so is not replaced.
+const FIRST: &str = "# Written by asperity ";
+
+/// Options that are no part of what a run comes to.
+const LEFT_OUT: [&str; 3] = ["force", "quiet", "json"];
+
+/// Its name in a folder of results.
+pub const NAME: &str = "scene.toml";
+
+impl Echo {
+    /// What was chosen for a command.
+    pub fn of(command: &Command, matches: &ArgMatches) -> Self {
+        let entries = command.get_arguments().filter_map(|arg| entry(arg, matches)).collect();
+        Self { command: command.get_name().to_owned(), entries }
+    }
+
+    /// The scene file, to be put into `folder`.
+    pub fn text(&self, folder: &Path) -> String {
+        let mut text = format!(
+            "{FIRST}{}; `asperity run FILE` repeats the run\ncommand = \"{}\"\n",
+            env!("CARGO_PKG_VERSION"),
+            self.command
+        );
+        let mut sections: Vec<&str> = Vec::new();
+        for entry in &self.entries {
+            if !sections.contains(&entry.section.as_str()) {
+                sections.push(&entry.section);
+            }
+        }
+        for section in sections {
+            text.push_str(&if section.is_empty() { String::new() } else { format!("\n[{section}]\n") });
+            for entry in self.entries.iter().filter(|entry| entry.section == section) {
+                let values: Vec<_> = entry.values.iter().map(|value| value.text(folder)).collect();
+                let value = if values.len() == 1 { values.concat() } else { format!("[{}]", values.join(", ")) };
+                text.push_str(&format!("{} = {value}\n", entry.key));
+            }
+        }
+        text
+    }
+
+    /// Refuses to replace a file in the place of a scene that is not one of ours.
+    pub fn check(path: &Path) -> Outcome<()> {
+        match fs::read_to_string(path) {
+            Ok(text) if !text.starts_with(FIRST) => {
+                let reason = "was not written by asperity, and would be replaced by the scene of this run: rename it, or choose another --out";
+                Err(Error::file(path, reason).into())
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// Refuses a `file` beside which there is another scene that may not be replaced: with `force` one of ours may.
+    pub fn check_beside(&self, file: &Path, force: bool) -> Outcome<()> {
+        let path = beside(file);
+        Self::check(&path)?;
+        // whatever version has written it
+        let rest = |text: &str| text.split_once('\n').map(|(_, rest)| rest.to_owned());
+        let same = fs::read_to_string(&path).is_ok_and(|text| rest(&text) == rest(&self.text(folder_of(file))));
+        if path.exists() && !force && !same {
+            return Err(Error::file(&path, "exists: use --force to replace it, or choose another --out").into());
+        }
+        Ok(())
+    }
+
+    /// Writes the file FILE.scene.toml beside `file`.
+    pub fn write_beside(&self, file: &Path) -> Outcome<()> {
+        let scene = OutputFile::create(&beside(file), true)?;
+        scene.write(|path| write_text(path, &self.text(folder_of(file))))?;
+        Ok(scene.commit()?)
+    }
+}
+
+fn beside(file: &Path) -> PathBuf {
+    let mut path = file.as_os_str().to_owned();
+    path.push(".");
+    path.push(NAME);
+    path.into()
+}
+
+fn folder_of(file: &Path) -> &Path {
+    file.parent().unwrap_or(Path::new(""))
+}
+
+/// What an argument is called in a scene, if it may be there.
+pub fn key(arg: &Arg) -> Option<String> {
+    let asks_for_help = matches!(arg.get_action(), ArgAction::Help | ArgAction::HelpShort | ArgAction::HelpLong);
+    let key = || arg.get_long().map_or_else(|| arg.get_id().as_str().replace('_', "-"), str::to_owned);
+    (!asks_for_help).then(key)
+}
+
+/// Whether an argument is the name of a file or a folder.
+pub fn is_path(arg: &Arg) -> bool {
+    arg.get_value_parser().type_id() == TypeId::of::<PathBuf>()
+}
+
+/// The section in which an option stands.
+pub fn section(arg: &Arg) -> String {
+    arg.get_help_heading().unwrap_or_default().to_lowercase()
+}
+
+fn entry(arg: &Arg, matches: &ArgMatches) -> Option<Entry> {
+    let (id, key) = (arg.get_id().as_str(), key(arg)?);
+    if LEFT_OUT.contains(&key.as_str()) || matches.value_source(id).is_none() {
+        return None;
+    }
+    let values = if matches!(arg.get_action(), ArgAction::SetTrue) {
+        if matches.value_source(id) == Some(ValueSource::DefaultValue) {
+            return None;
+        }
+        vec![Literal::Plain("true".to_owned())]
+    } else {
+        let raw = matches.get_raw(id)?;
+        raw.map(|raw| if is_path(arg) { Literal::Path(raw.into()) } else { literal(arg, &raw.to_string_lossy()) })
+            .collect()
+    };
+    Some(Entry { section: section(arg), key, values })
+}
+
+/// A number as a number, always in the same way, and everything else in quotation marks.
+fn literal(arg: &Arg, raw: &str) -> Literal {
+    let (parser, trimmed) = (arg.get_value_parser().type_id(), raw.trim());
+    let number = if parser == TypeId::of::<f64>() {
+        trimmed.parse::<f64>().ok().map(|number| format!("{number:?}"))
+    } else if parser == TypeId::of::<usize>() || parser == TypeId::of::<u64>() {
+        // TOML has no larger integers
+        trimmed.parse::<i64>().ok().map(|number| number.to_string())
+    } else {
+        None
+    };
+    Literal::Plain(number.unwrap_or_else(|| Value::from(raw).to_string()))
+}
+
+impl Literal {
+    fn text(&self, folder: &Path) -> String {
+        match self {
+            Self::Plain(text) => text.clone(),
+            Self::Path(path) => Value::from(seen_from(path, folder).to_string_lossy().into_owned()).to_string(),
+        }
+    }
+}
+
+/// A path from the folder in which we are as one from another folder, which need not exist. Absolute ones remain.
+fn seen_from(path: &Path, folder: &Path) -> PathBuf {
+    if path.is_absolute() {
+        return path.to_owned();
+    }
+    let (path, folder) = (absolute(path), resolved(&absolute(folder)));
+    // a link to a file stays a link
+    let path = match (path.parent(), path.file_name()) {
+        (Some(parent), Some(name)) if !path.is_dir() => resolved(parent).join(name),
+        _ => resolved(&path),
+    };
+    let (mut path, mut folder) = (path.components().peekable(), folder.components().peekable());
+    while path.peek().is_some() && path.peek() == folder.peek() {
+        path.next();
+        folder.next();
+    }
+    let up = folder.map(|_| Component::ParentDir);
+    let steps: PathBuf = up.chain(path).collect();
+    if steps.as_os_str().is_empty() { ".".into() } else { steps }
+}
+
+/// A path from the root.
+fn absolute(path: &Path) -> PathBuf {
+    let path = if path.as_os_str().is_empty() { Path::new(".") } else { path };
+    std::path::absolute(path).unwrap_or_else(|_| path.to_owned())
+}
+
+/// A path without links and dots, as far as it exists.
+fn resolved(path: &Path) -> PathBuf {
+    fs::canonicalize(path).unwrap_or_else(|_| match (path.parent(), path.file_name()) {
+        (Some(parent), Some(name)) => resolved(parent).join(name),
+        _ => path.to_owned(),
+    })
+}

@@ -1,0 +1,73 @@
+use std::io::{self, Write};
+
+use anstream::AutoStream;
+use clap::Args;
+use serde_json::Value;
+
+/// What goes to standard output.
+#[derive(Args, Clone, Copy)]
+pub struct Printing {
+    /// Print no table and no progress, nothing but warnings
+    #[arg(long, help_heading = "Output")]
+    quiet: bool,
+    /// Print the report as one JSON document, and nothing else; its keys are in the documentation, on the page tool
+    #[arg(long, help_heading = "Output")]
+    json: bool,
+}
+
+impl Printing {
+    /// Whether tables and other words for people are wanted.
+    pub fn for_people(self) -> bool {
+        !self.quiet && !self.json
+    }
+
+    /// Whether bars are unwanted.
+    pub fn without_bars(self) -> bool {
+        self.quiet
+    }
+
+    /// Prints words for people, if they are wanted.
+    pub fn say(self, text: &str) {
+        if self.for_people() {
+            say(text);
+        }
+    }
+
+    /// Prints what `report` comes to, if that is wanted; numbers that are not finite become null.
+    pub fn report(self, report: impl FnOnce() -> Value) {
+        if self.json {
+            say(&format!("{:#}", report()));
+        }
+    }
+}
+
+/// Text in bold, where that is shown.
+pub fn bold(text: &str) -> String {
+    format!("\u{1b}[1m{text}\u{1b}[0m")
+}
+
+/// Text in bold and in one of the eight colours of terminals, where that is shown.
+fn coloured(text: &str, colour: u8) -> String {
+    format!("\u{1b}[1;3{colour}m{text}\u{1b}[0m")
+}
+
+pub fn green(text: &str) -> String {
+    coloured(text, 2)
+}
+
+pub fn yellow(text: &str) -> String {
+    coloured(text, 3)
+}
+
+/// Prints to standard output, with colours only if that is a terminal. Nobody may be listening any more, as behind
+/// `| head`: the files are written all the same.
+pub fn say(text: &str) {
+    let _ = writeln!(AutoStream::auto(io::stdout()), "{text}");
+}
+
+/// Prints one line to standard error, whatever names with line breaks it quotes.
+pub fn complain(kind: &str, text: &str) {
+    let line: String = text.chars().map(|c| if c.is_control() { ' ' } else { c }).collect();
+    let kind = if kind == "error" { coloured("error:", 1) } else { yellow(&format!("{kind}:")) };
+    let _ = writeln!(AutoStream::auto(io::stderr()), "{kind} {line}");
+}

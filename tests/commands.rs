@@ -1,0 +1,237 @@
+//! Every command in the README, in the documentation and in the help runs, and what it names exists.
+#![cfg(all(feature = "cli", unix))]
+
+use std::collections::{HashMap, HashSet};
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+use tempfile::TempDir;
+
+const TOOL: &str = env!("CARGO_BIN_EXE_asperity");
+
+fn root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+}
+
+/// A folder in which the commands of one text are run, one after the other.
+struct Reader {
+    folder: TempDir,
+    run: usize,
+}
+
+impl Reader {
+    fn new() -> Self {
+        Self { folder: tempfile::tempdir().unwrap(), run: 0 }
+    }
+
+    fn shell(&self, command: &str) -> Output {
+        let tools = Path::new(TOOL).parent().unwrap().to_owned();
+        let path = std::env::var_os("PATH").unwrap_or_default();
+        let path = std::env::join_paths([tools].into_iter().chain(std::env::split_paths(&path))).unwrap();
+        let mut shell = Command::new("sh");
+        shell.args(["-c", command]).current_dir(&self.folder).env("PATH", path).env("HOME", self.folder.path());
+        shell.output().unwrap()
+    }
+
+    /// Runs a command of the tool, with small surfaces in the place of those that a reader has.
+    fn follow(&mut self, command: &str, text: &str) {
+        let words: Vec<_> = command.split_whitespace().collect();
+        let value = |option: &str| words.iter().skip_while(|word| **word != option).nth(1).copied();
+        let side: f64 = value("--lengths").map_or(1.0, |side| side.parse().unwrap());
+        let results = ["--out", "--psd", "--plot", "--fields"].map(value);
+        let scene = (words[1] == "run" && !self.folder.path().join("heights.npy").exists()).then_some("heights.npy");
+        for word in words.iter().copied().chain(scene) {
+            let reads = !results.contains(&Some(word));
+            let ours = word == "heights.npy" || !self.folder.path().join(word).exists();
+            if !(reads && ours) {
+                continue;
+            }
+            if let Some((_, "txt" | "gsf")) = word.rsplit_once('.') {
+                fs::write(self.folder.path().join(word), measured(word.ends_with(".gsf"))).unwrap();
+            } else if word.ends_with(".npy") {
+                let roughness = format!("--lengths {side} --k-l 2 --k-s 20 --rms-height {}", 0.01 * side);
+                let made = self.shell(&format!("asperity surface --size 64 {roughness} --force --quiet --out {word}"));
+                assert!(made.status.success(), "{}", String::from_utf8_lossy(&made.stderr));
+            }
+        }
+        if let Some((_, file)) = command.split_once(" > ~/") {
+            fs::create_dir_all(self.folder.path().join(file).parent().unwrap()).unwrap();
+        }
+        let output = self.shell(command);
+        let error = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(0), "{text}: {command}\n{error}");
+        self.run += 1;
+    }
+}
+
+/// A map as an instrument may give it, of 5 by 4 micrometres: as a matrix in nanometres, or in the format of Gwyddion.
+fn measured(gwyddion: bool) -> Vec<u8> {
+    let (nx, ny) = (50, 40);
+    let height = |i: usize, j: usize| 30.0 * (0.7 * i as f32).sin() * (0.4 * j as f32).cos() + 0.5 * i as f32;
+    if !gwyddion {
+        let row = |i| (0..ny).map(|j| height(i, j).to_string()).collect::<Vec<_>>().join(" ") + "\n";
+        return (0..nx).map(row).collect::<String>().into_bytes();
+    }
+    let header = format!("XRes = {nx}\nYRes = {ny}\nXReal = 5e-6\nYReal = 4e-6\nXYUnits = m\nZUnits = m\n");
+    let mut bytes = format!("Gwyddion Simple Field 1.0\n{header}").into_bytes();
+    bytes.resize(bytes.len() + 4 - bytes.len() % 4, 0);
+    let heights = (0..ny).flat_map(|j| (0..nx).map(move |i| 1e-9 * height(i, j)));
+    bytes.extend(heights.flat_map(f32::to_le_bytes));
+    bytes
+}
+
+/// The lines of a text with those joined that a backslash splits, without comments.
+fn commands(text: &str) -> Vec<String> {
+    let joined = text.replace("\\\n", " ");
+    let lines = joined.lines().map(|line| line.split(" #").next().unwrap_or_default().trim());
+    lines.filter(|line| !line.is_empty() && !line.starts_with('#')).map(str::to_owned).collect()
+}
+
+/// The texts for people: the pages in Markdown and the documentation in the code, with their names.
+fn texts() -> Vec<(String, String)> {
+    let (mut folders, mut files) =
+        (vec![root().join("src"), root().join("benches"), root().join("examples")], Vec::new());
+    while let Some(folder) = folders.pop() {
+        for entry in fs::read_dir(folder).unwrap() {
+            let path = entry.unwrap().path();
+            if path.is_dir() { folders.push(path) } else { files.push(path) }
+        }
+    }
+    files.sort();
+    files.insert(0, root().join("README.md"));
+    files.push(root().join("CHANGELOG.md"));
+    let text = |path: PathBuf| {
+        let is = |end: &str| path.extension().is_some_and(|extension| extension == end);
+        let text = if is("md") || is("rs") { fs::read_to_string(&path).unwrap() } else { return None };
+        let documentation = |line: &str| {
+            let line = line.trim_start();
+            let line = line.strip_prefix("//!").or(line.strip_prefix("///"))?;
+            Some(line.strip_prefix(' ').unwrap_or(line).to_owned())
+        };
+        let text = if is("md") { text } else { text.lines().filter_map(documentation).collect::<Vec<_>>().join("\n") };
+        Some((path.strip_prefix(root()).unwrap().display().to_string(), text))
+    };
+    files.into_iter().filter_map(text).collect()
+}
+
+/// The blocks of a text that have a language, and the language.
+fn blocks(text: &str) -> Vec<(&str, &str)> {
+    let fenced = text.split("```").skip(1).step_by(2);
+    fenced.filter_map(|block| block.split_once('\n')).collect()
+}
+
+/// What a text says to run.
+#[test]
+fn commands_of_the_documentation_run() {
+    let mut run = 0;
+    for (name, text) in texts() {
+        let mut reader = Reader::new();
+        for (language, block) in blocks(&text) {
+            // a file that begins with its name
+            if let ("toml", Some((file, _))) =
+                (language, block.strip_prefix("# ").and_then(|rest| rest.split_once('\n')))
+            {
+                fs::write(reader.folder.path().join(file), block).unwrap();
+            }
+            let code = ["", "rust", "toml", "python"].iter().any(|code| language.split(',').any(|word| word == *code));
+            // in other blocks there may be anything else, too
+            let shell = |command: &String| language == "sh" || !code && command.starts_with("asperity ");
+            for command in commands(block).into_iter().filter(shell) {
+                let program = command.split_whitespace().next().unwrap();
+                match (program, command.split_once(" -- ")) {
+                    ("asperity", _) => reader.follow(&command, &name),
+                    ("cargo", Some(("cargo run --release", arguments))) => {
+                        reader.follow(&format!("asperity {arguments}"), &name);
+                    }
+                    ("cargo", _) => assert!(names_no_target_or_an_existing_one(&command), "{name}: {command}"),
+                    (script, _) if script.contains('/') => assert!(root().join(script).exists(), "{name}: {command}"),
+                    _ => panic!("{name}: nobody knows whether this runs: {command}"),
+                }
+            }
+        }
+        run += reader.run;
+    }
+    assert!(run >= 10, "{run} commands found");
+}
+
+fn names_no_target_or_an_existing_one(command: &str) -> bool {
+    let known = ["run", "test", "bench", "build", "install", "doc"];
+    known.contains(&command.split_whitespace().nth(1).unwrap_or_default())
+        && targets(command).all(|(kind, name)| exists(kind, &name))
+}
+
+/// The examples, benches and tests that a text names as options of cargo.
+fn targets(text: &str) -> impl Iterator<Item = (&'static str, String)> {
+    let kinds = [("--example ", "examples"), ("--bench ", "benches"), ("--test ", "tests")];
+    kinds.into_iter().flat_map(move |(option, folder)| {
+        let after = text.split(option).skip(1);
+        after.map(move |rest| (folder, rest.chars().take_while(|c| c.is_alphanumeric() || *c == '_').collect()))
+    })
+}
+
+fn exists(folder: &str, name: &str) -> bool {
+    [format!("{name}.rs"), format!("{name}/main.rs")].iter().any(|file| root().join(folder).join(file).is_file())
+}
+
+/// What a text names in passing.
+#[test]
+fn examples_and_options_that_the_documentation_names_exist() {
+    let help = Help::new();
+    let (mut named, mut checked) = (HashSet::new(), 0);
+    for (file, text) in texts() {
+        let text = text.split_whitespace().collect::<Vec<_>>().join(" ");
+        for (folder, name) in targets(&text).filter(|(_, name)| name.chars().any(char::is_lowercase)) {
+            assert!(exists(folder, &name), "{file}: there is no {folder}/{name}.rs");
+            named.insert(name);
+        }
+        for span in text.replace("```", "").split('`').skip(1).filter_map(|span| span.strip_prefix("asperity ")) {
+            let mut words = span.split(' ');
+            let command = words.next().unwrap();
+            let Some(help) = help.of.get(command) else {
+                assert!(command.starts_with("--") || !command.chars().all(char::is_lowercase), "{file}: {span}");
+                continue;
+            };
+            for option in words.filter_map(|word| word.strip_prefix("--")) {
+                let option = option.split(['=', ',', '.', ';', ':', ')']).next().unwrap();
+                assert!(help.contains(&format!("--{option}")), "{file}: asperity {command} has no --{option}");
+                checked += 1;
+            }
+        }
+    }
+    assert!(named.len() >= 8 && checked >= 2, "{named:?}, {checked} options");
+}
+
+/// The help of all commands, by name; that of the tool has none.
+struct Help {
+    of: HashMap<String, String>,
+}
+
+impl Help {
+    fn new() -> Self {
+        let help = |arguments: &[&str]| {
+            let output = Command::new(TOOL).args(arguments).output().unwrap();
+            assert!(output.status.success());
+            String::from_utf8(output.stdout).unwrap()
+        };
+        let tool = help(&["--help"]);
+        let list = tool.split("Commands:\n").nth(1).unwrap().split("\n\n").next().unwrap();
+        let names = list.lines().filter_map(|line| line.split_whitespace().next()).filter(|name| *name != "help");
+        let of = names.map(|name| (name.to_owned(), help(&[name, "--help"]))).collect::<HashMap<_, _>>();
+        Self { of: of.into_iter().chain([(String::new(), tool)]).collect() }
+    }
+}
+
+#[test]
+fn examples_of_the_help_run() {
+    let help = Help::new();
+    assert!(help.of.len() >= 9);
+    for (name, help) in help.of {
+        let (_, examples) = help.split_once("Examples:\n").unwrap_or_else(|| panic!("{name} has no examples"));
+        let mut reader = Reader::new();
+        for command in commands(examples).iter().filter(|line| line.starts_with("asperity ")) {
+            reader.follow(command, &name);
+        }
+        assert!(reader.run > 0, "{name}");
+    }
+}
