@@ -85,6 +85,7 @@ pub mod exact;
 mod fft;
 mod field;
 mod grid;
+pub mod guide;
 #[cfg(feature = "cli")]
 pub mod io;
 mod nested;
