@@ -35,6 +35,7 @@ pub mod penalty_and_uzawa {
 pub mod branches {
     #![doc = include_str!("guide/branches.md")]
 }
+#[cfg(feature = "cli")]
 pub mod python {
     #![doc = include_str!("guide/python.md")]
 }
