@@ -17,28 +17,20 @@
 //!
 //! The code on these pages is run by the tests.
 
-pub mod tour {
-    #![doc = include_str!("guide/tour.md")]
+/// A page from the file of its name, and the style of its equations.
+macro_rules! page {
+    ($name:ident) => {
+        #[doc = include_str!(concat!("guide/", stringify!($name), ".md"))]
+        #[doc = include_str!("equations.html")]
+        pub mod $name {}
+    };
 }
-pub mod own_law {
-    #![doc = include_str!("guide/own_law.md")]
-}
-pub mod own_operator {
-    #![doc = include_str!("guide/own_operator.md")]
-}
-pub mod own_constraint {
-    #![doc = include_str!("guide/own_constraint.md")]
-}
-pub mod penalty_and_uzawa {
-    #![doc = include_str!("guide/penalty_and_uzawa.md")]
-}
-pub mod branches {
-    #![doc = include_str!("guide/branches.md")]
-}
+page!(tour);
+page!(own_law);
+page!(own_operator);
+page!(own_constraint);
+page!(penalty_and_uzawa);
+page!(branches);
 #[cfg(feature = "cli")]
-pub mod python {
-    #![doc = include_str!("guide/python.md")]
-}
-pub mod architecture {
-    #![doc = include_str!("guide/architecture.md")]
-}
+page!(python);
+page!(architecture);

@@ -40,6 +40,19 @@
 //! # Ok::<(), asperity::Error>(())
 //! ```
 //!
+//! # Where to go from here
+//!
+//! | | |
+//! |---|---|
+//! | the whole way once, from the gap to the certificate | [`guide::tour`] |
+//! | an adhesion law of your own | [`guide::own_law`] |
+//! | an elastic body of your own: a layer of finite thickness | [`guide::own_operator`] |
+//! | a way of your own to keep the surfaces apart; penalty and Uzawa | [`guide::own_constraint`], [`guide::penalty_and_uzawa`] |
+//! | loading and unloading with adhesion | [`guide::branches`] |
+//! | heights from numpy, results to numpy | [`guide::python`] |
+//! | how the crate is built | [`guide::architecture`] |
+//! | how fast, how accurate, and what the paper says | [`performance`], [`precision`], [`paper_checked`] |
+//!
 //! # Conventions
 //!
 //! Any consistent units; the answers scale with them. Fields are [`ndarray`] arrays of shape (Nx, Ny). Compression is
@@ -53,19 +66,6 @@
 //! | [`ElasticOperator`] | pressure of a displacement | [`Westergaard`], [`Spectral`] (any symbol) |
 //! | [`AdhesionLaw`] | energy, traction, slope at a gap | [`NoAdhesion`], [`MaugisDugdale`], [`Exponential`] |
 //! | [`ContactConstraint`] | how g ≥ 0 is imposed | [`Projection`], [`Penalty`], [`Uzawa`] |
-//!
-//! # Where to go from here
-//!
-//! | | |
-//! |---|---|
-//! | the whole way once, from the gap to the certificate | [`guide::tour`] |
-//! | an adhesion law of your own | [`guide::own_law`] |
-//! | an elastic body of your own: a layer of finite thickness | [`guide::own_operator`] |
-//! | a way of your own to keep the surfaces apart; penalty and Uzawa | [`guide::own_constraint`], [`guide::penalty_and_uzawa`] |
-//! | loading and unloading with adhesion | [`guide::branches`] |
-//! | heights from numpy, results to numpy | [`guide::python`] |
-//! | how the crate is built | [`guide::architecture`] |
-//! | how fast, how accurate, and what the paper says | [`performance`], [`precision`], [`paper_checked`] |
 //!
 //! # More than one number, more than one load
 //!
@@ -87,6 +87,7 @@
 //!
 //! `parallel` (default): threads, with the same results bit for bit. `cli` (default): files, pictures and the
 //! command-line tool. Without both the library depends on libm, ndarray, num-traits, pulp and rustfft alone.
+#![doc = include_str!("equations.html")]
 
 mod adhesion;
 mod constraint;
