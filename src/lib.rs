@@ -59,7 +59,7 @@
 //! positive. Two mean pressures exist and both are reported: the external one p̄, and the mean contact pressure ⟨λ⟩ =
 //! p̄ + ⟨φ'⟩. All is generic over `f32` and `f64`; sums accumulate in `f64`.
 //!
-//! # Seams
+//! # What can be exchanged
 //!
 //! | trait | what | implementations |
 //! |---|---|---|
