@@ -4,12 +4,14 @@
 //! cargo run --release --example cycles -- [--size N] [--out DIR]
 //! ```
 //!
-//! `--size` is the number of nodes along a side of the sphere's and the rough surface's grid (256 unless given), `--out` the
-//! folder for the pictures (`target/figures`). The sphere has Tabor parameters from 0.1 to 5 and is compared with Maugis'
+//! `--size` is the number of nodes along a side of the sphere's and the rough surface's grid (256 unless given), and the waves
+//! have up to 32 times as many; `--out` is the folder for the pictures (`target/figures`). The sphere has Tabor parameters from 0.1 to 5 and is compared with Maugis'
 //! solution among its periodic images; the wave has Johnson's α = 0.2, and ranges of adhesion that tend to none.
 
 #[path = "common/arguments.rs"]
 mod arguments;
+#[path = "common/legend.rs"]
+mod legend;
 
 use std::error::Error;
 use std::f64::consts::PI;
@@ -21,6 +23,7 @@ use asperity::{
     AdhesionLaw, Control, Event, Exponential, Grid, MaugisDugdale, Path, PathSettings, Problem, SelfAffine, Settings,
     Solver, Status, Surface, Westergaard,
 };
+use legend::legend;
 use plotters::prelude::*;
 
 type Outcome<T> = Result<T, Box<dyn Error>>;
@@ -108,7 +111,7 @@ fn main() -> Outcome<()> {
     let (size, out) = size_and_out(256, "target/figures")?;
     std::fs::create_dir_all(&out)?;
     spheres(size, &out.join("cycle-sphere.svg"))?;
-    waves(&out.join("cycle-wave.svg"))?;
+    waves(size, &out.join("cycle-wave.svg"))?;
     rough(size, &out.join("cycle-rough.svg"))?;
     println!("\ndrawn in {}", out.display());
     Ok(())
@@ -155,7 +158,7 @@ fn spheres(size: usize, path: &File) -> Outcome<()> {
 }
 
 /// A wave on a line, under ranges of adhesion that become short.
-fn waves(path: &File) -> Outcome<()> {
+fn waves(size: usize, path: &File) -> Outcome<()> {
     let work = 0.5 * (ALPHA * PI * AMPLITUDE).powi(2);
     let exact = AdhesiveWavyLine::new(AMPLITUDE, 1.0, 1.0, work)?;
     let closing = exact.closing_pressure();
@@ -163,7 +166,7 @@ fn waves(path: &File) -> Outcome<()> {
     println!("\nwave, α = {ALPHA}: pull-off stress over p*; Johnson {:.4}", -pulled.mean_pressure() / closing);
     println!("{:>6} {:>6} {:>6} {:>8} {:>12} {:>10}", "ρ/h₀", "n", "μ_ρ", "found", "dissipated", "missing");
     let mut curves = Vec::new();
-    for ((share, n), colour) in WAVES.into_iter().zip(COLOURS) {
+    for ((share, n), colour) in WAVES.into_iter().filter(|(_, n)| *n <= 32 * size).zip(COLOURS) {
         let grid = Grid::line(n, 1.0)?;
         let surface = Surface::wave(grid, AMPLITUDE, 1)?;
         let law = Exponential::new(work, share * AMPLITUDE)?;
@@ -219,7 +222,7 @@ fn draw(
     title: &str,
     across: &str,
     upwards: &str,
-    legend: SeriesLabelPosition,
+    labels: SeriesLabelPosition,
     curves: &[(String, RGBColor, bool, Points)],
 ) -> Outcome<()> {
     let all = || curves.iter().flat_map(|(_, _, _, points)| points);
@@ -250,13 +253,7 @@ fn draw(
             series.label(name).legend(move |(x, y)| PathElement::new([(x, y), (x + 22, y)], style));
         }
     }
-    chart
-        .configure_series_labels()
-        .position(legend)
-        .background_style(WHITE)
-        .border_style(RGBColor(180, 180, 180))
-        .label_font(("sans-serif", 15))
-        .draw()?;
+    legend(&mut chart, labels)?;
     root.present()?;
     Ok(())
 }

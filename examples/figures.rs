@@ -13,6 +13,8 @@
 
 #[path = "common/arguments.rs"]
 mod arguments;
+#[path = "common/legend.rs"]
+mod legend;
 
 use std::error::Error;
 use std::ops::ControlFlow;
@@ -24,6 +26,7 @@ use asperity::{
     AdhesionLaw, Control, ElasticOperator, Grid, MaugisDugdale, NoAdhesion, Problem, Settings, Solution, Solver,
     Status, Surface, Westergaard,
 };
+use legend::legend;
 use ndarray::{Array2, Zip};
 use plotters::coord::Shift;
 use plotters::prelude::*;
@@ -246,7 +249,7 @@ fn panel(
     lowest: f64,
     names: [&str; 3],
     curves: [&Vec<(f64, f64)>; 3],
-    legend: SeriesLabelPosition,
+    labels: SeriesLabelPosition,
 ) -> Outcome<()> {
     // (JKR's pressure falls to −∞ at the edge: what is below the panel is left out)
     let curves = curves.map(|c| c.iter().copied().filter(|p| p.0 <= end && p.1 >= lowest).collect::<Vec<_>>());
@@ -290,14 +293,7 @@ fn panel(
         .draw_series(computed.into_iter().step_by(stride).map(|p| Circle::new(p, 3, BLACK)))?
         .label(names[2])
         .legend(|(x, y)| Circle::new((x + 12, y), 3, BLACK));
-    chart
-        .configure_series_labels()
-        .position(legend)
-        .background_style(WHITE.mix(0.9))
-        .border_style(BLACK)
-        .label_font(("sans-serif", 15))
-        .legend_area_size(30)
-        .draw()?;
+    legend(&mut chart, labels)?;
     Ok(())
 }
 
@@ -366,14 +362,7 @@ fn rates(
             .label(format!("{name}: n^−{:.2}", -exponent))
             .legend(move |(x, y)| Circle::new((x + 12, y), radius, style));
     }
-    chart
-        .configure_series_labels()
-        .position(SeriesLabelPosition::LowerLeft)
-        .background_style(WHITE.mix(0.9))
-        .border_style(BLACK)
-        .label_font(("sans-serif", 15))
-        .legend_area_size(30)
-        .draw()?;
+    legend(&mut chart, SeriesLabelPosition::LowerLeft)?;
     Ok(exponents)
 }
 

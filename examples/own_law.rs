@@ -1,4 +1,6 @@
 //! An adhesion law of your own: a cubic that ends at its range, in fifteen lines.
+//!
+//! `cargo run --release --example own_law`
 
 use asperity::{
     AdhesionLaw, Control, Exponential, Grid, Problem, Real, Result, Solver, Surface, Westergaard, check_law,

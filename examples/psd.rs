@@ -4,6 +4,8 @@
 
 #[path = "common/arguments.rs"]
 mod arguments;
+#[path = "common/legend.rs"]
+mod legend;
 
 use std::error::Error;
 use std::f64::consts::TAU;
@@ -11,6 +13,7 @@ use std::path::PathBuf;
 
 use arguments::size_and_out;
 use asperity::{Grid, Psd, SelfAffine};
+use legend::legend;
 use plotters::prelude::*;
 
 type Outcome<T> = Result<T, Box<dyn Error>>;
@@ -96,14 +99,7 @@ fn draw(path: &PathBuf, size: usize, target: &Psd, one: &Psd, mean: &Psd) -> Out
         .draw_series(LineSeries::new(points(target), red))?
         .label("target: plateau from 2 to 8, then k^−3.6")
         .legend(move |(x, y)| PathElement::new([(x, y), (x + 24, y)], red));
-    chart
-        .configure_series_labels()
-        .position(SeriesLabelPosition::LowerLeft)
-        .background_style(WHITE.mix(0.9))
-        .border_style(BLACK)
-        .label_font(("sans-serif", 15))
-        .legend_area_size(30)
-        .draw()?;
+    legend(&mut chart, SeriesLabelPosition::LowerLeft)?;
     root.present()?;
     Ok(())
 }

@@ -14,6 +14,8 @@
 
 #[path = "common/arguments.rs"]
 mod arguments;
+#[path = "common/legend.rs"]
+mod legend;
 
 use std::error::Error;
 use std::f64::consts::PI;
@@ -25,6 +27,7 @@ use asperity::{
     AdhesionLaw, Amplitude, Colouring, ContactStatistics, Control, Exponential, Grid, Map, Problem, SelfAffine,
     Solution, Solver, Status, Surface, Sweep, Westergaard,
 };
+use legend::legend;
 use ndarray::{Array2, Zip};
 use plotters::coord::Shift;
 use plotters::prelude::*;
@@ -467,13 +470,6 @@ fn panel(
             .label(format!("w = 0, Δx → 0: κ = {:.2}", slope_without_adhesion(limit)))
             .legend(move |(x, y)| Circle::new((x + 12, y), 6, ring));
     }
-    chart
-        .configure_series_labels()
-        .position(SeriesLabelPosition::UpperLeft)
-        .background_style(WHITE.mix(0.9))
-        .border_style(BLACK)
-        .label_font(("sans-serif", 14))
-        .legend_area_size(30)
-        .draw()?;
+    legend(&mut chart, SeriesLabelPosition::UpperLeft)?;
     Ok(())
 }

@@ -9,10 +9,14 @@
 //! 1e-6 in `f64` and 1e-4 in `f32`, by the default, nested grids, and Algorithm 3. The exponent in the legend is that of the
 //! number of nodes, by least squares; it includes what the caches lose. Grids that were not measured are left out.
 
+#[path = "common/legend.rs"]
+mod legend;
+
 use std::error::Error;
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use legend::legend;
 use plotters::prelude::*;
 use serde_json::Value;
 
@@ -98,14 +102,7 @@ fn draw(path: &Path, lines: &[Vec<(usize, f64)>]) -> Outcome<()> {
             .legend(move |(x, y)| PathElement::new([(x, y), (x + 24, y)], style));
         chart.draw_series(points.into_iter().map(|p| Circle::new(p, 4, colour.filled())))?;
     }
-    chart
-        .configure_series_labels()
-        .position(SeriesLabelPosition::UpperLeft)
-        .background_style(WHITE.mix(0.9))
-        .border_style(BLACK)
-        .label_font(("sans-serif", 15))
-        .legend_area_size(30)
-        .draw()?;
+    legend(&mut chart, SeriesLabelPosition::UpperLeft)?;
     root.present()?;
     Ok(())
 }

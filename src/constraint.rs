@@ -21,6 +21,27 @@ pub use uzawa::Uzawa;
 /// An [`AdhesionLaw`](crate::AdhesionLaw) is defined for g ≥ 0. Where the surfaces interpenetrate it goes on as its tangent,
 /// φ(0) + φ'(0)g: the traction is that of contact, and springs of any stiffness bound the energy below. As these stiffen
 /// the solution tends to that of [`Projection`]. An exponential, evaluated at negative gaps, would outrun any springs.
+///
+/// ```
+/// use asperity::{ContactConstraint, Control, Grid, NoAdhesion, Problem, Settings, Solver, Surface, Westergaard};
+/// /// A film that resists compression from a thickness of 1e-3 on.
+/// struct Film;
+/// impl ContactConstraint<f64> for Film {
+///     fn projects(&self) -> bool { false }
+///     fn energy(&self, _: usize, gap: f64) -> f64 { 250.0 * (1e-3 - gap).max(0.0).powi(2) }
+///     fn traction(&self, _: usize, gap: f64) -> f64 { -500.0 * (1e-3 - gap).max(0.0) }
+///     fn slope(&self, _: usize, gap: f64) -> f64 { if gap < 1e-3 { 500.0 } else { 0.0 } }
+/// }
+/// let grid = Grid::square(32, 1.0)?;
+/// let sphere = Surface::paraboloid(grid, 2.0)?;
+/// let mut problem = Problem::new(&sphere, Westergaard::<f64>::new(grid, 1.0)?, NoAdhesion)?;
+/// let mut solver = Solver { settings: Settings::default(), constraint: Film };
+/// let report = solver.solve(&mut problem, Control::MeanPressure(2e-4))?.report;
+/// assert!(report.min_gap > 0.9e-3 && report.contact_points > 1);
+/// # Ok::<(), asperity::Error>(())
+/// ```
+///
+/// A worked example with rounds is on the page [`own_constraint`](crate::guide::own_constraint).
 pub trait ContactConstraint<T: Real>: Sync {
     /// Whether the gap is confined to g ≥ 0. If so the other methods are not asked.
     fn projects(&self) -> bool;
@@ -55,6 +76,8 @@ pub trait ContactConstraint<T: Real>: Sync {
 }
 
 /// What [`ContactConstraint::update`] decides.
+///
+/// For a constraint that uses all three see [`own_constraint`](crate::guide::own_constraint).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Outer {
     /// The constraint is met: the solution stands.

@@ -48,7 +48,7 @@ impl<T: Real> Solution<T> {
 /// contact, by
 ///
 /// ```math
-/// A \approx A_\mathrm{nodes} - \frac{\pi - 1 + \ln 2}{24}\, S\, \Delta x
+/// A ≈ A_nodes − (π − 1 + ln 2)/24 · S Δx
 /// ```
 ///
 /// with S the perimeter along the cells, averaged over the directions of the edge. That is 0.118 cells for each side of

@@ -18,6 +18,26 @@ pub use westergaard::Westergaard;
 /// the trait for anything else. The first four methods and [`modulus`](Self::modulus) are required.
 ///
 /// Every application writes into the caller's array and, for the operators of this crate, allocates nothing.
+///
+/// ```
+/// use asperity::{ElasticOperator, Grid, Spectral, Westergaard};
+/// let grid = Grid::square(16, 1.0)?;
+/// // chosen at run time; a box of an operator is an operator
+/// let operators: [Box<dyn ElasticOperator<f64>>; 2] = [
+///     Box::new(Westergaard::new(grid, 1.0)?),
+///     Box::new(Spectral::isotropic(grid, 1.0, |q| 10.0 + 0.5 * q)?), // on springs
+/// ];
+/// for mut operator in operators {
+///     let u = grid.sample(|x, y| (std::f64::consts::TAU * (x + 2.0 * y)).sin());
+///     let (mut p, mut again) = (u.clone(), u.clone());
+///     operator.pressure(u.view(), p.view_mut())?;
+///     operator.displacement(p.view(), again.view_mut())?;
+///     assert!(u.iter().zip(&again).all(|(a, b)| (a - b).abs() < 1e-12));
+/// }
+/// # Ok::<(), asperity::Error>(())
+/// ```
+///
+/// A layer of finite thickness is the worked case on the page [`own_operator`](crate::guide::own_operator).
 pub trait ElasticOperator<T: Real> {
     /// The grid of the fields that the operator takes and returns.
     fn grid(&self) -> &Grid;
@@ -71,8 +91,6 @@ pub trait ElasticOperator<T: Real> {
         Ok(mean_product(heights, pressure.view()))
     }
 
-    /// Applies the preconditioner, M r.
-    ///
     /// Applies the preconditioner, M r.
     ///
     /// M is close to (K⁻¹ + `foundation`)⁻¹, the compliance of the half-space on a foundation of that stiffness, pressure

@@ -6,6 +6,14 @@ use ndarray::ArrayView2;
 use crate::real::Real;
 
 /// What the library returns where it can refuse its input.
+///
+/// ```
+/// fn contact_radius(load: f64) -> asperity::Result<f64> {
+///     use asperity::exact::{Hertz, Sphere};
+///     Ok(Hertz::new(2.0, 1.0)?.at_load(load)?.contact_radius())
+/// }
+/// assert!(contact_radius(1e-4).is_ok() && contact_radius(-1e-4).is_err());
+/// ```
 pub type Result<T> = std::result::Result<T, Error>;
 
 /// An input that was refused. Each variant names the value and what would have been accepted.

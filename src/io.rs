@@ -153,6 +153,16 @@ fn ending(path: &Path) -> String {
 /// # Errors
 ///
 /// [`Error::File`] if the file cannot be written.
+///
+/// ```
+/// use asperity::io::{read_field, write_npy};
+/// let folder = tempfile::tempdir()?;
+/// let path = folder.path().join("gap.npy");
+/// let gap = ndarray::array![[0.0_f32, 1.5]];
+/// write_npy(&path, &gap)?;
+/// assert_eq!(read_field(&path)?, gap.mapv(f64::from));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn write_npy<T: WritableElement>(path: &Path, field: &Array2<T>) -> Result<()> {
     ndarray_npy::write_npy(path, field).map_err(|e| Error::file(path, format!("cannot be written: {e}")))
 }

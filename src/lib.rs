@@ -5,8 +5,7 @@
 //! equilibrium minimises the energy per area
 //!
 //! ```math
-//! e(g) = \tfrac12 \langle u,\, K^{-1} u \rangle + \langle \phi(g) \rangle ,
-//! \qquad u = g + h, \qquad \widehat{K^{-1}u}(q) = \tfrac12 E^* |q|\, \hat u(q)
+//! e(g) = ½ ⟨u, K⁻¹u⟩ + ⟨φ(g)⟩ ,   u = g + h ,   K⁻¹u = ½ E* |q| û  for each wave q ,
 //! ```
 //!
 //! with ⟨·⟩ the mean over the surface, E* the contact modulus and φ(g) ≤ 0 the adhesive energy, either at a given mean
@@ -14,7 +13,7 @@
 //! contact pressure λ = p + p̄ + φ'(g) is the multiplier of g ≥ 0:
 //!
 //! ```math
-//! \lambda \ge 0, \qquad g \ge 0, \qquad \lambda\, g = 0 .
+//! λ ≥ 0 ,   g ≥ 0 ,   λ g = 0 .
 //! ```
 //!
 //! The method is that of Rey, Anciaux and Molinari, *Normal adhesive contact on rough surfaces: efficient algorithm for
@@ -41,13 +40,26 @@
 //! # Ok::<(), asperity::Error>(())
 //! ```
 //!
+//! # Where to go from here
+//!
+//! | | |
+//! |---|---|
+//! | the whole way once, from the gap to the certificate | [`guide::tour`] |
+//! | an adhesion law of your own | [`guide::own_law`] |
+//! | an elastic body of your own: a layer of finite thickness | [`guide::own_operator`] |
+//! | a way of your own to keep the surfaces apart; penalty and Uzawa | [`guide::own_constraint`], [`guide::penalty_and_uzawa`] |
+//! | loading and unloading with adhesion | [`guide::branches`] |
+//! | heights from numpy, results to numpy | [`guide::python`] |
+//! | how the crate is built | [`guide::architecture`] |
+//! | how fast, how accurate, and what the paper says | [`performance`], [`precision`], [`paper_checked`] |
+//!
 //! # Conventions
 //!
 //! Any consistent units; the answers scale with them. Fields are [`ndarray`] arrays of shape (Nx, Ny). Compression is
 //! positive. Two mean pressures exist and both are reported: the external one p̄, and the mean contact pressure ⟨λ⟩ =
 //! p̄ + ⟨φ'⟩. All is generic over `f32` and `f64`; sums accumulate in `f64`.
 //!
-//! # Seams
+//! # What can be exchanged
 //!
 //! | trait | what | implementations |
 //! |---|---|---|
@@ -79,6 +91,7 @@
 //!
 //! `parallel` (default): threads, with the same results bit for bit. `cli` (default): files, pictures and the
 //! command-line tool, of which the page [`tool`] tells. Without both the library depends on libm, ndarray, num-traits, pulp and rustfft alone.
+#![doc = include_str!("equations.html")]
 
 mod adhesion;
 mod constraint;
@@ -89,6 +102,7 @@ pub mod exact;
 mod fft;
 mod field;
 mod grid;
+pub mod guide;
 #[cfg(feature = "cli")]
 pub mod io;
 mod nested;

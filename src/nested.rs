@@ -54,6 +54,8 @@ pub struct Nested<C = Projection> {
 }
 
 /// What the solve on one of nested grids took.
+///
+/// [`NestedSolution`] has an example.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Level {
     /// The nodes (Nx, Ny) of the grid.
@@ -67,6 +69,19 @@ pub struct Level {
 }
 
 /// The solution on the finest of nested grids.
+///
+/// ```
+/// use asperity::{Control, Grid, Nested, NoAdhesion, Surface, Westergaard};
+/// let surface = Surface::wave_2d(Grid::square(128, 1.0)?, 0.02, 2)?;
+/// let half_space = |grid| Westergaard::<f64>::new(grid, 1.0);
+/// let nested = Nested::default().solve(&surface, half_space, NoAdhesion, Control::MeanPressure(0.01))?;
+/// for level in &nested.levels {
+///     println!("{:?}: {}, {} applications", level.shape, level.status, level.operator_applications);
+/// }
+/// assert_eq!(nested.levels[0].shape, (64, 64));
+/// assert_eq!(nested.solution.gap.dim(), (128, 128));
+/// # Ok::<(), asperity::Error>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct NestedSolution<T> {
     /// The solution; its report counts the finest grid alone.

@@ -26,6 +26,12 @@ use track::{Mode, State, Track};
 /// | `tolerance` | 1e-4 | how far the energy may be from the work done in a step, as a share of how much the energy has changed along the path (or of w/1000, if that is more) | positive |
 ///
 /// A smaller tolerance asks for a smaller tolerance of the solver too: its square must be well below.
+///
+/// ```
+/// use asperity::PathSettings;
+/// let sharp = PathSettings { resolution: 1e-6, ..PathSettings::default() };
+/// assert_eq!(sharp.steps, 50);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PathSettings {
     /// The least number of steps in a leg.
@@ -45,6 +51,19 @@ impl Default for PathSettings {
 }
 
 /// A state on a path.
+///
+/// ```
+/// use asperity::{Control, Grid, NoAdhesion, Path, PathSettings, Problem, Solver, Surface, Westergaard};
+/// let grid = Grid::line(64, 1.0)?;
+/// let mut problem = Problem::new(&Surface::wave(grid, 0.02, 1)?, Westergaard::<f64>::new(grid, 1.0)?, NoAdhesion)?;
+/// let legs = [0.02, 0.01].map(Control::MeanGap);
+/// let path = Path::new(&mut Solver::default(), &mut problem, legs, PathSettings::default())?.collect::<Result<Vec<_>, _>>()?;
+/// let last = path.last().expect("a path has a start");
+/// // without adhesion nothing jumps, and what the load puts in is stored
+/// assert!(path.iter().all(|step| step.event.is_none()) && last.dissipated == 0.0);
+/// assert!((last.work / last.solution.report.elastic_energy - 1.0).abs() < 1e-3);
+/// # Ok::<(), asperity::Error>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct PathStep<T> {
     /// The state.
@@ -125,6 +144,22 @@ pub struct Path<'a, T, O, L> {
 }
 
 /// All that a path needs to go on: opaque numbers, and gaps of shape (Nx, Ny). Both must come back bit for bit.
+///
+/// ```
+/// use asperity::{Control, Grid, NoAdhesion, Path, PathSettings, Problem, Solver, Surface, Westergaard};
+/// let grid = Grid::line(64, 1.0)?;
+/// let mut problem = Problem::new(&Surface::wave(grid, 0.02, 1)?, Westergaard::<f64>::new(grid, 1.0)?, NoAdhesion)?;
+/// let (mut solver, settings) = (Solver::default(), PathSettings { steps: 4, ..PathSettings::default() });
+/// let legs = [0.02, 0.01].map(Control::MeanGap);
+/// let whole = Path::new(&mut solver, &mut problem, legs, settings)?.collect::<Result<Vec<_>, _>>()?;
+///
+/// let mut first = Path::new(&mut solver, &mut problem, legs, settings)?;
+/// first.next().transpose()?;
+/// let kept = first.checkpoint();
+/// let rest = Path::new(&mut solver, &mut problem, legs, settings)?.continuing(kept)?.collect::<Result<Vec<_>, _>>()?;
+/// assert_eq!(rest, whole[1..]);
+/// # Ok::<(), asperity::Error>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct PathCheckpoint<T> {
     /// Where the path is.

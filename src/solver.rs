@@ -22,6 +22,13 @@ pub use report::{Iteration, Report, Solution, Status};
 use state::State;
 
 /// How the iteration goes: which of the two presets of the driver.
+///
+/// ```
+/// use asperity::{Criterion, Method, Settings};
+/// let paper = Settings::rey2017();
+/// assert_eq!((paper.method, paper.criterion), (Method::Rey2017, Criterion::Orthogonality));
+/// assert_eq!(Method::default().name(), "default");
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Method {
     /// Conjugate gradients preconditioned with the compliance; the energy falls in every iteration.
@@ -42,6 +49,13 @@ impl Method {
 }
 
 /// What has to fall below the tolerance.
+///
+/// ```
+/// use asperity::{Criterion, Settings};
+/// // the paper's iteration, held to the certified error
+/// let certified = Settings { criterion: Criterion::EnergyNorm, tolerance: 1e-6, ..Settings::rey2017() };
+/// assert_eq!(certified.criterion, Settings::default().criterion);
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Criterion {
     /// The certified relative error in the energy norm, [`Report::relative_error`].

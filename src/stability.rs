@@ -21,6 +21,8 @@ use eigenpair::{Eigenpair, lowest};
 use hessian::Hessian;
 
 /// Whether an equilibrium is one that lasts.
+///
+/// [`StabilityTest`] has an example.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Verdict {
     /// The smallest eigenvalue is bounded below by a positive number: a strict local minimum of the energy.
@@ -53,7 +55,7 @@ impl fmt::Display for Verdict {
 /// An equilibrium is a strict local minimum of the energy where the smallest eigenvalue of its second derivative is positive,
 ///
 /// ```math
-/// \lambda = \min_v \frac{\langle v, (K^{-1} + \phi''(g))\, v\rangle}{\langle v, v\rangle} ,
+/// λ = min over v of  ⟨v, (K⁻¹ + φ''(g)) v⟩ / ⟨v, v⟩ ,
 /// ```
 ///
 /// over the changes v of the gap that vanish where the surfaces touch, and have no mean if the mean gap is given. It is found by
@@ -115,6 +117,8 @@ impl Default for StabilityTest {
 }
 
 /// The stability of an equilibrium. Eigenvalues are pressures per length.
+///
+/// [`StabilityTest`] has an example.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Stability<T> {
     /// What was shown.

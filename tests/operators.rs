@@ -1,6 +1,9 @@
 //! Elastic operators: every mode, every parity, adjointness, inverses, threads, allocations.
 
 mod common;
+#[allow(dead_code, reason = "its main is not called here")]
+#[path = "../examples/layer.rs"]
+mod layer;
 
 use std::f64::consts::{PI, TAU};
 
@@ -191,6 +194,150 @@ fn an_application_allocates_nothing() {
         });
         assert_eq!(count.count_total, 0);
     });
+}
+
+/// The stiffness of a wave on a layer, by integrating the equations of plane strain through its thickness; E* = 1.
+///
+/// With u_x = U sin qx, u_z = W cos qx, σ_xz = T sin qx, σ_zz = S cos qx they are four linear ones, whose right-hand sides stay finite
+/// for ν = ½. Two states that the base allows are carried to the free face, and combined there so that T = 0.
+fn integrated(q: f64, thickness: f64, poisson: f64, bonded: bool) -> f64 {
+    let nu = poisson;
+    let side = nu / (1.0 - nu);
+    let slope = |[u, w, t, s]: [f64; 4]| {
+        let squeeze = (1.0 - 2.0 * nu) / (1.0 - nu).powi(2);
+        [q * w + 2.0 / (1.0 - nu) * t, squeeze * s - side * q * u, q * q * u + side * q * s, -q * t]
+    };
+    let add = |y: [f64; 4], k: [f64; 4], h: f64| std::array::from_fn(|i| y[i] + h * k[i]);
+    let carry = |mut y: [f64; 4]| {
+        let steps = 4000;
+        let h = thickness / f64::from(steps);
+        for _ in 0..steps {
+            let a = slope(y);
+            let b = slope(add(y, a, 0.5 * h));
+            let c = slope(add(y, b, 0.5 * h));
+            let d = slope(add(y, c, h));
+            y = std::array::from_fn(|i| y[i] + h / 6.0 * (a[i] + 2.0 * b[i] + 2.0 * c[i] + d[i]));
+        }
+        y
+    };
+    let first = if bonded { [0.0, 0.0, 1.0, 0.0] } else { [1.0, 0.0, 0.0, 0.0] };
+    let (y, z) = (carry(first), carry([0.0, 0.0, 0.0, 1.0]));
+    let mix = |i: usize| z[2] * y[i] - y[2] * z[i];
+    mix(3) / mix(1)
+}
+
+#[test]
+fn the_symbols_of_a_layer_solve_its_equations() {
+    for x in [0.05, 0.3, 1.0, 2.0, 4.0] {
+        let (q, t) = (x / 0.7, 0.7);
+        for nu in [0.0, 0.3, 0.45, 0.5] {
+            assert_relative_eq!(layer::bonded(1.0, t, nu)(q), integrated(q, t, nu, true), max_relative = 1e-9);
+            // what Poisson's ratio does is in E* alone
+            assert_relative_eq!(layer::sliding(1.0, t)(q), integrated(q, t, nu, false), max_relative = 1e-9);
+        }
+    }
+}
+
+#[test]
+fn a_thick_layer_is_the_half_space_but_for_exp_minus_two_q_t() {
+    for nu in [0.0, 0.3, 0.5] {
+        for x in [4.0_f64, 6.0, 8.0, 10.0] {
+            let decay = (-2.0 * x).exp();
+            // to leading order, from the closed forms
+            let (a, b) = (3.0 - 4.0 * nu, 5.0 - 12.0 * nu + 8.0 * nu * nu);
+            let bonded = 2.0 * layer::bonded(1.0, x, nu)(1.0) - 1.0;
+            assert_relative_eq!(bonded, 2.0 / a * (2.0 * x * x + 2.0 * x + b) * decay, max_relative = 0.1);
+            let sliding = 2.0 * layer::sliding(1.0, x)(1.0) - 1.0;
+            assert_relative_eq!(sliding, (4.0 * x + 2.0) * decay, max_relative = 0.1);
+        }
+        assert_relative_eq!(layer::bonded(2.0, 1e9, nu)(3.0), 3.0, max_relative = 1e-15);
+    }
+    assert_relative_eq!(layer::sliding(2.0, 1e9)(3.0), 3.0, max_relative = 1e-15);
+}
+
+#[test]
+fn a_thin_layer_is_a_foundation_of_springs_or_flows_if_it_is_incompressible() {
+    for x in [1e-2, 3e-3, 1e-3] {
+        let (q, t) = (5.0, x / 5.0);
+        for nu in [0.0, 0.3, 0.45] {
+            // the modulus against compression without strain sideways, E(1 − ν)/((1 + ν)(1 − 2ν)) with E = 1 − ν²
+            let confined = (1.0 - nu * nu) * (1.0 - nu) / ((1.0 + nu) * (1.0 - 2.0 * nu));
+            assert_relative_eq!(layer::confined(1.0, nu), confined, max_relative = 1e-14);
+            let softer = (layer::bonded(1.0, t, nu)(q) * t / confined - 1.0).abs();
+            assert!(softer < 10.0 * (x / (1.0 - 2.0 * nu)).powi(2), "{nu} {x} {softer}");
+        }
+        assert_relative_eq!(layer::sliding(1.0, t)(q) * t, 1.0, max_relative = x * x);
+        // 3G/(q²t³), E* = 4G: the lubrication of a narrow gap; in units of the half-space's 3/2 (qt)⁻³
+        assert_relative_eq!(layer::bonded(1.0, t, 0.5)(q) * q * q * t.powi(3), 0.75, max_relative = 2.0 * x * x);
+        assert_relative_eq!(layer::bonded(1.0, t, 0.5)(q) / (0.5 * q), 1.5 * x.powi(-3), max_relative = 2.0 * x * x);
+    }
+}
+
+fn on_layer(symbol: impl Fn(f64) -> f64 + Send + Sync + 'static, n: usize, control: Control) -> Solution<f64> {
+    let grid = Grid::square(n, 1.0).unwrap();
+    let operator = Spectral::isotropic(grid, 1.0, symbol).unwrap();
+    common::solve(&mut Problem::new(&common::rough::rough(grid, 12, 3), operator, NoAdhesion).unwrap(), control, 1e-8)
+}
+
+#[test]
+fn contact_on_a_thick_layer_is_that_on_the_half_space() {
+    let grid = Grid::square(64, 1.0).unwrap();
+    let half_space = Westergaard::<f64>::new(grid, 1.0).unwrap();
+    let mut problem = Problem::new(&common::rough::rough(grid, 12, 3), half_space, NoAdhesion).unwrap();
+    for control in [Control::MeanPressure(0.05), Control::MeanGap(0.02)] {
+        let expected = common::solve(&mut problem, control, 1e-8);
+        let mut last = f64::INFINITY;
+        for thickness in [0.25, 0.5, 1.0, 2.0] {
+            for solution in [
+                on_layer(layer::sliding(1.0, thickness), 64, control),
+                on_layer(layer::bonded(1.0, thickness, 0.5), 64, control),
+            ] {
+                assert_eq!(solution.report.status, Status::Converged);
+                // the softest wave has q = 2π
+                let x = std::f64::consts::TAU * thickness;
+                let bound = 8.0 * (x + 1.0).powi(2) * (-2.0 * x).exp() + 1e-6;
+                let error = (&solution.contact_pressure - &expected.contact_pressure)
+                    .iter()
+                    .fold(0.0_f64, |largest, p| largest.max(p.abs()));
+                let peak = expected.contact_pressure.iter().copied().fold(0.0, f64::max);
+                assert!(error < bound * peak, "{thickness} {error} {bound} {peak}");
+                last = error / peak;
+            }
+        }
+        assert!(last < 1e-6);
+    }
+}
+
+#[test]
+fn contact_on_a_thin_layer_is_that_on_springs_whose_rest_is_where_the_base_is() {
+    let (n, thickness, nu, load) = (64, 1e-5, 0.3, 0.2);
+    let stiffness = layer::confined(1.0, nu) / thickness;
+    let grid = Grid::square(n, 1.0).unwrap();
+    let surface = common::rough::rough(grid, 12, 3);
+    let solution = on_layer(layer::bonded(1.0, thickness, nu), n, Control::MeanPressure(load));
+    assert_eq!(solution.report.status, Status::Converged);
+    // the base: the mean of the displaced surface, less the compression of the layer as a whole
+    let base = solution.report.mean_gap + surface.mean() - load / stiffness;
+    let springs = surface.heights().mapv(|h| stiffness * (h - base).max(0.0));
+    let peak = springs.iter().copied().fold(0.0, f64::max);
+    for (&found, &expected) in solution.contact_pressure.iter().zip(&springs) {
+        assert!((found - expected).abs() < 1e-4 * peak, "{found} {expected} {peak}");
+    }
+    assert_relative_eq!(springs.sum() / springs.len() as f64, load, max_relative = 1e-3);
+}
+
+#[test]
+fn layers_of_any_thickness_are_solved_in_few_applications() {
+    for thickness in [1e-3, 1e-2, 0.1, 1.0] {
+        for solution in [
+            on_layer(layer::bonded(1.0, thickness, 0.3), 64, Control::MeanPressure(0.05)),
+            on_layer(layer::sliding(1.0, thickness), 64, Control::MeanGap(0.02)),
+        ] {
+            assert_eq!(solution.report.status, Status::Converged);
+            let taken = solution.report.operator_applications;
+            assert!(taken < 70, "{thickness} {taken}");
+        }
+    }
 }
 
 proptest! {

@@ -5,7 +5,7 @@ use crate::real::Real;
 /// The exponential law, φ(g) = −w exp(−g/ρ).
 ///
 /// ```math
-/// \phi'(g) = \frac{w}{\rho}\, e^{-g/\rho}, \qquad \phi''(g) = -\frac{w}{\rho^2}\, e^{-g/\rho}
+/// φ(g) = −w exp(−g/ρ) ,   φ'(g) = w/ρ exp(−g/ρ) ,   φ''(g) = −w/ρ² exp(−g/ρ)
 /// ```
 ///
 /// Equations (37) and (38) of Rey, Anciaux and Molinari (2017), with w for their γ.

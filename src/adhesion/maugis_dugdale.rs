@@ -5,7 +5,7 @@ use crate::real::Real;
 /// The law of Maugis and Dugdale: a constant traction σ₀ = w/ρ up to the range ρ, none beyond.
 ///
 /// ```math
-/// \phi(g) = -w \max(0,\, 1 - g/\rho), \qquad \phi'(g) = \frac{w}{\rho}\,[g < \rho]
+/// φ(g) = −w max(0, 1 − g/ρ) ,   φ'(g) = w/ρ  for g < ρ,  0 beyond
 /// ```
 ///
 /// Maugis (1992); equations (26) and (27) of Rey, Anciaux and Molinari (2017), of which (26) is misprinted.

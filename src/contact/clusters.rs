@@ -3,6 +3,13 @@ use std::cmp::Reverse;
 use ndarray::{Array2, ArrayView2};
 
 /// Which nodes of a map are neighbours.
+///
+/// ```
+/// use asperity::{Clusters, Connectivity};
+/// let map = ndarray::array![[true, false, false], [false, true, false], [false, false, false], [false, false, false]];
+/// assert_eq!(Clusters::of(map.view(), Connectivity::Sides).sizes.len(), 2);
+/// assert_eq!(Clusters::of(map.view(), Connectivity::Corners).sizes.len(), 1);
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Connectivity {
     /// The four whose cells share a side.

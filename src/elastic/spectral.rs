@@ -12,7 +12,8 @@ type Symbol = Box<dyn Fn(f64, f64) -> f64 + Send + Sync>;
 
 /// An elastic operator that multiplies each wave by a factor, its stiffness k(qx, qy): p̂ = k û.
 ///
-/// A layered or an anisotropic half-space is one closure away. For the homogeneous one, k = E*|q|/2, see
+/// A layered or an anisotropic half-space is one closure away: the page [`own_operator`](crate::guide::own_operator) has a layer of
+/// finite thickness with its limits, and says what becomes of the mean. For the homogeneous half-space, k = E*|q|/2, see
 /// [`Westergaard`].
 ///
 /// Memory per node, in units of one scalar: 1 for the spectrum and ½ for the stiffness; both once more, in `f64`, while the

@@ -26,8 +26,8 @@ pub(super) enum Adhesion {
 /// With a the contact radius, and for r ≥ a in the gap:
 ///
 /// ```math
-/// p(r) = \frac{2E^*}{\pi R}\sqrt{a^2-r^2} + p_\mathrm{adh}(r), \qquad
-/// g(r) = \frac{a}{\pi R}\sqrt{r^2-a^2} + \frac{r^2-2a^2}{\pi R}\arccos\frac ar + g_\mathrm{adh}(r)
+/// p(r) = 2E*/(πR) · √(a² − r²) + p_adh(r) ,
+/// g(r) = a/(πR) · √(r² − a²) + (r² − 2a²)/(πR) · arccos(a/r) + g_adh(r)
 /// ```
 ///
 /// with JKR's singularity or Dugdale's zone of constant traction added: equations (22), (29), (30) of Rey, Anciaux and

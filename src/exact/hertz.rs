@@ -5,7 +5,7 @@ use crate::error::{Error, Result};
 /// Hertz's contact, without adhesion:
 ///
 /// ```math
-/// P = \frac{4E^*a^3}{3R}, \qquad \delta = \frac{a^2}{R}
+/// P = 4E*a³/(3R) ,   δ = a²/R
 /// ```
 ///
 /// Equation (22) of Rey, Anciaux and Molinari (2017) has the fields.

@@ -7,7 +7,7 @@ use crate::error::{Error, Result};
 /// The contact of Johnson, Kendall and Roberts: adhesion of no range, at the edge of the contact.
 ///
 /// ```math
-/// P = \frac{4E^*a^3}{3R} - \sqrt{8\pi wE^*a^3}, \qquad \delta = \frac{a^2}{R} - \sqrt{\frac{2\pi wa}{E^*}}
+/// P = 4E*a³/(3R) − √(8πwE*a³) ,   δ = a²/R − √(2πwa/E*)
 /// ```
 ///
 /// Johnson, Kendall and Roberts (1971); equation (29) of Rey, Anciaux and Molinari (2017), where K_I = √(2wE*) is misprinted,

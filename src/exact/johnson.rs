@@ -8,9 +8,8 @@ use crate::error::{Error, Result};
 /// Johnson's contact of a wave h₀ cos(2πx/λ), with the adhesion of JKR. With s = sin²(πa/λ) and p* = πE*h₀/λ:
 ///
 /// ```math
-/// \bar p = p^*s - p_1, \qquad \bar g = h_0(1 - s + s\ln s) - \frac{\lambda p_1}{\pi E^*}\ln s, \qquad
-/// p_1 = \sqrt{\frac{2E^*w}\lambda\tan\frac{\pi a}\lambda} = \alpha p^*\sqrt{\tan\frac{\pi a}\lambda}, \qquad
-/// \alpha^2 = \frac{2w\lambda}{\pi^2E^*h_0^2}
+/// p̄ = p* s − p₁ ,   ḡ = h₀ (1 − s + s ln s) − λp₁/(πE*) · ln s ,
+/// p₁ = √((2E*w/λ) tan(πa/λ)) = α p* √tan(πa/λ) ,   α² = 2wλ/(π²E*h₀²)
 /// ```
 ///
 /// Johnson (1995); the fields are in [`WaveContact`]. The mean pressure has a minimum, the pull-off, and a maximum, from

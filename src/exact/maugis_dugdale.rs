@@ -10,16 +10,14 @@ use crate::error::{Error, Result};
 /// With cos θ = a/c the gap at c is ρ if
 ///
 /// ```math
-/// \rho = \frac{c^2}{\pi R}\left[\tfrac12\sin2\theta - \theta\cos2\theta\right]
-///      + \frac{4\sigma_0c}{\pi E^*}\left[\theta\sin\theta - 1 + \cos\theta\right] ,
+/// ρ = c²/(πR) · [½ sin 2θ − θ cos 2θ] + 4σ₀c/(πE*) · [θ sin θ − 1 + cos θ] ,
 /// ```
 ///
 /// which is of second degree in c: every state is explicit in θ, from large contacts (θ → 0) to a point (θ = π/2), at any
 /// Tabor parameter. Load and approach are
 ///
 /// ```math
-/// P = \frac{4E^*a^3}{3R} - 2\sigma_0c^2\left[\theta + \tfrac12\sin2\theta\right] , \qquad
-/// \delta = \frac{a^2}{R} - \frac{2\sigma_0}{E^*}\sqrt{c^2-a^2} .
+/// P = 4E*a³/(3R) − 2σ₀c² [θ + ½ sin 2θ] ,   δ = a²/R − (2σ₀/E*) √(c² − a²) .
 /// ```
 ///
 /// Maugis (1992); equation (30) of Rey, Anciaux and Molinari (2017), whose pressure lacks the part beyond a, has the fields.

@@ -19,8 +19,8 @@ pub const C2: f64 = 2.258_405_420_775_237_6;
 /// from the axis, shifts the surface and bends it, and leaves an exact solution on a paraboloid of radius R_e.
 ///
 /// ```math
-/// \frac1{R_e} = \frac1R + \frac{2c_2P}{\pi E^*L^3}, \qquad
-/// \bar g = -\langle h\rangle - \delta(R_e) + \frac{M_1P}{\pi E^*L} - \frac{c_2}{\pi E^*L^3}\int r^2p\,dA
+/// 1/R_e = 1/R + 2c₂P/(πE*L³) ,
+/// ḡ = −⟨h⟩ − δ(R_e) + M₁P/(πE*L) − c₂/(πE*L³) · ∫ r² p dA
 /// ```
 ///
 /// with M₁ = −4ζ(½)β(½), c₂ = ζ(3/2)β(3/2), δ the approach of the sphere, and ⟨h⟩ the mean of the heights, h = 0 at the apex:
@@ -180,6 +180,18 @@ fn too_wide(name: &'static str, value: f64) -> Error {
 }
 
 /// A contact among its periodic images, as [`Periodic`] returns it.
+///
+/// ```
+/// use asperity::exact::{Hertz, Periodic};
+/// use asperity::{Grid, Surface};
+/// let grid = Grid::square(64, 1.0)?;
+/// let mean_height = Surface::paraboloid(grid, 2.0)?.mean();
+/// let contact = Periodic::new(Hertz::new(2.0, 1.0)?, 1.0)?.at_mean_gap(0.0398, mean_height)?;
+/// assert!((contact.mean_gap(mean_height) - 0.0398).abs() < 1e-12);
+/// let pressure = contact.pressure_field(&grid)?;
+/// assert!((pressure.sum() / 4096.0 / contact.mean_pressure() - 1.0).abs() < 0.02);
+/// # Ok::<(), asperity::Error>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PeriodicContact {
     contact: Contact,

@@ -55,11 +55,20 @@ impl Body {
 /// With a the half-width of a contact, ψ = πx/λ, ψ_a = πa/λ and s = sin²ψ_a, by Westergaard (1939) and Johnson (1995):
 ///
 /// ```math
-/// p = 2p^*\cos\psi\sqrt{s-\sin^2\psi} - \frac{p_1\cos\psi}{\sqrt{s-\sin^2\psi}}, \qquad
-/// g = 2h_0\left[v\sqrt{v^2-s} - s\,\mathrm{arcosh}\frac v{\sqrt s}\right] + \frac{2\lambda p_1}{\pi E^*}\mathrm{arcosh}\frac v{\sqrt s}
+/// p = 2p* cos ψ √(s − sin²ψ) − p₁ cos ψ / √(s − sin²ψ) ,
+/// g = 2h₀ [v √(v² − s) − s arcosh(v/√s)] + 2λp₁/(πE*) · arcosh(v/√s)
 /// ```
 ///
 /// in the contacts and, with v = |sin ψ|, in the gaps between them; p* = πE*h₀/λ, and p₁ is zero without adhesion.
+///
+/// ```
+/// use asperity::exact::WavyLine;
+/// let contact = WavyLine::new(0.02, 1.0, 1.0)?.at_mean_pressure(0.02)?; // amplitude, wavelength, modulus
+/// let a = contact.half_width();
+/// assert!(contact.pressure(0.9 * a) > 0.0 && contact.gap(0.9 * a) == 0.0);
+/// assert!(contact.pressure(1.1 * a) == 0.0 && contact.gap(1.1 * a) > 0.0);
+/// # Ok::<(), asperity::Error>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WaveContact {
     body: Body,

@@ -7,7 +7,7 @@ use crate::error::{Error, Result};
 /// Westergaard's contact of a wave h₀ cos(2πx/λ), without adhesion. With s = sin²(πa/λ) and p* = πE*h₀/λ:
 ///
 /// ```math
-/// \bar p = p^*s, \qquad \bar g = h_0(1 - s + s\ln s)
+/// p̄ = p* s ,   ḡ = h₀ (1 − s + s ln s)
 /// ```
 ///
 /// Westergaard (1939); the fields are in [`WaveContact`].

@@ -10,6 +10,18 @@ use crate::error::{Error, Result};
 /// Files are written at [`path`](Self::path), in a hidden temporary folder on the file system of the
 /// destination, and appear in the destination on [`commit`](Self::commit). Dropped without it, nothing stays
 /// behind. A process that is killed leaves the temporary folder, `.asperity-` and a few letters.
+///
+/// ```
+/// use asperity::io::{OutputFolder, write_npy};
+/// let parent = tempfile::tempdir()?;
+/// let destination = parent.path().join("results");
+/// let folder = OutputFolder::create(&destination, &["gap.npy"], false)?;
+/// write_npy(&folder.path("gap.npy"), &ndarray::array![[0.0, 1.0]])?;
+/// assert!(!destination.exists()); // not yet
+/// folder.commit()?;
+/// assert!(destination.join("gap.npy").exists());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Debug)]
 pub struct OutputFolder {
     destination: PathBuf,

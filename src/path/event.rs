@@ -1,6 +1,8 @@
 use std::fmt;
 
 /// What happens between two states on a path.
+///
+/// The page [`branches`](crate::guide::branches) has an example.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Event {
     /// The state jumped to another branch.
@@ -15,6 +17,8 @@ pub enum Event {
 }
 
 /// A jump: where it starts, to the resolution of the path, and where it ends.
+///
+/// The page [`branches`](crate::guide::branches) has an example.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Jump {
     /// The mean gaps before and after.

@@ -11,6 +11,8 @@ pub(super) const MISSING: Rgb888 = Rgb888::new(201, 120, 199);
 const NOISE: f64 = 1e-6;
 
 /// How the values of a [`Map`](crate::Map) become colours.
+///
+/// [`Map`](super::Map) has an example.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Colouring {
     /// From dark blue at the least value to yellow at the greatest: heights, gaps.

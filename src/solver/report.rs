@@ -5,6 +5,17 @@ use ndarray::Array2;
 use super::Method;
 
 /// How a solve ended, and what its fields are then worth.
+///
+/// ```
+/// use asperity::{Control, Grid, NoAdhesion, Problem, Settings, Solver, Status, Surface, Westergaard};
+/// let grid = Grid::square(32, 1.0)?;
+/// let mut problem = Problem::new(&Surface::wave_2d(grid, 0.02, 1)?, Westergaard::<f64>::new(grid, 1.0)?, NoAdhesion)?;
+/// let mut solver = Solver::new(Settings { max_iterations: 2, ..Settings::default() });
+/// let report = solver.solve(&mut problem, Control::MeanGap(0.01))?.report;
+/// assert_eq!(report.status, Status::IterationLimit); // no error: the fields are there, and the report says how good
+/// assert_eq!(report.status.to_string(), "iteration-limit");
+/// # Ok::<(), asperity::Error>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Status {
     /// The criterion was met, on the fields that were returned: they are the solution to the tolerance.
@@ -40,6 +51,19 @@ impl fmt::Display for Status {
 }
 
 /// What an observer is told in every iteration.
+///
+/// ```
+/// use std::ops::ControlFlow;
+/// use asperity::{Control, Grid, NoAdhesion, Problem, Solver, Status, Surface, Westergaard};
+/// let grid = Grid::square(32, 1.0)?;
+/// let mut problem = Problem::new(&Surface::wave_2d(grid, 0.02, 1)?, Westergaard::<f64>::new(grid, 1.0)?, NoAdhesion)?;
+/// let solution = Solver::default().solve_from(&mut problem, Control::MeanGap(0.01), None, |state| {
+///     println!("{} {:.1e} {:.6e}", state.iteration, state.relative_error, state.energy);
+///     if state.relative_error < 1e-2 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+/// })?;
+/// assert_eq!(solution.report.status, Status::Stopped);
+/// # Ok::<(), asperity::Error>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Iteration {
     /// How many steps were made.
@@ -63,6 +87,20 @@ pub struct Iteration {
 }
 
 /// The account of a solve. Energies are per area; all numbers are in the units of the input.
+///
+/// ```
+/// use asperity::{AdhesionLaw, Control, Exponential, Grid, Problem, Solver, Surface, Westergaard};
+/// let grid = Grid::square(64, 1.0)?;
+/// let law = Exponential::new(1e-5, 4e-3)?;
+/// let mut problem = Problem::new(&Surface::wave_2d(grid, 0.02, 1)?, Westergaard::<f64>::new(grid, 1.0)?, law)?;
+/// let solution = Solver::default().solve(&mut problem, Control::MeanGap(0.01))?;
+/// let report = &solution.report;
+/// // the two mean pressures differ by the adhesive traction
+/// let traction = solution.gap.iter().map(|&g| law.traction(g)).sum::<f64>() / 4096.0;
+/// assert!((report.mean_contact_pressure - report.mean_pressure - traction).abs() < 1e-4 * traction);
+/// assert!(report.elastic_energy > 0.0 && report.adhesive_energy < 0.0 && !report.under_resolved);
+/// # Ok::<(), asperity::Error>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Report {
     /// How the solve ended.
@@ -111,6 +149,18 @@ pub struct Report {
 }
 
 /// The fields of a solved problem, each of shape (Nx, Ny), and the account of the solve.
+///
+/// ```
+/// use asperity::{Control, Grid, NoAdhesion, Problem, Solver, Surface, Westergaard};
+/// let grid = Grid::square(64, 1.0)?;
+/// let surface = Surface::wave_2d(grid, 0.02, 1)?;
+/// let mut problem = Problem::new(&surface, Westergaard::<f64>::new(grid, 1.0)?, NoAdhesion)?;
+/// let solution = Solver::default().solve(&mut problem, Control::MeanPressure(0.02))?;
+/// let displacement = &solution.gap + surface.heights(); // u = g + h
+/// assert_eq!(displacement.dim(), (64, 64));
+/// assert!((solution.pressure.sum() / 4096.0 - 0.02).abs() < 1e-8); // its mean is the external pressure
+/// # Ok::<(), asperity::Error>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Solution<T> {
     /// The gap g ≥ 0 between the surfaces.

@@ -14,6 +14,14 @@ use crate::grid::Grid;
 const SLACK: f64 = 1e-12;
 
 /// How rough a [`SelfAffine`] surface is.
+///
+/// ```
+/// use asperity::{Amplitude, Grid, SelfAffine};
+/// let rough = SelfAffine { amplitude: Amplitude::RmsHeight(5e-9), ..SelfAffine::default() };
+/// let surface = rough.surface(Grid::square(150, 1e-6)?)?; // in m
+/// assert!((surface.rms_height() / 5e-9 - 1.0).abs() < 1e-12);
+/// # Ok::<(), asperity::Error>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Amplitude {
     /// The root mean square of the heights, a length.
@@ -27,11 +35,9 @@ pub enum Amplitude {
 /// The power spectral density is, with the wave number k in units of 2π/Lx,
 ///
 /// ```math
-/// \Phi(k) = C_0 \begin{cases}
-///     1               & k_l \le k \le k_r \quad \text{(plateau)} \\
-///     (k/k_r)^{-2(1+H)} & k_r \le k \le k_s \quad \text{(self-affine)} \\
-///     0               & \text{otherwise,}
-/// \end{cases}
+/// Φ(k) = C₀                      for k_l ≤ k ≤ k_r   (plateau)
+/// Φ(k) = C₀ (k/k_r)^(−2(1+H))    for k_r ≤ k ≤ k_s   (self-affine)
+/// Φ(k) = 0                       otherwise,
 /// ```
 ///
 /// and (k/k_r)^(−1−2H) in the second branch on a line, `Ny = 1`, so that its profile has the same Hurst exponent.

@@ -31,6 +31,17 @@ pub struct Spectrum {
 ///
 /// Densities are over wave numbers in radians per length, over both signs. Sums reproduce the variance of the heights:
 /// [`total`](Self::total).
+///
+/// ```
+/// use asperity::{Grid, SelfAffine};
+/// let surface = SelfAffine { k_s: 16.0, ..SelfAffine::default() }.surface(Grid::square(64, 1.0)?)?;
+/// let psd = surface.spectrum().radial_psd();
+/// for (q, density) in psd.wave_numbers.iter().zip(&psd.densities) {
+///     println!("{q} {density:e}"); // radians per length, length⁴
+/// }
+/// assert!((psd.total() / surface.rms_height().powi(2) - 1.0).abs() < 1e-12);
+/// # Ok::<(), asperity::Error>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Psd {
     /// The wave number |q| in radians per length, ascending: the mean over the waves of an entry.

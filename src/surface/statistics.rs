@@ -9,6 +9,8 @@ use super::spectrum::is_line;
 /// nodes. The finite differences, periodic too, are what the nodes show: they are smaller, by (qΔ)²/24 of a slope and
 /// (qΔ)²/12 of a curvature along an axis for a wave number q and a spacing Δ. If the two differ much, the grid does not resolve the
 /// surface, or its edges do not meet.
+///
+/// Lengths are in the unit of the heights; [`Surface::statistics`] has an example.
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SurfaceStatistics {

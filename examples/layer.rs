@@ -1,0 +1,80 @@
+//! An elastic operator of your own: a sphere on an elastic layer of finite thickness, from the half-space to an elastic foundation.
+//!
+//! `cargo run --release --example layer -- [size]`; 256 nodes along a side if nothing is given. It takes a second.
+//!
+//! Each line ends with the ratio to what the layer tends to: where it is thick to Hertz, and where it is thin to springs
+//! of stiffness M/t (bonded) or E*/t (sliding), or, if it is incompressible, to the flow of the material
+//! sideways through a narrow gap. Johnson, *Contact Mechanics* (1985), section 5.8.
+
+use std::f64::consts::PI;
+
+use asperity::{Control, Grid, NoAdhesion, Problem, Result, Solver, Spectral, Status, Surface};
+
+/// The stiffness of waves on a layer of thickness t that is bonded to a rigid base, pressure per displacement.
+pub fn bonded(modulus: f64, thickness: f64, poisson: f64) -> impl Fn(f64) -> f64 + Send + Sync + 'static {
+    let a = 3.0 - 4.0 * poisson;
+    let b = 5.0 - 12.0 * poisson + 8.0 * poisson * poisson;
+    move |q| {
+        // beyond, both are one to the last digit, and would overflow
+        let x = (q * thickness).min(25.0);
+        0.5 * modulus * q * (a * (2.0 * x).cosh() + 2.0 * x * x + b) / (a * (2.0 * x).sinh() - 2.0 * x)
+    }
+}
+
+/// The same on a rigid base on which it slides without friction: Poisson's ratio enters by the contact modulus alone.
+pub fn sliding(modulus: f64, thickness: f64) -> impl Fn(f64) -> f64 + Send + Sync + 'static {
+    move |q| {
+        let x = (q * thickness).min(25.0);
+        0.5 * modulus * q * ((2.0 * x).sinh() + 2.0 * x) / (2.0 * x.sinh().powi(2))
+    }
+}
+
+/// The modulus M against compression without strain sideways, E(1 − ν)/((1 + ν)(1 − 2ν)), from E* = E/(1 − ν²).
+///
+/// By p̄t/M a mean pressure compresses the layer as a whole. The operator leaves it out, as a mean displacement is free.
+pub fn confined(modulus: f64, poisson: f64) -> f64 {
+    modulus * (1.0 - poisson).powi(2) / (1.0 - 2.0 * poisson)
+}
+
+const MODULUS: f64 = 1.0;
+const RADIUS: f64 = 2.0;
+const LOAD: f64 = 0.003;
+
+fn main() -> Result<()> {
+    let size = std::env::args().nth(1).and_then(|size| size.parse().ok()).unwrap_or(256);
+    println!("peak pressure under a sphere of radius {RADIUS} L pressed with {LOAD} E*L², and its ratio to the limits");
+    println!("{:>18} {:>7} {:>10} {:>8} {:>8} {:>7}", "layer", "t/L", "p₀/E*", "thick", "thin", "applic.");
+    for thickness in [2.0, 0.3, 0.1, 0.03, 0.01] {
+        // p = (M/t)(a² − r²)/2R
+        let springs = |stiffness: f64| 2.0 * LOAD / PI / (4.0 * LOAD * RADIUS / (PI * stiffness)).sqrt();
+        // p = (3G/t³)(a² − r²)²/32R, with the shear modulus G = E*/4
+        let flow = |thickness: f64| {
+            let a6 = 96.0 * RADIUS * thickness.powi(3) * LOAD / (PI * 0.75 * MODULUS);
+            3.0 * LOAD / (PI * a6.cbrt())
+        };
+        let foundation = springs(confined(MODULUS, 0.3) / thickness);
+        press(size, "bonded, ν = 0.3", thickness, bonded(MODULUS, thickness, 0.3), foundation)?;
+        press(size, "bonded, ν = 0.5", thickness, bonded(MODULUS, thickness, 0.5), flow(thickness))?;
+        press(size, "sliding", thickness, sliding(MODULUS, thickness), springs(MODULUS / thickness))?;
+    }
+    Ok(())
+}
+
+fn press(
+    size: usize,
+    name: &str,
+    thickness: f64,
+    symbol: impl Fn(f64) -> f64 + Send + Sync + 'static,
+    thin: f64,
+) -> Result<()> {
+    let grid = Grid::square(size, 1.0)?;
+    let layer = Spectral::<f64>::isotropic(grid, MODULUS, symbol)?;
+    let mut problem = Problem::new(&Surface::paraboloid(grid, RADIUS)?, layer, NoAdhesion)?;
+    let solution = Solver::default().solve(&mut problem, Control::MeanPressure(LOAD))?;
+    assert_eq!(solution.report.status, Status::Converged);
+    let peak = solution.contact_pressure.iter().copied().fold(0.0, f64::max);
+    let hertz = (6.0 * LOAD * MODULUS.powi(2) / (PI.powi(3) * RADIUS.powi(2))).cbrt();
+    let applications = solution.report.operator_applications;
+    println!("{name:>18} {thickness:>7} {peak:>10.5} {:>8.3} {:>8.3} {applications:>7}", peak / hertz, peak / thin);
+    Ok(())
+}

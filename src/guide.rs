@@ -1,0 +1,36 @@
+//! From the physics to the code, how to do this and that, and how the crate is built.
+//!
+//! | page | what for |
+//! |---|---|
+//! | [`tour`] | the whole way once: gap, pressure, balance, energy, adhesion, grid, certificate, each with its line of code |
+//! | [`own_law`] | an adhesion law of your own |
+//! | [`own_operator`] | an elastic operator of your own: a layer of finite thickness |
+//! | [`own_constraint`] | a way of your own to keep the surfaces apart |
+//! | [`penalty_and_uzawa`] | the two classical ways beside projection, with figures |
+//! | [`branches`] | loading and unloading with adhesion: jumps, limit points, stability |
+//! | [`python`] | heights from numpy, results to numpy |
+//! | [`architecture`] | the layers of the crate, what may use what, and the data's way through one iteration |
+//!
+//! Measured figures are on pages of their own: [`performance`](crate::performance), [`precision`](crate::precision), and
+//! [`paper_checked`](crate::paper_checked), which holds the paper against this crate. How to choose grid, range and
+//! tolerance is the page `choosing`.
+//!
+//! The code on these pages is run by the tests.
+
+/// A page from the file of its name, and the style of its equations.
+macro_rules! page {
+    ($name:ident) => {
+        #[doc = include_str!(concat!("guide/", stringify!($name), ".md"))]
+        #[doc = include_str!("equations.html")]
+        pub mod $name {}
+    };
+}
+page!(tour);
+page!(own_law);
+page!(own_operator);
+page!(own_constraint);
+page!(penalty_and_uzawa);
+page!(branches);
+#[cfg(feature = "cli")]
+page!(python);
+page!(architecture);
