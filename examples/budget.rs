@@ -1,6 +1,7 @@
 //! What share of a solve is not spent in operator applications, and what single precision gains, as medians over rounds.
 //!
-//! `RAYON_NUM_THREADS=1 cargo run --release --example budget -- [size]`; 1024 if nothing is given.
+//! `RAYON_NUM_THREADS=1 cargo run --release --example budget -- [size [case]]`; 1024 if nothing is given, and of a case a part of
+//! its name.
 
 use std::cell::Cell;
 use std::time::Instant;
@@ -63,15 +64,23 @@ impl<T: Real> ElasticOperator<T> for Timed<'_, T> {
 
 fn main() -> std::result::Result<(), Box<dyn std::error::Error>> {
     let size = std::env::args().nth(1).map_or(Ok(1024), |size| size.parse())?;
+    let case = std::env::args().nth(2).unwrap_or_default();
     let grid = Grid::square(size, 1.0)?;
     let surface =
         SelfAffine { k_s: 64.0, amplitude: Amplitude::RmsSlope(1.0), ..SelfAffine::default() }.surface(grid)?;
     let range = 0.1 * surface.rms_height();
     let (double, single) = (Exponential::new(0.1 * range, range)?, Exponential::new(0.1 * range as f32, range as f32)?);
     println!("{size} x {size} nodes; medians of {ROUNDS} rounds, least and largest in brackets");
-    measure("hard wall, mean pressure", &surface, NoAdhesion, NoAdhesion, Control::MeanPressure(0.02))?;
-    measure("hard wall, mean gap", &surface, NoAdhesion, NoAdhesion, Control::MeanGap(0.02))?;
-    measure("exponential law, mean gap", &surface, double, single, Control::MeanGap(0.02))?;
+    let (pressure, gap) = (Control::MeanPressure(0.02), Control::MeanGap(0.02));
+    for (name, control) in [("hard wall, mean pressure", pressure), ("hard wall, mean gap", gap)] {
+        if name.contains(&case) {
+            measure(name, &surface, NoAdhesion, NoAdhesion, control)?;
+        }
+    }
+    let name = "exponential law, mean gap";
+    if name.contains(&case) {
+        measure(name, &surface, double, single, gap)?;
+    }
     Ok(())
 }
 

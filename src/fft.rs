@@ -13,19 +13,25 @@ use crate::field::flat_mut;
 use crate::par::{self, Pool};
 use crate::real::Real;
 
+mod layout;
+
+pub(crate) use layout::Layout;
+use layout::Twiddles;
+
 /// Rows that are transformed together, so that the transposed store moves whole cache lines.
 const TILE: usize = 32;
 
 /// Slack after each line of a tile: with a power-of-two stride a column of the tile would fall into one cache set.
 const SLACK: usize = 8;
 
-/// The transform of a real `(n0, n1)` field, and its spectrum.
+/// The transform of a real field, laid out as a plane `(n0, n1)`, and its spectrum.
 ///
 /// Two real rows ride in one complex transform. The half spectrum is stored transposed, `(n1/2 + 1, n0)`, so
 /// that a column of the field is contiguous: it is transformed, multiplied and transformed back while it is
 /// in cache. Memory: the spectrum, one field's worth and `n0` complex numbers more, and a tile per worker.
 pub(crate) struct Convolver<T: Real> {
-    shape: (usize, usize),
+    layout: Layout,
+    twiddles: Option<Twiddles<T>>,
     rows: Transform<T>,
     columns: Transform<T>,
     spectrum: Array2<Complex<T>>,
@@ -59,28 +65,37 @@ impl<T: Real> Transform<T> {
 
 impl<T: Real> fmt::Debug for Convolver<T> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Convolver").field("shape", &self.shape).finish_non_exhaustive()
+        f.debug_struct("Convolver").field("layout", &self.layout).finish_non_exhaustive()
     }
 }
 
 impl<T: Real> Convolver<T> {
     /// Plans for fields of the given shape.
     pub(crate) fn new(shape: (usize, usize)) -> Self {
-        let (n0, n1) = shape;
+        Self::with(Layout::new(shape))
+    }
+
+    fn with(layout: Layout) -> Self {
+        let (n0, n1) = layout.plane();
         let (rows, columns) = (Transform::new(n1), Transform::new(n0));
         let scratch = rows.scratch_len().max(columns.scratch_len());
         let pool = Pool::new(|| Workspace {
-            tile: vec![Complex::zero(); TILE.div_ceil(2) * (n1 + SLACK)],
+            tile: vec![Complex::zero(); TILE.min(n0).div_ceil(2) * (n1 + SLACK)],
             scratch: vec![Complex::zero(); scratch],
         });
-        let spectrum = Array2::zeros((n1 / 2 + 1, n0));
-        Self { shape, rows, columns, spectrum, sums: vec![[0.0; 3]; n1 / 2 + 1], pool }
+        let spectrum = Array2::zeros(layout.spectrum());
+        let (twiddles, sums) = (Twiddles::new(&layout), vec![[0.0; 3]; spectrum.nrows()]);
+        Self { layout, twiddles, rows, columns, spectrum, sums, pool }
+    }
+
+    /// Where the modes are that `modify` gets.
+    pub(crate) fn layout(&self) -> Layout {
+        self.layout
     }
 
     /// Transforms `input`, hands every column of the half spectrum to `modify`, and transforms back into `output`.
     ///
-    /// `modify` gets the column's index along the second axis, its modes along the first, unnormalised, and
-    /// returns numbers; their sums, in the order of the columns, are returned. The inverse is normalised: a `modify` that
+    /// `modify` gets the column's index and its modes, unnormalised, where [`Layout::mode`] has them, and returns numbers; their sums, in the order of the columns, are returned. The inverse is normalised: a `modify` that
     /// changes nothing gives back the input.
     pub(crate) fn convolve<U: Real>(
         &mut self,
@@ -88,39 +103,54 @@ impl<T: Real> Convolver<T> {
         output: ArrayViewMut2<'_, U>,
         modify: impl Fn(usize, &mut [Complex<T>]) -> Sums + Sync + Send,
     ) -> Result<Sums> {
-        Error::shape("operator input", input.dim(), self.shape)?;
-        Error::shape("operator output", output.dim(), self.shape)?;
-        let norm = T::lit(1.0 / (self.shape.0 as f64 * self.shape.1 as f64));
-        self.rows_forward(input);
-        let Self { columns, spectrum, sums, pool, shape: (n0, _), .. } = self;
-        par::update(par::chunks_mut(flat_mut(spectrum), *n0), sums, 1, |k, column, sum| {
+        let (shape, mut output) = (self.layout.shape(), output);
+        Error::shape("operator input", input.dim(), shape)?;
+        Error::shape("operator output", output.dim(), shape)?;
+        let norm = T::lit(1.0 / (shape.0 as f64 * shape.1 as f64));
+        self.rows_forward(self.layout.view(&input).view());
+        let Self { columns, spectrum, sums, pool, twiddles, .. } = self;
+        let n0 = spectrum.ncols();
+        par::update(par::chunks_mut(flat_mut(spectrum), n0), sums, 1, |k, column, sum| {
             let Workspace { scratch, .. } = &mut *pool.get();
+            let turn = |column: &mut [_], back| twiddles.iter().for_each(|twiddles| twiddles.turn(k, column, back));
+            turn(column, false);
             columns.forward.process_with_scratch(column, scratch);
             *sum = modify(k, column);
             columns.inverse.process_with_scratch(column, scratch);
+            turn(column, true);
         });
-        self.rows_inverse(output, norm);
+        if let Some(plane) = self.layout.view_mut(output.view_mut()) {
+            self.rows_inverse(plane, norm);
+        } else {
+            let mut line = Array2::zeros(shape);
+            if let Some(plane) = self.layout.view_mut(line.view_mut()) {
+                self.rows_inverse(plane, norm);
+            }
+            output.assign(&line);
+        }
         Ok(self.sums.iter().fold([0.0; 3], |a, b| std::array::from_fn(|i| a[i] + b[i])))
     }
 
     fn rows_forward(&mut self, input: ArrayView2<'_, T>) {
-        let Self { rows, spectrum, pool, shape: (_, n1), .. } = self;
+        let Self { rows, spectrum, pool, layout, .. } = self;
+        let (_, n1) = layout.plane();
         par::for_each(input.axis_chunks_iter(Axis(0), TILE), spectrum.axis_chunks_iter_mut(Axis(1), TILE), |x, z| {
             let Workspace { tile, scratch } = &mut *pool.get();
             pack(x, tile);
-            for line in lines_mut(tile, *n1).take(x.nrows().div_ceil(2)) {
+            for line in lines_mut(tile, n1).take(x.nrows().div_ceil(2)) {
                 rows.forward.process_with_scratch(line, scratch);
             }
-            separate(tile, *n1, z);
+            separate(tile, n1, z);
         });
     }
 
     fn rows_inverse<U: Real>(&mut self, mut output: ArrayViewMut2<'_, U>, norm: T) {
-        let Self { rows, spectrum, pool, shape: (_, n1), .. } = self;
+        let Self { rows, spectrum, pool, layout, .. } = self;
+        let (_, n1) = layout.plane();
         par::for_each(output.axis_chunks_iter_mut(Axis(0), TILE), spectrum.axis_chunks_iter(Axis(1), TILE), |x, z| {
             let Workspace { tile, scratch } = &mut *pool.get();
-            join(z, *n1, norm, tile);
-            for line in lines_mut(tile, *n1).take(x.nrows().div_ceil(2)) {
+            join(z, n1, norm, tile);
+            for line in lines_mut(tile, n1).take(x.nrows().div_ceil(2)) {
                 rows.inverse.process_with_scratch(line, scratch);
             }
             unpack(tile, x);
@@ -132,12 +162,13 @@ impl<T: Real> Convolver<T> {
 ///
 /// In the layout of the half spectrum, `(n1/2 + 1, n0)`.
 pub(crate) fn powers(field: ArrayView2<'_, f64>) -> Array2<f64> {
-    let mut convolver = Convolver::new(field.dim());
+    let (n0, n1) = field.dim();
+    let mut convolver = Convolver::with(Layout::plain((n0, n1)));
     convolver.rows_forward(field);
-    let Convolver { columns, spectrum, pool, shape: (n0, n1), .. } = &mut convolver;
-    let norm = (*n0 as f64 * *n1 as f64).recip().powi(2);
+    let Convolver { columns, spectrum, pool, .. } = &mut convolver;
+    let norm = (n0 as f64 * n1 as f64).recip().powi(2);
     let mut powers = Array2::zeros(spectrum.dim());
-    par::for_each(par::chunks_mut(flat_mut(spectrum), *n0), par::chunks_mut(flat_mut(&mut powers), *n0), |z, power| {
+    par::for_each(par::chunks_mut(flat_mut(spectrum), n0), par::chunks_mut(flat_mut(&mut powers), n0), |z, power| {
         columns.forward.process_with_scratch(z, &mut pool.get().scratch);
         power.iter_mut().zip(z).for_each(|(power, z)| *power = norm * z.norm_sqr());
     });
@@ -152,7 +183,7 @@ pub(crate) fn synthesise(
     shape: (usize, usize),
     fill: impl Fn(usize, &mut [Complex<f64>]) -> f64 + Sync + Send,
 ) -> (Array2<f64>, f64) {
-    let mut convolver = Convolver::new(shape);
+    let mut convolver = Convolver::with(Layout::plain(shape));
     let Convolver { columns, spectrum, sums, pool, .. } = &mut convolver;
     par::update(par::chunks_mut(flat_mut(spectrum), shape.0), sums, 1, |k, column, sum| {
         *sum = [fill(k, column), 0.0, 0.0];
@@ -171,8 +202,15 @@ fn lines_mut<T>(tile: &mut [Complex<T>], n: usize) -> impl Iterator<Item = &mut 
     tile.chunks_exact_mut(n + SLACK).map(move |line| &mut line[..n])
 }
 
+fn columns_are_contiguous(strides: &[isize]) -> bool {
+    strides[0] == 1 && strides[1] != 1
+}
+
 /// Rows `2j` and `2j + 1` become the real and the imaginary part of line `j`.
 fn pack<T: Real>(x: ArrayView2<'_, T>, tile: &mut [Complex<T>]) {
+    if columns_are_contiguous(x.strides()) {
+        return pack_columns(x, tile);
+    }
     for (pair, line) in x.axis_chunks_iter(Axis(0), 2).zip(lines_mut(tile, x.ncols())) {
         let re = pair.row(0);
         if pair.nrows() == 1 {
@@ -193,6 +231,9 @@ fn pack<T: Real>(x: ArrayView2<'_, T>, tile: &mut [Complex<T>]) {
 fn unpack<T: Real, U: Real>(tile: &[Complex<T>], mut x: ArrayViewMut2<'_, U>) {
     let n = x.ncols();
     let part = |part: T| U::lit(part.widen());
+    if columns_are_contiguous(x.strides()) {
+        return unpack_columns(tile, x);
+    }
     for (mut pair, line) in x.axis_chunks_iter_mut(Axis(0), 2).zip(lines(tile, n)) {
         for (i, mut row) in pair.rows_mut().into_iter().enumerate() {
             match (i, row.as_slice_mut()) {
@@ -201,6 +242,29 @@ fn unpack<T: Real, U: Real>(tile: &[Complex<T>], mut x: ArrayViewMut2<'_, U>) {
                 (_, None) => row.iter_mut().zip(line).for_each(|(x, z)| *x = part(if i == 0 { z.re } else { z.im })),
             }
         }
+    }
+}
+
+/// As [`pack`], column by column.
+fn pack_columns<T: Real>(x: ArrayView2<'_, T>, tile: &mut [Complex<T>]) {
+    let stride = x.ncols() + SLACK;
+    for (k, column) in x.columns().into_iter().enumerate() {
+        let mut pairs = column.to_slice().unwrap_or_default().chunks_exact(2);
+        let mut lines = tile[k..].iter_mut().step_by(stride);
+        pairs.by_ref().zip(lines.by_ref()).for_each(|(x, z)| *z = Complex::new(x[0], x[1]));
+        pairs.remainder().iter().zip(lines).for_each(|(&x, z)| *z = Complex::new(x, T::zero()));
+    }
+}
+
+/// As [`unpack`], column by column.
+fn unpack_columns<T: Real, U: Real>(tile: &[Complex<T>], mut x: ArrayViewMut2<'_, U>) {
+    let stride = x.ncols() + SLACK;
+    let part = |part: T| U::lit(part.widen());
+    for (k, mut column) in x.columns_mut().into_iter().enumerate() {
+        let mut pairs = column.as_slice_mut().unwrap_or_default().chunks_exact_mut(2);
+        let mut lines = tile[k..].iter().step_by(stride);
+        pairs.by_ref().zip(lines.by_ref()).for_each(|(x, z)| (x[0], x[1]) = (part(z.re), part(z.im)));
+        pairs.into_remainder().iter_mut().zip(lines).for_each(|(x, z)| *x = part(z.re));
     }
 }
 
@@ -248,7 +312,7 @@ fn join<T: Real>(z: ArrayView2<'_, Complex<T>>, n: usize, norm: T, tile: &mut [C
 mod tests {
     use super::*;
     use approx::assert_relative_eq;
-    use ndarray::{Array2, ShapeBuilder};
+    use ndarray::{Array2, AxisDescription, ShapeBuilder, Slice};
     use std::f64::consts::TAU;
 
     fn field(shape: (usize, usize)) -> Array2<f64> {
@@ -275,18 +339,25 @@ mod tests {
 
     #[test]
     fn convolution_is_the_defining_sum_for_every_parity_and_shape() {
-        for shape in [(1, 1), (1, 7), (7, 1), (2, 2), (4, 6), (5, 6), (6, 5), (7, 3), (1, 8), (33, 2), (34, 5), (65, 3)]
-        {
+        // planes, wide and narrow ones, and lines: of few nodes, of many divisors, and of none
+        let planes =
+            [(1, 1), (2, 2), (4, 6), (5, 6), (6, 5), (7, 3), (33, 2), (34, 5), (65, 3), (3, 65), (2, 33), (31, 32)];
+        let lines = [2, 4, 7, 8, 9, 15, 22, 36, 37, 66, 105, 144, 1369].into_iter().flat_map(|n| [(n, 1), (1, n)]);
+        for shape in planes.into_iter().chain(lines) {
             let x = field(shape);
             let even = |k: usize, n: usize| k.min(n - k) as f64;
             let factor = |k0: usize, k1: usize| 1.0 / (1.0 + even(k0, shape.0).hypot(2.0 * even(k1, shape.1)));
             let mut convolver = Convolver::new(shape);
+            let layout = convolver.layout();
             let mut y = Array2::from_elem(shape, f64::NAN);
             for _ in 0..2 {
                 // the second time with a dirty workspace
                 convolver
-                    .convolve(x.view(), y.view_mut(), |k1, column| {
-                        column.iter_mut().enumerate().for_each(|(k0, z)| *z = z.scale(factor(k0, k1)));
+                    .convolve(x.view(), y.view_mut(), |k, column| {
+                        column.iter_mut().enumerate().for_each(|(i, z)| {
+                            let (k0, k1) = layout.mode(k, i);
+                            *z = z.scale(factor(k0, k1));
+                        });
                         [0.0; 3]
                     })
                     .unwrap();
@@ -330,19 +401,51 @@ mod tests {
 
     #[test]
     fn any_memory_layout_will_do() {
-        let shape = (6, 9);
-        let x = field(shape);
-        let mut fortran = Array2::zeros(shape.f());
-        fortran.assign(&x);
-        let (mut a, mut b) = (Array2::<f64>::zeros(shape), Array2::<f64>::zeros(shape.f()));
-        let double = |_: usize, column: &mut [Complex<f64>]| {
-            column.iter_mut().for_each(|z| *z = z.scale(2.0));
-            [1.0, 0.0, -2.0]
-        };
-        let mut convolver = Convolver::new(shape);
-        assert_eq!(convolver.convolve(x.view(), a.view_mut(), double), Ok([5.0, 0.0, -10.0]));
-        convolver.convolve(fortran.view(), b.view_mut(), double).unwrap();
-        assert_eq!(a, b);
+        for shape in [(34, 9), (6, 9), (36, 1), (1, 36), (7, 1)] {
+            let x = field(shape);
+            let mut fortran = Array2::zeros(shape.f());
+            fortran.assign(&x);
+            // every third node of a larger field, backwards
+            let mut spread = Array2::zeros((3 * shape.0, 3 * shape.1));
+            let third = |_: AxisDescription| Slice::new(0, None, -3);
+            spread.slice_each_axis_mut(third).assign(&x);
+            let mut a = Array2::<f64>::zeros(shape);
+            let (mut b, mut c) = (Array2::<f64>::zeros(shape.f()), Array2::<f64>::zeros(spread.dim()));
+            let double = |_: usize, column: &mut [Complex<f64>]| {
+                column.iter_mut().for_each(|z| *z = z.scale(2.0));
+                [1.0, 0.0, -2.0]
+            };
+            let mut convolver = Convolver::new(shape);
+            let columns = convolver.layout().spectrum().0 as f64;
+            let sums = convolver.convolve(x.view(), a.view_mut(), double);
+            assert_eq!(sums, Ok([columns, 0.0, -2.0 * columns]));
+            convolver.convolve(fortran.view(), b.view_mut(), double).unwrap();
+            assert_eq!(a, b);
+            convolver.convolve(spread.slice_each_axis(third), c.slice_each_axis_mut(third), double).unwrap();
+            assert_eq!(a, c.slice_each_axis(third));
+        }
+    }
+
+    #[test]
+    fn a_line_is_half_a_spectrum_with_all_of_its_modes() {
+        for n in [4, 9, 15, 36, 37, 105] {
+            for shape in [(n, 1), (1, n)] {
+                let layout = Layout::new(shape);
+                let (columns, modes) = layout.spectrum();
+                // a prime number of nodes has no half, and that of two has both columns
+                assert!([4, 37].contains(&n) || columns * modes <= n * 3 / 4, "{layout:?}");
+                let mut found = vec![0; n];
+                for (k, i) in (0..columns).flat_map(|k| (0..modes).map(move |i| (k, i))) {
+                    let (k0, k1) = layout.mode(k, i);
+                    let mode = k0 + k1;
+                    found[mode] += 1;
+                    if layout.weight(k) == 2.0 {
+                        found[(n - mode) % n] += 1;
+                    }
+                }
+                assert!(found.iter().all(|&found| found == 1), "{layout:?} {found:?}");
+            }
+        }
     }
 
     #[test]

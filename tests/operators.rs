@@ -12,8 +12,24 @@ use asperity::*;
 use ndarray::{Array2, ArrayView2, ArrayViewMut2};
 use proptest::prelude::*;
 
-const SHAPES: [(usize, usize); 11] =
-    [(1, 2), (2, 1), (2, 2), (4, 4), (5, 4), (4, 5), (7, 7), (1, 9), (8, 1), (6, 10), (13, 3)];
+const SHAPES: [(usize, usize); 16] = [
+    (1, 2),
+    (2, 1),
+    (2, 2),
+    (4, 4),
+    (5, 4),
+    (4, 5),
+    (7, 7),
+    (1, 9),
+    (8, 1),
+    (6, 10),
+    (13, 3),
+    (3, 34),
+    (35, 1),
+    (1, 35),
+    (72, 1),
+    (1, 66),
+];
 
 fn noise(shape: (usize, usize), seed: u64) -> Array2<f64> {
     use rand::{RngExt, SeedableRng};
@@ -183,16 +199,18 @@ fn bad_operators_are_refused() {
 
 #[test]
 fn an_application_allocates_nothing() {
-    let grid = Grid::square(64, 1.0).unwrap();
     rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap().install(|| {
-        let mut operator = Westergaard::<f64>::new(grid, 1.0).unwrap();
-        let (u, mut p) = (noise((64, 64), 1), Array2::zeros((64, 64)));
-        let count = allocation_counter::measure(|| {
-            operator.pressure(u.view(), p.view_mut()).unwrap();
-            operator.displacement(u.view(), p.view_mut()).unwrap();
-            operator.precondition(u.view(), 1.0, 1.0, p.view_mut()).unwrap();
-        });
-        assert_eq!(count.count_total, 0);
+        for shape in [(64, 64), (4096, 1), (1, 4095), (4, 100)] {
+            let grid = Grid::new(shape, (1.0, 1.0)).unwrap();
+            let mut operator = Westergaard::<f64>::new(grid, 1.0).unwrap();
+            let (u, mut p) = (noise(shape, 1), Array2::zeros(shape));
+            let count = allocation_counter::measure(|| {
+                operator.pressure(u.view(), p.view_mut()).unwrap();
+                operator.displacement(u.view(), p.view_mut()).unwrap();
+                operator.precondition(u.view(), 1.0, 1.0, p.view_mut()).unwrap();
+            });
+            assert_eq!(count.count_total, 0, "{shape:?}");
+        }
     });
 }
 
@@ -336,6 +354,33 @@ fn layers_of_any_thickness_are_solved_in_few_applications() {
             assert_eq!(solution.report.status, Status::Converged);
             let taken = solution.report.operator_applications;
             assert!(taken < 70, "{thickness} {taken}");
+        }
+    }
+}
+
+#[test]
+fn a_line_is_a_plane_without_waves_across() {
+    // many divisors, few, none
+    for n in [720, 735, 766, 769] {
+        let [along_x, along_y, plane] = [(n, 1), (1, n), (n, 2)].map(|shape| {
+            let grid = Grid::new(shape, (2.0, 2.0)).unwrap();
+            let line = noise((n, 1), 4);
+            let u = Array2::from_shape_fn(shape, |(i, j)| line[[if shape.0 == n { i } else { j }, 0]]);
+            let p = apply(&mut Westergaard::new(grid, 3.0).unwrap(), &u);
+            let mut single = Array2::zeros(shape);
+            let operator = &mut Westergaard::<f32>::new(grid, 3.0).unwrap();
+            operator.pressure(u.mapv(|u| u as f32).view(), single.view_mut()).unwrap();
+            // some roundings of the stiffest wave
+            let size = 3.0 * PI * n as f64 / 2.0;
+            for (&single, &p) in single.iter().zip(&p) {
+                assert!((f64::from(single) - p).abs() < 4.0 * f64::from(f32::EPSILON) * size, "{shape:?} {single} {p}");
+            }
+            let first = p.iter().step_by(if shape == (n, 2) { 2 } else { 1 });
+            (first.copied().collect::<Vec<_>>(), size)
+        });
+        for ((a, b), c) in along_x.0.iter().zip(&along_y.0).zip(&plane.0) {
+            assert_eq!(a, b);
+            assert!((a - c).abs() < 4.0 * f64::EPSILON * plane.1, "{n} {a} {c}");
         }
     }
 }

@@ -67,7 +67,11 @@ fn any_number_of_threads_gives_the_same_bits() {
             let law = Exponential::new(1e-5, 1e-3).unwrap();
             let rough = solve(&mut rough::<f64, _>(150, 32, law), Control::MeanPressure(0.01), 1e-8);
             let single = solve(&mut sphere::<f32, _>(128, NoAdhesion), Control::MeanGap(0.0398), 1e-5);
-            (rough, single)
+            let grid = Grid::line(6000, 1.0).unwrap();
+            let half_space = Westergaard::<f64>::new(grid, 1.0).unwrap();
+            let mut line = Problem::new(&common::rough::rough(grid, 32, 1), half_space, law).unwrap();
+            let line = solve(&mut line, Control::MeanGap(0.01), 1e-8);
+            (rough, single, line)
         })
     };
     let one = run(1);

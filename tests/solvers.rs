@@ -195,6 +195,45 @@ fn a_zero_law_is_no_law() {
     assert_eq!(solve(&mut none, control, 1e-6), solve(&mut zero, control, 1e-6));
 }
 
+/// A law of no energy that must not be evaluated, but where the surfaces touch.
+struct Untouched;
+
+impl AdhesionLaw<f64> for Untouched {
+    fn energy(&self, gap: f64) -> f64 {
+        assert_eq!(gap, 0.0);
+        0.0
+    }
+    fn traction(&self, gap: f64) -> f64 {
+        self.energy(gap)
+    }
+    fn slope(&self, gap: f64) -> f64 {
+        self.energy(gap)
+    }
+    fn energies(&self, _: &[f64], _: &mut [f64]) {
+        unreachable!()
+    }
+    fn tractions(&self, _: &[f64], _: &mut [f64]) {
+        unreachable!()
+    }
+    fn slopes(&self, _: &[f64], _: &mut [f64]) {
+        unreachable!()
+    }
+    fn is_zero(&self) -> bool {
+        true
+    }
+}
+
+#[test]
+fn no_adhesion_is_not_evaluated() {
+    for control in [Control::MeanPressure(0.02), Control::MeanGap(0.02)] {
+        let mut problem = rough::<f64, _>(64, 16, Untouched);
+        for settings in [Settings { tolerance: 1e-8, ..Settings::default() }, Settings::rey2017()] {
+            let report = Solver::new(settings).solve(&mut problem, control).unwrap().report;
+            assert!(report.iterations > 0);
+        }
+    }
+}
+
 #[test]
 fn a_warm_start_from_the_solution_is_the_solution() {
     let law = MaugisDugdale::new(1e-4, 2e-3).unwrap();
@@ -291,16 +330,31 @@ fn an_iteration_allocates_nothing() {
     });
 }
 
+#[test]
+fn a_solve_allocates_its_five_fields_and_nothing_for_the_answer() {
+    let mut problem = rough::<f64, _>(256, 16, NoAdhesion);
+    rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap().install(|| {
+        let problem = std::cell::RefCell::new(&mut problem);
+        let info = allocation_counter::measure(|| {
+            let solution = Solver::default().solve(&mut problem.borrow_mut(), Control::MeanGap(0.01)).unwrap();
+            assert_eq!(solution.report.status, Status::Converged);
+        });
+        // beside the fields, the partial sums of a reduction: 14 numbers for 256 nodes
+        assert!((5.0..5.1).contains(&(info.bytes_total as f64 / (256.0 * 256.0 * 8.0))), "{}", info.bytes_total);
+    });
+}
+
 type Law<T> = fn() -> Box<dyn AdhesionLaw<T>>;
 
 /// The most bytes at any time, in units of one field of precision T: of making the operator and the problem, and of that
 /// and the solve.
 fn peak<T: Real, O: ElasticOperator<T>>(
+    grid: Grid,
     operator: impl Fn(Grid) -> Result<O> + Sync,
     law: Law<T>,
     control: Control,
 ) -> [f64; 2] {
-    let surface = rough::rough(Grid::square(512, 1.0).unwrap(), 64, 1);
+    let surface = rough::rough(grid, 64, 1);
     let problem = || Problem::new(&surface, operator(*surface.grid()).unwrap(), law()).unwrap();
     let field = (surface.grid().nodes() * size_of::<T>()) as f64;
     rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap().install(|| {
@@ -315,12 +369,18 @@ fn peak<T: Real, O: ElasticOperator<T>>(
 
 #[test]
 fn a_solve_needs_seven_fields() {
-    // for what does not grow with the nodes: plans, tiles, and the partial sums of a reduction
-    let small = 0.3;
+    // for what grows less than the nodes: plans, tiles, the partial sums of a reduction; and on a line its twiddles, in f64 too
+    let (small, twiddles) = (0.3, 0.3);
     fn half_space<T: Real>(grid: Grid) -> Result<Westergaard<T>> {
         Westergaard::new(grid, 1.0)
     }
-    for control in [Control::MeanGap(0.02), Control::MeanPressure(0.0125)] {
+    let (square, line) = (Grid::square(512, 1.0).unwrap(), Grid::line(1 << 18, 1.0).unwrap());
+    for (grid, control, small) in [
+        (square, Control::MeanGap(0.02), small),
+        (square, Control::MeanPressure(0.0125), small),
+        (line, Control::MeanGap(0.02), small + twiddles),
+        (line, Control::MeanPressure(0.0125), small + twiddles),
+    ] {
         let laws: [Law<f64>; 3] = [
             || Box::new(NoAdhesion),
             || Box::new(MaugisDugdale::new(1.42e-4, 2.9e-3).unwrap()),
@@ -328,15 +388,15 @@ fn a_solve_needs_seven_fields() {
         ];
         for law in laws {
             // the spectrum, K⁻¹h, and another spectrum for that; then five of the solver for the last
-            let [built, solved] = peak(half_space, law, control);
+            let [built, solved] = peak(grid, half_space, law, control);
             assert!((3.0..3.0 + small).contains(&built) && (7.0..7.0 + small).contains(&solved), "{built} {solved}");
         }
         // a spectrum of the heights in f64
-        let [built, solved] = peak::<f32, _>(half_space, || Box::new(NoAdhesion), control);
+        let [built, solved] = peak::<f32, _>(grid, half_space, || Box::new(NoAdhesion), control);
         assert!((4.0..4.0 + small).contains(&built) && (7.0..7.0 + small).contains(&solved), "{built} {solved}");
     }
     // half a field for the stiffness of any other operator
     let layer = |grid| Spectral::isotropic(grid, 1.0, |q| q / 2.0 + 1.0);
-    let [built, solved] = peak::<f64, _>(layer, || Box::new(NoAdhesion), Control::MeanGap(0.02));
+    let [built, solved] = peak::<f64, _>(square, layer, || Box::new(NoAdhesion), Control::MeanGap(0.02));
     assert!(built < 8.0 && (7.5..7.5 + small).contains(&solved), "{built} {solved}");
 }

@@ -4,7 +4,7 @@ use std::fmt;
 use rustfft::num_complex::Complex;
 
 use super::*;
-use crate::fft::{Convolver, Sums};
+use crate::fft::{Convolver, Layout, Sums};
 use crate::vector::{BLOCK, LANES, vectorised};
 
 /// What a wave with wave numbers (qx, qy) needs: pressure per displacement.
@@ -42,11 +42,16 @@ pub struct Spectral<T: Real> {
 /// The stiffness of each mode, in the layout of the spectrum.
 enum Stiffness<T> {
     Stored(Array2<T>),
-    /// that of the half-space, `unit·√(x² + y²)`, which is faster computed than stored: the squares along both axes
+    /// that of the half-space, `unit·√(x² + y²)`, which is faster computed than stored: the squares in and across columns
     HalfSpace {
         unit: T,
         x: Vec<T>,
         y: Vec<T>,
+    },
+    /// that of the half-space on a line that is folded, `unit·|x + column|`
+    Line {
+        unit: T,
+        x: Vec<T>,
     },
 }
 
@@ -103,10 +108,6 @@ impl<T: Real> Spectral<T> {
 fn half_space<T: Real>(grid: &Grid, modulus: f64) -> Result<(Stiffness<T>, (f64, f64))> {
     let ((nx, ny), (lx, ly)) = (grid.shape(), grid.lengths());
     let unit = PI * modulus / lx;
-    let squares = |n: usize, modes: usize, ratio: f64| -> Vec<T> {
-        (0..modes).map(|k| T::lit((ratio * k.min(n - k) as f64).powi(2))).collect()
-    };
-    let (x, y) = (squares(nx, nx, 1.0), squares(ny, ny / 2 + 1, lx / ly));
     let softest = match (nx, ny) {
         (1, 1) => 0.0,
         (1, _) => unit * (lx / ly),
@@ -119,7 +120,22 @@ fn half_space<T: Real>(grid: &Grid, modulus: f64) -> Result<(Stiffness<T>, (f64,
         // of the squares, too
         check_range::<T>((softest / unit).powi(2), (stiffest / unit).powi(2))?;
     }
-    Ok((Stiffness::HalfSpace { unit: T::lit(unit), x, y }, (softest, stiffest)))
+    let layout = Layout::new((nx, ny));
+    let ((columns, modes), (_, divisor)) = (layout.spectrum(), layout.plane());
+    let stiffness = if layout.is_folded() {
+        // with the sign of the mode, so that what is near the mean is exact
+        let signed = |i: usize| if 2 * i < modes { i as f64 } else { i as f64 - modes as f64 };
+        let x = (0..modes).map(|i| T::lit(divisor as f64 * signed(i))).collect();
+        Stiffness::Line { unit: T::lit(softest), x }
+    } else {
+        let square = |(i, j): (usize, usize)| {
+            T::lit((i.min(nx - i) as f64).powi(2).max((lx / ly * j.min(ny - j) as f64).powi(2)))
+        };
+        let x = (0..modes).map(|i| square(layout.mode(0, i))).collect();
+        let y = (0..columns).map(|column| square(layout.mode(column, 0))).collect();
+        Stiffness::HalfSpace { unit: T::lit(unit), x, y }
+    };
+    Ok((stiffness, (softest, stiffest)))
 }
 
 /// Refuses stiffnesses of which one, or the square of their ratio, leaves the range of T.
@@ -133,11 +149,12 @@ fn check_range<T: Real>(softest: f64, stiffest: f64) -> Result<()> {
 
 const REPRESENTABLE: &str = "positive and finite in the precision of the fields";
 
-/// The symbol at every mode of the half spectrum, transposed as the convolver stores it: `(Ny/2 + 1, Nx)`.
+/// The symbol at every mode of the half spectrum, as the convolver stores it.
 fn stiffness<T: Real>(grid: &Grid, symbol: &Symbol) -> Result<Array2<T>> {
     let (nx, ny) = grid.shape();
-    let mut wrong = None;
-    let modes = Array2::from_shape_fn((ny / 2 + 1, nx), |(j, i)| {
+    let (layout, mut wrong) = (Layout::new((nx, ny)), None);
+    let modes = Array2::from_shape_fn(layout.spectrum(), |(column, i)| {
+        let (i, j) = layout.mode(column, i);
         if (i, j) == (0, 0) {
             return T::zero();
         }
@@ -172,6 +189,15 @@ impl<T: Real> Stiffness<T> {
                     x,
                     #[inline(always)]
                     move |x| by(unit * (x + y).sqrt()),
+                )
+            }
+            Self::Line { unit, x } => {
+                let (unit, k) = (*unit, T::lit(k as f64));
+                modify(
+                    column,
+                    x,
+                    #[inline(always)]
+                    move |x| by(unit * (x + k).abs()),
                 )
             }
         }
@@ -258,10 +284,9 @@ fn soften<T: Real>(
     sums
 }
 
-/// The sums over all modes: each column but that of the mean and the Nyquist line stands for two.
-fn weigh(column: usize, ny: usize, sums: Sums) -> Sums {
-    let weight = if column == 0 || 2 * column == ny { 1.0 } else { 2.0 };
-    sums.map(|sum| weight * sum)
+/// The sums over all modes, of those over a column.
+fn weigh(layout: Layout, column: usize, sums: Sums) -> Sums {
+    sums.map(|sum| layout.weight(column) * sum)
 }
 
 impl<T: Real> ElasticOperator<T> for Spectral<T> {
@@ -274,10 +299,10 @@ impl<T: Real> ElasticOperator<T> for Spectral<T> {
     }
 
     fn pressure_and_work(&mut self, displacement: ArrayView2<'_, T>, pressure: ArrayViewMut2<'_, T>) -> Result<f64> {
-        let (stiffness, ny) = (&self.stiffness, self.grid.shape().1);
+        let (stiffness, layout) = (&self.stiffness, self.convolver.layout());
         let [sum, ..] = self
             .convolver
-            .convolve(displacement, pressure, |k, column| weigh(k, ny, stiffness.modify(k, column, stiffen)))?;
+            .convolve(displacement, pressure, |k, column| weigh(layout, k, stiffness.modify(k, column, stiffen)))?;
         Ok(sum / (self.grid.nodes() as f64).powi(2))
     }
 
@@ -299,11 +324,11 @@ impl<T: Real> ElasticOperator<T> for Spectral<T> {
     fn surface_pressure(&mut self, heights: ArrayView2<'_, f64>, pressure: ArrayViewMut2<'_, T>) -> Result<f64> {
         let stiffness = match &self.stiffness {
             Stiffness::Stored(_) => Stiffness::Stored(stiffness(&self.grid, &self.symbol)?),
-            Stiffness::HalfSpace { .. } => half_space(&self.grid, self.modulus)?.0,
+            _ => half_space(&self.grid, self.modulus)?.0,
         };
-        let ny = self.grid.shape().1;
+        let layout = self.convolver.layout();
         let [sum, ..] = Convolver::<f64>::new(self.grid.shape())
-            .convolve(heights, pressure, |k, column| weigh(k, ny, stiffness.modify(k, column, stiffen)))?;
+            .convolve(heights, pressure, |k, column| weigh(layout, k, stiffness.modify(k, column, stiffen)))?;
         Ok(sum / (self.grid.nodes() as f64).powi(2))
     }
 
@@ -315,12 +340,12 @@ impl<T: Real> ElasticOperator<T> for Spectral<T> {
         mean_stiffness: f64,
         preconditioned: ArrayViewMut2<'_, T>,
     ) -> Result<Preconditioned> {
-        let (stiffness, ny) = ((&self.stiffness, self.range.0), self.grid.shape().1);
+        let (stiffness, layout) = ((&self.stiffness, self.range.0), self.convolver.layout());
         let shift = T::lit(if self.range.0 > 0.0 { foundation / self.range.0 } else { 0.0 });
         let (mean, nodes) = (T::lit(1.0 / mean_stiffness), self.grid.nodes() as f64);
-        let [error, descent, mean] = self
-            .convolver
-            .convolve(residual, preconditioned, |k, column| weigh(k, ny, soften(stiffness, k, column, shift, mean)))?;
+        let [error, descent, mean] = self.convolver.convolve(residual, preconditioned, |k, column| {
+            weigh(layout, k, soften(stiffness, k, column, shift, mean))
+        })?;
         Ok(Preconditioned { error: error / nodes.powi(2), descent: descent / nodes.powi(2), mean: mean / nodes })
     }
 }

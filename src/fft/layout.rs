@@ -1,0 +1,135 @@
+//! How a field is laid out for its transform.
+
+use std::f64::consts::TAU;
+
+use ndarray::{Array2, ArrayView2, ArrayViewMut2, CowArray, Ix2};
+use rustfft::num_complex::Complex;
+
+use super::TILE;
+use crate::real::Real;
+use crate::vector::vectorised;
+
+/// Neighbouring twiddles that are read; the runs of them are turned into one another.
+const RUN: usize = 32;
+
+/// The plane that a field is transformed as, and where its modes then are in the half spectrum.
+///
+/// A plane is itself, but with its axes exchanged where its columns do not fill a tile. A line of A·B nodes is a plane
+/// too, `(B, A)`: its node aB + b is row b, column a. With row b of its spectrum along the second axis, column k of the
+/// half spectrum, turned by exp(−2πi bk/AB), what comes out of the transform along the first axis are the modes
+/// k + A·i of the line. So half of its modes suffice, and all transforms are short enough for the cache. A is the
+/// largest divisor up to √(AB).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Layout {
+    shape: (usize, usize),
+    plane: (usize, usize),
+    exchanged: bool,
+    folded: bool,
+}
+
+impl Layout {
+    /// Of a field of the given shape, as its convolution wants it.
+    pub(crate) fn new(shape: (usize, usize)) -> Self {
+        let (n0, n1) = shape;
+        let exchanged = n0 < n1.min(TILE);
+        let (long, short) = if exchanged { (n1, n0) } else { (n0, n1) };
+        let divisor = if short == 1 { divisor(long) } else { 1 };
+        let folded = divisor > 1;
+        let plane = if folded { (long / divisor, divisor) } else { (long, short) };
+        Self { shape, plane, exchanged, folded }
+    }
+
+    /// Of a field that is neither exchanged nor folded.
+    pub(super) fn plain(shape: (usize, usize)) -> Self {
+        Self { shape, plane: shape, exchanged: false, folded: false }
+    }
+
+    /// The shape of the fields.
+    pub(super) fn shape(&self) -> (usize, usize) {
+        self.shape
+    }
+
+    /// The plane that is transformed.
+    pub(crate) fn plane(&self) -> (usize, usize) {
+        self.plane
+    }
+
+    /// Whether a line is folded into the plane.
+    pub(crate) fn is_folded(&self) -> bool {
+        self.folded
+    }
+
+    /// The shape of the half spectrum: its columns, which are contiguous, and the modes in each.
+    pub(crate) fn spectrum(&self) -> (usize, usize) {
+        (self.plane.1 / 2 + 1, self.plane.0)
+    }
+
+    /// The indices of a mode along both axes of the field.
+    pub(crate) fn mode(&self, column: usize, i: usize) -> (usize, usize) {
+        let (long, short) = if self.folded { (column + self.plane.1 * i, 0) } else { (i, column) };
+        if self.exchanged { (short, long) } else { (long, short) }
+    }
+
+    /// How many columns of the whole spectrum a column of the half stands for.
+    pub(crate) fn weight(&self, column: usize) -> f64 {
+        if column == 0 || 2 * column == self.plane.1 { 1.0 } else { 2.0 }
+    }
+
+    /// A field as the plane; a copy only of a line that is not contiguous.
+    pub(super) fn view<'a, T: Clone>(&self, field: &'a ArrayView2<'_, T>) -> CowArray<'a, T, Ix2> {
+        let plane = if self.folded {
+            field.to_shape((self.plane.1, self.plane.0)).unwrap_or_else(|_| CowArray::from(field.view()))
+        } else {
+            CowArray::from(field.view())
+        };
+        if self.folded || self.exchanged { plane.reversed_axes() } else { plane }
+    }
+
+    /// A field as the plane to write to; nothing if it is a line that is not contiguous.
+    pub(super) fn view_mut<'a, T>(&self, field: ArrayViewMut2<'a, T>) -> Option<ArrayViewMut2<'a, T>> {
+        let plane = if self.folded { field.into_shape_with_order((self.plane.1, self.plane.0)).ok()? } else { field };
+        Some(if self.folded || self.exchanged { plane.reversed_axes() } else { plane })
+    }
+}
+
+/// The largest divisor up to the square root.
+fn divisor(n: usize) -> usize {
+    (1..=n.isqrt()).rev().find(|&divisor| n.is_multiple_of(divisor)).unwrap_or(1)
+}
+
+/// What turns the columns of the half spectrum of a line: exp(−2πi bk/n) for row b, column k.
+///
+/// The first of each column and, behind them, those by which the runs of so many are turned.
+#[derive(Debug)]
+pub(super) struct Twiddles<T>(Array2<Complex<T>>);
+
+impl<T: Real> Twiddles<T> {
+    pub(super) fn new(layout: &Layout) -> Option<Self> {
+        let ((columns, rows), n) = (layout.spectrum(), layout.shape.0 * layout.shape.1);
+        layout.folded.then(|| {
+            Self(Array2::from_shape_fn((columns, RUN + rows.div_ceil(RUN)), |(k, i)| {
+                let row = if i < RUN { i } else { RUN * (i - RUN) };
+                let (sin, cos) = (TAU * ((row * k) % n) as f64 / n as f64).sin_cos();
+                Complex::new(T::lit(cos), T::lit(-sin))
+            }))
+        })
+    }
+
+    /// Turns column `k`, or turns it back.
+    pub(super) fn turn(&self, k: usize, column: &mut [Complex<T>], back: bool) {
+        let twiddles = self.0.row(k).to_slice().unwrap_or_default();
+        let Some((run, runs)) = twiddles.split_at_checked(RUN) else { return };
+        let sign = if back { -T::one() } else { T::one() };
+        vectorised(
+            #[inline(always)]
+            move || {
+                for (modes, &first) in column.chunks_mut(RUN).zip(runs) {
+                    for (z, &by) in modes.iter_mut().zip(run) {
+                        let turn = first * by;
+                        *z *= Complex::new(turn.re, sign * turn.im);
+                    }
+                }
+            },
+        );
+    }
+}
