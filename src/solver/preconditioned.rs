@@ -94,7 +94,7 @@ where
         if self.try_step()? {
             return Ok(true);
         }
-        if length >= SHORTEST {
+        if length >= SHORTEST || self.is_at_floor() {
             return Ok(false);
         }
         // what is shorter than the last digit of a gap is no step
