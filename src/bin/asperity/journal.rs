@@ -448,14 +448,13 @@ mod tests {
             fs::write(state_path(&path), &state[..length]).unwrap();
             assert!(reason(open(&path, &LOADS)).contains("is damaged"));
         }
-        for at in 0..state.len() {
+        for at in (0..state.len()).step_by(5) {
             let mut state = state.clone();
             state[at] ^= 0x15;
             fs::write(state_path(&path), state).unwrap();
             // not every byte of an archive matters
-            match open(&path, &LOADS) {
-                Ok((journal, gaps)) => assert_eq!((journal.rows(), &gaps[1]), (3, &array![[3.0], [5.0]])),
-                Err(_) => {}
+            if let Ok((journal, gaps)) = open(&path, &LOADS) {
+                assert_eq!((journal.rows(), journal.unconverged(), &gaps[1]), (3, 1, &array![[3.0], [5.0]]));
             }
             assert_eq!(fs::read_to_string(&path).unwrap(), whole);
         }
