@@ -46,11 +46,11 @@ pub trait ContactConstraint<T: Real>: Sync {
     /// Whether the gap is confined to g ≥ 0. If so the other methods are not asked.
     fn projects(&self) -> bool;
 
-    /// Prepares for a solve on a grid.
+    /// Prepares for a solve on a grid, to a tolerance of its criterion.
     ///
     /// # Errors
     /// Whatever cannot be used on that grid.
-    fn start(&mut self, _grid: &Grid) -> Result<()> {
+    fn start(&mut self, _grid: &Grid, _tolerance: f64) -> Result<()> {
         Ok(())
     }
 

@@ -301,7 +301,7 @@ where
             }
         }
         if let Some(status) = state.verdict() {
-            if status == Status::Stalled && state.sharpen()? {
+            if status == Status::Stalled && (state.renew()? || state.sharpen()?) {
                 continue;
             }
             return Ok(status);
@@ -312,7 +312,7 @@ where
             }
             continue;
         }
-        if !state.step()? && !state.sharpen()? {
+        if !state.step()? && !state.renew()? && !state.sharpen()? {
             return Ok(Status::Stalled);
         }
     }

@@ -1,17 +1,74 @@
-//! Inputs at the edge: every one is solved, refused, or ended with the right status.
+//! Inputs at the edge, in both precisions: every one is solved, refused, or ended with the right status.
 
 mod common;
+#[allow(dead_code, reason = "only the matrices are of use")]
+#[path = "common/dense.rs"]
+mod dense;
+#[path = "extremes/properties.rs"]
+mod properties;
+#[path = "extremes/regressions.rs"]
+mod regressions;
 
 use asperity::*;
 use common::{check, solve};
 use ndarray::Array2;
 
-fn problem<L: AdhesionLaw<f64>>(
+/// Laws come boxed, so that the solver is compiled once for each precision.
+type Boxed<T> = Box<dyn AdhesionLaw<T>>;
+type Scene<T> = Problem<T, Westergaard<T>, Boxed<T>>;
+
+/// Runs themes as tests, in either precision.
+macro_rules! in_both_precisions {
+    ($($theme:ident),* $(,)?) => {
+        mod single { $(#[test] fn $theme() { super::$theme::<f32>(); })* }
+        mod double { $(#[test] fn $theme() { super::$theme::<f64>(); })* }
+    };
+}
+use in_both_precisions;
+
+in_both_precisions!(
+    flats_under_tension_hold_up_to_the_law_and_no_further,
+    flats_at_a_gap_stay_there,
+    pull_off_ends_detached_and_at_rest,
+    sharp_surfaces_do_not_jam,
+    a_spike_a_step_and_elongated_grids,
+    the_lightest_loads_are_not_certified_on_rounding,
+    a_law_that_fails_is_refused_or_never_called_converged,
+    laws_that_contradict_themselves_end_and_keep_the_bookkeeping,
+    adhesion_from_a_point_to_everywhere,
+    long_thin_grids_and_all_but_one_node,
+);
+
+/// A tolerance that either precision reaches, unless loads are light.
+fn loose<T: Real>() -> f64 {
+    (1e3 * T::epsilon().widen()).max(1e-6)
+}
+
+/// Solved to the tolerance; in `f32`, under light loads, as far as rounding lets.
+#[track_caller]
+fn assert_solved<T: Real>(report: &Report, what: &str) {
+    let floored = T::NAME == "f32" && report.status == Status::Stalled && report.load_error < 0.05;
+    assert!(report.status == Status::Converged || floored, "{what}: {report:?}");
+}
+
+fn exponential<T: Real>(w: f64, range: f64) -> Boxed<T> {
+    Box::new(Exponential::new(T::lit(w), T::lit(range)).unwrap())
+}
+
+fn maugis_dugdale<T: Real>(w: f64, range: f64) -> Boxed<T> {
+    Box::new(MaugisDugdale::new(T::lit(w), T::lit(range)).unwrap())
+}
+
+fn bare<T: Real>() -> Boxed<T> {
+    Box::new(NoAdhesion)
+}
+
+fn problem<T: Real>(
     shape: (usize, usize),
     lengths: (f64, f64),
     height: impl Fn(usize, usize) -> f64,
-    law: L,
-) -> Problem<f64, Westergaard<f64>, L> {
+    law: Boxed<T>,
+) -> Scene<T> {
     let grid = Grid::new(shape, lengths).unwrap();
     let surface = Surface::new(grid, Array2::from_shape_fn(shape, |(i, j)| height(i, j))).unwrap();
     Problem::new(&surface, Westergaard::new(grid, 1.0).unwrap(), law).unwrap()
@@ -21,101 +78,101 @@ fn checkerboard(i: usize, j: usize) -> f64 {
     0.1 * ((i + j) % 2) as f64
 }
 
-#[test]
-fn flats_under_tension_hold_up_to_the_law_and_no_further() {
+fn flats_under_tension_hold_up_to_the_law_and_no_further<T: Real>() {
     let traction = 1e-4 / 2e-3;
     for shape in [(8, 8), (7, 5), (1, 1)] {
-        let mut exponential = problem(shape, (1.0, 1.0), |_, _| 0.3, Exponential::new(1e-4, 2e-3).unwrap());
-        let mut dugdale = problem(shape, (1.0, 1.0), |_, _| 0.3, MaugisDugdale::new(1e-4, 2e-3).unwrap());
-        let mut bare = problem(shape, (1.0, 1.0), |_, _| 0.3, NoAdhesion);
+        let mut smooth = problem::<T>(shape, (1.0, 1.0), |_, _| 0.3, exponential(1e-4, 2e-3));
+        let mut dugdale = problem::<T>(shape, (1.0, 1.0), |_, _| 0.3, maugis_dugdale(1e-4, 2e-3));
+        let mut alone = problem::<T>(shape, (1.0, 1.0), |_, _| 0.3, bare());
         let held = Control::MeanPressure(-0.99 * traction);
-        for solution in [solve(&mut exponential, held, 1e-6), solve(&mut dugdale, held, 1e-6)] {
+        for solution in [solve(&mut smooth, held, loose::<T>()), solve(&mut dugdale, held, loose::<T>())] {
             assert_eq!((solution.report.status, solution.report.contact_fraction), (Status::Converged, 1.0));
         }
         for load in [-1.1 * traction, -5.0] {
             let lost = Control::MeanPressure(load);
-            assert_eq!(solve(&mut exponential, lost, 1e-6).report.status, Status::Detached);
-            assert_eq!(solve(&mut dugdale, lost, 1e-6).report.status, Status::Detached);
-            let solution = solve(&mut bare, lost, 1e-6);
+            assert_eq!(solve(&mut smooth, lost, loose::<T>()).report.status, Status::Detached);
+            assert_eq!(solve(&mut dugdale, lost, loose::<T>()).report.status, Status::Detached);
+            let solution = solve(&mut alone, lost, loose::<T>());
             assert_eq!((solution.report.status, solution.report.load_error), (Status::Detached, 1.0));
-            assert!(solution.pressure.iter().all(|p| p.abs() < 1e-12));
+            assert!(solution.pressure.iter().all(|p| p.widen().abs() < 1e4 * T::epsilon().widen()));
         }
-        let pressed = solve(&mut bare, Control::MeanPressure(2.0), 1e-6);
+        let pressed = solve(&mut alone, Control::MeanPressure(2.0), loose::<T>());
         assert_eq!((pressed.report.status, pressed.report.contact_fraction), (Status::Converged, 1.0));
-        assert!(pressed.pressure.iter().all(|&p| p == 2.0));
+        assert!(pressed.pressure.iter().all(|&p| p.widen() == 2.0));
     }
 }
 
-#[test]
-fn flats_at_a_gap_stay_there() {
+fn flats_at_a_gap_stay_there<T: Real>() {
     for shape in [(8, 8), (7, 5), (1, 9)] {
-        let law = Exponential::new(1e-4, 2e-3).unwrap();
-        let mut problem = problem(shape, (1.0, 1.0), |_, _| -3.7, law);
-        let solution = solve(&mut problem, Control::MeanGap(1e-3), 1e-6);
+        let mut problem = problem::<T>(shape, (1.0, 1.0), |_, _| -3.7, exponential(1e-4, 2e-3));
+        let solution = solve(&mut problem, Control::MeanGap(1e-3), loose::<T>());
         assert_eq!(solution.report.status, Status::Converged);
-        assert!((solution.report.mean_pressure + law.traction(1e-3)).abs() < 1e-15);
+        assert!(
+            (solution.report.mean_pressure + problem.law().traction(T::lit(1e-3)).widen()).abs()
+                < 8.0 * T::epsilon().widen()
+        );
     }
 }
 
-#[test]
-fn pull_off_ends_detached_and_at_rest() {
+fn pull_off_ends_detached_and_at_rest<T: Real>() {
     let grid = Grid::square(64, 1.0).unwrap();
     let sphere = Surface::paraboloid(grid, 0.5).unwrap();
-    let law = Exponential::new(1e-3, 1e-2).unwrap();
-    let mut problem = Problem::new(&sphere, Westergaard::<f64>::new(grid, 1.0).unwrap(), law).unwrap();
+    let operator = Westergaard::<T>::new(grid, 1.0).unwrap();
+    let mut problem = Problem::new(&sphere, operator, exponential(1e-3, 1e-2)).unwrap();
+    let tolerance = (1e3 * T::epsilon().widen()).max(1e-7);
     // pull-off is between 1.5 and 2 times πwR
     let unit = std::f64::consts::PI * 1e-3 * 0.5;
-    let held = solve(&mut problem, Control::MeanPressure(-1.5 * unit), 1e-7);
+    let held = solve(&mut problem, Control::MeanPressure(-1.5 * unit), tolerance);
     assert_eq!(held.report.status, Status::Converged);
     assert!(held.report.contact_points > 0);
     for factor in [2.0, 3.0, 100.0] {
-        let lost = solve(&mut problem, Control::MeanPressure(-factor * unit), 1e-7);
+        let lost = solve(&mut problem, Control::MeanPressure(-factor * unit), tolerance);
         assert_eq!((lost.report.status, lost.report.contact_points), (Status::Detached, 0));
-        assert!(lost.report.iterations < 300 && lost.report.relative_error < 1e-6 && lost.report.mean_gap < 10.0);
+        assert!(
+            lost.report.iterations < 300
+                && lost.report.relative_error < 10.0 * tolerance
+                && lost.report.mean_gap < 10.0
+        );
     }
 }
 
-#[test]
-fn sharp_surfaces_do_not_jam() {
+fn sharp_surfaces_do_not_jam<T: Real>() {
     // peaks that a rounding's width keeps from landing; changes that are uniform but for rounding
     for (shape, load) in [((40, 24), 8.85e-3), ((101, 1), 16.1), ((12, 7), 9.0), ((2, 3), 1e-2)] {
-        let mut problem = problem(shape, (1.0, 1.0), checkerboard, NoAdhesion);
-        let report = solve(&mut problem, Control::MeanPressure(load), 1e-6).report;
-        assert_eq!(report.status, Status::Converged, "{shape:?} {load}");
+        let mut problem = problem::<T>(shape, (1.0, 1.0), checkerboard, bare());
+        let report = solve(&mut problem, Control::MeanPressure(load), loose::<T>()).report;
+        assert_solved::<T>(&report, &format!("{shape:?} {load}"));
     }
     let wave = |i: usize, _: usize| 0.1 * (std::f64::consts::TAU * i as f64 / 31.0).cos();
-    let mut problem = problem((31, 17), (3.0, 1.0), wave, NoAdhesion);
-    assert_eq!(solve(&mut problem, Control::MeanPressure(3.05e-5), 1e-6).report.status, Status::Converged);
+    let mut problem = problem::<T>((31, 17), (3.0, 1.0), wave, bare());
+    assert_solved::<T>(&solve(&mut problem, Control::MeanPressure(3.05e-5), loose::<T>()).report, "a wave");
 }
 
-#[test]
-fn a_spike_a_step_and_elongated_grids() {
+fn a_spike_a_step_and_elongated_grids<T: Real>() {
     let spike = |i: usize, j: usize| f64::from(u8::from((i, j) == (3, 0)));
     let step = |i: usize, _: usize| if i < 5 { 0.0 } else { 0.2 };
     for shape in [(16, 16), (13, 7), (1, 16), (16, 1), (512, 3), (2, 2)] {
         for control in [Control::MeanGap(0.05), Control::MeanPressure(1e-3), Control::MeanPressure(0.5)] {
             if shape.0 > 3 {
-                let mut problem = problem(shape, (1.0, 0.3), spike, NoAdhesion);
-                assert_eq!(
-                    solve(&mut problem, control, 1e-6).report.status,
-                    Status::Converged,
-                    "{shape:?} {control:?}"
-                );
+                let mut problem = problem::<T>(shape, (1.0, 0.3), spike, bare());
+                let report = solve(&mut problem, control, loose::<T>()).report;
+                assert_solved::<T>(&report, &format!("{shape:?} {control:?}"));
             }
-            let mut problem = problem(shape, (1.0, 0.3), step, NoAdhesion);
-            assert_eq!(solve(&mut problem, control, 1e-6).report.status, Status::Converged, "{shape:?} {control:?}");
+            let mut problem = problem::<T>(shape, (1.0, 0.3), step, bare());
+            let report = solve(&mut problem, control, loose::<T>()).report;
+            assert_solved::<T>(&report, &format!("{shape:?} {control:?}"));
         }
     }
 }
 
-#[test]
-fn the_lightest_loads_are_not_certified_on_rounding() {
+fn the_lightest_loads_are_not_certified_on_rounding<T: Real>() {
     for load in [1e-6, 1e-8, 1e-10, 1e-12] {
-        let mut problem = common::rough::<f64, _>(64, 16, NoAdhesion);
-        let solution = solve(&mut problem, Control::MeanPressure(load), 1e-6);
+        let mut problem = common::rough::<T, _>(64, 16, bare());
+        let solution = solve(&mut problem, Control::MeanPressure(load), loose::<T>());
         let report = &solution.report;
-        assert!(report.status == Status::Converged || report.relative_error > 1e-6);
-        assert!(load < 1e-9 || report.status == Status::Converged, "{load} {}", report.status);
+        assert!(report.status == Status::Converged || report.relative_error > loose::<T>());
+        let lightest = if T::NAME == "f32" { 1e-3 } else { 1e-9 };
+        assert!(load < lightest || report.status == Status::Converged, "{load} {}", report.status);
         assert!(report.contact_points >= 1);
     }
 }
@@ -123,28 +180,33 @@ fn the_lightest_loads_are_not_certified_on_rounding() {
 /// An exponential that fails beyond a gap.
 struct Broken(f64);
 
-impl AdhesionLaw<f64> for Broken {
-    fn energy(&self, gap: f64) -> f64 {
-        if gap > self.0 { f64::NAN } else { -1e-4 * (-gap / 1e-2).exp() }
-    }
-    fn traction(&self, gap: f64) -> f64 {
-        if gap > self.0 { f64::NAN } else { 1e-2 * (-gap / 1e-2).exp() }
-    }
-    fn slope(&self, gap: f64) -> f64 {
-        if gap > self.0 { f64::NAN } else { -(-gap / 1e-2).exp() }
+impl Broken {
+    fn share<T: Real>(&self, gap: T) -> T {
+        if gap.widen() > self.0 { T::nan() } else { (gap / T::lit(-1e-2)).exp() }
     }
 }
 
-#[test]
-fn a_law_that_fails_is_refused_or_never_called_converged() {
+impl<T: Real> AdhesionLaw<T> for Broken {
+    fn energy(&self, gap: T) -> T {
+        self.share(gap) * T::lit(-1e-4)
+    }
+    fn traction(&self, gap: T) -> T {
+        self.share(gap) * T::lit(1e-2)
+    }
+    fn slope(&self, gap: T) -> T {
+        -self.share(gap)
+    }
+}
+
+fn a_law_that_fails_is_refused_or_never_called_converged<T: Real>() {
     let wave = |i: usize, _: usize| 0.02 * (std::f64::consts::TAU * i as f64 / 16.0).cos();
-    let mut problem = problem((16, 16), (1.0, 1.0), wave, Broken(0.02));
+    let mut problem = problem::<T>((16, 16), (1.0, 1.0), wave, Box::new(Broken(0.02)));
     let error = Solver::default().solve(&mut problem, Control::MeanGap(0.03)).unwrap_err().to_string();
-    assert!(error.contains("adhesive energy is NaN at a gap of 0.03"), "{error}");
+    assert!(error.contains("adhesive energy is NaN at a gap of 0.0"), "{error}");
     let control = Control::MeanGap(0.01);
     let solution = Solver::default().solve(&mut problem, control).unwrap();
     check(&solution, &Broken(f64::INFINITY), control);
-    assert!(solution.report.status != Status::Converged || solution.gap.iter().all(|&g| g <= 0.02));
+    assert!(solution.report.status != Status::Converged || solution.gap.iter().all(|&g| g.widen() <= 0.02));
 }
 
 #[test]
@@ -244,67 +306,67 @@ fn a_datum_a_billion_heights_away_costs_the_digits_that_it_takes_and_no_more() {
         let error = Surface::new(grid, heights).unwrap_err();
         assert!(matches!(error, Error::NotFinite { count: 1, first: (1, 2), .. }), "{error}");
     }
-    let mut tiny = problem(shape, (1.0, 1.0), |i, j| [-0.0, 5e-324, 0.0][(i + j) % 3], NoAdhesion);
+    let mut tiny = problem::<f64>(shape, (1.0, 1.0), |i, j| [-0.0, 5e-324, 0.0][(i + j) % 3], bare());
     for control in [Control::MeanGap(0.1), Control::MeanPressure(0.1)] {
         assert_eq!(solve(&mut tiny, control, 1e-6).report.status, Status::Converged, "{control:?}");
     }
-    assert!(matches!(Grid::new((usize::MAX, 2), (1.0, 1.0)), Err(Error::Value { name: "number of nodes", .. })));
 }
 
 /// An exponential whose functions do not agree, or jump.
 struct Odd(u8);
 
-impl AdhesionLaw<f64> for Odd {
-    fn energy(&self, gap: f64) -> f64 {
-        -1e-4 * (-gap / 1e-2).exp() * if self.0 == 3 { -1.0 } else { 1.0 }
+impl<T: Real> AdhesionLaw<T> for Odd {
+    fn energy(&self, gap: T) -> T {
+        T::lit(if self.0 == 3 { 1e-4 } else { -1e-4 }) * (gap / T::lit(-1e-2)).exp()
     }
-    fn traction(&self, gap: f64) -> f64 {
-        let good = 1e-2 * (-gap / 1e-2).exp();
-        match self.0 {
+    fn traction(&self, gap: T) -> T {
+        let good = 1e-2 * (-gap.widen() / 1e-2).exp();
+        T::lit(match self.0 {
             0 => -good,
             1 => 100.0 * good,
             // a traction that does not end
             2 => 1e-2,
             3 => -good,
-            _ if gap > 0.01 => good + 1e-2,
+            _ if gap.widen() > 0.01 => good + 1e-2,
             _ => good,
-        }
+        })
     }
-    fn slope(&self, gap: f64) -> f64 {
-        if self.0 == 5 { 1e30 } else { -(-gap / 1e-2).exp() }
+    fn slope(&self, gap: T) -> T {
+        if self.0 == 5 { T::lit(1e30) } else { -(gap / T::lit(-1e-2)).exp() }
     }
 }
 
-#[test]
-fn laws_that_contradict_themselves_end_and_keep_the_bookkeeping() {
+fn laws_that_contradict_themselves_end_and_keep_the_bookkeeping<T: Real>() {
     let wave = |i: usize, _: usize| 0.02 * (std::f64::consts::TAU * i as f64 / 16.0).cos();
     for kind in 0..6 {
         for control in
             [Control::MeanGap(0.015), Control::MeanGap(0.1), Control::MeanPressure(0.01), Control::MeanPressure(-2e-3)]
         {
-            let mut problem = problem((16, 16), (1.0, 1.0), wave, Odd(kind));
+            let mut problem = problem::<T>((16, 16), (1.0, 1.0), wave, Box::new(Odd(kind)));
             let solution = Solver::default().solve(&mut problem, control).unwrap();
             let report = &solution.report;
-            assert!(report.iterations <= 2000 && solution.gap.iter().all(|g| g.is_finite() && *g >= 0.0), "{kind}");
+            assert!(
+                report.iterations <= 2000 && solution.gap.iter().all(|g| g.is_finite() && *g >= T::zero()),
+                "{kind}"
+            );
             assert!(report.status != Status::Converged || report.relative_error <= 1e-6, "{kind} {control:?}");
         }
     }
 }
 
-#[test]
-fn adhesion_from_a_point_to_everywhere() {
+fn adhesion_from_a_point_to_everywhere<T: Real>() {
     let wave = |i: usize, j: usize| 0.02 * (std::f64::consts::TAU * (i + 2 * j) as f64 / 16.0).cos();
     let mut last = 0.0;
     for share in [1e-12, 1e-6, 1e-3, 0.1, 1.0, 10.0, 1e3] {
         for w in [0.0, 1e-9, 1e-5, 1e2] {
-            let law = Exponential::new(w, share * 0.02).unwrap();
-            let mut problem = problem((16, 16), (1.0, 1.0), wave, law);
+            let mut problem = problem::<T>((16, 16), (1.0, 1.0), wave, exponential(w, share * 0.02));
             for control in [Control::MeanGap(0.015), Control::MeanPressure(0.05)] {
-                let report = solve(&mut problem, control, 1e-6).report;
+                let report = solve(&mut problem, control, loose::<T>()).report;
                 assert!(report.iterations <= 2000);
                 let expected = (w / 16.0).sqrt() / (share * 0.02);
                 assert!(
-                    (report.mu_rho - expected).abs() <= 1e-12 * expected && report.under_resolved == (expected > 0.5)
+                    (report.mu_rho - expected).abs() <= 8.0 * T::epsilon().widen() * expected
+                        && report.under_resolved == (expected > 0.5)
                 );
                 if expected < 0.3 {
                     assert_eq!(report.status, Status::Converged, "{share} {w} {control:?}");
@@ -320,41 +382,24 @@ fn adhesion_from_a_point_to_everywhere() {
     assert!(last > 0.0);
 }
 
-#[test]
-fn long_thin_grids_and_all_but_one_node() {
-    let mut thin = problem(
+fn long_thin_grids_and_all_but_one_node<T: Real>() {
+    let mut thin = problem::<T>(
         (4096, 3),
         (1.0, 1e-3),
         |i, j| 1e-2 * (std::f64::consts::TAU * (i + 40 * j) as f64 / 4096.0).cos(),
-        NoAdhesion,
+        bare(),
     );
     for control in [Control::MeanGap(4e-3), Control::MeanPressure(1e-2)] {
-        assert_eq!(solve(&mut thin, control, 1e-6).report.status, Status::Converged, "{control:?}");
+        assert_eq!(solve(&mut thin, control, loose::<T>()).report.status, Status::Converged, "{control:?}");
     }
     // a pit in a plane: all but one node in contact, until it is pressed flat; a spike: one node alone
     let pit = |i: usize, j: usize| if (i, j) == (4, 6) { -0.1 } else { 0.0 };
-    let mut pit = problem((9, 13), (1.0, 1.0), pit, NoAdhesion);
-    let report = solve(&mut pit, Control::MeanPressure(0.1), 1e-8).report;
+    let mut pit = problem::<T>((9, 13), (1.0, 1.0), pit, bare());
+    let report = solve(&mut pit, Control::MeanPressure(0.1), loose::<T>()).report;
     assert_eq!((report.status, report.contact_points), (Status::Converged, 9 * 13 - 1));
-    assert_eq!(solve(&mut pit, Control::MeanPressure(1e2), 1e-8).report.contact_fraction, 1.0);
-    let mut spike = problem((9, 13), (1.0, 1.0), |i, j| if (i, j) == (4, 6) { 0.1 } else { 0.0 }, NoAdhesion);
-    let report = solve(&mut spike, Control::MeanPressure(1e-5), 1e-8).report;
-    assert_eq!((report.status, report.contact_points), (Status::Converged, 1));
-}
-
-#[test]
-fn constraints_that_let_gaps_be_negative_keep_a_mean_gap_of_zero() {
-    let wave = |i: usize, j: usize| 0.02 * (std::f64::consts::TAU * (i + 2 * j) as f64 / 16.0).cos();
-    for start in [None, Some(Array2::from_shape_fn((16, 16), |(i, _)| if i % 2 == 0 { 1e-3 } else { -1e-3 }))] {
-        let mut problem = problem((16, 16), (1.0, 1.0), wave, NoAdhesion);
-        let mut solver = Solver { settings: Settings::default(), constraint: Penalty::new(5000.0).unwrap() };
-        let start = start.as_ref().map(|start| start.view());
-        let go_on = |_: &Iteration| std::ops::ControlFlow::Continue(());
-        let report = solver.solve_from(&mut problem, Control::MeanGap(0.0), start, go_on).unwrap().report;
-        assert_eq!(report.status, Status::Converged);
-        assert!(report.mean_gap.abs() < 1e-15 && report.min_gap < 0.0);
-        // under a tension that nothing holds they part
-        let lost = solver.solve(&mut problem, Control::MeanPressure(-1e-3)).unwrap().report;
-        assert_eq!((lost.status, lost.contact_points), (Status::Detached, 0));
-    }
+    assert_eq!(solve(&mut pit, Control::MeanPressure(1e2), loose::<T>()).report.contact_fraction, 1.0);
+    let mut spike = problem::<T>((9, 13), (1.0, 1.0), |i, j| if (i, j) == (4, 6) { 0.1 } else { 0.0 }, bare());
+    let report = solve(&mut spike, Control::MeanPressure(1e-5), loose::<T>()).report;
+    assert_solved::<T>(&report, "a spike");
+    assert_eq!(report.contact_points, 1);
 }

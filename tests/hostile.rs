@@ -4,6 +4,10 @@
 //! `HOSTILE_FIRST` says from which seed on. Whatever the seed, it is tried alone with `HOSTILE_FIRST=seed HOSTILE_SECONDS=0`.
 #![cfg(feature = "cli")]
 
+#[cfg(unix)]
+#[path = "hostile/outputs.rs"]
+mod outputs;
+
 use std::fs;
 use std::io::{Cursor, Write};
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -228,9 +232,9 @@ mod tool {
 
     use super::*;
 
-    const GIGABYTE: u64 = 1 << 20;
+    pub const GIGABYTE: u64 = 1 << 20;
 
-    fn bench(n: usize) -> tempfile::TempDir {
+    pub fn bench(n: usize) -> tempfile::TempDir {
         let bench = tempfile::tempdir().unwrap();
         let surface = Surface::paraboloid(Grid::square(n, 1.0).unwrap(), 2.0).unwrap();
         write_npy(&bench.path().join("heights.npy"), surface.heights()).unwrap();
@@ -238,7 +242,7 @@ mod tool {
     }
 
     /// Runs the tool with this much memory in kB, and files of no more than so many blocks of 512 bytes.
-    fn limited(folder: &Path, memory: u64, blocks: &str, arguments: &[String]) -> Output {
+    pub fn limited(folder: &Path, memory: u64, blocks: &str, arguments: &[String]) -> Output {
         Command::new("sh")
             .current_dir(folder)
             .args(["-c", "trap '' XFSZ; ulimit -v $1; ulimit -f $2; shift 2; exec \"$@\"", "sh"])
@@ -249,11 +253,11 @@ mod tool {
             .unwrap()
     }
 
-    fn words(text: &str) -> Vec<String> {
+    pub fn words(text: &str) -> Vec<String> {
         text.split_whitespace().map(str::to_owned).collect()
     }
 
-    fn names(folder: &Path) -> Vec<String> {
+    pub fn names(folder: &Path) -> Vec<String> {
         let mut names: Vec<_> =
             fs::read_dir(folder).unwrap().map(|e| e.unwrap().file_name().into_string().unwrap()).collect();
         names.sort();
@@ -262,7 +266,7 @@ mod tool {
 
     /// Ended by itself, with one line where it refused.
     #[track_caller]
-    fn assert_orderly(output: &Output, what: &str) {
+    pub fn assert_orderly(output: &Output, what: &str) {
         let said = String::from_utf8_lossy(&output.stderr);
         assert!(matches!(output.status.code(), Some(0..=2)), "{what}: {:?} {said}", output.status);
         if output.status.code() == Some(1) {

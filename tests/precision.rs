@@ -7,6 +7,7 @@ use asperity::*;
 #[cfg(feature = "parallel")]
 use common::sphere;
 use common::{rough, solve};
+use ndarray::Array2;
 
 #[test]
 fn f32_reaches_what_it_certifies() {
@@ -81,18 +82,28 @@ fn any_number_of_threads_gives_the_same_bits() {
     assert_eq!(run(1), one, "from run to run");
 }
 
-/// The least certified error that a solve reaches, and in how many iterations it gives up.
-fn floor<T: Real>(n: usize, pressure: f64) -> (f64, usize) {
-    let report = solve(&mut rough::<T, _>(n, n as i32 / 4, NoAdhesion), Control::MeanPressure(pressure), 1e-30).report;
+/// The least certified error that a solve reaches, in how many iterations it gives up, and the gap.
+fn floor<T: Real>(n: usize, pressure: f64) -> (f64, usize, Array2<f64>) {
+    let solution = solve(&mut rough::<T, _>(n, n as i32 / 4, NoAdhesion), Control::MeanPressure(pressure), 1e-30);
+    let report = &solution.report;
     assert_eq!(report.status, Status::Stalled, "{n} {pressure}");
-    (report.relative_error, report.iterations)
+    (report.relative_error, report.iterations, solution.gap.mapv(|g| g.widen()))
+}
+
+/// The certified error of a gap as it is, in `f64`.
+fn certified(n: usize, gap: &Array2<f64>) -> f64 {
+    let mut problem = rough::<f64, _>(n, n as i32 / 4, NoAdhesion);
+    let mut solver = Solver::new(Settings { max_iterations: 0, tolerance: 1e-30, ..Settings::default() });
+    let go_on = |_: &Iteration| std::ops::ControlFlow::Continue(());
+    let control = Control::MeanGap(gap.mean().unwrap());
+    solver.solve_from(&mut problem, control, Some(gap.view()), go_on).unwrap().report.relative_error
 }
 
 #[test]
 fn a_tolerance_below_the_floor_ends_soon_with_what_was_reached() {
     for n in [32, 64, 128] {
         for pressure in [0.01, 0.2] {
-            let ((single, few), (double, some)) = (floor::<f32>(n, pressure), floor::<f64>(n, pressure));
+            let ((single, few, _), (double, some, _)) = (floor::<f32>(n, pressure), floor::<f64>(n, pressure));
             assert!(single < 3e-4 && few < 200, "{n} {pressure}: {single:e} after {few}");
             assert!(double < 1e-12 && some < 300, "{n} {pressure}: {double:e} after {some}");
         }
@@ -104,8 +115,12 @@ fn a_tolerance_below_the_floor_ends_soon_with_what_was_reached() {
 fn floors_against_size() {
     for n in [32, 64, 128, 256, 512, 1024] {
         for pressure in [0.01, 0.2] {
-            let ((single, few), (double, some)) = (floor::<f32>(n, pressure), floor::<f64>(n, pressure));
-            println!("{n} {pressure}: f32 {single:.1e} after {few}, f64 {double:.1e} after {some}");
+            let ((single, few, gap), (double, some, exact)) = (floor::<f32>(n, pressure), floor::<f64>(n, pressure));
+            let (truly, rounded) = (certified(n, &gap), certified(n, &exact.mapv(|g| f64::from(g as f32))));
+            println!(
+                "{n} {pressure}: f32 {single:.1e} after {few}, in f64 {truly:.1e}, the answer rounded {rounded:.1e}; \
+                 f64 {double:.1e} after {some}"
+            );
         }
     }
 }

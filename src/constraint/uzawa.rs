@@ -26,11 +26,14 @@ use crate::real::Real;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Uzawa<T> {
     /// The largest change of a multiplier, relative to the largest multiplier, with which the outer iterations end;
-    /// 1e-6 unless changed, in `f32` a thousand times its rounding, 1.2e-4.
+    /// 1e-6 unless changed, in `f32` a thousand times its rounding, 1.2e-4. A solve to a larger tolerance than this leaves the
+    /// multipliers no more certain than itself: then its tolerance counts.
     pub tolerance: f64,
     /// How many outer iterations there may be before the solve ends without having converged; 100 unless changed.
     pub max_outer_iterations: usize,
     stiffness: T,
+    /// the tolerance of the solve
+    solved_to: f64,
     multipliers: Array2<T>,
     outer_iterations: usize,
 }
@@ -44,7 +47,7 @@ impl<T: Real> Uzawa<T> {
         Error::positive("penalty stiffness", stiffness.widen())?;
         let tolerance = (1e3 * T::epsilon().widen()).max(1e-6);
         let multipliers = Array2::zeros((0, 0));
-        Ok(Self { tolerance, max_outer_iterations: 100, stiffness, multipliers, outer_iterations: 0 })
+        Ok(Self { tolerance, max_outer_iterations: 100, stiffness, solved_to: 0.0, multipliers, outer_iterations: 0 })
     }
 
     /// How often the multipliers of the last solve were updated.
@@ -66,7 +69,8 @@ impl<T: Real> ContactConstraint<T> for Uzawa<T> {
     fn projects(&self) -> bool {
         false
     }
-    fn start(&mut self, grid: &Grid) -> Result<()> {
+    fn start(&mut self, grid: &Grid, tolerance: f64) -> Result<()> {
+        self.solved_to = tolerance;
         self.multipliers = Array2::zeros(grid.shape());
         self.outer_iterations = 0;
         Ok(())
@@ -90,7 +94,7 @@ impl<T: Real> ContactConstraint<T> for Uzawa<T> {
             largest = largest.max(next);
             *multiplier = next;
         }
-        if change.widen() <= self.tolerance * largest.widen() {
+        if change.widen() <= self.tolerance.max(self.solved_to) * largest.widen() {
             Outer::Done
         } else if self.outer_iterations >= self.max_outer_iterations {
             Outer::Failed

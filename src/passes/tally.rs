@@ -119,3 +119,94 @@ pub(super) fn released<T: Real>(fields: &mut Fields<T>, at_contact: T, release: 
         },
     )
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::field::Reducer;
+    use crate::passes::Passes;
+
+    /// Neither law nor springs.
+    struct Nothing;
+
+    impl Local<f32> for Nothing {
+        fn is_zero(&self) -> bool {
+            true
+        }
+        fn projects(&self) -> bool {
+            true
+        }
+        fn evaluate(&self, _: Of, _: usize, _: &[f32], out: &mut [f32]) {
+            out.fill(0.0);
+        }
+        fn tractions_and_slopes(&self, _: usize, _: &[f32], tractions: &mut [f32], slopes: &mut [f32]) {
+            tractions.fill(0.0);
+            slopes.fill(0.0);
+        }
+        fn law(&self, _: Of, _: &[f32], out: &mut [f32]) {
+            out.fill(0.0);
+        }
+        fn pressed(&self, _: usize, _: &[f32]) -> [f64; 2] {
+            [0.0; 2]
+        }
+    }
+
+    /// A number of 24 bits for each node, which `f32` holds exactly.
+    fn bits(node: usize, seed: u64) -> i64 {
+        let mut x = (node as u64 ^ seed << 40).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+        x = (x ^ x >> 29).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        (x >> 40) as i64
+    }
+
+    /// Sums over n² nodes beside those of integers. Runs of 256 chunks of 256 nodes leave less than three times 256
+    /// roundings in a sum, however many nodes there are.
+    fn sums_are_accurate(n: usize) {
+        const UNIT: f64 = 1.0 / (1 << 24) as f64;
+        let gap = |i: usize| if i % 3 == 0 { 0 } else { bits(i, 1) };
+        let pressure = |i: usize| bits(i, 2) - (1 << 22);
+        let surface = |i: usize| bits(i, 3) - (1 << 21);
+        let field = |value: &dyn Fn(usize) -> i64| {
+            Array2::from_shape_fn((n, n), |(i, j)| (value(n * i + j) as f64 * UNIT) as f32)
+        };
+        let none = || Array2::zeros((0, 0));
+        let mut fields = Fields {
+            reducer: Reducer::new(n * n),
+            gap: field(&gap),
+            pressure: field(&pressure),
+            residual: none(),
+            preconditioned: none(),
+            change: none(),
+        };
+        let tally = Tally::new(&f32::tally(&mut fields, &Nothing, 0.0, &field(&surface)));
+        let [mut free, mut sum_r, mut sum_gap, mut sum_gp, mut sum_gh] = [0_i128; 5];
+        for i in 0..n * n {
+            let [g, p, h] = [gap(i), pressure(i), surface(i)].map(i128::from);
+            if g > 0 {
+                (free, sum_r) = (free + 1, sum_r + p);
+            }
+            (sum_gap, sum_gp, sum_gh) = (sum_gap + g, sum_gp + g * p, sum_gh + g * h);
+        }
+        assert_eq!((tally.free, tally.contact), (free as f64, (n * n) as f64 - free as f64));
+        for (found, exact, unit) in [
+            (tally.sum_r, sum_r, UNIT),
+            (tally.sum_gap, sum_gap, UNIT),
+            (tally.sum_gp, sum_gp, UNIT * UNIT),
+            (tally.work - tally.sum_gp, sum_gh, UNIT * UNIT),
+        ] {
+            let exact = exact as f64 * unit;
+            assert!((found - exact).abs() <= 768.0 * f64::EPSILON * exact.abs(), "{found:e} is not {exact:e}");
+        }
+    }
+
+    #[test]
+    fn sums_of_f32_are_accurate() {
+        sums_are_accurate(1);
+        sums_are_accurate(700);
+    }
+
+    #[test]
+    #[ignore = "3.2 GB: cargo test --release --lib sums_of_f32 -- --ignored"]
+    fn sums_of_f32_are_accurate_over_16384_by_16384_nodes() {
+        sums_are_accurate(16384);
+    }
+}

@@ -17,6 +17,10 @@ const START: f64 = 1e-4;
 /// Iterations without progress after which the direction is dropped, and after which the solve has stalled.
 const STALL: (usize, usize) = (10, 30);
 
+/// The same where the error is no more than so many times that of rounding.
+const STALL_AT_FLOOR: (usize, usize) = (3, 6);
+const NEAR_FLOOR: f64 = 2.0;
+
 /// The same for [`Method::Rey2017`], whose energy and residual need not fall.
 const STALL_REY2017: (usize, usize) = (400, 800);
 
@@ -36,6 +40,17 @@ where
         if self.certificate == 0.0 {
             return 0.0;
         }
+        let (scale, rounding) = self.error_scale();
+        let error = (self.certificate.max(rounding) / scale).sqrt();
+        if error.is_nan() { f64::INFINITY } else { error }
+    }
+
+    /// What a certificate is related to, the mean of u·p; and the least certificate that rounding leaves of any worth.
+    ///
+    /// The pressure is the sum of K⁻¹h and K⁻¹g, each rounded in the precision of the fields, and carries that rounding
+    /// where these nearly cancel each other. In the energy norm that is about ε²(⟨h, K⁻¹h⟩ + ½kḡ(ḡ + h_rms)), with k the
+    /// stiffness of the shortest wave, as a transform spreads the rounding of a gap evenly over all waves.
+    fn error_scale(&self) -> (f64, f64) {
         let epsilon = T::epsilon().widen();
         // u·p is the small difference of large sums for light loads: what may be their rounding does not count
         let rounding = 8.0 * (epsilon / self.nodes().sqrt() + f64::EPSILON) * self.problem.surface_work;
@@ -43,13 +58,22 @@ where
         let apart = if self.tally.contact > 0.0 { 0.0 } else { self.problem.surface_work };
         // flats that attract each other have no waves but those of rounding
         let traction = self.tally.traction / self.nodes();
-        let softest = self.problem.operator.stiffness_range().0;
+        let (softest, stiffest) = self.problem.operator.stiffness_range();
         // and so have flats that are held apart
         let lifted = if self.tally.contact > 0.0 { 0.0 } else { self.tally.sum_gap / self.nodes() };
         let flat =
             if softest > 0.0 { epsilon * (traction * traction / softest + softest * lifted * lifted) } else { 0.0 };
-        let error = (self.certificate / touching.max(apart).max(flat)).sqrt();
-        if error.is_nan() { f64::INFINITY } else { error }
+        let waves = touching.max(apart);
+        let mean = (self.tally.sum_gap / self.nodes()).abs();
+        let carried = self.problem.surface_work + 0.5 * stiffest * mean * (mean + self.problem.rms_height);
+        (waves.max(flat), if waves >= flat { epsilon * epsilon * carried } else { 0.0 })
+    }
+
+    /// Whether rounding is all that is left of the residual: further iterations would only shuffle it.
+    pub(super) fn is_at_floor(&self) -> bool {
+        let (scale, rounding) = self.error_scale();
+        let floor = (rounding / scale).sqrt();
+        self.certificate <= NEAR_FLOOR * NEAR_FLOOR * rounding && self.load_error() <= NEAR_FLOOR * floor
     }
 
     pub(super) fn load_error(&self) -> f64 {
@@ -139,6 +163,7 @@ where
         self.best_error = self.best_error.min(error);
         self.lowest_energy = self.lowest_energy.min(energy);
         let (restart, stall) = match self.settings.method {
+            Method::Preconditioned if self.is_at_floor() => STALL_AT_FLOOR,
             Method::Preconditioned => STALL,
             Method::Rey2017 => STALL_REY2017,
         };
@@ -146,6 +171,18 @@ where
             (self.momentum, self.residual_norm) = (None, None);
         }
         (self.idle >= stall).then_some(Status::Stalled)
+    }
+
+    /// Computes the pressure anew, once, where a solve would stall with one that it has only updated for long: what that has
+    /// gathered of rounding may be most of what is left; `false` if it has not.
+    pub(super) fn renew(&mut self) -> Result<bool> {
+        let due = self.age > STALL_AT_FLOOR.1 && !self.renewed && self.settings.method == Method::Preconditioned;
+        if due {
+            self.refresh()?;
+            self.restart();
+            self.renewed = true;
+        }
+        Ok(due)
     }
 
     /// Whether a tensile load has pulled the surfaces apart: no contact, and hardly any traction left to hold them.

@@ -26,6 +26,9 @@ const WHOLE: f64 = 0.7;
 const SHORT: f64 = 0.01;
 const SHORTENINGS: usize = 8;
 
+/// A trial length below which a step that fails is tried anew at full length.
+const SHORTEST: f64 = 1e-2;
+
 /// How many times its trial length a step may take: the mean gap has no elastic curvature to limit it.
 const FARTHEST: f64 = 10.0;
 
@@ -87,10 +90,25 @@ where
 {
     /// A step along the projected, conjugate, preconditioned residual; `false` if no step lowers the energy.
     pub(super) fn preconditioned_step(&mut self) -> Result<bool> {
+        let length = self.step_length;
+        if self.try_step()? {
+            return Ok(true);
+        }
+        if length >= SHORTEST || self.is_at_floor() {
+            return Ok(false);
+        }
+        // what is shorter than the last digit of a gap is no step
+        (self.step_length, self.momentum) = (1.0, None);
+        self.residual();
+        self.certify()?;
+        self.try_step()
+    }
+
+    fn try_step(&mut self) -> Result<bool> {
         let (mut centre, mut momentum) = self.direction();
         for _ in 0..SHORTENINGS {
             let trial_length = self.step_length;
-            let Some(trial) = self.descend(&mut centre, momentum.take()) else { return Ok(false) };
+            let Some(trial) = self.descend(&mut centre, &mut momentum) else { return Ok(false) };
             let Fields { change, residual: response, .. } = &mut self.fields;
             let elastic = self.problem.operator.pressure_and_work(change.view(), response.view_mut())?;
             self.applications += 1;
@@ -99,8 +117,10 @@ where
                 self.advance(&step);
                 return Ok(true);
             }
-            // so short a part would leave the nodes that should land hanging: clip a shorter step instead
-            self.step_length = trial_length * step.length.max(1e-3);
+            // so short a part would leave the nodes that should land hanging: clip a step without the last change
+            // instead, or a shorter one
+            let shorten = if momentum.take().is_some() { 1.0 } else { step.length.max(1e-3) };
+            self.step_length = trial_length * shorten;
             self.residual();
         }
         Ok(false)
@@ -123,9 +143,9 @@ where
     /// Clipping and scaling can turn a step uphill. Then it is tried without the last change; then the nodes that
     /// the gradient drives into contact are put there, alone; or, if there are none, nodes that the gradient releases
     /// but the preconditioner presses are held, and the step is shortened.
-    fn descend(&mut self, centre: &mut f64, mut momentum: Option<Momentum>) -> Option<Trial> {
+    fn descend(&mut self, centre: &mut f64, momentum: &mut Option<Momentum>) -> Option<Trial> {
         for _ in 0..ATTEMPTS {
-            let trial = self.trial(*centre, momentum);
+            let trial = self.trial(*centre, *momentum);
             if trial.slope < 0.0 {
                 return Some(trial);
             }

@@ -110,8 +110,8 @@ pub struct Report {
     /// Without adhesion it bounds the distance from the exact discrete solution (under pressure control: the one at the
     /// same mean gap). With adhesion it measures how far the state is from equilibrium, and bounds the error
     /// where that equilibrium is stable. As long as no node is in contact, ⟨h, K⁻¹h⟩ stands for a smaller ⟨u, p⟩, which
-    /// may vanish then; and ⟨u, p⟩ counts less what rounding may have added to it, so that the error is not
-    /// understated for the lightest loads.
+    /// may vanish then; and ⟨u, p⟩ counts less what rounding may have added to it, and the error is never less than
+    /// the rounding of the pressure alone makes it, so that it is not understated for the lightest loads.
     pub relative_error: f64,
     /// Under pressure control, the residual of the load relative to the larger of |p̄| and the mean contact pressure
     /// (and to no less than 1e-6 of the pressure that presses the surface flat); zero under gap control.

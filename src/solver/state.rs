@@ -82,6 +82,8 @@ pub(super) struct State<'a, T, O, L, C> {
     pub(super) best_error: f64,
     pub(super) lowest_energy: f64,
     pub(super) idle: usize,
+    /// whether the pressure was computed anew where rounding was all that was left
+    pub(super) renewed: bool,
     /// whether the jumps of the law are smoothed
     pub(super) smoothed: bool,
     /// the load that pulled the surfaces apart
@@ -103,7 +105,7 @@ where
         settings: Settings,
     ) -> Result<Self> {
         let shape = problem.grid().shape();
-        constraint.start(problem.grid())?;
+        constraint.start(problem.grid(), settings.tolerance)?;
         let (name, value) = match control {
             Control::MeanGap(gap) => ("mean gap", Error::non_negative("mean gap", gap)?),
             Control::MeanPressure(pressure) => ("mean pressure", Error::finite("mean pressure", pressure)?),
@@ -152,6 +154,7 @@ where
             best_error: f64::INFINITY,
             lowest_energy: f64::INFINITY,
             idle: 0,
+            renewed: false,
             smoothed: false,
             detached: None,
         };
@@ -305,6 +308,7 @@ where
     pub(super) fn restart(&mut self) {
         (self.momentum, self.residual_norm) = (None, None);
         (self.best_error, self.lowest_energy, self.idle) = (f64::INFINITY, f64::INFINITY, 0);
+        self.renewed = false;
         self.count();
     }
 

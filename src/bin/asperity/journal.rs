@@ -202,9 +202,8 @@ fn resume(
         }
         Err(e) => return refuse(format!("cannot be continued, {} cannot be read ({e})", state.display())),
     };
-    let Some((theirs, written, count, numbers)) = parse(&comment) else {
-        return refuse(format!("cannot be continued, {} is damaged", state.display()));
-    };
+    let damaged = || refuse(format!("cannot be continued, {} is damaged", state.display()));
+    let Some((theirs, written, count, numbers)) = parse(&comment) else { return damaged() };
     for (key, here) in identity {
         let there = theirs.get(key).unwrap_or(&Value::Null);
         if there != here {
@@ -236,9 +235,14 @@ fn resume(
     }
     let mut gaps = Vec::new();
     if written.rows > 0 {
-        let stack = read_field(&state)?;
+        let Ok(stack) = read_field(&state) else { return damaged() };
         let rows = stack.nrows().checked_div(count).unwrap_or_default().max(1);
         gaps.extend(stack.axis_chunks_iter(Axis(0), rows).map(|gap| gap.to_owned()));
+        let shape = |gap: &Array2<f64>| Value::from(format!("{} {}", gap.nrows(), gap.ncols()));
+        let fits = |gap: &Array2<f64>| theirs.get("shape") == Some(&shape(gap)) && gap.iter().all(|g| g.is_finite());
+        if gaps.len() != count || !gaps.iter().all(fits) {
+            return damaged();
+        }
     }
     Ok((written, gaps, numbers))
 }
@@ -266,10 +270,11 @@ fn save<T: WritableElement + Clone>(
         "content": written.content.to_string(),
         "numbers": numbers.iter().map(|number| format!("{:016x}", number.to_bits())).collect::<Vec<_>>(),
         "sweep": identity,
-    });
+    })
+    .to_string();
     let write = || -> Outcome<()> {
         let mut zip = ZipWriter::new(BufWriter::new(File::create(&temporary)?));
-        zip.set_comment(comment.to_string());
+        zip.set_comment(format!("{comment}\n{}", Hash::NEW.of(comment.as_bytes())));
         if !gaps.is_empty() {
             let stack = ndarray::concatenate(Axis(0), gaps)?;
             let large = stack.len() as u64 * size_of::<T>() as u64 > u64::from(u32::MAX) / 2;
@@ -279,14 +284,24 @@ fn save<T: WritableElement + Clone>(
         }
         let file = zip.finish()?.into_inner().map_err(io::IntoInnerError::into_error)?;
         file.sync_all()?;
-        Ok(fs::rename(&temporary, &state)?)
+        fs::rename(&temporary, &state)?;
+        // or the next row might reach the disk before the name does
+        let folder = state.parent().filter(|folder| *folder != Path::new("")).unwrap_or(Path::new("."));
+        if cfg!(unix) {
+            File::open(folder)?.sync_all()?;
+        }
+        Ok(())
     };
     write().map_err(|e| Error::file(&state, format!("cannot be written: {e}")).into())
 }
 
 /// To what a state belongs, how far it is, how many gaps it has, and its numbers.
 fn parse(comment: &[u8]) -> Option<(Identity, Written, usize, Vec<f64>)> {
-    let state: Value = serde_json::from_slice(comment).ok()?;
+    let (comment, check) = std::str::from_utf8(comment).ok()?.rsplit_once('\n')?;
+    if check != Hash::NEW.of(comment.as_bytes()).to_string() {
+        return None;
+    }
+    let state: Value = serde_json::from_str(comment).ok()?;
     let number = |key: &str| state.get(key)?.as_u64();
     let hash = |key: &str| Some(Hash(u64::from_str_radix(state.get(key)?.as_str()?, 16).ok()?));
     let written = Written {
@@ -432,6 +447,16 @@ mod tests {
         for length in 0..state.len() {
             fs::write(state_path(&path), &state[..length]).unwrap();
             assert!(reason(open(&path, &LOADS)).contains("is damaged"));
+        }
+        for at in (0..state.len()).step_by(5) {
+            let mut state = state.clone();
+            state[at] ^= 0x15;
+            fs::write(state_path(&path), state).unwrap();
+            // not every byte of an archive matters
+            if let Ok((journal, gaps)) = open(&path, &LOADS) {
+                assert_eq!((journal.rows(), journal.unconverged(), &gaps[1]), (3, 1, &array![[3.0], [5.0]]));
+            }
+            assert_eq!(fs::read_to_string(&path).unwrap(), whole);
         }
         fs::remove_file(state_path(&path)).unwrap();
         let refused = reason(open(&path, &LOADS));

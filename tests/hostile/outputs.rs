@@ -1,0 +1,129 @@
+//! Damaged states of sweeps and cycles, and folders that cannot be written.
+
+use std::fs;
+use std::os::unix::fs::PermissionsExt;
+use std::path::Path;
+use std::process::Output;
+
+use crate::tool::{GIGABYTE, assert_orderly, bench, limited, names, words};
+
+const SWEEP: &str = "sweep --heights heights.npy --mean-gaps 0.04:0.038:3 --quiet --out table.csv";
+const CYCLE: &str = "cycle --heights heights.npy --law exponential --work-of-adhesion 1e-4 --range 1e-2 \
+                     --mean-gaps 0.045,0.043 --steps 3 --quiet --out table.csv";
+
+fn run(folder: &Path, command: &str) -> Output {
+    let output = limited(folder, GIGABYTE, "200000", &words(command));
+    assert_orderly(&output, command);
+    output
+}
+
+/// The same with the first of some bytes in the place of others.
+fn patched(bytes: &[u8], old: &[u8], new: &[u8]) -> Vec<u8> {
+    assert_eq!(old.len(), new.len());
+    let at = bytes.windows(old.len()).position(|window| window == old).unwrap();
+    [&bytes[..at], new, &bytes[at + old.len()..]].concat()
+}
+
+/// The same with four bytes at a place behind a mark.
+fn claims(bytes: &[u8], mark: &[u8], behind: usize, value: u32) -> Vec<u8> {
+    let at = bytes.windows(mark.len()).position(|window| window == mark).unwrap() + behind;
+    [&bytes[..at], &value.to_le_bytes(), &bytes[at + 4..]].concat()
+}
+
+#[test]
+fn damaged_states_are_refused_and_the_table_is_kept() {
+    for command in [SWEEP, CYCLE] {
+        let (bench, other) = (bench(16), bench(18));
+        for bench in [&bench, &other] {
+            assert_eq!(run(bench.path(), command).status.code(), Some(0), "{command}");
+        }
+        let (table, path) = (bench.path().join("table.csv"), bench.path().join("table.csv.state.npz"));
+        let (whole, state) = (fs::read(&table).unwrap(), fs::read(&path).unwrap());
+        let foreign = fs::read(other.path().join("table.csv.state.npz")).unwrap();
+        let text = String::from_utf8_lossy(&state);
+        let (_, shape) = text.split_once("'shape': (").unwrap();
+        let (shape, _) = shape.split_once('\n').unwrap();
+        let wide = format!("{:<1$}", "4000000000, 16), }", shape.len());
+        for (what, damaged) in [
+            ("empty", Vec::new()),
+            ("text", b"load,answer\n1,2\n".to_vec()),
+            ("half", state[..state.len() / 2].to_vec()),
+            ("without its last byte", state[..state.len() - 1].to_vec()),
+            ("of another surface", foreign),
+            ("rows", patched(&state, b"\"rows\":", b"\"sows\":")),
+            ("gaps", patched(&state, b"\"gaps\":", b"\"gaps\";")),
+            ("a digit", [&state[..state.len() - 1], &[state[state.len() - 1] ^ 1]].concat()),
+            ("a huge shape", patched(&state, shape.as_bytes(), wide.as_bytes())),
+            ("a huge array", claims(&state, b"PK\x01\x02", 24, u32::MAX - 15)),
+            (
+                "a huge array in few bytes",
+                claims(&claims(&state, b"PK\x01\x02", 24, u32::MAX - 15), b"PK\x01\x02", 20, u32::MAX - 15),
+            ),
+            ("a number of a gap", patched(&state, &state[300..304], &[0x55, 0xaa, 0x55, 0xaa])),
+        ] {
+            fs::write(&path, &damaged).unwrap();
+            let output = run(bench.path(), command);
+            let error = String::from_utf8_lossy(&output.stderr);
+            assert_eq!(output.status.code(), Some(1), "{command}, {what}: {error}");
+            assert!(error.contains("table.csv") && error.contains("--force"), "{command}, {what}: {error}");
+            assert!(fs::read(&table).unwrap() == whole && fs::read(&path).unwrap() == damaged, "{command}, {what}");
+        }
+        fs::remove_file(&path).unwrap();
+        fs::create_dir(&path).unwrap();
+        assert_eq!(run(bench.path(), command).status.code(), Some(1));
+        assert!(fs::read(&table).unwrap() == whole);
+    }
+}
+
+const OUTPUTS: [&str; 9] = [
+    "solve --heights heights.npy --mean-gap 0.0398 --out",
+    "sweep --heights heights.npy --mean-gaps 0.04 --format csv --out",
+    "sweep --heights heights.npy --mean-gaps 0.04 --out sweep.csv --fields",
+    "cycle --heights heights.npy --mean-gaps 0.04,0.039 --steps 1 --out",
+    "cycle --heights heights.npy --mean-gaps 0.04,0.039 --steps 1 --out cycle.csv --plot",
+    "surface --size 16 --rms-slope 0.1 --k-s 6 --out",
+    "surface --size 16 --rms-slope 0.1 --k-s 6 --out rough.npy --psd",
+    "stats heights.npy --psd",
+    "demo --out",
+];
+
+/// The name of an output in a folder, with an ending that the command takes.
+fn below(folder: &str, command: &str) -> String {
+    let ending = match command {
+        _ if command.ends_with("--plot") => ".png",
+        _ if command.starts_with("cycle") => ".csv",
+        _ => "",
+    };
+    format!("{command} {folder}/results{ending}")
+}
+
+#[test]
+fn nothing_is_written_below_a_file() {
+    for command in OUTPUTS {
+        let bench = bench(16);
+        let output = run(bench.path(), &below("heights.npy", command));
+        let error = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(1), "{command}: {error}");
+        assert!(error.contains("heights.npy"), "{command}: {error}");
+        assert!(!names(bench.path()).iter().any(|name| name == "rough.npy"), "{command}");
+    }
+}
+
+#[test]
+fn folders_without_permission_are_refused() {
+    for command in OUTPUTS {
+        let bench = bench(16);
+        let folder = bench.path().join("locked");
+        fs::create_dir(&folder).unwrap();
+        fs::set_permissions(&folder, fs::Permissions::from_mode(0o555)).unwrap();
+        if fs::write(folder.join("probe"), "").is_ok() {
+            eprintln!("skipped: permissions do not bind this user");
+            return;
+        }
+        let output = run(bench.path(), &below("locked", command));
+        let error = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(1), "{command}: {error}");
+        assert!(error.contains("locked") && names(&folder).is_empty(), "{command}: {error}");
+        fs::set_permissions(&folder, fs::Permissions::from_mode(0o755)).unwrap();
+    }
+}
