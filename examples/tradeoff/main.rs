@@ -1,0 +1,87 @@
+//! What accuracy costs: true errors against time and operator applications.
+//!
+//! ```text
+//! cargo run --release --example tradeoff -- [--quick] [--scene NAME] [--threads N] [--out DIR]
+//! ```
+//!
+//! Four scenes: `hertz`, a paraboloid among its images; `wave`, Westergaard's wave on a line; `rough`, a self-affine hard
+//! wall; and `adhesive`, the same with an exponential law. The first two have exact solutions, the others a reference converged to
+//! 1e-12 on a grid finer than all others. On each grid everything that a user may choose is tried: tolerance, precision, nested grids,
+//! preset. Errors are relative, and root mean squares over a few loads, as the error of an area depends on how the edge falls
+//! between the nodes. The discretisation error is that of what is converged to 1e-12 on the grid against the truth, the solver error that of what was
+//! found against what is converged, and the true error that of what was found against the truth.
+//!
+//! Counts and errors are deterministic. Times are medians of repetitions, on one thread unless `--threads` says otherwise; the references
+//! are computed on all. `--quick` takes small grids and some seconds, the others a few minutes. The pictures go to
+//! `target/figures` unless `--out` says where.
+
+mod choice;
+mod error;
+mod front;
+mod scene;
+mod table;
+
+use std::path::PathBuf;
+
+use choice::Choice;
+use rayon::ThreadPoolBuilder;
+use scene::Scene;
+
+type Outcome<T> = Result<T, Box<dyn std::error::Error + Send + Sync>>;
+
+struct Options {
+    quick: bool,
+    scene: Option<String>,
+    threads: usize,
+    out: PathBuf,
+}
+
+impl Options {
+    fn read() -> Outcome<Self> {
+        let mut options = Self { quick: false, scene: None, threads: 1, out: "target/figures".into() };
+        let mut arguments = std::env::args().skip(1);
+        while let Some(name) = arguments.next() {
+            if name == "--quick" {
+                options.quick = true;
+                continue;
+            }
+            let value = arguments.next().ok_or_else(|| format!("{name}: a value must follow"))?;
+            match name.as_str() {
+                "--scene" => options.scene = Some(value),
+                "--threads" => options.threads = value.parse().map_err(|e| format!("--threads {value}: {e}"))?,
+                "--out" => options.out = value.into(),
+                _ => return Err(format!("{name}: the options are --quick, --scene, --threads and --out").into()),
+            }
+        }
+        Ok(options)
+    }
+}
+
+fn main() -> Outcome<()> {
+    let options = Options::read()?;
+    let mut scenes = Scene::all(options.quick)?;
+    let names: Vec<_> = scenes.iter().map(|scene| scene.name).collect();
+    if let Some(name) = &options.scene {
+        scenes.retain(|scene| scene.name == name);
+        if scenes.is_empty() {
+            return Err(format!("--scene {name}: the scenes are {}", names.join(", ")).into());
+        }
+    }
+    std::fs::create_dir_all(&options.out)?;
+    let pool = ThreadPoolBuilder::new().num_threads(options.threads).build()?;
+    println!("Threads: {}. Errors are root mean squares over the loads.", options.threads);
+    for scene in &mut scenes {
+        scene.prepare()?;
+        println!("\n== {}: {}; {} loads, lengths in {}", scene.name, scene.title, scene.loads.len(), scene.length_name);
+        if let Some(finest) = scene.finest() {
+            println!("reference: {finest}², converged to 1e-12");
+        }
+        let scene = &*scene;
+        let grids = pool.install(|| error::on_grids(scene, |n| Choice::all(n, options.quick)))?;
+        table::discretisation(scene, &grids);
+        table::rows(scene, &grids);
+        table::worth(scene, &grids);
+        table::targets(scene, &grids);
+    }
+    Ok(())
+}
