@@ -8,14 +8,14 @@ use ndarray::Array2;
 use crate::Outcome;
 use crate::scene::{Scene, State};
 
-/// How far `f32` goes before `f64` takes over.
-const HANDOVER: f64 = 1e-4;
+/// How far `f32` goes before `f64` takes over: above the rounding floor of light contacts of smooth bodies, where it would stall.
+const HANDOVER: f64 = 1e-3;
 /// The largest grid that has no coarser ones below it.
 const COARSEST: usize = 64;
 /// The largest grid for Algorithm 3, whose applications grow with the number of nodes along a side.
 const SLOW: usize = 256;
 /// Where a solve is repeated no more, in seconds.
-const LONG: f64 = 0.5;
+const LONG: f64 = 0.2;
 
 #[derive(Clone, Copy, PartialEq)]
 pub enum Precision {
@@ -48,7 +48,7 @@ impl Choice {
         for (precision, tolerances) in [
             (Precision::Double, &[1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-8][..]),
             (Precision::Single, &[1e-2, 1e-3, 1e-4, 1e-5]),
-            (Precision::Mixed, &[1e-5, 1e-6, 1e-8]),
+            (Precision::Mixed, &[1e-5, 1e-6]),
         ] {
             for nested in [false, true].into_iter().filter(|nested| !nested || n > COARSEST) {
                 let choice = |tolerance| Self { precision, nested, ..Self::sharp(tolerance) };

@@ -1,23 +1,25 @@
 //! What accuracy costs: true errors against time and operator applications.
 //!
 //! ```text
-//! cargo run --release --example tradeoff -- [--quick] [--scene NAME] [--threads N] [--out DIR]
+//! cargo run --release --example tradeoff -- [--quick] [--scene NAME] [--threads N] [--reference N] [--out DIR]
 //! ```
 //!
 //! Four scenes: `hertz`, a paraboloid among its images; `wave`, Westergaard's wave on a line; `rough`, a self-affine hard
 //! wall; and `adhesive`, the same with an exponential law. The first two have exact solutions, the others a reference converged to
 //! 1e-12 on a grid finer than all others. On each grid everything that a user may choose is tried: tolerance, precision, nested grids,
-//! preset. Errors are relative, and root mean squares over a few loads, as the error of an area depends on how the edge falls
+//! preset (`rey2017` on small grids only). Errors are relative, and root mean squares over a few loads, as the error of an area depends on how the edge falls
 //! between the nodes. The discretisation error is that of what is converged to 1e-12 on the grid against the truth, the solver error that of what was
 //! found against what is converged, and the true error that of what was found against the truth.
 //!
 //! Counts and errors are deterministic. Times are medians of repetitions, on one thread unless `--threads` says otherwise; the references
-//! are computed on all. `--quick` takes small grids and some seconds, the others a few minutes. The pictures go to
+//! are computed on all. `--quick` takes small grids and some seconds; without it all takes a few minutes, most of them for the references,
+//! whose grid `--reference` chooses (4096 unless given). The pictures go to
 //! `target/figures` unless `--out` says where.
 
 mod choice;
 mod error;
 mod front;
+mod picture;
 mod scene;
 mod table;
 
@@ -33,12 +35,13 @@ struct Options {
     quick: bool,
     scene: Option<String>,
     threads: usize,
+    reference: Option<usize>,
     out: PathBuf,
 }
 
 impl Options {
     fn read() -> Outcome<Self> {
-        let mut options = Self { quick: false, scene: None, threads: 1, out: "target/figures".into() };
+        let mut options = Self { quick: false, scene: None, threads: 1, reference: None, out: "target/figures".into() };
         let mut arguments = std::env::args().skip(1);
         while let Some(name) = arguments.next() {
             if name == "--quick" {
@@ -49,8 +52,19 @@ impl Options {
             match name.as_str() {
                 "--scene" => options.scene = Some(value),
                 "--threads" => options.threads = value.parse().map_err(|e| format!("--threads {value}: {e}"))?,
+                "--reference" => {
+                    let n: usize = value.parse().map_err(|e| format!("--reference {value}: {e}"))?;
+                    if !n.is_power_of_two() || n < 256 {
+                        return Err(format!("--reference {value}: must be a power of two, and no less than 256").into());
+                    }
+                    options.reference = Some(n);
+                }
                 "--out" => options.out = value.into(),
-                _ => return Err(format!("{name}: the options are --quick, --scene, --threads and --out").into()),
+                _ => {
+                    return Err(
+                        format!("{name}: the options are --quick, --scene, --threads, --reference and --out").into()
+                    );
+                }
             }
         }
         Ok(options)
@@ -59,7 +73,7 @@ impl Options {
 
 fn main() -> Outcome<()> {
     let options = Options::read()?;
-    let mut scenes = Scene::all(options.quick)?;
+    let mut scenes = Scene::all(options.quick, options.reference)?;
     let names: Vec<_> = scenes.iter().map(|scene| scene.name).collect();
     if let Some(name) = &options.scene {
         scenes.retain(|scene| scene.name == name);
@@ -71,17 +85,17 @@ fn main() -> Outcome<()> {
     let pool = ThreadPoolBuilder::new().num_threads(options.threads).build()?;
     println!("Threads: {}. Errors are root mean squares over the loads.", options.threads);
     for scene in &mut scenes {
-        scene.prepare()?;
         println!("\n== {}: {}; {} loads, lengths in {}", scene.name, scene.title, scene.loads.len(), scene.length_name);
-        if let Some(finest) = scene.finest() {
-            println!("reference: {finest}², converged to 1e-12");
-        }
+        scene.prepare()?;
         let scene = &*scene;
         let grids = pool.install(|| error::on_grids(scene, |n| Choice::all(n, options.quick)))?;
         table::discretisation(scene, &grids);
         table::rows(scene, &grids);
         table::worth(scene, &grids);
         table::targets(scene, &grids);
+        let path = options.out.join(format!("tradeoff-{}.svg", scene.name));
+        picture::draw(&path, scene, &grids)?;
+        println!("drawn in {}", path.display());
     }
     Ok(())
 }

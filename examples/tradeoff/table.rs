@@ -18,7 +18,7 @@ fn percent(error: f64) -> String {
 pub fn discretisation(scene: &Scene, grids: &[OnGrid]) {
     println!("\nDiscretisation error in %: what is converged on the grid, against the truth");
     println!(
-        "{:>6} {:>10} {:>6} | {:>9} {:>9} | {:>9} {:>9} {:>12} {:>12}",
+        "{:>6} {:>10} {:>6} | {:>9} {:>13} | {:>9} {:>9} {:>14} {:>14}",
         "nodes",
         "per length",
         "μ_ρ",
@@ -26,14 +26,14 @@ pub fn discretisation(scene: &Scene, grids: &[OnGrid]) {
         scene.answer_name(),
         "counted",
         "corrected",
-        "2·c(n)−c(n/2)",
+        "2A(n)-A(n/2)",
         "the same, corr."
     );
     for grid in grids {
         let e = &grid.discretisation;
         let [plain, corrected] = grid.extrapolated.map_or([const { String::new() }; 2], |both| both.map(percent));
         println!(
-            "{:>6} {:>10.1} {:>6.2} | {:>9} {:>9} | {:>9} {:>9} {plain:>12} {corrected:>12}",
+            "{:>6} {:>10.1} {:>6.2} | {:>9} {:>13} | {:>9} {:>9} {plain:>14} {corrected:>14}",
             grid.n,
             grid.n as f64 * scene.length,
             scene.resolution(grid.n),
