@@ -8,7 +8,8 @@ use ndarray::Array2;
 use crate::Outcome;
 use crate::scene::{Scene, State};
 
-/// How far `f32` goes before `f64` takes over: above the rounding floor of light contacts of smooth bodies, where it would stall.
+/// How far `f32` goes before `f64` takes over: above the rounding floor of light contacts of smooth bodies, on which it
+/// would stall.
 const HANDOVER: f64 = 1e-3;
 /// The largest grid that has no coarser ones below it.
 const COARSEST: usize = 64;

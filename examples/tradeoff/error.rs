@@ -44,6 +44,9 @@ impl Errors {
     }
 }
 
+/// One of the errors.
+pub type Part = fn(&Errors) -> f64;
+
 /// A grid of a scene.
 pub struct OnGrid {
     pub n: usize,
@@ -72,6 +75,12 @@ pub struct Row {
 impl Row {
     pub fn applications(&self) -> f64 {
         self.applications[0] + self.applications[1]
+    }
+
+    /// The error of the discretisation and that of the solver together, as if they never cancelled: a loose tolerance that
+    /// happens to make up for a coarse grid is no choice.
+    pub fn bound(&self, grid: &OnGrid, part: Part) -> f64 {
+        part(&grid.discretisation) + part(&self.solver)
     }
 
     /// Applications times nodes, in units of a million nodes in `f64`. In `f32` one moves half of the bytes, and counts half.

@@ -7,7 +7,7 @@ use plotters::prelude::*;
 
 use crate::Outcome;
 use crate::choice::Choice;
-use crate::error::{Errors, OnGrid, Row};
+use crate::error::{OnGrid, Part, Row};
 use crate::front::front;
 use crate::scene::Scene;
 use crate::table::pairs;
@@ -40,14 +40,14 @@ struct Series {
     line: bool,
 }
 
-/// Draws true errors in the energy norm (above) and of the contact area (below) over the tolerance, over the time, and over
+/// Draws errors, of the discretisation and of the solver added, in the energy norm (above) and of the contact area (below) over the tolerance, over the time, and over
 /// the work.
 pub fn draw(path: &Path, scene: &Scene, grids: &[OnGrid]) -> Outcome<()> {
     let root = SVGBackend::new(path, (1500, 900)).into_drawing_area();
     root.fill(&WHITE)?;
     let titled = root.titled(scene.title, ("sans-serif", 20))?;
     let panels = titled.split_evenly((2, 3));
-    let parts: [(&str, fn(&Errors) -> f64); 2] =
+    let parts: [(&str, Part); 2] =
         [("error of the displacement, energy norm", |e| e.energy), ("error of the contact area", |e| e.area)];
     for ((name, part), panels) in parts.iter().zip(panels.chunks(3)) {
         panel(&panels[0], ("tolerance (default, f64)", name), &over_tolerance(grids, *part), true)?;
@@ -60,20 +60,20 @@ pub fn draw(path: &Path, scene: &Scene, grids: &[OnGrid]) -> Outcome<()> {
 }
 
 /// One line for each grid, by the default in `f64`.
-fn over_tolerance(grids: &[OnGrid], part: fn(&Errors) -> f64) -> Vec<Series> {
+fn over_tolerance(grids: &[OnGrid], part: Part) -> Vec<Series> {
     let family = Choice::sharp(1.0).family();
     let lines = grids.iter().zip(GRIDS.into_iter().cycle()).map(|(grid, colour)| {
         let rows = grid.rows.iter().filter(|row| row.choice.family() == family);
-        let points = rows.map(|row| (row.choice.tolerance, part(&row.whole))).collect();
+        let points = rows.map(|row| (row.choice.tolerance, row.bound(grid, part))).collect();
         Series { name: format!("{} nodes", grid.n), colour, points, line: true }
     });
     lines.collect()
 }
 
 /// A cloud for each family, and the front of all that has converged.
-fn over(grids: &[OnGrid], part: fn(&Errors) -> f64, cost: fn(&OnGrid, &Row) -> f64) -> Vec<Series> {
+fn over(grids: &[OnGrid], part: Part, cost: fn(&OnGrid, &Row) -> f64) -> Vec<Series> {
     let converged: Vec<_> = pairs(grids).into_iter().filter(|(_, row)| row.converged).collect();
-    let point = |&(grid, row): &(&OnGrid, &Row)| (cost(grid, row), part(&row.whole));
+    let point = |&(grid, row): &(&OnGrid, &Row)| (cost(grid, row), row.bound(grid, part));
     let all: Vec<_> = converged.iter().map(point).collect();
     let mut best: Vec<_> = all.iter().zip(front(&all)).filter(|(_, on)| *on).map(|(point, _)| *point).collect();
     best.sort_by(|a, b| a.0.total_cmp(&b.0));

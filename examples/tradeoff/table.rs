@@ -1,7 +1,7 @@
 //! What is printed.
 
 use crate::choice::{Choice, Precision};
-use crate::error::{Errors, OnGrid, Row};
+use crate::error::{OnGrid, Part, Row};
 use crate::front::front;
 use crate::scene::Scene;
 
@@ -50,7 +50,9 @@ pub fn rows(scene: &Scene, grids: &[OnGrid]) {
     println!(
         "\nErrors in %: of the solver (against what is converged on the grid) and true; area corrected for its edge."
     );
-    println!("On a Pareto front of true energy (E) or area (A) error against time, or work (e, a); ! not converged");
+    println!(
+        "On a Pareto front of energy (E) or area (A) error, both added, against time, or work (e, a); ! not converged"
+    );
     println!(
         "{:>6} {:<22} {:>9} {:>12} {:>9} | {:>8} {:>8} | {:>8} {:>8} | {:>8} {:>8}",
         "nodes",
@@ -98,11 +100,11 @@ fn marks(grids: &[OnGrid]) -> Vec<String> {
     let all: Vec<(&OnGrid, &Row)> = pairs(grids);
     let mut marks = vec![String::new(); all.len()];
     let costs: [fn(&OnGrid, &Row) -> f64; 2] = [|_, row| row.seconds, |grid, row| row.work(grid)];
-    let errors: [fn(&Errors) -> f64; 2] = [|e| e.energy, |e| e.area];
+    let errors: [Part; 2] = [|e| e.energy, |e| e.area];
     for (cost, letters) in costs.iter().zip([["E", "A"], ["e", "a"]]) {
         for (error, letter) in errors.iter().zip(letters) {
             let point = |&(grid, row): &(&OnGrid, &Row)| {
-                (cost(grid, row), if row.converged { error(&row.whole) } else { f64::INFINITY })
+                (cost(grid, row), if row.converged { row.bound(grid, *error) } else { f64::INFINITY })
             };
             let on = front(&all.iter().map(point).collect::<Vec<_>>());
             marks.iter_mut().zip(on).filter(|(_, on)| *on).for_each(|(mark, _)| mark.push_str(letter));
@@ -126,7 +128,7 @@ pub fn worth(scene: &Scene, grids: &[OnGrid]) {
         let family = Choice::sharp(1.0).family();
         let mut of: Vec<&Row> = grid.rows.iter().filter(|row| row.choice.family() == family && row.converged).collect();
         of.sort_by(|a, b| a.choice.tolerance.total_cmp(&b.choice.tolerance));
-        let worth = |part: fn(&Errors) -> f64| {
+        let worth = |part: Part| {
             let enough = |row: &&&Row| part(&row.solver) <= SHARE * part(&grid.discretisation);
             let loosest = of.iter().take_while(enough).last();
             let tell = |row: &&Row| format!("{:.0e}, {:.0} applications", row.choice.tolerance, row.applications());
@@ -152,7 +154,7 @@ pub fn targets(scene: &Scene, grids: &[OnGrid]) {
     for target in [0.05, 0.01, 0.001] {
         let fine_from = grids.iter().rposition(|grid| grid.discretisation.area > target).map_or(0, |last| last + 1);
         let rows = pairs(&grids[fine_from..]);
-        let good = rows.into_iter().filter(|(_, row)| row.converged && row.whole.area <= target);
+        let good = rows.into_iter().filter(|(grid, row)| row.converged && row.bound(grid, |e| e.area) <= target);
         let best = good.min_by(|a, b| a.1.work(a.0).total_cmp(&b.1.work(b.0)));
         let told = best.map_or_else(
             || "a finer grid".to_owned(),
@@ -166,7 +168,7 @@ pub fn targets(scene: &Scene, grids: &[OnGrid]) {
                     row.choice.tolerance,
                     row.applications(),
                     1e3 * row.seconds,
-                    percent(row.whole.area)
+                    percent(row.bound(grid, |e| e.area))
                 )
             },
         );
