@@ -53,7 +53,7 @@ pub fn surface(path: &Path, map: Topography) -> Outcome<(Surface, Option<String>
         let (nx, ny) = map.heights.dim();
         let first = map.heights.indexed_iter().find(|(_, h)| !h.is_finite()).map(|(node, _)| node).unwrap_or_default();
         return Err(format!(
-            "{}: {nx} x {ny} heights, {missing} missing, the first at index [{}, {}]: fill missing points first, \
+            "{}: {nx} x {ny} heights, {missing} missing, the first at index [{}, {}]: fill missing points first, with \
              asperity prepare {0} --fill --out filled.npz",
             path.display(),
             first.0,
