@@ -78,7 +78,7 @@
 //! # Features
 //!
 //! `parallel` (default): threads, with the same results bit for bit. `cli` (default): files, pictures and the
-//! command-line tool, of which the page [`tool`] tells. Without both the library depends on libm, ndarray, num-traits, pulp and rustfft alone.
+//! command-line tool. Without both the library depends on libm, ndarray, num-traits, pulp and rustfft alone.
 
 mod adhesion;
 mod constraint;
