@@ -50,8 +50,10 @@
 //! | a way of your own to keep the surfaces apart; penalty and Uzawa | [`guide::own_constraint`], [`guide::penalty_and_uzawa`] |
 //! | loading and unloading with adhesion | [`guide::branches`] |
 //! | heights from numpy, results to numpy | [`guide::python`] |
+//! | resolution, tolerance and precision for the accuracy you want | [`choosing`] |
+//! | the command-line tool, its scenes and the keys of its reports | [`tool`] |
 //! | how the crate is built | [`guide::architecture`] |
-//! | how fast, how accurate, and what the paper says | [`performance`], [`precision`], [`paper_checked`] |
+//! | how fast, how far rounding lets it go, and what the paper says | [`performance`], [`precision`], [`paper_checked`] |
 //!
 //! # Conventions
 //!
@@ -90,7 +92,7 @@
 //! # Features
 //!
 //! `parallel` (default): threads, with the same results bit for bit. `cli` (default): files, pictures and the
-//! command-line tool, of which the page [`tool`] tells. Without both the library depends on libm, ndarray, num-traits, pulp and rustfft alone.
+//! command-line tool. Without both the library depends on libm, ndarray, num-traits, pulp and rustfft alone.
 #![doc = include_str!("equations.html")]
 
 mod adhesion;
