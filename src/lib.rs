@@ -77,6 +77,9 @@
 //! command-line tool. Without both the library depends on libm, ndarray, num-traits, pulp and rustfft alone.
 
 mod adhesion;
+pub mod choosing {
+    #![doc = include_str!("choosing.md")]
+}
 mod constraint;
 mod contact;
 mod elastic;
