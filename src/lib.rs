@@ -96,6 +96,9 @@
 #![doc = include_str!("equations.html")]
 
 mod adhesion;
+pub mod choosing {
+    #![doc = include_str!("choosing.md")]
+}
 mod constraint;
 mod contact;
 mod elastic;

@@ -148,9 +148,7 @@ pub fn worth(scene: &Scene, grids: &[OnGrid]) {
 
 /// The least work for a contact area.
 pub fn targets(scene: &Scene, grids: &[OnGrid]) {
-    println!(
-        "\nLeast work for the contact area, corrected for its edge (its discretisation error no larger on finer grids)"
-    );
+    println!("\nLeast work for the area corrected for its edge, by both errors added");
     for target in [0.05, 0.01, 0.001] {
         let fine_from = grids.iter().rposition(|grid| grid.discretisation.area > target).map_or(0, |last| last + 1);
         let rows = pairs(&grids[fine_from..]);
