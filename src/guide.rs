@@ -13,7 +13,7 @@
 //!
 //! Measured figures are on pages of their own: [`performance`](crate::performance), [`precision`](crate::precision), and
 //! [`paper_checked`](crate::paper_checked), which holds the paper against this crate. How to choose grid, range and
-//! tolerance is the page `choosing`.
+//! tolerance is the page [`choosing`](crate::choosing).
 //!
 //! The code on these pages is run by the tests.
 
