@@ -170,7 +170,8 @@ fn the_lightest_loads_are_not_certified_on_rounding<T: Real>() {
         let mut problem = common::rough::<T, _>(64, 16, bare());
         let solution = solve(&mut problem, Control::MeanPressure(load), loose::<T>());
         let report = &solution.report;
-        assert!(report.status == Status::Converged || report.relative_error > loose::<T>());
+        let missed = report.relative_error.max(report.load_error) > loose::<T>();
+        assert!(report.status == Status::Converged || missed, "{load}: {report:?}");
         let lightest = if T::NAME == "f32" { 1e-3 } else { 1e-9 };
         assert!(load < lightest || report.status == Status::Converged, "{load} {}", report.status);
         assert!(report.contact_points >= 1);

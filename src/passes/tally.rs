@@ -162,7 +162,7 @@ mod tests {
     /// roundings in a sum, however many nodes there are.
     fn sums_are_accurate(n: usize) {
         const UNIT: f64 = 1.0 / (1 << 24) as f64;
-        let gap = |i: usize| if i % 3 == 0 { 0 } else { bits(i, 1) };
+        let gap = |i: usize| if i.is_multiple_of(3) { 0 } else { bits(i, 1) };
         let pressure = |i: usize| bits(i, 2) - (1 << 22);
         let surface = |i: usize| bits(i, 3) - (1 << 21);
         let field = |value: &dyn Fn(usize) -> i64| {
