@@ -174,7 +174,8 @@ fn the_lightest_loads_are_not_certified_on_rounding<T: Real>() {
         assert!(report.status == Status::Converged || missed, "{load}: {report:?}");
         let lightest = if T::NAME == "f32" { 1e-3 } else { 1e-9 };
         assert!(load < lightest || report.status == Status::Converged, "{load} {}", report.status);
-        assert!(report.contact_points >= 1);
+        // what f32 leaves of such a load need not hold a node in place
+        assert!(report.contact_points >= 1 || (T::NAME == "f32" && report.status == Status::Stalled), "{load}");
     }
 }
 
