@@ -238,7 +238,7 @@ fn both_methods_and_both_precisions_agree() {
     assert_complementary(&bench.field("single", "gap.npy"), &bench.field("single", "contact_pressure.npy"));
     // The tolerance that f32 has by default can be met where there is enough contact.
     let default = bench.solve("--mean-gap 0.02 --precision f32", "default", 0);
-    assert_eq!(number(&default, "tolerance"), 1e-5);
+    assert_eq!(number(&default, "tolerance"), 1e-4);
 }
 
 /// A .npy file of a square array.
@@ -545,7 +545,7 @@ fn help_and_version() {
             vec![
                 "--heights",
                 "[default: the file's, else 1 1]",
-                "[default: 1e-6, in f32 1e-5]",
+                "[default: 1e-6, in f32 1e-4]",
                 "Examples",
                 "--range 1e-9",
             ],

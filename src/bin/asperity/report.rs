@@ -32,6 +32,7 @@ pub fn table(names: &[&str], solves: &[&Account], style: Style) -> String {
         rows.push((name, solves.iter().map(|solve| of(solve, &solve.report)).collect()));
     };
     row("contact", &|_, r| format!("{} %", percent(r.contact_fraction)));
+    row("corrected for its edge", &|s, _| format!("{} %", percent(s.contact.corrected_contact_fraction)));
     row("points in contact", &|s, r| format!("{} of {}", r.contact_points, s.nodes));
     row("mean gap", &|_, r| style.number(r.mean_gap, "m"));
     row("mean pressure", &|_, r| style.number(r.mean_pressure, "Pa"));

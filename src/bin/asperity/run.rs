@@ -3,8 +3,9 @@ use std::path::Path;
 use std::time::Instant;
 
 use asperity::{
-    AdhesionLaw, Colouring, Control, Departure, Error, Grid, Level, Map, Nested, NestedSolution, Problem, Real, Report,
-    Result, Settings, Solution, Solver, Stability, StabilityTest, Surface, Verdict, Westergaard,
+    AdhesionLaw, Colouring, ContactStatistics, Control, Departure, Error, Grid, Level, Map, Nested, NestedSolution,
+    NoAdhesion, Problem, Real, Report, Result, Settings, Solution, Solver, Stability, StabilityTest, Surface, Verdict,
+    Westergaard,
 };
 use ndarray::Array2;
 use ndarray_npy::WritableElement;
@@ -54,6 +55,8 @@ const MOST_DEPARTURES: usize = 10;
 pub struct Account {
     pub report: Report,
     pub nodes: usize,
+    /// Contact and its edge; what attracts is left out.
+    pub contact: ContactStatistics,
     /// The least (most tensile) and the greatest elastic pressure.
     pub pressures: (f64, f64),
     /// The nested grids, if they were used, and their applications in units of one on the finest.
@@ -98,7 +101,7 @@ pub fn solve<T: Scalar, L: AdhesionLaw<T>>(
         departures.push(Left { eigenvalue: found.eigenvalue, energy_drop, distance });
         solution = left.solution;
     };
-    let (solution, account) = account(solution, None, clock)?;
+    let (solution, account) = account(solution, &grid, None, clock)?;
     Ok((solution, Account { stability, departures, ..account }))
 }
 
@@ -117,11 +120,12 @@ pub fn solve_nested<T: Scalar, L: AdhesionLaw<T>>(
     })?;
     let applications = found.equivalent_applications();
     let NestedSolution { solution, levels } = found;
-    account(solution, Some((levels, applications)), clock)
+    account(solution, surface.grid(), Some((levels, applications)), clock)
 }
 
 fn account<T: Scalar>(
     solution: Solution<T>,
+    grid: &Grid,
     grids: Option<(Vec<Level>, f64)>,
     clock: Instant,
 ) -> Outcome<(Solution<T>, Account)> {
@@ -134,6 +138,7 @@ fn account<T: Scalar>(
     let account = Account {
         report: solution.report.clone(),
         nodes: solution.gap.len(),
+        contact: ContactStatistics::of(&solution, grid, &NoAdhesion)?,
         pressures,
         grids,
         seconds,

@@ -167,6 +167,8 @@ impl Options {
             "mean_contact_pressure": report.mean_contact_pressure,
             "contact_fraction": report.contact_fraction,
             "contact_points": report.contact_points,
+            "corrected_contact_fraction": account.contact.corrected_contact_fraction,
+            "perimeter": account.contact.perimeter,
             "min_gap": report.min_gap,
             "min_pressure": account.pressures.0,
             "max_pressure": account.pressures.1,
