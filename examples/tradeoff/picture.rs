@@ -85,6 +85,12 @@ fn over(grids: &[OnGrid], part: Part, cost: fn(&OnGrid, &Row) -> f64) -> Vec<Ser
     std::iter::once(front).chain(clouds).collect()
 }
 
+/// A tick of a logarithmic axis; those between one, two and five of a decade would run into each other.
+fn label(value: &f64) -> String {
+    let text = format!("{value:.0e}");
+    if text.starts_with(['1', '2', '5']) { text } else { String::new() }
+}
+
 fn panel(area: &Area<'_>, (across, upwards): (&str, &str), series: &[Series], reversed: bool) -> Outcome<()> {
     let all = || series.iter().flat_map(|series| &series.points).filter(|point| point.0 > 0.0 && point.1 > 0.0);
     let ends = |of: fn(&(f64, f64)) -> f64| {
@@ -105,8 +111,8 @@ fn panel(area: &Area<'_>, (across, upwards): (&str, &str), series: &[Series], re
         .light_line_style(TRANSPARENT)
         .x_desc(across)
         .y_desc(upwards)
-        .x_label_formatter(&|x| format!("{x:.0e}"))
-        .y_label_formatter(&|y| format!("{y:.0e}"))
+        .x_label_formatter(&label)
+        .y_label_formatter(&label)
         .label_style(("sans-serif", 13))
         .axis_desc_style(("sans-serif", 15))
         .draw()?;
