@@ -1,62 +1,19 @@
 //! Measured surfaces from file to contact map, with the tool, and files shared with numpy, Gwyddion and ParaView.
 #![cfg(feature = "cli")]
 
+// a file of its own, as not all tests of the tool need all of it
+#[allow(dead_code)]
+#[path = "common/bench.rs"]
+mod bench;
+
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+use std::process::Command;
 
 use asperity::io::{read_field, read_topography, write_npy, write_topography};
 use asperity::{Amplitude, Grid, SelfAffine, Topography};
+use bench::{Bench, text};
 use ndarray::Array2;
-use serde_json::Value;
-use tempfile::TempDir;
-
-/// A folder in which the tool is run.
-struct Bench(TempDir);
-
-impl Bench {
-    fn new() -> Self {
-        Self(tempfile::tempdir().unwrap())
-    }
-
-    fn path(&self, name: &str) -> PathBuf {
-        self.0.path().join(name)
-    }
-
-    fn run(&self, arguments: &str) -> Output {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_asperity"));
-        command.current_dir(&self.0).args(arguments.split_whitespace()).output().unwrap()
-    }
-
-    /// Runs what must succeed in silence on standard error, and returns what it prints.
-    #[track_caller]
-    fn said(&self, arguments: &str) -> String {
-        let output = self.run(arguments);
-        assert_eq!((output.status.code(), text(&output.stderr)), (Some(0), String::new()), "{arguments}");
-        text(&output.stdout)
-    }
-
-    /// Runs what must be refused on one line, with these parts.
-    #[track_caller]
-    fn refused(&self, arguments: &str, parts: &[&str]) {
-        let output = self.run(arguments);
-        let error = text(&output.stderr);
-        assert_eq!(
-            (output.status.code(), error.lines().count(), output.stdout.len()),
-            (Some(1), 1, 0),
-            "{arguments}: {error}"
-        );
-        assert!(parts.iter().all(|part| error.contains(part)), "{arguments}: {error}");
-    }
-
-    fn report(&self, folder: &str) -> Value {
-        serde_json::from_slice(&fs::read(self.path(folder).join("report.json")).unwrap()).unwrap()
-    }
-}
-
-fn text(bytes: &[u8]) -> String {
-    String::from_utf8(bytes.to_vec()).unwrap()
-}
 
 fn corpus(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/corpus").join(name)
@@ -96,11 +53,11 @@ fn a_measured_surface_goes_from_file_to_contact_map() {
 
     // as it is, it cannot be solved, and the error says what to do
     let remedy = "asperity prepare measured.gsf --fill --out filled.npz";
-    bench.refused(
+    bench.refused_with(
         &format!("solve --heights measured.gsf {solve} raw"),
         &["61 x 45 heights", &format!("{missing} missing"), remedy],
     );
-    bench.refused("stats measured.gsf", &[remedy]);
+    bench.refused_with("stats measured.gsf", &[remedy]);
     bench.said(remedy.strip_prefix("asperity ").unwrap());
     assert!(bench.said("stats filled.npz").contains("3.05e-6 x 2.25e-6 m"));
 
@@ -187,7 +144,7 @@ fn lengths_of_files_and_of_options() {
     for command in
         ["stats g.txt", "solve --mean-gap 1 --out r --heights g.txt", "sweep --mean-gaps 1 --out r.csv --heights g.txt"]
     {
-        bench.refused(
+        bench.refused_with(
             &format!("{command} --lengths 2 1"),
             &["--lengths", "2 x 1", "2e-9 x 1e-9 m", "leave --lengths out", "asperity prepare"],
         );
@@ -222,7 +179,7 @@ fn what_cannot_be_prepared_is_refused_and_nothing_is_written() {
         ("prepare none.txt --out n.npz", vec!["none.txt", "does not exist"]),
         ("prepare holes.txt", vec!["--out"]),
     ] {
-        bench.refused(arguments, &parts);
+        bench.refused_with(arguments, &parts);
         assert_eq!(fs::read_dir(&bench.0).unwrap().count(), 3, "{arguments}");
     }
     assert_eq!(fs::read(bench.path("old.npz")).unwrap(), b"old");
@@ -304,11 +261,14 @@ fn all_formats_hold_the_same_fields() {
             let npy = fs::read(folder.join(format!("{name}.npy"))).unwrap();
             assert!(name == "mode" || archive.windows(npy.len()).any(|window| window == npy), "{name}");
         }
-        bench.refused(&format!("stats {precision}/fields.npz"), &["5 arrays", "named heights"]);
+        bench.refused_with(&format!("stats {precision}/fields.npz"), &["5 arrays", "named heights"]);
     }
     // what is there is not overwritten, whatever its format
-    bench.refused("solve --heights h.npy --mean-gap 1 --format vti --out f64", &["fields.vti", "exists", "--force"]);
-    bench.refused("solve --heights h.npy --mean-gap 1 --format hdf5 --out x", &["hdf5", "npy", "npz", "vti"]);
+    bench.refused_with(
+        "solve --heights h.npy --mean-gap 1 --format vti --out f64",
+        &["fields.vti", "exists", "--force"],
+    );
+    bench.refused_with("solve --heights h.npy --mean-gap 1 --format hdf5 --out x", &["hdf5", "npy", "npz", "vti"]);
 }
 
 /// A Python with numpy: that of `.ci/run` in the target folder, or any.

@@ -1,81 +1,30 @@
 //! Scene files, reports as JSON and completions, end to end.
 #![cfg(feature = "cli")]
 
-use std::fs;
-use std::process::{Command, Output};
+// a file of its own, as not all tests of the tool need all of it
+#[allow(dead_code)]
+#[path = "common/bench.rs"]
+mod bench;
 
+use std::fs;
+
+use bench::{Bench, text};
 use serde_json::Value;
-use tempfile::TempDir;
 
 const ADHESION: &str = "--law exponential --work-of-adhesion 1e-4 --range 4e-3";
 
-/// A folder with a rough surface in it, in which the tool is run.
-struct Bench(TempDir);
-
-impl Bench {
-    fn new() -> Self {
-        let bench = Self(tempfile::tempdir().unwrap());
-        bench.said("surface --size 32 --k-l 2 --k-s 10 --rms-height 0.01 --quiet --out heights.npy");
-        bench
-    }
-
-    fn run(&self, arguments: &str) -> Output {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_asperity"));
-        command.current_dir(&self.0).args(arguments.split_whitespace()).output().unwrap()
-    }
-
-    /// Runs what must succeed in silence on standard error, and returns what it prints.
-    #[track_caller]
-    fn said(&self, arguments: &str) -> String {
-        let output = self.run(arguments);
-        assert_eq!((output.status.code(), text(&output.stderr)), (Some(0), String::new()), "{arguments}");
-        text(&output.stdout)
-    }
-
-    #[track_caller]
-    fn reported(&self, arguments: &str) -> Value {
-        serde_json::from_str(&self.said(&format!("{arguments} --json"))).unwrap()
-    }
-
-    /// Runs what must be refused on one line, and returns that.
-    #[track_caller]
-    fn refused(&self, arguments: &str) -> String {
-        let output = self.run(arguments);
-        let error = text(&output.stderr);
-        assert_eq!((output.status.code(), output.stdout.len()), (Some(1), 0), "{arguments}: {error}");
-        assert_eq!(error.lines().count(), 1, "{arguments}: {error}");
-        error
-    }
-
-    fn write(&self, name: &str, content: &str) {
-        fs::write(self.0.path().join(name), content).unwrap();
-    }
-
-    fn bytes(&self, name: &str) -> Vec<u8> {
-        fs::read(self.0.path().join(name)).unwrap()
-    }
-
-    fn read(&self, name: &str) -> String {
-        text(&self.bytes(name))
-    }
-
-    fn names(&self, folder: &str) -> Vec<String> {
-        let entries = fs::read_dir(self.0.path().join(folder)).unwrap();
-        let mut names: Vec<_> = entries.map(|e| e.unwrap().file_name().into_string().unwrap()).collect();
-        names.sort();
-        names
-    }
-}
-
-fn text(bytes: &[u8]) -> String {
-    String::from_utf8(bytes.to_vec()).unwrap()
-}
-
 const FIELDS: [&str; 4] = ["gap.npy", "pressure.npy", "contact_pressure.npy", "scene.toml"];
+
+/// A folder with a rough surface in it.
+fn rough() -> Bench {
+    let bench = Bench::new();
+    bench.said("surface --size 32 --k-l 2 --k-s 10 --rms-height 0.01 --quiet --out heights.npy");
+    bench
+}
 
 #[test]
 fn a_solve_leaves_a_scene_that_repeats_it() {
-    let bench = Bench::new();
+    let bench = rough();
     bench.said(&format!("solve --heights heights.npy --lengths 1 1 --mean-pressure 0.01 {ADHESION} --out a/first"));
     let scene = bench.read("a/first/scene.toml");
     for line in [
@@ -119,7 +68,7 @@ fn a_solve_leaves_a_scene_that_repeats_it() {
 
 #[test]
 fn tables_and_surfaces_leave_scenes_that_repeat_them() {
-    let bench = Bench::new();
+    let bench = rough();
     for (command, out) in [
         ("sweep --heights heights.npy --mean-pressures 1e-3:0.01:3:log --fields fields", "sweep.csv"),
         ("sweep --heights heights.npy --mean-gaps 0.02,0.01", "sweep.jsonl"),
@@ -158,7 +107,7 @@ fn tables_and_surfaces_leave_scenes_that_repeat_them() {
 
 #[test]
 fn a_scene_has_the_options_of_its_command_and_gives_way_to_those_beside_it() {
-    let bench = Bench::new();
+    let bench = rough();
     fs::create_dir(bench.0.path().join("scenes")).unwrap();
     let scene = "command = \"solve\"\nout = \"../results\"\nno-pictures = true\nforce = false\n\
                  [surface]\nheights = \"../heights.npy\"\nlengths = [2.0, 3]\nmodulus = 10\n[load]\nmean-gap = 0.02\n";
@@ -193,7 +142,7 @@ fn a_scene_has_the_options_of_its_command_and_gives_way_to_those_beside_it() {
 
 #[test]
 fn bad_scenes_are_refused_on_one_line() {
-    let bench = Bench::new();
+    let bench = rough();
     let solve = "command = \"solve\"\nheights = \"heights.npy\"\nout = \"results\"\n";
     for (lines, parts) in [
         ("", vec!["required", "--mean-gap", "--mean-pressure"]),
@@ -251,7 +200,7 @@ fn bad_scenes_are_refused_on_one_line() {
 
 #[test]
 fn scenes_that_were_written_by_hand_are_not_replaced() {
-    let bench = Bench::new();
+    let bench = rough();
     let scene = "# mine\ncommand = \"solve\"\nheights = \"heights.npy\"\nmean-gap = 0.02\nout = \".\"\n";
     bench.write("scene.toml", scene);
     for arguments in ["run scene.toml", "run scene.toml --force"] {
@@ -272,7 +221,7 @@ fn scenes_that_were_written_by_hand_are_not_replaced() {
 
 #[test]
 fn a_scene_can_name_what_has_no_hyphens() {
-    let bench = Bench::new();
+    let bench = rough();
     bench.write("measure.toml", "command = \"stats\"\nheights = \"heights.npy\"\nlengths = 2\n");
     assert_eq!(bench.said("run measure.toml"), bench.said("stats heights.npy --lengths 2"));
     assert!(bench.refused("run measure.toml --psd heights.npy").contains("exists"));
@@ -292,7 +241,7 @@ fn keys(report: &Value, found: &mut Vec<String>) {
 
 #[test]
 fn reports_are_one_document_whose_keys_are_documented() {
-    let bench = Bench::new();
+    let bench = rough();
     let page = include_str!("../src/tool.md");
     let quick = "--heights heights.npy --threads 1";
     for (arguments, expected) in [
@@ -338,7 +287,7 @@ fn reports_are_one_document_whose_keys_are_documented() {
 
 #[test]
 fn unstable_equilibria_can_be_left() {
-    let bench = Bench::new();
+    let bench = rough();
     bench.write("flat.txt", &"0\n".repeat(64));
     let flat =
         "--heights flat.txt --law exponential --work-of-adhesion 1e-3 --range 1e-2 --mean-gap 0.011 --no-pictures";
@@ -365,7 +314,7 @@ fn unstable_equilibria_can_be_left() {
 
 #[test]
 fn completions_know_commands_and_options() {
-    let bench = Bench::new();
+    let bench = rough();
     for shell in ["bash", "zsh", "fish", "elvish", "powershell"] {
         let script = bench.said(&format!("completions {shell}"));
         for word in ["completions", "solve", "mean-pressure", "work-of-adhesion"] {
@@ -378,7 +327,7 @@ fn completions_know_commands_and_options() {
 
 #[test]
 fn there_are_no_colours_in_pipes() {
-    let bench = Bench::new();
+    let bench = rough();
     for arguments in ["--help", "solve --help", "solve", "solve --heights heights.npy --mean-gap 0.02 --out results"] {
         let output = bench.run(arguments);
         assert!(![output.stdout, output.stderr].concat().contains(&0x1b), "{arguments}");

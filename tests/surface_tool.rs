@@ -1,58 +1,24 @@
 //! `asperity surface` and `asperity stats`, end to end.
 #![cfg(feature = "cli")]
 
+// a file of its own, as not all tests of the tool need all of it
+#[allow(dead_code)]
+#[path = "common/bench.rs"]
+mod bench;
+
 use std::f64::consts::TAU;
 use std::fs;
-use std::process::{Command, Output};
 
 use asperity::io::{read_field, write_npy};
 use asperity::{Amplitude, Grid, SelfAffine, Surface};
-use tempfile::TempDir;
+use bench::{Bench, text};
 
-/// A folder in which the tool is run.
-struct Bench(TempDir);
-
-impl Bench {
-    fn new() -> Self {
-        Self(tempfile::tempdir().unwrap())
-    }
-
-    fn run(&self, arguments: &str) -> Output {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_asperity"));
-        command.current_dir(&self.0).args(arguments.split_whitespace()).output().unwrap()
-    }
-
-    /// Runs what must succeed in silence on standard error, and returns what it prints.
-    #[track_caller]
-    fn said(&self, arguments: &str) -> String {
-        let output = self.run(arguments);
-        assert_eq!((output.status.code(), text(&output.stderr)), (Some(0), String::new()), "{arguments}");
-        text(&output.stdout)
-    }
-
-    fn bytes(&self, name: &str) -> Vec<u8> {
-        fs::read(self.0.path().join(name)).unwrap()
-    }
-
-    /// What is in the folder, hidden files too.
-    fn names(&self) -> Vec<String> {
-        let entries = fs::read_dir(&self.0).unwrap();
-        let mut names: Vec<_> = entries.map(|e| e.unwrap().file_name().into_string().unwrap()).collect();
-        names.sort();
-        names
-    }
-
-    /// The columns of a comma-separated file, with its header.
-    fn csv(&self, name: &str) -> (String, Vec<Vec<f64>>) {
-        let content = text(&self.bytes(name));
-        let (header, rows) = content.split_once('\n').unwrap();
-        let rows = rows.lines().map(|row| row.split(',').map(|value| value.parse().unwrap()).collect());
-        (header.to_owned(), rows.collect())
-    }
-}
-
-fn text(bytes: &[u8]) -> String {
-    String::from_utf8(bytes.to_vec()).unwrap()
+/// The columns of a comma-separated file, with its header.
+fn csv(bench: &Bench, name: &str) -> (String, Vec<Vec<f64>>) {
+    let content = bench.read(name);
+    let (header, rows) = content.split_once('\n').unwrap();
+    let rows = rows.lines().map(|row| row.split(',').map(|value| value.parse().unwrap()).collect());
+    (header.to_owned(), rows.collect())
 }
 
 /// The number in the row of a table, of which there may be several with the same name.
@@ -67,7 +33,7 @@ fn a_surface_is_the_librarys_and_is_measured_alike() {
     let bench = Bench::new();
     let options = "--shape 100 90 --lengths 2e-6 3e-6 --rms-height 1e-8 --hurst 0.6 --k-l 2 --k-r 5 --k-s 25 --seed 12";
     let said = bench.said(&format!("surface {options} --out rough.npy --psd psd.csv"));
-    assert_eq!(bench.names(), ["psd.csv", "rough.npy", "rough.npy.scene.toml"]);
+    assert_eq!(bench.names(""), ["psd.csv", "rough.npy", "rough.npy.scene.toml"]);
 
     let grid = Grid::new((100, 90), (2e-6, 3e-6)).unwrap();
     let rough = SelfAffine {
@@ -105,7 +71,7 @@ fn a_surface_is_the_librarys_and_is_measured_alike() {
 
     let measured = bench.said("stats rough.npy --lengths 2e-6 3e-6 --psd measured.csv");
     assert!(said.starts_with(measured.trim_end()), "{measured}");
-    let ((with_target, rows), (header, same)) = (bench.csv("psd.csv"), bench.csv("measured.csv"));
+    let ((with_target, rows), (header, same)) = (csv(&bench, "psd.csv"), csv(&bench, "measured.csv"));
     assert_eq!(
         (with_target.as_str(), header.as_str()),
         ("wave_number,density,waves,target", "wave_number,density,waves")
@@ -136,7 +102,7 @@ fn sizes_seeds_phases_and_threads() {
     }
     // the target is what random phases give
     bench.said("surface --rms-slope 0.1 --size 64 --k-s 20 --random-phase --out r.npy --psd r.csv");
-    let (_, rows) = bench.csv("r.csv");
+    let (_, rows) = csv(&bench, "r.csv");
     assert!(rows.iter().filter(|row| row[3] > 0.0).all(|row| (row[1] / row[3] - 1.0).abs() < 1e-9));
 
     let line = bench.said("surface --rms-slope 0.1 --shape 4096 1 --lengths 5 --k-s 1000 --out line.npy");
@@ -163,7 +129,7 @@ fn statistics_of_text_and_of_flat_maps() {
     let said = bench.said("stats flat.npy --psd flat.csv");
     assert_eq!(numbers(&said, "rms height"), [0.0]);
     assert!(said.contains("Nayak's parameter  -"), "{said}");
-    assert!(bench.csv("flat.csv").1.iter().all(|row| row[1] == 0.0));
+    assert!(csv(&bench, "flat.csv").1.iter().all(|row| row[1] == 0.0));
 }
 
 #[test]
@@ -212,7 +178,7 @@ fn bad_input_is_refused_on_one_line_and_writes_nothing() {
         assert_eq!(output.status.code(), Some(1), "{arguments}: {error}");
         assert_eq!((error.lines().count(), output.stdout.len()), (1, 0), "{arguments}: {error}");
         assert!(parts.iter().all(|part| error.contains(part)), "{arguments}: {error}");
-        assert_eq!(bench.names(), ["old.npy", "wave.txt"], "{arguments}");
+        assert_eq!(bench.names(""), ["old.npy", "wave.txt"], "{arguments}");
     }
     assert_eq!(bench.bytes("old.npy"), b"old");
 }

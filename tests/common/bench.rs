@@ -1,0 +1,84 @@
+//! A folder in which the tool is run.
+
+use std::fs;
+use std::path::PathBuf;
+use std::process::{Command, Output};
+
+use serde_json::Value;
+use tempfile::TempDir;
+
+pub struct Bench(pub TempDir);
+
+impl Bench {
+    pub fn new() -> Self {
+        Self(tempfile::tempdir().unwrap())
+    }
+
+    pub fn path(&self, name: &str) -> PathBuf {
+        self.0.path().join(name)
+    }
+
+    pub fn run(&self, arguments: &str) -> Output {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_asperity"));
+        command.current_dir(&self.0).args(arguments.split_whitespace()).output().unwrap()
+    }
+
+    /// Runs what must succeed in silence on standard error, and returns what it prints.
+    #[track_caller]
+    pub fn said(&self, arguments: &str) -> String {
+        let output = self.run(arguments);
+        assert_eq!((output.status.code(), text(&output.stderr)), (Some(0), String::new()), "{arguments}");
+        text(&output.stdout)
+    }
+
+    /// What `--json` reports of what must succeed.
+    #[track_caller]
+    pub fn reported(&self, arguments: &str) -> Value {
+        serde_json::from_str(&self.said(&format!("{arguments} --json"))).unwrap()
+    }
+
+    /// Runs what must be refused on one line, and returns that.
+    #[track_caller]
+    pub fn refused(&self, arguments: &str) -> String {
+        let output = self.run(arguments);
+        let error = text(&output.stderr);
+        assert_eq!((output.status.code(), output.stdout.len()), (Some(1), 0), "{arguments}: {error}");
+        assert_eq!(error.lines().count(), 1, "{arguments}: {error}");
+        error
+    }
+
+    /// Runs what must be refused on one line, with these parts.
+    #[track_caller]
+    pub fn refused_with(&self, arguments: &str, parts: &[&str]) {
+        let error = self.refused(arguments);
+        assert!(parts.iter().all(|part| error.contains(part)), "{arguments}: {error}");
+    }
+
+    pub fn report(&self, folder: &str) -> Value {
+        serde_json::from_slice(&self.bytes(&format!("{folder}/report.json"))).unwrap()
+    }
+
+    pub fn write(&self, name: &str, content: &str) {
+        fs::write(self.path(name), content).unwrap();
+    }
+
+    pub fn bytes(&self, name: &str) -> Vec<u8> {
+        fs::read(self.path(name)).unwrap()
+    }
+
+    pub fn read(&self, name: &str) -> String {
+        text(&self.bytes(name))
+    }
+
+    /// What is in a folder, hidden files too.
+    pub fn names(&self, folder: &str) -> Vec<String> {
+        let entries = fs::read_dir(self.path(folder)).unwrap();
+        let mut names: Vec<_> = entries.map(|e| e.unwrap().file_name().into_string().unwrap()).collect();
+        names.sort();
+        names
+    }
+}
+
+pub fn text(bytes: &[u8]) -> String {
+    String::from_utf8(bytes.to_vec()).unwrap()
+}
