@@ -19,6 +19,7 @@ use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, ZipArchive, ZipWriter};
 
 use crate::Outcome;
+use crate::hash::Hash;
 
 /// What the rows depend on, by name; all of it has to be the same for going on.
 pub type Identity = Map<String, Value>;
@@ -315,30 +316,6 @@ fn parse(comment: &[u8]) -> Option<(Identity, Written, usize, Vec<f64>)> {
     let numbers = state.get("numbers")?.as_array()?.iter().map(|text| Some(f64::from_bits(bits(text)?)));
     let numbers = numbers.collect::<Option<_>>()?;
     Some((state.get("sweep")?.as_object()?.clone(), written, number("gaps")?.try_into().ok()?, numbers))
-}
-
-/// A fingerprint of bytes: FNV-1a, the same on every platform and in every version.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Hash(u64);
-
-impl Hash {
-    pub const NEW: Self = Self(0xcbf2_9ce4_8422_2325);
-
-    /// That of some more bytes.
-    pub fn of(self, bytes: &[u8]) -> Self {
-        Self(bytes.iter().fold(self.0, |hash, byte| (hash ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3)))
-    }
-
-    /// That of some more numbers.
-    pub fn of_numbers<'a>(self, numbers: impl IntoIterator<Item = &'a f64>) -> Self {
-        numbers.into_iter().fold(self, |hash, number| hash.of(&number.to_bits().to_le_bytes()))
-    }
-}
-
-impl std::fmt::Display for Hash {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(f, "{:016x}", self.0)
-    }
 }
 
 #[cfg(test)]

@@ -6,6 +6,7 @@ mod completions;
 mod cycle;
 mod demo;
 mod echo;
+mod hash;
 mod input;
 mod inputs;
 mod journal;

@@ -12,8 +12,9 @@ use serde_json::{Map, Value, json};
 
 use crate::Outcome;
 use crate::echo::Echo;
+use crate::hash::Hash;
 use crate::inputs;
-use crate::journal::{Hash, Identity, Journal};
+use crate::journal::{Identity, Journal};
 use crate::loads::{self, Loads};
 use crate::options::{AdhesionOptions, Precision, SolverOptions, SurfaceOptions};
 use crate::printing::Printing;
