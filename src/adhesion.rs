@@ -2,6 +2,7 @@ use crate::error::{Error, Result};
 use crate::real::Real;
 
 mod exponential;
+mod exponentials;
 mod maugis_dugdale;
 mod none;
 
@@ -42,7 +43,7 @@ pub use none::NoAdhesion;
 /// check_law(&Cubic { w: 1e-4, rho: 2e-3 }, 1e-2)?;
 /// # Ok::<(), asperity::Error>(())
 /// ```
-pub trait AdhesionLaw<T: Real>: Sync {
+pub trait AdhesionLaw<T: Real>: Send + Sync {
     /// The adhesive energy φ(g), energy per area; usually negative.
     fn energy(&self, gap: T) -> T;
 
@@ -71,19 +72,16 @@ pub trait AdhesionLaw<T: Real>: Sync {
         false
     }
 
-    /// Replaces jumps of the traction by slopes no steeper than 1/`compliance`, and says whether there were any; a
-    /// compliance of zero brings the jumps back.
+    /// The law with slopes no steeper than 1/`compliance` in the place of the jumps of its traction; nothing if it has none.
     ///
     /// Where the traction falls by Δ at one gap, a node with the traction and one without it are both in
     /// equilibrium over a whole range of the gap, Δ times the node's compliance: the edge of the adhesive zone is
     /// pinned to the nodes, and stays where an iteration happened to leave it. The default start of a solve therefore
     /// comes from the smoothed law, of which the equilibrium does not depend on the way there. Energy, traction
-    /// and slope have to agree for the smoothed law too, and the work of adhesion stays the same. A solve
-    /// from the default start sets the compliance itself, and leaves the law with its jumps. The default has no jumps and
-    /// does nothing.
-    fn smooth(&mut self, compliance: T) -> bool {
+    /// and slope have to agree for the smoothed law too, and the work of adhesion stays the same. The default has no jumps.
+    fn smoothed(&self, compliance: T) -> Option<Box<dyn AdhesionLaw<T> + '_>> {
         let _ = compliance;
-        false
+        None
     }
 
     /// The energies at many gaps. The slice functions exist so that a law behind `dyn` costs one virtual call
@@ -110,7 +108,7 @@ pub trait AdhesionLaw<T: Real>: Sync {
 }
 
 macro_rules! forward {
-    ($($type:ty: { $($smooth:item)? }),*) => {$(
+    ($($type:ty),*) => {$(
         impl<T: Real, L: AdhesionLaw<T> + ?Sized> AdhesionLaw<T> for $type {
             fn energy(&self, gap: T) -> T { (**self).energy(gap) }
             fn traction(&self, gap: T) -> T { (**self).traction(gap) }
@@ -118,7 +116,7 @@ macro_rules! forward {
             fn work_of_adhesion(&self) -> T { (**self).work_of_adhesion() }
             fn range(&self) -> T { (**self).range() }
             fn is_zero(&self) -> bool { (**self).is_zero() }
-            $($smooth)?
+            fn smoothed(&self, compliance: T) -> Option<Box<dyn AdhesionLaw<T> + '_>> { (**self).smoothed(compliance) }
             fn energies(&self, gaps: &[T], energies: &mut [T]) { (**self).energies(gaps, energies) }
             fn tractions(&self, gaps: &[T], tractions: &mut [T]) { (**self).tractions(gaps, tractions) }
             fn slopes(&self, gaps: &[T], slopes: &mut [T]) { (**self).slopes(gaps, slopes) }
@@ -128,12 +126,7 @@ macro_rules! forward {
         }
     )*};
 }
-// a law behind a shared reference cannot change: its start is that of a law without jumps
-forward!(&L: {}, Box<L>: {
-    fn smooth(&mut self, compliance: T) -> bool {
-        (**self).smooth(compliance)
-    }
-});
+forward!(&L, Box<L>);
 
 /// Tells whether the three functions of a law agree with one another.
 ///
@@ -216,11 +209,11 @@ mod tests {
                 check_law(&Exponential::new(w, range).unwrap(), far).unwrap();
                 check_law(&MaugisDugdale::new(w, range).unwrap(), far).unwrap();
                 for compliance in [1e-3, 0.7, 1e9] {
-                    let mut smoothed = MaugisDugdale::new(w, range).unwrap();
-                    assert!(smoothed.smooth(compliance * range * range / w));
+                    let law = MaugisDugdale::new(w, range).unwrap();
+                    // a reference to a law has its jumps too
+                    let smoothed = (&law).smoothed(compliance * range * range / w).unwrap();
                     check_law(&smoothed, far).unwrap();
                     assert_eq!(smoothed.work_of_adhesion(), w);
-                    assert!(!smoothed.smooth(0.0) && smoothed == MaugisDugdale::new(w, range).unwrap());
                 }
                 check_law(&Exponential::new(w as f32, range as f32).unwrap(), far).unwrap();
                 check_law(&MaugisDugdale::new(w as f32, range as f32).unwrap(), far).unwrap();

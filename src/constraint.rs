@@ -42,7 +42,7 @@ pub use uzawa::Uzawa;
 /// ```
 ///
 /// A worked example with rounds is on the page [`own_constraint`](crate::guide::own_constraint).
-pub trait ContactConstraint<T: Real>: Sync {
+pub trait ContactConstraint<T: Real>: Send + Sync {
     /// Whether the gap is confined to g ≥ 0. If so the other methods are not asked.
     fn projects(&self) -> bool;
 

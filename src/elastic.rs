@@ -38,7 +38,7 @@ pub use westergaard::Westergaard;
 /// ```
 ///
 /// A layer of finite thickness is the worked case on the page [`own_operator`](crate::guide::own_operator).
-pub trait ElasticOperator<T: Real> {
+pub trait ElasticOperator<T: Real>: Send {
     /// The grid of the fields that the operator takes and returns.
     fn grid(&self) -> &Grid;
 

@@ -5,13 +5,13 @@ use std::sync::Arc;
 
 use ndarray::{Array2, ArrayView2, ArrayViewMut2, Axis};
 use num_traits::Zero;
-use rustfft::Fft;
 use rustfft::num_complex::Complex;
+use rustfft::{Fft, FftPlanner};
 
 use crate::error::{Error, Result};
 use crate::field::flat_mut;
 use crate::par::{self, Pool};
-use crate::real::Real;
+use crate::real::{Compiled, Real};
 
 mod layout;
 mod pack;
@@ -44,9 +44,29 @@ pub(crate) struct Convolver<T: Real> {
 /// What the columns of the spectrum can add up.
 pub(crate) type Sums = [f64; 3];
 
-struct Transform<T> {
-    forward: Arc<dyn Fft<T>>,
-    inverse: Arc<dyn Fft<T>>,
+/// The forward and the inverse transform of a length.
+pub(crate) struct Transform<T> {
+    pub(crate) forward: Arc<dyn Fft<T>>,
+    pub(crate) inverse: Arc<dyn Fft<T>>,
+}
+
+/// The choice of an algorithm for a length.
+struct Plan;
+
+impl Compiled for Plan {
+    type Input<T: Real> = usize;
+    type Output<T: Real> = Transform<T>;
+    fn single(len: usize) -> Transform<f32> {
+        plan(len)
+    }
+    fn double(len: usize) -> Transform<f64> {
+        plan(len)
+    }
+}
+
+fn plan<T: Real>(len: usize) -> Transform<T> {
+    let mut planner = FftPlanner::new();
+    Transform { forward: planner.plan_fft_forward(len), inverse: planner.plan_fft_inverse(len) }
 }
 
 struct Workspace<T> {
@@ -55,9 +75,8 @@ struct Workspace<T> {
 }
 
 impl<T: Real> Transform<T> {
-    fn new(len: usize) -> Self {
-        let [forward, inverse] = T::transforms(len);
-        Self { forward, inverse }
+    pub(crate) fn new(len: usize) -> Self {
+        T::call::<Plan>(len)
     }
 
     fn scratch_len(&self) -> usize {

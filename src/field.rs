@@ -12,11 +12,11 @@ pub(crate) const CHUNK: usize = 256;
 const BATCH: usize = 8;
 
 /// How many numbers a pass can sum at once.
-const SUMS: usize = 13;
+pub(crate) const SUMS: usize = 13;
 
 /// What a pass over a chunk found: sums, and a minimum.
 #[derive(Clone, Copy, Debug)]
-pub struct Partial {
+pub(crate) struct Partial {
     pub(crate) sum: [f64; SUMS],
     pub(crate) min: f64,
 }
@@ -33,7 +33,7 @@ impl Partial {
 
 /// Runs the passes over fields of one size, and adds up what the chunks return, in their order.
 #[derive(Debug)]
-pub struct Reducer(Vec<Partial>);
+pub(crate) struct Reducer(Vec<Partial>);
 
 impl Reducer {
     pub(crate) fn new(nodes: usize) -> Self {
@@ -50,15 +50,16 @@ impl Reducer {
         self.total()
     }
 
-    /// The same over the chunks of which the last pass found what `wanted` asks for.
+    /// The same over the chunks of which another pass, `before`, found what `wanted` asks for.
     pub(crate) fn run_where<A: IndexedParallelIterator>(
         &mut self,
+        before: &Self,
         wanted: impl Fn(&Partial) -> bool + Sync + Send,
         chunks: A,
         f: impl Fn(usize, A::Item) -> Partial + Sync + Send,
     ) -> Partial {
         par::update(chunks, &mut self.0, BATCH, |i, chunk, part| {
-            *part = if wanted(part) { f(i * CHUNK, chunk) } else { Partial::NONE };
+            *part = if wanted(&before.0[i]) { f(i * CHUNK, chunk) } else { Partial::NONE };
         });
         self.total()
     }

@@ -115,7 +115,7 @@ pub mod paper_checked {
     #![doc = include_str!("paper_checked.md")]
 }
 mod par;
-mod passes;
+
 mod path;
 #[cfg(feature = "cli")]
 mod picture;

@@ -25,7 +25,7 @@ const RESOLVED: f64 = 0.5;
 ///
 /// Sizes are halved while they are even and both sides keep `coarsest` nodes; an odd size has no coarser grid. With adhesion
 /// only grids that resolve it ([`Problem::resolution`] up to 0.5) are used, as a coarser one may pin the contact on another
-/// branch. If the traction of the law jumps, the coarser grids [smooth](AdhesionLaw::smooth) it, and so does the finest one on
+/// branch. If the traction of the law jumps, the coarser grids [smooth](AdhesionLaw::smoothed) it, and so does the finest one on
 /// its way from their solution, as it does from the default start. Without a coarser grid all is as with [`Solver::solve`].
 ///
 /// Memory per node of the finest grid: no more than a solve on that grid alone, seven scalars with [`Westergaard`](crate::Westergaard);
@@ -171,7 +171,7 @@ impl<C> Nested<C> {
             self.solver.settings = Settings { tolerance, ..settings };
             let mut smoothed = false;
             let begin = start.take().map(CowArray::from);
-            let result = self.solver.run(&mut problem, control, begin, true, |iteration| {
+            let result = self.solver.run(problem.parts(), control, begin, true, &mut |iteration| {
                 stopped = stopped || observe(coarse.grid(), iteration).is_break();
                 // the equilibrium of the smoothed law is all that the next grid needs
                 let done = smoothed && !iteration.smoothed;
@@ -196,7 +196,7 @@ impl<C> Nested<C> {
         }
         let mut problem = Problem::new(surface, operator(*surface.grid())?, law)?;
         let begin = start.take().map(CowArray::from);
-        let solution = self.solver.run(&mut problem, control, begin, true, |iteration| {
+        let solution = self.solver.run(problem.parts(), control, begin, true, &mut |iteration| {
             stopped = stopped || observe(surface.grid(), iteration).is_break();
             if stopped { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         })?;

@@ -1,11 +1,11 @@
 use std::ops::ControlFlow;
 
-use ndarray::Array2;
+use ndarray::{Array2, CowArray};
 
 use crate::adhesion::AdhesionLaw;
 use crate::elastic::ElasticOperator;
 use crate::error::{Error, Result};
-use crate::problem::{Control, Problem};
+use crate::problem::{Control, Parts, Problem, smoothed_law};
 use crate::real::Real;
 use crate::solver::{Iteration, Solution, Solver, Status};
 
@@ -97,7 +97,7 @@ pub struct PathStep<T> {
 ///
 /// Where the traction of the law jumps, as that of [`MaugisDugdale`](crate::MaugisDugdale), every node that enters or leaves the adhesive zone
 /// is a small jump, and the grid holds the edge of that zone back: a hysteresis that the continuum has not. Unless
-/// [`PathSettings::smooth`] is off, the path is therefore one of the [smoothed](AdhesionLaw::smooth) law, of which the pull-off force
+/// [`PathSettings::smooth`] is off, the path is therefore one of the [smoothed](AdhesionLaw::smoothed) law, of which the pull-off force
 /// converges faster; energies and errors in the reports are that law's.
 ///
 /// # Limit points
@@ -289,10 +289,7 @@ where
         start: Option<Array2<T>>,
         observe: &mut dyn FnMut(&Iteration) -> ControlFlow<()>,
     ) -> Result<Solution<T>> {
-        let jumps = self.settings.smooth && self.problem.smooth_law();
-        if jumps {
-            self.problem.law.smooth(T::zero());
-        }
+        let jumps = self.settings.smooth && smoothed_law(&self.problem.operator, &self.problem.law).is_some();
         match start {
             Some(start) => self.solve(control, Some(&start), observe),
             None if jumps => {
@@ -310,13 +307,10 @@ where
         start: Option<&Array2<T>>,
         observe: &mut dyn FnMut(&Iteration) -> ControlFlow<()>,
     ) -> Result<Solution<T>> {
-        let smoothed = self.settings.smooth && start.is_some() && self.problem.smooth_law();
-        let start = start.map(|gap| gap.view());
-        let solution = self.solver.solve_from(self.problem, control, start, |iteration| observe(iteration));
-        if smoothed {
-            self.problem.law.smooth(T::zero());
-        }
-        solution
+        let Parts { operator, law, flat } = self.problem.parts();
+        let smoothed = if self.settings.smooth && start.is_some() { smoothed_law(&*operator, law) } else { None };
+        let parts = Parts { operator, law: smoothed.as_deref().unwrap_or(law), flat };
+        self.solver.run(parts, control, start.map(CowArray::from), false, observe)
     }
 
     /// One step, if it was good.
@@ -338,7 +332,7 @@ where
         }
         let w = self.problem.law.work_of_adhesion().widen();
         let rounding = T::epsilon().widen() / (solution.gap.len() as f64).sqrt() + f64::EPSILON;
-        let noise = 8.0 * rounding * self.problem.surface_work;
+        let noise = 8.0 * rounding * self.problem.flat.work;
         let trial = self.state.judge(target, report, self.settings.tolerance, 1e-3 * w, noise);
         let good = trial.balanced && report.status == Status::Converged;
         if !good && !smallest {
@@ -347,7 +341,7 @@ where
         }
         if self.state.mode == Mode::Pressure && (trial.jumped && !good || report.status == Status::Detached) {
             let law = &self.problem.law;
-            let far = 2.0 * (self.problem.height_span + 10.0 * law.range().widen());
+            let far = 2.0 * (self.problem.flat.height_span + 10.0 * law.range().widen());
             self.state.leave_pressure_control(far, &self.settings);
             return Ok(None);
         }

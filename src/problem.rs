@@ -51,13 +51,35 @@ pub enum Control {
 pub struct Problem<T, O, L> {
     pub(crate) operator: O,
     pub(crate) law: L,
-    /// K⁻¹h
-    pub(crate) surface_pressure: Array2<T>,
+    pub(crate) flat: PressedFlat<T>,
+}
+
+/// The surface, as far as a solve needs it: pressed flat.
+#[derive(Clone, Debug)]
+pub(crate) struct PressedFlat<T> {
+    /// the pressure K⁻¹h
+    pub(crate) pressure: Array2<T>,
     /// the mean of h·K⁻¹h
-    pub(crate) surface_work: f64,
+    pub(crate) work: f64,
     pub(crate) rms_height: f64,
     /// the highest height less the lowest
     pub(crate) height_span: f64,
+}
+
+/// The parts of a problem, for a solve.
+pub(crate) struct Parts<'a, T> {
+    pub(crate) operator: &'a mut dyn ElasticOperator<T>,
+    pub(crate) law: &'a dyn AdhesionLaw<T>,
+    pub(crate) flat: &'a PressedFlat<T>,
+}
+
+/// A law with its jumps smoothed by what the grid of an operator can resolve; nothing if it has none.
+pub(crate) fn smoothed_law<'a, T: Real>(
+    operator: &dyn ElasticOperator<T>,
+    law: &'a dyn AdhesionLaw<T>,
+) -> Option<Box<dyn AdhesionLaw<T> + 'a>> {
+    let compliance = SMOOTHING * operator.grid().largest_spacing() / operator.modulus();
+    law.smoothed(T::lit(compliance))
 }
 
 impl<T: Real, O: ElasticOperator<T>, L: AdhesionLaw<T>> Problem<T, O, L> {
@@ -87,7 +109,8 @@ impl<T: Real, O: ElasticOperator<T>, L: AdhesionLaw<T>> Problem<T, O, L> {
         let surface_work = operator.surface_pressure(heights, surface_pressure.view_mut())?.max(0.0);
         drop(centred);
         Error::all_finite("pressure K⁻¹h of the surface pressed flat", surface_pressure.view())?;
-        Ok(Self { operator, law, surface_pressure, surface_work, rms_height, height_span })
+        let flat = PressedFlat { pressure: surface_pressure, work: surface_work, rms_height, height_span };
+        Ok(Self { operator, law, flat })
     }
 
     /// The grid.
@@ -105,10 +128,9 @@ impl<T: Real, O: ElasticOperator<T>, L: AdhesionLaw<T>> Problem<T, O, L> {
         &self.law
     }
 
-    /// Smooths the jumps of the law by what the grid can resolve; `false` if it has none.
-    pub(crate) fn smooth_law(&mut self) -> bool {
-        let compliance = SMOOTHING * self.grid().largest_spacing() / self.operator.modulus();
-        self.law.smooth(T::lit(compliance))
+    /// The parts of the problem, for a solve.
+    pub(crate) fn parts(&mut self) -> Parts<'_, T> {
+        Parts { operator: &mut self.operator, law: &self.law, flat: &self.flat }
     }
 
     /// Whether the grid resolves the adhesive zone: μ_ρ = √(wΔx/E*)/ρ, with the larger of Δx and Δy.
@@ -116,10 +138,15 @@ impl<T: Real, O: ElasticOperator<T>, L: AdhesionLaw<T>> Problem<T, O, L> {
     /// Below about 0.5 it does. Above, contact edges are pinned to the grid, there are many equilibria, and which
     /// one is found depends on the start. Zero without adhesion.
     pub fn resolution(&self) -> f64 {
-        let (w, range) = (self.law.work_of_adhesion().widen(), self.law.range().widen());
-        if self.law.is_zero() || w <= 0.0 || range <= 0.0 {
-            return 0.0;
-        }
-        (w * self.grid().largest_spacing() / self.operator.modulus()).sqrt() / range
+        resolution(&self.operator, &self.law)
     }
+}
+
+/// μ_ρ of a law on the grid of an operator.
+pub(crate) fn resolution<T: Real>(operator: &dyn ElasticOperator<T>, law: &dyn AdhesionLaw<T>) -> f64 {
+    let (w, range) = (law.work_of_adhesion().widen(), law.range().widen());
+    if law.is_zero() || w <= 0.0 || range <= 0.0 {
+        return 0.0;
+    }
+    (w * operator.grid().largest_spacing() / operator.modulus()).sqrt() / range
 }

@@ -1,15 +1,12 @@
-use std::fmt::{Display, LowerExp};
-use std::sync::Arc;
+//! The scalar of every field, and functions that are compiled once for each of the two.
 
-use num_traits::{Float, FloatConst, NumAssign};
-use rustfft::{Fft, FftNum, FftPlanner};
+use std::fmt::{Debug, Display, LowerExp};
 
-use crate::passes::Passes;
-use crate::vector::vectorised;
+use num_traits::{Float, FromPrimitive, NumAssign, Signed};
 
 /// The scalar of every field: `f32` or `f64`.
 ///
-/// One trait gathers what the transforms and the field arithmetic need; sums over fields accumulate in
+/// One trait gathers what the field arithmetic and the transforms need; sums over fields accumulate in
 /// `f64` whichever it is. It cannot be implemented for other types.
 ///
 /// ```
@@ -18,7 +15,9 @@ use crate::vector::vectorised;
 /// assert_eq!(half(3.0_f32), 1.5);
 /// assert_eq!(half(3.0_f64).widen(), 1.5);
 /// ```
-pub trait Real: FftNum + Float + NumAssign + Default + Display + LowerExp + Passes {
+pub trait Real:
+    Float + NumAssign + FromPrimitive + Signed + Default + Debug + Display + LowerExp + Send + Sync + Sealed + 'static
+{
     /// The name of the precision, as the report prints it: `"f32"` or `"f64"`.
     const NAME: &'static str;
 
@@ -28,92 +27,29 @@ pub trait Real: FftNum + Float + NumAssign + Default + Display + LowerExp + Pass
     /// The value in `f64`, exactly.
     fn widen(self) -> f64;
 
-    /// `factor·exp(rate·x)` for many x, to two units in the last place; zero where it would be subnormal.
-    ///
-    /// Without branches and tables, so that it runs on vector instructions, with the same bits on every platform.
-    fn exponentials(factor: Self, rate: Self, x: &[Self], results: &mut [Self]);
-
-    /// The forward and the inverse Fourier transform of a length.
-    ///
-    /// Here so that the transforms are compiled with this crate, and not again with each that uses it.
-    fn transforms(len: usize) -> [Arc<dyn Fft<Self>>; 2];
+    /// Calls the function of this precision.
+    #[doc(hidden)]
+    fn call<F: Compiled>(input: F::Input<Self>) -> F::Output<Self>;
 }
 
-fn plan<T: FftNum>(len: usize) -> [Arc<dyn Fft<T>>; 2] {
-    let mut planner = FftPlanner::new();
-    [planner.plan_fft_forward(len), planner.plan_fft_inverse(len)]
+/// A function of either precision that is compiled with this crate, and not again with each crate that calls it.
+///
+/// The compiler makes the code of a generic function where it is called. The two functions here are not generic.
+pub trait Compiled {
+    /// What the function takes.
+    type Input<T: Real>;
+    /// What it returns.
+    type Output<T: Real>;
+    /// The function in `f32`.
+    fn single(input: Self::Input<f32>) -> Self::Output<f32>;
+    /// The function in `f64`.
+    fn double(input: Self::Input<f64>) -> Self::Output<f64>;
 }
 
-/// exp x = 2ᵏ exp r with |r| ≤ ½ ln 2: a Taylor series of r, and k into the bits of the exponent.
-macro_rules! exponentials {
-    ($float:ty, $mantissa:literal, $bias:literal, $magic:expr, $ln2:expr, $low:expr, $high:expr, $series:expr) => {
-        fn exponentials(factor: Self, rate: Self, x: &[Self], results: &mut [Self]) {
-            vectorised(
-                #[inline(always)]
-                || {
-                    for (result, &x) in results.iter_mut().zip(x) {
-                        let x = rate * x;
-                        let held = if x < $low {
-                            $low
-                        } else if x > $high {
-                            $high
-                        } else {
-                            x
-                        };
-                        // adding it rounds to an integer, which stays in the last bits
-                        let shifted = held * <$float as FloatConst>::LOG2_E() + $magic;
-                        let k = shifted - $magic;
-                        let r = held - k * $ln2.0 - k * $ln2.1;
-                        let series = $series(r);
-                        let power = <$float>::from_bits(shifted.to_bits().wrapping_add($bias) << $mantissa);
-                        let exp = if x < $low {
-                            0.0
-                        } else if x > $high {
-                            <$float>::INFINITY
-                        } else {
-                            series * power
-                        };
-                        *result = factor * exp;
-                    }
-                },
-            );
-        }
-    };
-}
-
-const fn reciprocal_factorials<const N: usize>() -> [f64; N] {
-    let mut terms = [1.0; N];
-    let mut k = 1;
-    while k < N {
-        terms[k] = terms[k - 1] / k as f64;
-        k += 1;
-    }
-    terms
-}
-
-// The terms are summed in pairs, and the pairs in pairs (Estrin), so that few operations wait for one another; the first
-// two, which carry the rounding, come last.
-
-#[inline(always)]
-fn series_f64(r: f64) -> f64 {
-    const C: [f64; 14] = reciprocal_factorials();
-    let r2 = r * r;
-    let r4 = r2 * r2;
-    let low = (C[2] + C[3] * r) + (C[4] + C[5] * r) * r2;
-    let middle = (C[6] + C[7] * r) + (C[8] + C[9] * r) * r2;
-    let high = (C[10] + C[11] * r) + (C[12] + C[13] * r) * r2;
-    1.0 + (r + r2 * (low + r4 * (middle + r4 * high)))
-}
-
-#[inline(always)]
-fn series_f32(r: f32) -> f32 {
-    const C: [f64; 8] = reciprocal_factorials();
-    let c = |k: usize| C[k] as f32;
-    let r2 = r * r;
-    let low = (c(2) + c(3) * r) + (c(4) + c(5) * r) * r2;
-    let high = c(6) + c(7) * r;
-    1.0 + (r + r2 * (low + r2 * r2 * high))
-}
+/// Keeps other types from becoming scalars.
+pub trait Sealed {}
+impl Sealed for f32 {}
+impl Sealed for f64 {}
 
 impl Real for f32 {
     const NAME: &'static str = "f32";
@@ -125,10 +61,9 @@ impl Real for f32 {
     fn widen(self) -> f64 {
         f64::from(self)
     }
-    fn transforms(len: usize) -> [Arc<dyn Fft<Self>>; 2] {
-        plan(len)
+    fn call<F: Compiled>(input: F::Input<Self>) -> F::Output<Self> {
+        F::single(input)
     }
-    exponentials!(f32, 23, 127, 12_582_912.0, (0.693_359_4_f32, -2.121_944_4e-4_f32), -87.0, 88.0, series_f32);
 }
 
 impl Real for f64 {
@@ -141,64 +76,7 @@ impl Real for f64 {
     fn widen(self) -> f64 {
         self
     }
-    fn transforms(len: usize) -> [Arc<dyn Fft<Self>>; 2] {
-        plan(len)
-    }
-    exponentials!(
-        f64,
-        52,
-        1023,
-        6_755_399_441_055_744.0,
-        (0.693_147_180_369_123_8, 1.908_214_929_270_587_7e-10),
-        -708.0,
-        709.0,
-        series_f64
-    );
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn exponentials_are_right_to_two_units_in_the_last_place() {
-        let x: Vec<f64> =
-            (0..200_000).map(|i| -720.0 + 1.44e3 * f64::from(i) / 2e5 + 1e-3 * f64::from(i).sin()).collect();
-        let mut found = vec![0.0; x.len()];
-        f64::exponentials(1.0, 1.0, &x, &mut found);
-        for (&x, &found) in x.iter().zip(&found) {
-            let exact = if x < -708.0 {
-                0.0
-            } else if x > 709.0 {
-                f64::INFINITY
-            } else {
-                x.exp()
-            };
-            assert!(found == exact || (found - exact).abs() <= 2.0 * f64::EPSILON * exact, "{x} {found:e} {exact:e}");
-        }
-        let x: Vec<f32> = (0..200_000).map(|i| (-89.0 + 179.0 * f64::from(i) / 2e5) as f32).collect();
-        let mut found = vec![0.0; x.len()];
-        f32::exponentials(1.0, 1.0, &x, &mut found);
-        for (&x, &found) in x.iter().zip(&found) {
-            let exact = if x < -87.0 {
-                0.0
-            } else if x > 88.0 {
-                f64::INFINITY
-            } else {
-                f64::from(x).exp()
-            };
-            let error = (f64::from(found) - exact).abs();
-            assert!(
-                f64::from(found) == exact || error <= 2.0 * f64::from(f32::EPSILON) * exact,
-                "{x} {found:e} {exact:e}"
-            );
-        }
-    }
-
-    #[test]
-    fn exponentials_of_what_is_not_finite() {
-        let mut found = [0.0; 3];
-        f64::exponentials(2.0, -1.0, &[f64::INFINITY, f64::NAN, 0.0], &mut found);
-        assert!(found[0] == 0.0 && found[1].is_nan() && found[2] == 2.0);
+    fn call<F: Compiled>(input: F::Input<Self>) -> F::Output<Self> {
+        F::double(input)
     }
 }

@@ -1,16 +1,20 @@
+//! The driver: how a problem is solved, and what comes of it.
+
 use std::ops::ControlFlow;
 
 use ndarray::{Array2, ArrayView2, CowArray, Ix2};
 
 use crate::adhesion::AdhesionLaw;
-use crate::constraint::{ContactConstraint, Outer, Projection};
+use crate::constraint::{ContactConstraint, Projection};
 use crate::elastic::ElasticOperator;
-use crate::error::{Error, Result};
-use crate::problem::{Control, Problem};
+use crate::error::Result;
+use crate::problem::{Control, Parts, Problem};
 use crate::real::Real;
 
 mod certificate;
+mod driver;
 mod lift;
+mod passes;
 mod potential;
 mod preconditioned;
 mod report;
@@ -18,8 +22,9 @@ mod rey2017;
 mod start;
 mod state;
 
+use driver::Job;
+pub(crate) use driver::Observer;
 pub use report::{Iteration, Report, Solution, Status};
-use state::State;
 
 /// How the iteration goes: which of the two presets of the driver.
 ///
@@ -159,7 +164,7 @@ impl<C> Solver<C> {
     ///
     /// That is a uniform gap: the mean gap, if that is given; under a given pressure twice the rms height without
     /// adhesion, and full contact with adhesion. If the traction of the law jumps, as that of
-    /// [`MaugisDugdale`](crate::MaugisDugdale) does, what is found from there with the jump [smoothed](AdhesionLaw::smooth)
+    /// [`MaugisDugdale`](crate::MaugisDugdale) does, what is found from there with the jump [smoothed](AdhesionLaw::smoothed)
     /// becomes the start, within the same solve. The start matters only with adhesion, where there may be several equilibria.
     ///
     /// # Errors
@@ -187,7 +192,7 @@ impl<C> Solver<C> {
         problem: &mut Problem<T, O, L>,
         control: Control,
         start: Option<ArrayView2<'_, T>>,
-        observe: impl FnMut(&Iteration) -> ControlFlow<()>,
+        mut observe: impl FnMut(&Iteration) -> ControlFlow<()>,
     ) -> Result<Solution<T>>
     where
         T: Real,
@@ -195,7 +200,7 @@ impl<C> Solver<C> {
         L: AdhesionLaw<T>,
         C: ContactConstraint<T>,
     {
-        self.run(problem, control, start.map(CowArray::from), false, observe)
+        self.run(problem.parts(), control, start.map(CowArray::from), false, &mut observe)
     }
 
     /// Solves from the solution of the same problem in another precision or on another grid, which is taken, not copied.
@@ -232,88 +237,23 @@ impl<C> Solver<C> {
         L: AdhesionLaw<T>,
         C: ContactConstraint<T>,
     {
-        self.run(problem, control, Some(CowArray::from(start)), true, |_| ControlFlow::Continue(()))
+        self.run(problem.parts(), control, Some(CowArray::from(start)), true, &mut |_| ControlFlow::Continue(()))
     }
 
-    /// What [`Solver::solve_from`] does, from a start that may be given away, and that may be `near`: the solution of the same
-    /// problem, but for what a coarser grid or precision left out. The jumps of the law are smoothed on the way from it.
-    pub(crate) fn run<T, O, L>(
-        &mut self,
-        problem: &mut Problem<T, O, L>,
+    /// [`Solver::solve_from`] a start that may be given away, and that may be `near`: the solution of the same problem, but
+    /// for the error of a coarser grid or precision. From there the jumps of the law are smoothed, as from the default start.
+    pub(crate) fn run<'a, T: Real>(
+        &'a mut self,
+        problem: Parts<'a, T>,
         control: Control,
-        start: Option<CowArray<'_, T, Ix2>>,
+        start: Option<CowArray<'a, T, Ix2>>,
         near: bool,
-        observe: impl FnMut(&Iteration) -> ControlFlow<()>,
+        observe: Observer<'a>,
     ) -> Result<Solution<T>>
     where
-        T: Real,
-        O: ElasticOperator<T>,
-        L: AdhesionLaw<T>,
         C: ContactConstraint<T>,
     {
-        Error::positive("tolerance", self.settings.tolerance)?;
-        let smooth = (near || start.is_none()) && self.settings.method == Method::Preconditioned;
-        let near = near && start.is_some();
-        let mut state = State::new(problem, &mut self.constraint, control, start, self.settings)?;
-        if near {
-            state.stays_near();
-        }
-        if smooth {
-            state.smooth();
-        }
-        match iterate(&mut state, observe) {
-            Ok(status) => state.finish(status),
-            Err(error) => {
-                if state.smoothed {
-                    state.problem.law.smooth(T::zero());
-                }
-                Err(error)
-            }
-        }
-    }
-}
-
-fn iterate<T, O, L, C>(
-    state: &mut State<'_, T, O, L, C>,
-    mut observe: impl FnMut(&Iteration) -> ControlFlow<()>,
-) -> Result<Status>
-where
-    T: Real,
-    O: ElasticOperator<T>,
-    L: AdhesionLaw<T>,
-    C: ContactConstraint<T>,
-{
-    loop {
-        state.residual();
-        state.precondition()?;
-        let converged = state.converged() && state.confirm()?;
-        if observe(&state.iteration()).is_break() {
-            return Ok(Status::Stopped);
-        }
-        if converged {
-            if state.sharpen()? {
-                continue;
-            }
-            match state.update_constraint() {
-                Outer::Done => return Ok(Status::Converged),
-                Outer::Again => continue,
-                Outer::Failed => return Ok(Status::IterationLimit),
-            }
-        }
-        if let Some(status) = state.verdict() {
-            if status == Status::Stalled && (state.renew()? || state.sharpen()?) {
-                continue;
-            }
-            return Ok(status);
-        }
-        if state.is_adrift() {
-            if !state.sharpen()? {
-                state.hold_apart();
-            }
-            continue;
-        }
-        if !state.step()? && !state.renew()? && !state.sharpen()? {
-            return Ok(Status::Stalled);
-        }
+        let Self { settings, constraint } = self;
+        driver::solve(Job { problem, constraint, control, settings: *settings, start, near, observe })
     }
 }

@@ -7,7 +7,7 @@ use crate::elastic::ElasticOperator;
 use crate::error::{Error, Result};
 use crate::field::{Partial, Reducer, read, write};
 use crate::par::IndexedParallelIterator;
-use crate::problem::{Control, Problem};
+use crate::problem::{Control, Problem, smoothed_law};
 use crate::real::Real;
 use crate::solver::Solution;
 
@@ -79,7 +79,7 @@ impl fmt::Display for Verdict {
 /// The slope φ'' of [`MaugisDugdale`](crate::MaugisDugdale) is nothing but −σ₀ times a measure on the line g = ρ. No node lies on that
 /// line: node by node φ'' is zero, every equilibrium of the discrete energy is a strict local minimum, and is pinned by
 /// the grid. That says nothing about the continuum. So the traction is smoothed as for the
-/// [default start](AdhesionLaw::smooth), which spreads the measure over a few nodes, and the verdict is about that second
+/// [default start](AdhesionLaw::smoothed), which spreads the measure over a few nodes, and the verdict is about that second
 /// derivative, at the given gap: an estimate for the continuum, which gets better as the grid is refined, and no statement
 /// about the discrete energy. [`Stability::smoothed`] says so.
 ///
@@ -165,13 +165,11 @@ impl StabilityTest {
         Error::positive("tolerance", self.tolerance)?;
         Error::shape("gap", solution.gap.dim(), problem.grid().shape())?;
         Error::all_finite("gap", solution.gap.view())?;
-        let smoothed = problem.smooth_law();
-        let slopes = slopes(&solution.gap, &problem.law);
-        if smoothed {
-            problem.law.smooth(T::zero());
-        }
+        let smoothed = smoothed_law(&problem.operator, &problem.law);
+        let slopes = slopes(&solution.gap, smoothed.as_deref().unwrap_or(&problem.law))?;
+        let smoothed = smoothed.is_some();
         let centred = matches!(control, Control::MeanGap(_));
-        let hessian = Hessian::new(&mut problem.operator, slopes?, centred);
+        let hessian = Hessian::new(&mut problem.operator, slopes, centred);
         self.judge(hessian, solution.report.relative_error, smoothed)
     }
 
@@ -210,7 +208,7 @@ impl StabilityTest {
 }
 
 /// φ'' at every node, and infinity on the contact.
-fn slopes<T: Real>(gap: &Array2<T>, law: &impl AdhesionLaw<T>) -> Result<Array2<T>> {
+fn slopes<T: Real>(gap: &Array2<T>, law: &dyn AdhesionLaw<T>) -> Result<Array2<T>> {
     let mut slopes = Array2::zeros(gap.dim());
     let mut reducer = Reducer::new(gap.len());
     let wrong = reducer.run(read(gap).zip(write(&mut slopes)), |_, (gap, slopes)| {

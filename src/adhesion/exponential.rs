@@ -1,4 +1,5 @@
 use super::AdhesionLaw;
+use super::exponentials::exponentials;
 use crate::error::{Error, Result};
 use crate::real::Real;
 
@@ -46,13 +47,13 @@ impl<T: Real> AdhesionLaw<T> for Exponential<T> {
         -self.work_of_adhesion / self.range / self.range * (-gap / self.range).exp()
     }
     fn energies(&self, gaps: &[T], energies: &mut [T]) {
-        T::exponentials(-self.work_of_adhesion, -self.range.recip(), gaps, energies);
+        exponentials(-self.work_of_adhesion, -self.range.recip(), gaps, energies);
     }
     fn tractions(&self, gaps: &[T], tractions: &mut [T]) {
-        T::exponentials(self.work_of_adhesion / self.range, -self.range.recip(), gaps, tractions);
+        exponentials(self.work_of_adhesion / self.range, -self.range.recip(), gaps, tractions);
     }
     fn slopes(&self, gaps: &[T], slopes: &mut [T]) {
-        T::exponentials(-self.work_of_adhesion / self.range / self.range, -self.range.recip(), gaps, slopes);
+        exponentials(-self.work_of_adhesion / self.range / self.range, -self.range.recip(), gaps, slopes);
     }
     fn tractions_and_slopes(&self, gaps: &[T], tractions: &mut [T], slopes: &mut [T]) {
         self.tractions(gaps, tractions);

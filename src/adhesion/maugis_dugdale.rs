@@ -10,7 +10,7 @@ use crate::real::Real;
 ///
 /// Maugis (1992); equations (26) and (27) of Rey, Anciaux and Molinari (2017), of which (26) is misprinted.
 /// The traction jumps at g = ρ: there are many equilibria at one mean gap, and which of them a solve finds depends on
-/// its start. [`smooth`](AdhesionLaw::smooth) lets the traction fall evenly between ρ − d/2 and ρ + d/2 instead, over
+/// its start. In the law [`smoothed`](AdhesionLaw::smoothed) the traction falls evenly between ρ − d/2 and ρ + d/2 instead, over
 /// d = σ₀·compliance, at most 2ρ.
 ///
 /// ```
@@ -70,10 +70,10 @@ impl<T: Real> AdhesionLaw<T> for MaugisDugdale<T> {
     fn range(&self) -> T {
         self.range
     }
-    fn smooth(&mut self, compliance: T) -> bool {
+    fn smoothed(&self, compliance: T) -> Option<Box<dyn AdhesionLaw<T> + '_>> {
         let width = self.work_of_adhesion / self.range * compliance;
-        self.smoothing = width.min(T::lit(2.0) * self.range);
-        self.smoothing > T::zero()
+        let smoothing = width.min(T::lit(2.0) * self.range);
+        (smoothing > T::zero()).then(|| Box::new(Self { smoothing, ..*self }) as Box<dyn AdhesionLaw<T>>)
     }
     fn is_zero(&self) -> bool {
         self.work_of_adhesion == T::zero()

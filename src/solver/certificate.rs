@@ -1,11 +1,8 @@
 //! How far the state is from the solution, and whether the solve has to end.
 
 use super::report::Status;
-use super::state::State;
+use super::state::{Goal, State};
 use super::{Criterion, Method};
-use crate::adhesion::AdhesionLaw;
-use crate::constraint::ContactConstraint;
-use crate::elastic::ElasticOperator;
 use crate::error::Result;
 use crate::field::{Partial, write};
 use crate::problem::Control;
@@ -24,16 +21,10 @@ const NEAR_FLOOR: f64 = 2.0;
 /// The same for [`Method::Rey2017`], whose energy and residual need not fall.
 const STALL_REY2017: (usize, usize) = (400, 800);
 
-impl<T, O, L, C> State<'_, T, O, L, C>
-where
-    T: Real,
-    O: ElasticOperator<T>,
-    L: AdhesionLaw<T>,
-    C: ContactConstraint<T>,
-{
+impl<T: Real> State<'_, T> {
     /// The mean of u·p, twice the elastic energy.
-    pub(super) fn work(&self) -> f64 {
-        (self.tally.work / self.nodes() + self.problem.surface_work).max(0.0)
+    pub(super) fn mean_work(&self) -> f64 {
+        (self.work / self.nodes()).max(0.0)
     }
 
     pub(super) fn relative_error(&self) -> f64 {
@@ -53,19 +44,19 @@ where
     fn error_scale(&self) -> (f64, f64) {
         let epsilon = T::epsilon().widen();
         // u·p is the small difference of large sums for light loads: what may be their rounding does not count
-        let rounding = 8.0 * (epsilon / self.nodes().sqrt() + f64::EPSILON) * self.problem.surface_work;
-        let touching = (self.work() - rounding).max(0.0);
-        let apart = if self.tally.contact > 0.0 { 0.0 } else { self.problem.surface_work };
+        let rounding = 8.0 * (epsilon / self.nodes().sqrt() + f64::EPSILON) * self.flat.work;
+        let touching = (self.mean_work() - rounding).max(0.0);
+        let apart = if self.tally.contact > 0.0 { 0.0 } else { self.flat.work };
         // flats that attract each other have no waves but those of rounding
         let traction = self.tally.traction / self.nodes();
-        let (softest, stiffest) = self.problem.operator.stiffness_range();
+        let (softest, stiffest) = self.operator.stiffness_range();
         // and so have flats that are held apart
         let lifted = if self.tally.contact > 0.0 { 0.0 } else { self.tally.sum_gap / self.nodes() };
         let flat =
             if softest > 0.0 { epsilon * (traction * traction / softest + softest * lifted * lifted) } else { 0.0 };
         let waves = touching.max(apart);
         let mean = (self.tally.sum_gap / self.nodes()).abs();
-        let carried = self.problem.surface_work + 0.5 * stiffest * mean * (mean + self.problem.rms_height);
+        let carried = self.flat.work + 0.5 * stiffest * mean * (mean + self.flat.rms_height);
         (waves.max(flat), if waves >= flat { epsilon * epsilon * carried } else { 0.0 })
     }
 
@@ -85,24 +76,24 @@ where
         };
         let contact = pressure + self.tally.traction / self.nodes();
         // the pressure that presses the surface flat, as far as loads matter beside it
-        let floor = 1e-6 * (self.problem.surface_work * self.problem.operator.stiffness_range().0).sqrt();
+        let floor = 1e-6 * (self.flat.work * self.operator.stiffness_range().0).sqrt();
         let scale = pressure.abs().max(contact.abs()).max(floor);
         if residual == 0.0 { 0.0 } else { residual / scale }
     }
 
     pub(super) fn scaled_orthogonality(&self) -> f64 {
-        let (lx, ly) = self.problem.grid().lengths();
-        self.orthogonality / (self.problem.operator.modulus() * (lx * ly).sqrt())
+        let (lx, ly) = self.operator.grid().lengths();
+        self.residual.orthogonality / (self.operator.modulus() * (lx * ly).sqrt())
     }
 
     pub(super) fn converged(&self) -> bool {
-        if self.smoothed {
+        if self.goal == Goal::Start {
             let tolerance = self.settings.tolerance.max(START);
             return self.relative_error() <= tolerance && self.load_error() <= tolerance;
         }
         let criterion = match self.settings.criterion {
             Criterion::EnergyNorm => self.relative_error(),
-            Criterion::Orthogonality if self.working > self.tally.free => f64::INFINITY,
+            Criterion::Orthogonality if self.residual.working > self.tally.free => f64::INFINITY,
             Criterion::Orthogonality => self.scaled_orthogonality(),
         };
         criterion <= self.settings.tolerance && self.load_error() <= self.settings.tolerance
@@ -111,7 +102,7 @@ where
     /// Whether the state is converged with the pressure of its own gap, computed anew if it was only updated.
     pub(super) fn confirm(&mut self) -> Result<bool> {
         // a start needs no proof
-        if self.age == 0 || self.smoothed {
+        if self.age == 0 || self.goal == Goal::Start {
             return Ok(true);
         }
         let before = self.certificate;
@@ -119,8 +110,8 @@ where
         self.momentum = None;
         self.refresh()?;
         self.residual();
-        let softest = self.problem.operator.stiffness_range().0;
-        let change = self.residual_change;
+        let softest = self.operator.stiffness_range().0;
+        let change = self.residual.difference;
         let difference = if change == 0.0 { 0.0 } else { change / self.nodes() / softest };
         self.certificate = (before.sqrt() + difference.sqrt()).powi(2);
         if self.converged() {
@@ -133,13 +124,13 @@ where
     /// The energy that is minimised, per area.
     pub(super) fn energy(&self) -> f64 {
         let load = self.detached.unwrap_or(self.offset());
-        0.5 * self.work() + (self.tally.adhesive + self.tally.penalty + load * self.tally.sum_gap) / self.nodes()
+        0.5 * self.mean_work() + (self.tally.adhesive + self.tally.penalty + load * self.tally.sum_gap) / self.nodes()
     }
 
     /// What rounding of the fields can do to the energy, per area.
     pub(super) fn energy_noise(&self) -> f64 {
         let local = self.tally.adhesive.abs() + self.tally.penalty.abs() + (self.offset() * self.tally.sum_gap).abs();
-        2.0 * T::epsilon().widen() * (0.5 * self.work() + local / self.nodes())
+        2.0 * T::epsilon().widen() * (0.5 * self.mean_work() + local / self.nodes())
     }
 
     /// Whether the solve has to end without having converged.
@@ -155,32 +146,33 @@ where
         if !energy.is_finite() {
             return Some(Status::Stalled);
         }
-        if error < 0.95 * self.best_error || energy < self.lowest_energy - self.energy_noise() {
-            self.idle = 0;
+        if error < 0.95 * self.progress.best_error || energy < self.progress.lowest_energy - self.energy_noise() {
+            self.progress.idle = 0;
         } else {
-            self.idle += 1;
+            self.progress.idle += 1;
         }
-        self.best_error = self.best_error.min(error);
-        self.lowest_energy = self.lowest_energy.min(energy);
+        self.progress.best_error = self.progress.best_error.min(error);
+        self.progress.lowest_energy = self.progress.lowest_energy.min(energy);
         let (restart, stall) = match self.settings.method {
             Method::Preconditioned if self.is_at_floor() => STALL_AT_FLOOR,
             Method::Preconditioned => STALL,
             Method::Rey2017 => STALL_REY2017,
         };
-        if self.idle == restart {
+        if self.progress.idle == restart {
             (self.momentum, self.residual_norm) = (None, None);
         }
-        (self.idle >= stall).then_some(Status::Stalled)
+        (self.progress.idle >= stall).then_some(Status::Stalled)
     }
 
     /// Computes the pressure anew, once, where a solve would stall with one that it has only updated for long: what that has
     /// gathered of rounding may be most of what is left; `false` if it has not.
     pub(super) fn renew(&mut self) -> Result<bool> {
-        let due = self.age > STALL_AT_FLOOR.1 && !self.renewed && self.settings.method == Method::Preconditioned;
+        let due =
+            self.age > STALL_AT_FLOOR.1 && !self.progress.renewed && self.settings.method == Method::Preconditioned;
         if due {
             self.refresh()?;
             self.restart();
-            self.renewed = true;
+            self.progress.renewed = true;
         }
         Ok(due)
     }
@@ -194,7 +186,7 @@ where
 
     /// Holds surfaces that drift apart at a mean gap at which they do not reach each other, to let them come to rest.
     pub(super) fn hold_apart(&mut self) {
-        let far = 2.0 * (self.problem.height_span + 10.0 * self.problem.law.range().widen());
+        let far = 2.0 * (self.flat.height_span + 10.0 * self.law.range().widen());
         let mean = self.tally.sum_gap / self.nodes();
         let target = mean.max(far);
         let lift = T::lit(target - mean);

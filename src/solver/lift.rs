@@ -1,11 +1,9 @@
 //! The mean gap under a given pressure: how stiff the contacts are, and what moves when it changes.
 
 use super::Method;
+use super::passes::{self, Follows};
 use super::state::State;
-use crate::adhesion::AdhesionLaw;
-use crate::constraint::ContactConstraint;
-use crate::elastic::ElasticOperator;
-use crate::passes::Follows;
+
 use crate::problem::Control;
 use crate::real::Real;
 
@@ -19,28 +17,22 @@ const STIFFER: f64 = 1.5;
 const HALF: f64 = 0.3;
 const LEAST: f64 = 1e-3;
 
-impl<T, O, L, C> State<'_, T, O, L, C>
-where
-    T: Real,
-    O: ElasticOperator<T>,
-    L: AdhesionLaw<T>,
-    C: ContactConstraint<T>,
-{
+impl<T: Real> State<'_, T> {
     /// The stiffness of the contacts against a change of the mean gap, about λ̄/h_rms for rough surfaces.
     fn contact_stiffness(&self) -> f64 {
         let external = match self.control {
             Control::MeanGap(_) => -self.multiplier(),
             Control::MeanPressure(pressure) => pressure,
         };
-        (external + self.tally.traction / self.nodes()).abs() / self.problem.rms_height
+        (external + self.tally.traction / self.nodes()).abs() / self.flat.rms_height
     }
 
     /// The stiffness that long waves meet beside their own: that of the contacts. On the way from a far start under a given
     /// pressure it is not known yet.
     pub(super) fn foundation(&self) -> f64 {
-        let (softest, stiffest) = self.problem.operator.stiffness_range();
+        let (softest, stiffest) = self.operator.stiffness_range();
         if stiffest <= 0.0 {
-            return self.problem.operator.modulus() / self.problem.grid().lengths().0;
+            return self.operator.modulus() / self.operator.grid().lengths().0;
         }
         let contact = self.contact_stiffness();
         let near = self.near || self.is_gap_controlled();
@@ -49,7 +41,7 @@ where
 
     /// Whether the mean gap follows the load by [`Self::lift`].
     fn lifts(&self) -> bool {
-        let stiffest = self.problem.operator.stiffness_range().1;
+        let stiffest = self.operator.stiffness_range().1;
         let preconditioned = self.settings.method == Method::Preconditioned;
         self.near && !self.is_gap_controlled() && preconditioned && self.constraint.projects() && stiffest > 0.0
     }
@@ -62,11 +54,11 @@ where
         if self.lifts() {
             return f64::INFINITY;
         }
-        let (softest, stiffest) = self.problem.operator.stiffness_range();
+        let (softest, stiffest) = self.operator.stiffness_range();
         if stiffest <= 0.0 {
             // nothing resists the load of a node alone before it touches: a step is as long as the gap
             let gap = self.tally.sum_gap / self.nodes();
-            let falls = gap > 0.0 && self.problem.law.is_zero() && self.offset() > 0.0;
+            let falls = gap > 0.0 && self.law.is_zero() && self.offset() > 0.0;
             return if falls { self.foundation().min(self.offset() / gap) } else { self.foundation() };
         }
         let mean = (softest * self.contact_stiffness()).sqrt();
@@ -81,13 +73,13 @@ where
         if !self.lifts() {
             return;
         }
-        let half = HALF * self.problem.rms_height;
+        let half = HALF * self.flat.rms_height;
         let follows = Follows { half: T::lit(half), least: T::lit(LEAST * half) };
-        let [v, product] = T::lift_sums(&mut self.fields, follows);
+        let [v, product] = passes::lift_sums(&mut self.fields, follows);
         let scale = product / v / (v / self.nodes()) / (STIFFER * foundation);
         if scale.is_finite() {
-            T::lift(&mut self.fields, follows, T::lit(scale));
-            self.preconditioned_descent += scale * product;
+            passes::lift(&mut self.fields, follows, T::lit(scale));
+            self.preconditioned.descent += scale * product;
         }
     }
 }

@@ -1,36 +1,47 @@
-use std::marker::PhantomData;
+//! The local energy of a node, a function of its gap: the adhesion law, and the constraint where it is a term of the energy.
 
 use crate::adhesion::AdhesionLaw;
 use crate::constraint::ContactConstraint;
 use crate::field::CHUNK;
-use crate::passes::{Local, Of};
 use crate::real::Real;
 
-/// What each node feels by its own gap: the adhesion law, and the constraint where it is a term of the energy.
-pub(super) struct Potential<'a, T, L, C> {
-    law: &'a L,
-    constraint: &'a C,
-    scalar: PhantomData<T>,
+/// The local energy of every node: the adhesion law, and the constraint where it is a term of the energy.
+#[derive(Clone, Copy)]
+pub(super) struct Potential<'a, T> {
+    law: &'a dyn AdhesionLaw<T>,
+    constraint: &'a dyn ContactConstraint<T>,
+    projects: bool,
+    is_zero: bool,
 }
 
-impl<'a, T: Real, L: AdhesionLaw<T>, C: ContactConstraint<T>> Potential<'a, T, L, C> {
-    pub(super) fn new(law: &'a L, constraint: &'a C) -> Self {
-        Self { law, constraint, scalar: PhantomData }
-    }
+/// Which derivative of an energy.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Of {
+    Energy,
+    Traction,
+    Slope,
 }
 
-impl<T: Real, L: AdhesionLaw<T>, C: ContactConstraint<T>> Local<T> for Potential<'_, T, L, C> {
-    fn is_zero(&self) -> bool {
-        self.law.is_zero() && self.constraint.projects()
+impl<'a, T: Real> Potential<'a, T> {
+    pub(super) fn new(law: &'a dyn AdhesionLaw<T>, constraint: &'a dyn ContactConstraint<T>) -> Self {
+        let projects = constraint.projects();
+        Self { law, constraint, projects, is_zero: law.is_zero() && projects }
     }
 
-    fn projects(&self) -> bool {
-        self.constraint.projects()
+    /// Whether there is nothing to evaluate.
+    pub(super) fn is_zero(&self) -> bool {
+        self.is_zero
     }
 
-    fn evaluate(&self, of: Of, first: usize, gaps: &[T], out: &mut [T]) {
+    /// Whether the gap is confined to g ≥ 0.
+    pub(super) fn projects(&self) -> bool {
+        self.projects
+    }
+
+    /// The energies, tractions or slopes of law and constraint at the nodes from `first` on.
+    pub(super) fn evaluate(&self, of: Of, first: usize, gaps: &[T], out: &mut [T]) {
         self.law(of, gaps, out);
-        if !self.constraint.projects() {
+        if !self.projects {
             for (i, (out, &gap)) in out.iter_mut().zip(gaps).enumerate() {
                 *out += match of {
                     Of::Energy => self.constraint.energy(first + i, gap),
@@ -41,20 +52,23 @@ impl<T: Real, L: AdhesionLaw<T>, C: ContactConstraint<T>> Local<T> for Potential
         }
     }
 
-    fn tractions_and_slopes(&self, first: usize, gaps: &[T], tractions: &mut [T], slopes: &mut [T]) {
-        if self.constraint.projects() {
+    /// Tractions and slopes at once.
+    pub(super) fn tractions_and_slopes(&self, first: usize, gaps: &[T], tractions: &mut [T], slopes: &mut [T]) {
+        if self.projects {
             return self.law.tractions_and_slopes(gaps, tractions, slopes);
         }
         self.evaluate(Of::Traction, first, gaps, tractions);
         self.evaluate(Of::Slope, first, gaps, slopes);
     }
 
+    /// The energies, tractions or slopes of the law alone.
+    ///
     /// A law is defined for g ≥ 0; where the surfaces interpenetrate it goes on as its tangent at g = 0.
-    fn law(&self, of: Of, gaps: &[T], out: &mut [T]) {
+    pub(super) fn law(&self, of: Of, gaps: &[T], out: &mut [T]) {
         if self.law.is_zero() {
             return out.fill(T::zero());
         }
-        if self.constraint.projects() || gaps.iter().all(|&gap| gap >= T::zero()) {
+        if self.projects || gaps.iter().all(|&gap| gap >= T::zero()) {
             return evaluate(self.law, of, gaps, out);
         }
         let mut buffer = [T::zero(); CHUNK];
@@ -71,7 +85,8 @@ impl<T: Real, L: AdhesionLaw<T>, C: ContactConstraint<T>> Local<T> for Potential
         }
     }
 
-    fn pressed(&self, first: usize, gaps: &[T]) -> [f64; 2] {
+    /// How many nodes a constraint that does not project presses, and its energy.
+    pub(super) fn pressed(&self, first: usize, gaps: &[T]) -> [f64; 2] {
         let mut sums = [0.0; 2];
         for (i, &gap) in gaps.iter().enumerate() {
             sums[0] += f64::from(u8::from(self.constraint.traction(first + i, gap) < T::zero()));
@@ -81,7 +96,7 @@ impl<T: Real, L: AdhesionLaw<T>, C: ContactConstraint<T>> Local<T> for Potential
     }
 }
 
-fn evaluate<T: Real>(law: &impl AdhesionLaw<T>, of: Of, gaps: &[T], out: &mut [T]) {
+fn evaluate<T: Real>(law: &dyn AdhesionLaw<T>, of: Of, gaps: &[T], out: &mut [T]) {
     match of {
         Of::Energy => law.energies(gaps, out),
         Of::Traction => law.tractions(gaps, out),

@@ -1,14 +1,11 @@
 //! Conjugate gradients with the compliance as preconditioner, two operator applications a step.
 
+use super::passes::{self, Advance, Attempt, Continued, Fields, Tried, idles};
 use super::potential::Potential;
-use super::state::{Left, Made, State};
-use crate::adhesion::AdhesionLaw;
-use crate::constraint::ContactConstraint;
-use crate::elastic::ElasticOperator;
+use super::state::{Left, Made, Residual, State};
 use crate::error::Result;
 use crate::field::{CHUNK, Partial, read, write};
 use crate::par::IndexedParallelIterator;
-use crate::passes::{Advance, Attempt, Fields, Local, Tally, idles};
 use crate::problem::Control;
 use crate::real::Real;
 
@@ -81,13 +78,7 @@ struct Step {
     local: f64,
 }
 
-impl<T, O, L, C> State<'_, T, O, L, C>
-where
-    T: Real,
-    O: ElasticOperator<T>,
-    L: AdhesionLaw<T>,
-    C: ContactConstraint<T>,
-{
+impl<T: Real> State<'_, T> {
     /// A step along the projected, conjugate, preconditioned residual; `false` if no step lowers the energy.
     pub(super) fn preconditioned_step(&mut self) -> Result<bool> {
         let length = self.step_length;
@@ -110,7 +101,7 @@ where
             let trial_length = self.step_length;
             let Some(trial) = self.descend(&mut centre, &mut momentum) else { return Ok(false) };
             let Fields { change, residual: response, .. } = &mut self.fields;
-            let elastic = self.problem.operator.pressure_and_work(change.view(), response.view_mut())?;
+            let elastic = self.operator.pressure_and_work(change.view(), response.view_mut())?;
             self.applications += 1;
             let Some(step) = self.search(&trial, elastic * self.nodes()) else { return Ok(false) };
             if !trial.blocked || step.length >= SHORT {
@@ -128,10 +119,11 @@ where
 
     /// The mean of z over the working set, and how much of the last change to keep.
     fn direction(&mut self) -> (f64, Option<Momentum>) {
-        let share = if self.is_gap_controlled() && self.working > 0.0 { 1.0 / self.working } else { 0.0 };
-        let centre = if share > 0.0 { (self.preconditioned_sum - T::idle(&mut self.fields)) * share } else { 0.0 };
+        let share =
+            if self.is_gap_controlled() && self.residual.working > 0.0 { 1.0 / self.residual.working } else { 0.0 };
+        let centre = if share > 0.0 { (self.preconditioned.sum - passes::idle(&mut self.fields)) * share } else { 0.0 };
         let momentum = self.momentum.take().filter(|made| made.curvature > 0.0).map(|made| Momentum {
-            conjugate: made.factor * ((self.preconditioned_descent - made.overlap) / made.curvature).max(0.0),
+            conjugate: made.factor * ((self.preconditioned.descent - made.overlap) / made.curvature).max(0.0),
             remainder: made.factor * (-made.factor * made.descent / made.curvature).min(FARTHEST),
             mean: made.sum * share,
         });
@@ -168,11 +160,11 @@ where
         let (keep, mean) = momentum.map_or((0.0, 0.0), |m| (length * m.conjugate + m.remainder, m.mean));
         let [length, centre, keep, mean] = [length, centre, keep, mean].map(T::lit);
         let attempt = Attempt { length, centre, keep, mean, projects: self.constraint.projects() };
-        let surface = self.is_gap_controlled().then_some(&self.problem.surface_pressure);
-        let local = Potential::new(&self.problem.law, &*self.constraint);
-        let total = T::trial(&mut self.fields, &local, attempt, surface);
-        let [change, clipped, blocked, descent, gap_descent, change_surface, gap_surface, ..] = total.sum;
-        let [.., traction, curvature, mixed, gap_curvature, _, _] = total.sum;
+        let surface = self.is_gap_controlled().then_some(&self.flat.pressure);
+        let local = Potential::new(self.law, &*self.constraint);
+        let tried = passes::trial(&mut self.fields, &local, attempt, surface);
+        let Tried { change, clipped, blocked, descent, gap_descent, change_surface, gap_surface, .. } = tried;
+        let Tried { traction, slope_change, slope_mixed, slope_gap, reach, .. } = tried;
         // the present mean, not the one that is given: a long step would multiply the rounding of their difference
         let present = self.tally.sum_gap;
         let scale = if self.is_gap_controlled() && clipped > 0.0 { present / (present + change) } else { 1.0 };
@@ -189,8 +181,8 @@ where
             descent,
             surface: [change_surface, gap_surface],
             traction,
-            slopes: scale * scale * curvature + 2.0 * scale * rest * mixed + rest * rest * gap_curvature,
-            reach: total.min,
+            slopes: scale * scale * slope_change + 2.0 * scale * rest * slope_mixed + rest * rest * slope_gap,
+            reach,
         }
     }
 
@@ -212,7 +204,7 @@ where
         });
         let [landed, others, ..] = total.sum;
         let lift = T::lit(if matches!(self.control, Control::MeanGap(_)) { landed / others } else { 0.0 });
-        let local = Potential::new(&self.problem.law, &*self.constraint);
+        let local = Potential::new(self.law, &*self.constraint);
         let fields = read(gap).zip(read(residual)).zip(read(preconditioned)).zip(write(change));
         let total = reducer.run(fields, |first, (((gap, residual), z), change)| {
             let (mut tractions, mut slopes) = ([T::zero(); CHUNK], [T::zero(); CHUNK]);
@@ -268,10 +260,10 @@ where
 
     /// How much of the step to take, of which ⟨c, K⁻¹c⟩ is known; nothing if the energy rises all the same.
     fn search(&mut self, trial: &Trial, elastic: f64) -> Option<Step> {
-        let (shift, nodes) = (self.offset() - self.level, self.nodes());
+        let (shift, nodes) = (self.offset() - self.residual.level, self.nodes());
         let noise = self.energy_noise() * nodes;
-        let Self { fields, problem, constraint, tally, .. } = self;
-        let local = Potential::new(&problem.law, &**constraint);
+        let Self { fields, law, constraint, tally, .. } = self;
+        let local = Potential::new(*law, &**constraint);
         let (scale, rest) = (T::lit(trial.scale), trial.scale - 1.0);
         // where the change is not zero, p is r' but for two constants and the traction
         let pressed = trial.descent - shift * trial.change - trial.traction;
@@ -299,7 +291,7 @@ where
         if !local.is_zero() {
             let before = tally.adhesive + tally.penalty;
             loop {
-                after = T::energy_after(fields, &local, T::lit(length), scale);
+                after = passes::energy_after(fields, &local, T::lit(length), scale);
                 let rise = length * shifted + 0.5 * length * length * elastic + (after - before);
                 if rise.is_finite() && rise <= noise {
                     break;
@@ -320,25 +312,26 @@ where
     fn advance(&mut self, step: &Step) {
         let projects = self.constraint.projects();
         let &Step { length, scale, slope, work, elastic, local: after } = step;
-        let level = self.is_gap_controlled().then_some(T::lit(self.level));
+        let level = self.is_gap_controlled().then_some(T::lit(self.residual.level));
         let advance = Advance { length: T::lit(length), scale: T::lit(scale), offset: T::lit(self.offset()), level };
-        let Self { fields, problem, constraint, .. } = self;
-        let local = Potential::new(&problem.law, &**constraint);
-        let total = T::advance(fields, &local, advance, &problem.surface_pressure);
-        let before = self.tally.work;
-        self.tally = Tally::new(&total);
-        self.tally.work = before + length * (2.0 * work + length * elastic);
+        let Self { fields, law, constraint, flat, .. } = self;
+        let local = Potential::new(*law, &**constraint);
+        let advanced = passes::advance(fields, &local, advance, &flat.pressure);
+        // the field of the change holds d where it was scaled
+        let curvature = if local.is_zero() { length * length * elastic } else { length * (advanced.product - slope) };
+        self.tally = advanced.tally;
         if projects {
             self.tally.adhesive = after;
         }
-        let [.., product, orthogonality, working, descent, overlap] = total.sum;
-        // the field of the change holds d where it was scaled
-        let curvature = if local.is_zero() { length * length * elastic } else { length * (product - slope) };
-        self.momentum = Some(Made { factor: length, curvature, descent, overlap, sum: 0.0 });
-        self.left = Left::Gradient;
-        if level.is_none() {
-            (self.level, self.orthogonality, self.working, self.left) = (0.0, orthogonality, working, Left::Residual);
-        }
+        self.work += length * (2.0 * work + length * elastic);
+        let made = Made { factor: length, curvature, descent: 0.0, overlap: 0.0, sum: 0.0 };
+        self.left = match advanced.residual {
+            None => Left::Gradient(made),
+            Some(Continued { orthogonality, working, descent, overlap, .. }) => {
+                self.residual = Residual { level: 0.0, working, orthogonality, ..self.residual };
+                Left::Residual(Made { descent, overlap, ..made })
+            }
+        };
         self.age += 1;
     }
 }

@@ -82,7 +82,7 @@ pub struct Iteration {
     /// How many nodes are in contact.
     pub contact_points: usize,
     /// Whether the solve is still on the way to its start, with the jumps of the law smoothed: then the energy and the
-    /// error are those of the smoothed law. See [`AdhesionLaw::smooth`](crate::AdhesionLaw::smooth).
+    /// error are those of the smoothed law. See [`AdhesionLaw::smoothed`](crate::AdhesionLaw::smoothed).
     pub smoothed: bool,
 }
 

@@ -1,23 +1,14 @@
 //! Algorithm 3 of Rey, Anciaux and Molinari (2017), with its misprints corrected.
 
+use super::passes::Fields;
 use super::state::State;
-use crate::adhesion::AdhesionLaw;
-use crate::constraint::ContactConstraint;
-use crate::elastic::ElasticOperator;
 use crate::error::Result;
 use crate::field::{Partial, read, write};
 use crate::par::IndexedParallelIterator;
-use crate::passes::Fields;
 use crate::problem::Control;
 use crate::real::Real;
 
-impl<T, O, L, C> State<'_, T, O, L, C>
-where
-    T: Real,
-    O: ElasticOperator<T>,
-    L: AdhesionLaw<T>,
-    C: ContactConstraint<T>,
-{
+impl<T: Real> State<'_, T> {
     /// One pass of the algorithm's loop: one operator application for the direction, and one for the new gap where
     /// nodes were clipped or released.
     pub(super) fn rey2017_step(&mut self) -> Result<bool> {
@@ -38,7 +29,7 @@ where
             // uphill, or beyond all numbers: the residual's norm has jumped, as it may where rounding is all that is left of it
             slope = self.conjugate_direction(0.0);
         }
-        self.problem.operator.pressure(self.fields.change.view(), self.fields.preconditioned.view_mut())?;
+        self.operator.pressure(self.fields.change.view(), self.fields.preconditioned.view_mut())?;
         self.applications += 1;
 
         let Fields { reducer, gap, change, preconditioned: response, .. } = &mut self.fields;
@@ -58,7 +49,7 @@ where
         let mean = if self.is_gap_controlled() { response / self.tally.free } else { 0.0 };
         let length = slope / (curvature - mean * t);
         // a uniform direction has no curvature: the softest wave's stiffness bounds what the mean can need
-        let softest = self.problem.operator.stiffness_range().0;
+        let softest = self.operator.stiffness_range().0;
         let length = if length.is_finite() && length > 0.0 { length } else { 1.0 / softest };
         // nor does one that is uniform but for rounding
         let length = length.min(1.0 / (T::epsilon().widen().sqrt() * softest));
@@ -128,8 +119,8 @@ where
 
     /// Scales the gap to its mean and, if the step was `linear`, the pressure with it: K⁻¹(s(g − τt) + h).
     fn scale(&mut self, scale: T, length: T, linear: bool) {
-        let Self { fields: Fields { reducer, gap, pressure, preconditioned: response, .. }, problem, .. } = self;
-        let fields = write(gap).zip(write(pressure)).zip(read(response)).zip(read(&problem.surface_pressure));
+        let Self { fields: Fields { reducer, gap, pressure, preconditioned: response, .. }, flat, .. } = self;
+        let fields = write(gap).zip(write(pressure)).zip(read(response)).zip(read(&flat.pressure));
         reducer.run(fields, |_, (((gap, pressure), response), surface)| {
             gap.iter_mut().for_each(|gap| *gap *= scale);
             if linear {

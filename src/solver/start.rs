@@ -2,26 +2,18 @@
 
 use ndarray::{Array2, CowArray, Ix2};
 
-use super::state::State;
+use super::state::{Goal, State};
 use crate::adhesion::AdhesionLaw;
-use crate::constraint::ContactConstraint;
-use crate::elastic::ElasticOperator;
 use crate::error::{Error, Result};
 use crate::field::flat;
-use crate::problem::{Control, Problem};
+use crate::problem::{Control, PressedFlat};
 use crate::real::Real;
 
 /// The first trial length from a start that is near the solution: its residual is that of short waves at the edges of
 /// contacts, where less than a whole step is good.
 const NEAR: f64 = 0.5;
 
-impl<T, O, L, C> State<'_, T, O, L, C>
-where
-    T: Real,
-    O: ElasticOperator<T>,
-    L: AdhesionLaw<T>,
-    C: ContactConstraint<T>,
-{
+impl<'a, T: Real> State<'a, T> {
     /// Takes the start to be near the solution.
     pub(super) fn stays_near(&mut self) {
         (self.near, self.step_length) = (true, NEAR);
@@ -32,7 +24,7 @@ where
         if self.energy().is_finite() && self.tally.sum_r.is_finite() {
             return Ok(());
         }
-        let law = &self.problem.law;
+        let law = self.law;
         let functions: [(_, &dyn Fn(T) -> T); 2] =
             [("adhesive energy", &|g| law.energy(g)), ("adhesive traction", &|g| law.traction(g))];
         for (function, f) in functions {
@@ -44,42 +36,37 @@ where
         Ok(())
     }
 
-    /// Smooths the jumps of the law, if it has any, to find the start.
-    pub(super) fn smooth(&mut self) {
-        self.smoothed = self.problem.smooth_law();
-        if self.smoothed {
-            self.count();
-        }
+    /// Goes on with another law, whose equilibrium is the goal.
+    pub(super) fn change_law(&mut self, law: &'a dyn AdhesionLaw<T>, goal: Goal) {
+        (self.law, self.goal) = (law, goal);
+        self.restart();
     }
 
-    /// Brings back the jumps of a law that was smoothed, for which the state becomes the start; `false` if it was not.
-    pub(super) fn sharpen(&mut self) -> Result<bool> {
-        if !self.smoothed {
-            return Ok(false);
-        }
-        self.smoothed = false;
-        self.problem.law.smooth(T::zero());
+    /// Goes on with the law itself from an equilibrium of the smoothed one.
+    pub(super) fn sharpen(&mut self, law: &'a dyn AdhesionLaw<T>) -> Result<()> {
+        self.law = law;
         if self.is_adrift() {
             // the law itself may hold what the smoothed one does not
-            self.fields.gap.fill(T::lit(uniform_start(self.problem, self.control)));
+            self.fields.gap.fill(T::lit(uniform_start(law, self.flat, self.control)));
             self.refresh()?;
         }
-        self.restart();
-        Ok(true)
+        self.change_law(law, Goal::Solution);
+        // of the smoothed law
+        self.certificate = f64::INFINITY;
+        Ok(())
     }
 }
 
-pub(super) fn uniform_start<T: Real, O: ElasticOperator<T>, L: AdhesionLaw<T>>(
-    problem: &Problem<T, O, L>,
-    control: Control,
-) -> f64 {
+/// The uniform gap from which a solve starts, if no other is given.
+pub(super) fn uniform_start<T: Real>(law: &dyn AdhesionLaw<T>, flat: &PressedFlat<T>, control: Control) -> f64 {
     match control {
         Control::MeanGap(gap) => gap,
-        Control::MeanPressure(_) if problem.law.is_zero() => 2.0 * problem.rms_height,
+        Control::MeanPressure(_) if law.is_zero() => 2.0 * flat.rms_height,
         Control::MeanPressure(_) => 0.0,
     }
 }
 
+/// A gap that was given, as a start under a control.
 pub(super) fn given_start<T: Real>(
     start: CowArray<'_, T, Ix2>,
     shape: (usize, usize),

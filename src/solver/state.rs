@@ -1,5 +1,8 @@
+//! A solve under way: its fields, and the numbers that the driver knows of them.
+
 use ndarray::{Array2, CowArray, Ix2};
 
+use super::passes::{self, Continued, Fields, Tally, Working};
 use super::potential::Potential;
 use super::report::{Iteration, Report, Solution, Status};
 use super::start::{given_start, uniform_start};
@@ -8,10 +11,9 @@ use crate::adhesion::AdhesionLaw;
 use crate::constraint::{ContactConstraint, Outer};
 use crate::elastic::ElasticOperator;
 use crate::error::{Error, Result};
-use crate::field::{Partial, Reducer, read, write};
+use crate::field::{Partial, read, write};
 use crate::par::IndexedParallelIterator;
-use crate::passes::{Fields, Local, Tally, Working};
-use crate::problem::{Control, Problem};
+use crate::problem::{Control, Parts, PressedFlat, resolution};
 use crate::real::Real;
 
 /// Iterations after which the pressure, updated step by step, is computed anew.
@@ -20,58 +22,95 @@ const REFRESH: usize = 50;
 /// How often [`Method::Rey2017`] computes the certificate, which it needs for nothing else.
 const CERTIFY: usize = 10;
 
-/// The step from the state before.
-#[derive(Clone, Copy)]
+/// What has to be reached.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Goal {
+    /// A start for the law itself, from the law with its jumps smoothed.
+    Start,
+    /// The solution, to the tolerance of the settings.
+    Solution,
+}
+
+/// The step from the state before: `factor` times the change c.
+#[derive(Clone, Copy, Debug)]
 pub(super) struct Made {
-    /// how many times the field of the change it is
     pub(super) factor: f64,
-    /// ⟨d, y⟩ with y what it changed in r
+    /// ⟨d, y⟩, with d the step and y the change of r that it has made
     pub(super) curvature: f64,
-    /// with c the field of the change, and z' that of the state before: ⟨r', c⟩, ⟨r', z'⟩, and Σ c over the working set
+    /// Σ r'·c, with the present residual
     pub(super) descent: f64,
+    /// Σ r'·z', with z' the preconditioned residual of the state before
     pub(super) overlap: f64,
+    /// Σ c over the working set
     pub(super) sum: f64,
 }
 
-/// What a step has left in the place of r'.
-#[derive(Clone, Copy, Default, PartialEq)]
+/// The field that a step has left in the place of r'.
+#[derive(Clone, Copy, Debug)]
 pub(super) enum Left {
-    /// nothing of use
-    #[default]
+    /// K⁻¹ of a change, or nothing of use.
     Nothing,
-    /// r
-    Gradient,
-    /// r'
-    Residual,
+    /// The gradient r.
+    Gradient(Made),
+    /// The residual r', under pressure control.
+    Residual(Made),
 }
 
-/// A solve under way: its fields, and what is known of them.
-pub(super) struct State<'a, T, O, L, C> {
-    pub(super) problem: &'a mut Problem<T, O, L>,
-    pub(super) constraint: &'a mut C,
-    pub(super) control: Control,
-    pub(super) settings: Settings,
-    pub(super) fields: Fields<T>,
-    pub(super) tally: Tally,
-    /// what the last step has left of the residual
-    pub(super) left: Left,
-    /// the mean of r over the working set, which r' is without; zero under pressure control
+/// The residual r' of the present state.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Residual {
+    /// the mean of r over the working set under gap control, zero under pressure control: r' = r − level
     pub(super) level: f64,
     /// how many nodes may move
     pub(super) working: f64,
     /// Σ|g r'|
     pub(super) orthogonality: f64,
+    /// Σ of the squares of the differences to the residual before, if it was computed from gap and pressure
+    pub(super) difference: f64,
+}
+
+/// Sums of the preconditioned residual z.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Preconditioned {
+    /// ⟨r', z⟩
+    pub(super) descent: f64,
+    /// Σ z
+    pub(super) sum: f64,
+}
+
+/// How a minimisation has got on.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Progress {
+    pub(super) best_error: f64,
+    pub(super) lowest_energy: f64,
+    /// iterations without progress
+    pub(super) idle: usize,
+    /// whether the pressure was computed anew where rounding was all that was left
+    pub(super) renewed: bool,
+}
+
+impl Progress {
+    const NONE: Self = Self { best_error: f64::INFINITY, lowest_energy: f64::INFINITY, idle: 0, renewed: false };
+}
+
+/// A solve under way: its fields, and the numbers that the driver knows of them.
+pub(super) struct State<'a, T> {
+    pub(super) operator: &'a mut dyn ElasticOperator<T>,
+    pub(super) law: &'a dyn AdhesionLaw<T>,
+    pub(super) flat: &'a PressedFlat<T>,
+    pub(super) constraint: &'a mut dyn ContactConstraint<T>,
+    pub(super) control: Control,
+    pub(super) settings: Settings,
+    pub(super) goal: Goal,
+    pub(super) fields: Fields<T>,
+    pub(super) tally: Tally,
+    /// Σ u·p, twice the elastic energy
+    pub(super) work: f64,
+    pub(super) left: Left,
+    pub(super) residual: Residual,
     /// the mean of r'·K r'
     pub(super) certificate: f64,
-    /// ⟨r', z⟩ and Σ z
-    pub(super) preconditioned_descent: f64,
-    pub(super) preconditioned_sum: f64,
-    /// what the last pass for r' changed in it, squared and summed
-    pub(super) residual_change: f64,
-    pub(super) iterations: usize,
-    pub(super) applications: usize,
-    /// steps since the pressure was last computed from the gap
-    pub(super) age: usize,
+    pub(super) preconditioned: Preconditioned,
     /// the last step, if the next one may use it
     pub(super) momentum: Option<Made>,
     pub(super) step_length: f64,
@@ -79,33 +118,26 @@ pub(super) struct State<'a, T, O, L, C> {
     pub(super) near: bool,
     /// ⟨r', r'⟩ of the step before, for [`Method::Rey2017`]
     pub(super) residual_norm: Option<f64>,
-    pub(super) best_error: f64,
-    pub(super) lowest_energy: f64,
-    pub(super) idle: usize,
-    /// whether the pressure was computed anew where rounding was all that was left
-    pub(super) renewed: bool,
-    /// whether the jumps of the law are smoothed
-    pub(super) smoothed: bool,
-    /// the load that pulled the surfaces apart
+    pub(super) progress: Progress,
+    pub(super) iterations: usize,
+    pub(super) applications: usize,
+    /// steps since the pressure was last computed from the gap
+    pub(super) age: usize,
+    /// the load that has pulled the surfaces apart
     pub(super) detached: Option<f64>,
 }
 
-impl<'a, T, O, L, C> State<'a, T, O, L, C>
-where
-    T: Real,
-    O: ElasticOperator<T>,
-    L: AdhesionLaw<T>,
-    C: ContactConstraint<T>,
-{
+impl<'a, T: Real> State<'a, T> {
     pub(super) fn new(
-        problem: &'a mut Problem<T, O, L>,
-        constraint: &'a mut C,
+        problem: Parts<'a, T>,
+        constraint: &'a mut dyn ContactConstraint<T>,
         control: Control,
         start: Option<CowArray<'_, T, Ix2>>,
         settings: Settings,
     ) -> Result<Self> {
-        let shape = problem.grid().shape();
-        constraint.start(problem.grid(), settings.tolerance)?;
+        let Parts { operator, law, flat } = problem;
+        let shape = operator.grid().shape();
+        constraint.start(operator.grid(), settings.tolerance)?;
         let (name, value) = match control {
             Control::MeanGap(gap) => ("mean gap", Error::non_negative("mean gap", gap)?),
             Control::MeanPressure(pressure) => ("mean pressure", Error::finite("mean pressure", pressure)?),
@@ -114,48 +146,33 @@ where
             return Err(Error::Value { name, value, requirement: "finite in the precision of the fields" });
         }
         let uniform = start.is_none();
-        let gap = match start {
-            Some(start) => given_start(start, shape, control, constraint.projects())?,
-            None => Array2::from_elem(shape, T::lit(uniform_start(problem, control))),
+        let (gap, pressure) = match start {
+            Some(start) => (given_start(start, shape, control, constraint.projects())?, Array2::zeros(shape)),
+            None => (Array2::from_elem(shape, T::lit(uniform_start(law, flat, control))), flat.pressure.clone()),
         };
-        let nodes = problem.grid().nodes();
-        let field = || Array2::zeros(shape);
-        let pressure = if uniform { problem.surface_pressure.clone() } else { field() };
-        let nothing = Tally::new(&Partial::NONE);
         let mut state = Self {
-            problem,
+            operator,
+            law,
+            flat,
             constraint,
             control,
             settings,
-            fields: Fields {
-                reducer: Reducer::new(nodes),
-                gap,
-                pressure,
-                residual: field(),
-                preconditioned: field(),
-                change: field(),
-            },
-            tally: nothing,
+            goal: Goal::Solution,
+            fields: Fields::new(gap, pressure),
+            tally: Tally::default(),
+            work: 0.0,
             left: Left::Nothing,
-            level: 0.0,
-            working: 0.0,
-            orthogonality: 0.0,
+            residual: Residual::default(),
             certificate: f64::INFINITY,
-            preconditioned_descent: 0.0,
-            preconditioned_sum: 0.0,
-            residual_change: 0.0,
-            iterations: 0,
-            applications: 0,
-            age: 0,
+            preconditioned: Preconditioned::default(),
             momentum: None,
             step_length: 1.0,
             near: false,
             residual_norm: None,
-            best_error: f64::INFINITY,
-            lowest_energy: f64::INFINITY,
-            idle: 0,
-            renewed: false,
-            smoothed: false,
+            progress: Progress::NONE,
+            iterations: 0,
+            applications: 0,
+            age: 0,
             detached: None,
         };
         if uniform {
@@ -205,11 +222,11 @@ where
                 });
             }
         }
-        self.problem.operator.pressure(self.fields.gap.view(), self.fields.pressure.view_mut())?;
+        self.operator.pressure(self.fields.gap.view(), self.fields.pressure.view_mut())?;
         self.applications += 1;
         self.age = 0;
         let Fields { reducer, pressure, .. } = &mut self.fields;
-        reducer.run(write(pressure).zip(read(&self.problem.surface_pressure)), |_, (p, surface)| {
+        reducer.run(write(pressure).zip(read(&self.flat.pressure)), |_, (p, surface)| {
             p.iter_mut().zip(surface).for_each(|(p, &surface)| *p += surface);
             Partial::NONE
         });
@@ -220,10 +237,11 @@ where
     /// Takes the tally of the present gap and pressure.
     pub(super) fn count(&mut self) {
         let offset = T::lit(self.offset());
-        let Self { fields, problem, constraint, .. } = self;
-        let local = Potential::new(&problem.law, &**constraint);
-        self.tally = Tally::new(&T::tally(fields, &local, offset, &problem.surface_pressure));
-        self.left = Left::Nothing;
+        let local = Potential::new(self.law, &*self.constraint);
+        let (tally, gap_surface) = passes::tally(&mut self.fields, &local, offset, &self.flat.pressure);
+        // u·p = (g + h)·p, and ⟨h, p⟩ = ⟨K⁻¹h, g⟩ + ⟨h, K⁻¹h⟩
+        self.work = tally.sum_gp + gap_surface + self.nodes() * self.flat.work;
+        (self.tally, self.left) = (tally, Left::Nothing);
     }
 
     /// μ: the mean of r where the surfaces are apart, under gap control.
@@ -236,33 +254,38 @@ where
         }
     }
 
-    /// r' and the working set: the nodes that are apart, and those in contact under tension.
+    /// r' on the working set: the nodes that are apart, and those in contact under tension.
     pub(super) fn residual(&mut self) {
-        let left = std::mem::take(&mut self.left);
-        if left == Left::Residual {
-            return;
-        }
+        let made = match std::mem::replace(&mut self.left, Left::Nothing) {
+            Left::Residual(made) => {
+                self.momentum = Some(made);
+                return;
+            }
+            Left::Gradient(made) => Some(made),
+            Left::Nothing => None,
+        };
         let (offset, release) = (T::lit(self.offset()), T::lit(self.multiplier()));
         let centred = self.is_gap_controlled() && self.settings.method == Method::Preconditioned;
-        let Self { fields, problem, constraint, tally, .. } = self;
-        let local = Potential::new(&problem.law, &**constraint);
-        self.level = release.widen();
+        let Self { fields, law, constraint, tally, .. } = self;
+        let local = Potential::new(*law, &**constraint);
+        let mut level = release.widen();
         if centred && tally.contact > 0.0 && local.projects() {
             // contact nodes have one and the same adhesive traction
-            let released = T::released(fields, problem.law.traction(T::zero()) + offset, release);
-            let working = tally.free + released.sum[0];
+            let released = passes::released(fields, law.traction(T::zero()) + offset, release);
+            let working = tally.free + released.count;
             if working > 0.0 {
-                self.level = (tally.sum_r + released.sum[1]) / working;
+                level = (tally.sum_r + released.sum_r) / working;
             }
         }
-        let working = Working { offset, release, level: T::lit(self.level) };
-        if let (Left::Gradient, Some(made)) = (left, self.momentum) {
-            let (descent, overlap, sum);
-            [self.orthogonality, self.working, descent, overlap, sum, ..] =
-                T::release(fields, local.projects(), working).sum;
-            self.momentum = Some(Made { descent, overlap, sum, ..made });
+        let working = Working { offset, release, level: T::lit(level) };
+        if let Some(made) = made {
+            let Continued { orthogonality, working, descent, overlap, sum_change } =
+                passes::release(fields, local.projects(), working);
+            self.residual = Residual { level, working, orthogonality, ..self.residual };
+            self.momentum = Some(Made { descent, overlap, sum: sum_change, ..made });
         } else {
-            [self.orthogonality, self.working, self.residual_change, ..] = T::residual(fields, &local, working).sum;
+            let passes::Residual { orthogonality, working, difference } = passes::residual(fields, &local, working);
+            self.residual = Residual { level, working, orthogonality, difference };
             self.momentum = None;
         }
     }
@@ -282,15 +305,10 @@ where
     pub(super) fn certify(&mut self) -> Result<()> {
         let (foundation, mean_stiffness) = (self.foundation(), self.mean_stiffness());
         let Fields { residual, preconditioned, .. } = &mut self.fields;
-        let found = self.problem.operator.precondition(
-            residual.view(),
-            foundation,
-            mean_stiffness,
-            preconditioned.view_mut(),
-        )?;
+        let found =
+            self.operator.precondition(residual.view(), foundation, mean_stiffness, preconditioned.view_mut())?;
         self.certificate = if found.error.is_nan() { f64::INFINITY } else { found.error.max(0.0) };
-        self.preconditioned_descent = found.descent * self.nodes();
-        self.preconditioned_sum = found.mean * self.nodes();
+        self.preconditioned = Preconditioned { descent: found.descent * self.nodes(), sum: found.mean * self.nodes() };
         self.applications += 1;
         self.lift(foundation);
         Ok(())
@@ -307,8 +325,7 @@ where
     /// Forgets what was known of an energy, or a gap, that has changed.
     pub(super) fn restart(&mut self) {
         (self.momentum, self.residual_norm) = (None, None);
-        (self.best_error, self.lowest_energy, self.idle) = (f64::INFINITY, f64::INFINITY, 0);
-        self.renewed = false;
+        self.progress = Progress::NONE;
         self.count();
     }
 
@@ -336,23 +353,19 @@ where
             energy: self.energy(),
             mean_gap: self.tally.sum_gap / self.nodes(),
             contact_points: self.tally.contact as usize,
-            smoothed: self.smoothed,
+            smoothed: self.goal == Goal::Start,
         }
     }
 
     /// The fields as they are returned, with the certificate of just these.
     pub(super) fn finish(mut self, status: Status) -> Result<Solution<T>> {
-        if self.sharpen()? {
-            self.residual();
-            self.certificate = f64::INFINITY;
-        }
         let status = if self.detached.is_some() && status != Status::Stopped { Status::Detached } else { status };
         if self.age > 0 {
             self.refresh()?;
-            self.residual();
             self.certificate = f64::INFINITY;
         }
         if self.certificate.is_infinite() {
+            self.residual();
             self.certify()?;
         }
         let mean = match self.control {
@@ -361,9 +374,9 @@ where
         };
         let load_error = if self.detached.is_some() { 1.0 } else { self.load_error() };
         let mean_pressure = self.detached.unwrap_or(mean);
-        let Self { fields: Fields { reducer, gap, pressure, preconditioned, .. }, problem, constraint, .. } = &mut self;
+        let Self { fields: Fields { reducer, gap, pressure, preconditioned, .. }, law, constraint, .. } = &mut self;
         let (mean, projects) = (T::lit(mean), constraint.projects());
-        let at_contact = problem.law.traction(T::zero());
+        let at_contact = law.traction(T::zero());
         let fields = read(gap).zip(write(pressure)).zip(write(preconditioned));
         let total = reducer.run(fields, |first, ((gap, pressure), contact)| {
             let mut part = Partial::NONE;
@@ -379,7 +392,7 @@ where
             }
             part
         });
-        let mu_rho = self.problem.resolution();
+        let mu_rho = resolution(&*self.operator, self.law);
         let report = Report {
             status,
             relative_error: self.relative_error(),
@@ -393,7 +406,7 @@ where
             contact_fraction: self.tally.contact / self.nodes(),
             contact_points: self.tally.contact as usize,
             min_gap: total.min,
-            elastic_energy: 0.5 * self.work(),
+            elastic_energy: 0.5 * self.mean_work(),
             adhesive_energy: self.tally.adhesive / self.nodes(),
             mu_rho,
             under_resolved: mu_rho > 0.5,

@@ -3,8 +3,8 @@ use rustfft::num_complex::Complex;
 
 use super::Topography;
 use crate::error::{Error, Result};
+use crate::fft::Transform;
 use crate::grid::Grid;
-use crate::real::Real;
 
 impl Topography {
     /// The map on `nodes` = (Mx, My) nodes of the same sides, finer or coarser, by Fourier interpolation.
@@ -56,7 +56,7 @@ fn resample_rows(field: &Array2<f64>, m: usize) -> Array2<f64> {
     if n == m {
         return field.clone();
     }
-    let (forward, inverse) = (&f64::transforms(n)[0], &f64::transforms(m)[1]);
+    let (forward, inverse) = (Transform::<f64>::new(n).forward, Transform::<f64>::new(m).inverse);
     let mut scratch =
         vec![Complex::default(); forward.get_inplace_scratch_len().max(inverse.get_inplace_scratch_len())];
     let (mut line, mut fine) = (vec![Complex::default(); n], vec![Complex::default(); m]);

@@ -1,46 +1,49 @@
+//! The tally of a state: the sums over its nodes of which the driver makes its decisions.
+
 use ndarray::Array2;
 
-use super::{Fields, Local, Of, count};
+use super::{Fields, count};
 use crate::field::{CHUNK, Partial, read};
 use crate::par::IndexedParallelIterator;
 use crate::real::Real;
+use crate::solver::potential::{Of, Potential};
 use crate::vector::sums;
 
-/// Where the sums of a tally are among those of its pass.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Tally {
+/// The sums over the nodes of a state.
+#[derive(Clone, Copy, Debug, Default)]
+pub(in crate::solver) struct Tally {
     /// how many nodes are apart
-    pub(crate) free: f64,
+    pub(in crate::solver) free: f64,
     /// Σ r over these
-    pub(crate) sum_r: f64,
+    pub(in crate::solver) sum_r: f64,
     /// the least r in contact
-    pub(crate) min_r: f64,
-    pub(crate) sum_gap: f64,
+    pub(in crate::solver) min_r: f64,
+    pub(in crate::solver) sum_gap: f64,
     /// Σ g·p
-    pub(crate) sum_gp: f64,
+    pub(in crate::solver) sum_gp: f64,
     /// how many nodes are in contact
-    pub(crate) contact: f64,
+    pub(in crate::solver) contact: f64,
     /// Σ φ' of the law
-    pub(crate) traction: f64,
+    pub(in crate::solver) traction: f64,
     /// Σ φ of the law
-    pub(crate) adhesive: f64,
+    pub(in crate::solver) adhesive: f64,
     /// Σ of the constraint's energy
-    pub(crate) penalty: f64,
-    /// Σ g·(p + K⁻¹h), which with Σ h·K⁻¹h makes Σ u·p
-    pub(crate) work: f64,
+    pub(in crate::solver) penalty: f64,
 }
 
+/// The slot of a pass that makes a tally for one more product.
+pub(super) const PRODUCT: usize = 8;
+
 impl Tally {
-    pub(crate) fn new(total: &Partial) -> Self {
-        let [free, sum_r, sum_gap, sum_gp, contact, traction, adhesive, penalty, surface, ..] = total.sum;
-        let work = sum_gp + surface;
-        Self { free, sum_r, min_r: total.min, sum_gap, sum_gp, contact, traction, adhesive, penalty, work }
+    pub(super) fn new(total: &Partial) -> Self {
+        let [free, sum_r, sum_gap, sum_gp, contact, traction, adhesive, penalty, ..] = total.sum;
+        Self { free, sum_r, min_r: total.min, sum_gap, sum_gp, contact, traction, adhesive, penalty }
     }
 }
 
 /// The local tractions of a chunk, zero where there is nothing to evaluate.
 pub(super) fn tractions<'a, T: Real>(
-    local: &dyn Local<T>,
+    local: &Potential<'_, T>,
     first: usize,
     gaps: &[T],
     buffer: &'a mut [T; CHUNK],
@@ -67,7 +70,7 @@ pub(super) fn tally_of<T: Real>(projects: bool, offset: T, gap: &[T], pressure: 
 /// Adds the energies and tractions of law and constraint.
 pub(super) fn tally_local<T: Real>(
     part: &mut Partial,
-    local: &dyn Local<T>,
+    local: &Potential<'_, T>,
     first: usize,
     gaps: &[T],
     tractions: &[T],
@@ -89,9 +92,15 @@ pub(super) fn tally_local<T: Real>(
     }
 }
 
-pub(super) fn tally<T: Real>(fields: &mut Fields<T>, local: &dyn Local<T>, offset: T, surface: &Array2<T>) -> Partial {
-    let Fields { reducer, gap, pressure, .. } = fields;
-    reducer.run(read(gap).zip(read(pressure)).zip(read(surface)), |first, ((gap, pressure), surface)| {
+/// Takes the tally of gap and pressure, and Σ g·K⁻¹h, of which the surface gives K⁻¹h.
+pub(in crate::solver) fn tally<T: Real>(
+    fields: &mut Fields<T>,
+    local: &Potential<'_, T>,
+    offset: T,
+    surface: &Array2<T>,
+) -> (Tally, f64) {
+    let Fields { tallied, gap, pressure, .. } = fields;
+    let total = tallied.run(read(gap).zip(read(pressure)).zip(read(surface)), |first, ((gap, pressure), surface)| {
         let mut buffer = [T::zero(); CHUNK];
         let tractions = tractions(local, first, gap, &mut buffer);
         let mut part = tally_of(local.projects(), offset, gap, pressure, tractions);
@@ -99,57 +108,16 @@ pub(super) fn tally<T: Real>(fields: &mut Fields<T>, local: &dyn Local<T>, offse
             tally_local(&mut part, local, first, gap, tractions, true);
         }
         let product = sums!(1, [gap, surface], [], |i| ([gap[i].widen() * surface[i].widen()], f64::INFINITY));
-        part.sum[8] = product.sum[0];
+        part.sum[PRODUCT] = product.sum[0];
         part
-    })
-}
-
-pub(super) fn released<T: Real>(fields: &mut Fields<T>, at_contact: T, release: T) -> Partial {
-    let Fields { reducer, gap, pressure, .. } = fields;
-    let limit = release.widen();
-    reducer.run_where(
-        |tally| tally.min < limit,
-        read(gap).zip(read(pressure)),
-        |_, (gap, pressure)| {
-            sums!(2, [gap, pressure], [], |i| {
-                let r = pressure[i] + at_contact;
-                let released = (gap[i] <= T::zero()) & (r < release);
-                ([count(released), if released { r.widen() } else { 0.0 }], f64::INFINITY)
-            })
-        },
-    )
+    });
+    (Tally::new(&total), total.sum[PRODUCT])
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::field::Reducer;
-    use crate::passes::Passes;
-
-    /// Neither law nor springs.
-    struct Nothing;
-
-    impl Local<f32> for Nothing {
-        fn is_zero(&self) -> bool {
-            true
-        }
-        fn projects(&self) -> bool {
-            true
-        }
-        fn evaluate(&self, _: Of, _: usize, _: &[f32], out: &mut [f32]) {
-            out.fill(0.0);
-        }
-        fn tractions_and_slopes(&self, _: usize, _: &[f32], tractions: &mut [f32], slopes: &mut [f32]) {
-            tractions.fill(0.0);
-            slopes.fill(0.0);
-        }
-        fn law(&self, _: Of, _: &[f32], out: &mut [f32]) {
-            out.fill(0.0);
-        }
-        fn pressed(&self, _: usize, _: &[f32]) -> [f64; 2] {
-            [0.0; 2]
-        }
-    }
+    use crate::{NoAdhesion, Projection};
 
     /// A number of 24 bits for each node, which `f32` holds exactly.
     fn bits(node: usize, seed: u64) -> i64 {
@@ -168,16 +136,9 @@ mod tests {
         let field = |value: &dyn Fn(usize) -> i64| {
             Array2::from_shape_fn((n, n), |(i, j)| (value(n * i + j) as f64 * UNIT) as f32)
         };
-        let none = || Array2::zeros((0, 0));
-        let mut fields = Fields {
-            reducer: Reducer::new(n * n),
-            gap: field(&gap),
-            pressure: field(&pressure),
-            residual: none(),
-            preconditioned: none(),
-            change: none(),
-        };
-        let tally = Tally::new(&f32::tally(&mut fields, &Nothing, 0.0, &field(&surface)));
+        let mut fields = Fields::new(field(&gap), field(&pressure));
+        let nothing = Potential::new(&NoAdhesion, &Projection);
+        let (tally, gap_surface) = tally(&mut fields, &nothing, 0.0, &field(&surface));
         let [mut free, mut sum_r, mut sum_gap, mut sum_gp, mut sum_gh] = [0_i128; 5];
         for i in 0..n * n {
             let [g, p, h] = [gap(i), pressure(i), surface(i)].map(i128::from);
@@ -191,7 +152,7 @@ mod tests {
             (tally.sum_r, sum_r, UNIT),
             (tally.sum_gap, sum_gap, UNIT),
             (tally.sum_gp, sum_gp, UNIT * UNIT),
-            (tally.work - tally.sum_gp, sum_gh, UNIT * UNIT),
+            (gap_surface, sum_gh, UNIT * UNIT),
         ] {
             let exact = exact as f64 * unit;
             assert!((found - exact).abs() <= 768.0 * f64::EPSILON * exact.abs(), "{found:e} is not {exact:e}");
@@ -205,7 +166,7 @@ mod tests {
     }
 
     #[test]
-    #[ignore = "3.2 GB: cargo test --release --lib sums_of_f32 -- --ignored"]
+    #[ignore = "7 GB: cargo test --release --lib sums_of_f32 -- --ignored"]
     fn sums_of_f32_are_accurate_over_16384_by_16384_nodes() {
         sums_are_accurate(16384);
     }

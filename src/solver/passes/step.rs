@@ -1,12 +1,76 @@
+//! The passes of a step: its trial, its energy, and the step itself.
+
 use ndarray::Array2;
 
-use super::residual::release_chunk;
-use super::tally::{tally_local, tally_of, tractions};
-use super::{Advance, Attempt, Fields, Local, Of, Working, count, idles};
-use crate::field::{CHUNK, Partial, read, write};
+use super::residual::{Continued, Working, release_chunk};
+use super::tally::{PRODUCT, Tally, tally_local, tally_of, tractions};
+use super::{Fields, count, idles};
+use crate::field::{CHUNK, Partial, SUMS, read, write};
 use crate::par::IndexedParallelIterator;
 use crate::real::Real;
+use crate::solver::potential::{Of, Potential};
 use crate::vector::{sums, vectors};
+
+/// A step before it is clipped.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::solver) struct Attempt<T> {
+    /// the multiple of z
+    pub(in crate::solver) length: T,
+    /// the mean of z over the working set
+    pub(in crate::solver) centre: T,
+    /// the multiple of the last change
+    pub(in crate::solver) keep: T,
+    /// the mean of the last change over the working set
+    pub(in crate::solver) mean: T,
+    /// whether the gap is confined to g ≥ 0
+    pub(in crate::solver) projects: bool,
+}
+
+/// The sums over a change c, clipped, before it is scaled to restore the mean gap.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::solver) struct Tried {
+    /// Σ c
+    pub(in crate::solver) change: f64,
+    /// how many nodes were clipped
+    pub(in crate::solver) clipped: f64,
+    /// how many of them the gradient drives into contact
+    pub(in crate::solver) blocked: f64,
+    /// Σ r'·c
+    pub(in crate::solver) descent: f64,
+    /// Σ r'·g, Σ c·K⁻¹h and Σ g·K⁻¹h, under gap control
+    pub(in crate::solver) gap_descent: f64,
+    pub(in crate::solver) change_surface: f64,
+    pub(in crate::solver) gap_surface: f64,
+    /// with the local traction t: Σ t·c
+    pub(in crate::solver) traction: f64,
+    /// with its slope s: Σ s·c², Σ s·c·g and Σ s·g²
+    pub(in crate::solver) slope_change: f64,
+    pub(in crate::solver) slope_mixed: f64,
+    pub(in crate::solver) slope_gap: f64,
+    /// how many times c the gap can take
+    pub(in crate::solver) reach: f64,
+}
+
+/// A step that is taken: `length` of scale·(g + c) − g, with c the field of the change.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::solver) struct Advance<T> {
+    pub(in crate::solver) length: T,
+    pub(in crate::solver) scale: T,
+    /// the mean pressure that is given, or zero
+    pub(in crate::solver) offset: T,
+    /// the level of r' under gap control; nothing under pressure control, where it is zero
+    pub(in crate::solver) level: Option<T>,
+}
+
+/// The state that a step has made.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::solver) struct Advanced {
+    pub(in crate::solver) tally: Tally,
+    /// Σ d·(r − level), with d the step of unit length; zero where there is neither law nor springs
+    pub(in crate::solver) product: f64,
+    /// the residual r' in the place of r, under pressure control
+    pub(in crate::solver) residual: Option<Continued>,
+}
 
 /// The gap after a change, zero where only rounding keeps it from that.
 #[inline(always)]
@@ -37,12 +101,13 @@ fn reach<T: Real>(gap: T, change: T) -> f64 {
     if change < T::zero() { (gap / -change).widen() } else { f64::INFINITY }
 }
 
-pub(super) fn trial<T: Real>(
+/// Writes the change that a step makes, clipped; `surface` is K⁻¹h under gap control.
+pub(in crate::solver) fn trial<T: Real>(
     fields: &mut Fields<T>,
-    local: &dyn Local<T>,
+    local: &Potential<'_, T>,
     attempt: Attempt<T>,
     surface: Option<&Array2<T>>,
-) -> Partial {
+) -> Tried {
     let Fields { reducer, gap, residual, preconditioned, change, .. } = fields;
     let nothing_local = local.is_zero();
     let chunks = read(gap).zip(read(residual)).zip(read(preconditioned)).zip(write(change));
@@ -57,9 +122,9 @@ pub(super) fn trial<T: Real>(
             let [g, c, t, s] = [gap[i], change[i], tractions[i], slopes[i]].map(T::widen);
             ([t * c, s * c * c, s * c * g, s * g * g], f64::INFINITY)
         });
-        part.sum[7..11].copy_from_slice(&found.sum[..4]);
+        part.sum[SUMS - 4..].copy_from_slice(&found.sum[..4]);
     };
-    match surface {
+    let total = match surface {
         None => reducer.run(chunks, |first, (((gap, residual), z), change)| {
             let mut part = sums!(4, [gap, residual, z], [change], |i| {
                 let (g, r) = (gap[i], residual[i]);
@@ -84,10 +149,33 @@ pub(super) fn trial<T: Real>(
             slopes(&mut part, first, gap, change);
             part
         }),
+    };
+    let [change, clipped, blocked, descent, gap_descent, change_surface, gap_surface, ..] = total.sum;
+    let [.., traction, slope_change, slope_mixed, slope_gap] = total.sum;
+    let reach = total.min;
+    Tried {
+        change,
+        clipped,
+        blocked,
+        descent,
+        gap_descent,
+        change_surface,
+        gap_surface,
+        traction,
+        slope_change,
+        slope_mixed,
+        slope_gap,
+        reach,
     }
 }
 
-pub(super) fn energy_after<T: Real>(fields: &mut Fields<T>, local: &dyn Local<T>, length: T, scale: T) -> f64 {
+/// Σ of the local energy after a step.
+pub(in crate::solver) fn energy_after<T: Real>(
+    fields: &mut Fields<T>,
+    local: &Potential<'_, T>,
+    length: T,
+    scale: T,
+) -> f64 {
     let Fields { reducer, gap, change, .. } = fields;
     let projects = local.projects();
     let total = reducer.run(read(gap).zip(read(change)), |first, (gap, change)| {
@@ -102,14 +190,15 @@ pub(super) fn energy_after<T: Real>(fields: &mut Fields<T>, local: &dyn Local<T>
     total.sum[0]
 }
 
-pub(super) fn advance<T: Real>(
+/// Takes a step: gap, pressure, r in the place of the residual, and the tally of the new state.
+pub(in crate::solver) fn advance<T: Real>(
     fields: &mut Fields<T>,
-    local: &dyn Local<T>,
+    local: &Potential<'_, T>,
     step: Advance<T>,
     surface: &Array2<T>,
-) -> Partial {
+) -> Advanced {
     let Advance { length, scale, offset, level } = step;
-    let Fields { reducer, gap, pressure, residual: response, preconditioned, change, .. } = fields;
+    let Fields { tallied, gap, pressure, residual: response, preconditioned, change, .. } = fields;
     let (projects, nothing_local) = (local.projects(), local.is_zero());
     // r into the place of the response, and the tally
     let finish = |first, gap: &[T], pressure: &[T], step: &[T], residual: &mut [T]| {
@@ -125,7 +214,7 @@ pub(super) fn advance<T: Real>(
             let product = sums!(1, [step, residual], [], |i| {
                 ([step[i].widen() * (residual[i] - level).widen()], f64::INFINITY)
             });
-            part.sum[8] = product.sum[0];
+            part.sum[PRODUCT] = product.sum[0];
         }
         part
     };
@@ -139,32 +228,37 @@ pub(super) fn advance<T: Real>(
     let chunks = write(gap).zip(write(pressure)).zip(write(response));
     if level.is_none() {
         let working = Working { offset, release: T::zero(), level: T::zero() };
-        return reducer.run(
+        let total = tallied.run(
             chunks.zip(read(change)).zip(read(preconditioned)),
             |first, ((((gap, pressure), response), change), z)| {
                 take(gap, pressure, change, response);
                 let mut part = finish(first, gap, pressure, change, response);
                 let new = release_chunk(projects, working, (gap, z, change), response);
-                part.sum[9..13].copy_from_slice(&new.sum[..4]);
+                part.sum[SUMS - 4..].copy_from_slice(&new.sum[..4]);
                 part
             },
         );
+        let [.., working, orthogonality, descent, overlap] = total.sum;
+        let residual = Continued { orthogonality, working, descent, overlap, sum_change: 0.0 };
+        return Advanced { tally: Tally::new(&total), product: total.sum[PRODUCT], residual: Some(residual) };
     }
-    if rest == T::zero() {
-        return reducer.run(chunks.zip(read(change)), |first, (((gap, pressure), response), change)| {
+    let total = if rest == T::zero() {
+        tallied.run(chunks.zip(read(change)), |first, (((gap, pressure), response), change)| {
             take(gap, pressure, change, response);
             finish(first, gap, pressure, change, response)
-        });
-    }
-    let chunks = chunks.zip(write(change)).zip(read(surface));
-    reducer.run(chunks, |first, ((((gap, pressure), response), change), surface)| {
-        vectors!([response, surface], [gap, pressure, change], |i| {
-            let (g, p) = (gap[i], pressure[i]);
-            let d = whole(scale, g, change[i]);
-            change[i] = d;
-            gap[i] = moved(projects, g, length * d);
-            pressure[i] = p + length * (scale * response[i] + rest * (p - surface[i]));
-        });
-        finish(first, gap, pressure, change, response)
-    })
+        })
+    } else {
+        let chunks = chunks.zip(write(change)).zip(read(surface));
+        tallied.run(chunks, |first, ((((gap, pressure), response), change), surface)| {
+            vectors!([response, surface], [gap, pressure, change], |i| {
+                let (g, p) = (gap[i], pressure[i]);
+                let d = whole(scale, g, change[i]);
+                change[i] = d;
+                gap[i] = moved(projects, g, length * d);
+                pressure[i] = p + length * (scale * response[i] + rest * (p - surface[i]));
+            });
+            finish(first, gap, pressure, change, response)
+        })
+    };
+    Advanced { tally: Tally::new(&total), product: total.sum[PRODUCT], residual: None }
 }

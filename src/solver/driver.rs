@@ -1,0 +1,117 @@
+//! The order of a solve: a start with the jumps of the law smoothed, rounds of the constraint, and the loop within each.
+
+use std::marker::PhantomData;
+use std::ops::ControlFlow;
+
+use ndarray::{CowArray, Ix2};
+
+use super::report::{Iteration, Solution, Status};
+use super::state::{Goal, State};
+use super::{Method, Settings};
+use crate::constraint::{ContactConstraint, Outer};
+use crate::error::{Error, Result};
+use crate::problem::{Control, Parts, smoothed_law};
+use crate::real::{Compiled, Real};
+
+/// All that a solve takes.
+pub(super) struct Job<'a, T> {
+    pub(super) problem: Parts<'a, T>,
+    pub(super) constraint: &'a mut dyn ContactConstraint<T>,
+    pub(super) control: Control,
+    pub(super) settings: Settings,
+    /// the starting gap, unless it is the default one
+    pub(super) start: Option<CowArray<'a, T, Ix2>>,
+    /// whether the start is near the solution
+    pub(super) near: bool,
+    pub(super) observe: Observer<'a>,
+}
+
+/// Is told of every iteration, and may stop the solve.
+pub(crate) type Observer<'a> = &'a mut dyn FnMut(&Iteration) -> ControlFlow<()>;
+
+/// How a minimisation ended.
+enum End {
+    /// The criterion is met.
+    Converged,
+    /// A tensile load has pulled the surfaces apart.
+    Adrift,
+    /// No more iterations, no more progress, or the observer's wish.
+    Gave(Status),
+}
+
+/// Solves.
+pub(super) fn solve<T: Real>(job: Job<'_, T>) -> Result<Solution<T>> {
+    T::call::<Solve<'_>>(job)
+}
+
+struct Solve<'a>(PhantomData<&'a ()>);
+
+impl<'a> Compiled for Solve<'a> {
+    type Input<T: Real> = Job<'a, T>;
+    type Output<T: Real> = Result<Solution<T>>;
+    fn single(job: Job<'a, f32>) -> Result<Solution<f32>> {
+        run(job)
+    }
+    fn double(job: Job<'a, f64>) -> Result<Solution<f64>> {
+        run(job)
+    }
+}
+
+fn run<T: Real>(job: Job<'_, T>) -> Result<Solution<T>> {
+    let Job { problem, constraint, control, settings, start, near, observe } = job;
+    Error::positive("tolerance", settings.tolerance)?;
+    let Parts { operator, law, flat } = problem;
+    let default_start = start.is_none();
+    let smooth = (near || default_start) && settings.method == Method::Preconditioned;
+    let smoothed = if smooth { smoothed_law(&*operator, law) } else { None };
+    let mut state = State::new(Parts { operator, law, flat }, constraint, control, start, settings)?;
+    if near && !default_start {
+        state.stays_near();
+    }
+    if let Some(smoothed) = &smoothed {
+        state.change_law(&**smoothed, Goal::Start);
+        let end = minimise(&mut state, &mut *observe)?;
+        state.sharpen(law)?;
+        if let End::Gave(status @ (Status::Stopped | Status::IterationLimit)) = end {
+            return state.finish(status);
+        }
+    }
+    let status = loop {
+        match minimise(&mut state, &mut *observe)? {
+            End::Converged => match state.update_constraint() {
+                Outer::Done => break Status::Converged,
+                Outer::Again => {}
+                Outer::Failed => break Status::IterationLimit,
+            },
+            End::Adrift => state.hold_apart(),
+            End::Gave(status) => break status,
+        }
+    };
+    state.finish(status)
+}
+
+/// Minimises the energy with the present law, control and multipliers.
+fn minimise<T: Real>(state: &mut State<'_, T>, observe: Observer<'_>) -> Result<End> {
+    loop {
+        state.residual();
+        state.precondition()?;
+        let converged = state.converged() && state.confirm()?;
+        if observe(&state.iteration()).is_break() {
+            return Ok(End::Gave(Status::Stopped));
+        }
+        if converged {
+            return Ok(End::Converged);
+        }
+        match state.verdict() {
+            Some(Status::Stalled) if state.renew()? => continue,
+            Some(status) => return Ok(End::Gave(status)),
+            None => {}
+        }
+        if state.is_adrift() {
+            return Ok(End::Adrift);
+        }
+        if !state.step()? && !state.renew()? {
+            return Ok(End::Gave(Status::Stalled));
+        }
+    }
+}

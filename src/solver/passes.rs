@@ -1,0 +1,63 @@
+//! The passes over fields that make an iteration.
+//!
+//! Their cost is memory traffic, so that each does all that can be done while its nodes are in cache. Law and constraint
+//! come in as a [`Potential`], at one virtual call for a chunk of nodes. Each pass returns a struct that names its sums.
+
+use ndarray::Array2;
+
+use crate::field::Reducer;
+use crate::real::Real;
+
+mod residual;
+mod step;
+mod tally;
+
+pub(super) use residual::{Continued, Follows, Residual, Working};
+pub(super) use residual::{idle, lift, lift_sums, release, released, residual};
+pub(super) use step::{Advance, Attempt, Tried, advance, energy_after, trial};
+pub(super) use tally::{Tally, tally};
+
+/// The fields of a solve.
+#[derive(Debug)]
+pub(super) struct Fields<T> {
+    /// the gap g
+    pub(super) gap: Array2<T>,
+    /// the elastic pressure p = K⁻¹(g + h), of zero mean
+    pub(super) pressure: Array2<T>,
+    /// the residual r', negative zero outside of the working set and never within; while a step is made, K⁻¹ of the change
+    pub(super) residual: Array2<T>,
+    /// the preconditioned residual z = M r'; between two steps, that of the state before
+    pub(super) preconditioned: Array2<T>,
+    /// the last step, up to a factor and, while the next one is made, up to the scale that restores the mean gap; the
+    /// direction t of [`Method::Rey2017`](crate::Method)
+    pub(super) change: Array2<T>,
+    /// the sums of the chunks that made the present tally
+    pub(super) tallied: Reducer,
+    /// the sums of the chunks that made the present residual
+    pub(super) working: Reducer,
+    /// those of all other passes
+    pub(super) reducer: Reducer,
+}
+
+impl<T: Real> Fields<T> {
+    /// The fields of a solve that starts from this gap and its pressure.
+    pub(super) fn new(gap: Array2<T>, pressure: Array2<T>) -> Self {
+        let field = || Array2::zeros(gap.dim());
+        let reducer = || Reducer::new(gap.len());
+        let [residual, preconditioned, change] = std::array::from_fn(|_| field());
+        let [tallied, working, reducer] = std::array::from_fn(|_| reducer());
+        Self { gap, pressure, residual, preconditioned, change, tallied, working, reducer }
+    }
+}
+
+/// One if a condition holds, zero if not.
+#[inline(always)]
+fn count(condition: bool) -> f64 {
+    if condition { 1.0 } else { 0.0 }
+}
+
+/// Whether a node is outside of the working set, by its residual.
+#[inline(always)]
+pub(super) fn idles<T: Real>(residual: T) -> bool {
+    (residual == T::zero()) & residual.is_sign_negative()
+}

@@ -1,0 +1,187 @@
+//! The residual r' on the working set, and the passes that use it before a step is made.
+
+use super::tally::tractions;
+use super::{Fields, count, idles};
+use crate::field::{CHUNK, Partial, read, write};
+use crate::par::IndexedParallelIterator;
+use crate::real::Real;
+use crate::solver::potential::Potential;
+use crate::vector::{sums, vectors};
+
+/// Which nodes may move, and the constant that their residual is relative to.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::solver) struct Working<T> {
+    /// the mean pressure that is given, or zero
+    pub(in crate::solver) offset: T,
+    /// a node in contact is released where r is below it
+    pub(in crate::solver) release: T,
+    /// the mean of r over the working set under gap control, zero under pressure control: r' = r − level
+    pub(in crate::solver) level: T,
+}
+
+/// The contact nodes that are released.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::solver) struct Released {
+    /// how many
+    pub(in crate::solver) count: f64,
+    /// Σ r over them
+    pub(in crate::solver) sum_r: f64,
+}
+
+/// A residual that was computed from gap and pressure.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::solver) struct Residual {
+    /// Σ|g r'|
+    pub(in crate::solver) orthogonality: f64,
+    /// how many nodes may move
+    pub(in crate::solver) working: f64,
+    /// Σ of the squares of the differences to the residual before
+    pub(in crate::solver) difference: f64,
+}
+
+/// A residual that a step has left, beside the step itself.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::solver) struct Continued {
+    /// Σ|g r'|
+    pub(in crate::solver) orthogonality: f64,
+    /// how many nodes may move
+    pub(in crate::solver) working: f64,
+    /// Σ r'·c, with c the field of the change
+    pub(in crate::solver) descent: f64,
+    /// Σ r'·z', with z' the preconditioned residual of the state before
+    pub(in crate::solver) overlap: f64,
+    /// Σ c over the working set
+    pub(in crate::solver) sum_change: f64,
+}
+
+/// How a node follows the mean gap: v = √((g + least)/(g + half)).
+#[derive(Clone, Copy, Debug)]
+pub(in crate::solver) struct Follows<T> {
+    pub(in crate::solver) half: T,
+    pub(in crate::solver) least: T,
+}
+
+/// The residual of a node of the working set.
+#[inline(always)]
+fn works<T: Real>(residual: T) -> T {
+    // no negative zero
+    residual + T::zero()
+}
+
+/// r' of a node, and whether it may move.
+#[inline(always)]
+fn residual_of<T: Real>(projects: bool, w: Working<T>, gap: T, r: T) -> (T, bool) {
+    let may = !projects | (gap > T::zero()) | (r < w.release);
+    (if may { works(r - w.level) } else { T::neg_zero() }, may)
+}
+
+/// The contact nodes that are released, by the tally of the present state.
+pub(in crate::solver) fn released<T: Real>(fields: &mut Fields<T>, at_contact: T, release: T) -> Released {
+    let Fields { reducer, tallied, gap, pressure, .. } = fields;
+    let limit = release.widen();
+    let total = reducer.run_where(
+        tallied,
+        |tally| tally.min < limit,
+        read(gap).zip(read(pressure)),
+        |_, (gap, pressure)| {
+            sums!(2, [gap, pressure], [], |i| {
+                let r = pressure[i] + at_contact;
+                let released = (gap[i] <= T::zero()) & (r < release);
+                ([count(released), if released { r.widen() } else { 0.0 }], f64::INFINITY)
+            })
+        },
+    );
+    Released { count: total.sum[0], sum_r: total.sum[1] }
+}
+
+/// Computes r' from gap and pressure.
+pub(in crate::solver) fn residual<T: Real>(
+    fields: &mut Fields<T>,
+    local: &Potential<'_, T>,
+    working: Working<T>,
+) -> Residual {
+    let Fields { working: reducer, gap, pressure, residual, .. } = fields;
+    let projects = local.projects();
+    let total =
+        reducer.run(read(gap).zip(read(pressure)).zip(write(residual)), |first, ((gap, pressure), residual)| {
+            let mut buffer = [T::zero(); CHUNK];
+            let tractions = tractions(local, first, gap, &mut buffer);
+            sums!(3, [gap, pressure, tractions], [residual], |i| {
+                let r = pressure[i] + tractions[i] + working.offset;
+                let (r, may) = residual_of(projects, working, gap[i], r);
+                let difference = (r - residual[i]).widen();
+                residual[i] = r;
+                ([count(may), (gap[i] * r).abs().widen(), difference * difference], f64::INFINITY)
+            })
+        });
+    let [working, orthogonality, difference, ..] = total.sum;
+    Residual { orthogonality, working, difference }
+}
+
+/// r' of a chunk from the r that a step has left in its place.
+pub(super) fn release_chunk<T: Real>(
+    projects: bool,
+    working: Working<T>,
+    (gap, z, change): (&[T], &[T], &[T]),
+    residual: &mut [T],
+) -> Partial {
+    sums!(5, [gap, z, change], [residual], |i| {
+        let (r, may) = residual_of(projects, working, gap[i], residual[i]);
+        residual[i] = r;
+        let orthogonality = (gap[i] * r).abs().widen();
+        let [r, d, z] = [r, change[i], z[i]].map(T::widen);
+        ([count(may), orthogonality, r * d, r * z, if may { d } else { 0.0 }], f64::INFINITY)
+    })
+}
+
+/// Computes r' from the r that a step has left in its place.
+pub(in crate::solver) fn release<T: Real>(fields: &mut Fields<T>, projects: bool, working: Working<T>) -> Continued {
+    let Fields { working: reducer, gap, residual, preconditioned, change, .. } = fields;
+    let chunks = read(gap).zip(write(residual)).zip(read(preconditioned)).zip(read(change));
+    let total = reducer
+        .run(chunks, |_, (((gap, residual), z), change)| release_chunk(projects, working, (gap, z, change), residual));
+    let [working, orthogonality, descent, overlap, sum_change, ..] = total.sum;
+    Continued { orthogonality, working, descent, overlap, sum_change }
+}
+
+#[inline(always)]
+fn follow<T: Real>(follows: Follows<T>, gap: T) -> T {
+    ((gap + follows.least) / (gap + follows.half)).sqrt()
+}
+
+/// Σ v and Σ v·r' for the way in which nodes follow the mean gap.
+pub(in crate::solver) fn lift_sums<T: Real>(fields: &mut Fields<T>, follows: Follows<T>) -> [f64; 2] {
+    let Fields { reducer, gap, residual, .. } = fields;
+    let total = reducer.run(read(gap).zip(read(residual)), |_, (gap, residual)| {
+        sums!(2, [gap, residual], [], |i| {
+            let v = follow(follows, gap[i]).widen();
+            ([v, v * residual[i].widen()], f64::INFINITY)
+        })
+    });
+    [total.sum[0], total.sum[1]]
+}
+
+/// Adds `scale`·v to z.
+pub(in crate::solver) fn lift<T: Real>(fields: &mut Fields<T>, follows: Follows<T>, scale: T) {
+    let Fields { reducer, gap, preconditioned, .. } = fields;
+    reducer.run(read(gap).zip(write(preconditioned)), |_, (gap, z)| {
+        vectors!([gap], [z], |i| {
+            z[i] += scale * follow(follows, gap[i]);
+        });
+        Partial::NONE
+    });
+}
+
+/// Σ z outside of the working set of the present residual.
+pub(in crate::solver) fn idle<T: Real>(fields: &mut Fields<T>) -> f64 {
+    let Fields { reducer, working, residual, preconditioned, .. } = fields;
+    let total = reducer.run_where(
+        working,
+        |working| working.sum[0] < CHUNK as f64,
+        read(residual).zip(read(preconditioned)),
+        |_, (residual, z)| {
+            sums!(1, [residual, z], [], |i| { ([if idles(residual[i]) { z[i].widen() } else { 0.0 }], f64::INFINITY) })
+        },
+    );
+    total.sum[0]
+}
