@@ -17,6 +17,9 @@ use crate::surface::Surface;
 /// The resolution measure above which a coarse grid would pin the contact.
 const RESOLVED: f64 = 0.5;
 
+/// The load error from which on a coarse solution is no start.
+const CARRIED: f64 = 0.5;
+
 /// Solves on coarser grids first, each the start of the next finer one.
 ///
 /// A coarser grid has every second node of the finer one, along both sides (along x on a line); its heights are those of
@@ -188,8 +191,8 @@ impl<C> Nested<C> {
             });
             law = problem.law;
             drop(problem.operator);
-            // a coarse grid that does not hold a tension says nothing of a finer one
-            if report.status != Status::Detached {
+            // a coarse grid that does not carry its load says nothing of a finer one
+            if report.load_error < CARRIED {
                 let finer = finer(&strides, stride);
                 start = Some(prolong(surface, finer, &coarse, &gap, self.solver.constraint.projects()));
             }

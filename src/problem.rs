@@ -62,6 +62,8 @@ pub(crate) struct PressedFlat<T> {
     /// the mean of h·K⁻¹h
     pub(crate) work: f64,
     pub(crate) rms_height: f64,
+    /// the highest height less the mean
+    pub(crate) peak: f64,
     /// the highest height less the lowest
     pub(crate) height_span: f64,
 }
@@ -101,7 +103,7 @@ impl<T: Real, O: ElasticOperator<T>, L: AdhesionLaw<T>> Problem<T, O, L> {
         }
         let (mean, rms_height) = (surface.mean(), surface.rms_height());
         let (low, high) = surface.heights().iter().fold((mean, mean), |(low, high), &h| (low.min(h), high.max(h)));
-        let height_span = high - low;
+        let (peak, height_span) = (high - mean, high - low);
         let mut surface_pressure = Array2::zeros(grid.shape());
         // a large datum would drown the heights in its rounding; a small one is not worth a copy
         let centred = (mean.abs() > rms_height).then(|| surface.heights().mapv(|h| h - mean));
@@ -109,7 +111,7 @@ impl<T: Real, O: ElasticOperator<T>, L: AdhesionLaw<T>> Problem<T, O, L> {
         let surface_work = operator.surface_pressure(heights, surface_pressure.view_mut())?.max(0.0);
         drop(centred);
         Error::all_finite("pressure K⁻¹h of the surface pressed flat", surface_pressure.view())?;
-        let flat = PressedFlat { pressure: surface_pressure, work: surface_work, rms_height, height_span };
+        let flat = PressedFlat { pressure: surface_pressure, work: surface_work, rms_height, peak, height_span };
         Ok(Self { operator, law, flat })
     }
 

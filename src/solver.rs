@@ -21,6 +21,8 @@ mod report;
 mod rey2017;
 mod start;
 mod state;
+mod tension;
+mod work;
 
 use driver::Job;
 pub(crate) use driver::Observer;

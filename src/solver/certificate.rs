@@ -4,11 +4,10 @@ use super::report::Status;
 use super::state::{Goal, State};
 use super::{Criterion, Method};
 use crate::error::Result;
-use crate::field::{Partial, write};
 use crate::problem::Control;
 use crate::real::Real;
 
-/// How well the smoothed law is solved, for the start: the edge of the adhesive zone has to be right to a node.
+/// The tolerance on the way to a start: the edge of the adhesive zone has to be right to a node.
 const START: f64 = 1e-4;
 
 /// Iterations without progress after which the direction is dropped, and after which the solve has stalled.
@@ -22,30 +21,23 @@ const NEAR_FLOOR: f64 = 2.0;
 const STALL_REY2017: (usize, usize) = (400, 800);
 
 impl<T: Real> State<'_, T> {
-    /// The mean of u·p, twice the elastic energy.
-    pub(super) fn mean_work(&self) -> f64 {
-        (self.work / self.nodes()).max(0.0)
-    }
-
+    /// The certified relative error in the energy norm, no less than rounding makes it.
     pub(super) fn relative_error(&self) -> f64 {
-        if self.certificate == 0.0 {
-            return 0.0;
-        }
         let (scale, rounding) = self.error_scale();
-        let error = (self.certificate.max(rounding) / scale).sqrt();
+        // where every node is in contact no gap is wrong
+        let rounding = if self.certificate == 0.0 && self.residual.working == 0.0 { 0.0 } else { rounding };
+        let square = self.certificate.max(rounding);
+        let error = if square == 0.0 { 0.0 } else { (square / scale).sqrt() };
         if error.is_nan() { f64::INFINITY } else { error }
     }
 
-    /// What a certificate is related to, the mean of u·p; and the least certificate that rounding leaves of any worth.
+    /// The mean of u·p, to which a certificate is related; and the least certificate that rounding leaves of any worth.
     ///
     /// The pressure is the sum of K⁻¹h and K⁻¹g, each rounded in the precision of the fields, and carries that rounding
     /// where these nearly cancel each other. In the energy norm that is about ε²(⟨h, K⁻¹h⟩ + ½kḡ(ḡ + h_rms)), with k the
     /// stiffness of the shortest wave, as a transform spreads the rounding of a gap evenly over all waves.
     fn error_scale(&self) -> (f64, f64) {
         let epsilon = T::epsilon().widen();
-        // u·p is the small difference of large sums for light loads: what may be their rounding does not count
-        let rounding = 8.0 * (epsilon / self.nodes().sqrt() + f64::EPSILON) * self.flat.work;
-        let touching = (self.mean_work() - rounding).max(0.0);
         let apart = if self.tally.contact > 0.0 { 0.0 } else { self.flat.work };
         // flats that attract each other have no waves but those of rounding
         let traction = self.tally.traction / self.nodes();
@@ -54,7 +46,7 @@ impl<T: Real> State<'_, T> {
         let lifted = if self.tally.contact > 0.0 { 0.0 } else { self.tally.sum_gap / self.nodes() };
         let flat =
             if softest > 0.0 { epsilon * (traction * traction / softest + softest * lifted * lifted) } else { 0.0 };
-        let waves = touching.max(apart);
+        let waves = self.mean_work().max(apart);
         let mean = (self.tally.sum_gap / self.nodes()).abs();
         let carried = self.flat.work + 0.5 * stiffest * mean * (mean + self.flat.rms_height);
         (waves.max(flat), if waves >= flat { epsilon * epsilon * carried } else { 0.0 })
@@ -67,18 +59,22 @@ impl<T: Real> State<'_, T> {
         self.certificate <= NEAR_FLOOR * NEAR_FLOOR * rounding && self.load_error() <= NEAR_FLOOR * floor
     }
 
+    /// The error of the load under pressure control, relative to the load.
+    ///
+    /// Without contact every node is apart, and their mean r is all of the load that adhesion does not hold.
     pub(super) fn load_error(&self) -> f64 {
-        let Control::MeanPressure(pressure) = self.control else { return 0.0 };
-        let residual = match self.tally.free {
+        match (self.control, self.tally.free) {
+            (Control::MeanGap(_), _) => 0.0,
             // contact everywhere: in balance, unless it is under tension somewhere
-            0.0 => (-self.tally.min_r).max(0.0),
-            free => (self.tally.sum_r / free).abs(),
-        };
-        let contact = pressure + self.tally.traction / self.nodes();
-        // the pressure that presses the surface flat, as far as loads matter beside it
-        let floor = 1e-6 * (self.flat.work * self.operator.stiffness_range().0).sqrt();
-        let scale = pressure.abs().max(contact.abs()).max(floor);
-        if residual == 0.0 { 0.0 } else { residual / scale }
+            (_, 0.0) => self.share_of_load((-self.tally.min_r).max(0.0)),
+            (_, free) => self.share_of_load(self.tally.sum_r / free),
+        }
+    }
+
+    /// A pressure as a share of the larger of |p̄| and the mean contact pressure.
+    pub(super) fn share_of_load(&self, pressure: f64) -> f64 {
+        let contact = self.given() + self.tally.traction / self.nodes();
+        if pressure == 0.0 { 0.0 } else { pressure.abs() / self.given().abs().max(contact.abs()) }
     }
 
     pub(super) fn scaled_orthogonality(&self) -> f64 {
@@ -86,23 +82,29 @@ impl<T: Real> State<'_, T> {
         self.residual.orthogonality / (self.operator.modulus() * (lx * ly).sqrt())
     }
 
+    /// Whether the goal is reached.
     pub(super) fn converged(&self) -> bool {
-        if self.goal == Goal::Start {
+        self.meets(self.load_error())
+    }
+
+    /// Whether the goal is reached with a load error.
+    pub(super) fn meets(&self, load_error: f64) -> bool {
+        if self.goal != Goal::Solution {
             let tolerance = self.settings.tolerance.max(START);
-            return self.relative_error() <= tolerance && self.load_error() <= tolerance;
+            return self.relative_error() <= tolerance && load_error <= tolerance;
         }
         let criterion = match self.settings.criterion {
             Criterion::EnergyNorm => self.relative_error(),
             Criterion::Orthogonality if self.residual.working > self.tally.free => f64::INFINITY,
             Criterion::Orthogonality => self.scaled_orthogonality(),
         };
-        criterion <= self.settings.tolerance && self.load_error() <= self.settings.tolerance
+        criterion <= self.settings.tolerance && load_error <= self.settings.tolerance
     }
 
     /// Whether the state is converged with the pressure of its own gap, computed anew if it was only updated.
     pub(super) fn confirm(&mut self) -> Result<bool> {
         // a start needs no proof
-        if self.age == 0 || self.goal == Goal::Start {
+        if self.age == 0 || self.goal != Goal::Solution {
             return Ok(true);
         }
         let before = self.certificate;
@@ -123,13 +125,13 @@ impl<T: Real> State<'_, T> {
 
     /// The energy that is minimised, per area.
     pub(super) fn energy(&self) -> f64 {
-        let load = self.detached.unwrap_or(self.offset());
+        let load = self.detached.unwrap_or(self.given());
         0.5 * self.mean_work() + (self.tally.adhesive + self.tally.penalty + load * self.tally.sum_gap) / self.nodes()
     }
 
     /// What rounding of the fields can do to the energy, per area.
     pub(super) fn energy_noise(&self) -> f64 {
-        let local = self.tally.adhesive.abs() + self.tally.penalty.abs() + (self.offset() * self.tally.sum_gap).abs();
+        let local = self.tally.adhesive.abs() + self.tally.penalty.abs() + (self.given() * self.tally.sum_gap).abs();
         2.0 * T::epsilon().widen() * (0.5 * self.mean_work() + local / self.nodes())
     }
 
@@ -143,7 +145,7 @@ impl<T: Real> State<'_, T> {
             Method::Preconditioned => self.relative_error().max(self.load_error()),
             Method::Rey2017 => self.scaled_orthogonality(),
         };
-        if !energy.is_finite() {
+        if !energy.is_finite() || self.runs_away() {
             return Some(Status::Stalled);
         }
         if error < 0.95 * self.progress.best_error || energy < self.progress.lowest_energy - self.energy_noise() {
@@ -175,27 +177,5 @@ impl<T: Real> State<'_, T> {
             self.progress.renewed = true;
         }
         Ok(due)
-    }
-
-    /// Whether a tensile load has pulled the surfaces apart: no contact, and hardly any traction left to hold them.
-    pub(super) fn is_adrift(&self) -> bool {
-        let Control::MeanPressure(pressure) = self.control else { return false };
-        let held = self.tally.traction / self.nodes();
-        pressure < 0.0 && self.tally.contact == 0.0 && held <= 1e-3 * -pressure
-    }
-
-    /// Holds surfaces that drift apart at a mean gap at which they do not reach each other, to let them come to rest.
-    pub(super) fn hold_apart(&mut self) {
-        let far = 2.0 * (self.flat.height_span + 10.0 * self.law.range().widen());
-        let mean = self.tally.sum_gap / self.nodes();
-        let target = mean.max(far);
-        let lift = T::lit(target - mean);
-        self.fields.reducer.run(write(&mut self.fields.gap), |_, gap| {
-            gap.iter_mut().for_each(|gap| *gap += lift);
-            Partial::NONE
-        });
-        self.detached = Some(self.offset());
-        self.control = Control::MeanGap(target);
-        self.restart();
     }
 }

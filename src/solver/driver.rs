@@ -30,7 +30,7 @@ pub(super) struct Job<'a, T> {
 pub(crate) type Observer<'a> = &'a mut dyn FnMut(&Iteration) -> ControlFlow<()>;
 
 /// How a minimisation ended.
-enum End {
+pub(super) enum End {
     /// The criterion is met.
     Converged,
     /// A tensile load has pulled the surfaces apart.
@@ -76,6 +76,8 @@ fn run<T: Real>(job: Job<'_, T>) -> Result<Solution<T>> {
             return state.finish(status);
         }
     }
+    // a start that was given is on a branch, which ends where it comes apart
+    let mut seek = default_start;
     let status = loop {
         match minimise(&mut state, &mut *observe)? {
             End::Converged => match state.update_constraint() {
@@ -83,7 +85,11 @@ fn run<T: Real>(job: Job<'_, T>) -> Result<Solution<T>> {
                 Outer::Again => {}
                 Outer::Failed => break Status::IterationLimit,
             },
-            End::Adrift => state.hold_apart(),
+            End::Adrift => {
+                if !(std::mem::take(&mut seek) && state.seek_hold(&mut *observe)?) {
+                    state.hold_apart();
+                }
+            }
             End::Gave(status) => break status,
         }
     };
@@ -91,7 +97,7 @@ fn run<T: Real>(job: Job<'_, T>) -> Result<Solution<T>> {
 }
 
 /// Minimises the energy with the present law, control and multipliers.
-fn minimise<T: Real>(state: &mut State<'_, T>, observe: Observer<'_>) -> Result<End> {
+pub(super) fn minimise<T: Real>(state: &mut State<'_, T>, observe: Observer<'_>) -> Result<End> {
     loop {
         state.residual();
         state.precondition()?;

@@ -58,8 +58,8 @@ impl<T: Real> State<'_, T> {
         if stiffest <= 0.0 {
             // nothing resists the load of a node alone before it touches: a step is as long as the gap
             let gap = self.tally.sum_gap / self.nodes();
-            let falls = gap > 0.0 && self.law.is_zero() && self.offset() > 0.0;
-            return if falls { self.foundation().min(self.offset() / gap) } else { self.foundation() };
+            let falls = gap > 0.0 && self.law.is_zero() && self.given() > 0.0;
+            return if falls { self.foundation().min(self.given() / gap) } else { self.foundation() };
         }
         let mean = (softest * self.contact_stiffness()).sqrt();
         if mean.is_finite() { mean.clamp(0.01 * softest, stiffest) } else { softest }

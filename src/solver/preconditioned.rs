@@ -277,6 +277,9 @@ impl<T: Real> State<'_, T> {
         let elastic = (trial.scale * trial.scale * elastic + cross).max(0.0);
         let work = trial.scale * pressed + rest * tally.sum_gp;
         let shifted = work + shift * (trial.scale * trial.change + rest * tally.sum_gap);
+        if !(elastic + shifted).is_finite() {
+            return None;
+        }
         let slopes = trial.slopes;
         let stiff = elastic + slopes > LEAST_CURVATURE * elastic;
         let curvature = if stiff { elastic + slopes } else { LEAST_CURVATURE * elastic };
@@ -323,7 +326,7 @@ impl<T: Real> State<'_, T> {
         if projects {
             self.tally.adhesive = after;
         }
-        self.work += length * (2.0 * work + length * elastic);
+        self.work = self.work.after(length * (2.0 * work + length * elastic));
         let made = Made { factor: length, curvature, descent: 0.0, overlap: 0.0, sum: 0.0 };
         self.left = match advanced.residual {
             None => Left::Gradient(made),

@@ -126,6 +126,10 @@ pub struct Report {
     pub mean_gap: f64,
     /// The mean external pressure p̄, compression positive; under pressure control the given one.
     pub mean_pressure: f64,
+    /// The mean pressure that the returned fields carry, ⟨λ⟩ − ⟨φ'⟩. Under pressure control the solve was asked for
+    /// [`mean_pressure`](Self::mean_pressure), and where it has converged this is the same to the tolerance; of surfaces that were
+    /// [`Detached`](Status::Detached) it says what is left of the load.
+    pub carried_pressure: f64,
     /// The mean contact (repulsive) pressure, the paper's q₀.
     pub mean_contact_pressure: f64,
     /// The share of nodes in contact.

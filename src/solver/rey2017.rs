@@ -132,7 +132,7 @@ impl<T: Real> State<'_, T> {
         });
         if linear {
             self.age += 1;
-            self.count();
+            self.work = self.count();
         }
     }
 }

@@ -6,6 +6,7 @@ use super::passes::{self, Continued, Fields, Tally, Working};
 use super::potential::Potential;
 use super::report::{Iteration, Report, Solution, Status};
 use super::start::{given_start, uniform_start};
+use super::work::Work;
 use super::{Criterion, Method, Settings};
 use crate::adhesion::AdhesionLaw;
 use crate::constraint::{ContactConstraint, Outer};
@@ -27,6 +28,8 @@ const CERTIFY: usize = 10;
 pub(super) enum Goal {
     /// A start for the law itself, from the law with its jumps smoothed.
     Start,
+    /// A state at a given mean gap that holds a tensile load, to go on from.
+    Hold,
     /// The solution, to the tolerance of the settings.
     Solution,
 }
@@ -105,7 +108,9 @@ pub(super) struct State<'a, T> {
     pub(super) fields: Fields<T>,
     pub(super) tally: Tally,
     /// Σ u·p, twice the elastic energy
-    pub(super) work: f64,
+    pub(super) work: Work,
+    /// the mean that rounding has left in the pressure
+    pub(super) drift: f64,
     pub(super) left: Left,
     pub(super) residual: Residual,
     /// the mean of r'·K r'
@@ -123,6 +128,8 @@ pub(super) struct State<'a, T> {
     pub(super) applications: usize,
     /// steps since the pressure was last computed from the gap
     pub(super) age: usize,
+    /// the mean gap of the start
+    pub(super) start_gap: f64,
     /// the load that has pulled the surfaces apart
     pub(super) detached: Option<f64>,
 }
@@ -160,7 +167,8 @@ impl<'a, T: Real> State<'a, T> {
             goal: Goal::Solution,
             fields: Fields::new(gap, pressure),
             tally: Tally::default(),
-            work: 0.0,
+            work: Work::default(),
+            drift: 0.0,
             left: Left::Nothing,
             residual: Residual::default(),
             certificate: f64::INFINITY,
@@ -173,13 +181,15 @@ impl<'a, T: Real> State<'a, T> {
             iterations: 0,
             applications: 0,
             age: 0,
+            start_gap: 0.0,
             detached: None,
         };
         if uniform {
-            state.count();
+            state.work = state.count();
         } else {
             state.refresh()?;
         }
+        state.start_gap = state.tally.sum_gap / state.nodes();
         state.check_start()?;
         Ok(state)
     }
@@ -189,11 +199,17 @@ impl<'a, T: Real> State<'a, T> {
     }
 
     /// The mean pressure that is given, or zero.
-    pub(super) fn offset(&self) -> f64 {
+    pub(super) fn given(&self) -> f64 {
         match self.control {
             Control::MeanGap(_) => 0.0,
             Control::MeanPressure(pressure) => pressure,
         }
+    }
+
+    /// The constant that makes r of pressure and tractions: the mean pressure that is given, less the mean that rounding has
+    /// left in the pressure. That mean is no load.
+    pub(super) fn offset(&self) -> f64 {
+        self.given() - self.drift
     }
 
     pub(super) fn is_gap_controlled(&self) -> bool {
@@ -230,18 +246,21 @@ impl<'a, T: Real> State<'a, T> {
             p.iter_mut().zip(surface).for_each(|(p, &surface)| *p += surface);
             Partial::NONE
         });
-        self.count();
-        Ok(())
+        self.work = self.count();
+        self.trust_work()
     }
 
-    /// Takes the tally of the present gap and pressure.
-    pub(super) fn count(&mut self) {
+    /// Takes the tally of the present gap and pressure; returns the work as it follows from these sums.
+    pub(super) fn count(&mut self) -> Work {
         let offset = T::lit(self.offset());
         let local = Potential::new(self.law, &*self.constraint);
-        let (tally, gap_surface) = passes::tally(&mut self.fields, &local, offset, &self.flat.pressure);
-        // u·p = (g + h)·p, and ⟨h, p⟩ = ⟨K⁻¹h, g⟩ + ⟨h, K⁻¹h⟩
-        self.work = tally.sum_gp + gap_surface + self.nodes() * self.flat.work;
+        let (mut tally, gap_surface) = passes::tally(&mut self.fields, &local, offset, &self.flat.pressure);
+        if local.projects() {
+            self.drift = (tally.sum_r + tally.sum_contact_r - tally.traction) / self.nodes() - offset.widen();
+            tally.shift(T::lit(self.offset()).widen() - offset.widen());
+        }
         (self.tally, self.left) = (tally, Left::Nothing);
+        self.summed_work(tally.sum_gp, gap_surface)
     }
 
     /// μ: the mean of r where the surfaces are apart, under gap control.
@@ -337,7 +356,7 @@ impl<'a, T: Real> State<'a, T> {
         };
         if moved {
             self.iterations += 1;
-            if self.age >= REFRESH {
+            if self.age >= REFRESH || self.has_lost_its_work() {
                 self.refresh()?;
             }
         }
@@ -357,9 +376,8 @@ impl<'a, T: Real> State<'a, T> {
         }
     }
 
-    /// The fields as they are returned, with the certificate of just these.
+    /// The fields as they are returned, and an account of just these.
     pub(super) fn finish(mut self, status: Status) -> Result<Solution<T>> {
-        let status = if self.detached.is_some() && status != Status::Stopped { Status::Detached } else { status };
         if self.age > 0 {
             self.refresh()?;
             self.certificate = f64::INFINITY;
@@ -372,16 +390,15 @@ impl<'a, T: Real> State<'a, T> {
             Control::MeanGap(_) => -self.multiplier(),
             Control::MeanPressure(pressure) => pressure,
         };
-        let load_error = if self.detached.is_some() { 1.0 } else { self.load_error() };
-        let mean_pressure = self.detached.unwrap_or(mean);
+        let shift = T::lit(mean - self.drift);
         let Self { fields: Fields { reducer, gap, pressure, preconditioned, .. }, law, constraint, .. } = &mut self;
-        let (mean, projects) = (T::lit(mean), constraint.projects());
+        let projects = constraint.projects();
         let at_contact = law.traction(T::zero());
         let fields = read(gap).zip(write(pressure)).zip(write(preconditioned));
         let total = reducer.run(fields, |first, ((gap, pressure), contact)| {
             let mut part = Partial::NONE;
             for (i, ((&gap, p), contact)) in gap.iter().zip(pressure).zip(contact).enumerate() {
-                *p += mean;
+                *p += shift;
                 *contact = match projects {
                     true if gap <= T::zero() => (*p + at_contact).max(T::zero()),
                     true => T::zero(),
@@ -392,17 +409,25 @@ impl<'a, T: Real> State<'a, T> {
             }
             part
         });
+        let mean_contact_pressure = total.sum[0] / self.nodes();
+        let carried_pressure = mean_contact_pressure - self.tally.traction / self.nodes();
+        let load_error = match self.control {
+            _ if self.detached.is_some() => 1.0,
+            Control::MeanGap(_) => 0.0,
+            Control::MeanPressure(_) => self.load_error().max(self.share_of_load(carried_pressure - mean)),
+        };
         let mu_rho = resolution(&*self.operator, self.law);
         let report = Report {
-            status,
+            status: self.final_status(status, load_error),
             relative_error: self.relative_error(),
             load_error,
             orthogonality: self.scaled_orthogonality(),
             iterations: self.iterations,
             operator_applications: self.applications,
             mean_gap: self.tally.sum_gap / self.nodes(),
-            mean_pressure,
-            mean_contact_pressure: total.sum[0] / self.nodes(),
+            mean_pressure: self.detached.unwrap_or(mean),
+            carried_pressure,
+            mean_contact_pressure,
             contact_fraction: self.tally.contact / self.nodes(),
             contact_points: self.tally.contact as usize,
             min_gap: total.min,
@@ -415,5 +440,18 @@ impl<'a, T: Real> State<'a, T> {
         };
         let Fields { gap, pressure, preconditioned, .. } = self.fields;
         Ok(Solution { gap, pressure, contact_pressure: preconditioned, report })
+    }
+
+    /// The status that the figures of the returned fields bear out.
+    fn final_status(&self, status: Status, load_error: f64) -> Status {
+        let good = self.meets(load_error);
+        match status {
+            Status::Stopped => status,
+            _ if self.detached.is_some() => Status::Detached,
+            Status::Converged if !good => Status::Stalled,
+            // what the last computation of the pressure has brought
+            Status::Stalled if good => Status::Converged,
+            _ => status,
+        }
     }
 }

@@ -199,6 +199,7 @@ pub(in crate::solver) fn advance<T: Real>(
 ) -> Advanced {
     let Advance { length, scale, offset, level } = step;
     let Fields { tallied, gap, pressure, residual: response, preconditioned, change, .. } = fields;
+    let nodes = gap.len();
     let (projects, nothing_local) = (local.projects(), local.is_zero());
     // r into the place of the response, and the tally
     let finish = |first, gap: &[T], pressure: &[T], step: &[T], residual: &mut [T]| {
@@ -240,7 +241,11 @@ pub(in crate::solver) fn advance<T: Real>(
         );
         let [.., working, orthogonality, descent, overlap] = total.sum;
         let residual = Continued { orthogonality, working, descent, overlap, sum_change: 0.0 };
-        return Advanced { tally: Tally::new(&total), product: total.sum[PRODUCT], residual: Some(residual) };
+        return Advanced {
+            tally: Tally::new(&total, nodes, projects),
+            product: total.sum[PRODUCT],
+            residual: Some(residual),
+        };
     }
     let total = if rest == T::zero() {
         tallied.run(chunks.zip(read(change)), |first, (((gap, pressure), response), change)| {
@@ -260,5 +265,5 @@ pub(in crate::solver) fn advance<T: Real>(
             finish(first, gap, pressure, change, response)
         })
     };
-    Advanced { tally: Tally::new(&total), product: total.sum[PRODUCT], residual: None }
+    Advanced { tally: Tally::new(&total, nodes, projects), product: total.sum[PRODUCT], residual: None }
 }

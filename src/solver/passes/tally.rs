@@ -23,6 +23,8 @@ pub(in crate::solver) struct Tally {
     pub(in crate::solver) sum_gp: f64,
     /// how many nodes are in contact
     pub(in crate::solver) contact: f64,
+    /// Σ r over these, if the gap is confined to g ≥ 0
+    pub(in crate::solver) sum_contact_r: f64,
     /// Σ φ' of the law
     pub(in crate::solver) traction: f64,
     /// Σ φ of the law
@@ -35,9 +37,19 @@ pub(in crate::solver) struct Tally {
 pub(super) const PRODUCT: usize = 8;
 
 impl Tally {
-    pub(super) fn new(total: &Partial) -> Self {
-        let [free, sum_r, sum_gap, sum_gp, contact, traction, adhesive, penalty, ..] = total.sum;
-        Self { free, sum_r, min_r: total.min, sum_gap, sum_gp, contact, traction, adhesive, penalty }
+    /// The tally of a pass over so many nodes. The slot of the contact has Σ r, as how many there are follows from the nodes
+    /// that are apart; or, with springs, how many nodes they press.
+    pub(super) fn new(total: &Partial, nodes: usize, projects: bool) -> Self {
+        let [free, sum_r, sum_gap, sum_gp, in_contact, traction, adhesive, penalty, ..] = total.sum;
+        let (contact, sum_contact_r) = if projects { (nodes as f64 - free, in_contact) } else { (in_contact, 0.0) };
+        Self { free, sum_r, min_r: total.min, sum_gap, sum_gp, contact, sum_contact_r, traction, adhesive, penalty }
+    }
+
+    /// Adds a constant to r.
+    pub(in crate::solver) fn shift(&mut self, by: f64) {
+        self.sum_r += by * self.free;
+        self.sum_contact_r += by * self.contact;
+        self.min_r += by;
     }
 }
 
@@ -62,7 +74,8 @@ pub(super) fn tally_of<T: Real>(projects: bool, offset: T, gap: &[T], pressure: 
         let r = (p + traction[i] + offset).widen();
         let touches = projects & (g <= T::zero());
         let free = count(!touches);
-        let terms = [free, if touches { 0.0 } else { r }, g.widen(), g.widen() * p.widen(), 1.0 - free];
+        let (apart, contact) = if touches { (0.0, r) } else { (r, 0.0) };
+        let terms = [free, apart, g.widen(), g.widen() * p.widen(), contact];
         (terms, if touches { r } else { f64::INFINITY })
     })
 }
@@ -100,6 +113,7 @@ pub(in crate::solver) fn tally<T: Real>(
     surface: &Array2<T>,
 ) -> (Tally, f64) {
     let Fields { tallied, gap, pressure, .. } = fields;
+    let nodes = gap.len();
     let total = tallied.run(read(gap).zip(read(pressure)).zip(read(surface)), |first, ((gap, pressure), surface)| {
         let mut buffer = [T::zero(); CHUNK];
         let tractions = tractions(local, first, gap, &mut buffer);
@@ -111,7 +125,7 @@ pub(in crate::solver) fn tally<T: Real>(
         part.sum[PRODUCT] = product.sum[0];
         part
     });
-    (Tally::new(&total), total.sum[PRODUCT])
+    (Tally::new(&total, nodes, local.projects()), total.sum[PRODUCT])
 }
 
 #[cfg(test)]

@@ -1,0 +1,75 @@
+//! The elastic work ⟨u, p⟩, twice the elastic energy, which scales the certificate.
+//!
+//! With u = g + h it is ⟨g, p⟩ + ⟨g, K⁻¹h⟩ + ⟨h, K⁻¹h⟩, three sums over fields that an iteration reads anyway. Under a
+//! light load the gap is nearly the surface upside down, p nearly vanishes, and so do these sums cancel: their rounding may be
+//! more than what is left. Then one application gives ⟨p, K p⟩ instead, a sum of squares over the waves.
+
+use super::state::State;
+use crate::error::Result;
+use crate::real::Real;
+
+/// Rounding beyond this share of the work calls for the sum of squares.
+const TRUSTED: f64 = 1e-3;
+
+/// The elastic work, summed over the nodes.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Work {
+    pub(super) sum: f64,
+    /// what rounding may have done to the sum
+    pub(super) noise: f64,
+}
+
+impl Work {
+    /// Whether rounding may be more than a trusted share of it.
+    fn is_doubtful(self) -> bool {
+        self.noise > TRUSTED * self.sum
+    }
+
+    /// The work after a step that changes it by `change`.
+    pub(super) fn after(self, change: f64) -> Self {
+        Self { sum: self.sum + change, ..self }
+    }
+}
+
+impl<T: Real> State<'_, T> {
+    /// The mean of u·p, twice the elastic energy per area.
+    pub(super) fn mean_work(&self) -> f64 {
+        (self.work.sum / self.nodes()).max(0.0)
+    }
+
+    /// What rounding may do to sums over the nodes of which the terms add up to `size`.
+    fn sum_noise(&self, size: f64) -> f64 {
+        8.0 * (T::epsilon().widen() / self.nodes().sqrt() + f64::EPSILON) * size
+    }
+
+    /// The work from the sums of a tally: Σ g·p and Σ g·K⁻¹h.
+    pub(super) fn summed_work(&self, sum_gp: f64, gap_surface: f64) -> Work {
+        let surface = self.nodes() * self.flat.work;
+        Work { sum: sum_gp + gap_surface + surface, noise: self.sum_noise(surface) }
+    }
+
+    /// Whether steps have carried the work so far down that rounding is a share of it that counts.
+    pub(super) fn has_lost_its_work(&self) -> bool {
+        self.work.is_doubtful() && self.work.noise > 0.0
+    }
+
+    /// Computes the work as ⟨p, K p⟩ if its sums have cancelled. Takes the place of the preconditioned residual.
+    pub(super) fn trust_work(&mut self) -> Result<()> {
+        if !self.work.is_doubtful() {
+            return Ok(());
+        }
+        let stiffness = self.foundation();
+        let found = self.operator.precondition(
+            self.fields.pressure.view(),
+            stiffness,
+            stiffness,
+            self.fields.preconditioned.view_mut(),
+        )?;
+        self.applications += 1;
+        if found.error.is_finite() {
+            let sum = self.nodes() * found.error.max(0.0);
+            self.work = Work { sum, noise: self.sum_noise(sum) };
+        }
+        Ok(())
+    }
+}
