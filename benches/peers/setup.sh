@@ -3,10 +3,11 @@
 #
 #     benches/peers/setup.sh [DIR]        (default: ${XDG_CACHE_HOME:-~/.cache}/asperity-peers)
 #
-# From PyPI: tamaas, aspher, numpy, scipy, in a virtual environment. aspher comes as source: it is built here, for any
-# machine and for this one (-march=native), with the header-only Eigen of Debian, unpacked, not installed. From Debian: FFTW 3.3.10, both as
-# it is packaged, and built from the same source with AVX2 and, where the processor has it, AVX-512, which the package
-# lacks. Needs python3 with venv, gcc, g++, make and, on Debian or Ubuntu, apt-get; no root. Takes some ten minutes.
+# By pip, in a virtual environment: tamaas, aspher, numpy, scipy. aspher comes as source: it is built here, for any
+# machine and for this one (-march=native), with the header-only Eigen of the distribution, unpacked, not installed. By
+# apt: FFTW, both as it is packaged (3.3.10 on Debian 12), and built from the same source with AVX2 and, where the
+# processor has it, AVX-512, which the package lacks. All from where this machine's pip and apt are told to take it.
+# Needs python3 with venv, gcc, g++, make and, on Debian or Ubuntu, apt-get; no root. Takes some ten minutes.
 set -euo pipefail
 
 here=$(cd "$(dirname "$0")" && pwd)
@@ -15,7 +16,7 @@ mkdir -p "$dir"
 dir=$(cd "$dir" && pwd)
 cd "$dir"
 
-echo "== Debian packages, unpacked in $dir/debian"
+echo "== packages of the distribution, unpacked in $dir/debian"
 mkdir -p debian
 (
     cd debian
@@ -25,17 +26,20 @@ mkdir -p debian
 eigen=$dir/debian/usr/share/eigen3/cmake
 libraries=$(dirname "$(find "$dir/debian" -name libfftw3.so.3)")
 
-echo "== FFTW 3.3.10 from Debian's source, for this processor, in $dir/fftw"
+echo "== FFTW from the distribution's source, for this processor, in $dir/fftw"
 if [ ! -e fftw/lib/libfftw3f.so.3 ]; then
     mkdir -p source/lists/partial source/cache/archives/partial
     cd source
-    keys=/usr/share/keyrings/debian-archive-keyring.gpg
-    echo "deb-src [signed-by=$keys] http://deb.debian.org/debian bookworm main" > sources.list
+    # where the packages of this machine's own distribution come from, the source of one is found, too
+    codename=$(. /etc/os-release && echo "$VERSION_CODENAME")
+    apt-get indextargets --format 'deb-src $(REPO_URI) $(RELEASE) $(COMPONENT)' 'Created-By: Packages' \
+        "Codename: $codename" | sort -u > sources.list
     apt=(apt-get -o "Dir::Etc::sourcelist=$PWD/sources.list" -o Dir::Etc::sourceparts=- -o "Dir::State::lists=$PWD/lists"
         -o "Dir::Cache=$PWD/cache")
     "${apt[@]}" update
-    "${apt[@]}" source --download-only fftw3=3.3.10-1
-    tar xzf fftw3_3.3.10.orig.tar.gz
+    "${apt[@]}" source --download-only fftw3
+    mkdir -p fftw
+    tar xzf fftw3_*.orig.tar.gz -C fftw --strip-components=1
     vectors=(--enable-sse2 --enable-avx)
     ! grep -qw avx2 /proc/cpuinfo || vectors+=(--enable-avx2)
     ! grep -qw avx512f /proc/cpuinfo || vectors+=(--enable-avx512)
@@ -43,7 +47,7 @@ if [ ! -e fftw/lib/libfftw3f.so.3 ]; then
         mkdir -p "$precision"
         (
             cd "$precision"
-            ../fftw-3.3.10/configure "--enable-$precision" "${vectors[@]}" --enable-shared --disable-static --disable-fortran \
+            ../fftw/configure "--enable-$precision" "${vectors[@]}" --enable-shared --disable-static --disable-fortran \
                 --disable-doc --prefix="$dir/fftw" CFLAGS="-O3 -march=native -fomit-frame-pointer" > configure.log
             make -j"$(nproc)" > make.log 2>&1
             make install > install.log
@@ -55,7 +59,7 @@ fi
 gcc -O3 -march=native -o fftw64 "$here/fftw.c" -lm -ldl
 gcc -O3 -march=native -DREAL=float -o fftw32 "$here/fftw.c" -lm -ldl
 
-echo "== PyPI, in $dir/venv"
+echo "== Python, in $dir/venv"
 [ -e venv ] || python3 -m venv venv
 venv/bin/pip install --quiet numpy==2.4.6 scipy==1.17.1 tamaas==2.9.0
 # as pip builds it, and for this machine; each is the faster in one of the two precisions

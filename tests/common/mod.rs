@@ -1,6 +1,8 @@
 //! Problems with known solutions, and the properties that every solution must have.
 #![allow(dead_code, reason = "each test uses its part")]
 
+pub mod authors;
+pub mod dense;
 pub mod outrun;
 pub mod rough;
 

@@ -1,11 +1,9 @@
 //! Whether equilibria are stable, against what is known exactly and against dense matrices.
 
-mod common;
-
 use std::f64::consts::PI;
 
+use crate::common::{rough, solve, sphere};
 use asperity::*;
-use common::{rough, solve, sphere};
 use ndarray::Array2;
 
 const TIGHT: StabilityTest = StabilityTest { tolerance: 1e-6, max_iterations: 500, bound: true };
@@ -150,18 +148,18 @@ fn a_mode_takes_about_as_many_applications_as_the_solve() {
 #[test]
 fn the_certificate_bounds_the_error_of_a_stable_equilibrium() {
     let mut problem = rough::<f64, _>(64, 16, Exponential::new(4e-4, 4e-3).unwrap());
-    let surface = common::rough::rough(*problem.grid(), 16, 1);
+    let surface = crate::common::rough::rough(*problem.grid(), 16, 1);
     let mut operator = Westergaard::new(*problem.grid(), 1.0).unwrap();
     let mut larger = 0;
     for control in [Control::MeanGap(0.012), Control::MeanGap(0.03)] {
         let Control::MeanGap(gap) = control else { unreachable!() };
         let beside = solve(&mut problem, Control::MeanGap(1.05 * gap), 1e-6);
         let start = Some(beside.gap.view());
-        let exact = common::solve_from(&mut problem, control, 1e-11, start);
+        let exact = crate::common::solve_from(&mut problem, control, 1e-11, start);
         for tolerance in [1e-2, 1e-3, 1e-4] {
-            let rough = common::solve_from(&mut problem, control, tolerance, start);
+            let rough = crate::common::solve_from(&mut problem, control, tolerance, start);
             let stability = StabilityTest::default().run(&mut problem, control, &rough).unwrap();
-            let (error, work, _) = common::energy_norms(&surface, &mut operator, &rough.gap, &exact.gap);
+            let (error, work, _) = crate::common::energy_norms(&surface, &mut operator, &rough.gap, &exact.gap);
             let (error, bound) = ((error / work).sqrt(), stability.error_bound.unwrap());
             assert!(error <= bound, "{error:e} {bound:e}");
             larger += usize::from(error > rough.report.relative_error);

@@ -1,8 +1,7 @@
 //! Elastic operators: every mode, every parity, adjointness, inverses, threads, allocations.
 
-mod common;
 #[allow(dead_code, reason = "its main is not called here")]
-#[path = "../examples/layer.rs"]
+#[path = "../../examples/layer.rs"]
 mod layer;
 
 use std::f64::consts::{PI, TAU};
@@ -149,12 +148,12 @@ fn the_preconditioner_is_symmetric_and_positive_and_the_products_are_those_of_th
 #[test]
 fn a_plain_operator_solves_the_same_problem() {
     let grid = Grid::square(64, 1.0).unwrap();
-    let surface = common::rough::rough(grid, 16, 1);
+    let surface = crate::common::rough::rough(grid, 16, 1);
     let mut fast = Problem::new(&surface, Westergaard::<f64>::new(grid, 1.0).unwrap(), NoAdhesion).unwrap();
     let mut plain = Problem::new(&surface, Plain(Westergaard::new(grid, 1.0).unwrap()), NoAdhesion).unwrap();
     for control in [Control::MeanPressure(0.05), Control::MeanGap(0.02)] {
-        let a = common::solve(&mut fast, control, 1e-10);
-        let b = common::solve(&mut plain, control, 1e-10);
+        let a = crate::common::solve(&mut fast, control, 1e-10);
+        let b = crate::common::solve(&mut plain, control, 1e-10);
         assert_eq!((a.report.status, b.report.status), (Status::Converged, Status::Converged));
         assert_eq!(a.report.contact_points, b.report.contact_points);
         assert_relative_eq!(a.report.mean_gap, b.report.mean_gap, max_relative = 1e-9);
@@ -294,16 +293,20 @@ fn a_thin_layer_is_a_foundation_of_springs_or_flows_if_it_is_incompressible() {
 fn on_layer(symbol: impl Fn(f64) -> f64 + Send + Sync + 'static, n: usize, control: Control) -> Solution<f64> {
     let grid = Grid::square(n, 1.0).unwrap();
     let operator = Spectral::isotropic(grid, 1.0, symbol).unwrap();
-    common::solve(&mut Problem::new(&common::rough::rough(grid, 12, 3), operator, NoAdhesion).unwrap(), control, 1e-8)
+    crate::common::solve(
+        &mut Problem::new(&crate::common::rough::rough(grid, 12, 3), operator, NoAdhesion).unwrap(),
+        control,
+        1e-8,
+    )
 }
 
 #[test]
 fn contact_on_a_thick_layer_is_that_on_the_half_space() {
     let grid = Grid::square(64, 1.0).unwrap();
     let half_space = Westergaard::<f64>::new(grid, 1.0).unwrap();
-    let mut problem = Problem::new(&common::rough::rough(grid, 12, 3), half_space, NoAdhesion).unwrap();
+    let mut problem = Problem::new(&crate::common::rough::rough(grid, 12, 3), half_space, NoAdhesion).unwrap();
     for control in [Control::MeanPressure(0.05), Control::MeanGap(0.02)] {
-        let expected = common::solve(&mut problem, control, 1e-8);
+        let expected = crate::common::solve(&mut problem, control, 1e-8);
         let mut last = f64::INFINITY;
         for thickness in [0.25, 0.5, 1.0, 2.0] {
             for solution in [
@@ -331,7 +334,7 @@ fn contact_on_a_thin_layer_is_that_on_springs_whose_rest_is_where_the_base_is() 
     let (n, thickness, nu, load) = (64, 1e-5, 0.3, 0.2);
     let stiffness = layer::confined(1.0, nu) / thickness;
     let grid = Grid::square(n, 1.0).unwrap();
-    let surface = common::rough::rough(grid, 12, 3);
+    let surface = crate::common::rough::rough(grid, 12, 3);
     let solution = on_layer(layer::bonded(1.0, thickness, nu), n, Control::MeanPressure(load));
     assert_eq!(solution.report.status, Status::Converged);
     // the base: the mean of the displaced surface, less the compression of the layer as a whole

@@ -1,8 +1,6 @@
 //! Nested grids: they find what the finest grid alone finds, with less work, and need no more memory.
 
-#[path = "common/rough.rs"]
-mod rough;
-
+use crate::common::rough;
 use asperity::*;
 
 type Law<T> = Box<dyn AdhesionLaw<T>>;

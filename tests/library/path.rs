@@ -1,9 +1,7 @@
 //! Branches of equilibria: where they break off, what that dissipates, and what exact solutions say.
 
-mod common;
-
+use crate::common::{check, rough, sphere};
 use asperity::*;
-use common::{check, rough, sphere};
 
 /// One wave of a line, with Johnson's α = 0.2.
 const AMPLITUDE: f64 = 0.02;
@@ -240,7 +238,7 @@ fn a_sphere_is_pulled_off() {
     pulls_off(128, true, [2e-3, 1e-2, 3e-2]);
 }
 
-/// `cargo test --release --test path -- --ignored`
+/// `cargo test --release --test library path:: -- --ignored`
 #[test]
 #[ignore = "half a minute"]
 fn a_sphere_is_pulled_off_on_finer_grids() {

@@ -1,14 +1,8 @@
 //! Scene files, reports as JSON and completions, end to end.
-#![cfg(feature = "cli")]
-
-// a file of its own, as not all tests of the tool need all of it
-#[allow(dead_code)]
-#[path = "common/bench.rs"]
-mod bench;
 
 use std::fs;
 
-use bench::{Bench, text};
+use crate::bench::{Bench, text};
 use serde_json::Value;
 
 const ADHESION: &str = "--law exponential --work-of-adhesion 1e-4 --range 4e-3";
@@ -242,7 +236,7 @@ fn keys(report: &Value, found: &mut Vec<String>) {
 #[test]
 fn reports_are_one_document_whose_keys_are_documented() {
     let bench = rough();
-    let page = include_str!("../src/tool.md");
+    let page = include_str!("../../src/tool.md");
     let quick = "--heights heights.npy --threads 1";
     for (arguments, expected) in [
         (format!("solve {quick} {ADHESION} --mean-gap 0.02 --leave --out one"), vec!["stability", "departures"]),

@@ -1,13 +1,11 @@
 //! A rough surface in contact, with the parameters of the paper's Figures 5 to 8 that a grid can resolve: 4 to 64 waves a
 //! side, H = 0.8, rms slope 0.1, in units of the side and of E*.
 
-mod common;
-
 use std::f64::consts::PI;
 use std::ops::ControlFlow;
 
+use crate::common::check;
 use asperity::*;
-use common::check;
 use ndarray::Array2;
 
 /// The load of Figures 6 and 7.

@@ -1,12 +1,10 @@
 //! Contact statistics on solutions whose contact is known.
 
-mod common;
-
 use std::f64::consts::PI;
 
+use crate::common::{rough, sphere};
 use asperity::exact::{self, Periodic};
 use asperity::*;
-use common::{rough, sphere};
 use ndarray::Array2;
 
 fn statistics<T: Real, L: AdhesionLaw<T>>(

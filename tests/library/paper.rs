@@ -1,8 +1,6 @@
 //! The numbers of Rey, Anciaux and Molinari (2017) that can be reproduced, in the authors' convention.
 
-#[path = "common/authors.rs"]
-mod authors;
-
+use crate::common::authors;
 use asperity::*;
 
 type Hertz = Problem<f64, Westergaard<f64>, NoAdhesion>;
@@ -44,13 +42,13 @@ fn table_1_to_the_printed_digits() {
 }
 
 #[test]
-#[ignore = "a larger run: cargo test --release --test paper -- --ignored"]
+#[ignore = "a larger run: cargo test --release --test library paper:: -- --ignored"]
 fn table_1_to_the_printed_digits_at_1024() {
     table_1(1024, 1.20e-4, 0.03975357);
 }
 
 #[test]
-#[ignore = "a larger run: cargo test --release --test paper -- --ignored"]
+#[ignore = "a larger run: cargo test --release --test library paper:: -- --ignored"]
 fn the_last_entry_of_table_1_holds_a_small_error_of_the_load() {
     let (surface, solution) = pressed(2048);
     let eta = |shift: f64| {

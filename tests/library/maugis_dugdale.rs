@@ -58,7 +58,7 @@ fn errors_fall_from_grid_to_grid_from_the_default_start() {
 }
 
 #[test]
-#[ignore = "a minute: cargo test --release --test maugis_dugdale -- --ignored"]
+#[ignore = "a minute: cargo test --release --test library maugis_dugdale:: -- --ignored"]
 fn errors_go_on_falling_to_2048() {
     for state in STATES {
         let found = [512, 1024, 2048].map(|n| errors(n, state, None));

@@ -1,5 +1,4 @@
 //! The command-line tool, end to end.
-#![cfg(feature = "cli")]
 
 use std::fs::{self, File};
 use std::io::{BufReader, Cursor, Write};

@@ -7,7 +7,7 @@ use asperity::*;
 use ndarray::Array2;
 use proptest::prelude::*;
 
-use crate::dense::{Dense, mean_product};
+use crate::common::dense::{Dense, mean_product};
 
 /// What is solved: a surface, and an exponential law that leaves the problem convex, or none.
 #[derive(Clone, Debug)]

@@ -1,5 +1,4 @@
 //! Every command in the README, in the documentation and in the help runs, and what it names exists.
-#![cfg(all(feature = "cli", unix))]
 
 use std::collections::{HashMap, HashSet};
 use std::fs;

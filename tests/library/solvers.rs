@@ -1,12 +1,10 @@
 //! The driver: what its certificate promises, how many applications it takes, how it starts and ends.
 
-mod common;
-
 use std::ops::ControlFlow;
 
+use crate::common::{rough, solve, solve_from, sphere};
 use approx::assert_relative_eq;
 use asperity::*;
-use common::{rough, solve, solve_from, sphere};
 use ndarray::Array2;
 
 fn limited(max_iterations: usize, tolerance: f64) -> Solver {
@@ -23,11 +21,11 @@ fn the_certificate_is_never_below_the_true_error() {
         let mut sharpest = f64::INFINITY;
         for iterations in 0..24 {
             let state = limited(iterations, 1e-14).solve(&mut problem, control).unwrap();
-            common::check(&state, &NoAdhesion, control);
+            crate::common::check(&state, &NoAdhesion, control);
             // a state under pressure control is certified at its own mean gap
             let exact = solve(&mut problem, Control::MeanGap(state.report.mean_gap), 1e-12);
             assert_eq!(exact.report.status, Status::Converged);
-            let (error, size, flat) = common::energy_norms(&surface, &mut operator, &exact.gap, &state.gap);
+            let (error, size, flat) = crate::common::energy_norms(&surface, &mut operator, &exact.gap, &state.gap);
             // without contact the surface's own size may stand for that of the displacement
             let size = if state.report.contact_points > 0 { size } else { size.max(flat) };
             let (error, bound) = ((error / size).sqrt(), state.report.relative_error);
@@ -134,7 +132,7 @@ fn both_presets_find_the_same_state() {
         let ours = solve(&mut problem, control, 1e-9);
         let mut paper = Solver::new(Settings { tolerance: 1e-11, ..Settings::rey2017() });
         let paper = paper.solve(&mut problem, control).unwrap();
-        common::check(&paper, &NoAdhesion, control);
+        crate::common::check(&paper, &NoAdhesion, control);
         assert_eq!((paper.report.status, paper.report.method), (Status::Converged, Method::Rey2017));
         assert!(paper.report.orthogonality <= 1e-11 && paper.report.relative_error < 1e-5);
         assert_eq!(ours.report.contact_points, paper.report.contact_points);
@@ -275,7 +273,7 @@ fn an_observer_can_stop_and_the_limit_is_kept() {
         })
         .unwrap();
     assert_eq!((seen, stopped.report.status), (vec![0, 1, 2, 3], Status::Stopped));
-    common::check(&stopped, &NoAdhesion, control);
+    crate::common::check(&stopped, &NoAdhesion, control);
     let ended = limited(5, 1e-6).solve(&mut problem, control).unwrap();
     assert_eq!((ended.report.status, ended.report.iterations), (Status::IterationLimit, 5));
     assert!(ended.report.relative_error > 1e-6);

@@ -1,9 +1,7 @@
 //! Algorithm 3 of the paper as it is printed: what each of its misprints does, by experiment.
 
-mod common;
-
+use crate::common::rough::rough;
 use asperity::*;
-use common::rough::rough;
 use ndarray::Array2;
 
 /// The misprints, each of which can be left in.

@@ -5,7 +5,7 @@ use std::os::unix::fs::PermissionsExt;
 use std::path::Path;
 use std::process::Output;
 
-use crate::tool::{GIGABYTE, assert_orderly, bench, limited, names, words};
+use super::tool::{GIGABYTE, assert_orderly, bench, limited, names, words};
 
 const SWEEP: &str = "sweep --heights heights.npy --mean-gaps 0.04:0.038:3 --quiet --out table.csv";
 const CYCLE: &str = "cycle --heights heights.npy --law exponential --work-of-adhesion 1e-4 --range 1e-2 \

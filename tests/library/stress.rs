@@ -1,9 +1,6 @@
 //! Random small scenes against dense matrices: both precisions and controls, every law, constraint and kind of start.
 //!
-//! `STRESS_CASES=20000 cargo test --release --test stress -- --nocapture` runs more of them, `STRESS_FIRST` says from which seed on.
-
-#[path = "common/dense.rs"]
-mod dense;
+//! `STRESS_CASES=20000 cargo test --release --test library stress:: -- --nocapture` runs more of them, `STRESS_FIRST` says from which seed on.
 
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;
@@ -11,8 +8,8 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use std::result::Result;
 
+use crate::common::dense::{Dense, mean_product};
 use asperity::*;
-use dense::{Dense, mean_product};
 use ndarray::Array2;
 use rand::rngs::ChaCha8Rng;
 use rand::{RngExt, SeedableRng};

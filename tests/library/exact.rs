@@ -1,14 +1,12 @@
 //! Against exact solutions. Section numbers of the references are in each test.
 
-mod common;
-
 use std::f64::consts::{PI, SQRT_2, TAU};
 use std::ops::ControlFlow;
 
+use crate::common::{solve, sphere};
 use approx::assert_relative_eq;
 use asperity::exact::AdhesiveWavyLine;
 use asperity::*;
-use common::{solve, sphere};
 use ndarray::{Array2, ArrayView2};
 
 #[test]
@@ -75,7 +73,7 @@ fn solve_fine<L: AdhesionLaw<f64>>(
     let mut solver = Solver::new(Settings { tolerance, ..Settings::default() });
     let control = Control::MeanGap(mean_gap);
     let solution = solver.solve_from(problem, control, start, |_| ControlFlow::Continue(())).unwrap();
-    common::check(&solution, problem.law(), control);
+    crate::common::check(&solution, problem.law(), control);
     solution.report
 }
 
@@ -204,7 +202,7 @@ fn units_and_size_do_not_matter() {
     let (n, gap) = (48, 0.3);
     let run = |length: f64, height: f64, modulus: f64| {
         let grid = Grid::square(n, length).unwrap();
-        let unit = common::rough::rough(Grid::square(n, 1.0).unwrap(), 16, 3);
+        let unit = crate::common::rough::rough(Grid::square(n, 1.0).unwrap(), 16, 3);
         let surface = Surface::new(grid, unit.heights().mapv(|h| h * height)).unwrap();
         let pressure = modulus * height / length;
         let law = Exponential::new(0.3 * pressure * 0.004 * height, 0.004 * height).unwrap();

@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use asperity::*;
 use ndarray::Array2;
 
-use crate::{Boxed, Scene, assert_solved, bare, in_both_precisions, loose, problem};
+use super::{Boxed, Scene, assert_solved, bare, in_both_precisions, loose, problem};
 
 in_both_precisions!(
     planes_stay_at_a_mean_gap_from_any_start,

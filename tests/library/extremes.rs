@@ -1,16 +1,10 @@
 //! Inputs at the edge, in both precisions: every one is solved, refused, or ended with the right status.
 
-mod common;
-#[allow(dead_code, reason = "only the matrices are of use")]
-#[path = "common/dense.rs"]
-mod dense;
-#[path = "extremes/properties.rs"]
 mod properties;
-#[path = "extremes/regressions.rs"]
 mod regressions;
 
+use crate::common::{check, solve};
 use asperity::*;
-use common::{check, solve};
 use ndarray::Array2;
 
 /// Laws come boxed, so that the solver is compiled once for each precision.
@@ -167,7 +161,7 @@ fn a_spike_a_step_and_elongated_grids<T: Real>() {
 
 fn the_lightest_loads_are_not_certified_on_rounding<T: Real>() {
     for load in [1e-6, 1e-8, 1e-10, 1e-12] {
-        let mut problem = common::rough::<T, _>(64, 16, bare());
+        let mut problem = crate::common::rough::<T, _>(64, 16, bare());
         let solution = solve(&mut problem, Control::MeanPressure(load), loose::<T>());
         let report = &solution.report;
         let missed = report.relative_error.max(report.load_error) > loose::<T>();

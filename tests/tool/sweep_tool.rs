@@ -1,5 +1,4 @@
 //! `asperity sweep`, end to end.
-#![cfg(feature = "cli")]
 
 use std::fs;
 use std::path::PathBuf;

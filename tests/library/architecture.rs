@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 /// The line of the page on which each module stands.
 fn layers() -> HashMap<String, usize> {
-    let page = include_str!("../src/guide/architecture.md");
+    let page = include_str!("../../src/guide/architecture.md");
     let picture = page.split("```text\n").nth(1).and_then(|rest| rest.split("```").next()).unwrap();
     let lines = picture.lines().map(|line| line.split("  ").next().unwrap());
     lines.enumerate().flat_map(|(i, line)| line.split(' ').map(move |name| (name.to_owned(), i))).collect()

@@ -1,17 +1,11 @@
 //! `asperity surface` and `asperity stats`, end to end.
-#![cfg(feature = "cli")]
-
-// a file of its own, as not all tests of the tool need all of it
-#[allow(dead_code)]
-#[path = "common/bench.rs"]
-mod bench;
 
 use std::f64::consts::TAU;
 use std::fs;
 
+use crate::bench::{Bench, text};
 use asperity::io::{read_field, write_npy};
 use asperity::{Amplitude, Grid, SelfAffine, Surface};
-use bench::{Bench, text};
 
 /// The columns of a comma-separated file, with its header.
 fn csv(bench: &Bench, name: &str) -> (String, Vec<Vec<f64>>) {

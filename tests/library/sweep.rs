@@ -1,9 +1,7 @@
 //! Sweeps: they find what single solves find, with less work, and can be continued.
 
-mod common;
-
+use crate::common::{check, rough, sphere};
 use asperity::*;
-use common::{check, rough, sphere};
 
 fn gaps(values: &[f64]) -> Vec<Control> {
     values.iter().copied().map(Control::MeanGap).collect()

@@ -1,18 +1,12 @@
 //! Measured surfaces from file to contact map, with the tool, and files shared with numpy, Gwyddion and ParaView.
-#![cfg(feature = "cli")]
-
-// a file of its own, as not all tests of the tool need all of it
-#[allow(dead_code)]
-#[path = "common/bench.rs"]
-mod bench;
 
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
+use crate::bench::{Bench, text};
 use asperity::io::{read_field, read_topography, write_npy, write_topography};
 use asperity::{Amplitude, Grid, SelfAffine, Topography};
-use bench::{Bench, text};
 use ndarray::Array2;
 
 fn corpus(name: &str) -> PathBuf {
@@ -294,7 +288,7 @@ const SKIPPED: &str = "skipped: neither target/numpy/bin/python nor python3 has 
 fn scripts_of_the_page_on_python_run() {
     let Some(python) = python() else { return println!("{SKIPPED}") };
     let bench = Bench::new();
-    let page = include_str!("../src/guide/python.md");
+    let page = include_str!("../../src/guide/python.md");
     let scripts: Vec<_> = page.split("```python\n").skip(1).filter_map(|rest| rest.split("```").next()).collect();
     let [before, after @ ..] = &scripts[..] else { panic!("{page}") };
     let solve = page.split("\nasperity ").nth(1).unwrap().split("\n```").next().unwrap().replace('\\', " ");

@@ -1,11 +1,9 @@
 //! Penalty and Uzawa beside projection: the same solution, at the price that each of them asks.
 
-mod common;
-
+use crate::common::outrun::Outrun;
+use crate::common::{rough, solve, sphere};
 use approx::assert_relative_eq;
 use asperity::*;
-use common::outrun::Outrun;
-use common::{rough, solve, sphere};
 
 fn with<T: Real, C: ContactConstraint<T>, L: AdhesionLaw<T>>(
     problem: &mut Problem<T, Westergaard<T>, L>,

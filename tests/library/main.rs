@@ -1,0 +1,24 @@
+//! The library, as its users see it: exact solutions, the paper, properties that hold for every input, and costs.
+
+#[path = "../common/mod.rs"]
+mod common;
+
+mod algorithm3;
+mod architecture;
+mod constraints;
+mod exact;
+mod exact_solutions;
+mod extremes;
+mod maugis_dugdale;
+mod nested;
+mod operators;
+mod paper;
+mod path;
+mod precision;
+mod rough;
+mod rough_contact;
+mod solvers;
+mod stability;
+mod statistics;
+mod stress;
+mod sweep;

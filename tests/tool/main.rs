@@ -1,0 +1,13 @@
+//! The command-line tool, end to end, with the files that it reads and the documentation that tells how to run it.
+#![cfg(feature = "cli")]
+
+mod bench;
+
+#[cfg(unix)]
+mod commands;
+mod hostile;
+mod prepare;
+mod scene_tool;
+mod surface_tool;
+mod sweep_tool;
+mod tool;
