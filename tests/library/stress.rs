@@ -123,6 +123,20 @@ impl Scene {
         let single = random.random_bool(0.4);
         let paper = law == Law::None && constraint == Constraint::Projection && random.random_bool(0.1);
         let tolerance = if single { tolerance.max(1e-5) } else { tolerance };
+        // light and heavy loads, down to a contact of one node and beyond; surfaces that are their own mirror images
+        let (light, mirrored) = (random.random_bool(0.25), random.random_bool(0.15));
+        let exponent = random.random_range(-14.0..1.0);
+        let control = match control {
+            Control::MeanPressure(pressure) if light => {
+                Control::MeanPressure(pressure.signum() * modulus * 10_f64.powf(exponent))
+            }
+            control => control,
+        };
+        let heights = if mirrored {
+            Array2::from_shape_fn(shape, |(i, j)| heights[[i.min((shape.0 - i) % shape.0), j]])
+        } else {
+            heights
+        };
         let settings = if paper {
             Settings { criterion: Criterion::EnergyNorm, tolerance, ..Settings::rey2017() }
         } else {
@@ -305,6 +319,8 @@ impl Scene {
         };
         let residual: Vec<f64> = (0..r.len()).map(|i| if working[i] { r[i] - level } else { 0.0 }).collect();
         let certificate = dense.compliant(&residual);
+        // without the cancellation of large sums that the product of the matrix has
+        let work = if projects && report.contact_points > 0 { 2.0 * report.elastic_energy } else { work };
         let scale = if report.contact_points > 0 { work } else { work.max(surface_work) };
         let relative = (certificate / scale).sqrt();
         let noise = if dense.softest > 0.0 { edge / (dense.softest * scale).sqrt() } else { 0.0 };
@@ -318,6 +334,25 @@ impl Scene {
                 || work < 1e3 * epsilon * surface_work;
             need(not_much, format!("certificate {:e} is far more than {relative:e}", report.relative_error))?;
         }
+        if report.status == Status::Converged && projects {
+            // the balance of the load, and the elastic energy of the tractions that the fields carry
+            let carried = mean(&contact) - mean(&tractions);
+            let load = if let Control::MeanPressure(p) = self.control { p } else { report.mean_pressure };
+            let size = load.abs().max(mean(&contact));
+            let own = 64.0 * epsilon * mean(&contact).max(mean(&tractions));
+            if let Control::MeanPressure(_) = self.control {
+                close("carried load", carried, load, 1.01 * self.settings.tolerance * size + own)?;
+            }
+            let p: Vec<f64> = (0..contact.len()).map(|i| contact[i] - tractions[i] - carried).collect();
+            let twice = dense.compliant(&p);
+            if !flats && mean(&gap) > 0.0 && self.settings.method == Method::Preconditioned {
+                let (reported, carried) = ((2.0 * report.elastic_energy).sqrt(), twice.sqrt());
+                let floor = 4.0 * epsilon * magnitude.sqrt();
+                let allowed = 2.0 * report.relative_error * scale.sqrt() + floor + 8.0 * f64::EPSILON * carried;
+                let off = (reported - carried).abs();
+                need(off <= allowed, format!("root of the work: {reported:e} is not {carried:e} (± {allowed:e})"))?;
+            }
+        }
         if report.status == Status::Converged {
             let good = report.relative_error <= self.settings.tolerance && report.load_error <= self.settings.tolerance;
             need(good, format!("converged with {:e}, {:e}", report.relative_error, report.load_error))?;
@@ -329,6 +364,12 @@ impl Scene {
             if let Some(exact) = dense.solve(&surface, Some(mean(&gap)), 0.0, &guess) {
                 let y: Vec<f64> = gap.iter().zip(&exact).map(|(a, b)| a - b).collect();
                 let truth = (mean_product(&y, &dense.pressure(&y)).max(0.0) / scale).sqrt();
+                if report.status == Status::Converged {
+                    // twice the claim, and what the elimination itself can tell
+                    let own = 64.0 * f64::EPSILON * (dense.stiffest / scale).sqrt() * largest(&surface);
+                    let twice = 2.0 * report.relative_error + own;
+                    need(truth <= twice, format!("claims {:e} and is wrong by {truth:e}", report.relative_error))?;
+                }
                 need(
                     truth <= bounded,
                     format!("certificate {:e} below the true error {truth:e}", report.relative_error),
