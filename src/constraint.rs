@@ -50,7 +50,7 @@ pub trait ContactConstraint<T: Real>: Sync {
     ///
     /// # Errors
     /// Whatever cannot be used on that grid.
-    fn start(&mut self, _grid: &Grid, _tolerance: f64) -> Result<()> {
+    fn start(&mut self, _grid: &Grid, _stiffest: f64, _tolerance: f64) -> Result<()> {
         Ok(())
     }
 

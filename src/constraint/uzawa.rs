@@ -2,9 +2,14 @@ use ndarray::{Array2, ArrayView2};
 
 use super::{ContactConstraint, Outer};
 use crate::error::{Error, Result};
-use crate::field::flat;
+use crate::field::{CHUNK, Partial, Reducer, flat, write};
 use crate::grid::Grid;
+use crate::par::{self, IndexedParallelIterator};
 use crate::real::Real;
+
+/// The springs are stiffened where an update leaves more than this share of the change of the last one, by this factor.
+const SLOW: f64 = 0.25;
+const STIFFEN: f64 = 4.0;
 
 /// The augmented Lagrangian of Uzawa: springs of stiffness k, and multipliers λ that take over the contact pressure from
 /// them, λ ← ⟨λ − kg⟩₊, after each solve.
@@ -31,7 +36,14 @@ pub struct Uzawa<T> {
     pub tolerance: f64,
     /// How many outer iterations there may be before the solve ends without having converged; 100 unless changed.
     pub max_outer_iterations: usize,
+    /// that of the first round
+    softest: T,
+    /// that of the present round
     stiffness: T,
+    /// by how much the gap was off in the round before, as the root of a sum of squares
+    off: f64,
+    /// the stiffness of the shortest wave
+    stiffest: f64,
     /// the tolerance of the solve
     solved_to: f64,
     multipliers: Array2<T>,
@@ -47,7 +59,7 @@ impl<T: Real> Uzawa<T> {
         Error::positive("penalty stiffness", stiffness.widen())?;
         let tolerance = (1e3 * T::epsilon().widen()).max(1e-6);
         let multipliers = Array2::zeros((0, 0));
-        Ok(Self { tolerance, max_outer_iterations: 100, stiffness, solved_to: 0.0, multipliers, outer_iterations: 0 })
+        Ok(Self { tolerance, max_outer_iterations: 100, softest: stiffness, stiffness, off: f64::INFINITY, stiffest: 0.0, solved_to: 0.0, multipliers, outer_iterations: 0 })
     }
 
     /// How often the multipliers of the last solve were updated.
@@ -69,10 +81,11 @@ impl<T: Real> ContactConstraint<T> for Uzawa<T> {
     fn projects(&self) -> bool {
         false
     }
-    fn start(&mut self, grid: &Grid, tolerance: f64) -> Result<()> {
+    fn start(&mut self, grid: &Grid, stiffest: f64, tolerance: f64) -> Result<()> {
         self.solved_to = tolerance;
         self.multipliers = Array2::zeros(grid.shape());
         self.outer_iterations = 0;
+        (self.stiffness, self.off, self.stiffest) = (self.softest, f64::INFINITY, stiffest);
         Ok(())
     }
     fn energy(&self, node: usize, gap: T) -> T {
@@ -87,19 +100,36 @@ impl<T: Real> ContactConstraint<T> for Uzawa<T> {
     }
     fn update(&mut self, gap: ArrayView2<'_, T>) -> Outer {
         self.outer_iterations += 1;
-        let (mut change, mut largest) = (T::zero(), T::zero());
-        for (multiplier, &gap) in self.multipliers.iter_mut().zip(gap) {
-            let next = (*multiplier - self.stiffness * gap).max(T::zero());
-            change = change.max((next - *multiplier).max(*multiplier - next));
-            largest = largest.max(next);
-            *multiplier = next;
+        let (nodes, stiffness) = (self.multipliers.len(), self.stiffness);
+        let gap = gap.as_standard_layout();
+        let gaps = par::chunks(gap.as_slice().unwrap_or_default(), CHUNK);
+        let total = Reducer::new(nodes).run(write(&mut self.multipliers).zip(gaps), |_, (multipliers, gap)| {
+            let mut part = Partial::NONE;
+            for (multiplier, &gap) in multipliers.iter_mut().zip(gap) {
+                let next = (*multiplier - stiffness * gap).max(T::zero());
+                let [change, pressure] = [next - *multiplier, next].map(T::widen);
+                part.sum[0] += change * change;
+                part.sum[1] += pressure * pressure;
+                part.sum[2] += pressure;
+                *multiplier = next;
+            }
+            part
+        });
+        let [change, square, sum, ..] = total.sum;
+        // what is left of the squares beside that of the mean, but for their rounding
+        let waves = (square - sum * sum / nodes as f64 - 8.0 * f64::EPSILON * square).max(0.0);
+        let allowed = (self.tolerance.max(self.solved_to) * waves.sqrt()).max(8.0 * T::epsilon().widen() * square.sqrt());
+        let off = change.sqrt() / stiffness.widen();
+        if self.stiffest * off <= allowed {
+            return Outer::Done;
         }
-        if change.widen() <= self.tolerance.max(self.solved_to) * largest.widen() {
-            Outer::Done
-        } else if self.outer_iterations >= self.max_outer_iterations {
-            Outer::Failed
-        } else {
-            Outer::Again
+        if self.outer_iterations >= self.max_outer_iterations {
+            return Outer::Failed;
         }
+        if off > SLOW * self.off {
+            self.stiffness = stiffness * T::lit(STIFFEN);
+        }
+        self.off = off;
+        Outer::Again
     }
 }

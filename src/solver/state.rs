@@ -105,7 +105,7 @@ where
         settings: Settings,
     ) -> Result<Self> {
         let shape = problem.grid().shape();
-        constraint.start(problem.grid(), settings.tolerance)?;
+        constraint.start(problem.grid(), problem.operator.stiffness_range().1, settings.tolerance)?;
         let (name, value) = match control {
             Control::MeanGap(gap) => ("mean gap", Error::non_negative("mean gap", gap)?),
             Control::MeanPressure(pressure) => ("mean pressure", Error::finite("mean pressure", pressure)?),
