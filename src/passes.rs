@@ -44,7 +44,7 @@ pub trait Local<T>: Sync {
     fn tractions_and_slopes(&self, first: usize, gaps: &[T], tractions: &mut [T], slopes: &mut [T]);
     /// The same of the law alone.
     fn law(&self, of: Of, gaps: &[T], out: &mut [T]);
-    /// How many nodes a constraint that does not project presses, and its energy.
+    /// How many nodes are in contact under a constraint that does not project, and its energy.
     fn pressed(&self, first: usize, gaps: &[T]) -> [f64; 2];
 }
 

@@ -74,7 +74,8 @@ impl<T: Real, L: AdhesionLaw<T>, C: ContactConstraint<T>> Local<T> for Potential
     fn pressed(&self, first: usize, gaps: &[T]) -> [f64; 2] {
         let mut sums = [0.0; 2];
         for (i, &gap) in gaps.iter().enumerate() {
-            sums[0] += f64::from(u8::from(self.constraint.traction(first + i, gap) < T::zero()));
+            let touches = gap <= T::zero() || self.constraint.traction(first + i, gap) < T::zero();
+            sums[0] += f64::from(u8::from(touches));
             sums[1] += self.constraint.energy(first + i, gap).widen();
         }
         sums
