@@ -3,6 +3,7 @@
 
 pub mod outrun;
 pub mod rough;
+pub mod scenes;
 
 use std::ops::ControlFlow;
 
