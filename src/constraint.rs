@@ -16,7 +16,7 @@ pub use uzawa::Uzawa;
 ///
 /// Either the gap is confined to g ≥ 0 ([`Projection`]), or any gap is feasible and the energy gains a term, node by
 /// node, that resists negative gaps ([`Penalty`]); such a term may carry multipliers, updated between solves
-/// ([`Uzawa`]). A node is in contact where the gap is zero, or where the term presses.
+/// ([`Uzawa`]). Which nodes are in contact then says [`Solution::contact_map`](crate::Solution::contact_map).
 ///
 /// An [`AdhesionLaw`](crate::AdhesionLaw) is defined for g ≥ 0. Where the surfaces interpenetrate it goes on as its tangent,
 /// φ(0) + φ'(0)g: the traction is that of contact, and springs of any stiffness bound the energy below. As these stiffen
@@ -46,11 +46,12 @@ pub trait ContactConstraint<T: Real>: Send + Sync {
     /// Whether the gap is confined to g ≥ 0. If so the other methods are not asked.
     fn projects(&self) -> bool;
 
-    /// Prepares for a solve on a grid, to a tolerance of its criterion.
+    /// Prepares for a solve on a grid, to a tolerance of its criterion. `stiffest` is the stiffness of the shortest wave, of
+    /// [`ElasticOperator::stiffness_range`](crate::ElasticOperator::stiffness_range), pressure per length.
     ///
     /// # Errors
     /// Whatever cannot be used on that grid.
-    fn start(&mut self, _grid: &Grid, _tolerance: f64) -> Result<()> {
+    fn start(&mut self, _grid: &Grid, _stiffest: f64, _tolerance: f64) -> Result<()> {
         Ok(())
     }
 

@@ -19,9 +19,13 @@ const EDGE_EXCESS: f64 = (std::f64::consts::PI - 1.0 + std::f64::consts::LN_2) /
 const NOTICEABLE: f64 = 0.01;
 
 impl<T: Real> Solution<T> {
-    /// Which nodes are in contact: those without a gap, and those with a contact pressure, which there may be at a gap
-    /// that is not quite zero where the constraint is a term of the energy. [`Report::contact_points`](crate::Report)
-    /// counts the same nodes.
+    /// Which nodes are in contact: those without a gap (g ≤ 0), and those with a contact pressure (λ > 0).
+    ///
+    /// This is what contact means everywhere: in [`Report::contact_points`](crate::Report::contact_points) and
+    /// [`Iteration::contact_points`](crate::Iteration::contact_points), in [`ContactStatistics`] and its clusters, in
+    /// [`PressureDistribution`], and in pictures. Under [`Projection`](crate::Projection) the nodes without a gap are all of
+    /// them, and some may carry no pressure. Under a constraint that is a term of the energy all that interpenetrate are
+    /// pressed, and those of [`Uzawa`](crate::Uzawa) may be pressed at a gap that is not quite zero.
     ///
     /// ```
     /// use asperity::{Control, Grid, NoAdhesion, Problem, Solver, Surface, Westergaard};

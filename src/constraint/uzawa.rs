@@ -2,16 +2,39 @@ use ndarray::{Array2, ArrayView2};
 
 use super::{ContactConstraint, Outer};
 use crate::error::{Error, Result};
-use crate::field::flat;
+use crate::field::{CHUNK, Partial, Reducer, flat, read, write};
 use crate::grid::Grid;
+use crate::par::{self, IndexedParallelIterator};
 use crate::real::Real;
 
+/// The springs are made so much stiffer where more than this share of the interpenetration is left after a round.
+const STIFFEN: f64 = 4.0;
+const SLOW: f64 = 0.25;
+
+/// How many times stiffer than the shortest wave the springs of the first round may be: stiffer ones only cost iterations.
+const STIFFEST: f64 = 10.0;
+
 /// The augmented Lagrangian of Uzawa: springs of stiffness k, and multipliers λ that take over the contact pressure from
-/// them, λ ← ⟨λ − kg⟩₊, after each solve.
+/// them, λ ← ⟨λ − kg⟩₊, after each round.
 ///
-/// The energy gains (⟨λ − kg⟩₊² − λ²)/2k at each node. The interpenetration falls with every outer iteration, whatever
-/// k is; they end when an update changes no multiplier by more than `tolerance` of the largest. Adhesion goes on into
-/// negative gaps as [`ContactConstraint`] says. Memory per node: one scalar.
+/// The energy gains (⟨λ − kg⟩₊² − λ²)/2k at each node. A round leaves the solution of a contact problem whose gap is off by
+/// s = (λ − ⟨λ − kg⟩₊)/k. Springs that are soft beside the contact take off little of that in a round: where more than a
+/// quarter is left, the next round has springs four times as stiff. So the stiffness that is given is only that of the first
+/// round, and hardly matters; there it is taken to be ten times that of the shortest wave at most.
+///
+/// The rounds end when what is left can change the pressure p of the solution by no more than the tolerance, in the energy
+/// norm. With κ the stiffness of the shortest wave, Δλ the change of the multipliers, bars for means and ‖·‖ for roots of
+/// mean squares that is
+///
+/// ```math
+/// κ² ‖s‖² + κ k s̄² ≤ tolerance² ‖λ − λ̄‖² ,   s = −Δλ/k .
+/// ```
+///
+/// Without adhesion the first term bounds the error from above, as ⟨u − u*, p − p*⟩ ≤ ⟨s, λ − λ*⟩; the second is for the
+/// mean pressure close to full contact, which hangs on the last of the mean gap. Then, and with adhesion, it is an
+/// estimate. The page [`penalty_and_uzawa`](crate::guide::penalty_and_uzawa) has figures.
+///
+/// Adhesion goes on into negative gaps as [`ContactConstraint`] says. Memory per node: one scalar.
 ///
 /// ```
 /// use asperity::{Control, Grid, NoAdhesion, Problem, Settings, Solver, Surface, Uzawa, Westergaard};
@@ -25,13 +48,19 @@ use crate::real::Real;
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Uzawa<T> {
-    /// The largest change of a multiplier, relative to the largest multiplier, with which the outer iterations end;
-    /// 1e-6 unless changed, in `f32` a thousand times its rounding, 1.2e-4. A solve to a larger tolerance than this leaves the
-    /// multipliers no more certain than itself: then its tolerance counts.
+    /// The relative error in the energy norm that what interpenetrates may leave; 1e-6 unless changed, in `f32` a thousand
+    /// times its rounding, 1.2e-4. A solve to a larger tolerance than this has no use for less: then its tolerance counts.
     pub tolerance: f64,
-    /// How many outer iterations there may be before the solve ends without having converged; 100 unless changed.
+    /// How many rounds there may be before the solve ends without having converged; 100 unless changed.
     pub max_outer_iterations: usize,
+    /// that of the first round
+    softest: T,
+    /// that of the present round
     stiffness: T,
+    /// by how much the gap was off after the round before, as the root of a sum of squares
+    off: f64,
+    /// the stiffness of the shortest wave
+    stiffest: f64,
     /// the tolerance of the solve
     solved_to: f64,
     multipliers: Array2<T>,
@@ -39,7 +68,7 @@ pub struct Uzawa<T> {
 }
 
 impl<T: Real> Uzawa<T> {
-    /// Springs of stiffness k, pressure per length, and multipliers that start from zero.
+    /// Springs of stiffness k in the first round, pressure per length, and multipliers that start from zero.
     ///
     /// # Errors
     /// [`Error::Value`] if the stiffness is not positive and finite.
@@ -47,10 +76,20 @@ impl<T: Real> Uzawa<T> {
         Error::positive("penalty stiffness", stiffness.widen())?;
         let tolerance = (1e3 * T::epsilon().widen()).max(1e-6);
         let multipliers = Array2::zeros((0, 0));
-        Ok(Self { tolerance, max_outer_iterations: 100, stiffness, solved_to: 0.0, multipliers, outer_iterations: 0 })
+        Ok(Self {
+            tolerance,
+            max_outer_iterations: 100,
+            softest: stiffness,
+            stiffness,
+            off: f64::INFINITY,
+            stiffest: 0.0,
+            solved_to: 0.0,
+            multipliers,
+            outer_iterations: 0,
+        })
     }
 
-    /// How often the multipliers of the last solve were updated.
+    /// How many rounds the last solve took.
     pub fn outer_iterations(&self) -> usize {
         self.outer_iterations
     }
@@ -69,10 +108,14 @@ impl<T: Real> ContactConstraint<T> for Uzawa<T> {
     fn projects(&self) -> bool {
         false
     }
-    fn start(&mut self, grid: &Grid, tolerance: f64) -> Result<()> {
+    fn start(&mut self, grid: &Grid, stiffest: f64, tolerance: f64) -> Result<()> {
         self.solved_to = tolerance;
         self.multipliers = Array2::zeros(grid.shape());
         self.outer_iterations = 0;
+        (self.stiffness, self.off, self.stiffest) = (self.softest, f64::INFINITY, stiffest);
+        if stiffest > 0.0 {
+            self.stiffness = self.stiffness.min(T::lit(STIFFEST * stiffest));
+        }
         Ok(())
     }
     fn energy(&self, node: usize, gap: T) -> T {
@@ -87,19 +130,46 @@ impl<T: Real> ContactConstraint<T> for Uzawa<T> {
     }
     fn update(&mut self, gap: ArrayView2<'_, T>) -> Outer {
         self.outer_iterations += 1;
-        let (mut change, mut largest) = (T::zero(), T::zero());
-        for (multiplier, &gap) in self.multipliers.iter_mut().zip(gap) {
-            let next = (*multiplier - self.stiffness * gap).max(T::zero());
-            change = change.max((next - *multiplier).max(*multiplier - next));
-            largest = largest.max(next);
-            *multiplier = next;
+        let (nodes, stiffness) = (self.multipliers.len(), self.stiffness);
+        let gap = gap.as_standard_layout();
+        let gaps = || par::chunks(gap.as_slice().unwrap_or_default(), CHUNK);
+        let next = move |multiplier: T, gap: T| (multiplier - stiffness * gap).max(T::zero());
+        let mut reducer = Reducer::new(nodes);
+        let total = reducer.run(read(&self.multipliers).zip(gaps()), |_, (multipliers, gaps)| {
+            let mut part = Partial::NONE;
+            for (&multiplier, &gap) in multipliers.iter().zip(gaps) {
+                let next = next(multiplier, gap);
+                let [change, next] = [next - multiplier, next].map(T::widen);
+                part.sum[0] += change;
+                part.sum[1] += change * change;
+                part.sum[2] += next;
+                part.sum[3] += next * next;
+            }
+            part
+        });
+        let [change, change_squared, sum, squared, ..] = total.sum;
+        let (nodes, k) = (nodes as f64, stiffness.widen());
+        let off = change_squared.sqrt() / k;
+        let left = (self.stiffest * off).powi(2) + self.stiffest * change * change / (nodes * k);
+        // but for the rounding of their difference
+        let waves = (squared - sum * sum / nodes - 8.0 * f64::EPSILON * squared).max(0.0);
+        let allowed = self.tolerance.max(self.solved_to).powi(2) * waves;
+        // under a uniform pressure there are no waves but those of rounding
+        if left <= allowed.max((8.0 * T::epsilon().widen()).powi(2) * squared) {
+            return Outer::Done;
         }
-        if change.widen() <= self.tolerance.max(self.solved_to) * largest.widen() {
-            Outer::Done
-        } else if self.outer_iterations >= self.max_outer_iterations {
-            Outer::Failed
-        } else {
-            Outer::Again
+        if self.outer_iterations >= self.max_outer_iterations {
+            return Outer::Failed;
         }
+        // only now: the gap is in equilibrium with the springs and multipliers with which it was found
+        reducer.run(write(&mut self.multipliers).zip(gaps()), |_, (multipliers, gaps)| {
+            multipliers.iter_mut().zip(gaps).for_each(|(multiplier, &gap)| *multiplier = next(*multiplier, gap));
+            Partial::NONE
+        });
+        if off > SLOW * self.off {
+            self.stiffness = stiffness * T::lit(STIFFEN);
+        }
+        self.off = off;
+        Outer::Again
     }
 }

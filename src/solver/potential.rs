@@ -85,11 +85,12 @@ impl<'a, T: Real> Potential<'a, T> {
         }
     }
 
-    /// How many nodes a constraint that does not project presses, and its energy.
+    /// How many nodes are in contact under a constraint that does not project, and its energy.
     pub(super) fn pressed(&self, first: usize, gaps: &[T]) -> [f64; 2] {
         let mut sums = [0.0; 2];
         for (i, &gap) in gaps.iter().enumerate() {
-            sums[0] += f64::from(u8::from(self.constraint.traction(first + i, gap) < T::zero()));
+            let touches = gap <= T::zero() || self.constraint.traction(first + i, gap) < T::zero();
+            sums[0] += f64::from(u8::from(touches));
             sums[1] += self.constraint.energy(first + i, gap).widen();
         }
         sums

@@ -132,9 +132,9 @@ pub struct Report {
     pub carried_pressure: f64,
     /// The mean contact (repulsive) pressure, the paper's q₀.
     pub mean_contact_pressure: f64,
-    /// The share of nodes in contact.
+    /// The share of nodes in contact, as [`Solution::contact_map`] says.
     pub contact_fraction: f64,
-    /// How many nodes are in contact.
+    /// How many nodes are in contact, as [`Solution::contact_map`] says.
     pub contact_points: usize,
     /// The smallest gap: zero in contact, negative only where the constraint lets the surfaces interpenetrate.
     pub min_gap: f64,

@@ -144,7 +144,7 @@ impl<'a, T: Real> State<'a, T> {
     ) -> Result<Self> {
         let Parts { operator, law, flat } = problem;
         let shape = operator.grid().shape();
-        constraint.start(operator.grid(), settings.tolerance)?;
+        constraint.start(operator.grid(), operator.stiffness_range().1, settings.tolerance)?;
         let (name, value) = match control {
             Control::MeanGap(gap) => ("mean gap", Error::non_negative("mean gap", gap)?),
             Control::MeanPressure(pressure) => ("mean pressure", Error::finite("mean pressure", pressure)?),

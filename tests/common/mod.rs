@@ -5,6 +5,7 @@ pub mod authors;
 pub mod dense;
 pub mod outrun;
 pub mod rough;
+pub mod scenes;
 
 use std::ops::ControlFlow;
 

@@ -17,8 +17,8 @@ impl<C: ContactConstraint<f64>> ContactConstraint<f64> for Outrun<C> {
     fn projects(&self) -> bool {
         false
     }
-    fn start(&mut self, grid: &Grid, tolerance: f64) -> Result<()> {
-        self.0.start(grid, tolerance)
+    fn start(&mut self, grid: &Grid, stiffest: f64, tolerance: f64) -> Result<()> {
+        self.0.start(grid, stiffest, tolerance)
     }
     fn energy(&self, node: usize, gap: f64) -> f64 {
         let tangent = self.1.energy(0.0) + gap * self.1.traction(0.0);

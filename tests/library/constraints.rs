@@ -1,7 +1,11 @@
 //! Penalty and Uzawa beside projection: the same solution, at the price that each of them asks.
+//!
+//! `cargo test --release --test library uzawa_on_random_scenes -- --ignored --nocapture` prints how Uzawa ends on 2000
+//! random scenes for stiffnesses of all sizes, and what it costs; `CASES` says on how many.
 
 use crate::common::outrun::Outrun;
-use crate::common::{rough, solve, sphere};
+use crate::common::scenes::{Law, Scene};
+use crate::common::{energy_norms, rough, solve, sphere};
 use approx::assert_relative_eq;
 use asperity::*;
 
@@ -178,4 +182,109 @@ fn no_law_is_asked_for_a_negative_gap() {
         .solve_from(&mut problem, control, Some(found.gap.view()), |_| std::ops::ControlFlow::Continue(()))
         .unwrap();
     assert_eq!(again.report.status, Status::Converged);
+}
+
+/// How far two gaps of a scene are apart, in the energy norm of the second.
+fn distance<T: Real>(scene: &Scene, a: &Solution<T>, b: &Solution<T>) -> f64 {
+    let mut operator = Westergaard::new(*scene.surface.grid(), 1.0).unwrap();
+    let [a, b] = [a, b].map(|solution| solution.gap.mapv(T::widen));
+    let (difference, size, _) = energy_norms(&scene.surface, &mut operator, &a, &b);
+    (difference / size).sqrt()
+}
+
+#[test]
+fn uzawa_ends_on_random_hard_walls() {
+    let mut touched = 0;
+    for seed in 0..200 {
+        let scene = Scene { law: Law::None, single: false, ..Scene::new(seed) };
+        let (projected, solution, rounds) = scene.solve::<f64>();
+        assert_eq!(solution.report.status, projected.report.status, "{seed}: {rounds} rounds");
+        if projected.report.status == Status::Converged && projected.report.contact_points > 0 {
+            // an error of the tolerance in projection, in the last round, and for what interpenetrates after it
+            let distance = distance(&scene, &solution, &projected);
+            assert!(distance <= 3.0 * scene.tolerance.max(1e-6), "{seed}: {distance:e} to {:e}", scene.tolerance);
+            touched += 1;
+        }
+    }
+    assert!(touched > 150, "{touched}");
+}
+
+#[test]
+#[ignore = "a measurement; see above"]
+fn uzawa_on_random_scenes() {
+    let cases = std::env::var("CASES").map_or(2000, |cases| cases.parse().unwrap());
+    let mut rows = std::collections::BTreeMap::<(bool, i32), Vec<(Status, Status, f64)>>::new();
+    for seed in 0..cases {
+        let scene = Scene::new(seed);
+        let (projected, found) = if scene.single {
+            let (projected, found, _) = scene.solve::<f32>();
+            (projected.report, found.report)
+        } else {
+            let (projected, found, _) = scene.solve::<f64>();
+            (projected.report, found.report)
+        };
+        let cost = found.operator_applications as f64 / projected.operator_applications as f64;
+        let row = rows.entry((scene.of_waves, scene.stiffness.log10().floor() as i32)).or_default();
+        row.push((projected.status, found.status, cost));
+    }
+    println!(
+        "stiffness                  scenes  at limit  stalled  projection stalled  applications over projection's: median, 9 of 10"
+    );
+    let mut limited = 0;
+    for ((of_waves, power), row) in &mut rows {
+        let at_limit = row.iter().filter(|(_, found, _)| *found == Status::IterationLimit).count();
+        let stalled = |status: &dyn Fn(&(Status, Status, f64)) -> Status| {
+            row.iter().filter(|case| status(case) == Status::Stalled).count()
+        };
+        let (ours, theirs) = (stalled(&|case| case.1), stalled(&|case| case.0));
+        let unit = if *of_waves { "of the shortest wave" } else { "E*/L" };
+        let name = format!("1e{power}-1e{} {unit}", power + 1);
+        row.sort_by(|a, b| a.2.total_cmp(&b.2));
+        let [median, most] = [row.len() / 2, row.len() * 9 / 10].map(|i| row[i].2);
+        println!("{name:<28} {:>4} {at_limit:>9} {ours:>8} {theirs:>19} {median:>8.1} {most:.1}", row.len());
+        limited += at_limit;
+    }
+    println!("at the limit: {limited} of {cases}");
+    assert!(limited as u64 * 50 <= cases);
+}
+
+#[test]
+fn report_and_contact_map_count_the_same_nodes() {
+    fn agree<T: Real>(solution: &Solution<T>, name: &str) {
+        let map = solution.contact_map();
+        let report = &solution.report;
+        let count = map.iter().filter(|&&touches| touches).count();
+        assert_eq!(
+            (report.contact_points, report.contact_fraction),
+            (count, count as f64 / map.len() as f64),
+            "{name}"
+        );
+        // every contact pressure is in contact, and nothing else interpenetrates
+        for ((&touches, &gap), &pressure) in map.iter().zip(&solution.gap).zip(&solution.contact_pressure) {
+            assert_eq!(touches, gap <= T::zero() || pressure > T::zero(), "{name}");
+        }
+    }
+    let mut rounds = 0;
+    for seed in 0..60 {
+        let scene = Scene::new(seed);
+        let (projected, uzawa, outer) = scene.solve::<f64>();
+        let penalty = Solver { settings: Settings::default(), constraint: Penalty::new(scene.stiffness).unwrap() }
+            .solve(&mut scene.problem::<f64>(), scene.control)
+            .unwrap();
+        for (solution, name) in [(projected, "projection"), (uzawa, "Uzawa"), (penalty, "penalty")] {
+            agree(&solution, &format!("{seed} {name}"));
+        }
+        rounds += outer;
+    }
+    assert!(rounds > 120, "{rounds}");
+    // a solve that ends early, and flats that touch without a pressure
+    let mut early = Uzawa::new(100.0).unwrap();
+    early.max_outer_iterations = 2;
+    agree(&with(&mut sphere::<f64, _>(32, NoAdhesion), early, Control::MeanGap(0.0398), 1e-8).0, "early");
+    let grid = Grid::square(8, 1.0).unwrap();
+    let flat = Surface::new(grid, ndarray::Array2::zeros((8, 8))).unwrap();
+    let mut problem = Problem::new(&flat, Westergaard::<f64>::new(grid, 1.0).unwrap(), NoAdhesion).unwrap();
+    let (touching, _) = with(&mut problem, Penalty::new(100.0).unwrap(), Control::MeanGap(0.0), 1e-6);
+    assert_eq!(touching.report.contact_points, 64);
+    agree(&touching, "flats");
 }
