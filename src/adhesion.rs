@@ -84,26 +84,33 @@ pub trait AdhesionLaw<T: Real>: Send + Sync {
         None
     }
 
-    /// The energies at many gaps. The slice functions exist so that a law behind `dyn` costs one virtual call
-    /// for many nodes, and so that a law can use vector instructions.
-    fn energies(&self, gaps: &[T], energies: &mut [T]) {
+    /// The energies at the nodes from `first` on, in row-major order (node ix·Ny + iy), which have these gaps.
+    ///
+    /// The four slice functions are what a solve calls, for a few hundred nodes at once. A law of which the gap is all that
+    /// matters need not write them. A law that varies over the surface writes them by the node, as `examples/patches.rs`
+    /// does, and answers to the functions of one gap for the node where it is strongest. A law that can use vector
+    /// instructions writes them for speed. They must not depend on where the slices begin and end.
+    fn energies(&self, first: usize, gaps: &[T], energies: &mut [T]) {
+        let _ = first;
         energies.iter_mut().zip(gaps).for_each(|(e, &g)| *e = self.energy(g));
     }
 
-    /// The tractions at many gaps.
-    fn tractions(&self, gaps: &[T], tractions: &mut [T]) {
+    /// The tractions at the nodes from `first` on.
+    fn tractions(&self, first: usize, gaps: &[T], tractions: &mut [T]) {
+        let _ = first;
         tractions.iter_mut().zip(gaps).for_each(|(t, &g)| *t = self.traction(g));
     }
 
-    /// The slopes of the traction at many gaps.
-    fn slopes(&self, gaps: &[T], slopes: &mut [T]) {
+    /// The slopes of the traction at the nodes from `first` on.
+    fn slopes(&self, first: usize, gaps: &[T], slopes: &mut [T]) {
+        let _ = first;
         slopes.iter_mut().zip(gaps).for_each(|(s, &g)| *s = self.slope(g));
     }
 
     /// Both at once, for a law of which one follows from the other.
-    fn tractions_and_slopes(&self, gaps: &[T], tractions: &mut [T], slopes: &mut [T]) {
-        self.tractions(gaps, tractions);
-        self.slopes(gaps, slopes);
+    fn tractions_and_slopes(&self, first: usize, gaps: &[T], tractions: &mut [T], slopes: &mut [T]) {
+        self.tractions(first, gaps, tractions);
+        self.slopes(first, gaps, slopes);
     }
 }
 
@@ -117,11 +124,17 @@ macro_rules! forward {
             fn range(&self) -> T { (**self).range() }
             fn is_zero(&self) -> bool { (**self).is_zero() }
             fn smoothed(&self, compliance: T) -> Option<Box<dyn AdhesionLaw<T> + '_>> { (**self).smoothed(compliance) }
-            fn energies(&self, gaps: &[T], energies: &mut [T]) { (**self).energies(gaps, energies) }
-            fn tractions(&self, gaps: &[T], tractions: &mut [T]) { (**self).tractions(gaps, tractions) }
-            fn slopes(&self, gaps: &[T], slopes: &mut [T]) { (**self).slopes(gaps, slopes) }
-            fn tractions_and_slopes(&self, gaps: &[T], tractions: &mut [T], slopes: &mut [T]) {
-                (**self).tractions_and_slopes(gaps, tractions, slopes)
+            fn energies(&self, first: usize, gaps: &[T], energies: &mut [T]) {
+                (**self).energies(first, gaps, energies)
+            }
+            fn tractions(&self, first: usize, gaps: &[T], tractions: &mut [T]) {
+                (**self).tractions(first, gaps, tractions)
+            }
+            fn slopes(&self, first: usize, gaps: &[T], slopes: &mut [T]) {
+                (**self).slopes(first, gaps, slopes)
+            }
+            fn tractions_and_slopes(&self, first: usize, gaps: &[T], tractions: &mut [T], slopes: &mut [T]) {
+                (**self).tractions_and_slopes(first, gaps, tractions, slopes)
             }
         }
     )*};
@@ -248,8 +261,8 @@ mod tests {
         assert!(!AdhesionLaw::is_zero(&boxed));
         let gaps = [0.0, 0.1, 3.0];
         let (mut a, mut b) = ([0.0; 3], [0.0; 3]);
-        law.tractions(&gaps, &mut a);
-        AdhesionLaw::tractions(&boxed, &gaps, &mut b);
+        law.tractions(0, &gaps, &mut a);
+        AdhesionLaw::tractions(&boxed, 0, &gaps, &mut b);
         assert_eq!(a, b);
     }
 

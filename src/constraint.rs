@@ -1,3 +1,5 @@
+use std::fmt;
+
 use ndarray::ArrayView2;
 
 use crate::error::Result;
@@ -23,11 +25,15 @@ pub use uzawa::Uzawa;
 /// the solution tends to that of [`Projection`]. An exponential, evaluated at negative gaps, would outrun any springs.
 ///
 /// ```
-/// use asperity::{ContactConstraint, Control, Grid, NoAdhesion, Problem, Settings, Solver, Surface, Westergaard};
+/// use asperity::{
+///     ContactConstraint, Control, Grid, NoAdhesion, Problem, Settings, Solver, Springs, Surface, Wall, Westergaard,
+/// };
 /// /// A film that resists compression from a thickness of 1e-3 on.
 /// struct Film;
 /// impl ContactConstraint<f64> for Film {
-///     fn projects(&self) -> bool { false }
+///     fn wall(&self) -> Wall<'_, f64> { Wall::Springs(self) }
+/// }
+/// impl Springs<f64> for Film {
 ///     fn energy(&self, _: usize, gap: f64) -> f64 { 250.0 * (1e-3 - gap).max(0.0).powi(2) }
 ///     fn traction(&self, _: usize, gap: f64) -> f64 { -500.0 * (1e-3 - gap).max(0.0) }
 ///     fn slope(&self, _: usize, gap: f64) -> f64 { if gap < 1e-3 { 500.0 } else { 0.0 } }
@@ -43,8 +49,8 @@ pub use uzawa::Uzawa;
 ///
 /// A worked example with rounds is on the page [`own_constraint`](crate::guide::own_constraint).
 pub trait ContactConstraint<T: Real>: Send + Sync {
-    /// Whether the gap is confined to g ≥ 0. If so the other methods are not asked.
-    fn projects(&self) -> bool;
+    /// What keeps the surfaces apart in the present round.
+    fn wall(&self) -> Wall<'_, T>;
 
     /// Prepares for a solve on a grid, to a tolerance of its criterion. `stiffest` is the stiffness of the shortest wave, of
     /// [`ElasticOperator::stiffness_range`](crate::ElasticOperator::stiffness_range), pressure per length.
@@ -55,25 +61,54 @@ pub trait ContactConstraint<T: Real>: Send + Sync {
         Ok(())
     }
 
-    /// The energy per area that the term adds at a node (in row-major order) with this gap.
-    fn energy(&self, _node: usize, _gap: T) -> T {
-        T::zero()
-    }
-
-    /// The derivative of that energy by the gap: minus the contact pressure.
-    fn traction(&self, _node: usize, _gap: T) -> T {
-        T::zero()
-    }
-
-    /// The second derivative of that energy by the gap.
-    fn slope(&self, _node: usize, _gap: T) -> T {
-        T::zero()
-    }
-
     /// Called when a solve has converged: updates the multipliers, and tells whether to solve again with them.
     fn update(&mut self, _gap: ArrayView2<'_, T>) -> Outer {
         Outer::Done
     }
+}
+
+/// The wall that the half-space meets.
+///
+/// ```
+/// use asperity::{ContactConstraint, Penalty, Projection, Wall};
+/// assert!(matches!(ContactConstraint::<f64>::wall(&Projection), Wall::Rigid));
+/// assert!(matches!(Penalty::new(5000.0)?.wall(), Wall::Springs(_)));
+/// # Ok::<(), asperity::Error>(())
+/// ```
+#[non_exhaustive]
+#[derive(Clone, Copy)]
+pub enum Wall<'a, T> {
+    /// The gap is confined to g ≥ 0.
+    Rigid,
+    /// Any gap is feasible, and the energy gains that of springs.
+    Springs(&'a dyn Springs<T>),
+}
+
+impl<T> Wall<'_, T> {
+    /// Whether the gap is confined to g ≥ 0.
+    pub fn is_rigid(&self) -> bool {
+        matches!(self, Self::Rigid)
+    }
+}
+
+impl<T> fmt::Debug for Wall<'_, T> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(if self.is_rigid() { "Rigid" } else { "Springs" })
+    }
+}
+
+/// Springs that resist small or negative gaps: three functions of a node, in row-major order (ix·Ny + iy), and its gap.
+///
+/// [`ContactConstraint`] has an example.
+pub trait Springs<T: Real>: Sync {
+    /// The energy per area.
+    fn energy(&self, node: usize, gap: T) -> T;
+
+    /// The derivative of the energy by the gap: minus the contact pressure.
+    fn traction(&self, node: usize, gap: T) -> T;
+
+    /// The second derivative of the energy by the gap.
+    fn slope(&self, node: usize, gap: T) -> T;
 }
 
 /// What [`ContactConstraint::update`] decides.

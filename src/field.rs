@@ -50,18 +50,28 @@ impl Reducer {
         self.total()
     }
 
-    /// The same over the chunks of which another pass, `before`, found what `wanted` asks for.
+    /// The same over the chunks of which the number that was kept is `wanted`.
     pub(crate) fn run_where<A: IndexedParallelIterator>(
         &mut self,
-        before: &Self,
-        wanted: impl Fn(&Partial) -> bool + Sync + Send,
+        kept: &[f64],
+        wanted: impl Fn(f64) -> bool + Sync + Send,
         chunks: A,
         f: impl Fn(usize, A::Item) -> Partial + Sync + Send,
     ) -> Partial {
         par::update(chunks, &mut self.0, BATCH, |i, chunk, part| {
-            *part = if wanted(&before.0[i]) { f(i * CHUNK, chunk) } else { Partial::NONE };
+            *part = if wanted(kept[i]) { f(i * CHUNK, chunk) } else { Partial::NONE };
         });
         self.total()
+    }
+
+    /// Keeps a number of each chunk of the last pass, for a later one.
+    pub(crate) fn keep(&self, of: impl Fn(&Partial) -> f64, kept: &mut [f64]) {
+        kept.iter_mut().zip(&self.0).for_each(|(kept, part)| *kept = of(part));
+    }
+
+    /// How many chunks there are.
+    pub(crate) fn chunks(&self) -> usize {
+        self.0.len()
     }
 
     fn total(&self) -> Partial {

@@ -137,7 +137,7 @@ pub mod tool {
 mod vector;
 
 pub use adhesion::{AdhesionLaw, Exponential, MaugisDugdale, NoAdhesion, check_law};
-pub use constraint::{ContactConstraint, Outer, Penalty, Projection, Uzawa};
+pub use constraint::{ContactConstraint, Outer, Penalty, Projection, Springs, Uzawa, Wall};
 pub use contact::{Clusters, Connectivity, ContactStatistics, PressureDistribution};
 pub use elastic::{ElasticOperator, Preconditioned, Spectral, Westergaard};
 pub use error::{Error, Result};

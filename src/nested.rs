@@ -194,7 +194,7 @@ impl<C> Nested<C> {
             // a coarse grid that does not carry its load says nothing of a finer one
             if report.load_error < CARRIED {
                 let finer = finer(&strides, stride);
-                start = Some(prolong(surface, finer, &coarse, &gap, self.solver.constraint.projects()));
+                start = Some(prolong(surface, finer, &coarse, &gap, self.solver.constraint.wall().is_rigid()));
             }
         }
         let mut problem = Problem::new(surface, operator(*surface.grid())?, law)?;

@@ -211,12 +211,12 @@ impl StabilityTest {
 fn slopes<T: Real>(gap: &Array2<T>, law: &dyn AdhesionLaw<T>) -> Result<Array2<T>> {
     let mut slopes = Array2::zeros(gap.dim());
     let mut reducer = Reducer::new(gap.len());
-    let wrong = reducer.run(read(gap).zip(write(&mut slopes)), |_, (gap, slopes)| {
+    let wrong = reducer.run(read(gap).zip(write(&mut slopes)), |first, (gap, slopes)| {
         let mut part = Partial::NONE;
         if !law.is_zero() {
             // no law is asked for a negative gap
             let apart: Vec<T> = gap.iter().map(|gap| gap.max(T::zero())).collect();
-            law.slopes(&apart, slopes);
+            law.slopes(first, &apart, slopes);
         }
         for (slope, &gap) in slopes.iter_mut().zip(gap) {
             if gap <= T::zero() {

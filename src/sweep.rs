@@ -142,7 +142,8 @@ where
         let (_, mut start) = self.history.remove(0);
         let last = &self.history[0].1;
         if steps.is_finite() && self.problem.law.is_zero() && start.dim() == last.dim() {
-            let (steps, projects) = (T::lit(steps.clamp(-FARTHEST, FARTHEST)), self.solver.constraint.projects());
+            let (steps, projects) =
+                (T::lit(steps.clamp(-FARTHEST, FARTHEST)), self.solver.constraint.wall().is_rigid());
             start.zip_mut_with(last, |start, &last| {
                 let next = last + steps * (last - *start);
                 *start = if projects { next.max(T::zero()) } else { next };

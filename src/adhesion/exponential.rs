@@ -46,17 +46,17 @@ impl<T: Real> AdhesionLaw<T> for Exponential<T> {
     fn slope(&self, gap: T) -> T {
         -self.work_of_adhesion / self.range / self.range * (-gap / self.range).exp()
     }
-    fn energies(&self, gaps: &[T], energies: &mut [T]) {
+    fn energies(&self, _: usize, gaps: &[T], energies: &mut [T]) {
         exponentials(-self.work_of_adhesion, -self.range.recip(), gaps, energies);
     }
-    fn tractions(&self, gaps: &[T], tractions: &mut [T]) {
+    fn tractions(&self, _: usize, gaps: &[T], tractions: &mut [T]) {
         exponentials(self.work_of_adhesion / self.range, -self.range.recip(), gaps, tractions);
     }
-    fn slopes(&self, gaps: &[T], slopes: &mut [T]) {
+    fn slopes(&self, _: usize, gaps: &[T], slopes: &mut [T]) {
         exponentials(-self.work_of_adhesion / self.range / self.range, -self.range.recip(), gaps, slopes);
     }
-    fn tractions_and_slopes(&self, gaps: &[T], tractions: &mut [T], slopes: &mut [T]) {
-        self.tractions(gaps, tractions);
+    fn tractions_and_slopes(&self, first: usize, gaps: &[T], tractions: &mut [T], slopes: &mut [T]) {
+        self.tractions(first, gaps, tractions);
         let rate = -self.range.recip();
         slopes.iter_mut().zip(tractions).for_each(|(s, t)| *s = *t * rate);
     }

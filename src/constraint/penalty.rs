@@ -1,4 +1,4 @@
-use super::ContactConstraint;
+use super::{ContactConstraint, Springs, Wall};
 use crate::error::{Error, Result};
 use crate::real::Real;
 
@@ -35,9 +35,12 @@ impl<T: Real> Penalty<T> {
 }
 
 impl<T: Real> ContactConstraint<T> for Penalty<T> {
-    fn projects(&self) -> bool {
-        false
+    fn wall(&self) -> Wall<'_, T> {
+        Wall::Springs(self)
     }
+}
+
+impl<T: Real> Springs<T> for Penalty<T> {
     fn energy(&self, _: usize, gap: T) -> T {
         let depth = (-gap).max(T::zero());
         T::lit(0.5) * self.stiffness * depth * depth

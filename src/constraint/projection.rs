@@ -1,4 +1,4 @@
-use super::ContactConstraint;
+use super::{ContactConstraint, Wall};
 use crate::real::Real;
 
 /// The gap is confined to g ≥ 0: steps that would pass are clipped, and contact nodes under tension are released.
@@ -18,7 +18,7 @@ use crate::real::Real;
 pub struct Projection;
 
 impl<T: Real> ContactConstraint<T> for Projection {
-    fn projects(&self) -> bool {
-        true
+    fn wall(&self) -> Wall<'_, T> {
+        Wall::Rigid
     }
 }

@@ -1,6 +1,6 @@
 use ndarray::{Array2, ArrayView2};
 
-use super::{ContactConstraint, Outer};
+use super::{ContactConstraint, Outer, Springs, Wall};
 use crate::error::{Error, Result};
 use crate::field::{CHUNK, Partial, Reducer, flat, read, write};
 use crate::grid::Grid;
@@ -105,8 +105,8 @@ impl<T: Real> Uzawa<T> {
 }
 
 impl<T: Real> ContactConstraint<T> for Uzawa<T> {
-    fn projects(&self) -> bool {
-        false
+    fn wall(&self) -> Wall<'_, T> {
+        Wall::Springs(self)
     }
     fn start(&mut self, grid: &Grid, stiffest: f64, tolerance: f64) -> Result<()> {
         self.solved_to = tolerance;
@@ -117,16 +117,6 @@ impl<T: Real> ContactConstraint<T> for Uzawa<T> {
             self.stiffness = self.stiffness.min(T::lit(STIFFEST * stiffest));
         }
         Ok(())
-    }
-    fn energy(&self, node: usize, gap: T) -> T {
-        let (pressure, multiplier) = (self.pressure(node, gap), self.multiplier(node));
-        T::lit(0.5) * (pressure - multiplier) * (pressure + multiplier) / self.stiffness
-    }
-    fn traction(&self, node: usize, gap: T) -> T {
-        -self.pressure(node, gap)
-    }
-    fn slope(&self, node: usize, gap: T) -> T {
-        if self.pressure(node, gap) > T::zero() { self.stiffness } else { T::zero() }
     }
     fn update(&mut self, gap: ArrayView2<'_, T>) -> Outer {
         self.outer_iterations += 1;
@@ -171,5 +161,18 @@ impl<T: Real> ContactConstraint<T> for Uzawa<T> {
         }
         self.off = off;
         Outer::Again
+    }
+}
+
+impl<T: Real> Springs<T> for Uzawa<T> {
+    fn energy(&self, node: usize, gap: T) -> T {
+        let (pressure, multiplier) = (self.pressure(node, gap), self.multiplier(node));
+        T::lit(0.5) * (pressure - multiplier) * (pressure + multiplier) / self.stiffness
+    }
+    fn traction(&self, node: usize, gap: T) -> T {
+        -self.pressure(node, gap)
+    }
+    fn slope(&self, node: usize, gap: T) -> T {
+        if self.pressure(node, gap) > T::zero() { self.stiffness } else { T::zero() }
     }
 }

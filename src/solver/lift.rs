@@ -43,7 +43,7 @@ impl<T: Real> State<'_, T> {
     fn lifts(&self) -> bool {
         let stiffest = self.operator.stiffness_range().1;
         let preconditioned = self.settings.method == Method::Preconditioned;
-        self.near && !self.is_gap_controlled() && preconditioned && self.constraint.projects() && stiffest > 0.0
+        self.near && !self.is_gap_controlled() && preconditioned && self.projects() && stiffest > 0.0
     }
 
     /// How stiff the mean gap is taken to be, where it is not lifted.

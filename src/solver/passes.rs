@@ -15,7 +15,7 @@ mod tally;
 pub(super) use residual::{Continued, Follows, Residual, Working};
 pub(super) use residual::{idle, lift, lift_sums, release, released, residual};
 pub(super) use step::{Advance, Attempt, Tried, advance, energy_after, trial};
-pub(super) use tally::{Tally, tally};
+pub(super) use tally::{Taken, Tally, tally};
 
 /// The fields of a solve.
 #[derive(Debug)]
@@ -31,22 +31,21 @@ pub(super) struct Fields<T> {
     /// the last step, up to a factor and, while the next one is made, up to the scale that restores the mean gap; the
     /// direction t of [`Method::Rey2017`](crate::Method)
     pub(super) change: Array2<T>,
-    /// the sums of the chunks that made the present tally
-    pub(super) tallied: Reducer,
-    /// the sums of the chunks that made the present residual
-    pub(super) working: Reducer,
-    /// those of all other passes
     pub(super) reducer: Reducer,
+    /// of each chunk, by the present tally: the least r in contact
+    pub(super) least_r: Vec<f64>,
+    /// of each chunk, by the present residual: how many nodes may move
+    pub(super) moving: Vec<f64>,
 }
 
 impl<T: Real> Fields<T> {
     /// The fields of a solve that starts from this gap and its pressure.
     pub(super) fn new(gap: Array2<T>, pressure: Array2<T>) -> Self {
         let field = || Array2::zeros(gap.dim());
-        let reducer = || Reducer::new(gap.len());
+        let reducer = Reducer::new(gap.len());
         let [residual, preconditioned, change] = std::array::from_fn(|_| field());
-        let [tallied, working, reducer] = std::array::from_fn(|_| reducer());
-        Self { gap, pressure, residual, preconditioned, change, tallied, working, reducer }
+        let [least_r, moving] = std::array::from_fn(|_| vec![0.0; reducer.chunks()]);
+        Self { gap, pressure, residual, preconditioned, change, reducer, least_r, moving }
     }
 }
 

@@ -1,7 +1,7 @@
 //! The local energy of a node, a function of its gap: the adhesion law, and the constraint where it is a term of the energy.
 
 use crate::adhesion::AdhesionLaw;
-use crate::constraint::ContactConstraint;
+use crate::constraint::{ContactConstraint, Springs, Wall};
 use crate::field::CHUNK;
 use crate::real::Real;
 
@@ -9,9 +9,7 @@ use crate::real::Real;
 #[derive(Clone, Copy)]
 pub(super) struct Potential<'a, T> {
     law: &'a dyn AdhesionLaw<T>,
-    constraint: &'a dyn ContactConstraint<T>,
-    projects: bool,
-    is_zero: bool,
+    springs: Option<&'a dyn Springs<T>>,
 }
 
 /// Which derivative of an energy.
@@ -24,38 +22,40 @@ pub(super) enum Of {
 
 impl<'a, T: Real> Potential<'a, T> {
     pub(super) fn new(law: &'a dyn AdhesionLaw<T>, constraint: &'a dyn ContactConstraint<T>) -> Self {
-        let projects = constraint.projects();
-        Self { law, constraint, projects, is_zero: law.is_zero() && projects }
+        let springs = match constraint.wall() {
+            Wall::Rigid => None,
+            Wall::Springs(springs) => Some(springs),
+        };
+        Self { law, springs }
     }
 
     /// Whether there is nothing to evaluate.
     pub(super) fn is_zero(&self) -> bool {
-        self.is_zero
+        self.law.is_zero() && self.projects()
     }
 
     /// Whether the gap is confined to g ≥ 0.
     pub(super) fn projects(&self) -> bool {
-        self.projects
+        self.springs.is_none()
     }
 
     /// The energies, tractions or slopes of law and constraint at the nodes from `first` on.
     pub(super) fn evaluate(&self, of: Of, first: usize, gaps: &[T], out: &mut [T]) {
-        self.law(of, gaps, out);
-        if !self.projects {
-            for (i, (out, &gap)) in out.iter_mut().zip(gaps).enumerate() {
-                *out += match of {
-                    Of::Energy => self.constraint.energy(first + i, gap),
-                    Of::Traction => self.constraint.traction(first + i, gap),
-                    Of::Slope => self.constraint.slope(first + i, gap),
-                };
-            }
+        self.law(of, first, gaps, out);
+        let Some(springs) = self.springs else { return };
+        for (i, (out, &gap)) in out.iter_mut().zip(gaps).enumerate() {
+            *out += match of {
+                Of::Energy => springs.energy(first + i, gap),
+                Of::Traction => springs.traction(first + i, gap),
+                Of::Slope => springs.slope(first + i, gap),
+            };
         }
     }
 
     /// Tractions and slopes at once.
     pub(super) fn tractions_and_slopes(&self, first: usize, gaps: &[T], tractions: &mut [T], slopes: &mut [T]) {
-        if self.projects {
-            return self.law.tractions_and_slopes(gaps, tractions, slopes);
+        if self.projects() {
+            return self.law.tractions_and_slopes(first, gaps, tractions, slopes);
         }
         self.evaluate(Of::Traction, first, gaps, tractions);
         self.evaluate(Of::Slope, first, gaps, slopes);
@@ -64,19 +64,20 @@ impl<'a, T: Real> Potential<'a, T> {
     /// The energies, tractions or slopes of the law alone.
     ///
     /// A law is defined for g ≥ 0; where the surfaces interpenetrate it goes on as its tangent at g = 0.
-    pub(super) fn law(&self, of: Of, gaps: &[T], out: &mut [T]) {
+    pub(super) fn law(&self, of: Of, first: usize, gaps: &[T], out: &mut [T]) {
         if self.law.is_zero() {
             return out.fill(T::zero());
         }
-        if self.projects || gaps.iter().all(|&gap| gap >= T::zero()) {
-            return evaluate(self.law, of, gaps, out);
+        if self.projects() || gaps.iter().all(|&gap| gap >= T::zero()) {
+            return evaluate(self.law, of, first, gaps, out);
         }
-        let mut buffer = [T::zero(); CHUNK];
-        let apart = &mut buffer[..gaps.len()];
+        let (mut apart, mut at_contact) = ([T::zero(); CHUNK], [T::zero(); CHUNK]);
+        let (apart, at_contact) = (&mut apart[..gaps.len()], &mut at_contact[..gaps.len()]);
+        self.law.tractions(first, apart, at_contact);
         apart.iter_mut().zip(gaps).for_each(|(apart, &gap)| *apart = gap.max(T::zero()));
-        evaluate(self.law, of, apart, out);
-        let at_contact = self.law.traction(T::zero());
-        for (out, &gap) in out.iter_mut().zip(gaps).filter(|(_, gap)| **gap < T::zero()) {
+        evaluate(self.law, of, first, apart, out);
+        let inside = out.iter_mut().zip(gaps).zip(at_contact).filter(|((_, gap), _)| **gap < T::zero());
+        for ((out, &gap), &mut at_contact) in inside {
             match of {
                 Of::Energy => *out += at_contact * gap,
                 Of::Traction => {}
@@ -85,23 +86,36 @@ impl<'a, T: Real> Potential<'a, T> {
         }
     }
 
-    /// How many nodes are in contact under a constraint that does not project, and its energy.
+    /// How many nodes are in contact with springs, and the energy of the springs.
     pub(super) fn pressed(&self, first: usize, gaps: &[T]) -> [f64; 2] {
         let mut sums = [0.0; 2];
+        let Some(springs) = self.springs else { return sums };
         for (i, &gap) in gaps.iter().enumerate() {
-            let touches = gap <= T::zero() || self.constraint.traction(first + i, gap) < T::zero();
+            let touches = gap <= T::zero() || springs.traction(first + i, gap) < T::zero();
             sums[0] += f64::from(u8::from(touches));
-            sums[1] += self.constraint.energy(first + i, gap).widen();
+            sums[1] += springs.energy(first + i, gap).widen();
         }
         sums
     }
+
+    /// The contact pressures at nodes of these gaps and full elastic pressures.
+    pub(super) fn contact_pressures(&self, first: usize, gaps: &[T], pressures: &[T], contact: &mut [T]) {
+        if let Some(springs) = self.springs {
+            let pressed = contact.iter_mut().zip(gaps).enumerate();
+            return pressed.for_each(|(i, (contact, &gap))| *contact = -springs.traction(first + i, gap));
+        }
+        self.law(Of::Traction, first, gaps, contact);
+        for ((contact, &gap), &p) in contact.iter_mut().zip(gaps).zip(pressures) {
+            *contact = if gap <= T::zero() { (p + *contact).max(T::zero()) } else { T::zero() };
+        }
+    }
 }
 
-fn evaluate<T: Real>(law: &dyn AdhesionLaw<T>, of: Of, gaps: &[T], out: &mut [T]) {
+fn evaluate<T: Real>(law: &dyn AdhesionLaw<T>, of: Of, first: usize, gaps: &[T], out: &mut [T]) {
     match of {
-        Of::Energy => law.energies(gaps, out),
-        Of::Traction => law.tractions(gaps, out),
-        Of::Slope => law.slopes(gaps, out),
+        Of::Energy => law.energies(first, gaps, out),
+        Of::Traction => law.tractions(first, gaps, out),
+        Of::Slope => law.slopes(first, gaps, out),
     }
 }
 
@@ -129,7 +143,7 @@ mod tests {
             }
         }
         let (mut law_alone, mut confined) = ([0.0; 3], [0.0; 2]);
-        potential.law(Of::Energy, &[-0.25, 0.0, 0.5], &mut law_alone);
+        potential.law(Of::Energy, 0, &[-0.25, 0.0, 0.5], &mut law_alone);
         assert_eq!(law_alone, [-2.0 - 4.0 * 0.25, -2.0, -2.0 * (-1.0f64).exp()]);
         // where nothing interpenetrates, the law itself
         Potential::new(&law, &Projection).evaluate(Of::Energy, 0, &[0.0, 0.5], &mut confined);

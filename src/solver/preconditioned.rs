@@ -159,7 +159,7 @@ impl<T: Real> State<'_, T> {
         let length = self.step_length;
         let (keep, mean) = momentum.map_or((0.0, 0.0), |m| (length * m.conjugate + m.remainder, m.mean));
         let [length, centre, keep, mean] = [length, centre, keep, mean].map(T::lit);
-        let attempt = Attempt { length, centre, keep, mean, projects: self.constraint.projects() };
+        let attempt = Attempt { length, centre, keep, mean, projects: self.projects() };
         let surface = self.is_gap_controlled().then_some(&self.flat.pressure);
         let local = Potential::new(self.law, &*self.constraint);
         let tried = passes::trial(&mut self.fields, &local, attempt, surface);
@@ -313,7 +313,7 @@ impl<T: Real> State<'_, T> {
 
     /// Takes a step: gap, pressure, and the tally of the new state.
     fn advance(&mut self, step: &Step) {
-        let projects = self.constraint.projects();
+        let projects = self.projects();
         let &Step { length, scale, slope, work, elastic, local: after } = step;
         let level = self.is_gap_controlled().then_some(T::lit(self.residual.level));
         let advance = Advance { length: T::lit(length), scale: T::lit(scale), offset: T::lit(self.offset()), level };

@@ -81,6 +81,9 @@ pub struct Iteration {
     pub mean_gap: f64,
     /// How many nodes are in contact.
     pub contact_points: usize,
+    /// How often what is minimised has changed: with the law, the multipliers of a constraint, or, in search of a state that holds a tension,
+    /// the mean gap. The energy falls within a round.
+    pub round: usize,
     /// Whether the solve is still on the way to its start, with the jumps of the law smoothed: then the energy and the
     /// error are those of the smoothed law. See [`AdhesionLaw::smoothed`](crate::AdhesionLaw::smoothed).
     pub smoothed: bool,

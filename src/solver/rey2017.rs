@@ -12,7 +12,7 @@ impl<T: Real> State<'_, T> {
     /// One pass of the algorithm's loop: one operator application for the direction, and one for the new gap where
     /// nodes were clipped or released.
     pub(super) fn rey2017_step(&mut self) -> Result<bool> {
-        let projects = self.constraint.projects();
+        let projects = self.projects();
         let apart = move |gap: T| !projects || gap > T::zero();
 
         let Fields { reducer, gap, residual, .. } = &mut self.fields;
@@ -99,7 +99,7 @@ impl<T: Real> State<'_, T> {
 
     /// The direction t = r' + `conjugate` t where the surfaces are apart, zero elsewhere; returns ⟨r', t⟩.
     fn conjugate_direction(&mut self, conjugate: f64) -> f64 {
-        let projects = self.constraint.projects();
+        let projects = self.projects();
         let conjugate = T::lit(conjugate);
         let Fields { reducer, gap, residual, change, .. } = &mut self.fields;
         let total = reducer.run(read(gap).zip(read(residual)).zip(write(change)), |_, ((gap, residual), direction)| {

@@ -24,13 +24,18 @@ impl<'a, T: Real> State<'a, T> {
         if self.energy().is_finite() && self.tally.sum_r.is_finite() {
             return Ok(());
         }
-        let law = self.law;
-        let functions: [(_, &dyn Fn(T) -> T); 2] =
-            [("adhesive energy", &|g| law.energy(g)), ("adhesive traction", &|g| law.traction(g))];
+        let functions: [(_, fn(&dyn AdhesionLaw<T>, usize, &[T], &mut [T])); 2] = [
+            ("adhesive energy", |law, node, gap, value| law.energies(node, gap, value)),
+            ("adhesive traction", |law, node, gap, value| law.tractions(node, gap, value)),
+        ];
         for (function, f) in functions {
-            let mut gaps = flat(&self.fields.gap).iter().map(|gap| gap.max(T::zero()));
-            if let Some(gap) = gaps.find(|&gap| !f(gap).is_finite()) {
-                return Err(Error::Law { function, gap: gap.widen(), value: f(gap).widen(), expected: None });
+            for (node, gap) in flat(&self.fields.gap).iter().enumerate() {
+                let (gap, mut value) = (gap.max(T::zero()), [T::zero()]);
+                f(self.law, node, &[gap], &mut value);
+                let [value] = value.map(T::widen);
+                if !value.is_finite() {
+                    return Err(Error::Law { function, gap: gap.widen(), value, expected: None });
+                }
             }
         }
         Ok(())

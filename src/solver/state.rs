@@ -2,11 +2,11 @@
 
 use ndarray::{Array2, CowArray, Ix2};
 
-use super::passes::{self, Continued, Fields, Tally, Working};
+use super::passes::{self, Continued, Fields, Taken, Tally, Working};
 use super::potential::Potential;
 use super::report::{Iteration, Report, Solution, Status};
 use super::start::{given_start, uniform_start};
-use super::work::Work;
+use super::work::{TRUSTED, Work};
 use super::{Criterion, Method, Settings};
 use crate::adhesion::AdhesionLaw;
 use crate::constraint::{ContactConstraint, Outer};
@@ -124,6 +124,8 @@ pub(super) struct State<'a, T> {
     /// ⟨r', r'⟩ of the step before, for [`Method::Rey2017`]
     pub(super) residual_norm: Option<f64>,
     pub(super) progress: Progress,
+    /// how often what is minimised has changed
+    pub(super) rounds: usize,
     pub(super) iterations: usize,
     pub(super) applications: usize,
     /// steps since the pressure was last computed from the gap
@@ -154,7 +156,7 @@ impl<'a, T: Real> State<'a, T> {
         }
         let uniform = start.is_none();
         let (gap, pressure) = match start {
-            Some(start) => (given_start(start, shape, control, constraint.projects())?, Array2::zeros(shape)),
+            Some(start) => (given_start(start, shape, control, constraint.wall().is_rigid())?, Array2::zeros(shape)),
             None => (Array2::from_elem(shape, T::lit(uniform_start(law, flat, control))), flat.pressure.clone()),
         };
         let mut state = Self {
@@ -178,6 +180,7 @@ impl<'a, T: Real> State<'a, T> {
             near: false,
             residual_norm: None,
             progress: Progress::NONE,
+            rounds: 0,
             iterations: 0,
             applications: 0,
             age: 0,
@@ -212,6 +215,11 @@ impl<'a, T: Real> State<'a, T> {
         self.given() - self.drift
     }
 
+    /// Whether the gap is confined to g ≥ 0.
+    pub(super) fn projects(&self) -> bool {
+        self.constraint.wall().is_rigid()
+    }
+
     pub(super) fn is_gap_controlled(&self) -> bool {
         matches!(self.control, Control::MeanGap(_))
     }
@@ -221,7 +229,7 @@ impl<'a, T: Real> State<'a, T> {
         if let Control::MeanGap(mean) = self.control {
             let (scale, present) = (mean * self.nodes() / self.tally.sum_gap, self.tally.sum_gap / self.nodes());
             // what rounding has added up to, if it is worth a pass
-            if self.constraint.projects() {
+            if self.projects() {
                 if scale.is_finite() && (scale - 1.0).abs() > 64.0 * T::epsilon().widen() {
                     let scale = T::lit(scale);
                     self.fields.reducer.run(write(&mut self.fields.gap), |_, gap| {
@@ -247,18 +255,17 @@ impl<'a, T: Real> State<'a, T> {
             Partial::NONE
         });
         self.work = self.count();
-        self.trust_work()
+        self.trust_work(TRUSTED)
     }
 
     /// Takes the tally of the present gap and pressure; returns the work as it follows from these sums.
     pub(super) fn count(&mut self) -> Work {
         let offset = T::lit(self.offset());
         let local = Potential::new(self.law, &*self.constraint);
-        let (mut tally, gap_surface) = passes::tally(&mut self.fields, &local, offset, &self.flat.pressure);
-        if local.projects() {
-            self.drift = (tally.sum_r + tally.sum_contact_r - tally.traction) / self.nodes() - offset.widen();
-            tally.shift(T::lit(self.offset()).widen() - offset.widen());
-        }
+        let taken = passes::tally(&mut self.fields, &local, offset, &self.flat.pressure);
+        let Taken { mut tally, gap_surface, sum_p } = taken;
+        self.drift = sum_p / self.nodes();
+        tally.shift(T::lit(self.offset()).widen() - offset.widen());
         (self.tally, self.left) = (tally, Left::Nothing);
         self.summed_work(tally.sum_gp, gap_surface)
     }
@@ -289,8 +296,7 @@ impl<'a, T: Real> State<'a, T> {
         let local = Potential::new(*law, &**constraint);
         let mut level = release.widen();
         if centred && tally.contact > 0.0 && local.projects() {
-            // contact nodes have one and the same adhesive traction
-            let released = passes::released(fields, law.traction(T::zero()) + offset, release);
+            let released = passes::released(fields, &local, offset, release);
             let working = tally.free + released.count;
             if working > 0.0 {
                 level = (tally.sum_r + released.sum_r) / working;
@@ -345,6 +351,7 @@ impl<'a, T: Real> State<'a, T> {
     pub(super) fn restart(&mut self) {
         (self.momentum, self.residual_norm) = (None, None);
         self.progress = Progress::NONE;
+        self.rounds += 1;
         self.count();
     }
 
@@ -372,6 +379,7 @@ impl<'a, T: Real> State<'a, T> {
             energy: self.energy(),
             mean_gap: self.tally.sum_gap / self.nodes(),
             contact_points: self.tally.contact as usize,
+            round: self.rounds,
             smoothed: self.goal == Goal::Start,
         }
     }
@@ -386,24 +394,20 @@ impl<'a, T: Real> State<'a, T> {
             self.residual();
             self.certify()?;
         }
+        self.trust_work(T::epsilon().widen().sqrt())?;
         let mean = match self.control {
             Control::MeanGap(_) => -self.multiplier(),
             Control::MeanPressure(pressure) => pressure,
         };
         let shift = T::lit(mean - self.drift);
         let Self { fields: Fields { reducer, gap, pressure, preconditioned, .. }, law, constraint, .. } = &mut self;
-        let projects = constraint.projects();
-        let at_contact = law.traction(T::zero());
+        let local = Potential::new(*law, &**constraint);
         let fields = read(gap).zip(write(pressure)).zip(write(preconditioned));
         let total = reducer.run(fields, |first, ((gap, pressure), contact)| {
             let mut part = Partial::NONE;
-            for (i, ((&gap, p), contact)) in gap.iter().zip(pressure).zip(contact).enumerate() {
-                *p += shift;
-                *contact = match projects {
-                    true if gap <= T::zero() => (*p + at_contact).max(T::zero()),
-                    true => T::zero(),
-                    false => -constraint.traction(first + i, gap),
-                };
+            pressure.iter_mut().for_each(|p| *p += shift);
+            local.contact_pressures(first, gap, pressure, contact);
+            for (&gap, contact) in gap.iter().zip(contact) {
                 part.sum[0] += contact.widen();
                 part.min = part.min.min(gap.widen());
             }

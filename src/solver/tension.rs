@@ -49,7 +49,7 @@ impl<T: Real> State<'_, T> {
     /// surfaces that are not deformed would touch. From a state that holds more than the load, the load lets them close up to an equilibrium.
     pub(super) fn seek_hold(&mut self, observe: Observer<'_>) -> Result<bool> {
         let Control::MeanPressure(load) = self.control else { return Ok(false) };
-        if -load > self.strongest_traction() || !self.constraint.projects() {
+        if -load > self.strongest_traction() || !self.projects() {
             return Ok(false);
         }
         let touch = self.flat.peak;

@@ -8,8 +8,8 @@ use super::state::State;
 use crate::error::Result;
 use crate::real::Real;
 
-/// Rounding beyond this share of the work calls for the sum of squares.
-const TRUSTED: f64 = 1e-3;
+/// Rounding beyond this share of the work calls for the sum of squares, as long as the work is only a scale.
+pub(super) const TRUSTED: f64 = 1e-3;
 
 /// The elastic work, summed over the nodes.
 #[derive(Clone, Copy, Debug, Default)]
@@ -20,9 +20,9 @@ pub(super) struct Work {
 }
 
 impl Work {
-    /// Whether rounding may be more than a trusted share of it.
-    fn is_doubtful(self) -> bool {
-        self.noise > TRUSTED * self.sum
+    /// Whether rounding may be more than such a share of it.
+    fn is_doubtful(self, share: f64) -> bool {
+        self.noise > share * self.sum
     }
 
     /// The work after a step that changes it by `change`.
@@ -50,12 +50,13 @@ impl<T: Real> State<'_, T> {
 
     /// Whether steps have carried the work so far down that rounding is a share of it that counts.
     pub(super) fn has_lost_its_work(&self) -> bool {
-        self.work.is_doubtful() && self.work.noise > 0.0
+        self.work.is_doubtful(TRUSTED)
     }
 
-    /// Computes the work as ⟨p, K p⟩ if its sums have cancelled. Takes the place of the preconditioned residual.
-    pub(super) fn trust_work(&mut self) -> Result<()> {
-        if !self.work.is_doubtful() {
+    /// Computes the work as ⟨p, K p⟩ if its sums have cancelled until rounding may be more than such a share of it. Takes the
+    /// place of the preconditioned residual.
+    pub(super) fn trust_work(&mut self, share: f64) -> Result<()> {
+        if !self.work.is_doubtful(share) {
             return Ok(());
         }
         let stiffness = self.foundation();

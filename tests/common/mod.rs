@@ -44,7 +44,7 @@ pub fn solve_from<T: Real, O: ElasticOperator<T>, L: AdhesionLaw<T>>(
 /// The energy never rises by more than the rounding of its own sum.
 pub fn falls(history: &[Iteration], epsilon: f64) {
     let size = history.iter().map(|i| i.energy.abs()).fold(0.0, f64::max);
-    for pair in history.windows(2).filter(|pair| pair[0].smoothed == pair[1].smoothed) {
+    for pair in history.windows(2).filter(|pair| pair[0].round == pair[1].round) {
         let rise = pair[1].energy - pair[0].energy;
         assert!(
             rise <= 64.0 * epsilon * size,

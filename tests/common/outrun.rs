@@ -1,6 +1,6 @@
 //! An exponential law that is evaluated at negative gaps, as it stands.
 
-use asperity::{AdhesionLaw, ContactConstraint, Exponential, Grid, Outer, Result};
+use asperity::{AdhesionLaw, ContactConstraint, Exponential, Grid, Outer, Result, Springs, Wall};
 use ndarray::ArrayView2;
 
 /// Another constraint, with what an exponential law adds to its tangent where the surfaces interpenetrate: the energy
@@ -13,13 +13,19 @@ impl<C> Outrun<C> {
     }
 }
 
-impl<C: ContactConstraint<f64>> ContactConstraint<f64> for Outrun<C> {
-    fn projects(&self) -> bool {
-        false
+impl<C: ContactConstraint<f64> + Springs<f64>> ContactConstraint<f64> for Outrun<C> {
+    fn wall(&self) -> Wall<'_, f64> {
+        Wall::Springs(self)
     }
     fn start(&mut self, grid: &Grid, stiffest: f64, tolerance: f64) -> Result<()> {
         self.0.start(grid, stiffest, tolerance)
     }
+    fn update(&mut self, gap: ArrayView2<'_, f64>) -> Outer {
+        self.0.update(gap)
+    }
+}
+
+impl<C: ContactConstraint<f64> + Springs<f64>> Springs<f64> for Outrun<C> {
     fn energy(&self, node: usize, gap: f64) -> f64 {
         let tangent = self.1.energy(0.0) + gap * self.1.traction(0.0);
         self.0.energy(node, gap) + self.excess(gap, self.1.energy(gap), tangent)
@@ -29,8 +35,5 @@ impl<C: ContactConstraint<f64>> ContactConstraint<f64> for Outrun<C> {
     }
     fn slope(&self, node: usize, gap: f64) -> f64 {
         self.0.slope(node, gap) + self.excess(gap, self.1.slope(gap), 0.0)
-    }
-    fn update(&mut self, gap: ArrayView2<'_, f64>) -> Outer {
-        self.0.update(gap)
     }
 }

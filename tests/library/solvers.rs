@@ -207,13 +207,13 @@ impl AdhesionLaw<f64> for Untouched {
     fn slope(&self, gap: f64) -> f64 {
         self.energy(gap)
     }
-    fn energies(&self, _: &[f64], _: &mut [f64]) {
+    fn energies(&self, _: usize, _: &[f64], _: &mut [f64]) {
         unreachable!()
     }
-    fn tractions(&self, _: &[f64], _: &mut [f64]) {
+    fn tractions(&self, _: usize, _: &[f64], _: &mut [f64]) {
         unreachable!()
     }
-    fn slopes(&self, _: &[f64], _: &mut [f64]) {
+    fn slopes(&self, _: usize, _: &[f64], _: &mut [f64]) {
         unreachable!()
     }
     fn is_zero(&self) -> bool {

@@ -277,7 +277,7 @@ impl Scene {
         // energies
         if self.settings.method == Method::Preconditioned && !detached {
             let size = history.iter().map(|i| i.energy.abs()).fold(magnitude.max(adhesive.abs()), f64::max);
-            let same = |pair: &&[Iteration]| pair[0].smoothed == pair[1].smoothed;
+            let same = |pair: &&[Iteration]| pair[0].round == pair[1].round;
             if !matches!(self.constraint, Constraint::Uzawa(_)) {
                 for pair in history.windows(2).filter(same) {
                     let rise = pair[1].energy - pair[0].energy;
@@ -294,8 +294,9 @@ impl Scene {
 
         // the residual and what bounds the error
         let offset = if let Control::MeanPressure(p) = self.control { p } else { 0.0 };
-        let springs = |i: usize| {
-            if projects { 0.0 } else { constraint.traction(i, solution.gap.iter().copied().nth(i).unwrap()).widen() }
+        let springs = |i: usize| match constraint.wall() {
+            Wall::Springs(springs) => springs.traction(i, solution.gap.iter().copied().nth(i).unwrap()).widen(),
+            _ => 0.0,
         };
         let r: Vec<f64> =
             (0..gap.len()).map(|i| p[i] + tractions[i] + if detached { 0.0 } else { offset } + springs(i)).collect();
@@ -348,7 +349,7 @@ impl Scene {
             if !flats && mean(&gap) > 0.0 && self.settings.method == Method::Preconditioned {
                 let (reported, carried) = ((2.0 * report.elastic_energy).sqrt(), twice.sqrt());
                 let floor = 4.0 * epsilon * magnitude.sqrt();
-                let allowed = 2.0 * report.relative_error * scale.sqrt() + floor + 8.0 * f64::EPSILON * carried;
+                let allowed = 1.01 * report.relative_error * scale.sqrt() + floor + epsilon.sqrt() * carried;
                 let off = (reported - carried).abs();
                 need(off <= allowed, format!("root of the work: {reported:e} is not {carried:e} (± {allowed:e})"))?;
             }
@@ -386,6 +387,14 @@ impl Scene {
             }
         }
         Ok(())
+    }
+
+    /// The work ⟨u, p⟩ of which rounding makes a share ε².
+    fn rounded_work(&self, mean_gap: f64) -> f64 {
+        let surface = centred(&self.heights);
+        let dense = Dense::new(self.shape, self.lengths, self.modulus);
+        let rms = mean_product(&surface, &surface).sqrt();
+        mean_product(&surface, &dense.pressure(&surface)) + dense.stiffest * mean_gap * (mean_gap + rms)
     }
 
     /// What has to be solved: everything convex, to a tolerance well above rounding.
@@ -435,8 +444,8 @@ fn f32_is_as_good_as_it_says_and_is_given_up_at_its_floor() {
             wrong.push(format!("{reached:.1e} in {what}"));
         }
         solved[usize::from(report.status == Status::Stalled)] += 1;
-        // heights of two levels round alike, or not at all
-        let levels = matches!(scene.kind, "step" | "board");
+        // heights of few levels round alike, or not at all
+        let levels = matches!(scene.kind, "step" | "board" | "levels");
         if report.status == Status::Stalled && said.is_finite() && !levels {
             scene.settings.tolerance = 1e-12;
             scene.start = None;
@@ -478,7 +487,10 @@ fn random_scenes_agree_with_dense_matrices() {
                 let end = ends.entry(end).or_default();
                 *end = (end.0 + 1, end.1.max(report.iterations));
                 let solved = matches!(report.status, Status::Converged | Status::Detached);
-                if scene.is_easy() && !solved {
+                // rounding of the heights and gaps, in the energy norm, which no iteration goes below
+                let floor = f64::EPSILON * (scene.rounded_work(report.mean_gap) / report.elastic_energy).sqrt();
+                let honest = status == Status::Stalled && report.relative_error < 40.0 * floor;
+                if scene.is_easy() && !solved && !honest {
                     let (e, l, i) = (report.relative_error, report.load_error, report.iterations);
                     wrong.push(format!("{} with {e:.1e}, {l:.1e} after {i} in {what}", report.status));
                 }

@@ -76,16 +76,23 @@ fn residual_of<T: Real>(projects: bool, w: Working<T>, gap: T, r: T) -> (T, bool
 }
 
 /// The contact nodes that are released, by the tally of the present state.
-pub(in crate::solver) fn released<T: Real>(fields: &mut Fields<T>, at_contact: T, release: T) -> Released {
-    let Fields { reducer, tallied, gap, pressure, .. } = fields;
+pub(in crate::solver) fn released<T: Real>(
+    fields: &mut Fields<T>,
+    local: &Potential<'_, T>,
+    offset: T,
+    release: T,
+) -> Released {
+    let Fields { reducer, least_r, gap, pressure, .. } = fields;
     let limit = release.widen();
     let total = reducer.run_where(
-        tallied,
-        |tally| tally.min < limit,
+        least_r,
+        |least| least < limit,
         read(gap).zip(read(pressure)),
-        |_, (gap, pressure)| {
-            sums!(2, [gap, pressure], [], |i| {
-                let r = pressure[i] + at_contact;
+        |first, (gap, pressure)| {
+            let mut buffer = [T::zero(); CHUNK];
+            let tractions = tractions(local, first, gap, &mut buffer);
+            sums!(2, [gap, pressure, tractions], [], |i| {
+                let r = pressure[i] + tractions[i] + offset;
                 let released = (gap[i] <= T::zero()) & (r < release);
                 ([count(released), if released { r.widen() } else { 0.0 }], f64::INFINITY)
             })
@@ -100,7 +107,7 @@ pub(in crate::solver) fn residual<T: Real>(
     local: &Potential<'_, T>,
     working: Working<T>,
 ) -> Residual {
-    let Fields { working: reducer, gap, pressure, residual, .. } = fields;
+    let Fields { reducer, moving, gap, pressure, residual, .. } = fields;
     let projects = local.projects();
     let total =
         reducer.run(read(gap).zip(read(pressure)).zip(write(residual)), |first, ((gap, pressure), residual)| {
@@ -114,6 +121,7 @@ pub(in crate::solver) fn residual<T: Real>(
                 ([count(may), (gap[i] * r).abs().widen(), difference * difference], f64::INFINITY)
             })
         });
+    reducer.keep(|part| part.sum[0], moving);
     let [working, orthogonality, difference, ..] = total.sum;
     Residual { orthogonality, working, difference }
 }
@@ -136,10 +144,11 @@ pub(super) fn release_chunk<T: Real>(
 
 /// Computes r' from the r that a step has left in its place.
 pub(in crate::solver) fn release<T: Real>(fields: &mut Fields<T>, projects: bool, working: Working<T>) -> Continued {
-    let Fields { working: reducer, gap, residual, preconditioned, change, .. } = fields;
+    let Fields { reducer, moving, gap, residual, preconditioned, change, .. } = fields;
     let chunks = read(gap).zip(write(residual)).zip(read(preconditioned)).zip(read(change));
     let total = reducer
         .run(chunks, |_, (((gap, residual), z), change)| release_chunk(projects, working, (gap, z, change), residual));
+    reducer.keep(|part| part.sum[0], moving);
     let [working, orthogonality, descent, overlap, sum_change, ..] = total.sum;
     Continued { orthogonality, working, descent, overlap, sum_change }
 }
@@ -174,10 +183,10 @@ pub(in crate::solver) fn lift<T: Real>(fields: &mut Fields<T>, follows: Follows<
 
 /// Σ z outside of the working set of the present residual.
 pub(in crate::solver) fn idle<T: Real>(fields: &mut Fields<T>) -> f64 {
-    let Fields { reducer, working, residual, preconditioned, .. } = fields;
+    let Fields { reducer, moving, residual, preconditioned, .. } = fields;
     let total = reducer.run_where(
-        working,
-        |working| working.sum[0] < CHUNK as f64,
+        moving,
+        |moving| moving < CHUNK as f64,
         read(residual).zip(read(preconditioned)),
         |_, (residual, z)| {
             sums!(1, [residual, z], [], |i| { ([if idles(residual[i]) { z[i].widen() } else { 0.0 }], f64::INFINITY) })

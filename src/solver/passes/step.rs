@@ -198,8 +198,7 @@ pub(in crate::solver) fn advance<T: Real>(
     surface: &Array2<T>,
 ) -> Advanced {
     let Advance { length, scale, offset, level } = step;
-    let Fields { tallied, gap, pressure, residual: response, preconditioned, change, .. } = fields;
-    let nodes = gap.len();
+    let Fields { reducer, least_r, gap, pressure, residual: response, preconditioned, change, .. } = fields;
     let (projects, nothing_local) = (local.projects(), local.is_zero());
     // r into the place of the response, and the tally
     let finish = |first, gap: &[T], pressure: &[T], step: &[T], residual: &mut [T]| {
@@ -229,7 +228,7 @@ pub(in crate::solver) fn advance<T: Real>(
     let chunks = write(gap).zip(write(pressure)).zip(write(response));
     if level.is_none() {
         let working = Working { offset, release: T::zero(), level: T::zero() };
-        let total = tallied.run(
+        let total = reducer.run(
             chunks.zip(read(change)).zip(read(preconditioned)),
             |first, ((((gap, pressure), response), change), z)| {
                 take(gap, pressure, change, response);
@@ -239,22 +238,19 @@ pub(in crate::solver) fn advance<T: Real>(
                 part
             },
         );
+        reducer.keep(|part| part.min, least_r);
         let [.., working, orthogonality, descent, overlap] = total.sum;
         let residual = Continued { orthogonality, working, descent, overlap, sum_change: 0.0 };
-        return Advanced {
-            tally: Tally::new(&total, nodes, projects),
-            product: total.sum[PRODUCT],
-            residual: Some(residual),
-        };
+        return Advanced { tally: Tally::new(&total), product: total.sum[PRODUCT], residual: Some(residual) };
     }
     let total = if rest == T::zero() {
-        tallied.run(chunks.zip(read(change)), |first, (((gap, pressure), response), change)| {
+        reducer.run(chunks.zip(read(change)), |first, (((gap, pressure), response), change)| {
             take(gap, pressure, change, response);
             finish(first, gap, pressure, change, response)
         })
     } else {
         let chunks = chunks.zip(write(change)).zip(read(surface));
-        tallied.run(chunks, |first, ((((gap, pressure), response), change), surface)| {
+        reducer.run(chunks, |first, ((((gap, pressure), response), change), surface)| {
             vectors!([response, surface], [gap, pressure, change], |i| {
                 let (g, p) = (gap[i], pressure[i]);
                 let d = whole(scale, g, change[i]);
@@ -265,5 +261,6 @@ pub(in crate::solver) fn advance<T: Real>(
             finish(first, gap, pressure, change, response)
         })
     };
-    Advanced { tally: Tally::new(&total, nodes, projects), product: total.sum[PRODUCT], residual: None }
+    reducer.keep(|part| part.min, least_r);
+    Advanced { tally: Tally::new(&total), product: total.sum[PRODUCT], residual: None }
 }

@@ -23,8 +23,6 @@ pub(in crate::solver) struct Tally {
     pub(in crate::solver) sum_gp: f64,
     /// how many nodes are in contact
     pub(in crate::solver) contact: f64,
-    /// Σ r over these, if the gap is confined to g ≥ 0
-    pub(in crate::solver) sum_contact_r: f64,
     /// Σ φ' of the law
     pub(in crate::solver) traction: f64,
     /// Σ φ of the law
@@ -33,24 +31,31 @@ pub(in crate::solver) struct Tally {
     pub(in crate::solver) penalty: f64,
 }
 
-/// The slot of a pass that makes a tally for one more product.
+/// The slots of a pass that makes a tally for one more product, and for Σ p.
 pub(super) const PRODUCT: usize = 8;
+const SUM_P: usize = 9;
 
 impl Tally {
-    /// The tally of a pass over so many nodes. The slot of the contact has Σ r, as how many there are follows from the nodes
-    /// that are apart; or, with springs, how many nodes they press.
-    pub(super) fn new(total: &Partial, nodes: usize, projects: bool) -> Self {
-        let [free, sum_r, sum_gap, sum_gp, in_contact, traction, adhesive, penalty, ..] = total.sum;
-        let (contact, sum_contact_r) = if projects { (nodes as f64 - free, in_contact) } else { (in_contact, 0.0) };
-        Self { free, sum_r, min_r: total.min, sum_gap, sum_gp, contact, sum_contact_r, traction, adhesive, penalty }
+    pub(super) fn new(total: &Partial) -> Self {
+        let [free, sum_r, sum_gap, sum_gp, contact, traction, adhesive, penalty, ..] = total.sum;
+        Self { free, sum_r, min_r: total.min, sum_gap, sum_gp, contact, traction, adhesive, penalty }
     }
 
     /// Adds a constant to r.
     pub(in crate::solver) fn shift(&mut self, by: f64) {
         self.sum_r += by * self.free;
-        self.sum_contact_r += by * self.contact;
         self.min_r += by;
     }
+}
+
+/// The sums that belong to a tally which was taken of gap and pressure.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::solver) struct Taken {
+    pub(in crate::solver) tally: Tally,
+    /// Σ g·K⁻¹h
+    pub(in crate::solver) gap_surface: f64,
+    /// Σ p
+    pub(in crate::solver) sum_p: f64,
 }
 
 /// The local tractions of a chunk, zero where there is nothing to evaluate.
@@ -74,8 +79,7 @@ pub(super) fn tally_of<T: Real>(projects: bool, offset: T, gap: &[T], pressure: 
         let r = (p + traction[i] + offset).widen();
         let touches = projects & (g <= T::zero());
         let free = count(!touches);
-        let (apart, contact) = if touches { (0.0, r) } else { (r, 0.0) };
-        let terms = [free, apart, g.widen(), g.widen() * p.widen(), contact];
+        let terms = [free, if touches { 0.0 } else { r }, g.widen(), g.widen() * p.widen(), 1.0 - free];
         (terms, if touches { r } else { f64::INFINITY })
     })
 }
@@ -95,37 +99,39 @@ pub(super) fn tally_local<T: Real>(
     if local.projects() {
         part.sum[5] = sum(tractions);
     } else {
-        local.law(Of::Traction, gaps, out);
+        local.law(Of::Traction, first, gaps, out);
         part.sum[5] = sum(out);
         [part.sum[4], part.sum[7]] = local.pressed(first, gaps);
     }
     if energies {
-        local.law(Of::Energy, gaps, out);
+        local.law(Of::Energy, first, gaps, out);
         part.sum[6] = sum(out);
     }
 }
 
-/// Takes the tally of gap and pressure, and Σ g·K⁻¹h, of which the surface gives K⁻¹h.
+/// Takes the tally of gap and pressure, with K⁻¹h of the surface.
 pub(in crate::solver) fn tally<T: Real>(
     fields: &mut Fields<T>,
     local: &Potential<'_, T>,
     offset: T,
     surface: &Array2<T>,
-) -> (Tally, f64) {
-    let Fields { tallied, gap, pressure, .. } = fields;
-    let nodes = gap.len();
-    let total = tallied.run(read(gap).zip(read(pressure)).zip(read(surface)), |first, ((gap, pressure), surface)| {
+) -> Taken {
+    let Fields { reducer, least_r, gap, pressure, .. } = fields;
+    let total = reducer.run(read(gap).zip(read(pressure)).zip(read(surface)), |first, ((gap, pressure), surface)| {
         let mut buffer = [T::zero(); CHUNK];
         let tractions = tractions(local, first, gap, &mut buffer);
         let mut part = tally_of(local.projects(), offset, gap, pressure, tractions);
         if !local.is_zero() {
             tally_local(&mut part, local, first, gap, tractions, true);
         }
-        let product = sums!(1, [gap, surface], [], |i| ([gap[i].widen() * surface[i].widen()], f64::INFINITY));
-        part.sum[PRODUCT] = product.sum[0];
+        let more = sums!(2, [gap, pressure, surface], [], |i| {
+            ([gap[i].widen() * surface[i].widen(), pressure[i].widen()], f64::INFINITY)
+        });
+        [part.sum[PRODUCT], part.sum[SUM_P]] = [more.sum[0], more.sum[1]];
         part
     });
-    (Tally::new(&total, nodes, local.projects()), total.sum[PRODUCT])
+    reducer.keep(|part| part.min, least_r);
+    Taken { tally: Tally::new(&total), gap_surface: total.sum[PRODUCT], sum_p: total.sum[SUM_P] }
 }
 
 #[cfg(test)]
@@ -152,14 +158,14 @@ mod tests {
         };
         let mut fields = Fields::new(field(&gap), field(&pressure));
         let nothing = Potential::new(&NoAdhesion, &Projection);
-        let (tally, gap_surface) = tally(&mut fields, &nothing, 0.0, &field(&surface));
-        let [mut free, mut sum_r, mut sum_gap, mut sum_gp, mut sum_gh] = [0_i128; 5];
+        let Taken { tally, gap_surface, sum_p } = tally(&mut fields, &nothing, 0.0, &field(&surface));
+        let [mut free, mut sum_r, mut sum_gap, mut sum_gp, mut sum_gh, mut all] = [0_i128; 6];
         for i in 0..n * n {
             let [g, p, h] = [gap(i), pressure(i), surface(i)].map(i128::from);
             if g > 0 {
                 (free, sum_r) = (free + 1, sum_r + p);
             }
-            (sum_gap, sum_gp, sum_gh) = (sum_gap + g, sum_gp + g * p, sum_gh + g * h);
+            (sum_gap, sum_gp, sum_gh, all) = (sum_gap + g, sum_gp + g * p, sum_gh + g * h, all + p);
         }
         assert_eq!((tally.free, tally.contact), (free as f64, (n * n) as f64 - free as f64));
         for (found, exact, unit) in [
@@ -167,6 +173,7 @@ mod tests {
             (tally.sum_gap, sum_gap, UNIT),
             (tally.sum_gp, sum_gp, UNIT * UNIT),
             (gap_surface, sum_gh, UNIT * UNIT),
+            (sum_p, all, UNIT),
         ] {
             let exact = exact as f64 * unit;
             assert!((found - exact).abs() <= 768.0 * f64::EPSILON * exact.abs(), "{found:e} is not {exact:e}");
