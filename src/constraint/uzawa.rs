@@ -48,8 +48,8 @@ const STIFFEST: f64 = 10.0;
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Uzawa<T> {
-    /// The relative error in the energy norm that what interpenetrates may leave; 1e-6 unless changed, in `f32` a thousand
-    /// times its rounding, 1.2e-4. A solve to a larger tolerance than this has no use for less: then its tolerance counts.
+    /// The relative error in the energy norm that what interpenetrates may leave, where this is more than the tolerance of
+    /// the solve, which counts otherwise; a thousand times the rounding of the precision unless changed.
     pub tolerance: f64,
     /// How many rounds there may be before the solve ends without having converged; 100 unless changed.
     pub max_outer_iterations: usize,
@@ -74,7 +74,7 @@ impl<T: Real> Uzawa<T> {
     /// [`Error::Value`] if the stiffness is not positive and finite.
     pub fn new(stiffness: T) -> Result<Self> {
         Error::positive("penalty stiffness", stiffness.widen())?;
-        let tolerance = (1e3 * T::epsilon().widen()).max(1e-6);
+        let tolerance = 1e3 * T::epsilon().widen();
         let multipliers = Array2::zeros((0, 0));
         Ok(Self {
             tolerance,

@@ -40,8 +40,8 @@ impl Scene {
         let grid = Grid::new((n, ny), (1.0, aspect)).unwrap();
         let kind = random.random_range(0..6);
         let shape = match kind {
-            0 | 1 if ny > 4 => {
-                let k_s = (n.min(ny) / 2) as f64 / 1.01;
+            0 | 1 if ny == n => {
+                let k_s = (n / 2) as f64 / 1.01;
                 let surface = SelfAffine { k_l: 1.0, k_r: 2.0, k_s, random_phase: true, seed, ..SelfAffine::default() };
                 surface.surface(grid).unwrap().heights().clone()
             }

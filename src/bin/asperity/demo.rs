@@ -94,7 +94,7 @@ pub fn run(options: &Options) -> Outcome<bool> {
         write_text(&folder.path(echo::NAME), &echo.text(out))?;
         for (name, solution, adhesive) in [("without adhesion", &bare, false), ("with adhesion", &sticky, true)] {
             let path = |what: &str| folder.path(&format!("{what}-{}.png", name.replace(' ', "-")));
-            run::draw_contact(&path("contact"), grid, &format!("Contact {name}"), UNITS, &solution.gap)?;
+            run::draw_contact(&path("contact"), grid, &format!("Contact {name}"), UNITS, &solution.contact_map())?;
             let (caption, title) = (format!("mean {}", si(PRESSURE, "Pa")), format!("Pressure {name}"));
             let pressure = run::pressure_to_draw(solution, adhesive);
             run::draw_pressure(&path("pressure"), grid, &title, &caption, UNITS, pressure)?;

@@ -210,8 +210,8 @@ pub struct Units<'a> {
 }
 
 /// Draws the nodes in contact, black on white.
-pub fn draw_contact<T: Scalar>(path: &Path, grid: Grid, title: &str, units: Units<'_>, gap: &Array2<T>) -> Result<()> {
-    let contact = gap.mapv(|g| f64::from(u8::from(g <= T::zero())));
+pub fn draw_contact(path: &Path, grid: Grid, title: &str, units: Units<'_>, contact: &Array2<bool>) -> Result<()> {
+    let contact = contact.mapv(|touches| f64::from(u8::from(touches)));
     let caption = format!("{} % contact", percent(contact.sum() / contact.len() as f64));
     let map = Map {
         title,

@@ -264,7 +264,7 @@ impl Job<'_> {
         write_text(&path(echo::NAME), &self.echo.text(&self.options.out))?;
         if !self.options.no_pictures {
             let units = Units { length: self.length_unit.as_deref(), pressure: self.options.pressure_unit.as_deref() };
-            run::draw_contact(&path("contact.png"), grid, "Contact", units, &solution.gap)?;
+            run::draw_contact(&path("contact.png"), grid, "Contact", units, &solution.contact_map())?;
             let pressure = run::pressure_to_draw(solution, self.options.adhesion.law != Law::None);
             run::draw_pressure(&path("pressure.png"), grid, "Pressure", "", units, pressure)?;
         }
