@@ -47,6 +47,10 @@ const STEEP: f64 = 0.5;
 /// do not reach 6 on any map.
 const SPIKE: f64 = 6.0;
 
+/// The same in what the neighbours differ by among each other, beside that: the tip of a smooth body, however blunt or sharp, is out of them by 1.5
+/// of that.
+const LONE: f64 = 2.0;
+
 /// The distance of a repeated value from the rest of the heights, in heights of the rest from the lowest to the highest: codes
 /// for missing points are chosen to be far away, levels of a real surface are not.
 const FAR: f64 = 3.0;

@@ -2,7 +2,7 @@
 
 use ndarray::{Array2, ArrayView1};
 
-use super::{CODES, FAR, SPIKE};
+use super::{CODES, FAR, LONE, SPIKE};
 
 /// Sides of fewer nodes tell nothing of tilt and edges: a few nodes may rise one after the other by chance.
 const LEAST_NODES: usize = 16;
@@ -175,7 +175,7 @@ impl Relief {
     }
 
     /// Counts the nodes that are out of their eight neighbours (two on a line) by more than the rms height about the plane, by more than
-    /// [`SPIKE`] times what nodes usually are, and by more than the neighbours differ among each other; the edges of the map are left out.
+    /// [`SPIKE`] times what nodes usually are, and by more than [`LONE`] times what the neighbours differ by; the edges of the map are left out.
     fn look_for_spikes(
         &mut self,
         heights: &Array2<f64>,
@@ -199,7 +199,7 @@ impl Relief {
                 let out = (h - around).abs();
                 row_squares += out * out;
                 count += 1.0;
-                if out > range && out > rms {
+                if out > LONE * range && out > rms {
                     candidates.push((out, (i, j)));
                 }
             }
