@@ -1,10 +1,11 @@
 use std::fmt;
 
 use crate::adhesion::AdhesionLaw;
-use crate::field;
+use crate::field::CHUNK;
 use crate::field::Partial;
 use crate::field::Reducer;
 use crate::grid::Grid;
+use crate::par;
 use crate::problem::resolution;
 use crate::real::Real;
 use crate::solver::Solution;
@@ -16,43 +17,46 @@ mod tests;
 
 use relief::{Extremes, Relief};
 
-/// The drop of a plane across the map, in rms heights about the plane, from which there is a tilt: at a few per cent of contact, some two rms
-/// heights above the mean, a fifth gives one side of Gaussian heights half as much contact again as the other.
+/// The drop of a plane across the map, in rms heights about the plane, from which there is a tilt: at a few per cent
+/// of contact, some two rms heights above the mean, a fifth gives one side of Gaussian heights half as much contact
+/// again as the other.
 const TILT: f64 = 0.2;
 
-/// The share of that drop that the edges must miss each other by on average. It is all of it for a tilted map, while a long wave, which
-/// has a plane in it too, meets itself.
+/// The share of that drop that the edges must miss each other by on average. It is all of it for a tilted map, while
+/// a long wave, which has a plane in it too, meets itself.
 const TILT_AT_EDGE: f64 = 0.5;
 
-/// What the edges miss each other by on average, in the greatest difference of the means of neighbouring rows (columns), beside that: these are
-/// single numbers, of which one exceeds the others by a factor where nothing is amiss too, but not by 3.
+/// What the edges miss each other by on average, in the greatest difference of the means of neighbouring rows
+/// (columns), beside that: these are single numbers, of which one exceeds the others by a factor where nothing is
+/// amiss too, but not by 3.
 const TILT_STANDS_OUT: f64 = 3.0;
 
-/// The rms step across the periodic edge, in rms steps between neighbouring rows (columns) inside, from which edges do not meet: on a
-/// periodic surface the edge is a place like any other, and the mean over many nodes along it scatters little.
+/// The rms step across the periodic edge, in rms steps between neighbouring rows (columns) inside, from which edges
+/// do not meet: on a periodic surface the edge is a place like any other, and the mean over many nodes along it
+/// scatters little.
 const OPEN_EDGE: f64 = 3.0;
 
 /// The same on a line, where the edge is one step alone, and that of Gaussian heights reaches no 6.
 const OPEN_END: f64 = 6.0;
 
-/// The step across the edge in the greatest of those inside, beside that: a surface of steps, as a grating, may have one at the edge, but
-/// others like it inside.
+/// The step across the edge in the greatest of those inside, beside that: a surface of steps, as a grating, may have
+/// one at the edge, but others like it inside.
 const STANDS_OUT: f64 = 1.5;
 
 /// The rms slope from which a surface is steep: linear elasticity of a half-space is for small slopes, and real
 /// surfaces have up to about this. Heights in another unit than the lengths are beyond it by orders of magnitude.
 const STEEP: f64 = 0.5;
 
-/// How far a node must be out of its neighbours, in rms distances of nodes from the mean of their neighbours: Gaussian heights
-/// do not reach 6 on any map.
+/// How far a node must be out of its neighbours, in rms distances of nodes from the mean of their neighbours:
+/// Gaussian heights do not reach 6 on any map.
 const SPIKE: f64 = 6.0;
 
-/// The same in what the neighbours differ by among each other, beside that: the tip of a smooth body, however blunt or sharp, is out of them by 1.5
-/// of that.
+/// The same in what the neighbours differ by among each other, beside that: the tip of a smooth body, however blunt
+/// or sharp, is out of them by 1.5 of that.
 const LONE: f64 = 2.0;
 
-/// The distance of a repeated value from the rest of the heights, in heights of the rest from the lowest to the highest: codes
-/// for missing points are chosen to be far away, levels of a real surface are not.
+/// The distance of a repeated value from the rest of the heights, in heights of the rest from the lowest to the
+/// highest: codes for missing points are chosen to be far away, levels of a real surface are not.
 const FAR: f64 = 3.0;
 
 /// Codes for missing points that are recognised where they stand once, too.
@@ -122,9 +126,9 @@ impl fmt::Display for WarningCode {
 
 /// Input, or an answer, that is possible but probably a mistake: what it is, the number that shows it, and what to do.
 ///
-/// Nothing is refused or changed; whether a warning matters is for the reader to say. Clean periodic surfaces have none.
-/// [`of_surface`](Self::of_surface) looks at the heights, [`of_law`](Self::of_law) at the adhesion on them, both before a solve, and
-/// [`of_solution`](Self::of_solution) at its answer.
+/// Nothing is refused or changed; whether a warning matters is for the reader to say. Clean periodic surfaces have
+/// none. [`of_surface`](Self::of_surface) looks at the heights, [`of_law`](Self::of_law) at the adhesion on them,
+/// both before a solve, and [`of_solution`](Self::of_solution) at its answer.
 ///
 /// ```
 /// use asperity::{Control, Exponential, Grid, Problem, Solver, Surface, Warning, WarningCode, Westergaard};
@@ -162,8 +166,8 @@ impl Warning {
     /// [`Steep`](WarningCode::Steep), [`Spikes`](WarningCode::Spikes), [`MissingCode`](WarningCode::MissingCode),
     /// [`Cells`](WarningCode::Cells) and [`Flat`](WarningCode::Flat).
     ///
-    /// Takes five passes over the heights. Where there are codes for missing points, nothing is said of what they spoil. Tilt and edges
-    /// are looked at along sides of 16 nodes and more.
+    /// Takes four passes over the heights. Where there are codes for missing points, nothing is said of what they
+    /// spoil. Tilt and edges are looked at along sides of 16 nodes and more.
     pub fn of_surface(surface: &Surface) -> Vec<Self> {
         let extremes = Extremes::of(surface.heights());
         let mut found = Vec::new();
@@ -202,8 +206,9 @@ impl Warning {
             // μ_ρ goes with the root of the spacing, and with the inverse of the range
             let (finer, longer) = ((mu_rho / RESOLVED).powi(2).ceil(), range * mu_rho / RESOLVED);
             let message = format!(
-                "adhesion is under-resolved, mu_rho = {} exceeds {RESOLVED}: the answer depends on the grid and on the start, the \
-                 contact area is likely to be wrong {}; use a grid {finer} times finer, or a range of at least {longer:.1e}",
+                "adhesion is under-resolved, mu_rho = {} exceeds {RESOLVED}: the answer depends on the grid and \
+                 on the start, the contact area is likely to be wrong {}; use a grid {finer} times finer, or a \
+                 range of at least {longer:.1e}",
                 figure(mu_rho),
                 likely_error(mu_rho)
             );
@@ -211,8 +216,8 @@ impl Warning {
         }
         if !law.is_zero() && law.work_of_adhesion() > T::zero() && span > 0.0 && range > span {
             let message = format!(
-                "the range of adhesion, {}, exceeds the heights, which span {}: it then pulls on the whole surface alike, as a \
-                 pressure would; give it in the unit of the lengths",
+                "the range of adhesion, {}, exceeds the heights, which span {}: it then pulls on the whole surface \
+                 alike, as a pressure would; give it in the unit of the lengths",
                 figure(range),
                 figure(span)
             );
@@ -227,7 +232,7 @@ impl Warning {
         let mut reducer = Reducer::new(solution.contact_pressure.len());
         let contiguous = solution.contact_pressure.as_standard_layout();
         let pressures = contiguous.as_slice().unwrap_or_default();
-        let total = reducer.run(crate::par::chunks(pressures, field::CHUNK), |_, chunk| {
+        let total = reducer.run(par::chunks(pressures, CHUNK), |_, chunk| {
             let mut part = Partial::NONE;
             for pressure in chunk.iter().map(|pressure| pressure.widen()) {
                 part.sum[0] += if pressure > modulus { 1.0 } else { 0.0 };
@@ -240,8 +245,8 @@ impl Warning {
             return Vec::new();
         }
         let message = format!(
-            "the contact pressure is up to {}, {} times the contact modulus E*, and above it at {count} of {} nodes: linear elasticity \
-             does not hold there; check the modulus, the load and the unit of the lengths",
+            "the contact pressure is up to {}, {} times the contact modulus E*, and above it at {count} of {} nodes: \
+             linear elasticity does not hold there; check the modulus, the load and the unit of the lengths",
             figure(greatest),
             figure(greatest / modulus),
             pressures.len()
@@ -250,8 +255,9 @@ impl Warning {
     }
 }
 
-/// How wrong the contact area is likely to be for a given resolution measure, from those of a rough surface under one pressure on coarser and
-/// coarser grids, against that on the finest: 0.5 % at 0.7, 1 to 2 % at 1, 13 to 20 % at 1.4, 60 % at 2, and three times too large at 2.8.
+/// How wrong the contact area is likely to be for a given resolution measure, from those of a rough surface under one
+/// pressure on coarser and coarser grids, against that on the finest: 0.5 % at 0.7, 1 to 2 % at 1, 13 to 20 % at 1.4,
+/// 60 % at 2, and three times too large at 2.8.
 fn likely_error(mu_rho: f64) -> &'static str {
     match mu_rho {
         _ if mu_rho <= 1.0 => "by some 2 %",
@@ -268,7 +274,8 @@ fn cells(grid: &Grid) -> Option<Warning> {
         return None;
     }
     let message = format!(
-        "cells are {} by {}, {} times as long as wide: check the side lengths, {} by {} for {nx} x {ny} nodes, or resample to square cells",
+        "cells are {} by {}, {} times as long as wide: check the side lengths, {} by {} for {nx} x {ny} \
+         nodes, or resample to square cells",
         figure(dx),
         figure(dy),
         figure(aspect),
@@ -280,8 +287,8 @@ fn cells(grid: &Grid) -> Option<Warning> {
 
 fn missing_code(value: f64, count: usize, extremes: &Extremes) -> Warning {
     let message = format!(
-        "{value} stands at {count} {}, far outside of the other heights, {} to {}, as a code for missing points does: set them to NaN, \
-         and fill them; nothing else can be told of the heights before",
+        "{value} stands at {count} {}, far outside of the other heights, {} to {}, as a code for missing points \
+         does: set them to NaN, and fill them; nothing else can be told of the heights before",
         if count == 1 { "node" } else { "nodes" },
         figure(extremes.rest.0),
         figure(extremes.rest.1)
@@ -303,8 +310,8 @@ fn tilt(relief: &Relief, grid: &Grid) -> Option<Warning> {
     let (lx, ly) = grid.lengths();
     let [x, y] = [&relief.sides[0], &relief.sides[1]].map(|side| side.drop * relief.unit);
     let message = format!(
-        "the map is tilted by {} along x and {} along y, {} across it, {} times the rms height about that plane: remove a plane \
-         (detrend)",
+        "the map is tilted by {} along x and {} along y, {} across it, {} times the rms height about that plane: \
+         remove a plane (detrend)",
         figure(x / lx),
         figure(y / ly),
         figure(x.abs() + y.abs()),
@@ -334,7 +341,8 @@ fn open_edges(relief: &Relief) -> Option<Warning> {
         return None;
     }
     let message = format!(
-        "opposite edges do not meet, the rms step across the periodic edge is {}: make the map periodic, by mirror images or a window",
+        "opposite edges do not meet, the rms step across the periodic edge is {}: make the map periodic, by mirror \
+         images or a window",
         parts.join(", and ")
     );
     Some(Warning { code: WarningCode::OpenEdges, message })
@@ -348,7 +356,8 @@ fn steep(relief: &Relief, grid: &Grid) -> Option<Warning> {
         return None;
     }
     let message = format!(
-        "the rms slope is {}, more than {STEEP}: are heights and lengths in one unit? scale the heights, or correct the side lengths",
+        "the rms slope is {}, more than {STEEP}: are heights and lengths in one unit? scale the heights, or correct the \
+         side lengths",
         figure(slope)
     );
     Some(Warning { code: WarningCode::Steep, message })
@@ -361,8 +370,8 @@ fn spikes(relief: &Relief) -> Option<Warning> {
     }
     let rms = relief.rms_about_plane();
     let message = format!(
-        "{} single {} out of all neighbours, the farthest by {}, {} times the rms height, at index [{}, {}]; the kurtosis of the heights is {} \
-         (3 if Gaussian): set such nodes to NaN, and fill them",
+        "{} single {} out of all neighbours, the farthest by {}, {} times the rms height, at index [{}, {}]; the kurtosis of the \
+         heights is {} (3 if Gaussian): set such nodes to NaN, and fill them",
         spikes.count,
         if spikes.count == 1 { "node is far" } else { "nodes are far" },
         figure(spikes.farthest * relief.unit),

@@ -1,4 +1,5 @@
-//! What a few passes over the heights find. Sums are in `f64` and in the order of the nodes, whatever the number of threads.
+//! What a few passes over the heights find. Sums are in `f64` and in the order of the nodes, whatever the number of
+//! threads.
 
 use ndarray::{Array2, ArrayView1};
 
@@ -48,7 +49,8 @@ impl Extremes {
     }
 }
 
-/// One of the two directions of a map: its lines are the rows for x, the columns for y. Lengths are in units of the [`Relief`].
+/// One of the two directions of a map: its lines are the rows for x, the columns for y. Lengths are in units of the
+/// [`Relief`].
 pub struct Side {
     nodes: usize,
     /// How much the least-squares plane rises over the length of the side.
@@ -174,8 +176,9 @@ impl Relief {
         (self.mean_square - plane).max(0.0).sqrt()
     }
 
-    /// Counts the nodes that are out of their eight neighbours (two on a line) by more than the rms height about the plane, by more than
-    /// [`SPIKE`] times what nodes usually are, and by more than [`LONE`] times what the neighbours differ by; the edges of the map are left out.
+    /// Counts the nodes that are out of their eight neighbours (two on a line) by more than the rms height about the
+    /// plane, by more than [`SPIKE`] times what nodes usually are, and by more than [`LONE`] times what the
+    /// neighbours differ by; the edges of the map are left out.
     fn look_for_spikes(
         &mut self,
         heights: &Array2<f64>,
