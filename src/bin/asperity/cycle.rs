@@ -165,6 +165,7 @@ impl Options {
         echo.check_beside(&self.out, self.force || self.out.exists())?;
         let (mut journal, gaps) = Journal::open_endless(&self.out, &header, identity, self.force)?;
         echo.write_beside(&self.out)?;
+        warnings.say();
         let narrow = |gap: Array2<f64>| gap.mapv_into_any(T::lit);
         if journal.rows() > 0 {
             self.printing.say(&format!("{} has {} rows already", self.out.display(), journal.rows()));

@@ -178,7 +178,7 @@ fn prepared(options: &Options, lines: &mut Vec<(&'static str, String)>) -> Outco
     // what follows has no place for holes
     if map.missing() > 0 && (options.window.is_some() || options.resample.is_some()) {
         let (holes, nodes) = (holes(&map).unwrap_or_default(), map.heights.len());
-        return Err(format!("{}: of {nodes} heights there are {holes}: add --fill", options.input.display()).into());
+        return Err(format!("{}: {nodes} heights, {holes}: add --fill", options.input.display()).into());
     }
     if let Some(fraction) = options.window {
         let before = rms(&map);

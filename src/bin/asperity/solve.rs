@@ -219,6 +219,7 @@ impl Job<'_> {
         let progress = Progress::new("", self.case.settings.tolerance, grid.nodes(), printing.without_bars());
         let Options { surface: given, adhesion, strictness, .. } = self.options;
         let mut warnings = Warnings::of_input::<T>(*strictness, &surface, given, adhesion)?;
+        warnings.say();
         let law = adhesion.law()?;
         let (solution, mut account) = if self.options.nested {
             run::solve_nested::<T, _>(&surface, law, &self.case, progress)?

@@ -148,6 +148,7 @@ impl Options {
         echo.check_beside(&self.out, self.force || self.out.exists())?;
         let (mut journal, gaps) = Journal::open(&self.out, &header, identity, loads, self.force)?;
         echo.write_beside(&self.out)?;
+        warnings.say();
         let done = journal.rows();
         let controls: Vec<_> = loads.iter().map(|&load| control(load)).collect();
         if done > 0 {

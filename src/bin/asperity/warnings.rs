@@ -15,10 +15,11 @@ pub struct Strictness {
     strict: bool,
 }
 
-/// The warnings of a run so far, each of which was said once.
+/// The warnings of a run so far, each of which is said once.
 pub struct Warnings {
     strictness: Strictness,
-    said: Vec<Warning>,
+    found: Vec<Warning>,
+    said: usize,
 }
 
 impl Warnings {
@@ -29,33 +30,40 @@ impl Warnings {
         options: &SurfaceOptions,
         adhesion: &AdhesionOptions,
     ) -> Outcome<Self> {
-        let mut warnings = Self { strictness, said: Vec::new() };
+        let mut warnings = Self { strictness, found: Vec::new(), said: 0 };
         let law = adhesion.law::<T>()?;
         let found = Warning::of_surface(surface).into_iter().chain(Warning::of_law(&law, surface, options.modulus));
-        warnings.say(found.collect())?;
+        warnings.add(found.collect())?;
         Ok(warnings)
     }
 
-    /// Looks at an answer; of many, the first with a warning is told.
+    /// Looks at an answer, and says what there is to say; of many, the first with a warning counts.
     pub fn look_at<T: Scalar>(&mut self, solution: &Solution<T>, modulus: f64) -> Outcome<()> {
-        self.say(Warning::of_solution(solution, modulus))
+        self.add(Warning::of_solution(solution, modulus))?;
+        self.say();
+        Ok(())
     }
 
-    /// Says on standard error what was not said before, or refuses to go on.
-    fn say(&mut self, mut found: Vec<Warning>) -> Outcome<()> {
-        found.retain(|new| self.said.iter().all(|said| said.code != new.code));
+    /// Says on standard error what was not said before.
+    pub fn say(&mut self) {
+        self.found.iter().skip(self.said).for_each(|warning| complain("warning", &warning.to_string()));
+        self.said = self.found.len();
+    }
+
+    /// Keeps what is new, or refuses to go on.
+    fn add(&mut self, mut found: Vec<Warning>) -> Outcome<()> {
+        found.retain(|new| self.found.iter().all(|known| known.code != new.code));
         if self.strictness.strict && !found.is_empty() {
             let all: Vec<_> = found.iter().map(Warning::to_string).collect();
             return Err(all.join("; and ").into());
         }
-        found.iter().for_each(|warning| complain("warning", &warning.to_string()));
-        self.said.append(&mut found);
+        self.found.append(&mut found);
         Ok(())
     }
 
     /// The warnings as a report has them.
     pub fn report(&self) -> Value {
-        let all = self.said.iter();
+        let all = self.found.iter();
         all.map(|warning| json!({ "code": warning.code.name(), "message": warning.message })).collect()
     }
 }
