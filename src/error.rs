@@ -147,12 +147,18 @@ impl fmt::Display for Error {
             Self::Shape { name, found, expected } => {
                 write!(f, "{name} has shape {} x {}: it must be {} x {}", found.0, found.1, expected.0, expected.1)
             }
-            Self::NotFinite { name, count, nodes, first, value } => write!(
-                f,
-                "{name}: {count} of {nodes} nodes are not finite, the first ({value}) at index [{}, {}]: \
-                 fill missing points first, as by Topography::fill",
-                first.0, first.1
-            ),
+            Self::NotFinite { name, count, nodes, first, value } => {
+                let remedy = if value.is_nan() {
+                    "fill missing points first, as by Topography::fill"
+                } else {
+                    "an infinite value is not a missing point; correct it where it comes from"
+                };
+                write!(
+                    f,
+                    "{name}: {count} of {nodes} nodes are not finite, the first ({value}) at index [{}, {}]: {remedy}",
+                    first.0, first.1
+                )
+            }
             Self::Law { function, gap, value, expected: None } => {
                 write!(f, "the {function} is {value} at a gap of {}: it must be finite at every gap", Short(*gap))
             }

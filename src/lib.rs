@@ -76,7 +76,8 @@
 //!
 //! # Measured surfaces
 //!
-//! [`Topography`] takes a measured map to a [`Surface`]: missing points, tilt, edges that do not meet, resampling.
+//! [`Topography`] takes a measured map to a [`Surface`]: missing points, tilt, edges that do not meet, resampling. [`Warning`] says what is
+//! probably a mistake in a surface, in the adhesion on it, and in an answer.
 //!
 //! # Branches, jumps and stability
 //!
@@ -135,6 +136,7 @@ pub mod tool {
     #![doc = include_str!("tool.md")]
 }
 mod vector;
+mod warning;
 
 pub use adhesion::{AdhesionLaw, Exponential, MaugisDugdale, NoAdhesion, check_law};
 pub use constraint::{ContactConstraint, Outer, Penalty, Projection, Springs, Uzawa, Wall};
@@ -152,6 +154,7 @@ pub use solver::{Criterion, Iteration, Method, Report, Settings, Solution, Solve
 pub use stability::{Departure, Stability, StabilityTest, Verdict};
 pub use surface::{Amplitude, Fit, Psd, SelfAffine, Spectrum, Surface, SurfaceStatistics, Topography, Trend};
 pub use sweep::Sweep;
+pub use warning::{Warning, WarningCode};
 
 /// Runs the code of the README as a test.
 #[cfg(doctest)]

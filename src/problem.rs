@@ -140,15 +140,15 @@ impl<T: Real, O: ElasticOperator<T>, L: AdhesionLaw<T>> Problem<T, O, L> {
     /// Below about 0.5 it does. Above, contact edges are pinned to the grid, there are many equilibria, and which
     /// one is found depends on the start. Zero without adhesion.
     pub fn resolution(&self) -> f64 {
-        resolution(&self.operator, &self.law)
+        resolution(&self.law, self.grid(), self.operator.modulus())
     }
 }
 
-/// μ_ρ of a law on the grid of an operator.
-pub(crate) fn resolution<T: Real>(operator: &dyn ElasticOperator<T>, law: &dyn AdhesionLaw<T>) -> f64 {
+/// The measure of [`Problem::resolution`], for a contact modulus.
+pub(crate) fn resolution<T: Real>(law: &dyn AdhesionLaw<T>, grid: &Grid, modulus: f64) -> f64 {
     let (w, range) = (law.work_of_adhesion().widen(), law.range().widen());
     if law.is_zero() || w <= 0.0 || range <= 0.0 {
         return 0.0;
     }
-    (w * operator.grid().largest_spacing() / operator.modulus()).sqrt() / range
+    (w * grid.largest_spacing() / modulus).sqrt() / range
 }

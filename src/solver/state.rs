@@ -420,7 +420,7 @@ impl<'a, T: Real> State<'a, T> {
             Control::MeanGap(_) => 0.0,
             Control::MeanPressure(_) => self.load_error().max(self.share_of_load(carried_pressure - mean)),
         };
-        let mu_rho = resolution(&*self.operator, self.law);
+        let mu_rho = resolution(self.law, self.operator.grid(), self.operator.modulus());
         let report = Report {
             status: self.final_status(status, load_error),
             relative_error: self.relative_error(),

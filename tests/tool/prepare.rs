@@ -146,7 +146,9 @@ fn lengths_of_files_and_of_options() {
     bench.said("prepare g.txt --lengths 2 1 --out g.npz");
     assert_eq!(sides("stats g.npz"), "2 x 1 m");
     // sweeps take the lengths and the unit too
-    bench.said("sweep --mean-gaps 1e-9 --heights g.txt --quiet --out s.csv");
+    let output = bench.run("sweep --mean-gaps 1e-9 --heights g.txt --json --out s.csv");
+    let report: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!((&report["lengths"], &report["length_unit"]), (&serde_json::json!([2e-9, 1e-9]), &"m".into()));
 }
 
 #[test]
@@ -156,8 +158,8 @@ fn what_cannot_be_prepared_is_refused_and_nothing_is_written() {
     fs::write(bench.path("nothing.txt"), "nan nan\nnan nan\n").unwrap();
     fs::write(bench.path("old.npz"), "old").unwrap();
     for (arguments, parts) in [
-        ("prepare holes.txt --window 0.1 --out n.npz", vec!["holes.txt", "1 of 9", "add --fill"]),
-        ("prepare holes.txt --resample 6 6 --out n.npz", vec!["1 of 9", "add --fill"]),
+        ("prepare holes.txt --window 0.1 --out n.npz", vec!["holes.txt", "9 heights, 1 missing", "add --fill"]),
+        ("prepare holes.txt --resample 6 6 --out n.npz", vec!["1 missing", "add --fill"]),
         ("prepare nothing.txt --fill --out n.npz", vec!["number of measured heights", "0"]),
         ("prepare nothing.txt --detrend plane --out n.npz", vec!["number of measured heights"]),
         ("prepare holes.txt --fill --out old.npz", vec!["old.npz", "exists", "--force"]),

@@ -80,7 +80,9 @@ impl Bench {
 }
 
 fn wavy(n: usize) -> Array2<f64> {
-    let height = |x: f64, y: f64| 0.01 * (19.0 * x).sin() * (31.0 * y * x).cos() + 0.02 * (6.0 * x * x - 5.0 * y).sin();
+    let wave = |m: f64, x: f64| (std::f64::consts::TAU * m * x).sin();
+    let height =
+        |x: f64, y: f64| 0.01 * wave(3.0, x) * wave(4.0, x + y) + 0.01 * (wave(1.0, y) + 0.7 * wave(2.0, x - y));
     Surface::from_fn(Grid::square(n, 1.0).unwrap(), height).unwrap().heights().clone()
 }
 

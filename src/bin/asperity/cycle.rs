@@ -17,9 +17,10 @@ use crate::loads::{self, Loads};
 use crate::options::{self, AdhesionOptions, Precision, SolverOptions, SurfaceOptions};
 use crate::printing::Printing;
 use crate::progress::Progress;
-use crate::report::{Style, warn_of_resolution};
+use crate::report::Style;
 use crate::run::{self, Scalar};
 use crate::sweep::{cell, identity, line, name_and_value, parsed};
+use crate::warnings::{Strictness, Warnings};
 use crate::{Outcome, say};
 
 /// Follow the contact along a cycle of approach and withdrawal, and find its jumps.
@@ -80,6 +81,8 @@ pub struct Options {
     /// Start over, and replace files that are there
     #[arg(long, help_heading = "Output")]
     force: bool,
+    #[command(flatten)]
+    strictness: Strictness,
     #[command(flatten)]
     printing: Printing,
 }
@@ -144,6 +147,7 @@ impl Options {
         if loads.len() < 2 {
             return Err("a cycle needs two turning points at least: give more loads, with commas between".into());
         }
+        let mut warnings = Warnings::of_input::<T>(self.strictness, &surface, &self.surface, &self.adhesion)?;
         let (settings, grid) = (self.solver.settings(), *surface.grid());
         let identity = self.identity(&surface, start.as_ref());
         let operator = Westergaard::new(grid, self.surface.modulus)?;
@@ -161,6 +165,7 @@ impl Options {
         echo.check_beside(&self.out, self.force || self.out.exists())?;
         let (mut journal, gaps) = Journal::open_endless(&self.out, &header, identity, self.force)?;
         echo.write_beside(&self.out)?;
+        warnings.say();
         let narrow = |gap: Array2<f64>| gap.mapv_into_any(T::lit);
         if journal.rows() > 0 {
             self.printing.say(&format!("{} has {} rows already", self.out.display(), journal.rows()));
@@ -169,7 +174,6 @@ impl Options {
         } else if let Some(start) = start {
             path = path.starting_from(narrow(start));
         }
-        let mut resolution = None;
         loop {
             let name = format!("{}", journal.rows() + 1);
             let mut progress = Progress::new(&name, settings.tolerance, grid.nodes(), self.printing.without_bars());
@@ -180,7 +184,8 @@ impl Options {
             drop(progress);
             let Some(step) = step else { break };
             let step = step?;
-            run::check_range(&step.solution)?;
+            run::check_finite(&step.solution)?;
+            warnings.look_at(&step.solution, self.surface.modulus)?;
             let row = row(&step);
             let text = row.iter().map(|(_, value)| cell(value)).collect::<Vec<_>>().join(",");
             let checkpoint = path.checkpoint();
@@ -189,15 +194,11 @@ impl Options {
             journal.append_endless(&text, report.status == Status::Converged, &gaps, &checkpoint.numbers)?;
             let event = step.event.map_or(String::new(), |event| format!("  {event}"));
             self.printing.say(&format!("{:>4}  {}{event}", journal.rows(), line(report)));
-            resolution = Some(report.clone()).filter(|report| report.under_resolved);
         }
         drop(path);
         let unit = self.length_unit.as_deref().or(unit.as_deref());
         let inputs = inputs::inputs(&self.surface, &self.adhesion, &self.solver, &grid, unit, threads);
-        self.conclude(&journal, unit, inputs)?;
-        if let Some(report) = resolution {
-            warn_of_resolution("", &report, self.adhesion.range.unwrap_or_default());
-        }
+        self.conclude(&journal, unit, inputs, &warnings)?;
         journal.warn_of_unconverged("or use a larger --tolerance");
         Ok(journal.unconverged() == 0)
     }
@@ -247,7 +248,13 @@ impl Options {
     }
 
     /// Says what the cycle comes to, by all of its rows, and draws it.
-    fn conclude(&self, journal: &Journal, unit: Option<&str>, inputs: Map<String, Value>) -> Outcome<()> {
+    fn conclude(
+        &self,
+        journal: &Journal,
+        unit: Option<&str>,
+        inputs: Map<String, Value>,
+        warnings: &Warnings,
+    ) -> Outcome<()> {
         let text = fs::read_to_string(&self.out).map_err(|e| Error::file(&self.out, format!("cannot be read: {e}")))?;
         let rows: Vec<Vec<&str>> = text.lines().skip(1).map(|row| row.split(',').collect()).collect();
         let column = |name: &str| COLUMNS.iter().position(|column| *column == name).unwrap_or_default();
@@ -274,6 +281,7 @@ impl Options {
                 "dissipated": last["dissipated"],
                 "imbalance": last["imbalance"],
                 "last": last,
+                "warnings": warnings.report(),
             });
             inputs::report("cycle", outcome, inputs)
         });

@@ -118,8 +118,8 @@ pub fn run(options: &Options) -> Outcome<bool> {
             "with_adhesion": sticky_options.report(grid, &with, UNITS.length, threads),
         })
     });
-    warn("without adhesion", &without, &case, 0.0);
-    warn("with adhesion", &with, &case, RANGE);
+    warn("without adhesion", &without, &case);
+    warn("with adhesion", &with, &case);
     Ok([without, with].iter().all(|account| account.report.status == Status::Converged))
 }
 

@@ -48,10 +48,21 @@ pub fn given(map: &Topography, lengths: Option<&[f64]>) -> Option<(f64, f64)> {
 
 /// The surface of a map, and its unit.
 pub fn surface(path: &Path, map: Topography) -> Outcome<(Surface, Option<String>)> {
+    let (nx, ny) = map.heights.dim();
+    let infinite = map.heights.iter().filter(|h| h.is_infinite()).count();
+    if let Some((node, height)) = map.heights.indexed_iter().find(|(_, h)| h.is_infinite()) {
+        return Err(format!(
+            "{}: {nx} x {ny} heights, {infinite} infinite, the first ({height}) at index [{}, {}]: correct them where they come \
+             from; if they stand for missing points, asperity prepare {0} --fill --out filled.npz gives them values",
+            path.display(),
+            node.0,
+            node.1
+        )
+        .into());
+    }
     let missing = map.missing();
     if missing > 0 {
-        let (nx, ny) = map.heights.dim();
-        let first = map.heights.indexed_iter().find(|(_, h)| !h.is_finite()).map(|(node, _)| node).unwrap_or_default();
+        let first = map.heights.indexed_iter().find(|(_, h)| h.is_nan()).map(|(node, _)| node).unwrap_or_default();
         return Err(format!(
             "{}: {nx} x {ny} heights, {missing} missing, the first at index [{}, {}]: fill missing points first, with \
              asperity prepare {0} --fill --out filled.npz",
@@ -63,6 +74,17 @@ pub fn surface(path: &Path, map: Topography) -> Outcome<(Surface, Option<String>
     }
     let unit = map.unit.clone();
     Ok((map.surface()?, unit))
+}
+
+/// How many heights are missing, and how many infinite, if any are.
+pub fn holes(map: &Topography) -> Option<String> {
+    let infinite = map.heights.iter().filter(|h| h.is_infinite()).count();
+    match (map.missing() - infinite, infinite) {
+        (0, 0) => None,
+        (missing, 0) => Some(format!("{missing} missing")),
+        (0, infinite) => Some(format!("{infinite} infinite")),
+        (missing, infinite) => Some(format!("{missing} missing, {infinite} infinite")),
+    }
 }
 
 /// Side lengths with their unit.

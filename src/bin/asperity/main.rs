@@ -23,6 +23,7 @@ mod solve;
 mod stats;
 mod surface;
 mod sweep;
+mod warnings;
 
 use std::env;
 use std::error::Error;

@@ -6,7 +6,7 @@ use clap::{Args, ValueEnum};
 use serde_json::json;
 
 use crate::echo::Echo;
-use crate::input::{given, sides};
+use crate::input::{given, holes, sides};
 use crate::options::{nodes, positive};
 use crate::output::OutputFile;
 use crate::printing::Printing;
@@ -177,8 +177,8 @@ fn prepared(options: &Options, lines: &mut Vec<(&'static str, String)>) -> Outco
     }
     // what follows has no place for holes
     if map.missing() > 0 && (options.window.is_some() || options.resample.is_some()) {
-        let (missing, nodes) = (map.missing(), map.heights.len());
-        return Err(format!("{}: {missing} of {nodes} heights are missing: add --fill", options.input.display()).into());
+        let (holes, nodes) = (holes(&map).unwrap_or_default(), map.heights.len());
+        return Err(format!("{}: {nodes} heights, {holes}: add --fill", options.input.display()).into());
     }
     if let Some(fraction) = options.window {
         let before = rms(&map);
@@ -197,9 +197,8 @@ fn prepared(options: &Options, lines: &mut Vec<(&'static str, String)>) -> Outco
         map = map.resample((nx, ny))?;
         tell("resample", format!("{}: rms height {} from {before}", described(&map), rms(&map)));
     }
-    let missing = map.missing();
-    if missing > 0 {
-        tell("left", format!("{missing} points are missing still: add --fill before solving"));
+    if let Some(holes) = holes(&map) {
+        tell("left", format!("points are missing still, {holes}: add --fill before solving"));
     }
     Ok(map)
 }
@@ -216,10 +215,7 @@ fn reserve((nx, ny): (usize, usize)) -> Outcome<()> {
 fn described(map: &Topography) -> String {
     let (nx, ny) = map.heights.dim();
     let lengths = map.lengths.map_or("unknown side lengths".to_owned(), |l| sides(l, map.unit.as_deref()));
-    let missing = match map.missing() {
-        0 => "none missing".to_owned(),
-        missing => format!("{missing} missing"),
-    };
+    let missing = holes(map).unwrap_or("none missing".to_owned());
     format!("{nx} x {ny} heights, {missing}, {lengths}, rms height {}", rms(map))
 }
 

@@ -90,7 +90,7 @@ pub fn table(names: &[&str], solves: &[&Account], style: Style) -> String {
 }
 
 /// Says on standard error what there is to know of a solve before trusting it, of which `name` tells the case.
-pub fn warn(name: &str, account: &Account, case: &Case, range: f64) {
+pub fn warn(name: &str, account: &Account, case: &Case) {
     let (report, tolerance) = (&account.report, case.settings.tolerance);
     let name = if name.is_empty() { String::new() } else { format!("{name}: ") };
     if report.status != Status::Converged {
@@ -116,21 +116,6 @@ pub fn warn(name: &str, account: &Account, case: &Case, range: f64) {
     } else if unstable {
         let count = account.departures.len();
         let text = format!("{name}still unstable after {count} departures: try another start by --initial-gap");
-        complain("warning", &text);
-    }
-    warn_of_resolution(&name, report, range);
-}
-
-/// Says on standard error if the grid does not resolve the range of adhesion; `name` comes before that.
-pub fn warn_of_resolution(name: &str, report: &Report, range: f64) {
-    if report.under_resolved {
-        // mu_rho goes with the root of the spacing, and with the inverse of the range.
-        let (finer, longer) = ((report.mu_rho / 0.5).powi(2).ceil(), range * report.mu_rho / 0.5);
-        let text = format!(
-            "{name}adhesion is under-resolved, mu_rho = {} exceeds 0.5: the answer depends on the grid and on the \
-             start; use a grid {finer} times finer, or a range of at least {longer:.1e}",
-            plain(report.mu_rho)
-        );
         complain("warning", &text);
     }
 }

@@ -9,6 +9,7 @@ use asperity::{
 };
 use ndarray::Array2;
 use ndarray_npy::WritableElement;
+use serde_json::Value;
 
 use crate::Outcome;
 use crate::progress::Progress;
@@ -66,6 +67,8 @@ pub struct Account {
     pub stability: Option<Steadiness>,
     /// What was left on the way to the solution, the first first.
     pub departures: Vec<Left>,
+    /// What is probably a mistake, as a report has it.
+    pub warnings: Value,
 }
 
 /// Solves, and drops the surface as soon as it is not needed.
@@ -130,7 +133,7 @@ fn account<T: Scalar>(
     clock: Instant,
 ) -> Outcome<(Solution<T>, Account)> {
     let seconds = clock.elapsed().as_secs_f64();
-    check_range(&solution)?;
+    check_finite(&solution)?;
     let pressures = solution
         .pressure
         .iter()
@@ -144,6 +147,7 @@ fn account<T: Scalar>(
         seconds,
         stability: None,
         departures: Vec::new(),
+        warnings: Value::Array(Vec::new()),
     };
     Ok((solution, account))
 }
@@ -161,12 +165,23 @@ fn steadiness<T: Scalar>(found: Stability<T>) -> Steadiness {
     }
 }
 
-/// Refuses fields that the precision cannot hold.
-pub fn check_range<T: Scalar>(solution: &Solution<T>) -> Outcome<()> {
-    let fields = [("gap", &solution.gap), ("pressure", &solution.pressure), ("pressure", &solution.contact_pressure)];
-    if let Some((name, _)) = fields.iter().find(|(_, field)| field.iter().any(|v| !v.is_finite())) {
-        let remedy = "use --precision f64, or units in which the numbers are moderate";
-        return Err(format!("the {name} leaves the range of {}: {remedy}", T::NAME).into());
+/// Refuses fields that are not finite, as of a solve that has run away.
+pub fn check_finite<T: Scalar>(solution: &Solution<T>) -> Outcome<()> {
+    let Solution { gap, pressure, contact_pressure, report } = solution;
+    let fields = [("gap", gap), ("pressure", pressure), ("contact pressure", contact_pressure)];
+    for (name, field) in fields {
+        let count = field.iter().filter(|value| !value.is_finite()).count();
+        if count > 0 {
+            let other = if T::NAME == "f32" { "--precision f64" } else { "another start by --initial-gap" };
+            return Err(format!(
+                "the solve ran away: after {} iterations in {} the {name} is not finite at {count} of {} nodes; use {other}, or \
+                 units in which the numbers are moderate",
+                report.iterations,
+                T::NAME,
+                field.len()
+            )
+            .into());
+        }
     }
     Ok(())
 }

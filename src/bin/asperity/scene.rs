@@ -3,6 +3,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use asperity::Error;
+use asperity::io::read_topography;
 use clap::{Arg, ArgAction, Args, Command};
 use toml::{Table, Value};
 
@@ -14,7 +15,7 @@ use crate::echo::{is_path, key, section};
 /// A scene is a TOML file with the name of a command (solve, sweep, cycle, prepare, surface, stats or demo) and its
 /// options by their long names, without the hyphens in front. Numbers, words and lists are written as TOML has them, an option without a value is set
 /// by true. Options may stand in sections, named as in the help of the command. File names are relative to the scene.
-/// Options after the name of the scene replace those in it.
+/// Options after the name of the scene replace those in it, and the side lengths of a file of heights after it those in the scene.
 ///
 /// Every run leaves a scene that repeats it: scene.toml in a folder of results, FILE.scene.toml beside a file.
 #[derive(Args)]
@@ -83,7 +84,9 @@ impl Scene {
         };
         let command = tool.find_subcommand(&name).ok_or_else(|| refuse(format!("{name} is not built in")))?;
         let entries = entries(table, command).map_err(refuse)?;
-        let replaced = replaced(command, &given);
+        let mut replaced = replaced(command, &given);
+        // those in the scene are of the file in the scene
+        replaced.extend(brings_lengths(&given).then(|| "lengths".to_owned()));
         let mut arguments: Vec<OsString> = vec!["asperity".into(), name.into()];
         let folder = path.parent().unwrap_or(Path::new(""));
         for (name, value) in &entries {
@@ -153,6 +156,14 @@ fn replaced(command: &Command, given: &[OsString]) -> Vec<String> {
         }
     }
     replaced
+}
+
+/// Whether heights that are given beside a scene come from a file with side lengths of its own.
+fn brings_lengths(given: &[OsString]) -> bool {
+    let after = given.iter().skip_while(|word| *word != "--heights").nth(1).map(Path::new);
+    let joined = || given.iter().find_map(|word| word.to_str()?.strip_prefix("--heights=")).map(Path::new);
+    let path = after.or_else(joined);
+    path.is_some_and(|path| read_topography(path).is_ok_and(|map| map.lengths.is_some()))
 }
 
 /// An option of a scene as one would type it. What is wrong with it is for the parser of the arguments to say, as far

@@ -14,6 +14,7 @@ use crate::printing::Printing;
 use crate::progress::Progress;
 use crate::report::{Style, table, warn};
 use crate::run::{self, Account, Case, Left, Scalar, Units};
+use crate::warnings::{Strictness, Warnings};
 use crate::{Outcome, say};
 
 /// Solve a contact problem given by files.
@@ -22,7 +23,8 @@ use crate::{Outcome, say};
 /// gap.npy, pressure.npy (the full elastic pressure, compression positive) and contact_pressure.npy (its repulsive part),
 /// or files as --format says, report.json, contact.png, pressure.png, and scene.toml, which repeats the run, all or none.
 /// Exits with 0 if converged, 2 if not (the fields are written all the same), and 1 if the input is refused or the files
-/// cannot be written (then there are none).
+/// cannot be written (then there are none). What is probably a mistake, as a tilt, is said on a line each and in the report;
+/// --strict refuses it.
 #[derive(Args)]
 #[command(after_help = EXAMPLES, group(ArgGroup::new("load").required(true).args(["mean_gap", "mean_pressure"])))]
 pub struct Options {
@@ -66,6 +68,8 @@ pub struct Options {
         help_heading = "Output"
     )]
     format: Vec<Format>,
+    #[command(flatten)]
+    strictness: Strictness,
     #[command(flatten)]
     printing: Printing,
     /// Write no .png files
@@ -186,6 +190,7 @@ impl Options {
             "departures": self.leave.then(|| account.departures.iter().map(departure).collect::<Vec<_>>()),
             "mu_rho": report.mu_rho,
             "under_resolved": report.under_resolved,
+            "warnings": account.warnings,
             "seconds": account.seconds,
             "control": control,
             "control_value": held,
@@ -212,12 +217,17 @@ impl Job<'_> {
         // In place, if the precision is that of the file.
         let start = start.map(|gap| gap.mapv_into_any(T::lit));
         let progress = Progress::new("", self.case.settings.tolerance, grid.nodes(), printing.without_bars());
-        let law = self.options.adhesion.law()?;
-        let (solution, account) = if self.options.nested {
+        let Options { surface: given, adhesion, strictness, .. } = self.options;
+        let mut warnings = Warnings::of_input::<T>(*strictness, &surface, given, adhesion)?;
+        warnings.say();
+        let law = adhesion.law()?;
+        let (solution, mut account) = if self.options.nested {
             run::solve_nested::<T, _>(&surface, law, &self.case, progress)?
         } else {
             run::solve::<T, _>(surface, law, &self.case, start, progress)?
         };
+        warnings.look_at(&solution, self.case.modulus)?;
+        account.warnings = warnings.report();
 
         let folder = OutputFolder::create(out, &self.names, *force)?;
         let written = self.write(&folder, grid, &solution, &account);
@@ -229,7 +239,7 @@ impl Job<'_> {
             say(&format!("results in {}: {}", out.display(), self.names.join(", ")));
         }
         printing.report(|| self.report(grid, &account));
-        warn("", &account, &self.case, self.options.adhesion.range.unwrap_or_default());
+        warn("", &account, &self.case);
         Ok(account.report.status == Status::Converged)
     }
 

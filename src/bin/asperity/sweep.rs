@@ -19,8 +19,9 @@ use crate::loads::{self, Loads};
 use crate::options::{AdhesionOptions, Precision, SolverOptions, SurfaceOptions};
 use crate::printing::Printing;
 use crate::progress::Progress;
-use crate::report::{Style, percent, warn_of_resolution};
+use crate::report::{Style, percent};
 use crate::run::{self, Scalar};
+use crate::warnings::{Strictness, Warnings};
 
 /// Solve a contact problem under many loads, one after the other.
 ///
@@ -61,6 +62,8 @@ pub struct Options {
     /// Start over, and replace files that are there
     #[arg(long, help_heading = "Output")]
     force: bool,
+    #[command(flatten)]
+    strictness: Strictness,
     #[command(flatten)]
     printing: Printing,
 }
@@ -132,6 +135,7 @@ impl Options {
             let (name, requirement) = ("load", "finite in the precision of the fields");
             return Err(Error::Value { name, value, requirement }.into());
         }
+        let mut warnings = Warnings::of_input::<T>(self.strictness, &surface, &self.surface, &self.adhesion)?;
         let (settings, grid) = (self.solver.settings(), *surface.grid());
         let identity = self.identity(&surface, start.as_ref());
         let law = self.adhesion.law::<T>()?;
@@ -144,6 +148,7 @@ impl Options {
         echo.check_beside(&self.out, self.force || self.out.exists())?;
         let (mut journal, gaps) = Journal::open(&self.out, &header, identity, loads, self.force)?;
         echo.write_beside(&self.out)?;
+        warnings.say();
         let done = journal.rows();
         let controls: Vec<_> = loads.iter().map(|&load| control(load)).collect();
         if done > 0 {
@@ -160,7 +165,7 @@ impl Options {
         if let (0, Some(start)) = (done, start) {
             sweep = sweep.starting_from(narrow(start));
         }
-        let (mut resolution, count) = (None, loads.len());
+        let count = loads.len();
         for (k, &load) in loads.iter().enumerate().skip(done) {
             let mut progress = Progress::new(
                 &format!("{}/{count}", k + 1),
@@ -175,7 +180,8 @@ impl Options {
             drop(progress);
             let Some(step) = step else { break };
             let (control, solution) = step?;
-            run::check_range(&solution)?;
+            run::check_finite(&solution)?;
+            warnings.look_at(&solution, self.surface.modulus)?;
             let statistics = ContactStatistics::of(&solution, &grid, &law)?;
             let row = row(control, &solution.report, &statistics);
             let text = match format {
@@ -187,10 +193,6 @@ impl Options {
             journal.append(&text, load, solution.report.status == Status::Converged, &history)?;
             let width = count.to_string().len();
             self.printing.say(&format!("{:>width$}/{count}  {}", k + 1, line(&solution.report)));
-            resolution = Some(solution.report).filter(|report| report.under_resolved);
-        }
-        if let Some(report) = resolution {
-            warn_of_resolution("", &report, self.adhesion.range.unwrap_or_default());
         }
         journal.warn_of_unconverged("use a larger --tolerance or finer steps, or less tension where they are detached");
         self.printing.say(&format!("{count} rows in {}", self.out.display()));
@@ -201,6 +203,7 @@ impl Options {
                 "unconverged": journal.unconverged(),
                 "out": self.out.to_string_lossy(),
                 "last": self.last_row(format),
+                "warnings": warnings.report(),
             });
             inputs::report(
                 "sweep",

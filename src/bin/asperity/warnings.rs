@@ -1,0 +1,69 @@
+use asperity::{Solution, Surface, Warning};
+use clap::Args;
+use serde_json::{Value, json};
+
+use crate::Outcome;
+use crate::options::{AdhesionOptions, SurfaceOptions};
+use crate::printing::complain;
+use crate::run::Scalar;
+
+/// What becomes of warnings.
+#[derive(Args, Clone, Copy)]
+pub struct Strictness {
+    /// Take for errors all warnings of input, or of an answer, that is probably a mistake: then it is not written
+    #[arg(long, help_heading = "Output")]
+    strict: bool,
+}
+
+/// The warnings of a run so far, each of which is said once.
+pub struct Warnings {
+    strictness: Strictness,
+    found: Vec<Warning>,
+    said: usize,
+}
+
+impl Warnings {
+    /// Looks at the heights and at the adhesion on them, before a solve.
+    pub fn of_input<T: Scalar>(
+        strictness: Strictness,
+        surface: &Surface,
+        options: &SurfaceOptions,
+        adhesion: &AdhesionOptions,
+    ) -> Outcome<Self> {
+        let mut warnings = Self { strictness, found: Vec::new(), said: 0 };
+        let law = adhesion.law::<T>()?;
+        let found = Warning::of_surface(surface).into_iter().chain(Warning::of_law(&law, surface, options.modulus));
+        warnings.add(found.collect())?;
+        Ok(warnings)
+    }
+
+    /// Looks at an answer, and says what there is to say; of many, the first with a warning counts.
+    pub fn look_at<T: Scalar>(&mut self, solution: &Solution<T>, modulus: f64) -> Outcome<()> {
+        self.add(Warning::of_solution(solution, modulus))?;
+        self.say();
+        Ok(())
+    }
+
+    /// Says on standard error what was not said before.
+    pub fn say(&mut self) {
+        self.found.iter().skip(self.said).for_each(|warning| complain("warning", &warning.to_string()));
+        self.said = self.found.len();
+    }
+
+    /// Keeps what is new, or refuses to go on.
+    fn add(&mut self, mut found: Vec<Warning>) -> Outcome<()> {
+        found.retain(|new| self.found.iter().all(|known| known.code != new.code));
+        if self.strictness.strict && !found.is_empty() {
+            let all: Vec<_> = found.iter().map(Warning::to_string).collect();
+            return Err(all.join("; and ").into());
+        }
+        self.found.append(&mut found);
+        Ok(())
+    }
+
+    /// The warnings as a report has them.
+    pub fn report(&self) -> Value {
+        let all = self.found.iter();
+        all.map(|warning| json!({ "code": warning.code.name(), "message": warning.message })).collect()
+    }
+}

@@ -1,0 +1,401 @@
+use std::fmt;
+
+use crate::adhesion::AdhesionLaw;
+use crate::field::CHUNK;
+use crate::field::Partial;
+use crate::field::Reducer;
+use crate::grid::Grid;
+use crate::par;
+use crate::problem::resolution;
+use crate::real::Real;
+use crate::solver::Solution;
+use crate::surface::Surface;
+
+mod relief;
+#[cfg(test)]
+mod tests;
+
+use relief::{Extremes, Relief};
+
+/// The drop of a plane across the map, in rms heights about the plane, from which there is a tilt: at a few per cent
+/// of contact, some two rms heights above the mean, a fifth gives one side of Gaussian heights half as much contact
+/// again as the other.
+const TILT: f64 = 0.2;
+
+/// The share of that drop that the edges must miss each other by on average. It is all of it for a tilted map, while
+/// a long wave, which has a plane in it too, meets itself.
+const TILT_AT_EDGE: f64 = 0.5;
+
+/// What the edges miss each other by on average, in the greatest difference of the means of neighbouring rows
+/// (columns), beside that: these are single numbers, of which one exceeds the others by a factor where nothing is
+/// amiss too, but not by 3.
+const TILT_STANDS_OUT: f64 = 3.0;
+
+/// The rms step across the periodic edge, in rms steps between neighbouring rows (columns) inside, from which edges
+/// do not meet: on a periodic surface the edge is a place like any other, and the mean over many nodes along it
+/// scatters little.
+const OPEN_EDGE: f64 = 3.0;
+
+/// The same on a line, where the edge is one step alone, and that of Gaussian heights reaches no 6.
+const OPEN_END: f64 = 6.0;
+
+/// The step across the edge in the greatest of those inside, beside that: a surface of steps, as a grating, may have
+/// one at the edge, but others like it inside.
+const STANDS_OUT: f64 = 1.5;
+
+/// The rms slope from which a surface is steep: linear elasticity of a half-space is for small slopes, and real
+/// surfaces have up to about this. Heights in another unit than the lengths are beyond it by orders of magnitude.
+const STEEP: f64 = 0.5;
+
+/// How far a node must be out of its neighbours, in rms distances of nodes from the mean of their neighbours:
+/// Gaussian heights do not reach 6 on any map.
+const SPIKE: f64 = 6.0;
+
+/// The same in what the neighbours differ by among each other, beside that: the tip of a smooth body, however blunt
+/// or sharp, is out of them by 1.5 of that.
+const LONE: f64 = 2.0;
+
+/// The distance of a repeated value from the rest of the heights, in heights of the rest from the lowest to the
+/// highest: codes for missing points are chosen to be far away, levels of a real surface are not.
+const FAR: f64 = 3.0;
+
+/// Codes for missing points that are recognised where they stand once, too.
+const CODES: [f64; 9] = [-9999.0, -99999.0, -999.0, 9999.0, 99999.0, -32768.0, 32767.0, 65535.0, -2147483648.0];
+
+/// The aspect ratio of cells from which they are far from square: the longer side then resolves half as much, and
+/// side lengths may have been forgotten.
+const CELLS: f64 = 2.0;
+
+/// What of the greatest height the heights must differ by, in units of the rounding of `f64`, not to be flat.
+const FLAT: f64 = 4.0 * f64::EPSILON;
+
+/// The resolution measure μ_ρ that the grid resolves; see [`Report::under_resolved`](crate::Report).
+const RESOLVED: f64 = 0.5;
+
+/// What a [`Warning`] is about.
+///
+/// ```
+/// use asperity::WarningCode;
+/// assert_eq!(WarningCode::OpenEdges.to_string(), "open-edges");
+/// ```
+#[non_exhaustive]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum WarningCode {
+    /// The map as a whole is inclined, and its edges miss each other by what it drops.
+    Tilt,
+    /// The step across the periodic edge is far greater than any between neighbouring rows or columns inside.
+    OpenEdges,
+    /// The rms slope exceeds ½, as where heights and lengths are in different units.
+    Steep,
+    /// A contact pressure exceeds the contact modulus E*.
+    BeyondModulus,
+    /// Single nodes are far out of their neighbours.
+    Spikes,
+    /// A value far outside the rest that stands for missing points, as −9999.
+    MissingCode,
+    /// The cells of the grid are far from square.
+    Cells,
+    /// The range of adhesion exceeds the heights, or is far below what the grid resolves.
+    Range,
+    /// All heights are the same.
+    Flat,
+}
+
+impl WarningCode {
+    /// The name that the tool and `report.json` use.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Tilt => "tilt",
+            Self::OpenEdges => "open-edges",
+            Self::Steep => "steep",
+            Self::BeyondModulus => "beyond-modulus",
+            Self::Spikes => "spikes",
+            Self::MissingCode => "missing-code",
+            Self::Cells => "cells",
+            Self::Range => "range",
+            Self::Flat => "flat",
+        }
+    }
+}
+
+impl fmt::Display for WarningCode {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+/// Input, or an answer, that is possible but probably a mistake: what it is, the number that shows it, and what to do.
+///
+/// Nothing is refused or changed; whether a warning matters is for the reader to say. Clean periodic surfaces have
+/// none. [`of_surface`](Self::of_surface) looks at the heights, [`of_law`](Self::of_law) at the adhesion on them,
+/// both before a solve, and [`of_solution`](Self::of_solution) at its answer.
+///
+/// ```
+/// use asperity::{Control, Exponential, Grid, Problem, Solver, Surface, Warning, WarningCode, Westergaard};
+/// let grid = Grid::square(64, 1.0)?;
+/// let tilted = Surface::from_fn(grid, |x, y| 0.01 * (6.0 * x).sin() * (9.0 * y).cos() + 0.05 * x)?;
+/// let codes: Vec<_> = Warning::of_surface(&tilted).iter().map(|warning| warning.code).collect();
+/// assert_eq!(codes, [WarningCode::Tilt, WarningCode::OpenEdges]);
+///
+/// let (surface, law) = (Surface::wave_2d(grid, 0.01, 2)?, Exponential::new(1e-5, 2e-3)?);
+/// assert!(Warning::of_surface(&surface).is_empty());
+/// for warning in Warning::of_law(&law, &surface, 1.0) {
+///     eprintln!("{warning}"); // code: message
+/// }
+/// let mut problem = Problem::new(&surface, Westergaard::<f64>::new(grid, 1.0)?, law)?;
+/// let solution = Solver::default().solve(&mut problem, Control::MeanPressure(0.01))?;
+/// assert!(Warning::of_solution(&solution, 1.0).is_empty());
+/// # Ok::<(), asperity::Error>(())
+/// ```
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Warning {
+    /// What it is about.
+    pub code: WarningCode,
+    /// What is seen, with its number, and what to do, on one line. Lengths and pressures are in the units of the input.
+    pub message: String,
+}
+
+impl fmt::Display for Warning {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}: {}", self.code, self.message)
+    }
+}
+
+impl Warning {
+    /// What is probably wrong with the heights: [`Tilt`](WarningCode::Tilt), [`OpenEdges`](WarningCode::OpenEdges),
+    /// [`Steep`](WarningCode::Steep), [`Spikes`](WarningCode::Spikes), [`MissingCode`](WarningCode::MissingCode),
+    /// [`Cells`](WarningCode::Cells) and [`Flat`](WarningCode::Flat).
+    ///
+    /// Takes four passes over the heights. Where there are codes for missing points, nothing is said of what they
+    /// spoil. Tilt and edges are looked at along sides of 16 nodes and more.
+    pub fn of_surface(surface: &Surface) -> Vec<Self> {
+        let extremes = Extremes::of(surface.heights());
+        let mut found = Vec::new();
+        found.extend(cells(surface.grid()));
+        if extremes.span() <= FLAT * extremes.low.abs().max(extremes.high.abs()) {
+            let message = format!(
+                "all heights are {}: there is nothing that could touch first; check the file, or the map",
+                figure(extremes.low)
+            );
+            found.push(Self { code: WarningCode::Flat, message });
+            return found;
+        }
+        let codes: Vec<_> = [(extremes.low, extremes.low_count), (extremes.high, extremes.high_count)]
+            .into_iter()
+            .filter(|&(value, count)| extremes.is_code(value, count))
+            .collect();
+        if !codes.is_empty() {
+            found.extend(codes.into_iter().map(|(value, count)| missing_code(value, count, &extremes)));
+            return found;
+        }
+        let relief = Relief::of(surface.heights(), &extremes);
+        found.extend(tilt(&relief, surface.grid()));
+        found.extend(open_edges(&relief));
+        found.extend(steep(&relief, surface.grid()));
+        found.extend(spikes(&relief));
+        found
+    }
+
+    /// What is probably wrong with the range of `law` on a surface pressed against a body of contact `modulus` E*:
+    /// [`Range`](WarningCode::Range). Nothing without adhesion.
+    pub fn of_law<T: Real>(law: &impl AdhesionLaw<T>, surface: &Surface, modulus: f64) -> Vec<Self> {
+        let mu_rho = resolution(law, surface.grid(), modulus);
+        let (range, span) = (law.range().widen(), Extremes::of(surface.heights()).span());
+        let mut found = Vec::new();
+        if mu_rho > RESOLVED {
+            // μ_ρ goes with the root of the spacing, and with the inverse of the range
+            let (finer, longer) = ((mu_rho / RESOLVED).powi(2).ceil(), range * mu_rho / RESOLVED);
+            let message = format!(
+                "adhesion is under-resolved, mu_rho = {} exceeds {RESOLVED}: the answer depends on the grid and \
+                 on the start, the contact area is likely to be wrong {}; use a grid {finer} times finer, or a \
+                 range of at least {longer:.1e}",
+                figure(mu_rho),
+                likely_error(mu_rho)
+            );
+            found.push(Self { code: WarningCode::Range, message });
+        }
+        if !law.is_zero() && law.work_of_adhesion() > T::zero() && span > 0.0 && range > span {
+            let message = format!(
+                "the range of adhesion, {}, exceeds the heights, which span {}: it then pulls on the whole surface \
+                 alike, as a pressure would; give it in the unit of the lengths",
+                figure(range),
+                figure(span)
+            );
+            found.push(Self { code: WarningCode::Range, message });
+        }
+        found
+    }
+
+    /// What is probably wrong with an answer, for the contact `modulus` E* with which it was found:
+    /// [`BeyondModulus`](WarningCode::BeyondModulus).
+    pub fn of_solution<T: Real>(solution: &Solution<T>, modulus: f64) -> Vec<Self> {
+        let mut reducer = Reducer::new(solution.contact_pressure.len());
+        let contiguous = solution.contact_pressure.as_standard_layout();
+        let pressures = contiguous.as_slice().unwrap_or_default();
+        let total = reducer.run(par::chunks(pressures, CHUNK), |_, chunk| {
+            let mut part = Partial::NONE;
+            for pressure in chunk.iter().map(|pressure| pressure.widen()) {
+                part.sum[0] += if pressure > modulus { 1.0 } else { 0.0 };
+                part.min = part.min.min(-pressure);
+            }
+            part
+        });
+        let (count, greatest) = (total.sum[0], -total.min);
+        if count == 0.0 {
+            return Vec::new();
+        }
+        let message = format!(
+            "the contact pressure is up to {}, {} times the contact modulus E*, and above it at {count} of {} nodes: \
+             linear elasticity does not hold there; check the modulus, the load and the unit of the lengths",
+            figure(greatest),
+            figure(greatest / modulus),
+            pressures.len()
+        );
+        vec![Self { code: WarningCode::BeyondModulus, message }]
+    }
+}
+
+/// How wrong the contact area is likely to be for a given resolution measure, from those of a rough surface under one
+/// pressure on coarser and coarser grids, against that on the finest: 0.5 % at 0.7, 1 to 2 % at 1, 13 to 20 % at 1.4,
+/// 60 % at 2, and three times too large at 2.8.
+fn likely_error(mu_rho: f64) -> &'static str {
+    match mu_rho {
+        _ if mu_rho <= 1.0 => "by some 2 %",
+        _ if mu_rho <= 1.5 => "by up to 20 %",
+        _ if mu_rho <= 2.0 => "by up to 60 %",
+        _ => "by a factor of two or more",
+    }
+}
+
+fn cells(grid: &Grid) -> Option<Warning> {
+    let ((nx, ny), (dx, dy)) = (grid.shape(), grid.spacing());
+    let aspect = (dx / dy).max(dy / dx);
+    if nx == 1 || ny == 1 || aspect <= CELLS {
+        return None;
+    }
+    let message = format!(
+        "cells are {} by {}, {} times as long as wide: check the side lengths, {} by {} for {nx} x {ny} \
+         nodes, or resample to square cells",
+        figure(dx),
+        figure(dy),
+        figure(aspect),
+        figure(grid.lengths().0),
+        figure(grid.lengths().1)
+    );
+    Some(Warning { code: WarningCode::Cells, message })
+}
+
+fn missing_code(value: f64, count: usize, extremes: &Extremes) -> Warning {
+    let message = format!(
+        "{value} stands at {count} {}, far outside of the other heights, {} to {}, as a code for missing points \
+         does: set them to NaN, and fill them; nothing else can be told of the heights before",
+        if count == 1 { "node" } else { "nodes" },
+        figure(extremes.rest.0),
+        figure(extremes.rest.1)
+    );
+    Warning { code: WarningCode::MissingCode, message }
+}
+
+fn tilt(relief: &Relief, grid: &Grid) -> Option<Warning> {
+    let rms = relief.rms_about_plane();
+    let tilted = |side: &relief::Side| {
+        let drop = side.drop.abs();
+        let missed = -side.drop.signum() * side.mean_edge;
+        let stands_out = missed > TILT_STANDS_OUT * side.greatest_mean_step;
+        side.tells() && drop > TILT * rms && missed > TILT_AT_EDGE * drop && stands_out
+    };
+    if !relief.sides.iter().any(tilted) {
+        return None;
+    }
+    let (lx, ly) = grid.lengths();
+    let [x, y] = [&relief.sides[0], &relief.sides[1]].map(|side| side.drop * relief.unit);
+    let message = format!(
+        "the map is tilted by {} along x and {} along y, {} across it, {} times the rms height about that plane: \
+         remove a plane (detrend)",
+        figure(x / lx),
+        figure(y / ly),
+        figure(x.abs() + y.abs()),
+        figure((x.abs() + y.abs()) / (rms * relief.unit))
+    );
+    Some(Warning { code: WarningCode::Tilt, message })
+}
+
+fn open_edges(relief: &Relief) -> Option<Warning> {
+    let factor = if relief.is_line() { OPEN_END } else { OPEN_EDGE };
+    let stands_out = |side: &relief::Side| side.edge > STANDS_OUT * side.greatest_step;
+    let open = |side: &relief::Side| side.tells() && side.edge > factor * side.rms_step && stands_out(side);
+    let parts: Vec<_> = relief
+        .sides
+        .iter()
+        .zip(["x", "y"])
+        .filter(|(side, _)| open(side))
+        .map(|(side, name)| {
+            format!(
+                "{} along {name}, {} times that between neighbours inside",
+                figure(side.edge * relief.unit),
+                figure(side.edge / side.rms_step)
+            )
+        })
+        .collect();
+    if parts.is_empty() {
+        return None;
+    }
+    let message = format!(
+        "opposite edges do not meet, the rms step across the periodic edge is {}: make the map periodic, by mirror \
+         images or a window",
+        parts.join(", and ")
+    );
+    Some(Warning { code: WarningCode::OpenEdges, message })
+}
+
+fn steep(relief: &Relief, grid: &Grid) -> Option<Warning> {
+    let (dx, dy) = grid.spacing();
+    let along = |side: &relief::Side, spacing: f64| side.rms_step * (relief.unit / spacing);
+    let slope = along(&relief.sides[0], dx).hypot(along(&relief.sides[1], dy));
+    if slope <= STEEP {
+        return None;
+    }
+    let message = format!(
+        "the rms slope is {}, more than {STEEP}: are heights and lengths in one unit? scale the heights, or correct the \
+         side lengths",
+        figure(slope)
+    );
+    Some(Warning { code: WarningCode::Steep, message })
+}
+
+fn spikes(relief: &Relief) -> Option<Warning> {
+    let spikes = &relief.spikes;
+    if spikes.count == 0 {
+        return None;
+    }
+    let rms = relief.rms_about_plane();
+    let message = format!(
+        "{} single {} out of all neighbours, the farthest by {}, {} times the rms height, at index [{}, {}]; the kurtosis of the \
+         heights is {} (3 if Gaussian): set such nodes to NaN, and fill them",
+        spikes.count,
+        if spikes.count == 1 { "node is far" } else { "nodes are far" },
+        figure(spikes.farthest * relief.unit),
+        figure(spikes.farthest / rms),
+        spikes.node.0,
+        spikes.node.1,
+        figure(relief.kurtosis)
+    );
+    Some(Warning { code: WarningCode::Spikes, message })
+}
+
+/// A number to three digits.
+fn figure(value: f64) -> String {
+    let magnitude = value.abs();
+    let (digits, exponent) = if value == 0.0 || (1e-3..1e5).contains(&magnitude) {
+        let decimals = if value == 0.0 { 0.0 } else { (2.0 - magnitude.log10().floor()).max(0.0) };
+        (format!("{value:.*}", decimals as usize), String::new())
+    } else {
+        let text = format!("{value:.2e}");
+        match text.split_once('e') {
+            Some((digits, exponent)) => (digits.to_owned(), format!("e{exponent}")),
+            None => (text, String::new()),
+        }
+    };
+    let digits = if digits.contains('.') { digits.trim_end_matches('0').trim_end_matches('.') } else { &digits };
+    format!("{digits}{exponent}")
+}

@@ -1,0 +1,265 @@
+use ndarray::{Array2, s};
+
+use super::*;
+use crate::adhesion::{Exponential, NoAdhesion};
+use crate::surface::{Amplitude, SelfAffine, Topography, Trend};
+
+const SIDES: (f64, f64) = (1.0, 0.8);
+
+fn codes(surface: &Surface) -> Vec<&'static str> {
+    Warning::of_surface(surface).iter().map(|warning| warning.code.name()).collect()
+}
+
+/// A rough map of 80 × 64 square cells, periodic.
+fn rough() -> Surface {
+    let grid = Grid::new((80, 64), SIDES).unwrap();
+    let rough = SelfAffine { k_l: 2.0, k_r: 2.0, k_s: 24.0, ..SelfAffine::default() };
+    rough.surface(grid).unwrap()
+}
+
+/// The codes of the rough map after a change of its heights.
+#[track_caller]
+fn changed(change: impl FnOnce(&mut Array2<f64>)) -> Vec<&'static str> {
+    let mut heights = rough().heights().clone();
+    change(&mut heights);
+    codes(&Surface::new(Grid::new((80, 64), SIDES).unwrap(), heights).unwrap())
+}
+
+#[test]
+fn clean_periodic_surfaces_have_no_warning() {
+    let none: [&str; 0] = [];
+    let mut count = 0;
+    for shape in [(64, 64), (65, 43), (32, 96), (31, 1), (128, 1), (7, 7), (16, 16)] {
+        // square cells
+        let grid = Grid::new(shape, (1.0, shape.1 as f64 / shape.0 as f64)).unwrap();
+        // all waves that the grid resolves
+        let k_s = 0.5 * shape.0 as f64 - 0.6;
+        for hurst in [0.2, 0.5, 0.8, 1.0] {
+            for seed in 0..8 {
+                let amplitude = Amplitude::RmsSlope(0.4);
+                let rough = SelfAffine { hurst, k_l: 1.0, k_r: 1.0, k_s, amplitude, seed, ..SelfAffine::default() };
+                let surface = rough.surface(grid).unwrap();
+                assert_eq!(codes(&surface), none, "{shape:?} {hurst} {seed}");
+                count += 1;
+            }
+        }
+    }
+    assert_eq!(count, 224);
+    for n in [16, 33, 64, 257] {
+        let (grid, line) = (Grid::square(n, 1.0).unwrap(), Grid::line(n, 1.0).unwrap());
+        for (name, surface) in [
+            ("paraboloid", Surface::paraboloid(grid, 2.0)),
+            ("cylinder", Surface::paraboloid(line, 2.0)),
+            ("wave", Surface::wave(grid, 0.01, 1)),
+            ("short waves", Surface::wave_2d(grid, 0.001, n / 2 - 1)),
+            ("wave on a line", Surface::wave(line, 0.01, 3)),
+            ("sine on a line", Surface::from_fn(line, |x, _| 0.01 * (std::f64::consts::TAU * x).sin())),
+            ("cap", Surface::from_fn(grid, |x, y| (0.2 - (x * x + y * y)).max(0.1))),
+            ("small cap", Surface::from_fn(grid, |x, y| (0.2 - (x * x + y * y)).max(0.19))),
+            ("cone", Surface::from_fn(grid, |x, y| (0.05 - 0.1 * x.hypot(y)).max(0.0))),
+            ("square wave", Surface::from_fn(grid, |x, _| if x < 0.0 { 1e-4 } else { 0.0 })),
+            ("pillars", Surface::from_fn(grid, |x, y| if x.abs().max(y.abs()) < 0.1 { 1e-4 } else { 0.0 })),
+        ] {
+            assert_eq!(codes(&surface.unwrap()), none, "{name} {n}");
+        }
+    }
+}
+
+#[test]
+fn grids_of_a_few_nodes_have_no_warning() {
+    let heights = [0.0, 0.3, -0.2, 0.1, 0.25, -0.1, 0.05, 0.4];
+    for nx in 1..=8 {
+        for ny in 1..=8 {
+            let grid = Grid::new((nx, ny), (nx as f64, ny as f64)).unwrap();
+            let field = Array2::from_shape_fn((nx, ny), |(i, j)| heights[(3 * i + 5 * j) % 8]);
+            let found = codes(&Surface::new(grid, field).unwrap());
+            assert_eq!(found, if nx * ny == 1 { vec!["flat"] } else { vec![] }, "{nx} x {ny}");
+        }
+    }
+}
+
+#[test]
+fn a_plane_is_flat_and_nothing_else_whatever_its_height() {
+    for height in [0.0, 1.0, -1e300, 1e-300] {
+        for grid in [Grid::square(8, 1.0), Grid::line(100, 1.0), Grid::square(64, 1e-9)] {
+            let surface = Surface::from_fn(grid.unwrap(), |_, _| height).unwrap();
+            assert_eq!(codes(&surface), ["flat"], "{height}");
+        }
+    }
+    // the rounding of a datum is no height
+    let surface = Surface::from_fn(Grid::square(8, 1.0).unwrap(), |x, _| 1e6 + 1e-11 * x).unwrap();
+    assert_eq!(codes(&surface), ["flat"]);
+}
+
+#[test]
+fn a_tilt_is_told_with_its_slopes_and_goes_with_the_plane() {
+    let (grid, heights) = (Grid::new((80, 64), SIDES).unwrap(), rough().heights().clone());
+    let tilted = |slopes: (f64, f64)| {
+        let plane = grid.sample(|x, y| slopes.0 * x + slopes.1 * y);
+        Surface::new(grid, &heights + &plane).unwrap()
+    };
+    for slopes in [(0.2, 0.0), (0.0, -0.2), (-0.1, 0.15)] {
+        assert_eq!(codes(&tilted(slopes)), ["tilt", "open-edges"], "{slopes:?}");
+    }
+    let warnings = Warning::of_surface(&tilted((0.25, -0.125)));
+    let words: Vec<_> = warnings[0].message.split_whitespace().collect();
+    let slope: f64 = words[5].parse().unwrap();
+    // the plane that is in the roughness itself comes on top
+    assert!((slope - 0.25).abs() < 0.03, "{}", warnings[0]);
+    assert!(warnings[0].message.contains("remove a plane"), "{}", warnings[0]);
+    let levelled = Topography::from(tilted((0.2, 0.1))).detrend(Trend::Plane).unwrap().surface().unwrap();
+    assert!(!codes(&levelled).contains(&"tilt"));
+}
+
+#[test]
+fn edges_that_do_not_meet_are_told_and_mirrors_or_a_window_close_them() {
+    let cut = Topography::from(rough()).crop(0..50, 0..64).unwrap();
+    let mut cut = cut.heights.clone();
+    // without a tilt: the profile of a valley that ends elsewhere than it begins
+    let n = cut.nrows() as f64;
+    cut.indexed_iter_mut().for_each(|((i, _), h)| *h = 0.05 * *h + 0.1 * (5.0 * i as f64 / n).cos());
+    let mut map = Topography::new(cut);
+    map.lengths = Some((1.0, 1.28));
+    let map = map.detrend(Trend::Plane).unwrap();
+    let open = map.clone().surface().unwrap();
+    let warnings = Warning::of_surface(&open);
+    assert_eq!(codes(&open), ["open-edges"]);
+    let message = &warnings[0].message;
+    assert!(message.contains(" along x") && !message.contains(" along y") && message.contains("mirror"), "{message}");
+    for closed in [map.clone().mirror(), map.window(0.2).unwrap()] {
+        assert_eq!(codes(&closed.surface().unwrap()), [""; 0]);
+    }
+}
+
+#[test]
+fn heights_and_lengths_in_different_units_are_steep() {
+    // picometres on a side in metres
+    assert_eq!(changed(|heights| heights.mapv_inplace(|h| (h * 1e6).round())), ["steep"]);
+    let slope = |slope| {
+        let amplitude = Amplitude::RmsSlope(slope);
+        let rough = SelfAffine { amplitude, k_s: 8.0, ..SelfAffine::default() };
+        codes(&rough.surface(Grid::square(256, 1.0).unwrap()).unwrap())
+    };
+    assert_eq!((slope(0.49), slope(0.52)), (vec![], vec!["steep"]));
+}
+
+#[test]
+fn a_repeated_value_far_outside_is_a_code_for_missing_points_and_nothing_else_is_told() {
+    let strip = |heights: &mut Array2<f64>| heights.slice_mut(s![10..12, ..]).fill(-9999.0);
+    assert_eq!(changed(strip), ["missing-code"]);
+    assert_eq!(changed(|heights| heights[[4, 5]] = -32768.0), ["missing-code"]);
+    // in the unit of the heights after scaling, and at the other end, both
+    let both = |heights: &mut Array2<f64>| {
+        heights[[4, 5]] = -9.999;
+        heights[[40, 5]] = -9.999;
+        heights[[41, 50]] = f64::MAX;
+        heights[[42, 50]] = f64::MAX;
+    };
+    assert_eq!(changed(both), ["missing-code", "missing-code"]);
+    let mut heights = rough().heights().clone();
+    strip(&mut heights);
+    let message = &Warning::of_surface(&Surface::new(*rough().grid(), heights).unwrap())[0].message;
+    assert!(["-9999 stands at 128 nodes", "NaN"].iter().all(|part| message.contains(part)), "{message}");
+}
+
+#[test]
+fn single_nodes_far_out_of_their_neighbours_are_spikes() {
+    let mut heights = rough().heights().clone();
+    let rms = rough().rms_height();
+    heights[[20, 30]] += 12.0 * rms;
+    heights[[50, 9]] -= 5.0 * rms;
+    let warnings = Warning::of_surface(&Surface::new(*rough().grid(), heights).unwrap());
+    assert_eq!(warnings.len(), 1, "{warnings:?}");
+    let message = &warnings[0].message;
+    assert!(["2 single nodes", "[20, 30]", "kurtosis"].iter().all(|part| message.contains(part)), "{message}");
+    // on a line too
+    let line = Surface::wave(Grid::line(200, 1.0).unwrap(), 0.01, 2).unwrap();
+    let mut heights = line.heights().clone();
+    heights[[77, 0]] += 0.02;
+    assert_eq!(codes(&Surface::new(*line.grid(), heights).unwrap()), ["spikes"]);
+}
+
+#[test]
+fn cells_far_from_square_are_told_but_not_on_lines() {
+    let heights = |i: usize, j: usize| 0.001 * ((i as f64).sin() + (j as f64).cos());
+    let found = |shape: (usize, usize), lengths| {
+        let field = Array2::from_shape_fn(shape, |(i, j)| heights(i, j));
+        codes(&Surface::new(Grid::new(shape, lengths).unwrap(), field).unwrap())
+    };
+    assert_eq!(found((12, 8), (1.0, 1.0)), [""; 0]);
+    assert_eq!(found((12, 4), (1.0, 1.0)), ["cells"]);
+    assert_eq!(found((12, 1), (1.0, 1.0)), [""; 0]);
+    assert_eq!(found((1, 12), (1.0, 1.0)), [""; 0]);
+}
+
+#[test]
+fn heights_at_the_ends_of_the_range_do_no_harm() {
+    for scale in [1e-320, 1e-300, 1e150, 1e308] {
+        let surface =
+            Surface::from_fn(Grid::square(20, 1.0).unwrap(), |x, y| scale * (7.0 * x).sin() * (5.0 * y).cos());
+        for warning in Warning::of_surface(&surface.unwrap()) {
+            assert!(!warning.message.contains("NaN"), "{scale:e}: {warning}");
+        }
+    }
+}
+
+#[test]
+fn a_range_beyond_the_heights_or_below_the_grid_is_told() {
+    let surface = Surface::wave_2d(Grid::square(64, 1.0).unwrap(), 0.01, 2).unwrap();
+    let found = |work: f64, range: f64| Warning::of_law(&Exponential::new(work, range).unwrap(), &surface, 1.0);
+    assert!(found(1e-5, 2e-3).is_empty());
+    let resolved = |warnings: Vec<Warning>| (warnings.len(), warnings[0].code, warnings[0].message.clone());
+    // √(1e-5/64)/ρ
+    let (count, code, message) = resolved(found(1e-5, 3e-4));
+    assert_eq!((count, code), (1, WarningCode::Range));
+    assert!(["mu_rho = 1.32", "7 times finer", "7.9e-4"].iter().all(|part| message.contains(part)), "{message}");
+    let (count, code, message) = resolved(found(1e-5, 0.1));
+    assert_eq!((count, code), (1, WarningCode::Range));
+    assert!(["0.1", "0.02", "unit"].iter().all(|part| message.contains(part)), "{message}");
+    assert!(found(0.0, 0.1).is_empty() && Warning::of_law::<f64>(&NoAdhesion, &surface, 1.0).is_empty());
+}
+
+#[test]
+fn a_contact_pressure_above_the_modulus_is_told() {
+    use crate::elastic::Westergaard;
+    use crate::problem::{Control, Problem};
+    use crate::solver::Solver;
+    let grid = Grid::square(16, 1.0).unwrap();
+    let surface = Surface::wave_2d(grid, 0.5, 1).unwrap();
+    let mut problem = Problem::new(&surface, Westergaard::<f64>::new(grid, 2.0).unwrap(), NoAdhesion).unwrap();
+    let mut found = |pressure| {
+        let solution = Solver::default().solve(&mut problem, Control::MeanPressure(pressure)).unwrap();
+        Warning::of_solution(&solution, 2.0)
+    };
+    assert!(found(0.01).is_empty());
+    let warnings = found(3.0);
+    assert_eq!((warnings.len(), warnings[0].code), (1, WarningCode::BeyondModulus));
+    assert!(warnings[0].message.contains("of 256 nodes"), "{}", warnings[0]);
+}
+
+#[test]
+fn the_contact_area_is_as_wrong_as_the_warning_says() {
+    use crate::contact::ContactStatistics;
+    use crate::elastic::Westergaard;
+    use crate::problem::{Control, Problem};
+    use crate::solver::Solver;
+    let rough = SelfAffine { k_l: 2.0, k_r: 2.0, k_s: 8.0, seed: 3, ..SelfAffine::default() };
+    // the adhesive zone E*ρ²/w is a 128th of the side
+    let law = Exponential::new(1e-5, (1e-5_f64 / 128.0).sqrt()).unwrap();
+    let mut found = |n: usize| {
+        let grid = Grid::square(n, 1.0).unwrap();
+        let surface = rough.surface(grid).unwrap();
+        let mut problem = Problem::new(&surface, Westergaard::<f64>::new(grid, 1.0).unwrap(), law).unwrap();
+        let solution = Solver::default().solve(&mut problem, Control::MeanPressure(1e-3)).unwrap();
+        let area = ContactStatistics::of(&solution, &grid, &law).unwrap().corrected_contact_fraction;
+        (area, Warning::of_law(&law, &surface, 1.0))
+    };
+    let ((fine, none), (middle, small), (coarse, large)) = (found(512), found(128), found(64));
+    assert!(none.is_empty());
+    for (area, warnings, text, expected) in
+        [(middle, small, "some 2 %", 0.005..0.04), (coarse, large, "up to 20 %", 0.1..0.25)]
+    {
+        let error = (area / fine - 1.0).abs();
+        assert!(expected.contains(&error) && warnings[0].message.contains(text), "{error}: {}", warnings[0]);
+    }
+}

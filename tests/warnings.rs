@@ -1,0 +1,167 @@
+//! Input and answers that are probably a mistake, end to end: what the tool says of them, and what it refuses.
+#![cfg(feature = "cli")]
+
+// a file of its own, as not all tests of the tool need all of it
+#[allow(dead_code)]
+#[path = "common/bench.rs"]
+mod bench;
+
+use asperity::io::{write_npy, write_topography};
+use asperity::{SelfAffine, Topography};
+use bench::{Bench, text};
+use ndarray::Array2;
+use serde_json::Value;
+
+/// A folder with a rough surface in it, periodic, and the same after changes.
+fn bench() -> Bench {
+    let bench = Bench::new();
+    let rough = SelfAffine { k_l: 2.0, k_r: 2.0, k_s: 10.0, ..SelfAffine::default() };
+    let heights = rough.surface(asperity::Grid::square(32, 1.0).unwrap()).unwrap().heights().clone();
+    let write = |name: &str, heights: &Array2<f64>| write_npy(&bench.path(name), heights).unwrap();
+    write("clean.npy", &heights);
+    let mut tilted = heights.clone();
+    tilted.indexed_iter_mut().for_each(|((i, _), h)| *h += 0.01 * i as f64);
+    write("tilted.npy", &tilted);
+    let mut strip = heights.clone();
+    strip.row_mut(7).fill(-9999.0);
+    write("strip.npy", &strip);
+    write("picometres.npy", &heights.mapv(|h| (1e6 * h).round()));
+    let mut infinite = heights.clone();
+    infinite[[3, 5]] = f64::NEG_INFINITY;
+    write("infinite.npy", &infinite);
+    infinite[[0, 0]] = f64::NAN;
+    write("both.npy", &infinite);
+    for (name, side) in [("small.npz", 1.0), ("large.npz", 3.0)] {
+        let mut map = Topography::new(heights.clone());
+        map.lengths = Some((side, side));
+        write_topography(&bench.path(name), &map).unwrap();
+    }
+    bench
+}
+
+fn codes(report: &Value) -> Vec<&str> {
+    let warnings = report["warnings"].as_array().unwrap();
+    warnings.iter().map(|warning| warning["code"].as_str().unwrap()).collect()
+}
+
+/// The codes of the lines of warning on standard error.
+fn said(stderr: &str) -> Vec<&str> {
+    let first =
+        |line: &'_ str| line.len() - line.trim_start_matches(|c: char| c.is_ascii_lowercase() || c == '-').len();
+    let lines = stderr.lines().map(|line| line.strip_prefix("warning: ").unwrap());
+    lines.filter(|line| line[first(line)..].starts_with(':')).map(|line| &line[..first(line)]).collect()
+}
+
+#[test]
+fn each_command_says_what_is_probably_a_mistake_and_reports_it() {
+    let bench = bench();
+    for (heights, expected) in [
+        ("clean.npy", &[][..]),
+        ("tilted.npy", &["tilt", "open-edges"]),
+        ("strip.npy", &["missing-code"]),
+        ("picometres.npy", &["steep"]),
+    ] {
+        for (command, out) in [
+            ("solve --mean-gap 1e5 --no-pictures", "results"),
+            ("sweep --mean-gaps 2e5,1e5", "sweep.csv"),
+            ("cycle --mean-pressures 0.01,0.02 --modulus 1e3 --steps 2 --resolution 0.1", "cycle.csv"),
+        ] {
+            let output = bench.run(&format!("{command} --heights {heights} --out {out} --force --json"));
+            // some of that does not converge, which is told too
+            assert_ne!(output.status.code(), Some(1), "{command} {heights}: {}", text(&output.stderr));
+            let report: Value = serde_json::from_slice(&output.stdout).unwrap();
+            assert_eq!(codes(&report), expected, "{command} {heights}");
+            assert_eq!(said(&text(&output.stderr)), expected, "{command} {heights}");
+            for warning in report["warnings"].as_array().unwrap() {
+                let message = warning["message"].as_str().unwrap();
+                assert!(text(&output.stderr).contains(message) && !message.contains('\n'), "{message}");
+            }
+        }
+        assert_eq!(codes(&bench.report("results")), expected, "{heights}");
+    }
+    // for people too
+    let output = bench.run("solve --heights tilted.npy --mean-gap 1 --no-pictures --out people");
+    assert_eq!(said(&text(&output.stderr)), ["tilt", "open-edges"]);
+    // nothing is gained by smaller fields
+    let output =
+        bench.run("solve --heights tilted.npy --mean-gap 1 --no-pictures --nested --precision f32 --out narrow");
+    assert_eq!(said(&text(&output.stderr)), ["tilt", "open-edges"]);
+}
+
+#[test]
+fn strict_takes_warnings_for_errors_and_writes_nothing() {
+    let bench = bench();
+    let before = bench.names(".");
+    for command in
+        ["solve --mean-gap 1 --out results", "sweep --mean-gaps 1 --out s.csv", "cycle --mean-gaps 2,1 --out c.csv"]
+    {
+        bench.refused_with(&format!("{command} --heights tilted.npy --strict"), &["error: tilt", "open-edges"]);
+        bench.refused_with(
+            &format!("{command} --heights strip.npy --strict --json"),
+            &["missing-code: -9999 stands at 32 nodes"],
+        );
+    }
+    let high = "solve --heights clean.npy --mean-pressure 5 --no-pictures --out high";
+    bench.refused_with(&format!("{high} --strict"), &["beyond-modulus", "contact modulus"]);
+    assert_eq!(bench.names("."), before);
+    let output = bench.run(high);
+    assert_eq!((output.status.code(), said(&text(&output.stderr))), (Some(0), vec!["beyond-modulus"]));
+    assert_eq!(codes(&bench.report("high")), ["beyond-modulus"]);
+    // clean input does not mind
+    bench.said("solve --heights clean.npy --mean-pressure 0.01 --no-pictures --out fine --strict");
+    assert_eq!(codes(&bench.report("fine")), [""; 0]);
+    assert!(bench.read("fine/scene.toml").contains("strict = true"));
+}
+
+#[test]
+fn a_range_is_told_once_and_with_how_wrong_the_answer_may_be() {
+    let bench = bench();
+    let law = "--law exponential --work-of-adhesion 1e-4 --range";
+    let output = bench.run(&format!("solve --heights clean.npy --mean-gap 0.03 {law} 2e-3 --no-pictures --out short"));
+    let stderr = text(&output.stderr);
+    let lines: Vec<_> = stderr.lines().filter(|line| line.contains("mu_rho")).collect();
+    assert!(
+        lines.len() == 1 && lines[0].starts_with("warning: range: ") && lines[0].contains("likely to be wrong by"),
+        "{stderr}"
+    );
+    let report = bench.report("short");
+    assert_eq!((codes(&report), &report["under_resolved"]), (vec!["range"], &Value::Bool(true)));
+    let output = bench.run(&format!("solve --heights clean.npy --mean-gap 0.03 {law} 2 --no-pictures --out long"));
+    assert!(
+        text(&output.stderr).contains("warning: range: the range of adhesion, 2, exceeds"),
+        "{}",
+        text(&output.stderr)
+    );
+    assert_eq!(codes(&bench.report("long")), ["range"]);
+}
+
+#[test]
+fn an_infinite_height_is_not_called_missing() {
+    let bench = bench();
+    for (name, count) in [("infinite.npy", "1 infinite"), ("both.npy", "1 infinite")] {
+        let refused = bench.refused(&format!("solve --heights {name} --mean-gap 1 --out results"));
+        assert!([count, "(-inf)", "[3, 5]"].iter().all(|part| refused.contains(part)), "{refused}");
+        assert!(!refused.contains("1 missing") && !refused.contains("fill missing points first"), "{refused}");
+    }
+    let said = bench.said("prepare both.npy --lengths 1 --fill --out filled.npz");
+    assert!(said.contains("1 missing, 1 infinite") && said.contains("2 of 1024 points filled"), "{said}");
+}
+
+#[test]
+fn side_lengths_of_another_file_win_over_those_in_a_scene() {
+    let bench = bench();
+    bench.said("solve --heights small.npz --lengths 1 1 --mean-pressure 0.01 --no-pictures --out small --quiet");
+    for given in ["--heights large.npz", "--heights=large.npz"] {
+        let report = bench.reported(&format!("run small/scene.toml {given} --out large --force"));
+        assert_eq!(report["lengths"], serde_json::json!([3.0, 3.0]));
+    }
+    // the scene that this leaves repeats it
+    bench.said("run large/scene.toml --out again --quiet");
+    assert!(bench.bytes("large/gap.npy") == bench.bytes("again/gap.npy"));
+    // a file without lengths takes those of the scene, and lengths that are given count
+    assert_eq!(
+        bench.reported("run small/scene.toml --heights clean.npy --out a")["lengths"],
+        serde_json::json!([1.0, 1.0])
+    );
+    bench.refused_with("run small/scene.toml --heights large.npz --lengths 2 2 --out b", &["--lengths", "3 x 3"]);
+}
