@@ -103,8 +103,9 @@ pub fn run(options: &Options, echo: &Echo) -> Outcome<bool> {
     let mut lines = Vec::new();
     let map = prepared(options, &mut lines)?;
     file.write(|path| write_topography(path, &map))?;
+    let scene = echo.written_beside(&options.out)?;
     file.commit()?;
-    echo.write_beside(&options.out)?;
+    scene.commit()?;
     options.printing.report(|| {
         json!({
             "command": "prepare",
