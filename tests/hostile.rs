@@ -5,6 +5,9 @@
 #![cfg(feature = "cli")]
 
 #[cfg(unix)]
+#[path = "hostile/files.rs"]
+mod files;
+#[cfg(unix)]
 #[path = "hostile/outputs.rs"]
 mod outputs;
 

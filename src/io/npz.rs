@@ -237,6 +237,42 @@ mod tests {
     }
 
     #[test]
+    fn no_damage_to_lengths_and_unit_passes_in_silence() {
+        let (heights, lengths) = (npy("'<f8'", "False", "(2,)", &f8(&[1.5, 2.5])), f8(&[3.0, 4.0]));
+        let lengths = npy("'<f8'", "False", "(2,)", &lengths);
+        for method in [CompressionMethod::Stored, CompressionMethod::Deflated] {
+            let entries = [("heights.npy", &heights[..]), ("lengths.npy", &lengths), ("unit.npy", &text_as_npy("nm"))];
+            let file = npz(method, &entries);
+            let whole = read_map(&file, "a.npz").unwrap();
+            assert_eq!((whole.lengths, whole.unit.as_deref()), (Some((3.0, 4.0)), Some("nm")));
+            for position in 0..file.len() {
+                for flip in [1, 0x80, 0xff] {
+                    let mut damaged = file.clone();
+                    damaged[position] ^= flip;
+                    // a damaged name is that of an array that is not read
+                    if let Ok(map) = read_map(damaged, "a.npz") {
+                        assert!(map == whole || !map.unread.is_empty(), "{position}: {map:?}");
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn arrays_that_are_not_read_are_named() {
+        let heights = npy("'<f8'", "False", "(2,)", &f8(&[1.5, 2.5]));
+        let unread = |names: &[&str]| {
+            let entries: Vec<_> = names.iter().map(|name| (*name, &heights[..])).collect();
+            read_map(npz(CompressionMethod::Stored, &entries), "a.npz").unwrap().unread
+        };
+        assert_eq!(unread(&["heights.npy", "sides.npy", "notes.txt"]), ["sides", "notes.txt"]);
+        assert_eq!(unread(&["heights.npy", "lengths.npy"]), [""; 0]);
+        assert_eq!(unread(&["map.npy"]), [""; 0]);
+        let surface = npz(CompressionMethod::Stored, &[("main.xml", b"<p:ISO5436_2/>"), ("bindata/data.bin", b"\0")]);
+        assert_refused(read(surface), &[".x3p", "Gwyddion"]);
+    }
+
+    #[test]
     fn npz_with_lengths_and_unit() {
         let method = CompressionMethod::Stored;
         let heights = npy("'<f8'", "False", "(1, 2)", &f8(&[1.0, 2.0]));
