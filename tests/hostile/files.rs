@@ -15,6 +15,9 @@ use crate::tool::{GIGABYTE, assert_orderly, bench, limited, names, words};
 fn run_with(folder: &Path, blocks: &str, command: &str) -> Output {
     let output = limited(folder, 4 * GIGABYTE, blocks, &words(command));
     assert_orderly(&output, command);
+    let said = String::from_utf8_lossy(&output.stderr);
+    // nothing of a library before it
+    assert!(output.status.code() != Some(1) || said.starts_with("error: "), "{command}: {said}");
     output
 }
 
