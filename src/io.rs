@@ -5,6 +5,7 @@
 //! [`write_topography`] writes maps, [`write_npz`] and [`write_vti`] all fields of a solution into one file, for numpy and for
 //! ParaView. [`OutputFolder`] collects the files of one run and shows them only once all of them are complete.
 
+mod foreign;
 mod gsf;
 mod npy;
 mod npz;
@@ -67,7 +68,7 @@ pub fn read_field(path: &Path) -> Result<Array2<f64>> {
 /// - `.npy`: floating-point numbers of 4 or 8 bytes or integers of 1 to 8 bytes, in either byte order and
 ///   either memory order. Integers beyond 2^53 are rounded.
 /// - `.npz`: as `.npy`, compressed or not, with exactly one array in it, or with one named `heights`. Arrays `lengths`,
-///   two numbers, and `unit`, a text, are taken beside that.
+///   two numbers, and `unit`, a text, are taken beside that; [`Topography::unread`] names all others.
 /// - Gwyddion Simple Field (`.gsf`): with the side lengths XReal and YReal, and units.
 /// - text: one row per line; numbers separated by white space, or by commas, or by semicolons. `#` and `%`
 ///   start a comment, blank lines are skipped. Decimal commas are not understood.
@@ -90,7 +91,8 @@ pub fn read_field(path: &Path) -> Result<Array2<f64>> {
 /// # Errors
 ///
 /// [`Error::File`] if the file cannot be read, is truncated or damaged, or holds anything but one array of
-/// real numbers with one or two dimensions and at least one value; for `.xyz`, if its points are scattered.
+/// real numbers with one or two dimensions and at least one value; for `.xyz`, if its points are scattered. Files of
+/// instruments, images, and other binary files are named, with a way to convert them.
 ///
 /// ```
 /// use asperity::io::read_topography;
@@ -174,18 +176,28 @@ fn read_any(path: &Path) -> Parsed<Topography> {
         let kind = if metadata.is_dir() { "a folder" } else { "not a regular file" };
         return Err(format!("is {kind}: name a .npy, .npz, .gsf, .xyz or text file"));
     }
+    let (ending, size) = (ending(path), metadata.len());
     let mut reader = BufReader::new(File::open(path).map_err(unreadable)?);
     let start = reader.fill_buf().map_err(unreadable)?;
-    if start.starts_with(NPY) {
-        read_npy(&mut reader, metadata.len()).map(Topography::new)
+    let map = if start.starts_with(NPY) {
+        read_npy(&mut reader, size).map(Topography::new)
     } else if ZIP.iter().any(|magic| start.starts_with(magic)) {
-        read_npz(reader, metadata.len())
+        read_npz(reader, size)
     } else if start.starts_with(GSF) {
-        read_gsf(&mut reader, metadata.len())
-    } else if ending(path) == "xyz" {
-        read_xyz(reader)
+        read_gsf(&mut reader, size)
+    } else if let Some(reason) = foreign::by_start(start) {
+        Err(reason)
     } else {
-        read_text(reader)
+        let binary = foreign::by_ending(start, &ending);
+        let text = if ending == "xyz" { read_xyz(reader) } else { read_text(reader) };
+        text.map_err(|reason| binary.unwrap_or(reason))
+    }?;
+    match &map.unit {
+        // it would reach terminals
+        Some(unit) if unit.contains(char::is_control) => {
+            Err(format!("has the unit {}, expected a text without control characters: save it again", quoted(unit)))
+        }
+        _ => Ok(map),
     }
 }
 

@@ -136,6 +136,7 @@ mod tests {
             ("XRes=3\nYRes=2\nXReal=wide\nYReal=1", vec!["\"wide\"", "XReal"]),
             ("XRes=3\nYRes=2\nXReal=0\nYReal=1", vec!["side lengths of 0 and 1", "positive"]),
             ("XRes=3\nYRes=2\nXReal=1\nYReal=1\nXYUnits=m\nZUnits=V\n", vec!["\"m\"", "\"V\"", "channel of heights"]),
+            ("XRes=3\nYRes=2\nZUnits=\x1b[31m\n", vec!["\"\\u{1b}[31m\"", "control characters"]),
             ("XRes=3\nYRes=2\nXReal=1\nYReal=1\nXYUnits=m\n", vec!["\"m\"", "no unit", "both units"]),
         ] {
             assert_refused(read_map(gsf(header, &data), "a"), &parts);

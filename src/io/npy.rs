@@ -57,6 +57,7 @@ pub(super) fn read_npy_text(reader: &mut impl Read, size: u64) -> Parsed<String>
     }
     let mut text = vec![0; data_size as usize];
     reader.read_exact(&mut text).map_err(unreadable)?;
+    ended(reader)?;
     let characters = text.as_chunks().0.iter().map(|bytes| char::from_u32(u32::from_le_bytes(*bytes)));
     characters.take_while(|c| *c != Some('\0')).collect::<Option<String>>().ok_or_else(|| DAMAGED.to_owned())
 }
@@ -109,8 +110,13 @@ fn read_values(reader: &mut impl Read, count: usize, (width, decode): Decoder, r
             values.push(decode(item));
         }
     }
-    // A zip entry is checked against its checksum when its end is reached.
-    if reader.read(&mut [0]).map_err(unreadable)? == 0 { Ok(values) } else { Err(DAMAGED.to_owned()) }
+    ended(reader)?;
+    Ok(values)
+}
+
+/// Refuses what goes on after its last value. A zip entry is checked against its checksum when its end is reached.
+fn ended(reader: &mut impl Read) -> Parsed<()> {
+    if reader.read(&mut [0]).map_err(unreadable)? == 0 { Ok(()) } else { Err(DAMAGED.to_owned()) }
 }
 
 /// Takes the dtype, whether the order is Fortran's, and the shape from the dictionary in a `.npy` header.

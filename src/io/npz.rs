@@ -1,5 +1,5 @@
-use std::fs::File;
-use std::io::{BufReader, Write};
+use std::fs::{self, File};
+use std::io::{self, BufReader, Cursor, Read, Seek, SeekFrom, Write};
 use std::path::Path;
 
 use ndarray::{Array2, arr1};
@@ -7,8 +7,9 @@ use ndarray_npy::{NpzWriter, WritableElement, WriteNpyError, WriteNpyExt, WriteN
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, ZipArchive};
 
+use super::foreign::by_member;
 use super::npy::{read_npy, read_npy_text, text_as_npy};
-use super::{DAMAGED, Parsed, quoted};
+use super::{DAMAGED, Parsed, quoted, unreadable};
 use crate::error::{Error, Result};
 use crate::grid::Grid;
 use crate::surface::Topography;
@@ -17,15 +18,21 @@ use crate::surface::Topography;
 pub(super) const ZIP: [&[u8]; 2] = [b"PK\x03\x04", b"PK\x05\x06"];
 /// Deflate cannot do better than this: a zip entry that claims more is damaged.
 const MAX_COMPRESSION: u64 = 1032;
+/// Room in bytes for what an archive has beside the numbers of an array.
+const ENTRY: usize = 1024;
 
 /// Reads the array `heights`, or the only one, of an archive of `size` bytes; beside it `lengths` and `unit`.
-pub(super) fn read_npz(reader: BufReader<File>, size: u64) -> Parsed<Topography> {
+pub(super) fn read_npz(mut reader: BufReader<File>, size: u64) -> Parsed<Topography> {
+    check_counts(&mut reader).map_err(unreadable)?;
     let mut archive = ZipArchive::new(reader).map_err(damaged)?;
     let index = match (archive.len(), archive.index_for_name("heights.npy")) {
         (1, _) => 0,
         (_, Some(index)) => index,
         (count, None) => {
-            let names = archive.file_names().take(10).map(|name| quoted(name.strip_suffix(".npy").unwrap_or(name)));
+            if let Some(reason) = by_member(archive.file_names()) {
+                return Err(reason);
+            }
+            let names = archive.file_names().take(10).map(|name| quoted(array(name)));
             let names = names.collect::<Vec<_>>().join(", ");
             return Err(format!(
                 "holds {count} arrays ({names}), expected one, or one named heights: save the heights alone, as .npy or .npz"
@@ -48,7 +55,31 @@ pub(super) fn read_npz(reader: BufReader<File>, size: u64) -> Parsed<Topography>
         let unit = read_entry(&mut archive, index, size, |entry, size| read_npy_text(entry, size))?;
         map.unit = Some(unit).filter(|unit| !unit.is_empty());
     }
+    if archive.len() > 1 {
+        let unread = archive.file_names().map(array).filter(|name| !["heights", "lengths", "unit"].contains(name));
+        map.unread = unread.map(str::to_owned).collect();
+    }
     Ok(map)
+}
+
+/// What an array is called whose entry in the archive has this name.
+fn array(entry: &str) -> &str {
+    entry.strip_suffix(".npy").unwrap_or(entry)
+}
+
+/// Checks that the end of an archive without a comment gives its number of entries twice: one of them decides how many are
+/// found, and no checksum covers it.
+fn check_counts(reader: &mut BufReader<File>) -> io::Result<()> {
+    let mut end = [0; 22];
+    if reader.get_ref().metadata()?.len() >= end.len() as u64 {
+        reader.seek(SeekFrom::End(-(end.len() as i64)))?;
+        reader.read_exact(&mut end)?;
+        reader.rewind()?;
+    }
+    if end.starts_with(ZIP[1]) && end[8..10] != end[10..12] {
+        return Err(io::Error::other("its end is damaged: copy or save it again"));
+    }
+    Ok(())
 }
 
 fn damaged(error: zip::result::ZipError) -> String {
@@ -84,17 +115,13 @@ fn read_entry<T>(
 /// [`Error::Shape`] if a field does not fit the grid, [`Error::File`] if the file cannot be written.
 pub fn write_npz<T: WritableElement>(path: &Path, grid: &Grid, fields: &[(&str, &Array2<T>)]) -> Result<()> {
     fields.iter().try_for_each(|(_, field)| Error::shape("field", field.dim(), grid.shape()))?;
-    write(path, fields, Some(grid.lengths()), None).map_err(|e| unwritable(path, &e))
+    write(path, fields, Some(grid.lengths()), None)
 }
 
 /// Writes a map with what is known of it.
 pub(super) fn write_map(path: &Path, map: &Topography) -> Result<()> {
     let heights = [("heights", &map.heights)];
-    write(path, &heights, map.lengths, map.unit.as_deref()).map_err(|e| unwritable(path, &e))
-}
-
-fn unwritable(path: &Path, error: &WriteNpzError) -> Error {
-    Error::file(path, format!("cannot be written: {error}"))
+    write(path, &heights, map.lengths, map.unit.as_deref())
 }
 
 fn write<T: WritableElement>(
@@ -102,12 +129,25 @@ fn write<T: WritableElement>(
     fields: &[(&str, &Array2<T>)],
     lengths: Option<(f64, f64)>,
     unit: Option<&str>,
-) -> std::result::Result<(), WriteNpzError> {
-    let file = File::create(path).map_err(WriteNpyError::from)?;
+) -> Result<()> {
+    let bytes = archive(fields, lengths, unit).map_err(|e| Error::file(path, format!("cannot be written: {e}")))?;
+    fs::write(path, bytes).map_err(|e| Error::file(path, format!("cannot be written: {e}")))
+}
+
+/// The bytes of an archive. Written straight into a file that cannot take them, the writer of the archive would say so on
+/// standard error when it is dropped.
+fn archive<T: WritableElement>(
+    fields: &[(&str, &Array2<T>)],
+    lengths: Option<(f64, f64)>,
+    unit: Option<&str>,
+) -> std::result::Result<Vec<u8>, WriteNpzError> {
+    let mut bytes = Vec::new();
+    let size = fields.iter().map(|(_, field)| size_of::<T>() * field.len() + ENTRY).sum::<usize>() + 2 * ENTRY;
+    bytes.try_reserve_exact(size).map_err(|e| WriteNpyError::from(io::Error::from(e)))?;
     // in sizes of more than 32 bits, where one could need them
     let large = fields.iter().any(|(_, field)| field.len() >= 1 << 28);
     let options = SimpleFileOptions::default().compression_method(CompressionMethod::Stored).large_file(large);
-    let mut npz = NpzWriter::new_with_options(file, options);
+    let mut npz = NpzWriter::new_with_options(Cursor::new(bytes), options);
     fields.iter().try_for_each(|(name, field)| npz.add_array(*name, *field))?;
     if let Some((lx, ly)) = lengths {
         npz.add_array("lengths", &arr1(&[lx, ly]))?;
@@ -115,7 +155,7 @@ fn write<T: WritableElement>(
     if let Some(unit) = unit {
         npz.add_array("unit", &Text(unit))?;
     }
-    npz.finish().map(drop)
+    npz.finish().map(Cursor::into_inner)
 }
 
 /// A text, as numpy has it in an array without dimensions.
@@ -130,8 +170,6 @@ impl WriteNpyExt for Text<'_> {
 
 #[cfg(test)]
 mod tests {
-    use std::io::Cursor;
-
     use ndarray::array;
     use zip::ZipWriter;
 
@@ -212,6 +250,47 @@ mod tests {
             }
             assert_refused(read(file), &["is damaged"]);
         }
+    }
+
+    #[test]
+    fn no_damage_to_lengths_and_unit_passes_in_silence() {
+        let (heights, lengths) = (npy("'<f8'", "False", "(2,)", &f8(&[1.5, 2.5])), f8(&[3.0, 4.0]));
+        let lengths = npy("'<f8'", "False", "(2,)", &lengths);
+        for method in [CompressionMethod::Stored, CompressionMethod::Deflated] {
+            let entries = [("heights.npy", &heights[..]), ("lengths.npy", &lengths), ("unit.npy", &text_as_npy("nm"))];
+            let file = npz(method, &entries);
+            let whole = read_map(&file, "a.npz").unwrap();
+            assert_eq!((whole.lengths, whole.unit.as_deref()), (Some((3.0, 4.0)), Some("nm")));
+            let mut unnoticed = Vec::new();
+            for position in 0..file.len() {
+                for flip in [1, 0x80, 0xff] {
+                    let mut damaged = file.clone();
+                    damaged[position] ^= flip;
+                    // a damaged name is that of an array that is not read
+                    if let Ok(map) = read_map(damaged, "a.npz")
+                        && map != whole
+                        && map.unread.is_empty()
+                    {
+                        unnoticed.push((position, flip, map));
+                    }
+                }
+            }
+            assert!(unnoticed.is_empty(), "of {} bytes: {unnoticed:?}", file.len());
+        }
+    }
+
+    #[test]
+    fn arrays_that_are_not_read_are_named() {
+        let heights = npy("'<f8'", "False", "(2,)", &f8(&[1.5, 2.5]));
+        let unread = |names: &[&str]| {
+            let entries: Vec<_> = names.iter().map(|name| (*name, &heights[..])).collect();
+            read_map(npz(CompressionMethod::Stored, &entries), "a.npz").unwrap().unread
+        };
+        assert_eq!(unread(&["heights.npy", "sides.npy", "notes.txt"]), ["sides", "notes.txt"]);
+        assert_eq!(unread(&["heights.npy", "lengths.npy"]), [""; 0]);
+        assert_eq!(unread(&["map.npy"]), [""; 0]);
+        let surface = npz(CompressionMethod::Stored, &[("main.xml", b"<p:ISO5436_2/>"), ("bindata/data.bin", b"\0")]);
+        assert_refused(read(surface), &[".x3p", "Gwyddion"]);
     }
 
     #[test]

@@ -169,9 +169,7 @@ mod tests {
         for empty in ["", "\n\n", "# only a comment\n", "\r\n % \r\n"] {
             assert_refused(read(empty), &["holds no numbers", ".npy"]);
         }
-        assert_refused(read(b"\x89PNG\r\n\x1a\n\0\0\0"), &["line 1", "not a number"]);
-        assert_refused(read([0; 100_000]), &["line 1", "...\" is not a number"]);
-        assert_refused(read(b"\xff\xfe1\0 \x002\0"), &["not a number"]);
+        assert_refused(read("x".repeat(100_000)), &["line 1", "...\" is not a number"]);
     }
 
     #[test]

@@ -48,12 +48,14 @@ pub struct Topography {
     pub lengths: Option<(f64, f64)>,
     /// The unit of heights and side lengths, if it is known.
     pub unit: Option<String>,
+    /// The names of the arrays that stand beside the heights in a file, and that reading it did not take.
+    pub unread: Vec<String>,
 }
 
 impl Topography {
     /// A map of shape (Nx, Ny) with unknown side lengths and unit.
     pub fn new(heights: Array2<f64>) -> Self {
-        Self { heights, lengths: None, unit: None }
+        Self { heights, lengths: None, unit: None, unread: Vec::new() }
     }
 
     /// How many heights are missing: NaN or infinite.
@@ -196,6 +198,7 @@ impl Topography {
 impl From<Surface> for Topography {
     /// The heights and side lengths of a surface.
     fn from(surface: Surface) -> Self {
-        Self { lengths: Some(surface.grid().lengths()), heights: surface.heights, unit: None }
+        let lengths = Some(surface.grid().lengths());
+        Self { lengths, ..Self::new(surface.heights) }
     }
 }

@@ -4,6 +4,8 @@
 //! `HOSTILE_FIRST` says from which seed on. Whatever the seed, it is tried alone with `HOSTILE_FIRST=seed HOSTILE_SECONDS=0`.
 
 #[cfg(unix)]
+mod files;
+#[cfg(unix)]
 mod outputs;
 
 use std::fs;

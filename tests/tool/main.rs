@@ -11,3 +11,4 @@ mod scene_tool;
 mod surface_tool;
 mod sweep_tool;
 mod tool;
+mod warnings;

@@ -1,4 +1,3 @@
-use std::fs;
 use std::ops::ControlFlow;
 use std::path::PathBuf;
 
@@ -15,6 +14,7 @@ use crate::inputs;
 use crate::journal::{Identity, Journal};
 use crate::loads::{self, Loads};
 use crate::options::{self, AdhesionOptions, Precision, SolverOptions, SurfaceOptions};
+use crate::output::OutputFile;
 use crate::printing::Printing;
 use crate::progress::Progress;
 use crate::report::Style;
@@ -163,8 +163,9 @@ impl Options {
         let mut path = Path::new(&mut solver, &mut problem, loads, path_settings)?;
         let header = COLUMNS.join(",") + "\n";
         echo.check_beside(&self.out, self.force || self.out.exists())?;
+        let scene = echo.written_beside(&self.out)?;
         let (mut journal, gaps) = Journal::open_endless(&self.out, &header, identity, self.force)?;
-        echo.write_beside(&self.out)?;
+        scene.commit()?;
         warnings.say();
         let narrow = |gap: Array2<f64>| gap.mapv_into_any(T::lit);
         if journal.rows() > 0 {
@@ -255,7 +256,7 @@ impl Options {
         inputs: Map<String, Value>,
         warnings: &Warnings,
     ) -> Outcome<()> {
-        let text = fs::read_to_string(&self.out).map_err(|e| Error::file(&self.out, format!("cannot be read: {e}")))?;
+        let text = journal.text()?;
         let rows: Vec<Vec<&str>> = text.lines().skip(1).map(|row| row.split(',').collect()).collect();
         let column = |name: &str| COLUMNS.iter().position(|column| *column == name).unwrap_or_default();
         let number =
@@ -331,8 +332,9 @@ impl Options {
             curves: names.iter().map(String::as_str).zip(curves.into_iter().map(|(_, points)| points)).collect(),
             ..Chart::default()
         };
-        chart.write_png(plot)?;
-        Ok(())
+        let file = OutputFile::create(plot, true)?;
+        file.write(|path| chart.write_png(path))?;
+        Ok(file.commit()?)
     }
 }
 

@@ -96,11 +96,11 @@ impl Echo {
         Ok(())
     }
 
-    /// Writes the file FILE.scene.toml beside `file`.
-    pub fn write_beside(&self, file: &Path) -> Outcome<()> {
+    /// The file FILE.scene.toml beside `file`, written but for its name.
+    pub fn written_beside(&self, file: &Path) -> Outcome<OutputFile> {
         let scene = OutputFile::create(&beside(file), true)?;
         scene.write(|path| write_text(path, &self.text(folder_of(file))))?;
-        Ok(scene.commit()?)
+        Ok(scene)
     }
 }
 

@@ -6,9 +6,12 @@ use asperity::io::read_topography;
 use asperity::{Surface, Topography};
 
 use crate::Outcome;
+use crate::printing::complain;
 
 /// How far side lengths that are given may be from those of the file: headers round them.
 const ROUNDING: f64 = 1e-2;
+/// How many names of arrays are told.
+const MOST_NAMES: usize = 10;
 
 /// The map of a file with the given `--lengths`, of which one means square cells; without any, those of the file, or else
 /// the unit square. Lengths that contradict the file are refused.
@@ -32,8 +35,25 @@ pub fn map(path: &Path, lengths: Option<&[f64]>) -> Outcome<Topography> {
         }
         map.lengths = Some(given);
     }
+    warn_of_unread(path, &map, "are taken as 1 x 1");
     map.lengths = map.lengths.or(Some((1.0, 1.0)));
     Ok(map)
+}
+
+/// Says on standard error which arrays of a file were not read, if its side lengths, which then `are` something, may be
+/// among them.
+pub fn warn_of_unread(path: &Path, map: &Topography, are: &str) {
+    if map.lengths.is_none() && !map.unread.is_empty() {
+        let names: Vec<_> = map.unread.iter().take(MOST_NAMES).map(|name| format!("{name:?}")).collect();
+        let more = if map.unread.len() > MOST_NAMES { ", ..." } else { "" };
+        let text = format!(
+            "{} has no array named lengths, and of its others {}{more} were not read: the side lengths {are}; give \
+             --lengths, or name their array lengths",
+            path.display(),
+            names.join(", ")
+        );
+        complain("warning", &text);
+    }
 }
 
 /// The side lengths that `--lengths` means for a map.

@@ -3,11 +3,11 @@
 //! Beside the file stands its state, an archive with the gaps from which the next row starts, and with a comment that says
 //! how far the file had got by then, and to what it belongs. A row is appended and brought to the disk before the
 //! state is replaced, in one go: the state never runs ahead of the file, and what the file has beyond the state is at most
-//! one row, whole or not, which is taken back and computed again.
+//! one row, whole or not, which is taken back and computed again. The file is locked as long as the journal is open.
 
 use std::ffi::OsString;
-use std::fs::{self, File, OpenOptions};
-use std::io::{self, BufWriter, Write};
+use std::fs::{self, File, OpenOptions, TryLockError};
+use std::io::{self, Cursor, Read, Seek, Write};
 use std::path::{Path, PathBuf};
 
 use asperity::Error;
@@ -85,29 +85,46 @@ impl Journal {
         force: bool,
     ) -> Outcome<(Self, Vec<Array2<f64>>)> {
         let unwritable = |path: &Path, e: io::Error| Error::file(path, format!("cannot be written: {e}"));
-        let found = match fs::metadata(path) {
+        match fs::metadata(path) {
             Ok(metadata) if !metadata.is_file() => {
                 return Err(Error::file(path, "is not a regular file: choose another --out").into());
             }
-            Ok(_) => !force,
-            Err(_) => false,
-        };
-        let (written, gaps, numbers) = if found {
-            resume(path, header, &identity, loads)?
-        } else {
-            if let Some(folder) = path.parent() {
+            Ok(_) => {}
+            Err(_) => {
+                let folder = path.parent().unwrap_or(Path::new(""));
                 fs::create_dir_all(folder).map_err(|e| unwritable(folder, e))?;
             }
-            save(path, &identity, &Written::NOTHING, &[] as &[ArrayView2<'_, f64>], &[])?;
-            (Written::NOTHING, Vec::new(), Vec::new())
+        }
+        let (mut file, made) = open_locked(path)?;
+        let mut begin = || -> Outcome<_> {
+            let mut content = Vec::new();
+            file.read_to_end(&mut content).map_err(|e| Error::file(path, format!("cannot be read: {e}")))?;
+            // an empty file without a state is what a run leaves that is killed before its first one
+            let new = content.is_empty() && (made || !state_path(path).exists());
+            let (written, gaps, numbers) = if new || force {
+                save(path, &identity, &Written::NOTHING, &[] as &[ArrayView2<'_, f64>], &[])?;
+                (Written::NOTHING, Vec::new(), Vec::new())
+            } else {
+                resume(path, &content, header, &identity, loads)?
+            };
+            file.set_len(written.bytes).map_err(|e| unwritable(path, e))?;
+            Ok((written, gaps, numbers))
         };
-        let open = || {
-            let file = OpenOptions::new().append(true).create(true).open(path)?;
-            file.set_len(written.bytes)?;
-            Ok(file)
-        };
-        let file = open().map_err(|e| unwritable(path, e))?;
+        let (written, gaps, numbers) = begin().inspect_err(|_| {
+            if made {
+                let _ = fs::remove_file(path);
+            }
+        })?;
         Ok((Self { path: path.to_owned(), header: header.to_owned(), identity, file, written, numbers }, gaps))
+    }
+
+    /// All rows there are, with their header.
+    pub fn text(&self) -> asperity::Result<String> {
+        let mut text = String::new();
+        // by the same handle: on some platforms a lock keeps out others of the same process, too
+        let read = (&self.file).rewind().and_then(|()| (&self.file).read_to_string(&mut text));
+        read.map_err(|e| Error::file(&self.path, format!("cannot be read: {e}")))?;
+        Ok(text)
     }
 
     /// How many rows there are.
@@ -158,11 +175,15 @@ impl Journal {
     ) -> Outcome<()> {
         let text = if self.written.rows == 0 { format!("{}{row}\n", self.header) } else { format!("{row}\n") };
         let mut write = || {
-            if self.file.metadata()?.len() != self.written.bytes {
+            // by its name: it may be another file by now
+            if fs::metadata(&self.path)?.len() != self.written.bytes {
                 return Err(io::Error::other("it was changed by another program meanwhile"));
             }
-            self.file.write_all(text.as_bytes())?;
-            self.file.sync_data()
+            let written = self.file.write_all(text.as_bytes()).and_then(|()| self.file.sync_data());
+            written.inspect_err(|_| {
+                // no half row
+                let _ = self.file.set_len(self.written.bytes);
+            })
         };
         write().map_err(|e| Error::file(&self.path, format!("cannot be written: {e}")))?;
         self.written = Written {
@@ -173,6 +194,24 @@ impl Journal {
             content: self.written.content.of(text.as_bytes()),
         };
         save(&self.path, &self.identity, &self.written, gaps, &self.numbers)
+    }
+}
+
+/// Opens a file, which is made if needed, and locks it until it is closed; whether it was made.
+fn open_locked(path: &Path) -> asperity::Result<(File, bool)> {
+    let mut options = OpenOptions::new();
+    options.read(true).append(true);
+    let (opened, made) = match options.clone().create_new(true).open(path) {
+        Err(e) if e.kind() == io::ErrorKind::AlreadyExists => (options.create(true).open(path), false),
+        opened => (opened, true),
+    };
+    let file = opened.map_err(|e| Error::file(path, format!("cannot be written: {e}")))?;
+    match file.try_lock() {
+        Err(TryLockError::WouldBlock) => {
+            Err(Error::file(path, "another run is writing there: wait until it has ended, or choose another --out"))
+        }
+        // not every file system has locks
+        Ok(()) | Err(TryLockError::Error(_)) => Ok((file, made)),
     }
 }
 
@@ -190,6 +229,7 @@ fn with_suffix(path: &Path, suffix: &str) -> PathBuf {
 /// What of a file is to be kept, and the gaps from which to go on.
 fn resume(
     path: &Path,
+    content: &[u8],
     header: &str,
     identity: &Identity,
     loads: Option<&[f64]>,
@@ -221,7 +261,6 @@ fn resume(
     if !same_loads {
         return refuse(format!("belongs to another run, whose first {} loads are others", written.rows));
     }
-    let content = fs::read(path).map_err(|e| Error::file(path, format!("cannot be read: {e}")))?;
     let (kept, rest) = content.split_at((written.bytes as usize).min(content.len()));
     // an interrupted write leaves at most one row, whole or not, and before the first one the header, whole or not
     let rest = match rest.strip_prefix(header.as_bytes()) {
@@ -273,8 +312,9 @@ fn save<T: WritableElement + Clone>(
         "sweep": identity,
     })
     .to_string();
-    let write = || -> Outcome<()> {
-        let mut zip = ZipWriter::new(BufWriter::new(File::create(&temporary)?));
+    // in memory first: in a file that cannot take it, the writer of the archive would say so when it is dropped
+    let archive = || -> Outcome<Vec<u8>> {
+        let mut zip = ZipWriter::new(Cursor::new(Vec::new()));
         zip.set_comment(format!("{comment}\n{}", Hash::NEW.of(comment.as_bytes())));
         if !gaps.is_empty() {
             let stack = ndarray::concatenate(Axis(0), gaps)?;
@@ -283,7 +323,11 @@ fn save<T: WritableElement + Clone>(
             zip.start_file("gap.npy", options)?;
             stack.write_npy(&mut zip)?;
         }
-        let file = zip.finish()?.into_inner().map_err(io::IntoInnerError::into_error)?;
+        Ok(zip.finish()?.into_inner())
+    };
+    let write = |archive: Vec<u8>| -> Outcome<()> {
+        let mut file = File::create(&temporary)?;
+        file.write_all(&archive)?;
         file.sync_all()?;
         fs::rename(&temporary, &state)?;
         // or the next row might reach the disk before the name does
@@ -293,7 +337,10 @@ fn save<T: WritableElement + Clone>(
         }
         Ok(())
     };
-    write().map_err(|e| Error::file(&state, format!("cannot be written: {e}")).into())
+    archive().and_then(write).map_err(|e| {
+        let _ = fs::remove_file(&temporary);
+        Error::file(&state, format!("cannot be written: {e}")).into()
+    })
 }
 
 /// To what a state belongs, how far it is, how many gaps it has, and its numbers.
@@ -447,9 +494,22 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("sweep.csv");
         let (mut first, _) = open(&path, &LOADS).unwrap();
-        let (mut second, _) = open(&path, &LOADS).unwrap();
+        for force in [false, true] {
+            let second = Journal::open(&path, HEADER, identity("1"), &LOADS, force);
+            assert!(reason(second).contains("sweep.csv: another run is writing there"));
+        }
         let gap = array![[1.0], [2.0]];
         first.append("1,0", 1.0, true, &[gap.view()]).unwrap();
-        assert!(reason(second.append("1,0", 1.0, true, &[gap.view()])).contains("another program"));
+        assert_eq!(first.text().unwrap(), "load,answer\n1,0\n");
+        // what knows nothing of the lock
+        for changed in ["load,answer\n", ""] {
+            fs::write(&path, changed).unwrap();
+            assert!(reason(first.append("2,1", 2.0, true, &[gap.view()])).contains("another program"));
+            assert_eq!(fs::read_to_string(&path).unwrap(), changed);
+        }
+        fs::remove_file(&path).unwrap();
+        assert!(reason(first.append("2,1", 2.0, true, &[gap.view()])).contains("cannot be written"));
+        drop(first);
+        assert_eq!(open(&path, &LOADS).unwrap().0.rows(), 0);
     }
 }

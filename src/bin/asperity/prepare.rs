@@ -6,7 +6,7 @@ use clap::{Args, ValueEnum};
 use serde_json::json;
 
 use crate::echo::Echo;
-use crate::input::{given, holes, sides};
+use crate::input::{given, holes, sides, warn_of_unread};
 use crate::options::{nodes, positive};
 use crate::output::OutputFile;
 use crate::printing::Printing;
@@ -32,7 +32,7 @@ pub struct Options {
     #[arg(long, value_name = "F", allow_hyphen_values = true, value_parser = positive)]
     scale: Option<f64>,
     /// Unit of side lengths and heights as they are after that, instead of the file's; for the pictures of solve
-    #[arg(long, value_name = "UNIT")]
+    #[arg(long, value_name = "UNIT", value_parser = unit)]
     unit: Option<String>,
     /// Keep NX x NY nodes from index [X, Y] on
     #[arg(long, value_names = ["X", "Y", "NX", "NY"], num_args = 4, allow_negative_numbers = true)]
@@ -103,8 +103,9 @@ pub fn run(options: &Options, echo: &Echo) -> Outcome<bool> {
     let mut lines = Vec::new();
     let map = prepared(options, &mut lines)?;
     file.write(|path| write_topography(path, &map))?;
+    let scene = echo.written_beside(&options.out)?;
     file.commit()?;
-    echo.write_beside(&options.out)?;
+    scene.commit()?;
     options.printing.report(|| {
         json!({
             "command": "prepare",
@@ -128,6 +129,12 @@ pub fn run(options: &Options, echo: &Echo) -> Outcome<bool> {
     Ok(true)
 }
 
+/// A unit, which will be printed.
+fn unit(text: &str) -> Result<String, String> {
+    let unit = Some(text.to_owned()).filter(|text| !text.contains(char::is_control));
+    unit.ok_or_else(|| "it must be a text without control characters".to_owned())
+}
+
 /// Takes the steps, and tells them.
 fn prepared(options: &Options, lines: &mut Vec<(&'static str, String)>) -> Outcome<Topography> {
     let mut map = read_topography(&options.input)?;
@@ -139,6 +146,7 @@ fn prepared(options: &Options, lines: &mut Vec<(&'static str, String)>) -> Outco
         map.lengths = Some(lengths);
         tell("lengths", format!("{}, before {before}", sides(lengths, map.unit.as_deref())));
     }
+    warn_of_unread(&options.input, &map, "stay unknown");
     if let Some(factor) = options.scale {
         map.heights.mapv_inplace(|h| factor * h);
         tell("scale", format!("heights times {}: rms height {}", plain(factor), rms(&map)));

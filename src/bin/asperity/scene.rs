@@ -1,11 +1,13 @@
 use std::ffi::OsString;
 use std::fs;
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use asperity::Error;
 use asperity::io::read_topography;
 use clap::{Arg, ArgAction, Args, Command};
-use toml::{Table, Value};
+use toml::de::{DeTable, DeValue};
+use toml::{Spanned, Table, Value};
 
 use crate::Outcome;
 use crate::echo::{is_path, key, section};
@@ -70,9 +72,19 @@ impl Scene {
             std::io::ErrorKind::InvalidData => refuse("is no text: give a scene file, in TOML".to_owned()),
             _ => refuse(format!("cannot be read: {e}")),
         })?;
+        let line = |start: usize| text.bytes().take(start).filter(|byte| *byte == b'\n').count() + 1;
+        if let Some((key, span)) = DeTable::parse(&text).ok().and_then(|table| large_integer(table.get_ref())) {
+            return Err(refuse(format!(
+                "line {}: {key} is {}, beyond the integers of TOML, which end at {}: write it with a decimal point, or in \
+                 quotation marks",
+                line(span.start),
+                text.get(span).unwrap_or_default(),
+                i64::MAX
+            ))
+            .into());
+        }
         let mut table: Table = text.parse().map_err(|e: toml::de::Error| {
-            let line =
-                e.span().map_or(0, |span| text.bytes().take(span.start).filter(|byte| *byte == b'\n').count()) + 1;
+            let line = line(e.span().map_or(0, |span| span.start));
             refuse(format!("line {line} is not TOML: {}", e.message().replace('\n', ", ")))
         })?;
         let name = match table.remove("command") {
@@ -105,6 +117,23 @@ impl Scene {
         let beside = self.given.iter().any(|given| given.to_string_lossy().split('=').next() == Some(word));
         (!beside).then(|| format!("{}: ", self.path.display()))
     }
+}
+
+/// The key of the first integer that does not fit into 64 bits, and where that stands.
+fn large_integer(table: &DeTable<'_>) -> Option<(String, Range<usize>)> {
+    fn within(value: &Spanned<DeValue<'_>>) -> Option<Range<usize>> {
+        match value.get_ref() {
+            DeValue::Integer(number) => {
+                i64::from_str_radix(number.as_str(), number.radix()).is_err().then(|| value.span())
+            }
+            DeValue::Array(values) => values.iter().find_map(within),
+            _ => None,
+        }
+    }
+    table.iter().find_map(|(key, value)| match value.get_ref() {
+        DeValue::Table(table) => large_integer(table),
+        _ => Some((key.get_ref().to_string(), within(value)?)),
+    })
 }
 
 /// The options of a scene, from its sections and from before them.

@@ -119,13 +119,12 @@ pub fn run(options: &Options, echo: &Echo) -> Outcome<bool> {
         Some(ending) if ending == "gsf" || ending == "npz" => write_topography(path, &surface.clone().into()),
         _ => write_npy(path, surface.heights()),
     })?;
-    if let Some(file) = psd {
+    if let Some(file) = &psd {
         let text = density_table(&surface.spectrum(), Some(&rough.spectrum(grid)?));
         file.write(|path| write_text(path, &text))?;
-        file.commit()?;
     }
-    heights.commit()?;
-    echo.write_beside(&options.out)?;
+    let scene = echo.written_beside(&options.out)?;
+    [Some(heights), psd, Some(scene)].into_iter().flatten().try_for_each(OutputFile::commit)?;
     options.printing.say(&table(&surface, None));
     options.printing.say(&format!("heights in {}", options.out.display()));
     options.printing.report(|| {

@@ -1,8 +1,7 @@
-use std::fs;
 use std::ops::ControlFlow;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
-use asperity::io::write_npy;
+use asperity::io::{OutputFolder, write_npy};
 use asperity::{
     ContactStatistics, Control, Error, Problem, Report, Solution, Solver, Status, Surface, Sweep, Westergaard,
 };
@@ -146,8 +145,9 @@ impl Options {
         let header = if format == Format::Csv { COLUMNS.join(",") + "\n" } else { String::new() };
         self.check_fields(loads.len())?;
         echo.check_beside(&self.out, self.force || self.out.exists())?;
+        let scene = echo.written_beside(&self.out)?;
         let (mut journal, gaps) = Journal::open(&self.out, &header, identity, loads, self.force)?;
-        echo.write_beside(&self.out)?;
+        scene.commit()?;
         warnings.say();
         let done = journal.rows();
         let controls: Vec<_> = loads.iter().map(|&load| control(load)).collect();
@@ -202,7 +202,7 @@ impl Options {
                 "rows": journal.rows(),
                 "unconverged": journal.unconverged(),
                 "out": self.out.to_string_lossy(),
-                "last": self.last_row(format),
+                "last": last_row(format, &journal.text().unwrap_or_default()),
                 "warnings": warnings.report(),
             });
             inputs::report(
@@ -220,16 +220,6 @@ impl Options {
             (Some(Loads(gaps)), _) => (Control::MeanGap, gaps),
             (None, Some(Loads(pressures))) => (Control::MeanPressure, pressures),
             (None, None) => (Control::MeanGap, &[]),
-        }
-    }
-
-    /// The last row of the file.
-    fn last_row(&self, format: Format) -> Value {
-        let text = fs::read_to_string(&self.out).unwrap_or_default();
-        let last = text.lines().next_back().unwrap_or_default();
-        match format {
-            Format::Csv => parsed(&COLUMNS, last),
-            Format::Jsonl => serde_json::from_str(last).unwrap_or_default(),
         }
     }
 
@@ -257,11 +247,12 @@ impl Options {
     /// Refuses to replace fields, if this is not the continuation of what wrote them.
     fn check_fields(&self, count: usize) -> Outcome<()> {
         let Some(folder) = &self.fields else { return Ok(()) };
-        fs::create_dir_all(folder).map_err(|e| Error::file(folder, format!("cannot be written: {e}")))?;
+        // only a trial
+        drop(OutputFolder::create(folder, &[], true)?);
         if self.force || self.out.exists() {
             return Ok(());
         }
-        let mut paths = (0..count).flat_map(|k| FIELDS.map(|name| field_path(folder, name, k)));
+        let mut paths = (0..count).flat_map(|k| FIELDS.map(|name| folder.join(field_name(name, k))));
         match paths.find(|path| path.exists()) {
             Some(path) => {
                 Err(Error::file(&path, "exists: use --force to replace it, or choose another --fields").into())
@@ -272,8 +263,21 @@ impl Options {
 
     fn write_fields<T: Scalar>(&self, k: usize, solution: &Solution<T>) -> asperity::Result<()> {
         let Some(folder) = &self.fields else { return Ok(()) };
+        let files = OutputFolder::create(folder, &[], true)?;
         let fields = [&solution.gap, &solution.pressure, &solution.contact_pressure];
-        FIELDS.iter().zip(fields).try_for_each(|(name, field)| write_npy(&field_path(folder, name, k), field))
+        let mut write =
+            FIELDS.iter().zip(fields).map(|(name, field)| write_npy(&files.path(&field_name(name, k)), field));
+        write.try_for_each(|written| written.map_err(|error| run::at_destination(error, folder)))?;
+        files.commit()
+    }
+}
+
+/// The last row of the file, of which this is the text.
+fn last_row(format: Format, text: &str) -> Value {
+    let last = text.lines().next_back().unwrap_or_default();
+    match format {
+        Format::Csv => parsed(&COLUMNS, last),
+        Format::Jsonl => serde_json::from_str(last).unwrap_or_default(),
     }
 }
 
@@ -307,8 +311,8 @@ pub fn identity(
     identity.as_object().cloned().unwrap_or_default()
 }
 
-fn field_path(folder: &Path, name: &str, k: usize) -> PathBuf {
-    folder.join(format!("{name}-{:04}.npy", k + 1))
+fn field_name(name: &str, k: usize) -> String {
+    format!("{name}-{:04}.npy", k + 1)
 }
 
 pub fn name_and_value(control: Control) -> (&'static str, f64) {

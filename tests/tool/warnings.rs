@@ -1,16 +1,11 @@
 //! Input and answers that are probably a mistake, end to end: what the tool says of them, and what it refuses.
-#![cfg(feature = "cli")]
-
-// a file of its own, as not all tests of the tool need all of it
-#[allow(dead_code)]
-#[path = "common/bench.rs"]
-mod bench;
 
 use asperity::io::{write_npy, write_topography};
 use asperity::{SelfAffine, Topography};
-use bench::{Bench, text};
 use ndarray::Array2;
 use serde_json::Value;
+
+use crate::bench::{Bench, text};
 
 /// A folder with a rough surface in it, periodic, and the same after changes.
 fn bench() -> Bench {

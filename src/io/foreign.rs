@@ -1,0 +1,121 @@
+//! Formats that are not read, and how to convert them.
+
+const GWYDDION: &str = "open it in Gwyddion, and save its heights as .gsf or export them as text";
+const IMAGE: &str = "if its grey values are heights, import it in Gwyddion and save it as .gsf; \
+                     else export the heights from the program of the instrument";
+const UNPACK: &str = "unpack it first";
+
+/// How files of a format start, what they are, and how to convert them.
+const STARTS: [(&[u8], &str, &str); 42] = [
+    (b"GWYP", "a Gwyddion file (.gwy)", GWYDDION),
+    (b"GWYO", "a Gwyddion file (.gwy)", GWYDDION),
+    (b"\\*File list", "a Nanoscope file (.spm)", GWYDDION),
+    (b"?*File list", "a Nanoscope file (.spm)", GWYDDION),
+    (b"\\*Force file list", "a Nanoscope file of force curves (.spm)", "save a map of heights instead"),
+    (b"DIGITAL SURF", "a Digital Surf file (.sur)", GWYDDION),
+    (b"DSCOMPRESSED", "a Digital Surf file (.sur)", GWYDDION),
+    (b"AliconaImaging\0", "an Alicona file (.al3d)", GWYDDION),
+    (b"\x01\0Directory", "a Wyko file (.opd)", GWYDDION),
+    (b"VCA DATA\x01\0", "a Bruker file (.opdx)", GWYDDION),
+    (b"\x01\xb0\x93\xff", "an NT-MDT file (.mdt)", GWYDDION),
+    (b"aBCR-", "a surface data file (.sdf)", GWYDDION),
+    (b"bBCR-", "a surface data file (.sdf)", GWYDDION),
+    (b"\x88\x1b\x03\x6f", "a MetroPro file (.dat)", GWYDDION),
+    (b"\x88\x1b\x03\x70", "a MetroPro file (.dat)", GWYDDION),
+    (b"\x88\x1b\x03\x71", "a MetroPro file (.dat)", GWYDDION),
+    (b"VK4_", "a Keyence file (.vk4)", GWYDDION),
+    (b"FRTM_", "a MicroProf file (.frt)", GWYDDION),
+    (b":NANONIS_VERSION:", "a Nanonis file (.sxm)", GWYDDION),
+    (b"WSxM file copyright", "a WSxM file", GWYDDION),
+    (b"II*\0", "a TIFF image (.tif)", TIFF),
+    (b"MM\0*", "a TIFF image (.tif)", TIFF),
+    (b"II+\0", "a TIFF image (.tif)", TIFF),
+    (b"MM\0+", "a TIFF image (.tif)", TIFF),
+    (b"\x89PNG\r\n\x1a\n", "a PNG image", IMAGE),
+    (b"\xff\xd8\xff", "a JPEG image", IMAGE),
+    (b"GIF8", "a GIF image", IMAGE),
+    (b"\x89HDF\r\n\x1a\n", "an HDF5 file", "in Python: numpy.save(\"heights.npy\", h5py.File(file)[name][()])"),
+    (b"CDF\x01", "a NetCDF file", NETCDF),
+    (b"CDF\x02", "a NetCDF file", NETCDF),
+    (b"CDF\x05", "a NetCDF file", NETCDF),
+    (b"MATLAB 5.0", "a MATLAB file (.mat)", MATLAB),
+    (b"MATLAB 7.3", "a MATLAB file (.mat)", MATLAB),
+    (b"\x80\x02", "a Python pickle", PICKLE),
+    (b"\x80\x03", "a Python pickle", PICKLE),
+    (b"\x80\x04", "a Python pickle", PICKLE),
+    (b"\x80\x05", "a Python pickle", PICKLE),
+    (b"%PDF-", "a PDF document", "give the file of the heights"),
+    (b"\x1f\x8b", "packed by gzip", UNPACK),
+    (b"BZh", "packed by bzip2", UNPACK),
+    (b"\xff\xfe", "a text in UTF-16", "save it in UTF-8"),
+    (b"\xfe\xff", "a text in UTF-16", "save it in UTF-8"),
+];
+
+const TIFF: &str = "open it in Gwyddion, and save its heights as .gsf; \
+                    or in Python: numpy.save(\"heights.npy\", tifffile.imread(file))";
+const NETCDF: &str = "in Python: numpy.save(\"heights.npy\", xarray.open_dataset(file)[name])";
+const MATLAB: &str = "in MATLAB: writematrix(heights, \"heights.txt\", \"Delimiter\", \" \")";
+const PICKLE: &str = "load it in Python, and save its heights by numpy.save";
+
+/// The endings of binary files whose starts tell nothing.
+const ENDINGS: [(&str, &str, &str); 4] = [
+    ("ibw", "an Igor file (.ibw)", GWYDDION),
+    ("plu", "a Sensofar file (.plu)", GWYDDION),
+    ("mnt", "a Mountains document (.mnt)", "save its heights in Mountains as text, or as .sur for Gwyddion"),
+    ("mat", "a MATLAB file (.mat)", MATLAB),
+];
+
+/// Members of zip archives that are no `.npz`.
+const MEMBERS: [(&str, &str, &str); 3] = [
+    ("main.xml", "a surface in the format of ISO 25178-72 (.x3p)", GWYDDION),
+    ("index.xml", "a Sensofar file (.plux)", GWYDDION),
+    ("[Content_Types].xml", "a document of an office program", "save the sheet of heights as text, with tabs"),
+];
+
+/// Why a file with such a start is not read, if it is of one of the formats.
+pub(super) fn by_start(start: &[u8]) -> Option<String> {
+    STARTS.iter().find(|(magic, ..)| start.starts_with(magic)).map(|(_, name, remedy)| format!("is {name}: {remedy}"))
+}
+
+/// Why a file that cannot be read as a text is not read, if that is since it is binary; `ending` is that of its name.
+pub(super) fn by_ending(start: &[u8], ending: &str) -> Option<String> {
+    let known = || ENDINGS.iter().find(|(other, ..)| *other == ending);
+    let (_, name, remedy) = start.contains(&0).then(|| known().unwrap_or(&("", "a binary file", GWYDDION)))?;
+    Some(format!("is {name}, of a format that is not read: {remedy}"))
+}
+
+/// Why an archive with such members is not read, if it is of one of the formats.
+pub(super) fn by_member<'a>(mut names: impl Iterator<Item = &'a str>) -> Option<String> {
+    let found = names.find_map(|name| MEMBERS.iter().find(|(member, ..)| *member == name));
+    found.map(|(_, name, remedy)| format!("is {name}: {remedy}"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::tests::{assert_refused, read, read_map};
+    use super::*;
+
+    #[test]
+    fn files_of_instruments_and_programs_are_named_with_a_way_to_convert_them() {
+        let noise: Vec<u8> = (0..5000_u32).map(|i| (i * i / 7) as u8).collect();
+        for (magic, name, remedy) in STARTS {
+            for rest in [&[][..], &noise] {
+                assert_refused(read([magic, rest].concat()), &[name, remedy]);
+            }
+        }
+        for (ending, name, remedy) in ENDINGS {
+            let path = format!("map.{}", ending.to_uppercase());
+            assert_refused(read_map([&b"\x05"[..], &[0; 99]].concat(), &path), &[name, remedy]);
+        }
+    }
+
+    #[test]
+    fn other_binary_files_are_called_so_and_texts_are_not() {
+        for name in ["map", "map.xyz", "map.dat"] {
+            assert_refused(read_map([0; 100_000], name), &["is a binary file", "Gwyddion"]);
+            assert_refused(read_map(b"12\x1b[31mab 4 5\n", name), &["line 1", "\"12\\u{1b}[31mab\" is not a number"]);
+        }
+        // a text with a strange comment is one all the same, whatever its name is
+        assert_eq!(read_map(b"# \x05\0\xff\n1 2\n", "map.ibw").unwrap().heights, ndarray::array![[1.0, 2.0]]);
+    }
+}
