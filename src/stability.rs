@@ -15,10 +15,12 @@ mod bound;
 mod departure;
 mod eigenpair;
 mod hessian;
+mod watch;
 
 pub use departure::Departure;
 use eigenpair::{Eigenpair, lowest};
 use hessian::Hessian;
+pub(crate) use watch::{Saddle, Watch};
 
 /// Whether an equilibrium is one that lasts.
 ///
@@ -211,6 +213,13 @@ impl StabilityTest {
 
 /// φ'' at every node, and infinity on the contact.
 fn slopes<T: Real>(gap: &Array2<T>, law: &impl AdhesionLaw<T>) -> Result<Array2<T>> {
+    let standard;
+    let gap = if gap.is_standard_layout() {
+        gap
+    } else {
+        standard = gap.as_standard_layout().into_owned();
+        &standard
+    };
     let mut slopes = Array2::zeros(gap.dim());
     let mut reducer = Reducer::new(gap.len());
     let wrong = reducer.run(read(gap).zip(write(&mut slopes)), |_, (gap, slopes)| {
