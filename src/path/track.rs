@@ -376,7 +376,8 @@ impl State {
         let (places, at) = (places()?, places()?);
         let whole = leg >= 0.0 && leg.fract() == 0.0 && solved != places.is_empty();
         let mode = if mode != 0.0 { Mode::Pressure } else { Mode::Gap };
-        let state = Self { solved, leg: leg as usize, mode, span, step, pressures, limit, on_saddle, track, places, at };
+        let state =
+            Self { solved, leg: leg as usize, mode, span, step, pressures, limit, on_saddle, track, places, at };
         (whole && rest.next().is_none()).then_some(state)
     }
 }

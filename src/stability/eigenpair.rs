@@ -20,6 +20,10 @@ pub(super) struct Eigenpair<T> {
     pub(super) vector: Array2<T>,
 }
 
+/// The share of the eigenvalue by which the residual may let it be wrong: the square of the residual over the distance to
+/// the next one, for which the softest stiffness stands. So its sign is known.
+pub(super) const UNCERTAIN: f64 = 0.01;
+
 /// A share of a vector that is not in those before below which it counts as one of them.
 const DEPENDENT: f64 = 1e-10;
 
@@ -27,19 +31,15 @@ type Matrix = [[f64; 3]; 3];
 
 /// The smallest eigenvalue with its mode, from a random start.
 pub(super) fn lowest<T: Real>(hessian: &mut Hessian<'_, T>, tolerance: f64, most: usize) -> Result<Eigenpair<T>> {
-    let start = rough(hessian, 0)?;
-    lowest_from(hessian, start, most, true, |hessian, found| {
-        found.residual <= tolerance * found.value.abs().max(hessian.softest())
-    })
-}
-
-/// A random field in which soft modes have large shares.
-pub(super) fn rough<T: Real>(hessian: &mut Hessian<'_, T>, stream: u32) -> Result<Array2<T>> {
-    let mut random = hessian.random(stream);
-    let mut rough = Array2::zeros(hessian.shape());
+    let mut random = hessian.random(0);
     hessian.weigh(&mut random);
-    hessian.precondition(&random, &mut rough)?;
-    Ok(rough)
+    let mut start = Array2::zeros(hessian.shape());
+    hessian.precondition(&random, &mut start)?;
+    drop(random);
+    lowest_from(hessian, start, most, true, |hessian, found| {
+        let scale = found.value.abs().max(hessian.softest());
+        found.residual <= tolerance * scale && found.residual * found.residual <= UNCERTAIN * found.value.abs() * scale
+    })
 }
 
 /// What is known of an eigenpair while it is iterated.

@@ -2,7 +2,7 @@
 
 use ndarray::Array2;
 
-use super::eigenpair::{Eigenpair, lowest_from, normalise, rough};
+use super::eigenpair::{Eigenpair, UNCERTAIN, lowest_from, normalise};
 use super::hessian::Hessian;
 use super::slopes;
 use crate::adhesion::AdhesionLaw;
@@ -13,10 +13,7 @@ use crate::real::Real;
 
 /// How much of a random field is added to the mode of the last state. Without it a mode that has no share in the start,
 /// as an antisymmetric one beside a symmetric one, would never be found.
-const FRESH: f64 = 0.1;
-
-/// How large the square of the residual may be, relative to what makes the eigenvalue uncertain.
-const UNCERTAIN: f64 = 0.1;
+const FRESH: f64 = 0.03;
 
 /// Iterations on a state at most.
 const MOST: usize = 200;
@@ -32,6 +29,8 @@ const NEARLY: f64 = 0.99;
 pub(crate) struct Watch<T> {
     /// the mode that was last found, of mean square 1
     pub(crate) mode: Option<Array2<T>>,
+    /// the random field
+    random: Option<Array2<T>>,
 }
 
 /// An equilibrium that is no minimum; the mode along which it is none is that of the [`Watch`].
@@ -42,9 +41,15 @@ pub(crate) struct Saddle {
 }
 
 impl<T: Real> Watch<T> {
+    /// One that goes on from a mode.
+    pub(crate) fn from_mode(mode: Option<Array2<T>>) -> Self {
+        Self { mode, random: None }
+    }
+
     /// Whether an equilibrium is a saddle at its mean gap, of the law as the problem has it.
     ///
-    /// Takes nothing if the softest stiffness and the least φ'' show that it is none, and otherwise some operator applications.
+    /// Takes nothing if the softest stiffness and the least φ'' show that it is none, and otherwise some operator applications:
+    /// five or seven, as a rule.
     pub(crate) fn look<O: ElasticOperator<T>, L: AdhesionLaw<T>>(
         &mut self,
         problem: &mut Problem<T, O, L>,
@@ -58,7 +63,14 @@ impl<T: Real> Watch<T> {
         if hessian.simple_bound() > 0.0 || hessian.dimension() == 0 {
             return Ok(None);
         }
-        let mut start = rough(&mut hessian, 0)?;
+        let random = match self.random.take() {
+            Some(random) => random,
+            None => hessian.smooth_random(2)?,
+        };
+        let mut start = random.clone();
+        self.random = Some(random);
+        hessian.project(&mut start);
+        hessian.weigh(&mut start);
         if let Some(mut mode) = self.mode.take() {
             hessian.project(&mut mode);
             normalise(&mut hessian, &mut mode);
@@ -84,9 +96,7 @@ impl<T: Real> Watch<T> {
     /// The share of the mode in a change of the gap: the cosine of the angle between them.
     pub(crate) fn share(&self, change: &Array2<T>) -> f64 {
         let Some(mode) = &self.mode else { return 0.0 };
-        let product = |a: &Array2<T>, b: &Array2<T>| {
-            a.iter().zip(b).map(|(a, b)| a.widen() * b.widen()).sum::<f64>()
-        };
+        let product = |a: &Array2<T>, b: &Array2<T>| a.iter().zip(b).map(|(a, b)| a.widen() * b.widen()).sum::<f64>();
         let share = product(mode, change) / (product(mode, mode) * product(change, change)).sqrt();
         if share.is_finite() { share } else { 0.0 }
     }
