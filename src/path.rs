@@ -8,13 +8,15 @@ use crate::error::{Error, Result};
 use crate::problem::{Control, Parts, Problem, smoothed_law};
 use crate::real::Real;
 use crate::solver::{Iteration, Solution, Solver, Status};
+use crate::stability::Watch;
 
 mod event;
 mod quadrature;
+mod saddle;
 mod track;
 
 pub use event::{Event, Jump};
-use track::{Mode, State, Track};
+use track::{Mode, State, Track, Way};
 
 /// How a path of equilibria is followed.
 ///
@@ -107,6 +109,29 @@ pub struct PathStep<T> {
 /// the surfaces to full contact or out of each other's reach. Under a given mean gap there are limit points
 /// too, at which it jumps.
 ///
+/// # Bifurcations
+///
+/// A branch may go on through states that are no minima. Two equal asperities approach: both jump into contact at one gap,
+/// but before that it takes less energy if one of them jumps and the other draws back. No iteration that starts from the symmetric
+/// state finds that, as its gradient is symmetric too. Every mirrored surface is of that kind, and every periodic one.
+///
+/// With adhesion, therefore, the smallest eigenvalue of the energy's second derivative is watched, over the changes of the gap
+/// that vanish where the surfaces touch and have no mean, as in a [`StabilityTest`](crate::StabilityTest) at the given mean gap. Where
+/// the softest stiffness and the least φ'' show that it is positive, that takes nothing. Elsewhere it takes some five
+/// operator applications a state: an iteration or two from the mode of the state before, to which a little of a random
+/// field (the same in every path) is added, so that no symmetry holds the mode back. A step to a saddle is taken back and halved, as one that
+/// jumps is; at [`PathSettings::resolution`] the state is moved along the mode by a tenth of the range of adhesion, and
+/// the minimisation goes on from there, to a state that is no saddle. Of the two ways along the mode it takes that
+/// on which the gap closes at the first of the nodes where the mode is largest.
+///
+/// Its [`Event`] is a bifurcation, with the eigenvalue and the energy that it dissipates. Where the branch came to that place
+/// along the mode itself, as at a limit point, it is a jump like any other. Under a given pressure a bifurcation is met at
+/// the mean gap that belongs to it, and the path goes on at given mean gaps, as from a limit point.
+///
+/// A stretch of saddles that is shorter than a step may be passed unnoticed: more [`steps`](PathSettings::steps) find shorter
+/// ones, as there are where nodes leave the contact one by one. A saddle from which no minimum was found is followed, and left at the
+/// next state from which there is one. The first state is left without an event if it is a saddle.
+///
 /// # Going on
 ///
 /// A path can be interrupted, kept as a [`PathCheckpoint`], and continued, bit for bit.
@@ -140,10 +165,11 @@ pub struct Path<'a, T, O, L> {
     state: State,
     /// the last gaps, the latest last: at most two
     gaps: Vec<Array2<T>>,
+    watch: Watch<T>,
     failed: bool,
 }
 
-/// All that a path needs to go on: opaque numbers, and gaps of shape (Nx, Ny). Both must come back bit for bit.
+/// All that a path needs to go on: opaque numbers, and fields of shape (Nx, Ny). Both must come back bit for bit.
 ///
 /// ```
 /// use asperity::{Control, Grid, NoAdhesion, Path, PathSettings, Problem, Solver, Surface, Westergaard};
@@ -164,8 +190,8 @@ pub struct Path<'a, T, O, L> {
 pub struct PathCheckpoint<T> {
     /// Where the path is.
     pub numbers: Vec<f64>,
-    /// The last gaps.
-    pub gaps: Vec<Array2<T>>,
+    /// The last gaps, and the softest mode of the last state, where it was needed.
+    pub fields: Vec<Array2<T>>,
 }
 
 /// How often a solve that did not converge is taken up again, where the step cannot be halved.
@@ -205,8 +231,8 @@ where
             let (name, value) = ("resolution", settings.resolution);
             return Err(Error::Value { name, value, requirement: "positive and below 1" });
         }
-        let state = State::default();
-        Ok(Self { solver, problem, legs, settings, start: None, state, gaps: Vec::new(), failed: false })
+        let (state, watch) = (State::default(), Watch::default());
+        Ok(Self { solver, problem, legs, settings, start: None, state, gaps: Vec::new(), watch, failed: false })
     }
 
     /// The same path, with a gap of shape (Nx, Ny) from which the first load starts.
@@ -216,28 +242,35 @@ where
 
     /// Where the path is.
     pub fn checkpoint(&self) -> PathCheckpoint<T> {
-        PathCheckpoint { numbers: self.state.numbers(), gaps: self.gaps.clone() }
+        let fields = self.gaps.iter().chain(&self.watch.mode).cloned().collect();
+        PathCheckpoint { numbers: self.state.numbers(), fields }
     }
 
     /// The same path, from where another one was that had the same problem, loads and settings.
     ///
     /// # Errors
-    /// [`Error::Shape`] if the gaps are of another grid, [`Error::Value`] if the numbers are not those of a checkpoint.
+    /// [`Error::Shape`] if the fields are of another grid, [`Error::Value`] if the numbers are not those of a checkpoint.
     pub fn continuing(mut self, from: PathCheckpoint<T>) -> Result<Self> {
         let shape = self.problem.grid().shape();
-        for gap in &from.gaps {
-            Error::shape("gap of the checkpoint", gap.dim(), shape)?;
+        let PathCheckpoint { numbers, mut fields } = from;
+        for field in &mut fields {
+            Error::shape("field of the checkpoint", field.dim(), shape)?;
+            if !field.is_standard_layout() {
+                *field = field.as_standard_layout().into_owned();
+            }
         }
-        let state = State::of_numbers(&from.numbers).filter(|state| {
+        let state = State::of_numbers(&numbers).filter(|state| {
+            let gaps = state.at.len();
             state.leg < self.legs.len().max(1)
-                && state.solved != from.gaps.is_empty()
-                && from.gaps.len() == state.at.len()
+                && state.solved != fields.is_empty()
+                && (gaps..=gaps + 1).contains(&fields.len())
         });
         let Some(state) = state else {
-            let (name, value) = ("number of numbers in the checkpoint", from.numbers.len() as f64);
-            return Err(Error::Value { name, value, requirement: "as in PathCheckpoint, with all of its gaps" });
+            let (name, value) = ("number of numbers in the checkpoint", numbers.len() as f64);
+            return Err(Error::Value { name, value, requirement: "as in PathCheckpoint, with all of its fields" });
         };
-        (self.state, self.gaps) = (state, from.gaps);
+        self.watch = Watch::from_mode(fields.drain(state.at.len()..).next());
+        (self.state, self.gaps) = (state, fields);
         Ok(self)
     }
 
@@ -262,11 +295,7 @@ where
         if !self.state.solved {
             let control = *self.legs.first()?;
             let start = self.start.take();
-            return Some(self.first(control, start, observe).map(|solution| {
-                self.state.begin(&solution.report);
-                self.gaps.push(solution.gap.clone());
-                self.step(solution, control, None)
-            }));
+            return self.begin(control, start, observe).transpose();
         }
         while !self.failed {
             while self.state.is_at_end() {
@@ -280,6 +309,28 @@ where
             }
         }
         None
+    }
+
+    /// The first step; nothing if it was stopped.
+    fn begin(
+        &mut self,
+        control: Control,
+        start: Option<Array2<T>>,
+        observe: &mut dyn FnMut(&Iteration) -> ControlFlow<()>,
+    ) -> Result<Option<PathStep<T>>> {
+        let mut solution = self.first(control, start, observe)?;
+        let mut on_saddle = solution.report.status == Status::Converged && self.saddle(&solution)?.is_some();
+        if on_saddle {
+            let (left, _) = self.leave(&solution, control, observe)?;
+            if self.failed {
+                return Ok(None);
+            }
+            (solution, on_saddle) = left.map_or((solution, true), |left| (left, false));
+        }
+        self.state.begin(&solution.report);
+        self.state.on_saddle = on_saddle;
+        self.gaps.push(solution.gap.clone());
+        Ok(Some(self.step(solution, control, None)))
     }
 
     /// The first state. The default start is an equilibrium of the law itself.
@@ -333,24 +384,43 @@ where
         let w = self.problem.law.work_of_adhesion().widen();
         let rounding = T::epsilon().widen() / (solution.gap.len() as f64).sqrt() + f64::EPSILON;
         let noise = 8.0 * rounding * self.problem.flat.work;
-        let trial = self.state.judge(target, report, self.settings.tolerance, 1e-3 * w, noise);
-        let good = trial.balanced && report.status == Status::Converged;
-        if !good && !smallest {
+        let (least, tolerance) = (1e-3 * w, self.settings.tolerance);
+        let mut trial = self.state.judge(target, report, tolerance, least, noise);
+        let converged = report.status == Status::Converged;
+        let good = trial.balanced && converged;
+        let saddle = if converged && (good || smallest) { self.saddle(&solution)? } else { None };
+        let lost = good && saddle.is_some() && !self.state.on_saddle;
+        if (!good || lost) && !smallest {
             self.state.halve(&self.settings);
             return Ok(None);
         }
-        if self.state.mode == Mode::Pressure && (trial.jumped && !good || report.status == Status::Detached) {
+        let detached = report.status == Status::Detached;
+        if self.state.mode == Mode::Pressure && (trial.jumped && !good || detached || lost) {
             let law = &self.problem.law;
             let far = 2.0 * (self.problem.flat.height_span + 10.0 * law.range().widen());
-            self.state.leave_pressure_control(far, &self.settings);
+            self.state.leave_pressure_control(far, !lost, &self.settings);
             return Ok(None);
         }
-        if self.state.overshoots(report, &self.settings) {
+        let mut way = Way { jumped: trial.jumped && !good, bifurcation: None };
+        let mut on_saddle = saddle.is_some();
+        if let Some(saddle) = saddle {
+            let (left, drawn) = self.leave(&solution, control, observe)?;
+            if self.failed {
+                return Ok(None);
+            }
+            if let Some(left) = left {
+                (solution, on_saddle) = (left, false);
+                trial = self.state.judge(target, &solution.report, tolerance, least, noise);
+                way.jumped |= trial.jumped && !trial.balanced;
+                way.bifurcation = (good && !drawn).then_some(saddle.eigenvalue);
+            }
+        }
+        if self.state.overshoots(&solution.report, &self.settings) {
             return Ok(None);
         }
-        let jumped = trial.jumped && !good;
-        let event = self.state.accept(target, report, trial, jumped, &self.settings);
-        if jumped {
+        let event = self.state.accept(target, &solution.report, trial, way, &self.settings);
+        self.state.on_saddle = on_saddle;
+        if way.is_new() {
             self.gaps.clear();
         } else if self.gaps.len() == 2 {
             self.gaps.remove(0);

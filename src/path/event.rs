@@ -4,9 +4,18 @@ use std::fmt;
 ///
 /// The page [`branches`](crate::guide::branches) has an example.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum Event {
     /// The state jumped to another branch.
     Jump(Jump),
+    /// The branch became one of saddles, and was left along the mode that became unstable: where a symmetry breaks.
+    Bifurcation {
+        /// The eigenvalue of the mode on the branch that was left, where it is negative for the first time.
+        eigenvalue: f64,
+        /// From the last stable state to the branch that was found. The energy drop is zero where that one bends off
+        /// without a jump.
+        jump: Jump,
+    },
     /// The mean pressure is at a maximum or a minimum: from the state before this one the path goes on at given mean gaps.
     LimitPoint {
         /// The mean gap there.
@@ -32,11 +41,20 @@ pub struct Jump {
 }
 
 impl Event {
+    /// From where to where the state jumped, of a jump and of a bifurcation.
+    pub fn jump(&self) -> Option<&Jump> {
+        match self {
+            Self::Jump(jump) | Self::Bifurcation { jump, .. } => Some(jump),
+            Self::LimitPoint { .. } => None,
+        }
+    }
+
     /// The name that the tool uses: `"jump-in"` where contact or adhesion grows, `"pull-off"` where the last contact is lost,
-    /// `"jump-out"` where contact shrinks, and `"limit-point"`.
+    /// `"jump-out"` where contact shrinks, `"bifurcation"` and `"limit-point"`.
     pub fn name(&self) -> &'static str {
         match self {
             Self::LimitPoint { .. } => "limit-point",
+            Self::Bifurcation { .. } => "bifurcation",
             Self::Jump(Jump { contact_fraction: (before, after), mean_pressure, .. }) => {
                 if after > before {
                     "jump-in"

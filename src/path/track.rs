@@ -84,6 +84,22 @@ pub(super) struct Trial {
     growth: f64,
 }
 
+/// How a step came to the state that is taken.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Way {
+    /// whether it jumped
+    pub(super) jumped: bool,
+    /// the eigenvalue of the saddle that was left, where a symmetry breaks
+    pub(super) bifurcation: Option<f64>,
+}
+
+impl Way {
+    /// Whether it is on another branch than the state before.
+    pub(super) fn is_new(&self) -> bool {
+        self.jumped || self.bifurcation.is_some()
+    }
+}
+
 /// Where a path is.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct State {
@@ -98,6 +114,8 @@ pub(super) struct State {
     pressures: Option<(f64, f64)>,
     /// the limit point that was just met
     limit: Option<(f64, f64)>,
+    /// whether the last state is a saddle that could not be left
+    pub(super) on_saddle: bool,
     pub(super) track: Track,
     /// the last states on the branch, the latest last: at most four
     places: Vec<Place>,
@@ -218,8 +236,8 @@ impl State {
         }
     }
 
-    /// Goes on at given mean gaps, from a limit point.
-    pub(super) fn leave_pressure_control(&mut self, far: f64, settings: &PathSettings) {
+    /// Goes on at given mean gaps, from a limit point or from before a bifurcation.
+    pub(super) fn leave_pressure_control(&mut self, far: f64, limit_point: bool, settings: &PathSettings) {
         let here = self.here();
         let (from, to) = self.span;
         if here.gap == 0.0 && to > from {
@@ -227,7 +245,7 @@ impl State {
             self.span = (here.pressure, here.pressure);
             return;
         }
-        self.limit = Some((here.gap, here.pressure));
+        self.limit = limit_point.then_some((here.gap, here.pressure));
         self.pressures = Some((to, from));
         let end = if to > from { 0.0 } else { far.max(2.0 * here.gap) };
         self.turn(Mode::Gap, end, settings);
@@ -254,7 +272,7 @@ impl State {
         target: f64,
         report: &Report,
         trial: Trial,
-        jumped: bool,
+        way: Way,
         settings: &PathSettings,
     ) -> Option<Event> {
         let (here, mut next) = (self.here(), Place::of(report));
@@ -267,28 +285,36 @@ impl State {
         *range = (range.0.min(next.energy), range.1.max(next.energy));
         let mut event =
             self.limit.take().map(|(mean_gap, mean_pressure)| Event::LimitPoint { mean_gap, mean_pressure });
+        let mut jump = Jump {
+            mean_gap: (here.gap, next.gap),
+            mean_pressure: (here.pressure, next.pressure),
+            contact_fraction: (here.contact, next.contact),
+            energy_drop: 0.0,
+        };
+        let jumped = way.jumped;
         if jumped {
             // the load before the jump does the work of the step
             let done = -here.pressure * (next.gap - here.gap);
-            let energy_drop = done - (next.energy - here.energy);
+            jump.energy_drop = done - (next.energy - here.energy);
             *work += done;
-            *dissipated += energy_drop;
-            event = Some(Event::Jump(Jump {
-                mean_gap: (here.gap, next.gap),
-                mean_pressure: (here.pressure, next.pressure),
-                contact_fraction: (here.contact, next.contact),
-                energy_drop,
-            }));
-            self.places.clear();
-            self.at.clear();
+            *dissipated += jump.energy_drop;
         } else {
             *work += trial.work;
             *imbalance += trial.excess;
         }
+        if let Some(eigenvalue) = way.bifurcation {
+            event = Some(Event::Bifurcation { eigenvalue, jump });
+        } else if jumped {
+            event = Some(Event::Jump(jump));
+        }
+        if way.is_new() {
+            self.places.clear();
+            self.at.clear();
+        }
         let taken = (target - here.slope(self.mode).0).abs();
         let largest = self.length() / settings.steps as f64;
         // a short last step says nothing about the next one
-        let next_step = if jumped { taken } else { (taken * trial.growth).max(self.step.min(taken)) };
+        let next_step = if way.is_new() { taken } else { (taken * trial.growth).max(self.step.min(taken)) };
         self.step = next_step.clamp(self.smallest(settings).min(largest), largest);
         if self.places.len() == PLACES - 1 {
             self.places.remove(0);
@@ -319,6 +345,7 @@ impl State {
             |pair: Option<(f64, f64)>| [flag(pair.is_some()), pair.unwrap_or_default().0, pair.unwrap_or_default().1];
         let Track { work, dissipated, imbalance, range } = self.track;
         let mut numbers = vec![flag(self.solved), self.leg as f64, flag(self.mode == Mode::Pressure)];
+        numbers.push(flag(self.on_saddle));
         numbers.extend([self.span.0, self.span.1, self.step]);
         numbers.extend(pair(self.pressures).into_iter().chain(pair(self.limit)));
         numbers.extend([work, dissipated, imbalance, range.0, range.1]);
@@ -332,7 +359,7 @@ impl State {
     pub(super) fn of_numbers(numbers: &[f64]) -> Option<Self> {
         let mut rest = numbers.iter().copied();
         let mut next = || rest.next();
-        let (solved, leg, mode) = (next()? != 0.0, next()?, next()?);
+        let (solved, leg, mode, on_saddle) = (next()? != 0.0, next()?, next()?, next()? != 0.0);
         let (span, step) = ((next()?, next()?), next()?);
         let mut pair = || Some((next()? != 0.0, (next()?, next()?)));
         let [pressures, limit] = [pair()?, pair()?].map(|(there, pair)| there.then_some(pair));
@@ -349,7 +376,8 @@ impl State {
         let (places, at) = (places()?, places()?);
         let whole = leg >= 0.0 && leg.fract() == 0.0 && solved != places.is_empty();
         let mode = if mode != 0.0 { Mode::Pressure } else { Mode::Gap };
-        let state = Self { solved, leg: leg as usize, mode, span, step, pressures, limit, track, places, at };
+        let state =
+            Self { solved, leg: leg as usize, mode, span, step, pressures, limit, on_saddle, track, places, at };
         (whole && rest.next().is_none()).then_some(state)
     }
 }
@@ -369,6 +397,7 @@ mod tests {
             step: 1e-3,
             pressures: Some((0.2, 0.3)),
             limit: None,
+            on_saddle: true,
             track: Track { work: 1.0, dissipated: 2.0, imbalance: -3.0, range: (4.0, 5.0) },
             places: vec![place(0.1), place(0.2), place(0.3)],
             at: vec![place(0.3)],

@@ -20,20 +20,47 @@ pub(super) struct Eigenpair<T> {
     pub(super) vector: Array2<T>,
 }
 
+/// The share of the eigenvalue by which the residual may let it be wrong: the square of the residual over the distance to
+/// the next one, for which the softest stiffness stands. So its sign is known.
+pub(super) const UNCERTAIN: f64 = 0.01;
+
 /// A share of a vector that is not in those before below which it counts as one of them.
 const DEPENDENT: f64 = 1e-10;
 
 type Matrix = [[f64; 3]; 3];
 
-/// The smallest eigenvalue with its mode.
+/// The smallest eigenvalue with its mode, from a random start.
 pub(super) fn lowest<T: Real>(hessian: &mut Hessian<'_, T>, tolerance: f64, most: usize) -> Result<Eigenpair<T>> {
+    let mut random = hessian.random(0);
+    hessian.weigh(&mut random);
+    let mut start = Array2::zeros(hessian.shape());
+    hessian.precondition(&random, &mut start)?;
+    drop(random);
+    lowest_from(hessian, start, most, true, |hessian, found| {
+        let scale = found.value.abs().max(hessian.softest());
+        found.residual <= tolerance * scale && found.residual * found.residual <= UNCERTAIN * found.value.abs() * scale
+    })
+}
+
+/// What is known of an eigenpair while it is iterated.
+pub(super) struct Found {
+    pub(super) value: f64,
+    pub(super) residual: f64,
+    pub(super) noise: f64,
+    pub(super) iteration: usize,
+}
+
+/// The smallest eigenvalue with its mode, from an admissible start, until it is known well enough; `confirmed` by an image
+/// that was not only updated, if that is worth an application.
+pub(super) fn lowest_from<T: Real>(
+    hessian: &mut Hessian<'_, T>,
+    mut x: Array2<T>,
+    most: usize,
+    confirmed: bool,
+    enough: impl Fn(&Hessian<'_, T>, &Found) -> bool,
+) -> Result<Eigenpair<T>> {
     let shape = hessian.shape();
-    let field = || Array2::<T>::zeros(shape);
-    let [mut x, mut ax, mut w, mut aw, mut p, mut ap] = std::array::from_fn(|_| field());
-    let mut rough = hessian.random(0);
-    hessian.weigh(&mut rough);
-    hessian.precondition(&rough, &mut x)?;
-    drop(rough);
+    let [mut ax, mut w, mut aw, mut p, mut ap] = std::array::from_fn(|_| Array2::<T>::zeros(shape));
     normalise(hessian, &mut x);
     hessian.apply(&x, &mut ax)?;
     let (mut directions, mut fresh, mut iteration) = (2, true, 0);
@@ -44,9 +71,9 @@ pub(super) fn lowest<T: Real>(hessian: &mut Hessian<'_, T>, tolerance: f64, most
         hessian.combine(1.0, &mut w, -value, &x);
         let residual = hessian.product(&w, &w).sqrt();
         let noise = noise::<T>(hessian, &ax, value);
-        let enough = residual <= tolerance * value.abs().max(hessian.softest()) || residual <= noise;
-        if !residual.is_finite() || iteration >= most || enough {
-            if fresh {
+        let done = residual <= noise || enough(hessian, &Found { value, residual, noise, iteration });
+        if !residual.is_finite() || iteration >= most || done {
+            if fresh || !confirmed {
                 return Ok(Eigenpair { value, residual, noise, vector: x });
             }
             // the image was only updated: the numbers that are reported come from an image of its own
@@ -82,7 +109,7 @@ fn noise<T: Real>(hessian: &mut Hessian<'_, T>, image: &Array2<T>, value: f64) -
     8.0 * T::epsilon().widen() * (image.max(value.abs()) + 2.0 * hessian.least_slope().abs() + hessian.softest())
 }
 
-fn normalise<T: Real>(hessian: &mut Hessian<'_, T>, field: &mut Array2<T>) {
+pub(super) fn normalise<T: Real>(hessian: &mut Hessian<'_, T>, field: &mut Array2<T>) {
     let norm = hessian.product(field, field).sqrt();
     if norm > 0.0 {
         hessian.scale(field, 1.0 / norm);

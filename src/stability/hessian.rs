@@ -161,13 +161,27 @@ impl<'a, T: Real> Hessian<'a, T> {
 
     /// An admissible field of independent normal numbers, the same for every `stream`.
     pub(super) fn random(&mut self, stream: u32) -> Array2<T> {
-        let ny = self.shape().1;
-        let mut field = Array2::from_shape_fn(self.shape(), |(i, j)| {
-            let node = (i * ny + j) as u64;
-            let [a, b] = crate::surface::uniform([node as u32, (node >> 32) as u32, stream, 0], [0x5EED, 0]);
-            T::lit((-2.0 * (1.0 - a).ln()).sqrt() * (std::f64::consts::TAU * b).cos())
-        });
+        let mut field = normal_numbers(self.shape(), stream);
         self.project(&mut field);
         field
     }
+
+    /// Normal numbers smoothed by the compliance, not admissible: the same whatever φ'' and the contact are. Takes one
+    /// operator application.
+    pub(super) fn smooth_random(&mut self, stream: u32) -> Result<Array2<T>> {
+        let random = normal_numbers::<T>(self.shape(), stream);
+        let (softest, mut smooth) = (self.softest(), Array2::zeros(random.dim()));
+        self.operator.precondition(random.view(), softest, softest, smooth.view_mut())?;
+        self.applications += 1;
+        Ok(smooth)
+    }
+}
+
+/// Independent normal numbers, the same for every `stream`.
+fn normal_numbers<T: Real>(shape: (usize, usize), stream: u32) -> Array2<T> {
+    Array2::from_shape_fn(shape, |(i, j)| {
+        let node = (i * shape.1 + j) as u64;
+        let [a, b] = crate::surface::uniform([node as u32, (node >> 32) as u32, stream, 0], [0x5EED, 0]);
+        T::lit((-2.0 * (1.0 - a).ln()).sqrt() * (std::f64::consts::TAU * b).cos())
+    })
 }

@@ -170,6 +170,90 @@ fn the_certificate_bounds_the_error_of_a_stable_equilibrium() {
 }
 
 #[test]
+fn the_memory_layout_of_the_gap_does_not_matter() {
+    let mut problem = rough::<f64, _>(24, 6, Exponential::new(4e-4, 4e-3).unwrap());
+    for control in [Control::MeanGap(0.012), Control::MeanGap(0.03)] {
+        let solution = solve(&mut problem, control, 1e-8);
+        let mut columns = solution.clone();
+        columns.gap = solution.gap.t().as_standard_layout().into_owned().reversed_axes();
+        assert!(columns.gap == solution.gap && !columns.gap.is_standard_layout());
+        let test = StabilityTest::default();
+        let rows = test.run(&mut problem, control, &solution).unwrap();
+        assert_eq!(test.run(&mut problem, control, &columns).unwrap(), rows);
+        let mut leave = |from| rows.leave(&mut Solver::default(), &mut problem, control, from).unwrap().unwrap();
+        assert_eq!(leave(&columns).solution, leave(&solution).solution);
+        let start = |gap: &Array2<f64>| gap.mapv(|gap| 1.1 * gap);
+        let mut from = |gap: &Array2<f64>| {
+            let mut solver = Solver::default();
+            let path = Path::new(&mut solver, &mut problem, [control], PathSettings::default()).unwrap();
+            path.starting_from(start(gap)).next().unwrap().unwrap()
+        };
+        assert_eq!(from(&columns.gap), from(&solution.gap));
+    }
+}
+
+/// A surface of few waves: none, two equal ones, ones with mirrors, or any; and a number from 0 to 1 for each call of the other.
+fn scene(seed: u32) -> (Surface, impl FnMut() -> f64) {
+    let mut state = seed.wrapping_mul(0x9E37_79B9) | 1;
+    let mut random = move || {
+        for (left, shift) in [(true, 13), (false, 17), (true, 5)] {
+            state ^= if left { state << shift } else { state >> shift };
+        }
+        f64::from(state) / 4_294_967_296.0
+    };
+    let shape = [(16, 1), (33, 1), (64, 1), (8, 8), (10, 6)][(5.0 * random()) as usize];
+    let grid = Grid::new(shape, (1.0, if shape.1 == 1 { 1.0 } else { 0.7 })).unwrap();
+    let kind = (4.0 * random()) as usize;
+    let waves: Vec<_> =
+        (0..6).map(|_| [(4.0 * random()).floor(), (3.0 * random()).floor(), 0.02 * random(), random()]).collect();
+    let turn = 2.0 * PI;
+    let surface = Surface::from_fn(grid, |x, y| {
+        let y = y / grid.lengths().1;
+        let wave = |[k, l, a, phase]: &[f64; 4]| match kind {
+            2 => a * (turn * k * x).cos() * (turn * l * y).cos(),
+            _ => a * (turn * (k * x + l * y + phase)).cos(),
+        };
+        match kind {
+            0 => 0.0,
+            1 => 0.02 * ((2.0 * turn * x).cos() + (turn * y).cos()),
+            _ => waves.iter().map(wave).sum(),
+        }
+    });
+    (surface.unwrap(), random)
+}
+
+#[test]
+fn the_default_test_decides_and_finds_the_least_eigenvalue_of_random_scenes() {
+    let (mut runs, mut unstable) = (0, 0);
+    for seed in 1..=150 {
+        let (surface, mut random) = scene(seed);
+        let range = 10_f64.powf(-3.0 + 1.5 * random());
+        let w = range * range * 10_f64.powf(-0.5 + 2.5 * random());
+        let operator = Westergaard::new(*surface.grid(), 1.0).unwrap();
+        let mut problem = Problem::new(&surface, operator, Exponential::new(w, range).unwrap()).unwrap();
+        let given = Control::MeanGap((3.0 * surface.rms_height() + range) * random());
+        let mut solver = Solver::new(Settings { tolerance: 1e-7, ..Settings::default() });
+        let solution = solver.solve(&mut problem, given).unwrap();
+        let free = solution.gap.iter().filter(|gap| **gap > 0.0).count();
+        if solution.report.status != Status::Converged || free < 3 {
+            continue;
+        }
+        for control in [given, Control::MeanPressure(solution.report.mean_pressure)] {
+            let stability = StabilityTest::default().run(&mut problem, control, &solution).unwrap();
+            let value = stability.eigenvalue;
+            let allowed = 1e-3 * value.abs().max(problem.operator().stiffness_range().0);
+            let mut count = |number| below(&mut problem, &solution.gap, control == given, number);
+            assert_ne!(stability.verdict, Verdict::Undecided, "{seed} {control:?} {stability:?}");
+            assert_eq!(count(value - allowed), 0, "{seed} {control:?} {stability:?}");
+            assert!(count(value + allowed) >= 1 && count(stability.lower_bound - allowed) == 0);
+            runs += 1;
+            unstable += usize::from(stability.verdict == Verdict::Unstable);
+        }
+    }
+    assert!(runs > 200 && unstable > 20, "{runs} {unstable}");
+}
+
+#[test]
 fn a_law_that_jumps_is_smoothed_for_the_verdict() {
     let law = MaugisDugdale::new(1e-4, 2e-3).unwrap();
     let mut problem = sphere::<f64, _>(128, law);

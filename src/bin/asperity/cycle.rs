@@ -30,7 +30,7 @@ use crate::{Outcome, say};
 /// located and its energy known. Under given pressures it goes on at given mean gaps past the limit points, where there is
 /// no equilibrium close by. A row for each state is appended to the file as it comes, with the loads, the contact, the energies per area, the work
 /// done by the load so far, the energy dissipated in jumps so far, what is missing from the balance of the two, and what
-/// happened on the way: jump-in, jump-out, pull-off, limit-point. The same command again goes on where an interrupted one was; for
+/// happened on the way: jump-in, jump-out, pull-off, limit-point, bifurcation. The same command again goes on where an interrupted one was; for
 /// that it keeps FILE.state.npz beside the file, which may be deleted at the end. FILE.scene.toml beside it repeats or continues
 /// the cycle by asperity run. Exits with 0 if all rows
 /// converged, 2 if not, and 1 if the input is refused or a file cannot be written.
@@ -164,14 +164,14 @@ impl Options {
         let header = COLUMNS.join(",") + "\n";
         echo.check_beside(&self.out, self.force || self.out.exists())?;
         let scene = echo.written_beside(&self.out)?;
-        let (mut journal, gaps) = Journal::open_endless(&self.out, &header, identity, self.force)?;
+        let (mut journal, fields) = Journal::open_endless(&self.out, &header, identity, self.force)?;
         scene.commit()?;
         warnings.say();
         let narrow = |gap: Array2<f64>| gap.mapv_into_any(T::lit);
         if journal.rows() > 0 {
             self.printing.say(&format!("{} has {} rows already", self.out.display(), journal.rows()));
-            let gaps = gaps.into_iter().map(narrow).collect();
-            path = path.continuing(PathCheckpoint { numbers: journal.numbers().to_vec(), gaps })?;
+            let fields = fields.into_iter().map(narrow).collect();
+            path = path.continuing(PathCheckpoint { numbers: journal.numbers().to_vec(), fields })?;
         } else if let Some(start) = start {
             path = path.starting_from(narrow(start));
         }
@@ -190,9 +190,9 @@ impl Options {
             let row = row(&step);
             let text = row.iter().map(|(_, value)| cell(value)).collect::<Vec<_>>().join(",");
             let checkpoint = path.checkpoint();
-            let gaps: Vec<_> = checkpoint.gaps.iter().map(|gap| gap.view()).collect();
+            let fields: Vec<_> = checkpoint.fields.iter().map(|field| field.view()).collect();
             let report = &step.solution.report;
-            journal.append_endless(&text, report.status == Status::Converged, &gaps, &checkpoint.numbers)?;
+            journal.append_endless(&text, report.status == Status::Converged, &fields, &checkpoint.numbers)?;
             let event = step.event.map_or(String::new(), |event| format!("  {event}"));
             self.printing.say(&format!("{:>4}  {}{event}", journal.rows(), line(report)));
         }
@@ -342,10 +342,7 @@ impl Options {
 fn row<T>(step: &PathStep<T>) -> Map<String, Value> {
     let (control, value) = name_and_value(step.control);
     let report = &step.solution.report;
-    let drop = match step.event {
-        Some(Event::Jump(jump)) => jump.energy_drop.into(),
-        _ => Value::Null,
-    };
+    let drop = step.event.as_ref().and_then(Event::jump).map_or(Value::Null, |jump| jump.energy_drop.into());
     let values: [Value; COLUMNS.len()] = [
         step.leg.into(),
         control.into(),

@@ -1,0 +1,64 @@
+//! How a path leaves a branch of saddles.
+
+use std::ops::ControlFlow;
+
+use super::Path;
+use crate::adhesion::AdhesionLaw;
+use crate::elastic::ElasticOperator;
+use crate::error::Result;
+use crate::problem::{Control, Parts, smoothed_law};
+use crate::real::Real;
+use crate::solver::{Iteration, Solution, Status};
+use crate::stability::Saddle;
+
+/// The largest change of the gap that is made along the mode, in ranges of adhesion.
+const PERTURBATION: f64 = 0.1;
+
+/// The share of the mode in the last change of the gap above which it was the way there that led along the mode: a jump like any
+/// other, where the branch turns back, and not one that breaks a symmetry.
+const DRAWN: f64 = 0.1;
+
+/// How many saddles one after the other are left at one load.
+const SADDLES: usize = 4;
+
+impl<T, O, L> Path<'_, T, O, L>
+where
+    T: Real,
+    O: ElasticOperator<T>,
+    L: AdhesionLaw<T>,
+{
+    /// Whether a state is a saddle at its mean gap, of the law that the path follows.
+    pub(super) fn saddle(&mut self, solution: &Solution<T>) -> Result<Option<Saddle>> {
+        let Parts { operator, law, .. } = self.problem.parts();
+        let smoothed = if self.settings.smooth { smoothed_law(&*operator, law) } else { None };
+        self.watch.look(operator, smoothed.as_deref().unwrap_or(law), &solution.gap)
+    }
+
+    /// Goes down from a saddle along its mode, to a state that is none, if there is one; and whether the branch was on the way
+    /// along the mode itself. The path has failed where the observer stopped a solve.
+    pub(super) fn leave(
+        &mut self,
+        from: &Solution<T>,
+        control: Control,
+        observe: &mut dyn FnMut(&Iteration) -> ControlFlow<()>,
+    ) -> Result<(Option<Solution<T>>, bool)> {
+        let moved = self.gaps.last().map(|last| &from.gap - last);
+        let share = moved.map_or(0.0, |moved| self.watch.share(&moved));
+        let drawn = share.abs() > DRAWN;
+        let mut gap = from.gap.clone();
+        for _ in 0..SADDLES {
+            let amplitude = PERTURBATION * self.problem.law.range().widen();
+            self.watch.displace(&mut gap, amplitude, drawn.then_some(share));
+            let left = self.solve(control, Some(&gap), observe)?;
+            if left.report.status != Status::Converged {
+                self.failed |= left.report.status == Status::Stopped;
+                break;
+            }
+            if self.saddle(&left)?.is_none() {
+                return Ok((Some(left), drawn));
+            }
+            gap = left.gap;
+        }
+        Ok((None, drawn))
+    }
+}

@@ -1,0 +1,116 @@
+//! The softest mode along a path of equilibria.
+
+use ndarray::Array2;
+
+use super::eigenpair::{Eigenpair, UNCERTAIN, lowest_from, normalise};
+use super::hessian::Hessian;
+use super::slopes;
+use crate::adhesion::AdhesionLaw;
+use crate::elastic::ElasticOperator;
+use crate::error::Result;
+use crate::real::Real;
+
+/// How much of a random field is added to the mode of the last state. Without it a mode that has no share in the start,
+/// as an antisymmetric one beside a symmetric one, would never be found.
+const FRESH: f64 = 0.03;
+
+/// Iterations on a state at most.
+const MOST: usize = 200;
+
+/// The relative residual to which the mode of a saddle is found.
+const SHARP: f64 = 1e-3;
+
+/// The share of its largest value that a mode has at the node by which it gets its sign.
+const NEARLY: f64 = 0.99;
+
+/// Tells saddles from minima at given mean gaps, state by state: the mode of the last state is the start of the next.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Watch<T> {
+    /// the mode that was last found, of mean square 1
+    pub(crate) mode: Option<Array2<T>>,
+    /// the random field
+    random: Option<Array2<T>>,
+}
+
+/// An equilibrium that is no minimum; the mode along which it is none is that of the [`Watch`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Saddle {
+    /// the Rayleigh quotient of the mode, negative
+    pub(crate) eigenvalue: f64,
+}
+
+impl<T: Real> Watch<T> {
+    /// One that goes on from a mode.
+    pub(crate) fn from_mode(mode: Option<Array2<T>>) -> Self {
+        Self { mode, random: None }
+    }
+
+    /// Whether an equilibrium is a saddle at its mean gap, of a law.
+    ///
+    /// Takes nothing if the softest stiffness and the least φ'' show that it is none, and otherwise some operator applications:
+    /// five or seven, as a rule.
+    pub(crate) fn look(
+        &mut self,
+        operator: &mut dyn ElasticOperator<T>,
+        law: &dyn AdhesionLaw<T>,
+        gap: &Array2<T>,
+    ) -> Result<Option<Saddle>> {
+        if law.is_zero() {
+            return Ok(None);
+        }
+        let slopes = slopes(gap, law)?;
+        let mut hessian = Hessian::new(operator, slopes, true);
+        if hessian.simple_bound() > 0.0 || hessian.dimension() == 0 {
+            return Ok(None);
+        }
+        let random = match self.random.take() {
+            Some(random) => random,
+            None => hessian.smooth_random(2)?,
+        };
+        let mut start = random.clone();
+        self.random = Some(random);
+        hessian.project(&mut start);
+        hessian.weigh(&mut start);
+        if let Some(mut mode) = self.mode.take() {
+            hessian.project(&mut mode);
+            normalise(&mut hessian, &mut mode);
+            normalise(&mut hessian, &mut start);
+            hessian.combine(FRESH, &mut start, 1.0, &mode);
+        }
+        let mut pair = lowest_from(&mut hessian, start, MOST, false, |hessian, found| {
+            let scale = found.value.max(hessian.softest());
+            found.value < -found.noise
+                || found.iteration > 0 && found.residual * found.residual <= UNCERTAIN * found.value * scale
+        })?;
+        let unstable = |pair: &Eigenpair<T>| pair.value < -pair.noise;
+        if unstable(&pair) {
+            pair = lowest_from(&mut hessian, pair.vector, MOST, true, |hessian, found| {
+                found.residual <= SHARP * found.value.abs().max(hessian.softest())
+            })?;
+        }
+        let saddle = unstable(&pair).then_some(Saddle { eigenvalue: pair.value });
+        self.mode = Some(pair.vector);
+        Ok(saddle)
+    }
+
+    /// The share of the mode in a change of the gap: the cosine of the angle between them.
+    pub(crate) fn share(&self, change: &Array2<T>) -> f64 {
+        let Some(mode) = &self.mode else { return 0.0 };
+        let product = |a: &Array2<T>, b: &Array2<T>| a.iter().zip(b).map(|(a, b)| a.widen() * b.widen()).sum::<f64>();
+        let share = product(mode, change) / (product(mode, mode) * product(change, change)).sqrt();
+        if share.is_finite() { share } else { 0.0 }
+    }
+
+    /// Adds the mode to a gap, with the largest change given: with the sign of its `share` in another change of the gap, or so
+    /// that the gap closes at the first of the nodes where the mode is as large as anywhere.
+    pub(crate) fn displace(&self, gap: &mut Array2<T>, largest: f64, share: Option<f64>) {
+        let Some(mode) = &self.mode else { return };
+        let top = mode.iter().fold(T::zero(), |top, value| top.max(value.abs()));
+        let first = mode.iter().find(|value| value.abs() >= T::lit(NEARLY) * top);
+        let sign = share.unwrap_or_else(|| -first.map_or(0.0, |value| value.widen())).signum();
+        let factor = T::lit(sign * largest) / top;
+        if factor.is_finite() {
+            gap.zip_mut_with(mode, |gap, &mode| *gap = (*gap + factor * mode).max(T::zero()));
+        }
+    }
+}
