@@ -158,6 +158,7 @@ fn names_no_target_or_an_existing_one(command: &str) -> bool {
     let known = ["run", "test", "bench", "build", "install", "doc"];
     known.contains(&command.split_whitespace().nth(1).unwrap_or_default())
         && targets(command).all(|(kind, name)| exists(kind, &name))
+        && modules(command).all(|(target, module)| exists(&format!("tests/{target}"), module))
 }
 
 /// The examples, benches and tests that a text names as options of cargo.
@@ -167,6 +168,12 @@ fn targets(text: &str) -> impl Iterator<Item = (&'static str, String)> {
         let after = text.split(option).skip(1);
         after.map(move |rest| (folder, rest.chars().take_while(|c| c.is_alphanumeric() || *c == '_').collect()))
     })
+}
+
+/// The modules of tests that a text names, with their targets, as in `--test library solvers::`.
+fn modules(text: &str) -> impl Iterator<Item = (&str, &str)> {
+    let named = text.split("--test ").skip(1).filter_map(|rest| rest.split_once("::")?.0.split_once(' '));
+    named.filter(|(_, module)| module.chars().all(|c| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_'))
 }
 
 fn exists(folder: &str, name: &str) -> bool {
@@ -183,6 +190,9 @@ fn examples_and_options_that_the_documentation_names_exist() {
         for (folder, name) in targets(&text).filter(|(_, name)| name.chars().any(char::is_lowercase)) {
             assert!(exists(folder, &name), "{file}: there is no {folder}/{name}.rs");
             named.insert(name);
+        }
+        for (target, module) in modules(&text) {
+            assert!(exists(&format!("tests/{target}"), module), "{file}: there is no tests/{target}/{module}.rs");
         }
         for span in text.replace("```", "").split('`').skip(1).filter_map(|span| span.strip_prefix("asperity ")) {
             let mut words = span.split(' ');
