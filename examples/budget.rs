@@ -3,7 +3,6 @@
 //! `RAYON_NUM_THREADS=1 cargo run --release --example budget -- [size [case]]`; 1024 if nothing is given, and of a case a part of
 //! its name.
 
-use std::cell::Cell;
 use std::time::Instant;
 
 use asperity::{
@@ -15,21 +14,21 @@ use ndarray::{ArrayView2, ArrayViewMut2};
 const ROUNDS: usize = 5;
 
 /// The half-space with a clock that runs while it is applied.
-struct Timed<'a, T: Real> {
+struct Timed<T: Real> {
     half_space: Westergaard<T>,
-    seconds: &'a Cell<f64>,
+    seconds: f64,
 }
 
-impl<T: Real> Timed<'_, T> {
+impl<T: Real> Timed<T> {
     fn time<R>(&mut self, apply: impl FnOnce(&mut Westergaard<T>) -> R) -> R {
         let begin = Instant::now();
         let result = apply(&mut self.half_space);
-        self.seconds.set(self.seconds.get() + begin.elapsed().as_secs_f64());
+        self.seconds += begin.elapsed().as_secs_f64();
         result
     }
 }
 
-impl<T: Real> ElasticOperator<T> for Timed<'_, T> {
+impl<T: Real> ElasticOperator<T> for Timed<T> {
     fn grid(&self) -> &Grid {
         self.half_space.grid()
     }
@@ -91,18 +90,18 @@ fn measure<L: AdhesionLaw<f64>, S: AdhesionLaw<f32>>(
     single: S,
     control: Control,
 ) -> Result<()> {
-    let (grid, seconds) = (*surface.grid(), Cell::new(0.0));
-    let half_space = Timed { half_space: Westergaard::<f64>::new(grid, 1.0)?, seconds: &seconds };
+    let grid = *surface.grid();
+    let half_space = Timed { half_space: Westergaard::<f64>::new(grid, 1.0)?, seconds: 0.0 };
     let mut problem = Problem::new(surface, half_space, law)?;
     let mut problem_single = Problem::new(surface, Westergaard::<f32>::new(grid, 1.0)?, single)?;
     let loose = Settings { tolerance: 1e-4, ..Settings::default() };
     let mut figures: [Vec<f64>; 4] = Default::default();
     for _ in 0..ROUNDS {
-        seconds.set(0.0);
+        let before = problem.operator().seconds;
         let begin = Instant::now();
         Solver::default().solve(&mut problem, control)?;
         let whole = begin.elapsed().as_secs_f64();
-        let share = 1.0 - seconds.get() / whole;
+        let share = 1.0 - (problem.operator().seconds - before) / whole;
 
         let begin = Instant::now();
         let (mut solver, mut iterations) = (Solver::new(loose), [0.0; 2]);

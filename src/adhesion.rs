@@ -224,7 +224,8 @@ mod tests {
                 for compliance in [1e-3, 0.7, 1e9] {
                     let law = MaugisDugdale::new(w, range).unwrap();
                     // a reference to a law has its jumps too
-                    let smoothed = (&law).smoothed(compliance * range * range / w).unwrap();
+                    let reference: &dyn AdhesionLaw<f64> = &law;
+                    let smoothed = reference.smoothed(compliance * range * range / w).unwrap();
                     check_law(&smoothed, far).unwrap();
                     assert_eq!(smoothed.work_of_adhesion(), w);
                 }

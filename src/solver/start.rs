@@ -24,17 +24,17 @@ impl<'a, T: Real> State<'a, T> {
         if self.energy().is_finite() && self.tally.sum_r.is_finite() {
             return Ok(());
         }
-        let functions: [(_, fn(&dyn AdhesionLaw<T>, usize, &[T], &mut [T])); 2] = [
-            ("adhesive energy", |law, node, gap, value| law.energies(node, gap, value)),
-            ("adhesive traction", |law, node, gap, value| law.tractions(node, gap, value)),
-        ];
-        for (function, f) in functions {
-            for (node, gap) in flat(&self.fields.gap).iter().enumerate() {
-                let (gap, mut value) = (gap.max(T::zero()), [T::zero()]);
-                f(self.law, node, &[gap], &mut value);
-                let [value] = value.map(T::widen);
-                if !value.is_finite() {
-                    return Err(Error::Law { function, gap: gap.widen(), value, expected: None });
+        let law = self.law;
+        let mut value = [T::zero()];
+        for (node, gap) in flat(&self.fields.gap).iter().enumerate() {
+            let gap = gap.max(T::zero());
+            for function in ["adhesive energy", "adhesive traction"] {
+                match function {
+                    "adhesive energy" => law.energies(node, &[gap], &mut value),
+                    _ => law.tractions(node, &[gap], &mut value),
+                }
+                if !value[0].is_finite() {
+                    return Err(Error::Law { function, gap: gap.widen(), value: value[0].widen(), expected: None });
                 }
             }
         }
