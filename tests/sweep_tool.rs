@@ -251,7 +251,7 @@ fn bad_lists_and_files_are_refused() {
         ("--mean-gaps 0.1 --out sweep", vec![".csv", ".jsonl", "--format"]),
         ("--mean-gaps 0.1", vec!["--out"]),
         ("--mean-gaps 0.1 --law exponential --out sweep.csv", vec!["--work-of-adhesion"]),
-        ("--mean-gaps 0.1 --out heights.npy/sweep.csv", vec!["heights.npy", "cannot be written"]),
+        ("--mean-gaps 0.1 --out heights.npy/sweep.csv", vec!["heights.npy", "is not a folder"]),
     ] {
         bench.refuse(arguments, &parts);
         assert_eq!(bench.names("."), ["heights.npy"], "{arguments}");
