@@ -252,7 +252,7 @@ fn bad_lists_and_files_are_refused() {
         ("--mean-gaps 0.1 --out sweep", vec![".csv", ".jsonl", "--format"]),
         ("--mean-gaps 0.1", vec!["--out"]),
         ("--mean-gaps 0.1 --law exponential --out sweep.csv", vec!["--work-of-adhesion"]),
-        ("--mean-gaps 0.1 --out heights.npy/sweep.csv", vec!["heights.npy", "cannot be written"]),
+        ("--mean-gaps 0.1 --out heights.npy/sweep.csv", vec!["heights.npy", "is not a folder"]),
     ] {
         bench.refuse(arguments, &parts);
         assert_eq!(bench.names("."), ["heights.npy"], "{arguments}");
@@ -262,7 +262,7 @@ fn bad_lists_and_files_are_refused() {
     fs::create_dir(bench.path("folder.csv")).unwrap();
     bench.refuse("--mean-gaps 0.1 --out folder.csv", &["folder.csv", "not a regular file"]);
     if cfg!(target_os = "linux") {
-        bench.refuse("--mean-gaps 0.1 --out /proc/asperity/sweep.csv", &["/proc/asperity", "cannot be written"]);
+        bench.refuse("--mean-gaps 0.1 --out /proc/asperity/sweep.csv", &["/proc", "cannot be written"]);
         bench.refuse("--mean-gaps 0.1 --out /dev/null --format csv", &["/dev/null", "not a regular file"]);
     }
 }
