@@ -219,7 +219,7 @@ fn energy_is_balanced_through_a_bifurcation() {
     let gap = &after.solution.gap;
     let half = gap.len() / 2;
     let contact = |from: usize| (from..from + half).filter(|i| gap[[(i + 192) % 256, 0]] == 0.0).count();
-    assert_eq!((contact(0) == 0, contact(half) == 0), (true, false), "at the first of the two");
+    assert_eq!((contact(0) > 0, contact(half) > 0), (true, false), "at the first of the two");
     let (first, last) = (&steps[0], &steps[steps.len() - 1]);
     let largest = steps.iter().map(|step| step.work.abs()).fold(0.0, f64::max);
     for step in &steps {
