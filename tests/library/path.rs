@@ -162,12 +162,13 @@ fn drops(steps: &[PathStep<f64>], least: f64) -> Vec<Jump> {
 }
 
 #[track_caller]
-fn are_the_same(found: &[Jump], expected: &[Jump], width: f64) {
+fn are_the_same(found: &[Jump], expected: &[Jump], width: f64, node: f64) {
     assert_eq!(found.len(), expected.len(), "{found:?} {expected:?}");
     for (a, b) in found.iter().zip(expected) {
         // to the step at which the branch is lost in each, and as nodes are pinned
         assert!((a.mean_gap.0 - b.mean_gap.0).abs() <= 5.0 * width, "{a:?} {b:?}");
-        assert_eq!(a.contact_fraction, b.contact_fraction);
+        let (a, b) = (a.contact_fraction, b.contact_fraction);
+        assert!((a.0 - b.0).abs() <= 2.0 * node && (a.1 - b.1).abs() <= 2.0 * node, "{a:?} {b:?}");
     }
 }
 
@@ -188,7 +189,7 @@ fn two_equal_waves_come_into_contact_one_after_the_other() {
             let found = follow(0.0, steps);
             assert_eq!(names(&found)[0], "bifurcation");
             assert_eq!(names(&found).last(), Some(&"pull-off"));
-            are_the_same(&drops(&found, least), &expected, width);
+            are_the_same(&drops(&found, least), &expected, width, 1.0 / n as f64);
             let last = &found[found.len() - 1];
             assert!((last.dissipated / dissipated - 1.0).abs() < 1e-2, "{} {dissipated}", last.dissipated);
             // a closed cycle
@@ -205,7 +206,7 @@ fn energy_is_balanced_through_a_bifurcation() {
     let Some(Event::Bifurcation { eigenvalue, jump }) = steps[bifurcation].event else { unreachable!() };
     let (before, after) = (&steps[bifurcation - 1], &steps[bifurcation]);
     assert!(eigenvalue < 0.0 && jump.energy_drop > 0.0);
-    assert_eq!(jump.mean_gap.1, after.solution.report.mean_gap);
+    assert!((jump.mean_gap.1 / after.solution.report.mean_gap - 1.0).abs() < 1e-14);
     let test = StabilityTest::default();
     let mut problem = two_waves(256, 0.0);
     for step in [before, after] {
@@ -216,7 +217,7 @@ fn energy_is_balanced_through_a_bifurcation() {
     let gap = &after.solution.gap;
     let half = gap.len() / 2;
     let contact = |from: usize| (from..from + half).filter(|i| gap[[(i + 192) % 256, 0]] == 0.0).count();
-    assert_eq!((contact(0) == 0, contact(half) == 0), (true, false), "at the first of the two");
+    assert_eq!((contact(0) > 0, contact(half) > 0), (true, false), "at the first of the two");
     let (first, last) = (&steps[0], &steps[steps.len() - 1]);
     let largest = steps.iter().map(|step| step.work.abs()).fold(0.0, f64::max);
     for step in &steps {
@@ -248,7 +249,7 @@ fn a_mirrored_map_comes_into_contact_on_one_side_first() {
     for steps in [10, 50, 200] {
         let found = follow(0.0, steps);
         assert_eq!(names(&found)[0], "bifurcation");
-        are_the_same(&drops(&found, 4e-7), &expected, 1e-4 * 0.045);
+        are_the_same(&drops(&found, 4e-7), &expected, 1e-4 * 0.045, 1.0 / 512.0);
     }
 }
 
@@ -299,14 +300,27 @@ fn a_path_goes_on_through_a_bifurcation_bit_for_bit() {
         let mut solver = Solver::default();
         let mut path = Path::new(&mut solver, &mut problem, loads.clone(), settings).unwrap();
         assert!(path.by_ref().take(kept).all(|step| step.is_ok()));
-        let mut checkpoint = path.checkpoint();
-        for field in &mut checkpoint.fields {
-            // in any memory layout
-            *field = field.t().as_standard_layout().into_owned().reversed_axes();
-        }
+        let checkpoint = path.checkpoint();
         let path = Path::new(&mut solver, &mut problem, loads.clone(), settings).unwrap();
         assert!(path.continuing(checkpoint).unwrap().map(Result::unwrap).eq(whole[kept..].iter().cloned()), "{kept}");
     }
+}
+
+#[test]
+fn the_fields_of_a_checkpoint_may_be_in_any_memory_layout() {
+    let mut problem = rough::<f64, _>(16, 6, Exponential::new(4e-4, 4e-3).unwrap());
+    let (loads, settings) = (gaps(&[0.03, 0.02]), PathSettings { steps: 4, ..PathSettings::default() });
+    let mut solver = Solver::default();
+    let mut path = Path::new(&mut solver, &mut problem, loads.clone(), settings).unwrap();
+    assert!(path.by_ref().take(3).all(|step| step.is_ok()));
+    let (checkpoint, next) = (path.checkpoint(), path.next().unwrap().unwrap());
+    let mut columns = checkpoint.clone();
+    for field in &mut columns.fields {
+        *field = field.t().as_standard_layout().into_owned().reversed_axes();
+    }
+    assert!(columns == checkpoint && columns.fields.len() == 3 && !columns.fields[2].is_standard_layout());
+    let path = Path::new(&mut solver, &mut problem, loads, settings).unwrap();
+    assert_eq!(path.continuing(columns).unwrap().next().unwrap().unwrap(), next);
 }
 
 #[test]

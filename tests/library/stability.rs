@@ -116,7 +116,7 @@ fn eigenvalues_and_bounds_agree_with_dense_matrices() {
 }
 
 #[test]
-fn a_mode_takes_about_as_many_applications_as_the_solve() {
+fn a_mode_takes_about_twice_as_many_applications_as_the_solve() {
     let mut counts = Vec::new();
     let law = |w, range| Exponential::new(w, range).unwrap();
     let sphere = |w| sphere::<f64, _>(256, law(w, 2e-3));
@@ -142,7 +142,7 @@ fn a_mode_takes_about_as_many_applications_as_the_solve() {
         ));
     }
     // of the solve, of the mode, and of the bound
-    assert_eq!(counts, [(30, 43, 58), (30, 29, 66), (28, 43, 66), (41, 45, 82), (40, 33, 74)]);
+    assert_eq!(counts, [(30, 73, 58), (30, 49, 66), (28, 71, 66), (41, 67, 82), (40, 47, 74)]);
 }
 
 #[test]
