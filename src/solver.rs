@@ -62,6 +62,7 @@ impl Method {
 /// // the paper's iteration, held to the certified error
 /// let certified = Settings { criterion: Criterion::EnergyNorm, tolerance: 1e-6, ..Settings::rey2017() };
 /// assert_eq!(certified.criterion, Settings::default().criterion);
+/// assert_eq!(certified.criterion.name(), "energy-norm");
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Criterion {
@@ -71,6 +72,16 @@ pub enum Criterion {
     /// The criterion ε = Σ|g r'| of the paper, over the nodes and in units of E*·√(Lx·Ly). It is not a bound of an error,
     /// and its rounding floor grows with the number of nodes.
     Orthogonality,
+}
+
+impl Criterion {
+    /// The name that the tool and the report use: `"energy-norm"` or `"orthogonality"`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::EnergyNorm => "energy-norm",
+            Self::Orthogonality => "orthogonality",
+        }
+    }
 }
 
 /// How a problem is solved.

@@ -2,7 +2,7 @@ use std::fmt;
 
 use ndarray::Array2;
 
-use super::Method;
+use super::{Criterion, Method};
 
 /// How a solve ended, and what its fields are then worth.
 ///
@@ -26,8 +26,9 @@ pub enum Status {
     Stalled,
     /// The observer stopped the solve: a feasible state.
     Stopped,
-    /// A tensile mean pressure that adhesion does not hold: there is no equilibrium. The fields are of the surfaces held
-    /// apart, at rest, where they no longer reach each other; under the load they would go on for ever.
+    /// A tensile mean pressure under which no equilibrium was found. From the default start it was looked for among the
+    /// states at given mean gaps, too, of which none held the load; from a given start the branch ended there. The fields are of
+    /// the surfaces held apart, at rest, where they no longer reach each other; under the load they would go on for ever.
     Detached,
 }
 
@@ -113,11 +114,12 @@ pub struct Report {
     /// Without adhesion it bounds the distance from the exact discrete solution (under pressure control: the one at the
     /// same mean gap). With adhesion it measures how far the state is from equilibrium, and bounds the error
     /// where that equilibrium is stable. As long as no node is in contact, ⟨h, K⁻¹h⟩ stands for a smaller ⟨u, p⟩, which
-    /// may vanish then; and ⟨u, p⟩ counts less what rounding may have added to it, and the error is never less than
-    /// the rounding of the pressure alone makes it, so that it is not understated for the lightest loads.
+    /// may vanish then. Under the lightest loads ⟨u, p⟩ is computed as ⟨p, K p⟩, which does not cancel, and the error is
+    /// never less than the rounding of the pressure alone makes it, so that it is not understated.
     pub relative_error: f64,
-    /// Under pressure control, the residual of the load relative to the larger of |p̄| and the mean contact pressure
-    /// (and to no less than 1e-6 of the pressure that presses the surface flat); zero under gap control.
+    /// Under pressure control, the error of the load relative to the larger of |p̄| and the mean contact pressure: of the
+    /// balance of the nodes that are apart, or of what the returned fields carry, whichever is more. One without contact
+    /// under a load that needs it; zero under gap control.
     pub load_error: f64,
     /// The paper's criterion ε = Σ|g r'|, in units of E*·√(Lx·Ly), on the returned fields.
     pub orthogonality: f64,
@@ -153,6 +155,9 @@ pub struct Report {
     pub precision: &'static str,
     /// The iteration that was used.
     pub method: Method,
+    /// What was compared with the tolerance. [`Criterion::Orthogonality`] bounds no error: a solve that has converged by it may have
+    /// any [`relative_error`](Self::relative_error).
+    pub criterion: Criterion,
 }
 
 /// The fields of a solved problem, each of shape (Nx, Ny), and the account of the solve.

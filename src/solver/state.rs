@@ -441,6 +441,7 @@ impl<'a, T: Real> State<'a, T> {
             under_resolved: mu_rho > 0.5,
             precision: T::NAME,
             method: self.settings.method,
+            criterion: self.settings.criterion,
         };
         let Fields { gap, pressure, preconditioned, .. } = self.fields;
         Ok(Solution { gap, pressure, contact_pressure: preconditioned, report })

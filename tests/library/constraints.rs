@@ -2,7 +2,7 @@
 //!
 //! `cargo test --release --test library uzawa_on_random_scenes -- --ignored --nocapture` prints how Uzawa ends on 2000
 //! random scenes for stiffnesses of all sizes, and what it costs; `CASES` says on how many.
-//! `cargo test --release --test constraints figures -- --ignored --nocapture` prints the table of the guide.
+//! `cargo test --release --test library constraints::figures -- --ignored --nocapture` prints the table of the guide.
 
 use crate::common::outrun::Outrun;
 use crate::common::scenes::{Law, Scene};
@@ -294,7 +294,7 @@ fn report_and_contact_map_count_the_same_nodes() {
 }
 
 #[test]
-#[ignore = "prints the figures of the guide: cargo test --release --test constraints figures -- --ignored --nocapture"]
+#[ignore = "prints the figures of the guide: cargo test --release --test library constraints::figures -- --ignored --nocapture"]
 fn figures_of_penalty_and_uzawa_on_a_rough_surface() {
     let grid = Grid::square(128, 1.0).unwrap();
     let surface = SelfAffine { k_s: 16.0, amplitude: Amplitude::RmsSlope(0.1), ..SelfAffine::default() };

@@ -254,7 +254,8 @@ fn tension_is_held_by_adhesion_up_to_pull_off_and_detaches_beyond() {
     assert!(held.report.contact_points > 100 && held.report.mean_contact_pressure > 0.0);
     let lost = solve(&mut problem, Control::MeanPressure(-1.2e-3), 1e-7);
     assert_eq!((lost.report.status, lost.report.contact_points), (Status::Detached, 0));
-    assert!(lost.report.iterations < 200 && lost.gap.iter().all(|g| g.is_finite()));
+    // some of them to look for a hold, at a dozen mean gaps
+    assert!(lost.report.iterations < 400 && lost.gap.iter().all(|g| g.is_finite()));
     let mut bare = sphere::<f64, _>(128, NoAdhesion);
     let lost = solve(&mut bare, Control::MeanPressure(-1e-9), 1e-7);
     assert_eq!(lost.report.status, Status::Detached);

@@ -1,4 +1,4 @@
-use asperity::{Report, Status, Verdict};
+use asperity::{Criterion, Report, Status, Verdict};
 
 use crate::complain;
 use crate::printing::{bold, green, yellow};
@@ -36,6 +36,7 @@ pub fn table(names: &[&str], solves: &[&Account], style: Style) -> String {
     row("points in contact", &|s, r| format!("{} of {}", r.contact_points, s.nodes));
     row("mean gap", &|_, r| style.number(r.mean_gap, "m"));
     row("mean pressure", &|_, r| style.number(r.mean_pressure, "Pa"));
+    row("carried pressure", &|_, r| style.number(r.carried_pressure, "Pa"));
     row("mean contact pressure", &|_, r| style.number(r.mean_contact_pressure, "Pa"));
     row("least pressure", &|s, _| style.number(s.pressures.0, "Pa"));
     row("greatest pressure", &|s, _| style.number(s.pressures.1, "Pa"));
@@ -66,6 +67,12 @@ pub fn table(names: &[&str], solves: &[&Account], style: Style) -> String {
         row("with coarser grids", &|s, _| format!("{:.1}", count(s)));
     }
     row("time", &|s, _| format!("{:.3} s", s.seconds));
+    if solves.iter().any(|solve| solve.report.criterion == Criterion::Orthogonality) {
+        row("criterion", &|_, r| match r.criterion {
+            Criterion::Orthogonality => format!("sum |g r'| = {:.1e}, which bounds no error", r.orthogonality),
+            Criterion::EnergyNorm => "certified error".to_owned(),
+        });
+    }
     row("status", &|_, r| r.status.to_string());
 
     let length = |text: &str| text.chars().count();
@@ -95,7 +102,10 @@ pub fn warn(name: &str, account: &Account, case: &Case) {
     let name = if name.is_empty() { String::new() } else { format!("{name}: ") };
     if report.status != Status::Converged {
         let remedy = match report.status {
-            Status::Detached => "there is no equilibrium under this tension: use less tension, or more adhesion",
+            Status::Detached => {
+                "no equilibrium under this tension was found from this start: use less tension, hold a --mean-gap and \
+                 start from its gap by --initial-gap, or follow the branch by asperity cycle --mean-gaps"
+            }
             Status::IterationLimit => "the fields are not accurate: raise --max-iterations",
             _ if report.precision == "f32" => "this is what f32 can do: use --precision f64, or a larger --tolerance",
             _ => "this is the best to be had: use a larger --tolerance, or another start by --initial-gap",

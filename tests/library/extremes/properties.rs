@@ -53,6 +53,11 @@ impl Scene {
         let solution =
             Solver::new(settings).solve_from(&mut problem, self.control, start.as_ref().map(|s| s.view()), go_on);
         let Solution { gap, pressure, report, .. } = solution.unwrap();
+        // a contact so light that rounding of heights and gaps leaves more than the tolerance says nothing of symmetries
+        let rounded = mean_product(&centred(&self.heights), &dense.pressure(&centred(&self.heights)))
+            + dense.stiffest * report.mean_gap * (report.mean_gap + span);
+        let floor = T::epsilon().widen() * (rounded / report.elastic_energy).sqrt();
+        prop_assume!(report.status == Status::Converged || report.contact_points == 0 || floor < 0.25 * tolerance);
         prop_assert_eq!(report.status, Status::Converged, "{:?}", report);
         let at_contact = problem.law().traction(T::zero()).widen();
         let gap = gap.mapv(T::widen);
@@ -65,8 +70,7 @@ impl Scene {
         let noise = 16.0 * T::epsilon().widen() * dense.stiffest * largest / dense.softest.sqrt();
         let mut promise = report.relative_error * scale.sqrt() + noise;
         if let Control::MeanPressure(given) = self.control {
-            let load = report.load_error
-                * given.abs().max(report.mean_contact_pressure).max(1e-6 * (surface_work * dense.softest).sqrt());
+            let load = report.load_error * given.abs().max(report.mean_contact_pressure);
             let under_tension = |(&g, &p): (&f64, &T)| if g > 0.0 { 0.0 } else { (p.widen() + at_contact).min(0.0) };
             let released = gap.iter().zip(&pressure).map(under_tension).sum::<f64>() / gap.len() as f64;
             promise += (load - released + noise * dense.softest.sqrt()) * dense.reach();
