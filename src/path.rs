@@ -111,26 +111,30 @@ pub struct PathStep<T> {
 ///
 /// # Bifurcations
 ///
-/// A branch may go on through states that are no minima. Two equal asperities approach: both jump into contact at one gap,
-/// but before that it takes less energy if one of them jumps and the other draws back. No iteration that starts from the symmetric
-/// state finds that, as its gradient is symmetric too. Every mirrored surface is of that kind, and every periodic one.
+/// A branch may go on through states that are no minima. Two equal asperities approach: both jump into contact at one
+/// gap, but before that it takes less energy if one of them jumps and the other draws back. No iteration that starts
+/// from the symmetric state finds that, as its gradient is symmetric too. Every mirrored surface is of that kind, and
+/// every periodic one.
 ///
-/// With adhesion, therefore, the smallest eigenvalue of the energy's second derivative is watched, over the changes of the gap
-/// that vanish where the surfaces touch and have no mean, as in a [`StabilityTest`](crate::StabilityTest) at the given mean gap. Where
-/// the softest stiffness and the least φ'' show that it is positive, that takes nothing. Elsewhere it takes some five
-/// operator applications a state: an iteration or two from the mode of the state before, to which a little of a random
-/// field (the same in every path) is added, so that no symmetry holds the mode back. A step to a saddle is taken back and halved, as one that
-/// jumps is; at [`PathSettings::resolution`] the state is moved along the mode by a tenth of the range of adhesion, and
-/// the minimisation goes on from there, to a state that is no saddle. Of the two ways along the mode it takes that
-/// on which the gap closes at the first of the nodes where the mode is largest.
+/// With adhesion, therefore, the smallest eigenvalue of the energy's second derivative is watched, over the changes
+/// of the gap that vanish where the surfaces touch and have no mean, as in a [`StabilityTest`](crate::StabilityTest)
+/// at the given mean gap. Where the softest stiffness and the least φ'' show that it is positive, that takes nothing.
+/// Elsewhere it takes some five operator applications a state: an iteration or two from the mode of the state before,
+/// to which a little of a random field (the same in every path) is added, so that no symmetry holds the mode back. A
+/// step to a saddle is taken back and halved, as one that jumps is; at [`PathSettings::resolution`] the state is
+/// moved along the mode by a tenth of the range of adhesion, and the minimisation goes on from there, to a state that
+/// is no saddle. Of the two ways along the mode it takes that on which the gap closes at the first of the nodes where
+/// the mode is largest.
 ///
-/// Its [`Event`] is a bifurcation, with the eigenvalue and the energy that it dissipates. Where the branch came to that place
-/// along the mode itself, as at a limit point, it is a jump like any other. Under a given pressure a bifurcation is met at
-/// the mean gap that belongs to it, and the path goes on at given mean gaps, as from a limit point.
+/// Its [`Event`] is a bifurcation, with the eigenvalue and the energy that it dissipates. Where the branch came to
+/// that place along the mode itself, as at a limit point, it is a jump like any other. Under a given pressure a
+/// bifurcation is met at the mean gap that belongs to it, and the path goes on at given mean gaps, as from a limit
+/// point.
 ///
-/// A stretch of saddles that is shorter than a step may be passed unnoticed: more [`steps`](PathSettings::steps) find shorter
-/// ones, as there are where nodes leave the contact one by one. A saddle from which no minimum was found is followed, and left at the
-/// next state from which there is one. The first state is left without an event if it is a saddle.
+/// A stretch of saddles that is shorter than a step may be passed unnoticed: more [`steps`](PathSettings::steps) find
+/// shorter ones, as there are where nodes leave the contact one by one. A saddle from which no minimum was found is
+/// followed, and left at the next state from which there is one. The first state is left without an event if it is a
+/// saddle.
 ///
 /// # Going on
 ///
@@ -249,7 +253,8 @@ where
     /// The same path, from where another one was that had the same problem, loads and settings.
     ///
     /// # Errors
-    /// [`Error::Shape`] if the fields are of another grid, [`Error::Value`] if the numbers are not those of a checkpoint.
+    /// [`Error::Shape`] if the fields are of another grid, [`Error::Value`] if the numbers are not those of a
+    /// checkpoint.
     pub fn continuing(mut self, from: PathCheckpoint<T>) -> Result<Self> {
         let shape = self.problem.grid().shape();
         let PathCheckpoint { numbers, mut fields } = from;

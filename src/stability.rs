@@ -64,12 +64,13 @@ impl fmt::Display for Verdict {
 /// locally optimal conjugate gradients (Knyazev, *SIAM J. Sci. Comput.* 23 (2001)) with the compliance as
 /// preconditioner, two operator applications an iteration.
 ///
-/// The Rayleigh quotient that they end with is above the smallest eigenvalue; a larger tolerance makes it likelier that it is the
-/// second one, where the two are close or the random start has hardly any share in the first mode. If it is negative, that proves instability. If it is
-/// positive, a bound from below is wanted: the softest stiffness plus the least φ'' if that will do, and otherwise one from a
-/// Lanczos iteration on what is left when the mode found is lifted out of the way, from a random start (the same in every run). Its
-/// bound holds but for a chance of one in a million over such starts, whatever the spectrum; by Temple's inequality it then
-/// bounds the smallest eigenvalue itself, and closely so where that is nearly zero: near limit points.
+/// The Rayleigh quotient that they end with is above the smallest eigenvalue; a larger tolerance makes it likelier
+/// that it is the second one, where the two are close or the random start has hardly any share in the first mode. If
+/// it is negative, that proves instability. If it is positive, a bound from below is wanted: the softest stiffness
+/// plus the least φ'' if that will do, and otherwise one from a Lanczos iteration on what is left when the mode found
+/// is lifted out of the way, from a random start (the same in every run). Its bound holds but for a chance of one in
+/// a million over such starts, whatever the spectrum; by Temple's inequality it then bounds the smallest eigenvalue
+/// itself, and closely so where that is nearly zero: near limit points.
 ///
 /// | field | default | meaning | range |
 /// |---|---|---|---|

@@ -14,8 +14,8 @@ use crate::stability::Saddle;
 /// The largest change of the gap that is made along the mode, in ranges of adhesion.
 const PERTURBATION: f64 = 0.1;
 
-/// The share of the mode in the last change of the gap above which it was the way there that led along the mode: a jump like any
-/// other, where the branch turns back, and not one that breaks a symmetry.
+/// The share of the mode in the last change of the gap above which it was the way there that led along the mode: a
+/// jump like any other, where the branch turns back, and not one that breaks a symmetry.
 const DRAWN: f64 = 0.1;
 
 /// How many saddles one after the other are left at one load.
@@ -34,8 +34,8 @@ where
         self.watch.look(operator, smoothed.as_deref().unwrap_or(law), &solution.gap)
     }
 
-    /// Goes down from a saddle along its mode, to a state that is none, if there is one; and whether the branch was on the way
-    /// along the mode itself. The path has failed where the observer stopped a solve.
+    /// Goes down from a saddle along its mode, to a state that is none, if there is one; and whether the branch was
+    /// on the way along the mode itself. The path has failed where the observer stopped a solve.
     pub(super) fn leave(
         &mut self,
         from: &Solution<T>,

@@ -20,8 +20,8 @@ pub(super) struct Eigenpair<T> {
     pub(super) vector: Array2<T>,
 }
 
-/// The share of the eigenvalue by which the residual may let it be wrong: the square of the residual over the distance to
-/// the next one, for which the softest stiffness stands. So its sign is known.
+/// The share of the eigenvalue by which the residual may let it be wrong: the square of the residual over the
+/// distance to the next one, for which the softest stiffness stands. So its sign is known.
 pub(super) const UNCERTAIN: f64 = 0.01;
 
 /// A share of a vector that is not in those before below which it counts as one of them.
@@ -50,8 +50,8 @@ pub(super) struct Found {
     pub(super) iteration: usize,
 }
 
-/// The smallest eigenvalue with its mode, from an admissible start, until it is known well enough; `confirmed` by an image
-/// that was not only updated, if that is worth an application.
+/// The smallest eigenvalue with its mode, from an admissible start, until it is known well enough; `confirmed` by an
+/// image that was not only updated, if that is worth an application.
 pub(super) fn lowest_from<T: Real>(
     hessian: &mut Hessian<'_, T>,
     mut x: Array2<T>,

@@ -47,9 +47,15 @@ impl<T: Real> Watch<T> {
 
     /// Whether an equilibrium is a saddle at its mean gap, of a law.
     ///
+<<<<<<< HEAD
     /// Takes nothing if the softest stiffness and the least φ'' show that it is none, and otherwise some operator applications:
     /// five or seven, as a rule.
     pub(crate) fn look(
+=======
+    /// Takes nothing if the softest stiffness and the least φ'' show that it is none, and otherwise some operator
+    /// applications: five or seven, as a rule.
+    pub(crate) fn look<O: ElasticOperator<T>, L: AdhesionLaw<T>>(
+>>>>>>> path
         &mut self,
         operator: &mut dyn ElasticOperator<T>,
         law: &dyn AdhesionLaw<T>,
@@ -101,8 +107,8 @@ impl<T: Real> Watch<T> {
         if share.is_finite() { share } else { 0.0 }
     }
 
-    /// Adds the mode to a gap, with the largest change given: with the sign of its `share` in another change of the gap, or so
-    /// that the gap closes at the first of the nodes where the mode is as large as anywhere.
+    /// Adds the mode to a gap, with the largest change given: with the sign of its `share` in another change of the
+    /// gap, or so that the gap closes at the first of the nodes where the mode is as large as anywhere.
     pub(crate) fn displace(&self, gap: &mut Array2<T>, largest: f64, share: Option<f64>) {
         let Some(mode) = &self.mode else { return };
         let top = mode.iter().fold(T::zero(), |top, value| top.max(value.abs()));

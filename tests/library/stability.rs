@@ -192,7 +192,8 @@ fn the_memory_layout_of_the_gap_does_not_matter() {
     }
 }
 
-/// A surface of few waves: none, two equal ones, ones with mirrors, or any; and a number from 0 to 1 for each call of the other.
+/// A surface of few waves: none, two equal ones, ones with mirrors, or any; and a number from 0 to 1 for each call of
+/// the other.
 fn scene(seed: u32) -> (Surface, impl FnMut() -> f64) {
     let mut state = seed.wrapping_mul(0x9E37_79B9) | 1;
     let mut random = move || {

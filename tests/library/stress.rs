@@ -451,7 +451,9 @@ fn f32_is_as_good_as_it_says_and_is_given_up_at_its_floor() {
             scene.start = None;
             let exact = scene.solution::<f64>().unwrap();
             let floor = scene.certified(&exact.gap.mapv(|g| f64::from(g as f32)));
-            if reached > 40.0 * floor.max(f64::from(f32::EPSILON)) {
+            // the exact gap of a few nodes may happen to round to hardly any error
+            let usual = f64::from(f32::EPSILON) * (scene.rounded_work(report.mean_gap) / report.elastic_energy).sqrt();
+            if reached > 40.0 * floor.max(usual).max(f64::from(f32::EPSILON)) {
                 wrong.push(format!("{reached:.1e}, and {floor:.1e} is possible, in {what}"));
             }
         }

@@ -27,13 +27,13 @@ use crate::{Outcome, say};
 ///
 /// The loads are the turning points: the first is the start, and from each to the next the tool goes in steps that
 /// adapt themselves. Where the state jumps, the step is halved down to a given share of the way, so that the jump is
-/// located and its energy known. Under given pressures it goes on at given mean gaps past the limit points, where there is
-/// no equilibrium close by. A row for each state is appended to the file as it comes, with the loads, the contact, the energies per area, the work
-/// done by the load so far, the energy dissipated in jumps so far, what is missing from the balance of the two, and what
-/// happened on the way: jump-in, jump-out, pull-off, limit-point, bifurcation. The same command again goes on where an interrupted one was; for
-/// that it keeps FILE.state.npz beside the file, which may be deleted at the end. FILE.scene.toml beside it repeats or continues
-/// the cycle by asperity run. Exits with 0 if all rows
-/// converged, 2 if not, and 1 if the input is refused or a file cannot be written.
+/// located and its energy known. Under given pressures it goes on at given mean gaps past the limit points, where
+/// there is no equilibrium close by. A row for each state is appended to the file as it comes, with the loads, the
+/// contact, the energies per area, the work done by the load so far, the energy dissipated in jumps so far, what is
+/// missing from the balance of the two, and what happened on the way: jump-in, jump-out, pull-off, limit-point,
+/// bifurcation. The same command again goes on where an interrupted one was; for that it keeps FILE.state.npz beside
+/// the file, which may be deleted at the end. FILE.scene.toml beside it repeats or continues the cycle by asperity
+/// run. Exits with 0 if all rows converged, 2 if not, and 1 if the input is refused or a file cannot be written.
 #[derive(Args)]
 #[command(after_help = EXAMPLES, group(ArgGroup::new("loads").required(true).args(["mean_gaps", "mean_pressures"])))]
 pub struct Options {
