@@ -47,15 +47,9 @@ impl<T: Real> Watch<T> {
 
     /// Whether an equilibrium is a saddle at its mean gap, of a law.
     ///
-<<<<<<< HEAD
-    /// Takes nothing if the softest stiffness and the least φ'' show that it is none, and otherwise some operator applications:
-    /// five or seven, as a rule.
-    pub(crate) fn look(
-=======
     /// Takes nothing if the softest stiffness and the least φ'' show that it is none, and otherwise some operator
     /// applications: five or seven, as a rule.
-    pub(crate) fn look<O: ElasticOperator<T>, L: AdhesionLaw<T>>(
->>>>>>> path
+    pub(crate) fn look(
         &mut self,
         operator: &mut dyn ElasticOperator<T>,
         law: &dyn AdhesionLaw<T>,
