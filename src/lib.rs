@@ -138,6 +138,8 @@ pub mod tool {
 mod vector;
 mod warning;
 
+pub use ndarray;
+
 pub use adhesion::{AdhesionLaw, Exponential, MaugisDugdale, NoAdhesion, check_law};
 pub use constraint::{ContactConstraint, Outer, Penalty, Projection, Springs, Uzawa, Wall};
 pub use contact::{Clusters, Connectivity, ContactStatistics, PressureDistribution};

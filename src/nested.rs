@@ -59,6 +59,7 @@ pub struct Nested<C = Projection> {
 /// What the solve on one of nested grids took.
 ///
 /// [`NestedSolution`] has an example.
+#[non_exhaustive]
 #[derive(Clone, Debug, PartialEq)]
 pub struct Level {
     /// The nodes (Nx, Ny) of the grid.
@@ -85,6 +86,7 @@ pub struct Level {
 /// assert_eq!(nested.solution.gap.dim(), (128, 128));
 /// # Ok::<(), asperity::Error>(())
 /// ```
+#[non_exhaustive]
 #[derive(Clone, Debug, PartialEq)]
 pub struct NestedSolution<T> {
     /// The solution; its report counts the finest grid alone.

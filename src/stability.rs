@@ -123,6 +123,7 @@ impl Default for StabilityTest {
 /// The stability of an equilibrium. Eigenvalues are pressures per length.
 ///
 /// [`StabilityTest`] has an example.
+#[non_exhaustive]
 #[derive(Clone, Debug, PartialEq)]
 pub struct Stability<T> {
     /// What was shown.

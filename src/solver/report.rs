@@ -65,6 +65,7 @@ impl fmt::Display for Status {
 /// assert_eq!(solution.report.status, Status::Stopped);
 /// # Ok::<(), asperity::Error>(())
 /// ```
+#[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Iteration {
     /// How many steps were made.
@@ -105,6 +106,7 @@ pub struct Iteration {
 /// assert!(report.elastic_energy > 0.0 && report.adhesive_energy < 0.0 && !report.under_resolved);
 /// # Ok::<(), asperity::Error>(())
 /// ```
+#[non_exhaustive]
 #[derive(Clone, Debug, PartialEq)]
 pub struct Report {
     /// How the solve ended.

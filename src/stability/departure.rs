@@ -12,6 +12,7 @@ use crate::real::Real;
 use crate::solver::{Solution, Solver};
 
 /// Where a minimisation went that left an equilibrium along its softest mode.
+#[non_exhaustive]
 #[derive(Clone, Debug, PartialEq)]
 pub struct Departure<T> {
     /// Where it ended.

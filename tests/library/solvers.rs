@@ -399,3 +399,80 @@ fn a_solve_needs_seven_fields() {
     let [built, solved] = peak::<f64, _>(square, layer, || Box::new(NoAdhesion), Control::MeanGap(0.02));
     assert!(built < 8.0 && (7.5..7.5 + small).contains(&solved), "{built} {solved}");
 }
+
+/// An exponential law whose work of adhesion is a share of its own at each node.
+struct ByNode(Exponential<f64>, Vec<f64>);
+
+impl ByNode {
+    fn scale(&self, first: usize, values: &mut [f64]) {
+        values.iter_mut().zip(&self.1[first..]).for_each(|(value, share)| *value *= share);
+    }
+}
+
+impl AdhesionLaw<f64> for ByNode {
+    fn energy(&self, gap: f64) -> f64 {
+        self.0.energy(gap)
+    }
+    fn traction(&self, gap: f64) -> f64 {
+        self.0.traction(gap)
+    }
+    fn slope(&self, gap: f64) -> f64 {
+        self.0.slope(gap)
+    }
+    fn energies(&self, first: usize, gaps: &[f64], energies: &mut [f64]) {
+        self.0.energies(first, gaps, energies);
+        self.scale(first, energies);
+    }
+    fn tractions(&self, first: usize, gaps: &[f64], tractions: &mut [f64]) {
+        self.0.tractions(first, gaps, tractions);
+        self.scale(first, tractions);
+    }
+    fn slopes(&self, first: usize, gaps: &[f64], slopes: &mut [f64]) {
+        self.0.slopes(first, gaps, slopes);
+        self.scale(first, slopes);
+    }
+}
+
+/// Heights and shares that are moved together move the answer with them, and a share that is the same everywhere is a law of
+/// that work of adhesion. Contact nodes of different shares have different tractions, in the contact pressure too.
+#[test]
+fn a_law_may_differ_from_node_to_node() {
+    const N: usize = 48;
+    let grid = Grid::square(N, 1.0).unwrap();
+    let waves = Surface::wave_2d(grid, 5e-3, 2).unwrap();
+    let law = Exponential::new(4e-5, 3e-3).unwrap();
+    let share = |i: usize, j: usize| if 2 * i < N { 1.0 } else { 0.3 + 0.2 * (j % 5) as f64 };
+    let moved = |by: (usize, usize)| {
+        let from = |i: usize, j: usize| ((i + by.0) % N, (j + by.1) % N);
+        let heights = Array2::from_shape_fn((N, N), |(i, j)| waves.heights()[from(i, j)]);
+        let shares = (0..N * N).map(|node| from(node / N, node % N)).map(|(i, j)| share(i, j)).collect();
+        let surface = Surface::new(grid, heights).unwrap();
+        let half_space = Westergaard::<f64>::new(grid, 1.0).unwrap();
+        let mut problem = Problem::new(&surface, half_space, ByNode(law, shares)).unwrap();
+        let settings = Settings { tolerance: 1e-9, ..Settings::default() };
+        Solver::new(settings).solve(&mut problem, Control::MeanPressure(2e-3)).unwrap()
+    };
+    let (here, there) = (moved((0, 0)), moved((17, 31)));
+    assert_eq!((here.report.status, there.report.status), (Status::Converged, Status::Converged));
+    let contact = here.report.contact_points;
+    assert!(contact > 100 && contact == there.report.contact_points);
+    let at = |i: usize, j: usize| ((i + 17) % N, (j + 31) % N);
+    for ((i, j), &p) in there.contact_pressure.indexed_iter() {
+        assert!((p - here.contact_pressure[at(i, j)]).abs() < 1e-5 * here.pressure[at(i, j)].abs().max(0.05));
+    }
+    // λ = p + p̄ + φ' with the traction of each node
+    for ((i, j), &p) in here.contact_pressure.indexed_iter().filter(|(at, _)| here.gap[*at] == 0.0) {
+        let expected = here.pressure[[i, j]] + share(i, j) * law.traction(0.0);
+        assert!((p - expected.max(0.0)).abs() < 1e-12);
+    }
+
+    let solve = |law: &dyn AdhesionLaw<f64>| {
+        let half_space = Westergaard::<f64>::new(grid, 1.0).unwrap();
+        let mut problem = Problem::new(&waves, half_space, law).unwrap();
+        Solver::default().solve(&mut problem, Control::MeanGap(4e-3)).unwrap()
+    };
+    let half = solve(&ByNode(law, vec![0.5; N * N]));
+    let weaker = solve(&Exponential::new(2e-5, 3e-3).unwrap());
+    assert_eq!(half.report.operator_applications, weaker.report.operator_applications);
+    assert!((half.report.mean_pressure - weaker.report.mean_pressure).abs() < 1e-9);
+}

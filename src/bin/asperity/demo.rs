@@ -9,12 +9,14 @@ use serde_json::json;
 
 use crate::Outcome;
 use crate::echo::{self, Echo};
+use crate::numbers::{Style, si};
 use crate::options::threads;
+use crate::output::write_text;
 use crate::printing::Printing;
 use crate::progress::Progress;
-use crate::report::{Style, si, table, warn};
+use crate::report::{table, warn};
 use crate::run::{self, Units};
-use crate::solve::{self, write_text};
+use crate::solve;
 
 /// Press a built-in rough surface, without and with adhesion at the same load.
 ///

@@ -9,7 +9,7 @@ use toml::Value;
 
 use crate::Outcome;
 use crate::output::OutputFile;
-use crate::solve::write_text;
+use crate::output::write_text;
 
 /// A run as a scene file that repeats it: every option that was given or has a default.
 #[derive(Default)]

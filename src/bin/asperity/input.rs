@@ -110,5 +110,5 @@ pub fn holes(map: &Topography) -> Option<String> {
 /// Side lengths with their unit.
 pub fn sides((lx, ly): (f64, f64), unit: Option<&str>) -> String {
     let unit = unit.map_or(String::new(), |unit| format!(" {unit}"));
-    format!("{} x {}{unit}", crate::report::plain(lx), crate::report::plain(ly))
+    format!("{} x {}{unit}", crate::numbers::plain(lx), crate::numbers::plain(ly))
 }

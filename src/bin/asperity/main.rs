@@ -11,6 +11,7 @@ mod input;
 mod inputs;
 mod journal;
 mod loads;
+mod numbers;
 mod options;
 mod output;
 mod prepare;

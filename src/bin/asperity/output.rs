@@ -41,3 +41,8 @@ impl OutputFile {
         self.folder.commit()
     }
 }
+
+/// Writes a text, or says where it could not be written.
+pub fn write_text(path: &Path, text: &str) -> asperity::Result<()> {
+    std::fs::write(path, text).map_err(|e| Error::file(path, format!("cannot be written: {e}")))
+}

@@ -7,10 +7,10 @@ use serde_json::json;
 
 use crate::echo::Echo;
 use crate::input::{given, holes, sides, warn_of_unread};
+use crate::numbers::plain;
 use crate::options::{nodes, positive};
 use crate::output::OutputFile;
 use crate::printing::Printing;
-use crate::report::plain;
 use crate::{Outcome, say};
 
 /// Make a surface that can be solved of a measured map.

@@ -1,26 +1,9 @@
 use asperity::{Criterion, Report, Status, Verdict};
 
 use crate::complain;
+use crate::numbers::{Style, percent, plain};
 use crate::printing::{bold, green, yellow};
 use crate::run::{Account, Case, Steadiness};
-
-/// How the numbers of a table are printed.
-#[derive(Clone, Copy, PartialEq)]
-pub enum Style {
-    /// In the unknown units of the input.
-    Plain,
-    /// In metres, pascals and joules.
-    Si,
-}
-
-impl Style {
-    pub fn number(self, value: f64, unit: &str) -> String {
-        match self {
-            Self::Plain => plain(value),
-            Self::Si => si(value, unit),
-        }
-    }
-}
 
 /// A table with a column for each of the solves.
 pub fn table(names: &[&str], solves: &[&Account], style: Style) -> String {
@@ -128,49 +111,4 @@ pub fn warn(name: &str, account: &Account, case: &Case) {
         let text = format!("{name}still unstable after {count} departures: try another start by --initial-gap");
         complain("warning", &text);
     }
-}
-
-/// A share in percent, with enough digits that a little contact is not none.
-pub fn percent(share: f64) -> String {
-    let percent = 100.0 * share;
-    if percent == 0.0 || percent >= 1.0 {
-        format!("{percent:.1}")
-    } else if percent >= 0.01 {
-        format!("{percent:.2}")
-    } else {
-        format!("{percent:.0e}")
-    }
-}
-
-/// A number to seven digits.
-pub fn plain(value: f64) -> String {
-    let magnitude = value.abs();
-    if value == 0.0 {
-        return "0".to_owned();
-    }
-    if !(1e-3..1e6).contains(&magnitude) {
-        let text = format!("{value:.6e}");
-        let Some((digits, exponent)) = text.split_once('e') else { return text };
-        return format!("{}e{exponent}", trimmed(digits.to_owned()));
-    }
-    let decimals = (6.0 - magnitude.log10().floor()).max(0.0) as usize;
-    trimmed(format!("{value:.decimals$}"))
-}
-
-/// A number to four digits with its unit, and the prefix that makes it readable.
-pub fn si(value: f64, unit: &str) -> String {
-    const PREFIXES: [&str; 9] = ["p", "n", "µ", "m", "", "k", "M", "G", "T"];
-    // Rounded first, so that 999.96 n is 1 µ.
-    let rounded: f64 = format!("{value:.3e}").parse().unwrap_or(value);
-    let power = if rounded == 0.0 { 0 } else { (rounded.abs().log10() + 1e-9).floor() as i32 }.div_euclid(3);
-    let power = power.clamp(-4, 4);
-    let value = rounded / 10f64.powi(3 * power);
-    let decimals = if value == 0.0 { 0.0 } else { (3.0 - value.abs().log10().floor()).clamp(0.0, 6.0) };
-    let digits = trimmed(format!("{value:.*}", decimals as usize));
-    format!("{digits} {}{unit}", PREFIXES[(power + 4) as usize])
-}
-
-/// A number without zeros at the end of its decimals.
-fn trimmed(digits: String) -> String {
-    if digits.contains('.') { digits.trim_end_matches('0').trim_end_matches('.').to_owned() } else { digits }
 }

@@ -12,8 +12,8 @@ use ndarray_npy::WritableElement;
 use serde_json::Value;
 
 use crate::Outcome;
+use crate::numbers::percent;
 use crate::progress::Progress;
-use crate::report::percent;
 
 /// A scalar in which one can solve, and that can be written.
 pub trait Scalar: Real + WritableElement {}
@@ -122,7 +122,7 @@ pub fn solve_nested<T: Scalar, L: AdhesionLaw<T>>(
         ControlFlow::Continue(())
     })?;
     let applications = found.equivalent_applications();
-    let NestedSolution { solution, levels } = found;
+    let NestedSolution { solution, levels, .. } = found;
     account(solution, surface.grid(), Some((levels, applications)), clock)
 }
 

@@ -1,18 +1,19 @@
-use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use asperity::io::{OutputFolder, write_npy, write_npz, write_vti};
-use asperity::{Control, Error, Grid, Level, Status, Surface};
+use asperity::{Control, Grid, Level, Status, Surface};
 use clap::{ArgGroup, Args, ValueEnum};
 use ndarray::Array2;
 use serde_json::{Value, json};
 
 use crate::echo::{self, Echo};
 use crate::inputs;
+use crate::numbers::Style;
 use crate::options::{self, AdhesionOptions, Law, Precision, SolverOptions, SurfaceOptions};
+use crate::output::write_text;
 use crate::printing::Printing;
 use crate::progress::Progress;
-use crate::report::{Style, table, warn};
+use crate::report::{table, warn};
 use crate::run::{self, Account, Case, Left, Scalar, Units};
 use crate::warnings::{Strictness, Warnings};
 use crate::{Outcome, say};
@@ -298,8 +299,4 @@ fn level(level: &Level) -> Value {
 /// What it took to leave an unstable equilibrium.
 fn departure(left: &Left) -> Value {
     json!({ "eigenvalue": left.eigenvalue, "energy_drop": left.energy_drop, "distance": left.distance })
-}
-
-pub fn write_text(path: &Path, text: &str) -> asperity::Result<()> {
-    fs::write(path, text).map_err(|e| Error::file(path, format!("cannot be written: {e}")))
 }

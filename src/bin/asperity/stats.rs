@@ -6,11 +6,11 @@ use clap::Args;
 use serde_json::{Map, Value, json};
 
 use crate::inputs;
+use crate::numbers::plain;
 use crate::options::positive;
 use crate::output::OutputFile;
+use crate::output::write_text;
 use crate::printing::Printing;
-use crate::report::plain;
-use crate::solve::write_text;
 use crate::{Outcome, input};
 
 /// Print the statistics of a rough surface.

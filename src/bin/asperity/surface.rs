@@ -10,9 +10,9 @@ use crate::echo::Echo;
 use crate::inputs;
 use crate::options::{nodes, positive, threads};
 use crate::output::OutputFile;
+use crate::output::write_text;
 use crate::printing::Printing;
 use crate::run;
-use crate::solve::write_text;
 use crate::stats::{density_table, report, table};
 
 /// Make a self-affine rough surface, and print its statistics.

@@ -15,10 +15,10 @@ use crate::hash::Hash;
 use crate::inputs;
 use crate::journal::{Identity, Journal};
 use crate::loads::{self, Loads};
+use crate::numbers::{Style, percent};
 use crate::options::{AdhesionOptions, Precision, SolverOptions, SurfaceOptions};
 use crate::printing::Printing;
 use crate::progress::Progress;
-use crate::report::{Style, percent};
 use crate::run::{self, Scalar};
 use crate::warnings::{Strictness, Warnings};
 

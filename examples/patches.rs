@@ -1,0 +1,112 @@
+//! Adhesion in patches and a wall with a soft coat, both written outside of the crate: a law and a constraint that differ from node to node.
+//!
+//! `cargo run --release --example patches -- [size]`; 256 if nothing is given.
+
+use asperity::{
+    AdhesionLaw, ContactConstraint, Control, Exponential, Grid, NoAdhesion, Problem, Real, Result, Settings, Solver,
+    Springs, Surface, Wall, Westergaard,
+};
+
+/// A law on a chessboard: the work of adhesion of the black squares is a share of that of the white ones.
+struct Patches<L> {
+    law: L,
+    /// of every node, in row-major order
+    shares: Vec<f64>,
+}
+
+impl<L> Patches<L> {
+    fn scale<T: Real>(&self, first: usize, values: &mut [T]) {
+        let shares = &self.shares[first..];
+        values.iter_mut().zip(shares).for_each(|(value, &share)| *value = *value * T::lit(share));
+    }
+}
+
+impl<T: Real, L: AdhesionLaw<T>> AdhesionLaw<T> for Patches<L> {
+    // the strongest node, for the resolution of the grid
+    fn energy(&self, gap: T) -> T {
+        self.law.energy(gap)
+    }
+    fn traction(&self, gap: T) -> T {
+        self.law.traction(gap)
+    }
+    fn slope(&self, gap: T) -> T {
+        self.law.slope(gap)
+    }
+    // every node, for the solve
+    fn energies(&self, first: usize, gaps: &[T], energies: &mut [T]) {
+        self.law.energies(first, gaps, energies);
+        self.scale(first, energies);
+    }
+    fn tractions(&self, first: usize, gaps: &[T], tractions: &mut [T]) {
+        self.law.tractions(first, gaps, tractions);
+        self.scale(first, tractions);
+    }
+    fn slopes(&self, first: usize, gaps: &[T], slopes: &mut [T]) {
+        self.law.slopes(first, gaps, slopes);
+        self.scale(first, slopes);
+    }
+}
+
+/// A coat on part of the rigid surface, which resists being compressed below its thickness at each node.
+struct Coat {
+    thickness: Vec<f64>,
+    stiffness: f64,
+}
+
+impl Coat {
+    fn depth(&self, node: usize, gap: f64) -> f64 {
+        (self.thickness[node] - gap).max(0.0)
+    }
+}
+
+impl ContactConstraint<f64> for Coat {
+    fn wall(&self) -> Wall<'_, f64> {
+        Wall::Springs(self)
+    }
+}
+
+impl Springs<f64> for Coat {
+    fn energy(&self, node: usize, gap: f64) -> f64 {
+        0.5 * self.stiffness * self.depth(node, gap).powi(2)
+    }
+    fn traction(&self, node: usize, gap: f64) -> f64 {
+        -self.stiffness * self.depth(node, gap)
+    }
+    fn slope(&self, node: usize, gap: f64) -> f64 {
+        if self.depth(node, gap) > 0.0 { self.stiffness } else { 0.0 }
+    }
+}
+
+fn main() -> Result<()> {
+    let size = std::env::args().nth(1).and_then(|n| n.parse().ok()).unwrap_or(256);
+    let grid = Grid::square(size, 1.0)?;
+    let waves = Surface::wave_2d(grid, 5e-3, 4)?;
+    let half_space = || Westergaard::<f64>::new(grid, 1.0);
+    let nodes = |f: &dyn Fn(usize, usize) -> f64| -> Vec<f64> {
+        (0..size * size).map(|node| f(4 * (node / size) / size, 4 * (node % size) / size)).collect()
+    };
+
+    println!("waves under a mean pressure of 1e-3 E*, with adhesion of a share of its strength on every other square");
+    println!("share of the work   contact, %   strongest tension, E*");
+    for share in [0.0, 0.5, 1.0] {
+        let shares = nodes(&|i, j| if (i + j) % 2 == 0 { 1.0 } else { share });
+        let law = Patches { law: Exponential::new(2e-5, 2e-3)?, shares };
+        let mut problem = Problem::new(&waves, half_space()?, law)?;
+        let solution = Solver::default().solve(&mut problem, Control::MeanPressure(1e-3))?;
+        let tension = solution.pressure.iter().fold(0.0_f64, |least, &p| least.min(p));
+        println!("{share:17} {:12.2} {:23.3e}", 100.0 * solution.report.contact_fraction, -tension);
+    }
+
+    println!("\nthe same waves without adhesion, under a coat of 1e-3 on one half");
+    let thickness = nodes(&|i, _| if i < 2 { 1e-3 } else { 0.0 });
+    let coat = Coat { thickness, stiffness: 500.0 };
+    let mut problem = Problem::new(&waves, half_space()?, NoAdhesion)?;
+    let mut solver = Solver { settings: Settings::default(), constraint: coat };
+    let solution = solver.solve(&mut problem, Control::MeanPressure(1e-3))?;
+    let half = |from: usize, to: usize| {
+        let rows = solution.contact_pressure.rows().into_iter().skip(from).take(to - from);
+        rows.map(|row| row.sum()).sum::<f64>() / (size * size) as f64
+    };
+    println!("load on the coated half {:.3e}, on the bare one {:.3e}", half(0, size / 2), half(size / 2, size));
+    Ok(())
+}
