@@ -17,7 +17,7 @@ struct Patches<L> {
 impl<L> Patches<L> {
     fn scale<T: Real>(&self, first: usize, values: &mut [T]) {
         let shares = &self.shares[first..];
-        values.iter_mut().zip(shares).for_each(|(value, &share)| *value = *value * T::lit(share));
+        values.iter_mut().zip(shares).for_each(|(value, &share)| *value *= T::lit(share));
     }
 }
 

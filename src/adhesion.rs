@@ -1,3 +1,4 @@
+use crate::derivatives::{self, Named};
 use crate::error::{Error, Result};
 use crate::real::Real;
 
@@ -159,40 +160,14 @@ forward!(&L, Box<L>);
 /// # Ok::<(), asperity::Error>(())
 /// ```
 pub fn check_law<T: Real>(law: &impl AdhesionLaw<T>, largest_gap: f64) -> Result<()> {
-    const GAPS: usize = 200;
     Error::positive("largest gap", largest_gap)?;
-    // the step that balances truncation against rounding in a central difference of what varies over the range
-    let step = law.range().widen().clamp(1e-3 * largest_gap, largest_gap) * T::epsilon().widen().cbrt();
-    let gaps = || (0..=GAPS).map(|i| 2.0 * step + (largest_gap - 2.0 * step) * i as f64 / GAPS as f64);
-    let functions: [(&str, &dyn Fn(f64) -> f64); 3] = [
+    let length = law.range().widen().clamp(1e-3 * largest_gap, largest_gap);
+    let functions: [Named<'_>; 3] = [
         ("adhesive energy", &|g| law.energy(T::lit(g)).widen()),
         ("adhesive traction", &|g| law.traction(T::lit(g)).widen()),
         ("slope of the adhesive traction", &|g| law.slope(T::lit(g)).widen()),
     ];
-    for (function, f) in functions {
-        if let Some(gap) = std::iter::once(0.0).chain(gaps()).find(|&g| !f(g).is_finite()) {
-            return Err(Error::Law { function, gap, value: f(gap), expected: None });
-        }
-    }
-    for pair in functions.windows(2) {
-        let (f, (function, derivative)) = (pair[0].1, pair[1]);
-        let difference = |g: f64, step: f64| {
-            // the gaps as the law sees them
-            let (a, b) = (T::lit(g - step).widen(), T::lit(g + step).widen());
-            (f(b) - f(a)) / (b - a)
-        };
-        let rounding = 8.0 * T::epsilon().widen() * gaps().map(|g| f(g).abs()).fold(0.0, f64::max) / step;
-        let size = gaps().map(|g| derivative(g).abs()).fold(0.0, f64::max);
-        for gap in gaps() {
-            let (wide, narrow) = (difference(gap, step), difference(gap, 0.5 * step));
-            let jump = (wide - narrow).abs() > rounding + 0.2 * wide.abs().max(narrow.abs());
-            let value = derivative(gap);
-            if !jump && (narrow - value).abs() > rounding + 1e-2 * size {
-                return Err(Error::Law { function, gap, value, expected: Some(narrow) });
-            }
-        }
-    }
-    Ok(())
+    derivatives::check::<T>(functions, (0.0, largest_gap), length)
 }
 
 #[cfg(test)]

@@ -2,7 +2,8 @@ use std::fmt;
 
 use ndarray::ArrayView2;
 
-use crate::error::Result;
+use crate::derivatives::{self, Named};
+use crate::error::{Error, Result};
 use crate::grid::Grid;
 use crate::real::Real;
 
@@ -122,4 +123,40 @@ pub enum Outer {
     Again,
     /// No more updates are allowed, and the constraint is not met: end without having converged.
     Failed,
+}
+
+/// Tells whether the springs of a constraint are each other's derivatives, and resist more the smaller the gap; call it in a
+/// test of your constraint. [`Projection`] has none and is fine.
+///
+/// Looks at the nodes below `nodes`, seven of them at most, and at gaps between −`depth` and `depth`, as
+/// [`check_law`](crate::check_law) does.
+///
+/// # Errors
+/// [`Error::Law`] with the function of the springs, the first gap at which it is not finite, not the derivative of the one
+/// before it, or falls; [`Error::Value`] if `depth` is not positive and finite.
+///
+/// ```
+/// use asperity::{Penalty, Projection, check_constraint};
+/// check_constraint(&Penalty::new(5000.0_f64)?, 1, 1e-3)?;
+/// check_constraint::<f64>(&Projection, 1, 1e-3)?;
+/// # Ok::<(), asperity::Error>(())
+/// ```
+pub fn check_constraint<T: Real>(constraint: &impl ContactConstraint<T>, nodes: usize, depth: f64) -> Result<()> {
+    Error::positive("depth", depth)?;
+    let Wall::Springs(springs) = constraint.wall() else { return Ok(()) };
+    for node in (0..nodes).step_by(nodes.div_ceil(7).max(1)) {
+        let slope = |g: f64| springs.slope(node, T::lit(g)).widen();
+        let functions: [Named<'_>; 3] = [
+            ("energy of the springs", &|g| springs.energy(node, T::lit(g)).widen()),
+            ("traction of the springs", &|g| springs.traction(node, T::lit(g)).widen()),
+            ("slope of the springs", &slope),
+        ];
+        derivatives::check::<T>(functions, (-depth, depth), depth)?;
+        let gaps = (0..=100).map(|i| depth * (0.02 * f64::from(i) - 1.0));
+        if let Some(gap) = gaps.into_iter().find(|&gap| slope(gap) < 0.0) {
+            let (function, value) = ("slope of the springs", slope(gap));
+            return Err(Error::Law { function, gap, value, expected: Some(0.0) });
+        }
+    }
+    Ok(())
 }

@@ -4,9 +4,11 @@ use crate::error::{Error, Result};
 use crate::grid::Grid;
 use crate::real::Real;
 
+mod check;
 mod spectral;
 mod westergaard;
 
+pub use check::check_operator;
 pub use spectral::Spectral;
 pub use westergaard::Westergaard;
 

@@ -61,7 +61,7 @@ pub enum Error {
         /// What stands there.
         value: f64,
     },
-    /// A function of an adhesion law that is not finite, or not the derivative of the one before it
+    /// A function of an adhesion law or of springs that is not finite, or not the derivative of the one before it
     /// (energy, traction, slope of the traction).
     Law {
         /// The function.
@@ -72,6 +72,15 @@ pub enum Error {
         value: f64,
         /// What it should return there; nothing if it is not finite.
         expected: Option<f64>,
+    },
+    /// An elastic operator that does not keep what it promises; see [`check_operator`](crate::check_operator).
+    Operator {
+        /// What does not hold.
+        property: &'static str,
+        /// What it comes to.
+        found: f64,
+        /// What it should be.
+        expected: f64,
     },
     /// A surface with waves that are too short for the grid.
     Unresolved {
@@ -169,6 +178,9 @@ impl fmt::Display for Error {
                 Short(*gap),
                 Short(*expected)
             ),
+            Self::Operator { property, found, expected } => {
+                write!(f, "{property} is {}: it should be {}", Short(*found), Short(*expected))
+            }
             Self::Unresolved { k_s, limit, shape } => write!(
                 f,
                 "k_s is {}: it must be below {} for {} x {} nodes to resolve it: use more nodes, or a smaller k_s",

@@ -102,6 +102,7 @@ pub mod choosing {
 }
 mod constraint;
 mod contact;
+mod derivatives;
 mod elastic;
 mod error;
 pub mod exact;
@@ -141,9 +142,9 @@ mod warning;
 pub use ndarray;
 
 pub use adhesion::{AdhesionLaw, Exponential, MaugisDugdale, NoAdhesion, check_law};
-pub use constraint::{ContactConstraint, Outer, Penalty, Projection, Springs, Uzawa, Wall};
+pub use constraint::{ContactConstraint, Outer, Penalty, Projection, Springs, Uzawa, Wall, check_constraint};
 pub use contact::{Clusters, Connectivity, ContactStatistics, PressureDistribution};
-pub use elastic::{ElasticOperator, Preconditioned, Spectral, Westergaard};
+pub use elastic::{ElasticOperator, Preconditioned, Spectral, Westergaard, check_operator};
 pub use error::{Error, Result};
 pub use grid::Grid;
 pub use nested::{Level, Nested, NestedSolution};

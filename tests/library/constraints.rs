@@ -324,3 +324,42 @@ fn figures_of_penalty_and_uzawa_on_a_rough_surface() {
         }
     }
 }
+
+/// Springs of which one function is wrong, or that give way.
+struct Spoiled(f64, f64);
+
+impl ContactConstraint<f64> for Spoiled {
+    fn wall(&self) -> Wall<'_, f64> {
+        Wall::Springs(self)
+    }
+}
+
+impl Springs<f64> for Spoiled {
+    fn energy(&self, _: usize, gap: f64) -> f64 {
+        0.5 * self.0 * gap.min(0.0).powi(2)
+    }
+    fn traction(&self, _: usize, gap: f64) -> f64 {
+        self.0 * self.1 * gap.min(0.0)
+    }
+    fn slope(&self, _: usize, gap: f64) -> f64 {
+        if gap < 0.0 { self.0 * self.1 } else { 0.0 }
+    }
+}
+
+#[test]
+fn the_checker_of_constraints_names_the_function_that_is_wrong() {
+    for depth in [1e-6, 1e-3, 1.0] {
+        check_constraint(&Penalty::new(50.0_f64).unwrap(), 9, depth).unwrap();
+        check_constraint(&Penalty::new(50.0_f32).unwrap(), 9, depth).unwrap();
+        check_constraint(&Uzawa::new(50.0_f64).unwrap(), 9, depth).unwrap();
+        check_constraint(&Spoiled(1.0, 1.0), 1, depth).unwrap();
+        for (springs, named) in
+            [(Spoiled(1.0, 1.1), "traction of the springs"), (Spoiled(-1.0, 1.0), "slope of the springs")]
+        {
+            match check_constraint(&springs, 1, depth) {
+                Err(Error::Law { function, .. }) => assert_eq!(function, named),
+                other => panic!("{other:?}"),
+            }
+        }
+    }
+}

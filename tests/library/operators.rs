@@ -410,3 +410,64 @@ proptest! {
         prop_assert!(!varies || dot(&a, &ka) > 0.0);
     }
 }
+
+/// An operator with one of its promises broken.
+struct Broken(Westergaard<f64>, u8);
+
+impl ElasticOperator<f64> for Broken {
+    fn grid(&self) -> &Grid {
+        self.0.grid()
+    }
+    fn pressure(&mut self, u: ArrayView2<'_, f64>, mut p: ArrayViewMut2<'_, f64>) -> asperity::Result<()> {
+        self.0.pressure(u, p.view_mut())?;
+        match self.1 {
+            1 => p.mapv_inplace(|p| p + 1e-6),
+            2 => p.row_mut(0).mapv_inplace(|p| 1.001 * p),
+            _ => {}
+        }
+        Ok(())
+    }
+    fn displacement(&mut self, p: ArrayView2<'_, f64>, mut u: ArrayViewMut2<'_, f64>) -> asperity::Result<()> {
+        self.0.displacement(p, u.view_mut())?;
+        if self.1 == 3 {
+            u.mapv_inplace(|u| 1.0001 * u);
+        }
+        Ok(())
+    }
+    fn stiffness_range(&self) -> (f64, f64) {
+        let (softest, stiffest) = self.0.stiffness_range();
+        match self.1 {
+            4 => (1.01 * softest, stiffest),
+            5 => (softest, 0.9 * stiffest),
+            _ => (softest, stiffest),
+        }
+    }
+    fn modulus(&self) -> f64 {
+        self.0.modulus()
+    }
+}
+
+#[test]
+fn the_checker_accepts_operators_and_names_what_is_broken() {
+    for shape in [(24, 15), (64, 1), (1, 33), (2, 2)] {
+        let grid = Grid::new(shape, (1.0, 0.7)).unwrap();
+        check_operator(&mut Westergaard::<f64>::new(grid, 3.0).unwrap()).unwrap();
+        check_operator(&mut Westergaard::<f32>::new(grid, 3.0).unwrap()).unwrap();
+        check_operator(&mut Spectral::<f64>::isotropic(grid, 1.0, |q| 10.0 + 0.5 * q).unwrap()).unwrap();
+    }
+    let grid = Grid::new((24, 15), (1.0, 0.7)).unwrap();
+    let broken = |kind| check_operator(&mut Broken(Westergaard::new(grid, 1.0).unwrap(), kind));
+    broken(0).unwrap();
+    for (kind, named) in [
+        (1, "mean of a pressure"),
+        (2, "symmetry of the stiffness"),
+        (3, "displacement of a pressure"),
+        (4, "softest stiffness"),
+        (5, "stiffest stiffness"),
+    ] {
+        match broken(kind) {
+            Err(Error::Operator { property, .. }) => assert!(property.starts_with(named), "{kind}: {property}"),
+            other => panic!("{kind}: {other:?}"),
+        }
+    }
+}

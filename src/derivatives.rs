@@ -1,0 +1,47 @@
+//! A check that an energy, its traction and the traction's slope are each other's derivatives, for users' tests.
+
+use crate::error::{Error, Result};
+use crate::real::Real;
+
+/// How many gaps are looked at.
+const GAPS: usize = 200;
+
+/// A function of the gap, with its name.
+pub(crate) type Named<'a> = (&'static str, &'a dyn Fn(f64) -> f64);
+
+/// Compares the second function with central differences of the first, and the third with those of the second, at gaps
+/// between `low` and `high`, in the precision T, to a hundredth of the largest value. `length` is the gap over which the
+/// functions vary. Gaps beside a jump, where the differences grow as their step shrinks, are passed over.
+///
+/// # Errors
+/// [`Error::Law`] with the function, the first gap at which it is not finite or is not the derivative of the one before it,
+/// and the value that it should have there.
+pub(crate) fn check<T: Real>(functions: [Named<'_>; 3], (low, high): (f64, f64), length: f64) -> Result<()> {
+    // the step that balances truncation against rounding in a central difference
+    let step = length * T::epsilon().widen().cbrt();
+    let gaps = || (0..=GAPS).map(|i| low + 2.0 * step + (high - low - 2.0 * step) * i as f64 / GAPS as f64);
+    for (function, f) in functions {
+        if let Some(gap) = std::iter::once(low).chain(gaps()).find(|&g| !f(g).is_finite()) {
+            return Err(Error::Law { function, gap, value: f(gap), expected: None });
+        }
+    }
+    for pair in functions.windows(2) {
+        let (f, (function, derivative)) = (pair[0].1, pair[1]);
+        let difference = |g: f64, step: f64| {
+            // the gaps as the functions see them
+            let (a, b) = (T::lit(g - step).widen(), T::lit(g + step).widen());
+            (f(b) - f(a)) / (b - a)
+        };
+        let rounding = 8.0 * T::epsilon().widen() * gaps().map(|g| f(g).abs()).fold(0.0, f64::max) / step;
+        let size = gaps().map(|g| derivative(g).abs()).fold(0.0, f64::max);
+        for gap in gaps() {
+            let (wide, narrow) = (difference(gap, step), difference(gap, 0.5 * step));
+            let jump = (wide - narrow).abs() > rounding + 0.2 * wide.abs().max(narrow.abs());
+            let value = derivative(gap);
+            if !jump && (narrow - value).abs() > rounding + 1e-2 * size {
+                return Err(Error::Law { function, gap, value, expected: Some(narrow) });
+            }
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,117 @@
+//! A check that an elastic operator is one, for users' tests.
+
+use ndarray::Array2;
+
+use super::{ElasticOperator, mean_product};
+use crate::error::{Error, Result};
+use crate::real::Real;
+
+/// Applications of the compliance, and of the stiffness, that look for the softest and for the stiffest wave.
+const POWERS: usize = 20;
+
+/// Tells whether an elastic operator keeps what [`ElasticOperator`] promises; call it in a test of your operator.
+///
+/// On fields of random numbers, the same in every run, and to the rounding of the precision, it compares
+///
+/// - ⟨a, K⁻¹b⟩ with ⟨K⁻¹a, b⟩, and ⟨a, K b⟩ with ⟨K a, b⟩ (symmetric);
+/// - the means of K⁻¹a and K a with zero, and K⁻¹(a + 1) with K⁻¹a (a rigid translation costs nothing);
+/// - K K⁻¹a with a less its mean (each other's inverse);
+/// - Rayleigh quotients of the softest and stiffest fields that twenty applications find with `stiffness_range`;
+/// - the means that `pressure_and_work` and `precondition` return with those of the fields, and ⟨a, M b⟩ with ⟨M a, b⟩.
+///
+/// # Errors
+/// [`Error::Operator`] with the first property that does not hold; those of the operator itself.
+///
+/// ```
+/// use asperity::{Grid, Westergaard, check_operator};
+/// check_operator(&mut Westergaard::<f64>::new(Grid::new((24, 15), (1.0, 0.7))?, 1.0)?)?;
+/// # Ok::<(), asperity::Error>(())
+/// ```
+pub fn check_operator<T: Real>(operator: &mut (impl ElasticOperator<T> + ?Sized)) -> Result<()> {
+    let shape = operator.grid().shape();
+    let field = || Array2::<T>::zeros(shape);
+    let ([a, b], mut of_a, mut of_b) = ([1, 2].map(|seed| random::<T>(shape, seed)), field(), field());
+    let (softest, stiffest) = operator.stiffness_range();
+    if a.len() < 2 {
+        return Ok(());
+    }
+    let rounding = 64.0 * T::epsilon().widen();
+    let product = |a: &Array2<T>, b: &Array2<T>| mean_product(a.view(), b.view());
+    let mean = |field: &Array2<T>| field.iter().map(|x| x.widen()).sum::<f64>() / field.len() as f64;
+    let holds = |property, found: f64, expected: f64, allowed: f64| match (found - expected).abs() <= allowed {
+        true => Ok(()),
+        false => Err(Error::Operator { property, found, expected }),
+    };
+
+    // the stiffness
+    operator.pressure(a.view(), of_a.view_mut())?;
+    let work = operator.pressure_and_work(b.view(), of_b.view_mut())?;
+    let stiff = rounding * stiffest;
+    holds("mean of a pressure", mean(&of_a), 0.0, stiff)?;
+    holds("symmetry of the stiffness, ⟨a, K⁻¹b⟩", product(&a, &of_b), product(&of_a, &b), stiff)?;
+    holds("work of pressure_and_work", work, product(&b, &of_b), stiff)?;
+    let lifted = a.mapv(|x| x + T::one());
+    operator.pressure(lifted.view(), of_b.view_mut())?;
+    let difference = largest(&(&of_b - &of_a));
+    holds("pressure of a rigid translation", difference, 0.0, 4.0 * stiff)?;
+
+    // the compliance, as its inverse
+    let condition = stiffest / softest;
+    operator.displacement(of_a.view(), of_b.view_mut())?;
+    let centred = a.mapv(|x| x - T::lit(mean(&a)));
+    holds("displacement of a pressure, against the one that made it", largest(&(&of_b - &centred)), 0.0, {
+        rounding * condition
+    })?;
+    operator.displacement(a.view(), of_a.view_mut())?;
+    operator.displacement(b.view(), of_b.view_mut())?;
+    let soft = rounding / softest;
+    holds("mean of a displacement", mean(&of_a), 0.0, soft)?;
+    holds("symmetry of the compliance, ⟨a, K b⟩", product(&a, &of_b), product(&of_a, &b), soft)?;
+    let compliant = product(&a, &of_a);
+
+    // the preconditioner
+    let (foundation, mean_stiffness) = (2.0 * softest, 3.0 * softest);
+    let found = operator.precondition(a.view(), foundation, mean_stiffness, of_a.view_mut())?;
+    holds("error of precondition, ⟨a, K a⟩", found.error, compliant, soft)?;
+    holds("descent of precondition, ⟨a, M a⟩", found.descent, product(&a, &of_a), soft)?;
+    holds("mean of precondition", found.mean, mean(&of_a), soft)?;
+    operator.precondition(b.view(), foundation, mean_stiffness, of_b.view_mut())?;
+    holds("symmetry of precondition, ⟨a, M b⟩", product(&a, &of_b), product(&of_a, &b), soft)?;
+    if found.descent <= 0.0 {
+        return Err(Error::Operator { property: "descent of precondition", found: found.descent, expected: 0.0 });
+    }
+
+    // the range of the stiffness: no field is softer or stiffer
+    for (property, bound, inverse) in [("softest stiffness", softest, true), ("stiffest stiffness", stiffest, false)] {
+        let mut x = centred.clone();
+        let mut quotient = bound;
+        for _ in 0..POWERS {
+            let size = product(&x, &x).sqrt();
+            x.mapv_inplace(|x| x / T::lit(size));
+            operator.pressure(x.view(), of_a.view_mut())?;
+            quotient = product(&x, &of_a);
+            if inverse {
+                operator.displacement(x.view(), of_a.view_mut())?;
+            }
+            x.assign(&of_a);
+        }
+        let beyond = if inverse { quotient < bound * (1.0 - rounding) } else { quotient > bound * (1.0 + 1e-3) };
+        if beyond {
+            return Err(Error::Operator { property, found: bound, expected: quotient });
+        }
+    }
+    Ok(())
+}
+
+fn largest<T: Real>(field: &Array2<T>) -> f64 {
+    field.iter().fold(0.0, |largest, x| largest.max(x.widen().abs()))
+}
+
+/// Numbers between −1 and 1, the same for a seed.
+fn random<T: Real>(shape: (usize, usize), seed: u64) -> Array2<T> {
+    let mut state = seed.wrapping_mul(0x9e37_79b9_7f4a_7c15);
+    Array2::from_shape_fn(shape, |_| {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        T::lit((state >> 11) as f64 / (1_u64 << 52) as f64 - 1.0)
+    })
+}
