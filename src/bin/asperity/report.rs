@@ -1,4 +1,4 @@
-use asperity::{Criterion, Report, Status, Verdict};
+use asperity::{Report, Status, Verdict};
 
 use crate::complain;
 use crate::numbers::{Style, percent, plain};
@@ -50,12 +50,6 @@ pub fn table(names: &[&str], solves: &[&Account], style: Style) -> String {
         row("with coarser grids", &|s, _| format!("{:.1}", count(s)));
     }
     row("time", &|s, _| format!("{:.3} s", s.seconds));
-    if solves.iter().any(|solve| solve.report.criterion == Criterion::Orthogonality) {
-        row("criterion", &|_, r| match r.criterion {
-            Criterion::Orthogonality => format!("sum |g r'| = {:.1e}, which bounds no error", r.orthogonality),
-            Criterion::EnergyNorm => "certified error".to_owned(),
-        });
-    }
     row("status", &|_, r| r.status.to_string());
 
     let length = |text: &str| text.chars().count();

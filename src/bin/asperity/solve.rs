@@ -164,7 +164,6 @@ impl Options {
             "relative_error": report.relative_error,
             "load_error": report.load_error,
             "criterion": report.criterion.name(),
-            "orthogonality": report.orthogonality,
             "iterations": report.iterations,
             "operator_applications": report.operator_applications,
             "grids": grids,
