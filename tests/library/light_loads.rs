@@ -1,4 +1,6 @@
 //! What "converged" means under the lightest loads, under tension, and at the end of a solve.
+//!
+//! `cargo test --release --test library light_loads::floors -- --ignored --nocapture` prints how accurate light loads get.
 
 use std::ops::ControlFlow;
 
@@ -27,6 +29,17 @@ fn paraboloid(n: usize) -> Array2<f64> {
 fn rough(n: usize) -> Array2<f64> {
     let grid = Grid::square(n, 1.0).unwrap();
     SelfAffine { k_s: n as f64 / 4.0, ..SelfAffine::default() }.surface(grid).unwrap().heights().clone()
+}
+
+/// The certified error of a gap as it is, in `f64`.
+fn seen_in_f64(heights: &Array2<f64>, gap: &Array2<f64>) -> f64 {
+    let grid = Grid::new(heights.dim(), (1.0, 1.0)).unwrap();
+    let surface = Surface::new(grid, heights.clone()).unwrap();
+    let mut problem = Problem::new(&surface, Westergaard::<f64>::new(grid, 1.0).unwrap(), NoAdhesion).unwrap();
+    let mut solver = Solver::new(Settings { max_iterations: 0, tolerance: 1e-30, ..Settings::default() });
+    let go_on = |_: &Iteration| ControlFlow::Continue(());
+    let as_it_is = Control::MeanGap(gap.mean().unwrap());
+    solver.solve_from(&mut problem, as_it_is, Some(gap.view()), go_on).unwrap().report.relative_error
 }
 
 #[test]
@@ -83,15 +96,8 @@ fn f32_claims_no_less_under_a_light_load_than_it_is_wrong_by() {
     let heights = paraboloid(32);
     for load in [1e-4, 1e-5, 5e-7] {
         let Solution { gap, report, .. } = solved::<f32>(&heights, Control::MeanPressure(load), 1e-2);
-        let gap = gap.mapv(f64::from);
-        let grid = Grid::square(32, 1.0).unwrap();
-        let surface = Surface::new(grid, heights.clone()).unwrap();
-        let mut problem = Problem::new(&surface, Westergaard::<f64>::new(grid, 1.0).unwrap(), NoAdhesion).unwrap();
-        let mut solver = Solver::new(Settings { max_iterations: 0, tolerance: 1e-30, ..Settings::default() });
-        let go_on = |_: &Iteration| ControlFlow::Continue(());
-        let as_it_is = Control::MeanGap(gap.mean().unwrap());
-        let seen = solver.solve_from(&mut problem, as_it_is, Some(gap.view()), go_on).unwrap().report;
-        assert!(seen.relative_error < 2.0 * report.relative_error, "{load:e}: {:e} {report:?}", seen.relative_error);
+        let seen = seen_in_f64(&heights, &gap.mapv(f64::from));
+        assert!(seen < 2.0 * report.relative_error, "{load:e}: {seen:e} {report:?}");
     }
 }
 
@@ -149,4 +155,29 @@ fn a_law_behind_a_reference_is_the_law() {
     let by_reference =
         Solver::default().solve(&mut Problem::new(&sphere, half_space(), &law).unwrap(), control).unwrap();
     assert_eq!(by_value, by_reference);
+}
+
+/// Errors that are reached, claimed and as they are when the gap is looked at in `f64`, for the page on precision.
+#[test]
+#[ignore = "prints figures: cargo test --release --test library light_loads::floors -- --ignored --nocapture"]
+fn floors() {
+    fn row<T: Real>(name: &str, heights: &Array2<f64>, load: f64) {
+        let Solution { gap, report, .. } = solved::<T>(heights, Control::MeanPressure(load), 1e-12);
+        let real = seen_in_f64(heights, &gap.mapv(T::widen));
+        println!(
+            "| {name} | {} | {load:.0e} | {} | {:.1e} | {real:.1e} | {:.1e} |",
+            T::NAME,
+            report.contact_points,
+            report.relative_error,
+            report.load_error
+        );
+    }
+    for load in [1e-3, 1e-5, 1e-7, 1e-9, 1e-11, 1e-13] {
+        for (name, heights) in [("rough 128²", rough(128)), ("paraboloid 32²", paraboloid(32))] {
+            row::<f64>(name, &heights, load);
+            if load > 1e-8 {
+                row::<f32>(name, &heights, load);
+            }
+        }
+    }
 }
