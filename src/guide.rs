@@ -9,6 +9,7 @@
 //! | [`penalty_and_uzawa`] | the two classical ways beside projection, with figures |
 //! | [`branches`] | loading and unloading with adhesion: jumps, limit points, stability |
 //! | [`python`] | heights from numpy, results to numpy |
+//! | [`driver`] | what the solver minimises, its certificate, one iteration step by step, and every constant in it |
 //! | [`architecture`] | the layers of the crate, what may use what, and the data's way through one iteration |
 //!
 //! Measured figures are on pages of their own: [`performance`](crate::performance), [`precision`](crate::precision), and
@@ -33,4 +34,5 @@ page!(penalty_and_uzawa);
 page!(branches);
 #[cfg(feature = "cli")]
 page!(python);
+page!(driver);
 page!(architecture);

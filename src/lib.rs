@@ -52,7 +52,7 @@
 //! | heights from numpy, results to numpy | [`guide::python`] |
 //! | resolution, tolerance and precision for the accuracy you want | [`choosing`] |
 //! | the command-line tool, its scenes and the keys of its reports | [`tool`] |
-//! | how the crate is built | [`guide::architecture`] |
+//! | how the crate is built, and how its solver works | [`guide::architecture`], [`guide::driver`] |
 //! | how fast, how far rounding lets it go, and what the paper says | [`performance`], [`precision`], [`paper_checked`] |
 //!
 //! # Conventions

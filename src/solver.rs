@@ -135,7 +135,7 @@ impl Settings {
 /// 4. clip it to g ≥ 0, restore the mean gap: d; K⁻¹d, exact energies along d, and the best (or the whole) of it.
 ///
 /// That is two operator applications an iteration, whether or not anything was clipped. τ follows the best
-/// lengths of the steps before.
+/// lengths of the steps before. The page [`driver`](crate::guide::driver) derives all of it.
 ///
 /// Memory per node, in scalars: five, of which the solution keeps three, beside those of the problem. With a
 /// [`Westergaard`](crate::Westergaard) half-space that makes seven in all, of the precision of the solve.
@@ -197,9 +197,10 @@ impl<C> Solver<C> {
     /// A given gap of shape (Nx, Ny) is scaled to the mean gap, if that is given; `None` is the default start.
     ///
     /// # Errors
-    /// [`Error::Value`] for a negative or infinite mean gap, an infinite pressure, or a tolerance that is not positive;
-    /// [`Error::Shape`], [`Error::NotFinite`] or [`Error::Value`] for a start that does not fit, is not finite, or is negative
-    /// somewhere; [`Error::Law`] if the law is not finite at the start. A solve that does not converge is no error: see [`Report::status`].
+    /// [`Error::Value`](crate::Error::Value) for a negative or infinite mean gap, an infinite pressure, or a tolerance that is
+    /// not positive; [`Error::Shape`](crate::Error::Shape), [`Error::NotFinite`](crate::Error::NotFinite) or `Error::Value` for
+    /// a start that does not fit, is not finite, or is negative somewhere; [`Error::Law`](crate::Error::Law) if the law is not
+    /// finite at the start. A solve that does not converge is no error: see [`Report::status`].
     pub fn solve_from<T, O, L>(
         &mut self,
         problem: &mut Problem<T, O, L>,
