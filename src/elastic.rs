@@ -1,3 +1,5 @@
+//! The elastic operator: pressure from displacement, displacement from pressure, and the preconditioner.
+
 use ndarray::{Array2, ArrayView2, ArrayViewMut2, Zip};
 
 use crate::error::{Error, Result};
@@ -71,8 +73,9 @@ pub trait ElasticOperator<T: Real>: Send {
 
     /// The stiffness of the softest and of the stiffest wave on the grid, pressure per length, the mean excluded.
     ///
-    /// The softest must not be overestimated: it bounds what the rounding of an updated pressure adds to the certificate.
-    /// Otherwise they scale steps, and estimates will do. Both are zero only where there is no wave, on a grid of one node.
+    /// The softest must not be overestimated: it bounds what the rounding of an updated pressure adds to the
+    /// certificate. Otherwise they scale steps, and estimates will do. Both are zero only where there is no wave, on a
+    /// grid of one node.
     fn stiffness_range(&self) -> (f64, f64);
 
     /// The contact modulus E* that the half-space has for waves as short as the grid's spacing.
@@ -80,8 +83,8 @@ pub trait ElasticOperator<T: Real>: Send {
 
     /// The elastic pressure K⁻¹h of the surface pressed flat, and the mean of h·K⁻¹h.
     ///
-    /// The heights come in `f64` whatever the operator's precision, with no mean, or one not larger than their rms value. The default rounds them first;
-    /// [`Spectral`] applies itself in `f64` and rounds the pressure.
+    /// The heights come in `f64` whatever the operator's precision, with no mean, or one not larger than their rms
+    /// value. The default rounds them first; [`Spectral`] applies itself in `f64` and rounds the pressure.
     ///
     /// # Errors
     /// [`Error::Shape`] if a field does not fit the grid.
@@ -93,10 +96,10 @@ pub trait ElasticOperator<T: Real>: Send {
 
     /// Applies the preconditioner, M r.
     ///
-    /// M is close to (K⁻¹ + `foundation`)⁻¹, the compliance of the half-space on a foundation of that stiffness, pressure
-    /// per length: the waves that are longer than the distances between contacts meet the stiffness of the contacts. For
-    /// the mean it has the value `1/mean_stiffness`, which may be zero. It must be symmetric, and positive but for that. The
-    /// default applies [`displacement`](Self::displacement), and the stiffness to the mean.
+    /// M is close to (K⁻¹ + `foundation`)⁻¹, the compliance of the half-space on a foundation of that stiffness,
+    /// pressure per length: the waves that are longer than the distances between contacts meet the stiffness of the
+    /// contacts. For the mean it has the value `1/mean_stiffness`, which may be zero. It must be symmetric, and
+    /// positive but for that. The default applies [`displacement`](Self::displacement), and the stiffness to the mean.
     ///
     /// # Errors
     /// [`Error::Shape`] if a field does not fit the grid.
@@ -121,7 +124,8 @@ pub trait ElasticOperator<T: Real>: Send {
 /// What [`ElasticOperator::precondition`] finds beside M r, all of them means over the nodes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Preconditioned {
-    /// r·Kr without the mean of r, which bounds the error (see [`Report::relative_error`](crate::Report)): it must be that of K itself
+    /// r·Kr without the mean of r, which bounds the error (see [`Report::relative_error`](crate::Report)): it must be
+    /// that of K itself
     pub error: f64,
     /// r·Mr
     pub descent: f64,

@@ -116,7 +116,8 @@ impl<T: Real> Convolver<T> {
 
     /// Transforms `input`, hands every column of the half spectrum to `modify`, and transforms back into `output`.
     ///
-    /// `modify` gets the column's index and its modes, unnormalised, where [`Layout::mode`] has them, and returns numbers; their sums, in the order of the columns, are returned. The inverse is normalised: a `modify` that
+    /// `modify` gets the column's index and its modes, unnormalised, where [`Layout::mode`] has them, and returns
+    /// numbers; their sums, in the order of the columns, are returned. The inverse is normalised: a `modify` that
     /// changes nothing gives back the input.
     pub(crate) fn convolve<U: Real>(
         &mut self,

@@ -1,3 +1,5 @@
+//! Nested grids: solutions on coarser grids as starts on finer ones.
+
 use std::ops::ControlFlow;
 
 use ndarray::{Array2, CowArray};
@@ -22,17 +24,19 @@ const CARRIED: f64 = 0.5;
 
 /// Solves on coarser grids first, each the start of the next finer one.
 ///
-/// A coarser grid has every second node of the finer one, along both sides (along x on a line); its heights are those of
-/// its nodes. Its solution is prolonged by cubic interpolation of the displacement g + h; nodes between nodes in contact
-/// are in contact. On the finest grid the iteration, the certificate and the tolerance are those of [`Solver`].
+/// A coarser grid has every second node of the finer one, along both sides (along x on a line); its heights are those
+/// of its nodes. Its solution is prolonged by cubic interpolation of the displacement g + h; nodes between nodes in
+/// contact are in contact. On the finest grid the iteration, the certificate and the tolerance are those of
+/// [`Solver`].
 ///
-/// Sizes are halved while they are even and both sides keep `coarsest` nodes; an odd size has no coarser grid. With adhesion
-/// only grids that resolve it ([`Problem::resolution`] up to 0.5) are used, as a coarser one may pin the contact on another
-/// branch. If the traction of the law jumps, the coarser grids [smooth](AdhesionLaw::smoothed) it, and so does the finest one on
-/// its way from their solution, as it does from the default start. Without a coarser grid all is as with [`Solver::solve`].
+/// Sizes are halved while they are even and both sides keep `coarsest` nodes; an odd size has no coarser grid. With
+/// adhesion only grids that resolve it ([`Problem::resolution`] up to 0.5) are used, as a coarser one may pin the
+/// contact on another branch. If the traction of the law jumps, the coarser grids [smooth](AdhesionLaw::smoothed) it,
+/// and so does the finest one on its way from their solution, as it does from the default start. Without a coarser
+/// grid all is as with [`Solver::solve`].
 ///
-/// Memory per node of the finest grid: no more than a solve on that grid alone, seven scalars with [`Westergaard`](crate::Westergaard);
-/// the start from the coarser grid becomes one of them.
+/// Memory per node of the finest grid: no more than a solve on that grid alone, seven scalars with
+/// [`Westergaard`](crate::Westergaard); the start from the coarser grid becomes one of them.
 ///
 /// ```
 /// use asperity::{Control, Grid, Nested, NoAdhesion, SelfAffine, Status, Westergaard};
@@ -49,8 +53,8 @@ const CARRIED: f64 = 0.5;
 pub struct Nested<C = Projection> {
     /// The solver of all grids; its tolerance is that of the finest.
     pub solver: Solver<C>,
-    /// The tolerance on the coarser grids, or that of the solver if it is larger. Default 1e-2: what a coarser grid leaves out
-    /// is more than that.
+    /// The tolerance on the coarser grids, or that of the solver if it is larger. Default 1e-2: what a coarser grid
+    /// leaves out is more than that.
     pub coarse_tolerance: f64,
     /// The least number of nodes along a side of a coarser grid. Default 64.
     pub coarsest: usize,
@@ -94,8 +98,8 @@ pub struct NestedSolution<T> {
 }
 
 impl<T> NestedSolution<T> {
-    /// All operator applications in units of one on the finest grid, those that construct the problems included: one on a
-    /// grid with a quarter of the nodes counts as a quarter.
+    /// All operator applications in units of one on the finest grid, those that construct the problems included: one
+    /// on a grid with a quarter of the nodes counts as a quarter.
     pub fn equivalent_applications(&self) -> f64 {
         let nodes = |level: &Level| (level.shape.0 * level.shape.1) as f64;
         let finest = self.levels.last().map_or(1.0, nodes);
@@ -121,8 +125,8 @@ impl<C> Nested<C> {
     /// Solves the problem of pressing `surface` against what `operator` makes for a grid.
     ///
     /// # Errors
-    /// Those of `operator`, [`Problem::new`] and [`Solver::solve_from`]; [`Error::Value`] if the coarse tolerance is not
-    /// positive.
+    /// Those of `operator`, [`Problem::new`] and [`Solver::solve_from`]; [`Error::Value`] if the coarse tolerance is
+    /// not positive.
     pub fn solve<T, O, L>(
         &mut self,
         surface: &Surface,
@@ -139,8 +143,8 @@ impl<C> Nested<C> {
         self.solve_observed(surface, operator, law, control, |_, _| ControlFlow::Continue(()))
     }
 
-    /// The same, and calls `observe` with the grid in every iteration. Where it stops a solve, the finer grids end with their
-    /// first iteration.
+    /// The same, and calls `observe` with the grid in every iteration. Where it stops a solve, the finer grids end
+    /// with their first iteration.
     ///
     /// # Errors
     /// Those of [`Nested::solve`].

@@ -1,3 +1,5 @@
+//! A path of equilibria: small steps along a branch, with its jumps and bifurcations.
+
 use std::ops::ControlFlow;
 
 use ndarray::{Array2, CowArray};
@@ -76,38 +78,43 @@ pub struct PathStep<T> {
     pub leg: usize,
     /// The work done by the load since the start, −∫p̄ dḡ, per area.
     pub work: f64,
-    /// The energy dropped in jumps since the start, per area. Over a closed cycle it is the work of adhesion that was lost.
+    /// The energy dropped in jumps since the start, per area. Over a closed cycle it is the work of adhesion that was
+    /// lost.
     pub dissipated: f64,
-    /// What is missing from the balance: the change of the energy, plus what was dissipated, less the work. It is what the
-    /// quadrature of the work, the solver's tolerance, and jumps smaller than the tolerance leave.
+    /// What is missing from the balance: the change of the energy, plus what was dissipated, less the work. It is what
+    /// the quadrature of the work, the solver's tolerance, and jumps smaller than the tolerance leave.
     pub imbalance: f64,
     /// What happened on the way here from the state before.
     pub event: Option<Event>,
 }
 
-/// Follows a branch of equilibria from load to load, in small steps, and tells where it breaks off: an iterator over the states.
+/// Follows a branch of equilibria from load to load, in small steps, and tells where it breaks off: an iterator over
+/// the states.
 ///
-/// Each load is a mean gap or a mean pressure; the first one is where the path starts, and from each to the next leads a *leg*. A step starts from the
-/// extrapolation of the last two states, clipped to g ≥ 0, so that it stays on the branch; its length adapts to how much the branch bends.
+/// Each load is a mean gap or a mean pressure; the first one is where the path starts, and from each to the next leads
+/// a *leg*. A step starts from the extrapolation of the last two states, clipped to g ≥ 0, so that it stays on the
+/// branch; its length adapts to how much the branch bends.
 ///
 /// # Jumps
 ///
-/// Along a branch the energy changes by the work of the load, de = −p̄ dḡ. A step in which it falls by more has jumped to another
-/// branch, or is too long for the quadrature of the work (by up to four states, of fourth order): it is taken back and halved.
-/// When it cannot be halved any more, at [`PathSettings::resolution`], what is missing is the energy that the jump
-/// dissipates, if it is more than the step could do at either end's load; the step is taken, and its [`Event`] says so.
+/// Along a branch the energy changes by the work of the load, de = −p̄ dḡ. A step in which it falls by more has jumped
+/// to another branch, or is too long for the quadrature of the work (by up to four states, of fourth order): it is
+/// taken back and halved. When it cannot be halved any more, at [`PathSettings::resolution`], what is missing is the
+/// energy that the jump dissipates, if it is more than the step could do at either end's load; the step is taken, and
+/// its [`Event`] says so.
 ///
-/// Where the traction of the law jumps, as that of [`MaugisDugdale`](crate::MaugisDugdale), every node that enters or leaves the adhesive zone
-/// is a small jump, and the grid holds the edge of that zone back: a hysteresis that the continuum has not. Unless
-/// [`PathSettings::smooth`] is off, the path is therefore one of the [smoothed](AdhesionLaw::smoothed) law, of which the pull-off force
-/// converges faster; energies and errors in the reports are that law's.
+/// Where the traction of the law jumps, as that of [`MaugisDugdale`](crate::MaugisDugdale), every node that enters or
+/// leaves the adhesive zone is a small jump, and the grid holds the edge of that zone back: a hysteresis that the
+/// continuum has not. Unless [`PathSettings::smooth`] is off, the path is therefore one of the
+/// [smoothed](AdhesionLaw::smoothed) law, of which the pull-off force converges faster; energies and errors in the
+/// reports are that law's.
 ///
 /// # Limit points
 ///
-/// Under a given pressure a branch ends where dp̄/dḡ = 0: the jump that is met there is not taken. The path goes on at given mean
-/// gaps, through the states that are unstable under the pressure, in the same direction, until the pressure comes to where the leg ends, or
-/// the surfaces to full contact or out of each other's reach. Under a given mean gap there are limit points
-/// too, at which it jumps.
+/// Under a given pressure a branch ends where dp̄/dḡ = 0: the jump that is met there is not taken. The path goes on at
+/// given mean gaps, through the states that are unstable under the pressure, in the same direction, until the pressure
+/// comes to where the leg ends, or the surfaces to full contact or out of each other's reach. Under a given mean gap
+/// there are limit points too, at which it jumps.
 ///
 /// # Bifurcations
 ///
@@ -279,8 +286,8 @@ where
         Ok(self)
     }
 
-    /// What [`Iterator::next`] does, with an observer of the iterations, as in [`Solver::solve_from`]. If it stops a solve,
-    /// the path ends with the state before.
+    /// What [`Iterator::next`] does, with an observer of the iterations, as in [`Solver::solve_from`]. If it stops a
+    /// solve, the path ends with the state before.
     ///
     /// # Errors
     /// Those of [`Solver::solve_from`]; after one the path ends.

@@ -1,3 +1,5 @@
+//! The contact problem: surface, elastic operator and adhesion law, and the load control.
+
 use ndarray::Array2;
 
 use crate::adhesion::AdhesionLaw;
@@ -35,8 +37,9 @@ pub enum Control {
 /// The surface enters only through the pressure K⁻¹h that would press it flat, which is computed here, once, in
 /// `f64`; it may be dropped afterwards. A problem can be solved many times, under any [`Control`].
 ///
-/// Memory per node: one scalar, beside those of the operator. [`Problem::new`] briefly needs more, but less than a solve: for an
-/// operator of this crate one `f64` for the spectrum of the heights, and another where their mean exceeds their rms value.
+/// Memory per node: one scalar, beside those of the operator. [`Problem::new`] briefly needs more, but less than a
+/// solve: for an operator of this crate one `f64` for the spectrum of the heights, and another where their mean
+/// exceeds their rms value.
 ///
 /// ```
 /// use asperity::{Control, Grid, NoAdhesion, Problem, Solver, Surface, Westergaard};

@@ -69,8 +69,8 @@ pub enum Criterion {
     /// The certified relative error in the energy norm, [`Report::relative_error`].
     #[default]
     EnergyNorm,
-    /// The criterion ε = Σ|g r'| of the paper, over the nodes and in units of E*·√(Lx·Ly). It is not a bound of an error,
-    /// and its rounding floor grows with the number of nodes.
+    /// The criterion ε = Σ|g r'| of the paper, over the nodes and in units of E*·√(Lx·Ly). It is not a bound of an
+    /// error, and its rounding floor grows with the number of nodes.
     Orthogonality,
 }
 
@@ -177,8 +177,9 @@ impl<C> Solver<C> {
     ///
     /// That is a uniform gap: the mean gap, if that is given; under a given pressure twice the rms height without
     /// adhesion, and full contact with adhesion. If the traction of the law jumps, as that of
-    /// [`MaugisDugdale`](crate::MaugisDugdale) does, what is found from there with the jump [smoothed](AdhesionLaw::smoothed)
-    /// becomes the start, within the same solve. The start matters only with adhesion, where there may be several equilibria.
+    /// [`MaugisDugdale`](crate::MaugisDugdale) does, what is found from there with the jump
+    /// [smoothed](AdhesionLaw::smoothed) becomes the start, within the same solve. The start matters only with
+    /// adhesion, where there may be several equilibria.
     ///
     /// # Errors
     /// Those of [`Solver::solve_from`].
@@ -197,9 +198,10 @@ impl<C> Solver<C> {
     /// A given gap of shape (Nx, Ny) is scaled to the mean gap, if that is given; `None` is the default start.
     ///
     /// # Errors
-    /// [`Error::Value`] for a negative or infinite mean gap, an infinite pressure, or a tolerance that is not positive;
-    /// [`Error::Shape`], [`Error::NotFinite`] or [`Error::Value`] for a start that does not fit, is not finite, or is negative
-    /// somewhere; [`Error::Law`] if the law is not finite at the start. A solve that does not converge is no error: see [`Report::status`].
+    /// [`Error::Value`] for a negative or infinite mean gap, an infinite pressure, or a tolerance that is not
+    /// positive; [`Error::Shape`], [`Error::NotFinite`] or [`Error::Value`] for a start that does not fit, is not
+    /// finite, or is negative somewhere; [`Error::Law`] if the law is not finite at the start. A solve that does not
+    /// converge is no error: see [`Report::status`].
     pub fn solve_from<T, O, L>(
         &mut self,
         problem: &mut Problem<T, O, L>,
@@ -216,11 +218,13 @@ impl<C> Solver<C> {
         self.run(problem.parts(), control, start.map(CowArray::from), false, &mut observe)
     }
 
-    /// Solves from the solution of the same problem in another precision or on another grid, which is taken, not copied.
+    /// Solves from the solution of the same problem in another precision or on another grid, which is taken, not
+    /// copied.
     ///
-    /// A start of which little is wrong is gone on from more carefully than one that [`Solver::solve_from`] is given, and the jumps
-    /// of a law are smoothed on the way from it, as from the default start. In `f32` to 1e-4 (1e-3 for smooth light
-    /// contacts), and from there in `f64`, a solve on 2048² nodes takes some 1.3 times less time than in `f64` alone. [`Nested`](crate::Nested) starts each grid so.
+    /// A start of which little is wrong is gone on from more carefully than one that [`Solver::solve_from`] is given,
+    /// and the jumps of a law are smoothed on the way from it, as from the default start. In `f32` to 1e-4 (1e-3 for
+    /// smooth light contacts), and from there in `f64`, a solve on 2048² nodes takes some 1.3 times less time than in
+    /// `f64` alone. [`Nested`](crate::Nested) starts each grid so.
     ///
     /// ```
     /// use asperity::{Control, Grid, NoAdhesion, Problem, Settings, Solver, Status, Surface, Westergaard};
@@ -253,8 +257,9 @@ impl<C> Solver<C> {
         self.run(problem.parts(), control, Some(CowArray::from(start)), true, &mut |_| ControlFlow::Continue(()))
     }
 
-    /// [`Solver::solve_from`] a start that may be given away, and that may be `near`: the solution of the same problem, but
-    /// for the error of a coarser grid or precision. From there the jumps of the law are smoothed, as from the default start.
+    /// [`Solver::solve_from`] a start that may be given away, and that may be `near`: the solution of the same
+    /// problem, but for the error of a coarser grid or precision. From there the jumps of the law are smoothed, as
+    /// from the default start.
     pub(crate) fn run<'a, T: Real>(
         &'a mut self,
         problem: Parts<'a, T>,

@@ -8,7 +8,8 @@ pub(crate) const BLOCK: usize = 64;
 /// Sums that run side by side.
 pub(crate) const LANES: usize = 8;
 
-/// What runs on vector instructions. A closure that is called by value would be a call of its own, and leave them behind.
+/// What runs on vector instructions. A closure that is called by value would be a call of its own, and leave them
+/// behind.
 struct Vectorised<F>(F);
 
 impl<F: FnMut()> WithSimd for Vectorised<F> {

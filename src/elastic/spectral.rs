@@ -1,3 +1,5 @@
+//! Spectral operators: a stiffness for each wave, applied by Fourier transforms.
+
 use std::f64::consts::PI;
 use std::fmt;
 
@@ -12,12 +14,12 @@ type Symbol = Box<dyn Fn(f64, f64) -> f64 + Send + Sync>;
 
 /// An elastic operator that multiplies each wave by a factor, its stiffness k(qx, qy): p̂ = k û.
 ///
-/// A layered or an anisotropic half-space is one closure away: the page [`own_operator`](crate::guide::own_operator) has a layer of
-/// finite thickness with its limits, and says what becomes of the mean. For the homogeneous half-space, k = E*|q|/2, see
-/// [`Westergaard`].
+/// A layered or an anisotropic half-space is one closure away: the page [`own_operator`](crate::guide::own_operator)
+/// has a layer of finite thickness with its limits, and says what becomes of the mean. For the homogeneous half-space,
+/// k = E*|q|/2, see [`Westergaard`].
 ///
-/// Memory per node, in units of one scalar: 1 for the spectrum and ½ for the stiffness; both once more, in `f64`, while the
-/// constructor of a [`Problem`](crate::Problem) transforms the heights.
+/// Memory per node, in units of one scalar: 1 for the spectrum and ½ for the stiffness; both once more, in `f64`,
+/// while the constructor of a [`Problem`](crate::Problem) transforms the heights.
 ///
 /// ```
 /// use asperity::{ElasticOperator, Grid, Spectral};
@@ -42,7 +44,8 @@ pub struct Spectral<T: Real> {
 /// The stiffness of each mode, in the layout of the spectrum.
 enum Stiffness<T> {
     Stored(Array2<T>),
-    /// that of the half-space, `unit·√(x² + y²)`, which is faster computed than stored: the squares in and across columns
+    /// that of the half-space, `unit·√(x² + y²)`, which is faster computed than stored: the squares in and across
+    /// columns
     HalfSpace {
         unit: T,
         x: Vec<T>,

@@ -15,8 +15,8 @@ const RUN: usize = 32;
 /// The plane that a field is transformed as, and where its modes then are in the half spectrum.
 ///
 /// A plane is itself, but with its axes exchanged where its columns do not fill a tile. A line of A·B nodes is a plane
-/// too, `(B, A)`: its node aB + b is row b, column a. With row b of its spectrum along the second axis, column k of the
-/// half spectrum, turned by exp(−2πi bk/AB), what comes out of the transform along the first axis are the modes
+/// too, `(B, A)`: its node aB + b is row b, column a. With row b of its spectrum along the second axis, column k of
+/// the half spectrum, turned by exp(−2πi bk/AB), what comes out of the transform along the first axis are the modes
 /// k + A·i of the line. So half of its modes suffice, and all transforms are short enough for the cache. A is the
 /// largest divisor up to √(AB).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

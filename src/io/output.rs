@@ -1,3 +1,5 @@
+//! The output folder: all files of a run, or none.
+
 use std::fs;
 use std::path::{Path, PathBuf};
 

@@ -1,3 +1,5 @@
+//! Events on a path of equilibria: jumps, limit points and bifurcations.
+
 use std::fmt;
 
 /// What happens between two states on a path.
@@ -16,7 +18,8 @@ pub enum Event {
         /// without a jump.
         jump: Jump,
     },
-    /// The mean pressure is at a maximum or a minimum: from the state before this one the path goes on at given mean gaps.
+    /// The mean pressure is at a maximum or a minimum: from the state before this one the path goes on at given mean
+    /// gaps.
     LimitPoint {
         /// The mean gap there.
         mean_gap: f64,
@@ -49,8 +52,8 @@ impl Event {
         }
     }
 
-    /// The name that the tool uses: `"jump-in"` where contact or adhesion grows, `"pull-off"` where the last contact is lost,
-    /// `"jump-out"` where contact shrinks, `"bifurcation"` and `"limit-point"`.
+    /// The name that the tool uses: `"jump-in"` where contact or adhesion grows, `"pull-off"` where the last contact
+    /// is lost, `"jump-out"` where contact shrinks, `"bifurcation"` and `"limit-point"`.
     pub fn name(&self) -> &'static str {
         match self {
             Self::LimitPoint { .. } => "limit-point",

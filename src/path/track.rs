@@ -252,7 +252,8 @@ impl State {
         self.step = self.smallest(settings);
     }
 
-    /// Whether a step at a given mean gap goes beyond the pressure at which the leg ends: then the next one is shorter.
+    /// Whether a step at a given mean gap goes beyond the pressure at which the leg ends: then the next one is
+    /// shorter.
     pub(super) fn overshoots(&mut self, report: &Report, settings: &PathSettings) -> bool {
         let Some((end, start)) = self.pressures else { return false };
         let (before, after) = (self.here().pressure, report.mean_pressure);

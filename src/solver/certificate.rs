@@ -31,11 +31,12 @@ impl<T: Real> State<'_, T> {
         if error.is_nan() { f64::INFINITY } else { error }
     }
 
-    /// The mean of u·p, to which a certificate is related; and the least certificate that rounding leaves of any worth.
+    /// The mean of u·p, to which a certificate is related; and the least certificate that rounding leaves of any
+    /// worth.
     ///
-    /// The pressure is the sum of K⁻¹h and K⁻¹g, each rounded in the precision of the fields, and carries that rounding
-    /// where these nearly cancel each other. In the energy norm that is about ε²(⟨h, K⁻¹h⟩ + ½kḡ(ḡ + h_rms)), with k the
-    /// stiffness of the shortest wave, as a transform spreads the rounding of a gap evenly over all waves.
+    /// The pressure is the sum of K⁻¹h and K⁻¹g, each rounded in the precision of the fields, and carries that
+    /// rounding where these nearly cancel each other. In the energy norm that is about ε²(⟨h, K⁻¹h⟩ + ½kḡ(ḡ + h_rms)),
+    /// with k the stiffness of the shortest wave, as a transform spreads the rounding of a gap evenly over all waves.
     fn error_scale(&self) -> (f64, f64) {
         let epsilon = T::epsilon().widen();
         let apart = if self.tally.contact > 0.0 { 0.0 } else { self.flat.work };
@@ -166,8 +167,8 @@ impl<T: Real> State<'_, T> {
         (self.progress.idle >= stall).then_some(Status::Stalled)
     }
 
-    /// Computes the pressure anew, once, where a solve would stall with one that it has only updated for long: what that has
-    /// gathered of rounding may be most of what is left; `false` if it has not.
+    /// Computes the pressure anew, once, where a solve would stall with one that it has only updated for long: what
+    /// that has gathered of rounding may be most of what is left; `false` if it has not.
     pub(super) fn renew(&mut self) -> Result<bool> {
         let due =
             self.age > STALL_AT_FLOOR.1 && !self.progress.renewed && self.settings.method == Method::Preconditioned;

@@ -1,4 +1,5 @@
-//! The order of a solve: a start with the jumps of the law smoothed, rounds of the constraint, and the loop within each.
+//! The order of a solve: a start with the jumps of the law smoothed, rounds of the constraint, and the loop within
+//! each.
 
 use std::marker::PhantomData;
 use std::ops::ControlFlow;

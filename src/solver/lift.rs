@@ -27,8 +27,8 @@ impl<T: Real> State<'_, T> {
         (external + self.tally.traction / self.nodes()).abs() / self.flat.rms_height
     }
 
-    /// The stiffness that long waves meet beside their own: that of the contacts. On the way from a far start under a given
-    /// pressure it is not known yet.
+    /// The stiffness that long waves meet beside their own: that of the contacts. On the way from a far start under a
+    /// given pressure it is not known yet.
     pub(super) fn foundation(&self) -> f64 {
         let (softest, stiffest) = self.operator.stiffness_range();
         if stiffest <= 0.0 {
@@ -48,8 +48,8 @@ impl<T: Real> State<'_, T> {
 
     /// How stiff the mean gap is taken to be, where it is not lifted.
     ///
-    /// On the way from a far start, the geometric mean of the stiffness of the contacts, far too small for light loads, and
-    /// that of the softest wave.
+    /// On the way from a far start, the geometric mean of the stiffness of the contacts, far too small for light
+    /// loads, and that of the softest wave.
     pub(super) fn mean_stiffness(&self) -> f64 {
         if self.lifts() {
             return f64::INFINITY;
@@ -67,8 +67,9 @@ impl<T: Real> State<'_, T> {
 
     /// Lets the mean gap follow the load, under a given pressure and near the solution.
     ///
-    /// Nodes that are far apart follow the mean, and those near the edge of a contact hardly move. A uniform lift would tear
-    /// all edges open. In its place z gains v⟨v r'⟩/(⟨v⟩²k), with v = √(g/(g + g₀)) and k the stiffness of the contacts.
+    /// Nodes that are far apart follow the mean, and those near the edge of a contact hardly move. A uniform lift
+    /// would tear all edges open. In its place z gains v⟨v r'⟩/(⟨v⟩²k), with v = √(g/(g + g₀)) and k the stiffness of
+    /// the contacts.
     pub(super) fn lift(&mut self, foundation: f64) {
         if !self.lifts() {
             return;

@@ -1,7 +1,8 @@
 //! The passes over fields that make an iteration.
 //!
-//! Their cost is memory traffic, so that each does all that can be done while its nodes are in cache. Law and constraint
-//! come in as a [`Potential`], at one virtual call for a chunk of nodes. Each pass returns a struct that names its sums.
+//! Their cost is memory traffic, so that each does all that can be done while its nodes are in cache. Law and
+//! constraint come in as a [`Potential`], at one virtual call for a chunk of nodes. Each pass returns a struct that
+//! names its sums.
 
 use ndarray::Array2;
 
@@ -24,7 +25,8 @@ pub(super) struct Fields<T> {
     pub(super) gap: Array2<T>,
     /// the elastic pressure p = K⁻¹(g + h), of zero mean
     pub(super) pressure: Array2<T>,
-    /// the residual r', negative zero outside of the working set and never within; while a step is made, K⁻¹ of the change
+    /// the residual r', negative zero outside of the working set and never within; while a step is made, K⁻¹ of the
+    /// change
     pub(super) residual: Array2<T>,
     /// the preconditioned residual z = M r'; between two steps, that of the state before
     pub(super) preconditioned: Array2<T>,

@@ -1,4 +1,5 @@
-//! The local energy of a node, a function of its gap: the adhesion law, and the constraint where it is a term of the energy.
+//! The local energy of a node, a function of its gap: the adhesion law, and the constraint where it is a term of the
+//! energy.
 
 use crate::adhesion::AdhesionLaw;
 use crate::constraint::{ContactConstraint, Springs, Wall};

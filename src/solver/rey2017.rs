@@ -26,7 +26,8 @@ impl<T: Real> State<'_, T> {
         let conjugate = self.residual_norm.map_or(0.0, |before| norm.sum[0] / before);
         let mut slope = self.conjugate_direction(if conjugate.is_finite() { conjugate } else { 0.0 });
         if !(slope.is_finite() && slope > 0.0) && conjugate > 0.0 {
-            // uphill, or beyond all numbers: the residual's norm has jumped, as it may where rounding is all that is left of it
+            // uphill, or beyond all numbers: the residual's norm has jumped, as it may where rounding is all that is
+            // left of it
             slope = self.conjugate_direction(0.0);
         }
         self.operator.pressure(self.fields.change.view(), self.fields.preconditioned.view_mut())?;

@@ -209,8 +209,8 @@ impl<'a, T: Real> State<'a, T> {
         }
     }
 
-    /// The constant that makes r of pressure and tractions: the mean pressure that is given, less the mean that rounding has
-    /// left in the pressure. That mean is no load.
+    /// The constant that makes r of pressure and tractions: the mean pressure that is given, less the mean that
+    /// rounding has left in the pressure. That mean is no load.
     pub(super) fn offset(&self) -> f64 {
         self.given() - self.drift
     }

@@ -1,8 +1,9 @@
 //! The elastic work ⟨u, p⟩, twice the elastic energy, which scales the certificate.
 //!
 //! With u = g + h it is ⟨g, p⟩ + ⟨g, K⁻¹h⟩ + ⟨h, K⁻¹h⟩, three sums over fields that an iteration reads anyway. Under a
-//! light load the gap is nearly the surface upside down, p nearly vanishes, and so do these sums cancel: their rounding may be
-//! more than what is left. Then one application gives ⟨p, K p⟩ instead, a sum of squares over the waves.
+//! light load the gap is nearly the surface upside down, p nearly vanishes, and so do these sums cancel: their
+//! rounding may be more than what is left. Then one application gives ⟨p, K p⟩ instead, a sum of squares over the
+//! waves.
 
 use super::state::State;
 use crate::error::Result;
@@ -53,8 +54,8 @@ impl<T: Real> State<'_, T> {
         self.work.is_doubtful(TRUSTED)
     }
 
-    /// Computes the work as ⟨p, K p⟩ if its sums have cancelled until rounding may be more than such a share of it. Takes the
-    /// place of the preconditioned residual.
+    /// Computes the work as ⟨p, K p⟩ if its sums have cancelled until rounding may be more than such a share of it.
+    /// Takes the place of the preconditioned residual.
     pub(super) fn trust_work(&mut self, share: f64) -> Result<()> {
         if !self.work.is_doubtful(share) {
             return Ok(());

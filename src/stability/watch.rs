@@ -10,8 +10,8 @@ use crate::elastic::ElasticOperator;
 use crate::error::Result;
 use crate::real::Real;
 
-/// How much of a random field is added to the mode of the last state. Without it a mode that has no share in the start,
-/// as an antisymmetric one beside a symmetric one, would never be found.
+/// How much of a random field is added to the mode of the last state. Without it a mode that has no share in the
+/// start, as an antisymmetric one beside a symmetric one, would never be found.
 const FRESH: f64 = 0.03;
 
 /// Iterations on a state at most.

@@ -1,3 +1,5 @@
+//! Reports of solves as tables, and numbers with units.
+
 use asperity::{Criterion, Report, Status, Verdict};
 
 use crate::complain;

@@ -1,3 +1,5 @@
+//! Trends of a height map: least-squares polynomials, fitted and removed.
+
 use super::Topography;
 use crate::error::{Error, Result};
 
