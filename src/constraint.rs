@@ -52,7 +52,7 @@ pub use uzawa::Uzawa;
 ///
 /// A worked example with rounds is on the page [`own_constraint`](crate::guide::own_constraint).
 pub trait ContactConstraint<T: Real>: Send + Sync {
-    /// What keeps the surfaces apart in the present round.
+    /// The wall that keeps the surfaces apart in the present round.
     fn wall(&self) -> Wall<'_, T>;
 
     /// Prepares for a solve on a grid, to a tolerance of its criterion. `stiffest` is the stiffness of the shortest
@@ -115,7 +115,7 @@ pub trait Springs<T: Real>: Sync {
     fn slope(&self, node: usize, gap: T) -> T;
 }
 
-/// What [`ContactConstraint::update`] decides.
+/// The decision of [`ContactConstraint::update`].
 ///
 /// For a constraint that uses all three see [`own_constraint`](crate::guide::own_constraint).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -14,7 +14,7 @@ mod distribution;
 pub use clusters::{Clusters, Connectivity};
 pub use distribution::PressureDistribution;
 
-/// What a contact map counts too much per edge between a node in contact and one that is not, in cells: (π − 1 + ln
+/// The excess area of a contact map per edge between a node in contact and one that is not, in cells: (π − 1 + ln
 /// 2)/24.
 const EDGE_EXCESS: f64 = (std::f64::consts::PI - 1.0 + std::f64::consts::LN_2) / 24.0;
 
@@ -87,7 +87,7 @@ pub struct ContactStatistics {
     pub contact_points: usize,
     /// The share of nodes in contact.
     pub contact_fraction: f64,
-    /// The contact area without what the map counts too much along its edge, as a share of the nominal area.
+    /// The contact area without the excess of the map along its edge, as a share of the nominal area.
     pub corrected_contact_fraction: f64,
     /// The length of the edge of the contact, along the sides of the cells, across the periodic boundaries too: Δy for
     /// neighbours along x of which one is in contact, Δx for neighbours along y. On a line the number of end points.

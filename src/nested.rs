@@ -16,13 +16,13 @@ use crate::real::Real;
 use crate::solver::{Iteration, Settings, Solution, Solver, Status};
 use crate::surface::Surface;
 
-/// The resolution measure above which a coarse grid would pin the contact.
+/// The resolution measure μ_ρ above which a coarse grid would pin the contact.
 const RESOLVED: f64 = 0.5;
 
-/// The load error from which on a coarse solution is no start.
+/// The relative load error at and above which a coarse solution is not used as a start.
 const CARRIED: f64 = 0.5;
 
-/// Solves on coarser grids first, each the start of the next finer one.
+/// Nested grids: solutions on coarser grids, each the start on the next finer one.
 ///
 /// A coarser grid has every second node of the finer one, along both sides (along x on a line); its heights are those
 /// of its nodes. Its solution is prolonged by cubic interpolation of the displacement g + h; nodes between nodes in
@@ -53,14 +53,14 @@ const CARRIED: f64 = 0.5;
 pub struct Nested<C = Projection> {
     /// The solver of all grids; its tolerance is that of the finest.
     pub solver: Solver<C>,
-    /// The tolerance on the coarser grids, or that of the solver if it is larger. Default 1e-2: what a coarser grid
-    /// leaves out is more than that.
+    /// The tolerance on the coarser grids, or that of the solver if it is larger. Default 1e-2, which is below the
+    /// discretisation error of a coarser grid.
     pub coarse_tolerance: f64,
     /// The least number of nodes along a side of a coarser grid. Default 64.
     pub coarsest: usize,
 }
 
-/// What the solve on one of nested grids took.
+/// The cost of the solve on one of the nested grids.
 ///
 /// [`NestedSolution`] has an example.
 #[derive(Clone, Debug, PartialEq)]
@@ -71,7 +71,7 @@ pub struct Level {
     pub status: Status,
     /// How many steps were made.
     pub iterations: usize,
-    /// How many applications it took, with the one that constructs the problem.
+    /// The number of operator applications, with the one that constructs the problem.
     pub operator_applications: usize,
 }
 
@@ -122,7 +122,7 @@ impl Default for Nested {
 }
 
 impl<C> Nested<C> {
-    /// Solves the problem of pressing `surface` against what `operator` makes for a grid.
+    /// Solves the contact of `surface` with the elastic body for which `operator` makes an operator on each grid.
     ///
     /// # Errors
     /// Those of `operator`, [`Problem::new`] and [`Solver::solve_from`]; [`Error::Value`] if the coarse tolerance is
@@ -143,8 +143,8 @@ impl<C> Nested<C> {
         self.solve_observed(surface, operator, law, control, |_, _| ControlFlow::Continue(()))
     }
 
-    /// The same, and calls `observe` with the grid in every iteration. Where it stops a solve, the finer grids end
-    /// with their first iteration.
+    /// Solves as [`Nested::solve`], and calls `observe` with the grid in every iteration. Where it stops a solve, the
+    /// finer grids end with their first iteration.
     ///
     /// # Errors
     /// Those of [`Nested::solve`].
@@ -217,7 +217,7 @@ impl<C> Nested<C> {
     }
 }
 
-/// Of how many nodes of the finest grid along each side each grid has one, the finest first.
+/// The strides of all grids in nodes of the finest one along (x, y), the finest first.
 fn strides((nx, ny): (usize, usize), coarsest: usize) -> Vec<(usize, usize)> {
     let coarsest = coarsest.max(4);
     let halves = |n: usize, stride: usize| n.is_multiple_of(2 * stride) && n / (2 * stride) >= coarsest;
@@ -241,7 +241,7 @@ fn coarsen(surface: &Surface, (x, y): (usize, usize)) -> Result<Surface> {
     Surface::new(grid, Array2::from_shape_fn(grid.shape(), |(i, j)| surface.heights()[[i * x, j * y]]))
 }
 
-/// The gap on the next finer grid, of which the nodes are `stride` nodes of the surface apart.
+/// The gap prolonged to the next finer grid, which has every `stride`-th node of the surface.
 fn prolong<T: Real>(
     surface: &Surface,
     stride: (usize, usize),
@@ -252,7 +252,7 @@ fn prolong<T: Real>(
     let (cx, cy) = coarse.grid().shape();
     let (nx, ny) = surface.grid().shape();
     let shape = (nx / stride.0, ny / stride.1);
-    // how many finer nodes there are to a coarse one
+    // finer nodes for each coarse one
     let (rx, ry) = (shape.0 / cx, shape.1 / cy);
     let displacement = |i: usize, j: usize| gap[[i, j]].widen() + coarse.heights()[[i, j]];
     // whether the interpolation has only nodes in contact about it

@@ -24,7 +24,7 @@ use eigenpair::{Eigenpair, lowest};
 use hessian::Hessian;
 pub(crate) use watch::{Saddle, Watch};
 
-/// Whether an equilibrium is one that lasts.
+/// The verdict on an equilibrium: stable, unstable, or undecided.
 ///
 /// [`StabilityTest`] has an example.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -54,7 +54,7 @@ impl fmt::Display for Verdict {
     }
 }
 
-/// How the stability of an equilibrium is found out.
+/// The stability test of an equilibrium, by the smallest eigenvalue of the second derivative of the energy.
 ///
 /// An equilibrium is a strict local minimum of the energy where the smallest eigenvalue of its second derivative is
 /// positive,
@@ -70,9 +70,9 @@ impl fmt::Display for Verdict {
 /// The Rayleigh quotient that they end with is above the smallest eigenvalue; a larger tolerance makes it likelier
 /// that it is the second one, where the two are close or the random start has hardly any share in the first mode. If
 /// it is negative, that proves instability. If it is positive, a bound from below is wanted: the softest stiffness
-/// plus the least φ'' if that will do, and otherwise one from a Lanczos iteration on what is left when the mode found
-/// is lifted out of the way, from a random start (the same in every run). Its bound holds but for a chance of one in
-/// a million over such starts, whatever the spectrum; by Temple's inequality it then bounds the smallest eigenvalue
+/// plus the least φ'' if that will do, and otherwise one from a Lanczos iteration on the Hessian with the found mode
+/// lifted to a larger eigenvalue, from a random start (the same in every run). Its bound holds but for a chance of one
+/// in a million over such starts, whatever the spectrum; by Temple's inequality it then bounds the smallest eigenvalue
 /// itself, and closely so where that is nearly zero: near limit points.
 ///
 /// | field | default | meaning | range |
@@ -111,7 +111,7 @@ impl fmt::Display for Verdict {
 pub struct StabilityTest {
     /// The relative residual of the mode at which the iteration ends.
     pub tolerance: f64,
-    /// The iterations after which it is given up.
+    /// The iterations for the mode, and again for the bound, after which the verdict is open.
     pub max_iterations: usize,
     /// Whether to look for a lower bound of the eigenvalue.
     pub bound: bool,
@@ -128,17 +128,17 @@ impl Default for StabilityTest {
 /// [`StabilityTest`] has an example.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Stability<T> {
-    /// What was shown.
+    /// The verdict.
     pub verdict: Verdict,
     /// The Rayleigh quotient of the mode: no smaller than the smallest eigenvalue. Infinite where no node can move.
     pub eigenvalue: f64,
     /// The norm of the mode's residual: some eigenvalue, not necessarily the smallest, is within this distance.
     pub residual: f64,
-    /// A number that the smallest eigenvalue is no smaller than; see [`StabilityTest`] for how sure that is.
+    /// A lower bound of the smallest eigenvalue; see [`StabilityTest`] for how sure that is.
     pub lower_bound: f64,
-    /// With a positive lower bound, the bound of the relative error in the energy norm that the certificate of the
-    /// solve comes to: [`Report::relative_error`](crate::Report::relative_error) times 1 + max(−φ'')/(lower bound). It
-    /// holds to first order: as far as φ'' does not change between the solution and the equilibrium next to it.
+    /// With a positive lower bound, the bound of the relative error in the energy norm by the certificate of the
+    /// solve: [`Report::relative_error`](crate::Report::relative_error) times 1 + max(−φ'')/(lower bound). It holds to
+    /// first order: as far as φ'' does not change between the solution and the equilibrium next to it.
     pub error_bound: Option<f64>,
     /// The mode: the change of the gap along which the energy is softest, of shape (Nx, Ny) and mean square 1. Along
     /// it, by the amount a, the energy changes by ½·eigenvalue·a².
@@ -152,7 +152,7 @@ pub struct Stability<T> {
 }
 
 impl StabilityTest {
-    /// Finds out whether a solution is stable under a control: the one under which it was found, or another one.
+    /// Tests whether a solution is stable under a control, which need not be the one under which it was found.
     /// Contact is where its gap is not positive. The gap may be in any memory layout.
     ///
     /// # Errors

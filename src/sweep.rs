@@ -77,7 +77,7 @@ where
         Self { solver, problem, loads: loads.into_iter(), start: None, history: Vec::new(), failed: false }
     }
 
-    /// The same sweep, with a gap of shape (Nx, Ny) from which its next load starts.
+    /// The sweep with a gap of shape (Nx, Ny) as the start at its next load.
     pub fn starting_from(self, gap: Array2<T>) -> Self {
         Self { start: Some(gap), ..self }
     }
@@ -110,7 +110,7 @@ where
         Self { history, ..self }
     }
 
-    /// What [`Iterator::next`] does, with an observer of the iterations, as in [`Solver::solve_from`].
+    /// The next solution, as [`Iterator::next`], with an observer of the iterations, as in [`Solver::solve_from`].
     ///
     /// # Errors
     /// Those of [`Solver::solve_from`]; after one there is no next load.

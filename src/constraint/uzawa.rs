@@ -23,7 +23,8 @@ const STIFFEST: f64 = 10.0;
 /// The energy gains (⟨λ − kg⟩₊² − λ²)/2k at each node. A round leaves the solution of a contact problem whose gap is
 /// off by s = (λ − ⟨λ − kg⟩₊)/k. Springs that are soft beside the contact take off little of that in a round: where
 /// more than a quarter is left, the next round has springs four times as stiff. So the stiffness that is given is only
-/// that of the first round, and hardly matters; there it is taken to be ten times that of the shortest wave at most.
+/// the stiffness of the first round, and hardly matters; there it is taken to be ten times that of the shortest wave
+/// at most.
 ///
 /// The rounds end when what is left can change the pressure p of the solution by no more than the tolerance, in the
 /// energy norm. With κ the stiffness of the shortest wave, Δλ the change of the multipliers, bars for means and ‖·‖
@@ -56,9 +57,9 @@ pub struct Uzawa<T> {
     pub tolerance: f64,
     /// How many rounds there may be before the solve ends without having converged; 100 unless changed.
     pub max_outer_iterations: usize,
-    /// that of the first round
+    /// the stiffness of the first round
     softest: T,
-    /// that of the present round
+    /// the stiffness of the present round
     stiffness: T,
     /// by how much the gap was off after the round before, as the root of a sum of squares
     off: f64,

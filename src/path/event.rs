@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-/// What happens between two states on a path.
+/// An event between two states on a path.
 ///
 /// The page [`branches`](crate::guide::branches) has an example.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -14,8 +14,8 @@ pub enum Event {
     Bifurcation {
         /// The eigenvalue of the mode on the branch that was left, where it is negative for the first time.
         eigenvalue: f64,
-        /// From the last stable state to the branch that was found. The energy drop is zero where that one bends off
-        /// without a jump.
+        /// The jump from the last stable state to the branch that was found. Its energy drop is zero where that branch
+        /// bends off without a jump.
         jump: Jump,
     },
     /// The mean pressure is at a maximum or a minimum: from the state before this one the path goes on at given mean
@@ -39,12 +39,12 @@ pub struct Jump {
     pub mean_pressure: (f64, f64),
     /// The shares of nodes in contact before and after.
     pub contact_fraction: (f64, f64),
-    /// The energy that it dissipates, per area.
+    /// The energy that the jump dissipates, per area.
     pub energy_drop: f64,
 }
 
 impl Event {
-    /// From where to where the state jumped, of a jump and of a bifurcation.
+    /// The jump of a jump or of a bifurcation.
     pub fn jump(&self) -> Option<&Jump> {
         match self {
             Self::Jump(jump) | Self::Bifurcation { jump, .. } => Some(jump),

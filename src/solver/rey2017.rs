@@ -49,10 +49,10 @@ impl<T: Real> State<'_, T> {
         let [curvature, response, t, ..] = total.sum;
         let mean = if self.is_gap_controlled() { response / self.tally.free } else { 0.0 };
         let length = slope / (curvature - mean * t);
-        // a uniform direction has no curvature: the softest wave's stiffness bounds what the mean can need
+        // a uniform direction has no curvature: the stiffness of the softest wave bounds the step of the mean
         let softest = self.operator.stiffness_range().0;
         let length = if length.is_finite() && length > 0.0 { length } else { 1.0 / softest };
-        // nor does one that is uniform but for rounding
+        // a direction that is uniform up to rounding has a curvature of rounding only
         let length = length.min(1.0 / (T::epsilon().widen().sqrt() * softest));
         if !length.is_finite() {
             return Ok(false);
@@ -80,7 +80,7 @@ impl<T: Real> State<'_, T> {
             _ => 1.0,
         };
         if !scale.is_finite() {
-            // every node was clipped: what is left is to keep the mean gap
+            // every node was clipped: only the mean gap remains to be kept
             if let Control::MeanGap(mean) = self.control {
                 self.fields.gap.fill(T::lit(mean));
                 self.refresh()?;

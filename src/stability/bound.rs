@@ -1,7 +1,7 @@
-//! A number below the smallest eigenvalue.
+//! A lower bound of the smallest eigenvalue.
 //!
-//! Say (ρ, x) is the pair that was found, with a residual of norm r. Lifted by τ⟨x, ·⟩x, the Hessian H keeps its
-//! second eigenvalue below the first one of what results, H' ≥ b, so b ≤ λ₂, and then
+//! Say (ρ, x) is the pair that was found, with a residual of norm r. Lifted by τ⟨x, ·⟩x, the Hessian H becomes H' =
+//! H + τ⟨x, ·⟩x, whose first eigenvalue is no larger than the second one of H. With H' ≥ b therefore b ≤ λ₂, and then
 //!
 //! - λ₁ ≥ ρ − r²/(b − ρ) if b > ρ (Temple);
 //! - λ₁ ≥ c − τr²/(ρ − c)² for every c ≤ b, c < ρ: with v the first mode, ⟨v, x⟩ = ⟨v, residual⟩/(λ₁ − ρ) and λ₁ +
@@ -63,7 +63,7 @@ pub(super) fn below<T: Real>(hessian: &mut Hessian<'_, T>, pair: &Eigenpair<T>, 
         }
         std::mem::swap(&mut before, &mut q);
         std::mem::swap(&mut q, &mut image);
-        // what rounding leaves outside of the admissible fields would grow
+        // components outside of the admissible fields, from rounding, would grow
         hessian.project(&mut q);
         hessian.precondition(&q, &mut z)?;
         norm = hessian.product(&q, &z).max(0.0).sqrt();
@@ -85,7 +85,7 @@ pub(super) fn below<T: Real>(hessian: &mut Hessian<'_, T>, pair: &Eigenpair<T>, 
     Ok(bound)
 }
 
-/// What a lower bound b of the lifted Hessian means for the smallest eigenvalue.
+/// The lower bound of the smallest eigenvalue λ₁ by a lower bound b of the lifted Hessian H'.
 fn lower_bound<T>(pair: &Eigenpair<T>, lift: f64, b: f64) -> f64 {
     let (value, square) = (pair.value, pair.residual * pair.residual);
     let lifted = |c: f64| c - lift * square / (value - c).powi(2);
@@ -94,7 +94,7 @@ fn lower_bound<T>(pair: &Eigenpair<T>, lift: f64, b: f64) -> f64 {
     shares.filter(|&c| c < value).map(lifted).fold(temple, f64::max)
 }
 
-/// By how much of the spread the least Ritz value may be too large after so many steps.
+/// The largest excess of the least Ritz value after `steps` steps, as a share of the spread of the eigenvalues.
 fn uncertainty(tangent: f64, steps: usize) -> f64 {
     let power = 2.0 * (steps as f64 - 1.0);
     let at = |epsilon: f64| {

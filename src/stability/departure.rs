@@ -13,12 +13,12 @@ use crate::problem::{Control, Problem};
 use crate::real::Real;
 use crate::solver::{Solution, Solver};
 
-/// Where a minimisation went that left an equilibrium along its softest mode.
+/// The departure from an equilibrium: the end of a minimisation that left it along its softest mode.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Departure<T> {
     /// Where it ended.
     pub solution: Solution<T>,
-    /// How far the energy fell, per area: that of elasticity and adhesion, and under pressure control of the load.
+    /// The drop of the energy, per area: that of elasticity and adhesion, and under pressure control of the load.
     /// Zero or less if there was nowhere to go.
     pub energy_drop: f64,
     /// The root mean square of the change of the gap.

@@ -120,8 +120,8 @@ impl Topography {
     /// Tapers the map towards its edges, so that it becomes periodic; mean height and number of nodes stay.
     ///
     /// ```math
-    /// h \to \langle h\rangle + w(x)\,w(y)\,(h - c), \qquad c = \frac{\langle w h\rangle}{\langle w\rangle},
-    /// \qquad w(x) = \tfrac12\Bigl(1 - \cos\frac{\pi d}{f L}\Bigr) \text{ for } d < fL, \quad 1 \text{ elsewhere}
+    /// h → ⟨h⟩ + w(x) w(y) (h − c) ,   c = ⟨wh⟩/⟨w⟩ ,
+    /// w(x) = ½(1 − cos(πd/(fL))) for d < fL, 1 elsewhere
     /// ```
     ///
     /// with d the distance from the nearer edge of the side L, half a spacing more than that of the outermost node,

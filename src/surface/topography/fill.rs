@@ -20,8 +20,7 @@ impl Topography {
     /// They obey the discrete Laplace equation
     ///
     /// ```math
-    /// \frac{h_{i+1,j} - h_{ij}}{\Delta x^2} + \frac{h_{i-1,j} - h_{ij}}{\Delta x^2}
-    /// + \frac{h_{i,j+1} - h_{ij}}{\Delta y^2} + \frac{h_{i,j-1} - h_{ij}}{\Delta y^2} = 0
+    /// (h(i+1, j) − 2h(i, j) + h(i−1, j))/Δx² + (h(i, j+1) − 2h(i, j) + h(i, j−1))/Δy² = 0
     /// ```
     ///
     /// at every missing point, without the terms of neighbours that are beyond the edge of the map, which is not taken

@@ -15,7 +15,7 @@ impl Topography {
     /// values:
     ///
     /// ```math
-    /// h(x, y) = \sum_{|k| \le N_x/2} \sum_{|l| \le N_y/2} \hat h_{kl}\, e^{2\pi i (k x / L_x + l y / L_y)}
+    /// h(x, y) = Σₖ Σₗ ĥₖₗ exp(2πi(kx/Lx + ly/Ly)) ,   |k| ≤ Nx/2 , |l| ≤ Ny/2
     /// ```
     ///
     /// The shortest wave of an even number of nodes, which the nodes cannot tell from its mirror image, counts half
