@@ -1,3 +1,5 @@
+//! The adhesion law: energy, traction and slope of the attraction as functions of the gap.
+
 use crate::derivatives::{self, Named};
 use crate::error::{Error, Result};
 use crate::real::Real;
@@ -15,8 +17,9 @@ pub use none::NoAdhesion;
 ///
 /// A law is three functions of one gap `g ≥ 0`: the energy φ(g) ≤ 0, its derivative φ'(g), the
 /// adhesive traction, positive where the surfaces attract each other, and the traction's slope φ''(g). Everything else
-/// has a default. The energy falls to zero, or to any constant, at large gaps. No law is asked for a negative gap; what
-/// becomes of it where a [`ContactConstraint`](crate::ContactConstraint) lets the surfaces interpenetrate is said there.
+/// has a default. The energy falls to zero, or to any constant, at large gaps. No law is asked for a negative gap;
+/// what becomes of it where a [`ContactConstraint`](crate::ContactConstraint) lets the surfaces interpenetrate is said
+/// there.
 ///
 /// [`check_law`] tells whether the three functions agree with one another; call it in a test of your law.
 ///
@@ -73,13 +76,15 @@ pub trait AdhesionLaw<T: Real>: Send + Sync {
         false
     }
 
-    /// The law with slopes no steeper than 1/`compliance` in the place of the jumps of its traction; nothing if it has none.
+    /// The law with slopes no steeper than 1/`compliance` in the place of the jumps of its traction; nothing if it has
+    /// none.
     ///
     /// Where the traction falls by Δ at one gap, a node with the traction and one without it are both in
     /// equilibrium over a whole range of the gap, Δ times the node's compliance: the edge of the adhesive zone is
     /// pinned to the nodes, and stays where an iteration happened to leave it. The default start of a solve therefore
     /// comes from the smoothed law, of which the equilibrium does not depend on the way there. Energy, traction
-    /// and slope have to agree for the smoothed law too, and the work of adhesion stays the same. The default has no jumps.
+    /// and slope have to agree for the smoothed law too, and the work of adhesion stays the same. The default has no
+    /// jumps.
     fn smoothed(&self, compliance: T) -> Option<Box<dyn AdhesionLaw<T> + '_>> {
         let _ = compliance;
         None
@@ -87,10 +92,10 @@ pub trait AdhesionLaw<T: Real>: Send + Sync {
 
     /// The energies at the nodes from `first` on, in row-major order (node ix·Ny + iy), which have these gaps.
     ///
-    /// The four slice functions are what a solve calls, for a few hundred nodes at once. A law of which the gap is all that
-    /// matters need not write them. A law that varies over the surface writes them by the node, as `examples/patches.rs`
-    /// does, and answers to the functions of one gap for the node where it is strongest. A law that can use vector
-    /// instructions writes them for speed. They must not depend on where the slices begin and end.
+    /// The four slice functions are what a solve calls, for a few hundred nodes at once. A law of which the gap is all
+    /// that matters need not write them. A law that varies over the surface writes them by the node, as
+    /// `examples/patches.rs` does, and answers to the functions of one gap for the node where it is strongest. A law
+    /// that can use vector instructions writes them for speed. They must not depend on where the slices begin and end.
     fn energies(&self, first: usize, gaps: &[T], energies: &mut [T]) {
         let _ = first;
         energies.iter_mut().zip(gaps).for_each(|(e, &g)| *e = self.energy(g));

@@ -1,3 +1,5 @@
+//! The contact constraint: the rigid or elastic wall that keeps the gap from becoming negative.
+
 use std::fmt;
 
 use ndarray::ArrayView2;
@@ -21,9 +23,10 @@ pub use uzawa::Uzawa;
 /// node, that resists negative gaps ([`Penalty`]); such a term may carry multipliers, updated between solves
 /// ([`Uzawa`]). Which nodes are in contact then says [`Solution::contact_map`](crate::Solution::contact_map).
 ///
-/// An [`AdhesionLaw`](crate::AdhesionLaw) is defined for g ≥ 0. Where the surfaces interpenetrate it goes on as its tangent,
-/// φ(0) + φ'(0)g: the traction is that of contact, and springs of any stiffness bound the energy below. As these stiffen
-/// the solution tends to that of [`Projection`]. An exponential, evaluated at negative gaps, would outrun any springs.
+/// An [`AdhesionLaw`](crate::AdhesionLaw) is defined for g ≥ 0. Where the surfaces interpenetrate it goes on as its
+/// tangent, φ(0) + φ'(0)g: the traction is that of contact, and springs of any stiffness bound the energy below. As
+/// these stiffen the solution tends to that of [`Projection`]. An exponential, evaluated at negative gaps, would
+/// outrun any springs.
 ///
 /// ```
 /// use asperity::{
@@ -50,11 +53,11 @@ pub use uzawa::Uzawa;
 ///
 /// A worked example with rounds is on the page [`own_constraint`](crate::guide::own_constraint).
 pub trait ContactConstraint<T: Real>: Send + Sync {
-    /// What keeps the surfaces apart in the present round.
+    /// The wall that keeps the surfaces apart in the present round.
     fn wall(&self) -> Wall<'_, T>;
 
-    /// Prepares for a solve on a grid, to a tolerance of its criterion. `stiffest` is the stiffness of the shortest wave, of
-    /// [`ElasticOperator::stiffness_range`](crate::ElasticOperator::stiffness_range), pressure per length.
+    /// Prepares for a solve on a grid, to a tolerance of its criterion. `stiffest` is the stiffness of the shortest
+    /// wave, of [`ElasticOperator::stiffness_range`](crate::ElasticOperator::stiffness_range), pressure per length.
     ///
     /// # Errors
     /// Whatever cannot be used on that grid.
@@ -98,7 +101,8 @@ impl<T> fmt::Debug for Wall<'_, T> {
     }
 }
 
-/// Springs that resist small or negative gaps: three functions of a node, in row-major order (ix·Ny + iy), and its gap.
+/// Springs that resist small or negative gaps: three functions of a node, in row-major order (ix·Ny + iy), and its
+/// gap.
 ///
 /// [`ContactConstraint`] has an example.
 pub trait Springs<T: Real>: Sync {
@@ -112,7 +116,7 @@ pub trait Springs<T: Real>: Sync {
     fn slope(&self, node: usize, gap: T) -> T;
 }
 
-/// What [`ContactConstraint::update`] decides.
+/// The decision of [`ContactConstraint::update`].
 ///
 /// For a constraint that uses all three see [`own_constraint`](crate::guide::own_constraint).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,3 +1,5 @@
+//! Contact statistics: area, perimeter and their corrections, from the map of the nodes in contact.
+
 use ndarray::{Array2, ArrayView2, Zip};
 
 use crate::adhesion::AdhesionLaw;
@@ -12,7 +14,8 @@ mod distribution;
 pub use clusters::{Clusters, Connectivity};
 pub use distribution::PressureDistribution;
 
-/// What a contact map counts too much per edge between a node in contact and one that is not, in cells: (π − 1 + ln 2)/24.
+/// The excess area of a contact map per edge between a node in contact and one that is not, in cells: (π − 1 + ln
+/// 2)/24.
 const EDGE_EXCESS: f64 = (std::f64::consts::PI - 1.0 + std::f64::consts::LN_2) / 24.0;
 
 /// The share of w/ρ that the adhesive traction must exceed where surfaces are said to attract each other.
@@ -23,9 +26,10 @@ impl<T: Real> Solution<T> {
     ///
     /// This is what contact means everywhere: in [`Report::contact_points`](crate::Report::contact_points) and
     /// [`Iteration::contact_points`](crate::Iteration::contact_points), in [`ContactStatistics`] and its clusters, in
-    /// [`PressureDistribution`], and in pictures. Under [`Projection`](crate::Projection) the nodes without a gap are all of
-    /// them, and some may carry no pressure. Under a constraint that is a term of the energy all that interpenetrate are
-    /// pressed, and those of [`Uzawa`](crate::Uzawa) may be pressed at a gap that is not quite zero.
+    /// [`PressureDistribution`], and in pictures. Under [`Projection`](crate::Projection) the nodes without a gap are
+    /// all of them, and some may carry no pressure. Under a constraint that is a term of the energy all that
+    /// interpenetrate are pressed, and those of [`Uzawa`](crate::Uzawa) may be pressed at a gap that is not quite
+    /// zero.
     ///
     /// ```
     /// use asperity::{Control, Grid, NoAdhesion, Problem, Solver, Surface, Westergaard};
@@ -47,22 +51,21 @@ impl<T: Real> Solution<T> {
 ///
 /// Fractions are of the nominal area Lx·Ly. Contact, attractive and apart fraction add up to one.
 ///
-/// The corrected contact area is that of Yastrebov, Anciaux and Molinari (2017), *On the accurate computation of the true
-/// contact-area in mechanical contact of random rough surfaces*: a map of nodes counts too much along the edge of the
-/// contact, by
+/// The corrected contact area is that of Yastrebov, Anciaux and Molinari (2017), *On the accurate computation of the
+/// true contact-area in mechanical contact of random rough surfaces*: a map of nodes counts too much along the edge of
+/// the contact, by
 ///
 /// ```math
 /// A ≈ A_nodes − (π − 1 + ln 2)/24 · S Δx
 /// ```
 ///
-/// with S the perimeter along the cells, averaged over the directions of the edge. That is 0.118 cells for each side of
-/// a cell on the perimeter; for Δx ≠ Δy the area Δx·Δy of the cell is taken for Δx². What
-/// is left is the scatter of the nodes about the edge: over Hertz contacts with radii of 3 to 7 nodes the mean error
-/// falls from 6 % to −0.5 %, the root mean square from 8 % to 5 %; with radii of 14 to 28 nodes from 1.5 % to −0.1 %, and
-/// from 1.6 % to 0.5 %.
+/// with S the perimeter along the cells, averaged over the directions of the edge. That is 0.118 cells for each side
+/// of a cell on the perimeter; for Δx ≠ Δy the area Δx·Δy of the cell is taken for Δx². What is left is the scatter of
+/// the nodes about the edge: over Hertz contacts with radii of 3 to 7 nodes the mean error falls from 6 % to −0.5 %,
+/// the root mean square from 8 % to 5 %; with radii of 14 to 28 nodes from 1.5 % to −0.1 %, and from 1.6 % to 0.5 %.
 ///
-/// On a line nothing is corrected, as the derivation is for edges in the plane; there the map counts about 0.19 nodes too
-/// many for each end point, measured on waves.
+/// On a line nothing is corrected, as the derivation is for edges in the plane; there the map counts about 0.19 nodes
+/// too many for each end point, measured on waves.
 ///
 /// ```
 /// use asperity::{ContactStatistics, Control, Exponential, Grid, Problem, Solver, Surface, Westergaard};
@@ -84,7 +87,7 @@ pub struct ContactStatistics {
     pub contact_points: usize,
     /// The share of nodes in contact.
     pub contact_fraction: f64,
-    /// The contact area without what the map counts too much along its edge, as a share of the nominal area.
+    /// The contact area without the excess of the map along its edge, as a share of the nominal area.
     pub corrected_contact_fraction: f64,
     /// The length of the edge of the contact, along the sides of the cells, across the periodic boundaries too: Δy for
     /// neighbours along x of which one is in contact, Δx for neighbours along y. On a line the number of end points.
@@ -94,8 +97,8 @@ pub struct ContactStatistics {
     pub cluster_sizes: Vec<usize>,
     /// The share of nodes that repel each other: those with a contact pressure. Nodes may touch without one.
     pub repulsive_fraction: f64,
-    /// The share of nodes that attract each other without being in contact: those with an adhesive traction of more than
-    /// 1 % of w/ρ. That is g < ρ for [`MaugisDugdale`](crate::MaugisDugdale), and g < 4.6 ρ for
+    /// The share of nodes that attract each other without being in contact: those with an adhesive traction of more
+    /// than 1 % of w/ρ. That is g < ρ for [`MaugisDugdale`](crate::MaugisDugdale), and g < 4.6 ρ for
     /// [`Exponential`](crate::Exponential).
     pub attractive_fraction: f64,
     /// The share of the other nodes, which do not notice each other.

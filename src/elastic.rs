@@ -1,3 +1,5 @@
+//! The elastic operator: pressure from displacement, displacement from pressure, and the preconditioner.
+
 use ndarray::{Array2, ArrayView2, ArrayViewMut2, Zip};
 
 use crate::error::{Error, Result};
@@ -12,12 +14,14 @@ pub use check::check_operator;
 pub use spectral::Spectral;
 pub use westergaard::Westergaard;
 
-/// The elastic half-space: what pressure a displacement of its surface needs, and the other way round.
+/// The elastic operator of a half-space: the pressure p = K⁻¹u of a displacement u of its surface, and u = Kp.
 ///
 /// The operator is linear, symmetric, and positive on fields without mean. A rigid translation costs nothing, so
-/// both applications return fields of zero mean and ignore the mean of what they are given. [`Westergaard`] is the
+/// both applications return fields of zero mean and ignore the mean of their argument. [`Westergaard`] is the
 /// homogeneous half-space, [`Spectral`] is any operator that acts on each wave by a factor; implement
-/// the trait for anything else. The first four methods and [`modulus`](Self::modulus) are required.
+/// the trait for anything else. [`grid`](Self::grid), [`pressure`](Self::pressure),
+/// [`displacement`](Self::displacement), [`stiffness_range`](Self::stiffness_range) and [`modulus`](Self::modulus) are
+/// required.
 ///
 /// Every application writes into the caller's array and, for the operators of this crate, allocates nothing.
 ///
@@ -50,7 +54,7 @@ pub trait ElasticOperator<T: Real>: Send {
     /// [`Error::Shape`] if a field does not fit the grid.
     fn pressure(&mut self, displacement: ArrayView2<'_, T>, pressure: ArrayViewMut2<'_, T>) -> Result<()>;
 
-    /// The same as [`pressure`](Self::pressure), and the mean of u·K⁻¹u.
+    /// The elastic pressure p = K⁻¹u, as [`pressure`](Self::pressure), and the mean of u·K⁻¹u.
     ///
     /// The default multiplies the two fields; [`Spectral`] has the mean from the transform.
     ///
@@ -73,17 +77,23 @@ pub trait ElasticOperator<T: Real>: Send {
 
     /// The stiffness of the softest and of the stiffest wave on the grid, pressure per length, the mean excluded.
     ///
-    /// The softest must not be overestimated: it bounds what the rounding of an updated pressure adds to the certificate.
-    /// Otherwise they scale steps, and estimates will do. Both are zero only where there is no wave, on a grid of one node.
+    /// The softest must not be overestimated: it bounds the part of the certificate that comes from the rounding of an
+    /// updated pressure. Otherwise they scale steps, and estimates will do. Both are zero only where there is no wave,
+    /// on a grid of one node.
     fn stiffness_range(&self) -> (f64, f64);
 
     /// The contact modulus E* that the half-space has for waves as short as the grid's spacing.
+    ///
+    /// It is the unit of [`Criterion::Orthogonality`](crate::Criterion::Orthogonality) and enters
+    /// [`Problem::resolution`](crate::Problem::resolution); with the spacing it gives the compliance by which jumps of
+    /// a law are [smoothed](crate::AdhesionLaw::smoothed); on a grid of one node, which has no wave, E*/Lx is the
+    /// stiffness of the preconditioner.
     fn modulus(&self) -> f64;
 
     /// The elastic pressure K⁻¹h of the surface pressed flat, and the mean of h·K⁻¹h.
     ///
-    /// The heights come in `f64` whatever the operator's precision, with no mean, or one not larger than their rms value. The default rounds them first;
-    /// [`Spectral`] applies itself in `f64` and rounds the pressure.
+    /// The heights come in `f64` whatever the operator's precision, with no mean, or one not larger than their rms
+    /// value. The default rounds them first; [`Spectral`] applies itself in `f64` and rounds the pressure.
     ///
     /// # Errors
     /// [`Error::Shape`] if a field does not fit the grid.
@@ -95,10 +105,10 @@ pub trait ElasticOperator<T: Real>: Send {
 
     /// Applies the preconditioner, M r.
     ///
-    /// M is close to (K⁻¹ + `foundation`)⁻¹, the compliance of the half-space on a foundation of that stiffness, pressure
-    /// per length: the waves that are longer than the distances between contacts meet the stiffness of the contacts. For
-    /// the mean it has the value `1/mean_stiffness`, which may be zero. It must be symmetric, and positive but for that. The
-    /// default applies [`displacement`](Self::displacement), and the stiffness to the mean.
+    /// M is close to (K⁻¹ + `foundation`)⁻¹, the compliance of the half-space on a foundation of that stiffness,
+    /// pressure per length: the waves that are longer than the distances between contacts meet the stiffness of the
+    /// contacts. For the mean it has the value `1/mean_stiffness`, which may be zero. It must be symmetric, and
+    /// positive but for that. The default applies [`displacement`](Self::displacement), and the stiffness to the mean.
     ///
     /// # Errors
     /// [`Error::Shape`] if a field does not fit the grid.
@@ -120,10 +130,11 @@ pub trait ElasticOperator<T: Real>: Send {
     }
 }
 
-/// What [`ElasticOperator::precondition`] finds beside M r, all of them means over the nodes.
+/// The products of [`ElasticOperator::precondition`] beside M r, all of them means over the nodes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Preconditioned {
-    /// r·Kr without the mean of r, which bounds the error (see [`Report::relative_error`](crate::Report)): it must be that of K itself
+    /// r·Kr without the mean of r, which bounds the error (see [`Report::relative_error`](crate::Report)): it must be
+    /// that of K itself
     pub error: f64,
     /// r·Mr
     pub descent: f64,

@@ -1,3 +1,5 @@
+//! The error of the crate, and the checks that return it.
+
 use std::fmt;
 use std::path::{Path, PathBuf};
 

@@ -10,9 +10,9 @@
 //! | | [`AdhesiveWavyLine`] | of no range |
 //! | a two-dimensional wave, full contact | [`closing_pressure_2d`] | none |
 //!
-//! A solution gives states, [`Contact`], [`PeriodicContact`], [`WaveContact`], at a given load, contact radius, approach or
-//! mean gap, and a state gives its fields, centred like those of [`Surface`](crate::Surface) on the origin of the grid. All
-//! in `f64`, in any consistent units.
+//! A solution gives states, [`Contact`], [`PeriodicContact`], [`WaveContact`], at a given load, contact radius,
+//! approach or mean gap, and a state gives its fields, centred like those of [`Surface`](crate::Surface) on the origin
+//! of the grid. All in `f64`, in any consistent units.
 //!
 //! # The error of a solve
 //!

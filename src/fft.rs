@@ -41,7 +41,7 @@ pub(crate) struct Convolver<T: Real> {
     pool: Pool<Workspace<T>>,
 }
 
-/// What the columns of the spectrum can add up.
+/// The sums over the columns of the spectrum.
 pub(crate) type Sums = [f64; 3];
 
 /// The forward and the inverse transform of a length.
@@ -109,14 +109,15 @@ impl<T: Real> Convolver<T> {
         Self { layout, twiddles, rows, columns, spectrum, sums, pool }
     }
 
-    /// Where the modes are that `modify` gets.
+    /// The layout of the modes that `modify` gets.
     pub(crate) fn layout(&self) -> Layout {
         self.layout
     }
 
     /// Transforms `input`, hands every column of the half spectrum to `modify`, and transforms back into `output`.
     ///
-    /// `modify` gets the column's index and its modes, unnormalised, where [`Layout::mode`] has them, and returns numbers; their sums, in the order of the columns, are returned. The inverse is normalised: a `modify` that
+    /// `modify` gets the column's index and its modes, unnormalised, where [`Layout::mode`] has them, and returns
+    /// numbers; their sums, in the order of the columns, are returned. The inverse is normalised: a `modify` that
     /// changes nothing gives back the input.
     pub(crate) fn convolve<U: Real>(
         &mut self,
@@ -196,7 +197,7 @@ pub(crate) fn powers(field: ArrayView2<'_, f64>) -> Array2<f64> {
     powers
 }
 
-/// The field of given modes, and the sum of what `fill` returns, in order.
+/// The field of given modes, and the sum of the values of `fill`, in order.
 ///
 /// `fill` gets the column's index along the second axis, and zeros to overwrite by its modes along the first. Those of
 /// column 0, and of the Nyquist column, must be even with conjugation.

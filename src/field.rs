@@ -4,7 +4,7 @@ use ndarray::Array2;
 
 use crate::par::{self, IndexedParallelIterator};
 
-/// Nodes that are summed one after the other. Sums of sums keep the rounding small: it grows with the length of a
+/// The nodes of a chunk, which are summed one after the other. The rounding of sums of sums grows with the length of a
 /// run, not with the number of nodes.
 pub(crate) const CHUNK: usize = 256;
 
@@ -14,7 +14,7 @@ const BATCH: usize = 8;
 /// How many numbers a pass can sum at once.
 pub(crate) const SUMS: usize = 13;
 
-/// What a pass over a chunk found: sums, and a minimum.
+/// The result of a pass over a chunk: sums, and a minimum.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Partial {
     pub(crate) sum: [f64; SUMS],
@@ -31,7 +31,7 @@ impl Partial {
     }
 }
 
-/// Runs the passes over fields of one size, and adds up what the chunks return, in their order.
+/// The reducer: runs passes over fields of one size, and adds up the results of the chunks in their order.
 #[derive(Debug)]
 pub(crate) struct Reducer(Vec<Partial>);
 
@@ -50,7 +50,7 @@ impl Reducer {
         self.total()
     }
 
-    /// The same over the chunks of which the number that was kept is `wanted`.
+    /// Runs `f(first node, chunk)` over the chunks whose kept number is `wanted`.
     pub(crate) fn run_where<A: IndexedParallelIterator>(
         &mut self,
         kept: &[f64],

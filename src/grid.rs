@@ -1,3 +1,5 @@
+//! The grid: equidistant nodes on a periodic rectangle or line.
+
 use std::f64::consts::TAU;
 
 use ndarray::Array2;
@@ -27,8 +29,8 @@ impl Grid {
     /// A grid of `shape = (Nx, Ny)` nodes on sides `lengths = (Lx, Ly)`, in any unit of length.
     ///
     /// # Errors
-    /// [`Error::Value`] if a number of nodes is zero, if fields of so many nodes have a size that no memory has, or if a
-    /// length is not positive and finite.
+    /// [`Error::Value`] if a number of nodes is zero, if fields of so many nodes have a size that no memory has, or if
+    /// a length is not positive and finite.
     pub fn new(shape: (usize, usize), lengths: (f64, f64)) -> Result<Self> {
         for (name, n) in [("number of nodes Nx", shape.0), ("number of nodes Ny", shape.1)] {
             if n == 0 {

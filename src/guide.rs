@@ -12,9 +12,9 @@
 //! | [`driver`] | what the solver minimises, its certificate, one iteration step by step, and every constant in it |
 //! | [`architecture`] | the layers of the crate, what may use what, and the data's way through one iteration |
 //!
-//! Measured figures are on pages of their own: [`performance`](crate::performance), [`precision`](crate::precision), and
-//! [`paper_checked`](crate::paper_checked), which holds the paper against this crate. How to choose grid, range and
-//! tolerance is the page [`choosing`](crate::choosing).
+//! Measured figures are on pages of their own: [`performance`](crate::performance), [`precision`](crate::precision),
+//! and [`paper_checked`](crate::paper_checked), which holds the paper against this crate. How to choose grid, range
+//! and tolerance is the page [`choosing`](crate::choosing).
 //!
 //! The code on these pages is run by the tests.
 

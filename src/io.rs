@@ -1,9 +1,9 @@
 //! Reading height maps and gaps, and writing results.
 //!
-//! [`read_topography`] takes what measuring instruments, Gwyddion and numpy write: `.npy`, `.npz`, `.gsf`, `.xyz` and text
-//! matrices, with side lengths and units where they are known; [`read_field`] takes the numbers alone.
-//! [`write_topography`] writes maps, [`write_npz`] and [`write_vti`] all fields of a solution into one file, for numpy and for
-//! ParaView. [`OutputFolder`] collects the files of one run and shows them only once all of them are complete.
+//! [`read_topography`] takes what measuring instruments, Gwyddion and numpy write: `.npy`, `.npz`, `.gsf`, `.xyz` and
+//! text matrices, with side lengths and units where they are known; [`read_field`] takes the numbers alone.
+//! [`write_topography`] writes maps, [`write_npz`] and [`write_vti`] all fields of a solution into one file, for numpy
+//! and for ParaView. [`OutputFolder`] collects the files of one run and shows them only once all of them are complete.
 
 mod foreign;
 mod gsf;
@@ -62,27 +62,29 @@ pub fn read_field(path: &Path) -> Result<Array2<f64>> {
     read_topography(path).map(|map| map.heights)
 }
 
-/// Reads a height map from a file, with side lengths and unit where it has them. The content and not the ending of the file
-/// decides on the format, but for `.xyz`.
+/// Reads a height map from a file, with side lengths and unit where it has them. The content and not the ending of the
+/// file decides on the format, but for `.xyz`.
 ///
 /// - `.npy`: floating-point numbers of 4 or 8 bytes or integers of 1 to 8 bytes, in either byte order and
 ///   either memory order. Integers beyond 2^53 are rounded.
-/// - `.npz`: as `.npy`, compressed or not, with exactly one array in it, or with one named `heights`. Arrays `lengths`,
-///   two numbers, and `unit`, a text, are taken beside that; [`Topography::unread`] names all others.
+/// - `.npz`: as `.npy`, compressed or not, with exactly one array in it, or with one named `heights`. Arrays
+///   `lengths`, two numbers, and `unit`, a text, are taken beside that; [`Topography::unread`] names all others.
 /// - Gwyddion Simple Field (`.gsf`): with the side lengths XReal and YReal, and units.
 /// - text: one row per line; numbers separated by white space, or by commas, or by semicolons. `#` and `%`
 ///   start a comment, blank lines are skipped. Decimal commas are not understood.
 /// - Gwyddion's text export, which is a text with comments `# Width:`, `# Height:` and `# Value units:` in English.
-/// - text of which the name ends in `.xyz`: points x y z, one per line, of a regular grid parallel to the axes, in any order.
-///   Nodes without a point are missing. Rounded or noisy coordinates may be off the grid by a tenth of its spacing. All three in one
-///   unit, which the format does not tell. Nx and Ny follow from the spacings, and the side lengths are Nx Δx and Ny Δy.
+/// - text of which the name ends in `.xyz`: points x y z, one per line, of a regular grid parallel to the axes, in any
+///   order. Nodes without a point are missing. Rounded or noisy coordinates may be off the grid by a tenth of its
+///   spacing. All three in one unit, which the format does not tell. Nx and Ny follow from the spacings, and the side
+///   lengths are Nx Δx and Ny Δy.
 ///
-/// **Orientation.** Arrays and plain texts have shape (Nx, Ny): the first index, in a text the line, runs along x. Images
-/// have lines along x, from the top to the bottom: line r of Ny in Gwyddion's two formats becomes column Ny − 1 − r of the map, so
-/// that y runs upwards and pictures of the map show what Gwyddion shows.
+/// **Orientation.** Arrays and plain texts have shape (Nx, Ny): the first index, in a text the line, runs along x.
+/// Images have lines along x, from the top to the bottom: line r of Ny in Gwyddion's two formats becomes column Ny − 1
+/// − r of the map, so that y runs upwards and pictures of the map show what Gwyddion shows.
 ///
-/// **Units.** Where the file gives units of length for both side lengths and heights, the map is in metres, whatever their
-/// prefixes. Where both are the same other unit it stays. All else that has units is refused, as are values that are no heights.
+/// **Units.** Where the file gives units of length for both side lengths and heights, the map is in metres, whatever
+/// their prefixes. Where both are the same other unit it stays. All else that has units is refused, as are values that
+/// are no heights.
 ///
 /// A one-dimensional array of n values, and a text file with a single column, give shape `(n, 1)`. NaN and
 /// infinities are read as they stand: they mark missing points, which a surface refuses later. The array is
@@ -132,7 +134,8 @@ pub fn read_topography(path: &Path) -> Result<Topography> {
 ///
 /// # Errors
 ///
-/// [`Error::File`] if the name has another ending, heights leave the range of the format, or the file cannot be written.
+/// [`Error::File`] if the name has another ending, heights leave the range of the format, or the file cannot be
+/// written.
 pub fn write_topography(path: &Path, map: &Topography) -> Result<()> {
     match ending(path).as_str() {
         "npy" => write_npy(path, &map.heights),

@@ -16,9 +16,9 @@
 //! λ ≥ 0 ,   g ≥ 0 ,   λ g = 0 .
 //! ```
 //!
-//! The method is that of Rey, Anciaux and Molinari, *Normal adhesive contact on rough surfaces: efficient algorithm for
-//! FFT-based BEM resolution*, Computational Mechanics 60 (2017), with a preconditioner, a certificate of the error, and
-//! the paper's misprints corrected: see [`paper_checked`].
+//! The method is that of Rey, Anciaux and Molinari, *Normal adhesive contact on rough surfaces: efficient algorithm
+//! for FFT-based BEM resolution*, Computational Mechanics 60 (2017), with a preconditioner, a certificate of the
+//! error, and the paper's misprints corrected: see [`paper_checked`].
 //!
 //! # A sphere, without and with adhesion
 //!
@@ -71,24 +71,26 @@
 //!
 //! # More than one number, more than one load
 //!
-//! [`ContactStatistics`], [`Clusters`] and [`PressureDistribution`] say what the contact of a solution is like; [`Sweep`]
-//! solves under a sequence of loads, each from where the last ones lead, and [`Nested`] on coarser grids first.
+//! [`ContactStatistics`], [`Clusters`] and [`PressureDistribution`] say what the contact of a solution is like;
+//! [`Sweep`] solves under a sequence of loads, each from where the last ones lead, and [`Nested`] on coarser grids
+//! first.
 //!
 //! # Measured surfaces
 //!
-//! [`Topography`] takes a measured map to a [`Surface`]: missing points, tilt, edges that do not meet, resampling. [`Warning`] says what is
-//! probably a mistake in a surface, in the adhesion on it, and in an answer.
+//! [`Topography`] takes a measured map to a [`Surface`]: missing points, tilt, edges that do not meet, resampling.
+//! [`Warning`] says what is probably a mistake in a surface, in the adhesion on it, and in an answer.
 //!
 //! # Branches, jumps and stability
 //!
-//! With adhesion there may be several equilibria at one load, and none next to some of them at the next. [`Path`] follows a branch in
-//! steps that adapt themselves, locates its jumps and keeps the balance of energy; [`StabilityTest`] tells whether an equilibrium
-//! lasts, with the smallest eigenvalue of the second derivative of the energy, and [`Stability::leave`] leaves one that does not.
+//! With adhesion there may be several equilibria at one load, and none next to some of them at the next. [`Path`]
+//! follows a branch in steps that adapt themselves, locates its jumps and keeps the balance of energy;
+//! [`StabilityTest`] tells whether an equilibrium lasts, with the smallest eigenvalue of the second derivative of the
+//! energy, and [`Stability::leave`] leaves one that does not.
 //!
 //! # Exact solutions
 //!
-//! [`exact`] has the closed forms to compare with: spheres by Hertz, JKR and Maugis, alone or among their periodic images,
-//! and waves by Westergaard and Johnson.
+//! [`exact`] has the closed forms to compare with: spheres by Hertz, JKR and Maugis, alone or among their periodic
+//! images, and waves by Westergaard and Johnson.
 //!
 //! # Features
 //!

@@ -1,3 +1,5 @@
+//! Nested grids: solutions on coarser grids as starts on finer ones.
+
 use std::ops::ControlFlow;
 
 use ndarray::{Array2, CowArray};
@@ -14,25 +16,27 @@ use crate::real::Real;
 use crate::solver::{Iteration, Settings, Solution, Solver, Status};
 use crate::surface::Surface;
 
-/// The resolution measure above which a coarse grid would pin the contact.
+/// The resolution measure μ_ρ above which a coarse grid would pin the contact.
 const RESOLVED: f64 = 0.5;
 
-/// The load error from which on a coarse solution is no start.
+/// The relative load error at and above which a coarse solution is not used as a start.
 const CARRIED: f64 = 0.5;
 
-/// Solves on coarser grids first, each the start of the next finer one.
+/// Nested grids: solutions on coarser grids, each the start on the next finer one.
 ///
-/// A coarser grid has every second node of the finer one, along both sides (along x on a line); its heights are those of
-/// its nodes. Its solution is prolonged by cubic interpolation of the displacement g + h; nodes between nodes in contact
-/// are in contact. On the finest grid the iteration, the certificate and the tolerance are those of [`Solver`].
+/// A coarser grid has every second node of the finer one, along both sides (along x on a line); its heights are those
+/// of its nodes. Its solution is prolonged by cubic interpolation of the displacement g + h; nodes between nodes in
+/// contact are in contact. On the finest grid the iteration, the certificate and the tolerance are those of
+/// [`Solver`].
 ///
-/// Sizes are halved while they are even and both sides keep `coarsest` nodes; an odd size has no coarser grid. With adhesion
-/// only grids that resolve it ([`Problem::resolution`] up to 0.5) are used, as a coarser one may pin the contact on another
-/// branch. If the traction of the law jumps, the coarser grids [smooth](AdhesionLaw::smoothed) it, and so does the finest one on
-/// its way from their solution, as it does from the default start. Without a coarser grid all is as with [`Solver::solve`].
+/// Sizes are halved while they are even and both sides keep `coarsest` nodes; an odd size has no coarser grid. With
+/// adhesion only grids that resolve it ([`Problem::resolution`] up to 0.5) are used, as a coarser one may pin the
+/// contact on another branch. If the traction of the law jumps, the coarser grids [smooth](AdhesionLaw::smoothed) it,
+/// and so does the finest one on its way from their solution, as it does from the default start. Without a coarser
+/// grid all is as with [`Solver::solve`].
 ///
-/// Memory per node of the finest grid: no more than a solve on that grid alone, seven scalars with [`Westergaard`](crate::Westergaard);
-/// the start from the coarser grid becomes one of them.
+/// Memory per node of the finest grid: no more than a solve on that grid alone, seven scalars with
+/// [`Westergaard`](crate::Westergaard); the start from the coarser grid becomes one of them.
 ///
 /// ```
 /// use asperity::{Control, Grid, Nested, NoAdhesion, SelfAffine, Status, Westergaard};
@@ -49,14 +53,14 @@ const CARRIED: f64 = 0.5;
 pub struct Nested<C = Projection> {
     /// The solver of all grids; its tolerance is that of the finest.
     pub solver: Solver<C>,
-    /// The tolerance on the coarser grids, or that of the solver if it is larger. Default 1e-2: what a coarser grid leaves out
-    /// is more than that.
+    /// The tolerance on the coarser grids, or that of the solver if it is larger. Default 1e-2, which is below the
+    /// discretisation error of a coarser grid.
     pub coarse_tolerance: f64,
     /// The least number of nodes along a side of a coarser grid. Default 64.
     pub coarsest: usize,
 }
 
-/// What the solve on one of nested grids took.
+/// The cost of the solve on one of the nested grids.
 ///
 /// [`NestedSolution`] has an example.
 #[non_exhaustive]
@@ -68,7 +72,7 @@ pub struct Level {
     pub status: Status,
     /// How many steps were made.
     pub iterations: usize,
-    /// How many applications it took, with the one that constructs the problem.
+    /// The number of operator applications, with the one that constructs the problem.
     pub operator_applications: usize,
 }
 
@@ -96,8 +100,8 @@ pub struct NestedSolution<T> {
 }
 
 impl<T> NestedSolution<T> {
-    /// All operator applications in units of one on the finest grid, those that construct the problems included: one on a
-    /// grid with a quarter of the nodes counts as a quarter.
+    /// All operator applications in units of one on the finest grid, those that construct the problems included: one
+    /// on a grid with a quarter of the nodes counts as a quarter.
     pub fn equivalent_applications(&self) -> f64 {
         let nodes = |level: &Level| (level.shape.0 * level.shape.1) as f64;
         let finest = self.levels.last().map_or(1.0, nodes);
@@ -120,11 +124,11 @@ impl Default for Nested {
 }
 
 impl<C> Nested<C> {
-    /// Solves the problem of pressing `surface` against what `operator` makes for a grid.
+    /// Solves the contact of `surface` with the elastic body for which `operator` makes an operator on each grid.
     ///
     /// # Errors
-    /// Those of `operator`, [`Problem::new`] and [`Solver::solve_from`]; [`Error::Value`] if the coarse tolerance is not
-    /// positive.
+    /// Those of `operator`, [`Problem::new`] and [`Solver::solve_from`]; [`Error::Value`] if the coarse tolerance is
+    /// not positive.
     pub fn solve<T, O, L>(
         &mut self,
         surface: &Surface,
@@ -141,8 +145,8 @@ impl<C> Nested<C> {
         self.solve_observed(surface, operator, law, control, |_, _| ControlFlow::Continue(()))
     }
 
-    /// The same, and calls `observe` with the grid in every iteration. Where it stops a solve, the finer grids end with their
-    /// first iteration.
+    /// Solves as [`Nested::solve`], and calls `observe` with the grid in every iteration. Where it stops a solve, the
+    /// finer grids end with their first iteration.
     ///
     /// # Errors
     /// Those of [`Nested::solve`].
@@ -215,7 +219,7 @@ impl<C> Nested<C> {
     }
 }
 
-/// Of how many nodes of the finest grid along each side each grid has one, the finest first.
+/// The strides of all grids in nodes of the finest one along (x, y), the finest first.
 fn strides((nx, ny): (usize, usize), coarsest: usize) -> Vec<(usize, usize)> {
     let coarsest = coarsest.max(4);
     let halves = |n: usize, stride: usize| n.is_multiple_of(2 * stride) && n / (2 * stride) >= coarsest;
@@ -239,7 +243,7 @@ fn coarsen(surface: &Surface, (x, y): (usize, usize)) -> Result<Surface> {
     Surface::new(grid, Array2::from_shape_fn(grid.shape(), |(i, j)| surface.heights()[[i * x, j * y]]))
 }
 
-/// The gap on the next finer grid, of which the nodes are `stride` nodes of the surface apart.
+/// The gap prolonged to the next finer grid, which has every `stride`-th node of the surface.
 fn prolong<T: Real>(
     surface: &Surface,
     stride: (usize, usize),
@@ -250,7 +254,7 @@ fn prolong<T: Real>(
     let (cx, cy) = coarse.grid().shape();
     let (nx, ny) = surface.grid().shape();
     let shape = (nx / stride.0, ny / stride.1);
-    // how many finer nodes there are to a coarse one
+    // finer nodes for each coarse one
     let (rx, ry) = (shape.0 / cx, shape.1 / cy);
     let displacement = |i: usize, j: usize| gap[[i, j]].widen() + coarse.heights()[[i, j]];
     // whether the interpolation has only nodes in contact about it

@@ -1,4 +1,4 @@
-//! The only module that knows whether rayon is there.
+//! Parallel loops, on rayon's threads or, without rayon, on one.
 
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
@@ -68,7 +68,7 @@ mod parallel {
 
 #[cfg(not(feature = "parallel"))]
 mod serial {
-    /// What both builds call the trait whose `zip` they use.
+    /// The trait with `zip`, by its name in rayon.
     pub(crate) use Iterator as IndexedParallelIterator;
     use std::slice::{Chunks, ChunksMut};
 

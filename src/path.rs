@@ -1,3 +1,5 @@
+//! A path of equilibria: small steps along a branch, with its jumps and bifurcations.
+
 use std::ops::ControlFlow;
 
 use ndarray::{Array2, CowArray};
@@ -18,7 +20,7 @@ mod track;
 pub use event::{Event, Jump};
 use track::{Mode, State, Track, Way};
 
-/// How a path of equilibria is followed.
+/// The settings of a path of equilibria.
 ///
 /// | field | default | meaning | range |
 /// |---|---|---|---|
@@ -70,44 +72,49 @@ impl Default for PathSettings {
 pub struct PathStep<T> {
     /// The state.
     pub solution: Solution<T>,
-    /// Under which control it was found.
+    /// The control under which it was found.
     pub control: Control,
-    /// On which leg it is: 0 is the start, 1 the way to the second load.
+    /// The leg that it is on: 0 is the start, 1 the way to the second load.
     pub leg: usize,
     /// The work done by the load since the start, −∫p̄ dḡ, per area.
     pub work: f64,
-    /// The energy dropped in jumps since the start, per area. Over a closed cycle it is the work of adhesion that was lost.
+    /// The energy dropped in jumps since the start, per area. Over a closed cycle it is the work of adhesion that was
+    /// lost.
     pub dissipated: f64,
-    /// What is missing from the balance: the change of the energy, plus what was dissipated, less the work. It is what the
-    /// quadrature of the work, the solver's tolerance, and jumps smaller than the tolerance leave.
+    /// The imbalance of energy: the change of the energy, plus the dissipated energy, less the work. It comes from the
+    /// quadrature of the work, the solver's tolerance, and jumps smaller than the tolerance.
     pub imbalance: f64,
-    /// What happened on the way here from the state before.
+    /// The event between the previous state and this one.
     pub event: Option<Event>,
 }
 
-/// Follows a branch of equilibria from load to load, in small steps, and tells where it breaks off: an iterator over the states.
+/// A path of equilibria: an iterator over the states of a branch that is followed from load to load in small steps,
+/// with its jumps.
 ///
-/// Each load is a mean gap or a mean pressure; the first one is where the path starts, and from each to the next leads a *leg*. A step starts from the
-/// extrapolation of the last two states, clipped to g ≥ 0, so that it stays on the branch; its length adapts to how much the branch bends.
+/// Each load is a mean gap or a mean pressure; the first one is where the path starts, and from each to the next leads
+/// a *leg*. A step starts from the extrapolation of the last two states, clipped to g ≥ 0, so that it stays on the
+/// branch; its length adapts to how much the branch bends.
 ///
 /// # Jumps
 ///
-/// Along a branch the energy changes by the work of the load, de = −p̄ dḡ. A step in which it falls by more has jumped to another
-/// branch, or is too long for the quadrature of the work (by up to four states, of fourth order): it is taken back and halved.
-/// When it cannot be halved any more, at [`PathSettings::resolution`], what is missing is the energy that the jump
-/// dissipates, if it is more than the step could do at either end's load; the step is taken, and its [`Event`] says so.
+/// Along a branch the energy changes by the work of the load, de = −p̄ dḡ. A step in which it falls by more has jumped
+/// to another branch, or is too long for the quadrature of the work (by up to four states, of fourth order): it is
+/// taken back and halved. When it cannot be halved any more, at [`PathSettings::resolution`], the missing energy is
+/// the one that the jump dissipates, if it is more than the step could do at either end's load; the step is taken, and
+/// its [`Event`] says so.
 ///
-/// Where the traction of the law jumps, as that of [`MaugisDugdale`](crate::MaugisDugdale), every node that enters or leaves the adhesive zone
-/// is a small jump, and the grid holds the edge of that zone back: a hysteresis that the continuum has not. Unless
-/// [`PathSettings::smooth`] is off, the path is therefore one of the [smoothed](AdhesionLaw::smoothed) law, of which the pull-off force
-/// converges faster; energies and errors in the reports are that law's.
+/// Where the traction of the law jumps, as that of [`MaugisDugdale`](crate::MaugisDugdale), every node that enters or
+/// leaves the adhesive zone is a small jump, and the grid holds the edge of that zone back: a hysteresis that the
+/// continuum has not. Unless [`PathSettings::smooth`] is off, the path is therefore one of the
+/// [smoothed](AdhesionLaw::smoothed) law, of which the pull-off force converges faster; energies and errors in the
+/// reports are that law's.
 ///
 /// # Limit points
 ///
-/// Under a given pressure a branch ends where dp̄/dḡ = 0: the jump that is met there is not taken. The path goes on at given mean
-/// gaps, through the states that are unstable under the pressure, in the same direction, until the pressure comes to where the leg ends, or
-/// the surfaces to full contact or out of each other's reach. Under a given mean gap there are limit points
-/// too, at which it jumps.
+/// Under a given pressure a branch ends where dp̄/dḡ = 0: the jump that is met there is not taken. The path goes on at
+/// given mean gaps, through the states that are unstable under the pressure, in the same direction, until the pressure
+/// comes to where the leg ends, or the surfaces to full contact or out of each other's reach. Under a given mean gap
+/// there are limit points too, at which it jumps.
 ///
 /// # Bifurcations
 ///
@@ -192,16 +199,16 @@ pub struct Path<'a, T, O, L> {
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct PathCheckpoint<T> {
-    /// Where the path is.
+    /// The numbers of the path's track.
     pub numbers: Vec<f64>,
     /// The last gaps, and the softest mode of the last state, where it was needed.
     pub fields: Vec<Array2<T>>,
 }
 
-/// How often a solve that did not converge is taken up again, where the step cannot be halved.
+/// The number of further solves after one that did not converge, where the step cannot be halved.
 const RETRIES: usize = 3;
 
-/// How far the last step may be extrapolated, in steps.
+/// The farthest extrapolation of the last step, in steps.
 const FARTHEST: f64 = 2.0;
 
 impl<'a, T, O, L> Path<'a, T, O, L>
@@ -239,18 +246,18 @@ where
         Ok(Self { solver, problem, legs, settings, start: None, state, gaps: Vec::new(), watch, failed: false })
     }
 
-    /// The same path, with a gap of shape (Nx, Ny) from which the first load starts.
+    /// The path with a gap of shape (Nx, Ny) as the start at the first load.
     pub fn starting_from(self, gap: Array2<T>) -> Self {
         Self { start: Some(gap), ..self }
     }
 
-    /// Where the path is.
+    /// The present place of the path, from which [`Path::continuing`] goes on.
     pub fn checkpoint(&self) -> PathCheckpoint<T> {
         let fields = self.gaps.iter().chain(&self.watch.mode).cloned().collect();
         PathCheckpoint { numbers: self.state.numbers(), fields }
     }
 
-    /// The same path, from where another one was that had the same problem, loads and settings.
+    /// The path continued from the checkpoint of another one with the same problem, loads and settings.
     ///
     /// # Errors
     /// [`Error::Shape`] if the fields are of another grid, [`Error::Value`] if the numbers are not those of a
@@ -279,8 +286,8 @@ where
         Ok(self)
     }
 
-    /// What [`Iterator::next`] does, with an observer of the iterations, as in [`Solver::solve_from`]. If it stops a solve,
-    /// the path ends with the state before.
+    /// The next state, as [`Iterator::next`], with an observer of the iterations, as in [`Solver::solve_from`]. If it
+    /// stops a solve, the path ends with the state before.
     ///
     /// # Errors
     /// Those of [`Solver::solve_from`]; after one the path ends.
@@ -369,7 +376,7 @@ where
         self.solver.run(parts, control, start.map(CowArray::from), false, observe)
     }
 
-    /// One step, if it was good.
+    /// One step; `None` if it has to be taken back and halved.
     fn attempt(&mut self, observe: &mut dyn FnMut(&Iteration) -> ControlFlow<()>) -> Result<Option<PathStep<T>>> {
         let (target, smallest) = self.state.next_target(&self.settings);
         let control = self.state.mode.control(target);
@@ -434,7 +441,7 @@ where
         Ok(Some(self.step(solution, control, event)))
     }
 
-    /// Where the last two gaps lead.
+    /// The gap at `target`, extrapolated from the last two gaps.
     fn predict(&self, target: f64) -> Array2<T> {
         let shape = self.problem.grid().shape();
         match &self.gaps[..] {

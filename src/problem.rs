@@ -1,3 +1,5 @@
+//! The contact problem: surface, elastic operator and adhesion law, and the load control.
+
 use ndarray::Array2;
 
 use crate::adhesion::AdhesionLaw;
@@ -11,7 +13,7 @@ use crate::surface::Surface;
 /// edge some 3 together.
 const SMOOTHING: f64 = 5.0;
 
-/// What is held fixed while the energy is minimised.
+/// The control: the mean gap or the mean pressure that is held fixed while the energy is minimised.
 ///
 /// ```
 /// use asperity::{Control, Grid, NoAdhesion, Problem, Solver, Surface, Westergaard};
@@ -35,8 +37,9 @@ pub enum Control {
 /// The surface enters only through the pressure K⁻¹h that would press it flat, which is computed here, once, in
 /// `f64`; it may be dropped afterwards. A problem can be solved many times, under any [`Control`].
 ///
-/// Memory per node: one scalar, beside those of the operator. [`Problem::new`] briefly needs more, but less than a solve: for an
-/// operator of this crate one `f64` for the spectrum of the heights, and another where their mean exceeds their rms value.
+/// Memory per node: one scalar, beside those of the operator. [`Problem::new`] briefly needs more, but less than a
+/// solve: for an operator of this crate one `f64` for the spectrum of the heights, and another where their mean
+/// exceeds their rms value.
 ///
 /// ```
 /// use asperity::{Control, Grid, NoAdhesion, Problem, Solver, Surface, Westergaard};
@@ -54,7 +57,7 @@ pub struct Problem<T, O, L> {
     pub(crate) flat: PressedFlat<T>,
 }
 
-/// The surface, as far as a solve needs it: pressed flat.
+/// The surface pressed flat: the pressure K⁻¹h and the figures of h that a solve needs.
 #[derive(Clone, Debug)]
 pub(crate) struct PressedFlat<T> {
     /// the pressure K⁻¹h
@@ -75,7 +78,7 @@ pub(crate) struct Parts<'a, T> {
     pub(crate) flat: &'a PressedFlat<T>,
 }
 
-/// A law with its jumps smoothed by what the grid of an operator can resolve; nothing if it has none.
+/// A law with its jumps smoothed to the resolution of an operator's grid; `None` if it has no jumps.
 pub(crate) fn smoothed_law<'a, T: Real>(
     operator: &dyn ElasticOperator<T>,
     law: &'a dyn AdhesionLaw<T>,
@@ -85,7 +88,7 @@ pub(crate) fn smoothed_law<'a, T: Real>(
 }
 
 impl<T: Real, O: ElasticOperator<T>, L: AdhesionLaw<T>> Problem<T, O, L> {
-    /// The problem of pressing `surface` against what `operator` describes. Takes one operator application.
+    /// The problem of pressing `surface` against the elastic body of `operator`. Takes one operator application.
     ///
     /// # Errors
     /// [`Error::Shape`] or [`Error::Value`] if the grids differ; [`Error::Law`] if the law is not finite at zero gap;
@@ -94,8 +97,11 @@ impl<T: Real, O: ElasticOperator<T>, L: AdhesionLaw<T>> Problem<T, O, L> {
         let (grid, expected) = (surface.grid(), operator.grid());
         Error::shape("surface", grid.shape(), expected.shape())?;
         if grid.lengths() != expected.lengths() {
-            let (value, requirement) = (grid.lengths().0, "the same as of the elastic operator's grid (Lx and Ly)");
-            return Err(Error::Value { name: "side length Lx of the surface", value, requirement });
+            let (name, value) = match grid.lengths() {
+                (lx, _) if lx != expected.lengths().0 => ("side length Lx of the surface", lx),
+                (_, ly) => ("side length Ly of the surface", ly),
+            };
+            return Err(Error::Value { name, value, requirement: "the same as of the elastic operator's grid" });
         }
         let at_zero = [("adhesive energy", law.energy(T::zero())), ("adhesive traction", law.traction(T::zero()))];
         if let Some((function, value)) = at_zero.into_iter().find(|(_, value)| !value.is_finite()) {

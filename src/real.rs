@@ -36,9 +36,9 @@ pub trait Real:
 ///
 /// The compiler makes the code of a generic function where it is called. The two functions here are not generic.
 pub trait Compiled {
-    /// What the function takes.
+    /// The argument of the function.
     type Input<T: Real>;
-    /// What it returns.
+    /// The value of the function.
     type Output<T: Real>;
     /// The function in `f32`.
     fn single(input: Self::Input<f32>) -> Self::Output<f32>;

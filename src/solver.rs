@@ -1,4 +1,4 @@
-//! The driver: how a problem is solved, and what comes of it.
+//! The driver: the methods of solution, their settings, and the public solver.
 
 use std::ops::ControlFlow;
 
@@ -28,7 +28,7 @@ use driver::Job;
 pub(crate) use driver::Observer;
 pub use report::{Iteration, Report, Solution, Status};
 
-/// How the iteration goes: which of the two presets of the driver.
+/// The method of iteration, one of two.
 ///
 /// ```
 /// use asperity::{Criterion, Method, Settings};
@@ -55,7 +55,7 @@ impl Method {
     }
 }
 
-/// What has to fall below the tolerance.
+/// The criterion of convergence: the measure that has to fall below the tolerance.
 ///
 /// ```
 /// use asperity::{Criterion, Settings};
@@ -69,8 +69,8 @@ pub enum Criterion {
     /// The certified relative error in the energy norm, [`Report::relative_error`].
     #[default]
     EnergyNorm,
-    /// The criterion ε = Σ|g r'| of the paper, over the nodes and in units of E*·√(Lx·Ly). It is not a bound of an error,
-    /// and its rounding floor grows with the number of nodes.
+    /// The criterion ε = Σ|g r'| of the paper, over the nodes and in units of E*·√(Lx·Ly). It is not a bound of an
+    /// error, and its rounding floor grows with the number of nodes.
     Orthogonality,
 }
 
@@ -84,14 +84,14 @@ impl Criterion {
     }
 }
 
-/// How a problem is solved.
+/// The settings of a solve.
 ///
 /// | field | default | meaning | range |
 /// |---|---|---|---|
 /// | `method` | [`Method::Preconditioned`] | the iteration | |
-/// | `criterion` | [`Criterion::EnergyNorm`] | what is compared with the tolerance | |
+/// | `criterion` | [`Criterion::EnergyNorm`] | the measure that is compared with the tolerance | |
 /// | `tolerance` | 1e-6 | dimensionless; `f32` reaches about 1e-5 | positive |
-/// | `max_iterations` | 2000 | where to give up | any |
+/// | `max_iterations` | 2000 | the iterations after which a solve ends without having converged | any |
 ///
 /// ```
 /// use asperity::Settings;
@@ -102,7 +102,7 @@ impl Criterion {
 pub struct Settings {
     /// The iteration.
     pub method: Method,
-    /// What is compared with the tolerance.
+    /// The measure that is compared with the tolerance.
     pub criterion: Criterion,
     /// The tolerance of the criterion, and under pressure control of the relative error of the load.
     pub tolerance: f64,
@@ -152,9 +152,9 @@ impl Settings {
 /// ```
 #[derive(Clone, Debug)]
 pub struct Solver<C = Projection> {
-    /// How to solve.
+    /// The settings.
     pub settings: Settings,
-    /// How the gap is kept from becoming negative.
+    /// The constraint that keeps the gap from becoming negative.
     pub constraint: C,
 }
 
@@ -174,11 +174,11 @@ impl Default for Solver {
 
 impl<C> Solver<C> {
     /// Solves from the default start.
-    ///
-    /// That is a uniform gap: the mean gap, if that is given; under a given pressure twice the rms height without
-    /// adhesion, and full contact with adhesion. If the traction of the law jumps, as that of
-    /// [`MaugisDugdale`](crate::MaugisDugdale) does, what is found from there with the jump [smoothed](AdhesionLaw::smoothed)
-    /// becomes the start, within the same solve. The start matters only with adhesion, where there may be several equilibria.
+    /// The default start is a uniform gap: the mean gap, if that is given; under a given pressure twice the rms height
+    /// without adhesion, and full contact with adhesion. If the traction of the law jumps, as that of
+    /// [`MaugisDugdale`](crate::MaugisDugdale) does, the equilibrium of the law with its jump
+    /// [smoothed](AdhesionLaw::smoothed) is found first and becomes the start, within the same solve. The start
+    /// matters only with adhesion, where there may be several equilibria.
     ///
     /// # Errors
     /// Those of [`Solver::solve_from`].
@@ -217,11 +217,11 @@ impl<C> Solver<C> {
         self.run(problem.parts(), control, start.map(CowArray::from), false, &mut observe)
     }
 
-    /// Solves from the solution of the same problem in another precision or on another grid, which is taken, not copied.
-    ///
-    /// A start of which little is wrong is gone on from more carefully than one that [`Solver::solve_from`] is given, and the jumps
-    /// of a law are smoothed on the way from it, as from the default start. In `f32` to 1e-4 (1e-3 for smooth light
-    /// contacts), and from there in `f64`, a solve on 2048² nodes takes some 1.3 times less time than in `f64` alone. [`Nested`](crate::Nested) starts each grid so.
+    /// Solves from the solution of the same problem in another precision or on another grid. The gap is taken by value
+    /// and not copied. A start with a small error gets shorter first steps than a start given to
+    /// [`Solver::solve_from`], and the jumps of a law are smoothed on the way from it, as from the default start. In
+    /// `f32` to 1e-4 (1e-3 for smooth light contacts), and from there in `f64`, a solve on 2048² nodes takes some 1.3
+    /// times less time than in `f64` alone. [`Nested`](crate::Nested) starts each grid so.
     ///
     /// ```
     /// use asperity::{Control, Grid, NoAdhesion, Problem, Settings, Solver, Status, Surface, Westergaard};
@@ -254,8 +254,9 @@ impl<C> Solver<C> {
         self.run(problem.parts(), control, Some(CowArray::from(start)), true, &mut |_| ControlFlow::Continue(()))
     }
 
-    /// [`Solver::solve_from`] a start that may be given away, and that may be `near`: the solution of the same problem, but
-    /// for the error of a coarser grid or precision. From there the jumps of the law are smoothed, as from the default start.
+    /// A solve from a start, as [`Solver::solve_from`]. The start may be owned, and `near`: the solution of the same
+    /// problem up to the error of a coarser grid or precision. From a near start the jumps of the law are smoothed, as
+    /// from the default start.
     pub(crate) fn run<'a, T: Real>(
         &'a mut self,
         problem: Parts<'a, T>,

@@ -1,3 +1,5 @@
+//! The stability of an equilibrium: the sign of the smallest eigenvalue of the Hessian of the energy.
+
 use std::fmt;
 
 use ndarray::Array2;
@@ -22,7 +24,7 @@ use eigenpair::{Eigenpair, lowest};
 use hessian::Hessian;
 pub(crate) use watch::{Saddle, Watch};
 
-/// Whether an equilibrium is one that lasts.
+/// The verdict on an equilibrium: stable, unstable, or undecided.
 ///
 /// [`StabilityTest`] has an example.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -52,24 +54,25 @@ impl fmt::Display for Verdict {
     }
 }
 
-/// How the stability of an equilibrium is found out.
+/// The stability test of an equilibrium, by the smallest eigenvalue of the second derivative of the energy.
 ///
-/// An equilibrium is a strict local minimum of the energy where the smallest eigenvalue of its second derivative is positive,
+/// An equilibrium is a strict local minimum of the energy where the smallest eigenvalue of its second derivative is
+/// positive,
 ///
 /// ```math
 /// λ = min over v of  ⟨v, (K⁻¹ + φ''(g)) v⟩ / ⟨v, v⟩ ,
 /// ```
 ///
-/// over the changes v of the gap that vanish where the surfaces touch, and have no mean if the mean gap is given. It is found by
-/// locally optimal conjugate gradients (Knyazev, *SIAM J. Sci. Comput.* 23 (2001)) with the compliance as
+/// over the changes v of the gap that vanish where the surfaces touch, and have no mean if the mean gap is given. It
+/// is found by locally optimal conjugate gradients (Knyazev, *SIAM J. Sci. Comput.* 23 (2001)) with the compliance as
 /// preconditioner, two operator applications an iteration.
 ///
 /// The Rayleigh quotient that they end with is above the smallest eigenvalue; a larger tolerance makes it likelier
 /// that it is the second one, where the two are close or the random start has hardly any share in the first mode. If
 /// it is negative, that proves instability. If it is positive, a bound from below is wanted: the softest stiffness
-/// plus the least φ'' if that will do, and otherwise one from a Lanczos iteration on what is left when the mode found
-/// is lifted out of the way, from a random start (the same in every run). Its bound holds but for a chance of one in
-/// a million over such starts, whatever the spectrum; by Temple's inequality it then bounds the smallest eigenvalue
+/// plus the least φ'' if that will do, and otherwise one from a Lanczos iteration on the Hessian with the found mode
+/// lifted to a larger eigenvalue, from a random start (the same in every run). Its bound holds but for a chance of one
+/// in a million over such starts, whatever the spectrum; by Temple's inequality it then bounds the smallest eigenvalue
 /// itself, and closely so where that is nearly zero: near limit points.
 ///
 /// | field | default | meaning | range |
@@ -80,12 +83,12 @@ impl fmt::Display for Verdict {
 ///
 /// # Laws whose traction jumps
 ///
-/// The slope φ'' of [`MaugisDugdale`](crate::MaugisDugdale) is nothing but −σ₀ times a measure on the line g = ρ. No node lies on that
-/// line: node by node φ'' is zero, every equilibrium of the discrete energy is a strict local minimum, and is pinned by
-/// the grid. That says nothing about the continuum. So the traction is smoothed as for the
-/// [default start](AdhesionLaw::smoothed), which spreads the measure over a few nodes, and the verdict is about that second
-/// derivative, at the given gap: an estimate for the continuum, which gets better as the grid is refined, and no statement
-/// about the discrete energy. [`Stability::smoothed`] says so.
+/// The slope φ'' of [`MaugisDugdale`](crate::MaugisDugdale) is nothing but −σ₀ times a measure on the line g = ρ. No
+/// node lies on that line: node by node φ'' is zero, every equilibrium of the discrete energy is a strict local
+/// minimum, and is pinned by the grid. That says nothing about the continuum. So the traction is smoothed as for the
+/// [default start](AdhesionLaw::smoothed), which spreads the measure over a few nodes, and the verdict is about that
+/// second derivative, at the given gap: an estimate for the continuum, which gets better as the grid is refined, and
+/// no statement about the discrete energy. [`Stability::smoothed`] says so.
 ///
 /// ```
 /// use asperity::{Control, Exponential, Grid, Problem, Solver, StabilityTest, Surface, Verdict, Westergaard};
@@ -108,7 +111,7 @@ impl fmt::Display for Verdict {
 pub struct StabilityTest {
     /// The relative residual of the mode at which the iteration ends.
     pub tolerance: f64,
-    /// The iterations after which it is given up.
+    /// The iterations for the mode, and again for the bound, after which the verdict is open.
     pub max_iterations: usize,
     /// Whether to look for a lower bound of the eigenvalue.
     pub bound: bool,
@@ -126,17 +129,17 @@ impl Default for StabilityTest {
 #[non_exhaustive]
 #[derive(Clone, Debug, PartialEq)]
 pub struct Stability<T> {
-    /// What was shown.
+    /// The verdict.
     pub verdict: Verdict,
     /// The Rayleigh quotient of the mode: no smaller than the smallest eigenvalue. Infinite where no node can move.
     pub eigenvalue: f64,
     /// The norm of the mode's residual: some eigenvalue, not necessarily the smallest, is within this distance.
     pub residual: f64,
-    /// A number that the smallest eigenvalue is no smaller than; see [`StabilityTest`] for how sure that is.
+    /// A lower bound of the smallest eigenvalue; see [`StabilityTest`] for how sure that is.
     pub lower_bound: f64,
-    /// With a positive lower bound, the bound of the relative error in the energy norm that the certificate of the solve comes
-    /// to: [`Report::relative_error`](crate::Report::relative_error) times 1 + max(−φ'')/(lower bound). It holds to first order: as far as φ'' does
-    /// not change between the solution and the equilibrium next to it.
+    /// With a positive lower bound, the bound of the relative error in the energy norm by the certificate of the
+    /// solve: [`Report::relative_error`](crate::Report::relative_error) times 1 + max(−φ'')/(lower bound). It holds to
+    /// first order: as far as φ'' does not change between the solution and the equilibrium next to it.
     pub error_bound: Option<f64>,
     /// The mode: the change of the gap along which the energy is softest, of shape (Nx, Ny) and mean square 1. Along
     /// it, by the amount a, the energy changes by ½·eigenvalue·a².
@@ -150,8 +153,8 @@ pub struct Stability<T> {
 }
 
 impl StabilityTest {
-    /// Finds out whether a solution is stable under a control: the one under which it was found, or another one. Contact
-    /// is where its gap is not positive. The gap may be in any memory layout.
+    /// Tests whether a solution is stable under a control, which need not be the one under which it was found.
+    /// Contact is where its gap is not positive. The gap may be in any memory layout.
     ///
     /// # Errors
     /// [`Error::Shape`] if the solution is of another grid; [`Error::Value`] if the tolerance is not positive;

@@ -1,3 +1,5 @@
+//! The surface: heights on a periodic grid.
+
 use std::f64::consts::TAU;
 
 use ndarray::Array2;

@@ -1,3 +1,5 @@
+//! A sweep: equilibria at one load after the other, each solve starting from the equilibria before it.
+
 use std::ops::ControlFlow;
 
 use ndarray::Array2;
@@ -13,22 +15,23 @@ use crate::solver::{Iteration, Solution, Solver};
 /// Solves one problem under a sequence of loads, each from where the ones before lead: an iterator over the solutions.
 ///
 /// A load is a mean gap or a mean pressure. A solution comes as soon as it is found; the sweep keeps no more than two
-/// gaps, two scalars per node, beside the problem and the solver. The first load starts from the solver's default start, or
-/// from [`Sweep::starting_from`]; the others
+/// gaps, two scalars per node, beside the problem and the solver. The first load starts from the solver's default
+/// start, or from [`Sweep::starting_from`]; the others
 ///
-/// - without adhesion, from the last two gaps, extrapolated linearly in the mean gap or in the logarithm of the mean pressure,
-///   and clipped to g ≥ 0; the solution is unique, and the start matters only for the work;
-/// - with adhesion, or where the last two loads and this one are not all mean gaps, or all positive mean pressures, from the last gap. So a sweep
-///   follows the branch of equilibria that its loads lead along, up to the instability at which it jumps: loading takes another
-///   one than unloading, and surfaces that were pulled apart ([`Status::Detached`](crate::Status)) stay so until they are pressed
-///   together again.
+/// - without adhesion, from the last two gaps, extrapolated linearly in the mean gap or in the logarithm of the mean
+///   pressure, and clipped to g ≥ 0; the solution is unique, and the start matters only for the work;
+/// - with adhesion, or where the last two loads and this one are not all mean gaps, or all positive mean pressures,
+///   from the last gap. So a sweep follows the branch of equilibria that its loads lead along, up to the instability
+///   at which it jumps: loading takes another one than unloading, and surfaces that were pulled apart
+///   ([`Status::Detached`](crate::Status)) stay so until they are pressed together again.
 ///
-/// A mean gap that is given scales the start, as in [`Solver::solve_from`]; where there is no gap left to scale, after full
-/// contact, the start is uniform. Fine steps save a third of the work without adhesion. Steps that change the load by half
-/// or more save little, and with adhesion under pressure control may take more than the default start does.
+/// A mean gap that is given scales the start, as in [`Solver::solve_from`]; where there is no gap left to scale, after
+/// full contact, the start is uniform. Fine steps save a third of the work without adhesion. Steps that change the
+/// load by half or more save little, and with adhesion under pressure control may take more than the default start
+/// does.
 ///
-/// A solve that does not converge is no error, and the next load starts from where it ended. Refused input is: it comes
-/// as an error, and the sweep ends.
+/// A solve that does not converge is no error, and the next load starts from where it ended. Refused input is: it
+/// comes as an error, and the sweep ends.
 ///
 /// ```
 /// use asperity::{Control, Grid, NoAdhesion, Problem, Solver, Surface, Sweep, Westergaard};
@@ -74,7 +77,7 @@ where
         Self { solver, problem, loads: loads.into_iter(), start: None, history: Vec::new(), failed: false }
     }
 
-    /// The same sweep, with a gap of shape (Nx, Ny) from which its next load starts.
+    /// The sweep with a gap of shape (Nx, Ny) as the start at its next load.
     pub fn starting_from(self, gap: Array2<T>) -> Self {
         Self { start: Some(gap), ..self }
     }
@@ -84,8 +87,8 @@ where
         &self.history
     }
 
-    /// The same sweep, as if it came after others: with the [`Sweep::history`] of another sweep it goes on just as that one
-    /// would have, bit for bit. Of more than two gaps the first ones are not used.
+    /// The same sweep, as if it came after others: with the [`Sweep::history`] of another sweep it goes on just as
+    /// that one would have, bit for bit. Of more than two gaps the first ones are not used.
     ///
     /// ```
     /// use asperity::{Control, Grid, NoAdhesion, Problem, Solver, Surface, Sweep, Westergaard};
@@ -107,7 +110,7 @@ where
         Self { history, ..self }
     }
 
-    /// What [`Iterator::next`] does, with an observer of the iterations, as in [`Solver::solve_from`].
+    /// The next solution, as [`Iterator::next`], with an observer of the iterations, as in [`Solver::solve_from`].
     ///
     /// # Errors
     /// Those of [`Solver::solve_from`]; after one there is no next load.

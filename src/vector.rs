@@ -2,13 +2,14 @@
 
 use pulp::{Arch, Simd, WithSimd};
 
-/// Nodes whose terms are written down before they are summed: the loop over them has no sums to keep it from vectors.
+/// The nodes whose terms are stored before they are summed: a loop without sums vectorises.
 pub(crate) const BLOCK: usize = 64;
 
 /// Sums that run side by side.
 pub(crate) const LANES: usize = 8;
 
-/// What runs on vector instructions. A closure that is called by value would be a call of its own, and leave them behind.
+/// A closure to run on vector instructions. Held in a struct it is inlined; called by value it would be compiled as a
+/// function of its own, without them.
 struct Vectorised<F>(F);
 
 impl<F: FnMut()> WithSimd for Vectorised<F> {
@@ -32,7 +33,7 @@ macro_rules! sums {
         let part = &mut total;
         $(let $read = &$read[..];)*
         $(let $write = &mut *$write;)*
-        // what it uses it holds itself: behind references the compiler would have to read it anew for every node
+        // the closure holds copies: a value behind a reference would be read anew for every node
         $crate::vector::vectorised(
             #[inline(always)]
             move || {

@@ -1,3 +1,5 @@
+//! Warnings about a surface or a solution that periodicity or the grid makes doubtful.
+
 use std::fmt;
 
 use crate::adhesion::AdhesionLaw;
@@ -151,7 +153,8 @@ impl fmt::Display for WarningCode {
 pub struct Warning {
     /// What it is about.
     pub code: WarningCode,
-    /// What is seen, with its number, and what to do, on one line. Lengths and pressures are in the units of the input.
+    /// What is seen, with its number, and what to do, on one line. Lengths and pressures are in the units of the
+    /// input.
     pub message: String,
 }
 

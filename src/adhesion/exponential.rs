@@ -1,3 +1,5 @@
+//! The exponential law: an energy −w exp(−g/ρ).
+
 use super::AdhesionLaw;
 use super::exponentials::exponentials;
 use crate::error::{Error, Result};

@@ -72,8 +72,8 @@ const fn reciprocal_factorials<const N: usize>() -> [f64; N] {
     terms
 }
 
-// The terms are summed in pairs, and the pairs in pairs (Estrin), so that few operations wait for one another; the first
-// two, which carry the rounding, come last.
+// The terms are summed in pairs, and the pairs in pairs (Estrin), so that few operations wait for one another; the
+// first two, which carry the rounding, come last.
 
 #[inline(always)]
 fn series_f64(r: f64) -> f64 {

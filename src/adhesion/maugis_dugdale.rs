@@ -1,3 +1,5 @@
+//! The law of Maugis and Dugdale: a constant traction up to a range.
+
 use super::AdhesionLaw;
 use crate::error::{Error, Result};
 use crate::real::Real;
@@ -10,8 +12,8 @@ use crate::real::Real;
 ///
 /// Maugis (1992); equations (26) and (27) of Rey, Anciaux and Molinari (2017), of which (26) is misprinted.
 /// The traction jumps at g = ρ: there are many equilibria at one mean gap, and which of them a solve finds depends on
-/// its start. In the law [`smoothed`](AdhesionLaw::smoothed) the traction falls evenly between ρ − d/2 and ρ + d/2 instead, over
-/// d = σ₀·compliance, at most 2ρ.
+/// its start. In the law [`smoothed`](AdhesionLaw::smoothed) the traction falls evenly between ρ − d/2 and ρ + d/2
+/// instead, over d = σ₀·compliance, at most 2ρ.
 ///
 /// ```
 /// use asperity::{AdhesionLaw, MaugisDugdale};

@@ -1,3 +1,5 @@
+//! The law without adhesion.
+
 use super::AdhesionLaw;
 use crate::real::Real;
 

@@ -1,12 +1,14 @@
+//! Penalty springs: a wall of given stiffness that the surfaces may interpenetrate.
+
 use super::{ContactConstraint, Springs, Wall};
 use crate::error::{Error, Result};
 use crate::real::Real;
 
 /// Interpenetration is allowed, and resisted by springs of stiffness k: the energy gains ½k⟨−g⟩₊² at each node.
 ///
-/// The surfaces interpenetrate by the contact pressure over k, [`Report::min_gap`](crate::Report) says how far at worst. The
-/// larger k, the less, and the more iterations: beside [`Projection`](super::Projection) this is for comparison.
-/// Adhesion goes on into negative gaps as [`ContactConstraint`] says.
+/// The surfaces interpenetrate by the contact pressure over k, [`Report::min_gap`](crate::Report) says how far at
+/// worst. The larger k, the less, and the more iterations: beside [`Projection`](super::Projection) this is for
+/// comparison. Adhesion goes on into negative gaps as [`ContactConstraint`] says.
 ///
 /// ```
 /// use asperity::{Control, Grid, NoAdhesion, Penalty, Problem, Settings, Solver, Surface, Westergaard};

@@ -1,3 +1,5 @@
+//! Projection: a rigid wall at g = 0, kept by clipping every step.
+
 use super::{ContactConstraint, Wall};
 use crate::real::Real;
 

@@ -1,3 +1,5 @@
+//! The augmented Lagrangian method: penalty springs with multipliers, updated in rounds (Uzawa).
+
 use ndarray::{Array2, ArrayView2};
 
 use super::{ContactConstraint, Outer, Springs, Wall};
@@ -11,27 +13,29 @@ use crate::real::Real;
 const STIFFEN: f64 = 4.0;
 const SLOW: f64 = 0.25;
 
-/// How many times stiffer than the shortest wave the springs of the first round may be: stiffer ones only cost iterations.
+/// How many times stiffer than the shortest wave the springs of the first round may be: stiffer ones only cost
+/// iterations.
 const STIFFEST: f64 = 10.0;
 
-/// The augmented Lagrangian of Uzawa: springs of stiffness k, and multipliers λ that take over the contact pressure from
-/// them, λ ← ⟨λ − kg⟩₊, after each round.
+/// The augmented Lagrangian of Uzawa: springs of stiffness k, and multipliers λ that take over the contact pressure
+/// from them, λ ← ⟨λ − kg⟩₊, after each round.
 ///
-/// The energy gains (⟨λ − kg⟩₊² − λ²)/2k at each node. A round leaves the solution of a contact problem whose gap is off by
-/// s = (λ − ⟨λ − kg⟩₊)/k. Springs that are soft beside the contact take off little of that in a round: where more than a
-/// quarter is left, the next round has springs four times as stiff. So the stiffness that is given is only that of the first
-/// round, and hardly matters; there it is taken to be ten times that of the shortest wave at most.
+/// The energy gains (⟨λ − kg⟩₊² − λ²)/2k at each node. A round leaves the solution of a contact problem whose gap is
+/// off by s = (λ − ⟨λ − kg⟩₊)/k. Springs that are soft beside the contact take off little of that in a round: where
+/// more than a quarter is left, the next round has springs four times as stiff. So the stiffness that is given is only
+/// the stiffness of the first round, and hardly matters; there it is taken to be ten times that of the shortest wave
+/// at most.
 ///
-/// The rounds end when what is left can change the pressure p of the solution by no more than the tolerance, in the energy
-/// norm. With κ the stiffness of the shortest wave, Δλ the change of the multipliers, bars for means and ‖·‖ for roots of
-/// mean squares that is
+/// The rounds end when what is left can change the pressure p of the solution by no more than the tolerance, in the
+/// energy norm. With κ the stiffness of the shortest wave, Δλ the change of the multipliers, bars for means and ‖·‖
+/// for roots of mean squares that is
 ///
 /// ```math
 /// κ² ‖s‖² + κ k s̄² ≤ tolerance² ‖λ − λ̄‖² ,   s = −Δλ/k .
 /// ```
 ///
-/// Without adhesion the first term bounds the error from above, as ⟨u − u*, p − p*⟩ ≤ ⟨s, λ − λ*⟩; the second is for the
-/// mean pressure close to full contact, which hangs on the last of the mean gap. Then, and with adhesion, it is an
+/// Without adhesion the first term bounds the error from above, as ⟨u − u*, p − p*⟩ ≤ ⟨s, λ − λ*⟩; the second is for
+/// the mean pressure close to full contact, which hangs on the last of the mean gap. Then, and with adhesion, it is an
 /// estimate. The page [`penalty_and_uzawa`](crate::guide::penalty_and_uzawa) has figures.
 ///
 /// Adhesion goes on into negative gaps as [`ContactConstraint`] says. Memory per node: one scalar.
@@ -48,14 +52,14 @@ const STIFFEST: f64 = 10.0;
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Uzawa<T> {
-    /// The relative error in the energy norm that what interpenetrates may leave, where this is more than the tolerance of
-    /// the solve, which counts otherwise; a thousand times the rounding of the precision unless changed.
+    /// The relative error in the energy norm that what interpenetrates may leave, where this is more than the
+    /// tolerance of the solve, which counts otherwise; a thousand times the rounding of the precision unless changed.
     pub tolerance: f64,
     /// How many rounds there may be before the solve ends without having converged; 100 unless changed.
     pub max_outer_iterations: usize,
-    /// that of the first round
+    /// the stiffness of the first round
     softest: T,
-    /// that of the present round
+    /// the stiffness of the present round
     stiffness: T,
     /// by how much the gap was off after the round before, as the root of a sum of squares
     off: f64,

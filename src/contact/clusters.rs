@@ -1,3 +1,5 @@
+//! Clusters of contact: connected nodes of a periodic map.
+
 use std::cmp::Reverse;
 
 use ndarray::{Array2, ArrayView2};

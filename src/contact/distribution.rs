@@ -1,3 +1,5 @@
+//! The probability density of the pressure over the nodes.
+
 use ndarray::ArrayView2;
 
 use crate::error::{Error, Result};
@@ -6,9 +8,9 @@ use crate::solver::Solution;
 
 /// How much of the surface is under which pressure: a histogram, as a density.
 ///
-/// The bins are equally wide; a bin has its lower edge, the last one its upper edge too. The density of a bin is the share of
-/// all nodes whose pressure is in it, divided by its width: Σ density · width is the share of the nodes that are
-/// counted, and Σ density · pressure · width is about the mean pressure that they contribute.
+/// The bins are equally wide; a bin has its lower edge, the last one its upper edge too. The density of a bin is the
+/// share of all nodes whose pressure is in it, divided by its width: Σ density · width is the share of the nodes that
+/// are counted, and Σ density · pressure · width is about the mean pressure that they contribute.
 ///
 /// ```
 /// use asperity::{Control, Grid, NoAdhesion, PressureDistribution, Problem, Solver, Surface, Westergaard};
@@ -33,8 +35,8 @@ pub struct PressureDistribution {
 const MOST_BINS: usize = 1 << 24;
 
 impl PressureDistribution {
-    /// The distribution of the contact pressure over the nodes in contact, in so many bins from zero to the largest; its
-    /// integral is the contact fraction. Without any contact pressure the bins go from 0 to 1.
+    /// The distribution of the contact pressure over the nodes in contact, in so many bins from zero to the largest;
+    /// its integral is the contact fraction. Without any contact pressure the bins go from 0 to 1.
     ///
     /// # Errors
     /// [`Error::Value`] for no bins, or more than 2²⁴; [`Error::NotFinite`] if a pressure is not finite;
@@ -49,9 +51,9 @@ impl PressureDistribution {
         Ok(Self::count(counted(), (0.0, if high > 0.0 { high } else { 1.0 }), bins, pressure.len()))
     }
 
-    /// The distribution of the full elastic pressure over all nodes, in so many bins from the least, which adhesion makes
-    /// negative, to the largest; its integral is one. For a uniform pressure the bins go from half of it to one and a
-    /// half times, and for none at all from −1/2 to 1/2.
+    /// The distribution of the full elastic pressure over all nodes, in so many bins from the least, which adhesion
+    /// makes negative, to the largest; its integral is one. For a uniform pressure the bins go from half of it to one
+    /// and a half times, and for none at all from −1/2 to 1/2.
     ///
     /// # Errors
     /// [`Error::Value`] for no bins, or more than 2²⁴; [`Error::NotFinite`] if a pressure is not finite.

@@ -1,3 +1,5 @@
+//! Spectral operators: a stiffness for each wave, applied by Fourier transforms.
+
 use std::f64::consts::PI;
 use std::fmt;
 
@@ -7,17 +9,17 @@ use super::*;
 use crate::fft::{Convolver, Layout, Sums};
 use crate::vector::{BLOCK, LANES, vectorised};
 
-/// What a wave with wave numbers (qx, qy) needs: pressure per displacement.
+/// The stiffness k(qx, qy) of a wave, pressure per displacement.
 type Symbol = Box<dyn Fn(f64, f64) -> f64 + Send + Sync>;
 
 /// An elastic operator that multiplies each wave by a factor, its stiffness k(qx, qy): p̂ = k û.
 ///
-/// A layered or an anisotropic half-space is one closure away: the page [`own_operator`](crate::guide::own_operator) has a layer of
-/// finite thickness with its limits, and says what becomes of the mean. For the homogeneous half-space, k = E*|q|/2, see
-/// [`Westergaard`].
+/// A layered or an anisotropic half-space is one closure away: the page [`own_operator`](crate::guide::own_operator)
+/// has a layer of finite thickness with its limits, and treats the mean. For the homogeneous half-space,
+/// k = E*|q|/2, see [`Westergaard`].
 ///
-/// Memory per node, in units of one scalar: 1 for the spectrum and ½ for the stiffness; both once more, in `f64`, while the
-/// constructor of a [`Problem`](crate::Problem) transforms the heights.
+/// Memory per node, in units of one scalar: 1 for the spectrum and ½ for the stiffness; both once more, in `f64`,
+/// while the constructor of a [`Problem`](crate::Problem) transforms the heights.
 ///
 /// ```
 /// use asperity::{ElasticOperator, Grid, Spectral};
@@ -42,13 +44,14 @@ pub struct Spectral<T: Real> {
 /// The stiffness of each mode, in the layout of the spectrum.
 enum Stiffness<T> {
     Stored(Array2<T>),
-    /// that of the half-space, `unit·√(x² + y²)`, which is faster computed than stored: the squares in and across columns
+    /// the half-space, `unit·√(x² + y²)`, which is faster computed than stored: the squares x² and y² in and across
+    /// columns
     HalfSpace {
         unit: T,
         x: Vec<T>,
         y: Vec<T>,
     },
-    /// that of the half-space on a line that is folded, `unit·|x + column|`
+    /// the half-space on a folded line, `unit·|x + column|`
     Line {
         unit: T,
         x: Vec<T>,
@@ -64,9 +67,9 @@ impl<T: Real> fmt::Debug for Spectral<T> {
 impl<T: Real> Spectral<T> {
     /// The operator with stiffness `symbol(qx, qy)`, pressure per length, for wave numbers in radians per length.
     ///
-    /// `modulus` is the contact modulus E* to which the operator tends for short waves; it serves only to tell whether
-    /// adhesion is resolved. The symbol must be even, k(−q) = k(q), and positive; it is not asked for q = 0. Where the
-    /// Nyquist wave number has no sign, the mean of both signs is taken.
+    /// `modulus` is the contact modulus E* to which the operator tends for short waves; see
+    /// [`ElasticOperator::modulus`] for its uses. The symbol must be even, k(−q) = k(q), and positive; it is not asked
+    /// for q = 0. Where the Nyquist wave number has no sign, the mean of both signs is taken.
     ///
     /// # Errors
     /// [`Error::Value`] if the modulus or the symbol at any mode is not positive and finite, in the precision of T.
@@ -123,7 +126,7 @@ fn half_space<T: Real>(grid: &Grid, modulus: f64) -> Result<(Stiffness<T>, (f64,
     let layout = Layout::new((nx, ny));
     let ((columns, modes), (_, divisor)) = (layout.spectrum(), layout.plane());
     let stiffness = if layout.is_folded() {
-        // with the sign of the mode, so that what is near the mean is exact
+        // with the sign of the mode, so that long waves are exact
         let signed = |i: usize| if 2 * i < modes { i as f64 } else { i as f64 - modes as f64 };
         let x = (0..modes).map(|i| T::lit(divisor as f64 * signed(i))).collect();
         Stiffness::Line { unit: T::lit(softest), x }
@@ -138,7 +141,7 @@ fn half_space<T: Real>(grid: &Grid, modulus: f64) -> Result<(Stiffness<T>, (f64,
     Ok((stiffness, (softest, stiffest)))
 }
 
-/// Refuses stiffnesses of which one, or the square of their ratio, leaves the range of T.
+/// Refuses stiffnesses that leave the range of T, by themselves or by the square of their ratio.
 fn check_range<T: Real>(softest: f64, stiffest: f64) -> Result<()> {
     let holds = |value: f64| T::lit(value) >= T::min_positive_value() && T::lit(value).is_finite();
     match [softest, stiffest, (stiffest / softest).powi(2)].into_iter().find(|&value| !holds(value)) {
@@ -149,7 +152,7 @@ fn check_range<T: Real>(softest: f64, stiffest: f64) -> Result<()> {
 
 const REPRESENTABLE: &str = "positive and finite in the precision of the fields";
 
-/// The symbol at every mode of the half spectrum, as the convolver stores it.
+/// The symbol at every mode of the half spectrum, in the layout of the convolver.
 fn stiffness<T: Real>(grid: &Grid, symbol: &Symbol) -> Result<Array2<T>> {
     let (nx, ny) = grid.shape();
     let (layout, mut wrong) = (Layout::new((nx, ny)), None);
@@ -243,7 +246,7 @@ fn modify<T: Real>(column: &mut [Complex<T>], of: &[T], by: impl Fn(T) -> [T; 3]
     sums
 }
 
-/// The factor of the pressure, and what |z|² is multiplied by for the work.
+/// The factors of the pressure and, for the work, of |z|².
 #[inline(always)]
 fn stiffen<T: Real>(stiffness: T) -> [T; 3] {
     [stiffness, stiffness, T::zero()]

@@ -1,3 +1,5 @@
+//! The homogeneous half-space, of stiffness E*|q|/2 for the wave vector q.
+
 use super::*;
 
 /// The homogeneous elastic half-space under periodic loads: a wave with wave number q needs p̂ = E*|q|/2 û.

@@ -1,3 +1,5 @@
+//! The axisymmetric contact: pressure, displacement and gap at any radius.
+
 use std::f64::consts::PI;
 
 use ndarray::Array2;
@@ -31,8 +33,8 @@ pub(super) enum Adhesion {
 /// ```
 ///
 /// with JKR's singularity or Dugdale's zone of constant traction added: equations (22), (29), (30) of Rey, Anciaux and
-/// Molinari (2017), with K_I = √(2wE*) in (29), and p = −σ₀ for a < r < c in (30). The integral in (30) is taken in closed
-/// form, in Carlson's elliptic integrals; all are evaluated without cancellation at the edge.
+/// Molinari (2017), with K_I = √(2wE*) in (29), and p = −σ₀ for a < r < c in (30). The integral in (30) is taken in
+/// closed form, in Carlson's elliptic integrals; all are evaluated without cancellation at the edge.
 ///
 /// ```
 /// use asperity::exact::{Hertz, Sphere};
@@ -119,15 +121,15 @@ impl Contact {
             }
     }
 
-    /// The displacement at the distance r ≥ 0 from the axis, in the datum of the surface: u = h = −r²/2R in the contact,
-    /// u = h + g beyond. It falls to −δ at infinity.
+    /// The displacement at the distance r ≥ 0 from the axis, in the datum of the surface: u = h = −r²/2R in the
+    /// contact, u = h + g beyond. It falls to −δ at infinity.
     pub fn displacement(&self, r: f64) -> f64 {
         let a = self.contact_radius;
         if r < 2.0 * a { self.gap(r) - 0.5 * r * r * self.curvature } else { self.deflection(r) - self.approach }
     }
 
-    /// The displacement at the distance r ≥ 0 from the axis against the half-space at infinity: δ − r²/2R in the contact,
-    /// P/(πE*r) far away, accurate there too.
+    /// The displacement at the distance r ≥ 0 from the axis against the half-space at infinity: δ − r²/2R in the
+    /// contact, P/(πE*r) far away, accurate there too.
     pub fn deflection(&self, r: f64) -> f64 {
         let a = self.contact_radius;
         if r <= a {
@@ -150,16 +152,17 @@ impl Contact {
         grid.sample(|x, y| self.pressure(x.hypot(y)))
     }
 
-    /// [`Contact::displacement`] at the nodes of a grid, with the axis through its origin; on a line the profile y = 0.
+    /// [`Contact::displacement`] at the nodes of a grid, with the axis through its origin; on a line the profile y
+    /// = 0.
     pub fn displacement_field(&self, grid: &Grid) -> Array2<f64> {
         grid.sample(|x, y| self.displacement(x.hypot(y)))
     }
 
     /// What Dugdale's traction adds to the displacement for r > a is 4σ₀/(πE*) times √(c² − a²) acos(a/r) less this:
     ///
-    /// for r < c, c·[E(k) − E(asin(a/r), k)] with k = r/c; for r > c, (c²/r)·∫₀^Y x² (1 + x²)^(−3/2) (κ² + x²)^(−1/2) dx
-    /// with Y² = c²/a² − 1, κ² = 1 − c²/r². This is the integral of equation (30) after x² = r²/t² − 1 and x² = c²/t² − 1,
-    /// less the terms that cancel as a → 0; every summand below is positive.
+    /// for r < c, c·[E(k) − E(asin(a/r), k)] with k = r/c; for r > c, (c²/r)·∫₀^Y x² (1 + x²)^(−3/2) (κ² + x²)^(−1/2)
+    /// dx with Y² = c²/a² − 1, κ² = 1 − c²/r². This is the integral of equation (30) after x² = r²/t² − 1 and x² =
+    /// c²/t² − 1, less the terms that cancel as a → 0; every summand below is positive.
     fn dugdale_integral(&self, width: f64, r: f64) -> f64 {
         let (a, c) = (self.contact_radius, self.adhesion_radius);
         // with x from 0 to X, z = 1/X², and m = 1/κ²

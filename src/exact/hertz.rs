@@ -1,3 +1,5 @@
+//! The sphere of Hertz (1882), without adhesion.
+
 use super::contact::Contact;
 use super::sphere::{Family, Sphere, beyond_pull_off, hertz};
 use crate::error::{Error, Result};

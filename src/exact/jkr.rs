@@ -1,3 +1,5 @@
+//! The adhesive sphere of Johnson, Kendall and Roberts (1971).
+
 use std::f64::consts::PI;
 
 use super::contact::{Adhesion, Contact};
@@ -10,8 +12,8 @@ use crate::error::{Error, Result};
 /// P = 4E*a³/(3R) − √(8πwE*a³) ,   δ = a²/R − √(2πwa/E*)
 /// ```
 ///
-/// Johnson, Kendall and Roberts (1971); equation (29) of Rey, Anciaux and Molinari (2017), where K_I = √(2wE*) is misprinted,
-/// has the fields. The limit of [`MaugisDugdale`](super::MaugisDugdale) for large Tabor parameters.
+/// Johnson, Kendall and Roberts (1971); equation (29) of Rey, Anciaux and Molinari (2017), where K_I = √(2wE*) is
+/// misprinted, has the fields. The limit of [`MaugisDugdale`](super::MaugisDugdale) for large Tabor parameters.
 ///
 /// ```
 /// use std::f64::consts::PI;

@@ -1,3 +1,5 @@
+//! The adhesive wavy line of Johnson (1995).
+
 use std::f64::consts::PI;
 
 use super::numerics::{falls_to, peak};
@@ -12,9 +14,9 @@ use crate::error::{Error, Result};
 /// p₁ = √((2E*w/λ) tan(πa/λ)) = α p* √tan(πa/λ) ,   α² = 2wλ/(π²E*h₀²)
 /// ```
 ///
-/// Johnson (1995); the fields are in [`WaveContact`]. The mean pressure has a minimum, the pull-off, and a maximum, from
-/// which the contact jumps to full; they merge at α = 4 (3/8)^(3/4) (5/8)^(5/4) = 1.065, above which a partial contact is
-/// unstable under a given pressure. Full contact, which needs a flaw to open, is not part of it.
+/// Johnson (1995); the fields are in [`WaveContact`]. The mean pressure has a minimum, the pull-off, and a maximum,
+/// from which the contact jumps to full; they merge at α = 4 (3/8)^(3/4) (5/8)^(5/4) = 1.065, above which a partial
+/// contact is unstable under a given pressure. Full contact, which needs a flaw to open, is not part of it.
 ///
 /// ```
 /// use asperity::exact::AdhesiveWavyLine;
@@ -34,8 +36,8 @@ pub struct AdhesiveWavyLine {
 const MERGED: f64 = 0.6;
 
 impl AdhesiveWavyLine {
-    /// A wave of amplitude h₀ and wavelength λ (lengths) on a half-space of contact modulus E* (pressure), with work of
-    /// adhesion w (energy per area).
+    /// A wave of amplitude h₀ and wavelength λ (lengths) on a half-space of contact modulus E* (pressure), with work
+    /// of adhesion w (energy per area).
     ///
     /// # Errors
     /// [`Error::Value`] if one is not positive and finite.

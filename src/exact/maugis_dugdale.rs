@@ -1,3 +1,5 @@
+//! The adhesive sphere of Maugis (1992), exact for the law of Maugis and Dugdale.
+
 use std::f64::consts::PI;
 
 use super::contact::{Adhesion, Contact};
@@ -13,15 +15,15 @@ use crate::error::{Error, Result};
 /// ρ = c²/(πR) · [½ sin 2θ − θ cos 2θ] + 4σ₀c/(πE*) · [θ sin θ − 1 + cos θ] ,
 /// ```
 ///
-/// which is of second degree in c: every state is explicit in θ, from large contacts (θ → 0) to a point (θ = π/2), at any
-/// Tabor parameter. Load and approach are
+/// which is of second degree in c: every state is explicit in θ, from large contacts (θ → 0) to a point (θ = π/2), at
+/// any Tabor parameter. Load and approach are
 ///
 /// ```math
 /// P = 4E*a³/(3R) − 2σ₀c² [θ + ½ sin 2θ] ,   δ = a²/R − (2σ₀/E*) √(c² − a²) .
 /// ```
 ///
-/// Maugis (1992); equation (30) of Rey, Anciaux and Molinari (2017), whose pressure lacks the part beyond a, has the fields.
-/// Solutions without contact are not part of it.
+/// Maugis (1992); equation (30) of Rey, Anciaux and Molinari (2017), whose pressure lacks the part beyond a, has the
+/// fields. Solutions without contact are not part of it.
 ///
 /// ```
 /// use std::f64::consts::PI;

@@ -1,7 +1,7 @@
 //! Roots, maxima and the two Carlson integrals that the solutions need.
 
-/// Where `f`, not increasing on [low, high], passes `target`: bisection down to neighbouring numbers. It needs f(low) ≥
-/// `target` ≥ f(high), ends after some sixty evaluations whatever `f`, and takes NaN for "below".
+/// Where `f`, not increasing on [low, high], passes `target`: bisection down to neighbouring numbers. It needs f(low)
+/// ≥ `target` ≥ f(high), ends after some sixty evaluations whatever `f`, and takes NaN for "below".
 pub(super) fn falls_to(f: impl Fn(f64) -> f64, target: f64, mut low: f64, mut high: f64) -> f64 {
     loop {
         let middle = low + 0.5 * (high - low);
@@ -21,8 +21,8 @@ pub(super) fn below(f: impl Fn(f64) -> f64, target: f64, low: f64) -> f64 {
     low + step
 }
 
-/// Where `f` is largest on [low, high]: a scan, then golden sections between the neighbours of its best point. The value
-/// is exact to rounding; the place only to the square root of that, as for any maximum.
+/// Where `f` is largest on [low, high]: a scan, then golden sections between the neighbours of its best point. The
+/// value is exact to rounding; the place only to the square root of that, as for any maximum.
 pub(super) fn peak(f: impl Fn(f64) -> f64, low: f64, high: f64) -> f64 {
     const POINTS: usize = 512;
     const GOLDEN: f64 = 0.618_033_988_749_894_8;

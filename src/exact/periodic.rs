@@ -1,3 +1,5 @@
+//! Spheres on a periodic square: an isolated sphere, corrected for its images.
+
 use std::f64::consts::PI;
 
 use ndarray::Array2;
@@ -15,18 +17,19 @@ pub const M1: f64 = 3.900_264_920_001_956;
 /// The lattice constant c₂ = ζ(3/2)β(3/2) of the square lattice: a quarter of the sum of 1/n³ without the origin.
 pub const C2: f64 = 2.258_405_420_775_237_6;
 
-/// A sphere among its periodic images on a square of side L: the images' displacement, to the second order in the distance
-/// from the axis, shifts the surface and bends it, and leaves an exact solution on a paraboloid of radius R_e.
+/// A sphere among its periodic images on a square of side L: the images' displacement, to the second order in the
+/// distance from the axis, shifts the surface and bends it, and leaves an exact solution on a paraboloid of radius
+/// R_e.
 ///
 /// ```math
 /// 1/R_e = 1/R + 2c₂P/(πE*L³) ,
 /// ḡ = −⟨h⟩ − δ(R_e) + M₁P/(πE*L) − c₂/(πE*L³) · ∫ r² p dA
 /// ```
 ///
-/// with M₁ = −4ζ(½)β(½), c₂ = ζ(3/2)β(3/2), δ the approach of the sphere, and ⟨h⟩ the mean of the heights, h = 0 at the apex:
-/// −L²/12R for the paraboloid itself, and [`Surface::mean`](crate::Surface::mean) for its nodes, which is what a numerical
-/// solution sees. Without adhesion the integral is 2a²P/5. There is no free parameter; the images' next term, of relative
-/// order (a/L)⁵ in the shape of the surface, is neglected. Contacts with c ≤ L/3 are accepted.
+/// with M₁ = −4ζ(½)β(½), c₂ = ζ(3/2)β(3/2), δ the approach of the sphere, and ⟨h⟩ the mean of the heights, h = 0 at
+/// the apex: −L²/12R for the paraboloid itself, and [`Surface::mean`](crate::Surface::mean) for its nodes, which is
+/// what a numerical solution sees. Without adhesion the integral is 2a²P/5. There is no free parameter; the images'
+/// next term, of relative order (a/L)⁵ in the shape of the surface, is neglected. Contacts with c ≤ L/3 are accepted.
 ///
 /// ```
 /// use asperity::exact::{Hertz, Periodic};
@@ -86,8 +89,8 @@ impl<S: Sphere> Periodic<S> {
     /// The mean gap has a maximum, at which contact is lost; the solution is that of the larger contact radius.
     ///
     /// # Errors
-    /// [`Error::Value`] if a number is not finite, the gap is larger than in any contact, or so small that the contact is
-    /// too large for the approximation.
+    /// [`Error::Value`] if a number is not finite, the gap is larger than in any contact, or so small that the contact
+    /// is too large for the approximation.
     pub fn at_mean_gap(&self, mean_gap: f64, mean_height: f64) -> Result<PeriodicContact> {
         Error::finite("mean gap", mean_gap)?;
         Error::finite("mean height", mean_height)?;
@@ -133,8 +136,8 @@ impl<S: Sphere> Periodic<S> {
         PeriodicContact { contact: self.settle(|curvature| self.sphere.at(parameter, curvature)), length: self.length }
     }
 
-    /// The contact that is consistent with the curvature that its load adds: a fixed point, with an error that falls by
-    /// (8c₂/3π)(a/L)³ ≤ 0.07 in each step.
+    /// The contact that is consistent with the curvature that its load adds: a fixed point, with an error that falls
+    /// by (8c₂/3π)(a/L)³ ≤ 0.07 in each step.
     fn settle(&self, at: impl Fn(f64) -> Contact) -> Contact {
         let mut contact = at(self.sphere.body().0.recip());
         for _ in 0..40 {
@@ -214,7 +217,8 @@ impl PeriodicContact {
         self.level() - mean_height
     }
 
-    /// The pressure at the nodes of a grid of this period, with the axis through its origin; on a line the profile y = 0.
+    /// The pressure at the nodes of a grid of this period, with the axis through its origin; on a line the profile y
+    /// = 0.
     ///
     /// # Errors
     /// [`Error::Value`] if a side of the grid is not the period.
@@ -226,9 +230,9 @@ impl PeriodicContact {
     /// The displacement at the nodes of a grid of this period, with the axis through its origin; on a line the profile
     /// y = 0. The datum is u = h = 0 at the apex, so that u = h + g.
     ///
-    /// It is that of the pressure alone, [`Contact::deflection`], and of all its images, as those of a load P and of the
-    /// second moment of the pressure, by Ewald's sum: valid everywhere, but for terms of relative order (a/L)⁴. In the
-    /// contact it follows the surface, h = −r²/2R, up to the term that [`Periodic`] neglects.
+    /// It is that of the pressure alone, [`Contact::deflection`], and of all its images, as those of a load P and of
+    /// the second moment of the pressure, by Ewald's sum: valid everywhere, but for terms of relative order (a/L)⁴. In
+    /// the contact it follows the surface, h = −r²/2R, up to the term that [`Periodic`] neglects.
     ///
     /// # Errors
     /// [`Error::Value`] if a side of the grid is not the period.
@@ -264,8 +268,8 @@ impl PeriodicContact {
     }
 }
 
-/// The sum of 1/r over the points of the unit lattice but the origin, its mean with 1/r of the origin removed, at a point of
-/// the cell; and its Laplacian. Ewald's sum with α² = π; terms below 1e-16 are left out.
+/// The sum of 1/r over the points of the unit lattice but the origin, its mean with 1/r of the origin removed, at a
+/// point of the cell; and its Laplacian. Ewald's sum with α² = π; terms below 1e-16 are left out.
 fn images(x: f64, y: f64) -> (f64, f64) {
     const REACH: i32 = 3;
     let alpha = PI.sqrt();

@@ -1,3 +1,5 @@
+//! The traits that the exact solutions for spheres share.
+
 use super::contact::{Adhesion, Contact};
 use super::numerics::{below, falls_to, peak};
 use crate::error::{Error, Result};
@@ -22,9 +24,9 @@ pub trait Family {
 
 /// A paraboloid of radius of curvature R against a half-space, alone: load P, contact radius a, approach δ.
 ///
-/// With adhesion the load has a minimum, minus the pull-off force, and the approach one at a smaller contact radius; the
-/// solutions at a given load or approach are the stable ones, of the larger radius. It is implemented by [`Hertz`],
-/// [`Jkr`] and [`MaugisDugdale`], and not meant to be elsewhere.
+/// With adhesion the load has a minimum, minus the pull-off force, and the approach one at a smaller contact radius;
+/// the solutions at a given load or approach are the stable ones, of the larger radius. It is implemented by
+/// [`Hertz`], [`Jkr`] and [`MaugisDugdale`], and not meant to be elsewhere.
 ///
 /// [`Hertz`]: super::Hertz
 /// [`Jkr`]: super::Jkr

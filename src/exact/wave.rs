@@ -1,3 +1,5 @@
+//! The wavy line in contact: pressure, gap and load of one wave.
+
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use ndarray::Array2;

@@ -1,3 +1,5 @@
+//! The wavy line of Westergaard (1939), without adhesion.
+
 use std::f64::consts::{PI, SQRT_2};
 
 use super::numerics::falls_to;

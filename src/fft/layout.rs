@@ -1,4 +1,4 @@
-//! How a field is laid out for its transform.
+//! The layout of a field for its transform.
 
 use std::f64::consts::TAU;
 
@@ -9,15 +9,14 @@ use super::TILE;
 use crate::real::Real;
 use crate::vector::vectorised;
 
-/// Neighbouring twiddles that are read; the runs of them are turned into one another.
+/// The length of a run of twiddles that is read from memory; a factor turns it into any other run.
 const RUN: usize = 32;
 
-/// The plane that a field is transformed as, and where its modes then are in the half spectrum.
-///
-/// A plane is itself, but with its axes exchanged where its columns do not fill a tile. A line of A·B nodes is a plane
-/// too, `(B, A)`: its node aB + b is row b, column a. With row b of its spectrum along the second axis, column k of the
-/// half spectrum, turned by exp(−2πi bk/AB), what comes out of the transform along the first axis are the modes
-/// k + A·i of the line. So half of its modes suffice, and all transforms are short enough for the cache. A is the
+/// The layout of a field: the plane as which it is transformed, and the places of its modes in the half spectrum.
+/// A field in the plane keeps its shape, or has its axes exchanged where its columns do not fill a tile. A line of A·B
+/// nodes is a plane too, `(B, A)`: its node aB + b is row b, column a. Transform the rows; multiply row b of column k
+/// by the twiddle exp(−2πi bk/AB); transform the columns: column k then holds the modes k + A·i of the line. The
+/// columns k ≤ A/2 hold half of the modes, which suffice, and all transforms are short enough for the cache. A is the
 /// largest divisor up to √(AB).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Layout {
@@ -28,7 +27,7 @@ pub(crate) struct Layout {
 }
 
 impl Layout {
-    /// Of a field of the given shape, as its convolution wants it.
+    /// The layout for the convolution of a field of the given shape.
     pub(crate) fn new(shape: (usize, usize)) -> Self {
         let (n0, n1) = shape;
         let exchanged = n0 < n1.min(TILE);
@@ -39,7 +38,7 @@ impl Layout {
         Self { shape, plane, exchanged, folded }
     }
 
-    /// Of a field that is neither exchanged nor folded.
+    /// The layout without exchange of axes and without folding.
     pub(super) fn plain(shape: (usize, usize)) -> Self {
         Self { shape, plane: shape, exchanged: false, folded: false }
     }
@@ -70,7 +69,7 @@ impl Layout {
         if self.exchanged { (short, long) } else { (long, short) }
     }
 
-    /// How many columns of the whole spectrum a column of the half stands for.
+    /// The number of columns of the whole spectrum for which a column of the half stands.
     pub(crate) fn weight(&self, column: usize) -> f64 {
         if column == 0 || 2 * column == self.plane.1 { 1.0 } else { 2.0 }
     }
@@ -97,9 +96,8 @@ fn divisor(n: usize) -> usize {
     (1..=n.isqrt()).rev().find(|&divisor| n.is_multiple_of(divisor)).unwrap_or(1)
 }
 
-/// What turns the columns of the half spectrum of a line: exp(−2πi bk/n) for row b, column k.
-///
-/// The first of each column and, behind them, those by which the runs of so many are turned.
+/// The twiddles exp(−2πi bk/n) of row b, column k, which multiply the half spectrum of a line.
+/// The first [`RUN`] of each column and, behind them, the factors from one run to the next.
 #[derive(Debug)]
 pub(super) struct Twiddles<T>(Array2<Complex<T>>);
 
@@ -115,7 +113,7 @@ impl<T: Real> Twiddles<T> {
         })
     }
 
-    /// Turns column `k`, or turns it back.
+    /// Multiplies column `k` by its twiddles, or divides it by them.
     pub(super) fn turn(&self, k: usize, column: &mut [Complex<T>], back: bool) {
         let twiddles = self.0.row(k).to_slice().unwrap_or_default();
         let Some((run, runs)) = twiddles.split_at_checked(RUN) else { return };

@@ -1,4 +1,4 @@
-//! Two real rows in one complex line, and their spectra out of and into that of the line.
+//! Packing: two real rows in one complex line, and their two spectra in the spectrum of the line.
 
 use ndarray::{ArrayView1, ArrayView2, ArrayViewMut2, Axis};
 use rustfft::num_complex::Complex;
@@ -39,7 +39,7 @@ pub(super) fn pack<T: Real>(x: ArrayView2<'_, T>, tile: &mut [Complex<T>]) {
     }
 }
 
-/// The other way, rounded to another precision if need be.
+/// Real and imaginary part of line `j` become rows `2j` and `2j + 1`, rounded to the precision of the field.
 pub(super) fn unpack<T: Real, U: Real>(tile: &[Complex<T>], mut x: ArrayViewMut2<'_, U>) {
     let n = x.ncols();
     let part = |part: T| U::lit(part.widen());

@@ -1,3 +1,5 @@
+//! Height maps in Gwyddion Simple Field files (`.gsf`).
+
 use std::fs::File;
 use std::io::{self, BufRead, BufWriter, Write};
 use std::path::Path;
@@ -11,8 +13,8 @@ use crate::surface::Topography;
 pub(super) const GSF: &[u8] = b"Gwyddion Simple Field ";
 const MAGIC: &str = "Gwyddion Simple Field 1.0";
 
-/// Reads a Gwyddion Simple Field of `size` bytes: a header of lines `name = value`, 1 to 4 zeros up to a multiple of four
-/// bytes, and the heights as little-endian `f32`, row by row from the top.
+/// Reads a Gwyddion Simple Field of `size` bytes: a header of lines `name = value`, 1 to 4 zeros up to a multiple of
+/// four bytes, and the heights as little-endian `f32`, row by row from the top.
 pub(super) fn read_gsf(reader: &mut impl BufRead, size: u64) -> Parsed<Topography> {
     let mut header = Vec::new();
     reader.read_until(0, &mut header).map_err(unreadable)?;

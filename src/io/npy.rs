@@ -1,3 +1,5 @@
+//! Height maps in NumPy arrays (`.npy`).
+
 use std::io::Read;
 
 use super::{DAMAGED, Parsed, TRUNCATED, quoted, unreadable};

@@ -1,3 +1,5 @@
+//! Height maps in NumPy archives (`.npz`).
+
 use std::fs::{self, File};
 use std::io::{self, BufReader, Cursor, Read, Seek, SeekFrom, Write};
 use std::path::Path;
@@ -67,8 +69,8 @@ fn array(entry: &str) -> &str {
     entry.strip_suffix(".npy").unwrap_or(entry)
 }
 
-/// Checks that the end of an archive without a comment gives its number of entries twice: one of them decides how many are
-/// found, and no checksum covers it.
+/// Checks that the end of an archive without a comment gives its number of entries twice: one of them decides how many
+/// are found, and no checksum covers it.
 fn check_counts(reader: &mut BufReader<File>) -> io::Result<()> {
     let mut end = [0; 22];
     if reader.get_ref().metadata()?.len() >= end.len() as u64 {
@@ -99,7 +101,8 @@ fn read_entry<T>(
     if entry_size / MAX_COMPRESSION > size { Err(DAMAGED.to_owned()) } else { read(&mut entry, entry_size) }
 }
 
-/// Writes fields on a grid into one `.npz` file, over one that may be there, and the side lengths with them as `lengths`.
+/// Writes fields on a grid into one `.npz` file, over one that may be there, and the side lengths with them as
+/// `lengths`.
 ///
 /// ```
 /// use asperity::{Grid, io::write_npz};
@@ -134,8 +137,8 @@ fn write<T: WritableElement>(
     fs::write(path, bytes).map_err(|e| Error::file(path, format!("cannot be written: {e}")))
 }
 
-/// The bytes of an archive. Written straight into a file that cannot take them, the writer of the archive would say so on
-/// standard error when it is dropped.
+/// The bytes of an archive. Written straight into a file that cannot take them, the writer of the archive would say so
+/// on standard error when it is dropped.
 fn archive<T: WritableElement>(
     fields: &[(&str, &Array2<T>)],
     lengths: Option<(f64, f64)>,

@@ -1,3 +1,5 @@
+//! The output folder: all files of a run, or none.
+
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -97,7 +99,7 @@ impl OutputFolder {
 fn refuse_existing(file: &Path, force: bool) -> Result<()> {
     match file.symlink_metadata() {
         Ok(found) if found.is_dir() => Err(Error::file(file, "is a folder: choose another output folder")),
-        Ok(_) if !force => Err(Error::file(file, "exists: use --force to replace it, or choose another output folder")),
+        Ok(_) if !force => Err(Error::file(file, "exists: allow to replace it, or choose another output folder")),
         _ => Ok(()),
     }
 }

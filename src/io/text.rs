@@ -1,3 +1,5 @@
+//! Height maps in text files: one row of numbers a line.
+
 use std::io::BufRead;
 
 use ndarray::Array2;
@@ -9,8 +11,8 @@ use crate::surface::Topography;
 const NUMBERS: &str =
     "expected a .npy, .npz or .gsf file, or rows of numbers with decimal points (comments behind # or %)";
 
-/// Reads a matrix, one row of nodes along y per line; with the header of Gwyddion's text export, one row along x, from the
-/// top, and side lengths and units.
+/// Reads a matrix, one row of nodes along y per line; with the header of Gwyddion's text export, one row along x, from
+/// the top, and side lengths and units.
 pub(super) fn read_text(reader: impl BufRead) -> Parsed<Topography> {
     let (mut values, mut rows, mut columns) = (Vec::new(), 0, 0);
     let mut header = Header::default();

@@ -1,3 +1,5 @@
+//! Units of length: heights and sides brought to one unit.
+
 use ndarray::Array2;
 
 use super::{Parsed, quoted};

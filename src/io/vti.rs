@@ -1,3 +1,5 @@
+//! Fields as VTK image data (`.vti`).
+
 use std::fs::File;
 use std::io::{self, BufWriter, Write};
 use std::path::Path;
@@ -12,7 +14,8 @@ use crate::real::Real;
 /// Writes fields as VTK image data (`.vti`, for ParaView), over a file that may be there.
 ///
 /// Point data in the precision of the fields, each with its name, at the nodes of the grid, with the grid's origin;
-/// the last node of a side is a spacing short of its periodic image. Raw appended data, in the form of VTK 6 and later.
+/// the last node of a side is a spacing short of its periodic image. Raw appended data, in the form of VTK 6 and
+/// later.
 ///
 /// ```
 /// use asperity::{Grid, io::write_vti};

@@ -1,3 +1,5 @@
+//! Height maps in lists of points (x, y, z).
+
 use std::io::BufRead;
 
 use ndarray::Array2;

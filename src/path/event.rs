@@ -1,6 +1,8 @@
+//! Events on a path of equilibria: jumps, limit points and bifurcations.
+
 use std::fmt;
 
-/// What happens between two states on a path.
+/// An event between two states on a path.
 ///
 /// The page [`branches`](crate::guide::branches) has an example.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -12,11 +14,12 @@ pub enum Event {
     Bifurcation {
         /// The eigenvalue of the mode on the branch that was left, where it is negative for the first time.
         eigenvalue: f64,
-        /// From the last stable state to the branch that was found. The energy drop is zero where that one bends off
-        /// without a jump.
+        /// The jump from the last stable state to the branch that was found. Its energy drop is zero where that branch
+        /// bends off without a jump.
         jump: Jump,
     },
-    /// The mean pressure is at a maximum or a minimum: from the state before this one the path goes on at given mean gaps.
+    /// The mean pressure is at a maximum or a minimum: from the state before this one the path goes on at given mean
+    /// gaps.
     LimitPoint {
         /// The mean gap there.
         mean_gap: f64,
@@ -36,12 +39,12 @@ pub struct Jump {
     pub mean_pressure: (f64, f64),
     /// The shares of nodes in contact before and after.
     pub contact_fraction: (f64, f64),
-    /// The energy that it dissipates, per area.
+    /// The energy that the jump dissipates, per area.
     pub energy_drop: f64,
 }
 
 impl Event {
-    /// From where to where the state jumped, of a jump and of a bifurcation.
+    /// The jump of a jump or of a bifurcation.
     pub fn jump(&self) -> Option<&Jump> {
         match self {
             Self::Jump(jump) | Self::Bifurcation { jump, .. } => Some(jump),
@@ -49,8 +52,8 @@ impl Event {
         }
     }
 
-    /// The name that the tool uses: `"jump-in"` where contact or adhesion grows, `"pull-off"` where the last contact is lost,
-    /// `"jump-out"` where contact shrinks, `"bifurcation"` and `"limit-point"`.
+    /// The name that the tool uses: `"jump-in"` where contact or adhesion grows, `"pull-off"` where the last contact
+    /// is lost, `"jump-out"` where contact shrinks, `"bifurcation"` and `"limit-point"`.
     pub fn name(&self) -> &'static str {
         match self {
             Self::LimitPoint { .. } => "limit-point",

@@ -1,4 +1,4 @@
-//! How a path leaves a branch of saddles.
+//! The departure of a path from a branch of saddles.
 
 use std::ops::ControlFlow;
 
@@ -14,11 +14,11 @@ use crate::stability::Saddle;
 /// The largest change of the gap that is made along the mode, in ranges of adhesion.
 const PERTURBATION: f64 = 0.1;
 
-/// The share of the mode in the last change of the gap above which it was the way there that led along the mode: a
-/// jump like any other, where the branch turns back, and not one that breaks a symmetry.
+/// The share of the mode in the last change of the gap above which the branch itself leads along the mode. The branch
+/// then turns back, and the state jumps; below, a symmetry breaks.
 const DRAWN: f64 = 0.1;
 
-/// How many saddles one after the other are left at one load.
+/// The largest number of saddles that are left one after the other at one load.
 const SADDLES: usize = 4;
 
 impl<T, O, L> Path<'_, T, O, L>

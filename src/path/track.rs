@@ -1,11 +1,11 @@
-//! Where a path is, in numbers: how long a step may be, and whether one was on the branch.
+//! The track of a path in numbers: its places, the length of the next step, and the balance of energy of the last.
 
 use super::quadrature::integral;
 use super::{Event, Jump, PathSettings};
 use crate::problem::Control;
 use crate::solver::Report;
 
-/// What is held in a step.
+/// The quantity that is held in a step.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) enum Mode {
     #[default]
@@ -22,7 +22,7 @@ impl Mode {
     }
 }
 
-/// A state, as far as the balance of energy goes.
+/// A place: the figures of a state in the balance of energy.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Place {
     gap: f64,
@@ -42,7 +42,7 @@ impl Place {
         }
     }
 
-    /// What is held, and the derivative of the potential by it.
+    /// The held quantity, and the derivative of the potential by it.
     fn slope(&self, mode: Mode) -> (f64, f64) {
         match mode {
             Mode::Gap => (self.gap, -self.pressure),
@@ -50,7 +50,7 @@ impl Place {
         }
     }
 
-    /// What is at a minimum in equilibrium.
+    /// The potential, which is at a minimum in equilibrium.
     fn potential(&self, mode: Mode) -> f64 {
         match mode {
             Mode::Gap => self.energy,
@@ -69,22 +69,22 @@ pub(super) struct Track {
     range: (f64, f64),
 }
 
-/// What a trial step came to.
+/// The balance of energy of a trial step.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Trial {
-    /// whether the energy changed by what the load did
+    /// whether the energy changed by the work of the load
     pub(super) balanced: bool,
     /// whether it fell by more than any work of the load in such a step
     pub(super) jumped: bool,
     /// the work by quadrature
     work: f64,
-    /// how much the energy changed beyond that
+    /// the change of the energy beyond the work
     excess: f64,
-    /// by how much the next step may be longer
+    /// the factor by which the next step may be longer
     growth: f64,
 }
 
-/// How a step came to the state that is taken.
+/// The way of a step to the state that is taken.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Way {
     /// whether it jumped
@@ -100,7 +100,7 @@ impl Way {
     }
 }
 
-/// Where a path is.
+/// The track of a path: its leg, its step, and its last places.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct State {
     pub(super) solved: bool,
@@ -178,7 +178,7 @@ impl State {
         settings.resolution * self.length()
     }
 
-    /// What is held in the next step, and whether the step cannot be halved.
+    /// The value of the held quantity in the next step, and whether the step cannot be halved.
     pub(super) fn next_target(&self, settings: &PathSettings) -> (f64, bool) {
         let (from, end) = (self.here().slope(self.mode).0, self.span.1);
         let left = (end - from).abs();
@@ -203,7 +203,7 @@ impl State {
         self.step = (0.5 * tried).max(self.smallest(settings));
     }
 
-    /// How many of the last step the next one makes.
+    /// The length of the next step in units of the last one.
     pub(super) fn extrapolation(&self, target: f64) -> f64 {
         let at: Vec<_> = self.at.iter().map(|place| place.slope(self.mode).0).collect();
         match at[..] {
@@ -252,7 +252,8 @@ impl State {
         self.step = self.smallest(settings);
     }
 
-    /// Whether a step at a given mean gap goes beyond the pressure at which the leg ends: then the next one is shorter.
+    /// Whether a step at a given mean gap goes beyond the pressure at which the leg ends: then the next one is
+    /// shorter.
     pub(super) fn overshoots(&mut self, report: &Report, settings: &PathSettings) -> bool {
         let Some((end, start)) = self.pressures else { return false };
         let (before, after) = (self.here().pressure, report.mean_pressure);
@@ -276,7 +277,7 @@ impl State {
         settings: &PathSettings,
     ) -> Option<Event> {
         let (here, mut next) = (self.here(), Place::of(report));
-        // what was asked for, to the last bit
+        // the held quantity is exactly the given one
         match self.mode {
             Mode::Gap => next.gap = target,
             Mode::Pressure => next.pressure = target,

@@ -1,3 +1,5 @@
+//! The canvas: pixels, text and lines of a picture.
+
 use std::convert::Infallible;
 use std::fs::File;
 use std::io::{BufWriter, Write};

@@ -1,3 +1,5 @@
+//! The chart: curves over two axes.
+
 use std::path::Path;
 
 use super::canvas::{Canvas, text_width};

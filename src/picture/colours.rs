@@ -1,3 +1,5 @@
+//! Colours: from the values of a field to pixels.
+
 use colorous::{RED_BLUE, VIRIDIS};
 use embedded_graphics::pixelcolor::Rgb888;
 use ndarray::ArrayView2;

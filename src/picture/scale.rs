@@ -1,3 +1,5 @@
+//! The scale of an axis: ticks, numbers and prefixes of units.
+
 /// Below this a magnitude counts as zero, and from its inverse on as infinite, so that none overflows.
 pub(super) const TINY: f64 = 1e-280;
 

@@ -1,3 +1,5 @@
+//! Tests of the pictures.
+
 use std::fs::File;
 use std::io::BufReader;
 

@@ -1,4 +1,4 @@
-//! How far the state is from the solution, and whether the solve has to end.
+//! The certificate: the distance of the state from the solution, and the tests that end a solve.
 
 use super::report::Status;
 use super::state::{Goal, State};
@@ -13,15 +13,15 @@ const START: f64 = 1e-4;
 /// Iterations without progress after which the direction is dropped, and after which the solve has stalled.
 const STALL: (usize, usize) = (10, 30);
 
-/// The same where the error is no more than so many times that of rounding.
+/// The same numbers at the floor: where the error is at most [`NEAR_FLOOR`] times that of rounding.
 const STALL_AT_FLOOR: (usize, usize) = (3, 6);
 const NEAR_FLOOR: f64 = 2.0;
 
-/// The same for [`Method::Rey2017`], whose energy and residual need not fall.
+/// The same numbers for [`Method::Rey2017`], whose energy and residual need not fall.
 const STALL_REY2017: (usize, usize) = (400, 800);
 
 impl<T: Real> State<'_, T> {
-    /// The certified relative error in the energy norm, no less than rounding makes it.
+    /// The certified relative error in the energy norm, √(certificate/⟨u, p⟩), and at least that of rounding.
     pub(super) fn relative_error(&self) -> f64 {
         let (scale, rounding) = self.error_scale();
         // where every node is in contact no gap is wrong
@@ -31,11 +31,12 @@ impl<T: Real> State<'_, T> {
         if error.is_nan() { f64::INFINITY } else { error }
     }
 
-    /// The mean of u·p, to which a certificate is related; and the least certificate that rounding leaves of any worth.
+    /// The scale of a certificate, the mean of u·p, and the rounding floor: the certificate of a gap with rounding as
+    /// its only error.
     ///
-    /// The pressure is the sum of K⁻¹h and K⁻¹g, each rounded in the precision of the fields, and carries that rounding
-    /// where these nearly cancel each other. In the energy norm that is about ε²(⟨h, K⁻¹h⟩ + ½kḡ(ḡ + h_rms)), with k the
-    /// stiffness of the shortest wave, as a transform spreads the rounding of a gap evenly over all waves.
+    /// The pressure is the sum of K⁻¹h and K⁻¹g, each rounded in the precision of the fields, and carries that
+    /// rounding where these nearly cancel each other. In the energy norm that is about ε²(⟨h, K⁻¹h⟩ + ½kḡ(ḡ + h_rms)),
+    /// with k the stiffness of the shortest wave, as a transform spreads the rounding of a gap evenly over all waves.
     fn error_scale(&self) -> (f64, f64) {
         let epsilon = T::epsilon().widen();
         let apart = if self.tally.contact > 0.0 { 0.0 } else { self.flat.work };
@@ -52,7 +53,7 @@ impl<T: Real> State<'_, T> {
         (waves.max(flat), if waves >= flat { epsilon * epsilon * carried } else { 0.0 })
     }
 
-    /// Whether rounding is all that is left of the residual: further iterations would only shuffle it.
+    /// Whether the residual r' is at the rounding floor, where further iterations do not reduce it.
     pub(super) fn is_at_floor(&self) -> bool {
         let (scale, rounding) = self.error_scale();
         let floor = (rounding / scale).sqrt();
@@ -60,8 +61,7 @@ impl<T: Real> State<'_, T> {
     }
 
     /// The error of the load under pressure control, relative to the load.
-    ///
-    /// Without contact every node is apart, and their mean r is all of the load that adhesion does not hold.
+    /// Without contact every node is apart, and the mean of r is the part of the load that adhesion does not hold.
     pub(super) fn load_error(&self) -> f64 {
         match (self.control, self.tally.free) {
             (Control::MeanGap(_), _) => 0.0,
@@ -87,7 +87,7 @@ impl<T: Real> State<'_, T> {
         self.meets(self.load_error())
     }
 
-    /// Whether the goal is reached with a load error.
+    /// Whether the goal is reached, given the relative error of the load.
     pub(super) fn meets(&self, load_error: f64) -> bool {
         if self.goal != Goal::Solution {
             let tolerance = self.settings.tolerance.max(START);
@@ -101,14 +101,14 @@ impl<T: Real> State<'_, T> {
         criterion <= self.settings.tolerance && load_error <= self.settings.tolerance
     }
 
-    /// Whether the state is converged with the pressure of its own gap, computed anew if it was only updated.
+    /// Whether the state is converged with p = K⁻¹(g + h) computed from its gap, where steps had only updated p.
     pub(super) fn confirm(&mut self) -> Result<bool> {
         // a start needs no proof
         if self.age == 0 || self.goal != Goal::Solution {
             return Ok(true);
         }
         let before = self.certificate;
-        // K's largest value bounds what the difference of the two residuals can add to the certificate
+        // the difference δ of the two residuals adds at most ⟨δ, δ⟩/(softest stiffness) to the certificate
         self.momentum = None;
         self.refresh()?;
         self.residual();
@@ -129,7 +129,7 @@ impl<T: Real> State<'_, T> {
         0.5 * self.mean_work() + (self.tally.adhesive + self.tally.penalty + load * self.tally.sum_gap) / self.nodes()
     }
 
-    /// What rounding of the fields can do to the energy, per area.
+    /// The rounding of the energy, per area.
     pub(super) fn energy_noise(&self) -> f64 {
         let local = self.tally.adhesive.abs() + self.tally.penalty.abs() + (self.given() * self.tally.sum_gap).abs();
         2.0 * T::epsilon().widen() * (0.5 * self.mean_work() + local / self.nodes())
@@ -166,8 +166,8 @@ impl<T: Real> State<'_, T> {
         (self.progress.idle >= stall).then_some(Status::Stalled)
     }
 
-    /// Computes the pressure anew, once, where a solve would stall with one that it has only updated for long: what that has
-    /// gathered of rounding may be most of what is left; `false` if it has not.
+    /// Computes the pressure from the gap, once, where a solve would stall after many updates of the pressure, whose
+    /// rounding may then be most of the residual. Returns whether it has done so.
     pub(super) fn renew(&mut self) -> Result<bool> {
         let due =
             self.age > STALL_AT_FLOOR.1 && !self.progress.renewed && self.settings.method == Method::Preconditioned;

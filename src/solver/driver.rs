@@ -1,4 +1,5 @@
-//! The order of a solve: a start with the jumps of the law smoothed, rounds of the constraint, and the loop within each.
+//! The order of a solve: a start with the jumps of the law smoothed, rounds of the constraint, and the loop within
+//! each.
 
 use std::marker::PhantomData;
 use std::ops::ControlFlow;
@@ -13,7 +14,7 @@ use crate::error::{Error, Result};
 use crate::problem::{Control, Parts, smoothed_law};
 use crate::real::{Compiled, Real};
 
-/// All that a solve takes.
+/// The input of a solve.
 pub(super) struct Job<'a, T> {
     pub(super) problem: Parts<'a, T>,
     pub(super) constraint: &'a mut dyn ContactConstraint<T>,
@@ -26,20 +27,20 @@ pub(super) struct Job<'a, T> {
     pub(super) observe: Observer<'a>,
 }
 
-/// Is told of every iteration, and may stop the solve.
+/// The observer, called in every iteration, which may stop the solve.
 pub(crate) type Observer<'a> = &'a mut dyn FnMut(&Iteration) -> ControlFlow<()>;
 
-/// How a minimisation ended.
+/// The end of a minimisation.
 pub(super) enum End {
     /// The criterion is met.
     Converged,
     /// A tensile load has pulled the surfaces apart.
     Adrift,
-    /// No more iterations, no more progress, or the observer's wish.
+    /// The iterations ran out, progress ceased, or the observer stopped it.
     Gave(Status),
 }
 
-/// Solves.
+/// Solves a problem, compiled once for each precision.
 pub(super) fn solve<T: Real>(job: Job<'_, T>) -> Result<Solution<T>> {
     T::call::<Solve<'_>>(job)
 }
@@ -76,7 +77,7 @@ fn run<T: Real>(job: Job<'_, T>) -> Result<Solution<T>> {
             return state.finish(status);
         }
     }
-    // a start that was given is on a branch, which ends where it comes apart
+    // a given start is on a branch, which ends where the surfaces come apart
     let mut seek = default_start;
     let status = loop {
         match minimise(&mut state, &mut *observe)? {

@@ -1,4 +1,4 @@
-//! The mean gap under a given pressure: how stiff the contacts are, and what moves when it changes.
+//! The mean gap under a given pressure: the stiffness of the contacts, and the lift of the nodes that follow it.
 
 use super::Method;
 use super::passes::{self, Follows};
@@ -7,13 +7,13 @@ use super::state::State;
 use crate::problem::Control;
 use crate::real::Real;
 
-/// The stiffness of the contacts is not taken to be less than this share of that of the softest wave.
+/// The least stiffness of the contacts, as a share of the stiffness of the softest wave.
 const SOFTEST: f64 = 0.1;
 
-/// How much stiffer than the contacts the lift is taken to be, as its shape is only an estimate.
+/// The stiffness of the lift over that of the contacts: above one, as its shape is an estimate.
 const STIFFER: f64 = 1.5;
 
-/// The gap, in rms heights, at which a node follows the mean by 1/√2; and the least gap that counts, in units of that.
+/// The gap g₀ at which v = 1/√2, in rms heights, and the least gap that counts, in units of g₀.
 const HALF: f64 = 0.3;
 const LEAST: f64 = 1e-3;
 
@@ -27,8 +27,9 @@ impl<T: Real> State<'_, T> {
         (external + self.tally.traction / self.nodes()).abs() / self.flat.rms_height
     }
 
-    /// The stiffness that long waves meet beside their own: that of the contacts. On the way from a far start under a given
-    /// pressure it is not known yet.
+    /// The stiffness of the foundation in the preconditioner: that of the contacts, which long waves meet beside their
+    /// own. On the way from a far start under a given pressure it is not known yet, and the softest wave's stiffness
+    /// takes its place.
     pub(super) fn foundation(&self) -> f64 {
         let (softest, stiffest) = self.operator.stiffness_range();
         if stiffest <= 0.0 {
@@ -46,10 +47,10 @@ impl<T: Real> State<'_, T> {
         self.near && !self.is_gap_controlled() && preconditioned && self.projects() && stiffest > 0.0
     }
 
-    /// How stiff the mean gap is taken to be, where it is not lifted.
+    /// The stiffness of the mean gap in the preconditioner; infinite where the lift moves the mean.
     ///
-    /// On the way from a far start, the geometric mean of the stiffness of the contacts, far too small for light loads, and
-    /// that of the softest wave.
+    /// On the way from a far start, the geometric mean of the stiffness of the contacts, far too small for light
+    /// loads, and that of the softest wave.
     pub(super) fn mean_stiffness(&self) -> f64 {
         if self.lifts() {
             return f64::INFINITY;
@@ -67,8 +68,9 @@ impl<T: Real> State<'_, T> {
 
     /// Lets the mean gap follow the load, under a given pressure and near the solution.
     ///
-    /// Nodes that are far apart follow the mean, and those near the edge of a contact hardly move. A uniform lift would tear
-    /// all edges open. In its place z gains v⟨v r'⟩/(⟨v⟩²k), with v = √(g/(g + g₀)) and k the stiffness of the contacts.
+    /// Nodes that are far apart follow the mean, and those near the edge of a contact hardly move. A uniform lift
+    /// would tear all edges open. In its place z gains v⟨v r'⟩/(⟨v⟩²k), with v = √(g/(g + g₀)) and k the stiffness of
+    /// the contacts.
     pub(super) fn lift(&mut self, foundation: f64) {
         if !self.lifts() {
             return;

@@ -1,7 +1,8 @@
 //! The passes over fields that make an iteration.
 //!
-//! Their cost is memory traffic, so that each does all that can be done while its nodes are in cache. Law and constraint
-//! come in as a [`Potential`], at one virtual call for a chunk of nodes. Each pass returns a struct that names its sums.
+//! Their cost is memory traffic, so that each does all that can be done while its nodes are in cache. Law and
+//! constraint come in as a `Potential`, at one virtual call for a chunk of nodes. Each pass returns a struct that
+//! names its sums.
 
 use ndarray::Array2;
 
@@ -24,17 +25,18 @@ pub(super) struct Fields<T> {
     pub(super) gap: Array2<T>,
     /// the elastic pressure p = K⁻¹(g + h), of zero mean
     pub(super) pressure: Array2<T>,
-    /// the residual r', negative zero outside of the working set and never within; while a step is made, K⁻¹ of the change
+    /// the residual r' (negative zero marks a node outside of the working set); while a step is made, K⁻¹c of the
+    /// change c
     pub(super) residual: Array2<T>,
-    /// the preconditioned residual z = M r'; between two steps, that of the state before
+    /// the preconditioned residual z = M r'; until it is computed, that of the previous state
     pub(super) preconditioned: Array2<T>,
-    /// the last step, up to a factor and, while the next one is made, up to the scale that restores the mean gap; the
-    /// direction t of [`Method::Rey2017`](crate::Method)
+    /// the change c, a multiple of the last step; while the next step is made, its change before the scale that
+    /// restores the mean gap; the direction t of [`Method::Rey2017`](crate::Method)
     pub(super) change: Array2<T>,
     pub(super) reducer: Reducer,
-    /// of each chunk, by the present tally: the least r in contact
+    /// the least r in contact of each chunk, as of the present tally
     pub(super) least_r: Vec<f64>,
-    /// of each chunk, by the present residual: how many nodes may move
+    /// the number of nodes in the working set of each chunk, as of the present residual
     pub(super) moving: Vec<f64>,
 }
 
@@ -55,7 +57,7 @@ fn count(condition: bool) -> f64 {
     if condition { 1.0 } else { 0.0 }
 }
 
-/// Whether a node is outside of the working set, by its residual.
+/// Whether a node with this residual r' is outside of the working set.
 #[inline(always)]
 pub(super) fn idles<T: Real>(residual: T) -> bool {
     (residual == T::zero()) & residual.is_sign_negative()

@@ -1,4 +1,5 @@
-//! The local energy of a node, a function of its gap: the adhesion law, and the constraint where it is a term of the energy.
+//! The local energy of a node, a function of its gap: the adhesion law, and the constraint where it is a term of the
+//! energy.
 
 use crate::adhesion::AdhesionLaw;
 use crate::constraint::{ContactConstraint, Springs, Wall};
@@ -12,7 +13,7 @@ pub(super) struct Potential<'a, T> {
     springs: Option<&'a dyn Springs<T>>,
 }
 
-/// Which derivative of an energy.
+/// The order of a derivative of the energy.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Of {
     Energy,
@@ -29,7 +30,7 @@ impl<'a, T: Real> Potential<'a, T> {
         Self { law, springs }
     }
 
-    /// Whether there is nothing to evaluate.
+    /// Whether the local energy is zero at every node.
     pub(super) fn is_zero(&self) -> bool {
         self.law.is_zero() && self.projects()
     }

@@ -9,42 +9,43 @@ use crate::par::IndexedParallelIterator;
 use crate::problem::Control;
 use crate::real::Real;
 
-/// How many ways to find a descending step are tried before the solve has stalled.
+/// The number of attempts at a descending step before the solve has stalled.
 const ATTEMPTS: usize = 24;
 
-/// The curvature that a direction is given at least, as a share of its elastic curvature.
+/// The least curvature of a direction, as a share of its elastic curvature.
 const LEAST_CURVATURE: f64 = 0.05;
 
-/// A clipped step is taken whole if its best length is no shorter than this share of it: what it clipped is in
-/// contact then, to the last bit.
+/// The least best length, as a share of a clipped step, for which the whole step is taken: its clipped nodes are then
+/// exactly in contact.
 const WHOLE: f64 = 0.7;
 
-/// A clipped step of which a smaller share than this is good is tried anew, shorter, at most so many times.
+/// The best length, as a share of a clipped step, below which a shorter step is tried, and the largest number of such
+/// trials.
 const SHORT: f64 = 0.01;
 const SHORTENINGS: usize = 8;
 
 /// A trial length below which a step that fails is tried anew at full length.
 const SHORTEST: f64 = 1e-2;
 
-/// How many times its trial length a step may take: the mean gap has no elastic curvature to limit it.
+/// The longest step, in trial lengths: the mean gap has no elastic curvature that would limit it.
 const FARTHEST: f64 = 10.0;
 
-/// How much the trial length may change from one step to the next, and what it may not exceed.
+/// The least and largest ratio of two successive trial lengths, and the longest one.
 const ADAPT: (f64, f64) = (0.7, 1.3);
 const LONGEST: f64 = 4.0;
 
-/// The multiple of the last change that the next step contains.
+/// The multiple of the last change c₀ in the next step.
 #[derive(Clone, Copy)]
 struct Momentum {
-    /// what makes the step −z conjugate to it
+    /// the multiple of c₀ that makes −z conjugate to it
     conjugate: f64,
-    /// what minimises the energy along it
+    /// the multiple of c₀ that minimises the energy along it
     remainder: f64,
-    /// its mean over the working set
+    /// the mean of c₀ over the working set
     mean: f64,
 }
 
-/// What a trial step found. Its change c makes the step d = scale·(g + c) − g.
+/// The sums of a trial step d = scale·(g + c) − g, with c its change.
 struct Trial {
     clipped: bool,
     /// whether nodes that the gradient drives into contact were clipped
@@ -61,11 +62,11 @@ struct Trial {
     /// Σ φ'·c, and Σ φ''·d²
     traction: f64,
     slopes: f64,
-    /// how many times the change the gap can take
+    /// the largest a with g + a·c ≥ 0 at every node
     reach: f64,
 }
 
-/// What is known of a step that is about to be taken.
+/// The length of a step to be taken, and its sums.
 struct Step {
     length: f64,
     scale: f64,
@@ -74,7 +75,7 @@ struct Step {
     /// Σ d·p and ⟨d, K⁻¹d⟩
     work: f64,
     elastic: f64,
-    /// Σ of the local energy that it leads to
+    /// Σ of the local energy after the step
     local: f64,
 }
 
@@ -88,7 +89,7 @@ impl<T: Real> State<'_, T> {
         if length >= SHORTEST || self.is_at_floor() {
             return Ok(false);
         }
-        // what is shorter than the last digit of a gap is no step
+        // a step shorter than the last digit of the gaps changes nothing: begin anew at full length
         (self.step_length, self.momentum) = (1.0, None);
         self.residual();
         self.certify()?;
@@ -108,8 +109,8 @@ impl<T: Real> State<'_, T> {
                 self.advance(&step);
                 return Ok(true);
             }
-            // so short a part would leave the nodes that should land hanging: clip a step without the last change
-            // instead, or a shorter one
+            // a part so short leaves the blocked nodes apart: clip a step without the last change instead, or a
+            // shorter one
             let shorten = if momentum.take().is_some() { 1.0 } else { step.length.max(1e-3) };
             self.step_length = trial_length * shorten;
             self.residual();
@@ -117,7 +118,7 @@ impl<T: Real> State<'_, T> {
         Ok(false)
     }
 
-    /// The mean of z over the working set, and how much of the last change to keep.
+    /// The mean of z over the working set, and the multiple of the last change.
     fn direction(&mut self) -> (f64, Option<Momentum>) {
         let share =
             if self.is_gap_controlled() && self.residual.working > 0.0 { 1.0 / self.residual.working } else { 0.0 };
@@ -169,7 +170,7 @@ impl<T: Real> State<'_, T> {
         let present = self.tally.sum_gap;
         let scale = if self.is_gap_controlled() && clipped > 0.0 { present / (present + change) } else { 1.0 };
         let possible = scale.is_finite() && scale > 0.0;
-        // as the passes will have it
+        // rounded as in the passes
         let scale = T::lit(scale).widen();
         let rest = scale - 1.0;
         Trial {
@@ -233,7 +234,7 @@ impl<T: Real> State<'_, T> {
         Trial { slope, scale: 1.0, change, descent: slope, traction, slopes, ..trial }
     }
 
-    /// Takes the mean from z, and takes nodes in contact that z would press out of the step.
+    /// Subtracts the mean from z, and sets z to zero at nodes in contact that it would press.
     fn hold(&mut self, centre: f64) {
         let (centre, centred) = (T::lit(centre), self.is_gap_controlled());
         let Fields { reducer, gap, residual, preconditioned, .. } = &mut self.fields;
@@ -258,14 +259,14 @@ impl<T: Real> State<'_, T> {
         });
     }
 
-    /// How much of the step to take, of which ⟨c, K⁻¹c⟩ is known; nothing if the energy rises all the same.
+    /// The length of a step with `elastic` = ⟨c, K⁻¹c⟩; `None` if the energy rises at every length.
     fn search(&mut self, trial: &Trial, elastic: f64) -> Option<Step> {
         let (shift, nodes) = (self.offset() - self.residual.level, self.nodes());
         let noise = self.energy_noise() * nodes;
         let Self { fields, law, constraint, tally, .. } = self;
         let local = Potential::new(*law, &**constraint);
         let (scale, rest) = (T::lit(trial.scale), trial.scale - 1.0);
-        // where the change is not zero, p is r' but for two constants and the traction
+        // p = r' − φ'(g) and two constants, at every node with a change
         let pressed = trial.descent - shift * trial.change - trial.traction;
         let [change_surface, gap_surface] = trial.surface;
         let cross = if rest == 0.0 {
@@ -273,7 +274,7 @@ impl<T: Real> State<'_, T> {
         } else {
             2.0 * trial.scale * rest * (pressed - change_surface) + rest * rest * (tally.sum_gp - gap_surface)
         };
-        // a uniform change has none, but for rounding
+        // the elastic curvature of a uniform change is rounding, of either sign
         let elastic = (trial.scale * trial.scale * elastic + cross).max(0.0);
         let work = trial.scale * pressed + rest * tally.sum_gp;
         let shifted = work + shift * (trial.scale * trial.change + rest * tally.sum_gap);
@@ -305,7 +306,7 @@ impl<T: Real> State<'_, T> {
                 }
             }
         }
-        // near the solution the best lengths scatter about their mean, and only that is of use
+        // near the solution the best lengths scatter about their mean: damp their changes
         let change = if self.near { best.sqrt() } else { best };
         self.step_length = (self.step_length * change.clamp(ADAPT.0, ADAPT.1)).min(LONGEST);
         (length > 0.0).then_some(Step { length, scale: trial.scale, slope: trial.slope, work, elastic, local: after })
@@ -320,7 +321,7 @@ impl<T: Real> State<'_, T> {
         let Self { fields, law, constraint, flat, .. } = self;
         let local = Potential::new(*law, &**constraint);
         let advanced = passes::advance(fields, &local, advance, &flat.pressure);
-        // the field of the change holds d where it was scaled
+        // `change` holds d after a scaled step, and c = d otherwise
         let curvature = if local.is_zero() { length * length * elastic } else { length * (advanced.product - slope) };
         self.tally = advanced.tally;
         if projects {

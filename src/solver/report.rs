@@ -1,10 +1,12 @@
+//! The report of a solve: its status, its figures, and the fields of the solution.
+
 use std::fmt;
 
 use ndarray::Array2;
 
 use super::{Criterion, Method};
 
-/// How a solve ended, and what its fields are then worth.
+/// The status of a solve: how it ended, and how good its fields are.
 ///
 /// ```
 /// use asperity::{Control, Grid, NoAdhesion, Problem, Settings, Solver, Status, Surface, Westergaard};
@@ -26,9 +28,10 @@ pub enum Status {
     Stalled,
     /// The observer stopped the solve: a feasible state.
     Stopped,
-    /// A tensile mean pressure under which no equilibrium was found. From the default start it was looked for among the
-    /// states at given mean gaps, too, of which none held the load; from a given start the branch ended there. The fields are of
-    /// the surfaces held apart, at rest, where they no longer reach each other; under the load they would go on for ever.
+    /// A tensile mean pressure under which no equilibrium was found. From the default start it was looked for among
+    /// the states at given mean gaps, too, of which none held the load; from a given start the branch ended there. The
+    /// fields are of the surfaces held apart, at rest, where they no longer reach each other; under the load they
+    /// would go on for ever.
     Detached,
 }
 
@@ -51,7 +54,7 @@ impl fmt::Display for Status {
     }
 }
 
-/// What an observer is told in every iteration.
+/// The state of an iteration, as an observer sees it.
 ///
 /// ```
 /// use std::ops::ControlFlow;
@@ -72,19 +75,20 @@ pub struct Iteration {
     pub iteration: usize,
     /// How many operator applications this solve has taken so far.
     pub operator_applications: usize,
-    /// The certified relative error in the energy norm, [`Report::relative_error`]. [`Method::Rey2017`] does not need it
-    /// and computes it only now and then; it is infinite before.
+    /// The certified relative error in the energy norm, [`Report::relative_error`]. [`Method::Rey2017`] does not need
+    /// it and computes it only now and then; it is infinite before.
     pub relative_error: f64,
     /// The relative error of the load, [`Report::load_error`].
     pub load_error: f64,
-    /// What is minimised, per area: elastic and adhesive energy, and under pressure control p̄ times the mean gap.
+    /// The energy that is minimised, per area: elastic and adhesive energy, and under pressure control p̄ times the
+    /// mean gap.
     pub energy: f64,
     /// The mean gap.
     pub mean_gap: f64,
     /// How many nodes are in contact.
     pub contact_points: usize,
-    /// How often what is minimised has changed: with the law, the multipliers of a constraint, or, in search of a state that holds a tension,
-    /// the mean gap. The energy falls within a round.
+    /// The number of changes of the minimised energy so far: of the law, the multipliers of a constraint, or, in
+    /// search of a state that holds a tension, the mean gap. The energy falls within a round.
     pub round: usize,
     /// Whether the solve is still on the way to its start, with the jumps of the law smoothed: then the energy and the
     /// error are those of the smoothed law. See [`AdhesionLaw::smoothed`](crate::AdhesionLaw::smoothed).
@@ -111,17 +115,18 @@ pub struct Iteration {
 pub struct Report {
     /// How the solve ended.
     pub status: Status,
-    /// The certified relative error of the gap in the energy norm, √(⟨r', K r'⟩/⟨u, p⟩), evaluated on the returned fields.
+    /// The certified relative error of the gap in the energy norm, √(⟨r', K r'⟩/⟨u, p⟩), evaluated on the returned
+    /// fields.
     ///
-    /// Without adhesion it bounds the distance from the exact discrete solution (under pressure control: the one at the
-    /// same mean gap). With adhesion it measures how far the state is from equilibrium, and bounds the error
-    /// where that equilibrium is stable. As long as no node is in contact, ⟨h, K⁻¹h⟩ stands for a smaller ⟨u, p⟩, which
-    /// may vanish then. Under the lightest loads ⟨u, p⟩ is computed as ⟨p, K p⟩, which does not cancel, and the error is
+    /// Without adhesion it bounds the distance from the exact discrete solution (under pressure control: the one at
+    /// the same mean gap). With adhesion it measures how far the state is from equilibrium, and bounds the error where
+    /// that equilibrium is stable. As long as no node is in contact, ⟨h, K⁻¹h⟩ stands for a smaller ⟨u, p⟩, which may
+    /// vanish then. Under the lightest loads ⟨u, p⟩ is computed as ⟨p, K p⟩, which does not cancel, and the error is
     /// never less than the rounding of the pressure alone makes it, so that it is not understated.
     pub relative_error: f64,
-    /// Under pressure control, the error of the load relative to the larger of |p̄| and the mean contact pressure: of the
-    /// balance of the nodes that are apart, or of what the returned fields carry, whichever is more. One without contact
-    /// under a load that needs it; zero under gap control.
+    /// Under pressure control, the error of the load relative to the larger of |p̄| and the mean contact pressure: the
+    /// larger of the imbalance of the nodes that are apart and the difference between the load and the one that the
+    /// returned fields carry. One without contact under a load that needs it; zero under gap control.
     pub load_error: f64,
     /// The paper's criterion ε = Σ|g r'|, in units of E*·√(Lx·Ly), on the returned fields.
     pub orthogonality: f64,
@@ -134,8 +139,8 @@ pub struct Report {
     /// The mean external pressure p̄, compression positive; under pressure control the given one.
     pub mean_pressure: f64,
     /// The mean pressure that the returned fields carry, ⟨λ⟩ − ⟨φ'⟩. Under pressure control the solve was asked for
-    /// [`mean_pressure`](Self::mean_pressure), and where it has converged this is the same to the tolerance; of surfaces that were
-    /// [`Detached`](Status::Detached) it says what is left of the load.
+    /// [`mean_pressure`](Self::mean_pressure), and where it has converged this is the same to the tolerance; of
+    /// surfaces that were [`Detached`](Status::Detached) it is the remaining part of the load.
     pub carried_pressure: f64,
     /// The mean contact (repulsive) pressure, the paper's q₀.
     pub mean_contact_pressure: f64,
@@ -157,8 +162,8 @@ pub struct Report {
     pub precision: &'static str,
     /// The iteration that was used.
     pub method: Method,
-    /// What was compared with the tolerance. [`Criterion::Orthogonality`] bounds no error: a solve that has converged by it may have
-    /// any [`relative_error`](Self::relative_error).
+    /// The measure that was compared with the tolerance. [`Criterion::Orthogonality`] bounds no error: a solve that
+    /// has converged by it may have any [`relative_error`](Self::relative_error).
     pub criterion: Criterion,
 }
 

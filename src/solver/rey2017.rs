@@ -26,7 +26,8 @@ impl<T: Real> State<'_, T> {
         let conjugate = self.residual_norm.map_or(0.0, |before| norm.sum[0] / before);
         let mut slope = self.conjugate_direction(if conjugate.is_finite() { conjugate } else { 0.0 });
         if !(slope.is_finite() && slope > 0.0) && conjugate > 0.0 {
-            // uphill, or beyond all numbers: the residual's norm has jumped, as it may where rounding is all that is left of it
+            // uphill, or beyond all numbers: the residual's norm has jumped, as it may where rounding is all that is
+            // left of it
             slope = self.conjugate_direction(0.0);
         }
         self.operator.pressure(self.fields.change.view(), self.fields.preconditioned.view_mut())?;
@@ -48,10 +49,10 @@ impl<T: Real> State<'_, T> {
         let [curvature, response, t, ..] = total.sum;
         let mean = if self.is_gap_controlled() { response / self.tally.free } else { 0.0 };
         let length = slope / (curvature - mean * t);
-        // a uniform direction has no curvature: the softest wave's stiffness bounds what the mean can need
+        // a uniform direction has no curvature: the stiffness of the softest wave bounds the step of the mean
         let softest = self.operator.stiffness_range().0;
         let length = if length.is_finite() && length > 0.0 { length } else { 1.0 / softest };
-        // nor does one that is uniform but for rounding
+        // a direction that is uniform up to rounding has a curvature of rounding only
         let length = length.min(1.0 / (T::epsilon().widen().sqrt() * softest));
         if !length.is_finite() {
             return Ok(false);
@@ -79,7 +80,7 @@ impl<T: Real> State<'_, T> {
             _ => 1.0,
         };
         if !scale.is_finite() {
-            // every node was clipped: what is left is to keep the mean gap
+            // every node was clipped: only the mean gap remains to be kept
             if let Control::MeanGap(mean) = self.control {
                 self.fields.gap.fill(T::lit(mean));
                 self.refresh()?;

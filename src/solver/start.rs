@@ -1,4 +1,4 @@
-//! Where a solve starts.
+//! The start of a solve: its gap, its law, and their checks.
 
 use ndarray::{Array2, CowArray, Ix2};
 
@@ -9,12 +9,12 @@ use crate::field::flat;
 use crate::problem::{Control, PressedFlat};
 use crate::real::Real;
 
-/// The first trial length from a start that is near the solution: its residual is that of short waves at the edges of
-/// contacts, where less than a whole step is good.
+/// The first trial length from a start near the solution. The residual r' then has short waves at the edges of
+/// contacts, for which a whole step is too long.
 const NEAR: f64 = 0.5;
 
 impl<'a, T: Real> State<'a, T> {
-    /// Takes the start to be near the solution.
+    /// Treats the start as near the solution.
     pub(super) fn stays_near(&mut self) {
         (self.near, self.step_length) = (true, NEAR);
     }
@@ -51,12 +51,12 @@ impl<'a, T: Real> State<'a, T> {
     pub(super) fn sharpen(&mut self, law: &'a dyn AdhesionLaw<T>) -> Result<()> {
         self.law = law;
         if self.is_adrift() {
-            // the law itself may hold what the smoothed one does not
+            // the law itself may hold a tension that the smoothed one does not
             self.fields.gap.fill(T::lit(uniform_start(law, self.flat, self.control)));
             self.refresh()?;
         }
         self.change_law(law, Goal::Solution);
-        // of the smoothed law
+        // this certificate was of the smoothed law
         self.certificate = f64::INFINITY;
         Ok(())
     }

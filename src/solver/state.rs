@@ -1,4 +1,4 @@
-//! A solve under way: its fields, and the numbers that the driver knows of them.
+//! The state of a solve: its fields, and the sums over them on which the driver decides.
 
 use ndarray::{Array2, CowArray, Ix2};
 
@@ -20,38 +20,39 @@ use crate::real::Real;
 /// Iterations after which the pressure, updated step by step, is computed anew.
 const REFRESH: usize = 50;
 
-/// How often [`Method::Rey2017`] computes the certificate, which it needs for nothing else.
+/// The iterations between two certificates of [`Method::Rey2017`], which needs them for the report only.
 const CERTIFY: usize = 10;
 
-/// What has to be reached.
+/// The goal of a minimisation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Goal {
     /// A start for the law itself, from the law with its jumps smoothed.
     Start,
-    /// A state at a given mean gap that holds a tensile load, to go on from.
+    /// A state at a given mean gap that holds a tensile load: a start under that load.
     Hold,
     /// The solution, to the tolerance of the settings.
     Solution,
 }
 
-/// The step from the state before: `factor` times the change c.
+/// The last step d = `factor`·c, with c the field of the change, and the sums from which the next one is made
+/// conjugate to it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Made {
     pub(super) factor: f64,
-    /// ⟨d, y⟩, with d the step and y the change of r that it has made
+    /// ⟨d, y⟩, with y the change of the gradient r along the step d
     pub(super) curvature: f64,
     /// Σ r'·c, with the present residual
     pub(super) descent: f64,
-    /// Σ r'·z', with z' the preconditioned residual of the state before
+    /// Σ r'·z', with z' the preconditioned residual of the previous state
     pub(super) overlap: f64,
     /// Σ c over the working set
     pub(super) sum: f64,
 }
 
-/// The field that a step has left in the place of r'.
+/// The content of the field `residual` after a step, before r' is computed in it.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Left {
-    /// K⁻¹ of a change, or nothing of use.
+    /// Values without use, such as K⁻¹c.
     Nothing,
     /// The gradient r.
     Gradient(Made),
@@ -68,7 +69,7 @@ pub(super) struct Residual {
     pub(super) working: f64,
     /// Σ|g r'|
     pub(super) orthogonality: f64,
-    /// Σ of the squares of the differences to the residual before, if it was computed from gap and pressure
+    /// Σ (r' − r'₀)², with r'₀ the previous content of the field, if r' was computed from gap and pressure
     pub(super) difference: f64,
 }
 
@@ -81,14 +82,14 @@ pub(super) struct Preconditioned {
     pub(super) sum: f64,
 }
 
-/// How a minimisation has got on.
+/// The progress of a minimisation.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Progress {
     pub(super) best_error: f64,
     pub(super) lowest_energy: f64,
     /// iterations without progress
     pub(super) idle: usize,
-    /// whether the pressure was computed anew where rounding was all that was left
+    /// whether the pressure was computed anew at the floor of rounding
     pub(super) renewed: bool,
 }
 
@@ -96,7 +97,7 @@ impl Progress {
     const NONE: Self = Self { best_error: f64::INFINITY, lowest_energy: f64::INFINITY, idle: 0, renewed: false };
 }
 
-/// A solve under way: its fields, and the numbers that the driver knows of them.
+/// The state of a solve: its fields, and the sums over them on which the driver decides.
 pub(super) struct State<'a, T> {
     pub(super) operator: &'a mut dyn ElasticOperator<T>,
     pub(super) law: &'a dyn AdhesionLaw<T>,
@@ -109,7 +110,7 @@ pub(super) struct State<'a, T> {
     pub(super) tally: Tally,
     /// Σ u·p, twice the elastic energy
     pub(super) work: Work,
-    /// the mean that rounding has left in the pressure
+    /// the mean of p, zero but for rounding
     pub(super) drift: f64,
     pub(super) left: Left,
     pub(super) residual: Residual,
@@ -124,7 +125,7 @@ pub(super) struct State<'a, T> {
     /// ⟨r', r'⟩ of the step before, for [`Method::Rey2017`]
     pub(super) residual_norm: Option<f64>,
     pub(super) progress: Progress,
-    /// how often what is minimised has changed
+    /// how often the function to be minimised has changed
     pub(super) rounds: usize,
     pub(super) iterations: usize,
     pub(super) applications: usize,
@@ -201,7 +202,7 @@ impl<'a, T: Real> State<'a, T> {
         self.fields.gap.len() as f64
     }
 
-    /// The mean pressure that is given, or zero.
+    /// The given mean pressure p̄, or zero under gap control.
     pub(super) fn given(&self) -> f64 {
         match self.control {
             Control::MeanGap(_) => 0.0,
@@ -209,8 +210,8 @@ impl<'a, T: Real> State<'a, T> {
         }
     }
 
-    /// The constant that makes r of pressure and tractions: the mean pressure that is given, less the mean that rounding has
-    /// left in the pressure. That mean is no load.
+    /// The constant b in r = p + φ'(g) + b: the given mean pressure (zero under gap control) less the mean of p, which
+    /// is rounding and no load.
     pub(super) fn offset(&self) -> f64 {
         self.given() - self.drift
     }
@@ -224,11 +225,11 @@ impl<'a, T: Real> State<'a, T> {
         matches!(self.control, Control::MeanGap(_))
     }
 
-    /// Computes the pressure from the gap, p = K⁻¹g + K⁻¹h, and counts anew.
+    /// Computes the pressure from the gap, p = K⁻¹g + K⁻¹h, and takes the tally anew.
     pub(super) fn refresh(&mut self) -> Result<()> {
         if let Control::MeanGap(mean) = self.control {
             let (scale, present) = (mean * self.nodes() / self.tally.sum_gap, self.tally.sum_gap / self.nodes());
-            // what rounding has added up to, if it is worth a pass
+            // the rounding summed up in the mean gap, if it is worth a pass
             if self.projects() {
                 if scale.is_finite() && (scale - 1.0).abs() > 64.0 * T::epsilon().widen() {
                     let scale = T::lit(scale);
@@ -258,7 +259,7 @@ impl<'a, T: Real> State<'a, T> {
         self.trust_work(TRUSTED)
     }
 
-    /// Takes the tally of the present gap and pressure; returns the work as it follows from these sums.
+    /// Takes the tally of the present gap and pressure; returns the elastic work ⟨u, p⟩ by its sums.
     pub(super) fn count(&mut self) -> Work {
         let offset = T::lit(self.offset());
         let local = Potential::new(self.law, &*self.constraint);
@@ -347,7 +348,7 @@ impl<'a, T: Real> State<'a, T> {
         outer
     }
 
-    /// Forgets what was known of an energy, or a gap, that has changed.
+    /// Drops momentum, progress and certificate after a change of the energy or of the gap.
     pub(super) fn restart(&mut self) {
         (self.momentum, self.residual_norm) = (None, None);
         self.progress = Progress::NONE;
@@ -384,7 +385,7 @@ impl<'a, T: Real> State<'a, T> {
         }
     }
 
-    /// The fields as they are returned, and an account of just these.
+    /// The solution: the final fields, and the report on them.
     pub(super) fn finish(mut self, status: Status) -> Result<Solution<T>> {
         if self.age > 0 {
             self.refresh()?;
@@ -447,14 +448,14 @@ impl<'a, T: Real> State<'a, T> {
         Ok(Solution { gap, pressure, contact_pressure: preconditioned, report })
     }
 
-    /// The status that the figures of the returned fields bear out.
+    /// The status, corrected by the figures of the returned fields.
     fn final_status(&self, status: Status, load_error: f64) -> Status {
         let good = self.meets(load_error);
         match status {
             Status::Stopped => status,
             _ if self.detached.is_some() => Status::Detached,
             Status::Converged if !good => Status::Stalled,
-            // what the last computation of the pressure has brought
+            // the last computation of the pressure may have reached the tolerance
             Status::Stalled if good => Status::Converged,
             _ => status,
         }

@@ -34,19 +34,20 @@ impl<T: Real> State<'_, T> {
         self.flat.height_span + REACH * self.law.range().widen()
     }
 
-    /// Whether the surfaces drift apart under a load that presses them, as rounding may make them where the load is less than it: the
-    /// mean gap is then beyond that of the start and of every equilibrium.
+    /// Whether the surfaces drift apart under a load that presses them, as rounding may make them where the load is
+    /// less than it: the mean gap is then beyond that of the start and of every equilibrium.
     pub(super) fn runs_away(&self) -> bool {
         let pressed = matches!(self.control, Control::MeanPressure(pressure) if pressure >= 0.0);
         pressed && self.tally.sum_gap / self.nodes() > self.start_gap + 2.0 * self.out_of_reach()
     }
 
-    /// Looks for a state that holds more than the tensile load that is given, to go on from under the load; `false` if it
-    /// finds none.
+    /// Looks for a state that holds more than the tensile load that is given, to go on from under the load; `false` if
+    /// it finds none.
     ///
-    /// At a given mean gap the surfaces come apart less easily than under a load. The tension that they hold grows with
-    /// the gap up to the pull-off and is lost beyond: a golden section looks for its largest value, about the gap at which
-    /// surfaces that are not deformed would touch. From a state that holds more than the load, the load lets them close up to an equilibrium.
+    /// At a given mean gap the surfaces come apart less easily than under a load. The tension that they hold grows
+    /// with the gap up to the pull-off and is lost beyond: a golden section looks for its largest value, about the gap
+    /// at which surfaces that are not deformed would touch. From a state that holds more than the load, the load lets
+    /// them close up to an equilibrium.
     pub(super) fn seek_hold(&mut self, observe: Observer<'_>) -> Result<bool> {
         let Control::MeanPressure(load) = self.control else { return Ok(false) };
         if -load > self.strongest_traction() || !self.projects() {

@@ -1,8 +1,8 @@
 //! The elastic work ⟨u, p⟩, twice the elastic energy, which scales the certificate.
 //!
 //! With u = g + h it is ⟨g, p⟩ + ⟨g, K⁻¹h⟩ + ⟨h, K⁻¹h⟩, three sums over fields that an iteration reads anyway. Under a
-//! light load the gap is nearly the surface upside down, p nearly vanishes, and so do these sums cancel: their rounding may be
-//! more than what is left. Then one application gives ⟨p, K p⟩ instead, a sum of squares over the waves.
+//! light load the gap is nearly the surface upside down, p nearly vanishes, and the three sums cancel: their rounding
+//! may exceed the work itself. Then one application gives ⟨p, K p⟩ instead, a sum of squares over the waves.
 
 use super::state::State;
 use crate::error::Result;
@@ -15,12 +15,12 @@ pub(super) const TRUSTED: f64 = 1e-3;
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Work {
     pub(super) sum: f64,
-    /// what rounding may have done to the sum
+    /// a bound of the rounding in the sum
     pub(super) noise: f64,
 }
 
 impl Work {
-    /// Whether rounding may be more than such a share of it.
+    /// Whether rounding may exceed `share` of the work.
     fn is_doubtful(self, share: f64) -> bool {
         self.noise > share * self.sum
     }
@@ -37,7 +37,7 @@ impl<T: Real> State<'_, T> {
         (self.work.sum / self.nodes()).max(0.0)
     }
 
-    /// What rounding may do to sums over the nodes of which the terms add up to `size`.
+    /// The rounding of a sum over the nodes, with `size` the sum of the magnitudes of its terms.
     fn sum_noise(&self, size: f64) -> f64 {
         8.0 * (T::epsilon().widen() / self.nodes().sqrt() + f64::EPSILON) * size
     }
@@ -48,13 +48,13 @@ impl<T: Real> State<'_, T> {
         Work { sum: sum_gp + gap_surface + surface, noise: self.sum_noise(surface) }
     }
 
-    /// Whether steps have carried the work so far down that rounding is a share of it that counts.
+    /// Whether the work has become so small in the steps since its last sum that its rounding matters.
     pub(super) fn has_lost_its_work(&self) -> bool {
         self.work.is_doubtful(TRUSTED)
     }
 
-    /// Computes the work as ⟨p, K p⟩ if its sums have cancelled until rounding may be more than such a share of it. Takes the
-    /// place of the preconditioned residual.
+    /// Computes the work as ⟨p, K p⟩ if rounding may exceed `share` of the present sum. Overwrites the preconditioned
+    /// residual z.
     pub(super) fn trust_work(&mut self, share: f64) -> Result<()> {
         if !self.work.is_doubtful(share) {
             return Ok(());

@@ -1,28 +1,30 @@
-//! A number below the smallest eigenvalue.
+//! A lower bound of the smallest eigenvalue.
 //!
-//! Say (ρ, x) is the pair that was found, with a residual of norm r. Lifted by τ⟨x, ·⟩x, the Hessian H keeps its second
-//! eigenvalue below the first one of what results, H' ≥ b, so b ≤ λ₂, and then
+//! Say (ρ, x) is the pair that was found, with a residual of norm r. Lifted by τ⟨x, ·⟩x, the Hessian H becomes H' =
+//! H + τ⟨x, ·⟩x, whose first eigenvalue is no larger than the second one of H. With H' ≥ b therefore b ≤ λ₂, and then
 //!
 //! - λ₁ ≥ ρ − r²/(b − ρ) if b > ρ (Temple);
-//! - λ₁ ≥ c − τr²/(ρ − c)² for every c ≤ b, c < ρ: with v the first mode, ⟨v, x⟩ = ⟨v, residual⟩/(λ₁ − ρ) and λ₁ + τ⟨v, x⟩² ≥ b.
+//! - λ₁ ≥ c − τr²/(ρ − c)² for every c ≤ b, c < ρ: with v the first mode, ⟨v, x⟩ = ⟨v, residual⟩/(λ₁ − ρ) and λ₁ +
+//!   τ⟨v, x⟩² ≥ b.
 //!
-//! For b, Lanczos' iteration on M½H'M½, with the compliance M as preconditioner. Take a polynomial that is at most 1 on all
-//! eigenvalues θ but those within ε of the first, relative to their spread, and as large as can be at the first (Chebyshev's);
-//! after k steps the least Ritz value is too large by no more than
+//! For b, Lanczos' iteration on M½H'M½, with the compliance M as preconditioner. Take a polynomial that is at most 1
+//! on all eigenvalues θ but those within ε of the first, relative to their spread, and as large as can be at the first
+//! (Chebyshev's); after k steps the least Ritz value is too large by no more than
 //!
 //! ε + tan²∠(start, first eigenvector) · 4 ((1 − √ε)/(1 + √ε))^(2(k − 1))
 //!
-//! of the spread, for any ε, whatever the eigenvalues are (compare Kuczyński and Woźniakowski, *SIAM J. Matrix Anal. Appl.* 13
-//! (1992)). The start is M½ times normal numbers: its component along a unit vector has a variance no less than the least
-//! eigenvalue of M, and is smaller than δ standard deviations with a probability below δ√(2/π). The same holds at the other
-//! end, which bounds the spread.
+//! of the spread, for any ε, whatever the eigenvalues are (compare Kuczyński and Woźniakowski, *SIAM J. Matrix Anal.
+//! Appl.* 13 (1992)). The start is M½ times normal numbers: its component along a unit vector has a variance no less
+//! than the least eigenvalue of M, and is smaller than δ standard deviations with a probability below δ√(2/π). The
+//! same holds at the other end, which bounds the spread.
 
 use super::eigenpair::Eigenpair;
 use super::hessian::Hessian;
 use crate::error::Result;
 use crate::real::Real;
 
-/// How small the start's component along either end may be, in standard deviations: together a chance of one in a million.
+/// How small the start's component along either end may be, in standard deviations: together a chance of one in a
+/// million.
 const LEAST: f64 = 6.2e-7;
 
 /// Steps after which the bound is computed again.
@@ -61,7 +63,7 @@ pub(super) fn below<T: Real>(hessian: &mut Hessian<'_, T>, pair: &Eigenpair<T>, 
         }
         std::mem::swap(&mut before, &mut q);
         std::mem::swap(&mut q, &mut image);
-        // what rounding leaves outside of the admissible fields would grow
+        // components outside of the admissible fields, from rounding, would grow
         hessian.project(&mut q);
         hessian.precondition(&q, &mut z)?;
         norm = hessian.product(&q, &z).max(0.0).sqrt();
@@ -83,7 +85,7 @@ pub(super) fn below<T: Real>(hessian: &mut Hessian<'_, T>, pair: &Eigenpair<T>, 
     Ok(bound)
 }
 
-/// What a lower bound b of the lifted Hessian means for the smallest eigenvalue.
+/// The lower bound of the smallest eigenvalue λ₁ by a lower bound b of the lifted Hessian H'.
 fn lower_bound<T>(pair: &Eigenpair<T>, lift: f64, b: f64) -> f64 {
     let (value, square) = (pair.value, pair.residual * pair.residual);
     let lifted = |c: f64| c - lift * square / (value - c).powi(2);
@@ -92,7 +94,7 @@ fn lower_bound<T>(pair: &Eigenpair<T>, lift: f64, b: f64) -> f64 {
     shares.filter(|&c| c < value).map(lifted).fold(temple, f64::max)
 }
 
-/// By how much of the spread the least Ritz value may be too large after so many steps.
+/// The largest excess of the least Ritz value after `steps` steps, as a share of the spread of the eigenvalues.
 fn uncertainty(tangent: f64, steps: usize) -> f64 {
     let power = 2.0 * (steps as f64 - 1.0);
     let at = |epsilon: f64| {

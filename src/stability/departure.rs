@@ -1,3 +1,5 @@
+//! The departure from an unstable equilibrium: minimisation from a gap perturbed along the softest mode.
+
 use std::ops::ControlFlow;
 
 use ndarray::Zip;
@@ -11,14 +13,14 @@ use crate::problem::{Control, Problem};
 use crate::real::Real;
 use crate::solver::{Solution, Solver};
 
-/// Where a minimisation went that left an equilibrium along its softest mode.
+/// The departure from an equilibrium: the end of a minimisation that left it along its softest mode.
 #[non_exhaustive]
 #[derive(Clone, Debug, PartialEq)]
 pub struct Departure<T> {
     /// Where it ended.
     pub solution: Solution<T>,
-    /// How far the energy fell, per area: that of elasticity and adhesion, and under pressure control of the load. Zero or
-    /// less if there was nowhere to go.
+    /// The drop of the energy, per area: that of elasticity and adhesion, and under pressure control of the load.
+    /// Zero or less if there was nowhere to go.
     pub energy_drop: f64,
     /// The root mean square of the change of the gap.
     pub distance: f64,
@@ -33,9 +35,9 @@ impl<T: Real> Stability<T> {
     /// Leaves an equilibrium: perturbs its gap along the mode, both ways, minimises on from there, and returns the one
     /// that comes to the lower energy.
     ///
-    /// The perturbation changes the gap by a tenth of the range of adhesion at most. From a saddle the energy falls along the mode, and
-    /// the solver never raises it again: it does not come back. From a stable equilibrium it does, within that distance.
-    /// `None` if the mode is zero, as where all nodes are in contact, or without adhesion.
+    /// The perturbation changes the gap by a tenth of the range of adhesion at most. From a saddle the energy falls
+    /// along the mode, and the solver never raises it again: it does not come back. From a stable equilibrium it does,
+    /// within that distance. `None` if the mode is zero, as where all nodes are in contact, or without adhesion.
     ///
     /// # Errors
     /// [`Error::Shape`] if the solution is of another grid, and those of [`Solver::solve_from`].

@@ -8,23 +8,23 @@ use crate::field::{Partial, read};
 use crate::par::IndexedParallelIterator;
 use crate::real::Real;
 
-/// What an iteration comes to.
+/// An eigenpair, and the accuracy to which it was found.
 pub(super) struct Eigenpair<T> {
     /// the Rayleigh quotient
     pub(super) value: f64,
-    /// the norm of what is left of the equation
+    /// the norm of the residual Hx − ρx
     pub(super) residual: f64,
-    /// what rounding may have done to the value
+    /// the rounding of the value
     pub(super) noise: f64,
-    /// of mean square 1
+    /// the mode x, of mean square 1
     pub(super) vector: Array2<T>,
 }
 
-/// The share of the eigenvalue by which the residual may let it be wrong: the square of the residual over the
-/// distance to the next one, for which the softest stiffness stands. So its sign is known.
+/// The largest error of the eigenvalue as a share of it, which makes its sign known. The error is at most r²/gap, with
+/// r the norm of the residual and the softest stiffness for the gap to the next eigenvalue.
 pub(super) const UNCERTAIN: f64 = 0.01;
 
-/// A share of a vector that is not in those before below which it counts as one of them.
+/// The least component of a vector outside of the span of the others, as a share of it; below, it counts as dependent.
 const DEPENDENT: f64 = 1e-10;
 
 type Matrix = [[f64; 3]; 3];
@@ -42,7 +42,7 @@ pub(super) fn lowest<T: Real>(hessian: &mut Hessian<'_, T>, tolerance: f64, most
     })
 }
 
-/// What is known of an eigenpair while it is iterated.
+/// The figures of an eigenpair while it is iterated.
 pub(super) struct Found {
     pub(super) value: f64,
     pub(super) residual: f64,
@@ -50,8 +50,8 @@ pub(super) struct Found {
     pub(super) iteration: usize,
 }
 
-/// The smallest eigenvalue with its mode, from an admissible start, until it is known well enough; `confirmed` by an
-/// image that was not only updated, if that is worth an application.
+/// The smallest eigenvalue with its mode, from an admissible start, until `Found` is accurate enough. If `confirmed`,
+/// one more application computes the image Hx of the final mode, which the iteration only updates.
 pub(super) fn lowest_from<T: Real>(
     hessian: &mut Hessian<'_, T>,
     mut x: Array2<T>,
@@ -90,7 +90,7 @@ pub(super) fn lowest_from<T: Real>(
         let [of_x, of_w, of_p] = ritz(&gram, &energy, directions);
         let size = (of_w * of_w * gram[1][1] + 2.0 * of_w * of_p * gram[1][2] + of_p * of_p * gram[2][2]).sqrt();
         if size.is_nan() || size <= 0.0 {
-            // the best of the three is what there was
+            // the best combination of the three is the present mode
             return Ok(Eigenpair { value, residual, noise, vector: x });
         }
         for (x, w, p) in [(&mut x, &w, &mut p), (&mut ax, &aw, &mut ap)] {
@@ -102,9 +102,9 @@ pub(super) fn lowest_from<T: Real>(
     }
 }
 
-/// What rounding may do to a Rayleigh quotient.
+/// The rounding of a Rayleigh quotient.
 fn noise<T: Real>(hessian: &mut Hessian<'_, T>, image: &Array2<T>, value: f64) -> f64 {
-    // the image is the sum of what K⁻¹ and φ'' make, neither of which need be small
+    // the image is the sum K⁻¹x + φ''x, of which neither term need be small
     let image = hessian.product(image, image).sqrt();
     8.0 * T::epsilon().widen() * (image.max(value.abs()) + 2.0 * hessian.least_slope().abs() + hessian.softest())
 }

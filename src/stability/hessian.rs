@@ -1,4 +1,4 @@
-//! The second derivative of the energy, on the changes of the gap that are admissible.
+//! The Hessian of the energy, K⁻¹ + φ'', on the admissible changes of the gap.
 
 use ndarray::Array2;
 
@@ -36,7 +36,7 @@ impl<'a, T: Real> Hessian<'a, T> {
         self.applications
     }
 
-    /// How many admissible fields are independent.
+    /// The dimension of the space of admissible fields.
     pub(super) fn dimension(&self) -> usize {
         let free = self.free as usize;
         if self.centred { free.saturating_sub(1) } else { free }
@@ -47,7 +47,7 @@ impl<'a, T: Real> Hessian<'a, T> {
         if self.least.is_finite() { self.least } else { 0.0 }
     }
 
-    /// The stiffness of the softest wave, or what stands for it where there is none.
+    /// The stiffness of the softest wave; E*/Lx on a grid of one node, which has no wave.
     pub(super) fn softest(&self) -> f64 {
         match self.operator.stiffness_range().0 {
             softest if softest > 0.0 => softest,
@@ -59,7 +59,7 @@ impl<'a, T: Real> Hessian<'a, T> {
         self.operator.stiffness_range().1.max(self.softest())
     }
 
-    /// What the eigenvalues are no smaller than, as K⁻¹ and φ'' alone are not.
+    /// A lower bound of the eigenvalues: the sum of the least eigenvalues of K⁻¹ and φ''.
     pub(super) fn simple_bound(&self) -> f64 {
         // a uniform change costs no elastic energy
         let elastic = if self.centred { self.operator.stiffness_range().0 } else { 0.0 };

@@ -10,8 +10,8 @@ use crate::elastic::ElasticOperator;
 use crate::error::Result;
 use crate::real::Real;
 
-/// How much of a random field is added to the mode of the last state. Without it a mode that has no share in the start,
-/// as an antisymmetric one beside a symmetric one, would never be found.
+/// The share of a random field that is added to the mode of the last state. Without it a mode that has no share in the
+/// start, as an antisymmetric one beside a symmetric one, would never be found.
 const FRESH: f64 = 0.03;
 
 /// Iterations on a state at most.
@@ -23,7 +23,7 @@ const SHARP: f64 = 1e-3;
 /// The share of its largest value that a mode has at the node by which it gets its sign.
 const NEARLY: f64 = 0.99;
 
-/// Tells saddles from minima at given mean gaps, state by state: the mode of the last state is the start of the next.
+/// The watch for saddles at given mean gaps, state by state: the mode of the last state is the start for the next.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Watch<T> {
     /// the mode that was last found, of mean square 1
@@ -32,7 +32,7 @@ pub(crate) struct Watch<T> {
     random: Option<Array2<T>>,
 }
 
-/// An equilibrium that is no minimum; the mode along which it is none is that of the [`Watch`].
+/// A saddle, and its unstable mode in [`Watch::mode`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Saddle {
     /// the Rayleigh quotient of the mode, negative
@@ -40,7 +40,7 @@ pub(crate) struct Saddle {
 }
 
 impl<T: Real> Watch<T> {
-    /// One that goes on from a mode.
+    /// A watch that begins with a mode.
     pub(crate) fn from_mode(mode: Option<Array2<T>>) -> Self {
         Self { mode, random: None }
     }

@@ -1,3 +1,5 @@
+//! Random numbers by counter (Philox 4×32-10).
+
 /// Philox 4×32-10: four random words for each counter, without a state.
 ///
 /// J. K. Salmon, M. A. Moraes, R. O. Dror, D. E. Shaw, *Parallel random numbers: as easy as 1, 2, 3*, SC '11 (2011).

@@ -1,3 +1,5 @@
+//! Random self-affine surfaces of a given spectrum.
+
 use std::f64::consts::TAU;
 
 use ndarray::Array2;
@@ -45,8 +47,8 @@ pub enum Amplitude {
 /// periods along x, in whatever direction the wave runs.
 ///
 /// The amplitude of a wave is drawn by its wave vector (m, n) and the seed, from Philox 4×32-10, whatever the grid
-/// and the number of threads. All grids of the same aspect ratio Lx/Ly that resolve k_s hence get the same surface, as a
-/// function of the coordinates x/Lx and y/Ly: nodes that two grids share get the same height to rounding. The drawn
+/// and the number of threads. All grids of the same aspect ratio Lx/Ly that resolve k_s hence get the same surface, as
+/// a function of the coordinates x/Lx and y/Ly: nodes that two grids share get the same height to rounding. The drawn
 /// amplitudes are the same bits on every platform, the heights the same to the rounding of the transform.
 ///
 /// The constant C₀ is such that the rms height or slope of the very surface drawn is the given one, to rounding.
@@ -123,8 +125,8 @@ impl SelfAffine {
 
     /// The spectrum that is aimed at: |ĥ|² of every wave, whatever the seed.
     ///
-    /// It is that of the surface itself if only the phases are random. Gaussian amplitudes scatter about it: |ĥ|² of each
-    /// wave has an exponential distribution.
+    /// It is that of the surface itself if only the phases are random. Gaussian amplitudes scatter about it: |ĥ|² of
+    /// each wave has an exponential distribution.
     ///
     /// # Errors
     /// As for [`SelfAffine::surface`].

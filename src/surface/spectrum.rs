@@ -1,3 +1,5 @@
+//! The power spectrum of a surface.
+
 use std::f64::consts::TAU;
 
 use ndarray::Array2;
@@ -9,9 +11,9 @@ use crate::grid::Grid;
 
 /// The power spectrum of a periodic surface: |ĥ(q)|² of each of its waves.
 ///
-/// With ĥ(q) = ⟨h e^(−iq·x)⟩, the mean over the nodes, Parseval's theorem reads ⟨h²⟩ = Σ|ĥ|², the mean height left out.
-/// Where a direction has an even number of nodes, its shortest wave, which the nodes cannot tell from its mirror image,
-/// counts with the power that it has at the nodes.
+/// With ĥ(q) = ⟨h e^(−iq·x)⟩, the mean over the nodes, Parseval's theorem reads ⟨h²⟩ = Σ|ĥ|², the mean height left
+/// out. Where a direction has an even number of nodes, its shortest wave, which the nodes cannot tell from its mirror
+/// image, counts with the power that it has at the nodes.
 ///
 /// ```
 /// use asperity::{Grid, Surface};

@@ -1,3 +1,5 @@
+//! Statistics of a surface: moments of its heights, slopes and curvatures.
+
 use ndarray::ArrayView1;
 
 use super::Surface;
@@ -7,8 +9,8 @@ use super::spectrum::is_line;
 ///
 /// Slopes and curvatures come in two forms. The spectral ones are those of the smooth periodic surface through the
 /// nodes. The finite differences, periodic too, are what the nodes show: they are smaller, by (qΔ)²/24 of a slope and
-/// (qΔ)²/12 of a curvature along an axis for a wave number q and a spacing Δ. If the two differ much, the grid does not resolve the
-/// surface, or its edges do not meet.
+/// (qΔ)²/12 of a curvature along an axis for a wave number q and a spacing Δ. If the two differ much, the grid does
+/// not resolve the surface, or its edges do not meet.
 ///
 /// Lengths are in the unit of the heights; [`Surface::statistics`] has an example.
 #[non_exhaustive]

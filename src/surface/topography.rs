@@ -1,3 +1,5 @@
+//! The height map: measured heights on the way to a periodic surface.
+
 use std::f64::consts::PI;
 use std::ops::Range;
 
@@ -20,8 +22,8 @@ pub use trend::{Fit, Trend};
 /// A surface is periodic and complete; a measurement is neither. Each step between the two is a method of its own, and
 /// nothing is done unasked: [`fill`](Self::fill) missing points, [`detrend`](Self::detrend), make the map periodic by
 /// [`window`](Self::window) or [`mirror`](Self::mirror), [`crop`](Self::crop) it, [`flip`](Self::flip) it, and
-/// [`resample`](Self::resample) it. Heights that are NaN or infinite are missing: all methods leave them missing, and out of
-/// their sums, but for `fill`, which gives them values, and `window` and `resample`, which refuse them.
+/// [`resample`](Self::resample) it. Heights that are NaN or infinite are missing: all methods leave them missing, and
+/// out of their sums, but for `fill`, which gives them values, and `window` and `resample`, which refuse them.
 ///
 /// ```
 /// use asperity::{Topography, Trend};
@@ -118,18 +120,19 @@ impl Topography {
     /// Tapers the map towards its edges, so that it becomes periodic; mean height and number of nodes stay.
     ///
     /// ```math
-    /// h \to \langle h\rangle + w(x)\,w(y)\,(h - c), \qquad c = \frac{\langle w h\rangle}{\langle w\rangle},
-    /// \qquad w(x) = \tfrac12\Bigl(1 - \cos\frac{\pi d}{f L}\Bigr) \text{ for } d < fL, \quad 1 \text{ elsewhere}
+    /// h → ⟨h⟩ + w(x) w(y) (h − c) ,   c = ⟨wh⟩/⟨w⟩ ,
+    /// w(x) = ½(1 − cos(πd/(fL))) for d < fL, 1 elsewhere
     /// ```
     ///
-    /// with d the distance from the nearer edge of the side L, half a spacing more than that of the outermost node, and
-    /// `fraction` f the share of the side that is tapered at each of its two ends (Tukey's window). In the middle, heights are only
-    /// shifted by a common constant; in the tapered strips they shrink towards the mean, and with them the rms height of
-    /// the whole, by √⟨w²⟩ where heights do not know of the window. Remove a tilt first. On a line only x is tapered.
+    /// with d the distance from the nearer edge of the side L, half a spacing more than that of the outermost node,
+    /// and `fraction` f the share of the side that is tapered at each of its two ends (Tukey's window). In the middle,
+    /// heights are only shifted by a common constant; in the tapered strips they shrink towards the mean, and with
+    /// them the rms height of the whole, by √⟨w²⟩ where heights do not know of the window. Remove a tilt first. On a
+    /// line only x is tapered.
     ///
-    /// That is made for spectra. In contact, the frame is a flat piece at the mean height that the surface does not have: it
-    /// touches under loads that bring the mean height close, or where long waves are deep. Look at the contact
-    /// map, or use [`mirror`](Self::mirror), which leaves all heights as they are.
+    /// That is made for spectra. In contact, the frame is a flat piece at the mean height that the surface does not
+    /// have: it touches under loads that bring the mean height close, or where long waves are deep. Look at the
+    /// contact map, or use [`mirror`](Self::mirror), which leaves all heights as they are.
     ///
     /// # Errors
     /// [`Error::Value`] if the fraction is not from 0 to 0.5, [`Error::NotFinite`] if heights are missing.
@@ -162,9 +165,9 @@ impl Topography {
     /// Continues the map by its mirror image along both axes: 2Nx × 2Ny nodes on sides twice as long, periodic and
     /// continuous, with the same mean and rms height. A line becomes twice as long.
     ///
-    /// Row Nx + i is a copy of row Nx − 1 − i, and columns likewise, so that the outermost nodes have copies of themselves for
-    /// neighbours. Heights stay as they are; slopes across the seams jump to their opposite, and all that is found on the
-    /// result, as contact clusters or spectra, has the symmetry of the mirrors.
+    /// Row Nx + i is a copy of row Nx − 1 − i, and columns likewise, so that the outermost nodes have copies of
+    /// themselves for neighbours. Heights stay as they are; slopes across the seams jump to their opposite, and all
+    /// that is found on the result, as contact clusters or spectra, has the symmetry of the mirrors.
     #[must_use]
     pub fn mirror(mut self) -> Self {
         let (nx, ny) = self.heights.dim();

@@ -1,3 +1,5 @@
+//! Tests of the warnings.
+
 use ndarray::Array2;
 
 use super::*;

@@ -1,3 +1,5 @@
+//! `asperity completions`: scripts that complete commands in a shell.
+
 use std::io::{self, Write};
 
 use clap::{Args, Command};

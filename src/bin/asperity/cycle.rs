@@ -1,3 +1,5 @@
+//! `asperity cycle`: a path of equilibria through loading and unloading, with its jumps.
+
 use std::ops::ControlFlow;
 use std::path::PathBuf;
 

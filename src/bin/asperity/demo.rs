@@ -1,3 +1,5 @@
+//! `asperity demo`: a rough contact with and without adhesion, from nothing.
+
 use std::ffi::{OsStr, OsString};
 use std::path::{Path, PathBuf};
 
@@ -20,8 +22,8 @@ use crate::solve;
 
 /// Press a built-in rough surface, without and with adhesion at the same load.
 ///
-/// Prints a table and writes maps of the heights, the contact and the pressure. Needs no files. Beside the maps it writes
-/// scene.toml, with which asperity run does the case with adhesion again: something to change and to try.
+/// Prints a table and writes maps of the heights, the contact and the pressure. Needs no files. Beside the maps it
+/// writes scene.toml, with which asperity run does the case with adhesion again: something to change and to try.
 #[derive(Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Options {

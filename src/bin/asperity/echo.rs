@@ -1,3 +1,5 @@
+//! The scene file that repeats a run, written beside its results.
+
 use std::any::TypeId;
 use std::fs;
 use std::path::{Component, Path, PathBuf};

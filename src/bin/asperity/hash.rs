@@ -1,3 +1,5 @@
+//! The FNV-1a hash of inputs, by which a journal knows them again.
+
 use std::fmt;
 
 /// A fingerprint of bytes: FNV-1a, the same on every platform and in every version.

@@ -13,8 +13,8 @@ const ROUNDING: f64 = 1e-2;
 /// How many names of arrays are told.
 const MOST_NAMES: usize = 10;
 
-/// The map of a file with the given `--lengths`, of which one means square cells; without any, those of the file, or else
-/// the unit square. Lengths that contradict the file are refused.
+/// The map of a file with the given `--lengths`, of which one means square cells; without any, those of the file, or
+/// else the unit square. Lengths that contradict the file are refused.
 pub fn map(path: &Path, lengths: Option<&[f64]>) -> Outcome<Topography> {
     let mut map = read_topography(path)?;
     if let Some(given) = given(&map, lengths) {
@@ -40,8 +40,8 @@ pub fn map(path: &Path, lengths: Option<&[f64]>) -> Outcome<Topography> {
     Ok(map)
 }
 
-/// Says on standard error which arrays of a file were not read, if its side lengths, which then `are` something, may be
-/// among them.
+/// Says on standard error which arrays of a file were not read, if its side lengths, which then `are` something, may
+/// be among them.
 pub fn warn_of_unread(path: &Path, map: &Topography, are: &str) {
     if map.lengths.is_none() && !map.unread.is_empty() {
         let names: Vec<_> = map.unread.iter().take(MOST_NAMES).map(|name| format!("{name:?}")).collect();

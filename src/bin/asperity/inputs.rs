@@ -1,3 +1,5 @@
+//! The inputs of a command as its report lists them.
+
 use std::path::Path;
 
 use asperity::Grid;

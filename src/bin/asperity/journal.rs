@@ -1,9 +1,10 @@
 //! A file to which rows are appended as they come, and from which an interrupted sweep goes on.
 //!
-//! Beside the file stands its state, an archive with the gaps from which the next row starts, and with a comment that says
-//! how far the file had got by then, and to what it belongs. A row is appended and brought to the disk before the
-//! state is replaced, in one go: the state never runs ahead of the file, and what the file has beyond the state is at most
-//! one row, whole or not, which is taken back and computed again. The file is locked as long as the journal is open.
+//! Beside the file stands its state, an archive with the gaps from which the next row starts, and with a comment that
+//! says how far the file had got by then, and to what it belongs. A row is appended and brought to the disk before the
+//! state is replaced, in one go: the state never runs ahead of the file, and what the file has beyond the state is at
+//! most one row, whole or not, which is taken back and computed again. The file is locked as long as the journal is
+//! open.
 
 use std::ffi::OsString;
 use std::fs::{self, File, OpenOptions, TryLockError};
@@ -55,8 +56,8 @@ impl Written {
 const REMEDY: &str = "choose another --out, or --force to start over";
 
 impl Journal {
-    /// Opens the file for the rows of `loads`, new or to go on with, and returns the gaps from which to go on, the latest
-    /// last. With `force` it is new in any case.
+    /// Opens the file for the rows of `loads`, new or to go on with, and returns the gaps from which to go on, the
+    /// latest last. With `force` it is new in any case.
     pub fn open(
         path: &Path,
         header: &str,

@@ -1,3 +1,5 @@
+//! Lists of loads: numbers and ranges on the command line.
+
 /// Loads, one after the other.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Loads(pub Vec<f64>);

@@ -1,6 +1,7 @@
 //! The command-line tool: `asperity demo` shows what the library does, `asperity solve` does it on files,
-//! `asperity sweep` under many loads and `asperity cycle` through jumps; `asperity surface` makes such files, `asperity prepare` makes them of
-//! measured maps, and `asperity stats` measures them. `asperity run` does any of it from a scene file, as every run leaves one.
+//! `asperity sweep` under many loads and `asperity cycle` through jumps; `asperity surface` makes such files,
+//! `asperity prepare` makes them of measured maps, and `asperity stats` measures them. `asperity run` does any of it
+//! from a scene file, as every run leaves one.
 
 mod completions;
 mod cycle;
@@ -133,8 +134,8 @@ fn refused(error: &dyn Error) -> ExitCode {
     REFUSED.into()
 }
 
-/// Prints help where it was asked for, and otherwise what is wrong with the arguments, on one line; `blamed` says what to
-/// put before that, for an argument.
+/// Prints help where it was asked for, and otherwise what is wrong with the arguments, on one line; `blamed` says what
+/// to put before that, for an argument.
 fn usage(error: &clap::Error, blamed: impl Fn(&str) -> Option<String>) -> ExitCode {
     match error.kind() {
         ErrorKind::DisplayHelp | ErrorKind::DisplayVersion => {

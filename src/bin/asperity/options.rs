@@ -13,11 +13,12 @@ use crate::{Outcome, input};
 /// The surface, and what it is pressed against.
 #[derive(Args)]
 pub struct SurfaceOptions {
-    /// Heights of the rough surface, shape (Nx, Ny), peaks up: .npy, .npz, .gsf (Gwyddion), .xyz, Gwyddion's text export, or
-    /// a text matrix
+    /// Heights of the rough surface, shape (Nx, Ny), peaks up: .npy, .npz, .gsf (Gwyddion), .xyz, Gwyddion's text
+    /// export, or a text matrix
     #[arg(long, value_name = "FILE", help_heading = "Surface")]
     pub heights: PathBuf,
-    /// Side lengths of the map, in the unit of the heights; LX alone means square cells [default: the file's, else 1 1]
+    /// Side lengths of the map, in the unit of the heights; LX alone means square cells [default: the file's, else 1
+    /// 1]
     #[arg(long, value_names = ["LX", "LY"], num_args = 1..=2, allow_negative_numbers = true, value_parser = positive)]
     #[arg(help_heading = "Surface")]
     pub lengths: Option<Vec<f64>>,

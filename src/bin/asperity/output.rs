@@ -1,3 +1,5 @@
+//! The output file of a command, which appears when it is complete.
+
 use std::path::{Path, PathBuf};
 
 use asperity::Error;

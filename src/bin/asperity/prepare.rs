@@ -1,3 +1,5 @@
+//! `asperity prepare`: a measured height map made into a periodic surface.
+
 use std::path::PathBuf;
 
 use asperity::io::{read_topography, write_topography};
@@ -15,9 +17,10 @@ use crate::{Outcome, say};
 
 /// Make a surface that can be solved of a measured map.
 ///
-/// A measurement has missing points, a tilt, and edges that do not meet; a surface that is solved is complete and periodic.
-/// Nothing is done that is not asked for, and each step is told in a line; FILE.scene.toml beside the result repeats them. Whatever the order of the options, the steps
-/// are: --lengths, --scale, --unit, --crop, --flip, --detrend, --fill, --window or --mirror, --resample.
+/// A measurement has missing points, a tilt, and edges that do not meet; a surface that is solved is complete and
+/// periodic. Nothing is done that is not asked for, and each step is told in a line; FILE.scene.toml beside the result
+/// repeats them. Whatever the order of the options, the steps are: --lengths, --scale, --unit, --crop, --flip,
+/// --detrend, --fill, --window or --mirror, --resample.
 #[derive(Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Options {
@@ -46,8 +49,8 @@ pub struct Options {
     /// Fill missing points smoothly from their surroundings, by Laplace's equation
     #[arg(long)]
     fill: bool,
-    /// Make the map periodic: taper heights towards their mean within this share of the sides at each edge, up to 0.5. Fit for
-    /// spectra; under load the flat frame may come into contact, where --mirror keeps all heights
+    /// Make the map periodic: taper heights towards their mean within this share of the sides at each edge, up to 0.5.
+    /// Fit for spectra; under load the flat frame may come into contact, where --mirror keeps all heights
     #[arg(long, value_name = "F", allow_hyphen_values = true, conflicts_with = "mirror")]
     window: Option<f64>,
     /// Make the map periodic: continue it by its mirror images, to twice the size along both sides
@@ -57,7 +60,8 @@ pub struct Options {
     #[arg(long, value_names = ["NX", "NY"], num_args = 2, allow_negative_numbers = true, value_parser = nodes)]
     resample: Option<Vec<usize>>,
 
-    /// File for the result: .npz (with lengths and unit), .gsf (those too, for Gwyddion, in f32) or .npy (heights alone)
+    /// File for the result: .npz (with lengths and unit), .gsf (those too, for Gwyddion, in f32) or .npy (heights
+    /// alone)
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     out: PathBuf,
     /// Replace a file that is there

@@ -1,3 +1,5 @@
+//! Printing: tables for people or JSON, and the colours of a terminal.
+
 use std::io::{self, Write};
 
 use anstream::AutoStream;

@@ -1,3 +1,5 @@
+//! The progress bar of a solve.
+
 use std::time::Duration;
 
 use asperity::{Grid, Iteration};

@@ -1,3 +1,5 @@
+//! Reports of solves as tables, and what is to be known before they are trusted.
+
 use asperity::{Report, Status, Verdict};
 
 use crate::complain;

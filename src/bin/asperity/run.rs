@@ -1,3 +1,5 @@
+//! One solve for any command, with its stability and its warnings.
+
 use std::ops::ControlFlow;
 use std::path::Path;
 use std::time::Instant;

@@ -1,3 +1,5 @@
+//! `asperity run`: a scene file read as the arguments of a command.
+
 use std::ffi::OsString;
 use std::fs;
 use std::ops::Range;
@@ -15,9 +17,10 @@ use crate::echo::{is_path, key, section};
 /// Do what a scene file says.
 ///
 /// A scene is a TOML file with the name of a command (solve, sweep, cycle, prepare, surface, stats or demo) and its
-/// options by their long names, without the hyphens in front. Numbers, words and lists are written as TOML has them, an option without a value is set
-/// by true. Options may stand in sections, named as in the help of the command. File names are relative to the scene.
-/// Options after the name of the scene replace those in it, and the side lengths of a file of heights after it those in the scene.
+/// options by their long names, without the hyphens in front. Numbers, words and lists are written as TOML has them,
+/// an option without a value is set by true. Options may stand in sections, named as in the help of the command. File
+/// names are relative to the scene. Options after the name of the scene replace those in it, and the side lengths of a
+/// file of heights after it those in the scene.
 ///
 /// Every run leaves a scene that repeats it: scene.toml in a folder of results, FILE.scene.toml beside a file.
 #[derive(Args)]
@@ -111,7 +114,8 @@ impl Scene {
         Ok(Self { path, given, arguments })
     }
 
-    /// What to put before a complaint about an argument: the name of the scene, unless the argument was given beside it.
+    /// What to put before a complaint about an argument: the name of the scene, unless the argument was given beside
+    /// it.
     pub fn blamed(&self, argument: &str) -> Option<String> {
         let word = argument.split([' ', '=']).next().unwrap_or_default();
         let beside = self.given.iter().any(|given| given.to_string_lossy().split('=').next() == Some(word));
@@ -165,8 +169,8 @@ fn entries(table: Table, command: &Command) -> Result<Vec<(String, Value)>, Stri
     Ok(entries)
 }
 
-/// The options that those given beside a scene replace: themselves, those that exclude them, and with the law of adhesion
-/// its parameters, if there is none any more.
+/// The options that those given beside a scene replace: themselves, those that exclude them, and with the law of
+/// adhesion its parameters, if there is none any more.
 fn replaced(command: &Command, given: &[OsString]) -> Vec<String> {
     let mut replaced = Vec::new();
     let words: Vec<_> = given.iter().map(|word| word.to_string_lossy()).collect();

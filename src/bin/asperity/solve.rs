@@ -1,3 +1,5 @@
+//! `asperity solve`: the equilibrium at one load.
+
 use std::path::PathBuf;
 
 use asperity::io::{OutputFolder, write_npy, write_npz, write_vti};
@@ -20,12 +22,12 @@ use crate::{Outcome, say};
 
 /// Solve a contact problem given by files.
 ///
-/// All quantities are in any consistent units, as m, Pa and J/m²; heights of files with units of length are in m. Writes
-/// gap.npy, pressure.npy (the full elastic pressure, compression positive) and contact_pressure.npy (its repulsive part),
-/// or files as --format says, report.json, contact.png, pressure.png, and scene.toml, which repeats the run, all or none.
-/// Exits with 0 if converged, 2 if not (the fields are written all the same), and 1 if the input is refused or the files
-/// cannot be written (then there are none). What is probably a mistake, as a tilt, is said on a line each and in the report;
-/// --strict refuses it.
+/// All quantities are in any consistent units, as m, Pa and J/m²; heights of files with units of length are in m.
+/// Writes gap.npy, pressure.npy (the full elastic pressure, compression positive) and contact_pressure.npy (its
+/// repulsive part), or files as --format says, report.json, contact.png, pressure.png, and scene.toml, which repeats
+/// the run, all or none. Exits with 0 if converged, 2 if not (the fields are written all the same), and 1 if the input
+/// is refused or the files cannot be written (then there are none). What is probably a mistake, as a tilt, is said on
+/// a line each and in the report; --strict refuses it.
 #[derive(Args)]
 #[command(after_help = EXAMPLES, group(ArgGroup::new("load").required(true).args(["mean_gap", "mean_pressure"])))]
 pub struct Options {
@@ -56,10 +58,12 @@ pub struct Options {
     /// Find out whether the solution is stable, and write its softest mode to mode.npy
     #[arg(long, help_heading = "Output", conflicts_with = "nested")]
     stability: bool,
-    /// Go on from an equilibrium that is unstable to one that is not, and say how far the energy falls; implies --stability
+    /// Go on from an equilibrium that is unstable to one that is not, and say how far the energy falls; implies
+    /// --stability
     #[arg(long, help_heading = "Output", conflicts_with = "nested")]
     leave: bool,
-    /// Files for the fields: .npy one each, all in fields.npz for numpy, or in fields.vti for ParaView; may be repeated
+    /// Files for the fields: .npy one each, all in fields.npz for numpy, or in fields.vti for ParaView; may be
+    /// repeated
     #[arg(
         long,
         value_enum,

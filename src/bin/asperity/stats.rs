@@ -1,3 +1,5 @@
+//! `asperity stats`: statistics and spectrum of a surface.
+
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
@@ -16,19 +18,21 @@ use crate::{Outcome, input};
 /// Print the statistics of a rough surface.
 ///
 /// Heights, slopes, curvatures and Nayak's parameter, of the surface as it stands, continued periodically: a tilt, or
-/// edges that do not meet, count as roughness. Slopes and curvatures come from the Fourier spectrum and from differences
-/// between neighbours; if they differ much, the map does not resolve the surface.
+/// edges that do not meet, count as roughness. Slopes and curvatures come from the Fourier spectrum and from
+/// differences between neighbours; if they differ much, the map does not resolve the surface.
 #[derive(Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Options {
     /// Heights, shape (Nx, Ny), peaks up: .npy, .npz, .gsf (Gwyddion), .xyz, Gwyddion's text export, or a text matrix
     #[arg(value_name = "FILE")]
     heights: PathBuf,
-    /// Side lengths of the map, in the unit of the heights; LX alone means square cells [default: the file's, else 1 1]
+    /// Side lengths of the map, in the unit of the heights; LX alone means square cells [default: the file's, else 1
+    /// 1]
     #[arg(long, value_names = ["LX", "LY"], num_args = 1..=2, allow_negative_numbers = true, value_parser = positive)]
     lengths: Option<Vec<f64>>,
-    /// File for the radially averaged power spectral density, comma-separated: the wave number in radians per length, the
-    /// density, of which the integral over both wave numbers is the mean square height, and of how many waves it is the mean
+    /// File for the radially averaged power spectral density, comma-separated: the wave number in radians per length,
+    /// the density, of which the integral over both wave numbers is the mean square height, and of how many waves it
+    /// is the mean
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     psd: Option<PathBuf>,
     /// Replace a file that is there

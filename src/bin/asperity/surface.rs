@@ -1,3 +1,5 @@
+//! `asperity surface`: a random self-affine surface.
+
 use std::path::PathBuf;
 
 use asperity::io::{write_npy, write_topography};
@@ -17,10 +19,10 @@ use crate::stats::{density_table, report, table};
 
 /// Make a self-affine rough surface, and print its statistics.
 ///
-/// The surface is periodic and isotropic. Its power spectral density is constant from KL to KR, falls as k^(-2-2H) from KR
-/// to KS, on a line as k^(-1-2H), and is zero elsewhere. Wave numbers count periods along x. A seed stands for the same
-/// surface on every grid that resolves KS, with the given rms height or slope to rounding. FILE.scene.toml beside the heights
-/// makes them again by asperity run.
+/// The surface is periodic and isotropic. Its power spectral density is constant from KL to KR, falls as k^(-2-2H)
+/// from KR to KS, on a line as k^(-1-2H), and is zero elsewhere. Wave numbers count periods along x. A seed stands for
+/// the same surface on every grid that resolves KS, with the given rms height or slope to rounding. FILE.scene.toml
+/// beside the heights makes them again by asperity run.
 #[derive(Args)]
 #[command(after_help = EXAMPLES)]
 #[command(group(ArgGroup::new("nodes").required(true).args(["size", "shape"])))]
@@ -109,7 +111,8 @@ pub fn run(options: &Options, echo: &Echo) -> Outcome<bool> {
     }
     echo.check_beside(&options.out, options.force)?;
     run::use_threads(options.threads)?;
-    // Running out of memory cannot be caught later: heights, transform and spectrum take four numbers per node at most.
+    // Running out of memory cannot be caught later: heights, transform and spectrum take four numbers per node at
+    // most.
     if Vec::<f64>::new().try_reserve_exact(4 * grid.nodes()).is_err() {
         return Err(format!("{} x {} nodes do not fit into memory: use fewer", shape.0, shape.1).into());
     }

@@ -1,3 +1,5 @@
+//! `asperity sweep`: equilibria at a list of loads, as a table.
+
 use std::ops::ControlFlow;
 use std::path::PathBuf;
 
@@ -24,13 +26,14 @@ use crate::warnings::{Strictness, Warnings};
 
 /// Solve a contact problem under many loads, one after the other.
 ///
-/// Each load starts from where the ones before lead. A row for each is appended to the file as it comes, with the loads, the
-/// mean gap, the contact area and its statistics, the energies, and how the solve ended; contact_fraction counts
-/// nodes, corrected_contact_fraction takes off what they count too much along the edge of the contact, and clusters are in
-/// nodes. The same command again goes on where an interrupted one was, or with loads that were added to the end of
-/// the list, and comes to the same file, byte for byte; for that it keeps FILE.state.npz beside the file, which may be deleted at
-/// the end. FILE.scene.toml beside it repeats or continues the sweep by asperity run. Exits with 0 if all rows converged, 2 if not (they are written all the same), and 1 if the input is refused
-/// or the file cannot be written.
+/// Each load starts from where the ones before lead. A row for each is appended to the file as it comes, with the
+/// loads, the mean gap, the contact area and its statistics, the energies, and how the solve ended; contact_fraction
+/// counts nodes, corrected_contact_fraction takes off what they count too much along the edge of the contact, and
+/// clusters are in nodes. The same command again goes on where an interrupted one was, or with loads that were added
+/// to the end of the list, and comes to the same file, byte for byte; for that it keeps FILE.state.npz beside the
+/// file, which may be deleted at the end. FILE.scene.toml beside it repeats or continues the sweep by asperity run.
+/// Exits with 0 if all rows converged, 2 if not (they are written all the same), and 1 if the input is refused or the
+/// file cannot be written.
 #[derive(Args)]
 #[command(after_help = EXAMPLES, group(ArgGroup::new("loads").required(true).args(["mean_gaps", "mean_pressures"])))]
 pub struct Options {

@@ -1,3 +1,5 @@
+//! The warnings of a command: printed, reported, or refused with `--strict`.
+
 use asperity::{Solution, Surface, Warning};
 use clap::Args;
 use serde_json::{Value, json};

@@ -8,43 +8,43 @@ use crate::real::Real;
 use crate::solver::potential::Potential;
 use crate::vector::{sums, vectors};
 
-/// Which nodes may move, and the constant that their residual is relative to.
+/// The working set: the nodes that may move, by the gradient r, and the constants of r and r'.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::solver) struct Working<T> {
-    /// the mean pressure that is given, or zero
+    /// the constant b in r = p + φ'(g) + b
     pub(in crate::solver) offset: T,
-    /// a node in contact is released where r is below it
+    /// the value of r below which a node in contact is released
     pub(in crate::solver) release: T,
     /// the mean of r over the working set under gap control, zero under pressure control: r' = r − level
     pub(in crate::solver) level: T,
 }
 
-/// The contact nodes that are released.
+/// The sums over the contact nodes that are released.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::solver) struct Released {
-    /// how many
+    /// the number of these nodes
     pub(in crate::solver) count: f64,
-    /// Σ r over them
+    /// Σ r over these nodes
     pub(in crate::solver) sum_r: f64,
 }
 
-/// A residual that was computed from gap and pressure.
+/// The sums of a residual r' computed from gap and pressure.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::solver) struct Residual {
     /// Σ|g r'|
     pub(in crate::solver) orthogonality: f64,
-    /// how many nodes may move
+    /// the number of nodes in the working set
     pub(in crate::solver) working: f64,
-    /// Σ of the squares of the differences to the residual before
+    /// Σ (r' − r'₀)², with r'₀ the previous content of the field
     pub(in crate::solver) difference: f64,
 }
 
-/// A residual that a step has left, beside the step itself.
+/// The sums of a residual r' after a step c, whose field is still there.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::solver) struct Continued {
     /// Σ|g r'|
     pub(in crate::solver) orthogonality: f64,
-    /// how many nodes may move
+    /// the number of nodes in the working set
     pub(in crate::solver) working: f64,
     /// Σ r'·c, with c the field of the change
     pub(in crate::solver) descent: f64,
@@ -54,7 +54,7 @@ pub(in crate::solver) struct Continued {
     pub(in crate::solver) sum_change: f64,
 }
 
-/// How a node follows the mean gap: v = √((g + least)/(g + half)).
+/// The weight v = √((g + least)/(g + half)) with which a node follows the mean gap.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::solver) struct Follows<T> {
     pub(in crate::solver) half: T,
@@ -64,7 +64,7 @@ pub(in crate::solver) struct Follows<T> {
 /// The residual of a node of the working set.
 #[inline(always)]
 fn works<T: Real>(residual: T) -> T {
-    // no negative zero
+    // −0 + 0 = +0: negative zero marks nodes outside of the working set
     residual + T::zero()
 }
 
@@ -126,7 +126,7 @@ pub(in crate::solver) fn residual<T: Real>(
     Residual { orthogonality, working, difference }
 }
 
-/// r' of a chunk from the r that a step has left in its place.
+/// The residual r' of a chunk, from the gradient r in the same field.
 pub(super) fn release_chunk<T: Real>(
     projects: bool,
     working: Working<T>,
@@ -142,7 +142,7 @@ pub(super) fn release_chunk<T: Real>(
     })
 }
 
-/// Computes r' from the r that a step has left in its place.
+/// Computes r' from the gradient r in the same field, where a step has written it.
 pub(in crate::solver) fn release<T: Real>(fields: &mut Fields<T>, projects: bool, working: Working<T>) -> Continued {
     let Fields { reducer, moving, gap, residual, preconditioned, change, .. } = fields;
     let chunks = read(gap).zip(write(residual)).zip(read(preconditioned)).zip(read(change));
@@ -158,7 +158,7 @@ fn follow<T: Real>(follows: Follows<T>, gap: T) -> T {
     ((gap + follows.least) / (gap + follows.half)).sqrt()
 }
 
-/// Σ v and Σ v·r' for the way in which nodes follow the mean gap.
+/// Σ v and Σ v·r', with v the weight of [`Follows`].
 pub(in crate::solver) fn lift_sums<T: Real>(fields: &mut Fields<T>, follows: Follows<T>) -> [f64; 2] {
     let Fields { reducer, gap, residual, .. } = fields;
     let total = reducer.run(read(gap).zip(read(residual)), |_, (gap, residual)| {

@@ -31,9 +31,9 @@ pub(in crate::solver) struct Attempt<T> {
 pub(in crate::solver) struct Tried {
     /// Σ c
     pub(in crate::solver) change: f64,
-    /// how many nodes were clipped
+    /// the number of clipped nodes
     pub(in crate::solver) clipped: f64,
-    /// how many of them the gradient drives into contact
+    /// the number of clipped nodes that the gradient drives into contact
     pub(in crate::solver) blocked: f64,
     /// Σ r'·c
     pub(in crate::solver) descent: f64,
@@ -41,51 +41,51 @@ pub(in crate::solver) struct Tried {
     pub(in crate::solver) gap_descent: f64,
     pub(in crate::solver) change_surface: f64,
     pub(in crate::solver) gap_surface: f64,
-    /// with the local traction t: Σ t·c
+    /// Σ t·c, with t the local traction
     pub(in crate::solver) traction: f64,
-    /// with its slope s: Σ s·c², Σ s·c·g and Σ s·g²
+    /// Σ s·c², Σ s·c·g and Σ s·g², with s the slope of the local traction
     pub(in crate::solver) slope_change: f64,
     pub(in crate::solver) slope_mixed: f64,
     pub(in crate::solver) slope_gap: f64,
-    /// how many times c the gap can take
+    /// the largest a with g + a·c ≥ 0
     pub(in crate::solver) reach: f64,
 }
 
-/// A step that is taken: `length` of scale·(g + c) − g, with c the field of the change.
+/// A step of `length` along d = scale·(g + c) − g, with c the field of the change.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::solver) struct Advance<T> {
     pub(in crate::solver) length: T,
     pub(in crate::solver) scale: T,
-    /// the mean pressure that is given, or zero
+    /// the constant b in r = p + φ'(g) + b
     pub(in crate::solver) offset: T,
-    /// the level of r' under gap control; nothing under pressure control, where it is zero
+    /// the level r − r' under gap control; `None` under pressure control, where it is zero
     pub(in crate::solver) level: Option<T>,
 }
 
-/// The state that a step has made.
+/// The sums of the state after a step.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::solver) struct Advanced {
     pub(in crate::solver) tally: Tally,
     /// Σ d·(r − level), with d the step of unit length; zero where there is neither law nor springs
     pub(in crate::solver) product: f64,
-    /// the residual r' in the place of r, under pressure control
+    /// the sums of r', which takes the place of r, under pressure control
     pub(in crate::solver) residual: Option<Continued>,
 }
 
-/// The gap after a change, zero where only rounding keeps it from that.
+/// The gap after a change, and zero where it exceeds zero by rounding only.
 #[inline(always)]
 fn moved<T: Real>(projects: bool, gap: T, change: T) -> T {
     let next = gap + change;
     if projects & (next <= T::lit(4.0) * T::epsilon() * gap) { T::zero() } else { next }
 }
 
-/// The step of unit length.
+/// The step d = scale·(g + c) − g of unit length at one node.
 #[inline(always)]
 fn whole<T: Real>(scale: T, gap: T, change: T) -> T {
     if scale == T::one() { change } else { scale * (gap + change) - gap }
 }
 
-/// The change that a step makes at one node, and whether that was clipped.
+/// The change c of a step at one node, and whether it was clipped.
 #[inline(always)]
 fn clipped_change<T: Real>(attempt: Attempt<T>, gap: T, residual: T, z: T, change: T) -> (T, bool) {
     let Attempt { length, centre, keep, mean, projects } = attempt;
@@ -95,13 +95,13 @@ fn clipped_change<T: Real>(attempt: Attempt<T>, gap: T, residual: T, z: T, chang
     (if clipped { -gap } else { next - gap }, clipped)
 }
 
-/// How many times a change a gap can take.
+/// The largest a with g + a·c ≥ 0 at one node, for a gap g and a change c.
 #[inline(always)]
 fn reach<T: Real>(gap: T, change: T) -> f64 {
     if change < T::zero() { (gap / -change).widen() } else { f64::INFINITY }
 }
 
-/// Writes the change that a step makes, clipped; `surface` is K⁻¹h under gap control.
+/// Writes the clipped change c of a step; `surface` is K⁻¹h under gap control.
 pub(in crate::solver) fn trial<T: Real>(
     fields: &mut Fields<T>,
     local: &Potential<'_, T>,
@@ -169,7 +169,7 @@ pub(in crate::solver) fn trial<T: Real>(
     }
 }
 
-/// Σ of the local energy after a step.
+/// The sum of the local energy over the nodes after a step.
 pub(in crate::solver) fn energy_after<T: Real>(
     fields: &mut Fields<T>,
     local: &Potential<'_, T>,
@@ -200,7 +200,7 @@ pub(in crate::solver) fn advance<T: Real>(
     let Advance { length, scale, offset, level } = step;
     let Fields { reducer, least_r, gap, pressure, residual: response, preconditioned, change, .. } = fields;
     let (projects, nothing_local) = (local.projects(), local.is_zero());
-    // r into the place of the response, and the tally
+    // r takes the place of K⁻¹c; then the tally
     let finish = |first, gap: &[T], pressure: &[T], step: &[T], residual: &mut [T]| {
         let mut buffer = [T::zero(); CHUNK];
         let tractions = tractions(local, first, gap, &mut buffer);

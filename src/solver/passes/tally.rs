@@ -1,4 +1,4 @@
-//! The tally of a state: the sums over its nodes of which the driver makes its decisions.
+//! The tally of a state: the sums over its nodes on which the driver decides.
 
 use ndarray::Array2;
 
@@ -12,16 +12,16 @@ use crate::vector::sums;
 /// The sums over the nodes of a state.
 #[derive(Clone, Copy, Debug, Default)]
 pub(in crate::solver) struct Tally {
-    /// how many nodes are apart
+    /// the number of nodes apart
     pub(in crate::solver) free: f64,
-    /// Σ r over these
+    /// Σ r over the nodes apart
     pub(in crate::solver) sum_r: f64,
     /// the least r in contact
     pub(in crate::solver) min_r: f64,
     pub(in crate::solver) sum_gap: f64,
     /// Σ g·p
     pub(in crate::solver) sum_gp: f64,
-    /// how many nodes are in contact
+    /// the number of nodes in contact
     pub(in crate::solver) contact: f64,
     /// Σ φ' of the law
     pub(in crate::solver) traction: f64,
@@ -48,7 +48,7 @@ impl Tally {
     }
 }
 
-/// The sums that belong to a tally which was taken of gap and pressure.
+/// A tally that was taken of gap and pressure, with two more sums.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::solver) struct Taken {
     pub(in crate::solver) tally: Tally,
@@ -58,7 +58,7 @@ pub(in crate::solver) struct Taken {
     pub(in crate::solver) sum_p: f64,
 }
 
-/// The local tractions of a chunk, zero where there is nothing to evaluate.
+/// The local tractions of a chunk, zero without law and springs.
 pub(super) fn tractions<'a, T: Real>(
     local: &Potential<'_, T>,
     first: usize,
@@ -72,7 +72,7 @@ pub(super) fn tractions<'a, T: Real>(
     tractions
 }
 
-/// The part of a tally that gap, pressure and traction of a chunk give.
+/// The tally of a chunk by its gap, pressure and traction.
 pub(super) fn tally_of<T: Real>(projects: bool, offset: T, gap: &[T], pressure: &[T], traction: &[T]) -> Partial {
     sums!(5, [gap, pressure, traction], [], |i| {
         let (g, p) = (gap[i], pressure[i]);

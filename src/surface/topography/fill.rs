@@ -1,3 +1,5 @@
+//! Missing heights, filled by a membrane: the discrete Laplace equation, solved by multigrid.
+
 use ndarray::Array2;
 
 use super::Topography;
@@ -12,19 +14,20 @@ const ACCURACY: f64 = 1e-12;
 const OVERCORRECTION: f64 = 1.8;
 
 impl Topography {
-    /// Gives missing points the smoothest values that fit their surroundings: those of a membrane on the edge of the hole.
+    /// Gives missing points the smoothest values that fit their surroundings: those of a membrane on the edge of the
+    /// hole.
     ///
     /// They obey the discrete Laplace equation
     ///
     /// ```math
-    /// \frac{h_{i+1,j} - h_{ij}}{\Delta x^2} + \frac{h_{i-1,j} - h_{ij}}{\Delta x^2}
-    /// + \frac{h_{i,j+1} - h_{ij}}{\Delta y^2} + \frac{h_{i,j-1} - h_{ij}}{\Delta y^2} = 0
+    /// (h(i+1, j) − 2h(i, j) + h(i−1, j))/Δx² + (h(i, j+1) − 2h(i, j) + h(i, j−1))/Δy² = 0
     /// ```
     ///
-    /// at every missing point, without the terms of neighbours that are beyond the edge of the map, which is not taken as
-    /// periodic. There is one solution for any pattern of holes. It lies between the least and the greatest height around
-    /// each hole: there are no new peaks, nor the roughness that was there. Measured heights stay as they are. A plane fills its
-    /// own holes, but not at the edge of the map: [`detrend`](Self::detrend) first. Without side lengths cells are square.
+    /// at every missing point, without the terms of neighbours that are beyond the edge of the map, which is not taken
+    /// as periodic. There is one solution for any pattern of holes. It lies between the least and the greatest height
+    /// around each hole: there are no new peaks, nor the roughness that was there. Measured heights stay as they are.
+    /// A plane fills its own holes, but not at the edge of the map: [`detrend`](Self::detrend) first. Without side
+    /// lengths cells are square.
     ///
     /// By conjugate gradients, preconditioned by multigrid cycles, to a residual of 1e-12.
     ///

@@ -1,3 +1,5 @@
+//! Height maps on other grids, by Fourier interpolation.
+
 use ndarray::{Array2, Zip};
 use rustfft::num_complex::Complex;
 
@@ -9,19 +11,22 @@ use crate::grid::Grid;
 impl Topography {
     /// The map on `nodes` = (Mx, My) nodes of the same sides, finer or coarser, by Fourier interpolation.
     ///
-    /// The heights are the trigonometric polynomial through the Nx × Ny nodes, of which those of the new nodes are values:
+    /// The heights are the trigonometric polynomial through the Nx × Ny nodes, of which those of the new nodes are
+    /// values:
     ///
     /// ```math
-    /// h(x, y) = \sum_{|k| \le N_x/2} \sum_{|l| \le N_y/2} \hat h_{kl}\, e^{2\pi i (k x / L_x + l y / L_y)}
+    /// h(x, y) = Σₖ Σₗ ĥₖₗ exp(2πi(kx/Lx + ly/Ly)) ,   |k| ≤ Nx/2 , |l| ≤ Ny/2
     /// ```
     ///
-    /// The shortest wave of an even number of nodes, which the nodes cannot tell from its mirror image, counts half for k = N/2
-    /// and half for k = −N/2. Node (0, 0) stays in its place; with Mx and My multiples of Nx and Ny all old nodes are among the
-    /// new ones, and keep their heights. Coarser grids lose the waves that they do not resolve, which is no sampling of
-    /// every second node. The mean height stays, and so do all waves that both grids resolve.
+    /// The shortest wave of an even number of nodes, which the nodes cannot tell from its mirror image, counts half
+    /// for k = N/2 and half for k = −N/2. Node (0, 0) stays in its place; with Mx and My multiples of Nx and Ny all
+    /// old nodes are among the new ones, and keep their heights. Coarser grids lose the waves that they do not
+    /// resolve, which is no sampling of every second node. The mean height stays, and so do all waves that both grids
+    /// resolve.
     ///
     /// The polynomial is periodic: edges that do not meet make it ring. Use [`window`](Self::window) or
-    /// [`mirror`](Self::mirror) first. On a coarse grid, peaks between the nodes are there to be found, higher than any node.
+    /// [`mirror`](Self::mirror) first. On a coarse grid, peaks between the nodes are there to be found, higher than
+    /// any node.
     ///
     /// ```
     /// use asperity::{Grid, Surface, Topography};
@@ -34,8 +39,8 @@ impl Topography {
     /// ```
     ///
     /// # Errors
-    /// [`Error::Value`] if a number of nodes is zero, or such that fields do not fit into memory; [`Error::NotFinite`] if
-    /// heights are missing.
+    /// [`Error::Value`] if a number of nodes is zero, or such that fields do not fit into memory; [`Error::NotFinite`]
+    /// if heights are missing.
     pub fn resample(mut self, nodes: (usize, usize)) -> Result<Self> {
         Grid::new(nodes, (1.0, 1.0))?;
         Error::all_finite("heights", self.heights.view())?;

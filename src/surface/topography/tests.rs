@@ -1,3 +1,5 @@
+//! Tests of height maps.
+
 use std::f64::consts::TAU;
 
 use approx::assert_relative_eq;

@@ -1,3 +1,5 @@
+//! Trends of a height map: least-squares polynomials, fitted and removed.
+
 use super::Topography;
 use crate::error::{Error, Result};
 
@@ -66,7 +68,7 @@ impl Topography {
     /// Takes away the least-squares fit of a trend; what remains has the mean 0.
     ///
     /// ```math
-    /// h \to h - \hat p, \qquad \hat p = \arg\min_p \sum_{\text{measured}} (h - p)^2
+    /// h → h − p̂ ,   p̂ = arg min over p of  Σ (h − p)²
     /// ```
     ///
     /// over the polynomials p of the trend, in all of the points that are not missing. To see what goes, use
