@@ -70,9 +70,9 @@ impl fmt::Display for Status {
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Iteration {
-    /// How many steps were made.
+    /// The number of steps.
     pub iteration: usize,
-    /// How many operator applications this solve has taken so far.
+    /// The number of operator applications of this solve so far.
     pub operator_applications: usize,
     /// The certified relative error in the energy norm, [`Report::relative_error`]. [`Method::Rey2017`] does not need
     /// it and computes it only now and then; it is infinite before.
@@ -84,7 +84,7 @@ pub struct Iteration {
     pub energy: f64,
     /// The mean gap.
     pub mean_gap: f64,
-    /// How many nodes are in contact.
+    /// The number of nodes in contact.
     pub contact_points: usize,
     /// The number of changes of the minimised energy so far: of the law, the multipliers of a constraint, or, in
     /// search of a state that holds a tension, the mean gap. The energy falls within a round.
@@ -111,7 +111,7 @@ pub struct Iteration {
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Report {
-    /// How the solve ended.
+    /// The status: how the solve ended.
     pub status: Status,
     /// The certified relative error of the gap in the energy norm, √(⟨r', K r'⟩/⟨u, p⟩), evaluated on the returned
     /// fields.
@@ -128,9 +128,10 @@ pub struct Report {
     pub load_error: f64,
     /// The paper's criterion ε = Σ|g r'|, in units of E*·√(Lx·Ly), on the returned fields.
     pub orthogonality: f64,
-    /// How many steps were made.
+    /// The number of steps.
     pub iterations: usize,
-    /// How many forward and inverse transforms the solve took; the construction of the problem takes one more.
+    /// The number of operator applications, each a forward and an inverse transform; the construction of the problem
+    /// takes one more.
     pub operator_applications: usize,
     /// The mean gap.
     pub mean_gap: f64,
@@ -144,7 +145,7 @@ pub struct Report {
     pub mean_contact_pressure: f64,
     /// The share of nodes in contact, as [`Solution::contact_map`] says.
     pub contact_fraction: f64,
-    /// How many nodes are in contact, as [`Solution::contact_map`] says.
+    /// The number of nodes in contact, by [`Solution::contact_map`].
     pub contact_points: usize,
     /// The smallest gap: zero in contact, negative only where the constraint lets the surfaces interpenetrate.
     pub min_gap: f64,

@@ -23,8 +23,8 @@ use super::hessian::Hessian;
 use crate::error::Result;
 use crate::real::Real;
 
-/// How small the start's component along either end may be, in standard deviations: together a chance of one in a
-/// million.
+/// The least component of the start along either end of the spectrum, in standard deviations: smaller ones have
+/// together a chance of one in a million.
 const LEAST: f64 = 6.2e-7;
 
 /// Steps after which the bound is computed again.

@@ -3,7 +3,7 @@
 use super::Topography;
 use crate::error::{Error, Result};
 
-/// What [`Topography::detrend`] takes away.
+/// A trend, which [`Topography::detrend`] takes away.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Trend {
     /// The mean height.
@@ -71,7 +71,7 @@ impl Topography {
     /// h → h − p̂ ,   p̂ = arg min over p of  Σ (h − p)²
     /// ```
     ///
-    /// over the polynomials p of the trend, in all of the points that are not missing. To see what goes, use
+    /// over the polynomials p of the trend, with the sum over all points that are not missing. To see what goes, use
     /// [`fit`](Self::fit).
     ///
     /// ```
