@@ -8,7 +8,8 @@ use ndarray::{Array2, ArrayView2};
 ///
 /// ```
 /// use asperity::{Clusters, Connectivity};
-/// let map = ndarray::array![[true, false, false], [false, true, false], [false, false, false], [false, false, false]];
+/// let none = [false; 3];
+/// let map = ndarray::array![[true, false, false], [false, true, false], none, none];
 /// assert_eq!(Clusters::of(map.view(), Connectivity::Sides).sizes.len(), 2);
 /// assert_eq!(Clusters::of(map.view(), Connectivity::Corners).sizes.len(), 1);
 /// ```

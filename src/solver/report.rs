@@ -11,7 +11,8 @@ use super::{Criterion, Method};
 /// ```
 /// use asperity::{Control, Grid, NoAdhesion, Problem, Settings, Solver, Status, Surface, Westergaard};
 /// let grid = Grid::square(32, 1.0)?;
-/// let mut problem = Problem::new(&Surface::wave_2d(grid, 0.02, 1)?, Westergaard::<f64>::new(grid, 1.0)?, NoAdhesion)?;
+/// let surface = Surface::wave_2d(grid, 0.02, 1)?;
+/// let mut problem = Problem::new(&surface, Westergaard::<f64>::new(grid, 1.0)?, NoAdhesion)?;
 /// let mut solver = Solver::new(Settings { max_iterations: 2, ..Settings::default() });
 /// let report = solver.solve(&mut problem, Control::MeanGap(0.01))?.report;
 /// assert_eq!(report.status, Status::IterationLimit); // no error: the fields are there, and the report says how good
@@ -60,7 +61,8 @@ impl fmt::Display for Status {
 /// use std::ops::ControlFlow;
 /// use asperity::{Control, Grid, NoAdhesion, Problem, Solver, Status, Surface, Westergaard};
 /// let grid = Grid::square(32, 1.0)?;
-/// let mut problem = Problem::new(&Surface::wave_2d(grid, 0.02, 1)?, Westergaard::<f64>::new(grid, 1.0)?, NoAdhesion)?;
+/// let surface = Surface::wave_2d(grid, 0.02, 1)?;
+/// let mut problem = Problem::new(&surface, Westergaard::<f64>::new(grid, 1.0)?, NoAdhesion)?;
 /// let solution = Solver::default().solve_from(&mut problem, Control::MeanGap(0.01), None, |state| {
 ///     println!("{} {:.1e} {:.6e}", state.iteration, state.relative_error, state.energy);
 ///     if state.relative_error < 1e-2 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }

@@ -110,7 +110,7 @@ fn ends(diagonal: &[f64], beside: &[f64]) -> [f64; 2] {
     let radius = |k: usize| if k + 1 < diagonal.len() { at(Some(k)) } else { 0.0 } + at(k.checked_sub(1));
     let low = diagonal.iter().enumerate().map(|(k, d)| d - radius(k)).fold(f64::INFINITY, f64::min);
     let high = diagonal.iter().enumerate().map(|(k, d)| d + radius(k)).fold(f64::NEG_INFINITY, f64::max);
-    // how many eigenvalues are below a number
+    // the number of eigenvalues below a number
     let below = |number: f64| {
         let (mut count, mut pivot) = (0, 1.0);
         for (k, d) in diagonal.iter().enumerate() {

@@ -129,6 +129,7 @@ impl Topography {
     /// heights are only shifted by a common constant; in the tapered strips they shrink towards the mean, and with
     /// them the rms height of the whole, by √⟨w²⟩ where heights do not know of the window. Remove a tilt first. On a
     /// line only x is tapered.
+    ///
     /// The window is made for spectra. In contact, the frame is a flat piece at the mean height that the surface does
     /// not have: it touches under loads that bring the mean height close, or where long waves are deep. Look at the
     /// contact map, or use [`mirror`](Self::mirror), which leaves all heights as they are.

@@ -33,7 +33,7 @@ pub struct Journal {
     identity: Identity,
     file: File,
     written: Written,
-    /// what else the next row depends on
+    /// the numbers, beside the gaps, on which the next row depends
     numbers: Vec<f64>,
 }
 
@@ -41,7 +41,7 @@ pub struct Journal {
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Written {
     rows: usize,
-    /// how many of them did not converge
+    /// the number of rows that did not converge
     unconverged: usize,
     /// the loads of the rows
     loads: Hash,
@@ -68,7 +68,7 @@ impl Journal {
         Self::open_for(path, header, identity, Some(loads), force)
     }
 
-    /// The same for rows of which nobody knows how many there will be.
+    /// Opens a journal for a number of rows that is not known before.
     pub fn open_endless(
         path: &Path,
         header: &str,

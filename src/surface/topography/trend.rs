@@ -76,7 +76,8 @@ impl Topography {
     ///
     /// ```
     /// use asperity::{Topography, Trend};
-    /// let plane = Topography::new(ndarray::Array2::from_shape_fn((9, 7), |(i, j)| 5.0 + 0.5 * i as f64 - 2.0 * j as f64));
+    /// let heights = ndarray::Array2::from_shape_fn((9, 7), |(i, j)| 5.0 + 0.5 * i as f64 - 2.0 * j as f64);
+    /// let plane = Topography::new(heights);
     /// let tilt = plane.fit(Trend::Plane)?;
     /// assert!((tilt.slopes.0 - 0.5).abs() < 1e-14 && (tilt.slopes.1 + 2.0).abs() < 1e-14);
     /// assert!(plane.detrend(Trend::Plane)?.heights.iter().all(|h| h.abs() < 1e-13));
