@@ -1,4 +1,4 @@
-//! What belongs together and is to be compared, one after the other in one run: two threads and one, `f32` and `f64`, no adhesion
+//! Ratios of times, measured one after the other in one run: two threads and one, `f32` and `f64`, no adhesion
 //! and laws of no energy and of hardly any range, lines, narrow grids and a square of as many nodes.
 //!
 //! `cargo bench --bench ratios`. All but the first pair are on one thread.

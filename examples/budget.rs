@@ -1,4 +1,4 @@
-//! What share of a solve is not spent in operator applications, and what single precision gains, as medians over rounds.
+//! The share of a solve outside of operator applications, and the gain of single precision, as medians over rounds.
 //!
 //! `RAYON_NUM_THREADS=1 cargo run --release --example budget -- [size [case]]`; 1024 if nothing is given, and of a case a part of
 //! its name.

@@ -13,7 +13,7 @@ pub use exponential::Exponential;
 pub use maugis_dugdale::MaugisDugdale;
 pub use none::NoAdhesion;
 
-/// How two surfaces attract each other across a gap: an energy per area, a function of the gap alone.
+/// An adhesion law: the energy per area by which two surfaces attract each other, a function of the gap alone.
 ///
 /// A law is three functions of one gap `g ≥ 0`: the energy φ(g) ≤ 0, its derivative φ'(g), the
 /// adhesive traction, positive where the surfaces attract each other, and the traction's slope φ''(g). Everything else

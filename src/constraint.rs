@@ -17,7 +17,7 @@ pub use penalty::Penalty;
 pub use projection::Projection;
 pub use uzawa::Uzawa;
 
-/// How the solver keeps the surfaces from passing through each other.
+/// The contact constraint, which keeps the surfaces from passing through each other.
 ///
 /// Either the gap is confined to g ≥ 0 ([`Projection`]), or any gap is feasible and the energy gains a term, node by
 /// node, that resists negative gaps ([`Penalty`]); such a term may carry multipliers, updated between solves

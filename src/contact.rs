@@ -22,7 +22,7 @@ const EDGE_EXCESS: f64 = (std::f64::consts::PI - 1.0 + std::f64::consts::LN_2) /
 const NOTICEABLE: f64 = 0.01;
 
 impl<T: Real> Solution<T> {
-    /// Which nodes are in contact: those without a gap (g ≤ 0), and those with a contact pressure (λ > 0).
+    /// The contact map: true at nodes without a gap (g ≤ 0) and at nodes with a contact pressure (λ > 0).
     ///
     /// This is what contact means everywhere: in [`Report::contact_points`](crate::Report::contact_points) and
     /// [`Iteration::contact_points`](crate::Iteration::contact_points), in [`ContactStatistics`] and its clusters, in
@@ -47,7 +47,7 @@ impl<T: Real> Solution<T> {
     }
 }
 
-/// How much of the surfaces touches, in how many pieces, and how much attracts without touching.
+/// Contact statistics: the area and the clusters of contact, and the area that attracts without contact.
 ///
 /// Fractions are of the nominal area Lx·Ly. Contact, attractive and apart fraction add up to one.
 ///
@@ -83,7 +83,7 @@ impl<T: Real> Solution<T> {
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct ContactStatistics {
-    /// How many nodes are in contact, as [`Solution::contact_map`] says.
+    /// The number of nodes in contact, by [`Solution::contact_map`].
     pub contact_points: usize,
     /// The share of nodes in contact.
     pub contact_fraction: f64,
@@ -146,7 +146,7 @@ impl ContactStatistics {
     }
 }
 
-/// How many neighbours along x, and along y, are on the two sides of the edge of a map.
+/// The number of pairs of neighbours along x, and along y, of which one is on the map and one is not.
 fn edges(map: ArrayView2<'_, bool>) -> (usize, usize) {
     let (nx, ny) = map.dim();
     let (mut along_x, mut along_y) = (0, 0);

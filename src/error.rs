@@ -7,7 +7,7 @@ use ndarray::ArrayView2;
 
 use crate::real::Real;
 
-/// What the library returns where it can refuse its input.
+/// The result of a function that can refuse its input.
 ///
 /// ```
 /// fn contact_radius(load: f64) -> asperity::Result<f64> {
@@ -36,7 +36,7 @@ pub enum Error {
     Value {
         /// The quantity.
         name: &'static str,
-        /// What was given.
+        /// The given value.
         value: f64,
         /// What is allowed, to follow "it must be".
         requirement: &'static str,
@@ -54,9 +54,9 @@ pub enum Error {
     NotFinite {
         /// The field.
         name: &'static str,
-        /// How many of its nodes are not finite.
+        /// The number of its nodes that are not finite.
         count: usize,
-        /// How many nodes it has.
+        /// The number of its nodes.
         nodes: usize,
         /// The first such node in row-major order, `(ix, iy)`.
         first: (usize, usize),

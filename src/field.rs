@@ -11,7 +11,7 @@ pub(crate) const CHUNK: usize = 256;
 /// Chunks that a worker takes at once.
 const BATCH: usize = 8;
 
-/// How many numbers a pass can sum at once.
+/// The number of sums of a pass.
 pub(crate) const SUMS: usize = 13;
 
 /// The result of a pass over a chunk: sums, and a minimum.
@@ -69,7 +69,7 @@ impl Reducer {
         kept.iter_mut().zip(&self.0).for_each(|(kept, part)| *kept = of(part));
     }
 
-    /// How many chunks there are.
+    /// The number of chunks.
     pub(crate) fn chunks(&self) -> usize {
         self.0.len()
     }

@@ -77,7 +77,7 @@ impl Grid {
         self.lengths
     }
 
-    /// How many nodes there are, Nx·Ny.
+    /// The number of nodes, Nx·Ny.
     pub fn nodes(&self) -> usize {
         self.shape.0 * self.shape.1
     }

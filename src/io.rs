@@ -36,7 +36,7 @@ use xyz::read_xyz;
 const TRUNCATED: &str = "ends too early: it is truncated or damaged, copy or save it again";
 const DAMAGED: &str = "is damaged: copy or save it again";
 
-/// What the readers return: they know the reason, [`read_field`] adds the path.
+/// The result of a reader, with the reason of an error; [`read_field`] adds the path.
 type Parsed<T> = std::result::Result<T, String>;
 
 /// Reads a field, a height map or a gap, from a file of any of the formats of [`read_topography`]: its numbers alone.
@@ -148,7 +148,7 @@ pub fn write_topography(path: &Path, map: &Topography) -> Result<()> {
     }
 }
 
-/// What stands behind the last point of a name, in small letters.
+/// The ending of a name, behind its last point, in small letters.
 fn ending(path: &Path) -> String {
     path.extension().map(|ending| ending.to_string_lossy().to_lowercase()).unwrap_or_default()
 }

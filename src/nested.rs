@@ -68,9 +68,9 @@ pub struct Nested<C = Projection> {
 pub struct Level {
     /// The nodes (Nx, Ny) of the grid.
     pub shape: (usize, usize),
-    /// How the solve ended.
+    /// The status: how the solve ended.
     pub status: Status,
-    /// How many steps were made.
+    /// The number of steps.
     pub iterations: usize,
     /// The number of operator applications, with the one that constructs the problem.
     pub operator_applications: usize,

@@ -61,7 +61,9 @@ impl Default for PathSettings {
 /// let grid = Grid::line(64, 1.0)?;
 /// let mut problem = Problem::new(&Surface::wave(grid, 0.02, 1)?, Westergaard::<f64>::new(grid, 1.0)?, NoAdhesion)?;
 /// let legs = [0.02, 0.01].map(Control::MeanGap);
-/// let path = Path::new(&mut Solver::default(), &mut problem, legs, PathSettings::default())?.collect::<Result<Vec<_>, _>>()?;
+/// let mut solver = Solver::default();
+/// let path = Path::new(&mut solver, &mut problem, legs, PathSettings::default())?;
+/// let path = path.collect::<Result<Vec<_>, _>>()?;
 /// let last = path.last().expect("a path has a start");
 /// // without adhesion nothing jumps, and what the load puts in is stored
 /// assert!(path.iter().all(|step| step.event.is_none()) && last.dissipated == 0.0);

@@ -18,7 +18,8 @@ const SMOOTHING: f64 = 5.0;
 /// ```
 /// use asperity::{Control, Grid, NoAdhesion, Problem, Solver, Surface, Westergaard};
 /// let grid = Grid::square(32, 1.0)?;
-/// let mut problem = Problem::new(&Surface::wave_2d(grid, 0.02, 1)?, Westergaard::<f64>::new(grid, 1.0)?, NoAdhesion)?;
+/// let surface = Surface::wave_2d(grid, 0.02, 1)?;
+/// let mut problem = Problem::new(&surface, Westergaard::<f64>::new(grid, 1.0)?, NoAdhesion)?;
 /// let by_gap = Solver::default().solve(&mut problem, Control::MeanGap(0.01))?.report;
 /// let by_pressure = Solver::default().solve(&mut problem, Control::MeanPressure(by_gap.mean_pressure))?.report;
 /// assert!((by_pressure.mean_gap / 0.01 - 1.0).abs() < 1e-5); // the same state, either way

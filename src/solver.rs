@@ -174,6 +174,7 @@ impl Default for Solver {
 
 impl<C> Solver<C> {
     /// Solves from the default start.
+    ///
     /// The default start is a uniform gap: the mean gap, if that is given; under a given pressure twice the rms height
     /// without adhesion, and full contact with adhesion. If the traction of the law jumps, as that of
     /// [`MaugisDugdale`](crate::MaugisDugdale) does, the equilibrium of the law with its jump
@@ -197,10 +198,11 @@ impl<C> Solver<C> {
     /// A given gap of shape (Nx, Ny) is scaled to the mean gap, if that is given; `None` is the default start.
     ///
     /// # Errors
-    /// [`Error::Value`](crate::Error::Value) for a negative or infinite mean gap, an infinite pressure, or a tolerance that is
-    /// not positive; [`Error::Shape`](crate::Error::Shape), [`Error::NotFinite`](crate::Error::NotFinite) or `Error::Value` for
-    /// a start that does not fit, is not finite, or is negative somewhere; [`Error::Law`](crate::Error::Law) if the law is not
-    /// finite at the start. A solve that does not converge is no error: see [`Report::status`].
+    /// [`Error::Value`](crate::Error::Value) for a negative or infinite mean gap, an infinite pressure, or a tolerance
+    /// that is not positive; [`Error::Shape`](crate::Error::Shape), [`Error::NotFinite`](crate::Error::NotFinite) or
+    /// [`Error::Value`](crate::Error::Value) for a start that does not fit, is not finite, or is negative somewhere;
+    /// [`Error::Law`](crate::Error::Law) if the law is not finite at the start. A solve that does not converge is no
+    /// error: see [`Report::status`].
     pub fn solve_from<T, O, L>(
         &mut self,
         problem: &mut Problem<T, O, L>,
@@ -218,10 +220,12 @@ impl<C> Solver<C> {
     }
 
     /// Solves from the solution of the same problem in another precision or on another grid. The gap is taken by value
-    /// and not copied. A start with a small error gets shorter first steps than a start given to
-    /// [`Solver::solve_from`], and the jumps of a law are smoothed on the way from it, as from the default start. In
-    /// `f32` to 1e-4 (1e-3 for smooth light contacts), and from there in `f64`, a solve on 2048² nodes takes some 1.3
-    /// times less time than in `f64` alone. [`Nested`](crate::Nested) starts each grid so.
+    /// and not copied.
+    ///
+    /// A start with a small error gets shorter first steps than a start given to [`Solver::solve_from`], and the jumps
+    /// of a law are smoothed on the way from it, as from the default start. In `f32` to 1e-4 (1e-3 for smooth light
+    /// contacts), and from there in `f64`, a solve on 2048² nodes takes some 1.3 times less time than in `f64` alone.
+    /// [`Nested`](crate::Nested) starts each grid so.
     ///
     /// ```
     /// use asperity::{Control, Grid, NoAdhesion, Problem, Settings, Solver, Status, Surface, Westergaard};

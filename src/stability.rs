@@ -146,9 +146,9 @@ pub struct Stability<T> {
     pub mode: Array2<T>,
     /// Whether the jumps of the law were smoothed: then all this is about the smoothed law.
     pub smoothed: bool,
-    /// How many operator applications the mode took.
+    /// The number of operator applications for the mode.
     pub operator_applications: usize,
-    /// How many more the lower bound took.
+    /// The number of operator applications for the lower bound.
     pub bound_applications: usize,
 }
 

@@ -57,7 +57,7 @@ pub struct Sweep<'a, T, O, L, I, C = Projection> {
     failed: bool,
 }
 
-/// How far the last step may be extrapolated, in steps.
+/// The farthest extrapolation of the last step, in steps.
 const FARTHEST: f64 = 2.0;
 
 impl<'a, T, O, L, I, C> Sweep<'a, T, O, L, I, C>
@@ -87,7 +87,7 @@ where
         &self.history
     }
 
-    /// The same sweep, as if it came after others: with the [`Sweep::history`] of another sweep it goes on just as
+    /// The sweep continued after others: with the [`Sweep::history`] of another sweep it goes on just as
     /// that one would have, bit for bit. Of more than two gaps the first ones are not used.
     ///
     /// ```

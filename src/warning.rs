@@ -74,7 +74,7 @@ const FLAT: f64 = 4.0 * f64::EPSILON;
 /// The resolution measure μ_ρ that the grid resolves; see [`Report::under_resolved`](crate::Report).
 const RESOLVED: f64 = 0.5;
 
-/// What a [`Warning`] is about.
+/// The code of a [`Warning`].
 ///
 /// ```
 /// use asperity::WarningCode;
@@ -151,10 +151,10 @@ impl fmt::Display for WarningCode {
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Warning {
-    /// What it is about.
+    /// The code.
     pub code: WarningCode,
-    /// What is seen, with its number, and what to do, on one line. Lengths and pressures are in the units of the
-    /// input.
+    /// The message: the observation, with its number, and the remedy, on one line. Lengths and pressures are in the
+    /// units of the input.
     pub message: String,
 }
 

@@ -1,4 +1,4 @@
-//! What the system says of the memory of this process.
+//! The memory of this process, by the system.
 
 /// The most memory that the process has held, in bytes, where the system tells.
 pub fn peak() -> Option<u64> {

@@ -1,4 +1,4 @@
-//! What a user can choose, and what it takes.
+//! The choices of a user, and their cost.
 
 use std::time::Instant;
 

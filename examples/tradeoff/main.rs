@@ -1,4 +1,4 @@
-//! What accuracy costs: true errors against time and operator applications.
+//! The cost of accuracy: true errors against time and operator applications.
 //!
 //! ```text
 //! cargo run --release --example tradeoff -- [--quick] [--scene NAME] [--threads N] [--reference N] [--out DIR]

@@ -1,4 +1,4 @@
-//! What is solved, and what it should come to.
+//! The scene: the problem to solve, and its reference solution.
 
 use std::collections::HashMap;
 

@@ -1,4 +1,4 @@
-//! What is printed.
+//! The tables that are printed.
 
 use crate::choice::{Choice, Precision};
 use crate::error::{OnGrid, Part, Row};

@@ -13,8 +13,8 @@ use crate::real::Real;
 const STIFFEN: f64 = 4.0;
 const SLOW: f64 = 0.25;
 
-/// How many times stiffer than the shortest wave the springs of the first round may be: stiffer ones only cost
-/// iterations.
+/// The largest stiffness of the springs in the first round, in units of that of the shortest wave: stiffer ones only
+/// cost iterations.
 const STIFFEST: f64 = 10.0;
 
 /// The augmented Lagrangian of Uzawa: springs of stiffness k, and multipliers λ that take over the contact pressure
@@ -55,7 +55,7 @@ pub struct Uzawa<T> {
     /// The relative error in the energy norm that what interpenetrates may leave, where this is more than the
     /// tolerance of the solve, which counts otherwise; a thousand times the rounding of the precision unless changed.
     pub tolerance: f64,
-    /// How many rounds there may be before the solve ends without having converged; 100 unless changed.
+    /// The rounds after which the solve ends without having converged; 100 unless changed.
     pub max_outer_iterations: usize,
     /// the stiffness of the first round
     softest: T,
@@ -93,7 +93,7 @@ impl<T: Real> Uzawa<T> {
         })
     }
 
-    /// How many rounds the last solve took.
+    /// The number of rounds of the last solve.
     pub fn outer_iterations(&self) -> usize {
         self.outer_iterations
     }

@@ -4,11 +4,12 @@ use std::cmp::Reverse;
 
 use ndarray::{Array2, ArrayView2};
 
-/// Which nodes of a map are neighbours.
+/// The connectivity of a map: which nodes are neighbours.
 ///
 /// ```
 /// use asperity::{Clusters, Connectivity};
-/// let map = ndarray::array![[true, false, false], [false, true, false], [false, false, false], [false, false, false]];
+/// let none = [false; 3];
+/// let map = ndarray::array![[true, false, false], [false, true, false], none, none];
 /// assert_eq!(Clusters::of(map.view(), Connectivity::Sides).sizes.len(), 2);
 /// assert_eq!(Clusters::of(map.view(), Connectivity::Corners).sizes.len(), 1);
 /// ```
@@ -37,7 +38,7 @@ pub enum Connectivity {
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Clusters {
-    /// How many nodes each cluster has, the largest first; of equals the one that comes first in row-major order.
+    /// The number of nodes of each cluster, the largest first; equal ones in row-major order.
     pub sizes: Vec<usize>,
     /// To which cluster each node belongs: k for the k-th of the sizes, counted from 1, and 0 for none.
     pub labels: Array2<usize>,

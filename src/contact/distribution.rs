@@ -6,7 +6,7 @@ use crate::error::{Error, Result};
 use crate::real::Real;
 use crate::solver::Solution;
 
-/// How much of the surface is under which pressure: a histogram, as a density.
+/// The distribution of the pressure over the surface: a histogram, as a probability density.
 ///
 /// The bins are equally wide; a bin has its lower edge, the last one its upper edge too. The density of a bin is the
 /// share of all nodes whose pressure is in it, divided by its width: Σ density · width is the share of the nodes that

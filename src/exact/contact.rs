@@ -7,7 +7,7 @@ use ndarray::Array2;
 use super::numerics::{carlson_rd, carlson_rf, sin_minus_x_cos};
 use crate::grid::Grid;
 
-/// What holds the surfaces together.
+/// The adhesion of the contact.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Adhesion {
     None,

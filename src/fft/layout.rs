@@ -13,6 +13,7 @@ use crate::vector::vectorised;
 const RUN: usize = 32;
 
 /// The layout of a field: the plane as which it is transformed, and the places of its modes in the half spectrum.
+///
 /// A field in the plane keeps its shape, or has its axes exchanged where its columns do not fill a tile. A line of A·B
 /// nodes is a plane too, `(B, A)`: its node aB + b is row b, column a. Transform the rows; multiply row b of column k
 /// by the twiddle exp(−2πi bk/AB); transform the columns: column k then holds the modes k + A·i of the line. The
@@ -97,6 +98,7 @@ fn divisor(n: usize) -> usize {
 }
 
 /// The twiddles exp(−2πi bk/n) of row b, column k, which multiply the half spectrum of a line.
+///
 /// The first [`RUN`] of each column and, behind them, the factors from one run to the next.
 #[derive(Debug)]
 pub(super) struct Twiddles<T>(Array2<Complex<T>>);

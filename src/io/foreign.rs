@@ -5,7 +5,7 @@ const IMAGE: &str = "if its grey values are heights, import it in Gwyddion and s
                      else export the heights from the program of the instrument";
 const UNPACK: &str = "unpack it first";
 
-/// How files of a format start, what they are, and how to convert them.
+/// The first bytes of foreign formats, their names, and the ways to convert them.
 const STARTS: [(&[u8], &str, &str); 42] = [
     (b"GWYP", "a Gwyddion file (.gwy)", GWYDDION),
     (b"GWYO", "a Gwyddion file (.gwy)", GWYDDION),

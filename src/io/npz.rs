@@ -16,7 +16,7 @@ use crate::error::{Error, Result};
 use crate::grid::Grid;
 use crate::surface::Topography;
 
-/// How a zip file starts: with its first entry, or with its end if it has none.
+/// The first bytes of a zip file: those of its first entry, or those of its end if it has none.
 pub(super) const ZIP: [&[u8]; 2] = [b"PK\x03\x04", b"PK\x05\x06"];
 /// Deflate cannot do better than this: a zip entry that claims more is damaged.
 const MAX_COMPRESSION: u64 = 1032;
@@ -64,7 +64,7 @@ pub(super) fn read_npz(mut reader: BufReader<File>, size: u64) -> Parsed<Topogra
     Ok(map)
 }
 
-/// What an array is called whose entry in the archive has this name.
+/// The name of an array, from that of its entry in the archive.
 fn array(entry: &str) -> &str {
     entry.strip_suffix(".npy").unwrap_or(entry)
 }

@@ -99,7 +99,7 @@ impl OutputFolder {
 fn refuse_existing(file: &Path, force: bool) -> Result<()> {
     match file.symlink_metadata() {
         Ok(found) if found.is_dir() => Err(Error::file(file, "is a folder: choose another output folder")),
-        Ok(_) if !force => Err(Error::file(file, "exists: allow to replace it, or choose another output folder")),
+        Ok(_) if !force => Err(Error::file(file, "exists: allow it to be replaced, or choose another output folder")),
         _ => Ok(()),
     }
 }
@@ -165,7 +165,7 @@ mod tests {
         fs::write(&file, "old").unwrap();
         let refused = OutputFolder::create(parent.path(), &["b.txt", "a.txt"], false);
         assert!(matches!(&refused, Err(Error::File { path, .. }) if *path == file));
-        assert_refused(refused, &["exists", "--force"]);
+        assert_refused(refused, &["exists", "allow it to be replaced"]);
         assert_eq!(names_in(parent.path()), ["a.txt"]);
 
         let output = OutputFolder::create(parent.path(), &["a.txt"], true).unwrap();
@@ -187,7 +187,7 @@ mod tests {
         fs::write(output.path("b.txt"), "ours").unwrap();
         fs::create_dir(&destination).unwrap();
         fs::write(destination.join("b.txt"), "theirs").unwrap();
-        assert_refused(output.commit(), &["exists", "--force"]);
+        assert_refused(output.commit(), &["exists", "allow it to be replaced"]);
         assert_eq!(names_in(&destination), ["b.txt"]);
         assert_eq!(fs::read_to_string(destination.join("b.txt")).unwrap(), "theirs");
         assert_eq!(names_in(parent.path()), ["results"]);

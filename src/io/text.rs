@@ -50,7 +50,7 @@ pub(super) fn read_text(reader: impl BufRead) -> Parsed<Topography> {
     in_one_unit(upright.as_standard_layout().into_owned(), Some((lx, ly)), lateral, &unit)
 }
 
-/// What Gwyddion's text export says in its comments.
+/// The header of Gwyddion's text export, in its comments.
 #[derive(Default)]
 struct Header {
     width: Option<String>,

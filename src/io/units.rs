@@ -5,7 +5,7 @@ use ndarray::Array2;
 use super::{Parsed, quoted};
 use crate::surface::Topography;
 
-/// How many of a unit of length make a metre: whole numbers, by which one divides without a second rounding.
+/// The number of units of length in a metre, a whole one: division by it rounds only once.
 fn per_metre(unit: &str) -> Option<f64> {
     Some(match unit {
         "pm" => 1e12,

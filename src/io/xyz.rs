@@ -8,7 +8,7 @@ use super::text::for_each_line;
 use super::{Parsed, quoted};
 use crate::surface::Topography;
 
-/// How far from its place on the grid a point may be, in spacings.
+/// The largest distance of a point from its place on the grid, in spacings.
 const SLACK: f64 = 0.1;
 /// A grid may have so many times more nodes than there are points; this bounds what a small file can make us allocate.
 const SPARSEST: f64 = 4.0;

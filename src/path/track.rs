@@ -126,10 +126,10 @@ pub(super) struct State {
 /// The largest factor between the lengths of two steps.
 const GROWTH: f64 = 2.0;
 
-/// How close a leg to a pressure comes to it at given mean gaps, as a share of the leg.
+/// The distance, as a share of the leg, to which a leg to a pressure approaches it at given mean gaps.
 const LANDING: f64 = 1e-3;
 
-/// How many states the quadrature uses at most.
+/// The largest number of states in the quadrature.
 const PLACES: usize = 4;
 
 impl State {

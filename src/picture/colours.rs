@@ -12,7 +12,7 @@ pub(super) const MISSING: Rgb888 = Rgb888::new(201, 120, 199);
 /// Values of one sign that are all weaker than this share of the other sign's greatest are not shown.
 const NOISE: f64 = 1e-6;
 
-/// How the values of a [`Map`](crate::Map) become colours.
+/// The colouring of the values of a [`Map`](crate::Map).
 ///
 /// [`Map`](super::Map) has an example.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -61,6 +61,7 @@ impl<T: Real> State<'_, T> {
     }
 
     /// The error of the load under pressure control, relative to the load.
+    ///
     /// Without contact every node is apart, and the mean of r is the part of the load that adhesion does not hold.
     pub(super) fn load_error(&self) -> f64 {
         match (self.control, self.tally.free) {

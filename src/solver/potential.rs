@@ -87,7 +87,7 @@ impl<'a, T: Real> Potential<'a, T> {
         }
     }
 
-    /// How many nodes are in contact with springs, and the energy of the springs.
+    /// The number of nodes in contact with springs, and the energy of the springs.
     pub(super) fn pressed(&self, first: usize, gaps: &[T]) -> [f64; 2] {
         let mut sums = [0.0; 2];
         let Some(springs) = self.springs else { return sums };

@@ -11,7 +11,8 @@ use super::{Criterion, Method};
 /// ```
 /// use asperity::{Control, Grid, NoAdhesion, Problem, Settings, Solver, Status, Surface, Westergaard};
 /// let grid = Grid::square(32, 1.0)?;
-/// let mut problem = Problem::new(&Surface::wave_2d(grid, 0.02, 1)?, Westergaard::<f64>::new(grid, 1.0)?, NoAdhesion)?;
+/// let surface = Surface::wave_2d(grid, 0.02, 1)?;
+/// let mut problem = Problem::new(&surface, Westergaard::<f64>::new(grid, 1.0)?, NoAdhesion)?;
 /// let mut solver = Solver::new(Settings { max_iterations: 2, ..Settings::default() });
 /// let report = solver.solve(&mut problem, Control::MeanGap(0.01))?.report;
 /// assert_eq!(report.status, Status::IterationLimit); // no error: the fields are there, and the report says how good
@@ -60,7 +61,8 @@ impl fmt::Display for Status {
 /// use std::ops::ControlFlow;
 /// use asperity::{Control, Grid, NoAdhesion, Problem, Solver, Status, Surface, Westergaard};
 /// let grid = Grid::square(32, 1.0)?;
-/// let mut problem = Problem::new(&Surface::wave_2d(grid, 0.02, 1)?, Westergaard::<f64>::new(grid, 1.0)?, NoAdhesion)?;
+/// let surface = Surface::wave_2d(grid, 0.02, 1)?;
+/// let mut problem = Problem::new(&surface, Westergaard::<f64>::new(grid, 1.0)?, NoAdhesion)?;
 /// let solution = Solver::default().solve_from(&mut problem, Control::MeanGap(0.01), None, |state| {
 ///     println!("{} {:.1e} {:.6e}", state.iteration, state.relative_error, state.energy);
 ///     if state.relative_error < 1e-2 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
@@ -71,9 +73,9 @@ impl fmt::Display for Status {
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Iteration {
-    /// How many steps were made.
+    /// The number of steps.
     pub iteration: usize,
-    /// How many operator applications this solve has taken so far.
+    /// The number of operator applications of this solve so far.
     pub operator_applications: usize,
     /// The certified relative error in the energy norm, [`Report::relative_error`]. [`Method::Rey2017`] does not need
     /// it and computes it only now and then; it is infinite before.
@@ -85,7 +87,7 @@ pub struct Iteration {
     pub energy: f64,
     /// The mean gap.
     pub mean_gap: f64,
-    /// How many nodes are in contact.
+    /// The number of nodes in contact.
     pub contact_points: usize,
     /// The number of changes of the minimised energy so far: of the law, the multipliers of a constraint, or, in
     /// search of a state that holds a tension, the mean gap. The energy falls within a round.
@@ -113,7 +115,7 @@ pub struct Iteration {
 #[non_exhaustive]
 #[derive(Clone, Debug, PartialEq)]
 pub struct Report {
-    /// How the solve ended.
+    /// The status: how the solve ended.
     pub status: Status,
     /// The certified relative error of the gap in the energy norm, √(⟨r', K r'⟩/⟨u, p⟩), evaluated on the returned
     /// fields.
@@ -130,9 +132,10 @@ pub struct Report {
     pub load_error: f64,
     /// The paper's criterion ε = Σ|g r'|, in units of E*·√(Lx·Ly), on the returned fields.
     pub orthogonality: f64,
-    /// How many steps were made.
+    /// The number of steps.
     pub iterations: usize,
-    /// How many forward and inverse transforms the solve took; the construction of the problem takes one more.
+    /// The number of operator applications, each a forward and an inverse transform; the construction of the problem
+    /// takes one more.
     pub operator_applications: usize,
     /// The mean gap.
     pub mean_gap: f64,
@@ -146,7 +149,7 @@ pub struct Report {
     pub mean_contact_pressure: f64,
     /// The share of nodes in contact, as [`Solution::contact_map`] says.
     pub contact_fraction: f64,
-    /// How many nodes are in contact, as [`Solution::contact_map`] says.
+    /// The number of nodes in contact, by [`Solution::contact_map`].
     pub contact_points: usize,
     /// The smallest gap: zero in contact, negative only where the constraint lets the surfaces interpenetrate.
     pub min_gap: f64,

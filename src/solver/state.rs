@@ -65,7 +65,7 @@ pub(super) enum Left {
 pub(super) struct Residual {
     /// the mean of r over the working set under gap control, zero under pressure control: r' = r − level
     pub(super) level: f64,
-    /// how many nodes may move
+    /// the number of nodes in the working set
     pub(super) working: f64,
     /// Σ|g r'|
     pub(super) orthogonality: f64,

@@ -11,14 +11,16 @@ use crate::real::Real;
 /// A share of the load that, held without contact, is hardly any.
 const HARDLY: f64 = 1e-3;
 
-/// How often the mean gap is changed in search of a hold, and the share of an interval that a golden section keeps.
+/// The largest number of mean gaps that are tried in search of a hold, and the share of an interval that a golden
+/// section keeps.
 const SECTIONS: usize = 12;
 const GOLDEN: f64 = 0.618;
 
 /// Gaps at which the law is asked for its strongest traction.
 const SAMPLES: usize = 100;
 
-/// How far surfaces are held apart, and up to where a hold is sought, in ranges of adhesion beyond the heights.
+/// The distance at which surfaces are held apart, and the largest one at which a hold is sought, in ranges of adhesion
+/// beyond the heights.
 const REACH: f64 = 10.0;
 
 impl<T: Real> State<'_, T> {

@@ -23,8 +23,8 @@ use super::hessian::Hessian;
 use crate::error::Result;
 use crate::real::Real;
 
-/// How small the start's component along either end may be, in standard deviations: together a chance of one in a
-/// million.
+/// The least component of the start along either end of the spectrum, in standard deviations: smaller ones have
+/// together a chance of one in a million.
 const LEAST: f64 = 6.2e-7;
 
 /// Steps after which the bound is computed again.
@@ -110,7 +110,7 @@ fn ends(diagonal: &[f64], beside: &[f64]) -> [f64; 2] {
     let radius = |k: usize| if k + 1 < diagonal.len() { at(Some(k)) } else { 0.0 } + at(k.checked_sub(1));
     let low = diagonal.iter().enumerate().map(|(k, d)| d - radius(k)).fold(f64::INFINITY, f64::min);
     let high = diagonal.iter().enumerate().map(|(k, d)| d + radius(k)).fold(f64::NEG_INFINITY, f64::max);
-    // how many eigenvalues are below a number
+    // the number of eigenvalues below a number
     let below = |number: f64| {
         let (mut count, mut pivot) = (0, 1.0);
         for (k, d) in diagonal.iter().enumerate() {

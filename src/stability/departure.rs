@@ -17,7 +17,7 @@ use crate::solver::{Solution, Solver};
 #[non_exhaustive]
 #[derive(Clone, Debug, PartialEq)]
 pub struct Departure<T> {
-    /// Where it ended.
+    /// The state in which the minimisation ended.
     pub solution: Solution<T>,
     /// The drop of the energy, per area: that of elasticity and adhesion, and under pressure control of the load.
     /// Zero or less if there was nowhere to go.

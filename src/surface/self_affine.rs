@@ -15,7 +15,7 @@ use crate::grid::Grid;
 /// Relative slack at the ends of the spectrum, so that the rounding of Lx/Ly decides on no wave.
 const SLACK: f64 = 1e-12;
 
-/// How rough a [`SelfAffine`] surface is.
+/// The amplitude of the roughness of a [`SelfAffine`] surface.
 ///
 /// ```
 /// use asperity::{Amplitude, Grid, SelfAffine};
@@ -156,7 +156,7 @@ impl SelfAffine {
         Complex::new(modulus * cosine, modulus * sine)
     }
 
-    /// What a wave's power contributes to the given mean square: itself, or times k².
+    /// The contribution of a wave to the given mean square: its power, or its power times k².
     fn measure(&self, wave: &Wave) -> f64 {
         match self.amplitude {
             Amplitude::RmsHeight(_) => 1.0,

@@ -50,9 +50,9 @@ pub struct Psd {
     pub wave_numbers: Vec<f64>,
     /// The density at each wave number.
     pub densities: Vec<f64>,
-    /// How many waves each entry is the mean of, with their mirror images.
+    /// The number of waves in the mean of each entry, with their mirror images.
     pub waves: Vec<usize>,
-    /// What one wave takes of the space of wave numbers: 4π²/(Lx·Ly), or 2π/L of a profile.
+    /// The area of one wave in the space of wave numbers: 4π²/(Lx·Ly), or 2π/L of a profile.
     pub cell: f64,
 }
 
@@ -214,7 +214,7 @@ impl Spectrum {
         rows.sum()
     }
 
-    /// How many waves a mode of the half spectrum stands for.
+    /// The number of waves for which a mode of the half spectrum stands.
     fn weight(&self, ky: usize) -> usize {
         if ky == 0 || 2 * ky == self.grid.shape().1 { 1 } else { 2 }
     }

@@ -5,7 +5,7 @@ use ndarray::ArrayView1;
 use super::Surface;
 use super::spectrum::is_line;
 
-/// What characterises a rough surface: [`Surface::statistics`].
+/// The statistics of a rough surface: [`Surface::statistics`].
 ///
 /// Slopes and curvatures come in two forms. The spectral ones are those of the smooth periodic surface through the
 /// nodes. The finite differences, periodic too, are what the nodes show: they are smaller, by (qΔ)²/24 of a slope and

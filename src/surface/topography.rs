@@ -60,7 +60,7 @@ impl Topography {
         Self { heights, lengths: None, unit: None, unread: Vec::new() }
     }
 
-    /// How many heights are missing: NaN or infinite.
+    /// The number of missing heights: NaN or infinite.
     pub fn missing(&self) -> usize {
         self.heights.iter().filter(|h| !h.is_finite()).count()
     }
@@ -130,8 +130,8 @@ impl Topography {
     /// them the rms height of the whole, by √⟨w²⟩ where heights do not know of the window. Remove a tilt first. On a
     /// line only x is tapered.
     ///
-    /// That is made for spectra. In contact, the frame is a flat piece at the mean height that the surface does not
-    /// have: it touches under loads that bring the mean height close, or where long waves are deep. Look at the
+    /// The window is made for spectra. In contact, the frame is a flat piece at the mean height that the surface does
+    /// not have: it touches under loads that bring the mean height close, or where long waves are deep. Look at the
     /// contact map, or use [`mirror`](Self::mirror), which leaves all heights as they are.
     ///
     /// # Errors

@@ -1,5 +1,5 @@
-//! What a few passes over the heights find. Sums are in `f64` and in the order of the nodes, whatever the number of
-//! threads.
+//! The relief of a surface: its figures for the warnings, from a few passes over the heights. Sums are in `f64` and in
+//! the order of the nodes, whatever the number of threads.
 
 use ndarray::{Array2, ArrayView1};
 
@@ -53,7 +53,7 @@ impl Extremes {
 /// [`Relief`].
 pub struct Side {
     nodes: usize,
-    /// How much the least-squares plane rises over the length of the side.
+    /// The rise of the least-squares plane over the length of the side.
     pub drop: f64,
     /// The mean height of the first line less that of the last.
     pub mean_edge: f64,

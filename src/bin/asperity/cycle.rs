@@ -98,7 +98,7 @@ const EXAMPLES: &str = "\
     asperity cycle --heights heights.npy --law exponential --work-of-adhesion 1e-4 \\
       --range 4e-3 --mean-pressures 0.02,-1 --out pull-off.csv";
 
-/// How many events are printed at the end.
+/// The number of events that are printed at the end.
 const MOST_EVENTS: usize = 8;
 
 /// The names of the columns, in the order of [`row`].
@@ -340,7 +340,7 @@ impl Options {
     }
 }
 
-/// What a row says, by the names of the columns. Nothing in it depends on the clock.
+/// The content of a row, by the names of the columns. Nothing in it depends on the clock.
 fn row<T>(step: &PathStep<T>) -> Map<String, Value> {
     let (control, value) = name_and_value(step.control);
     let report = &step.solution.report;

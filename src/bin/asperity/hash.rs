@@ -9,12 +9,12 @@ pub struct Hash(pub u64);
 impl Hash {
     pub const NEW: Self = Self(0xcbf2_9ce4_8422_2325);
 
-    /// That of some more bytes.
+    /// The hash with some more bytes.
     pub fn of(self, bytes: &[u8]) -> Self {
         Self(bytes.iter().fold(self.0, |hash, byte| (hash ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3)))
     }
 
-    /// That of some more numbers.
+    /// The hash with some more numbers.
     pub fn of_numbers<'a>(self, numbers: impl IntoIterator<Item = &'a f64>) -> Self {
         numbers.into_iter().fold(self, |hash, number| hash.of(&number.to_bits().to_le_bytes()))
     }

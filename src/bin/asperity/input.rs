@@ -10,7 +10,7 @@ use crate::printing::complain;
 
 /// How far side lengths that are given may be from those of the file: headers round them.
 const ROUNDING: f64 = 1e-2;
-/// How many names of arrays are told.
+/// The largest number of names of arrays in a message.
 const MOST_NAMES: usize = 10;
 
 /// The map of a file with the given `--lengths`, of which one means square cells; without any, those of the file, or
@@ -96,7 +96,7 @@ pub fn surface(path: &Path, map: Topography) -> Outcome<(Surface, Option<String>
     Ok((map.surface()?, unit))
 }
 
-/// How many heights are missing, and how many infinite, if any are.
+/// The numbers of missing and of infinite heights, if there are any.
 pub fn holes(map: &Topography) -> Option<String> {
     let infinite = map.heights.iter().filter(|h| h.is_infinite()).count();
     match (map.missing() - infinite, infinite) {

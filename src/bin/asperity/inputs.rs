@@ -7,7 +7,7 @@ use serde_json::{Map, Value, json};
 
 use crate::options::{AdhesionOptions, Precision, SolverOptions, SurfaceOptions};
 
-/// What was chosen, by the names that it has in every report.
+/// The inputs of a command, by their names in every report.
 pub fn inputs(
     surface: &SurfaceOptions,
     adhesion: &AdhesionOptions,
@@ -37,7 +37,7 @@ pub fn inputs(
     inputs.as_object().cloned().unwrap_or_default()
 }
 
-/// A report on a command: what came out, and after it what was chosen.
+/// A report on a command: its outcome, then its inputs.
 pub fn report(command: &str, outcome: Value, inputs: Map<String, Value>) -> Value {
     let mut report = Map::new();
     report.insert("command".to_owned(), command.into());

@@ -22,7 +22,7 @@ use zip::{CompressionMethod, ZipArchive, ZipWriter};
 use crate::Outcome;
 use crate::hash::Hash;
 
-/// What the rows depend on, by name; all of it has to be the same for going on.
+/// The identity of a run: the inputs on which its rows depend, by name. A run goes on only with equal ones.
 pub type Identity = Map<String, Value>;
 
 /// The rows of a sweep on disk, and how to go on with them.
@@ -33,15 +33,15 @@ pub struct Journal {
     identity: Identity,
     file: File,
     written: Written,
-    /// what else the next row depends on
+    /// the numbers, beside the gaps, on which the next row depends
     numbers: Vec<f64>,
 }
 
-/// What the file holds.
+/// The content of the file.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Written {
     rows: usize,
-    /// how many of them did not converge
+    /// the number of rows that did not converge
     unconverged: usize,
     /// the loads of the rows
     loads: Hash,
@@ -68,7 +68,7 @@ impl Journal {
         Self::open_for(path, header, identity, Some(loads), force)
     }
 
-    /// The same for rows of which nobody knows how many there will be.
+    /// Opens a journal for a number of rows that is not known before.
     pub fn open_endless(
         path: &Path,
         header: &str,
@@ -128,12 +128,12 @@ impl Journal {
         Ok(text)
     }
 
-    /// How many rows there are.
+    /// The number of rows.
     pub fn rows(&self) -> usize {
         self.written.rows
     }
 
-    /// How many of them did not converge.
+    /// The number of rows that did not converge.
     pub fn unconverged(&self) -> usize {
         self.written.unconverged
     }
@@ -216,7 +216,7 @@ fn open_locked(path: &Path) -> asperity::Result<(File, bool)> {
     }
 }
 
-/// Where the state of a file is.
+/// The path of the state of a file.
 fn state_path(path: &Path) -> PathBuf {
     with_suffix(path, ".state.npz")
 }

@@ -8,6 +8,17 @@ use asperity::io::OutputFolder;
 use crate::Outcome;
 use crate::run::at_destination;
 
+/// The folder `path` for files with these `names`; one that exists is refused by the option that would replace it.
+pub fn output_folder(path: &Path, names: &[&str], force: bool) -> Outcome<OutputFolder> {
+    let existing = names.iter().map(|name| path.join(name)).find(|file| file.exists() && !file.is_dir());
+    match existing {
+        Some(file) if !force => {
+            Err(Error::file(&file, "exists: use --force to replace it, or choose another output folder").into())
+        }
+        _ => Ok(OutputFolder::create(path, names, force)?),
+    }
+}
+
 /// A single file that appears complete or not at all.
 pub struct OutputFile {
     folder: OutputFolder,
@@ -24,7 +35,7 @@ impl OutputFile {
         };
         let name = path.file_name().and_then(|name| name.to_str());
         let name = name.ok_or_else(|| Error::file(path, "is no name for a file: choose another"))?;
-        let folder = OutputFolder::create(parent, &[name], force)?;
+        let folder = output_folder(parent, &[name], force)?;
         Ok(Self { folder, parent: parent.to_owned(), name: name.to_owned() })
     }
 

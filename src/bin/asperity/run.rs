@@ -21,7 +21,7 @@ use crate::progress::Progress;
 pub trait Scalar: Real + WritableElement {}
 impl<T: Real + WritableElement> Scalar for T {}
 
-/// What is to be solved, beside the surface and the law.
+/// The case to solve, beside the surface and the law.
 pub struct Case {
     pub modulus: f64,
     pub control: Control,
@@ -54,7 +54,7 @@ pub struct Left {
 /// After so many departures something is wrong.
 const MOST_DEPARTURES: usize = 10;
 
-/// What the table and the report say of a solve.
+/// The account of a solve, for the table and the report.
 pub struct Account {
     pub report: Report,
     pub nodes: usize,

@@ -12,7 +12,7 @@ use crate::echo::{self, Echo};
 use crate::inputs;
 use crate::numbers::Style;
 use crate::options::{self, AdhesionOptions, Law, Precision, SolverOptions, SurfaceOptions};
-use crate::output::write_text;
+use crate::output::{output_folder, write_text};
 use crate::printing::Printing;
 use crate::progress::Progress;
 use crate::report::{table, warn};
@@ -129,7 +129,7 @@ pub fn run(options: &Options, echo: &Echo) -> Outcome<bool> {
     let names: Vec<_> = fields.chain([&REPORT, &echo::NAME]).chain(pictures).copied().collect();
     Echo::check(&options.out.join(echo::NAME))?;
     // Only a trial: a solve that is interrupted leaves nothing behind.
-    drop(OutputFolder::create(&options.out, &names, options.force)?);
+    drop(output_folder(&options.out, &names, options.force)?);
     let (surface, unit) = options.surface.surface_and_unit()?;
     let start = options.solver.start(surface.grid())?;
     let length_unit = options.length_unit.clone().or(unit);
@@ -236,7 +236,7 @@ impl Job<'_> {
         warnings.look_at(&solution, self.case.modulus)?;
         account.warnings = warnings.report();
 
-        let folder = OutputFolder::create(out, &self.names, *force)?;
+        let folder = output_folder(out, &self.names, *force)?;
         let written = self.write(&folder, grid, &solution, &account);
         written.map_err(|error| run::at_destination(error, out))?;
         folder.commit()?;
@@ -289,7 +289,7 @@ impl Job<'_> {
     }
 }
 
-/// What one of nested grids took; the applications include the one that constructs its problem.
+/// The cost of one of the nested grids; the applications include the one that constructs its problem.
 fn level(level: &Level) -> Value {
     json!({
         "shape": level.shape,
@@ -299,7 +299,7 @@ fn level(level: &Level) -> Value {
     })
 }
 
-/// What it took to leave an unstable equilibrium.
+/// The cost of the departure from an unstable equilibrium.
 fn departure(left: &Left) -> Value {
     json!({ "eigenvalue": left.eigenvalue, "energy_drop": left.energy_drop, "distance": left.distance })
 }

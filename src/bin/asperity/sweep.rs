@@ -217,7 +217,7 @@ impl Options {
         Ok(journal.unconverged() == 0)
     }
 
-    /// What the loads are, and their values.
+    /// The kind of the loads, and their values.
     fn loads(&self) -> (fn(f64) -> Control, &[f64]) {
         match (&self.mean_gaps, &self.mean_pressures) {
             (Some(Loads(gaps)), _) => (Control::MeanGap, gaps),
@@ -325,7 +325,7 @@ pub fn name_and_value(control: Control) -> (&'static str, f64) {
     }
 }
 
-/// What a row says, by the names of the columns. Nothing in it depends on the clock.
+/// The content of a row, by the names of the columns. Nothing in it depends on the clock.
 fn row(control: Control, report: &Report, statistics: &ContactStatistics) -> Map<String, Value> {
     let (control, value) = name_and_value(control);
     let values: [Value; COLUMNS.len()] = [
@@ -371,7 +371,7 @@ pub fn parsed(columns: &[&str], row: &str) -> Value {
     columns.iter().map(|name| (*name).to_owned()).zip(row.split(',').map(value)).collect::<Map<_, _>>().into()
 }
 
-/// What there is to see of a row.
+/// The fields of a row that are printed.
 pub fn line(report: &Report) -> String {
     let number = |value| Style::Plain.number(value, "");
     format!(

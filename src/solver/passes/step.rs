@@ -72,7 +72,7 @@ pub(in crate::solver) struct Advanced {
     pub(in crate::solver) residual: Option<Continued>,
 }
 
-/// The gap after a change, and zero where it exceeds zero by rounding only.
+/// The gap after a change, and exactly zero where it is no more than rounding above zero.
 #[inline(always)]
 fn moved<T: Real>(projects: bool, gap: T, change: T) -> T {
     let next = gap + change;

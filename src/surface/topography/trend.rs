@@ -3,7 +3,7 @@
 use super::Topography;
 use crate::error::{Error, Result};
 
-/// What [`Topography::detrend`] takes away.
+/// A trend, which [`Topography::detrend`] takes away.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Trend {
     /// The mean height.
@@ -71,12 +71,13 @@ impl Topography {
     /// h → h − p̂ ,   p̂ = arg min over p of  Σ (h − p)²
     /// ```
     ///
-    /// over the polynomials p of the trend, in all of the points that are not missing. To see what goes, use
+    /// over the polynomials p of the trend, with the sum over all points that are not missing. To see what goes, use
     /// [`fit`](Self::fit).
     ///
     /// ```
     /// use asperity::{Topography, Trend};
-    /// let plane = Topography::new(ndarray::Array2::from_shape_fn((9, 7), |(i, j)| 5.0 + 0.5 * i as f64 - 2.0 * j as f64));
+    /// let heights = ndarray::Array2::from_shape_fn((9, 7), |(i, j)| 5.0 + 0.5 * i as f64 - 2.0 * j as f64);
+    /// let plane = Topography::new(heights);
     /// let tilt = plane.fit(Trend::Plane)?;
     /// assert!((tilt.slopes.0 - 0.5).abs() < 1e-14 && (tilt.slopes.1 + 2.0).abs() < 1e-14);
     /// assert!(plane.detrend(Trend::Plane)?.heights.iter().all(|h| h.abs() < 1e-13));
