@@ -422,7 +422,11 @@ impl ElasticOperator<f64> for Broken {
         self.0.pressure(u, p.view_mut())?;
         match self.1 {
             1 => p.mapv_inplace(|p| p + 1e-6),
-            2 => p.row_mut(0).mapv_inplace(|p| 1.001 * p),
+            2 => {
+                p.row_mut(0).mapv_inplace(|p| 1.001 * p);
+                let mean = p.mean().unwrap();
+                p.mapv_inplace(|p| p - mean);
+            }
             _ => {}
         }
         Ok(())
