@@ -318,7 +318,7 @@ for dtype in ['<f4', '>f4', '<f8', '>f8', 'i1', '<i2', '>i4', '<i8']:
     np.save(dtype.strip('<>') + ('b' if '>' in dtype else 'l') + '.npy', h.astype(dtype))
 np.save('fortran.npy', np.asfortranarray(h.astype('f8')))
 np.savez('one.npz', h)
-np.savez_compressed('named.npz', heights=h, lengths=(7e-6, 4e-6), unit='m', other=np.zeros((9, 9)))
+np.savez_compressed('named.npz', heights=h, lengths=(7e3, 4e3), unit='m', other=np.zeros((9, 9)))
 np.savetxt('text.txt', h, header='seven lines of four')");
     let expected = Array2::from_shape_fn((7, 4), |(i, j)| 3.0 * i as f64 - (j * j) as f64);
     let mut read = 0;
@@ -329,7 +329,7 @@ np.savetxt('text.txt', h, header='seven lines of four')");
     }
     assert_eq!(read, 12);
     let named = read_topography(&bench.path("named.npz")).unwrap();
-    assert_eq!((named.lengths, named.unit.as_deref()), (Some((7e-6, 4e-6)), Some("m")));
+    assert_eq!((named.lengths, named.unit.as_deref()), (Some((7e3, 4e3)), Some("m")));
 
     // the other way, with the check that only the solution passes
     bench.said("solve --heights named.npz --modulus 1 --mean-gap 20 --format npy,npz --no-pictures --out r");
@@ -346,7 +346,7 @@ assert list(fields['lengths']) == report['lengths']
 assert abs(fields['gap'].mean() / 20 - 1) < 1e-12
 assert (fields['gap'] * fields['contact_pressure'] == 0).all()
 back = np.load('back.npz')
-assert back['unit'] == 'm' and back['unit'].shape == () and list(back['lengths']) == [7e-6, 4e-6]
+assert back['unit'] == 'm' and back['unit'].shape == () and list(back['lengths']) == [7e3, 4e3]
 x, y = np.meshgrid(np.arange(7.0), np.arange(4.0), indexing='ij')
 terms = np.stack([np.ones(28), x.ravel(), y.ravel()], 1)
 h = np.load('one.npz')['arr_0'].ravel()
