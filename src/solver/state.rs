@@ -455,8 +455,8 @@ impl<'a, T: Real> State<'a, T> {
             Status::Stopped => status,
             _ if self.detached.is_some() => Status::Detached,
             Status::Converged if !good => Status::Stalled,
-            // the last computation of the pressure may have reached the tolerance
-            Status::Stalled if good => Status::Converged,
+            // the last computation of the pressure may have reached the tolerance; rounds of a constraint end by its own word
+            Status::Stalled if good && self.projects() => Status::Converged,
             _ => status,
         }
     }

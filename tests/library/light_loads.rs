@@ -7,7 +7,7 @@ use std::ops::ControlFlow;
 use asperity::*;
 use ndarray::Array2;
 
-use crate::common::dense::{Dense, mean_product};
+use crate::common::dense::Dense;
 
 fn solved<T: Real>(heights: &Array2<f64>, control: Control, tolerance: f64) -> Solution<T> {
     let grid = Grid::new(heights.dim(), (1.0, 1.0)).unwrap();
@@ -86,7 +86,6 @@ fn the_energy_of_a_contact_of_one_node_is_exact() {
         let force: Vec<f64> = gap.iter().map(|&g| if g == 0.0 { 256.0 * load } else { 0.0 }).collect();
         let exact = 0.5 * dense.compliant(&force.iter().map(|f| f - load).collect::<Vec<_>>());
         assert!((report.elastic_energy / exact - 1.0).abs() < 4e-5, "{load:e}: {:e} {exact:e}", report.elastic_energy);
-        assert!(mean_product(&force, &force) > 0.0);
     }
 }
 
