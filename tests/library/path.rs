@@ -290,20 +290,31 @@ fn no_symmetry_breaks_where_there_is_none() {
     assert!(!names(&steps).contains(&"bifurcation") && drops(&steps, 1.5e-7).len() == 4, "{:?}", names(&steps));
 }
 
+/// A path that is interrupted goes on as the whole one, from every so many states.
+fn resumes<L: AdhesionLaw<f64>>(
+    problem: &mut Problem<f64, Westergaard<f64>, L>,
+    loads: &[Control],
+    settings: PathSettings,
+    whole: &[PathStep<f64>],
+    every: usize,
+) {
+    for kept in (0..whole.len()).step_by(every) {
+        let mut solver = Solver::default();
+        let mut path = Path::new(&mut solver, problem, loads.to_vec(), settings).unwrap();
+        assert!(path.by_ref().take(kept).all(|step| step.is_ok()));
+        let checkpoint = path.checkpoint();
+        let path = Path::new(&mut solver, problem, loads.to_vec(), settings).unwrap();
+        assert!(path.continuing(checkpoint).unwrap().map(Result::unwrap).eq(whole[kept..].iter().cloned()), "{kept}");
+    }
+}
+
 #[test]
 fn a_path_goes_on_through_a_bifurcation_bit_for_bit() {
     let (loads, settings) = (gaps(&[0.03, 0.012]), PathSettings { steps: 12, ..PathSettings::default() });
     let mut problem = two_waves(64, 0.0);
     let whole = follow(&mut problem, loads.clone(), settings, 1e-6);
     assert!(names(&whole).contains(&"bifurcation"));
-    for kept in 0..whole.len() {
-        let mut solver = Solver::default();
-        let mut path = Path::new(&mut solver, &mut problem, loads.clone(), settings).unwrap();
-        assert!(path.by_ref().take(kept).all(|step| step.is_ok()));
-        let checkpoint = path.checkpoint();
-        let path = Path::new(&mut solver, &mut problem, loads.clone(), settings).unwrap();
-        assert!(path.continuing(checkpoint).unwrap().map(Result::unwrap).eq(whole[kept..].iter().cloned()), "{kept}");
-    }
+    resumes(&mut problem, &loads, settings, &whole, 1);
 }
 
 #[test]
@@ -344,14 +355,7 @@ fn a_path_goes_on_from_a_checkpoint_bit_for_bit() {
     let mut problem = wave(48, 2e-3);
     let whole = follow(&mut problem, loads.clone(), settings, 1e-6);
     assert!(names(&whole).len() > 1);
-    for kept in (0..whole.len()).step_by(3) {
-        let mut solver = Solver::default();
-        let mut path = Path::new(&mut solver, &mut problem, loads.clone(), settings).unwrap();
-        assert!(path.by_ref().take(kept).all(|step| step.is_ok()));
-        let checkpoint = path.checkpoint();
-        let path = Path::new(&mut solver, &mut problem, loads.clone(), settings).unwrap();
-        assert!(path.continuing(checkpoint).unwrap().map(Result::unwrap).eq(whole[kept..].iter().cloned()), "{kept}");
-    }
+    resumes(&mut problem, &loads, settings, &whole, 3);
 }
 
 #[test]
