@@ -1,12 +1,11 @@
 //! The two-dimensional real transform, as a convolution: forward, a factor per mode, inverse.
 
 use std::fmt;
-use std::sync::Arc;
 
+use asperity_fft::Transform;
+use asperity_fft::num_complex::Complex;
 use ndarray::{Array2, ArrayView2, ArrayViewMut2, Axis};
 use num_traits::Zero;
-use rustfft::num_complex::Complex;
-use rustfft::{Fft, FftPlanner};
 
 use crate::error::{Error, Result};
 use crate::field::flat_mut;
@@ -44,44 +43,23 @@ pub(crate) struct Convolver<T: Real> {
 /// The sums over the columns of the spectrum.
 pub(crate) type Sums = [f64; 3];
 
-/// The forward and the inverse transform of a length.
-pub(crate) struct Transform<T> {
-    pub(crate) forward: Arc<dyn Fft<T>>,
-    pub(crate) inverse: Arc<dyn Fft<T>>,
-}
-
-/// The choice of an algorithm for a length.
+/// The transform of a length.
 struct Plan;
 
 impl Compiled for Plan {
     type Input<T: Real> = usize;
     type Output<T: Real> = Transform<T>;
     fn single(len: usize) -> Transform<f32> {
-        plan(len)
+        asperity_fft::single(len)
     }
     fn double(len: usize) -> Transform<f64> {
-        plan(len)
+        asperity_fft::double(len)
     }
-}
-
-fn plan<T: Real>(len: usize) -> Transform<T> {
-    let mut planner = FftPlanner::new();
-    Transform { forward: planner.plan_fft_forward(len), inverse: planner.plan_fft_inverse(len) }
 }
 
 struct Workspace<T> {
     tile: Vec<Complex<T>>,
     scratch: Vec<Complex<T>>,
-}
-
-impl<T: Real> Transform<T> {
-    pub(crate) fn new(len: usize) -> Self {
-        T::call::<Plan>(len)
-    }
-
-    fn scratch_len(&self) -> usize {
-        self.forward.get_inplace_scratch_len().max(self.inverse.get_inplace_scratch_len())
-    }
 }
 
 impl<T: Real> fmt::Debug for Convolver<T> {
@@ -98,7 +76,7 @@ impl<T: Real> Convolver<T> {
 
     fn with(layout: Layout) -> Self {
         let (n0, n1) = layout.plane();
-        let (rows, columns) = (Transform::new(n1), Transform::new(n0));
+        let (rows, columns) = (T::call::<Plan>(n1), T::call::<Plan>(n0));
         let scratch = rows.scratch_len().max(columns.scratch_len());
         let pool = Pool::new(|| Workspace {
             tile: vec![Complex::zero(); TILE.min(n0).div_ceil(2) * (n1 + SLACK)],

@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 use std::fmt;
 
-use rustfft::num_complex::Complex;
+use asperity_fft::num_complex::Complex;
 
 use super::*;
 use crate::fft::{Convolver, Layout, Sums};

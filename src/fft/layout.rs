@@ -2,8 +2,8 @@
 
 use std::f64::consts::TAU;
 
+use asperity_fft::num_complex::Complex;
 use ndarray::{Array2, ArrayView2, ArrayViewMut2, CowArray, Ix2};
-use rustfft::num_complex::Complex;
 
 use super::TILE;
 use crate::real::Real;

@@ -1,7 +1,7 @@
 //! Packing: two real rows in one complex line, and their two spectra in the spectrum of the line.
 
+use asperity_fft::num_complex::Complex;
 use ndarray::{ArrayView1, ArrayView2, ArrayViewMut2, Axis};
-use rustfft::num_complex::Complex;
 
 use super::SLACK;
 use crate::real::Real;

@@ -2,8 +2,8 @@
 
 use std::f64::consts::TAU;
 
+use asperity_fft::num_complex::Complex;
 use ndarray::Array2;
-use rustfft::num_complex::Complex;
 
 use super::philox::uniform;
 use super::spectrum::is_line;

@@ -1,11 +1,11 @@
 //! Height maps on other grids, by Fourier interpolation.
 
+use asperity_fft::num_complex::Complex;
 use ndarray::{Array2, Zip};
-use rustfft::num_complex::Complex;
 
 use super::Topography;
 use crate::error::{Error, Result};
-use crate::fft::Transform;
+
 use crate::grid::Grid;
 
 impl Topography {
@@ -61,7 +61,7 @@ fn resample_rows(field: &Array2<f64>, m: usize) -> Array2<f64> {
     if n == m {
         return field.clone();
     }
-    let (forward, inverse) = (Transform::<f64>::new(n).forward, Transform::<f64>::new(m).inverse);
+    let (forward, inverse) = (asperity_fft::double(n).forward, asperity_fft::double(m).inverse);
     let mut scratch =
         vec![Complex::default(); forward.get_inplace_scratch_len().max(inverse.get_inplace_scratch_len())];
     let (mut line, mut fine) = (vec![Complex::default(); n], vec![Complex::default(); m]);

@@ -1,0 +1,45 @@
+//! The one-dimensional transforms of asperity: rustfft, compiled once.
+//!
+//! The transforms of rustfft are generic, so the compiler makes their code in the crate that chooses them. They are
+//! two thirds of the code of asperity; here they are compiled once, and not with each change and each test of it.
+
+use std::sync::Arc;
+
+pub use rustfft::{Fft, num_complex};
+use rustfft::{FftNum, FftPlanner};
+
+/// The forward and the inverse transform of a length, both unnormalised.
+#[derive(Clone)]
+pub struct Transform<T> {
+    /// Mode k is the sum of x_j e^(−2πijk/n).
+    pub forward: Arc<dyn Fft<T>>,
+    /// Node j is the sum of z_k e^(2πijk/n).
+    pub inverse: Arc<dyn Fft<T>>,
+}
+
+/// The transform of a length in `f32`.
+#[inline(never)]
+#[must_use]
+pub fn single(len: usize) -> Transform<f32> {
+    transform(len)
+}
+
+/// The transform of a length in `f64`.
+#[inline(never)]
+#[must_use]
+pub fn double(len: usize) -> Transform<f64> {
+    transform(len)
+}
+
+fn transform<T: FftNum>(len: usize) -> Transform<T> {
+    let mut planner = FftPlanner::new();
+    Transform { forward: planner.plan_fft_forward(len), inverse: planner.plan_fft_inverse(len) }
+}
+
+impl<T: FftNum> Transform<T> {
+    /// The length of the scratch space that either direction needs.
+    #[must_use]
+    pub fn scratch_len(&self) -> usize {
+        self.forward.get_inplace_scratch_len().max(self.inverse.get_inplace_scratch_len())
+    }
+}
