@@ -98,7 +98,21 @@ fn strict_takes_warnings_for_errors_and_writes_nothing() {
     }
     let high = "solve --heights clean.npy --mean-pressure 5 --no-pictures --out high";
     bench.refused_with(&format!("{high} --strict"), &["beyond-modulus", "contact modulus"]);
+    // an answer that is refused before the first row of a table leaves no table
+    for table in
+        ["sweep --mean-pressures 5,6 --out s.csv", "cycle --mean-pressures 5,6 --steps 2 --resolution 0.1 --out c.csv"]
+    {
+        bench.refused_with(&format!("{table} --heights clean.npy --strict"), &["beyond-modulus"]);
+    }
     assert_eq!(bench.names("."), before);
+    // a table that is there stays as it is
+    bench.said("sweep --heights clean.npy --mean-pressures 0.01 --out s.csv");
+    let table = bench.read("s.csv");
+    bench.refused_with(
+        "sweep --heights clean.npy --mean-pressures 0.01,5 --out s.csv --strict --quiet",
+        &["beyond-modulus"],
+    );
+    assert_eq!(bench.read("s.csv"), table);
     let output = bench.run(high);
     assert_eq!((output.status.code(), said(&text(&output.stderr))), (Some(0), vec!["beyond-modulus"]));
     assert_eq!(codes(&bench.report("high")), ["beyond-modulus"]);

@@ -5,7 +5,7 @@ use std::io::{self, Write};
 use clap::{Args, Command};
 use clap_complete::{Shell, generate};
 
-use crate::Outcome;
+use crate::outcome::Outcome;
 
 /// Print the completions of commands and options for a shell.
 ///

@@ -1,29 +1,27 @@
 //! `asperity cycle`: a path of equilibria through loading and unloading, with its jumps.
 
-use std::ops::ControlFlow;
 use std::path::PathBuf;
 
 use asperity::{
-    Chart, Control, Error, Event, Path, PathCheckpoint, PathSettings, PathStep, Problem, Solver, Status, Surface,
+    Chart, Control, Error, Event, Grid, Path, PathCheckpoint, PathSettings, PathStep, Problem, Solver, Status, Surface,
     Westergaard,
 };
 use clap::{ArgGroup, Args};
 use ndarray::Array2;
 use serde_json::{Map, Value, json};
 
-use crate::echo::Echo;
-use crate::inputs;
-use crate::journal::{Identity, Journal};
-use crate::loads::{self, Loads};
+use crate::csv;
+use crate::identity::{Identity, identity};
+use crate::journal::Row;
+use crate::loads::{self, Loads, name_and_value};
 use crate::numbers::Style;
-use crate::options::{self, AdhesionOptions, Precision, SolverOptions, SurfaceOptions};
+use crate::options::{self, AdhesionOptions, Given, Precision, ProblemOptions, Scalar, SolverOptions, SurfaceOptions};
+use crate::outcome::Outcome;
 use crate::output::OutputFile;
-use crate::printing::Printing;
-use crate::progress::Progress;
-use crate::run::{self, Scalar};
-use crate::sweep::{cell, identity, line, name_and_value, parsed};
+use crate::printing::{Printing, say};
+use crate::scene::Scene;
+use crate::table::{self, Table, TableOptions};
 use crate::warnings::{Strictness, Warnings};
-use crate::{Outcome, say};
 
 /// Follow the contact along a cycle of approach and withdrawal, and find its jumps.
 ///
@@ -124,86 +122,66 @@ const COLUMNS: [&str; 18] = [
 ];
 
 /// Runs the command; whether all rows converged.
-pub fn run(options: &Options, echo: &Echo) -> Outcome<bool> {
-    options.adhesion.check()?;
+pub fn run(options: &Options, scene: &Scene) -> Outcome<bool> {
     options.check_files()?;
-    let (surface, unit) = options.surface.surface_and_unit()?;
-    let start = options.solver.start(surface.grid())?;
-    let threads = run::use_threads(options.solver.threads)?;
+    let given = options.table().problem.read()?;
     match options.solver.precision {
-        Precision::F32 => options.run::<f32>(surface, start, unit, echo, threads),
-        Precision::F64 => options.run::<f64>(surface, start, unit, echo, threads),
+        Precision::F32 => options.run::<f32>(given, scene),
+        Precision::F64 => options.run::<f64>(given, scene),
     }
 }
 
 impl Options {
-    fn run<T: Scalar>(
-        &self,
-        surface: Surface,
-        start: Option<Array2<f64>>,
-        unit: Option<String>,
-        echo: &Echo,
-        threads: usize,
-    ) -> Outcome<bool> {
+    fn run<T: Scalar>(&self, Given { surface, unit, start }: Given, scene: &Scene) -> Outcome<bool> {
         let loads = self.loads();
         if loads.len() < 2 {
             return Err("a cycle needs two turning points at least: give more loads, with commas between".into());
         }
-        let mut warnings = Warnings::of_input::<T>(self.strictness, &surface, &self.surface, &self.adhesion)?;
-        let (settings, grid) = (self.solver.settings(), *surface.grid());
+        let warnings = Warnings::of_input::<T>(self.strictness, &surface, self.table().problem)?;
+        let grid = *surface.grid();
         let identity = self.identity(&surface, start.as_ref());
         let operator = Westergaard::new(grid, self.surface.modulus)?;
         let mut problem = Problem::new(&surface, operator, self.adhesion.law::<T>()?)?;
         drop(surface);
-        let mut solver = Solver::new(settings);
-        let path_settings = PathSettings {
+        let mut solver = Solver::new(self.solver.settings());
+        let settings = PathSettings {
             steps: self.steps,
             resolution: self.resolution,
             tolerance: self.imbalance,
             smooth: !self.sharp,
         };
-        let mut path = Path::new(&mut solver, &mut problem, loads, path_settings)?;
+        let mut path = Path::new(&mut solver, &mut problem, loads, settings)?;
         let header = COLUMNS.join(",") + "\n";
-        echo.check_beside(&self.out, self.force || self.out.exists())?;
-        let scene = echo.written_beside(&self.out)?;
-        let (mut journal, fields) = Journal::open_endless(&self.out, &header, identity, self.force)?;
-        scene.commit()?;
-        warnings.say();
-        let narrow = |gap: Array2<f64>| gap.mapv_into_any(T::lit);
-        if journal.rows() > 0 {
-            self.printing.say(&format!("{} has {} rows already", self.out.display(), journal.rows()));
-            let fields = fields.into_iter().map(narrow).collect();
-            path = path.continuing(PathCheckpoint { numbers: journal.numbers().to_vec(), fields })?;
+        let (mut table, saved) = Table::open(self.table(), scene, &header, identity, None, warnings)?;
+        if table.rows() > 0 {
+            let fields = saved.fields.into_iter().map(T::field).collect();
+            path = path.continuing(PathCheckpoint { numbers: saved.numbers, fields })?;
         } else if let Some(start) = start {
-            path = path.starting_from(narrow(start));
+            path = path.starting_from(T::field(start));
         }
         loop {
-            let name = format!("{}", journal.rows() + 1);
-            let mut progress = Progress::new(&name, settings.tolerance, grid.nodes(), self.printing.without_bars());
-            let step = path.next_observed(|state| {
-                progress.update(state);
-                ControlFlow::Continue(())
-            });
-            drop(progress);
+            let name = (table.rows() + 1).to_string();
+            let step = table.observed(&name, grid.nodes(), |observe| path.next_observed(observe));
             let Some(step) = step else { break };
             let step = step?;
-            run::check_finite(&step.solution)?;
-            warnings.look_at(&step.solution, self.surface.modulus)?;
-            let row = row(&step);
-            let text = row.iter().map(|(_, value)| cell(value)).collect::<Vec<_>>().join(",");
-            let checkpoint = path.checkpoint();
+            table.check(&step.solution)?;
+            let (row, checkpoint) = (row(&step), path.checkpoint());
             let fields: Vec<_> = checkpoint.fields.iter().map(|field| field.view()).collect();
-            let report = &step.solution.report;
-            journal.append_endless(&text, report.status == Status::Converged, &fields, &checkpoint.numbers)?;
+            let (report, (_, load)) = (&step.solution.report, name_and_value(step.control));
+            let (text, converged) = (csv::line(&row), report.status == Status::Converged);
+            table.append(&Row { text: &text, load, converged, fields: &fields, numbers: &checkpoint.numbers })?;
             let event = step.event.map_or(String::new(), |event| format!("  {event}"));
-            self.printing.say(&format!("{:>4}  {}{event}", journal.rows(), line(report)));
+            self.printing.say(&format!("{:>4}  {}{event}", table.rows(), table::brief(report)));
         }
         drop(path);
-        let unit = self.length_unit.as_deref().or(unit.as_deref());
-        let inputs = inputs::inputs(&self.surface, &self.adhesion, &self.solver, &grid, unit, threads);
-        self.conclude(&journal, unit, inputs, &warnings)?;
-        journal.warn_of_unconverged("or use a larger --tolerance");
-        Ok(journal.unconverged() == 0)
+        self.conclude(&table, self.length_unit.as_deref().or(unit.as_deref()), &grid)?;
+        Ok(table.converged("or use a larger --tolerance"))
+    }
+
+    fn table(&self) -> TableOptions<'_> {
+        let problem = ProblemOptions { surface: &self.surface, adhesion: &self.adhesion, solver: &self.solver };
+        let &Self { ref out, force, printing, .. } = self;
+        TableOptions { problem, out, force, printing }
     }
 
     fn loads(&self) -> Vec<Control> {
@@ -232,7 +210,7 @@ impl Options {
 
     /// All that the rows depend on.
     fn identity(&self, surface: &Surface, start: Option<&Array2<f64>>) -> Identity {
-        let mut identity = identity(&self.surface, &self.adhesion, &self.solver, surface, start);
+        let mut identity = identity(self.table().problem, surface, start);
         let loads = self.loads();
         let control = loads.first().map_or("none", |load| name_and_value(*load).0);
         let values: Vec<_> = loads.iter().map(|load| name_and_value(*load).1).collect();
@@ -251,14 +229,8 @@ impl Options {
     }
 
     /// Says what the cycle comes to, by all of its rows, and draws it.
-    fn conclude(
-        &self,
-        journal: &Journal,
-        unit: Option<&str>,
-        inputs: Map<String, Value>,
-        warnings: &Warnings,
-    ) -> Outcome<()> {
-        let text = journal.text()?;
+    fn conclude(&self, table: &Table<'_>, unit: Option<&str>, grid: &Grid) -> Outcome<()> {
+        let text = table.text()?;
         let rows: Vec<Vec<&str>> = text.lines().skip(1).map(|row| row.split(',').collect()).collect();
         let column = |name: &str| COLUMNS.iter().position(|column| *column == name).unwrap_or_default();
         let number =
@@ -266,31 +238,27 @@ impl Options {
         let least = rows.iter().map(|row| number(row, "mean_pressure")).fold(f64::INFINITY, f64::min);
         let event = |row: &[&str]| row.get(column("event")).copied().unwrap_or_default().to_owned();
         self.printing.report(|| {
-            let rows: Vec<_> = text.lines().skip(1).map(|row| parsed(&COLUMNS, row)).collect();
+            let rows: Vec<_> = text.lines().skip(1).map(|row| csv::parsed(&COLUMNS, row)).collect();
             let last = rows.last().cloned().unwrap_or_default();
             let events = rows.iter().filter(|row| !row["event"].is_null());
             let brief = |row: &Value| {
                 let kept = ["leg", "control_value", "mean_gap", "mean_pressure", "event", "energy_drop"];
                 kept.iter().map(|key| ((*key).to_owned(), row[key].clone())).collect::<Value>()
             };
-            let outcome = json!({
-                "control": last["control"],
-                "rows": journal.rows(),
-                "unconverged": journal.unconverged(),
-                "out": self.out.to_string_lossy(),
+            let control = last["control"].as_str().unwrap_or_default();
+            let found = json!({
                 "greatest_tension": (least < 0.0).then_some(-least),
                 "events": events.map(brief).collect::<Vec<_>>(),
                 "work": last["work"],
                 "dissipated": last["dissipated"],
                 "imbalance": last["imbalance"],
                 "last": last,
-                "warnings": warnings.report(),
             });
-            inputs::report("cycle", outcome, inputs)
+            table.report("cycle", control, found, grid, unit)
         });
         if self.printing.for_people() {
             let plain = |value| Style::Plain.number(value, "");
-            say(&format!("{} rows in {}", journal.rows(), self.out.display()));
+            say(&format!("{} rows in {}", table.rows(), self.out.display()));
             if least < 0.0 {
                 say(&format!("greatest tension        {}", plain(-least)));
             }

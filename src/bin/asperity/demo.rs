@@ -5,20 +5,23 @@ use std::path::{Path, PathBuf};
 
 use asperity::io::{OutputFolder, write_npy};
 use asperity::{Amplitude, Colouring, Error, Exponential, Grid, Map, NoAdhesion, SelfAffine, Status, Surface};
-use clap::{Args, CommandFactory};
+use clap::{Args, Command, FromArgMatches};
 use ndarray::Array2;
 use serde_json::json;
 
-use crate::Outcome;
-use crate::echo::{self, Echo};
+use crate::case;
 use crate::numbers::{Style, si};
 use crate::options::threads;
+use crate::outcome::Outcome;
+use crate::output::at_destination;
 use crate::output::write_text;
+use crate::pictures::{self, Units};
 use crate::printing::Printing;
 use crate::progress::Progress;
-use crate::report::{table, warn};
-use crate::run::{self, Units};
+use crate::scene::{self, Scene};
 use crate::solve;
+use crate::summary::{table, warn};
+use crate::threads::use_threads;
 
 /// Press a built-in rough surface, without and with adhesion at the same load.
 ///
@@ -60,17 +63,17 @@ const NAMES: [&str; 7] = [
     "pressure-without-adhesion.png",
     "pressure-with-adhesion.png",
     "heights.npy",
-    echo::NAME,
+    scene::NAME,
 ];
 
 /// Runs the command; whether both solves converged.
 pub fn run(options: &Options) -> Outcome<bool> {
     let &Options { ref out, printing, .. } = options;
     let (bare_options, _) = solve_options(out, false)?;
-    let (sticky_options, echo) = solve_options(out, true)?;
-    Echo::check(&out.join(echo::NAME))?;
+    let (sticky_options, scene) = solve_options(out, true)?;
+    Scene::check(&out.join(scene::NAME))?;
     drop(OutputFolder::create(out, &NAMES, true)?);
-    let threads = run::use_threads(options.threads)?;
+    use_threads(options.threads)?;
 
     let grid = Grid::square(NODES, SIDE)?;
     let surface = rough(grid)?;
@@ -88,38 +91,39 @@ pub fn run(options: &Options) -> Outcome<bool> {
     let case = sticky_options.case();
     let progress = |name| Progress::new(name, case.settings.tolerance, grid.nodes(), printing.without_bars());
     let law = Exponential::new(WORK_OF_ADHESION, RANGE)?;
-    let (bare, without) = run::solve::<f64, _>(surface.clone(), NoAdhesion, &case, None, progress("without adhesion"))?;
-    let (sticky, with) = run::solve::<f64, _>(surface, law, &case, None, progress("with adhesion"))?;
+    let (bare, without) =
+        case::solve::<f64, _>(surface.clone(), NoAdhesion, &case, None, progress("without adhesion"))?;
+    let (sticky, with) = case::solve::<f64, _>(surface, law, &case, None, progress("with adhesion"))?;
 
     let folder = OutputFolder::create(out, &NAMES, true)?;
     let draw = || {
         draw_heights(&folder.path("heights.png"), grid, &heights)?;
         write_npy(&folder.path("heights.npy"), &heights)?;
-        write_text(&folder.path(echo::NAME), &echo.text(out))?;
+        write_text(&folder.path(scene::NAME), &scene.text(out))?;
         for (name, solution, adhesive) in [("without adhesion", &bare, false), ("with adhesion", &sticky, true)] {
             let path = |what: &str| folder.path(&format!("{what}-{}.png", name.replace(' ', "-")));
-            run::draw_contact(&path("contact"), grid, &format!("Contact {name}"), UNITS, &solution.contact_map())?;
+            pictures::draw_contact(&path("contact"), grid, &format!("Contact {name}"), UNITS, &solution.contact_map())?;
             let (caption, title) = (format!("mean {}", si(PRESSURE, "Pa")), format!("Pressure {name}"));
-            let pressure = run::pressure_to_draw(solution, adhesive);
-            run::draw_pressure(&path("pressure"), grid, &title, &caption, UNITS, pressure)?;
+            let pressure = pictures::pressure_to_draw(solution, adhesive);
+            pictures::draw_pressure(&path("pressure"), grid, &title, &caption, UNITS, pressure)?;
         }
         Ok(())
     };
-    draw().map_err(|error| run::at_destination(error, out))?;
+    draw().map_err(|error| at_destination(error, out))?;
     folder.commit()?;
 
     printing.say(&table(&["without adhesion", "with adhesion"], &[&without, &with], Style::Si));
     printing.say(&format!("\nmaps in {}: {}\n", out.display(), NAMES.join(", ")));
     let command: Vec<_> = arguments(out, true).iter().map(|word| quoted(word)).collect();
-    let (command, scene) = (command.join(" "), quoted(out.join(echo::NAME).as_os_str()));
+    let (command, file) = (command.join(" "), quoted(out.join(scene::NAME).as_os_str()));
     printing.say(&format!(
-        "the case with adhesion again, by its options or by its scene:\n  {command}\n  asperity run {scene}"
+        "the case with adhesion again, by its options or by its scene:\n  {command}\n  asperity run {file}"
     ));
     printing.report(|| {
         json!({
             "command": "demo",
-            "without_adhesion": bare_options.report(grid, &without, UNITS.length, threads),
-            "with_adhesion": sticky_options.report(grid, &with, UNITS.length, threads),
+            "without_adhesion": bare_options.report(grid, &without, UNITS.length),
+            "with_adhesion": sticky_options.report(grid, &with, UNITS.length),
         })
     });
     warn("without adhesion", &without, &case);
@@ -160,11 +164,14 @@ fn arguments(folder: &Path, adhesive: bool) -> Vec<OsString> {
 }
 
 /// The same as options of `asperity solve`, and as a scene.
-fn solve_options(folder: &Path, adhesive: bool) -> Outcome<(Box<solve::Options>, Echo)> {
-    match crate::parsed(&mut crate::Tool::command(), arguments(folder, adhesive)) {
-        Ok((crate::Command::Solve(options), echo)) => Ok((options, echo)),
-        _ => Err(Error::file(folder, "is no name that solve takes: choose another --out").into()),
-    }
+fn solve_options(folder: &Path, adhesive: bool) -> Outcome<(solve::Options, Scene)> {
+    let mut command = solve::Options::augment_args(Command::new("solve"));
+    let matches = command.try_get_matches_from_mut(arguments(folder, adhesive).into_iter().skip(1));
+    let parsed = matches.and_then(|matches| {
+        let options = solve::Options::from_arg_matches(&matches)?;
+        Ok((options, Scene::of(&command, &matches)))
+    });
+    parsed.map_err(|_| Error::file(folder, "is no name that solve takes: choose another --out").into())
 }
 
 /// A word as a shell wants it.

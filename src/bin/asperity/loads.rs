@@ -1,11 +1,21 @@
 //! Lists of loads: numbers and ranges on the command line.
 
+use asperity::Control;
+
 /// Loads, one after the other.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Loads(pub Vec<f64>);
 
 /// More loads than this are a slip of the pen.
 const MOST_LOADS: usize = 100_000;
+
+/// The name of the kind of a load, and its value.
+pub fn name_and_value(control: Control) -> (&'static str, f64) {
+    match control {
+        Control::MeanGap(gap) => ("mean-gap", gap),
+        Control::MeanPressure(pressure) => ("mean-pressure", pressure),
+    }
+}
 
 /// Reads a list of mean gaps.
 pub fn gaps(text: &str) -> Result<Loads, String> {

@@ -3,28 +3,37 @@
 //! `asperity prepare` makes them of measured maps, and `asperity stats` measures them. `asperity run` does any of it
 //! from a scene file, as every run leaves one.
 
+// the commands
 mod completions;
 mod cycle;
 mod demo;
-mod echo;
-mod hash;
-mod input;
-mod inputs;
-mod journal;
-mod loads;
-mod numbers;
-mod options;
-mod output;
 mod prepare;
-mod printing;
-mod progress;
-mod report;
 mod run;
-mod scene;
 mod solve;
 mod stats;
 mod surface;
 mod sweep;
+
+// the parts of which commands are made
+mod case;
+mod csv;
+mod hash;
+mod heights;
+mod identity;
+mod journal;
+mod loads;
+mod numbers;
+mod options;
+mod outcome;
+mod output;
+mod pictures;
+mod printing;
+mod progress;
+mod report;
+mod scene;
+mod summary;
+mod table;
+mod threads;
 mod warnings;
 
 use std::env;
@@ -35,8 +44,7 @@ use std::process::ExitCode;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 
-use crate::echo::Echo;
-use crate::printing::{complain, say};
+use crate::printing::complain;
 use crate::scene::Scene;
 
 /// Frictionless normal contact of rough surfaces, with adhesion.
@@ -69,15 +77,12 @@ enum Command {
     Solve(Box<solve::Options>),
     Sweep(Box<sweep::Options>),
     Cycle(Box<cycle::Options>),
-    Run(scene::Options),
+    Run(run::Options),
     Prepare(prepare::Options),
     Surface(surface::Options),
     Stats(stats::Options),
     Completions(completions::Options),
 }
-
-/// What a command may fail with: one line that names the value and the remedy.
-type Outcome<T> = Result<T, Box<dyn Error>>;
 
 const CONVERGED: ExitCode = ExitCode::SUCCESS;
 const REFUSED: u8 = 1;
@@ -87,37 +92,37 @@ fn main() -> ExitCode {
     let mut tool = Tool::command();
     tool.build();
     match parsed(&mut tool, env::args_os()) {
-        Ok((Command::Run(options), _)) => match Scene::read(&tool, options) {
-            Ok(scene) => match parsed(&mut tool, scene.arguments.clone()) {
-                Ok((command, echo)) => execute(command, &echo),
-                Err(error) => usage(&error, |argument| scene.blamed(argument)),
+        Ok((Command::Run(options), _)) => match run::Arguments::read(&tool, options) {
+            Ok(read) => match parsed(&mut tool, read.arguments.clone()) {
+                Ok((command, scene)) => execute(command, &scene),
+                Err(error) => usage(&error, |argument| read.blamed(argument)),
             },
             Err(error) => refused(&*error),
         },
-        Ok((command, echo)) => execute(command, &echo),
+        Ok((command, scene)) => execute(command, &scene),
         Err(error) => usage(&error, |_| None),
     }
 }
 
 /// What the arguments ask for, and as a scene.
-fn parsed<I>(tool: &mut clap::Command, arguments: I) -> Result<(Command, Echo), clap::Error>
+fn parsed<I>(tool: &mut clap::Command, arguments: I) -> Result<(Command, Scene), clap::Error>
 where
     I: IntoIterator<Item: Into<OsString> + Clone>,
 {
     let matches = tool.try_get_matches_from_mut(arguments)?;
     let command = Tool::from_arg_matches(&matches)?.command;
     let chosen = matches.subcommand().and_then(|(name, matches)| Some((tool.find_subcommand(name)?, matches)));
-    Ok((command, chosen.map_or_else(Echo::default, |(command, matches)| Echo::of(command, matches))))
+    Ok((command, chosen.map_or_else(Scene::default, |(command, matches)| Scene::of(command, matches))))
 }
 
-fn execute(command: Command, echo: &Echo) -> ExitCode {
+fn execute(command: Command, scene: &Scene) -> ExitCode {
     let converged = match command {
         Command::Demo(options) => demo::run(&options),
-        Command::Solve(options) => solve::run(&options, echo),
-        Command::Sweep(options) => sweep::run(&options, echo),
-        Command::Cycle(options) => cycle::run(&options, echo),
-        Command::Prepare(options) => prepare::run(&options, echo),
-        Command::Surface(options) => surface::run(&options, echo),
+        Command::Solve(options) => solve::run(&options, scene),
+        Command::Sweep(options) => sweep::run(&options, scene),
+        Command::Cycle(options) => cycle::run(&options, scene),
+        Command::Prepare(options) => prepare::run(&options, scene),
+        Command::Surface(options) => surface::run(&options, scene),
         Command::Stats(options) => stats::run(&options),
         Command::Completions(options) => completions::run(&options, Tool::command()),
         Command::Run(_) => Err("a scene cannot run another one: name a command in it".into()),

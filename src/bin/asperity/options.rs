@@ -7,8 +7,11 @@ use asperity::io::read_field;
 use asperity::{AdhesionLaw, Criterion, Error, Exponential, Grid, MaugisDugdale, NoAdhesion, Real, Settings, Surface};
 use clap::{Args, ValueEnum};
 use ndarray::Array2;
+use ndarray_npy::WritableElement;
 
-use crate::{Outcome, input};
+use crate::heights;
+use crate::outcome::Outcome;
+use crate::threads::use_threads;
 
 /// The surface, and what it is pressed against.
 #[derive(Args)]
@@ -87,10 +90,58 @@ pub enum Precision {
     F64,
 }
 
+/// A scalar in which one can solve, and that can be written.
+pub trait Scalar: Real + WritableElement {
+    /// A field in this precision; in place, if it is that of the file.
+    fn field(field: Array2<f64>) -> Array2<Self> {
+        field.mapv_into_any(Self::lit)
+    }
+}
+
+impl<T: Real + WritableElement> Scalar for T {}
+
+/// The options that choose a contact problem and its solver.
+#[derive(Clone, Copy)]
+pub struct ProblemOptions<'a> {
+    pub surface: &'a SurfaceOptions,
+    pub adhesion: &'a AdhesionOptions,
+    pub solver: &'a SolverOptions,
+}
+
+/// The fields that the options name, read from their files.
+pub struct Given {
+    pub surface: Surface,
+    /// The unit of length, if the file of the surface has one
+    pub unit: Option<String>,
+    /// The gap from which to start, if there is one
+    pub start: Option<Array2<f64>>,
+}
+
+impl ProblemOptions<'_> {
+    /// Checks the options, reads their files, and starts the threads.
+    pub fn read(self) -> Outcome<Given> {
+        self.adhesion.check()?;
+        let (surface, unit) = self.surface.surface_and_unit()?;
+        let start = self.solver.start(surface.grid())?;
+        use_threads(self.solver.threads)?;
+        Ok(Given { surface, unit, start })
+    }
+}
+
+impl Precision {
+    /// The name in reports.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::F32 => "f32",
+            Self::F64 => "f64",
+        }
+    }
+}
+
 impl SurfaceOptions {
     /// The surface of the file, and its unit of length if the file has one.
-    pub fn surface_and_unit(&self) -> Outcome<(Surface, Option<String>)> {
-        input::surface(&self.heights, input::map(&self.heights, self.lengths.as_deref())?)
+    fn surface_and_unit(&self) -> Outcome<(Surface, Option<String>)> {
+        heights::surface(&self.heights, heights::map(&self.heights, self.lengths.as_deref())?)
     }
 }
 
@@ -126,7 +177,7 @@ impl AdhesionOptions {
 
 impl SolverOptions {
     /// The gap from which to start, if it is given.
-    pub fn start(&self, grid: &Grid) -> Outcome<Option<Array2<f64>>> {
+    fn start(&self, grid: &Grid) -> Outcome<Option<Array2<f64>>> {
         let Some(path) = &self.initial_gap else { return Ok(None) };
         let start = read_field(path)?;
         if start.dim() != grid.shape() {

@@ -5,8 +5,7 @@ use std::path::{Path, PathBuf};
 use asperity::Error;
 use asperity::io::OutputFolder;
 
-use crate::Outcome;
-use crate::run::at_destination;
+use crate::outcome::Outcome;
 
 /// The folder `path` for files with these `names`; one that exists is refused by the option that would replace it.
 pub fn output_folder(path: &Path, names: &[&str], force: bool) -> Outcome<OutputFolder> {
@@ -58,4 +57,14 @@ impl OutputFile {
 /// Writes a text, or says where it could not be written.
 pub fn write_text(path: &Path, text: &str) -> asperity::Result<()> {
     std::fs::write(path, text).map_err(|e| Error::file(path, format!("cannot be written: {e}")))
+}
+
+/// Names the place where a file would have appeared, and not the hidden one where it could not be written.
+pub fn at_destination(error: Error, folder: &Path) -> Error {
+    match error {
+        Error::File { path, reason } => {
+            Error::File { path: path.file_name().map_or_else(|| folder.to_owned(), |name| folder.join(name)), reason }
+        }
+        other => other,
+    }
 }

@@ -7,13 +7,14 @@ use asperity::{Topography, Trend};
 use clap::{Args, ValueEnum};
 use serde_json::json;
 
-use crate::echo::Echo;
-use crate::input::{given, holes, sides, warn_of_unread};
+use crate::heights::{given, holes, sides, warn_of_unread};
 use crate::numbers::plain;
 use crate::options::{nodes, positive};
+use crate::outcome::Outcome;
 use crate::output::OutputFile;
 use crate::printing::Printing;
-use crate::{Outcome, say};
+use crate::printing::say;
+use crate::scene::Scene;
 
 /// Make a surface that can be solved of a measured map.
 ///
@@ -101,15 +102,15 @@ impl Order {
 }
 
 /// Runs the command; always successful if it ends.
-pub fn run(options: &Options, echo: &Echo) -> Outcome<bool> {
-    echo.check_beside(&options.out, options.force)?;
+pub fn run(options: &Options, scene: &Scene) -> Outcome<bool> {
+    scene.check_beside(&options.out, options.force)?;
     let file = OutputFile::create(&options.out, options.force)?;
     let mut lines = Vec::new();
     let map = prepared(options, &mut lines)?;
     file.write(|path| write_topography(path, &map))?;
-    let scene = echo.written_beside(&options.out)?;
+    let scene_file = scene.written_beside(&options.out)?;
     file.commit()?;
-    scene.commit()?;
+    scene_file.commit()?;
     options.printing.report(|| {
         json!({
             "command": "prepare",

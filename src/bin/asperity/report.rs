@@ -1,110 +1,45 @@
-//! Reports of solves as tables, and what is to be known before they are trusted.
+//! The report on a command as JSON: its outcome, then its inputs.
 
-use asperity::{Report, Status, Verdict};
+use std::path::Path;
 
-use crate::complain;
-use crate::numbers::{Style, percent, plain};
-use crate::printing::{bold, green, yellow};
-use crate::run::{Account, Case, Steadiness};
+use asperity::Grid;
+use serde_json::{Map, Value, json};
 
-/// A table with a column for each of the solves.
-pub fn table(names: &[&str], solves: &[&Account], style: Style) -> String {
-    let mut rows: Vec<(&str, Vec<String>)> = Vec::new();
-    if !names.is_empty() {
-        rows.push(("", names.iter().map(|name| (*name).to_owned()).collect()));
-    }
-    let mut row = |name, of: &dyn Fn(&Account, &Report) -> String| {
-        rows.push((name, solves.iter().map(|solve| of(solve, &solve.report)).collect()));
-    };
-    row("contact", &|_, r| format!("{} %", percent(r.contact_fraction)));
-    row("corrected for its edge", &|s, _| format!("{} %", percent(s.contact.corrected_contact_fraction)));
-    row("points in contact", &|s, r| format!("{} of {}", r.contact_points, s.nodes));
-    row("mean gap", &|_, r| style.number(r.mean_gap, "m"));
-    row("mean pressure", &|_, r| style.number(r.mean_pressure, "Pa"));
-    row("carried pressure", &|_, r| style.number(r.carried_pressure, "Pa"));
-    row("mean contact pressure", &|_, r| style.number(r.mean_contact_pressure, "Pa"));
-    row("least pressure", &|s, _| style.number(s.pressures.0, "Pa"));
-    row("greatest pressure", &|s, _| style.number(s.pressures.1, "Pa"));
-    row("elastic energy per area", &|_, r| style.number(r.elastic_energy, "J/m²"));
-    row("adhesive energy per area", &|_, r| style.number(r.adhesive_energy, "J/m²"));
-    row("mu_rho", &|_, r| plain(r.mu_rho));
-    row("certified error", &|_, r| format!("{:.1e}", r.relative_error));
-    if solves.iter().any(|solve| solve.stability.is_some()) {
-        let of = |account: &Account, text: &dyn Fn(&Steadiness) -> String| {
-            account.stability.as_ref().map_or(String::new(), text)
-        };
-        row("stability", &|s, _| {
-            of(s, &|s| format!("{}{}", s.verdict, if s.smoothed { ", the law smoothed" } else { "" }))
-        });
-        row("smallest eigenvalue", &|s, _| of(s, &|s| plain(s.eigenvalue)));
-        row("its lower bound", &|s, _| of(s, &|s| plain(s.lower_bound)));
-        if solves.iter().any(|solve| !solve.departures.is_empty()) {
-            row("energy drop in leaving", &|s, _| {
-                style.number(s.departures.iter().map(|left| left.energy_drop).sum(), "J/m²")
-            });
-        }
-        row("error bound", &|s, _| of(s, &|s| s.error_bound.map_or("none".to_owned(), |bound| format!("{bound:.1e}"))));
-    }
-    row("iterations", &|_, r| r.iterations.to_string());
-    row("operator applications", &|_, r| r.operator_applications.to_string());
-    if solves.iter().any(|solve| solve.grids.is_some()) {
-        let count = |s: &Account| s.grids.as_ref().map_or(0.0, |(_, applications)| *applications);
-        row("with coarser grids", &|s, _| format!("{:.1}", count(s)));
-    }
-    row("time", &|s, _| format!("{:.3} s", s.seconds));
-    row("status", &|_, r| r.status.to_string());
+use crate::options::ProblemOptions;
+use crate::threads;
 
-    let length = |text: &str| text.chars().count();
-    let first = rows.iter().map(|(name, _)| length(name)).max().unwrap_or(0);
-    let widths: Vec<_> =
-        (0..solves.len()).map(|k| rows.iter().map(|(_, cells)| length(&cells[k])).max().unwrap_or(0)).collect();
-    let line = |(name, cells): &(&str, Vec<String>)| {
-        let cells = cells.iter().zip(&widths).map(|(cell, &width)| {
-            // A single column reads better from the left.
-            let cell = if solves.len() == 1 { cell.clone() } else { format!("{cell:>width$}") };
-            let cell = match *name {
-                "" => bold(&cell),
-                "status" if cell.trim() == Status::Converged.name() => green(&cell),
-                "status" => yellow(&cell),
-                _ => cell,
-            };
-            format!("  {cell}")
-        });
-        format!("{name:first$}{}", cells.collect::<String>())
-    };
-    rows.iter().map(line).collect::<Vec<_>>().join("\n")
+/// The inputs of a command, by their names in every report.
+pub fn inputs(
+    ProblemOptions { surface, adhesion, solver }: ProblemOptions<'_>,
+    grid: &Grid,
+    length_unit: Option<&str>,
+) -> Map<String, Value> {
+    let settings = solver.settings();
+    let inputs = json!({
+        "heights": surface.heights.to_string_lossy(),
+        "initial_gap": solver.initial_gap.as_deref().map(Path::to_string_lossy),
+        "shape": grid.shape(),
+        "lengths": grid.lengths(),
+        "length_unit": length_unit,
+        "modulus": surface.modulus,
+        "law": adhesion.law.to_string(),
+        "work_of_adhesion": adhesion.work_of_adhesion,
+        "range": adhesion.range,
+        "method": settings.method.name(),
+        "precision": solver.precision.name(),
+        "tolerance": settings.tolerance,
+        "max_iterations": settings.max_iterations,
+        "threads": threads::count(),
+        "version": env!("CARGO_PKG_VERSION"),
+    });
+    inputs.as_object().cloned().unwrap_or_default()
 }
 
-/// Says on standard error what there is to know of a solve before trusting it, of which `name` tells the case.
-pub fn warn(name: &str, account: &Account, case: &Case) {
-    let (report, tolerance) = (&account.report, case.settings.tolerance);
-    let name = if name.is_empty() { String::new() } else { format!("{name}: ") };
-    if report.status != Status::Converged {
-        let remedy = match report.status {
-            Status::Detached => {
-                "no equilibrium under this tension was found from this start: use less tension, hold a --mean-gap and \
-                 start from its gap by --initial-gap, or follow the branch by asperity cycle --mean-gaps"
-            }
-            Status::IterationLimit => "the fields are not accurate: raise --max-iterations",
-            _ if report.precision == "f32" => "this is what f32 can do: use --precision f64, or a larger --tolerance",
-            _ => "this is the best to be had: use a larger --tolerance, or another start by --initial-gap",
-        };
-        let load = match report.load_error {
-            load if load > tolerance => format!(" and load error {load:.1e}"),
-            _ => String::new(),
-        };
-        let text = format!(
-            "{name}not converged ({}): error {:.1e}{load} after {} iterations, tolerance {tolerance:e}; {remedy}",
-            report.status, report.relative_error, report.iterations
-        );
-        complain("warning", &text);
-    }
-    let unstable = account.stability.as_ref().is_some_and(|stability| stability.verdict == Verdict::Unstable);
-    if unstable && !case.leave {
-        complain("warning", &format!("{name}the equilibrium is unstable, it would not last: --leave goes on from it"));
-    } else if unstable {
-        let count = account.departures.len();
-        let text = format!("{name}still unstable after {count} departures: try another start by --initial-gap");
-        complain("warning", &text);
-    }
+/// A report on a command: its outcome, then its inputs.
+pub fn report(command: &str, outcome: Value, inputs: Map<String, Value>) -> Value {
+    let mut report = Map::new();
+    report.insert("command".to_owned(), command.into());
+    report.extend(outcome.as_object().cloned().unwrap_or_default());
+    report.extend(inputs);
+    report.into()
 }

@@ -1,278 +1,249 @@
-//! One solve for any command, with its stability and its warnings.
+//! `asperity run`: a scene file read as the arguments of a command.
 
-use std::ops::ControlFlow;
-use std::path::Path;
-use std::time::Instant;
+use std::ffi::OsString;
+use std::fs;
+use std::ops::Range;
+use std::path::{Path, PathBuf};
 
-use asperity::{
-    AdhesionLaw, Colouring, ContactStatistics, Control, Departure, Error, Grid, Level, Map, Nested, NestedSolution,
-    NoAdhesion, Problem, Real, Report, Result, Settings, Solution, Solver, Stability, StabilityTest, Surface, Verdict,
-    Westergaard,
-};
-use ndarray::Array2;
-use ndarray_npy::WritableElement;
-use serde_json::Value;
+use asperity::Error;
+use asperity::io::read_topography;
+use clap::{Arg, ArgAction, Args, Command};
+use toml::de::{DeTable, DeValue};
+use toml::{Spanned, Table, Value};
 
-use crate::Outcome;
-use crate::numbers::percent;
-use crate::progress::Progress;
+use crate::outcome::Outcome;
+use crate::scene::{is_path, key, section};
 
-/// A scalar in which one can solve, and that can be written.
-pub trait Scalar: Real + WritableElement {}
-impl<T: Real + WritableElement> Scalar for T {}
-
-/// The case to solve, beside the surface and the law.
-pub struct Case {
-    pub modulus: f64,
-    pub control: Control,
-    pub settings: Settings,
-    /// Whether to find out if the solution is stable.
-    pub stability: bool,
-    /// Whether to go on from a solution that is not.
-    pub leave: bool,
+/// Do what a scene file says.
+///
+/// A scene is a TOML file with the name of a command (solve, sweep, cycle, prepare, surface, stats or demo) and its
+/// options by their long names, without the hyphens in front. Numbers, words and lists are written as TOML has them,
+/// an option without a value is set by true. Options may stand in sections, named as in the help of the command. File
+/// names are relative to the scene. Options after the name of the scene replace those in it, and the side lengths of a
+/// file of heights after it those in the scene.
+///
+/// Every run leaves a scene that repeats it: scene.toml in a folder of results, FILE.scene.toml beside a file.
+#[derive(Args)]
+#[command(after_help = EXAMPLES)]
+pub struct Options {
+    /// Scene file
+    #[arg(value_name = "SCENE")]
+    scene: PathBuf,
+    /// Options of the command
+    #[arg(value_name = "OPTION", trailing_var_arg = true, allow_hyphen_values = true)]
+    options: Vec<OsString>,
 }
 
-/// Whether a solution is stable; see [`asperity::Stability`].
-pub struct Steadiness {
-    pub verdict: Verdict,
-    pub eigenvalue: f64,
-    pub residual: f64,
-    pub lower_bound: f64,
-    pub error_bound: Option<f64>,
-    pub smoothed: bool,
-    pub operator_applications: usize,
-    pub mode: Array2<f64>,
+const EXAMPLES: &str = "\
+\u{1b}[1;4mA scene:\u{1b}[0m
+    command = \"solve\"
+    out = \"results\"
+    [surface]
+    heights = \"heights.npy\"
+    [load]
+    mean-gap = 0.04
+
+\u{1b}[1;4mExamples:\u{1b}[0m
+  Leave a scene, repeat it, and do the same at another load:
+    asperity solve --heights heights.npy --mean-gap 0.04 --out results
+    asperity run results/scene.toml --out again
+    asperity run results/scene.toml --mean-gap 0.03 --out closer
+  Go on with a sweep that was interrupted:
+    asperity sweep --heights heights.npy --mean-gaps 0.05:0.04:3 --out sweep.csv
+    asperity run sweep.csv.scene.toml";
+
+/// The commands that a scene may have.
+const COMMANDS: [&str; 7] = ["solve", "sweep", "cycle", "prepare", "surface", "stats", "demo"];
+
+/// The arguments for which a scene stands.
+pub struct Arguments {
+    path: PathBuf,
+    /// What was given beside the scene
+    given: Vec<OsString>,
+    /// All arguments, the name of the tool first
+    pub arguments: Vec<OsString>,
 }
 
-/// An unstable equilibrium that was left; see [`asperity::Departure`].
-pub struct Left {
-    pub eigenvalue: f64,
-    pub energy_drop: f64,
-    pub distance: f64,
-}
-
-/// After so many departures something is wrong.
-const MOST_DEPARTURES: usize = 10;
-
-/// The account of a solve, for the table and the report.
-pub struct Account {
-    pub report: Report,
-    pub nodes: usize,
-    /// Contact and its edge; what attracts is left out.
-    pub contact: ContactStatistics,
-    /// The least (most tensile) and the greatest elastic pressure.
-    pub pressures: (f64, f64),
-    /// The nested grids, if they were used, and their applications in units of one on the finest.
-    pub grids: Option<(Vec<Level>, f64)>,
-    /// The time for setting up and solving, stability included, without that for files and pictures.
-    pub seconds: f64,
-    pub stability: Option<Steadiness>,
-    /// What was left on the way to the solution, the first first.
-    pub departures: Vec<Left>,
-    /// What is probably a mistake, as a report has it.
-    pub warnings: Value,
-}
-
-/// Solves, and drops the surface as soon as it is not needed.
-pub fn solve<T: Scalar, L: AdhesionLaw<T>>(
-    surface: Surface,
-    law: L,
-    case: &Case,
-    start: Option<Array2<T>>,
-    mut progress: Progress,
-) -> Outcome<(Solution<T>, Account)> {
-    let clock = Instant::now();
-    let grid = *surface.grid();
-    let mut problem = Problem::new(&surface, Westergaard::new(grid, case.modulus)?, law)?;
-    drop(surface);
-    let start = start.as_ref().map(|start| start.view());
-    let mut solver = Solver::new(case.settings);
-    let mut solution = solver.solve_from(&mut problem, case.control, start, |state| {
-        progress.update(state);
-        ControlFlow::Continue(())
-    })?;
-    let mut departures = Vec::new();
-    let stability = loop {
-        if !case.stability {
-            break None;
-        }
-        let found = StabilityTest::default().run(&mut problem, case.control, &solution)?;
-        let leaves = case.leave && found.verdict == Verdict::Unstable && departures.len() < MOST_DEPARTURES;
-        let left = if leaves { found.leave(&mut solver, &mut problem, case.control, &solution)? } else { None };
-        let Some(left) = left.filter(|left| left.energy_drop > 0.0) else {
-            break Some(steadiness(found));
-        };
-        let Departure { energy_drop, distance, .. } = left;
-        departures.push(Left { eigenvalue: found.eigenvalue, energy_drop, distance });
-        solution = left.solution;
-    };
-    let (solution, account) = account(solution, &grid, None, clock)?;
-    Ok((solution, Account { stability, departures, ..account }))
-}
-
-/// Solves on coarser grids first.
-pub fn solve_nested<T: Scalar, L: AdhesionLaw<T>>(
-    surface: &Surface,
-    law: L,
-    case: &Case,
-    mut progress: Progress,
-) -> Outcome<(Solution<T>, Account)> {
-    let clock = Instant::now();
-    let half_space = |grid| Westergaard::new(grid, case.modulus);
-    let found = Nested::new(case.settings).solve_observed(surface, half_space, law, case.control, |grid, state| {
-        progress.update_on(grid, state);
-        ControlFlow::Continue(())
-    })?;
-    let applications = found.equivalent_applications();
-    let NestedSolution { solution, levels, .. } = found;
-    account(solution, surface.grid(), Some((levels, applications)), clock)
-}
-
-fn account<T: Scalar>(
-    solution: Solution<T>,
-    grid: &Grid,
-    grids: Option<(Vec<Level>, f64)>,
-    clock: Instant,
-) -> Outcome<(Solution<T>, Account)> {
-    let seconds = clock.elapsed().as_secs_f64();
-    check_finite(&solution)?;
-    let pressures = solution
-        .pressure
-        .iter()
-        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), p| (low.min(p.widen()), high.max(p.widen())));
-    let account = Account {
-        report: solution.report.clone(),
-        nodes: solution.gap.len(),
-        contact: ContactStatistics::of(&solution, grid, &NoAdhesion)?,
-        pressures,
-        grids,
-        seconds,
-        stability: None,
-        departures: Vec::new(),
-        warnings: Value::Array(Vec::new()),
-    };
-    Ok((solution, account))
-}
-
-fn steadiness<T: Scalar>(found: Stability<T>) -> Steadiness {
-    Steadiness {
-        verdict: found.verdict,
-        eigenvalue: found.eigenvalue,
-        residual: found.residual,
-        lower_bound: found.lower_bound,
-        error_bound: found.error_bound,
-        smoothed: found.smoothed,
-        operator_applications: found.operator_applications + found.bound_applications,
-        mode: found.mode.mapv_into_any(T::widen),
-    }
-}
-
-/// Refuses fields that are not finite, as of a solve that has run away.
-pub fn check_finite<T: Scalar>(solution: &Solution<T>) -> Outcome<()> {
-    let Solution { gap, pressure, contact_pressure, report } = solution;
-    let fields = [("gap", gap), ("pressure", pressure), ("contact pressure", contact_pressure)];
-    for (name, field) in fields {
-        let count = field.iter().filter(|value| !value.is_finite()).count();
-        if count > 0 {
-            let other = if T::NAME == "f32" { "--precision f64" } else { "another start by --initial-gap" };
-            return Err(format!(
-                "the solve ran away: after {} iterations in {} the {name} is not finite at {count} of {} nodes; use {other}, or \
-                 units in which the numbers are moderate",
-                report.iterations,
-                T::NAME,
-                field.len()
-            )
+impl Arguments {
+    /// Reads the scene, of which `tool` says what may be in it.
+    pub fn read(tool: &Command, options: Options) -> Outcome<Self> {
+        let Options { scene: path, options: given } = options;
+        let refuse = |reason: String| Error::file(&path, reason);
+        let text = fs::read_to_string(&path).map_err(|e| match e.kind() {
+            std::io::ErrorKind::NotFound => refuse("does not exist: check the path".to_owned()),
+            std::io::ErrorKind::IsADirectory => refuse("is a folder: name a scene file in it".to_owned()),
+            std::io::ErrorKind::InvalidData => refuse("is no text: give a scene file, in TOML".to_owned()),
+            _ => refuse(format!("cannot be read: {e}")),
+        })?;
+        let line = |start: usize| text.bytes().take(start).filter(|byte| *byte == b'\n').count() + 1;
+        if let Some((key, span)) = DeTable::parse(&text).ok().and_then(|table| large_integer(table.get_ref())) {
+            return Err(refuse(format!(
+                "line {}: {key} is {}, beyond the integers of TOML, which end at {}: write it with a decimal point, or in \
+                 quotation marks",
+                line(span.start),
+                text.get(span).unwrap_or_default(),
+                i64::MAX
+            ))
             .into());
         }
-    }
-    Ok(())
-}
-
-/// Makes every solve of this process use so many threads.
-#[cfg(feature = "parallel")]
-pub fn use_threads(threads: Option<usize>) -> Outcome<usize> {
-    if let Some(threads) = threads {
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build_global();
-        pool.map_err(|e| format!("{threads} threads cannot be started ({e}): use fewer --threads"))?;
-    }
-    Ok(rayon::current_num_threads())
-}
-
-/// Refuses more threads than one, the only one there is.
-#[cfg(not(feature = "parallel"))]
-pub fn use_threads(threads: Option<usize>) -> Outcome<usize> {
-    match threads {
-        Some(threads) if threads > 1 => {
-            Err(format!("--threads is {threads}: this tool was built without threads, leave the option out").into())
+        let mut table: Table = text.parse().map_err(|e: toml::de::Error| {
+            let line = line(e.span().map_or(0, |span| span.start));
+            refuse(format!("line {line} is not TOML: {}", e.message().replace('\n', ", ")))
+        })?;
+        let name = match table.remove("command") {
+            Some(Value::String(name)) if COMMANDS.contains(&name.as_str()) => name,
+            Some(other) => {
+                return Err(refuse(format!("command is {other}: it must be one of {}", COMMANDS.join(", "))).into());
+            }
+            None => return Err(refuse("does not say what to do: add command = \"solve\"".to_owned()).into()),
+        };
+        let command = tool.find_subcommand(&name).ok_or_else(|| refuse(format!("{name} is not built in")))?;
+        let entries = entries(table, command).map_err(refuse)?;
+        let mut replaced = replaced(command, &given);
+        // those in the scene are of the file in the scene
+        replaced.extend(brings_lengths(&given).then(|| "lengths".to_owned()));
+        let mut arguments: Vec<OsString> = vec!["asperity".into(), name.into()];
+        let folder = path.parent().unwrap_or(Path::new(""));
+        for (name, value) in &entries {
+            if !replaced.contains(name) {
+                let option = command.get_arguments().find(|arg| key(arg).as_ref() == Some(name));
+                arguments.extend(spelled(name, value, option, folder).map_err(refuse)?);
+            }
         }
-        _ => Ok(1),
+        arguments.extend(given.iter().cloned());
+        Ok(Self { path, given, arguments })
+    }
+
+    /// What to put before a complaint about an argument: the name of the scene, unless the argument was given beside
+    /// it.
+    pub fn blamed(&self, argument: &str) -> Option<String> {
+        let word = argument.split([' ', '=']).next().unwrap_or_default();
+        let beside = self.given.iter().any(|given| given.to_string_lossy().split('=').next() == Some(word));
+        (!beside).then(|| format!("{}: ", self.path.display()))
     }
 }
 
-/// The grid of a map with the given `--lengths`: one of them means square cells, none the unit square.
-pub fn grid((nx, ny): (usize, usize), lengths: Option<&[f64]>) -> Result<Grid> {
-    let lengths = match lengths {
-        Some([lx, ly, ..]) => (*lx, *ly),
-        Some([lx]) => (*lx, lx / nx as f64 * ny as f64),
-        _ => (1.0, 1.0),
-    };
-    Grid::new((nx, ny), lengths)
-}
-
-/// The units that pictures have on their axes.
-#[derive(Clone, Copy)]
-pub struct Units<'a> {
-    pub length: Option<&'a str>,
-    pub pressure: Option<&'a str>,
-}
-
-/// Draws the nodes in contact, black on white.
-pub fn draw_contact(path: &Path, grid: Grid, title: &str, units: Units<'_>, contact: &Array2<bool>) -> Result<()> {
-    let contact = contact.mapv(|touches| f64::from(u8::from(touches)));
-    let caption = format!("{} % contact", percent(contact.sum() / contact.len() as f64));
-    let map = Map {
-        title,
-        caption: &caption,
-        length_unit: units.length,
-        label: "contact",
-        ..Map::new(contact.view(), grid, Colouring::Binary)
-    };
-    map.write_png(path)
-}
-
-/// The pressure that a map should show: without adhesion, what there is outside of the contact is only what remains of
-/// the error, and would look like attraction on a scale of its own.
-pub fn pressure_to_draw<T>(solution: &Solution<T>, adhesive: bool) -> &Array2<T> {
-    if adhesive { &solution.pressure } else { &solution.contact_pressure }
-}
-
-/// Draws a pressure, compression red and attraction blue.
-pub fn draw_pressure<T: Scalar>(
-    path: &Path,
-    grid: Grid,
-    title: &str,
-    caption: &str,
-    units: Units<'_>,
-    pressure: &Array2<T>,
-) -> Result<()> {
-    let pressure = pressure.mapv(T::widen);
-    let map = Map {
-        title,
-        caption,
-        length_unit: units.length,
-        label: "pressure",
-        unit: units.pressure,
-        ..Map::new(pressure.view(), grid, Colouring::Diverging)
-    };
-    map.write_png(path)
-}
-
-/// Names the place where a file would have appeared, and not the hidden one where it could not be written.
-pub fn at_destination(error: Error, folder: &Path) -> Error {
-    match error {
-        Error::File { path, reason } => {
-            Error::File { path: path.file_name().map_or_else(|| folder.to_owned(), |name| folder.join(name)), reason }
+/// The key of the first integer that does not fit into 64 bits, and where that stands.
+fn large_integer(table: &DeTable<'_>) -> Option<(String, Range<usize>)> {
+    fn within(value: &Spanned<DeValue<'_>>) -> Option<Range<usize>> {
+        match value.get_ref() {
+            DeValue::Integer(number) => {
+                i64::from_str_radix(number.as_str(), number.radix()).is_err().then(|| value.span())
+            }
+            DeValue::Array(values) => values.iter().find_map(within),
+            _ => None,
         }
-        other => other,
     }
+    table.iter().find_map(|(key, value)| match value.get_ref() {
+        DeValue::Table(table) => large_integer(table),
+        _ => Some((key.get_ref().to_string(), within(value)?)),
+    })
+}
+
+/// The options of a scene, from its sections and from before them.
+fn entries(table: Table, command: &Command) -> Result<Vec<(String, Value)>, String> {
+    let mut sections: Vec<_> = command.get_arguments().map(section).collect();
+    sections.retain(|section| !section.is_empty());
+    sections.dedup();
+    let mut entries: Vec<(String, Value)> = Vec::new();
+    let mut add = |key: String, value: Value| {
+        if entries.iter().any(|(other, _)| *other == key) {
+            return Err(format!("{key} is there twice: remove one of them"));
+        }
+        entries.push((key, value));
+        Ok(())
+    };
+    for (key, value) in table {
+        match value {
+            Value::Table(options) if sections.contains(&key) => {
+                options.into_iter().try_for_each(|(key, value)| add(key, value))?;
+            }
+            Value::Table(_) => {
+                let known: Vec<_> = sections.iter().map(|section| format!("[{section}]")).collect();
+                let known = if known.is_empty() { "none".to_owned() } else { known.join(", ") };
+                return Err(format!("[{key}] is no section of {}, which has {known}", command.get_name()));
+            }
+            value => add(key, value)?,
+        }
+    }
+    Ok(entries)
+}
+
+/// The options that those given beside a scene replace: themselves, those that exclude them, and with the law of
+/// adhesion its parameters, if there is none any more.
+fn replaced(command: &Command, given: &[OsString]) -> Vec<String> {
+    let mut replaced = Vec::new();
+    let words: Vec<_> = given.iter().map(|word| word.to_string_lossy()).collect();
+    if words.iter().any(|word| word == "--law=none") || words.windows(2).any(|pair| pair == ["--law", "none"]) {
+        replaced.extend(command.get_arguments().filter(|arg| section(arg) == "adhesion").filter_map(key));
+    }
+    for word in words {
+        let Some(name) = word.strip_prefix("--").and_then(|word| word.split('=').next()) else { continue };
+        let Some(option) = command.get_arguments().find(|arg| arg.get_long() == Some(name)) else { continue };
+        replaced.extend(key(option));
+        for group in command.get_groups() {
+            if group.get_args().any(|id| id == option.get_id()) && !group.clone().is_multiple() {
+                let members = group.get_args().filter_map(|id| command.get_arguments().find(|arg| arg.get_id() == id));
+                replaced.extend(members.filter_map(key));
+            }
+        }
+    }
+    replaced
+}
+
+/// Whether heights that are given beside a scene come from a file with side lengths of its own.
+fn brings_lengths(given: &[OsString]) -> bool {
+    let after = given.iter().skip_while(|word| *word != "--heights").nth(1).map(Path::new);
+    let joined = || given.iter().find_map(|word| word.to_str()?.strip_prefix("--heights=")).map(Path::new);
+    let path = after.or_else(joined);
+    path.is_some_and(|path| read_topography(path).is_ok_and(|map| map.lengths.is_some()))
+}
+
+/// An option of a scene as one would type it. What is wrong with it is for the parser of the arguments to say, as far
+/// as it can be typed at all.
+fn spelled(key: &str, value: &Value, option: Option<&Arg>, folder: &Path) -> Result<Vec<OsString>, String> {
+    let name = format!("--{key}");
+    let Some(option) = option else {
+        let typed = key.chars().all(|c| c.is_alphanumeric() || c == '-' || c == '_');
+        // not even known options that ask for help
+        let unknown = typed && !["help", "version"].contains(&key);
+        return if unknown { Ok(vec![name.into()]) } else { Err(format!("\"{key}\" is no option: remove it")) };
+    };
+    if matches!(option.get_action(), ArgAction::SetTrue) {
+        return match value {
+            Value::Boolean(true) => Ok(vec![name.into()]),
+            Value::Boolean(false) => Ok(Vec::new()),
+            other => Err(format!("{key} is {other}: it must be true or false")),
+        };
+    }
+    let word = |value: &Value| match value {
+        Value::String(word) if is_path(option) && !word.is_empty() => {
+            Ok(folder.join(word).components().collect::<PathBuf>().into())
+        }
+        Value::String(word) => Ok(word.into()),
+        Value::Integer(_) | Value::Float(_) if !is_path(option) => Ok(value.to_string().into()),
+        other => Err(format!("{key} is {other}: it must be {}", wanted(option))),
+    };
+    let words = match value {
+        Value::Array(values) => values.iter().map(word).collect::<Result<Vec<_>, _>>()?,
+        value => vec![word(value)?],
+    };
+    if option.is_positional() {
+        return Ok(words);
+    }
+    let most = option.get_num_args().map_or(1, |count| count.max_values());
+    if most > 1 {
+        if words.len() > most {
+            return Err(format!("{key} has {} values: give {most} at most", words.len()));
+        }
+        return Ok(std::iter::once(name.into()).chain(words).collect());
+    }
+    let mut typed = OsString::from(name + "=");
+    typed.push(words.join(&OsString::from(",")));
+    Ok(vec![typed])
+}
+
+/// What a value of an option is.
+fn wanted(option: &Arg) -> &'static str {
+    if is_path(option) { "a name in quotation marks" } else { "a number, a word in quotation marks, or a list of them" }
 }

@@ -1,249 +1,212 @@
-//! `asperity run`: a scene file read as the arguments of a command.
+//! The scene file that repeats a run, written beside its results.
 
-use std::ffi::OsString;
+use std::any::TypeId;
 use std::fs;
-use std::ops::Range;
-use std::path::{Path, PathBuf};
+use std::path::{Component, Path, PathBuf};
 
 use asperity::Error;
-use asperity::io::read_topography;
-use clap::{Arg, ArgAction, Args, Command};
-use toml::de::{DeTable, DeValue};
-use toml::{Spanned, Table, Value};
+use clap::parser::ValueSource;
+use clap::{Arg, ArgAction, ArgMatches, Command};
+use toml::Value;
 
-use crate::Outcome;
-use crate::echo::{is_path, key, section};
+use crate::outcome::Outcome;
+use crate::output::OutputFile;
+use crate::output::write_text;
 
-/// Do what a scene file says.
-///
-/// A scene is a TOML file with the name of a command (solve, sweep, cycle, prepare, surface, stats or demo) and its
-/// options by their long names, without the hyphens in front. Numbers, words and lists are written as TOML has them,
-/// an option without a value is set by true. Options may stand in sections, named as in the help of the command. File
-/// names are relative to the scene. Options after the name of the scene replace those in it, and the side lengths of a
-/// file of heights after it those in the scene.
-///
-/// Every run leaves a scene that repeats it: scene.toml in a folder of results, FILE.scene.toml beside a file.
-#[derive(Args)]
-#[command(after_help = EXAMPLES)]
-pub struct Options {
-    /// Scene file
-    #[arg(value_name = "SCENE")]
-    scene: PathBuf,
-    /// Options of the command
-    #[arg(value_name = "OPTION", trailing_var_arg = true, allow_hyphen_values = true)]
-    options: Vec<OsString>,
-}
-
-const EXAMPLES: &str = "\
-\u{1b}[1;4mA scene:\u{1b}[0m
-    command = \"solve\"
-    out = \"results\"
-    [surface]
-    heights = \"heights.npy\"
-    [load]
-    mean-gap = 0.04
-
-\u{1b}[1;4mExamples:\u{1b}[0m
-  Leave a scene, repeat it, and do the same at another load:
-    asperity solve --heights heights.npy --mean-gap 0.04 --out results
-    asperity run results/scene.toml --out again
-    asperity run results/scene.toml --mean-gap 0.03 --out closer
-  Go on with a sweep that was interrupted:
-    asperity sweep --heights heights.npy --mean-gaps 0.05:0.04:3 --out sweep.csv
-    asperity run sweep.csv.scene.toml";
-
-/// The commands that a scene may have.
-const COMMANDS: [&str; 7] = ["solve", "sweep", "cycle", "prepare", "surface", "stats", "demo"];
-
-/// The arguments for which a scene stands.
+/// A run as a scene file that repeats it: every option that was given or has a default.
+#[derive(Default)]
 pub struct Scene {
-    path: PathBuf,
-    /// What was given beside the scene
-    given: Vec<OsString>,
-    /// All arguments, the name of the tool first
-    pub arguments: Vec<OsString>,
+    command: String,
+    entries: Vec<Entry>,
 }
+
+struct Entry {
+    /// The heading of the option in the help
+    section: String,
+    key: String,
+    values: Vec<Literal>,
+}
+
+enum Literal {
+    /// Written as it is
+    Plain(String),
+    /// Relative to the folder in which it was given
+    Path(PathBuf),
+}
+
+/// How the file begins; what does not begin so is not replaced.
+const FIRST: &str = "# Written by asperity ";
+
+/// Options that are no part of what a run comes to.
+const LEFT_OUT: [&str; 3] = ["force", "quiet", "json"];
+
+/// Its name in a folder of results.
+pub const NAME: &str = "scene.toml";
 
 impl Scene {
-    /// Reads the scene, of which `tool` says what may be in it.
-    pub fn read(tool: &Command, options: Options) -> Outcome<Self> {
-        let Options { scene: path, options: given } = options;
-        let refuse = |reason: String| Error::file(&path, reason);
-        let text = fs::read_to_string(&path).map_err(|e| match e.kind() {
-            std::io::ErrorKind::NotFound => refuse("does not exist: check the path".to_owned()),
-            std::io::ErrorKind::IsADirectory => refuse("is a folder: name a scene file in it".to_owned()),
-            std::io::ErrorKind::InvalidData => refuse("is no text: give a scene file, in TOML".to_owned()),
-            _ => refuse(format!("cannot be read: {e}")),
-        })?;
-        let line = |start: usize| text.bytes().take(start).filter(|byte| *byte == b'\n').count() + 1;
-        if let Some((key, span)) = DeTable::parse(&text).ok().and_then(|table| large_integer(table.get_ref())) {
-            return Err(refuse(format!(
-                "line {}: {key} is {}, beyond the integers of TOML, which end at {}: write it with a decimal point, or in \
-                 quotation marks",
-                line(span.start),
-                text.get(span).unwrap_or_default(),
-                i64::MAX
-            ))
-            .into());
-        }
-        let mut table: Table = text.parse().map_err(|e: toml::de::Error| {
-            let line = line(e.span().map_or(0, |span| span.start));
-            refuse(format!("line {line} is not TOML: {}", e.message().replace('\n', ", ")))
-        })?;
-        let name = match table.remove("command") {
-            Some(Value::String(name)) if COMMANDS.contains(&name.as_str()) => name,
-            Some(other) => {
-                return Err(refuse(format!("command is {other}: it must be one of {}", COMMANDS.join(", "))).into());
-            }
-            None => return Err(refuse("does not say what to do: add command = \"solve\"".to_owned()).into()),
-        };
-        let command = tool.find_subcommand(&name).ok_or_else(|| refuse(format!("{name} is not built in")))?;
-        let entries = entries(table, command).map_err(refuse)?;
-        let mut replaced = replaced(command, &given);
-        // those in the scene are of the file in the scene
-        replaced.extend(brings_lengths(&given).then(|| "lengths".to_owned()));
-        let mut arguments: Vec<OsString> = vec!["asperity".into(), name.into()];
-        let folder = path.parent().unwrap_or(Path::new(""));
-        for (name, value) in &entries {
-            if !replaced.contains(name) {
-                let option = command.get_arguments().find(|arg| key(arg).as_ref() == Some(name));
-                arguments.extend(spelled(name, value, option, folder).map_err(refuse)?);
-            }
-        }
-        arguments.extend(given.iter().cloned());
-        Ok(Self { path, given, arguments })
+    /// What was chosen for a command.
+    pub fn of(command: &Command, matches: &ArgMatches) -> Self {
+        let entries = command.get_arguments().filter_map(|arg| entry(arg, matches)).collect();
+        Self { command: command.get_name().to_owned(), entries }
     }
 
-    /// What to put before a complaint about an argument: the name of the scene, unless the argument was given beside
-    /// it.
-    pub fn blamed(&self, argument: &str) -> Option<String> {
-        let word = argument.split([' ', '=']).next().unwrap_or_default();
-        let beside = self.given.iter().any(|given| given.to_string_lossy().split('=').next() == Some(word));
-        (!beside).then(|| format!("{}: ", self.path.display()))
-    }
-}
-
-/// The key of the first integer that does not fit into 64 bits, and where that stands.
-fn large_integer(table: &DeTable<'_>) -> Option<(String, Range<usize>)> {
-    fn within(value: &Spanned<DeValue<'_>>) -> Option<Range<usize>> {
-        match value.get_ref() {
-            DeValue::Integer(number) => {
-                i64::from_str_radix(number.as_str(), number.radix()).is_err().then(|| value.span())
+    /// The scene file, to be put into `folder`.
+    pub fn text(&self, folder: &Path) -> String {
+        let mut text = format!(
+            "{FIRST}{}; `asperity run FILE` repeats the run\ncommand = \"{}\"\n",
+            env!("CARGO_PKG_VERSION"),
+            self.command
+        );
+        let mut sections: Vec<&str> = Vec::new();
+        for entry in &self.entries {
+            if !sections.contains(&entry.section.as_str()) {
+                sections.push(&entry.section);
             }
-            DeValue::Array(values) => values.iter().find_map(within),
-            _ => None,
+        }
+        for section in sections {
+            text.push_str(&if section.is_empty() { String::new() } else { format!("\n[{section}]\n") });
+            for entry in self.entries.iter().filter(|entry| entry.section == section) {
+                let values: Vec<_> = entry.values.iter().map(|value| value.text(folder)).collect();
+                let value = if values.len() == 1 { values.concat() } else { format!("[{}]", values.join(", ")) };
+                text.push_str(&format!("{} = {value}\n", entry.key));
+            }
+        }
+        text
+    }
+
+    /// Refuses to replace a file in the place of a scene that is not one of ours.
+    pub fn check(path: &Path) -> Outcome<()> {
+        match fs::read_to_string(path) {
+            Ok(text) if !text.starts_with(FIRST) => {
+                let reason = "was not written by asperity, and would be replaced by the scene of this run: rename it, or choose another --out";
+                Err(Error::file(path, reason).into())
+            }
+            _ => Ok(()),
         }
     }
-    table.iter().find_map(|(key, value)| match value.get_ref() {
-        DeValue::Table(table) => large_integer(table),
-        _ => Some((key.get_ref().to_string(), within(value)?)),
-    })
-}
 
-/// The options of a scene, from its sections and from before them.
-fn entries(table: Table, command: &Command) -> Result<Vec<(String, Value)>, String> {
-    let mut sections: Vec<_> = command.get_arguments().map(section).collect();
-    sections.retain(|section| !section.is_empty());
-    sections.dedup();
-    let mut entries: Vec<(String, Value)> = Vec::new();
-    let mut add = |key: String, value: Value| {
-        if entries.iter().any(|(other, _)| *other == key) {
-            return Err(format!("{key} is there twice: remove one of them"));
+    /// Refuses a `file` beside which there is another scene that may not be replaced: with `force` one of ours may.
+    pub fn check_beside(&self, file: &Path, force: bool) -> Outcome<()> {
+        let path = beside(file);
+        Self::check(&path)?;
+        // whatever version has written it
+        let rest = |text: &str| text.split_once('\n').map(|(_, rest)| rest.to_owned());
+        let same = fs::read_to_string(&path).is_ok_and(|text| rest(&text) == rest(&self.text(folder_of(file))));
+        if path.exists() && !force && !same {
+            return Err(Error::file(&path, "exists: use --force to replace it, or choose another --out").into());
         }
-        entries.push((key, value));
         Ok(())
-    };
-    for (key, value) in table {
-        match value {
-            Value::Table(options) if sections.contains(&key) => {
-                options.into_iter().try_for_each(|(key, value)| add(key, value))?;
-            }
-            Value::Table(_) => {
-                let known: Vec<_> = sections.iter().map(|section| format!("[{section}]")).collect();
-                let known = if known.is_empty() { "none".to_owned() } else { known.join(", ") };
-                return Err(format!("[{key}] is no section of {}, which has {known}", command.get_name()));
-            }
-            value => add(key, value)?,
-        }
     }
-    Ok(entries)
+
+    /// The file FILE.scene.toml beside `file`, written but for its name.
+    pub fn written_beside(&self, file: &Path) -> Outcome<OutputFile> {
+        let scene = OutputFile::create(&beside(file), true)?;
+        scene.write(|path| write_text(path, &self.text(folder_of(file))))?;
+        Ok(scene)
+    }
 }
 
-/// The options that those given beside a scene replace: themselves, those that exclude them, and with the law of
-/// adhesion its parameters, if there is none any more.
-fn replaced(command: &Command, given: &[OsString]) -> Vec<String> {
-    let mut replaced = Vec::new();
-    let words: Vec<_> = given.iter().map(|word| word.to_string_lossy()).collect();
-    if words.iter().any(|word| word == "--law=none") || words.windows(2).any(|pair| pair == ["--law", "none"]) {
-        replaced.extend(command.get_arguments().filter(|arg| section(arg) == "adhesion").filter_map(key));
-    }
-    for word in words {
-        let Some(name) = word.strip_prefix("--").and_then(|word| word.split('=').next()) else { continue };
-        let Some(option) = command.get_arguments().find(|arg| arg.get_long() == Some(name)) else { continue };
-        replaced.extend(key(option));
-        for group in command.get_groups() {
-            if group.get_args().any(|id| id == option.get_id()) && !group.clone().is_multiple() {
-                let members = group.get_args().filter_map(|id| command.get_arguments().find(|arg| arg.get_id() == id));
-                replaced.extend(members.filter_map(key));
-            }
-        }
-    }
-    replaced
+/// The path of the scene beside a file.
+pub fn beside(file: &Path) -> PathBuf {
+    let mut path = file.as_os_str().to_owned();
+    path.push(".");
+    path.push(NAME);
+    path.into()
 }
 
-/// Whether heights that are given beside a scene come from a file with side lengths of its own.
-fn brings_lengths(given: &[OsString]) -> bool {
-    let after = given.iter().skip_while(|word| *word != "--heights").nth(1).map(Path::new);
-    let joined = || given.iter().find_map(|word| word.to_str()?.strip_prefix("--heights=")).map(Path::new);
-    let path = after.or_else(joined);
-    path.is_some_and(|path| read_topography(path).is_ok_and(|map| map.lengths.is_some()))
+fn folder_of(file: &Path) -> &Path {
+    file.parent().unwrap_or(Path::new(""))
 }
 
-/// An option of a scene as one would type it. What is wrong with it is for the parser of the arguments to say, as far
-/// as it can be typed at all.
-fn spelled(key: &str, value: &Value, option: Option<&Arg>, folder: &Path) -> Result<Vec<OsString>, String> {
-    let name = format!("--{key}");
-    let Some(option) = option else {
-        let typed = key.chars().all(|c| c.is_alphanumeric() || c == '-' || c == '_');
-        // not even known options that ask for help
-        let unknown = typed && !["help", "version"].contains(&key);
-        return if unknown { Ok(vec![name.into()]) } else { Err(format!("\"{key}\" is no option: remove it")) };
-    };
-    if matches!(option.get_action(), ArgAction::SetTrue) {
-        return match value {
-            Value::Boolean(true) => Ok(vec![name.into()]),
-            Value::Boolean(false) => Ok(Vec::new()),
-            other => Err(format!("{key} is {other}: it must be true or false")),
-        };
-    }
-    let word = |value: &Value| match value {
-        Value::String(word) if is_path(option) && !word.is_empty() => {
-            Ok(folder.join(word).components().collect::<PathBuf>().into())
-        }
-        Value::String(word) => Ok(word.into()),
-        Value::Integer(_) | Value::Float(_) if !is_path(option) => Ok(value.to_string().into()),
-        other => Err(format!("{key} is {other}: it must be {}", wanted(option))),
-    };
-    let words = match value {
-        Value::Array(values) => values.iter().map(word).collect::<Result<Vec<_>, _>>()?,
-        value => vec![word(value)?],
-    };
-    if option.is_positional() {
-        return Ok(words);
-    }
-    let most = option.get_num_args().map_or(1, |count| count.max_values());
-    if most > 1 {
-        if words.len() > most {
-            return Err(format!("{key} has {} values: give {most} at most", words.len()));
-        }
-        return Ok(std::iter::once(name.into()).chain(words).collect());
-    }
-    let mut typed = OsString::from(name + "=");
-    typed.push(words.join(&OsString::from(",")));
-    Ok(vec![typed])
+/// What an argument is called in a scene, if it may be there.
+pub fn key(arg: &Arg) -> Option<String> {
+    let asks_for_help = matches!(arg.get_action(), ArgAction::Help | ArgAction::HelpShort | ArgAction::HelpLong);
+    let key = || arg.get_long().map_or_else(|| arg.get_id().as_str().replace('_', "-"), str::to_owned);
+    (!asks_for_help).then(key)
 }
 
-/// What a value of an option is.
-fn wanted(option: &Arg) -> &'static str {
-    if is_path(option) { "a name in quotation marks" } else { "a number, a word in quotation marks, or a list of them" }
+/// Whether an argument is the name of a file or a folder.
+pub fn is_path(arg: &Arg) -> bool {
+    arg.get_value_parser().type_id() == TypeId::of::<PathBuf>()
+}
+
+/// The section in which an option stands.
+pub fn section(arg: &Arg) -> String {
+    arg.get_help_heading().unwrap_or_default().to_lowercase()
+}
+
+fn entry(arg: &Arg, matches: &ArgMatches) -> Option<Entry> {
+    let (id, key) = (arg.get_id().as_str(), key(arg)?);
+    if LEFT_OUT.contains(&key.as_str()) || matches.value_source(id).is_none() {
+        return None;
+    }
+    let values = if matches!(arg.get_action(), ArgAction::SetTrue) {
+        if matches.value_source(id) == Some(ValueSource::DefaultValue) {
+            return None;
+        }
+        vec![Literal::Plain("true".to_owned())]
+    } else {
+        let raw = matches.get_raw(id)?;
+        raw.map(|raw| if is_path(arg) { Literal::Path(raw.into()) } else { literal(arg, &raw.to_string_lossy()) })
+            .collect()
+    };
+    Some(Entry { section: section(arg), key, values })
+}
+
+/// A number as a number, always in the same way, and everything else in quotation marks.
+fn literal(arg: &Arg, raw: &str) -> Literal {
+    let (parser, trimmed) = (arg.get_value_parser().type_id(), raw.trim());
+    let number = if parser == TypeId::of::<f64>() {
+        trimmed.parse::<f64>().ok().map(|number| format!("{number:?}"))
+    } else if parser == TypeId::of::<usize>() || parser == TypeId::of::<u64>() {
+        // TOML has no larger integers
+        trimmed.parse::<i64>().ok().map(|number| number.to_string())
+    } else {
+        None
+    };
+    Literal::Plain(number.unwrap_or_else(|| Value::from(raw).to_string()))
+}
+
+impl Literal {
+    fn text(&self, folder: &Path) -> String {
+        match self {
+            Self::Plain(text) => text.clone(),
+            Self::Path(path) => Value::from(seen_from(path, folder).to_string_lossy().into_owned()).to_string(),
+        }
+    }
+}
+
+/// A path from the folder in which we are as one from another folder, which need not exist. Absolute ones remain.
+fn seen_from(path: &Path, folder: &Path) -> PathBuf {
+    if path.is_absolute() {
+        return path.to_owned();
+    }
+    let (path, folder) = (absolute(path), resolved(&absolute(folder)));
+    // a link to a file stays a link
+    let path = match (path.parent(), path.file_name()) {
+        (Some(parent), Some(name)) if !path.is_dir() => resolved(parent).join(name),
+        _ => resolved(&path),
+    };
+    let (mut path, mut folder) = (path.components().peekable(), folder.components().peekable());
+    while path.peek().is_some() && path.peek() == folder.peek() {
+        path.next();
+        folder.next();
+    }
+    let up = folder.map(|_| Component::ParentDir);
+    let steps: PathBuf = up.chain(path).collect();
+    if steps.as_os_str().is_empty() { ".".into() } else { steps }
+}
+
+/// A path from the root.
+fn absolute(path: &Path) -> PathBuf {
+    let path = if path.as_os_str().is_empty() { Path::new(".") } else { path };
+    std::path::absolute(path).unwrap_or_else(|_| path.to_owned())
+}
+
+/// A path without links and dots, as far as it exists.
+fn resolved(path: &Path) -> PathBuf {
+    fs::canonicalize(path).unwrap_or_else(|_| match (path.parent(), path.file_name()) {
+        (Some(parent), Some(name)) => resolved(parent).join(name),
+        _ => path.to_owned(),
+    })
 }

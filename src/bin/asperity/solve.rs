@@ -8,17 +8,21 @@ use clap::{ArgGroup, Args, ValueEnum};
 use ndarray::Array2;
 use serde_json::{Value, json};
 
-use crate::echo::{self, Echo};
-use crate::inputs;
+use crate::case::{self, Account, Case, Left};
+use crate::loads::name_and_value;
 use crate::numbers::Style;
-use crate::options::{self, AdhesionOptions, Law, Precision, SolverOptions, SurfaceOptions};
+use crate::options::{self, AdhesionOptions, Law, Precision, ProblemOptions, Scalar, SolverOptions, SurfaceOptions};
+use crate::outcome::Outcome;
+use crate::output::at_destination;
 use crate::output::{output_folder, write_text};
+use crate::pictures::{self, Units};
 use crate::printing::Printing;
+use crate::printing::say;
 use crate::progress::Progress;
-use crate::report::{table, warn};
-use crate::run::{self, Account, Case, Left, Scalar, Units};
+use crate::report;
+use crate::scene::{self, Scene};
+use crate::summary::{table, warn};
 use crate::warnings::{Strictness, Warnings};
-use crate::{Outcome, say};
 
 /// Solve a contact problem given by files.
 ///
@@ -119,25 +123,24 @@ const REPORT: &str = "report.json";
 const PICTURES: [&str; 2] = ["contact.png", "pressure.png"];
 
 /// Runs the command; whether it converged.
-pub fn run(options: &Options, echo: &Echo) -> Outcome<bool> {
-    options.adhesion.check()?;
+pub fn run(options: &Options, scene: &Scene) -> Outcome<bool> {
+    let problem = options.problem();
+    problem.adhesion.check()?;
     let pictures = PICTURES.iter().filter(|_| !options.no_pictures);
     let mode = options.case().stability.then_some(&MODE);
     let arrays = FIELDS.iter().chain(mode).filter(|_| options.writes(Format::Npy));
     let archives = [(Format::Npz, &NPZ), (Format::Vti, &VTI)].into_iter().filter(|(format, _)| options.writes(*format));
     let fields = arrays.chain(archives.map(|(_, name)| name));
-    let names: Vec<_> = fields.chain([&REPORT, &echo::NAME]).chain(pictures).copied().collect();
-    Echo::check(&options.out.join(echo::NAME))?;
+    let names: Vec<_> = fields.chain([&REPORT, &scene::NAME]).chain(pictures).copied().collect();
+    Scene::check(&options.out.join(scene::NAME))?;
     // Only a trial: a solve that is interrupted leaves nothing behind.
     drop(output_folder(&options.out, &names, options.force)?);
-    let (surface, unit) = options.surface.surface_and_unit()?;
-    let start = options.solver.start(surface.grid())?;
-    let length_unit = options.length_unit.clone().or(unit);
-    let threads = run::use_threads(options.solver.threads)?;
-    let job = Job { options, echo, names, threads, case: options.case(), length_unit };
+    let given = problem.read()?;
+    let length_unit = options.length_unit.as_deref().or(given.unit.as_deref());
+    let job = Job { options, scene, names, case: options.case(), length_unit };
     match options.solver.precision {
-        Precision::F32 => job.run::<f32>(surface, start),
-        Precision::F64 => job.run::<f64>(surface, start),
+        Precision::F32 => job.run::<f32>(given.surface, given.start),
+        Precision::F64 => job.run::<f64>(given.surface, given.start),
     }
 }
 
@@ -146,6 +149,11 @@ impl Options {
         self.format.contains(&format)
     }
 
+    fn problem(&self) -> ProblemOptions<'_> {
+        ProblemOptions { surface: &self.surface, adhesion: &self.adhesion, solver: &self.solver }
+    }
+
+    /// The case that the options choose.
     pub fn case(&self) -> Case {
         let control = match (self.mean_gap, self.mean_pressure) {
             (Some(gap), _) => Control::MeanGap(gap),
@@ -156,12 +164,9 @@ impl Options {
     }
 
     /// All that one needs for understanding a run later; numbers that are not finite become null.
-    pub fn report(&self, grid: Grid, account: &Account, length_unit: Option<&str>, threads: usize) -> Value {
+    pub fn report(&self, grid: Grid, account: &Account, length_unit: Option<&str>) -> Value {
         let (case, report) = (self.case(), &account.report);
-        let (control, held) = match case.control {
-            Control::MeanGap(gap) => ("mean-gap", gap),
-            Control::MeanPressure(pressure) => ("mean-pressure", pressure),
-        };
+        let (control, held) = name_and_value(case.control);
         let grids = account.grids.as_ref().map(|(levels, _)| levels.iter().map(level).collect::<Vec<_>>());
         let outcome = json!({
             "status": report.status.name(),
@@ -202,43 +207,39 @@ impl Options {
             "control": control,
             "control_value": held,
         });
-        let Self { surface, adhesion, solver, .. } = self;
-        inputs::report("solve", outcome, inputs::inputs(surface, adhesion, solver, &grid, length_unit, threads))
+        report::report("solve", outcome, report::inputs(self.problem(), &grid, length_unit))
     }
 }
 
 /// A solve with all that was chosen for it.
 struct Job<'a> {
     options: &'a Options,
-    echo: &'a Echo,
+    scene: &'a Scene,
     names: Vec<&'static str>,
-    threads: usize,
     case: Case,
-    length_unit: Option<String>,
+    length_unit: Option<&'a str>,
 }
 
 impl Job<'_> {
     fn run<T: Scalar>(&self, surface: Surface, start: Option<Array2<f64>>) -> Outcome<bool> {
         let Options { out, force, printing, .. } = self.options;
         let grid = *surface.grid();
-        // In place, if the precision is that of the file.
-        let start = start.map(|gap| gap.mapv_into_any(T::lit));
+        let start = start.map(T::field);
         let progress = Progress::new("", self.case.settings.tolerance, grid.nodes(), printing.without_bars());
-        let Options { surface: given, adhesion, strictness, .. } = self.options;
-        let mut warnings = Warnings::of_input::<T>(*strictness, &surface, given, adhesion)?;
+        let mut warnings = Warnings::of_input::<T>(self.options.strictness, &surface, self.options.problem())?;
         warnings.say();
-        let law = adhesion.law()?;
+        let law = self.options.adhesion.law()?;
         let (solution, mut account) = if self.options.nested {
-            run::solve_nested::<T, _>(&surface, law, &self.case, progress)?
+            case::solve_nested::<T, _>(&surface, law, &self.case, progress)?
         } else {
-            run::solve::<T, _>(surface, law, &self.case, start, progress)?
+            case::solve::<T, _>(surface, law, &self.case, start, progress)?
         };
         warnings.look_at(&solution, self.case.modulus)?;
         account.warnings = warnings.report();
 
         let folder = output_folder(out, &self.names, *force)?;
         let written = self.write(&folder, grid, &solution, &account);
-        written.map_err(|error| run::at_destination(error, out))?;
+        written.map_err(|error| at_destination(error, out))?;
         folder.commit()?;
 
         if printing.for_people() {
@@ -251,7 +252,7 @@ impl Job<'_> {
     }
 
     fn report(&self, grid: Grid, account: &Account) -> Value {
-        self.options.report(grid, account, self.length_unit.as_deref(), self.threads)
+        self.options.report(grid, account, self.length_unit)
     }
 
     fn write<T: Scalar>(
@@ -278,12 +279,12 @@ impl Job<'_> {
             write_vti(&path(VTI), &grid, &named)?;
         }
         write_text(&path(REPORT), &format!("{:#}\n", self.report(grid, account)))?;
-        write_text(&path(echo::NAME), &self.echo.text(&self.options.out))?;
+        write_text(&path(scene::NAME), &self.scene.text(&self.options.out))?;
         if !self.options.no_pictures {
-            let units = Units { length: self.length_unit.as_deref(), pressure: self.options.pressure_unit.as_deref() };
-            run::draw_contact(&path("contact.png"), grid, "Contact", units, &solution.contact_map())?;
-            let pressure = run::pressure_to_draw(solution, self.options.adhesion.law != Law::None);
-            run::draw_pressure(&path("pressure.png"), grid, "Pressure", "", units, pressure)?;
+            let units = Units { length: self.length_unit, pressure: self.options.pressure_unit.as_deref() };
+            pictures::draw_contact(&path("contact.png"), grid, "Contact", units, &solution.contact_map())?;
+            let pressure = pictures::pressure_to_draw(solution, self.options.adhesion.law != Law::None);
+            pictures::draw_pressure(&path("pressure.png"), grid, "Pressure", "", units, pressure)?;
         }
         Ok(())
     }

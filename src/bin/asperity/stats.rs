@@ -7,13 +7,14 @@ use asperity::{Spectrum, Surface};
 use clap::Args;
 use serde_json::{Map, Value, json};
 
-use crate::inputs;
+use crate::heights;
 use crate::numbers::plain;
 use crate::options::positive;
+use crate::outcome::Outcome;
 use crate::output::OutputFile;
 use crate::output::write_text;
 use crate::printing::Printing;
-use crate::{Outcome, input};
+use crate::report;
 
 /// Print the statistics of a rough surface.
 ///
@@ -50,8 +51,8 @@ const EXAMPLES: &str = "\
 /// Runs the command; always successful if it ends.
 pub fn run(options: &Options) -> Outcome<bool> {
     let psd = options.psd.as_deref().map(|path| OutputFile::create(path, options.force)).transpose()?;
-    let map = input::map(&options.heights, options.lengths.as_deref())?;
-    let (surface, unit) = input::surface(&options.heights, map)?;
+    let map = heights::map(&options.heights, options.lengths.as_deref())?;
+    let (surface, unit) = heights::surface(&options.heights, map)?;
     if let Some(file) = psd {
         let text = density_table(&surface.spectrum(), None);
         file.write(|path| write_text(path, &text))?;
@@ -60,13 +61,13 @@ pub fn run(options: &Options) -> Outcome<bool> {
     options.printing.say(&table(&surface, unit.as_deref()));
     options.printing.report(|| {
         let version = Map::from_iter([("version".to_owned(), env!("CARGO_PKG_VERSION").into())]);
-        inputs::report("stats", report(&surface, &options.heights, unit.as_deref()), version)
+        report::report("stats", statistics(&surface, &options.heights, unit.as_deref()), version)
     });
     Ok(true)
 }
 
 /// The statistics of the heights in a file, by name.
-pub fn report(surface: &Surface, heights: &Path, unit: Option<&str>) -> Value {
+pub fn statistics(surface: &Surface, heights: &Path, unit: Option<&str>) -> Value {
     let (grid, found) = (surface.grid(), surface.statistics());
     json!({
         "heights": heights.to_string_lossy(),

@@ -3,19 +3,19 @@
 use std::path::PathBuf;
 
 use asperity::io::{write_npy, write_topography};
-use asperity::{Amplitude, SelfAffine};
+use asperity::{Amplitude, Grid, SelfAffine};
 use clap::{ArgGroup, Args};
 use serde_json::json;
 
-use crate::Outcome;
-use crate::echo::Echo;
-use crate::inputs;
 use crate::options::{nodes, positive, threads};
+use crate::outcome::Outcome;
 use crate::output::OutputFile;
 use crate::output::write_text;
 use crate::printing::Printing;
-use crate::run;
-use crate::stats::{density_table, report, table};
+use crate::report;
+use crate::scene::Scene;
+use crate::stats::{density_table, statistics, table};
+use crate::threads::use_threads;
 
 /// Make a self-affine rough surface, and print its statistics.
 ///
@@ -92,7 +92,7 @@ const EXAMPLES: &str = "\
     asperity surface --shape 4096 1 --rms-slope 0.1 --k-s 1000 --out profile.npy";
 
 /// Runs the command; always successful if it ends.
-pub fn run(options: &Options, echo: &Echo) -> Outcome<bool> {
+pub fn run(options: &Options, scene: &Scene) -> Outcome<bool> {
     let &Options { hurst, k_l, k_s, random_phase, seed, .. } = options;
     let shape = match (options.size, options.shape.as_deref()) {
         (None, Some([nx, ny])) => (*nx, *ny),
@@ -103,14 +103,14 @@ pub fn run(options: &Options, echo: &Echo) -> Outcome<bool> {
         (None, slope) => Amplitude::RmsSlope(slope.unwrap_or_default()),
     };
     let rough = SelfAffine { hurst, k_l, k_r: options.k_r.unwrap_or(k_l), k_s, amplitude, random_phase, seed };
-    let grid = run::grid(shape, options.lengths.as_deref())?;
+    let grid = grid(shape, options.lengths.as_deref())?;
     let heights = OutputFile::create(&options.out, options.force)?;
     let psd = options.psd.as_deref().map(|path| OutputFile::create(path, options.force)).transpose()?;
     if psd.as_ref().is_some_and(|psd| psd.is(&heights)) {
         return Err(format!("--psd is {}, as --out: give it a name of its own", options.out.display()).into());
     }
-    echo.check_beside(&options.out, options.force)?;
-    run::use_threads(options.threads)?;
+    scene.check_beside(&options.out, options.force)?;
+    use_threads(options.threads)?;
     // Running out of memory cannot be caught later: heights, transform and spectrum take four numbers per node at
     // most.
     if Vec::<f64>::new().try_reserve_exact(4 * grid.nodes()).is_err() {
@@ -126,8 +126,8 @@ pub fn run(options: &Options, echo: &Echo) -> Outcome<bool> {
         let text = density_table(&surface.spectrum(), Some(&rough.spectrum(grid)?));
         file.write(|path| write_text(path, &text))?;
     }
-    let scene = echo.written_beside(&options.out)?;
-    [Some(heights), psd, Some(scene)].into_iter().flatten().try_for_each(OutputFile::commit)?;
+    let scene_file = scene.written_beside(&options.out)?;
+    [Some(heights), psd, Some(scene_file)].into_iter().flatten().try_for_each(OutputFile::commit)?;
     options.printing.say(&table(&surface, None));
     options.printing.say(&format!("heights in {}", options.out.display()));
     options.printing.report(|| {
@@ -141,7 +141,17 @@ pub fn run(options: &Options, echo: &Echo) -> Outcome<bool> {
             "version": env!("CARGO_PKG_VERSION"),
         });
         let made = made.as_object().cloned().unwrap_or_default();
-        inputs::report("surface", report(&surface, &options.out, None), made)
+        report::report("surface", statistics(&surface, &options.out, None), made)
     });
     Ok(true)
+}
+
+/// The grid of a map with the given `--lengths`: one of them means square cells, none the unit square.
+fn grid((nx, ny): (usize, usize), lengths: Option<&[f64]>) -> asperity::Result<Grid> {
+    let lengths = match lengths {
+        Some([lx, ly, ..]) => (*lx, *ly),
+        Some([lx]) => (*lx, lx / nx as f64 * ny as f64),
+        _ => (1.0, 1.0),
+    };
+    Grid::new((nx, ny), lengths)
 }

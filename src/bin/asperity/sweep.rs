@@ -1,6 +1,5 @@
 //! `asperity sweep`: equilibria at a list of loads, as a table.
 
-use std::ops::ControlFlow;
 use std::path::PathBuf;
 
 use asperity::io::{OutputFolder, write_npy};
@@ -11,17 +10,16 @@ use clap::{ArgGroup, Args, ValueEnum};
 use ndarray::Array2;
 use serde_json::{Map, Value, json};
 
-use crate::Outcome;
-use crate::echo::Echo;
-use crate::hash::Hash;
-use crate::inputs;
-use crate::journal::{Identity, Journal};
+use crate::csv;
+use crate::identity::{Identity, identity};
+use crate::journal::Row;
 use crate::loads::{self, Loads};
-use crate::numbers::{Style, percent};
-use crate::options::{AdhesionOptions, Precision, SolverOptions, SurfaceOptions};
+use crate::options::{AdhesionOptions, Given, Precision, ProblemOptions, Scalar, SolverOptions, SurfaceOptions};
+use crate::outcome::Outcome;
+use crate::output::at_destination;
 use crate::printing::Printing;
-use crate::progress::Progress;
-use crate::run::{self, Scalar};
+use crate::scene::Scene;
+use crate::table::{self, Table, TableOptions};
 use crate::warnings::{Strictness, Warnings};
 
 /// Solve a contact problem under many loads, one after the other.
@@ -111,110 +109,80 @@ const COLUMNS: [&str; 20] = [
 const FIELDS: [&str; 3] = ["gap", "pressure", "contact_pressure"];
 
 /// Runs the command; whether all rows converged.
-pub fn run(options: &Options, echo: &Echo) -> Outcome<bool> {
-    options.adhesion.check()?;
+pub fn run(options: &Options, scene: &Scene) -> Outcome<bool> {
     options.format()?;
-    let (surface, unit) = options.surface.surface_and_unit()?;
-    let start = options.solver.start(surface.grid())?;
-    let threads = run::use_threads(options.solver.threads)?;
+    let given = options.table().problem.read()?;
     match options.solver.precision {
-        Precision::F32 => options.run::<f32>(surface, start, unit, echo, threads),
-        Precision::F64 => options.run::<f64>(surface, start, unit, echo, threads),
+        Precision::F32 => options.run::<f32>(given, scene),
+        Precision::F64 => options.run::<f64>(given, scene),
     }
 }
 
 impl Options {
-    fn run<T: Scalar>(
-        &self,
-        surface: Surface,
-        start: Option<Array2<f64>>,
-        unit: Option<String>,
-        echo: &Echo,
-        threads: usize,
-    ) -> Outcome<bool> {
+    fn run<T: Scalar>(&self, Given { surface, unit, start }: Given, scene: &Scene) -> Outcome<bool> {
         let (control, loads) = self.loads();
         if let Some(&value) = loads.iter().find(|&&load| !T::lit(load).is_finite()) {
             let (name, requirement) = ("load", "finite in the precision of the fields");
             return Err(Error::Value { name, value, requirement }.into());
         }
-        let mut warnings = Warnings::of_input::<T>(self.strictness, &surface, &self.surface, &self.adhesion)?;
-        let (settings, grid) = (self.solver.settings(), *surface.grid());
+        let warnings = Warnings::of_input::<T>(self.strictness, &surface, self.table().problem)?;
+        let grid = *surface.grid();
         let identity = self.identity(&surface, start.as_ref());
-        let law = self.adhesion.law::<T>()?;
         let operator = Westergaard::new(grid, self.surface.modulus)?;
-        let mut problem = Problem::new(&surface, operator, law)?;
+        let mut problem = Problem::new(&surface, operator, self.adhesion.law::<T>()?)?;
         drop(surface);
         let format = self.format()?;
         let header = if format == Format::Csv { COLUMNS.join(",") + "\n" } else { String::new() };
         self.check_fields(loads.len())?;
-        echo.check_beside(&self.out, self.force || self.out.exists())?;
-        let scene = echo.written_beside(&self.out)?;
-        let (mut journal, gaps) = Journal::open(&self.out, &header, identity, loads, self.force)?;
-        scene.commit()?;
-        warnings.say();
-        let done = journal.rows();
+        let (mut table, saved) = Table::open(self.table(), scene, &header, identity, Some(loads), warnings)?;
+        let done = table.rows();
         let controls: Vec<_> = loads.iter().map(|&load| control(load)).collect();
-        if done > 0 {
-            self.printing.say(&format!("{} has {done} of {} rows already", self.out.display(), loads.len()));
-        }
 
         let law = self.adhesion.law::<T>()?;
-        let mut solver = Solver::new(settings);
-        // in place, if the precision is that of the file
-        let narrow = |gap: Array2<f64>| gap.mapv_into_any(T::lit);
-        let first = done.saturating_sub(gaps.len());
-        let history = controls[first..done].iter().copied().zip(gaps.into_iter().map(narrow)).collect();
+        let mut solver = Solver::new(self.solver.settings());
+        let first = done.saturating_sub(saved.fields.len());
+        let history = controls[first..done].iter().copied().zip(saved.fields.into_iter().map(T::field)).collect();
         let mut sweep = Sweep::new(&mut solver, &mut problem, controls[done..].iter().copied()).continuing(history);
         if let (0, Some(start)) = (done, start) {
-            sweep = sweep.starting_from(narrow(start));
+            sweep = sweep.starting_from(T::field(start));
         }
-        let count = loads.len();
+        let (count, width) = (loads.len(), loads.len().to_string().len());
         for (k, &load) in loads.iter().enumerate().skip(done) {
-            let mut progress = Progress::new(
-                &format!("{}/{count}", k + 1),
-                settings.tolerance,
-                grid.nodes(),
-                self.printing.without_bars(),
-            );
-            let step = sweep.next_observed(|state| {
-                progress.update(state);
-                ControlFlow::Continue(())
-            });
-            drop(progress);
+            let name = format!("{}/{count}", k + 1);
+            let step = table.observed(&name, grid.nodes(), |observe| sweep.next_observed(observe));
             let Some(step) = step else { break };
             let (control, solution) = step?;
-            run::check_finite(&solution)?;
-            warnings.look_at(&solution, self.surface.modulus)?;
+            table.check(&solution)?;
             let statistics = ContactStatistics::of(&solution, &grid, &law)?;
             let row = row(control, &solution.report, &statistics);
             let text = match format {
-                Format::Csv => row.iter().map(|(_, value)| cell(value)).collect::<Vec<_>>().join(","),
+                Format::Csv => csv::line(&row),
                 Format::Jsonl => Value::Object(row).to_string(),
             };
             self.write_fields(k, &solution)?;
-            let history: Vec<_> = sweep.history().iter().map(|(_, gap)| gap.view()).collect();
-            journal.append(&text, load, solution.report.status == Status::Converged, &history)?;
-            let width = count.to_string().len();
-            self.printing.say(&format!("{:>width$}/{count}  {}", k + 1, line(&solution.report)));
+            let fields: Vec<_> = sweep.history().iter().map(|(_, gap)| gap.view()).collect();
+            let converged = solution.report.status == Status::Converged;
+            table.append(&Row { text: &text, load, converged, fields: &fields, numbers: &[] })?;
+            self.printing.say(&format!("{:>width$}/{count}  {}", k + 1, table::brief(&solution.report)));
         }
-        journal.warn_of_unconverged("use a larger --tolerance or finer steps, or less tension where they are detached");
         self.printing.say(&format!("{count} rows in {}", self.out.display()));
         self.printing.report(|| {
-            let outcome = json!({
-                "control": name_and_value(control(0.0)).0,
-                "rows": journal.rows(),
-                "unconverged": journal.unconverged(),
-                "out": self.out.to_string_lossy(),
-                "last": last_row(format, &journal.text().unwrap_or_default()),
-                "warnings": warnings.report(),
-            });
-            inputs::report(
+            let last = last_row(format, &table.text().unwrap_or_default());
+            table.report(
                 "sweep",
-                outcome,
-                inputs::inputs(&self.surface, &self.adhesion, &self.solver, &grid, unit.as_deref(), threads),
+                loads::name_and_value(control(0.0)).0,
+                json!({ "last": last }),
+                &grid,
+                unit.as_deref(),
             )
         });
-        Ok(journal.unconverged() == 0)
+        Ok(table.converged("use a larger --tolerance or finer steps, or less tension where they are detached"))
+    }
+
+    fn table(&self) -> TableOptions<'_> {
+        let problem = ProblemOptions { surface: &self.surface, adhesion: &self.adhesion, solver: &self.solver };
+        let &Self { ref out, force, printing, .. } = self;
+        TableOptions { problem, out, force, printing }
     }
 
     /// The kind of the loads, and their values.
@@ -238,8 +206,8 @@ impl Options {
 
     /// All that the rows depend on beside the loads.
     fn identity(&self, surface: &Surface, start: Option<&Array2<f64>>) -> Identity {
-        let (control, _) = name_and_value(self.loads().0(0.0));
-        let mut identity = identity(&self.surface, &self.adhesion, &self.solver, surface, start);
+        let (control, _) = loads::name_and_value(self.loads().0(0.0));
+        let mut identity = identity(self.table().problem, surface, start);
         let csv = self.format().is_ok_and(|format| format == Format::Csv);
         identity.insert("control".to_owned(), control.into());
         identity.insert("fields".to_owned(), if self.fields.is_some() { "kept" } else { "not kept" }.into());
@@ -270,7 +238,7 @@ impl Options {
         let fields = [&solution.gap, &solution.pressure, &solution.contact_pressure];
         let mut write =
             FIELDS.iter().zip(fields).map(|(name, field)| write_npy(&files.path(&field_name(name, k)), field));
-        write.try_for_each(|written| written.map_err(|error| run::at_destination(error, folder)))?;
+        write.try_for_each(|written| written.map_err(|error| at_destination(error, folder)))?;
         files.commit()
     }
 }
@@ -279,55 +247,18 @@ impl Options {
 fn last_row(format: Format, text: &str) -> Value {
     let last = text.lines().next_back().unwrap_or_default();
     match format {
-        Format::Csv => parsed(&COLUMNS, last),
+        Format::Csv => csv::parsed(&COLUMNS, last),
         Format::Jsonl => serde_json::from_str(last).unwrap_or_default(),
     }
-}
-
-/// All that solutions depend on beside the loads. Numbers come as text, which can be compared exactly.
-pub fn identity(
-    options: &SurfaceOptions,
-    adhesion: &AdhesionOptions,
-    solver: &SolverOptions,
-    surface: &Surface,
-    start: Option<&Array2<f64>>,
-) -> Identity {
-    let (grid, settings) = (surface.grid(), solver.settings());
-    let number = |value: Option<f64>| value.map_or("none".to_owned(), |value| value.to_string());
-    let field = |field: &Array2<f64>| Hash::NEW.of_numbers(field).to_string();
-    let pair = |a: String, b: String| format!("{a} {b}");
-    let identity = json!({
-        "shape": pair(grid.shape().0.to_string(), grid.shape().1.to_string()),
-        "heights": field(surface.heights()),
-        "lengths": pair(grid.lengths().0.to_string(), grid.lengths().1.to_string()),
-        "modulus": options.modulus.to_string(),
-        "law": adhesion.law.to_string(),
-        "work_of_adhesion": number(adhesion.work_of_adhesion),
-        "range": number(adhesion.range),
-        "precision": if solver.precision == Precision::F32 { "f32" } else { "f64" },
-        "method": settings.method.name(),
-        "tolerance": settings.tolerance.to_string(),
-        "max_iterations": settings.max_iterations.to_string(),
-        "initial_gap": start.map_or("none".to_owned(), field),
-        "version": env!("CARGO_PKG_VERSION"),
-    });
-    identity.as_object().cloned().unwrap_or_default()
 }
 
 fn field_name(name: &str, k: usize) -> String {
     format!("{name}-{:04}.npy", k + 1)
 }
 
-pub fn name_and_value(control: Control) -> (&'static str, f64) {
-    match control {
-        Control::MeanGap(gap) => ("mean-gap", gap),
-        Control::MeanPressure(pressure) => ("mean-pressure", pressure),
-    }
-}
-
 /// The content of a row, by the names of the columns. Nothing in it depends on the clock.
 fn row(control: Control, report: &Report, statistics: &ContactStatistics) -> Map<String, Value> {
-    let (control, value) = name_and_value(control);
+    let (control, value) = loads::name_and_value(control);
     let values: [Value; COLUMNS.len()] = [
         control.into(),
         value.into(),
@@ -351,34 +282,4 @@ fn row(control: Control, report: &Report, statistics: &ContactStatistics) -> Map
         report.status.name().into(),
     ];
     COLUMNS.iter().map(|name| (*name).to_owned()).zip(values).collect()
-}
-
-/// A value in a table: words without quotation marks, and nothing for a number that is not finite.
-pub fn cell(value: &Value) -> String {
-    match value {
-        Value::Null => String::new(),
-        Value::String(word) => word.clone(),
-        number => number.to_string(),
-    }
-}
-
-/// What [`cell`] made of a row.
-pub fn parsed(columns: &[&str], row: &str) -> Value {
-    let value = |cell: &str| match cell {
-        "" => Value::Null,
-        cell => serde_json::from_str(cell).unwrap_or_else(|_| cell.into()),
-    };
-    columns.iter().map(|name| (*name).to_owned()).zip(row.split(',').map(value)).collect::<Map<_, _>>().into()
-}
-
-/// The fields of a row that are printed.
-pub fn line(report: &Report) -> String {
-    let number = |value| Style::Plain.number(value, "");
-    format!(
-        "mean pressure {}  mean gap {}  contact {} %  {}",
-        number(report.mean_pressure),
-        number(report.mean_gap),
-        percent(report.contact_fraction),
-        report.status
-    )
 }

@@ -4,10 +4,9 @@ use asperity::{Solution, Surface, Warning};
 use clap::Args;
 use serde_json::{Value, json};
 
-use crate::Outcome;
-use crate::options::{AdhesionOptions, SurfaceOptions};
+use crate::options::{ProblemOptions, Scalar};
+use crate::outcome::Outcome;
 use crate::printing::complain;
-use crate::run::Scalar;
 
 /// What becomes of warnings.
 #[derive(Args, Clone, Copy)]
@@ -29,12 +28,12 @@ impl Warnings {
     pub fn of_input<T: Scalar>(
         strictness: Strictness,
         surface: &Surface,
-        options: &SurfaceOptions,
-        adhesion: &AdhesionOptions,
+        options: ProblemOptions<'_>,
     ) -> Outcome<Self> {
         let mut warnings = Self { strictness, found: Vec::new(), said: 0 };
-        let law = adhesion.law::<T>()?;
-        let found = Warning::of_surface(surface).into_iter().chain(Warning::of_law(&law, surface, options.modulus));
+        let law = options.adhesion.law::<T>()?;
+        let found =
+            Warning::of_surface(surface).into_iter().chain(Warning::of_law(&law, surface, options.surface.modulus));
         warnings.add(found.collect())?;
         Ok(warnings)
     }

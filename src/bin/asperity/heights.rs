@@ -5,7 +5,7 @@ use std::path::Path;
 use asperity::io::read_topography;
 use asperity::{Surface, Topography};
 
-use crate::Outcome;
+use crate::outcome::Outcome;
 use crate::printing::complain;
 
 /// How far side lengths that are given may be from those of the file: headers round them.

@@ -1,0 +1,39 @@
+//! The identity of a run: the inputs on which the rows of its table depend.
+
+use asperity::Surface;
+use ndarray::Array2;
+use serde_json::{Map, Value, json};
+
+use crate::hash::Hash;
+use crate::options::ProblemOptions;
+
+/// The inputs by name. A run goes on only with equal ones; numbers come as text, which can be compared exactly.
+pub type Identity = Map<String, Value>;
+
+/// The inputs of a problem: all that its solutions depend on beside the loads.
+pub fn identity(
+    ProblemOptions { surface: options, adhesion, solver }: ProblemOptions<'_>,
+    surface: &Surface,
+    start: Option<&Array2<f64>>,
+) -> Identity {
+    let (grid, settings) = (surface.grid(), solver.settings());
+    let number = |value: Option<f64>| value.map_or("none".to_owned(), |value| value.to_string());
+    let field = |field: &Array2<f64>| Hash::NEW.of_numbers(field).to_string();
+    let pair = |a: String, b: String| format!("{a} {b}");
+    let identity = json!({
+        "shape": pair(grid.shape().0.to_string(), grid.shape().1.to_string()),
+        "heights": field(surface.heights()),
+        "lengths": pair(grid.lengths().0.to_string(), grid.lengths().1.to_string()),
+        "modulus": options.modulus.to_string(),
+        "law": adhesion.law.to_string(),
+        "work_of_adhesion": number(adhesion.work_of_adhesion),
+        "range": number(adhesion.range),
+        "precision": solver.precision.name(),
+        "method": settings.method.name(),
+        "tolerance": settings.tolerance.to_string(),
+        "max_iterations": settings.max_iterations.to_string(),
+        "initial_gap": start.map_or("none".to_owned(), field),
+        "version": env!("CARGO_PKG_VERSION"),
+    });
+    identity.as_object().cloned().unwrap_or_default()
+}

@@ -1,0 +1,151 @@
+//! The table that `asperity sweep` and `asperity cycle` fill: a row for each equilibrium, in the order of the loads.
+
+use std::fs;
+use std::ops::ControlFlow;
+use std::path::{Path, PathBuf};
+
+use asperity::{Grid, Iteration, Report, Solution};
+use serde_json::{Value, json};
+
+use crate::case::check_finite;
+use crate::identity::Identity;
+use crate::journal::{Journal, Row, Saved, state_path};
+use crate::numbers::{Style, percent};
+use crate::options::{ProblemOptions, Scalar};
+use crate::outcome::Outcome;
+use crate::printing::{Printing, complain};
+use crate::progress::Progress;
+use crate::report;
+use crate::scene::{self, Scene};
+use crate::warnings::Warnings;
+
+/// The options of a table.
+#[derive(Clone, Copy)]
+pub struct TableOptions<'a> {
+    pub problem: ProblemOptions<'a>,
+    pub out: &'a Path,
+    pub force: bool,
+    pub printing: Printing,
+}
+
+/// A table on disk, new or continued, with the warnings of its run.
+pub struct Table<'a> {
+    options: TableOptions<'a>,
+    journal: Journal,
+    warnings: Warnings,
+    /// The files that this run made; the table, which is locked, comes last
+    made: Vec<PathBuf>,
+}
+
+impl<'a> Table<'a> {
+    /// Opens the table, writes the scene of the run beside it, and says the warnings so far. Returns the table and the
+    /// state from which an interrupted run goes on. The rows are those of `loads`, where these are known before.
+    pub fn open(
+        options: TableOptions<'a>,
+        scene: &Scene,
+        header: &str,
+        identity: Identity,
+        loads: Option<&[f64]>,
+        mut warnings: Warnings,
+    ) -> Outcome<(Self, Saved)> {
+        let TableOptions { out, force, .. } = options;
+        scene.check_beside(out, force || out.exists())?;
+        let scene_file = scene.written_beside(out)?;
+        let made = [state_path(out), scene::beside(out), out.to_owned()].into_iter().filter(|path| !path.exists());
+        let made = made.collect();
+        let (journal, saved) = Journal::open(out, header, identity, loads, force)?;
+        scene_file.commit()?;
+        warnings.say();
+        if journal.rows() > 0 {
+            let of = loads.map_or(String::new(), |loads| format!(" of {}", loads.len()));
+            options.printing.say(&format!("{} has {}{of} rows already", out.display(), journal.rows()));
+        }
+        Ok((Self { options, journal, warnings, made }, saved))
+    }
+
+    /// The number of rows.
+    pub fn rows(&self) -> usize {
+        self.journal.rows()
+    }
+
+    /// All rows, with their header.
+    pub fn text(&self) -> asperity::Result<String> {
+        self.journal.text()
+    }
+
+    /// Shows a bar with this name while `solve` runs, which gets the observer of its iterations.
+    pub fn observed<S>(
+        &self,
+        name: &str,
+        nodes: usize,
+        solve: impl FnOnce(&mut dyn FnMut(&Iteration) -> ControlFlow<()>) -> S,
+    ) -> S {
+        let tolerance = self.options.problem.solver.settings().tolerance;
+        let mut progress = Progress::new(name, tolerance, nodes, self.options.printing.without_bars());
+        solve(&mut |state| {
+            progress.update(state);
+            ControlFlow::Continue(())
+        })
+    }
+
+    /// Looks at a solution before its row is written: refuses one that ran away, and says its warnings.
+    pub fn check<T: Scalar>(&mut self, solution: &Solution<T>) -> Outcome<()> {
+        check_finite(solution)?;
+        self.warnings.look_at(solution, self.options.problem.surface.modulus)
+    }
+
+    /// Appends a row.
+    pub fn append<T: Scalar>(&mut self, row: &Row<'_, T>) -> Outcome<()> {
+        self.journal.append(row)
+    }
+
+    /// The report on the table: its rows, then what a command `found` in them, then the inputs.
+    pub fn report(&self, command: &str, control: &str, found: Value, grid: &Grid, unit: Option<&str>) -> Value {
+        let mut outcome = json!({
+            "control": control,
+            "rows": self.rows(),
+            "unconverged": self.journal.unconverged(),
+            "out": self.options.out.to_string_lossy(),
+        });
+        if let (Value::Object(outcome), Value::Object(found)) = (&mut outcome, found) {
+            outcome.extend(found);
+            outcome.insert("warnings".to_owned(), self.warnings.report());
+        }
+        report::report(command, outcome, report::inputs(self.options.problem, grid, unit))
+    }
+
+    /// Whether all rows converged; if not, a warning says so, with what else may help.
+    pub fn converged(&self, remedy: &str) -> bool {
+        let (count, rows, path) = (self.journal.unconverged(), self.rows(), self.options.out.display());
+        if count > 0 {
+            let text = format!(
+                "{count} of {rows} rows not converged, their status and errors are in {path}: raise --max-iterations, {remedy}"
+            );
+            complain("warning", &text);
+        }
+        count == 0
+    }
+}
+
+/// A table that ends without a row, as by an error at the first one, leaves no file behind that it made.
+impl Drop for Table<'_> {
+    fn drop(&mut self) {
+        if self.rows() == 0 {
+            for path in &self.made {
+                let _ = fs::remove_file(path);
+            }
+        }
+    }
+}
+
+/// The fields of a row that are printed.
+pub fn brief(report: &Report) -> String {
+    let number = |value| Style::Plain.number(value, "");
+    format!(
+        "mean pressure {}  mean gap {}  contact {} %  {}",
+        number(report.mean_pressure),
+        number(report.mean_gap),
+        percent(report.contact_fraction),
+        report.status
+    )
+}
