@@ -162,6 +162,13 @@ fn hard_cases() -> Vec<(Surface, f64)> {
 /// The paper's criterion, and a limit far beyond what it takes.
 const PAPER: (f64, usize) = (1e-9, 1000);
 
+/// The number of nodes in contact with a sphere at a mean gap, and the mean pressure.
+pub fn of_sphere(n: usize, mean_gap: f64) -> (usize, f64) {
+    let ended = algorithm_3(&sphere(n), &NoAdhesion, mean_gap, (1e-11, 1000), RIGHT);
+    assert_eq!(ended.end, End::Converged);
+    (ended.contact(), -ended.mean())
+}
+
 fn library(surface: &Surface, mean_gap: f64, settings: Settings) -> Solution<f64> {
     let operator = Westergaard::<f64>::new(*surface.grid(), 1.0).unwrap();
     let mut problem = Problem::new(surface, operator, NoAdhesion).unwrap();
@@ -322,6 +329,7 @@ fn the_floor_of_epsilon_grows_like_the_cube_of_the_nodes_along_a_side() {
 #[test]
 fn at_the_floor_of_rounding_the_preset_keeps_what_it_has() {
     let solution = library(&sphere(64), 0.0398, Settings { tolerance: 1e-30, ..Settings::rey2017() });
-    assert_eq!((solution.report.status, solution.report.contact_points), (Status::Stalled, 61));
+    let (points, _) = of_sphere(64, 0.0398);
+    assert_eq!((solution.report.status, solution.report.contact_points), (Status::Stalled, points));
     assert!(solution.report.relative_error < 1e-11, "{:e}", solution.report.relative_error);
 }

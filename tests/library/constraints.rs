@@ -82,8 +82,8 @@ fn every_law_control_and_precision_works_with_them() {
     let (penalty, _) = with(&mut rough::<f64, _>(64, 16, NoAdhesion), Penalty::new(1e4).unwrap(), press, 1e-7);
     assert_eq!(penalty.report.status, Status::Converged);
     assert_relative_eq!(penalty.report.mean_gap, exact.mean_gap, max_relative = 1e-2);
-    let (single, _) = with(&mut rough::<f32, _>(64, 16, NoAdhesion), Uzawa::new(500.0).unwrap(), press, 1e-5);
-    assert!(single.report.status == Status::Converged || single.report.status == Status::Stalled);
+    let (single, _) = with(&mut rough::<f32, _>(64, 16, NoAdhesion), Uzawa::new(500.0).unwrap(), press, 1e-4);
+    assert_eq!(single.report.status, Status::Converged);
     assert_relative_eq!(single.report.mean_gap, exact.mean_gap, max_relative = 1e-3);
 }
 

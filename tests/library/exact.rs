@@ -11,18 +11,19 @@ use ndarray::{Array2, ArrayView2};
 
 #[test]
 fn hertz_contact_nodes_and_pressure() {
-    // independent numerical solution at the same nodes, to seven digits
-    for (n, points, pressure) in [(64, 61, 1.831421e-4), (128, 221, 1.809886e-4), (256, 877, 1.803445e-4)] {
+    for n in [64, 128, 256] {
+        // by another algorithm, with the same operator
+        let (points, pressure) = crate::algorithm3::of_sphere(n, 0.0398);
         let solution = solve(&mut sphere::<f64, _>(n, NoAdhesion), Control::MeanGap(0.0398), 1e-10);
-        assert_eq!(solution.report.status, Status::Converged);
-        assert_eq!(solution.report.contact_points, points);
-        assert!((solution.report.mean_pressure - pressure).abs() <= 0.5e-10, "{}", solution.report.mean_pressure);
+        assert_eq!((solution.report.status, solution.report.contact_points), (Status::Converged, points));
+        assert_relative_eq!(solution.report.mean_pressure, pressure, max_relative = 1e-7);
     }
 }
 
 /// The load of a Hertz contact among its periodic images on the unit square, E* = 1, at a mean gap: the lattice sums of the
 /// images' displacement give the approach and the curvature that they add.
 fn periodic_hertz(radius: f64, mean_gap: f64, mean_height: f64) -> f64 {
+    // −4ζ(½)β(½) and ζ(3/2)β(3/2): `exact_solutions::lattice_constants`
     const M1: f64 = 3.900_264_920_0;
     const C2: f64 = 2.258_405;
     let gap = |load: f64| {
@@ -211,15 +212,14 @@ fn units_and_size_do_not_matter() {
         let report = solve(&mut problem, control, 1e-9).report;
         let energy = pressure * height;
         (
-            (report.iterations, report.contact_points, report.status),
+            (report.contact_points, report.status),
             [report.mean_pressure / pressure, report.elastic_energy / energy, report.adhesive_energy / energy],
         )
     };
     let reference = run(1.0, 1.0, 1.0);
     for (length, height, modulus) in [(1e-6, 1e-8, 7e10), (1e3, 1e-2, 1e-3), (1.0, 1e-12, 1e12)] {
         let (counts, numbers) = run(length, height, modulus);
-        assert_eq!(counts.1, reference.0.1);
-        assert_eq!(counts.2, Status::Converged);
+        assert_eq!(counts, (reference.0.0, Status::Converged));
         for (number, expected) in numbers.into_iter().zip(reference.1) {
             assert_relative_eq!(number, expected, max_relative = 1e-7);
         }

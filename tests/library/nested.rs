@@ -45,10 +45,12 @@ const SQUEEZED: Control = Control::MeanPressure(0.18);
 const APART: Control = Control::MeanGap(0.022);
 const CLOSE: Control = Control::MeanGap(0.0044);
 
-/// No more than what was counted, to one decimal, and what rounding, which differs between processors, may add.
+/// No more than what was counted, to one decimal, and what rounding, which differs between processors, may add. The
+/// counts are printed by `cargo test --release --test library nested:: -- --nocapture`.
 #[track_caller]
 fn takes<T>(found: &NestedSolution<T>, counted: f64) {
     let taken = found.equivalent_applications();
+    println!("{taken:.1} of {counted}");
     assert!(taken <= counted + 2.05, "{taken} and not {counted}");
 }
 

@@ -105,7 +105,7 @@ fn surfaces_scale_with_the_lengths_and_differ_by_seed() {
 fn heights_are_the_same_on_every_platform() {
     let surface = short(1).surface(Grid::square(64, 1.0).unwrap()).unwrap();
     let found = [[0, 0], [32, 32], [17, 50]].map(|at| surface.heights()[at]);
-    // by a sum over the waves in another language
+    // by a sum over the waves: python3 tests/library/rough.py
     for (found, expected) in
         found.into_iter().zip([0.0015618708900996512, -0.0027630915494871867, -0.002371534490825297])
     {

@@ -70,11 +70,13 @@ fn counts(n: usize) -> Vec<(&'static str, usize)> {
 /// What rounding, which differs between processors, may add to a count.
 const SLACK: usize = 2;
 
-/// No case takes more than what was counted, and than `growth` times as many as on the coarser grid.
+/// No case takes more than what was counted, and than `growth` times as many as on the coarser grid. The test
+/// prints the counts, with `-- --nocapture`.
 #[track_caller]
 fn grows_little((coarse, fine): (usize, usize), counted: [usize; 7], growth: f64) {
     for ((coarse, (name, fine)), most) in counts(coarse).into_iter().zip(counts(fine)).zip(counted) {
         let grown = fine as f64 / coarse.1 as f64;
+        println!("{name}: {} and {fine}", coarse.1);
         assert!(fine <= most + SLACK && grown <= growth, "{name}: {} and {fine}, {grown:.2} times", coarse.1);
     }
 }
@@ -146,7 +148,8 @@ fn the_papers_preset_can_be_held_to_the_certified_error() {
     let settings = Settings { criterion: Criterion::EnergyNorm, tolerance: 1e-7, ..Settings::rey2017() };
     let solution =
         Solver::new(settings).solve(&mut sphere::<f64, _>(64, NoAdhesion), Control::MeanGap(0.0398)).unwrap();
-    assert_eq!((solution.report.status, solution.report.contact_points), (Status::Converged, 61));
+    let (points, _) = crate::algorithm3::of_sphere(64, 0.0398);
+    assert_eq!((solution.report.status, solution.report.contact_points), (Status::Converged, points));
     assert!(solution.report.relative_error <= 1e-7);
 }
 
@@ -473,6 +476,7 @@ fn a_law_may_differ_from_node_to_node() {
     };
     let half = solve(&ByNode(law, vec![0.5; N * N]));
     let weaker = solve(&Exponential::new(2e-5, 3e-3).unwrap());
-    assert_eq!(half.report.operator_applications, weaker.report.operator_applications);
+    // the one law by single nodes, the other by many at once: last digits of the exponential, which differ by processor
+    assert!(half.report.operator_applications.abs_diff(weaker.report.operator_applications) <= SLACK);
     assert!((half.report.mean_pressure - weaker.report.mean_pressure).abs() < 1e-9);
 }

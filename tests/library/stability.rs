@@ -117,7 +117,7 @@ fn eigenvalues_and_bounds_agree_with_dense_matrices() {
 
 #[test]
 fn a_mode_takes_about_twice_as_many_applications_as_the_solve() {
-    let mut counts = Vec::new();
+    let mut sums = [0; 3];
     let law = |w, range| Exponential::new(w, range).unwrap();
     let sphere = |w| sphere::<f64, _>(256, law(w, 2e-3));
     let rough = |w, range| rough::<f64, _>(256, 32, law(w, range));
@@ -135,14 +135,15 @@ fn a_mode_takes_about_twice_as_many_applications_as_the_solve() {
         let tight = TIGHT.run(&mut problem, control, &solution).unwrap();
         assert_eq!(stability.verdict, Verdict::Stable);
         assert!((stability.eigenvalue / tight.eigenvalue - 1.0).abs() < 1e-3);
-        counts.push((
-            solution.report.operator_applications,
-            stability.operator_applications,
-            stability.bound_applications,
-        ));
+        let counts =
+            [solution.report.operator_applications, stability.operator_applications, stability.bound_applications];
+        println!("{gap}: {counts:?} for the solve, the mode and the bound");
+        // a count differs between processors by the iteration or two that rounding adds, and between cases by a third
+        assert!(counts[1].max(counts[2]) <= 3 * counts[0], "{counts:?}");
+        sums = [0, 1, 2].map(|k| sums[k] + counts[k]);
     }
-    // of the solve, of the mode, and of the bound
-    assert_eq!(counts, [(30, 73, 58), (30, 49, 66), (28, 71, 66), (41, 67, 82), (40, 47, 74)]);
+    let [solve, mode, bound] = sums.map(|sum| sum as f64);
+    assert!(mode <= 2.1 * solve && bound <= 2.3 * solve, "{sums:?}");
 }
 
 #[test]

@@ -4,7 +4,7 @@ use std::ffi::{OsStr, OsString};
 use std::path::{Path, PathBuf};
 
 use asperity::io::{OutputFolder, write_npy};
-use asperity::{Amplitude, Colouring, Error, Exponential, Grid, Map, NoAdhesion, SelfAffine, Status, Surface};
+use asperity::{Amplitude, Colouring, Exponential, Grid, Map, NoAdhesion, SelfAffine, Status, Surface};
 use clap::{Args, Command, FromArgMatches};
 use ndarray::Array2;
 use serde_json::json;
@@ -171,7 +171,7 @@ fn solve_options(folder: &Path, adhesive: bool) -> Outcome<(solve::Options, Scen
         let options = solve::Options::from_arg_matches(&matches)?;
         Ok((options, Scene::of(&command, &matches)))
     });
-    parsed.map_err(|_| Error::file(folder, "is no name that solve takes: choose another --out").into())
+    parsed.map_err(|_| format!("--out {}: is no name that solve takes, choose another", folder.display()).into())
 }
 
 /// A word as a shell wants it.
