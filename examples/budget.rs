@@ -1,7 +1,7 @@
 //! The share of a solve outside of operator applications, and the gain of single precision, as medians over rounds.
 //!
-//! `RAYON_NUM_THREADS=1 cargo run --release --example budget -- [size [case]]`; 1024 if nothing is given, and of a case a part of
-//! its name.
+//! `RAYON_NUM_THREADS=1 cargo run --release --example budget -- [size [case]]`; 1024 if nothing is given, and of a case
+//! a part of its name.
 
 use std::time::Instant;
 

@@ -1,12 +1,14 @@
-//! Approach and withdrawal with adhesion: a sphere, a wave and a rough surface, against exact solutions where there are any.
+//! Approach and withdrawal with adhesion: a sphere, a wave and a rough surface, against exact solutions where there are
+//! any.
 //!
 //! ```text
 //! cargo run --release --example cycles -- [--size N] [--out DIR]
 //! ```
 //!
-//! `--size` is the number of nodes along a side of the sphere's and the rough surface's grid (256 unless given), and the waves
-//! have up to 32 times as many; `--out` is the folder for the pictures (`target/figures`). The sphere has Tabor parameters from 0.1 to 5 and is compared with Maugis'
-//! solution among its periodic images; the wave has Johnson's α = 0.2, and ranges of adhesion that tend to none.
+//! `--size` is the number of nodes along a side of the sphere's and the rough surface's grid (256 unless given), and
+//! the waves have up to 32 times as many; `--out` is the folder for the pictures (`target/figures`). The sphere has
+//! Tabor parameters from 0.1 to 5 and is compared with Maugis' solution among its periodic images; the wave has
+//! Johnson's α = 0.2, and ranges of adhesion that tend to none.
 
 #[path = "common/arguments.rs"]
 mod arguments;
@@ -216,7 +218,7 @@ fn rough(size: usize, path: &File) -> Outcome<()> {
     draw(path, &title, "mean gap / L", "mean pressure / E*", SeriesLabelPosition::LowerRight, &curves)
 }
 
-/// Curves: what to call them, colour, whether wide, points.
+/// Draws curves, each with its name, its colour, whether it is wide, and its points.
 fn draw(
     path: &File,
     title: &str,

@@ -1,8 +1,8 @@
 //! One large solve: how long it takes, and how much memory the whole process needs.
 //!
 //! `cargo run --release --example large -- [size] [f32|f64] [none|exponential]`; 4096 f64 none if nothing is given.
-//! A rough surface of 4 to 64 waves a side at the pressure of 0.02 times modulus and rms slope, 5 % contact without adhesion; 16384²
-//! needs 15 GiB in f64 and 8 GiB in f32.
+//! A rough surface of 4 to 64 waves a side at the pressure of 0.02 times modulus and rms slope, 5 % contact without
+//! adhesion; 16384² needs 15 GiB in f64 and 8 GiB in f32.
 
 #[path = "common/memory.rs"]
 mod memory;

@@ -1,9 +1,10 @@
-//! An elastic operator of your own: a sphere on an elastic layer of finite thickness, from the half-space to an elastic foundation.
+//! An elastic operator of your own: a sphere on an elastic layer of finite thickness, from the half-space to an elastic
+//! foundation.
 //!
 //! `cargo run --release --example layer -- [size]`; 256 nodes along a side if nothing is given. It takes a second.
 //!
-//! Each line ends with the ratio to what the layer tends to: where it is thick to Hertz, and where it is thin to springs
-//! of stiffness M/t (bonded) or E*/t (sliding), or, if it is incompressible, to the flow of the material
+//! Each line ends with the ratio to the limit of the layer: where it is thick Hertz, and where it is thin springs of
+//! stiffness M/t (bonded) or E*/t (sliding), or, if it is incompressible, the flow of the material
 //! sideways through a narrow gap. Johnson, *Contact Mechanics* (1985), section 5.8.
 
 use std::f64::consts::PI;
@@ -31,7 +32,8 @@ pub fn sliding(modulus: f64, thickness: f64) -> impl Fn(f64) -> f64 + Send + Syn
 
 /// The modulus M against compression without strain sideways, E(1 − ν)/((1 + ν)(1 − 2ν)), from E* = E/(1 − ν²).
 ///
-/// By p̄t/M a mean pressure compresses the layer as a whole. The operator leaves it out, as a mean displacement is free.
+/// By p̄t/M a mean pressure compresses the layer as a whole. The operator leaves it out, as a mean displacement is
+/// free.
 pub fn confined(modulus: f64, poisson: f64) -> f64 {
     modulus * (1.0 - poisson).powi(2) / (1.0 - 2.0 * poisson)
 }

@@ -1,4 +1,5 @@
-//! Adhesion in patches and a wall with a soft coat, both written outside of the crate: a law and a constraint that differ from node to node.
+//! Adhesion in patches and a wall with a soft coat, both written outside of the crate: a law and a constraint that
+//! differ from node to node.
 //!
 //! `cargo run --release --example patches -- [size]`; 256 if nothing is given.
 

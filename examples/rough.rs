@@ -7,10 +7,10 @@
 //! `--size` is the number of nodes along a side (1024 unless given, as in the paper); the surface is the same on every
 //! grid, so it must be above 2 k_s = 128. `--out` is the folder for the pictures (`target/figures`).
 //!
-//! The surface is the paper's, H = 0.8 and k from 4 to 64 periods a side, but of rms slope 0.1: with the paper's 0.001 the
-//! load of Figures 6 and 7 presses it flat. The range of adhesion is one that the grid resolves; the paper's own is shown
-//! beside. Two loads are told apart: the external mean pressure p̄, which is the one that is given, and the mean contact
-//! pressure ⟨λ⟩ = p̄ + ⟨φ'⟩, which exceeds it by the adhesive traction.
+//! The surface is the paper's, H = 0.8 and k from 4 to 64 periods a side, but of rms slope 0.1: with the paper's 0.001
+//! the load of Figures 6 and 7 presses it flat. The range of adhesion is one that the grid resolves; the paper's own is
+//! shown beside. Two loads are told apart: the external mean pressure p̄, which is the one that is given, and the mean
+//! contact pressure ⟨λ⟩ = p̄ + ⟨φ'⟩, which exceeds it by the adhesive traction.
 
 #[path = "common/arguments.rs"]
 mod arguments;
@@ -41,7 +41,7 @@ const LOAD: f64 = 0.003;
 /// The range of adhesion in units of L, and the work of adhesion of Figures 6 and 7 in units of E*L.
 const RANGE: f64 = 2e-4;
 const WORK: f64 = 2e-6;
-/// What the paper states for both.
+/// The value that the paper states for the range and for the work of adhesion.
 const PAPER: f64 = 2e-5;
 /// The works of adhesion of Figure 8.
 const WORKS: [f64; 4] = [0.0, 5e-7, WORK, 8e-6];
@@ -236,8 +236,8 @@ fn at_contact_pressure(
     Err(format!("no external pressure found for a mean contact pressure of {LOAD} E*").into())
 }
 
-/// What the paper states: on the surface of the figures, where it depends on the start and on the grid, and on the flatter
-/// one, which is pressed flat.
+/// The case that the paper states: on the surface of the figures, where it depends on the start and on the grid, and on
+/// the flatter one, which is pressed flat.
 fn papers_own(out: &Path, surface: &Surface, failures: &mut usize) -> Outcome<()> {
     let size = surface.grid().shape().0;
     let law = Exponential::new(PAPER, PAPER)?;
@@ -354,8 +354,9 @@ impl Load {
 
 /// Area at no load, and slope there, of the parabola through the small loads with the least relative errors.
 ///
-/// There is no area at no load without adhesion, nor under no contact pressure. Over the external pressure the curves with
-/// adhesion get steeper towards the tension at which the surfaces part, so that their slope depends on the range of the fit.
+/// There is no area at no load without adhesion, nor under no contact pressure. Over the external pressure the curves
+/// with adhesion get steeper towards the tension at which the surfaces part, so that their slope depends on the range
+/// of the fit.
 fn tangent(points: &[Point], load: Load, area: fn(&Point) -> f64, work: f64) -> (f64, f64) {
     let small = points.iter().filter(|p| p.external > 0.0 && p.external <= SMALL * (1.0 + 1e-9));
     let small: Vec<(f64, f64)> = small.map(|p| (load.of(p), area(p))).collect();
@@ -387,7 +388,8 @@ fn slope_without_adhesion(points: &[(f64, f64)]) -> f64 {
     tangent(&points, Load::External, |p| p.nodes, 0.0).1
 }
 
-/// Load and area extrapolated linearly in Δx from two grids: from nodes, and from areas with the perimeter's part taken off.
+/// Load and area extrapolated linearly in Δx from two grids: from nodes, and from areas with the perimeter's part taken
+/// off.
 fn extrapolated(fine: &Curve, coarse: Option<&Curve>) -> Option<[Vec<(f64, f64)>; 2]> {
     let coarse = coarse?;
     let share = coarse.n as f64 / (fine.n - coarse.n) as f64;

@@ -5,9 +5,10 @@
 //! cargo run --release --example scaling -- [figure, target/figures/scaling.svg unless given]
 //! ```
 //!
-//! One operator application, and solves of a rough surface at 3 % contact and given mean pressure, to a certified error of
-//! 1e-6 in `f64` and 1e-4 in `f32`, by the default, nested grids, and Algorithm 3. The exponent in the legend is that of the
-//! number of nodes, by least squares; it includes what the caches lose. Grids that were not measured are left out.
+//! One operator application, and solves of a rough surface at 3 % contact and given mean pressure, to a certified error
+//! of 1e-6 in `f64` and 1e-4 in `f32`, by the default, nested grids, and Algorithm 3. The exponent in the legend is
+//! that of the number of nodes, by least squares; it includes the misses of the caches. Grids that were not measured
+//! are left out.
 
 #[path = "common/legend.rs"]
 mod legend;
@@ -22,7 +23,7 @@ use serde_json::Value;
 
 type Outcome<T> = Result<T, Box<dyn Error>>;
 
-/// What is drawn: the folder in criterion's data, the name in the legend, and the colour.
+/// The lines of the figure: the folder in criterion's data, the name in the legend, and the colour.
 const LINES: [(&str, &str, RGBColor); 7] = [
     ("solve rey2017 f64", "Algorithm 3, f64", RGBColor(200, 30, 20)),
     ("solve default f64", "default, f64", RGBColor(10, 40, 140)),
@@ -52,7 +53,7 @@ fn main() -> Outcome<()> {
     Ok(())
 }
 
-/// The nodes along a side, and the median in seconds, of what was measured in a group; in order.
+/// The nodes along a side, in order, and the median time in seconds, for each size measured in a group.
 fn medians(group: &Path) -> Vec<(usize, f64)> {
     let side = |n: &str| n.parse::<usize>().ok();
     let entries = fs::read_dir(group).into_iter().flatten().flatten();
@@ -107,7 +108,7 @@ fn draw(path: &Path, lines: &[Vec<(usize, f64)>]) -> Outcome<()> {
     Ok(())
 }
 
-/// How the time goes with the number of nodes, of which the points have half the logarithm.
+/// The exponent of the time over the number of nodes n², from points (log₂ n, time).
 fn exponent(points: &[(f64, f64)]) -> f64 {
     let count = points.len() as f64;
     let (x, y) = points.iter().fold((0.0, 0.0), |(x, y), p| (x + 2.0 * p.0 / count, y + p.1.log2() / count));

@@ -1,7 +1,8 @@
-//! Tables 1 to 4 of Rey, Anciaux and Molinari (2017), the paper's values beside ours; and waves and limits that have exact
-//! solutions.
+//! Tables 1 to 4 of Rey, Anciaux and Molinari (2017), the paper's values beside ours; and waves and limits that have
+//! exact solutions.
 //!
-//! `cargo run --release --example tables [largest size]`, 1024 unless given. Below 512 what is for larger grids is shown on smaller ones.
+//! `cargo run --release --example tables [largest size]`, 1024 unless given. Below 512 the tables of larger grids are
+//! shown on smaller ones.
 
 #[path = "../tests/common/authors.rs"]
 mod authors;
@@ -253,7 +254,7 @@ fn table_2(n: usize) -> Result<()> {
     table_2_rough(n.min(256))
 }
 
-/// What penalty and Uzawa do on a rough surface with an exponential law.
+/// Penalty and Uzawa on a rough surface with an exponential law.
 fn table_2_rough(n: usize) -> Result<()> {
     println!(
         "\nThe same on a rough surface of rms slope 0.1 with an exponential law (w = 2e-6, rho = 3e-4), {n}, mean gap 0.0035,"

@@ -4,14 +4,15 @@
 //! cargo run --release --example timed -- HEIGHTS [NAME=VALUE ...]
 //! ```
 //!
-//! `HEIGHTS` is a file of heights on a periodic square of side 1 (or a rectangle of square cells, Lx = 1), whose contact
-//! modulus is 1. One of `pressure=P`, `gap=G` (the control) and `apply=N` (only the operator: the median of N applications,
-//! after two that do not count) must be there. Beside them: `precision=f64|f32`, `tolerance=1e-6`, `work=W range=R` (the
-//! exponential law), `method=single|nested|mixed` (one grid, nested grids, or these in f32 to 1e-4 and on in f64), `repeat=N`, `save=FILE.npy` (the elastic pressure p + p̄ of the last solve, in f64).
+//! `HEIGHTS` is a file of heights on a periodic square of side 1 (or a rectangle of square cells, Lx = 1), whose
+//! contact modulus is 1. One of `pressure=P`, `gap=G` (the control) and `apply=N` (only the operator: the median of N
+//! applications, after two that do not count) must be there. Beside them: `precision=f64|f32`, `tolerance=1e-6`,
+//! `work=W range=R` (the exponential law), `method=single|nested|mixed` (one grid, nested grids, or these in f32 to
+//! 1e-4 and on in f64), `repeat=N`, `save=FILE.npy` (the elastic pressure p + p̄ of the last solve, in f64).
 //!
-//! `seconds` counts from the heights in memory to the solution in memory, `solve` only the solve without the construction
-//! of operator and problem. `peak` is the largest resident memory of the process, in bytes, from before the repetition to
-//! its end (Linux only). `benches/peers` runs this against other programs.
+//! `seconds` counts from the heights in memory to the solution in memory, `solve` only the solve without the
+//! construction of operator and problem. `peak` is the largest resident memory of the process, in bytes, from before
+//! the repetition to its end (Linux only). `benches/peers` runs this against other programs.
 
 #[path = "common/memory.rs"]
 mod memory;
@@ -30,7 +31,7 @@ use asperity::{
 use ndarray::Array2;
 use serde_json::json;
 
-/// How far single precision goes on every grid.
+/// The tolerance of the solve in single precision, on every grid.
 const SINGLE: f64 = 1e-4;
 
 type Outcome<T> = Result<T, Box<dyn Error>>;

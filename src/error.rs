@@ -38,7 +38,7 @@ pub enum Error {
         name: &'static str,
         /// The given value.
         value: f64,
-        /// What is allowed, to follow "it must be".
+        /// The allowed values, in words that follow "it must be".
         requirement: &'static str,
     },
     /// A field of another shape than the grid on which it is used.
@@ -60,7 +60,7 @@ pub enum Error {
         nodes: usize,
         /// The first such node in row-major order, `(ix, iy)`.
         first: (usize, usize),
-        /// What stands there.
+        /// The value at that node.
         value: f64,
     },
     /// A function of an adhesion law or of springs that is not finite, or not the derivative of the one before it
@@ -70,34 +70,34 @@ pub enum Error {
         function: &'static str,
         /// The gap at which it is wrong.
         gap: f64,
-        /// What it returns there.
+        /// The value of the function at that gap.
         value: f64,
-        /// What it should return there; nothing if it is not finite.
+        /// The value that agrees with the function before; none if `value` is not finite.
         expected: Option<f64>,
     },
-    /// An elastic operator that does not keep what it promises; see [`check_operator`](crate::check_operator).
+    /// An elastic operator without a property of its contract; see [`check_operator`](crate::check_operator).
     Operator {
-        /// What does not hold.
+        /// The property.
         property: &'static str,
-        /// What it comes to.
+        /// The value found.
         found: f64,
-        /// What it should be.
+        /// The value that the property requires.
         expected: f64,
     },
     /// A surface with waves that are too short for the grid.
     Unresolved {
         /// The wave number k_s of the shortest waves, in units of 2π/Lx.
         k_s: f64,
-        /// What it must stay below on this grid, in the same unit.
+        /// The wave number, in the same unit, that this grid no longer resolves.
         limit: f64,
         /// The grid's shape, `(Nx, Ny)`.
         shape: (usize, usize),
     },
     /// A file that could not be read or written.
     File {
-        /// Where it is.
+        /// The path of the file.
         path: PathBuf,
-        /// What went wrong, and what would help.
+        /// The reason, and a remedy.
         reason: String,
     },
 }

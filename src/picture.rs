@@ -38,7 +38,7 @@ const ARROW: i32 = 18;
 /// The colour of a curve.
 const CURVE: Rgb888 = Rgb888::new(33, 74, 135);
 
-/// A field on a periodic rectangle that is to be drawn, with what to write on it.
+/// A picture of a field on a periodic rectangle, with its title, axes and legend.
 ///
 /// x runs to the right and y upwards, both from zero to the side length wherever the grid has its origin.
 /// Each node is a cell of one or more pixels; more than 1000 nodes to a side are averaged in blocks. A value
@@ -67,9 +67,9 @@ const CURVE: Rgb888 = Rgb888::new(33, 74, 135);
 pub struct Map<'a> {
     /// The values at the nodes, of shape `(Nx, Ny)`.
     pub values: ArrayView2<'a, f64>,
-    /// Where they are.
+    /// The grid of the nodes.
     pub grid: Grid,
-    /// How they become colours.
+    /// The colours of the values.
     pub colouring: Colouring,
     /// The title; may be empty.
     pub title: &'a str,
@@ -77,9 +77,9 @@ pub struct Map<'a> {
     pub caption: &'a str,
     /// The unit of the side lengths.
     pub length_unit: Option<&'a str>,
-    /// What the values are, such as "pressure"; may be empty.
+    /// The quantity, such as "pressure"; may be empty.
     pub label: &'a str,
-    /// Their unit.
+    /// The unit of the values.
     pub unit: Option<&'a str>,
 }
 

@@ -24,13 +24,13 @@ use relief::{Extremes, Relief};
 /// again as the other.
 const TILT: f64 = 0.2;
 
-/// The share of that drop that the edges must miss each other by on average. It is all of it for a tilted map, while
-/// a long wave, which has a plane in it too, meets itself.
+/// The least difference of mean height across the periodic edge, as a share of the drop of the plane. The share is 1
+/// on a tilted map, and 0 on a long wave, which also has a plane in it.
 const TILT_AT_EDGE: f64 = 0.5;
 
-/// What the edges miss each other by on average, in the greatest difference of the means of neighbouring rows
-/// (columns), beside that: these are single numbers, of which one exceeds the others by a factor where nothing is
-/// amiss too, but not by 3.
+/// The difference of mean height across the periodic edge from which a tilt stands out, in the greatest difference
+/// between the means of neighbouring rows (columns): one of these exceeds the others on every surface, but not by a
+/// factor of 3.
 const TILT_STANDS_OUT: f64 = 3.0;
 
 /// The rms step across the periodic edge, in rms steps between neighbouring rows (columns) inside, from which edges
@@ -41,20 +41,20 @@ const OPEN_EDGE: f64 = 3.0;
 /// The same on a line, where the edge is one step alone, and that of Gaussian heights reaches no 6.
 const OPEN_END: f64 = 6.0;
 
-/// The step across the edge in the greatest of those inside, beside that: a surface of steps, as a grating, may have
-/// one at the edge, but others like it inside.
+/// The rms step across the periodic edge from which it stands out, in the greatest rms step inside: a surface of
+/// steps, as a grating, may have one at the edge, but has equal ones inside.
 const STANDS_OUT: f64 = 1.5;
 
 /// The rms slope from which a surface is steep: linear elasticity of a half-space is for small slopes, and real
 /// surfaces have up to about this. Heights in another unit than the lengths are beyond it by orders of magnitude.
 const STEEP: f64 = 0.5;
 
-/// How far a node must be out of its neighbours, in rms distances of nodes from the mean of their neighbours:
-/// Gaussian heights do not reach 6 on any map.
+/// The distance of a spike from the mean of its neighbours, in the rms of this distance over all nodes: Gaussian
+/// heights do not reach 6 on any map.
 const SPIKE: f64 = 6.0;
 
-/// The same in what the neighbours differ by among each other, beside that: the tip of a smooth body, however blunt
-/// or sharp, is out of them by 1.5 of that.
+/// The distance of a spike from the mean of its neighbours, in the range of their heights: the tip of a smooth body,
+/// however blunt or sharp, reaches 1.5.
 const LONE: f64 = 2.0;
 
 /// The distance of a repeated value from the rest of the heights, in heights of the rest from the lowest to the
@@ -68,7 +68,7 @@ const CODES: [f64; 9] = [-9999.0, -99999.0, -999.0, 9999.0, 99999.0, -32768.0, 3
 /// side lengths may have been forgotten.
 const CELLS: f64 = 2.0;
 
-/// What of the greatest height the heights must differ by, in units of the rounding of `f64`, not to be flat.
+/// The range of heights, as a share of the greatest magnitude, up to which a surface is flat: a few roundings of `f64`.
 const FLAT: f64 = 4.0 * f64::EPSILON;
 
 /// The resolution measure μ_ρ that the grid resolves; see [`Report::under_resolved`](crate::Report).
@@ -83,7 +83,7 @@ const RESOLVED: f64 = 0.5;
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum WarningCode {
-    /// The map as a whole is inclined, and its edges miss each other by what it drops.
+    /// The map as a whole is inclined: opposite edges differ by the drop of its plane.
     Tilt,
     /// The step across the periodic edge is far greater than any between neighbouring rows or columns inside.
     OpenEdges,
@@ -97,7 +97,7 @@ pub enum WarningCode {
     MissingCode,
     /// The cells of the grid are far from square.
     Cells,
-    /// The range of adhesion exceeds the heights, or is far below what the grid resolves.
+    /// The range of adhesion exceeds the heights, or is too short for the grid.
     Range,
     /// All heights are the same.
     Flat,
@@ -126,7 +126,7 @@ impl fmt::Display for WarningCode {
     }
 }
 
-/// Input, or an answer, that is possible but probably a mistake: what it is, the number that shows it, and what to do.
+/// A probable mistake in the input, or in an answer: a code, the number that shows it, and a remedy.
 ///
 /// Nothing is refused or changed; whether a warning matters is for the reader to say. Clean periodic surfaces have
 /// none. [`of_surface`](Self::of_surface) looks at the heights, [`of_law`](Self::of_law) at the adhesion on them,
@@ -165,12 +165,12 @@ impl fmt::Display for Warning {
 }
 
 impl Warning {
-    /// What is probably wrong with the heights: [`Tilt`](WarningCode::Tilt), [`OpenEdges`](WarningCode::OpenEdges),
+    /// The probable mistakes in the heights: [`Tilt`](WarningCode::Tilt), [`OpenEdges`](WarningCode::OpenEdges),
     /// [`Steep`](WarningCode::Steep), [`Spikes`](WarningCode::Spikes), [`MissingCode`](WarningCode::MissingCode),
     /// [`Cells`](WarningCode::Cells) and [`Flat`](WarningCode::Flat).
     ///
-    /// Takes four passes over the heights. Where there are codes for missing points, nothing is said of what they
-    /// spoil. Tilt and edges are looked at along sides of 16 nodes and more.
+    /// Takes four passes over the heights. Where there are codes for missing points, the warnings that these codes
+    /// would cause are left out. Tilt and edges are looked at along sides of 16 nodes and more.
     pub fn of_surface(surface: &Surface) -> Vec<Self> {
         let extremes = Extremes::of(surface.heights());
         let mut found = Vec::new();
@@ -199,7 +199,7 @@ impl Warning {
         found
     }
 
-    /// What is probably wrong with the range of `law` on a surface pressed against a body of contact `modulus` E*:
+    /// The probable mistakes in the range of `law` on a surface pressed against a body of contact `modulus` E*:
     /// [`Range`](WarningCode::Range). Nothing without adhesion.
     pub fn of_law<T: Real>(law: &impl AdhesionLaw<T>, surface: &Surface, modulus: f64) -> Vec<Self> {
         let mu_rho = resolution(law, surface.grid(), modulus);
@@ -229,7 +229,7 @@ impl Warning {
         found
     }
 
-    /// What is probably wrong with an answer, for the contact `modulus` E* with which it was found:
+    /// The probable mistakes in an answer, for the contact `modulus` E* with which it was found:
     /// [`BeyondModulus`](WarningCode::BeyondModulus).
     pub fn of_solution<T: Real>(solution: &Solution<T>, modulus: f64) -> Vec<Self> {
         let mut reducer = Reducer::new(solution.contact_pressure.len());
@@ -258,8 +258,8 @@ impl Warning {
     }
 }
 
-/// How wrong the contact area is likely to be for a given resolution measure, from those of a rough surface under one
-/// pressure on coarser and coarser grids, against that on the finest: 0.5 % at 0.7, 1 to 2 % at 1, 13 to 20 % at 1.4,
+/// The likely error of the contact area for a resolution measure μ_ρ, from a rough surface under one pressure on
+/// coarser and coarser grids against the finest: 0.5 % at 0.7, 1 to 2 % at 1, 13 to 20 % at 1.4,
 /// 60 % at 2, and three times too large at 2.8.
 fn likely_error(mu_rho: f64) -> &'static str {
     match mu_rho {

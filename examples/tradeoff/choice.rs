@@ -8,8 +8,8 @@ use ndarray::Array2;
 use crate::Outcome;
 use crate::scene::{Scene, State};
 
-/// How far `f32` goes before `f64` takes over: above the rounding floor of light contacts of smooth bodies, on which it
-/// would stall.
+/// The tolerance at which `f64` takes over from `f32`: above the rounding floor of light contacts of smooth bodies, on
+/// which it would stall.
 const HANDOVER: f64 = 1e-3;
 /// The largest grid that has no coarser ones below it.
 const COARSEST: usize = 64;
@@ -41,7 +41,7 @@ impl Choice {
         Self { rey2017: false, precision: Precision::Double, nested: false, tolerance }
     }
 
-    /// What is measured on a grid.
+    /// The choices that are measured on a grid.
     pub fn all(n: usize, quick: bool) -> Vec<Self> {
         let mut all = Vec::new();
         let thin =
@@ -86,7 +86,7 @@ impl Choice {
     }
 }
 
-/// What came of a choice.
+/// The result of a choice.
 pub struct Found {
     pub state: State,
     pub status: Status,
@@ -99,8 +99,7 @@ pub struct Found {
 }
 
 impl Found {
-    /// # Errors
-    /// Where it is not what it should be a reference for.
+    /// Refuses a reference that has not converged.
     pub fn must_have_converged(&self, scene: &str, n: usize) -> Outcome<()> {
         if self.status == Status::Converged {
             return Ok(());

@@ -52,9 +52,10 @@ pub struct OnGrid {
     pub n: usize,
     /// Nodes, (N, 1) or (N, N).
     pub nodes: f64,
-    /// What is converged on the grid, against the truth.
+    /// Of the solution converged on the grid, against the truth.
     pub discretisation: Errors,
-    /// Of areas extrapolated from this grid and one of half the nodes along a side: counted, and corrected for the edge.
+    /// Of areas extrapolated from this grid and one of half the nodes along a side: counted, and corrected for the
+    /// edge.
     pub extrapolated: Option<[f64; 2]>,
     pub rows: Vec<Row>,
 }
@@ -67,7 +68,7 @@ pub struct Row {
     pub seconds: f64,
     /// Under all loads.
     pub converged: bool,
-    /// Against what is converged on the grid, and against the truth.
+    /// Against the solution converged on the grid, and against the truth.
     pub solver: Errors,
     pub whole: Errors,
 }
@@ -77,13 +78,14 @@ impl Row {
         self.applications[0] + self.applications[1]
     }
 
-    /// The error of the discretisation and that of the solver together, as if they never cancelled: a loose tolerance that
-    /// happens to make up for a coarse grid is no choice.
+    /// The error of the discretisation and that of the solver together, as if they never cancelled: a loose tolerance
+    /// that happens to make up for a coarse grid is no choice.
     pub fn bound(&self, grid: &OnGrid, part: Part) -> f64 {
         part(&grid.discretisation) + part(&self.solver)
     }
 
-    /// Applications times nodes, in units of a million nodes in `f64`. In `f32` one moves half of the bytes, and counts half.
+    /// Applications times nodes, in units of a million nodes in `f64`. In `f32` one moves half of the bytes, and counts
+    /// half.
     pub fn work(&self, grid: &OnGrid) -> f64 {
         1e-6 * (0.5 * self.applications[0] + self.applications[1]) * grid.nodes
     }

@@ -5,19 +5,20 @@
 //! ```
 //!
 //! Four scenes: `hertz`, a paraboloid among its images; `wave`, Westergaard's wave on a line; `rough`, a self-affine
-//! hard wall; and `adhesive`, the same with an exponential law. The first two have exact solutions, the others a reference
-//! converged to 1e-12 on a grid finer than all others. On each grid all that a user may choose is tried: tolerance,
-//! precision, nested grids, preset (`rey2017` on small grids only).
+//! hard wall; and `adhesive`, the same with an exponential law. The first two have exact solutions, the others a
+//! reference converged to 1e-12 on a grid finer than all others. On each grid all that a user may choose is tried:
+//! tolerance, precision, nested grids, preset (`rey2017` on small grids only).
 //!
 //! Errors are relative, and root mean squares over a few loads, as the error of an area depends on how the edge falls
-//! between the nodes. The discretisation error is that of what is converged to 1e-12 on the grid, against the truth; the
-//! solver error that of what was found, against what is converged; and the true error that of what was found, against the
-//! truth. Pareto fronts and pictures take the sum of the first two: in the true error they may cancel by luck.
+//! between the nodes. The discretisation error is the difference between the solution converged to 1e-12 on the grid
+//! and the truth; the solver error, between the solution found and the converged one; and the true error, between the
+//! solution found and the truth. Pareto fronts and pictures take the sum of the first two: in the true error they may
+//! cancel by luck.
 //!
-//! Counts and errors are deterministic. Times are medians of repetitions, on one thread unless `--threads` says otherwise;
-//! the references are computed on all. `--quick` takes small grids and some seconds; without it all takes a few minutes,
-//! most of them for the references, whose grid `--reference` chooses (4096 unless given). The pictures go to
-//! `target/figures` unless `--out` says where.
+//! Counts and errors are deterministic. Times are medians of repetitions, on one thread unless `--threads` says
+//! otherwise; the references are computed on all. `--quick` takes small grids and some seconds; without it all takes a
+//! few minutes, most of them for the references, whose grid `--reference` chooses (4096 unless given). The pictures go
+//! to `target/figures` unless `--out` says where.
 
 mod choice;
 mod error;

@@ -1,4 +1,4 @@
-//! Pictures of what was measured.
+//! Pictures of the measured errors, times and counts.
 
 use std::path::Path;
 
@@ -40,8 +40,8 @@ struct Series {
     line: bool,
 }
 
-/// Draws errors, of the discretisation and of the solver added, in the energy norm (above) and of the contact area (below) over the tolerance, over the time, and over
-/// the work.
+/// Draws errors, of the discretisation and of the solver added, in the energy norm (above) and of the contact area
+/// (below) over the tolerance, over the time, and over the work.
 pub fn draw(path: &Path, scene: &Scene, grids: &[OnGrid]) -> Outcome<()> {
     let root = SVGBackend::new(path, (1500, 900)).into_drawing_area();
     root.fill(&WHITE)?;

@@ -42,7 +42,7 @@ pub struct Scene {
     references: HashMap<(usize, usize), State>,
 }
 
-/// What is compared.
+/// The quantities that are compared.
 #[derive(Clone)]
 pub struct State {
     pub displacement: Array2<f64>,
@@ -166,7 +166,7 @@ impl Scene {
         self.adhesion.map_or(0.0, |(work, range)| (work / n as f64).sqrt() / range)
     }
 
-    /// What the measured values under the loads are called.
+    /// The name of the measured values under the loads.
     pub fn answer_name(&self) -> &'static str {
         if let Control::MeanGap(_) = self.loads[0] { "mean pressure" } else { "mean gap" }
     }
@@ -178,8 +178,8 @@ impl Scene {
 
     /// Solves on the finest grid, where there is no exact solution, and keeps the reference for all others.
     ///
-    /// The contact area corrected for its edge comes near the true one in proportion to the spacing, so that of the reference is
-    /// extrapolated from the finest grid and one of half the nodes along a side.
+    /// The contact area corrected for its edge comes near the true one in proportion to the spacing, so that of the
+    /// reference is extrapolated from the finest grid and one of half the nodes along a side.
     pub fn prepare(&mut self) -> Outcome<()> {
         let Some(finest) = self.finest() else { return Ok(()) };
         println!("reference: {finest}², converged to {SHARP:e}; its area extrapolated with that at {}²", finest / 2);
@@ -228,7 +228,7 @@ impl Scene {
         })
     }
 
-    /// What is converged on a grid.
+    /// The solution converged on a grid.
     pub fn converged(&self, surface: &Surface, load: usize) -> Outcome<State> {
         let found = run(self, surface, self.loads[load], Choice::sharp(SHARP))?;
         found.must_have_converged(self.name, surface.grid().shape().0)?;

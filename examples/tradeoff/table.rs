@@ -14,7 +14,7 @@ fn percent(error: f64) -> String {
     if percent == 0.0 { "0".to_owned() } else { format!("{percent:.digits$}") }
 }
 
-/// What each grid leaves out.
+/// The discretisation error of each grid.
 pub fn discretisation(scene: &Scene, grids: &[OnGrid]) {
     println!("\nDiscretisation error in %: what is converged on the grid, against the truth");
     println!(
@@ -117,7 +117,8 @@ pub fn pairs(grids: &[OnGrid]) -> Vec<(&OnGrid, &Row)> {
     grids.iter().flat_map(|grid| grid.rows.iter().map(move |row| (grid, row))).collect()
 }
 
-/// The loosest tolerance whose solver error is a tenth of the discretisation error, on each grid, by the default in `f64`.
+/// The loosest tolerance whose solver error is a tenth of the discretisation error, on each grid, by the default in
+/// `f64`.
 pub fn worth(scene: &Scene, grids: &[OnGrid]) {
     let answer = scene.answer_name();
     println!(

@@ -15,7 +15,8 @@ pub(super) enum Adhesion {
     Crack {
         edge: f64,
     },
-    /// A constant traction σ₀ up to the radius c; `width` is √(c² − a²), which c and a have lost where they are close.
+    /// A constant traction σ₀ up to the radius c; `width` is √(c² − a²), which cannot be computed from c and a without
+    /// loss of digits where these are close.
     Dugdale {
         stress: f64,
         width: f64,
@@ -114,7 +115,7 @@ impl Contact {
             + match self.adhesion {
                 Adhesion::None => 0.0,
                 Adhesion::Crack { edge } => 2.0 * edge / self.modulus * angle,
-                // a ring of traction outside the contact opens the gap: what is left of the difference is positive
+                // a ring of traction outside the contact opens the gap: the difference is positive but for rounding
                 Adhesion::Dugdale { stress, width } => {
                     4.0 * stress / (PI * self.modulus) * (width * angle - self.dugdale_integral(width, r)).max(0.0)
                 }
@@ -158,11 +159,12 @@ impl Contact {
         grid.sample(|x, y| self.displacement(x.hypot(y)))
     }
 
-    /// What Dugdale's traction adds to the displacement for r > a is 4σ₀/(πE*) times √(c² − a²) acos(a/r) less this:
+    /// The integral I(r) in the gap that Dugdale's traction adds for r > a, 4σ₀/(πE*)·[√(c² − a²) acos(a/r) − I(r)].
     ///
-    /// for r < c, c·[E(k) − E(asin(a/r), k)] with k = r/c; for r > c, (c²/r)·∫₀^Y x² (1 + x²)^(−3/2) (κ² + x²)^(−1/2)
-    /// dx with Y² = c²/a² − 1, κ² = 1 − c²/r². This is the integral of equation (30) after x² = r²/t² − 1 and x² =
-    /// c²/t² − 1, less the terms that cancel as a → 0; every summand below is positive.
+    /// For r < c it is c·[E(k) − E(asin(a/r), k)] with k = r/c; for r > c it is (c²/r)·∫₀^Y x² (1 + x²)^(−3/2) (κ² +
+    /// x²)^(−1/2) dx with Y² = c²/a² − 1, κ² = 1 − c²/r². These are the integral of equation (30) after the
+    /// substitutions x² = r²/t² − 1 and x² = c²/t² − 1, without the terms that cancel as a → 0; every summand of the
+    /// code is positive.
     fn dugdale_integral(&self, width: f64, r: f64) -> f64 {
         let (a, c) = (self.contact_radius, self.adhesion_radius);
         // with x from 0 to X, z = 1/X², and m = 1/κ²

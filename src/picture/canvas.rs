@@ -55,7 +55,7 @@ impl Canvas {
 
     /// Text in line with the point `at`, vertically centred on it.
     pub(super) fn text(&mut self, text: &str, at: Point, font: &MonoFont<'_>, alignment: Alignment) {
-        // The fonts have Latin-1 only, and a line break would run into what is below.
+        // The fonts have Latin-1 only, and a line break would run into the text below.
         let printable = |c: char| match c {
             'μ' => 'µ',
             '−' | '–' | '—' => '-',
@@ -81,8 +81,8 @@ impl Canvas {
         }
     }
 
-    /// A smooth curve through `points`, two pixels wide, broken where they are not finite; only what of it is
-    /// in `area` is drawn.
+    /// A smooth curve through `points`, two pixels wide, broken where they are not finite, and cut off at the edges of
+    /// `area`.
     pub(super) fn curve(&mut self, points: &[(f64, f64)], area: Rectangle, colour: Rgb888) {
         let (corner, width) = (area.top_left, area.size.width as usize);
         // The coverage of each pixel is kept until the end, so that joints are not drawn twice.

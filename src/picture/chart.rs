@@ -28,11 +28,11 @@ pub struct Chart<'a> {
     pub title: &'a str,
     /// A line below the title; may be empty.
     pub caption: &'a str,
-    /// What runs to the right.
+    /// The quantity x, to the right.
     pub x_label: &'a str,
     /// Its unit.
     pub x_unit: Option<&'a str>,
-    /// What runs upwards.
+    /// The quantity y, upwards.
     pub y_label: &'a str,
     /// Its unit.
     pub y_unit: Option<&'a str>,
@@ -44,7 +44,7 @@ const SIZE: (i32, i32) = (720, 480);
 /// Blue, red, green, violet: distinct also to eyes that confuse two of them, by their lightness.
 const COLOURS: [Rgb888; 4] =
     [Rgb888::new(33, 74, 135), Rgb888::new(214, 96, 30), Rgb888::new(0, 140, 100), Rgb888::new(150, 90, 170)];
-/// How far the axes go beyond the points, as a share of their range.
+/// The part of an axis beyond the points, as a share of their range.
 const SLACK: f64 = 0.03;
 
 impl Chart<'_> {

@@ -6,7 +6,7 @@ use ndarray::ArrayView2;
 
 use super::scale::TINY;
 
-/// What is not finite; on none of the colour maps.
+/// The colour of values that are not finite, which is on none of the colour maps.
 pub(super) const MISSING: Rgb888 = Rgb888::new(201, 120, 199);
 
 /// Values of one sign that are all weaker than this share of the other sign's greatest are not shown.
@@ -36,7 +36,7 @@ pub enum Colouring {
     Binary,
 }
 
-/// The values between which colours range, and what they are.
+/// The colours of a field: its colouring, and the range of values that the colours cover.
 pub(super) struct Colours {
     colouring: Colouring,
     /// The extreme values; zero if there are none.
@@ -67,7 +67,7 @@ impl Colours {
         Self { colouring, extremes: (low, high), limits }
     }
 
-    /// What of a value is averaged.
+    /// The number that a value contributes to the average over a block of nodes.
     pub(super) fn shown(&self, value: f64) -> f64 {
         match self.colouring {
             _ if !drawable(value) => f64::NAN,
@@ -135,7 +135,7 @@ fn widened(low: f64, high: f64) -> (f64, f64) {
     }
 }
 
-/// Where the scale of the values of one sign ends, as a magnitude; their greatest magnitude is `largest`.
+/// The end of the scale of the values of one sign, as a magnitude; their greatest magnitude is `largest`.
 ///
 /// The few nodes that may be left out are those that make 1 % of the sum of the roots of the magnitudes. A
 /// share of the number of nodes would leave out a small contact among many nodes with rounding noise, and a

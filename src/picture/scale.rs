@@ -8,8 +8,7 @@ const PREFIXABLE: [&str; 7] = ["m", "Pa", "N", "J", "s", "V", "W"];
 /// The prefixes from 1e-15 to 1e12.
 const PREFIXES: [&str; 10] = ["f", "p", "n", "µ", "m", "", "k", "M", "G", "T"];
 
-/// How the numbers of an axis are printed: divided by a factor that is either in the unit's prefix or written
-/// as a power of ten.
+/// The factor by which the numbers of an axis are divided, in the prefix of the unit or written as a power of ten.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Scale {
     factor: f64,
@@ -45,7 +44,7 @@ impl Scale {
         if unit.is_empty() { name.to_owned() } else { format!("{name} ({})", unit.trim_end()) }
     }
 
-    /// A printed number with what the label would else say.
+    /// A printed number with its unit and power of ten, for an axis whose label has none.
     fn with_unit(&self, number: &str) -> String {
         let text = match self.exponent {
             0 => format!("{number} {}", self.unit),
@@ -63,7 +62,7 @@ pub(super) fn three_digits(value: f64, unit: Option<&str>) -> String {
     scale.with_unit(&format!("{number:.decimals$}"))
 }
 
-/// A range of values on an axis, and how its numbers are printed.
+/// A range of values on an axis, with the scale of its numbers.
 #[derive(Clone, Debug)]
 pub(super) struct Part {
     from: f64,
@@ -155,7 +154,7 @@ mod tests {
                     let step = b - a;
                     let mantissa = step / 10f64.powf((step.log10() + 1e-6).floor());
                     assert!([1.0, 2.0, 5.0].iter().any(|m| (mantissa - m).abs() < 1e-4), "{step}");
-                    // Neither end could have one more.
+                    // neither end has room for one more
                     assert!(a - from < step && to - ticks[ticks.len() - 1].0 < step * (1.0 + 1e-4));
                 }
                 for (value, text) in &ticks {

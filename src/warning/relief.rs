@@ -8,13 +8,13 @@ use super::{CODES, FAR, LONE, SPIKE};
 /// Sides of fewer nodes tell nothing of tilt and edges: a few nodes may rise one after the other by chance.
 const LEAST_NODES: usize = 16;
 
-/// The lowest and the highest height, how often they occur, and between which the rest is.
+/// The lowest and the highest height, their counts, and the range of all other heights.
 pub struct Extremes {
     pub low: f64,
     pub high: f64,
     pub low_count: usize,
     pub high_count: usize,
-    /// From the lowest to the highest of the others; the wrong way round if there are none.
+    /// The lowest and the highest of the other heights; ∞ and −∞ if there are none.
     pub rest: (f64, f64),
 }
 
@@ -35,7 +35,7 @@ impl Extremes {
         found
     }
 
-    /// The highest less the lowest; infinite only if that is beyond `f64`.
+    /// The highest less the lowest height; infinite if the difference is beyond `f64`.
     pub fn span(&self) -> f64 {
         self.high - self.low
     }
@@ -88,7 +88,7 @@ impl Side {
         }
     }
 
-    /// Whether there are nodes enough to tell of tilt and edges.
+    /// Whether the side has enough nodes for a statement on tilt and edges.
     pub fn tells(&self) -> bool {
         self.nodes >= LEAST_NODES
     }
@@ -100,7 +100,7 @@ impl Side {
     }
 }
 
-/// Single nodes that are far out of their neighbours.
+/// Single nodes that are far above or below their neighbours.
 #[derive(Default)]
 pub struct Spikes {
     pub count: usize,
@@ -108,7 +108,7 @@ pub struct Spikes {
     pub node: (usize, usize),
 }
 
-/// Heights about the middle between the lowest and the highest, in units of half of what is between them: so no square
+/// Heights about the middle between the lowest and the highest, in units of half of their distance: so no square
 /// leaves the range of `f64`.
 pub struct Relief {
     /// The unit of all lengths here, in that of the heights.
@@ -121,7 +121,7 @@ pub struct Relief {
 }
 
 impl Relief {
-    /// Of heights that are not flat.
+    /// The relief of heights that are not flat.
     pub fn of(heights: &Array2<f64>, extremes: &Extremes) -> Self {
         let unit = 0.5 * extremes.high - 0.5 * extremes.low;
         let middle = 0.5 * extremes.high + 0.5 * extremes.low;
@@ -176,9 +176,9 @@ impl Relief {
         (self.mean_square - plane).max(0.0).sqrt()
     }
 
-    /// Counts the nodes that are out of their eight neighbours (two on a line) by more than the rms height about the
-    /// plane, by more than [`SPIKE`] times what nodes usually are, and by more than [`LONE`] times what the
-    /// neighbours differ by; the edges of the map are left out.
+    /// Counts the spikes: nodes whose distance from the mean of their eight neighbours (two on a line) exceeds the rms
+    /// height about the plane, [`SPIKE`] times the rms of this distance, and [`LONE`] times the range of the
+    /// neighbours. The edges of the map are left out.
     fn look_for_spikes(
         &mut self,
         heights: &Array2<f64>,

@@ -57,8 +57,8 @@ impl Dense {
         mean_product(a, &product(&self.compliance, a)).max(0.0)
     }
 
-    /// The gap that solves the problem without adhesion, from a guess of the contact: at a mean gap, or under a pressure. Nothing
-    /// if the elimination cycles.
+    /// The gap that solves the problem without adhesion, from a guess of the contact: at a mean gap, or under a
+    /// pressure. Nothing if the elimination cycles.
     pub fn solve(&self, surface: &[f64], gap: Option<f64>, pressure: f64, guess: &[bool]) -> Option<Vec<f64>> {
         let n = self.nodes;
         let load = self.pressure(surface);

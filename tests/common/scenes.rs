@@ -26,8 +26,8 @@ pub struct Scene {
 }
 
 impl Scene {
-    /// Rough, random, spherical, wavy and stepped surfaces of 8² to 48² nodes, or long and narrow; nearly apart to nearly
-    /// flat; half of them hard walls.
+    /// Rough, random, spherical, wavy and stepped surfaces of 8² to 48² nodes, or long and narrow; nearly apart to
+    /// nearly flat; half of them hard walls.
     pub fn new(seed: u64) -> Self {
         let mut random = ChaCha8Rng::seed_from_u64(seed);
         let n = [8, 12, 16, 24, 32, 48][random.random_range(0..6)];

@@ -191,7 +191,8 @@ fn corrected_it_is_the_preset_of_the_library() {
 fn with_r_summed_over_all_nodes_it_never_converges() {
     for (surface, gap) in hard_cases() {
         let ended = algorithm_3(&surface, &NoAdhesion, gap, PAPER, Printed { norm_over_all: true, ..RIGHT });
-        // it hovers about the solution: the quotient of two sums over the contact pressures is one, and t does not forget
+        // it hovers about the solution: the quotient of two sums over the contact pressures is one, and t does not
+        // forget
         assert!(ended.end == End::Limit && ended.epsilon > 1e3 * PAPER.0, "{:e}", ended.epsilon);
     }
 }

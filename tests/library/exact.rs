@@ -20,8 +20,8 @@ fn hertz_contact_nodes_and_pressure() {
     }
 }
 
-/// The load of a Hertz contact among its periodic images on the unit square, E* = 1, at a mean gap: the lattice sums of the
-/// images' displacement give the approach and the curvature that they add.
+/// The load of a Hertz contact among its periodic images on the unit square, E* = 1, at a mean gap: the lattice sums of
+/// the images' displacement give the approach and the curvature that they add.
 fn periodic_hertz(radius: f64, mean_gap: f64, mean_height: f64) -> f64 {
     // −4ζ(½)β(½) and ζ(3/2)β(3/2): `exact_solutions::lattice_constants`
     const M1: f64 = 3.900_264_920_0;

@@ -7,8 +7,8 @@ use approx::assert_relative_eq;
 use asperity::exact::*;
 use asperity::{Control, Error, Grid, Problem, Settings, Solver, Status, Surface, Westergaard};
 
-/// The integral of `f` from `a` to `b` by tanh-sinh quadrature, which takes square-root singularities at the ends; those of
-/// 1/√ to 1e-8 only, as `f` knows the distance from the end only to rounding.
+/// The integral of `f` from `a` to `b` by tanh-sinh quadrature, which takes square-root singularities at the ends;
+/// those of 1/√ to 1e-8 only, as `f` knows the distance from the end only to rounding.
 fn integral(f: impl Fn(f64) -> f64, a: f64, b: f64) -> f64 {
     let (step, half) = (1.0 / 16.0, 0.5 * (b - a));
     let mut sum = 0.0;
@@ -30,8 +30,8 @@ fn pieces(f: impl Fn(f64) -> f64, points: &[f64]) -> f64 {
     points.windows(2).filter(|p| p[1] > p[0]).map(|p| integral(&f, p[0], p[1])).sum()
 }
 
-/// The deflection at the distance r by Boussinesq's kernel, in polar coordinates about that point: the kernel's 1/t and the
-/// t of the area cancel, which leaves the integral over all chords of the pressure along them.
+/// The deflection at the distance r by Boussinesq's kernel, in polar coordinates about that point: the kernel's 1/t and
+/// the t of the area cancel, which leaves the integral over all chords of the pressure along them.
 fn boussinesq(contact: &Contact, modulus: f64, r: f64) -> f64 {
     let circles = [contact.contact_radius(), contact.adhesion_radius()];
     let chord = |angle: f64| {
@@ -338,8 +338,8 @@ fn checks_images(sphere: impl Sphere, gap: f64, quartic: f64, lattice: f64) {
         }
     }
     assert!(worst < allowed, "{worst:e} {allowed:e}");
-    // u has zero mean but for its datum, which was never imposed: the given mean gap, to the same order and to the error of a
-    // sum over nodes for a function that is not smooth at the edge of the contact
+    // u has zero mean but for its datum, which was never imposed: the given mean gap, to the same order and to the
+    // error of a sum over nodes for a function that is not smooth at the edge of the contact
     let mean = u.mean().unwrap() - surface.mean();
     assert!((mean - gap).abs() < allowed + lattice, "{mean} {gap}");
 }
@@ -397,7 +397,8 @@ fn a_solve_with_maugis_law_tends_to_the_exact_state_among_images() {
             .solve_from(&mut problem, Control::MeanGap(gap), Some(start.view()), |_| ControlFlow::Continue(()))
             .unwrap();
         assert_eq!(found.report.status, Status::Converged);
-        // the traction is 0.05 on whole nodes: its zone's area, and with it the pressure, by some share of its edge nodes
+        // the traction is 0.05 on whole nodes: its zone's area, and with it the pressure, by some share of its edge
+        // nodes
         let edge = 0.05 * TAU * exact.contact().adhesion_radius() / n as f64;
         assert!((found.report.mean_pressure - exact.mean_pressure()).abs() < 0.1 * edge);
         let difference = &found.gap + surface.heights() - &u;

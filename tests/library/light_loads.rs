@@ -1,6 +1,7 @@
 //! What "converged" means under the lightest loads, under tension, and at the end of a solve.
 //!
-//! `cargo test --release --test library light_loads::floors -- --ignored --nocapture` prints how accurate light loads get.
+//! `cargo test --release --test library light_loads::floors -- --ignored --nocapture` prints how accurate light loads
+//! get.
 
 use std::ops::ControlFlow;
 
@@ -75,7 +76,8 @@ fn f64_solves_loads_down_to_a_contact_of_one_node() {
     }
 }
 
-/// One node in contact carries all of a light load: its energy is half the load times what its place gives way, exactly.
+/// One node in contact carries all of a light load: its energy is half the load times what its place gives way,
+/// exactly.
 #[test]
 fn the_energy_of_a_contact_of_one_node_is_exact() {
     let heights = paraboloid(16);
@@ -100,7 +102,8 @@ fn f32_claims_no_less_under_a_light_load_than_it_is_wrong_by() {
     }
 }
 
-/// Two crossed waves that touch at one peak, with a law that jumps. The tension is a hundredth of what the contact holds.
+/// Two crossed waves that touch at one peak, with a law that jumps. The tension is a hundredth of what the contact
+/// holds.
 #[test]
 fn a_tension_that_is_held_is_not_given_up() {
     let angle = std::f64::consts::TAU / 16.0;

@@ -1,5 +1,5 @@
-//! The two spheres of Rey, Anciaux and Molinari (2017) with the law of Maugis and Dugdale, from a start that does not know
-//! the answer, against the exact solution among periodic images.
+//! The two spheres of Rey, Anciaux and Molinari (2017) with the law of Maugis and Dugdale, from a start that does not
+//! know the answer, against the exact solution among periodic images.
 
 use std::ops::ControlFlow;
 

@@ -215,8 +215,9 @@ fn an_application_allocates_nothing() {
 
 /// The stiffness of a wave on a layer, by integrating the equations of plane strain through its thickness; E* = 1.
 ///
-/// With u_x = U sin qx, u_z = W cos qx, σ_xz = T sin qx, σ_zz = S cos qx they are four linear ones, whose right-hand sides stay finite
-/// for ν = ½. Two states that the base allows are carried to the free face, and combined there so that T = 0.
+/// With u_x = U sin qx, u_z = W cos qx, σ_xz = T sin qx, σ_zz = S cos qx they are four linear ones, whose right-hand
+/// sides stay finite for ν = ½. Two states that the base allows are carried to the free face, and combined there so
+/// that T = 0.
 fn integrated(q: f64, thickness: f64, poisson: f64, bonded: bool) -> f64 {
     let nu = poisson;
     let side = nu / (1.0 - nu);

@@ -1,5 +1,5 @@
-//! A rough surface in contact, with the parameters of the paper's Figures 5 to 8 that a grid can resolve: 4 to 64 waves a
-//! side, H = 0.8, rms slope 0.1, in units of the side and of E*.
+//! A rough surface in contact, with the parameters of the paper's Figures 5 to 8 that a grid can resolve: 4 to 64 waves
+//! a side, H = 0.8, rms slope 0.1, in units of the side and of E*.
 
 use std::f64::consts::PI;
 use std::ops::ControlFlow;
@@ -90,8 +90,8 @@ fn area_without_adhesion_is_proportional_to_small_loads() {
     }
 }
 
-/// The half-space obeys a comparison principle: more pressure on it, be it of adhesion, opens no gap anywhere. (On a grid
-/// K⁻¹ has positive entries off its diagonal, of up to 2 % of it, and the principle is not exact.)
+/// The half-space obeys a comparison principle: more pressure on it, be it of adhesion, opens no gap anywhere. (On a
+/// grid K⁻¹ has positive entries off its diagonal, of up to 2 % of it, and the principle is not exact.)
 #[test]
 fn adhesion_opens_no_gap_at_the_same_external_load_and_adds_contact() {
     let n = 256;
@@ -140,8 +140,8 @@ fn the_work_of_adhesion_goes_with_modulus_times_length() {
 /// de/dḡ = −p̄, by central differences of half-width δḡ.
 ///
 /// Their error is δ²(ḡ/ℓ)²/6, with ℓ the length over which p̄ falls by e; here ḡ/ℓ is 2 to 6. As long as the same nodes
-/// touch, e is smooth, and two half-widths leave only the next order and the rounding of e, some 1e-16 e/(δp̄ḡ) = 1e-10.
-/// The solves add nothing: e is stationary, and off by the square of the tolerance.
+/// touch, e is smooth, and two half-widths leave only the next order and the rounding of e, some 1e-16 e/(δp̄ḡ) =
+/// 1e-10. The solves add nothing: e is stationary, and off by the square of the tolerance.
 #[test]
 fn the_energy_falls_with_the_mean_gap_as_the_pressure_says() {
     let mut smooth = 0;

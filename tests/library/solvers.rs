@@ -348,8 +348,8 @@ fn a_solve_allocates_its_five_fields_and_nothing_for_the_answer() {
 
 type Law<T> = fn() -> Box<dyn AdhesionLaw<T>>;
 
-/// The most bytes at any time, in units of one field of precision T: of making the operator and the problem, and of that
-/// and the solve.
+/// The most bytes at any time, in units of one field of precision T: of making the operator and the problem, and of
+/// that and the solve.
 fn peak<T: Real, O: ElasticOperator<T>>(
     grid: Grid,
     operator: impl Fn(Grid) -> Result<O> + Sync,
@@ -371,7 +371,8 @@ fn peak<T: Real, O: ElasticOperator<T>>(
 
 #[test]
 fn a_solve_needs_seven_fields() {
-    // for what grows less than the nodes: plans, tiles, the partial sums of a reduction; and on a line its twiddles, in f64 too
+    // for what grows less than the nodes: plans, tiles, the partial sums of a reduction; and on a line its twiddles, in
+    // f64 too
     let (small, twiddles) = (0.3, 0.3);
     fn half_space<T: Real>(grid: Grid) -> Result<Westergaard<T>> {
         Westergaard::new(grid, 1.0)
@@ -436,8 +437,9 @@ impl AdhesionLaw<f64> for ByNode {
     }
 }
 
-/// Heights and shares that are moved together move the answer with them, and a share that is the same everywhere is a law of
-/// that work of adhesion. Contact nodes of different shares have different tractions, in the contact pressure too.
+/// Heights and shares that are moved together move the answer with them, and a share that is the same everywhere is a
+/// law of that work of adhesion. Contact nodes of different shares have different tractions, in the contact pressure
+/// too.
 #[test]
 fn a_law_may_differ_from_node_to_node() {
     const N: usize = 48;

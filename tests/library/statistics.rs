@@ -28,8 +28,8 @@ fn disc(grid: &Grid, radius: f64) -> Solution<f64> {
     solution
 }
 
-/// The error of the contact area by nodes and of the corrected one, each as mean and root mean square over loads, relative to
-/// Hertz among periodic images.
+/// The error of the contact area by nodes and of the corrected one, each as mean and root mean square over loads,
+/// relative to Hertz among periodic images.
 fn area_errors(n: usize) -> [f64; 4] {
     let mut problem = sphere::<f64, _>(n, NoAdhesion);
     let periodic = Periodic::new(exact::Hertz::new(2.0, 1.0).unwrap(), 1.0).unwrap();
@@ -61,8 +61,8 @@ fn the_correction_takes_the_bias_off_the_area_of_hertz() {
 
 #[test]
 fn the_perimeter_of_a_disc_is_that_of_its_square() {
-    // along the sides of the cells a circle is 8 radii around; a disc of nodes is not biased, and the correction takes off
-    // what a contact has beyond the edge that is sampled
+    // along the sides of the cells a circle is 8 radii around; a disc of nodes is not biased, and the correction takes
+    // off what a contact has beyond the edge that is sampled
     for (shape, lengths) in [((256, 256), (1.0, 1.0)), ((256, 128), (1.0, 1.0)), ((200, 300), (2.0, 1.0))] {
         let grid = Grid::new(shape, lengths).unwrap();
         let solution = disc(&grid, 0.3);

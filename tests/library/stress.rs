@@ -1,6 +1,7 @@
 //! Random small scenes against dense matrices: both precisions and controls, every law, constraint and kind of start.
 //!
-//! `STRESS_CASES=20000 cargo test --release --test library stress:: -- --nocapture` runs more of them, `STRESS_FIRST` says from which seed on.
+//! `STRESS_CASES=20000 cargo test --release --test library stress:: -- --nocapture` runs more of them, `STRESS_FIRST`
+//! says from which seed on.
 
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;
@@ -420,8 +421,9 @@ fn variable(name: &str) -> Option<u64> {
     std::env::var(name).ok()?.parse().ok()
 }
 
-/// Light loads leave a displacement that is the small difference of heights and gap. What `f32` makes of it, seen in `f64`,
-/// is no worse than it says where it has converged, and where it ends as stalled hardly worse than the exact answer rounded to `f32`.
+/// Light loads leave a displacement that is the small difference of heights and gap. What `f32` makes of it, seen in
+/// `f64`, is no worse than it says where it has converged, and where it ends as stalled hardly worse than the exact
+/// answer rounded to `f32`.
 #[test]
 fn f32_is_as_good_as_it_says_and_is_given_up_at_its_floor() {
     let (first, cases) = (variable("STRESS_FIRST").unwrap_or(0), variable("STRESS_CASES").unwrap_or(400));

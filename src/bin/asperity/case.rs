@@ -14,18 +14,18 @@ use crate::options::Scalar;
 use crate::outcome::Outcome;
 use crate::progress::Progress;
 
-/// The case to solve, beside the surface and the law.
+/// The case to solve: the material, the load and the settings; the surface and the law are apart.
 pub struct Case {
     pub modulus: f64,
     pub control: Control,
     pub settings: Settings,
-    /// Whether to find out if the solution is stable.
+    /// Whether to test the stability of the solution.
     pub stability: bool,
-    /// Whether to go on from a solution that is not.
+    /// Whether to go on from an unstable solution.
     pub leave: bool,
 }
 
-/// Whether a solution is stable; see [`asperity::Stability`].
+/// The stability of a solution; see [`asperity::Stability`].
 pub struct Steadiness {
     pub verdict: Verdict,
     pub eigenvalue: f64,
@@ -44,14 +44,14 @@ pub struct Left {
     pub distance: f64,
 }
 
-/// After so many departures something is wrong.
+/// The largest number of departures from unstable equilibria; a sane case takes a few.
 const MOST_DEPARTURES: usize = 10;
 
 /// The account of a solve, for the table and the report.
 pub struct Account {
     pub report: Report,
     pub nodes: usize,
-    /// Contact and its edge; what attracts is left out.
+    /// The contact and its edge, without statistics of the attraction.
     pub contact: ContactStatistics,
     /// The least (most tensile) and the greatest elastic pressure.
     pub pressures: (f64, f64),
@@ -60,13 +60,13 @@ pub struct Account {
     /// The time for setting up and solving, stability included, without that for files and pictures.
     pub seconds: f64,
     pub stability: Option<Steadiness>,
-    /// What was left on the way to the solution, the first first.
+    /// The unstable equilibria on the way to the solution, in order.
     pub departures: Vec<Left>,
-    /// What is probably a mistake, as a report has it.
+    /// The warnings, as a report lists them.
     pub warnings: Value,
 }
 
-/// Solves, and drops the surface as soon as it is not needed.
+/// Solves a case, and frees the surface as soon as the problem has its heights.
 pub fn solve<T: Scalar, L: AdhesionLaw<T>>(
     surface: Surface,
     law: L,
@@ -103,7 +103,7 @@ pub fn solve<T: Scalar, L: AdhesionLaw<T>>(
     Ok((solution, Account { stability, departures, ..account }))
 }
 
-/// Solves on coarser grids first.
+/// Solves a case on nested grids.
 pub fn solve_nested<T: Scalar, L: AdhesionLaw<T>>(
     surface: &Surface,
     law: L,

@@ -15,7 +15,7 @@ fn cell(value: &Value) -> String {
     }
 }
 
-/// The row that [`line`] made a line of, or as much of it as the line says.
+/// The row that [`line()`] made a line of, or as much of it as the line says.
 pub fn parsed(columns: &[&str], line: &str) -> Value {
     let value = |cell: &str| match cell {
         "" => Value::Null,

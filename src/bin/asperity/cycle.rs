@@ -208,7 +208,7 @@ impl Options {
         Ok(())
     }
 
-    /// All that the rows depend on.
+    /// The inputs on which the rows depend.
     fn identity(&self, surface: &Surface, start: Option<&Array2<f64>>) -> Identity {
         let mut identity = identity(self.table().problem, surface, start);
         let loads = self.loads();
@@ -228,7 +228,7 @@ impl Options {
         identity
     }
 
-    /// Says what the cycle comes to, by all of its rows, and draws it.
+    /// Prints the summary or the report of all rows, and draws the picture.
     fn conclude(&self, table: &Table<'_>, unit: Option<&str>, grid: &Grid) -> Outcome<()> {
         let text = table.text()?;
         let rows: Vec<Vec<&str>> = text.lines().skip(1).map(|row| row.split(',').collect()).collect();

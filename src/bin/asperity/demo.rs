@@ -131,7 +131,7 @@ pub fn run(options: &Options) -> Outcome<bool> {
     Ok([without, with].iter().all(|account| account.report.status == Status::Converged))
 }
 
-/// The same every time, and on every grid that resolves its waves.
+/// The surface of the demo: one of a fixed seed, on any grid that resolves its waves.
 fn rough(grid: Grid) -> asperity::Result<Surface> {
     let amplitude = Amplitude::RmsHeight(RMS_HEIGHT);
     SelfAffine { k_l: 3.0, k_r: 3.0, k_s: 40.0, amplitude, seed: 2017, ..SelfAffine::default() }.surface(grid)
@@ -149,7 +149,7 @@ fn draw_heights(path: &Path, grid: Grid, heights: &Array2<f64>) -> asperity::Res
     map.write_png(path)
 }
 
-/// How to solve one of the two cases from the heights in `folder`.
+/// The arguments of `asperity solve` for one of the two cases, with the heights in `folder`.
 fn arguments(folder: &Path, adhesive: bool) -> Vec<OsString> {
     let law = format!("--law exponential --work-of-adhesion {WORK_OF_ADHESION} --range {RANGE:e}");
     let given = format!(
@@ -163,7 +163,7 @@ fn arguments(folder: &Path, adhesive: bool) -> Vec<OsString> {
     arguments
 }
 
-/// The same as options of `asperity solve`, and as a scene.
+/// The options of `asperity solve` for one of the two cases, and its scene.
 fn solve_options(folder: &Path, adhesive: bool) -> Outcome<(solve::Options, Scene)> {
     let mut command = solve::Options::augment_args(Command::new("solve"));
     let matches = command.try_get_matches_from_mut(arguments(folder, adhesive).into_iter().skip(1));
@@ -174,7 +174,7 @@ fn solve_options(folder: &Path, adhesive: bool) -> Outcome<(solve::Options, Scen
     parsed.map_err(|_| format!("--out {}: is no name that solve takes, choose another", folder.display()).into())
 }
 
-/// A word as a shell wants it.
+/// A word with the quotation marks that a shell needs.
 fn quoted(word: &OsStr) -> String {
     let word = word.to_string_lossy();
     let plain = word.chars().all(|c| c.is_alphanumeric() || "/._-+".contains(c));

@@ -8,7 +8,7 @@ use asperity::{Surface, Topography};
 use crate::outcome::Outcome;
 use crate::printing::complain;
 
-/// How far side lengths that are given may be from those of the file: headers round them.
+/// The relative difference that `--lengths` may have from the side lengths of the file, whose header rounds.
 const ROUNDING: f64 = 1e-2;
 /// The largest number of names of arrays in a message.
 const MOST_NAMES: usize = 10;
@@ -40,8 +40,8 @@ pub fn map(path: &Path, lengths: Option<&[f64]>) -> Outcome<Topography> {
     Ok(map)
 }
 
-/// Says on standard error which arrays of a file were not read, if its side lengths, which then `are` something, may
-/// be among them.
+/// Warns of the arrays of a file that were not read, if its side lengths are unknown and may be among them; `are` says
+/// which values are taken for these.
 pub fn warn_of_unread(path: &Path, map: &Topography, are: &str) {
     if map.lengths.is_none() && !map.unread.is_empty() {
         let names: Vec<_> = map.unread.iter().take(MOST_NAMES).map(|name| format!("{name:?}")).collect();

@@ -1,10 +1,9 @@
 //! The journal of a table: rows are appended to its file as they come, and an interrupted run goes on from there.
 //!
-//! Beside the file stands its state, an archive with the fields from which the next row starts, and with a comment that
-//! says how far the file had got by then, and to what it belongs. A row is appended and brought to the disk before the
-//! state is replaced, in one go: the state never runs ahead of the file, and what the file has beyond the state is at
-//! most one row, whole or not, which is taken back and computed again. The file is locked as long as the journal is
-//! open.
+//! Beside the file stands its state: an archive with the fields from which the next row starts, the identity of the
+//! run, and the length and hash of the file. A row is written to the disk before the state is replaced, in one go. So
+//! the state is never ahead of the file, and the file is ahead of the state by at most one row, whole or not; this row
+//! is cut off and computed again. The file is locked as long as the journal is open.
 
 mod lock;
 mod state;
@@ -81,7 +80,7 @@ impl Journal {
         let mut begin = || -> Outcome<_> {
             let mut content = Vec::new();
             file.read_to_end(&mut content).map_err(|e| Error::file(path, format!("cannot be read: {e}")))?;
-            // an empty file without a state is what a run leaves that is killed before its first one
+            // a run that is killed before it writes its first state leaves an empty file
             let new = content.is_empty() && (made || !state_path(path).exists());
             let (written, saved) = if new || force {
                 save(path, &identity, &Written::NOTHING, &[] as &[ArrayView2<'_, f64>], &[])?;
@@ -147,7 +146,7 @@ impl Journal {
     }
 }
 
-/// The part of a file that is kept, and the state from which to go on.
+/// The part of the file that is kept, and the fields and numbers from which the run goes on.
 fn resume(
     path: &Path,
     content: &[u8],

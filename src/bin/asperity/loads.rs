@@ -2,11 +2,11 @@
 
 use asperity::Control;
 
-/// Loads, one after the other.
+/// Loads in the order of a list.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Loads(pub Vec<f64>);
 
-/// More loads than this are a slip of the pen.
+/// The largest number of loads; more are taken for a slip of the pen.
 const MOST_LOADS: usize = 100_000;
 
 /// The name of the kind of a load, and its value.

@@ -1,7 +1,7 @@
-//! The command-line tool: `asperity demo` shows what the library does, `asperity solve` does it on files,
-//! `asperity sweep` under many loads and `asperity cycle` through jumps; `asperity surface` makes such files,
-//! `asperity prepare` makes them of measured maps, and `asperity stats` measures them. `asperity run` does any of it
-//! from a scene file, as every run leaves one.
+//! The command-line tool: `asperity demo` solves a built-in case, `asperity solve` one given by files, `asperity sweep`
+//! many loads and `asperity cycle` a path with jumps; `asperity surface` makes files of heights, `asperity prepare`
+//! makes them of measured maps, and `asperity stats` measures them. `asperity run` does any of these by a scene file,
+//! which every run leaves beside its results.
 
 // the commands
 mod completions;
@@ -104,7 +104,7 @@ fn main() -> ExitCode {
     }
 }
 
-/// What the arguments ask for, and as a scene.
+/// The command that the arguments name, and the scene that repeats it.
 fn parsed<I>(tool: &mut clap::Command, arguments: I) -> Result<(Command, Scene), clap::Error>
 where
     I: IntoIterator<Item: Into<OsString> + Clone>,
@@ -139,8 +139,8 @@ fn refused(error: &dyn Error) -> ExitCode {
     REFUSED.into()
 }
 
-/// Prints help where it was asked for, and otherwise what is wrong with the arguments, on one line; `blamed` says what
-/// to put before that, for an argument.
+/// Prints help where it was asked for, and otherwise the mistake in the arguments on one line, after the name of the
+/// file that has the argument (`blamed`).
 fn usage(error: &clap::Error, blamed: impl Fn(&str) -> Option<String>) -> ExitCode {
     match error.kind() {
         ErrorKind::DisplayHelp | ErrorKind::DisplayVersion => {

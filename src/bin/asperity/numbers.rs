@@ -1,6 +1,6 @@
 //! Numbers as text for people: digits, prefixes, shares.
 
-/// How the numbers of a table are printed.
+/// The units of the numbers in a table.
 #[derive(Clone, Copy, PartialEq)]
 pub enum Style {
     /// In the unknown units of the input.

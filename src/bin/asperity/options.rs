@@ -13,7 +13,7 @@ use crate::heights;
 use crate::outcome::Outcome;
 use crate::threads::use_threads;
 
-/// The surface, and what it is pressed against.
+/// The surface and the half-space.
 #[derive(Args)]
 pub struct SurfaceOptions {
     /// Heights of the rough surface, shape (Nx, Ny), peaks up: .npy, .npz, .gsf (Gwyddion), .xyz, Gwyddion's text
@@ -31,7 +31,7 @@ pub struct SurfaceOptions {
     pub modulus: f64,
 }
 
-/// What holds the surfaces together.
+/// The adhesion between the surfaces.
 #[derive(Args)]
 pub struct AdhesionOptions {
     /// Adhesion law
@@ -45,7 +45,7 @@ pub struct AdhesionOptions {
     pub range: Option<f64>,
 }
 
-/// How to solve, and from where.
+/// The method, the accuracy and the start of a solve.
 #[derive(Args)]
 pub struct SolverOptions {
     /// Preconditioned conjugate gradients, or the algorithm of Rey et al. (2017)
@@ -230,7 +230,7 @@ pub fn finite(text: &str) -> Result<f64, String> {
     number(text, f64::is_finite, "a number, and finite")
 }
 
-/// How many threads; far more than there are cores are a slip of the pen.
+/// A number of threads; more than 1024 are taken for a slip of the pen.
 pub fn threads(text: &str) -> Result<usize, String> {
     match text.parse() {
         Ok(threads @ 1..=1024) => Ok(threads),
@@ -238,7 +238,7 @@ pub fn threads(text: &str) -> Result<usize, String> {
     }
 }
 
-/// How many nodes along a side; more than the solver could ever hold are a slip of the pen.
+/// A number of nodes along a side; more than 2²⁴ are taken for a slip of the pen.
 pub fn nodes(text: &str) -> Result<usize, String> {
     match text.parse() {
         Ok(nodes @ 1..=16_777_216) => Ok(nodes),

@@ -7,7 +7,7 @@ use asperity::io::OutputFolder;
 
 use crate::outcome::Outcome;
 
-/// The folder `path` for files with these `names`; one that exists is refused by the option that would replace it.
+/// The folder `path` for files with these `names`. A file that exists is refused unless `force` replaces it.
 pub fn output_folder(path: &Path, names: &[&str], force: bool) -> Outcome<OutputFolder> {
     let existing = names.iter().map(|name| path.join(name)).find(|file| file.exists() && !file.is_dir());
     match existing {
@@ -38,7 +38,7 @@ impl OutputFile {
         Ok(Self { folder, parent: parent.to_owned(), name: name.to_owned() })
     }
 
-    /// Whether another file has the same place.
+    /// Whether another file has the same path.
     pub fn is(&self, other: &Self) -> bool {
         self.parent == other.parent && self.name == other.name
     }
@@ -59,7 +59,7 @@ pub fn write_text(path: &Path, text: &str) -> asperity::Result<()> {
     std::fs::write(path, text).map_err(|e| Error::file(path, format!("cannot be written: {e}")))
 }
 
-/// Names the place where a file would have appeared, and not the hidden one where it could not be written.
+/// The error of a hidden temporary file as that of the file in its destination `folder`.
 pub fn at_destination(error: Error, folder: &Path) -> Error {
     match error {
         Error::File { path, reason } => {

@@ -29,8 +29,8 @@ pub fn draw_contact(path: &Path, grid: Grid, title: &str, units: Units<'_>, cont
     map.write_png(path)
 }
 
-/// The pressure that a map should show: without adhesion, what there is outside of the contact is only what remains of
-/// the error, and would look like attraction on a scale of its own.
+/// The pressure that a map should show. Without adhesion this is the contact pressure: the pressure outside of the
+/// contact is a remainder of the error, and would look like attraction on a scale of its own.
 pub fn pressure_to_draw<T>(solution: &Solution<T>, adhesive: bool) -> &Array2<T> {
     if adhesive { &solution.pressure } else { &solution.contact_pressure }
 }

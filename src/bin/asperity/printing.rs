@@ -6,7 +6,7 @@ use anstream::AutoStream;
 use clap::Args;
 use serde_json::Value;
 
-/// What goes to standard output.
+/// The form of standard output: a table, JSON or nothing.
 #[derive(Args, Clone, Copy)]
 pub struct Printing {
     /// Print no table and no progress, nothing but warnings
@@ -35,7 +35,7 @@ impl Printing {
         }
     }
 
-    /// Prints what `report` comes to, if that is wanted; numbers that are not finite become null.
+    /// Prints a report as JSON, if that is wanted; numbers that are not finite become null.
     pub fn report(self, report: impl FnOnce() -> Value) {
         if self.json {
             say(&format!("{:#}", report()));

@@ -32,7 +32,7 @@ impl Progress {
         Self { bar, tolerance, nodes: nodes as f64, first_error: None }
     }
 
-    /// The same for a solve on nested grids; the bar goes on from one to the next, as their errors do.
+    /// Shows the state of a solve on nested grids; the bar goes on from one grid to the next, as the error does.
     pub fn update_on(&mut self, grid: &Grid, state: &Iteration) {
         let nodes = grid.nodes() as f64;
         if self.nodes != nodes {

@@ -1,4 +1,4 @@
-//! `asperity run`: a scene file read as the arguments of a command.
+//! `asperity run`: reads a scene file as the arguments of a command. (`scene.rs` writes such files.)
 
 use std::ffi::OsString;
 use std::fs;
@@ -55,17 +55,17 @@ const EXAMPLES: &str = "\
 /// The commands that a scene may have.
 const COMMANDS: [&str; 7] = ["solve", "sweep", "cycle", "prepare", "surface", "stats", "demo"];
 
-/// The arguments for which a scene stands.
+/// The arguments that a scene file stands for.
 pub struct Arguments {
     path: PathBuf,
-    /// What was given beside the scene
+    /// The arguments after the name of the scene
     given: Vec<OsString>,
     /// All arguments, the name of the tool first
     pub arguments: Vec<OsString>,
 }
 
 impl Arguments {
-    /// Reads the scene, of which `tool` says what may be in it.
+    /// Reads the scene; `tool` defines the commands and options that it may have.
     pub fn read(tool: &Command, options: Options) -> Outcome<Self> {
         let Options { scene: path, options: given } = options;
         let refuse = |reason: String| Error::file(&path, reason);
@@ -114,8 +114,8 @@ impl Arguments {
         Ok(Self { path, given, arguments })
     }
 
-    /// What to put before a complaint about an argument: the name of the scene, unless the argument was given beside
-    /// it.
+    /// The name of the scene, to be put before a complaint about one of its arguments; none for an argument that was
+    /// given after the name of the scene.
     pub fn blamed(&self, argument: &str) -> Option<String> {
         let word = argument.split([' ', '=']).next().unwrap_or_default();
         let beside = self.given.iter().any(|given| given.to_string_lossy().split('=').next() == Some(word));
@@ -123,7 +123,7 @@ impl Arguments {
     }
 }
 
-/// The key of the first integer that does not fit into 64 bits, and where that stands.
+/// The key and the place of the first integer that does not fit into 64 bits.
 fn large_integer(table: &DeTable<'_>) -> Option<(String, Range<usize>)> {
     fn within(value: &Spanned<DeValue<'_>>) -> Option<Range<usize>> {
         match value.get_ref() {
@@ -140,7 +140,7 @@ fn large_integer(table: &DeTable<'_>) -> Option<(String, Range<usize>)> {
     })
 }
 
-/// The options of a scene, from its sections and from before them.
+/// The options of a scene, those before the first section and those of all sections.
 fn entries(table: Table, command: &Command) -> Result<Vec<(String, Value)>, String> {
     let mut sections: Vec<_> = command.get_arguments().map(section).collect();
     sections.retain(|section| !section.is_empty());
@@ -169,8 +169,8 @@ fn entries(table: Table, command: &Command) -> Result<Vec<(String, Value)>, Stri
     Ok(entries)
 }
 
-/// The options that those given beside a scene replace: themselves, those that exclude them, and with the law of
-/// adhesion its parameters, if there is none any more.
+/// The options of a scene that the options `given` after it replace: the same ones, those in the same exclusive group,
+/// and with `--law none` all of the adhesion.
 fn replaced(command: &Command, given: &[OsString]) -> Vec<String> {
     let mut replaced = Vec::new();
     let words: Vec<_> = given.iter().map(|word| word.to_string_lossy()).collect();
@@ -191,7 +191,7 @@ fn replaced(command: &Command, given: &[OsString]) -> Vec<String> {
     replaced
 }
 
-/// Whether heights that are given beside a scene come from a file with side lengths of its own.
+/// Whether heights that are given after a scene come from a file with side lengths of its own.
 fn brings_lengths(given: &[OsString]) -> bool {
     let after = given.iter().skip_while(|word| *word != "--heights").nth(1).map(Path::new);
     let joined = || given.iter().find_map(|word| word.to_str()?.strip_prefix("--heights=")).map(Path::new);
@@ -199,8 +199,8 @@ fn brings_lengths(given: &[OsString]) -> bool {
     path.is_some_and(|path| read_topography(path).is_ok_and(|map| map.lengths.is_some()))
 }
 
-/// An option of a scene as one would type it. What is wrong with it is for the parser of the arguments to say, as far
-/// as it can be typed at all.
+/// An option of a scene as words of a command line. Only options that cannot be typed at all are refused here; all
+/// others are for the parser of the arguments to judge.
 fn spelled(key: &str, value: &Value, option: Option<&Arg>, folder: &Path) -> Result<Vec<OsString>, String> {
     let name = format!("--{key}");
     let Some(option) = option else {
@@ -243,7 +243,7 @@ fn spelled(key: &str, value: &Value, option: Option<&Arg>, folder: &Path) -> Res
     Ok(vec![typed])
 }
 
-/// What a value of an option is.
+/// The kinds of values that an option takes, in words.
 fn wanted(option: &Arg) -> &'static str {
     if is_path(option) { "a name in quotation marks" } else { "a number, a word in quotation marks, or a list of them" }
 }

@@ -1,4 +1,4 @@
-//! The scene file that repeats a run, written beside its results.
+//! The scene file that repeats a run, written beside its results. (`run.rs` reads such files.)
 
 use std::any::TypeId;
 use std::fs;
@@ -34,17 +34,17 @@ enum Literal {
     Path(PathBuf),
 }
 
-/// How the file begins; what does not begin so is not replaced.
+/// The beginning of the file. A file with another beginning is not replaced.
 const FIRST: &str = "# Written by asperity ";
 
-/// Options that are no part of what a run comes to.
+/// Options without influence on the results.
 const LEFT_OUT: [&str; 3] = ["force", "quiet", "json"];
 
-/// Its name in a folder of results.
+/// The name of the scene in a folder of results.
 pub const NAME: &str = "scene.toml";
 
 impl Scene {
-    /// What was chosen for a command.
+    /// The scene of a command with the options in `matches`.
     pub fn of(command: &Command, matches: &ArgMatches) -> Self {
         let entries = command.get_arguments().filter_map(|arg| entry(arg, matches)).collect();
         Self { command: command.get_name().to_owned(), entries }
@@ -74,7 +74,7 @@ impl Scene {
         text
     }
 
-    /// Refuses to replace a file in the place of a scene that is not one of ours.
+    /// Refuses to replace a file at `path` that was not written as a scene.
     pub fn check(path: &Path) -> Outcome<()> {
         match fs::read_to_string(path) {
             Ok(text) if !text.starts_with(FIRST) => {
@@ -85,7 +85,8 @@ impl Scene {
         }
     }
 
-    /// Refuses a `file` beside which there is another scene that may not be replaced: with `force` one of ours may.
+    /// Refuses a `file` beside which there is the scene of another run, unless `force` replaces it, or a file that was
+    /// not written as a scene.
     pub fn check_beside(&self, file: &Path, force: bool) -> Outcome<()> {
         let path = beside(file);
         Self::check(&path)?;
@@ -118,7 +119,7 @@ fn folder_of(file: &Path) -> &Path {
     file.parent().unwrap_or(Path::new(""))
 }
 
-/// What an argument is called in a scene, if it may be there.
+/// The name of an argument in a scene; none for those that ask for help.
 pub fn key(arg: &Arg) -> Option<String> {
     let asks_for_help = matches!(arg.get_action(), ArgAction::Help | ArgAction::HelpShort | ArgAction::HelpLong);
     let key = || arg.get_long().map_or_else(|| arg.get_id().as_str().replace('_', "-"), str::to_owned);
@@ -153,7 +154,7 @@ fn entry(arg: &Arg, matches: &ArgMatches) -> Option<Entry> {
     Some(Entry { section: section(arg), key, values })
 }
 
-/// A number as a number, always in the same way, and everything else in quotation marks.
+/// A number in the digits of Rust, and everything else in quotation marks.
 fn literal(arg: &Arg, raw: &str) -> Literal {
     let (parser, trimmed) = (arg.get_value_parser().type_id(), raw.trim());
     let number = if parser == TypeId::of::<f64>() {
@@ -176,7 +177,7 @@ impl Literal {
     }
 }
 
-/// A path from the folder in which we are as one from another folder, which need not exist. Absolute ones remain.
+/// A path relative to the working folder as one relative to `folder`, which need not exist. Absolute paths remain.
 fn seen_from(path: &Path, folder: &Path) -> PathBuf {
     if path.is_absolute() {
         return path.to_owned();

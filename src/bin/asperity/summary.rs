@@ -75,7 +75,7 @@ pub fn table(names: &[&str], solves: &[&Account], style: Style) -> String {
     rows.iter().map(line).collect::<Vec<_>>().join("\n")
 }
 
-/// Says on standard error what there is to know of a solve before trusting it, of which `name` tells the case.
+/// Warns of a solve that has not converged, or whose equilibrium is unstable; `name` is that of the case.
 pub fn warn(name: &str, account: &Account, case: &Case) {
     let (report, tolerance) = (&account.report, case.settings.tolerance);
     let name = if name.is_empty() { String::new() } else { format!("{name}: ") };

@@ -204,7 +204,7 @@ impl Options {
         }
     }
 
-    /// All that the rows depend on beside the loads.
+    /// The inputs on which the rows depend beside the loads.
     fn identity(&self, surface: &Surface, start: Option<&Array2<f64>>) -> Identity {
         let (control, _) = loads::name_and_value(self.loads().0(0.0));
         let mut identity = identity(self.table().problem, surface, start);

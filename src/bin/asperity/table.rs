@@ -99,7 +99,7 @@ impl<'a> Table<'a> {
         self.journal.append(row)
     }
 
-    /// The report on the table: its rows, then what a command `found` in them, then the inputs.
+    /// The report on the table: the number of its rows, the figures that a command `found` in them, and the inputs.
     pub fn report(&self, command: &str, control: &str, found: Value, grid: &Grid, unit: Option<&str>) -> Value {
         let mut outcome = json!({
             "control": control,

@@ -8,7 +8,7 @@ use crate::options::{ProblemOptions, Scalar};
 use crate::outcome::Outcome;
 use crate::printing::complain;
 
-/// What becomes of warnings.
+/// Whether warnings are errors.
 #[derive(Args, Clone, Copy)]
 pub struct Strictness {
     /// Take for errors all warnings of input, or of an answer, that is probably a mistake: then it is not written
@@ -38,20 +38,20 @@ impl Warnings {
         Ok(warnings)
     }
 
-    /// Looks at an answer, and says what there is to say; of many, the first with a warning counts.
+    /// Looks at an answer, and prints its warnings; of many answers, the first with a warning counts.
     pub fn look_at<T: Scalar>(&mut self, solution: &Solution<T>, modulus: f64) -> Outcome<()> {
         self.add(Warning::of_solution(solution, modulus))?;
         self.say();
         Ok(())
     }
 
-    /// Says on standard error what was not said before.
+    /// Prints the warnings that were not printed before.
     pub fn say(&mut self) {
         self.found.iter().skip(self.said).for_each(|warning| complain("warning", &warning.to_string()));
         self.said = self.found.len();
     }
 
-    /// Keeps what is new, or refuses to go on.
+    /// Keeps new warnings, or with `--strict` returns them as an error.
     fn add(&mut self, mut found: Vec<Warning>) -> Outcome<()> {
         found.retain(|new| self.found.iter().all(|known| known.code != new.code));
         if self.strictness.strict && !found.is_empty() {
@@ -62,7 +62,7 @@ impl Warnings {
         Ok(())
     }
 
-    /// The warnings as a report has them.
+    /// The warnings as a report lists them.
     pub fn report(&self) -> Value {
         let all = self.found.iter();
         all.map(|warning| json!({ "code": warning.code.name(), "message": warning.message })).collect()

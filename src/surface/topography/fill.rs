@@ -5,19 +5,19 @@ use ndarray::Array2;
 use super::Topography;
 use crate::error::{Error, Result};
 
-/// Stands for a neighbour beyond the edge of the map.
+/// The number of a neighbour beyond the edge of the map.
 const NONE: usize = usize::MAX;
-/// Of the residual, in the norm that belongs to the preconditioner.
+/// The relative residual at which the solve ends, in the norm of the preconditioner.
 const ACCURACY: f64 = 1e-12;
-/// Steps make the energy of slopes twice too large, and corrections too small; this much more is best by experience
-/// (D. Braess, Computing 55, 1995).
+/// The factor of coarse corrections. Values that are constant on the points of a coarser level have steps between
+/// these, which make the energy of slopes twice too large and the correction too small; 1.8 is best by experience (D.
+/// Braess, Computing 55, 1995).
 const OVERCORRECTION: f64 = 1.8;
 
 impl Topography {
-    /// Gives missing points the smoothest values that fit their surroundings: those of a membrane on the edge of the
-    /// hole.
+    /// Gives missing points the heights of a membrane that spans the hole from its edge.
     ///
-    /// They obey the discrete Laplace equation
+    /// The heights of the membrane obey the discrete Laplace equation
     ///
     /// ```math
     /// (h(i+1, j) − 2h(i, j) + h(i−1, j))/Δx² + (h(i, j+1) − 2h(i, j) + h(i, j−1))/Δy² = 0
@@ -55,18 +55,19 @@ impl Topography {
     }
 }
 
-/// The Laplace equation at missing points, Σ w (h − h') = 0 over the neighbours h' of each, or what stands for it on a
-/// coarser level, where a point is up to 2 × 2 of the finer: Galerkin's, for values that are the same on all of these.
+/// A level of the multigrid: the equation Σ w (h − h') = 0 at each of its points, the sum over the neighbours h'. On
+/// the finest level this is the Laplace equation at missing points. A point of a coarser level stands for up to 2 × 2
+/// of the finer, and its equation is Galerkin's, for values that are the same on all of these.
 struct Level {
     nodes: Vec<(usize, usize)>,
-    /// of each point, those of its neighbours that are missing too, and the weights of these
+    /// the missing neighbours of each point, and their weights
     neighbours: Vec<[usize; 4]>,
     links: Vec<[f64; 4]>,
-    /// the sum of the weights of neighbours that are known
+    /// the sum of the weights of known neighbours, for each point
     known: Vec<f64>,
     /// the sum of all weights
     diagonal: Vec<f64>,
-    /// the point of the next level that each is part of
+    /// for each point, the point of the next level that contains it
     parents: Vec<usize>,
 }
 
@@ -77,14 +78,15 @@ impl Level {
         Self { nodes, neighbours: vec![[NONE; 4]; n], links: vec![[0.0; 4]; n], known, diagonal, parents: Vec::new() }
     }
 
-    /// All levels, until no points are neighbours any more, and what known heights add to the first, about the mean.
+    /// All levels, down to one without neighbours, and the right-hand side of the finest: the weighted sum of the known
+    /// neighbours, about the mean.
     fn hierarchy(heights: &Array2<f64>, (dx, dy): (f64, f64), mean: f64) -> (Vec<Self>, Vec<f64>) {
         let (nx, ny) = heights.dim();
         let missing = heights.indexed_iter().filter(|(_, h)| !h.is_finite()).map(|(node, _)| node);
         let (index, nodes) = numbered((nx, ny), missing);
         let mut finest = Self::new(nodes);
         let mut right = vec![0.0; finest.nodes.len()];
-        // relative, so that no unit leaves the range, nor the length that means nothing on a line
+        // relative, so that no unit leaves the range of `f64`; and bounded, as Ly has no meaning on a line
         let ratio = (dx / dy).powi(2).clamp(1e-12, 1e12);
         let (along_x, along_y) = if ratio <= 1.0 { (1.0, ratio) } else { (1.0 / ratio, 1.0) };
         for (k, &(i, j)) in finest.nodes.iter().enumerate() {
@@ -145,7 +147,7 @@ impl Level {
         Some(coarser)
     }
 
-    /// What the neighbours of a point that are missing too add to it.
+    /// The weighted sum of the values x at the missing neighbours of a point.
     fn pull(&self, x: &[f64], k: usize) -> f64 {
         let near = self.neighbours[k].iter().zip(&self.links[k]).filter(|(near, _)| **near != NONE);
         near.map(|(near, link)| link * x[*near]).sum()
@@ -160,7 +162,7 @@ impl Level {
     }
 }
 
-/// Numbers for nodes, those that come twice once, and where on a map they are.
+/// Nodes without repetition, and a map of their numbers.
 fn numbered(
     shape: (usize, usize),
     nodes: impl Iterator<Item = (usize, usize)>,
@@ -176,7 +178,7 @@ fn numbered(
     (index, numbered)
 }
 
-/// Conjugate gradients with a cycle of the levels as preconditioner, and how many steps they took.
+/// The solution by conjugate gradients with a cycle of the levels as preconditioner, and the number of steps.
 fn solve(levels: &[Level], right: &[f64]) -> (Vec<f64>, usize) {
     let level = &levels[0];
     let n = right.len();

@@ -53,7 +53,8 @@ impl Scene {
         let solution =
             Solver::new(settings).solve_from(&mut problem, self.control, start.as_ref().map(|s| s.view()), go_on);
         let Solution { gap, pressure, report, .. } = solution.unwrap();
-        // a contact so light that rounding of heights and gaps leaves more than the tolerance says nothing of symmetries
+        // a contact so light that rounding of heights and gaps leaves more than the tolerance says nothing of
+        // symmetries
         let rounded = mean_product(&centred(&self.heights), &dense.pressure(&centred(&self.heights)))
             + dense.stiffest * report.mean_gap * (report.mean_gap + span);
         let floor = T::epsilon().widen() * (rounded / report.elastic_energy).sqrt();
@@ -87,8 +88,8 @@ impl Scene {
 }
 
 impl Dense {
-    /// The most that a mean gap can change for a change of unit energy norm that leaves a node where it is: as the mean is
-    /// minus what is left at that node without it.
+    /// The most that a mean gap can change for a change of unit energy norm that leaves a node where it is: as the mean
+    /// is minus what is left at that node without it.
     fn reach(&self) -> f64 {
         (self.nodes as f64 * self.compliance[0]).sqrt()
     }

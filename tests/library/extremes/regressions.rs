@@ -106,8 +106,8 @@ fn springs<T: Real, C: ContactConstraint<T>>(constraint: C) {
     }
 }
 
-/// The last change carried the whole plateau far through the other surface, for which trial steps were shortened below the
-/// last digits of the gaps.
+/// The last change carried the whole plateau far through the other surface, for which trial steps were shortened below
+/// the last digits of the gaps.
 fn a_step_under_a_light_pressure_lands_on_all_of_its_plateau<T: Real>() {
     let step = |i: usize, _: usize| if i < 4 { 0.0086 } else { 0.0 };
     let mut problem = problem::<T>((7, 2), (59.6, 92.7), step, bare());

@@ -19,7 +19,7 @@ use crate::hash::Hash;
 use crate::identity::Identity;
 use crate::outcome::Outcome;
 
-/// The content of the table.
+/// The content of the table that belongs to a state.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Written {
     pub rows: usize,
