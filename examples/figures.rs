@@ -251,7 +251,7 @@ fn panel(
     curves: [&Vec<(f64, f64)>; 3],
     labels: SeriesLabelPosition,
 ) -> Outcome<()> {
-    // (JKR's pressure falls to −∞ at the edge: what is below the panel is left out)
+    // (JKR's pressure falls to −∞ at the edge, and is cut off at the end of the panel)
     let curves = curves.map(|c| c.iter().copied().filter(|p| p.0 <= end && p.1 >= lowest).collect::<Vec<_>>());
     let values = || curves.iter().flatten().map(|p| p.1);
     let (low, high) = (values().fold(f64::INFINITY, f64::min), values().fold(f64::NEG_INFINITY, f64::max));
@@ -354,7 +354,7 @@ fn rates(
         let (first, last) = ((SMALLEST as f64).log2(), finest);
         let line = [first, last].map(|x| (x, (level + exponent * x).exp2()));
         chart.draw_series(LineSeries::new(line, colour.stroke_width(1)))?;
-        // rings, so that what they coincide with shows
+        // rings, so that points below them show
         let ring = name.ends_with(Start::Exact.name());
         let (radius, style) = if ring { (7, colour.stroke_width(2)) } else { (4, colour.filled()) };
         chart

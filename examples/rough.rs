@@ -297,7 +297,7 @@ fn maps(
     };
     let loads =
         format!("external pressure {:.4} E*, contact {:.4} E*", report.mean_pressure, report.mean_contact_pressure);
-    // without adhesion, what there is outside of the contact is only what remains of the error
+    // without adhesion, the pressure outside of the contact is a remainder of the error
     let pressure = if law.is_zero() { &solution.contact_pressure } else { &solution.pressure };
     let map = Map {
         title: &format!("Figure 6: {title}"),

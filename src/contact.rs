@@ -60,8 +60,8 @@ impl<T: Real> Solution<T> {
 /// ```
 ///
 /// with S the perimeter along the cells, averaged over the directions of the edge. That is 0.118 cells for each side
-/// of a cell on the perimeter; for Δx ≠ Δy the area Δx·Δy of the cell is taken for Δx². What is left is the scatter of
-/// the nodes about the edge: over Hertz contacts with radii of 3 to 7 nodes the mean error falls from 6 % to −0.5 %,
+/// of a cell on the perimeter; for Δx ≠ Δy the area Δx·Δy of the cell is taken for Δx². The remaining error is the
+/// scatter of the nodes about the edge: over Hertz contacts with radii of 3 to 7 nodes the mean error falls from 6 % to −0.5 %,
 /// the root mean square from 8 % to 5 %; with radii of 14 to 28 nodes from 1.5 % to −0.1 %, and from 1.6 % to 0.5 %.
 ///
 /// On a line nothing is corrected, as the derivation is for edges in the plane; there the map counts about 0.19 nodes

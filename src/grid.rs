@@ -37,7 +37,7 @@ impl Grid {
                 return Err(Error::Value { name, value: 0.0, requirement: "at least 1" });
             }
         }
-        // what a field of them takes has to be a size that an allocation can have
+        // a field on the grid must fit into an allocation
         if shape.0.checked_mul(shape.1).is_none_or(|nodes| nodes > isize::MAX as usize / 32) {
             let value = shape.0 as f64 * shape.1 as f64;
             return Err(Error::Value {

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-/// `--size N` and `--out PATH`, or what is given here.
+/// The values of `--size N` and `--out PATH`, or the given defaults.
 pub fn size_and_out(size: usize, out: &str) -> Result<(usize, PathBuf), String> {
     let (mut size, mut out) = (size, PathBuf::from(out));
     let mut arguments = std::env::args().skip(1);

@@ -3,7 +3,7 @@
 use plotters::coord::CoordTranslate;
 use plotters::prelude::*;
 
-/// Draws the legend of what has a label.
+/// Draws the legend of all series with a label.
 pub fn legend<'a, DB: DrawingBackend + 'a, CT: CoordTranslate>(
     chart: &mut ChartContext<'a, DB, CT>,
     position: SeriesLabelPosition,

@@ -78,7 +78,7 @@ impl PressureDistribution {
     fn count(values: impl Iterator<Item = f64>, (low, high): (f64, f64), bins: usize, nodes: usize) -> Self {
         let mut counts = vec![0_usize; bins];
         for value in values {
-            // what is not above the lowest edge, or beyond the highest, by rounding only
+            // a value may be below the lowest edge, or above the highest, by rounding
             let bin = (value - low) / (high - low) * bins as f64;
             counts[(bin.max(0.0) as usize).min(bins - 1)] += 1;
         }

@@ -28,7 +28,7 @@ pub const C2: f64 = 2.258_405_420_775_237_6;
 ///
 /// with M₁ = −4ζ(½)β(½), c₂ = ζ(3/2)β(3/2), δ the approach of the sphere, and ⟨h⟩ the mean of the heights, h = 0 at
 /// the apex: −L²/12R for the paraboloid itself, and [`Surface::mean`](crate::Surface::mean) for its nodes, which is
-/// what a numerical solution sees. Without adhesion the integral is 2a²P/5. There is no free parameter; the images'
+/// the mean of a numerical solution. Without adhesion the integral is 2a²P/5. There is no free parameter; the images'
 /// next term, of relative order (a/L)⁵ in the shape of the surface, is neglected. Contacts with c ≤ L/3 are accepted.
 ///
 /// ```

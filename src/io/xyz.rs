@@ -10,7 +10,7 @@ use crate::surface::Topography;
 
 /// The largest distance of a point from its place on the grid, in spacings.
 const SLACK: f64 = 0.1;
-/// A grid may have so many times more nodes than there are points; this bounds what a small file can make us allocate.
+/// The most nodes of a grid for each of its points: a bound on the memory that a small file can ask for.
 const SPARSEST: f64 = 4.0;
 
 /// Reads points x y z of a regular grid, in any order; those that are not there are missing.
@@ -90,7 +90,7 @@ impl Axis {
         }
         let gaps = || values.windows(2).map(|pair| pair[1] - pair[0]);
         let largest = gaps().fold(0.0, f64::max);
-        // what is less than such a share of the largest gap, which missing lines may have widened, is noise
+        // steps below a share of the largest gap, which missing lines may have widened, are noise
         for share in [0.003, 0.03, 0.3] {
             let step = gaps().filter(|gap| *gap > share * largest).fold(f64::INFINITY, f64::min);
             // one after the other, so that the rounding of coordinates does not add up

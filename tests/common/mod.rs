@@ -54,7 +54,7 @@ pub fn falls(history: &[Iteration], epsilon: f64) {
     }
 }
 
-/// What holds for every state that the solver returns, converged or not.
+/// Checks the invariants of every state that the solver returns, converged or not.
 pub fn check<T: Real>(solution: &Solution<T>, law: &impl AdhesionLaw<T>, control: Control) {
     let Solution { gap, pressure, contact_pressure, report } = solution;
     let (nodes, epsilon) = (gap.len() as f64, T::epsilon().widen());

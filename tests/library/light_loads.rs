@@ -1,4 +1,4 @@
-//! What "converged" means under the lightest loads, under tension, and at the end of a solve.
+//! The meaning of "converged" under the lightest loads, under tension, and at the end of a solve.
 //!
 //! `cargo test --release --test library light_loads::floors -- --ignored --nocapture` prints how accurate light loads
 //! get.

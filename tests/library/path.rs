@@ -155,7 +155,7 @@ fn two_waves(n: usize, asymmetry: f64) -> Problem<f64, Westergaard<f64>, Exponen
     Problem::new(&surface, Westergaard::new(grid, 1.0).unwrap(), Exponential::new(1.5e-4, 2.5e-3).unwrap()).unwrap()
 }
 
-/// What jumps and bifurcations dissipate more than the imbalance that a step may have.
+/// The jumps and bifurcations that dissipate more than `least`, the imbalance that a step may have.
 fn drops(steps: &[PathStep<f64>], least: f64) -> Vec<Jump> {
     let jumps = steps.iter().filter_map(|step| step.event.as_ref()?.jump().copied());
     jumps.filter(|jump| jump.energy_drop > least).collect()

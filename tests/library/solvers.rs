@@ -67,7 +67,7 @@ fn counts(n: usize) -> Vec<(&'static str, usize)> {
     counts
 }
 
-/// What rounding, which differs between processors, may add to a count.
+/// The applications that rounding, which differs between processors, may add to a count.
 const SLACK: usize = 2;
 
 /// No case takes more than what was counted, and than `growth` times as many as on the coarser grid. The test

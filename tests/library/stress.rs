@@ -176,7 +176,7 @@ impl Scene {
         Ok(solution.report)
     }
 
-    /// What projection finds without adhesion.
+    /// The solution by projection without adhesion.
     fn solution<T: Real>(&self) -> asperity::Result<Solution<T>> {
         let grid = Grid::new(self.shape, self.lengths)?;
         let surface = Surface::new(grid, self.heights.clone())?;
@@ -398,7 +398,7 @@ impl Scene {
         mean_product(&surface, &dense.pressure(&surface)) + dense.stiffest * mean_gap * (mean_gap + rms)
     }
 
-    /// What has to be solved: everything convex, to a tolerance well above rounding.
+    /// Whether the scene has to be solved: it is convex, and its tolerance well above rounding.
     fn is_easy(&self) -> bool {
         let method = self.settings.method == Method::Preconditioned;
         // a plane far away falls under a load with nothing to measure its steps by
@@ -421,9 +421,9 @@ fn variable(name: &str) -> Option<u64> {
     std::env::var(name).ok()?.parse().ok()
 }
 
-/// Light loads leave a displacement that is the small difference of heights and gap. What `f32` makes of it, seen in
-/// `f64`, is no worse than it says where it has converged, and where it ends as stalled hardly worse than the exact
-/// answer rounded to `f32`.
+/// Light loads leave a displacement that is the small difference of heights and gap. The error of a gap in `f32`,
+/// computed in `f64`, is no larger than certified where the solve has converged, and where it has stalled hardly larger
+/// than that of the exact gap rounded to `f32`.
 #[test]
 fn f32_is_as_good_as_it_says_and_is_given_up_at_its_floor() {
     let (first, cases) = (variable("STRESS_FIRST").unwrap_or(0), variable("STRESS_CASES").unwrap_or(400));

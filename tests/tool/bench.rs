@@ -31,7 +31,7 @@ impl Bench {
         text(&output.stdout)
     }
 
-    /// What `--json` reports of what must succeed.
+    /// The JSON report of a run that must succeed.
     #[track_caller]
     pub fn reported(&self, arguments: &str) -> Value {
         serde_json::from_str(&self.said(&format!("{arguments} --json"))).unwrap()
@@ -70,7 +70,7 @@ impl Bench {
         text(&self.bytes(name))
     }
 
-    /// What is in a folder, hidden files too.
+    /// The names of all files in a folder, hidden ones too.
     pub fn names(&self, folder: &str) -> Vec<String> {
         let entries = fs::read_dir(self.path(folder)).unwrap();
         let mut names: Vec<_> = entries.map(|e| e.unwrap().file_name().into_string().unwrap()).collect();

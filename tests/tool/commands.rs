@@ -120,7 +120,7 @@ fn blocks(text: &str) -> Vec<(&str, &str)> {
     fenced.filter_map(|block| block.split_once('\n')).collect()
 }
 
-/// What a text says to run.
+/// The commands in the blocks of a text.
 #[test]
 fn commands_of_the_documentation_run() {
     let mut run = 0;
@@ -180,7 +180,7 @@ fn exists(folder: &str, name: &str) -> bool {
     [format!("{name}.rs"), format!("{name}/main.rs")].iter().any(|file| root().join(folder).join(file).is_file())
 }
 
-/// What a text names in passing.
+/// The names in the sentences of a text.
 #[test]
 fn examples_and_options_that_the_documentation_names_exist() {
     let help = Help::new();

@@ -19,7 +19,8 @@ use asperity::io::read_field;
 use rand::rngs::ChaCha8Rng;
 use rand::{RngExt, SeedableRng};
 
-/// What the reader may allocate at once: what it returns, its buffers, the windows of the decompression, and an error.
+/// The bytes that the reader may allocate at once: its result, its buffers, the windows of the decompression, and an
+/// error.
 fn allowed(bytes: usize, values: usize) -> u64 {
     // room is made, if not used, for the most entries that a zip file can claim, 2¹⁶ of 216 bytes;
     // twice for an array in Fortran's order, and half as much again for how the vector of a text grows
@@ -33,7 +34,7 @@ fn corpus() -> Vec<(String, Vec<u8>)> {
     paths.iter().map(|path| (path.file_name().unwrap().to_string_lossy().into(), fs::read(path).unwrap())).collect()
 }
 
-/// What numbers in headers are replaced by.
+/// The replacements of numbers in headers.
 const NUMBERS: [&str; 14] = [
     "0",
     "1",
@@ -51,7 +52,7 @@ const NUMBERS: [&str; 14] = [
     "-0.0",
 ];
 
-/// What is put into headers and texts.
+/// The insertions into headers and texts.
 const PIECES: [&str; 29] = [
     "'descr': '<f8'",
     "'shape': (",

@@ -13,8 +13,8 @@ fn corpus(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/corpus").join(name)
 }
 
-/// What an instrument gives: 61 x 45 points on 3.05 by 2.25 µm, rough, tilted, bent, with a hole, a lost line and lost
-/// points.
+/// A map as an instrument gives it: 61 x 45 points on 3.05 by 2.25 µm, rough, tilted, bent, with a hole, a lost line
+/// and lost points.
 fn measured() -> Topography {
     let grid = Grid::new((61, 45), (3.05e-6, 2.25e-6)).unwrap();
     let amplitude = Amplitude::RmsHeight(20e-9);

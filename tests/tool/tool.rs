@@ -59,7 +59,7 @@ impl Bench {
         read_field(&self.0.path().join(out).join(name)).unwrap()
     }
 
-    /// What is in a folder, hidden files too.
+    /// The names of all files in a folder, hidden ones too.
     fn names(&self, folder: &str) -> Vec<String> {
         let entries = fs::read_dir(self.0.path().join(folder)).unwrap();
         let mut names: Vec<_> = entries.map(|e| e.unwrap().file_name().into_string().unwrap()).collect();

@@ -30,8 +30,8 @@ use crate::warnings::{Strictness, Warnings};
 /// Writes gap.npy, pressure.npy (the full elastic pressure, compression positive) and contact_pressure.npy (its
 /// repulsive part), or files as --format says, report.json, contact.png, pressure.png, and scene.toml, which repeats
 /// the run, all or none. Exits with 0 if converged, 2 if not (the fields are written all the same), and 1 if the input
-/// is refused or the files cannot be written (then there are none). What is probably a mistake, as a tilt, is said on
-/// a line each and in the report; --strict refuses it.
+/// is refused or the files cannot be written (then there are none). Probable mistakes, as a tilt, are said on a line
+/// each and in the report; --strict refuses them.
 #[derive(Args)]
 #[command(after_help = EXAMPLES, group(ArgGroup::new("load").required(true).args(["mean_gap", "mean_pressure"])))]
 pub struct Options {

@@ -196,7 +196,7 @@ fn the_shortest_wave_of_an_even_grid_is_a_cosine() {
     for (i, h) in refined.heights.iter().enumerate() {
         assert_relative_eq!(*h, (3.0 * TAU * i as f64 / 17.0).cos(), epsilon = 1e-14);
     }
-    // coarser: nothing is left of what is too short, and of the shortest wave what the nodes can show
+    // coarser: a wave that is too short for the nodes vanishes, and the shortest one that they resolve is sampled
     let coarse = alternating.resample((3, 1)).unwrap();
     assert!(coarse.heights.iter().all(|h| h.abs() < 1e-15));
     let wave = map((12, 1), (1.0, 1.0), |i, _| (3.0 * TAU * i / 12.0 + 0.5).cos());

@@ -14,7 +14,7 @@ pub enum Trend {
     Quadric,
 }
 
-/// The least-squares fit of a [`Trend`], about the centre of the map; 0 what it does not have.
+/// The least-squares fit of a [`Trend`], about the centre of the map; terms that the trend does not have are 0.
 ///
 /// Slopes and curvatures are in terms of the side lengths; if those are unknown, of spacings.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -9,7 +9,7 @@ use proptest::prelude::*;
 
 use crate::common::dense::{Dense, mean_product};
 
-/// What is solved: a surface, and an exponential law that leaves the problem convex, or none.
+/// The scene to solve: a surface, and an exponential law that leaves the problem convex, or none.
 #[derive(Clone, Debug)]
 struct Scene {
     heights: Array2<f64>,

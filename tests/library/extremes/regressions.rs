@@ -1,4 +1,4 @@
-//! What once went wrong, by name.
+//! Regressions, by name.
 
 use std::ops::ControlFlow;
 
