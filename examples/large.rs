@@ -30,9 +30,9 @@ fn main() -> Outcome {
 }
 
 /// The law of a surface with the given rms height, the rms slope being one.
-fn exponential<T: Real>(rms_height: f64) -> asperity::Result<Exponential<T>> {
+fn exponential(rms_height: f64) -> asperity::Result<Exponential> {
     let range = 0.1 * rms_height;
-    Exponential::new(T::lit(0.1 * range), T::lit(range))
+    Exponential::new(0.1 * range, range)
 }
 
 fn run<T: Real, L: AdhesionLaw<T>>(size: usize, law: impl Fn(f64) -> asperity::Result<L>) -> Outcome {

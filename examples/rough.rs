@@ -178,13 +178,7 @@ fn sweep(surface: &Surface, work: f64, failures: &mut usize) -> Outcome<Curve> {
 }
 
 /// Prints the row of a solve, and counts it if it has not converged.
-fn tell(
-    name: &str,
-    grid: &Grid,
-    solution: &Solution<f64>,
-    law: &Exponential<f64>,
-    failures: &mut usize,
-) -> Outcome<Point> {
+fn tell(name: &str, grid: &Grid, solution: &Solution<f64>, law: &Exponential, failures: &mut usize) -> Outcome<Point> {
     let (report, found) = (&solution.report, ContactStatistics::of(solution, grid, law)?);
     *failures += usize::from(report.status != Status::Converged);
     println!(
@@ -212,7 +206,7 @@ fn tell(
 /// The solution with adhesion whose mean contact pressure is the load, by the secant method over external pressures.
 fn at_contact_pressure(
     surface: &Surface,
-    law: Exponential<f64>,
+    law: Exponential,
     curve: &Curve,
     failures: &mut usize,
 ) -> Outcome<Solution<f64>> {
@@ -281,16 +275,9 @@ fn figure5(out: &Path, surface: &Surface) -> Outcome<()> {
 }
 
 /// Figures 6 and 7 of one solution.
-fn maps(
-    out: &Path,
-    file: &str,
-    title: &str,
-    grid: Grid,
-    solution: &Solution<f64>,
-    law: &Exponential<f64>,
-) -> Outcome<()> {
+fn maps(out: &Path, file: &str, title: &str, grid: Grid, solution: &Solution<f64>, law: &Exponential) -> Outcome<()> {
     let report = &solution.report;
-    let adhesion = if law.is_zero() {
+    let adhesion = if law.work_of_adhesion() == 0.0 {
         String::new()
     } else {
         format!("w = {:e} E*L, range {:e} L, ", law.work_of_adhesion(), law.range())
@@ -298,7 +285,7 @@ fn maps(
     let loads =
         format!("external pressure {:.4} E*, contact {:.4} E*", report.mean_pressure, report.mean_contact_pressure);
     // without adhesion, what there is outside of the contact is only what remains of the error
-    let pressure = if law.is_zero() { &solution.contact_pressure } else { &solution.pressure };
+    let pressure = if law.work_of_adhesion() == 0.0 { &solution.contact_pressure } else { &solution.pressure };
     let map = Map {
         title: &format!("Figure 6: {title}"),
         caption: &loads,
@@ -315,7 +302,7 @@ fn maps(
         // in this order, so that the mean of neighbours in contact and attraction is not taken for apart
         if touches {
             2.0
-        } else if !law.is_zero() && law.traction(gap) > least {
+        } else if law.work_of_adhesion() > 0.0 && law.traction(gap) > least {
             1.0
         } else {
             0.0

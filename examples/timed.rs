@@ -89,19 +89,15 @@ fn time<T: Real>(heights: Array2<f64>, options: &Options) -> Outcome<()> {
     }
     let surface = Surface::new(grid, heights)?;
     match (options.number("work")?, options.number("range")?) {
-        (Some(work), Some(range)) => {
-            let single = Exponential::new(work as f32, range as f32)?;
-            solve::<T, _, _>(&surface, Exponential::new(T::lit(work), T::lit(range))?, single, options)
-        }
-        (None, None) => solve::<T, _, _>(&surface, NoAdhesion, NoAdhesion, options),
+        (Some(work), Some(range)) => solve::<T, _>(&surface, Exponential::new(work, range)?, options),
+        (None, None) => solve::<T, _>(&surface, NoAdhesion, options),
         _ => Err("work and range must both be given, or neither".into()),
     }
 }
 
-fn solve<T: Real, L: AdhesionLaw<T> + Clone, S: AdhesionLaw<f32> + Clone>(
+fn solve<T: Real, L: AdhesionLaw<T> + AdhesionLaw<f32> + Copy>(
     surface: &Surface,
     law: L,
-    single: S,
     options: &Options,
 ) -> Outcome<()> {
     let control = match (options.number("pressure")?, options.number("gap")?) {
@@ -115,18 +111,16 @@ fn solve<T: Real, L: AdhesionLaw<T> + Clone, S: AdhesionLaw<f32> + Clone>(
         forget_peak();
         let begin = Instant::now();
         let (solution, seconds) = match options.text("method").unwrap_or("single") {
-            "single" => run::<T, L>(surface, law.clone(), control, settings, None)?,
-            "nested" => nested::<T, L>(surface, law.clone(), control, settings)?,
+            "single" => run::<T, L>(surface, law, control, settings, None)?,
+            "nested" => nested::<T, L>(surface, law, control, settings)?,
             // what single precision reaches is then all that is wanted
-            "mixed" if T::NAME == "f32" || tolerance >= SINGLE => {
-                nested::<T, L>(surface, law.clone(), control, settings)?
-            }
+            "mixed" if T::NAME == "f32" || tolerance >= SINGLE => nested::<T, L>(surface, law, control, settings)?,
             "mixed" => {
                 let settings_single = Settings { tolerance: SINGLE, ..settings };
-                let (near, seconds) = nested::<f32, S>(surface, single.clone(), control, settings_single)?;
+                let (near, seconds) = nested::<f32, L>(surface, law, control, settings_single)?;
                 let gap = near.gap.mapv(|g| T::lit(g.widen()));
                 drop(near);
-                let (solution, more) = run::<T, L>(surface, law.clone(), control, settings, Some(gap))?;
+                let (solution, more) = run::<T, L>(surface, law, control, settings, Some(gap))?;
                 (solution, seconds + more)
             }
             other => return Err(format!("method={other}: single, nested or mixed").into()),

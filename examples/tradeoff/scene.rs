@@ -157,7 +157,7 @@ impl Scene {
     pub fn law<T: Real>(&self) -> Outcome<Box<dyn AdhesionLaw<T>>> {
         Ok(match self.adhesion {
             None => Box::new(NoAdhesion),
-            Some((work, range)) => Box::new(Exponential::new(T::lit(work), T::lit(range))?),
+            Some((work, range)) => Box::new(Exponential::new(work, range)?),
         })
     }
 

@@ -46,11 +46,11 @@ fn assert_solved<T: Real>(report: &Report, what: &str) {
 }
 
 fn exponential<T: Real>(w: f64, range: f64) -> Boxed<T> {
-    Box::new(Exponential::new(T::lit(w), T::lit(range)).unwrap())
+    Box::new(Exponential::new(w, range).unwrap())
 }
 
 fn maugis_dugdale<T: Real>(w: f64, range: f64) -> Boxed<T> {
-    Box::new(MaugisDugdale::new(T::lit(w), T::lit(range)).unwrap())
+    Box::new(MaugisDugdale::new(w, range).unwrap())
 }
 
 fn bare<T: Real>() -> Boxed<T> {
@@ -226,7 +226,7 @@ fn scaled<T: Real>(length: f64, height: f64, modulus: f64, offset: f64) -> Resul
     };
     let surface = Surface::new(grid, Array2::from_shape_fn((32, 32), |(i, j)| wave(i, j)))?;
     let pressure = modulus * height / length;
-    let law = Exponential::new(T::lit(0.02 * pressure * height), T::lit(0.2 * height))?;
+    let law = Exponential::new(0.02 * pressure * height, 0.2 * height)?;
     let mut problem = Problem::new(&surface, Westergaard::<T>::new(grid, modulus)?, law)?;
     let settings = Settings { tolerance: 1e-4, ..Settings::default() };
     let solution = Solver::new(settings).solve(&mut problem, Control::MeanPressure(0.8 * pressure))?;

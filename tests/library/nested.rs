@@ -19,7 +19,7 @@ fn none<T: Real>() -> Law<T> {
 
 /// Resolved on 128² nodes.
 fn exponential<T: Real>() -> Law<T> {
-    Box::new(Exponential::new(T::lit(1.42e-4), T::lit(2.9e-3)).unwrap())
+    Box::new(Exponential::new(1.42e-4, 2.9e-3).unwrap())
 }
 
 fn solve<T: Real>(surface: &Surface, law: Law<T>, control: Control, tolerance: f64) -> NestedSolution<T> {

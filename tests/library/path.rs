@@ -6,7 +6,7 @@ use asperity::*;
 /// One wave of a line, with Johnson's α = 0.2.
 const AMPLITUDE: f64 = 0.02;
 
-fn wave(n: usize, range: f64) -> Problem<f64, Westergaard<f64>, Exponential<f64>> {
+fn wave(n: usize, range: f64) -> Problem<f64, Westergaard<f64>, Exponential> {
     let grid = Grid::line(n, 1.0).unwrap();
     let surface = Surface::wave(grid, AMPLITUDE, 1).unwrap();
     let law = Exponential::new(0.5 * (0.2 * std::f64::consts::PI * AMPLITUDE).powi(2), range).unwrap();
@@ -147,7 +147,7 @@ fn stability_is_lost_at_a_limit_point() {
 }
 
 /// Two equal waves, or nearly so.
-fn two_waves(n: usize, asymmetry: f64) -> Problem<f64, Westergaard<f64>, Exponential<f64>> {
+fn two_waves(n: usize, asymmetry: f64) -> Problem<f64, Westergaard<f64>, Exponential> {
     let grid = Grid::line(n, 1.0).unwrap();
     let turn = 2.0 * std::f64::consts::PI;
     let height = |x: f64, _| 0.01 * ((2.0 * turn * x).cos() + asymmetry * (turn * x).cos());

@@ -401,7 +401,7 @@ fn a_solve_needs_seven_fields() {
 }
 
 /// An exponential law whose work of adhesion is a share of its own at each node.
-struct ByNode(Exponential<f64>, Vec<f64>);
+struct ByNode(Exponential, Vec<f64>);
 
 impl ByNode {
     fn scale(&self, first: usize, values: &mut [f64]) {

@@ -8,7 +8,7 @@ use ndarray::Array2;
 
 const TIGHT: StabilityTest = StabilityTest { tolerance: 1e-6, max_iterations: 500, bound: true };
 
-fn flat<T: Real>(shape: (usize, usize), law: Exponential<T>) -> Problem<T, Westergaard<T>, Exponential<T>> {
+fn flat<T: Real>(shape: (usize, usize), law: Exponential) -> Problem<T, Westergaard<T>, Exponential> {
     let grid = Grid::new(shape, (1.0, if shape.1 == 1 { 1.0 } else { 0.7 })).unwrap();
     let surface = Surface::from_fn(grid, |_, _| 0.0).unwrap();
     Problem::new(&surface, Westergaard::new(grid, 2.0).unwrap(), law).unwrap()
@@ -18,7 +18,7 @@ fn flat<T: Real>(shape: (usize, usize), law: Exponential<T>) -> Problem<T, Weste
 fn flats_at_a_uniform_gap() {
     let (w, range) = (1e-3, 1e-2);
     for shape in [(32, 32), (21, 10), (64, 1), (2, 1)] {
-        let mut problem = flat(shape, Exponential::new(w, range).unwrap());
+        let mut problem = flat::<f64>(shape, Exponential::new(w, range).unwrap());
         let softest = 2.0 * PI; // πE*/L
         let critical = range * (w / (softest * range * range)).ln();
         for offset in [-0.3, -1e-3, -1e-6, 1e-6, 1e-3, 0.3, 10.0] {
@@ -45,7 +45,7 @@ fn flats_at_a_uniform_gap() {
 
 /// How many eigenvalues of the second derivative are below a number: the negative pivots of the dense matrix.
 fn below(
-    problem: &mut Problem<f64, Westergaard<f64>, Exponential<f64>>,
+    problem: &mut Problem<f64, Westergaard<f64>, Exponential>,
     gap: &Array2<f64>,
     centred: bool,
     number: f64,

@@ -25,8 +25,8 @@ impl Law {
     fn boxed<T: Real>(self) -> Box<dyn AdhesionLaw<T>> {
         match self {
             Self::None => Box::new(NoAdhesion),
-            Self::Exponential(w, rho) => Box::new(Exponential::new(T::lit(w), T::lit(rho)).unwrap()),
-            Self::MaugisDugdale(w, rho) => Box::new(MaugisDugdale::new(T::lit(w), T::lit(rho)).unwrap()),
+            Self::Exponential(w, rho) => Box::new(Exponential::new(w, rho).unwrap()),
+            Self::MaugisDugdale(w, rho) => Box::new(MaugisDugdale::new(w, rho).unwrap()),
         }
     }
 }
@@ -152,8 +152,8 @@ impl Scene {
     fn with_precision<T: Real>(&self) -> Result<Report, String> {
         match self.constraint {
             Constraint::Projection => self.with::<T, _>(Projection),
-            Constraint::Penalty(k) => self.with(Penalty::new(T::lit(k)).map_err(|e| e.to_string())?),
-            Constraint::Uzawa(k) => self.with(Uzawa::new(T::lit(k)).map_err(|e| e.to_string())?),
+            Constraint::Penalty(k) => self.with::<T, _>(Penalty::new(k).map_err(|e| e.to_string())?),
+            Constraint::Uzawa(k) => self.with::<T, _>(Uzawa::new(k).map_err(|e| e.to_string())?),
         }
     }
 

@@ -114,8 +114,7 @@ impl AdhesionOptions {
 
     /// The law; its parameters are there after [`Self::check`].
     pub fn law<T: Real>(&self) -> asperity::Result<Box<dyn AdhesionLaw<T>>> {
-        let parameter = |value: Option<f64>| T::lit(value.unwrap_or_default());
-        let (work, range) = (parameter(self.work_of_adhesion), parameter(self.range));
+        let (work, range) = (self.work_of_adhesion.unwrap_or_default(), self.range.unwrap_or_default());
         Ok(match self.law {
             Law::None => Box::new(NoAdhesion),
             Law::MaugisDugdale => Box::new(MaugisDugdale::new(work, range)?),

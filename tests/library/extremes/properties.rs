@@ -42,7 +42,7 @@ impl Scene {
         // half of what the softest wave resists
         let w = if self.adhesive { 0.5 * dense.softest * range * range } else { 0.0 };
         let law: Box<dyn AdhesionLaw<T>> = match self.adhesive {
-            true => Box::new(Exponential::new(T::lit(w), T::lit(range)).unwrap()),
+            true => Box::new(Exponential::new(w, range).unwrap()),
             false => Box::new(NoAdhesion),
         };
         let operator = Westergaard::<T>::new(grid, self.modulus).unwrap();

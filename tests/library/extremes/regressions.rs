@@ -85,8 +85,8 @@ fn a_single_node_lands_from_far_away<T: Real>() {
 
 /// Gaps of both signs may have no mean to be scaled by; and under a tension that nothing holds the surfaces part.
 fn springs_and_multipliers_keep_a_mean_gap_of_zero<T: Real>() {
-    springs::<T, _>(Penalty::new(T::lit(5000.0)).unwrap());
-    springs::<T, _>(Uzawa::new(T::lit(200.0)).unwrap());
+    springs::<T, _>(Penalty::new(5000.0).unwrap());
+    springs::<T, _>(Uzawa::new(200.0).unwrap());
 }
 
 fn springs<T: Real, C: ContactConstraint<T>>(constraint: C) {
