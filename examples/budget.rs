@@ -3,11 +3,12 @@
 //! `RAYON_NUM_THREADS=1 cargo run --release --example budget -- [size [case]]`; 1024 if nothing is given, and of a case a part of
 //! its name.
 
+use std::ops::ControlFlow;
 use std::time::Instant;
 
 use asperity::{
     AdhesionLaw, Amplitude, Control, ElasticOperator, Exponential, Grid, NoAdhesion, Preconditioned, Problem, Real,
-    Result, SelfAffine, Settings, Solver, Surface, Westergaard,
+    Result, SelfAffine, Settings, Solver, Start, Surface, Westergaard,
 };
 use ndarray::{ArrayView2, ArrayViewMut2};
 
@@ -111,7 +112,8 @@ fn measure<L: AdhesionLaw<f64> + AdhesionLaw<f32> + Copy>(
         let near = solver.solve(&mut problem_single, control)?;
         iterations[1] = near.report.iterations as f64;
         let first = begin.elapsed().as_secs_f64();
-        Solver::default().solve_near(&mut problem, control, near.gap.mapv(f64::from))?;
+        let near = Start::Near(near.gap.mapv(f64::from));
+        Solver::default().solve_with(&mut problem, control, near, |_| ControlFlow::Continue(()))?;
         let both = begin.elapsed().as_secs_f64();
         let found = [whole, 100.0 * share, (double / iterations[0]) / (first / iterations[1]), whole / both];
         figures.iter_mut().zip(found).for_each(|(figures, found)| figures.push(found));

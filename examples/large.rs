@@ -11,7 +11,8 @@ use std::ops::ControlFlow;
 use std::time::Instant;
 
 use asperity::{
-    AdhesionLaw, Amplitude, Control, Exponential, Grid, NoAdhesion, Problem, Real, SelfAffine, Solver, Westergaard,
+    AdhesionLaw, Amplitude, Control, Exponential, Grid, NoAdhesion, Problem, Real, SelfAffine, Solver, Start,
+    Westergaard,
 };
 
 type Outcome = Result<(), Box<dyn std::error::Error>>;
@@ -49,7 +50,7 @@ fn run<T: Real, L: AdhesionLaw<T>>(size: usize, law: impl Fn(f64) -> asperity::R
     let tolerance = if T::NAME == "f32" { 1e-4 } else { 1e-6 };
     let mut solver = Solver::default();
     solver.settings.tolerance = tolerance;
-    let solution = solver.solve_from(&mut problem, Control::MeanPressure(0.02), None, |state| {
+    let solution = solver.solve_with(&mut problem, Control::MeanPressure(0.02), Start::Default, |state| {
         let (seconds, error) = (clock.elapsed().as_secs_f64(), state.relative_error);
         eprintln!("iteration {:3}: {error:.1e} after {seconds:.1} s", state.iteration);
         ControlFlow::Continue(())

@@ -25,7 +25,7 @@ use std::path::{Path, PathBuf};
 use arguments::size_and_out;
 use asperity::{
     AdhesionLaw, Amplitude, Colouring, ContactStatistics, Control, Exponential, Grid, Map, Problem, SelfAffine,
-    Solution, Solver, Status, Surface, Sweep, Westergaard,
+    Solution, Solver, Start, Status, Surface, Sweep, Westergaard,
 };
 use legend::legend;
 use ndarray::{Array2, Zip};
@@ -219,7 +219,7 @@ fn at_contact_pressure(
         let load = last.0 + (goal - last.1) * (last.0 - before.0) / (last.1 - before.1);
         let control = Control::MeanPressure(load * SLOPE);
         let solution =
-            Solver::default().solve_from(&mut problem, control, Some(gap.view()), |_| ControlFlow::Continue(()))?;
+            Solver::default().solve_with(&mut problem, control, Start::From(&gap), |_| ControlFlow::Continue(()))?;
         (before, last) = (last, (load, solution.report.mean_contact_pressure / SLOPE));
         if (last.1 / goal - 1.0).abs() < 1e-5 {
             tell("same ⟨λ⟩", surface.grid(), &solution, &law, failures)?;
@@ -244,9 +244,10 @@ fn papers_own(out: &Path, surface: &Surface, failures: &mut usize) -> Outcome<()
         let (grid, shape) = (*surface.grid(), surface.grid().shape());
         let mut problem = Problem::new(surface, Westergaard::<f64>::new(grid, 1.0)?, law)?;
         let apart = Array2::from_elem(shape, 5.0 * surface.rms_height());
-        for (name, start) in [("from full contact", None), ("from far apart", Some(apart.view()))] {
+        for (name, start) in [("from full contact", None), ("from far apart", Some(&apart))] {
             let control = Control::MeanPressure(LOAD);
-            let solution = Solver::default().solve_from(&mut problem, control, start, |_| ControlFlow::Continue(()))?;
+            let given = start.map_or(Start::Default, |gap| Start::From(gap));
+            let solution = Solver::default().solve_with(&mut problem, control, given, |_| ControlFlow::Continue(()))?;
             tell(name, &grid, &solution, &law, failures)?;
             if shape.0 == size && start.is_some() {
                 maps(out, "papers-own", "Not resolved: the paper's adhesion", grid, &solution, &law)?;

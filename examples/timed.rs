@@ -19,13 +19,14 @@ mod memory;
 use std::collections::HashMap;
 use std::error::Error;
 use std::fs;
+use std::ops::ControlFlow;
 use std::path::Path;
 use std::time::Instant;
 
 use asperity::io::{read_field, write_npy};
 use asperity::{
     AdhesionLaw, Control, ElasticOperator, Exponential, Grid, Nested, NoAdhesion, Problem, Real, Settings, Solution,
-    Solver, Surface, Westergaard,
+    Solver, Start, Surface, Westergaard,
 };
 use ndarray::Array2;
 use serde_json::json;
@@ -158,10 +159,8 @@ fn run<T: Real, L: AdhesionLaw<T>>(
     let mut problem = Problem::new(surface, half_space, law)?;
     let begin = Instant::now();
     let mut solver = Solver::new(settings);
-    let solution = match near {
-        None => solver.solve(&mut problem, control)?,
-        Some(gap) => solver.solve_near(&mut problem, control, gap)?,
-    };
+    let start = near.map_or(Start::Default, Start::Near);
+    let solution = solver.solve_with(&mut problem, control, start, |_| ControlFlow::Continue(()))?;
     Ok((solution, begin.elapsed().as_secs_f64()))
 }
 

@@ -155,7 +155,7 @@ pub use path::{Event, Jump, Path, PathCheckpoint, PathSettings, PathStep};
 pub use picture::{Chart, Colouring, Map};
 pub use problem::{Control, Problem};
 pub use real::Real;
-pub use solver::{Criterion, Iteration, Method, Report, Settings, Solution, Solver, Status};
+pub use solver::{Criterion, Iteration, Method, Report, Settings, Solution, Solver, Start, Status};
 pub use stability::{Departure, Stability, StabilityTest, Verdict};
 pub use surface::{Amplitude, Fit, Psd, SelfAffine, Spectrum, Surface, SurfaceStatistics, Topography, Trend};
 pub use sweep::Sweep;

@@ -2,14 +2,14 @@
 
 use std::ops::ControlFlow;
 
-use ndarray::{Array2, CowArray};
+use ndarray::Array2;
 
 use crate::adhesion::AdhesionLaw;
 use crate::elastic::ElasticOperator;
 use crate::error::{Error, Result};
 use crate::problem::{Control, Parts, Problem, smoothed_law};
 use crate::real::Real;
-use crate::solver::{Iteration, Solution, Solver, Status};
+use crate::solver::{Iteration, Solution, Solver, Start, Status};
 use crate::stability::Watch;
 
 mod event;
@@ -288,11 +288,11 @@ where
         Ok(self)
     }
 
-    /// The next state, as [`Iterator::next`], with an observer of the iterations, as in [`Solver::solve_from`]. If it
+    /// The next state, as [`Iterator::next`], with an observer of the iterations, as in [`Solver::solve_with`]. If it
     /// stops a solve, the path ends with the state before.
     ///
     /// # Errors
-    /// Those of [`Solver::solve_from`]; after one the path ends.
+    /// Those of [`Solver::solve_with`]; after one the path ends.
     pub fn next_observed(
         &mut self,
         mut observe: impl FnMut(&Iteration) -> ControlFlow<()>,
@@ -375,7 +375,8 @@ where
         let Parts { operator, law, flat } = self.problem.parts();
         let smoothed = if self.settings.smooth && start.is_some() { smoothed_law(&*operator, law) } else { None };
         let parts = Parts { operator, law: smoothed.as_deref().unwrap_or(law), flat };
-        self.solver.run(parts, control, start.map(CowArray::from), false, observe)
+        let start = start.map_or(Start::Default, |gap| Start::From(gap));
+        self.solver.run(parts, control, start, observe)
     }
 
     /// One step; `None` if it has to be taken back and halved.

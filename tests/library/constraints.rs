@@ -158,7 +158,7 @@ fn an_exponential_evaluated_at_negative_gaps_diverges_and_is_not_called_converge
     let (near, _) = with(&mut problem, springs, control, 1e-7);
     let mut solver = Solver { settings: Settings::default(), constraint: Outrun(springs, law) };
     let held = solver
-        .solve_from(&mut problem, control, Some(near.gap.view()), |_| std::ops::ControlFlow::Continue(()))
+        .solve_with(&mut problem, control, Start::From(&near.gap), |_| std::ops::ControlFlow::Continue(()))
         .unwrap();
     assert_eq!(held.report.status, Status::Converged);
     assert_relative_eq!(held.report.mean_pressure, near.report.mean_pressure, max_relative = 1e-2);
@@ -191,7 +191,7 @@ fn no_law_is_asked_for_a_negative_gap() {
     // nor where a start interpenetrates
     let mut solver = Solver { settings: Settings::default(), constraint: Penalty::new(300.0).unwrap() };
     let again = solver
-        .solve_from(&mut problem, control, Some(found.gap.view()), |_| std::ops::ControlFlow::Continue(()))
+        .solve_with(&mut problem, control, Start::From(&found.gap), |_| std::ops::ControlFlow::Continue(()))
         .unwrap();
     assert_eq!(again.report.status, Status::Converged);
 }

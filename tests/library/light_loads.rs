@@ -39,7 +39,7 @@ fn seen_in_f64(heights: &Array2<f64>, gap: &Array2<f64>) -> f64 {
     let mut solver = Solver::new(Settings { max_iterations: 0, tolerance: 1e-30, ..Settings::default() });
     let go_on = |_: &Iteration| ControlFlow::Continue(());
     let as_it_is = Control::MeanGap(gap.mean().unwrap());
-    solver.solve_from(&mut problem, as_it_is, Some(gap.view()), go_on).unwrap().report.relative_error
+    solver.solve_with(&mut problem, as_it_is, Start::From(gap), go_on).unwrap().report.relative_error
 }
 
 #[test]

@@ -94,7 +94,7 @@ fn certified(n: usize, gap: &Array2<f64>) -> f64 {
     let mut solver = Solver::new(Settings { max_iterations: 0, tolerance: 1e-30, ..Settings::default() });
     let go_on = |_: &Iteration| std::ops::ControlFlow::Continue(());
     let control = Control::MeanGap(gap.mean().unwrap());
-    solver.solve_from(&mut problem, control, Some(gap.view()), go_on).unwrap().report.relative_error
+    solver.solve_with(&mut problem, control, Start::From(gap), go_on).unwrap().report.relative_error
 }
 
 #[test]

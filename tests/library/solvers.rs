@@ -166,7 +166,7 @@ fn adhesion_raises_the_contact_and_satisfies_the_envelope_theorem() {
     // de/dg = −p, by central differences that stay on the branch
     let step = 1e-7;
     let mut energy = |gap: f64| {
-        let report = solve_from(&mut problem, Control::MeanGap(gap), 1e-10, Some(stuck.gap.view())).report;
+        let report = solve_from(&mut problem, Control::MeanGap(gap), 1e-10, Some(&stuck.gap)).report;
         report.elastic_energy + report.adhesive_energy
     };
     let slope = (energy(0.015 + step) - energy(0.015 - step)) / (2.0 * step);
@@ -238,7 +238,7 @@ fn a_warm_start_from_the_solution_is_the_solution() {
     for control in [Control::MeanGap(0.0429), Control::MeanPressure(-5e-4)] {
         let mut problem = sphere::<f64, _>(64, law);
         let first = solve(&mut problem, control, 1e-9);
-        let again = solve_from(&mut problem, control, 1e-8, Some(first.gap.view()));
+        let again = solve_from(&mut problem, control, 1e-8, Some(&first.gap));
         assert_eq!((first.report.status, again.report.status), (Status::Converged, Status::Converged));
         assert!(again.report.iterations <= 1);
         assert_eq!(first.report.contact_points, again.report.contact_points);
@@ -268,13 +268,24 @@ fn an_observer_can_stop_and_the_limit_is_kept() {
     let control = Control::MeanGap(0.0398);
     let mut seen = Vec::new();
     let stopped = Solver::default()
-        .solve_from(&mut problem, control, None, |iteration| {
+        .solve_with(&mut problem, control, Start::Default, |iteration| {
             seen.push(iteration.iteration);
             if iteration.iteration == 3 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         })
         .unwrap();
     assert_eq!((seen, stopped.report.status), (vec![0, 1, 2, 3], Status::Stopped));
     crate::common::check(&stopped, &NoAdhesion, control);
+    // from every start, and from a gap in any layout
+    let by_columns = stopped.gap.t().as_standard_layout().into_owned().reversed_axes();
+    assert!(!by_columns.is_standard_layout() && by_columns == stopped.gap);
+    for start in [Start::Default, Start::From(&by_columns), Start::Near(by_columns.clone())] {
+        let mut seen = 0;
+        let stopped = Solver::default().solve_with(&mut problem, control, start, |_| {
+            seen += 1;
+            if seen == 2 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        });
+        assert_eq!((seen, stopped.unwrap().report.status), (2, Status::Stopped));
+    }
     let ended = limited(5, 1e-6).solve(&mut problem, control).unwrap();
     assert_eq!((ended.report.status, ended.report.iterations), (Status::IterationLimit, 5));
     assert!(ended.report.relative_error > 1e-6);
@@ -285,9 +296,9 @@ fn impossible_inputs_are_refused_by_name() {
     let mut problem = sphere::<f64, _>(16, NoAdhesion);
     let mut refuse = |control, start: Option<Array2<f64>>, tolerance, text: &str| {
         let settings = Settings { tolerance, ..Settings::default() };
-        let start = start.as_ref().map(|s| s.view());
+        let start = start.as_ref().map_or(Start::Default, |s| Start::From(s));
         let error = Solver::new(settings)
-            .solve_from(&mut problem, control, start, |_| ControlFlow::Continue(()))
+            .solve_with(&mut problem, control, start, |_| ControlFlow::Continue(()))
             .unwrap_err()
             .to_string();
         assert!(error.contains(text), "{error}");

@@ -53,6 +53,10 @@ struct Scene {
     single: bool,
 }
 
+fn given<T>(start: &Option<Array2<T>>) -> Start<'_, T> {
+    start.as_ref().map_or(Start::Default, |start| Start::From(start))
+}
+
 impl Scene {
     fn new(seed: u64) -> Self {
         let mut random = ChaCha8Rng::seed_from_u64(seed);
@@ -166,7 +170,7 @@ impl Scene {
         let mut solver = Solver { settings: self.settings, constraint };
         let mut history = Vec::new();
         let solution = solver
-            .solve_from(&mut problem, self.control, start.as_ref().map(|s| s.view()), |iteration| {
+            .solve_with(&mut problem, self.control, given(&start), |iteration| {
                 history.push(*iteration);
                 ControlFlow::Continue(())
             })
@@ -182,7 +186,7 @@ impl Scene {
         let mut problem = Problem::new(&surface, Westergaard::<T>::new(grid, self.modulus)?, NoAdhesion)?;
         let start = self.start.as_ref().map(|start| start.mapv(T::lit));
         let go_on = |_: &Iteration| ControlFlow::Continue(());
-        Solver::new(self.settings).solve_from(&mut problem, self.control, start.as_ref().map(|s| s.view()), go_on)
+        Solver::new(self.settings).solve_with(&mut problem, self.control, given(&start), go_on)
     }
 
     /// The certified error of a gap as it is, in `f64`.

@@ -6,8 +6,8 @@ use std::time::Instant;
 
 use asperity::{
     AdhesionLaw, Colouring, ContactStatistics, Control, Departure, Error, Grid, Level, Map, Nested, NestedSolution,
-    NoAdhesion, Problem, Real, Report, Result, Settings, Solution, Solver, Stability, StabilityTest, Surface, Verdict,
-    Westergaard,
+    NoAdhesion, Problem, Real, Report, Result, Settings, Solution, Solver, Stability, StabilityTest, Start, Surface,
+    Verdict, Westergaard,
 };
 use ndarray::Array2;
 use ndarray_npy::WritableElement;
@@ -85,9 +85,9 @@ pub fn solve<T: Scalar, L: AdhesionLaw<T>>(
     let grid = *surface.grid();
     let mut problem = Problem::new(&surface, Westergaard::new(grid, case.modulus)?, law)?;
     drop(surface);
-    let start = start.as_ref().map(|start| start.view());
+    let start = start.as_ref().map_or(Start::Default, |start| Start::From(start));
     let mut solver = Solver::new(case.settings);
-    let mut solution = solver.solve_from(&mut problem, case.control, start, |state| {
+    let mut solution = solver.solve_with(&mut problem, case.control, start, |state| {
         progress.update(state);
         ControlFlow::Continue(())
     })?;

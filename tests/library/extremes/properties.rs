@@ -50,8 +50,8 @@ impl Scene {
         let start = start.map(|start| start.mapv(T::lit));
         let settings = Settings { tolerance, ..Settings::default() };
         let go_on = |_: &Iteration| std::ops::ControlFlow::Continue(());
-        let solution =
-            Solver::new(settings).solve_from(&mut problem, self.control, start.as_ref().map(|s| s.view()), go_on);
+        let start = start.as_ref().map_or(Start::Default, |start| Start::From(start));
+        let solution = Solver::new(settings).solve_with(&mut problem, self.control, start, go_on);
         let Solution { gap, pressure, report, .. } = solution.unwrap();
         // a contact so light that rounding of heights and gaps leaves more than the tolerance says nothing of symmetries
         let rounded = mean_product(&centred(&self.heights), &dense.pressure(&centred(&self.heights)))

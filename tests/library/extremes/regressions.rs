@@ -23,7 +23,8 @@ fn solve_from<T: Real, C: ContactConstraint<T>>(
     start: Option<&Array2<f64>>,
 ) -> Solution<T> {
     let start = start.map(|start| start.mapv(T::lit));
-    solver.solve_from(problem, control, start.as_ref().map(|s| s.view()), |_| ControlFlow::Continue(())).unwrap()
+    let start = start.as_ref().map_or(Start::Default, |start| Start::From(start));
+    solver.solve_with(problem, control, start, |_| ControlFlow::Continue(())).unwrap()
 }
 
 /// There are no waves in a plane but those of rounding, to which errors must not be related.
