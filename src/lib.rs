@@ -34,7 +34,8 @@
 //! assert!(pressed.report.relative_error < 1e-6); // a bound, not a wish
 //!
 //! let law = MaugisDugdale::new(1e-4, 2e-3)?; // work of adhesion, range
-//! let mut sticky = Problem::new(&sphere, Westergaard::<f64>::new(grid, 1.0)?, law)?;
+//! let (half_space, _) = hertz.into_parts();
+//! let mut sticky = Problem::new(&sphere, half_space, law)?;
 //! let stuck = Solver::default().solve(&mut sticky, Control::MeanGap(0.0398))?;
 //! assert!(stuck.report.contact_points > pressed.report.contact_points);
 //! # Ok::<(), asperity::Error>(())

@@ -173,7 +173,7 @@ impl<C> Nested<C> {
             let coarse = coarsen(surface, stride)?;
             let mut problem = Problem::new(&coarse, operator(*coarse.grid())?, law)?;
             if problem.resolution() > RESOLVED {
-                law = problem.law;
+                (_, law) = problem.into_parts();
                 continue;
             }
             let tolerance = self.coarse_tolerance.max(settings.tolerance);
@@ -195,8 +195,7 @@ impl<C> Nested<C> {
                 iterations: report.iterations,
                 operator_applications: report.operator_applications + 1,
             });
-            law = problem.law;
-            drop(problem.operator);
+            (_, law) = problem.into_parts();
             // a coarse grid that does not carry its load says nothing of a finer one
             if report.load_error < CARRIED {
                 let finer = finer(&strides, stride);

@@ -16,7 +16,7 @@ fn the_certificate_is_never_below_the_true_error() {
     let grid = Grid::new((60, 49), (1.0, 0.8)).unwrap();
     let surface = Surface::from_fn(grid, |x, y| 0.02 * (6.0 * x + 9.0 * y).sin() * (20.0 * y).cos() - x * x).unwrap();
     let mut operator = Westergaard::new(grid, 1.0).unwrap();
-    let mut problem = Problem::new(&surface, Westergaard::new(grid, 1.0).unwrap(), NoAdhesion).unwrap();
+    let mut problem = Problem::new(&surface, operator.clone(), NoAdhesion).unwrap();
     for control in [Control::MeanGap(0.03), Control::MeanGap(0.1), Control::MeanPressure(0.05)] {
         let mut sharpest = f64::INFINITY;
         for iterations in 0..24 {

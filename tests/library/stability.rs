@@ -50,8 +50,8 @@ fn below(
     centred: bool,
     number: f64,
 ) -> usize {
-    let (grid, law) = (*problem.grid(), *problem.law());
-    let mut operator = Westergaard::<f64>::new(grid, problem.operator().modulus()).unwrap();
+    let law = *problem.law();
+    let mut operator = problem.operator().clone();
     let free: Vec<_> = gap.indexed_iter().filter(|(_, g)| **g > 0.0).map(|(at, _)| at).collect();
     let mut rows: Vec<Vec<f64>> = Vec::new();
     for &at in &free {
@@ -149,7 +149,7 @@ fn a_mode_takes_about_twice_as_many_applications_as_the_solve() {
 fn the_certificate_bounds_the_error_of_a_stable_equilibrium() {
     let mut problem = rough::<f64, _>(64, 16, Exponential::new(4e-4, 4e-3).unwrap());
     let surface = crate::common::rough::rough(*problem.grid(), 16, 1);
-    let mut operator = Westergaard::new(*problem.grid(), 1.0).unwrap();
+    let mut operator = problem.operator().clone();
     let mut larger = 0;
     for control in [Control::MeanGap(0.012), Control::MeanGap(0.03)] {
         let Control::MeanGap(gap) = control else { unreachable!() };
