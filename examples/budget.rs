@@ -94,7 +94,7 @@ fn measure<L: AdhesionLaw<f64> + AdhesionLaw<f32> + Copy>(
     let half_space = Timed { half_space: Westergaard::<f64>::new(grid, 1.0)?, seconds: 0.0 };
     let mut problem = Problem::new(surface, half_space, law)?;
     let mut problem_single = Problem::new(surface, Westergaard::<f32>::new(grid, 1.0)?, law)?;
-    let loose = Settings { tolerance: 1e-4, ..Settings::default() };
+    let loose = Settings { tolerance: Some(1e-4), ..Settings::default() };
     let mut figures: [Vec<f64>; 4] = Default::default();
     for _ in 0..ROUNDS {
         let before = problem.operator().seconds;

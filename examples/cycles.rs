@@ -83,7 +83,7 @@ fn cycle<L: AdhesionLaw<f64>>(surface: &Surface, law: L, gaps: [f64; 2], setting
     let mut problem = Problem::new(surface, Westergaard::<f64>::new(*surface.grid(), 1.0)?, law)?;
     let resolution = problem.resolution();
     let [far, near] = gaps.map(Control::MeanGap);
-    let mut solver = Solver::new(Settings { tolerance: 1e-5, ..Settings::default() });
+    let mut solver = Solver::new(Settings { tolerance: Some(1e-5), ..Settings::default() });
     let mut cycle = Cycle {
         approach: Vec::new(),
         withdrawal: Vec::new(),

@@ -48,7 +48,7 @@ fn main() -> Result<()> {
 }
 
 fn settings(tolerance: f64) -> Settings {
-    Settings { tolerance, ..Settings::default() }
+    Settings { tolerance: Some(tolerance), ..Settings::default() }
 }
 
 fn table_1(sizes: &[usize]) -> Result<()> {

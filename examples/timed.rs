@@ -106,8 +106,8 @@ fn solve<T: Real, L: AdhesionLaw<T> + AdhesionLaw<f32> + Copy>(
         (None, Some(gap)) => Control::MeanGap(gap),
         _ => return Err("give one of pressure=P, gap=G and apply=N".into()),
     };
-    let tolerance = options.number("tolerance")?.unwrap_or(Settings::default().tolerance);
-    let settings = Settings { tolerance, ..Settings::default() };
+    let settings = Settings { tolerance: options.number("tolerance")?, ..Settings::default() };
+    let tolerance = settings.tolerance_in::<T>();
     for _ in 0..options.count("repeat")?.unwrap_or(1) {
         forget_peak();
         let begin = Instant::now();
@@ -117,7 +117,7 @@ fn solve<T: Real, L: AdhesionLaw<T> + AdhesionLaw<f32> + Copy>(
             // what single precision reaches is then all that is wanted
             "mixed" if T::NAME == "f32" || tolerance >= SINGLE => nested::<T, L>(surface, law, control, settings)?,
             "mixed" => {
-                let settings_single = Settings { tolerance: SINGLE, ..settings };
+                let settings_single = Settings { tolerance: Some(SINGLE), ..settings };
                 let (near, seconds) = nested::<f32, L>(surface, law, control, settings_single)?;
                 let gap = near.gap.mapv(|g| T::lit(g.widen()));
                 drop(near);

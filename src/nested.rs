@@ -176,8 +176,8 @@ impl<C> Nested<C> {
                 (_, law) = problem.into_parts();
                 continue;
             }
-            let tolerance = self.coarse_tolerance.max(settings.tolerance);
-            self.solver.settings = Settings { tolerance, ..settings };
+            let tolerance = self.coarse_tolerance.max(settings.tolerance_in::<T>());
+            self.solver.settings = Settings { tolerance: Some(tolerance), ..settings };
             let mut smoothed = false;
             let begin = start.take().map_or(Start::Default, Start::Near);
             let result = self.solver.solve_with(&mut problem, control, begin, |iteration| {

@@ -59,7 +59,7 @@ impl Method {
 /// ```
 /// use asperity::{Criterion, Settings};
 /// // the paper's iteration, held to the certified error
-/// let certified = Settings { criterion: Criterion::EnergyNorm, tolerance: 1e-6, ..Settings::rey2017() };
+/// let certified = Settings { criterion: Criterion::EnergyNorm, ..Settings::rey2017() };
 /// assert_eq!(certified.criterion, Settings::default().criterion);
 /// assert_eq!(certified.criterion.name(), "energy-norm");
 /// ```
@@ -89,13 +89,17 @@ impl Criterion {
 /// |---|---|---|---|
 /// | `method` | [`Method::Preconditioned`] | the iteration | |
 /// | `criterion` | [`Criterion::EnergyNorm`] | the measure that is compared with the tolerance | |
-/// | `tolerance` | 1e-6 | dimensionless; `f32` reaches about 1e-5 | positive |
+/// | `tolerance` | `None`: 1e-6 in `f64`, 1e-4 in `f32`; 1e-9 of [`Criterion::Orthogonality`] | dimensionless; see below | positive |
 /// | `max_iterations` | 2000 | the iterations after which a solve ends without having converged | any |
+///
+/// `None` is the default of the criterion in the precision of the solve: [`Settings::tolerance_in`] tells it, and
+/// [`Report::tolerance`] the one that a solve was held to. A tolerance below the [floor](crate::precision) of the
+/// precision ends as [`Status::Stalled`].
 ///
 /// ```
 /// use asperity::Settings;
-/// let loose = Settings { tolerance: 1e-3, ..Settings::default() };
-/// assert_eq!(loose.max_iterations, 2000);
+/// let loose = Settings { tolerance: Some(1e-3), ..Settings::default() };
+/// assert_eq!((loose.tolerance_in::<f32>(), loose.max_iterations), (1e-3, 2000));
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {
@@ -103,22 +107,39 @@ pub struct Settings {
     pub method: Method,
     /// The measure that is compared with the tolerance.
     pub criterion: Criterion,
-    /// The tolerance of the criterion, and under pressure control of the relative error of the load.
-    pub tolerance: f64,
+    /// The tolerance of the criterion, and under pressure control of the relative error of the load; `None` is the
+    /// default of the criterion and the precision, [`Settings::tolerance_in`].
+    pub tolerance: Option<f64>,
     /// The number of iterations after which the solve ends without having converged.
     pub max_iterations: usize,
 }
 
 impl Default for Settings {
     fn default() -> Self {
-        Self { method: Method::Preconditioned, criterion: Criterion::EnergyNorm, tolerance: 1e-6, max_iterations: 2000 }
+        Self { method: Method::Preconditioned, criterion: Criterion::EnergyNorm, tolerance: None, max_iterations: 2000 }
     }
 }
 
 impl Settings {
     /// The paper's Algorithm 3 with its own criterion, ε < 1e-9.
     pub fn rey2017() -> Self {
-        Self { method: Method::Rey2017, criterion: Criterion::Orthogonality, tolerance: 1e-9, max_iterations: 20_000 }
+        Self { method: Method::Rey2017, criterion: Criterion::Orthogonality, tolerance: None, max_iterations: 20_000 }
+    }
+
+    /// The tolerance that holds in a precision: the given one, or the default of the criterion.
+    ///
+    /// ```
+    /// use asperity::Settings;
+    /// let default = Settings::default();
+    /// assert_eq!((default.tolerance_in::<f64>(), default.tolerance_in::<f32>()), (1e-6, 1e-4));
+    /// assert_eq!(Settings::rey2017().tolerance_in::<f64>(), 1e-9);
+    /// ```
+    pub fn tolerance_in<T: Real>(&self) -> f64 {
+        self.tolerance.unwrap_or(match self.criterion {
+            Criterion::EnergyNorm if T::NAME == f32::NAME => 1e-4,
+            Criterion::EnergyNorm => 1e-6,
+            Criterion::Orthogonality => 1e-9,
+        })
     }
 }
 
@@ -144,7 +165,7 @@ impl Settings {
 /// let grid = Grid::line(256, 1.0)?;
 /// let surface = Surface::wave(grid, 0.02, 1)?;
 /// let mut problem = Problem::new(&surface, Westergaard::<f64>::new(grid, 1.0)?, NoAdhesion)?;
-/// let mut solver = Solver::new(Settings { tolerance: 1e-8, ..Settings::default() });
+/// let mut solver = Solver::new(Settings { tolerance: Some(1e-8), ..Settings::default() });
 /// let solution = solver.solve(&mut problem, Control::MeanPressure(0.03))?;
 /// assert_eq!(solution.report.status, Status::Converged);
 /// # Ok::<(), asperity::Error>(())

@@ -80,9 +80,9 @@ impl Choice {
     fn settings(&self, tolerance: f64) -> Settings {
         if self.rey2017 {
             let criterion = Settings::default().criterion;
-            Settings { tolerance, criterion, ..Settings::rey2017() }
+            Settings { tolerance: Some(tolerance), criterion, ..Settings::rey2017() }
         } else {
-            Settings { tolerance, ..Settings::default() }
+            Settings { tolerance: Some(tolerance), ..Settings::default() }
         }
     }
 }

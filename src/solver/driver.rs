@@ -56,7 +56,7 @@ impl<'a> Compiled for Solve<'a> {
 
 fn run<T: Real>(job: Job<'_, T>) -> Result<Solution<T>> {
     let Job { problem, constraint, control, settings, start, observe } = job;
-    Error::positive("tolerance", settings.tolerance)?;
+    Error::positive("tolerance", settings.tolerance_in::<T>())?;
     let Parts { operator, law, flat } = problem;
     let (default_start, near) = (matches!(start, Start::Default), matches!(start, Start::Near(_)));
     let smooth = (near || default_start) && settings.method == Method::Preconditioned;

@@ -168,6 +168,9 @@ pub struct Report {
     /// The measure that was compared with the tolerance. [`Criterion::Orthogonality`] bounds no error: a solve that
     /// has converged by it may have any [`relative_error`](Self::relative_error).
     pub criterion: Criterion,
+    /// The tolerance to which the solve was held, [`Settings::tolerance_in`](crate::Settings::tolerance_in) its
+    /// precision.
+    pub tolerance: f64,
 }
 
 /// The fields of a solved problem, each of shape (Nx, Ny), and the account of the solve.

@@ -82,7 +82,7 @@ impl Scene {
     /// By projection, and by Uzawa, which took so many rounds.
     pub fn solve<T: Real>(&self) -> (Solution<T>, Solution<T>, usize) {
         let mut problem = self.problem::<T>();
-        let settings = Settings { tolerance: self.tolerance, ..Settings::default() };
+        let settings = Settings { tolerance: Some(self.tolerance), ..Settings::default() };
         let projected = Solver::new(settings).solve(&mut problem, self.control).unwrap();
         let unit = if self.of_waves { problem.operator().stiffness_range().1 } else { 1.0 };
         let mut solver = Solver { settings, constraint: Uzawa::new(self.stiffness * unit).unwrap() };

@@ -16,7 +16,7 @@ fn with<T: Real, C: ContactConstraint<T>, L: AdhesionLaw<T>>(
     control: Control,
     tolerance: f64,
 ) -> (Solution<T>, C) {
-    let mut solver = Solver { settings: Settings { tolerance, ..Settings::default() }, constraint };
+    let mut solver = Solver { settings: Settings { tolerance: Some(tolerance), ..Settings::default() }, constraint };
     let solution = solver.solve(problem, control).unwrap();
     (solution, solver.constraint)
 }

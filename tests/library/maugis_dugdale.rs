@@ -20,7 +20,7 @@ fn errors(n: usize, (range, work, gap): (f64, f64, f64), start: Option<f64>) -> 
     let exact = Periodic::new(sphere, 1.0).unwrap().at_mean_gap(gap, surface.mean()).unwrap();
     let law = MaugisDugdale::new(work, range).unwrap();
     let mut problem = Problem::new(&surface, Westergaard::new(grid, 1.0).unwrap(), law).unwrap();
-    let mut solver = Solver::new(Settings { tolerance: 1e-7, ..Settings::default() });
+    let mut solver = Solver::new(Settings { tolerance: Some(1e-7), ..Settings::default() });
     let start = start.map(|gap| Array2::from_elem(grid.shape(), gap));
     let start = start.as_ref().map_or(Start::Default, |gap| Start::From(gap));
     let control = Control::MeanGap(gap);

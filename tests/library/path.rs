@@ -28,7 +28,7 @@ fn follow<L: AdhesionLaw<f64>>(
     settings: PathSettings,
     tolerance: f64,
 ) -> Vec<PathStep<f64>> {
-    let mut solver = Solver::new(Settings { tolerance, ..Settings::default() });
+    let mut solver = Solver::new(Settings { tolerance: Some(tolerance), ..Settings::default() });
     let path = Path::new(&mut solver, problem, loads, settings).unwrap();
     let steps: Vec<_> = path.map(Result::unwrap).collect();
     for step in &steps {
@@ -395,7 +395,7 @@ fn pull_off(n: usize, work: f64, range: f64, smooth: bool) -> (f64, f64) {
     let at = state.mean_gap(mean);
     let settings = PathSettings { steps: 40, resolution: 1e-2, smooth, ..PathSettings::default() };
     let loads = gaps(&[at - 0.3 * range, at + 0.5 * range]);
-    let mut solver = Solver::new(Settings { tolerance: 1e-5, ..Settings::default() });
+    let mut solver = Solver::new(Settings { tolerance: Some(1e-5), ..Settings::default() });
     let path = Path::new(&mut solver, &mut problem, loads, settings).unwrap();
     let steps: Vec<_> = path.map(Result::unwrap).collect();
     let least = steps.iter().map(|step| step.solution.report.mean_pressure).fold(f64::INFINITY, f64::min);

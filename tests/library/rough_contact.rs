@@ -23,7 +23,7 @@ fn solve<L: AdhesionLaw<f64>>(
     tolerance: f64,
     start: Option<&Array2<f64>>,
 ) -> Solution<f64> {
-    let mut solver = Solver::new(Settings { tolerance, ..Settings::default() });
+    let mut solver = Solver::new(Settings { tolerance: Some(tolerance), ..Settings::default() });
     let start = start.map_or(Start::Default, |gap| Start::From(gap));
     let solution = solver.solve_with(problem, control, start, |_| ControlFlow::Continue(())).unwrap();
     assert_eq!(solution.report.status, Status::Converged);

@@ -233,7 +233,7 @@ fn the_default_test_decides_and_finds_the_least_eigenvalue_of_random_scenes() {
         let operator = Westergaard::new(*surface.grid(), 1.0).unwrap();
         let mut problem = Problem::new(&surface, operator, Exponential::new(w, range).unwrap()).unwrap();
         let given = Control::MeanGap((3.0 * surface.rms_height() + range) * random());
-        let mut solver = Solver::new(Settings { tolerance: 1e-7, ..Settings::default() });
+        let mut solver = Solver::new(Settings { tolerance: Some(1e-7), ..Settings::default() });
         let solution = solver.solve(&mut problem, given).unwrap();
         let free = solution.gap.iter().filter(|gap| **gap > 0.0).count();
         if solution.report.status != Status::Converged || free < 3 {

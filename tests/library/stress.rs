@@ -142,9 +142,9 @@ impl Scene {
             heights
         };
         let settings = if paper {
-            Settings { criterion: Criterion::EnergyNorm, tolerance, ..Settings::rey2017() }
+            Settings { criterion: Criterion::EnergyNorm, tolerance: Some(tolerance), ..Settings::rey2017() }
         } else {
-            Settings { tolerance, ..Settings::default() }
+            Settings { tolerance: Some(tolerance), ..Settings::default() }
         };
         Self { shape, lengths, modulus, kind, heights, law, constraint, control, start, settings, single }
     }
@@ -191,7 +191,7 @@ impl Scene {
 
     /// The certified error of a gap as it is, in `f64`.
     fn certified(&self, gap: &Array2<f64>) -> f64 {
-        let settings = Settings { max_iterations: 0, tolerance: 1e-30, ..Settings::default() };
+        let settings = Settings { max_iterations: 0, tolerance: Some(1e-30), ..Settings::default() };
         let (control, start) = (Control::MeanGap(gap.mean().unwrap()), Some(gap.clone()));
         Self { settings, control, start, ..self.clone() }.solution::<f64>().unwrap().report.relative_error
     }
@@ -335,7 +335,7 @@ impl Scene {
         if clear && !uzawa && !flats && scale > 0.0 && relative.is_finite() {
             need(relative <= bounded, format!("certificate {:e} is less than {relative:e}", report.relative_error))?;
             let allowed = 0.05 * relative + 8.0 * noise;
-            let not_much = report.relative_error <= relative + allowed.max(self.settings.tolerance)
+            let not_much = report.relative_error <= relative + allowed.max(self.settings.tolerance_in::<f64>())
                 || work < 1e3 * epsilon * surface_work;
             need(not_much, format!("certificate {:e} is far more than {relative:e}", report.relative_error))?;
         }
@@ -346,7 +346,7 @@ impl Scene {
             let size = load.abs().max(mean(&contact));
             let own = 64.0 * epsilon * mean(&contact).max(mean(&tractions));
             if let Control::MeanPressure(_) = self.control {
-                close("carried load", carried, load, 1.01 * self.settings.tolerance * size + own)?;
+                close("carried load", carried, load, 1.01 * self.settings.tolerance_in::<f64>() * size + own)?;
             }
             let p: Vec<f64> = (0..contact.len()).map(|i| contact[i] - tractions[i] - carried).collect();
             let twice = dense.compliant(&p);
@@ -359,7 +359,8 @@ impl Scene {
             }
         }
         if report.status == Status::Converged {
-            let good = report.relative_error <= self.settings.tolerance && report.load_error <= self.settings.tolerance;
+            let good = report.relative_error <= self.settings.tolerance_in::<f64>()
+                && report.load_error <= self.settings.tolerance_in::<f64>();
             need(good, format!("converged with {:e}, {:e}", report.relative_error, report.load_error))?;
         }
 
@@ -386,7 +387,7 @@ impl Scene {
                 && let Some(exact) = dense.solve(&surface, None, offset, &guess)
             {
                 let span = largest(&surface);
-                let allowed = (100.0 * self.settings.tolerance + 1e4 * epsilon) * span.max(mean(&exact));
+                let allowed = (100.0 * self.settings.tolerance_in::<f64>() + 1e4 * epsilon) * span.max(mean(&exact));
                 close("mean gap under the pressure", mean(&gap), mean(&exact), allowed)?;
             }
         }
@@ -411,7 +412,7 @@ impl Scene {
             && self.law == Law::None
             && self.constraint == Constraint::Projection
             && !self.single
-            && self.settings.tolerance >= 1e-8
+            && self.settings.tolerance_in::<f64>() >= 1e-8
     }
 }
 
@@ -432,7 +433,7 @@ fn f32_is_as_good_as_it_says_and_is_given_up_at_its_floor() {
     let (mut wrong, mut solved) = (Vec::new(), [0; 2]);
     for seed in first..first + cases {
         let scene = Scene::new(seed);
-        let settings = Settings { tolerance: 1e-5, ..Settings::default() };
+        let settings = Settings { tolerance: Some(1e-5), ..Settings::default() };
         let mut scene = Scene { law: Law::None, constraint: Constraint::Projection, settings, ..scene };
         if scene.is_plane() || matches!(scene.control, Control::MeanPressure(p) if p < 0.0) {
             continue;
@@ -451,7 +452,7 @@ fn f32_is_as_good_as_it_says_and_is_given_up_at_its_floor() {
         // heights of few levels round alike, or not at all
         let levels = matches!(scene.kind, "step" | "board" | "levels");
         if report.status == Status::Stalled && said.is_finite() && !levels {
-            scene.settings.tolerance = 1e-12;
+            scene.settings.tolerance = Some(1e-12);
             scene.start = None;
             let exact = scene.solution::<f64>().unwrap();
             let floor = scene.certified(&exact.gap.mapv(|g| f64::from(g as f32)));
@@ -478,7 +479,8 @@ fn random_scenes_agree_with_dense_matrices() {
         let Scene { shape, kind, law, constraint, control, settings, single, .. } = &scene;
         let what = format!(
             "{seed}: {shape:?} {kind} {law:?} {constraint:?} {control:?} start {start} {:?} {:.1e} f32 {single}",
-            settings.method, settings.tolerance
+            settings.method,
+            settings.tolerance_in::<f64>()
         );
         let law = format!("{law:?}");
         let law = law.split('(').next().unwrap_or_default();
@@ -486,7 +488,7 @@ fn random_scenes_agree_with_dense_matrices() {
             Err(_) => wrong.push(format!("panic in {what}")),
             Ok(Err(reason)) => wrong.push(format!("{reason} in {what}")),
             Ok(Ok(report)) => {
-                let (constraint, loose) = (format!("{constraint:?}"), settings.tolerance >= 1e-3);
+                let (constraint, loose) = (format!("{constraint:?}"), settings.tolerance_in::<f64>() >= 1e-3);
                 let constraint = constraint.split('(').next().unwrap_or_default();
                 let (method, status) = (settings.method, report.status);
                 let end = format!("{law} {constraint} {method:?} f32 {single} loose {loose} {status}");

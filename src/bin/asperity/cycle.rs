@@ -179,7 +179,8 @@ impl Options {
         }
         loop {
             let name = format!("{}", journal.rows() + 1);
-            let mut progress = Progress::new(&name, settings.tolerance, grid.nodes(), self.printing.without_bars());
+            let mut progress =
+                Progress::new(&name, settings.tolerance_in::<T>(), grid.nodes(), self.printing.without_bars());
             let step = path.next_observed(|state| {
                 progress.update(state);
                 ControlFlow::Continue(())

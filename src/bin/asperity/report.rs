@@ -77,7 +77,7 @@ pub fn table(names: &[&str], solves: &[&Account], style: Style) -> String {
 
 /// Says on standard error what there is to know of a solve before trusting it, of which `name` tells the case.
 pub fn warn(name: &str, account: &Account, case: &Case) {
-    let (report, tolerance) = (&account.report, case.settings.tolerance);
+    let (report, tolerance) = (&account.report, account.report.tolerance);
     let name = if name.is_empty() { String::new() } else { format!("{name}: ") };
     if report.status != Status::Converged {
         let remedy = match report.status {

@@ -223,7 +223,7 @@ impl Job<'_> {
         let grid = *surface.grid();
         // In place, if the precision is that of the file.
         let start = start.map(|gap| gap.mapv_into_any(T::lit));
-        let progress = Progress::new("", self.case.settings.tolerance, grid.nodes(), printing.without_bars());
+        let progress = Progress::new("", self.case.settings.tolerance_in::<T>(), grid.nodes(), printing.without_bars());
         let Options { surface: given, adhesion, strictness, .. } = self.options;
         let mut warnings = Warnings::of_input::<T>(*strictness, &surface, given, adhesion)?;
         warnings.say();

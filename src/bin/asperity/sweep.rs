@@ -172,7 +172,7 @@ impl Options {
         for (k, &load) in loads.iter().enumerate().skip(done) {
             let mut progress = Progress::new(
                 &format!("{}/{count}", k + 1),
-                settings.tolerance,
+                settings.tolerance_in::<T>(),
                 grid.nodes(),
                 self.printing.without_bars(),
             );
@@ -306,7 +306,7 @@ pub fn identity(
         "range": number(adhesion.range),
         "precision": if solver.precision == Precision::F32 { "f32" } else { "f64" },
         "method": settings.method.name(),
-        "tolerance": settings.tolerance.to_string(),
+        "tolerance": solver.tolerance().to_string(),
         "max_iterations": settings.max_iterations.to_string(),
         "initial_gap": start.map_or("none".to_owned(), field),
         "version": env!("CARGO_PKG_VERSION"),

@@ -48,7 +48,7 @@ impl Scene {
         let operator = Westergaard::<T>::new(grid, self.modulus).unwrap();
         let mut problem = Problem::new(&surface, operator, law).unwrap();
         let start = start.map(|start| start.mapv(T::lit));
-        let settings = Settings { tolerance, ..Settings::default() };
+        let settings = Settings { tolerance: Some(tolerance), ..Settings::default() };
         let go_on = |_: &Iteration| std::ops::ControlFlow::Continue(());
         let start = start.as_ref().map_or(Start::Default, |start| Start::From(start));
         let solution = Solver::new(settings).solve_with(&mut problem, self.control, start, go_on);

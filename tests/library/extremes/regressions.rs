@@ -45,7 +45,7 @@ fn planes_stay_at_a_mean_gap_from_any_start<T: Real>() {
 }
 
 fn paper(tolerance: f64) -> Solver {
-    Solver::new(Settings { criterion: Criterion::EnergyNorm, tolerance, ..Settings::rey2017() })
+    Solver::new(Settings { criterion: Criterion::EnergyNorm, tolerance: Some(tolerance), ..Settings::rey2017() })
 }
 
 /// A step that leaves no node apart keeps the mean gap.
@@ -92,7 +92,7 @@ fn springs_and_multipliers_keep_a_mean_gap_of_zero<T: Real>() {
 
 fn springs<T: Real, C: ContactConstraint<T>>(constraint: C) {
     let wave = |i: usize, j: usize| 0.02 * (std::f64::consts::TAU * (i + 2 * j) as f64 / 16.0).cos();
-    let settings = Settings { tolerance: loose::<T>(), ..Settings::default() };
+    let settings = Settings { tolerance: Some(loose::<T>()), ..Settings::default() };
     let mut solver = Solver { settings, constraint };
     for start in [None, Some(Array2::from_shape_fn((16, 16), |(i, _)| if i % 2 == 0 { 1e-3 } else { -1e-3 }))] {
         let mut problem: Problem<T, _, Boxed<T>> = problem((16, 16), (1.0, 1.0), wave, bare());
@@ -112,7 +112,7 @@ fn a_step_under_a_light_pressure_lands_on_all_of_its_plateau<T: Real>() {
     // 1.9e4 times the modulus of one that the other tests have
     let control = Control::MeanPressure(1.064e-3 / 1.94e4);
     let tolerance = if T::NAME == "f64" { 1e-8 } else { 1e-2 };
-    let mut solver = Solver::new(Settings { tolerance, ..Settings::default() });
+    let mut solver = Solver::new(Settings { tolerance: Some(tolerance), ..Settings::default() });
     let report = solve_from(&mut solver, &mut problem, control, None).report;
     assert_solved::<T>(&report, "a step");
     assert_eq!(report.contact_points, 8);
