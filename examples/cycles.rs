@@ -19,9 +19,10 @@ use std::path::Path as File;
 
 use arguments::size_and_out;
 use asperity::exact::{self, AdhesiveWavyLine, Periodic};
+use asperity::path::{Event, Path, PathSettings};
 use asperity::{
-    AdhesionLaw, Control, Event, Exponential, Grid, MaugisDugdale, Path, PathSettings, Problem, SelfAffine, Settings,
-    Solver, Status, Surface, Westergaard,
+    AdhesionLaw, Control, Exponential, Grid, MaugisDugdale, Problem, SelfAffine, Settings, Solver, Status, Surface,
+    Westergaard,
 };
 use legend::legend;
 use plotters::prelude::*;

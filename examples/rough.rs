@@ -23,9 +23,10 @@ use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
 use arguments::size_and_out;
+use asperity::contact::ContactStatistics;
 use asperity::{
-    AdhesionLaw, Amplitude, Colouring, ContactStatistics, Control, Exponential, Grid, Map, Problem, SelfAffine,
-    Solution, Solver, Start, Status, Surface, Sweep, Westergaard,
+    AdhesionLaw, Amplitude, Colouring, Control, Exponential, Grid, Map, Problem, SelfAffine, Solution, Solver, Start,
+    Status, Surface, Sweep, Westergaard,
 };
 use legend::legend;
 use ndarray::{Array2, Zip};

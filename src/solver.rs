@@ -93,8 +93,8 @@ impl Criterion {
 /// | `max_iterations` | 2000 | the iterations after which a solve ends without having converged | any |
 ///
 /// `None` is the default of the criterion in the precision of the solve: [`Settings::tolerance_in`] tells it, and
-/// [`Report::tolerance`] the one that a solve was held to. A tolerance below the [floor](crate::precision) of the
-/// precision ends as [`Status::Stalled`].
+/// [`Report::tolerance`] the one that a solve was held to. A solve whose tolerance is below the
+/// [floor](crate::guide::precision) of the precision ends as [`Status::Stalled`].
 ///
 /// ```
 /// use asperity::Settings;

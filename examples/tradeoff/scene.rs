@@ -2,10 +2,10 @@
 
 use std::collections::HashMap;
 
+use asperity::contact::ContactStatistics;
 use asperity::exact::{Hertz, Periodic, WavyLine};
 use asperity::{
-    AdhesionLaw, Amplitude, ContactStatistics, Control, Exponential, Grid, NoAdhesion, Real, SelfAffine, Solution,
-    Surface, Westergaard,
+    AdhesionLaw, Amplitude, Control, Exponential, Grid, NoAdhesion, Real, SelfAffine, Solution, Surface, Westergaard,
 };
 use ndarray::Array2;
 

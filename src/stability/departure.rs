@@ -43,7 +43,8 @@ impl<T: Real> Stability<T> {
     /// [`Error::Shape`] if the solution is of another grid, and those of [`Solver::solve_with`].
     ///
     /// ```
-    /// use asperity::{Control, Exponential, Grid, Problem, Solver, StabilityTest, Surface, Verdict, Westergaard};
+    /// use asperity::stability::{StabilityTest, Verdict};
+    /// use asperity::{Control, Exponential, Grid, Problem, Solver, Surface, Westergaard};
     /// let grid = Grid::line(64, 1.0)?;
     /// let flat = Surface::from_fn(grid, |_, _| 0.0)?;
     /// let mut problem = Problem::new(&flat, Westergaard::<f64>::new(grid, 1.0)?, Exponential::new(1e-3, 1e-2)?)?;

@@ -345,7 +345,10 @@ fn laws_that_contradict_themselves_end_and_keep_the_bookkeeping<T: Real>() {
                 report.iterations <= 2000 && solution.gap.iter().all(|g| g.is_finite() && *g >= T::zero()),
                 "{kind}"
             );
-            assert!(report.status != Status::Converged || report.relative_error <= report.tolerance, "{kind} {control:?}");
+            assert!(
+                report.status != Status::Converged || report.relative_error <= report.tolerance,
+                "{kind} {control:?}"
+            );
         }
     }
 }

@@ -1,6 +1,8 @@
 //! Branches of equilibria: where they break off, what that dissipates, and what exact solutions say.
 
 use crate::common::{check, rough, sphere};
+use asperity::path::{Event, Jump, Path, PathCheckpoint, PathSettings, PathStep};
+use asperity::stability::{StabilityTest, Verdict};
 use asperity::*;
 
 /// One wave of a line, with Johnson's α = 0.2.

@@ -5,6 +5,7 @@ use std::f64::consts::PI;
 use std::ops::ControlFlow;
 
 use crate::common::check;
+use asperity::contact::ContactStatistics;
 use asperity::*;
 use ndarray::Array2;
 

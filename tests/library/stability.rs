@@ -3,6 +3,8 @@
 use std::f64::consts::PI;
 
 use crate::common::{rough, solve, sphere};
+use asperity::path::{Path, PathSettings};
+use asperity::stability::{StabilityTest, Verdict};
 use asperity::*;
 use ndarray::Array2;
 

@@ -3,6 +3,7 @@
 use std::f64::consts::PI;
 
 use crate::common::{rough, sphere};
+use asperity::contact::{ContactStatistics, PressureDistribution};
 use asperity::exact::{self, Periodic};
 use asperity::*;
 use ndarray::Array2;

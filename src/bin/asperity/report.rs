@@ -1,6 +1,7 @@
 //! Reports of solves as tables, and what is to be known before they are trusted.
 
-use asperity::{Report, Status, Verdict};
+use asperity::stability::Verdict;
+use asperity::{Report, Status};
 
 use crate::complain;
 use crate::numbers::{Style, percent, plain};

@@ -4,10 +4,11 @@ use std::ops::ControlFlow;
 use std::path::Path;
 use std::time::Instant;
 
+use asperity::contact::ContactStatistics;
+use asperity::stability::{Departure, Stability, StabilityTest, Verdict};
 use asperity::{
-    AdhesionLaw, Colouring, ContactStatistics, Control, Departure, Error, Grid, Level, Map, Nested, NestedSolution,
-    NoAdhesion, Problem, Real, Report, Result, Settings, Solution, Solver, Stability, StabilityTest, Start, Surface,
-    Verdict, Westergaard,
+    AdhesionLaw, Colouring, Control, Error, Grid, Level, Map, Nested, NestedSolution, NoAdhesion, Problem, Real,
+    Report, Result, Settings, Solution, Solver, Start, Surface, Westergaard,
 };
 use ndarray::Array2;
 use ndarray_npy::WritableElement;
@@ -32,7 +33,7 @@ pub struct Case {
     pub leave: bool,
 }
 
-/// Whether a solution is stable; see [`asperity::Stability`].
+/// Whether a solution is stable; see [`asperity::stability::Stability`].
 pub struct Steadiness {
     pub verdict: Verdict,
     pub eigenvalue: f64,
@@ -44,7 +45,7 @@ pub struct Steadiness {
     pub mode: Array2<f64>,
 }
 
-/// An unstable equilibrium that was left; see [`asperity::Departure`].
+/// An unstable equilibrium that was left; see [`asperity::stability::Departure`].
 pub struct Left {
     pub eigenvalue: f64,
     pub energy_drop: f64,
