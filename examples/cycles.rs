@@ -21,9 +21,10 @@ use std::path::Path as File;
 
 use arguments::size_and_out;
 use asperity::exact::{self, AdhesiveWavyLine, Periodic};
+use asperity::path::{Event, Path, PathSettings};
 use asperity::{
-    AdhesionLaw, Control, Event, Exponential, Grid, MaugisDugdale, Path, PathSettings, Problem, SelfAffine, Settings,
-    Solver, Status, Surface, Westergaard,
+    AdhesionLaw, Control, Exponential, Grid, MaugisDugdale, Problem, SelfAffine, Settings, Solver, Status, Surface,
+    Westergaard,
 };
 use legend::legend;
 use plotters::prelude::*;
@@ -85,7 +86,7 @@ fn cycle<L: AdhesionLaw<f64>>(surface: &Surface, law: L, gaps: [f64; 2], setting
     let mut problem = Problem::new(surface, Westergaard::<f64>::new(*surface.grid(), 1.0)?, law)?;
     let resolution = problem.resolution();
     let [far, near] = gaps.map(Control::MeanGap);
-    let mut solver = Solver::new(Settings { tolerance: 1e-5, ..Settings::default() });
+    let mut solver = Solver::new(Settings { tolerance: Some(1e-5), ..Settings::default() });
     let mut cycle = Cycle {
         approach: Vec::new(),
         withdrawal: Vec::new(),

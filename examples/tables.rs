@@ -24,7 +24,7 @@ use asperity::{
     Problem, Projection, Result, Settings, Solution, Solver, Surface, Uzawa, Westergaard,
 };
 use authors::RADIUS;
-use ndarray::{Array2, ArrayView2};
+use ndarray::Array2;
 use outrun::Outrun;
 
 fn main() -> Result<()> {
@@ -49,7 +49,7 @@ fn main() -> Result<()> {
 }
 
 fn settings(tolerance: f64) -> Settings {
-    Settings { tolerance, ..Settings::default() }
+    Settings { tolerance: Some(tolerance), ..Settings::default() }
 }
 
 fn table_1(sizes: &[usize]) -> Result<()> {
@@ -123,9 +123,9 @@ fn periodic_errors<L: AdhesionLaw<f64>>(
         Start::Uniform => Some(Array2::from_elem(grid.shape(), mean_gap)),
         Start::Exact => Some((&u_exact - surface.heights()).mapv(|g| if g < 1e-7 { 0.0 } else { g })),
     };
-    let start = start.as_ref().map(|gap| gap.view());
+    let start = start.as_ref().map_or(asperity::Start::Default, |gap| asperity::Start::From(gap));
     let solution = Solver::new(settings(1e-7))
-        .solve_from(&mut problem, Control::MeanGap(mean_gap), start, |_| std::ops::ControlFlow::Continue(()))?;
+        .solve_with(&mut problem, Control::MeanGap(mean_gap), start, |_| std::ops::ControlFlow::Continue(()))?;
     let u = &solution.gap + surface.heights();
     let centred = |u: Array2<f64>| {
         let mean = u.sum() / u.len() as f64;
@@ -404,14 +404,15 @@ fn waves(largest: usize) -> Result<()> {
         for half_width in [0.05, 0.1, 0.2, 0.3, 0.35] {
             let state = exact.at_half_width(half_width)?;
             let start = grid.sample(|x, _| state.gap(x));
-            let mut error = |start: Option<ArrayView2<'_, f64>>| -> Result<f64> {
+            let mut error = |start: Option<&Array2<f64>>| -> Result<f64> {
                 let control = Control::MeanGap(state.mean_gap());
+                let start = start.map_or(asperity::Start::Default, |gap| asperity::Start::From(gap));
                 let report = Solver::new(settings(1e-8))
-                    .solve_from(&mut problem, control, start, |_| ControlFlow::Continue(()))?
+                    .solve_with(&mut problem, control, start, |_| ControlFlow::Continue(()))?
                     .report;
                 Ok((report.mean_pressure - state.mean_pressure()) / closing)
             };
-            let (uniform, warm) = (error(None)?, error(Some(start.view()))?);
+            let (uniform, warm) = (error(None)?, error(Some(&start))?);
             println!(
                 "{alpha:>6} {:>7.2} {half_width:>9} {:>9.4} {uniform:>9.1e} {warm:>9.1e}",
                 problem.resolution(),

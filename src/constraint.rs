@@ -76,7 +76,7 @@ pub trait ContactConstraint<T: Real>: Send + Sync {
 /// ```
 /// use asperity::{ContactConstraint, Penalty, Projection, Wall};
 /// assert!(matches!(ContactConstraint::<f64>::wall(&Projection), Wall::Rigid));
-/// assert!(matches!(Penalty::new(5000.0)?.wall(), Wall::Springs(_)));
+/// assert!(matches!(ContactConstraint::<f64>::wall(&Penalty::new(5000.0)?), Wall::Springs(_)));
 /// # Ok::<(), asperity::Error>(())
 /// ```
 #[non_exhaustive]
@@ -141,7 +141,7 @@ pub enum Outer {
 ///
 /// ```
 /// use asperity::{Penalty, Projection, check_constraint};
-/// check_constraint(&Penalty::new(5000.0_f64)?, 1, 1e-3)?;
+/// check_constraint::<f64>(&Penalty::new(5000.0)?, 1, 1e-3)?;
 /// check_constraint::<f64>(&Projection, 1, 1e-3)?;
 /// # Ok::<(), asperity::Error>(())
 /// ```

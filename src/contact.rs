@@ -1,4 +1,8 @@
-//! Contact statistics: area, perimeter and their corrections, from the map of the nodes in contact.
+//! The contact of a solution: its area and edge, its clusters, and the distribution of its pressure.
+//!
+//! A node is in contact as [`Solution::contact_map`] says. [`ContactStatistics`] has areas, and the perimeter by which
+//! they are corrected; [`Clusters`] are the pieces that hang together; [`PressureDistribution`] is the histogram of the
+//! pressure.
 
 use ndarray::{Array2, ArrayView2, Zip};
 
@@ -68,7 +72,8 @@ impl<T: Real> Solution<T> {
 /// too many for each end point, measured on waves.
 ///
 /// ```
-/// use asperity::{ContactStatistics, Control, Exponential, Grid, Problem, Solver, Surface, Westergaard};
+/// use asperity::contact::ContactStatistics;
+/// use asperity::{Control, Exponential, Grid, Problem, Solver, Surface, Westergaard};
 /// let grid = Grid::square(64, 1.0)?;
 /// let surface = Surface::wave_2d(grid, 0.01, 2)?; // eight peaks
 /// let law = Exponential::new(1e-5, 2e-3)?;

@@ -1,15 +1,18 @@
 //! A path of equilibria: small steps along a branch, with its jumps and bifurcations.
+//!
+//! [`Path`] is an iterator over the states of a branch; a [`PathStep`] says what happened on the way to its state, as
+//! an [`Event`]. The page [`branches`](crate::guide::branches) has loading and unloading worked out.
 
 use std::ops::ControlFlow;
 
-use ndarray::{Array2, CowArray};
+use ndarray::Array2;
 
 use crate::adhesion::AdhesionLaw;
 use crate::elastic::ElasticOperator;
 use crate::error::{Error, Result};
 use crate::problem::{Control, Parts, Problem, smoothed_law};
 use crate::real::Real;
-use crate::solver::{Iteration, Solution, Solver, Status};
+use crate::solver::{Iteration, Solution, Solver, Start, Status};
 use crate::stability::Watch;
 
 mod event;
@@ -32,7 +35,7 @@ use track::{Mode, State, Track, Way};
 /// A smaller tolerance asks for a smaller tolerance of the solver too: its square must be well below.
 ///
 /// ```
-/// use asperity::PathSettings;
+/// use asperity::path::PathSettings;
 /// let sharp = PathSettings { resolution: 1e-6, ..PathSettings::default() };
 /// assert_eq!(sharp.steps, 50);
 /// ```
@@ -57,7 +60,8 @@ impl Default for PathSettings {
 /// A state on a path.
 ///
 /// ```
-/// use asperity::{Control, Grid, NoAdhesion, Path, PathSettings, Problem, Solver, Surface, Westergaard};
+/// use asperity::path::{Path, PathSettings};
+/// use asperity::{Control, Grid, NoAdhesion, Problem, Solver, Surface, Westergaard};
 /// let grid = Grid::line(64, 1.0)?;
 /// let mut problem = Problem::new(&Surface::wave(grid, 0.02, 1)?, Westergaard::<f64>::new(grid, 1.0)?, NoAdhesion)?;
 /// let legs = [0.02, 0.01].map(Control::MeanGap);
@@ -126,8 +130,8 @@ pub struct PathStep<T> {
 /// every periodic one.
 ///
 /// With adhesion, therefore, the smallest eigenvalue of the energy's second derivative is watched, over the changes
-/// of the gap that vanish where the surfaces touch and have no mean, as in a [`StabilityTest`](crate::StabilityTest)
-/// at the given mean gap. Where the softest stiffness and the least φ'' show that it is positive, that takes nothing.
+/// of the gap that vanish where the surfaces touch and have no mean, as in a
+/// [`StabilityTest`](crate::stability::StabilityTest) at the given mean gap. Where the softest stiffness and the least φ'' show that it is positive, that takes nothing.
 /// Elsewhere it takes some five operator applications a state: an iteration or two from the mode of the state before,
 /// to which a little of a random field (the same in every path) is added, so that no symmetry holds the mode back. A
 /// step to a saddle is taken back and halved, as one that jumps is; at [`PathSettings::resolution`] the state is
@@ -150,7 +154,8 @@ pub struct PathStep<T> {
 /// A path can be interrupted, kept as a [`PathCheckpoint`], and continued, bit for bit.
 ///
 /// ```
-/// use asperity::{Control, Event, Exponential, Grid, Path, PathSettings, Problem, Solver, Surface, Westergaard};
+/// use asperity::path::{Event, Path, PathSettings};
+/// use asperity::{Control, Exponential, Grid, Problem, Solver, Surface, Westergaard};
 /// let grid = Grid::line(128, 1.0)?;
 /// let surface = Surface::wave(grid, 0.02, 1)?;
 /// let law = Exponential::new(2e-4, 4e-3)?;
@@ -185,7 +190,8 @@ pub struct Path<'a, T, O, L> {
 /// All that a path needs to go on: opaque numbers, and fields of shape (Nx, Ny). Both must come back bit for bit.
 ///
 /// ```
-/// use asperity::{Control, Grid, NoAdhesion, Path, PathSettings, Problem, Solver, Surface, Westergaard};
+/// use asperity::path::{Path, PathSettings};
+/// use asperity::{Control, Grid, NoAdhesion, Problem, Solver, Surface, Westergaard};
 /// let grid = Grid::line(64, 1.0)?;
 /// let mut problem = Problem::new(&Surface::wave(grid, 0.02, 1)?, Westergaard::<f64>::new(grid, 1.0)?, NoAdhesion)?;
 /// let (mut solver, settings) = (Solver::default(), PathSettings { steps: 4, ..PathSettings::default() });
@@ -288,11 +294,11 @@ where
         Ok(self)
     }
 
-    /// The next state, as [`Iterator::next`], with an observer of the iterations, as in [`Solver::solve_from`]. If it
+    /// The next state, as [`Iterator::next`], with an observer of the iterations, as in [`Solver::solve_with`]. If it
     /// stops a solve, the path ends with the state before.
     ///
     /// # Errors
-    /// Those of [`Solver::solve_from`]; after one the path ends.
+    /// Those of [`Solver::solve_with`]; after one the path ends.
     pub fn next_observed(
         &mut self,
         mut observe: impl FnMut(&Iteration) -> ControlFlow<()>,
@@ -375,7 +381,8 @@ where
         let Parts { operator, law, flat } = self.problem.parts();
         let smoothed = if self.settings.smooth && start.is_some() { smoothed_law(&*operator, law) } else { None };
         let parts = Parts { operator, law: smoothed.as_deref().unwrap_or(law), flat };
-        self.solver.run(parts, control, start.map(CowArray::from), false, observe)
+        let start = start.map_or(Start::Default, |gap| Start::From(gap));
+        self.solver.run(parts, control, start, observe)
     }
 
     /// One step; `None` if it has to be taken back and halved.

@@ -137,6 +137,23 @@ impl<T: Real, O: ElasticOperator<T>, L: AdhesionLaw<T>> Problem<T, O, L> {
         &self.law
     }
 
+    /// The operator and the law, for another problem on the same grid.
+    ///
+    /// ```
+    /// use asperity::{Control, Exponential, Grid, NoAdhesion, Problem, Solver, Surface, Westergaard};
+    /// let grid = Grid::square(64, 1.0)?;
+    /// let surface = Surface::wave_2d(grid, 0.02, 1)?;
+    /// let mut bare = Problem::new(&surface, Westergaard::<f64>::new(grid, 1.0)?, NoAdhesion)?;
+    /// let contact = Solver::default().solve(&mut bare, Control::MeanGap(0.01))?.report.contact_points;
+    /// let (half_space, _) = bare.into_parts();
+    /// let mut sticky = Problem::new(&surface, half_space, Exponential::new(1e-5, 4e-3)?)?;
+    /// assert!(Solver::default().solve(&mut sticky, Control::MeanGap(0.01))?.report.contact_points > contact);
+    /// # Ok::<(), asperity::Error>(())
+    /// ```
+    pub fn into_parts(self) -> (O, L) {
+        (self.operator, self.law)
+    }
+
     /// The parts of the problem, for a solve.
     pub(crate) fn parts(&mut self) -> Parts<'_, T> {
         Parts { operator: &mut self.operator, law: &self.law, flat: &self.flat }

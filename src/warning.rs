@@ -141,7 +141,7 @@ impl fmt::Display for WarningCode {
 ///
 /// let (surface, law) = (Surface::wave_2d(grid, 0.01, 2)?, Exponential::new(1e-5, 2e-3)?);
 /// assert!(Warning::of_surface(&surface).is_empty());
-/// for warning in Warning::of_law(&law, &surface, 1.0) {
+/// for warning in Warning::of_law::<f64>(&law, &surface, 1.0) {
 ///     eprintln!("{warning}"); // code: message
 /// }
 /// let mut problem = Problem::new(&surface, Westergaard::<f64>::new(grid, 1.0)?, law)?;

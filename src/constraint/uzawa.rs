@@ -2,8 +2,9 @@
 
 use ndarray::{Array2, ArrayView2};
 
+use super::penalty::check_stiffness;
 use super::{ContactConstraint, Outer, Springs, Wall};
-use crate::error::{Error, Result};
+use crate::error::Result;
 use crate::field::{CHUNK, Partial, Reducer, flat, read, write};
 use crate::grid::Grid;
 use crate::par::{self, IndexedParallelIterator};
@@ -75,9 +76,10 @@ impl<T: Real> Uzawa<T> {
     /// Springs of stiffness k in the first round, pressure per length, and multipliers that start from zero.
     ///
     /// # Errors
-    /// [`Error::Value`] if the stiffness is not positive and finite.
-    pub fn new(stiffness: T) -> Result<Self> {
-        Error::positive("penalty stiffness", stiffness.widen())?;
+    /// [`Error::Value`](crate::Error::Value) if the stiffness is not positive and finite in the precision of T.
+    pub fn new(stiffness: f64) -> Result<Self> {
+        check_stiffness::<T>(stiffness)?;
+        let stiffness = T::lit(stiffness);
         let tolerance = 1e3 * T::epsilon().widen();
         let multipliers = Array2::zeros((0, 0));
         Ok(Self {

@@ -7,7 +7,7 @@ use ndarray::{Array2, ArrayView2};
 /// The connectivity of a map: which nodes are neighbours.
 ///
 /// ```
-/// use asperity::{Clusters, Connectivity};
+/// use asperity::contact::{Clusters, Connectivity};
 /// let none = [false; 3];
 /// let map = ndarray::array![[true, false, false], [false, true, false], none, none];
 /// assert_eq!(Clusters::of(map.view(), Connectivity::Sides).sizes.len(), 2);
@@ -25,7 +25,7 @@ pub enum Connectivity {
 /// The pieces of a periodic map that hang together.
 ///
 /// ```
-/// use asperity::{Clusters, Connectivity};
+/// use asperity::contact::{Clusters, Connectivity};
 /// let map = ndarray::array![
 ///     [true, false, false, true],
 ///     [false, true, false, false],

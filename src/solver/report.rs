@@ -59,11 +59,11 @@ impl fmt::Display for Status {
 ///
 /// ```
 /// use std::ops::ControlFlow;
-/// use asperity::{Control, Grid, NoAdhesion, Problem, Solver, Status, Surface, Westergaard};
+/// use asperity::{Control, Grid, NoAdhesion, Problem, Solver, Start, Status, Surface, Westergaard};
 /// let grid = Grid::square(32, 1.0)?;
 /// let surface = Surface::wave_2d(grid, 0.02, 1)?;
 /// let mut problem = Problem::new(&surface, Westergaard::<f64>::new(grid, 1.0)?, NoAdhesion)?;
-/// let solution = Solver::default().solve_from(&mut problem, Control::MeanGap(0.01), None, |state| {
+/// let solution = Solver::default().solve_with(&mut problem, Control::MeanGap(0.01), Start::Default, |state| {
 ///     println!("{} {:.1e} {:.6e}", state.iteration, state.relative_error, state.energy);
 ///     if state.relative_error < 1e-2 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
 /// })?;
@@ -168,6 +168,9 @@ pub struct Report {
     /// The measure that was compared with the tolerance. [`Criterion::Orthogonality`] bounds no error: a solve that
     /// has converged by it may have any [`relative_error`](Self::relative_error).
     pub criterion: Criterion,
+    /// The tolerance to which the solve was held, [`Settings::tolerance_in`](crate::Settings::tolerance_in) its
+    /// precision.
+    pub tolerance: f64,
 }
 
 /// The fields of a solved problem, each of shape (Nx, Ny), and the account of the solve.

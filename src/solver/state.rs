@@ -147,7 +147,7 @@ impl<'a, T: Real> State<'a, T> {
     ) -> Result<Self> {
         let Parts { operator, law, flat } = problem;
         let shape = operator.grid().shape();
-        constraint.start(operator.grid(), operator.stiffness_range().1, settings.tolerance)?;
+        constraint.start(operator.grid(), operator.stiffness_range().1, settings.tolerance_in::<T>())?;
         let (name, value) = match control {
             Control::MeanGap(gap) => ("mean gap", Error::non_negative("mean gap", gap)?),
             Control::MeanPressure(pressure) => ("mean pressure", Error::finite("mean pressure", pressure)?),
@@ -443,6 +443,7 @@ impl<'a, T: Real> State<'a, T> {
             precision: T::NAME,
             method: self.settings.method,
             criterion: self.settings.criterion,
+            tolerance: self.settings.tolerance_in::<T>(),
         };
         let Fields { gap, pressure, preconditioned, .. } = self.fields;
         Ok(Solution { gap, pressure, contact_pressure: preconditioned, report })

@@ -11,7 +11,7 @@ use crate::elastic::ElasticOperator;
 use crate::error::{Error, Result};
 use crate::problem::{Control, Problem};
 use crate::real::Real;
-use crate::solver::{Solution, Solver};
+use crate::solver::{Solution, Solver, Start};
 
 /// The departure from an equilibrium: the end of a minimisation that left it along its softest mode.
 #[non_exhaustive]
@@ -40,10 +40,11 @@ impl<T: Real> Stability<T> {
     /// within that distance. `None` if the mode is zero, as where all nodes are in contact, or without adhesion.
     ///
     /// # Errors
-    /// [`Error::Shape`] if the solution is of another grid, and those of [`Solver::solve_from`].
+    /// [`Error::Shape`] if the solution is of another grid, and those of [`Solver::solve_with`].
     ///
     /// ```
-    /// use asperity::{Control, Exponential, Grid, Problem, Solver, StabilityTest, Surface, Verdict, Westergaard};
+    /// use asperity::stability::{StabilityTest, Verdict};
+    /// use asperity::{Control, Exponential, Grid, Problem, Solver, Surface, Westergaard};
     /// let grid = Grid::line(64, 1.0)?;
     /// let flat = Surface::from_fn(grid, |_, _| 0.0)?;
     /// let mut problem = Problem::new(&flat, Westergaard::<f64>::new(grid, 1.0)?, Exponential::new(1e-3, 1e-2)?)?;
@@ -89,7 +90,7 @@ impl<T: Real> Stability<T> {
             let step = T::lit(direction) * amplitude;
             let mut start = from.gap.clone();
             start.zip_mut_with(&self.mode, |gap, &mode| *gap = (*gap + step * mode).max(T::zero()));
-            let solution = solver.solve_from(problem, control, Some(start.view()), |_| ControlFlow::Continue(()))?;
+            let solution = solver.solve_with(problem, control, Start::From(&start), |_| ControlFlow::Continue(()))?;
             let energy_drop = energy(from) - energy(&solution);
             if best.as_ref().is_none_or(|best| energy_drop > best.energy_drop) {
                 let square =

@@ -10,7 +10,7 @@ pub mod scenes;
 use std::ops::ControlFlow;
 
 use asperity::*;
-use ndarray::{Array2, ArrayView2};
+use ndarray::Array2;
 
 /// Solves from the default start, watching that the energy falls, and checks the solution's invariants.
 pub fn solve<T: Real, O: ElasticOperator<T>, L: AdhesionLaw<T>>(
@@ -26,12 +26,12 @@ pub fn solve_from<T: Real, O: ElasticOperator<T>, L: AdhesionLaw<T>>(
     problem: &mut Problem<T, O, L>,
     control: Control,
     tolerance: f64,
-    start: Option<ArrayView2<'_, T>>,
+    start: Option<&Array2<T>>,
 ) -> Solution<T> {
-    let settings = Settings { tolerance, ..Settings::default() };
+    let settings = Settings { tolerance: Some(tolerance), ..Settings::default() };
     let mut history: Vec<Iteration> = Vec::new();
     let solution = Solver::new(settings)
-        .solve_from(problem, control, start, |iteration| {
+        .solve_with(problem, control, start.map_or(Start::Default, |gap| Start::From(gap)), |iteration| {
             history.push(*iteration);
             ControlFlow::Continue(())
         })

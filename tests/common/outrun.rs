@@ -5,7 +5,7 @@ use ndarray::ArrayView2;
 
 /// Another constraint, with what an exponential law adds to its tangent where the surfaces interpenetrate: the energy
 /// then has no lower bound.
-pub struct Outrun<C>(pub C, pub Exponential<f64>);
+pub struct Outrun<C>(pub C, pub Exponential);
 
 impl<C> Outrun<C> {
     fn excess(&self, gap: f64, of_law: f64, of_tangent: f64) -> f64 {

@@ -16,7 +16,7 @@ fn with<T: Real, C: ContactConstraint<T>, L: AdhesionLaw<T>>(
     control: Control,
     tolerance: f64,
 ) -> (Solution<T>, C) {
-    let mut solver = Solver { settings: Settings { tolerance, ..Settings::default() }, constraint };
+    let mut solver = Solver { settings: Settings { tolerance: Some(tolerance), ..Settings::default() }, constraint };
     let solution = solver.solve(problem, control).unwrap();
     (solution, solver.constraint)
 }
@@ -61,7 +61,7 @@ fn uzawa_removes_the_interpenetration_whatever_its_stiffness() {
 
 #[test]
 fn uzawa_that_may_not_update_enough_has_not_converged() {
-    let mut constraint = Uzawa::new(100.0).unwrap();
+    let mut constraint = Uzawa::<f64>::new(100.0).unwrap();
     constraint.max_outer_iterations = 2;
     let (solution, uzawa) = with(&mut sphere(32, NoAdhesion), constraint, Control::MeanGap(0.0398), 1e-8);
     assert_eq!((solution.report.status, uzawa.outer_iterations()), (Status::IterationLimit, 2));
@@ -73,7 +73,7 @@ fn every_law_control_and_precision_works_with_them() {
     let law = MaugisDugdale::new(1e-4, 4e-3).unwrap();
     let pull = Control::MeanPressure(-3e-4);
     let exact = solve(&mut sphere::<f64, _>(48, law), pull, 1e-8).report;
-    let (uzawa, _) = with(&mut sphere(48, law), Uzawa::new(300.0).unwrap(), pull, 1e-8);
+    let (uzawa, _) = with(&mut sphere(48, law), Uzawa::<f64>::new(300.0).unwrap(), pull, 1e-8);
     assert_eq!(uzawa.report.status, Status::Converged);
     assert_relative_eq!(uzawa.report.mean_gap, exact.mean_gap, max_relative = 1e-2);
 
@@ -90,14 +90,22 @@ fn every_law_control_and_precision_works_with_them() {
 #[test]
 fn bad_stiffnesses_are_refused() {
     for stiffness in [0.0, -1.0, f64::NAN, f64::INFINITY] {
-        assert!(Penalty::new(stiffness).is_err() && Uzawa::new(stiffness).is_err());
+        assert!(Penalty::new(stiffness).is_err() && Uzawa::<f64>::new(stiffness).is_err());
+    }
+    // what only f64 can hold
+    for stiffness in [1e-60, 1e60] {
+        assert!(Uzawa::<f32>::new(stiffness).is_err());
+        let mut penalty = Solver { settings: Settings::default(), constraint: Penalty::new(stiffness).unwrap() };
+        let refused = penalty.solve(&mut rough::<f32, _>(16, 4, NoAdhesion), Control::MeanGap(0.01)).unwrap_err();
+        assert!(matches!(refused, Error::Value { name: "penalty stiffness", .. }));
+        assert!(penalty.solve(&mut rough::<f64, _>(16, 4, NoAdhesion), Control::MeanGap(0.01)).is_ok());
     }
 }
 
-type Sticky = Problem<f64, Westergaard<f64>, Exponential<f64>>;
+type Sticky = Problem<f64, Westergaard<f64>, Exponential>;
 
 /// A rough surface, and a law that attracts ten times its range deep into the peaks at the default start.
-fn sticky() -> (Sticky, Exponential<f64>, Control) {
+fn sticky() -> (Sticky, Exponential, Control) {
     let law = Exponential::new(2e-4, 3e-3).unwrap();
     (rough(64, 8, law), law, Control::MeanGap(0.05))
 }
@@ -150,14 +158,14 @@ fn an_exponential_evaluated_at_negative_gaps_diverges_and_is_not_called_converge
     let (near, _) = with(&mut problem, springs, control, 1e-7);
     let mut solver = Solver { settings: Settings::default(), constraint: Outrun(springs, law) };
     let held = solver
-        .solve_from(&mut problem, control, Some(near.gap.view()), |_| std::ops::ControlFlow::Continue(()))
+        .solve_with(&mut problem, control, Start::From(&near.gap), |_| std::ops::ControlFlow::Continue(()))
         .unwrap();
     assert_eq!(held.report.status, Status::Converged);
     assert_relative_eq!(held.report.mean_pressure, near.report.mean_pressure, max_relative = 1e-2);
 }
 
 /// A law that is undefined, as it may be, where the surfaces interpenetrate.
-struct Positive(Exponential<f64>);
+struct Positive(Exponential);
 
 impl AdhesionLaw<f64> for Positive {
     fn energy(&self, gap: f64) -> f64 {
@@ -183,7 +191,7 @@ fn no_law_is_asked_for_a_negative_gap() {
     // nor where a start interpenetrates
     let mut solver = Solver { settings: Settings::default(), constraint: Penalty::new(300.0).unwrap() };
     let again = solver
-        .solve_from(&mut problem, control, Some(found.gap.view()), |_| std::ops::ControlFlow::Continue(()))
+        .solve_with(&mut problem, control, Start::From(&found.gap), |_| std::ops::ControlFlow::Continue(()))
         .unwrap();
     assert_eq!(again.report.status, Status::Converged);
 }
@@ -349,9 +357,9 @@ impl Springs<f64> for Spoiled {
 #[test]
 fn the_checker_of_constraints_names_the_function_that_is_wrong() {
     for depth in [1e-6, 1e-3, 1.0] {
-        check_constraint(&Penalty::new(50.0_f64).unwrap(), 9, depth).unwrap();
-        check_constraint(&Penalty::new(50.0_f32).unwrap(), 9, depth).unwrap();
-        check_constraint(&Uzawa::new(50.0_f64).unwrap(), 9, depth).unwrap();
+        check_constraint::<f64>(&Penalty::new(50.0).unwrap(), 9, depth).unwrap();
+        check_constraint::<f32>(&Penalty::new(50.0).unwrap(), 9, depth).unwrap();
+        check_constraint::<f64>(&Uzawa::new(50.0).unwrap(), 9, depth).unwrap();
         check_constraint(&Spoiled(1.0, 1.0), 1, depth).unwrap();
         for (springs, named) in
             [(Spoiled(1.0, 1.1), "traction of the springs"), (Spoiled(-1.0, 1.0), "slope of the springs")]

@@ -7,7 +7,7 @@ use crate::common::{solve, sphere};
 use approx::assert_relative_eq;
 use asperity::exact::AdhesiveWavyLine;
 use asperity::*;
-use ndarray::{Array2, ArrayView2};
+use ndarray::Array2;
 
 #[test]
 fn hertz_contact_nodes_and_pressure() {
@@ -69,11 +69,15 @@ fn solve_fine<L: AdhesionLaw<f64>>(
     problem: &mut Problem<f64, Westergaard<f64>, L>,
     mean_gap: f64,
     tolerance: f64,
-    start: Option<ArrayView2<'_, f64>>,
+    start: Option<&Array2<f64>>,
 ) -> Report {
-    let mut solver = Solver::new(Settings { tolerance, ..Settings::default() });
+    let mut solver = Solver::new(Settings { tolerance: Some(tolerance), ..Settings::default() });
     let control = Control::MeanGap(mean_gap);
-    let solution = solver.solve_from(problem, control, start, |_| ControlFlow::Continue(())).unwrap();
+    let solution = solver
+        .solve_with(problem, control, start.map_or(Start::Default, |gap| Start::From(gap)), |_| {
+            ControlFlow::Continue(())
+        })
+        .unwrap();
     crate::common::check(&solution, problem.law(), control);
     solution.report
 }
@@ -163,7 +167,7 @@ fn johnsons_adhesive_wave_by_an_exponential_of_short_range() {
         for half_width in [0.05, 0.1, 0.15, 0.2, 0.25, 0.3, 0.35] {
             let state = exact.at_half_width(half_width).unwrap();
             let start = grid.sample(|x, _| state.gap(x));
-            let warm = solve_fine(&mut problem, state.mean_gap(), 1e-8, Some(start.view()));
+            let warm = solve_fine(&mut problem, state.mean_gap(), 1e-8, Some(&start));
             assert_eq!(warm.status, Status::Converged);
             let error = (warm.mean_pressure - state.mean_pressure()) / exact.closing_pressure();
             assert!(error.abs() <= 2e-4, "{alpha} {half_width} {error:e}");

@@ -1,12 +1,14 @@
 //! Branches of equilibria: where they break off, what that dissipates, and what exact solutions say.
 
 use crate::common::{check, rough, sphere};
+use asperity::path::{Event, Jump, Path, PathCheckpoint, PathSettings, PathStep};
+use asperity::stability::{StabilityTest, Verdict};
 use asperity::*;
 
 /// One wave of a line, with Johnson's α = 0.2.
 const AMPLITUDE: f64 = 0.02;
 
-fn wave(n: usize, range: f64) -> Problem<f64, Westergaard<f64>, Exponential<f64>> {
+fn wave(n: usize, range: f64) -> Problem<f64, Westergaard<f64>, Exponential> {
     let grid = Grid::line(n, 1.0).unwrap();
     let surface = Surface::wave(grid, AMPLITUDE, 1).unwrap();
     let law = Exponential::new(0.5 * (0.2 * std::f64::consts::PI * AMPLITUDE).powi(2), range).unwrap();
@@ -28,7 +30,7 @@ fn follow<L: AdhesionLaw<f64>>(
     settings: PathSettings,
     tolerance: f64,
 ) -> Vec<PathStep<f64>> {
-    let mut solver = Solver::new(Settings { tolerance, ..Settings::default() });
+    let mut solver = Solver::new(Settings { tolerance: Some(tolerance), ..Settings::default() });
     let path = Path::new(&mut solver, problem, loads, settings).unwrap();
     let steps: Vec<_> = path.map(Result::unwrap).collect();
     for step in &steps {
@@ -147,7 +149,7 @@ fn stability_is_lost_at_a_limit_point() {
 }
 
 /// Two equal waves, or nearly so.
-fn two_waves(n: usize, asymmetry: f64) -> Problem<f64, Westergaard<f64>, Exponential<f64>> {
+fn two_waves(n: usize, asymmetry: f64) -> Problem<f64, Westergaard<f64>, Exponential> {
     let grid = Grid::line(n, 1.0).unwrap();
     let turn = 2.0 * std::f64::consts::PI;
     let height = |x: f64, _| 0.01 * ((2.0 * turn * x).cos() + asymmetry * (turn * x).cos());
@@ -395,7 +397,7 @@ fn pull_off(n: usize, work: f64, range: f64, smooth: bool) -> (f64, f64) {
     let at = state.mean_gap(mean);
     let settings = PathSettings { steps: 40, resolution: 1e-2, smooth, ..PathSettings::default() };
     let loads = gaps(&[at - 0.3 * range, at + 0.5 * range]);
-    let mut solver = Solver::new(Settings { tolerance: 1e-5, ..Settings::default() });
+    let mut solver = Solver::new(Settings { tolerance: Some(1e-5), ..Settings::default() });
     let path = Path::new(&mut solver, &mut problem, loads, settings).unwrap();
     let steps: Vec<_> = path.map(Result::unwrap).collect();
     let least = steps.iter().map(|step| step.solution.report.mean_pressure).fold(f64::INFINITY, f64::min);

@@ -5,6 +5,7 @@ use std::f64::consts::PI;
 use std::ops::ControlFlow;
 
 use crate::common::check;
+use asperity::contact::ContactStatistics;
 use asperity::*;
 use ndarray::Array2;
 
@@ -23,9 +24,9 @@ fn solve<L: AdhesionLaw<f64>>(
     tolerance: f64,
     start: Option<&Array2<f64>>,
 ) -> Solution<f64> {
-    let mut solver = Solver::new(Settings { tolerance, ..Settings::default() });
-    let start = start.map(|gap| gap.view());
-    let solution = solver.solve_from(problem, control, start, |_| ControlFlow::Continue(())).unwrap();
+    let mut solver = Solver::new(Settings { tolerance: Some(tolerance), ..Settings::default() });
+    let start = start.map_or(Start::Default, |gap| Start::From(gap));
+    let solution = solver.solve_with(problem, control, start, |_| ControlFlow::Continue(())).unwrap();
     assert_eq!(solution.report.status, Status::Converged);
     check(&solution, problem.law(), control);
     solution

@@ -8,7 +8,7 @@ use asperity::*;
 use ndarray::Array2;
 
 fn limited(max_iterations: usize, tolerance: f64) -> Solver {
-    Solver::new(Settings { max_iterations, tolerance, ..Settings::default() })
+    Solver::new(Settings { max_iterations, tolerance: Some(tolerance), ..Settings::default() })
 }
 
 #[test]
@@ -16,7 +16,7 @@ fn the_certificate_is_never_below_the_true_error() {
     let grid = Grid::new((60, 49), (1.0, 0.8)).unwrap();
     let surface = Surface::from_fn(grid, |x, y| 0.02 * (6.0 * x + 9.0 * y).sin() * (20.0 * y).cos() - x * x).unwrap();
     let mut operator = Westergaard::new(grid, 1.0).unwrap();
-    let mut problem = Problem::new(&surface, Westergaard::new(grid, 1.0).unwrap(), NoAdhesion).unwrap();
+    let mut problem = Problem::new(&surface, operator.clone(), NoAdhesion).unwrap();
     for control in [Control::MeanGap(0.03), Control::MeanGap(0.1), Control::MeanPressure(0.05)] {
         let mut sharpest = f64::INFINITY;
         for iterations in 0..24 {
@@ -132,7 +132,7 @@ fn both_presets_find_the_same_state() {
     for control in [Control::MeanGap(0.03), Control::MeanPressure(0.05)] {
         let mut problem = rough::<f64, _>(64, 16, NoAdhesion);
         let ours = solve(&mut problem, control, 1e-9);
-        let mut paper = Solver::new(Settings { tolerance: 1e-11, ..Settings::rey2017() });
+        let mut paper = Solver::new(Settings { tolerance: Some(1e-11), ..Settings::rey2017() });
         let paper = paper.solve(&mut problem, control).unwrap();
         crate::common::check(&paper, &NoAdhesion, control);
         assert_eq!((paper.report.status, paper.report.method), (Status::Converged, Method::Rey2017));
@@ -145,7 +145,7 @@ fn both_presets_find_the_same_state() {
 
 #[test]
 fn the_papers_preset_can_be_held_to_the_certified_error() {
-    let settings = Settings { criterion: Criterion::EnergyNorm, tolerance: 1e-7, ..Settings::rey2017() };
+    let settings = Settings { criterion: Criterion::EnergyNorm, tolerance: Some(1e-7), ..Settings::rey2017() };
     let solution =
         Solver::new(settings).solve(&mut sphere::<f64, _>(64, NoAdhesion), Control::MeanGap(0.0398)).unwrap();
     let (points, _) = crate::algorithm3::of_sphere(64, 0.0398);
@@ -169,7 +169,7 @@ fn adhesion_raises_the_contact_and_satisfies_the_envelope_theorem() {
     // de/dg = −p, by central differences that stay on the branch
     let step = 1e-7;
     let mut energy = |gap: f64| {
-        let report = solve_from(&mut problem, Control::MeanGap(gap), 1e-10, Some(stuck.gap.view())).report;
+        let report = solve_from(&mut problem, Control::MeanGap(gap), 1e-10, Some(&stuck.gap)).report;
         report.elastic_energy + report.adhesive_energy
     };
     let slope = (energy(0.015 + step) - energy(0.015 - step)) / (2.0 * step);
@@ -228,7 +228,7 @@ impl AdhesionLaw<f64> for Untouched {
 fn no_adhesion_is_not_evaluated() {
     for control in [Control::MeanPressure(0.02), Control::MeanGap(0.02)] {
         let mut problem = rough::<f64, _>(64, 16, Untouched);
-        for settings in [Settings { tolerance: 1e-8, ..Settings::default() }, Settings::rey2017()] {
+        for settings in [Settings { tolerance: Some(1e-8), ..Settings::default() }, Settings::rey2017()] {
             let report = Solver::new(settings).solve(&mut problem, control).unwrap().report;
             assert!(report.iterations > 0);
         }
@@ -241,7 +241,7 @@ fn a_warm_start_from_the_solution_is_the_solution() {
     for control in [Control::MeanGap(0.0429), Control::MeanPressure(-5e-4)] {
         let mut problem = sphere::<f64, _>(64, law);
         let first = solve(&mut problem, control, 1e-9);
-        let again = solve_from(&mut problem, control, 1e-8, Some(first.gap.view()));
+        let again = solve_from(&mut problem, control, 1e-8, Some(&first.gap));
         assert_eq!((first.report.status, again.report.status), (Status::Converged, Status::Converged));
         assert!(again.report.iterations <= 1);
         assert_eq!(first.report.contact_points, again.report.contact_points);
@@ -271,13 +271,24 @@ fn an_observer_can_stop_and_the_limit_is_kept() {
     let control = Control::MeanGap(0.0398);
     let mut seen = Vec::new();
     let stopped = Solver::default()
-        .solve_from(&mut problem, control, None, |iteration| {
+        .solve_with(&mut problem, control, Start::Default, |iteration| {
             seen.push(iteration.iteration);
             if iteration.iteration == 3 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         })
         .unwrap();
     assert_eq!((seen, stopped.report.status), (vec![0, 1, 2, 3], Status::Stopped));
     crate::common::check(&stopped, &NoAdhesion, control);
+    // from every start, and from a gap in any layout
+    let by_columns = stopped.gap.t().as_standard_layout().into_owned().reversed_axes();
+    assert!(!by_columns.is_standard_layout() && by_columns == stopped.gap);
+    for start in [Start::Default, Start::From(&by_columns), Start::Near(by_columns.clone())] {
+        let mut seen = 0;
+        let stopped = Solver::default().solve_with(&mut problem, control, start, |_| {
+            seen += 1;
+            if seen == 2 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        });
+        assert_eq!((seen, stopped.unwrap().report.status), (2, Status::Stopped));
+    }
     let ended = limited(5, 1e-6).solve(&mut problem, control).unwrap();
     assert_eq!((ended.report.status, ended.report.iterations), (Status::IterationLimit, 5));
     assert!(ended.report.relative_error > 1e-6);
@@ -287,10 +298,10 @@ fn an_observer_can_stop_and_the_limit_is_kept() {
 fn impossible_inputs_are_refused_by_name() {
     let mut problem = sphere::<f64, _>(16, NoAdhesion);
     let mut refuse = |control, start: Option<Array2<f64>>, tolerance, text: &str| {
-        let settings = Settings { tolerance, ..Settings::default() };
-        let start = start.as_ref().map(|s| s.view());
+        let settings = Settings { tolerance: Some(tolerance), ..Settings::default() };
+        let start = start.as_ref().map_or(Start::Default, |s| Start::From(s));
         let error = Solver::new(settings)
-            .solve_from(&mut problem, control, start, |_| ControlFlow::Continue(()))
+            .solve_with(&mut problem, control, start, |_| ControlFlow::Continue(()))
             .unwrap_err()
             .to_string();
         assert!(error.contains(text), "{error}");
@@ -405,7 +416,7 @@ fn a_solve_needs_seven_fields() {
 }
 
 /// An exponential law whose work of adhesion is a share of its own at each node.
-struct ByNode(Exponential<f64>, Vec<f64>);
+struct ByNode(Exponential, Vec<f64>);
 
 impl ByNode {
     fn scale(&self, first: usize, values: &mut [f64]) {
@@ -454,7 +465,7 @@ fn a_law_may_differ_from_node_to_node() {
         let surface = Surface::new(grid, heights).unwrap();
         let half_space = Westergaard::<f64>::new(grid, 1.0).unwrap();
         let mut problem = Problem::new(&surface, half_space, ByNode(law, shares)).unwrap();
-        let settings = Settings { tolerance: 1e-9, ..Settings::default() };
+        let settings = Settings { tolerance: Some(1e-9), ..Settings::default() };
         Solver::new(settings).solve(&mut problem, Control::MeanPressure(2e-3)).unwrap()
     };
     let (here, there) = (moved((0, 0)), moved((17, 31)));

@@ -3,6 +3,7 @@
 use std::f64::consts::PI;
 
 use crate::common::{rough, sphere};
+use asperity::contact::{ContactStatistics, PressureDistribution};
 use asperity::exact::{self, Periodic};
 use asperity::*;
 use ndarray::Array2;
@@ -109,7 +110,7 @@ fn the_nodes_in_contact_are_those_of_the_report_whatever_the_constraint() {
 
 #[test]
 fn adhesion_divides_the_surface_in_three() {
-    let single = Exponential::new(2e-4_f32, 4e-3).unwrap();
+    let single = Exponential::new(2e-4, 4e-3).unwrap();
     let (solution, found) = statistics(&mut rough::<f32, _>(64, 16, single), Control::MeanGap(0.02));
     let reach = 4e-3 * 100.0_f32.ln();
     let near = solution.gap.iter().filter(|g| **g > 0.0 && **g < reach).count();

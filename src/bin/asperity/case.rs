@@ -3,9 +3,11 @@
 use std::ops::ControlFlow;
 use std::time::Instant;
 
+use asperity::contact::ContactStatistics;
+use asperity::stability::{Departure, Stability, StabilityTest, Verdict};
 use asperity::{
-    AdhesionLaw, ContactStatistics, Control, Departure, Grid, Level, Nested, NestedSolution, NoAdhesion, Problem,
-    Report, Settings, Solution, Solver, Stability, StabilityTest, Surface, Verdict, Westergaard,
+    AdhesionLaw, Control, Grid, Level, Nested, NestedSolution, NoAdhesion, Problem, Report, Settings, Solution, Solver,
+    Start, Surface, Westergaard,
 };
 use ndarray::Array2;
 use serde_json::Value;
@@ -25,7 +27,7 @@ pub struct Case {
     pub leave: bool,
 }
 
-/// The stability of a solution; see [`asperity::Stability`].
+/// The stability of a solution; see [`asperity::stability::Stability`].
 pub struct Steadiness {
     pub verdict: Verdict,
     pub eigenvalue: f64,
@@ -37,7 +39,7 @@ pub struct Steadiness {
     pub mode: Array2<f64>,
 }
 
-/// An unstable equilibrium that was left; see [`asperity::Departure`].
+/// An unstable equilibrium that was left; see [`asperity::stability::Departure`].
 pub struct Left {
     pub eigenvalue: f64,
     pub energy_drop: f64,
@@ -78,9 +80,9 @@ pub fn solve<T: Scalar, L: AdhesionLaw<T>>(
     let grid = *surface.grid();
     let mut problem = Problem::new(&surface, Westergaard::new(grid, case.modulus)?, law)?;
     drop(surface);
-    let start = start.as_ref().map(|start| start.view());
+    let start = start.as_ref().map_or(Start::Default, |start| Start::From(start));
     let mut solver = Solver::new(case.settings);
-    let mut solution = solver.solve_from(&mut problem, case.control, start, |state| {
+    let mut solution = solver.solve_with(&mut problem, case.control, start, |state| {
         progress.update(state);
         ControlFlow::Continue(())
     })?;

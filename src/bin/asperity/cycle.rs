@@ -2,10 +2,8 @@
 
 use std::path::PathBuf;
 
-use asperity::{
-    Chart, Control, Error, Event, Grid, Path, PathCheckpoint, PathSettings, PathStep, Problem, Solver, Status, Surface,
-    Westergaard,
-};
+use asperity::path::{Event, Path, PathCheckpoint, PathSettings, PathStep};
+use asperity::{Chart, Control, Error, Grid, Problem, Solver, Status, Surface, Westergaard};
 use clap::{ArgGroup, Args};
 use ndarray::Array2;
 use serde_json::{Map, Value, json};

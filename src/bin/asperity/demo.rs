@@ -89,7 +89,8 @@ pub fn run(options: &Options) -> Outcome<bool> {
     ));
     let heights = surface.heights().clone();
     let case = sticky_options.case();
-    let progress = |name| Progress::new(name, case.settings.tolerance, grid.nodes(), printing.without_bars());
+    let progress =
+        |name| Progress::new(name, case.settings.tolerance_in::<f64>(), grid.nodes(), printing.without_bars());
     let law = Exponential::new(WORK_OF_ADHESION, RANGE)?;
     let (bare, without) =
         case::solve::<f64, _>(surface.clone(), NoAdhesion, &case, None, progress("without adhesion"))?;

@@ -30,7 +30,7 @@ pub fn identity(
         "range": number(adhesion.range),
         "precision": solver.precision.name(),
         "method": settings.method.name(),
-        "tolerance": settings.tolerance.to_string(),
+        "tolerance": solver.tolerance().to_string(),
         "max_iterations": settings.max_iterations.to_string(),
         "initial_gap": start.map_or("none".to_owned(), field),
         "version": env!("CARGO_PKG_VERSION"),

@@ -27,7 +27,7 @@ pub fn inputs(
         "range": adhesion.range,
         "method": settings.method.name(),
         "precision": solver.precision.name(),
-        "tolerance": settings.tolerance,
+        "tolerance": solver.tolerance(),
         "max_iterations": settings.max_iterations,
         "threads": threads::count(),
         "version": env!("CARGO_PKG_VERSION"),

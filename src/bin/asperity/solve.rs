@@ -225,7 +225,7 @@ impl Job<'_> {
         let Options { out, force, printing, .. } = self.options;
         let grid = *surface.grid();
         let start = start.map(T::field);
-        let progress = Progress::new("", self.case.settings.tolerance, grid.nodes(), printing.without_bars());
+        let progress = Progress::new("", self.case.settings.tolerance_in::<T>(), grid.nodes(), printing.without_bars());
         let mut warnings = Warnings::of_input::<T>(self.options.strictness, &surface, self.options.problem())?;
         warnings.say();
         let law = self.options.adhesion.law()?;

@@ -1,6 +1,7 @@
 //! The summary of a solve for people: a table, and warnings where the answer is not to be trusted.
 
-use asperity::{Report, Status, Verdict};
+use asperity::stability::Verdict;
+use asperity::{Report, Status};
 
 use crate::case::{Account, Case, Steadiness};
 use crate::numbers::{Style, percent, plain};
@@ -77,7 +78,7 @@ pub fn table(names: &[&str], solves: &[&Account], style: Style) -> String {
 
 /// Warns of a solve that has not converged, or whose equilibrium is unstable; `name` is that of the case.
 pub fn warn(name: &str, account: &Account, case: &Case) {
-    let (report, tolerance) = (&account.report, case.settings.tolerance);
+    let (report, tolerance) = (&account.report, account.report.tolerance);
     let name = if name.is_empty() { String::new() } else { format!("{name}: ") };
     if report.status != Status::Converged {
         let remedy = match report.status {

@@ -2,10 +2,9 @@
 
 use std::path::PathBuf;
 
+use asperity::contact::ContactStatistics;
 use asperity::io::{OutputFolder, write_npy};
-use asperity::{
-    ContactStatistics, Control, Error, Problem, Report, Solution, Solver, Status, Surface, Sweep, Westergaard,
-};
+use asperity::{Control, Error, Problem, Report, Solution, Solver, Status, Surface, Sweep, Westergaard};
 use clap::{ArgGroup, Args, ValueEnum};
 use ndarray::Array2;
 use serde_json::{Map, Value, json};

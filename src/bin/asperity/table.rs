@@ -80,7 +80,7 @@ impl<'a> Table<'a> {
         nodes: usize,
         solve: impl FnOnce(&mut dyn FnMut(&Iteration) -> ControlFlow<()>) -> S,
     ) -> S {
-        let tolerance = self.options.problem.solver.settings().tolerance;
+        let tolerance = self.options.problem.solver.tolerance();
         let mut progress = Progress::new(name, tolerance, nodes, self.options.printing.without_bars());
         solve(&mut |state| {
             progress.update(state);

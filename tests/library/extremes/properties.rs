@@ -42,16 +42,16 @@ impl Scene {
         // half of what the softest wave resists
         let w = if self.adhesive { 0.5 * dense.softest * range * range } else { 0.0 };
         let law: Box<dyn AdhesionLaw<T>> = match self.adhesive {
-            true => Box::new(Exponential::new(T::lit(w), T::lit(range)).unwrap()),
+            true => Box::new(Exponential::new(w, range).unwrap()),
             false => Box::new(NoAdhesion),
         };
         let operator = Westergaard::<T>::new(grid, self.modulus).unwrap();
         let mut problem = Problem::new(&surface, operator, law).unwrap();
         let start = start.map(|start| start.mapv(T::lit));
-        let settings = Settings { tolerance, ..Settings::default() };
+        let settings = Settings { tolerance: Some(tolerance), ..Settings::default() };
         let go_on = |_: &Iteration| std::ops::ControlFlow::Continue(());
-        let solution =
-            Solver::new(settings).solve_from(&mut problem, self.control, start.as_ref().map(|s| s.view()), go_on);
+        let start = start.as_ref().map_or(Start::Default, |start| Start::From(start));
+        let solution = Solver::new(settings).solve_with(&mut problem, self.control, start, go_on);
         let Solution { gap, pressure, report, .. } = solution.unwrap();
         // a contact so light that rounding of heights and gaps leaves more than the tolerance says nothing of
         // symmetries
