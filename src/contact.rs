@@ -108,7 +108,7 @@ pub struct ContactStatistics {
 impl ContactStatistics {
     /// The statistics of a solution on its grid, with the law with which it was found.
     ///
-    /// Memory per node, until it returns: nine bytes.
+    /// Memory per node, until it returns: nine bytes, and with adhesion two scalars.
     ///
     /// # Errors
     /// [`Error::Shape`] if a field does not have the shape of the grid.
@@ -123,8 +123,10 @@ impl ContactStatistics {
         } else {
             let scale = (law.work_of_adhesion() / law.range()).widen();
             let least = T::lit(if scale.is_finite() { NOTICEABLE * scale } else { 0.0 });
-            let free = contact.iter().zip(&solution.gap).filter(|(touches, _)| !**touches);
-            free.filter(|(_, gap)| law.traction(**gap) > least).count()
+            let gaps: Vec<T> = solution.gap.iter().map(|gap| gap.max(T::zero())).collect();
+            let mut tractions = vec![T::zero(); gaps.len()];
+            law.tractions(0, &gaps, &mut tractions);
+            contact.iter().zip(tractions).filter(|&(&touches, traction)| !touches && traction > least).count()
         };
         let (along_x, along_y) = edges(contact.view());
         let (dx, dy) = grid.spacing();

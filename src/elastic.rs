@@ -1,8 +1,9 @@
 //! The elastic operator: pressure from displacement, displacement from pressure, and the preconditioner.
 
-use ndarray::{Array2, ArrayView2, ArrayViewMut2, Zip};
+use ndarray::{Array2, ArrayView2, ArrayViewMut2};
 
 use crate::error::{Error, Result};
+use crate::field;
 use crate::grid::Grid;
 use crate::real::Real;
 
@@ -122,7 +123,7 @@ pub trait ElasticOperator<T: Real>: Send {
         let _ = foundation;
         self.displacement(residual, preconditioned.view_mut())?;
         let error = mean_product(residual, preconditioned.view());
-        let mean_residual = residual.iter().map(|r| r.widen()).sum::<f64>() / residual.len() as f64;
+        let mean_residual = field::mean(residual, T::widen);
         let mean = mean_residual / mean_stiffness;
         let shift = T::lit(mean);
         preconditioned.mapv_inplace(|u| u + shift);
@@ -144,8 +145,7 @@ pub struct Preconditioned {
 
 /// The mean over the nodes of a product.
 fn mean_product<S: Real, T: Real>(a: ArrayView2<'_, S>, b: ArrayView2<'_, T>) -> f64 {
-    let sum = Zip::from(&a).and(&b).fold(0.0, |sum, &a, &b| sum + a.widen() * b.widen());
-    sum / a.len() as f64
+    field::mean_of_both(a, b, |a: S, b: T| a.widen() * b.widen())
 }
 
 /// The methods of an operator that is another one, `$inner` of `$this`.

@@ -26,6 +26,7 @@ mod work;
 
 use driver::Job;
 pub(crate) use driver::Observer;
+pub(crate) use potential::{Of, Potential};
 pub use report::{Iteration, Report, Solution, Status};
 
 /// The method of iteration, one of two.

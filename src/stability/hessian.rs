@@ -4,7 +4,7 @@ use ndarray::Array2;
 
 use crate::elastic::ElasticOperator;
 use crate::error::Result;
-use crate::field::{Partial, Reducer, flat, read, write};
+use crate::field::{Partial, Reducer, read, write};
 use crate::par::IndexedParallelIterator;
 use crate::real::Real;
 
@@ -22,9 +22,16 @@ pub(super) struct Hessian<'a, T> {
 
 impl<'a, T: Real> Hessian<'a, T> {
     pub(super) fn new(operator: &'a mut dyn ElasticOperator<T>, slopes: Array2<T>, centred: bool) -> Self {
-        let free = flat(&slopes).iter().filter(|slope| slope.is_finite()).count() as f64;
-        let least = flat(&slopes).iter().fold(f64::INFINITY, |least, slope| least.min(slope.widen()));
-        let reducer = Reducer::new(slopes.len());
+        let mut reducer = Reducer::new(slopes.len());
+        let total = reducer.run(read(&slopes), |_, slopes| {
+            let mut part = Partial::NONE;
+            for slope in slopes {
+                part.sum[0] += f64::from(u8::from(slope.is_finite()));
+                part.min = part.min.min(slope.widen());
+            }
+            part
+        });
+        let (free, least) = (total.sum[0], total.min);
         Self { operator, slopes, centred, free, least, reducer, applications: 0 }
     }
 
