@@ -6,8 +6,8 @@
 use std::time::Instant;
 
 use asperity::{
-    AdhesionLaw, Amplitude, Control, ElasticOperator, Exponential, Grid, NoAdhesion, Preconditioned, Problem, Real,
-    Result, SelfAffine, Settings, Solver, Surface, Westergaard,
+    AdhesionLaw, Amplitude, Control, ElasticOperator, Exponential, Foundation, Grid, NoAdhesion, Preconditioned,
+    Problem, Real, Result, SelfAffine, Settings, Solver, Surface, Westergaard,
 };
 use ndarray::{ArrayView2, ArrayViewMut2};
 
@@ -57,7 +57,9 @@ impl<T: Real> ElasticOperator<T> for Timed<T> {
         mean_stiffness: f64,
         preconditioned: ArrayViewMut2<'_, T>,
     ) -> Result<Preconditioned> {
-        self.time(|half_space| half_space.precondition(residual, foundation, mean_stiffness, preconditioned))
+        self.time(|half_space| {
+            half_space.precondition(residual, Foundation::uniform(foundation, mean_stiffness), preconditioned)
+        })
     }
 }
 

@@ -146,7 +146,7 @@ pub use ndarray;
 pub use adhesion::{AdhesionLaw, Exponential, MaugisDugdale, NoAdhesion, check_law};
 pub use constraint::{ContactConstraint, Outer, Penalty, Projection, Springs, Uzawa, Wall, check_constraint};
 pub use contact::{Clusters, Connectivity, ContactStatistics, PressureDistribution};
-pub use elastic::{ElasticOperator, Preconditioned, Spectral, Westergaard, check_operator};
+pub use elastic::{CoarseSpace, ElasticOperator, Foundation, Preconditioned, Spectral, Westergaard, check_operator};
 pub use error::{Error, Result};
 pub use grid::Grid;
 pub use nested::{Level, Nested, NestedSolution};

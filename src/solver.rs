@@ -12,8 +12,9 @@ use crate::problem::{Control, Parts, Problem};
 use crate::real::Real;
 
 mod certificate;
+mod coarse;
 mod driver;
-mod lift;
+mod foundation;
 mod passes;
 mod potential;
 mod preconditioned;

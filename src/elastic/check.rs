@@ -2,7 +2,7 @@
 
 use ndarray::Array2;
 
-use super::{ElasticOperator, mean_product};
+use super::{ElasticOperator, Foundation, mean_product};
 use crate::error::{Error, Result};
 use crate::field;
 use crate::real::Real;
@@ -72,11 +72,11 @@ pub fn check_operator<T: Real>(operator: &mut (impl ElasticOperator<T> + ?Sized)
 
     // the preconditioner
     let (foundation, mean_stiffness) = (2.0 * softest, 3.0 * softest);
-    let found = operator.precondition(a.view(), foundation, mean_stiffness, of_a.view_mut())?;
+    let found = operator.precondition(a.view(), Foundation::uniform(foundation, mean_stiffness), of_a.view_mut())?;
     holds("error of precondition, ⟨a, K a⟩", found.error, compliant, soft)?;
     holds("descent of precondition, ⟨a, M a⟩", found.descent, product(&a, &of_a), soft)?;
     holds("mean of precondition", found.mean, mean(&of_a), soft)?;
-    operator.precondition(b.view(), foundation, mean_stiffness, of_b.view_mut())?;
+    operator.precondition(b.view(), Foundation::uniform(foundation, mean_stiffness), of_b.view_mut())?;
     holds("symmetry of precondition, ⟨a, M b⟩", product(&a, &of_b), product(&of_a, &b), soft)?;
     if found.descent <= 0.0 {
         return Err(Error::Operator { property: "descent of precondition", found: found.descent, expected: 0.0 });

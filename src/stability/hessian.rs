@@ -2,7 +2,7 @@
 
 use ndarray::Array2;
 
-use crate::elastic::ElasticOperator;
+use crate::elastic::{ElasticOperator, Foundation};
 use crate::error::Result;
 use crate::field::{Partial, Reducer, read, write};
 use crate::par::IndexedParallelIterator;
@@ -115,7 +115,7 @@ impl<'a, T: Real> Hessian<'a, T> {
     /// The compliance, as preconditioner, of an admissible field; takes one operator application.
     pub(super) fn precondition(&mut self, residual: &Array2<T>, result: &mut Array2<T>) -> Result<()> {
         let softest = self.softest();
-        self.operator.precondition(residual.view(), softest, softest, result.view_mut())?;
+        self.operator.precondition(residual.view(), Foundation::uniform(softest, softest), result.view_mut())?;
         self.applications += 1;
         self.project(result);
         Ok(())
@@ -178,7 +178,7 @@ impl<'a, T: Real> Hessian<'a, T> {
     pub(super) fn smooth_random(&mut self, stream: u32) -> Result<Array2<T>> {
         let random = normal_numbers::<T>(self.shape(), stream);
         let (softest, mut smooth) = (self.softest(), Array2::zeros(random.dim()));
-        self.operator.precondition(random.view(), softest, softest, smooth.view_mut())?;
+        self.operator.precondition(random.view(), Foundation::uniform(softest, softest), smooth.view_mut())?;
         self.applications += 1;
         Ok(smooth)
     }
