@@ -94,8 +94,9 @@
 //!
 //! # Features
 //!
-//! `parallel` (default): threads, with the same results bit for bit. `cli` (default): files, pictures and the
-//! command-line tool. Without both the library depends on libm, ndarray, num-traits, pulp and rustfft alone.
+//! `parallel` (default): threads, with the same results bit for bit. `io`: files, the module `io`. `picture`: maps and
+//! charts, the module `picture`. `cli` (default): both, and the command-line tool. Without any of them the library
+//! depends on libm, ndarray, num-traits, pulp and rustfft alone.
 #![doc = include_str!("equations.html")]
 
 mod adhesion;
@@ -109,13 +110,13 @@ mod fft;
 mod field;
 mod grid;
 pub mod guide;
-#[cfg(feature = "cli")]
+#[cfg(feature = "io")]
 pub mod io;
 mod nested;
 mod par;
 pub mod path;
-#[cfg(feature = "cli")]
-mod picture;
+#[cfg(feature = "picture")]
+pub mod picture;
 mod problem;
 mod real;
 mod solver;
@@ -133,8 +134,6 @@ pub use elastic::{ElasticOperator, Preconditioned, Spectral, Westergaard, check_
 pub use error::{Error, Result};
 pub use grid::Grid;
 pub use nested::{Level, Nested, NestedSolution};
-#[cfg(feature = "cli")]
-pub use picture::{Chart, Colouring, Map};
 pub use problem::{Control, Problem};
 pub use real::Real;
 pub use solver::{Criterion, Iteration, Method, Report, Settings, Solution, Solver, Start, Status};

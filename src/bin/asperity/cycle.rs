@@ -4,7 +4,8 @@ use std::ops::ControlFlow;
 use std::path::PathBuf;
 
 use asperity::path::{Event, Path, PathCheckpoint, PathSettings, PathStep};
-use asperity::{Chart, Control, Error, Problem, Solver, Status, Surface, Westergaard};
+use asperity::picture::Chart;
+use asperity::{Control, Error, Problem, Solver, Status, Surface, Westergaard};
 use clap::{ArgGroup, Args};
 use ndarray::Array2;
 use serde_json::{Map, Value, json};

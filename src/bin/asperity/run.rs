@@ -5,10 +5,11 @@ use std::path::Path;
 use std::time::Instant;
 
 use asperity::contact::ContactStatistics;
+use asperity::picture::{Colouring, Map};
 use asperity::stability::{Departure, Stability, StabilityTest, Verdict};
 use asperity::{
-    AdhesionLaw, Colouring, Control, Error, Grid, Level, Map, Nested, NestedSolution, NoAdhesion, Problem, Real,
-    Report, Result, Settings, Solution, Solver, Start, Surface, Westergaard,
+    AdhesionLaw, Control, Error, Grid, Level, Nested, NestedSolution, NoAdhesion, Problem, Real, Report, Result,
+    Settings, Solution, Solver, Start, Surface, Westergaard,
 };
 use ndarray::Array2;
 use ndarray_npy::WritableElement;
