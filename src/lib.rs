@@ -37,7 +37,7 @@
 //! let (half_space, _) = hertz.into_parts();
 //! let mut sticky = Problem::new(&sphere, half_space, law)?;
 //! let stuck = Solver::default().solve(&mut sticky, Control::MeanGap(0.0398))?;
-//! assert!(stuck.report.contact_points > pressed.report.contact_points);
+//! assert!(stuck.report.contact_nodes > pressed.report.contact_nodes);
 //! # Ok::<(), asperity::Error>(())
 //! ```
 //!
@@ -129,7 +129,7 @@ mod warning;
 pub use ndarray;
 
 pub use adhesion::{AdhesionLaw, Exponential, MaugisDugdale, NoAdhesion, check_law};
-pub use constraint::{ContactConstraint, Outer, Penalty, Projection, Springs, Uzawa, Wall, check_constraint};
+pub use constraint::{ContactConstraint, Penalty, Projection, Springs, Update, Uzawa, Wall, check_constraint};
 pub use elastic::{ElasticOperator, Preconditioned, Spectral, Westergaard, check_operator};
 pub use error::{Error, Result};
 pub use grid::Grid;

@@ -35,6 +35,7 @@ pub use start::Start;
 /// assert_eq!((paper.method, paper.criterion), (Method::Rey2017, Criterion::Orthogonality));
 /// assert_eq!(Method::default().name(), "default");
 /// ```
+#[non_exhaustive]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Method {
     /// Conjugate gradients preconditioned with the compliance; the energy falls in every iteration.
@@ -63,6 +64,7 @@ impl Method {
 /// assert_eq!(certified.criterion, Settings::default().criterion);
 /// assert_eq!(certified.criterion.name(), "energy-norm");
 /// ```
+#[non_exhaustive]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Criterion {
     /// The certified relative error in the energy norm, [`Report::relative_error`].

@@ -15,6 +15,7 @@ const NOISE: f64 = 1e-6;
 /// The colouring of the values of a [`Map`](crate::picture::Map).
 ///
 /// [`Map`](super::Map) has an example.
+#[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Colouring {
     /// From dark blue at the least value to yellow at the greatest: heights, gaps.

@@ -54,7 +54,7 @@ impl<T: Real> Stability<T> {
     /// assert_eq!(stability.verdict, Verdict::Unstable);
     ///
     /// let left = stability.leave(&mut solver, &mut problem, control, &even)?.expect("there is a mode");
-    /// assert!(left.energy_drop > 0.0 && left.solution.report.contact_points > 0);
+    /// assert!(left.energy_drop > 0.0 && left.solution.report.contact_nodes > 0);
     /// let stability = StabilityTest::default().run(&mut problem, control, &left.solution)?;
     /// assert_eq!(stability.verdict, Verdict::Stable);
     /// # Ok::<(), asperity::Error>(())

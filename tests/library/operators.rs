@@ -155,7 +155,7 @@ fn a_plain_operator_solves_the_same_problem() {
         let a = crate::common::solve(&mut fast, control, 1e-10);
         let b = crate::common::solve(&mut plain, control, 1e-10);
         assert_eq!((a.report.status, b.report.status), (Status::Converged, Status::Converged));
-        assert_eq!(a.report.contact_points, b.report.contact_points);
+        assert_eq!(a.report.contact_nodes, b.report.contact_nodes);
         assert_relative_eq!(a.report.mean_gap, b.report.mean_gap, max_relative = 1e-9);
     }
 }
