@@ -316,6 +316,17 @@ fn impossible_inputs_are_refused_by_name() {
     let other = Surface::paraboloid(Grid::square(16, 2.0).unwrap(), 1.0).unwrap();
     let operator = || Westergaard::<f64>::new(grid, 1.0).unwrap();
     assert!(Problem::new(&other, operator(), NoAdhesion).is_err());
+    // laws that only f64 can hold
+    let single = Westergaard::<f32>::new(grid, 1.0).unwrap();
+    let surface = Surface::paraboloid(grid, 2.0).unwrap();
+    for (work, range) in [(1e60, 1e-3), (1e-4, 1e-60)] {
+        let laws = (Exponential::new(work, range).unwrap(), MaugisDugdale::new(work, range).unwrap());
+        assert!(matches!(Problem::new(&surface, single.clone(), laws.0), Err(Error::Law { .. })), "{work} {range}");
+        assert!(matches!(Problem::new(&surface, single.clone(), laws.1), Err(Error::Law { .. })), "{work} {range}");
+        assert!(
+            Problem::new(&surface, operator(), laws.0).is_ok() && Problem::new(&surface, operator(), laws.1).is_ok()
+        );
+    }
     let mut heights = Array2::zeros((16, 16));
     heights[[3, 5]] = f64::NAN;
     let error = Surface::new(grid, heights).unwrap_err().to_string();
