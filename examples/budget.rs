@@ -3,11 +3,12 @@
 //! `RAYON_NUM_THREADS=1 cargo run --release --example budget -- [size [case]]`; 1024 if nothing is given, and of a case a part of
 //! its name.
 
+use std::ops::ControlFlow;
 use std::time::Instant;
 
 use asperity::{
-    AdhesionLaw, Amplitude, Control, ElasticOperator, Exponential, Foundation, Grid, NoAdhesion, Preconditioned,
-    Problem, Real, Result, SelfAffine, Settings, Solver, Surface, Westergaard,
+    AdhesionLaw, Amplitude, CoarseSpace, Control, ElasticOperator, Exponential, Foundation, Grid, NoAdhesion,
+    Preconditioned, Problem, Real, Result, SelfAffine, Settings, Solver, Start, Surface, Westergaard,
 };
 use ndarray::{ArrayView2, ArrayViewMut2};
 
@@ -50,16 +51,16 @@ impl<T: Real> ElasticOperator<T> for Timed<T> {
     fn surface_pressure(&mut self, heights: ArrayView2<'_, f64>, p: ArrayViewMut2<'_, T>) -> Result<f64> {
         self.half_space.surface_pressure(heights, p)
     }
+    fn coarse_space(&self, dimension: usize) -> Option<CoarseSpace> {
+        self.half_space.coarse_space(dimension)
+    }
     fn precondition(
         &mut self,
         residual: ArrayView2<'_, T>,
-        foundation: f64,
-        mean_stiffness: f64,
+        foundation: Foundation<'_>,
         preconditioned: ArrayViewMut2<'_, T>,
     ) -> Result<Preconditioned> {
-        self.time(|half_space| {
-            half_space.precondition(residual, Foundation::uniform(foundation, mean_stiffness), preconditioned)
-        })
+        self.time(|half_space| half_space.precondition(residual, foundation, preconditioned))
     }
 }
 
@@ -70,33 +71,32 @@ fn main() -> std::result::Result<(), Box<dyn std::error::Error>> {
     let surface =
         SelfAffine { k_s: 64.0, amplitude: Amplitude::RmsSlope(1.0), ..SelfAffine::default() }.surface(grid)?;
     let range = 0.1 * surface.rms_height();
-    let (double, single) = (Exponential::new(0.1 * range, range)?, Exponential::new(0.1 * range as f32, range as f32)?);
+    let law = Exponential::new(0.1 * range, range)?;
     println!("{size} x {size} nodes; medians of {ROUNDS} rounds, least and largest in brackets");
     let (pressure, gap) = (Control::MeanPressure(0.02), Control::MeanGap(0.02));
     for (name, control) in [("hard wall, mean pressure", pressure), ("hard wall, mean gap", gap)] {
         if name.contains(&case) {
-            measure(name, &surface, NoAdhesion, NoAdhesion, control)?;
+            measure(name, &surface, NoAdhesion, control)?;
         }
     }
     let name = "exponential law, mean gap";
     if name.contains(&case) {
-        measure(name, &surface, double, single, gap)?;
+        measure(name, &surface, law, gap)?;
     }
     Ok(())
 }
 
-fn measure<L: AdhesionLaw<f64>, S: AdhesionLaw<f32>>(
+fn measure<L: AdhesionLaw<f64> + AdhesionLaw<f32> + Copy>(
     name: &str,
     surface: &Surface,
     law: L,
-    single: S,
     control: Control,
 ) -> Result<()> {
     let grid = *surface.grid();
     let half_space = Timed { half_space: Westergaard::<f64>::new(grid, 1.0)?, seconds: 0.0 };
     let mut problem = Problem::new(surface, half_space, law)?;
-    let mut problem_single = Problem::new(surface, Westergaard::<f32>::new(grid, 1.0)?, single)?;
-    let loose = Settings { tolerance: 1e-4, ..Settings::default() };
+    let mut problem_single = Problem::new(surface, Westergaard::<f32>::new(grid, 1.0)?, law)?;
+    let loose = Settings { tolerance: Some(1e-4), ..Settings::default() };
     let mut figures: [Vec<f64>; 4] = Default::default();
     for _ in 0..ROUNDS {
         let before = problem.operator().seconds;
@@ -114,7 +114,8 @@ fn measure<L: AdhesionLaw<f64>, S: AdhesionLaw<f32>>(
         let near = solver.solve(&mut problem_single, control)?;
         iterations[1] = near.report.iterations as f64;
         let first = begin.elapsed().as_secs_f64();
-        Solver::default().solve_near(&mut problem, control, near.gap.mapv(f64::from))?;
+        let near = Start::Near(near.gap.mapv(f64::from));
+        Solver::default().solve_with(&mut problem, control, near, |_| ControlFlow::Continue(()))?;
         let both = begin.elapsed().as_secs_f64();
         let found = [whole, 100.0 * share, (double / iterations[0]) / (first / iterations[1]), whole / both];
         figures.iter_mut().zip(found).for_each(|(figures, found)| figures.push(found));

@@ -146,10 +146,10 @@ fn sweep<S: Sphere + Copy, L: AdhesionLaw<f64> + Copy>(
                 Start::Default => None,
                 Start::Exact => Some((&reference - surface.heights()).mapv(|g| g.max(0.0))),
             };
-            let given = given.as_ref().map(|gap| gap.view());
-            let mut solver = Solver::new(Settings { tolerance: 1e-7, ..Settings::default() });
+            let given = given.as_ref().map_or(asperity::Start::Default, |gap| asperity::Start::From(gap));
+            let mut solver = Solver::new(Settings { tolerance: Some(1e-7), ..Settings::default() });
             let solution =
-                solver.solve_from(&mut problem, Control::MeanGap(gap), given, |_| ControlFlow::Continue(()))?;
+                solver.solve_with(&mut problem, Control::MeanGap(gap), given, |_| ControlFlow::Continue(()))?;
             let report = &solution.report;
             if report.status != Status::Converged {
                 return Err(format!("{name}, {n} × {n}, {} start: {}", start.name(), report.status).into());

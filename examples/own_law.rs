@@ -42,9 +42,9 @@ fn main() -> Result<()> {
     // the same work of adhesion and the same traction at contact, with the law that decays exponentially
     let exponential = Exponential::new(work, range)?;
     let control = Control::MeanPressure(1e5);
-    let operator = || Westergaard::<f64>::new(grid, 1e9);
-    let a = Solver::default().solve(&mut Problem::new(&sphere, operator()?, cubic)?, control)?.report;
-    let b = Solver::default().solve(&mut Problem::new(&sphere, operator()?, exponential)?, control)?.report;
+    let half_space = Westergaard::<f64>::new(grid, 1e9)?;
+    let a = Solver::default().solve(&mut Problem::new(&sphere, half_space.clone(), cubic)?, control)?.report;
+    let b = Solver::default().solve(&mut Problem::new(&sphere, half_space, exponential)?, control)?.report;
 
     println!(
         "{:>13} {:>10} {:>9} {:>15} {:>11} {:>12}",

@@ -81,7 +81,7 @@ fn main() -> Result<()> {
     let size = std::env::args().nth(1).and_then(|n| n.parse().ok()).unwrap_or(256);
     let grid = Grid::square(size, 1.0)?;
     let waves = Surface::wave_2d(grid, 5e-3, 4)?;
-    let half_space = || Westergaard::<f64>::new(grid, 1.0);
+    let half_space = Westergaard::<f64>::new(grid, 1.0)?;
     let nodes = |f: &dyn Fn(usize, usize) -> f64| -> Vec<f64> {
         (0..size * size).map(|node| f(4 * (node / size) / size, 4 * (node % size) / size)).collect()
     };
@@ -91,7 +91,7 @@ fn main() -> Result<()> {
     for share in [0.0, 0.5, 1.0] {
         let shares = nodes(&|i, j| if (i + j) % 2 == 0 { 1.0 } else { share });
         let law = Patches { law: Exponential::new(2e-5, 2e-3)?, shares };
-        let mut problem = Problem::new(&waves, half_space()?, law)?;
+        let mut problem = Problem::new(&waves, half_space.clone(), law)?;
         let solution = Solver::default().solve(&mut problem, Control::MeanPressure(1e-3))?;
         let tension = solution.pressure.iter().fold(0.0_f64, |least, &p| least.min(p));
         println!("{share:17} {:12.2} {:23.3e}", 100.0 * solution.report.contact_fraction, -tension);
@@ -100,7 +100,7 @@ fn main() -> Result<()> {
     println!("\nthe same waves without adhesion, under a coat of 1e-3 on one half");
     let thickness = nodes(&|i, _| if i < 2 { 1e-3 } else { 0.0 });
     let coat = Coat { thickness, stiffness: 500.0 };
-    let mut problem = Problem::new(&waves, half_space()?, NoAdhesion)?;
+    let mut problem = Problem::new(&waves, half_space, NoAdhesion)?;
     let mut solver = Solver { settings: Settings::default(), constraint: coat };
     let solution = solver.solve(&mut problem, Control::MeanPressure(1e-3))?;
     let half = |from: usize, to: usize| {

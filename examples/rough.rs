@@ -23,9 +23,11 @@ use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
 use arguments::size_and_out;
+use asperity::contact::ContactStatistics;
+use asperity::picture::{Colouring, Map};
 use asperity::{
-    AdhesionLaw, Amplitude, Colouring, ContactStatistics, Control, Exponential, Grid, Map, Problem, SelfAffine,
-    Solution, Solver, Status, Surface, Sweep, Westergaard,
+    AdhesionLaw, Amplitude, Control, Exponential, Grid, Problem, SelfAffine, Solution, Solver, Start, Status, Surface,
+    Sweep, Westergaard,
 };
 use legend::legend;
 use ndarray::{Array2, Zip};
@@ -178,13 +180,7 @@ fn sweep(surface: &Surface, work: f64, failures: &mut usize) -> Outcome<Curve> {
 }
 
 /// Prints the row of a solve, and counts it if it has not converged.
-fn tell(
-    name: &str,
-    grid: &Grid,
-    solution: &Solution<f64>,
-    law: &Exponential<f64>,
-    failures: &mut usize,
-) -> Outcome<Point> {
+fn tell(name: &str, grid: &Grid, solution: &Solution<f64>, law: &Exponential, failures: &mut usize) -> Outcome<Point> {
     let (report, found) = (&solution.report, ContactStatistics::of(solution, grid, law)?);
     *failures += usize::from(report.status != Status::Converged);
     println!(
@@ -212,7 +208,7 @@ fn tell(
 /// The solution with adhesion whose mean contact pressure is the load, by the secant method over external pressures.
 fn at_contact_pressure(
     surface: &Surface,
-    law: Exponential<f64>,
+    law: Exponential,
     curve: &Curve,
     failures: &mut usize,
 ) -> Outcome<Solution<f64>> {
@@ -225,7 +221,7 @@ fn at_contact_pressure(
         let load = last.0 + (goal - last.1) * (last.0 - before.0) / (last.1 - before.1);
         let control = Control::MeanPressure(load * SLOPE);
         let solution =
-            Solver::default().solve_from(&mut problem, control, Some(gap.view()), |_| ControlFlow::Continue(()))?;
+            Solver::default().solve_with(&mut problem, control, Start::From(&gap), |_| ControlFlow::Continue(()))?;
         (before, last) = (last, (load, solution.report.mean_contact_pressure / SLOPE));
         if (last.1 / goal - 1.0).abs() < 1e-5 {
             tell("same ⟨λ⟩", surface.grid(), &solution, &law, failures)?;
@@ -250,9 +246,10 @@ fn papers_own(out: &Path, surface: &Surface, failures: &mut usize) -> Outcome<()
         let (grid, shape) = (*surface.grid(), surface.grid().shape());
         let mut problem = Problem::new(surface, Westergaard::<f64>::new(grid, 1.0)?, law)?;
         let apart = Array2::from_elem(shape, 5.0 * surface.rms_height());
-        for (name, start) in [("from full contact", None), ("from far apart", Some(apart.view()))] {
+        for (name, start) in [("from full contact", None), ("from far apart", Some(&apart))] {
             let control = Control::MeanPressure(LOAD);
-            let solution = Solver::default().solve_from(&mut problem, control, start, |_| ControlFlow::Continue(()))?;
+            let given = start.map_or(Start::Default, |gap| Start::From(gap));
+            let solution = Solver::default().solve_with(&mut problem, control, given, |_| ControlFlow::Continue(()))?;
             tell(name, &grid, &solution, &law, failures)?;
             if shape.0 == size && start.is_some() {
                 maps(out, "papers-own", "Not resolved: the paper's adhesion", grid, &solution, &law)?;
@@ -281,16 +278,9 @@ fn figure5(out: &Path, surface: &Surface) -> Outcome<()> {
 }
 
 /// Figures 6 and 7 of one solution.
-fn maps(
-    out: &Path,
-    file: &str,
-    title: &str,
-    grid: Grid,
-    solution: &Solution<f64>,
-    law: &Exponential<f64>,
-) -> Outcome<()> {
+fn maps(out: &Path, file: &str, title: &str, grid: Grid, solution: &Solution<f64>, law: &Exponential) -> Outcome<()> {
     let report = &solution.report;
-    let adhesion = if law.is_zero() {
+    let adhesion = if law.work_of_adhesion() == 0.0 {
         String::new()
     } else {
         format!("w = {:e} E*L, range {:e} L, ", law.work_of_adhesion(), law.range())
@@ -298,7 +288,7 @@ fn maps(
     let loads =
         format!("external pressure {:.4} E*, contact {:.4} E*", report.mean_pressure, report.mean_contact_pressure);
     // without adhesion, what there is outside of the contact is only what remains of the error
-    let pressure = if law.is_zero() { &solution.contact_pressure } else { &solution.pressure };
+    let pressure = if law.work_of_adhesion() == 0.0 { &solution.contact_pressure } else { &solution.pressure };
     let map = Map {
         title: &format!("Figure 6: {title}"),
         caption: &loads,
@@ -315,7 +305,7 @@ fn maps(
         // in this order, so that the mean of neighbours in contact and attraction is not taken for apart
         if touches {
             2.0
-        } else if !law.is_zero() && law.traction(gap) > least {
+        } else if law.work_of_adhesion() > 0.0 && law.traction(gap) > least {
             1.0
         } else {
             0.0

@@ -23,7 +23,7 @@ use asperity::{
     Problem, Projection, Result, Settings, Solution, Solver, Surface, Uzawa, Westergaard,
 };
 use authors::RADIUS;
-use ndarray::{Array2, ArrayView2};
+use ndarray::Array2;
 use outrun::Outrun;
 
 fn main() -> Result<()> {
@@ -48,7 +48,7 @@ fn main() -> Result<()> {
 }
 
 fn settings(tolerance: f64) -> Settings {
-    Settings { tolerance, ..Settings::default() }
+    Settings { tolerance: Some(tolerance), ..Settings::default() }
 }
 
 fn table_1(sizes: &[usize]) -> Result<()> {
@@ -122,9 +122,9 @@ fn periodic_errors<L: AdhesionLaw<f64>>(
         Start::Uniform => Some(Array2::from_elem(grid.shape(), mean_gap)),
         Start::Exact => Some((&u_exact - surface.heights()).mapv(|g| if g < 1e-7 { 0.0 } else { g })),
     };
-    let start = start.as_ref().map(|gap| gap.view());
+    let start = start.as_ref().map_or(asperity::Start::Default, |gap| asperity::Start::From(gap));
     let solution = Solver::new(settings(1e-7))
-        .solve_from(&mut problem, Control::MeanGap(mean_gap), start, |_| std::ops::ControlFlow::Continue(()))?;
+        .solve_with(&mut problem, Control::MeanGap(mean_gap), start, |_| std::ops::ControlFlow::Continue(()))?;
     let u = &solution.gap + surface.heights();
     let centred = |u: Array2<f64>| {
         let mean = u.sum() / u.len() as f64;
@@ -247,7 +247,7 @@ fn table_2(n: usize) -> Result<()> {
     for k in [500.0, 5000.0] {
         let printed = if k == 5000.0 { ["54", "1.9e-4", "0"] } else { [""; 3] };
         row("Uzawa", Some(k), printed, &mut |problem| {
-            with(problem, Uzawa::new(k)?, control).map(|(s, uzawa)| (s, uzawa.outer_iterations()))
+            with(problem, Uzawa::new(k)?, control).map(|(s, uzawa)| (s, uzawa.rounds()))
         })?;
     }
     table_2_rough(n.min(256))
@@ -294,10 +294,10 @@ fn table_2_rough(n: usize) -> Result<()> {
         let name = k.to_string();
         let mut solver = Solver { settings: Settings::default(), constraint: Uzawa::new(k)? };
         let solution = solver.solve(&mut problem, control)?;
-        print("Uzawa", &name, &solution, solver.constraint.outer_iterations());
+        print("Uzawa", &name, &solution, solver.constraint.rounds());
         let mut solver = Solver { settings: Settings::default(), constraint: Outrun(Uzawa::new(k)?, law) };
         let solution = solver.solve(&mut problem, control)?;
-        print("  no tangent", &name, &solution, solver.constraint.0.outer_iterations());
+        print("  no tangent", &name, &solution, solver.constraint.0.rounds());
     }
     let highest = rough.heights().iter().copied().fold(f64::NEG_INFINITY, f64::max);
     println!(
@@ -322,7 +322,7 @@ fn barrier(stiffness: f64) -> f64 {
 
 type Hard = Problem<f64, Westergaard<f64>, NoAdhesion>;
 
-/// A solve, with the number of its outer iterations.
+/// A solve, with the number of its rounds.
 type Run<'a> = dyn FnMut(&mut Hard) -> Result<(Solution<f64>, usize)> + 'a;
 
 fn with<C: ContactConstraint<f64>>(problem: &mut Hard, constraint: C, control: Control) -> Result<(Solution<f64>, C)> {
@@ -403,17 +403,18 @@ fn waves(largest: usize) -> Result<()> {
         for half_width in [0.05, 0.1, 0.2, 0.3, 0.35] {
             let state = exact.at_half_width(half_width)?;
             let start = grid.sample(|x, _| state.gap(x));
-            let mut error = |start: Option<ArrayView2<'_, f64>>| -> Result<f64> {
+            let mut error = |start: Option<&Array2<f64>>| -> Result<f64> {
                 let control = Control::MeanGap(state.mean_gap());
+                let start = start.map_or(asperity::Start::Default, |gap| asperity::Start::From(gap));
                 let report = Solver::new(settings(1e-8))
-                    .solve_from(&mut problem, control, start, |_| ControlFlow::Continue(()))?
+                    .solve_with(&mut problem, control, start, |_| ControlFlow::Continue(()))?
                     .report;
                 Ok((report.mean_pressure - state.mean_pressure()) / closing)
             };
-            let (uniform, warm) = (error(None)?, error(Some(start.view()))?);
+            let (uniform, warm) = (error(None)?, error(Some(&start))?);
             println!(
                 "{alpha:>6} {:>7.2} {half_width:>9} {:>9.4} {uniform:>9.1e} {warm:>9.1e}",
-                problem.resolution(),
+                problem.mu_rho(),
                 state.mean_pressure() / closing
             );
         }

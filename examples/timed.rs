@@ -19,13 +19,14 @@ mod memory;
 use std::collections::HashMap;
 use std::error::Error;
 use std::fs;
+use std::ops::ControlFlow;
 use std::path::Path;
 use std::time::Instant;
 
 use asperity::io::{read_field, write_npy};
 use asperity::{
     AdhesionLaw, Control, ElasticOperator, Exponential, Grid, Nested, NoAdhesion, Problem, Real, Settings, Solution,
-    Solver, Surface, Westergaard,
+    Solver, Start, Surface, Westergaard,
 };
 use ndarray::Array2;
 use serde_json::json;
@@ -89,19 +90,15 @@ fn time<T: Real>(heights: Array2<f64>, options: &Options) -> Outcome<()> {
     }
     let surface = Surface::new(grid, heights)?;
     match (options.number("work")?, options.number("range")?) {
-        (Some(work), Some(range)) => {
-            let single = Exponential::new(work as f32, range as f32)?;
-            solve::<T, _, _>(&surface, Exponential::new(T::lit(work), T::lit(range))?, single, options)
-        }
-        (None, None) => solve::<T, _, _>(&surface, NoAdhesion, NoAdhesion, options),
+        (Some(work), Some(range)) => solve::<T, _>(&surface, Exponential::new(work, range)?, options),
+        (None, None) => solve::<T, _>(&surface, NoAdhesion, options),
         _ => Err("work and range must both be given, or neither".into()),
     }
 }
 
-fn solve<T: Real, L: AdhesionLaw<T> + Clone, S: AdhesionLaw<f32> + Clone>(
+fn solve<T: Real, L: AdhesionLaw<T> + AdhesionLaw<f32> + Copy>(
     surface: &Surface,
     law: L,
-    single: S,
     options: &Options,
 ) -> Outcome<()> {
     let control = match (options.number("pressure")?, options.number("gap")?) {
@@ -109,24 +106,22 @@ fn solve<T: Real, L: AdhesionLaw<T> + Clone, S: AdhesionLaw<f32> + Clone>(
         (None, Some(gap)) => Control::MeanGap(gap),
         _ => return Err("give one of pressure=P, gap=G and apply=N".into()),
     };
-    let tolerance = options.number("tolerance")?.unwrap_or(Settings::default().tolerance);
-    let settings = Settings { tolerance, ..Settings::default() };
+    let settings = Settings { tolerance: options.number("tolerance")?, ..Settings::default() };
+    let tolerance = settings.tolerance_in::<T>();
     for _ in 0..options.count("repeat")?.unwrap_or(1) {
         forget_peak();
         let begin = Instant::now();
         let (solution, seconds) = match options.text("method").unwrap_or("single") {
-            "single" => run::<T, L>(surface, law.clone(), control, settings, None)?,
-            "nested" => nested::<T, L>(surface, law.clone(), control, settings)?,
+            "single" => run::<T, L>(surface, law, control, settings, None)?,
+            "nested" => nested::<T, L>(surface, law, control, settings)?,
             // what single precision reaches is then all that is wanted
-            "mixed" if T::NAME == "f32" || tolerance >= SINGLE => {
-                nested::<T, L>(surface, law.clone(), control, settings)?
-            }
+            "mixed" if T::NAME == "f32" || tolerance >= SINGLE => nested::<T, L>(surface, law, control, settings)?,
             "mixed" => {
-                let settings_single = Settings { tolerance: SINGLE, ..settings };
-                let (near, seconds) = nested::<f32, S>(surface, single.clone(), control, settings_single)?;
+                let settings_single = Settings { tolerance: Some(SINGLE), ..settings };
+                let (near, seconds) = nested::<f32, L>(surface, law, control, settings_single)?;
                 let gap = near.gap.mapv(|g| T::lit(g.widen()));
                 drop(near);
-                let (solution, more) = run::<T, L>(surface, law.clone(), control, settings, Some(gap))?;
+                let (solution, more) = run::<T, L>(surface, law, control, settings, Some(gap))?;
                 (solution, seconds + more)
             }
             other => return Err(format!("method={other}: single, nested or mixed").into()),
@@ -164,10 +159,8 @@ fn run<T: Real, L: AdhesionLaw<T>>(
     let mut problem = Problem::new(surface, half_space, law)?;
     let begin = Instant::now();
     let mut solver = Solver::new(settings);
-    let solution = match near {
-        None => solver.solve(&mut problem, control)?,
-        Some(gap) => solver.solve_near(&mut problem, control, gap)?,
-    };
+    let start = near.map_or(Start::Default, Start::Near);
+    let solution = solver.solve_with(&mut problem, control, start, |_| ControlFlow::Continue(()))?;
     Ok((solution, begin.elapsed().as_secs_f64()))
 }
 

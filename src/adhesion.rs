@@ -160,8 +160,8 @@ forward!(&L, Box<L>);
 ///
 /// ```
 /// use asperity::{Exponential, MaugisDugdale, check_law};
-/// check_law(&Exponential::new(1e-4_f64, 2e-3)?, 0.02)?;
-/// check_law(&MaugisDugdale::new(1e-4_f32, 2e-3)?, 0.02)?;
+/// check_law::<f64>(&Exponential::new(1e-4, 2e-3)?, 0.02)?;
+/// check_law::<f32>(&MaugisDugdale::new(1e-4, 2e-3)?, 0.02)?;
 /// # Ok::<(), asperity::Error>(())
 /// ```
 pub fn check_law<T: Real>(law: &impl AdhesionLaw<T>, largest_gap: f64) -> Result<()> {
@@ -199,18 +199,19 @@ mod tests {
         for range in [1e-9, 1e-3, 10.0] {
             for reach in [0.5, 5.0, 50.0] {
                 let (w, far) = (1e-2, reach * range);
-                check_law(&Exponential::new(w, range).unwrap(), far).unwrap();
-                check_law(&MaugisDugdale::new(w, range).unwrap(), far).unwrap();
+                let (exponential, dugdale) =
+                    (Exponential::new(w, range).unwrap(), MaugisDugdale::new(w, range).unwrap());
+                check_law::<f64>(&exponential, far).unwrap();
+                check_law::<f64>(&dugdale, far).unwrap();
+                check_law::<f32>(&exponential, far).unwrap();
+                check_law::<f32>(&dugdale, far).unwrap();
                 for compliance in [1e-3, 0.7, 1e9] {
-                    let law = MaugisDugdale::new(w, range).unwrap();
                     // a reference to a law has its jumps too
-                    let reference: &dyn AdhesionLaw<f64> = &law;
+                    let reference: &dyn AdhesionLaw<f64> = &dugdale;
                     let smoothed = reference.smoothed(compliance * range * range / w).unwrap();
                     check_law(&smoothed, far).unwrap();
                     assert_eq!(smoothed.work_of_adhesion(), w);
                 }
-                check_law(&Exponential::new(w as f32, range as f32).unwrap(), far).unwrap();
-                check_law(&MaugisDugdale::new(w as f32, range as f32).unwrap(), far).unwrap();
             }
         }
         check_law::<f64>(&NoAdhesion, 1.0).unwrap();

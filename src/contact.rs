@@ -1,4 +1,8 @@
-//! Contact statistics: area, perimeter and their corrections, from the map of the nodes in contact.
+//! The contact of a solution: its area and edge, its clusters, and the distribution of its pressure.
+//!
+//! A node is in contact as [`Solution::contact_map`] says. [`ContactStatistics`] has areas, and the perimeter by which
+//! they are corrected; [`Clusters`] are the pieces that hang together; [`PressureDistribution`] is the histogram of the
+//! pressure.
 
 use ndarray::{Array2, ArrayView2, Zip};
 
@@ -24,8 +28,8 @@ const NOTICEABLE: f64 = 0.01;
 impl<T: Real> Solution<T> {
     /// The contact map: true at nodes without a gap (g ≤ 0) and at nodes with a contact pressure (λ > 0).
     ///
-    /// This is what contact means everywhere: in [`Report::contact_points`](crate::Report::contact_points) and
-    /// [`Iteration::contact_points`](crate::Iteration::contact_points), in [`ContactStatistics`] and its clusters, in
+    /// This is what contact means everywhere: in [`Report::contact_nodes`](crate::Report::contact_nodes) and
+    /// [`Iteration::contact_nodes`](crate::Iteration::contact_nodes), in [`ContactStatistics`] and its clusters, in
     /// [`PressureDistribution`], and in pictures. Under [`Projection`](crate::Projection) the nodes without a gap are
     /// all of them, and some may carry no pressure. Under a constraint that is a term of the energy all that
     /// interpenetrate are pressed, and those of [`Uzawa`](crate::Uzawa) may be pressed at a gap that is not quite
@@ -68,7 +72,8 @@ impl<T: Real> Solution<T> {
 /// too many for each end point, measured on waves.
 ///
 /// ```
-/// use asperity::{ContactStatistics, Control, Exponential, Grid, Problem, Solver, Surface, Westergaard};
+/// use asperity::contact::ContactStatistics;
+/// use asperity::{Control, Exponential, Grid, Problem, Solver, Surface, Westergaard};
 /// let grid = Grid::square(64, 1.0)?;
 /// let surface = Surface::wave_2d(grid, 0.01, 2)?; // eight peaks
 /// let law = Exponential::new(1e-5, 2e-3)?;
@@ -81,10 +86,11 @@ impl<T: Real> Solution<T> {
 /// assert!((all - 1.0).abs() < 1e-15);
 /// # Ok::<(), asperity::Error>(())
 /// ```
+#[non_exhaustive]
 #[derive(Clone, Debug, PartialEq)]
 pub struct ContactStatistics {
     /// The number of nodes in contact, by [`Solution::contact_map`].
-    pub contact_points: usize,
+    pub contact_nodes: usize,
     /// The share of nodes in contact.
     pub contact_fraction: f64,
     /// The contact area without the excess of the map along its edge, as a share of the nominal area.
@@ -117,7 +123,7 @@ impl ContactStatistics {
         Error::shape("contact pressure", solution.contact_pressure.dim(), grid.shape())?;
         let contact = solution.contact_map();
         let share = |count: usize| count as f64 / grid.nodes() as f64;
-        let contact_points = contact.iter().filter(|&&touches| touches).count();
+        let contact_nodes = contact.iter().filter(|&&touches| touches).count();
         let attracting = if law.is_zero() {
             0
         } else {
@@ -136,14 +142,14 @@ impl ContactStatistics {
             (along_x as f64 * dy + along_y as f64 * dx, EDGE_EXCESS * (along_x + along_y) as f64)
         };
         Ok(Self {
-            contact_points,
-            contact_fraction: share(contact_points),
-            corrected_contact_fraction: (contact_points as f64 - excess) / grid.nodes() as f64,
+            contact_nodes,
+            contact_fraction: share(contact_nodes),
+            corrected_contact_fraction: (contact_nodes as f64 - excess) / grid.nodes() as f64,
             perimeter,
             cluster_sizes: Clusters::of(contact.view(), Connectivity::Sides).sizes,
             repulsive_fraction: share(solution.contact_pressure.iter().filter(|&&p| p > T::zero()).count()),
             attractive_fraction: share(attracting),
-            apart_fraction: share(grid.nodes() - contact_points - attracting),
+            apart_fraction: share(grid.nodes() - contact_nodes - attracting),
         })
     }
 }

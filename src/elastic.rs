@@ -88,7 +88,7 @@ pub trait ElasticOperator<T: Real>: Send {
     /// The contact modulus E* that the half-space has for waves as short as the grid's spacing.
     ///
     /// It is the unit of [`Criterion::Orthogonality`](crate::Criterion::Orthogonality) and enters
-    /// [`Problem::resolution`](crate::Problem::resolution); with the spacing it gives the compliance by which jumps of
+    /// [`Problem::mu_rho`](crate::Problem::mu_rho); with the spacing it gives the compliance by which jumps of
     /// a law are [smoothed](crate::AdhesionLaw::smoothed); on a grid of one node, which has no wave, E*/Lx is the
     /// stiffness of the preconditioner.
     fn modulus(&self) -> f64;

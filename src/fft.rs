@@ -68,6 +68,13 @@ impl<T: Real> fmt::Debug for Convolver<T> {
     }
 }
 
+impl<T: Real> Clone for Convolver<T> {
+    /// A convolver with the same plans, and a spectrum of its own.
+    fn clone(&self) -> Self {
+        Self::planned(self.layout, self.rows.clone(), self.columns.clone())
+    }
+}
+
 impl<T: Real> Convolver<T> {
     /// Plans for fields of the given shape.
     pub(crate) fn new(shape: (usize, usize)) -> Self {
@@ -76,7 +83,11 @@ impl<T: Real> Convolver<T> {
 
     fn with(layout: Layout) -> Self {
         let (n0, n1) = layout.plane();
-        let (rows, columns) = (T::call::<Plan>(n1), T::call::<Plan>(n0));
+        Self::planned(layout, T::call::<Plan>(n1), T::call::<Plan>(n0))
+    }
+
+    fn planned(layout: Layout, rows: Transform<T>, columns: Transform<T>) -> Self {
+        let (n0, n1) = layout.plane();
         let scratch = rows.scratch_len().max(columns.scratch_len());
         let pool = Pool::new(|| Workspace {
             tile: vec![Complex::zero(); TILE.min(n0).div_ceil(2) * (n1 + SLACK)],

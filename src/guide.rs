@@ -9,12 +9,13 @@
 //! | [`penalty_and_uzawa`] | the two classical ways beside projection, with figures |
 //! | [`branches`] | loading and unloading with adhesion: jumps, limit points, stability |
 //! | [`python`] | heights from numpy, results to numpy |
+//! | [`choosing`] | resolution, tolerance and precision for the accuracy you want |
+//! | [`performance`] | how fast: applications, times, memory, beside other programs |
+//! | [`precision`] | how far rounding lets a solve go, and what becomes of extreme input |
+//! | [`paper_checked`] | the paper, its misprints, and its figures beside ours |
+//! | [`tool`] | the command-line tool: scenes, the keys of its reports, exit codes |
 //! | [`driver`] | what the solver minimises, its certificate, one iteration step by step, and every constant in it |
 //! | [`architecture`] | the layers of the crate, what may use what, and the data's way through one iteration |
-//!
-//! Measured figures are on pages of their own: [`performance`](crate::performance), [`precision`](crate::precision),
-//! and [`paper_checked`](crate::paper_checked), which holds the paper against this crate. How to choose grid, range
-//! and tolerance is the page [`choosing`](crate::choosing).
 //!
 //! The code on these pages is run by the tests.
 
@@ -32,7 +33,12 @@ page!(own_operator);
 page!(own_constraint);
 page!(penalty_and_uzawa);
 page!(branches);
-#[cfg(feature = "cli")]
+#[cfg(feature = "io")]
 page!(python);
+page!(choosing);
+page!(performance);
+page!(precision);
+page!(paper_checked);
+page!(tool);
 page!(driver);
 page!(architecture);

@@ -18,7 +18,7 @@
 //!
 //! The method is that of Rey, Anciaux and Molinari, *Normal adhesive contact on rough surfaces: efficient algorithm
 //! for FFT-based BEM resolution*, Computational Mechanics 60 (2017), with a preconditioner, a certificate of the
-//! error, and the paper's misprints corrected: see [`paper_checked`].
+//! error, and the paper's misprints corrected: see [`guide::paper_checked`].
 //!
 //! # A sphere, without and with adhesion
 //!
@@ -34,9 +34,10 @@
 //! assert!(pressed.report.relative_error < 1e-6); // a bound, not a wish
 //!
 //! let law = MaugisDugdale::new(1e-4, 2e-3)?; // work of adhesion, range
-//! let mut sticky = Problem::new(&sphere, Westergaard::<f64>::new(grid, 1.0)?, law)?;
+//! let (half_space, _) = hertz.into_parts();
+//! let mut sticky = Problem::new(&sphere, half_space, law)?;
 //! let stuck = Solver::default().solve(&mut sticky, Control::MeanGap(0.0398))?;
-//! assert!(stuck.report.contact_points > pressed.report.contact_points);
+//! assert!(stuck.report.contact_nodes > pressed.report.contact_nodes);
 //! # Ok::<(), asperity::Error>(())
 //! ```
 //!
@@ -50,10 +51,11 @@
 //! | a way of your own to keep the surfaces apart; penalty and Uzawa | [`guide::own_constraint`], [`guide::penalty_and_uzawa`] |
 //! | loading and unloading with adhesion | [`guide::branches`] |
 //! | heights from numpy, results to numpy | [`guide::python`] |
-//! | resolution, tolerance and precision for the accuracy you want | [`choosing`] |
-//! | the command-line tool, its scenes and the keys of its reports | [`tool`] |
+//! | resolution, tolerance and precision for the accuracy you want | [`guide::choosing`] |
+//! | the command-line tool, its scenes and the keys of its reports | [`guide::tool`] |
 //! | how the crate is built, and how its solver works | [`guide::architecture`], [`guide::driver`] |
-//! | how fast, how far rounding lets it go, and what the paper says | [`performance`], [`precision`], [`paper_checked`] |
+//! | how fast it is, and how far rounding lets it go | [`guide::performance`], [`guide::precision`] |
+//! | what the paper says | [`guide::paper_checked`] |
 //!
 //! # Conventions
 //!
@@ -71,9 +73,8 @@
 //!
 //! # More than one number, more than one load
 //!
-//! [`ContactStatistics`], [`Clusters`] and [`PressureDistribution`] say what the contact of a solution is like;
-//! [`Sweep`] solves under a sequence of loads, each from where the last ones lead, and [`Nested`] on coarser grids
-//! first.
+//! [`contact`] has areas, clusters and pressures of the contact of a solution; [`Sweep`] solves under a sequence of
+//! loads, each from where the last ones lead, and [`Nested`] on coarser grids first.
 //!
 //! # Measured surfaces
 //!
@@ -82,10 +83,9 @@
 //!
 //! # Branches, jumps and stability
 //!
-//! With adhesion there may be several equilibria at one load, and none next to some of them at the next. [`Path`]
-//! follows a branch in steps that adapt themselves, locates its jumps and keeps the balance of energy;
-//! [`StabilityTest`] tells whether an equilibrium lasts, with the smallest eigenvalue of the second derivative of the
-//! energy, and [`Stability::leave`] leaves one that does not.
+//! With adhesion there may be several equilibria at one load, and none next to some of them at the next. [`path`]
+//! follows a branch in steps that adapt themselves, locates its jumps and keeps the balance of energy; [`stability`]
+//! tells whether an equilibrium lasts, and leaves one that does not.
 //!
 //! # Exact solutions
 //!
@@ -94,16 +94,14 @@
 //!
 //! # Features
 //!
-//! `parallel` (default): threads, with the same results bit for bit. `cli` (default): files, pictures and the
-//! command-line tool. Without both the library depends on libm, ndarray, num-traits, pulp and rustfft alone.
+//! `parallel` (default): threads, with the same results bit for bit. `io`: files, the module `io`. `picture`: maps and
+//! charts, the module `picture`. `cli` (default): both, and the command-line tool. Without any of them the library
+//! depends on libm, ndarray, num-traits, pulp and rustfft alone.
 #![doc = include_str!("equations.html")]
 
 mod adhesion;
-pub mod choosing {
-    #![doc = include_str!("choosing.md")]
-}
 mod constraint;
-mod contact;
+pub mod contact;
 mod derivatives;
 mod elastic;
 mod error;
@@ -112,51 +110,33 @@ mod fft;
 mod field;
 mod grid;
 pub mod guide;
-#[cfg(feature = "cli")]
+#[cfg(feature = "io")]
 pub mod io;
 mod nested;
-pub mod paper_checked {
-    #![doc = include_str!("paper_checked.md")]
-}
 mod par;
-
-mod path;
-#[cfg(feature = "cli")]
-mod picture;
-pub mod performance {
-    #![doc = include_str!("performance.md")]
-}
-pub mod precision {
-    #![doc = include_str!("precision.md")]
-}
+pub mod path;
+#[cfg(feature = "picture")]
+pub mod picture;
 mod problem;
 mod real;
 mod solver;
-mod stability;
+pub mod stability;
 mod surface;
 mod sweep;
-pub mod tool {
-    #![doc = include_str!("tool.md")]
-}
 mod vector;
 mod warning;
 
 pub use ndarray;
 
 pub use adhesion::{AdhesionLaw, Exponential, MaugisDugdale, NoAdhesion, check_law};
-pub use constraint::{ContactConstraint, Outer, Penalty, Projection, Springs, Uzawa, Wall, check_constraint};
-pub use contact::{Clusters, Connectivity, ContactStatistics, PressureDistribution};
+pub use constraint::{ContactConstraint, Penalty, Projection, Springs, Update, Uzawa, Wall, check_constraint};
 pub use elastic::{CoarseSpace, ElasticOperator, Foundation, Preconditioned, Spectral, Westergaard, check_operator};
 pub use error::{Error, Result};
 pub use grid::Grid;
 pub use nested::{Level, Nested, NestedSolution};
-pub use path::{Event, Jump, Path, PathCheckpoint, PathSettings, PathStep};
-#[cfg(feature = "cli")]
-pub use picture::{Chart, Colouring, Map};
 pub use problem::{Control, Problem};
 pub use real::Real;
-pub use solver::{Criterion, Iteration, Method, Report, Settings, Solution, Solver, Status};
-pub use stability::{Departure, Stability, StabilityTest, Verdict};
+pub use solver::{Criterion, Iteration, Method, Report, Settings, Solution, Solver, Start, Status};
 pub use surface::{Amplitude, Fit, Psd, SelfAffine, Spectrum, Surface, SurfaceStatistics, Topography, Trend};
 pub use sweep::Sweep;
 pub use warning::{Warning, WarningCode};

@@ -2,7 +2,7 @@
 
 use std::ops::ControlFlow;
 
-use ndarray::{Array2, CowArray};
+use ndarray::Array2;
 
 use crate::adhesion::AdhesionLaw;
 use crate::constraint::{ContactConstraint, Projection};
@@ -13,7 +13,7 @@ use crate::grid::Grid;
 use crate::par;
 use crate::problem::{Control, Problem};
 use crate::real::Real;
-use crate::solver::{Iteration, Settings, Solution, Solver, Status};
+use crate::solver::{Iteration, Settings, Solution, Solver, Start, Status};
 use crate::surface::Surface;
 
 /// The resolution measure μ_ρ above which a coarse grid would pin the contact.
@@ -30,7 +30,7 @@ const CARRIED: f64 = 0.5;
 /// [`Solver`].
 ///
 /// Sizes are halved while they are even and both sides keep `coarsest` nodes; an odd size has no coarser grid. With
-/// adhesion only grids that resolve it ([`Problem::resolution`] up to 0.5) are used, as a coarser one may pin the
+/// adhesion only grids that resolve it ([`Problem::mu_rho`] up to 0.5) are used, as a coarser one may pin the
 /// contact on another branch. If the traction of the law jumps, the coarser grids [smooth](AdhesionLaw::smoothed) it,
 /// and so does the finest one on its way from their solution, as it does from the default start. Without a coarser
 /// grid all is as with [`Solver::solve`].
@@ -127,7 +127,7 @@ impl<C> Nested<C> {
     /// Solves the contact of `surface` with the elastic body for which `operator` makes an operator on each grid.
     ///
     /// # Errors
-    /// Those of `operator`, [`Problem::new`] and [`Solver::solve_from`]; [`Error::Value`] if the coarse tolerance is
+    /// Those of `operator`, [`Problem::new`] and [`Solver::solve_with`]; [`Error::Value`] if the coarse tolerance is
     /// not positive.
     pub fn solve<T, O, L>(
         &mut self,
@@ -172,15 +172,15 @@ impl<C> Nested<C> {
         for &stride in strides.iter().rev().filter(|&&stride| stride > (1, 1)) {
             let coarse = coarsen(surface, stride)?;
             let mut problem = Problem::new(&coarse, operator(*coarse.grid())?, law)?;
-            if problem.resolution() > RESOLVED {
-                law = problem.law;
+            if problem.mu_rho() > RESOLVED {
+                (_, law) = problem.into_parts();
                 continue;
             }
-            let tolerance = self.coarse_tolerance.max(settings.tolerance);
-            self.solver.settings = Settings { tolerance, ..settings };
+            let tolerance = self.coarse_tolerance.max(settings.tolerance_in::<T>());
+            self.solver.settings = Settings { tolerance: Some(tolerance), ..settings };
             let mut smoothed = false;
-            let begin = start.take().map(CowArray::from);
-            let result = self.solver.run(problem.parts(), control, begin, true, &mut |iteration| {
+            let begin = start.take().map_or(Start::Default, Start::Near);
+            let result = self.solver.solve_with(&mut problem, control, begin, |iteration| {
                 stopped = stopped || observe(coarse.grid(), iteration).is_break();
                 // the equilibrium of the smoothed law is all that the next grid needs
                 let done = smoothed && !iteration.smoothed;
@@ -195,8 +195,7 @@ impl<C> Nested<C> {
                 iterations: report.iterations,
                 operator_applications: report.operator_applications + 1,
             });
-            law = problem.law;
-            drop(problem.operator);
+            (_, law) = problem.into_parts();
             // a coarse grid that does not carry its load says nothing of a finer one
             if report.load_error < CARRIED {
                 let finer = finer(&strides, stride);
@@ -204,8 +203,8 @@ impl<C> Nested<C> {
             }
         }
         let mut problem = Problem::new(surface, operator(*surface.grid())?, law)?;
-        let begin = start.take().map(CowArray::from);
-        let solution = self.solver.run(problem.parts(), control, begin, true, &mut |iteration| {
+        let begin = start.take().map_or(Start::Default, Start::Near);
+        let solution = self.solver.solve_with(&mut problem, control, begin, |iteration| {
             stopped = stopped || observe(surface.grid(), iteration).is_break();
             if stopped { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         })?;

@@ -2,8 +2,6 @@
 
 use std::ops::ControlFlow;
 
-use ndarray::{Array2, ArrayView2, CowArray, Ix2};
-
 use crate::adhesion::AdhesionLaw;
 use crate::constraint::{ContactConstraint, Projection};
 use crate::elastic::ElasticOperator;
@@ -29,6 +27,7 @@ use driver::Job;
 pub(crate) use driver::Observer;
 pub(crate) use potential::{Of, Potential};
 pub use report::{Iteration, Report, Solution, Status};
+pub use start::Start;
 
 /// The method of iteration, one of two.
 ///
@@ -38,6 +37,7 @@ pub use report::{Iteration, Report, Solution, Status};
 /// assert_eq!((paper.method, paper.criterion), (Method::Rey2017, Criterion::Orthogonality));
 /// assert_eq!(Method::default().name(), "default");
 /// ```
+#[non_exhaustive]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Method {
     /// Conjugate gradients preconditioned with the compliance; the energy falls in every iteration.
@@ -62,10 +62,11 @@ impl Method {
 /// ```
 /// use asperity::{Criterion, Settings};
 /// // the paper's iteration, held to the certified error
-/// let certified = Settings { criterion: Criterion::EnergyNorm, tolerance: 1e-6, ..Settings::rey2017() };
+/// let certified = Settings { criterion: Criterion::EnergyNorm, ..Settings::rey2017() };
 /// assert_eq!(certified.criterion, Settings::default().criterion);
 /// assert_eq!(certified.criterion.name(), "energy-norm");
 /// ```
+#[non_exhaustive]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Criterion {
     /// The certified relative error in the energy norm, [`Report::relative_error`].
@@ -92,13 +93,17 @@ impl Criterion {
 /// |---|---|---|---|
 /// | `method` | [`Method::Preconditioned`] | the iteration | |
 /// | `criterion` | [`Criterion::EnergyNorm`] | the measure that is compared with the tolerance | |
-/// | `tolerance` | 1e-6 | dimensionless; `f32` reaches about 1e-5 | positive |
+/// | `tolerance` | `None`: 1e-6 in `f64`, 1e-4 in `f32`; 1e-9 of [`Criterion::Orthogonality`] | dimensionless; see below | positive |
 /// | `max_iterations` | 2000 | the iterations after which a solve ends without having converged | any |
+///
+/// `None` is the default of the criterion in the precision of the solve: [`Settings::tolerance_in`] tells it, and
+/// [`Report::tolerance`] the one that a solve was held to. A solve whose tolerance is below the
+/// [floor](crate::guide::precision) of the precision ends as [`Status::Stalled`].
 ///
 /// ```
 /// use asperity::Settings;
-/// let loose = Settings { tolerance: 1e-3, ..Settings::default() };
-/// assert_eq!(loose.max_iterations, 2000);
+/// let loose = Settings { tolerance: Some(1e-3), ..Settings::default() };
+/// assert_eq!((loose.tolerance_in::<f32>(), loose.max_iterations), (1e-3, 2000));
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {
@@ -106,22 +111,39 @@ pub struct Settings {
     pub method: Method,
     /// The measure that is compared with the tolerance.
     pub criterion: Criterion,
-    /// The tolerance of the criterion, and under pressure control of the relative error of the load.
-    pub tolerance: f64,
+    /// The tolerance of the criterion, and under pressure control of the relative error of the load; `None` is the
+    /// default of the criterion and the precision, [`Settings::tolerance_in`].
+    pub tolerance: Option<f64>,
     /// The number of iterations after which the solve ends without having converged.
     pub max_iterations: usize,
 }
 
 impl Default for Settings {
     fn default() -> Self {
-        Self { method: Method::Preconditioned, criterion: Criterion::EnergyNorm, tolerance: 1e-6, max_iterations: 2000 }
+        Self { method: Method::Preconditioned, criterion: Criterion::EnergyNorm, tolerance: None, max_iterations: 2000 }
     }
 }
 
 impl Settings {
     /// The paper's Algorithm 3 with its own criterion, ε < 1e-9.
     pub fn rey2017() -> Self {
-        Self { method: Method::Rey2017, criterion: Criterion::Orthogonality, tolerance: 1e-9, max_iterations: 20_000 }
+        Self { method: Method::Rey2017, criterion: Criterion::Orthogonality, tolerance: None, max_iterations: 20_000 }
+    }
+
+    /// The tolerance that holds in a precision: the given one, or the default of the criterion.
+    ///
+    /// ```
+    /// use asperity::Settings;
+    /// let default = Settings::default();
+    /// assert_eq!((default.tolerance_in::<f64>(), default.tolerance_in::<f32>()), (1e-6, 1e-4));
+    /// assert_eq!(Settings::rey2017().tolerance_in::<f64>(), 1e-9);
+    /// ```
+    pub fn tolerance_in<T: Real>(&self) -> f64 {
+        self.tolerance.unwrap_or(match self.criterion {
+            Criterion::EnergyNorm if T::NAME == f32::NAME => 1e-4,
+            Criterion::EnergyNorm => 1e-6,
+            Criterion::Orthogonality => 1e-9,
+        })
     }
 }
 
@@ -147,7 +169,7 @@ impl Settings {
 /// let grid = Grid::line(256, 1.0)?;
 /// let surface = Surface::wave(grid, 0.02, 1)?;
 /// let mut problem = Problem::new(&surface, Westergaard::<f64>::new(grid, 1.0)?, NoAdhesion)?;
-/// let mut solver = Solver::new(Settings { tolerance: 1e-8, ..Settings::default() });
+/// let mut solver = Solver::new(Settings { tolerance: Some(1e-8), ..Settings::default() });
 /// let solution = solver.solve(&mut problem, Control::MeanPressure(0.03))?;
 /// assert_eq!(solution.report.status, Status::Converged);
 /// # Ok::<(), asperity::Error>(())
@@ -175,16 +197,10 @@ impl Default for Solver {
 }
 
 impl<C> Solver<C> {
-    /// Solves from the default start.
-    ///
-    /// The default start is a uniform gap: the mean gap, if that is given; under a given pressure twice the rms height
-    /// without adhesion, and full contact with adhesion. If the traction of the law jumps, as that of
-    /// [`MaugisDugdale`](crate::MaugisDugdale) does, the equilibrium of the law with its jump
-    /// [smoothed](AdhesionLaw::smoothed) is found first and becomes the start, within the same solve. The start
-    /// matters only with adhesion, where there may be several equilibria.
+    /// Solves from the default start, [`Start::Default`].
     ///
     /// # Errors
-    /// Those of [`Solver::solve_from`].
+    /// Those of [`Solver::solve_with`].
     pub fn solve<T, O, L>(&mut self, problem: &mut Problem<T, O, L>, control: Control) -> Result<Solution<T>>
     where
         T: Real,
@@ -192,24 +208,39 @@ impl<C> Solver<C> {
         L: AdhesionLaw<T>,
         C: ContactConstraint<T>,
     {
-        self.solve_from(problem, control, None, |_| ControlFlow::Continue(()))
+        self.solve_with(problem, control, Start::Default, |_| ControlFlow::Continue(()))
     }
 
-    /// Solves from a given gap, and calls `observe` in every iteration; it may stop the solve.
+    /// Solves from a start, and calls `observe` in every iteration; it may stop the solve.
     ///
-    /// A given gap of shape (Nx, Ny) is scaled to the mean gap, if that is given; `None` is the default start.
+    /// ```
+    /// use std::ops::ControlFlow;
+    /// use asperity::{Control, Grid, NoAdhesion, Problem, Solver, Start, Surface, Westergaard};
+    /// let grid = Grid::square(64, 1.0)?;
+    /// let surface = Surface::wave_2d(grid, 0.02, 1)?;
+    /// let mut problem = Problem::new(&surface, Westergaard::<f64>::new(grid, 1.0)?, NoAdhesion)?;
+    /// let mut solver = Solver::default();
+    /// let before = solver.solve(&mut problem, Control::MeanGap(0.010))?;
+    /// let mut errors = Vec::new();
+    /// solver.solve_with(&mut problem, Control::MeanGap(0.009), Start::From(&before.gap), |state| {
+    ///     errors.push(state.relative_error);
+    ///     ControlFlow::Continue(())
+    /// })?;
+    /// assert!(*errors.last().unwrap() < 1e-6);
+    /// # Ok::<(), asperity::Error>(())
+    /// ```
     ///
     /// # Errors
     /// [`Error::Value`](crate::Error::Value) for a negative or infinite mean gap, an infinite pressure, or a tolerance
     /// that is not positive; [`Error::Shape`](crate::Error::Shape), [`Error::NotFinite`](crate::Error::NotFinite) or
     /// [`Error::Value`](crate::Error::Value) for a start that does not fit, is not finite, or is negative somewhere;
-    /// [`Error::Law`](crate::Error::Law) if the law is not finite at the start. A solve that does not converge is no
-    /// error: see [`Report::status`].
-    pub fn solve_from<T, O, L>(
+    /// [`Error::Law`](crate::Error::Law) if the law is not finite at the start; those of the constraint. A solve that
+    /// does not converge is no error: see [`Report::status`].
+    pub fn solve_with<T, O, L>(
         &mut self,
         problem: &mut Problem<T, O, L>,
         control: Control,
-        start: Option<ArrayView2<'_, T>>,
+        start: Start<'_, T>,
         mut observe: impl FnMut(&Iteration) -> ControlFlow<()>,
     ) -> Result<Solution<T>>
     where
@@ -218,63 +249,21 @@ impl<C> Solver<C> {
         L: AdhesionLaw<T>,
         C: ContactConstraint<T>,
     {
-        self.run(problem.parts(), control, start.map(CowArray::from), false, &mut observe)
+        self.run(problem.parts(), control, start, &mut observe)
     }
 
-    /// Solves from the solution of the same problem in another precision or on another grid. The gap is taken by value
-    /// and not copied.
-    ///
-    /// A start with a small error gets shorter first steps than a start given to [`Solver::solve_from`], and the jumps
-    /// of a law are smoothed on the way from it, as from the default start. In `f32` to 1e-4 (1e-3 for smooth light
-    /// contacts), and from there in `f64`, a solve on 2048² nodes takes some 1.3 times less time than in `f64` alone.
-    /// [`Nested`](crate::Nested) starts each grid so.
-    ///
-    /// ```
-    /// use asperity::{Control, Grid, NoAdhesion, Problem, Settings, Solver, Status, Surface, Westergaard};
-    /// let grid = Grid::square(128, 1.0)?;
-    /// let surface = Surface::wave_2d(grid, 0.02, 1)?;
-    /// let control = Control::MeanPressure(0.01);
-    /// let mut single = Problem::new(&surface, Westergaard::<f32>::new(grid, 1.0)?, NoAdhesion)?;
-    /// let near = Solver::new(Settings { tolerance: 1e-4, ..Settings::default() }).solve(&mut single, control)?;
-    /// let mut double = Problem::new(&surface, Westergaard::<f64>::new(grid, 1.0)?, NoAdhesion)?;
-    /// let solution = Solver::default().solve_near(&mut double, control, near.gap.mapv(f64::from))?;
-    /// assert_eq!(solution.report.status, Status::Converged);
-    /// assert!(solution.report.relative_error < 1e-6);
-    /// # Ok::<(), asperity::Error>(())
-    /// ```
-    ///
-    /// # Errors
-    /// Those of [`Solver::solve_from`].
-    pub fn solve_near<T, O, L>(
-        &mut self,
-        problem: &mut Problem<T, O, L>,
-        control: Control,
-        start: Array2<T>,
-    ) -> Result<Solution<T>>
-    where
-        T: Real,
-        O: ElasticOperator<T>,
-        L: AdhesionLaw<T>,
-        C: ContactConstraint<T>,
-    {
-        self.run(problem.parts(), control, Some(CowArray::from(start)), true, &mut |_| ControlFlow::Continue(()))
-    }
-
-    /// A solve from a start, as [`Solver::solve_from`]. The start may be owned, and `near`: the solution of the same
-    /// problem up to the error of a coarser grid or precision. From a near start the jumps of the law are smoothed, as
-    /// from the default start.
+    /// Solves as [`Solver::solve_with`], for the parts of a problem.
     pub(crate) fn run<'a, T: Real>(
         &'a mut self,
         problem: Parts<'a, T>,
         control: Control,
-        start: Option<CowArray<'a, T, Ix2>>,
-        near: bool,
+        start: Start<'a, T>,
         observe: Observer<'a>,
     ) -> Result<Solution<T>>
     where
         C: ContactConstraint<T>,
     {
         let Self { settings, constraint } = self;
-        driver::solve(Job { problem, constraint, control, settings: *settings, start, near, observe })
+        driver::solve(Job { problem, constraint, control, settings: *settings, start, observe })
     }
 }

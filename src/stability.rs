@@ -1,4 +1,7 @@
 //! The stability of an equilibrium: the sign of the smallest eigenvalue of the Hessian of the energy.
+//!
+//! A [`StabilityTest`] finds that eigenvalue and its mode, and a bound from below; [`Stability::leave`] leaves an
+//! equilibrium that does not last.
 
 use std::fmt;
 
@@ -92,7 +95,8 @@ impl fmt::Display for Verdict {
 /// no statement about the discrete energy. [`Stability::smoothed`] says so.
 ///
 /// ```
-/// use asperity::{Control, Exponential, Grid, Problem, Solver, StabilityTest, Surface, Verdict, Westergaard};
+/// use asperity::stability::{StabilityTest, Verdict};
+/// use asperity::{Control, Exponential, Grid, Problem, Solver, Surface, Westergaard};
 /// let grid = Grid::square(16, 1.0)?;
 /// let flat = Surface::from_fn(grid, |_, _| 0.0)?;
 /// let mut problem = Problem::new(&flat, Westergaard::<f64>::new(grid, 1.0)?, Exponential::new(1e-3, 1e-2)?)?;

@@ -10,7 +10,7 @@ use crate::elastic::ElasticOperator;
 use crate::error::Result;
 use crate::problem::{Control, Problem};
 use crate::real::Real;
-use crate::solver::{Iteration, Solution, Solver};
+use crate::solver::{Iteration, Solution, Solver, Start};
 
 /// Solves one problem under a sequence of loads, each from where the ones before lead: an iterator over the solutions.
 ///
@@ -25,7 +25,7 @@ use crate::solver::{Iteration, Solution, Solver};
 ///   at which it jumps: loading takes another one than unloading, and surfaces that were pulled apart
 ///   ([`Status::Detached`](crate::Status)) stay so until they are pressed together again.
 ///
-/// A mean gap that is given scales the start, as in [`Solver::solve_from`]; where there is no gap left to scale, after
+/// A mean gap that is given scales the start, as in [`Start::From`]; where there is no gap left to scale, after
 /// full contact, the start is uniform. Fine steps save a third of the work without adhesion. Steps that change the
 /// load by half or more save little, and with adhesion under pressure control may take more than the default start
 /// does.
@@ -42,7 +42,7 @@ use crate::solver::{Iteration, Solution, Solver};
 /// let mut contact = Vec::new();
 /// for step in Sweep::new(&mut solver, &mut problem, [1e-4, 2e-4, 4e-4].map(Control::MeanPressure)) {
 ///     let (_, solution) = step?;
-///     contact.push(solution.report.contact_points);
+///     contact.push(solution.report.contact_nodes);
 /// }
 /// assert!(contact[0] < contact[1] && contact[1] < contact[2]);
 /// # Ok::<(), asperity::Error>(())
@@ -110,10 +110,10 @@ where
         Self { history, ..self }
     }
 
-    /// The next solution, as [`Iterator::next`], with an observer of the iterations, as in [`Solver::solve_from`].
+    /// The next solution, as [`Iterator::next`], with an observer of the iterations, as in [`Solver::solve_with`].
     ///
     /// # Errors
-    /// Those of [`Solver::solve_from`]; after one there is no next load.
+    /// Those of [`Solver::solve_with`]; after one there is no next load.
     pub fn next_observed(
         &mut self,
         observe: impl FnMut(&Iteration) -> ControlFlow<()>,
@@ -123,8 +123,9 @@ where
         }
         let control = self.loads.next()?;
         self.extrapolate(control);
-        let start = self.start.as_ref().or(self.history.last().map(|(_, gap)| gap)).map(|gap| gap.view());
-        let solution = self.solver.solve_from(self.problem, control, start, observe);
+        let last = self.start.as_ref().or(self.history.last().map(|(_, gap)| gap));
+        let start = last.map_or(Start::Default, |gap| Start::From(gap));
+        let solution = self.solver.solve_with(self.problem, control, start, observe);
         match &solution {
             Ok(solution) => self.remember(control, solution),
             Err(_) => self.failed = true,

@@ -28,11 +28,11 @@ pub fn none<T: Real>() -> Law<T> {
 }
 
 pub fn maugis_dugdale<T: Real>() -> Law<T> {
-    Box::new(MaugisDugdale::new(T::lit(1.42e-4), T::lit(2.9e-3)).expect("a good law"))
+    Box::new(MaugisDugdale::new(1.42e-4, 2.9e-3).expect("a good law"))
 }
 
 pub fn exponential<T: Real>() -> Law<T> {
-    Box::new(Exponential::new(T::lit(1.42e-4), T::lit(2.9e-3)).expect("a good law"))
+    Box::new(Exponential::new(1.42e-4, 2.9e-3).expect("a good law"))
 }
 
 pub fn half_space<T: Real>(grid: Grid) -> asperity::Result<Westergaard<T>> {
@@ -64,7 +64,7 @@ pub fn iterations<T: Real>(
     count: usize,
 ) -> Duration {
     let mut time = |max_iterations| {
-        let settings = Settings { max_iterations, tolerance: 1e-14, ..Settings::default() };
+        let settings = Settings { max_iterations, tolerance: Some(1e-14), ..Settings::default() };
         let clock = Instant::now();
         let solution = Solver::new(settings).solve(problem, control).expect("a good problem");
         let elapsed = clock.elapsed();

@@ -1,8 +1,9 @@
 //! The choices of a user, and their cost.
 
+use std::ops::ControlFlow;
 use std::time::Instant;
 
-use asperity::{Control, Nested, Problem, Real, Settings, Solution, Solver, Status, Surface, Westergaard};
+use asperity::{Control, Nested, Problem, Real, Settings, Solution, Solver, Start, Status, Surface, Westergaard};
 use ndarray::Array2;
 
 use crate::Outcome;
@@ -79,9 +80,9 @@ impl Choice {
     fn settings(&self, tolerance: f64) -> Settings {
         if self.rey2017 {
             let criterion = Settings::default().criterion;
-            Settings { tolerance, criterion, ..Settings::rey2017() }
+            Settings { tolerance: Some(tolerance), criterion, ..Settings::rey2017() }
         } else {
-            Settings { tolerance, ..Settings::default() }
+            Settings { tolerance: Some(tolerance), ..Settings::default() }
         }
     }
 }
@@ -177,10 +178,8 @@ fn solve<T: Real>(
     }
     let mut problem = Problem::new(surface, half_space(*surface.grid())?, scene.law::<T>()?)?;
     let mut solver = Solver::new(settings);
-    let solution = match near {
-        Some(gap) => solver.solve_near(&mut problem, control, gap)?,
-        None => solver.solve(&mut problem, control)?,
-    };
+    let start = near.map_or(Start::Default, Start::Near);
+    let solution = solver.solve_with(&mut problem, control, start, |_| ControlFlow::Continue(()))?;
     let count = solution.report.operator_applications + 1;
     Ok((solution, count as f64))
 }

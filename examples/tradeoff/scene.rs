@@ -2,10 +2,10 @@
 
 use std::collections::HashMap;
 
+use asperity::contact::ContactStatistics;
 use asperity::exact::{Hertz, Periodic, WavyLine};
 use asperity::{
-    AdhesionLaw, Amplitude, ContactStatistics, Control, Exponential, Grid, NoAdhesion, Real, SelfAffine, Solution,
-    Surface, Westergaard,
+    AdhesionLaw, Amplitude, Control, Exponential, Grid, NoAdhesion, Real, SelfAffine, Solution, Surface, Westergaard,
 };
 use ndarray::Array2;
 
@@ -157,7 +157,7 @@ impl Scene {
     pub fn law<T: Real>(&self) -> Outcome<Box<dyn AdhesionLaw<T>>> {
         Ok(match self.adhesion {
             None => Box::new(NoAdhesion),
-            Some((work, range)) => Box::new(Exponential::new(T::lit(work), T::lit(range))?),
+            Some((work, range)) => Box::new(Exponential::new(work, range)?),
         })
     }
 

@@ -15,57 +15,78 @@ use crate::real::Real;
 ///
 /// ```
 /// use asperity::{AdhesionLaw, Exponential};
-/// let law = Exponential::new(0.05_f64, 2e-9)?; // 50 mJ/m² over 2 nm
+/// let law = Exponential::new(0.05, 2e-9)?; // 50 mJ/m² over 2 nm
 /// assert_eq!(law.energy(0.0), -0.05);
-/// assert_eq!(law.traction(0.0), 0.05 / 2e-9);
+/// assert_eq!(law.traction(0.0), law.work_of_adhesion() / law.range());
 /// # Ok::<(), asperity::Error>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Exponential<T> {
-    work_of_adhesion: T,
-    range: T,
+pub struct Exponential {
+    work_of_adhesion: f64,
+    range: f64,
 }
 
-impl<T: Real> Exponential<T> {
-    /// The law with work of adhesion w (energy per area) and range ρ (length).
+impl Exponential {
+    /// The law with work of adhesion w (energy per area) and range ρ (length), in either precision.
     ///
     /// # Errors
     /// [`Error::Value`] if w is negative, ρ not positive, or either not finite.
-    pub fn new(work_of_adhesion: T, range: T) -> Result<Self> {
-        Error::non_negative("work of adhesion", work_of_adhesion.widen())?;
-        Error::positive("range of adhesion", range.widen())?;
+    pub fn new(work_of_adhesion: f64, range: f64) -> Result<Self> {
+        Error::non_negative("work of adhesion", work_of_adhesion)?;
+        Error::positive("range of adhesion", range)?;
         Ok(Self { work_of_adhesion, range })
+    }
+
+    /// The work of adhesion w, as it was given.
+    pub fn work_of_adhesion(&self) -> f64 {
+        self.work_of_adhesion
+    }
+
+    /// The range ρ, as it was given.
+    pub fn range(&self) -> f64 {
+        self.range
+    }
+
+    /// w and ρ, rounded to the precision of the fields.
+    fn rounded<T: Real>(&self) -> (T, T) {
+        (T::lit(self.work_of_adhesion), T::lit(self.range))
     }
 }
 
-impl<T: Real> AdhesionLaw<T> for Exponential<T> {
+impl<T: Real> AdhesionLaw<T> for Exponential {
     fn energy(&self, gap: T) -> T {
-        -self.work_of_adhesion * (-gap / self.range).exp()
+        let (w, range) = self.rounded::<T>();
+        -w * (-gap / range).exp()
     }
     fn traction(&self, gap: T) -> T {
-        self.work_of_adhesion / self.range * (-gap / self.range).exp()
+        let (w, range) = self.rounded::<T>();
+        w / range * (-gap / range).exp()
     }
     fn slope(&self, gap: T) -> T {
-        -self.work_of_adhesion / self.range / self.range * (-gap / self.range).exp()
+        let (w, range) = self.rounded::<T>();
+        -w / range / range * (-gap / range).exp()
     }
     fn energies(&self, _: usize, gaps: &[T], energies: &mut [T]) {
-        exponentials(-self.work_of_adhesion, -self.range.recip(), gaps, energies);
+        let (w, range) = self.rounded::<T>();
+        exponentials(-w, -range.recip(), gaps, energies);
     }
     fn tractions(&self, _: usize, gaps: &[T], tractions: &mut [T]) {
-        exponentials(self.work_of_adhesion / self.range, -self.range.recip(), gaps, tractions);
+        let (w, range) = self.rounded::<T>();
+        exponentials(w / range, -range.recip(), gaps, tractions);
     }
     fn slopes(&self, _: usize, gaps: &[T], slopes: &mut [T]) {
-        exponentials(-self.work_of_adhesion / self.range / self.range, -self.range.recip(), gaps, slopes);
+        let (w, range) = self.rounded::<T>();
+        exponentials(-w / range / range, -range.recip(), gaps, slopes);
     }
     fn tractions_and_slopes(&self, first: usize, gaps: &[T], tractions: &mut [T], slopes: &mut [T]) {
         self.tractions(first, gaps, tractions);
-        let rate = -self.range.recip();
+        let rate = -T::lit(self.range).recip();
         slopes.iter_mut().zip(tractions).for_each(|(s, t)| *s = *t * rate);
     }
     fn range(&self) -> T {
-        self.range
+        T::lit(self.range)
     }
     fn is_zero(&self) -> bool {
-        self.work_of_adhesion == T::zero()
+        T::lit(self.work_of_adhesion) == T::zero()
     }
 }

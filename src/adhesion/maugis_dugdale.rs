@@ -22,62 +22,81 @@ use crate::real::Real;
 /// # Ok::<(), asperity::Error>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct MaugisDugdale<T> {
-    work_of_adhesion: T,
-    range: T,
+pub struct MaugisDugdale {
+    work_of_adhesion: f64,
+    range: f64,
     /// the width d over which the traction falls; zero for the law itself
-    smoothing: T,
+    smoothing: f64,
 }
 
-impl<T: Real> MaugisDugdale<T> {
-    /// The law with work of adhesion w (energy per area) and range ρ (length).
+impl MaugisDugdale {
+    /// The law with work of adhesion w (energy per area) and range ρ (length), in either precision.
     ///
     /// # Errors
     /// [`Error::Value`] if w is negative, ρ not positive, or either not finite.
-    pub fn new(work_of_adhesion: T, range: T) -> Result<Self> {
-        Error::non_negative("work of adhesion", work_of_adhesion.widen())?;
-        Error::positive("range of adhesion", range.widen())?;
-        Ok(Self { work_of_adhesion, range, smoothing: T::zero() })
+    pub fn new(work_of_adhesion: f64, range: f64) -> Result<Self> {
+        Error::non_negative("work of adhesion", work_of_adhesion)?;
+        Error::positive("range of adhesion", range)?;
+        Ok(Self { work_of_adhesion, range, smoothing: 0.0 })
     }
 
-    fn is_falling(&self, gap: T) -> bool {
-        (gap - self.range).abs() < T::lit(0.5) * self.smoothing
+    /// The work of adhesion w, as it was given.
+    pub fn work_of_adhesion(&self) -> f64 {
+        self.work_of_adhesion
+    }
+
+    /// The range ρ, as it was given.
+    pub fn range(&self) -> f64 {
+        self.range
+    }
+
+    /// w, ρ and d, rounded to the precision of the fields.
+    fn rounded<T: Real>(&self) -> (T, T, T) {
+        (T::lit(self.work_of_adhesion), T::lit(self.range), T::lit(self.smoothing))
     }
 }
 
-impl<T: Real> AdhesionLaw<T> for MaugisDugdale<T> {
+/// Whether the traction falls at a gap, over the width `smoothing` about `range`.
+fn is_falling<T: Real>(gap: T, range: T, smoothing: T) -> bool {
+    (gap - range).abs() < T::lit(0.5) * smoothing
+}
+
+impl<T: Real> AdhesionLaw<T> for MaugisDugdale {
     fn energy(&self, gap: T) -> T {
-        let (width, x) = (self.smoothing, self.range - gap);
-        let inside = if self.is_falling(gap) {
+        let (w, range, width) = self.rounded::<T>();
+        let x = range - gap;
+        let inside = if is_falling(gap, range, width) {
             let left = x + T::lit(0.5) * width;
             T::lit(0.5) * left * (left / width)
         } else {
             x.max(T::zero())
         };
-        -self.work_of_adhesion * (inside / self.range)
+        -w * (inside / range)
     }
     fn traction(&self, gap: T) -> T {
-        let largest = self.work_of_adhesion / self.range;
-        if self.is_falling(gap) {
-            largest * ((self.range - gap) / self.smoothing + T::lit(0.5))
-        } else if gap < self.range {
+        let (w, range, width) = self.rounded::<T>();
+        let largest = w / range;
+        if is_falling(gap, range, width) {
+            largest * ((range - gap) / width + T::lit(0.5))
+        } else if gap < range {
             largest
         } else {
             T::zero()
         }
     }
     fn slope(&self, gap: T) -> T {
-        if self.is_falling(gap) { -self.work_of_adhesion / self.range / self.smoothing } else { T::zero() }
+        let (w, range, width) = self.rounded::<T>();
+        if is_falling(gap, range, width) { -w / range / width } else { T::zero() }
     }
     fn range(&self) -> T {
-        self.range
+        T::lit(self.range)
     }
     fn smoothed(&self, compliance: T) -> Option<Box<dyn AdhesionLaw<T> + '_>> {
-        let width = self.work_of_adhesion / self.range * compliance;
-        let smoothing = width.min(T::lit(2.0) * self.range);
-        (smoothing > T::zero()).then(|| Box::new(Self { smoothing, ..*self }) as Box<dyn AdhesionLaw<T>>)
+        let (w, range, _) = self.rounded::<T>();
+        let smoothing = (w / range * compliance).min(T::lit(2.0) * range).widen();
+        (smoothing > 0.0).then(|| Box::new(Self { smoothing, ..*self }) as Box<dyn AdhesionLaw<T>>)
     }
     fn is_zero(&self) -> bool {
-        self.work_of_adhesion == T::zero()
+        T::lit(self.work_of_adhesion) == T::zero()
     }
 }

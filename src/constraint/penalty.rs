@@ -2,6 +2,7 @@
 
 use super::{ContactConstraint, Springs, Wall};
 use crate::error::{Error, Result};
+use crate::grid::Grid;
 use crate::real::Real;
 
 /// Interpenetration is allowed, and resisted by springs of stiffness k: the energy gains ½k⟨−g⟩₊² at each node.
@@ -21,36 +22,48 @@ use crate::real::Real;
 /// # Ok::<(), asperity::Error>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Penalty<T> {
-    stiffness: T,
+pub struct Penalty {
+    stiffness: f64,
 }
 
-impl<T: Real> Penalty<T> {
-    /// Springs of stiffness k, pressure per length; the paper's 5000 is in units of E*/L.
+impl Penalty {
+    /// Springs of stiffness k, pressure per length, in either precision; the paper's 5000 is in units of E*/L.
     ///
     /// # Errors
     /// [`Error::Value`] if the stiffness is not positive and finite.
-    pub fn new(stiffness: T) -> Result<Self> {
-        Error::positive("penalty stiffness", stiffness.widen())?;
-        Ok(Self { stiffness })
+    pub fn new(stiffness: f64) -> Result<Self> {
+        Ok(Self { stiffness: Error::positive("penalty stiffness", stiffness)? })
     }
 }
 
-impl<T: Real> ContactConstraint<T> for Penalty<T> {
+impl<T: Real> ContactConstraint<T> for Penalty {
     fn wall(&self) -> Wall<'_, T> {
         Wall::Springs(self)
     }
+    fn start(&mut self, _: &Grid, _: f64, _: f64) -> Result<()> {
+        check_stiffness::<T>(self.stiffness)
+    }
 }
 
-impl<T: Real> Springs<T> for Penalty<T> {
+/// Refuses a stiffness that leaves the range of T.
+pub(super) fn check_stiffness<T: Real>(stiffness: f64) -> Result<()> {
+    let rounded = T::lit(stiffness);
+    if rounded > T::zero() && rounded.is_finite() {
+        return Ok(());
+    }
+    let requirement = "positive and finite in the precision of the fields";
+    Err(Error::Value { name: "penalty stiffness", value: stiffness, requirement })
+}
+
+impl<T: Real> Springs<T> for Penalty {
     fn energy(&self, _: usize, gap: T) -> T {
         let depth = (-gap).max(T::zero());
-        T::lit(0.5) * self.stiffness * depth * depth
+        T::lit(0.5) * T::lit(self.stiffness) * depth * depth
     }
     fn traction(&self, _: usize, gap: T) -> T {
-        self.stiffness * gap.min(T::zero())
+        T::lit(self.stiffness) * gap.min(T::zero())
     }
     fn slope(&self, _: usize, gap: T) -> T {
-        if gap < T::zero() { self.stiffness } else { T::zero() }
+        if gap < T::zero() { T::lit(self.stiffness) } else { T::zero() }
     }
 }

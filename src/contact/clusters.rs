@@ -7,7 +7,7 @@ use ndarray::{Array2, ArrayView2};
 /// The connectivity of a map: which nodes are neighbours.
 ///
 /// ```
-/// use asperity::{Clusters, Connectivity};
+/// use asperity::contact::{Clusters, Connectivity};
 /// let none = [false; 3];
 /// let map = ndarray::array![[true, false, false], [false, true, false], none, none];
 /// assert_eq!(Clusters::of(map.view(), Connectivity::Sides).sizes.len(), 2);
@@ -25,7 +25,7 @@ pub enum Connectivity {
 /// The pieces of a periodic map that hang together.
 ///
 /// ```
-/// use asperity::{Clusters, Connectivity};
+/// use asperity::contact::{Clusters, Connectivity};
 /// let map = ndarray::array![
 ///     [true, false, false, true],
 ///     [false, true, false, false],
@@ -36,6 +36,7 @@ pub enum Connectivity {
 /// assert_eq!((clusters.labels[[0, 3]], clusters.labels[[1, 1]], clusters.labels[[2, 2]]), (1, 2, 0));
 /// assert_eq!(Clusters::of(map.view(), Connectivity::Corners).sizes, [3]);
 /// ```
+#[non_exhaustive]
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Clusters {
     /// The number of nodes of each cluster, the largest first; equal ones in row-major order.

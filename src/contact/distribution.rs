@@ -13,7 +13,8 @@ use crate::solver::Solution;
 /// are counted, and Σ density · pressure · width is about the mean pressure that they contribute.
 ///
 /// ```
-/// use asperity::{Control, Grid, NoAdhesion, PressureDistribution, Problem, Solver, Surface, Westergaard};
+/// use asperity::contact::PressureDistribution;
+/// use asperity::{Control, Grid, NoAdhesion, Problem, Solver, Surface, Westergaard};
 /// let grid = Grid::square(64, 1.0)?;
 /// let sphere = Surface::paraboloid(grid, 2.0)?;
 /// let mut problem = Problem::new(&sphere, Westergaard::<f64>::new(grid, 1.0)?, NoAdhesion)?;
@@ -23,6 +24,7 @@ use crate::solver::Solution;
 /// assert_eq!((distribution.edges.len(), distribution.edges[0]), (21, 0.0));
 /// # Ok::<(), asperity::Error>(())
 /// ```
+#[non_exhaustive]
 #[derive(Clone, Debug, PartialEq)]
 pub struct PressureDistribution {
     /// The edges of the bins, from the lowest to the highest: one more than there are bins.

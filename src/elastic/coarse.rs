@@ -66,7 +66,7 @@ struct Wave {
 
 impl CoarseSpace {
     /// The space of the longest waves, of about so many dimensions; `None` if there is none but the mean.
-    pub(super) fn new(grid: &Grid, layout: Layout, symbol: impl Fn(f64, f64) -> f64, dimension: usize) -> Option<Self> {
+    pub(super) fn new(grid: &Grid, layout: Layout, symbol: &dyn Fn(f64, f64) -> f64, dimension: usize) -> Option<Self> {
         let (waves, shape) = (waves(grid, layout, symbol, dimension), grid.shape());
         if waves.len() < 2 {
             return None;
@@ -177,7 +177,7 @@ impl CoarseSpace {
 }
 
 /// The mean, and one wave of each pair ±q with |q| up to a radius, sorted by their columns in the half spectrum.
-fn waves(grid: &Grid, layout: Layout, symbol: impl Fn(f64, f64) -> f64, dimension: usize) -> Vec<Wave> {
+fn waves(grid: &Grid, layout: Layout, symbol: &dyn Fn(f64, f64) -> f64, dimension: usize) -> Vec<Wave> {
     let ((nx, ny), (lx, ly)) = (grid.shape(), grid.lengths());
     // the modes per area of the wave numbers, or per length
     let radius = match (nx, ny) {

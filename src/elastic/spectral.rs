@@ -2,6 +2,7 @@
 
 use std::f64::consts::PI;
 use std::fmt;
+use std::sync::Arc;
 
 use asperity_fft::num_complex::Complex;
 
@@ -10,7 +11,7 @@ use crate::fft::{Convolver, Layout, Sums};
 use crate::vector::{BLOCK, LANES, vectorised};
 
 /// The stiffness k(qx, qy) of a wave, pressure per displacement.
-type Symbol = Box<dyn Fn(f64, f64) -> f64 + Send + Sync>;
+type Symbol = Arc<dyn Fn(f64, f64) -> f64 + Send + Sync>;
 
 /// An elastic operator that multiplies each wave by a factor, its stiffness k(qx, qy): p̂ = k û.
 ///
@@ -32,6 +33,7 @@ type Symbol = Box<dyn Fn(f64, f64) -> f64 + Send + Sync>;
 /// assert!(layer.stiffness_range().0 > 5.0);
 /// # Ok::<(), asperity::Error>(())
 /// ```
+#[derive(Clone)]
 pub struct Spectral<T: Real> {
     grid: Grid,
     modulus: f64,
@@ -42,6 +44,7 @@ pub struct Spectral<T: Real> {
 }
 
 /// The stiffness of each mode, in the layout of the spectrum.
+#[derive(Clone)]
 enum Stiffness<T> {
     Stored(Array2<T>),
     /// the half-space, `unit·√(x² + y²)`, which is faster computed than stored: the squares x² and y² in and across
@@ -75,7 +78,7 @@ impl<T: Real> Spectral<T> {
     /// [`Error::Value`] if the modulus or the symbol at any mode is not positive and finite, in the precision of T.
     pub fn new(grid: Grid, modulus: f64, symbol: impl Fn(f64, f64) -> f64 + Send + Sync + 'static) -> Result<Self> {
         Error::positive("contact modulus", modulus)?;
-        let symbol: Symbol = Box::new(symbol);
+        let symbol: Symbol = Arc::new(symbol);
         let stiffness = stiffness(&grid, &symbol)?;
         let modes = || stiffness.iter().skip(1).map(|k: &T| k.widen());
         let range = if grid.nodes() == 1 {
@@ -93,7 +96,7 @@ impl<T: Real> Spectral<T> {
     /// The homogeneous half-space.
     pub(super) fn half_space(grid: Grid, modulus: f64) -> Result<Self> {
         Error::positive("contact modulus", modulus)?;
-        let symbol: Symbol = Box::new(move |qx, qy| 0.5 * modulus * qx.hypot(qy));
+        let symbol: Symbol = Arc::new(move |qx, qy| 0.5 * modulus * qx.hypot(qy));
         let (stiffness, range) = half_space(&grid, modulus)?;
         Ok(Self { grid, modulus, symbol, stiffness, range, convolver: Convolver::new(grid.shape()) })
     }
@@ -336,7 +339,7 @@ impl<T: Real> ElasticOperator<T> for Spectral<T> {
     }
 
     fn coarse_space(&self, dimension: usize) -> Option<CoarseSpace> {
-        CoarseSpace::new(&self.grid, self.convolver.layout(), &self.symbol, dimension)
+        CoarseSpace::new(&self.grid, self.convolver.layout(), &*self.symbol, dimension)
     }
 
     /// M has the symbol 1/(k + s), s the stiffness of the foundation, but for the waves of the coarse space; the products

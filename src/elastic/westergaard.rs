@@ -8,6 +8,7 @@ use super::*;
 ///
 /// Memory per node, in units of one scalar: 1, for the spectrum; once more, in `f64`, while the constructor of a
 /// [`Problem`](crate::Problem) transforms the heights. The stiffness is computed on the way.
+/// A clone has a spectrum of its own and shares the plans of the transform.
 ///
 /// ```
 /// use asperity::{ElasticOperator, Grid, Westergaard};
@@ -19,7 +20,7 @@ use super::*;
 /// assert!((p[[8, 0]] - std::f64::consts::TAU).abs() < 1e-12); // E*q/2 at the crest
 /// # Ok::<(), asperity::Error>(())
 /// ```
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Westergaard<T: Real>(Spectral<T>);
 
 impl<T: Real> Westergaard<T> {

@@ -90,8 +90,9 @@ impl<T: Real> State<'_, T> {
 
     /// Whether the goal is reached, given the relative error of the load.
     pub(super) fn meets(&self, load_error: f64) -> bool {
+        let tolerance = self.settings.tolerance_in::<T>();
         if self.goal != Goal::Solution {
-            let tolerance = self.settings.tolerance.max(START);
+            let tolerance = tolerance.max(START);
             return self.relative_error() <= tolerance && load_error <= tolerance;
         }
         let criterion = match self.settings.criterion {
@@ -99,7 +100,7 @@ impl<T: Real> State<'_, T> {
             Criterion::Orthogonality if self.residual.working > self.tally.free => f64::INFINITY,
             Criterion::Orthogonality => self.scaled_orthogonality(),
         };
-        criterion <= self.settings.tolerance && load_error <= self.settings.tolerance
+        criterion <= tolerance && load_error <= tolerance
     }
 
     /// Whether the state is converged with p = K⁻¹(g + h) computed from its gap, where steps had only updated p.

@@ -4,12 +4,11 @@
 use std::marker::PhantomData;
 use std::ops::ControlFlow;
 
-use ndarray::{CowArray, Ix2};
-
 use super::report::{Iteration, Solution, Status};
+use super::start::Start;
 use super::state::{Goal, State};
 use super::{Method, Settings};
-use crate::constraint::{ContactConstraint, Outer};
+use crate::constraint::{ContactConstraint, Update};
 use crate::error::{Error, Result};
 use crate::problem::{Control, Parts, smoothed_law};
 use crate::real::{Compiled, Real};
@@ -20,10 +19,7 @@ pub(super) struct Job<'a, T> {
     pub(super) constraint: &'a mut dyn ContactConstraint<T>,
     pub(super) control: Control,
     pub(super) settings: Settings,
-    /// the starting gap, unless it is the default one
-    pub(super) start: Option<CowArray<'a, T, Ix2>>,
-    /// whether the start is near the solution
-    pub(super) near: bool,
+    pub(super) start: Start<'a, T>,
     pub(super) observe: Observer<'a>,
 }
 
@@ -59,14 +55,14 @@ impl<'a> Compiled for Solve<'a> {
 }
 
 fn run<T: Real>(job: Job<'_, T>) -> Result<Solution<T>> {
-    let Job { problem, constraint, control, settings, start, near, observe } = job;
-    Error::positive("tolerance", settings.tolerance)?;
+    let Job { problem, constraint, control, settings, start, observe } = job;
+    Error::positive("tolerance", settings.tolerance_in::<T>())?;
     let Parts { operator, law, flat } = problem;
-    let default_start = start.is_none();
+    let (default_start, near) = (matches!(start, Start::Default), matches!(start, Start::Near(_)));
     let smooth = (near || default_start) && settings.method == Method::Preconditioned;
     let smoothed = if smooth { smoothed_law(&*operator, law) } else { None };
-    let mut state = State::new(Parts { operator, law, flat }, constraint, control, start, settings)?;
-    if near && !default_start {
+    let mut state = State::new(Parts { operator, law, flat }, constraint, control, start.into_gap(), settings)?;
+    if near {
         state.stays_near();
     }
     if let Some(smoothed) = &smoothed {
@@ -82,9 +78,9 @@ fn run<T: Real>(job: Job<'_, T>) -> Result<Solution<T>> {
     let status = loop {
         match minimise(&mut state, &mut *observe)? {
             End::Converged => match state.update_constraint() {
-                Outer::Done => break Status::Converged,
-                Outer::Again => {}
-                Outer::Failed => break Status::IterationLimit,
+                Update::Done => break Status::Converged,
+                Update::Again => {}
+                Update::Failed => break Status::IterationLimit,
             },
             End::Adrift => {
                 if !(std::mem::take(&mut seek) && state.seek_hold(&mut *observe)?) {

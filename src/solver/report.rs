@@ -19,6 +19,7 @@ use super::{Criterion, Method};
 /// assert_eq!(report.status.to_string(), "iteration-limit");
 /// # Ok::<(), asperity::Error>(())
 /// ```
+#[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Status {
     /// The criterion was met, on the fields that were returned: they are the solution to the tolerance.
@@ -59,11 +60,11 @@ impl fmt::Display for Status {
 ///
 /// ```
 /// use std::ops::ControlFlow;
-/// use asperity::{Control, Grid, NoAdhesion, Problem, Solver, Status, Surface, Westergaard};
+/// use asperity::{Control, Grid, NoAdhesion, Problem, Solver, Start, Status, Surface, Westergaard};
 /// let grid = Grid::square(32, 1.0)?;
 /// let surface = Surface::wave_2d(grid, 0.02, 1)?;
 /// let mut problem = Problem::new(&surface, Westergaard::<f64>::new(grid, 1.0)?, NoAdhesion)?;
-/// let solution = Solver::default().solve_from(&mut problem, Control::MeanGap(0.01), None, |state| {
+/// let solution = Solver::default().solve_with(&mut problem, Control::MeanGap(0.01), Start::Default, |state| {
 ///     println!("{} {:.1e} {:.6e}", state.iteration, state.relative_error, state.energy);
 ///     if state.relative_error < 1e-2 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
 /// })?;
@@ -88,7 +89,7 @@ pub struct Iteration {
     /// The mean gap.
     pub mean_gap: f64,
     /// The number of nodes in contact.
-    pub contact_points: usize,
+    pub contact_nodes: usize,
     /// The number of changes of the minimised energy so far: of the law, the multipliers of a constraint, or, in
     /// search of a state that holds a tension, the mean gap. The energy falls within a round.
     pub round: usize,
@@ -150,14 +151,14 @@ pub struct Report {
     /// The share of nodes in contact, as [`Solution::contact_map`] says.
     pub contact_fraction: f64,
     /// The number of nodes in contact, by [`Solution::contact_map`].
-    pub contact_points: usize,
+    pub contact_nodes: usize,
     /// The smallest gap: zero in contact, negative only where the constraint lets the surfaces interpenetrate.
     pub min_gap: f64,
     /// The elastic energy, the mean of u·p/2.
     pub elastic_energy: f64,
     /// The adhesive energy, the mean of φ(g).
     pub adhesive_energy: f64,
-    /// The resolution measure μ_ρ of [`Problem::resolution`](crate::Problem::resolution).
+    /// The resolution measure μ_ρ of [`Problem::mu_rho`](crate::Problem::mu_rho).
     pub mu_rho: f64,
     /// Whether μ_ρ exceeds 0.5: the answer then depends on the grid and on the start.
     pub under_resolved: bool,
@@ -168,6 +169,9 @@ pub struct Report {
     /// The measure that was compared with the tolerance. [`Criterion::Orthogonality`] bounds no error: a solve that
     /// has converged by it may have any [`relative_error`](Self::relative_error).
     pub criterion: Criterion,
+    /// The tolerance to which the solve was held, [`Settings::tolerance_in`](crate::Settings::tolerance_in) its
+    /// precision.
+    pub tolerance: f64,
 }
 
 /// The fields of a solved problem, each of shape (Nx, Ny), and the account of the solve.
@@ -183,6 +187,7 @@ pub struct Report {
 /// assert!((solution.pressure.sum() / 4096.0 - 0.02).abs() < 1e-8); // its mean is the external pressure
 /// # Ok::<(), asperity::Error>(())
 /// ```
+#[non_exhaustive]
 #[derive(Clone, Debug, PartialEq)]
 pub struct Solution<T> {
     /// The gap g ≥ 0 between the surfaces.

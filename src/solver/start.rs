@@ -1,6 +1,6 @@
 //! The start of a solve: its gap, its law, and their checks.
 
-use ndarray::{Array2, CowArray, Ix2};
+use ndarray::{Array2, ArrayRef2, CowArray, Ix2};
 
 use super::state::{Goal, State};
 use crate::adhesion::AdhesionLaw;
@@ -12,6 +12,59 @@ use crate::real::Real;
 /// The first trial length from a start near the solution. The residual r' then has short waves at the edges of
 /// contacts, for which a whole step is too long.
 const NEAR: f64 = 0.5;
+
+/// The start of a solve: the gap from which the energy is minimised.
+///
+/// A gap has shape (Nx, Ny), may be an array or a view in any memory layout, and is scaled to the mean gap, if that is given. The start
+/// matters for the work, and with adhesion, where there may be several equilibria, for the answer.
+///
+/// In `f32` to 1e-4 (1e-3 for smooth light contacts), and from there in `f64`, a solve on 2048² nodes takes some 1.3
+/// times less time than in `f64` alone:
+///
+/// ```
+/// use std::ops::ControlFlow;
+/// use asperity::{Control, Grid, NoAdhesion, Problem, Solver, Start, Status, Surface, Westergaard};
+/// let grid = Grid::square(128, 1.0)?;
+/// let surface = Surface::wave_2d(grid, 0.02, 1)?;
+/// let (mut solver, control) = (Solver::default(), Control::MeanPressure(0.01));
+/// let mut single = Problem::new(&surface, Westergaard::<f32>::new(grid, 1.0)?, NoAdhesion)?;
+/// let near = solver.solve(&mut single, control)?.gap.mapv(f64::from);
+/// let mut double = Problem::new(&surface, Westergaard::<f64>::new(grid, 1.0)?, NoAdhesion)?;
+/// let solution = solver.solve_with(&mut double, control, Start::Near(near), |_| ControlFlow::Continue(()))?;
+/// assert_eq!(solution.report.status, Status::Converged);
+/// assert!(solution.report.relative_error < 1e-6);
+/// # Ok::<(), asperity::Error>(())
+/// ```
+#[non_exhaustive]
+#[derive(Clone, Debug, Default)]
+pub enum Start<'a, T> {
+    /// A uniform gap: the mean gap, if that is given; under a given pressure twice the rms height without adhesion, and
+    /// full contact with adhesion. If the traction of the law jumps, as that of
+    /// [`MaugisDugdale`](crate::MaugisDugdale) does, the equilibrium of the law with its jump
+    /// [smoothed](AdhesionLaw::smoothed) is found first and becomes the start, within the same solve.
+    #[default]
+    Default,
+    /// A gap, as that of an equilibrium at another load. With adhesion it chooses the branch of the equilibrium that is
+    /// found.
+    From(&'a ArrayRef2<T>),
+    /// The gap of the solution of the same problem in another precision or on another grid, which is not copied.
+    ///
+    /// The error of a near start is of short waves, so that the first steps are shorter than from a gap that is given
+    /// by [`Start::From`], and the jumps of a law are smoothed on the way from it, as from the default start.
+    /// [`Nested`](crate::Nested) starts each grid so.
+    Near(Array2<T>),
+}
+
+impl<'a, T> Start<'a, T> {
+    /// The gap that is given, if one is.
+    pub(super) fn into_gap(self) -> Option<CowArray<'a, T, Ix2>> {
+        match self {
+            Self::Default => None,
+            Self::From(gap) => Some(gap.view().into()),
+            Self::Near(gap) => Some(gap.into()),
+        }
+    }
+}
 
 impl<'a, T: Real> State<'a, T> {
     /// Treats the start as near the solution.

@@ -10,12 +10,12 @@ use super::start::{given_start, uniform_start};
 use super::work::{TRUSTED, Work};
 use super::{Criterion, Method, Settings};
 use crate::adhesion::AdhesionLaw;
-use crate::constraint::{ContactConstraint, Outer};
+use crate::constraint::{ContactConstraint, Update};
 use crate::elastic::{ElasticOperator, Foundation};
 use crate::error::{Error, Result};
 use crate::field::{Partial, read, write};
 use crate::par::IndexedParallelIterator;
-use crate::problem::{Control, Parts, PressedFlat, resolution};
+use crate::problem::{Control, Parts, PressedFlat, mu_rho};
 use crate::real::Real;
 
 /// Iterations after which the pressure, updated step by step, is computed anew.
@@ -149,7 +149,7 @@ impl<'a, T: Real> State<'a, T> {
     ) -> Result<Self> {
         let Parts { operator, law, flat } = problem;
         let shape = operator.grid().shape();
-        constraint.start(operator.grid(), operator.stiffness_range().1, settings.tolerance)?;
+        constraint.start(operator.grid(), operator.stiffness_range().1, settings.tolerance_in::<T>())?;
         let (name, value) = match control {
             Control::MeanGap(gap) => ("mean gap", Error::non_negative("mean gap", gap)?),
             Control::MeanPressure(pressure) => ("mean pressure", Error::finite("mean pressure", pressure)?),
@@ -346,9 +346,9 @@ impl<'a, T: Real> State<'a, T> {
         Ok(())
     }
 
-    pub(super) fn update_constraint(&mut self) -> Outer {
+    pub(super) fn update_constraint(&mut self) -> Update {
         let outer = self.constraint.update(self.fields.gap.view());
-        if outer == Outer::Again {
+        if outer == Update::Again {
             self.restart();
         }
         outer
@@ -385,7 +385,7 @@ impl<'a, T: Real> State<'a, T> {
             load_error: self.load_error(),
             energy: self.energy(),
             mean_gap: self.tally.sum_gap / self.nodes(),
-            contact_points: self.tally.contact as usize,
+            contact_nodes: self.tally.contact as usize,
             round: self.rounds,
             smoothed: self.goal == Goal::Start,
         }
@@ -427,7 +427,7 @@ impl<'a, T: Real> State<'a, T> {
             Control::MeanGap(_) => 0.0,
             Control::MeanPressure(_) => self.load_error().max(self.share_of_load(carried_pressure - mean)),
         };
-        let mu_rho = resolution(self.law, self.operator.grid(), self.operator.modulus());
+        let mu_rho = mu_rho(self.law, self.operator.grid(), self.operator.modulus());
         let report = Report {
             status: self.final_status(status, load_error),
             relative_error: self.relative_error(),
@@ -440,7 +440,7 @@ impl<'a, T: Real> State<'a, T> {
             carried_pressure,
             mean_contact_pressure,
             contact_fraction: self.tally.contact / self.nodes(),
-            contact_points: self.tally.contact as usize,
+            contact_nodes: self.tally.contact as usize,
             min_gap: total.min,
             elastic_energy: 0.5 * self.mean_work(),
             adhesive_energy: self.tally.adhesive / self.nodes(),
@@ -449,6 +449,7 @@ impl<'a, T: Real> State<'a, T> {
             precision: T::NAME,
             method: self.settings.method,
             criterion: self.settings.criterion,
+            tolerance: self.settings.tolerance_in::<T>(),
         };
         let Fields { gap, pressure, preconditioned, .. } = self.fields;
         Ok(Solution { gap, pressure, contact_pressure: preconditioned, report })

@@ -9,7 +9,7 @@ use crate::error::{Error, Result};
 use crate::field;
 use crate::problem::{Control, Problem};
 use crate::real::Real;
-use crate::solver::{Solution, Solver};
+use crate::solver::{Solution, Solver, Start};
 
 /// The departure from an equilibrium: the end of a minimisation that left it along its softest mode.
 #[non_exhaustive]
@@ -38,10 +38,11 @@ impl<T: Real> Stability<T> {
     /// within that distance. The wall is rigid. `None` if the mode is zero, as where all nodes are in contact, or without adhesion.
     ///
     /// # Errors
-    /// [`Error::Shape`] if the solution is of another grid, and those of [`Solver::solve_from`].
+    /// [`Error::Shape`] if the solution is of another grid, and those of [`Solver::solve_with`].
     ///
     /// ```
-    /// use asperity::{Control, Exponential, Grid, Problem, Solver, StabilityTest, Surface, Verdict, Westergaard};
+    /// use asperity::stability::{StabilityTest, Verdict};
+    /// use asperity::{Control, Exponential, Grid, Problem, Solver, Surface, Westergaard};
     /// let grid = Grid::line(64, 1.0)?;
     /// let flat = Surface::from_fn(grid, |_, _| 0.0)?;
     /// let mut problem = Problem::new(&flat, Westergaard::<f64>::new(grid, 1.0)?, Exponential::new(1e-3, 1e-2)?)?;
@@ -51,7 +52,7 @@ impl<T: Real> Stability<T> {
     /// assert_eq!(stability.verdict, Verdict::Unstable);
     ///
     /// let left = stability.leave(&mut solver, &mut problem, control, &even)?.expect("there is a mode");
-    /// assert!(left.energy_drop > 0.0 && left.solution.report.contact_points > 0);
+    /// assert!(left.energy_drop > 0.0 && left.solution.report.contact_nodes > 0);
     /// let stability = StabilityTest::default().run(&mut problem, control, &left.solution)?;
     /// assert_eq!(stability.verdict, Verdict::Stable);
     /// # Ok::<(), asperity::Error>(())
@@ -86,7 +87,7 @@ impl<T: Real> Stability<T> {
             let step = T::lit(direction) * amplitude;
             let mut start = from.gap.clone();
             start.zip_mut_with(&self.mode, |gap, &mode| *gap = (*gap + step * mode).max(T::zero()));
-            let solution = solver.solve_from(problem, control, Some(start.view()), |_| ControlFlow::Continue(()))?;
+            let solution = solver.solve_with(problem, control, Start::From(&start), |_| ControlFlow::Continue(()))?;
             let energy_drop = energy(from) - energy(&solution);
             if best.as_ref().is_none_or(|best| energy_drop > best.energy_drop) {
                 let square = |a: T, b: T| (a - b).widen().powi(2);

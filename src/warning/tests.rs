@@ -208,7 +208,7 @@ fn heights_at_the_ends_of_the_range_do_no_harm() {
 #[test]
 fn a_range_beyond_the_heights_or_below_the_grid_is_told() {
     let surface = Surface::wave_2d(Grid::square(64, 1.0).unwrap(), 0.01, 2).unwrap();
-    let found = |work: f64, range: f64| Warning::of_law(&Exponential::new(work, range).unwrap(), &surface, 1.0);
+    let found = |work: f64, range: f64| Warning::of_law::<f64>(&Exponential::new(work, range).unwrap(), &surface, 1.0);
     assert!(found(1e-5, 2e-3).is_empty());
     let resolved = |warnings: Vec<Warning>| (warnings.len(), warnings[0].code, warnings[0].message.clone());
     // √(1e-5/64)/ρ
@@ -254,7 +254,7 @@ fn the_contact_area_is_as_wrong_as_the_warning_says() {
         let mut problem = Problem::new(&surface, Westergaard::<f64>::new(grid, 1.0).unwrap(), law).unwrap();
         let solution = Solver::default().solve(&mut problem, Control::MeanPressure(1e-3)).unwrap();
         let area = ContactStatistics::of(&solution, &grid, &law).unwrap().corrected_contact_fraction;
-        (area, Warning::of_law(&law, &surface, 1.0))
+        (area, Warning::of_law::<f64>(&law, &surface, 1.0))
     };
     let ((fine, none), (middle, small), (coarse, large)) = (found(512), found(128), found(64));
     assert!(none.is_empty());

@@ -10,7 +10,7 @@ pub mod scenes;
 use std::ops::ControlFlow;
 
 use asperity::*;
-use ndarray::{Array2, ArrayView2};
+use ndarray::Array2;
 
 /// Solves from the default start, watching that the energy falls, and checks the solution's invariants.
 pub fn solve<T: Real, O: ElasticOperator<T>, L: AdhesionLaw<T>>(
@@ -26,12 +26,12 @@ pub fn solve_from<T: Real, O: ElasticOperator<T>, L: AdhesionLaw<T>>(
     problem: &mut Problem<T, O, L>,
     control: Control,
     tolerance: f64,
-    start: Option<ArrayView2<'_, T>>,
+    start: Option<&Array2<T>>,
 ) -> Solution<T> {
-    let settings = Settings { tolerance, ..Settings::default() };
+    let settings = Settings { tolerance: Some(tolerance), ..Settings::default() };
     let mut history: Vec<Iteration> = Vec::new();
     let solution = Solver::new(settings)
-        .solve_from(problem, control, start, |iteration| {
+        .solve_with(problem, control, start.map_or(Start::Default, |gap| Start::From(gap)), |iteration| {
             history.push(*iteration);
             ControlFlow::Continue(())
         })
@@ -56,7 +56,7 @@ pub fn falls(history: &[Iteration], epsilon: f64) {
 
 /// What holds for every state that the solver returns, converged or not.
 pub fn check<T: Real>(solution: &Solution<T>, law: &impl AdhesionLaw<T>, control: Control) {
-    let Solution { gap, pressure, contact_pressure, report } = solution;
+    let Solution { gap, pressure, contact_pressure, report, .. } = solution;
     let (nodes, epsilon) = (gap.len() as f64, T::epsilon().widen());
     let mut contact = 0;
     for ((&g, &p), &lambda) in gap.iter().zip(pressure).zip(contact_pressure) {
@@ -64,7 +64,7 @@ pub fn check<T: Real>(solution: &Solution<T>, law: &impl AdhesionLaw<T>, control
         assert!(p.is_finite());
         contact += usize::from(g == T::zero());
     }
-    assert_eq!(report.contact_points, contact);
+    assert_eq!(report.contact_nodes, contact);
     assert_eq!(report.contact_fraction, contact as f64 / nodes);
     assert_eq!(report.min_gap, gap.iter().map(|g| g.widen()).fold(f64::INFINITY, f64::min));
     let values = |field: &Array2<T>| field.iter().map(|x| x.widen()).collect::<Vec<_>>();

@@ -1,11 +1,11 @@
 //! An exponential law that is evaluated at negative gaps, as it stands.
 
-use asperity::{AdhesionLaw, ContactConstraint, Exponential, Grid, Outer, Result, Springs, Wall};
+use asperity::{AdhesionLaw, ContactConstraint, Exponential, Grid, Result, Springs, Update, Wall};
 use ndarray::ArrayView2;
 
 /// Another constraint, with what an exponential law adds to its tangent where the surfaces interpenetrate: the energy
 /// then has no lower bound.
-pub struct Outrun<C>(pub C, pub Exponential<f64>);
+pub struct Outrun<C>(pub C, pub Exponential);
 
 impl<C> Outrun<C> {
     fn excess(&self, gap: f64, of_law: f64, of_tangent: f64) -> f64 {
@@ -20,7 +20,7 @@ impl<C: ContactConstraint<f64> + Springs<f64>> ContactConstraint<f64> for Outrun
     fn start(&mut self, grid: &Grid, stiffest: f64, tolerance: f64) -> Result<()> {
         self.0.start(grid, stiffest, tolerance)
     }
-    fn update(&mut self, gap: ArrayView2<'_, f64>) -> Outer {
+    fn update(&mut self, gap: ArrayView2<'_, f64>) -> Update {
         self.0.update(gap)
     }
 }

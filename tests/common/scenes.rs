@@ -73,8 +73,8 @@ impl Scene {
     pub fn problem<T: Real>(&self) -> Problem<T, Westergaard<T>, Box<dyn AdhesionLaw<T>>> {
         let law: Box<dyn AdhesionLaw<T>> = match self.law {
             Law::None => Box::new(NoAdhesion),
-            Law::Exponential(w, rho) => Box::new(Exponential::new(T::lit(w), T::lit(rho)).unwrap()),
-            Law::MaugisDugdale(w, rho) => Box::new(MaugisDugdale::new(T::lit(w), T::lit(rho)).unwrap()),
+            Law::Exponential(w, rho) => Box::new(Exponential::new(w, rho).unwrap()),
+            Law::MaugisDugdale(w, rho) => Box::new(MaugisDugdale::new(w, rho).unwrap()),
         };
         Problem::new(&self.surface, Westergaard::new(*self.surface.grid(), 1.0).unwrap(), law).unwrap()
     }
@@ -82,11 +82,11 @@ impl Scene {
     /// By projection, and by Uzawa, which took so many rounds.
     pub fn solve<T: Real>(&self) -> (Solution<T>, Solution<T>, usize) {
         let mut problem = self.problem::<T>();
-        let settings = Settings { tolerance: self.tolerance, ..Settings::default() };
+        let settings = Settings { tolerance: Some(self.tolerance), ..Settings::default() };
         let projected = Solver::new(settings).solve(&mut problem, self.control).unwrap();
         let unit = if self.of_waves { problem.operator().stiffness_range().1 } else { 1.0 };
-        let mut solver = Solver { settings, constraint: Uzawa::new(T::lit(self.stiffness * unit)).unwrap() };
+        let mut solver = Solver { settings, constraint: Uzawa::new(self.stiffness * unit).unwrap() };
         let solution = solver.solve(&mut problem, self.control).unwrap();
-        (projected, solution, solver.constraint.outer_iterations())
+        (projected, solution, solver.constraint.rounds())
     }
 }

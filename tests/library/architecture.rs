@@ -12,6 +12,13 @@ fn layers() -> HashMap<String, usize> {
     lines.enumerate().flat_map(|(i, line)| line.split(' ').map(move |name| (name.to_owned(), i))).collect()
 }
 
+/// The modules that the page says are public.
+fn public() -> Vec<String> {
+    let page = include_str!("../../src/guide/architecture.md");
+    let named = page.split("has a public module:\n").nth(1).and_then(|rest| rest.lines().next()).unwrap();
+    named.trim_end_matches('.').split(", ").map(|name| name.trim_matches('`').to_owned()).collect()
+}
+
 fn sources(folder: &Path, into: &mut Vec<PathBuf>) {
     for entry in fs::read_dir(folder).unwrap() {
         let path = entry.unwrap().path();
@@ -31,6 +38,13 @@ fn used(text: &str) -> Vec<String> {
         .flat_map(|line| line.split("crate::").skip(1))
         .map(|rest| rest.chars().take_while(|c| c.is_ascii_alphanumeric() || *c == '_').collect::<String>());
     names.filter(|name| name.starts_with(|c: char| c.is_ascii_lowercase())).collect()
+}
+
+#[test]
+fn public_modules_are_those_of_the_page() {
+    let front_door = include_str!("../../src/lib.rs");
+    let declared = front_door.lines().filter_map(|line| line.strip_prefix("pub mod ")?.strip_suffix(';'));
+    assert_eq!(declared.collect::<Vec<_>>(), public());
 }
 
 #[test]

@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 
 use approx::assert_relative_eq;
 use asperity::exact::*;
-use asperity::{Control, Error, Grid, Problem, Settings, Solver, Status, Surface, Westergaard};
+use asperity::{Control, Error, Grid, Problem, Settings, Solver, Start, Status, Surface, Westergaard};
 
 /// The integral of `f` from `a` to `b` by tanh-sinh quadrature, which takes square-root singularities at the ends; those of
 /// 1/√ to 1e-8 only, as `f` knows the distance from the end only to rounding.
@@ -379,9 +379,9 @@ fn a_solve_with_maugis_law_tends_to_the_exact_state_among_images() {
         let start = (&u - surface.heights()).mapv(|g| g.max(0.0));
         let law = asperity::MaugisDugdale::new(w, range).unwrap();
         let mut problem = Problem::new(&surface, Westergaard::<f64>::new(grid, 1.0).unwrap(), law).unwrap();
-        let mut solver = Solver::new(Settings { tolerance: 1e-8, ..Settings::default() });
+        let mut solver = Solver::new(Settings { tolerance: Some(1e-8), ..Settings::default() });
         let found = solver
-            .solve_from(&mut problem, Control::MeanGap(gap), Some(start.view()), |_| ControlFlow::Continue(()))
+            .solve_with(&mut problem, Control::MeanGap(gap), Start::From(&start), |_| ControlFlow::Continue(()))
             .unwrap();
         assert_eq!(found.report.status, Status::Converged);
         // the traction is 0.05 on whole nodes: its zone's area, and with it the pressure, by some share of its edge nodes

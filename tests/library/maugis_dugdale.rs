@@ -20,11 +20,11 @@ fn errors(n: usize, (range, work, gap): (f64, f64, f64), start: Option<f64>) -> 
     let exact = Periodic::new(sphere, 1.0).unwrap().at_mean_gap(gap, surface.mean()).unwrap();
     let law = MaugisDugdale::new(work, range).unwrap();
     let mut problem = Problem::new(&surface, Westergaard::new(grid, 1.0).unwrap(), law).unwrap();
-    let mut solver = Solver::new(Settings { tolerance: 1e-7, ..Settings::default() });
+    let mut solver = Solver::new(Settings { tolerance: Some(1e-7), ..Settings::default() });
     let start = start.map(|gap| Array2::from_elem(grid.shape(), gap));
-    let start = start.as_ref().map(|gap| gap.view());
+    let start = start.as_ref().map_or(Start::Default, |gap| Start::From(gap));
     let control = Control::MeanGap(gap);
-    let found = solver.solve_from(&mut problem, control, start, |_| ControlFlow::Continue(())).unwrap();
+    let found = solver.solve_with(&mut problem, control, start, |_| ControlFlow::Continue(())).unwrap();
     assert_eq!(found.report.status, Status::Converged);
     assert_eq!(problem.law(), &law);
 
@@ -88,7 +88,7 @@ fn a_law_comes_back_as_it_was_however_the_solve_ends() {
         assert_eq!(limited.report.status == Status::Converged, limit == 2000);
         let mut smoothed = 0;
         let stopped = Solver::default()
-            .solve_from(&mut problem, control, None, |iteration| {
+            .solve_with(&mut problem, control, Start::Default, |iteration| {
                 smoothed += usize::from(iteration.smoothed);
                 if iteration.iteration < limit { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
             })

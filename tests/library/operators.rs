@@ -156,7 +156,7 @@ fn a_plain_operator_solves_the_same_problem() {
         let a = crate::common::solve(&mut fast, control, 1e-10);
         let b = crate::common::solve(&mut plain, control, 1e-10);
         assert_eq!((a.report.status, b.report.status), (Status::Converged, Status::Converged));
-        assert_eq!(a.report.contact_points, b.report.contact_points);
+        assert_eq!(a.report.contact_nodes, b.report.contact_nodes);
         assert_relative_eq!(a.report.mean_gap, b.report.mean_gap, max_relative = 1e-9);
     }
 }
@@ -449,6 +449,24 @@ impl ElasticOperator<f64> for Broken {
     }
     fn modulus(&self) -> f64 {
         self.0.modulus()
+    }
+}
+
+#[test]
+fn a_clone_of_an_operator_is_the_operator_and_has_a_spectrum_of_its_own() {
+    for shape in [(24, 15), (64, 1)] {
+        let grid = Grid::new(shape, (1.0, 0.7)).unwrap();
+        let mut half_space = Westergaard::<f64>::new(grid, 3.0).unwrap();
+        let mut layer = Spectral::<f64>::isotropic(grid, 1.0, |q| 10.0 + 0.5 * q).unwrap();
+        let u = grid.sample(|x, y| (7.0 * x).sin() + (9.0 * y).cos());
+        let before = [apply(&mut half_space, &u), apply(&mut layer, &u)];
+        let (mut other, mut another) = (half_space.clone(), layer.clone());
+        // while the clone is dropped or used, the operator stays as it was
+        apply(&mut half_space, &(2.0 * &u));
+        drop(layer);
+        assert_eq!([apply(&mut other, &u), apply(&mut another, &u)], before);
+        assert_eq!(other.stiffness_range(), half_space.stiffness_range());
+        check_operator(&mut other).unwrap();
     }
 }
 

@@ -18,6 +18,28 @@ fn f32_reaches_what_it_certifies() {
 }
 
 #[test]
+fn the_default_tolerance_is_that_of_the_precision() {
+    fn held_to<T: Real>(settings: Settings) -> f64 {
+        let mut problem = rough::<T, _>(64, 16, NoAdhesion);
+        let report = Solver::new(settings).solve(&mut problem, Control::MeanPressure(0.1)).unwrap().report;
+        let measure = match report.criterion {
+            Criterion::EnergyNorm => report.relative_error,
+            _ => report.orthogonality,
+        };
+        assert!(report.status == Status::Converged && measure <= report.tolerance);
+        report.tolerance
+    }
+    let default = Settings::default();
+    assert_eq!((held_to::<f32>(default), held_to::<f64>(default)), (1e-4, 1e-6));
+    assert_eq!(held_to::<f64>(Settings::rey2017()), 1e-9);
+    // by the certificate the paper's method has the default of the certificate, and what is given comes first
+    let certified = Settings { criterion: Criterion::EnergyNorm, ..Settings::rey2017() };
+    assert_eq!((held_to::<f32>(certified), held_to::<f64>(certified)), (1e-4, 1e-6));
+    let given = Settings { tolerance: Some(1e-3), ..default };
+    assert_eq!((held_to::<f32>(given), held_to::<f64>(given)), (1e-3, 1e-3));
+}
+
+#[test]
 fn f32_converges_or_says_where_it_stalled() {
     let mut stalled = 0;
     for pressure in [1e-3, 1e-2, 0.1, 0.5] {
@@ -54,7 +76,7 @@ fn the_datum_of_the_heights_costs_no_digits() {
         solve(&mut Problem::new(surface, operator, NoAdhesion).unwrap(), Control::MeanPressure(0.1), 1e-5)
     };
     let (a, b) = (solve(&raised), solve(&lowered));
-    assert_eq!(a.report.contact_points, b.report.contact_points);
+    assert_eq!(a.report.contact_nodes, b.report.contact_nodes);
     assert_relative_eq!(a.report.mean_gap, b.report.mean_gap, max_relative = 1e-6);
 }
 
@@ -91,10 +113,10 @@ fn floor<T: Real>(n: usize, pressure: f64) -> (f64, usize, Array2<f64>) {
 /// The certified error of a gap as it is, in `f64`.
 fn certified(n: usize, gap: &Array2<f64>) -> f64 {
     let mut problem = rough::<f64, _>(n, n as i32 / 4, NoAdhesion);
-    let mut solver = Solver::new(Settings { max_iterations: 0, tolerance: 1e-30, ..Settings::default() });
+    let mut solver = Solver::new(Settings { max_iterations: 0, tolerance: Some(1e-30), ..Settings::default() });
     let go_on = |_: &Iteration| std::ops::ControlFlow::Continue(());
     let control = Control::MeanGap(gap.mean().unwrap());
-    solver.solve_from(&mut problem, control, Some(gap.view()), go_on).unwrap().report.relative_error
+    solver.solve_with(&mut problem, control, Start::From(gap), go_on).unwrap().report.relative_error
 }
 
 #[test]

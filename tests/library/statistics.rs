@@ -3,6 +3,7 @@
 use std::f64::consts::PI;
 
 use crate::common::{rough, sphere};
+use asperity::contact::{ContactStatistics, PressureDistribution};
 use asperity::exact::{self, Periodic};
 use asperity::*;
 use ndarray::Array2;
@@ -76,7 +77,7 @@ fn the_perimeter_of_a_disc_is_that_of_its_square() {
         if dx == dy {
             assert!((found.contact_fraction - found.corrected_contact_fraction - expected).abs() < 1e-9);
         }
-        assert_eq!(found.cluster_sizes, [found.contact_points]);
+        assert_eq!(found.cluster_sizes, [found.contact_nodes]);
     }
 }
 
@@ -91,9 +92,9 @@ fn the_nodes_in_contact_are_those_of_the_report_whatever_the_constraint() {
     let hard = Solver { settings, constraint: Uzawa::new(500.0).unwrap() }.solve(&mut problem, control).unwrap();
     for solution in [projected, soft, hard] {
         let found = ContactStatistics::of(&solution, problem.grid(), &NoAdhesion).unwrap();
-        assert_eq!(found.contact_points, solution.report.contact_points);
+        assert_eq!(found.contact_nodes, solution.report.contact_nodes);
         assert_eq!(found.contact_fraction, solution.report.contact_fraction);
-        assert_eq!(found.cluster_sizes.iter().sum::<usize>(), found.contact_points);
+        assert_eq!(found.cluster_sizes.iter().sum::<usize>(), found.contact_nodes);
         assert!(found.cluster_sizes.is_sorted_by(|a, b| a >= b) && found.cluster_sizes.len() > 5);
         assert!(found.repulsive_fraction <= found.contact_fraction);
         assert!(found.repulsive_fraction > 0.99 * found.contact_fraction);
@@ -109,7 +110,7 @@ fn the_nodes_in_contact_are_those_of_the_report_whatever_the_constraint() {
 
 #[test]
 fn adhesion_divides_the_surface_in_three() {
-    let single = Exponential::new(2e-4_f32, 4e-3).unwrap();
+    let single = Exponential::new(2e-4, 4e-3).unwrap();
     let (solution, found) = statistics(&mut rough::<f32, _>(64, 16, single), Control::MeanGap(0.02));
     let reach = 4e-3 * 100.0_f32.ln();
     let near = solution.gap.iter().filter(|g| **g > 0.0 && **g < reach).count();

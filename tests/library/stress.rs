@@ -25,8 +25,8 @@ impl Law {
     fn boxed<T: Real>(self) -> Box<dyn AdhesionLaw<T>> {
         match self {
             Self::None => Box::new(NoAdhesion),
-            Self::Exponential(w, rho) => Box::new(Exponential::new(T::lit(w), T::lit(rho)).unwrap()),
-            Self::MaugisDugdale(w, rho) => Box::new(MaugisDugdale::new(T::lit(w), T::lit(rho)).unwrap()),
+            Self::Exponential(w, rho) => Box::new(Exponential::new(w, rho).unwrap()),
+            Self::MaugisDugdale(w, rho) => Box::new(MaugisDugdale::new(w, rho).unwrap()),
         }
     }
 }
@@ -51,6 +51,10 @@ struct Scene {
     start: Option<Array2<f64>>,
     settings: Settings,
     single: bool,
+}
+
+fn given<T>(start: &Option<Array2<T>>) -> Start<'_, T> {
+    start.as_ref().map_or(Start::Default, |start| Start::From(start))
 }
 
 impl Scene {
@@ -138,9 +142,9 @@ impl Scene {
             heights
         };
         let settings = if paper {
-            Settings { criterion: Criterion::EnergyNorm, tolerance, ..Settings::rey2017() }
+            Settings { criterion: Criterion::EnergyNorm, tolerance: Some(tolerance), ..Settings::rey2017() }
         } else {
-            Settings { tolerance, ..Settings::default() }
+            Settings { tolerance: Some(tolerance), ..Settings::default() }
         };
         Self { shape, lengths, modulus, kind, heights, law, constraint, control, start, settings, single }
     }
@@ -152,8 +156,8 @@ impl Scene {
     fn with_precision<T: Real>(&self) -> Result<Report, String> {
         match self.constraint {
             Constraint::Projection => self.with::<T, _>(Projection),
-            Constraint::Penalty(k) => self.with(Penalty::new(T::lit(k)).map_err(|e| e.to_string())?),
-            Constraint::Uzawa(k) => self.with(Uzawa::new(T::lit(k)).map_err(|e| e.to_string())?),
+            Constraint::Penalty(k) => self.with::<T, _>(Penalty::new(k).map_err(|e| e.to_string())?),
+            Constraint::Uzawa(k) => self.with::<T, _>(Uzawa::new(k).map_err(|e| e.to_string())?),
         }
     }
 
@@ -166,7 +170,7 @@ impl Scene {
         let mut solver = Solver { settings: self.settings, constraint };
         let mut history = Vec::new();
         let solution = solver
-            .solve_from(&mut problem, self.control, start.as_ref().map(|s| s.view()), |iteration| {
+            .solve_with(&mut problem, self.control, given(&start), |iteration| {
                 history.push(*iteration);
                 ControlFlow::Continue(())
             })
@@ -182,12 +186,12 @@ impl Scene {
         let mut problem = Problem::new(&surface, Westergaard::<T>::new(grid, self.modulus)?, NoAdhesion)?;
         let start = self.start.as_ref().map(|start| start.mapv(T::lit));
         let go_on = |_: &Iteration| ControlFlow::Continue(());
-        Solver::new(self.settings).solve_from(&mut problem, self.control, start.as_ref().map(|s| s.view()), go_on)
+        Solver::new(self.settings).solve_with(&mut problem, self.control, given(&start), go_on)
     }
 
     /// The certified error of a gap as it is, in `f64`.
     fn certified(&self, gap: &Array2<f64>) -> f64 {
-        let settings = Settings { max_iterations: 0, tolerance: 1e-30, ..Settings::default() };
+        let settings = Settings { max_iterations: 0, tolerance: Some(1e-30), ..Settings::default() };
         let (control, start) = (Control::MeanGap(gap.mean().unwrap()), Some(gap.clone()));
         Self { settings, control, start, ..self.clone() }.solution::<f64>().unwrap().report.relative_error
     }
@@ -225,9 +229,9 @@ impl Scene {
             need(gap.iter().all(|&g| g >= 0.0), "a gap is negative".into())?;
             need(gap.iter().zip(&contact).all(|(g, p)| g * p == 0.0), "complementarity".into())?;
             let touching = gap.iter().filter(|g| **g == 0.0).count();
-            need(report.contact_points == touching, format!("{} points, not {touching}", report.contact_points))?;
+            need(report.contact_nodes == touching, format!("{} points, not {touching}", report.contact_nodes))?;
         }
-        need(report.contact_fraction == report.contact_points as f64 / nodes, "contact fraction".into())?;
+        need(report.contact_fraction == report.contact_nodes as f64 / nodes, "contact fraction".into())?;
         let lowest = gap.iter().copied().fold(f64::INFINITY, f64::min);
         need(report.min_gap == lowest, format!("least gap {:e} is not {lowest:e}", report.min_gap))?;
         let size = mean(&gap.iter().map(|g| g.abs()).collect::<Vec<_>>());
@@ -321,8 +325,8 @@ impl Scene {
         let residual: Vec<f64> = (0..r.len()).map(|i| if working[i] { r[i] - level } else { 0.0 }).collect();
         let certificate = dense.compliant(&residual);
         // without the cancellation of large sums that the product of the matrix has
-        let work = if projects && report.contact_points > 0 { 2.0 * report.elastic_energy } else { work };
-        let scale = if report.contact_points > 0 { work } else { work.max(surface_work) };
+        let work = if projects && report.contact_nodes > 0 { 2.0 * report.elastic_energy } else { work };
+        let scale = if report.contact_nodes > 0 { work } else { work.max(surface_work) };
         let relative = (certificate / scale).sqrt();
         let noise = if dense.softest > 0.0 { edge / (dense.softest * scale).sqrt() } else { 0.0 };
         let uzawa = matches!(self.constraint, Constraint::Uzawa(_));
@@ -331,7 +335,7 @@ impl Scene {
         if clear && !uzawa && !flats && scale > 0.0 && relative.is_finite() {
             need(relative <= bounded, format!("certificate {:e} is less than {relative:e}", report.relative_error))?;
             let allowed = 0.05 * relative + 8.0 * noise;
-            let not_much = report.relative_error <= relative + allowed.max(self.settings.tolerance)
+            let not_much = report.relative_error <= relative + allowed.max(self.settings.tolerance_in::<f64>())
                 || work < 1e3 * epsilon * surface_work;
             need(not_much, format!("certificate {:e} is far more than {relative:e}", report.relative_error))?;
         }
@@ -342,7 +346,7 @@ impl Scene {
             let size = load.abs().max(mean(&contact));
             let own = 64.0 * epsilon * mean(&contact).max(mean(&tractions));
             if let Control::MeanPressure(_) = self.control {
-                close("carried load", carried, load, 1.01 * self.settings.tolerance * size + own)?;
+                close("carried load", carried, load, 1.01 * self.settings.tolerance_in::<f64>() * size + own)?;
             }
             let p: Vec<f64> = (0..contact.len()).map(|i| contact[i] - tractions[i] - carried).collect();
             let twice = dense.compliant(&p);
@@ -355,7 +359,8 @@ impl Scene {
             }
         }
         if report.status == Status::Converged {
-            let good = report.relative_error <= self.settings.tolerance && report.load_error <= self.settings.tolerance;
+            let good = report.relative_error <= self.settings.tolerance_in::<f64>()
+                && report.load_error <= self.settings.tolerance_in::<f64>();
             need(good, format!("converged with {:e}, {:e}", report.relative_error, report.load_error))?;
         }
 
@@ -382,7 +387,7 @@ impl Scene {
                 && let Some(exact) = dense.solve(&surface, None, offset, &guess)
             {
                 let span = largest(&surface);
-                let allowed = (100.0 * self.settings.tolerance + 1e4 * epsilon) * span.max(mean(&exact));
+                let allowed = (100.0 * self.settings.tolerance_in::<f64>() + 1e4 * epsilon) * span.max(mean(&exact));
                 close("mean gap under the pressure", mean(&gap), mean(&exact), allowed)?;
             }
         }
@@ -407,7 +412,7 @@ impl Scene {
             && self.law == Law::None
             && self.constraint == Constraint::Projection
             && !self.single
-            && self.settings.tolerance >= 1e-8
+            && self.settings.tolerance_in::<f64>() >= 1e-8
     }
 }
 
@@ -428,7 +433,7 @@ fn f32_is_as_good_as_it_says_and_is_given_up_at_its_floor() {
     let (mut wrong, mut solved) = (Vec::new(), [0; 2]);
     for seed in first..first + cases {
         let scene = Scene::new(seed);
-        let settings = Settings { tolerance: 1e-5, ..Settings::default() };
+        let settings = Settings { tolerance: Some(1e-5), ..Settings::default() };
         let mut scene = Scene { law: Law::None, constraint: Constraint::Projection, settings, ..scene };
         if scene.is_plane() || matches!(scene.control, Control::MeanPressure(p) if p < 0.0) {
             continue;
@@ -447,7 +452,7 @@ fn f32_is_as_good_as_it_says_and_is_given_up_at_its_floor() {
         // heights of few levels round alike, or not at all
         let levels = matches!(scene.kind, "step" | "board" | "levels");
         if report.status == Status::Stalled && said.is_finite() && !levels {
-            scene.settings.tolerance = 1e-12;
+            scene.settings.tolerance = Some(1e-12);
             scene.start = None;
             let exact = scene.solution::<f64>().unwrap();
             let floor = scene.certified(&exact.gap.mapv(|g| f64::from(g as f32)));
@@ -474,7 +479,8 @@ fn random_scenes_agree_with_dense_matrices() {
         let Scene { shape, kind, law, constraint, control, settings, single, .. } = &scene;
         let what = format!(
             "{seed}: {shape:?} {kind} {law:?} {constraint:?} {control:?} start {start} {:?} {:.1e} f32 {single}",
-            settings.method, settings.tolerance
+            settings.method,
+            settings.tolerance_in::<f64>()
         );
         let law = format!("{law:?}");
         let law = law.split('(').next().unwrap_or_default();
@@ -482,7 +488,7 @@ fn random_scenes_agree_with_dense_matrices() {
             Err(_) => wrong.push(format!("panic in {what}")),
             Ok(Err(reason)) => wrong.push(format!("{reason} in {what}")),
             Ok(Ok(report)) => {
-                let (constraint, loose) = (format!("{constraint:?}"), settings.tolerance >= 1e-3);
+                let (constraint, loose) = (format!("{constraint:?}"), settings.tolerance_in::<f64>() >= 1e-3);
                 let constraint = constraint.split('(').next().unwrap_or_default();
                 let (method, status) = (settings.method, report.status);
                 let end = format!("{law} {constraint} {method:?} f32 {single} loose {loose} {status}");

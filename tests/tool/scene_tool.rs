@@ -236,7 +236,7 @@ fn keys(report: &Value, found: &mut Vec<String>) {
 #[test]
 fn reports_are_one_document_whose_keys_are_documented() {
     let bench = rough();
-    let page = include_str!("../../src/tool.md");
+    let page = include_str!("../../src/guide/tool.md");
     let quick = "--heights heights.npy --threads 1";
     for (arguments, expected) in [
         (format!("solve {quick} {ADHESION} --mean-gap 0.02 --leave --out one"), vec!["stability", "departures"]),
@@ -308,8 +308,8 @@ fn unstable_equilibria_can_be_left() {
     let (stable, silence) = run("run left/scene.toml --initial-gap left/gap.npy --out stays");
     assert_eq!(silence, "");
     assert_eq!(
-        (stable["departures"].as_array().map(Vec::len), &stable["contact_points"]),
-        (Some(0), &left["contact_points"])
+        (stable["departures"].as_array().map(Vec::len), &stable["contact_nodes"]),
+        (Some(0), &left["contact_nodes"])
     );
     assert!(bench.names("stays").contains(&"mode.npy".to_owned()));
 }

@@ -59,7 +59,7 @@ fn each_command_says_what_is_probably_a_mistake_and_reports_it() {
         for (command, out) in [
             ("solve --mean-gap 1e5 --no-pictures", "results"),
             ("sweep --mean-gaps 2e5,1e5", "sweep.csv"),
-            ("cycle --mean-pressures 0.01,0.02 --modulus 1e3 --steps 2 --resolution 0.1", "cycle.csv"),
+            ("cycle --mean-pressures 0.01,0.02 --modulus 1e3 --steps 2 --smallest-step 0.1", "cycle.csv"),
         ] {
             let output = bench.run(&format!("{command} --heights {heights} --out {out} --force --json"));
             // some of that does not converge, which is told too

@@ -3,10 +3,9 @@
 use std::ops::ControlFlow;
 use std::path::PathBuf;
 
-use asperity::{
-    Chart, Control, Error, Event, Path, PathCheckpoint, PathSettings, PathStep, Problem, Solver, Status, Surface,
-    Westergaard,
-};
+use asperity::path::{Event, Path, PathCheckpoint, PathSettings, PathStep};
+use asperity::picture::Chart;
+use asperity::{Control, Error, Problem, Solver, Status, Surface, Westergaard};
 use clap::{ArgGroup, Args};
 use ndarray::Array2;
 use serde_json::{Map, Value, json};
@@ -54,7 +53,7 @@ pub struct Options {
     /// Step to which jumps are located, as a share of the way from one turning point to the next
     #[arg(long, value_name = "SHARE", default_value = "1e-4", allow_hyphen_values = true, value_parser = options::positive)]
     #[arg(help_heading = "Loads")]
-    resolution: f64,
+    smallest_step: f64,
     /// Imbalance of energy that a step may have, as a share of how much the energy has changed
     #[arg(long, value_name = "SHARE", default_value = "1e-4", allow_hyphen_values = true, value_parser = options::positive)]
     #[arg(help_heading = "Loads")]
@@ -158,8 +157,8 @@ impl Options {
         let mut solver = Solver::new(settings);
         let path_settings = PathSettings {
             steps: self.steps,
-            resolution: self.resolution,
-            tolerance: self.imbalance,
+            smallest_step: self.smallest_step,
+            imbalance: self.imbalance,
             smooth: !self.sharp,
         };
         let mut path = Path::new(&mut solver, &mut problem, loads, path_settings)?;
@@ -179,7 +178,8 @@ impl Options {
         }
         loop {
             let name = format!("{}", journal.rows() + 1);
-            let mut progress = Progress::new(&name, settings.tolerance, grid.nodes(), self.printing.without_bars());
+            let mut progress =
+                Progress::new(&name, settings.tolerance_in::<T>(), grid.nodes(), self.printing.without_bars());
             let step = path.next_observed(|state| {
                 progress.update(state);
                 ControlFlow::Continue(())
@@ -241,7 +241,7 @@ impl Options {
         identity.insert("loads".to_owned(), values.join(" ").into());
         for (name, value) in [
             ("steps", self.steps.to_string()),
-            ("resolution", self.resolution.to_string()),
+            ("smallest_step", self.smallest_step.to_string()),
             ("imbalance", self.imbalance.to_string()),
             ("sharp", self.sharp.to_string()),
         ] {

@@ -4,7 +4,8 @@ use std::ffi::{OsStr, OsString};
 use std::path::{Path, PathBuf};
 
 use asperity::io::{OutputFolder, write_npy};
-use asperity::{Amplitude, Colouring, Error, Exponential, Grid, Map, NoAdhesion, SelfAffine, Status, Surface};
+use asperity::picture::{Colouring, Map};
+use asperity::{Amplitude, Error, Exponential, Grid, NoAdhesion, SelfAffine, Status, Surface};
 use clap::{Args, CommandFactory};
 use ndarray::Array2;
 use serde_json::json;
@@ -86,7 +87,8 @@ pub fn run(options: &Options) -> Outcome<bool> {
     ));
     let heights = surface.heights().clone();
     let case = sticky_options.case();
-    let progress = |name| Progress::new(name, case.settings.tolerance, grid.nodes(), printing.without_bars());
+    let progress =
+        |name| Progress::new(name, case.settings.tolerance_in::<f64>(), grid.nodes(), printing.without_bars());
     let law = Exponential::new(WORK_OF_ADHESION, RANGE)?;
     let (bare, without) = run::solve::<f64, _>(surface.clone(), NoAdhesion, &case, None, progress("without adhesion"))?;
     let (sticky, with) = run::solve::<f64, _>(surface, law, &case, None, progress("with adhesion"))?;

@@ -29,7 +29,7 @@ pub fn inputs(
         "range": adhesion.range,
         "method": settings.method.name(),
         "precision": if solver.precision == Precision::F32 { "f32" } else { "f64" },
-        "tolerance": settings.tolerance,
+        "tolerance": solver.tolerance(),
         "max_iterations": settings.max_iterations,
         "threads": threads,
         "version": env!("CARGO_PKG_VERSION"),

@@ -114,8 +114,7 @@ impl AdhesionOptions {
 
     /// The law; its parameters are there after [`Self::check`].
     pub fn law<T: Real>(&self) -> asperity::Result<Box<dyn AdhesionLaw<T>>> {
-        let parameter = |value: Option<f64>| T::lit(value.unwrap_or_default());
-        let (work, range) = (parameter(self.work_of_adhesion), parameter(self.range));
+        let (work, range) = (self.work_of_adhesion.unwrap_or_default(), self.range.unwrap_or_default());
         Ok(match self.law {
             Law::None => Box::new(NoAdhesion),
             Law::MaugisDugdale => Box::new(MaugisDugdale::new(work, range)?),
@@ -135,15 +134,23 @@ impl SolverOptions {
         Ok(Some(start))
     }
 
-    /// The settings, with the defaults of the method and of the precision.
+    /// The tolerance to which the solve is held.
+    pub fn tolerance(&self) -> f64 {
+        let settings = self.settings();
+        match self.precision {
+            Precision::F32 => settings.tolerance_in::<f32>(),
+            Precision::F64 => settings.tolerance_in::<f64>(),
+        }
+    }
+
+    /// The settings, with the defaults of the method.
     pub fn settings(&self) -> Settings {
         let default = match self.method {
             Iteration::Default => Settings::default(),
             Iteration::Rey2017 => Settings { criterion: Criterion::EnergyNorm, ..Settings::rey2017() },
         };
-        let reachable = if self.precision == Precision::F32 { 1e-4 } else { 1e-6 };
         Settings {
-            tolerance: self.tolerance.unwrap_or(reachable),
+            tolerance: self.tolerance,
             max_iterations: self.max_iterations.unwrap_or(default.max_iterations),
             ..default
         }

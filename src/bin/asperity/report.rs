@@ -1,6 +1,7 @@
 //! Reports of solves as tables, and what is to be known before they are trusted.
 
-use asperity::{Report, Status, Verdict};
+use asperity::stability::Verdict;
+use asperity::{Report, Status};
 
 use crate::complain;
 use crate::numbers::{Style, percent, plain};
@@ -18,7 +19,7 @@ pub fn table(names: &[&str], solves: &[&Account], style: Style) -> String {
     };
     row("contact", &|_, r| format!("{} %", percent(r.contact_fraction)));
     row("corrected for its edge", &|s, _| format!("{} %", percent(s.contact.corrected_contact_fraction)));
-    row("points in contact", &|s, r| format!("{} of {}", r.contact_points, s.nodes));
+    row("nodes in contact", &|s, r| format!("{} of {}", r.contact_nodes, s.nodes));
     row("mean gap", &|_, r| style.number(r.mean_gap, "m"));
     row("mean pressure", &|_, r| style.number(r.mean_pressure, "Pa"));
     row("carried pressure", &|_, r| style.number(r.carried_pressure, "Pa"));
@@ -77,7 +78,7 @@ pub fn table(names: &[&str], solves: &[&Account], style: Style) -> String {
 
 /// Says on standard error what there is to know of a solve before trusting it, of which `name` tells the case.
 pub fn warn(name: &str, account: &Account, case: &Case) {
-    let (report, tolerance) = (&account.report, case.settings.tolerance);
+    let (report, tolerance) = (&account.report, account.report.tolerance);
     let name = if name.is_empty() { String::new() } else { format!("{name}: ") };
     if report.status != Status::Converged {
         let remedy = match report.status {

@@ -4,10 +4,12 @@ use std::ops::ControlFlow;
 use std::path::Path;
 use std::time::Instant;
 
+use asperity::contact::ContactStatistics;
+use asperity::picture::{Colouring, Map};
+use asperity::stability::{Departure, Stability, StabilityTest, Verdict};
 use asperity::{
-    AdhesionLaw, Colouring, ContactStatistics, Control, Departure, Error, Grid, Level, Map, Nested, NestedSolution,
-    NoAdhesion, Problem, Real, Report, Result, Settings, Solution, Solver, Stability, StabilityTest, Surface, Verdict,
-    Westergaard,
+    AdhesionLaw, Control, Error, Grid, Level, Nested, NestedSolution, NoAdhesion, Problem, Real, Report, Result,
+    Settings, Solution, Solver, Start, Surface, Westergaard,
 };
 use ndarray::Array2;
 use ndarray_npy::WritableElement;
@@ -32,7 +34,7 @@ pub struct Case {
     pub leave: bool,
 }
 
-/// Whether a solution is stable; see [`asperity::Stability`].
+/// Whether a solution is stable; see [`asperity::stability::Stability`].
 pub struct Steadiness {
     pub verdict: Verdict,
     pub eigenvalue: f64,
@@ -44,7 +46,7 @@ pub struct Steadiness {
     pub mode: Array2<f64>,
 }
 
-/// An unstable equilibrium that was left; see [`asperity::Departure`].
+/// An unstable equilibrium that was left; see [`asperity::stability::Departure`].
 pub struct Left {
     pub eigenvalue: f64,
     pub energy_drop: f64,
@@ -85,9 +87,9 @@ pub fn solve<T: Scalar, L: AdhesionLaw<T>>(
     let grid = *surface.grid();
     let mut problem = Problem::new(&surface, Westergaard::new(grid, case.modulus)?, law)?;
     drop(surface);
-    let start = start.as_ref().map(|start| start.view());
+    let start = start.as_ref().map_or(Start::Default, |start| Start::From(start));
     let mut solver = Solver::new(case.settings);
-    let mut solution = solver.solve_from(&mut problem, case.control, start, |state| {
+    let mut solution = solver.solve_with(&mut problem, case.control, start, |state| {
         progress.update(state);
         ControlFlow::Continue(())
     })?;
@@ -169,7 +171,7 @@ fn steadiness<T: Scalar>(found: Stability<T>) -> Steadiness {
 
 /// Refuses fields that are not finite, as of a solve that has run away.
 pub fn check_finite<T: Scalar>(solution: &Solution<T>) -> Outcome<()> {
-    let Solution { gap, pressure, contact_pressure, report } = solution;
+    let Solution { gap, pressure, contact_pressure, report, .. } = solution;
     let fields = [("gap", gap), ("pressure", pressure), ("contact pressure", contact_pressure)];
     for (name, field) in fields {
         let count = field.iter().filter(|value| !value.is_finite()).count();

@@ -162,7 +162,7 @@ impl Options {
             Control::MeanGap(gap) => ("mean-gap", gap),
             Control::MeanPressure(pressure) => ("mean-pressure", pressure),
         };
-        let grids = account.grids.as_ref().map(|(levels, _)| levels.iter().map(level).collect::<Vec<_>>());
+        let levels = account.grids.as_ref().map(|(levels, _)| levels.iter().map(level).collect::<Vec<_>>());
         let outcome = json!({
             "status": report.status.name(),
             "relative_error": report.relative_error,
@@ -170,14 +170,14 @@ impl Options {
             "criterion": report.criterion.name(),
             "iterations": report.iterations,
             "operator_applications": report.operator_applications,
-            "grids": grids,
+            "levels": levels,
             "equivalent_applications": account.grids.as_ref().map(|(_, applications)| applications),
             "mean_gap": report.mean_gap,
             "mean_pressure": report.mean_pressure,
             "carried_pressure": report.carried_pressure,
             "mean_contact_pressure": report.mean_contact_pressure,
             "contact_fraction": report.contact_fraction,
-            "contact_points": report.contact_points,
+            "contact_nodes": report.contact_nodes,
             "corrected_contact_fraction": account.contact.corrected_contact_fraction,
             "perimeter": account.contact.perimeter,
             "min_gap": report.min_gap,
@@ -223,7 +223,7 @@ impl Job<'_> {
         let grid = *surface.grid();
         // In place, if the precision is that of the file.
         let start = start.map(|gap| gap.mapv_into_any(T::lit));
-        let progress = Progress::new("", self.case.settings.tolerance, grid.nodes(), printing.without_bars());
+        let progress = Progress::new("", self.case.settings.tolerance_in::<T>(), grid.nodes(), printing.without_bars());
         let Options { surface: given, adhesion, strictness, .. } = self.options;
         let mut warnings = Warnings::of_input::<T>(*strictness, &surface, given, adhesion)?;
         warnings.say();

@@ -3,10 +3,9 @@
 use std::ops::ControlFlow;
 use std::path::PathBuf;
 
+use asperity::contact::ContactStatistics;
 use asperity::io::{OutputFolder, write_npy};
-use asperity::{
-    ContactStatistics, Control, Error, Problem, Report, Solution, Solver, Status, Surface, Sweep, Westergaard,
-};
+use asperity::{Control, Error, Problem, Report, Solution, Solver, Status, Surface, Sweep, Westergaard};
 use clap::{ArgGroup, Args, ValueEnum};
 use ndarray::Array2;
 use serde_json::{Map, Value, json};
@@ -172,7 +171,7 @@ impl Options {
         for (k, &load) in loads.iter().enumerate().skip(done) {
             let mut progress = Progress::new(
                 &format!("{}/{count}", k + 1),
-                settings.tolerance,
+                settings.tolerance_in::<T>(),
                 grid.nodes(),
                 self.printing.without_bars(),
             );
@@ -306,7 +305,7 @@ pub fn identity(
         "range": number(adhesion.range),
         "precision": if solver.precision == Precision::F32 { "f32" } else { "f64" },
         "method": settings.method.name(),
-        "tolerance": settings.tolerance.to_string(),
+        "tolerance": solver.tolerance().to_string(),
         "max_iterations": settings.max_iterations.to_string(),
         "initial_gap": start.map_or("none".to_owned(), field),
         "version": env!("CARGO_PKG_VERSION"),

@@ -23,7 +23,8 @@ fn solve_from<T: Real, C: ContactConstraint<T>>(
     start: Option<&Array2<f64>>,
 ) -> Solution<T> {
     let start = start.map(|start| start.mapv(T::lit));
-    solver.solve_from(problem, control, start.as_ref().map(|s| s.view()), |_| ControlFlow::Continue(())).unwrap()
+    let start = start.as_ref().map_or(Start::Default, |start| Start::From(start));
+    solver.solve_with(problem, control, start, |_| ControlFlow::Continue(())).unwrap()
 }
 
 /// There are no waves in a plane but those of rounding, to which errors must not be related.
@@ -44,7 +45,7 @@ fn planes_stay_at_a_mean_gap_from_any_start<T: Real>() {
 }
 
 fn paper(tolerance: f64) -> Solver {
-    Solver::new(Settings { criterion: Criterion::EnergyNorm, tolerance, ..Settings::rey2017() })
+    Solver::new(Settings { criterion: Criterion::EnergyNorm, tolerance: Some(tolerance), ..Settings::rey2017() })
 }
 
 /// A step that leaves no node apart keeps the mean gap.
@@ -78,20 +79,20 @@ fn a_single_node_lands_from_far_away<T: Real>() {
         let start = Array2::from_elem((1, 1), start);
         let solution = solve_from(&mut Solver::default(), &mut alone, Control::MeanPressure(load), Some(&start));
         let report = &solution.report;
-        assert_eq!((report.status, report.contact_points), (Status::Converged, 1), "{load}");
+        assert_eq!((report.status, report.contact_nodes), (Status::Converged, 1), "{load}");
         assert!(report.iterations <= 3, "{load}: {}", report.iterations);
     }
 }
 
 /// Gaps of both signs may have no mean to be scaled by; and under a tension that nothing holds the surfaces part.
 fn springs_and_multipliers_keep_a_mean_gap_of_zero<T: Real>() {
-    springs::<T, _>(Penalty::new(T::lit(5000.0)).unwrap());
-    springs::<T, _>(Uzawa::new(T::lit(200.0)).unwrap());
+    springs::<T, _>(Penalty::new(5000.0).unwrap());
+    springs::<T, _>(Uzawa::new(200.0).unwrap());
 }
 
 fn springs<T: Real, C: ContactConstraint<T>>(constraint: C) {
     let wave = |i: usize, j: usize| 0.02 * (std::f64::consts::TAU * (i + 2 * j) as f64 / 16.0).cos();
-    let settings = Settings { tolerance: loose::<T>(), ..Settings::default() };
+    let settings = Settings { tolerance: Some(loose::<T>()), ..Settings::default() };
     let mut solver = Solver { settings, constraint };
     for start in [None, Some(Array2::from_shape_fn((16, 16), |(i, _)| if i % 2 == 0 { 1e-3 } else { -1e-3 }))] {
         let mut problem: Problem<T, _, Boxed<T>> = problem((16, 16), (1.0, 1.0), wave, bare());
@@ -99,7 +100,7 @@ fn springs<T: Real, C: ContactConstraint<T>>(constraint: C) {
         assert_eq!(report.status, Status::Converged);
         assert!(report.mean_gap.abs() < 8.0 * T::epsilon().widen() * 0.02 && report.min_gap < 0.0);
         let lost = solve_from(&mut solver, &mut problem, Control::MeanPressure(-1e-3), None).report;
-        assert_eq!((lost.status, lost.contact_points), (Status::Detached, 0));
+        assert_eq!((lost.status, lost.contact_nodes), (Status::Detached, 0));
     }
 }
 
@@ -111,10 +112,10 @@ fn a_step_under_a_light_pressure_lands_on_all_of_its_plateau<T: Real>() {
     // 1.9e4 times the modulus of one that the other tests have
     let control = Control::MeanPressure(1.064e-3 / 1.94e4);
     let tolerance = if T::NAME == "f64" { 1e-8 } else { 1e-2 };
-    let mut solver = Solver::new(Settings { tolerance, ..Settings::default() });
+    let mut solver = Solver::new(Settings { tolerance: Some(tolerance), ..Settings::default() });
     let report = solve_from(&mut solver, &mut problem, control, None).report;
     assert_solved::<T>(&report, "a step");
-    assert_eq!(report.contact_points, 8);
+    assert_eq!(report.contact_nodes, 8);
     assert!(report.iterations < 60, "{}", report.iterations);
 }
 
