@@ -7,8 +7,8 @@ use std::ops::ControlFlow;
 use std::time::Instant;
 
 use asperity::{
-    AdhesionLaw, Amplitude, Control, ElasticOperator, Exponential, Grid, NoAdhesion, Preconditioned, Problem, Real,
-    Result, SelfAffine, Settings, Solver, Start, Surface, Westergaard,
+    AdhesionLaw, Amplitude, CoarseSpace, Control, ElasticOperator, Exponential, Foundation, Grid, NoAdhesion,
+    Preconditioned, Problem, Real, Result, SelfAffine, Settings, Solver, Start, Surface, Westergaard,
 };
 use ndarray::{ArrayView2, ArrayViewMut2};
 
@@ -51,14 +51,16 @@ impl<T: Real> ElasticOperator<T> for Timed<T> {
     fn surface_pressure(&mut self, heights: ArrayView2<'_, f64>, p: ArrayViewMut2<'_, T>) -> Result<f64> {
         self.half_space.surface_pressure(heights, p)
     }
+    fn coarse_space(&self, dimension: usize) -> Option<CoarseSpace> {
+        self.half_space.coarse_space(dimension)
+    }
     fn precondition(
         &mut self,
         residual: ArrayView2<'_, T>,
-        foundation: f64,
-        mean_stiffness: f64,
+        foundation: Foundation<'_>,
         preconditioned: ArrayViewMut2<'_, T>,
     ) -> Result<Preconditioned> {
-        self.time(|half_space| half_space.precondition(residual, foundation, mean_stiffness, preconditioned))
+        self.time(|half_space| half_space.precondition(residual, foundation, preconditioned))
     }
 }
 

@@ -46,8 +46,8 @@ fn compare<L: AdhesionLaw<f64>>(name: &str, surface: &Surface, law: L, control: 
         format!("{ours}{}", ended(default.status)),
         format!("{theirs}{}", ended(paper.status)),
         theirs as f64 / ours as f64,
-        default.contact_points,
-        paper.contact_points,
+        default.contact_nodes,
+        paper.contact_nodes,
     );
     Ok(default.mean_gap)
 }

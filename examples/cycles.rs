@@ -63,7 +63,7 @@ struct Cycle {
     dissipated: f64,
     imbalance: f64,
     steps: usize,
-    resolution: f64,
+    mu_rho: f64,
     unconverged: usize,
 }
 
@@ -84,7 +84,7 @@ impl Cycle {
 
 fn cycle<L: AdhesionLaw<f64>>(surface: &Surface, law: L, gaps: [f64; 2], settings: PathSettings) -> Outcome<Cycle> {
     let mut problem = Problem::new(surface, Westergaard::<f64>::new(*surface.grid(), 1.0)?, law)?;
-    let resolution = problem.resolution();
+    let mu_rho = problem.mu_rho();
     let [far, near] = gaps.map(Control::MeanGap);
     let mut solver = Solver::new(Settings { tolerance: Some(1e-5), ..Settings::default() });
     let mut cycle = Cycle {
@@ -94,7 +94,7 @@ fn cycle<L: AdhesionLaw<f64>>(surface: &Surface, law: L, gaps: [f64; 2], setting
         dissipated: 0.0,
         imbalance: 0.0,
         steps: 0,
-        resolution,
+        mu_rho,
         unconverged: 0,
     };
     for step in Path::new(&mut solver, &mut problem, [far, near, far], settings)? {
@@ -126,7 +126,7 @@ fn spheres(size: usize, path: &File) -> Outcome<()> {
     let surface = Surface::paraboloid(grid, RADIUS)?;
     println!("sphere, {size}²: pull-off force over πwR");
     println!("{:>5} {:>8} {:>6} {:>8} {:>8} {:>7}", "μ_T", "w", "μ_ρ", "found", "exact", "error");
-    let settings = PathSettings { resolution: 1e-3, ..PathSettings::default() };
+    let settings = PathSettings { smallest_step: 1e-3, ..PathSettings::default() };
     let mut curves = Vec::new();
     for ((tabor, work), colour) in SPHERES.into_iter().zip(COLOURS) {
         let length = (work * work * RADIUS).cbrt();
@@ -141,7 +141,7 @@ fn spheres(size: usize, path: &File) -> Outcome<()> {
         let (force, exact) = (found.pull_off() / unit, -pulled.mean_pressure() / unit);
         println!(
             "{tabor:>5} {work:>8.0e} {:>6.2} {force:>8.4} {exact:>8.4} {:>6.2} %  {}",
-            found.resolution,
+            found.mu_rho,
             100.0 * (force / exact - 1.0),
             found.says()
         );
@@ -176,7 +176,7 @@ fn waves(size: usize, path: &File) -> Outcome<()> {
         let found = cycle(&surface, law, [0.034, 0.014], PathSettings::default())?;
         println!(
             "{share:>6} {n:>6} {:>6.2} {:>8.4} {:>10.4} w {:>8.0e} w  {}",
-            found.resolution,
+            found.mu_rho,
             found.pull_off() / closing,
             found.dissipated / work,
             found.imbalance.abs() / work,
@@ -203,11 +203,11 @@ fn rough(size: usize, path: &File) -> Outcome<()> {
     let mut curves = Vec::new();
     for ((work, range), colour) in [(2e-5, 1e-3), (5e-5, 1e-3), (1e-4, 1e-3)].into_iter().zip(COLOURS) {
         let gaps = [0.022, 0.005];
-        let settings = PathSettings { resolution: 1e-3, ..PathSettings::default() };
+        let settings = PathSettings { smallest_step: 1e-3, ..PathSettings::default() };
         let found = cycle(&surface, Exponential::new(work, range)?, gaps, settings)?;
         println!(
             "{work:>8.0e} {range:>8.0e} {:>6.2} {:>12.3e} {:>10.4} w  {}",
-            found.resolution,
+            found.mu_rho,
             found.pull_off(),
             found.dissipated / work,
             found.says()

@@ -24,9 +24,10 @@ use std::path::{Path, PathBuf};
 
 use arguments::size_and_out;
 use asperity::contact::ContactStatistics;
+use asperity::picture::{Colouring, Map};
 use asperity::{
-    AdhesionLaw, Amplitude, Colouring, Control, Exponential, Grid, Map, Problem, SelfAffine, Solution, Solver, Start,
-    Status, Surface, Sweep, Westergaard,
+    AdhesionLaw, Amplitude, Control, Exponential, Grid, Problem, SelfAffine, Solution, Solver, Start, Status, Surface,
+    Sweep, Westergaard,
 };
 use legend::legend;
 use ndarray::{Array2, Zip};

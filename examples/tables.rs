@@ -248,7 +248,7 @@ fn table_2(n: usize) -> Result<()> {
     for k in [500.0, 5000.0] {
         let printed = if k == 5000.0 { ["54", "1.9e-4", "0"] } else { [""; 3] };
         row("Uzawa", Some(k), printed, &mut |problem| {
-            with(problem, Uzawa::new(k)?, control).map(|(s, uzawa)| (s, uzawa.outer_iterations()))
+            with(problem, Uzawa::new(k)?, control).map(|(s, uzawa)| (s, uzawa.rounds()))
         })?;
     }
     table_2_rough(n.min(256))
@@ -295,10 +295,10 @@ fn table_2_rough(n: usize) -> Result<()> {
         let name = k.to_string();
         let mut solver = Solver { settings: Settings::default(), constraint: Uzawa::new(k)? };
         let solution = solver.solve(&mut problem, control)?;
-        print("Uzawa", &name, &solution, solver.constraint.outer_iterations());
+        print("Uzawa", &name, &solution, solver.constraint.rounds());
         let mut solver = Solver { settings: Settings::default(), constraint: Outrun(Uzawa::new(k)?, law) };
         let solution = solver.solve(&mut problem, control)?;
-        print("  no tangent", &name, &solution, solver.constraint.0.outer_iterations());
+        print("  no tangent", &name, &solution, solver.constraint.0.rounds());
     }
     let highest = rough.heights().iter().copied().fold(f64::NEG_INFINITY, f64::max);
     println!(
@@ -323,7 +323,7 @@ fn barrier(stiffness: f64) -> f64 {
 
 type Hard = Problem<f64, Westergaard<f64>, NoAdhesion>;
 
-/// A solve, with the number of its outer iterations.
+/// A solve, with the number of its rounds.
 type Run<'a> = dyn FnMut(&mut Hard) -> Result<(Solution<f64>, usize)> + 'a;
 
 fn with<C: ContactConstraint<f64>>(problem: &mut Hard, constraint: C, control: Control) -> Result<(Solution<f64>, C)> {
@@ -415,7 +415,7 @@ fn waves(largest: usize) -> Result<()> {
             let (uniform, warm) = (error(None)?, error(Some(&start))?);
             println!(
                 "{alpha:>6} {:>7.2} {half_width:>9} {:>9.4} {uniform:>9.1e} {warm:>9.1e}",
-                problem.resolution(),
+                problem.mu_rho(),
                 state.mean_pressure() / closing
             );
         }

@@ -47,7 +47,7 @@ pub use uzawa::Uzawa;
 /// let mut problem = Problem::new(&sphere, Westergaard::<f64>::new(grid, 1.0)?, NoAdhesion)?;
 /// let mut solver = Solver { settings: Settings::default(), constraint: Film };
 /// let report = solver.solve(&mut problem, Control::MeanPressure(2e-4))?.report;
-/// assert!(report.min_gap > 0.9e-3 && report.contact_points > 1);
+/// assert!(report.min_gap > 0.9e-3 && report.contact_nodes > 1);
 /// # Ok::<(), asperity::Error>(())
 /// ```
 ///
@@ -66,8 +66,8 @@ pub trait ContactConstraint<T: Real>: Send + Sync {
     }
 
     /// Called when a solve has converged: updates the multipliers, and tells whether to solve again with them.
-    fn update(&mut self, _gap: ArrayView2<'_, T>) -> Outer {
-        Outer::Done
+    fn update(&mut self, _gap: ArrayView2<'_, T>) -> Update {
+        Update::Done
     }
 }
 
@@ -119,8 +119,9 @@ pub trait Springs<T: Real>: Sync {
 /// The decision of [`ContactConstraint::update`].
 ///
 /// For a constraint that uses all three see [`own_constraint`](crate::guide::own_constraint).
+#[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Outer {
+pub enum Update {
     /// The constraint is met: the solution stands.
     Done,
     /// The energy has changed: go on minimising from here.

@@ -28,8 +28,8 @@ const NOTICEABLE: f64 = 0.01;
 impl<T: Real> Solution<T> {
     /// The contact map: true at nodes without a gap (g ≤ 0) and at nodes with a contact pressure (λ > 0).
     ///
-    /// This is what contact means everywhere: in [`Report::contact_points`](crate::Report::contact_points) and
-    /// [`Iteration::contact_points`](crate::Iteration::contact_points), in [`ContactStatistics`] and its clusters, in
+    /// This is what contact means everywhere: in [`Report::contact_nodes`](crate::Report::contact_nodes) and
+    /// [`Iteration::contact_nodes`](crate::Iteration::contact_nodes), in [`ContactStatistics`] and its clusters, in
     /// [`PressureDistribution`], and in pictures. Under [`Projection`](crate::Projection) the nodes without a gap are
     /// all of them, and some may carry no pressure. Under a constraint that is a term of the energy all that
     /// interpenetrate are pressed, and those of [`Uzawa`](crate::Uzawa) may be pressed at a gap that is not quite
@@ -86,10 +86,11 @@ impl<T: Real> Solution<T> {
 /// assert!((all - 1.0).abs() < 1e-15);
 /// # Ok::<(), asperity::Error>(())
 /// ```
+#[non_exhaustive]
 #[derive(Clone, Debug, PartialEq)]
 pub struct ContactStatistics {
     /// The number of nodes in contact, by [`Solution::contact_map`].
-    pub contact_points: usize,
+    pub contact_nodes: usize,
     /// The share of nodes in contact.
     pub contact_fraction: f64,
     /// The contact area without the excess of the map along its edge, as a share of the nominal area.
@@ -113,7 +114,7 @@ pub struct ContactStatistics {
 impl ContactStatistics {
     /// The statistics of a solution on its grid, with the law with which it was found.
     ///
-    /// Memory per node, until it returns: nine bytes.
+    /// Memory per node, until it returns: nine bytes, and with adhesion two scalars.
     ///
     /// # Errors
     /// [`Error::Shape`] if a field does not have the shape of the grid.
@@ -122,14 +123,16 @@ impl ContactStatistics {
         Error::shape("contact pressure", solution.contact_pressure.dim(), grid.shape())?;
         let contact = solution.contact_map();
         let share = |count: usize| count as f64 / grid.nodes() as f64;
-        let contact_points = contact.iter().filter(|&&touches| touches).count();
+        let contact_nodes = contact.iter().filter(|&&touches| touches).count();
         let attracting = if law.is_zero() {
             0
         } else {
             let scale = (law.work_of_adhesion() / law.range()).widen();
             let least = T::lit(if scale.is_finite() { NOTICEABLE * scale } else { 0.0 });
-            let free = contact.iter().zip(&solution.gap).filter(|(touches, _)| !**touches);
-            free.filter(|(_, gap)| law.traction(**gap) > least).count()
+            let gaps: Vec<T> = solution.gap.iter().map(|gap| gap.max(T::zero())).collect();
+            let mut tractions = vec![T::zero(); gaps.len()];
+            law.tractions(0, &gaps, &mut tractions);
+            contact.iter().zip(tractions).filter(|&(&touches, traction)| !touches && traction > least).count()
         };
         let (along_x, along_y) = edges(contact.view());
         let (dx, dy) = grid.spacing();
@@ -139,14 +142,14 @@ impl ContactStatistics {
             (along_x as f64 * dy + along_y as f64 * dx, EDGE_EXCESS * (along_x + along_y) as f64)
         };
         Ok(Self {
-            contact_points,
-            contact_fraction: share(contact_points),
-            corrected_contact_fraction: (contact_points as f64 - excess) / grid.nodes() as f64,
+            contact_nodes,
+            contact_fraction: share(contact_nodes),
+            corrected_contact_fraction: (contact_nodes as f64 - excess) / grid.nodes() as f64,
             perimeter,
             cluster_sizes: Clusters::of(contact.view(), Connectivity::Sides).sizes,
             repulsive_fraction: share(solution.contact_pressure.iter().filter(|&&p| p > T::zero()).count()),
             attractive_fraction: share(attracting),
-            apart_fraction: share(grid.nodes() - contact_points - attracting),
+            apart_fraction: share(grid.nodes() - contact_nodes - attracting),
         })
     }
 }

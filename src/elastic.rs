@@ -1,16 +1,19 @@
 //! The elastic operator: pressure from displacement, displacement from pressure, and the preconditioner.
 
-use ndarray::{Array2, ArrayView2, ArrayViewMut2, Zip};
+use ndarray::{Array2, ArrayView2, ArrayViewMut2};
 
 use crate::error::{Error, Result};
+use crate::field;
 use crate::grid::Grid;
 use crate::real::Real;
 
 mod check;
+mod coarse;
 mod spectral;
 mod westergaard;
 
 pub use check::check_operator;
+pub use coarse::CoarseSpace;
 pub use spectral::Spectral;
 pub use westergaard::Westergaard;
 
@@ -85,7 +88,7 @@ pub trait ElasticOperator<T: Real>: Send {
     /// The contact modulus E* that the half-space has for waves as short as the grid's spacing.
     ///
     /// It is the unit of [`Criterion::Orthogonality`](crate::Criterion::Orthogonality) and enters
-    /// [`Problem::resolution`](crate::Problem::resolution); with the spacing it gives the compliance by which jumps of
+    /// [`Problem::mu_rho`](crate::Problem::mu_rho); with the spacing it gives the compliance by which jumps of
     /// a law are [smoothed](crate::AdhesionLaw::smoothed); on a grid of one node, which has no wave, E*/Lx is the
     /// stiffness of the preconditioner.
     fn modulus(&self) -> f64;
@@ -103,30 +106,58 @@ pub trait ElasticOperator<T: Real>: Send {
         Ok(mean_product(heights, pressure.view()))
     }
 
+    /// The space of the longest waves, of about `dimension` dimensions, that the preconditioner treats with the contacts
+    /// where they are.
+    ///
+    /// The default is none: then the foundation is uniform, and a solve takes more iterations. [`Spectral`] has one; an
+    /// operator that wraps it passes this on, and [`precondition`](Self::precondition).
+    fn coarse_space(&self, dimension: usize) -> Option<CoarseSpace> {
+        let _ = dimension;
+        None
+    }
+
     /// Applies the preconditioner, M r.
     ///
-    /// M is close to (K⁻¹ + `foundation`)⁻¹, the compliance of the half-space on a foundation of that stiffness,
-    /// pressure per length: the waves that are longer than the distances between contacts meet the stiffness of the
-    /// contacts. For the mean it has the value `1/mean_stiffness`, which may be zero. It must be symmetric, and
-    /// positive but for that. The default applies [`displacement`](Self::displacement), and the stiffness to the mean.
+    /// M is close to (K⁻¹ + s)⁻¹, the compliance of the half-space on a foundation of stiffness s, pressure per length:
+    /// the waves that are longer than the distances between contacts meet the stiffness of the contacts. For the mean
+    /// it has the value 1/mean_stiffness, which may be zero. Waves of the coarse space, if there is one, have their
+    /// response from it. M must be symmetric, and positive but for the mean. The default applies
+    /// [`displacement`](Self::displacement), and the stiffness to the mean, and leaves the rest.
     ///
     /// # Errors
     /// [`Error::Shape`] if a field does not fit the grid.
     fn precondition(
         &mut self,
         residual: ArrayView2<'_, T>,
-        foundation: f64,
-        mean_stiffness: f64,
+        foundation: Foundation<'_>,
         mut preconditioned: ArrayViewMut2<'_, T>,
     ) -> Result<Preconditioned> {
-        let _ = foundation;
         self.displacement(residual, preconditioned.view_mut())?;
         let error = mean_product(residual, preconditioned.view());
-        let mean_residual = residual.iter().map(|r| r.widen()).sum::<f64>() / residual.len() as f64;
-        let mean = mean_residual / mean_stiffness;
+        let mean_residual = field::mean(residual, T::widen);
+        let mean = mean_residual / foundation.mean_stiffness;
         let shift = T::lit(mean);
         preconditioned.mapv_inplace(|u| u + shift);
         Ok(Preconditioned { error, descent: error + mean_residual * mean, mean })
+    }
+}
+
+/// The foundation on which the half-space rests in the preconditioner, pressures per length.
+#[derive(Debug)]
+pub struct Foundation<'a> {
+    /// The stiffness for every wave.
+    pub stiffness: f64,
+    /// The stiffness for the mean; may be infinite.
+    pub mean_stiffness: f64,
+    /// The longest waves and the mean, which are held where the contacts are; it takes the place of the two stiffnesses
+    /// for these.
+    pub coarse: Option<&'a mut CoarseSpace>,
+}
+
+impl Foundation<'_> {
+    /// A foundation that is the same everywhere.
+    pub fn uniform(stiffness: f64, mean_stiffness: f64) -> Self {
+        Self { stiffness, mean_stiffness, coarse: None }
     }
 }
 
@@ -144,8 +175,7 @@ pub struct Preconditioned {
 
 /// The mean over the nodes of a product.
 fn mean_product<S: Real, T: Real>(a: ArrayView2<'_, S>, b: ArrayView2<'_, T>) -> f64 {
-    let sum = Zip::from(&a).and(&b).fold(0.0, |sum, &a, &b| sum + a.widen() * b.widen());
-    sum / a.len() as f64
+    field::mean_of_both(a, b, |a: S, b: T| a.widen() * b.widen())
 }
 
 /// The methods of an operator that is another one, `$inner` of `$this`.
@@ -186,12 +216,15 @@ macro_rules! delegate {
         fn precondition(
             &mut self,
             residual: ArrayView2<'_, T>,
-            foundation: f64,
-            mean_stiffness: f64,
+            foundation: Foundation<'_>,
             preconditioned: ArrayViewMut2<'_, T>,
         ) -> Result<Preconditioned> {
             let $this = self;
-            $inner.precondition(residual, foundation, mean_stiffness, preconditioned)
+            $inner.precondition(residual, foundation, preconditioned)
+        }
+        fn coarse_space(&self, dimension: usize) -> Option<CoarseSpace> {
+            let $this = self;
+            $inner.coarse_space(dimension)
         }
     };
 }

@@ -114,6 +114,19 @@ impl<T: Real> Convolver<T> {
         output: ArrayViewMut2<'_, U>,
         modify: impl Fn(usize, &mut [Complex<T>]) -> Sums + Sync + Send,
     ) -> Result<Sums> {
+        self.convolve_after(input, output, 0, |_| (), |(), k, column| modify(k, column))
+    }
+
+    /// Convolves as [`Convolver::convolve`], and has a look at the half spectrum before any column is modified, when
+    /// the first columns, `ahead` of them, are transformed. `modify` gets what `look` returns.
+    pub(crate) fn convolve_after<U: Real, L: Sync>(
+        &mut self,
+        input: ArrayView2<'_, T>,
+        output: ArrayViewMut2<'_, U>,
+        ahead: usize,
+        look: impl FnOnce(ArrayView2<'_, Complex<T>>) -> L,
+        modify: impl Fn(&L, usize, &mut [Complex<T>]) -> Sums + Sync + Send,
+    ) -> Result<Sums> {
         let (shape, mut output) = (self.layout.shape(), output);
         Error::shape("operator input", input.dim(), shape)?;
         Error::shape("operator output", output.dim(), shape)?;
@@ -121,14 +134,26 @@ impl<T: Real> Convolver<T> {
         self.rows_forward(self.layout.view(&input).view());
         let Self { columns, spectrum, sums, pool, twiddles, .. } = self;
         let n0 = spectrum.ncols();
-        par::update(par::chunks_mut(flat_mut(spectrum), n0), sums, 1, |k, column, sum| {
-            let Workspace { scratch, .. } = &mut *pool.get();
-            let turn = |column: &mut [_], back| twiddles.iter().for_each(|twiddles| twiddles.turn(k, column, back));
-            turn(column, false);
+        let turn = |k: usize, column: &mut [_], back| twiddles.iter().for_each(|t| t.turn(k, column, back));
+        let forward = |k: usize, column: &mut [_], scratch: &mut [_]| {
+            turn(k, column, false);
             columns.forward.process_with_scratch(column, scratch);
-            *sum = modify(k, column);
+        };
+        if ahead > 0 {
+            let first = flat_mut(spectrum).get_mut(..ahead * n0).unwrap_or_default();
+            par::update(par::chunks_mut(first, n0), &mut sums[..ahead], 1, |k, column, _| {
+                forward(k, column, &mut pool.get().scratch);
+            });
+        }
+        let seen = look(spectrum.view());
+        par::update(par::chunks_mut(flat_mut(spectrum), n0), sums, 1, |k, column, sum| {
+            let scratch = &mut pool.get().scratch;
+            if k >= ahead {
+                forward(k, column, scratch);
+            }
+            *sum = modify(&seen, k, column);
             columns.inverse.process_with_scratch(column, scratch);
-            turn(column, true);
+            turn(k, column, true);
         });
         if let Some(plane) = self.layout.view_mut(output.view_mut()) {
             self.rows_inverse(plane, norm);

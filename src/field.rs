@@ -1,6 +1,6 @@
 //! Passes over fields: chunk by chunk, with sums that do not depend on the number of threads.
 
-use ndarray::Array2;
+use ndarray::{Array2, ArrayView2};
 
 use crate::par::{self, IndexedParallelIterator};
 
@@ -23,6 +23,13 @@ pub(crate) struct Partial {
 
 impl Partial {
     pub(crate) const NONE: Self = Self { sum: [0.0; SUMS], min: f64::INFINITY };
+
+    /// The sum of some values, as the first sum.
+    fn of(values: impl Iterator<Item = f64>) -> Self {
+        let mut part = Self::NONE;
+        part.sum[0] = values.sum();
+        part
+    }
 
     fn add(mut self, other: &Self) -> Self {
         self.sum.iter_mut().zip(other.sum).for_each(|(sum, other)| *sum += other);
@@ -81,6 +88,28 @@ impl Reducer {
             .map(|run| run.iter().fold(Partial::NONE, Partial::add))
             .fold(Partial::NONE, |a, b| a.add(&b))
     }
+}
+
+/// The mean of a function of the nodes of a field, in any layout.
+pub(crate) fn mean<T: Copy + Sync>(field: ArrayView2<'_, T>, of: impl Fn(T) -> f64 + Sync + Send) -> f64 {
+    let field = field.as_standard_layout();
+    let values = field.as_slice().unwrap_or_default();
+    let total = Reducer::new(values.len())
+        .run(par::chunks(values, CHUNK), |_, values| Partial::of(values.iter().map(|&value| of(value))));
+    total.sum[0] / values.len() as f64
+}
+
+/// The mean of a function of the nodes of two fields of one shape, in any layout.
+pub(crate) fn mean_of_both<S: Copy + Sync, T: Copy + Sync>(
+    a: ArrayView2<'_, S>,
+    b: ArrayView2<'_, T>,
+    of: impl Fn(S, T) -> f64 + Sync + Send,
+) -> f64 {
+    let (a, b) = (a.as_standard_layout(), b.as_standard_layout());
+    let chunks = par::chunks(a.as_slice().unwrap_or_default(), CHUNK);
+    let chunks = chunks.zip(par::chunks(b.as_slice().unwrap_or_default(), CHUNK));
+    let total = Reducer::new(a.len()).run(chunks, |_, (a, b)| Partial::of(a.iter().zip(b).map(|(&a, &b)| of(a, b))));
+    total.sum[0] / a.len() as f64
 }
 
 /// The nodes of a field that this crate made, in row-major order.

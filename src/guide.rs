@@ -33,7 +33,7 @@ page!(own_operator);
 page!(own_constraint);
 page!(penalty_and_uzawa);
 page!(branches);
-#[cfg(feature = "cli")]
+#[cfg(feature = "io")]
 page!(python);
 page!(choosing);
 page!(performance);

@@ -37,7 +37,7 @@
 //! let (half_space, _) = hertz.into_parts();
 //! let mut sticky = Problem::new(&sphere, half_space, law)?;
 //! let stuck = Solver::default().solve(&mut sticky, Control::MeanGap(0.0398))?;
-//! assert!(stuck.report.contact_points > pressed.report.contact_points);
+//! assert!(stuck.report.contact_nodes > pressed.report.contact_nodes);
 //! # Ok::<(), asperity::Error>(())
 //! ```
 //!
@@ -94,8 +94,9 @@
 //!
 //! # Features
 //!
-//! `parallel` (default): threads, with the same results bit for bit. `cli` (default): files, pictures and the
-//! command-line tool. Without both the library depends on libm, ndarray, num-traits, pulp and rustfft alone.
+//! `parallel` (default): threads, with the same results bit for bit. `io`: files, the module `io`. `picture`: maps and
+//! charts, the module `picture`. `cli` (default): both, and the command-line tool. Without any of them the library
+//! depends on libm, ndarray, num-traits, pulp and rustfft alone.
 #![doc = include_str!("equations.html")]
 
 mod adhesion;
@@ -109,13 +110,13 @@ mod fft;
 mod field;
 mod grid;
 pub mod guide;
-#[cfg(feature = "cli")]
+#[cfg(feature = "io")]
 pub mod io;
 mod nested;
 mod par;
 pub mod path;
-#[cfg(feature = "cli")]
-mod picture;
+#[cfg(feature = "picture")]
+pub mod picture;
 mod problem;
 mod real;
 mod solver;
@@ -128,13 +129,11 @@ mod warning;
 pub use ndarray;
 
 pub use adhesion::{AdhesionLaw, Exponential, MaugisDugdale, NoAdhesion, check_law};
-pub use constraint::{ContactConstraint, Outer, Penalty, Projection, Springs, Uzawa, Wall, check_constraint};
-pub use elastic::{ElasticOperator, Preconditioned, Spectral, Westergaard, check_operator};
+pub use constraint::{ContactConstraint, Penalty, Projection, Springs, Update, Uzawa, Wall, check_constraint};
+pub use elastic::{CoarseSpace, ElasticOperator, Foundation, Preconditioned, Spectral, Westergaard, check_operator};
 pub use error::{Error, Result};
 pub use grid::Grid;
 pub use nested::{Level, Nested, NestedSolution};
-#[cfg(feature = "cli")]
-pub use picture::{Chart, Colouring, Map};
 pub use problem::{Control, Problem};
 pub use real::Real;
 pub use solver::{Criterion, Iteration, Method, Report, Settings, Solution, Solver, Start, Status};

@@ -30,7 +30,7 @@ const CARRIED: f64 = 0.5;
 /// [`Solver`].
 ///
 /// Sizes are halved while they are even and both sides keep `coarsest` nodes; an odd size has no coarser grid. With
-/// adhesion only grids that resolve it ([`Problem::resolution`] up to 0.5) are used, as a coarser one may pin the
+/// adhesion only grids that resolve it ([`Problem::mu_rho`] up to 0.5) are used, as a coarser one may pin the
 /// contact on another branch. If the traction of the law jumps, the coarser grids [smooth](AdhesionLaw::smoothed) it,
 /// and so does the finest one on its way from their solution, as it does from the default start. Without a coarser
 /// grid all is as with [`Solver::solve`].
@@ -172,7 +172,7 @@ impl<C> Nested<C> {
         for &stride in strides.iter().rev().filter(|&&stride| stride > (1, 1)) {
             let coarse = coarsen(surface, stride)?;
             let mut problem = Problem::new(&coarse, operator(*coarse.grid())?, law)?;
-            if problem.resolution() > RESOLVED {
+            if problem.mu_rho() > RESOLVED {
                 (_, law) = problem.into_parts();
                 continue;
             }

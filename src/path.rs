@@ -28,15 +28,15 @@ use track::{Mode, State, Track, Way};
 /// | field | default | meaning | range |
 /// |---|---|---|---|
 /// | `steps` | 50 | the least number of steps in a leg | at least 1 |
-/// | `resolution` | 1e-4 | the step, as a share of the leg, to which a jump is located | positive, below 1 |
+/// | `smallest_step` | 1e-4 | the step, as a share of the leg, to which a jump is located | positive, below 1 |
 /// | `smooth` | true | whether jumps of the law's traction are smoothed, by what the grid can resolve | |
-/// | `tolerance` | 1e-4 | how far the energy may be from the work done in a step, as a share of how much the energy has changed along the path (or of w/1000, if that is more) | positive |
+/// | `imbalance` | 1e-4 | how far the energy may be from the work done in a step, as a share of how much the energy has changed along the path (or of w/1000, if that is more) | positive |
 ///
-/// A smaller tolerance asks for a smaller tolerance of the solver too: its square must be well below.
+/// A smaller imbalance asks for a smaller tolerance of the solver too: its square must be well below.
 ///
 /// ```
 /// use asperity::path::PathSettings;
-/// let sharp = PathSettings { resolution: 1e-6, ..PathSettings::default() };
+/// let sharp = PathSettings { smallest_step: 1e-6, ..PathSettings::default() };
 /// assert_eq!(sharp.steps, 50);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -44,16 +44,16 @@ pub struct PathSettings {
     /// The least number of steps in a leg.
     pub steps: usize,
     /// The step to which a jump is located, as a share of the leg.
-    pub resolution: f64,
+    pub smallest_step: f64,
     /// The imbalance of energy that a step may have without being a jump.
-    pub tolerance: f64,
+    pub imbalance: f64,
     /// Whether jumps of the law's traction are smoothed.
     pub smooth: bool,
 }
 
 impl Default for PathSettings {
     fn default() -> Self {
-        Self { steps: 50, resolution: 1e-4, tolerance: 1e-4, smooth: true }
+        Self { steps: 50, smallest_step: 1e-4, imbalance: 1e-4, smooth: true }
     }
 }
 
@@ -74,6 +74,7 @@ impl Default for PathSettings {
 /// assert!((last.work / last.solution.report.elastic_energy - 1.0).abs() < 1e-3);
 /// # Ok::<(), asperity::Error>(())
 /// ```
+#[non_exhaustive]
 #[derive(Clone, Debug, PartialEq)]
 pub struct PathStep<T> {
     /// The state.
@@ -88,7 +89,7 @@ pub struct PathStep<T> {
     /// lost.
     pub dissipated: f64,
     /// The imbalance of energy: the change of the energy, plus the dissipated energy, less the work. It comes from the
-    /// quadrature of the work, the solver's tolerance, and jumps smaller than the tolerance.
+    /// quadrature of the work, the solver's tolerance, and jumps smaller than the imbalance that a step may have.
     pub imbalance: f64,
     /// The event between the previous state and this one.
     pub event: Option<Event>,
@@ -105,7 +106,7 @@ pub struct PathStep<T> {
 ///
 /// Along a branch the energy changes by the work of the load, de = −p̄ dḡ. A step in which it falls by more has jumped
 /// to another branch, or is too long for the quadrature of the work (by up to four states, of fourth order): it is
-/// taken back and halved. When it cannot be halved any more, at [`PathSettings::resolution`], the missing energy is
+/// taken back and halved. When it cannot be halved any more, at [`PathSettings::smallest_step`], the missing energy is
 /// the one that the jump dissipates, if it is more than the step could do at either end's load; the step is taken, and
 /// its [`Event`] says so.
 ///
@@ -134,7 +135,7 @@ pub struct PathStep<T> {
 /// [`StabilityTest`](crate::stability::StabilityTest) at the given mean gap. Where the softest stiffness and the least φ'' show that it is positive, that takes nothing.
 /// Elsewhere it takes some five operator applications a state: an iteration or two from the mode of the state before,
 /// to which a little of a random field (the same in every path) is added, so that no symmetry holds the mode back. A
-/// step to a saddle is taken back and halved, as one that jumps is; at [`PathSettings::resolution`] the state is
+/// step to a saddle is taken back and halved, as one that jumps is; at [`PathSettings::smallest_step`] the state is
 /// moved along the mode by a tenth of the range of adhesion, and the minimisation goes on from there, to a state that
 /// is no saddle. Of the two ways along the mode it takes that on which the gap closes at the first of the nodes where
 /// the mode is largest.
@@ -245,9 +246,9 @@ where
         if settings.steps == 0 {
             return Err(Error::Value { name: "number of steps", value: 0.0, requirement: "at least 1" });
         }
-        Error::positive("tolerance", settings.tolerance)?;
-        if !(settings.resolution > 0.0 && settings.resolution < 1.0) {
-            let (name, value) = ("resolution", settings.resolution);
+        Error::positive("imbalance", settings.imbalance)?;
+        if !(settings.smallest_step > 0.0 && settings.smallest_step < 1.0) {
+            let (name, value) = ("smallest step", settings.smallest_step);
             return Err(Error::Value { name, value, requirement: "positive and below 1" });
         }
         let (state, watch) = (State::default(), Watch::default());
@@ -405,7 +406,7 @@ where
         let w = self.problem.law.work_of_adhesion().widen();
         let rounding = T::epsilon().widen() / (solution.gap.len() as f64).sqrt() + f64::EPSILON;
         let noise = 8.0 * rounding * self.problem.flat.work;
-        let (least, tolerance) = (1e-3 * w, self.settings.tolerance);
+        let (least, tolerance) = (1e-3 * w, self.settings.imbalance);
         let mut trial = self.state.judge(target, report, tolerance, least, noise);
         let converged = report.status == Status::Converged;
         let good = trial.balanced && converged;

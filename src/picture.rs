@@ -1,4 +1,4 @@
-//! Fields drawn as labelled maps.
+//! Pictures: fields drawn as labelled maps ([`Map`]), and curves as charts ([`Chart`]), in PNG.
 
 mod canvas;
 mod chart;
@@ -50,7 +50,8 @@ const CURVE: Rgb888 = Rgb888::new(33, 74, 135);
 /// numbers (`None`), a power of ten where they are very large or small: "gap (1e-6)".
 ///
 /// ```
-/// use asperity::{Colouring, Grid, Map};
+/// use asperity::picture::{Colouring, Map};
+/// use asperity::Grid;
 /// let grid = Grid::square(64, 500e-9)?;
 /// let heights = grid.sample(|x, y| 2e-9 * (2e7 * x).cos() * (2e7 * y).cos());
 /// let map = Map {

@@ -48,7 +48,7 @@ pub enum Control {
 /// let surface = Surface::paraboloid(grid, 2.0)?;
 /// let mut problem = Problem::new(&surface, Westergaard::<f64>::new(grid, 1.0)?, NoAdhesion)?;
 /// let solution = Solver::default().solve(&mut problem, Control::MeanGap(0.0398))?;
-/// assert_eq!(solution.report.contact_points, 61);
+/// assert_eq!(solution.report.contact_nodes, 61);
 /// # Ok::<(), asperity::Error>(())
 /// ```
 #[derive(Clone, Debug)]
@@ -144,10 +144,10 @@ impl<T: Real, O: ElasticOperator<T>, L: AdhesionLaw<T>> Problem<T, O, L> {
     /// let grid = Grid::square(64, 1.0)?;
     /// let surface = Surface::wave_2d(grid, 0.02, 1)?;
     /// let mut bare = Problem::new(&surface, Westergaard::<f64>::new(grid, 1.0)?, NoAdhesion)?;
-    /// let contact = Solver::default().solve(&mut bare, Control::MeanGap(0.01))?.report.contact_points;
+    /// let contact = Solver::default().solve(&mut bare, Control::MeanGap(0.01))?.report.contact_nodes;
     /// let (half_space, _) = bare.into_parts();
     /// let mut sticky = Problem::new(&surface, half_space, Exponential::new(1e-5, 4e-3)?)?;
-    /// assert!(Solver::default().solve(&mut sticky, Control::MeanGap(0.01))?.report.contact_points > contact);
+    /// assert!(Solver::default().solve(&mut sticky, Control::MeanGap(0.01))?.report.contact_nodes > contact);
     /// # Ok::<(), asperity::Error>(())
     /// ```
     pub fn into_parts(self) -> (O, L) {
@@ -159,17 +159,17 @@ impl<T: Real, O: ElasticOperator<T>, L: AdhesionLaw<T>> Problem<T, O, L> {
         Parts { operator: &mut self.operator, law: &self.law, flat: &self.flat }
     }
 
-    /// Whether the grid resolves the adhesive zone: μ_ρ = √(wΔx/E*)/ρ, with the larger of Δx and Δy.
+    /// The measure of how the grid resolves the adhesive zone, μ_ρ = √(wΔx/E*)/ρ, with the larger of Δx and Δy.
     ///
-    /// Below about 0.5 it does. Above, contact edges are pinned to the grid, there are many equilibria, and which
+    /// Below about 0.5 the zone is resolved. Above, contact edges are pinned to the grid, there are many equilibria, and which
     /// one is found depends on the start. Zero without adhesion.
-    pub fn resolution(&self) -> f64 {
-        resolution(&self.law, self.grid(), self.operator.modulus())
+    pub fn mu_rho(&self) -> f64 {
+        mu_rho(&self.law, self.grid(), self.operator.modulus())
     }
 }
 
-/// The measure of [`Problem::resolution`], for a contact modulus.
-pub(crate) fn resolution<T: Real>(law: &dyn AdhesionLaw<T>, grid: &Grid, modulus: f64) -> f64 {
+/// The measure of [`Problem::mu_rho`], for a contact modulus.
+pub(crate) fn mu_rho<T: Real>(law: &dyn AdhesionLaw<T>, grid: &Grid, modulus: f64) -> f64 {
     let (w, range) = (law.work_of_adhesion().widen(), law.range().widen());
     if law.is_zero() || w <= 0.0 || range <= 0.0 {
         return 0.0;

@@ -10,8 +10,9 @@ use crate::problem::{Control, Parts, Problem};
 use crate::real::Real;
 
 mod certificate;
+mod coarse;
 mod driver;
-mod lift;
+mod foundation;
 mod passes;
 mod potential;
 mod preconditioned;
@@ -24,6 +25,7 @@ mod work;
 
 use driver::Job;
 pub(crate) use driver::Observer;
+pub(crate) use potential::{Of, Potential};
 pub use report::{Iteration, Report, Solution, Status};
 pub use start::Start;
 
@@ -35,6 +37,7 @@ pub use start::Start;
 /// assert_eq!((paper.method, paper.criterion), (Method::Rey2017, Criterion::Orthogonality));
 /// assert_eq!(Method::default().name(), "default");
 /// ```
+#[non_exhaustive]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Method {
     /// Conjugate gradients preconditioned with the compliance; the energy falls in every iteration.
@@ -63,6 +66,7 @@ impl Method {
 /// assert_eq!(certified.criterion, Settings::default().criterion);
 /// assert_eq!(certified.criterion.name(), "energy-norm");
 /// ```
+#[non_exhaustive]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Criterion {
     /// The certified relative error in the energy norm, [`Report::relative_error`].

@@ -8,13 +8,14 @@ use std::fmt;
 use ndarray::Array2;
 
 use crate::adhesion::AdhesionLaw;
+use crate::constraint::{ContactConstraint, Projection};
 use crate::elastic::ElasticOperator;
 use crate::error::{Error, Result};
-use crate::field::{Partial, Reducer, read, write};
+use crate::field::{Partial, Reducer, flat, read, write};
 use crate::par::IndexedParallelIterator;
 use crate::problem::{Control, Problem, smoothed_law};
 use crate::real::Real;
-use crate::solver::Solution;
+use crate::solver::{Of, Potential, Solution};
 
 mod bound;
 mod departure;
@@ -158,11 +159,12 @@ pub struct Stability<T> {
 
 impl StabilityTest {
     /// Tests whether a solution is stable under a control, which need not be the one under which it was found.
-    /// Contact is where its gap is not positive. The gap may be in any memory layout.
+    /// The wall is rigid: contact is where the gap is zero. The gap may be in any memory layout.
     ///
     /// # Errors
-    /// [`Error::Shape`] if the solution is of another grid; [`Error::Value`] if the tolerance is not positive;
-    /// [`Error::Law`] if φ'' is not finite somewhere.
+    /// [`Error::Shape`] if the solution is of another grid; [`Error::Value`] if the tolerance is not positive, or a gap
+    /// is negative: that of a solution whose wall is elastic, for [`StabilityTest::run_with`]; [`Error::Law`] if φ'' is
+    /// not finite somewhere.
     pub fn run<T, O, L>(
         &self,
         problem: &mut Problem<T, O, L>,
@@ -174,11 +176,36 @@ impl StabilityTest {
         O: ElasticOperator<T>,
         L: AdhesionLaw<T>,
     {
+        self.run_with(problem, &Projection, control, solution)
+    }
+
+    /// Tests, as [`StabilityTest::run`], a solution that was found with a constraint. Where its wall has springs, as that
+    /// of [`Penalty`](crate::Penalty), every node may move, and their stiffness belongs to the second derivative.
+    ///
+    /// # Errors
+    /// Those of [`StabilityTest::run`]; [`Error::Law`] if the stiffness of the springs is not finite somewhere.
+    pub fn run_with<T, O, L, C>(
+        &self,
+        problem: &mut Problem<T, O, L>,
+        constraint: &C,
+        control: Control,
+        solution: &Solution<T>,
+    ) -> Result<Stability<T>>
+    where
+        T: Real,
+        O: ElasticOperator<T>,
+        L: AdhesionLaw<T>,
+        C: ContactConstraint<T>,
+    {
         Error::positive("tolerance", self.tolerance)?;
         Error::shape("gap", solution.gap.dim(), problem.grid().shape())?;
         Error::all_finite("gap", solution.gap.view())?;
+        if let Some(gap) = solution.gap.iter().find(|&&gap| constraint.wall().is_rigid() && gap < T::zero()) {
+            let requirement = "zero or positive; a solution with springs is tested with its constraint, by run_with";
+            return Err(Error::Value { name: "gap", value: gap.widen(), requirement });
+        }
         let smoothed = smoothed_law(&problem.operator, &problem.law);
-        let slopes = slopes(&solution.gap, smoothed.as_deref().unwrap_or(&problem.law))?;
+        let slopes = slopes(&solution.gap, Potential::new(smoothed.as_deref().unwrap_or(&problem.law), constraint))?;
         let smoothed = smoothed.is_some();
         let centred = matches!(control, Control::MeanGap(_));
         let hessian = Hessian::new(&mut problem.operator, slopes, centred);
@@ -219,8 +246,8 @@ impl StabilityTest {
     }
 }
 
-/// φ'' at every node, and infinity on the contact.
-fn slopes<T: Real>(gap: &Array2<T>, law: &dyn AdhesionLaw<T>) -> Result<Array2<T>> {
+/// The second derivative of the local energy at every node, and infinity where a rigid wall is touched.
+fn slopes<T: Real>(gap: &Array2<T>, local: Potential<'_, T>) -> Result<Array2<T>> {
     let standard;
     let gap = if gap.is_standard_layout() {
         gap
@@ -232,23 +259,20 @@ fn slopes<T: Real>(gap: &Array2<T>, law: &dyn AdhesionLaw<T>) -> Result<Array2<T
     let mut reducer = Reducer::new(gap.len());
     let wrong = reducer.run(read(gap).zip(write(&mut slopes)), |first, (gap, slopes)| {
         let mut part = Partial::NONE;
-        if !law.is_zero() {
-            // no law is asked for a negative gap
-            let apart: Vec<T> = gap.iter().map(|gap| gap.max(T::zero())).collect();
-            law.slopes(first, &apart, slopes);
-        }
-        for (slope, &gap) in slopes.iter_mut().zip(gap) {
-            if gap <= T::zero() {
+        local.evaluate(Of::Slope, first, gap, slopes);
+        for (i, (slope, &gap)) in slopes.iter_mut().zip(gap).enumerate() {
+            if local.projects() && gap <= T::zero() {
                 *slope = T::infinity();
             } else if !slope.is_finite() {
-                part.min = part.min.min(gap.widen());
+                part.min = part.min.min((first + i) as f64);
             }
         }
         part
     });
     if wrong.min.is_finite() {
-        let (function, gap) = ("slope of the adhesive traction", wrong.min);
-        return Err(Error::Law { function, gap, value: law.slope(T::lit(gap)).widen(), expected: None });
+        let node = wrong.min as usize;
+        let (gap, value) = (flat(gap)[node].widen(), flat(&slopes)[node].widen());
+        return Err(Error::Law { function: "slope of the local traction", gap, value, expected: None });
     }
     Ok(slopes)
 }

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use ndarray::Array2;
 
 use crate::error::{Error, Result};
-use crate::field::flat_mut;
+use crate::field::{self, flat_mut};
 use crate::grid::Grid;
 
 mod philox;
@@ -105,13 +105,13 @@ impl Surface {
     pub fn mean(&self) -> f64 {
         // about the first height, so that a large datum costs no digits
         let datum = self.heights[[0, 0]];
-        datum + self.heights.iter().map(|h| h - datum).sum::<f64>() / self.heights.len() as f64
+        datum + field::mean(self.heights.view(), |h| h - datum)
     }
 
     /// The root mean square of the heights about their mean.
     pub fn rms_height(&self) -> f64 {
         let mean = self.mean();
-        (self.heights.iter().map(|h| (h - mean).powi(2)).sum::<f64>() / self.heights.len() as f64).sqrt()
+        field::mean(self.heights.view(), |h| (h - mean).powi(2)).sqrt()
     }
 }
 

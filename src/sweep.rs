@@ -42,7 +42,7 @@ use crate::solver::{Iteration, Solution, Solver, Start};
 /// let mut contact = Vec::new();
 /// for step in Sweep::new(&mut solver, &mut problem, [1e-4, 2e-4, 4e-4].map(Control::MeanPressure)) {
 ///     let (_, solution) = step?;
-///     contact.push(solution.report.contact_points);
+///     contact.push(solution.report.contact_nodes);
 /// }
 /// assert!(contact[0] < contact[1] && contact[1] < contact[2]);
 /// # Ok::<(), asperity::Error>(())

@@ -8,7 +8,7 @@ use crate::field::Partial;
 use crate::field::Reducer;
 use crate::grid::Grid;
 use crate::par;
-use crate::problem::resolution;
+use crate::problem::mu_rho;
 use crate::real::Real;
 use crate::solver::Solution;
 use crate::surface::Surface;
@@ -149,6 +149,7 @@ impl fmt::Display for WarningCode {
 /// assert!(Warning::of_solution(&solution, 1.0).is_empty());
 /// # Ok::<(), asperity::Error>(())
 /// ```
+#[non_exhaustive]
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Warning {
     /// The code.
@@ -202,7 +203,7 @@ impl Warning {
     /// The probable mistakes in the range of `law` on a surface pressed against a body of contact `modulus` E*:
     /// [`Range`](WarningCode::Range). Nothing without adhesion.
     pub fn of_law<T: Real>(law: &impl AdhesionLaw<T>, surface: &Surface, modulus: f64) -> Vec<Self> {
-        let mu_rho = resolution(law, surface.grid(), modulus);
+        let mu_rho = mu_rho(law, surface.grid(), modulus);
         let (range, span) = (law.range().widen(), Extremes::of(surface.heights()).span());
         let mut found = Vec::new();
         if mu_rho > RESOLVED {

@@ -17,7 +17,7 @@ use crate::real::Real;
 /// use asperity::{AdhesionLaw, Exponential};
 /// let law = Exponential::new(0.05, 2e-9)?; // 50 mJ/m² over 2 nm
 /// assert_eq!(law.energy(0.0), -0.05);
-/// assert_eq!(law.traction(0.0), 0.05 / 2e-9);
+/// assert_eq!(law.traction(0.0), law.work_of_adhesion() / law.range());
 /// # Ok::<(), asperity::Error>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]

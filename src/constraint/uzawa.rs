@@ -3,7 +3,7 @@
 use ndarray::{Array2, ArrayView2};
 
 use super::penalty::check_stiffness;
-use super::{ContactConstraint, Outer, Springs, Wall};
+use super::{ContactConstraint, Springs, Update, Wall};
 use crate::error::Result;
 use crate::field::{CHUNK, Partial, Reducer, flat, read, write};
 use crate::grid::Grid;
@@ -48,7 +48,7 @@ const STIFFEST: f64 = 10.0;
 /// let mut problem = Problem::new(&sphere, Westergaard::<f64>::new(grid, 1.0)?, NoAdhesion)?;
 /// let mut solver = Solver { settings: Settings::default(), constraint: Uzawa::new(200.0)? };
 /// let report = solver.solve(&mut problem, Control::MeanGap(0.0398))?.report;
-/// assert!(report.min_gap > -1e-8 && solver.constraint.outer_iterations() > 1);
+/// assert!(report.min_gap > -1e-8 && solver.constraint.rounds() > 1);
 /// # Ok::<(), asperity::Error>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
@@ -57,7 +57,7 @@ pub struct Uzawa<T> {
     /// tolerance of the solve, which counts otherwise; a thousand times the rounding of the precision unless changed.
     pub tolerance: f64,
     /// The rounds after which the solve ends without having converged; 100 unless changed.
-    pub max_outer_iterations: usize,
+    pub max_rounds: usize,
     /// the stiffness of the first round
     softest: T,
     /// the stiffness of the present round
@@ -69,7 +69,7 @@ pub struct Uzawa<T> {
     /// the tolerance of the solve
     solved_to: f64,
     multipliers: Array2<T>,
-    outer_iterations: usize,
+    rounds: usize,
 }
 
 impl<T: Real> Uzawa<T> {
@@ -84,20 +84,20 @@ impl<T: Real> Uzawa<T> {
         let multipliers = Array2::zeros((0, 0));
         Ok(Self {
             tolerance,
-            max_outer_iterations: 100,
+            max_rounds: 100,
             softest: stiffness,
             stiffness,
             off: f64::INFINITY,
             stiffest: 0.0,
             solved_to: 0.0,
             multipliers,
-            outer_iterations: 0,
+            rounds: 0,
         })
     }
 
     /// The number of rounds of the last solve.
-    pub fn outer_iterations(&self) -> usize {
-        self.outer_iterations
+    pub fn rounds(&self) -> usize {
+        self.rounds
     }
 
     /// ⟨λ − kg⟩₊
@@ -117,15 +117,15 @@ impl<T: Real> ContactConstraint<T> for Uzawa<T> {
     fn start(&mut self, grid: &Grid, stiffest: f64, tolerance: f64) -> Result<()> {
         self.solved_to = tolerance;
         self.multipliers = Array2::zeros(grid.shape());
-        self.outer_iterations = 0;
+        self.rounds = 0;
         (self.stiffness, self.off, self.stiffest) = (self.softest, f64::INFINITY, stiffest);
         if stiffest > 0.0 {
             self.stiffness = self.stiffness.min(T::lit(STIFFEST * stiffest));
         }
         Ok(())
     }
-    fn update(&mut self, gap: ArrayView2<'_, T>) -> Outer {
-        self.outer_iterations += 1;
+    fn update(&mut self, gap: ArrayView2<'_, T>) -> Update {
+        self.rounds += 1;
         let (nodes, stiffness) = (self.multipliers.len(), self.stiffness);
         let gap = gap.as_standard_layout();
         let gaps = || par::chunks(gap.as_slice().unwrap_or_default(), CHUNK);
@@ -152,10 +152,10 @@ impl<T: Real> ContactConstraint<T> for Uzawa<T> {
         let allowed = self.tolerance.max(self.solved_to).powi(2) * waves;
         // under a uniform pressure there are no waves but those of rounding
         if left <= allowed.max((8.0 * T::epsilon().widen()).powi(2) * squared) {
-            return Outer::Done;
+            return Update::Done;
         }
-        if self.outer_iterations >= self.max_outer_iterations {
-            return Outer::Failed;
+        if self.rounds >= self.max_rounds {
+            return Update::Failed;
         }
         // only now: the gap is in equilibrium with the springs and multipliers with which it was found
         reducer.run(write(&mut self.multipliers).zip(gaps()), |_, (multipliers, gaps)| {
@@ -166,7 +166,7 @@ impl<T: Real> ContactConstraint<T> for Uzawa<T> {
             self.stiffness = stiffness * T::lit(STIFFEN);
         }
         self.off = off;
-        Outer::Again
+        Update::Again
     }
 }
 

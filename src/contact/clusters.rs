@@ -36,6 +36,7 @@ pub enum Connectivity {
 /// assert_eq!((clusters.labels[[0, 3]], clusters.labels[[1, 1]], clusters.labels[[2, 2]]), (1, 2, 0));
 /// assert_eq!(Clusters::of(map.view(), Connectivity::Corners).sizes, [3]);
 /// ```
+#[non_exhaustive]
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Clusters {
     /// The number of nodes of each cluster, the largest first; equal ones in row-major order.

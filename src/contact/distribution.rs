@@ -24,6 +24,7 @@ use crate::solver::Solution;
 /// assert_eq!((distribution.edges.len(), distribution.edges[0]), (21, 0.0));
 /// # Ok::<(), asperity::Error>(())
 /// ```
+#[non_exhaustive]
 #[derive(Clone, Debug, PartialEq)]
 pub struct PressureDistribution {
     /// The edges of the bins, from the lowest to the highest: one more than there are bins.

@@ -2,8 +2,9 @@
 
 use ndarray::Array2;
 
-use super::{ElasticOperator, mean_product};
+use super::{ElasticOperator, Foundation, mean_product};
 use crate::error::{Error, Result};
+use crate::field;
 use crate::real::Real;
 
 /// Applications of the compliance, and of the stiffness, that look for the softest and for the stiffest wave.
@@ -37,7 +38,7 @@ pub fn check_operator<T: Real>(operator: &mut (impl ElasticOperator<T> + ?Sized)
     }
     let rounding = 64.0 * T::epsilon().widen();
     let product = |a: &Array2<T>, b: &Array2<T>| mean_product(a.view(), b.view());
-    let mean = |field: &Array2<T>| field.iter().map(|x| x.widen()).sum::<f64>() / field.len() as f64;
+    let mean = |field: &Array2<T>| field::mean(field.view(), T::widen);
     let holds = |property, found: f64, expected: f64, allowed: f64| match (found - expected).abs() <= allowed {
         true => Ok(()),
         false => Err(Error::Operator { property, found, expected }),
@@ -71,11 +72,11 @@ pub fn check_operator<T: Real>(operator: &mut (impl ElasticOperator<T> + ?Sized)
 
     // the preconditioner
     let (foundation, mean_stiffness) = (2.0 * softest, 3.0 * softest);
-    let found = operator.precondition(a.view(), foundation, mean_stiffness, of_a.view_mut())?;
+    let found = operator.precondition(a.view(), Foundation::uniform(foundation, mean_stiffness), of_a.view_mut())?;
     holds("error of precondition, ⟨a, K a⟩", found.error, compliant, soft)?;
     holds("descent of precondition, ⟨a, M a⟩", found.descent, product(&a, &of_a), soft)?;
     holds("mean of precondition", found.mean, mean(&of_a), soft)?;
-    operator.precondition(b.view(), foundation, mean_stiffness, of_b.view_mut())?;
+    operator.precondition(b.view(), Foundation::uniform(foundation, mean_stiffness), of_b.view_mut())?;
     holds("symmetry of precondition, ⟨a, M b⟩", product(&a, &of_b), product(&of_a, &b), soft)?;
     if found.descent <= 0.0 {
         return Err(Error::Operator { property: "descent of precondition", found: found.descent, expected: 0.0 });

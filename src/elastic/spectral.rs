@@ -338,20 +338,40 @@ impl<T: Real> ElasticOperator<T> for Spectral<T> {
         Ok(sum / (self.grid.nodes() as f64).powi(2))
     }
 
-    /// M has the symbol 1/(k + s), s the foundation; the products come from the same transform.
+    fn coarse_space(&self, dimension: usize) -> Option<CoarseSpace> {
+        CoarseSpace::new(&self.grid, self.convolver.layout(), &*self.symbol, dimension)
+    }
+
+    /// M has the symbol 1/(k + s), s the stiffness of the foundation, but for the waves of the coarse space; the products
+    /// come from the same transform.
     fn precondition(
         &mut self,
         residual: ArrayView2<'_, T>,
-        foundation: f64,
-        mean_stiffness: f64,
+        foundation: Foundation<'_>,
         preconditioned: ArrayViewMut2<'_, T>,
     ) -> Result<Preconditioned> {
-        let (stiffness, layout) = ((&self.stiffness, self.range.0), self.convolver.layout());
-        let shift = T::lit(if self.range.0 > 0.0 { foundation / self.range.0 } else { 0.0 });
+        let Foundation { stiffness, mean_stiffness, coarse } = foundation;
+        let (of_waves, layout) = ((&self.stiffness, self.range.0), self.convolver.layout());
+        let shift = T::lit(if self.range.0 > 0.0 { stiffness / self.range.0 } else { 0.0 });
         let (mean, nodes) = (T::lit(1.0 / mean_stiffness), self.grid.nodes() as f64);
-        let [error, descent, mean] = self.convolver.convolve(residual, preconditioned, |k, column| {
-            weigh(layout, k, soften(stiffness, k, column, shift, mean))
-        })?;
+        let [error, descent, mean] = self.convolver.convolve_after(
+            residual,
+            preconditioned,
+            coarse.as_ref().map_or(0, |coarse| coarse.columns()),
+            |spectrum| {
+                coarse.map(|coarse| {
+                    coarse.respond(spectrum);
+                    &*coarse
+                })
+            },
+            |coarse, k, column| {
+                let mut sums = soften(of_waves, k, column, shift, mean);
+                if let Some(coarse) = coarse {
+                    coarse.put(k, column, &mut sums);
+                }
+                weigh(layout, k, sums)
+            },
+        )?;
         Ok(Preconditioned { error: error / nodes.powi(2), descent: descent / nodes.powi(2), mean: mean / nodes })
     }
 }

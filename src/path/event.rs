@@ -28,9 +28,10 @@ pub enum Event {
     },
 }
 
-/// A jump: where it starts, to the resolution of the path, and where it ends.
+/// A jump: where it starts, to the smallest step of the path, and where it ends.
 ///
 /// The page [`branches`](crate::guide::branches) has an example.
+#[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Jump {
     /// The mean gaps before and after.

@@ -175,7 +175,7 @@ impl State {
     }
 
     fn smallest(&self, settings: &PathSettings) -> f64 {
-        settings.resolution * self.length()
+        settings.smallest_step * self.length()
     }
 
     /// The value of the held quantity in the next step, and whether the step cannot be halved.

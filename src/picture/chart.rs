@@ -16,7 +16,7 @@ use embedded_graphics::text::Alignment;
 /// a [`Map`](super::Map).
 ///
 /// ```
-/// use asperity::Chart;
+/// use asperity::picture::Chart;
 /// let wave = (0..100).map(|i| (f64::from(i), (0.1 * f64::from(i)).sin())).collect();
 /// let chart = Chart { x_label: "time", y_label: "height", curves: vec![("wave", wave)], ..Chart::default() };
 /// chart.write_png(&std::env::temp_dir().join("asperity-wave.png"))?;

@@ -12,9 +12,10 @@ pub(super) const MISSING: Rgb888 = Rgb888::new(201, 120, 199);
 /// Values of one sign that are all weaker than this share of the other sign's greatest are not shown.
 const NOISE: f64 = 1e-6;
 
-/// The colouring of the values of a [`Map`](crate::Map).
+/// The colouring of the values of a [`Map`](crate::picture::Map).
 ///
 /// [`Map`](super::Map) has an example.
+#[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Colouring {
     /// From dark blue at the least value to yellow at the greatest: heights, gaps.
@@ -31,7 +32,7 @@ pub enum Colouring {
     Diverging,
     /// Black where the value is not zero, on white: contact.
     ///
-    /// The legend calls black by [`Map::label`](crate::Map::label), say "contact", and white "no contact".
+    /// The legend calls black by [`Map::label`](crate::picture::Map::label), say "contact", and white "no contact".
     /// On a map drawn with fewer pixels than nodes, grey is the share of black.
     Binary,
 }

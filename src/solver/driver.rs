@@ -8,7 +8,7 @@ use super::report::{Iteration, Solution, Status};
 use super::start::Start;
 use super::state::{Goal, State};
 use super::{Method, Settings};
-use crate::constraint::{ContactConstraint, Outer};
+use crate::constraint::{ContactConstraint, Update};
 use crate::error::{Error, Result};
 use crate::problem::{Control, Parts, smoothed_law};
 use crate::real::{Compiled, Real};
@@ -78,9 +78,9 @@ fn run<T: Real>(job: Job<'_, T>) -> Result<Solution<T>> {
     let status = loop {
         match minimise(&mut state, &mut *observe)? {
             End::Converged => match state.update_constraint() {
-                Outer::Done => break Status::Converged,
-                Outer::Again => {}
-                Outer::Failed => break Status::IterationLimit,
+                Update::Done => break Status::Converged,
+                Update::Again => {}
+                Update::Failed => break Status::IterationLimit,
             },
             End::Adrift => {
                 if !(std::mem::take(&mut seek) && state.seek_hold(&mut *observe)?) {

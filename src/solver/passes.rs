@@ -13,8 +13,8 @@ mod residual;
 mod step;
 mod tally;
 
-pub(super) use residual::{Continued, Follows, Residual, Working};
-pub(super) use residual::{idle, lift, lift_sums, release, released, residual};
+pub(super) use residual::{Continued, Residual, Working};
+pub(super) use residual::{idle, release, released, residual};
 pub(super) use step::{Advance, Attempt, Tried, advance, energy_after, trial};
 pub(super) use tally::{Taken, Tally, tally};
 

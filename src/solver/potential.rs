@@ -8,21 +8,21 @@ use crate::real::Real;
 
 /// The local energy of every node: the adhesion law, and the constraint where it is a term of the energy.
 #[derive(Clone, Copy)]
-pub(super) struct Potential<'a, T> {
+pub(crate) struct Potential<'a, T> {
     law: &'a dyn AdhesionLaw<T>,
     springs: Option<&'a dyn Springs<T>>,
 }
 
 /// The order of a derivative of the energy.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Of {
+pub(crate) enum Of {
     Energy,
     Traction,
     Slope,
 }
 
 impl<'a, T: Real> Potential<'a, T> {
-    pub(super) fn new(law: &'a dyn AdhesionLaw<T>, constraint: &'a dyn ContactConstraint<T>) -> Self {
+    pub(crate) fn new(law: &'a dyn AdhesionLaw<T>, constraint: &'a dyn ContactConstraint<T>) -> Self {
         let springs = match constraint.wall() {
             Wall::Rigid => None,
             Wall::Springs(springs) => Some(springs),
@@ -31,17 +31,17 @@ impl<'a, T: Real> Potential<'a, T> {
     }
 
     /// Whether the local energy is zero at every node.
-    pub(super) fn is_zero(&self) -> bool {
+    pub(crate) fn is_zero(&self) -> bool {
         self.law.is_zero() && self.projects()
     }
 
     /// Whether the gap is confined to g ≥ 0.
-    pub(super) fn projects(&self) -> bool {
+    pub(crate) fn projects(&self) -> bool {
         self.springs.is_none()
     }
 
     /// The energies, tractions or slopes of law and constraint at the nodes from `first` on.
-    pub(super) fn evaluate(&self, of: Of, first: usize, gaps: &[T], out: &mut [T]) {
+    pub(crate) fn evaluate(&self, of: Of, first: usize, gaps: &[T], out: &mut [T]) {
         self.law(of, first, gaps, out);
         let Some(springs) = self.springs else { return };
         for (i, (out, &gap)) in out.iter_mut().zip(gaps).enumerate() {
@@ -54,7 +54,7 @@ impl<'a, T: Real> Potential<'a, T> {
     }
 
     /// Tractions and slopes at once.
-    pub(super) fn tractions_and_slopes(&self, first: usize, gaps: &[T], tractions: &mut [T], slopes: &mut [T]) {
+    pub(crate) fn tractions_and_slopes(&self, first: usize, gaps: &[T], tractions: &mut [T], slopes: &mut [T]) {
         if self.projects() {
             return self.law.tractions_and_slopes(first, gaps, tractions, slopes);
         }
@@ -65,7 +65,7 @@ impl<'a, T: Real> Potential<'a, T> {
     /// The energies, tractions or slopes of the law alone.
     ///
     /// A law is defined for g ≥ 0; where the surfaces interpenetrate it goes on as its tangent at g = 0.
-    pub(super) fn law(&self, of: Of, first: usize, gaps: &[T], out: &mut [T]) {
+    pub(crate) fn law(&self, of: Of, first: usize, gaps: &[T], out: &mut [T]) {
         if self.law.is_zero() {
             return out.fill(T::zero());
         }
@@ -88,7 +88,7 @@ impl<'a, T: Real> Potential<'a, T> {
     }
 
     /// The number of nodes in contact with springs, and the energy of the springs.
-    pub(super) fn pressed(&self, first: usize, gaps: &[T]) -> [f64; 2] {
+    pub(crate) fn pressed(&self, first: usize, gaps: &[T]) -> [f64; 2] {
         let mut sums = [0.0; 2];
         let Some(springs) = self.springs else { return sums };
         for (i, &gap) in gaps.iter().enumerate() {
@@ -100,7 +100,7 @@ impl<'a, T: Real> Potential<'a, T> {
     }
 
     /// The contact pressures at nodes of these gaps and full elastic pressures.
-    pub(super) fn contact_pressures(&self, first: usize, gaps: &[T], pressures: &[T], contact: &mut [T]) {
+    pub(crate) fn contact_pressures(&self, first: usize, gaps: &[T], pressures: &[T], contact: &mut [T]) {
         if let Some(springs) = self.springs {
             let pressed = contact.iter_mut().zip(gaps).enumerate();
             return pressed.for_each(|(i, (contact, &gap))| *contact = -springs.traction(first + i, gap));

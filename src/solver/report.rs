@@ -19,6 +19,7 @@ use super::{Criterion, Method};
 /// assert_eq!(report.status.to_string(), "iteration-limit");
 /// # Ok::<(), asperity::Error>(())
 /// ```
+#[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Status {
     /// The criterion was met, on the fields that were returned: they are the solution to the tolerance.
@@ -88,7 +89,7 @@ pub struct Iteration {
     /// The mean gap.
     pub mean_gap: f64,
     /// The number of nodes in contact.
-    pub contact_points: usize,
+    pub contact_nodes: usize,
     /// The number of changes of the minimised energy so far: of the law, the multipliers of a constraint, or, in
     /// search of a state that holds a tension, the mean gap. The energy falls within a round.
     pub round: usize,
@@ -150,14 +151,14 @@ pub struct Report {
     /// The share of nodes in contact, as [`Solution::contact_map`] says.
     pub contact_fraction: f64,
     /// The number of nodes in contact, by [`Solution::contact_map`].
-    pub contact_points: usize,
+    pub contact_nodes: usize,
     /// The smallest gap: zero in contact, negative only where the constraint lets the surfaces interpenetrate.
     pub min_gap: f64,
     /// The elastic energy, the mean of u·p/2.
     pub elastic_energy: f64,
     /// The adhesive energy, the mean of φ(g).
     pub adhesive_energy: f64,
-    /// The resolution measure μ_ρ of [`Problem::resolution`](crate::Problem::resolution).
+    /// The resolution measure μ_ρ of [`Problem::mu_rho`](crate::Problem::mu_rho).
     pub mu_rho: f64,
     /// Whether μ_ρ exceeds 0.5: the answer then depends on the grid and on the start.
     pub under_resolved: bool,
@@ -186,6 +187,7 @@ pub struct Report {
 /// assert!((solution.pressure.sum() / 4096.0 - 0.02).abs() < 1e-8); // its mean is the external pressure
 /// # Ok::<(), asperity::Error>(())
 /// ```
+#[non_exhaustive]
 #[derive(Clone, Debug, PartialEq)]
 pub struct Solution<T> {
     /// The gap g ≥ 0 between the surfaces.

@@ -5,7 +5,7 @@ use ndarray::{Array2, ArrayRef2, CowArray, Ix2};
 use super::state::{Goal, State};
 use crate::adhesion::AdhesionLaw;
 use crate::error::{Error, Result};
-use crate::field::flat;
+use crate::field::{self, flat};
 use crate::problem::{Control, PressedFlat};
 use crate::real::Real;
 
@@ -139,7 +139,7 @@ pub(super) fn given_start<T: Real>(
     }
     let mut gap = if start.is_standard_layout() { start.into_owned() } else { start.as_standard_layout().into_owned() };
     if let Control::MeanGap(mean) = control {
-        let present = flat(&gap).iter().map(|g| g.widen()).sum::<f64>() / gap.len() as f64;
+        let present = field::mean(gap.view(), T::widen);
         if gap.iter().any(|&g| g < T::zero()) {
             // gaps of both signs may have hardly any mean
             gap.mapv_inplace(|g| g + T::lit(mean - present));

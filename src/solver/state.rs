@@ -2,6 +2,7 @@
 
 use ndarray::{Array2, CowArray, Ix2};
 
+use super::coarse::Coarse;
 use super::passes::{self, Continued, Fields, Taken, Tally, Working};
 use super::potential::Potential;
 use super::report::{Iteration, Report, Solution, Status};
@@ -9,12 +10,12 @@ use super::start::{given_start, uniform_start};
 use super::work::{TRUSTED, Work};
 use super::{Criterion, Method, Settings};
 use crate::adhesion::AdhesionLaw;
-use crate::constraint::{ContactConstraint, Outer};
-use crate::elastic::ElasticOperator;
+use crate::constraint::{ContactConstraint, Update};
+use crate::elastic::{ElasticOperator, Foundation};
 use crate::error::{Error, Result};
 use crate::field::{Partial, read, write};
 use crate::par::IndexedParallelIterator;
-use crate::problem::{Control, Parts, PressedFlat, resolution};
+use crate::problem::{Control, Parts, PressedFlat, mu_rho};
 use crate::real::Real;
 
 /// Iterations after which the pressure, updated step by step, is computed anew.
@@ -120,6 +121,7 @@ pub(super) struct State<'a, T> {
     /// the last step, if the next one may use it
     pub(super) momentum: Option<Made>,
     pub(super) step_length: f64,
+    pub(super) coarse: Option<Coarse>,
     /// whether the start is near the solution
     pub(super) near: bool,
     /// ⟨r', r'⟩ of the step before, for [`Method::Rey2017`]
@@ -160,6 +162,8 @@ impl<'a, T: Real> State<'a, T> {
             Some(start) => (given_start(start, shape, control, constraint.wall().is_rigid())?, Array2::zeros(shape)),
             None => (Array2::from_elem(shape, T::lit(uniform_start(law, flat, control))), flat.pressure.clone()),
         };
+        let preconditioned = settings.method == Method::Preconditioned;
+        let coarse = if preconditioned { Coarse::of(&*operator) } else { None };
         let mut state = Self {
             operator,
             law,
@@ -178,6 +182,7 @@ impl<'a, T: Real> State<'a, T> {
             preconditioned: Preconditioned::default(),
             momentum: None,
             step_length: 1.0,
+            coarse,
             near: false,
             residual_norm: None,
             progress: Progress::NONE,
@@ -329,20 +334,21 @@ impl<'a, T: Real> State<'a, T> {
     }
 
     pub(super) fn certify(&mut self) -> Result<()> {
-        let (foundation, mean_stiffness) = (self.foundation(), self.mean_stiffness());
+        self.renew_coarse();
+        let (stiffness, mean_stiffness) = (self.foundation(), self.mean_stiffness());
+        let coarse = self.coarse.as_mut().and_then(Coarse::ready);
+        let foundation = Foundation { stiffness, mean_stiffness, coarse };
         let Fields { residual, preconditioned, .. } = &mut self.fields;
-        let found =
-            self.operator.precondition(residual.view(), foundation, mean_stiffness, preconditioned.view_mut())?;
+        let found = self.operator.precondition(residual.view(), foundation, preconditioned.view_mut())?;
         self.certificate = if found.error.is_nan() { f64::INFINITY } else { found.error.max(0.0) };
         self.preconditioned = Preconditioned { descent: found.descent * self.nodes(), sum: found.mean * self.nodes() };
         self.applications += 1;
-        self.lift(foundation);
         Ok(())
     }
 
-    pub(super) fn update_constraint(&mut self) -> Outer {
+    pub(super) fn update_constraint(&mut self) -> Update {
         let outer = self.constraint.update(self.fields.gap.view());
-        if outer == Outer::Again {
+        if outer == Update::Again {
             self.restart();
         }
         outer
@@ -379,7 +385,7 @@ impl<'a, T: Real> State<'a, T> {
             load_error: self.load_error(),
             energy: self.energy(),
             mean_gap: self.tally.sum_gap / self.nodes(),
-            contact_points: self.tally.contact as usize,
+            contact_nodes: self.tally.contact as usize,
             round: self.rounds,
             smoothed: self.goal == Goal::Start,
         }
@@ -421,7 +427,7 @@ impl<'a, T: Real> State<'a, T> {
             Control::MeanGap(_) => 0.0,
             Control::MeanPressure(_) => self.load_error().max(self.share_of_load(carried_pressure - mean)),
         };
-        let mu_rho = resolution(self.law, self.operator.grid(), self.operator.modulus());
+        let mu_rho = mu_rho(self.law, self.operator.grid(), self.operator.modulus());
         let report = Report {
             status: self.final_status(status, load_error),
             relative_error: self.relative_error(),
@@ -434,7 +440,7 @@ impl<'a, T: Real> State<'a, T> {
             carried_pressure,
             mean_contact_pressure,
             contact_fraction: self.tally.contact / self.nodes(),
-            contact_points: self.tally.contact as usize,
+            contact_nodes: self.tally.contact as usize,
             min_gap: total.min,
             elastic_energy: 0.5 * self.mean_work(),
             adhesive_energy: self.tally.adhesive / self.nodes(),

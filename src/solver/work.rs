@@ -5,6 +5,7 @@
 //! may exceed the work itself. Then one application gives ⟨p, K p⟩ instead, a sum of squares over the waves.
 
 use super::state::State;
+use crate::elastic::Foundation;
 use crate::error::Result;
 use crate::real::Real;
 
@@ -62,8 +63,7 @@ impl<T: Real> State<'_, T> {
         let stiffness = self.foundation();
         let found = self.operator.precondition(
             self.fields.pressure.view(),
-            stiffness,
-            stiffness,
+            Foundation::uniform(stiffness, stiffness),
             self.fields.preconditioned.view_mut(),
         )?;
         self.applications += 1;

@@ -2,13 +2,11 @@
 
 use std::ops::ControlFlow;
 
-use ndarray::Zip;
-
 use super::Stability;
 use crate::adhesion::AdhesionLaw;
-use crate::constraint::ContactConstraint;
 use crate::elastic::ElasticOperator;
 use crate::error::{Error, Result};
+use crate::field;
 use crate::problem::{Control, Problem};
 use crate::real::Real;
 use crate::solver::{Solution, Solver, Start};
@@ -37,7 +35,7 @@ impl<T: Real> Stability<T> {
     ///
     /// The perturbation changes the gap by a tenth of the range of adhesion at most. From a saddle the energy falls
     /// along the mode, and the solver never raises it again: it does not come back. From a stable equilibrium it does,
-    /// within that distance. `None` if the mode is zero, as where all nodes are in contact, or without adhesion.
+    /// within that distance. The wall is rigid. `None` if the mode is zero, as where all nodes are in contact, or without adhesion.
     ///
     /// # Errors
     /// [`Error::Shape`] if the solution is of another grid, and those of [`Solver::solve_with`].
@@ -54,14 +52,14 @@ impl<T: Real> Stability<T> {
     /// assert_eq!(stability.verdict, Verdict::Unstable);
     ///
     /// let left = stability.leave(&mut solver, &mut problem, control, &even)?.expect("there is a mode");
-    /// assert!(left.energy_drop > 0.0 && left.solution.report.contact_points > 0);
+    /// assert!(left.energy_drop > 0.0 && left.solution.report.contact_nodes > 0);
     /// let stability = StabilityTest::default().run(&mut problem, control, &left.solution)?;
     /// assert_eq!(stability.verdict, Verdict::Stable);
     /// # Ok::<(), asperity::Error>(())
     /// ```
-    pub fn leave<O, L, C>(
+    pub fn leave<O, L>(
         &self,
-        solver: &mut Solver<C>,
+        solver: &mut Solver,
         problem: &mut Problem<T, O, L>,
         control: Control,
         from: &Solution<T>,
@@ -69,7 +67,6 @@ impl<T: Real> Stability<T> {
     where
         O: ElasticOperator<T>,
         L: AdhesionLaw<T>,
-        C: ContactConstraint<T>,
     {
         Error::shape("gap", from.gap.dim(), self.mode.dim())?;
         let largest = self.mode.iter().fold(T::zero(), |largest, value| largest.max(value.abs()));
@@ -93,9 +90,8 @@ impl<T: Real> Stability<T> {
             let solution = solver.solve_with(problem, control, Start::From(&start), |_| ControlFlow::Continue(()))?;
             let energy_drop = energy(from) - energy(&solution);
             if best.as_ref().is_none_or(|best| energy_drop > best.energy_drop) {
-                let square =
-                    Zip::from(&solution.gap).and(&from.gap).fold(0.0, |sum: f64, &a, &b| sum + (a - b).widen().powi(2));
-                let distance = (square / from.gap.len() as f64).sqrt();
+                let square = |a: T, b: T| (a - b).widen().powi(2);
+                let distance = field::mean_of_both(solution.gap.view(), from.gap.view(), square).sqrt();
                 best = Some(Departure { solution, energy_drop, distance, direction });
             }
         }

@@ -2,9 +2,9 @@
 
 use ndarray::Array2;
 
-use crate::elastic::ElasticOperator;
+use crate::elastic::{ElasticOperator, Foundation};
 use crate::error::Result;
-use crate::field::{Partial, Reducer, flat, read, write};
+use crate::field::{Partial, Reducer, read, write};
 use crate::par::IndexedParallelIterator;
 use crate::real::Real;
 
@@ -22,9 +22,16 @@ pub(super) struct Hessian<'a, T> {
 
 impl<'a, T: Real> Hessian<'a, T> {
     pub(super) fn new(operator: &'a mut dyn ElasticOperator<T>, slopes: Array2<T>, centred: bool) -> Self {
-        let free = flat(&slopes).iter().filter(|slope| slope.is_finite()).count() as f64;
-        let least = flat(&slopes).iter().fold(f64::INFINITY, |least, slope| least.min(slope.widen()));
-        let reducer = Reducer::new(slopes.len());
+        let mut reducer = Reducer::new(slopes.len());
+        let total = reducer.run(read(&slopes), |_, slopes| {
+            let mut part = Partial::NONE;
+            for slope in slopes {
+                part.sum[0] += f64::from(u8::from(slope.is_finite()));
+                part.min = part.min.min(slope.widen());
+            }
+            part
+        });
+        let (free, least) = (total.sum[0], total.min);
         Self { operator, slopes, centred, free, least, reducer, applications: 0 }
     }
 
@@ -108,7 +115,7 @@ impl<'a, T: Real> Hessian<'a, T> {
     /// The compliance, as preconditioner, of an admissible field; takes one operator application.
     pub(super) fn precondition(&mut self, residual: &Array2<T>, result: &mut Array2<T>) -> Result<()> {
         let softest = self.softest();
-        self.operator.precondition(residual.view(), softest, softest, result.view_mut())?;
+        self.operator.precondition(residual.view(), Foundation::uniform(softest, softest), result.view_mut())?;
         self.applications += 1;
         self.project(result);
         Ok(())
@@ -171,7 +178,7 @@ impl<'a, T: Real> Hessian<'a, T> {
     pub(super) fn smooth_random(&mut self, stream: u32) -> Result<Array2<T>> {
         let random = normal_numbers::<T>(self.shape(), stream);
         let (softest, mut smooth) = (self.softest(), Array2::zeros(random.dim()));
-        self.operator.precondition(random.view(), softest, softest, smooth.view_mut())?;
+        self.operator.precondition(random.view(), Foundation::uniform(softest, softest), smooth.view_mut())?;
         self.applications += 1;
         Ok(smooth)
     }

@@ -6,9 +6,12 @@ use super::eigenpair::{Eigenpair, UNCERTAIN, lowest_from, normalise};
 use super::hessian::Hessian;
 use super::slopes;
 use crate::adhesion::AdhesionLaw;
+use crate::constraint::Projection;
 use crate::elastic::ElasticOperator;
 use crate::error::Result;
+use crate::field::mean_of_both;
 use crate::real::Real;
+use crate::solver::Potential;
 
 /// The share of a random field that is added to the mode of the last state. Without it a mode that has no share in the
 /// start, as an antisymmetric one beside a symmetric one, would never be found.
@@ -58,7 +61,7 @@ impl<T: Real> Watch<T> {
         if law.is_zero() {
             return Ok(None);
         }
-        let slopes = slopes(gap, law)?;
+        let slopes = slopes(gap, Potential::new(law, &Projection))?;
         let mut hessian = Hessian::new(operator, slopes, true);
         if hessian.simple_bound() > 0.0 || hessian.dimension() == 0 {
             return Ok(None);
@@ -96,7 +99,7 @@ impl<T: Real> Watch<T> {
     /// The share of the mode in a change of the gap: the cosine of the angle between them.
     pub(crate) fn share(&self, change: &Array2<T>) -> f64 {
         let Some(mode) = &self.mode else { return 0.0 };
-        let product = |a: &Array2<T>, b: &Array2<T>| a.iter().zip(b).map(|(a, b)| a.widen() * b.widen()).sum::<f64>();
+        let product = |a: &Array2<T>, b: &Array2<T>| mean_of_both(a.view(), b.view(), |a, b| a.widen() * b.widen());
         let share = product(mode, change) / (product(mode, mode) * product(change, change)).sqrt();
         if share.is_finite() { share } else { 0.0 }
     }

@@ -24,6 +24,7 @@ const SLACK: f64 = 1e-12;
 /// assert!((surface.rms_height() / 5e-9 - 1.0).abs() < 1e-12);
 /// # Ok::<(), asperity::Error>(())
 /// ```
+#[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Amplitude {
     /// The root mean square of the heights, a length.

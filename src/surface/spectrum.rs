@@ -44,6 +44,7 @@ pub struct Spectrum {
 /// assert!((psd.total() / surface.rms_height().powi(2) - 1.0).abs() < 1e-12);
 /// # Ok::<(), asperity::Error>(())
 /// ```
+#[non_exhaustive]
 #[derive(Clone, Debug, PartialEq)]
 pub struct Psd {
     /// The wave number |q| in radians per length, ascending: the mean over the waves of an entry.

@@ -4,6 +4,7 @@ use ndarray::ArrayView1;
 
 use super::Surface;
 use super::spectrum::is_line;
+use crate::field;
 
 /// The statistics of a rough surface: [`Surface::statistics`].
 ///
@@ -55,11 +56,7 @@ impl Surface {
     pub fn statistics(&self) -> SurfaceStatistics {
         let (mean, rms_height) = (self.mean(), self.rms_height());
         // of heights over the rms height, whose fourth powers stay in range
-        let power = |n: i32| {
-            let rows = self.heights.rows();
-            let sums = rows.into_iter().map(|row| row.iter().map(|h| ((h - mean) / rms_height).powi(n)).sum::<f64>());
-            sums.sum::<f64>() / self.heights.len() as f64
-        };
+        let power = |n: i32| field::mean(self.heights.view(), |h| ((h - mean) / rms_height).powi(n));
         let (slope, laplacian) = self.differences();
         let spectrum = self.spectrum();
         SurfaceStatistics {

@@ -56,7 +56,7 @@ pub fn falls(history: &[Iteration], epsilon: f64) {
 
 /// Checks the invariants of every state that the solver returns, converged or not.
 pub fn check<T: Real>(solution: &Solution<T>, law: &impl AdhesionLaw<T>, control: Control) {
-    let Solution { gap, pressure, contact_pressure, report } = solution;
+    let Solution { gap, pressure, contact_pressure, report, .. } = solution;
     let (nodes, epsilon) = (gap.len() as f64, T::epsilon().widen());
     let mut contact = 0;
     for ((&g, &p), &lambda) in gap.iter().zip(pressure).zip(contact_pressure) {
@@ -64,7 +64,7 @@ pub fn check<T: Real>(solution: &Solution<T>, law: &impl AdhesionLaw<T>, control
         assert!(p.is_finite());
         contact += usize::from(g == T::zero());
     }
-    assert_eq!(report.contact_points, contact);
+    assert_eq!(report.contact_nodes, contact);
     assert_eq!(report.contact_fraction, contact as f64 / nodes);
     assert_eq!(report.min_gap, gap.iter().map(|g| g.widen()).fold(f64::INFINITY, f64::min));
     let values = |field: &Array2<T>| field.iter().map(|x| x.widen()).collect::<Vec<_>>();

@@ -1,6 +1,6 @@
 //! An exponential law that is evaluated at negative gaps, as it stands.
 
-use asperity::{AdhesionLaw, ContactConstraint, Exponential, Grid, Outer, Result, Springs, Wall};
+use asperity::{AdhesionLaw, ContactConstraint, Exponential, Grid, Result, Springs, Update, Wall};
 use ndarray::ArrayView2;
 
 /// Another constraint, with what an exponential law adds to its tangent where the surfaces interpenetrate: the energy
@@ -20,7 +20,7 @@ impl<C: ContactConstraint<f64> + Springs<f64>> ContactConstraint<f64> for Outrun
     fn start(&mut self, grid: &Grid, stiffest: f64, tolerance: f64) -> Result<()> {
         self.0.start(grid, stiffest, tolerance)
     }
-    fn update(&mut self, gap: ArrayView2<'_, f64>) -> Outer {
+    fn update(&mut self, gap: ArrayView2<'_, f64>) -> Update {
         self.0.update(gap)
     }
 }

@@ -87,6 +87,6 @@ impl Scene {
         let unit = if self.of_waves { problem.operator().stiffness_range().1 } else { 1.0 };
         let mut solver = Solver { settings, constraint: Uzawa::new(self.stiffness * unit).unwrap() };
         let solution = solver.solve(&mut problem, self.control).unwrap();
-        (projected, solution, solver.constraint.outer_iterations())
+        (projected, solution, solver.constraint.rounds())
     }
 }

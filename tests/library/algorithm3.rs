@@ -181,7 +181,7 @@ fn corrected_it_is_the_preset_of_the_library() {
         let here = algorithm_3(&surface, &NoAdhesion, gap, PAPER, RIGHT);
         assert!(here.end == End::Converged && here.iterations < 100 && here.under_tension().0 == 0);
         let there = library(&surface, gap, Settings::rey2017()).report;
-        assert_eq!((there.status, there.contact_points), (Status::Converged, here.contact()));
+        assert_eq!((there.status, there.contact_nodes), (Status::Converged, here.contact()));
         assert!(there.iterations.abs_diff(here.iterations) <= 1, "{} {}", there.iterations, here.iterations);
         assert!((there.mean_pressure + here.mean()).abs() < 1e-7 * there.mean_pressure);
     }
@@ -278,7 +278,7 @@ fn with_no_node_apart_or_one_it_divides_zero_by_zero() {
         for settings in [Settings::rey2017(), Settings::default()] {
             let report = library(&surface, gap, settings).report;
             assert_eq!(report.status, Status::Converged);
-            assert_eq!(report.contact_points, 64 * 64 - usize::from(gap > 0.0));
+            assert_eq!(report.contact_nodes, 64 * 64 - usize::from(gap > 0.0));
             assert!(report.mean_pressure.is_finite() && report.relative_error < 1e-9);
         }
     }
@@ -331,6 +331,6 @@ fn the_floor_of_epsilon_grows_like_the_cube_of_the_nodes_along_a_side() {
 fn at_the_floor_of_rounding_the_preset_keeps_what_it_has() {
     let solution = library(&sphere(64), 0.0398, Settings { tolerance: Some(1e-30), ..Settings::rey2017() });
     let (points, _) = of_sphere(64, 0.0398);
-    assert_eq!((solution.report.status, solution.report.contact_points), (Status::Stalled, points));
+    assert_eq!((solution.report.status, solution.report.contact_nodes), (Status::Stalled, points));
     assert!(solution.report.relative_error < 1e-11, "{:e}", solution.report.relative_error);
 }

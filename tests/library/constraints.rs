@@ -33,7 +33,7 @@ fn a_penalty_interpenetrates_by_the_pressure_over_its_stiffness() {
         assert_eq!(report.status, Status::Converged);
         let deepest = solution.contact_pressure.iter().copied().fold(0.0, f64::max);
         assert_relative_eq!(report.min_gap, -deepest / stiffness, max_relative = 1e-9);
-        assert_eq!(report.contact_points, solution.gap.iter().filter(|&&g| g < 0.0).count());
+        assert_eq!(report.contact_nodes, solution.gap.iter().filter(|&&g| g < 0.0).count());
         // the pressure is softer than the rigid one by about the springs' compliance beside the contact's
         let error = (report.mean_pressure / exact.mean_pressure - 1.0).abs();
         assert!(error < last && error < 20.0 / stiffness, "{error}");
@@ -47,8 +47,8 @@ fn uzawa_removes_the_interpenetration_whatever_its_stiffness() {
     let exact = solve(&mut sphere::<f64, _>(64, NoAdhesion), control, 1e-9).report;
     for stiffness in [50.0, 500.0] {
         let (solution, uzawa) = with(&mut sphere(64, NoAdhesion), Uzawa::new(stiffness).unwrap(), control, 1e-9);
-        assert_eq!((solution.report.status, solution.report.contact_points), (Status::Converged, exact.contact_points));
-        assert!(uzawa.outer_iterations() > 2);
+        assert_eq!((solution.report.status, solution.report.contact_nodes), (Status::Converged, exact.contact_nodes));
+        assert!(uzawa.rounds() > 2);
         // even if all that interpenetrates were in the shortest wave, its pressure were less than the tolerance
         let stiffest = sphere::<f64, _>(64, NoAdhesion).operator().stiffness_range().1;
         let rms = |field: ndarray::Array2<f64>| field.mapv(|x: f64| x * x).mean().unwrap().sqrt();
@@ -62,9 +62,9 @@ fn uzawa_removes_the_interpenetration_whatever_its_stiffness() {
 #[test]
 fn uzawa_that_may_not_update_enough_has_not_converged() {
     let mut constraint = Uzawa::<f64>::new(100.0).unwrap();
-    constraint.max_outer_iterations = 2;
+    constraint.max_rounds = 2;
     let (solution, uzawa) = with(&mut sphere(32, NoAdhesion), constraint, Control::MeanGap(0.0398), 1e-8);
-    assert_eq!((solution.report.status, uzawa.outer_iterations()), (Status::IterationLimit, 2));
+    assert_eq!((solution.report.status, uzawa.rounds()), (Status::IterationLimit, 2));
     assert!(solution.report.min_gap < 0.0);
 }
 
@@ -113,7 +113,7 @@ fn sticky() -> (Sticky, Exponential, Control) {
 #[test]
 fn penalty_and_uzawa_find_the_adhesive_state_of_a_rough_surface() {
     let (mut problem, law, control) = sticky();
-    assert!(problem.resolution() < 0.7);
+    assert!(problem.mu_rho() < 0.7);
     let exact = solve(&mut problem, control, 1e-8).report;
     let mut last = f64::INFINITY;
     for stiffness in [30.0, 300.0, 3000.0] {
@@ -131,8 +131,8 @@ fn penalty_and_uzawa_find_the_adhesive_state_of_a_rough_surface() {
         assert!(error < 0.2 * last, "{stiffness} {error}");
         last = error;
         let (solution, uzawa) = with(&mut problem, Uzawa::new(stiffness).unwrap(), control, 1e-8);
-        assert_eq!((solution.report.status, uzawa.outer_iterations() > 2), (Status::Converged, true));
-        assert_eq!(solution.report.contact_points, exact.contact_points);
+        assert_eq!((solution.report.status, uzawa.rounds() > 2), (Status::Converged, true));
+        assert_eq!(solution.report.contact_nodes, exact.contact_nodes);
         assert_relative_eq!(solution.report.mean_pressure, exact.mean_pressure, max_relative = 1e-5);
     }
     assert!(last < 0.02, "{last}");
@@ -211,7 +211,7 @@ fn uzawa_ends_on_random_hard_walls() {
         let scene = Scene { law: Law::None, single: false, ..Scene::new(seed) };
         let (projected, solution, rounds) = scene.solve::<f64>();
         assert_eq!(solution.report.status, projected.report.status, "{seed}: {rounds} rounds");
-        if projected.report.status == Status::Converged && projected.report.contact_points > 0 {
+        if projected.report.status == Status::Converged && projected.report.contact_nodes > 0 {
             // an error of the tolerance in projection, in the last round, and for what interpenetrates after it
             let distance = distance(&scene, &solution, &projected);
             assert!(distance <= 3.0 * scene.tolerance, "{seed}: {distance:e} to {:e}", scene.tolerance);
@@ -266,11 +266,7 @@ fn report_and_contact_map_count_the_same_nodes() {
         let map = solution.contact_map();
         let report = &solution.report;
         let count = map.iter().filter(|&&touches| touches).count();
-        assert_eq!(
-            (report.contact_points, report.contact_fraction),
-            (count, count as f64 / map.len() as f64),
-            "{name}"
-        );
+        assert_eq!((report.contact_nodes, report.contact_fraction), (count, count as f64 / map.len() as f64), "{name}");
         // every contact pressure is in contact, and nothing else interpenetrates
         for ((&touches, &gap), &pressure) in map.iter().zip(&solution.gap).zip(&solution.contact_pressure) {
             assert_eq!(touches, gap <= T::zero() || pressure > T::zero(), "{name}");
@@ -291,13 +287,13 @@ fn report_and_contact_map_count_the_same_nodes() {
     assert!(rounds > 120, "{rounds}");
     // a solve that ends early, and flats that touch without a pressure
     let mut early = Uzawa::new(100.0).unwrap();
-    early.max_outer_iterations = 2;
+    early.max_rounds = 2;
     agree(&with(&mut sphere::<f64, _>(32, NoAdhesion), early, Control::MeanGap(0.0398), 1e-8).0, "early");
     let grid = Grid::square(8, 1.0).unwrap();
     let flat = Surface::new(grid, ndarray::Array2::zeros((8, 8))).unwrap();
     let mut problem = Problem::new(&flat, Westergaard::<f64>::new(grid, 1.0).unwrap(), NoAdhesion).unwrap();
     let (touching, _) = with(&mut problem, Penalty::new(100.0).unwrap(), Control::MeanGap(0.0), 1e-6);
-    assert_eq!(touching.report.contact_points, 64);
+    assert_eq!(touching.report.contact_nodes, 64);
     agree(&touching, "flats");
 }
 
@@ -328,7 +324,7 @@ fn figures_of_penalty_and_uzawa_on_a_rough_surface() {
         }
         for k in [1.0, 1e1, 1e2, 1e3, 1e4] {
             let (solution, uzawa) = with(&mut problem, Uzawa::new(k).unwrap(), control, 1e-6);
-            print(&format!("Uzawa, k = {k:.0e}"), uzawa.outer_iterations(), &solution);
+            print(&format!("Uzawa, k = {k:.0e}"), uzawa.rounds(), &solution);
         }
     }
 }

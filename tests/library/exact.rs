@@ -15,7 +15,7 @@ fn hertz_contact_nodes_and_pressure() {
         // by another algorithm, with the same operator
         let (points, pressure) = crate::algorithm3::of_sphere(n, 0.0398);
         let solution = solve(&mut sphere::<f64, _>(n, NoAdhesion), Control::MeanGap(0.0398), 1e-10);
-        assert_eq!((solution.report.status, solution.report.contact_points), (Status::Converged, points));
+        assert_eq!((solution.report.status, solution.report.contact_nodes), (Status::Converged, points));
         assert_relative_eq!(solution.report.mean_pressure, pressure, max_relative = 1e-7);
     }
 }
@@ -94,7 +94,7 @@ fn westergaards_wave_by_its_mean_gap_is_of_second_order() {
                 assert_eq!(report.status, Status::Converged);
                 // the edge of the contact is at half a node of the exact one, give or take
                 let edge = (s.sqrt().asin() / PI) * n as f64;
-                assert!((0.5 * report.contact_points as f64 - edge).abs() <= 1.0);
+                assert!((0.5 * report.contact_nodes as f64 - edge).abs() <= 1.0);
                 (report.mean_pressure - pressure) / (PI * 0.02)
             })
             .collect();
@@ -139,7 +139,7 @@ fn the_two_dimensional_wave_closes_at_its_pressure() {
     let mut problem = Problem::new(&surface, Westergaard::<f64>::new(grid, 1.0).unwrap(), NoAdhesion).unwrap();
 
     let full = solve(&mut problem, Control::MeanPressure(1.001 * closing), 1e-12);
-    assert_eq!((full.report.status, full.report.contact_points), (Status::Converged, n * n));
+    assert_eq!((full.report.status, full.report.contact_nodes), (Status::Converged, n * n));
     let exact = Array2::from_shape_fn((n, n), |(i, j)| {
         1.001 * closing + closing * (TAU * grid.x(i)).cos() * (TAU * grid.y(j)).cos()
     });
@@ -163,7 +163,7 @@ fn johnsons_adhesive_wave_by_an_exponential_of_short_range() {
         let exact = AdhesiveWavyLine::new(amplitude, 1.0, 1.0, work).unwrap();
         let law = Exponential::new(work, 0.025 * amplitude).unwrap();
         let mut problem = Problem::new(&surface, Westergaard::<f64>::new(grid, 1.0).unwrap(), law).unwrap();
-        assert!(problem.resolution() < 0.3);
+        assert!(problem.mu_rho() < 0.3);
         for half_width in [0.05, 0.1, 0.15, 0.2, 0.25, 0.3, 0.35] {
             let state = exact.at_half_width(half_width).unwrap();
             let start = grid.sample(|x, _| state.gap(x));
@@ -176,10 +176,10 @@ fn johnsons_adhesive_wave_by_an_exponential_of_short_range() {
             // from a uniform gap the same, but for the smallest contact, which that start does not reach
             let cold = solve_fine(&mut problem, state.mean_gap(), 1e-8, None);
             if half_width > 0.05 {
-                assert_eq!((cold.status, cold.contact_points), (Status::Converged, warm.contact_points));
+                assert_eq!((cold.status, cold.contact_nodes), (Status::Converged, warm.contact_nodes));
                 assert_relative_eq!(cold.mean_gap, warm.mean_gap, max_relative = 1e-12);
             } else {
-                assert_eq!(cold.contact_points, 0);
+                assert_eq!(cold.contact_nodes, 0);
             }
         }
     }
@@ -189,7 +189,7 @@ fn johnsons_adhesive_wave_by_an_exponential_of_short_range() {
 fn surfaces_apart_do_not_press() {
     let mut problem = line(63);
     let solution = solve(&mut problem, Control::MeanGap(0.05), 1e-6);
-    assert_eq!((solution.report.status, solution.report.contact_points), (Status::Converged, 0));
+    assert_eq!((solution.report.status, solution.report.contact_nodes), (Status::Converged, 0));
     assert!(solution.pressure.iter().all(|p| p.abs() < 1e-7 * 0.02 * PI));
     assert!(solution.report.mean_pressure.abs() < 1e-15);
 }
@@ -197,7 +197,7 @@ fn surfaces_apart_do_not_press() {
 #[test]
 fn no_gap_is_full_contact_at_the_least_pressure_that_closes_it() {
     let solution = solve(&mut line(64), Control::MeanGap(0.0), 1e-6);
-    assert_eq!((solution.report.status, solution.report.contact_points), (Status::Converged, 64));
+    assert_eq!((solution.report.status, solution.report.contact_nodes), (Status::Converged, 64));
     assert_relative_eq!(solution.report.mean_pressure, PI * 0.02, max_relative = 1e-12);
     assert_eq!(solution.contact_pressure.iter().copied().fold(f64::INFINITY, f64::min), 0.0);
 }
@@ -216,7 +216,7 @@ fn units_and_size_do_not_matter() {
         let report = solve(&mut problem, control, 1e-9).report;
         let energy = pressure * height;
         (
-            (report.contact_points, report.status),
+            (report.contact_nodes, report.status),
             [report.mean_pressure / pressure, report.elastic_energy / energy, report.adhesive_energy / energy],
         )
     };

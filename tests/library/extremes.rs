@@ -125,10 +125,10 @@ fn pull_off_ends_detached_and_at_rest<T: Real>() {
     let unit = std::f64::consts::PI * 1e-3 * 0.5;
     let held = solve(&mut problem, Control::MeanPressure(-1.5 * unit), tolerance);
     assert_eq!(held.report.status, Status::Converged);
-    assert!(held.report.contact_points > 0);
+    assert!(held.report.contact_nodes > 0);
     for factor in [2.0, 3.0, 100.0] {
         let lost = solve(&mut problem, Control::MeanPressure(-factor * unit), tolerance);
-        assert_eq!((lost.report.status, lost.report.contact_points), (Status::Detached, 0));
+        assert_eq!((lost.report.status, lost.report.contact_nodes), (Status::Detached, 0));
         assert!(
             lost.report.iterations < 300
                 && lost.report.relative_error < 10.0 * tolerance
@@ -175,7 +175,7 @@ fn the_lightest_loads_are_not_certified_on_rounding<T: Real>() {
         let lightest = if T::NAME == "f32" { 1e-3 } else { 1e-9 };
         assert!(load < lightest || report.status == Status::Converged, "{load} {}", report.status);
         // what f32 leaves of such a load need not hold a node in place
-        assert!(report.contact_points >= 1 || (T::NAME == "f32" && report.status == Status::Stalled), "{load}");
+        assert!(report.contact_nodes >= 1 || (T::NAME == "f32" && report.status == Status::Stalled), "{load}");
     }
 }
 
@@ -263,7 +263,7 @@ fn scales<T: Real>(tolerance: f64) -> usize {
                 let (here, there) =
                     (report.mean_contact_pressure / pressure, unit.0.report.mean_contact_pressure / unit.2);
                 assert!(agree(here, there), "{case} {here} {there}");
-                let points = report.contact_points.abs_diff(unit.0.report.contact_points);
+                let points = report.contact_nodes.abs_diff(unit.0.report.contact_nodes);
                 assert!(points <= 8, "{case}: {points}");
             }
         }
@@ -401,9 +401,9 @@ fn long_thin_grids_and_all_but_one_node<T: Real>() {
     let pit = |i: usize, j: usize| if (i, j) == (4, 6) { -0.1 } else { 0.0 };
     let mut pit = problem::<T>((9, 13), (1.0, 1.0), pit, bare());
     let report = solve(&mut pit, Control::MeanPressure(0.1), loose::<T>()).report;
-    assert_eq!((report.status, report.contact_points), (Status::Converged, 9 * 13 - 1));
+    assert_eq!((report.status, report.contact_nodes), (Status::Converged, 9 * 13 - 1));
     assert_eq!(solve(&mut pit, Control::MeanPressure(1e2), loose::<T>()).report.contact_fraction, 1.0);
     let mut spike = problem::<T>((9, 13), (1.0, 1.0), |i, j| if (i, j) == (4, 6) { 0.1 } else { 0.0 }, bare());
     let report = solved(&mut spike, Control::MeanPressure(1e-5), light::<T>());
-    assert_eq!(report.contact_points, 1);
+    assert_eq!(report.contact_nodes, 1);
 }

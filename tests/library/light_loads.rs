@@ -55,7 +55,7 @@ fn a_light_load_is_carried_or_not_called_converged() {
                 let tolerance = if report.precision == "f64" { 1e-6 } else { 1e-3 };
                 let missed = (report.carried_pressure / load - 1.0).abs();
                 if report.status == Status::Converged {
-                    assert!(report.contact_points > 0 && missed <= 1.01 * tolerance, "{missed:e} {what}");
+                    assert!(report.contact_nodes > 0 && missed <= 1.01 * tolerance, "{missed:e} {what}");
                     assert!((report.mean_contact_pressure / load - 1.0).abs() <= 1.01 * tolerance, "{what}");
                 } else {
                     assert!(report.relative_error.max(report.load_error) > tolerance, "{what}");
@@ -72,7 +72,7 @@ fn f64_solves_loads_down_to_a_contact_of_one_node() {
     for exponent in 3..12 {
         let report = solved::<f64>(&rough(64), Control::MeanPressure(10_f64.powi(-exponent)), 1e-6).report;
         assert_eq!(report.status, Status::Converged, "{report:?}");
-        assert!(exponent < 9 || report.contact_points == 1);
+        assert!(exponent < 9 || report.contact_nodes == 1);
     }
 }
 
@@ -84,7 +84,7 @@ fn the_energy_of_a_contact_of_one_node_is_exact() {
     let dense = Dense::new((16, 16), (1.0, 1.0), 1.0);
     for load in [1e-7, 1e-9, 1e-11] {
         let Solution { gap, report, .. } = solved::<f64>(&heights, Control::MeanPressure(load), 1e-5);
-        assert_eq!(report.contact_points, 1);
+        assert_eq!(report.contact_nodes, 1);
         let force: Vec<f64> = gap.iter().map(|&g| if g == 0.0 { 256.0 * load } else { 0.0 }).collect();
         let exact = 0.5 * dense.compliant(&force.iter().map(|f| f - load).collect::<Vec<_>>());
         assert!((report.elastic_energy / exact - 1.0).abs() < 4e-5, "{load:e}: {:e} {exact:e}", report.elastic_energy);
@@ -116,11 +116,11 @@ fn a_tension_that_is_held_is_not_given_up() {
     let mut solve = |load| Solver::default().solve(&mut problem, Control::MeanPressure(load)).unwrap().report;
     for load in [-1.953e-8, -2e-6] {
         let report = solve(load);
-        assert_eq!((report.status, report.contact_points), (Status::Converged, 1), "{load:e}");
+        assert_eq!((report.status, report.contact_nodes), (Status::Converged, 1), "{load:e}");
         assert!((report.carried_pressure - load).abs() < 1e-6 * report.mean_contact_pressure);
     }
     let lost = solve(-3e-4);
-    assert_eq!((lost.status, lost.contact_points), (Status::Detached, 0));
+    assert_eq!((lost.status, lost.contact_nodes), (Status::Detached, 0));
     assert!(lost.carried_pressure.abs() < 1e-6 * 3e-4 && lost.mean_pressure == -3e-4);
 }
 
@@ -169,7 +169,7 @@ fn floors() {
         println!(
             "| {name} | {} | {load:.0e} | {} | {:.1e} | {real:.1e} | {:.1e} |",
             T::NAME,
-            report.contact_points,
+            report.contact_nodes,
             report.relative_error,
             report.load_error
         );

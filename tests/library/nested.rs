@@ -90,7 +90,7 @@ fn agree<T: Real>(nested: &NestedSolution<T>, single: &Solution<T>, relative: f6
     let (found, single) = (&nested.solution.report, &single.report);
     assert!((found.mean_gap / single.mean_gap - 1.0).abs() < relative);
     assert!((found.mean_pressure / single.mean_pressure - 1.0).abs() < relative);
-    assert!(found.contact_points.abs_diff(single.contact_points) <= nodes);
+    assert!(found.contact_nodes.abs_diff(single.contact_nodes) <= nodes);
 }
 
 #[test]

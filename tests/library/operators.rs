@@ -130,8 +130,9 @@ fn the_preconditioner_is_symmetric_and_positive_and_the_products_are_those_of_th
             [&mut operator, &mut Plain(Westergaard::new(grid, 1.0).unwrap())];
         for mut operator in operators {
             let (mut ma, mut mb) = (Array2::zeros(shape), Array2::zeros(shape));
-            let found = operator.precondition(a.view(), 0.7, 0.6, ma.view_mut()).unwrap();
-            ElasticOperator::precondition(&mut operator, b.view(), 0.7, 0.6, mb.view_mut()).unwrap();
+            let found = operator.precondition(a.view(), Foundation::uniform(0.7, 0.6), ma.view_mut()).unwrap();
+            ElasticOperator::precondition(&mut operator, b.view(), Foundation::uniform(0.7, 0.6), mb.view_mut())
+                .unwrap();
             assert_relative_eq!(found.error, dot(&a, &compliant), epsilon = 1e-14, max_relative = 1e-12);
             assert_relative_eq!(found.descent, dot(&a, &ma), epsilon = 1e-14, max_relative = 1e-12);
             assert_relative_eq!(found.mean, ma.sum() / ma.len() as f64, epsilon = 1e-14);
@@ -155,7 +156,7 @@ fn a_plain_operator_solves_the_same_problem() {
         let a = crate::common::solve(&mut fast, control, 1e-10);
         let b = crate::common::solve(&mut plain, control, 1e-10);
         assert_eq!((a.report.status, b.report.status), (Status::Converged, Status::Converged));
-        assert_eq!(a.report.contact_points, b.report.contact_points);
+        assert_eq!(a.report.contact_nodes, b.report.contact_nodes);
         assert_relative_eq!(a.report.mean_gap, b.report.mean_gap, max_relative = 1e-9);
     }
 }
@@ -206,7 +207,7 @@ fn an_application_allocates_nothing() {
             let count = allocation_counter::measure(|| {
                 operator.pressure(u.view(), p.view_mut()).unwrap();
                 operator.displacement(u.view(), p.view_mut()).unwrap();
-                operator.precondition(u.view(), 1.0, 1.0, p.view_mut()).unwrap();
+                operator.precondition(u.view(), Foundation::uniform(1.0, 1.0), p.view_mut()).unwrap();
             });
             assert_eq!(count.count_total, 0, "{shape:?}");
         }

@@ -59,19 +59,19 @@ fn energy(step: &PathStep<f64>) -> f64 {
 #[test]
 fn jumps_are_found_where_they_are_however_long_the_steps() {
     let mut found: Vec<Vec<Jump>> = Vec::new();
-    let resolutions = [1e-2, 1e-3, 1e-4, 1e-5];
-    for resolution in resolutions {
-        let settings = PathSettings { resolution, ..PathSettings::default() };
+    let smallest_steps = [1e-2, 1e-3, 1e-4, 1e-5];
+    for smallest_step in smallest_steps {
+        let settings = PathSettings { smallest_step, ..PathSettings::default() };
         let steps = follow(&mut wave(128, 2e-3), gaps(&[0.03, 0.015, 0.03]), settings, 1e-6);
         assert_eq!(names(&steps), ["jump-in", "pull-off"]);
         found.push(jumps(&steps));
     }
     for k in 0..2 {
         let last = found[3][k];
-        for (jumps, resolution) in found.iter().zip(resolutions) {
+        for (jumps, smallest_step) in found.iter().zip(smallest_steps) {
             let jump = jumps[k];
             let width = (jump.mean_gap.1 - jump.mean_gap.0).abs();
-            assert!(width <= 1.001 * resolution * 0.015);
+            assert!(width <= 1.001 * smallest_step * 0.015);
             // within its own width, and that of a step at which the branch before it is lost
             assert!((jump.mean_gap.0 - last.mean_gap.0).abs() <= 3.0 * width, "{jump:?} {last:?}");
             let unsure = width * (jump.mean_pressure.1 - jump.mean_pressure.0).abs();
@@ -82,7 +82,7 @@ fn jumps_are_found_where_they_are_however_long_the_steps() {
 
 #[test]
 fn energy_is_balanced_over_a_cycle() {
-    let settings = PathSettings { tolerance: 1e-9, ..PathSettings::default() };
+    let settings = PathSettings { imbalance: 1e-9, ..PathSettings::default() };
     let mut problem = wave(256, 2e-3);
     let steps = follow(&mut problem, gaps(&[0.03, 0.012, 0.03]), settings, 1e-10);
     let (first, last) = (&steps[0], &steps[steps.len() - 1]);
@@ -110,9 +110,9 @@ fn a_pressure_leads_to_limit_points_and_the_gap_past_them() {
     // the steps by the gap pass the limit point at a distance of theirs, on a curve that the grid ripples
     assert!((least(&steps) / least(&given_gap) - 1.0).abs() < 5e-3);
     let Some(Event::LimitPoint { mean_pressure, .. }) = steps.iter().find_map(|step| step.event) else { panic!() };
-    assert!((mean_pressure - least(&steps)).abs() <= 3.0 * settings.resolution * 0.106);
+    assert!((mean_pressure - least(&steps)).abs() <= 3.0 * settings.smallest_step * 0.106);
     let last = &steps[steps.len() - 1].solution.report;
-    assert!(last.contact_points == 0 && last.mean_pressure.abs() < 1e-3 * mean_pressure.abs());
+    assert!(last.contact_nodes == 0 && last.mean_pressure.abs() < 1e-3 * mean_pressure.abs());
 
     // and to a pressure beyond the one from which the contact closes
     let steps = follow(&mut problem, pressures(&[6e-3, 0.05]), settings, 1e-6);
@@ -202,7 +202,7 @@ fn two_equal_waves_come_into_contact_one_after_the_other() {
 
 #[test]
 fn energy_is_balanced_through_a_bifurcation() {
-    let settings = PathSettings { tolerance: 1e-8, ..PathSettings::default() };
+    let settings = PathSettings { imbalance: 1e-8, ..PathSettings::default() };
     let steps = follow(&mut two_waves(256, 0.0), gaps(&[0.03, 0.01, 0.03]), settings, 1e-9);
     let bifurcation = steps.iter().position(|step| matches!(step.event, Some(Event::Bifurcation { .. }))).unwrap();
     let Some(Event::Bifurcation { eigenvalue, jump }) = steps[bifurcation].event else { unreachable!() };
@@ -372,8 +372,8 @@ fn bad_settings_and_checkpoints_are_refused() {
     assert_eq!(refused(pressures(&[f64::NAN]), good), "mean pressure");
     let load = gaps(&[0.03]);
     assert_eq!(refused(load.clone(), PathSettings { steps: 0, ..good }), "number of steps");
-    assert_eq!(refused(load.clone(), PathSettings { tolerance: -1.0, ..good }), "tolerance");
-    assert_eq!(refused(load.clone(), PathSettings { resolution: 1.0, ..good }), "resolution");
+    assert_eq!(refused(load.clone(), PathSettings { imbalance: -1.0, ..good }), "imbalance");
+    assert_eq!(refused(load.clone(), PathSettings { smallest_step: 1.0, ..good }), "smallest step");
     assert!(Path::new(&mut solver, &mut problem, [], good).unwrap().next().is_none());
     let mut path = Path::new(&mut solver, &mut problem, load.clone(), good).unwrap();
     assert!(path.next().unwrap().is_ok() && path.next().is_none());
@@ -395,7 +395,7 @@ fn pull_off(n: usize, work: f64, range: f64, smooth: bool) -> (f64, f64) {
     let periodic = exact::Periodic::new(exact, 1.0).unwrap();
     let state = periodic.pull_off().unwrap();
     let at = state.mean_gap(mean);
-    let settings = PathSettings { steps: 40, resolution: 1e-2, smooth, ..PathSettings::default() };
+    let settings = PathSettings { steps: 40, smallest_step: 1e-2, smooth, ..PathSettings::default() };
     let loads = gaps(&[at - 0.3 * range, at + 0.5 * range]);
     let mut solver = Solver::new(Settings { tolerance: Some(1e-5), ..Settings::default() });
     let path = Path::new(&mut solver, &mut problem, loads, settings).unwrap();

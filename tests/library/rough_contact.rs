@@ -101,11 +101,11 @@ fn adhesion_opens_no_gap_at_the_same_external_load_and_adds_contact() {
         let mut last = solve(&mut press(n, seed, NoAdhesion), control, 1e-8, None);
         for work in [5e-7, 2e-6, 8e-6] {
             let mut problem = press(n, seed, Exponential::new(work, 4e-4).unwrap());
-            assert!(problem.resolution() < 0.5);
+            assert!(problem.mu_rho() < 0.5);
             let found = solve(&mut problem, control, 1e-8, None);
             let opened = last.gap.iter().zip(&found.gap).filter(|(before, after)| after > before).count();
             assert_eq!(opened, 0, "seed {seed}, load {load}, work of adhesion {work}");
-            assert!(found.report.contact_points > last.report.contact_points);
+            assert!(found.report.contact_nodes > last.report.contact_nodes);
             last = found;
         }
         // under the same contact pressure, part of which only balances the attraction, there is less of it
@@ -127,7 +127,7 @@ fn the_work_of_adhesion_goes_with_modulus_times_length() {
         let mut problem = Problem::new(&surface, Westergaard::<f64>::new(grid, modulus).unwrap(), law).unwrap();
         let load = LOAD * modulus * height / length;
         let found = solve(&mut problem, Control::MeanPressure(load), 1e-8, None);
-        (found.report.contact_points, found.gap / height, problem.resolution())
+        (found.report.contact_nodes, found.gap / height, problem.mu_rho())
     };
     let (modulus, length) = (f64::from(1 << 30), 1.0 / f64::from(1 << 20));
     let unit = scaled(1.0, 1.0, 1.0, 1.0);
@@ -148,7 +148,7 @@ fn the_energy_falls_with_the_mean_gap_as_the_pressure_says() {
     let mut smooth = 0;
     for (seed, gap) in [(0, 3e-3), (1, 3e-3), (2, 2e-3), (3, 1.5e-3)] {
         let mut problem = press(160, seed, Exponential::new(2e-6, 4e-4).unwrap());
-        assert!(problem.resolution() < 0.5);
+        assert!(problem.mu_rho() < 0.5);
         let middle = solve(&mut problem, Control::MeanGap(gap), 1e-10, None);
         let pressure = middle.report.mean_pressure;
         // far from the other load

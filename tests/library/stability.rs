@@ -297,3 +297,23 @@ fn nothing_can_move_in_full_contact_and_bad_input_is_refused() {
     let test = StabilityTest { tolerance: 0.0, ..StabilityTest::default() };
     assert!(matches!(test.run(&mut problem, control, &solution), Err(Error::Value { name: "tolerance", .. })));
 }
+
+#[test]
+fn springs_are_part_of_the_second_derivative() {
+    // two flats that are pressed into springs of stiffness k: k for the mean, and k + πE*/L for the softest wave
+    let stiffness = 7.0;
+    let mut problem = flat::<f64>((16, 16), Exponential::new(1e-3, 1e-2).unwrap());
+    let mut solver = Solver { settings: Settings::default(), constraint: Penalty::new(stiffness).unwrap() };
+    let pressed = Control::MeanPressure(0.05);
+    let solution = solver.solve(&mut problem, pressed).unwrap();
+    assert!(solution.report.min_gap < 0.0);
+    let held = Control::MeanGap(solution.report.mean_gap);
+    for (control, exact) in [(pressed, stiffness), (held, stiffness + 2.0 * PI)] {
+        let stability = TIGHT.run_with(&mut problem, &solver.constraint, control, &solution).unwrap();
+        assert_eq!(stability.verdict, Verdict::Stable);
+        assert!((stability.eigenvalue / exact - 1.0).abs() < 1e-8, "{} {exact}", stability.eigenvalue);
+        // a rigid wall leaves no such gap
+        let refused = TIGHT.run(&mut problem, control, &solution);
+        assert!(matches!(refused, Err(Error::Value { name: "gap", .. })), "{refused:?}");
+    }
+}

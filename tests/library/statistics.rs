@@ -77,7 +77,7 @@ fn the_perimeter_of_a_disc_is_that_of_its_square() {
         if dx == dy {
             assert!((found.contact_fraction - found.corrected_contact_fraction - expected).abs() < 1e-9);
         }
-        assert_eq!(found.cluster_sizes, [found.contact_points]);
+        assert_eq!(found.cluster_sizes, [found.contact_nodes]);
     }
 }
 
@@ -92,9 +92,9 @@ fn the_nodes_in_contact_are_those_of_the_report_whatever_the_constraint() {
     let hard = Solver { settings, constraint: Uzawa::new(500.0).unwrap() }.solve(&mut problem, control).unwrap();
     for solution in [projected, soft, hard] {
         let found = ContactStatistics::of(&solution, problem.grid(), &NoAdhesion).unwrap();
-        assert_eq!(found.contact_points, solution.report.contact_points);
+        assert_eq!(found.contact_nodes, solution.report.contact_nodes);
         assert_eq!(found.contact_fraction, solution.report.contact_fraction);
-        assert_eq!(found.cluster_sizes.iter().sum::<usize>(), found.contact_points);
+        assert_eq!(found.cluster_sizes.iter().sum::<usize>(), found.contact_nodes);
         assert!(found.cluster_sizes.is_sorted_by(|a, b| a >= b) && found.cluster_sizes.len() > 5);
         assert!(found.repulsive_fraction <= found.contact_fraction);
         assert!(found.repulsive_fraction > 0.99 * found.contact_fraction);

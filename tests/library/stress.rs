@@ -230,9 +230,9 @@ impl Scene {
             need(gap.iter().all(|&g| g >= 0.0), "a gap is negative".into())?;
             need(gap.iter().zip(&contact).all(|(g, p)| g * p == 0.0), "complementarity".into())?;
             let touching = gap.iter().filter(|g| **g == 0.0).count();
-            need(report.contact_points == touching, format!("{} points, not {touching}", report.contact_points))?;
+            need(report.contact_nodes == touching, format!("{} points, not {touching}", report.contact_nodes))?;
         }
-        need(report.contact_fraction == report.contact_points as f64 / nodes, "contact fraction".into())?;
+        need(report.contact_fraction == report.contact_nodes as f64 / nodes, "contact fraction".into())?;
         let lowest = gap.iter().copied().fold(f64::INFINITY, f64::min);
         need(report.min_gap == lowest, format!("least gap {:e} is not {lowest:e}", report.min_gap))?;
         let size = mean(&gap.iter().map(|g| g.abs()).collect::<Vec<_>>());
@@ -326,8 +326,8 @@ impl Scene {
         let residual: Vec<f64> = (0..r.len()).map(|i| if working[i] { r[i] - level } else { 0.0 }).collect();
         let certificate = dense.compliant(&residual);
         // without the cancellation of large sums that the product of the matrix has
-        let work = if projects && report.contact_points > 0 { 2.0 * report.elastic_energy } else { work };
-        let scale = if report.contact_points > 0 { work } else { work.max(surface_work) };
+        let work = if projects && report.contact_nodes > 0 { 2.0 * report.elastic_energy } else { work };
+        let scale = if report.contact_nodes > 0 { work } else { work.max(surface_work) };
         let relative = (certificate / scale).sqrt();
         let noise = if dense.softest > 0.0 { edge / (dense.softest * scale).sqrt() } else { 0.0 };
         let uzawa = matches!(self.constraint, Constraint::Uzawa(_));

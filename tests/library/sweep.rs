@@ -39,7 +39,7 @@ fn compare<L: AdhesionLaw<f64>>(problem: &mut Problem<f64, Westergaard<f64>, L>,
         let single = Solver::default().solve(problem, *control).unwrap().report;
         cold += single.operator_applications;
         assert!((found.report.mean_gap - single.mean_gap).abs() <= 1e-5 * single.mean_gap);
-        assert!(found.report.contact_points.abs_diff(single.contact_points) <= 3);
+        assert!(found.report.contact_nodes.abs_diff(single.contact_nodes) <= 3);
     }
     (applications(&steps), cold)
 }
@@ -111,7 +111,7 @@ fn a_sweep_with_adhesion_follows_its_branch() {
     let pressed = pressures(&[1e-3, 0.0, -1e-3, -2e-2, -1e-3, 1e-3]);
     let steps = sweep(&mut problem, &pressed);
     let status: Vec<_> = steps.iter().map(|(_, solution)| solution.report.status).collect();
-    let contact: Vec<_> = steps.iter().map(|(_, solution)| solution.report.contact_points).collect();
+    let contact: Vec<_> = steps.iter().map(|(_, solution)| solution.report.contact_nodes).collect();
     // pulled apart by the fourth load, the surfaces do not come together again under the fifth
     assert_eq!(status[..3], [Status::Converged; 3]);
     assert_eq!(status[3..5], [Status::Detached; 2]);

@@ -308,8 +308,8 @@ fn unstable_equilibria_can_be_left() {
     let (stable, silence) = run("run left/scene.toml --initial-gap left/gap.npy --out stays");
     assert_eq!(silence, "");
     assert_eq!(
-        (stable["departures"].as_array().map(Vec::len), &stable["contact_points"]),
-        (Some(0), &left["contact_points"])
+        (stable["departures"].as_array().map(Vec::len), &stable["contact_nodes"]),
+        (Some(0), &left["contact_nodes"])
     );
     assert!(bench.names("stays").contains(&"mode.npy".to_owned()));
 }

@@ -143,7 +143,7 @@ fn demo() {
     assert!(bench.bytes("scene", "gap.npy") == bench.bytes("asperity-demo/with-adhesion", "gap.npy"));
     let first = bench.run("demo --json --out other");
     let reports: Value = serde_json::from_slice(&first.stdout).unwrap();
-    assert_eq!(reports["with_adhesion"]["contact_points"], report["contact_points"]);
+    assert_eq!(reports["with_adhesion"]["contact_nodes"], report["contact_nodes"]);
     assert_eq!(reports["without_adhesion"]["law"], "none");
     for folder in ["scene", "other"] {
         fs::remove_dir_all(bench.0.path().join(folder)).unwrap();
@@ -174,7 +174,7 @@ fn hertz_at_a_mean_gap_and_at_the_pressure_it_takes() {
         "mean_pressure",
         "mean_contact_pressure",
         "contact_fraction",
-        "contact_points",
+        "contact_nodes",
         "min_gap",
         "elastic_energy",
         "adhesive_energy",
@@ -197,7 +197,7 @@ fn hertz_at_a_mean_gap_and_at_the_pressure_it_takes() {
     }
     assert_eq!((&report["status"], &report["method"]), (&"converged".into(), &"default".into()));
     assert_eq!((&report["precision"], &report["law"]), (&"f64".into(), &"none".into()));
-    assert_eq!(report["contact_points"], 61);
+    assert_eq!(report["contact_nodes"], 61);
     assert_eq!(number(&report, "contact_fraction"), 61.0 / 4096.0);
     assert!(number(&report, "relative_error") <= 1e-10);
     assert_close(number(&report, "mean_pressure"), 1.831421e-4, 5e-7 / 1.831421);
@@ -218,17 +218,17 @@ fn hertz_at_a_mean_gap_and_at_the_pressure_it_takes() {
     let arguments = format!("--mean-pressure {} --tolerance 1e-10", report["mean_pressure"]);
     let back = bench.solve(&arguments, "back", 0);
     assert_close(number(&back, "mean_gap"), 0.0398, 1e-8);
-    assert_eq!(back["contact_points"], 61);
+    assert_eq!(back["contact_nodes"], 61);
 }
 
 #[test]
 fn both_methods_and_both_precisions_agree() {
     let bench = Bench::new();
     let paper = bench.solve("--mean-gap 0.0398 --method rey2017", "paper", 0);
-    assert_eq!((&paper["method"], &paper["contact_points"]), (&"rey2017".into(), &61.into()));
+    assert_eq!((&paper["method"], &paper["contact_nodes"]), (&"rey2017".into(), &61.into()));
     assert!(number(&paper, "relative_error") <= 1e-6);
     let single = bench.solve("--mean-gap 0.0398 --precision f32 --tolerance 1e-3", "single", 0);
-    assert_eq!((&single["precision"], &single["contact_points"]), (&"f32".into(), &61.into()));
+    assert_eq!((&single["precision"], &single["contact_nodes"]), (&"f32".into(), &61.into()));
     assert_close(number(&single, "mean_pressure"), 1.831421e-4, 1e-3);
     for name in FIELDS {
         assert!(bench.bytes("paper", name).windows(3).any(|w| w == b"<f8"));
@@ -292,7 +292,7 @@ fn adhesion_adds_contact_and_tells_if_it_is_under_resolved() {
         assert_eq!(sticky["law"], *law);
         assert_eq!((number(&sticky, "work_of_adhesion"), number(&sticky, "range")), (1e-4, 4e-3));
         assert_close(number(&sticky, "mu_rho"), (1e-4_f64 / 64.0).sqrt() / 4e-3, 1e-12);
-        assert!(number(&sticky, "contact_points") > number(&bare, "contact_points"));
+        assert!(number(&sticky, "contact_nodes") > number(&bare, "contact_nodes"));
         assert!(number(&sticky, "adhesive_energy") < 0.0);
         // The contact pressure is the full pressure plus the traction, which is w/rho where there is no gap.
         let [gap, pressure, contact] = FIELDS.map(|name| bench.field(law, name));
@@ -314,7 +314,7 @@ fn a_given_start_saves_iterations() {
     let first = bench.solve("--mean-pressure 2e-4 --no-pictures", "first", 0);
     let second = bench.solve("--mean-pressure 2e-4 --no-pictures --initial-gap first/gap.npy", "second", 0);
     assert!(number(&second, "iterations") < 0.5 * number(&first, "iterations"));
-    assert_eq!(second["contact_points"], first["contact_points"]);
+    assert_eq!(second["contact_nodes"], first["contact_nodes"]);
     assert_eq!((&second["initial_gap"], &first["initial_gap"]), (&"first/gap.npy".into(), &Value::Null));
 }
 
@@ -328,10 +328,10 @@ fn nested_grids_give_the_same_for_less_and_say_what_they_took() {
         let nested = bench.solve(&format!("{load} --no-pictures --force --nested"), "nested", 0);
         assert_close(number(&nested, "mean_gap"), number(&single, "mean_gap"), 1e-5);
         assert_close(number(&nested, "mean_pressure"), number(&single, "mean_pressure"), 1e-5);
-        assert_close(number(&nested, "contact_points"), number(&single, "contact_points"), 1e-3);
-        assert_eq!((&single["grids"], &single["equivalent_applications"]), (&Value::Null, &Value::Null));
+        assert_close(number(&nested, "contact_nodes"), number(&single, "contact_nodes"), 1e-3);
+        assert_eq!((&single["levels"], &single["equivalent_applications"]), (&Value::Null, &Value::Null));
 
-        let grids = nested["grids"].as_array().unwrap();
+        let grids = nested["levels"].as_array().unwrap();
         let shapes: Vec<_> = grids.iter().map(|grid| &grid["shape"]).collect();
         assert_eq!(shapes, [&json!([64, 64]), &json!([128, 128]), &json!([256, 256])]);
         assert!(grids.iter().all(|grid| grid["status"] == "converged"));
@@ -345,7 +345,7 @@ fn nested_grids_give_the_same_for_less_and_say_what_they_took() {
     // grids that do not resolve the adhesion are not used
     let sticky = "--law exponential --work-of-adhesion 1e-4 --range 1.5e-3";
     let report = bench.solve(&format!("--mean-gap 0.02 --nested {sticky}"), "sticky", 0);
-    assert_eq!(report["grids"].as_array().unwrap().len(), 1);
+    assert_eq!(report["levels"].as_array().unwrap().len(), 1);
 
     let refused =
         bench.run("solve --heights heights.npy --mean-gap 0.02 --nested --initial-gap single/gap.npy --out no");

@@ -59,7 +59,7 @@ fn each_command_says_what_is_probably_a_mistake_and_reports_it() {
         for (command, out) in [
             ("solve --mean-gap 1e5 --no-pictures", "results"),
             ("sweep --mean-gaps 2e5,1e5", "sweep.csv"),
-            ("cycle --mean-pressures 0.01,0.02 --modulus 1e3 --steps 2 --resolution 0.1", "cycle.csv"),
+            ("cycle --mean-pressures 0.01,0.02 --modulus 1e3 --steps 2 --smallest-step 0.1", "cycle.csv"),
         ] {
             let output = bench.run(&format!("{command} --heights {heights} --out {out} --force --json"));
             // some of that does not converge, which is told too
@@ -99,9 +99,10 @@ fn strict_takes_warnings_for_errors_and_writes_nothing() {
     let high = "solve --heights clean.npy --mean-pressure 5 --no-pictures --out high";
     bench.refused_with(&format!("{high} --strict"), &["beyond-modulus", "contact modulus"]);
     // an answer that is refused before the first row of a table leaves no table
-    for table in
-        ["sweep --mean-pressures 5,6 --out s.csv", "cycle --mean-pressures 5,6 --steps 2 --resolution 0.1 --out c.csv"]
-    {
+    for table in [
+        "sweep --mean-pressures 5,6 --out s.csv",
+        "cycle --mean-pressures 5,6 --steps 2 --smallest-step 0.1 --out c.csv",
+    ] {
         bench.refused_with(&format!("{table} --heights clean.npy --strict"), &["beyond-modulus"]);
     }
     assert_eq!(bench.names("."), before);

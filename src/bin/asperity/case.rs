@@ -164,7 +164,7 @@ fn steadiness<T: Scalar>(found: Stability<T>) -> Steadiness {
 
 /// Refuses fields that are not finite, as of a solve that has run away.
 pub fn check_finite<T: Scalar>(solution: &Solution<T>) -> Outcome<()> {
-    let Solution { gap, pressure, contact_pressure, report } = solution;
+    let Solution { gap, pressure, contact_pressure, report, .. } = solution;
     let fields = [("gap", gap), ("pressure", pressure), ("contact pressure", contact_pressure)];
     for (name, field) in fields {
         let count = field.iter().filter(|value| !value.is_finite()).count();

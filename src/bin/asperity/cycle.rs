@@ -3,7 +3,8 @@
 use std::path::PathBuf;
 
 use asperity::path::{Event, Path, PathCheckpoint, PathSettings, PathStep};
-use asperity::{Chart, Control, Error, Grid, Problem, Solver, Status, Surface, Westergaard};
+use asperity::picture::Chart;
+use asperity::{Control, Error, Grid, Problem, Solver, Status, Surface, Westergaard};
 use clap::{ArgGroup, Args};
 use ndarray::Array2;
 use serde_json::{Map, Value, json};
@@ -50,7 +51,7 @@ pub struct Options {
     /// Step to which jumps are located, as a share of the way from one turning point to the next
     #[arg(long, value_name = "SHARE", default_value = "1e-4", allow_hyphen_values = true, value_parser = options::positive)]
     #[arg(help_heading = "Loads")]
-    resolution: f64,
+    smallest_step: f64,
     /// Imbalance of energy that a step may have, as a share of how much the energy has changed
     #[arg(long, value_name = "SHARE", default_value = "1e-4", allow_hyphen_values = true, value_parser = options::positive)]
     #[arg(help_heading = "Loads")]
@@ -144,8 +145,8 @@ impl Options {
         let mut solver = Solver::new(self.solver.settings());
         let settings = PathSettings {
             steps: self.steps,
-            resolution: self.resolution,
-            tolerance: self.imbalance,
+            smallest_step: self.smallest_step,
+            imbalance: self.imbalance,
             smooth: !self.sharp,
         };
         let mut path = Path::new(&mut solver, &mut problem, loads, settings)?;
@@ -217,7 +218,7 @@ impl Options {
         identity.insert("loads".to_owned(), values.join(" ").into());
         for (name, value) in [
             ("steps", self.steps.to_string()),
-            ("resolution", self.resolution.to_string()),
+            ("smallest_step", self.smallest_step.to_string()),
             ("imbalance", self.imbalance.to_string()),
             ("sharp", self.sharp.to_string()),
         ] {

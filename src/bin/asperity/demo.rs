@@ -4,7 +4,8 @@ use std::ffi::{OsStr, OsString};
 use std::path::{Path, PathBuf};
 
 use asperity::io::{OutputFolder, write_npy};
-use asperity::{Amplitude, Colouring, Exponential, Grid, Map, NoAdhesion, SelfAffine, Status, Surface};
+use asperity::picture::{Colouring, Map};
+use asperity::{Amplitude, Exponential, Grid, NoAdhesion, SelfAffine, Status, Surface};
 use clap::{Args, Command, FromArgMatches};
 use ndarray::Array2;
 use serde_json::json;

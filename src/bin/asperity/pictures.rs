@@ -2,7 +2,8 @@
 
 use std::path::Path;
 
-use asperity::{Colouring, Grid, Map, Result, Solution};
+use asperity::picture::{Colouring, Map};
+use asperity::{Grid, Result, Solution};
 use ndarray::Array2;
 
 use crate::numbers::percent;

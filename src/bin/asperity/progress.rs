@@ -55,7 +55,7 @@ impl Progress {
             self.bar.set_position(((STEPS * way.clamp(0.0, 1.0)) as u64).max(self.bar.position()));
         }
         let error = if state.relative_error.is_finite() { format!("{:.1e}", state.relative_error) } else { "?".into() };
-        let contact = 100.0 * state.contact_points as f64 / self.nodes;
+        let contact = 100.0 * state.contact_nodes as f64 / self.nodes;
         self.bar.set_message(format!("{}: error {error}, contact {contact:.2} %", state.iteration));
     }
 }

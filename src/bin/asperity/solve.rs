@@ -167,7 +167,7 @@ impl Options {
     pub fn report(&self, grid: Grid, account: &Account, length_unit: Option<&str>) -> Value {
         let (case, report) = (self.case(), &account.report);
         let (control, held) = name_and_value(case.control);
-        let grids = account.grids.as_ref().map(|(levels, _)| levels.iter().map(level).collect::<Vec<_>>());
+        let levels = account.grids.as_ref().map(|(levels, _)| levels.iter().map(level).collect::<Vec<_>>());
         let outcome = json!({
             "status": report.status.name(),
             "relative_error": report.relative_error,
@@ -175,14 +175,14 @@ impl Options {
             "criterion": report.criterion.name(),
             "iterations": report.iterations,
             "operator_applications": report.operator_applications,
-            "grids": grids,
+            "levels": levels,
             "equivalent_applications": account.grids.as_ref().map(|(_, applications)| applications),
             "mean_gap": report.mean_gap,
             "mean_pressure": report.mean_pressure,
             "carried_pressure": report.carried_pressure,
             "mean_contact_pressure": report.mean_contact_pressure,
             "contact_fraction": report.contact_fraction,
-            "contact_points": report.contact_points,
+            "contact_nodes": report.contact_nodes,
             "corrected_contact_fraction": account.contact.corrected_contact_fraction,
             "perimeter": account.contact.perimeter,
             "min_gap": report.min_gap,

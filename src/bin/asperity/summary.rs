@@ -19,7 +19,7 @@ pub fn table(names: &[&str], solves: &[&Account], style: Style) -> String {
     };
     row("contact", &|_, r| format!("{} %", percent(r.contact_fraction)));
     row("corrected for its edge", &|s, _| format!("{} %", percent(s.contact.corrected_contact_fraction)));
-    row("points in contact", &|s, r| format!("{} of {}", r.contact_points, s.nodes));
+    row("nodes in contact", &|s, r| format!("{} of {}", r.contact_nodes, s.nodes));
     row("mean gap", &|_, r| style.number(r.mean_gap, "m"));
     row("mean pressure", &|_, r| style.number(r.mean_pressure, "Pa"));
     row("carried pressure", &|_, r| style.number(r.carried_pressure, "Pa"));

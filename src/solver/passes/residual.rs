@@ -6,7 +6,7 @@ use crate::field::{CHUNK, Partial, read, write};
 use crate::par::IndexedParallelIterator;
 use crate::real::Real;
 use crate::solver::potential::Potential;
-use crate::vector::{sums, vectors};
+use crate::vector::sums;
 
 /// The working set: the nodes that may move, by the gradient r, and the constants of r and r'.
 #[derive(Clone, Copy, Debug)]
@@ -52,13 +52,6 @@ pub(in crate::solver) struct Continued {
     pub(in crate::solver) overlap: f64,
     /// Σ c over the working set
     pub(in crate::solver) sum_change: f64,
-}
-
-/// The weight v = √((g + least)/(g + half)) with which a node follows the mean gap.
-#[derive(Clone, Copy, Debug)]
-pub(in crate::solver) struct Follows<T> {
-    pub(in crate::solver) half: T,
-    pub(in crate::solver) least: T,
 }
 
 /// The residual of a node of the working set.
@@ -151,34 +144,6 @@ pub(in crate::solver) fn release<T: Real>(fields: &mut Fields<T>, projects: bool
     reducer.keep(|part| part.sum[0], moving);
     let [working, orthogonality, descent, overlap, sum_change, ..] = total.sum;
     Continued { orthogonality, working, descent, overlap, sum_change }
-}
-
-#[inline(always)]
-fn follow<T: Real>(follows: Follows<T>, gap: T) -> T {
-    ((gap + follows.least) / (gap + follows.half)).sqrt()
-}
-
-/// Σ v and Σ v·r', with v the weight of [`Follows`].
-pub(in crate::solver) fn lift_sums<T: Real>(fields: &mut Fields<T>, follows: Follows<T>) -> [f64; 2] {
-    let Fields { reducer, gap, residual, .. } = fields;
-    let total = reducer.run(read(gap).zip(read(residual)), |_, (gap, residual)| {
-        sums!(2, [gap, residual], [], |i| {
-            let v = follow(follows, gap[i]).widen();
-            ([v, v * residual[i].widen()], f64::INFINITY)
-        })
-    });
-    [total.sum[0], total.sum[1]]
-}
-
-/// Adds `scale`·v to z.
-pub(in crate::solver) fn lift<T: Real>(fields: &mut Fields<T>, follows: Follows<T>, scale: T) {
-    let Fields { reducer, gap, preconditioned, .. } = fields;
-    reducer.run(read(gap).zip(write(preconditioned)), |_, (gap, z)| {
-        vectors!([gap], [z], |i| {
-            z[i] += scale * follow(follows, gap[i]);
-        });
-        Partial::NONE
-    });
 }
 
 /// Σ z outside of the working set of the present residual.

@@ -4,6 +4,7 @@ use super::Topography;
 use crate::error::{Error, Result};
 
 /// A trend, which [`Topography::detrend`] takes away.
+#[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Trend {
     /// The mean height.
@@ -17,6 +18,7 @@ pub enum Trend {
 /// The least-squares fit of a [`Trend`], about the centre of the map; terms that the trend does not have are 0.
 ///
 /// Slopes and curvatures are in terms of the side lengths; if those are unknown, of spacings.
+#[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fit {
     /// The height at the centre of the map.

@@ -58,14 +58,14 @@ impl Scene {
         let rounded = mean_product(&centred(&self.heights), &dense.pressure(&centred(&self.heights)))
             + dense.stiffest * report.mean_gap * (report.mean_gap + span);
         let floor = T::epsilon().widen() * (rounded / report.elastic_energy).sqrt();
-        prop_assume!(report.status == Status::Converged || report.contact_points == 0 || floor < 0.25 * tolerance);
+        prop_assume!(report.status == Status::Converged || report.contact_nodes == 0 || floor < 0.25 * tolerance);
         prop_assert_eq!(report.status, Status::Converged, "{:?}", report);
         let at_contact = problem.law().traction(T::zero()).widen();
         let gap = gap.mapv(T::widen);
         let centred = centred(&self.heights);
         let surface_work = mean_product(&centred, &dense.pressure(&centred));
         let work = 2.0 * report.elastic_energy;
-        let scale = if report.contact_points > 0 { work } else { work.max(surface_work) };
+        let scale = if report.contact_nodes > 0 { work } else { work.max(surface_work) };
         // what rounding does to a pressure, and that to the certificate
         let largest = gap.iter().chain(&centred).fold(0.0_f64, |a, b| a.max(b.abs()));
         let noise = 16.0 * T::epsilon().widen() * dense.stiffest * largest / dense.softest.sqrt();
@@ -177,7 +177,7 @@ fn units<T: Real>(
 fn controls<T: Real>(scene: &Scene, tolerance: f64) -> Result<(), TestCaseError> {
     let Control::MeanGap(_) = scene.control else { return Ok(()) };
     let held = scene.solve::<T>(tolerance, None)?;
-    if held.report.contact_points == 0 {
+    if held.report.contact_nodes == 0 {
         return Ok(());
     }
     let pressed = Scene { control: Control::MeanPressure(held.report.mean_pressure), ..scene.clone() };

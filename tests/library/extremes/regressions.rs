@@ -82,7 +82,7 @@ fn a_single_node_lands_from_far_away<T: Real>() {
         let start = Array2::from_elem((1, 1), start);
         let solution = solve_from(&mut Solver::default(), &mut alone, Control::MeanPressure(load), Some(&start));
         let report = &solution.report;
-        assert_eq!((report.status, report.contact_points), (Status::Converged, 1), "{load}");
+        assert_eq!((report.status, report.contact_nodes), (Status::Converged, 1), "{load}");
         assert!(report.iterations <= 3, "{load}: {}", report.iterations);
     }
 }
@@ -103,7 +103,7 @@ fn springs<T: Real, C: ContactConstraint<T>>(constraint: C) {
         assert_eq!(report.status, Status::Converged);
         assert!(report.mean_gap.abs() < 8.0 * T::epsilon().widen() * 0.02 && report.min_gap < 0.0);
         let lost = solve_from(&mut solver, &mut problem, Control::MeanPressure(-1e-3), None).report;
-        assert_eq!((lost.status, lost.contact_points), (Status::Detached, 0));
+        assert_eq!((lost.status, lost.contact_nodes), (Status::Detached, 0));
     }
 }
 
@@ -118,7 +118,7 @@ fn a_step_under_a_light_pressure_lands_on_all_of_its_plateau<T: Real>() {
     let mut solver = Solver::new(Settings { tolerance: Some(tolerance), ..Settings::default() });
     let report = solve_from(&mut solver, &mut problem, control, None).report;
     assert_eq!(report.status, Status::Converged, "{report:?}");
-    assert_eq!(report.contact_points, 8);
+    assert_eq!(report.contact_nodes, 8);
     assert!(report.iterations < 60, "{}", report.iterations);
 }
 

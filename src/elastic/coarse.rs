@@ -1,0 +1,513 @@
+//! The coarse space of the preconditioner: the longest waves, held by the contacts where these are.
+
+use std::f64::consts::{PI, SQRT_2, TAU};
+use std::ops::Range;
+
+use asperity_fft::num_complex::Complex;
+use ndarray::ArrayView2;
+
+use crate::fft::{Layout, Sums};
+use crate::grid::Grid;
+use crate::real::Real;
+use crate::vector::{LANES, vectorised};
+
+/// Blocks of the contact map along a side, for each wave length that the shortest wave has there: a product of two waves
+/// has twice as many, and two blocks resolve one.
+const BLOCKS: usize = 4;
+
+/// The longest waves of a grid on a foundation that holds the surface where it is in contact.
+///
+/// A uniform foundation, as the rest of the preconditioner has, knows how much contact there is but not where. These
+/// waves know it. With k the stiffness of the waves, α that of the foundation, and χ(x) the share of contact near x,
+/// their response z to a load r is the Galerkin solution of
+///
+/// ```math
+/// (k + α χ(x)) z = r
+/// ```
+///
+/// in the basis 1, √2 cos q·x, √2 sin q·x, which is orthonormal. The matrix is symmetric and positive, and decomposed by
+/// Cholesky.
+///
+/// An operator makes it ([`ElasticOperator::coarse_space`](crate::ElasticOperator::coarse_space)), the solver tells it
+/// where the contacts are, and the operator uses it where it
+/// [preconditions](crate::ElasticOperator::precondition). One that wraps another operator passes both calls on.
+#[derive(Clone, Debug)]
+pub struct CoarseSpace {
+    /// the mean, and one wave of each pair ±q, sorted by their columns
+    waves: Vec<Wave>,
+    /// the waves in each of the first columns of the half spectrum
+    columns: Vec<Range<usize>>,
+    /// the nodes of a block of the contact map along both axes; the last block may have fewer
+    block: (usize, usize),
+    moments: Moments,
+    /// the Cholesky factor, a lower triangle
+    factor: Vec<f64>,
+    /// the nodes that are apart, as a load, and the response to it
+    apart: [Vec<f64>; 2],
+    /// whether the response has no mean over the nodes that are apart
+    held: bool,
+    load: Vec<Complex<f64>>,
+    response: Vec<Complex<f64>>,
+    /// a load, and then the response, in the real basis
+    vector: Vec<f64>,
+}
+
+/// A wave, and the place of its mode in the half spectrum.
+#[derive(Clone, Copy, Debug)]
+struct Wave {
+    column: usize,
+    row: usize,
+    /// the row, in the same column, of the conjugate mode
+    mirror: Option<usize>,
+    /// the number of wave lengths along both sides
+    number: [isize; 2],
+    stiffness: f64,
+}
+
+impl CoarseSpace {
+    /// The space of the longest waves, of about so many dimensions; `None` if there is none but the mean.
+    pub(super) fn new(grid: &Grid, layout: Layout, symbol: &dyn Fn(f64, f64) -> f64, dimension: usize) -> Option<Self> {
+        let (waves, shape) = (waves(grid, layout, symbol, dimension), grid.shape());
+        if waves.len() < 2 {
+            return None;
+        }
+        let highest = [0, 1].map(|axis| waves.iter().map(|wave| wave.number[axis].unsigned_abs()).max().unwrap_or(0));
+        let block = |n: usize, highest: usize| if highest == 0 { n } else { (n / (BLOCKS * highest + 1)).max(1) };
+        let block = (block(shape.0, highest[0]), block(shape.1, highest[1]));
+        let columns = waves.last().map_or(0, |wave| wave.column + 1);
+        let until = |column| waves.partition_point(|wave| wave.column < column);
+        let (columns, count) = ((0..columns).map(|k| until(k)..until(k + 1)).collect(), waves.len());
+        let dimension = 2 * count - 1;
+        Some(Self {
+            waves,
+            columns,
+            block,
+            moments: Moments::new([shape.0, shape.1], [block.0, block.1], highest),
+            factor: vec![0.0; start(dimension)],
+            apart: [vec![0.0; dimension], vec![0.0; dimension]],
+            held: false,
+            load: vec![Complex::default(); count],
+            response: vec![Complex::default(); count],
+            vector: vec![0.0; dimension],
+        })
+    }
+
+    /// The nodes of a block of the contact map along both axes, and the blocks along both axes. The last may be smaller.
+    pub(crate) fn blocks(&self) -> [(usize, usize); 2] {
+        [self.block, (self.moments.points[0].len(), self.moments.points[1].len())]
+    }
+
+    /// Takes the contact map: for each block, in row-major order, its nodes in contact as a share of all nodes.
+    ///
+    /// `stiffness` is that of the foundation; `mean_stiffness`, which must be small beside it, keeps the mean from being
+    /// free. With `held` a response has no mean over the nodes that are apart: the mean gap is given. Returns `false`
+    /// if the matrix is not positive in its rounding.
+    pub(crate) fn renew(&mut self, contact: &[f64], stiffness: f64, mean_stiffness: f64, held: bool) -> bool {
+        let Self { waves, moments, factor, apart: [load, response], vector, .. } = self;
+        moments.of(contact);
+        let dimension = vector.len();
+        for i in 0..dimension {
+            let row = &mut factor[start(i)..start(i + 1)];
+            for (j, value) in row.iter_mut().enumerate() {
+                *value = moments.mean_product(waves, i, j);
+            }
+            load[i] = f64::from(u8::from(i == 0)) - row[0];
+            row.iter_mut().for_each(|value| *value *= stiffness);
+            row[i] += if i == 0 { mean_stiffness } else { waves[i.div_ceil(2)].stiffness };
+        }
+        let positive = decompose(factor, dimension);
+        if held && positive {
+            response.copy_from_slice(load);
+            solve(factor, response);
+        }
+        self.held = held;
+        positive
+    }
+
+    /// Finds the response to a load, whose half spectrum is given.
+    pub(super) fn respond<T: Real>(&mut self, spectrum: ArrayView2<'_, Complex<T>>) {
+        let Self { waves, factor, apart, held, load, response, vector, .. } = self;
+        for (i, (load, wave)) in load.iter_mut().zip(waves).enumerate() {
+            let mode = spectrum[[wave.column, wave.row]];
+            *load = Complex::new(mode.re.widen(), mode.im.widen());
+            if i == 0 {
+                vector[0] = load.re;
+            } else {
+                (vector[2 * i - 1], vector[2 * i]) = (SQRT_2 * load.re, -SQRT_2 * load.im);
+            }
+        }
+        solve(factor, vector);
+        if *held {
+            let [apart, lift] = apart;
+            let share = dot(apart, vector) / dot(apart, lift);
+            if share.is_finite() {
+                vector.iter_mut().zip(lift).for_each(|(value, lift)| *value -= share * *lift);
+            }
+        }
+        for (i, response) in response.iter_mut().enumerate() {
+            *response = match i {
+                0 => Complex::new(vector[0], 0.0),
+                _ => Complex::new(vector[2 * i - 1], -vector[2 * i]) / SQRT_2,
+            };
+        }
+    }
+
+    /// Puts the response into a column of the half spectrum, over the response z of the uniform foundation; `sums` are
+    /// those of that column, of which the second is of r·z and the third of z.
+    pub(super) fn put<T: Real>(&self, k: usize, column: &mut [Complex<T>], sums: &mut Sums) {
+        for i in self.columns.get(k).cloned().unwrap_or_default() {
+            let (wave, load, response) = (self.waves[i], self.load[i], self.response[i]);
+            let places = [Some((wave.row, 1.0)), wave.mirror.map(|row| (row, -1.0))];
+            for (row, sign) in places.into_iter().flatten() {
+                let mode = Complex::new(T::lit(response.re), T::lit(sign * response.im));
+                let change = [mode.re - column[row].re, mode.im - column[row].im].map(T::widen);
+                sums[1] += load.re * change[0] + sign * load.im * change[1];
+                column[row] = mode;
+            }
+            if i == 0 {
+                sums[2] = response.re;
+            }
+        }
+    }
+
+    /// The number of columns of the half spectrum, the first ones, that have waves of the space.
+    pub(super) fn columns(&self) -> usize {
+        self.columns.len()
+    }
+}
+
+/// The mean, and one wave of each pair ±q with |q| up to a radius, sorted by their columns in the half spectrum.
+fn waves(grid: &Grid, layout: Layout, symbol: &dyn Fn(f64, f64) -> f64, dimension: usize) -> Vec<Wave> {
+    let ((nx, ny), (lx, ly)) = (grid.shape(), grid.lengths());
+    // the modes per area of the wave numbers, or per length
+    let radius = match (nx, ny) {
+        (1, _) => PI * dimension as f64 / ly,
+        (_, 1) => PI * dimension as f64 / lx,
+        _ => (4.0 * PI * dimension as f64 / (lx * ly)).sqrt(),
+    };
+    let signed = |i: usize, n: usize| if 2 * i < n { i as isize } else { i as isize - n as isize };
+    let (columns, rows) = layout.spectrum();
+    let mut waves = Vec::new();
+    for (column, row) in (0..columns).flat_map(|column| (0..rows).map(move |row| (column, row))) {
+        let (i, j) = layout.mode(column, row);
+        let (qx, qy) = (grid.wave_number_x(i), grid.wave_number_y(j));
+        let nyquist = 2 * i == nx || 2 * j == ny;
+        // in the columns that hold both waves of a pair: the second of them
+        let second = layout.weight(column) == 1.0 && (column > 0 || 2 * row > rows);
+        if qx.hypot(qy) <= radius && !nyquist && !second {
+            let mirror = (column == 0 && row > 0).then(|| rows - row);
+            let stiffness = if (i, j) == (0, 0) { 0.0 } else { symbol(qx, qy) };
+            waves.push(Wave { column, row, mirror, number: [signed(i, nx), signed(j, ny)], stiffness });
+        }
+    }
+    waves
+}
+
+/// The moments of the contact map χ: the means of χ e^(−iq·x) for the waves q up to twice the highest of the space.
+#[derive(Clone, Debug)]
+struct Moments {
+    /// the centres of the blocks along both axes, as shares of the side
+    points: [Vec<f64>; 2],
+    /// the factors e^(−iqx) of these, for each wave number from 0 on
+    turns: [Vec<Complex<f64>>; 2],
+    /// the highest wave numbers
+    highest: [usize; 2],
+    /// the transforms of the rows of blocks
+    rows: Vec<Complex<f64>>,
+    /// the moments, for all wave numbers of both signs along x and from 0 on along y
+    values: Vec<Complex<f64>>,
+}
+
+impl Moments {
+    fn new(shape: [usize; 2], block: [usize; 2], highest: [usize; 2]) -> Self {
+        let highest = highest.map(|highest| 2 * highest);
+        let points = [0, 1].map(|axis| {
+            let (n, size) = (shape[axis], block[axis]);
+            let centre = |first: usize| (first as f64 + 0.5 * (size.min(n - first) - 1) as f64) / n as f64;
+            (0..n).step_by(size).map(centre).collect::<Vec<_>>()
+        });
+        let turns = [0, 1].map(|axis| {
+            let turn = |k: usize| points[axis].iter().map(move |x| Complex::from_polar(1.0, -TAU * k as f64 * x));
+            (0..=highest[axis]).flat_map(turn).collect()
+        });
+        let rows = vec![Complex::default(); points[0].len() * (highest[1] + 1)];
+        let values = vec![Complex::default(); (2 * highest[0] + 1) * (highest[1] + 1)];
+        Self { points, turns, highest, rows, values }
+    }
+
+    /// Takes the moments of a contact map, block by block in row-major order.
+    fn of(&mut self, contact: &[f64]) {
+        let Self { points: [x, y], turns: [turns_x, turns_y], highest, rows, values } = self;
+        let along_y = highest[1] + 1;
+        for (row, contact) in rows.chunks_mut(along_y).zip(contact.chunks(y.len())) {
+            for (value, turns) in row.iter_mut().zip(turns_y.chunks(y.len())) {
+                *value = contact.iter().zip(turns).map(|(share, turn)| turn * share).sum();
+            }
+        }
+        for (i, values) in values.chunks_mut(along_y).enumerate() {
+            let turns = &turns_x[i.abs_diff(highest[0]) * x.len()..][..x.len()];
+            let back = i < highest[0];
+            values.fill(Complex::default());
+            for (row, turn) in rows.chunks(along_y).zip(turns) {
+                let turn = if back { turn.conj() } else { *turn };
+                values.iter_mut().zip(row).for_each(|(value, row)| *value += row * turn);
+            }
+        }
+    }
+
+    fn at(&self, a: isize, b: isize) -> Complex<f64> {
+        let [x, y] = self.highest;
+        let value = |a: isize, b: isize| self.values[(x as isize + a) as usize * (y + 1) + b as usize];
+        if b < 0 { value(-a, -b).conj() } else { value(a, b) }
+    }
+
+    /// The mean of χ times two functions of the basis: 0 is the constant, 2i − 1 the cosine of wave i, 2i its sine.
+    fn mean_product(&self, waves: &[Wave], i: usize, j: usize) -> f64 {
+        let number = |i: usize| waves[i.div_ceil(2)].number;
+        let ([a, b], [c, d]) = (number(i), number(j));
+        // the means of χ cos and χ sin
+        let parts = |moment: Complex<f64>| (moment.re, -moment.im);
+        let (cos, sin) = parts(self.at(a + c, b + d));
+        if i == 0 || j == 0 {
+            return match i.max(j) {
+                0 => cos,
+                k if k % 2 == 1 => SQRT_2 * cos,
+                _ => SQRT_2 * sin,
+            };
+        }
+        let (cos_less, sin_less) = parts(self.at(a - c, b - d));
+        match (i % 2 == 1, j % 2 == 1) {
+            (true, true) => cos_less + cos,
+            (false, false) => cos_less - cos,
+            (false, true) => sin + sin_less,
+            (true, false) => sin - sin_less,
+        }
+    }
+}
+
+/// Rows of a matrix that are decomposed together.
+const ROWS: usize = 4;
+
+/// The place of a row of a lower triangle, whose rows are stored one after the other.
+fn start(row: usize) -> usize {
+    row * (row + 1) / 2
+}
+
+/// Decomposes a symmetric matrix by Cholesky, in its lower triangle; `false` if it is not positive.
+fn decompose(matrix: &mut [f64], dimension: usize) -> bool {
+    for first in (0..dimension).step_by(ROWS) {
+        let last = (first + ROWS).min(dimension);
+        let (above, below) = matrix.split_at_mut(start(first));
+        let block = &mut below[..start(last) - start(first)];
+        for j in 0..first {
+            let done = &above[start(j)..start(j + 1)];
+            let sums = if last - first == ROWS {
+                dots(&done[..j], std::array::from_fn(|i| &block[start(first + i) - start(first)..][..j]))
+            } else {
+                let mut sums = [0.0; ROWS];
+                let rows = (first..last).map(|i| dot(&done[..j], &block[start(i) - start(first)..][..j]));
+                sums.iter_mut().zip(rows).for_each(|(sum, product)| *sum = product);
+                sums
+            };
+            for (i, sum) in (first..last).zip(sums) {
+                let value = &mut block[start(i) - start(first) + j];
+                *value = (*value - sum) / done[j];
+            }
+        }
+        for i in first..last {
+            let (before, row) = block.split_at_mut(start(i) - start(first));
+            for j in first..i {
+                let done = &before[start(j) - start(first)..][..=j];
+                row[j] = (row[j] - dot(&row[..j], &done[..j])) / done[j];
+            }
+            let square = row[i] - dot(&row[..i], &row[..i]);
+            if !(square > 0.0 && square.is_finite()) {
+                return false;
+            }
+            row[i] = square.sqrt();
+        }
+    }
+    true
+}
+
+/// Solves with the factor of [`decompose`].
+fn solve(factor: &[f64], x: &mut [f64]) {
+    let row = |i: usize| &factor[start(i)..start(i + 1)];
+    for i in 0..x.len() {
+        x[i] = (x[i] - dot(&row(i)[..i], &x[..i])) / row(i)[i];
+    }
+    for i in (0..x.len()).rev() {
+        let value = x[i] / row(i)[i];
+        x[i] = value;
+        x[..i].iter_mut().zip(row(i)).for_each(|(x, factor)| *x -= value * factor);
+    }
+}
+
+/// The products of a vector with some others of its length.
+fn dots<const N: usize>(vector: &[f64], others: [&[f64]; N]) -> [f64; N] {
+    let whole = vector.len() - vector.len() % LANES;
+    let rest = |other: &[f64]| other[whole..].iter().zip(&vector[whole..]).map(|(a, b)| a * b).sum::<f64>();
+    let mut sums = others.map(rest);
+    let total = &mut sums;
+    vectorised(
+        #[inline(always)]
+        move || {
+            let mut lanes = [[0.0; LANES]; N];
+            for k in (0..whole).step_by(LANES) {
+                let vector = &vector[k..k + LANES];
+                for (lanes, other) in lanes.iter_mut().zip(others) {
+                    let other = &other[k..k + LANES];
+                    for l in 0..LANES {
+                        lanes[l] += vector[l] * other[l];
+                    }
+                }
+            }
+            total.iter_mut().zip(lanes).for_each(|(total, lanes)| *total += lanes.iter().sum::<f64>());
+        },
+    );
+    sums
+}
+
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    dots(a, [b])[0]
+}
+
+#[cfg(test)]
+mod tests {
+    use ndarray::Array2;
+
+    use super::*;
+    use crate::elastic::{ElasticOperator, Foundation, Spectral};
+    use crate::field::{mean, mean_of_both};
+
+    const SHAPES: [(usize, usize); 6] = [(16, 16), (15, 21), (24, 10), (5, 40), (90, 1), (1, 64)];
+    const STIFFNESS: f64 = 3.0;
+
+    fn random(shape: (usize, usize), seed: u32) -> Array2<f64> {
+        Array2::from_shape_fn(shape, |(i, j)| crate::surface::uniform([i as u32, j as u32, seed, 0], [7, 0])[0] - 0.5)
+    }
+
+    fn body(shape: (usize, usize)) -> Spectral<f64> {
+        let grid = Grid::new(shape, (1.0, 0.8)).unwrap();
+        Spectral::new(grid, 1.0, |qx, qy| 0.5 * (qx * qx + 2.0 * qy * qy).sqrt()).unwrap()
+    }
+
+    /// A map of some contacts, one block a node, and the space that has it.
+    fn held_where(body: &Spectral<f64>, held: bool) -> (CoarseSpace, Array2<f64>) {
+        let shape = body.grid().shape();
+        let contact = random(shape, 1).mapv(|x| f64::from(u8::from(x > 0.2)));
+        let mut space = body.coarse_space(contact.len() * 3 / 5).unwrap();
+        assert_eq!(space.blocks(), [(1, 1), shape]);
+        let shares: Vec<f64> = contact.iter().map(|x| x / contact.len() as f64).collect();
+        assert!(space.renew(&shares, STIFFNESS, 1e-3, held));
+        (space, contact)
+    }
+
+    fn precondition(body: &mut Spectral<f64>, space: &mut CoarseSpace, r: &Array2<f64>) -> Array2<f64> {
+        let mut z = r.clone();
+        let foundation = Foundation { coarse: Some(space), ..Foundation::uniform(0.7, 0.9) };
+        let found = body.precondition(r.view(), foundation, z.view_mut()).unwrap();
+        // the sums that come from the transform
+        let product = mean_of_both(r.view(), z.view(), |a, b| a * b);
+        assert!((found.descent - product).abs() < 1e-13, "{} {product}", found.descent);
+        assert!((found.mean - mean(z.view(), |z| z)).abs() < 1e-13);
+        z
+    }
+
+    /// The waves of the space, as fields.
+    fn basis(space: &CoarseSpace, shape: (usize, usize)) -> Vec<Array2<f64>> {
+        let mut basis = vec![Array2::ones(shape)];
+        for wave in &space.waves[1..] {
+            let phase = |(i, j): (usize, usize)| {
+                let [a, b] = wave.number.map(|number| number as f64);
+                TAU * (a * i as f64 / shape.0 as f64 + b * j as f64 / shape.1 as f64)
+            };
+            basis.push(Array2::from_shape_fn(shape, |node| SQRT_2 * phase(node).cos()));
+            basis.push(Array2::from_shape_fn(shape, |node| SQRT_2 * phase(node).sin()));
+        }
+        basis
+    }
+
+    fn product(a: &Array2<f64>, b: &Array2<f64>) -> f64 {
+        mean_of_both(a.view(), b.view(), |a, b| a * b)
+    }
+
+    #[test]
+    fn the_longest_waves_solve_the_galerkin_equations() {
+        for shape in SHAPES {
+            let mut body = body(shape);
+            let (mut space, contact) = held_where(&body, false);
+            let basis = basis(&space, shape);
+            assert!((shape.0 * shape.1 / 4..shape.0 * shape.1).contains(&basis.len()), "{} {shape:?}", basis.len());
+            let r = random(shape, 2);
+            let z = precondition(&mut body, &mut space, &r);
+            let low = basis.iter().fold(Array2::zeros(shape), |low, wave| low + wave * product(wave, &z));
+            let mut image = low.clone();
+            body.pressure(low.view(), image.view_mut()).unwrap();
+            image += &(STIFFNESS * &contact * &low);
+            image += 1e-3 * mean(low.view(), |z| z);
+            for wave in &basis {
+                assert!((product(wave, &image) - product(wave, &r)).abs() < 1e-12, "{shape:?}");
+            }
+            // the others are those of the uniform foundation
+            let mut uniform = r.clone();
+            body.precondition(r.view(), Foundation::uniform(0.7, 0.9), uniform.view_mut()).unwrap();
+            let waves = basis.iter().fold(uniform.clone(), |rest, wave| rest - wave * product(wave, &uniform));
+            assert!((&z - &low - &waves).iter().all(|x| x.abs() < 1e-12), "{shape:?}");
+        }
+    }
+
+    #[test]
+    fn the_preconditioner_stays_symmetric_and_positive() {
+        for (shape, held) in SHAPES.into_iter().flat_map(|shape| [(shape, false), (shape, true)]) {
+            let mut body = body(shape);
+            let (mut space, contact) = held_where(&body, held);
+            let [a, b] = [3, 4].map(|seed| {
+                let field = random(shape, seed);
+                // under a given mean gap residuals have no mean
+                let mean = if held { mean(field.view(), |x| x) } else { 0.0 };
+                field - mean
+            });
+            let [of_a, of_b] = [&a, &b].map(|field| precondition(&mut body, &mut space, field));
+            assert!((product(&a, &of_b) - product(&of_a, &b)).abs() < 1e-13, "{shape:?} {held}");
+            assert!(product(&a, &of_a) > 0.0);
+            if held {
+                let basis = basis(&space, shape);
+                let low = basis.iter().fold(Array2::zeros(shape), |low, wave| low + wave * product(wave, &of_a));
+                assert!(product(&(1.0 - &contact), &low).abs() < 1e-13, "{shape:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_map_of_blocks_has_all_of_the_contact() {
+        for shape in [(128, 128), (101, 67), (500, 1)] {
+            let body = body(shape);
+            let mut space = body.coarse_space(20).unwrap();
+            let [block, blocks] = space.blocks();
+            assert!(block.0 * blocks.0 >= shape.0 && block.1 * blocks.1 >= shape.1 && block != (1, 1));
+            assert!(block.0 * (blocks.0 - 1) < shape.0 && block.1 * (blocks.1 - 1) < shape.1);
+            // full contact: no moments but the mean, as far as the last blocks are as large as the others
+            let nodes = |i: usize, block: usize, n: usize| block.min(n - i * block) as f64 / n as f64;
+            let shares: Vec<f64> = (0..blocks.0)
+                .flat_map(|i| (0..blocks.1).map(move |j| (i, j)))
+                .map(|(i, j)| nodes(i, block.0, shape.0) * nodes(j, block.1, shape.1))
+                .collect();
+            assert!(space.renew(&shares, STIFFNESS, 1e-3, false));
+            assert!((space.moments.at(0, 0).re - 1.0).abs() < 1e-13);
+            let whole = shape.0 % block.0 == 0 && shape.1 % block.1 == 0;
+            assert!(!whole || space.moments.at(1, 0).norm() < 1e-13);
+        }
+    }
+
+    #[test]
+    fn a_matrix_that_is_not_positive_is_told() {
+        let mut matrix = vec![4.0, 2.0, 1.0, 0.0, 0.0, 1.0];
+        assert!(!decompose(&mut matrix, 3));
+        let mut x = [4.0, 4.0, 3.0];
+        let mut matrix = vec![4.0, 2.0, 5.0, 0.0, 0.0, 9.0];
+        assert!(decompose(&mut matrix, 3));
+        solve(&matrix, &mut x);
+        assert!(x.iter().zip([0.75, 0.5, 1.0 / 3.0]).all(|(x, y)| (x - y).abs() < 1e-15), "{x:?}");
+    }
+}
