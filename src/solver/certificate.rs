@@ -10,6 +10,9 @@ use crate::real::Real;
 /// The tolerance on the way to a start: the edge of the adhesive zone has to be right to a node.
 const START: f64 = 1e-4;
 
+/// The share of the best error below which an error is progress.
+const PROGRESS: f64 = 0.95;
+
 /// Iterations without progress after which the direction is dropped, and after which the solve has stalled.
 const STALL: (usize, usize) = (10, 30);
 
@@ -150,7 +153,7 @@ impl<T: Real> State<'_, T> {
         if !energy.is_finite() || self.runs_away() {
             return Some(Status::Stalled);
         }
-        if error < 0.95 * self.progress.best_error || energy < self.progress.lowest_energy - self.energy_noise() {
+        if error < PROGRESS * self.progress.best_error || energy < self.progress.lowest_energy - self.energy_noise() {
             self.progress.idle = 0;
         } else {
             self.progress.idle += 1;

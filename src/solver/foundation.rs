@@ -7,6 +7,9 @@ use crate::real::Real;
 /// The least stiffness of the contacts, as a share of the stiffness of the softest wave.
 const SOFTEST: f64 = 0.1;
 
+/// The least stiffness of the mean gap, as a share of the stiffness of the softest wave.
+const LEAST_MEAN: f64 = 0.01;
+
 impl<T: Real> State<'_, T> {
     /// The stiffness of the contacts against a change of the mean gap, about λ̄/h_rms for rough surfaces.
     fn contact_stiffness(&self) -> f64 {
@@ -43,6 +46,6 @@ impl<T: Real> State<'_, T> {
             return if falls { self.foundation().min(self.given() / gap) } else { self.foundation() };
         }
         let mean = (softest * self.contact_stiffness()).sqrt();
-        if mean.is_finite() { mean.clamp(0.01 * softest, stiffest) } else { softest }
+        if mean.is_finite() { mean.clamp(LEAST_MEAN * softest, stiffest) } else { softest }
     }
 }

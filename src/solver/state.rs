@@ -21,6 +21,9 @@ use crate::real::Real;
 /// Iterations after which the pressure, updated step by step, is computed anew.
 const REFRESH: usize = 50;
 
+/// The relative error of the mean gap, in units of the rounding of one number, that is worth a pass.
+const SCALED: f64 = 64.0;
+
 /// The iterations between two certificates of [`Method::Rey2017`], which needs them for the report only.
 const CERTIFY: usize = 10;
 
@@ -236,7 +239,7 @@ impl<'a, T: Real> State<'a, T> {
             let (scale, present) = (mean * self.nodes() / self.tally.sum_gap, self.tally.sum_gap / self.nodes());
             // the rounding summed up in the mean gap, if it is worth a pass
             if self.projects() {
-                if scale.is_finite() && (scale - 1.0).abs() > 64.0 * T::epsilon().widen() {
+                if scale.is_finite() && (scale - 1.0).abs() > SCALED * T::epsilon().widen() {
                     let scale = T::lit(scale);
                     self.fields.reducer.run(write(&mut self.fields.gap), |_, gap| {
                         gap.iter_mut().for_each(|gap| *gap *= scale);

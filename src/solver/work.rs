@@ -12,6 +12,9 @@ use crate::real::Real;
 /// Rounding beyond this share of the work calls for the sum of squares, as long as the work is only a scale.
 pub(super) const TRUSTED: f64 = 1e-3;
 
+/// The roundings that each product and the sum of them may have.
+const ROUNDINGS: f64 = 8.0;
+
 /// The elastic work, summed over the nodes.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Work {
@@ -40,7 +43,7 @@ impl<T: Real> State<'_, T> {
 
     /// The rounding of a sum over the nodes, with `size` the sum of the magnitudes of its terms.
     fn sum_noise(&self, size: f64) -> f64 {
-        8.0 * (T::epsilon().widen() / self.nodes().sqrt() + f64::EPSILON) * size
+        ROUNDINGS * (T::epsilon().widen() / self.nodes().sqrt() + f64::EPSILON) * size
     }
 
     /// The work from the sums of a tally: Σ g·p and Σ g·K⁻¹h.
