@@ -128,18 +128,6 @@ impl<T: Real> State<'_, T> {
         Ok(self.converged())
     }
 
-    /// The energy that is minimised, per area.
-    pub(super) fn energy(&self) -> f64 {
-        let load = self.detached.unwrap_or(self.given());
-        0.5 * self.mean_work() + (self.tally.adhesive + self.tally.penalty + load * self.tally.sum_gap) / self.nodes()
-    }
-
-    /// The rounding of the energy, per area.
-    pub(super) fn energy_noise(&self) -> f64 {
-        let local = self.tally.adhesive.abs() + self.tally.penalty.abs() + (self.given() * self.tally.sum_gap).abs();
-        2.0 * T::epsilon().widen() * (0.5 * self.mean_work() + local / self.nodes())
-    }
-
     /// Whether the solve has to end without having converged.
     pub(super) fn verdict(&mut self) -> Option<Status> {
         if self.iterations >= self.settings.max_iterations {
