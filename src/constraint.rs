@@ -130,8 +130,8 @@ pub enum Update {
     Failed,
 }
 
-/// Tells whether the springs of a constraint are each other's derivatives, and resist more the smaller the gap; call it in a
-/// test of your constraint. [`Projection`] has none and is fine.
+/// Tells whether the springs of a constraint are each other's derivatives, and resist more the smaller the gap; call it
+/// in a test of your constraint. [`Projection`] has none and is fine.
 ///
 /// Looks at the nodes below `nodes`, seven of them at most, and at gaps between −`depth` and `depth`, as
 /// [`check_law`](crate::check_law) does.

@@ -10,8 +10,8 @@ const GAPS: usize = 200;
 pub(crate) type Named<'a> = (&'static str, &'a dyn Fn(f64) -> f64);
 
 /// Compares the second function with central differences of the first, and the third with those of the second, at gaps
-/// between `low` and `high`, in the precision T, to a hundredth of the largest value. `length` is the gap over which the
-/// functions vary. Gaps beside a jump, where the differences grow as their step shrinks, are passed over.
+/// between `low` and `high`, in the precision T, to a hundredth of the largest value. `length` is the gap over which
+/// the functions vary. Gaps beside a jump, where the differences grow as their step shrinks, are passed over.
 ///
 /// # Errors
 /// [`Error::Law`] with the function, the first gap at which it is not finite or is not the derivative of the one before it,

@@ -106,8 +106,8 @@ pub trait ElasticOperator<T: Real>: Send {
         Ok(mean_product(heights, pressure.view()))
     }
 
-    /// The space of the longest waves, of about `dimension` dimensions, that the preconditioner treats with the contacts
-    /// where they are.
+    /// The space of the longest waves, of about `dimension` dimensions, that the preconditioner treats with the
+    /// contacts where they are.
     ///
     /// The default is none: then the foundation is uniform, and a solve takes more iterations. [`Spectral`] has one; an
     /// operator that wraps it passes this on, and [`precondition`](Self::precondition).

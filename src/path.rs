@@ -18,82 +18,14 @@ use crate::stability::Watch;
 mod event;
 mod quadrature;
 mod saddle;
+mod settings;
+mod step;
 mod track;
 
 pub use event::{Event, Jump};
+pub use settings::PathSettings;
+pub use step::{PathCheckpoint, PathStep};
 use track::{Mode, State, Track, Way};
-
-/// The settings of a path of equilibria.
-///
-/// | field | default | meaning | range |
-/// |---|---|---|---|
-/// | `steps` | 50 | the least number of steps in a leg | at least 1 |
-/// | `smallest_step` | 1e-4 | the step, as a share of the leg, to which a jump is located | positive, below 1 |
-/// | `smooth` | true | whether jumps of the law's traction are smoothed, by what the grid can resolve | |
-/// | `imbalance` | 1e-4 | how far the energy may be from the work done in a step, as a share of how much the energy has changed along the path (or of w/1000, if that is more) | positive |
-///
-/// A smaller imbalance asks for a smaller tolerance of the solver too: its square must be well below.
-///
-/// ```
-/// use asperity::path::PathSettings;
-/// let sharp = PathSettings { smallest_step: 1e-6, ..PathSettings::default() };
-/// assert_eq!(sharp.steps, 50);
-/// ```
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct PathSettings {
-    /// The least number of steps in a leg.
-    pub steps: usize,
-    /// The step to which a jump is located, as a share of the leg.
-    pub smallest_step: f64,
-    /// The imbalance of energy that a step may have without being a jump.
-    pub imbalance: f64,
-    /// Whether jumps of the law's traction are smoothed.
-    pub smooth: bool,
-}
-
-impl Default for PathSettings {
-    fn default() -> Self {
-        Self { steps: 50, smallest_step: 1e-4, imbalance: 1e-4, smooth: true }
-    }
-}
-
-/// A state on a path.
-///
-/// ```
-/// use asperity::path::{Path, PathSettings};
-/// use asperity::{Control, Grid, NoAdhesion, Problem, Solver, Surface, Westergaard};
-/// let grid = Grid::line(64, 1.0)?;
-/// let mut problem = Problem::new(&Surface::wave(grid, 0.02, 1)?, Westergaard::<f64>::new(grid, 1.0)?, NoAdhesion)?;
-/// let legs = [0.02, 0.01].map(Control::MeanGap);
-/// let mut solver = Solver::default();
-/// let path = Path::new(&mut solver, &mut problem, legs, PathSettings::default())?;
-/// let path = path.collect::<Result<Vec<_>, _>>()?;
-/// let last = path.last().expect("a path has a start");
-/// // without adhesion nothing jumps, and what the load puts in is stored
-/// assert!(path.iter().all(|step| step.event.is_none()) && last.dissipated == 0.0);
-/// assert!((last.work / last.solution.report.elastic_energy - 1.0).abs() < 1e-3);
-/// # Ok::<(), asperity::Error>(())
-/// ```
-#[non_exhaustive]
-#[derive(Clone, Debug, PartialEq)]
-pub struct PathStep<T> {
-    /// The state.
-    pub solution: Solution<T>,
-    /// The control under which it was found.
-    pub control: Control,
-    /// The leg that it is on: 0 is the start, 1 the way to the second load.
-    pub leg: usize,
-    /// The work done by the load since the start, −∫p̄ dḡ, per area.
-    pub work: f64,
-    /// The energy dropped in jumps since the start, per area. Over a closed cycle it is the work of adhesion that was
-    /// lost.
-    pub dissipated: f64,
-    /// The imbalance of energy: the change of the energy, plus the dissipated energy, less the work. It comes from the
-    /// quadrature of the work, the solver's tolerance, and jumps smaller than the imbalance that a step may have.
-    pub imbalance: f64,
-    /// The event between the previous state and this one.
-    pub event: Option<Event>,
-}
 
 /// A path of equilibria: an iterator over the states of a branch that is followed from load to load in small steps,
 /// with its jumps.
@@ -186,32 +118,6 @@ pub struct Path<'a, T, O, L> {
     gaps: Vec<Array2<T>>,
     watch: Watch<T>,
     failed: bool,
-}
-
-/// All that a path needs to go on: opaque numbers, and fields of shape (Nx, Ny). Both must come back bit for bit.
-///
-/// ```
-/// use asperity::path::{Path, PathSettings};
-/// use asperity::{Control, Grid, NoAdhesion, Problem, Solver, Surface, Westergaard};
-/// let grid = Grid::line(64, 1.0)?;
-/// let mut problem = Problem::new(&Surface::wave(grid, 0.02, 1)?, Westergaard::<f64>::new(grid, 1.0)?, NoAdhesion)?;
-/// let (mut solver, settings) = (Solver::default(), PathSettings { steps: 4, ..PathSettings::default() });
-/// let legs = [0.02, 0.01].map(Control::MeanGap);
-/// let whole = Path::new(&mut solver, &mut problem, legs, settings)?.collect::<Result<Vec<_>, _>>()?;
-///
-/// let mut first = Path::new(&mut solver, &mut problem, legs, settings)?;
-/// first.next().transpose()?;
-/// let kept = first.checkpoint();
-/// let rest = Path::new(&mut solver, &mut problem, legs, settings)?.continuing(kept)?.collect::<Result<Vec<_>, _>>()?;
-/// assert_eq!(rest, whole[1..]);
-/// # Ok::<(), asperity::Error>(())
-/// ```
-#[derive(Clone, Debug, PartialEq)]
-pub struct PathCheckpoint<T> {
-    /// The numbers of the path's track.
-    pub numbers: Vec<f64>,
-    /// The last gaps, and the softest mode of the last state, where it was needed.
-    pub fields: Vec<Array2<T>>,
 }
 
 /// The number of further solves after one that did not converge, where the step cannot be halved.

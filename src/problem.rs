@@ -161,8 +161,8 @@ impl<T: Real, O: ElasticOperator<T>, L: AdhesionLaw<T>> Problem<T, O, L> {
 
     /// The measure of how the grid resolves the adhesive zone, μ_ρ = √(wΔx/E*)/ρ, with the larger of Δx and Δy.
     ///
-    /// Below about 0.5 the zone is resolved. Above, contact edges are pinned to the grid, there are many equilibria, and which
-    /// one is found depends on the start. Zero without adhesion.
+    /// Below about 0.5 the zone is resolved. Above, contact edges are pinned to the grid, there are many equilibria,
+    /// and which one is found depends on the start. Zero without adhesion.
     pub fn mu_rho(&self) -> f64 {
         mu_rho(&self.law, self.grid(), self.operator.modulus())
     }

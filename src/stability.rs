@@ -179,8 +179,8 @@ impl StabilityTest {
         self.run_with(problem, &Projection, control, solution)
     }
 
-    /// Tests, as [`StabilityTest::run`], a solution that was found with a constraint. Where its wall has springs, as that
-    /// of [`Penalty`](crate::Penalty), every node may move, and their stiffness belongs to the second derivative.
+    /// Tests, as [`StabilityTest::run`], a solution that was found with a constraint. Where its wall has springs, as
+    /// that of [`Penalty`](crate::Penalty), every node may move, and their stiffness belongs to the second derivative.
     ///
     /// # Errors
     /// Those of [`StabilityTest::run`]; [`Error::Law`] if the stiffness of the springs is not finite somewhere.

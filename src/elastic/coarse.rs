@@ -11,8 +11,8 @@ use crate::grid::Grid;
 use crate::real::Real;
 use crate::vector::{LANES, vectorised};
 
-/// Blocks of the contact map along a side, for each wave length that the shortest wave has there: a product of two waves
-/// has twice as many, and two blocks resolve one.
+/// Blocks of the contact map along a side, for each wave length that the shortest wave has there: a product of two
+/// waves has twice as many, and two blocks resolve one.
 const BLOCKS: usize = 4;
 
 /// The longest waves of a grid on a foundation that holds the surface where it is in contact.
@@ -25,8 +25,8 @@ const BLOCKS: usize = 4;
 /// (k + α χ(x)) z = r
 /// ```
 ///
-/// in the basis 1, √2 cos q·x, √2 sin q·x, which is orthonormal. The matrix is symmetric and positive, and decomposed by
-/// Cholesky.
+/// in the basis 1, √2 cos q·x, √2 sin q·x, which is orthonormal. The matrix is symmetric and positive, and decomposed
+/// by Cholesky.
 ///
 /// An operator makes it ([`ElasticOperator::coarse_space`](crate::ElasticOperator::coarse_space)), the solver tells it
 /// where the contacts are, and the operator uses it where it
@@ -92,7 +92,8 @@ impl CoarseSpace {
         })
     }
 
-    /// The nodes of a block of the contact map along both axes, and the blocks along both axes. The last may be smaller.
+    /// The nodes of a block of the contact map along both axes, and the blocks along both axes. The last may be
+    /// smaller.
     pub(crate) fn blocks(&self) -> [(usize, usize); 2] {
         [self.block, (self.moments.points[0].len(), self.moments.points[1].len())]
     }

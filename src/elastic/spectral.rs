@@ -342,8 +342,8 @@ impl<T: Real> ElasticOperator<T> for Spectral<T> {
         CoarseSpace::new(&self.grid, self.convolver.layout(), &*self.symbol, dimension)
     }
 
-    /// M has the symbol 1/(k + s), s the stiffness of the foundation, but for the waves of the coarse space; the products
-    /// come from the same transform.
+    /// M has the symbol 1/(k + s), s the stiffness of the foundation, but for the waves of the coarse space; the
+    /// products come from the same transform.
     fn precondition(
         &mut self,
         residual: ArrayView2<'_, T>,

@@ -10,6 +10,9 @@ use crate::real::Real;
 /// The tolerance on the way to a start: the edge of the adhesive zone has to be right to a node.
 const START: f64 = 1e-4;
 
+/// The share of the best error below which an error is progress.
+const PROGRESS: f64 = 0.95;
+
 /// Iterations without progress after which the direction is dropped, and after which the solve has stalled.
 const STALL: (usize, usize) = (10, 30);
 
@@ -125,18 +128,6 @@ impl<T: Real> State<'_, T> {
         Ok(self.converged())
     }
 
-    /// The energy that is minimised, per area.
-    pub(super) fn energy(&self) -> f64 {
-        let load = self.detached.unwrap_or(self.given());
-        0.5 * self.mean_work() + (self.tally.adhesive + self.tally.penalty + load * self.tally.sum_gap) / self.nodes()
-    }
-
-    /// The rounding of the energy, per area.
-    pub(super) fn energy_noise(&self) -> f64 {
-        let local = self.tally.adhesive.abs() + self.tally.penalty.abs() + (self.given() * self.tally.sum_gap).abs();
-        2.0 * T::epsilon().widen() * (0.5 * self.mean_work() + local / self.nodes())
-    }
-
     /// Whether the solve has to end without having converged.
     pub(super) fn verdict(&mut self) -> Option<Status> {
         if self.iterations >= self.settings.max_iterations {
@@ -150,7 +141,7 @@ impl<T: Real> State<'_, T> {
         if !energy.is_finite() || self.runs_away() {
             return Some(Status::Stalled);
         }
-        if error < 0.95 * self.progress.best_error || energy < self.progress.lowest_energy - self.energy_noise() {
+        if error < PROGRESS * self.progress.best_error || energy < self.progress.lowest_energy - self.energy_noise() {
             self.progress.idle = 0;
         } else {
             self.progress.idle += 1;

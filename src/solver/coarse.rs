@@ -2,14 +2,12 @@
 
 use ndarray::{Array2, Axis};
 
-use super::passes::idles;
-use super::state::State;
 use crate::elastic::{CoarseSpace, ElasticOperator};
 use crate::par;
 use crate::real::Real;
 
-/// The dimension of the space over the cube root of the number of nodes: then its decomposition takes so many operations
-/// for each node, a few hundredths of those of an iteration.
+/// The dimension of the space over the cube root of the number of nodes: then its decomposition takes so many
+/// operations for each node, a few hundredths of those of an iteration.
 const DIMENSION: f64 = 4.0;
 
 /// The stiffness of the contacts, over that of the stiffest wave.
@@ -17,14 +15,6 @@ const STIFFNESS: f64 = 0.085;
 
 /// The stiffness of the mean gap without contacts, over that of the softest wave.
 const MEAN: f64 = 1e-3;
-
-/// The iterations from a far start under a given pressure before the space is used, and the error of the load above which
-/// the contact map is not yet that of the solution.
-const START: usize = 3;
-const LOADED: f64 = 0.3;
-
-/// The relative error above which the contact map is not yet that of the solution with adhesion.
-const SETTLED: f64 = 0.1;
 
 /// The iterations after which the contact map is renewed first, and the ratio of one such interval to that before. Each
 /// renewal changes the preconditioner, which costs some of the conjugacy of the steps.
@@ -54,13 +44,36 @@ impl Coarse {
         Some(Self { space, contact, ready: false, due: 0, interval: INTERVAL })
     }
 
+    /// Whether the contact map is to be taken in an iteration; the first one waits until the contacts have settled.
+    pub(super) fn is_due(&self, iteration: usize, settled: bool) -> bool {
+        iteration >= self.due && (self.ready || settled)
+    }
+
+    /// Takes the contact map from a field, of which the nodes in contact are told by their values. `range` has the
+    /// stiffness of the softest and the stiffest wave; with `held` the mean gap is given.
+    pub(super) fn renew<T: Real>(
+        &mut self,
+        iteration: usize,
+        field: &Array2<T>,
+        touches: impl Fn(T) -> bool + Sync + Send,
+        (softest, stiffest): (f64, f64),
+        held: bool,
+    ) {
+        let contact = self.map(field, touches);
+        self.ready = contact && self.space.renew(&self.contact, STIFFNESS * stiffest, MEAN * softest, held);
+        if self.ready {
+            self.due = iteration + self.interval as usize;
+            self.interval *= LONGER;
+        }
+    }
+
     /// The space, if it has a contact map.
     pub(super) fn ready(&mut self) -> Option<&mut CoarseSpace> {
         self.ready.then_some(&mut self.space)
     }
 
-    /// Takes the contact map from a field of which some nodes are in contact.
-    fn map<T: Real>(&mut self, field: &Array2<T>, touches: impl Fn(T) -> bool + Sync + Send) {
+    /// Puts the shares of contact into the blocks; returns whether some of the nodes touch, and some do not.
+    fn map<T: Real>(&mut self, field: &Array2<T>, touches: impl Fn(T) -> bool + Sync + Send) -> bool {
         let [block, blocks] = self.space.blocks();
         let share = (field.len() as f64).recip();
         let rows = field.axis_chunks_iter(Axis(0), block.0);
@@ -73,37 +86,7 @@ impl Coarse {
                 }
             }
         });
-    }
-}
-
-impl<T: Real> State<'_, T> {
-    /// Whether the contacts are where they will be, but for some nodes.
-    fn is_settled(&self) -> bool {
-        let loaded = self.near || self.is_gap_controlled() || (self.iterations >= START && self.load_error() <= LOADED);
-        loaded && (self.law.is_zero() || self.relative_error() <= SETTLED)
-    }
-
-    /// Tells the coarse space where the contacts are, now and then: the nodes outside of the working set, or those that
-    /// springs hold.
-    pub(super) fn renew_coarse(&mut self) {
-        let (settled, projects) = (self.is_settled(), self.projects());
-        let (softest, stiffest) = self.operator.stiffness_range();
-        let held = self.is_gap_controlled();
-        let Self { coarse, fields, iterations, residual, .. } = self;
-        let Some(coarse) = coarse else { return };
-        if *iterations < coarse.due || !(coarse.ready || settled) {
-            return;
-        }
-        if projects {
-            coarse.map(&fields.residual, idles);
-        } else {
-            coarse.map(&fields.gap, |gap| gap <= T::zero());
-        }
-        let touches = coarse.contact.iter().any(|&share| share > 0.0) && residual.working > 0.0;
-        coarse.ready = touches && coarse.space.renew(&coarse.contact, STIFFNESS * stiffest, MEAN * softest, held);
-        if coarse.ready {
-            coarse.due = *iterations + coarse.interval as usize;
-            coarse.interval *= LONGER;
-        }
+        let total: f64 = self.contact.iter().sum();
+        total > 0.0 && total < 1.0 - 0.5 * share
     }
 }

@@ -1,11 +1,23 @@
 //! The foundation of the preconditioner: the stiffness of the contacts, for long waves and for the mean gap.
 
+use super::passes::idles;
 use super::state::State;
 use crate::problem::Control;
 use crate::real::Real;
 
 /// The least stiffness of the contacts, as a share of the stiffness of the softest wave.
 const SOFTEST: f64 = 0.1;
+
+/// The least stiffness of the mean gap, as a share of the stiffness of the softest wave.
+const LEAST_MEAN: f64 = 0.01;
+
+/// The iterations from a far start under a given pressure before the space is used, and the error of the load above
+/// which the contact map is not yet that of the solution.
+const UNSETTLED: usize = 3;
+const LOADED: f64 = 0.3;
+
+/// The relative error above which the contact map is not yet that of the solution with adhesion.
+const SETTLED: f64 = 0.1;
 
 impl<T: Real> State<'_, T> {
     /// The stiffness of the contacts against a change of the mean gap, about λ̄/h_rms for rough surfaces.
@@ -43,6 +55,26 @@ impl<T: Real> State<'_, T> {
             return if falls { self.foundation().min(self.given() / gap) } else { self.foundation() };
         }
         let mean = (softest * self.contact_stiffness()).sqrt();
-        if mean.is_finite() { mean.clamp(0.01 * softest, stiffest) } else { softest }
+        if mean.is_finite() { mean.clamp(LEAST_MEAN * softest, stiffest) } else { softest }
+    }
+
+    /// Whether the contacts are where they will be, but for some nodes.
+    fn is_settled(&self) -> bool {
+        let loaded =
+            self.near || self.is_gap_controlled() || (self.iterations >= UNSETTLED && self.load_error() <= LOADED);
+        loaded && (self.law.is_zero() || self.relative_error() <= SETTLED)
+    }
+
+    /// Tells the coarse space where the contacts are, now and then: the nodes outside of the working set, or those that
+    /// springs hold.
+    pub(super) fn renew_coarse(&mut self) {
+        let (settled, projects, held) = (self.is_settled(), self.projects(), self.is_gap_controlled());
+        let (range, iteration) = (self.operator.stiffness_range(), self.iterations);
+        let Some(coarse) = self.coarse.as_mut().filter(|coarse| coarse.is_due(iteration, settled)) else { return };
+        if projects {
+            coarse.renew(iteration, &self.fields.residual, idles, range, held);
+        } else {
+            coarse.renew(iteration, &self.fields.gap, |gap| gap <= T::zero(), range, held);
+        }
     }
 }

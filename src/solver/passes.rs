@@ -1,8 +1,8 @@
 //! The passes over fields that make an iteration.
 //!
 //! Their cost is memory traffic, so that each does all that can be done while its nodes are in cache. Law and
-//! constraint come in as a [`Potential`](super::potential::Potential), at one virtual call for a chunk of nodes. Each pass returns a struct that
-//! names its sums.
+//! constraint come in as a [`Potential`](super::potential::Potential), at one virtual call for a chunk of nodes. Each
+//! pass returns a struct that names its sums.
 
 use ndarray::Array2;
 

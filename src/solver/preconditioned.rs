@@ -24,6 +24,15 @@ const WHOLE: f64 = 0.7;
 const SHORT: f64 = 0.01;
 const SHORTENINGS: usize = 8;
 
+/// The least factor by which such a trial is shorter than the one before.
+const LEAST_PART: f64 = 1e-3;
+
+/// The factor by which a trial is shortened when nodes are held.
+const HELD: f64 = 0.25;
+
+/// The length below which a search has found no step.
+const VANISHING: f64 = 1e-12;
+
 /// A trial length below which a step that fails is tried anew at full length.
 const SHORTEST: f64 = 1e-2;
 
@@ -111,7 +120,7 @@ impl<T: Real> State<'_, T> {
             }
             // a part so short leaves the blocked nodes apart: clip a step without the last change instead, or a
             // shorter one
-            let shorten = if momentum.take().is_some() { 1.0 } else { step.length.max(1e-3) };
+            let shorten = if momentum.take().is_some() { 1.0 } else { step.length.max(LEAST_PART) };
             self.step_length = trial_length * shorten;
             self.residual();
         }
@@ -150,7 +159,7 @@ impl<T: Real> State<'_, T> {
             }
             self.hold(*centre);
             *centre = 0.0;
-            self.step_length *= 0.25;
+            self.step_length *= HELD;
         }
         None
     }
@@ -301,7 +310,7 @@ impl<T: Real> State<'_, T> {
                     break;
                 }
                 length *= 0.5;
-                if length < 1e-12 {
+                if length < VANISHING {
                     return None;
                 }
             }

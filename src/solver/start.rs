@@ -2,21 +2,16 @@
 
 use ndarray::{Array2, ArrayRef2, CowArray, Ix2};
 
-use super::state::{Goal, State};
 use crate::adhesion::AdhesionLaw;
 use crate::error::{Error, Result};
-use crate::field::{self, flat};
+use crate::field;
 use crate::problem::{Control, PressedFlat};
 use crate::real::Real;
 
-/// The first trial length from a start near the solution. The residual r' then has short waves at the edges of
-/// contacts, for which a whole step is too long.
-const NEAR: f64 = 0.5;
-
 /// The start of a solve: the gap from which the energy is minimised.
 ///
-/// A gap has shape (Nx, Ny), may be an array or a view in any memory layout, and is scaled to the mean gap, if that is given. The start
-/// matters for the work, and with adhesion, where there may be several equilibria, for the answer.
+/// A gap has shape (Nx, Ny), may be an array or a view in any memory layout, and is scaled to the mean gap, if that is
+/// given. The start matters for the work, and with adhesion, where there may be several equilibria, for the answer.
 ///
 /// In `f32` to 1e-4 (1e-3 for smooth light contacts), and from there in `f64`, a solve on 2048² nodes takes some 1.3
 /// times less time than in `f64` alone:
@@ -63,55 +58,6 @@ impl<'a, T> Start<'a, T> {
             Self::From(gap) => Some(gap.view().into()),
             Self::Near(gap) => Some(gap.into()),
         }
-    }
-}
-
-impl<'a, T: Real> State<'a, T> {
-    /// Treats the start as near the solution.
-    pub(super) fn stays_near(&mut self) {
-        (self.near, self.step_length) = (true, NEAR);
-    }
-
-    /// Refuses a law that is not finite at the gaps of the start.
-    pub(super) fn check_start(&self) -> Result<()> {
-        if self.energy().is_finite() && self.tally.sum_r.is_finite() {
-            return Ok(());
-        }
-        let law = self.law;
-        let mut value = [T::zero()];
-        for (node, gap) in flat(&self.fields.gap).iter().enumerate() {
-            let gap = gap.max(T::zero());
-            for function in ["adhesive energy", "adhesive traction"] {
-                match function {
-                    "adhesive energy" => law.energies(node, &[gap], &mut value),
-                    _ => law.tractions(node, &[gap], &mut value),
-                }
-                if !value[0].is_finite() {
-                    return Err(Error::Law { function, gap: gap.widen(), value: value[0].widen(), expected: None });
-                }
-            }
-        }
-        Ok(())
-    }
-
-    /// Goes on with another law, whose equilibrium is the goal.
-    pub(super) fn change_law(&mut self, law: &'a dyn AdhesionLaw<T>, goal: Goal) {
-        (self.law, self.goal) = (law, goal);
-        self.restart();
-    }
-
-    /// Goes on with the law itself from an equilibrium of the smoothed one.
-    pub(super) fn sharpen(&mut self, law: &'a dyn AdhesionLaw<T>) -> Result<()> {
-        self.law = law;
-        if self.is_adrift() {
-            // the law itself may hold a tension that the smoothed one does not
-            self.fields.gap.fill(T::lit(uniform_start(law, self.flat, self.control)));
-            self.refresh()?;
-        }
-        self.change_law(law, Goal::Solution);
-        // this certificate was of the smoothed law
-        self.certificate = f64::INFINITY;
-        Ok(())
     }
 }
 

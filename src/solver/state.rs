@@ -5,21 +5,24 @@ use ndarray::{Array2, CowArray, Ix2};
 use super::coarse::Coarse;
 use super::passes::{self, Continued, Fields, Taken, Tally, Working};
 use super::potential::Potential;
-use super::report::{Iteration, Report, Solution, Status};
+use super::report::Iteration;
 use super::start::{given_start, uniform_start};
 use super::work::{TRUSTED, Work};
 use super::{Criterion, Method, Settings};
 use crate::adhesion::AdhesionLaw;
-use crate::constraint::{ContactConstraint, Update};
+use crate::constraint::ContactConstraint;
 use crate::elastic::{ElasticOperator, Foundation};
 use crate::error::{Error, Result};
 use crate::field::{Partial, read, write};
 use crate::par::IndexedParallelIterator;
-use crate::problem::{Control, Parts, PressedFlat, mu_rho};
+use crate::problem::{Control, Parts, PressedFlat};
 use crate::real::Real;
 
 /// Iterations after which the pressure, updated step by step, is computed anew.
 const REFRESH: usize = 50;
+
+/// The relative error of the mean gap, in units of the rounding of one number, that is worth a pass.
+const SCALED: f64 = 64.0;
 
 /// The iterations between two certificates of [`Method::Rey2017`], which needs them for the report only.
 const CERTIFY: usize = 10;
@@ -95,7 +98,8 @@ pub(super) struct Progress {
 }
 
 impl Progress {
-    const NONE: Self = Self { best_error: f64::INFINITY, lowest_energy: f64::INFINITY, idle: 0, renewed: false };
+    pub(super) const NONE: Self =
+        Self { best_error: f64::INFINITY, lowest_energy: f64::INFINITY, idle: 0, renewed: false };
 }
 
 /// The state of a solve: its fields, and the sums over them on which the driver decides.
@@ -236,7 +240,7 @@ impl<'a, T: Real> State<'a, T> {
             let (scale, present) = (mean * self.nodes() / self.tally.sum_gap, self.tally.sum_gap / self.nodes());
             // the rounding summed up in the mean gap, if it is worth a pass
             if self.projects() {
-                if scale.is_finite() && (scale - 1.0).abs() > 64.0 * T::epsilon().widen() {
+                if scale.is_finite() && (scale - 1.0).abs() > SCALED * T::epsilon().widen() {
                     let scale = T::lit(scale);
                     self.fields.reducer.run(write(&mut self.fields.gap), |_, gap| {
                         gap.iter_mut().for_each(|gap| *gap *= scale);
@@ -346,22 +350,6 @@ impl<'a, T: Real> State<'a, T> {
         Ok(())
     }
 
-    pub(super) fn update_constraint(&mut self) -> Update {
-        let outer = self.constraint.update(self.fields.gap.view());
-        if outer == Update::Again {
-            self.restart();
-        }
-        outer
-    }
-
-    /// Drops momentum, progress and certificate after a change of the energy or of the gap.
-    pub(super) fn restart(&mut self) {
-        (self.momentum, self.residual_norm) = (None, None);
-        self.progress = Progress::NONE;
-        self.rounds += 1;
-        self.count();
-    }
-
     /// One step of the chosen method; `false` if none is possible.
     pub(super) fn step(&mut self) -> Result<bool> {
         let moved = match self.settings.method {
@@ -388,83 +376,6 @@ impl<'a, T: Real> State<'a, T> {
             contact_nodes: self.tally.contact as usize,
             round: self.rounds,
             smoothed: self.goal == Goal::Start,
-        }
-    }
-
-    /// The solution: the final fields, and the report on them.
-    pub(super) fn finish(mut self, status: Status) -> Result<Solution<T>> {
-        if self.age > 0 {
-            self.refresh()?;
-            self.certificate = f64::INFINITY;
-        }
-        if self.certificate.is_infinite() {
-            self.residual();
-            self.certify()?;
-        }
-        self.trust_work(T::epsilon().widen().sqrt())?;
-        let mean = match self.control {
-            Control::MeanGap(_) => -self.multiplier(),
-            Control::MeanPressure(pressure) => pressure,
-        };
-        let shift = T::lit(mean - self.drift);
-        let Self { fields: Fields { reducer, gap, pressure, preconditioned, .. }, law, constraint, .. } = &mut self;
-        let local = Potential::new(*law, &**constraint);
-        let fields = read(gap).zip(write(pressure)).zip(write(preconditioned));
-        let total = reducer.run(fields, |first, ((gap, pressure), contact)| {
-            let mut part = Partial::NONE;
-            pressure.iter_mut().for_each(|p| *p += shift);
-            local.contact_pressures(first, gap, pressure, contact);
-            for (&gap, contact) in gap.iter().zip(contact) {
-                part.sum[0] += contact.widen();
-                part.min = part.min.min(gap.widen());
-            }
-            part
-        });
-        let mean_contact_pressure = total.sum[0] / self.nodes();
-        let carried_pressure = mean_contact_pressure - self.tally.traction / self.nodes();
-        let load_error = match self.control {
-            _ if self.detached.is_some() => 1.0,
-            Control::MeanGap(_) => 0.0,
-            Control::MeanPressure(_) => self.load_error().max(self.share_of_load(carried_pressure - mean)),
-        };
-        let mu_rho = mu_rho(self.law, self.operator.grid(), self.operator.modulus());
-        let report = Report {
-            status: self.final_status(status, load_error),
-            relative_error: self.relative_error(),
-            load_error,
-            orthogonality: self.scaled_orthogonality(),
-            iterations: self.iterations,
-            operator_applications: self.applications,
-            mean_gap: self.tally.sum_gap / self.nodes(),
-            mean_pressure: self.detached.unwrap_or(mean),
-            carried_pressure,
-            mean_contact_pressure,
-            contact_fraction: self.tally.contact / self.nodes(),
-            contact_nodes: self.tally.contact as usize,
-            min_gap: total.min,
-            elastic_energy: 0.5 * self.mean_work(),
-            adhesive_energy: self.tally.adhesive / self.nodes(),
-            mu_rho,
-            under_resolved: mu_rho > 0.5,
-            precision: T::NAME,
-            method: self.settings.method,
-            criterion: self.settings.criterion,
-            tolerance: self.settings.tolerance_in::<T>(),
-        };
-        let Fields { gap, pressure, preconditioned, .. } = self.fields;
-        Ok(Solution { gap, pressure, contact_pressure: preconditioned, report })
-    }
-
-    /// The status, corrected by the figures of the returned fields.
-    fn final_status(&self, status: Status, load_error: f64) -> Status {
-        let good = self.meets(load_error);
-        match status {
-            Status::Stopped => status,
-            _ if self.detached.is_some() => Status::Detached,
-            Status::Converged if !good => Status::Stalled,
-            // the last computation of the pressure may have reached the tolerance; rounds of a constraint end by its own word
-            Status::Stalled if good && self.projects() => Status::Converged,
-            _ => status,
         }
     }
 }

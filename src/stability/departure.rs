@@ -35,7 +35,8 @@ impl<T: Real> Stability<T> {
     ///
     /// The perturbation changes the gap by a tenth of the range of adhesion at most. From a saddle the energy falls
     /// along the mode, and the solver never raises it again: it does not come back. From a stable equilibrium it does,
-    /// within that distance. The wall is rigid. `None` if the mode is zero, as where all nodes are in contact, or without adhesion.
+    /// within that distance. The wall is rigid. `None` if the mode is zero, as where all nodes are in contact, or
+    /// without adhesion.
     ///
     /// # Errors
     /// [`Error::Shape`] if the solution is of another grid, and those of [`Solver::solve_with`].

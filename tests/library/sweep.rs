@@ -44,20 +44,32 @@ fn compare<L: AdhesionLaw<f64>>(problem: &mut Problem<f64, Westergaard<f64>, L>,
     (applications(&steps), cold)
 }
 
+/// Takes no more applications, of the sweep and of single solves, than were counted, and what rounding, which differs
+/// between processors, may add: an iteration for every other load.
+#[track_caller]
+fn takes<L: AdhesionLaw<f64>>(
+    mut problem: Problem<f64, Westergaard<f64>, L>,
+    loads: &[Control],
+    (sweep, single): (usize, usize),
+) {
+    let found = compare(&mut problem, loads);
+    assert!(found.0 <= sweep + loads.len() && found.1 <= single + loads.len(), "{found:?} and not {sweep}, {single}");
+}
+
 #[test]
 fn a_sweep_takes_fewer_applications_than_single_solves() {
     let bare = || rough::<f64, _>(128, 32, NoAdhesion);
-    assert_eq!(compare(&mut bare(), &gaps(&evenly(0.02, 0.0125, 16))), (287, 420));
-    assert_eq!(compare(&mut bare(), &pressures(&evenly(0.02, 0.095, 16))), (369, 536));
+    takes(bare(), &gaps(&evenly(0.02, 0.0125, 16)), (259, 414));
+    takes(bare(), &pressures(&evenly(0.02, 0.095, 16)), (361, 504));
     let doubled: Vec<f64> = (0..7).map(|k| 0.005 * f64::from(1 << k)).collect();
     let halved: Vec<f64> = doubled.iter().rev().copied().collect();
-    assert_eq!(compare(&mut bare(), &pressures(&doubled)), (206, 224));
-    assert_eq!(compare(&mut bare(), &pressures(&halved)), (218, 224));
-    assert_eq!(compare(&mut sphere(128, NoAdhesion), &gaps(&evenly(0.041, 0.039, 5))), (90, 112));
+    takes(bare(), &pressures(&doubled), (198, 212));
+    takes(bare(), &pressures(&halved), (208, 212));
+    takes(sphere(128, NoAdhesion), &gaps(&evenly(0.041, 0.039, 5)), (80, 110));
     let law = Exponential::new(2e-4, 2e-3).unwrap();
-    assert_eq!(compare(&mut rough(128, 32, law), &pressures(&doubled)), (256, 266));
-    assert_eq!(compare(&mut rough(128, 32, law), &pressures(&halved)), (238, 266));
-    assert_eq!(compare(&mut rough(128, 32, law), &gaps(&[0.03, 0.02, 0.01, 0.005])), (111, 108));
+    takes(rough(128, 32, law), &pressures(&doubled), (250, 258));
+    takes(rough(128, 32, law), &pressures(&halved), (244, 258));
+    takes(rough(128, 32, law), &gaps(&[0.03, 0.02, 0.01, 0.005]), (109, 108));
 }
 
 #[test]

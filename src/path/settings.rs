@@ -1,0 +1,35 @@
+//! The settings of a path of equilibria.
+
+/// The settings of a path of equilibria.
+///
+/// | field | default | meaning | range |
+/// |---|---|---|---|
+/// | `steps` | 50 | the least number of steps in a leg | at least 1 |
+/// | `smallest_step` | 1e-4 | the step, as a share of the leg, to which a jump is located | positive, below 1 |
+/// | `smooth` | true | whether jumps of the law's traction are smoothed, by what the grid can resolve | |
+/// | `imbalance` | 1e-4 | how far the energy may be from the work done in a step, as a share of how much the energy has changed along the path (or of w/1000, if that is more) | positive |
+///
+/// A smaller imbalance asks for a smaller tolerance of the solver too: its square must be well below.
+///
+/// ```
+/// use asperity::path::PathSettings;
+/// let sharp = PathSettings { smallest_step: 1e-6, ..PathSettings::default() };
+/// assert_eq!(sharp.steps, 50);
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PathSettings {
+    /// The least number of steps in a leg.
+    pub steps: usize,
+    /// The step to which a jump is located, as a share of the leg.
+    pub smallest_step: f64,
+    /// The imbalance of energy that a step may have without being a jump.
+    pub imbalance: f64,
+    /// Whether jumps of the law's traction are smoothed.
+    pub smooth: bool,
+}
+
+impl Default for PathSettings {
+    fn default() -> Self {
+        Self { steps: 50, smallest_step: 1e-4, imbalance: 1e-4, smooth: true }
+    }
+}

@@ -1,0 +1,71 @@
+//! A state on a path of equilibria, and the checkpoint from which a path goes on.
+
+use ndarray::Array2;
+
+use super::Event;
+use crate::problem::Control;
+use crate::solver::Solution;
+
+/// A state on a path.
+///
+/// ```
+/// use asperity::path::{Path, PathSettings};
+/// use asperity::{Control, Grid, NoAdhesion, Problem, Solver, Surface, Westergaard};
+/// let grid = Grid::line(64, 1.0)?;
+/// let mut problem = Problem::new(&Surface::wave(grid, 0.02, 1)?, Westergaard::<f64>::new(grid, 1.0)?, NoAdhesion)?;
+/// let legs = [0.02, 0.01].map(Control::MeanGap);
+/// let mut solver = Solver::default();
+/// let path = Path::new(&mut solver, &mut problem, legs, PathSettings::default())?;
+/// let path = path.collect::<Result<Vec<_>, _>>()?;
+/// let last = path.last().expect("a path has a start");
+/// // without adhesion nothing jumps, and what the load puts in is stored
+/// assert!(path.iter().all(|step| step.event.is_none()) && last.dissipated == 0.0);
+/// assert!((last.work / last.solution.report.elastic_energy - 1.0).abs() < 1e-3);
+/// # Ok::<(), asperity::Error>(())
+/// ```
+#[non_exhaustive]
+#[derive(Clone, Debug, PartialEq)]
+pub struct PathStep<T> {
+    /// The state.
+    pub solution: Solution<T>,
+    /// The control under which it was found.
+    pub control: Control,
+    /// The leg that it is on: 0 is the start, 1 the way to the second load.
+    pub leg: usize,
+    /// The work done by the load since the start, −∫p̄ dḡ, per area.
+    pub work: f64,
+    /// The energy dropped in jumps since the start, per area. Over a closed cycle it is the work of adhesion that was
+    /// lost.
+    pub dissipated: f64,
+    /// The imbalance of energy: the change of the energy, plus the dissipated energy, less the work. It comes from the
+    /// quadrature of the work, the solver's tolerance, and jumps smaller than the imbalance that a step may have.
+    pub imbalance: f64,
+    /// The event between the previous state and this one.
+    pub event: Option<Event>,
+}
+
+/// All that a path needs to go on: opaque numbers, and fields of shape (Nx, Ny). Both must come back bit for bit.
+///
+/// ```
+/// use asperity::path::{Path, PathSettings};
+/// use asperity::{Control, Grid, NoAdhesion, Problem, Solver, Surface, Westergaard};
+/// let grid = Grid::line(64, 1.0)?;
+/// let mut problem = Problem::new(&Surface::wave(grid, 0.02, 1)?, Westergaard::<f64>::new(grid, 1.0)?, NoAdhesion)?;
+/// let (mut solver, settings) = (Solver::default(), PathSettings { steps: 4, ..PathSettings::default() });
+/// let legs = [0.02, 0.01].map(Control::MeanGap);
+/// let whole = Path::new(&mut solver, &mut problem, legs, settings)?.collect::<Result<Vec<_>, _>>()?;
+///
+/// let mut first = Path::new(&mut solver, &mut problem, legs, settings)?;
+/// first.next().transpose()?;
+/// let kept = first.checkpoint();
+/// let rest = Path::new(&mut solver, &mut problem, legs, settings)?.continuing(kept)?.collect::<Result<Vec<_>, _>>()?;
+/// assert_eq!(rest, whole[1..]);
+/// # Ok::<(), asperity::Error>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct PathCheckpoint<T> {
+    /// The numbers of the path's track.
+    pub numbers: Vec<f64>,
+    /// The last gaps, and the softest mode of the last state, where it was needed.
+    pub fields: Vec<Array2<T>>,
+}

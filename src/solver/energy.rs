@@ -1,0 +1,65 @@
+//! The energy of a state, the elastic work in it, and their rounding.
+
+use super::state::State;
+use super::work::{TRUSTED, Work};
+use crate::elastic::Foundation;
+use crate::error::Result;
+use crate::real::Real;
+
+/// The roundings that each product and the sum of them may have.
+const ROUNDINGS: f64 = 8.0;
+
+impl<T: Real> State<'_, T> {
+    /// The mean of u·p, twice the elastic energy per area.
+    pub(super) fn mean_work(&self) -> f64 {
+        (self.work.sum / self.nodes()).max(0.0)
+    }
+
+    /// The rounding of a sum over the nodes, with `size` the sum of the magnitudes of its terms.
+    fn sum_noise(&self, size: f64) -> f64 {
+        ROUNDINGS * (T::epsilon().widen() / self.nodes().sqrt() + f64::EPSILON) * size
+    }
+
+    /// The work from the sums of a tally: Σ g·p and Σ g·K⁻¹h.
+    pub(super) fn summed_work(&self, sum_gp: f64, gap_surface: f64) -> Work {
+        let surface = self.nodes() * self.flat.work;
+        Work { sum: sum_gp + gap_surface + surface, noise: self.sum_noise(surface) }
+    }
+
+    /// Whether the work has become so small in the steps since its last sum that its rounding matters.
+    pub(super) fn has_lost_its_work(&self) -> bool {
+        self.work.is_doubtful(TRUSTED)
+    }
+
+    /// Computes the work as ⟨p, K p⟩ if rounding may exceed `share` of the present sum. Overwrites the preconditioned
+    /// residual z.
+    pub(super) fn trust_work(&mut self, share: f64) -> Result<()> {
+        if !self.work.is_doubtful(share) {
+            return Ok(());
+        }
+        let stiffness = self.foundation();
+        let found = self.operator.precondition(
+            self.fields.pressure.view(),
+            Foundation::uniform(stiffness, stiffness),
+            self.fields.preconditioned.view_mut(),
+        )?;
+        self.applications += 1;
+        if found.error.is_finite() {
+            let sum = self.nodes() * found.error.max(0.0);
+            self.work = Work { sum, noise: self.sum_noise(sum) };
+        }
+        Ok(())
+    }
+
+    /// The energy that is minimised, per area.
+    pub(super) fn energy(&self) -> f64 {
+        let load = self.detached.unwrap_or(self.given());
+        0.5 * self.mean_work() + (self.tally.adhesive + self.tally.penalty + load * self.tally.sum_gap) / self.nodes()
+    }
+
+    /// The rounding of the energy, per area.
+    pub(super) fn energy_noise(&self) -> f64 {
+        let local = self.tally.adhesive.abs() + self.tally.penalty.abs() + (self.given() * self.tally.sum_gap).abs();
+        2.0 * T::epsilon().widen() * (0.5 * self.mean_work() + local / self.nodes())
+    }
+}

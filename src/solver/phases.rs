@@ -1,0 +1,78 @@
+//! The phases of a solve, each with an energy and a goal of its own: their beginnings.
+
+use super::start::uniform_start;
+use super::state::{Goal, Progress, State};
+use crate::adhesion::AdhesionLaw;
+use crate::constraint::Update;
+use crate::error::{Error, Result};
+use crate::field::flat;
+use crate::real::Real;
+
+/// The first trial length from a start near the solution. The residual r' then has short waves at the edges of
+/// contacts, for which a whole step is too long.
+const NEAR: f64 = 0.5;
+
+impl<'a, T: Real> State<'a, T> {
+    /// Treats the start as near the solution.
+    pub(super) fn stays_near(&mut self) {
+        (self.near, self.step_length) = (true, NEAR);
+    }
+
+    /// Refuses a law that is not finite at the gaps of the start.
+    pub(super) fn check_start(&self) -> Result<()> {
+        if self.energy().is_finite() && self.tally.sum_r.is_finite() {
+            return Ok(());
+        }
+        let law = self.law;
+        let mut value = [T::zero()];
+        for (node, gap) in flat(&self.fields.gap).iter().enumerate() {
+            let gap = gap.max(T::zero());
+            for function in ["adhesive energy", "adhesive traction"] {
+                match function {
+                    "adhesive energy" => law.energies(node, &[gap], &mut value),
+                    _ => law.tractions(node, &[gap], &mut value),
+                }
+                if !value[0].is_finite() {
+                    return Err(Error::Law { function, gap: gap.widen(), value: value[0].widen(), expected: None });
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Goes on with another law, whose equilibrium is the goal.
+    pub(super) fn change_law(&mut self, law: &'a dyn AdhesionLaw<T>, goal: Goal) {
+        (self.law, self.goal) = (law, goal);
+        self.restart();
+    }
+
+    /// Goes on with the law itself from an equilibrium of the smoothed one.
+    pub(super) fn sharpen(&mut self, law: &'a dyn AdhesionLaw<T>) -> Result<()> {
+        self.law = law;
+        if self.is_adrift() {
+            // the law itself may hold a tension that the smoothed one does not
+            self.fields.gap.fill(T::lit(uniform_start(law, self.flat, self.control)));
+            self.refresh()?;
+        }
+        self.change_law(law, Goal::Solution);
+        // this certificate was of the smoothed law
+        self.certificate = f64::INFINITY;
+        Ok(())
+    }
+
+    pub(super) fn update_constraint(&mut self) -> Update {
+        let outer = self.constraint.update(self.fields.gap.view());
+        if outer == Update::Again {
+            self.restart();
+        }
+        outer
+    }
+
+    /// Drops momentum, progress and certificate after a change of the energy or of the gap.
+    pub(super) fn restart(&mut self) {
+        (self.momentum, self.residual_norm) = (None, None);
+        self.progress = Progress::NONE;
+        self.rounds += 1;
+        self.count();
+    }
+}
