@@ -25,8 +25,10 @@ const LONGER: f64 = 1.4;
 #[derive(Debug)]
 pub(super) struct Coarse {
     space: CoarseSpace,
-    /// the shares of contact in the blocks of the map
+    /// the shares of contact at the first nodes of the blocks
     contact: Vec<f64>,
+    /// the same from each row of blocks, for this row and the next
+    rows: Vec<f64>,
     /// whether the space has a contact map
     ready: bool,
     /// the iteration of the next renewal
@@ -40,8 +42,8 @@ impl Coarse {
         let nodes = operator.grid().nodes() as f64;
         let space = operator.coarse_space((DIMENSION * nodes.cbrt()) as usize)?;
         let [_, blocks] = space.blocks();
-        let contact = vec![0.0; blocks.0 * blocks.1];
-        Some(Self { space, contact, ready: false, due: 0, interval: INTERVAL })
+        let [contact, rows] = [1, 2].map(|rows| vec![0.0; rows * blocks.0 * blocks.1]);
+        Some(Self { space, contact, rows, ready: false, due: 0, interval: INTERVAL })
     }
 
     /// Whether the contact map is to be taken in an iteration; the first one waits until the contacts have settled.
@@ -72,21 +74,88 @@ impl Coarse {
         self.ready.then_some(&mut self.space)
     }
 
-    /// Puts the shares of contact into the blocks; returns whether some of the nodes touch, and some do not.
+    /// Takes the contact map; returns whether some of the nodes touch, and some do not.
+    ///
+    /// A node counts for the first nodes of its own block and of the next one by linear interpolation: then the map has the
+    /// symmetries of the surface about such nodes.
     fn map<T: Real>(&mut self, field: &Array2<T>, touches: impl Fn(T) -> bool + Sync + Send) -> bool {
         let [block, blocks] = self.space.blocks();
         let share = (field.len() as f64).recip();
         let rows = field.axis_chunks_iter(Axis(0), block.0);
-        par::for_each(rows, par::chunks_mut(&mut self.contact, blocks.1), |nodes, contact| {
-            contact.fill(0.0);
-            for row in nodes.rows() {
-                let row = row.to_slice().unwrap_or_default();
-                for (contact, nodes) in contact.iter_mut().zip(row.chunks(block.1)) {
-                    *contact += share * nodes.iter().filter(|&&node| touches(node)).count() as f64;
+        // for each row of blocks: its own share, and that of the next row
+        par::for_each(rows, par::chunks_mut(&mut self.rows, 2 * blocks.1), |nodes, shares| {
+            shares.fill(0.0);
+            let (here, next) = shares.split_at_mut(blocks.1);
+            for (i, row) in nodes.rows().into_iter().enumerate() {
+                let down = i as f64 / nodes.nrows() as f64;
+                for (k, nodes) in row.to_slice().unwrap_or_default().chunks(block.1).enumerate() {
+                    let (mut count, mut offsets) = (0, 0);
+                    for (j, &node) in nodes.iter().enumerate() {
+                        let touches = usize::from(touches(node));
+                        count += touches;
+                        offsets += touches * j;
+                    }
+                    let right = share * offsets as f64 / nodes.len() as f64;
+                    let left = share * count as f64 - right;
+                    for (k, share) in [(k, left), ((k + 1) % blocks.1, right)] {
+                        here[k] += (1.0 - down) * share;
+                        next[k] += down * share;
+                    }
                 }
             }
         });
+        let before = self.rows.chunks(2 * blocks.1).cycle().skip(blocks.0 - 1);
+        for ((contact, own), before) in
+            self.contact.chunks_mut(blocks.1).zip(self.rows.chunks(2 * blocks.1)).zip(before)
+        {
+            let shares = own.iter().zip(&before[blocks.1..]);
+            contact.iter_mut().zip(shares).for_each(|(contact, (own, before))| *contact = own + before);
+        }
         let total: f64 = self.contact.iter().sum();
         total > 0.0 && total < 1.0 - 0.5 * share
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Grid, Westergaard};
+
+    #[test]
+    fn a_map_has_all_of_the_contact_and_the_symmetries_of_the_field() {
+        for shape in [(256, 128), (243, 75), (211, 131), (1000, 1)] {
+            let operator = Westergaard::<f64>::new(Grid::new(shape, (1.0, 0.7)).unwrap(), 1.0).unwrap();
+            let mut coarse = Coarse::of(&operator).unwrap();
+            let [block, blocks] = coarse.space.blocks();
+            assert!(block != (1, 1), "{shape:?}");
+            let field = Array2::from_shape_fn(shape, |(i, j)| ((i * i + 3 * j + i * j * j) % 7) as f64);
+            let touches = |value: f64| value < 2.0;
+            let share = field.iter().filter(|&&value| touches(value)).count() as f64 / field.len() as f64;
+            assert!(coarse.map(&field, touches));
+            assert!((coarse.contact.iter().sum::<f64>() - share).abs() < 1e-14, "{shape:?}");
+            if !shape.0.is_multiple_of(block.0) || !shape.1.is_multiple_of(block.1) {
+                continue;
+            }
+            // mirrored at node 0, and moved by a block
+            let map = Array2::from_shape_vec(blocks, coarse.contact.clone()).unwrap();
+            let mirrored = |(i, j): (usize, usize), (nx, ny): (usize, usize)| [(nx - i) % nx, (ny - j) % ny];
+            assert!(coarse.map(&Array2::from_shape_fn(shape, |node| field[mirrored(node, shape)]), touches));
+            let expected = Array2::from_shape_fn(blocks, |node| map[mirrored(node, blocks)]);
+            assert!(expected.iter().zip(&coarse.contact).all(|(a, b)| (a - b).abs() < 1e-15), "{shape:?}");
+            let moved = Array2::from_shape_fn(shape, |(i, j)| field[[(i + block.0) % shape.0, j]]);
+            assert!(coarse.map(&moved, touches));
+            let expected = Array2::from_shape_fn(blocks, |(i, j)| map[[(i + 1) % blocks.0, j]]);
+            assert!(expected.iter().zip(&coarse.contact).all(|(a, b)| (a - b).abs() < 1e-15), "{shape:?}");
+        }
+    }
+
+    #[test]
+    fn no_contact_and_nothing_but_contact_are_no_map() {
+        let operator = Westergaard::<f64>::new(Grid::square(40, 1.0).unwrap(), 1.0).unwrap();
+        let mut coarse = Coarse::of(&operator).unwrap();
+        let mut field = Array2::zeros((40, 40));
+        assert!(!coarse.map(&field, |value| value > 0.0) && !coarse.map(&field, |value| value == 0.0));
+        field[[7, 9]] = 1.0;
+        assert!(coarse.map(&field, |value| value > 0.0) && coarse.map(&field, |value| value == 0.0));
     }
 }
