@@ -217,8 +217,8 @@ fn waves(grid: &Grid, layout: Layout, symbol: &dyn Fn(f64, f64) -> f64, dimensio
 struct Moments {
     /// the first nodes of the blocks along both axes, as shares of the side
     points: [Vec<f64>; 2],
-    /// the factors e^(−iqx) of these, for each wave number from 0 on
-    turns: [Vec<Complex<f64>>; 2],
+    /// the factors e^(−iqx) of these for one wave length on a side, and for the wave number in hand
+    turns: [[Vec<Complex<f64>>; 2]; 2],
     /// the highest wave numbers
     highest: [usize; 2],
     /// the transforms of the rows of blocks
@@ -235,8 +235,8 @@ impl Moments {
             (0..n).step_by(block[axis]).map(|first| first as f64 / n as f64).collect::<Vec<_>>()
         });
         let turns = [0, 1].map(|axis| {
-            let turn = |k: usize| points[axis].iter().map(move |x| Complex::from_polar(1.0, -TAU * k as f64 * x));
-            (0..=highest[axis]).flat_map(turn).collect()
+            let once: Vec<_> = points[axis].iter().map(|x| Complex::from_polar(1.0, -TAU * x)).collect();
+            [once.clone(), once]
         });
         let rows = vec![Complex::default(); points[0].len() * (highest[1] + 1)];
         let values = vec![Complex::default(); (2 * highest[0] + 1) * (highest[1] + 1)];
@@ -245,20 +245,27 @@ impl Moments {
 
     /// Takes the moments of a contact map, block by block in row-major order.
     fn of(&mut self, contact: &[f64]) {
-        let Self { points: [x, y], turns: [turns_x, turns_y], highest, rows, values } = self;
+        let Self { points: [_, y], turns: [turns_x, turns_y], highest, rows, values } = self;
         let along_y = highest[1] + 1;
-        for (row, contact) in rows.chunks_mut(along_y).zip(contact.chunks(y.len())) {
-            for (value, turns) in row.iter_mut().zip(turns_y.chunks(y.len())) {
-                *value = contact.iter().zip(turns).map(|(share, turn)| turn * share).sum();
+        for k in 0..along_y {
+            let turns = power(turns_y, k);
+            for (row, contact) in rows.chunks_mut(along_y).zip(contact.chunks(y.len())) {
+                row[k] = contact.iter().zip(turns).map(|(share, turn)| turn * share).sum();
             }
         }
-        for (i, values) in values.chunks_mut(along_y).enumerate() {
-            let turns = &turns_x[i.abs_diff(highest[0]) * x.len()..][..x.len()];
-            let back = i < highest[0];
-            values.fill(Complex::default());
+        values.fill(Complex::default());
+        for k in 0..=highest[0] {
+            let turns = power(turns_x, k);
+            let (back, forth) = values.split_at_mut(highest[0] * along_y);
+            let forth = &mut forth[k * along_y..][..along_y];
             for (row, turn) in rows.chunks(along_y).zip(turns) {
-                let turn = if back { turn.conj() } else { *turn };
-                values.iter_mut().zip(row).for_each(|(value, row)| *value += row * turn);
+                forth.iter_mut().zip(row).for_each(|(value, row)| *value += row * turn);
+            }
+            if k > 0 {
+                let back = &mut back[(highest[0] - k) * along_y..][..along_y];
+                for (row, turn) in rows.chunks(along_y).zip(turns) {
+                    back.iter_mut().zip(row).for_each(|(value, row)| *value += row * turn.conj());
+                }
             }
         }
     }
@@ -291,6 +298,14 @@ impl Moments {
             (true, false) => sin - sin_less,
         }
     }
+}
+
+/// The powers of some factors, one after the other from the power 0 on.
+fn power([once, turns]: &mut [Vec<Complex<f64>>; 2], k: usize) -> &[Complex<f64>] {
+    for (turn, once) in turns.iter_mut().zip(once) {
+        *turn = if k == 0 { Complex::new(1.0, 0.0) } else { *turn * *once };
+    }
+    turns
 }
 
 /// Rows of a matrix that are decomposed together.

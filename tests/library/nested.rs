@@ -57,14 +57,14 @@ fn takes<T>(found: &NestedSolution<T>, counted: f64) {
 #[test]
 fn nested_grids_take_few_applications() {
     for (n, control, fine, coarse) in [
-        (512, PRESSED, 33.5, 17.5),
-        (512, SQUEEZED, 33.6, 17.6),
-        (512, APART, 31.5, 17.5),
-        (512, CLOSE, 31.4, 15.4),
-        (1024, PRESSED, 35.4, 17.4),
-        (1024, SQUEEZED, 32.9, 14.9),
-        (1024, APART, 33.4, 17.4),
-        (1024, CLOSE, 34.9, 14.9),
+        (512, PRESSED, 36.1, 20.1),
+        (512, SQUEEZED, 32.0, 16.0),
+        (512, APART, 31.4, 17.4),
+        (512, CLOSE, 27.5, 15.5),
+        (1024, PRESSED, 35.5, 19.5),
+        (1024, SQUEEZED, 31.5, 15.5),
+        (1024, APART, 31.4, 15.4),
+        (1024, CLOSE, 28.9, 12.9),
     ] {
         for (tolerance, counted) in [(1e-6, fine), (1e-3, coarse)] {
             takes(&solve::<f64>(&surface(n, 1), none(), control, tolerance), counted);
@@ -74,13 +74,13 @@ fn nested_grids_take_few_applications() {
 
 #[test]
 fn other_surfaces_laws_and_precisions_take_few_applications() {
-    for (seed, pressed, apart) in [(2, 33.5, 31.4), (3, 33.5, 31.5), (4, 36.0, 31.5)] {
+    for (seed, pressed, apart) in [(2, 36.5, 29.4), (3, 34.6, 31.5), (4, 36.1, 29.5)] {
         takes(&solve::<f64>(&surface(512, seed), none(), PRESSED, 1e-6), pressed);
         takes(&solve::<f64>(&surface(512, seed), none(), APART, 1e-6), apart);
     }
-    for (control, counted) in [(PRESSED, 35.9), (APART, 31.4)] {
+    for (control, counted) in [(PRESSED, 40.9), (APART, 33.3)] {
         takes(&solve::<f64>(&surface(512, 1), exponential(), control, 1e-6), counted);
-        takes(&solve::<f32>(&surface(512, 1), none(), control, 1e-5), 32.5);
+        takes(&solve::<f32>(&surface(512, 1), none(), control, 1e-5), 37.1);
     }
 }
 
@@ -151,7 +151,8 @@ fn nested_grids_need_no_more_memory_than_the_finest_alone() {
         let field = (surface.grid().nodes() * size_of::<T>()) as f64;
         rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap().install(|| {
             let info = allocation_counter::measure(|| drop(solve::<T>(&surface, law(), control, 1e-2)));
-            info.bytes_max as f64 / field
+            // without the coarse space, that of N nodes: 8 N^(2/3) numbers in f64, and up to 5 N^(2/3) for a contact map with its moments
+            (info.bytes_max as f64 - 13.0 * 8.0 * (surface.grid().nodes() as f64).powf(2.0 / 3.0)) / field
         })
     }
     // seven, of which the start becomes one, and in f32 six and the start while the heights are in f64; the rest is
