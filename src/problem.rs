@@ -5,6 +5,7 @@ use ndarray::Array2;
 use crate::adhesion::AdhesionLaw;
 use crate::elastic::ElasticOperator;
 use crate::error::{Error, Result};
+use crate::field;
 use crate::grid::Grid;
 use crate::real::Real;
 use crate::surface::Surface;
@@ -66,6 +67,8 @@ pub(crate) struct PressedFlat<T> {
     /// the mean of h·K⁻¹h
     pub(crate) work: f64,
     pub(crate) rms_height: f64,
+    /// the stiffness that the surface meets as it is pressed flat: the rms pressure over the rms height
+    pub(crate) stiffness: f64,
     /// the highest height less the mean
     pub(crate) peak: f64,
     /// the highest height less the lowest
@@ -118,7 +121,9 @@ impl<T: Real, O: ElasticOperator<T>, L: AdhesionLaw<T>> Problem<T, O, L> {
         let surface_work = operator.surface_pressure(heights, surface_pressure.view_mut())?.max(0.0);
         drop(centred);
         Error::all_finite("pressure K⁻¹h of the surface pressed flat", surface_pressure.view())?;
-        let flat = PressedFlat { pressure: surface_pressure, work: surface_work, rms_height, peak, height_span };
+        let stiffness = field::mean(surface_pressure.view(), |p: T| p.widen().powi(2)).sqrt() / rms_height;
+        let flat =
+            PressedFlat { pressure: surface_pressure, work: surface_work, rms_height, stiffness, peak, height_span };
         Ok(Self { operator, law, flat })
     }
 

@@ -10,8 +10,9 @@ use crate::real::Real;
 /// operations for each node, a few hundredths of those of an iteration.
 const DIMENSION: f64 = 4.0;
 
-/// The stiffness of the contacts, over that of the stiffest wave.
-const STIFFNESS: f64 = 0.085;
+/// The stiffness of the contacts, over that which the surface meets as it is pressed flat: the best one does not depend on
+/// the grid.
+const STIFFNESS: f64 = 2.5;
 
 /// The stiffness of the mean gap without contacts, over that of the softest wave.
 const MEAN: f64 = 1e-3;
@@ -51,18 +52,21 @@ impl Coarse {
         iteration >= self.due && (self.ready || settled)
     }
 
-    /// Takes the contact map from a field, of which the nodes in contact are told by their values. `range` has the
-    /// stiffness of the softest and the stiffest wave; with `held` the mean gap is given.
+    /// Takes the contact map from a field, of which the nodes in contact are told by their values. `stiffness` is
+    /// that which the surface meets as it is pressed flat, `range` that of the softest and the stiffest wave; with `held`
+    /// the mean gap is given.
     pub(super) fn renew<T: Real>(
         &mut self,
         iteration: usize,
         field: &Array2<T>,
         touches: impl Fn(T) -> bool + Sync + Send,
+        stiffness: f64,
         (softest, stiffest): (f64, f64),
         held: bool,
     ) {
         let contact = self.map(field, touches);
-        self.ready = contact && self.space.renew(&self.contact, STIFFNESS * stiffest, MEAN * softest, held);
+        let stiffness = (STIFFNESS * stiffness).max(softest).min(stiffest);
+        self.ready = contact && self.space.renew(&self.contact, stiffness, MEAN * softest, held);
         if self.ready {
             self.due = iteration + self.interval as usize;
             self.interval *= LONGER;

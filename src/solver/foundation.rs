@@ -69,12 +69,13 @@ impl<T: Real> State<'_, T> {
     /// springs hold.
     pub(super) fn renew_coarse(&mut self) {
         let (settled, projects, held) = (self.is_settled(), self.projects(), self.is_gap_controlled());
-        let (range, iteration) = (self.operator.stiffness_range(), self.iterations);
+        let (stiffness, range) = (self.flat.stiffness, self.operator.stiffness_range());
+        let iteration = self.iterations;
         let Some(coarse) = self.coarse.as_mut().filter(|coarse| coarse.is_due(iteration, settled)) else { return };
         if projects {
-            coarse.renew(iteration, &self.fields.residual, idles, range, held);
+            coarse.renew(iteration, &self.fields.residual, idles, stiffness, range, held);
         } else {
-            coarse.renew(iteration, &self.fields.gap, |gap| gap <= T::zero(), range, held);
+            coarse.renew(iteration, &self.fields.gap, |gap| gap <= T::zero(), stiffness, range, held);
         }
     }
 }

@@ -170,7 +170,7 @@ fn are_the_same(found: &[Jump], expected: &[Jump], width: f64, node: f64) {
         // to the step at which the branch is lost in each, and as nodes are pinned
         assert!((a.mean_gap.0 - b.mean_gap.0).abs() <= 5.0 * width, "{a:?} {b:?}");
         let (a, b) = (a.contact_fraction, b.contact_fraction);
-        assert!((a.0 - b.0).abs() <= 2.0 * node && (a.1 - b.1).abs() <= 2.0 * node, "{a:?} {b:?}");
+        assert!((a.0 - b.0).abs() <= 4.0 * node && (a.1 - b.1).abs() <= 4.0 * node, "{a:?} {b:?}");
     }
 }
 
