@@ -1,6 +1,6 @@
 //! The coarse space of the preconditioner: the longest waves, held by the contacts where these are.
 
-use std::f64::consts::{PI, SQRT_2, TAU};
+use std::f64::consts::{PI, SQRT_2};
 use std::ops::Range;
 
 use asperity_fft::num_complex::Complex;
@@ -9,7 +9,12 @@ use ndarray::ArrayView2;
 use crate::fft::{Layout, Sums};
 use crate::grid::Grid;
 use crate::real::Real;
-use crate::vector::{LANES, vectorised};
+
+mod cholesky;
+mod moments;
+
+use cholesky::{decompose, dot, solve, start};
+use moments::Moments;
 
 /// Blocks of the contact map along a side, for each wave length that the shortest wave has there: a product of two
 /// waves has twice as many, and two blocks resolve one.
@@ -107,10 +112,11 @@ impl CoarseSpace {
         let Self { waves, moments, factor, apart: [load, response], vector, .. } = self;
         moments.of(contact);
         let dimension = vector.len();
+        let number = |i: usize| waves[i.div_ceil(2)].number;
         for i in 0..dimension {
             let row = &mut factor[start(i)..start(i + 1)];
             for (j, value) in row.iter_mut().enumerate() {
-                *value = moments.mean_product(waves, i, j);
+                *value = moments.mean_product(number, i, j);
             }
             load[i] = f64::from(u8::from(i == 0)) - row[0];
             row.iter_mut().for_each(|value| *value *= stiffness);
@@ -212,191 +218,10 @@ fn waves(grid: &Grid, layout: Layout, symbol: &dyn Fn(f64, f64) -> f64, dimensio
     waves
 }
 
-/// The moments of the contact map χ: the means of χ e^(−iq·x) for the waves q up to twice the highest of the space.
-#[derive(Clone, Debug)]
-struct Moments {
-    /// the first nodes of the blocks along both axes, as shares of the side
-    points: [Vec<f64>; 2],
-    /// the factors e^(−iqx) of these for one wave length on a side, and for the wave number in hand
-    turns: [[Vec<Complex<f64>>; 2]; 2],
-    /// the highest wave numbers
-    highest: [usize; 2],
-    /// the transforms of the rows of blocks
-    rows: Vec<Complex<f64>>,
-    /// the moments, for all wave numbers of both signs along x and from 0 on along y
-    values: Vec<Complex<f64>>,
-}
-
-impl Moments {
-    fn new(shape: [usize; 2], block: [usize; 2], highest: [usize; 2]) -> Self {
-        let highest = highest.map(|highest| 2 * highest);
-        let points = [0, 1].map(|axis| {
-            let n = shape[axis];
-            (0..n).step_by(block[axis]).map(|first| first as f64 / n as f64).collect::<Vec<_>>()
-        });
-        let turns = [0, 1].map(|axis| {
-            let once: Vec<_> = points[axis].iter().map(|x| Complex::from_polar(1.0, -TAU * x)).collect();
-            [once.clone(), once]
-        });
-        let rows = vec![Complex::default(); points[0].len() * (highest[1] + 1)];
-        let values = vec![Complex::default(); (2 * highest[0] + 1) * (highest[1] + 1)];
-        Self { points, turns, highest, rows, values }
-    }
-
-    /// Takes the moments of a contact map, block by block in row-major order.
-    fn of(&mut self, contact: &[f64]) {
-        let Self { points: [_, y], turns: [turns_x, turns_y], highest, rows, values } = self;
-        let along_y = highest[1] + 1;
-        for k in 0..along_y {
-            let turns = power(turns_y, k);
-            for (row, contact) in rows.chunks_mut(along_y).zip(contact.chunks(y.len())) {
-                row[k] = contact.iter().zip(turns).map(|(share, turn)| turn * share).sum();
-            }
-        }
-        values.fill(Complex::default());
-        for k in 0..=highest[0] {
-            let turns = power(turns_x, k);
-            let (back, forth) = values.split_at_mut(highest[0] * along_y);
-            let forth = &mut forth[k * along_y..][..along_y];
-            for (row, turn) in rows.chunks(along_y).zip(turns) {
-                forth.iter_mut().zip(row).for_each(|(value, row)| *value += row * turn);
-            }
-            if k > 0 {
-                let back = &mut back[(highest[0] - k) * along_y..][..along_y];
-                for (row, turn) in rows.chunks(along_y).zip(turns) {
-                    back.iter_mut().zip(row).for_each(|(value, row)| *value += row * turn.conj());
-                }
-            }
-        }
-    }
-
-    fn at(&self, a: isize, b: isize) -> Complex<f64> {
-        let [x, y] = self.highest;
-        let value = |a: isize, b: isize| self.values[(x as isize + a) as usize * (y + 1) + b as usize];
-        if b < 0 { value(-a, -b).conj() } else { value(a, b) }
-    }
-
-    /// The mean of χ times two functions of the basis: 0 is the constant, 2i − 1 the cosine of wave i, 2i its sine.
-    fn mean_product(&self, waves: &[Wave], i: usize, j: usize) -> f64 {
-        let number = |i: usize| waves[i.div_ceil(2)].number;
-        let ([a, b], [c, d]) = (number(i), number(j));
-        // the means of χ cos and χ sin
-        let parts = |moment: Complex<f64>| (moment.re, -moment.im);
-        let (cos, sin) = parts(self.at(a + c, b + d));
-        if i == 0 || j == 0 {
-            return match i.max(j) {
-                0 => cos,
-                k if k % 2 == 1 => SQRT_2 * cos,
-                _ => SQRT_2 * sin,
-            };
-        }
-        let (cos_less, sin_less) = parts(self.at(a - c, b - d));
-        match (i % 2 == 1, j % 2 == 1) {
-            (true, true) => cos_less + cos,
-            (false, false) => cos_less - cos,
-            (false, true) => sin + sin_less,
-            (true, false) => sin - sin_less,
-        }
-    }
-}
-
-/// The powers of some factors, one after the other from the power 0 on.
-fn power([once, turns]: &mut [Vec<Complex<f64>>; 2], k: usize) -> &[Complex<f64>] {
-    for (turn, once) in turns.iter_mut().zip(once) {
-        *turn = if k == 0 { Complex::new(1.0, 0.0) } else { *turn * *once };
-    }
-    turns
-}
-
-/// Rows of a matrix that are decomposed together.
-const ROWS: usize = 4;
-
-/// The place of a row of a lower triangle, whose rows are stored one after the other.
-fn start(row: usize) -> usize {
-    row * (row + 1) / 2
-}
-
-/// Decomposes a symmetric matrix by Cholesky, in its lower triangle; `false` if it is not positive.
-fn decompose(matrix: &mut [f64], dimension: usize) -> bool {
-    for first in (0..dimension).step_by(ROWS) {
-        let last = (first + ROWS).min(dimension);
-        let (above, below) = matrix.split_at_mut(start(first));
-        let block = &mut below[..start(last) - start(first)];
-        for j in 0..first {
-            let done = &above[start(j)..start(j + 1)];
-            let sums = if last - first == ROWS {
-                dots(&done[..j], std::array::from_fn(|i| &block[start(first + i) - start(first)..][..j]))
-            } else {
-                let mut sums = [0.0; ROWS];
-                let rows = (first..last).map(|i| dot(&done[..j], &block[start(i) - start(first)..][..j]));
-                sums.iter_mut().zip(rows).for_each(|(sum, product)| *sum = product);
-                sums
-            };
-            for (i, sum) in (first..last).zip(sums) {
-                let value = &mut block[start(i) - start(first) + j];
-                *value = (*value - sum) / done[j];
-            }
-        }
-        for i in first..last {
-            let (before, row) = block.split_at_mut(start(i) - start(first));
-            for j in first..i {
-                let done = &before[start(j) - start(first)..][..=j];
-                row[j] = (row[j] - dot(&row[..j], &done[..j])) / done[j];
-            }
-            let square = row[i] - dot(&row[..i], &row[..i]);
-            if !(square > 0.0 && square.is_finite()) {
-                return false;
-            }
-            row[i] = square.sqrt();
-        }
-    }
-    true
-}
-
-/// Solves with the factor of [`decompose`].
-fn solve(factor: &[f64], x: &mut [f64]) {
-    let row = |i: usize| &factor[start(i)..start(i + 1)];
-    for i in 0..x.len() {
-        x[i] = (x[i] - dot(&row(i)[..i], &x[..i])) / row(i)[i];
-    }
-    for i in (0..x.len()).rev() {
-        let value = x[i] / row(i)[i];
-        x[i] = value;
-        x[..i].iter_mut().zip(row(i)).for_each(|(x, factor)| *x -= value * factor);
-    }
-}
-
-/// The products of a vector with some others of its length.
-fn dots<const N: usize>(vector: &[f64], others: [&[f64]; N]) -> [f64; N] {
-    let whole = vector.len() - vector.len() % LANES;
-    let rest = |other: &[f64]| other[whole..].iter().zip(&vector[whole..]).map(|(a, b)| a * b).sum::<f64>();
-    let mut sums = others.map(rest);
-    let total = &mut sums;
-    vectorised(
-        #[inline(always)]
-        move || {
-            let mut lanes = [[0.0; LANES]; N];
-            for k in (0..whole).step_by(LANES) {
-                let vector = &vector[k..k + LANES];
-                for (lanes, other) in lanes.iter_mut().zip(others) {
-                    let other = &other[k..k + LANES];
-                    for l in 0..LANES {
-                        lanes[l] += vector[l] * other[l];
-                    }
-                }
-            }
-            total.iter_mut().zip(lanes).for_each(|(total, lanes)| *total += lanes.iter().sum::<f64>());
-        },
-    );
-    sums
-}
-
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    dots(a, [b])[0]
-}
-
 #[cfg(test)]
 mod tests {
+    use std::f64::consts::TAU;
+
     use ndarray::Array2;
 
     use super::*;
@@ -523,16 +348,5 @@ mod tests {
             }
         }
         assert!(whole > 1);
-    }
-
-    #[test]
-    fn a_matrix_that_is_not_positive_is_told() {
-        let mut matrix = vec![4.0, 2.0, 1.0, 0.0, 0.0, 1.0];
-        assert!(!decompose(&mut matrix, 3));
-        let mut x = [4.0, 4.0, 3.0];
-        let mut matrix = vec![4.0, 2.0, 5.0, 0.0, 0.0, 9.0];
-        assert!(decompose(&mut matrix, 3));
-        solve(&matrix, &mut x);
-        assert!(x.iter().zip([0.75, 0.5, 1.0 / 3.0]).all(|(x, y)| (x - y).abs() < 1e-15), "{x:?}");
     }
 }
