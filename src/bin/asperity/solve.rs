@@ -49,7 +49,7 @@ pub struct Options {
     adhesion: AdhesionOptions,
     #[command(flatten)]
     solver: SolverOptions,
-    /// Solve on coarser grids first, where sizes are even and the grids resolve the adhesion; faster on large maps
+    /// Solve on coarser grids first, where sizes are even and the grids resolve the adhesion; saves time at loose tolerances
     #[arg(long, help_heading = "Solver", conflicts_with = "initial_gap")]
     nested: bool,
 
