@@ -202,10 +202,17 @@ fn waves(grid: &Grid, layout: Layout, symbol: &dyn Fn(f64, f64) -> f64, dimensio
     };
     let signed = |i: usize, n: usize| if 2 * i < n { i as isize } else { i as isize - n as isize };
     let (columns, rows) = layout.spectrum();
+    let wave_numbers = |(i, j): (usize, usize)| (grid.wave_number_x(i), grid.wave_number_y(j));
+    // the first mode of a column is its longest wave
+    let longest = |column: usize| {
+        let (qx, qy) = wave_numbers(layout.mode(column, 0));
+        qx.hypot(qy)
+    };
+    let columns = (0..columns).take_while(|&column| longest(column) <= radius);
     let mut waves = Vec::new();
-    for (column, row) in (0..columns).flat_map(|column| (0..rows).map(move |row| (column, row))) {
+    for (column, row) in columns.flat_map(|column| (0..rows).map(move |row| (column, row))) {
         let (i, j) = layout.mode(column, row);
-        let (qx, qy) = (grid.wave_number_x(i), grid.wave_number_y(j));
+        let (qx, qy) = wave_numbers((i, j));
         let nyquist = 2 * i == nx || 2 * j == ny;
         // in the columns that hold both waves of a pair: the second of them
         let second = layout.weight(column) == 1.0 && (column > 0 || 2 * row > rows);
