@@ -7,11 +7,13 @@ use crate::field;
 use crate::grid::Grid;
 use crate::real::Real;
 
+mod boussinesq;
 mod check;
 mod coarse;
 mod spectral;
 mod westergaard;
 
+pub use boussinesq::Boussinesq;
 pub use check::check_operator;
 pub use coarse::CoarseSpace;
 pub use spectral::Spectral;
@@ -21,8 +23,8 @@ pub use westergaard::Westergaard;
 ///
 /// The operator is linear, symmetric, and positive on fields without mean. A rigid translation costs nothing, so
 /// both applications return fields of zero mean and ignore the mean of their argument. [`Westergaard`] is the
-/// homogeneous half-space, [`Spectral`] is any operator that acts on each wave by a factor; implement
-/// the trait for anything else. [`grid`](Self::grid), [`pressure`](Self::pressure),
+/// homogeneous half-space under periodic loads, [`Boussinesq`] the same under loads on a window alone, [`Spectral`] is
+/// any operator that acts on each wave by a factor; implement the trait for anything else. [`grid`](Self::grid), [`pressure`](Self::pressure),
 /// [`displacement`](Self::displacement), [`stiffness_range`](Self::stiffness_range) and [`modulus`](Self::modulus) are
 /// required.
 ///
@@ -50,6 +52,13 @@ pub use westergaard::Westergaard;
 pub trait ElasticOperator<T: Real>: Send {
     /// The grid of the fields that the operator takes and returns.
     fn grid(&self) -> &Grid;
+
+    /// The boundary of the body: periodic, unless the operator says otherwise.
+    ///
+    /// An operator that wraps another one passes this on.
+    fn boundary(&self) -> Boundary {
+        Boundary::Periodic
+    }
 
     /// The elastic pressure p = K⁻¹u of a normal displacement u, both of shape (Nx, Ny). The mean of p is zero.
     ///
@@ -142,6 +151,52 @@ pub trait ElasticOperator<T: Real>: Send {
     }
 }
 
+/// The boundary of the elastic body: whether it repeats, or ends at nothing and is loaded on a window alone.
+///
+/// ```
+/// use asperity::{Boundary, Boussinesq, ElasticOperator, Grid, Westergaard};
+/// let grid = Grid::square(16, 1.0)?;
+/// assert_eq!(Westergaard::<f64>::new(grid, 1.0)?.boundary(), Boundary::Periodic);
+/// let free = Boussinesq::<f64>::new(grid, 1.0)?;
+/// assert!(matches!(free.boundary(), Boundary::Free { window, .. } if window == grid));
+/// assert_eq!((free.boundary().name(), free.grid().shape()), ("free", (32, 32)));
+/// # Ok::<(), asperity::Error>(())
+/// ```
+#[non_exhaustive]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Boundary {
+    /// The body and the surface repeat: the surface is on the operator's grid.
+    #[default]
+    Periodic,
+    /// Nothing repeats: the surface is on the first nodes of the operator's grid along both axes, and on the others
+    /// nothing faces the body.
+    Free {
+        /// The grid of the surface, with the spacing of the operator's.
+        window: Grid,
+        /// The mean displacement of the operator's grid over the mean pressure on it, length per pressure.
+        mean_compliance: f64,
+    },
+}
+
+impl Boundary {
+    /// The name that the tool and `report.json` use: `"periodic"` or `"free"`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Periodic => "periodic",
+            Self::Free { .. } => "free",
+        }
+    }
+
+    /// The mean displacement of the operator's grid over the mean pressure on it; zero in a periodic cell, where only
+    /// waves are deformations.
+    pub(crate) fn mean_compliance(self) -> f64 {
+        match self {
+            Self::Periodic => 0.0,
+            Self::Free { mean_compliance, .. } => mean_compliance,
+        }
+    }
+}
+
 /// The foundation on which the half-space rests in the preconditioner, pressures per length.
 #[derive(Debug)]
 pub struct Foundation<'a> {
@@ -181,6 +236,14 @@ fn mean_product<S: Real, T: Real>(a: ArrayView2<'_, S>, b: ArrayView2<'_, T>) ->
 /// The methods of an operator that is another one, `$inner` of `$this`.
 macro_rules! delegate {
     ($this:ident => $inner:expr) => {
+        fn boundary(&self) -> Boundary {
+            let $this = self;
+            $inner.boundary()
+        }
+        delegate!($this => $inner; applications);
+    };
+    // without the boundary
+    ($this:ident => $inner:expr; applications) => {
         fn grid(&self) -> &Grid {
             let $this = self;
             $inner.grid()

@@ -211,6 +211,22 @@ pub(crate) fn powers(field: ArrayView2<'_, f64>) -> Array2<f64> {
     powers
 }
 
+/// The modes of a field that is even along both axes, which are real and even: of each column of the half spectrum, in
+/// the layout of a convolver, the first half and the one in the middle. For a plane, not a line.
+pub(crate) fn even_modes(field: ArrayView2<'_, f64>) -> Array2<f64> {
+    let mut convolver = Convolver::new(field.dim());
+    convolver.rows_forward(convolver.layout.view(&field).view());
+    let Convolver { columns, spectrum, pool, .. } = &mut convolver;
+    let (count, n0) = spectrum.dim();
+    let half = n0 / 2 + 1;
+    let mut modes = Array2::zeros((count, half));
+    par::for_each(par::chunks_mut(flat_mut(spectrum), n0), par::chunks_mut(flat_mut(&mut modes), half), |z, modes| {
+        columns.forward.process_with_scratch(z, &mut pool.get().scratch);
+        modes.iter_mut().zip(z).for_each(|(mode, z)| *mode = z.re);
+    });
+    modes
+}
+
 /// The field of given modes, and the sum of the values of `fill`, in order.
 ///
 /// `fill` gets the column's index along the second axis, and zeros to overwrite by its modes along the first. Those of

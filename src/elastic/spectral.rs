@@ -1,6 +1,6 @@
 //! Spectral operators: a stiffness for each wave, applied by Fourier transforms.
 
-use std::f64::consts::PI;
+use std::f64::consts::{PI, TAU};
 use std::fmt;
 use std::marker::PhantomData;
 use std::sync::Arc;
@@ -61,6 +61,9 @@ enum Stiffness<T> {
         unit: T,
         x: Vec<T>,
     },
+    /// even along both axes, in `f64` whatever the precision: of each column the first half of its modes, and the one
+    /// in the middle
+    Even(Arc<Array2<f64>>),
 }
 
 impl<T: Real> fmt::Debug for Spectral<T> {
@@ -101,6 +104,33 @@ impl<T: Real> Spectral<T> {
         let symbol: Symbol = Arc::new(move |qx, qy| 0.5 * modulus * qx.hypot(qy));
         let (stiffness, range) = half_space(&grid, modulus)?;
         Ok(Self { grid, modulus, symbol, stiffness, range, convolver: Convolver::new(grid.shape()) })
+    }
+
+    /// The operator of a compliance that is even along both axes, without folded lines: of each column of the half
+    /// spectrum the first half of its modes, and the one in the middle. That of the mean, the first one, is not used.
+    pub(super) fn of_compliance(grid: Grid, modulus: f64, mut modes: Array2<f64>) -> Result<Self> {
+        Error::positive("contact modulus", modulus)?;
+        let wrong = modes.iter().find(|&&compliance| !(compliance > 0.0 && compliance.is_finite()));
+        if let Some(&value) = wrong {
+            return Err(Error::Value { name: "compliance of a wave", value, requirement: "positive and finite" });
+        }
+        modes.mapv_inplace(f64::recip);
+        if let Some(mean) = modes.first_mut() {
+            *mean = 0.0;
+        }
+        let waves = || modes.iter().skip(1).copied();
+        let range = (waves().fold(f64::INFINITY, f64::min), waves().fold(0.0, f64::max));
+        check_range::<T>(range.0, range.1)?;
+        let (convolver, modes) = (Convolver::new(grid.shape()), Arc::new(modes));
+        let (exchanged, (lx, ly)) = (convolver.layout().mode(0, 1).0 == 0, grid.lengths());
+        let symbol = {
+            let modes = Arc::clone(&modes);
+            move |qx: f64, qy: f64| {
+                let [i, j] = [(qx * lx).abs() / TAU, (qy * ly).abs() / TAU].map(|number| number.round() as usize);
+                modes.get(if exchanged { [i, j] } else { [j, i] }).copied().unwrap_or(f64::NAN)
+            }
+        };
+        Ok(Self { grid, modulus, symbol: Arc::new(symbol), stiffness: Stiffness::Even(modes), range, convolver })
     }
 
     /// The operator with a stiffness that depends on the wave number's magnitude alone.
@@ -208,11 +238,37 @@ impl<T: Real> Stiffness<T> {
                     move |x| by(unit * (x + k).abs()),
                 )
             }
+            Self::Even(stiffness) => {
+                let stiffness = stiffness.row(k).to_slice().unwrap_or_default();
+                let (first, second) = column.split_at_mut(stiffness.len());
+                let mut sums = modify(
+                    first,
+                    stiffness,
+                    #[inline(always)]
+                    |k| by(T::lit(k)),
+                );
+                // the others mirror these, but for the first one
+                let mut end = second.len() + 1;
+                for modes in second.chunks_mut(BLOCK) {
+                    let mut mirrored = [0.0; BLOCK];
+                    let start = end - modes.len();
+                    mirrored.iter_mut().zip(stiffness[start..end].iter().rev()).for_each(|(to, from)| *to = *from);
+                    let more = modify(
+                        modes,
+                        &mirrored[..modes.len()],
+                        #[inline(always)]
+                        |k| by(T::lit(k)),
+                    );
+                    sums.iter_mut().zip(more).for_each(|(sum, more)| *sum += more);
+                    end = start;
+                }
+                sums
+            }
         }
     }
 }
 
-fn modify<T: Real>(column: &mut [Complex<T>], of: &[T], by: impl Fn(T) -> [T; 3]) -> Sums {
+fn modify<T: Real, U: Copy>(column: &mut [Complex<T>], of: &[U], by: impl Fn(U) -> [T; 3]) -> Sums {
     let mut sums = [0.0; 3];
     let mut factors = [[T::zero(); BLOCK]; 3];
     let total = &mut sums;
@@ -375,6 +431,7 @@ impl<T: Real> Spectral<T> {
     fn press_flat(&self, heights: ArrayView2<'_, f64>, pressure: ArrayViewMut2<'_, T>) -> Result<Sums> {
         let stiffness = match &self.stiffness {
             Stiffness::Stored(_) => Stiffness::Stored(stiffness(&self.grid, &self.symbol)?),
+            Stiffness::Even(modes) => Stiffness::Even(Arc::clone(modes)),
             _ => half_space(&self.grid, self.modulus)?.0,
         };
         let layout = self.convolver.layout();
