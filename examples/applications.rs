@@ -72,6 +72,7 @@ fn show(name: &str, control: Control, applications: usize, status: Status) -> us
     let control = match control {
         Control::MeanGap(gap) => format!("mean gap {gap:.4}"),
         Control::MeanPressure(pressure) => format!("mean pressure {pressure}"),
+        other => format!("{} {}", other.name(), other.value()),
     };
     let ended = if status == Status::Converged { String::new() } else { format!("  {status}") };
     println!("{name:<23} {control:<20} {applications:>6}{ended}");

@@ -84,6 +84,13 @@ pub enum Error {
         /// The value that the property requires.
         expected: f64,
     },
+    /// A control, or what is solved for under it, that the problem does not have.
+    Control {
+        /// The control, by the name of [`Control::name`](crate::Control::name), or what else was asked for.
+        control: &'static str,
+        /// The reason, and a remedy.
+        reason: &'static str,
+    },
     /// A surface with waves that are too short for the grid.
     Unresolved {
         /// The wave number k_s of the shortest waves, in units of 2π/Lx.
@@ -183,6 +190,7 @@ impl fmt::Display for Error {
             Self::Operator { property, found, expected } => {
                 write!(f, "{property} is {}: it should be {}", Short(*found), Short(*expected))
             }
+            Self::Control { control, reason } => write!(f, "{control}: {reason}"),
             Self::Unresolved { k_s, limit, shape } => write!(
                 f,
                 "k_s is {}: it must be below {} for {} x {} nodes to resolve it: use more nodes, or a smaller k_s",

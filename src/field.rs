@@ -31,10 +31,47 @@ impl Partial {
         part
     }
 
-    fn add(mut self, other: &Self) -> Self {
+    pub(crate) fn add(mut self, other: &Self) -> Self {
         self.sum.iter_mut().zip(other.sum).for_each(|(sum, other)| *sum += other);
         self.min = self.min.min(other.min);
         self
+    }
+}
+
+/// The nodes of a chunk in one field or in several, which can be divided.
+pub(crate) trait Nodes: Sized {
+    /// The number of nodes.
+    fn count(&self) -> usize;
+
+    /// The first `at` nodes, and the others.
+    fn divide(self, at: usize) -> (Self, Self);
+}
+
+impl<T> Nodes for &[T] {
+    fn count(&self) -> usize {
+        self.len()
+    }
+    fn divide(self, at: usize) -> (Self, Self) {
+        self.split_at(at)
+    }
+}
+
+impl<T> Nodes for &mut [T] {
+    fn count(&self) -> usize {
+        self.len()
+    }
+    fn divide(self, at: usize) -> (Self, Self) {
+        self.split_at_mut(at)
+    }
+}
+
+impl<A: Nodes, B: Nodes> Nodes for (A, B) {
+    fn count(&self) -> usize {
+        self.0.count()
+    }
+    fn divide(self, at: usize) -> (Self, Self) {
+        let ((a, c), (b, d)) = (self.0.divide(at), self.1.divide(at));
+        ((a, b), (c, d))
     }
 }
 

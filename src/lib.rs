@@ -130,7 +130,10 @@ pub use ndarray;
 
 pub use adhesion::{AdhesionLaw, Exponential, MaugisDugdale, NoAdhesion, check_law};
 pub use constraint::{ContactConstraint, Penalty, Projection, Springs, Update, Uzawa, Wall, check_constraint};
-pub use elastic::{Boundary, Boussinesq, CoarseSpace, ElasticOperator, Foundation, Preconditioned, Spectral, Westergaard, check_operator};
+pub use elastic::{
+    Boundary, Boussinesq, CoarseSpace, ElasticOperator, Foundation, Preconditioned, Spectral, Westergaard,
+    check_operator,
+};
 pub use error::{Error, Result};
 pub use grid::Grid;
 pub use nested::{Level, Nested, NestedSolution};

@@ -144,10 +144,11 @@ where
     ) -> Result<Self> {
         let legs: Vec<_> = loads.into_iter().collect();
         for load in &legs {
-            match *load {
-                Control::MeanGap(gap) => Error::non_negative("mean gap", gap)?,
-                Control::MeanPressure(pressure) => Error::finite("mean pressure", pressure)?,
-            };
+            problem.flat.load(*load)?;
+            if problem.flat.window.is_some() || !matches!(load, Control::MeanGap(_) | Control::MeanPressure(_)) {
+                let (control, reason) = ("path", "not with springs, absent nodes or a free boundary yet");
+                return Err(Error::Control { control, reason });
+            }
         }
         if settings.steps == 0 {
             return Err(Error::Value { name: "number of steps", value: 0.0, requirement: "at least 1" });

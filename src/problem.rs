@@ -3,18 +3,33 @@
 use ndarray::Array2;
 
 use crate::adhesion::AdhesionLaw;
-use crate::elastic::ElasticOperator;
+use crate::elastic::{Boundary, ElasticOperator};
 use crate::error::{Error, Result};
 use crate::field;
 use crate::grid::Grid;
 use crate::real::Real;
 use crate::surface::Surface;
 
+mod window;
+
+pub(crate) use window::Window;
+
 /// The compliance with which the jumps of a law are smoothed, in Δx/E*. A node alone has 1.1, the nodes along an
 /// edge some 3 together.
 const SMOOTHING: f64 = 5.0;
 
-/// The control: the mean gap or the mean pressure that is held fixed while the energy is minimised.
+/// The control: what is held fixed while the energy is minimised.
+///
+/// | control | periodic | free | what follows |
+/// |---|---|---|---|
+/// | [`MeanGap`](Self::MeanGap) | yes | no | the pressure |
+/// | [`MeanPressure`](Self::MeanPressure), [`Force`](Self::Force) | yes | yes | mean gap and approach |
+/// | [`Approach`](Self::Approach) | no | yes | the force |
+/// | [`Spring`](Self::Spring) | yes | yes | force and position |
+///
+/// The [`Boundary`] is that of the operator. A control that it does not have is refused, and so are mean gap and spring
+/// for a periodic surface with [absent nodes](Surface::with_absent), where the mean gap over the others is not what the
+/// load works on.
 ///
 /// ```
 /// use asperity::{Control, Grid, NoAdhesion, Problem, Solver, Surface, Westergaard};
@@ -26,12 +41,87 @@ const SMOOTHING: f64 = 5.0;
 /// assert!((by_pressure.mean_gap / 0.01 - 1.0).abs() < 1e-5); // the same state, either way
 /// # Ok::<(), asperity::Error>(())
 /// ```
+#[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Control {
     /// The mean gap ḡ ≥ 0 is given; the external pressure follows.
     MeanGap(f64),
-    /// The mean external pressure p̄ is given, compression positive; the mean gap follows.
+    /// The mean external pressure p̄ is given, the force over the nominal area Lx·Ly, compression positive; the mean
+    /// gap follows.
     MeanPressure(f64),
+    /// The normal force F = p̄·Lx·Ly is given, compression positive.
+    Force(f64),
+    /// The approach δ is given: how far the bodies have moved towards each other since they would first touch
+    /// undeformed. Negative before that.
+    Approach(f64),
+    /// A spring in series, as the stiffness of a machine or of a cantilever, is held at its far end.
+    ///
+    /// With a free boundary F = k (rest − δ); in a periodic cell, where bodies have no approach, F = k (ḡ − rest).
+    Spring {
+        /// The stiffness k, force per length.
+        stiffness: f64,
+        /// The approach δ at which the spring is relaxed; in a periodic cell the mean gap.
+        rest: f64,
+    },
+}
+
+impl Control {
+    /// The name that the tool and `report.json` use: `"mean-gap"`, `"mean-pressure"`, `"normal-force"`, `"approach"` or
+    /// `"spring"`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::MeanGap(_) => "mean-gap",
+            Self::MeanPressure(_) => "mean-pressure",
+            Self::Force(_) => "normal-force",
+            Self::Approach(_) => "approach",
+            Self::Spring { .. } => "spring",
+        }
+    }
+
+    /// The value that is held: a length, pressure or force; of a spring its rest.
+    pub fn value(self) -> f64 {
+        match self {
+            Self::MeanGap(value) | Self::MeanPressure(value) | Self::Force(value) | Self::Approach(value) => value,
+            Self::Spring { rest, .. } => rest,
+        }
+    }
+}
+
+/// The control on the operator's grid: what its mean gap m, over all nodes, is held by.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Load {
+    /// m itself
+    Gap(f64),
+    /// the mean pressure on the operator's grid
+    Pressure(f64),
+    /// the mean pressure `stiffness`·(m − `rest`) on the operator's grid
+    Spring { stiffness: f64, rest: f64 },
+}
+
+impl Load {
+    /// The mean pressure at a mean gap; zero where that is given.
+    pub(crate) fn pressure_at(self, mean_gap: f64) -> f64 {
+        match self {
+            Self::Gap(_) => 0.0,
+            Self::Pressure(pressure) => pressure,
+            Self::Spring { stiffness, rest } => stiffness * (mean_gap - rest),
+        }
+    }
+
+    /// The energy of the load over its pressure times the mean gap from its rest.
+    pub(crate) fn share(self) -> f64 {
+        if let Self::Spring { .. } = self { 0.5 } else { 1.0 }
+    }
+
+    /// The stiffness of the mean gap, zero without a spring.
+    pub(crate) fn stiffness(self) -> f64 {
+        if let Self::Spring { stiffness, .. } = self { stiffness } else { 0.0 }
+    }
+
+    /// The mean gap at which a spring is relaxed, zero without one.
+    pub(crate) fn rest(self) -> f64 {
+        if let Self::Spring { rest, .. } = self { rest } else { 0.0 }
+    }
 }
 
 /// A contact problem: a rough surface, an elastic operator and an adhesion law.
@@ -73,6 +163,76 @@ pub(crate) struct PressedFlat<T> {
     pub(crate) peak: f64,
     /// the highest height less the lowest
     pub(crate) height_span: f64,
+    /// where the surface faces the body; nothing if that is everywhere
+    pub(crate) window: Option<Window>,
+    pub(crate) boundary: Boundary,
+    /// the nominal area of the surface
+    pub(crate) area: f64,
+    /// the area of the operator's grid over it
+    pub(crate) padding: f64,
+}
+
+impl<T> PressedFlat<T> {
+    /// A control on the operator's grid; refused if the problem does not have it.
+    pub(crate) fn load(&self, control: Control) -> Result<Load>
+    where
+        T: Real,
+    {
+        let refused = |reason| Err(Error::Control { control: control.name(), reason });
+        let (free, absent) = (self.boundary != Boundary::Periodic, self.window.is_some());
+        let on_grid = |pressure: f64| pressure / self.padding;
+        let load = match control {
+            Control::MeanGap(_) if free => {
+                return refused("a free half-space has no mean gap to be held: give a force, an approach or a spring");
+            }
+            Control::MeanGap(_) | Control::Spring { .. } if absent && !free => {
+                return refused(
+                    "the mean gap of a periodic surface with absent nodes is not what the load works on: give a \
+                     pressure or a force",
+                );
+            }
+            Control::Approach(_) if !free => {
+                return refused(
+                    "bodies in a periodic cell have no approach: give a mean gap, or take a free half-space",
+                );
+            }
+            Control::MeanGap(gap) => Load::Gap(Error::non_negative("mean gap", gap)?),
+            Control::MeanPressure(pressure) => Load::Pressure(on_grid(Error::finite("mean pressure", pressure)?)),
+            Control::Force(force) => Load::Pressure(on_grid(Error::finite("normal force", force)? / self.area)),
+            Control::Approach(approach) => {
+                let rest = self.peak - Error::finite("approach", approach)?;
+                Load::Spring { stiffness: self.boundary.mean_compliance().recip(), rest }
+            }
+            Control::Spring { stiffness, rest } => {
+                Error::positive("stiffness of the spring", stiffness)?;
+                Error::finite("rest of the spring", rest)?;
+                let compliance = self.padding * self.area / stiffness + self.boundary.mean_compliance();
+                Load::Spring { stiffness: compliance.recip(), rest: if free { self.peak - rest } else { rest } }
+            }
+        };
+        let values = match load {
+            Load::Gap(value) | Load::Pressure(value) => [value, 0.0],
+            Load::Spring { stiffness, rest } => [stiffness, rest],
+        };
+        if let Some(&value) = values.iter().find(|&&value| !T::lit(value).is_finite()) {
+            let requirement = "finite in the precision of the fields";
+            let name = match control {
+                Control::MeanGap(_) => "mean gap",
+                Control::MeanPressure(_) => "mean pressure",
+                Control::Force(_) => "normal force",
+                Control::Approach(_) => "approach",
+                Control::Spring { .. } => "spring",
+            };
+            return Err(Error::Value { name, value, requirement });
+        }
+        Ok(load)
+    }
+
+    /// The approach of the bodies at a mean gap and a mean pressure on the operator's grid; nothing in a periodic cell.
+    pub(crate) fn approach(&self, mean_gap: f64, pressure: f64) -> Option<f64> {
+        let Boundary::Free { mean_compliance, .. } = self.boundary else { return None };
+        Some(self.peak - mean_gap + mean_compliance * pressure)
+    }
 }
 
 /// The parts of a problem, for a solve.
@@ -98,7 +258,11 @@ impl<T: Real, O: ElasticOperator<T>, L: AdhesionLaw<T>> Problem<T, O, L> {
     /// [`Error::Shape`] or [`Error::Value`] if the grids differ; [`Error::Law`] if the law is not finite at zero gap;
     /// [`Error::NotFinite`] if K⁻¹h leaves the range of T.
     pub fn new(surface: &Surface, mut operator: O, law: L) -> Result<Self> {
-        let (grid, expected) = (surface.grid(), operator.grid());
+        let boundary = operator.boundary();
+        let (grid, expected) = match boundary {
+            Boundary::Periodic => (surface.grid(), *operator.grid()),
+            Boundary::Free { window, .. } => (surface.grid(), window),
+        };
         Error::shape("surface", grid.shape(), expected.shape())?;
         if grid.lengths() != expected.lengths() {
             let (name, value) = match grid.lengths() {
@@ -111,25 +275,48 @@ impl<T: Real, O: ElasticOperator<T>, L: AdhesionLaw<T>> Problem<T, O, L> {
         if let Some((function, value)) = at_zero.into_iter().find(|(_, value)| !value.is_finite()) {
             return Err(Error::Law { function, gap: 0.0, value: value.widen(), expected: None });
         }
-        let (mean, rms_height) = (surface.mean(), surface.rms_height());
-        let (low, high) = surface.heights().iter().fold((mean, mean), |(low, high), &h| (low.min(h), high.max(h)));
+        let window = Window::new(surface, operator.grid().shape());
+        let extended = window.as_ref().map(|window| window.extend(surface.heights().view()));
+        let padded;
+        let whole = match extended {
+            Some(heights) => {
+                padded = Surface::new(*operator.grid(), heights)?;
+                &padded
+            }
+            None => surface,
+        };
+        let (mean, rms_height) = (whole.mean(), whole.rms_height());
+        // where nothing faces the body there is no height: those that stand there do not exceed the others
+        let least = (f64::INFINITY, f64::NEG_INFINITY);
+        let (low, high) = surface.heights().iter().fold(least, |(low, high), &h| (low.min(h), high.max(h)));
         let (peak, height_span) = (high - mean, high - low);
-        let mut surface_pressure = Array2::zeros(grid.shape());
+        let mut surface_pressure = Array2::zeros(whole.grid().shape());
         // a large datum would drown the heights in its rounding; a small one is not worth a copy
-        let centred = (mean.abs() > rms_height).then(|| surface.heights().mapv(|h| h - mean));
-        let heights = centred.as_ref().unwrap_or(surface.heights()).view();
+        let centred = (mean.abs() > rms_height).then(|| whole.heights().mapv(|h| h - mean));
+        let heights = centred.as_ref().unwrap_or(whole.heights()).view();
         let surface_work = operator.surface_pressure(heights, surface_pressure.view_mut())?.max(0.0);
         drop(centred);
         Error::all_finite("pressure K⁻¹h of the surface pressed flat", surface_pressure.view())?;
         let stiffness = field::mean(surface_pressure.view(), |p: T| p.widen().powi(2)).sqrt() / rms_height;
-        let flat =
-            PressedFlat { pressure: surface_pressure, work: surface_work, rms_height, stiffness, peak, height_span };
+        let (lx, ly) = grid.lengths();
+        let flat = PressedFlat {
+            pressure: surface_pressure,
+            work: surface_work,
+            rms_height,
+            stiffness,
+            peak,
+            height_span,
+            window,
+            boundary,
+            area: lx * ly,
+            padding: whole.grid().nodes() as f64 / grid.nodes() as f64,
+        };
         Ok(Self { operator, law, flat })
     }
 
-    /// The grid.
+    /// The grid of the surface, and of the fields of a solution.
     pub fn grid(&self) -> &Grid {
-        self.operator.grid()
+        self.flat.window.as_ref().map_or(self.operator.grid(), Window::grid)
     }
 
     /// The elastic operator.

@@ -204,8 +204,14 @@ impl StabilityTest {
             let requirement = "zero or positive; a solution with springs is tested with its constraint, by run_with";
             return Err(Error::Value { name: "gap", value: gap.widen(), requirement });
         }
+        problem.flat.load(control)?;
+        if problem.flat.window.is_some() || !matches!(control, Control::MeanGap(_) | Control::MeanPressure(_)) {
+            let (control, reason) = ("stability", "not with springs, absent nodes or a free boundary yet");
+            return Err(Error::Control { control, reason });
+        }
         let smoothed = smoothed_law(&problem.operator, &problem.law);
-        let slopes = slopes(&solution.gap, Potential::new(smoothed.as_deref().unwrap_or(&problem.law), constraint))?;
+        let slopes =
+            slopes(&solution.gap, Potential::new(smoothed.as_deref().unwrap_or(&problem.law), constraint, None))?;
         let smoothed = smoothed.is_some();
         let centred = matches!(control, Control::MeanGap(_));
         let hessian = Hessian::new(&mut problem.operator, slopes, centred);

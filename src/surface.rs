@@ -1,4 +1,4 @@
-//! The surface: heights on a periodic grid.
+//! The surface: heights on a grid.
 
 use std::f64::consts::TAU;
 
@@ -36,6 +36,8 @@ pub use topography::{Fit, Topography, Trend};
 pub struct Surface {
     grid: Grid,
     heights: Array2<f64>,
+    /// the absent nodes, if there are some
+    absent: Option<Array2<bool>>,
 }
 
 impl Surface {
@@ -47,7 +49,46 @@ impl Surface {
         Error::shape("heights", heights.dim(), grid.shape())?;
         Error::all_finite("heights", heights.view())?;
         let heights = if heights.is_standard_layout() { heights } else { heights.as_standard_layout().into_owned() };
-        Ok(Self { grid, heights })
+        Ok(Self { grid, heights, absent: None })
+    }
+
+    /// A surface with absent nodes, at which nothing faces the half-space: those of the heights, of shape (Nx, Ny),
+    /// that are NaN.
+    ///
+    /// An absent node neither touches nor attracts: punches of any outline, holes, points that were not measured and
+    /// are not to be filled. [`heights`](Self::heights) has there what [`Topography::fill`] makes of them, which matters
+    /// for statistics of the heights alone. Without absent nodes all is as with [`Surface::new`].
+    ///
+    /// ```
+    /// use asperity::{Boussinesq, Control, Grid, NoAdhesion, Problem, Solver, Surface};
+    /// // a flat punch of radius a, pressed in by δ: F = 2aE*δ
+    /// let (grid, a) = (Grid::square(48, 1.0)?, 0.45);
+    /// let punch = Surface::with_absent(grid, grid.sample(|x, y| if x.hypot(y) < a { 0.0 } else { f64::NAN }))?;
+    /// let mut problem = Problem::new(&punch, Boussinesq::<f64>::new(grid, 1.0)?, NoAdhesion)?;
+    /// let report = Solver::default().solve(&mut problem, Control::Approach(0.01))?.report;
+    /// assert!((report.normal_force / (2.0 * a * 0.01) - 1.0).abs() < 0.03);
+    /// # Ok::<(), asperity::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::Shape`] if the heights do not fit the grid, [`Error::NotFinite`] with the number and place of infinite
+    /// ones, [`Error::Value`] if all nodes are absent.
+    pub fn with_absent(grid: Grid, heights: Array2<f64>) -> Result<Self> {
+        Error::shape("heights", heights.dim(), grid.shape())?;
+        if !heights.iter().any(|h| h.is_nan()) {
+            return Self::new(grid, heights);
+        }
+        if heights.iter().any(|h| h.is_infinite()) {
+            Error::all_finite("heights", heights.mapv(|h| if h.is_nan() { 0.0 } else { h }).view())?;
+        }
+        let absent = Array2::from_shape_vec(grid.shape(), heights.iter().map(|h| h.is_nan()).collect()).ok();
+        if heights.iter().all(|h| h.is_nan()) {
+            let requirement = "at least 1: all nodes are absent";
+            return Err(Error::Value { name: "number of nodes with a surface", value: 0.0, requirement });
+        }
+        let mut map = Topography::new(heights);
+        map.lengths = Some(grid.lengths());
+        Ok(Self { absent, ..Self::new(grid, map.fill()?.heights)? })
     }
 
     /// A surface from a function of the coordinates, `(x, y) → h`.
@@ -99,6 +140,16 @@ impl Surface {
     /// The heights, of shape (Nx, Ny), in row-major layout.
     pub fn heights(&self) -> &Array2<f64> {
         &self.heights
+    }
+
+    /// The absent nodes, at which nothing faces the half-space, of shape (Nx, Ny); nothing if there are none.
+    pub fn absent(&self) -> Option<&Array2<bool>> {
+        self.absent.as_ref()
+    }
+
+    /// The number of absent nodes.
+    pub fn absent_nodes(&self) -> usize {
+        self.absent.as_ref().map_or(0, |absent| absent.iter().filter(|&&absent| absent).count())
     }
 
     /// The mean height.

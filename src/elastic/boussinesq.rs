@@ -81,7 +81,8 @@ impl<T: Real> ElasticOperator<T> for Boussinesq<T> {
 /// The nodes of the padded grid along a side of n: at least 2n − 1, even, and a product of 2, 3 and 5.
 fn padded(n: usize) -> usize {
     let is_fast = |m: &usize| {
-        let without = |m: usize, prime: usize| (0..m.ilog2()).fold(m, |m, _| if m % prime == 0 { m / prime } else { m });
+        let without =
+            |m: usize, prime: usize| (0..m.ilog2()).fold(m, |m, _| if m % prime == 0 { m / prime } else { m });
         [2, 3, 5].into_iter().fold(*m, without) == 1
     };
     let least = (2 * n - 1).next_multiple_of(2);
@@ -145,7 +146,9 @@ mod tests {
         for (x, y) in [(0.0, 0.0), (0.3, 0.1), (0.7, 0.2), (3.0, 0.0), (0.0, 5.0), (40.0, 30.0)] {
             let pieces: f64 = [(-1.0, -1.0), (-1.0, 1.0), (1.0, -1.0), (1.0, 1.0)]
                 .iter()
-                .map(|(sx, sy): &(f64, f64)| love(((x - 0.5 * sx * a).abs(), (y - 0.5 * sy * b).abs()), (0.5 * a, 0.5 * b)))
+                .map(|(sx, sy): &(f64, f64)| {
+                    love(((x - 0.5 * sx * a).abs(), (y - 0.5 * sy * b).abs()), (0.5 * a, 0.5 * b))
+                })
                 .sum();
             let whole = love((x, y), (a, b));
             assert!((pieces / whole - 1.0).abs() < 1e-12, "{pieces} {whole}");

@@ -155,6 +155,7 @@ impl State {
         let (mode, end) = match load {
             Control::MeanGap(gap) => (Mode::Gap, gap),
             Control::MeanPressure(pressure) => (Mode::Pressure, pressure),
+            _ => return,
         };
         (self.leg, self.pressures) = (leg, None);
         self.turn(mode, end, settings);

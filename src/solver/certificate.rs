@@ -4,7 +4,7 @@ use super::report::Status;
 use super::state::{Goal, State};
 use super::{Criterion, Method};
 use crate::error::Result;
-use crate::problem::Control;
+use crate::problem::Load;
 use crate::real::Real;
 
 /// The tolerance on the way to a start: the edge of the adhesive zone has to be right to a node.
@@ -22,6 +22,9 @@ const NEAR_FLOOR: f64 = 2.0;
 
 /// The same numbers for [`Method::Rey2017`], whose energy and residual need not fall.
 const STALL_REY2017: (usize, usize) = (400, 800);
+
+/// The roundings that the length of a spring may have.
+const SPRING_ROUNDINGS: f64 = 8.0;
 
 impl<T: Real> State<'_, T> {
     /// The certified relative error in the energy norm, √(certificate/⟨u, p⟩), and at least that of rounding.
@@ -67,8 +70,8 @@ impl<T: Real> State<'_, T> {
     ///
     /// Without contact every node is apart, and the mean of r is the part of the load that adhesion does not hold.
     pub(super) fn load_error(&self) -> f64 {
-        match (self.control, self.tally.free) {
-            (Control::MeanGap(_), _) => 0.0,
+        match (self.load, self.tally.free) {
+            (Load::Gap(_), _) => 0.0,
             // contact everywhere: in balance, unless it is under tension somewhere
             (_, 0.0) => self.share_of_load((-self.tally.min_r).max(0.0)),
             (_, free) => self.share_of_load(self.tally.sum_r / free),
@@ -77,8 +80,11 @@ impl<T: Real> State<'_, T> {
 
     /// A pressure as a share of the larger of |p̄| and the mean contact pressure.
     pub(super) fn share_of_load(&self, pressure: f64) -> f64 {
-        let contact = self.given() + self.tally.traction / self.nodes();
-        if pressure == 0.0 { 0.0 } else { pressure.abs() / self.given().abs().max(contact.abs()) }
+        let contact = self.given + self.tally.traction / self.nodes();
+        // a spring that is relaxed carries nothing but the rounding of its length
+        let lengths = self.mean_gap().abs() + self.load.rest().abs();
+        let rounding = SPRING_ROUNDINGS * T::epsilon().widen() * self.load.stiffness() * lengths;
+        if pressure.abs() <= rounding { 0.0 } else { pressure.abs() / self.given.abs().max(contact.abs()) }
     }
 
     pub(super) fn scaled_orthogonality(&self) -> f64 {

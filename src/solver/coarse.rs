@@ -3,7 +3,7 @@
 use ndarray::{Array2, Axis};
 
 use crate::elastic::{CoarseSpace, ElasticOperator};
-use crate::par;
+use crate::par::{self, IndexedParallelIterator};
 use crate::real::Real;
 
 /// The dimension of the space over the cube root of the number of nodes: then its decomposition takes 21 multiplications
@@ -53,20 +53,20 @@ impl Coarse {
     }
 
     /// Takes the contact map from a field, of which the nodes in contact are told by their values. `stiffness` is
-    /// that which the surface meets as it is pressed flat, `range` that of the softest and the stiffest wave; with `held`
-    /// the mean gap is given.
+    /// that which the surface meets as it is pressed flat, `spring` that of the spring that holds the mean gap, `range`
+    /// that of the softest and the stiffest wave; with `held` the mean gap is given.
     pub(super) fn renew<T: Real>(
         &mut self,
         iteration: usize,
         field: &Array2<T>,
-        touches: impl Fn(T) -> bool + Sync + Send,
-        stiffness: f64,
+        touches: impl Fn(usize, T) -> bool + Sync + Send,
+        (stiffness, spring): (f64, f64),
         (softest, stiffest): (f64, f64),
         held: bool,
     ) {
         let contact = self.map(field, touches);
         let stiffness = (STIFFNESS * stiffness).max(softest).min(stiffest);
-        self.ready = contact && self.space.renew(&self.contact, stiffness, MEAN * softest, held);
+        self.ready = contact && self.space.renew(&self.contact, stiffness, MEAN * softest + spring, held);
         if self.ready {
             self.due = iteration + self.interval as usize;
             self.interval *= LONGER;
@@ -82,20 +82,23 @@ impl Coarse {
     ///
     /// A node counts for the first nodes of its own block and of the next one by linear interpolation: then the map has the
     /// symmetries of the surface about such nodes.
-    fn map<T: Real>(&mut self, field: &Array2<T>, touches: impl Fn(T) -> bool + Sync + Send) -> bool {
-        let [block, blocks] = self.space.blocks();
+    fn map<T: Real>(&mut self, field: &Array2<T>, touches: impl Fn(usize, T) -> bool + Sync + Send) -> bool {
+        let ([block, blocks], ny) = (self.space.blocks(), field.ncols());
+        let firsts: Vec<usize> = (0..blocks.0).map(|row| row * block.0 * ny).collect();
         let share = (field.len() as f64).recip();
         let rows = field.axis_chunks_iter(Axis(0), block.0);
         // for each row of blocks: its own share, and that of the next row
-        par::for_each(rows, par::chunks_mut(&mut self.rows, 2 * blocks.1), |nodes, shares| {
+        let shares = par::chunks_mut(&mut self.rows, 2 * blocks.1).zip(par::chunks(&firsts, 1));
+        par::for_each(rows, shares, |nodes, (shares, first)| {
             shares.fill(0.0);
             let (here, next) = shares.split_at_mut(blocks.1);
             for (i, row) in nodes.rows().into_iter().enumerate() {
                 let down = i as f64 / nodes.nrows() as f64;
                 for (k, nodes) in row.to_slice().unwrap_or_default().chunks(block.1).enumerate() {
                     let (mut count, mut offsets) = (0, 0);
+                    let first = first[0] + i * ny + k * block.1;
                     for (j, &node) in nodes.iter().enumerate() {
-                        let touches = usize::from(touches(node));
+                        let touches = usize::from(touches(first + j, node));
                         count += touches;
                         offsets += touches * j;
                     }
@@ -133,8 +136,8 @@ mod tests {
             let [block, blocks] = coarse.space.blocks();
             assert!(block != (1, 1), "{shape:?}");
             let field = Array2::from_shape_fn(shape, |(i, j)| ((i * i + 3 * j + i * j * j) % 7) as f64);
-            let touches = |value: f64| value < 2.0;
-            let share = field.iter().filter(|&&value| touches(value)).count() as f64 / field.len() as f64;
+            let touches = |_, value: f64| value < 2.0;
+            let share = field.iter().filter(|&&value| touches(0, value)).count() as f64 / field.len() as f64;
             assert!(coarse.map(&field, touches));
             assert!((coarse.contact.iter().sum::<f64>() - share).abs() < 1e-14, "{shape:?}");
             if !shape.0.is_multiple_of(block.0) || !shape.1.is_multiple_of(block.1) {
@@ -158,8 +161,8 @@ mod tests {
         let operator = Westergaard::<f64>::new(Grid::square(40, 1.0).unwrap(), 1.0).unwrap();
         let mut coarse = Coarse::of(&operator).unwrap();
         let mut field = Array2::zeros((40, 40));
-        assert!(!coarse.map(&field, |value| value > 0.0) && !coarse.map(&field, |value| value == 0.0));
+        assert!(!coarse.map(&field, |_, value| value > 0.0) && !coarse.map(&field, |_, value| value == 0.0));
         field[[7, 9]] = 1.0;
-        assert!(coarse.map(&field, |value| value > 0.0) && coarse.map(&field, |value| value == 0.0));
+        assert!(coarse.map(&field, |_, value| value > 0.0) && coarse.map(&field, |_, value| value == 0.0));
     }
 }

@@ -53,13 +53,18 @@ impl<T: Real> State<'_, T> {
 
     /// The energy that is minimised, per area.
     pub(super) fn energy(&self) -> f64 {
-        let load = self.detached.unwrap_or(self.given());
-        0.5 * self.mean_work() + (self.tally.adhesive + self.tally.penalty + load * self.tally.sum_gap) / self.nodes()
+        let of_load = match self.detached {
+            Some(load) => load * self.tally.sum_gap,
+            None => self.load.share() * self.given * (self.tally.sum_gap - self.nodes() * self.load.rest()),
+        };
+        0.5 * self.mean_work() + (self.tally.adhesive + self.tally.penalty + of_load) / self.nodes()
     }
 
     /// The rounding of the energy, per area.
     pub(super) fn energy_noise(&self) -> f64 {
-        let local = self.tally.adhesive.abs() + self.tally.penalty.abs() + (self.given() * self.tally.sum_gap).abs();
+        let local = self.tally.adhesive.abs()
+            + self.tally.penalty.abs()
+            + self.given.abs() * (self.tally.sum_gap.abs() + self.nodes() * self.load.rest().abs());
         2.0 * T::epsilon().widen() * (0.5 * self.mean_work() + local / self.nodes())
     }
 }

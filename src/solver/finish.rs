@@ -1,14 +1,20 @@
 //! The end of a solve: its solution, and the report on it.
 
+use ndarray::Array2;
+
 use super::passes::Fields;
 use super::potential::Potential;
 use super::report::{Report, Solution, Status};
 use super::state::State;
+use crate::elastic::Boundary;
 use crate::error::Result;
 use crate::field::{Partial, read, write};
 use crate::par::IndexedParallelIterator;
-use crate::problem::{Control, mu_rho};
+use crate::problem::{Load, mu_rho};
 use crate::real::Real;
+
+/// The share of the largest traction above which one at the edge of the window matters.
+const EDGE: f64 = 1e-3;
 
 impl<T: Real> State<'_, T> {
     /// The solution: the final fields, and the report on them.
@@ -22,48 +28,62 @@ impl<T: Real> State<'_, T> {
             self.certify()?;
         }
         self.trust_work(T::epsilon().widen().sqrt())?;
-        let mean = match self.control {
-            Control::MeanGap(_) => -self.multiplier(),
-            Control::MeanPressure(pressure) => pressure,
-        };
+        let mean = if self.is_gap_controlled() { -self.multiplier() } else { self.given };
         let shift = T::lit(mean - self.drift);
-        let Self { fields: Fields { reducer, gap, pressure, preconditioned, .. }, law, constraint, .. } = &mut self;
-        let local = Potential::new(*law, &**constraint);
+        let Self { fields: Fields { reducer, gap, pressure, preconditioned, .. }, law, constraint, flat, .. } =
+            &mut self;
+        let (law, flat) = (*law, *flat);
+        let local = Potential::new(law, &**constraint, flat.window.as_ref());
         let fields = read(gap).zip(write(pressure)).zip(write(preconditioned));
-        let total = reducer.run(fields, |first, ((gap, pressure), contact)| {
+        let total = local.run(reducer, fields, |local, first, ((gap, pressure), contact)| {
             let mut part = Partial::NONE;
             pressure.iter_mut().for_each(|p| *p += shift);
             local.contact_pressures(first, gap, pressure, contact);
+            if !local.is_surface() {
+                return part;
+            }
             for (&gap, contact) in gap.iter().zip(contact) {
                 part.sum[0] += contact.widen();
+                part.sum[1] += gap.widen();
                 part.min = part.min.min(gap.widen());
             }
             part
         });
         let mean_contact_pressure = total.sum[0] / self.nodes();
         let carried_pressure = mean_contact_pressure - self.tally.traction / self.nodes();
-        let load_error = match self.control {
+        let load_error = match self.load {
             _ if self.detached.is_some() => 1.0,
-            Control::MeanGap(_) => 0.0,
-            Control::MeanPressure(_) => self.load_error().max(self.share_of_load(carried_pressure - mean)),
+            Load::Gap(_) => 0.0,
+            _ => self.load_error().max(self.share_of_load(carried_pressure - mean)),
         };
-        let mu_rho = mu_rho(self.law, self.operator.grid(), self.operator.modulus());
-        let report = Report {
+        let mu_rho = mu_rho(law, self.operator.grid(), self.operator.modulus());
+        let facing = flat.window.as_ref().map_or(self.nodes(), |window| window.facing() as f64);
+        let (given, padding) = (self.detached.unwrap_or(mean), flat.padding);
+        // the mean of the displacement is no wave
+        let of_mean = 0.5 * flat.boundary.mean_compliance() * carried_pressure.powi(2);
+        let nominal = flat.window.as_ref().map_or(self.nodes(), |window| window.grid().nodes() as f64);
+        let mut report = Report {
             status: self.final_status(status, load_error),
             relative_error: self.relative_error(),
             load_error,
             orthogonality: self.scaled_orthogonality(),
             iterations: self.iterations,
             operator_applications: self.applications,
-            mean_gap: self.tally.sum_gap / self.nodes(),
-            mean_pressure: self.detached.unwrap_or(mean),
-            carried_pressure,
-            mean_contact_pressure,
-            contact_fraction: self.tally.contact / self.nodes(),
+            boundary: flat.boundary,
+            mean_gap: if flat.window.is_some() { total.sum[1] / facing } else { self.mean_gap() },
+            mean_pressure: given * padding,
+            normal_force: given * padding * flat.area,
+            approach: flat.approach(self.mean_gap(), mean),
+            carried_pressure: carried_pressure * padding,
+            mean_contact_pressure: mean_contact_pressure * padding,
+            contact_fraction: self.tally.contact / facing,
             contact_nodes: self.tally.contact as usize,
+            absent_nodes: (nominal - facing) as usize,
+            edge_traction: None,
+            reaches_edge: false,
             min_gap: total.min,
-            elastic_energy: 0.5 * self.mean_work(),
-            adhesive_energy: self.tally.adhesive / self.nodes(),
+            elastic_energy: padding * (0.5 * self.mean_work() + of_mean),
+            adhesive_energy: padding * self.tally.adhesive / self.nodes(),
             mu_rho,
             under_resolved: mu_rho > 0.5,
             precision: T::NAME,
@@ -71,8 +91,18 @@ impl<T: Real> State<'_, T> {
             criterion: self.settings.criterion,
             tolerance: self.settings.tolerance_in::<T>(),
         };
-        let Fields { gap, pressure, preconditioned, .. } = self.fields;
-        Ok(Solution { gap, pressure, contact_pressure: preconditioned, report })
+        let Fields { gap, pressure, preconditioned: contact_pressure, residual, change, .. } = self.fields;
+        drop((residual, change));
+        let Some(window) = &flat.window else { return Ok(Solution { gap, pressure, contact_pressure, report }) };
+        let gap = window.crop(&gap, T::infinity());
+        let pressure = window.crop(&pressure, T::zero());
+        let contact_pressure = window.crop(&contact_pressure, T::zero());
+        if flat.boundary != Boundary::Periodic {
+            let share = edge_share(&pressure);
+            report.edge_traction = Some(share);
+            report.reaches_edge = share > EDGE || edge(&gap).any(|gap| gap <= T::zero());
+        }
+        Ok(Solution { gap, pressure, contact_pressure, report })
     }
 
     /// The status, corrected by the figures of the returned fields.
@@ -88,4 +118,18 @@ impl<T: Real> State<'_, T> {
             _ => status,
         }
     }
+}
+
+/// The outermost nodes of a field; corners come twice.
+fn edge<T: Real>(field: &Array2<T>) -> impl Iterator<Item = T> {
+    let (nx, ny) = field.dim();
+    let sides = [field.row(0), field.row(nx - 1), field.column(0), field.column(ny - 1)];
+    sides.into_iter().flat_map(|side| side.to_vec())
+}
+
+/// The largest traction on the outermost nodes as a share of the largest; zero without any traction.
+fn edge_share<T: Real>(pressure: &Array2<T>) -> f64 {
+    let largest = |largest: f64, pressure: T| largest.max(pressure.widen().abs());
+    let (at_edge, anywhere) = (edge(pressure).fold(0.0, largest), pressure.iter().copied().fold(0.0, largest));
+    if at_edge == 0.0 { 0.0 } else { at_edge / anywhere }
 }

@@ -2,7 +2,6 @@
 
 use super::passes::idles;
 use super::state::State;
-use crate::problem::Control;
 use crate::real::Real;
 
 /// The least stiffness of the contacts, as a share of the stiffness of the softest wave.
@@ -22,10 +21,7 @@ const SETTLED: f64 = 0.1;
 impl<T: Real> State<'_, T> {
     /// The stiffness of the contacts against a change of the mean gap, about λ̄/h_rms for rough surfaces.
     fn contact_stiffness(&self) -> f64 {
-        let external = match self.control {
-            Control::MeanGap(_) => -self.multiplier(),
-            Control::MeanPressure(pressure) => pressure,
-        };
+        let external = if self.is_gap_controlled() { -self.multiplier() } else { self.given };
         (external + self.tally.traction / self.nodes()).abs() / self.flat.rms_height
     }
 
@@ -42,7 +38,7 @@ impl<T: Real> State<'_, T> {
         if near && contact.is_finite() { contact.clamp(SOFTEST * softest, stiffest) } else { softest }
     }
 
-    /// The stiffness of the mean gap in the preconditioner.
+    /// The stiffness of the mean gap in the preconditioner: that of the contacts, and of the spring if there is one.
     ///
     /// On the way from a far start, the geometric mean of the stiffness of the contacts, far too small for light
     /// loads, and that of the softest wave.
@@ -51,11 +47,13 @@ impl<T: Real> State<'_, T> {
         if stiffest <= 0.0 {
             // nothing resists the load of a node alone before it touches: a step is as long as the gap
             let gap = self.tally.sum_gap / self.nodes();
-            let falls = gap > 0.0 && self.law.is_zero() && self.given() > 0.0;
-            return if falls { self.foundation().min(self.given() / gap) } else { self.foundation() };
+            let falls = gap > 0.0 && self.law.is_zero() && self.given > 0.0;
+            let contact = if falls { self.foundation().min(self.given / gap) } else { self.foundation() };
+            return contact + self.load.stiffness();
         }
         let mean = (softest * self.contact_stiffness()).sqrt();
-        if mean.is_finite() { mean.clamp(LEAST_MEAN * softest, stiffest) } else { softest }
+        let contact = if mean.is_finite() { mean.clamp(LEAST_MEAN * softest, stiffest) } else { softest };
+        contact + self.load.stiffness()
     }
 
     /// Whether the contacts are where they will be, but for some nodes.
@@ -70,12 +68,15 @@ impl<T: Real> State<'_, T> {
     pub(super) fn renew_coarse(&mut self) {
         let (settled, projects, held) = (self.is_settled(), self.projects(), self.is_gap_controlled());
         let (stiffness, range) = (self.flat.stiffness, self.operator.stiffness_range());
+        let (spring, window) = (self.load.stiffness(), self.flat.window.as_ref());
         let iteration = self.iterations;
         let Some(coarse) = self.coarse.as_mut().filter(|coarse| coarse.is_due(iteration, settled)) else { return };
         if projects {
-            coarse.renew(iteration, &self.fields.residual, idles, stiffness, range, held);
+            let touches = |_, residual| idles(residual);
+            coarse.renew(iteration, &self.fields.residual, touches, (stiffness, spring), range, held);
         } else {
-            coarse.renew(iteration, &self.fields.gap, |gap| gap <= T::zero(), stiffness, range, held);
+            let touches = |node, gap| gap <= T::zero() && window.is_none_or(|window| window.faces(node));
+            coarse.renew(iteration, &self.fields.gap, touches, (stiffness, spring), range, held);
         }
     }
 }

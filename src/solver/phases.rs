@@ -26,6 +26,13 @@ impl<'a, T: Real> State<'a, T> {
         let law = self.law;
         let mut value = [T::zero()];
         for (node, gap) in flat(&self.fields.gap).iter().enumerate() {
+            let node = match &self.flat.window {
+                None => node,
+                Some(window) => match window.pieces(node..node + 1).next() {
+                    Some((_, Some(node))) => node,
+                    _ => continue,
+                },
+            };
             let gap = gap.max(T::zero());
             for function in ["adhesive energy", "adhesive traction"] {
                 match function {
@@ -51,7 +58,7 @@ impl<'a, T: Real> State<'a, T> {
         self.law = law;
         if self.is_adrift() {
             // the law itself may hold a tension that the smoothed one does not
-            self.fields.gap.fill(T::lit(uniform_start(law, self.flat, self.control)));
+            self.fields.gap.fill(T::lit(uniform_start(law, self.flat, self.load)));
             self.refresh()?;
         }
         self.change_law(law, Goal::Solution);
@@ -61,7 +68,9 @@ impl<'a, T: Real> State<'a, T> {
     }
 
     pub(super) fn update_constraint(&mut self) -> Update {
-        let outer = self.constraint.update(self.fields.gap.view());
+        // nothing is where no surface faces the half-space
+        let gap = self.flat.window.as_ref().map(|window| window.crop(&self.fields.gap, T::infinity()));
+        let outer = self.constraint.update(gap.as_ref().unwrap_or(&self.fields.gap).view());
         if outer == Update::Again {
             self.restart();
         }

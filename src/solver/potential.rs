@@ -1,16 +1,25 @@
 //! The local energy of a node, a function of its gap: the adhesion law, and the constraint where it is a term of the
 //! energy.
 
-use crate::adhesion::AdhesionLaw;
+use crate::adhesion::{AdhesionLaw, NoAdhesion};
 use crate::constraint::{ContactConstraint, Springs, Wall};
-use crate::field::CHUNK;
+use crate::field::{CHUNK, Nodes, Partial, Reducer};
+use crate::par::IndexedParallelIterator;
+use crate::problem::Window;
 use crate::real::Real;
 
 /// The local energy of every node: the adhesion law, and the constraint where it is a term of the energy.
+///
+/// Nodes that face no surface have none, and nothing confines their gap: a pass over nodes of both kinds is
+/// [divided](Self::run).
 #[derive(Clone, Copy)]
 pub(crate) struct Potential<'a, T> {
     law: &'a dyn AdhesionLaw<T>,
     springs: Option<&'a dyn Springs<T>>,
+    /// whether the gap is confined to g ≥ 0
+    projects: bool,
+    /// where there is a surface; nothing if that is everywhere
+    window: Option<&'a Window>,
 }
 
 /// The order of a derivative of the energy.
@@ -22,22 +31,93 @@ pub(crate) enum Of {
 }
 
 impl<'a, T: Real> Potential<'a, T> {
-    pub(crate) fn new(law: &'a dyn AdhesionLaw<T>, constraint: &'a dyn ContactConstraint<T>) -> Self {
+    pub(crate) fn new(
+        law: &'a dyn AdhesionLaw<T>,
+        constraint: &'a dyn ContactConstraint<T>,
+        window: Option<&'a Window>,
+    ) -> Self {
         let springs = match constraint.wall() {
             Wall::Rigid => None,
             Wall::Springs(springs) => Some(springs),
         };
-        Self { law, springs }
+        Self { law, springs, projects: springs.is_none(), window }
+    }
+
+    /// The potential of nodes that face no surface.
+    const NOTHING: Self = Self { law: &NoAdhesion, springs: None, projects: false, window: None };
+
+    /// Runs a pass `f(potential, first node, nodes)` over the chunks, as [`Reducer::run`]: in pieces of which all nodes
+    /// face the surface, or none does. The first node is that on the surface's grid.
+    pub(crate) fn run<A: IndexedParallelIterator<Item: Nodes>>(
+        &self,
+        reducer: &mut Reducer,
+        chunks: A,
+        f: impl Fn(&Self, usize, A::Item) -> Partial + Sync + Send,
+    ) -> Partial {
+        match self.window {
+            None => reducer.run(chunks, |first, chunk| f(self, first, chunk)),
+            Some(window) => reducer.run(chunks, |first, chunk| self.divide(window, first, chunk, &f)),
+        }
+    }
+
+    /// Runs a pass over the chunks whose kept number is `wanted`, as [`Reducer::run_where`].
+    pub(crate) fn run_where<A: IndexedParallelIterator<Item: Nodes>>(
+        &self,
+        reducer: &mut Reducer,
+        kept: &[f64],
+        wanted: impl Fn(f64) -> bool + Sync + Send,
+        chunks: A,
+        f: impl Fn(&Self, usize, A::Item) -> Partial + Sync + Send,
+    ) -> Partial {
+        match self.window {
+            None => reducer.run_where(kept, wanted, chunks, |first, chunk| f(self, first, chunk)),
+            Some(window) => {
+                reducer.run_where(kept, wanted, chunks, |first, chunk| self.divide(window, first, chunk, &f))
+            }
+        }
+    }
+
+    /// The result of a pass over a chunk, piece by piece.
+    fn divide<N: Nodes>(
+        &self,
+        window: &Window,
+        first: usize,
+        chunk: N,
+        f: &impl Fn(&Self, usize, N) -> Partial,
+    ) -> Partial {
+        let whole = Self { window: None, ..*self };
+        let (mut total, mut rest) = (Partial::NONE, Some(chunk));
+        let count = rest.as_ref().map_or(0, Nodes::count);
+        for (len, node) in window.pieces(first..first + count) {
+            let Some((piece, others)) = rest.take().map(|rest| rest.divide(len)) else { break };
+            rest = Some(others);
+            let part = match node {
+                Some(node) => f(&whole, node, piece),
+                None => f(&Self::NOTHING, first, piece),
+            };
+            total = total.add(&part);
+        }
+        total
     }
 
     /// Whether the local energy is zero at every node.
     pub(crate) fn is_zero(&self) -> bool {
-        self.law.is_zero() && self.projects()
+        self.law.is_zero() && self.springs.is_none()
+    }
+
+    /// Whether the nodes face a surface.
+    pub(crate) fn is_surface(&self) -> bool {
+        self.projects || self.springs.is_some()
+    }
+
+    /// Whether the constraint is a term of the energy.
+    pub(crate) fn has_springs(&self) -> bool {
+        self.springs.is_some()
     }
 
     /// Whether the gap is confined to g ≥ 0.
     pub(crate) fn projects(&self) -> bool {
-        self.springs.is_none()
+        self.projects
     }
 
     /// The energies, tractions or slopes of law and constraint at the nodes from `first` on.
@@ -55,7 +135,7 @@ impl<'a, T: Real> Potential<'a, T> {
 
     /// Tractions and slopes at once.
     pub(crate) fn tractions_and_slopes(&self, first: usize, gaps: &[T], tractions: &mut [T], slopes: &mut [T]) {
-        if self.projects() {
+        if self.springs.is_none() {
             return self.law.tractions_and_slopes(first, gaps, tractions, slopes);
         }
         self.evaluate(Of::Traction, first, gaps, tractions);
@@ -105,6 +185,9 @@ impl<'a, T: Real> Potential<'a, T> {
             let pressed = contact.iter_mut().zip(gaps).enumerate();
             return pressed.for_each(|(i, (contact, &gap))| *contact = -springs.traction(first + i, gap));
         }
+        if !self.is_surface() {
+            return contact.fill(T::zero());
+        }
         self.law(Of::Traction, first, gaps, contact);
         for ((contact, &gap), &p) in contact.iter_mut().zip(gaps).zip(pressures) {
             *contact = if gap <= T::zero() { (p + *contact).max(T::zero()) } else { T::zero() };
@@ -128,7 +211,7 @@ mod tests {
     #[test]
     fn the_law_goes_on_as_its_tangent_into_interpenetration() {
         let (law, springs) = (Exponential::new(2.0, 0.5).unwrap(), Penalty::new(30.0).unwrap());
-        let potential = Potential::new(&law, &springs);
+        let potential = Potential::new(&law, &springs, None);
         let gaps: Vec<f64> = (-20..=20).map(|i| 0.1 * f64::from(i) + 0.05).collect();
         let at = |of, shift: f64| {
             let gaps: Vec<f64> = gaps.iter().map(|g| g + shift).collect();
@@ -147,7 +230,7 @@ mod tests {
         potential.law(Of::Energy, 0, &[-0.25, 0.0, 0.5], &mut law_alone);
         assert_eq!(law_alone, [-2.0 - 4.0 * 0.25, -2.0, -2.0 * (-1.0f64).exp()]);
         // where nothing interpenetrates, the law itself
-        Potential::new(&law, &Projection).evaluate(Of::Energy, 0, &[0.0, 0.5], &mut confined);
+        Potential::new(&law, &Projection, None).evaluate(Of::Energy, 0, &[0.0, 0.5], &mut confined);
         assert_eq!(confined, law_alone[1..]);
     }
 }

@@ -6,7 +6,6 @@ use super::state::{Left, Made, Residual, State};
 use crate::error::Result;
 use crate::field::{CHUNK, Partial, read, write};
 use crate::par::IndexedParallelIterator;
-use crate::problem::Control;
 use crate::real::Real;
 
 /// The number of attempts at a descending step before the solve has stalled.
@@ -81,9 +80,13 @@ struct Step {
     scale: f64,
     /// ⟨r', d⟩
     slope: f64,
+    /// Σ d
+    change: f64,
     /// Σ d·p and ⟨d, K⁻¹d⟩
     work: f64,
     elastic: f64,
+    /// what the spring adds to that
+    spring: f64,
     /// Σ of the local energy after the step
     local: f64,
 }
@@ -169,9 +172,9 @@ impl<T: Real> State<'_, T> {
         let length = self.step_length;
         let (keep, mean) = momentum.map_or((0.0, 0.0), |m| (length * m.conjugate + m.remainder, m.mean));
         let [length, centre, keep, mean] = [length, centre, keep, mean].map(T::lit);
-        let attempt = Attempt { length, centre, keep, mean, projects: self.projects() };
+        let attempt = Attempt { length, centre, keep, mean };
         let surface = self.is_gap_controlled().then_some(&self.flat.pressure);
-        let local = Potential::new(self.law, &*self.constraint);
+        let local = Potential::new(self.law, &*self.constraint, self.flat.window.as_ref());
         let tried = passes::trial(&mut self.fields, &local, attempt, surface);
         let Tried { change, clipped, blocked, descent, gap_descent, change_surface, gap_surface, .. } = tried;
         let Tried { traction, slope_change, slope_mixed, slope_gap, reach, .. } = tried;
@@ -200,11 +203,14 @@ impl<T: Real> State<'_, T> {
     fn land(&mut self, centre: f64, trial: Trial) -> Trial {
         let (length, centre) = (T::lit(self.step_length), T::lit(centre));
         let lands = move |gap: T, r: T, z: T| gap > T::zero() && r > T::zero() && gap < length * (z - centre);
+        let held = self.is_gap_controlled();
+        let local = Potential::new(self.law, &*self.constraint, self.flat.window.as_ref());
         let Fields { reducer, gap, residual, preconditioned, change, .. } = &mut self.fields;
-        let total = reducer.run(read(gap).zip(read(residual)).zip(read(preconditioned)), |_, ((gap, residual), z)| {
-            let mut part = Partial::NONE;
+        let fields = read(gap).zip(read(residual)).zip(read(preconditioned));
+        let total = local.run(reducer, fields, |local, _, ((gap, residual), z)| {
+            let (mut part, faces) = (Partial::NONE, local.is_surface());
             for ((&gap, &r), &z) in gap.iter().zip(residual).zip(z) {
-                if lands(gap, r, z) {
+                if faces && lands(gap, r, z) {
                     part.sum[0] += gap.widen();
                 } else if !idles(r) {
                     part.sum[1] += 1.0;
@@ -213,10 +219,10 @@ impl<T: Real> State<'_, T> {
             part
         });
         let [landed, others, ..] = total.sum;
-        let lift = T::lit(if matches!(self.control, Control::MeanGap(_)) { landed / others } else { 0.0 });
-        let local = Potential::new(self.law, &*self.constraint);
+        let lift = T::lit(if held { landed / others } else { 0.0 });
         let fields = read(gap).zip(read(residual)).zip(read(preconditioned)).zip(write(change));
-        let total = reducer.run(fields, |first, (((gap, residual), z), change)| {
+        let total = local.run(reducer, fields, |local, first, (((gap, residual), z), change)| {
+            let faces = local.is_surface();
             let (mut tractions, mut slopes) = ([T::zero(); CHUNK], [T::zero(); CHUNK]);
             if !local.is_zero() {
                 let (tractions, slopes) = (&mut tractions[..gap.len()], &mut slopes[..gap.len()]);
@@ -224,7 +230,7 @@ impl<T: Real> State<'_, T> {
             }
             let mut part = Partial::NONE;
             for (i, (((&gap, &r), &z), d)) in gap.iter().zip(residual).zip(z).zip(change).enumerate() {
-                *d = if lands(gap, r, z) {
+                *d = if faces && lands(gap, r, z) {
                     -gap
                 } else if !idles(r) {
                     lift
@@ -246,12 +252,14 @@ impl<T: Real> State<'_, T> {
     /// Subtracts the mean from z, and sets z to zero at nodes in contact that it would press.
     fn hold(&mut self, centre: f64) {
         let (centre, centred) = (T::lit(centre), self.is_gap_controlled());
+        let local = Potential::new(self.law, &*self.constraint, self.flat.window.as_ref());
         let Fields { reducer, gap, residual, preconditioned, .. } = &mut self.fields;
-        let moves = move |gap: T, r: T, z: T| !idles(r) && (gap > T::zero() || z < centre);
-        let total = reducer.run(read(gap).zip(read(residual)).zip(read(preconditioned)), |_, ((gap, residual), z)| {
-            let mut part = Partial::NONE;
+        let moves = move |faces: bool, gap: T, r: T, z: T| !idles(r) && (!faces || gap > T::zero() || z < centre);
+        let fields = read(gap).zip(read(residual)).zip(read(preconditioned));
+        let total = local.run(reducer, fields, |local, _, ((gap, residual), z)| {
+            let (mut part, faces) = (Partial::NONE, local.is_surface());
             for ((&gap, &r), &z) in gap.iter().zip(residual).zip(z) {
-                if moves(gap, r, z) {
+                if moves(faces, gap, r, z) {
                     part.sum[0] += (z - centre).widen();
                     part.sum[1] += 1.0;
                 }
@@ -260,9 +268,11 @@ impl<T: Real> State<'_, T> {
         });
         let [sum, count, ..] = total.sum;
         let mean = T::lit(if centred && count > 0.0 { sum / count } else { 0.0 });
-        reducer.run(read(gap).zip(read(residual)).zip(write(preconditioned)), |_, ((gap, residual), z)| {
+        let fields = read(gap).zip(read(residual)).zip(write(preconditioned));
+        local.run(reducer, fields, |local, _, ((gap, residual), z)| {
+            let faces = local.is_surface();
             for ((&gap, &r), z) in gap.iter().zip(residual).zip(z) {
-                *z = if moves(gap, r, *z) { *z - centre - mean } else { T::zero() };
+                *z = if moves(faces, gap, r, *z) { *z - centre - mean } else { T::zero() };
             }
             Partial::NONE
         });
@@ -272,8 +282,9 @@ impl<T: Real> State<'_, T> {
     fn search(&mut self, trial: &Trial, elastic: f64) -> Option<Step> {
         let (shift, nodes) = (self.offset() - self.residual.level, self.nodes());
         let noise = self.energy_noise() * nodes;
-        let Self { fields, law, constraint, tally, .. } = self;
-        let local = Potential::new(*law, &**constraint);
+        let stiffness = self.load.stiffness();
+        let Self { fields, law, constraint, tally, flat, .. } = self;
+        let local = Potential::new(*law, &**constraint, flat.window.as_ref());
         let (scale, rest) = (T::lit(trial.scale), trial.scale - 1.0);
         // p = r' − φ'(g) and two constants, at every node with a change
         let pressed = trial.descent - shift * trial.change - trial.traction;
@@ -286,13 +297,15 @@ impl<T: Real> State<'_, T> {
         // the elastic curvature of a uniform change is rounding, of either sign
         let elastic = (trial.scale * trial.scale * elastic + cross).max(0.0);
         let work = trial.scale * pressed + rest * tally.sum_gp;
-        let shifted = work + shift * (trial.scale * trial.change + rest * tally.sum_gap);
+        let change = trial.scale * trial.change + rest * tally.sum_gap;
+        let shifted = work + shift * change;
+        let spring = stiffness * change * change / nodes;
         if !(elastic + shifted).is_finite() {
             return None;
         }
-        let slopes = trial.slopes;
-        let stiff = elastic + slopes > LEAST_CURVATURE * elastic;
-        let curvature = if stiff { elastic + slopes } else { LEAST_CURVATURE * elastic };
+        let (slopes, quadratic) = (trial.slopes, elastic + spring);
+        let stiff = quadratic + slopes > LEAST_CURVATURE * quadratic;
+        let curvature = if stiff { quadratic + slopes } else { LEAST_CURVATURE * quadratic };
         let best = (-trial.slope / curvature).min(FARTHEST);
         let reach = if local.projects() { trial.reach.max(1.0) } else { f64::INFINITY };
         let mut length = match trial.clipped {
@@ -305,7 +318,7 @@ impl<T: Real> State<'_, T> {
             let before = tally.adhesive + tally.penalty;
             loop {
                 after = passes::energy_after(fields, &local, T::lit(length), scale);
-                let rise = length * shifted + 0.5 * length * length * elastic + (after - before);
+                let rise = length * shifted + 0.5 * length * length * quadratic + (after - before);
                 if rise.is_finite() && rise <= noise {
                     break;
                 }
@@ -316,22 +329,25 @@ impl<T: Real> State<'_, T> {
             }
         }
         // near the solution the best lengths scatter about their mean: damp their changes
-        let change = if self.near { best.sqrt() } else { best };
-        self.step_length = (self.step_length * change.clamp(ADAPT.0, ADAPT.1)).min(LONGEST);
-        (length > 0.0).then_some(Step { length, scale: trial.scale, slope: trial.slope, work, elastic, local: after })
+        let ratio = if self.near { best.sqrt() } else { best };
+        self.step_length = (self.step_length * ratio.clamp(ADAPT.0, ADAPT.1)).min(LONGEST);
+        let (scale, slope) = (trial.scale, trial.slope);
+        (length > 0.0).then_some(Step { length, scale, slope, change, work, elastic, spring, local: after })
     }
 
     /// Takes a step: gap, pressure, and the tally of the new state.
     fn advance(&mut self, step: &Step) {
         let projects = self.projects();
-        let &Step { length, scale, slope, work, elastic, local: after } = step;
+        let &Step { length, scale, slope, change, work, elastic, spring, local: after } = step;
+        self.given = self.load.pressure_at((self.tally.sum_gap + length * change) / self.nodes());
         let level = self.is_gap_controlled().then_some(T::lit(self.residual.level));
         let advance = Advance { length: T::lit(length), scale: T::lit(scale), offset: T::lit(self.offset()), level };
         let Self { fields, law, constraint, flat, .. } = self;
-        let local = Potential::new(*law, &**constraint);
+        let local = Potential::new(*law, &**constraint, flat.window.as_ref());
         let advanced = passes::advance(fields, &local, advance, &flat.pressure);
         // `change` holds d after a scaled step, and c = d otherwise
-        let curvature = if local.is_zero() { length * length * elastic } else { length * (advanced.product - slope) };
+        let curvature =
+            if local.is_zero() { length * length * (elastic + spring) } else { length * (advanced.product - slope) };
         self.tally = advanced.tally;
         if projects {
             self.tally.adhesive = after;

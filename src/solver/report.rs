@@ -5,6 +5,7 @@ use std::fmt;
 use ndarray::Array2;
 
 use super::{Criterion, Method};
+use crate::elastic::Boundary;
 
 /// The status of a solve: how it ended, and how good its fields are.
 ///
@@ -83,10 +84,11 @@ pub struct Iteration {
     pub relative_error: f64,
     /// The relative error of the load, [`Report::load_error`].
     pub load_error: f64,
-    /// The energy that is minimised, per area: elastic and adhesive energy, and under pressure control p̄ times the
-    /// mean gap.
+    /// The energy that is minimised, per area of the operator's grid: elastic and adhesive energy, and under pressure
+    /// control p̄ times the mean gap; with a spring its energy.
     pub energy: f64,
-    /// The mean gap.
+    /// The mean gap; with a free boundary or absent nodes over the operator's grid, on which the gap goes on as the
+    /// displacement less heights that are interpolated.
     pub mean_gap: f64,
     /// The number of nodes in contact.
     pub contact_nodes: usize,
@@ -127,7 +129,7 @@ pub struct Report {
     /// vanish then. Under the lightest loads ⟨u, p⟩ is computed as ⟨p, K p⟩, which does not cancel, and the error is
     /// never less than the rounding of the pressure alone makes it, so that it is not understated.
     pub relative_error: f64,
-    /// Under pressure control, the error of the load relative to the larger of |p̄| and the mean contact pressure: the
+    /// Under a given pressure or with a spring, the error of the load relative to the larger of |p̄| and the mean contact pressure: the
     /// larger of the imbalance of the nodes that are apart and the difference between the load and the one that the
     /// returned fields carry. One without contact under a load that needs it; zero under gap control.
     pub load_error: f64,
@@ -138,25 +140,41 @@ pub struct Report {
     /// The number of operator applications, each a forward and an inverse transform; the construction of the problem
     /// takes one more.
     pub operator_applications: usize,
-    /// The mean gap.
+    /// The boundary of the elastic body.
+    pub boundary: Boundary,
+    /// The mean gap, over the nodes that are not absent.
     pub mean_gap: f64,
-    /// The mean external pressure p̄, compression positive; under pressure control the given one.
+    /// The mean external pressure p̄, the force over the nominal area Lx·Ly of the surface, compression positive; under
+    /// pressure control the given one.
     pub mean_pressure: f64,
+    /// The normal force F = p̄·Lx·Ly, compression positive.
+    pub normal_force: f64,
+    /// The approach δ: how far the bodies have moved towards each other since they would first touch undeformed.
+    /// Nothing in a periodic cell, where it has no meaning.
+    pub approach: Option<f64>,
     /// The mean pressure that the returned fields carry, ⟨λ⟩ − ⟨φ'⟩. Under pressure control the solve was asked for
     /// [`mean_pressure`](Self::mean_pressure), and where it has converged this is the same to the tolerance; of
     /// surfaces that were [`Detached`](Status::Detached) it is the remaining part of the load.
     pub carried_pressure: f64,
     /// The mean contact (repulsive) pressure, the paper's q₀.
     pub mean_contact_pressure: f64,
-    /// The share of nodes in contact, as [`Solution::contact_map`] says.
+    /// The share of nodes in contact, as [`Solution::contact_map`] says, among those that are not absent.
     pub contact_fraction: f64,
     /// The number of nodes in contact, by [`Solution::contact_map`].
     pub contact_nodes: usize,
+    /// The number of [absent nodes](crate::Surface::with_absent) of the surface.
+    pub absent_nodes: usize,
+    /// The largest traction on the outermost nodes of a free boundary's window, as a share of the largest anywhere.
+    /// Nothing in a periodic cell.
+    pub edge_traction: Option<f64>,
+    /// Whether contact, or more than a thousandth of the largest traction, reaches the outermost nodes of a free
+    /// boundary's window. Unless the body ends there, the window is too small for it.
+    pub reaches_edge: bool,
     /// The smallest gap: zero in contact, negative only where the constraint lets the surfaces interpenetrate.
     pub min_gap: f64,
-    /// The elastic energy, the mean of u·p/2.
+    /// The elastic energy, the mean of u·p/2 over the nominal area.
     pub elastic_energy: f64,
-    /// The adhesive energy, the mean of φ(g).
+    /// The adhesive energy, the mean of φ(g) over the nominal area.
     pub adhesive_energy: f64,
     /// The resolution measure μ_ρ of [`Problem::mu_rho`](crate::Problem::mu_rho).
     pub mu_rho: f64,
@@ -174,7 +192,7 @@ pub struct Report {
     pub tolerance: f64,
 }
 
-/// The fields of a solved problem, each of shape (Nx, Ny), and the account of the solve.
+/// The fields of a solved problem, each of the shape (Nx, Ny) of the surface, and the account of the solve.
 ///
 /// ```
 /// use asperity::{Control, Grid, NoAdhesion, Problem, Solver, Surface, Westergaard};
@@ -190,9 +208,10 @@ pub struct Report {
 #[non_exhaustive]
 #[derive(Clone, Debug, PartialEq)]
 pub struct Solution<T> {
-    /// The gap g ≥ 0 between the surfaces.
+    /// The gap g ≥ 0 between the surfaces, infinite at [absent nodes](crate::Surface::with_absent).
     pub gap: Array2<T>,
-    /// The full elastic pressure p + p̄ on the half-space: the contact pressure less the adhesive traction.
+    /// The full elastic pressure p + p̄ on the half-space: the contact pressure less the adhesive traction. Zero at
+    /// absent nodes.
     pub pressure: Array2<T>,
     /// The contact pressure λ ≥ 0, zero wherever the gap is not.
     pub contact_pressure: Array2<T>,

@@ -5,7 +5,7 @@ use super::state::State;
 use crate::error::Result;
 use crate::field::{Partial, read, write};
 use crate::par::IndexedParallelIterator;
-use crate::problem::Control;
+use crate::problem::Load;
 use crate::real::Real;
 
 impl<T: Real> State<'_, T> {
@@ -75,13 +75,13 @@ impl<T: Real> State<'_, T> {
             part
         });
         let [sum, released, clipped, ..] = total.sum;
-        let scale = match self.control {
-            Control::MeanGap(mean) if projects => mean * self.nodes() / sum,
+        let scale = match self.load {
+            Load::Gap(mean) if projects => mean * self.nodes() / sum,
             _ => 1.0,
         };
         if !scale.is_finite() {
             // every node was clipped: only the mean gap remains to be kept
-            if let Control::MeanGap(mean) = self.control {
+            if let Load::Gap(mean) = self.load {
                 self.fields.gap.fill(T::lit(mean));
                 self.refresh()?;
                 self.residual();

@@ -5,7 +5,7 @@ use ndarray::{Array2, ArrayRef2, CowArray, Ix2};
 use crate::adhesion::AdhesionLaw;
 use crate::error::{Error, Result};
 use crate::field;
-use crate::problem::{Control, PressedFlat};
+use crate::problem::{Load, PressedFlat, Window};
 use crate::real::Real;
 
 /// The start of a solve: the gap from which the energy is minimised.
@@ -62,11 +62,11 @@ impl<'a, T> Start<'a, T> {
 }
 
 /// The uniform gap from which a solve starts, if no other is given.
-pub(super) fn uniform_start<T: Real>(law: &dyn AdhesionLaw<T>, flat: &PressedFlat<T>, control: Control) -> f64 {
-    match control {
-        Control::MeanGap(gap) => gap,
-        Control::MeanPressure(_) if law.is_zero() => 2.0 * flat.rms_height,
-        Control::MeanPressure(_) => 0.0,
+pub(super) fn uniform_start<T: Real>(law: &dyn AdhesionLaw<T>, flat: &PressedFlat<T>, load: Load) -> f64 {
+    match load {
+        Load::Gap(gap) => gap,
+        _ if law.is_zero() => 2.0 * flat.rms_height,
+        _ => 0.0,
     }
 }
 
@@ -74,9 +74,14 @@ pub(super) fn uniform_start<T: Real>(law: &dyn AdhesionLaw<T>, flat: &PressedFla
 pub(super) fn given_start<T: Real>(
     start: CowArray<'_, T, Ix2>,
     shape: (usize, usize),
-    control: Control,
+    window: Option<&Window>,
+    load: Load,
     projects: bool,
 ) -> Result<Array2<T>> {
+    let start = match window {
+        Some(window) => window.start(start.view())?.into(),
+        None => start,
+    };
     Error::shape("starting gap", start.dim(), shape)?;
     Error::all_finite("starting gap", start.view())?;
     if let Some(gap) = start.iter().find(|&&gap| projects && gap < T::zero()) {
@@ -84,7 +89,7 @@ pub(super) fn given_start<T: Real>(
         return Err(Error::Value { name: "starting gap", value: gap.widen(), requirement });
     }
     let mut gap = if start.is_standard_layout() { start.into_owned() } else { start.as_standard_layout().into_owned() };
-    if let Control::MeanGap(mean) = control {
+    if let Load::Gap(mean) = load {
         let present = field::mean(gap.view(), T::widen);
         if gap.iter().any(|&g| g < T::zero()) {
             // gaps of both signs may have hardly any mean

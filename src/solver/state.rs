@@ -15,7 +15,7 @@ use crate::elastic::{ElasticOperator, Foundation};
 use crate::error::{Error, Result};
 use crate::field::{Partial, read, write};
 use crate::par::IndexedParallelIterator;
-use crate::problem::{Control, Parts, PressedFlat};
+use crate::problem::{Control, Load, Parts, PressedFlat, Window};
 use crate::real::Real;
 
 /// Iterations after which the pressure, updated step by step, is computed anew.
@@ -108,7 +108,9 @@ pub(super) struct State<'a, T> {
     pub(super) law: &'a dyn AdhesionLaw<T>,
     pub(super) flat: &'a PressedFlat<T>,
     pub(super) constraint: &'a mut dyn ContactConstraint<T>,
-    pub(super) control: Control,
+    pub(super) load: Load,
+    /// the given mean pressure p̄ of the present state, zero under gap control
+    pub(super) given: f64,
     pub(super) settings: Settings,
     pub(super) goal: Goal,
     pub(super) fields: Fields<T>,
@@ -153,18 +155,24 @@ impl<'a, T: Real> State<'a, T> {
     ) -> Result<Self> {
         let Parts { operator, law, flat } = problem;
         let shape = operator.grid().shape();
-        constraint.start(operator.grid(), operator.stiffness_range().1, settings.tolerance_in::<T>())?;
-        let (name, value) = match control {
-            Control::MeanGap(gap) => ("mean gap", Error::non_negative("mean gap", gap)?),
-            Control::MeanPressure(pressure) => ("mean pressure", Error::finite("mean pressure", pressure)?),
-        };
-        if !T::lit(value).is_finite() {
-            return Err(Error::Value { name, value, requirement: "finite in the precision of the fields" });
+        let surface = flat.window.as_ref().map_or(operator.grid(), Window::grid);
+        constraint.start(surface, operator.stiffness_range().1, settings.tolerance_in::<T>())?;
+        let load = flat.load(control)?;
+        if settings.method == Method::Rey2017 && (flat.window.is_some() || load.stiffness() > 0.0) {
+            let (control, reason) = (
+                "Algorithm 3 of Rey, Anciaux and Molinari (2017)",
+                "it knows neither springs nor \
+                absent nodes nor a free boundary: take the default method",
+            );
+            return Err(Error::Control { control, reason });
         }
         let uniform = start.is_none();
         let (gap, pressure) = match start {
-            Some(start) => (given_start(start, shape, control, constraint.wall().is_rigid())?, Array2::zeros(shape)),
-            None => (Array2::from_elem(shape, T::lit(uniform_start(law, flat, control))), flat.pressure.clone()),
+            Some(start) => (
+                given_start(start, shape, flat.window.as_ref(), load, constraint.wall().is_rigid())?,
+                Array2::zeros(shape),
+            ),
+            None => (Array2::from_elem(shape, T::lit(uniform_start(law, flat, load))), flat.pressure.clone()),
         };
         let preconditioned = settings.method == Method::Preconditioned;
         let coarse = if preconditioned { Coarse::of(&*operator) } else { None };
@@ -173,7 +181,8 @@ impl<'a, T: Real> State<'a, T> {
             law,
             flat,
             constraint,
-            control,
+            load,
+            given: 0.0,
             settings,
             goal: Goal::Solution,
             fields: Fields::new(gap, pressure),
@@ -202,7 +211,7 @@ impl<'a, T: Real> State<'a, T> {
         } else {
             state.refresh()?;
         }
-        state.start_gap = state.tally.sum_gap / state.nodes();
+        state.start_gap = state.mean_gap();
         state.check_start()?;
         Ok(state)
     }
@@ -211,18 +220,15 @@ impl<'a, T: Real> State<'a, T> {
         self.fields.gap.len() as f64
     }
 
-    /// The given mean pressure p̄, or zero under gap control.
-    pub(super) fn given(&self) -> f64 {
-        match self.control {
-            Control::MeanGap(_) => 0.0,
-            Control::MeanPressure(pressure) => pressure,
-        }
+    /// The mean gap, over all nodes of the operator's grid.
+    pub(super) fn mean_gap(&self) -> f64 {
+        self.tally.sum_gap / self.nodes()
     }
 
     /// The constant b in r = p + φ'(g) + b: the given mean pressure (zero under gap control) less the mean of p, which
     /// is rounding and no load.
     pub(super) fn offset(&self) -> f64 {
-        self.given() - self.drift
+        self.given - self.drift
     }
 
     /// Whether the gap is confined to g ≥ 0.
@@ -231,12 +237,12 @@ impl<'a, T: Real> State<'a, T> {
     }
 
     pub(super) fn is_gap_controlled(&self) -> bool {
-        matches!(self.control, Control::MeanGap(_))
+        matches!(self.load, Load::Gap(_))
     }
 
     /// Computes the pressure from the gap, p = K⁻¹g + K⁻¹h, and takes the tally anew.
     pub(super) fn refresh(&mut self) -> Result<()> {
-        if let Control::MeanGap(mean) = self.control {
+        if let Load::Gap(mean) = self.load {
             let (scale, present) = (mean * self.nodes() / self.tally.sum_gap, self.tally.sum_gap / self.nodes());
             // the rounding summed up in the mean gap, if it is worth a pass
             if self.projects() {
@@ -271,10 +277,11 @@ impl<'a, T: Real> State<'a, T> {
     /// Takes the tally of the present gap and pressure; returns the elastic work ⟨u, p⟩ by its sums.
     pub(super) fn count(&mut self) -> Work {
         let offset = T::lit(self.offset());
-        let local = Potential::new(self.law, &*self.constraint);
+        let local = Potential::new(self.law, &*self.constraint, self.flat.window.as_ref());
         let taken = passes::tally(&mut self.fields, &local, offset, &self.flat.pressure);
         let Taken { mut tally, gap_surface, sum_p } = taken;
         self.drift = sum_p / self.nodes();
+        self.given = self.load.pressure_at(tally.sum_gap / self.nodes());
         tally.shift(T::lit(self.offset()).widen() - offset.widen());
         (self.tally, self.left) = (tally, Left::Nothing);
         self.summed_work(tally.sum_gp, gap_surface)
@@ -282,11 +289,11 @@ impl<'a, T: Real> State<'a, T> {
 
     /// μ: the mean of r where the surfaces are apart, under gap control.
     pub(super) fn multiplier(&self) -> f64 {
-        match self.control {
-            Control::MeanPressure(_) => 0.0,
-            Control::MeanGap(_) if self.tally.free > 0.0 => self.tally.sum_r / self.tally.free,
+        match self.load {
+            Load::Pressure(_) | Load::Spring { .. } => 0.0,
+            Load::Gap(_) if self.tally.free > 0.0 => self.tally.sum_r / self.tally.free,
             // no node is free: the least pressure that keeps them all in contact
-            Control::MeanGap(_) => self.tally.min_r,
+            Load::Gap(_) => self.tally.min_r,
         }
     }
 
@@ -302,8 +309,8 @@ impl<'a, T: Real> State<'a, T> {
         };
         let (offset, release) = (T::lit(self.offset()), T::lit(self.multiplier()));
         let centred = self.is_gap_controlled() && self.settings.method == Method::Preconditioned;
-        let Self { fields, law, constraint, tally, .. } = self;
-        let local = Potential::new(*law, &**constraint);
+        let Self { fields, law, constraint, tally, flat, .. } = self;
+        let local = Potential::new(*law, &**constraint, flat.window.as_ref());
         let mut level = release.widen();
         if centred && tally.contact > 0.0 && local.projects() {
             let released = passes::released(fields, &local, offset, release);
@@ -315,7 +322,7 @@ impl<'a, T: Real> State<'a, T> {
         let working = Working { offset, release, level: T::lit(level) };
         if let Some(made) = made {
             let Continued { orthogonality, working, descent, overlap, sum_change } =
-                passes::release(fields, local.projects(), working);
+                passes::release(fields, &local, working);
             self.residual = Residual { level, working, orthogonality, ..self.residual };
             self.momentum = Some(Made { descent, overlap, sum: sum_change, ..made });
         } else {
@@ -372,7 +379,7 @@ impl<'a, T: Real> State<'a, T> {
             relative_error: self.relative_error(),
             load_error: self.load_error(),
             energy: self.energy(),
-            mean_gap: self.tally.sum_gap / self.nodes(),
+            mean_gap: self.mean_gap(),
             contact_nodes: self.tally.contact as usize,
             round: self.rounds,
             smoothed: self.goal == Goal::Start,

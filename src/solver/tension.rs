@@ -5,7 +5,7 @@ use super::report::Status;
 use super::state::{Goal, State};
 use crate::error::Result;
 use crate::field::{Partial, write};
-use crate::problem::Control;
+use crate::problem::Load;
 use crate::real::Real;
 
 /// A share of the load that, held without contact, is hardly any.
@@ -26,7 +26,7 @@ const REACH: f64 = 10.0;
 impl<T: Real> State<'_, T> {
     /// Whether a tensile load has pulled the surfaces apart: no contact, and hardly any traction left to hold them.
     pub(super) fn is_adrift(&self) -> bool {
-        let Control::MeanPressure(pressure) = self.control else { return false };
+        let Load::Pressure(pressure) = self.load else { return false };
         let held = self.tally.traction / self.nodes();
         pressure < 0.0 && self.tally.contact == 0.0 && held <= HARDLY * -pressure
     }
@@ -39,7 +39,7 @@ impl<T: Real> State<'_, T> {
     /// Whether the surfaces drift apart under a load that presses them, as rounding may make them where the load is
     /// less than it: the mean gap is then beyond that of the start and of every equilibrium.
     pub(super) fn runs_away(&self) -> bool {
-        let pressed = matches!(self.control, Control::MeanPressure(pressure) if pressure >= 0.0);
+        let pressed = matches!(self.load, Load::Pressure(pressure) if pressure >= 0.0);
         pressed && self.tally.sum_gap / self.nodes() > self.start_gap + 2.0 * self.out_of_reach()
     }
 
@@ -51,7 +51,7 @@ impl<T: Real> State<'_, T> {
     /// at which surfaces that are not deformed would touch. From a state that holds more than the load, the load lets
     /// them close up to an equilibrium.
     pub(super) fn seek_hold(&mut self, observe: Observer<'_>) -> Result<bool> {
-        let Control::MeanPressure(load) = self.control else { return Ok(false) };
+        let Load::Pressure(load) = self.load else { return Ok(false) };
         if -load > self.strongest_traction() || !self.projects() {
             return Ok(false);
         }
@@ -65,7 +65,7 @@ impl<T: Real> State<'_, T> {
             gaps[side] = if side == 0 { interval[1] - GOLDEN * width } else { interval[0] + GOLDEN * width };
             held[side] = match self.tension_at(gaps[side], &mut *observe)? {
                 Some(tension) if tension >= -load => {
-                    self.go_on(Control::MeanPressure(load), Goal::Solution)?;
+                    self.go_on(Load::Pressure(load), Goal::Solution)?;
                     self.stays_near();
                     return Ok(true);
                 }
@@ -80,17 +80,17 @@ impl<T: Real> State<'_, T> {
                 next = Some(larger);
             }
         }
-        self.go_on(Control::MeanPressure(load), Goal::Solution)?;
+        self.go_on(Load::Pressure(load), Goal::Solution)?;
         Ok(false)
     }
 
     /// The tension at a given mean gap, from a uniform gap; nothing if the solve was stopped or ran out of iterations.
     fn tension_at(&mut self, gap: f64, observe: Observer<'_>) -> Result<Option<f64>> {
         self.fields.gap.fill(T::lit(gap));
-        self.go_on(Control::MeanGap(gap), Goal::Hold)?;
+        self.go_on(self.holding(gap), Goal::Hold)?;
         let end = minimise(self, observe)?;
         let gave = matches!(end, End::Gave(Status::Stopped | Status::IterationLimit));
-        Ok((!gave).then(|| self.multiplier()))
+        Ok((!gave).then(|| self.multiplier() - self.given))
     }
 
     /// The largest of many tractions of the law: no uniform gap holds more.
@@ -100,9 +100,18 @@ impl<T: Real> State<'_, T> {
         gaps.map(|gap| self.law.traction(gap).widen()).fold(0.0, f64::max)
     }
 
+    /// The load that holds a mean gap: that itself, or, where some nodes face no surface, a spring as stiff as the
+    /// stiffest wave.
+    fn holding(&self, gap: f64) -> Load {
+        match self.flat.window {
+            None => Load::Gap(gap),
+            Some(_) => Load::Spring { stiffness: self.operator.stiffness_range().1, rest: gap },
+        }
+    }
+
     /// Goes on from the present gap under another control.
-    fn go_on(&mut self, control: Control, goal: Goal) -> Result<()> {
-        (self.control, self.goal) = (control, goal);
+    fn go_on(&mut self, load: Load, goal: Goal) -> Result<()> {
+        (self.load, self.goal) = (load, goal);
         // the mean of the present gap, which the refresh scales to the one that is held
         self.count();
         self.refresh()?;
@@ -121,8 +130,8 @@ impl<T: Real> State<'_, T> {
             gap.iter_mut().for_each(|gap| *gap += lift);
             Partial::NONE
         });
-        self.detached = Some(self.given());
-        self.control = Control::MeanGap(target);
+        self.detached = Some(self.given);
+        self.load = self.holding(target);
         self.restart();
     }
 }

@@ -78,7 +78,7 @@ impl<T: Real> Stability<T> {
         let energy = |solution: &Solution<T>| {
             let report = &solution.report;
             let load = match control {
-                Control::MeanGap(_) => 0.0,
+                Control::MeanGap(_) | Control::Force(_) | Control::Approach(_) | Control::Spring { .. } => 0.0,
                 Control::MeanPressure(pressure) => pressure * report.mean_gap,
             };
             report.elastic_energy + report.adhesive_energy + load

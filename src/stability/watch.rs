@@ -61,7 +61,7 @@ impl<T: Real> Watch<T> {
         if law.is_zero() {
             return Ok(None);
         }
-        let slopes = slopes(gap, Potential::new(law, &Projection))?;
+        let slopes = slopes(gap, Potential::new(law, &Projection, None))?;
         let mut hessian = Hessian::new(operator, slopes, true);
         if hessian.simple_bound() > 0.0 || hessian.dimension() == 0 {
             return Ok(None);

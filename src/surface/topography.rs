@@ -185,10 +185,23 @@ impl Topography {
     /// # Errors
     /// [`Error::Value`] if the side lengths are unknown or no lengths, [`Error::NotFinite`] if heights are missing.
     pub fn surface(self) -> Result<Surface> {
+        Surface::new(self.grid()?, self.heights)
+    }
+
+    /// The surface, periodic as it stands, with the missing points as absent nodes: [`Surface::with_absent`]. Infinite
+    /// heights are missing, too.
+    ///
+    /// # Errors
+    /// [`Error::Value`] if the side lengths are unknown or no lengths, or if all heights are missing.
+    pub fn surface_with_absent(mut self) -> Result<Surface> {
+        self.heights.mapv_inplace(|h| if h.is_finite() { h } else { f64::NAN });
+        Surface::with_absent(self.grid()?, self.heights)
+    }
+
+    fn grid(&self) -> Result<Grid> {
         let requirement = "known: set Topography::lengths";
         let missing = Error::Value { name: "side length Lx", value: f64::NAN, requirement };
-        let grid = Grid::new(self.heights.dim(), self.lengths.ok_or(missing)?)?;
-        Surface::new(grid, self.heights)
+        Grid::new(self.heights.dim(), self.lengths.ok_or(missing)?)
     }
 
     /// The distances between nodes; square cells of 1 if the side lengths are unknown.
@@ -199,9 +212,13 @@ impl Topography {
 }
 
 impl From<Surface> for Topography {
-    /// The heights and side lengths of a surface.
+    /// The heights and side lengths of a surface; absent nodes are missing points.
     fn from(surface: Surface) -> Self {
         let lengths = Some(surface.grid().lengths());
-        Self { lengths, ..Self::new(surface.heights) }
+        let Surface { mut heights, absent, .. } = surface;
+        if let Some(absent) = absent {
+            heights.zip_mut_with(&absent, |height, &absent| *height = if absent { f64::NAN } else { *height });
+        }
+        Self { lengths, ..Self::new(heights) }
     }
 }

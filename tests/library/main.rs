@@ -9,6 +9,7 @@ mod constraints;
 mod exact;
 mod exact_solutions;
 mod extremes;
+mod free;
 mod light_loads;
 mod maugis_dugdale;
 mod nested;

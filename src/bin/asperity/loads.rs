@@ -11,10 +11,7 @@ const MOST_LOADS: usize = 100_000;
 
 /// The name of the kind of a load, and its value.
 pub fn name_and_value(control: Control) -> (&'static str, f64) {
-    match control {
-        Control::MeanGap(gap) => ("mean-gap", gap),
-        Control::MeanPressure(pressure) => ("mean-pressure", pressure),
-    }
+    (control.name(), control.value())
 }
 
 /// Reads a list of mean gaps.

@@ -77,16 +77,18 @@ pub(in crate::solver) fn released<T: Real>(
 ) -> Released {
     let Fields { reducer, least_r, gap, pressure, .. } = fields;
     let limit = release.widen();
-    let total = reducer.run_where(
+    let total = local.run_where(
+        reducer,
         least_r,
         |least| least < limit,
         read(gap).zip(read(pressure)),
-        |first, (gap, pressure)| {
+        |local, first, (gap, pressure)| {
+            let projects = local.projects();
             let mut buffer = [T::zero(); CHUNK];
             let tractions = tractions(local, first, gap, &mut buffer);
             sums!(2, [gap, pressure, tractions], [], |i| {
                 let r = pressure[i] + tractions[i] + offset;
-                let released = (gap[i] <= T::zero()) & (r < release);
+                let released = projects & (gap[i] <= T::zero()) & (r < release);
                 ([count(released), if released { r.widen() } else { 0.0 }], f64::INFINITY)
             })
         },
@@ -101,19 +103,19 @@ pub(in crate::solver) fn residual<T: Real>(
     working: Working<T>,
 ) -> Residual {
     let Fields { reducer, moving, gap, pressure, residual, .. } = fields;
-    let projects = local.projects();
-    let total =
-        reducer.run(read(gap).zip(read(pressure)).zip(write(residual)), |first, ((gap, pressure), residual)| {
-            let mut buffer = [T::zero(); CHUNK];
-            let tractions = tractions(local, first, gap, &mut buffer);
-            sums!(3, [gap, pressure, tractions], [residual], |i| {
-                let r = pressure[i] + tractions[i] + working.offset;
-                let (r, may) = residual_of(projects, working, gap[i], r);
-                let difference = (r - residual[i]).widen();
-                residual[i] = r;
-                ([count(may), (gap[i] * r).abs().widen(), difference * difference], f64::INFINITY)
-            })
-        });
+    let chunks = read(gap).zip(read(pressure)).zip(write(residual));
+    let total = local.run(reducer, chunks, |local, first, ((gap, pressure), residual)| {
+        let projects = local.projects();
+        let mut buffer = [T::zero(); CHUNK];
+        let tractions = tractions(local, first, gap, &mut buffer);
+        sums!(3, [gap, pressure, tractions], [residual], |i| {
+            let r = pressure[i] + tractions[i] + working.offset;
+            let (r, may) = residual_of(projects, working, gap[i], r);
+            let difference = (r - residual[i]).widen();
+            residual[i] = r;
+            ([count(may), (gap[i] * r).abs().widen(), difference * difference], f64::INFINITY)
+        })
+    });
     reducer.keep(|part| part.sum[0], moving);
     let [working, orthogonality, difference, ..] = total.sum;
     Residual { orthogonality, working, difference }
@@ -136,11 +138,16 @@ pub(super) fn release_chunk<T: Real>(
 }
 
 /// Computes r' from the gradient r in the same field, where a step has written it.
-pub(in crate::solver) fn release<T: Real>(fields: &mut Fields<T>, projects: bool, working: Working<T>) -> Continued {
+pub(in crate::solver) fn release<T: Real>(
+    fields: &mut Fields<T>,
+    local: &Potential<'_, T>,
+    working: Working<T>,
+) -> Continued {
     let Fields { reducer, moving, gap, residual, preconditioned, change, .. } = fields;
     let chunks = read(gap).zip(write(residual)).zip(read(preconditioned)).zip(read(change));
-    let total = reducer
-        .run(chunks, |_, (((gap, residual), z), change)| release_chunk(projects, working, (gap, z, change), residual));
+    let total = local.run(reducer, chunks, |local, _, (((gap, residual), z), change)| {
+        release_chunk(local.projects(), working, (gap, z, change), residual)
+    });
     reducer.keep(|part| part.sum[0], moving);
     let [working, orthogonality, descent, overlap, sum_change, ..] = total.sum;
     Continued { orthogonality, working, descent, overlap, sum_change }

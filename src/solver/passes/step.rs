@@ -22,8 +22,6 @@ pub(in crate::solver) struct Attempt<T> {
     pub(in crate::solver) keep: T,
     /// the mean of the last change over the working set
     pub(in crate::solver) mean: T,
-    /// whether the gap is confined to g ≥ 0
-    pub(in crate::solver) projects: bool,
 }
 
 /// The sums over a change c, clipped, before it is scaled to restore the mean gap.
@@ -87,8 +85,8 @@ fn whole<T: Real>(scale: T, gap: T, change: T) -> T {
 
 /// The change c of a step at one node, and whether it was clipped.
 #[inline(always)]
-fn clipped_change<T: Real>(attempt: Attempt<T>, gap: T, residual: T, z: T, change: T) -> (T, bool) {
-    let Attempt { length, centre, keep, mean, projects } = attempt;
+fn clipped_change<T: Real>(projects: bool, attempt: Attempt<T>, gap: T, residual: T, z: T, change: T) -> (T, bool) {
+    let Attempt { length, centre, keep, mean } = attempt;
     let kept = if keep == T::zero() { T::zero() } else { keep * (change - mean) };
     let next = if idles(residual) { gap } else { gap - length * (z - centre) + kept };
     let clipped = projects & (next < T::zero());
@@ -97,8 +95,8 @@ fn clipped_change<T: Real>(attempt: Attempt<T>, gap: T, residual: T, z: T, chang
 
 /// The largest a with g + a·c ≥ 0 at one node, for a gap g and a change c.
 #[inline(always)]
-fn reach<T: Real>(gap: T, change: T) -> f64 {
-    if change < T::zero() { (gap / -change).widen() } else { f64::INFINITY }
+fn reach<T: Real>(projects: bool, gap: T, change: T) -> f64 {
+    if projects & (change < T::zero()) { (gap / -change).widen() } else { f64::INFINITY }
 }
 
 /// Writes the clipped change c of a step; `surface` is K⁻¹h under gap control.
@@ -109,10 +107,9 @@ pub(in crate::solver) fn trial<T: Real>(
     surface: Option<&Array2<T>>,
 ) -> Tried {
     let Fields { reducer, gap, residual, preconditioned, change, .. } = fields;
-    let nothing_local = local.is_zero();
     let chunks = read(gap).zip(read(residual)).zip(read(preconditioned)).zip(write(change));
-    let slopes = |part: &mut Partial, first, gap: &[T], change: &[T]| {
-        if nothing_local {
+    let slopes = |local: &Potential<'_, T>, part: &mut Partial, first, gap: &[T], change: &[T]| {
+        if local.is_zero() {
             return;
         }
         let (mut tractions, mut slopes) = ([T::zero(); CHUNK], [T::zero(); CHUNK]);
@@ -125,30 +122,35 @@ pub(in crate::solver) fn trial<T: Real>(
         part.sum[SUMS - 4..].copy_from_slice(&found.sum[..4]);
     };
     let total = match surface {
-        None => reducer.run(chunks, |first, (((gap, residual), z), change)| {
+        None => local.run(reducer, chunks, |local, first, (((gap, residual), z), change)| {
+            let projects = local.projects();
             let mut part = sums!(4, [gap, residual, z], [change], |i| {
                 let (g, r) = (gap[i], residual[i]);
-                let (c, clipped) = clipped_change(attempt, g, r, z[i], change[i]);
+                let (c, clipped) = clipped_change(projects, attempt, g, r, z[i], change[i]);
                 change[i] = c;
                 let blocked = clipped & (r > T::zero()) & (g > T::zero());
-                ([c.widen(), count(clipped), count(blocked), r.widen() * c.widen()], reach(g, c))
+                ([c.widen(), count(clipped), count(blocked), r.widen() * c.widen()], reach(projects, g, c))
             });
-            slopes(&mut part, first, gap, change);
+            slopes(local, &mut part, first, gap, change);
             part
         }),
-        Some(surface) => reducer.run(chunks.zip(read(surface)), |first, ((((gap, residual), z), change), surface)| {
-            let mut part = sums!(7, [gap, residual, z, surface], [change], |i| {
-                let (g, r) = (gap[i], residual[i]);
-                let (c, clipped) = clipped_change(attempt, g, r, z[i], change[i]);
-                change[i] = c;
-                let blocked = count(clipped & (r > T::zero()) & (g > T::zero()));
-                let low = reach(g, c);
-                let [g, r, c, h] = [g, r, c, surface[i]].map(T::widen);
-                ([c, count(clipped), blocked, r * c, r * g, c * h, g * h], low)
-            });
-            slopes(&mut part, first, gap, change);
-            part
-        }),
+        Some(surface) => {
+            let chunks = chunks.zip(read(surface));
+            local.run(reducer, chunks, |local, first, ((((gap, residual), z), change), surface)| {
+                let projects = local.projects();
+                let mut part = sums!(7, [gap, residual, z, surface], [change], |i| {
+                    let (g, r) = (gap[i], residual[i]);
+                    let (c, clipped) = clipped_change(projects, attempt, g, r, z[i], change[i]);
+                    change[i] = c;
+                    let blocked = count(clipped & (r > T::zero()) & (g > T::zero()));
+                    let low = reach(projects, g, c);
+                    let [g, r, c, h] = [g, r, c, surface[i]].map(T::widen);
+                    ([c, count(clipped), blocked, r * c, r * g, c * h, g * h], low)
+                });
+                slopes(local, &mut part, first, gap, change);
+                part
+            })
+        }
     };
     let [change, clipped, blocked, descent, gap_descent, change_surface, gap_surface, ..] = total.sum;
     let [.., traction, slope_change, slope_mixed, slope_gap] = total.sum;
@@ -177,8 +179,8 @@ pub(in crate::solver) fn energy_after<T: Real>(
     scale: T,
 ) -> f64 {
     let Fields { reducer, gap, change, .. } = fields;
-    let projects = local.projects();
-    let total = reducer.run(read(gap).zip(read(change)), |first, (gap, change)| {
+    let total = local.run(reducer, read(gap).zip(read(change)), |local, first, (gap, change)| {
+        let projects = local.projects();
         let (mut next, mut buffer) = ([T::zero(); CHUNK], [T::zero(); CHUNK]);
         let (next, energies) = (&mut next[..gap.len()], &mut buffer[..gap.len()]);
         vectors!([gap, change], [next], |i| {
@@ -199,17 +201,16 @@ pub(in crate::solver) fn advance<T: Real>(
 ) -> Advanced {
     let Advance { length, scale, offset, level } = step;
     let Fields { reducer, least_r, gap, pressure, residual: response, preconditioned, change, .. } = fields;
-    let (projects, nothing_local) = (local.projects(), local.is_zero());
     // r takes the place of K⁻¹c; then the tally
-    let finish = |first, gap: &[T], pressure: &[T], step: &[T], residual: &mut [T]| {
+    let finish = |local: &Potential<'_, T>, first, gap: &[T], pressure: &[T], step: &[T], residual: &mut [T]| {
         let mut buffer = [T::zero(); CHUNK];
         let tractions = tractions(local, first, gap, &mut buffer);
-        let mut part = tally_of(projects, offset, gap, pressure, tractions);
+        let mut part = tally_of(local.projects(), offset, gap, pressure, tractions);
         vectors!([pressure, tractions], [residual], |i| {
             residual[i] = pressure[i] + tractions[i] + offset;
         });
-        if !nothing_local {
-            tally_local(&mut part, local, first, gap, tractions, !projects);
+        if !local.is_zero() {
+            tally_local(&mut part, local, first, gap, tractions, local.has_springs());
             let level = level.unwrap_or(T::zero());
             let product = sums!(1, [step, residual], [], |i| {
                 ([step[i].widen() * (residual[i] - level).widen()], f64::INFINITY)
@@ -218,7 +219,7 @@ pub(in crate::solver) fn advance<T: Real>(
         }
         part
     };
-    let take = |gap: &mut [T], pressure: &mut [T], change: &[T], response: &[T]| {
+    let take = |projects: bool, gap: &mut [T], pressure: &mut [T], change: &[T], response: &[T]| {
         vectors!([change, response], [gap, pressure], |i| {
             gap[i] = moved(projects, gap[i], length * change[i]);
             pressure[i] += length * response[i];
@@ -228,12 +229,13 @@ pub(in crate::solver) fn advance<T: Real>(
     let chunks = write(gap).zip(write(pressure)).zip(write(response));
     if level.is_none() {
         let working = Working { offset, release: T::zero(), level: T::zero() };
-        let total = reducer.run(
+        let total = local.run(
+            reducer,
             chunks.zip(read(change)).zip(read(preconditioned)),
-            |first, ((((gap, pressure), response), change), z)| {
-                take(gap, pressure, change, response);
-                let mut part = finish(first, gap, pressure, change, response);
-                let new = release_chunk(projects, working, (gap, z, change), response);
+            |local, first, ((((gap, pressure), response), change), z)| {
+                take(local.projects(), gap, pressure, change, response);
+                let mut part = finish(local, first, gap, pressure, change, response);
+                let new = release_chunk(local.projects(), working, (gap, z, change), response);
                 part.sum[SUMS - 4..].copy_from_slice(&new.sum[..4]);
                 part
             },
@@ -244,13 +246,14 @@ pub(in crate::solver) fn advance<T: Real>(
         return Advanced { tally: Tally::new(&total), product: total.sum[PRODUCT], residual: Some(residual) };
     }
     let total = if rest == T::zero() {
-        reducer.run(chunks.zip(read(change)), |first, (((gap, pressure), response), change)| {
-            take(gap, pressure, change, response);
-            finish(first, gap, pressure, change, response)
+        local.run(reducer, chunks.zip(read(change)), |local, first, (((gap, pressure), response), change)| {
+            take(local.projects(), gap, pressure, change, response);
+            finish(local, first, gap, pressure, change, response)
         })
     } else {
         let chunks = chunks.zip(write(change)).zip(read(surface));
-        reducer.run(chunks, |first, ((((gap, pressure), response), change), surface)| {
+        local.run(reducer, chunks, |local, first, ((((gap, pressure), response), change), surface)| {
+            let projects = local.projects();
             vectors!([response, surface], [gap, pressure, change], |i| {
                 let (g, p) = (gap[i], pressure[i]);
                 let d = whole(scale, g, change[i]);
@@ -258,7 +261,7 @@ pub(in crate::solver) fn advance<T: Real>(
                 gap[i] = moved(projects, g, length * d);
                 pressure[i] = p + length * (scale * response[i] + rest * (p - surface[i]));
             });
-            finish(first, gap, pressure, change, response)
+            finish(local, first, gap, pressure, change, response)
         })
     };
     reducer.keep(|part| part.min, least_r);

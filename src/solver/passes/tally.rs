@@ -96,7 +96,7 @@ pub(super) fn tally_local<T: Real>(
     let mut buffer = [T::zero(); CHUNK];
     let out = &mut buffer[..gaps.len()];
     let sum = |values: &[T]| sums!(1, [values], [], |i| ([values[i].widen()], f64::INFINITY)).sum[0];
-    if local.projects() {
+    if !local.has_springs() {
         part.sum[5] = sum(tractions);
     } else {
         local.law(Of::Traction, first, gaps, out);
@@ -117,7 +117,8 @@ pub(in crate::solver) fn tally<T: Real>(
     surface: &Array2<T>,
 ) -> Taken {
     let Fields { reducer, least_r, gap, pressure, .. } = fields;
-    let total = reducer.run(read(gap).zip(read(pressure)).zip(read(surface)), |first, ((gap, pressure), surface)| {
+    let chunks = read(gap).zip(read(pressure)).zip(read(surface));
+    let total = local.run(reducer, chunks, |local, first, ((gap, pressure), surface)| {
         let mut buffer = [T::zero(); CHUNK];
         let tractions = tractions(local, first, gap, &mut buffer);
         let mut part = tally_of(local.projects(), offset, gap, pressure, tractions);
@@ -157,7 +158,7 @@ mod tests {
             Array2::from_shape_fn((n, n), |(i, j)| (value(n * i + j) as f64 * UNIT) as f32)
         };
         let mut fields = Fields::new(field(&gap), field(&pressure));
-        let nothing = Potential::new(&NoAdhesion, &Projection);
+        let nothing = Potential::new(&NoAdhesion, &Projection, None);
         let Taken { tally, gap_surface, sum_p } = tally(&mut fields, &nothing, 0.0, &field(&surface));
         let [mut free, mut sum_r, mut sum_gap, mut sum_gp, mut sum_gh, mut all] = [0_i128; 6];
         for i in 0..n * n {
