@@ -7,6 +7,7 @@
 use ndarray::{Array2, ArrayView2, Zip};
 
 use crate::adhesion::AdhesionLaw;
+use crate::elastic::Boundary;
 use crate::error::{Error, Result};
 use crate::grid::Grid;
 use crate::real::Real;
@@ -53,7 +54,8 @@ impl<T: Real> Solution<T> {
 
 /// Contact statistics: the area and the clusters of contact, and the area that attracts without contact.
 ///
-/// Fractions are of the nominal area Lx·Ly. Contact, attractive and apart fraction add up to one.
+/// Fractions are of the nodes that are not [absent](crate::Surface::with_absent): without absent nodes, of the nominal
+/// area Lx·Ly. Contact, attractive and apart fraction add up to one. With a free boundary opposite sides do not meet.
 ///
 /// The corrected contact area is that of Yastrebov, Anciaux and Molinari (2017), *On the accurate computation of the
 /// true contact-area in mechanical contact of random rough surfaces*: a map of nodes counts too much along the edge of
@@ -96,7 +98,8 @@ pub struct ContactStatistics {
     /// The contact area without the excess of the map along its edge, as a share of the nominal area.
     pub corrected_contact_fraction: f64,
     /// The length of the edge of the contact, along the sides of the cells, across the periodic boundaries too: Δy for
-    /// neighbours along x of which one is in contact, Δx for neighbours along y. On a line the number of end points.
+    /// neighbours along x of which one is in contact, Δx for neighbours along y. Beyond a free boundary nothing is in
+    /// contact. On a line the number of end points.
     pub perimeter: f64,
     /// The sizes of the clusters of contact in nodes, the largest first; neighbours along a side hang together
     /// ([`Connectivity::Sides`]), across the periodic boundaries too.
@@ -122,7 +125,9 @@ impl ContactStatistics {
         Error::shape("gap", solution.gap.dim(), grid.shape())?;
         Error::shape("contact pressure", solution.contact_pressure.dim(), grid.shape())?;
         let contact = solution.contact_map();
-        let share = |count: usize| count as f64 / grid.nodes() as f64;
+        let (facing, periodic) =
+            (grid.nodes() - solution.report.absent_nodes, solution.report.boundary == Boundary::Periodic);
+        let share = |count: usize| count as f64 / facing as f64;
         let contact_nodes = contact.iter().filter(|&&touches| touches).count();
         let attracting = if law.is_zero() {
             0
@@ -134,7 +139,7 @@ impl ContactStatistics {
             law.tractions(0, &gaps, &mut tractions);
             contact.iter().zip(tractions).filter(|&(&touches, traction)| !touches && traction > least).count()
         };
-        let (along_x, along_y) = edges(contact.view());
+        let (along_x, along_y) = edges(contact.view(), periodic);
         let (dx, dy) = grid.spacing();
         let (perimeter, excess) = if grid.is_line() {
             (along_x as f64, 0.0)
@@ -144,23 +149,29 @@ impl ContactStatistics {
         Ok(Self {
             contact_nodes,
             contact_fraction: share(contact_nodes),
-            corrected_contact_fraction: (contact_nodes as f64 - excess) / grid.nodes() as f64,
+            corrected_contact_fraction: (contact_nodes as f64 - excess) / facing as f64,
             perimeter,
-            cluster_sizes: Clusters::of(contact.view(), Connectivity::Sides).sizes,
+            cluster_sizes: Clusters::within(contact.view(), Connectivity::Sides, solution.report.boundary).sizes,
             repulsive_fraction: share(solution.contact_pressure.iter().filter(|&&p| p > T::zero()).count()),
             attractive_fraction: share(attracting),
-            apart_fraction: share(grid.nodes() - contact_nodes - attracting),
+            apart_fraction: share(facing - contact_nodes - attracting),
         })
     }
 }
 
-/// The number of pairs of neighbours along x, and along y, of which one is on the map and one is not.
-fn edges(map: ArrayView2<'_, bool>) -> (usize, usize) {
+/// The number of pairs of neighbours along x, and along y, of which one is on the map and one is not; opposite sides are
+/// neighbours if the map is periodic, and otherwise nothing is beyond them.
+fn edges(map: ArrayView2<'_, bool>, periodic: bool) -> (usize, usize) {
     let (nx, ny) = map.dim();
     let (mut along_x, mut along_y) = (0, 0);
-    for ((i, j), here) in map.indexed_iter() {
-        along_x += usize::from(*here != map[[(i + 1) % nx, j]]);
-        along_y += usize::from(*here != map[[i, (j + 1) % ny]]);
+    for ((i, j), &here) in map.indexed_iter() {
+        let next = |inside: bool, node: [usize; 2]| (inside || periodic) && map[node];
+        along_x += usize::from(here != next(i + 1 < nx, [(i + 1) % nx, j]));
+        along_y += usize::from(here != next(j + 1 < ny, [i, (j + 1) % ny]));
+        if !periodic {
+            along_x += usize::from(here && i == 0);
+            along_y += usize::from(here && j == 0);
+        }
     }
     (along_x, along_y)
 }
@@ -171,7 +182,7 @@ mod tests {
 
     #[test]
     fn edges_are_counted_across_the_boundaries() {
-        let count = |rows: &[&str]| edges(clusters::tests::map(rows).view());
+        let count = |rows: &[&str]| edges(clusters::tests::map(rows).view(), true);
         assert_eq!(count(&["....", "....", "...."]), (0, 0));
         assert_eq!(count(&["####", "####", "####"]), (0, 0));
         assert_eq!(count(&["....", ".#..", "...."]), (2, 2));
@@ -185,5 +196,13 @@ mod tests {
         // where a side has two nodes they are neighbours twice, and a single one is its own
         assert_eq!(count(&["#...", "...."]), (2, 2));
         assert_eq!(count(&["##..#"]), (0, 2));
+    }
+
+    #[test]
+    fn beyond_a_free_boundary_nothing_is_in_contact() {
+        let count = |rows: &[&str]| edges(clusters::tests::map(rows).view(), false);
+        assert_eq!(count(&["....", ".#..", "...."]), (2, 2));
+        assert_eq!(count(&["#...", "....", "#..."]), (4, 4));
+        assert_eq!(count(&["####", "####"]), (8, 4));
     }
 }

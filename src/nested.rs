@@ -6,7 +6,7 @@ use ndarray::Array2;
 
 use crate::adhesion::AdhesionLaw;
 use crate::constraint::{ContactConstraint, Projection};
-use crate::elastic::ElasticOperator;
+use crate::elastic::{Boundary, ElasticOperator};
 use crate::error::{Error, Result};
 use crate::field::flat_mut;
 use crate::grid::Grid;
@@ -170,7 +170,7 @@ impl<C> Nested<C> {
         let (mut levels, mut start) = (Vec::new(), None);
         let mut stopped = false;
         for &stride in strides.iter().rev().filter(|&&stride| stride > (1, 1)) {
-            let coarse = coarsen(surface, stride)?;
+            let Some(coarse) = coarsen(surface, stride)? else { continue };
             let mut problem = Problem::new(&coarse, operator(*coarse.grid())?, law)?;
             if problem.mu_rho() > RESOLVED {
                 (_, law) = problem.into_parts();
@@ -199,7 +199,8 @@ impl<C> Nested<C> {
             // a coarse grid that does not carry its load says nothing of a finer one
             if report.load_error < CARRIED {
                 let finer = finer(&strides, stride);
-                start = Some(prolong(surface, finer, &coarse, &gap, self.solver.constraint.wall().is_rigid()));
+                let rigid = self.solver.constraint.wall().is_rigid();
+                start = Some(prolong(surface, finer, &coarse, &gap, (rigid, report.boundary == Boundary::Periodic)));
             }
         }
         let mut problem = Problem::new(surface, operator(*surface.grid())?, law)?;
@@ -236,10 +237,16 @@ fn finer(strides: &[(usize, usize)], stride: (usize, usize)) -> (usize, usize) {
     strides.iter().rev().copied().find(|finer| finer.0 < stride.0).unwrap_or((1, 1))
 }
 
-fn coarsen(surface: &Surface, (x, y): (usize, usize)) -> Result<Surface> {
+/// The surface on a coarser grid; nothing if all of its nodes are absent.
+fn coarsen(surface: &Surface, (x, y): (usize, usize)) -> Result<Option<Surface>> {
     let (nx, ny) = surface.grid().shape();
     let grid = Grid::new((nx / x, ny / y), surface.grid().lengths())?;
-    Surface::new(grid, Array2::from_shape_fn(grid.shape(), |(i, j)| surface.heights()[[i * x, j * y]]))
+    let faces = |i, j| surface.absent().is_none_or(|absent| !absent[[i, j]]);
+    let heights = Array2::from_shape_fn(grid.shape(), |(i, j)| match (i * x, j * y) {
+        (i, j) if faces(i, j) => surface.heights()[[i, j]],
+        _ => f64::NAN,
+    });
+    if heights.iter().all(|h| h.is_nan()) { Ok(None) } else { Surface::with_absent(grid, heights).map(Some) }
 }
 
 /// The gap prolonged to the next finer grid, which has every `stride`-th node of the surface.
@@ -248,21 +255,30 @@ fn prolong<T: Real>(
     stride: (usize, usize),
     coarse: &Surface,
     gap: &Array2<T>,
-    projects: bool,
+    (projects, periodic): (bool, bool),
 ) -> Array2<T> {
     let (cx, cy) = coarse.grid().shape();
     let (nx, ny) = surface.grid().shape();
     let shape = (nx / stride.0, ny / stride.1);
     // finer nodes for each coarse one
     let (rx, ry) = (shape.0 / cx, shape.1 / cy);
-    let displacement = |i: usize, j: usize| gap[[i, j]].widen() + coarse.heights()[[i, j]];
+    // where nothing faces the half-space, a start need not be good
+    let displacement = |i: usize, j: usize| {
+        let gap = gap[[i, j]].widen();
+        if gap.is_finite() { gap + coarse.heights()[[i, j]] } else { coarse.heights()[[i, j]] }
+    };
+    // the nodes from the one before on; beyond a free boundary the last one again
+    let shifted = |i: usize, shift: usize, n: usize| match periodic {
+        true => (i + n + shift - 1) % n,
+        false => (i + shift).clamp(1, n) - 1,
+    };
     // whether the interpolation has only nodes in contact about it
     let touches = |i: usize, j: usize| gap[[i, j]] <= T::zero();
     let mut fine = Array2::zeros(shape);
     let rows: Vec<usize> = (0..shape.0).collect();
     par::for_each(par::chunks_mut(flat_mut(&mut fine), shape.1), par::chunks(&rows, 1), |row, index| {
         let (i, between) = (index[0] / rx, !index[0].is_multiple_of(rx));
-        let at = |shift: usize| (i + cx + shift - 1) % cx;
+        let at = |shift: usize| shifted(i, shift, cx);
         let (mut line, mut contact) = (vec![0.0; cy], vec![false; cy]);
         for j in 0..cy {
             let u = |shift: usize| displacement(at(shift), j);
@@ -273,12 +289,12 @@ fn prolong<T: Real>(
             };
         }
         for (k, g) in row.iter_mut().enumerate() {
-            let (j, next) = (k / ry, (k / ry + 1) % cy);
+            let (j, next) = (k / ry, shifted(k / ry, 2, cy));
             let (u, contact) = if k.is_multiple_of(ry) {
                 (line[j], contact[j])
             } else {
-                let before = (j + cy - 1) % cy;
-                (middle(line[before], line[j], line[next], line[(j + 2) % cy]), contact[j] && contact[next])
+                let (before, after) = (shifted(j, 0, cy), shifted(j, 3, cy));
+                (middle(line[before], line[j], line[next], line[after]), contact[j] && contact[next])
             };
             let apart = u - surface.heights()[[index[0] * stride.0, k * stride.1]];
             *g = match projects {
@@ -315,12 +331,12 @@ mod tests {
             let grid = Grid::new(shape, (1.0, 1.0)).unwrap();
             let surface = Surface::wave(grid, 1e-3, 3).unwrap();
             let stride = (2, if shape.1 == 1 { 1 } else { 2 });
-            let coarse = coarsen(&surface, stride).unwrap();
+            let coarse = coarsen(&surface, stride).unwrap().unwrap();
             let wave = |grid: &Grid| {
                 grid.sample(|x, y| 2.0 + (std::f64::consts::TAU * x).sin() * (std::f64::consts::TAU * y).cos())
             };
             let (gap, exact) = (wave(coarse.grid()) - coarse.heights(), wave(&grid) - surface.heights());
-            let fine = prolong(&surface, (1, 1), &coarse, &gap, true);
+            let fine = prolong(&surface, (1, 1), &coarse, &gap, (true, true));
             // the error of the cubic in the middle, 3/128 of the fourth derivative, along both sides
             let spacing = std::f64::consts::TAU / 16.0;
             let worst = (&fine - &exact).iter().fold(0.0_f64, |worst, e| worst.max(e.abs()));
@@ -332,9 +348,9 @@ mod tests {
     fn nodes_between_nodes_in_contact_are_in_contact() {
         let grid = Grid::square(16, 1.0).unwrap();
         let surface = Surface::wave_2d(grid, 0.1, 3).unwrap();
-        let coarse = coarsen(&surface, (2, 2)).unwrap();
+        let coarse = coarsen(&surface, (2, 2)).unwrap().unwrap();
         let gap = Array2::from_shape_fn((8, 8), |(i, _)| if i < 4 { 0.0_f32 } else { 1.0 });
-        let fine = prolong(&surface, (1, 1), &coarse, &gap, true);
+        let fine = prolong(&surface, (1, 1), &coarse, &gap, (true, true));
         assert!(fine.rows().into_iter().take(7).all(|row| row.iter().all(|&g| g == 0.0)));
         assert!(fine.rows().into_iter().skip(8).step_by(2).all(|row| row.iter().all(|&g| g > 0.0)));
     }

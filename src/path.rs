@@ -8,7 +8,7 @@ use std::ops::ControlFlow;
 use ndarray::Array2;
 
 use crate::adhesion::AdhesionLaw;
-use crate::elastic::ElasticOperator;
+use crate::elastic::{Boundary, ElasticOperator};
 use crate::error::{Error, Result};
 use crate::problem::{Control, Parts, Problem, smoothed_law};
 use crate::real::Real;
@@ -145,9 +145,10 @@ where
         let legs: Vec<_> = loads.into_iter().collect();
         for load in &legs {
             problem.flat.load(*load)?;
-            if problem.flat.window.is_some() || !matches!(load, Control::MeanGap(_) | Control::MeanPressure(_)) {
-                let (control, reason) = ("path", "not with springs, absent nodes or a free boundary yet");
-                return Err(Error::Control { control, reason });
+            if problem.flat.window.is_some() && problem.flat.boundary == Boundary::Periodic {
+                let reason = "a periodic surface with absent nodes has no mean gap along which a path could be followed: \
+                              solve at one load after the other, as Sweep does, or take a free half-space";
+                return Err(Error::Control { control: "path", reason });
             }
         }
         if settings.steps == 0 {
@@ -158,7 +159,7 @@ where
             let (name, value) = ("smallest step", settings.smallest_step);
             return Err(Error::Value { name, value, requirement: "positive and below 1" });
         }
-        let (state, watch) = (State::default(), Watch::default());
+        let (state, watch) = (State::on(&problem.flat), Watch::default());
         Ok(Self { solver, problem, legs, settings, start: None, state, gaps: Vec::new(), watch, failed: false })
     }
 
@@ -187,7 +188,7 @@ where
                 *field = field.as_standard_layout().into_owned();
             }
         }
-        let state = State::of_numbers(&numbers).filter(|state| {
+        let state = State::of_numbers(&numbers, State::on(&self.problem.flat)).filter(|state| {
             let gaps = state.at.len();
             state.leg < self.legs.len().max(1)
                 && state.solved != fields.is_empty()
@@ -296,7 +297,7 @@ where
     /// One step; `None` if it has to be taken back and halved.
     fn attempt(&mut self, observe: &mut dyn FnMut(&Iteration) -> ControlFlow<()>) -> Result<Option<PathStep<T>>> {
         let (target, smallest) = self.state.next_target(&self.settings);
-        let control = self.state.mode.control(target);
+        let control = self.state.control(target);
         let start = self.predict(target);
         let mut solution = self.solve(control, Some(&start), observe)?;
         // a long way after a jump may need another run-up
@@ -312,7 +313,7 @@ where
         }
         let w = self.problem.law.work_of_adhesion().widen();
         let rounding = T::epsilon().widen() / (solution.gap.len() as f64).sqrt() + f64::EPSILON;
-        let noise = 8.0 * rounding * self.problem.flat.work;
+        let noise = 8.0 * rounding * self.problem.flat.work * self.problem.flat.padding;
         let (least, tolerance) = (1e-3 * w, self.settings.imbalance);
         let mut trial = self.state.judge(target, report, tolerance, least, noise);
         let converged = report.status == Status::Converged;

@@ -13,7 +13,7 @@ use crate::elastic::ElasticOperator;
 use crate::error::{Error, Result};
 use crate::field::{Partial, Reducer, flat, read, write};
 use crate::par::IndexedParallelIterator;
-use crate::problem::{Control, Problem, smoothed_law};
+use crate::problem::{Control, Problem, Window, smoothed_law};
 use crate::real::Real;
 use crate::solver::{Of, Potential, Solution};
 
@@ -67,8 +67,8 @@ impl fmt::Display for Verdict {
 /// λ = min over v of  ⟨v, (K⁻¹ + φ''(g)) v⟩ / ⟨v, v⟩ ,
 /// ```
 ///
-/// over the changes v of the gap that vanish where the surfaces touch, and have no mean if the mean gap is given. It
-/// is found by locally optimal conjugate gradients (Knyazev, *SIAM J. Sci. Comput.* 23 (2001)) with the compliance as
+/// over the changes v of the gap that vanish where the surfaces touch, and have no mean if the mean gap is given; a
+/// spring, and with a free boundary a given approach, adds its stiffness to that of the mean. It is found by locally optimal conjugate gradients (Knyazev, *SIAM J. Sci. Comput.* 23 (2001)) with the compliance as
 /// preconditioner, two operator applications an iteration.
 ///
 /// The Rayleigh quotient that they end with is above the smallest eigenvalue; a larger tolerance makes it likelier
@@ -147,7 +147,8 @@ pub struct Stability<T> {
     /// first order: as far as φ'' does not change between the solution and the equilibrium next to it.
     pub error_bound: Option<f64>,
     /// The mode: the change of the gap along which the energy is softest, of shape (Nx, Ny) and mean square 1. Along
-    /// it, by the amount a, the energy changes by ½·eigenvalue·a².
+    /// it, by the amount a, the energy changes by ½·eigenvalue·a². With a free boundary or absent nodes all this is
+    /// over the operator's grid, of which the mode has the part that faces the surface.
     pub mode: Array2<T>,
     /// Whether the jumps of the law were smoothed: then all this is about the smoothed law.
     pub smoothed: bool,
@@ -199,23 +200,24 @@ impl StabilityTest {
     {
         Error::positive("tolerance", self.tolerance)?;
         Error::shape("gap", solution.gap.dim(), problem.grid().shape())?;
-        Error::all_finite("gap", solution.gap.view())?;
+        if problem.flat.window.is_none() {
+            Error::all_finite("gap", solution.gap.view())?;
+        }
         if let Some(gap) = solution.gap.iter().find(|&&gap| constraint.wall().is_rigid() && gap < T::zero()) {
             let requirement = "zero or positive; a solution with springs is tested with its constraint, by run_with";
             return Err(Error::Value { name: "gap", value: gap.widen(), requirement });
         }
-        problem.flat.load(control)?;
-        if problem.flat.window.is_some() || !matches!(control, Control::MeanGap(_) | Control::MeanPressure(_)) {
-            let (control, reason) = ("stability", "not with springs, absent nodes or a free boundary yet");
-            return Err(Error::Control { control, reason });
-        }
+        let (load, window) = (problem.flat.load(control)?, problem.flat.window.as_ref());
         let smoothed = smoothed_law(&problem.operator, &problem.law);
-        let slopes =
-            slopes(&solution.gap, Potential::new(smoothed.as_deref().unwrap_or(&problem.law), constraint, None))?;
+        let local = Potential::new(smoothed.as_deref().unwrap_or(&problem.law), constraint, None);
+        let slopes = slopes(&solution.gap, local, window)?;
         let smoothed = smoothed.is_some();
-        let centred = matches!(control, Control::MeanGap(_));
-        let hessian = Hessian::new(&mut problem.operator, slopes, centred);
-        self.judge(hessian, solution.report.relative_error, smoothed)
+        let hessian = Hessian::new(&mut problem.operator, slopes, load);
+        let mut stability = self.judge(hessian, solution.report.relative_error, smoothed)?;
+        if let Some(window) = window {
+            stability.mode = window.crop(&stability.mode, T::zero());
+        }
+        Ok(stability)
     }
 
     fn judge<T: Real>(&self, mut hessian: Hessian<'_, T>, relative_error: f64, smoothed: bool) -> Result<Stability<T>> {
@@ -252,8 +254,9 @@ impl StabilityTest {
     }
 }
 
-/// The second derivative of the local energy at every node, and infinity where a rigid wall is touched.
-fn slopes<T: Real>(gap: &Array2<T>, local: Potential<'_, T>) -> Result<Array2<T>> {
+/// The second derivative of the local energy at every node of the operator's grid, and infinity where a rigid wall is
+/// touched.
+fn slopes<T: Real>(gap: &Array2<T>, local: Potential<'_, T>, window: Option<&Window>) -> Result<Array2<T>> {
     let standard;
     let gap = if gap.is_standard_layout() {
         gap
@@ -269,7 +272,7 @@ fn slopes<T: Real>(gap: &Array2<T>, local: Potential<'_, T>) -> Result<Array2<T>
         for (i, (slope, &gap)) in slopes.iter_mut().zip(gap).enumerate() {
             if local.projects() && gap <= T::zero() {
                 *slope = T::infinity();
-            } else if !slope.is_finite() {
+            } else if !(slope.is_finite() && gap.is_finite()) && (window.is_none() || gap != T::infinity()) {
                 part.min = part.min.min((first + i) as f64);
             }
         }
@@ -280,5 +283,9 @@ fn slopes<T: Real>(gap: &Array2<T>, local: Potential<'_, T>) -> Result<Array2<T>
         let (gap, value) = (flat(gap)[node].widen(), flat(&slopes)[node].widen());
         return Err(Error::Law { function: "slope of the local traction", gap, value, expected: None });
     }
-    Ok(slopes)
+    // nothing attracts, and nothing confines, where no surface faces the half-space
+    Ok(match window {
+        Some(window) => window.place(&slopes, T::zero()),
+        None => slopes,
+    })
 }

@@ -14,13 +14,13 @@ use crate::solver::{Iteration, Solution, Solver, Start};
 
 /// Solves one problem under a sequence of loads, each from where the ones before lead: an iterator over the solutions.
 ///
-/// A load is a mean gap or a mean pressure. A solution comes as soon as it is found; the sweep keeps no more than two
+/// A load is any [`Control`]. A solution comes as soon as it is found; the sweep keeps no more than two
 /// gaps, two scalars per node, beside the problem and the solver. The first load starts from the solver's default
 /// start, or from [`Sweep::starting_from`]; the others
 ///
-/// - without adhesion, from the last two gaps, extrapolated linearly in the mean gap or in the logarithm of the mean
-///   pressure, and clipped to g ≥ 0; the solution is unique, and the start matters only for the work;
-/// - with adhesion, or where the last two loads and this one are not all mean gaps, or all positive mean pressures,
+/// - without adhesion, from the last two gaps, extrapolated linearly in the mean gap, in the approach or in the rest of
+///   a spring, or in the logarithm of the mean pressure or of the force, and clipped to g ≥ 0; the solution is unique, and the start matters only for the work;
+/// - with adhesion, or where the last two loads and this one are not of one kind, or pressures not all positive,
 ///   from the last gap. So a sweep follows the branch of equilibria that its loads lead along, up to the instability
 ///   at which it jumps: loading takes another one than unloading, and surfaces that were pulled apart
 ///   ([`Status::Detached`](crate::Status)) stay so until they are pressed together again.
@@ -137,10 +137,15 @@ where
     fn extrapolate(&mut self, control: Control) {
         let [(before, _), (last, _)] = &self.history[..] else { return };
         let steps = match (*before, *last, control) {
-            (Control::MeanGap(a), Control::MeanGap(b), Control::MeanGap(c)) => (c - b) / (b - a),
-            (Control::MeanPressure(a), Control::MeanPressure(b), Control::MeanPressure(c)) => {
-                (c / b).ln() / (b / a).ln()
-            }
+            (Control::MeanGap(a), Control::MeanGap(b), Control::MeanGap(c))
+            | (Control::Approach(a), Control::Approach(b), Control::Approach(c)) => (c - b) / (b - a),
+            (Control::MeanPressure(a), Control::MeanPressure(b), Control::MeanPressure(c))
+            | (Control::Force(a), Control::Force(b), Control::Force(c)) => (c / b).ln() / (b / a).ln(),
+            (
+                Control::Spring { stiffness: k, rest: a },
+                Control::Spring { stiffness: l, rest: b },
+                Control::Spring { stiffness: m, rest: c },
+            ) if k == l && l == m => (c - b) / (b - a),
             _ => f64::NAN,
         };
         let (_, mut start) = self.history.remove(0);

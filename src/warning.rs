@@ -101,6 +101,8 @@ pub enum WarningCode {
     Range,
     /// All heights are the same.
     Flat,
+    /// Contact or traction reaches the edge of a free boundary's window.
+    WindowEdge,
 }
 
 impl WarningCode {
@@ -116,6 +118,7 @@ impl WarningCode {
             Self::Cells => "cells",
             Self::Range => "range",
             Self::Flat => "flat",
+            Self::WindowEdge => "window-edge",
         }
     }
 }
@@ -231,7 +234,7 @@ impl Warning {
     }
 
     /// The probable mistakes in an answer, for the contact `modulus` E* with which it was found:
-    /// [`BeyondModulus`](WarningCode::BeyondModulus).
+    /// [`BeyondModulus`](WarningCode::BeyondModulus), and [`WindowEdge`](WarningCode::WindowEdge) with a free boundary.
     pub fn of_solution<T: Real>(solution: &Solution<T>, modulus: f64) -> Vec<Self> {
         let mut reducer = Reducer::new(solution.contact_pressure.len());
         let contiguous = solution.contact_pressure.as_standard_layout();
@@ -245,8 +248,10 @@ impl Warning {
             part
         });
         let (count, greatest) = (total.sum[0], -total.min);
+        let mut found = Vec::new();
+        found.extend(window_edge(solution));
         if count == 0.0 {
-            return Vec::new();
+            return found;
         }
         let message = format!(
             "the contact pressure is up to {}, {} times the contact modulus E*, and above it at {count} of {} nodes: \
@@ -255,7 +260,8 @@ impl Warning {
             figure(greatest / modulus),
             pressures.len()
         );
-        vec![Self { code: WarningCode::BeyondModulus, message }]
+        found.push(Self { code: WarningCode::BeyondModulus, message });
+        found
     }
 }
 
@@ -269,6 +275,16 @@ fn likely_error(mu_rho: f64) -> &'static str {
         _ if mu_rho <= 2.0 => "by up to 60 %",
         _ => "by a factor of two or more",
     }
+}
+
+fn window_edge<T: Real>(solution: &Solution<T>) -> Option<Warning> {
+    let share = solution.report.edge_traction.filter(|_| solution.report.reaches_edge)?;
+    let message = format!(
+        "contact or traction reaches the edge of the window, with {} of the largest traction: what lies beyond is not \
+         there; unless the body ends at this edge, take a larger window, or an adhesion of less range",
+        figure(share)
+    );
+    Some(Warning { code: WarningCode::WindowEdge, message })
 }
 
 fn cells(grid: &Grid) -> Option<Warning> {

@@ -4,6 +4,8 @@ use std::cmp::Reverse;
 
 use ndarray::{Array2, ArrayView2};
 
+use crate::elastic::Boundary;
+
 /// The connectivity of a map: which nodes are neighbours.
 ///
 /// ```
@@ -50,18 +52,44 @@ impl Clusters {
     ///
     /// Takes a few passes over the map. Memory per node: eight bytes, those of the labels.
     pub fn of(map: ArrayView2<'_, bool>, connectivity: Connectivity) -> Self {
-        let (nx, ny) = map.dim();
+        Self::within(map, connectivity, Boundary::Periodic)
+    }
+
+    /// The clusters of the nodes that are `true`, on a map whose opposite sides meet only if the boundary is periodic;
+    /// otherwise as [`Clusters::of`].
+    ///
+    /// ```
+    /// use asperity::contact::{Clusters, Connectivity};
+    /// use asperity::{Boussinesq, ElasticOperator, Grid};
+    /// let map = ndarray::array![[true, false, true], [false, false, false]];
+    /// let free = Boussinesq::<f64>::new(Grid::new((2, 3), (2.0, 3.0))?, 1.0)?.boundary();
+    /// assert_eq!(Clusters::within(map.view(), Connectivity::Sides, free).sizes, [1, 1]);
+    /// assert_eq!(Clusters::of(map.view(), Connectivity::Sides).sizes, [2]);
+    /// # Ok::<(), asperity::Error>(())
+    /// ```
+    pub fn within(map: ArrayView2<'_, bool>, connectivity: Connectivity, boundary: Boundary) -> Self {
+        let ((nx, ny), periodic) = (map.dim(), boundary == Boundary::Periodic);
         // each node's parent, which comes before it in its tree; nodes of no cluster have none
         let mut tree: Vec<usize> = map.iter().enumerate().map(|(k, &inside)| if inside { k } else { NONE }).collect();
         for i in 0..nx {
             let below = (i + 1) % nx;
             for j in 0..ny {
                 let (left, right) = ((j + ny - 1) % ny, (j + 1) % ny);
-                unite(&mut tree, i * ny + j, i * ny + right);
-                unite(&mut tree, i * ny + j, below * ny + j);
-                if connectivity == Connectivity::Corners {
-                    unite(&mut tree, i * ny + j, below * ny + left);
-                    unite(&mut tree, i * ny + j, below * ny + right);
+                let [goes_down, goes_left, goes_right] =
+                    [i + 1 < nx, j > 0, j + 1 < ny].map(|inside| inside || periodic);
+                if goes_right {
+                    unite(&mut tree, i * ny + j, i * ny + right);
+                }
+                if goes_down {
+                    unite(&mut tree, i * ny + j, below * ny + j);
+                }
+                if connectivity == Connectivity::Corners && goes_down {
+                    if goes_left {
+                        unite(&mut tree, i * ny + j, below * ny + left);
+                    }
+                    if goes_right {
+                        unite(&mut tree, i * ny + j, below * ny + right);
+                    }
                 }
             }
         }

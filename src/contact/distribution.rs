@@ -9,7 +9,7 @@ use crate::solver::Solution;
 /// The distribution of the pressure over the surface: a histogram, as a probability density.
 ///
 /// The bins are equally wide; a bin has its lower edge, the last one its upper edge too. The density of a bin is the
-/// share of all nodes whose pressure is in it, divided by its width: Σ density · width is the share of the nodes that
+/// share of the nodes, but for absent ones, whose pressure is in it, divided by its width: Σ density · width is the share of the nodes that
 /// are counted, and Σ density · pressure · width is about the mean pressure that they contribute.
 ///
 /// ```
@@ -50,7 +50,12 @@ impl PressureDistribution {
         let contact = solution.contact_map();
         let counted = || contact.iter().zip(pressure).filter(|(touches, _)| **touches).map(|(_, p)| p.widen());
         let high = counted().fold(0.0, f64::max);
-        Ok(Self::count(counted(), (0.0, if high > 0.0 { high } else { 1.0 }), bins, pressure.len()))
+        Ok(Self::count(
+            counted(),
+            (0.0, if high > 0.0 { high } else { 1.0 }),
+            bins,
+            pressure.len() - solution.report.absent_nodes,
+        ))
     }
 
     /// The distribution of the full elastic pressure over all nodes, in so many bins from the least, which adhesion
@@ -58,18 +63,22 @@ impl PressureDistribution {
     /// and a half times, and for none at all from −1/2 to 1/2.
     ///
     /// # Errors
-    /// [`Error::Value`] for no bins, or more than 2²⁴; [`Error::NotFinite`] if a pressure is not finite.
+    /// [`Error::Value`] for no bins, or more than 2²⁴; [`Error::NotFinite`] if a pressure is not finite;
+    /// [`Error::Shape`] if gap and pressure differ in shape.
     pub fn of_pressure<T: Real>(solution: &Solution<T>, bins: usize) -> Result<Self> {
         let pressure = solution.pressure.view();
         checked("pressure", pressure, bins)?;
-        let counted = || pressure.iter().map(|p| p.widen());
+        Error::shape("pressure", pressure.dim(), solution.gap.dim())?;
+        // absent nodes are infinitely far
+        let counted =
+            || pressure.iter().zip(&solution.gap).filter(|(_, g)| **g < T::infinity()).map(|(p, _)| p.widen());
         let (mut low, mut high) =
             counted().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), p| (low.min(p), high.max(p)));
         if low >= high {
             let half = if low == 0.0 { 0.5 } else { 0.5 * low.abs() };
             (low, high) = (low - half, high + half);
         }
-        Ok(Self::count(counted(), (low, high), bins, pressure.len()))
+        Ok(Self::count(counted(), (low, high), bins, pressure.len() - solution.report.absent_nodes))
     }
 
     /// Σ density · width: the share of the nodes that are counted.

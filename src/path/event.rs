@@ -38,6 +38,8 @@ pub struct Jump {
     pub mean_gap: (f64, f64),
     /// The mean pressures before and after.
     pub mean_pressure: (f64, f64),
+    /// The approaches before and after, with a free boundary.
+    pub approach: Option<(f64, f64)>,
     /// The shares of nodes in contact before and after.
     pub contact_fraction: (f64, f64),
     /// The energy that the jump dissipates, per area.

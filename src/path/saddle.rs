@@ -29,9 +29,10 @@ where
 {
     /// Whether a state is a saddle at its mean gap, of the law that the path follows.
     pub(super) fn saddle(&mut self, solution: &Solution<T>) -> Result<Option<Saddle>> {
-        let Parts { operator, law, .. } = self.problem.parts();
+        let load = self.state.held(&self.problem.flat);
+        let Parts { operator, law, flat } = self.problem.parts();
         let smoothed = if self.settings.smooth { smoothed_law(&*operator, law) } else { None };
-        self.watch.look(operator, smoothed.as_deref().unwrap_or(law), &solution.gap)
+        self.watch.look(operator, smoothed.as_deref().unwrap_or(law), (&solution.gap, flat.window.as_ref()), load)
     }
 
     /// Goes down from a saddle along its mode, to a state that is none, if there is one; and whether the branch was
@@ -42,7 +43,12 @@ where
         control: Control,
         observe: &mut dyn FnMut(&Iteration) -> ControlFlow<()>,
     ) -> Result<(Option<Solution<T>>, bool)> {
-        let moved = self.gaps.last().map(|last| &from.gap - last);
+        let moved = self.gaps.last().map(|last| {
+            let mut moved = from.gap.clone();
+            // absent nodes are infinitely far, and stay there
+            moved.zip_mut_with(last, |gap, &last| *gap = if *gap == last { T::zero() } else { *gap - last });
+            moved
+        });
         let share = moved.map_or(0.0, |moved| self.watch.share(&moved));
         let drawn = share.abs() > DRAWN;
         let mut gap = from.gap.clone();

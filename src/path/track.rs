@@ -2,22 +2,36 @@
 
 use super::quadrature::integral;
 use super::{Event, Jump, PathSettings};
-use crate::problem::Control;
+use crate::elastic::Boundary;
+use crate::problem::{Control, Load, PressedFlat};
 use crate::solver::Report;
 
 /// The quantity that is held in a step.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) enum Mode {
+    /// the position
     #[default]
     Gap,
     Pressure,
+    /// the rest of a spring of this compliance, length per mean pressure
+    Spring(f64),
 }
 
 impl Mode {
-    pub(super) fn control(self, value: f64) -> Control {
+    /// One number for the mode.
+    fn code(self) -> f64 {
         match self {
-            Self::Gap => Control::MeanGap(value),
-            Self::Pressure => Control::MeanPressure(value),
+            Self::Gap => 0.0,
+            Self::Pressure => 1.0,
+            Self::Spring(compliance) => -compliance,
+        }
+    }
+
+    fn of_code(code: f64) -> Self {
+        match code {
+            0.0 => Self::Gap,
+            code if code < 0.0 => Self::Spring(-code),
+            _ => Self::Pressure,
         }
     }
 }
@@ -25,6 +39,10 @@ impl Mode {
 /// A place: the figures of a state in the balance of energy.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Place {
+    /// what the load works on: the mean gap, or with a free boundary minus the approach
+    position: f64,
+    /// the position at which the spring is relaxed, if there is one
+    rest: f64,
     gap: f64,
     pressure: f64,
     /// elastic and adhesive
@@ -34,7 +52,10 @@ pub(super) struct Place {
 
 impl Place {
     fn of(report: &Report) -> Self {
+        let position = report.approach.map_or(report.mean_gap, |approach| -approach);
         Self {
+            position,
+            rest: position,
             gap: report.mean_gap,
             pressure: report.mean_pressure,
             energy: report.elastic_energy + report.adhesive_energy,
@@ -45,8 +66,9 @@ impl Place {
     /// The held quantity, and the derivative of the potential by it.
     fn slope(&self, mode: Mode) -> (f64, f64) {
         match mode {
-            Mode::Gap => (self.gap, -self.pressure),
-            Mode::Pressure => (self.pressure, self.gap),
+            Mode::Gap => (self.position, -self.pressure),
+            Mode::Pressure => (self.pressure, self.position),
+            Mode::Spring(_) => (self.rest, -self.pressure),
         }
     }
 
@@ -54,8 +76,15 @@ impl Place {
     fn potential(&self, mode: Mode) -> f64 {
         match mode {
             Mode::Gap => self.energy,
-            Mode::Pressure => self.energy + self.pressure * self.gap,
+            Mode::Pressure => self.energy + self.pressure * self.position,
+            Mode::Spring(compliance) => self.energy + 0.5 * compliance * self.pressure.powi(2),
         }
+    }
+
+    /// The place with the rest of a spring that carries its pressure.
+    fn held_by(self, mode: Mode) -> Self {
+        let length = if let Mode::Spring(compliance) = mode { compliance * self.pressure } else { 0.0 };
+        Self { rest: self.position - length, ..self }
     }
 }
 
@@ -106,6 +135,9 @@ pub(super) struct State {
     pub(super) solved: bool,
     pub(super) leg: usize,
     pub(super) mode: Mode,
+    /// whether the boundary is free, and the nominal area
+    free: bool,
+    area: f64,
     /// where this leg, or the rest of it under another control, began and ends
     span: (f64, f64),
     /// the length of the next step
@@ -133,6 +165,33 @@ const LANDING: f64 = 1e-3;
 const PLACES: usize = 4;
 
 impl State {
+    /// The track of a path that has not begun.
+    pub(super) fn on<T>(flat: &PressedFlat<T>) -> Self {
+        Self { free: flat.boundary != Boundary::Periodic, area: flat.area, ..Self::default() }
+    }
+
+    /// The control that holds a value.
+    pub(super) fn control(&self, value: f64) -> Control {
+        match self.mode {
+            Mode::Gap if self.free => Control::Approach(-value),
+            Mode::Gap => Control::MeanGap(value),
+            Mode::Pressure => Control::MeanPressure(value),
+            Mode::Spring(compliance) => {
+                Control::Spring { stiffness: self.area / compliance, rest: if self.free { -value } else { value } }
+            }
+        }
+    }
+
+    /// What the mean gap is held by where the load is a position.
+    pub(super) fn held<T>(&self, flat: &PressedFlat<T>) -> Load {
+        let rigid = flat.boundary.mean_compliance();
+        let compliance = if let Mode::Spring(compliance) = self.mode { flat.padding * compliance } else { 0.0 };
+        match rigid + compliance {
+            0.0 => Load::Gap(0.0),
+            compliance => Load::Spring { stiffness: compliance.recip(), rest: 0.0 },
+        }
+    }
+
     fn here(&self) -> Place {
         self.places.last().copied().unwrap_or_default()
     }
@@ -154,8 +213,12 @@ impl State {
     pub(super) fn enter(&mut self, leg: usize, load: Control, settings: &PathSettings) {
         let (mode, end) = match load {
             Control::MeanGap(gap) => (Mode::Gap, gap),
+            Control::Approach(approach) => (Mode::Gap, -approach),
             Control::MeanPressure(pressure) => (Mode::Pressure, pressure),
-            _ => return,
+            Control::Force(force) => (Mode::Pressure, force / self.area),
+            Control::Spring { stiffness, rest } => {
+                (Mode::Spring(self.area / stiffness), if self.free { -rest } else { rest })
+            }
         };
         (self.leg, self.pressures) = (leg, None);
         self.turn(mode, end, settings);
@@ -163,7 +226,8 @@ impl State {
 
     /// Heads for another end.
     fn turn(&mut self, mode: Mode, end: f64, settings: &PathSettings) {
-        let here = self.here();
+        let here = self.here().held_by(mode);
+        self.at.iter_mut().for_each(|place| *place = place.held_by(mode));
         self.mode = mode;
         self.span = (here.slope(mode).0, end);
         // nothing is known of the branch in that direction
@@ -214,7 +278,7 @@ impl State {
     }
 
     pub(super) fn judge(&self, target: f64, report: &Report, tolerance: f64, least: f64, noise: f64) -> Trial {
-        let (here, next) = (self.here(), Place::of(report));
+        let (here, next) = (self.here(), Place::of(report).held_by(self.mode));
         let ((from, before), (_, after)) = (here.slope(self.mode), next.slope(self.mode));
         let step = target - from;
         let mut points: Vec<_> = self.places.iter().map(|place| place.slope(self.mode)).collect();
@@ -241,14 +305,19 @@ impl State {
     pub(super) fn leave_pressure_control(&mut self, far: f64, limit_point: bool, settings: &PathSettings) {
         let here = self.here();
         let (from, to) = self.span;
-        if here.gap == 0.0 && to > from {
+        if !self.free && here.gap == 0.0 && to > from {
             // pressed flat, and no way to go on
             self.span = (here.pressure, here.pressure);
             return;
         }
         self.limit = limit_point.then_some((here.gap, here.pressure));
         self.pressures = Some((to, from));
-        let end = if to > from { 0.0 } else { far.max(2.0 * here.gap) };
+        let end = match to > from {
+            true if self.free => here.position - far,
+            true => 0.0,
+            false if self.free => here.position + far,
+            false => far.max(2.0 * here.gap),
+        };
         self.turn(Mode::Gap, end, settings);
         self.step = self.smallest(settings);
     }
@@ -277,10 +346,12 @@ impl State {
         way: Way,
         settings: &PathSettings,
     ) -> Option<Event> {
-        let (here, mut next) = (self.here(), Place::of(report));
+        let (here, mut next) = (self.here(), Place::of(report).held_by(self.mode));
         // the held quantity is exactly the given one
         match self.mode {
-            Mode::Gap => next.gap = target,
+            Mode::Gap if self.free => next.position = target,
+            Mode::Gap => (next.position, next.gap) = (target, target),
+            Mode::Spring(_) => next.rest = target,
             Mode::Pressure => next.pressure = target,
         }
         let Track { work, dissipated, imbalance, range } = &mut self.track;
@@ -290,13 +361,18 @@ impl State {
         let mut jump = Jump {
             mean_gap: (here.gap, next.gap),
             mean_pressure: (here.pressure, next.pressure),
+            approach: self.free.then_some((-here.position, -next.position)),
             contact_fraction: (here.contact, next.contact),
             energy_drop: 0.0,
         };
         let jumped = way.jumped;
         if jumped {
-            // the load before the jump does the work of the step
-            let done = -here.pressure * (next.gap - here.gap);
+            // the load before the jump does the work of the step; a spring yields on the way
+            let pressure = match self.mode {
+                Mode::Spring(_) => 0.5 * (here.pressure + next.pressure),
+                _ => here.pressure,
+            };
+            let done = -pressure * (next.position - here.position);
             jump.energy_drop = done - (next.energy - here.energy);
             *work += done;
             *dissipated += jump.energy_drop;
@@ -332,7 +408,7 @@ impl State {
                 // the leg ends here
                 let x = next.slope(self.mode).0;
                 self.span = (x, x);
-            } else if next.gap == 0.0 {
+            } else if !self.free && next.gap == 0.0 {
                 // pressed flat, the surfaces bear any pressure
                 self.pressures = None;
                 self.turn(Mode::Pressure, end, settings);
@@ -346,19 +422,20 @@ impl State {
         let pair =
             |pair: Option<(f64, f64)>| [flag(pair.is_some()), pair.unwrap_or_default().0, pair.unwrap_or_default().1];
         let Track { work, dissipated, imbalance, range } = self.track;
-        let mut numbers = vec![flag(self.solved), self.leg as f64, flag(self.mode == Mode::Pressure)];
+        let mut numbers = vec![flag(self.solved), self.leg as f64, self.mode.code()];
         numbers.push(flag(self.on_saddle));
         numbers.extend([self.span.0, self.span.1, self.step]);
         numbers.extend(pair(self.pressures).into_iter().chain(pair(self.limit)));
         numbers.extend([work, dissipated, imbalance, range.0, range.1]);
         for places in [&self.places, &self.at] {
             numbers.push(places.len() as f64);
-            numbers.extend(places.iter().flat_map(|p| [p.gap, p.pressure, p.energy, p.contact]));
+            numbers.extend(places.iter().flat_map(|p| [p.position, p.rest, p.gap, p.pressure, p.energy, p.contact]));
         }
         numbers
     }
 
-    pub(super) fn of_numbers(numbers: &[f64]) -> Option<Self> {
+    /// The track of the numbers of another one, on the same problem as `on`.
+    pub(super) fn of_numbers(numbers: &[f64], on: Self) -> Option<Self> {
         let mut rest = numbers.iter().copied();
         let mut next = || rest.next();
         let (solved, leg, mode, on_saddle) = (next()? != 0.0, next()?, next()?, next()? != 0.0);
@@ -372,14 +449,31 @@ impl State {
                 return None;
             }
             (0..count as usize)
-                .map(|_| Some(Place { gap: next()?, pressure: next()?, energy: next()?, contact: next()? }))
+                .map(|_| {
+                    let (position, rest) = (next()?, next()?);
+                    let (gap, pressure, energy, contact) = (next()?, next()?, next()?, next()?);
+                    Some(Place { position, rest, gap, pressure, energy, contact })
+                })
                 .collect()
         };
         let (places, at) = (places()?, places()?);
         let whole = leg >= 0.0 && leg.fract() == 0.0 && solved != places.is_empty();
-        let mode = if mode != 0.0 { Mode::Pressure } else { Mode::Gap };
-        let state =
-            Self { solved, leg: leg as usize, mode, span, step, pressures, limit, on_saddle, track, places, at };
+        let (mode, free, area) = (Mode::of_code(mode), on.free, on.area);
+        let state = Self {
+            solved,
+            leg: leg as usize,
+            mode,
+            free,
+            area,
+            span,
+            step,
+            pressures,
+            limit,
+            on_saddle,
+            track,
+            places,
+            at,
+        };
         (whole && rest.next().is_none()).then_some(state)
     }
 }
@@ -390,11 +484,13 @@ mod tests {
 
     #[test]
     fn a_state_comes_back_from_its_numbers() {
-        let place = |x: f64| Place { gap: x, pressure: -x, energy: x * x, contact: 0.5 };
+        let place = |x: f64| Place { position: x, rest: 2.0 * x, gap: x, pressure: -x, energy: x * x, contact: 0.5 };
         let state = State {
             solved: true,
             leg: 2,
-            mode: Mode::Pressure,
+            mode: Mode::Spring(0.3),
+            free: true,
+            area: 2.0,
             span: (0.1, 0.7),
             step: 1e-3,
             pressures: Some((0.2, 0.3)),
@@ -405,11 +501,12 @@ mod tests {
             at: vec![place(0.3)],
         };
         let numbers = state.numbers();
-        assert_eq!(State::of_numbers(&numbers).unwrap(), state);
-        assert_eq!(State::of_numbers(&State::default().numbers()).unwrap(), State::default());
+        let on = || State { free: true, area: 2.0, ..State::default() };
+        assert_eq!(State::of_numbers(&numbers, on()).unwrap(), state);
+        assert_eq!(State::of_numbers(&State::default().numbers(), State::default()).unwrap(), State::default());
         for length in 0..numbers.len() {
-            assert_eq!(State::of_numbers(&numbers[..length]), None);
+            assert_eq!(State::of_numbers(&numbers[..length], on()), None);
         }
-        assert_eq!(State::of_numbers(&[numbers, vec![0.0]].concat()), None);
+        assert_eq!(State::of_numbers(&[numbers, vec![0.0]].concat(), on()), None);
     }
 }

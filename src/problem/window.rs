@@ -135,6 +135,17 @@ impl Window {
         cropped
     }
 
+    /// A field of the surface's grid on that of the operator, with a value for the nodes that do not face it.
+    pub(crate) fn place<T: Real>(&self, field: &Array2<T>, elsewhere: T) -> Array2<T> {
+        let mut placed = Array2::from_elem(self.shape, elsewhere);
+        if let (Some(from), Some(to)) = (field.as_slice(), placed.as_slice_mut()) {
+            for Run { nodes, first } in &self.runs {
+                to[nodes.clone()].copy_from_slice(&from[*first..first + nodes.len()]);
+            }
+        }
+        placed
+    }
+
     /// A gap of the surface's grid as one on that of the operator, whatever it has at absent nodes.
     pub(crate) fn start<T: Real>(&self, gap: ArrayView2<'_, T>) -> Result<Array2<T>> {
         Error::shape("starting gap", gap.dim(), self.grid.shape())?;

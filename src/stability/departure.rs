@@ -75,11 +75,24 @@ impl<T: Real> Stability<T> {
         if !(amplitude > T::zero() && amplitude.is_finite()) {
             return Ok(None);
         }
+        problem.flat.load(control)?;
+        if problem.flat.window.is_some() && from.report.approach.is_none() {
+            let reason = "the energy of a load on a periodic surface with absent nodes is not in its report";
+            return Err(Error::Control { control: "departure", reason });
+        }
+        let area = problem.flat.area;
         let energy = |solution: &Solution<T>| {
             let report = &solution.report;
+            // what the load works on
+            let position = report.approach.map_or(report.mean_gap, |approach| -approach);
             let load = match control {
-                Control::MeanGap(_) | Control::Force(_) | Control::Approach(_) | Control::Spring { .. } => 0.0,
-                Control::MeanPressure(pressure) => pressure * report.mean_gap,
+                Control::MeanGap(_) | Control::Approach(_) => 0.0,
+                Control::MeanPressure(pressure) => pressure * position,
+                Control::Force(force) => force / area * position,
+                Control::Spring { stiffness, rest } => {
+                    let rest = if report.approach.is_some() { -rest } else { rest };
+                    0.5 * stiffness / area * (position - rest).powi(2)
+                }
             };
             report.elastic_energy + report.adhesive_energy + load
         };
@@ -91,7 +104,7 @@ impl<T: Real> Stability<T> {
             let solution = solver.solve_with(problem, control, Start::From(&start), |_| ControlFlow::Continue(()))?;
             let energy_drop = energy(from) - energy(&solution);
             if best.as_ref().is_none_or(|best| energy_drop > best.energy_drop) {
-                let square = |a: T, b: T| (a - b).widen().powi(2);
+                let square = |a: T, b: T| if a == b { 0.0 } else { (a - b).widen().powi(2) };
                 let distance = field::mean_of_both(solution.gap.view(), from.gap.view(), square).sqrt();
                 best = Some(Departure { solution, energy_drop, distance, direction });
             }

@@ -4,16 +4,20 @@ use ndarray::Array2;
 
 use crate::elastic::{ElasticOperator, Foundation};
 use crate::error::Result;
-use crate::field::{Partial, Reducer, read, write};
+use crate::field::{self, Partial, Reducer, read, write};
 use crate::par::IndexedParallelIterator;
+use crate::problem::Load;
 use crate::real::Real;
 
-/// K⁻¹ + φ'' on fields that vanish on the contact, and have no mean if the mean gap is given.
+/// K⁻¹ + φ'' on fields that vanish on the contact, and have no mean if the mean gap is given; a spring adds its stiffness
+/// to the mean.
 pub(super) struct Hessian<'a, T> {
     operator: &'a mut dyn ElasticOperator<T>,
     /// φ'', infinite on the contact
     slopes: Array2<T>,
     centred: bool,
+    /// the stiffness of the mean, zero but for a spring
+    spring: f64,
     free: f64,
     least: f64,
     pub(super) reducer: Reducer,
@@ -21,7 +25,8 @@ pub(super) struct Hessian<'a, T> {
 }
 
 impl<'a, T: Real> Hessian<'a, T> {
-    pub(super) fn new(operator: &'a mut dyn ElasticOperator<T>, slopes: Array2<T>, centred: bool) -> Self {
+    pub(super) fn new(operator: &'a mut dyn ElasticOperator<T>, slopes: Array2<T>, load: Load) -> Self {
+        let (centred, spring) = (matches!(load, Load::Gap(_)), load.stiffness());
         let mut reducer = Reducer::new(slopes.len());
         let total = reducer.run(read(&slopes), |_, slopes| {
             let mut part = Partial::NONE;
@@ -32,7 +37,7 @@ impl<'a, T: Real> Hessian<'a, T> {
             part
         });
         let (free, least) = (total.sum[0], total.min);
-        Self { operator, slopes, centred, free, least, reducer, applications: 0 }
+        Self { operator, slopes, centred, spring, free, least, reducer, applications: 0 }
     }
 
     pub(super) fn shape(&self) -> (usize, usize) {
@@ -63,13 +68,14 @@ impl<'a, T: Real> Hessian<'a, T> {
     }
 
     pub(super) fn stiffest(&self) -> f64 {
-        self.operator.stiffness_range().1.max(self.softest())
+        self.operator.stiffness_range().1.max(self.softest()).max(self.spring)
     }
 
     /// A lower bound of the eigenvalues: the sum of the least eigenvalues of K⁻¹ and φ''.
     pub(super) fn simple_bound(&self) -> f64 {
-        // a uniform change costs no elastic energy
-        let elastic = if self.centred { self.operator.stiffness_range().0 } else { 0.0 };
+        // a uniform change costs no elastic energy, but that of a spring
+        let softest = self.operator.stiffness_range().0;
+        let elastic = if self.centred { softest } else { softest.min(self.spring) };
         elastic + self.least_slope()
     }
 
@@ -99,11 +105,13 @@ impl<'a, T: Real> Hessian<'a, T> {
     pub(super) fn apply(&mut self, field: &Array2<T>, image: &mut Array2<T>) -> Result<()> {
         self.operator.pressure(field.view(), image.view_mut())?;
         self.applications += 1;
+        let mean = if self.spring > 0.0 { field::mean(field.view(), T::widen) } else { 0.0 };
+        let uniform = T::lit(self.spring * mean);
         let Self { reducer, slopes, .. } = self;
         reducer.run(read(slopes).zip(read(field)).zip(write(image)), |_, ((slopes, field), image)| {
             for ((&slope, &value), image) in slopes.iter().zip(field).zip(image) {
                 if slope.is_finite() {
-                    *image += slope * value;
+                    *image += slope * value + uniform;
                 }
             }
             Partial::NONE
@@ -115,7 +123,8 @@ impl<'a, T: Real> Hessian<'a, T> {
     /// The compliance, as preconditioner, of an admissible field; takes one operator application.
     pub(super) fn precondition(&mut self, residual: &Array2<T>, result: &mut Array2<T>) -> Result<()> {
         let softest = self.softest();
-        self.operator.precondition(residual.view(), Foundation::uniform(softest, softest), result.view_mut())?;
+        let foundation = Foundation::uniform(softest, softest + self.spring);
+        self.operator.precondition(residual.view(), foundation, result.view_mut())?;
         self.applications += 1;
         self.project(result);
         Ok(())

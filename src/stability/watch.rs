@@ -10,6 +10,7 @@ use crate::constraint::Projection;
 use crate::elastic::ElasticOperator;
 use crate::error::Result;
 use crate::field::mean_of_both;
+use crate::problem::{Load, Window};
 use crate::real::Real;
 use crate::solver::Potential;
 
@@ -48,7 +49,7 @@ impl<T: Real> Watch<T> {
         Self { mode, random: None }
     }
 
-    /// Whether an equilibrium is a saddle at its mean gap, of a law.
+    /// Whether an equilibrium is a saddle at its mean gap, of a law; with a load that is a spring, under that.
     ///
     /// Takes nothing if the softest stiffness and the least φ'' show that it is none, and otherwise some operator
     /// applications: five or seven, as a rule.
@@ -56,13 +57,14 @@ impl<T: Real> Watch<T> {
         &mut self,
         operator: &mut dyn ElasticOperator<T>,
         law: &dyn AdhesionLaw<T>,
-        gap: &Array2<T>,
+        (gap, window): (&Array2<T>, Option<&Window>),
+        load: Load,
     ) -> Result<Option<Saddle>> {
         if law.is_zero() {
             return Ok(None);
         }
-        let slopes = slopes(gap, Potential::new(law, &Projection, None))?;
-        let mut hessian = Hessian::new(operator, slopes, true);
+        let slopes = slopes(gap, Potential::new(law, &Projection, None), window)?;
+        let mut hessian = Hessian::new(operator, slopes, load);
         if hessian.simple_bound() > 0.0 || hessian.dimension() == 0 {
             return Ok(None);
         }
@@ -74,7 +76,11 @@ impl<T: Real> Watch<T> {
         self.random = Some(random);
         hessian.project(&mut start);
         hessian.weigh(&mut start);
-        if let Some(mut mode) = self.mode.take() {
+        if let Some(mode) = self.mode.take() {
+            let mut mode = match window {
+                Some(window) => window.extend(mode.view()),
+                None => mode,
+            };
             hessian.project(&mut mode);
             normalise(&mut hessian, &mut mode);
             normalise(&mut hessian, &mut start);
@@ -92,7 +98,10 @@ impl<T: Real> Watch<T> {
             })?;
         }
         let saddle = unstable(&pair).then_some(Saddle { eigenvalue: pair.value });
-        self.mode = Some(pair.vector);
+        self.mode = Some(match window {
+            Some(window) => window.crop(&pair.vector, T::zero()),
+            None => pair.vector,
+        });
         Ok(saddle)
     }
 
