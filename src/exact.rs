@@ -5,7 +5,10 @@
 //! | one paraboloid | [`Hertz`] | none |
 //! | | [`Jkr`] | of no range |
 //! | | [`MaugisDugdale`] | a constant traction up to a range |
-//! | the same among its periodic images | [`Periodic`] | all three |
+//! | a paraboloid of two curvatures | [`EllipticHertz`] | none |
+//! | a cone, a flat punch | [`Cone`], [`FlatPunch`] | none |
+//! | a uniform pressure on a square | [`square_centre`] | none |
+//! | one paraboloid among its periodic images | [`Periodic`] | all three |
 //! | a wave on a line | [`WavyLine`] | none |
 //! | | [`AdhesiveWavyLine`] | of no range |
 //! | a two-dimensional wave, full contact | [`closing_pressure_2d`] | none |
@@ -33,23 +36,29 @@
 //! # Ok::<(), asperity::Error>(())
 //! ```
 
+mod cone;
 mod contact;
+mod ellipse;
 mod hertz;
 mod jkr;
 mod johnson;
 mod maugis_dugdale;
 mod numerics;
 mod periodic;
+mod punch;
 mod sphere;
 mod wave;
 mod westergaard;
 
+pub use cone::Cone;
 pub use contact::Contact;
+pub use ellipse::{EllipticContact, EllipticHertz};
 pub use hertz::Hertz;
 pub use jkr::Jkr;
 pub use johnson::AdhesiveWavyLine;
 pub use maugis_dugdale::MaugisDugdale;
 pub use periodic::{C2, M1, Periodic, PeriodicContact};
+pub use punch::{FlatPunch, square_centre};
 pub use sphere::Sphere;
 pub use wave::WaveContact;
 pub use westergaard::{WavyLine, closing_pressure_2d};

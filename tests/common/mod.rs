@@ -3,6 +3,7 @@
 
 pub mod authors;
 pub mod dense;
+pub mod love;
 pub mod outrun;
 pub mod rough;
 pub mod scenes;
@@ -75,6 +76,7 @@ pub fn check<T: Real>(solution: &Solution<T>, law: &impl AdhesionLaw<T>, control
         // a step of ten times the trial length carries ten times the rounding of the mean
         Control::MeanGap(given) => assert!((mean(gap) - given).abs() <= 1e3 * epsilon * given),
         Control::MeanPressure(given) => assert_eq!(report.mean_pressure, given),
+        other => panic!("{other:?} is not checked here"),
     }
     if report.status == Status::Converged && contact > 0 {
         // the balance of forces, of which the residual is what the criterion leaves

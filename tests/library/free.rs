@@ -1,51 +1,559 @@
 //! The free half-space, absent nodes, and what is held: forces, approaches and springs.
 
-use asperity::exact::{Hertz, Sphere};
-use asperity::*;
 use std::f64::consts::PI;
+use std::ops::ControlFlow;
 
-/// A paraboloid of radius 2 in a window of side 0.4 on a half-space of unit modulus.
-fn sphere<L: AdhesionLaw<f64>>(n: usize, law: L) -> Problem<f64, Boussinesq<f64>, L> {
-    let grid = Grid::square(n, 0.4).unwrap();
-    Problem::new(&Surface::paraboloid(grid, 2.0).unwrap(), Boussinesq::new(grid, 1.0).unwrap(), law).unwrap()
+use asperity::contact::{ContactStatistics, PressureDistribution};
+use asperity::exact::{self, Cone, EllipticHertz, FlatPunch, Hertz, Sphere};
+use asperity::path::{Event, Path, PathSettings};
+use asperity::stability::{StabilityTest, Verdict};
+use asperity::*;
+use ndarray::Array2;
+
+use crate::common::falls;
+use crate::common::love::Love;
+
+/// A free half-space of unit modulus against a surface.
+fn problem<L: AdhesionLaw<f64>>(surface: &Surface, law: L) -> Problem<f64, Boussinesq<f64>, L> {
+    Problem::new(surface, Boussinesq::new(*surface.grid(), 1.0).unwrap(), law).unwrap()
+}
+
+/// A paraboloid of radius 2 in a square window.
+fn sphere(n: usize, side: f64) -> Surface {
+    Surface::paraboloid(Grid::square(n, side).unwrap(), 2.0).unwrap()
+}
+
+/// Solves and watches that the energy falls.
+fn solve<T: Real, O: ElasticOperator<T>, L: AdhesionLaw<T>>(
+    problem: &mut Problem<T, O, L>,
+    control: Control,
+    tolerance: f64,
+) -> Solution<T> {
+    let mut history = Vec::new();
+    let mut solver = Solver::new(Settings { tolerance: Some(tolerance), ..Settings::default() });
+    let solution = solver
+        .solve_with(problem, control, Start::Default, |iteration| {
+            history.push(*iteration);
+            ControlFlow::Continue(())
+        })
+        .unwrap();
+    falls(&history, T::epsilon().widen());
+    assert_eq!(solution.report.status, Status::Converged, "{control:?}");
+    solution
+}
+
+fn largest(field: &Array2<f64>) -> f64 {
+    field.iter().fold(0.0, |largest, x| largest.max(x.abs()))
+}
+
+/// Some bumps in an oblong window with cells that are not square.
+fn bumps(shape: (usize, usize)) -> Surface {
+    let grid = Grid::new(shape, (1.0, 0.7)).unwrap();
+    Surface::from_fn(grid, |x, y| 0.05 * ((9.0 * x + 1.0).cos() * (11.0 * y).cos() - 2.0 * (x * x + y * y) + 0.3 * x))
+        .unwrap()
+}
+
+/// The same with holes, at an edge too.
+fn bumps_with_holes(shape: (usize, usize)) -> Surface {
+    let heights = bumps(shape).heights().clone();
+    let absent = |i: usize, j: usize| (i * i + 3 * j) % 11 == 0 || i + 3 < j && j + 3 > shape.1;
+    let holes = Array2::from_shape_fn(shape, |(i, j)| if absent(i, j) { f64::NAN } else { heights[[i, j]] });
+    Surface::with_absent(*bumps(shape).grid(), holes).unwrap()
+}
+
+fn faces(surface: &Surface) -> Vec<bool> {
+    let nodes = surface.heights().len();
+    surface.absent().map_or(vec![true; nodes], |absent| absent.iter().map(|absent| !absent).collect())
 }
 
 #[test]
-fn hertz_by_force_and_by_approach() {
-    for n in [33, 64, 128] {
-        let exact = Hertz::new(2.0, 1.0).unwrap().at_load(1e-3).unwrap();
-        let mut problem = sphere(n, NoAdhesion);
-        let by_force = Solver::default().solve(&mut problem, Control::Force(1e-3)).unwrap();
-        let report = &by_force.report;
-        let cell = 0.16 / (n * n) as f64;
-        let area = (report.contact_nodes as f64 * cell / PI).sqrt();
-        println!(
-            "{n}: {} {} applications, δ {:.6} of {:.6}, a {:.5} of {:.5}, p {:.5} of {:.5}, F {:e} le {:e} edge {:?}",
-            report.status,
-            report.operator_applications,
-            report.approach.unwrap(),
-            exact.approach(),
-            area,
-            exact.contact_radius(),
-            by_force.pressure.iter().fold(0.0f64, |a, &b| a.max(b)),
-            exact.pressure(0.0),
-            by_force.pressure.sum() * cell / 1e-3 - 1.0,
-            report.load_error,
-            report.edge_traction
-        );
-        let by = Solver::default().solve(&mut problem, Control::Approach(report.approach.unwrap())).unwrap().report;
-        println!(
-            "   by approach: {} {} F {:.8e} {:.2e}",
-            by.status, by.operator_applications, by.normal_force, by.load_error
-        );
-        let k = 0.3;
-        let by = Solver::default()
-            .solve(&mut problem, Control::Spring { stiffness: k, rest: report.approach.unwrap() + 1e-3 / k })
-            .unwrap()
-            .report;
-        println!(
-            "   by spring: {} {} F {:.8e} {:.2e}",
-            by.status, by.operator_applications, by.normal_force, by.load_error
-        );
+fn the_operator_keeps_the_contract_in_every_shape() {
+    for (shape, lengths) in [((2, 2), (1.0, 1.0)), ((24, 15), (1.0, 0.7)), ((5, 40), (1.0, 0.7)), ((33, 8), (0.1, 3.0))]
+    {
+        let grid = Grid::new(shape, lengths).unwrap();
+        check_operator(&mut Boussinesq::<f64>::new(grid, 2.0).unwrap()).unwrap();
+        check_operator(&mut Boussinesq::<f32>::new(grid, 2.0).unwrap()).unwrap();
     }
+}
+
+#[test]
+fn the_compliance_between_nodes_of_the_window_is_loves() {
+    for (shape, lengths) in [((24, 20), (1.0, 0.7)), ((3, 17), (1.0, 0.5)), ((9, 2), (1.0, 9.0))] {
+        let grid = Grid::new(shape, lengths).unwrap();
+        let mut operator = Boussinesq::<f64>::new(grid, 1.3).unwrap();
+        let love = Love::new(&grid, 1.3);
+        let padded = operator.grid().shape();
+        let Boundary::Free { mean_compliance, .. } = operator.boundary() else { panic!("free") };
+        let pressure = Array2::from_shape_fn(shape, |(i, j)| ((7 * i + 3 * j + i * j) % 5) as f64 - 1.0);
+        let (mut load, mut u) = (Array2::zeros(padded), Array2::zeros(padded));
+        pressure.indexed_iter().for_each(|(node, p)| load[node] = *p);
+        operator.displacement(load.view(), u.view_mut()).unwrap();
+        let mean = mean_compliance * load.mean().unwrap();
+        let expected = love.displacement(pressure.as_slice().unwrap());
+        let size = expected.iter().fold(0.0_f64, |size, u| size.max(u.abs()));
+        for ((node, _), expected) in pressure.indexed_iter().zip(&expected) {
+            assert!((u[node] + mean - expected).abs() < 1e-11 * size, "{node:?} {} {expected}", u[node] + mean);
+        }
+    }
+}
+
+#[test]
+fn a_uniform_pressure_on_a_square_displaces_its_centre_as_love_says() {
+    for n in [3, 15] {
+        let grid = Grid::square(n, 2.0).unwrap();
+        let mut operator = Boussinesq::<f64>::new(grid, 1.0).unwrap();
+        let Boundary::Free { mean_compliance, .. } = operator.boundary() else { panic!("free") };
+        let padded = operator.grid().shape();
+        let load = Array2::from_shape_fn(padded, |(i, j)| f64::from(u8::from(i < n && j < n)));
+        let mut u = load.clone();
+        operator.displacement(load.view(), u.view_mut()).unwrap();
+        let centre = u[[n / 2, n / 2]] + mean_compliance * load.mean().unwrap();
+        assert!((centre / exact::square_centre(1.0, 1.0, 1.0) - 1.0).abs() < 1e-13);
+    }
+}
+
+/// Hard walls: every control finds the state of the dense matrix at the same rigid shift.
+#[test]
+fn contact_without_adhesion_is_that_of_the_dense_matrix_under_every_control() {
+    for surface in [bumps((24, 20)), bumps((7, 19)), bumps_with_holes((24, 20))] {
+        let (love, faces) = (Love::new(surface.grid(), 1.0), faces(&surface));
+        let heights = surface.heights().as_slice().unwrap();
+        let top = heights.iter().zip(&faces).filter(|(_, faces)| **faces).fold(f64::MIN, |top, (h, _)| top.max(*h));
+        let cell = surface.grid().spacing().0 * surface.grid().spacing().1;
+        for approach in [0.004, 0.03] {
+            let expected = love.pressure_at(heights, &faces, top - approach).expect("no cycle");
+            let gap: Vec<f64> =
+                love.displacement(&expected).iter().zip(heights).map(|(u, h)| u + top - approach - h).collect();
+            let force = cell * expected.iter().sum::<f64>();
+            let mut problem = problem(&surface, NoAdhesion);
+            let area = surface.grid().lengths().0 * surface.grid().lengths().1;
+            for control in [
+                Control::Approach(approach),
+                Control::Force(force),
+                Control::MeanPressure(force / area),
+                Control::Spring { stiffness: 0.2, rest: approach + force / 0.2 },
+                Control::Spring { stiffness: 50.0, rest: approach + force / 50.0 },
+            ] {
+                let found = solve(&mut problem, control, 1e-9);
+                for (((g, p), (expected_gap, expected)), faces) in
+                    found.gap.iter().zip(&found.pressure).zip(gap.iter().zip(&expected)).zip(&faces)
+                {
+                    let gap = if *faces { *g } else { 0.0 };
+                    let expected_gap = if *faces { *expected_gap } else { 0.0 };
+                    assert!((gap - expected_gap).abs() < 1e-6 * approach, "{control:?}: {gap} {expected_gap}");
+                    assert!((p - expected).abs() < 1e-5 * largest(&found.pressure), "{control:?}: {p} {expected}");
+                    assert!(*faces || *p == 0.0 && *g == f64::INFINITY);
+                }
+                let report = &found.report;
+                assert!((report.normal_force / force - 1.0).abs() < 1e-6, "{control:?}");
+                assert!((report.approach.unwrap() / approach - 1.0).abs() < 1e-6, "{control:?}");
+                assert!((report.mean_pressure * area / force - 1.0).abs() < 1e-6);
+                assert!((report.carried_pressure / report.mean_pressure - 1.0).abs() < 1e-6);
+                assert_eq!(report.absent_nodes, faces.iter().filter(|faces| !**faces).count());
+                let energy = 0.5 * cell / area
+                    * love.displacement(&expected).iter().zip(&expected).map(|(u, p)| u * p).sum::<f64>();
+                assert!((report.elastic_energy / energy - 1.0).abs() < 1e-5, "{control:?}");
+            }
+        }
+    }
+}
+
+/// With adhesion there may be several equilibria: what is found is one of them, by the dense matrix.
+#[test]
+fn contact_with_adhesion_is_an_equilibrium_of_the_dense_matrix_under_every_control() {
+    fn check(surface: &Surface, law: impl AdhesionLaw<f64> + Copy, traction: f64) {
+        let (love, faces) = (Love::new(surface.grid(), 1.0), faces(surface));
+        let heights = surface.heights();
+        let top = heights.iter().zip(&faces).filter(|(_, faces)| **faces).fold(f64::MIN, |top, (h, _)| top.max(*h));
+        let mut problem = problem(surface, law);
+        for control in [
+            Control::Approach(0.01),
+            Control::Approach(-0.02),
+            Control::Force(5e-3),
+            Control::Force(-1e-4),
+            Control::Spring { stiffness: 0.1, rest: 0.01 },
+        ] {
+            let found = solve(&mut problem, control, 1e-9);
+            let shift = top - found.report.approach.unwrap();
+            let u = love.displacement(found.pressure.as_slice().unwrap());
+            for ((((g, p), u), h), faces) in found.gap.iter().zip(&found.pressure).zip(&u).zip(heights).zip(&faces) {
+                if *faces {
+                    assert!((u + shift - h - g).abs() < 1e-6 * 0.05, "{control:?}: {} {g}", u + shift - h);
+                    let excess = p + law.traction(*g);
+                    assert!(
+                        excess >= -1e-5 * traction && excess * g <= 1e-7 * traction,
+                        "{control:?}: {excess} at {g}"
+                    );
+                }
+            }
+            let cell = surface.grid().spacing().0 * surface.grid().spacing().1;
+            let carried = cell * found.pressure.sum();
+            assert!((carried - found.report.normal_force).abs() < 1e-6 * cell * found.pressure.mapv(f64::abs).sum());
+        }
+    }
+    for surface in [bumps((24, 20)), bumps_with_holes((24, 20))] {
+        check(&surface, Exponential::new(1e-3, 2e-2).unwrap(), 5e-2);
+        check(&surface, MaugisDugdale::new(1e-3, 2e-2).unwrap(), 5e-2);
+    }
+}
+
+#[test]
+fn springs_of_the_wall_come_to_the_same_contact() {
+    for surface in [bumps((24, 20)), bumps_with_holes((24, 20))] {
+        let control = Control::Force(4e-3);
+        let rigid = solve(&mut problem(&surface, NoAdhesion), control, 1e-9);
+        let mut solver = Solver { settings: Settings::default(), constraint: Uzawa::new(50.0).unwrap() };
+        let augmented = solver.solve(&mut problem(&surface, NoAdhesion), control).unwrap();
+        assert_eq!(augmented.report.status, Status::Converged);
+        assert_eq!(augmented.report.contact_nodes, rigid.report.contact_nodes);
+        let error = largest(&(&augmented.contact_pressure - &rigid.contact_pressure));
+        assert!(error < 1e-3 * largest(&rigid.contact_pressure), "{error}");
+        let mut solver = Solver { settings: Settings::default(), constraint: Penalty::new(5e4).unwrap() };
+        let soft = solver.solve(&mut problem(&surface, NoAdhesion), control).unwrap();
+        let error = largest(&(&soft.contact_pressure - &rigid.contact_pressure));
+        assert!(error < 1e-2 * largest(&rigid.contact_pressure), "{error}");
+    }
+}
+
+#[test]
+fn hertz_is_met_to_half_a_node_in_any_window() {
+    let exact = Hertz::new(2.0, 1.0).unwrap().at_load(1e-3).unwrap();
+    for (n, side) in [(64, 0.4), (65, 0.4), (128, 0.4), (128, 0.8), (96, 0.3)] {
+        let found = solve(&mut problem(&sphere(n, side), NoAdhesion), Control::Force(1e-3), 1e-6);
+        let (report, spacing) = (&found.report, side / n as f64);
+        let statistics = ContactStatistics::of(&found, &Grid::square(n, side).unwrap(), &NoAdhesion).unwrap();
+        let radius = (statistics.corrected_contact_fraction * side * side / PI).sqrt();
+        assert!((radius - exact.contact_radius()).abs() < 0.5 * spacing, "{n} {side}: {radius}");
+        // of second order in the spacing
+        let error = report.approach.unwrap() / exact.approach() - 1.0;
+        assert!(error.abs() < 0.2 * (spacing / exact.contact_radius()).powi(2), "{n} {side}: {error:e}");
+        assert!((largest(&found.pressure) / exact.pressure(0.0) - 1.0).abs() < 1e-3);
+        assert!(!report.reaches_edge && report.edge_traction.unwrap() < 1e-6, "{:?}", report.edge_traction);
+    }
+    let ellipse = EllipticHertz::new((2.0, 0.8), 1.0).unwrap().at_load(1e-3).unwrap();
+    let grid = Grid::new((128, 96), (0.4, 0.3)).unwrap();
+    let body = Surface::from_fn(grid, |x, y| -x * x / 4.0 - y * y / 1.6).unwrap();
+    let found = solve(&mut problem(&body, NoAdhesion), Control::Force(1e-3), 1e-6);
+    assert!((found.report.approach.unwrap() / ellipse.approach - 1.0).abs() < 1e-3);
+    assert!((largest(&found.pressure) / ellipse.largest_pressure - 1.0).abs() < 2e-3);
+    let row = |nodes: usize| 0.5 * nodes as f64 * 0.4 / 128.0;
+    let contact = found.contact_map();
+    let along_x = row(contact.column(48).iter().filter(|touches| **touches).count());
+    let along_y = row(contact.row(64).iter().filter(|touches| **touches).count());
+    assert!((along_x - ellipse.semi_axes.0).abs() < 0.4 / 128.0 && (along_y - ellipse.semi_axes.1).abs() < 0.4 / 128.0);
+}
+
+#[test]
+fn a_cone_and_a_flat_punch_are_met() {
+    let (cone, grid) = (Cone::new(0.1, 1.0).unwrap(), Grid::square(129, 1.0).unwrap());
+    let body = Surface::from_fn(grid, |x, y| -0.1 * x.hypot(y)).unwrap();
+    let found = solve(&mut problem(&body, NoAdhesion), Control::Force(1e-2), 1e-6);
+    let a = cone.contact_radius(1e-2).unwrap();
+    let statistics = ContactStatistics::of(&found, &grid, &NoAdhesion).unwrap();
+    assert!(((statistics.corrected_contact_fraction / PI).sqrt() - a).abs() < 0.5 / 129.0);
+    assert!((found.report.approach.unwrap() / cone.approach(a) - 1.0).abs() < 0.01);
+
+    let a = 0.45;
+    let heights = grid.sample(|x, y| if x.hypot(y) < a { 0.0 } else { f64::NAN });
+    let cells = heights.iter().filter(|h| !h.is_nan()).count();
+    let (punch, end) = (FlatPunch::new(a, 1.0).unwrap(), Surface::with_absent(grid, heights).unwrap());
+    let mut problem = problem(&end, NoAdhesion);
+    for found in [Control::Approach(0.01), Control::Force(0.009)].map(|control| solve(&mut problem, control, 1e-6)) {
+        let report = &found.report;
+        let stiffness = report.normal_force / report.approach.unwrap();
+        assert!((stiffness / punch.load(1.0) - 1.0).abs() < 0.01, "{stiffness}");
+        assert_eq!((report.contact_nodes, report.contact_fraction), (cells, 1.0));
+        assert_eq!(report.absent_nodes, 129 * 129 - cells);
+        let centre = found.pressure[[64, 64]];
+        assert!((centre / punch.pressure(report.normal_force, 0.0) - 1.0).abs() < 0.02, "{centre}");
+    }
+}
+
+/// Maugis' pull-off, by force: from the state without load down to where no equilibrium is left.
+#[test]
+fn the_pull_off_of_an_adhesive_sphere_is_that_of_maugis() {
+    for (work, range) in [(2e-5, 2e-3), (2e-5, 6e-4)] {
+        let (side, n) = (0.24, 64);
+        let exact = exact::MaugisDugdale::new(2.0, 1.0, work, range).unwrap();
+        let law = MaugisDugdale::new(work, range).unwrap();
+        let mut problem = problem(&sphere(n, side), law);
+        assert!(problem.mu_rho() < 0.5);
+        let pull_off = -exact.pull_off().load();
+        let approaches = [0.002, -0.012].map(Control::Approach);
+        let mut strongest = 0.0_f64;
+        for step in Path::new(&mut Solver::default(), &mut problem, approaches, PathSettings::default()).unwrap() {
+            let report = step.unwrap().solution.report;
+            strongest = strongest.max(-report.normal_force);
+        }
+        assert!((strongest / pull_off - 1.0).abs() < 0.01, "{} {}", strongest / pull_off, exact.tabor_parameter());
+    }
+}
+
+/// The jump of a tip into contact and out of it needs a soft spring, and is missed by a stiff one.
+#[test]
+fn a_soft_spring_jumps_and_a_stiff_one_does_not() {
+    let (surface, law) = (sphere(32, 0.24), Exponential::new(2e-5, 2e-3).unwrap());
+    let mut solver = Solver::new(Settings { tolerance: Some(1e-7), ..Settings::default() });
+    let mut jumps = |stiffness: f64| {
+        let mut problem = problem(&surface, law);
+        let legs = [-0.02, 0.004, -0.03].map(|rest| Control::Spring { stiffness, rest });
+        let far = Array2::from_shape_fn((32, 32), |node| 0.02 - surface.heights()[node]);
+        let settings = PathSettings { steps: 20, smallest_step: 1e-3, ..PathSettings::default() };
+        let path = Path::new(&mut solver, &mut problem, legs, settings).unwrap().starting_from(far);
+        let steps: Vec<_> = path.map(Result::unwrap).collect();
+        for step in &steps {
+            let (report, Control::Spring { rest, .. }) = (&step.solution.report, step.control) else {
+                panic!("a spring")
+            };
+            let force = stiffness * (rest - report.approach.unwrap());
+            assert!((force - report.normal_force).abs() < 1e-9, "{force} {}", report.normal_force);
+        }
+        let last = steps.last().unwrap();
+        assert!(last.imbalance.abs() < 2e-2 * last.work.abs().max(1e-3 * law.work_of_adhesion()));
+        let jumps: Vec<_> = steps.iter().filter_map(|step| step.event).collect();
+        assert!(jumps.iter().all(|event| event.jump().is_none_or(|jump| jump.approach.is_some())));
+        jumps.iter().filter(|event| matches!(event, Event::Jump(_))).count()
+    };
+    assert_eq!((jumps(0.01), jumps(10.0)), (2, 0));
+}
+
+#[test]
+fn stability_depends_on_the_spring() {
+    let (surface, law) = (sphere(32, 0.24), Exponential::new(2e-5, 2e-3).unwrap());
+    let mut problem = problem(&surface, law);
+    // before contact, where the attraction grows faster than a soft spring
+    let far = Array2::from_shape_fn((32, 32), |node| 4e-3 - surface.heights()[node]);
+    let mut solver = Solver::default();
+    let held = solver
+        .solve_with(&mut problem, Control::Approach(-4e-3), Start::From(&far), |_| ControlFlow::Continue(()))
+        .unwrap();
+    assert_eq!((held.report.status, held.report.contact_nodes), (Status::Converged, 0));
+    let (force, approach) = (held.report.normal_force, held.report.approach.unwrap());
+    let slope = PI * 2.0 * 2.0 * 2e-5 / 2e-3 * (-4e-3_f64 / 2e-3).exp(); // of a rigid paraboloid, 2πRw/ρ e^(−d/ρ)
+    for (factor, verdict) in [(0.3, Verdict::Unstable), (3.0, Verdict::Stable)] {
+        let stiffness = factor * slope;
+        let control = Control::Spring { stiffness, rest: approach + force / stiffness };
+        let found = StabilityTest::default().run(&mut problem, control, &held).unwrap();
+        assert_eq!((found.verdict, found.mode.dim()), (verdict, (32, 32)), "{}", found.eigenvalue);
+    }
+    for (control, verdict) in
+        [(Control::Approach(approach), Verdict::Stable), (Control::Force(force), Verdict::Unstable)]
+    {
+        assert_eq!(StabilityTest::default().run(&mut problem, control, &held).unwrap().verdict, verdict);
+    }
+}
+
+#[test]
+fn a_larger_window_gives_the_same_answer() {
+    let law = Exponential::new(1e-5, 1e-3).unwrap();
+    let of = |n: usize| {
+        let surface = sphere(n, 0.24 * n as f64 / 48.0);
+        solve(&mut problem(&surface, law), Control::Force(1e-4), 1e-8).report
+    };
+    let (small, large) = (of(48), of(80));
+    assert_eq!(small.contact_nodes, large.contact_nodes);
+    // of the traction beyond the small window there is a share of e^(−9)
+    assert!((small.approach.unwrap() - large.approach.unwrap()).abs() < 1e-5 * 0.01);
+    assert!(small.edge_traction.unwrap() > large.edge_traction.unwrap());
+}
+
+#[test]
+fn single_precision_and_nested_grids_come_to_the_same_state() {
+    let surface = sphere(128, 0.4);
+    let control = Control::Force(1e-3);
+    let one = solve(&mut problem(&surface, NoAdhesion), control, 1e-6);
+    let single = {
+        let half_space = Boussinesq::<f32>::new(*surface.grid(), 1.0).unwrap();
+        solve(&mut Problem::new(&surface, half_space, NoAdhesion).unwrap(), control, 1e-4)
+    };
+    assert!((single.report.approach.unwrap() / one.report.approach.unwrap() - 1.0).abs() < 1e-4);
+    assert_eq!(single.report.precision, "f32");
+    for control in [control, Control::Approach(one.report.approach.unwrap())] {
+        let half_space = |grid| Boussinesq::<f64>::new(grid, 1.0);
+        let nested = Nested::default().solve(&surface, half_space, NoAdhesion, control).unwrap();
+        assert_eq!((nested.levels.len(), nested.solution.report.status), (2, Status::Converged));
+        assert!((nested.solution.report.approach.unwrap() / one.report.approach.unwrap() - 1.0).abs() < 1e-5);
+        assert!((nested.solution.report.normal_force / 1e-3 - 1.0).abs() < 1e-5);
+    }
+}
+
+#[test]
+fn a_periodic_cell_takes_forces_springs_and_absent_nodes() {
+    let grid = Grid::new((40, 32), (1.0, 0.8)).unwrap();
+    let surface = Surface::wave_2d(grid, 0.02, 1).unwrap();
+    let half_space = || Westergaard::<f64>::new(grid, 1.0).unwrap();
+    let mut wave = Problem::new(&surface, half_space(), NoAdhesion).unwrap();
+    let by_pressure = solve(&mut wave, Control::MeanPressure(0.02), 1e-8);
+    let gap = by_pressure.report.mean_gap;
+    for control in [
+        Control::Force(0.016),
+        Control::Spring { stiffness: 1e-3, rest: gap - 16.0 },
+        Control::Spring { stiffness: 3.0, rest: gap - 0.016 / 3.0 },
+        Control::Spring { stiffness: 1e4, rest: gap - 1.6e-6 },
+    ] {
+        let found = solve(&mut wave, control, 1e-8);
+        assert!(largest(&(&found.gap - &by_pressure.gap)) < 1e-7, "{control:?}");
+        assert!((found.report.normal_force / 0.016 - 1.0).abs() < 1e-6);
+        assert_eq!((found.report.approach, found.report.edge_traction), (None, None));
+    }
+    // a hole where the contact is: what is left carries the load, and the hole nothing
+    let holed = surface
+        .heights()
+        .indexed_iter()
+        .map(|((i, j), h)| if i.abs_diff(20) < 3 && j.abs_diff(16) < 3 { f64::NAN } else { *h });
+    let holed = Surface::with_absent(grid, Array2::from_shape_vec((40, 32), holed.collect()).unwrap()).unwrap();
+    assert_eq!(holed.absent_nodes(), 25);
+    let mut problem = Problem::new(&holed, half_space(), NoAdhesion).unwrap();
+    let found = solve(&mut problem, Control::MeanPressure(0.02), 1e-8);
+    assert!((found.contact_pressure.sum() / 1280.0 - 0.02).abs() < 1e-8);
+    assert!(found.gap.iter().filter(|gap| gap.is_infinite()).count() == 25 && found.pressure[[20, 16]] == 0.0);
+    // in the hole the half-space is free: K⁻¹u is the pressure, with no force there
+    let mut operator = half_space();
+    let mut u = Array2::zeros((40, 32));
+    operator.displacement(found.pressure.view(), u.view_mut()).unwrap();
+    let faces = faces(&holed);
+    let shifts: Vec<f64> = found
+        .gap
+        .iter()
+        .zip(holed.heights())
+        .zip(&u)
+        .zip(&faces)
+        .filter(|(_, faces)| **faces)
+        .map(|(((g, h), u), _)| g + h - u)
+        .collect();
+    let (low, high) = shifts.iter().fold((f64::MAX, f64::MIN), |(low, high), s| (low.min(*s), high.max(*s)));
+    assert!(high - low < 1e-7, "{low} {high}");
+}
+
+#[test]
+fn statistics_do_not_wrap_and_leave_absent_nodes_out() {
+    let grid = Grid::square(32, 1.0).unwrap();
+    // bumps at two opposite edges
+    let heights = grid.sample(|x, y| if y.abs() > 0.2 { f64::NAN } else { -0.1 * ((x.abs() - 0.5).powi(2) + y * y) });
+    let surface = Surface::with_absent(grid, heights).unwrap();
+    let found = solve(&mut problem(&surface, NoAdhesion), Control::Force(1e-4), 1e-6);
+    let statistics = ContactStatistics::of(&found, &grid, &NoAdhesion).unwrap();
+    assert_eq!(statistics.cluster_sizes.len(), 2);
+    assert_eq!(statistics.contact_fraction, found.report.contact_fraction);
+    assert!((statistics.contact_fraction + statistics.apart_fraction - 1.0).abs() < 1e-15);
+    for distribution in
+        [PressureDistribution::of_pressure(&found, 7), PressureDistribution::of_contact_pressure(&found, 7)]
+    {
+        assert!(distribution.unwrap().integral() <= 1.0 + 1e-12);
+    }
+    assert!((PressureDistribution::of_pressure(&found, 7).unwrap().integral() - 1.0).abs() < 1e-12);
+    assert!(found.report.reaches_edge);
+    let codes: Vec<_> = Warning::of_solution(&found, 1.0).iter().map(|warning| warning.code).collect();
+    assert_eq!(codes, [WarningCode::WindowEdge]);
+}
+
+#[test]
+fn a_sweep_goes_on_from_solution_to_solution() {
+    for surface in [bumps((24, 20)), bumps_with_holes((24, 20))] {
+        let mut solver = Solver::default();
+        let mut problem = problem(&surface, NoAdhesion);
+        let mut approaches = Vec::new();
+        for step in Sweep::new(&mut solver, &mut problem, [1e-3, 2e-3, 4e-3, 8e-3].map(Control::Force)) {
+            let report = step.unwrap().1.report;
+            assert_eq!(report.status, Status::Converged);
+            approaches.push(report.approach.unwrap());
+        }
+        for (step, approach) in
+            Sweep::new(&mut solver, &mut problem, approaches.clone().into_iter().map(Control::Approach))
+                .zip(&approaches)
+        {
+            assert!((step.unwrap().1.report.approach.unwrap() - approach).abs() < 1e-6);
+        }
+    }
+}
+
+#[test]
+fn bodies_apart_carry_nothing() {
+    for control in [Control::Approach(-0.01), Control::Spring { stiffness: 0.3, rest: -0.01 }, Control::Force(0.0)] {
+        let found = solve(&mut problem(&sphere(32, 0.4), NoAdhesion), control, 1e-6);
+        assert_eq!(found.report.contact_nodes, 0);
+        assert!(found.report.normal_force.abs() < 1e-12, "{control:?} {}", found.report.normal_force);
+        if control != Control::Force(0.0) {
+            assert!((found.report.approach.unwrap() + 0.01).abs() < 1e-10);
+        }
+    }
+}
+
+#[test]
+fn applications_hardly_grow_with_the_window() {
+    let of = |n: usize| {
+        solve(&mut problem(&sphere(n, 0.4), NoAdhesion), Control::Force(1e-3), 1e-6).report.operator_applications
+    };
+    let (small, large) = (of(64), of(256));
+    assert!(large <= 60 && 2 * large <= 3 * small, "{small} {large}");
+}
+
+#[test]
+#[ignore = "a window of 512 x 512 nodes: cargo test --release --test library applications_at_512 -- --ignored"]
+fn applications_at_512_are_at_most_sixty() {
+    let of = |n: usize| {
+        solve(&mut problem(&sphere(n, 0.4), NoAdhesion), Control::Force(1e-3), 1e-6).report.operator_applications
+    };
+    let (small, large) = (of(64), of(512));
+    assert!(large <= 60 && 2 * large <= 3 * small, "{small} {large}");
+}
+
+#[test]
+fn what_a_boundary_does_not_have_is_refused_by_name() {
+    let grid = Grid::square(16, 1.0).unwrap();
+    let flat = Surface::from_fn(grid, |_, _| 0.0).unwrap();
+    let mut free = problem(&flat, NoAdhesion);
+    let mut periodic = Problem::new(&flat, Westergaard::<f64>::new(grid, 1.0).unwrap(), NoAdhesion).unwrap();
+    let holed = Surface::with_absent(grid, grid.sample(|x, y| if x.hypot(y) < 0.2 { f64::NAN } else { 0.0 })).unwrap();
+    let mut absent = Problem::new(&holed, Westergaard::<f64>::new(grid, 1.0).unwrap(), NoAdhesion).unwrap();
+    let mut solver = Solver::default();
+    let spring = |stiffness: f64, rest: f64| Control::Spring { stiffness, rest };
+    let named = |result: Result<Solution<f64>>, control: &str| match result {
+        Err(Error::Control { control: found, .. }) => assert_eq!(found, control),
+        other => panic!("{other:?}"),
+    };
+    named(solver.solve(&mut free, Control::MeanGap(0.1)), "mean-gap");
+    named(solver.solve(&mut periodic, Control::Approach(0.1)), "approach");
+    named(solver.solve(&mut absent, Control::MeanGap(0.1)), "mean-gap");
+    named(solver.solve(&mut absent, spring(1.0, 0.0)), "spring");
+    named(solver.solve(&mut absent, Control::Approach(0.0)), "approach");
+    for (control, name) in [
+        (spring(-1.0, 0.0), "stiffness of the spring"),
+        (spring(0.0, 0.0), "stiffness of the spring"),
+        (spring(f64::INFINITY, 0.0), "stiffness of the spring"),
+        (spring(1.0, f64::NAN), "rest of the spring"),
+        (Control::Approach(f64::NAN), "approach"),
+        (Control::Force(f64::INFINITY), "normal force"),
+    ] {
+        match solver.solve(&mut free, control) {
+            Err(Error::Value { name: found, .. }) => assert_eq!(found, name),
+            other => panic!("{other:?}"),
+        }
+    }
+    let paper = &mut Solver::new(Settings::rey2017());
+    assert!(matches!(paper.solve(&mut free, Control::Force(1.0)), Err(Error::Control { .. })));
+    assert!(matches!(paper.solve(&mut periodic, spring(1.0, 0.0)), Err(Error::Control { .. })));
+    let legs = [Control::MeanPressure(0.0)];
+    assert!(matches!(
+        Path::new(&mut solver, &mut absent, legs, PathSettings::default()).err(),
+        Some(Error::Control { control: "path", .. })
+    ));
+    // surfaces and half-spaces
+    let nothing = Surface::with_absent(grid, Array2::from_elem((16, 16), f64::NAN));
+    assert!(matches!(nothing, Err(Error::Value { name: "number of nodes with a surface", .. })));
+    let mut infinite = Array2::from_elem((16, 16), f64::NAN);
+    infinite[[3, 4]] = f64::INFINITY;
+    assert!(matches!(Surface::with_absent(grid, infinite), Err(Error::NotFinite { first: (3, 4), .. })));
+    for line in [Grid::line(8, 1.0).unwrap(), Grid::new((1, 8), (1.0, 1.0)).unwrap()] {
+        assert!(matches!(Boussinesq::<f64>::new(line, 1.0), Err(Error::Value { .. })));
+    }
+    assert!(Boussinesq::<f64>::new(grid, -1.0).is_err());
+    assert!(Boussinesq::<f32>::new(grid, 1e38).is_ok() && Boussinesq::<f32>::new(grid, 1e39).is_err());
+    let other = Grid::square(32, 1.0).unwrap();
+    assert!(Problem::new(&flat, Boussinesq::<f64>::new(other, 1.0).unwrap(), NoAdhesion).is_err());
+    let longer = Grid::square(16, 2.0).unwrap();
+    assert!(Problem::new(&flat, Boussinesq::<f64>::new(longer, 1.0).unwrap(), NoAdhesion).is_err());
+    let start = Array2::from_elem((32, 32), 1.0);
+    let refused = solver.solve_with(&mut free, Control::Force(0.1), Start::From(&start), |_| ControlFlow::Continue(()));
+    assert!(matches!(refused, Err(Error::Shape { .. })));
 }

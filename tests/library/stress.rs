@@ -244,6 +244,7 @@ impl Scene {
             Control::MeanPressure(given) => {
                 need(report.mean_pressure == T::lit(given).widen() || report.mean_pressure == given, "load".into())?;
             }
+            other => panic!("{other:?} is not checked here"),
         }
 
         // sums against those of the returned fields

@@ -160,6 +160,7 @@ fn units<T: Real>(
     let control = match scene.control {
         Control::MeanGap(gap) => Control::MeanGap(gap * height),
         Control::MeanPressure(p) => Control::MeanPressure(p * pressure),
+        other => panic!("{other:?} is not checked here"),
     };
     let (lx, ly) = scene.lengths;
     let other = Scene {
