@@ -30,6 +30,8 @@ pub(super) struct Coarse {
     contact: Vec<f64>,
     /// the same from each row of blocks, for this row and the next
     rows: Vec<f64>,
+    /// the first node of each row of blocks
+    firsts: Vec<usize>,
     /// whether the space has a contact map
     ready: bool,
     /// the iteration of the next renewal
@@ -42,9 +44,10 @@ impl Coarse {
     pub(super) fn of<T: Real>(operator: &dyn ElasticOperator<T>) -> Option<Self> {
         let nodes = operator.grid().nodes() as f64;
         let space = operator.coarse_space((DIMENSION * nodes.cbrt()) as usize)?;
-        let [_, blocks] = space.blocks();
+        let ([block, blocks], ny) = (space.blocks(), operator.grid().shape().1);
+        let firsts = (0..blocks.0).map(|row| row * block.0 * ny).collect();
         let [contact, rows] = [1, 2].map(|rows| vec![0.0; rows * blocks.0 * blocks.1]);
-        Some(Self { space, contact, rows, ready: false, due: 0, interval: INTERVAL })
+        Some(Self { space, contact, rows, firsts, ready: false, due: 0, interval: INTERVAL })
     }
 
     /// Whether the contact map is to be taken in an iteration; the first one waits until the contacts have settled.
@@ -84,11 +87,10 @@ impl Coarse {
     /// symmetries of the surface about such nodes.
     fn map<T: Real>(&mut self, field: &Array2<T>, touches: impl Fn(usize, T) -> bool + Sync + Send) -> bool {
         let ([block, blocks], ny) = (self.space.blocks(), field.ncols());
-        let firsts: Vec<usize> = (0..blocks.0).map(|row| row * block.0 * ny).collect();
         let share = (field.len() as f64).recip();
         let rows = field.axis_chunks_iter(Axis(0), block.0);
         // for each row of blocks: its own share, and that of the next row
-        let shares = par::chunks_mut(&mut self.rows, 2 * blocks.1).zip(par::chunks(&firsts, 1));
+        let shares = par::chunks_mut(&mut self.rows, 2 * blocks.1).zip(par::chunks(&self.firsts, 1));
         par::for_each(rows, shares, |nodes, (shares, first)| {
             shares.fill(0.0);
             let (here, next) = shares.split_at_mut(blocks.1);

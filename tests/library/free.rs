@@ -308,8 +308,10 @@ fn a_soft_spring_jumps_and_a_stiff_one_does_not() {
             let force = stiffness * (rest - report.approach.unwrap());
             assert!((force - report.normal_force).abs() < 1e-9, "{force} {}", report.normal_force);
         }
-        let last = steps.last().unwrap();
-        assert!(last.imbalance.abs() < 2e-2 * last.work.abs().max(1e-3 * law.work_of_adhesion()));
+        // all of the work is dissipated, but for what the quadrature misses
+        let energies = steps.iter().map(|step| &step.solution.report).map(|r| r.elastic_energy + r.adhesive_energy);
+        let (deepest, last) = (energies.fold(0.0, f64::min), steps.last().unwrap());
+        assert!(last.imbalance.abs() < -1e-3 * deepest && (last.work - last.dissipated).abs() < -1e-3 * deepest);
         let jumps: Vec<_> = steps.iter().filter_map(|step| step.event).collect();
         assert!(jumps.iter().all(|event| event.jump().is_none_or(|jump| jump.approach.is_some())));
         jumps.iter().filter(|event| matches!(event, Event::Jump(_))).count()
@@ -345,16 +347,16 @@ fn stability_depends_on_the_spring() {
 
 #[test]
 fn a_larger_window_gives_the_same_answer() {
-    let law = Exponential::new(1e-5, 1e-3).unwrap();
+    let law = Exponential::new(4e-6, 5e-4).unwrap();
     let of = |n: usize| {
-        let surface = sphere(n, 0.24 * n as f64 / 48.0);
+        let surface = sphere(n, 0.4 * n as f64 / 64.0);
         solve(&mut problem(&surface, law), Control::Force(1e-4), 1e-8).report
     };
-    let (small, large) = (of(48), of(80));
+    let (small, large) = (of(64), of(96));
     assert_eq!(small.contact_nodes, large.contact_nodes);
-    // of the traction beyond the small window there is a share of e^(−9)
-    assert!((small.approach.unwrap() - large.approach.unwrap()).abs() < 1e-5 * 0.01);
-    assert!(small.edge_traction.unwrap() > large.edge_traction.unwrap());
+    // at the edge of the small window the gap is some fifteen ranges
+    assert!((small.approach.unwrap() / large.approach.unwrap() - 1.0).abs() < 1e-6);
+    assert!(small.edge_traction.unwrap() < 1e-5 && !small.reaches_edge);
 }
 
 #[test]
@@ -548,7 +550,7 @@ fn what_a_boundary_does_not_have_is_refused_by_name() {
         assert!(matches!(Boussinesq::<f64>::new(line, 1.0), Err(Error::Value { .. })));
     }
     assert!(Boussinesq::<f64>::new(grid, -1.0).is_err());
-    assert!(Boussinesq::<f32>::new(grid, 1e38).is_ok() && Boussinesq::<f32>::new(grid, 1e39).is_err());
+    assert!(Boussinesq::<f32>::new(grid, 1e36).is_ok() && Boussinesq::<f32>::new(grid, 1e39).is_err());
     let other = Grid::square(32, 1.0).unwrap();
     assert!(Problem::new(&flat, Boussinesq::<f64>::new(other, 1.0).unwrap(), NoAdhesion).is_err());
     let longer = Grid::square(16, 2.0).unwrap();
