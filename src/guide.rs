@@ -7,6 +7,7 @@
 //! | [`own_operator`] | an elastic operator of your own: a layer of finite thickness |
 //! | [`own_constraint`] | a way of your own to keep the surfaces apart |
 //! | [`penalty_and_uzawa`] | the two classical ways beside projection, with figures |
+//! | [`boundary`] | a periodic cell or a free half-space, absent nodes; forces, approaches and springs |
 //! | [`branches`] | loading and unloading with adhesion: jumps, limit points, stability |
 //! | [`python`] | heights from numpy, results to numpy |
 //! | [`choosing`] | resolution, tolerance and precision for the accuracy you want |
@@ -32,6 +33,7 @@ page!(own_law);
 page!(own_operator);
 page!(own_constraint);
 page!(penalty_and_uzawa);
+page!(boundary);
 page!(branches);
 #[cfg(feature = "io")]
 page!(python);

@@ -1,7 +1,7 @@
 //! How rough surfaces touch and stick: frictionless normal contact of an elastic half-space with a rigid rough
 //! surface, with adhesion, by an FFT-based boundary element method.
 //!
-//! A periodic half-space with normal displacement u faces a rigid surface of heights h. The gap g = u − h ≥ 0 at
+//! A half-space, periodic or free, with normal displacement u faces a rigid surface of heights h. The gap g = u − h ≥ 0 at
 //! equilibrium minimises the energy per area
 //!
 //! ```math
@@ -50,6 +50,7 @@
 //! | an elastic body of your own: a layer of finite thickness | [`guide::own_operator`] |
 //! | a way of your own to keep the surfaces apart; penalty and Uzawa | [`guide::own_constraint`], [`guide::penalty_and_uzawa`] |
 //! | loading and unloading with adhesion | [`guide::branches`] |
+//! | a body that ends: free half-space, force, approach, spring, absent nodes | [`guide::boundary`] |
 //! | heights from numpy, results to numpy | [`guide::python`] |
 //! | resolution, tolerance and precision for the accuracy you want | [`guide::choosing`] |
 //! | the command-line tool, its scenes and the keys of its reports | [`guide::tool`] |
@@ -67,7 +68,7 @@
 //!
 //! | trait | what | implementations |
 //! |---|---|---|
-//! | [`ElasticOperator`] | pressure of a displacement | [`Westergaard`], [`Spectral`] (any symbol) |
+//! | [`ElasticOperator`] | pressure of a displacement | [`Westergaard`] (periodic), [`Boussinesq`] (free), [`Spectral`] (any symbol) |
 //! | [`AdhesionLaw`] | energy, traction, slope at a gap | [`NoAdhesion`], [`MaugisDugdale`], [`Exponential`] |
 //! | [`ContactConstraint`] | how g ≥ 0 is imposed | [`Projection`], [`Penalty`], [`Uzawa`] |
 //!
@@ -90,7 +91,7 @@
 //! # Exact solutions
 //!
 //! [`exact`] has the closed forms to compare with: spheres by Hertz, JKR and Maugis, alone or among their periodic
-//! images, and waves by Westergaard and Johnson.
+//! images, ellipses, cones and punches, and waves by Westergaard and Johnson.
 //!
 //! # Features
 //!

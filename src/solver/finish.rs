@@ -100,7 +100,8 @@ impl<T: Real> State<'_, T> {
         if flat.boundary != Boundary::Periodic {
             let share = edge_share(&pressure);
             report.edge_traction = Some(share);
-            report.reaches_edge = share > EDGE || edge(&gap).any(|gap| gap <= T::zero());
+            let apart = report.status == Status::Detached;
+            report.reaches_edge = !apart && (share > EDGE || edge(&gap).any(|gap| gap <= T::zero()));
         }
         Ok(Solution { gap, pressure, contact_pressure, report })
     }

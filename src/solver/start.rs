@@ -10,7 +10,7 @@ use crate::real::Real;
 
 /// The start of a solve: the gap from which the energy is minimised.
 ///
-/// A gap has shape (Nx, Ny), may be an array or a view in any memory layout, and is scaled to the mean gap, if that is
+/// A gap has the shape (Nx, Ny) of the surface, whatever it has at absent nodes, may be an array or a view in any memory layout, and is scaled to the mean gap, if that is
 /// given. The start matters for the work, and with adhesion, where there may be several equilibria, for the answer.
 ///
 /// In `f32` to 1e-4 (1e-3 for smooth light contacts), and from there in `f64`, a solve on 2048² nodes takes some 1.3
@@ -34,7 +34,7 @@ use crate::real::Real;
 #[derive(Clone, Debug, Default)]
 pub enum Start<'a, T> {
     /// A uniform gap: the mean gap, if that is given; under a given pressure twice the rms height without adhesion, and
-    /// full contact with adhesion. If the traction of the law jumps, as that of
+    /// full contact with adhesion. With a free boundary and without adhesion the undeformed bodies that just touch. If the traction of the law jumps, as that of
     /// [`MaugisDugdale`](crate::MaugisDugdale) does, the equilibrium of the law with its jump
     /// [smoothed](AdhesionLaw::smoothed) is found first and becomes the start, within the same solve.
     #[default]

@@ -11,7 +11,7 @@ use super::work::{TRUSTED, Work};
 use super::{Criterion, Method, Settings};
 use crate::adhesion::AdhesionLaw;
 use crate::constraint::ContactConstraint;
-use crate::elastic::{ElasticOperator, Foundation};
+use crate::elastic::{Boundary, ElasticOperator, Foundation};
 use crate::error::{Error, Result};
 use crate::field::{Partial, read, write};
 use crate::par::IndexedParallelIterator;
@@ -206,7 +206,9 @@ impl<'a, T: Real> State<'a, T> {
             start_gap: 0.0,
             detached: None,
         };
-        if uniform {
+        if uniform && state.flat.boundary != Boundary::Periodic && state.law.is_zero() {
+            state.start_undeformed()?;
+        } else if uniform {
             state.work = state.count();
         } else {
             state.refresh()?;
@@ -218,6 +220,26 @@ impl<'a, T: Real> State<'a, T> {
 
     pub(super) fn nodes(&self) -> f64 {
         self.fields.gap.len() as f64
+    }
+
+    /// Takes the gap of undeformed bodies that just touch: under no pressure.
+    fn start_undeformed(&mut self) -> Result<()> {
+        self.operator.displacement(self.flat.pressure.view(), self.fields.gap.view_mut())?;
+        self.applications += 1;
+        let peak = T::lit(self.flat.peak);
+        let local = Potential::new(self.law, &*self.constraint, self.flat.window.as_ref());
+        let Fields { reducer, gap, pressure, .. } = &mut self.fields;
+        local.run(reducer, write(gap).zip(write(pressure)), |local, _, (gap, pressure)| {
+            for (gap, pressure) in gap.iter_mut().zip(pressure) {
+                let apart = peak - *gap;
+                (*gap, *pressure) = (if local.projects() { apart.max(T::zero()) } else { apart }, T::zero());
+            }
+            Partial::NONE
+        });
+        // nothing is deformed: the sums that would cancel need not be trusted
+        self.count();
+        self.work = Work::default();
+        Ok(())
     }
 
     /// The mean gap, over all nodes of the operator's grid.

@@ -470,6 +470,65 @@ fn a_sweep_goes_on_from_solution_to_solution() {
 }
 
 #[test]
+fn a_tension_beyond_the_pull_off_detaches_and_one_below_it_holds() {
+    let (work, range) = (2e-5, 2e-3);
+    let pull_off = -exact::MaugisDugdale::new(2.0, 1.0, work, range).unwrap().pull_off().load();
+    let mut problem = problem(&sphere(32, 0.24), MaugisDugdale::new(work, range).unwrap());
+    let held = solve(&mut problem, Control::Force(-0.9 * pull_off), 1e-6).report;
+    assert!(held.contact_nodes > 0 && (held.carried_pressure / held.mean_pressure - 1.0).abs() < 1e-5);
+    let lost = Solver::default().solve(&mut problem, Control::Force(-1.1 * pull_off)).unwrap().report;
+    assert_eq!((lost.status, lost.contact_nodes, lost.reaches_edge), (Status::Detached, 0, false));
+    assert!((lost.normal_force / pull_off + 1.1).abs() < 1e-12 && lost.carried_pressure.abs() < 1e-3 * pull_off);
+}
+
+#[cfg(feature = "parallel")]
+#[test]
+fn any_number_of_threads_gives_the_same_bits() {
+    let run = |threads: usize| {
+        rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap().install(|| {
+            let law = Exponential::new(1e-3, 2e-2).unwrap();
+            let surface = bumps_with_holes((70, 51));
+            let mut problem = problem(&surface, law);
+            [Control::Force(5e-3), Control::Approach(0.01), Control::Spring { stiffness: 0.1, rest: 0.01 }]
+                .map(|control| solve(&mut problem, control, 1e-6))
+        })
+    };
+    let one = run(1);
+    for threads in [2, 3, 7] {
+        assert_eq!(run(threads), one);
+    }
+}
+
+#[test]
+fn an_iteration_allocates_nothing_and_a_solve_twenty_nine_fields_of_the_window() {
+    let surface = bumps((250, 256));
+    let field = (surface.heights().len() * size_of::<f64>()) as f64;
+    rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap().install(|| {
+        let few = |iterations| Settings { max_iterations: iterations, tolerance: Some(1e-14), ..Settings::default() };
+        let law = Exponential::new(1e-3, 2e-2).unwrap();
+        let problem = std::cell::RefCell::new(problem(&surface, law));
+        let count = |iterations| {
+            let counted = allocation_counter::measure(|| {
+                Solver::new(few(iterations)).solve(&mut problem.borrow_mut(), Control::Force(5e-3)).unwrap();
+            });
+            counted.count_total
+        };
+        count(1);
+        assert_eq!(count(2), count(12));
+        drop(problem);
+        let solved = allocation_counter::measure(|| {
+            let half_space = Boussinesq::<f64>::new(*surface.grid(), 1.0).unwrap();
+            let mut problem = Problem::new(&surface, half_space, law).unwrap();
+            Solver::new(few(4)).solve(&mut problem, Control::Force(5e-3)).unwrap();
+        });
+        // beside the coarse space, plans, tiles and the partial sums of a reduction
+        let coarse_space = 13.0 * 8.0 * (4.0 * surface.heights().len() as f64).powf(2.0 / 3.0);
+        let fields = (solved.bytes_max as f64 - coarse_space) / field;
+        assert!((28.5..30.0).contains(&fields), "{fields}");
+    });
+}
+
+#[test]
 fn bodies_apart_carry_nothing() {
     for control in [Control::Approach(-0.01), Control::Spring { stiffness: 0.3, rest: -0.01 }, Control::Force(0.0)] {
         let found = solve(&mut problem(&sphere(32, 0.4), NoAdhesion), control, 1e-6);
