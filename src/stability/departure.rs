@@ -75,7 +75,6 @@ impl<T: Real> Stability<T> {
         if !(amplitude > T::zero() && amplitude.is_finite()) {
             return Ok(None);
         }
-        problem.flat.load(control)?;
         if problem.flat.window.is_some() && from.report.approach.is_none() {
             let reason = "the energy of a load on a periodic surface with absent nodes is not in its report";
             return Err(Error::Control { control: "departure", reason });

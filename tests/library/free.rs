@@ -10,7 +10,6 @@ use asperity::stability::{StabilityTest, Verdict};
 use asperity::*;
 use ndarray::Array2;
 
-use crate::common::falls;
 use crate::common::love::Love;
 
 /// A free half-space of unit modulus against a surface.
@@ -23,13 +22,14 @@ fn sphere(n: usize, side: f64) -> Surface {
     Surface::paraboloid(Grid::square(n, side).unwrap(), 2.0).unwrap()
 }
 
-/// Solves and watches that the energy falls.
+/// Solves and watches that the energy falls, but for the rounding of its sums: in the terms that cancel there the
+/// surface is pressed flat.
 fn solve<T: Real, O: ElasticOperator<T>, L: AdhesionLaw<T>>(
     problem: &mut Problem<T, O, L>,
     control: Control,
     tolerance: f64,
 ) -> Solution<T> {
-    let mut history = Vec::new();
+    let mut history: Vec<Iteration> = Vec::new();
     let mut solver = Solver::new(Settings { tolerance: Some(tolerance), ..Settings::default() });
     let solution = solver
         .solve_with(problem, control, Start::Default, |iteration| {
@@ -37,8 +37,14 @@ fn solve<T: Real, O: ElasticOperator<T>, L: AdhesionLaw<T>>(
             ControlFlow::Continue(())
         })
         .unwrap();
-    falls(&history, T::epsilon().widen());
     assert_eq!(solution.report.status, Status::Converged, "{control:?}");
+    let lengths = history.iter().map(|iteration| iteration.mean_gap.abs()).fold(0.0, f64::max);
+    let largest = history.iter().map(|iteration| iteration.energy.abs()).fold(0.0, f64::max);
+    let size = largest + problem.operator().stiffness_range().1 * lengths * lengths;
+    for pair in history.windows(2).filter(|pair: &&[Iteration]| pair[0].round == pair[1].round) {
+        let rise = pair[1].energy - pair[0].energy;
+        assert!(rise <= 8.0 * T::epsilon().widen() * size, "{rise:e} of {size:e} in iteration {}", pair[1].iteration);
+    }
     solution
 }
 
