@@ -56,7 +56,7 @@ pub trait ContactConstraint<T: Real>: Send + Sync {
     /// The wall that keeps the surfaces apart in the present round.
     fn wall(&self) -> Wall<'_, T>;
 
-    /// Prepares for a solve on a grid, to a tolerance of its criterion. `stiffest` is the stiffness of the shortest
+    /// Prepares for a solve on the grid of a surface, to a tolerance of its criterion. `stiffest` is the stiffness of the shortest
     /// wave, of [`ElasticOperator::stiffness_range`](crate::ElasticOperator::stiffness_range), pressure per length.
     ///
     /// # Errors
@@ -65,7 +65,8 @@ pub trait ContactConstraint<T: Real>: Send + Sync {
         Ok(())
     }
 
-    /// Called when a solve has converged: updates the multipliers, and tells whether to solve again with them.
+    /// Called when a solve has converged: updates the multipliers, and tells whether to solve again with them. At nodes
+    /// where the surface is [absent](crate::Surface::with_absent) the gap is infinite.
     fn update(&mut self, _gap: ArrayView2<'_, T>) -> Update {
         Update::Done
     }

@@ -30,8 +30,9 @@ use track::{Mode, State, Track, Way};
 /// A path of equilibria: an iterator over the states of a branch that is followed from load to load in small steps,
 /// with its jumps.
 ///
-/// Each load is a mean gap or a mean pressure; the first one is where the path starts, and from each to the next leads
-/// a *leg*. A step starts from the extrapolation of the last two states, clipped to g ≥ 0, so that it stays on the
+/// Each load is any [`Control`] that the problem has; the first one is where the path starts, and from each to the next
+/// leads a *leg*. Where below a mean gap is given, that is the approach with a free boundary, and with a spring its rest.
+/// A step starts from the extrapolation of the last two states, clipped to g ≥ 0, so that it stays on the
 /// branch; its length adapts to how much the branch bends.
 ///
 /// # Jumps
@@ -135,7 +136,8 @@ where
     /// The path through `loads`, of which the first is the start.
     ///
     /// # Errors
-    /// [`Error::Value`] for settings that are out of range, or a load that is not finite, or a negative mean gap.
+    /// [`Error::Value`] for settings that are out of range, or a load that is not finite, or a negative mean gap;
+    /// [`Error::Control`] for a load that the problem does not have, and for a periodic surface with absent nodes.
     pub fn new(
         solver: &'a mut Solver,
         problem: &'a mut Problem<T, O, L>,

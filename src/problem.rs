@@ -264,6 +264,11 @@ impl<T: Real, O: ElasticOperator<T>, L: AdhesionLaw<T>> Problem<T, O, L> {
             Boundary::Free { window, .. } => (surface.grid(), window),
         };
         Error::shape("surface", grid.shape(), expected.shape())?;
+        let ((nx, ny), whole) = (expected.shape(), operator.grid().shape());
+        Error::shape("grid of the operator", whole, (whole.0.max(nx), whole.1.max(ny)))?;
+        if boundary != Boundary::Periodic {
+            Error::positive("mean compliance of the half-space", boundary.mean_compliance())?;
+        }
         if grid.lengths() != expected.lengths() {
             let (name, value) = match grid.lengths() {
                 (lx, _) if lx != expected.lengths().0 => ("side length Lx of the surface", lx),

@@ -236,8 +236,9 @@ impl<C> Solver<C> {
     /// ```
     ///
     /// # Errors
-    /// [`Error::Value`](crate::Error::Value) for a negative or infinite mean gap, an infinite pressure, or a tolerance
-    /// that is not positive; [`Error::Shape`](crate::Error::Shape), [`Error::NotFinite`](crate::Error::NotFinite) or
+    /// [`Error::Control`](crate::Error::Control) for a control that the boundary does not have;
+    /// [`Error::Value`](crate::Error::Value) for a negative or infinite mean gap, an infinite pressure, a spring without
+    /// stiffness, or a tolerance that is not positive; [`Error::Shape`](crate::Error::Shape), [`Error::NotFinite`](crate::Error::NotFinite) or
     /// [`Error::Value`](crate::Error::Value) for a start that does not fit, is not finite, or is negative somewhere;
     /// [`Error::Law`](crate::Error::Law) if the law is not finite at the start; those of the constraint. A solve that
     /// does not converge is no error: see [`Report::status`].

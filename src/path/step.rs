@@ -32,7 +32,7 @@ pub struct PathStep<T> {
     pub control: Control,
     /// The leg that it is on: 0 is the start, 1 the way to the second load.
     pub leg: usize,
-    /// The work done by the load since the start, −∫p̄ dḡ, per area.
+    /// The work done by the load since the start, −∫p̄ dḡ, and with a free boundary ∫p̄ dδ, per nominal area.
     pub work: f64,
     /// The energy dropped in jumps since the start, per area. Over a closed cycle it is the work of adhesion that was
     /// lost.
