@@ -15,6 +15,7 @@ mod driver;
 mod energy;
 mod finish;
 mod foundation;
+mod operators;
 mod passes;
 mod phases;
 mod potential;
@@ -269,6 +270,7 @@ impl<C> Solver<C> {
         C: ContactConstraint<T>,
     {
         let Self { settings, constraint } = self;
-        driver::solve(Job { problem, constraint, control, settings: *settings, start, observe })
+        let Parts { operator, law, flat } = problem;
+        driver::solve(operator, Job { law, flat, constraint, control, settings: *settings, start, observe })
     }
 }

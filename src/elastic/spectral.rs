@@ -8,6 +8,7 @@ use asperity_fft::num_complex::Complex;
 
 use super::*;
 use crate::fft::{Convolver, Layout, Sums};
+use crate::real::cast;
 use crate::vector::{BLOCK, LANES, vectorised};
 
 /// The stiffness k(qx, qy) of a wave, pressure per displacement.
@@ -336,6 +337,22 @@ impl<T: Real> ElasticOperator<T> for Spectral<T> {
         let [sum, ..] = Convolver::<f64>::new(self.grid.shape())
             .convolve(heights, pressure, |k, column| weigh(layout, k, stiffness.modify(k, column, stiffen)))?;
         Ok(sum / (self.grid.nodes() as f64).powi(2))
+    }
+
+    fn in_single(&self) -> Option<Box<dyn ElasticOperator<f32>>> {
+        let (stiffness, range) = match &self.stiffness {
+            Stiffness::Stored(stiffness) => {
+                check_range::<f32>(self.range.0, self.range.1).ok()?;
+                (Stiffness::Stored(stiffness.mapv(cast)), self.range)
+            }
+            _ => half_space(&self.grid, self.modulus).ok()?,
+        };
+        let (grid, modulus, symbol) = (self.grid, self.modulus, Arc::clone(&self.symbol));
+        Some(Box::new(Spectral { grid, modulus, symbol, stiffness, range, convolver: Convolver::new(grid.shape()) }))
+    }
+
+    fn rest(&mut self) {
+        self.convolver.rest();
     }
 
     fn coarse_space(&self, dimension: usize) -> Option<CoarseSpace> {

@@ -1,5 +1,7 @@
 //! The end of a solve: its solution, and the report on it.
 
+use ndarray::Array2;
+
 use super::passes::Fields;
 use super::potential::Potential;
 use super::report::{Report, Solution, Status};
@@ -10,7 +12,7 @@ use crate::par::IndexedParallelIterator;
 use crate::problem::{Control, mu_rho};
 use crate::real::Real;
 
-impl<T: Real> State<'_, T> {
+impl<T: Real, L: Real> State<'_, T, L> {
     /// The solution: the final fields, and the report on them.
     pub(super) fn finish(mut self, status: Status) -> Result<Solution<T>> {
         if self.age > 0 {
@@ -27,9 +29,14 @@ impl<T: Real> State<'_, T> {
             Control::MeanPressure(pressure) => pressure,
         };
         let shift = T::lit(mean - self.drift);
-        let Self { fields: Fields { reducer, gap, pressure, preconditioned, .. }, law, constraint, .. } = &mut self;
+        let Self { fields, law, constraint, .. } = &mut self;
+        let Fields { reducer, gap, pressure, residual, preconditioned, change, .. } = fields;
+        for correction in [residual, preconditioned, change] {
+            *correction = Array2::zeros((0, 0));
+        }
+        let mut contact_pressure = Array2::zeros(gap.dim());
         let local = Potential::new(*law, &**constraint);
-        let fields = read(gap).zip(write(pressure)).zip(write(preconditioned));
+        let fields = read(gap).zip(write(pressure)).zip(write(&mut contact_pressure));
         let total = reducer.run(fields, |first, ((gap, pressure), contact)| {
             let mut part = Partial::NONE;
             pressure.iter_mut().for_each(|p| *p += shift);
@@ -47,7 +54,7 @@ impl<T: Real> State<'_, T> {
             Control::MeanGap(_) => 0.0,
             Control::MeanPressure(_) => self.load_error().max(self.share_of_load(carried_pressure - mean)),
         };
-        let mu_rho = mu_rho(self.law, self.operator.grid(), self.operator.modulus());
+        let mu_rho = mu_rho(self.law, self.operators.state().grid(), self.operators.state().modulus());
         let report = Report {
             status: self.final_status(status, load_error),
             relative_error: self.relative_error(),
@@ -71,8 +78,8 @@ impl<T: Real> State<'_, T> {
             criterion: self.settings.criterion,
             tolerance: self.settings.tolerance_in::<T>(),
         };
-        let Fields { gap, pressure, preconditioned, .. } = self.fields;
-        Ok(Solution { gap, pressure, contact_pressure: preconditioned, report })
+        let Fields { gap, pressure, .. } = self.fields;
+        Ok(Solution { gap, pressure, contact_pressure, report })
     }
 
     /// The status, corrected by the figures of the returned fields.

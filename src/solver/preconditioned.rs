@@ -7,7 +7,7 @@ use crate::error::Result;
 use crate::field::{CHUNK, Partial, read, write};
 use crate::par::IndexedParallelIterator;
 use crate::problem::Control;
-use crate::real::Real;
+use crate::real::{Real, cast};
 
 /// The number of attempts at a descending step before the solve has stalled.
 const ATTEMPTS: usize = 24;
@@ -88,7 +88,7 @@ struct Step {
     local: f64,
 }
 
-impl<T: Real> State<'_, T> {
+impl<T: Real, L: Real> State<'_, T, L> {
     /// A step along the projected, conjugate, preconditioned residual; `false` if no step lowers the energy.
     pub(super) fn preconditioned_step(&mut self) -> Result<bool> {
         let length = self.step_length;
@@ -111,7 +111,7 @@ impl<T: Real> State<'_, T> {
             let trial_length = self.step_length;
             let Some(trial) = self.descend(&mut centre, &mut momentum) else { return Ok(false) };
             let Fields { change, residual: response, .. } = &mut self.fields;
-            let elastic = self.operator.pressure_and_work(change.view(), response.view_mut())?;
+            let elastic = self.operators.corrections().pressure_and_work(change.view(), response.view_mut())?;
             self.applications += 1;
             let Some(step) = self.search(&trial, elastic * self.nodes()) else { return Ok(false) };
             if !trial.blocked || step.length >= SHORT {
@@ -199,7 +199,8 @@ impl<T: Real> State<'_, T> {
     /// A change that puts the blocked nodes into contact and lifts the others evenly; both lower the energy.
     fn land(&mut self, centre: f64, trial: Trial) -> Trial {
         let (length, centre) = (T::lit(self.step_length), T::lit(centre));
-        let lands = move |gap: T, r: T, z: T| gap > T::zero() && r > T::zero() && gap < length * (z - centre);
+        let lands =
+            move |gap: T, r: L, z: L| gap > T::zero() && r > L::zero() && gap < length * (cast::<_, T>(z) - centre);
         let Fields { reducer, gap, residual, preconditioned, change, .. } = &mut self.fields;
         let total = reducer.run(read(gap).zip(read(residual)).zip(read(preconditioned)), |_, ((gap, residual), z)| {
             let mut part = Partial::NONE;
@@ -213,7 +214,7 @@ impl<T: Real> State<'_, T> {
             part
         });
         let [landed, others, ..] = total.sum;
-        let lift = T::lit(if matches!(self.control, Control::MeanGap(_)) { landed / others } else { 0.0 });
+        let lift = L::lit(if matches!(self.control, Control::MeanGap(_)) { landed / others } else { 0.0 });
         let local = Potential::new(self.law, &*self.constraint);
         let fields = read(gap).zip(read(residual)).zip(read(preconditioned)).zip(write(change));
         let total = reducer.run(fields, |first, (((gap, residual), z), change)| {
@@ -225,13 +226,13 @@ impl<T: Real> State<'_, T> {
             let mut part = Partial::NONE;
             for (i, (((&gap, &r), &z), d)) in gap.iter().zip(residual).zip(z).zip(change).enumerate() {
                 *d = if lands(gap, r, z) {
-                    -gap
+                    cast(-gap)
                 } else if !idles(r) {
                     lift
                 } else {
-                    T::zero()
+                    L::zero()
                 };
-                let [r, d, t, s] = [r, *d, tractions[i], slopes[i]].map(T::widen);
+                let ([r, d], [t, s]) = ([r, *d].map(L::widen), [tractions[i], slopes[i]].map(T::widen));
                 part.sum[0] += r * d;
                 part.sum[1] += d;
                 part.sum[2] += t * d;
@@ -245,9 +246,9 @@ impl<T: Real> State<'_, T> {
 
     /// Subtracts the mean from z, and sets z to zero at nodes in contact that it would press.
     fn hold(&mut self, centre: f64) {
-        let (centre, centred) = (T::lit(centre), self.is_gap_controlled());
+        let (centre, centred) = (L::lit(centre), self.is_gap_controlled());
         let Fields { reducer, gap, residual, preconditioned, .. } = &mut self.fields;
-        let moves = move |gap: T, r: T, z: T| !idles(r) && (gap > T::zero() || z < centre);
+        let moves = move |gap: T, r: L, z: L| !idles(r) && (gap > T::zero() || z < centre);
         let total = reducer.run(read(gap).zip(read(residual)).zip(read(preconditioned)), |_, ((gap, residual), z)| {
             let mut part = Partial::NONE;
             for ((&gap, &r), &z) in gap.iter().zip(residual).zip(z) {
@@ -259,10 +260,10 @@ impl<T: Real> State<'_, T> {
             part
         });
         let [sum, count, ..] = total.sum;
-        let mean = T::lit(if centred && count > 0.0 { sum / count } else { 0.0 });
+        let mean = L::lit(if centred && count > 0.0 { sum / count } else { 0.0 });
         reducer.run(read(gap).zip(read(residual)).zip(write(preconditioned)), |_, ((gap, residual), z)| {
             for ((&gap, &r), z) in gap.iter().zip(residual).zip(z) {
-                *z = if moves(gap, r, *z) { *z - centre - mean } else { T::zero() };
+                *z = if moves(gap, r, *z) { *z - centre - mean } else { L::zero() };
             }
             Partial::NONE
         });
@@ -336,7 +337,8 @@ impl<T: Real> State<'_, T> {
         if projects {
             self.tally.adhesive = after;
         }
-        self.work = self.work.after(length * (2.0 * work + length * elastic));
+        let change = length * (2.0 * work + length * elastic);
+        self.work = self.work.after(change, self.update_noise() * change.abs());
         let made = Made { factor: length, curvature, descent: 0.0, overlap: 0.0, sum: 0.0 };
         self.left = match advanced.residual {
             None => Left::Gradient(made),
@@ -345,6 +347,7 @@ impl<T: Real> State<'_, T> {
                 Left::Residual(Made { descent, overlap, ..made })
             }
         };
+        self.updates += length * length * elastic / self.nodes();
         self.age += 1;
     }
 }

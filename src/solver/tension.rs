@@ -23,7 +23,7 @@ const SAMPLES: usize = 100;
 /// beyond the heights.
 const REACH: f64 = 10.0;
 
-impl<T: Real> State<'_, T> {
+impl<T: Real, L: Real> State<'_, T, L> {
     /// Whether a tensile load has pulled the surfaces apart: no contact, and hardly any traction left to hold them.
     pub(super) fn is_adrift(&self) -> bool {
         let Control::MeanPressure(pressure) = self.control else { return false };
