@@ -56,7 +56,7 @@ impl<'a> Compiled for Solve<'a> {
     fn double((operator, job): Self::Input<f64>) -> Result<Solution<f64>> {
         match operator.in_single() {
             Some(corrections) if job.settings.method == Method::Preconditioned => {
-                run(&mut Two { state: operator, corrections }, job)
+                run(&mut Two::new(operator, corrections), job)
             }
             _ => run(&mut One(operator), job),
         }

@@ -61,8 +61,8 @@ impl<T: Real, L: Real> State<'_, T, L> {
             return Ok(());
         }
         let stiffness = self.foundation();
-        let Fields { pressure, preconditioned, .. } = &mut self.fields;
-        let work = self.operators.work(pressure, stiffness, preconditioned)?;
+        let Fields { pressure, residual, preconditioned, change, .. } = &mut self.fields;
+        let work = self.operators.work(pressure, stiffness, [preconditioned, residual, change])?;
         self.applications += 1;
         if work.is_finite() {
             let sum = self.nodes() * work.max(0.0);
