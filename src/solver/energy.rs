@@ -9,8 +9,8 @@ use crate::real::Real;
 /// The roundings that each product and the sum of them may have.
 const ROUNDINGS: f64 = 8.0;
 
-/// The roundings of the corrections, beside those of the updated pressure.
-const STALE: f64 = 128.0;
+/// The residual below which the pressure is computed anew, in units of the rounding that its updates have left.
+const STALE: f64 = 48.0;
 
 impl<T: Real, L: Real> State<'_, T, L> {
     /// The mean of u·p, twice the elastic energy per area.
@@ -36,11 +36,11 @@ impl<T: Real, L: Real> State<'_, T, L> {
     /// Whether the rounding of the corrections, which the updated pressure has gathered, is no longer small beside the
     /// residual.
     ///
-    /// A response is rounded in their precision. In the norm of the certificate that is `STALE` roundings of the
-    /// energy norm of the change, or less.
+    /// A transform spreads the rounding of a change c evenly over all waves, and their stiffness multiplies it: in the
+    /// norm of the certificate ε √(k⟨c, c⟩), with k the stiffness of the shortest wave.
     pub(super) fn has_lost_its_pressure(&self) -> bool {
         let rounding = STALE * self.rounding_of_corrections();
-        self.certificate < rounding * rounding * self.updates
+        self.certificate < rounding * rounding * self.operators.state().stiffness_range().1 * self.updates
     }
 
     /// The work from the sums of a tally: Σ g·p and Σ g·K⁻¹h.

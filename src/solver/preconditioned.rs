@@ -66,6 +66,8 @@ struct Trial {
     change: f64,
     /// ⟨r', c⟩
     descent: f64,
+    /// ⟨c, c⟩
+    square: f64,
     /// Σ c·K⁻¹h and Σ g·K⁻¹h, if the scale is not one
     surface: [f64; 2],
     /// Σ φ'·c, and Σ φ''·d²
@@ -81,6 +83,8 @@ struct Step {
     scale: f64,
     /// ⟨r', d⟩
     slope: f64,
+    /// ⟨c, c⟩
+    square: f64,
     /// Σ d·p and ⟨d, K⁻¹d⟩
     work: f64,
     elastic: f64,
@@ -173,7 +177,7 @@ impl<T: Real, L: Real> State<'_, T, L> {
         let surface = self.is_gap_controlled().then_some(&self.flat.pressure);
         let local = Potential::new(self.law, &*self.constraint);
         let tried = passes::trial(&mut self.fields, &local, attempt, surface);
-        let Tried { change, clipped, blocked, descent, gap_descent, change_surface, gap_surface, .. } = tried;
+        let Tried { change, clipped, blocked, descent, square, gap_descent, change_surface, gap_surface, .. } = tried;
         let Tried { traction, slope_change, slope_mixed, slope_gap, reach, .. } = tried;
         // the present mean, not the one that is given: a long step would multiply the rounding of their difference
         let present = self.tally.sum_gap;
@@ -189,6 +193,7 @@ impl<T: Real, L: Real> State<'_, T, L> {
             scale,
             change,
             descent,
+            square,
             surface: [change_surface, gap_surface],
             traction,
             slopes: scale * scale * slope_change + 2.0 * scale * rest * slope_mixed + rest * rest * slope_gap,
@@ -237,11 +242,12 @@ impl<T: Real, L: Real> State<'_, T, L> {
                 part.sum[1] += d;
                 part.sum[2] += t * d;
                 part.sum[3] += s * d * d;
+                part.sum[4] += d * d;
             }
             part
         });
-        let [slope, change, traction, slopes, ..] = total.sum;
-        Trial { slope, scale: 1.0, change, descent: slope, traction, slopes, ..trial }
+        let [slope, change, traction, slopes, square, ..] = total.sum;
+        Trial { slope, scale: 1.0, change, descent: slope, square, traction, slopes, ..trial }
     }
 
     /// Subtracts the mean from z, and sets z to zero at nodes in contact that it would press.
@@ -319,13 +325,14 @@ impl<T: Real, L: Real> State<'_, T, L> {
         // near the solution the best lengths scatter about their mean: damp their changes
         let change = if self.near { best.sqrt() } else { best };
         self.step_length = (self.step_length * change.clamp(ADAPT.0, ADAPT.1)).min(LONGEST);
-        (length > 0.0).then_some(Step { length, scale: trial.scale, slope: trial.slope, work, elastic, local: after })
+        let (scale, slope, square) = (trial.scale, trial.slope, trial.square);
+        (length > 0.0).then_some(Step { length, scale, slope, square, work, elastic, local: after })
     }
 
     /// Takes a step: gap, pressure, and the tally of the new state.
     fn advance(&mut self, step: &Step) {
         let projects = self.projects();
-        let &Step { length, scale, slope, work, elastic, local: after } = step;
+        let &Step { length, scale, slope, square, work, elastic, local: after } = step;
         let level = self.is_gap_controlled().then_some(T::lit(self.residual.level));
         let advance = Advance { length: T::lit(length), scale: T::lit(scale), offset: T::lit(self.offset()), level };
         let Self { fields, law, constraint, flat, .. } = self;
@@ -347,7 +354,7 @@ impl<T: Real, L: Real> State<'_, T, L> {
                 Left::Residual(Made { descent, overlap, ..made })
             }
         };
-        self.updates += length * length * elastic / self.nodes();
+        self.updates += (length * scale).powi(2) * square / self.nodes();
         self.age += 1;
     }
 }

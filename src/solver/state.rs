@@ -140,7 +140,7 @@ pub(super) struct State<'a, T, L> {
     pub(super) applications: usize,
     /// steps since the pressure was last computed from the gap
     pub(super) age: usize,
-    /// the sum of ⟨d, K⁻¹d⟩/N over these steps d
+    /// the sum of ⟨c, c⟩/N over these steps, with c their change
     pub(super) updates: f64,
     /// the mean gap of the start
     pub(super) start_gap: f64,

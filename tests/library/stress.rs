@@ -282,16 +282,13 @@ impl Scene {
         // energies
         if self.settings.method == Method::Preconditioned && !detached {
             let size = history.iter().map(|i| i.energy.abs()).fold(magnitude.max(adhesive.abs()), f64::max);
+            let same = |pair: &&[Iteration]| pair[0].round == pair[1].round;
+            // in f64 the energy is summed of changes in f32
+            let summed = (64.0 * epsilon).max(f64::from(f32::EPSILON));
             if !matches!(self.constraint, Constraint::Uzawa(_)) {
-                for round in history.chunk_by(|a, b| a.round == b.round) {
-                    let mut fallen: f64 = 0.0;
-                    for pair in round.windows(2) {
-                        let rise = pair[1].energy - pair[0].energy;
-                        fallen = fallen.max(round[0].energy - pair[1].energy);
-                        // of its own sum, and of the changes in f32 that it is summed of
-                        let allowed = 64.0 * epsilon * size + f64::from(f32::EPSILON) * fallen;
-                        need(rise <= allowed, format!("energy rises by {rise:e} of {size:e} after {fallen:e}"))?;
-                    }
+                for pair in history.windows(2).filter(same) {
+                    let rise = pair[1].energy - pair[0].energy;
+                    need(rise <= summed * size, format!("energy rises by {rise:e} of {size:e}"))?;
                 }
             }
             if projects && let Some(last) = history.last().filter(|last| !last.smoothed) {

@@ -37,6 +37,8 @@ pub(in crate::solver) struct Tried {
     pub(in crate::solver) blocked: f64,
     /// Σ r'·c
     pub(in crate::solver) descent: f64,
+    /// Σ c²
+    pub(in crate::solver) square: f64,
     /// Σ r'·g, Σ c·K⁻¹h and Σ g·K⁻¹h, under gap control
     pub(in crate::solver) gap_descent: f64,
     pub(in crate::solver) change_surface: f64,
@@ -127,31 +129,32 @@ pub(in crate::solver) fn trial<T: Real, L: Real>(
     };
     let total = match surface {
         None => reducer.run(chunks, |first, (((gap, residual), z), change)| {
-            let mut part = sums!(4, [gap, residual, z], [change], |i| {
+            let mut part = sums!(5, [gap, residual, z], [change], |i| {
                 let (g, r) = (gap[i], residual[i]);
                 let (c, clipped) = clipped_change(attempt, g, r, z[i], change[i]);
                 change[i] = c;
                 let blocked = clipped & (r > L::zero()) & (g > T::zero());
-                ([c.widen(), count(clipped), count(blocked), r.widen() * c.widen()], reach(g, c))
+                let (low, [r, c]) = (reach(g, c), [r, c].map(L::widen));
+                ([c, count(clipped), count(blocked), r * c, c * c], low)
             });
             slopes(&mut part, first, gap, change);
             part
         }),
         Some(surface) => reducer.run(chunks.zip(read(surface)), |first, ((((gap, residual), z), change), surface)| {
-            let mut part = sums!(7, [gap, residual, z, surface], [change], |i| {
+            let mut part = sums!(8, [gap, residual, z, surface], [change], |i| {
                 let (g, r) = (gap[i], residual[i]);
                 let (c, clipped) = clipped_change(attempt, g, r, z[i], change[i]);
                 change[i] = c;
                 let blocked = count(clipped & (r > L::zero()) & (g > T::zero()));
                 let low = reach(g, c);
                 let ([g, h], [r, c]) = ([g, surface[i]].map(T::widen), [r, c].map(L::widen));
-                ([c, count(clipped), blocked, r * c, r * g, c * h, g * h], low)
+                ([c, count(clipped), blocked, r * c, c * c, r * g, c * h, g * h], low)
             });
             slopes(&mut part, first, gap, change);
             part
         }),
     };
-    let [change, clipped, blocked, descent, gap_descent, change_surface, gap_surface, ..] = total.sum;
+    let [change, clipped, blocked, descent, square, gap_descent, change_surface, gap_surface, ..] = total.sum;
     let [.., traction, slope_change, slope_mixed, slope_gap] = total.sum;
     let reach = total.min;
     Tried {
@@ -159,6 +162,7 @@ pub(in crate::solver) fn trial<T: Real, L: Real>(
         clipped,
         blocked,
         descent,
+        square,
         gap_descent,
         change_surface,
         gap_surface,
