@@ -2,13 +2,14 @@
 
 use std::f64::consts::PI;
 use std::fmt;
+use std::marker::PhantomData;
 use std::sync::Arc;
 
 use asperity_fft::num_complex::Complex;
 
 use super::*;
 use crate::fft::{Convolver, Layout, Sums};
-use crate::real::cast;
+use crate::real::{Compiled, cast};
 use crate::vector::{BLOCK, LANES, vectorised};
 
 /// The stiffness k(qx, qy) of a wave, pressure per displacement.
@@ -296,6 +297,97 @@ fn weigh(layout: Layout, column: usize, sums: Sums) -> Sums {
     sums.map(|sum| layout.weight(column) * sum)
 }
 
+/// What an application multiplies each wave by.
+enum Factor<'a> {
+    Stiffness,
+    Compliance,
+    Preconditioner(Foundation<'a>),
+}
+
+/// An application, which returns the sums over the modes.
+struct Apply<'a>(PhantomData<&'a ()>);
+
+impl<'a> Compiled for Apply<'a> {
+    type Input<T: Real> = (&'a mut Spectral<T>, ArrayView2<'a, T>, ArrayViewMut2<'a, T>, Factor<'a>);
+    type Output<T: Real> = Result<Sums>;
+    fn single((operator, input, output, factor): Self::Input<f32>) -> Result<Sums> {
+        operator.convolve(input, output, factor)
+    }
+    fn double((operator, input, output, factor): Self::Input<f64>) -> Result<Sums> {
+        operator.convolve(input, output, factor)
+    }
+}
+
+/// The pressure of heights in `f64`, which returns the sums over the modes.
+struct PressFlat<'a>(PhantomData<&'a ()>);
+
+impl<'a> Compiled for PressFlat<'a> {
+    type Input<T: Real> = (&'a Spectral<T>, ArrayView2<'a, f64>, ArrayViewMut2<'a, T>);
+    type Output<T: Real> = Result<Sums>;
+    fn single((operator, heights, pressure): Self::Input<f32>) -> Result<Sums> {
+        operator.press_flat(heights, pressure)
+    }
+    fn double((operator, heights, pressure): Self::Input<f64>) -> Result<Sums> {
+        operator.press_flat(heights, pressure)
+    }
+}
+
+impl<T: Real> Spectral<T> {
+    fn apply(&mut self, input: ArrayView2<'_, T>, output: ArrayViewMut2<'_, T>, factor: Factor<'_>) -> Result<Sums> {
+        T::call::<Apply<'_>>((self, input, output, factor))
+    }
+
+    fn convolve(&mut self, input: ArrayView2<'_, T>, output: ArrayViewMut2<'_, T>, factor: Factor<'_>) -> Result<Sums> {
+        let Self { stiffness, range: (softest, _), convolver, .. } = self;
+        let layout = convolver.layout();
+        match factor {
+            Factor::Stiffness => {
+                convolver.convolve(input, output, |k, column| weigh(layout, k, stiffness.modify(k, column, stiffen)))
+            }
+            Factor::Compliance => convolver.convolve(input, output, |k, column| {
+                weigh(layout, k, soften((stiffness, *softest), k, column, T::zero(), T::zero()))
+            }),
+            Factor::Preconditioner(Foundation { stiffness: shift, mean_stiffness, coarse }) => {
+                let shift = T::lit(if *softest > 0.0 { shift / *softest } else { 0.0 });
+                let mean = T::lit(1.0 / mean_stiffness);
+                convolver.convolve_after(
+                    input,
+                    output,
+                    coarse.as_ref().map_or(0, |coarse| coarse.columns()),
+                    |spectrum| {
+                        coarse.map(|coarse| {
+                            coarse.respond(spectrum);
+                            &*coarse
+                        })
+                    },
+                    |coarse, k, column| {
+                        let mut sums = soften((stiffness, *softest), k, column, shift, mean);
+                        if let Some(coarse) = coarse {
+                            coarse.put(k, column, &mut sums);
+                        }
+                        weigh(layout, k, sums)
+                    },
+                )
+            }
+        }
+    }
+
+    fn press_flat(&self, heights: ArrayView2<'_, f64>, pressure: ArrayViewMut2<'_, T>) -> Result<Sums> {
+        let stiffness = match &self.stiffness {
+            Stiffness::Stored(_) => Stiffness::Stored(stiffness(&self.grid, &self.symbol)?),
+            _ => half_space(&self.grid, self.modulus)?.0,
+        };
+        let layout = self.convolver.layout();
+        Convolver::<f64>::new(self.grid.shape())
+            .convolve(heights, pressure, |k, column| weigh(layout, k, stiffness.modify(k, column, stiffen)))
+    }
+
+    /// The number of nodes squared, over which a sum over modes is a mean over nodes.
+    fn norm(&self) -> f64 {
+        (self.grid.nodes() as f64).powi(2)
+    }
+}
+
 impl<T: Real> ElasticOperator<T> for Spectral<T> {
     fn grid(&self) -> &Grid {
         &self.grid
@@ -306,18 +398,12 @@ impl<T: Real> ElasticOperator<T> for Spectral<T> {
     }
 
     fn pressure_and_work(&mut self, displacement: ArrayView2<'_, T>, pressure: ArrayViewMut2<'_, T>) -> Result<f64> {
-        let (stiffness, layout) = (&self.stiffness, self.convolver.layout());
-        let [sum, ..] = self
-            .convolver
-            .convolve(displacement, pressure, |k, column| weigh(layout, k, stiffness.modify(k, column, stiffen)))?;
-        Ok(sum / (self.grid.nodes() as f64).powi(2))
+        let [work, ..] = self.apply(displacement, pressure, Factor::Stiffness)?;
+        Ok(work / self.norm())
     }
 
     fn displacement(&mut self, pressure: ArrayView2<'_, T>, displacement: ArrayViewMut2<'_, T>) -> Result<()> {
-        let stiffness = (&self.stiffness, self.range.0);
-        self.convolver
-            .convolve(pressure, displacement, |k, column| soften(stiffness, k, column, T::zero(), T::zero()))?;
-        Ok(())
+        self.apply(pressure, displacement, Factor::Compliance).map(|_| ())
     }
 
     fn stiffness_range(&self) -> (f64, f64) {
@@ -329,14 +415,8 @@ impl<T: Real> ElasticOperator<T> for Spectral<T> {
     }
 
     fn surface_pressure(&mut self, heights: ArrayView2<'_, f64>, pressure: ArrayViewMut2<'_, T>) -> Result<f64> {
-        let stiffness = match &self.stiffness {
-            Stiffness::Stored(_) => Stiffness::Stored(stiffness(&self.grid, &self.symbol)?),
-            _ => half_space(&self.grid, self.modulus)?.0,
-        };
-        let layout = self.convolver.layout();
-        let [sum, ..] = Convolver::<f64>::new(self.grid.shape())
-            .convolve(heights, pressure, |k, column| weigh(layout, k, stiffness.modify(k, column, stiffen)))?;
-        Ok(sum / (self.grid.nodes() as f64).powi(2))
+        let [work, ..] = T::call::<PressFlat<'_>>((self, heights, pressure))?;
+        Ok(work / self.norm())
     }
 
     fn in_single(&self) -> Option<Box<dyn ElasticOperator<f32>>> {
@@ -367,28 +447,8 @@ impl<T: Real> ElasticOperator<T> for Spectral<T> {
         foundation: Foundation<'_>,
         preconditioned: ArrayViewMut2<'_, T>,
     ) -> Result<Preconditioned> {
-        let Foundation { stiffness, mean_stiffness, coarse } = foundation;
-        let (of_waves, layout) = ((&self.stiffness, self.range.0), self.convolver.layout());
-        let shift = T::lit(if self.range.0 > 0.0 { stiffness / self.range.0 } else { 0.0 });
-        let (mean, nodes) = (T::lit(1.0 / mean_stiffness), self.grid.nodes() as f64);
-        let [error, descent, mean] = self.convolver.convolve_after(
-            residual,
-            preconditioned,
-            coarse.as_ref().map_or(0, |coarse| coarse.columns()),
-            |spectrum| {
-                coarse.map(|coarse| {
-                    coarse.respond(spectrum);
-                    &*coarse
-                })
-            },
-            |coarse, k, column| {
-                let mut sums = soften(of_waves, k, column, shift, mean);
-                if let Some(coarse) = coarse {
-                    coarse.put(k, column, &mut sums);
-                }
-                weigh(layout, k, sums)
-            },
-        )?;
-        Ok(Preconditioned { error: error / nodes.powi(2), descent: descent / nodes.powi(2), mean: mean / nodes })
+        let [error, descent, mean] = self.apply(residual, preconditioned, Factor::Preconditioner(foundation))?;
+        let mean = mean / self.grid.nodes() as f64;
+        Ok(Preconditioned { error: error / self.norm(), descent: descent / self.norm(), mean })
     }
 }
