@@ -10,7 +10,7 @@ use crate::real::Real;
 const ROUNDINGS: f64 = 8.0;
 
 /// The residual below which the pressure is computed anew, in units of the rounding that its updates have left.
-const STALE: f64 = 48.0;
+const STALE: f64 = 200.0;
 
 impl<T: Real, L: Real> State<'_, T, L> {
     /// The mean of u·p, twice the elastic energy per area.
