@@ -21,7 +21,8 @@ type Symbol = Arc<dyn Fn(f64, f64) -> f64 + Send + Sync>;
 /// has a layer of finite thickness with its limits, and treats the mean. For the homogeneous half-space,
 /// k = E*|q|/2, see [`Westergaard`].
 ///
-/// Memory per node, in units of one scalar: 1 for the spectrum and ½ for the stiffness; both once more, in `f64`,
+/// Memory per node, in units of one scalar: 1 for the spectrum, which a solve in `f64` gives back, and ½ for the
+/// stiffness, of which such a solve has one in `f32`, too; both once more, in `f64`,
 /// while the constructor of a [`Problem`](crate::Problem) transforms the heights.
 ///
 /// ```

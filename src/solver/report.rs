@@ -84,7 +84,7 @@ pub struct Iteration {
     /// The relative error of the load, [`Report::load_error`].
     pub load_error: f64,
     /// The energy that is minimised, per area: elastic and adhesive energy, and under pressure control p̄ times the
-    /// mean gap.
+    /// mean gap. It is summed up step by step, in `f64` to the rounding of `f32`; the report has it as it is.
     pub energy: f64,
     /// The mean gap.
     pub mean_gap: f64,

@@ -294,7 +294,8 @@ impl Scene {
             if projects && let Some(last) = history.last().filter(|last| !last.smoothed) {
                 let load = if let Control::MeanPressure(p) = self.control { p } else { 0.0 };
                 let energy = 0.5 * work + adhesive + load * mean(&gap);
-                let allowed = 256.0 * epsilon * (size + magnitude + (load * mean(&gap)).abs());
+                let allowed =
+                    (256.0 * epsilon).max(f64::from(f32::EPSILON)) * (size + magnitude + (load * mean(&gap)).abs());
                 close("last energy", last.energy, energy, allowed + by_matrix)?;
             }
         }
