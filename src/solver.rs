@@ -166,6 +166,8 @@ impl Settings {
 ///
 /// Memory per node, in scalars: five, of which the solution keeps three, beside those of the problem. With a
 /// [`Westergaard`](crate::Westergaard) half-space that makes seven in all, of the precision of the solve.
+/// With [`Boussinesq`](crate::Boussinesq), whose grid has four times the nodes of the surface or somewhat more, 29 of the
+/// surface in `f64`.
 /// The [`CoarseSpace`](crate::CoarseSpace) adds up to 13 N^(2/3) numbers in `f64`: a fifth of a field on 512² nodes, and 5 % on
 /// 4096².
 ///
