@@ -405,6 +405,12 @@ fn single_precision_and_nested_grids_come_to_the_same_state() {
     };
     assert!((single.report.approach.unwrap() / one.report.approach.unwrap() - 1.0).abs() < 1e-4);
     assert_eq!(single.report.precision, "f32");
+    let approach = one.report.approach.unwrap();
+    for control in [Control::Approach(approach), Control::Spring { stiffness: 0.1, rest: approach + 1e-3 / 0.1 }] {
+        let half_space = Boussinesq::<f32>::new(*surface.grid(), 1.0).unwrap();
+        let single = solve(&mut Problem::new(&surface, half_space, NoAdhesion).unwrap(), control, 1e-4);
+        assert!((single.report.normal_force / 1e-3 - 1.0).abs() < 1e-3, "{}", single.report.normal_force);
+    }
     for control in [control, Control::Approach(one.report.approach.unwrap())] {
         let half_space = |grid| Boussinesq::<f64>::new(grid, 1.0);
         let nested = Nested::default().solve(&surface, half_space, NoAdhesion, control).unwrap();
