@@ -27,6 +27,18 @@ pub(super) struct Job<'a, T> {
     pub(super) observe: Observer<'a>,
 }
 
+/// A mean pressure that is nothing beside the rounding of corrections in `f32`, over the rms pressure that presses the
+/// surface flat.
+const LIGHT: f64 = 1e-8;
+
+impl<T> Job<'_, T> {
+    /// Whether the load is so light that corrections in `f32` would not find the first contact.
+    fn is_light(&self) -> bool {
+        let flat = self.flat.stiffness * self.flat.rms_height;
+        matches!(self.control, Control::MeanPressure(pressure) if pressure.abs() < LIGHT * flat)
+    }
+}
+
 /// The observer, called in every iteration, which may stop the solve.
 pub(crate) type Observer<'a> = &'a mut dyn FnMut(&Iteration) -> ControlFlow<()>;
 
@@ -54,11 +66,10 @@ impl<'a> Compiled for Solve<'a> {
         run(&mut One(operator), job)
     }
     fn double((operator, job): Self::Input<f64>) -> Result<Solution<f64>> {
-        match operator.in_single() {
-            Some(corrections) if job.settings.method == Method::Preconditioned => {
-                run(&mut Two::new(operator, corrections), job)
-            }
-            _ => run(&mut One(operator), job),
+        let two = job.settings.method == Method::Preconditioned && !job.is_light();
+        match operator.in_single().filter(|_| two) {
+            Some(corrections) => run(&mut Two::new(operator, corrections), job),
+            None => run(&mut One(operator), job),
         }
     }
 }
