@@ -60,7 +60,8 @@ def test_what_is_no_map_of_numbers_is_refused():
 
 
 def test_one_length_means_square_cells(rough):
-    assert asperity.solve(rough.heights[:, :32], 1.0, modulus=1.0, mean_gap=0.01).lengths == (1.0, 0.5)
+    assert asperity.prepare(rough.heights[:, :32], 1.0).lengths == (1.0, 0.5)
+    assert asperity.surface.self_affine((64, 32), 1.0, rms_slope=0.1, k_s=8).lengths == (1.0, 0.5)
 
 
 class Map:

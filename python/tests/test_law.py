@@ -93,9 +93,6 @@ def test_kinks_and_jumps_are_enclosed(rough):
         solution = asperity.solve(rough, modulus=1.0, mean_gap=0.012, law=law)
         # the adhesive energy of the table is that of the law, node by node
         assert np.isclose(solution.adhesive_energy, law.energy(solution.gap).mean(), rtol=1e-10)
-        traction = solution.contact_pressure - solution.pressure
-        apart = ~solution.contact
-        assert np.allclose(traction[apart], law.traction(solution.gap[apart]), atol=1e-9 * law.w / law.range)
 
 
 def test_a_jump_in_python_is_as_good_as_maugis_dugdale(rough):

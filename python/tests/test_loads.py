@@ -19,7 +19,7 @@ def test_a_sweep_gives_its_solutions_one_by_one(rough):
 
 def test_columns_are_a_table_of_pandas(rough, law):
     table = pd.DataFrame(asperity.sweep(rough, modulus=1.0, mean_gaps=np.array([0.02, 0.015]), law=law).columns)
-    assert len(table) == 2 and table.mean_gap.tolist() == [0.02, 0.015]
+    assert len(table) == 2 and np.allclose(table.mean_gap, [0.02, 0.015], rtol=1e-14)
     assert (table.status == "converged").all() and table.dtypes["iterations"] == np.int64
 
 
@@ -49,12 +49,12 @@ def test_a_sweep_warns_for_each_load_that_has_not_converged(rough):
 
 def test_a_cycle_finds_the_jumps_and_keeps_the_balance_of_energy():
     wave = 0.02 * np.cos(2 * np.pi * np.arange(64) / 64)
-    law = asperity.Exponential(1e-3, 1e-3)
-    cycle = asperity.cycle(wave, 1.0, modulus=1.0, law=law, mean_gaps=[0.06, 0.012, 0.06], steps=10)
+    law = asperity.Exponential(1e-3, 8e-3)
+    cycle = asperity.cycle(wave, 1.0, modulus=1.0, law=law, mean_gaps=[0.08, 0.01, 0.08], steps=10)
     first = next(cycle)
     assert first.leg == 0 and first.solution.gap.shape == (64,) and "leg 0" in repr(first)
     names = [event["event"] for event in cycle.events]
-    assert "jump-in" in names and "pull-off" in names
+    assert names == ["jump-in", "pull-off"]
     table = pd.DataFrame(cycle.columns)
     last = table.iloc[-1]
     assert last.dissipated > 0 and abs(last.imbalance) < 0.05 * last.dissipated

@@ -27,10 +27,10 @@ def test_a_solution_is_drawn(tmp_path, rough, law, form):
 
 def test_a_line_a_sweep_a_cycle_and_a_map_are_drawn(rough):
     wave = 0.02 * np.cos(2 * np.pi * np.arange(64) / 64)
-    law = asperity.Exponential(1e-3, 1e-3)
+    law = asperity.Exponential(1e-3, 8e-3)
     assert len(asperity.solve(wave, 1.0, modulus=1.0, mean_gap=0.01).plot().axes) == 2
     sweep = asperity.sweep(rough, modulus=1.0, mean_pressures=[0.005, 0.01])
     assert sweep.plot(pressure_unit="Pa").get_xlabel() == "mean pressure (mPa)"
-    cycle = asperity.cycle(wave, 1.0, modulus=1.0, law=law, mean_gaps=[0.06, 0.012, 0.06], steps=5)
+    cycle = asperity.cycle(wave, 1.0, modulus=1.0, law=law, mean_gaps=[0.08, 0.01, 0.08], steps=5)
     assert cycle.plot(length_unit="m").get_xlabel() == "mean gap (mm)"
     assert rough.plot().get_xlabel() == "x"

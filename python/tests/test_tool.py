@@ -36,8 +36,9 @@ def test_fields_have_the_same_bits_and_the_report_the_same_keys(tmp_path, tool, 
         assert np.load(tmp_path / "out" / f"{field}.npy").tobytes() == getattr(solution, field).tobytes()
     report = json.loads((tmp_path / "out" / "report.json").read_text())
     assert list(report) == list(solution.report)
+    found = json.loads(json.dumps(solution.report), parse_constant=lambda _: None)
     for key in report.keys() - DIFFERENT:
-        assert report[key] == pytest.approx(solution.report[key], rel=0, abs=0), key
+        assert report[key] == found[key], key
 
 
 def test_a_sweep_has_the_columns_of_the_tool(tmp_path, tool, rough, law):
