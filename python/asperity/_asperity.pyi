@@ -6,6 +6,29 @@ from typing import Any, final
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+__all__ = [
+    "AdhesiveWavyLine",
+    "Contact",
+    "Exponential",
+    "Hertz",
+    "Iteration",
+    "Jkr",
+    "MaugisDugdale",
+    "MaugisSphere",
+    "Problem",
+    "VERSION",
+    "WaveContact",
+    "WavyLine",
+    "check_law",
+    "closing_pressure_2d",
+    "clusters",
+    "prepare",
+    "read",
+    "self_affine",
+    "spectrum",
+    "statistics",
+]
+
 VERSION: str
 
 _Field = NDArray[np.float64]

@@ -39,13 +39,10 @@ def _label(name: str, unit: str) -> str:
     return f"{name} ({unit})" if unit else name
 
 
-def _extent(topography_shape: tuple[int, ...], lengths: tuple[float, float], factor: float) -> list[float]:
-    """The outer edges of the cells, about the node at the origin, for ``imshow``."""
-    edges = []
-    for nodes, length in zip(topography_shape, lengths):
-        spacing = factor * length / nodes
-        edges += [-(nodes // 2 + 0.5) * spacing, (nodes - nodes // 2 - 0.5) * spacing]
-    return edges
+def _edges(nodes: int, length: float) -> tuple[float, float]:
+    """The outer edges of the cells along an axis, about the node at the origin."""
+    spacing = length / nodes
+    return (-(nodes // 2 + 0.5) * spacing, (nodes - nodes // 2 - 0.5) * spacing)
 
 
 def _map(
@@ -54,7 +51,8 @@ def _map(
     """A field with x to the right and y up."""
     factor, unit = _scaled(lengths, length_unit)
     options.setdefault("interpolation", "nearest")
-    image = ax.imshow(field.T, origin="lower", extent=tuple(_extent(field.shape, lengths, factor)), **options)
+    (left, right), (bottom, top) = (_edges(nodes, factor * length) for nodes, length in zip(field.shape, lengths))
+    image = ax.imshow(field.T, origin="lower", extent=(left, right, bottom, top), **options)
     ax.set_xlabel(_label("x", unit))
     ax.set_ylabel(_label("y", unit))
     return image

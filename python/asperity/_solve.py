@@ -88,10 +88,10 @@ def solve(
     >>> import numpy as np, asperity
     >>> x = np.arange(64) / 64 - 0.5
     >>> sphere = -(x[:, None] ** 2 + x**2) / 4
-    >>> law = asperity.MaugisDugdale(work_of_adhesion=1e-4, range=2e-3)
+    >>> law = asperity.MaugisDugdale(work_of_adhesion=1e-4, range=4e-3)
     >>> solution = asperity.solve(sphere, 1.0, modulus=1.0, mean_gap=0.0398, law=law)
     >>> solution.status, int(solution.contact.sum())
-    ('converged', 89)
+    ('converged', 185)
     """
     load = _control.one(mean_pressure=mean_pressure, mean_gap=mean_gap)
     scene = Scene(heights, lengths, modulus, law, precision, tolerance, max_iterations, method, threads)

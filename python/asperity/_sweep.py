@@ -127,7 +127,7 @@ def sweep(
     >>> rough = asperity.surface.self_affine(64, 1.0, rms_slope=0.1, k_s=8, seed=1)
     >>> found = asperity.sweep(rough, modulus=1.0, mean_pressures=np.geomspace(1e-3, 1e-2, 3))
     >>> [f"{share:.3f}" for share in found.columns["contact_fraction"]]
-    ['0.004', '0.012', '0.042']
+    ['0.030', '0.081', '0.219']
     """
     loads = _control.many(mean_pressures=mean_pressures, mean_gaps=mean_gaps)
     scene = Scene(heights, lengths, modulus, law, precision, tolerance, max_iterations, method, threads)

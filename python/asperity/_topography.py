@@ -232,12 +232,13 @@ def field_of(values: Any, name: str) -> NDArray[np.float64]:
 
 def _array(values: ArrayLike, name: str = "heights") -> tuple[NDArray[np.float64], bool]:
     """Values as a matrix of float64, and whether they are one line; masked points become NaN."""
-    array = np.ma.asanyarray(values) if isinstance(values, np.ma.MaskedArray) else np.asarray(values)
+    masked = isinstance(values, np.ma.MaskedArray)
+    array: Any = values if masked else np.asarray(values)
     if array.dtype.kind not in "fiub":
         raise TypeError(f"{name} are an array of {array.dtype}: they must be real numbers")
     if array.ndim not in (1, 2) or array.size == 0:
         raise ValueError(f"{name} have shape {array.shape}: they must be (Nx, Ny), or (N,) on a line")
-    if isinstance(array, np.ma.MaskedArray):
+    if masked:
         array = array.astype(np.float64).filled(np.nan)
     array = np.asarray(array, dtype=np.float64)
     return (array[:, None], True) if array.ndim == 1 else (array, False)
