@@ -85,25 +85,30 @@ def _profile(ax: Axes, values: NDArray[Any], length: float, length_unit: str | N
 def solution(found: Solution, length_unit: str | None, pressure_unit: str | None) -> Figure:
     """Contact and pressure of a solution, side by side."""
     plt = _pyplot()
-    factor, unit = _scaled(found.pressure, pressure_unit)
-    pressure = factor * np.asarray(found.pressure, dtype=float)
+    # without adhesion the elastic pressure is the contact pressure but for the tolerance of the solve, of either sign
+    adhesive = found.report["law"] != "none"
+    field = found.pressure if adhesive else found.contact_pressure
+    factor, unit = _scaled(field, pressure_unit)
+    pressure = factor * np.asarray(field, dtype=float)
     if found.gap.ndim == 1:
         return _lines(found, pressure, length_unit, unit)
-    adhesive = bool((pressure < 0).any())
-    ratios = [3.4, 4.9 if adhesive else 4.1]
-    figure, (left, right) = plt.subplots(1, 2, figsize=(sum(ratios), 3.4), width_ratios=ratios, layout="constrained")
+    figure, (left, right) = plt.subplots(1, 2, figsize=(8.6 if adhesive else 7.8, 3.4), sharey=True, layout="compressed")
     _map(left, found.contact.astype(float), found.lengths, length_unit, cmap="Greys", vmin=0, vmax=1.15)
     left.set_title(f"contact {100 * found.contact_fraction:.3g} %")
     # compression and tension differ by orders of magnitude: each has a scale of its own
     compression = np.ma.masked_less_equal(pressure, 0.0)
     largest = float(pressure.max()) if (pressure > 0).any() else 1.0
     image = _map(right, compression, found.lengths, length_unit, cmap="YlOrRd", vmin=0.0, vmax=largest)
-    figure.colorbar(image, ax=right, label=_label("compression" if adhesive else "pressure", unit))
+    bars = [(image, "compression" if adhesive else "pressure")]
     if adhesive:
         tension = np.ma.masked_less_equal(-pressure, 0.0)
-        image = _map(right, tension, found.lengths, length_unit, cmap="Blues", vmin=0.0, vmax=float(-pressure.min()))
-        figure.colorbar(image, ax=right, label=_label("tension", unit))
-    right.set_title("pressure")
+        image = _map(right, tension, found.lengths, length_unit, cmap="Blues", vmin=0.0, vmax=max(-pressure.min(), 0.0))
+        bars.append((image, "tension"))
+    # the last bar is drawn next to the map
+    for image, name in reversed(bars):
+        figure.colorbar(image, ax=right, label=_label(name, unit), pad=0.03)
+    right.set_title("elastic pressure" if adhesive else "contact pressure")
+    right.set_ylabel("")
     return figure  # type: ignore[no-any-return]
 
 

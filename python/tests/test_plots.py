@@ -25,6 +25,11 @@ def test_a_solution_is_drawn(tmp_path, rough, law, form):
     assert "compression (mPa)" in labels and any(label.startswith("tension (") for label in labels)
 
 
+def test_without_adhesion_there_is_no_scale_of_tension(rough):
+    figure = asperity.solve(rough, modulus=1.0, mean_pressure=0.01).plot()
+    assert [axes.get_ylabel() for axes in figure.axes] == ["y", "", "pressure"]
+
+
 def test_a_line_a_sweep_a_cycle_and_a_map_are_drawn(rough):
     wave = 0.02 * np.cos(2 * np.pi * np.arange(64) / 64)
     law = asperity.Exponential(1e-3, 8e-3)
