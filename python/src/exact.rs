@@ -24,8 +24,8 @@ fn fields<'py, S>(
 
 /// A property of states, as a getter.
 macro_rules! states {
-    ($class:ident($state:ty) { $($property:ident,)* } { $($field:ident($place:ident),)* }) => {
-        #[doc = concat!("States of the exact solution: `asperity::exact::", stringify!($class), "`.")]
+    ($(#[$doc:meta])* $class:ident($state:ty) { $($property:ident,)* } { $($field:ident($place:ident),)* }) => {
+        $(#[$doc])*
         #[pyclass(frozen, module = "asperity.exact")]
         pub struct $class(ArrayD<$state>);
 
@@ -42,18 +42,52 @@ macro_rules! states {
     };
 }
 
-states!(Contact(exact::Contact) {
-    contact_radius, adhesion_radius, load, approach, radius_of_curvature, second_moment,
-} { pressure(r), gap(r), displacement(r), deflection(r), });
+states! {
+    /// Axisymmetric contacts of a paraboloid −r²/2R with a half-space; numbers have the shape of what they were found at.
+    ///
+    /// Attributes
+    /// ----------
+    /// contact_radius, adhesion_radius : float or ndarray
+    ///     Radii up to which the surfaces touch, and attract each other.
+    /// load : float or ndarray
+    ///     Load P, compression positive.
+    /// approach : float or ndarray
+    ///     Approach δ of the half-space at infinity.
+    /// radius_of_curvature, second_moment : float or ndarray
+    ///     Radius R, and the integral of r²p.
+    ///
+    /// Notes
+    /// -----
+    /// pressure(r), gap(r), displacement(r), which is u = h + g, and deflection(r), which is u + δ, are fields at the distances
+    /// r ≥ 0 from the axis: the shape of the contacts, then that of r.
+    Contact(exact::Contact) {
+        contact_radius, adhesion_radius, load, approach, radius_of_curvature, second_moment,
+    } { pressure(r), gap(r), displacement(r), deflection(r), }
+}
 
-states!(WaveContact(exact::WaveContact) { half_width, mean_pressure, mean_gap, } {
-    pressure(x), gap(x), displacement(x),
-});
+states! {
+    /// Contacts of a wave h₀ cos(2πx/λ) with a half-space; numbers have the shape of what they were found at.
+    ///
+    /// Attributes
+    /// ----------
+    /// half_width : float or ndarray
+    ///     Half-width a of the contact about each crest.
+    /// mean_pressure, mean_gap : float or ndarray
+    ///     Mean pressure p̄ and mean gap.
+    ///
+    /// Notes
+    /// -----
+    /// pressure(x), gap(x) and displacement(x) are fields at the distances x from a crest: the shape of the contacts, then that
+    /// of x.
+    WaveContact(exact::WaveContact) { half_width, mean_pressure, mean_gap, } {
+        pressure(x), gap(x), displacement(x),
+    }
+}
 
 /// A solution for a sphere as a class.
 macro_rules! sphere {
-    ($class:ident as $name:literal ($($parameter:ident),*) { $($more:tt)* }) => {
-        #[doc = concat!("The exact solution `asperity::exact::", $name, "`.")]
+    ($(#[$doc:meta])* $class:ident as $name:literal ($($parameter:ident),*) { $($more:tt)* }) => {
+        $(#[$doc])*
         #[pyclass(frozen, name = $name, module = "asperity.exact")]
         pub struct $class(exact::$class);
 
@@ -63,15 +97,22 @@ macro_rules! sphere {
             fn new($($parameter: f64),*) -> PyResult<Self> {
                 exact::$class::new($($parameter),*).map(Self).map_err(refusal)
             }
-            fn at_load(&self, load: Numbers<'_>) -> PyResult<Contact> {
+            /// Stable contacts at loads P, compression positive.
+            /// Stable contacts at loads P, compression positive.
+    fn at_load(&self, load: Numbers<'_>) -> PyResult<Contact> {
                 tried(load.as_array(), |load| self.0.at_load(load).map_err(refusal)).map(Contact)
             }
-            fn at_approach(&self, approach: Numbers<'_>) -> PyResult<Contact> {
+            /// Stable contacts at approaches δ.
+            /// Stable contacts at approaches δ.
+    fn at_approach(&self, approach: Numbers<'_>) -> PyResult<Contact> {
                 tried(approach.as_array(), |approach| self.0.at_approach(approach).map_err(refusal)).map(Contact)
             }
-            fn at_contact_radius(&self, radius: Numbers<'_>) -> PyResult<Contact> {
+            /// Contacts of radii a ≥ 0.
+            /// Contacts of radii a ≥ 0.
+    fn at_contact_radius(&self, radius: Numbers<'_>) -> PyResult<Contact> {
                 tried(radius.as_array(), |radius| self.0.at_contact_radius(radius).map_err(refusal)).map(Contact)
             }
+            /// Contact of least load: the pull-off force is minus its load.
             fn pull_off(&self) -> Contact {
                 Contact(ArrayD::from_elem(IxDyn(&[]), self.0.pull_off()))
             }
@@ -80,19 +121,56 @@ macro_rules! sphere {
     };
 }
 
-sphere!(Hertz as "Hertz" (radius, modulus) {});
-sphere!(Jkr as "Jkr" (radius, modulus, work_of_adhesion) {});
-sphere!(MaugisDugdale as "MaugisDugdale" (radius, modulus, work_of_adhesion, range) {
+sphere! {
+    /// Hertz' contact of a sphere, without adhesion: P = 4E*a³/(3R), δ = a²/R.
+    ///
+    /// Parameters
+    /// ----------
+    /// radius : float
+    ///     Radius of curvature R, a length.
+    /// modulus : float
+    ///     Contact modulus E*, a pressure.
+    Hertz as "Hertz" (radius, modulus) {}
+}
+sphere! {
+    /// The contact of Johnson, Kendall and Roberts, with adhesion of no range.
+    ///
+    /// Parameters
+    /// ----------
+    /// radius : float
+    ///     Radius of curvature R, a length.
+    /// modulus : float
+    ///     Contact modulus E*, a pressure.
+    /// work_of_adhesion : float
+    ///     Work of adhesion w, an energy per area.
+    Jkr as "Jkr" (radius, modulus, work_of_adhesion) {}
+}
+sphere! {
+    /// Maugis' contact of a sphere, with a constant traction w/ρ up to a gap ρ.
+    ///
+    /// Parameters
+    /// ----------
+    /// radius : float
+    ///     Radius of curvature R, a length.
+    /// modulus : float
+    ///     Contact modulus E*, a pressure.
+    /// work_of_adhesion : float
+    ///     Work of adhesion w, an energy per area.
+    /// range : float
+    ///     Range ρ, a length.
+    MaugisDugdale as "MaugisDugdale" (radius, modulus, work_of_adhesion, range) {
+    /// Tabor parameter: large for JKR, small for DMT.
     #[getter]
     fn tabor_parameter(&self) -> f64 {
         self.0.tabor_parameter()
     }
-});
+    }
+}
 
 /// A solution for a wave as a class.
 macro_rules! wave {
-    ($class:ident($($parameter:ident),*) { $($more:tt)* }) => {
-        #[doc = concat!("The exact solution `asperity::exact::", stringify!($class), "`.")]
+    ($(#[$doc:meta])* $class:ident($($parameter:ident),*) { $($more:tt)* }) => {
+        $(#[$doc])*
         #[pyclass(frozen, module = "asperity.exact")]
         pub struct $class(exact::$class);
 
@@ -102,17 +180,25 @@ macro_rules! wave {
             fn new($($parameter: f64),*) -> PyResult<Self> {
                 exact::$class::new($($parameter),*).map(Self).map_err(refusal)
             }
+            /// Mean pressure at which the contact closes without adhesion.
             #[getter]
-            fn closing_pressure(&self) -> f64 {
+            /// Mean pressure at which the contact closes without adhesion.
+    fn closing_pressure(&self) -> f64 {
                 self.0.closing_pressure()
             }
-            fn at_half_width(&self, half_width: Numbers<'_>) -> PyResult<WaveContact> {
+            /// Contacts of half-widths a.
+            /// Contacts of half-widths a.
+    fn at_half_width(&self, half_width: Numbers<'_>) -> PyResult<WaveContact> {
                 tried(half_width.as_array(), |a| self.0.at_half_width(a).map_err(refusal)).map(WaveContact)
             }
-            fn at_mean_pressure(&self, mean_pressure: Numbers<'_>) -> PyResult<WaveContact> {
+            /// Contacts at mean pressures p̄: the stable ones.
+            /// Contacts at mean pressures p̄: the stable ones.
+    fn at_mean_pressure(&self, mean_pressure: Numbers<'_>) -> PyResult<WaveContact> {
                 tried(mean_pressure.as_array(), |p| self.0.at_mean_pressure(p).map_err(refusal)).map(WaveContact)
             }
-            fn at_mean_gap(&self, mean_gap: Numbers<'_>) -> PyResult<WaveContact> {
+            /// Contacts at mean gaps: the stable ones.
+            /// Contacts at mean gaps: the stable ones.
+    fn at_mean_gap(&self, mean_gap: Numbers<'_>) -> PyResult<WaveContact> {
                 tried(mean_gap.as_array(), |gap| self.0.at_mean_gap(gap).map_err(refusal)).map(WaveContact)
             }
             $($more)*
@@ -120,21 +206,55 @@ macro_rules! wave {
     };
 }
 
-wave!(WavyLine(amplitude, wavelength, modulus) {});
-wave!(AdhesiveWavyLine(amplitude, wavelength, modulus, work_of_adhesion) {
+wave! {
+    /// Westergaard's contact of a wave on a line, without adhesion.
+    ///
+    /// Parameters
+    /// ----------
+    /// amplitude, wavelength : float
+    ///     Amplitude h₀ and wavelength λ, lengths.
+    /// modulus : float
+    ///     Contact modulus E*, a pressure.
+    WavyLine(amplitude, wavelength, modulus) {}
+}
+wave! {
+    /// Johnson's contact of a wave on a line, with adhesion of no range.
+    ///
+    /// Parameters
+    /// ----------
+    /// amplitude, wavelength : float
+    ///     Amplitude h₀ and wavelength λ, lengths.
+    /// modulus : float
+    ///     Contact modulus E*, a pressure.
+    /// work_of_adhesion : float
+    ///     Work of adhesion w, an energy per area.
+    AdhesiveWavyLine(amplitude, wavelength, modulus, work_of_adhesion) {
+    /// Johnson's parameter √(2wλ/(π²E*h₀²)).
     #[getter]
     fn alpha(&self) -> f64 {
         self.0.alpha()
     }
+    /// Partial contact of least mean pressure, from which it opens.
     fn pull_off(&self) -> PyResult<WaveContact> {
         Ok(WaveContact(ArrayD::from_elem(IxDyn(&[]), self.0.pull_off().map_err(refusal)?)))
     }
+    /// Partial contact of largest mean pressure, from which it jumps to full contact.
     fn jump_to_full_contact(&self) -> PyResult<WaveContact> {
         Ok(WaveContact(ArrayD::from_elem(IxDyn(&[]), self.0.jump_to_full_contact().map_err(refusal)?)))
     }
-});
+    }
+}
 
-/// The mean pressure that closes a two-dimensional wave.
+/// The mean pressure √2πE*h₀/λ that closes a wave h₀ cos(2πx/λ) cos(2πy/λ), without adhesion.
+///
+/// Parameters
+/// ----------
+/// amplitude : float or array_like
+///     Amplitudes h₀, lengths.
+/// wavelength : float
+///     Wavelength λ, a length.
+/// modulus : float
+///     Contact modulus E*, a pressure.
 #[pyfunction]
 pub fn closing_pressure_2d<'py>(
     py: Python<'py>,

@@ -13,8 +13,8 @@ use crate::table::Table;
 
 /// A law of the library, which is given by work of adhesion and range, as a class.
 macro_rules! class {
-    ($name:ident) => {
-        #[doc = concat!("The law `asperity::", stringify!($name), "`.")]
+    ($(#[$doc:meta])* $name:ident) => {
+        $(#[$doc])*
         #[pyclass(frozen, eq, module = "asperity")]
         #[derive(Clone, PartialEq)]
         pub struct $name(asperity::$name);
@@ -25,20 +25,25 @@ macro_rules! class {
             fn new(work_of_adhesion: f64, range: f64) -> PyResult<Self> {
                 asperity::$name::new(work_of_adhesion, range).map(Self).map_err(refusal)
             }
+            /// Work of adhesion w, an energy per area.
             #[getter]
             fn work_of_adhesion(&self) -> f64 {
                 self.0.work_of_adhesion()
             }
+            /// Range ρ, a length.
             #[getter]
             fn range(&self) -> f64 {
                 self.0.range()
             }
+            /// Adhesive energy φ(g) per area, of the shape of the gaps.
             fn energy<'py>(&self, py: Python<'py>, gap: Numbers<'py>) -> PyResult<Bound<'py, PyAny>> {
                 mapped(py, &gap, |gap| self.0.energy(gap))
             }
+            /// Adhesive traction φ'(g), positive attracts, of the shape of the gaps.
             fn traction<'py>(&self, py: Python<'py>, gap: Numbers<'py>) -> PyResult<Bound<'py, PyAny>> {
                 mapped(py, &gap, |gap| self.0.traction(gap))
             }
+            /// Slope of the traction φ''(g), of the shape of the gaps.
             fn slope<'py>(&self, py: Python<'py>, gap: Numbers<'py>) -> PyResult<Bound<'py, PyAny>> {
                 mapped(py, &gap, |gap| self.0.slope(gap))
             }
@@ -52,8 +57,42 @@ macro_rules! class {
         }
     };
 }
-class!(Exponential);
-class!(MaugisDugdale);
+
+class! {
+    /// The exponential law, φ(g) = −w exp(−g/ρ).
+    ///
+    /// Parameters
+    /// ----------
+    /// work_of_adhesion : float
+    ///     Work of adhesion w ≥ 0, an energy per area.
+    /// range : float
+    ///     Range ρ > 0, a length.
+    ///
+    /// Examples
+    /// --------
+    /// >>> import asperity
+    /// >>> law = asperity.Exponential(work_of_adhesion=0.05, range=2e-9)
+    /// >>> law.energy(0.0)
+    /// -0.05
+    Exponential
+}
+class! {
+    /// The law of Maugis and Dugdale: a constant traction w/ρ where the gap is below ρ.
+    ///
+    /// Parameters
+    /// ----------
+    /// work_of_adhesion : float
+    ///     Work of adhesion w ≥ 0, an energy per area.
+    /// range : float
+    ///     Range ρ > 0, a length.
+    ///
+    /// Examples
+    /// --------
+    /// >>> import asperity
+    /// >>> asperity.MaugisDugdale(work_of_adhesion=1e-4, range=2e-3).traction([0.0, 3e-3])
+    /// array([0.05, 0.  ])
+    MaugisDugdale
+}
 
 /// The law of an object: none of `None`, a class of the library, or a table of the functions that the object has.
 pub fn law<T: Real>(object: &Bound<'_, PyAny>) -> PyResult<Box<dyn AdhesionLaw<T>>> {
@@ -180,7 +219,38 @@ impl AdhesionLaw<f64> for Called {
     }
 }
 
-/// Tells whether the three functions of a law agree with one another, by [`asperity::check_law`].
+/// Tells whether the three functions of a law agree with one another.
+///
+/// Compares the traction with differences of the energy, and the slope with differences of the traction, at 200 gaps.
+///
+/// Parameters
+/// ----------
+/// law : object
+///     With the methods energy(gap), traction(gap) and slope(gap) of an array of gaps g ≥ 0, each of which returns an array
+///     of the same shape: the energy per area φ(g), its derivative φ'(g), positive where the surfaces attract each other,
+///     and the traction's derivative φ''(g). Attributes `work_of_adhesion`, −φ(0) by default, and `range`, the length over
+///     which the traction decays, w/φ'(0) by default, say how far the grid has to resolve it.
+/// largest_gap : float
+///     Largest gap, a length.
+///
+/// Raises
+/// ------
+/// ValueError
+///     With the function that is wrong, the gap, and what it should be there.
+///
+/// Examples
+/// --------
+/// >>> import asperity
+/// >>> class Linear:
+/// ...     "A traction that falls linearly to zero at the range."
+/// ...     work_of_adhesion, range = 1e-4, 2e-3
+/// ...     def energy(self, gap):
+/// ...         return -1e-4 * (1 - gap / 2e-3).clip(0) ** 2
+/// ...     def traction(self, gap):
+/// ...         return 0.1 * (1 - gap / 2e-3).clip(0)
+/// ...     def slope(self, gap):
+/// ...         return -50.0 * (gap < 2e-3)
+/// >>> asperity.check_law(Linear(), largest_gap=0.01)
 #[pyfunction]
 pub fn check_law(law: &Bound<'_, PyAny>, largest_gap: f64) -> PyResult<()> {
     Functions::of(law)?;

@@ -100,8 +100,7 @@ struct Request<'py> {
 /// What a problem does in either precision.
 trait Solves: Send {
     fn solve<'py>(&mut self, py: Python<'py>, run: Run<'_>, request: Request<'py>) -> PyResult<Bound<'py, PyDict>>;
-    fn next_load<'py>(&mut self, py: Python<'py>, run: Run<'_>, request: Request<'py>)
-    -> PyResult<Bound<'py, PyDict>>;
+    fn next_load<'py>(&mut self, py: Python<'py>, run: Run<'_>, request: Request<'py>) -> PyResult<Bound<'py, PyDict>>;
     fn next_step<'py>(
         &mut self,
         py: Python<'py>,
@@ -345,7 +344,8 @@ impl Problem {
 
     /// The tolerance, the limit of the iterations and the number of threads, with their defaults.
     fn inputs(&self) -> PyResult<(f64, usize, usize)> {
-        let tolerance = if self.single { self.settings.tolerance_in::<f32>() } else { self.settings.tolerance_in::<f64>() };
+        let tolerance =
+            if self.single { self.settings.tolerance_in::<f32>() } else { self.settings.tolerance_in::<f64>() };
         Ok((tolerance, self.settings.max_iterations, Pool::of(self.threads)?.threads()))
     }
 

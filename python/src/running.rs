@@ -17,14 +17,23 @@ const PATIENCE: Duration = Duration::from_millis(20);
 /// The state of an iteration, as an observer sees it.
 #[pyclass(frozen, get_all, module = "asperity")]
 pub struct Iteration {
+    /// Number of steps.
     iteration: usize,
+    /// Number of operator applications of this solve so far.
     operator_applications: usize,
+    /// Certified relative error in the energy norm.
     relative_error: f64,
+    /// Relative error of the load.
     load_error: f64,
+    /// Energy that is minimised, per area.
     energy: f64,
+    /// Mean gap.
     mean_gap: f64,
+    /// Number of nodes in contact.
     contact_nodes: usize,
+    /// Number of changes of the minimised energy so far; the energy falls within a round.
     round: usize,
+    /// Whether the solve is still on the way to its start, with the jumps of the law smoothed.
     smoothed: bool,
 }
 

@@ -75,7 +75,8 @@ impl Table {
     /// rougher than a table can be.
     pub fn of(law: &Functions<'_>) -> PyResult<Self> {
         let at_zero = |function| law.at(function, &[0.0]).map(|values| values[0]);
-        let work_of_adhesion = law.number("work_of_adhesion")?.map_or_else(|| at_zero(Function::Energy).map(|e| -e), Ok)?;
+        let work_of_adhesion =
+            law.number("work_of_adhesion")?.map_or_else(|| at_zero(Function::Energy).map(|e| -e), Ok)?;
         let range = match law.number("range")? {
             Some(range) => range,
             None => work_of_adhesion / at_zero(Function::Traction)?,
