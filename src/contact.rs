@@ -45,9 +45,58 @@ impl<T: Real> Solution<T> {
     /// # Ok::<(), asperity::Error>(())
     /// ```
     pub fn contact_map(&self) -> Array2<bool> {
-        Zip::from(&self.gap)
-            .and(&self.contact_pressure)
-            .map_collect(|&gap, &pressure| gap <= T::zero() || pressure > T::zero())
+        contact_map(self.gap.view(), self.contact_pressure.view())
+    }
+}
+
+/// The contact map of a gap and a contact pressure of one shape.
+fn contact_map<T: Real>(gap: ArrayView2<'_, T>, contact_pressure: ArrayView2<'_, T>) -> Array2<bool> {
+    Zip::from(gap).and(contact_pressure).map_collect(|&gap, &pressure| gap <= T::zero() || pressure > T::zero())
+}
+
+/// The contact area of a map, and its edge; [`ContactStatistics`] says how the area is corrected.
+///
+/// ```
+/// use asperity::Grid;
+/// use asperity::contact::ContactArea;
+/// let map = ndarray::array![[true, true, false, false], [false; 4], [false; 4], [false; 4]];
+/// let area = ContactArea::of(map.view(), &Grid::square(4, 1.0)?)?;
+/// assert_eq!((area.contact_nodes, area.perimeter), (2, 1.5)); // six sides of cells
+/// assert!(area.corrected_contact_fraction < area.contact_fraction);
+/// # Ok::<(), asperity::Error>(())
+/// ```
+#[non_exhaustive]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ContactArea {
+    /// The number of nodes in contact.
+    pub contact_nodes: usize,
+    /// The share of nodes in contact.
+    pub contact_fraction: f64,
+    /// The contact area without the excess of the map along its edge, as a share of the nominal area.
+    pub corrected_contact_fraction: f64,
+    /// The length of the edge of the contact, as [`ContactStatistics::perimeter`].
+    pub perimeter: f64,
+}
+
+impl ContactArea {
+    /// The contact area of a map of shape (Nx, Ny) on its grid.
+    ///
+    /// # Errors
+    /// [`Error::Shape`] if the map does not have the shape of the grid.
+    pub fn of(map: ArrayView2<'_, bool>, grid: &Grid) -> Result<Self> {
+        Error::shape("contact map", map.dim(), grid.shape())?;
+        let contact_nodes = map.iter().filter(|&&touches| touches).count();
+        let (along_x, along_y) = edges(map);
+        let (dx, dy) = grid.spacing();
+        let (perimeter, excess) = if grid.is_line() {
+            (along_x as f64, 0.0)
+        } else {
+            (along_x as f64 * dy + along_y as f64 * dx, EDGE_EXCESS * (along_x + along_y) as f64)
+        };
+        let nodes = grid.nodes() as f64;
+        let (contact_fraction, corrected_contact_fraction) =
+            (contact_nodes as f64 / nodes, (contact_nodes as f64 - excess) / nodes);
+        Ok(Self { contact_nodes, contact_fraction, corrected_contact_fraction, perimeter })
     }
 }
 
@@ -119,35 +168,42 @@ impl ContactStatistics {
     /// # Errors
     /// [`Error::Shape`] if a field does not have the shape of the grid.
     pub fn of<T: Real>(solution: &Solution<T>, grid: &Grid, law: &impl AdhesionLaw<T>) -> Result<Self> {
-        Error::shape("gap", solution.gap.dim(), grid.shape())?;
-        Error::shape("contact pressure", solution.contact_pressure.dim(), grid.shape())?;
-        let contact = solution.contact_map();
+        Self::of_fields(solution.gap.view(), solution.contact_pressure.view(), grid, law)
+    }
+
+    /// The statistics of the gap and the contact pressure of a solution, as those that come from a file.
+    ///
+    /// # Errors
+    /// Those of [`ContactStatistics::of`].
+    pub fn of_fields<T: Real>(
+        gap: ArrayView2<'_, T>,
+        contact_pressure: ArrayView2<'_, T>,
+        grid: &Grid,
+        law: &impl AdhesionLaw<T>,
+    ) -> Result<Self> {
+        Error::shape("gap", gap.dim(), grid.shape())?;
+        Error::shape("contact pressure", contact_pressure.dim(), grid.shape())?;
+        let contact = contact_map(gap, contact_pressure);
+        let ContactArea { contact_nodes, contact_fraction, corrected_contact_fraction, perimeter } =
+            ContactArea::of(contact.view(), grid)?;
         let share = |count: usize| count as f64 / grid.nodes() as f64;
-        let contact_nodes = contact.iter().filter(|&&touches| touches).count();
         let attracting = if law.is_zero() {
             0
         } else {
             let scale = (law.work_of_adhesion() / law.range()).widen();
             let least = T::lit(if scale.is_finite() { NOTICEABLE * scale } else { 0.0 });
-            let gaps: Vec<T> = solution.gap.iter().map(|gap| gap.max(T::zero())).collect();
+            let gaps: Vec<T> = gap.iter().map(|gap| gap.max(T::zero())).collect();
             let mut tractions = vec![T::zero(); gaps.len()];
             law.tractions(0, &gaps, &mut tractions);
             contact.iter().zip(tractions).filter(|&(&touches, traction)| !touches && traction > least).count()
         };
-        let (along_x, along_y) = edges(contact.view());
-        let (dx, dy) = grid.spacing();
-        let (perimeter, excess) = if grid.is_line() {
-            (along_x as f64, 0.0)
-        } else {
-            (along_x as f64 * dy + along_y as f64 * dx, EDGE_EXCESS * (along_x + along_y) as f64)
-        };
         Ok(Self {
             contact_nodes,
-            contact_fraction: share(contact_nodes),
-            corrected_contact_fraction: (contact_nodes as f64 - excess) / grid.nodes() as f64,
+            contact_fraction,
+            corrected_contact_fraction,
             perimeter,
             cluster_sizes: Clusters::of(contact.view(), Connectivity::Sides).sizes,
-            repulsive_fraction: share(solution.contact_pressure.iter().filter(|&&p| p > T::zero()).count()),
+            repulsive_fraction: share(contact_pressure.iter().filter(|&&p| p > T::zero()).count()),
             attractive_fraction: share(attracting),
             apart_fraction: share(grid.nodes() - contact_nodes - attracting),
         })
@@ -156,11 +212,11 @@ impl ContactStatistics {
 
 /// The number of pairs of neighbours along x, and along y, of which one is on the map and one is not.
 fn edges(map: ArrayView2<'_, bool>) -> (usize, usize) {
-    let (nx, ny) = map.dim();
     let (mut along_x, mut along_y) = (0, 0);
-    for ((i, j), here) in map.indexed_iter() {
-        along_x += usize::from(*here != map[[(i + 1) % nx, j]]);
-        along_y += usize::from(*here != map[[i, (j + 1) % ny]]);
+    for (i, row) in map.outer_iter().enumerate() {
+        let (below, shifted) = (map.row((i + 1) % map.nrows()), row.iter().cycle().skip(1));
+        along_x += row.iter().zip(below).filter(|(here, there)| here != there).count();
+        along_y += row.iter().zip(shifted).filter(|(here, there)| here != there).count();
     }
     (along_x, along_y)
 }

@@ -8,7 +8,7 @@
 //! | [`own_constraint`] | a way of your own to keep the surfaces apart |
 //! | [`penalty_and_uzawa`] | the two classical ways beside projection, with figures |
 //! | [`branches`] | loading and unloading with adhesion: jumps, limit points, stability |
-//! | [`python`] | heights from numpy, results to numpy |
+//! | [`python`] | from Python: the package, and files |
 //! | [`choosing`] | resolution, tolerance and precision for the accuracy you want |
 //! | [`performance`] | how fast: applications, times, memory, beside other programs |
 //! | [`precision`] | how far rounding lets a solve go, and what becomes of extreme input |

@@ -22,6 +22,7 @@ __all__ = [
     "check_law",
     "closing_pressure_2d",
     "clusters",
+    "contact_statistics",
     "prepare",
     "read",
     "self_affine",
@@ -138,6 +139,9 @@ def statistics(heights: _Field, lengths: tuple[float, float]) -> list[float]: ..
 def spectrum(
     heights: _Field, lengths: tuple[float, float], along: str
 ) -> tuple[_Field, _Field, NDArray[np.int64], float]: ...
+def contact_statistics(
+    gap: NDArray[Any], contact_pressure: NDArray[Any], lengths: tuple[float, float], given: Any
+) -> tuple[int, float, float, float, NDArray[np.int64], float, float, float]: ...
 def clusters(map: NDArray[np.bool_], corners: bool) -> tuple[NDArray[np.int64], NDArray[np.int64]]: ...
 def prepare(
     heights: _Field,

@@ -52,6 +52,7 @@ class Scene:
             "threads": threads,
             "version": _asperity.VERSION,
         }
+        self._law = law
         self._warned: set[str] = set()
         if self.topography.periodic is False:
             warnings.warn(
@@ -71,7 +72,7 @@ class Scene:
     def solution(self, command: str, found: dict[str, Any]) -> Solution:
         """The solution of what the compiled core found, with its warnings given; raises what ended it early."""
         report = {"command": command, **found["report"], **self.inputs}
-        solution = Solution(self.topography, report, found)
+        solution = Solution(self.topography, self._law, report, found)
         raised = found["raised"]
         if raised is not None:
             raised.solution = solution

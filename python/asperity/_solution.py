@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import html
+from functools import cached_property
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from . import _picture, _plot
+from . import _asperity, _picture, _plot
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -62,8 +63,6 @@ class Solution:
         Contact map.
     mode : ndarray or None
         Change of the gap along which the energy is softest, of mean square 1, where stability was asked for.
-    statistics : ContactStatistics
-        Areas, perimeter and clusters of the contact.
     report : dict
         Account of the solve, with the keys of the tool's ``report.json``.
 
@@ -83,16 +82,22 @@ class Solution:
     contact_pressure: NDArray[np.floating[Any]]
     contact: NDArray[np.bool_]
     mode: NDArray[np.floating[Any]] | None
-    statistics: ContactStatistics
     report: dict[str, Any]
 
-    def __init__(self, topography: Topography, report: dict[str, Any], found: dict[str, Any]) -> None:
+    def __init__(self, topography: Topography, law: Any, report: dict[str, Any], found: dict[str, Any]) -> None:
         self._topography = topography
+        self._law = law
         self.report = report
-        self.statistics = ContactStatistics(**found["statistics"])
         for name in ("gap", "pressure", "contact_pressure", "contact"):
             setattr(self, name, found[name].reshape(topography.shape))
         self.mode = None if found["mode"] is None else found["mode"].reshape(topography.shape)
+
+    @cached_property
+    def statistics(self) -> ContactStatistics:
+        """Areas, perimeter and clusters of the contact; computed when it is asked for."""
+        shape = self._topography.heights.shape
+        gap, contact_pressure = self.gap.reshape(shape), self.contact_pressure.reshape(shape)
+        return ContactStatistics(*_asperity.contact_statistics(gap, contact_pressure, self.lengths, self._law))
 
     @property
     def heights(self) -> NDArray[np.float64]:

@@ -1,6 +1,7 @@
 //! The compiled core of the Python package `asperity`: arrays in, arrays out. What users see is written in Python, in
 //! the folder `asperity` beside this one.
 
+mod contact;
 mod exact;
 mod law;
 mod numbers;
@@ -19,6 +20,8 @@ mod _asperity {
     const VERSION: &str = env!("CARGO_PKG_VERSION");
 
     #[pymodule_export]
+    use crate::contact::{clusters, contact_statistics};
+    #[pymodule_export]
     use crate::exact::{AdhesiveWavyLine, Contact, Hertz, Jkr, WaveContact, WavyLine, closing_pressure_2d};
     #[pymodule_export]
     use crate::law::{Exponential, MaugisDugdale, check_law};
@@ -27,7 +30,7 @@ mod _asperity {
     #[pymodule_export]
     use crate::running::Iteration;
     #[pymodule_export]
-    use crate::surface::{clusters, prepare, read, self_affine, spectrum, statistics};
+    use crate::surface::{prepare, read, self_affine, spectrum, statistics};
 
     use pyo3::prelude::*;
 

@@ -3,18 +3,19 @@
 use std::sync::{Mutex, PoisonError};
 use std::time::Instant;
 
-use asperity::contact::ContactStatistics;
+use asperity::contact::ContactArea;
 use asperity::path::{Event, Path, PathCheckpoint, PathSettings};
 use asperity::stability::{Stability, StabilityTest, Verdict};
 use asperity::{
-    AdhesionLaw, Control, Criterion, ElasticOperator, Error, Grid, NoAdhesion, Real, Settings, Solution, Solver, Start,
-    Surface, Sweep, Warning, Westergaard,
+    AdhesionLaw, Control, Criterion, ElasticOperator, Error, Grid, Real, Settings, Solution, Solver, Start, Surface,
+    Sweep, Warning, Westergaard,
 };
 use numpy::ndarray::Array2;
 use numpy::{Element, IntoPyArray, PyReadonlyArray2};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
+use rayon::prelude::*;
 
 use crate::law::law;
 use crate::pools::Pool;
@@ -66,7 +67,7 @@ const MOST_DEPARTURES: usize = 10;
 pub struct Account<T> {
     pub solution: Solution<T>,
     pub contact: Array2<bool>,
-    pub statistics: ContactStatistics,
+    pub area: ContactArea,
     /// The least (most tensile) and the greatest elastic pressure.
     pub pressures: (f64, f64),
     pub control: Control,
@@ -143,21 +144,23 @@ impl<T: Scalar> State<T> {
     fn account(&self, solution: Solution<T>, control: Control, seconds: f64) -> asperity::Result<Account<T>> {
         let mut warnings = self.warnings.clone();
         warnings.extend(Warning::of_solution(&solution, self.modulus));
-        let grid = self.problem.grid();
-        let statistics = match is_adhesive(self.problem.law()) {
-            true => ContactStatistics::of(&solution, grid, self.problem.law())?,
-            false => ContactStatistics::of(&solution, grid, &NoAdhesion)?,
+        let contact = || {
+            let map = solution.contact_map();
+            ContactArea::of(map.view(), self.problem.grid()).map(|area| (map, area))
         };
-        let extremes = |(low, high): (f64, f64), p: &T| (low.min(p.widen()), high.max(p.widen()));
-        let pressures = solution.pressure.iter().fold((f64::INFINITY, f64::NEG_INFINITY), extremes);
-        let contact = solution.contact_map();
+        let (contact, pressures) = rayon::join(contact, || extremes(&solution.pressure));
+        let (contact, area) = contact?;
         let (stability, departures) = (None, None);
-        Ok(Account { solution, contact, statistics, pressures, control, stability, departures, warnings, seconds })
+        Ok(Account { solution, contact, area, pressures, control, stability, departures, warnings, seconds })
     }
 }
 
-fn is_adhesive<T: Real>(law: &dyn AdhesionLaw<T>) -> bool {
-    !law.is_zero()
+/// The least and the greatest value of a field.
+fn extremes<T: Scalar>(field: &Array2<T>) -> (f64, f64) {
+    let join = |(a, b): (f64, f64), (c, d): (f64, f64)| (a.min(c), b.max(d));
+    let none = (f64::INFINITY, f64::NEG_INFINITY);
+    let of = |values: &[T]| values.iter().fold(none, |found, value| join(found, (value.widen(), value.widen())));
+    field.as_slice().unwrap_or_default().par_chunks(1 << 12).map(of).reduce(|| none, join)
 }
 
 /// The dictionary of an account, and the exception that ended its solve early.
@@ -172,7 +175,6 @@ fn returned<'py, T: Scalar>(
     };
     let found = PyDict::new(py);
     found.set_item("report", report::of(py, &account)?)?;
-    found.set_item("statistics", report::statistics(py, &account.statistics)?)?;
     let Account { solution, contact, stability, .. } = account;
     found.set_item("gap", solution.gap.into_pyarray(py))?;
     found.set_item("pressure", solution.pressure.into_pyarray(py))?;

@@ -1,9 +1,7 @@
 //! The outcome of a solve, with the names and in the order of the tool's `report.json`.
 
 use asperity::Warning;
-use asperity::contact::ContactStatistics;
 use asperity::stability::Stability;
-use numpy::IntoPyArray;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
@@ -20,7 +18,7 @@ macro_rules! dictionary {
 
 /// The outcome of a solve.
 pub fn of<'py, T: Scalar>(py: Python<'py>, account: &Account<T>) -> PyResult<Bound<'py, PyDict>> {
-    let Account { solution, statistics, pressures, .. } = account;
+    let Account { solution, area, pressures, .. } = account;
     let report = &solution.report;
     let (control, held) = name_and_value(account.control);
     let stability = account.stability.as_ref().map(|found| stability(py, found)).transpose()?;
@@ -47,8 +45,8 @@ pub fn of<'py, T: Scalar>(py: Python<'py>, account: &Account<T>) -> PyResult<Bou
         "mean_contact_pressure": report.mean_contact_pressure,
         "contact_fraction": report.contact_fraction,
         "contact_nodes": report.contact_nodes,
-        "corrected_contact_fraction": statistics.corrected_contact_fraction,
-        "perimeter": statistics.perimeter,
+        "corrected_contact_fraction": area.corrected_contact_fraction,
+        "perimeter": area.perimeter,
         "min_gap": report.min_gap,
         "min_pressure": pressures.0,
         "max_pressure": pressures.1,
@@ -79,19 +77,4 @@ fn stability<'py, T: Scalar>(py: Python<'py>, found: &Stability<T>) -> PyResult<
 
 fn warning<'py>(py: Python<'py>, found: &Warning) -> PyResult<Bound<'py, PyDict>> {
     Ok(dictionary!(py, "code": found.code.name(), "message": &found.message,))
-}
-
-/// The statistics of the contact of a solution.
-pub fn statistics<'py>(py: Python<'py>, found: &ContactStatistics) -> PyResult<Bound<'py, PyDict>> {
-    let sizes: Vec<i64> = found.cluster_sizes.iter().map(|&size| size as i64).collect();
-    Ok(dictionary!(py,
-        "contact_nodes": found.contact_nodes,
-        "contact_fraction": found.contact_fraction,
-        "corrected_contact_fraction": found.corrected_contact_fraction,
-        "perimeter": found.perimeter,
-        "cluster_sizes": sizes.into_pyarray(py),
-        "repulsive_fraction": found.repulsive_fraction,
-        "attractive_fraction": found.attractive_fraction,
-        "apart_fraction": found.apart_fraction,
-    ))
 }

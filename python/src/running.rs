@@ -97,7 +97,9 @@ pub fn run<R: Send>(
                 let outcome = match told.recv_timeout(PATIENCE) {
                     Ok(state) => {
                         let outcome = Python::attach(|py| match observer {
-                            Some(observer) if raised.is_none() => observer.call1(py, (state,)).map(|_| ()),
+                            Some(observer) if raised.is_none() => {
+                                observer.call1(py, (state,)).and_then(|_| py.check_signals())
+                            }
                             _ => Ok(()),
                         });
                         stop.fetch_or(outcome.is_err(), Ordering::Relaxed);

@@ -2,7 +2,6 @@
 
 use std::path::PathBuf;
 
-use asperity::contact::{Clusters, Connectivity};
 use asperity::{Amplitude, Error, Grid, Psd, SelfAffine, Surface, Topography, Trend};
 use numpy::ndarray::Array2;
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyReadonlyArray2};
@@ -104,19 +103,6 @@ pub fn spectrum<'py>(
     let Psd { wave_numbers, densities, waves, cell, .. } = apart(py, || Ok(of(&surface.spectrum())))?;
     let waves: Vec<i64> = waves.into_iter().map(|count| count as i64).collect();
     Ok((wave_numbers.into_pyarray(py), densities.into_pyarray(py), waves.into_pyarray(py), cell))
-}
-
-/// Sizes and labels of clusters.
-type Found<'py> = (Bound<'py, PyArray1<i64>>, Bound<'py, PyArray2<i64>>);
-
-/// The clusters of a map.
-#[pyfunction]
-pub fn clusters<'py>(py: Python<'py>, map: PyReadonlyArray2<'_, bool>, corners: bool) -> PyResult<Found<'py>> {
-    let map = map.as_array();
-    let connectivity = if corners { Connectivity::Corners } else { Connectivity::Sides };
-    let Clusters { sizes, labels, .. } = py.detach(|| Clusters::of(map, connectivity));
-    let sizes: Vec<i64> = sizes.into_iter().map(|size| size as i64).collect();
-    Ok((sizes.into_pyarray(py), labels.mapv(|label| label as i64).into_pyarray(py)))
 }
 
 /// Takes the steps from a measured map to a periodic surface, in the order of the tool.

@@ -1,6 +1,7 @@
 """Many solves: in threads, in processes, and one after the other."""
 
 import multiprocessing
+import pickle
 import resource
 import sys
 from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
@@ -54,3 +55,10 @@ def test_arrays_outlive_their_solution(rough):
     for _ in range(20):
         asperity.solve(rough, modulus=1.0, mean_gap=0.02)
     assert np.array_equal(gap, copy)
+
+
+def test_a_solution_travels_between_processes(rough, law):
+    solution = asperity.solve(rough, modulus=1.0, mean_pressure=0.01, law=law)
+    other = pickle.loads(pickle.dumps(solution))
+    assert other.report == solution.report and other.gap.tobytes() == solution.gap.tobytes()
+    assert other.statistics.cluster_sizes.tolist() == solution.statistics.cluster_sizes.tolist()

@@ -56,6 +56,9 @@ impl Clusters {
         for i in 0..nx {
             let below = (i + 1) % nx;
             for j in 0..ny {
+                if tree[i * ny + j] == NONE {
+                    continue;
+                }
                 let (left, right) = ((j + ny - 1) % ny, (j + 1) % ny);
                 unite(&mut tree, i * ny + j, i * ny + right);
                 unite(&mut tree, i * ny + j, below * ny + j);
