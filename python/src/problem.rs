@@ -144,9 +144,10 @@ impl<T: Scalar> State<T> {
     fn account(&self, solution: Solution<T>, control: Control, seconds: f64) -> asperity::Result<Account<T>> {
         let mut warnings = self.warnings.clone();
         warnings.extend(Warning::of_solution(&solution, self.modulus));
+        let grid = *self.problem.grid();
         let contact = || {
             let map = solution.contact_map();
-            ContactArea::of(map.view(), self.problem.grid()).map(|area| (map, area))
+            ContactArea::of(map.view(), &grid).map(|area| (map, area))
         };
         let (contact, pressures) = rayon::join(contact, || extremes(&solution.pressure));
         let (contact, area) = contact?;
