@@ -5,8 +5,8 @@ use asperity::contact::{Clusters, Connectivity, ContactStatistics};
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyReadonlyArray2};
 use pyo3::prelude::*;
 
+use crate::account::Scalar;
 use crate::law::law;
-use crate::problem::Scalar;
 use crate::refusal::refusal;
 
 /// Nodes in contact, their share, its corrected value, the perimeter, sizes of clusters, and the shares of the nodes that

@@ -1,8 +1,10 @@
 //! The compiled core of the Python package `asperity`: arrays in, arrays out. What users see is written in Python, in
 //! the folder `asperity` beside this one.
 
+mod account;
 mod contact;
 mod exact;
+mod inputs;
 mod law;
 mod numbers;
 mod pools;

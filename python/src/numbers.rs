@@ -2,6 +2,7 @@
 
 use numpy::ndarray::{ArrayD, ArrayViewD};
 use numpy::{AllowTypeChange, IntoPyArray, PyArrayLikeDyn};
+use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
 /// Numbers of any shape: a number, a list, or an array of any float type, order and stride.
@@ -23,6 +24,5 @@ pub fn mapped<'py>(py: Python<'py>, numbers: &Numbers<'py>, of: impl Fn(f64) -> 
 /// A function that may refuse a number, at each of some.
 pub fn tried<S>(numbers: ArrayViewD<'_, f64>, of: impl Fn(f64) -> PyResult<S>) -> PyResult<ArrayD<S>> {
     let values = numbers.iter().map(|&number| of(number)).collect::<PyResult<Vec<S>>>()?;
-    ArrayD::from_shape_vec(numbers.raw_dim(), values)
-        .map_err(|error| pyo3::exceptions::PyValueError::new_err(error.to_string()))
+    ArrayD::from_shape_vec(numbers.raw_dim(), values).map_err(|error| PyValueError::new_err(error.to_string()))
 }

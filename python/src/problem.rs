@@ -3,80 +3,27 @@
 use std::sync::{Mutex, PoisonError};
 use std::time::Instant;
 
-use asperity::contact::ContactArea;
 use asperity::path::{Event, Path, PathCheckpoint, PathSettings};
-use asperity::stability::{Stability, StabilityTest, Verdict};
+use asperity::stability::{StabilityTest, Verdict};
 use asperity::{
-    AdhesionLaw, Control, Criterion, ElasticOperator, Error, Grid, Real, Settings, Solution, Solver, Start, Surface,
-    Sweep, Warning, Westergaard,
+    AdhesionLaw, Control, ElasticOperator, Error, Grid, Real, Settings, Solution, Solver, Start, Status, Surface,
+    Sweep, Warning,
 };
+use numpy::PyReadonlyArray2;
 use numpy::ndarray::Array2;
-use numpy::{Element, IntoPyArray, PyReadonlyArray2};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use rayon::prelude::*;
 
+use crate::account::{Account, Scalar, returned};
+use crate::inputs::{control, operator, settings};
 use crate::law::law;
 use crate::pools::Pool;
 use crate::refusal::refusal;
-use crate::report;
 use crate::running::{Observe, run};
-
-/// A scalar in which one can solve, and that numpy has.
-pub trait Scalar: Real + Element {}
-impl<T: Real + Element> Scalar for T {}
-
-/// The elastic body of a problem.
-fn operator<T: Real>(grid: Grid, modulus: f64) -> asperity::Result<Box<dyn ElasticOperator<T>>> {
-    Ok(Box::new(Westergaard::<T>::new(grid, modulus)?))
-}
-
-/// A load, by the name and value of a keyword.
-fn control(name: &str, value: f64) -> PyResult<Control> {
-    match name {
-        "mean_gap" => Ok(Control::MeanGap(value)),
-        "mean_pressure" => Ok(Control::MeanPressure(value)),
-        other => Err(PyValueError::new_err(format!("control is {other}: it must be mean_gap or mean_pressure"))),
-    }
-}
-
-/// The name and the value of a load, as in the tool's reports.
-pub fn name_and_value(control: Control) -> (&'static str, f64) {
-    match control {
-        Control::MeanGap(gap) => ("mean-gap", gap),
-        Control::MeanPressure(pressure) => ("mean-pressure", pressure),
-    }
-}
-
-/// The settings of a solver.
-fn settings(tolerance: Option<f64>, max_iterations: Option<usize>, method: &str) -> PyResult<Settings> {
-    let default = match method {
-        "default" => Settings::default(),
-        "rey2017" => Settings { criterion: Criterion::EnergyNorm, ..Settings::rey2017() },
-        other => return Err(PyValueError::new_err(format!("method is {other}: it must be default or rey2017"))),
-    };
-    let max_iterations = max_iterations.unwrap_or(default.max_iterations);
-    Ok(Settings { tolerance, max_iterations, ..default })
-}
 
 /// The largest number of departures from unstable equilibria, as in the tool.
 const MOST_DEPARTURES: usize = 10;
-
-/// The account of a solve: all that the report and the solution of Python have.
-pub struct Account<T> {
-    pub solution: Solution<T>,
-    pub contact: Array2<bool>,
-    pub area: ContactArea,
-    /// The least (most tensile) and the greatest elastic pressure.
-    pub pressures: (f64, f64),
-    pub control: Control,
-    pub stability: Option<Stability<T>>,
-    /// The eigenvalue, energy drop and distance of each unstable equilibrium that was left.
-    pub departures: Option<Vec<(f64, f64, f64)>>,
-    pub warnings: Vec<Warning>,
-    pub seconds: f64,
-}
 
 /// A problem in one precision, with all that a sequence of solves carries on.
 struct State<T: Real> {
@@ -142,48 +89,10 @@ impl<T: Scalar> State<T> {
 
     /// The account of a solution.
     fn account(&self, solution: Solution<T>, control: Control, seconds: f64) -> asperity::Result<Account<T>> {
-        let mut warnings = self.warnings.clone();
-        warnings.extend(Warning::of_solution(&solution, self.modulus));
-        let grid = *self.problem.grid();
-        let contact = || {
-            let map = solution.contact_map();
-            ContactArea::of(map.view(), &grid).map(|area| (map, area))
-        };
-        let (contact, pressures) = rayon::join(contact, || extremes(&solution.pressure));
-        let (contact, area) = contact?;
-        let (stability, departures) = (None, None);
-        Ok(Account { solution, contact, area, pressures, control, stability, departures, warnings, seconds })
+        let account = Account::of(solution, self.problem.grid(), self.modulus, control)?;
+        let warnings = self.warnings.iter().cloned().chain(account.warnings).collect();
+        Ok(Account { warnings, seconds, ..account })
     }
-}
-
-/// The least and the greatest value of a field.
-fn extremes<T: Scalar>(field: &Array2<T>) -> (f64, f64) {
-    let join = |(a, b): (f64, f64), (c, d): (f64, f64)| (a.min(c), b.max(d));
-    let none = (f64::INFINITY, f64::NEG_INFINITY);
-    let of = |values: &[T]| values.iter().fold(none, |found, value| join(found, (value.widen(), value.widen())));
-    field.as_slice().unwrap_or_default().par_chunks(1 << 12).map(of).reduce(|| none, join)
-}
-
-/// The dictionary of an account, and the exception that ended its solve early.
-fn returned<'py, T: Scalar>(
-    py: Python<'py>,
-    (account, raised): (asperity::Result<Account<T>>, Option<PyErr>),
-) -> PyResult<Bound<'py, PyDict>> {
-    let account = match (account, &raised) {
-        (Ok(account), _) => account,
-        (Err(_), Some(_)) => return Err(raised.unwrap_or_else(|| PyValueError::new_err("stopped"))),
-        (Err(error), None) => return Err(refusal(error)),
-    };
-    let found = PyDict::new(py);
-    found.set_item("report", report::of(py, &account)?)?;
-    let Account { solution, contact, stability, .. } = account;
-    found.set_item("gap", solution.gap.into_pyarray(py))?;
-    found.set_item("pressure", solution.pressure.into_pyarray(py))?;
-    found.set_item("contact_pressure", solution.contact_pressure.into_pyarray(py))?;
-    found.set_item("contact", contact.into_pyarray(py))?;
-    found.set_item("mode", stability.map(|stability| stability.mode.into_pyarray(py)))?;
-    found.set_item("raised", raised)?;
-    Ok(found)
 }
 
 impl<T: Scalar> Solves for State<T> {
@@ -195,7 +104,7 @@ impl<T: Scalar> Solves for State<T> {
             let from = start.as_ref().map_or(Start::Default, |gap| Start::From(gap));
             let mut solution = self.solver.solve_with(&mut self.problem, control, from, observe)?;
             let (mut departures, mut verdict) = (Vec::new(), None);
-            while stability && solution.report.status != asperity::Status::Stopped {
+            while stability && solution.report.status != Status::Stopped {
                 let found = StabilityTest::default().run(&mut self.problem, control, &solution)?;
                 let leaves = leave && found.verdict == Verdict::Unstable && departures.len() < MOST_DEPARTURES;
                 let left = match leaves {
@@ -232,7 +141,7 @@ impl<T: Scalar> Solves for State<T> {
             let Some(next) = next else { return Err(no_load()) };
             let (control, solution) = next?;
             // a load that was not reached is tried again from where the ones before lead
-            let stopped = solution.report.status == asperity::Status::Stopped;
+            let stopped = solution.report.status == Status::Stopped;
             self.history = if stopped { kept } else { history };
             self.account(solution, control, clock.elapsed().as_secs_f64())
         })?;

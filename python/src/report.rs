@@ -5,7 +5,8 @@ use asperity::stability::Stability;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use crate::problem::{Account, Scalar, name_and_value};
+use crate::account::{Account, Scalar};
+use crate::inputs::name_and_value;
 
 /// A dictionary of its entries.
 macro_rules! dictionary {
