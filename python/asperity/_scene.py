@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import contextlib
+import sys
 import warnings
 from typing import Any
 
@@ -75,7 +77,9 @@ class Scene:
         solution = Solution(self.topography, self._law, report, found)
         raised = found["raised"]
         if raised is not None:
-            raised.solution = solution
+            # an exception with slots has no room for it
+            with contextlib.suppress(AttributeError):
+                raised.solution = solution
             raise raised
         for warning in report["warnings"]:
             if warning["code"] not in self._warned:
@@ -92,7 +96,7 @@ def _not_converged(report: dict[str, Any]) -> str:
     text += f"with a certified error of {report['relative_error']:.1e} for a tolerance of {report['tolerance']:.1e}"
     remedy = {
         "iteration-limit": "raise max_iterations, or start from a solution nearby",
-        "stalled": "raise the tolerance, or use precision='f64'",
+        "stalled": "raise the tolerance" + (", or use precision='f64'" if report["precision"] == "f32" else ""),
         "detached": "no equilibrium holds this tension: press more, or give a mean gap",
     }.get(report["status"])
     return f"{text}: {remedy}" if remedy else text
@@ -110,8 +114,6 @@ def _number(law: Any, name: str) -> float | None:
 
 def _outside() -> int:
     """The level of the first caller outside of this package, for warnings."""
-    import sys
-
     level, frame = 1, sys._getframe(1)
     while frame.f_back is not None and frame.f_globals.get("__name__", "").startswith("asperity."):
         level, frame = level + 1, frame.f_back

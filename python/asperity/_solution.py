@@ -64,7 +64,8 @@ class Solution:
     mode : ndarray or None
         Change of the gap along which the energy is softest, of mean square 1, where stability was asked for.
     report : dict
-        Account of the solve, with the keys of the tool's ``report.json``.
+        Account of the solve, with the keys of the tool's ``report.json``. ``"heights"`` is the file that they came from, if
+        they came from one.
 
     Examples
     --------

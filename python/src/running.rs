@@ -14,6 +14,9 @@ use crate::pools::Pool;
 /// The time between two looks at the signals of the process.
 const PATIENCE: Duration = Duration::from_millis(20);
 
+/// The time for which a thread of a pool waits for an observer before it looks for other work.
+const NAP: Duration = Duration::from_micros(200);
+
 /// The state of an iteration, as an observer sees it.
 #[pyclass(frozen, get_all, module = "asperity")]
 pub struct Iteration {
@@ -86,7 +89,10 @@ pub fn run<R: Send>(
                 // the channels end with this closure, and the wait of the other thread with them
                 let found = work(&mut move |state| {
                     if observed && tell.send(state.into()).is_ok() {
-                        let _ = answered.recv();
+                        // the observer may solve, too, and on this pool: its thread must not stand idle
+                        while let Err(RecvTimeoutError::Timeout) = answered.recv_timeout(NAP) {
+                            rayon::yield_now();
+                        }
                     }
                     if stop_flag.load(Ordering::Relaxed) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
                 });

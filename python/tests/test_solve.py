@@ -2,6 +2,9 @@
 
 import _thread
 import json
+import os
+import subprocess
+import sys
 import threading
 import time
 import warnings
@@ -92,6 +95,21 @@ def test_an_observer_is_called_on_the_thread_of_the_solve(rough):
     threads = set()
     asperity.solve(rough, modulus=1.0, mean_pressure=0.01, observe=lambda _: threads.add(threading.get_ident()))
     assert threads == {threading.get_ident()}
+
+
+def test_an_observer_may_solve_even_on_one_thread():
+    script = """if True:
+        import asperity
+        rough = asperity.surface.self_affine(32, 1.0, rms_slope=0.1, k_l=2, k_s=8)
+        def solve(observe=None):
+            return asperity.solve(rough, modulus=1.0, mean_pressure=0.01, observe=observe)
+        found = []
+        outer = solve(lambda state: found.append(solve()))
+        assert outer.report["threads"] == 1 and len(found) > 3
+        assert all(inner.gap.tobytes() == outer.gap.tobytes() for inner in found)
+    """
+    environment = {**os.environ, "RAYON_NUM_THREADS": "1"}
+    subprocess.run([sys.executable, "-c", script], env=environment, check=True, timeout=30)
 
 
 def test_stop_iteration_in_an_observer_ends_the_solve(rough):
