@@ -3,9 +3,9 @@
 
     python benches/peers/python.py [NODES]
 
-Each job is the code that one writes for it, from heights in memory to the contact fraction; its lines are counted as they stand.
-The tolerances are those that each package has for a contact map right to a node in ten thousand. Times are medians of three, in
-this process, of whatever threads a package takes.
+Each job is the code that one writes for it, from heights in memory to the contact fraction; its lines are counted as
+they stand. The tolerances are those that each package has for a contact map right to a node in ten thousand. Times are
+medians of three, in this process, of whatever threads a package takes.
 """
 
 import contextlib

@@ -64,6 +64,7 @@ class MaugisDugdale:
     def __getnewargs__(self) -> tuple[float, float]: ...
 
 def check_law(law: Any, largest_gap: float) -> None: ...
+
 @final
 class Iteration:
     @property
@@ -156,6 +157,7 @@ def prepare(
     mirror: bool,
     resample: tuple[int, int] | None,
 ) -> _Map: ...
+
 @final
 class Contact:
     @property

@@ -76,7 +76,12 @@ class Cycle(Rows[Step]):
     )
 
     def __init__(
-        self, scene: Scene, loads: list[_control.Load], settings: tuple[int, float, float, bool], start: Any, observe: Any
+        self,
+        scene: Scene,
+        loads: list[_control.Load],
+        settings: tuple[int, float, float, bool],
+        start: Any,
+        observe: Any,
     ) -> None:
         super().__init__()
         self._scene, self._loads, self._settings, self._observe = scene, loads, settings, observe
@@ -105,9 +110,7 @@ class Cycle(Rows[Step]):
     def __repr__(self) -> str:
         return f"Cycle({len(self.rows)} states{'' if self._ended else ' so far'})"
 
-    def plot(
-        self, ax: Axes | None = None, *, length_unit: str | None = None, pressure_unit: str | None = None
-    ) -> Axes:
+    def plot(self, ax: Axes | None = None, *, length_unit: str | None = None, pressure_unit: str | None = None) -> Axes:
         """Draws the mean pressure over the mean gap, a line for each leg; needs matplotlib, and solves what is left.
 
         Parameters

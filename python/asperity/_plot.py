@@ -45,9 +45,7 @@ def _edges(nodes: int, length: float) -> tuple[float, float]:
     return (-(nodes // 2 + 0.5) * spacing, (nodes - nodes // 2 - 0.5) * spacing)
 
 
-def _map(
-    ax: Axes, field: NDArray[Any], lengths: tuple[float, float], length_unit: str | None, **options: Any
-) -> Any:
+def _map(ax: Axes, field: NDArray[Any], lengths: tuple[float, float], length_unit: str | None, **options: Any) -> Any:
     """A field with x to the right and y up."""
     factor, unit = _scaled(lengths, length_unit)
     options.setdefault("interpolation", "nearest")
@@ -92,7 +90,9 @@ def solution(found: Solution, length_unit: str | None, pressure_unit: str | None
     pressure = factor * np.asarray(field, dtype=float)
     if found.gap.ndim == 1:
         return _lines(found, pressure, length_unit, unit)
-    figure, (left, right) = plt.subplots(1, 2, figsize=(8.6 if adhesive else 7.8, 3.4), sharey=True, layout="compressed")
+    figure, (left, right) = plt.subplots(
+        1, 2, figsize=(8.6 if adhesive else 7.8, 3.4), sharey=True, layout="compressed"
+    )
     _map(left, found.contact.astype(float), found.lengths, length_unit, cmap="Greys", vmin=0, vmax=1.15)
     left.set_title(f"contact {100 * found.contact_fraction:.3g} %")
     # compression and tension differ by orders of magnitude: each has a scale of its own

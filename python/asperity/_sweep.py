@@ -18,7 +18,8 @@ if TYPE_CHECKING:
 class Sweep(Rows[Solution]):
     """The solutions of a sweep, each found when it is asked for, and the columns of their numbers.
 
-    Iterating gives a `Solution` for each load. Only the numbers are kept, so that a sweep needs the memory of one solve.
+    Iterating gives a `Solution` for each load. Only the numbers are kept, so that a sweep needs the memory of one
+    solve.
     """
 
     names = (

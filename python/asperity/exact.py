@@ -1,7 +1,7 @@
 """Exact solutions, at many loads at once: what a solve should come to.
 
-A solution gives states at given loads, contact radii, approaches or mean gaps, of any shape; a state gives its numbers in
-that shape, and its fields at any places. Numbers beyond the range of a solution are a ``ValueError``.
+A solution gives states at given loads, contact radii, approaches or mean gaps, of any shape; a state gives its numbers
+in that shape, and its fields at any places. Numbers beyond the range of a solution are a ``ValueError``.
 
 >>> import numpy as np
 >>> from asperity import exact

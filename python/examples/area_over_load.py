@@ -18,8 +18,8 @@ reduced = np.geomspace(0.01, 1.5, 16)  # p̄/(E* h'rms)
 sweep = asperity.sweep(rough, modulus=modulus, mean_pressures=reduced * modulus * rms_slope)
 
 # %% [markdown]
-# The columns are those of the tool's table; `pandas.DataFrame(sweep.columns)` takes them as they are. The corrected fraction
-# is without the excess that a map of nodes has along the edge of the contact.
+# The columns are those of the tool's table; `pandas.DataFrame(sweep.columns)` takes them as they are. The corrected
+# fraction is without the excess that a map of nodes has along the edge of the contact.
 
 # %%
 columns = sweep.columns

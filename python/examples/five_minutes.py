@@ -10,8 +10,8 @@ import numpy as np
 import asperity
 
 # %% [markdown]
-# A stand-in for a measurement, 2 µm wide, in metres. Yours is a file: `.npy`, `.npz`, `.gsf`, `.xyz` or text, or any of the
-# 45 formats of SurfaceTopography, by `asperity.from_topography`.
+# A stand-in for a measurement, 2 µm wide, in metres. Yours is a file: `.npy`, `.npz`, `.gsf`, `.xyz` or text, or any of
+# the 45 formats of SurfaceTopography, by `asperity.from_topography`.
 
 # %%
 rough = asperity.surface.self_affine(512, 4e-6, rms_height=6e-9, hurst=0.8, k_l=2, k_s=40, seed=11)

@@ -1,7 +1,8 @@
 # %% [markdown]
 # # 200 scenes over processes, one table
 #
-# Fifty surfaces of four Hurst exponents, pressed alike: how much does the contact of one surface differ from that of another?
+# Fifty surfaces of four Hurst exponents, pressed alike: how much does the contact of one surface differ from that of
+# another?
 
 # %%
 import itertools

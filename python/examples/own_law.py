@@ -31,8 +31,9 @@ class VanDerWaals:
 
 
 # %% [markdown]
-# `check_law` compares each function with differences of the one before: a wrong derivative is the usual mistake. A solve
-# reads the functions once, in blocks of thousands of gaps, and needs Python no more: it is as fast as with a law of the library.
+# `check_law` compares each function with differences of the one before: a wrong derivative is the usual mistake. A
+# solve reads the functions once, in blocks of thousands of gaps, and needs Python no more: an iteration takes a third
+# longer than with the exponential of the library.
 
 # %%
 law = VanDerWaals(work_of_adhesion=1e-4, cut_off=8e-3)

@@ -9,8 +9,8 @@ use crate::account::Scalar;
 use crate::law::law;
 use crate::refusal::refusal;
 
-/// Nodes in contact, their share, its corrected value, the perimeter, sizes of clusters, and the shares of the nodes that
-/// repel, attract and do not notice each other.
+/// Nodes in contact, their share, its corrected value, the perimeter, sizes of clusters, and the shares of the nodes
+/// that repel, attract and do not notice each other.
 type Statistics<'py> = (usize, f64, f64, f64, Bound<'py, PyArray1<i64>>, f64, f64, f64);
 
 /// The statistics of a gap and a contact pressure, both in `f64` or both in `f32`.

@@ -43,7 +43,8 @@ macro_rules! states {
 }
 
 states! {
-    /// Axisymmetric contacts of a paraboloid −r²/2R with a half-space; numbers have the shape of what they were found at.
+    /// Axisymmetric contacts of a paraboloid −r²/2R with a half-space; numbers have the shape of what they were found
+    /// at.
     ///
     /// Attributes
     /// ----------
@@ -58,8 +59,8 @@ states! {
     ///
     /// Notes
     /// -----
-    /// pressure(r), gap(r), displacement(r), which is u = h + g, and deflection(r), which is u + δ, are fields at the distances
-    /// r ≥ 0 from the axis: the shape of the contacts, then that of r.
+    /// pressure(r), gap(r), displacement(r), which is u = h + g, and deflection(r), which is u + δ, are fields at the
+    /// distances r ≥ 0 from the axis: the shape of the contacts, then that of r.
     Contact(exact::Contact) {
         contact_radius, adhesion_radius, load, approach, radius_of_curvature, second_moment,
     } { pressure(r), gap(r), displacement(r), deflection(r), }
@@ -77,8 +78,8 @@ states! {
     ///
     /// Notes
     /// -----
-    /// pressure(x), gap(x) and displacement(x) are fields at the distances x from a crest: the shape of the contacts, then that
-    /// of x.
+    /// pressure(x), gap(x) and displacement(x) are fields at the distances x from a crest: the shape of the contacts,
+    /// then that of x.
     WaveContact(exact::WaveContact) { half_width, mean_pressure, mean_gap, } {
         pressure(x), gap(x), displacement(x),
     }

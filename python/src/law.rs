@@ -226,10 +226,10 @@ impl AdhesionLaw<f64> for Called {
 /// Parameters
 /// ----------
 /// law : object
-///     With the methods energy(gap), traction(gap) and slope(gap) of an array of gaps g ≥ 0, each of which returns an array
-///     of the same shape: the energy per area φ(g), its derivative φ'(g), positive where the surfaces attract each other,
-///     and the traction's derivative φ''(g). Attributes `work_of_adhesion`, −φ(0) by default, and `range`, the length over
-///     which the traction decays, w/φ'(0) by default, say how far the grid has to resolve it.
+///     With the methods energy(gap), traction(gap) and slope(gap) of an array of gaps g ≥ 0, each of which returns an
+///     array of the same shape: the energy per area φ(g), its derivative φ'(g), positive where the surfaces attract
+///     each other, and the traction's derivative φ''(g). Attributes `work_of_adhesion`, −φ(0) by default, and `range`,
+///     the length over which the traction decays, w/φ'(0) by default, say how far the grid has to resolve it.
 /// largest_gap : float
 ///     Largest gap, a length.
 ///

@@ -72,7 +72,8 @@ pub type Observe<'a> = &'a mut (dyn FnMut(&asperity::Iteration) -> ControlFlow<(
 /// Runs `work` on a thread of the pool and returns its result, and the exception that stopped it, if one did.
 ///
 /// The lock of the interpreter is free meanwhile. This thread sleeps, wakes for signals, and calls the observer of
-/// Python, so that this sees its own thread. An observer stops the solve by `StopIteration`, which is no exception here.
+/// Python, so that this sees its own thread. An observer stops the solve by `StopIteration`, which is no exception
+/// here.
 pub fn run<R: Send>(
     py: Python<'_>,
     pool: &Pool,

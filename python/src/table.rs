@@ -7,8 +7,8 @@ use pyo3::prelude::*;
 use crate::law::{Function, Functions};
 use crate::refusal::refusal;
 
-/// The powers of two of a gap in ranges ρ between which the table has intervals of its own. Below there is one interval;
-/// above, the energy is constant.
+/// The powers of two of a gap in ranges ρ between which the table has intervals of its own. Below there is one
+/// interval; above, the energy is constant.
 const OCTAVES: (i32, i32) = (-8, 20);
 
 /// The bits of the mantissa that number the intervals of an octave: 128 of them.
@@ -71,8 +71,8 @@ impl Table {
     /// Reads the law.
     ///
     /// # Errors
-    /// What the functions raise; `ValueError` if one is not finite somewhere, or not the derivative of the one before, or
-    /// rougher than a table can be.
+    /// What the functions raise; `ValueError` if one is not finite somewhere, or not the derivative of the one before,
+    /// or rougher than a table can be.
     pub fn of(law: &Functions<'_>) -> PyResult<Self> {
         let at_zero = |function| law.at(function, &[0.0]).map(|values| values[0]);
         let work_of_adhesion =

@@ -26,7 +26,9 @@ def test_maugis_is_between_jkr_and_dmt():
     assert np.isclose(sphere.tabor_parameter, 1.36, atol=5e-3)
     assert 1.5 < -sphere.pull_off().load / (np.pi * 1e-4 * 2.0) < 2.0
     loads = np.linspace(0.9 * sphere.pull_off().load, 1e-3, 5)
-    assert np.allclose(sphere.at_contact_radius(sphere.at_load(loads).contact_radius).load, loads, rtol=1e-9, atol=1e-14)
+    assert np.allclose(
+        sphere.at_contact_radius(sphere.at_load(loads).contact_radius).load, loads, rtol=1e-9, atol=1e-14
+    )
 
 
 def test_waves():

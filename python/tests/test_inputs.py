@@ -135,7 +135,9 @@ def test_files_are_read_with_what_belongs_to_them(tmp_path, rough):
 def test_prepare_takes_the_steps_of_the_tool():
     rng = np.random.default_rng(1)
     tilted = rng.normal(size=(40, 30)) + 5 * np.arange(40)[:, None]
-    made = asperity.prepare(tilted, (40.0, 30.0), scale=1e-9, crop=(4, 2, 32, 24), flip=True, detrend="plane", window=0.2)
+    made = asperity.prepare(
+        tilted, (40.0, 30.0), scale=1e-9, crop=(4, 2, 32, 24), flip=True, detrend="plane", window=0.2
+    )
     assert made.shape == (32, 24) and made.lengths == (32.0, 24.0) and made.missing == 0
     assert np.abs(made.heights).max() < 1e-8
     assert asperity.prepare(made, resample=(64, 48)).shape == (64, 48)

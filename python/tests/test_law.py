@@ -151,7 +151,9 @@ def test_laws_in_python_on_many_threads_do_not_wait_for_each_other(rough):
     found = []
 
     def solve():
-        solution = asperity.solve(rough, modulus=1.0, mean_pressure=0.01, law=Exponential(2e-5, 8e-3), observe=lambda _: None)
+        solution = asperity.solve(
+            rough, modulus=1.0, mean_pressure=0.01, law=Exponential(2e-5, 8e-3), observe=lambda _: None
+        )
         found.append(solution.gap.tobytes())
 
     threads = [threading.Thread(target=solve) for _ in range(8)]
