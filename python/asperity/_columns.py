@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Any, Generic, TypeVar
+from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 T = TypeVar("T")
+R = TypeVar("R", bound="Rows[Any]")
 
 
-class Rows(Generic[T]):
+class Rows(Iterator[T]):
     """An iterator over states, of which the numbers are kept, and not the fields."""
 
     #: the names of the columns, as in the tool's table
@@ -20,13 +21,7 @@ class Rows(Generic[T]):
     def __init__(self) -> None:
         self.rows: list[dict[str, Any]] = []
 
-    def __iter__(self) -> Iterator[T]:
-        return self
-
-    def __next__(self) -> T:
-        raise StopIteration
-
-    def run(self) -> Any:
+    def run(self: R) -> R:
         """Solves what is left, and returns itself."""
         for _ in self:
             pass
