@@ -113,6 +113,9 @@ impl Table {
                 // an energy counts from where it is at large gaps
                 let datum = [far, 0.0, 0.0];
                 largest = std::array::from_fn(|n| values[n].iter().fold(0.0, |m: f64, v| m.max((v - datum[n]).abs())));
+                if values[1].last().is_some_and(|traction| traction.abs() > TOLERANCE * largest[1]) {
+                    return Err(too_far(gaps.last().copied().unwrap_or_default(), range));
+                }
             }
             let mut halves = Vec::new();
             for (k, candidate) in open.into_iter().enumerate() {
@@ -186,6 +189,15 @@ impl Piece {
         let found = [self.energy(t, range), self.traction(t)];
         (0..2).all(|n| (found[n] - law[n]).abs() <= TOLERANCE * largest[n])
     }
+}
+
+/// The refusal of a law that goes on beyond its table.
+fn too_far(gap: f64, range: f64) -> PyErr {
+    PyValueError::new_err(format!(
+        "the law still has a traction at a gap of {gap:e}, {:.0} times its range of {range:e}: give it an attribute range, \
+         the length over which the traction decays",
+        gap / range
+    ))
 }
 
 /// The refusal of a law of which the table does not come to an end.

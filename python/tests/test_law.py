@@ -142,6 +142,21 @@ def test_a_law_that_is_none_is_refused(rough):
         asperity.solve(rough, law=Shapeless(2e-5, 8e-3), **options)
 
 
+def test_a_range_that_is_too_short_for_the_law_is_refused(rough):
+    law, narrow = Exponential(2e-5, 8e-3), Exponential(2e-5, 1e-10)
+    narrow.energy, narrow.traction, narrow.slope = law.energy, law.traction, law.slope
+    with pytest.raises(ValueError, match="still has a traction at a gap of 1.04.*e-4, .* give it an attribute range"):
+        asperity.solve(rough, modulus=1.0, mean_pressure=0.01, law=narrow)
+
+
+def test_a_law_in_python_serves_single_precision_too(rough):
+    options = {"modulus": 1.0, "mean_pressure": 0.01, "precision": "f32"}
+    own = asperity.solve(rough, law=Exponential(2e-5, 8e-3), **options)
+    built_in = asperity.solve(rough, law=asperity.Exponential(2e-5, 8e-3), **options)
+    # both to a certified error of 1e-4
+    assert np.allclose(own.gap, built_in.gap, rtol=0, atol=1e-3 * built_in.gap.max())
+
+
 def test_the_laws_here_agree_with_themselves():
     for law in (Exponential(2e-5, 8e-3), Linear(2e-5, 8e-3), Dugdale(2e-5, 8e-3), asperity.Exponential(1.0, 0.1)):
         asperity.check_law(law, 0.1)
