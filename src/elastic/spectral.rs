@@ -493,8 +493,8 @@ impl<T: Real> ElasticOperator<T> for Spectral<T> {
         Some(Box::new(Spectral { grid, modulus, symbol, stiffness, range, convolver: Convolver::new(grid.shape()) }))
     }
 
-    fn rest(&mut self) {
-        self.convolver.rest();
+    fn release_memory(&mut self) {
+        self.convolver.release_memory();
     }
 
     fn coarse_space(&self, dimension: usize) -> Option<CoarseSpace> {
