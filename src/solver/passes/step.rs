@@ -8,7 +8,7 @@ use super::{Fields, count, idles};
 use crate::field::{CHUNK, Partial, SUMS, read, write};
 use crate::par::IndexedParallelIterator;
 use crate::real::Real;
-use crate::solver::potential::{Of, Potential};
+use crate::solver::potential::{Least, Of, Potential};
 use crate::vector::{sums, vectors};
 
 /// A step before it is clipped.
@@ -83,20 +83,30 @@ fn whole<T: Real>(scale: T, gap: T, change: T) -> T {
     if scale == T::one() { change } else { scale * (gap + change) - gap }
 }
 
-/// The change c of a step at one node, and whether it was clipped.
+/// The change c of a step at one node, and whether it was clipped: the gap becomes no less than zero where a wall is;
+/// where the law repels, no less than the gap of rest, and from below it than a share of what it is.
 #[inline(always)]
-fn clipped_change<T: Real>(projects: bool, attempt: Attempt<T>, gap: T, residual: T, z: T, change: T) -> (T, bool) {
+fn clipped_change<T: Real>(
+    least: Option<Least<T>>,
+    attempt: Attempt<T>,
+    gap: T,
+    residual: T,
+    z: T,
+    change: T,
+) -> (T, bool) {
     let Attempt { length, centre, keep, mean } = attempt;
     let kept = if keep == T::zero() { T::zero() } else { keep * (change - mean) };
     let next = if idles(residual) { gap } else { gap - length * (z - centre) + kept };
-    let clipped = projects & (next < T::zero());
-    (if clipped { -gap } else { next - gap }, clipped)
+    match least.map(|least| least.after(gap)) {
+        Some(least) if next < least => (least - gap, true),
+        _ => (next - gap, false),
+    }
 }
 
 /// The largest a with g + a·c ≥ 0 at one node, for a gap g and a change c.
 #[inline(always)]
-fn reach<T: Real>(projects: bool, gap: T, change: T) -> f64 {
-    if projects & (change < T::zero()) { (gap / -change).widen() } else { f64::INFINITY }
+fn reach<T: Real>(positive: bool, gap: T, change: T) -> f64 {
+    if positive & (change < T::zero()) { (gap / -change).widen() } else { f64::INFINITY }
 }
 
 /// Writes the clipped change c of a step; `surface` is K⁻¹h under gap control.
@@ -123,13 +133,16 @@ pub(in crate::solver) fn trial<T: Real>(
     };
     let total = match surface {
         None => local.run(reducer, chunks, |local, first, (((gap, residual), z), change)| {
-            let projects = local.projects();
+            let (least, lands) = (local.least(), local.projects());
             let mut part = sums!(4, [gap, residual, z], [change], |i| {
                 let (g, r) = (gap[i], residual[i]);
-                let (c, clipped) = clipped_change(projects, attempt, g, r, z[i], change[i]);
+                let (c, clipped) = clipped_change(least, attempt, g, r, z[i], change[i]);
                 change[i] = c;
-                let blocked = clipped & (r > T::zero()) & (g > T::zero());
-                ([c.widen(), count(clipped), count(blocked), r.widen() * c.widen()], reach(projects, g, c))
+                let blocked = lands & clipped & (r > T::zero()) & (g > T::zero());
+                (
+                    [c.widen(), count(clipped), count(blocked), r.widen() * c.widen()],
+                    reach(least.is_some_and(|least| least.depth == T::zero()), g, c),
+                )
             });
             slopes(local, &mut part, first, gap, change);
             part
@@ -137,13 +150,13 @@ pub(in crate::solver) fn trial<T: Real>(
         Some(surface) => {
             let chunks = chunks.zip(read(surface));
             local.run(reducer, chunks, |local, first, ((((gap, residual), z), change), surface)| {
-                let projects = local.projects();
+                let (least, lands) = (local.least(), local.projects());
                 let mut part = sums!(7, [gap, residual, z, surface], [change], |i| {
                     let (g, r) = (gap[i], residual[i]);
-                    let (c, clipped) = clipped_change(projects, attempt, g, r, z[i], change[i]);
+                    let (c, clipped) = clipped_change(least, attempt, g, r, z[i], change[i]);
                     change[i] = c;
-                    let blocked = count(clipped & (r > T::zero()) & (g > T::zero()));
-                    let low = reach(projects, g, c);
+                    let blocked = count(lands & clipped & (r > T::zero()) & (g > T::zero()));
+                    let low = reach(least.is_some_and(|least| least.depth == T::zero()), g, c);
                     let [g, r, c, h] = [g, r, c, surface[i]].map(T::widen);
                     ([c, count(clipped), blocked, r * c, r * g, c * h, g * h], low)
                 });
@@ -210,7 +223,7 @@ pub(in crate::solver) fn advance<T: Real>(
             residual[i] = pressure[i] + tractions[i] + offset;
         });
         if !local.is_zero() {
-            tally_local(&mut part, local, first, gap, tractions, local.has_springs());
+            tally_local(&mut part, local, first, gap, tractions, local.is_soft());
             let level = level.unwrap_or(T::zero());
             let product = sums!(1, [step, residual], [], |i| {
                 ([step[i].widen() * (residual[i] - level).widen()], f64::INFINITY)
