@@ -125,6 +125,20 @@ pub trait ElasticOperator<T: Real>: Send {
         None
     }
 
+    /// The operator in `f32`, for the corrections of a solve in `f64`, or none.
+    ///
+    /// With one, a solve in `f64` applies it to the changes of the gap and to the residuals, and this operator only to
+    /// the gap itself, now and then: an iteration then takes little more time than in `f32`. It must be this operator
+    /// but for rounding. The default is none: then this operator is applied to all of them. [`Spectral`] has one, unless
+    /// a stiffness leaves the range of `f32`; an operator that wraps it passes this on only if it changes nothing.
+    fn in_single(&self) -> Option<Box<dyn ElasticOperator<f32>>> {
+        None
+    }
+
+    /// Gives back the memory that is kept between two applications; the next one takes it anew. The default does
+    /// nothing.
+    fn release_memory(&mut self) {}
+
     /// Applies the preconditioner, M r.
     ///
     /// M is close to (K⁻¹ + s)⁻¹, the compliance of the half-space on a foundation of stiffness s, pressure per length:
@@ -288,6 +302,14 @@ macro_rules! delegate {
         fn coarse_space(&self, dimension: usize) -> Option<CoarseSpace> {
             let $this = self;
             $inner.coarse_space(dimension)
+        }
+        fn in_single(&self) -> Option<Box<dyn ElasticOperator<f32>>> {
+            let $this = self;
+            $inner.in_single()
+        }
+        fn release_memory(&mut self) {
+            let $this = self;
+            $inner.release_memory();
         }
     };
 }

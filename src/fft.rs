@@ -98,6 +98,11 @@ impl<T: Real> Convolver<T> {
         Self { layout, twiddles, rows, columns, spectrum, sums, pool }
     }
 
+    /// Gives back the spectrum; the next convolution takes it anew.
+    pub(crate) fn release_memory(&mut self) {
+        self.spectrum = Array2::zeros((0, 0));
+    }
+
     /// The layout of the modes that `modify` gets.
     pub(crate) fn layout(&self) -> Layout {
         self.layout
@@ -131,6 +136,9 @@ impl<T: Real> Convolver<T> {
         Error::shape("operator input", input.dim(), shape)?;
         Error::shape("operator output", output.dim(), shape)?;
         let norm = T::lit(1.0 / (shape.0 as f64 * shape.1 as f64));
+        if self.spectrum.is_empty() {
+            self.spectrum = Array2::zeros(self.layout.spectrum());
+        }
         self.rows_forward(self.layout.view(&input).view());
         let Self { columns, spectrum, sums, pool, twiddles, .. } = self;
         let n0 = spectrum.ncols();

@@ -10,7 +10,7 @@
 //! | [`penalty_and_uzawa`] | the two classical ways beside projection, with figures |
 //! | [`boundary`] | a periodic cell or a free half-space, absent nodes; forces, approaches and springs |
 //! | [`branches`] | loading and unloading with adhesion: jumps, limit points, stability |
-//! | [`python`] | heights from numpy, results to numpy |
+//! | [`python`] | from Python: the package, and files |
 //! | [`choosing`] | resolution, tolerance and precision for the accuracy you want |
 //! | [`performance`] | how fast: applications, times, memory, beside other programs |
 //! | [`precision`] | how far rounding lets a solve go, and what becomes of extreme input |

@@ -35,7 +35,7 @@ const CARRIED: f64 = 0.5;
 /// and so does the finest one on its way from their solution, as it does from the default start. Without a coarser
 /// grid all is as with [`Solver::solve`].
 ///
-/// Memory per node of the finest grid: no more than a solve on that grid alone, seven scalars with
+/// Memory per node of the finest grid: no more than a solve on that grid alone, five scalars in `f64` and seven in `f32` with
 /// [`Westergaard`](crate::Westergaard); the start from the coarser grid becomes one of them.
 ///
 /// ```

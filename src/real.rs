@@ -32,6 +32,12 @@ pub trait Real:
     fn call<F: Compiled>(input: F::Input<Self>) -> F::Output<Self>;
 }
 
+/// A value in another precision.
+#[inline(always)]
+pub(crate) fn cast<S: Real, T: Real>(value: S) -> T {
+    T::lit(value.widen())
+}
+
 /// A function of either precision that is compiled with this crate, and not again with each crate that calls it.
 ///
 /// The compiler makes the code of a generic function where it is called. The two functions here are not generic.

@@ -15,6 +15,7 @@ mod driver;
 mod energy;
 mod finish;
 mod foundation;
+mod operators;
 mod passes;
 mod phases;
 mod potential;
@@ -165,10 +166,13 @@ impl Settings {
 /// That is two operator applications an iteration, whether or not anything was clipped. τ follows the best
 /// lengths of the steps before. The page [`driver`](crate::guide::driver) derives all of it.
 ///
-/// Memory per node, in scalars: five, of which the solution keeps three, beside those of the problem. With a
-/// [`Westergaard`](crate::Westergaard) half-space that makes seven in all, of the precision of the solve.
-/// With [`Boussinesq`](crate::Boussinesq), whose grid has four times the nodes of the surface or somewhat more, 29 of the
-/// surface in `f64`.
+/// In `f64` the gap, the pressure and all that is reported are in `f64`, and changes, residuals and transforms in `f32`,
+/// if the operator can be had [in single precision](crate::ElasticOperator::in_single); the certificate is that of the
+/// state in `f64`.
+///
+/// Memory per node with a [`Westergaard`](crate::Westergaard) half-space, that of the problem included: in `f64` five
+/// scalars, in `f32` seven. The solution keeps three.
+/// With [`Boussinesq`](crate::Boussinesq) the grid has four times the nodes of the surface, or somewhat more.
 /// The [`CoarseSpace`](crate::CoarseSpace) adds up to 13 N^(2/3) numbers in `f64`: a fifth of a field on 512² nodes, and 5 % on
 /// 4096².
 ///
@@ -273,6 +277,7 @@ impl<C> Solver<C> {
         C: ContactConstraint<T>,
     {
         let Self { settings, constraint } = self;
-        driver::solve(Job { problem, constraint, control, settings: *settings, start, observe })
+        let Parts { operator, law, flat } = problem;
+        driver::solve(operator, Job { law, flat, constraint, control, settings: *settings, start, observe })
     }
 }

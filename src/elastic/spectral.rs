@@ -9,7 +9,7 @@ use asperity_fft::num_complex::Complex;
 
 use super::*;
 use crate::fft::{Convolver, Layout, Sums};
-use crate::real::Compiled;
+use crate::real::{Compiled, cast};
 use crate::vector::{BLOCK, LANES, vectorised};
 
 /// The stiffness k(qx, qy) of a wave, pressure per displacement.
@@ -21,7 +21,8 @@ type Symbol = Arc<dyn Fn(f64, f64) -> f64 + Send + Sync>;
 /// has a layer of finite thickness with its limits, and treats the mean. For the homogeneous half-space,
 /// k = E*|q|/2, see [`Westergaard`].
 ///
-/// Memory per node, in units of one scalar: 1 for the spectrum and ½ for the stiffness; both once more, in `f64`,
+/// Memory per node, in units of one scalar: 1 for the spectrum, which a solve in `f64` gives back, and ½ for the
+/// stiffness, of which such a solve has one in `f32`, too; both once more, in `f64`,
 /// while the constructor of a [`Problem`](crate::Problem) transforms the heights.
 ///
 /// ```
@@ -432,7 +433,7 @@ impl<T: Real> Spectral<T> {
         let stiffness = match &self.stiffness {
             Stiffness::Stored(_) => Stiffness::Stored(stiffness(&self.grid, &self.symbol)?),
             Stiffness::Even(modes) => Stiffness::Even(Arc::clone(modes)),
-            _ => half_space(&self.grid, self.modulus)?.0,
+            Stiffness::HalfSpace { .. } | Stiffness::Line { .. } => half_space(&self.grid, self.modulus)?.0,
         };
         let layout = self.convolver.layout();
         Convolver::<f64>::new(self.grid.shape())
@@ -474,6 +475,26 @@ impl<T: Real> ElasticOperator<T> for Spectral<T> {
     fn surface_pressure(&mut self, heights: ArrayView2<'_, f64>, pressure: ArrayViewMut2<'_, T>) -> Result<f64> {
         let [work, ..] = T::call::<PressFlat<'_>>((self, heights, pressure))?;
         Ok(work / self.norm())
+    }
+
+    fn in_single(&self) -> Option<Box<dyn ElasticOperator<f32>>> {
+        let (stiffness, range) = match &self.stiffness {
+            Stiffness::Stored(stiffness) => {
+                check_range::<f32>(self.range.0, self.range.1).ok()?;
+                (Stiffness::Stored(stiffness.mapv(cast)), self.range)
+            }
+            Stiffness::Even(modes) => {
+                check_range::<f32>(self.range.0, self.range.1).ok()?;
+                (Stiffness::Even(Arc::clone(modes)), self.range)
+            }
+            Stiffness::HalfSpace { .. } | Stiffness::Line { .. } => half_space(&self.grid, self.modulus).ok()?,
+        };
+        let (grid, modulus, symbol) = (self.grid, self.modulus, Arc::clone(&self.symbol));
+        Some(Box::new(Spectral { grid, modulus, symbol, stiffness, range, convolver: Convolver::new(grid.shape()) }))
+    }
+
+    fn release_memory(&mut self) {
+        self.convolver.release_memory();
     }
 
     fn coarse_space(&self, dimension: usize) -> Option<CoarseSpace> {

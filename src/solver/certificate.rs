@@ -27,7 +27,7 @@ const STALL_REY2017: (usize, usize) = (400, 800);
 /// The roundings that the length of a spring may have.
 const SPRING_ROUNDINGS: f64 = 8.0;
 
-impl<T: Real> State<'_, T> {
+impl<T: Real, L: Real> State<'_, T, L> {
     /// The certified relative error in the energy norm, √(certificate/⟨u, p⟩), and at least that of rounding.
     pub(super) fn relative_error(&self) -> f64 {
         let (scale, rounding) = self.error_scale();
@@ -49,7 +49,7 @@ impl<T: Real> State<'_, T> {
         let apart = if self.tally.contact > 0.0 { 0.0 } else { self.flat.work };
         // flats that attract each other have no waves but those of rounding
         let traction = self.tally.traction / self.nodes();
-        let (softest, stiffest) = self.operator.stiffness_range();
+        let (softest, stiffest) = self.operators.state().stiffness_range();
         // and so have flats that are held apart
         let lifted = if self.tally.contact > 0.0 { 0.0 } else { self.tally.sum_gap / self.nodes() };
         let flat =
@@ -89,8 +89,8 @@ impl<T: Real> State<'_, T> {
     }
 
     pub(super) fn scaled_orthogonality(&self) -> f64 {
-        let (lx, ly) = self.operator.grid().lengths();
-        self.residual.orthogonality / (self.operator.modulus() * (lx * ly).sqrt())
+        let (lx, ly) = self.operators.state().grid().lengths();
+        self.residual.orthogonality / (self.operators.state().modulus() * (lx * ly).sqrt())
     }
 
     /// Whether the goal is reached.
@@ -124,7 +124,7 @@ impl<T: Real> State<'_, T> {
         self.momentum = None;
         self.refresh()?;
         self.residual();
-        let softest = self.operator.stiffness_range().0;
+        let softest = self.operators.state().stiffness_range().0;
         let change = self.residual.difference;
         let difference = if change == 0.0 { 0.0 } else { change / self.nodes() / softest };
         self.certificate = (before.sqrt() + difference.sqrt()).powi(2);
@@ -132,6 +132,8 @@ impl<T: Real> State<'_, T> {
             return Ok(true);
         }
         self.certify()?;
+        // what the updated pressure claimed was no progress
+        self.progress.best_error = self.progress.best_error.max(self.relative_error());
         Ok(self.converged())
     }
 

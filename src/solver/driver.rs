@@ -4,23 +4,39 @@
 use std::marker::PhantomData;
 use std::ops::ControlFlow;
 
+use super::operators::{One, Operators, Two};
 use super::report::{Iteration, Solution, Status};
 use super::start::Start;
 use super::state::{Goal, State};
 use super::{Method, Settings};
+use crate::adhesion::AdhesionLaw;
 use crate::constraint::{ContactConstraint, Update};
+use crate::elastic::ElasticOperator;
 use crate::error::{Error, Result};
-use crate::problem::{Control, Parts, smoothed_law};
+use crate::problem::{Control, PressedFlat, smoothed_law};
 use crate::real::{Compiled, Real};
 
-/// The input of a solve.
+/// The input of a solve, but for the operator.
 pub(super) struct Job<'a, T> {
-    pub(super) problem: Parts<'a, T>,
+    pub(super) law: &'a dyn AdhesionLaw<T>,
+    pub(super) flat: &'a PressedFlat<T>,
     pub(super) constraint: &'a mut dyn ContactConstraint<T>,
     pub(super) control: Control,
     pub(super) settings: Settings,
     pub(super) start: Start<'a, T>,
     pub(super) observe: Observer<'a>,
+}
+
+/// A mean pressure that is nothing beside the rounding of corrections in `f32`, over the rms pressure that presses the
+/// surface flat.
+const LIGHT: f64 = 1e-8;
+
+impl<T> Job<'_, T> {
+    /// Whether the load is so light that corrections in `f32` would not find the first contact.
+    fn is_light(&self) -> bool {
+        let flat = self.flat.stiffness * self.flat.rms_height;
+        matches!(self.control, Control::MeanPressure(pressure) if pressure.abs() < LIGHT * flat)
+    }
 }
 
 /// The observer, called in every iteration, which may stop the solve.
@@ -37,31 +53,34 @@ pub(super) enum End {
 }
 
 /// Solves a problem, compiled once for each precision.
-pub(super) fn solve<T: Real>(job: Job<'_, T>) -> Result<Solution<T>> {
-    T::call::<Solve<'_>>(job)
+pub(super) fn solve<'a, T: Real>(operator: &'a mut dyn ElasticOperator<T>, job: Job<'a, T>) -> Result<Solution<T>> {
+    T::call::<Solve<'a>>((operator, job))
 }
 
 struct Solve<'a>(PhantomData<&'a ()>);
 
 impl<'a> Compiled for Solve<'a> {
-    type Input<T: Real> = Job<'a, T>;
+    type Input<T: Real> = (&'a mut dyn ElasticOperator<T>, Job<'a, T>);
     type Output<T: Real> = Result<Solution<T>>;
-    fn single(job: Job<'a, f32>) -> Result<Solution<f32>> {
-        run(job)
+    fn single((operator, job): Self::Input<f32>) -> Result<Solution<f32>> {
+        run(&mut One(operator), job)
     }
-    fn double(job: Job<'a, f64>) -> Result<Solution<f64>> {
-        run(job)
+    fn double((operator, job): Self::Input<f64>) -> Result<Solution<f64>> {
+        let two = job.settings.method == Method::Preconditioned && !job.is_light();
+        match operator.in_single().filter(|_| two) {
+            Some(corrections) => run(&mut Two::new(operator, corrections), job),
+            None => run(&mut One(operator), job),
+        }
     }
 }
 
-fn run<T: Real>(job: Job<'_, T>) -> Result<Solution<T>> {
-    let Job { problem, constraint, control, settings, start, observe } = job;
+fn run<T: Real, L: Real>(operators: &mut dyn Operators<T, L>, job: Job<'_, T>) -> Result<Solution<T>> {
+    let Job { law, flat, constraint, control, settings, start, observe } = job;
     Error::positive("tolerance", settings.tolerance_in::<T>())?;
-    let Parts { operator, law, flat } = problem;
     let (default_start, near) = (matches!(start, Start::Default), matches!(start, Start::Near(_)));
     let smooth = (near || default_start) && settings.method == Method::Preconditioned;
-    let smoothed = if smooth { smoothed_law(&*operator, law) } else { None };
-    let mut state = State::new(Parts { operator, law, flat }, constraint, control, start.into_gap(), settings)?;
+    let smoothed = if smooth { smoothed_law(operators.state(), law) } else { None };
+    let mut state = State::new(operators, law, flat, constraint, control, start.into_gap(), settings)?;
     if near {
         state.stays_near();
     }
@@ -94,7 +113,7 @@ fn run<T: Real>(job: Job<'_, T>) -> Result<Solution<T>> {
 }
 
 /// Minimises the energy with the present law, control and multipliers.
-pub(super) fn minimise<T: Real>(state: &mut State<'_, T>, observe: Observer<'_>) -> Result<End> {
+pub(super) fn minimise<T: Real, L: Real>(state: &mut State<'_, T, L>, observe: Observer<'_>) -> Result<End> {
     loop {
         state.residual();
         state.precondition()?;

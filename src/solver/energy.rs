@@ -1,15 +1,18 @@
 //! The energy of a state, the elastic work in it, and their rounding.
 
-use super::state::State;
+use super::passes::Fields;
+use super::state::{Left, State};
 use super::work::{TRUSTED, Work};
-use crate::elastic::Foundation;
 use crate::error::Result;
 use crate::real::Real;
 
 /// The roundings that each product and the sum of them may have.
 const ROUNDINGS: f64 = 8.0;
 
-impl<T: Real> State<'_, T> {
+/// The residual below which the pressure is computed anew, in units of the rounding that its updates have left.
+const STALE: f64 = 200.0;
+
+impl<T: Real, L: Real> State<'_, T, L> {
     /// The mean of u·p, twice the elastic energy per area.
     pub(super) fn mean_work(&self) -> f64 {
         (self.work.sum / self.nodes()).max(0.0)
@@ -18,6 +21,26 @@ impl<T: Real> State<'_, T> {
     /// The rounding of a sum over the nodes, with `size` the sum of the magnitudes of its terms.
     fn sum_noise(&self, size: f64) -> f64 {
         ROUNDINGS * (T::epsilon().widen() / self.nodes().sqrt() + f64::EPSILON) * size
+    }
+
+    /// The rounding of the corrections, beyond that of the state.
+    pub(super) fn rounding_of_corrections(&self) -> f64 {
+        L::epsilon().widen() - T::epsilon().widen()
+    }
+
+    /// The rounding of the work that a correction does, as a share of it, beyond that of the state.
+    pub(super) fn update_noise(&self) -> f64 {
+        ROUNDINGS * self.rounding_of_corrections() / self.nodes().sqrt()
+    }
+
+    /// Whether the rounding of the corrections, which the updated pressure has gathered, is no longer small beside the
+    /// residual.
+    ///
+    /// A transform spreads the rounding of a change c evenly over all waves, and their stiffness multiplies it: in the
+    /// norm of the certificate ε √(k⟨c, c⟩), with k the stiffness of the shortest wave.
+    pub(super) fn has_lost_its_pressure(&self) -> bool {
+        let rounding = STALE * self.rounding_of_corrections();
+        self.certificate < rounding * rounding * self.operators.state().stiffness_range().1 * self.updates
     }
 
     /// The work from the sums of a tally: Σ g·p and Σ g·K⁻¹h.
@@ -38,16 +61,14 @@ impl<T: Real> State<'_, T> {
             return Ok(());
         }
         let stiffness = self.foundation();
-        let found = self.operator.precondition(
-            self.fields.pressure.view(),
-            Foundation::uniform(stiffness, stiffness),
-            self.fields.preconditioned.view_mut(),
-        )?;
+        let Fields { pressure, residual, preconditioned, change, .. } = &mut self.fields;
+        let work = self.operators.work(pressure, stiffness, [preconditioned, residual, change])?;
         self.applications += 1;
-        if found.error.is_finite() {
-            let sum = self.nodes() * found.error.max(0.0);
+        if work.is_finite() {
+            let sum = self.nodes() * work.max(0.0);
             self.work = Work { sum, noise: self.sum_noise(sum) };
         }
+        self.left = Left::Nothing;
         Ok(())
     }
 

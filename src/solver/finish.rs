@@ -16,7 +16,7 @@ use crate::real::Real;
 /// The share of the largest traction above which one at the edge of the window matters.
 const EDGE: f64 = 1e-3;
 
-impl<T: Real> State<'_, T> {
+impl<T: Real, L: Real> State<'_, T, L> {
     /// The solution: the final fields, and the report on them.
     pub(super) fn finish(mut self, status: Status) -> Result<Solution<T>> {
         if self.age > 0 {
@@ -30,11 +30,15 @@ impl<T: Real> State<'_, T> {
         self.trust_work(T::epsilon().widen().sqrt())?;
         let mean = if self.is_gap_controlled() { -self.multiplier() } else { self.given };
         let shift = T::lit(mean - self.drift);
-        let Self { fields: Fields { reducer, gap, pressure, preconditioned, .. }, law, constraint, flat, .. } =
-            &mut self;
+        let Self { fields, law, constraint, flat, .. } = &mut self;
         let (law, flat) = (*law, *flat);
+        let Fields { reducer, gap, pressure, residual, preconditioned, change, .. } = fields;
+        for correction in [residual, preconditioned, change] {
+            *correction = Array2::zeros((0, 0));
+        }
+        let mut contact_pressure = Array2::zeros(gap.dim());
         let local = Potential::new(law, &**constraint, flat.window.as_ref());
-        let fields = read(gap).zip(write(pressure)).zip(write(preconditioned));
+        let fields = read(gap).zip(write(pressure)).zip(write(&mut contact_pressure));
         let total = local.run(reducer, fields, |local, first, ((gap, pressure), contact)| {
             let mut part = Partial::NONE;
             pressure.iter_mut().for_each(|p| *p += shift);
@@ -56,7 +60,7 @@ impl<T: Real> State<'_, T> {
             Load::Gap(_) => 0.0,
             _ => self.load_error().max(self.share_of_load(carried_pressure - mean)),
         };
-        let mu_rho = mu_rho(law, self.operator.grid(), self.operator.modulus());
+        let mu_rho = mu_rho(law, self.operators.state().grid(), self.operators.state().modulus());
         let facing = flat.window.as_ref().map_or(self.nodes(), |window| window.facing() as f64);
         let (given, padding) = (self.detached.unwrap_or(mean), flat.padding);
         // the mean of the displacement is no wave
@@ -91,8 +95,7 @@ impl<T: Real> State<'_, T> {
             criterion: self.settings.criterion,
             tolerance: self.settings.tolerance_in::<T>(),
         };
-        let Fields { gap, pressure, preconditioned: contact_pressure, residual, change, .. } = self.fields;
-        drop((residual, change));
+        let Fields { gap, pressure, .. } = self.fields;
         let Some(window) = &flat.window else { return Ok(Solution { gap, pressure, contact_pressure, report }) };
         let gap = window.crop(&gap, T::infinity());
         let pressure = window.crop(&pressure, T::zero());

@@ -18,7 +18,7 @@ const LOADED: f64 = 0.3;
 /// The relative error above which the contact map is not yet that of the solution with adhesion.
 const SETTLED: f64 = 0.1;
 
-impl<T: Real> State<'_, T> {
+impl<T: Real, L: Real> State<'_, T, L> {
     /// The stiffness of the contacts against a change of the mean gap, about λ̄/h_rms for rough surfaces.
     fn contact_stiffness(&self) -> f64 {
         let external = if self.is_gap_controlled() { -self.multiplier() } else { self.given };
@@ -29,9 +29,9 @@ impl<T: Real> State<'_, T> {
     /// own. On the way from a far start under a given pressure it is not known yet, and the softest wave's stiffness
     /// takes its place.
     pub(super) fn foundation(&self) -> f64 {
-        let (softest, stiffest) = self.operator.stiffness_range();
+        let (softest, stiffest) = self.operators.state().stiffness_range();
         if stiffest <= 0.0 {
-            return self.operator.modulus() / self.operator.grid().lengths().0;
+            return self.operators.state().modulus() / self.operators.state().grid().lengths().0;
         }
         let contact = self.contact_stiffness();
         let near = self.near || self.is_gap_controlled();
@@ -43,7 +43,7 @@ impl<T: Real> State<'_, T> {
     /// On the way from a far start, the geometric mean of the stiffness of the contacts, far too small for light
     /// loads, and that of the softest wave.
     pub(super) fn mean_stiffness(&self) -> f64 {
-        let (softest, stiffest) = self.operator.stiffness_range();
+        let (softest, stiffest) = self.operators.state().stiffness_range();
         if stiffest <= 0.0 {
             // nothing resists the load of a node alone before it touches: a step is as long as the gap
             let gap = self.tally.sum_gap / self.nodes();
@@ -67,7 +67,7 @@ impl<T: Real> State<'_, T> {
     /// springs hold.
     pub(super) fn renew_coarse(&mut self) {
         let (settled, projects, held) = (self.is_settled(), self.projects(), self.is_gap_controlled());
-        let (stiffness, range) = (self.flat.stiffness, self.operator.stiffness_range());
+        let (stiffness, range) = (self.flat.stiffness, self.operators.state().stiffness_range());
         let (spring, window) = (self.load.stiffness(), self.flat.window.as_ref());
         let iteration = self.iterations;
         let Some(coarse) = self.coarse.as_mut().filter(|coarse| coarse.is_due(iteration, settled)) else { return };

@@ -15,26 +15,26 @@ mod step;
 mod tally;
 
 pub(super) use held::{hold, release_held};
-pub(super) use residual::{Continued, Residual, Working};
+pub(super) use residual::{Continued, Working};
 pub(super) use residual::{idle, release, released, residual};
 pub(super) use step::{Advance, Attempt, Tried, advance, energy_after, trial};
 pub(super) use tally::{Taken, Tally, tally};
 
-/// The fields of a solve.
+/// The fields of a solve: the state in the precision T, its corrections in L.
 #[derive(Debug)]
-pub(super) struct Fields<T> {
+pub(super) struct Fields<T, L> {
     /// the gap g
     pub(super) gap: Array2<T>,
     /// the elastic pressure p = K⁻¹(g + h), of zero mean
     pub(super) pressure: Array2<T>,
     /// the residual r' (negative zero marks a node outside of the working set); while a step is made, K⁻¹c of the
     /// change c
-    pub(super) residual: Array2<T>,
+    pub(super) residual: Array2<L>,
     /// the preconditioned residual z = M r'; until it is computed, that of the previous state
-    pub(super) preconditioned: Array2<T>,
+    pub(super) preconditioned: Array2<L>,
     /// the change c, a multiple of the last step; while the next step is made, its change before the scale that
     /// restores the mean gap; the direction t of [`Method::Rey2017`](crate::Method)
-    pub(super) change: Array2<T>,
+    pub(super) change: Array2<L>,
     pub(super) reducer: Reducer,
     /// the least r in contact of each chunk, as of the present tally
     pub(super) least_r: Vec<f64>,
@@ -42,7 +42,7 @@ pub(super) struct Fields<T> {
     pub(super) moving: Vec<f64>,
 }
 
-impl<T: Real> Fields<T> {
+impl<T: Real, L: Real> Fields<T, L> {
     /// The fields of a solve that starts from this gap and its pressure.
     pub(super) fn new(gap: Array2<T>, pressure: Array2<T>) -> Self {
         let field = || Array2::zeros(gap.dim());

@@ -12,7 +12,7 @@ use crate::real::Real;
 /// contacts, for which a whole step is too long.
 const NEAR: f64 = 0.5;
 
-impl<'a, T: Real> State<'a, T> {
+impl<'a, T: Real, L: Real> State<'a, T, L> {
     /// Treats the start as near the solution.
     pub(super) fn stays_near(&mut self) {
         (self.near, self.step_length) = (true, NEAR);

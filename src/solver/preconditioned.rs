@@ -6,7 +6,7 @@ use super::state::{Left, Made, Residual, State};
 use crate::error::Result;
 use crate::field::{CHUNK, Partial, read, write};
 use crate::par::IndexedParallelIterator;
-use crate::real::Real;
+use crate::real::{Real, cast};
 
 /// The number of attempts at a descending step before the solve has stalled.
 const ATTEMPTS: usize = 24;
@@ -65,6 +65,8 @@ struct Trial {
     change: f64,
     /// ⟨r', c⟩
     descent: f64,
+    /// ⟨c, c⟩
+    square: f64,
     /// Σ c·K⁻¹h and Σ g·K⁻¹h, if the scale is not one
     surface: [f64; 2],
     /// Σ φ'·c, and Σ φ''·d²
@@ -82,6 +84,8 @@ struct Step {
     slope: f64,
     /// Σ d
     change: f64,
+    /// ⟨c, c⟩
+    square: f64,
     /// Σ d·p and ⟨d, K⁻¹d⟩
     work: f64,
     elastic: f64,
@@ -91,7 +95,7 @@ struct Step {
     local: f64,
 }
 
-impl<T: Real> State<'_, T> {
+impl<T: Real, L: Real> State<'_, T, L> {
     /// A step along the projected, conjugate, preconditioned residual; `false` if no step lowers the energy.
     pub(super) fn preconditioned_step(&mut self) -> Result<bool> {
         let length = self.step_length;
@@ -114,7 +118,7 @@ impl<T: Real> State<'_, T> {
             let trial_length = self.step_length;
             let Some(trial) = self.descend(&mut centre, &mut momentum) else { return Ok(false) };
             let Fields { change, residual: response, .. } = &mut self.fields;
-            let elastic = self.operator.pressure_and_work(change.view(), response.view_mut())?;
+            let elastic = self.operators.corrections().pressure_and_work(change.view(), response.view_mut())?;
             self.applications += 1;
             let Some(step) = self.search(&trial, elastic * self.nodes()) else { return Ok(false) };
             if !trial.blocked || step.length >= SHORT {
@@ -179,7 +183,7 @@ impl<T: Real> State<'_, T> {
         let surface = self.is_gap_controlled().then_some(&self.flat.pressure);
         let local = Potential::new(self.law, &*self.constraint, self.flat.window.as_ref());
         let tried = passes::trial(&mut self.fields, &local, attempt, surface);
-        let Tried { change, clipped, blocked, descent, gap_descent, change_surface, gap_surface, .. } = tried;
+        let Tried { change, clipped, blocked, descent, square, gap_descent, change_surface, gap_surface, .. } = tried;
         let Tried { traction, slope_change, slope_mixed, slope_gap, reach, .. } = tried;
         // the present mean, not the one that is given: a long step would multiply the rounding of their difference
         let present = self.tally.sum_gap;
@@ -195,6 +199,7 @@ impl<T: Real> State<'_, T> {
             scale,
             change,
             descent,
+            square,
             surface: [change_surface, gap_surface],
             traction,
             slopes: scale * scale * slope_change + 2.0 * scale * rest * slope_mixed + rest * rest * slope_gap,
@@ -205,7 +210,8 @@ impl<T: Real> State<'_, T> {
     /// A change that puts the blocked nodes into contact and lifts the others evenly; both lower the energy.
     fn land(&mut self, centre: f64, trial: Trial) -> Trial {
         let (length, centre) = (T::lit(self.step_length), T::lit(centre));
-        let lands = move |gap: T, r: T, z: T| gap > T::zero() && r > T::zero() && gap < length * (z - centre);
+        let lands =
+            move |gap: T, r: L, z: L| gap > T::zero() && r > L::zero() && gap < length * (cast::<_, T>(z) - centre);
         let held = self.is_gap_controlled();
         let local = Potential::new(self.law, &*self.constraint, self.flat.window.as_ref());
         let Fields { reducer, gap, residual, preconditioned, change, .. } = &mut self.fields;
@@ -222,7 +228,7 @@ impl<T: Real> State<'_, T> {
             part
         });
         let [landed, others, ..] = total.sum;
-        let lift = T::lit(if held { landed / others } else { 0.0 });
+        let lift = L::lit(if held { landed / others } else { 0.0 });
         let fields = read(gap).zip(read(residual)).zip(read(preconditioned)).zip(write(change));
         let total = local.run(reducer, fields, |local, first, (((gap, residual), z), change)| {
             let faces = local.is_surface();
@@ -234,30 +240,31 @@ impl<T: Real> State<'_, T> {
             let mut part = Partial::NONE;
             for (i, (((&gap, &r), &z), d)) in gap.iter().zip(residual).zip(z).zip(change).enumerate() {
                 *d = if faces && lands(gap, r, z) {
-                    -gap
+                    cast(-gap)
                 } else if !idles(r) {
                     lift
                 } else {
-                    T::zero()
+                    L::zero()
                 };
-                let [r, d, t, s] = [r, *d, tractions[i], slopes[i]].map(T::widen);
+                let ([r, d], [t, s]) = ([r, *d].map(L::widen), [tractions[i], slopes[i]].map(T::widen));
                 part.sum[0] += r * d;
                 part.sum[1] += d;
                 part.sum[2] += t * d;
                 part.sum[3] += s * d * d;
+                part.sum[4] += d * d;
             }
             part
         });
-        let [slope, change, traction, slopes, ..] = total.sum;
-        Trial { slope, scale: 1.0, change, descent: slope, traction, slopes, ..trial }
+        let [slope, change, traction, slopes, square, ..] = total.sum;
+        Trial { slope, scale: 1.0, change, descent: slope, square, traction, slopes, ..trial }
     }
 
     /// Subtracts the mean from z, and sets z to zero at nodes in contact that it would press.
     fn hold(&mut self, centre: f64) {
-        let (centre, centred) = (T::lit(centre), self.is_gap_controlled());
+        let (centre, centred) = (L::lit(centre), self.is_gap_controlled());
         let local = Potential::new(self.law, &*self.constraint, self.flat.window.as_ref());
         let Fields { reducer, gap, residual, preconditioned, .. } = &mut self.fields;
-        let moves = move |faces: bool, gap: T, r: T, z: T| !idles(r) && (!faces || gap > T::zero() || z < centre);
+        let moves = move |faces: bool, gap: T, r: L, z: L| !idles(r) && (!faces || gap > T::zero() || z < centre);
         let fields = read(gap).zip(read(residual)).zip(read(preconditioned));
         let total = local.run(reducer, fields, |local, _, ((gap, residual), z)| {
             let (mut part, faces) = (Partial::NONE, local.is_surface());
@@ -270,12 +277,12 @@ impl<T: Real> State<'_, T> {
             part
         });
         let [sum, count, ..] = total.sum;
-        let mean = T::lit(if centred && count > 0.0 { sum / count } else { 0.0 });
+        let mean = L::lit(if centred && count > 0.0 { sum / count } else { 0.0 });
         let fields = read(gap).zip(read(residual)).zip(write(preconditioned));
         local.run(reducer, fields, |local, _, ((gap, residual), z)| {
             let faces = local.is_surface();
             for ((&gap, &r), z) in gap.iter().zip(residual).zip(z) {
-                *z = if moves(faces, gap, r, *z) { *z - centre - mean } else { T::zero() };
+                *z = if moves(faces, gap, r, *z) { *z - centre - mean } else { L::zero() };
             }
             Partial::NONE
         });
@@ -337,14 +344,14 @@ impl<T: Real> State<'_, T> {
         // near the solution the best lengths scatter about their mean: damp their changes
         let ratio = if self.near { best.sqrt() } else { best };
         self.step_length = (self.step_length * ratio.clamp(ADAPT.0, ADAPT.1)).min(LONGEST);
-        let (scale, slope) = (trial.scale, trial.slope);
-        (length > 0.0).then_some(Step { length, scale, slope, change, work, elastic, spring, local: after })
+        let (scale, slope, square) = (trial.scale, trial.slope, trial.square);
+        (length > 0.0).then_some(Step { length, scale, slope, change, square, work, elastic, spring, local: after })
     }
 
     /// Takes a step: gap, pressure, and the tally of the new state.
     fn advance(&mut self, step: &Step) {
         let projects = self.projects();
-        let &Step { length, scale, slope, change, work, elastic, spring, local: after } = step;
+        let &Step { length, scale, slope, change, square, work, elastic, spring, local: after } = step;
         self.given = self.load.pressure_at((self.tally.sum_gap + length * change) / self.nodes());
         let level = self.is_gap_controlled().then_some(T::lit(self.residual.level));
         let advance = Advance { length: T::lit(length), scale: T::lit(scale), offset: T::lit(self.offset()), level };
@@ -358,7 +365,8 @@ impl<T: Real> State<'_, T> {
         if projects {
             self.tally.adhesive = after;
         }
-        self.work = self.work.after(length * (2.0 * work + length * elastic));
+        let change = length * (2.0 * work + length * elastic);
+        self.work = self.work.after(change, self.update_noise() * change.abs());
         let made = Made { factor: length, curvature, descent: 0.0, overlap: 0.0, sum: 0.0 };
         self.left = match advanced.residual {
             None => Left::Gradient(made),
@@ -367,6 +375,7 @@ impl<T: Real> State<'_, T> {
                 Left::Residual(Made { descent, overlap, ..made })
             }
         };
+        self.updates += (length * scale).powi(2) * square / self.nodes();
         self.age += 1;
     }
 }

@@ -85,7 +85,8 @@ pub struct Iteration {
     /// The relative error of the load, [`Report::load_error`].
     pub load_error: f64,
     /// The energy that is minimised, per area of the operator's grid: elastic and adhesive energy, and under pressure
-    /// control p̄ times the mean gap; with a spring its energy.
+    /// control p̄ times the mean gap; with a spring its energy. It is summed up step by step, in `f64` to the rounding of
+    /// `f32`; the report has it as it is.
     pub energy: f64,
     /// The mean gap; with a free boundary or absent nodes over the operator's grid, on which the gap goes on as the
     /// displacement less heights that are interpolated.

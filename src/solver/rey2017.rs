@@ -6,9 +6,9 @@ use crate::error::Result;
 use crate::field::{Partial, read, write};
 use crate::par::IndexedParallelIterator;
 use crate::problem::Load;
-use crate::real::Real;
+use crate::real::{Real, cast};
 
-impl<T: Real> State<'_, T> {
+impl<T: Real, L: Real> State<'_, T, L> {
     /// One pass of the algorithm's loop: one operator application for the direction, and one for the new gap where
     /// nodes were clipped or released.
     pub(super) fn rey2017_step(&mut self) -> Result<bool> {
@@ -30,7 +30,8 @@ impl<T: Real> State<'_, T> {
             // left of it
             slope = self.conjugate_direction(0.0);
         }
-        self.operator.pressure(self.fields.change.view(), self.fields.preconditioned.view_mut())?;
+        let Fields { change, preconditioned: response, .. } = &mut self.fields;
+        self.operators.corrections().pressure(change.view(), response.view_mut())?;
         self.applications += 1;
 
         let Fields { reducer, gap, change, preconditioned: response, .. } = &mut self.fields;
@@ -38,7 +39,7 @@ impl<T: Real> State<'_, T> {
             let mut part = Partial::NONE;
             for ((&gap, &t), &response) in gap.iter().zip(direction).zip(response) {
                 if apart(gap) {
-                    let [t, response] = [t, response].map(T::widen);
+                    let [t, response] = [t, response].map(L::widen);
                     part.sum[0] += response * t;
                     part.sum[1] += response;
                     part.sum[2] += t;
@@ -50,7 +51,7 @@ impl<T: Real> State<'_, T> {
         let mean = if self.is_gap_controlled() { response / self.tally.free } else { 0.0 };
         let length = slope / (curvature - mean * t);
         // a uniform direction has no curvature: the stiffness of the softest wave bounds the step of the mean
-        let softest = self.operator.stiffness_range().0;
+        let softest = self.operators.state().stiffness_range().0;
         let length = if length.is_finite() && length > 0.0 { length } else { 1.0 / softest };
         // a direction that is uniform up to rounding has a curvature of rounding only
         let length = length.min(1.0 / (T::epsilon().widen().sqrt() * softest));
@@ -63,11 +64,11 @@ impl<T: Real> State<'_, T> {
         let total = reducer.run(write(gap).zip(read(residual)).zip(read(change)), |_, ((gap, residual), direction)| {
             let mut part = Partial::NONE;
             for ((gap, &r), &t) in gap.iter_mut().zip(residual).zip(direction) {
-                let next = *gap - length * t;
+                let next = *gap - length * cast(t);
                 part.sum[2] += f64::from(u8::from(projects && next < T::zero()));
                 *gap = if projects { next.max(T::zero()) } else { next };
-                if projects && *gap <= T::zero() && r < T::zero() {
-                    *gap = -length * r;
+                if projects && *gap <= T::zero() && r < L::zero() {
+                    *gap = -length * cast(r);
                     part.sum[1] += 1.0;
                 }
                 part.sum[0] += gap.widen();
@@ -101,15 +102,15 @@ impl<T: Real> State<'_, T> {
     /// The direction t = r' + `conjugate` t where the surfaces are apart, zero elsewhere; returns ⟨r', t⟩.
     fn conjugate_direction(&mut self, conjugate: f64) -> f64 {
         let projects = self.projects();
-        let conjugate = T::lit(conjugate);
+        let conjugate = L::lit(conjugate);
         let Fields { reducer, gap, residual, change, .. } = &mut self.fields;
         let total = reducer.run(read(gap).zip(read(residual)).zip(write(change)), |_, ((gap, residual), direction)| {
             let mut part = Partial::NONE;
             for ((&gap, &r), t) in gap.iter().zip(residual).zip(direction) {
                 *t = if !projects || gap > T::zero() {
-                    r + if conjugate > T::zero() { conjugate * *t } else { T::zero() }
+                    r + if conjugate > L::zero() { conjugate * *t } else { L::zero() }
                 } else {
-                    T::zero()
+                    L::zero()
                 };
                 part.sum[0] += r.widen() * t.widen();
             }
@@ -126,7 +127,7 @@ impl<T: Real> State<'_, T> {
             gap.iter_mut().for_each(|gap| *gap *= scale);
             if linear {
                 for ((p, &response), &surface) in pressure.iter_mut().zip(response).zip(surface) {
-                    *p = scale * (*p - surface - length * response) + surface;
+                    *p = scale * (*p - surface - length * cast(response)) + surface;
                 }
             }
             Partial::NONE

@@ -3,6 +3,7 @@
 use ndarray::{Array2, CowArray, Ix2};
 
 use super::coarse::Coarse;
+use super::operators::Operators;
 use super::passes::{self, Continued, Fields, Taken, Tally, Working};
 use super::potential::Potential;
 use super::report::Iteration;
@@ -11,11 +12,11 @@ use super::work::{TRUSTED, Work};
 use super::{Criterion, Method, Settings};
 use crate::adhesion::AdhesionLaw;
 use crate::constraint::{ContactConstraint, Wall};
-use crate::elastic::{Boundary, ElasticOperator, Foundation};
+use crate::elastic::{Boundary, Foundation};
 use crate::error::{Error, Result};
 use crate::field::{Partial, read, write};
 use crate::par::IndexedParallelIterator;
-use crate::problem::{Control, Load, Parts, PressedFlat, Window};
+use crate::problem::{Control, Load, PressedFlat, Window};
 use crate::real::Real;
 
 /// Iterations after which the pressure, updated step by step, is computed anew.
@@ -62,10 +63,12 @@ pub(super) struct Made {
 pub(super) enum Left {
     /// Values without use, such as K⁻¹c.
     Nothing,
-    /// The gradient r.
+    /// The gradient r less the level of the state before.
     Gradient(Made),
     /// The residual r', under pressure control.
     Residual(Made),
+    /// Values without use, beside a pressure that was computed anew after the step.
+    Renewed(Made),
 }
 
 /// The residual r' of the present state.
@@ -107,8 +110,8 @@ impl Progress {
 }
 
 /// The state of a solve: its fields, and the sums over them on which the driver decides.
-pub(super) struct State<'a, T> {
-    pub(super) operator: &'a mut dyn ElasticOperator<T>,
+pub(super) struct State<'a, T, L> {
+    pub(super) operators: &'a mut dyn Operators<T, L>,
     pub(super) law: &'a dyn AdhesionLaw<T>,
     pub(super) flat: &'a PressedFlat<T>,
     pub(super) constraint: &'a mut dyn ContactConstraint<T>,
@@ -117,7 +120,7 @@ pub(super) struct State<'a, T> {
     pub(super) given: f64,
     pub(super) settings: Settings,
     pub(super) goal: Goal,
-    pub(super) fields: Fields<T>,
+    pub(super) fields: Fields<T, L>,
     pub(super) tally: Tally,
     /// Σ u·p, twice the elastic energy
     pub(super) work: Work,
@@ -143,21 +146,25 @@ pub(super) struct State<'a, T> {
     pub(super) applications: usize,
     /// steps since the pressure was last computed from the gap
     pub(super) age: usize,
+    /// the sum of ⟨c, c⟩/N over these steps, with c their change
+    pub(super) updates: f64,
     /// the mean gap of the start
     pub(super) start_gap: f64,
     /// the load that has pulled the surfaces apart
     pub(super) detached: Option<f64>,
 }
 
-impl<'a, T: Real> State<'a, T> {
+impl<'a, T: Real, L: Real> State<'a, T, L> {
     pub(super) fn new(
-        problem: Parts<'a, T>,
+        operators: &'a mut dyn Operators<T, L>,
+        law: &'a dyn AdhesionLaw<T>,
+        flat: &'a PressedFlat<T>,
         constraint: &'a mut dyn ContactConstraint<T>,
         control: Control,
         start: Option<CowArray<'_, T, Ix2>>,
         settings: Settings,
     ) -> Result<Self> {
-        let Parts { operator, law, flat } = problem;
+        let operator = operators.state();
         let shape = operator.grid().shape();
         let surface = flat.window.as_ref().map_or(operator.grid(), Window::grid);
         check_wall(law, constraint.wall())?;
@@ -183,9 +190,9 @@ impl<'a, T: Real> State<'a, T> {
             None => (Array2::from_elem(shape, T::lit(uniform_start(law, flat, load))), flat.pressure.clone()),
         };
         let preconditioned = settings.method == Method::Preconditioned;
-        let coarse = if preconditioned { Coarse::of(&*operator) } else { None };
+        let coarse = if preconditioned { Coarse::of(&*operators.corrections()) } else { None };
         let mut state = Self {
-            operator,
+            operators,
             law,
             flat,
             constraint,
@@ -211,6 +218,7 @@ impl<'a, T: Real> State<'a, T> {
             iterations: 0,
             applications: 0,
             age: 0,
+            updates: 0.0,
             start_gap: 0.0,
             detached: None,
         };
@@ -232,7 +240,8 @@ impl<'a, T: Real> State<'a, T> {
 
     /// Takes the gap of undeformed bodies that just touch: under no pressure.
     fn start_undeformed(&mut self) -> Result<()> {
-        self.operator.displacement(self.flat.pressure.view(), self.fields.gap.view_mut())?;
+        let Fields { gap, residual, preconditioned, change, .. } = &mut self.fields;
+        self.operators.displacement(&self.flat.pressure, gap, [residual, preconditioned, change])?;
         self.applications += 1;
         let peak = T::lit(self.flat.peak);
         let local = Potential::new(self.law, &*self.constraint, self.flat.window.as_ref());
@@ -292,15 +301,25 @@ impl<'a, T: Real> State<'a, T> {
                 });
             }
         }
-        self.operator.pressure(self.fields.gap.view(), self.fields.pressure.view_mut())?;
+        let made = match self.left {
+            Left::Nothing => None,
+            Left::Gradient(made) | Left::Residual(made) | Left::Renewed(made) => Some(made),
+        };
+        let Fields { gap, pressure, residual, preconditioned, change, .. } = &mut self.fields;
+        // after a step its change and z are still of use, otherwise the residual before
+        match made {
+            Some(_) => self.operators.pressure(gap, pressure, &mut [residual])?,
+            None => self.operators.pressure(gap, pressure, &mut [preconditioned, change])?,
+        }
         self.applications += 1;
-        self.age = 0;
+        (self.age, self.updates) = (0, 0.0);
         let Fields { reducer, pressure, .. } = &mut self.fields;
         reducer.run(write(pressure).zip(read(&self.flat.pressure)), |_, (p, surface)| {
             p.iter_mut().zip(surface).for_each(|(p, &surface)| *p += surface);
             Partial::NONE
         });
         self.work = self.count();
+        self.left = made.map_or(Left::Nothing, Left::Renewed);
         self.trust_work(TRUSTED)
     }
 
@@ -329,16 +348,18 @@ impl<'a, T: Real> State<'a, T> {
 
     /// r' on the working set: the nodes that are apart, and those in contact under tension.
     pub(super) fn residual(&mut self) {
-        let made = match std::mem::replace(&mut self.left, Left::Nothing) {
+        let (gradient, made) = match std::mem::replace(&mut self.left, Left::Nothing) {
             Left::Residual(made) => {
                 self.momentum = Some(made);
                 return;
             }
-            Left::Gradient(made) => Some(made),
-            Left::Nothing => None,
+            Left::Gradient(made) => (true, Some(made)),
+            Left::Renewed(made) => (false, Some(made)),
+            Left::Nothing => (false, None),
         };
         let (offset, release) = (T::lit(self.offset()), T::lit(self.multiplier()));
         let centred = self.is_gap_controlled() && self.settings.method == Method::Preconditioned;
+        let before = T::lit(self.residual.level);
         let Self { fields, law, constraint, tally, flat, .. } = self;
         let local = Potential::new(*law, &**constraint, flat.window.as_ref());
         let mut level = release.widen();
@@ -349,17 +370,17 @@ impl<'a, T: Real> State<'a, T> {
                 level = (tally.sum_r + released.sum_r) / working;
             }
         }
-        let working = Working { offset, release, level: T::lit(level) };
-        if let Some(made) = made {
-            let Continued { orthogonality, working, descent, overlap, sum_change } =
-                passes::release(fields, &local, working);
-            self.residual = Residual { level, working, orthogonality, ..self.residual };
-            self.momentum = Some(Made { descent, overlap, sum: sum_change, ..made });
+        let (found, difference) = if gradient {
+            // of the gradient less the level before; their difference is small
+            let [release, level] = [release.widen(), level].map(|value| T::lit(value - before.widen()));
+            let found = passes::release(fields, &local, Working { offset, release, level });
+            (found, self.residual.difference)
         } else {
-            let passes::Residual { orthogonality, working, difference } = passes::residual(fields, &local, working);
-            self.residual = Residual { level, working, orthogonality, difference };
-            self.momentum = None;
-        }
+            passes::residual(fields, &local, Working { offset, release, level: T::lit(level) })
+        };
+        let Continued { orthogonality, working, descent, overlap, sum_change } = found;
+        self.residual = Residual { level, working, orthogonality, difference };
+        self.momentum = made.map(|made| Made { descent, overlap, sum: sum_change, ..made });
     }
 
     /// z = M r' and the certificate, from one application.
@@ -381,11 +402,12 @@ impl<'a, T: Real> State<'a, T> {
         let coarse = self.coarse.as_mut().and_then(Coarse::ready);
         let foundation = Foundation { stiffness, mean_stiffness, coarse };
         let local = Potential::new(self.law, &*self.constraint, self.flat.window.as_ref());
-        let stiffest = self.operator.stiffness_range().1;
+        let stiffest = self.operators.state().stiffness_range().1;
         let repels = local.repels() && stiffest > 0.0;
         let held = repels.then(|| passes::hold(&mut self.fields, &local, HELD * stiffest, centred));
         let Fields { residual, preconditioned, .. } = &mut self.fields;
-        let found = self.operator.precondition(residual.view(), foundation, preconditioned.view_mut())?;
+        let found =
+            self.operators.corrections().precondition(residual.view(), foundation, preconditioned.view_mut())?;
         let (mut sum, mut certificate) = (found.mean * self.nodes(), found.error.max(0.0));
         if let Some(held) = held {
             sum = passes::release_held(&mut self.fields, &local, held);
@@ -406,7 +428,7 @@ impl<'a, T: Real> State<'a, T> {
         };
         if moved {
             self.iterations += 1;
-            if self.age >= REFRESH || self.has_lost_its_work() {
+            if self.age >= REFRESH || self.has_lost_its_work() || self.has_lost_its_pressure() {
                 self.refresh()?;
             }
         }

@@ -23,7 +23,7 @@ const SAMPLES: usize = 100;
 /// beyond the heights.
 const REACH: f64 = 10.0;
 
-impl<T: Real> State<'_, T> {
+impl<T: Real, L: Real> State<'_, T, L> {
     /// Whether a tensile load has pulled the surfaces apart: no contact, and hardly any traction left to hold them.
     pub(super) fn is_adrift(&self) -> bool {
         let Load::Pressure(pressure) = self.load else { return false };
@@ -105,7 +105,7 @@ impl<T: Real> State<'_, T> {
     fn holding(&self, gap: f64) -> Load {
         match self.flat.window {
             None => Load::Gap(gap),
-            Some(_) => Load::Spring { stiffness: self.operator.stiffness_range().1, rest: gap },
+            Some(_) => Load::Spring { stiffness: self.operators.state().stiffness_range().1, rest: gap },
         }
     }
 

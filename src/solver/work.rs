@@ -21,8 +21,8 @@ impl Work {
         self.noise > share * self.sum
     }
 
-    /// The work after a step that changes it by `change`.
-    pub(super) fn after(self, change: f64) -> Self {
-        Self { sum: self.sum + change, ..self }
+    /// The work after a step that changes it by `change`, to within `noise`.
+    pub(super) fn after(self, change: f64, noise: f64) -> Self {
+        Self { sum: self.sum + change, noise: self.noise + noise }
     }
 }

@@ -190,7 +190,8 @@ fn surfaces_apart_do_not_press() {
     let mut problem = line(63);
     let solution = solve(&mut problem, Control::MeanGap(0.05), 1e-6);
     assert_eq!((solution.report.status, solution.report.contact_nodes), (Status::Converged, 0));
-    assert!(solution.pressure.iter().all(|p| p.abs() < 1e-7 * 0.02 * PI));
+    // an error of 1e-6 in the energy norm, which may be all in the shortest wave
+    assert!(solution.pressure.iter().all(|p| p.abs() < 1e-5 * 0.02 * PI));
     assert!(solution.report.mean_pressure.abs() < 1e-15);
 }
 

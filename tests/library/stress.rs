@@ -284,16 +284,19 @@ impl Scene {
         if self.settings.method == Method::Preconditioned && !detached {
             let size = history.iter().map(|i| i.energy.abs()).fold(magnitude.max(adhesive.abs()), f64::max);
             let same = |pair: &&[Iteration]| pair[0].round == pair[1].round;
+            // in f64 the energy is summed of changes in f32
+            let summed = (64.0 * epsilon).max(f64::from(f32::EPSILON));
             if !matches!(self.constraint, Constraint::Uzawa(_)) {
                 for pair in history.windows(2).filter(same) {
                     let rise = pair[1].energy - pair[0].energy;
-                    need(rise <= 64.0 * epsilon * size, format!("energy rises by {rise:e} of {size:e}"))?;
+                    need(rise <= summed * size, format!("energy rises by {rise:e} of {size:e}"))?;
                 }
             }
             if projects && let Some(last) = history.last().filter(|last| !last.smoothed) {
                 let load = if let Control::MeanPressure(p) = self.control { p } else { 0.0 };
                 let energy = 0.5 * work + adhesive + load * mean(&gap);
-                let allowed = 256.0 * epsilon * (size + magnitude + (load * mean(&gap)).abs());
+                let allowed =
+                    (256.0 * epsilon).max(f64::from(f32::EPSILON)) * (size + magnitude + (load * mean(&gap)).abs());
                 close("last energy", last.energy, energy, allowed + by_matrix)?;
             }
         }

@@ -65,7 +65,7 @@ fn a_sweep_takes_fewer_applications_than_single_solves() {
     let halved: Vec<f64> = doubled.iter().rev().copied().collect();
     takes(bare(), &pressures(&doubled), (192, 218));
     takes(bare(), &pressures(&halved), (210, 218));
-    takes(sphere(128, NoAdhesion), &gaps(&evenly(0.041, 0.039, 5)), (84, 114));
+    takes(sphere(128, NoAdhesion), &gaps(&evenly(0.041, 0.039, 5)), (86, 123));
     let law = Exponential::new(2e-4, 2e-3).unwrap();
     takes(rough(128, 32, law), &pressures(&doubled), (260, 266));
     takes(rough(128, 32, law), &pressures(&halved), (240, 266));

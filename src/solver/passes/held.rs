@@ -8,7 +8,7 @@
 use super::Fields;
 use crate::field::{CHUNK, read, write};
 use crate::par::IndexedParallelIterator;
-use crate::real::Real;
+use crate::real::{Real, cast};
 use crate::solver::potential::{Of, Potential};
 use crate::vector::sums;
 
@@ -38,8 +38,8 @@ pub(in crate::solver) struct Held {
 }
 
 /// Multiplies r' less its level by S.
-pub(in crate::solver) fn hold<T: Real>(
-    fields: &mut Fields<T>,
+pub(in crate::solver) fn hold<T: Real, L: Real>(
+    fields: &mut Fields<T, L>,
     local: &Potential<'_, T>,
     stiffness: f64,
     centred: bool,
@@ -53,7 +53,7 @@ pub(in crate::solver) fn hold<T: Real>(
             let slopes = slopes(local, first, gap, &mut buffer);
             sums!(2, [slopes, residual], [], |i| {
                 let s = share(slopes[i], k);
-                ([(s * s * residual[i]).widen(), (s * s).widen()], f64::INFINITY)
+                ([(s * s).widen() * residual[i].widen(), (s * s).widen()], f64::INFINITY)
             })
         });
         shares = total.sum[1];
@@ -64,8 +64,8 @@ pub(in crate::solver) fn hold<T: Real>(
         let mut buffer = [T::zero(); CHUNK];
         let slopes = slopes(local, first, gap, &mut buffer);
         sums!(1, [slopes], [residual], |i| {
-            let (slope, r, s) = (slopes[i], residual[i] - level, share(slopes[i], k));
-            residual[i] = s * r;
+            let (slope, r, s) = (slopes[i], cast::<_, T>(residual[i]) - level, share(slopes[i], k));
+            residual[i] = cast(s * r);
             let rest = ((T::one() - s) * r).widen();
             ([if slope > T::zero() { rest * rest / slope.widen() } else { 0.0 }], f64::INFINITY)
         })
@@ -74,7 +74,11 @@ pub(in crate::solver) fn hold<T: Real>(
 }
 
 /// Multiplies z by S, and puts r' back; returns Σ z.
-pub(in crate::solver) fn release_held<T: Real>(fields: &mut Fields<T>, local: &Potential<'_, T>, held: Held) -> f64 {
+pub(in crate::solver) fn release_held<T: Real, L: Real>(
+    fields: &mut Fields<T, L>,
+    local: &Potential<'_, T>,
+    held: Held,
+) -> f64 {
     let Fields { reducer, gap, residual, preconditioned, .. } = fields;
     let (k, level) = (T::lit(held.stiffness), T::lit(held.level));
     let chunks = read(gap).zip(write(residual)).zip(write(preconditioned));
@@ -83,8 +87,8 @@ pub(in crate::solver) fn release_held<T: Real>(fields: &mut Fields<T>, local: &P
         let slopes = slopes(local, first, gap, &mut buffer);
         sums!(1, [slopes], [residual, z], |i| {
             let s = share(slopes[i], k);
-            let moved = s * z[i];
-            (residual[i], z[i]) = (residual[i] / s + level, moved);
+            let [r, moved]: [T; 2] = [cast(residual[i]), s * cast(z[i])];
+            (residual[i], z[i]) = (cast(r / s + level), cast(moved));
             ([moved.widen()], f64::INFINITY)
         })
     });
@@ -99,8 +103,8 @@ pub(in crate::solver) fn release_held<T: Real>(fields: &mut Fields<T>, local: &P
         let slopes = slopes(local, first, gap, &mut buffer);
         sums!(1, [slopes], [z], |i| {
             let s = share(slopes[i], k);
-            let moved = z[i] - mean * (s * s);
-            z[i] = moved;
+            let moved: T = cast::<_, T>(z[i]) - mean * (s * s);
+            z[i] = cast(moved);
             ([moved.widen()], f64::INFINITY)
         })
     });

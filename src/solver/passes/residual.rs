@@ -4,7 +4,7 @@ use super::tally::tractions;
 use super::{Fields, count, idles};
 use crate::field::{CHUNK, Partial, read, write};
 use crate::par::IndexedParallelIterator;
-use crate::real::Real;
+use crate::real::{Real, cast};
 use crate::solver::potential::Potential;
 use crate::vector::sums;
 
@@ -28,18 +28,7 @@ pub(in crate::solver) struct Released {
     pub(in crate::solver) sum_r: f64,
 }
 
-/// The sums of a residual r' computed from gap and pressure.
-#[derive(Clone, Copy, Debug)]
-pub(in crate::solver) struct Residual {
-    /// Σ|g r'|
-    pub(in crate::solver) orthogonality: f64,
-    /// the number of nodes in the working set
-    pub(in crate::solver) working: f64,
-    /// Σ (r' − r'₀)², with r'₀ the previous content of the field
-    pub(in crate::solver) difference: f64,
-}
-
-/// The sums of a residual r' after a step c, whose field is still there.
+/// The sums of a residual r', with those of a step c whose field is still there.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::solver) struct Continued {
     /// Σ|g r'|
@@ -63,14 +52,14 @@ fn works<T: Real>(residual: T) -> T {
 
 /// r' of a node, and whether it may move.
 #[inline(always)]
-fn residual_of<T: Real>(projects: bool, w: Working<T>, gap: T, r: T) -> (T, bool) {
+fn residual_of<T: Real, L: Real>(projects: bool, w: Working<T>, gap: T, r: T) -> (L, bool) {
     let may = !projects | (gap > T::zero()) | (r < w.release);
-    (if may { works(r - w.level) } else { T::neg_zero() }, may)
+    (if may { works(cast(r - w.level)) } else { L::neg_zero() }, may)
 }
 
 /// The contact nodes that are released, by the tally of the present state.
-pub(in crate::solver) fn released<T: Real>(
-    fields: &mut Fields<T>,
+pub(in crate::solver) fn released<T: Real, L: Real>(
+    fields: &mut Fields<T, L>,
     local: &Potential<'_, T>,
     offset: T,
     release: T,
@@ -96,57 +85,61 @@ pub(in crate::solver) fn released<T: Real>(
     Released { count: total.sum[0], sum_r: total.sum[1] }
 }
 
-/// Computes r' from gap and pressure.
-pub(in crate::solver) fn residual<T: Real>(
-    fields: &mut Fields<T>,
+/// Computes r' from gap and pressure. Returns Σ (r' − r'₀)², too, with r'₀ the previous content of the field.
+pub(in crate::solver) fn residual<T: Real, L: Real>(
+    fields: &mut Fields<T, L>,
     local: &Potential<'_, T>,
     working: Working<T>,
-) -> Residual {
-    let Fields { reducer, moving, gap, pressure, residual, .. } = fields;
-    let chunks = read(gap).zip(read(pressure)).zip(write(residual));
-    let total = local.run(reducer, chunks, |local, first, ((gap, pressure), residual)| {
+) -> (Continued, f64) {
+    let Fields { reducer, moving, gap, pressure, residual, preconditioned, change, .. } = fields;
+    let chunks = read(gap).zip(read(pressure)).zip(write(residual)).zip(read(preconditioned)).zip(read(change));
+    let total = local.run(reducer, chunks, |local, first, ((((gap, pressure), residual), z), change)| {
         let projects = local.projects();
         let mut buffer = [T::zero(); CHUNK];
         let tractions = tractions(local, first, gap, &mut buffer);
-        sums!(3, [gap, pressure, tractions], [residual], |i| {
+        sums!(6, [gap, pressure, tractions, z, change], [residual], |i| {
             let r = pressure[i] + tractions[i] + working.offset;
-            let (r, may) = residual_of(projects, working, gap[i], r);
+            let (r, may): (L, _) = residual_of(projects, working, gap[i], r);
             let difference = (r - residual[i]).widen();
             residual[i] = r;
-            ([count(may), (gap[i] * r).abs().widen(), difference * difference], f64::INFINITY)
+            let [r, d, z] = [r, change[i], z[i]].map(L::widen);
+            let moved = if may { d } else { 0.0 };
+            ([count(may), (gap[i].widen() * r).abs(), r * d, r * z, moved, difference * difference], f64::INFINITY)
         })
     });
     reducer.keep(|part| part.sum[0], moving);
-    let [working, orthogonality, difference, ..] = total.sum;
-    Residual { orthogonality, working, difference }
+    let [working, orthogonality, descent, overlap, sum_change, difference, ..] = total.sum;
+    (Continued { orthogonality, working, descent, overlap, sum_change }, difference)
 }
 
-/// The residual r' of a chunk, from the gradient r in the same field.
-pub(super) fn release_chunk<T: Real>(
+/// The residual r' of a chunk, from the gradient less a constant in the same field, which release and level are less,
+/// too.
+pub(super) fn release_chunk<T: Real, L: Real>(
     projects: bool,
     working: Working<T>,
-    (gap, z, change): (&[T], &[T], &[T]),
-    residual: &mut [T],
+    gap: &[T],
+    (z, change): (&[L], &[L]),
+    residual: &mut [L],
 ) -> Partial {
     sums!(5, [gap, z, change], [residual], |i| {
-        let (r, may) = residual_of(projects, working, gap[i], residual[i]);
+        let (r, may): (L, _) = residual_of(projects, working, gap[i], cast(residual[i]));
         residual[i] = r;
-        let orthogonality = (gap[i] * r).abs().widen();
-        let [r, d, z] = [r, change[i], z[i]].map(T::widen);
-        ([count(may), orthogonality, r * d, r * z, if may { d } else { 0.0 }], f64::INFINITY)
+        let [r, d, z] = [r, change[i], z[i]].map(L::widen);
+        ([count(may), (gap[i].widen() * r).abs(), r * d, r * z, if may { d } else { 0.0 }], f64::INFINITY)
     })
 }
 
-/// Computes r' from the gradient r in the same field, where a step has written it.
-pub(in crate::solver) fn release<T: Real>(
-    fields: &mut Fields<T>,
+/// Computes r' from the gradient less a constant, which a step has written to the same field. Release and level are
+/// less that constant, too.
+pub(in crate::solver) fn release<T: Real, L: Real>(
+    fields: &mut Fields<T, L>,
     local: &Potential<'_, T>,
     working: Working<T>,
 ) -> Continued {
     let Fields { reducer, moving, gap, residual, preconditioned, change, .. } = fields;
     let chunks = read(gap).zip(write(residual)).zip(read(preconditioned)).zip(read(change));
     let total = local.run(reducer, chunks, |local, _, (((gap, residual), z), change)| {
-        release_chunk(local.projects(), working, (gap, z, change), residual)
+        release_chunk(local.projects(), working, gap, (z, change), residual)
     });
     reducer.keep(|part| part.sum[0], moving);
     let [working, orthogonality, descent, overlap, sum_change, ..] = total.sum;
@@ -154,7 +147,7 @@ pub(in crate::solver) fn release<T: Real>(
 }
 
 /// Σ z outside of the working set of the present residual.
-pub(in crate::solver) fn idle<T: Real>(fields: &mut Fields<T>) -> f64 {
+pub(in crate::solver) fn idle<T: Real, L: Real>(fields: &mut Fields<T, L>) -> f64 {
     let Fields { reducer, moving, residual, preconditioned, .. } = fields;
     let total = reducer.run_where(
         moving,

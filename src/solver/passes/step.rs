@@ -7,7 +7,7 @@ use super::tally::{PRODUCT, Tally, tally_local, tally_of, tractions};
 use super::{Fields, count, idles};
 use crate::field::{CHUNK, Partial, SUMS, read, write};
 use crate::par::IndexedParallelIterator;
-use crate::real::Real;
+use crate::real::{Real, cast};
 use crate::solver::potential::{Least, Of, Potential};
 use crate::vector::{sums, vectors};
 
@@ -35,6 +35,8 @@ pub(in crate::solver) struct Tried {
     pub(in crate::solver) blocked: f64,
     /// Σ r'·c
     pub(in crate::solver) descent: f64,
+    /// Σ c²
+    pub(in crate::solver) square: f64,
     /// Σ r'·g, Σ c·K⁻¹h and Σ g·K⁻¹h, under gap control
     pub(in crate::solver) gap_descent: f64,
     pub(in crate::solver) change_surface: f64,
@@ -70,11 +72,11 @@ pub(in crate::solver) struct Advanced {
     pub(in crate::solver) residual: Option<Continued>,
 }
 
-/// The gap after a change, and exactly zero where it is no more than rounding above zero.
+/// The gap after a change, and exactly zero where it is no more than rounding above zero, that of the change in L.
 #[inline(always)]
-fn moved<T: Real>(projects: bool, gap: T, change: T) -> T {
+fn moved<T: Real, L: Real>(projects: bool, gap: T, change: T) -> T {
     let next = gap + change;
-    if projects & (next <= T::lit(4.0) * T::epsilon() * gap) { T::zero() } else { next }
+    if projects & (next <= T::lit(4.0) * cast(L::epsilon()) * gap) { T::zero() } else { next }
 }
 
 /// The step d = scale·(g + c) − g of unit length at one node.
@@ -86,39 +88,40 @@ fn whole<T: Real>(scale: T, gap: T, change: T) -> T {
 /// The change c of a step at one node, and whether it was clipped: the gap becomes no less than zero where a wall is;
 /// where the law repels, no less than the gap of rest, and from below it than a share of what it is.
 #[inline(always)]
-fn clipped_change<T: Real>(
+fn clipped_change<T: Real, L: Real>(
     least: Option<Least<T>>,
     attempt: Attempt<T>,
     gap: T,
-    residual: T,
-    z: T,
-    change: T,
-) -> (T, bool) {
+    residual: L,
+    z: L,
+    change: L,
+) -> (L, bool) {
     let Attempt { length, centre, keep, mean } = attempt;
+    let [z, change]: [T; 2] = [cast(z), cast(change)];
     let kept = if keep == T::zero() { T::zero() } else { keep * (change - mean) };
     let next = if idles(residual) { gap } else { gap - length * (z - centre) + kept };
     match least.map(|least| least.after(gap)) {
-        Some(least) if next < least => (least - gap, true),
-        _ => (next - gap, false),
+        Some(least) if next < least => (cast(least - gap), true),
+        _ => (cast(next - gap), false),
     }
 }
 
 /// The largest a with g + a·c ≥ 0 at one node, for a gap g and a change c.
 #[inline(always)]
-fn reach<T: Real>(positive: bool, gap: T, change: T) -> f64 {
-    if positive & (change < T::zero()) { (gap / -change).widen() } else { f64::INFINITY }
+fn reach<T: Real, L: Real>(positive: bool, gap: T, change: L) -> f64 {
+    if positive & (change < L::zero()) { (gap / -cast::<_, T>(change)).widen() } else { f64::INFINITY }
 }
 
 /// Writes the clipped change c of a step; `surface` is K⁻¹h under gap control.
-pub(in crate::solver) fn trial<T: Real>(
-    fields: &mut Fields<T>,
+pub(in crate::solver) fn trial<T: Real, L: Real>(
+    fields: &mut Fields<T, L>,
     local: &Potential<'_, T>,
     attempt: Attempt<T>,
     surface: Option<&Array2<T>>,
 ) -> Tried {
     let Fields { reducer, gap, residual, preconditioned, change, .. } = fields;
     let chunks = read(gap).zip(read(residual)).zip(read(preconditioned)).zip(write(change));
-    let slopes = |local: &Potential<'_, T>, part: &mut Partial, first, gap: &[T], change: &[T]| {
+    let slopes = |local: &Potential<'_, T>, part: &mut Partial, first, gap: &[T], change: &[L]| {
         if local.is_zero() {
             return;
         }
@@ -126,7 +129,7 @@ pub(in crate::solver) fn trial<T: Real>(
         let (tractions, slopes) = (&mut tractions[..gap.len()], &mut slopes[..gap.len()]);
         local.tractions_and_slopes(first, gap, tractions, slopes);
         let found = sums!(4, [gap, change, tractions, slopes], [], |i| {
-            let [g, c, t, s] = [gap[i], change[i], tractions[i], slopes[i]].map(T::widen);
+            let ([g, t, s], c) = ([gap[i], tractions[i], slopes[i]].map(T::widen), change[i].widen());
             ([t * c, s * c * c, s * c * g, s * g * g], f64::INFINITY)
         });
         part.sum[SUMS - 4..].copy_from_slice(&found.sum[..4]);
@@ -134,15 +137,14 @@ pub(in crate::solver) fn trial<T: Real>(
     let total = match surface {
         None => local.run(reducer, chunks, |local, first, (((gap, residual), z), change)| {
             let (least, lands) = (local.least(), local.projects());
-            let mut part = sums!(4, [gap, residual, z], [change], |i| {
+            let positive = least.is_some_and(|least| least.depth == T::zero());
+            let mut part = sums!(5, [gap, residual, z], [change], |i| {
                 let (g, r) = (gap[i], residual[i]);
                 let (c, clipped) = clipped_change(least, attempt, g, r, z[i], change[i]);
                 change[i] = c;
-                let blocked = lands & clipped & (r > T::zero()) & (g > T::zero());
-                (
-                    [c.widen(), count(clipped), count(blocked), r.widen() * c.widen()],
-                    reach(least.is_some_and(|least| least.depth == T::zero()), g, c),
-                )
+                let blocked = lands & clipped & (r > L::zero()) & (g > T::zero());
+                let (low, [r, c]) = (reach(positive, g, c), [r, c].map(L::widen));
+                ([c, count(clipped), count(blocked), r * c, c * c], low)
             });
             slopes(local, &mut part, first, gap, change);
             part
@@ -151,21 +153,22 @@ pub(in crate::solver) fn trial<T: Real>(
             let chunks = chunks.zip(read(surface));
             local.run(reducer, chunks, |local, first, ((((gap, residual), z), change), surface)| {
                 let (least, lands) = (local.least(), local.projects());
-                let mut part = sums!(7, [gap, residual, z, surface], [change], |i| {
+                let positive = least.is_some_and(|least| least.depth == T::zero());
+                let mut part = sums!(8, [gap, residual, z, surface], [change], |i| {
                     let (g, r) = (gap[i], residual[i]);
                     let (c, clipped) = clipped_change(least, attempt, g, r, z[i], change[i]);
                     change[i] = c;
-                    let blocked = count(lands & clipped & (r > T::zero()) & (g > T::zero()));
-                    let low = reach(least.is_some_and(|least| least.depth == T::zero()), g, c);
-                    let [g, r, c, h] = [g, r, c, surface[i]].map(T::widen);
-                    ([c, count(clipped), blocked, r * c, r * g, c * h, g * h], low)
+                    let blocked = count(lands & clipped & (r > L::zero()) & (g > T::zero()));
+                    let low = reach(positive, g, c);
+                    let ([g, h], [r, c]) = ([g, surface[i]].map(T::widen), [r, c].map(L::widen));
+                    ([c, count(clipped), blocked, r * c, c * c, r * g, c * h, g * h], low)
                 });
                 slopes(local, &mut part, first, gap, change);
                 part
             })
         }
     };
-    let [change, clipped, blocked, descent, gap_descent, change_surface, gap_surface, ..] = total.sum;
+    let [change, clipped, blocked, descent, square, gap_descent, change_surface, gap_surface, ..] = total.sum;
     let [.., traction, slope_change, slope_mixed, slope_gap] = total.sum;
     let reach = total.min;
     Tried {
@@ -173,6 +176,7 @@ pub(in crate::solver) fn trial<T: Real>(
         clipped,
         blocked,
         descent,
+        square,
         gap_descent,
         change_surface,
         gap_surface,
@@ -185,8 +189,8 @@ pub(in crate::solver) fn trial<T: Real>(
 }
 
 /// The sum of the local energy over the nodes after a step.
-pub(in crate::solver) fn energy_after<T: Real>(
-    fields: &mut Fields<T>,
+pub(in crate::solver) fn energy_after<T: Real, L: Real>(
+    fields: &mut Fields<T, L>,
     local: &Potential<'_, T>,
     length: T,
     scale: T,
@@ -197,7 +201,7 @@ pub(in crate::solver) fn energy_after<T: Real>(
         let (mut next, mut buffer) = ([T::zero(); CHUNK], [T::zero(); CHUNK]);
         let (next, energies) = (&mut next[..gap.len()], &mut buffer[..gap.len()]);
         vectors!([gap, change], [next], |i| {
-            next[i] = moved(projects, gap[i], length * whole(scale, gap[i], change[i]));
+            next[i] = moved::<T, L>(projects, gap[i], length * whole(scale, gap[i], cast(change[i])));
         });
         local.evaluate(Of::Energy, first, next, energies);
         sums!(1, [energies], [], |i| ([energies[i].widen()], f64::INFINITY))
@@ -205,37 +209,36 @@ pub(in crate::solver) fn energy_after<T: Real>(
     total.sum[0]
 }
 
-/// Takes a step: gap, pressure, r in the place of the residual, and the tally of the new state.
-pub(in crate::solver) fn advance<T: Real>(
-    fields: &mut Fields<T>,
+/// Takes a step: gap, pressure, r less the level in the place of the residual, and the tally of the new state.
+pub(in crate::solver) fn advance<T: Real, L: Real>(
+    fields: &mut Fields<T, L>,
     local: &Potential<'_, T>,
     step: Advance<T>,
     surface: &Array2<T>,
 ) -> Advanced {
     let Advance { length, scale, offset, level } = step;
     let Fields { reducer, least_r, gap, pressure, residual: response, preconditioned, change, .. } = fields;
-    // r takes the place of K⁻¹c; then the tally
-    let finish = |local: &Potential<'_, T>, first, gap: &[T], pressure: &[T], step: &[T], residual: &mut [T]| {
+    let before = level.unwrap_or(T::zero());
+    // r less the level takes the place of K⁻¹c; then the tally
+    let finish = |local: &Potential<'_, T>, first, gap: &[T], pressure: &[T], step: &[L], residual: &mut [L]| {
         let mut buffer = [T::zero(); CHUNK];
         let tractions = tractions(local, first, gap, &mut buffer);
         let mut part = tally_of(local.projects(), offset, gap, pressure, tractions);
         vectors!([pressure, tractions], [residual], |i| {
-            residual[i] = pressure[i] + tractions[i] + offset;
+            residual[i] = cast(pressure[i] + tractions[i] + offset - before);
         });
         if !local.is_zero() {
             tally_local(&mut part, local, first, gap, tractions, local.is_soft());
-            let level = level.unwrap_or(T::zero());
-            let product = sums!(1, [step, residual], [], |i| {
-                ([step[i].widen() * (residual[i] - level).widen()], f64::INFINITY)
-            });
+            let product =
+                sums!(1, [step, residual], [], |i| { ([step[i].widen() * residual[i].widen()], f64::INFINITY) });
             part.sum[PRODUCT] = product.sum[0];
         }
         part
     };
-    let take = |projects: bool, gap: &mut [T], pressure: &mut [T], change: &[T], response: &[T]| {
+    let take = |projects: bool, gap: &mut [T], pressure: &mut [T], change: &[L], response: &[L]| {
         vectors!([change, response], [gap, pressure], |i| {
-            gap[i] = moved(projects, gap[i], length * change[i]);
-            pressure[i] += length * response[i];
+            gap[i] = moved::<T, L>(projects, gap[i], length * cast(change[i]));
+            pressure[i] += length * cast(response[i]);
         });
     };
     let rest = scale - T::one();
@@ -248,7 +251,7 @@ pub(in crate::solver) fn advance<T: Real>(
             |local, first, ((((gap, pressure), response), change), z)| {
                 take(local.projects(), gap, pressure, change, response);
                 let mut part = finish(local, first, gap, pressure, change, response);
-                let new = release_chunk(local.projects(), working, (gap, z, change), response);
+                let new = release_chunk(local.projects(), working, gap, (z, change), response);
                 part.sum[SUMS - 4..].copy_from_slice(&new.sum[..4]);
                 part
             },
@@ -269,10 +272,10 @@ pub(in crate::solver) fn advance<T: Real>(
             let projects = local.projects();
             vectors!([response, surface], [gap, pressure, change], |i| {
                 let (g, p) = (gap[i], pressure[i]);
-                let d = whole(scale, g, change[i]);
-                change[i] = d;
-                gap[i] = moved(projects, g, length * d);
-                pressure[i] = p + length * (scale * response[i] + rest * (p - surface[i]));
+                let d = whole(scale, g, cast(change[i]));
+                change[i] = cast(d);
+                gap[i] = moved::<T, L>(projects, g, length * d);
+                pressure[i] = p + length * (scale * cast(response[i]) + rest * (p - surface[i]));
             });
             finish(local, first, gap, pressure, change, response)
         })

@@ -110,8 +110,8 @@ pub(super) fn tally_local<T: Real>(
 }
 
 /// Takes the tally of gap and pressure, with K⁻¹h of the surface.
-pub(in crate::solver) fn tally<T: Real>(
-    fields: &mut Fields<T>,
+pub(in crate::solver) fn tally<T: Real, L: Real>(
+    fields: &mut Fields<T, L>,
     local: &Potential<'_, T>,
     offset: T,
     surface: &Array2<T>,
@@ -157,7 +157,7 @@ mod tests {
         let field = |value: &dyn Fn(usize) -> i64| {
             Array2::from_shape_fn((n, n), |(i, j)| (value(n * i + j) as f64 * UNIT) as f32)
         };
-        let mut fields = Fields::new(field(&gap), field(&pressure));
+        let mut fields = Fields::<_, f32>::new(field(&gap), field(&pressure));
         let nothing = Potential::new(&NoAdhesion, &Projection, None);
         let Taken { tally, gap_surface, sum_p } = tally(&mut fields, &nothing, 0.0, &field(&surface));
         let [mut free, mut sum_r, mut sum_gap, mut sum_gp, mut sum_gh, mut all] = [0_i128; 6];

@@ -1,0 +1,111 @@
+//! The operator of a solve: in the precision of the state, and in that of its corrections.
+
+use ndarray::Array2;
+
+use crate::elastic::{ElasticOperator, Foundation};
+use crate::error::Result;
+use crate::real::Real;
+
+/// The operator of a solve whose state is of precision T and whose corrections are of precision L.
+pub(super) trait Operators<T: Real, L: Real> {
+    /// The operator for the state.
+    fn state(&self) -> &dyn ElasticOperator<T>;
+
+    /// The operator for the corrections: the response to a change, the preconditioner, and its coarse space.
+    fn corrections(&mut self) -> &mut dyn ElasticOperator<L>;
+
+    /// The pressure K⁻¹g of a gap. The memory of `idle` fields may be used; they are zero then.
+    fn pressure(&mut self, gap: &Array2<T>, pressure: &mut Array2<T>, idle: &mut [&mut Array2<L>]) -> Result<()>;
+
+    /// The displacement K p of a pressure. The memory of `idle` fields may be used; they are zero then.
+    fn displacement(
+        &mut self,
+        pressure: &Array2<T>,
+        displacement: &mut Array2<T>,
+        idle: [&mut Array2<L>; 3],
+    ) -> Result<()>;
+
+    /// The mean of p·K p. The memory of `idle` fields, of which there has to be one, may be used.
+    fn work(&mut self, pressure: &Array2<T>, foundation: f64, idle: [&mut Array2<L>; 3]) -> Result<f64>;
+}
+
+/// One operator for both.
+pub(super) struct One<'a, T>(pub(super) &'a mut dyn ElasticOperator<T>);
+
+impl<T: Real> Operators<T, T> for One<'_, T> {
+    fn state(&self) -> &dyn ElasticOperator<T> {
+        self.0
+    }
+    fn corrections(&mut self) -> &mut dyn ElasticOperator<T> {
+        self.0
+    }
+    fn pressure(&mut self, gap: &Array2<T>, pressure: &mut Array2<T>, _: &mut [&mut Array2<T>]) -> Result<()> {
+        self.0.pressure(gap.view(), pressure.view_mut())
+    }
+    fn displacement(
+        &mut self,
+        pressure: &Array2<T>,
+        displacement: &mut Array2<T>,
+        _: [&mut Array2<T>; 3],
+    ) -> Result<()> {
+        self.0.displacement(pressure.view(), displacement.view_mut())
+    }
+    fn work(&mut self, pressure: &Array2<T>, foundation: f64, [field, ..]: [&mut Array2<T>; 3]) -> Result<f64> {
+        let foundation = Foundation::uniform(foundation, foundation);
+        Ok(self.0.precondition(pressure.view(), foundation, field.view_mut())?.error)
+    }
+}
+
+/// An operator in `f64`, and the same one in `f32` for the corrections. Only one at a time keeps a spectrum.
+pub(super) struct Two<'a> {
+    state: &'a mut dyn ElasticOperator<f64>,
+    corrections: Box<dyn ElasticOperator<f32>>,
+}
+
+impl<'a> Two<'a> {
+    pub(super) fn new(state: &'a mut dyn ElasticOperator<f64>, corrections: Box<dyn ElasticOperator<f32>>) -> Self {
+        state.release_memory();
+        Self { state, corrections }
+    }
+
+    /// Applies the operator in `f64`, in the memory of that in `f32` and of fields that are idle.
+    fn apply<R>(
+        &mut self,
+        idle: &mut [&mut Array2<f32>],
+        apply: impl FnOnce(&mut dyn ElasticOperator<f64>) -> Result<R>,
+    ) -> Result<R> {
+        let shape = self.state.grid().shape();
+        self.corrections.release_memory();
+        idle.iter_mut().for_each(|field| **field = Array2::zeros((0, 0)));
+        let result = apply(self.state);
+        self.state.release_memory();
+        idle.iter_mut().for_each(|field| **field = Array2::zeros(shape));
+        result
+    }
+}
+
+impl Operators<f64, f32> for Two<'_> {
+    fn state(&self) -> &dyn ElasticOperator<f64> {
+        self.state
+    }
+    fn corrections(&mut self) -> &mut dyn ElasticOperator<f32> {
+        &mut *self.corrections
+    }
+    fn pressure(&mut self, gap: &Array2<f64>, pressure: &mut Array2<f64>, idle: &mut [&mut Array2<f32>]) -> Result<()> {
+        self.apply(idle, |operator| operator.pressure(gap.view(), pressure.view_mut()))
+    }
+    fn displacement(
+        &mut self,
+        pressure: &Array2<f64>,
+        displacement: &mut Array2<f64>,
+        mut idle: [&mut Array2<f32>; 3],
+    ) -> Result<()> {
+        self.apply(&mut idle, |operator| operator.displacement(pressure.view(), displacement.view_mut()))
+    }
+    fn work(&mut self, pressure: &Array2<f64>, foundation: f64, mut idle: [&mut Array2<f32>; 3]) -> Result<f64> {
+        self.apply(&mut idle, |operator| {
+            let (foundation, mut field) = (Foundation::uniform(foundation, foundation), Array2::zeros(pressure.dim()));
+            Ok(operator.precondition(pressure.view(), foundation, field.view_mut())?.error)
+        })
+    }
+}
