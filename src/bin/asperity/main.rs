@@ -15,7 +15,9 @@ mod surface;
 mod sweep;
 
 // the parts of which commands are made
+mod boundary;
 mod case;
+mod columns;
 mod csv;
 mod hash;
 mod heights;

@@ -1,9 +1,10 @@
 //! The warnings of a command: printed, reported, or refused with `--strict`.
 
-use asperity::{Solution, Surface, Warning};
+use asperity::{Solution, Surface, Warning, WarningCode};
 use clap::Args;
 use serde_json::{Value, json};
 
+use crate::boundary::Boundary;
 use crate::options::{ProblemOptions, Scalar};
 use crate::outcome::Outcome;
 use crate::printing::complain;
@@ -32,9 +33,13 @@ impl Warnings {
     ) -> Outcome<Self> {
         let mut warnings = Self { strictness, found: Vec::new(), said: 0 };
         let law = options.adhesion.law::<T>()?;
-        let found =
-            Warning::of_surface(surface).into_iter().chain(Warning::of_law(&law, surface, options.surface.modulus));
-        warnings.add(found.collect())?;
+        let mut found = Warning::of_surface(surface);
+        // where nothing repeats, nothing has to meet
+        let of_periodicity = [WarningCode::Tilt, WarningCode::OpenEdges];
+        let free = options.surface.beyond.boundary == Boundary::Free;
+        found.retain(|warning| !(free && of_periodicity.contains(&warning.code)));
+        found.extend(Warning::of_law(&law, surface, options.surface.modulus));
+        warnings.add(found)?;
         Ok(warnings)
     }
 
