@@ -2,8 +2,9 @@
 
 use std::fmt;
 
-use asperity::{Boussinesq, Control, ElasticOperator, Grid, Real, Result, Westergaard};
+use asperity::{Boussinesq, Control, ElasticOperator, Grid, Real, Result, Surface, Westergaard};
 use clap::{Args, ValueEnum};
+use ndarray::Array2;
 
 use crate::loads::{self, Loads};
 use crate::options::{finite, non_negative, positive};
@@ -36,6 +37,19 @@ impl Boundary {
             Self::Periodic => Box::new(Westergaard::new(grid, modulus)?),
             Self::Free => Box::new(Boussinesq::new(grid, modulus)?),
         })
+    }
+
+    /// The gap of a body that comes from afar: undeformed, at the approach at which `loads` begin, if they grow from one
+    /// before touch. With adhesion the default start of a solve would find the body sticking.
+    pub fn start_afar(self, surface: &Surface, loads: &[Control]) -> Option<Array2<f64>> {
+        let (from, to) = match *loads {
+            [Control::Approach(from), Control::Approach(to), ..] => (from, to),
+            [Control::Spring { rest: from, .. }, Control::Spring { rest: to, .. }, ..] => (from, to),
+            _ => return None,
+        };
+        let comes = self == Self::Free && from < 0.0 && to > from;
+        let peak = surface.heights().fold(f64::NEG_INFINITY, |peak, &height| peak.max(height));
+        comes.then(|| surface.heights().mapv(|height| peak - height - from))
     }
 
     /// Refuses a load that the boundary does not have.
@@ -127,7 +141,8 @@ pub struct LoadsOptions {
     #[arg(long, value_name = "LIST", allow_hyphen_values = true, value_parser = loads::signed, help_heading = "Loads")]
     normal_forces: Option<Loads>,
     /// Approaches, with a free boundary: how far the bodies have moved towards each other since they would first touch
-    /// undeformed, negative before; a list as for the gaps
+    /// undeformed, negative before; a list as for the gaps. A list that grows from a negative one begins with the
+    /// bodies apart
     #[arg(long, value_name = "LIST", allow_hyphen_values = true, value_parser = loads::signed, help_heading = "Loads")]
     approaches: Option<Loads>,
     /// Stiffness of a spring in series, as of a machine or a cantilever, force per length; needs --spring-positions
@@ -135,7 +150,8 @@ pub struct LoadsOptions {
     #[arg(requires = "spring_positions")]
     spring_stiffness: Option<f64>,
     /// Positions Z of the spring's far end: with a free boundary the approach D at which the spring is relaxed, F = K
-    /// (Z - D); with a periodic one the mean gap G at which it is, F = K (G - Z); a list as for the gaps
+    /// (Z - D); with a periodic one the mean gap G at which it is, F = K (G - Z); a list as for the gaps. With a free
+    /// boundary a list that grows from a negative one begins with the bodies apart
     #[arg(long, value_name = "LIST", allow_hyphen_values = true, value_parser = loads::signed, help_heading = "Loads")]
     #[arg(requires = "spring_stiffness")]
     spring_positions: Option<Loads>,

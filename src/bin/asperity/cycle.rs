@@ -15,6 +15,7 @@ use crate::columns::{Cell, OUTCOME, STATE, outcome, state};
 use crate::csv;
 use crate::identity::{Identity, identity};
 use crate::journal::Row;
+use crate::kept::Kept;
 use crate::loads::name_and_value;
 use crate::numbers::Style;
 use crate::options::{self, AdhesionOptions, Given, Precision, ProblemOptions, Scalar, SolverOptions, SurfaceOptions};
@@ -68,6 +69,10 @@ pub struct Options {
     /// File for the rows, .csv
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     out: PathBuf,
+    /// Folder for the fields at the jumps, made if needed: of the rows with an event, of those before them, and of the
+    /// last row, gap-0001.npy, pressure-0001.npy, contact_pressure-0001.npy and so on
+    #[arg(long, value_name = "DIR", help_heading = "Output")]
+    fields: Option<PathBuf>,
     /// File for a picture of the mean pressure over the mean gap, with a free boundary of the normal force over the
     /// approach, .png
     #[arg(long, value_name = "FILE", help_heading = "Output")]
@@ -135,6 +140,7 @@ impl Options {
         let warnings = Warnings::of_input::<T>(self.strictness, &surface, self.table().problem)?;
         let grid = *surface.grid();
         let identity = self.identity(&surface, start.as_ref());
+        let start = start.or_else(|| self.surface.beyond.boundary.start_afar(&surface, &self.loads.controls()));
         let operator = self.surface.beyond.boundary.half_space(grid, self.surface.modulus)?;
         let law = self.adhesion.law::<T>()?;
         let mut problem = Problem::new(&surface, operator, self.adhesion.law::<T>()?)?;
@@ -149,6 +155,8 @@ impl Options {
         let mut path = Path::new(&mut solver, &mut problem, loads, settings)?;
         let names = names();
         let header = names.join(",") + "\n";
+        let kept = Kept(self.fields.as_deref());
+        kept.check(self.force || self.out.exists())?;
         let (mut table, saved) = Table::open(self.table(), scene, &header, identity, None, warnings)?;
         if table.rows() > 0 {
             let fields = saved.fields.into_iter().map(T::field).collect();
@@ -156,7 +164,11 @@ impl Options {
         } else if let Some(start) = start {
             path = path.starting_from(T::field(start));
         }
+        if table.rows() == 0 {
+            kept.clear();
+        }
         let text = table.text()?;
+        let mut had_event = text.lines().next_back().is_some_and(|row| !csv::parsed(&names, row)["event"].is_null());
         let mut ended = self.ends(&csv::parsed(&names, text.lines().next_back().unwrap_or_default()));
         while !ended {
             let name = (table.rows() + 1).to_string();
@@ -170,7 +182,13 @@ impl Options {
             let fields: Vec<_> = checkpoint.fields.iter().map(|field| field.view()).collect();
             let (report, (_, load)) = (&step.solution.report, name_and_value(step.control));
             let (text, converged) = (csv::line(&row), report.status == Status::Converged);
+            kept.write(table.rows() + 1, &step.solution)?;
             table.append(&Row { text: &text, load, converged, fields: &fields, numbers: &checkpoint.numbers })?;
+            // the fields of a row stay where it or the next one has an event
+            if !had_event && step.event.is_none() {
+                kept.forget(table.rows() - 1);
+            }
+            had_event = step.event.is_some();
             let event = step.event.map_or(String::new(), |event| format!("  {event}"));
             self.printing.say(&format!("{:>4}  {}{event}", table.rows(), table::brief(report)));
             ended = self.ends(&row.into());
@@ -237,6 +255,7 @@ impl Options {
             ("smallest_step", self.smallest_step.to_string()),
             ("imbalance", self.imbalance.to_string()),
             ("sharp", self.sharp.to_string()),
+            ("fields", if self.fields.is_some() { "kept" } else { "not kept" }.to_owned()),
         ] {
             identity.insert(name.to_owned(), value.into());
         }

@@ -3,21 +3,19 @@
 use std::path::PathBuf;
 
 use asperity::contact::ContactStatistics;
-use asperity::io::{OutputFolder, write_npy};
-use asperity::{Control, Error, Problem, Report, Solution, Solver, Status, Surface, Sweep};
+use asperity::{Control, Error, Problem, Report, Solver, Status, Surface, Sweep};
 use clap::{ArgGroup, Args, ValueEnum};
 use ndarray::Array2;
 use serde_json::{Map, Value, json};
 
 use crate::boundary::{LOADS, LoadsOptions};
-use crate::case::gap_to_write;
 use crate::columns::{OUTCOME, STATE, outcome, state};
 use crate::csv;
 use crate::identity::{Identity, identity};
 use crate::journal::Row;
+use crate::kept::Kept;
 use crate::options::{AdhesionOptions, Given, Precision, ProblemOptions, Scalar, SolverOptions, SurfaceOptions};
 use crate::outcome::Outcome;
-use crate::output::at_destination;
 use crate::printing::Printing;
 use crate::scene::Scene;
 use crate::table::{self, Table, TableOptions};
@@ -84,8 +82,6 @@ fn names() -> Vec<&'static str> {
     [&STATE[..], &OUTCOME[..]].concat()
 }
 
-const FIELDS: [&str; 3] = ["gap", "pressure", "contact_pressure"];
-
 /// Runs the command; whether all rows converged.
 pub fn run(options: &Options, scene: &Scene) -> Outcome<bool> {
     options.format()?;
@@ -107,12 +103,14 @@ impl Options {
         let warnings = Warnings::of_input::<T>(self.strictness, &surface, self.table().problem)?;
         let grid = *surface.grid();
         let identity = self.identity(&surface, start.as_ref());
+        let start = start.or_else(|| self.surface.beyond.boundary.start_afar(&surface, &self.loads.controls()));
         let operator = self.surface.beyond.boundary.half_space(grid, self.surface.modulus)?;
         let mut problem = Problem::new(&surface, operator, self.adhesion.law::<T>()?)?;
         drop(surface);
         let format = self.format()?;
         let header = if format == Format::Csv { names().join(",") + "\n" } else { String::new() };
-        self.check_fields(loads.len())?;
+        let kept = Kept(self.fields.as_deref());
+        kept.check(self.force || self.out.exists())?;
         let (mut table, saved) = Table::open(self.table(), scene, &header, identity, Some(loads), warnings)?;
         let done = table.rows();
         let controls = self.loads.controls();
@@ -138,7 +136,7 @@ impl Options {
                 Format::Csv => csv::line(&row),
                 Format::Jsonl => Value::Object(row).to_string(),
             };
-            self.write_fields(k, &solution)?;
+            kept.write(k + 1, &solution)?;
             let fields: Vec<_> = sweep.history().iter().map(|(_, gap)| gap.view()).collect();
             let converged = solution.report.status == Status::Converged;
             table.append(&Row { text: &text, load, converged, fields: &fields, numbers: &[] })?;
@@ -177,34 +175,6 @@ impl Options {
         identity.insert("format".to_owned(), if csv { "csv" } else { "jsonl" }.into());
         identity
     }
-
-    /// Refuses to replace fields, if this is not the continuation of what wrote them.
-    fn check_fields(&self, count: usize) -> Outcome<()> {
-        let Some(folder) = &self.fields else { return Ok(()) };
-        // only a trial
-        drop(OutputFolder::create(folder, &[], true)?);
-        if self.force || self.out.exists() {
-            return Ok(());
-        }
-        let mut paths = (0..count).flat_map(|k| FIELDS.map(|name| folder.join(field_name(name, k))));
-        match paths.find(|path| path.exists()) {
-            Some(path) => {
-                Err(Error::file(&path, "exists: use --force to replace it, or choose another --fields").into())
-            }
-            None => Ok(()),
-        }
-    }
-
-    fn write_fields<T: Scalar>(&self, k: usize, solution: &Solution<T>) -> asperity::Result<()> {
-        let Some(folder) = &self.fields else { return Ok(()) };
-        let files = OutputFolder::create(folder, &[], true)?;
-        let gap = gap_to_write(solution);
-        let fields = [&*gap, &solution.pressure, &solution.contact_pressure];
-        let mut write =
-            FIELDS.iter().zip(fields).map(|(name, field)| write_npy(&files.path(&field_name(name, k)), field));
-        write.try_for_each(|written| written.map_err(|error| at_destination(error, folder)))?;
-        files.commit()
-    }
 }
 
 /// The last row of the file, of which this is the text.
@@ -214,10 +184,6 @@ fn last_row(format: Format, text: &str) -> Value {
         Format::Csv => csv::parsed(&names(), last),
         Format::Jsonl => serde_json::from_str(last).unwrap_or_default(),
     }
-}
-
-fn field_name(name: &str, k: usize) -> String {
-    format!("{name}-{:04}.npy", k + 1)
 }
 
 /// The content of a row, by the names of the columns. Nothing in it depends on the clock.

@@ -34,10 +34,13 @@ impl Warnings {
         let mut warnings = Self { strictness, found: Vec::new(), said: 0 };
         let law = options.adhesion.law::<T>()?;
         let mut found = Warning::of_surface(surface);
-        // where nothing repeats, nothing has to meet
-        let of_periodicity = [WarningCode::Tilt, WarningCode::OpenEdges];
+        // where nothing repeats, nothing has to meet, and a body that ends may be flat
         let free = options.surface.beyond.boundary == Boundary::Free;
-        found.retain(|warning| !(free && of_periodicity.contains(&warning.code)));
+        found.retain(|warning| match warning.code {
+            WarningCode::Tilt | WarningCode::OpenEdges => !free,
+            WarningCode::Flat => !free && surface.absent().is_none(),
+            _ => true,
+        });
         found.extend(Warning::of_law(&law, surface, options.surface.modulus));
         warnings.add(found)?;
         Ok(warnings)
