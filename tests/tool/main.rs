@@ -5,6 +5,7 @@ mod bench;
 
 #[cfg(unix)]
 mod commands;
+mod free_tool;
 mod hostile;
 mod prepare;
 mod scene_tool;

@@ -104,9 +104,7 @@ impl FormOptions {
                 Form::Sphere => -r2 / (radius + (radius * radius - r2).sqrt()),
                 Form::Paraboloid => -r2 / (2.0 * radius),
                 Form::Cone => -slope * r2.sqrt(),
-                Form::Wave => {
-                    amplitude * (TAU * f64::from(mx) * x / lx).cos() * (TAU * f64::from(my) * y / ly).cos()
-                }
+                Form::Wave => amplitude * (TAU * f64::from(mx) * x / lx).cos() * (TAU * f64::from(my) * y / ly).cos(),
                 Form::FlatPunch => {
                     if r2 <= radius * radius {
                         0.0
