@@ -9,10 +9,6 @@ use crate::bench::{Bench, text};
 
 const TIP: &str = "surface --form sphere --radius 2 --size 32 --lengths 1 --quiet --out tip.npz";
 
-fn report(bench: &Bench, arguments: &str) -> Value {
-    serde_json::from_str(&bench.said(&format!("{arguments} --json"))).unwrap()
-}
-
 #[track_caller]
 fn number(value: &Value) -> f64 {
     value.as_f64().unwrap_or_else(|| panic!("{value} is no number"))
@@ -34,7 +30,7 @@ fn cell<'a>(row: &'a [(String, String)], name: &str) -> &'a str {
 fn a_sphere_under_a_force_has_the_approach_of_hertz() {
     let bench = Bench::new();
     bench.said(TIP);
-    let solved = report(&bench, "solve --heights tip.npz --boundary free --normal-force 5e-3 --no-pictures --out a");
+    let solved = bench.reported("solve --heights tip.npz --boundary free --normal-force 5e-3 --no-pictures --out a");
     let radius = (0.75 * 5e-3 * 2.0_f64).cbrt();
     // the next term of a sphere beyond a paraboloid is a²/4R², and the nodes are a sixth of the radius apart
     assert!((number(&solved["approach"]) / (radius * radius / 2.0) - 1.0).abs() < 0.02, "{solved}");
@@ -48,7 +44,7 @@ fn a_sphere_under_a_force_has_the_approach_of_hertz() {
     let position = approach + 5e-3 / 0.1;
     let sprung = format!("run a/scene.toml --spring-stiffness 0.1 --spring-position {position} --out c");
     for again in [held, sprung, "run c/scene.toml --normal-force 5e-3 --out d".to_owned()] {
-        let again = report(&bench, &again);
+        let again = bench.reported(&again);
         assert!((number(&again["normal_force"]) / 5e-3 - 1.0).abs() < 1e-4, "{again}");
     }
 }
@@ -56,28 +52,28 @@ fn a_sphere_under_a_force_has_the_approach_of_hertz() {
 #[test]
 fn a_punch_has_absent_nodes_and_its_gap_is_a_start() {
     let bench = Bench::new();
-    let made = report(&bench, "surface --form flat-punch --radius 0.3 --size 48 --out punch.npz");
+    let made = bench.reported("surface --form flat-punch --radius 0.3 --size 48 --out punch.npz");
     let absent = number(&made["absent_points"]);
     assert!((1.0 - absent / 48.0_f64.powi(2) - PI * 0.09).abs() < 0.02, "{made}");
     let solve = "solve --heights punch.npz --boundary free --absent-missing --approach 0.01 --no-pictures";
-    let solved = report(&bench, &format!("{solve} --out a"));
+    let solved = bench.reported(&format!("{solve} --out a"));
     assert_eq!(number(&solved["absent_points"]), absent);
     assert_eq!(solved["warnings"], Value::Array(Vec::new()));
     // F = 2aE*δ, to the width of a node on 15
     assert!((number(&solved["normal_force"]) / (2.0 * 0.3 * 0.01) - 1.0).abs() < 0.05, "{solved}");
     let gap = read_field(&bench.0.path().join("a/gap.npy")).unwrap();
     assert_eq!(gap.iter().filter(|gap| gap.is_nan()).count() as f64, absent);
-    let again = report(&bench, &format!("{solve} --initial-gap a/gap.npy --out b"));
+    let again = bench.reported(&format!("{solve} --initial-gap a/gap.npy --out b"));
     assert!(again["iterations"].as_u64() <= solved["iterations"].as_u64(), "{again}");
 }
 
 #[test]
 fn a_tip_jumps_in_and_off_and_the_cycle_ends_where_it_is_apart() {
     let bench = Bench::new();
-    bench.said("surface --form paraboloid --radius 2 --size 24 --lengths 0.24 --quiet --out tip.npz");
+    bench.said("surface --form paraboloid --radius 2 --size 40 --lengths 0.56 --quiet --out tip.npz");
     let cycle = "cycle --heights tip.npz --boundary free --law exponential --work-of-adhesion 2e-5 --range 2e-3 \
                  --spring-stiffness 0.01 --spring-positions=-0.02,0,-0.2 --steps 10 --smallest-step 1e-3 --out c.csv";
-    let found = report(&bench, &format!("{cycle} --fields jumps --plot c.png"));
+    let found = bench.reported(&format!("{cycle} --fields jumps --plot c.png"));
     let events: Vec<_> = found["events"].as_array().unwrap().iter().map(|event| event["event"].clone()).collect();
     assert_eq!(events, ["pull-off", "jump-in"], "the largest jump first");
     let directions: Vec<_> = found["events"].as_array().unwrap().iter().map(|e| e["direction"].clone()).collect();

@@ -181,6 +181,11 @@ impl LoadsOptions {
         }
     }
 
+    /// The stiffness of the spring, if there is one.
+    pub fn spring_stiffness(&self) -> Option<f64> {
+        self.spring_stiffness
+    }
+
     /// The loads, in their order.
     pub fn controls(&self) -> Vec<Control> {
         self.values().iter().map(|&value| self.control(value)).collect()

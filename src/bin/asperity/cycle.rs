@@ -288,6 +288,7 @@ impl Options {
                 Value::Object(found)
             };
             let found = json!({
+                "spring_stiffness": self.loads.spring_stiffness(),
                 "greatest_tension": (tension > 0.0).then_some(tension),
                 "greatest_tensile_force": (tension > 0.0).then_some(-least("normal_force")),
                 "events": events.iter().map(event).collect::<Vec<_>>(),

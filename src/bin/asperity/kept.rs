@@ -57,17 +57,16 @@ fn file(name: &str, row: usize) -> String {
     format!("{name}-{row:04}.npy")
 }
 
-/// The fields of rows in a folder.
+/// The fields of rows in a folder, in the order of the rows.
 fn present(folder: &Path) -> Vec<PathBuf> {
-    let is_ours = |path: &PathBuf| {
-        let name = path.file_name().and_then(|name| name.to_str()).and_then(|name| name.strip_suffix(".npy"));
-        let parts = name.and_then(|name| name.rsplit_once('-'));
-        parts.is_some_and(|(name, row)| FIELDS.contains(&name) && row.parse::<usize>().is_ok())
+    let row_and_field = |path: &Path| {
+        let (name, row) = path.file_name()?.to_str()?.strip_suffix(".npy")?.rsplit_once('-')?;
+        Some((row.parse::<usize>().ok()?, FIELDS.iter().position(|field| *field == name)?))
     };
-    let mut paths: Vec<_> = fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path()).collect();
-    paths.retain(is_ours);
-    paths.sort();
-    paths
+    let paths = fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path());
+    let mut found: Vec<_> = paths.filter_map(|path| Some((row_and_field(&path)?, path))).collect();
+    found.sort();
+    found.into_iter().map(|(_, path)| path).collect()
 }
 
 fn remove(path: PathBuf) {

@@ -53,8 +53,8 @@ use crate::scene::Scene;
 
 /// Frictionless normal contact of rough surfaces, with adhesion.
 ///
-/// Finds the gap and the pressure between an elastic half-space and a rigid rough surface, periodic, by an FFT-based
-/// boundary element method, and says how accurate they are.
+/// Finds the gap and the pressure between an elastic half-space and a rigid rough surface, in a periodic cell or with a
+/// free boundary, by an FFT-based boundary element method, and says how accurate they are.
 #[derive(Parser)]
 #[command(version, after_help = EXAMPLES, max_term_width = 100)]
 struct Tool {

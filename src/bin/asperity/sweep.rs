@@ -145,7 +145,13 @@ impl Options {
         self.printing.say(&format!("{count} rows in {}", self.out.display()));
         self.printing.report(|| {
             let last = last_row(format, &table.text().unwrap_or_default());
-            table.report("sweep", self.loads.control(0.0).name(), json!({ "last": last }), &grid, unit.as_deref())
+            table.report(
+                "sweep",
+                self.loads.control(0.0).name(),
+                json!({ "spring_stiffness": self.loads.spring_stiffness(), "last": last }),
+                &grid,
+                unit.as_deref(),
+            )
         });
         Ok(table.converged("use a larger --tolerance or finer steps, or less tension where they are detached"))
     }
