@@ -46,9 +46,63 @@ impl<T: Real> Solution<T> {
     /// # Ok::<(), asperity::Error>(())
     /// ```
     pub fn contact_map(&self) -> Array2<bool> {
-        Zip::from(&self.gap)
-            .and(&self.contact_pressure)
-            .map_collect(|&gap, &pressure| gap <= T::zero() || pressure > T::zero())
+        contact_map(self.gap.view(), self.contact_pressure.view())
+    }
+}
+
+/// The contact map of a gap and a contact pressure of one shape.
+fn contact_map<T: Real>(gap: ArrayView2<'_, T>, contact_pressure: ArrayView2<'_, T>) -> Array2<bool> {
+    Zip::from(gap).and(contact_pressure).map_collect(|&gap, &pressure| gap <= T::zero() || pressure > T::zero())
+}
+
+/// The contact area of a map, and its edge; [`ContactStatistics`] says how the area is corrected.
+///
+/// ```
+/// use asperity::Grid;
+/// use asperity::contact::ContactArea;
+/// let map = ndarray::array![[true, true, false, false], [false; 4], [false; 4], [false; 4]];
+/// let area = ContactArea::of(map.view(), &Grid::square(4, 1.0)?)?;
+/// assert_eq!((area.contact_nodes, area.perimeter), (2, 1.5)); // six sides of cells
+/// assert!(area.corrected_contact_fraction < area.contact_fraction);
+/// # Ok::<(), asperity::Error>(())
+/// ```
+#[non_exhaustive]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ContactArea {
+    /// The number of nodes in contact.
+    pub contact_nodes: usize,
+    /// The share of nodes in contact.
+    pub contact_fraction: f64,
+    /// The contact area without the excess of the map along its edge, as a share of the nominal area.
+    pub corrected_contact_fraction: f64,
+    /// The length of the edge of the contact, as [`ContactStatistics::perimeter`].
+    pub perimeter: f64,
+}
+
+impl ContactArea {
+    /// The contact area of a map of shape (Nx, Ny) on its grid.
+    ///
+    /// # Errors
+    /// [`Error::Shape`] if the map does not have the shape of the grid.
+    pub fn of(map: ArrayView2<'_, bool>, grid: &Grid) -> Result<Self> {
+        Self::within(map, grid, Boundary::Periodic, grid.nodes())
+    }
+
+    /// The area on a map within a boundary, of whose nodes so many face the half-space.
+    fn within(map: ArrayView2<'_, bool>, grid: &Grid, boundary: Boundary, facing: usize) -> Result<Self> {
+        Error::shape("contact map", map.dim(), grid.shape())?;
+        let contact_nodes = map.iter().filter(|&&touches| touches).count();
+        let (along_x, along_y) = edges(map, boundary == Boundary::Periodic);
+        let (dx, dy) = grid.spacing();
+        let (perimeter, excess) = if grid.is_line() {
+            (along_x as f64, 0.0)
+        } else {
+            (along_x as f64 * dy + along_y as f64 * dx, EDGE_EXCESS * (along_x + along_y) as f64)
+        };
+        let nodes = facing as f64;
+        let (contact_fraction, corrected_contact_fraction) =
+            (contact_nodes as f64 / nodes, (contact_nodes as f64 - excess) / nodes);
+        Ok(Self { contact_nodes, contact_fraction, corrected_contact_fraction, perimeter })
     }
 }
 
@@ -122,37 +176,44 @@ impl ContactStatistics {
     /// # Errors
     /// [`Error::Shape`] if a field does not have the shape of the grid.
     pub fn of<T: Real>(solution: &Solution<T>, grid: &Grid, law: &impl AdhesionLaw<T>) -> Result<Self> {
-        Error::shape("gap", solution.gap.dim(), grid.shape())?;
-        Error::shape("contact pressure", solution.contact_pressure.dim(), grid.shape())?;
-        let contact = solution.contact_map();
-        let (facing, periodic) =
-            (grid.nodes() - solution.report.absent_nodes, solution.report.boundary == Boundary::Periodic);
+        Self::of_fields(solution.gap.view(), solution.contact_pressure.view(), (grid, solution.report.boundary), law)
+    }
+
+    /// The statistics of the gap and the contact pressure of a solution, as those that come from a file, on its grid and
+    /// within its boundary. The gap of absent nodes is infinite.
+    ///
+    /// # Errors
+    /// Those of [`ContactStatistics::of`].
+    pub fn of_fields<T: Real>(
+        gap: ArrayView2<'_, T>,
+        contact_pressure: ArrayView2<'_, T>,
+        (grid, boundary): (&Grid, Boundary),
+        law: &impl AdhesionLaw<T>,
+    ) -> Result<Self> {
+        Error::shape("gap", gap.dim(), grid.shape())?;
+        Error::shape("contact pressure", contact_pressure.dim(), grid.shape())?;
+        let contact = contact_map(gap, contact_pressure);
+        let facing = gap.iter().filter(|gap| gap.is_finite()).count();
+        let ContactArea { contact_nodes, contact_fraction, corrected_contact_fraction, perimeter } =
+            ContactArea::within(contact.view(), grid, boundary, facing)?;
         let share = |count: usize| count as f64 / facing as f64;
-        let contact_nodes = contact.iter().filter(|&&touches| touches).count();
         let attracting = if law.is_zero() {
             0
         } else {
             let scale = (law.work_of_adhesion() / law.range()).widen();
             let least = T::lit(if scale.is_finite() { NOTICEABLE * scale } else { 0.0 });
-            let gaps: Vec<T> = solution.gap.iter().map(|gap| gap.max(T::zero())).collect();
+            let gaps: Vec<T> = gap.iter().map(|gap| gap.max(T::zero())).collect();
             let mut tractions = vec![T::zero(); gaps.len()];
             law.tractions(0, &gaps, &mut tractions);
             contact.iter().zip(tractions).filter(|&(&touches, traction)| !touches && traction > least).count()
         };
-        let (along_x, along_y) = edges(contact.view(), periodic);
-        let (dx, dy) = grid.spacing();
-        let (perimeter, excess) = if grid.is_line() {
-            (along_x as f64, 0.0)
-        } else {
-            (along_x as f64 * dy + along_y as f64 * dx, EDGE_EXCESS * (along_x + along_y) as f64)
-        };
         Ok(Self {
             contact_nodes,
-            contact_fraction: share(contact_nodes),
-            corrected_contact_fraction: (contact_nodes as f64 - excess) / facing as f64,
+            contact_fraction,
+            corrected_contact_fraction,
             perimeter,
-            cluster_sizes: Clusters::within(contact.view(), Connectivity::Sides, solution.report.boundary).sizes,
-            repulsive_fraction: share(solution.contact_pressure.iter().filter(|&&p| p > T::zero()).count()),
+            cluster_sizes: Clusters::within(contact.view(), Connectivity::Sides, boundary).sizes,
+            repulsive_fraction: share(contact_pressure.iter().filter(|&&p| p > T::zero()).count()),
             attractive_fraction: share(attracting),
             apart_fraction: share(facing - contact_nodes - attracting),
         })
@@ -162,16 +223,18 @@ impl ContactStatistics {
 /// The number of pairs of neighbours along x, and along y, of which one is on the map and one is not; opposite sides are
 /// neighbours if the map is periodic, and otherwise nothing is beyond them.
 fn edges(map: ArrayView2<'_, bool>, periodic: bool) -> (usize, usize) {
-    let (nx, ny) = map.dim();
     let (mut along_x, mut along_y) = (0, 0);
-    for ((i, j), &here) in map.indexed_iter() {
-        let next = |inside: bool, node: [usize; 2]| (inside || periodic) && map[node];
-        along_x += usize::from(here != next(i + 1 < nx, [(i + 1) % nx, j]));
-        along_y += usize::from(here != next(j + 1 < ny, [i, (j + 1) % ny]));
-        if !periodic {
-            along_x += usize::from(here && i == 0);
-            along_y += usize::from(here && j == 0);
-        }
+    for (i, row) in map.outer_iter().enumerate() {
+        let (below, shifted) = (map.row((i + 1) % map.nrows()), row.iter().cycle().skip(1));
+        along_x += row.iter().zip(below).filter(|(here, there)| here != there).count();
+        along_y += row.iter().zip(shifted).filter(|(here, there)| here != there).count();
+    }
+    if !periodic {
+        // across the sides each meets nothing in place of the other
+        let [first, last] = [map.row(0), map.row(map.nrows() - 1)];
+        let [left, right] = [map.column(0), map.column(map.ncols() - 1)];
+        along_x += first.iter().zip(last).filter(|&(&a, &b)| a && b).count() * 2;
+        along_y += left.iter().zip(right).filter(|&(&a, &b)| a && b).count() * 2;
     }
     (along_x, along_y)
 }

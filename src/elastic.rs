@@ -137,7 +137,7 @@ pub trait ElasticOperator<T: Real>: Send {
 
     /// Gives back the memory that is kept between two applications; the next one takes it anew. The default does
     /// nothing.
-    fn rest(&mut self) {}
+    fn release_memory(&mut self) {}
 
     /// Applies the preconditioner, M r.
     ///
@@ -307,9 +307,9 @@ macro_rules! delegate {
             let $this = self;
             $inner.in_single()
         }
-        fn rest(&mut self) {
+        fn release_memory(&mut self) {
             let $this = self;
-            $inner.rest();
+            $inner.release_memory();
         }
     };
 }

@@ -99,7 +99,7 @@ impl<T: Real> Convolver<T> {
     }
 
     /// Gives back the spectrum; the next convolution takes it anew.
-    pub(crate) fn rest(&mut self) {
+    pub(crate) fn release_memory(&mut self) {
         self.spectrum = Array2::zeros((0, 0));
     }
 

@@ -3,13 +3,14 @@
 //! | page | what for |
 //! |---|---|
 //! | [`tour`] | the whole way once: gap, pressure, balance, energy, adhesion, grid, certificate, each with its line of code |
+//! | [`laws`] | which adhesion law for what, laws that repel, and laws that vary over the surface |
 //! | [`own_law`] | an adhesion law of your own |
 //! | [`own_operator`] | an elastic operator of your own: a layer of finite thickness |
 //! | [`own_constraint`] | a way of your own to keep the surfaces apart |
 //! | [`penalty_and_uzawa`] | the two classical ways beside projection, with figures |
 //! | [`boundary`] | a periodic cell or a free half-space, absent nodes; forces, approaches and springs |
 //! | [`branches`] | loading and unloading with adhesion: jumps, limit points, stability |
-//! | [`python`] | heights from numpy, results to numpy |
+//! | [`python`] | from Python: the package, and files |
 //! | [`choosing`] | resolution, tolerance and precision for the accuracy you want |
 //! | [`performance`] | how fast: applications, times, memory, beside other programs |
 //! | [`precision`] | how far rounding lets a solve go, and what becomes of extreme input |
@@ -29,6 +30,7 @@ macro_rules! page {
     };
 }
 page!(tour);
+page!(laws);
 page!(own_law);
 page!(own_operator);
 page!(own_constraint);

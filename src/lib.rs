@@ -51,7 +51,7 @@
 //! | a way of your own to keep the surfaces apart; penalty and Uzawa | [`guide::own_constraint`], [`guide::penalty_and_uzawa`] |
 //! | loading and unloading with adhesion | [`guide::branches`] |
 //! | a body that ends: free half-space, force, approach, spring, absent nodes | [`guide::boundary`] |
-//! | heights from numpy, results to numpy | [`guide::python`] |
+//! | from Python: the package, and files | [`guide::python`] |
 //! | resolution, tolerance and precision for the accuracy you want | [`guide::choosing`] |
 //! | the command-line tool, its scenes and the keys of its reports | [`guide::tool`] |
 //! | how the crate is built, and how its solver works | [`guide::architecture`], [`guide::driver`] |
@@ -129,8 +129,11 @@ mod warning;
 
 pub use ndarray;
 
-pub use adhesion::{AdhesionLaw, Exponential, MaugisDugdale, NoAdhesion, check_law};
-pub use constraint::{ContactConstraint, Penalty, Projection, Springs, Update, Uzawa, Wall, check_constraint};
+pub use adhesion::{
+    AdhesionLaw, CutOff, Exponential, LennardJones, MaugisDugdale, Morse, NoAdhesion, PowerLaw, Tabulated, Varying,
+    check_law,
+};
+pub use constraint::{ContactConstraint, NoWall, Penalty, Projection, Springs, Update, Uzawa, Wall, check_constraint};
 pub use elastic::{
     Boundary, Boussinesq, CoarseSpace, ElasticOperator, Foundation, Preconditioned, Spectral, Westergaard,
     check_operator,

@@ -74,6 +74,9 @@ impl Clusters {
         for i in 0..nx {
             let below = (i + 1) % nx;
             for j in 0..ny {
+                if tree[i * ny + j] == NONE {
+                    continue;
+                }
                 let (left, right) = ((j + ny - 1) % ny, (j + 1) % ny);
                 let [goes_down, goes_left, goes_right] =
                     [i + 1 < nx, j > 0, j + 1 < ny].map(|inside| inside || periodic);

@@ -433,7 +433,7 @@ impl<T: Real> Spectral<T> {
         let stiffness = match &self.stiffness {
             Stiffness::Stored(_) => Stiffness::Stored(stiffness(&self.grid, &self.symbol)?),
             Stiffness::Even(modes) => Stiffness::Even(Arc::clone(modes)),
-            _ => half_space(&self.grid, self.modulus)?.0,
+            Stiffness::HalfSpace { .. } | Stiffness::Line { .. } => half_space(&self.grid, self.modulus)?.0,
         };
         let layout = self.convolver.layout();
         Convolver::<f64>::new(self.grid.shape())
@@ -483,14 +483,18 @@ impl<T: Real> ElasticOperator<T> for Spectral<T> {
                 check_range::<f32>(self.range.0, self.range.1).ok()?;
                 (Stiffness::Stored(stiffness.mapv(cast)), self.range)
             }
-            _ => half_space(&self.grid, self.modulus).ok()?,
+            Stiffness::Even(modes) => {
+                check_range::<f32>(self.range.0, self.range.1).ok()?;
+                (Stiffness::Even(Arc::clone(modes)), self.range)
+            }
+            Stiffness::HalfSpace { .. } | Stiffness::Line { .. } => half_space(&self.grid, self.modulus).ok()?,
         };
         let (grid, modulus, symbol) = (self.grid, self.modulus, Arc::clone(&self.symbol));
         Some(Box::new(Spectral { grid, modulus, symbol, stiffness, range, convolver: Convolver::new(grid.shape()) }))
     }
 
-    fn rest(&mut self) {
-        self.convolver.rest();
+    fn release_memory(&mut self) {
+        self.convolver.release_memory();
     }
 
     fn coarse_space(&self, dimension: usize) -> Option<CoarseSpace> {

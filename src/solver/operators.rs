@@ -64,7 +64,7 @@ pub(super) struct Two<'a> {
 
 impl<'a> Two<'a> {
     pub(super) fn new(state: &'a mut dyn ElasticOperator<f64>, corrections: Box<dyn ElasticOperator<f32>>) -> Self {
-        state.rest();
+        state.release_memory();
         Self { state, corrections }
     }
 
@@ -75,10 +75,10 @@ impl<'a> Two<'a> {
         apply: impl FnOnce(&mut dyn ElasticOperator<f64>) -> Result<R>,
     ) -> Result<R> {
         let shape = self.state.grid().shape();
-        self.corrections.rest();
+        self.corrections.release_memory();
         idle.iter_mut().for_each(|field| **field = Array2::zeros((0, 0)));
         let result = apply(self.state);
-        self.state.rest();
+        self.state.release_memory();
         idle.iter_mut().for_each(|field| **field = Array2::zeros(shape));
         result
     }

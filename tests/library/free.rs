@@ -43,7 +43,9 @@ fn solve<T: Real, O: ElasticOperator<T>, L: AdhesionLaw<T>>(
     let size = largest + problem.operator().stiffness_range().1 * lengths * lengths;
     for pair in history.windows(2).filter(|pair: &&[Iteration]| pair[0].round == pair[1].round) {
         let rise = pair[1].energy - pair[0].energy;
-        assert!(rise <= 8.0 * T::epsilon().widen() * size, "{rise:e} of {size:e} in iteration {}", pair[1].iteration);
+        // in f64 the energy is summed of changes in f32
+        let allowed = (8.0 * T::epsilon().widen() * size).max(4.0 * f64::from(f32::EPSILON) * largest);
+        assert!(rise <= allowed, "{rise:e} of {size:e} in iteration {}", pair[1].iteration);
     }
     solution
 }
@@ -541,7 +543,7 @@ fn any_number_of_threads_gives_the_same_bits() {
 }
 
 #[test]
-fn an_iteration_allocates_nothing_and_a_solve_twenty_nine_fields_of_the_window() {
+fn an_iteration_allocates_nothing_and_a_solve_twenty_three_fields_of_the_window() {
     let surface = bumps((250, 256));
     let field = (surface.heights().len() * size_of::<f64>()) as f64;
     rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap().install(|| {
@@ -565,7 +567,7 @@ fn an_iteration_allocates_nothing_and_a_solve_twenty_nine_fields_of_the_window()
         // beside the coarse space, plans, tiles and the partial sums of a reduction
         let coarse_space = 13.0 * 8.0 * (4.0 * surface.heights().len() as f64).powf(2.0 / 3.0);
         let fields = (solved.bytes_max as f64 - coarse_space) / field;
-        assert!((28.5..30.0).contains(&fields), "{fields}");
+        assert!((22.0..23.5).contains(&fields), "{fields}");
     });
 }
 

@@ -144,6 +144,12 @@ fn commands_of_the_documentation_run() {
                         reader.follow(&format!("asperity {arguments}"), &name);
                     }
                     ("cargo", _) => assert!(names_no_target_or_an_existing_one(&command), "{name}: {command}"),
+                    // a package of this repository
+                    ("pip", _) => {
+                        let folder = command.split([' ', '\'', '[']).find(|word| word.starts_with("./"));
+                        let package = root().join(folder.unwrap_or_default()).join("pyproject.toml");
+                        assert!(package.exists(), "{name}: {command}");
+                    }
                     (script, _) if script.contains('/') => assert!(root().join(script).exists(), "{name}: {command}"),
                     _ => panic!("{name}: nobody knows whether this runs: {command}"),
                 }

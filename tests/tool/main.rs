@@ -7,6 +7,7 @@ mod bench;
 mod commands;
 mod free_tool;
 mod hostile;
+mod laws_tool;
 mod prepare;
 mod scene_tool;
 mod surface_tool;

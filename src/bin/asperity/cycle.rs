@@ -10,6 +10,7 @@ use clap::{ArgGroup, Args};
 use ndarray::Array2;
 use serde_json::{Map, Value, json};
 
+use crate::adhesion::{Adhesion, AdhesionOptions, Wall};
 use crate::boundary::{Boundary, LOADS, LoadsOptions};
 use crate::columns::{Cell, OUTCOME, STATE, outcome, state};
 use crate::csv;
@@ -18,7 +19,7 @@ use crate::journal::Row;
 use crate::kept::Kept;
 use crate::loads::name_and_value;
 use crate::numbers::Style;
-use crate::options::{self, AdhesionOptions, Given, Precision, ProblemOptions, Scalar, SolverOptions, SurfaceOptions};
+use crate::options::{self, Given, Precision, ProblemOptions, Scalar, SolverOptions, SurfaceOptions};
 use crate::outcome::Outcome;
 use crate::output::OutputFile;
 use crate::printing::{Printing, say};
@@ -124,6 +125,9 @@ fn names() -> Vec<&'static str> {
 pub fn run(options: &Options, scene: &Scene) -> Outcome<bool> {
     options.check_files()?;
     options.surface.beyond.boundary.check(options.loads.control(0.0))?;
+    if options.adhesion.wall == Wall::None {
+        return Err("a cycle needs a wall: give --wall hard, or follow the loads by asperity sweep".into());
+    }
     let given = options.table().problem.read()?;
     match options.solver.precision {
         Precision::F32 => options.run::<f32>(given, scene),
@@ -132,18 +136,18 @@ pub fn run(options: &Options, scene: &Scene) -> Outcome<bool> {
 }
 
 impl Options {
-    fn run<T: Scalar>(&self, Given { surface, unit, start }: Given, scene: &Scene) -> Outcome<bool> {
+    fn run<T: Scalar>(&self, Given { surface, adhesion, unit, start }: Given<'_>, scene: &Scene) -> Outcome<bool> {
         let loads = self.loads.controls();
         if loads.len() < 2 {
             return Err("a cycle needs two turning points at least: give more loads, with commas between".into());
         }
-        let warnings = Warnings::of_input::<T>(self.strictness, &surface, self.table().problem)?;
+        let warnings = Warnings::of_input::<T>(self.strictness, &surface, &adhesion, self.table().problem)?;
         let grid = *surface.grid();
-        let identity = self.identity(&surface, start.as_ref());
+        let identity = self.identity(&surface, &adhesion, start.as_ref());
         let start = start.or_else(|| self.surface.beyond.boundary.start_afar(&surface, &self.loads.controls()));
         let operator = self.surface.beyond.boundary.half_space(grid, self.surface.modulus)?;
-        let law = self.adhesion.law::<T>()?;
-        let mut problem = Problem::new(&surface, operator, self.adhesion.law::<T>()?)?;
+        let law = adhesion.law::<T>()?;
+        let mut problem = Problem::new(&surface, operator, adhesion.law::<T>()?)?;
         drop(surface);
         let mut solver = Solver::new(self.solver.settings());
         let settings = PathSettings {
@@ -245,8 +249,8 @@ impl Options {
     }
 
     /// The inputs on which the rows depend.
-    fn identity(&self, surface: &Surface, start: Option<&Array2<f64>>) -> Identity {
-        let mut identity = identity(self.table().problem, surface, start);
+    fn identity(&self, surface: &Surface, adhesion: &Adhesion<'_>, start: Option<&Array2<f64>>) -> Identity {
+        let mut identity = identity(self.table().problem, surface, adhesion, start);
         identity.insert("control".to_owned(), self.loads.kind().into());
         let values: Vec<_> = self.loads.values().iter().map(f64::to_string).collect();
         identity.insert("loads".to_owned(), values.join(" ").into());

@@ -1,14 +1,14 @@
 //! The options that more than one command has.
 
-use std::fmt;
 use std::path::PathBuf;
 
 use asperity::io::read_field;
-use asperity::{AdhesionLaw, Criterion, Error, Exponential, MaugisDugdale, NoAdhesion, Real, Settings, Surface};
+use asperity::{Criterion, Error, Real, Settings, Surface};
 use clap::{Args, ValueEnum};
 use ndarray::Array2;
 use ndarray_npy::WritableElement;
 
+use crate::adhesion::{Adhesion, AdhesionOptions};
 use crate::boundary::BoundaryOptions;
 use crate::heights;
 use crate::outcome::Outcome;
@@ -34,20 +34,6 @@ pub struct SurfaceOptions {
     pub beyond: BoundaryOptions,
 }
 
-/// The adhesion between the surfaces.
-#[derive(Args)]
-pub struct AdhesionOptions {
-    /// Adhesion law
-    #[arg(long, value_enum, default_value_t = Law::None, help_heading = "Adhesion")]
-    pub law: Law,
-    /// Work of adhesion, an energy per area
-    #[arg(long, value_name = "W", allow_hyphen_values = true, value_parser = non_negative, help_heading = "Adhesion")]
-    pub work_of_adhesion: Option<f64>,
-    /// Range of adhesion, a length
-    #[arg(long, value_name = "RHO", allow_hyphen_values = true, value_parser = positive, help_heading = "Adhesion")]
-    pub range: Option<f64>,
-}
-
 /// The method, the accuracy and the start of a solve.
 #[derive(Args)]
 pub struct SolverOptions {
@@ -69,16 +55,6 @@ pub struct SolverOptions {
     /// Gap from which to start, of the shape of the heights; scaled to the mean gap where that is given
     #[arg(long, value_name = "FILE", help_heading = "Solver")]
     pub initial_gap: Option<PathBuf>,
-}
-
-#[derive(Clone, Copy, PartialEq, ValueEnum)]
-pub enum Law {
-    /// no adhesion
-    None,
-    /// constant traction W/RHO up to a gap of RHO
-    MaugisDugdale,
-    /// traction W/RHO exp(-gap/RHO)
-    Exponential,
 }
 
 #[derive(Clone, Copy, ValueEnum)]
@@ -112,22 +88,24 @@ pub struct ProblemOptions<'a> {
 }
 
 /// The fields that the options name, read from their files.
-pub struct Given {
+pub struct Given<'a> {
     pub surface: Surface,
+    pub adhesion: Adhesion<'a>,
     /// The unit of length, if the file of the surface has one
     pub unit: Option<String>,
     /// The gap from which to start, if there is one
     pub start: Option<Array2<f64>>,
 }
 
-impl ProblemOptions<'_> {
+impl<'a> ProblemOptions<'a> {
     /// Checks the options, reads their files, and starts the threads.
-    pub fn read(self) -> Outcome<Given> {
+    pub fn read(self) -> Outcome<Given<'a>> {
         self.adhesion.check()?;
         let (surface, unit) = self.surface.surface_and_unit()?;
+        let adhesion = self.adhesion.read(Some(surface.grid()))?;
         let start = self.solver.start(&surface)?;
         use_threads(self.solver.threads)?;
-        Ok(Given { surface, unit, start })
+        Ok(Given { surface, adhesion, unit, start })
     }
 }
 
@@ -146,35 +124,6 @@ impl SurfaceOptions {
     fn surface_and_unit(&self) -> Outcome<(Surface, Option<String>)> {
         let map = heights::map(&self.heights, self.lengths.as_deref())?;
         heights::surface_or_absent(&self.heights, map, self.beyond.absent_missing)
-    }
-}
-
-impl AdhesionOptions {
-    /// Refuses a law without its parameters, and parameters without a law.
-    pub fn check(&self) -> Outcome<()> {
-        let parameters =
-            [("--work-of-adhesion", self.work_of_adhesion, "an energy per area"), ("--range", self.range, "a length")];
-        for (name, value, what) in parameters {
-            match (self.law, value) {
-                (Law::None, Some(value)) => {
-                    let remedy = "choose --law exponential or --law maugis-dugdale, or leave it out";
-                    return Err(format!("{name} is {value}, but there is no adhesion: {remedy}").into());
-                }
-                (Law::None, None) | (_, Some(_)) => {}
-                (law, None) => return Err(format!("--law {law} lacks {name}: give it, {what}").into()),
-            }
-        }
-        Ok(())
-    }
-
-    /// The law; its parameters are there after [`Self::check`].
-    pub fn law<T: Real>(&self) -> asperity::Result<Box<dyn AdhesionLaw<T>>> {
-        let (work, range) = (self.work_of_adhesion.unwrap_or_default(), self.range.unwrap_or_default());
-        Ok(match self.law {
-            Law::None => Box::new(NoAdhesion),
-            Law::MaugisDugdale => Box::new(MaugisDugdale::new(work, range)?),
-            Law::Exponential => Box::new(Exponential::new(work, range)?),
-        })
     }
 }
 
@@ -220,16 +169,6 @@ impl SolverOptions {
             max_iterations: self.max_iterations.unwrap_or(default.max_iterations),
             ..default
         }
-    }
-}
-
-impl fmt::Display for Law {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::None => "none",
-            Self::MaugisDugdale => "maugis-dugdale",
-            Self::Exponential => "exponential",
-        })
     }
 }
 

@@ -4,6 +4,7 @@ use asperity::{Solution, Surface, Warning, WarningCode};
 use clap::Args;
 use serde_json::{Value, json};
 
+use crate::adhesion::Adhesion;
 use crate::boundary::Boundary;
 use crate::options::{ProblemOptions, Scalar};
 use crate::outcome::Outcome;
@@ -31,9 +32,10 @@ impl Warnings {
     pub fn of_input<T: Scalar>(
         strictness: Strictness,
         surface: &Surface,
+        adhesion: &Adhesion<'_>,
         options: ProblemOptions<'_>,
     ) -> Outcome<Self> {
-        let law = options.adhesion.law::<T>()?;
+        let law = adhesion.law::<T>()?;
         let scale = (law.work_of_adhesion() / law.range()).widen();
         let noticeable = if scale.is_finite() { 0.01 * scale } else { 0.0 };
         let mut warnings = Self { strictness, found: Vec::new(), said: 0, noticeable };

@@ -1,0 +1,49 @@
+"""How rough surfaces touch and stick: frictionless normal contact with adhesion, with a certified error.
+
+>>> import asperity
+>>> rough = asperity.surface.self_affine(128, 1.0, rms_slope=0.1, k_s=16, seed=1)
+>>> law = asperity.Exponential(work_of_adhesion=1e-5, range=4e-3)
+>>> solution = asperity.solve(rough, modulus=1.0, mean_pressure=0.01, law=law)
+>>> solution.converged
+True
+
+Fields have shape (Nx, Ny), x along the first axis. Any consistent units; compression is positive. Results do not depend
+on the number of threads. The interpreter's lock is free during a solve.
+"""
+
+from __future__ import annotations
+
+from . import contact, exact, surface
+from ._asperity import VERSION as __version__
+from ._asperity import Exponential, Iteration, MaugisDugdale, check_law
+from ._cycle import Cycle, Step, cycle
+from ._solution import ContactStatistics, Solution
+from ._solve import solve
+from ._sweep import Sweep, sweep
+from ._topography import Topography, from_topography, prepare, read
+from ._warnings import ConvergenceWarning, InputWarning
+
+__all__ = [
+    "ContactStatistics",
+    "ConvergenceWarning",
+    "Cycle",
+    "Exponential",
+    "InputWarning",
+    "Iteration",
+    "MaugisDugdale",
+    "Solution",
+    "Step",
+    "Sweep",
+    "Topography",
+    "__version__",
+    "check_law",
+    "contact",
+    "cycle",
+    "exact",
+    "from_topography",
+    "prepare",
+    "read",
+    "solve",
+    "surface",
+    "sweep",
+]

@@ -1,0 +1,187 @@
+"""Loading and unloading along a branch of equilibria, with its jumps located."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from typing import TYPE_CHECKING, Any
+
+from . import _control, _plot
+from ._asperity import Iteration
+from ._columns import Rows
+from ._scene import Scene
+from ._solution import Solution
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+
+class Step:
+    """A state on a cycle.
+
+    Attributes
+    ----------
+    solution : Solution
+        The state itself.
+    leg : int
+        Leg that it is on: 0 is the start, 1 the way to the second load.
+    work : float
+        Work done by the load since the start, per area.
+    dissipated : float
+        Energy dropped in jumps since the start, per area.
+    imbalance : float
+        Change of the energy plus the dissipated energy less the work: zero but for quadrature and tolerance.
+    event : str or None
+        Event before this state: ``"jump-in"``, ``"jump-out"``, ``"pull-off"``, ``"bifurcation"``, ``"limit-point"``.
+    energy_drop : float or None
+        Energy that the jump dissipates, per area.
+    """
+
+    def __init__(self, solution: Solution, found: dict[str, Any]) -> None:
+        self.solution = solution
+        self.leg: int = found["leg"]
+        self.work: float = found["work"]
+        self.dissipated: float = found["dissipated"]
+        self.imbalance: float = found["imbalance"]
+        self.event: str | None = found["event"]
+        self.energy_drop: float | None = found["energy_drop"]
+
+    def __repr__(self) -> str:
+        event = f", {self.event}" if self.event else ""
+        gap, pressure = self.solution.mean_gap, self.solution.mean_pressure
+        return f"Step(leg {self.leg}: mean_gap={gap:.7g}, mean_pressure={pressure:.7g}{event})"
+
+
+class Cycle(Rows[Step]):
+    """The states of a cycle, each found when it is asked for, and the columns of their numbers."""
+
+    names = (
+        "leg",
+        "control",
+        "control_value",
+        "mean_gap",
+        "mean_pressure",
+        "mean_contact_pressure",
+        "contact_fraction",
+        "elastic_energy",
+        "adhesive_energy",
+        "work",
+        "dissipated",
+        "imbalance",
+        "event",
+        "energy_drop",
+        "relative_error",
+        "iterations",
+        "operator_applications",
+        "status",
+    )
+
+    def __init__(
+        self,
+        scene: Scene,
+        loads: list[_control.Load],
+        settings: tuple[int, float, float, bool],
+        start: Any,
+        observe: Any,
+    ) -> None:
+        super().__init__()
+        self._scene, self._loads, self._settings, self._observe = scene, loads, settings, observe
+        self._start = scene.start(start)
+        self._ended = False
+
+    def __next__(self) -> Step:
+        if self._ended:
+            raise StopIteration
+        start = None if self.rows else self._start
+        found = self._scene.problem.next_step(self._loads, *self._settings, start, self._observe)
+        if found is None:
+            self._ended = True
+            raise StopIteration
+        step = Step(self._scene.solution("cycle", found), found)
+        all_numbers = {**step.solution.report, **found}
+        self.rows.append({name: all_numbers[name] for name in self.names})
+        return step
+
+    @property
+    def events(self) -> list[dict[str, Any]]:
+        """The rows at which something happened; solves what is left."""
+        self.run()
+        return [row for row in self.rows if row["event"] is not None]
+
+    def __repr__(self) -> str:
+        return f"Cycle({len(self.rows)} states{'' if self._ended else ' so far'})"
+
+    def plot(self, ax: Axes | None = None, *, length_unit: str | None = None, pressure_unit: str | None = None) -> Axes:
+        """Draws the mean pressure over the mean gap, a line for each leg; needs matplotlib, and solves what is left.
+
+        Parameters
+        ----------
+        ax : matplotlib Axes, optional
+            Axes to draw on; new ones by default.
+        length_unit, pressure_unit : str, optional
+            Units for the axes.
+
+        Returns
+        -------
+        matplotlib Axes
+        """
+        return _plot.cycle(self.columns, ax, length_unit or self._scene.topography.unit, pressure_unit)
+
+
+def cycle(
+    heights: Any,
+    lengths: float | tuple[float, float] | None = None,
+    *,
+    modulus: float,
+    mean_gaps: Iterable[float] | None = None,
+    mean_pressures: Iterable[float] | None = None,
+    law: Any = None,
+    steps: int = 50,
+    smallest_step: float = 1e-4,
+    imbalance: float = 1e-4,
+    smooth: bool = True,
+    tolerance: float | None = None,
+    max_iterations: int | None = None,
+    method: str = "default",
+    precision: str = "f64",
+    start: Any = None,
+    observe: Callable[[Iteration], object] | None = None,
+    threads: int | None = None,
+) -> Cycle:
+    """Follows a branch of equilibria through turning points, in steps that adapt themselves, and locates its jumps.
+
+    Parameters that are not here are those of `solve`.
+
+    Parameters
+    ----------
+    mean_gaps : sequence of float
+        Mean gaps at which the cycle starts, turns and ends: two at least.
+    mean_pressures : sequence of float
+        The same in mean pressures.
+    steps : int
+        Least number of steps in a leg.
+    smallest_step : float
+        Step to which a jump is located, as a share of the leg.
+    imbalance : float
+        Imbalance of energy that a step may have without being a jump, as a share of how much the energy has changed.
+    smooth : bool
+        Whether jumps of the law's traction are smoothed by what the grid resolves.
+
+    Returns
+    -------
+    Cycle
+        An iterator over `Step`; ``columns`` has the numbers of all, ``events`` the jumps.
+
+    Examples
+    --------
+    >>> import numpy as np, asperity
+    >>> wave = 0.02 * np.cos(2 * np.pi * np.arange(64) / 64)
+    >>> law = asperity.Exponential(2e-4, 4e-3)
+    >>> found = asperity.cycle(wave, 1.0, modulus=1.0, law=law, mean_gaps=[0.05, 0.012, 0.05], steps=10)
+    >>> bool(found.columns["mean_pressure"].min() < 0)  # the pull-off stress
+    True
+    """
+    loads = _control.many(mean_gaps=mean_gaps, mean_pressures=mean_pressures)
+    if len(loads) < 2:
+        raise ValueError("a cycle needs two turning points at least: give more loads")
+    scene = Scene(heights, lengths, modulus, law, precision, tolerance, max_iterations, method, threads)
+    return Cycle(scene, loads, (steps, smallest_step, imbalance, smooth), start, observe)

@@ -1,0 +1,173 @@
+"""Figures, by matplotlib, which is only asked for when one is drawn."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+    from ._solution import Solution
+    from ._topography import Topography
+
+_PREFIXES = {-12: "p", -9: "n", -6: "µ", -3: "m", 0: "", 3: "k", 6: "M", 9: "G", 12: "T"}
+
+
+def _pyplot() -> Any:
+    try:
+        import matplotlib.pyplot as plt
+    except ImportError as error:
+        raise ImportError("plots need matplotlib: pip install 'asperity[plot]'") from error
+    return plt
+
+
+def _scaled(values: Any, unit: str | None) -> tuple[float, str]:
+    """The factor for an axis with these values, and its unit: metres and pascals get prefixes."""
+    if unit not in ("m", "Pa"):
+        return 1.0, unit or ""
+    finite = np.abs(np.asarray(values, dtype=float))
+    largest = float(finite[np.isfinite(finite)].max(initial=0.0))
+    power = 0 if largest == 0.0 else int(np.clip(3 * np.floor(np.log10(largest) / 3 + 1e-9), -12, 12))
+    return 10.0**-power, _PREFIXES[power] + unit
+
+
+def _label(name: str, unit: str) -> str:
+    return f"{name} ({unit})" if unit else name
+
+
+def _edges(nodes: int, length: float) -> tuple[float, float]:
+    """The outer edges of the cells along an axis, about the node at the origin."""
+    spacing = length / nodes
+    return (-(nodes // 2 + 0.5) * spacing, (nodes - nodes // 2 - 0.5) * spacing)
+
+
+def _map(ax: Axes, field: NDArray[Any], lengths: tuple[float, float], length_unit: str | None, **options: Any) -> Any:
+    """A field with x to the right and y up."""
+    factor, unit = _scaled(lengths, length_unit)
+    options.setdefault("interpolation", "nearest")
+    (left, right), (bottom, top) = (_edges(nodes, factor * length) for nodes, length in zip(field.shape, lengths))
+    image = ax.imshow(field.T, origin="lower", extent=(left, right, bottom, top), **options)
+    ax.set_xlabel(_label("x", unit))
+    ax.set_ylabel(_label("y", unit))
+    return image
+
+
+def heights(topography: Topography, ax: Axes | None) -> Axes:
+    """The heights of a map."""
+    plt = _pyplot()
+    if ax is None:
+        _, ax = plt.subplots(figsize=(4.6, 3.8), layout="constrained")
+    field = np.asarray(topography)
+    lengths = topography.lengths or (float(topography.heights.shape[0]), float(topography.heights.shape[1]))
+    factor, unit = _scaled(field, topography.unit)
+    if field.ndim == 1:
+        _profile(ax, factor * field, lengths[0], topography.unit, color="0.2")
+        ax.set_ylabel(_label("height", unit))
+        return ax
+    image = _map(ax, factor * field, lengths, topography.unit, cmap="cividis")
+    ax.figure.colorbar(image, ax=ax, label=_label("height", unit))
+    return ax
+
+
+def _profile(ax: Axes, values: NDArray[Any], length: float, length_unit: str | None, **options: Any) -> None:
+    factor, unit = _scaled(length, length_unit)
+    x = factor * (np.arange(values.size) - values.size // 2) * length / values.size
+    ax.plot(x, values, **options)
+    ax.set_xlabel(_label("x", unit))
+
+
+def solution(found: Solution, length_unit: str | None, pressure_unit: str | None) -> Figure:
+    """Contact and pressure of a solution, side by side."""
+    plt = _pyplot()
+    # without adhesion the elastic pressure is the contact pressure but for the tolerance of the solve, of either sign
+    adhesive = found.report["law"] != "none"
+    field = found.pressure if adhesive else found.contact_pressure
+    factor, unit = _scaled(field, pressure_unit)
+    pressure = factor * np.asarray(field, dtype=float)
+    if found.gap.ndim == 1:
+        return _lines(found, pressure, length_unit, unit)
+    figure, (left, right) = plt.subplots(
+        1, 2, figsize=(8.6 if adhesive else 7.8, 3.4), sharey=True, layout="compressed"
+    )
+    _map(left, found.contact.astype(float), found.lengths, length_unit, cmap="Greys", vmin=0, vmax=1.15)
+    left.set_title(f"contact {100 * found.contact_fraction:.3g} %")
+    # compression and tension differ by orders of magnitude: each has a scale of its own
+    compression = np.ma.masked_less_equal(pressure, 0.0)
+    largest = float(pressure.max()) if (pressure > 0).any() else 1.0
+    image = _map(right, compression, found.lengths, length_unit, cmap="YlOrRd", vmin=0.0, vmax=largest)
+    bars = [(image, "compression" if adhesive else "pressure")]
+    if adhesive:
+        tension = np.ma.masked_less_equal(-pressure, 0.0)
+        image = _map(right, tension, found.lengths, length_unit, cmap="Blues", vmin=0.0, vmax=max(-pressure.min(), 0.0))
+        bars.append((image, "tension"))
+    # the last bar is drawn next to the map
+    for image, name in reversed(bars):
+        figure.colorbar(image, ax=right, label=_label(name, unit), pad=0.03)
+    right.set_title("elastic pressure" if adhesive else "contact pressure")
+    right.set_ylabel("")
+    return figure  # type: ignore[no-any-return]
+
+
+def _lines(found: Solution, pressure: NDArray[Any], length_unit: str | None, pressure_unit: str) -> Figure:
+    """Surfaces and pressure of a solution on a line."""
+    plt = _pyplot()
+    figure, (upper, lower) = plt.subplots(2, 1, sharex=True, figsize=(5.2, 4.2), layout="constrained")
+    factor, unit = _scaled(found.heights, length_unit)
+    length = found.lengths[0]
+    _profile(upper, factor * found.heights, length, length_unit, color="0.2", label="surface")
+    _profile(upper, factor * found.displacement, length, length_unit, color="C0", label="half-space")
+    upper.set_ylabel(_label("height", unit))
+    upper.legend(frameon=False)
+    _profile(lower, pressure, length, length_unit, color="C3")
+    lower.axhline(0.0, color="0.7", linewidth=0.8)
+    lower.set_ylabel(_label("pressure", pressure_unit))
+    upper.set_xlabel("")
+    return figure  # type: ignore[no-any-return]
+
+
+def sweep(columns: dict[str, NDArray[Any]], ax: Axes | None, pressure_unit: str | None) -> Axes:
+    """Contact fraction over mean pressure."""
+    if ax is None:
+        _, ax = _pyplot().subplots(figsize=(4.6, 3.4), layout="constrained")
+    factor, unit = _scaled(columns["mean_pressure"], pressure_unit)
+    ax.plot(factor * columns["mean_pressure"], columns["contact_fraction"], "o-", markersize=3.5)
+    if len(columns["control"]) and columns["mean_pressure"].min() > 0 and columns["contact_fraction"].min() > 0:
+        ax.set_xscale("log")
+        ax.set_yscale("log")
+    ax.set_xlabel(_label("mean pressure", unit))
+    ax.set_ylabel("contact fraction")
+    return ax
+
+
+def cycle(
+    columns: dict[str, NDArray[Any]], ax: Axes | None, length_unit: str | None, pressure_unit: str | None
+) -> Axes:
+    """Mean pressure over mean gap, a line for each leg, with the jumps dotted."""
+    if ax is None:
+        _, ax = _pyplot().subplots(figsize=(4.6, 3.4), layout="constrained")
+    gap_factor, gap_unit = _scaled(columns["mean_gap"], length_unit)
+    factor, unit = _scaled(columns["mean_pressure"], pressure_unit)
+    gaps, pressures = gap_factor * columns["mean_gap"], factor * columns["mean_pressure"]
+    legs = columns["leg"]
+    jumps = np.array([drop is not None and drop > 0 for drop in columns["energy_drop"]], dtype=bool)
+    for leg in range(1, int(legs.max(initial=0)) + 1):
+        on = np.flatnonzero(legs == leg)
+        if on.size == 0:
+            continue
+        on = np.concatenate([[on[0] - 1], on]) if on[0] > 0 else on
+        # a line ends where the state jumps, and begins anew behind
+        pieces = np.split(on, [k for k in range(1, on.size) if jumps[on[k]]])
+        for k, piece in enumerate(pieces):
+            label = f"leg {leg}" if k == 0 else None
+            ax.plot(gaps[piece], pressures[piece], color=f"C{leg - 1}", label=label)
+        for k in on[1:][jumps[on[1:]]]:
+            ax.plot(gaps[k - 1 : k + 1], pressures[k - 1 : k + 1], ":", color=f"C{leg - 1}")
+    ax.axhline(0.0, color="0.7", linewidth=0.8, zorder=0)
+    ax.set_xlabel(_label("mean gap", gap_unit))
+    ax.set_ylabel(_label("mean pressure", unit))
+    ax.legend(frameon=False)
+    return ax

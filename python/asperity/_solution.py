@@ -1,0 +1,230 @@
+"""The solution of a contact problem: its fields, its numbers, and how good they are."""
+
+from __future__ import annotations
+
+import html
+from functools import cached_property
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import _asperity, _picture, _plot
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from ._topography import Topography
+
+
+class ContactStatistics(NamedTuple):
+    """Contact area and clusters, and the area that attracts without contact; fractions of the nominal area.
+
+    Attributes
+    ----------
+    contact_nodes : int
+        Number of nodes in contact.
+    contact_fraction : float
+        Share of the nodes in contact.
+    corrected_contact_fraction : float
+        Contact area without the excess of a map of nodes along its edge (Yastrebov et al. 2017).
+    perimeter : float
+        Length of the edge of the contact along the sides of the cells.
+    cluster_sizes : ndarray of int64
+        Numbers of nodes of the clusters of contact, the largest first.
+    repulsive_fraction, attractive_fraction, apart_fraction : float
+        Shares of the nodes with a contact pressure, with a noticeable attraction but no contact, and of the others.
+    """
+
+    contact_nodes: int
+    contact_fraction: float
+    corrected_contact_fraction: float
+    perimeter: float
+    cluster_sizes: NDArray[np.int64]
+    repulsive_fraction: float
+    attractive_fraction: float
+    apart_fraction: float
+
+
+class Solution:
+    """An equilibrium: fields of the shape of the heights, and the account of the solve.
+
+    All numbers are in the units of the input; energies are per area, compression is positive.
+
+    Attributes
+    ----------
+    gap : ndarray
+        Gap g ≥ 0 between the surfaces, a length.
+    pressure : ndarray
+        Elastic pressure p + p̄ on the half-space: the contact pressure less the adhesive traction.
+    contact_pressure : ndarray
+        Contact pressure λ ≥ 0, zero wherever the gap is not.
+    contact : ndarray of bool
+        Contact map.
+    mode : ndarray or None
+        Change of the gap along which the energy is softest, of mean square 1, where stability was asked for.
+    report : dict
+        Account of the solve, with the keys of the tool's ``report.json``. ``"heights"`` is the file that they came from, if
+        they came from one.
+
+    Examples
+    --------
+    >>> import asperity
+    >>> rough = asperity.surface.self_affine(128, 1.0, rms_slope=0.1, k_s=16, seed=1)
+    >>> solution = asperity.solve(rough, modulus=1.0, mean_pressure=0.01)
+    >>> solution.status, solution.gap.shape
+    ('converged', (128, 128))
+    >>> bool(((solution.gap > 0) & (solution.contact_pressure > 0)).any())
+    False
+    """
+
+    gap: NDArray[np.floating[Any]]
+    pressure: NDArray[np.floating[Any]]
+    contact_pressure: NDArray[np.floating[Any]]
+    contact: NDArray[np.bool_]
+    mode: NDArray[np.floating[Any]] | None
+    report: dict[str, Any]
+
+    def __init__(self, topography: Topography, law: Any, report: dict[str, Any], found: dict[str, Any]) -> None:
+        self._topography = topography
+        self._law = law
+        self.report = report
+        for name in ("gap", "pressure", "contact_pressure", "contact"):
+            setattr(self, name, found[name].reshape(topography.shape))
+        self.mode = None if found["mode"] is None else found["mode"].reshape(topography.shape)
+
+    @cached_property
+    def statistics(self) -> ContactStatistics:
+        """Areas, perimeter and clusters of the contact; computed when it is asked for."""
+        shape = self._topography.heights.shape
+        gap, contact_pressure = self.gap.reshape(shape), self.contact_pressure.reshape(shape)
+        return ContactStatistics(*_asperity.contact_statistics(gap, contact_pressure, self.lengths, self._law))
+
+    @property
+    def heights(self) -> NDArray[np.float64]:
+        """Heights of the surface."""
+        return self._topography.heights.reshape(self._topography.shape)
+
+    @property
+    def lengths(self) -> tuple[float, float]:
+        """Side lengths (Lx, Ly)."""
+        lx, ly = self.report["lengths"]
+        return (lx, ly)
+
+    @property
+    def displacement(self) -> NDArray[np.floating[Any]]:
+        """Displacement u = g + h of the half-space."""
+        return self.gap + self.heights
+
+    @property
+    def status(self) -> str:
+        """``"converged"``, ``"iteration-limit"``, ``"stalled"``, ``"stopped"`` or ``"detached"``."""
+        return str(self.report["status"])
+
+    @property
+    def converged(self) -> bool:
+        """Whether the tolerance was met, on the very fields that are here."""
+        return self.status == "converged"
+
+    @property
+    def relative_error(self) -> float:
+        """Certified relative error in the energy norm."""
+        return float(self.report["relative_error"])
+
+    @property
+    def mean_gap(self) -> float:
+        """Mean gap."""
+        return float(self.report["mean_gap"])
+
+    @property
+    def mean_pressure(self) -> float:
+        """Mean external pressure p̄."""
+        return float(self.report["mean_pressure"])
+
+    @property
+    def mean_contact_pressure(self) -> float:
+        """Mean contact pressure."""
+        return float(self.report["mean_contact_pressure"])
+
+    @property
+    def contact_fraction(self) -> float:
+        """Share of the nodes in contact."""
+        return float(self.report["contact_fraction"])
+
+    @property
+    def elastic_energy(self) -> float:
+        """Elastic energy per area."""
+        return float(self.report["elastic_energy"])
+
+    @property
+    def adhesive_energy(self) -> float:
+        """Adhesive energy per area."""
+        return float(self.report["adhesive_energy"])
+
+    @property
+    def iterations(self) -> int:
+        """Number of steps."""
+        return int(self.report["iterations"])
+
+    @property
+    def operator_applications(self) -> int:
+        """Number of operator applications, each a forward and an inverse transform."""
+        return int(self.report["operator_applications"])
+
+    def _rows(self) -> list[tuple[str, str]]:
+        report = self.report
+        rows = [
+            ("status", report["status"]),
+            ("contact", f"{100 * report['contact_fraction']:.4g} %"),
+            ("corrected for its edge", f"{100 * report['corrected_contact_fraction']:.4g} %"),
+            ("nodes in contact", f"{report['contact_nodes']} of {self.gap.size}"),
+        ]
+        for name in ("mean_gap", "mean_pressure", "mean_contact_pressure", "min_pressure", "max_pressure"):
+            rows.append((name.replace("_", " "), f"{report[name]:.7g}"))
+        rows.append(("elastic energy per area", f"{report['elastic_energy']:.7g}"))
+        if report["law"] != "none":
+            rows.append(("adhesive energy per area", f"{report['adhesive_energy']:.7g}"))
+            rows.append(("mu_rho", f"{report['mu_rho']:.4g}"))
+        if report["stability"] is not None:
+            rows.append(("stability", report["stability"]["verdict"]))
+            rows.append(("smallest eigenvalue", f"{report['stability']['eigenvalue']:.7g}"))
+        rows.append(("certified error", f"{report['relative_error']:.1e}"))
+        rows.append(("iterations", str(report["iterations"])))
+        rows.append(("operator applications", str(report["operator_applications"])))
+        rows.append(("time", f"{report['seconds']:.3f} s"))
+        return rows
+
+    def __repr__(self) -> str:
+        rows = self._rows()
+        width = max(len(name) for name, _ in rows)
+        return "\n".join(f"{name:<{width}}  {value}" for name, value in rows)
+
+    def _repr_html_(self) -> str:
+        rows = "".join(
+            f"<tr><td style='text-align:left'>{html.escape(name)}</td><td>{html.escape(value)}</td></tr>"
+            for name, value in self._rows()
+        )
+        picture = _picture.data_uri(self.contact)
+        return (
+            "<div style='display:flex;gap:2em;align-items:center'>"
+            f"<table>{rows}</table><figure style='margin:0'><img src='{picture}' alt='contact map' "
+            "style='width:320px;image-rendering:pixelated;border:1px solid #888'>"
+            "<figcaption>contact, x to the right, y up</figcaption></figure></div>"
+        )
+
+    def plot(self, *, length_unit: str | None = None, pressure_unit: str | None = None) -> Figure:
+        """Draws contact and pressure side by side; needs matplotlib.
+
+        With adhesion, compression and tension have a scale each.
+
+        Parameters
+        ----------
+        length_unit, pressure_unit : str, optional
+            Units for the axes and the scales. ``"m"`` and ``"Pa"`` get prefixes.
+
+        Returns
+        -------
+        matplotlib Figure
+            ``savefig`` writes it as PDF or SVG.
+        """
+        return _plot.solution(self, length_unit or self.report["length_unit"], pressure_unit)

@@ -1,0 +1,99 @@
+"""The equilibrium at one load."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from . import _control
+from ._asperity import Iteration
+from ._scene import Scene
+from ._solution import Solution
+
+
+def solve(
+    heights: Any,
+    lengths: float | tuple[float, float] | None = None,
+    *,
+    modulus: float,
+    mean_pressure: float | None = None,
+    mean_gap: float | None = None,
+    law: Any = None,
+    tolerance: float | None = None,
+    max_iterations: int | None = None,
+    method: str = "default",
+    precision: str = "f64",
+    start: Any = None,
+    observe: Callable[[Iteration], object] | None = None,
+    stability: bool = False,
+    leave: bool = False,
+    threads: int | None = None,
+) -> Solution:
+    """Presses a rough surface against an elastic half-space.
+
+    Give one of ``mean_pressure`` and ``mean_gap``. All quantities are in any consistent units.
+
+    Parameters
+    ----------
+    heights : array_like, Topography, SurfaceTopography, DataArray or path of a file
+        Heights of the rigid, periodic surface, shape (Nx, Ny), or (N,) on a line; peaks up. Any float type, order or
+        stride. A C-ordered array of float64 is copied once, as the solver needs it; others are converted first.
+        Missing points, NaN or masked, are refused: `prepare` fills them.
+    lengths : float or (float, float), optional
+        Side lengths (Lx, Ly) = (Nx Δx, Ny Δy), in the unit of the heights; one alone means square cells. Needed
+        unless the heights bring them.
+    modulus : float
+        Contact modulus E*, a pressure.
+    mean_pressure : float
+        Mean external pressure p̄ that is held, compression positive.
+    mean_gap : float
+        Mean gap that is held, a length ≥ 0.
+    law : Exponential, MaugisDugdale or an object of your own, optional
+        Adhesion law; none by default. An object with ``energy(gap)``, ``traction(gap)`` and ``slope(gap)`` of arrays
+        is a law, too: see `check_law`.
+    tolerance : float, optional
+        Certified relative error at which to stop; 1e-6 by default, 1e-4 in f32.
+    max_iterations : int, optional
+        Iterations after which to give up; 2000 by default.
+    method : {"default", "rey2017"}
+        Preconditioned conjugate gradients, or Algorithm 3 of Rey, Anciaux and Molinari (2017).
+    precision : {"f64", "f32"}
+        Precision of the solve, and of the fields that it returns.
+    start : array_like or Solution, optional
+        Gap from which to start, of the shape of the heights. With adhesion it chooses the branch.
+    observe : callable, optional
+        Called with an `Iteration` in every iteration. ``raise StopIteration`` in it ends the solve; any other
+        exception arrives as it was raised, with what was reached as its attribute ``solution``.
+    stability : bool
+        Finds out whether the solution is stable: ``report["stability"]`` and ``mode``.
+    leave : bool
+        Goes on from an unstable equilibrium to a stable one.
+    threads : int, optional
+        Threads of this solve; one per core by default. The results do not depend on it.
+
+    Returns
+    -------
+    Solution
+        Also where it has not converged: then with a `ConvergenceWarning`.
+
+    Raises
+    ------
+    ValueError, TypeError
+        For input that is refused, with the reason and the remedy.
+    KeyboardInterrupt
+        By Ctrl-C, within an iteration, with what was reached as its attribute ``solution``.
+
+    Examples
+    --------
+    >>> import numpy as np, asperity
+    >>> x = np.arange(64) / 64 - 0.5
+    >>> sphere = -(x[:, None] ** 2 + x**2) / 4
+    >>> law = asperity.MaugisDugdale(work_of_adhesion=1e-4, range=4e-3)
+    >>> solution = asperity.solve(sphere, 1.0, modulus=1.0, mean_gap=0.0398, law=law)
+    >>> solution.status, int(solution.contact.sum())
+    ('converged', 185)
+    """
+    load = _control.one(mean_pressure=mean_pressure, mean_gap=mean_gap)
+    scene = Scene(heights, lengths, modulus, law, precision, tolerance, max_iterations, method, threads)
+    found = scene.problem.solve(load, scene.start(start), observe, stability or leave, leave)
+    return scene.solution("solve", found)

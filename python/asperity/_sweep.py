@@ -1,0 +1,135 @@
+"""Equilibria under one load after the other."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from typing import TYPE_CHECKING, Any
+
+from . import _control, _plot
+from ._asperity import Iteration
+from ._columns import Rows
+from ._scene import Scene
+from ._solution import Solution
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+
+class Sweep(Rows[Solution]):
+    """The solutions of a sweep, each found when it is asked for, and the columns of their numbers.
+
+    Iterating gives a `Solution` for each load. Only the numbers are kept, so that a sweep needs the memory of one
+    solve.
+    """
+
+    names = (
+        "control",
+        "control_value",
+        "mean_pressure",
+        "mean_contact_pressure",
+        "mean_gap",
+        "contact_fraction",
+        "corrected_contact_fraction",
+        "perimeter",
+        "clusters",
+        "largest_cluster",
+        "repulsive_fraction",
+        "attractive_fraction",
+        "elastic_energy",
+        "adhesive_energy",
+        "min_gap",
+        "relative_error",
+        "load_error",
+        "iterations",
+        "operator_applications",
+        "status",
+    )
+
+    def __init__(self, scene: Scene, loads: list[_control.Load], start: Any, observe: Any) -> None:
+        super().__init__()
+        self._scene, self._loads, self._observe = scene, loads, observe
+        self._start = scene.start(start)
+
+    def __len__(self) -> int:
+        """The number of loads."""
+        return len(self._loads)
+
+    def __next__(self) -> Solution:
+        done = len(self.rows)
+        if done == len(self._loads):
+            raise StopIteration
+        start = self._start if done == 0 else None
+        found = self._scene.problem.next_load(self._loads[done], start, self._observe)
+        solution = self._scene.solution("sweep", found)
+        if solution.status == "stopped":
+            # ended by the observer: the sweep goes no further
+            self._loads = self._loads[: done + 1]
+        sizes = solution.statistics.cluster_sizes
+        counts = {"clusters": len(sizes), "largest_cluster": int(sizes[0]) if len(sizes) else 0}
+        all_numbers = {**solution.report, **solution.statistics._asdict(), **counts}
+        self.rows.append({name: all_numbers[name] for name in self.names})
+        return solution
+
+    def __repr__(self) -> str:
+        return f"Sweep({len(self.rows)} of {len(self)} loads solved)"
+
+    def plot(self, ax: Axes | None = None, *, pressure_unit: str | None = None) -> Axes:
+        """Draws the contact fraction over the mean pressure; needs matplotlib, and solves what is left.
+
+        Parameters
+        ----------
+        ax : matplotlib Axes, optional
+            Axes to draw on; new ones by default.
+        pressure_unit : str, optional
+            Unit for the axis.
+
+        Returns
+        -------
+        matplotlib Axes
+        """
+        return _plot.sweep(self.columns, ax, pressure_unit)
+
+
+def sweep(
+    heights: Any,
+    lengths: float | tuple[float, float] | None = None,
+    *,
+    modulus: float,
+    mean_pressures: Iterable[float] | None = None,
+    mean_gaps: Iterable[float] | None = None,
+    law: Any = None,
+    tolerance: float | None = None,
+    max_iterations: int | None = None,
+    method: str = "default",
+    precision: str = "f64",
+    start: Any = None,
+    observe: Callable[[Iteration], object] | None = None,
+    threads: int | None = None,
+) -> Sweep:
+    """Solves under many loads, one after the other, each from where the ones before lead.
+
+    Parameters are those of `solve`, but for the loads.
+
+    Parameters
+    ----------
+    mean_pressures : sequence of float
+        Mean external pressures, in their order.
+    mean_gaps : sequence of float
+        Mean gaps, in their order.
+
+    Returns
+    -------
+    Sweep
+        An iterator over `Solution`; ``columns`` has the numbers of all.
+
+    Examples
+    --------
+    >>> import numpy as np, asperity
+    >>> rough = asperity.surface.self_affine(64, 1.0, rms_slope=0.1, k_s=8, seed=1)
+    >>> found = asperity.sweep(rough, modulus=1.0, mean_pressures=np.geomspace(1e-3, 1e-2, 3))
+    >>> [f"{share:.3f}" for share in found.columns["contact_fraction"]]
+    ['0.030', '0.081', '0.219']
+    """
+    loads = _control.many(mean_pressures=mean_pressures, mean_gaps=mean_gaps)
+    scene = Scene(heights, lengths, modulus, law, precision, tolerance, max_iterations, method, threads)
+    return Sweep(scene, loads, start, observe)

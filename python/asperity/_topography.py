@@ -1,0 +1,282 @@
+"""The height map: heights with their side lengths and unit, from arrays, files and the objects of other packages."""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import _asperity, _plot
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+#: The share of a spacing by which coordinates may differ from equidistant ones.
+_EQUIDISTANT = 1e-3
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Topography:
+    """A map of heights with what belongs to it.
+
+    Every function that takes heights takes a ``Topography`` too, and needs no ``lengths`` then.
+
+    Parameters
+    ----------
+    heights : ndarray of float64, shape (Nx, Ny) or (N,)
+        Heights, x along the first axis, peaks up. NaN is a missing point.
+    lengths : (float, float), optional
+        Side lengths (Lx, Ly) = (Nx Δx, Ny Δy), in the unit of the heights.
+    unit : str, optional
+        Unit of heights and side lengths.
+    periodic : bool, optional
+        Whether opposite edges meet, if that is known.
+    source : str, optional
+        File that the heights come from.
+
+    Examples
+    --------
+    >>> import asperity
+    >>> asperity.surface.self_affine(64, 1.0, rms_slope=0.1, k_s=16)
+    Topography(64 x 64 heights, 1 x 1)
+    """
+
+    heights: NDArray[np.float64]
+    lengths: tuple[float, float] | None = None
+    unit: str | None = None
+    periodic: bool | None = None
+    source: str | None = None
+    _is_line: bool = field(default=False, compare=False)
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """Shape of the heights, as they were given."""
+        return (self.heights.shape[0],) if self._is_line else self.heights.shape
+
+    @property
+    def missing(self) -> int:
+        """Number of missing points: NaN or infinite."""
+        return int(self.heights.size - np.count_nonzero(np.isfinite(self.heights)))
+
+    def __array__(self, dtype: Any = None, copy: bool | None = None) -> NDArray[Any]:
+        heights = self.heights.reshape(self.shape)
+        if dtype is not None and heights.dtype != dtype:
+            return heights.astype(dtype)
+        return heights.copy() if copy else heights
+
+    def __repr__(self) -> str:
+        parts = [" x ".join(map(str, self.shape)) + " heights"]
+        if self.missing:
+            parts.append(f"{self.missing} missing")
+        if self.lengths is None:
+            parts.append("unknown side lengths")
+        else:
+            parts.append(f"{self.lengths[0]:.7g} x {self.lengths[1]:.7g}" + (f" {self.unit}" if self.unit else ""))
+        return f"Topography({', '.join(parts)})"
+
+    def plot(self, ax: Axes | None = None) -> Axes:
+        """Draws the heights; needs matplotlib.
+
+        Parameters
+        ----------
+        ax : matplotlib Axes, optional
+            Axes to draw on; new ones by default.
+
+        Returns
+        -------
+        matplotlib Axes
+        """
+        return _plot.heights(self, ax)
+
+
+def read(path: str | os.PathLike[str]) -> Topography:
+    """Reads a file of heights.
+
+    Parameters
+    ----------
+    path : str or path
+        ``.npy``, ``.npz``, Gwyddion's ``.gsf`` or text, ``.xyz``, or a plain text matrix; the content decides.
+
+    Returns
+    -------
+    Topography
+        In metres where the file has a unit of length; missing points are NaN.
+
+    Raises
+    ------
+    FileNotFoundError, ValueError
+        If there is no such file, or it cannot be understood.
+    """
+    heights, lengths, unit = _asperity.read(os.fspath(path))
+    return Topography(heights, lengths, unit, source=os.fspath(path))
+
+
+def from_topography(topography: Any) -> Topography:
+    """Takes a map of SurfaceTopography, or anything else with its three properties.
+
+    Parameters
+    ----------
+    topography : object
+        With ``heights()``, an array of which masked points are missing, ``physical_sizes``, and ``is_periodic``;
+        ``unit`` comes along where it is there.
+
+    Returns
+    -------
+    Topography
+    """
+    if not callable(getattr(topography, "heights", None)) or not hasattr(topography, "physical_sizes"):
+        name = type(topography).__name__
+        raise TypeError(f"topography is a {name}: it must have heights() and physical_sizes")
+    if not getattr(topography, "is_uniform", True):
+        raise ValueError("topography is not on a uniform grid: interpolate it first, as by its to_uniform()")
+    heights, is_line = _array(topography.heights())
+    sizes = topography.physical_sizes
+    lengths = None if sizes is None else _lengths(sizes[0] if is_line else tuple(sizes), heights.shape)
+    periodic = getattr(topography, "is_periodic", None)
+    return Topography(heights, lengths, getattr(topography, "unit", None), periodic, _is_line=is_line)
+
+
+def prepare(
+    heights: Any,
+    lengths: float | tuple[float, float] | None = None,
+    *,
+    unit: str | None = None,
+    scale: float | None = None,
+    crop: tuple[int, int, int, int] | None = None,
+    flip: bool = False,
+    detrend: str | None = None,
+    fill: bool = False,
+    window: float | None = None,
+    mirror: bool = False,
+    resample: tuple[int, int] | None = None,
+) -> Topography:
+    """Makes a periodic surface of a measured map, in the order of the parameters; nothing is done unasked.
+
+    Parameters
+    ----------
+    heights : array_like, Topography, SurfaceTopography, DataArray or path of a file
+        Heights; NaN, infinite and masked points are missing.
+    lengths : float or (float, float), optional
+        Side lengths (Lx, Ly); one alone means square cells. Those of the map by default.
+    unit : str, optional
+        Unit of the heights after ``scale``, and of the side lengths.
+    scale : float, optional
+        Factor of the heights, as 1e-9 for heights in nm and side lengths in m.
+    crop : (int, int, int, int), optional
+        First node along x and y, and numbers of nodes.
+    flip : bool
+        Peaks become valleys.
+    detrend : {"mean", "plane", "quadric"}, optional
+        Trend that is fitted and removed.
+    fill : bool
+        Missing points get values, smoothly from those around them.
+    window : float, optional
+        Share of the sides that is tapered at each edge, at most 0.5.
+    mirror : bool
+        Continues the map by its mirror image: twice as many nodes along both axes.
+    resample : (int, int), optional
+        Numbers of nodes of the grid on which it is interpolated.
+
+    Returns
+    -------
+    Topography
+
+    Examples
+    --------
+    >>> import numpy as np, asperity
+    >>> measured = 1e-9 * np.random.default_rng(0).normal(size=(32, 24)) + 1e-8 * np.arange(32)[:, None]
+    >>> measured[3, 5] = np.nan
+    >>> asperity.prepare(measured, 1e-6, unit="m", detrend="plane", fill=True, mirror=True)
+    Topography(64 x 48 heights, 2e-06 x 1.5e-06 m)
+    """
+    given = taken(heights, lengths)
+    made, sides, unit = _asperity.prepare(
+        given.heights, given.lengths, unit or given.unit, scale, crop, flip, detrend, fill, window, mirror, resample
+    )
+    periodic = True if mirror or window else given.periodic
+    return Topography(made, sides, unit, periodic, given.source, given._is_line and made.shape[1] == 1)
+
+
+def taken(heights: Any, lengths: float | tuple[float, float] | None = None) -> Topography:
+    """The map of whatever holds heights, in float64; the data are not copied where they are that already."""
+    if isinstance(heights, Topography):
+        found = heights
+    elif isinstance(heights, str | os.PathLike):
+        found = read(heights)
+    elif callable(getattr(heights, "heights", None)) and hasattr(heights, "physical_sizes"):
+        found = from_topography(heights)
+    elif hasattr(heights, "dims") and hasattr(heights, "coords"):
+        found = _from_data_array(heights)
+    else:
+        array, is_line = _array(heights)
+        found = Topography(array, _is_line=is_line)
+    if lengths is None:
+        return found
+    return replace(found, lengths=_lengths(lengths, found.heights.shape))
+
+
+def sides(topography: Topography) -> tuple[float, float]:
+    """The side lengths of a map that needs them."""
+    if topography.lengths is None:
+        raise ValueError("side lengths are unknown: give lengths=(Lx, Ly), in the unit of the heights")
+    return topography.lengths
+
+
+def field_of(values: Any, name: str) -> NDArray[np.float64]:
+    """A field as the compiled core takes it: two-dimensional, float64."""
+    return _array(values, name)[0]
+
+
+def _array(values: ArrayLike, name: str = "heights") -> tuple[NDArray[np.float64], bool]:
+    """Values as a matrix of float64, and whether they are one line; masked points become NaN."""
+    masked = isinstance(values, np.ma.MaskedArray)
+    array: Any = values if masked else np.asarray(values)
+    if array.dtype.kind not in "fiub":
+        raise TypeError(f"{name} are an array of {array.dtype}: they must be real numbers")
+    if array.ndim not in (1, 2) or array.size == 0:
+        raise ValueError(f"{name} have shape {array.shape}: they must be (Nx, Ny), or (N,) on a line")
+    if masked:
+        array = array.astype(np.float64).filled(np.nan)
+    array = np.asarray(array, dtype=np.float64)
+    return (array[:, None], True) if array.ndim == 1 else (array, False)
+
+
+def _lengths(lengths: float | tuple[float, float], shape: tuple[int, ...]) -> tuple[float, float]:
+    """Side lengths; one alone means square cells."""
+    try:
+        pair = tuple(float(length) for length in np.ravel(lengths))
+    except (TypeError, ValueError):
+        raise TypeError(f"lengths are {lengths!r}: they must be (Lx, Ly), or Lx alone for square cells") from None
+    if len(pair) == 1:
+        # on a line Ly is the distance of nothing
+        return (pair[0], pair[0] if shape[1] == 1 else pair[0] * shape[1] / shape[0])
+    if len(pair) != 2:
+        raise ValueError(f"lengths are {lengths!r}: they must be (Lx, Ly), or Lx alone for square cells")
+    return (pair[0], pair[1])
+
+
+def _from_data_array(data: Any) -> Topography:
+    """The heights of an xarray.DataArray along its own axes, with the side lengths of its coordinates."""
+    heights, is_line = _array(np.ma.masked_invalid(data.values))
+    units = {data.attrs.get("units")}
+    lengths = []
+    for axis, dim in enumerate(data.dims):
+        if dim not in data.coords:
+            break
+        coordinate = np.asarray(data.coords[dim].values, dtype=np.float64)
+        units.add(data.coords[dim].attrs.get("units"))
+        steps = np.diff(coordinate)
+        if steps.size == 0 or np.ptp(steps) > _EQUIDISTANT * abs(steps[0]):
+            raise ValueError(f"coordinate {dim} is not equidistant: interpolate the heights on a uniform grid first")
+        if steps[0] < 0:
+            heights = np.flip(heights, axis)
+        lengths.append(abs(coordinate[-1] - coordinate[0]) * coordinate.size / (coordinate.size - 1))
+    units.discard(None)
+    if len(units) > 1:
+        raise ValueError(f"heights and coordinates are in different units ({', '.join(sorted(units))}): convert one")
+    known = len(lengths) == len(data.dims)
+    both = _lengths(lengths[0] if is_line else tuple(lengths), heights.shape) if known else None
+    return Topography(heights, both, next(iter(units), None), _is_line=is_line)

@@ -1,0 +1,44 @@
+//! The compiled core of the Python package `asperity`: arrays in, arrays out. What users see is written in Python, in
+//! the folder `asperity` beside this one.
+
+mod account;
+mod contact;
+mod exact;
+mod inputs;
+mod law;
+mod numbers;
+mod pools;
+mod problem;
+mod refusal;
+mod report;
+mod running;
+mod surface;
+mod table;
+
+/// The compiled core.
+#[pyo3::pymodule]
+mod _asperity {
+    #[pymodule_export]
+    const VERSION: &str = env!("CARGO_PKG_VERSION");
+
+    #[pymodule_export]
+    use crate::contact::{clusters, contact_statistics};
+    #[pymodule_export]
+    use crate::exact::{AdhesiveWavyLine, Contact, Hertz, Jkr, WaveContact, WavyLine, closing_pressure_2d};
+    #[pymodule_export]
+    use crate::law::{Exponential, MaugisDugdale, check_law};
+    #[pymodule_export]
+    use crate::problem::Problem;
+    #[pymodule_export]
+    use crate::running::Iteration;
+    #[pymodule_export]
+    use crate::surface::{prepare, read, self_affine, spectrum, statistics};
+
+    use pyo3::prelude::*;
+
+    /// The sphere of Maugis, whose name the law has.
+    #[pymodule_init]
+    fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
+        module.add("MaugisSphere", module.py().get_type::<crate::exact::MaugisDugdale>())
+    }
+}

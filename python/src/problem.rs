@@ -1,0 +1,313 @@
+//! A contact problem, solved once, along loads, or along a path of equilibria.
+
+use std::sync::{Mutex, PoisonError};
+use std::time::Instant;
+
+use asperity::path::{Event, Path, PathCheckpoint, PathSettings};
+use asperity::stability::{StabilityTest, Verdict};
+use asperity::{
+    AdhesionLaw, Control, ElasticOperator, Error, Grid, Real, Settings, Solution, Solver, Start, Status, Surface,
+    Sweep, Warning,
+};
+use numpy::PyReadonlyArray2;
+use numpy::ndarray::Array2;
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+use crate::account::{Account, Scalar, returned};
+use crate::inputs::{control, operator, settings};
+use crate::law::law;
+use crate::pools::Pool;
+use crate::refusal::refusal;
+use crate::running::{Observe, run};
+
+/// The largest number of departures from unstable equilibria, as in the tool.
+const MOST_DEPARTURES: usize = 10;
+
+/// A problem in one precision, with all that a sequence of solves carries on.
+struct State<T: Real> {
+    problem: asperity::Problem<T, Box<dyn ElasticOperator<T>>, Box<dyn AdhesionLaw<T>>>,
+    solver: Solver,
+    modulus: f64,
+    /// of the input
+    warnings: Vec<Warning>,
+    setup: f64,
+    history: Vec<(Control, Array2<T>)>,
+    place: Option<PathCheckpoint<T>>,
+}
+
+/// The request for one solve.
+struct Request<'py> {
+    control: Control,
+    start: Option<PyReadonlyArray2<'py, f64>>,
+    stability: bool,
+    leave: bool,
+}
+
+/// What a problem does in either precision.
+trait Solves: Send {
+    fn solve<'py>(&mut self, py: Python<'py>, run: Run<'_>, request: Request<'py>) -> PyResult<Bound<'py, PyDict>>;
+    fn next_load<'py>(&mut self, py: Python<'py>, run: Run<'_>, request: Request<'py>) -> PyResult<Bound<'py, PyDict>>;
+    fn next_step<'py>(
+        &mut self,
+        py: Python<'py>,
+        run: Run<'_>,
+        loads: Vec<Control>,
+        settings: PathSettings,
+        start: Option<PyReadonlyArray2<'py, f64>>,
+    ) -> PyResult<Option<Bound<'py, PyDict>>>;
+}
+
+/// The threads and the observer of a solve.
+#[derive(Clone, Copy)]
+struct Run<'a> {
+    pool: &'a Pool,
+    observer: Option<&'a Py<PyAny>>,
+}
+
+/// A gap from numpy in the precision of a solve.
+fn field<T: Real>(gap: PyReadonlyArray2<'_, f64>) -> Array2<T> {
+    gap.as_array().mapv(T::lit)
+}
+
+impl<T: Scalar> State<T> {
+    fn new(
+        surface: &Surface,
+        law: Box<dyn AdhesionLaw<T>>,
+        modulus: f64,
+        settings: Settings,
+    ) -> asperity::Result<Self> {
+        let clock = Instant::now();
+        let operator = operator(*surface.grid(), modulus)?;
+        let mut warnings = Warning::of_surface(surface);
+        warnings.extend(Warning::of_law(&law, surface, modulus));
+        let problem = asperity::Problem::new(surface, operator, law)?;
+        let (solver, setup) = (Solver::new(settings), clock.elapsed().as_secs_f64());
+        Ok(Self { problem, solver, modulus, warnings, setup, history: Vec::new(), place: None })
+    }
+
+    /// The account of a solution.
+    fn account(&self, solution: Solution<T>, control: Control, seconds: f64) -> asperity::Result<Account<T>> {
+        let account = Account::of(solution, self.problem.grid(), self.modulus, control)?;
+        let warnings = self.warnings.iter().cloned().chain(account.warnings).collect();
+        Ok(Account { warnings, seconds, ..account })
+    }
+}
+
+impl<T: Scalar> Solves for State<T> {
+    fn solve<'py>(&mut self, py: Python<'py>, at: Run<'_>, request: Request<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let Request { control, start, stability, leave } = request;
+        let start = start.map(field::<T>);
+        let found = run(py, at.pool, at.observer, |observe: Observe<'_>| {
+            let clock = Instant::now();
+            let from = start.as_ref().map_or(Start::Default, |gap| Start::From(gap));
+            let mut solution = self.solver.solve_with(&mut self.problem, control, from, observe)?;
+            let (mut departures, mut verdict) = (Vec::new(), None);
+            while stability && solution.report.status != Status::Stopped {
+                let found = StabilityTest::default().run(&mut self.problem, control, &solution)?;
+                let leaves = leave && found.verdict == Verdict::Unstable && departures.len() < MOST_DEPARTURES;
+                let left = match leaves {
+                    true => found.leave(&mut self.solver, &mut self.problem, control, &solution)?,
+                    false => None,
+                };
+                let Some(left) = left.filter(|left| left.energy_drop > 0.0) else {
+                    verdict = Some(found);
+                    break;
+                };
+                departures.push((found.eigenvalue, left.energy_drop, left.distance));
+                solution = left.solution;
+            }
+            let seconds = self.setup + clock.elapsed().as_secs_f64();
+            let account = self.account(solution, control, seconds)?;
+            Ok(Account { stability: verdict, departures: leave.then_some(departures), ..account })
+        })?;
+        returned(py, found)
+    }
+
+    fn next_load<'py>(&mut self, py: Python<'py>, at: Run<'_>, request: Request<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let Request { control, start, .. } = request;
+        let start = start.map(field::<T>);
+        let found = run(py, at.pool, at.observer, |observe: Observe<'_>| {
+            let clock = Instant::now();
+            let history = std::mem::take(&mut self.history);
+            let kept = history.clone();
+            let mut sweep = Sweep::new(&mut self.solver, &mut self.problem, [control]).continuing(history);
+            if let Some(start) = start {
+                sweep = sweep.starting_from(start);
+            }
+            let next = sweep.next_observed(observe);
+            let history = sweep.history().to_vec();
+            let Some(next) = next else { return Err(no_load()) };
+            let (control, solution) = next?;
+            // a load that was not reached is tried again from where the ones before lead
+            let stopped = solution.report.status == Status::Stopped;
+            self.history = if stopped { kept } else { history };
+            self.account(solution, control, clock.elapsed().as_secs_f64())
+        })?;
+        returned(py, found)
+    }
+
+    fn next_step<'py>(
+        &mut self,
+        py: Python<'py>,
+        at: Run<'_>,
+        loads: Vec<Control>,
+        settings: PathSettings,
+        start: Option<PyReadonlyArray2<'py, f64>>,
+    ) -> PyResult<Option<Bound<'py, PyDict>>> {
+        let start = start.map(field::<T>);
+        let (found, raised) = run(py, at.pool, at.observer, |observe: Observe<'_>| -> asperity::Result<_> {
+            let clock = Instant::now();
+            let mut path = Path::new(&mut self.solver, &mut self.problem, loads, settings)?;
+            path = match (self.place.clone(), start) {
+                (Some(place), _) => path.continuing(place)?,
+                (None, Some(start)) => path.starting_from(start),
+                (None, None) => path,
+            };
+            let Some(step) = path.next_observed(observe) else { return Ok(None) };
+            let step = step?;
+            self.place = Some(path.checkpoint());
+            let account = self.account(step.solution, step.control, clock.elapsed().as_secs_f64())?;
+            let balance = [("work", step.work), ("dissipated", step.dissipated), ("imbalance", step.imbalance)];
+            Ok(Some((account, step.leg, balance, step.event)))
+        })?;
+        let (account, leg, balance, event) = match (found, raised) {
+            (_, Some(raised)) => return Err(raised),
+            (found, None) => match found.map_err(refusal)? {
+                Some(found) => found,
+                None => return Ok(None),
+            },
+        };
+        let step = returned(py, (Ok(account), None))?;
+        step.set_item("leg", leg)?;
+        balance.into_iter().try_for_each(|(name, value)| step.set_item(name, value))?;
+        step.set_item("event", event.as_ref().map(Event::name))?;
+        step.set_item("energy_drop", event.as_ref().and_then(Event::jump).map(|jump| jump.energy_drop))?;
+        Ok(Some(step))
+    }
+}
+
+/// The problem of a surface in one precision.
+fn state<T: Scalar>(
+    py: Python<'_>,
+    pool: &Pool,
+    surface: Surface,
+    given: &Bound<'_, PyAny>,
+    (modulus, settings): (f64, Settings),
+) -> PyResult<Box<dyn Solves>> {
+    let law = law::<T>(given)?;
+    let state = py.detach(|| pool.get().install(|| State::new(&surface, law, modulus, settings)));
+    Ok(Box::new(state.map_err(refusal)?))
+}
+
+/// A sweep of one load always has a next one.
+fn no_load() -> Error {
+    Error::Value { name: "number of loads", value: 0.0, requirement: "at least 1" }
+}
+
+/// A contact problem.
+#[pyclass(module = "asperity._asperity")]
+pub struct Problem {
+    solves: Mutex<Box<dyn Solves>>,
+    threads: Option<usize>,
+    settings: Settings,
+    single: bool,
+}
+
+impl Problem {
+    /// The pool of a solve, and the problem.
+    fn parts(&mut self) -> PyResult<(Pool, &mut dyn Solves)> {
+        let pool = Pool::of(self.threads)?;
+        Ok((pool, self.solves.get_mut().unwrap_or_else(PoisonError::into_inner).as_mut()))
+    }
+}
+
+#[pymethods]
+impl Problem {
+    #[new]
+    #[pyo3(signature = (heights, lengths, modulus, law, precision, tolerance, max_iterations, method, threads))]
+    #[expect(clippy::too_many_arguments, reason = "called by the Python layer alone, by name")]
+    fn new(
+        py: Python<'_>,
+        heights: PyReadonlyArray2<'_, f64>,
+        lengths: (f64, f64),
+        modulus: f64,
+        law: &Bound<'_, PyAny>,
+        precision: &str,
+        tolerance: Option<f64>,
+        max_iterations: Option<usize>,
+        method: &str,
+        threads: Option<usize>,
+    ) -> PyResult<Self> {
+        let settings = settings(tolerance, max_iterations, method)?;
+        let pool = Pool::of(threads)?;
+        let heights = heights.as_array().to_owned();
+        let surface = Grid::new(heights.dim(), lengths).and_then(|grid| Surface::new(grid, heights));
+        let surface = surface.map_err(refusal)?;
+        let numbers = (modulus, settings);
+        let solves = match precision {
+            "f64" => state::<f64>(py, &pool, surface, law, numbers)?,
+            "f32" => state::<f32>(py, &pool, surface, law, numbers)?,
+            other => return Err(PyValueError::new_err(format!("precision is {other}: it must be f64 or f32"))),
+        };
+        Ok(Self { solves: Mutex::new(solves), threads, settings, single: precision == "f32" })
+    }
+
+    /// The tolerance, the limit of the iterations and the number of threads, with their defaults.
+    fn inputs(&self) -> PyResult<(f64, usize, usize)> {
+        let tolerance =
+            if self.single { self.settings.tolerance_in::<f32>() } else { self.settings.tolerance_in::<f64>() };
+        Ok((tolerance, self.settings.max_iterations, Pool::of(self.threads)?.threads()))
+    }
+
+    /// The equilibrium at a load.
+    #[pyo3(signature = (load, start, observe, stability, leave))]
+    fn solve<'py>(
+        &mut self,
+        py: Python<'py>,
+        load: (String, f64),
+        start: Option<PyReadonlyArray2<'py, f64>>,
+        observe: Option<Py<PyAny>>,
+        stability: bool,
+        leave: bool,
+    ) -> PyResult<Bound<'py, PyDict>> {
+        let request = Request { control: control(&load.0, load.1)?, start, stability, leave };
+        let (pool, solves) = self.parts()?;
+        solves.solve(py, Run { pool: &pool, observer: observe.as_ref() }, request)
+    }
+
+    /// The equilibrium at the next load of a sweep.
+    #[pyo3(signature = (load, start, observe))]
+    fn next_load<'py>(
+        &mut self,
+        py: Python<'py>,
+        load: (String, f64),
+        start: Option<PyReadonlyArray2<'py, f64>>,
+        observe: Option<Py<PyAny>>,
+    ) -> PyResult<Bound<'py, PyDict>> {
+        let request = Request { control: control(&load.0, load.1)?, start, stability: false, leave: false };
+        let (pool, solves) = self.parts()?;
+        solves.next_load(py, Run { pool: &pool, observer: observe.as_ref() }, request)
+    }
+
+    /// The next state of a path through loads; none at its end.
+    #[pyo3(signature = (loads, steps, smallest_step, imbalance, smooth, start, observe))]
+    #[expect(clippy::too_many_arguments, reason = "called by the Python layer alone, by name")]
+    fn next_step<'py>(
+        &mut self,
+        py: Python<'py>,
+        loads: Vec<(String, f64)>,
+        steps: usize,
+        smallest_step: f64,
+        imbalance: f64,
+        smooth: bool,
+        start: Option<PyReadonlyArray2<'py, f64>>,
+        observe: Option<Py<PyAny>>,
+    ) -> PyResult<Option<Bound<'py, PyDict>>> {
+        let loads = loads.iter().map(|(name, value)| control(name, *value)).collect::<PyResult<_>>()?;
+        let settings = PathSettings { steps, smallest_step, imbalance, smooth };
+        let (pool, solves) = self.parts()?;
+        solves.next_step(py, Run { pool: &pool, observer: observe.as_ref() }, loads, settings, start)
+    }
+}

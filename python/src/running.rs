@@ -1,0 +1,130 @@
+//! The run of a solve: without the interpreter's lock, open to Ctrl-C, and observed by a function of Python.
+
+use std::ops::ControlFlow;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{self, RecvTimeoutError};
+use std::sync::{Mutex, PoisonError};
+use std::time::Duration;
+
+use pyo3::exceptions::{PyRuntimeError, PyStopIteration};
+use pyo3::prelude::*;
+
+use crate::pools::Pool;
+
+/// The time between two looks at the signals of the process.
+const PATIENCE: Duration = Duration::from_millis(20);
+
+/// The time for which a thread of a pool waits for an observer before it looks for other work.
+const NAP: Duration = Duration::from_micros(200);
+
+/// The state of an iteration, as an observer sees it.
+#[pyclass(frozen, get_all, module = "asperity")]
+pub struct Iteration {
+    /// Number of steps.
+    iteration: usize,
+    /// Number of operator applications of this solve so far.
+    operator_applications: usize,
+    /// Certified relative error in the energy norm.
+    relative_error: f64,
+    /// Relative error of the load.
+    load_error: f64,
+    /// Energy that is minimised, per area.
+    energy: f64,
+    /// Mean gap.
+    mean_gap: f64,
+    /// Number of nodes in contact.
+    contact_nodes: usize,
+    /// Number of changes of the minimised energy so far; the energy falls within a round.
+    round: usize,
+    /// Whether the solve is still on the way to its start, with the jumps of the law smoothed.
+    smoothed: bool,
+}
+
+#[pymethods]
+impl Iteration {
+    fn __repr__(&self) -> String {
+        format!(
+            "Iteration({}: relative_error={:.1e}, energy={:e}, mean_gap={:e}, contact_nodes={})",
+            self.iteration, self.relative_error, self.energy, self.mean_gap, self.contact_nodes
+        )
+    }
+}
+
+impl From<&asperity::Iteration> for Iteration {
+    fn from(state: &asperity::Iteration) -> Self {
+        Self {
+            iteration: state.iteration,
+            operator_applications: state.operator_applications,
+            relative_error: state.relative_error,
+            load_error: state.load_error,
+            energy: state.energy,
+            mean_gap: state.mean_gap,
+            contact_nodes: state.contact_nodes,
+            round: state.round,
+            smoothed: state.smoothed,
+        }
+    }
+}
+
+/// An observer as the library calls it.
+pub type Observe<'a> = &'a mut (dyn FnMut(&asperity::Iteration) -> ControlFlow<()> + Send);
+
+/// Runs `work` on a thread of the pool and returns its result, and the exception that stopped it, if one did.
+///
+/// The lock of the interpreter is free meanwhile. This thread sleeps, wakes for signals, and calls the observer of
+/// Python, so that this sees its own thread. An observer stops the solve by `StopIteration`, which is no exception
+/// here.
+pub fn run<R: Send>(
+    py: Python<'_>,
+    pool: &Pool,
+    observer: Option<&Py<PyAny>>,
+    work: impl FnOnce(Observe<'_>) -> R + Send,
+) -> PyResult<(R, Option<PyErr>)> {
+    let (stop, result) = (AtomicBool::new(false), Mutex::new(None));
+    let (stop_flag, slot, observed) = (&stop, &result, observer.is_some());
+    let raised = py.detach(|| {
+        let (tell, told) = mpsc::channel::<Iteration>();
+        let (answer, answered) = mpsc::channel::<()>();
+        pool.get().in_place_scope(|scope| {
+            scope.spawn(move |_| {
+                // the channels end with this closure, and the wait of the other thread with them
+                let found = work(&mut move |state| {
+                    if observed && tell.send(state.into()).is_ok() {
+                        // the observer may solve, too, and on this pool: its thread must not stand idle
+                        while let Err(RecvTimeoutError::Timeout) = answered.recv_timeout(NAP) {
+                            rayon::yield_now();
+                        }
+                    }
+                    if stop_flag.load(Ordering::Relaxed) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+                });
+                *slot.lock().unwrap_or_else(PoisonError::into_inner) = Some(found);
+            });
+            let mut raised = None;
+            loop {
+                let outcome = match told.recv_timeout(PATIENCE) {
+                    Ok(state) => {
+                        let outcome = Python::attach(|py| match observer {
+                            Some(observer) if raised.is_none() => {
+                                observer.call1(py, (state,)).and_then(|_| py.check_signals())
+                            }
+                            _ => Ok(()),
+                        });
+                        stop.fetch_or(outcome.is_err(), Ordering::Relaxed);
+                        let _ = answer.send(());
+                        outcome
+                    }
+                    Err(RecvTimeoutError::Timeout) => Python::attach(|py| py.check_signals()),
+                    Err(RecvTimeoutError::Disconnected) => return raised,
+                };
+                if let Err(error) = outcome {
+                    stop.store(true, Ordering::Relaxed);
+                    raised.get_or_insert(error);
+                }
+            }
+        })
+    });
+    let raised = raised.filter(|error| !error.is_instance_of::<PyStopIteration>(py));
+    let found = result.into_inner().unwrap_or_else(PoisonError::into_inner);
+    let found = found.ok_or_else(|| PyRuntimeError::new_err("the solve ended without a result"))?;
+    Ok((found, raised))
+}

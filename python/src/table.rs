@@ -1,0 +1,235 @@
+//! The table of a law of Python: read once, before a solve, which then needs the interpreter no more.
+
+use asperity::{AdhesionLaw, Error, Real};
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+
+use crate::law::{Function, Functions};
+use crate::refusal::refusal;
+
+/// The powers of two of a gap in ranges ρ between which the table has intervals of its own. Below there is one
+/// interval; above, the energy is constant.
+const OCTAVES: (i32, i32) = (-8, 20);
+
+/// The bits of the mantissa that number the intervals of an octave: 128 of them.
+const BITS: u32 = 7;
+
+/// The largest error of energy and traction in an interval, over the largest value of the function.
+const TOLERANCE: f64 = 1e-11;
+
+/// The most pieces of a table.
+const MOST_PIECES: usize = 1 << 16;
+
+/// The places in an interval at which the functions are read: its ends, and three more to compare with.
+const PLACES: [f64; 5] = [0.0, 0.25, 0.5, 0.75, 1.0];
+
+/// A law as a table: pieces of the third degree for the traction, with traction and slope of the law at their ends. The
+/// slope is their derivative and the energy their integral, from the energy of the law at the start of each.
+///
+/// Intervals are 1/128 of an octave of the gap over the range ρ, so that the bits of a gap number them, and are halved
+/// until the table agrees with the law in between. A jump is enclosed between two neighbouring numbers.
+pub struct Table {
+    range: f64,
+    work_of_adhesion: f64,
+    /// the first piece of each interval, and the number of pieces
+    first: Vec<u32>,
+    pieces: Vec<Piece>,
+    /// the energy beyond the last interval
+    far: f64,
+}
+
+/// The traction over one piece: Σ cₙ tⁿ with t from 0 to 1.
+#[derive(Clone, Copy)]
+struct Piece {
+    /// the start, in ranges
+    start: f64,
+    /// one over the width, in ranges
+    rate: f64,
+    /// the energy at the start
+    energy: f64,
+    coefficients: [f64; 4],
+}
+
+/// An interval from `start` to `end`, in ranges, that is to become a piece.
+struct Candidate {
+    interval: usize,
+    start: f64,
+    end: f64,
+}
+
+/// The bits of the gap that number its interval.
+fn key(gap: f64) -> usize {
+    (gap.to_bits() >> (f64::MANTISSA_DIGITS - 1 - BITS)) as usize
+}
+
+/// The least gap of a key.
+fn of_key(key: usize) -> f64 {
+    f64::from_bits((key as u64) << (f64::MANTISSA_DIGITS - 1 - BITS))
+}
+
+impl Table {
+    /// Reads the law.
+    ///
+    /// # Errors
+    /// What the functions raise; `ValueError` if one is not finite somewhere, or not the derivative of the one before,
+    /// or rougher than a table can be.
+    pub fn of(law: &Functions<'_>) -> PyResult<Self> {
+        let at_zero = |function| law.at(function, &[0.0]).map(|values| values[0]);
+        let work_of_adhesion =
+            law.number("work_of_adhesion")?.map_or_else(|| at_zero(Function::Energy).map(|e| -e), Ok)?;
+        let range = match law.number("range")? {
+            Some(range) => range,
+            None => work_of_adhesion / at_zero(Function::Traction)?,
+        };
+        if !(range > 0.0 && range.is_finite()) {
+            return Err(PyValueError::new_err(format!(
+                "range of the law is {range}: it must be positive and finite: give the law an attribute range, the length \
+                 over which the traction decays (without one it is w/traction(0))"
+            )));
+        }
+        let (base, end) = (key(2f64.powi(OCTAVES.0)), key(2f64.powi(OCTAVES.1)));
+        let mut open: Vec<Candidate> =
+            (base..end).map(|k| Candidate { interval: k - base + 1, start: of_key(k), end: of_key(k + 1) }).collect();
+        open.insert(0, Candidate { interval: 0, start: 0.0, end: of_key(base) });
+        let intervals = open.len();
+
+        let mut largest = [0.0_f64; 3];
+        let (mut found, mut far) = (Vec::new(), 0.0);
+        while !open.is_empty() {
+            if found.len() + open.len() > MOST_PIECES {
+                return Err(too_rough(&open[0], range));
+            }
+            let gaps: Vec<f64> =
+                open.iter().flat_map(|c| PLACES.map(|t| (c.start + t * (c.end - c.start)) * range)).collect();
+            let mut values = [const { Vec::new() }; 3];
+            for (function, values) in Function::ALL.into_iter().zip(&mut values) {
+                *values = law.at(function, &gaps)?;
+                if let Some((&gap, &value)) = gaps.iter().zip(&*values).find(|(_, value)| !value.is_finite()) {
+                    return Err(refusal(Error::Law { function: function.name(), gap, value, expected: None }));
+                }
+            }
+            if found.is_empty() {
+                far = *values[0].last().unwrap_or(&0.0);
+                // an energy counts from where it is at large gaps
+                let datum = [far, 0.0, 0.0];
+                largest = std::array::from_fn(|n| values[n].iter().fold(0.0, |m: f64, v| m.max((v - datum[n]).abs())));
+                if values[1].last().is_some_and(|traction| traction.abs() > TOLERANCE * largest[1]) {
+                    return Err(too_far(gaps.last().copied().unwrap_or_default(), range));
+                }
+            }
+            let mut halves = Vec::new();
+            for (k, candidate) in open.into_iter().enumerate() {
+                let at = |place: usize| std::array::from_fn(|n| values[n][PLACES.len() * k + place]);
+                let middle = 0.5 * (candidate.start + candidate.end);
+                let narrow = middle <= candidate.start || middle >= candidate.end;
+                let piece = Piece::between(&candidate, at(0), if narrow { at(0) } else { at(4) }, range);
+                let agrees = (1..PLACES.len()).all(|place| piece.agrees(PLACES[place], at(place), largest, range));
+                if agrees || narrow {
+                    found.push((candidate.interval, piece));
+                } else {
+                    halves.push(Candidate { end: middle, ..candidate });
+                    halves.push(Candidate { start: middle, ..candidate });
+                }
+            }
+            open = halves;
+        }
+        found.sort_by(|(_, a), (_, b)| a.start.total_cmp(&b.start));
+        let mut first = vec![0_u32; intervals + 1];
+        found.iter().for_each(|(interval, _)| first[interval + 1] += 1);
+        (0..intervals).for_each(|k| first[k + 1] += first[k]);
+        let pieces = found.into_iter().map(|(_, piece)| piece).collect();
+        Ok(Self { range, work_of_adhesion, first, pieces, far })
+    }
+
+    /// The piece of a gap g ≥ 0 and the place in it; none beyond the last.
+    fn find(&self, gap: f64) -> Option<(&Piece, f64)> {
+        let x = gap / self.range;
+        let base = key(2f64.powi(OCTAVES.0));
+        let interval = if x < of_key(base) { 0 } else { key(x) - base + 1 };
+        let end = *self.first.get(interval + 1)?;
+        let pieces = self.pieces.get(self.first[interval] as usize..end as usize)?;
+        let after = if let [_] = pieces { 1 } else { pieces.partition_point(|piece| piece.start <= x).max(1) };
+        let piece = pieces.get(after - 1)?;
+        Some((piece, (x - piece.start) * piece.rate))
+    }
+
+    /// Traction and slope at a gap.
+    fn traction_and_slope(&self, gap: f64) -> (f64, f64) {
+        self.find(gap).map_or((0.0, 0.0), |(piece, t)| (piece.traction(t), piece.slope(t) / self.range))
+    }
+}
+
+impl Piece {
+    /// The piece with these energies, tractions and slopes at its ends.
+    fn between(candidate: &Candidate, a: [f64; 3], b: [f64; 3], range: f64) -> Self {
+        let width = candidate.end - candidate.start;
+        let (first, last, rise) = (a[2] * width * range, b[2] * width * range, b[1] - a[1]);
+        let coefficients = [a[1], first, 3.0 * rise - 2.0 * first - last, first + last - 2.0 * rise];
+        Self { start: candidate.start, rate: width.recip(), energy: a[0], coefficients }
+    }
+
+    fn energy(&self, t: f64, range: f64) -> f64 {
+        let [a, b, c, d] = self.coefficients;
+        self.energy + range / self.rate * t * (a + t * (b / 2.0 + t * (c / 3.0 + t * d / 4.0)))
+    }
+
+    fn traction(&self, t: f64) -> f64 {
+        let [a, b, c, d] = self.coefficients;
+        a + t * (b + t * (c + t * d))
+    }
+
+    /// The slope, over a gap in ranges.
+    fn slope(&self, t: f64) -> f64 {
+        let [_, b, c, d] = self.coefficients;
+        self.rate * (b + t * (2.0 * c + t * 3.0 * d))
+    }
+
+    /// Whether the piece agrees with the law at a place.
+    fn agrees(&self, t: f64, law: [f64; 3], largest: [f64; 3], range: f64) -> bool {
+        let found = [self.energy(t, range), self.traction(t)];
+        (0..2).all(|n| (found[n] - law[n]).abs() <= TOLERANCE * largest[n])
+    }
+}
+
+/// The refusal of a law that goes on beyond its table.
+fn too_far(gap: f64, range: f64) -> PyErr {
+    PyValueError::new_err(format!(
+        "the law still has a traction at a gap of {gap:e}, {:.0} times its range of {range:e}: give it an attribute range, \
+         the length over which the traction decays",
+        gap / range
+    ))
+}
+
+/// The refusal of a law of which the table does not come to an end.
+fn too_rough(candidate: &Candidate, range: f64) -> PyErr {
+    PyValueError::new_err(format!(
+        "the functions of the law do not agree with one another, or are rough, at gaps from {:e} on: the traction must be \
+         the derivative of the energy and the slope that of the traction; asperity.check_law(law, largest_gap) says which is \
+         not",
+        candidate.start * range
+    ))
+}
+
+impl<T: Real> AdhesionLaw<T> for Table {
+    fn energy(&self, gap: T) -> T {
+        T::lit(self.find(gap.widen()).map_or(self.far, |(piece, t)| piece.energy(t, self.range)))
+    }
+    fn traction(&self, gap: T) -> T {
+        T::lit(self.traction_and_slope(gap.widen()).0)
+    }
+    fn slope(&self, gap: T) -> T {
+        T::lit(self.traction_and_slope(gap.widen()).1)
+    }
+    fn work_of_adhesion(&self) -> T {
+        T::lit(self.work_of_adhesion)
+    }
+    fn range(&self) -> T {
+        T::lit(self.range)
+    }
+    fn tractions_and_slopes(&self, _: usize, gaps: &[T], tractions: &mut [T], slopes: &mut [T]) {
+        for ((gap, traction), slope) in gaps.iter().zip(tractions).zip(slopes) {
+            let (t, s) = self.traction_and_slope(gap.widen());
+            (*traction, *slope) = (T::lit(t), T::lit(s));
+        }
+    }
+}

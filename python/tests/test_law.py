@@ -1,0 +1,179 @@
+"""Adhesion laws: the library's, and those written in Python."""
+
+import pickle
+import threading
+
+import numpy as np
+import pytest
+
+import asperity
+
+
+class Exponential:
+    """The exponential law, written in Python."""
+
+    def __init__(self, work_of_adhesion, range):
+        self.work_of_adhesion, self.range = work_of_adhesion, range
+        self.calls = []
+
+    def energy(self, gap):
+        self.calls.append(gap.size)
+        return -self.work_of_adhesion * np.exp(-gap / self.range)
+
+    def traction(self, gap):
+        return self.work_of_adhesion / self.range * np.exp(-gap / self.range)
+
+    def slope(self, gap):
+        return -self.work_of_adhesion / self.range**2 * np.exp(-gap / self.range)
+
+
+class Linear:
+    """A traction that falls linearly to zero at the range: its slope jumps."""
+
+    def __init__(self, work_of_adhesion, range):
+        self.w, self.range = work_of_adhesion, range
+
+    def left(self, gap):
+        return np.maximum(1 - gap / self.range, 0.0)
+
+    def energy(self, gap):
+        return -self.w * self.left(gap) ** 2
+
+    def traction(self, gap):
+        return 2 * self.w / self.range * self.left(gap)
+
+    def slope(self, gap):
+        return np.where(gap < self.range, -2 * self.w / self.range**2, 0.0)
+
+
+class Dugdale(Linear):
+    """A traction that jumps to zero at the range."""
+
+    def energy(self, gap):
+        return -self.w * self.left(gap)
+
+    def traction(self, gap):
+        return np.where(gap < self.range, self.w / self.range, 0.0)
+
+    def slope(self, gap):
+        return np.zeros_like(gap)
+
+
+def test_functions_of_the_library_take_any_shape():
+    law = asperity.Exponential(0.05, 2e-9)
+    assert law.energy(0.0) == -0.05 and isinstance(law.energy(0.0), float)
+    assert law.traction([0.0, 2e-9]).shape == (2,) and law.slope(np.zeros((2, 3))).shape == (2, 3)
+    assert law == asperity.Exponential(0.05, 2e-9) != asperity.Exponential(0.05, 3e-9)
+    assert pickle.loads(pickle.dumps(law)) == law and eval(repr(law), vars(asperity)) == law
+    with pytest.raises(ValueError, match="range of adhesion is -1"):
+        asperity.MaugisDugdale(1.0, -1.0)
+
+
+@pytest.mark.parametrize("threads", [1, 2])
+def test_a_law_in_python_is_that_of_the_library(rough, threads):
+    options = {"modulus": 1.0, "mean_pressure": 0.01, "tolerance": 1e-8, "threads": threads}
+    own = asperity.solve(rough, law=Exponential(2e-5, 8e-3), **options)
+    built_in = asperity.solve(rough, law=asperity.Exponential(2e-5, 8e-3), **options)
+    # the table has the traction to 1e-11; both solutions have their certified error
+    assert np.allclose(own.gap, built_in.gap, rtol=0, atol=1e-7 * built_in.gap.max())
+    assert own.report["contact_nodes"] == built_in.report["contact_nodes"]
+    assert own.report["law"] == "Exponential" and own.report["range"] == 8e-3
+    assert np.isclose(own.adhesive_energy, built_in.adhesive_energy, rtol=1e-9)
+    assert own.report["mu_rho"] == built_in.report["mu_rho"]
+
+
+def test_a_law_is_read_in_large_blocks_before_the_solve(rough):
+    law = Exponential(2e-5, 8e-3)
+    asperity.solve(rough, modulus=1.0, mean_pressure=0.01, law=law)
+    assert len(law.calls) < 10 and max(law.calls) > 4096
+
+
+def test_kinks_and_jumps_are_enclosed(rough):
+    for law in (Linear(2e-5, 1.6e-2), Dugdale(2e-5, 8e-3)):
+        solution = asperity.solve(rough, modulus=1.0, mean_gap=0.012, law=law)
+        # the adhesive energy of the table is that of the law, node by node
+        assert np.isclose(solution.adhesive_energy, law.energy(solution.gap).mean(), rtol=1e-10)
+
+
+def test_a_jump_in_python_is_as_good_as_maugis_dugdale(rough):
+    own = asperity.solve(rough, modulus=1.0, mean_gap=0.012, law=Dugdale(2e-5, 8e-3))
+    built_in = asperity.solve(rough, modulus=1.0, mean_gap=0.012, law=asperity.MaugisDugdale(2e-5, 8e-3), start=own)
+    assert np.isclose(own.mean_pressure, built_in.mean_pressure, rtol=1e-4, atol=1e-8)
+
+
+def test_an_exception_in_a_law_arrives_as_it_was_raised(rough):
+    class Broken(Exponential):
+        def traction(self, gap):
+            raise ZeroDivisionError("mine")
+
+    with pytest.raises(ZeroDivisionError, match="mine"):
+        asperity.solve(rough, modulus=1.0, mean_pressure=0.01, law=Broken(2e-5, 8e-3))
+    with pytest.raises(ZeroDivisionError, match="mine"):
+        asperity.check_law(Broken(2e-5, 8e-3), 0.1)
+
+
+def test_a_law_that_is_none_is_refused(rough):
+    class Short(Exponential):
+        slope = None
+
+    class Inconsistent(Exponential):
+        def slope(self, gap):
+            return 0.5 * super().slope(gap)
+
+    class Infinite(Exponential):
+        def energy(self, gap):
+            with np.errstate(divide="ignore"):
+                return -1.0 / gap
+
+    class Shapeless(Exponential):
+        def traction(self, gap):
+            return super().traction(gap)[:7]
+
+    options = {"modulus": 1.0, "mean_pressure": 0.01}
+    with pytest.raises(TypeError, match=r"a Short without a method slope\(gap\)"):
+        asperity.solve(rough, law=Short(2e-5, 8e-3), **options)
+    with pytest.raises(ValueError, match="check_law"):
+        asperity.solve(rough, law=Inconsistent(2e-5, 8e-3), **options)
+    with pytest.raises(ValueError, match="slope of the adhesive traction is .* at a gap of"):
+        asperity.check_law(Inconsistent(2e-5, 8e-3), 0.1)
+    with pytest.raises(ValueError, match="adhesive energy is -inf at a gap of 0"):
+        asperity.solve(rough, law=Infinite(2e-5, 8e-3), **options)
+    with pytest.raises(ValueError, match=r"law.traction returned an array of shape \[7\]"):
+        asperity.solve(rough, law=Shapeless(2e-5, 8e-3), **options)
+
+
+def test_a_range_that_is_too_short_for_the_law_is_refused(rough):
+    law, narrow = Exponential(2e-5, 8e-3), Exponential(2e-5, 1e-10)
+    narrow.energy, narrow.traction, narrow.slope = law.energy, law.traction, law.slope
+    with pytest.raises(ValueError, match="still has a traction at a gap of 1.04.*e-4, .* give it an attribute range"):
+        asperity.solve(rough, modulus=1.0, mean_pressure=0.01, law=narrow)
+
+
+def test_a_law_in_python_serves_single_precision_too(rough):
+    options = {"modulus": 1.0, "mean_pressure": 0.01, "precision": "f32"}
+    own = asperity.solve(rough, law=Exponential(2e-5, 8e-3), **options)
+    built_in = asperity.solve(rough, law=asperity.Exponential(2e-5, 8e-3), **options)
+    # both to a certified error of 1e-4
+    assert np.allclose(own.gap, built_in.gap, rtol=0, atol=1e-3 * built_in.gap.max())
+
+
+def test_the_laws_here_agree_with_themselves():
+    for law in (Exponential(2e-5, 8e-3), Linear(2e-5, 8e-3), Dugdale(2e-5, 8e-3), asperity.Exponential(1.0, 0.1)):
+        asperity.check_law(law, 0.1)
+
+
+def test_laws_in_python_on_many_threads_do_not_wait_for_each_other(rough):
+    found = []
+
+    def solve():
+        solution = asperity.solve(
+            rough, modulus=1.0, mean_pressure=0.01, law=Exponential(2e-5, 8e-3), observe=lambda _: None
+        )
+        found.append(solution.gap.tobytes())
+
+    threads = [threading.Thread(target=solve) for _ in range(8)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join(60)
+    assert len(found) == 8 and len(set(found)) == 1

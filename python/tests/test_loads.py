@@ -1,0 +1,72 @@
+"""Many loads: sweeps and cycles, and their columns."""
+
+import numpy as np
+import pandas as pd
+import pytest
+
+import asperity
+
+
+def test_a_sweep_gives_its_solutions_one_by_one(rough):
+    loads = [0.005, 0.01, 0.02]
+    sweep = asperity.sweep(rough, modulus=1.0, mean_pressures=loads)
+    assert len(sweep) == 3 and repr(sweep) == "Sweep(0 of 3 loads solved)"
+    shares = [solution.contact_fraction for solution in sweep]
+    assert shares == sorted(shares) and list(sweep.columns["contact_fraction"]) == shares
+    alone = asperity.solve(rough, modulus=1.0, mean_pressure=0.02)
+    assert shares[-1] == alone.contact_fraction
+
+
+def test_columns_are_a_table_of_pandas(rough, law):
+    table = pd.DataFrame(asperity.sweep(rough, modulus=1.0, mean_gaps=np.array([0.02, 0.015]), law=law).columns)
+    assert len(table) == 2 and np.allclose(table.mean_gap, [0.02, 0.015], rtol=1e-14)
+    assert (table.status == "converged").all() and table.dtypes["iterations"] == np.int64
+
+
+def test_an_interrupted_sweep_goes_on_with_the_same_bits(rough):
+    loads = np.geomspace(0.002, 0.02, 4)
+    whole = asperity.sweep(rough, modulus=1.0, mean_pressures=loads).columns
+    interrupted = []
+
+    def observe(state):
+        if state.iteration == 2 and len(sweep.rows) == 2 and not interrupted:
+            interrupted.append(state)
+            raise KeyboardInterrupt
+
+    sweep = asperity.sweep(rough, modulus=1.0, mean_pressures=loads, observe=observe)
+    with pytest.raises(KeyboardInterrupt):
+        sweep.run()
+    assert len(sweep.rows) == 2
+    for name, column in sweep.columns.items():
+        assert column.tolist() == whole[name].tolist(), name
+
+
+def test_a_sweep_warns_for_each_load_that_has_not_converged(rough):
+    with pytest.warns(asperity.ConvergenceWarning) as caught:
+        asperity.sweep(rough, modulus=1.0, mean_pressures=[0.01, 0.05], max_iterations=1).run()
+    assert len(caught) == 2
+
+
+def test_a_cycle_finds_the_jumps_and_keeps_the_balance_of_energy():
+    wave = 0.02 * np.cos(2 * np.pi * np.arange(64) / 64)
+    law = asperity.Exponential(1e-3, 8e-3)
+    cycle = asperity.cycle(wave, 1.0, modulus=1.0, law=law, mean_gaps=[0.08, 0.01, 0.08], steps=10)
+    first = next(cycle)
+    assert first.leg == 0 and first.solution.gap.shape == (64,) and "leg 0" in repr(first)
+    names = [event["event"] for event in cycle.events]
+    assert names == ["jump-in", "pull-off"]
+    table = pd.DataFrame(cycle.columns)
+    last = table.iloc[-1]
+    assert last.dissipated > 0 and abs(last.imbalance) < 0.05 * last.dissipated
+    assert np.isclose(last.dissipated, sum(event["energy_drop"] or 0.0 for event in cycle.events))
+
+
+def test_loads_that_are_refused(rough):
+    with pytest.raises(TypeError, match="one sequence of loads"):
+        asperity.sweep(rough, modulus=1.0)
+    with pytest.raises(ValueError, match="two turning points"):
+        asperity.cycle(rough, modulus=1.0, mean_gaps=[0.1])
+    with pytest.raises(ValueError, match="mean gap is -1"):
+        asperity.sweep(rough, modulus=1.0, mean_gaps=[0.01, -1.0]).run()
+    with pytest.raises(ValueError, match="number of steps is 0"):
+        asperity.cycle(rough, modulus=1.0, mean_gaps=[0.02, 0.01], steps=0).run()

@@ -1,0 +1,222 @@
+"""One call: arrays in, arrays out, and how good they are."""
+
+import _thread
+import json
+import os
+import subprocess
+import sys
+import threading
+import time
+import warnings
+
+import numpy as np
+import pytest
+
+import asperity
+
+
+def test_fields_are_arrays_of_the_shape_of_the_heights(rough):
+    solution = asperity.solve(rough, modulus=1.0, mean_pressure=0.01)
+    assert solution.status == "converged" and solution.converged
+    for field in (solution.gap, solution.pressure, solution.contact_pressure):
+        assert field.shape == (64, 64) and field.dtype == np.float64 and field.flags.c_contiguous
+    assert solution.contact.dtype == bool and solution.contact.sum() == solution.report["contact_nodes"]
+    assert not np.any((solution.gap > 0) & (solution.contact_pressure > 0))
+    assert np.isclose(solution.pressure.mean(), 0.01, rtol=1e-6)
+    assert np.array_equal(solution.displacement, solution.gap + rough.heights)
+
+
+def test_the_pressure_is_that_of_the_displacement(rough):
+    solution = asperity.solve(rough, modulus=3.0, mean_gap=0.01)
+    q = 2 * np.pi * np.fft.fftfreq(64, 1 / 64)
+    stiffness = 0.5 * 3.0 * np.hypot(q[:, None], q)
+    pressure = np.fft.ifft2(stiffness * np.fft.fft2(solution.displacement)).real
+    assert np.allclose(pressure, solution.pressure - solution.pressure.mean(), atol=1e-10 * np.ptp(solution.pressure))
+
+
+def test_controls_are_two_ways_to_one_state(rough, law):
+    by_pressure = asperity.solve(rough, modulus=1.0, mean_pressure=0.01, law=law)
+    by_gap = asperity.solve(rough, modulus=1.0, mean_gap=by_pressure.mean_gap, law=law, start=by_pressure)
+    # the mean pressure goes with the error of the gap, 1e-6 in the energy norm
+    assert np.isclose(by_gap.mean_pressure, 0.01, rtol=1e-4)
+    assert by_pressure.report["control"] == "mean-pressure" and by_gap.report["control"] == "mean-gap"
+
+
+def test_a_line_has_fields_of_one_dimension():
+    wave = 0.02 * np.cos(2 * np.pi * np.arange(128) / 128)
+    solution = asperity.solve(wave, 1.0, modulus=1.0, mean_pressure=0.03)
+    exact = asperity.exact.WavyLine(0.02, 1.0, 1.0).at_mean_pressure(0.03)
+    assert solution.gap.shape == solution.contact.shape == (128,)
+    # two edges, each to a node
+    assert abs(solution.contact.mean() - 2 * exact.half_width) < 2 / 128
+
+
+def test_single_precision_has_fields_and_a_default_tolerance_of_its_own(rough):
+    solution = asperity.solve(rough, modulus=1.0, mean_pressure=0.01, precision="f32")
+    double = asperity.solve(rough, modulus=1.0, mean_pressure=0.01)
+    assert solution.gap.dtype == solution.pressure.dtype == np.float32
+    assert solution.report["tolerance"] == 1e-4 and double.report["tolerance"] == 1e-6
+    assert np.isclose(solution.mean_gap, double.mean_gap, rtol=1e-3)
+
+
+def test_bits_do_not_depend_on_the_number_of_threads(rough, law):
+    one, two, all_of_them = (
+        asperity.solve(rough, modulus=1.0, mean_pressure=0.01, law=law, threads=threads) for threads in (1, 2, None)
+    )
+    assert one.report["threads"] == 1 and two.report["threads"] == 2
+    for name in ("gap", "pressure", "contact_pressure"):
+        assert getattr(one, name).tobytes() == getattr(two, name).tobytes() == getattr(all_of_them, name).tobytes()
+
+
+def test_a_solve_that_has_not_converged_is_a_status_and_a_warning(rough):
+    with pytest.warns(asperity.ConvergenceWarning, match="iteration-limit after 2 iterations") as caught:
+        solution = asperity.solve(rough, modulus=1.0, mean_pressure=0.01, max_iterations=2)
+    assert not solution.converged and solution.status == "iteration-limit"
+    assert solution.gap.min() >= 0 and solution.relative_error > 1e-6
+    assert caught[0].filename == __file__  # the line of the caller
+
+
+def test_a_probable_mistake_is_a_warning_and_in_the_report(rough):
+    with pytest.warns(asperity.InputWarning, match="steep: "):
+        solution = asperity.solve(8 * rough.heights, 1.0, modulus=1.0, mean_pressure=1e-4)
+    assert [warning["code"] for warning in solution.report["warnings"]] == ["steep"]
+
+
+def test_an_observer_sees_the_iterations(rough):
+    states = []
+    solution = asperity.solve(rough, modulus=1.0, mean_pressure=0.01, observe=states.append)
+    assert [state.iteration for state in states] == sorted({state.iteration for state in states})
+    assert states[-1].relative_error < 1e-6 and "relative_error" in repr(states[-1])
+    unobserved = asperity.solve(rough, modulus=1.0, mean_pressure=0.01)
+    assert solution.gap.tobytes() == unobserved.gap.tobytes()
+
+
+def test_an_observer_is_called_on_the_thread_of_the_solve(rough):
+    threads = set()
+    asperity.solve(rough, modulus=1.0, mean_pressure=0.01, observe=lambda _: threads.add(threading.get_ident()))
+    assert threads == {threading.get_ident()}
+
+
+def test_an_observer_may_solve_even_on_one_thread():
+    script = """if True:
+        import asperity
+        rough = asperity.surface.self_affine(32, 1.0, rms_slope=0.1, k_l=2, k_s=8)
+        def solve(observe=None):
+            return asperity.solve(rough, modulus=1.0, mean_pressure=0.01, observe=observe)
+        found = []
+        outer = solve(lambda state: found.append(solve()))
+        assert outer.report["threads"] == 1 and len(found) > 3
+        assert all(inner.gap.tobytes() == outer.gap.tobytes() for inner in found)
+    """
+    environment = {**os.environ, "RAYON_NUM_THREADS": "1"}
+    subprocess.run([sys.executable, "-c", script], env=environment, check=True, timeout=30)
+
+
+def test_stop_iteration_in_an_observer_ends_the_solve(rough):
+    def observe(state):
+        if state.relative_error < 1e-2:
+            raise StopIteration
+
+    with pytest.warns(asperity.ConvergenceWarning, match="stopped"):
+        solution = asperity.solve(rough, modulus=1.0, mean_pressure=0.01, observe=observe)
+    assert solution.status == "stopped" and solution.relative_error < 1e-2
+
+
+def test_an_exception_in_an_observer_arrives_as_it_was_raised_with_what_was_reached(rough):
+    class Mine(Exception):
+        pass
+
+    def observe(state):
+        if state.iteration == 3:
+            raise Mine("three")
+
+    with pytest.raises(Mine, match="three") as caught:
+        asperity.solve(rough, modulus=1.0, mean_pressure=0.01, observe=observe)
+    assert caught.value.solution.status == "stopped" and caught.value.solution.iterations <= 4
+    assert caught.traceback[-1].name == "observe"
+
+
+@pytest.mark.parametrize("observe", [None, [].append])
+def test_ctrl_c_ends_a_solve_with_what_was_reached(observe):
+    heights = asperity.surface.self_affine(1024, 1.0, rms_slope=0.1, k_s=256)
+    # it would take several seconds
+    hard = {"method": "rey2017", "tolerance": 1e-10, "threads": 1, "observe": observe}
+    timer = threading.Timer(0.5, _thread.interrupt_main)
+    timer.start()
+    started = time.perf_counter()
+    with pytest.raises(KeyboardInterrupt) as caught:
+        asperity.solve(heights, modulus=1.0, mean_pressure=0.01, **hard)
+    timer.join()
+    assert time.perf_counter() - started < 3
+    assert caught.value.solution.status == "stopped" and caught.value.solution.gap.shape == (1024, 1024)
+
+
+def test_the_interpreter_is_free_during_a_solve():
+    heights = asperity.surface.self_affine(512, 1.0, rms_slope=0.1, k_s=64)
+    ticks, done = [], threading.Event()
+
+    def tick():
+        while not done.is_set():
+            ticks.append(time.perf_counter())
+            time.sleep(0.005)
+
+    thread = threading.Thread(target=tick)
+    thread.start()
+    begin = time.perf_counter()
+    asperity.solve(heights, modulus=1.0, mean_pressure=0.01, threads=1)
+    end = time.perf_counter()
+    done.set()
+    thread.join()
+    within = [t for t in ticks if begin < t < end]
+    assert len(within) > 5  # a held lock would leave one or two
+
+
+def test_stability_is_asked_for(sphere, law):
+    solution = asperity.solve(sphere, 1.0, modulus=1.0, mean_gap=0.0398, law=law, stability=True)
+    assert solution.report["stability"]["verdict"] == "stable" and solution.report["departures"] is None
+    assert np.isclose((solution.mode**2).mean(), 1.0)
+
+
+def test_an_unstable_equilibrium_is_left():
+    law = asperity.Exponential(1e-3, 1e-2)
+    with pytest.warns(asperity.InputWarning, match="flat"):
+        even = asperity.solve(np.zeros(64), 1.0, modulus=1.0, mean_gap=0.011, law=law, stability=True)
+    assert even.report["stability"]["verdict"] == "unstable"
+    with pytest.warns(asperity.InputWarning, match="flat"):
+        left = asperity.solve(np.zeros(64), 1.0, modulus=1.0, mean_gap=0.011, law=law, leave=True)
+    assert left.report["stability"]["verdict"] == "stable" and left.report["departures"][0]["energy_drop"] > 0
+
+
+def test_the_table_and_the_html_say_how_it_ended(rough, law):
+    solution = asperity.solve(rough, modulus=1.0, mean_pressure=0.01, law=law)
+    assert repr(solution).startswith("status  ") and "converged" in repr(solution) and "mu_rho" in repr(solution)
+    html = solution._repr_html_()
+    assert "data:image/png;base64," in html and "converged" in html
+    json.dumps(solution.report)  # plain numbers, lists and text
+
+
+def test_what_is_refused_says_why(rough):
+    heights = rough.heights
+    with pytest.raises(TypeError, match="mean_pressure and mean_gap given"):
+        asperity.solve(rough, modulus=1.0, mean_pressure=1.0, mean_gap=1.0)
+    with pytest.raises(TypeError, match="none given"):
+        asperity.solve(rough, modulus=1.0)
+    with pytest.raises(ValueError, match="give lengths"):
+        asperity.solve(heights, modulus=1.0, mean_gap=0.1)
+    for arguments, message in [
+        ({"modulus": -1.0}, "contact modulus.* is -1: it must be positive"),
+        ({"mean_gap": -0.1}, "mean gap is -0.1: it must be"),
+        ({"mean_gap": np.inf}, "mean gap is inf"),
+        ({"lengths": (1.0, -1.0)}, "side length Ly is -1"),
+        ({"tolerance": 0.0}, "tolerance is 0"),
+        ({"precision": "f16"}, "precision is f16: it must be f64 or f32"),
+        ({"method": "newton"}, "method is newton"),
+        ({"threads": 0}, "threads is 0"),
+        ({"start": np.zeros((3, 3))}, "has shape 3 x 3: it must be 64 x 64"),
+    ]:
+        with warnings.catch_warnings(), pytest.raises(ValueError, match=message):
+            warnings.simplefilter("ignore")
+            asperity.solve(**{"heights": heights, "lengths": 1.0, "modulus": 1.0, "mean_gap": 0.01} | arguments)
+    for arguments in ({"modulus": "stiff"}, {"lengths": "1 m"}, {"law": "exponential"}, {"mean_gap": [1.0]}):
+        with pytest.raises(TypeError):
+            asperity.solve(**{"heights": heights, "lengths": 1.0, "modulus": 1.0, "mean_gap": 0.01} | arguments)
