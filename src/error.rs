@@ -145,6 +145,10 @@ impl Error {
 
     /// Refuses a field that holds NaN or infinities.
     pub(crate) fn all_finite<T: Real>(name: &'static str, field: ArrayView2<'_, T>) -> Result<()> {
+        // without places the pass is several times as fast
+        if field.iter().all(|value| value.is_finite()) {
+            return Ok(());
+        }
         let mut wrong = field.indexed_iter().filter(|(_, value)| !value.is_finite());
         match wrong.next() {
             None => Ok(()),
