@@ -113,21 +113,30 @@ class Cycle(Rows[Step]):
     def __repr__(self) -> str:
         return f"Cycle({len(self.rows)} states{'' if self._ended else ' so far'})"
 
-    def plot(self, ax: Axes | None = None, *, length_unit: str | None = None, pressure_unit: str | None = None) -> Axes:
-        """Draws the mean pressure over the mean gap, a line for each leg; needs matplotlib, and solves what is left.
+    def plot(
+        self,
+        ax: Axes | None = None,
+        *,
+        length_unit: str | None = None,
+        pressure_unit: str | None = None,
+        force_unit: str | None = None,
+    ) -> Axes:
+        """Draws the mean pressure over the mean gap, with a free boundary the normal force over the approach.
+
+        A line for each leg. Needs matplotlib, and solves what is left.
 
         Parameters
         ----------
         ax : matplotlib Axes, optional
             Axes to draw on; new ones by default.
-        length_unit, pressure_unit : str, optional
+        length_unit, pressure_unit, force_unit : str, optional
             Units for the axes.
 
         Returns
         -------
         matplotlib Axes
         """
-        return _plot.cycle(self.columns, ax, length_unit or self._scene.topography.unit, pressure_unit)
+        return _plot.cycle(self.columns, ax, length_unit or self._scene.topography.unit, pressure_unit, force_unit)
 
 
 def cycle(

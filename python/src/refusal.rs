@@ -17,8 +17,12 @@ pub fn refusal_of_heights(error: Error) -> PyErr {
 }
 
 fn refused(error: Error, also: &str) -> PyErr {
-    let message = error
-        .to_string()
+    let message = match &error {
+        Error::Control { control, reason } => format!("{}: {reason}", control.replace('-', "_")),
+        error => error.to_string(),
+    };
+    let message = message
+        .replace("or take a free half-space", "or boundary='free'")
         .replace("as by Topography::fill", "as by asperity.prepare(heights, lengths, fill=True)")
         .replace("set Topography::lengths", "give lengths=(Lx, Ly)")
         + also;
