@@ -88,8 +88,8 @@ impl ContactArea {
         Self::within(map, grid, Boundary::Periodic, grid.nodes())
     }
 
-    /// The area of a solution, whose [`Solution::contact_map`] is `map`, on its grid and within its boundary. Shares are
-    /// of the nodes that are not [absent](crate::Surface::with_absent).
+    /// The area of a solution, whose [`Solution::contact_map`] is `map`, on its grid and within its boundary. Shares
+    /// are of the nodes that are not [absent](crate::Surface::with_absent).
     ///
     /// ```
     /// use asperity::contact::ContactArea;

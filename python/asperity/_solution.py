@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 
 class ContactStatistics(NamedTuple):
-    """Contact area and clusters, and the area that attracts without contact; fractions of the nodes that are not absent.
+    """Contact area and clusters, and the area that attracts without contact; fractions of nodes not absent.
 
     With a periodic boundary opposite sides meet.
 
@@ -58,7 +58,8 @@ class Solution:
     gap : ndarray
         Gap g ≥ 0 between the surfaces, a length; infinite at absent nodes.
     pressure : ndarray
-        Elastic pressure p + p̄ on the half-space: the contact pressure less the adhesive traction. Zero at absent nodes.
+        Elastic pressure p + p̄ on the half-space: the contact pressure less the adhesive traction. Zero at absent
+        nodes.
     contact_pressure : ndarray
         Contact pressure λ ≥ 0, zero wherever the gap is not.
     contact : ndarray of bool
@@ -158,8 +159,10 @@ class Solution:
 
     @property
     def approach(self) -> float | None:
-        """Approach δ, a length: how far the bodies have moved towards each other since they would first touch undeformed;
-        None with a periodic boundary."""
+        """Approach δ, a length; None with a periodic boundary.
+
+        It is how far the bodies have moved towards each other since they would first touch undeformed.
+        """
         found: float | None = self._bodies["approach"]
         return found
 
