@@ -1,31 +1,44 @@
-//! The share of a solve outside of operator applications, and the gain of single precision, as medians over rounds.
+//! The share of a solve outside of operator applications, and the gain of single precision, for the corrections or for
+//! all, as medians over rounds.
 //!
 //! `RAYON_NUM_THREADS=1 cargo run --release --example budget -- [size [case]]`; 1024 if nothing is given, and of a case
 //! a part of its name.
 
 use std::ops::ControlFlow;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Instant;
 
 use asperity::{
     AdhesionLaw, Amplitude, CoarseSpace, Control, ElasticOperator, Exponential, Foundation, Grid, NoAdhesion,
     Preconditioned, Problem, Real, Result, SelfAffine, Settings, Solver, Start, Surface, Westergaard,
 };
-use ndarray::{ArrayView2, ArrayViewMut2};
+use ndarray::{Array2, ArrayView2, ArrayViewMut2};
 
 const ROUNDS: usize = 5;
 
 /// The half-space with a clock that runs while it is applied.
 struct Timed<T: Real> {
     half_space: Westergaard<T>,
-    seconds: f64,
+    nanoseconds: Arc<AtomicU64>,
+    /// whether it may be had in single precision
+    splits: bool,
 }
 
 impl<T: Real> Timed<T> {
+    fn new(grid: Grid, splits: bool) -> Result<Self> {
+        Ok(Self { half_space: Westergaard::new(grid, 1.0)?, nanoseconds: Arc::default(), splits })
+    }
+
     fn time<R>(&mut self, apply: impl FnOnce(&mut Westergaard<T>) -> R) -> R {
         let begin = Instant::now();
         let result = apply(&mut self.half_space);
-        self.seconds += begin.elapsed().as_secs_f64();
+        self.nanoseconds.fetch_add(begin.elapsed().as_nanos() as u64, Ordering::Relaxed);
         result
+    }
+
+    fn seconds(&self) -> f64 {
+        self.nanoseconds.load(Ordering::Relaxed) as f64 * 1e-9
     }
 }
 
@@ -53,6 +66,14 @@ impl<T: Real> ElasticOperator<T> for Timed<T> {
     }
     fn coarse_space(&self, dimension: usize) -> Option<CoarseSpace> {
         self.half_space.coarse_space(dimension)
+    }
+    fn in_single(&self) -> Option<Box<dyn ElasticOperator<f32>>> {
+        let half_space = self.splits.then(|| Westergaard::<f32>::new(*self.half_space.grid(), 1.0).ok())??;
+        let nanoseconds = Arc::clone(&self.nanoseconds);
+        Some(Box::new(Timed { half_space, nanoseconds, splits: false }))
+    }
+    fn release_memory(&mut self) {
+        self.half_space.release_memory();
     }
     fn precondition(
         &mut self,
@@ -93,41 +114,54 @@ fn measure<L: AdhesionLaw<f64> + AdhesionLaw<f32> + Copy>(
     control: Control,
 ) -> Result<()> {
     let grid = *surface.grid();
-    let half_space = Timed { half_space: Westergaard::<f64>::new(grid, 1.0)?, seconds: 0.0 };
-    let mut problem = Problem::new(surface, half_space, law)?;
-    let mut problem_single = Problem::new(surface, Westergaard::<f32>::new(grid, 1.0)?, law)?;
+    let mut both = Problem::new(surface, Timed::<f64>::new(grid, true)?, law)?;
+    let mut double = Problem::new(surface, Timed::<f64>::new(grid, false)?, law)?;
+    let mut single = Problem::new(surface, Timed::<f32>::new(grid, false)?, law)?;
     let loose = Settings { tolerance: Some(1e-4), ..Settings::default() };
-    let mut figures: [Vec<f64>; 4] = Default::default();
+    let mut figures: [Vec<f64>; 6] = Default::default();
     for _ in 0..ROUNDS {
-        let before = problem.operator().seconds;
-        let begin = Instant::now();
-        Solver::default().solve(&mut problem, control)?;
-        let whole = begin.elapsed().as_secs_f64();
-        let share = 1.0 - (problem.operator().seconds - before) / whole;
-
-        let begin = Instant::now();
-        let (mut solver, mut iterations) = (Solver::new(loose), [0.0; 2]);
-        iterations[0] = solver.solve(&mut problem, control)?.report.iterations as f64;
-        let double = begin.elapsed().as_secs_f64();
-
-        let begin = Instant::now();
-        let near = solver.solve(&mut problem_single, control)?;
-        iterations[1] = near.report.iterations as f64;
-        let first = begin.elapsed().as_secs_f64();
-        let near = Start::Near(near.gap.mapv(f64::from));
-        Solver::default().solve_with(&mut problem, control, near, |_| ControlFlow::Continue(()))?;
-        let both = begin.elapsed().as_secs_f64();
-        let found = [whole, 100.0 * share, (double / iterations[0]) / (first / iterations[1]), whole / both];
+        let before = both.operator().seconds();
+        let (time, iteration) = solve(&mut both, control, Settings::default(), Start::Default)?.0;
+        let share = 1.0 - (both.operator().seconds() - before) / time;
+        let (time_double, iteration_double) = solve(&mut double, control, Settings::default(), Start::Default)?.0;
+        let ((time_single, iteration_single), near) = solve(&mut single, control, loose, Start::Default)?;
+        let near = Start::Near(near.mapv(f64::from));
+        let ((time_near, _), _) = solve(&mut both, control, Settings::default(), near)?;
+        let found = [
+            time,
+            100.0 * share,
+            iteration / iteration_double,
+            iteration_single / iteration_double,
+            time / time_double,
+            (time_single + time_near) / time,
+        ];
         figures.iter_mut().zip(found).for_each(|(figures, found)| figures.push(found));
     }
     println!("{name}:");
-    for (what, figures) in
-        ["seconds of a solve", "% beside applications", "f64 / f32, an iteration", "f64 / f32 then f64"]
-            .iter()
-            .zip(&mut figures)
-    {
+    let names = [
+        "seconds of a solve",
+        "% beside applications",
+        "an iteration / in f64 alone",
+        "in f32 / in f64 alone",
+        "a solve / in f64 alone",
+        "in f32, then on / a solve",
+    ];
+    for (what, figures) in names.iter().zip(&mut figures) {
         figures.sort_by(f64::total_cmp);
-        println!("  {what:<24} {:.3} ({:.3}-{:.3})", figures[ROUNDS / 2], figures[0], figures[ROUNDS - 1]);
+        println!("  {what:<28} {:.3} ({:.3}-{:.3})", figures[ROUNDS / 2], figures[0], figures[ROUNDS - 1]);
     }
     Ok(())
+}
+
+/// The seconds of a solve and of one of its iterations, and the gap.
+fn solve<T: Real, L: AdhesionLaw<T>>(
+    problem: &mut Problem<T, Timed<T>, L>,
+    control: Control,
+    settings: Settings,
+    start: Start<'_, T>,
+) -> Result<((f64, f64), Array2<T>)> {
+    let begin = Instant::now();
+    let solution = Solver::new(settings).solve_with(problem, control, start, |_| ControlFlow::Continue(()))?;
+    let time = begin.elapsed().as_secs_f64();
+    Ok(((time, time / solution.report.iterations as f64), solution.gap))
 }

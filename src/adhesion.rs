@@ -4,21 +4,33 @@ use crate::derivatives::{self, Named};
 use crate::error::{Error, Result};
 use crate::real::Real;
 
+mod cut_off;
 mod exponential;
 mod exponentials;
+mod lennard_jones;
 mod maugis_dugdale;
+mod morse;
 mod none;
+mod power_law;
+mod tabulated;
+mod varying;
 
+pub use cut_off::CutOff;
 pub use exponential::Exponential;
+pub use lennard_jones::LennardJones;
 pub use maugis_dugdale::MaugisDugdale;
+pub use morse::Morse;
 pub use none::NoAdhesion;
+pub use power_law::PowerLaw;
+pub use tabulated::Tabulated;
+pub use varying::Varying;
 
 /// An adhesion law: the energy per area by which two surfaces attract each other, a function of the gap alone.
 ///
 /// A law is three functions of one gap `g ≥ 0`: the energy φ(g) ≤ 0, its derivative φ'(g), the
 /// adhesive traction, positive where the surfaces attract each other, and the traction's slope φ''(g). Everything else
-/// has a default. The energy falls to zero, or to any constant, at large gaps. No law is asked for a negative gap;
-/// what becomes of it where a [`ContactConstraint`](crate::ContactConstraint) lets the surfaces interpenetrate is said
+/// has a default. The energy falls to zero, or to any constant, at large gaps. No law is asked for a negative gap, but
+/// for one that keeps the surfaces apart by itself ([`rest`](Self::rest)); what becomes of it where a [`ContactConstraint`](crate::ContactConstraint) lets the surfaces interpenetrate is said
 /// there.
 ///
 /// [`check_law`] tells whether the three functions agree with one another; call it in a test of your law.
@@ -76,6 +88,28 @@ pub trait AdhesionLaw<T: Real>: Send + Sync {
         false
     }
 
+    /// The gap of rest: below it the law repels, and keeps the surfaces apart by itself, above it attracts. Nothing, which
+    /// is the default, for a law that only attracts.
+    ///
+    /// A law with a gap of rest can be solved with [`NoWall`](crate::NoWall). It says its own
+    /// [`work_of_adhesion`](Self::work_of_adhesion) and [`range`](Self::range).
+    fn rest(&self) -> Option<T> {
+        None
+    }
+
+    /// The shape (Nx, Ny) of the only grid on which a law that varies over the surface can be used. Nothing, which is
+    /// the default, for a law of the gap alone.
+    fn shape(&self) -> Option<(usize, usize)> {
+        None
+    }
+
+    /// A law that varies over the surface, on the coarser grid that has every nx-th and every ny-th node of its own.
+    /// Nothing, which is the default, for a law of the gap alone.
+    fn coarsened(&self, stride: (usize, usize)) -> Option<Box<dyn AdhesionLaw<T> + '_>> {
+        let _ = stride;
+        None
+    }
+
     /// The law with slopes no steeper than 1/`compliance` in the place of the jumps of its traction; nothing if it has
     /// none.
     ///
@@ -129,6 +163,11 @@ macro_rules! forward {
             fn work_of_adhesion(&self) -> T { (**self).work_of_adhesion() }
             fn range(&self) -> T { (**self).range() }
             fn is_zero(&self) -> bool { (**self).is_zero() }
+            fn rest(&self) -> Option<T> { (**self).rest() }
+            fn shape(&self) -> Option<(usize, usize)> { (**self).shape() }
+            fn coarsened(&self, stride: (usize, usize)) -> Option<Box<dyn AdhesionLaw<T> + '_>> {
+                (**self).coarsened(stride)
+            }
             fn smoothed(&self, compliance: T) -> Option<Box<dyn AdhesionLaw<T> + '_>> { (**self).smoothed(compliance) }
             fn energies(&self, first: usize, gaps: &[T], energies: &mut [T]) {
                 (**self).energies(first, gaps, energies)
@@ -149,9 +188,9 @@ forward!(&L, Box<L>);
 
 /// Tells whether the three functions of a law agree with one another.
 ///
-/// Compares, at 200 gaps between 0 and `largest_gap`, the traction with central differences of the energy
-/// and the slope with central differences of the traction, in the precision of the law, to a hundredth of the
-/// largest value of that function. A function may jump (as the traction of Maugis–Dugdale does at ρ): gaps
+/// Compares, at 200 gaps between 0 (or half the gap of rest) and `largest_gap`, the traction with central differences of
+/// the energy and the slope with central differences of the traction, in the precision of the law, to a hundredth of
+/// the largest value of that function. A function may jump (as the traction of Maugis–Dugdale does at ρ): gaps
 /// beside a jump, where the differences grow as their step shrinks, are passed over.
 ///
 /// # Errors
@@ -172,7 +211,9 @@ pub fn check_law<T: Real>(law: &impl AdhesionLaw<T>, largest_gap: f64) -> Result
         ("adhesive traction", &|g| law.traction(T::lit(g)).widen()),
         ("slope of the adhesive traction", &|g| law.slope(T::lit(g)).widen()),
     ];
-    derivatives::check::<T>(functions, (0.0, largest_gap), length)
+    // closer than half its gap of rest a law may grow without bound
+    let least = law.rest().map_or(0.0, |rest| 0.5 * rest.widen());
+    derivatives::check::<T>(functions, (least, largest_gap), length)
 }
 
 #[cfg(test)]

@@ -9,10 +9,12 @@ use crate::error::{Error, Result};
 use crate::grid::Grid;
 use crate::real::Real;
 
+mod no_wall;
 mod penalty;
 mod projection;
 mod uzawa;
 
+pub use no_wall::NoWall;
 pub use penalty::Penalty;
 pub use projection::Projection;
 pub use uzawa::Uzawa;
@@ -21,7 +23,8 @@ pub use uzawa::Uzawa;
 ///
 /// Either the gap is confined to g ≥ 0 ([`Projection`]), or any gap is feasible and the energy gains a term, node by
 /// node, that resists negative gaps ([`Penalty`]); such a term may carry multipliers, updated between solves
-/// ([`Uzawa`]). Which nodes are in contact then says [`Solution::contact_map`](crate::Solution::contact_map).
+/// ([`Uzawa`]). A law that repels close by needs neither ([`NoWall`]). Which nodes are in contact then says
+/// [`Solution::contact_map`](crate::Solution::contact_map).
 ///
 /// An [`AdhesionLaw`](crate::AdhesionLaw) is defined for g ≥ 0. Where the surfaces interpenetrate it goes on as its
 /// tangent, φ(0) + φ'(0)g: the traction is that of contact, and springs of any stiffness bound the energy below. As
@@ -87,6 +90,8 @@ pub enum Wall<'a, T> {
     Rigid,
     /// Any gap is feasible, and the energy gains that of springs.
     Springs(&'a dyn Springs<T>),
+    /// Any gap is feasible at which the adhesion law is finite: the law itself keeps the surfaces apart.
+    None,
 }
 
 impl<T> Wall<'_, T> {
@@ -98,7 +103,11 @@ impl<T> Wall<'_, T> {
 
 impl<T> fmt::Debug for Wall<'_, T> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(if self.is_rigid() { "Rigid" } else { "Springs" })
+        f.write_str(match self {
+            Self::Rigid => "Rigid",
+            Self::Springs(_) => "Springs",
+            Self::None => "None",
+        })
     }
 }
 

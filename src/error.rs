@@ -91,6 +91,13 @@ pub enum Error {
         /// The reason, and a remedy.
         reason: &'static str,
     },
+    /// A wall and an adhesion law that do not fit each other.
+    Wall {
+        /// The wall.
+        wall: &'static str,
+        /// The reason, and a remedy.
+        reason: &'static str,
+    },
     /// A surface with waves that are too short for the grid.
     Unresolved {
         /// The wave number k_s of the shortest waves, in units of 2π/Lx.
@@ -196,6 +203,7 @@ impl fmt::Display for Error {
                 write!(f, "{property} is {}: it should be {}", Short(*found), Short(*expected))
             }
             Self::Control { control, reason } => write!(f, "{control}: {reason}"),
+            Self::Wall { wall, reason } => write!(f, "{wall}: {reason}"),
             Self::Unresolved { k_s, limit, shape } => write!(
                 f,
                 "k_s is {}: it must be below {} for {} x {} nodes to resolve it: use more nodes, or a smaller k_s",

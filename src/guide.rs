@@ -3,6 +3,7 @@
 //! | page | what for |
 //! |---|---|
 //! | [`tour`] | the whole way once: gap, pressure, balance, energy, adhesion, grid, certificate, each with its line of code |
+//! | [`laws`] | which adhesion law for what, laws that repel, and laws that vary over the surface |
 //! | [`own_law`] | an adhesion law of your own |
 //! | [`own_operator`] | an elastic operator of your own: a layer of finite thickness |
 //! | [`own_constraint`] | a way of your own to keep the surfaces apart |
@@ -29,6 +30,7 @@ macro_rules! page {
     };
 }
 page!(tour);
+page!(laws);
 page!(own_law);
 page!(own_operator);
 page!(own_constraint);

@@ -129,8 +129,11 @@ mod warning;
 
 pub use ndarray;
 
-pub use adhesion::{AdhesionLaw, Exponential, MaugisDugdale, NoAdhesion, check_law};
-pub use constraint::{ContactConstraint, Penalty, Projection, Springs, Update, Uzawa, Wall, check_constraint};
+pub use adhesion::{
+    AdhesionLaw, CutOff, Exponential, LennardJones, MaugisDugdale, Morse, NoAdhesion, PowerLaw, Tabulated, Varying,
+    check_law,
+};
+pub use constraint::{ContactConstraint, NoWall, Penalty, Projection, Springs, Update, Uzawa, Wall, check_constraint};
 pub use elastic::{
     Boundary, Boussinesq, CoarseSpace, ElasticOperator, Foundation, Preconditioned, Spectral, Westergaard,
     check_operator,

@@ -154,7 +154,7 @@ impl<C> Nested<C> {
         &mut self,
         surface: &Surface,
         mut operator: impl FnMut(Grid) -> Result<O>,
-        mut law: L,
+        law: L,
         control: Control,
         mut observe: impl FnMut(&Grid, &Iteration) -> ControlFlow<()>,
     ) -> Result<NestedSolution<T>>
@@ -171,9 +171,9 @@ impl<C> Nested<C> {
         let mut stopped = false;
         for &stride in strides.iter().rev().filter(|&&stride| stride > (1, 1)) {
             let Some(coarse) = coarsen(surface, stride)? else { continue };
-            let mut problem = Problem::new(&coarse, operator(*coarse.grid())?, law)?;
+            let coarse_law = law.coarsened(stride).unwrap_or_else(|| Box::new(&law));
+            let mut problem = Problem::new(&coarse, operator(*coarse.grid())?, coarse_law)?;
             if problem.mu_rho() > RESOLVED {
-                (_, law) = problem.into_parts();
                 continue;
             }
             let tolerance = self.coarse_tolerance.max(settings.tolerance_in::<T>());
@@ -195,7 +195,6 @@ impl<C> Nested<C> {
                 iterations: report.iterations,
                 operator_applications: report.operator_applications + 1,
             });
-            (_, law) = problem.into_parts();
             // a coarse grid that does not carry its load says nothing of a finer one
             if report.load_error < CARRIED {
                 let finer = finer(&strides, stride);

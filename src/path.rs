@@ -35,6 +35,9 @@ use track::{Mode, State, Track, Way};
 /// A step starts from the extrapolation of the last two states, clipped to g ≥ 0, so that it stays on the
 /// branch; its length adapts to how much the branch bends.
 ///
+/// The wall is rigid: a law that keeps the surfaces apart by itself is followed by [`Sweep`](crate::Sweep) with
+/// [`NoWall`](crate::NoWall), or cut at its gap of rest.
+///
 /// # Jumps
 ///
 /// Along a branch the energy changes by the work of the load, de = −p̄ dḡ. A step in which it falls by more has jumped

@@ -196,7 +196,7 @@ impl<T> PressedFlat<T> {
                     "bodies in a periodic cell have no approach: give a mean gap, or take a free half-space",
                 );
             }
-            Control::MeanGap(gap) => Load::Gap(Error::non_negative("mean gap", gap)?),
+            Control::MeanGap(gap) => Load::Gap(Error::finite("mean gap", gap)?),
             Control::MeanPressure(pressure) => Load::Pressure(on_grid(Error::finite("mean pressure", pressure)?)),
             Control::Force(force) => Load::Pressure(on_grid(Error::finite("normal force", force)? / self.area)),
             Control::Approach(approach) => {
@@ -264,6 +264,9 @@ impl<T: Real, O: ElasticOperator<T>, L: AdhesionLaw<T>> Problem<T, O, L> {
             Boundary::Free { window, .. } => (surface.grid(), window),
         };
         Error::shape("surface", grid.shape(), expected.shape())?;
+        if let Some(shape) = law.shape() {
+            Error::shape("adhesion law that varies over the surface", shape, grid.shape())?;
+        }
         let ((nx, ny), whole) = (expected.shape(), operator.grid().shape());
         Error::shape("grid of the operator", whole, (whole.0.max(nx), whole.1.max(ny)))?;
         if boundary != Boundary::Periodic {
@@ -277,7 +280,8 @@ impl<T: Real, O: ElasticOperator<T>, L: AdhesionLaw<T>> Problem<T, O, L> {
             return Err(Error::Value { name, value, requirement: "the same as of the elastic operator's grid" });
         }
         let at_zero = [("adhesive energy", law.energy(T::zero())), ("adhesive traction", law.traction(T::zero()))];
-        if let Some((function, value)) = at_zero.into_iter().find(|(_, value)| !value.is_finite()) {
+        let bounded = law.rest().is_none_or(|rest| rest <= T::zero());
+        if let Some((function, value)) = at_zero.into_iter().find(|(_, value)| bounded && !value.is_finite()) {
             return Err(Error::Law { function, gap: 0.0, value: value.widen(), expected: None });
         }
         let window = Window::new(surface, operator.grid().shape());

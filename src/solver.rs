@@ -32,6 +32,7 @@ pub(crate) use driver::Observer;
 pub(crate) use potential::{Of, Potential};
 pub use report::{Iteration, Report, Solution, Status};
 pub use start::Start;
+pub(crate) use start::check_wall;
 
 /// The method of iteration, one of two.
 ///

@@ -15,7 +15,7 @@ use crate::field::{Partial, Reducer, flat, read, write};
 use crate::par::IndexedParallelIterator;
 use crate::problem::{Control, Problem, Window, smoothed_law};
 use crate::real::Real;
-use crate::solver::{Of, Potential, Solution};
+use crate::solver::{Of, Potential, Solution, check_wall};
 
 mod bound;
 mod departure;
@@ -164,8 +164,8 @@ impl StabilityTest {
     ///
     /// # Errors
     /// [`Error::Shape`] if the solution is of another grid; [`Error::Value`] if the tolerance is not positive, or a gap
-    /// is negative: that of a solution whose wall is elastic, for [`StabilityTest::run_with`]; [`Error::Law`] if φ'' is
-    /// not finite somewhere.
+    /// is negative: that of a solution whose wall is elastic, or that has none, for [`StabilityTest::run_with`];
+    /// [`Error::Law`] if φ'' is not finite somewhere; [`Error::Wall`] if the law has no bound at a wall.
     pub fn run<T, O, L>(
         &self,
         problem: &mut Problem<T, O, L>,
@@ -181,10 +181,12 @@ impl StabilityTest {
     }
 
     /// Tests, as [`StabilityTest::run`], a solution that was found with a constraint. Where its wall has springs, as
-    /// that of [`Penalty`](crate::Penalty), every node may move, and their stiffness belongs to the second derivative.
+    /// that of [`Penalty`](crate::Penalty), every node may move, and their stiffness belongs to the second derivative;
+    /// without a wall ([`NoWall`](crate::NoWall)) every node may move, and the slope of the law is all that holds it.
     ///
     /// # Errors
-    /// Those of [`StabilityTest::run`]; [`Error::Law`] if the stiffness of the springs is not finite somewhere.
+    /// Those of [`StabilityTest::run`]; [`Error::Wall`] if the law is not made for the wall; [`Error::Law`] if the
+    /// stiffness of the springs is not finite somewhere.
     pub fn run_with<T, O, L, C>(
         &self,
         problem: &mut Problem<T, O, L>,
@@ -203,8 +205,9 @@ impl StabilityTest {
         if problem.flat.window.is_none() {
             Error::all_finite("gap", solution.gap.view())?;
         }
+        check_wall(&problem.law, constraint.wall())?;
         if let Some(gap) = solution.gap.iter().find(|&&gap| constraint.wall().is_rigid() && gap < T::zero()) {
-            let requirement = "zero or positive; a solution with springs is tested with its constraint, by run_with";
+            let requirement = "zero or positive; a solution with springs or without a wall is tested with its constraint, by run_with";
             return Err(Error::Value { name: "gap", value: gap.widen(), requirement });
         }
         // the value of a mean gap is that of the solution, which springs may make negative

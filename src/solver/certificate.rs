@@ -3,6 +3,7 @@
 use super::report::Status;
 use super::state::{Goal, State};
 use super::{Criterion, Method};
+use crate::constraint::Wall;
 use crate::error::Result;
 use crate::problem::Load;
 use crate::real::Real;
@@ -127,7 +128,7 @@ impl<T: Real, L: Real> State<'_, T, L> {
         let change = self.residual.difference;
         let difference = if change == 0.0 { 0.0 } else { change / self.nodes() / softest };
         self.certificate = (before.sqrt() + difference.sqrt()).powi(2);
-        if self.converged() {
+        if !matches!(self.constraint.wall(), Wall::None) && self.converged() {
             return Ok(true);
         }
         self.certify()?;

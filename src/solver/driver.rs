@@ -10,7 +10,7 @@ use super::start::Start;
 use super::state::{Goal, State};
 use super::{Method, Settings};
 use crate::adhesion::AdhesionLaw;
-use crate::constraint::{ContactConstraint, Update};
+use crate::constraint::{ContactConstraint, Update, Wall};
 use crate::elastic::ElasticOperator;
 use crate::error::{Error, Result};
 use crate::problem::{Control, PressedFlat, smoothed_law};
@@ -31,11 +31,16 @@ pub(super) struct Job<'a, T> {
 /// surface flat.
 const LIGHT: f64 = 1e-8;
 
-impl<T> Job<'_, T> {
+impl<T: Real> Job<'_, T> {
     /// Whether the load is so light that corrections in `f32` would not find the first contact.
     fn is_light(&self) -> bool {
         let flat = self.flat.stiffness * self.flat.rms_height;
         matches!(self.control, Control::MeanPressure(pressure) if pressure.abs() < LIGHT * flat)
+    }
+
+    /// Whether the law itself keeps the surfaces apart: its slopes make much of the rounding of corrections.
+    fn has_no_wall(&self) -> bool {
+        matches!(self.constraint.wall(), Wall::None)
     }
 }
 
@@ -66,7 +71,7 @@ impl<'a> Compiled for Solve<'a> {
         run(&mut One(operator), job)
     }
     fn double((operator, job): Self::Input<f64>) -> Result<Solution<f64>> {
-        let two = job.settings.method == Method::Preconditioned && !job.is_light();
+        let two = job.settings.method == Method::Preconditioned && !job.is_light() && !job.has_no_wall();
         match operator.in_single().filter(|_| two) {
             Some(corrections) => run(&mut Two::new(operator, corrections), job),
             None => run(&mut One(operator), job),

@@ -75,7 +75,8 @@ impl<T: Real, L: Real> State<'_, T, L> {
             let touches = |_, residual| idles(residual);
             coarse.renew(iteration, &self.fields.residual, touches, (stiffness, spring), range, held);
         } else {
-            let touches = |node, gap| gap <= T::zero() && window.is_none_or(|window| window.faces(node));
+            let rest = self.law.rest().unwrap_or_else(T::zero);
+            let touches = |node, gap| gap <= rest && window.is_none_or(|window| window.faces(node));
             coarse.renew(iteration, &self.fields.gap, touches, (stiffness, spring), range, held);
         }
     }

@@ -9,10 +9,12 @@ use ndarray::Array2;
 use crate::field::Reducer;
 use crate::real::Real;
 
+mod held;
 mod residual;
 mod step;
 mod tally;
 
+pub(super) use held::{hold, release_held};
 pub(super) use residual::{Continued, Working};
 pub(super) use residual::{idle, release, released, residual};
 pub(super) use step::{Advance, Attempt, Tried, advance, energy_after, trial};

@@ -2,11 +2,32 @@
 //! energy.
 
 use crate::adhesion::{AdhesionLaw, NoAdhesion};
-use crate::constraint::{ContactConstraint, Springs, Wall};
+use crate::constraint::{ContactConstraint, Wall};
 use crate::field::{CHUNK, Nodes, Partial, Reducer};
 use crate::par::IndexedParallelIterator;
 use crate::problem::Window;
 use crate::real::Real;
+
+/// The share of its gap that a node keeps at least in a step, where the law has no bound at zero gap.
+const CLOSER: f64 = 0.5;
+
+/// The least gap of a node after a step.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Least<T> {
+    /// the gap at which a node lands that comes from above it
+    rest: T,
+    /// the share of its gap that a node below that keeps
+    share: T,
+    /// how much closer it may come still: zero or without bound
+    pub(crate) depth: T,
+}
+
+impl<T: Real> Least<T> {
+    #[inline(always)]
+    pub(crate) fn after(self, gap: T) -> T {
+        if gap > self.rest { self.rest } else { self.share * gap - self.depth }
+    }
+}
 
 /// The local energy of every node: the adhesion law, and the constraint where it is a term of the energy.
 ///
@@ -15,9 +36,8 @@ use crate::real::Real;
 #[derive(Clone, Copy)]
 pub(crate) struct Potential<'a, T> {
     law: &'a dyn AdhesionLaw<T>,
-    springs: Option<&'a dyn Springs<T>>,
-    /// whether the gap is confined to g ≥ 0
-    projects: bool,
+    /// what keeps the surfaces apart; nothing where there is no surface
+    wall: Option<Wall<'a, T>>,
     /// where there is a surface; nothing if that is everywhere
     window: Option<&'a Window>,
 }
@@ -36,15 +56,11 @@ impl<'a, T: Real> Potential<'a, T> {
         constraint: &'a dyn ContactConstraint<T>,
         window: Option<&'a Window>,
     ) -> Self {
-        let springs = match constraint.wall() {
-            Wall::Rigid => None,
-            Wall::Springs(springs) => Some(springs),
-        };
-        Self { law, springs, projects: springs.is_none(), window }
+        Self { law, wall: Some(constraint.wall()), window }
     }
 
     /// The potential of nodes that face no surface.
-    const NOTHING: Self = Self { law: &NoAdhesion, springs: None, projects: false, window: None };
+    const NOTHING: Self = Self { law: &NoAdhesion, wall: None, window: None };
 
     /// Runs a pass `f(potential, first node, nodes)` over the chunks, as [`Reducer::run`]: in pieces of which all nodes
     /// face the surface, or none does. The first node is that on the surface's grid.
@@ -102,28 +118,48 @@ impl<'a, T: Real> Potential<'a, T> {
 
     /// Whether the local energy is zero at every node.
     pub(crate) fn is_zero(&self) -> bool {
-        self.law.is_zero() && self.springs.is_none()
+        self.law.is_zero() && !matches!(self.wall, Some(Wall::Springs(_)))
     }
 
     /// Whether the nodes face a surface.
     pub(crate) fn is_surface(&self) -> bool {
-        self.projects || self.springs.is_some()
+        self.wall.is_some()
     }
 
-    /// Whether the constraint is a term of the energy.
-    pub(crate) fn has_springs(&self) -> bool {
-        self.springs.is_some()
+    /// Whether the contact pressure is a function of the gap, by springs or by the law itself.
+    pub(crate) fn is_soft(&self) -> bool {
+        matches!(self.wall, Some(Wall::Springs(_) | Wall::None))
+    }
+
+    /// Whether the law itself keeps the surfaces apart.
+    pub(crate) fn repels(&self) -> bool {
+        matches!(self.wall, Some(Wall::None))
     }
 
     /// Whether the gap is confined to g ≥ 0.
     pub(crate) fn projects(&self) -> bool {
-        self.projects
+        matches!(self.wall, Some(Wall::Rigid))
+    }
+
+    /// The least gap after a step: zero at a rigid wall. Where the law itself repels, a node lands at the gap of rest, from
+    /// where the slope of the law is that of its repulsion, and keeps below it a part of its gap, if the repulsion has no
+    /// bound at zero gap. Elsewhere a gap may become negative.
+    pub(crate) fn least(&self) -> Option<Least<T>> {
+        match self.wall {
+            Some(Wall::Rigid) => Some(Least { rest: T::zero(), share: T::zero(), depth: T::zero() }),
+            Some(Wall::None) => {
+                let bounded = self.law.energy(T::zero()).is_finite();
+                let [share, depth] = if bounded { [T::zero(), T::infinity()] } else { [T::lit(CLOSER), T::zero()] };
+                self.law.rest().map(|rest| Least { rest, share, depth })
+            }
+            Some(Wall::Springs(_)) | None => None,
+        }
     }
 
     /// The energies, tractions or slopes of law and constraint at the nodes from `first` on.
     pub(crate) fn evaluate(&self, of: Of, first: usize, gaps: &[T], out: &mut [T]) {
         self.law(of, first, gaps, out);
-        let Some(springs) = self.springs else { return };
+        let Some(Wall::Springs(springs)) = self.wall else { return };
         for (i, (out, &gap)) in out.iter_mut().zip(gaps).enumerate() {
             *out += match of {
                 Of::Energy => springs.energy(first + i, gap),
@@ -135,7 +171,7 @@ impl<'a, T: Real> Potential<'a, T> {
 
     /// Tractions and slopes at once.
     pub(crate) fn tractions_and_slopes(&self, first: usize, gaps: &[T], tractions: &mut [T], slopes: &mut [T]) {
-        if self.springs.is_none() {
+        if !matches!(self.wall, Some(Wall::Springs(_))) {
             return self.law.tractions_and_slopes(first, gaps, tractions, slopes);
         }
         self.evaluate(Of::Traction, first, gaps, tractions);
@@ -144,12 +180,13 @@ impl<'a, T: Real> Potential<'a, T> {
 
     /// The energies, tractions or slopes of the law alone.
     ///
-    /// A law is defined for g ≥ 0; where the surfaces interpenetrate it goes on as its tangent at g = 0.
+    /// A law is defined for g ≥ 0; where the surfaces interpenetrate springs it goes on as its tangent at g = 0.
     pub(crate) fn law(&self, of: Of, first: usize, gaps: &[T], out: &mut [T]) {
         if self.law.is_zero() {
             return out.fill(T::zero());
         }
-        if self.projects() || gaps.iter().all(|&gap| gap >= T::zero()) {
+        let springs = matches!(self.wall, Some(Wall::Springs(_)));
+        if !springs || gaps.iter().all(|&gap| gap >= T::zero()) {
             return evaluate(self.law, of, first, gaps, out);
         }
         let (mut apart, mut at_contact) = ([T::zero(); CHUNK], [T::zero(); CHUNK]);
@@ -167,10 +204,26 @@ impl<'a, T: Real> Potential<'a, T> {
         }
     }
 
-    /// The number of nodes in contact with springs, and the energy of the springs.
-    pub(crate) fn pressed(&self, first: usize, gaps: &[T]) -> [f64; 2] {
+    /// The tractions of the attraction alone, of the local tractions of nodes at these gaps.
+    pub(crate) fn attractions(&self, first: usize, gaps: &[T], tractions: &[T], out: &mut [T]) {
+        match self.wall {
+            Some(Wall::Springs(_)) => self.law(Of::Traction, first, gaps, out),
+            Some(Wall::None) => out.iter_mut().zip(tractions).for_each(|(out, &t)| *out = t.max(T::zero())),
+            Some(Wall::Rigid) | None => out.copy_from_slice(tractions),
+        }
+    }
+
+    /// The number of nodes that springs or the law press apart, and the energy of the springs.
+    pub(crate) fn pressed(&self, first: usize, gaps: &[T], tractions: &[T]) -> [f64; 2] {
         let mut sums = [0.0; 2];
-        let Some(springs) = self.springs else { return sums };
+        let springs = match self.wall {
+            Some(Wall::Springs(springs)) => springs,
+            Some(Wall::None) => {
+                sums[0] = tractions.iter().filter(|&&traction| traction < T::zero()).count() as f64;
+                return sums;
+            }
+            _ => return sums,
+        };
         for (i, &gap) in gaps.iter().enumerate() {
             let touches = gap <= T::zero() || springs.traction(first + i, gap) < T::zero();
             sums[0] += f64::from(u8::from(touches));
@@ -181,7 +234,7 @@ impl<'a, T: Real> Potential<'a, T> {
 
     /// The contact pressures at nodes of these gaps and full elastic pressures.
     pub(crate) fn contact_pressures(&self, first: usize, gaps: &[T], pressures: &[T], contact: &mut [T]) {
-        if let Some(springs) = self.springs {
+        if let Some(Wall::Springs(springs)) = self.wall {
             let pressed = contact.iter_mut().zip(gaps).enumerate();
             return pressed.for_each(|(i, (contact, &gap))| *contact = -springs.traction(first + i, gap));
         }
@@ -189,6 +242,9 @@ impl<'a, T: Real> Potential<'a, T> {
             return contact.fill(T::zero());
         }
         self.law(Of::Traction, first, gaps, contact);
+        if self.is_soft() {
+            return contact.iter_mut().for_each(|contact| *contact = (-*contact).max(T::zero()));
+        }
         for ((contact, &gap), &p) in contact.iter_mut().zip(gaps).zip(pressures) {
             *contact = if gap <= T::zero() { (p + *contact).max(T::zero()) } else { T::zero() };
         }

@@ -164,8 +164,11 @@ impl<T: Real, L: Real> State<'_, T, L> {
             if trial.blocked {
                 return Some(self.land(*centre, trial)).filter(|trial| trial.slope < 0.0);
             }
-            self.hold(*centre);
-            *centre = 0.0;
+            // without a wall no node is in contact for good: a step so short that none is clipped descends
+            if self.projects() || !trial.clipped {
+                self.hold(*centre);
+                *centre = 0.0;
+            }
             self.step_length *= HELD;
         }
         None
@@ -314,7 +317,10 @@ impl<T: Real, L: Real> State<'_, T, L> {
         let stiff = quadratic + slopes > LEAST_CURVATURE * quadratic;
         let curvature = if stiff { quadratic + slopes } else { LEAST_CURVATURE * quadratic };
         let best = (-trial.slope / curvature).min(FARTHEST);
-        let reach = if local.projects() { trial.reach.max(1.0) } else { f64::INFINITY };
+        let reach = match () {
+            () if local.projects() => trial.reach.max(1.0),
+            () => 0.5 * trial.reach,
+        };
         let mut length = match trial.clipped {
             true if best >= WHOLE => 1.0,
             true => best,

@@ -3,6 +3,7 @@
 use ndarray::{Array2, ArrayRef2, CowArray, Ix2};
 
 use crate::adhesion::AdhesionLaw;
+use crate::constraint::Wall;
 use crate::error::{Error, Result};
 use crate::field;
 use crate::problem::{Load, PressedFlat, Window};
@@ -65,7 +66,7 @@ pub(super) fn uniform_start<T: Real>(law: &dyn AdhesionLaw<T>, flat: &PressedFla
     match load {
         Load::Gap(gap) => gap,
         _ if law.is_zero() => 2.0 * flat.rms_height,
-        _ => 0.0,
+        _ => law.rest().map_or(0.0, T::widen),
     }
 }
 
@@ -100,4 +101,19 @@ pub(super) fn given_start<T: Real>(
         }
     }
     Ok(gap)
+}
+
+/// Refuses a law that is not made for a wall.
+pub(crate) fn check_wall<T: Real>(law: &dyn AdhesionLaw<T>, wall: Wall<'_, T>) -> Result<()> {
+    let (wall, reason) = match wall {
+        Wall::None if law.rest().is_none() => {
+            ("no wall", "the adhesion law does not repel, so that nothing would keep the surfaces apart: choose a wall")
+        }
+        Wall::Rigid | Wall::Springs(_) if !law.energy(T::zero()).is_finite() => (
+            "a wall at zero gap",
+            "the adhesion law has no bound there: solve it without a wall (NoWall), or cut it at its gap of rest",
+        ),
+        _ => return Ok(()),
+    };
+    Err(Error::Wall { wall, reason })
 }

@@ -10,6 +10,7 @@ mod exact;
 mod exact_solutions;
 mod extremes;
 mod free;
+mod laws;
 mod light_loads;
 mod maugis_dugdale;
 mod nested;

@@ -6,6 +6,7 @@ mod bench;
 #[cfg(unix)]
 mod commands;
 mod hostile;
+mod laws_tool;
 mod prepare;
 mod scene_tool;
 mod surface_tool;

@@ -12,6 +12,7 @@ use asperity::{
 use ndarray::Array2;
 use serde_json::Value;
 
+use crate::adhesion::Wall;
 use crate::options::Scalar;
 use crate::outcome::Outcome;
 use crate::progress::Progress;
@@ -21,6 +22,8 @@ pub struct Case {
     pub modulus: f64,
     pub control: Control,
     pub settings: Settings,
+    /// What keeps the surfaces apart.
+    pub wall: Wall,
     /// Whether to test the stability of the solution.
     pub stability: bool,
     /// Whether to go on from an unstable solution.
@@ -64,6 +67,8 @@ pub struct Account {
     pub stability: Option<Steadiness>,
     /// The unstable equilibria on the way to the solution, in order.
     pub departures: Vec<Left>,
+    /// The node with the largest work of adhesion, where that varies.
+    pub strongest: Option<(usize, usize)>,
     /// The warnings, as a report lists them.
     pub warnings: Value,
 }
@@ -81,7 +86,7 @@ pub fn solve<T: Scalar, L: AdhesionLaw<T>>(
     let mut problem = Problem::new(&surface, Westergaard::new(grid, case.modulus)?, law)?;
     drop(surface);
     let start = start.as_ref().map_or(Start::Default, |start| Start::From(start));
-    let mut solver = Solver::new(case.settings);
+    let mut solver = Solver { settings: case.settings, constraint: case.wall };
     let mut solution = solver.solve_with(&mut problem, case.control, start, |state| {
         progress.update(state);
         ControlFlow::Continue(())
@@ -91,9 +96,13 @@ pub fn solve<T: Scalar, L: AdhesionLaw<T>>(
         if !case.stability {
             break None;
         }
-        let found = StabilityTest::default().run(&mut problem, case.control, &solution)?;
+        let found = StabilityTest::default().run_with(&mut problem, &case.wall, case.control, &solution)?;
         let leaves = case.leave && found.verdict == Verdict::Unstable && departures.len() < MOST_DEPARTURES;
-        let left = if leaves { found.leave(&mut solver, &mut problem, case.control, &solution)? } else { None };
+        let left = if leaves {
+            found.leave(&mut Solver::new(case.settings), &mut problem, case.control, &solution)?
+        } else {
+            None
+        };
         let Some(left) = left.filter(|left| left.energy_drop > 0.0) else {
             break Some(steadiness(found));
         };
@@ -114,10 +123,18 @@ pub fn solve_nested<T: Scalar, L: AdhesionLaw<T>>(
 ) -> Outcome<(Solution<T>, Account)> {
     let clock = Instant::now();
     let half_space = |grid| Westergaard::new(grid, case.modulus);
-    let found = Nested::new(case.settings).solve_observed(surface, half_space, law, case.control, |grid, state| {
-        progress.update_on(grid, state);
-        ControlFlow::Continue(())
-    })?;
+    let Nested { coarse_tolerance, coarsest, .. } = Nested::default();
+    let solver = Solver { settings: case.settings, constraint: case.wall };
+    let found = Nested { solver, coarse_tolerance, coarsest }.solve_observed(
+        surface,
+        half_space,
+        law,
+        case.control,
+        |grid, state| {
+            progress.update_on(grid, state);
+            ControlFlow::Continue(())
+        },
+    )?;
     let applications = found.equivalent_applications();
     let NestedSolution { solution, levels, .. } = found;
     account(solution, surface.grid(), Some((levels, applications)), clock)
@@ -144,6 +161,7 @@ fn account<T: Scalar>(
         seconds,
         stability: None,
         departures: Vec::new(),
+        strongest: None,
         warnings: Value::Array(Vec::new()),
     };
     Ok((solution, account))

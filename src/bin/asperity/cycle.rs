@@ -9,12 +9,13 @@ use clap::{ArgGroup, Args};
 use ndarray::Array2;
 use serde_json::{Map, Value, json};
 
+use crate::adhesion::{Adhesion, AdhesionOptions, Wall};
 use crate::csv;
 use crate::identity::{Identity, identity};
 use crate::journal::Row;
 use crate::loads::{self, Loads, name_and_value};
 use crate::numbers::Style;
-use crate::options::{self, AdhesionOptions, Given, Precision, ProblemOptions, Scalar, SolverOptions, SurfaceOptions};
+use crate::options::{self, Given, Precision, ProblemOptions, Scalar, SolverOptions, SurfaceOptions};
 use crate::outcome::Outcome;
 use crate::output::OutputFile;
 use crate::printing::{Printing, say};
@@ -123,6 +124,9 @@ const COLUMNS: [&str; 18] = [
 /// Runs the command; whether all rows converged.
 pub fn run(options: &Options, scene: &Scene) -> Outcome<bool> {
     options.check_files()?;
+    if options.adhesion.wall == Wall::None {
+        return Err("a cycle needs a wall: give --wall hard, or follow the loads by asperity sweep".into());
+    }
     let given = options.table().problem.read()?;
     match options.solver.precision {
         Precision::F32 => options.run::<f32>(given, scene),
@@ -131,16 +135,16 @@ pub fn run(options: &Options, scene: &Scene) -> Outcome<bool> {
 }
 
 impl Options {
-    fn run<T: Scalar>(&self, Given { surface, unit, start }: Given, scene: &Scene) -> Outcome<bool> {
+    fn run<T: Scalar>(&self, Given { surface, adhesion, unit, start }: Given<'_>, scene: &Scene) -> Outcome<bool> {
         let loads = self.loads();
         if loads.len() < 2 {
             return Err("a cycle needs two turning points at least: give more loads, with commas between".into());
         }
-        let warnings = Warnings::of_input::<T>(self.strictness, &surface, self.table().problem)?;
+        let warnings = Warnings::of_input::<T>(self.strictness, &surface, &adhesion, self.table().problem)?;
         let grid = *surface.grid();
-        let identity = self.identity(&surface, start.as_ref());
+        let identity = self.identity(&surface, &adhesion, start.as_ref());
         let operator = Westergaard::new(grid, self.surface.modulus)?;
-        let mut problem = Problem::new(&surface, operator, self.adhesion.law::<T>()?)?;
+        let mut problem = Problem::new(&surface, operator, adhesion.law::<T>()?)?;
         drop(surface);
         let mut solver = Solver::new(self.solver.settings());
         let settings = PathSettings {
@@ -208,8 +212,8 @@ impl Options {
     }
 
     /// The inputs on which the rows depend.
-    fn identity(&self, surface: &Surface, start: Option<&Array2<f64>>) -> Identity {
-        let mut identity = identity(self.table().problem, surface, start);
+    fn identity(&self, surface: &Surface, adhesion: &Adhesion<'_>, start: Option<&Array2<f64>>) -> Identity {
+        let mut identity = identity(self.table().problem, surface, adhesion, start);
         let loads = self.loads();
         let control = loads.first().map_or("none", |load| name_and_value(*load).0);
         let values: Vec<_> = loads.iter().map(|load| name_and_value(*load).1).collect();

@@ -4,6 +4,7 @@ use asperity::Surface;
 use ndarray::Array2;
 use serde_json::{Map, Value, json};
 
+use crate::adhesion::Adhesion;
 use crate::hash::Hash;
 use crate::options::ProblemOptions;
 
@@ -14,6 +15,7 @@ pub type Identity = Map<String, Value>;
 pub fn identity(
     ProblemOptions { surface: options, adhesion, solver }: ProblemOptions<'_>,
     surface: &Surface,
+    given: &Adhesion<'_>,
     start: Option<&Array2<f64>>,
 ) -> Identity {
     let (grid, settings) = (surface.grid(), solver.settings());
@@ -28,6 +30,12 @@ pub fn identity(
         "law": adhesion.law.to_string(),
         "work_of_adhesion": number(adhesion.work_of_adhesion),
         "range": number(adhesion.range),
+        "exponent": number(adhesion.exponent),
+        "hamaker": number(adhesion.hamaker),
+        "law_table": given.table.as_ref().map_or("none".to_owned(), field),
+        "cut_off": number(adhesion.cut_off),
+        "work_of_adhesion_map": given.works.as_ref().map_or("none".to_owned(), field),
+        "wall": adhesion.wall.to_string(),
         "precision": solver.precision.name(),
         "method": settings.method.name(),
         "tolerance": solver.tolerance().to_string(),

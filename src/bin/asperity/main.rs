@@ -1,12 +1,13 @@
 //! The command-line tool: `asperity demo` solves a built-in case, `asperity solve` one given by files, `asperity sweep`
 //! many loads and `asperity cycle` a path with jumps; `asperity surface` makes files of heights, `asperity prepare`
-//! makes them of measured maps, and `asperity stats` measures them. `asperity run` does any of these by a scene file,
-//! which every run leaves beside its results.
+//! makes them of measured maps, and `asperity stats` measures them. `asperity laws` lists the
+//! adhesion laws. `asperity run` does any of these by a scene file, which every run leaves beside its results.
 
 // the commands
 mod completions;
 mod cycle;
 mod demo;
+mod laws;
 mod prepare;
 mod run;
 mod solve;
@@ -15,6 +16,7 @@ mod surface;
 mod sweep;
 
 // the parts of which commands are made
+mod adhesion;
 mod case;
 mod csv;
 mod hash;
@@ -69,6 +71,7 @@ const EXAMPLES: &str = "\
   asperity sweep --heights heights.npy --mean-pressures 1e-3:1e-1:20:log --out sweep.csv
   asperity cycle --heights heights.npy --law exponential --work-of-adhesion 1e-4 \\
     --range 4e-3 --mean-gaps 0.05,0.02,0.05 --out cycle.csv --plot cycle.png
+  asperity laws
   asperity solve --help";
 
 #[derive(Subcommand)]
@@ -81,6 +84,7 @@ enum Command {
     Prepare(prepare::Options),
     Surface(surface::Options),
     Stats(stats::Options),
+    Laws(Box<laws::Options>),
     Completions(completions::Options),
 }
 
@@ -124,6 +128,7 @@ fn execute(command: Command, scene: &Scene) -> ExitCode {
         Command::Prepare(options) => prepare::run(&options, scene),
         Command::Surface(options) => surface::run(&options, scene),
         Command::Stats(options) => stats::run(&options),
+        Command::Laws(options) => laws::run(&options),
         Command::Completions(options) => completions::run(&options, Tool::command()),
         Command::Run(_) => Err("a scene cannot run another one: name a command in it".into()),
     };

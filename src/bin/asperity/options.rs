@@ -1,14 +1,14 @@
 //! The options that more than one command has.
 
-use std::fmt;
 use std::path::PathBuf;
 
 use asperity::io::read_field;
-use asperity::{AdhesionLaw, Criterion, Error, Exponential, Grid, MaugisDugdale, NoAdhesion, Real, Settings, Surface};
+use asperity::{Criterion, Error, Grid, Real, Settings, Surface};
 use clap::{Args, ValueEnum};
 use ndarray::Array2;
 use ndarray_npy::WritableElement;
 
+use crate::adhesion::{Adhesion, AdhesionOptions};
 use crate::heights;
 use crate::outcome::Outcome;
 use crate::threads::use_threads;
@@ -29,20 +29,6 @@ pub struct SurfaceOptions {
     #[arg(long, value_name = "E", default_value = "1", allow_hyphen_values = true, value_parser = positive)]
     #[arg(help_heading = "Surface")]
     pub modulus: f64,
-}
-
-/// The adhesion between the surfaces.
-#[derive(Args)]
-pub struct AdhesionOptions {
-    /// Adhesion law
-    #[arg(long, value_enum, default_value_t = Law::None, help_heading = "Adhesion")]
-    pub law: Law,
-    /// Work of adhesion, an energy per area
-    #[arg(long, value_name = "W", allow_hyphen_values = true, value_parser = non_negative, help_heading = "Adhesion")]
-    pub work_of_adhesion: Option<f64>,
-    /// Range of adhesion, a length
-    #[arg(long, value_name = "RHO", allow_hyphen_values = true, value_parser = positive, help_heading = "Adhesion")]
-    pub range: Option<f64>,
 }
 
 /// The method, the accuracy and the start of a solve.
@@ -66,16 +52,6 @@ pub struct SolverOptions {
     /// Gap from which to start, of the shape of the heights; scaled to the mean gap where that is given
     #[arg(long, value_name = "FILE", help_heading = "Solver")]
     pub initial_gap: Option<PathBuf>,
-}
-
-#[derive(Clone, Copy, PartialEq, ValueEnum)]
-pub enum Law {
-    /// no adhesion
-    None,
-    /// constant traction W/RHO up to a gap of RHO
-    MaugisDugdale,
-    /// traction W/RHO exp(-gap/RHO)
-    Exponential,
 }
 
 #[derive(Clone, Copy, ValueEnum)]
@@ -109,22 +85,24 @@ pub struct ProblemOptions<'a> {
 }
 
 /// The fields that the options name, read from their files.
-pub struct Given {
+pub struct Given<'a> {
     pub surface: Surface,
+    pub adhesion: Adhesion<'a>,
     /// The unit of length, if the file of the surface has one
     pub unit: Option<String>,
     /// The gap from which to start, if there is one
     pub start: Option<Array2<f64>>,
 }
 
-impl ProblemOptions<'_> {
+impl<'a> ProblemOptions<'a> {
     /// Checks the options, reads their files, and starts the threads.
-    pub fn read(self) -> Outcome<Given> {
+    pub fn read(self) -> Outcome<Given<'a>> {
         self.adhesion.check()?;
         let (surface, unit) = self.surface.surface_and_unit()?;
+        let adhesion = self.adhesion.read(Some(surface.grid()))?;
         let start = self.solver.start(surface.grid())?;
         use_threads(self.solver.threads)?;
-        Ok(Given { surface, unit, start })
+        Ok(Given { surface, adhesion, unit, start })
     }
 }
 
@@ -142,35 +120,6 @@ impl SurfaceOptions {
     /// The surface of the file, and its unit of length if the file has one.
     fn surface_and_unit(&self) -> Outcome<(Surface, Option<String>)> {
         heights::surface(&self.heights, heights::map(&self.heights, self.lengths.as_deref())?)
-    }
-}
-
-impl AdhesionOptions {
-    /// Refuses a law without its parameters, and parameters without a law.
-    pub fn check(&self) -> Outcome<()> {
-        let parameters =
-            [("--work-of-adhesion", self.work_of_adhesion, "an energy per area"), ("--range", self.range, "a length")];
-        for (name, value, what) in parameters {
-            match (self.law, value) {
-                (Law::None, Some(value)) => {
-                    let remedy = "choose --law exponential or --law maugis-dugdale, or leave it out";
-                    return Err(format!("{name} is {value}, but there is no adhesion: {remedy}").into());
-                }
-                (Law::None, None) | (_, Some(_)) => {}
-                (law, None) => return Err(format!("--law {law} lacks {name}: give it, {what}").into()),
-            }
-        }
-        Ok(())
-    }
-
-    /// The law; its parameters are there after [`Self::check`].
-    pub fn law<T: Real>(&self) -> asperity::Result<Box<dyn AdhesionLaw<T>>> {
-        let (work, range) = (self.work_of_adhesion.unwrap_or_default(), self.range.unwrap_or_default());
-        Ok(match self.law {
-            Law::None => Box::new(NoAdhesion),
-            Law::MaugisDugdale => Box::new(MaugisDugdale::new(work, range)?),
-            Law::Exponential => Box::new(Exponential::new(work, range)?),
-        })
     }
 }
 
@@ -205,16 +154,6 @@ impl SolverOptions {
             max_iterations: self.max_iterations.unwrap_or(default.max_iterations),
             ..default
         }
-    }
-}
-
-impl fmt::Display for Law {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::None => "none",
-            Self::MaugisDugdale => "maugis-dugdale",
-            Self::Exponential => "exponential",
-        })
     }
 }
 

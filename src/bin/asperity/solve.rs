@@ -3,15 +3,15 @@
 use std::path::PathBuf;
 
 use asperity::io::{OutputFolder, write_npy, write_npz, write_vti};
-use asperity::{Control, Grid, Level, Status, Surface};
+use asperity::{Control, Grid, Level, Status};
 use clap::{ArgGroup, Args, ValueEnum};
-use ndarray::Array2;
 use serde_json::{Value, json};
 
+use crate::adhesion::{AdhesionOptions, Law, Wall};
 use crate::case::{self, Account, Case, Left};
 use crate::loads::name_and_value;
 use crate::numbers::Style;
-use crate::options::{self, AdhesionOptions, Law, Precision, ProblemOptions, Scalar, SolverOptions, SurfaceOptions};
+use crate::options::{self, Given, Precision, ProblemOptions, Scalar, SolverOptions, SurfaceOptions};
 use crate::outcome::Outcome;
 use crate::output::at_destination;
 use crate::output::{output_folder, write_text};
@@ -126,6 +126,9 @@ const PICTURES: [&str; 2] = ["contact.png", "pressure.png"];
 pub fn run(options: &Options, scene: &Scene) -> Outcome<bool> {
     let problem = options.problem();
     problem.adhesion.check()?;
+    if options.leave && options.adhesion.wall == Wall::None {
+        return Err("--leave needs a wall: give --stability alone, or --wall hard".into());
+    }
     let pictures = PICTURES.iter().filter(|_| !options.no_pictures);
     let mode = options.case().stability.then_some(&MODE);
     let arrays = FIELDS.iter().chain(mode).filter(|_| options.writes(Format::Npy));
@@ -136,11 +139,12 @@ pub fn run(options: &Options, scene: &Scene) -> Outcome<bool> {
     // Only a trial: a solve that is interrupted leaves nothing behind.
     drop(output_folder(&options.out, &names, options.force)?);
     let given = problem.read()?;
-    let length_unit = options.length_unit.as_deref().or(given.unit.as_deref());
+    let unit = given.unit.clone();
+    let length_unit = options.length_unit.as_deref().or(unit.as_deref());
     let job = Job { options, scene, names, case: options.case(), length_unit };
     match options.solver.precision {
-        Precision::F32 => job.run::<f32>(given.surface, given.start),
-        Precision::F64 => job.run::<f64>(given.surface, given.start),
+        Precision::F32 => job.run::<f32>(given),
+        Precision::F64 => job.run::<f64>(given),
     }
 }
 
@@ -160,7 +164,14 @@ impl Options {
             (None, pressure) => Control::MeanPressure(pressure.unwrap_or_default()),
         };
         let (modulus, settings) = (self.surface.modulus, self.solver.settings());
-        Case { modulus, control, settings, stability: self.stability || self.leave, leave: self.leave }
+        Case {
+            modulus,
+            control,
+            settings,
+            wall: self.adhesion.wall,
+            stability: self.stability || self.leave,
+            leave: self.leave,
+        }
     }
 
     /// All that one needs for understanding a run later; numbers that are not finite become null.
@@ -201,6 +212,7 @@ impl Options {
             })),
             "departures": self.leave.then(|| account.departures.iter().map(departure).collect::<Vec<_>>()),
             "mu_rho": report.mu_rho,
+            "mu_rho_node": account.strongest,
             "under_resolved": report.under_resolved,
             "warnings": account.warnings,
             "seconds": account.seconds,
@@ -221,14 +233,15 @@ struct Job<'a> {
 }
 
 impl Job<'_> {
-    fn run<T: Scalar>(&self, surface: Surface, start: Option<Array2<f64>>) -> Outcome<bool> {
+    fn run<T: Scalar>(&self, Given { surface, adhesion, start, .. }: Given<'_>) -> Outcome<bool> {
         let Options { out, force, printing, .. } = self.options;
         let grid = *surface.grid();
         let start = start.map(T::field);
         let progress = Progress::new("", self.case.settings.tolerance_in::<T>(), grid.nodes(), printing.without_bars());
-        let mut warnings = Warnings::of_input::<T>(self.options.strictness, &surface, self.options.problem())?;
+        let mut warnings =
+            Warnings::of_input::<T>(self.options.strictness, &surface, &adhesion, self.options.problem())?;
         warnings.say();
-        let law = self.options.adhesion.law()?;
+        let law = adhesion.law()?;
         let (solution, mut account) = if self.options.nested {
             case::solve_nested::<T, _>(&surface, law, &self.case, progress)?
         } else {
@@ -236,6 +249,7 @@ impl Job<'_> {
         };
         warnings.look_at(&solution, self.case.modulus)?;
         account.warnings = warnings.report();
+        account.strongest = adhesion.strongest();
 
         let folder = output_folder(out, &self.names, *force)?;
         let written = self.write(&folder, grid, &solution, &account);

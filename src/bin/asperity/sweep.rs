@@ -9,11 +9,12 @@ use clap::{ArgGroup, Args, ValueEnum};
 use ndarray::Array2;
 use serde_json::{Map, Value, json};
 
+use crate::adhesion::{Adhesion, AdhesionOptions};
 use crate::csv;
 use crate::identity::{Identity, identity};
 use crate::journal::Row;
 use crate::loads::{self, Loads};
-use crate::options::{AdhesionOptions, Given, Precision, ProblemOptions, Scalar, SolverOptions, SurfaceOptions};
+use crate::options::{Given, Precision, ProblemOptions, Scalar, SolverOptions, SurfaceOptions};
 use crate::outcome::Outcome;
 use crate::output::at_destination;
 use crate::printing::Printing;
@@ -118,17 +119,17 @@ pub fn run(options: &Options, scene: &Scene) -> Outcome<bool> {
 }
 
 impl Options {
-    fn run<T: Scalar>(&self, Given { surface, unit, start }: Given, scene: &Scene) -> Outcome<bool> {
+    fn run<T: Scalar>(&self, Given { surface, adhesion, unit, start }: Given<'_>, scene: &Scene) -> Outcome<bool> {
         let (control, loads) = self.loads();
         if let Some(&value) = loads.iter().find(|&&load| !T::lit(load).is_finite()) {
             let (name, requirement) = ("load", "finite in the precision of the fields");
             return Err(Error::Value { name, value, requirement }.into());
         }
-        let warnings = Warnings::of_input::<T>(self.strictness, &surface, self.table().problem)?;
+        let warnings = Warnings::of_input::<T>(self.strictness, &surface, &adhesion, self.table().problem)?;
         let grid = *surface.grid();
-        let identity = self.identity(&surface, start.as_ref());
+        let identity = self.identity(&surface, &adhesion, start.as_ref());
         let operator = Westergaard::new(grid, self.surface.modulus)?;
-        let mut problem = Problem::new(&surface, operator, self.adhesion.law::<T>()?)?;
+        let mut problem = Problem::new(&surface, operator, adhesion.law::<T>()?)?;
         drop(surface);
         let format = self.format()?;
         let header = if format == Format::Csv { COLUMNS.join(",") + "\n" } else { String::new() };
@@ -137,8 +138,8 @@ impl Options {
         let done = table.rows();
         let controls: Vec<_> = loads.iter().map(|&load| control(load)).collect();
 
-        let law = self.adhesion.law::<T>()?;
-        let mut solver = Solver::new(self.solver.settings());
+        let law = adhesion.law::<T>()?;
+        let mut solver = Solver { settings: self.solver.settings(), constraint: self.adhesion.wall };
         let first = done.saturating_sub(saved.fields.len());
         let history = controls[first..done].iter().copied().zip(saved.fields.into_iter().map(T::field)).collect();
         let mut sweep = Sweep::new(&mut solver, &mut problem, controls[done..].iter().copied()).continuing(history);
@@ -204,9 +205,9 @@ impl Options {
     }
 
     /// The inputs on which the rows depend beside the loads.
-    fn identity(&self, surface: &Surface, start: Option<&Array2<f64>>) -> Identity {
+    fn identity(&self, surface: &Surface, adhesion: &Adhesion<'_>, start: Option<&Array2<f64>>) -> Identity {
         let (control, _) = loads::name_and_value(self.loads().0(0.0));
-        let mut identity = identity(self.table().problem, surface, start);
+        let mut identity = identity(self.table().problem, surface, adhesion, start);
         let csv = self.format().is_ok_and(|format| format == Format::Csv);
         identity.insert("control".to_owned(), control.into());
         identity.insert("fields".to_owned(), if self.fields.is_some() { "kept" } else { "not kept" }.into());

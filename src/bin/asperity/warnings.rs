@@ -4,6 +4,7 @@ use asperity::{Solution, Surface, Warning};
 use clap::Args;
 use serde_json::{Value, json};
 
+use crate::adhesion::Adhesion;
 use crate::options::{ProblemOptions, Scalar};
 use crate::outcome::Outcome;
 use crate::printing::complain;
@@ -28,10 +29,11 @@ impl Warnings {
     pub fn of_input<T: Scalar>(
         strictness: Strictness,
         surface: &Surface,
+        adhesion: &Adhesion<'_>,
         options: ProblemOptions<'_>,
     ) -> Outcome<Self> {
         let mut warnings = Self { strictness, found: Vec::new(), said: 0 };
-        let law = options.adhesion.law::<T>()?;
+        let law = adhesion.law::<T>()?;
         let found =
             Warning::of_surface(surface).into_iter().chain(Warning::of_law(&law, surface, options.surface.modulus));
         warnings.add(found.collect())?;

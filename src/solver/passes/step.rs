@@ -8,7 +8,7 @@ use super::{Fields, count, idles};
 use crate::field::{CHUNK, Partial, SUMS, read, write};
 use crate::par::IndexedParallelIterator;
 use crate::real::{Real, cast};
-use crate::solver::potential::{Of, Potential};
+use crate::solver::potential::{Least, Of, Potential};
 use crate::vector::{sums, vectors};
 
 /// A step before it is clipped.
@@ -85,10 +85,11 @@ fn whole<T: Real>(scale: T, gap: T, change: T) -> T {
     if scale == T::one() { change } else { scale * (gap + change) - gap }
 }
 
-/// The change c of a step at one node, and whether it was clipped.
+/// The change c of a step at one node, and whether it was clipped: the gap becomes no less than zero where a wall is;
+/// where the law repels, no less than the gap of rest, and from below it than a share of what it is.
 #[inline(always)]
 fn clipped_change<T: Real, L: Real>(
-    projects: bool,
+    least: Option<Least<T>>,
     attempt: Attempt<T>,
     gap: T,
     residual: L,
@@ -99,14 +100,16 @@ fn clipped_change<T: Real, L: Real>(
     let [z, change]: [T; 2] = [cast(z), cast(change)];
     let kept = if keep == T::zero() { T::zero() } else { keep * (change - mean) };
     let next = if idles(residual) { gap } else { gap - length * (z - centre) + kept };
-    let clipped = projects & (next < T::zero());
-    (cast(if clipped { -gap } else { next - gap }), clipped)
+    match least.map(|least| least.after(gap)) {
+        Some(least) if next < least => (cast(least - gap), true),
+        _ => (cast(next - gap), false),
+    }
 }
 
 /// The largest a with g + a·c ≥ 0 at one node, for a gap g and a change c.
 #[inline(always)]
-fn reach<T: Real, L: Real>(projects: bool, gap: T, change: L) -> f64 {
-    if projects & (change < L::zero()) { (gap / -cast::<_, T>(change)).widen() } else { f64::INFINITY }
+fn reach<T: Real, L: Real>(positive: bool, gap: T, change: L) -> f64 {
+    if positive & (change < L::zero()) { (gap / -cast::<_, T>(change)).widen() } else { f64::INFINITY }
 }
 
 /// Writes the clipped change c of a step; `surface` is K⁻¹h under gap control.
@@ -133,13 +136,14 @@ pub(in crate::solver) fn trial<T: Real, L: Real>(
     };
     let total = match surface {
         None => local.run(reducer, chunks, |local, first, (((gap, residual), z), change)| {
-            let projects = local.projects();
+            let (least, lands) = (local.least(), local.projects());
+            let positive = least.is_some_and(|least| least.depth == T::zero());
             let mut part = sums!(5, [gap, residual, z], [change], |i| {
                 let (g, r) = (gap[i], residual[i]);
-                let (c, clipped) = clipped_change(projects, attempt, g, r, z[i], change[i]);
+                let (c, clipped) = clipped_change(least, attempt, g, r, z[i], change[i]);
                 change[i] = c;
-                let blocked = clipped & (r > L::zero()) & (g > T::zero());
-                let (low, [r, c]) = (reach(projects, g, c), [r, c].map(L::widen));
+                let blocked = lands & clipped & (r > L::zero()) & (g > T::zero());
+                let (low, [r, c]) = (reach(positive, g, c), [r, c].map(L::widen));
                 ([c, count(clipped), count(blocked), r * c, c * c], low)
             });
             slopes(local, &mut part, first, gap, change);
@@ -148,13 +152,14 @@ pub(in crate::solver) fn trial<T: Real, L: Real>(
         Some(surface) => {
             let chunks = chunks.zip(read(surface));
             local.run(reducer, chunks, |local, first, ((((gap, residual), z), change), surface)| {
-                let projects = local.projects();
+                let (least, lands) = (local.least(), local.projects());
+                let positive = least.is_some_and(|least| least.depth == T::zero());
                 let mut part = sums!(8, [gap, residual, z, surface], [change], |i| {
                     let (g, r) = (gap[i], residual[i]);
-                    let (c, clipped) = clipped_change(projects, attempt, g, r, z[i], change[i]);
+                    let (c, clipped) = clipped_change(least, attempt, g, r, z[i], change[i]);
                     change[i] = c;
-                    let blocked = count(clipped & (r > L::zero()) & (g > T::zero()));
-                    let low = reach(projects, g, c);
+                    let blocked = count(lands & clipped & (r > L::zero()) & (g > T::zero()));
+                    let low = reach(positive, g, c);
                     let ([g, h], [r, c]) = ([g, surface[i]].map(T::widen), [r, c].map(L::widen));
                     ([c, count(clipped), blocked, r * c, c * c, r * g, c * h, g * h], low)
                 });
@@ -223,7 +228,7 @@ pub(in crate::solver) fn advance<T: Real, L: Real>(
             residual[i] = cast(pressure[i] + tractions[i] + offset - before);
         });
         if !local.is_zero() {
-            tally_local(&mut part, local, first, gap, tractions, local.has_springs());
+            tally_local(&mut part, local, first, gap, tractions, local.is_soft());
             let product =
                 sums!(1, [step, residual], [], |i| { ([step[i].widen() * residual[i].widen()], f64::INFINITY) });
             part.sum[PRODUCT] = product.sum[0];

@@ -96,12 +96,12 @@ pub(super) fn tally_local<T: Real>(
     let mut buffer = [T::zero(); CHUNK];
     let out = &mut buffer[..gaps.len()];
     let sum = |values: &[T]| sums!(1, [values], [], |i| ([values[i].widen()], f64::INFINITY)).sum[0];
-    if !local.has_springs() {
+    if !local.is_soft() {
         part.sum[5] = sum(tractions);
     } else {
-        local.law(Of::Traction, first, gaps, out);
+        local.attractions(first, gaps, tractions, out);
         part.sum[5] = sum(out);
-        [part.sum[4], part.sum[7]] = local.pressed(first, gaps);
+        [part.sum[4], part.sum[7]] = local.pressed(first, gaps, tractions);
     }
     if energies {
         local.law(Of::Energy, first, gaps, out);

@@ -1,0 +1,109 @@
+//! The law of Morse: it attracts at a distance and repels close by, both exponentially.
+
+use super::AdhesionLaw;
+use super::exponentials::exponentials;
+use crate::error::{Error, Result};
+use crate::real::Real;
+
+/// The law of Morse, with the gap measured from the distance of rest.
+///
+/// ```math
+/// φ(g) = w (e² − 2e) ,   φ'(g) = 2w/ρ (e − e²) ,   φ''(g) = 2w/ρ² (2e² − e) ,   e = exp(−g/ρ)
+/// ```
+///
+/// The surfaces attract each other at g > 0, by w/2ρ at most, at g = ρ ln 2, and repel each other at g < 0, as strongly
+/// as is needed. With a wall at g = 0 the attraction is what counts. With [`NoWall`](crate::NoWall) the law keeps the
+/// surfaces apart by itself, and contact is where it repels: g < 0, as far below zero as the load presses.
+///
+/// Morse, *Phys. Rev.* 34 (1929).
+///
+/// ```
+/// use asperity::{AdhesionLaw, Morse, check_law};
+/// let law = Morse::new(0.05, 0.5e-9)?;
+/// assert_eq!((law.energy(0.0), law.traction(0.0)), (-0.05, 0.0));
+/// assert!((law.traction(0.5e-9 * 2.0_f64.ln()) - 0.05 / (2.0 * 0.5e-9)).abs() < 1.0);
+/// check_law::<f64>(&law, 5e-9)?;
+/// # Ok::<(), asperity::Error>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Morse {
+    work_of_adhesion: f64,
+    range: f64,
+}
+
+impl Morse {
+    /// The law with work of adhesion w (energy per area) and range ρ (length), in either precision.
+    ///
+    /// # Errors
+    /// [`Error::Value`] if w or ρ is not positive and finite.
+    pub fn new(work_of_adhesion: f64, range: f64) -> Result<Self> {
+        Error::positive("work of adhesion", work_of_adhesion)?;
+        Error::positive("range of adhesion", range)?;
+        Ok(Self { work_of_adhesion, range })
+    }
+
+    /// The work of adhesion w, as it was given.
+    pub fn work_of_adhesion(&self) -> f64 {
+        self.work_of_adhesion
+    }
+
+    /// The range ρ, as it was given.
+    pub fn range(&self) -> f64 {
+        self.range
+    }
+
+    /// w and ρ, rounded to the precision of the fields.
+    fn rounded<T: Real>(&self) -> (T, T) {
+        (T::lit(self.work_of_adhesion), T::lit(self.range))
+    }
+
+    /// A function of e = exp(−g/ρ) at many gaps.
+    fn each<T: Real>(&self, gaps: &[T], values: &mut [T], of: impl Fn(T) -> T) {
+        exponentials(T::one(), -T::lit(self.range).recip(), gaps, values);
+        values.iter_mut().for_each(|value| *value = of(*value));
+    }
+}
+
+/// The energy in units of w, the traction of w/ρ, and its slope of w/ρ², of e.
+fn energy<T: Real>(e: T) -> T {
+    e * (e - T::lit(2.0))
+}
+fn traction<T: Real>(e: T) -> T {
+    T::lit(2.0) * e * (T::one() - e)
+}
+fn slope<T: Real>(e: T) -> T {
+    T::lit(2.0) * e * (T::lit(2.0) * e - T::one())
+}
+
+impl<T: Real> AdhesionLaw<T> for Morse {
+    fn energy(&self, gap: T) -> T {
+        let (w, range) = self.rounded::<T>();
+        w * energy((-gap / range).exp())
+    }
+    fn traction(&self, gap: T) -> T {
+        let (w, range) = self.rounded::<T>();
+        w / range * traction((-gap / range).exp())
+    }
+    fn slope(&self, gap: T) -> T {
+        let (w, range) = self.rounded::<T>();
+        w / range / range * slope((-gap / range).exp())
+    }
+    fn energies(&self, _: usize, gaps: &[T], energies: &mut [T]) {
+        let (w, _) = self.rounded::<T>();
+        self.each(gaps, energies, |e| w * energy(e));
+    }
+    fn tractions(&self, _: usize, gaps: &[T], tractions: &mut [T]) {
+        let (w, range) = self.rounded::<T>();
+        self.each(gaps, tractions, |e| w / range * traction(e));
+    }
+    fn slopes(&self, _: usize, gaps: &[T], slopes: &mut [T]) {
+        let (w, range) = self.rounded::<T>();
+        self.each(gaps, slopes, |e| w / range / range * slope(e));
+    }
+    fn range(&self) -> T {
+        T::lit(self.range)
+    }
+    fn rest(&self) -> Option<T> {
+        Some(T::zero())
+    }
+}

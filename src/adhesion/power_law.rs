@@ -1,0 +1,110 @@
+//! Power laws, of which van der Waals' attraction between two half-spaces is one.
+
+use std::f64::consts::PI;
+
+use super::AdhesionLaw;
+use crate::error::{Error, Result};
+use crate::real::Real;
+
+/// A power law: an energy that falls with the power n of the distance.
+///
+/// ```math
+/// φ(g) = −w (1 + g/nρ)⁻ⁿ ,   φ'(g) = w/ρ (1 + g/nρ)⁻ⁿ⁻¹ ,   φ''(g) = −(n + 1)/n · w/ρ² (1 + g/nρ)⁻ⁿ⁻²
+/// ```
+///
+/// The larger n, the closer to the [`Exponential`](super::Exponential) law of the same w and ρ. With n = 2 it is the
+/// van der Waals attraction of two half-spaces, [`PowerLaw::van_der_waals`]. Its tail reaches far; [`CutOff`](super::CutOff)
+/// ends it.
+///
+/// ```
+/// use asperity::{AdhesionLaw, PowerLaw};
+/// let law = PowerLaw::new(0.05, 2e-9, 3.0)?;
+/// assert_eq!((law.energy(0.0), law.traction(0.0)), (-0.05, 0.05 / 2e-9));
+/// assert!((law.energy(6e-9) + 0.05 / 8.0).abs() < 1e-17); // twice the distance at contact, 3ρ
+/// # Ok::<(), asperity::Error>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PowerLaw {
+    work_of_adhesion: f64,
+    range: f64,
+    exponent: f64,
+}
+
+impl PowerLaw {
+    /// The law with work of adhesion w (energy per area), range ρ (length) and exponent n of the energy, in either
+    /// precision.
+    ///
+    /// # Errors
+    /// [`Error::Value`] if w is negative, ρ or n not positive, or one of them not finite.
+    pub fn new(work_of_adhesion: f64, range: f64, exponent: f64) -> Result<Self> {
+        Error::non_negative("work of adhesion", work_of_adhesion)?;
+        Error::positive("range of adhesion", range)?;
+        Error::positive("exponent of adhesion", exponent)?;
+        Ok(Self { work_of_adhesion, range, exponent })
+    }
+
+    /// The van der Waals attraction of two half-spaces, φ = −A/12π(D₀ + g)², with Hamaker's constant A (energy) and the
+    /// distance D₀ (length) between the surfaces in contact, often taken to be 0.165 nm.
+    ///
+    /// It is the power law of w = A/12πD₀², ρ = D₀/2 and n = 2. Israelachvili, *Intermolecular and Surface Forces*
+    /// (2011), section 13.
+    ///
+    /// ```
+    /// use asperity::{AdhesionLaw, PowerLaw};
+    /// let law = PowerLaw::van_der_waals(6e-20, 0.165e-9)?;
+    /// assert!((AdhesionLaw::<f64>::work_of_adhesion(&law) - 0.0585).abs() < 1e-4); // J/m²
+    /// # Ok::<(), asperity::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::Value`] if A is negative, D₀ not positive, or one of them not finite.
+    pub fn van_der_waals(hamaker: f64, contact_distance: f64) -> Result<Self> {
+        Error::non_negative("Hamaker's constant", hamaker)?;
+        Error::positive("distance in contact", contact_distance)?;
+        Self::new(hamaker / contact_distance / contact_distance / (12.0 * PI), 0.5 * contact_distance, 2.0)
+    }
+
+    /// The work of adhesion w.
+    pub fn work_of_adhesion(&self) -> f64 {
+        self.work_of_adhesion
+    }
+
+    /// The range ρ.
+    pub fn range(&self) -> f64 {
+        self.range
+    }
+
+    /// The exponent n of the energy.
+    pub fn exponent(&self) -> f64 {
+        self.exponent
+    }
+
+    /// (1 + g/nρ)⁻ⁿ, and (1 + g/nρ)⁻¹.
+    #[inline(always)]
+    fn decay<T: Real>(&self, gap: T) -> (T, T) {
+        let inverse = (T::one() + gap / T::lit(self.exponent * self.range)).recip();
+        let decay = if self.exponent == 2.0 { inverse * inverse } else { inverse.powf(T::lit(self.exponent)) };
+        (decay, inverse)
+    }
+}
+
+impl<T: Real> AdhesionLaw<T> for PowerLaw {
+    fn energy(&self, gap: T) -> T {
+        -T::lit(self.work_of_adhesion) * self.decay(gap).0
+    }
+    fn traction(&self, gap: T) -> T {
+        let (decay, inverse) = self.decay(gap);
+        T::lit(self.work_of_adhesion / self.range) * decay * inverse
+    }
+    fn slope(&self, gap: T) -> T {
+        let (decay, inverse) = self.decay(gap);
+        let n = self.exponent;
+        -T::lit((n + 1.0) / n * self.work_of_adhesion / self.range / self.range) * decay * inverse * inverse
+    }
+    fn range(&self) -> T {
+        T::lit(self.range)
+    }
+    fn is_zero(&self) -> bool {
+        T::lit(self.work_of_adhesion) == T::zero()
+    }
+}

@@ -1,0 +1,156 @@
+//! A law by a table of gaps and tractions, as a force curve gives it.
+
+use super::AdhesionLaw;
+use crate::error::{Error, Result};
+use crate::real::Real;
+
+/// A law whose traction is a monotone cubic through the points of a table.
+///
+/// Between two points the traction is the cubic with slopes by Fritsch and Butland (*SIAM J. Sci. Stat. Comput.* 5
+/// (1984)): it has no extremes that the table has not. The energy is its exact integral, zero at the last
+/// point, from which on there is no traction.
+///
+/// ```
+/// use asperity::{AdhesionLaw, Tabulated, check_law};
+/// // a traction that falls evenly over 2 nm
+/// let law = Tabulated::new(&[0.0, 1e-9, 2e-9], &[50e6, 25e6, 0.0])?;
+/// assert!((AdhesionLaw::<f64>::work_of_adhesion(&law) - 0.05).abs() < 1e-15);
+/// assert_eq!(law.traction(0.5e-9), 37.5e6);
+/// check_law::<f64>(&law, 3e-9)?;
+/// # Ok::<(), asperity::Error>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct Tabulated {
+    points: Vec<Point>,
+    range: f64,
+}
+
+/// A point of the table, with the cubic up to the next one.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Point {
+    gap: f64,
+    /// the energy at the point
+    energy: f64,
+    /// the traction as a polynomial of the gap beyond the point
+    cubic: [f64; 4],
+}
+
+impl Tabulated {
+    /// The law through points of a gap (length) and a traction (pressure; positive attracts). The gaps rise from zero,
+    /// and the last traction is zero.
+    ///
+    /// # Errors
+    /// [`Error::Value`] for fewer than three points, as many gaps as tractions lacking, a number that is not finite, gaps
+    /// that do not rise from zero, a last traction that is not zero, or a table without attraction.
+    pub fn new(gaps: &[f64], tractions: &[f64]) -> Result<Self> {
+        let wrong = |name, value, requirement| Err(Error::Value { name, value, requirement });
+        if gaps.len() != tractions.len() {
+            return wrong("number of tractions in the table", tractions.len() as f64, "that of the gaps");
+        }
+        if gaps.len() < 3 {
+            return wrong("number of points in the table", gaps.len() as f64, "at least three");
+        }
+        for (name, values) in [("gap in the table", gaps), ("traction in the table", tractions)] {
+            if let Some(&value) = values.iter().find(|value| !value.is_finite()) {
+                return wrong(name, value, "finite");
+            }
+        }
+        if gaps[0] != 0.0 {
+            return wrong("first gap in the table", gaps[0], "zero, the traction in contact");
+        }
+        if let Some(pair) = gaps.windows(2).find(|pair| pair[1] <= pair[0]) {
+            return wrong("gap in the table", pair[1], "larger than the one before: sort the table by its gaps");
+        }
+        let last = tractions[tractions.len() - 1];
+        if last != 0.0 {
+            return wrong("last traction in the table", last, "zero: add the gap from which on nothing attracts");
+        }
+        let slopes = slopes(gaps, tractions);
+        let mut points: Vec<Point> = (0..gaps.len() - 1)
+            .map(|i| {
+                let width = gaps[i + 1] - gaps[i];
+                let chord = (tractions[i + 1] - tractions[i]) / width;
+                let (a, b) = (slopes[i], slopes[i + 1]);
+                let cubic =
+                    [tractions[i], a, (3.0 * chord - 2.0 * a - b) / width, (a + b - 2.0 * chord) / (width * width)];
+                Point { gap: gaps[i], energy: 0.0, cubic }
+            })
+            .collect();
+        points.push(Point { gap: gaps[gaps.len() - 1], energy: 0.0, cubic: [0.0; 4] });
+        for i in (0..points.len() - 1).rev() {
+            points[i].energy = points[i + 1].energy - points[i].integral(points[i + 1].gap - points[i].gap);
+        }
+        let (work, largest) = (-points[0].energy, tractions.iter().copied().fold(0.0, f64::max));
+        if work <= 0.0 {
+            return wrong("work of adhesion of the table", work, "positive: tractions that attract are positive");
+        }
+        Ok(Self { points, range: work / largest })
+    }
+
+    /// The point before a gap, and the distance from it; the first point for a smaller gap.
+    fn find(&self, gap: f64) -> (&Point, f64) {
+        let i = self.points.partition_point(|point| point.gap <= gap).max(1) - 1;
+        (&self.points[i], gap - self.points[i].gap)
+    }
+}
+
+impl Point {
+    /// The integral of the traction over a distance from the point.
+    fn integral(&self, x: f64) -> f64 {
+        let [a, b, c, d] = self.cubic;
+        x * (a + x * (b / 2.0 + x * (c / 3.0 + x * d / 4.0)))
+    }
+}
+
+/// The slopes of the monotone cubic at the points: weighted harmonic means of the chords beside them, and zero at
+/// extremes.
+fn slopes(x: &[f64], y: &[f64]) -> Vec<f64> {
+    let widths: Vec<f64> = x.windows(2).map(|x| x[1] - x[0]).collect();
+    let chords: Vec<f64> = y.windows(2).zip(&widths).map(|(y, width)| (y[1] - y[0]) / width).collect();
+    let inner = |i: usize| {
+        let (left, right) = (chords[i - 1], chords[i]);
+        if left * right <= 0.0 {
+            return 0.0;
+        }
+        let (a, b) = (2.0 * widths[i] + widths[i - 1], widths[i] + 2.0 * widths[i - 1]);
+        (a + b) / (a / left + b / right)
+    };
+    let end = |near: usize, far: usize| {
+        // of the parabola through three points, no steeper than three chords and of their sign
+        let (h, k) = (widths[near], widths[far]);
+        let slope = ((2.0 * h + k) * chords[near] - h * chords[far]) / (h + k);
+        if slope * chords[near] <= 0.0 {
+            0.0
+        } else if chords[near] * chords[far] < 0.0 && slope.abs() > 3.0 * chords[near].abs() {
+            3.0 * chords[near]
+        } else {
+            slope
+        }
+    };
+    let last = x.len() - 1;
+    (0..=last)
+        .map(|i| match i {
+            0 => end(0, 1),
+            _ if i == last => end(last - 1, last - 2),
+            _ => inner(i),
+        })
+        .collect()
+}
+
+impl<T: Real> AdhesionLaw<T> for Tabulated {
+    fn energy(&self, gap: T) -> T {
+        let (point, x) = self.find(gap.widen());
+        T::lit(point.energy + point.integral(x))
+    }
+    fn traction(&self, gap: T) -> T {
+        let (Point { cubic: [a, b, c, d], .. }, x) = self.find(gap.widen());
+        T::lit(a + x * (b + x * (c + x * d)))
+    }
+    fn slope(&self, gap: T) -> T {
+        let (Point { cubic: [_, b, c, d], .. }, x) = self.find(gap.widen());
+        T::lit(b + x * (2.0 * c + x * 3.0 * d))
+    }
+    fn range(&self) -> T {
+        T::lit(self.range)
+    }
+}

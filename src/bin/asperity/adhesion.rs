@@ -1,0 +1,320 @@
+//! The adhesion between the surfaces: its law with the parameters, where it varies, and the wall.
+
+use std::fmt;
+use std::path::{Path, PathBuf};
+
+use asperity::io::read_field;
+use asperity::{
+    AdhesionLaw, ContactConstraint, CutOff, Error, Exponential, Grid, LennardJones, MaugisDugdale, Morse, NoAdhesion,
+    NoWall, PowerLaw, Projection, Real, Tabulated, Varying,
+};
+use clap::{Args, ValueEnum};
+use ndarray::Array2;
+
+use crate::options::{non_negative, positive};
+use crate::outcome::Outcome;
+
+/// The adhesion between the surfaces.
+#[derive(Args)]
+pub struct AdhesionOptions {
+    /// Adhesion law; asperity laws tells what each is and what it needs
+    #[arg(long, value_enum, default_value_t = Law::None, help_heading = "Adhesion")]
+    pub law: Law,
+    /// Work of adhesion, an energy per area
+    #[arg(long, value_name = "W", allow_hyphen_values = true, value_parser = non_negative, help_heading = "Adhesion")]
+    pub work_of_adhesion: Option<f64>,
+    /// Range of adhesion, a length; for lennard-jones and van-der-waals the distance of the surfaces in contact
+    #[arg(long, value_name = "RHO", allow_hyphen_values = true, value_parser = positive, help_heading = "Adhesion")]
+    pub range: Option<f64>,
+    /// Exponent of the energy of a power law
+    #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = positive, help_heading = "Adhesion")]
+    pub exponent: Option<f64>,
+    /// Hamaker's constant of van-der-waals, an energy
+    #[arg(long, value_name = "A", allow_hyphen_values = true, value_parser = positive, help_heading = "Adhesion")]
+    pub hamaker: Option<f64>,
+    /// Table of a law: lines of a gap, rising from 0, and a traction, attraction positive, the last one 0
+    #[arg(long, value_name = "FILE", help_heading = "Adhesion")]
+    pub law_table: Option<PathBuf>,
+    /// Gap at which a law that never ends is cut off, smoothly
+    #[arg(long, value_name = "D", allow_hyphen_values = true, value_parser = positive, help_heading = "Adhesion")]
+    pub cut_off: Option<f64>,
+    /// Work of adhesion at each node, in a file as for the heights and of their shape, in the place of one for all
+    #[arg(long, value_name = "FILE", help_heading = "Adhesion")]
+    pub work_of_adhesion_map: Option<PathBuf>,
+    /// What keeps the surfaces apart: a rigid wall, or the repulsion of lennard-jones or morse alone
+    #[arg(long, value_enum, default_value_t = Wall::Hard, help_heading = "Adhesion")]
+    pub wall: Wall,
+}
+
+#[derive(Clone, Copy, PartialEq, ValueEnum)]
+pub enum Law {
+    /// no adhesion
+    None,
+    /// constant traction W/RHO up to a gap of RHO
+    MaugisDugdale,
+    /// traction W/RHO exp(-gap/RHO)
+    Exponential,
+    /// powers 9 and 3 between half-spaces; with a wall at RHO, from which the gap then counts
+    LennardJones,
+    /// two exponentials, which repel at negative gaps
+    Morse,
+    /// energy -W (1 + gap/(N RHO))^-N
+    Power,
+    /// between half-spaces at RHO in contact, unretarded
+    VanDerWaals,
+    /// a monotone cubic through the points of a file
+    Table,
+}
+
+#[derive(Clone, Copy, PartialEq, ValueEnum)]
+pub enum Wall {
+    /// rigid, at zero gap
+    Hard,
+    /// the law itself
+    None,
+}
+
+impl<T: Real> ContactConstraint<T> for Wall {
+    fn wall(&self) -> asperity::Wall<'_, T> {
+        match self {
+            Self::Hard => Projection.wall(),
+            Self::None => NoWall.wall(),
+        }
+    }
+}
+
+/// The law that the options choose, with what their files hold.
+pub struct Adhesion<'a> {
+    options: &'a AdhesionOptions,
+    law: Option<Tabulated>,
+    /// The numbers of the table of the law
+    pub table: Option<Array2<f64>>,
+    /// The works of adhesion of the map
+    pub works: Option<Array2<f64>>,
+}
+
+impl Law {
+    /// The parameters, which it needs: their options.
+    fn parameters(self) -> &'static [&'static str] {
+        match self {
+            Self::None => &[],
+            Self::MaugisDugdale | Self::Exponential | Self::LennardJones | Self::Morse => {
+                &["--work-of-adhesion", "--range"]
+            }
+            Self::Power => &["--work-of-adhesion", "--range", "--exponent"],
+            Self::VanDerWaals => &["--hamaker", "--range"],
+            Self::Table => &["--law-table"],
+        }
+    }
+
+    /// Whether it never ends.
+    fn never_ends(self) -> bool {
+        !matches!(self, Self::None | Self::MaugisDugdale | Self::Table)
+    }
+
+    /// Whether it repels surfaces that come too close.
+    fn repels(self) -> bool {
+        matches!(self, Self::LennardJones | Self::Morse)
+    }
+
+    /// The formula, the parameters and the source, for people.
+    pub fn description(self) -> [&'static str; 3] {
+        match self {
+            Self::None => ["no adhesion", "none", ""],
+            Self::MaugisDugdale => [
+                "traction W/RHO for gaps below RHO, 0 beyond",
+                "--work-of-adhesion W, --range RHO",
+                "Maugis, J. Colloid Interface Sci. 150 (1992)",
+            ],
+            Self::Exponential => [
+                "traction W/RHO exp(-g/RHO)",
+                "--work-of-adhesion W, --range RHO",
+                "Rey, Anciaux and Molinari, Comput. Mech. 60 (2017)",
+            ],
+            Self::LennardJones => [
+                "traction 8W/(3 RHO) (x^3 - x^9), x = RHO/g; with --wall hard, x = RHO/(RHO + g)",
+                "--work-of-adhesion W, --range RHO, the distance of rest",
+                "Greenwood, Proc. R. Soc. A 453 (1997); Yu and Polycarpou, J. Tribol. 126 (2004)",
+            ],
+            Self::Morse => [
+                "traction 2W/RHO (exp(-g/RHO) - exp(-2g/RHO))",
+                "--work-of-adhesion W, --range RHO",
+                "Morse, Phys. Rev. 34 (1929), as a law between surfaces",
+            ],
+            Self::Power => [
+                "traction W/RHO (1 + g/(N RHO))^-(N + 1)",
+                "--work-of-adhesion W, --range RHO, --exponent N",
+                "as of forces between bodies that fall with a power of their distance",
+            ],
+            Self::VanDerWaals => [
+                "traction A/(6 pi (RHO + g)^3)",
+                "--hamaker A, --range RHO, the distance in contact; --cut-off D where retardation begins",
+                "Israelachvili, Intermolecular and Surface Forces (2011), section 13",
+            ],
+            Self::Table => [
+                "the monotone cubic through the points of a table of gaps and tractions",
+                "--law-table FILE, lines of a gap and a traction",
+                "Fritsch and Butland, SIAM J. Sci. Stat. Comput. 5 (1984)",
+            ],
+        }
+    }
+}
+
+impl AdhesionOptions {
+    /// Refuses a law without its parameters, parameters that are not those of the law, and a wall that does not fit.
+    pub fn check(&self) -> Outcome<()> {
+        let file = |path: &Option<PathBuf>| path.as_ref().map(|path| path.display().to_string());
+        let number = |value: Option<f64>| value.map(|value| value.to_string());
+        let parameters = [
+            ("--work-of-adhesion", number(self.work_of_adhesion), "an energy per area"),
+            ("--range", number(self.range), "a length"),
+            ("--exponent", number(self.exponent), "a number"),
+            ("--hamaker", number(self.hamaker), "an energy"),
+            ("--law-table", file(&self.law_table), "a file of gaps and tractions"),
+        ];
+        let (law, mapped) = (self.law, self.work_of_adhesion_map.is_some());
+        if law == Law::None {
+            let more = [
+                ("--cut-off", number(self.cut_off), ""),
+                ("--work-of-adhesion-map", file(&self.work_of_adhesion_map), ""),
+            ];
+            if let Some((name, Some(value), _)) = parameters.iter().chain(&more).find(|(_, value, _)| value.is_some()) {
+                let remedy = "choose --law exponential or --law maugis-dugdale, or leave it out";
+                return Err(format!("{name} is {value}, but there is no adhesion: {remedy}").into());
+            }
+        }
+        for (name, value, what) in &parameters {
+            let needed = law.parameters().contains(name) && !(mapped && *name == "--work-of-adhesion");
+            match value {
+                None if needed => return Err(format!("--law {law} lacks {name}: give it, {what}").into()),
+                Some(_) if mapped && *name == "--work-of-adhesion" => {
+                    let text = "--work-of-adhesion is given beside --work-of-adhesion-map, which says it at every node";
+                    return Err(format!("{text}: leave one of them out").into());
+                }
+                Some(value) if !needed => {
+                    return Err(format!("{name} is {value}, but --law {law} has no use for it: leave it out").into());
+                }
+                _ => {}
+            }
+        }
+        if let (Some(distance), false) = (self.cut_off, law.never_ends()) {
+            return Err(format!("--cut-off is {distance}, but --law {law} ends by itself: leave it out").into());
+        }
+        if self.wall == Wall::None && !law.repels() {
+            return Err(format!(
+                "--wall none leaves the surfaces to the law, but --law {law} does not repel: choose lennard-jones or \
+                 morse, or --wall hard"
+            )
+            .into());
+        }
+        Ok(())
+    }
+
+    /// Reads the files, of which the map must be of the shape of the grid, if there is one.
+    pub fn read(&self, grid: Option<&Grid>) -> Outcome<Adhesion<'_>> {
+        let field = |path: &Option<PathBuf>| path.as_deref().map(read_field).transpose();
+        let (table, works) = (field(&self.law_table)?, field(&self.work_of_adhesion_map)?);
+        let law = match (&self.law_table, &table) {
+            (Some(path), Some(table)) => Some(tabulated(path, table)?),
+            _ => None,
+        };
+        if let (Some(works), Some(grid)) = (&works, grid) {
+            let (name, found, expected) = ("--work-of-adhesion-map", works.dim(), grid.shape());
+            if found != expected {
+                return Err(Error::Shape { name, found, expected }.into());
+            }
+        }
+        let adhesion = Adhesion { options: self, law, table, works };
+        // whatever the laws refuse, before anything is solved
+        match (adhesion.law::<f64>(), &self.work_of_adhesion_map) {
+            (Err(error), Some(path)) => Err(Error::file(path, format!("does not fit the law: {error}")).into()),
+            (Err(error), None) => Err(error.into()),
+            (Ok(_), _) => Ok(adhesion),
+        }
+    }
+}
+
+/// The law of a table that was read from a file.
+fn tabulated(path: &Path, table: &Array2<f64>) -> asperity::Result<Tabulated> {
+    if table.ncols() != 2 {
+        let columns = table.ncols();
+        return Err(Error::file(
+            path,
+            format!("has {columns} columns, not two: put a gap and a traction on each line"),
+        ));
+    }
+    let [gaps, tractions] = [0, 1].map(|column| table.column(column).to_vec());
+    Tabulated::new(&gaps, &tractions).map_err(|error| Error::file(path, format!("is no law: {error}")))
+}
+
+impl Adhesion<'_> {
+    /// The law; its parameters are there after [`AdhesionOptions::check`].
+    pub fn law<T: Real>(&self) -> asperity::Result<Box<dyn AdhesionLaw<T>>> {
+        let options = self.options;
+        let most = self.works.as_ref().map(|works| works.iter().copied().fold(0.0, f64::max));
+        let work = most.or(options.work_of_adhesion).unwrap_or_default();
+        let [range, exponent, hamaker] =
+            [options.range, options.exponent, options.hamaker].map(|value| value.unwrap_or_default());
+        match options.law {
+            Law::None => Ok(Box::new(NoAdhesion)),
+            Law::MaugisDugdale => self.varied(MaugisDugdale::new(work, range)?),
+            Law::Exponential => self.ended(Exponential::new(work, range)?),
+            Law::LennardJones => {
+                let law = LennardJones::new(work, range)?;
+                self.ended(if options.wall == Wall::Hard { law.cut() } else { law })
+            }
+            Law::Morse => self.ended(Morse::new(work, range)?),
+            Law::Power => self.ended(PowerLaw::new(work, range, exponent)?),
+            Law::VanDerWaals => self.ended(PowerLaw::van_der_waals(hamaker, range)?),
+            Law::Table => match &self.law {
+                Some(law) => self.varied(law.clone()),
+                None => Ok(Box::new(NoAdhesion)),
+            },
+        }
+    }
+
+    /// The law, cut off where the options say.
+    fn ended<T, L>(&self, law: L) -> asperity::Result<Box<dyn AdhesionLaw<T>>>
+    where
+        T: Real,
+        L: AdhesionLaw<T> + AdhesionLaw<f64> + 'static,
+    {
+        match self.options.cut_off {
+            Some(distance) => self.varied(CutOff::new(law, distance)?),
+            None => self.varied(law),
+        }
+    }
+
+    /// The law, with the work of adhesion of the map.
+    fn varied<T, L>(&self, law: L) -> asperity::Result<Box<dyn AdhesionLaw<T>>>
+    where
+        T: Real,
+        L: AdhesionLaw<T> + AdhesionLaw<f64> + 'static,
+    {
+        Ok(match &self.works {
+            Some(works) => Box::new(Varying::new(law, works.view())?),
+            None => Box::new(law),
+        })
+    }
+
+    /// The node with the largest work of adhesion, where that varies: μ_ρ is that of this node.
+    pub fn strongest(&self) -> Option<(usize, usize)> {
+        let most = self.works.as_ref()?.indexed_iter();
+        most.reduce(|most, next| if next.1 > most.1 { next } else { most }).map(|(node, _)| node)
+    }
+}
+
+impl fmt::Display for Law {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.to_possible_value().as_ref().map_or("", |value| value.get_name()))
+    }
+}
+
+impl fmt::Display for Wall {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Hard => "hard",
+            Self::None => "none",
+        })
+    }
+}

@@ -1,0 +1,112 @@
+//! The passes that fit the preconditioner to nodes which the law itself holds by its repulsion.
+//!
+//! The compliance M knows how waves answer a load, and nothing of the slopes κ = φ'' of the nodes that repel, which are
+//! often several times the stiffness of the stiffest wave. With s = 1/√(1 + κ/k) at each node, and k the stiffness of one
+//! node among its neighbours, the preconditioner is S M S: M itself where nothing repels, 1/κ where a node is held, and in
+//! the limit of a rigid wall M between the nodes that are apart.
+
+use super::Fields;
+use crate::field::{CHUNK, read, write};
+use crate::par::IndexedParallelIterator;
+use crate::real::{Real, cast};
+use crate::solver::potential::{Of, Potential};
+use crate::vector::sums;
+
+/// The share s of nodes with these slopes.
+#[inline(always)]
+fn share<T: Real>(slope: T, stiffness: T) -> T {
+    (T::one() + slope.max(T::zero()) / stiffness).sqrt().recip()
+}
+
+fn slopes<'a, T: Real>(local: &Potential<'_, T>, first: usize, gap: &[T], buffer: &'a mut [T; CHUNK]) -> &'a [T] {
+    let slopes = &mut buffer[..gap.len()];
+    local.evaluate(Of::Slope, first, gap, slopes);
+    slopes
+}
+
+/// The preconditioner's picture of the nodes that are held.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::solver) struct Held {
+    /// k, the stiffness of one node among its neighbours
+    stiffness: f64,
+    /// the mean of r', weighted by s², where the mean gap is given: a load that does no work
+    level: f64,
+    /// Σ s²
+    shares: f64,
+    /// Σ (1 − s)² (r' − level)²/κ, the part of the certificate that M does not see
+    pub(in crate::solver) beside: f64,
+}
+
+/// Multiplies r' less its level by S.
+pub(in crate::solver) fn hold<T: Real, L: Real>(
+    fields: &mut Fields<T, L>,
+    local: &Potential<'_, T>,
+    stiffness: f64,
+    centred: bool,
+) -> Held {
+    let Fields { reducer, gap, residual, .. } = fields;
+    let k = T::lit(stiffness);
+    let (mut level, mut shares) = (0.0, 0.0);
+    if centred {
+        let total = local.run(reducer, read(gap).zip(read(residual)), |local, first, (gap, residual)| {
+            let mut buffer = [T::zero(); CHUNK];
+            let slopes = slopes(local, first, gap, &mut buffer);
+            sums!(2, [slopes, residual], [], |i| {
+                let s = share(slopes[i], k);
+                ([(s * s).widen() * residual[i].widen(), (s * s).widen()], f64::INFINITY)
+            })
+        });
+        shares = total.sum[1];
+        level = total.sum[0] / shares;
+    }
+    let level = T::lit(level);
+    let total = local.run(reducer, read(gap).zip(write(residual)), |local, first, (gap, residual)| {
+        let mut buffer = [T::zero(); CHUNK];
+        let slopes = slopes(local, first, gap, &mut buffer);
+        sums!(1, [slopes], [residual], |i| {
+            let (slope, r, s) = (slopes[i], cast::<_, T>(residual[i]) - level, share(slopes[i], k));
+            residual[i] = cast(s * r);
+            let rest = ((T::one() - s) * r).widen();
+            ([if slope > T::zero() { rest * rest / slope.widen() } else { 0.0 }], f64::INFINITY)
+        })
+    });
+    Held { stiffness, level: level.widen(), shares, beside: total.sum[0] }
+}
+
+/// Multiplies z by S, and puts r' back; returns Σ z.
+pub(in crate::solver) fn release_held<T: Real, L: Real>(
+    fields: &mut Fields<T, L>,
+    local: &Potential<'_, T>,
+    held: Held,
+) -> f64 {
+    let Fields { reducer, gap, residual, preconditioned, .. } = fields;
+    let (k, level) = (T::lit(held.stiffness), T::lit(held.level));
+    let chunks = read(gap).zip(write(residual)).zip(write(preconditioned));
+    let total = local.run(reducer, chunks, |local, first, ((gap, residual), z)| {
+        let mut buffer = [T::zero(); CHUNK];
+        let slopes = slopes(local, first, gap, &mut buffer);
+        sums!(1, [slopes], [residual, z], |i| {
+            let s = share(slopes[i], k);
+            let [r, moved]: [T; 2] = [cast(residual[i]), s * cast(z[i])];
+            (residual[i], z[i]) = (cast(r / s + level), cast(moved));
+            ([moved.widen()], f64::INFINITY)
+        })
+    });
+    if held.shares == 0.0 {
+        return total.sum[0];
+    }
+    // no mean, where the mean gap is given: a node that is held hardly moves
+    let Fields { reducer, gap, preconditioned, .. } = fields;
+    let mean = T::lit(total.sum[0] / held.shares);
+    let total = local.run(reducer, read(gap).zip(write(preconditioned)), |local, first, (gap, z)| {
+        let mut buffer = [T::zero(); CHUNK];
+        let slopes = slopes(local, first, gap, &mut buffer);
+        sums!(1, [slopes], [z], |i| {
+            let s = share(slopes[i], k);
+            let moved: T = cast::<_, T>(z[i]) - mean * (s * s);
+            z[i] = cast(moved);
+            ([moved.widen()], f64::INFINITY)
+        })
+    });
+    total.sum[0]
+}

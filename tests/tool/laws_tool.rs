@@ -1,0 +1,116 @@
+//! Adhesion laws in the tool: their options, their files, and their list.
+
+use crate::bench::Bench;
+
+/// A wave of height 0.02 on 16 by 16 nodes, and a work of adhesion that is larger where x > ½.
+fn wave() -> Bench {
+    let bench = Bench::new();
+    let (mut heights, mut works) = (String::new(), String::new());
+    for i in 0..16 {
+        let x = f64::from(i) / 16.0;
+        let row: Vec<_> = (0..16)
+            .map(|j| 0.01 * (std::f64::consts::TAU * x).cos() * (std::f64::consts::TAU * f64::from(j) / 16.0).cos())
+            .collect();
+        let text = |row: &[f64]| row.iter().map(f64::to_string).collect::<Vec<_>>().join(" ") + "\n";
+        heights += &text(&row);
+        works += &text(&[if i < 8 { 1e-6 } else { 4e-5 }; 16]);
+    }
+    bench.write("heights.txt", &heights);
+    bench.write("works.txt", &works);
+    bench.write("law.txt", "# gap, traction\n0 4e-3\n0.005 2e-3\n0.01 5e-4\n0.02 0\n");
+    bench
+}
+
+const SOLVE: &str = "solve --heights heights.txt --mean-pressure 1e-3 --no-pictures --threads 1";
+
+#[test]
+fn every_law_solves_and_is_in_report_and_scene() {
+    let bench = wave();
+    for (number, law) in [
+        "lennard-jones --work-of-adhesion 2e-5 --range 0.01",
+        "lennard-jones --work-of-adhesion 2e-5 --range 0.01 --wall none",
+        "morse --work-of-adhesion 2e-5 --range 0.01 --wall none --stability",
+        "power --work-of-adhesion 2e-5 --range 0.01 --exponent 3 --cut-off 0.1",
+        "van-der-waals --hamaker 1e-7 --range 0.012",
+        "table --law-table law.txt",
+        "exponential --work-of-adhesion-map works.txt --range 0.01",
+        "table --law-table law.txt --work-of-adhesion-map works.txt",
+        "morse --work-of-adhesion 2e-5 --range 0.01 --wall none --precision f32",
+    ]
+    .iter()
+    .enumerate()
+    {
+        let report = bench.reported(&format!("{SOLVE} --law {law} --out {number}"));
+        assert_eq!(report["status"], "converged", "{law}");
+        assert_eq!(report["law"], law.split(' ').next().unwrap());
+        assert_eq!(report["wall"], if law.contains("none") { "none" } else { "hard" });
+        assert!(report["carried_pressure"].as_f64().is_some_and(|p| (p - 1e-3).abs() < 1e-6), "{law}: {report}");
+        assert_eq!(report["mu_rho_node"].is_null(), !law.contains("map"));
+        // the scene repeats it, byte for byte
+        let said = bench.said(&format!("run {number}/scene.toml --out again --force --quiet"));
+        assert_eq!(said, "");
+        assert_eq!(bench.bytes("again/gap.npy"), bench.bytes(&format!("{number}/gap.npy")), "{law}");
+    }
+    let mapped = bench.report("6");
+    assert_eq!(mapped["mu_rho_node"], serde_json::json!([8, 0]));
+    let bare = bench.reported("run 7/scene.toml --law none --out bare");
+    assert_eq!((&bare["law"], &bare["work_of_adhesion_map"]), (&"none".into(), &serde_json::Value::Null));
+    // without a wall a sweep goes on where it was, and another law is another sweep
+    let sweep = "sweep --heights heights.txt --threads 1 --quiet --out sweep.csv --law lennard-jones --wall none";
+    let law = "--work-of-adhesion 2e-5 --range 0.01";
+    bench.said(&format!("{sweep} {law} --mean-pressures 1e-3,2e-3"));
+    bench.said(&format!("{sweep} {law} --mean-pressures 1e-3,2e-3,3e-3"));
+    assert_eq!(bench.read("sweep.csv").lines().count(), 4);
+    bench.refused_with(
+        &format!("{sweep} {law} --cut-off 0.1 --mean-pressures 1e-3,2e-3,3e-3"),
+        &["cut off is none, and not 0.1"],
+    );
+}
+
+#[test]
+fn laws_that_lack_something_or_have_too_much_are_refused() {
+    let bench = wave();
+    bench.write("unsorted.txt", "0 1\n2 0.5\n1 0\n");
+    bench.write("three.txt", "0 1 2\n1 0.5 2\n2 0 1\n");
+    bench.write("negative.txt", &format!("{}\n", ["-1"; 16].join(" ")).repeat(16));
+    bench.write("small.txt", "1e-5 1e-5\n1e-5 1e-5\n");
+    let (w, range) = ("--work-of-adhesion 2e-5", "--range 0.01");
+    for (law, parts) in [
+        (format!("power {w} {range}"), ["--law power lacks --exponent", "give it"]),
+        (format!("van-der-waals {range}"), ["lacks --hamaker", "an energy"]),
+        ("table".to_owned(), ["lacks --law-table", "give it"]),
+        (format!("morse {w}"), ["lacks --range", "a length"]),
+        (format!("exponential {w} {range} --exponent 2"), ["--exponent is 2", "leave it out"]),
+        (format!("maugis-dugdale {w} {range} --cut-off 1"), ["--cut-off is 1", "ends by itself"]),
+        (format!("exponential {w} {range} --wall none"), ["does not repel", "--wall hard"]),
+        (format!("exponential {w} {range} --work-of-adhesion-map works.txt"), ["every node", "leave one of them out"]),
+        ("none --work-of-adhesion-map works.txt".to_owned(), ["there is no adhesion", "leave it out"]),
+        (format!("exponential {range} --work-of-adhesion-map small.txt"), ["--work-of-adhesion-map", "2 x 2"]),
+        (format!("exponential {range} --work-of-adhesion-map negative.txt"), ["negative.txt", "zero or positive"]),
+        ("table --law-table unsorted.txt".to_owned(), ["unsorted.txt", "sort the table"]),
+        ("table --law-table three.txt".to_owned(), ["three.txt", "3 columns"]),
+        (format!("morse {w} {range} --wall none --leave"), ["--leave", "--wall hard"]),
+    ] {
+        bench.refused_with(&format!("{SOLVE} --out out --law {law}"), &parts);
+    }
+    let cycle = "cycle --heights heights.txt --mean-gaps 0.03,0.02 --out cycle.csv";
+    bench.refused_with(&format!("{cycle} --law morse {w} {range} --wall none"), &["--wall hard", "asperity sweep"]);
+    assert!(!bench.path("out").exists() && !bench.path("cycle.csv").exists());
+}
+
+#[test]
+fn the_laws_are_listed_and_drawn() {
+    let bench = wave();
+    let said = bench.said("laws");
+    for law in ["maugis-dugdale", "exponential", "lennard-jones", "morse", "power", "van-der-waals", "table"] {
+        assert!(said.lines().any(|line| line == law), "{law}");
+    }
+    assert_eq!(bench.said("laws --law morse").lines().count(), 4);
+    for (number, law) in ["lennard-jones --wall none", "lennard-jones", "morse"].iter().enumerate() {
+        bench.said(&format!("laws --law {law} --work-of-adhesion 0.05 --range 3e-10 --plot {number}.png"));
+    }
+    bench.said("laws --law table --law-table law.txt --plot table.png");
+    assert_ne!(bench.bytes("0.png"), bench.bytes("1.png"));
+    bench.refused_with("laws --plot law.png", &["--plot needs a law"]);
+    bench.refused_with("laws --law table --law-table law.txt --plot table.png", &["exists", "--force"]);
+}
