@@ -11,7 +11,7 @@ use crate::elastic::Boundary;
 use crate::error::{Error, Result};
 use crate::grid::Grid;
 use crate::real::Real;
-use crate::solver::Solution;
+use crate::solver::{Report, Solution};
 
 mod clusters;
 mod distribution;
@@ -86,6 +86,28 @@ impl ContactArea {
     /// [`Error::Shape`] if the map does not have the shape of the grid.
     pub fn of(map: ArrayView2<'_, bool>, grid: &Grid) -> Result<Self> {
         Self::within(map, grid, Boundary::Periodic, grid.nodes())
+    }
+
+    /// The area of a solution, whose [`Solution::contact_map`] is `map`, on its grid and within its boundary. Shares
+    /// are of the nodes that are not [absent](crate::Surface::with_absent).
+    ///
+    /// ```
+    /// use asperity::contact::ContactArea;
+    /// use asperity::{Boussinesq, Control, Grid, NoAdhesion, Problem, Solver, Surface};
+    /// let grid = Grid::square(32, 0.4)?;
+    /// let sphere = Surface::paraboloid(grid, 2.0)?;
+    /// let mut problem = Problem::new(&sphere, Boussinesq::<f64>::new(grid, 1.0)?, NoAdhesion)?;
+    /// let solution = Solver::default().solve(&mut problem, Control::Force(1e-3))?;
+    /// let area = ContactArea::of_solution(&solution, solution.contact_map().view(), &grid)?;
+    /// assert_eq!(area.contact_fraction, solution.report.contact_fraction);
+    /// # Ok::<(), asperity::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::Shape`] if the map does not have the shape of the grid.
+    pub fn of_solution<T>(solution: &Solution<T>, map: ArrayView2<'_, bool>, grid: &Grid) -> Result<Self> {
+        let Report { boundary, absent_nodes, .. } = solution.report;
+        Self::within(map, grid, boundary, grid.nodes().saturating_sub(absent_nodes))
     }
 
     /// The area on a map within a boundary, of whose nodes so many face the half-space.

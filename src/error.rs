@@ -152,6 +152,11 @@ impl Error {
 
     /// Refuses a field that holds NaN or infinities.
     pub(crate) fn all_finite<T: Real>(name: &'static str, field: ArrayView2<'_, T>) -> Result<()> {
+        // without places the pass is several times as fast
+        let finite = |value: &T| value.is_finite();
+        if field.as_slice_memory_order().map_or_else(|| field.iter().all(finite), |values| values.iter().all(finite)) {
+            return Ok(());
+        }
         let mut wrong = field.indexed_iter().filter(|(_, value)| !value.is_finite());
         match wrong.next() {
             None => Ok(()),

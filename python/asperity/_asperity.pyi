@@ -92,6 +92,8 @@ class Problem:
         cls,
         heights: _Field,
         lengths: tuple[float, float],
+        absent_missing: bool,
+        boundary: str,
         modulus: float,
         law: Any,
         precision: str,
@@ -103,18 +105,18 @@ class Problem:
     def inputs(self) -> tuple[float, int, int]: ...
     def solve(
         self,
-        load: tuple[str, float],
+        load: tuple[str, list[float]],
         start: _Field | None,
         observe: Callable[[Iteration], object] | None,
         stability: bool,
         leave: bool,
     ) -> dict[str, Any]: ...
     def next_load(
-        self, load: tuple[str, float], start: _Field | None, observe: Callable[[Iteration], object] | None
+        self, load: tuple[str, list[float]], start: _Field | None, observe: Callable[[Iteration], object] | None
     ) -> dict[str, Any]: ...
     def next_step(
         self,
-        loads: list[tuple[str, float]],
+        loads: list[tuple[str, list[float]]],
         steps: int,
         smallest_step: float,
         imbalance: float,
@@ -141,7 +143,7 @@ def spectrum(
     heights: _Field, lengths: tuple[float, float], along: str
 ) -> tuple[_Field, _Field, NDArray[np.int64], float]: ...
 def contact_statistics(
-    gap: NDArray[Any], contact_pressure: NDArray[Any], lengths: tuple[float, float], given: Any
+    gap: NDArray[Any], contact_pressure: NDArray[Any], lengths: tuple[float, float], boundary: str, given: Any
 ) -> tuple[int, float, float, float, NDArray[np.int64], float, float, float]: ...
 def clusters(map: NDArray[np.bool_], corners: bool) -> tuple[NDArray[np.int64], NDArray[np.int64]]: ...
 def prepare(

@@ -3,26 +3,45 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from typing import Any
 
-#: A load as the compiled core takes it.
-Load = tuple[str, float]
+#: A load as the compiled core takes it: the name of its keyword, and its numbers.
+Load = tuple[str, list[float]]
+
+#: The names of loads by the keywords of their sequences.
+_PLURALS = {
+    "mean_pressures": "mean_pressure",
+    "mean_gaps": "mean_gap",
+    "normal_forces": "normal_force",
+    "approaches": "approach",
+    "springs": "spring",
+}
 
 
-def one(**given: float | None) -> Load:
+def one(**given: Any) -> Load:
     """The one load of those that may be given."""
-    loads = [(name, value) for name, value in given.items() if value is not None]
-    if len(loads) != 1:
-        found = " and ".join(name for name, _ in loads) or "none"
-        raise TypeError(f"give one load, {' or '.join(given)}: {found} given")
-    name, value = loads[0]
-    return (name, float(value))
+    return _load(*_only("load", given))
 
 
-def many(**given: Iterable[float] | None) -> list[Load]:
+def many(**given: Iterable[Any] | None) -> list[Load]:
     """The sequence of loads of those that may be given, by the plural of their names."""
-    sequences = [(name, values) for name, values in given.items() if values is not None]
-    if len(sequences) != 1:
-        found = " and ".join(name for name, _ in sequences) or "none"
-        raise TypeError(f"give one sequence of loads, {' or '.join(given)}: {found} given")
-    name, values = sequences[0]
-    return [(name.removesuffix("s"), float(value)) for value in values]
+    name, values = _only("sequence of loads", given)
+    return [_load(_PLURALS[name], value) for value in values]
+
+
+def _only(what: str, given: dict[str, Any]) -> tuple[str, Any]:
+    found = [(name, value) for name, value in given.items() if value is not None]
+    if len(found) != 1:
+        names = " and ".join(name for name, _ in found) or "none"
+        raise TypeError(f"give one {what}, {' or '.join(given)}: {names} given")
+    return found[0]
+
+
+def _load(name: str, value: Any) -> Load:
+    if name != "spring":
+        return (name, [float(value)])
+    try:
+        stiffness, rest = value
+        return (name, [float(stiffness), float(rest)])
+    except (TypeError, ValueError):
+        raise TypeError(f"spring is {value!r}: it must be (stiffness, rest)") from None

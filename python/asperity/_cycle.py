@@ -61,6 +61,9 @@ class Cycle(Rows[Step]):
         "mean_gap",
         "mean_pressure",
         "mean_contact_pressure",
+        "normal_force",
+        "approach",
+        "edge_traction",
         "contact_fraction",
         "elastic_energy",
         "adhesive_energy",
@@ -97,7 +100,7 @@ class Cycle(Rows[Step]):
             self._ended = True
             raise StopIteration
         step = Step(self._scene.solution("cycle", found), found)
-        all_numbers = {**step.solution.report, **found}
+        all_numbers = {**step.solution.report, **found["bodies"], **found}
         self.rows.append({name: all_numbers[name] for name in self.names})
         return step
 
@@ -110,21 +113,30 @@ class Cycle(Rows[Step]):
     def __repr__(self) -> str:
         return f"Cycle({len(self.rows)} states{'' if self._ended else ' so far'})"
 
-    def plot(self, ax: Axes | None = None, *, length_unit: str | None = None, pressure_unit: str | None = None) -> Axes:
-        """Draws the mean pressure over the mean gap, a line for each leg; needs matplotlib, and solves what is left.
+    def plot(
+        self,
+        ax: Axes | None = None,
+        *,
+        length_unit: str | None = None,
+        pressure_unit: str | None = None,
+        force_unit: str | None = None,
+    ) -> Axes:
+        """Draws the mean pressure over the mean gap, with a free boundary the normal force over the approach.
+
+        A line for each leg. Needs matplotlib, and solves what is left.
 
         Parameters
         ----------
         ax : matplotlib Axes, optional
             Axes to draw on; new ones by default.
-        length_unit, pressure_unit : str, optional
+        length_unit, pressure_unit, force_unit : str, optional
             Units for the axes.
 
         Returns
         -------
         matplotlib Axes
         """
-        return _plot.cycle(self.columns, ax, length_unit or self._scene.topography.unit, pressure_unit)
+        return _plot.cycle(self.columns, ax, length_unit or self._scene.topography.unit, pressure_unit, force_unit)
 
 
 def cycle(
@@ -134,6 +146,11 @@ def cycle(
     modulus: float,
     mean_gaps: Iterable[float] | None = None,
     mean_pressures: Iterable[float] | None = None,
+    normal_forces: Iterable[float] | None = None,
+    approaches: Iterable[float] | None = None,
+    springs: Iterable[tuple[float, float]] | None = None,
+    boundary: str = "periodic",
+    absent_missing: bool = False,
     law: Any = None,
     steps: int = 50,
     smallest_step: float = 1e-4,
@@ -157,6 +174,12 @@ def cycle(
         Mean gaps at which the cycle starts, turns and ends: two at least.
     mean_pressures : sequence of float
         The same in mean pressures.
+    normal_forces : sequence of float
+        The same in normal forces.
+    approaches : sequence of float
+        The same in approaches, with a free boundary.
+    springs : sequence of (float, float)
+        The same in the positions at rest of a spring: its stiffness, and the position.
     steps : int
         Least number of steps in a leg.
     smallest_step : float
@@ -180,8 +203,26 @@ def cycle(
     >>> bool(found.columns["mean_pressure"].min() < 0)  # the pull-off stress
     True
     """
-    loads = _control.many(mean_gaps=mean_gaps, mean_pressures=mean_pressures)
+    loads = _control.many(
+        mean_gaps=mean_gaps,
+        mean_pressures=mean_pressures,
+        normal_forces=normal_forces,
+        approaches=approaches,
+        springs=springs,
+    )
     if len(loads) < 2:
         raise ValueError("a cycle needs two turning points at least: give more loads")
-    scene = Scene(heights, lengths, modulus, law, precision, tolerance, max_iterations, method, threads)
+    scene = Scene(
+        heights,
+        lengths,
+        absent_missing,
+        boundary,
+        modulus,
+        law,
+        precision,
+        tolerance,
+        max_iterations,
+        method,
+        threads,
+    )
     return Cycle(scene, loads, (steps, smallest_step, imbalance, smooth), start, observe)

@@ -26,8 +26,8 @@ def _pyplot() -> Any:
 
 
 def _scaled(values: Any, unit: str | None) -> tuple[float, str]:
-    """The factor for an axis with these values, and its unit: metres and pascals get prefixes."""
-    if unit not in ("m", "Pa"):
+    """The factor for an axis with these values, and its unit: metres, pascals and newtons get prefixes."""
+    if unit not in ("m", "Pa", "N"):
         return 1.0, unit or ""
     finite = np.abs(np.asarray(values, dtype=float))
     largest = float(finite[np.isfinite(finite)].max(initial=0.0))
@@ -144,14 +144,20 @@ def sweep(columns: dict[str, NDArray[Any]], ax: Axes | None, pressure_unit: str 
 
 
 def cycle(
-    columns: dict[str, NDArray[Any]], ax: Axes | None, length_unit: str | None, pressure_unit: str | None
+    columns: dict[str, NDArray[Any]],
+    ax: Axes | None,
+    length_unit: str | None,
+    pressure_unit: str | None,
+    force_unit: str | None,
 ) -> Axes:
-    """Mean pressure over mean gap, a line for each leg, with the jumps dotted."""
+    """Mean pressure over mean gap, or normal force over approach, a line for each leg, with the jumps dotted."""
+    free = any(approach is not None for approach in columns["approach"])
+    x, y = ("approach", "normal_force") if free else ("mean_gap", "mean_pressure")
     if ax is None:
         _, ax = _pyplot().subplots(figsize=(4.6, 3.4), layout="constrained")
-    gap_factor, gap_unit = _scaled(columns["mean_gap"], length_unit)
-    factor, unit = _scaled(columns["mean_pressure"], pressure_unit)
-    gaps, pressures = gap_factor * columns["mean_gap"], factor * columns["mean_pressure"]
+    across_factor, across_unit = _scaled(columns[x], length_unit)
+    up_factor, up_unit = _scaled(columns[y], force_unit if free else pressure_unit)
+    across, up = across_factor * columns[x], up_factor * columns[y]
     legs = columns["leg"]
     jumps = np.array([drop is not None and drop > 0 for drop in columns["energy_drop"]], dtype=bool)
     for leg in range(1, int(legs.max(initial=0)) + 1):
@@ -163,11 +169,11 @@ def cycle(
         pieces = np.split(on, [k for k in range(1, on.size) if jumps[on[k]]])
         for k, piece in enumerate(pieces):
             label = f"leg {leg}" if k == 0 else None
-            ax.plot(gaps[piece], pressures[piece], color=f"C{leg - 1}", label=label)
+            ax.plot(across[piece], up[piece], color=f"C{leg - 1}", label=label)
         for k in on[1:][jumps[on[1:]]]:
-            ax.plot(gaps[k - 1 : k + 1], pressures[k - 1 : k + 1], ":", color=f"C{leg - 1}")
+            ax.plot(across[k - 1 : k + 1], up[k - 1 : k + 1], ":", color=f"C{leg - 1}")
     ax.axhline(0.0, color="0.7", linewidth=0.8, zorder=0)
-    ax.set_xlabel(_label("mean gap", gap_unit))
-    ax.set_ylabel(_label("mean pressure", unit))
+    ax.set_xlabel(_label(x.replace("_", " "), across_unit))
+    ax.set_ylabel(_label(y.replace("_", " "), up_unit))
     ax.legend(frameon=False)
     return ax

@@ -23,6 +23,8 @@ class Scene:
         self,
         heights: Any,
         lengths: float | tuple[float, float] | None,
+        absent_missing: bool,
+        boundary: str,
         modulus: float,
         law: Any,
         precision: str,
@@ -34,7 +36,17 @@ class Scene:
         self.topography: Topography = taken(heights, lengths)
         lengths = sides(self.topography)
         self.problem = _asperity.Problem(
-            self.topography.heights, lengths, modulus, law, precision, tolerance, max_iterations, method, threads
+            self.topography.heights,
+            lengths,
+            absent_missing,
+            boundary,
+            modulus,
+            law,
+            precision,
+            tolerance,
+            max_iterations,
+            method,
+            threads,
         )
         tolerance, max_iterations, threads = self.problem.inputs()
         self.inputs: dict[str, Any] = {
@@ -56,10 +68,10 @@ class Scene:
         }
         self._law = law
         self._warned: set[str] = set()
-        if self.topography.periodic is False:
+        if self.topography.periodic is False and boundary == "periodic":
             warnings.warn(
                 "the map is not periodic, and the solve takes it for periodic: use asperity.prepare(heights, "
-                "mirror=True) or window=0.1",
+                "mirror=True) or window=0.1, or boundary='free' if the body ends there",
                 InputWarning,
                 stacklevel=_outside(),
             )
@@ -87,17 +99,20 @@ class Scene:
                 text = f"{warning['code']}: {warning['message']}"
                 warnings.warn(text, InputWarning, stacklevel=_outside())
         if not solution.converged:
-            warnings.warn(_not_converged(report), ConvergenceWarning, stacklevel=_outside())
+            warnings.warn(
+                _not_converged(report, solution.boundary == "periodic"), ConvergenceWarning, stacklevel=_outside()
+            )
         return solution
 
 
-def _not_converged(report: dict[str, Any]) -> str:
+def _not_converged(report: dict[str, Any], periodic: bool) -> str:
     text = f"the solve ended as {report['status']} after {report['iterations']} iterations, "
     text += f"with a certified error of {report['relative_error']:.1e} for a tolerance of {report['tolerance']:.1e}"
+    held = "a mean gap" if periodic else "an approach"
     remedy = {
         "iteration-limit": "raise max_iterations, or start from a solution nearby",
         "stalled": "raise the tolerance" + (", or use precision='f64'" if report["precision"] == "f32" else ""),
-        "detached": "no equilibrium holds this tension: press more, or give a mean gap",
+        "detached": f"no equilibrium holds this tension: press more, or give {held}",
     }.get(report["status"])
     return f"{text}: {remedy}" if remedy else text
 

@@ -18,7 +18,9 @@ if TYPE_CHECKING:
 
 
 class ContactStatistics(NamedTuple):
-    """Contact area and clusters, and the area that attracts without contact; fractions of the nominal area.
+    """Contact area and clusters, and the area that attracts without contact; fractions of nodes not absent.
+
+    With a periodic boundary opposite sides meet.
 
     Attributes
     ----------
@@ -54,9 +56,10 @@ class Solution:
     Attributes
     ----------
     gap : ndarray
-        Gap g ≥ 0 between the surfaces, a length.
+        Gap g ≥ 0 between the surfaces, a length; infinite at absent nodes.
     pressure : ndarray
-        Elastic pressure p + p̄ on the half-space: the contact pressure less the adhesive traction.
+        Elastic pressure p + p̄ on the half-space: the contact pressure less the adhesive traction. Zero at absent
+        nodes.
     contact_pressure : ndarray
         Contact pressure λ ≥ 0, zero wherever the gap is not.
     contact : ndarray of bool
@@ -89,6 +92,7 @@ class Solution:
         self._topography = topography
         self._law = law
         self.report = report
+        self._bodies: dict[str, Any] = found["bodies"]
         for name in ("gap", "pressure", "contact_pressure", "contact"):
             setattr(self, name, found[name].reshape(topography.shape))
         self.mode = None if found["mode"] is None else found["mode"].reshape(topography.shape)
@@ -98,7 +102,9 @@ class Solution:
         """Areas, perimeter and clusters of the contact; computed when it is asked for."""
         shape = self._topography.heights.shape
         gap, contact_pressure = self.gap.reshape(shape), self.contact_pressure.reshape(shape)
-        return ContactStatistics(*_asperity.contact_statistics(gap, contact_pressure, self.lengths, self._law))
+        return ContactStatistics(
+            *_asperity.contact_statistics(gap, contact_pressure, self.lengths, self.boundary, self._law)
+        )
 
     @property
     def heights(self) -> NDArray[np.float64]:
@@ -138,8 +144,41 @@ class Solution:
 
     @property
     def mean_pressure(self) -> float:
-        """Mean external pressure p̄."""
+        """Mean external pressure p̄, the normal force over the nominal area."""
         return float(self.report["mean_pressure"])
+
+    @property
+    def boundary(self) -> str:
+        """``"periodic"`` or ``"free"``."""
+        return str(self._bodies["boundary"])
+
+    @property
+    def normal_force(self) -> float:
+        """Normal force F = p̄·Lx·Ly, compression positive."""
+        return float(self._bodies["normal_force"])
+
+    @property
+    def approach(self) -> float | None:
+        """Approach δ, a length; None with a periodic boundary.
+
+        It is how far the bodies have moved towards each other since they would first touch undeformed.
+        """
+        found: float | None = self._bodies["approach"]
+        return found
+
+    @property
+    def absent_points(self) -> int:
+        """Number of absent nodes, at which nothing faces the half-space."""
+        return int(self._bodies["absent_points"])
+
+    @property
+    def edge_traction(self) -> float | None:
+        """Largest traction on the outermost nodes, as a share of the largest anywhere; None with a periodic boundary.
+
+        Unless the body ends there, more than a thousandth says that the heights should go further.
+        """
+        found: float | None = self._bodies["edge_traction"]
+        return found
 
     @property
     def mean_contact_pressure(self) -> float:
@@ -148,7 +187,7 @@ class Solution:
 
     @property
     def contact_fraction(self) -> float:
-        """Share of the nodes in contact."""
+        """Share of the nodes in contact, of those that are not absent."""
         return float(self.report["contact_fraction"])
 
     @property
@@ -177,8 +216,12 @@ class Solution:
             ("status", report["status"]),
             ("contact", f"{100 * report['contact_fraction']:.4g} %"),
             ("corrected for its edge", f"{100 * report['corrected_contact_fraction']:.4g} %"),
-            ("nodes in contact", f"{report['contact_nodes']} of {self.gap.size}"),
+            ("nodes in contact", f"{report['contact_nodes']} of {self.gap.size - self.absent_points}"),
         ]
+        if self.approach is not None and self.edge_traction is not None:
+            rows.append(("approach", f"{self.approach:.7g}"))
+            rows.append(("normal force", f"{self.normal_force:.7g}"))
+            rows.append(("traction at the edge", f"{100 * self.edge_traction:.4g} %"))
         for name in ("mean_gap", "mean_pressure", "mean_contact_pressure", "min_pressure", "max_pressure"):
             rows.append((name.replace("_", " "), f"{report[name]:.7g}"))
         rows.append(("elastic energy per area", f"{report['elastic_energy']:.7g}"))

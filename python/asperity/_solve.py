@@ -18,6 +18,11 @@ def solve(
     modulus: float,
     mean_pressure: float | None = None,
     mean_gap: float | None = None,
+    normal_force: float | None = None,
+    approach: float | None = None,
+    spring: tuple[float, float] | None = None,
+    boundary: str = "periodic",
+    absent_missing: bool = False,
     law: Any = None,
     tolerance: float | None = None,
     max_iterations: int | None = None,
@@ -31,23 +36,38 @@ def solve(
 ) -> Solution:
     """Presses a rough surface against an elastic half-space.
 
-    Give one of ``mean_pressure`` and ``mean_gap``. All quantities are in any consistent units.
+    Give one load: ``mean_pressure``, ``mean_gap``, ``normal_force``, ``approach`` or ``spring``. All quantities are in
+    any consistent units.
 
     Parameters
     ----------
     heights : array_like, Topography, SurfaceTopography, DataArray or path of a file
-        Heights of the rigid, periodic surface, shape (Nx, Ny), or (N,) on a line; peaks up. Any float type, order or
-        stride. A C-ordered array of float64 is copied once, as the solver needs it; others are converted first.
-        Missing points, NaN or masked, are refused: `prepare` fills them.
+        Heights of the rigid surface, shape (Nx, Ny), or (N,) on a line; peaks up. Any float type, order or stride. A
+        C-ordered array of float64 is copied once, as the solver needs it; others are converted first. Missing points,
+        NaN or masked, are refused: `prepare` fills them, or ``absent_missing`` takes them as they are.
     lengths : float or (float, float), optional
         Side lengths (Lx, Ly) = (Nx Δx, Ny Δy), in the unit of the heights; one alone means square cells. Needed
         unless the heights bring them.
     modulus : float
         Contact modulus E*, a pressure.
     mean_pressure : float
-        Mean external pressure p̄ that is held, compression positive.
+        Mean external pressure p̄ that is held, the normal force over the nominal area Lx·Ly, compression positive.
     mean_gap : float
-        Mean gap that is held, a length ≥ 0.
+        Mean gap that is held, a length ≥ 0; with a periodic boundary, and without absent nodes.
+    normal_force : float
+        Normal force F = p̄·Lx·Ly that is held, a pressure times an area, compression positive.
+    approach : float
+        Approach δ that is held, a length: how far the bodies have moved towards each other since they would first touch
+        undeformed, negative before; with a free boundary.
+    spring : (float, float)
+        Stiffness k of a spring in series, a force per length, and its position z at rest, a length: with a free
+        boundary F = k (z − δ), with a periodic one and the mean gap ḡ, without absent nodes, F = k (ḡ − z).
+    boundary : {"periodic", "free"}
+        What is beyond the heights: the same again, or nothing, so that the half-space is free of traction there. Free
+        needs an area, and four times the memory.
+    absent_missing : bool
+        Takes missing points for absent nodes, at which nothing faces the half-space, as around a punch or in a hole.
+        There the gap is infinite and the pressures are zero; fractions and the mean gap are of the other nodes.
     law : Exponential, MaugisDugdale or an object of your own, optional
         Adhesion law; none by default. An object with ``energy(gap)``, ``traction(gap)`` and ``slope(gap)`` of arrays
         is a law, too: see `check_law`.
@@ -92,8 +112,29 @@ def solve(
     >>> solution = asperity.solve(sphere, 1.0, modulus=1.0, mean_gap=0.0398, law=law)
     >>> solution.status, int(solution.contact.sum())
     ('converged', 185)
+
+    A sphere that is no part of a row of spheres, beside Hertz:
+
+    >>> tip = asperity.solve(sphere, 1.0, modulus=1.0, normal_force=0.01, boundary="free")
+    >>> hertz = asperity.exact.Hertz(radius=2.0, modulus=1.0).at_load(0.01)
+    >>> f"{tip.approach / hertz.approach:.3f}"
+    '1.000'
     """
-    load = _control.one(mean_pressure=mean_pressure, mean_gap=mean_gap)
-    scene = Scene(heights, lengths, modulus, law, precision, tolerance, max_iterations, method, threads)
+    load = _control.one(
+        mean_pressure=mean_pressure, mean_gap=mean_gap, normal_force=normal_force, approach=approach, spring=spring
+    )
+    scene = Scene(
+        heights,
+        lengths,
+        absent_missing,
+        boundary,
+        modulus,
+        law,
+        precision,
+        tolerance,
+        max_iterations,
+        method,
+        threads,
+    )
     found = scene.problem.solve(load, scene.start(start), observe, stability or leave, leave)
     return scene.solution("solve", found)

@@ -28,6 +28,9 @@ class Sweep(Rows[Solution]):
         "mean_pressure",
         "mean_contact_pressure",
         "mean_gap",
+        "normal_force",
+        "approach",
+        "edge_traction",
         "contact_fraction",
         "corrected_contact_fraction",
         "perimeter",
@@ -66,7 +69,7 @@ class Sweep(Rows[Solution]):
             self._loads = self._loads[: done + 1]
         sizes = solution.statistics.cluster_sizes
         counts = {"clusters": len(sizes), "largest_cluster": int(sizes[0]) if len(sizes) else 0}
-        all_numbers = {**solution.report, **solution.statistics._asdict(), **counts}
+        all_numbers = {**solution.report, **found["bodies"], **solution.statistics._asdict(), **counts}
         self.rows.append({name: all_numbers[name] for name in self.names})
         return solution
 
@@ -97,6 +100,11 @@ def sweep(
     modulus: float,
     mean_pressures: Iterable[float] | None = None,
     mean_gaps: Iterable[float] | None = None,
+    normal_forces: Iterable[float] | None = None,
+    approaches: Iterable[float] | None = None,
+    springs: Iterable[tuple[float, float]] | None = None,
+    boundary: str = "periodic",
+    absent_missing: bool = False,
     law: Any = None,
     tolerance: float | None = None,
     max_iterations: int | None = None,
@@ -116,6 +124,12 @@ def sweep(
         Mean external pressures, in their order.
     mean_gaps : sequence of float
         Mean gaps, in their order.
+    normal_forces : sequence of float
+        Normal forces.
+    approaches : sequence of float
+        Approaches, with a free boundary.
+    springs : sequence of (float, float)
+        Stiffness and position at rest of a spring.
 
     Returns
     -------
@@ -130,6 +144,24 @@ def sweep(
     >>> [f"{share:.3f}" for share in found.columns["contact_fraction"]]
     ['0.030', '0.081', '0.219']
     """
-    loads = _control.many(mean_pressures=mean_pressures, mean_gaps=mean_gaps)
-    scene = Scene(heights, lengths, modulus, law, precision, tolerance, max_iterations, method, threads)
+    loads = _control.many(
+        mean_pressures=mean_pressures,
+        mean_gaps=mean_gaps,
+        normal_forces=normal_forces,
+        approaches=approaches,
+        springs=springs,
+    )
+    scene = Scene(
+        heights,
+        lengths,
+        absent_missing,
+        boundary,
+        modulus,
+        law,
+        precision,
+        tolerance,
+        max_iterations,
+        method,
+        threads,
+    )
     return Sweep(scene, loads, start, observe)

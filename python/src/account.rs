@@ -36,7 +36,7 @@ impl<T: Scalar> Account<T> {
     pub fn of(solution: Solution<T>, grid: &Grid, modulus: f64, control: Control) -> asperity::Result<Self> {
         let contact = || {
             let map = solution.contact_map();
-            ContactArea::of(map.view(), grid).map(|area| (map, area))
+            ContactArea::of_solution(&solution, map.view(), grid).map(|area| (map, area))
         };
         let (contact, pressures) = rayon::join(contact, || extremes(&solution.pressure));
         let (contact, area) = contact?;
@@ -58,6 +58,7 @@ pub fn returned<'py, T: Scalar>(
     };
     let found = PyDict::new(py);
     found.set_item("report", report::of(py, &account)?)?;
+    found.set_item("bodies", report::of_bodies(py, &account)?)?;
     let Account { solution, contact, stability, .. } = account;
     found.set_item("gap", solution.gap.into_pyarray(py))?;
     found.set_item("pressure", solution.pressure.into_pyarray(py))?;

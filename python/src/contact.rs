@@ -1,11 +1,12 @@
 //! The contact of a solution: its statistics, and the clusters of a map.
 
+use asperity::Grid;
 use asperity::contact::{Clusters, Connectivity, ContactStatistics};
-use asperity::{Boundary, Grid};
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyReadonlyArray2};
 use pyo3::prelude::*;
 
 use crate::account::Scalar;
+use crate::inputs::Beyond;
 use crate::law::law;
 use crate::refusal::refusal;
 
@@ -19,18 +20,20 @@ pub fn contact_statistics<'py>(
     gap: &Bound<'py, PyAny>,
     contact_pressure: &Bound<'py, PyAny>,
     lengths: (f64, f64),
+    boundary: &str,
     given: &Bound<'py, PyAny>,
 ) -> PyResult<Statistics<'py>> {
+    let scene = (lengths, Beyond::of(boundary)?);
     match gap.cast::<PyArray2<f32>>() {
-        Ok(_) => of_fields::<f32>(gap, contact_pressure, lengths, given),
-        Err(_) => of_fields::<f64>(gap, contact_pressure, lengths, given),
+        Ok(_) => of_fields::<f32>(gap, contact_pressure, scene, given),
+        Err(_) => of_fields::<f64>(gap, contact_pressure, scene, given),
     }
 }
 
 fn of_fields<'py, T: Scalar>(
     gap: &Bound<'py, PyAny>,
     contact_pressure: &Bound<'py, PyAny>,
-    lengths: (f64, f64),
+    (lengths, beyond): ((f64, f64), Beyond),
     given: &Bound<'py, PyAny>,
 ) -> PyResult<Statistics<'py>> {
     let (py, law) = (gap.py(), law::<T>(given)?);
@@ -39,7 +42,7 @@ fn of_fields<'py, T: Scalar>(
     let (gap, contact_pressure) = (gap.as_array(), contact_pressure.as_array());
     let found = py.detach(|| {
         let grid = Grid::new(gap.dim(), lengths)?;
-        ContactStatistics::of_fields(gap, contact_pressure, (&grid, Boundary::Periodic), &law)
+        ContactStatistics::of_fields(gap, contact_pressure, (&grid, beyond.boundary(grid)), &law)
     });
     let found = found.map_err(refusal)?;
     let sizes: Vec<i64> = found.cluster_sizes.iter().map(|&size| size as i64).collect();

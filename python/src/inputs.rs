@@ -1,20 +1,72 @@
 //! The inputs of a problem by the names of their keywords: body, load and settings. The law has a file of its own.
 
-use asperity::{Control, Criterion, ElasticOperator, Grid, Real, Settings, Westergaard};
+use asperity::{
+    Boundary, Boussinesq, Control, Criterion, ElasticOperator, Grid, Real, Settings, Surface, Warning, WarningCode,
+    Westergaard,
+};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
-/// The elastic body of a problem.
-pub fn operator<T: Real>(grid: Grid, modulus: f64) -> asperity::Result<Box<dyn ElasticOperator<T>>> {
-    Ok(Box::new(Westergaard::<T>::new(grid, modulus)?))
+/// What is beyond the surface.
+#[derive(Clone, Copy, PartialEq)]
+pub enum Beyond {
+    /// the same again
+    Periodic,
+    /// nothing
+    Free,
 }
 
-/// A load, by the name and value of a keyword.
-pub fn control(name: &str, value: f64) -> PyResult<Control> {
-    match name {
-        "mean_gap" => Ok(Control::MeanGap(value)),
-        "mean_pressure" => Ok(Control::MeanPressure(value)),
-        other => Err(PyValueError::new_err(format!("control is {other}: it must be mean_gap or mean_pressure"))),
+impl Beyond {
+    /// The boundary of a name.
+    pub fn of(name: &str) -> PyResult<Self> {
+        match name {
+            "periodic" => Ok(Self::Periodic),
+            "free" => Ok(Self::Free),
+            other => Err(PyValueError::new_err(format!("boundary is {other}: it must be periodic or free"))),
+        }
+    }
+
+    /// The boundary of a surface on `grid`. Nothing is asked of its compliance: that of the half-space has it.
+    pub fn boundary(self, grid: Grid) -> Boundary {
+        match self {
+            Self::Periodic => Boundary::Periodic,
+            Self::Free => Boundary::Free { window: grid, mean_compliance: 0.0 },
+        }
+    }
+
+    /// The elastic body of a problem.
+    pub fn half_space<T: Real>(self, grid: Grid, modulus: f64) -> asperity::Result<Box<dyn ElasticOperator<T>>> {
+        Ok(match self {
+            Self::Periodic => Box::new(Westergaard::<T>::new(grid, modulus)?),
+            Self::Free => Box::new(Boussinesq::<T>::new(grid, modulus)?),
+        })
+    }
+
+    /// The probable mistakes in the heights: where nothing repeats, nothing has to meet, and a body that ends may be
+    /// flat.
+    pub fn warnings(self, surface: &Surface) -> Vec<Warning> {
+        let (mut found, free) = (Warning::of_surface(surface), self == Self::Free);
+        found.retain(|warning| match warning.code {
+            WarningCode::Tilt | WarningCode::OpenEdges => !free,
+            WarningCode::Flat => !free && surface.absent().is_none(),
+            _ => true,
+        });
+        found
+    }
+}
+
+/// A load as Python passes it: the name of the keyword and its numbers.
+pub type Load = (String, Vec<f64>);
+
+/// The control of a load.
+pub fn control((name, numbers): &Load) -> PyResult<Control> {
+    match (name.as_str(), numbers.as_slice()) {
+        ("mean_gap", &[gap]) => Ok(Control::MeanGap(gap)),
+        ("mean_pressure", &[pressure]) => Ok(Control::MeanPressure(pressure)),
+        ("normal_force", &[force]) => Ok(Control::Force(force)),
+        ("approach", &[approach]) => Ok(Control::Approach(approach)),
+        ("spring", &[stiffness, rest]) => Ok(Control::Spring { stiffness, rest }),
+        (name, numbers) => Err(PyValueError::new_err(format!("{name} is no load with {} numbers", numbers.len()))),
     }
 }
 

@@ -16,10 +16,10 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use crate::account::{Account, Scalar, returned};
-use crate::inputs::{control, operator, settings};
+use crate::inputs::{Beyond, Load, control, settings};
 use crate::law::law;
 use crate::pools::Pool;
-use crate::refusal::refusal;
+use crate::refusal::{refusal, refusal_of_heights};
 use crate::running::{Observe, run};
 
 /// The largest number of departures from unstable equilibria, as in the tool.
@@ -75,12 +75,12 @@ impl<T: Scalar> State<T> {
     fn new(
         surface: &Surface,
         law: Box<dyn AdhesionLaw<T>>,
-        modulus: f64,
+        (beyond, modulus): (Beyond, f64),
         settings: Settings,
     ) -> asperity::Result<Self> {
         let clock = Instant::now();
-        let operator = operator(*surface.grid(), modulus)?;
-        let mut warnings = Warning::of_surface(surface);
+        let operator = beyond.half_space(*surface.grid(), modulus)?;
+        let mut warnings = beyond.warnings(surface);
         warnings.extend(Warning::of_law(&law, surface, modulus));
         let problem = asperity::Problem::new(surface, operator, law)?;
         let (solver, setup) = (Solver::new(settings), clock.elapsed().as_secs_f64());
@@ -194,10 +194,11 @@ fn state<T: Scalar>(
     pool: &Pool,
     surface: Surface,
     given: &Bound<'_, PyAny>,
-    (modulus, settings): (f64, Settings),
+    body: (Beyond, f64),
+    settings: Settings,
 ) -> PyResult<Box<dyn Solves>> {
     let law = law::<T>(given)?;
-    let state = py.detach(|| pool.get().install(|| State::new(&surface, law, modulus, settings)));
+    let state = py.detach(|| pool.get().install(|| State::new(&surface, law, body, settings)));
     Ok(Box::new(state.map_err(refusal)?))
 }
 
@@ -226,12 +227,16 @@ impl Problem {
 #[pymethods]
 impl Problem {
     #[new]
-    #[pyo3(signature = (heights, lengths, modulus, law, precision, tolerance, max_iterations, method, threads))]
+    #[pyo3(signature = (
+        heights, lengths, absent_missing, boundary, modulus, law, precision, tolerance, max_iterations, method, threads
+    ))]
     #[expect(clippy::too_many_arguments, reason = "called by the Python layer alone, by name")]
     fn new(
         py: Python<'_>,
         heights: PyReadonlyArray2<'_, f64>,
         lengths: (f64, f64),
+        absent_missing: bool,
+        boundary: &str,
         modulus: f64,
         law: &Bound<'_, PyAny>,
         precision: &str,
@@ -243,12 +248,13 @@ impl Problem {
         let settings = settings(tolerance, max_iterations, method)?;
         let pool = Pool::of(threads)?;
         let heights = heights.as_array().to_owned();
-        let surface = Grid::new(heights.dim(), lengths).and_then(|grid| Surface::new(grid, heights));
-        let surface = surface.map_err(refusal)?;
-        let numbers = (modulus, settings);
+        let body = (Beyond::of(boundary)?, modulus);
+        let make = if absent_missing { Surface::with_absent } else { Surface::new };
+        let surface = Grid::new(heights.dim(), lengths).and_then(|grid| make(grid, heights));
+        let surface = surface.map_err(refusal_of_heights)?;
         let solves = match precision {
-            "f64" => state::<f64>(py, &pool, surface, law, numbers)?,
-            "f32" => state::<f32>(py, &pool, surface, law, numbers)?,
+            "f64" => state::<f64>(py, &pool, surface, law, body, settings)?,
+            "f32" => state::<f32>(py, &pool, surface, law, body, settings)?,
             other => return Err(PyValueError::new_err(format!("precision is {other}: it must be f64 or f32"))),
         };
         Ok(Self { solves: Mutex::new(solves), threads, settings, single: precision == "f32" })
@@ -266,13 +272,13 @@ impl Problem {
     fn solve<'py>(
         &mut self,
         py: Python<'py>,
-        load: (String, f64),
+        load: Load,
         start: Option<PyReadonlyArray2<'py, f64>>,
         observe: Option<Py<PyAny>>,
         stability: bool,
         leave: bool,
     ) -> PyResult<Bound<'py, PyDict>> {
-        let request = Request { control: control(&load.0, load.1)?, start, stability, leave };
+        let request = Request { control: control(&load)?, start, stability, leave };
         let (pool, solves) = self.parts()?;
         solves.solve(py, Run { pool: &pool, observer: observe.as_ref() }, request)
     }
@@ -282,11 +288,11 @@ impl Problem {
     fn next_load<'py>(
         &mut self,
         py: Python<'py>,
-        load: (String, f64),
+        load: Load,
         start: Option<PyReadonlyArray2<'py, f64>>,
         observe: Option<Py<PyAny>>,
     ) -> PyResult<Bound<'py, PyDict>> {
-        let request = Request { control: control(&load.0, load.1)?, start, stability: false, leave: false };
+        let request = Request { control: control(&load)?, start, stability: false, leave: false };
         let (pool, solves) = self.parts()?;
         solves.next_load(py, Run { pool: &pool, observer: observe.as_ref() }, request)
     }
@@ -297,7 +303,7 @@ impl Problem {
     fn next_step<'py>(
         &mut self,
         py: Python<'py>,
-        loads: Vec<(String, f64)>,
+        loads: Vec<Load>,
         steps: usize,
         smallest_step: f64,
         imbalance: f64,
@@ -305,7 +311,7 @@ impl Problem {
         start: Option<PyReadonlyArray2<'py, f64>>,
         observe: Option<Py<PyAny>>,
     ) -> PyResult<Option<Bound<'py, PyDict>>> {
-        let loads = loads.iter().map(|(name, value)| control(name, *value)).collect::<PyResult<_>>()?;
+        let loads = loads.iter().map(control).collect::<PyResult<_>>()?;
         let settings = PathSettings { steps, smallest_step, imbalance, smooth };
         let (pool, solves) = self.parts()?;
         solves.next_step(py, Run { pool: &pool, observer: observe.as_ref() }, loads, settings, start)

@@ -7,10 +7,25 @@ use pyo3::exceptions::{PyFileNotFoundError, PyValueError};
 /// The exception of an error: `ValueError` with the library's message, its remedies in the words of Python, and
 /// `FileNotFoundError` for a file that does not exist.
 pub fn refusal(error: Error) -> PyErr {
-    let message = error
-        .to_string()
+    refused(error, "")
+}
+
+/// The exception of an error in the heights of a solve, in which missing points may be absent nodes.
+pub fn refusal_of_heights(error: Error) -> PyErr {
+    let missing = matches!(error, Error::NotFinite { value, .. } if value.is_nan());
+    refused(error, if missing { ", or take them for absent nodes by absent_missing=True" } else { "" })
+}
+
+fn refused(error: Error, also: &str) -> PyErr {
+    let message = match &error {
+        Error::Control { control, reason } => format!("{}: {reason}", control.replace('-', "_")),
+        error => error.to_string(),
+    };
+    let message = message
+        .replace("or take a free half-space", "or boundary='free'")
         .replace("as by Topography::fill", "as by asperity.prepare(heights, lengths, fill=True)")
-        .replace("set Topography::lengths", "give lengths=(Lx, Ly)");
+        .replace("set Topography::lengths", "give lengths=(Lx, Ly)")
+        + also;
     match error {
         Error::File { path, .. } if !path.exists() => PyFileNotFoundError::new_err(message),
         _ => PyValueError::new_err(message),

@@ -64,6 +64,18 @@ pub fn of<'py, T: Scalar>(py: Python<'py>, account: &Account<T>) -> PyResult<Bou
     ))
 }
 
+/// The boundary of the half-space, and what the bodies as a whole do: by the names of the library.
+pub fn of_bodies<'py, T: Scalar>(py: Python<'py>, account: &Account<T>) -> PyResult<Bound<'py, PyDict>> {
+    let report = &account.solution.report;
+    Ok(dictionary!(py,
+        "boundary": report.boundary.name(),
+        "normal_force": report.normal_force,
+        "approach": report.approach,
+        "absent_points": report.absent_nodes,
+        "edge_traction": report.edge_traction,
+    ))
+}
+
 fn stability<'py, T: Scalar>(py: Python<'py>, found: &Stability<T>) -> PyResult<Bound<'py, PyDict>> {
     Ok(dictionary!(py,
         "verdict": found.verdict.name(),

@@ -46,6 +46,8 @@ def test_missing_points_are_refused_with_the_remedy(rough):
     for missing in (heights, np.ma.masked_invalid(heights), np.ma.masked_array(rough.heights, np.isnan(heights))):
         with pytest.raises(ValueError, match=r"1 of 4096 nodes .* at index \[3, 5\].*asperity.prepare\(.*fill=True"):
             gap(missing)
+        with pytest.raises(ValueError, match="or take them for absent nodes by absent_missing=True"):
+            gap(missing)
         filled = asperity.prepare(missing, 1.0, fill=True)
         assert filled.missing == 0 and np.isfinite(gap(filled, None)).all()
 

@@ -12,6 +12,13 @@ import asperity
 #: Inputs that only one of the two has.
 DIFFERENT = {"seconds", "heights", "version"}
 
+#: Keys and columns of bodies as a whole, which one of the two may have alone.
+BODIES = {"boundary", "normal_force", "approach", "spring_stiffness", "absent_points", "edge_traction"}
+
+
+def without_bodies(names):
+    return [name for name in names if name not in BODIES]
+
 
 def asked(tool, folder, command, *options):
     subprocess.run([tool, command, *map(str, options)], cwd=folder, check=True, capture_output=True)
@@ -35,9 +42,9 @@ def test_fields_have_the_same_bits_and_the_report_the_same_keys(tmp_path, tool, 
     for field in ("gap", "pressure", "contact_pressure"):
         assert np.load(tmp_path / "out" / f"{field}.npy").tobytes() == getattr(solution, field).tobytes()
     report = json.loads((tmp_path / "out" / "report.json").read_text())
-    assert list(report) == list(solution.report)
+    assert without_bodies(report) == without_bodies(solution.report)
     found = json.loads(json.dumps(solution.report), parse_constant=lambda _: None)
-    for key in report.keys() - DIFFERENT:
+    for key in (report.keys() & found.keys()) - DIFFERENT:
         assert report[key] == found[key], key
 
 
@@ -50,8 +57,9 @@ def test_a_sweep_has_the_columns_of_the_tool(tmp_path, tool, rough, law):
     with open(tmp_path / "sweep.csv", newline="") as file:
         rows = list(csv.DictReader(file))
     columns = asperity.sweep(rough, modulus=1.0, mean_pressures=[0.01, 0.02, 0.015], law=law).columns
-    assert list(rows[0]) == list(columns)
-    for name, column in columns.items():
+    assert without_bodies(rows[0]) == without_bodies(columns)
+    for name in without_bodies(columns):
+        column = columns[name]
         assert [type(column[0])(row[name]) for row in rows] == list(column), name
 
 
@@ -61,12 +69,12 @@ def test_a_cycle_has_the_columns_of_the_tool(tmp_path, tool):
     law = asperity.Exponential(2e-4, 4e-3)
     # fmt: off
     asked(tool, tmp_path, "cycle", "--heights", "heights.npy", "--law", "exponential", "--work-of-adhesion", 2e-4,
-          "--range", 4e-3, "--mean-gaps", "0.05,0.012,0.05", "--steps", 10, "--out", "cycle.csv")
+          "--range", 4e-3, "--mean-gaps", "0.05,0.012,0.05,0.04", "--steps", 10, "--out", "cycle.csv")
     # fmt: on
     with open(tmp_path / "cycle.csv", newline="") as file:
         rows = list(csv.DictReader(file))
-    columns = asperity.cycle(wave, 1.0, modulus=1.0, law=law, mean_gaps=[0.05, 0.012, 0.05], steps=10).columns
-    assert list(rows[0]) == list(columns)
+    columns = asperity.cycle(wave, 1.0, modulus=1.0, law=law, mean_gaps=[0.05, 0.012, 0.05, 0.04], steps=10).columns
+    assert set(without_bodies(columns)) <= set(rows[0])
     assert [row["event"] or None for row in rows] == list(columns["event"])
     for name in ("mean_gap", "mean_pressure", "work", "dissipated", "imbalance"):
         assert [float(row[name]) for row in rows] == list(columns[name]), name

@@ -1,0 +1,153 @@
+"""The free half-space beside the periodic cell: its loads, and nodes at which nothing faces it."""
+
+import numpy as np
+import pytest
+
+import asperity
+
+RADIUS, SIDE, FORCE = 2.0, 0.4, 1e-3
+
+
+@pytest.fixture(scope="module")
+def tip():
+    """A paraboloid on 64 by 64 nodes, larger than its contact with a free half-space."""
+    x = SIDE * (np.arange(64) / 64 - 0.5)
+    return asperity.prepare(-(x[:, None] ** 2 + x**2) / (2 * RADIUS), SIDE)
+
+
+@pytest.fixture(scope="module")
+def hertz():
+    return asperity.exact.Hertz(RADIUS, 1.0).at_load(FORCE)
+
+
+def pressed(heights, **given):
+    return asperity.solve(heights, **{"modulus": 1.0, "boundary": "free", **given})
+
+
+def test_a_tip_under_a_force_is_that_of_hertz(tip, hertz):
+    found = pressed(tip, normal_force=FORCE)
+    assert found.boundary == "free" and found.absent_points == 0
+    # 18 nodes along the radius of the contact: of second order, 1e-4
+    assert np.isclose(found.approach, hertz.approach, rtol=5e-4)
+    assert np.isclose(found.normal_force, FORCE, rtol=1e-12)
+    assert np.isclose(found.pressure.mean() * SIDE**2, FORCE, rtol=1e-5)
+    assert np.isclose(found.contact.sum() * (SIDE / 64) ** 2, np.pi * hertz.contact_radius**2, rtol=0.03)
+    assert found.edge_traction < 1e-3 and "approach" in repr(found)
+    assert found.report["control"] == "normal-force" and found.report["control_value"] == FORCE
+
+
+def test_an_approach_and_a_spring_lead_to_the_state_of_the_force(tip):
+    by_force = pressed(tip, normal_force=FORCE)
+    by_approach = pressed(tip, approach=by_force.approach)
+    # the force goes with the gap, whose energy is right to 1e-6
+    assert np.isclose(by_approach.normal_force, FORCE, rtol=1e-4)
+    stiffness = 0.05
+    by_spring = pressed(tip, spring=(stiffness, by_force.approach + FORCE / stiffness))
+    assert np.isclose(by_spring.normal_force, FORCE, rtol=1e-4)
+    assert np.isclose(by_spring.approach, by_force.approach, rtol=1e-4)
+    assert by_spring.report["control"] == "spring"
+
+
+def test_a_force_on_a_periodic_surface_is_its_pressure_times_its_area(rough):
+    by_force = asperity.solve(rough.heights, 2.0, modulus=1.0, normal_force=0.04)
+    by_pressure = asperity.solve(rough.heights, 2.0, modulus=1.0, mean_pressure=0.01)
+    assert by_force.gap.tobytes() == by_pressure.gap.tobytes() and by_force.normal_force == 0.04
+    assert by_force.boundary == "periodic" and by_force.approach is by_force.edge_traction is None
+
+
+def test_missing_points_may_be_absent_nodes():
+    x = np.arange(48) / 48 - 0.5
+    radius, approach = 0.45, 0.01
+    outside = np.hypot(x[:, None], x) >= radius
+    flat = np.ma.masked_array(np.zeros((48, 48)), outside)
+    found = pressed(flat, lengths=1.0, approach=approach, absent_missing=True)
+    # the edge of the punch is on the nodes to half a node: 3 %
+    assert np.isclose(found.normal_force, 2 * radius * approach, rtol=0.03)
+    assert found.absent_points == outside.sum() and found.contact_fraction == 1.0
+    assert np.isinf(found.gap[outside]).all() and not found.pressure[outside].any() and found.contact[~outside].all()
+    again = pressed(np.where(outside, np.nan, 0.0), lengths=1.0, approach=approach, absent_missing=True, start=found)
+    assert np.isclose(again.normal_force, found.normal_force, rtol=1e-4)
+    statistics = found.statistics
+    assert statistics.contact_fraction == 1.0 and statistics.contact_nodes == found.report["contact_nodes"]
+    assert statistics.perimeter == found.report["perimeter"]
+
+
+def test_opposite_sides_meet_in_a_periodic_cell_alone():
+    ramp = np.tile(np.abs(np.arange(32) / 31 - 0.5)[:, None], (1, 32)) / 20
+    with pytest.warns(asperity.InputWarning, match="window-edge"):
+        free = pressed(ramp, lengths=1.0, normal_force=1e-3).statistics
+    periodic = asperity.solve(ramp, 1.0, modulus=1.0, normal_force=1e-3).statistics
+    assert len(periodic.cluster_sizes) == 1 and len(free.cluster_sizes) == 2
+    # both have two edges of length 1 inside; the free one has those of the window, too
+    assert np.isclose(periodic.perimeter, 2.0) and free.perimeter > 4.0
+
+
+def test_sweeps_along_forces_approaches_and_springs(tip):
+    forces = [5e-4, 1e-3]
+    by_force = asperity.sweep(tip, modulus=1.0, normal_forces=forces, boundary="free").columns
+    exact = asperity.exact.Hertz(RADIUS, 1.0).at_load(forces)
+    assert np.allclose(by_force["approach"], exact.approach, rtol=5e-4)
+    approaches = by_force["approach"]
+    by_approach = asperity.sweep(tip, modulus=1.0, approaches=approaches, boundary="free").columns
+    springs = [(0.05, approach + force / 0.05) for approach, force in zip(approaches, forces)]
+    by_spring = asperity.sweep(tip, modulus=1.0, springs=springs, boundary="free").columns
+    for columns in (by_force, by_approach, by_spring):
+        assert np.allclose(columns["normal_force"], forces, rtol=1e-4)
+
+
+def test_a_tip_with_adhesion_on_a_spring_jumps_in_and_off():
+    x = 0.24 * (np.arange(24) / 24 - 0.5)
+    tip = -(x[:, None] ** 2 + x**2) / (2 * RADIUS)
+    law = asperity.Exponential(2e-5, 2e-3)
+    # apart, what little attraction there is spans the window
+    with pytest.warns(asperity.InputWarning, match="window-edge"):
+        cycle = asperity.cycle(
+            tip,
+            0.24,
+            modulus=1.0,
+            law=law,
+            springs=[(0.01, rest) for rest in (-0.02, 0.0, -0.03)],
+            boundary="free",
+            start=0.02 - tip,
+            steps=10,
+            smallest_step=1e-3,
+            tolerance=1e-7,
+        ).run()
+    assert [event["event"] for event in cycle.events if event["energy_drop"]] == ["jump-in", "pull-off"]
+    assert cycle.columns["normal_force"].min() < 0
+    axes = cycle.plot(force_unit="N")
+    assert axes.get_xlabel() == "approach" and axes.get_ylabel() == "normal force (µN)"
+
+
+def test_what_the_boundary_does_not_have_is_refused(tip, rough):
+    for given, message in [
+        ({"mean_gap": 0.01}, "mean_gap: a free half-space has no mean gap to be held"),
+        (
+            {"boundary": "periodic", "approach": 0.01},
+            "approach: bodies in a periodic cell have no approach.*or boundary='free'",
+        ),
+        ({"boundary": "open", "approach": 0.01}, "boundary is open: it must be periodic or free"),
+        ({"spring": (-1.0, 0.0)}, "stiffness of the spring is -1: it must be positive"),
+        ({"normal_force": np.nan}, "normal force is NaN"),
+    ]:
+        with pytest.raises(ValueError, match=message):
+            pressed(tip, **given)
+    with pytest.raises(TypeError, match=r"spring is 1.0: it must be \(stiffness, rest\)"):
+        pressed(tip, spring=1.0)
+    with pytest.raises(TypeError, match="normal_force and approach given"):
+        pressed(tip, normal_force=1.0, approach=1.0)
+    with pytest.raises(ValueError, match="loaded on an area, not on a line"):
+        pressed(np.zeros(8), lengths=1.0, normal_force=1.0)
+    holes = np.where(rough.heights > rough.heights.mean(), np.nan, rough.heights)
+    with pytest.raises(ValueError, match="absent nodes is not what the load works on"):
+        asperity.solve(holes, 1.0, modulus=1.0, mean_gap=0.01, absent_missing=True)
+    with pytest.raises(ValueError, match="all nodes are absent"):
+        pressed(np.full((8, 8), np.nan), lengths=1.0, normal_force=1.0, absent_missing=True)
+    with pytest.raises(ValueError, match="not finite"):
+        pressed(np.full((8, 8), np.inf), lengths=1.0, normal_force=1.0, absent_missing=True)
+
+
+def test_a_map_that_does_not_repeat_is_no_mistake_on_a_free_half_space(tip, recwarn):
+    tilted = asperity.Topography(tip.heights + 0.01 * np.arange(64)[:, None] / 64, tip.lengths, periodic=False)
+    pressed(tilted, normal_force=1e-4)
+    assert not recwarn.list
