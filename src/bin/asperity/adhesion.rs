@@ -11,7 +11,7 @@ use asperity::{
 use clap::{Args, ValueEnum};
 use ndarray::Array2;
 
-use crate::options::{non_negative, positive};
+use crate::allowed::{non_negative, positive};
 use crate::outcome::Outcome;
 
 /// The adhesion between the surfaces.

@@ -6,8 +6,8 @@ use asperity::{Boussinesq, Control, ElasticOperator, Grid, Real, Result, Surface
 use clap::{Args, ValueEnum};
 use ndarray::Array2;
 
+use crate::allowed::{finite, non_negative, positive};
 use crate::loads::{self, Loads};
-use crate::options::{finite, non_negative, positive};
 use crate::outcome::Outcome;
 
 /// The boundary of the half-space, and the nodes at which nothing faces it.

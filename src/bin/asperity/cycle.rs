@@ -11,6 +11,7 @@ use ndarray::Array2;
 use serde_json::{Map, Value, json};
 
 use crate::adhesion::{Adhesion, AdhesionOptions, Wall};
+use crate::allowed::positive;
 use crate::boundary::{Boundary, LOADS, LoadsOptions};
 use crate::columns::{Cell, OUTCOME, STATE, outcome, state};
 use crate::csv;
@@ -19,7 +20,7 @@ use crate::journal::Row;
 use crate::kept::Kept;
 use crate::loads::name_and_value;
 use crate::numbers::Style;
-use crate::options::{self, Given, Precision, ProblemOptions, Scalar, SolverOptions, SurfaceOptions};
+use crate::options::{Given, Precision, ProblemOptions, Scalar, SolverOptions, SurfaceOptions};
 use crate::outcome::Outcome;
 use crate::output::OutputFile;
 use crate::printing::{Printing, say};
@@ -51,11 +52,11 @@ pub struct Options {
     #[arg(long, value_name = "N", default_value_t = 50, allow_hyphen_values = true, help_heading = "Loads")]
     steps: usize,
     /// Step to which jumps are located, as a share of the way from one turning point to the next
-    #[arg(long, value_name = "SHARE", default_value = "1e-4", allow_hyphen_values = true, value_parser = options::positive)]
+    #[arg(long, value_name = "SHARE", default_value = "1e-4", allow_hyphen_values = true, value_parser = positive)]
     #[arg(help_heading = "Loads")]
     smallest_step: f64,
     /// Imbalance of energy that a step may have, as a share of how much the energy has changed
-    #[arg(long, value_name = "SHARE", default_value = "1e-4", allow_hyphen_values = true, value_parser = options::positive)]
+    #[arg(long, value_name = "SHARE", default_value = "1e-4", allow_hyphen_values = true, value_parser = positive)]
     #[arg(help_heading = "Loads")]
     imbalance: f64,
     /// Do not smooth a law whose traction jumps: the grid then holds the edge of the adhesive zone back

@@ -10,9 +10,9 @@ use clap::{Args, Command, FromArgMatches};
 use ndarray::Array2;
 use serde_json::json;
 
+use crate::allowed::threads;
 use crate::case;
 use crate::numbers::{Style, si};
-use crate::options::threads;
 use crate::outcome::Outcome;
 use crate::output::at_destination;
 use crate::output::write_text;

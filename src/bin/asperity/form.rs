@@ -7,7 +7,7 @@ use asperity::{Grid, Surface};
 use clap::{Args, ValueEnum};
 use ndarray::Array2;
 
-use crate::options::{finite, positive};
+use crate::allowed::{finite, positive};
 use crate::outcome::Outcome;
 
 /// The form and its parameters.

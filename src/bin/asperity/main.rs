@@ -17,6 +17,7 @@ mod sweep;
 
 // the parts of which commands are made
 mod adhesion;
+mod allowed;
 mod boundary;
 mod case;
 mod columns;

@@ -7,9 +7,9 @@ use asperity::{Topography, Trend};
 use clap::{Args, ValueEnum};
 use serde_json::json;
 
+use crate::allowed::{nodes, positive};
 use crate::heights::{given, holes, sides, warn_of_unread};
 use crate::numbers::plain;
-use crate::options::{nodes, positive};
 use crate::outcome::Outcome;
 use crate::output::OutputFile;
 use crate::printing::Printing;

@@ -7,9 +7,9 @@ use asperity::{Spectrum, Surface};
 use clap::Args;
 use serde_json::{Map, Value, json};
 
+use crate::allowed::positive;
 use crate::heights;
 use crate::numbers::plain;
-use crate::options::positive;
 use crate::outcome::Outcome;
 use crate::output::OutputFile;
 use crate::output::write_text;

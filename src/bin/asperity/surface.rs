@@ -7,8 +7,8 @@ use asperity::{Amplitude, Grid, SelfAffine, Topography};
 use clap::{ArgGroup, Args};
 use serde_json::json;
 
+use crate::allowed::{nodes, positive, threads};
 use crate::form::{Form, FormOptions};
-use crate::options::{nodes, positive, threads};
 use crate::outcome::Outcome;
 use crate::output::OutputFile;
 use crate::output::write_text;
