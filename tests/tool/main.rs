@@ -5,6 +5,7 @@ mod bench;
 
 #[cfg(unix)]
 mod commands;
+mod free_tool;
 mod hostile;
 mod laws_tool;
 mod prepare;

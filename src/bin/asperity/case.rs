@@ -1,5 +1,6 @@
 //! A case to solve, and the account of its solve: the result, its stability and its cost.
 
+use std::borrow::Cow;
 use std::ops::ControlFlow;
 use std::time::Instant;
 
@@ -7,18 +8,20 @@ use asperity::contact::ContactStatistics;
 use asperity::stability::{Departure, Stability, StabilityTest, Verdict};
 use asperity::{
     AdhesionLaw, Control, Grid, Level, Nested, NestedSolution, NoAdhesion, Problem, Report, Settings, Solution, Solver,
-    Start, Surface, Westergaard,
+    Start, Surface,
 };
 use ndarray::Array2;
 use serde_json::Value;
 
 use crate::adhesion::Wall;
+use crate::boundary::Boundary;
 use crate::options::Scalar;
 use crate::outcome::Outcome;
 use crate::progress::Progress;
 
 /// The case to solve: the material, the load and the settings; the surface and the law are apart.
 pub struct Case {
+    pub boundary: Boundary,
     pub modulus: f64,
     pub control: Control,
     pub settings: Settings,
@@ -83,7 +86,7 @@ pub fn solve<T: Scalar, L: AdhesionLaw<T>>(
 ) -> Outcome<(Solution<T>, Account)> {
     let clock = Instant::now();
     let grid = *surface.grid();
-    let mut problem = Problem::new(&surface, Westergaard::new(grid, case.modulus)?, law)?;
+    let mut problem = Problem::new(&surface, case.boundary.half_space(grid, case.modulus)?, law)?;
     drop(surface);
     let start = start.as_ref().map_or(Start::Default, |start| Start::From(start));
     let mut solver = Solver { settings: case.settings, constraint: case.wall };
@@ -122,7 +125,7 @@ pub fn solve_nested<T: Scalar, L: AdhesionLaw<T>>(
     mut progress: Progress,
 ) -> Outcome<(Solution<T>, Account)> {
     let clock = Instant::now();
-    let half_space = |grid| Westergaard::new(grid, case.modulus);
+    let half_space = |grid| case.boundary.half_space(grid, case.modulus);
     let Nested { coarse_tolerance, coarsest, .. } = Nested::default();
     let solver = Solver { settings: case.settings, constraint: case.wall };
     let found = Nested { solver, coarse_tolerance, coarsest }.solve_observed(
@@ -186,7 +189,9 @@ pub fn check_finite<T: Scalar>(solution: &Solution<T>) -> Outcome<()> {
     let fields = [("gap", gap), ("pressure", pressure), ("contact pressure", contact_pressure)];
     for (name, field) in fields {
         let count = field.iter().filter(|value| !value.is_finite()).count();
-        if count > 0 {
+        // at absent nodes the gap is infinite
+        let absent = if name == "gap" { report.absent_nodes } else { 0 };
+        if count != absent {
             let other = if T::NAME == "f32" { "--precision f64" } else { "another start by --initial-gap" };
             return Err(format!(
                 "the solve ran away: after {} iterations in {} the {name} is not finite at {count} of {} nodes; use {other}, or \
@@ -199,4 +204,12 @@ pub fn check_finite<T: Scalar>(solution: &Solution<T>) -> Outcome<()> {
         }
     }
     Ok(())
+}
+
+/// The gap as files have it: NaN at absent nodes, where there is none.
+pub fn gap_to_write<T: Scalar>(solution: &Solution<T>) -> Cow<'_, Array2<T>> {
+    if solution.report.absent_nodes == 0 {
+        return Cow::Borrowed(&solution.gap);
+    }
+    Cow::Owned(solution.gap.mapv(|gap| if gap.is_finite() { gap } else { T::nan() }))
 }

@@ -2,18 +2,22 @@
 
 use std::path::PathBuf;
 
+use asperity::contact::ContactStatistics;
 use asperity::path::{Event, Path, PathCheckpoint, PathSettings, PathStep};
 use asperity::picture::Chart;
-use asperity::{Control, Error, Grid, Problem, Solver, Status, Surface, Westergaard};
+use asperity::{Control, Error, Grid, Problem, Solver, Status, Surface};
 use clap::{ArgGroup, Args};
 use ndarray::Array2;
 use serde_json::{Map, Value, json};
 
 use crate::adhesion::{Adhesion, AdhesionOptions, Wall};
+use crate::boundary::{Boundary, LOADS, LoadsOptions};
+use crate::columns::{Cell, OUTCOME, STATE, outcome, state};
 use crate::csv;
 use crate::identity::{Identity, identity};
 use crate::journal::Row;
-use crate::loads::{self, Loads, name_and_value};
+use crate::kept::Kept;
+use crate::loads::name_and_value;
 use crate::numbers::Style;
 use crate::options::{self, Given, Precision, ProblemOptions, Scalar, SolverOptions, SurfaceOptions};
 use crate::outcome::Outcome;
@@ -25,27 +29,24 @@ use crate::warnings::{Strictness, Warnings};
 
 /// Follow the contact along a cycle of approach and withdrawal, and find its jumps.
 ///
-/// The loads are the turning points: the first is the start, and from each to the next the tool goes in steps that
-/// adapt themselves. Where the state jumps, the step is halved down to a given share of the way, so that the jump is
-/// located and its energy known. Under given pressures it goes on at given mean gaps past the limit points, where
-/// there is no equilibrium close by. A row for each state is appended to the file as it comes, with the loads, the
-/// contact, the energies per area, the work done by the load so far, the energy dissipated in jumps so far, what is
-/// missing from the balance of the two, and what happened on the way: jump-in, jump-out, pull-off, limit-point,
-/// bifurcation. The same command again goes on where an interrupted one was; for that it keeps FILE.state.npz beside
+/// The loads are the turning points, at least two: the first is the start, and from each to the next the tool goes in
+/// steps that adapt themselves, an approach or a withdrawal. If the last leg is a withdrawal, it ends once the surfaces
+/// are apart, where they neither touch nor attract each other. Where the state jumps, the step is halved down to a
+/// given share of the way, so that the jump is located and its energy known. Under given pressures or forces it goes on
+/// at given mean gaps (with a free boundary approaches) past the limit points, where there is no equilibrium close by.
+/// A row for each state is appended to the file as it comes, with the columns of asperity sweep, the work done by the
+/// load so far and the energy dissipated in jumps so far, per area, what is missing from the balance of the two, and
+/// what happened on the way: jump-in, jump-out, pull-off, limit-point, bifurcation. The same command again goes on where an interrupted one was; for that it keeps FILE.state.npz beside
 /// the file, which may be deleted at the end. FILE.scene.toml beside it repeats or continues the cycle by asperity
 /// run. Exits with 0 if all rows converged, 2 if not, and 1 if the input is refused or a file cannot be written.
 #[derive(Args)]
-#[command(after_help = EXAMPLES, group(ArgGroup::new("loads").required(true).args(["mean_gaps", "mean_pressures"])))]
+#[command(after_help = EXAMPLES, group(ArgGroup::new("loads").required(true).args(LOADS)))]
 pub struct Options {
     #[command(flatten)]
     surface: SurfaceOptions,
 
-    /// Mean gaps at the turning points, lengths, with commas between; at least two
-    #[arg(long, value_name = "LIST", allow_hyphen_values = true, value_parser = loads::gaps, help_heading = "Loads")]
-    mean_gaps: Option<Loads>,
-    /// Mean external pressures at the turning points, compression positive; at least two
-    #[arg(long, value_name = "LIST", allow_hyphen_values = true, value_parser = loads::pressures, help_heading = "Loads")]
-    mean_pressures: Option<Loads>,
+    #[command(flatten)]
+    loads: LoadsOptions,
     /// Least number of steps from one turning point to the next
     #[arg(long, value_name = "N", default_value_t = 50, allow_hyphen_values = true, help_heading = "Loads")]
     steps: usize,
@@ -69,7 +70,12 @@ pub struct Options {
     /// File for the rows, .csv
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     out: PathBuf,
-    /// File for a picture of the mean pressure over the mean gap, .png
+    /// Folder for the fields at the jumps, made if needed: of the rows with an event, of those before them, and of the
+    /// last row, gap-0001.npy, pressure-0001.npy, contact_pressure-0001.npy and so on
+    #[arg(long, value_name = "DIR", help_heading = "Output")]
+    fields: Option<PathBuf>,
+    /// File for a picture of the mean pressure over the mean gap, with a free boundary of the normal force over the
+    /// approach, .png
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     plot: Option<PathBuf>,
     /// Unit of the lengths, on the picture only; m gets prefixes
@@ -78,6 +84,9 @@ pub struct Options {
     /// Unit of the pressures, on the picture only; Pa gets prefixes
     #[arg(long, value_name = "UNIT", help_heading = "Output")]
     pressure_unit: Option<String>,
+    /// Unit of the forces, on the picture only; N gets prefixes
+    #[arg(long, value_name = "UNIT", help_heading = "Output")]
+    force_unit: Option<String>,
     /// Start over, and replace files that are there
     #[arg(long, help_heading = "Output")]
     force: bool,
@@ -94,32 +103,23 @@ const EXAMPLES: &str = "\
       --range 4e-3 --mean-gaps 0.05,0.02,0.05 --out cycle.csv --plot cycle.png
   Press, and pull until it comes off:
     asperity cycle --heights heights.npy --law exponential --work-of-adhesion 1e-4 \\
-      --range 4e-3 --mean-pressures 0.02,-1 --out pull-off.csv";
+      --range 4e-3 --mean-pressures 0.02,-1 --out pull-off.csv
+  A tip on a free half-space, together from afar and apart again, with a picture of force over approach:
+    asperity cycle --heights tip.npy --boundary free --law exponential --work-of-adhesion 1e-4 \\
+      --range 4e-3 --approaches -0.03,0.01,-0.03 --out tip.csv --plot tip.png";
+
+/// The names of the directions of legs.
+const APPROACH: &str = "approach";
+const WITHDRAWAL: &str = "withdrawal";
 
 /// The number of events that are printed at the end.
 const MOST_EVENTS: usize = 8;
 
-/// The names of the columns, in the order of [`row`].
-const COLUMNS: [&str; 18] = [
-    "leg",
-    "control",
-    "control_value",
-    "mean_gap",
-    "mean_pressure",
-    "mean_contact_pressure",
-    "contact_fraction",
-    "elastic_energy",
-    "adhesive_energy",
-    "work",
-    "dissipated",
-    "imbalance",
-    "event",
-    "energy_drop",
-    "relative_error",
-    "iterations",
-    "operator_applications",
-    "status",
-];
+/// The names of the columns.
+fn names() -> Vec<&'static str> {
+    [&["leg", "direction"], &STATE[..], &["work", "dissipated", "imbalance", "event", "energy_drop"], &OUTCOME[..]]
+        .concat()
+}
 
 /// Runs the command; whether all rows converged.
 pub fn run(options: &Options, scene: &Scene) -> Outcome<bool> {
@@ -127,6 +127,7 @@ pub fn run(options: &Options, scene: &Scene) -> Outcome<bool> {
     if options.adhesion.wall == Wall::None {
         return Err("a cycle needs a wall: give --wall hard, or follow the loads by asperity sweep".into());
     }
+    options.surface.beyond.boundary.check(options.loads.control(0.0))?;
     let given = options.table().problem.read()?;
     match options.solver.precision {
         Precision::F32 => options.run::<f32>(given, scene),
@@ -136,14 +137,16 @@ pub fn run(options: &Options, scene: &Scene) -> Outcome<bool> {
 
 impl Options {
     fn run<T: Scalar>(&self, Given { surface, adhesion, unit, start }: Given<'_>, scene: &Scene) -> Outcome<bool> {
-        let loads = self.loads();
+        let loads = self.loads.controls();
         if loads.len() < 2 {
             return Err("a cycle needs two turning points at least: give more loads, with commas between".into());
         }
         let warnings = Warnings::of_input::<T>(self.strictness, &surface, &adhesion, self.table().problem)?;
         let grid = *surface.grid();
         let identity = self.identity(&surface, &adhesion, start.as_ref());
-        let operator = Westergaard::new(grid, self.surface.modulus)?;
+        let start = start.or_else(|| self.surface.beyond.boundary.start_afar(&surface, &self.loads.controls()));
+        let operator = self.surface.beyond.boundary.half_space(grid, self.surface.modulus)?;
+        let law = adhesion.law::<T>()?;
         let mut problem = Problem::new(&surface, operator, adhesion.law::<T>()?)?;
         drop(surface);
         let mut solver = Solver::new(self.solver.settings());
@@ -154,7 +157,10 @@ impl Options {
             smooth: !self.sharp,
         };
         let mut path = Path::new(&mut solver, &mut problem, loads, settings)?;
-        let header = COLUMNS.join(",") + "\n";
+        let names = names();
+        let header = names.join(",") + "\n";
+        let kept = Kept(self.fields.as_deref());
+        kept.check(self.force || self.out.exists())?;
         let (mut table, saved) = Table::open(self.table(), scene, &header, identity, None, warnings)?;
         if table.rows() > 0 {
             let fields = saved.fields.into_iter().map(T::field).collect();
@@ -162,19 +168,34 @@ impl Options {
         } else if let Some(start) = start {
             path = path.starting_from(T::field(start));
         }
-        loop {
+        if table.rows() == 0 {
+            kept.clear();
+        }
+        let text = table.text()?;
+        let mut had_event = text.lines().next_back().is_some_and(|row| !csv::parsed(&names, row)["event"].is_null());
+        let mut ended = self.ends(&csv::parsed(&names, text.lines().next_back().unwrap_or_default()));
+        while !ended {
             let name = (table.rows() + 1).to_string();
             let step = table.observed(&name, grid.nodes(), |observe| path.next_observed(observe));
             let Some(step) = step else { break };
             let step = step?;
             table.check(&step.solution)?;
-            let (row, checkpoint) = (row(&step), path.checkpoint());
+            let statistics = ContactStatistics::of(&step.solution, &grid, &law)?;
+            let row = row(&step, self.direction(step.leg), &statistics);
+            let checkpoint = path.checkpoint();
             let fields: Vec<_> = checkpoint.fields.iter().map(|field| field.view()).collect();
             let (report, (_, load)) = (&step.solution.report, name_and_value(step.control));
             let (text, converged) = (csv::line(&row), report.status == Status::Converged);
+            kept.write(table.rows() + 1, &step.solution)?;
             table.append(&Row { text: &text, load, converged, fields: &fields, numbers: &checkpoint.numbers })?;
+            // the fields of a row stay where it or the next one has an event
+            if !had_event && step.event.is_none() {
+                kept.forget(table.rows() - 1);
+            }
+            had_event = step.event.is_some();
             let event = step.event.map_or(String::new(), |event| format!("  {event}"));
             self.printing.say(&format!("{:>4}  {}{event}", table.rows(), table::brief(report)));
+            ended = self.ends(&row.into());
         }
         drop(path);
         self.conclude(&table, self.length_unit.as_deref().or(unit.as_deref()), &grid)?;
@@ -187,12 +208,28 @@ impl Options {
         TableOptions { problem, out, force, printing }
     }
 
-    fn loads(&self) -> Vec<Control> {
-        match (&self.mean_gaps, &self.mean_pressures) {
-            (Some(Loads(gaps)), _) => gaps.iter().copied().map(Control::MeanGap).collect(),
-            (None, Some(Loads(pressures))) => pressures.iter().copied().map(Control::MeanPressure).collect(),
-            (None, None) => Vec::new(),
-        }
+    /// The direction of a leg; the start has none.
+    fn direction(&self, leg: usize) -> &'static str {
+        let values = self.loads.values();
+        let (Some(from), Some(to)) = (leg.checked_sub(1).and_then(|before| values.get(before)), values.get(leg)) else {
+            return "start";
+        };
+        // the loads under which bodies come together as they grow
+        let pressing = match self.loads.control(0.0) {
+            Control::MeanGap(_) => false,
+            Control::Spring { .. } => self.surface.beyond.boundary == Boundary::Free,
+            _ => true,
+        };
+        if (to > from) == pressing { APPROACH } else { WITHDRAWAL }
+    }
+
+    /// Whether the cycle ends with a row: the surfaces are apart in a withdrawal that is the last leg.
+    fn ends(&self, row: &Value) -> bool {
+        let is_none = |name: &str| row[name].as_f64() == Some(0.0);
+        row["leg"].as_u64() == Some(self.loads.values().len() as u64 - 1)
+            && row["direction"] == WITHDRAWAL
+            && is_none("contact_fraction")
+            && is_none("attractive_fraction")
     }
 
     fn check_files(&self) -> Outcome<()> {
@@ -214,17 +251,15 @@ impl Options {
     /// The inputs on which the rows depend.
     fn identity(&self, surface: &Surface, adhesion: &Adhesion<'_>, start: Option<&Array2<f64>>) -> Identity {
         let mut identity = identity(self.table().problem, surface, adhesion, start);
-        let loads = self.loads();
-        let control = loads.first().map_or("none", |load| name_and_value(*load).0);
-        let values: Vec<_> = loads.iter().map(|load| name_and_value(*load).1).collect();
-        identity.insert("control".to_owned(), control.into());
-        let values: Vec<_> = values.iter().map(f64::to_string).collect();
+        identity.insert("control".to_owned(), self.loads.kind().into());
+        let values: Vec<_> = self.loads.values().iter().map(f64::to_string).collect();
         identity.insert("loads".to_owned(), values.join(" ").into());
         for (name, value) in [
             ("steps", self.steps.to_string()),
             ("smallest_step", self.smallest_step.to_string()),
             ("imbalance", self.imbalance.to_string()),
             ("sharp", self.sharp.to_string()),
+            ("fields", if self.fields.is_some() { "kept" } else { "not kept" }.to_owned()),
         ] {
             identity.insert(name.to_owned(), value.into());
         }
@@ -233,51 +268,60 @@ impl Options {
 
     /// Prints the summary or the report of all rows, and draws the picture.
     fn conclude(&self, table: &Table<'_>, unit: Option<&str>, grid: &Grid) -> Outcome<()> {
-        let text = table.text()?;
-        let rows: Vec<Vec<&str>> = text.lines().skip(1).map(|row| row.split(',').collect()).collect();
-        let column = |name: &str| COLUMNS.iter().position(|column| *column == name).unwrap_or_default();
-        let number =
-            |row: &[&str], name: &str| row.get(column(name)).and_then(|cell| cell.parse().ok()).unwrap_or(f64::NAN);
-        let least = rows.iter().map(|row| number(row, "mean_pressure")).fold(f64::INFINITY, f64::min);
-        let event = |row: &[&str]| row.get(column("event")).copied().unwrap_or_default().to_owned();
+        let (text, names) = (table.text()?, names());
+        let rows: Vec<_> = text.lines().skip(1).map(|row| csv::parsed(&names, row)).collect();
+        let number = |row: &Value, name: &str| row[name].as_f64().unwrap_or(f64::NAN);
+        let least = |name: &str| rows.iter().map(|row| number(row, name)).fold(0.0, f64::min);
+        let tension = -least("mean_pressure");
+        // the largest jump first, and at the end limit points, which dissipate nothing
+        let mut events: Vec<usize> = (0..rows.len()).filter(|&k| !rows[k]["event"].is_null()).collect();
+        let drop = |k: usize| rows[k]["energy_drop"].as_f64().unwrap_or(f64::NEG_INFINITY);
+        events.sort_by(|&a, &b| drop(b).total_cmp(&drop(a)));
+        let free = self.surface.beyond.boundary == Boundary::Free;
+        let (x, y) = if free { ("approach", "normal_force") } else { ("mean_gap", "mean_pressure") };
         self.printing.report(|| {
-            let rows: Vec<_> = text.lines().skip(1).map(|row| csv::parsed(&COLUMNS, row)).collect();
             let last = rows.last().cloned().unwrap_or_default();
-            let events = rows.iter().filter(|row| !row["event"].is_null());
-            let brief = |row: &Value| {
-                let kept = ["leg", "control_value", "mean_gap", "mean_pressure", "event", "energy_drop"];
-                kept.iter().map(|key| ((*key).to_owned(), row[key].clone())).collect::<Value>()
+            let event = |&k: &usize| {
+                let kept = ["mean_gap", "mean_pressure", "normal_force", "approach"];
+                let names = ["leg", "direction", "control_value", "event", "energy_drop"].iter().chain(&kept);
+                let mut found: Map<_, _> = names.map(|name| ((*name).to_owned(), rows[k][*name].clone())).collect();
+                if let Some(before) = k.checked_sub(1) {
+                    let from = kept.iter().map(|name| ((*name).to_owned(), rows[before][*name].clone()));
+                    found.insert("from".to_owned(), from.collect::<Value>());
+                }
+                Value::Object(found)
             };
-            let control = last["control"].as_str().unwrap_or_default();
             let found = json!({
-                "greatest_tension": (least < 0.0).then_some(-least),
-                "events": events.map(brief).collect::<Vec<_>>(),
+                "spring_stiffness": self.loads.spring_stiffness(),
+                "greatest_tension": (tension > 0.0).then_some(tension),
+                "greatest_tensile_force": (tension > 0.0).then_some(-least("normal_force")),
+                "events": events.iter().map(event).collect::<Vec<_>>(),
                 "work": last["work"],
                 "dissipated": last["dissipated"],
                 "imbalance": last["imbalance"],
                 "last": last,
             });
-            table.report("cycle", control, found, grid, unit)
+            table.report("cycle", self.loads.control(0.0).name(), found, grid, unit)
         });
         if self.printing.for_people() {
             let plain = |value| Style::Plain.number(value, "");
             say(&format!("{} rows in {}", table.rows(), self.out.display()));
-            if least < 0.0 {
-                say(&format!("greatest tension        {}", plain(-least)));
+            if tension > 0.0 {
+                say(&format!("greatest tension        {}", plain(tension)));
+                say(&format!("greatest tensile force  {}", plain(-least("normal_force"))));
             }
-            let mut events: Vec<_> = rows.iter().filter(|row| !event(row).is_empty()).collect();
-            let count = events.len();
-            // limit points first, which dissipate nothing
-            events.sort_by(|a, b| number(b, "energy_drop").total_cmp(&number(a, "energy_drop")));
-            for row in events.iter().take(MOST_EVENTS) {
-                let drop = match number(row, "energy_drop") {
-                    drop if drop.is_nan() => String::new(),
-                    drop => format!(", energy drop {}", plain(drop)),
-                };
-                say(&format!("{:<23} to mean gap {}{drop}", event(row), plain(number(row, "mean_gap"))));
+            for &k in events.iter().take(MOST_EVENTS) {
+                let (row, before) = (&rows[k], &rows[k.saturating_sub(1)]);
+                let event = row["event"].as_str().unwrap_or_default();
+                let ways = [x, y].map(|name| {
+                    let (from, to) = (plain(number(before, name)), plain(number(row, name)));
+                    format!("{} {from} to {to}", name.replace('_', " "))
+                });
+                let drop = row["energy_drop"].as_f64().map(|drop| format!(", energy drop {}", plain(drop)));
+                say(&format!("{event:<23} {}{}", ways.join(", "), drop.unwrap_or_default()));
             }
-            if count > MOST_EVENTS {
-                say(&format!("and {} smaller events", count - MOST_EVENTS));
+            if events.len() > MOST_EVENTS {
+                say(&format!("and {} smaller events", events.len() - MOST_EVENTS));
             }
             if let Some(last) = rows.last() {
                 say(&format!("dissipated in jumps     {}", plain(number(last, "dissipated"))));
@@ -286,23 +330,28 @@ impl Options {
             }
         }
         let Some(plot) = &self.plot else { return Ok(()) };
-        let legs = self.loads().len() - 1;
-        let mut curves = Vec::new();
+        let legs = self.loads.values().len() - 1;
+        let mut curves: Vec<(String, Vec<(f64, f64)>)> = Vec::new();
         for leg in 1..=legs {
-            let on = |row: &&Vec<&str>| number(row, "leg") == leg as f64;
-            let points = rows.iter().filter(on).map(|row| (number(row, "mean_gap"), number(row, "mean_pressure")));
-            let before = rows.iter().rfind(|row| number(row, "leg") < leg as f64);
-            let before = before.map(|row| (number(row, "mean_gap"), number(row, "mean_pressure")));
-            curves.push((leg, before.into_iter().chain(points).collect()));
+            let point = |row: &Value| (number(row, x), number(row, y));
+            let points = rows.iter().filter(|row| number(row, "leg") == leg as f64).map(point);
+            let before = rows.iter().rfind(|row| number(row, "leg") < leg as f64).map(point);
+            let direction = self.direction(leg);
+            let name = if legs > 2 { format!("{direction} {}", leg.div_ceil(2)) } else { direction.to_owned() };
+            curves.push((name, before.into_iter().chain(points).collect()));
         }
-        let names: Vec<_> = curves.iter().map(|(leg, _)| format!("leg {leg}")).collect();
+        let (x_label, y_label) = (x.replace('_', " "), y.replace('_', " "));
+        let (title, y_unit) = match free {
+            true => ("Normal force over approach", &self.force_unit),
+            false => ("Mean pressure over mean gap", &self.pressure_unit),
+        };
         let chart = Chart {
-            title: "Mean pressure over mean gap",
-            x_label: "mean gap",
+            title,
+            x_label: &x_label,
             x_unit: unit,
-            y_label: "mean pressure",
-            y_unit: self.pressure_unit.as_deref(),
-            curves: names.iter().map(String::as_str).zip(curves.into_iter().map(|(_, points)| points)).collect(),
+            y_label: &y_label,
+            y_unit: y_unit.as_deref(),
+            curves: curves.iter().map(|(name, points)| (name.as_str(), points.clone())).collect(),
             ..Chart::default()
         };
         let file = OutputFile::create(plot, true)?;
@@ -312,29 +361,18 @@ impl Options {
 }
 
 /// The content of a row, by the names of the columns. Nothing in it depends on the clock.
-fn row<T>(step: &PathStep<T>) -> Map<String, Value> {
-    let (control, value) = name_and_value(step.control);
+fn row<T>(step: &PathStep<T>, direction: &str, statistics: &ContactStatistics) -> Map<String, Value> {
     let report = &step.solution.report;
-    let drop = step.event.as_ref().and_then(Event::jump).map_or(Value::Null, |jump| jump.energy_drop.into());
-    let values: [Value; COLUMNS.len()] = [
-        step.leg.into(),
-        control.into(),
-        value.into(),
-        report.mean_gap.into(),
-        report.mean_pressure.into(),
-        report.mean_contact_pressure.into(),
-        report.contact_fraction.into(),
-        report.elastic_energy.into(),
-        report.adhesive_energy.into(),
-        step.work.into(),
-        step.dissipated.into(),
-        step.imbalance.into(),
-        step.event.as_ref().map_or(Value::Null, |event| event.name().into()),
-        drop,
-        report.relative_error.into(),
-        report.iterations.into(),
-        report.operator_applications.into(),
-        report.status.name().into(),
+    let drop = step.event.as_ref().and_then(Event::jump).map(|jump| jump.energy_drop);
+    let leg = [("leg", step.leg.into()), ("direction", direction.into())];
+    let balance: [Cell; 5] = [
+        ("work", step.work.into()),
+        ("dissipated", step.dissipated.into()),
+        ("imbalance", step.imbalance.into()),
+        ("event", step.event.as_ref().map_or(Value::Null, |event| event.name().into())),
+        ("energy_drop", drop.into()),
     ];
-    COLUMNS.iter().map(|name| (*name).to_owned()).zip(values).collect()
+    let state = state(step.control, report, statistics);
+    let cells = leg.into_iter().chain(state).chain(balance).chain(outcome(report));
+    cells.map(|(name, value)| (name.to_owned(), value)).collect()
 }

@@ -104,7 +104,7 @@ pub fn run(options: &Options) -> Outcome<bool> {
         write_text(&folder.path(scene::NAME), &scene.text(out))?;
         for (name, solution, adhesive) in [("without adhesion", &bare, false), ("with adhesion", &sticky, true)] {
             let path = |what: &str| folder.path(&format!("{what}-{}.png", name.replace(' ', "-")));
-            pictures::draw_contact(&path("contact"), grid, &format!("Contact {name}"), UNITS, &solution.contact_map())?;
+            pictures::draw_contact(&path("contact"), grid, &format!("Contact {name}"), UNITS, solution)?;
             let (caption, title) = (format!("mean {}", si(PRESSURE, "Pa")), format!("Pressure {name}"));
             let pressure = pictures::pressure_to_draw(solution, adhesive);
             pictures::draw_pressure(&path("pressure"), grid, &title, &caption, UNITS, pressure)?;

@@ -66,6 +66,22 @@ pub fn given(map: &Topography, lengths: Option<&[f64]>) -> Option<(f64, f64)> {
     }
 }
 
+/// The surface of a map, and its unit. Its missing points become absent nodes, or are refused.
+pub fn surface_or_absent(path: &Path, map: Topography, absent: bool) -> Outcome<(Surface, Option<String>)> {
+    let infinite = map.heights.iter().any(|h| h.is_infinite());
+    let missing = !infinite && map.missing() > 0;
+    if !missing {
+        return surface(path, map);
+    }
+    if !absent {
+        let refused = surface(path, map);
+        return refused.map_err(|error| format!("{error}, or take them for absent nodes by --absent-missing").into());
+    }
+    let unit = map.unit.clone();
+    let surface = map.surface_with_absent();
+    Ok((surface.map_err(|error| format!("{}: {error}", path.display()))?, unit))
+}
+
 /// The surface of a map, and its unit.
 pub fn surface(path: &Path, map: Topography) -> Outcome<(Surface, Option<String>)> {
     let (nx, ny) = map.heights.dim();

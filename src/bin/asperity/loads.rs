@@ -19,8 +19,8 @@ pub fn gaps(text: &str) -> Result<Loads, String> {
     list(text, |gap| gap >= 0.0 && gap.is_finite(), "zero or positive and finite")
 }
 
-/// Reads a list of mean pressures.
-pub fn pressures(text: &str) -> Result<Loads, String> {
+/// Reads a list of loads that may have either sign.
+pub fn signed(text: &str) -> Result<Loads, String> {
     list(text, f64::is_finite, "finite")
 }
 
@@ -73,7 +73,7 @@ mod tests {
 
     #[test]
     fn lists_are_numbers_and_ranges() {
-        let check = |text, expected: &[f64]| assert_eq!(pressures(text).unwrap(), Loads(expected.to_vec()), "{text}");
+        let check = |text, expected: &[f64]| assert_eq!(signed(text).unwrap(), Loads(expected.to_vec()), "{text}");
         check("1", &[1.0]);
         check("1e-3, -2,3", &[1e-3, -2.0, 3.0]);
         check("0:1:5", &[0.0, 0.25, 0.5, 0.75, 1.0]);
@@ -109,10 +109,10 @@ mod tests {
             let error = gaps(text).unwrap_err();
             assert!(error.contains(part) && error.lines().count() == 1, "{text}: {error}");
         }
-        let refused = pressures("-1:1:5:log").unwrap_err();
+        let refused = signed("-1:1:5:log").unwrap_err();
         assert!(refused.contains(":log"), "{refused}");
         let many = ["0:1:100000"; 2].join(",");
         assert!(gaps(&many).unwrap_err().contains("more loads than the 100000"));
-        assert!(pressures("-1e308:1e308:3").unwrap_err().contains("finite"));
+        assert!(signed("-1e308:1e308:3").unwrap_err().contains("finite"));
     }
 }

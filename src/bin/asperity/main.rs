@@ -17,12 +17,16 @@ mod sweep;
 
 // the parts of which commands are made
 mod adhesion;
+mod boundary;
 mod case;
+mod columns;
 mod csv;
+mod form;
 mod hash;
 mod heights;
 mod identity;
 mod journal;
+mod kept;
 mod loads;
 mod numbers;
 mod options;
@@ -51,8 +55,8 @@ use crate::scene::Scene;
 
 /// Frictionless normal contact of rough surfaces, with adhesion.
 ///
-/// Finds the gap and the pressure between an elastic half-space and a rigid rough surface, periodic, by an FFT-based
-/// boundary element method, and says how accurate they are.
+/// Finds the gap and the pressure between an elastic half-space and a rigid rough surface, in a periodic cell or with a
+/// free boundary, by an FFT-based boundary element method, and says how accurate they are.
 #[derive(Parser)]
 #[command(version, after_help = EXAMPLES, max_term_width = 100)]
 struct Tool {

@@ -3,12 +3,13 @@
 use std::path::PathBuf;
 
 use asperity::io::read_field;
-use asperity::{Criterion, Error, Grid, Real, Settings, Surface};
+use asperity::{Criterion, Error, Real, Settings, Surface};
 use clap::{Args, ValueEnum};
 use ndarray::Array2;
 use ndarray_npy::WritableElement;
 
 use crate::adhesion::{Adhesion, AdhesionOptions};
+use crate::boundary::BoundaryOptions;
 use crate::heights;
 use crate::outcome::Outcome;
 use crate::threads::use_threads;
@@ -29,6 +30,8 @@ pub struct SurfaceOptions {
     #[arg(long, value_name = "E", default_value = "1", allow_hyphen_values = true, value_parser = positive)]
     #[arg(help_heading = "Surface")]
     pub modulus: f64,
+    #[command(flatten)]
+    pub beyond: BoundaryOptions,
 }
 
 /// The method, the accuracy and the start of a solve.
@@ -100,7 +103,7 @@ impl<'a> ProblemOptions<'a> {
         self.adhesion.check()?;
         let (surface, unit) = self.surface.surface_and_unit()?;
         let adhesion = self.adhesion.read(Some(surface.grid()))?;
-        let start = self.solver.start(surface.grid())?;
+        let start = self.solver.start(&surface)?;
         use_threads(self.solver.threads)?;
         Ok(Given { surface, adhesion, unit, start })
     }
@@ -119,17 +122,29 @@ impl Precision {
 impl SurfaceOptions {
     /// The surface of the file, and its unit of length if the file has one.
     fn surface_and_unit(&self) -> Outcome<(Surface, Option<String>)> {
-        heights::surface(&self.heights, heights::map(&self.heights, self.lengths.as_deref())?)
+        let map = heights::map(&self.heights, self.lengths.as_deref())?;
+        heights::surface_or_absent(&self.heights, map, self.beyond.absent_missing)
     }
 }
 
 impl SolverOptions {
     /// The gap from which to start, if it is given.
-    fn start(&self, grid: &Grid) -> Outcome<Option<Array2<f64>>> {
+    fn start(&self, surface: &Surface) -> Outcome<Option<Array2<f64>>> {
         let Some(path) = &self.initial_gap else { return Ok(None) };
         let start = read_field(path)?;
-        if start.dim() != grid.shape() {
-            return Err(Error::Shape { name: "--initial-gap", found: start.dim(), expected: grid.shape() }.into());
+        let expected = surface.grid().shape();
+        if start.dim() != expected {
+            return Err(Error::Shape { name: "--initial-gap", found: start.dim(), expected }.into());
+        }
+        // the library refuses what is not finite, but for nodes without a gap
+        let is_absent = |node: (usize, usize)| surface.absent().is_some_and(|absent| absent[node]);
+        let unknown = |(node, gap): &((usize, usize), &f64)| !gap.is_finite() && !is_absent(*node);
+        if let Some(((i, j), gap)) = start.indexed_iter().find(unknown) {
+            return Err(format!(
+                "{}: the gap at index [{i}, {j}] is {gap}, where the surface has a height: only absent nodes may have none",
+                path.display()
+            )
+            .into());
         }
         Ok(Some(start))
     }

@@ -17,9 +17,15 @@ pub struct Units<'a> {
 }
 
 /// Draws the nodes in contact, black on white.
-pub fn draw_contact(path: &Path, grid: Grid, title: &str, units: Units<'_>, contact: &Array2<bool>) -> Result<()> {
-    let contact = contact.mapv(|touches| f64::from(u8::from(touches)));
-    let caption = format!("{} % contact", percent(contact.sum() / contact.len() as f64));
+pub fn draw_contact<T: Scalar>(
+    path: &Path,
+    grid: Grid,
+    title: &str,
+    units: Units<'_>,
+    solution: &Solution<T>,
+) -> Result<()> {
+    let contact = solution.contact_map().mapv(f64::from);
+    let caption = format!("{} % contact", percent(solution.report.contact_fraction));
     let map = Map {
         title,
         caption: &caption,

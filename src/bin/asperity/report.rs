@@ -21,6 +21,7 @@ pub fn inputs(
         "shape": grid.shape(),
         "lengths": grid.lengths(),
         "length_unit": length_unit,
+        "boundary": surface.beyond.boundary.to_string(),
         "modulus": surface.modulus,
         "law": adhesion.law.to_string(),
         "work_of_adhesion": adhesion.work_of_adhesion,

@@ -188,6 +188,12 @@ fn replaced(command: &Command, given: &[OsString]) -> Vec<String> {
             }
         }
     }
+    // the position goes with the spring; one that was given comes after it
+    if replaced.iter().any(|name| name == "spring-stiffness") {
+        let positions = ["spring-position", "spring-positions"].map(str::to_owned);
+        let stays = given.iter().any(|word| word.to_string_lossy().starts_with("--spring-stiffness"));
+        replaced.extend(positions.into_iter().filter(|_| !stays));
+    }
     replaced
 }
 

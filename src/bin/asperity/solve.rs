@@ -8,10 +8,11 @@ use clap::{ArgGroup, Args, ValueEnum};
 use serde_json::{Value, json};
 
 use crate::adhesion::{AdhesionOptions, Law, Wall};
+use crate::boundary::{LOAD, LoadOptions};
 use crate::case::{self, Account, Case, Left};
 use crate::loads::name_and_value;
 use crate::numbers::Style;
-use crate::options::{self, Given, Precision, ProblemOptions, Scalar, SolverOptions, SurfaceOptions};
+use crate::options::{Given, Precision, ProblemOptions, Scalar, SolverOptions, SurfaceOptions};
 use crate::outcome::Outcome;
 use crate::output::at_destination;
 use crate::output::{output_folder, write_text};
@@ -33,17 +34,13 @@ use crate::warnings::{Strictness, Warnings};
 /// is refused or the files cannot be written (then there are none). Probable mistakes, as a tilt, are said on a line
 /// each and in the report; --strict refuses them.
 #[derive(Args)]
-#[command(after_help = EXAMPLES, group(ArgGroup::new("load").required(true).args(["mean_gap", "mean_pressure"])))]
+#[command(after_help = EXAMPLES, group(ArgGroup::new("load").required(true).args(LOAD)))]
 pub struct Options {
     #[command(flatten)]
     surface: SurfaceOptions,
 
-    /// Mean gap that is held, a length
-    #[arg(long, value_name = "G", allow_hyphen_values = true, value_parser = options::non_negative, help_heading = "Load")]
-    mean_gap: Option<f64>,
-    /// Mean external pressure that is held, compression positive
-    #[arg(long, value_name = "P", allow_hyphen_values = true, value_parser = options::finite, help_heading = "Load")]
-    mean_pressure: Option<f64>,
+    #[command(flatten)]
+    load: LoadOptions,
 
     #[command(flatten)]
     adhesion: AdhesionOptions,
@@ -129,6 +126,7 @@ pub fn run(options: &Options, scene: &Scene) -> Outcome<bool> {
     if options.leave && options.adhesion.wall == Wall::None {
         return Err("--leave needs a wall: give --stability alone, or --wall hard".into());
     }
+    problem.surface.beyond.boundary.check(options.load.control())?;
     let pictures = PICTURES.iter().filter(|_| !options.no_pictures);
     let mode = options.case().stability.then_some(&MODE);
     let arrays = FIELDS.iter().chain(mode).filter(|_| options.writes(Format::Npy));
@@ -159,19 +157,11 @@ impl Options {
 
     /// The case that the options choose.
     pub fn case(&self) -> Case {
-        let control = match (self.mean_gap, self.mean_pressure) {
-            (Some(gap), _) => Control::MeanGap(gap),
-            (None, pressure) => Control::MeanPressure(pressure.unwrap_or_default()),
-        };
-        let (modulus, settings) = (self.surface.modulus, self.solver.settings());
-        Case {
-            modulus,
-            control,
-            settings,
-            wall: self.adhesion.wall,
-            stability: self.stability || self.leave,
-            leave: self.leave,
-        }
+        let SurfaceOptions { beyond, modulus, .. } = self.surface;
+        let (control, settings) = (self.load.control(), self.solver.settings());
+        let stability = self.stability || self.leave;
+        let wall = self.adhesion.wall;
+        Case { boundary: beyond.boundary, modulus, control, settings, wall, stability, leave: self.leave }
     }
 
     /// All that one needs for understanding a run later; numbers that are not finite become null.
@@ -190,10 +180,15 @@ impl Options {
             "equivalent_applications": account.grids.as_ref().map(|(_, applications)| applications),
             "mean_gap": report.mean_gap,
             "mean_pressure": report.mean_pressure,
+            "normal_force": report.normal_force,
+            "approach": report.approach,
+            "spring_stiffness": spring_stiffness(case.control),
             "carried_pressure": report.carried_pressure,
             "mean_contact_pressure": report.mean_contact_pressure,
             "contact_fraction": report.contact_fraction,
             "contact_nodes": report.contact_nodes,
+            "absent_points": report.absent_nodes,
+            "edge_traction": report.edge_traction,
             "corrected_contact_fraction": account.contact.corrected_contact_fraction,
             "perimeter": account.contact.perimeter,
             "min_gap": report.min_gap,
@@ -278,7 +273,8 @@ impl Job<'_> {
     ) -> asperity::Result<()> {
         let path = |name: &str| folder.path(name);
         let mode = account.stability.as_ref().map(|stability| &stability.mode);
-        let fields = [&solution.gap, &solution.pressure, &solution.contact_pressure];
+        let gap = case::gap_to_write(solution);
+        let fields = [&*gap, &solution.pressure, &solution.contact_pressure];
         if self.options.writes(Format::Npy) {
             FIELDS.iter().zip(fields).try_for_each(|(name, field)| write_npy(&path(name), field))?;
             mode.map_or(Ok(()), |mode| write_npy(&path(MODE), mode))?;
@@ -296,12 +292,17 @@ impl Job<'_> {
         write_text(&path(scene::NAME), &self.scene.text(&self.options.out))?;
         if !self.options.no_pictures {
             let units = Units { length: self.length_unit, pressure: self.options.pressure_unit.as_deref() };
-            pictures::draw_contact(&path("contact.png"), grid, "Contact", units, &solution.contact_map())?;
+            pictures::draw_contact(&path("contact.png"), grid, "Contact", units, solution)?;
             let pressure = pictures::pressure_to_draw(solution, self.options.adhesion.law != Law::None);
             pictures::draw_pressure(&path("pressure.png"), grid, "Pressure", "", units, pressure)?;
         }
         Ok(())
     }
+}
+
+/// The stiffness of a spring, if the load is one.
+fn spring_stiffness(control: Control) -> Option<f64> {
+    if let Control::Spring { stiffness, .. } = control { Some(stiffness) } else { None }
 }
 
 /// The cost of one of the nested grids; the applications include the one that constructs its problem.

@@ -19,9 +19,16 @@ pub fn table(names: &[&str], solves: &[&Account], style: Style) -> String {
     };
     row("contact", &|_, r| format!("{} %", percent(r.contact_fraction)));
     row("corrected for its edge", &|s, _| format!("{} %", percent(s.contact.corrected_contact_fraction)));
-    row("nodes in contact", &|s, r| format!("{} of {}", r.contact_nodes, s.nodes));
+    row("nodes in contact", &|s, r| format!("{} of {}", r.contact_nodes, s.nodes - r.absent_nodes));
     row("mean gap", &|_, r| style.number(r.mean_gap, "m"));
     row("mean pressure", &|_, r| style.number(r.mean_pressure, "Pa"));
+    row("normal force", &|_, r| style.number(r.normal_force, "N"));
+    if solves.iter().any(|solve| solve.report.approach.is_some()) {
+        row("approach", &|_, r| r.approach.map_or(String::new(), |approach| style.number(approach, "m")));
+        row("traction at the edge", &|_, r| {
+            r.edge_traction.map_or(String::new(), |share| format!("{} %", percent(share)))
+        });
+    }
     row("carried pressure", &|_, r| style.number(r.carried_pressure, "Pa"));
     row("mean contact pressure", &|_, r| style.number(r.mean_contact_pressure, "Pa"));
     row("least pressure", &|s, _| style.number(s.pressures.0, "Pa"));

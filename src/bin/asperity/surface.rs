@@ -1,12 +1,13 @@
-//! `asperity surface`: a random self-affine surface.
+//! `asperity surface`: a random self-affine surface, or a simple body with or without roughness.
 
 use std::path::PathBuf;
 
 use asperity::io::{write_npy, write_topography};
-use asperity::{Amplitude, Grid, SelfAffine};
+use asperity::{Amplitude, Grid, SelfAffine, Topography};
 use clap::{ArgGroup, Args};
 use serde_json::json;
 
+use crate::form::{Form, FormOptions};
 use crate::options::{nodes, positive, threads};
 use crate::outcome::Outcome;
 use crate::output::OutputFile;
@@ -17,16 +18,17 @@ use crate::scene::Scene;
 use crate::stats::{density_table, statistics, table};
 use crate::threads::use_threads;
 
-/// Make a self-affine rough surface, and print its statistics.
+/// Make a self-affine rough surface or a simple body, and print its statistics.
 ///
-/// The surface is periodic and isotropic. Its power spectral density is constant from KL to KR, falls as k^(-2-2H)
+/// A body has a --form, as a sphere, whose missing parts a solve takes for absent nodes by --absent-missing; --rms-height
+/// or --rms-slope puts roughness on it. The roughness is periodic and isotropic. Its power spectral density is constant from KL to KR, falls as k^(-2-2H)
 /// from KR to KS, on a line as k^(-1-2H), and is zero elsewhere. Wave numbers count periods along x. A seed stands for
 /// the same surface on every grid that resolves KS, with the given rms height or slope to rounding. FILE.scene.toml
 /// beside the heights makes them again by asperity run.
 #[derive(Args)]
 #[command(after_help = EXAMPLES)]
 #[command(group(ArgGroup::new("nodes").required(true).args(["size", "shape"])))]
-#[command(group(ArgGroup::new("roughness").required(true).args(["rms_height", "rms_slope"])))]
+#[command(group(ArgGroup::new("roughness").args(["rms_height", "rms_slope"])))]
 pub struct Options {
     /// Nodes along each side of a square
     #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = nodes, help_heading = "Grid")]
@@ -40,10 +42,13 @@ pub struct Options {
     #[arg(help_heading = "Grid")]
     lengths: Option<Vec<f64>>,
 
-    /// Root mean square of the heights, a length
+    #[command(flatten)]
+    body: FormOptions,
+
+    /// Root mean square of the heights of the roughness, a length
     #[arg(long, value_name = "H", allow_hyphen_values = true, value_parser = positive, help_heading = "Roughness")]
     rms_height: Option<f64>,
-    /// Root mean square of the slope
+    /// Root mean square of the slope of the roughness
     #[arg(long, value_name = "S", allow_hyphen_values = true, value_parser = positive, help_heading = "Roughness")]
     rms_slope: Option<f64>,
     /// Hurst exponent, from 0 to 1
@@ -89,7 +94,11 @@ const EXAMPLES: &str = "\
     asperity surface --shape 256 512 --lengths 1e-6 2e-6 --rms-height 5e-9 --hurst 0.7 \\
       --k-l 2 --k-r 6 --k-s 50 --seed 7 --out rectangle.npy --psd psd.csv
   A profile:
-    asperity surface --shape 4096 1 --rms-slope 0.1 --k-s 1000 --out profile.npy";
+    asperity surface --shape 4096 1 --rms-slope 0.1 --k-s 1000 --out profile.npy
+  A tip of 20 nm on a map of 32 nm by 32 nm, as a sphere and as a rough one:
+    asperity surface --form sphere --radius 20e-9 --size 128 --lengths 32e-9 --out tip.npz
+    asperity surface --form sphere --radius 20e-9 --size 128 --lengths 32e-9 --rms-height 2e-10 \\
+      --k-s 32 --out rough-tip.npz";
 
 /// Runs the command; always successful if it ends.
 pub fn run(options: &Options, scene: &Scene) -> Outcome<bool> {
@@ -98,11 +107,13 @@ pub fn run(options: &Options, scene: &Scene) -> Outcome<bool> {
         (None, Some([nx, ny])) => (*nx, *ny),
         (size, _) => (size.unwrap_or_default(), size.unwrap_or_default()),
     };
-    let amplitude = match (options.rms_height, options.rms_slope) {
-        (Some(height), _) => Amplitude::RmsHeight(height),
-        (None, slope) => Amplitude::RmsSlope(slope.unwrap_or_default()),
-    };
-    let rough = SelfAffine { hurst, k_l, k_r: options.k_r.unwrap_or(k_l), k_s, amplitude, random_phase, seed };
+    options.body.check()?;
+    let (height, slope) = (options.rms_height.map(Amplitude::RmsHeight), options.rms_slope.map(Amplitude::RmsSlope));
+    let k_r = options.k_r.unwrap_or(k_l);
+    let rough = height.or(slope).map(|amplitude| SelfAffine { hurst, k_l, k_r, k_s, amplitude, random_phase, seed });
+    if rough.is_none() && options.body.form == Form::SelfAffine {
+        return Err("--form self-affine lacks its roughness: give --rms-height or --rms-slope".into());
+    }
     let grid = grid(shape, options.lengths.as_deref())?;
     let heights = OutputFile::create(&options.out, options.force)?;
     let psd = options.psd.as_deref().map(|path| OutputFile::create(path, options.force)).transpose()?;
@@ -117,31 +128,49 @@ pub fn run(options: &Options, scene: &Scene) -> Outcome<bool> {
         return Err(format!("{} x {} nodes do not fit into memory: use fewer", shape.0, shape.1).into());
     }
 
-    let surface = rough.surface(grid)?;
+    let roughness = rough.map(|rough| rough.surface(grid)).transpose()?;
+    let surface = options.body.surface(grid, roughness)?;
+    let absent = surface.absent_nodes();
+    if psd.is_some() && absent > 0 {
+        return Err(format!("the body has no height at {absent} nodes, and so no spectrum: leave --psd out").into());
+    }
+    let map = Topography::from(surface.clone());
     heights.write(|path| match path.extension().map(|ending| ending.to_ascii_lowercase()) {
-        Some(ending) if ending == "gsf" || ending == "npz" => write_topography(path, &surface.clone().into()),
-        _ => write_npy(path, surface.heights()),
+        Some(ending) if ending == "gsf" || ending == "npz" => write_topography(path, &map),
+        _ => write_npy(path, &map.heights),
     })?;
     if let Some(file) = &psd {
-        let text = density_table(&surface.spectrum(), Some(&rough.spectrum(grid)?));
+        let target = rough.map(|rough| rough.spectrum(grid)).transpose()?;
+        let text = density_table(&surface.spectrum(), target.as_ref());
         file.write(|path| write_text(path, &text))?;
     }
     let scene_file = scene.written_beside(&options.out)?;
     [Some(heights), psd, Some(scene_file)].into_iter().flatten().try_for_each(OutputFile::commit)?;
-    options.printing.say(&table(&surface, None));
+    // what is absent has no statistics
+    let (nx, ny) = shape;
+    options.printing.say(&match absent {
+        0 => table(&surface, None),
+        _ => format!("{nx} x {ny} nodes, {absent} of them absent"),
+    });
     options.printing.say(&format!("heights in {}", options.out.display()));
     options.printing.report(|| {
+        let figures = match absent {
+            0 => statistics(&surface, &options.out, None),
+            _ => json!({ "heights": options.out.to_string_lossy(), "shape": shape, "lengths": grid.lengths() }),
+        };
         let made = json!({
-            "hurst": hurst,
-            "k_l": k_l,
-            "k_r": rough.k_r,
-            "k_s": k_s,
-            "random_phase": random_phase,
-            "seed": seed,
+            "form": options.body.form.to_string(),
+            "absent_points": absent,
+            "hurst": rough.map(|rough| rough.hurst),
+            "k_l": rough.map(|rough| rough.k_l),
+            "k_r": rough.map(|rough| rough.k_r),
+            "k_s": rough.map(|rough| rough.k_s),
+            "random_phase": rough.map(|rough| rough.random_phase),
+            "seed": rough.map(|rough| rough.seed),
             "version": env!("CARGO_PKG_VERSION"),
         });
         let made = made.as_object().cloned().unwrap_or_default();
-        report::report("surface", statistics(&surface, &options.out, None), made)
+        report::report("surface", figures, made)
     });
     Ok(true)
 }

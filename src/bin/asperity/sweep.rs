@@ -3,20 +3,20 @@
 use std::path::PathBuf;
 
 use asperity::contact::ContactStatistics;
-use asperity::io::{OutputFolder, write_npy};
-use asperity::{Control, Error, Problem, Report, Solution, Solver, Status, Surface, Sweep, Westergaard};
+use asperity::{Control, Error, Problem, Report, Solver, Status, Surface, Sweep};
 use clap::{ArgGroup, Args, ValueEnum};
 use ndarray::Array2;
 use serde_json::{Map, Value, json};
 
 use crate::adhesion::{Adhesion, AdhesionOptions};
+use crate::boundary::{LOADS, LoadsOptions};
+use crate::columns::{OUTCOME, STATE, outcome, state};
 use crate::csv;
 use crate::identity::{Identity, identity};
 use crate::journal::Row;
-use crate::loads::{self, Loads};
+use crate::kept::Kept;
 use crate::options::{Given, Precision, ProblemOptions, Scalar, SolverOptions, SurfaceOptions};
 use crate::outcome::Outcome;
-use crate::output::at_destination;
 use crate::printing::Printing;
 use crate::scene::Scene;
 use crate::table::{self, Table, TableOptions};
@@ -33,17 +33,13 @@ use crate::warnings::{Strictness, Warnings};
 /// Exits with 0 if all rows converged, 2 if not (they are written all the same), and 1 if the input is refused or the
 /// file cannot be written.
 #[derive(Args)]
-#[command(after_help = EXAMPLES, group(ArgGroup::new("loads").required(true).args(["mean_gaps", "mean_pressures"])))]
+#[command(after_help = EXAMPLES, group(ArgGroup::new("loads").required(true).args(LOADS)))]
 pub struct Options {
     #[command(flatten)]
     surface: SurfaceOptions,
 
-    /// Mean gaps that are held, lengths: numbers and ranges FROM:TO:COUNT or FROM:TO:COUNT:log, with commas between
-    #[arg(long, value_name = "LIST", allow_hyphen_values = true, value_parser = loads::gaps, help_heading = "Loads")]
-    mean_gaps: Option<Loads>,
-    /// Mean external pressures that are held, compression positive: a list as for the gaps
-    #[arg(long, value_name = "LIST", allow_hyphen_values = true, value_parser = loads::pressures, help_heading = "Loads")]
-    mean_pressures: Option<Loads>,
+    #[command(flatten)]
+    loads: LoadsOptions,
 
     #[command(flatten)]
     adhesion: AdhesionOptions,
@@ -82,35 +78,15 @@ enum Format {
     Jsonl,
 }
 
-/// The names of the columns, in the order of [`row`].
-const COLUMNS: [&str; 20] = [
-    "control",
-    "control_value",
-    "mean_pressure",
-    "mean_contact_pressure",
-    "mean_gap",
-    "contact_fraction",
-    "corrected_contact_fraction",
-    "perimeter",
-    "clusters",
-    "largest_cluster",
-    "repulsive_fraction",
-    "attractive_fraction",
-    "elastic_energy",
-    "adhesive_energy",
-    "min_gap",
-    "relative_error",
-    "load_error",
-    "iterations",
-    "operator_applications",
-    "status",
-];
-
-const FIELDS: [&str; 3] = ["gap", "pressure", "contact_pressure"];
+/// The names of the columns.
+fn names() -> Vec<&'static str> {
+    [&STATE[..], &OUTCOME[..]].concat()
+}
 
 /// Runs the command; whether all rows converged.
 pub fn run(options: &Options, scene: &Scene) -> Outcome<bool> {
     options.format()?;
+    options.surface.beyond.boundary.check(options.loads.control(0.0))?;
     let given = options.table().problem.read()?;
     match options.solver.precision {
         Precision::F32 => options.run::<f32>(given, scene),
@@ -120,7 +96,7 @@ pub fn run(options: &Options, scene: &Scene) -> Outcome<bool> {
 
 impl Options {
     fn run<T: Scalar>(&self, Given { surface, adhesion, unit, start }: Given<'_>, scene: &Scene) -> Outcome<bool> {
-        let (control, loads) = self.loads();
+        let loads = self.loads.values();
         if let Some(&value) = loads.iter().find(|&&load| !T::lit(load).is_finite()) {
             let (name, requirement) = ("load", "finite in the precision of the fields");
             return Err(Error::Value { name, value, requirement }.into());
@@ -128,15 +104,17 @@ impl Options {
         let warnings = Warnings::of_input::<T>(self.strictness, &surface, &adhesion, self.table().problem)?;
         let grid = *surface.grid();
         let identity = self.identity(&surface, &adhesion, start.as_ref());
-        let operator = Westergaard::new(grid, self.surface.modulus)?;
+        let start = start.or_else(|| self.surface.beyond.boundary.start_afar(&surface, &self.loads.controls()));
+        let operator = self.surface.beyond.boundary.half_space(grid, self.surface.modulus)?;
         let mut problem = Problem::new(&surface, operator, adhesion.law::<T>()?)?;
         drop(surface);
         let format = self.format()?;
-        let header = if format == Format::Csv { COLUMNS.join(",") + "\n" } else { String::new() };
-        self.check_fields(loads.len())?;
+        let header = if format == Format::Csv { names().join(",") + "\n" } else { String::new() };
+        let kept = Kept(self.fields.as_deref());
+        kept.check(self.force || self.out.exists())?;
         let (mut table, saved) = Table::open(self.table(), scene, &header, identity, Some(loads), warnings)?;
         let done = table.rows();
-        let controls: Vec<_> = loads.iter().map(|&load| control(load)).collect();
+        let controls = self.loads.controls();
 
         let law = adhesion.law::<T>()?;
         let mut solver = Solver { settings: self.solver.settings(), constraint: self.adhesion.wall };
@@ -159,7 +137,7 @@ impl Options {
                 Format::Csv => csv::line(&row),
                 Format::Jsonl => Value::Object(row).to_string(),
             };
-            self.write_fields(k, &solution)?;
+            kept.write(k + 1, &solution)?;
             let fields: Vec<_> = sweep.history().iter().map(|(_, gap)| gap.view()).collect();
             let converged = solution.report.status == Status::Converged;
             table.append(&Row { text: &text, load, converged, fields: &fields, numbers: &[] })?;
@@ -170,8 +148,8 @@ impl Options {
             let last = last_row(format, &table.text().unwrap_or_default());
             table.report(
                 "sweep",
-                loads::name_and_value(control(0.0)).0,
-                json!({ "last": last }),
+                self.loads.control(0.0).name(),
+                json!({ "spring_stiffness": self.loads.spring_stiffness(), "last": last }),
                 &grid,
                 unit.as_deref(),
             )
@@ -183,15 +161,6 @@ impl Options {
         let problem = ProblemOptions { surface: &self.surface, adhesion: &self.adhesion, solver: &self.solver };
         let &Self { ref out, force, printing, .. } = self;
         TableOptions { problem, out, force, printing }
-    }
-
-    /// The kind of the loads, and their values.
-    fn loads(&self) -> (fn(f64) -> Control, &[f64]) {
-        match (&self.mean_gaps, &self.mean_pressures) {
-            (Some(Loads(gaps)), _) => (Control::MeanGap, gaps),
-            (None, Some(Loads(pressures))) => (Control::MeanPressure, pressures),
-            (None, None) => (Control::MeanGap, &[]),
-        }
     }
 
     fn format(&self) -> Outcome<Format> {
@@ -206,40 +175,12 @@ impl Options {
 
     /// The inputs on which the rows depend beside the loads.
     fn identity(&self, surface: &Surface, adhesion: &Adhesion<'_>, start: Option<&Array2<f64>>) -> Identity {
-        let (control, _) = loads::name_and_value(self.loads().0(0.0));
         let mut identity = identity(self.table().problem, surface, adhesion, start);
         let csv = self.format().is_ok_and(|format| format == Format::Csv);
-        identity.insert("control".to_owned(), control.into());
+        identity.insert("control".to_owned(), self.loads.kind().into());
         identity.insert("fields".to_owned(), if self.fields.is_some() { "kept" } else { "not kept" }.into());
         identity.insert("format".to_owned(), if csv { "csv" } else { "jsonl" }.into());
         identity
-    }
-
-    /// Refuses to replace fields, if this is not the continuation of what wrote them.
-    fn check_fields(&self, count: usize) -> Outcome<()> {
-        let Some(folder) = &self.fields else { return Ok(()) };
-        // only a trial
-        drop(OutputFolder::create(folder, &[], true)?);
-        if self.force || self.out.exists() {
-            return Ok(());
-        }
-        let mut paths = (0..count).flat_map(|k| FIELDS.map(|name| folder.join(field_name(name, k))));
-        match paths.find(|path| path.exists()) {
-            Some(path) => {
-                Err(Error::file(&path, "exists: use --force to replace it, or choose another --fields").into())
-            }
-            None => Ok(()),
-        }
-    }
-
-    fn write_fields<T: Scalar>(&self, k: usize, solution: &Solution<T>) -> asperity::Result<()> {
-        let Some(folder) = &self.fields else { return Ok(()) };
-        let files = OutputFolder::create(folder, &[], true)?;
-        let fields = [&solution.gap, &solution.pressure, &solution.contact_pressure];
-        let mut write =
-            FIELDS.iter().zip(fields).map(|(name, field)| write_npy(&files.path(&field_name(name, k)), field));
-        write.try_for_each(|written| written.map_err(|error| at_destination(error, folder)))?;
-        files.commit()
     }
 }
 
@@ -247,39 +188,13 @@ impl Options {
 fn last_row(format: Format, text: &str) -> Value {
     let last = text.lines().next_back().unwrap_or_default();
     match format {
-        Format::Csv => csv::parsed(&COLUMNS, last),
+        Format::Csv => csv::parsed(&names(), last),
         Format::Jsonl => serde_json::from_str(last).unwrap_or_default(),
     }
 }
 
-fn field_name(name: &str, k: usize) -> String {
-    format!("{name}-{:04}.npy", k + 1)
-}
-
 /// The content of a row, by the names of the columns. Nothing in it depends on the clock.
 fn row(control: Control, report: &Report, statistics: &ContactStatistics) -> Map<String, Value> {
-    let (control, value) = loads::name_and_value(control);
-    let values: [Value; COLUMNS.len()] = [
-        control.into(),
-        value.into(),
-        report.mean_pressure.into(),
-        report.mean_contact_pressure.into(),
-        report.mean_gap.into(),
-        report.contact_fraction.into(),
-        statistics.corrected_contact_fraction.into(),
-        statistics.perimeter.into(),
-        statistics.cluster_sizes.len().into(),
-        statistics.cluster_sizes.first().copied().unwrap_or(0).into(),
-        statistics.repulsive_fraction.into(),
-        statistics.attractive_fraction.into(),
-        report.elastic_energy.into(),
-        report.adhesive_energy.into(),
-        report.min_gap.into(),
-        report.relative_error.into(),
-        report.load_error.into(),
-        report.iterations.into(),
-        report.operator_applications.into(),
-        report.status.name().into(),
-    ];
-    COLUMNS.iter().map(|name| (*name).to_owned()).zip(values).collect()
+    let cells = state(control, report, statistics).chain(outcome(report));
+    cells.map(|(name, value)| (name.to_owned(), value)).collect()
 }

@@ -141,11 +141,9 @@ impl Drop for Table<'_> {
 /// The fields of a row that are printed.
 pub fn brief(report: &Report) -> String {
     let number = |value| Style::Plain.number(value, "");
-    format!(
-        "mean pressure {}  mean gap {}  contact {} %  {}",
-        number(report.mean_pressure),
-        number(report.mean_gap),
-        percent(report.contact_fraction),
-        report.status
-    )
+    let load = match report.approach {
+        Some(approach) => format!("normal force {}  approach {}", number(report.normal_force), number(approach)),
+        None => format!("mean pressure {}  mean gap {}", number(report.mean_pressure), number(report.mean_gap)),
+    };
+    format!("{load}  contact {} %  {}", percent(report.contact_fraction), report.status)
 }

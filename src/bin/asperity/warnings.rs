@@ -1,10 +1,11 @@
 //! The warnings of a command: printed, reported, or refused with `--strict`.
 
-use asperity::{Solution, Surface, Warning};
+use asperity::{Solution, Surface, Warning, WarningCode};
 use clap::Args;
 use serde_json::{Value, json};
 
 use crate::adhesion::Adhesion;
+use crate::boundary::Boundary;
 use crate::options::{ProblemOptions, Scalar};
 use crate::outcome::Outcome;
 use crate::printing::complain;
@@ -22,6 +23,8 @@ pub struct Warnings {
     strictness: Strictness,
     found: Vec<Warning>,
     said: usize,
+    /// The traction above which surfaces are said to attract each other, as in `ContactStatistics`.
+    noticeable: f64,
 }
 
 impl Warnings {
@@ -32,17 +35,31 @@ impl Warnings {
         adhesion: &Adhesion<'_>,
         options: ProblemOptions<'_>,
     ) -> Outcome<Self> {
-        let mut warnings = Self { strictness, found: Vec::new(), said: 0 };
         let law = adhesion.law::<T>()?;
-        let found =
-            Warning::of_surface(surface).into_iter().chain(Warning::of_law(&law, surface, options.surface.modulus));
-        warnings.add(found.collect())?;
+        let scale = (law.work_of_adhesion() / law.range()).widen();
+        let noticeable = if scale.is_finite() { 0.01 * scale } else { 0.0 };
+        let mut warnings = Self { strictness, found: Vec::new(), said: 0, noticeable };
+        let mut found = Warning::of_surface(surface);
+        // where nothing repeats, nothing has to meet, and a body that ends may be flat
+        let free = options.surface.beyond.boundary == Boundary::Free;
+        found.retain(|warning| match warning.code {
+            WarningCode::Tilt | WarningCode::OpenEdges => !free,
+            WarningCode::Flat => !free && surface.absent().is_none(),
+            _ => true,
+        });
+        found.extend(Warning::of_law(&law, surface, options.surface.modulus));
+        warnings.add(found)?;
         Ok(warnings)
     }
 
     /// Looks at an answer, and prints its warnings; of many answers, the first with a warning counts.
     pub fn look_at<T: Scalar>(&mut self, solution: &Solution<T>, modulus: f64) -> Outcome<()> {
-        self.add(Warning::of_solution(solution, modulus))?;
+        let mut found = Warning::of_solution(solution, modulus);
+        // of bodies that are apart it says nothing how far the last of their attraction reaches
+        let apart = solution.report.contact_nodes == 0
+            && solution.pressure.iter().all(|pressure| pressure.widen().abs() <= self.noticeable);
+        found.retain(|warning| !(apart && warning.code == WarningCode::WindowEdge));
+        self.add(found)?;
         self.say();
         Ok(())
     }

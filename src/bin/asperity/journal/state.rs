@@ -70,7 +70,7 @@ impl State {
         let fields: Vec<_> = stack.axis_chunks_iter(Axis(0), rows).map(|field| field.to_owned()).collect();
         let shape = |field: &Array2<f64>| Value::from(format!("{} {}", field.nrows(), field.ncols()));
         let fits = |field: &Array2<f64>| {
-            self.identity.get("shape") == Some(&shape(field)) && field.iter().all(|value| value.is_finite())
+            self.identity.get("shape") == Some(&shape(field)) && field.iter().all(|value| !value.is_nan())
         };
         if fields.len() != self.fields || !fields.iter().all(fits) {
             return Err(damaged(&self.path));

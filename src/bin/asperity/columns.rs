@@ -1,0 +1,73 @@
+//! The columns that the tables of `asperity sweep` and `asperity cycle` share: the state, and how its solve ended.
+
+use asperity::contact::ContactStatistics;
+use asperity::{Control, Report};
+use serde_json::Value;
+
+use crate::loads::name_and_value;
+
+/// The content of a cell by the name of its column.
+pub type Cell = (&'static str, Value);
+
+/// The names of the cells of a state, in the order of [`state`].
+pub const STATE: [&str; 18] = [
+    "control",
+    "control_value",
+    "mean_pressure",
+    "mean_contact_pressure",
+    "mean_gap",
+    "normal_force",
+    "approach",
+    "edge_traction",
+    "contact_fraction",
+    "corrected_contact_fraction",
+    "perimeter",
+    "clusters",
+    "largest_cluster",
+    "repulsive_fraction",
+    "attractive_fraction",
+    "elastic_energy",
+    "adhesive_energy",
+    "min_gap",
+];
+
+/// The names of the cells of an outcome, in the order of [`outcome`].
+pub const OUTCOME: [&str; 5] = ["relative_error", "load_error", "iterations", "operator_applications", "status"];
+
+/// The load and the state under it. Nothing in it depends on the clock.
+pub fn state(control: Control, report: &Report, statistics: &ContactStatistics) -> impl Iterator<Item = Cell> {
+    let (name, value) = name_and_value(control);
+    let values: [Value; STATE.len()] = [
+        name.into(),
+        value.into(),
+        report.mean_pressure.into(),
+        report.mean_contact_pressure.into(),
+        report.mean_gap.into(),
+        report.normal_force.into(),
+        report.approach.into(),
+        report.edge_traction.into(),
+        report.contact_fraction.into(),
+        statistics.corrected_contact_fraction.into(),
+        statistics.perimeter.into(),
+        statistics.cluster_sizes.len().into(),
+        statistics.cluster_sizes.first().copied().unwrap_or(0).into(),
+        statistics.repulsive_fraction.into(),
+        statistics.attractive_fraction.into(),
+        report.elastic_energy.into(),
+        report.adhesive_energy.into(),
+        report.min_gap.into(),
+    ];
+    STATE.into_iter().zip(values)
+}
+
+/// How the solve ended.
+pub fn outcome(report: &Report) -> impl Iterator<Item = Cell> {
+    let values: [Value; OUTCOME.len()] = [
+        report.relative_error.into(),
+        report.load_error.into(),
+        report.iterations.into(),
+        report.operator_applications.into(),
+        report.status.name().into(),
+    ];
+    OUTCOME.into_iter().zip(values)
+}

@@ -1,0 +1,74 @@
+//! The fields of the rows of a table, kept in a folder: gap-0001.npy, pressure-0001.npy, contact_pressure-0001.npy.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use asperity::io::{OutputFolder, write_npy};
+use asperity::{Error, Result, Solution};
+
+use crate::case::gap_to_write;
+use crate::options::Scalar;
+use crate::outcome::Outcome;
+use crate::output::at_destination;
+
+const FIELDS: [&str; 3] = ["gap", "pressure", "contact_pressure"];
+
+/// The folder of the fields, if they are kept.
+#[derive(Clone, Copy)]
+pub struct Kept<'a>(pub Option<&'a Path>);
+
+impl Kept<'_> {
+    /// Refuses to replace fields, unless `replaces` says that they may be or are of this run.
+    pub fn check(self, replaces: bool) -> Outcome<()> {
+        let Some(folder) = self.0 else { return Ok(()) };
+        // only a trial
+        drop(OutputFolder::create(folder, &[], true)?);
+        match present(folder).into_iter().next() {
+            Some(path) if !replaces => {
+                Err(Error::file(&path, "exists: use --force to replace it, or choose another --fields").into())
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// Removes the fields of all rows, of a run that starts over.
+    pub fn clear(self) {
+        self.0.map(present).into_iter().flatten().for_each(remove);
+    }
+
+    /// Writes the fields of a row, the first of which is 1.
+    pub fn write<T: Scalar>(self, row: usize, solution: &Solution<T>) -> Result<()> {
+        let Some(folder) = self.0 else { return Ok(()) };
+        let files = OutputFolder::create(folder, &[], true)?;
+        let gap = gap_to_write(solution);
+        let fields = [&*gap, &solution.pressure, &solution.contact_pressure];
+        let mut write = FIELDS.iter().zip(fields).map(|(name, field)| write_npy(&files.path(&file(name, row)), field));
+        write.try_for_each(|written| written.map_err(|error| at_destination(error, folder)))?;
+        files.commit()
+    }
+
+    /// Removes the fields of a row.
+    pub fn forget(self, row: usize) {
+        self.0.into_iter().flat_map(|folder| FIELDS.map(|name| folder.join(file(name, row)))).for_each(remove);
+    }
+}
+
+fn file(name: &str, row: usize) -> String {
+    format!("{name}-{row:04}.npy")
+}
+
+/// The fields of rows in a folder, in the order of the rows.
+fn present(folder: &Path) -> Vec<PathBuf> {
+    let row_and_field = |path: &Path| {
+        let (name, row) = path.file_name()?.to_str()?.strip_suffix(".npy")?.rsplit_once('-')?;
+        Some((row.parse::<usize>().ok()?, FIELDS.iter().position(|field| *field == name)?))
+    };
+    let paths = fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path());
+    let mut found: Vec<_> = paths.filter_map(|path| Some((row_and_field(&path)?, path))).collect();
+    found.sort();
+    found.into_iter().map(|(_, path)| path).collect()
+}
+
+fn remove(path: PathBuf) {
+    let _ = fs::remove_file(path);
+}

@@ -1,0 +1,150 @@
+//! The free boundary, its loads, absent nodes and simple forms, end to end.
+
+use std::f64::consts::PI;
+
+use asperity::io::read_field;
+use serde_json::Value;
+
+use crate::bench::{Bench, text};
+
+const TIP: &str = "surface --form sphere --radius 2 --size 32 --lengths 1 --quiet --out tip.npz";
+
+#[track_caller]
+fn number(value: &Value) -> f64 {
+    value.as_f64().unwrap_or_else(|| panic!("{value} is no number"))
+}
+
+/// The rows of a table, each with its cells by the names of the columns.
+fn rows(bench: &Bench, name: &str) -> Vec<Vec<(String, String)>> {
+    let content = bench.read(name);
+    let mut lines = content.lines();
+    let names: Vec<_> = lines.next().unwrap().split(',').map(str::to_owned).collect();
+    lines.map(|line| names.iter().cloned().zip(line.split(',').map(str::to_owned)).collect()).collect()
+}
+
+fn cell<'a>(row: &'a [(String, String)], name: &str) -> &'a str {
+    &row.iter().find(|(column, _)| column == name).unwrap().1
+}
+
+#[test]
+fn a_sphere_under_a_force_has_the_approach_of_hertz() {
+    let bench = Bench::new();
+    bench.said(TIP);
+    let solved = bench.reported("solve --heights tip.npz --boundary free --normal-force 5e-3 --no-pictures --out a");
+    let radius = (0.75 * 5e-3 * 2.0_f64).cbrt();
+    // the next term of a sphere beyond a paraboloid is a²/4R², and the nodes are a sixth of the radius apart
+    assert!((number(&solved["approach"]) / (radius * radius / 2.0) - 1.0).abs() < 0.02, "{solved}");
+    assert_eq!((&solved["boundary"], &solved["control"]), (&"free".into(), &"normal-force".into()));
+    assert!(number(&solved["edge_traction"]) < 1e-3 && solved["absent_points"] == 0, "{solved}");
+    assert!((number(&solved["normal_force"]) / 5e-3 - 1.0).abs() < 1e-9, "{solved}");
+
+    // held by its approach, or by a spring, it is the same state
+    let approach = number(&solved["approach"]);
+    let held = format!("run a/scene.toml --approach {approach} --out b");
+    let position = approach + 5e-3 / 0.1;
+    let sprung = format!("run a/scene.toml --spring-stiffness 0.1 --spring-position {position} --out c");
+    for again in [held, sprung, "run c/scene.toml --normal-force 5e-3 --out d".to_owned()] {
+        let again = bench.reported(&again);
+        assert!((number(&again["normal_force"]) / 5e-3 - 1.0).abs() < 1e-4, "{again}");
+    }
+}
+
+#[test]
+fn a_punch_has_absent_nodes_and_its_gap_is_a_start() {
+    let bench = Bench::new();
+    let made = bench.reported("surface --form flat-punch --radius 0.3 --size 48 --out punch.npz");
+    let absent = number(&made["absent_points"]);
+    assert!((1.0 - absent / 48.0_f64.powi(2) - PI * 0.09).abs() < 0.02, "{made}");
+    let solve = "solve --heights punch.npz --boundary free --absent-missing --approach 0.01 --no-pictures";
+    let solved = bench.reported(&format!("{solve} --out a"));
+    assert_eq!(number(&solved["absent_points"]), absent);
+    assert_eq!(solved["warnings"], Value::Array(Vec::new()));
+    // F = 2aE*δ, to the width of a node on 15
+    assert!((number(&solved["normal_force"]) / (2.0 * 0.3 * 0.01) - 1.0).abs() < 0.05, "{solved}");
+    let gap = read_field(&bench.0.path().join("a/gap.npy")).unwrap();
+    assert_eq!(gap.iter().filter(|gap| gap.is_nan()).count() as f64, absent);
+    let again = bench.reported(&format!("{solve} --initial-gap a/gap.npy --out b"));
+    assert!(again["iterations"].as_u64() <= solved["iterations"].as_u64(), "{again}");
+}
+
+#[test]
+fn a_tip_jumps_in_and_off_and_the_cycle_ends_where_it_is_apart() {
+    let bench = Bench::new();
+    bench.said("surface --form paraboloid --radius 2 --size 40 --lengths 0.56 --quiet --out tip.npz");
+    let cycle = "cycle --heights tip.npz --boundary free --law exponential --work-of-adhesion 2e-5 --range 2e-3 \
+                 --spring-stiffness 0.01 --spring-positions=-0.02,0,-0.2 --steps 10 --smallest-step 1e-3 --out c.csv";
+    let found = bench.reported(&format!("{cycle} --fields jumps --plot c.png"));
+    let events: Vec<_> = found["events"].as_array().unwrap().iter().map(|event| event["event"].clone()).collect();
+    assert_eq!(events, ["pull-off", "jump-in"], "the largest jump first");
+    let directions: Vec<_> = found["events"].as_array().unwrap().iter().map(|e| e["direction"].clone()).collect();
+    assert_eq!(directions, ["withdrawal", "approach"]);
+    // between Bradley and JKR, up to the grid
+    let force = number(&found["greatest_tensile_force"]) / (PI * 2.0 * 2e-5);
+    assert!((1.4..2.1).contains(&force), "{force}");
+    let table = rows(&bench, "c.csv");
+    let last = table.last().unwrap();
+    assert_eq!((cell(&table[0], "direction"), cell(&table[0], "contact_fraction")), ("start", "0.0"));
+    assert_eq!((cell(last, "contact_fraction"), cell(last, "attractive_fraction")), ("0.0", "0.0"));
+    assert!(cell(last, "control_value").parse::<f64>().unwrap() > -0.2, "it went on to the end");
+    // fields before and after each of two jumps: the last row is after the second
+    assert_eq!(bench.names("jumps").len(), 4 * 3);
+    // the same command again has nothing to do
+    let before = bench.bytes("c.csv");
+    bench.said(&format!("{cycle} --fields jumps"));
+    assert!(before == bench.bytes("c.csv"));
+}
+
+#[test]
+fn loads_that_a_boundary_does_not_have_are_refused_on_one_line() {
+    let bench = Bench::new();
+    bench.said(TIP);
+    bench.said("surface --form flat-punch --radius 0.3 --size 16 --quiet --out punch.npz");
+    let before = bench.names("");
+    for (arguments, parts) in [
+        ("solve --heights tip.npz --approach 0.1 --out x", vec!["approach", "--boundary free"]),
+        ("solve --heights tip.npz --boundary free --mean-gap 0.1 --out x", vec!["mean gap", "--boundary periodic"]),
+        ("solve --heights tip.npz --spring-stiffness 1 --out x", vec!["--spring-position"]),
+        ("solve --heights tip.npz --spring-position 1 --out x", vec!["--spring-stiffness"]),
+        ("solve --heights tip.npz --spring-stiffness -1 --spring-position 0 --out x", vec!["'-1'", "positive"]),
+        (
+            "solve --heights tip.npz --normal-force 1 --mean-pressure 1 --out x",
+            vec!["--normal-force", "cannot be used with"],
+        ),
+        ("solve --heights punch.npz --normal-force 1 --out x", vec!["missing", "--fill", "--absent-missing"]),
+        ("solve --heights punch.npz --absent-missing --mean-gap 1 --out x", vec!["mean-gap", "absent nodes"]),
+        ("sweep --heights tip.npz --approaches 0,1 --out x.csv", vec!["approach", "--boundary free"]),
+        ("cycle --heights tip.npz --boundary free --mean-gaps 0,1 --out x.csv", vec!["mean gap"]),
+        ("surface --form sphere --size 8 --out x.npy", vec!["--form sphere lacks --radius"]),
+        ("surface --form cone --angle 90 --size 8 --out x.npy", vec!["--angle", "'90'", "below 90"]),
+        ("surface --form wave --amplitude 1 --radius 1 --size 8 --out x.npy", vec!["--form wave has no --radius"]),
+        ("surface --form wave --amplitude 1 --periods 5 --size 8 --out x.npy", vec!["MX is 5", "resolve 4"]),
+        ("surface --form flat-punch --radius 0.2 --size 8 --psd p.csv --out x.npy", vec!["no spectrum", "--psd"]),
+    ] {
+        let output = bench.run(arguments);
+        let error = text(&output.stderr);
+        assert_eq!(output.status.code(), Some(1), "{arguments}: {error}");
+        let errors = error.lines().filter(|line| line.starts_with("error"));
+        assert_eq!((errors.count(), output.stdout.len()), (1, 0), "{arguments}: {error}");
+        assert!(parts.iter().all(|part| error.contains(part)), "{arguments}: {error}");
+        assert_eq!(bench.names(""), before, "{arguments}");
+    }
+}
+
+#[test]
+fn forms_are_tilted_and_rough() {
+    let bench = Bench::new();
+    bench.said("surface --form cone --angle 45 --size 8 --lengths 8 --tilt 0.5 --quiet --out cone.npy");
+    let cone = read_field(&bench.0.path().join("cone.npy")).unwrap();
+    // nodes are 1 apart, and the apex is on node (4, 4)
+    assert!(
+        (cone[[4, 4]] - 0.0).abs() < 1e-12 && (cone[[7, 4]] + 1.5).abs() < 1e-12 && (cone[[1, 4]] + 4.5).abs() < 1e-12
+    );
+    let rough = "--size 32 --rms-height 1e-3 --k-s 8 --quiet --force";
+    bench.said(&format!("surface {rough} --out rough.npy"));
+    bench.said(&format!("surface --form wave --amplitude 0.1 --periods 2 1 {rough} --out both.npy"));
+    bench.said("surface --form wave --amplitude 0.1 --periods 2 1 --size 32 --quiet --out wave.npy");
+    let [rough, both, wave] =
+        ["rough.npy", "both.npy", "wave.npy"].map(|name| read_field(&bench.0.path().join(name)).unwrap());
+    assert!((&both - &wave - &rough).iter().all(|h| h.abs() < 1e-15));
+    assert!((wave[[16, 16]] - 0.1).abs() < 1e-15);
+}
