@@ -15,9 +15,12 @@ DIFFERENT = {"seconds", "heights", "version"}
 #: Keys and columns of bodies as a whole, which one of the two may have alone.
 BODIES = {"boundary", "normal_force", "approach", "spring_stiffness", "absent_points", "edge_traction"}
 
+#: Keys of laws, walls and maps that the tool has alone.
+LAWS = {"mu_rho_node", "exponent", "hamaker", "law_table", "cut_off", "work_of_adhesion_map", "wall"}
 
-def without_bodies(names):
-    return [name for name in names if name not in BODIES]
+
+def shared(names):
+    return [name for name in names if name not in BODIES | LAWS]
 
 
 def asked(tool, folder, command, *options):
@@ -42,7 +45,7 @@ def test_fields_have_the_same_bits_and_the_report_the_same_keys(tmp_path, tool, 
     for field in ("gap", "pressure", "contact_pressure"):
         assert np.load(tmp_path / "out" / f"{field}.npy").tobytes() == getattr(solution, field).tobytes()
     report = json.loads((tmp_path / "out" / "report.json").read_text())
-    assert without_bodies(report) == without_bodies(solution.report)
+    assert shared(report) == shared(solution.report)
     found = json.loads(json.dumps(solution.report), parse_constant=lambda _: None)
     for key in (report.keys() & found.keys()) - DIFFERENT:
         assert report[key] == found[key], key
@@ -57,8 +60,8 @@ def test_a_sweep_has_the_columns_of_the_tool(tmp_path, tool, rough, law):
     with open(tmp_path / "sweep.csv", newline="") as file:
         rows = list(csv.DictReader(file))
     columns = asperity.sweep(rough, modulus=1.0, mean_pressures=[0.01, 0.02, 0.015], law=law).columns
-    assert without_bodies(rows[0]) == without_bodies(columns)
-    for name in without_bodies(columns):
+    assert shared(rows[0]) == shared(columns)
+    for name in shared(columns):
         column = columns[name]
         assert [type(column[0])(row[name]) for row in rows] == list(column), name
 
@@ -74,7 +77,7 @@ def test_a_cycle_has_the_columns_of_the_tool(tmp_path, tool):
     with open(tmp_path / "cycle.csv", newline="") as file:
         rows = list(csv.DictReader(file))
     columns = asperity.cycle(wave, 1.0, modulus=1.0, law=law, mean_gaps=[0.05, 0.012, 0.05, 0.04], steps=10).columns
-    assert set(without_bodies(columns)) <= set(rows[0])
+    assert set(shared(columns)) <= set(rows[0])
     assert [row["event"] or None for row in rows] == list(columns["event"])
     for name in ("mean_gap", "mean_pressure", "work", "dissipated", "imbalance"):
         assert [float(row[name]) for row in rows] == list(columns[name]), name
