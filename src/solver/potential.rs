@@ -9,7 +9,7 @@ use crate::problem::Window;
 use crate::real::Real;
 
 /// The share of its gap that a node keeps at least in a step, where the law has no bound at zero gap.
-const CLOSER: f64 = 0.5;
+pub(super) const CLOSER: f64 = 0.5;
 
 /// The least gap of a node after a step.
 #[derive(Clone, Copy, Debug)]

@@ -1,7 +1,7 @@
 //! Conjugate gradients with the compliance as preconditioner, two operator applications a step.
 
 use super::passes::{self, Advance, Attempt, Continued, Fields, Tried, idles};
-use super::potential::Potential;
+use super::potential::{CLOSER, Potential};
 use super::state::{Left, Made, Residual, State};
 use crate::error::Result;
 use crate::field::{CHUNK, Partial, read, write};
@@ -317,10 +317,8 @@ impl<T: Real, L: Real> State<'_, T, L> {
         let stiff = quadratic + slopes > LEAST_CURVATURE * quadratic;
         let curvature = if stiff { quadratic + slopes } else { LEAST_CURVATURE * quadratic };
         let best = (-trial.slope / curvature).min(FARTHEST);
-        let reach = match () {
-            () if local.projects() => trial.reach.max(1.0),
-            () => 0.5 * trial.reach,
-        };
+        // a law without a bound at zero gap has to stay away from it
+        let reach = if local.projects() { trial.reach.max(1.0) } else { CLOSER * trial.reach };
         let mut length = match trial.clipped {
             true if best >= WHOLE => 1.0,
             true => best,
