@@ -8,6 +8,7 @@ use std::ops::ControlFlow;
 use ndarray::Array2;
 
 use crate::adhesion::AdhesionLaw;
+use crate::constraint::Wall;
 use crate::elastic::{Boundary, ElasticOperator};
 use crate::error::{Error, Result};
 use crate::problem::{Control, Parts, Problem, smoothed_law};
@@ -149,7 +150,7 @@ where
     ) -> Result<Self> {
         let legs: Vec<_> = loads.into_iter().collect();
         for load in &legs {
-            problem.flat.load(*load)?;
+            problem.flat.load(*load, Wall::Rigid)?;
             if problem.flat.window.is_some() && problem.flat.boundary == Boundary::Periodic {
                 let reason = "a periodic surface with absent nodes has no mean gap along which a path could be followed: \
                               solve at one load after the other, as Sweep does, or take a free half-space";

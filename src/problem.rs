@@ -3,6 +3,7 @@
 use ndarray::Array2;
 
 use crate::adhesion::AdhesionLaw;
+use crate::constraint::Wall;
 use crate::elastic::{Boundary, ElasticOperator};
 use crate::error::{Error, Result};
 use crate::field;
@@ -173,8 +174,9 @@ pub(crate) struct PressedFlat<T> {
 }
 
 impl<T> PressedFlat<T> {
-    /// A control on the operator's grid; refused if the problem does not have it.
-    pub(crate) fn load(&self, control: Control) -> Result<Load>
+    /// A control on the operator's grid; refused if the problem does not have it. A mean gap may only be negative without a
+    /// wall.
+    pub(crate) fn load(&self, control: Control, wall: Wall<'_, T>) -> Result<Load>
     where
         T: Real,
     {
@@ -196,7 +198,8 @@ impl<T> PressedFlat<T> {
                     "bodies in a periodic cell have no approach: give a mean gap, or take a free half-space",
                 );
             }
-            Control::MeanGap(gap) => Load::Gap(Error::finite("mean gap", gap)?),
+            Control::MeanGap(gap) if matches!(wall, Wall::None) => Load::Gap(Error::finite("mean gap", gap)?),
+            Control::MeanGap(gap) => Load::Gap(Error::non_negative("mean gap", gap)?),
             Control::MeanPressure(pressure) => Load::Pressure(on_grid(Error::finite("mean pressure", pressure)?)),
             Control::Force(force) => Load::Pressure(on_grid(Error::finite("normal force", force)? / self.area)),
             Control::Approach(approach) => {

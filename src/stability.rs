@@ -212,7 +212,7 @@ impl StabilityTest {
         }
         // the value of a mean gap is that of the solution, which springs may make negative
         let kind = if let Control::MeanGap(_) = control { Control::MeanGap(0.0) } else { control };
-        let (load, window) = (problem.flat.load(kind)?, problem.flat.window.as_ref());
+        let (load, window) = (problem.flat.load(kind, constraint.wall())?, problem.flat.window.as_ref());
         let smoothed = smoothed_law(&problem.operator, &problem.law);
         let local = Potential::new(smoothed.as_deref().unwrap_or(&problem.law), constraint, None);
         let slopes = slopes(&solution.gap, local, window)?;

@@ -11,7 +11,7 @@ use super::start::{check_wall, given_start, uniform_start};
 use super::work::{TRUSTED, Work};
 use super::{Criterion, Method, Settings};
 use crate::adhesion::AdhesionLaw;
-use crate::constraint::{ContactConstraint, Wall};
+use crate::constraint::ContactConstraint;
 use crate::elastic::{Boundary, Foundation};
 use crate::error::{Error, Result};
 use crate::field::{Partial, read, write};
@@ -169,10 +169,7 @@ impl<'a, T: Real, L: Real> State<'a, T, L> {
         let surface = flat.window.as_ref().map_or(operator.grid(), Window::grid);
         check_wall(law, constraint.wall())?;
         constraint.start(surface, operator.stiffness_range().1, settings.tolerance_in::<T>())?;
-        let load = flat.load(control)?;
-        if let (Load::Gap(gap), false) = (load, matches!(constraint.wall(), Wall::None)) {
-            Error::non_negative("mean gap", gap)?;
-        }
+        let load = flat.load(control, constraint.wall())?;
         if settings.method == Method::Rey2017 && (flat.window.is_some() || load.stiffness() > 0.0) {
             let (control, reason) = (
                 "Algorithm 3 of Rey, Anciaux and Molinari (2017)",
