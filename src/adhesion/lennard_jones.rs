@@ -23,8 +23,8 @@ use crate::real::Real;
 /// assert_eq!(law.traction(0.3e-9), 0.0);
 /// assert!(law.traction(0.29e-9) < 0.0 && law.traction(0.31e-9) > 0.0);
 /// let attraction = law.cut();
-/// assert!((attraction.energy(0.0) + 0.05).abs() < 1e-15);
-/// check_law(&attraction, 3e-9)?;
+/// assert!((attraction.energy(0.0_f64) + 0.05).abs() < 1e-15);
+/// check_law::<f64>(&attraction, 3e-9)?;
 /// # Ok::<(), asperity::Error>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -20,7 +20,7 @@ use crate::real::Real;
 /// use asperity::{AdhesionLaw, PowerLaw};
 /// let law = PowerLaw::new(0.05, 2e-9, 3.0)?;
 /// assert_eq!((law.energy(0.0), law.traction(0.0)), (-0.05, 0.05 / 2e-9));
-/// assert!((law.energy(6e-9) + 0.05 / 8.0).abs() < 1e-17); // twice the distance at contact, 3ρ
+/// assert!((law.energy(6e-9_f64) + 0.05 / 8.0).abs() < 1e-17); // twice the distance at contact, 3ρ
 /// # Ok::<(), asperity::Error>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -20,7 +20,7 @@ use crate::real::Real;
 /// let grid = Grid::square(64, 1.0)?;
 /// let surface = Surface::wave_2d(grid, 0.01, 2)?;
 /// // no adhesion on the left half
-/// let work = grid.sample(|x, _| if x < 0.5 { 0.0 } else { 1e-5 });
+/// let work = grid.sample(|x, _| if x < 0.0 { 0.0 } else { 1e-5 });
 /// let law = Varying::new(Exponential::new(1e-5, 2e-3)?, work.view())?;
 /// let mut problem = Problem::new(&surface, Westergaard::<f64>::new(grid, 1.0)?, law)?;
 /// let contact = Solver::default().solve(&mut problem, Control::MeanPressure(1e-3))?.contact_map();
