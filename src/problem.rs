@@ -181,6 +181,14 @@ impl<T> PressedFlat<T> {
         T: Real,
     {
         let refused = |reason| Err(Error::Control { control: control.name(), reason });
+        let name = match control {
+            Control::MeanGap(_) => "mean gap",
+            Control::MeanPressure(_) => "mean pressure",
+            Control::Force(_) => "normal force",
+            Control::Approach(_) => "approach",
+            Control::Spring { .. } => "rest of the spring",
+        };
+        let held = || Error::finite(name, control.value());
         let (free, absent) = (self.boundary != Boundary::Periodic, self.window.is_some());
         let on_grid = |pressure: f64| pressure / self.padding;
         let load = match control {
@@ -198,17 +206,17 @@ impl<T> PressedFlat<T> {
                     "bodies in a periodic cell have no approach: give a mean gap, or take a free half-space",
                 );
             }
-            Control::MeanGap(gap) if matches!(wall, Wall::None) => Load::Gap(Error::finite("mean gap", gap)?),
-            Control::MeanGap(gap) => Load::Gap(Error::non_negative("mean gap", gap)?),
-            Control::MeanPressure(pressure) => Load::Pressure(on_grid(Error::finite("mean pressure", pressure)?)),
-            Control::Force(force) => Load::Pressure(on_grid(Error::finite("normal force", force)? / self.area)),
-            Control::Approach(approach) => {
-                let rest = self.peak - Error::finite("approach", approach)?;
+            Control::MeanGap(_) if matches!(wall, Wall::None) => Load::Gap(held()?),
+            Control::MeanGap(gap) => Load::Gap(Error::non_negative(name, gap)?),
+            Control::MeanPressure(_) => Load::Pressure(on_grid(held()?)),
+            Control::Force(_) => Load::Pressure(on_grid(held()? / self.area)),
+            Control::Approach(_) => {
+                let rest = self.peak - held()?;
                 Load::Spring { stiffness: self.boundary.mean_compliance().recip(), rest }
             }
             Control::Spring { stiffness, rest } => {
                 Error::positive("stiffness of the spring", stiffness)?;
-                Error::finite("rest of the spring", rest)?;
+                held()?;
                 let compliance = self.padding * self.area / stiffness + self.boundary.mean_compliance();
                 Load::Spring { stiffness: compliance.recip(), rest: if free { self.peak - rest } else { rest } }
             }
@@ -219,13 +227,6 @@ impl<T> PressedFlat<T> {
         };
         if let Some(&value) = values.iter().find(|&&value| !T::lit(value).is_finite()) {
             let requirement = "finite in the precision of the fields";
-            let name = match control {
-                Control::MeanGap(_) => "mean gap",
-                Control::MeanPressure(_) => "mean pressure",
-                Control::Force(_) => "normal force",
-                Control::Approach(_) => "approach",
-                Control::Spring { .. } => "spring",
-            };
             return Err(Error::Value { name, value, requirement });
         }
         Ok(load)

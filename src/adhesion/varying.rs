@@ -35,6 +35,8 @@ pub struct Varying<L> {
     shares: Arc<Array2<f64>>,
     largest: f64,
     strongest: (usize, usize),
+    /// whether the work of adhesion is positive at every node
+    repels: bool,
 }
 
 impl<L: AdhesionLaw<f64>> Varying<L> {
@@ -59,7 +61,8 @@ impl<L: AdhesionLaw<f64>> Varying<L> {
             .ok_or(Error::Value { name: "number of nodes", value: 0.0, requirement: "positive" })?;
         Error::positive("largest work of adhesion", most)?;
         let shares = Arc::new(works.mapv(|work| work / own).as_standard_layout().into_owned());
-        Ok(Self { law, shares, largest: most / own, strongest })
+        let repels = works.iter().all(|&work| work > 0.0);
+        Ok(Self { law, shares, largest: most / own, strongest, repels })
     }
 }
 
@@ -97,7 +100,8 @@ impl<T: Real, L: AdhesionLaw<T>> AdhesionLaw<T> for Varying<L> {
         self.law.range()
     }
     fn rest(&self) -> Option<T> {
-        self.law.rest()
+        // where there is no work of adhesion nothing repels either
+        if self.repels { self.law.rest() } else { None }
     }
     fn is_zero(&self) -> bool {
         self.law.is_zero()
@@ -109,15 +113,15 @@ impl<T: Real, L: AdhesionLaw<T>> AdhesionLaw<T> for Varying<L> {
         let (rows, columns) = self.shares.dim();
         let shape = (rows.div_ceil(nx), columns.div_ceil(ny));
         let shares = Arc::new(Array2::from_shape_fn(shape, |(ix, iy)| self.shares[[ix * nx, iy * ny]]));
-        let Self { largest, strongest: (ix, iy), .. } = *self;
+        let Self { largest, strongest: (ix, iy), repels, .. } = *self;
         let law: &dyn AdhesionLaw<T> = &self.law;
-        Some(Box::new(Varying { law, shares, largest, strongest: (ix / nx, iy / ny) }))
+        Some(Box::new(Varying { law, shares, largest, strongest: (ix / nx, iy / ny), repels }))
     }
     fn smoothed(&self, compliance: T) -> Option<Box<dyn AdhesionLaw<T> + '_>> {
         // where the law is strongest its jumps are the largest
         let law = self.law.smoothed(compliance * T::lit(self.largest))?;
-        let Self { largest, strongest, .. } = *self;
-        Some(Box::new(Varying { law, shares: self.shares.clone(), largest, strongest }))
+        let Self { largest, strongest, repels, .. } = *self;
+        Some(Box::new(Varying { law, shares: self.shares.clone(), largest, strongest, repels }))
     }
     fn energies(&self, first: usize, gaps: &[T], energies: &mut [T]) {
         self.law.energies(first, gaps, energies);

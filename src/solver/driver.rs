@@ -13,7 +13,7 @@ use crate::adhesion::AdhesionLaw;
 use crate::constraint::{ContactConstraint, Update, Wall};
 use crate::elastic::ElasticOperator;
 use crate::error::{Error, Result};
-use crate::problem::{Control, PressedFlat, smoothed_law};
+use crate::problem::{Control, Load, PressedFlat, smoothed_law};
 use crate::real::{Compiled, Real};
 
 /// The input of a solve, but for the operator.
@@ -35,7 +35,8 @@ impl<T: Real> Job<'_, T> {
     /// Whether the load is so light that corrections in `f32` would not find the first contact.
     fn is_light(&self) -> bool {
         let flat = self.flat.stiffness * self.flat.rms_height;
-        matches!(self.control, Control::MeanPressure(pressure) if pressure.abs() < LIGHT * flat)
+        let load = self.flat.load(self.control, self.constraint.wall());
+        matches!(load, Ok(Load::Pressure(pressure)) if pressure.abs() < LIGHT * flat)
     }
 
     /// Whether the law itself keeps the surfaces apart: its slopes make much of the rounding of corrections.

@@ -106,9 +106,10 @@ pub(super) fn given_start<T: Real>(
 /// Refuses a law that is not made for a wall.
 pub(crate) fn check_wall<T: Real>(law: &dyn AdhesionLaw<T>, wall: Wall<'_, T>) -> Result<()> {
     let (wall, reason) = match wall {
-        Wall::None if law.rest().is_none() => {
-            ("no wall", "the adhesion law does not repel, so that nothing would keep the surfaces apart: choose a wall")
-        }
+        Wall::None if law.rest().is_none() => (
+            "no wall",
+            "the adhesion law does not repel at every node, so that nothing would keep the surfaces apart: choose a wall",
+        ),
         Wall::Rigid | Wall::Springs(_) if !law.energy(T::zero()).is_finite() => (
             "a wall at zero gap",
             "the adhesion law has no bound there: solve it without a wall (NoWall), or cut it at its gap of rest",

@@ -300,6 +300,11 @@ fn laws_walls_and_grids_that_do_not_fit_are_refused_by_name() {
     assert_eq!(wall(without_wall(1e-6).solve(&mut plain, control)), "no wall");
     let mut soft = Problem::new(&surface, half_space.clone(), LennardJones::new(1e-4, 1e-2).unwrap()).unwrap();
     assert_eq!(wall(Solver::default().solve(&mut soft, control)), "a wall at zero gap");
+    // where a law has no work of adhesion it does not repel
+    let works = grid.sample(|x, _| if x < 0.0 { 0.0 } else { 1e-4 });
+    let bare = Varying::new(Morse::new(1e-4, 1e-2).unwrap(), works.view()).unwrap();
+    let mut bare = Problem::new(&surface, half_space.clone(), bare).unwrap();
+    assert_eq!(wall(without_wall(1e-6).solve(&mut bare, control)), "no wall");
     let works = Array2::from_elem((8, 16), 1e-4);
     let law = Varying::new(Exponential::new(1e-4, 1e-2).unwrap(), works.view()).unwrap();
     assert!(matches!(Problem::new(&surface, half_space, law), Err(Error::Shape { found: (8, 16), .. })));
