@@ -17,6 +17,7 @@ use crate::solver::{Iteration, Solution, Solver, Start, Status};
 use crate::stability::Watch;
 
 mod event;
+mod place;
 mod quadrature;
 mod saddle;
 mod settings;
@@ -24,9 +25,10 @@ mod step;
 mod track;
 
 pub use event::{Event, Jump};
+use place::Mode;
 pub use settings::PathSettings;
 pub use step::{PathCheckpoint, PathStep};
-use track::{Mode, State, Track, Way};
+use track::{State, Track, Way};
 
 /// A path of equilibria: an iterator over the states of a branch that is followed from load to load in small steps,
 /// with its jumps.

@@ -1,92 +1,11 @@
-//! The track of a path in numbers: its places, the length of the next step, and the balance of energy of the last.
+//! The track of a path in numbers: its last places, the length of the next step, and the balance of energy of the last.
 
+use super::place::{Mode, Place};
 use super::quadrature::integral;
 use super::{Event, Jump, PathSettings};
 use crate::elastic::Boundary;
 use crate::problem::{Control, Load, PressedFlat};
 use crate::solver::Report;
-
-/// The quantity that is held in a step.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(super) enum Mode {
-    /// the position
-    #[default]
-    Gap,
-    Pressure,
-    /// the rest of a spring of this compliance, length per mean pressure
-    Spring(f64),
-}
-
-impl Mode {
-    /// One number for the mode.
-    fn code(self) -> f64 {
-        match self {
-            Self::Gap => 0.0,
-            Self::Pressure => 1.0,
-            Self::Spring(compliance) => -compliance,
-        }
-    }
-
-    fn of_code(code: f64) -> Self {
-        match code {
-            0.0 => Self::Gap,
-            code if code < 0.0 => Self::Spring(-code),
-            _ => Self::Pressure,
-        }
-    }
-}
-
-/// A place: the figures of a state in the balance of energy.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(super) struct Place {
-    /// what the load works on: the mean gap, or with a free boundary minus the approach
-    position: f64,
-    /// the position at which the spring is relaxed, if there is one
-    rest: f64,
-    gap: f64,
-    pressure: f64,
-    /// elastic and adhesive
-    energy: f64,
-    contact: f64,
-}
-
-impl Place {
-    fn of(report: &Report) -> Self {
-        let position = report.approach.map_or(report.mean_gap, |approach| -approach);
-        Self {
-            position,
-            rest: position,
-            gap: report.mean_gap,
-            pressure: report.mean_pressure,
-            energy: report.elastic_energy + report.adhesive_energy,
-            contact: report.contact_fraction,
-        }
-    }
-
-    /// The held quantity, and the derivative of the potential by it.
-    fn slope(&self, mode: Mode) -> (f64, f64) {
-        match mode {
-            Mode::Gap => (self.position, -self.pressure),
-            Mode::Pressure => (self.pressure, self.position),
-            Mode::Spring(_) => (self.rest, -self.pressure),
-        }
-    }
-
-    /// The potential, which is at a minimum in equilibrium.
-    fn potential(&self, mode: Mode) -> f64 {
-        match mode {
-            Mode::Gap => self.energy,
-            Mode::Pressure => self.energy + self.pressure * self.position,
-            Mode::Spring(compliance) => self.energy + 0.5 * compliance * self.pressure.powi(2),
-        }
-    }
-
-    /// The place with the rest of a spring that carries its pressure.
-    fn held_by(self, mode: Mode) -> Self {
-        let length = if let Mode::Spring(compliance) = mode { compliance * self.pressure } else { 0.0 };
-        Self { rest: self.position - length, ..self }
-    }
-}
 
 /// The account of energy so far.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

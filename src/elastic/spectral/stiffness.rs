@@ -1,0 +1,241 @@
+//! The stiffness of every wave, and what an application makes of a column of the spectrum with it.
+
+use std::f64::consts::PI;
+use std::sync::Arc;
+
+use asperity_fft::num_complex::Complex;
+use ndarray::Array2;
+
+use super::Symbol;
+use crate::error::{Error, Result};
+use crate::fft::{Layout, Sums};
+use crate::grid::Grid;
+use crate::real::Real;
+use crate::vector::{BLOCK, LANES, vectorised};
+
+/// The stiffness of each mode, in the layout of the spectrum.
+#[derive(Clone)]
+pub(super) enum Stiffness<T> {
+    Stored(Array2<T>),
+    /// the half-space, `unit·√(x² + y²)`, which is faster computed than stored: the squares x² and y² in and across
+    /// columns
+    HalfSpace {
+        unit: T,
+        x: Vec<T>,
+        y: Vec<T>,
+    },
+    /// the half-space on a folded line, `unit·|x + column|`
+    Line {
+        unit: T,
+        x: Vec<T>,
+    },
+    /// even along both axes, in `f64` whatever the precision: of each column the first half of its modes, and the one
+    /// in the middle
+    Even(Arc<Array2<f64>>),
+}
+
+/// The stiffness of the homogeneous half-space, and that of its softest and stiffest wave.
+pub(super) fn half_space<T: Real>(grid: &Grid, modulus: f64) -> Result<(Stiffness<T>, (f64, f64))> {
+    let ((nx, ny), (lx, ly)) = (grid.shape(), grid.lengths());
+    let unit = PI * modulus / lx;
+    let softest = match (nx, ny) {
+        (1, 1) => 0.0,
+        (1, _) => unit * (lx / ly),
+        (_, 1) => unit,
+        _ => unit * (lx / ly).min(1.0),
+    };
+    let stiffest = unit * (nx as f64 / 2.0).floor().hypot((lx / ly) * (ny as f64 / 2.0).floor());
+    if grid.nodes() > 1 {
+        check_range::<T>(softest, stiffest)?;
+        // of the squares, too
+        check_range::<T>((softest / unit).powi(2), (stiffest / unit).powi(2))?;
+    }
+    let layout = Layout::new((nx, ny));
+    let ((columns, modes), (_, divisor)) = (layout.spectrum(), layout.plane());
+    let stiffness = if layout.is_folded() {
+        // with the sign of the mode, so that long waves are exact
+        let signed = |i: usize| if 2 * i < modes { i as f64 } else { i as f64 - modes as f64 };
+        let x = (0..modes).map(|i| T::lit(divisor as f64 * signed(i))).collect();
+        Stiffness::Line { unit: T::lit(softest), x }
+    } else {
+        let square = |(i, j): (usize, usize)| {
+            T::lit((i.min(nx - i) as f64).powi(2).max((lx / ly * j.min(ny - j) as f64).powi(2)))
+        };
+        let x = (0..modes).map(|i| square(layout.mode(0, i))).collect();
+        let y = (0..columns).map(|column| square(layout.mode(column, 0))).collect();
+        Stiffness::HalfSpace { unit: T::lit(unit), x, y }
+    };
+    Ok((stiffness, (softest, stiffest)))
+}
+
+/// Refuses stiffnesses that leave the range of T, by themselves or by the square of their ratio.
+pub(super) fn check_range<T: Real>(softest: f64, stiffest: f64) -> Result<()> {
+    let holds = |value: f64| T::lit(value) >= T::min_positive_value() && T::lit(value).is_finite();
+    match [softest, stiffest, (stiffest / softest).powi(2)].into_iter().find(|&value| !holds(value)) {
+        Some(value) => Err(Error::Value { name: "stiffness of a wave", value, requirement: REPRESENTABLE }),
+        None => Ok(()),
+    }
+}
+
+const REPRESENTABLE: &str = "positive and finite in the precision of the fields";
+
+/// The symbol at every mode of the half spectrum, in the layout of the convolver.
+pub(super) fn stiffness<T: Real>(grid: &Grid, symbol: &Symbol) -> Result<Array2<T>> {
+    let (nx, ny) = grid.shape();
+    let (layout, mut wrong) = (Layout::new((nx, ny)), None);
+    let modes = Array2::from_shape_fn(layout.spectrum(), |(column, i)| {
+        let (i, j) = layout.mode(column, i);
+        if (i, j) == (0, 0) {
+            return T::zero();
+        }
+        let (qx, qy) = (grid.wave_number_x(i), grid.wave_number_y(j));
+        let nyquist = (2 * i == nx && j > 0) || (2 * j == ny && i > 0);
+        let value = if nyquist { 0.5 * (symbol(qx, qy) + symbol(-qx, qy)) } else { symbol(qx, qy) };
+        let rounded = T::lit(value);
+        if !(rounded > T::zero() && rounded.is_finite()) {
+            wrong.get_or_insert(value);
+        }
+        rounded
+    });
+    match wrong {
+        Some(value) => Err(Error::Value { name: "stiffness of a wave", value, requirement: REPRESENTABLE }),
+        None => Ok(modes),
+    }
+}
+
+impl<T: Real> Stiffness<T> {
+    /// Multiplies the modes z of column `k` of the spectrum by a function of their stiffness; the sums over the column
+    /// are those of |z|² times two more.
+    pub(super) fn modify(&self, k: usize, column: &mut [Complex<T>], by: impl Fn(T) -> [T; 3]) -> Sums {
+        match self {
+            Self::Stored(stiffness) => {
+                let stiffness = stiffness.row(k).to_slice().unwrap_or_default();
+                modify(column, stiffness, by)
+            }
+            Self::HalfSpace { unit, x, y } => {
+                let (unit, y) = (*unit, y[k]);
+                modify(
+                    column,
+                    x,
+                    #[inline(always)]
+                    move |x| by(unit * (x + y).sqrt()),
+                )
+            }
+            Self::Line { unit, x } => {
+                let (unit, k) = (*unit, T::lit(k as f64));
+                modify(
+                    column,
+                    x,
+                    #[inline(always)]
+                    move |x| by(unit * (x + k).abs()),
+                )
+            }
+            Self::Even(stiffness) => {
+                let stiffness = stiffness.row(k).to_slice().unwrap_or_default();
+                let (first, second) = column.split_at_mut(stiffness.len());
+                let mut sums = modify(
+                    first,
+                    stiffness,
+                    #[inline(always)]
+                    |k| by(T::lit(k)),
+                );
+                // the others mirror these, but for the first one
+                let mut end = second.len() + 1;
+                for modes in second.chunks_mut(BLOCK) {
+                    let mut mirrored = [0.0; BLOCK];
+                    let start = end - modes.len();
+                    mirrored.iter_mut().zip(stiffness[start..end].iter().rev()).for_each(|(to, from)| *to = *from);
+                    let more = modify(
+                        modes,
+                        &mirrored[..modes.len()],
+                        #[inline(always)]
+                        |k| by(T::lit(k)),
+                    );
+                    sums.iter_mut().zip(more).for_each(|(sum, more)| *sum += more);
+                    end = start;
+                }
+                sums
+            }
+        }
+    }
+}
+
+fn modify<T: Real, U: Copy>(column: &mut [Complex<T>], of: &[U], by: impl Fn(U) -> [T; 3]) -> Sums {
+    let mut sums = [0.0; 3];
+    let mut factors = [[T::zero(); BLOCK]; 3];
+    let total = &mut sums;
+    vectorised(
+        #[inline(always)]
+        move || {
+            let mut lanes = [[0.0; LANES]; 2];
+            for (modes, of) in column.chunks_mut(BLOCK).zip(of.chunks(BLOCK)) {
+                for (i, &of) in of.iter().enumerate() {
+                    let [factor, a, b] = by(of);
+                    (factors[0][i], factors[1][i], factors[2][i]) = (factor, a, b);
+                }
+                for factors in &mut factors[1..] {
+                    factors[of.len()..].fill(T::zero());
+                }
+                let mut powers = [0.0; BLOCK];
+                for (power, z) in powers.iter_mut().zip(modes.iter()) {
+                    *power = z.re.widen() * z.re.widen() + z.im.widen() * z.im.widen();
+                }
+                for (z, &factor) in modes.iter_mut().zip(&factors[0]) {
+                    *z = Complex::new(z.re * factor, z.im * factor);
+                }
+                for (lanes, factors) in lanes.iter_mut().zip(&factors[1..]) {
+                    for k in 0..BLOCK / LANES {
+                        for l in 0..LANES {
+                            lanes[l] += powers[k * LANES + l] * factors[k * LANES + l].widen();
+                        }
+                    }
+                }
+            }
+            for (total, lanes) in total.iter_mut().zip(&lanes) {
+                *total = lanes.iter().sum();
+            }
+        },
+    );
+    sums
+}
+
+/// The factors of the pressure and, for the work, of |z|².
+#[inline(always)]
+pub(super) fn stiffen<T: Real>(stiffness: T) -> [T; 3] {
+    [stiffness, stiffness, T::zero()]
+}
+
+/// Divides by the stiffness and `shift` times the softest, and multiplies the mean by `mean`; the sums are those of
+/// [`Preconditioned`](crate::Preconditioned).
+pub(super) fn soften<T: Real>(
+    (stiffness, softest): (&Stiffness<T>, f64),
+    k: usize,
+    column: &mut [Complex<T>],
+    shift: T,
+    mean: T,
+) -> Sums {
+    let softest = if softest > 0.0 { T::lit(softest) } else { T::one() };
+    let still = if k == 0 { column.first_mut().map(std::mem::take).unwrap_or_default() } else { Complex::default() };
+    let compliance = softest.recip();
+    let mut sums = stiffness.modify(
+        k,
+        column,
+        #[inline(always)]
+        move |k| {
+            // in units of the softest
+            let k = k * compliance;
+            // the mean, which has no stiffness, is seen to below
+            let k = if k > T::zero() { k } else { T::one() };
+            // one division for both
+            let inverse = T::one() / (k * (k + shift));
+            [k * inverse * compliance, (k + shift) * inverse, k * inverse]
+        },
+    );
+    sums.iter_mut().for_each(|sum| *sum *= compliance.widen());
+    if let (0, Some(first)) = (k, column.first_mut()) {
+        *first = still.scale(mean);
+        sums[1] += still.re.widen() * first.re.widen();
+        sums[2] = first.re.widen();
+    }
+    sums
+}
