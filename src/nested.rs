@@ -6,6 +6,7 @@ use ndarray::Array2;
 
 use crate::adhesion::AdhesionLaw;
 use crate::constraint::{ContactConstraint, Projection};
+use crate::contact::ContactArea;
 use crate::elastic::{Boundary, ElasticOperator};
 use crate::error::{Error, Result};
 use crate::field::flat_mut;
@@ -60,8 +61,9 @@ pub struct Nested<C = Projection> {
     pub coarsest: usize,
 }
 
-/// The cost of the solve on one of the nested grids.
+/// The cost of the solve on one of the nested grids, and what it found there.
 ///
+/// The figures of a coarser grid are those of its solution to the coarse tolerance; how good it is says its relative error.
 /// [`NestedSolution`] has an example.
 #[non_exhaustive]
 #[derive(Clone, Debug, PartialEq)]
@@ -74,6 +76,37 @@ pub struct Level {
     pub iterations: usize,
     /// The number of operator applications, with the one that constructs the problem.
     pub operator_applications: usize,
+    /// The certified relative error, [`Report::relative_error`](crate::Report::relative_error).
+    pub relative_error: f64,
+    /// The mean gap, [`Report::mean_gap`](crate::Report::mean_gap).
+    pub mean_gap: f64,
+    /// The mean external pressure, [`Report::mean_pressure`](crate::Report::mean_pressure).
+    pub mean_pressure: f64,
+    /// The mean contact pressure, [`Report::mean_contact_pressure`](crate::Report::mean_contact_pressure).
+    pub mean_contact_pressure: f64,
+    /// The elastic energy per area, [`Report::elastic_energy`](crate::Report::elastic_energy).
+    pub elastic_energy: f64,
+    /// The contact area, as nodes count it and corrected.
+    pub area: ContactArea,
+}
+
+impl Level {
+    /// The level of a solution on its grid.
+    fn of<T: Real>(solution: &Solution<T>, grid: &Grid) -> Result<Self> {
+        let report = &solution.report;
+        Ok(Self {
+            shape: grid.shape(),
+            status: report.status,
+            iterations: report.iterations,
+            operator_applications: report.operator_applications + 1,
+            relative_error: report.relative_error,
+            mean_gap: report.mean_gap,
+            mean_pressure: report.mean_pressure,
+            mean_contact_pressure: report.mean_contact_pressure,
+            elastic_energy: report.elastic_energy,
+            area: ContactArea::of_solution(solution, solution.contact_map().view(), grid)?,
+        })
+    }
 }
 
 /// The solution on the finest of nested grids.
@@ -188,13 +221,9 @@ impl<C> Nested<C> {
                 if stopped || done { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
             });
             self.solver.settings = settings;
-            let Solution { gap, report, .. } = result?;
-            levels.push(Level {
-                shape: coarse.grid().shape(),
-                status: report.status,
-                iterations: report.iterations,
-                operator_applications: report.operator_applications + 1,
-            });
+            let solution = result?;
+            levels.push(Level::of(&solution, coarse.grid())?);
+            let Solution { gap, report, .. } = solution;
             // a coarse grid that does not carry its load says nothing of a finer one
             if report.load_error < CARRIED {
                 let finer = finer(&strides, stride);
@@ -208,12 +237,7 @@ impl<C> Nested<C> {
             stopped = stopped || observe(surface.grid(), iteration).is_break();
             if stopped { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         })?;
-        levels.push(Level {
-            shape: surface.grid().shape(),
-            status: solution.report.status,
-            iterations: solution.report.iterations,
-            operator_applications: solution.report.operator_applications + 1,
-        });
+        levels.push(Level::of(&solution, surface.grid())?);
         Ok(NestedSolution { solution, levels })
     }
 }

@@ -305,13 +305,20 @@ fn spring_stiffness(control: Control) -> Option<f64> {
     if let Control::Spring { stiffness, .. } = control { Some(stiffness) } else { None }
 }
 
-/// The cost of one of the nested grids; the applications include the one that constructs its problem.
+/// The cost of one of the nested grids and what it found; the applications include the one that constructs its problem.
 fn level(level: &Level) -> Value {
     json!({
         "shape": level.shape,
         "status": level.status.name(),
         "iterations": level.iterations,
         "operator_applications": level.operator_applications,
+        "relative_error": level.relative_error,
+        "mean_gap": level.mean_gap,
+        "mean_pressure": level.mean_pressure,
+        "mean_contact_pressure": level.mean_contact_pressure,
+        "elastic_energy": level.elastic_energy,
+        "contact_fraction": level.area.contact_fraction,
+        "corrected_contact_fraction": level.area.corrected_contact_fraction,
     })
 }
 
