@@ -98,6 +98,21 @@ pub enum Error {
         /// The reason, and a remedy.
         reason: &'static str,
     },
+    /// An accuracy that takes a grid that does not fit into memory.
+    Unaffordable {
+        /// The quantity, by the name of [`Quantity::name`](crate::accuracy::Quantity::name).
+        quantity: &'static str,
+        /// The accuracy that was asked for.
+        accuracy: f64,
+        /// The shape of the grid that is likely to reach it.
+        shape: (usize, usize),
+        /// The memory that the grid takes, in bytes.
+        bytes: f64,
+        /// The memory that there is, in bytes.
+        available: f64,
+        /// The accuracy that the finest affordable grid is likely to reach.
+        affordable: f64,
+    },
     /// A surface with waves that are too short for the grid.
     Unresolved {
         /// The wave number k_s of the shortest waves, in units of 2π/Lx.
@@ -115,6 +130,9 @@ pub enum Error {
         reason: String,
     },
 }
+
+/// The bytes of a GiB.
+const GIB: f64 = 1_073_741_824.0;
 
 impl Error {
     /// A file that could not be read or written, for `reason`.
@@ -204,6 +222,15 @@ impl fmt::Display for Error {
             }
             Self::Control { control, reason } => write!(f, "{control}: {reason}"),
             Self::Wall { wall, reason } => write!(f, "{wall}: {reason}"),
+            Self::Unaffordable { quantity, accuracy, shape, bytes, available, affordable } => write!(
+                f,
+                "an accuracy of {accuracy} of the {quantity} takes about {} x {} nodes and {:.1} GiB: there are {:.1} GiB, \
+                 enough for about {affordable:.1e}",
+                shape.0,
+                shape.1,
+                bytes / GIB,
+                available / GIB
+            ),
             Self::Unresolved { k_s, limit, shape } => write!(
                 f,
                 "k_s is {}: it must be below {} for {} x {} nodes to resolve it: use more nodes, or a smaller k_s",

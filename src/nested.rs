@@ -15,6 +15,7 @@ use crate::par;
 use crate::problem::{Control, Problem};
 use crate::real::Real;
 use crate::solver::{Iteration, Settings, Solution, Solver, Start, Status};
+use crate::stability::ContactStiffness;
 use crate::surface::Surface;
 
 /// The resolution measure μ_ρ above which a coarse grid would pin the contact.
@@ -59,6 +60,8 @@ pub struct Nested<C = Projection> {
     pub coarse_tolerance: f64,
     /// The least number of nodes along a side of a coarser grid. Default 64.
     pub coarsest: usize,
+    /// The relative error to which the contact stiffness of each grid is found; `None`, the default, finds none.
+    pub stiffness: Option<f64>,
 }
 
 /// The cost of the solve on one of the nested grids, and what it found there.
@@ -88,11 +91,13 @@ pub struct Level {
     pub elastic_energy: f64,
     /// The contact area, as nodes count it and corrected.
     pub area: ContactArea,
+    /// The contact stiffness, if [`Nested::stiffness`] asks for it.
+    pub stiffness: Option<ContactStiffness>,
 }
 
 impl Level {
     /// The level of a solution on its grid.
-    fn of<T: Real>(solution: &Solution<T>, grid: &Grid) -> Result<Self> {
+    pub(crate) fn of<T: Real>(solution: &Solution<T>, grid: &Grid) -> Result<Self> {
         let report = &solution.report;
         Ok(Self {
             shape: grid.shape(),
@@ -105,6 +110,7 @@ impl Level {
             mean_contact_pressure: report.mean_contact_pressure,
             elastic_energy: report.elastic_energy,
             area: ContactArea::of_solution(solution, solution.contact_map().view(), grid)?,
+            stiffness: None,
         })
     }
 }
@@ -145,7 +151,7 @@ impl<T> NestedSolution<T> {
 impl Nested {
     /// Nested grids for a solver that confines the gap to g ≥ 0 by projection.
     pub fn new(settings: Settings) -> Self {
-        Self { solver: Solver::new(settings), coarse_tolerance: 1e-2, coarsest: 64 }
+        Self { solver: Solver::new(settings), coarse_tolerance: 1e-2, coarsest: 64, stiffness: None }
     }
 }
 
@@ -222,7 +228,8 @@ impl<C> Nested<C> {
             });
             self.solver.settings = settings;
             let solution = result?;
-            levels.push(Level::of(&solution, coarse.grid())?);
+            let stiffness = self.stiffness_of(&mut problem, &solution)?;
+            levels.push(Level { stiffness, ..Level::of(&solution, coarse.grid())? });
             let Solution { gap, report, .. } = solution;
             // a coarse grid that does not carry its load says nothing of a finer one
             if report.load_error < CARRIED {
@@ -237,8 +244,27 @@ impl<C> Nested<C> {
             stopped = stopped || observe(surface.grid(), iteration).is_break();
             if stopped { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         })?;
-        levels.push(Level::of(&solution, surface.grid())?);
+        let stiffness = self.stiffness_of(&mut problem, &solution)?;
+        levels.push(Level { stiffness, ..Level::of(&solution, surface.grid())? });
         Ok(NestedSolution { solution, levels })
+    }
+}
+
+impl<C> Nested<C> {
+    /// The contact stiffness of a solution, if it is asked for.
+    pub(crate) fn stiffness_of<T, O, L>(
+        &self,
+        problem: &mut Problem<T, O, L>,
+        solution: &Solution<T>,
+    ) -> Result<Option<ContactStiffness>>
+    where
+        T: Real,
+        O: ElasticOperator<T>,
+        L: AdhesionLaw<T>,
+        C: ContactConstraint<T>,
+    {
+        let find = |tolerance| ContactStiffness::of_constrained(problem, &self.solver.constraint, solution, tolerance);
+        self.stiffness.map(find).transpose()
     }
 }
 
@@ -273,7 +299,7 @@ fn coarsen(surface: &Surface, (x, y): (usize, usize)) -> Result<Option<Surface>>
 }
 
 /// The gap prolonged to the next finer grid, which has every `stride`-th node of the surface.
-fn prolong<T: Real>(
+pub(crate) fn prolong<T: Real>(
     surface: &Surface,
     stride: (usize, usize),
     coarse: &Surface,

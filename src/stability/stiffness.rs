@@ -66,8 +66,8 @@ const MOST: usize = 500;
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ContactStiffness {
-    /// The stiffness k = dp̄/dδ, pressure per length; NaN where the equilibrium is not stable at its mean gap, as there
-    /// the equations have no solution that a load would follow.
+    /// The stiffness k = dp̄/dδ, pressure per length. NaN where the search met a change of the gap along which the
+    /// curvature is negative: no load would follow from such an equilibrium, even if its mean gap were held.
     pub pressure_per_length: f64,
     /// The stiffness dF/dδ = k·Lx·Ly, force per length.
     pub force_per_length: f64,
@@ -116,6 +116,15 @@ impl ContactStiffness {
         Error::positive("tolerance", tolerance)?;
         check_solution(problem, constraint, solution)?;
         let Problem { operator, law, flat } = problem;
+        if law.is_zero() && solution.report.contact_nodes == 0 {
+            return Ok(Self {
+                pressure_per_length: 0.0,
+                force_per_length: 0.0,
+                relative_error: 0.0,
+                smoothed: false,
+                operator_applications: 0,
+            });
+        }
         let window = flat.window.as_ref();
         let smoothed = smoothed_law(operator, law);
         let local = Potential::new(smoothed.as_deref().unwrap_or(law), constraint, None);

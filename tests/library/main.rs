@@ -23,5 +23,6 @@ mod rough_contact;
 mod solvers;
 mod stability;
 mod statistics;
+mod stiffness;
 mod stress;
 mod sweep;

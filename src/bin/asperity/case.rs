@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use std::time::Instant;
 
 use asperity::contact::ContactStatistics;
-use asperity::stability::{Departure, Stability, StabilityTest, Verdict};
+use asperity::stability::{ContactStiffness, Departure, Stability, StabilityTest, Verdict};
 use asperity::{
     AdhesionLaw, Control, Grid, Level, Nested, NestedSolution, NoAdhesion, Problem, Report, Settings, Solution, Solver,
     Start, Surface,
@@ -31,6 +31,13 @@ pub struct Case {
     pub stability: bool,
     /// Whether to go on from an unstable solution.
     pub leave: bool,
+    /// Whether to find the contact stiffness of the solution.
+    pub stiffness: bool,
+}
+
+impl Case {
+    /// The relative error to which a contact stiffness is found.
+    pub const STIFFNESS: f64 = 1e-4;
 }
 
 /// The stability of a solution; see [`asperity::stability::Stability`].
@@ -68,6 +75,8 @@ pub struct Account {
     /// The time for setting up and solving, stability included, without that for files and pictures.
     pub seconds: f64,
     pub stability: Option<Steadiness>,
+    /// The contact stiffness, if it was asked for.
+    pub stiffness: Option<ContactStiffness>,
     /// The unstable equilibria on the way to the solution, in order.
     pub departures: Vec<Left>,
     /// The node with the largest work of adhesion, where that varies.
@@ -113,8 +122,10 @@ pub fn solve<T: Scalar, L: AdhesionLaw<T>>(
         departures.push(Left { eigenvalue: found.eigenvalue, energy_drop, distance });
         solution = left.solution;
     };
+    let find = || ContactStiffness::of_constrained(&mut problem, &case.wall, &solution, Case::STIFFNESS);
+    let stiffness = case.stiffness.then(find).transpose()?;
     let (solution, account) = account(solution, &grid, None, clock)?;
-    Ok((solution, Account { stability, departures, ..account }))
+    Ok((solution, Account { stability, stiffness, departures, ..account }))
 }
 
 /// Solves a case on nested grids.
@@ -128,7 +139,8 @@ pub fn solve_nested<T: Scalar, L: AdhesionLaw<T>>(
     let half_space = |grid| case.boundary.half_space(grid, case.modulus);
     let Nested { coarse_tolerance, coarsest, .. } = Nested::default();
     let solver = Solver { settings: case.settings, constraint: case.wall };
-    let found = Nested { solver, coarse_tolerance, coarsest }.solve_observed(
+    let stiffness = case.stiffness.then_some(Case::STIFFNESS);
+    let found = Nested { solver, coarse_tolerance, coarsest, stiffness }.solve_observed(
         surface,
         half_space,
         law,
@@ -140,7 +152,9 @@ pub fn solve_nested<T: Scalar, L: AdhesionLaw<T>>(
     )?;
     let applications = found.equivalent_applications();
     let NestedSolution { solution, levels, .. } = found;
-    account(solution, surface.grid(), Some((levels, applications)), clock)
+    let stiffness = levels.last().and_then(|finest| finest.stiffness);
+    let (solution, account) = account(solution, surface.grid(), Some((levels, applications)), clock)?;
+    Ok((solution, Account { stiffness, ..account }))
 }
 
 fn account<T: Scalar>(
@@ -163,6 +177,7 @@ fn account<T: Scalar>(
         grids,
         seconds,
         stability: None,
+        stiffness: None,
         departures: Vec::new(),
         strongest: None,
         warnings: Value::Array(Vec::new()),

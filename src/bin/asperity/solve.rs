@@ -63,6 +63,9 @@ pub struct Options {
     /// --stability
     #[arg(long, help_heading = "Output", conflicts_with = "nested")]
     leave: bool,
+    /// Find the contact stiffness: how much the mean pressure grows with the approach, pressure per length
+    #[arg(long, help_heading = "Output")]
+    stiffness: bool,
     /// Files for the fields: .npy one each, all in fields.npz for numpy, or in fields.vti for ParaView; may be
     /// repeated
     #[arg(
@@ -161,7 +164,16 @@ impl Options {
         let (control, settings) = (self.load.control(), self.solver.settings());
         let stability = self.stability || self.leave;
         let wall = self.adhesion.wall;
-        Case { boundary: beyond.boundary, modulus, control, settings, wall, stability, leave: self.leave }
+        Case {
+            boundary: beyond.boundary,
+            modulus,
+            control,
+            settings,
+            wall,
+            stability,
+            leave: self.leave,
+            stiffness: self.stiffness,
+        }
     }
 
     /// All that one needs for understanding a run later; numbers that are not finite become null.
@@ -205,6 +217,8 @@ impl Options {
                 "smoothed": stability.smoothed,
                 "operator_applications": stability.operator_applications,
             })),
+            "contact_stiffness": account.stiffness.map(|found| found.pressure_per_length),
+            "normal_stiffness": account.stiffness.map(|found| found.force_per_length),
             "departures": self.leave.then(|| account.departures.iter().map(departure).collect::<Vec<_>>()),
             "mu_rho": report.mu_rho,
             "mu_rho_node": account.strongest,
@@ -319,6 +333,7 @@ fn level(level: &Level) -> Value {
         "elastic_energy": level.elastic_energy,
         "contact_fraction": level.area.contact_fraction,
         "corrected_contact_fraction": level.area.corrected_contact_fraction,
+        "contact_stiffness": level.stiffness.map(|found| found.pressure_per_length),
     })
 }
 

@@ -35,6 +35,11 @@ pub fn table(names: &[&str], solves: &[&Account], style: Style) -> String {
     row("greatest pressure", &|s, _| style.number(s.pressures.1, "Pa"));
     row("elastic energy per area", &|_, r| style.number(r.elastic_energy, "J/m²"));
     row("adhesive energy per area", &|_, r| style.number(r.adhesive_energy, "J/m²"));
+    if solves.iter().any(|solve| solve.stiffness.is_some()) {
+        row("contact stiffness", &|s, _| {
+            s.stiffness.map_or(String::new(), |found| style.number(found.pressure_per_length, "Pa/m"))
+        });
+    }
     row("mu_rho", &|_, r| plain(r.mu_rho));
     row("certified error", &|_, r| format!("{:.1e}", r.relative_error));
     if solves.iter().any(|solve| solve.stability.is_some()) {

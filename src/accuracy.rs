@@ -1,0 +1,194 @@
+//! The accuracy that is wanted: how wrong the grid is, and a solve that refines it until it is right enough.
+//!
+//! An answer has two errors: that of the solver, which the certificate bounds, and that of the grid. [`GridError`]
+//! estimates the latter from the solutions on nested grids; [`Accuracy`] asks for a relative error of a [`Quantity`] and
+//! chooses tolerance and grid itself.
+
+use std::fmt;
+
+use crate::error::{Error, Result};
+use crate::nested::Level;
+use crate::problem::Control;
+
+mod goal;
+mod refine;
+
+pub use goal::{Accuracy, AccurateSolution, Plan};
+
+/// The quantity of which an accuracy is asked.
+///
+/// ```
+/// use asperity::Control;
+/// use asperity::accuracy::Quantity;
+/// assert!(Quantity::Gap.check(Control::MeanPressure(0.1)).is_ok());
+/// let error = Quantity::Gap.check(Control::MeanGap(0.1)).unwrap_err();
+/// assert_eq!(error.to_string(), "accuracy of the gap: the mean gap is given: ask for that of the pressure, or of the area");
+/// ```
+#[non_exhaustive]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Quantity {
+    /// The contact area corrected for its edge,
+    /// [`ContactArea::corrected_contact_fraction`](crate::contact::ContactArea::corrected_contact_fraction).
+    Area,
+    /// The mean gap, under a given pressure or force in a periodic cell.
+    Gap,
+    /// The mean external pressure, where it is not given.
+    Pressure,
+    /// The contact stiffness, [`ContactStiffness`](crate::stability::ContactStiffness).
+    Stiffness,
+}
+
+impl Quantity {
+    /// The name that the tool uses: `"area"`, `"gap"`, `"pressure"` or `"stiffness"`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Area => "area",
+            Self::Gap => "gap",
+            Self::Pressure => "pressure",
+            Self::Stiffness => "stiffness",
+        }
+    }
+
+    /// Refuses a quantity that a control gives instead of finding it.
+    ///
+    /// # Errors
+    /// [`Error::Control`].
+    pub fn check(self, control: Control) -> Result<()> {
+        let (control, reason) = match (self, control) {
+            (Self::Gap, Control::MeanGap(_)) => {
+                ("accuracy of the gap", "the mean gap is given: ask for that of the pressure, or of the area")
+            }
+            (Self::Gap, Control::Approach(_)) => (
+                "accuracy of the gap",
+                "a free half-space has no mean gap: ask for that of the pressure, which is that of the force, or of the area",
+            ),
+            (Self::Pressure, Control::MeanPressure(_) | Control::Force(_)) => {
+                ("accuracy of the pressure", "it is given: ask for that of the gap, or of the area")
+            }
+            _ => return Ok(()),
+        };
+        Err(Error::Control { control, reason })
+    }
+
+    /// The value on a level; the counted area beside the corrected one.
+    fn of(self, level: &Level) -> Option<(f64, f64)> {
+        let value = match self {
+            Self::Area => return Some((level.area.corrected_contact_fraction, level.area.contact_fraction)),
+            Self::Gap => level.mean_gap,
+            Self::Pressure => level.mean_pressure,
+            Self::Stiffness => level.stiffness?.pressure_per_length,
+        };
+        Some((value, value))
+    }
+}
+
+impl Quantity {
+    /// The error that is to be expected with so many nodes in the shortest wave, by what rough surfaces had.
+    fn expected(self, nodes_per_wave: f64) -> f64 {
+        let (share, order) = match self {
+            Self::Area => (0.12, 1.0),
+            Self::Gap => (0.01, 2.0),
+            Self::Pressure => (0.15, 2.0),
+            Self::Stiffness => (0.05, 1.0),
+        };
+        share * nodes_per_wave.powf(-order)
+    }
+}
+
+impl fmt::Display for Quantity {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+/// The nodes along a side that the shortest wave of a surface must have on a grid for its solution to say something of
+/// finer ones.
+pub(crate) const RESOLVED: f64 = 4.0;
+
+/// The relative error of the solver on a coarser grid above which its difference to a finer one says nothing.
+const SOLVED: f64 = 3e-3;
+
+/// The resolution measure μ_ρ above which the answer depends on the grid.
+const UNDER_RESOLVED: f64 = 0.5;
+
+/// The share of the difference of the counted areas that is taken for an error of the corrected one: two grids may
+/// agree by luck, as the edge falls between their nodes.
+const COUNTED: f64 = 0.1;
+
+/// The orders of convergence that are believed.
+const ORDERS: (f64, f64) = (0.5, 3.0);
+
+/// The estimated relative error of the grid, of one quantity.
+///
+/// With Q on n nodes a side and ΔQ the difference from half as many, the error of the grid is taken to be
+///
+/// | quantity | estimate |
+/// |---|---|
+/// | corrected area A_c | max(\|ΔA_c\|, 0.1 \|ΔA\|), with A the counted area |
+/// | mean gap, mean pressure, contact stiffness | \|ΔQ\|/(2^p − 1), with the observed order p = log₂(ΔQ(n/2)/ΔQ(n)) |
+///
+/// A coarser grid counts if it has the same waves, the shortest of which ([`Spectrum::nodes_per_wave`](crate::Spectrum::nodes_per_wave))
+/// with at least four nodes, resolves the adhesion (μ_ρ ≤ 0.5), and was solved. Where differences of three
+/// grids do not fall by an order between 0.5 and 3, or alternate in sign, or there are only two grids, the estimate is
+/// the largest difference, and [`rough`](Self::rough). The page [`choosing`](crate::guide::choosing) has how good the
+/// estimates are.
+///
+/// ```
+/// use asperity::accuracy::{GridError, Quantity};
+/// use asperity::{Control, Grid, Nested, NoAdhesion, SelfAffine, Settings, Westergaard};
+/// let surface = SelfAffine { k_s: 16.0, ..SelfAffine::default() }.surface(Grid::square(256, 1.0)?)?;
+/// let half_space = |grid| Westergaard::<f64>::new(grid, 1.0);
+/// let mut nested = Nested { coarse_tolerance: 1e-3, ..Nested::default() };
+/// let found = nested.solve(&surface, half_space, NoAdhesion, Control::MeanPressure(2e-3))?;
+/// let error = GridError::of(&found.levels, Quantity::Area, surface.spectrum().nodes_per_wave(), 0.0).unwrap();
+/// assert!(error.relative > 1e-3 && error.relative < 2e-2);
+/// # Ok::<(), asperity::Error>(())
+/// ```
+#[non_exhaustive]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct GridError {
+    /// The error, relative to the value on the finest grid.
+    pub relative: f64,
+    /// The observed order of convergence, with three grids and where it is one.
+    pub order: Option<f64>,
+    /// Whether the estimate may be far off.
+    pub rough: bool,
+}
+
+impl GridError {
+    /// The error of the finest of some nested grids, the coarsest first; nothing where it cannot be told from them.
+    ///
+    /// `nodes_per_wave` is that of the surface on the finest grid, and `mu_rho` its resolution measure of the adhesion.
+    pub fn of(levels: &[Level], quantity: Quantity, nodes_per_wave: f64, mu_rho: f64) -> Option<Self> {
+        let finest = levels.last()?;
+        let value = |level: &Level| quantity.of(level).filter(|(value, _)| value.is_finite());
+        let mut values = vec![value(finest)?];
+        for level in levels.iter().rev().skip(1) {
+            let factor = finest.shape.0 as f64 / level.shape.0 as f64;
+            let next = f64::from(1 << values.len());
+            let resolves = nodes_per_wave / factor >= RESOLVED && mu_rho * factor.sqrt() <= UNDER_RESOLVED;
+            if factor != next || !resolves || level.relative_error > SOLVED {
+                break;
+            }
+            values.push(value(level)?);
+        }
+        let (fine, counted) = values[0];
+        let (coarse, coarse_counted) = *values.get(1)?;
+        if fine == 0.0 {
+            return (coarse == 0.0).then_some(Self { relative: 0.0, order: None, rough: true });
+        }
+        let last = fine - coarse;
+        let before = values.get(2).map(|(coarser, _)| coarse - coarser);
+        let order = before.map(|before| (before / last).log2());
+        let order = order.filter(|order| (ORDERS.0..=ORDERS.1).contains(order));
+        let (error, rough) = match (quantity, order) {
+            (Quantity::Area, _) => {
+                let scatter = COUNTED * (counted - coarse_counted).abs();
+                (last.abs().max(scatter), false)
+            }
+            (_, Some(order)) => (last.abs() / (order.exp2() - 1.0), false),
+            (_, None) => (last.abs().max(before.map_or(0.0, f64::abs)), true),
+        };
+        Some(Self { relative: error / fine.abs(), order, rough })
+    }
+}
