@@ -6,9 +6,11 @@
 
 use std::fmt;
 
+use crate::elastic::Boundary;
 use crate::error::{Error, Result};
 use crate::nested::Level;
 use crate::problem::Control;
+use crate::surface::{Surface, Topography};
 
 mod goal;
 mod refine;
@@ -98,6 +100,29 @@ impl Quantity {
 impl fmt::Display for Quantity {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(self.name())
+    }
+}
+
+impl Surface {
+    /// The number of nodes that the shortest wave of the surface has, [`Spectrum::nodes_per_wave`](crate::Spectrum::nodes_per_wave);
+    /// with a boundary that does not repeat, of the surface continued by its mirror images.
+    ///
+    /// ```
+    /// use asperity::{Boundary, Boussinesq, ElasticOperator, Grid, Surface};
+    /// let grid = Grid::square(64, 1.0)?;
+    /// // a tilt repeats with a jump, and ends without one
+    /// let tilt = Surface::from_fn(grid, |x, _| x)?;
+    /// let free = Boussinesq::<f64>::new(grid, 1.0)?.boundary();
+    /// assert!(tilt.nodes_per_wave(Boundary::Periodic) < 3.0 && tilt.nodes_per_wave(free) > 8.0);
+    /// # Ok::<(), asperity::Error>(())
+    /// ```
+    pub fn nodes_per_wave(&self, boundary: Boundary) -> f64 {
+        let mirrored = || Topography::from(self.clone()).mirror().surface();
+        match boundary {
+            Boundary::Periodic => self.spectrum().nodes_per_wave(),
+            // side lengths and heights are those of a surface
+            Boundary::Free { .. } => mirrored().map_or(0.0, |surface| surface.spectrum().nodes_per_wave()),
+        }
     }
 }
 

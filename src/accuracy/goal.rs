@@ -5,7 +5,7 @@ use std::time::Instant;
 
 use ndarray::Array2;
 
-use super::refine::{nodes_per_wave, refined, twice};
+use super::refine::{refined, twice};
 use super::{GridError, Quantity, RESOLVED};
 use crate::adhesion::AdhesionLaw;
 use crate::constraint::{ContactConstraint, Projection};
@@ -154,7 +154,7 @@ impl<C> Accuracy<C> {
     ) -> Result<Plan> {
         let tolerance = self.tolerance()?;
         self.of.check(control)?;
-        let nodes_per_wave = nodes_per_wave(surface, operator.boundary() == Boundary::Periodic)?;
+        let nodes_per_wave = surface.nodes_per_wave(operator.boundary());
         let refinements = self.refinements(nodes_per_wave, 1.0);
         let nodes = operator.grid().nodes() as f64;
         let per_line = if surface.grid().is_line() { 2.0_f64 } else { 4.0 };
@@ -264,7 +264,7 @@ impl<C> Accuracy<C> {
         let found = self.nested.solve_observed(surface, &mut *operator, law, control, &mut *observe)?;
         let NestedSolution { mut solution, mut levels, .. } = found;
         let periodic = solution.report.boundary == Boundary::Periodic;
-        let mut waves = nodes_per_wave(surface, periodic)?;
+        let mut waves = surface.nodes_per_wave(solution.report.boundary);
         let mut surface = surface.clone();
         let fixed = surface.absent().is_some() || law.shape().is_some();
         let (error, reached, unaffordable) = loop {

@@ -25,18 +25,10 @@ pub(super) fn twice((nx, ny): (usize, usize)) -> (usize, usize) {
     (twice(nx), twice(ny))
 }
 
-/// The nodes that the shortest wave of a surface has on its grid.
-pub(super) fn nodes_per_wave(surface: &Surface, periodic: bool) -> Result<f64> {
-    if periodic {
-        return Ok(surface.spectrum().nodes_per_wave());
-    }
-    // the edges of a map that does not repeat need not meet
-    Ok(Topography::from(surface.clone()).mirror().surface()?.spectrum().nodes_per_wave())
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::elastic::Boundary;
 
     #[test]
     fn old_nodes_keep_their_heights() {
@@ -56,12 +48,7 @@ mod tests {
     fn a_wave_has_the_nodes_of_its_length() {
         let grid = Grid::square(64, 1.0).unwrap();
         let wave = Surface::wave_2d(grid, 0.02, 4).unwrap();
-        assert_eq!(nodes_per_wave(&wave, true).unwrap(), 16.0);
-        assert_eq!(nodes_per_wave(&refined(&wave, true).unwrap(), true).unwrap(), 32.0);
-        let flat = Surface::from_fn(grid, |_, _| 0.0).unwrap();
-        assert_eq!(nodes_per_wave(&flat, true).unwrap(), f64::INFINITY);
-        // a tilt repeats with a jump, and ends without one
-        let tilt = Surface::from_fn(grid, |x, _| x).unwrap();
-        assert!(nodes_per_wave(&tilt, true).unwrap() < 3.0 && nodes_per_wave(&tilt, false).unwrap() > 8.0);
+        assert_eq!(wave.nodes_per_wave(Boundary::Periodic), 16.0);
+        assert_eq!(refined(&wave, true).unwrap().nodes_per_wave(Boundary::Periodic), 32.0);
     }
 }

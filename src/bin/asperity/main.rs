@@ -16,6 +16,7 @@ mod surface;
 mod sweep;
 
 // the parts of which commands are made
+mod accuracy;
 mod adhesion;
 mod allowed;
 mod boundary;

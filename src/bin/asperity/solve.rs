@@ -7,6 +7,7 @@ use asperity::{Control, Grid, Level, Status};
 use clap::{ArgGroup, Args, ValueEnum};
 use serde_json::{Value, json};
 
+use crate::accuracy::{self, AccuracyOptions};
 use crate::adhesion::{AdhesionOptions, Law, Wall};
 use crate::boundary::{LOAD, LoadOptions};
 use crate::case::{self, Account, Case, Left};
@@ -49,6 +50,8 @@ pub struct Options {
     /// Solve on coarser grids first, where sizes are even and the grids resolve the adhesion; saves time at loose tolerances
     #[arg(long, help_heading = "Solver", conflicts_with = "initial_gap")]
     nested: bool,
+    #[command(flatten)]
+    accuracy: AccuracyOptions,
 
     /// Folder for the results, made if needed
     #[arg(long, value_name = "DIR", help_heading = "Output")]
@@ -103,6 +106,8 @@ const EXAMPLES: &str = "\
   The same load without adhesion on a large map, by way of coarser grids:
     asperity solve --heights heights.npy --lengths 1e-6 1e-6 --modulus 1e9 \\
       --mean-pressure 2.5e6 --nested --out nested
+  A contact area that is right to 1 %, on a grid as fine as that takes:
+    asperity solve --heights heights.npy --mean-pressure 0.01 --accuracy 0.01 --out right
   On from the case with adhesion to a tension:
     asperity solve --heights heights.npy --lengths 1e-6 1e-6 --modulus 1e9 \\
       --law exponential --work-of-adhesion 0.05 --range 1e-9 \\
@@ -190,6 +195,14 @@ impl Options {
             "operator_applications": report.operator_applications,
             "levels": levels,
             "equivalent_applications": account.grids.as_ref().map(|(_, applications)| applications),
+            "grid_error": account.grids.as_ref().map(|(levels, _)| {
+                accuracy::errors(levels, account.nodes_per_wave, report.mu_rho, &case)
+            }),
+            "accuracy": account.reached.as_ref().map(|reached| json!({
+                "wanted": reached.accuracy,
+                "of": reached.of.name(),
+                "reached": reached.reached,
+            })),
             "mean_gap": report.mean_gap,
             "mean_pressure": report.mean_pressure,
             "normal_force": report.normal_force,
@@ -244,14 +257,22 @@ struct Job<'a> {
 impl Job<'_> {
     fn run<T: Scalar>(&self, Given { surface, adhesion, start, .. }: Given<'_>) -> Outcome<bool> {
         let Options { out, force, printing, .. } = self.options;
-        let grid = *surface.grid();
+        let mut grid = *surface.grid();
         let start = start.map(T::field);
         let progress = Progress::new("", self.case.settings.tolerance_in::<T>(), grid.nodes(), printing.without_bars());
         let mut warnings =
             Warnings::of_input::<T>(self.options.strictness, &surface, &adhesion, self.options.problem())?;
         warnings.say();
         let law = adhesion.law()?;
-        let (solution, mut account) = if self.options.nested {
+        let (solution, mut account) = if let Some(mut wanted) = self.options.accuracy.goal(&self.case) {
+            let mut operator = self.case.boundary.half_space(grid, self.case.modulus)?;
+            let plan = wanted.plan::<T>(&surface, &mut operator, self.case.control)?;
+            drop(operator);
+            printing.say(&accuracy::announced(&wanted, &plan));
+            let (fine, solution, account) = case::solve_to(&surface, law, &self.case, &mut wanted, progress)?;
+            grid = *fine.grid();
+            (solution, account)
+        } else if self.options.nested {
             case::solve_nested::<T, _>(&surface, law, &self.case, progress)?
         } else {
             case::solve::<T, _>(surface, law, &self.case, start, progress)?
@@ -271,7 +292,8 @@ impl Job<'_> {
         }
         printing.report(|| self.report(grid, &account));
         warn("", &account, &self.case);
-        Ok(account.report.status == Status::Converged)
+        let reached = account.reached.as_ref().is_none_or(|reached| reached.reached);
+        Ok(account.report.status == Status::Converged && reached)
     }
 
     fn report(&self, grid: Grid, account: &Account) -> Value {
