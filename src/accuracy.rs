@@ -89,9 +89,9 @@ impl Quantity {
     fn expected(self, nodes_per_wave: f64) -> f64 {
         let (share, order) = match self {
             Self::Area => (0.12, 1.0),
-            Self::Gap => (0.01, 2.0),
-            Self::Pressure => (0.15, 2.0),
-            Self::Stiffness => (0.05, 1.0),
+            Self::Gap => (0.1, 2.0),
+            Self::Pressure => (0.2, 2.0),
+            Self::Stiffness => (0.06, 1.0),
         };
         share * nodes_per_wave.powf(-order)
     }
@@ -136,36 +136,43 @@ const SOLVED: f64 = 3e-3;
 /// The resolution measure μ_ρ above which the answer depends on the grid.
 const UNDER_RESOLVED: f64 = 0.5;
 
-/// The share of the difference of the counted areas that is taken for an error of the corrected one: two grids may
-/// agree by luck, as the edge falls between their nodes.
-const COUNTED: f64 = 0.1;
+/// The nodes of the shortest wave on the coarser grid below which an estimate may be far off.
+const FINE: f64 = 8.0;
+
+/// The factor by which a rough estimate is taken larger where an accuracy is asked for.
+const CAUTION: f64 = 1.5;
 
 /// The orders of convergence that are believed.
 const ORDERS: (f64, f64) = (0.5, 3.0);
 
 /// The estimated relative error of the grid, of one quantity.
 ///
-/// With Q on n nodes a side and ΔQ the difference from half as many, the error of the grid is taken to be
+/// With δQ the relative difference of a quantity Q between the grid and one of half as many nodes along its sides, the
+/// error is taken to be
 ///
 /// | quantity | estimate |
 /// |---|---|
-/// | corrected area A_c | max(\|ΔA_c\|, 0.1 \|ΔA\|), with A the counted area |
-/// | mean gap, mean pressure, contact stiffness | \|ΔQ\|/(2^p − 1), with the observed order p = log₂(ΔQ(n/2)/ΔQ(n)) |
+/// | corrected area A_c | max(0.3 δA_c, 0.2 δA), with A the area as nodes count it |
+/// | contact stiffness k | max(0.3 δk, 0.1 δA) |
+/// | mean gap ḡ, mean pressure p̄ | max(δḡ/4, 0.002 δA), and with p̄ likewise |
 ///
-/// A coarser grid counts if it has the same waves, the shortest of which ([`Spectrum::nodes_per_wave`](crate::Spectrum::nodes_per_wave))
-/// with at least four nodes, resolves the adhesion (μ_ρ ≤ 0.5), and was solved. Where differences of three
-/// grids do not fall by an order between 0.5 and 3, or alternate in sign, or there are only two grids, the estimate is
-/// the largest difference, and [`rough`](Self::rough). The page [`choosing`](crate::guide::choosing) has how good the
-/// estimates are.
+/// δA tells how many of the nodes in contact are at the edge, and so the scale of all that depends on where between the
+/// nodes the edge falls; δQ alone may be small by luck. The shares are fitted to rough surfaces; the page
+/// [`choosing`](crate::guide::choosing) has how good the estimates are.
+///
+/// A coarser grid counts if it has the same waves, the shortest of which ([`Surface::nodes_per_wave`]) with at least four
+/// nodes, resolves the adhesion (μ_ρ ≤ 0.5), and was solved to 3e-3. An estimate is [`rough`](Self::rough) if the
+/// shortest wave has fewer than eight nodes on the coarser grid; that of mean gap and mean pressure also unless the
+/// differences of three grids fall by an order between 0.5 and 3.
 ///
 /// ```
 /// use asperity::accuracy::{GridError, Quantity};
-/// use asperity::{Control, Grid, Nested, NoAdhesion, SelfAffine, Settings, Westergaard};
+/// use asperity::{Boundary, Control, Grid, Nested, NoAdhesion, SelfAffine, Westergaard};
 /// let surface = SelfAffine { k_s: 16.0, ..SelfAffine::default() }.surface(Grid::square(256, 1.0)?)?;
 /// let half_space = |grid| Westergaard::<f64>::new(grid, 1.0);
 /// let mut nested = Nested { coarse_tolerance: 1e-3, ..Nested::default() };
 /// let found = nested.solve(&surface, half_space, NoAdhesion, Control::MeanPressure(2e-3))?;
-/// let error = GridError::of(&found.levels, Quantity::Area, surface.spectrum().nodes_per_wave(), 0.0).unwrap();
+/// let error = GridError::of(&found.levels, Quantity::Area, surface.nodes_per_wave(Boundary::Periodic), 0.0).unwrap();
 /// assert!(error.relative > 1e-3 && error.relative < 2e-2);
 /// # Ok::<(), asperity::Error>(())
 /// ```
@@ -174,9 +181,9 @@ const ORDERS: (f64, f64) = (0.5, 3.0);
 pub struct GridError {
     /// The error, relative to the value on the finest grid.
     pub relative: f64,
-    /// The observed order of convergence, with three grids and where it is one.
+    /// The observed order of convergence of the quantity, where three grids have one between 0.5 and 3.
     pub order: Option<f64>,
-    /// Whether the estimate may be far off.
+    /// Whether the estimate may be far off: less than a third of the error.
     pub rough: bool,
 }
 
@@ -197,23 +204,26 @@ impl GridError {
             }
             values.push(value(level)?);
         }
-        let (fine, counted) = values[0];
-        let (coarse, coarse_counted) = *values.get(1)?;
-        if fine == 0.0 {
-            return (coarse == 0.0).then_some(Self { relative: 0.0, order: None, rough: true });
+        let ((fine, counted), (coarse, coarse_counted)) = (values[0], *values.get(1)?);
+        if fine == 0.0 || counted == 0.0 {
+            return None;
         }
-        let last = fine - coarse;
-        let before = values.get(2).map(|(coarser, _)| coarse - coarser);
-        let order = before.map(|before| (before / last).log2());
+        let difference = (fine - coarse) / fine;
+        let edge = ((counted - coarse_counted) / counted).abs();
+        let before = values.get(2).map(|(coarser, _)| (coarse - coarser) / fine);
+        let order = before.map(|before| (before / difference).log2());
         let order = order.filter(|order| (ORDERS.0..=ORDERS.1).contains(order));
-        let (error, rough) = match (quantity, order) {
-            (Quantity::Area, _) => {
-                let scatter = COUNTED * (counted - coarse_counted).abs();
-                (last.abs().max(scatter), false)
-            }
-            (_, Some(order)) => (last.abs() / (order.exp2() - 1.0), false),
-            (_, None) => (last.abs().max(before.map_or(0.0, f64::abs)), true),
+        let (share, of_edge, regular) = match quantity {
+            Quantity::Area => (0.3, 0.2, true),
+            Quantity::Stiffness => (0.3, 0.1, true),
+            Quantity::Gap | Quantity::Pressure => (0.25, 0.002, order.is_some()),
         };
-        Some(Self { relative: error / fine.abs(), order, rough })
+        let relative = (share * difference.abs()).max(of_edge * edge);
+        Some(Self { relative, order, rough: !regular || nodes_per_wave < 2.0 * FINE })
+    }
+
+    /// The error, larger where it may be far off.
+    pub(crate) fn cautious(&self) -> f64 {
+        if self.rough { CAUTION * self.relative } else { self.relative }
     }
 }

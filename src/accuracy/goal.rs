@@ -37,8 +37,9 @@ const DOUBT: f64 = 3.0;
 /// An accuracy that is asked for: a relative error of a quantity, from which tolerance and grid follow.
 ///
 /// The given grid is solved first, with coarser ones below it ([`Nested`]), to a tolerance of a tenth of the
-/// accuracy, and at most 1e-3; then the error of the grid is estimated ([`GridError`]). As long as the estimate and the
-/// certified error of the solver together are larger than the accuracy, or cannot be told, the surface is put on twice
+/// accuracy, and at most 1e-3; then the error of the grid is estimated ([`GridError`]). As long as the estimate, half as large
+/// again where it is rough, and the certified error of the solver together are larger than the accuracy, or the estimate
+/// cannot be told, the surface is put on twice
 /// as many nodes along its sides by Fourier interpolation, as [`Topography::resample`](crate::Topography::resample) does, and
 /// solved there from the prolonged solution. With a free boundary it is continued by its mirror images for that.
 ///
@@ -270,7 +271,7 @@ impl<C> Accuracy<C> {
         let (error, reached, unaffordable) = loop {
             let error = GridError::of(&levels, self.of, waves, solution.report.mu_rho);
             let report = &solution.report;
-            let enough = |error: &GridError| error.relative + report.relative_error <= self.target;
+            let enough = |error: &GridError| error.cautious() + report.relative_error <= self.target;
             let converged = report.status == Status::Converged;
             if !converged || fixed || error.as_ref().is_some_and(enough) {
                 break (error, converged && error.as_ref().is_some_and(enough), None);
