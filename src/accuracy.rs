@@ -193,7 +193,7 @@ impl GridError {
     /// `nodes_per_wave` is that of the surface on the finest grid, and `mu_rho` its resolution measure of the adhesion.
     pub fn of(levels: &[Level], quantity: Quantity, nodes_per_wave: f64, mu_rho: f64) -> Option<Self> {
         let finest = levels.last()?;
-        let value = |level: &Level| quantity.of(level).filter(|(value, _)| value.is_finite());
+        let value = |level: &Level| quantity.of(level).filter(|(value, _)| !value.is_nan());
         let mut values = vec![value(finest)?];
         for level in levels.iter().rev().skip(1) {
             let factor = finest.shape.0 as f64 / level.shape.0 as f64;
@@ -205,7 +205,11 @@ impl GridError {
             values.push(value(level)?);
         }
         let ((fine, counted), (coarse, coarse_counted)) = (values[0], *values.get(1)?);
-        if fine == 0.0 || counted == 0.0 {
+        if (fine, counted) == (coarse, coarse_counted) {
+            // no contact, or nothing else
+            return Some(Self { relative: 0.0, order: None, rough: true });
+        }
+        if !(fine.is_finite() && coarse.is_finite()) || fine == 0.0 {
             return None;
         }
         let difference = (fine - coarse) / fine;

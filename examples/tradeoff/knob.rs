@@ -138,6 +138,7 @@ pub fn measure(quick: bool, out: &Path) -> Outcome<()> {
         truths.push(Found { area, gap, pressure, stiffness });
     }
     estimates(&scenes, &truths, quick)?;
+    coarse(&scenes, quick)?;
     knob(&scenes, &truths, quick, out)
 }
 
@@ -181,6 +182,27 @@ fn estimates(scenes: &[Scene], truths: &[Found], quick: bool) -> Outcome<()> {
             all.extend(ratios);
         }
         row(quantity, "all", &all);
+    }
+    Ok(())
+}
+
+/// What tighter coarse grids cost: the applications on all nested grids, in units of one on the finest.
+fn coarse(scenes: &[Scene], quick: bool) -> Outcome<()> {
+    let n = if quick { 64 } else { 256 };
+    println!(
+        "\nApplications of nested grids at {n}², the mean, by the tolerances of the finest and of the coarser ones"
+    );
+    for fine in [1e-3, 1e-6] {
+        for coarse_tolerance in [1e-2, 1e-3, 1e-4] {
+            let mut sum = 0.0;
+            for scene in scenes {
+                let settings = Settings { tolerance: Some(fine), ..Settings::default() };
+                let mut nested = Nested { coarse_tolerance, coarsest: GIVEN, ..Nested::new(settings) };
+                let found = nested.solve(&scene.surface(n)?, half_space, scene.law()?, scene.control)?;
+                sum += found.equivalent_applications();
+            }
+            println!("  {fine:.0e}, {coarse_tolerance:.0e}: {:.1}", sum / scenes.len() as f64);
+        }
     }
     Ok(())
 }

@@ -25,6 +25,9 @@ const LOOSEST: f64 = 1e-3;
 /// The least number of nodes along a side of a coarser grid.
 const COARSEST: usize = 16;
 
+/// The memory that a solve may take unless it is said, in bytes: 4 GiB.
+const MEMORY: f64 = 4.0 * 1_073_741_824.0;
+
 /// The numbers of 8 bytes that a solve holds for each node at most, with those of the surface and of its refinement.
 const NUMBERS: f64 = 12.0;
 
@@ -51,7 +54,7 @@ const DOUBT: f64 = 3.0;
 /// |---|---|---|
 /// | `target` | | the relative error, between 0 and 1 |
 /// | `of` | | the quantity |
-/// | `memory` | no limit | the bytes that a solve may take |
+/// | `memory` | 4 GiB | the bytes that a solve on a refined grid may take |
 /// | `nested` | coarser grids down to 16 nodes along a side | the solver; a tolerance of its settings must be as small as the one above |
 ///
 /// ```
@@ -73,7 +76,7 @@ pub struct Accuracy<C = Projection> {
     pub target: f64,
     /// The quantity that has it.
     pub of: Quantity,
-    /// The bytes that a solve may take.
+    /// The bytes that a solve on a refined grid may take.
     pub memory: f64,
     /// The solver, on the given grid and coarser ones.
     pub nested: Nested<C>,
@@ -117,7 +120,7 @@ impl Accuracy {
     /// An accuracy of a quantity, by a solver with the default settings that confines the gap by projection.
     pub fn new(target: f64, of: Quantity) -> Self {
         let nested = Nested { coarsest: COARSEST, ..Nested::new(Settings::default()) };
-        Self { target, of, memory: f64::INFINITY, nested }
+        Self { target, of, memory: MEMORY, nested }
     }
 }
 
@@ -162,7 +165,7 @@ impl<C> Accuracy<C> {
         let bytes = |refinements: i32| 8.0 * NUMBERS * nodes * per_line.powi(refinements);
         let shape = |refinements| (0..refinements).fold(surface.grid().shape(), |shape, _| twice(shape));
         let least = self.refinements(nodes_per_wave, DOUBT);
-        if bytes(least) > self.memory {
+        if least > 0 && bytes(least) > self.memory {
             let most = (0..least).rev().find(|&refinements| bytes(refinements) <= self.memory).unwrap_or(0);
             return Err(Error::Unaffordable {
                 quantity: self.of.name(),

@@ -106,8 +106,8 @@ const EXAMPLES: &str = "\
   The same load without adhesion on a large map, by way of coarser grids:
     asperity solve --heights heights.npy --lengths 1e-6 1e-6 --modulus 1e9 \\
       --mean-pressure 2.5e6 --nested --out nested
-  A contact area that is right to 1 %, on a grid as fine as that takes:
-    asperity solve --heights heights.npy --mean-pressure 0.01 --accuracy 0.01 --out right
+  A contact area that is right to 5 %, on a grid as fine as that takes:
+    asperity solve --heights heights.npy --mean-pressure 0.01 --accuracy 0.05 --out right
   On from the case with adhesion to a tension:
     asperity solve --heights heights.npy --lengths 1e-6 1e-6 --modulus 1e9 \\
       --law exponential --work-of-adhesion 0.05 --range 1e-9 \\
