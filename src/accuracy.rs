@@ -89,8 +89,8 @@ impl Quantity {
     fn expected(self, nodes_per_wave: f64) -> f64 {
         let (share, order) = match self {
             Self::Area => (0.12, 1.0),
-            Self::Gap => (0.1, 2.0),
-            Self::Pressure => (0.2, 2.0),
+            Self::Gap => (0.05, 2.0),
+            Self::Pressure => (0.1, 2.0),
             Self::Stiffness => (0.06, 1.0),
         };
         share * nodes_per_wave.powf(-order)
@@ -152,13 +152,13 @@ const ORDERS: (f64, f64) = (0.5, 3.0);
 ///
 /// | quantity | estimate |
 /// |---|---|
-/// | corrected area A_c | max(0.3 δA_c, 0.2 δA), with A the area as nodes count it |
-/// | contact stiffness k | max(0.3 δk, 0.1 δA) |
-/// | mean gap ḡ, mean pressure p̄ | max(δḡ/4, 0.002 δA), and with p̄ likewise |
+/// | corrected area A_c | √((0.25 δA_c)² + (0.17 δA)²), with A the area as nodes count it |
+/// | contact stiffness k | √((0.3 δk)² + (0.11 δA)²) |
+/// | mean gap ḡ, mean pressure p̄ | √((0.15 δḡ)² + (0.001 δA)²), and with p̄ likewise |
 ///
 /// δA tells how many of the nodes in contact are at the edge, and so the scale of all that depends on where between the
-/// nodes the edge falls; δQ alone may be small by luck. The shares are fitted to rough surfaces; the page
-/// [`choosing`](crate::guide::choosing) has how good the estimates are.
+/// nodes the edge falls; δQ alone may be small by luck. The factors are fitted to rough surfaces, and the page
+/// [`choosing`](crate::guide::choosing) has how good the estimates are on others.
 ///
 /// A coarser grid counts if it has the same waves, the shortest of which ([`Surface::nodes_per_wave`]) with at least four
 /// nodes, resolves the adhesion (μ_ρ ≤ 0.5), and was solved to 3e-3. An estimate is [`rough`](Self::rough) if the
@@ -213,16 +213,16 @@ impl GridError {
             return None;
         }
         let difference = (fine - coarse) / fine;
-        let edge = ((counted - coarse_counted) / counted).abs();
+        let edge = (counted - coarse_counted) / counted.max(coarse_counted);
         let before = values.get(2).map(|(coarser, _)| (coarse - coarser) / fine);
         let order = before.map(|before| (before / difference).log2());
         let order = order.filter(|order| (ORDERS.0..=ORDERS.1).contains(order));
         let (share, of_edge, regular) = match quantity {
-            Quantity::Area => (0.3, 0.2, true),
-            Quantity::Stiffness => (0.3, 0.1, true),
-            Quantity::Gap | Quantity::Pressure => (0.25, 0.002, order.is_some()),
+            Quantity::Area => (0.25, 0.17, true),
+            Quantity::Stiffness => (0.3, 0.11, true),
+            Quantity::Gap | Quantity::Pressure => (0.15, 0.001, order.is_some()),
         };
-        let relative = (share * difference.abs()).max(of_edge * edge);
+        let relative = (share * difference).hypot(of_edge * edge);
         Some(Self { relative, order, rough: !regular || nodes_per_wave < 2.0 * FINE })
     }
 

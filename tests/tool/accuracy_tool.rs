@@ -25,6 +25,7 @@ fn an_accuracy_is_planned_reached_and_reported() {
     assert_eq!(report["accuracy"], serde_json::json!({ "wanted": 0.03, "of": "area", "reached": true }));
     let error = report["grid_error"]["area"]["relative"].as_f64().unwrap();
     assert!(error > 1e-3 && error < 0.03, "{report}");
+    assert_eq!(report["tolerance"], 1e-3);
     // what is given, or was not asked for, has none
     assert_eq!((&report["grid_error"]["pressure"], &report["grid_error"]["stiffness"]), (&Value::Null, &Value::Null));
     let levels = report["levels"].as_array().unwrap();

@@ -157,14 +157,15 @@ pub fn solve_nested<T: Scalar, L: AdhesionLaw<T>>(
     let clock = Instant::now();
     let half_space = |grid| case.boundary.half_space(grid, case.modulus);
     let Nested { coarsest, .. } = Nested::default();
-    let (solver, stiffness) = (case.solver(), case.stiffness_to());
+    let (solver, stiffness, tolerance) = (case.solver(), case.stiffness_to(), case.settings.tolerance_in::<T>());
     let found = Nested { solver, coarse_tolerance: COARSE, coarsest, stiffness }.solve_observed(
         surface,
         half_space,
         law,
         case.control,
         |grid, state| {
-            progress.update_on(grid, state);
+            let finest = grid.nodes() == surface.grid().nodes();
+            progress.update_on(grid, state, if finest { tolerance } else { tolerance.max(COARSE) });
             ControlFlow::Continue(())
         },
     )?;
@@ -186,9 +187,10 @@ pub fn solve_to<T: Scalar, L: AdhesionLaw<T>>(
 ) -> Outcome<(Surface, Solution<T>, Account)> {
     let clock = Instant::now();
     let half_space = |grid| case.boundary.half_space(grid, case.modulus);
+    let tolerance = wanted.tolerance()?;
     let refinable = surface.absent().is_none() && law.shape().is_none();
     let found = wanted.solve_observed(surface, half_space, law, case.control, |grid, state| {
-        progress.update_on(grid, state);
+        progress.update_on(grid, state, tolerance);
         ControlFlow::Continue(())
     })?;
     let AccurateSolution { solution, surface, levels, error, reached, unaffordable, .. } = found;

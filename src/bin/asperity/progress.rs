@@ -17,6 +17,8 @@ const ENOUGH: usize = 4;
 pub struct Progress {
     bar: ProgressBar,
     tolerance: f64,
+    /// the tolerance of the present grid
+    until: f64,
     nodes: f64,
     first_error: Option<f64>,
     fall: Fall,
@@ -36,12 +38,22 @@ impl Progress {
         if !bar.is_hidden() {
             bar.enable_steady_tick(Duration::from_millis(100));
         }
-        Self { bar, tolerance, nodes: nodes as f64, first_error: None, fall: Fall::default(), clock: Instant::now() }
+        Self {
+            bar,
+            tolerance,
+            until: tolerance,
+            nodes: nodes as f64,
+            first_error: None,
+            fall: Fall::default(),
+            clock: Instant::now(),
+        }
     }
 
-    /// Shows the state of a solve on nested grids; the bar goes on from one grid to the next, as the error does.
-    pub fn update_on(&mut self, grid: &Grid, state: &Iteration) {
+    /// Shows the state of a solve on nested grids, each to a tolerance of its own; the bar goes on from one grid to the
+    /// next, as the error does.
+    pub fn update_on(&mut self, grid: &Grid, state: &Iteration, tolerance: f64) {
         let nodes = grid.nodes() as f64;
+        self.until = tolerance;
         if self.nodes != nodes {
             self.nodes = nodes;
             self.fall = Fall::default();
@@ -65,7 +77,7 @@ impl Progress {
         }
         let error = if state.relative_error.is_finite() { format!("{:.1e}", state.relative_error) } else { "?".into() };
         let contact = 100.0 * state.contact_nodes as f64 / self.nodes;
-        let fall = self.fall.told(self.tolerance);
+        let fall = self.fall.told(self.until);
         self.bar.set_message(format!("{}: error {error}{fall}, contact {contact:.2} %", state.iteration));
     }
 }

@@ -241,7 +241,10 @@ impl Options {
             "control": control,
             "control_value": held,
         });
-        report::report("solve", outcome, report::inputs(self.problem(), &grid, length_unit))
+        let mut inputs = report::inputs(self.problem(), &grid, length_unit);
+        // with an accuracy the one that was chosen
+        inputs.insert("tolerance".to_owned(), report.tolerance.into());
+        report::report("solve", outcome, inputs)
     }
 }
 
@@ -259,17 +262,22 @@ impl Job<'_> {
         let Options { out, force, printing, .. } = self.options;
         let mut grid = *surface.grid();
         let start = start.map(T::field);
-        let progress = Progress::new("", self.case.settings.tolerance_in::<T>(), grid.nodes(), printing.without_bars());
+        let mut wanted = self.options.accuracy.goal(&self.case);
+        let tolerance = match &wanted {
+            Some(wanted) => wanted.tolerance()?,
+            None => self.case.settings.tolerance_in::<T>(),
+        };
+        let progress = Progress::new("", tolerance, grid.nodes(), printing.without_bars());
         let mut warnings =
             Warnings::of_input::<T>(self.options.strictness, &surface, &adhesion, self.options.problem())?;
         warnings.say();
         let law = adhesion.law()?;
-        let (solution, mut account) = if let Some(mut wanted) = self.options.accuracy.goal(&self.case) {
+        let (solution, mut account) = if let Some(wanted) = &mut wanted {
             let mut operator = self.case.boundary.half_space(grid, self.case.modulus)?;
             let plan = wanted.plan::<T>(&surface, &mut operator, self.case.control)?;
             drop(operator);
-            printing.say(&accuracy::announced(&wanted, &plan));
-            let (fine, solution, account) = case::solve_to(&surface, law, &self.case, &mut wanted, progress)?;
+            printing.say(&accuracy::announced(wanted, &plan));
+            let (fine, solution, account) = case::solve_to(&surface, law, &self.case, wanted, progress)?;
             grid = *fine.grid();
             (solution, account)
         } else if self.options.nested {
