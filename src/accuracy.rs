@@ -117,7 +117,11 @@ impl Surface {
     /// # Ok::<(), asperity::Error>(())
     /// ```
     pub fn nodes_per_wave(&self, boundary: Boundary) -> f64 {
-        let mirrored = || Topography::from(self.clone()).mirror().surface();
+        let mirrored = || {
+            let mut map = Topography::new(self.heights().clone());
+            map.lengths = Some(self.grid().lengths());
+            map.mirror().surface()
+        };
         match boundary {
             Boundary::Periodic => self.spectrum().nodes_per_wave(),
             // side lengths and heights are those of a surface
@@ -156,6 +160,7 @@ const ORDERS: (f64, f64) = (0.5, 3.0);
 /// | contact stiffness k | √((0.3 δk)² + (0.11 δA)²) |
 /// | mean gap ḡ, mean pressure p̄ | √((0.15 δḡ)² + (0.001 δA)²), and with p̄ likewise |
 ///
+/// and on a line, where the area is not corrected, δQ of area and stiffness, and a third of it of gap and pressure.
 /// δA tells how many of the nodes in contact are at the edge, and so the scale of all that depends on where between the
 /// nodes the edge falls; δQ alone may be small by luck. The factors are fitted to rough surfaces, and the page
 /// [`choosing`](crate::guide::choosing) has how good the estimates are on others.
@@ -217,7 +222,11 @@ impl GridError {
         let before = values.get(2).map(|(coarser, _)| (coarse - coarser) / fine);
         let order = before.map(|before| (before / difference).log2());
         let order = order.filter(|order| (ORDERS.0..=ORDERS.1).contains(order));
+        let line = finest.shape.0 == 1 || finest.shape.1 == 1;
         let (share, of_edge, regular) = match quantity {
+            // where the area is not corrected, all is of first order, or of second
+            Quantity::Area | Quantity::Stiffness if line => (1.0, 0.0, false),
+            Quantity::Gap | Quantity::Pressure if line => (1.0 / 3.0, 0.0, order.is_some()),
             Quantity::Area => (0.25, 0.17, true),
             Quantity::Stiffness => (0.3, 0.11, true),
             Quantity::Gap | Quantity::Pressure => (0.15, 0.001, order.is_some()),

@@ -131,9 +131,6 @@ pub enum Error {
     },
 }
 
-/// The bytes of a GiB.
-const GIB: f64 = 1_073_741_824.0;
-
 impl Error {
     /// A file that could not be read or written, for `reason`.
     pub fn file(path: &Path, reason: impl fmt::Display) -> Self {
@@ -224,12 +221,13 @@ impl fmt::Display for Error {
             Self::Wall { wall, reason } => write!(f, "{wall}: {reason}"),
             Self::Unaffordable { quantity, accuracy, shape, bytes, available, affordable } => write!(
                 f,
-                "an accuracy of {accuracy} of the {quantity} takes about {} x {} nodes and {:.1} GiB: there are {:.1} GiB, \
-                 enough for about {affordable:.1e}",
+                "an accuracy of {} of the {quantity} takes about {} x {} nodes and {}: there are {}, enough for about \
+                 {affordable:.1e}",
+                Short(*accuracy),
                 shape.0,
                 shape.1,
-                bytes / GIB,
-                available / GIB
+                Bytes(*bytes),
+                Bytes(*available)
             ),
             Self::Unresolved { k_s, limit, shape } => write!(
                 f,
@@ -253,5 +251,15 @@ impl fmt::Display for Short {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self(value) = self;
         if *value == 0.0 || (1e-4..1e6).contains(&value.abs()) { write!(f, "{value}") } else { write!(f, "{value:e}") }
+    }
+}
+
+/// An amount of memory, in bytes.
+struct Bytes(f64);
+
+impl fmt::Display for Bytes {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let mebibytes = self.0 / 1_048_576.0;
+        if mebibytes < 1024.0 { write!(f, "{mebibytes:.1} MiB") } else { write!(f, "{:.1} GiB", mebibytes / 1024.0) }
     }
 }

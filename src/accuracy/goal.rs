@@ -159,12 +159,14 @@ impl<C> Accuracy<C> {
         let tolerance = self.tolerance()?;
         self.of.check(control)?;
         let nodes_per_wave = surface.nodes_per_wave(operator.boundary());
-        let refinements = self.refinements(nodes_per_wave, 1.0);
+        let fixed = surface.absent().is_some();
+        let needed = |smaller| if fixed { 0 } else { self.refinements(nodes_per_wave, smaller) };
+        let refinements = needed(1.0);
         let nodes = operator.grid().nodes() as f64;
         let per_line = if surface.grid().is_line() { 2.0_f64 } else { 4.0 };
         let bytes = |refinements: i32| 8.0 * NUMBERS * nodes * per_line.powi(refinements);
         let shape = |refinements| (0..refinements).fold(surface.grid().shape(), |shape, _| twice(shape));
-        let least = self.refinements(nodes_per_wave, DOUBT);
+        let least = needed(DOUBT);
         if least > 0 && bytes(least) > self.memory {
             let most = (0..least).rev().find(|&refinements| bytes(refinements) <= self.memory).unwrap_or(0);
             return Err(Error::Unaffordable {
