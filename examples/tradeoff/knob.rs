@@ -159,9 +159,9 @@ fn estimates(scenes: &[Scene], truths: &[Found], quick: bool) -> Outcome<()> {
                     continue;
                 }
                 let surface = scene.surface(n)?;
-                let settings = Settings { tolerance: Some(1e-3), ..Settings::default() };
-                let stiffness = (quantity == Quantity::Stiffness).then_some(1e-3);
-                let mut nested = Nested { coarse_tolerance: 1e-3, coarsest: GIVEN, stiffness, ..Nested::new(settings) };
+                // as the tool does: the solver leaves next to nothing on the finest grid
+                let stiffness = (quantity == Quantity::Stiffness).then_some(1e-4);
+                let mut nested = Nested { coarse_tolerance: 1e-3, coarsest: GIVEN, stiffness, ..Nested::default() };
                 let found = nested.solve(&surface, half_space, scene.law()?, scene.control)?;
                 let waves = surface.nodes_per_wave(Boundary::Periodic);
                 let mu_rho = found.solution.report.mu_rho;
