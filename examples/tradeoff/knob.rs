@@ -260,7 +260,8 @@ fn knob(scenes: &[Scene], truths: &[Found], quick: bool, out: &Path) -> Outcome<
             let Some(level) = found.levels.last().filter(|_| found.reached) else { continue };
             reached += 1;
             let error = (level.area.corrected_contact_fraction / truth.area - 1.0).abs();
-            (errors.push(error), times.push(seconds));
+            errors.push(error);
+            times.push(seconds);
             points.push((target, error.max(1e-6)));
         }
         let hits = share(&errors, |error| *error <= target);
