@@ -13,12 +13,12 @@ import numpy as np
 import asperity
 
 # %% [markdown]
-# A silicon tip of 20 nm on a polymer, in SI units: its apex as a paraboloid, 20 nm wide. Beyond is nothing,
+# A silicon tip of 20 nm on a polymer, in SI units: its apex as a paraboloid, 22 nm wide. Beyond is nothing,
 # `boundary="free"`, and the attraction there has to be small.
 
 # %%
 radius, modulus = 20e-9, 2e9
-side, nodes = 20e-9, 48
+side, nodes = 22e-9, 48
 x = side * (np.arange(nodes) / nodes - 0.5)
 tip = asperity.prepare(-(x[:, None] ** 2 + x**2) / (2 * radius), side, unit="m")
 law = asperity.Exponential(work_of_adhesion=0.05, range=0.3e-9)
@@ -40,7 +40,6 @@ cycle = asperity.cycle(
     springs=[(stiffness, position) for position in (-6e-9, 1e-9, -12e-9)],
     steps=40,
     smallest_step=1e-3,
-    tolerance=1e-5,
 )
 columns = cycle.columns
 for event in cycle.events:
@@ -53,7 +52,7 @@ for event in cycle.events:
 # JKR gives the approach at every radius of the contact; DMT is Hertz with the pull-off force 2πwR taken off.
 
 # %%
-radii = np.linspace(0.0, 5e-9, 200)[1:]
+radii = np.linspace(0.0, 7e-9, 300)[1:]
 jkr = asperity.exact.Jkr(radius, modulus, law.work_of_adhesion)
 hertz = asperity.exact.Hertz(radius, modulus).at_contact_radius(radii)
 jkr_states, dmt_load = jkr.at_contact_radius(radii), hertz.load - 2 * np.pi * law.work_of_adhesion * radius

@@ -57,10 +57,10 @@ assert own.mean_pressure > bare.mean_pressure
 
 # %%
 figure, ax = plt.subplots(figsize=(4.6, 3.4), layout="constrained")
-for solution, label in ((own, "with double layers"), (bare, "van der Waals alone")):
+for solution, label in ((own, "with double layers"), (bare, "without")):
     ax.plot(x, solution.pressure[:, 64], label=label)
 ax.axhline(0, color="0.7", linewidth=0.8)
 ax.set_xlabel("x")
 ax.set_ylabel("pressure across the contact")
-ax.legend(frameon=False)
+ax.legend(frameon=False, loc="upper left", fontsize="small")
 figure.savefig("own_law.png", dpi=150)

@@ -111,8 +111,7 @@ def test_a_tip_is_that_of_the_tool(tmp_path, tool, sphere, load):
     # fmt: on
     law = asperity.Exponential(1e-4, 8e-3)
     keyword = {"approach": {"approach": 0.01}, "spring": {"spring": (0.1, 0.05)}}
-    with pytest.warns(asperity.InputWarning, match="window-edge"):
-        solution = asperity.solve(sphere, 1.0, modulus=1.0, boundary="free", law=law, **keyword[load])
+    solution = asperity.solve(sphere, 1.0, modulus=1.0, boundary="free", law=law, **keyword[load])
     same(tmp_path / "out", solution)
 
 
@@ -179,6 +178,8 @@ def test_a_cycle_of_a_tip_from_afar_has_the_columns_of_the_tool(tmp_path, tool):
     cycle = asperity.cycle(
         tip, 0.24, modulus=1.0, law=law, springs=springs, boundary="free", steps=10, smallest_step=1e-3
     )
+    with pytest.warns(asperity.InputWarning, match="window-edge"):
+        cycle.run()
     same_columns(table(tmp_path / "cycle.csv"), cycle.columns)
     assert [event["event"] for event in cycle.events if event["energy_drop"]] == ["jump-in", "pull-off"]
 
