@@ -4,7 +4,7 @@
 //! they are corrected; [`Clusters`] are the pieces that hang together; [`PressureDistribution`] is the histogram of the
 //! pressure.
 
-use ndarray::{Array2, ArrayView2, Zip};
+use ndarray::{Array2, ArrayView2, Axis, Zip};
 
 use crate::adhesion::AdhesionLaw;
 use crate::elastic::Boundary;
@@ -113,7 +113,7 @@ impl ContactArea {
     /// The area on a map within a boundary, of whose nodes so many face the half-space.
     fn within(map: ArrayView2<'_, bool>, grid: &Grid, boundary: Boundary, facing: usize) -> Result<Self> {
         Error::shape("contact map", map.dim(), grid.shape())?;
-        let contact_nodes = map.iter().filter(|&&touches| touches).count();
+        let contact_nodes = map.fold(0, |count, &touches| count + usize::from(touches));
         let (along_x, along_y) = edges(map, boundary == Boundary::Periodic);
         let (dx, dy) = grid.spacing();
         let (perimeter, excess) = if grid.is_line() {
@@ -246,10 +246,11 @@ impl ContactStatistics {
 /// neighbours if the map is periodic, and otherwise nothing is beyond them.
 fn edges(map: ArrayView2<'_, bool>, periodic: bool) -> (usize, usize) {
     let (mut along_x, mut along_y) = (0, 0);
+    let different = |count, here: &bool, there: &bool| count + usize::from(here != there);
     for (i, row) in map.outer_iter().enumerate() {
-        let (below, shifted) = (map.row((i + 1) % map.nrows()), row.iter().cycle().skip(1));
-        along_x += row.iter().zip(below).filter(|(here, there)| here != there).count();
-        along_y += row.iter().zip(shifted).filter(|(here, there)| here != there).count();
+        along_x += Zip::from(row).and(map.row((i + 1) % map.nrows())).fold(0, different);
+        let ((left, _), (_, right)) = (row.split_at(Axis(0), row.len() - 1), row.split_at(Axis(0), 1));
+        along_y += Zip::from(left).and(right).fold(usize::from(row[0] != row[row.len() - 1]), different);
     }
     if !periodic {
         // across the sides each meets nothing in place of the other

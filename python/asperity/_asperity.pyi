@@ -6,6 +6,7 @@ from typing import Any, ClassVar, final
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+from typing_extensions import disjoint_base
 
 __all__ = [
     "AdhesiveWavyLine",
@@ -44,6 +45,7 @@ VERSION: str
 _Field = NDArray[np.float64]
 _Map = tuple[_Field, tuple[float, float] | None, str | None]
 
+@disjoint_base
 class Law:
     def energy(self, gap: ArrayLike) -> Any: ...
     def traction(self, gap: ArrayLike) -> Any: ...
@@ -53,7 +55,7 @@ class Law:
 
 @final
 class Exponential(Law):
-    __match_args__: ClassVar[tuple[str, ...]]
+    __match_args__: ClassVar[tuple[str, str]]
     def __new__(cls, work_of_adhesion: float, range: float) -> Exponential: ...
     @property
     def work_of_adhesion(self) -> float: ...
@@ -63,7 +65,7 @@ class Exponential(Law):
 
 @final
 class MaugisDugdale(Law):
-    __match_args__: ClassVar[tuple[str, ...]]
+    __match_args__: ClassVar[tuple[str, str]]
     def __new__(cls, work_of_adhesion: float, range: float) -> MaugisDugdale: ...
     @property
     def work_of_adhesion(self) -> float: ...
@@ -73,7 +75,7 @@ class MaugisDugdale(Law):
 
 @final
 class LennardJones(Law):
-    __match_args__: ClassVar[tuple[str, ...]]
+    __match_args__: ClassVar[tuple[str, str, str]]
     def __new__(cls, work_of_adhesion: float, range: float, cut: bool = False) -> LennardJones: ...
     @property
     def work_of_adhesion(self) -> float: ...
@@ -85,7 +87,7 @@ class LennardJones(Law):
 
 @final
 class Morse(Law):
-    __match_args__: ClassVar[tuple[str, ...]]
+    __match_args__: ClassVar[tuple[str, str]]
     def __new__(cls, work_of_adhesion: float, range: float) -> Morse: ...
     @property
     def work_of_adhesion(self) -> float: ...
@@ -95,7 +97,7 @@ class Morse(Law):
 
 @final
 class PowerLaw(Law):
-    __match_args__: ClassVar[tuple[str, ...]]
+    __match_args__: ClassVar[tuple[str, str, str]]
     def __new__(cls, work_of_adhesion: float, range: float, exponent: float) -> PowerLaw: ...
     @property
     def work_of_adhesion(self) -> float: ...
@@ -107,7 +109,7 @@ class PowerLaw(Law):
 
 @final
 class VanDerWaals(Law):
-    __match_args__: ClassVar[tuple[str, ...]]
+    __match_args__: ClassVar[tuple[str, str]]
     def __new__(cls, hamaker: float, range: float) -> VanDerWaals: ...
     @property
     def hamaker(self) -> float: ...
@@ -117,7 +119,7 @@ class VanDerWaals(Law):
 
 @final
 class Tabulated(Law):
-    __match_args__: ClassVar[tuple[str, ...]]
+    __match_args__: ClassVar[tuple[str, str, str]]
     def __new__(cls, gaps: ArrayLike, tractions: ArrayLike, source: str | None = None) -> Tabulated: ...
     @property
     def gaps(self) -> _Field: ...
@@ -131,7 +133,7 @@ class Tabulated(Law):
 
 @final
 class CutOff(Law):
-    __match_args__: ClassVar[tuple[str, ...]]
+    __match_args__: ClassVar[tuple[str, str]]
     def __new__(cls, law: Any, distance: float) -> CutOff: ...
     @property
     def law(self) -> Any: ...
@@ -141,7 +143,7 @@ class CutOff(Law):
 
 @final
 class Varying(Law):
-    __match_args__: ClassVar[tuple[str, ...]]
+    __match_args__: ClassVar[tuple[str, str]]
     def __new__(cls, law: Any, work_of_adhesion: ArrayLike) -> Varying: ...
     @property
     def law(self) -> Any: ...

@@ -99,8 +99,8 @@ class Cycle(Rows[Step]):
     def _is_apart(self) -> bool:
         """Whether the surfaces are apart in a withdrawal that is the last leg: there is no more to find."""
         row = self.rows[-1]
-        apart = row["contact_fraction"] == row["attractive_fraction"] == 0.0
-        return apart and row["leg"] == len(self._loads) - 1 and row["direction"] == "withdrawal"
+        ends = row["leg"] == len(self._loads) - 1 and row["direction"] == "withdrawal"
+        return bool(ends and row["contact_fraction"] == row["attractive_fraction"] == 0.0)
 
     @property
     def events(self) -> list[dict[str, Any]]:

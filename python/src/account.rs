@@ -45,9 +45,9 @@ impl<T: Scalar> Account<T> {
             let map = solution.contact_map();
             ContactArea::of_solution(&solution, map.view(), grid).map(|area| (map, area))
         };
-        let (contact, pressures) = rayon::join(contact, || extremes(&solution.pressure));
+        let pressures = || (extremes(&solution.pressure), Warning::of_solution(&solution, modulus));
+        let (contact, (pressures, mut warnings)) = rayon::join(contact, pressures);
         let (contact, area) = contact?;
-        let mut warnings = Warning::of_solution(&solution, modulus);
         // of bodies that are apart it says nothing how far the last of their attraction reaches
         let apart = solution.report.contact_nodes == 0 && pressures.0.abs().max(pressures.1.abs()) <= noticeable;
         warnings.retain(|warning| !(apart && warning.code == WarningCode::WindowEdge));

@@ -134,4 +134,3 @@ impl AdhesionLaw<f64> for Called {
         self.at(Function::Slope, gap)
     }
 }
-

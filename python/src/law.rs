@@ -148,7 +148,9 @@ impl Law {
         one: impl Fn(&Form, f64) -> f64,
         all: impl Fn(&Form, usize, &[f64], &mut [f64]),
     ) -> PyResult<Bound<'py, PyAny>> {
-        let Some((nx, ny)) = AdhesionLaw::<f64>::shape(&self.0) else { return mapped(py, gap, |gap| one(&self.0, gap)) };
+        let Some((nx, ny)) = AdhesionLaw::<f64>::shape(&self.0) else {
+            return mapped(py, gap, |gap| one(&self.0, gap));
+        };
         let gap = gap.as_array();
         let gap = if gap.len() == 1 { ArrayD::from_elem(vec![nx, ny], gap.sum()) } else { gap.to_owned() };
         if gap.len() != nx * ny {
@@ -164,9 +166,14 @@ impl Law {
     }
 }
 
+/// The type of a parameter's name.
+macro_rules! name {
+    ($parameter:ident) => { &'static str };
+}
+
 /// A law of the library as a class: its parameters, and how it is made of them.
 macro_rules! class {
-    ($(#[$doc:meta])* $name:ident($($parameter:ident: $type:ty $(= $default:expr)?),*), $make:expr) => {
+    ($(#[$doc:meta])* $name:ident($($parameter:ident: $type:ty $(= $default:tt)?),*), $make:expr) => {
         $(#[$doc])*
         #[pyclass(frozen, extends = Law, module = "asperity")]
         pub struct $name { $($parameter: $type),* }
@@ -175,7 +182,7 @@ macro_rules! class {
         impl $name {
             #[classattr]
             #[expect(non_upper_case_globals, reason = "Python's name")]
-            const __match_args__: [&str; [$(stringify!($parameter)),*].len()] = [$(stringify!($parameter)),*];
+            const __match_args__: ($(name!($parameter),)*) = ($(stringify!($parameter),)*);
             #[new]
             #[pyo3(signature = ($($parameter $(= $default)?),*))]
             fn new($($parameter: $type),*) -> PyResult<PyClassInitializer<Self>> {
@@ -346,7 +353,7 @@ pub struct Tabulated {
 impl Tabulated {
     #[classattr]
     #[expect(non_upper_case_globals, reason = "Python's name")]
-    const __match_args__: [&str; 3] = ["gaps", "tractions", "source"];
+    const __match_args__: (&str, &str, &str) = ("gaps", "tractions", "source");
     #[new]
     #[pyo3(signature = (gaps, tractions, source = None))]
     fn new(gaps: Numbers<'_>, tractions: Numbers<'_>, source: Option<String>) -> PyResult<PyClassInitializer<Self>> {
@@ -429,7 +436,7 @@ pub struct CutOff {
 impl CutOff {
     #[classattr]
     #[expect(non_upper_case_globals, reason = "Python's name")]
-    const __match_args__: [&str; 2] = ["law", "distance"];
+    const __match_args__: (&str, &str) = ("law", "distance");
     #[new]
     fn new(law: &Bound<'_, PyAny>, distance: f64) -> PyResult<PyClassInitializer<Self>> {
         let form = Form::of(law)?;
@@ -476,7 +483,7 @@ pub struct Varying {
 impl Varying {
     #[classattr]
     #[expect(non_upper_case_globals, reason = "Python's name")]
-    const __match_args__: [&str; 2] = ["law", "work_of_adhesion"];
+    const __match_args__: (&str, &str) = ("law", "work_of_adhesion");
     #[new]
     fn new(law: &Bound<'_, PyAny>, work_of_adhesion: Numbers<'_>) -> PyResult<PyClassInitializer<Self>> {
         let form = Form::of(law)?;

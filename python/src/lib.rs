@@ -29,7 +29,8 @@ mod _asperity {
     use crate::exact::{AdhesiveWavyLine, Contact, Hertz, Jkr, WaveContact, WavyLine, closing_pressure_2d};
     #[pymodule_export]
     use crate::law::{
-        CutOff, Exponential, Law, LennardJones, MaugisDugdale, Morse, PowerLaw, Tabulated, VanDerWaals, Varying, check_law,
+        CutOff, Exponential, Law, LennardJones, MaugisDugdale, Morse, PowerLaw, Tabulated, VanDerWaals, Varying,
+        check_law,
     };
     #[pymodule_export]
     use crate::problem::Problem;

@@ -119,11 +119,12 @@ impl<T: Scalar> State<T> {
         strongest: Option<(usize, usize)>,
         Made { beyond, modulus, wall, settings, nested }: Made,
     ) -> asperity::Result<Self> {
-        let (clock, grid) = (Instant::now(), *surface.grid());
+        let grid = *surface.grid();
         let mut warnings = beyond.warnings(&surface);
         warnings.extend(Warning::of_law(&law, &surface, modulus));
         let scale = (law.work_of_adhesion() / law.range()).widen();
         let noticeable = if scale.is_finite() { 0.01 * scale } else { 0.0 };
+        let clock = Instant::now();
         let body = if nested {
             Body::Nested(surface, law)
         } else {

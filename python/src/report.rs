@@ -29,7 +29,8 @@ pub fn of<'py, T: Scalar>(py: Python<'py>, account: &Account<T>) -> PyResult<Bou
             })
             .collect::<PyResult<Vec<_>>>()
     });
-    let levels = |(levels, _): &(Vec<Level>, f64)| levels.iter().map(|found| level(py, found)).collect::<PyResult<Vec<_>>>();
+    let levels =
+        |(levels, _): &(Vec<Level>, f64)| levels.iter().map(|found| level(py, found)).collect::<PyResult<Vec<_>>>();
     let levels = account.grids.as_ref().map(levels).transpose()?;
     let warnings = account.warnings.iter().map(|found| warning(py, found)).collect::<PyResult<Vec<_>>>()?;
     Ok(dictionary!(py,
