@@ -23,4 +23,5 @@ def test_the_code_of_the_readme_runs(tmp_path, monkeypatch):
     for block in blocks:
         exec(block, found)
     assert found["solution"].converged and found["pressed"].converged and len(found["table"]) == 3
+    assert [event["event"] for event in found["cycle"].events] == ["jump-in", "pull-off"]
     assert pathlib.Path("pressed.pdf").stat().st_size > 1000
