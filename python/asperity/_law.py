@@ -24,13 +24,14 @@ def entries(law: Any, wall: str) -> dict[str, Any]:
         law = law.law
     if isinstance(law, _asperity.CutOff):
         law, cut_off = law.law, law.distance
+    own = not isinstance(law, _asperity.Law)
     table = isinstance(law, _asperity.Tabulated)
     return {
         "law": "none" if law is None else _NAMES.get(type(law), type(law).__name__),
         "work_of_adhesion": None if varies else _number(law, "work_of_adhesion"),
         "range": _number(law, "range"),
-        "exponent": _number(law, "exponent"),
-        "hamaker": _number(law, "hamaker"),
+        "exponent": None if own else _number(law, "exponent"),
+        "hamaker": None if own else _number(law, "hamaker"),
         "law_table": law.source or "array" if table else None,
         "cut_off": cut_off,
         "work_of_adhesion_map": "array" if varies else None,
