@@ -147,6 +147,7 @@ pub struct Relief {
     /// Along x and along y.
     pub sides: [Side; 2],
     pub spikes: Spikes,
+    /// NaN where there are no spikes.
     pub kurtosis: f64,
     mean_square: f64,
 }
@@ -154,21 +155,21 @@ pub struct Relief {
 impl Relief {
     /// The relief of heights that are not flat.
     pub fn of(heights: &Array2<f64>, extremes: &Extremes) -> Self {
-        let scale =
-            Scale { unit: 0.5 * extremes.high - 0.5 * extremes.low, middle: 0.5 * extremes.high + 0.5 * extremes.low };
+        let scale = Scale::new(extremes);
         let ((nx, ny), nodes, all) = (heights.dim(), heights.len() as f64, flat(heights));
-        // of each row the mean, the sum of the squares, and the mean square step from the one before, at last the last
-        let mut rows = vec![(0.0, 0.0, 0.0); nx];
+        // of each row the sums of the heights, of their squares, and of the squared steps from the row before, which of
+        // the first is the last; and the greatest step
+        let mut rows = vec![[0.0; 4]; nx];
         par::update(par::chunks(all, ny), &mut rows, BLOCK, |i, row, found| {
             let before = &all[(i + nx - 1) % nx * ny..][..ny];
-            let (mut sum, mut squares, mut steps) = (0.0, 0.0, 0.0);
+            let [sum, squares, steps, greatest] = found;
             for (&h, &before) in row.iter().zip(before) {
-                let (h, before) = (scale.of(h), scale.of(before));
-                sum += h;
-                squares += h * h;
-                steps += (h - before).powi(2);
+                let (h, step) = (scale.of(h), scale.of(h) - scale.of(before));
+                *sum += h;
+                *squares += h * h;
+                *steps += step * step;
+                *greatest = if step.abs() > *greatest { step.abs() } else { *greatest };
             }
-            *found = (sum / ny as f64, squares, steps / ny as f64);
         });
         // of each column the mean, and the mean square step to the one after, at last to the first
         let mut strips = vec![Vec::new(); ny.div_ceil(STRIP)];
@@ -179,26 +180,31 @@ impl Relief {
                 let after = row[from + 1..].iter().chain(row.first());
                 for ((&h, &after), (mean, step)) in row[from..].iter().zip(after).zip(&mut *columns) {
                     let (h, after) = (scale.of(h), scale.of(after));
-                    *mean += h / nx as f64;
-                    *step += (after - h).powi(2) / nx as f64;
+                    *mean += h;
+                    *step += (after - h) * (after - h);
                 }
             }
+            columns.iter_mut().for_each(|(mean, step)| (*mean, *step) = (*mean / nx as f64, *step / nx as f64));
         });
         let (column_means, mut column_steps): (Vec<f64>, Vec<f64>) = strips.into_iter().flatten().unzip();
-        let row_means: Vec<f64> = rows.iter().map(|row| row.0).collect();
-        let row_steps: Vec<f64> = rows.iter().skip(1).map(|row| row.2).collect();
-        let squares: f64 = rows.iter().map(|row| row.1).sum();
-        let (edge, column_edge) = (rows[0].2, column_steps.pop().unwrap_or_default());
+        let row_means: Vec<f64> = rows.iter().map(|row| row[0] / ny as f64).collect();
+        let row_steps: Vec<f64> = rows.iter().skip(1).map(|row| row[2] / ny as f64).collect();
+        let squares: f64 = rows.iter().map(|row| row[1]).sum();
+        let (edge, column_edge) = (rows[0][2] / ny as f64, column_steps.pop().unwrap_or_default());
         let mean = row_means.iter().sum::<f64>() / nx as f64;
         let sides = [Side::new(&row_means, &row_steps, edge), Side::new(&column_means, &column_steps, column_edge)];
         let mut relief = Self {
-            unit: scale.unit,
+            unit: scale.inverse.recip(),
             sides,
             spikes: Spikes::default(),
             kurtosis: f64::NAN,
             mean_square: squares / nodes - mean * mean,
         };
-        relief.look_for_spikes(heights, mean, scale);
+        // from each neighbour a spike differs by more than half of its distance from their mean
+        let greatest = rows.iter().fold(0.0, |greatest: f64, row| greatest.max(row[3]));
+        if nx == 1 || greatest > (1.0 - 1.0 / LONE) * relief.rms_about_plane() {
+            relief.look_for_spikes(heights, mean, scale);
+        }
         relief
     }
 
@@ -260,16 +266,22 @@ impl Relief {
     }
 }
 
-/// The unit of heights, and where they count from.
+/// One over the unit of heights, and where they count from.
 #[derive(Clone, Copy)]
 struct Scale {
-    unit: f64,
+    inverse: f64,
     middle: f64,
 }
 
 impl Scale {
+    fn new(extremes: &Extremes) -> Self {
+        let unit = 0.5 * extremes.high - 0.5 * extremes.low;
+        Self { inverse: unit.recip().min(f64::MAX), middle: 0.5 * extremes.high + 0.5 * extremes.low }
+    }
+
+    #[inline]
     fn of(self, height: f64) -> f64 {
-        (height - self.middle) / self.unit
+        (height - self.middle) * self.inverse
     }
 }
 
