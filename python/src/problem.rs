@@ -28,9 +28,12 @@ use crate::running::{Observe, run};
 /// The largest number of departures from unstable equilibria, as in the tool.
 const MOST_DEPARTURES: usize = 10;
 
+/// A surface on its half-space with its law, of whatever kind they are.
+type Boxed<T> = asperity::Problem<T, Box<dyn ElasticOperator<T>>, Box<dyn AdhesionLaw<T>>>;
+
 /// The surface on its half-space with its law: as a problem, or as what one is made of on each of nested grids.
 enum Body<T: Real> {
-    Single(asperity::Problem<T, Box<dyn ElasticOperator<T>>, Box<dyn AdhesionLaw<T>>>),
+    Single(Boxed<T>),
     Nested(Surface, Box<dyn AdhesionLaw<T>>),
 }
 
@@ -103,9 +106,7 @@ fn field<T: Real>(gap: PyReadonlyArray2<'_, f64>) -> Array2<T> {
 }
 
 /// A problem on one grid, which all but a solve on nested grids needs.
-fn single<T: Real>(
-    body: &mut Body<T>,
-) -> asperity::Result<&mut asperity::Problem<T, Box<dyn ElasticOperator<T>>, Box<dyn AdhesionLaw<T>>>> {
+fn single<T: Real>(body: &mut Body<T>) -> asperity::Result<&mut Boxed<T>> {
     match body {
         Body::Single(problem) => Ok(problem),
         Body::Nested(..) => Err(Error::Control { control: "nested", reason: "of one load without its stability" }),
