@@ -102,7 +102,7 @@ pub fn solve<T: Scalar, L: AdhesionLaw<T>>(
         let found = StabilityTest::default().run_with(&mut problem, &case.wall, case.control, &solution)?;
         let leaves = case.leave && found.verdict == Verdict::Unstable && departures.len() < MOST_DEPARTURES;
         let left = if leaves {
-            found.leave(&mut Solver::new(case.settings), &mut problem, case.control, &solution)?
+            found.leave(&mut solver, &mut problem, case.control, &solution)?
         } else {
             None
         };

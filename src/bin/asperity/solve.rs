@@ -7,7 +7,7 @@ use asperity::{Control, Grid, Level, Status};
 use clap::{ArgGroup, Args, ValueEnum};
 use serde_json::{Value, json};
 
-use crate::adhesion::{AdhesionOptions, Law, Wall};
+use crate::adhesion::{AdhesionOptions, Law};
 use crate::boundary::{LOAD, LoadOptions};
 use crate::case::{self, Account, Case, Left};
 use crate::loads::name_and_value;
@@ -123,9 +123,6 @@ const PICTURES: [&str; 2] = ["contact.png", "pressure.png"];
 pub fn run(options: &Options, scene: &Scene) -> Outcome<bool> {
     let problem = options.problem();
     problem.adhesion.check()?;
-    if options.leave && options.adhesion.wall == Wall::None {
-        return Err("--leave needs a wall: give --stability alone, or --wall hard".into());
-    }
     problem.surface.beyond.boundary.check(options.load.control())?;
     let pictures = PICTURES.iter().filter(|_| !options.no_pictures);
     let mode = options.case().stability.then_some(&MODE);
