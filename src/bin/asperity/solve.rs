@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use asperity::contact::Patch;
 use asperity::io::{OutputFolder, write_npy, write_npz, write_vti};
 use asperity::{Control, Grid, Level, Status};
 use clap::{ArgGroup, Args, ValueEnum};
@@ -188,6 +189,9 @@ impl Options {
             "edge_traction": report.edge_traction,
             "corrected_contact_fraction": account.contact.corrected_contact_fraction,
             "perimeter": account.contact.perimeter,
+            "repulsive_fraction": account.contact.repulsive_fraction,
+            "attractive_fraction": account.contact.attractive_fraction,
+            "patches": account.contact.patches.iter().map(patch).collect::<Vec<_>>(),
             "min_gap": report.min_gap,
             "min_pressure": account.pressures.0,
             "max_pressure": account.pressures.1,
@@ -295,6 +299,16 @@ impl Job<'_> {
         }
         Ok(())
     }
+}
+
+/// The contact of the nodes of one work of adhesion.
+fn patch(patch: &Patch) -> Value {
+    json!({
+        "work_of_adhesion": patch.work_of_adhesion,
+        "area_fraction": patch.area_fraction,
+        "contact_fraction": patch.contact_fraction,
+        "attractive_fraction": patch.attractive_fraction,
+    })
 }
 
 /// The stiffness of a spring, if the load is one.
