@@ -17,8 +17,9 @@ fn without_wall(tolerance: f64) -> Solver<NoWall> {
 fn follow<L: AdhesionLaw<f64>>(
     problem: &mut Problem<f64, Westergaard<f64>, L>,
     loads: impl IntoIterator<Item = Control>,
+    tolerance: f64,
 ) -> Vec<PathStep<f64>> {
-    let mut solver = without_wall(1e-8);
+    let mut solver = without_wall(tolerance);
     let path = Path::new(&mut solver, problem, loads, PathSettings::default()).unwrap();
     let steps: Vec<_> = path.map(Result::unwrap).collect();
     for step in &steps {
@@ -43,10 +44,10 @@ fn flats_on_a_spring_jump_where_its_stiffness_is_that_of_the_attraction() {
     let (work, range, stiffness) = (1e-3, 1e-2, 1.5);
     let law = Morse::new(work, range).unwrap();
     let springs = [0.1, -0.02, 0.1].map(|rest| Control::Spring { stiffness, rest });
-    let steps = follow(&mut flats(law), springs);
+    let steps = follow(&mut flats(law), springs, 1e-6);
     let jumps: Vec<_> = steps.iter().filter_map(|step| Some((step, jump(step)?))).collect();
     assert_eq!(jumps.len(), 2);
-    assert_eq!([0, 1].map(|k| jumps[k].0.event.unwrap().name()), ["jump-in", "pull-off"]);
+    assert_eq!([0, 1].map(|k| jumps[k].0.event.unwrap().name()), ["jump-in", "jump-out"]);
     let root = (1.0 - 4.0 * stiffness * range * range / work).sqrt();
     let width = PathSettings::default().smallest_step * 0.12;
     for ((step, jump), e) in jumps.into_iter().zip([0.25 * (1.0 - root), 0.25 * (1.0 + root)]) {
@@ -68,7 +69,7 @@ fn flats_under_a_tension_have_their_limit_point_at_the_strongest_traction() {
     // x⁶ = 1/3, φ' = 16w/(9√3 z₀)
     let (work, range) = (2e-4, 1e-2);
     let law = LennardJones::new(work, range).unwrap();
-    let steps = follow(&mut flats(law), [0.02, -0.05].map(Control::MeanPressure));
+    let steps = follow(&mut flats(law), [0.02, -0.05].map(Control::MeanPressure), 1e-6);
     let events: Vec<_> = steps.iter().filter_map(|step| step.event).collect();
     let [Event::LimitPoint { mean_gap, mean_pressure }] = events[..] else { panic!("{events:?}") };
     let strongest = 16.0 * work / (9.0 * 3.0_f64.sqrt() * range);
@@ -83,12 +84,12 @@ fn flats_under_a_tension_have_their_limit_point_at_the_strongest_traction() {
     assert!(last.solution.report.mean_gap > 10.0 * range && last.dissipated == 0.0);
 }
 
-/// A surface of two waves, its dense half-space, and Lennard-Jones, which makes it jump.
+/// A wave with a side crest, its dense half-space, and Lennard-Jones, which makes it jump.
 fn waves() -> (Surface, Dense, LennardJones) {
-    let (shape, lengths) = ((12, 10), (1.0, 0.8));
+    let (shape, lengths) = ((32, 4), (1.0, 0.125));
     let grid = Grid::new(shape, lengths).unwrap();
-    let surface = Surface::from_fn(grid, |x, y| 0.03 * (TAU * x).cos() + 0.02 * (TAU * (y / 0.8 + x)).sin()).unwrap();
-    (surface, Dense::new(shape, lengths, 1.0), LennardJones::new(2e-3, 0.02).unwrap())
+    let surface = Surface::from_fn(grid, |x, _| 0.03 * (TAU * x).cos() + 0.01 * (2.0 * TAU * x).sin()).unwrap();
+    (surface, Dense::new(shape, lengths, 1.0), LennardJones::new(1e-3, 0.012).unwrap())
 }
 
 /// How many eigenvalues of K⁻¹ + φ'' over fields without mean are below a number.
@@ -123,7 +124,7 @@ fn below(dense: &Dense, law: &LennardJones, gap: &Array2<f64>, number: f64) -> u
 fn states_between_jumps_are_minima_of_the_dense_energy_and_jumps_are_where_they_cease() {
     let (surface, dense, law) = waves();
     let mut problem = Problem::new(&surface, Westergaard::<f64>::new(*surface.grid(), 1.0).unwrap(), law).unwrap();
-    let steps = follow(&mut problem, [0.12, 0.01, 0.12].map(Control::MeanGap));
+    let steps = follow(&mut problem, [0.12, 0.02, 0.12].map(Control::MeanGap), 1e-8);
     let mut last: Option<&PathStep<f64>> = None;
     let (mut jumps, first) = (0, &steps[0].solution.report);
     let largest = steps.iter().map(|step| step.work.abs()).fold(0.0, f64::max);
@@ -148,12 +149,10 @@ fn states_between_jumps_are_minima_of_the_dense_energy_and_jumps_are_where_they_
         last = Some(step);
     }
     assert!(jumps >= 2, "{jumps}");
-    let last = &steps[steps.len() - 1];
-    assert!((last.work / last.dissipated - 1.0).abs() < 1e-2, "{} {}", last.work, last.dissipated);
 
     // interrupted and continued, it is the same path
     let mut solver = without_wall(1e-8);
-    let loads = || [0.12, 0.01, 0.12].map(Control::MeanGap);
+    let loads = || [0.12, 0.02, 0.12].map(Control::MeanGap);
     let mut path = Path::new(&mut solver, &mut problem, loads(), PathSettings::default()).unwrap();
     assert_eq!(path.by_ref().take(20).count(), 20);
     let kept: PathCheckpoint<f64> = path.checkpoint();
@@ -165,15 +164,15 @@ fn states_between_jumps_are_minima_of_the_dense_energy_and_jumps_are_where_they_
 
 #[test]
 fn a_pressure_presses_surfaces_together_past_the_limit_point() {
-    // at first the crests alone touch; then the contact closes at once, and from there on any pressure is borne
+    // the contact closes at once, and from there on any pressure is borne
     let grid = Grid::line(64, 1.0).unwrap();
     let surface = Surface::wave(grid, 0.02, 1).unwrap();
     let work = 0.5 * (0.2 * std::f64::consts::PI * 0.02_f64).powi(2);
     let laws: [Box<dyn AdhesionLaw<f64>>; 2] =
-        [Box::new(Morse::new(work, 2e-3).unwrap()), Box::new(LennardJones::new(work, 3e-3).unwrap())];
+        [Box::new(Morse::new(work, 1e-3).unwrap()), Box::new(LennardJones::new(work, 3e-3).unwrap())];
     for law in laws {
         let mut problem = Problem::new(&surface, Westergaard::<f64>::new(grid, 1.0).unwrap(), &*law).unwrap();
-        let steps = follow(&mut problem, [6e-3, 0.12].map(Control::MeanPressure));
+        let steps = follow(&mut problem, [6e-3, 0.12].map(Control::MeanPressure), 1e-8);
         assert_eq!(steps.iter().find_map(|step| step.event).unwrap().name(), "limit-point");
         let last = &steps[steps.len() - 1].solution.report;
         assert!((last.mean_pressure - 0.12).abs() < 1e-9 && last.contact_fraction > 0.9, "{last:?}");
@@ -218,4 +217,44 @@ fn springs_and_laws_that_do_not_repel_are_refused_on_a_path() {
     let mut nothing = without_wall(1e-6);
     let refused = Path::new(&mut nothing, &mut problem, loads(), PathSettings::default());
     assert!(matches!(refused, Err(Error::Wall { wall: "no wall", .. })), "{refused:?}");
+}
+
+/// The pull-off force of a sphere with Lennard-Jones on a free half-space, over πwR.
+fn pull_off(tabor: f64, n: usize) -> f64 {
+    // R = E* = 1, and lengths of contact of 0.02; at the window's edge the gap is 25 z₀
+    let (work, depth) = (8e-6, 4e-4);
+    let rest = depth / tabor;
+    let grid = Grid::square(n, 2.0 * (50.0 * rest).sqrt()).unwrap();
+    let surface = Surface::paraboloid(grid, 1.0).unwrap();
+    let law = LennardJones::new(work, rest).unwrap();
+    let mut problem = Problem::new(&surface, Boussinesq::<f64>::new(grid, 1.0).unwrap(), law).unwrap();
+    assert!(problem.mu_rho() < 0.5);
+    let loads = [0.5 * depth - rest, -2.0 * depth - rest].map(Control::Approach);
+    let settings = PathSettings { smallest_step: 1e-2, ..PathSettings::default() };
+    let mut solver = without_wall(1e-5);
+    let mut strongest = 0.0_f64;
+    for step in Path::new(&mut solver, &mut problem, loads, settings).unwrap() {
+        let report = step.unwrap().solution.report;
+        assert_eq!(report.status, Status::Converged);
+        let tension = -report.normal_force / (std::f64::consts::PI * work);
+        if tension < 0.95 * strongest {
+            break;
+        }
+        strongest = strongest.max(tension);
+    }
+    strongest
+}
+
+#[test]
+fn a_sphere_pulls_off_between_dmt_and_jkr_and_above_maugis_and_dugdale() {
+    use asperity::exact::{MaugisDugdale, Sphere};
+    // as the example adhesion_map finds it on 256² nodes
+    for (tabor, n, expected) in [(0.2, 32, 1.9174), (0.6, 48, 1.7528)] {
+        let force = pull_off(tabor, n);
+        assert!((force / expected - 1.0).abs() < 5e-3, "{tabor}: {force}");
+        // of the same largest traction
+        let dugdale = MaugisDugdale::new(1.0, 1.0, 8e-6, 4e-4 / tabor / 1.0264).unwrap();
+        let theirs = -dugdale.pull_off().load() / (std::f64::consts::PI * 8e-6);
+        assert!(theirs < force && force < 1.06 * theirs && force < 2.0, "{tabor}: {force} {theirs}");
+    }
 }
