@@ -164,7 +164,7 @@ fn states_between_jumps_are_minima_of_the_dense_energy_and_jumps_are_where_they_
 
 #[test]
 fn a_pressure_presses_surfaces_together_past_the_limit_point() {
-    // the contact closes at once, and from there on any pressure is borne
+    // the contact closes at once, and from there on any pressure is borne; a leg ends within a thousandth of itself
     let grid = Grid::line(64, 1.0).unwrap();
     let surface = Surface::wave(grid, 0.02, 1).unwrap();
     let work = 0.5 * (0.2 * std::f64::consts::PI * 0.02_f64).powi(2);
@@ -175,7 +175,7 @@ fn a_pressure_presses_surfaces_together_past_the_limit_point() {
         let steps = follow(&mut problem, [6e-3, 0.12].map(Control::MeanPressure), 1e-8);
         assert_eq!(steps.iter().find_map(|step| step.event).unwrap().name(), "limit-point");
         let last = &steps[steps.len() - 1].solution.report;
-        assert!((last.mean_pressure - 0.12).abs() < 1e-9 && last.contact_fraction > 0.9, "{last:?}");
+        assert!((last.mean_pressure - 0.12).abs() < 2e-4 && last.contact_fraction > 0.9, "{last:?}");
     }
 }
 
