@@ -5,7 +5,7 @@
 //! cargo run --release --example adhesion_map -- [--size N] [--out FILE.svg]
 //! ```
 //!
-//! `--size` is the number of nodes along a side (256 unless given); Tabor parameters whose adhesive zone they do not
+//! `--size` is the number of nodes along a side (320 unless given); Tabor parameters whose adhesive zone they do not
 //! resolve (μ_ρ above 0.5) are left out. Lengths are in units of R, pressures of E*, and forces are drawn over πwR. The
 //! constant traction of Maugis–Dugdale is the largest of Lennard-Jones, 1.026 w/z₀.
 
@@ -95,7 +95,7 @@ fn withdraw(tabor: f64, size: usize) -> Outcome<Option<Withdrawal>> {
 }
 
 fn main() -> Outcome<()> {
-    let (size, out) = size_and_out(256, "target/figures/adhesion-map.svg")?;
+    let (size, out) = size_and_out(320, "target/figures/adhesion-map.svg")?;
     if let Some(folder) = out.parent() {
         std::fs::create_dir_all(folder)?;
     }
