@@ -4,12 +4,12 @@ use std::fmt;
 
 use asperity_fft::Transform;
 use asperity_fft::num_complex::Complex;
-use ndarray::{Array2, ArrayView2, ArrayViewMut2, Axis};
+use ndarray::{Array2, ArrayView2, ArrayViewMut2};
 use num_traits::Zero;
 
 use crate::error::{Error, Result};
 use crate::field::flat_mut;
-use crate::par::{self, Pool};
+use crate::par::{self, Parts, Pool};
 use crate::real::{Compiled, Real};
 
 mod layout;
@@ -178,7 +178,7 @@ impl<T: Real> Convolver<T> {
     fn rows_forward(&mut self, input: ArrayView2<'_, T>) {
         let Self { rows, spectrum, pool, layout, .. } = self;
         let (_, n1) = layout.plane();
-        par::for_each(input.axis_chunks_iter(Axis(0), TILE), spectrum.axis_chunks_iter_mut(Axis(1), TILE), |x, z| {
+        par::for_each(par::tiles(input, 0, TILE).zip(par::tiles_mut(spectrum.view_mut(), 1, TILE)), |_, (x, z)| {
             let Workspace { tile, scratch } = &mut *pool.get();
             pack(x, tile);
             for line in lines_mut(tile, n1).take(x.nrows().div_ceil(2)) {
@@ -188,10 +188,10 @@ impl<T: Real> Convolver<T> {
         });
     }
 
-    fn rows_inverse<U: Real>(&mut self, mut output: ArrayViewMut2<'_, U>, norm: T) {
+    fn rows_inverse<U: Real>(&mut self, output: ArrayViewMut2<'_, U>, norm: T) {
         let Self { rows, spectrum, pool, layout, .. } = self;
         let (_, n1) = layout.plane();
-        par::for_each(output.axis_chunks_iter_mut(Axis(0), TILE), spectrum.axis_chunks_iter(Axis(1), TILE), |x, z| {
+        par::for_each(par::tiles_mut(output, 0, TILE).zip(par::tiles(spectrum.view(), 1, TILE)), |_, (x, z)| {
             let Workspace { tile, scratch } = &mut *pool.get();
             join(z, n1, norm, tile);
             for line in lines_mut(tile, n1).take(x.nrows().div_ceil(2)) {
@@ -212,7 +212,8 @@ pub(crate) fn powers(field: ArrayView2<'_, f64>) -> Array2<f64> {
     let Convolver { columns, spectrum, pool, .. } = &mut convolver;
     let norm = (n0 as f64 * n1 as f64).recip().powi(2);
     let mut powers = Array2::zeros(spectrum.dim());
-    par::for_each(par::chunks_mut(flat_mut(spectrum), n0), par::chunks_mut(flat_mut(&mut powers), n0), |z, power| {
+    let pairs = par::chunks_mut(flat_mut(spectrum), n0).zip(par::chunks_mut(flat_mut(&mut powers), n0));
+    par::for_each(pairs, |_, (z, power)| {
         columns.forward.process_with_scratch(z, &mut pool.get().scratch);
         power.iter_mut().zip(z).for_each(|(power, z)| *power = norm * z.norm_sqr());
     });
@@ -228,7 +229,8 @@ pub(crate) fn even_modes(field: ArrayView2<'_, f64>) -> Array2<f64> {
     let (count, n0) = spectrum.dim();
     let half = n0 / 2 + 1;
     let mut modes = Array2::zeros((count, half));
-    par::for_each(par::chunks_mut(flat_mut(spectrum), n0), par::chunks_mut(flat_mut(&mut modes), half), |z, modes| {
+    let pairs = par::chunks_mut(flat_mut(spectrum), n0).zip(par::chunks_mut(flat_mut(&mut modes), half));
+    par::for_each(pairs, |_, (z, modes)| {
         columns.forward.process_with_scratch(z, &mut pool.get().scratch);
         modes.iter_mut().zip(z).for_each(|(mode, z)| *mode = z.re);
     });

@@ -2,7 +2,7 @@
 
 use ndarray::{Array2, ArrayView2};
 
-use crate::par::{self, IndexedParallelIterator};
+use crate::par::{self, Parts};
 
 /// The nodes of a chunk, which are summed one after the other. The rounding of sums of sums grows with the length of a
 /// run, not with the number of nodes.
@@ -85,22 +85,18 @@ impl Reducer {
     }
 
     /// Runs `f(first node, chunk)` over the chunks.
-    pub(crate) fn run<A: IndexedParallelIterator>(
-        &mut self,
-        chunks: A,
-        f: impl Fn(usize, A::Item) -> Partial + Sync + Send,
-    ) -> Partial {
+    pub(crate) fn run<A: Parts>(&mut self, chunks: A, f: impl Fn(usize, A::Part) -> Partial + Sync + Send) -> Partial {
         par::update(chunks, &mut self.0, BATCH, |i, chunk, part| *part = f(i * CHUNK, chunk));
         self.total()
     }
 
     /// Runs `f(first node, chunk)` over the chunks whose kept number is `wanted`.
-    pub(crate) fn run_where<A: IndexedParallelIterator>(
+    pub(crate) fn run_where<A: Parts>(
         &mut self,
         kept: &[f64],
         wanted: impl Fn(f64) -> bool + Sync + Send,
         chunks: A,
-        f: impl Fn(usize, A::Item) -> Partial + Sync + Send,
+        f: impl Fn(usize, A::Part) -> Partial + Sync + Send,
     ) -> Partial {
         par::update(chunks, &mut self.0, BATCH, |i, chunk, part| {
             *part = if wanted(kept[i]) { f(i * CHUNK, chunk) } else { Partial::NONE };
@@ -160,11 +156,11 @@ pub(crate) fn flat_mut<T>(field: &mut Array2<T>) -> &mut [T] {
 }
 
 /// The chunks of a field, to read.
-pub(crate) fn read<T: Sync>(field: &Array2<T>) -> impl IndexedParallelIterator<Item = &[T]> {
+pub(crate) fn read<T: Sync>(field: &Array2<T>) -> impl Parts<Part = &[T]> {
     par::chunks(flat(field), CHUNK)
 }
 
 /// The chunks of a field, to write.
-pub(crate) fn write<T: Send>(field: &mut Array2<T>) -> impl IndexedParallelIterator<Item = &mut [T]> {
+pub(crate) fn write<T: Send>(field: &mut Array2<T>) -> impl Parts<Part = &mut [T]> {
     par::chunks_mut(flat_mut(field), CHUNK)
 }

@@ -274,9 +274,8 @@ fn prolong<T: Real>(
     // whether the interpolation has only nodes in contact about it
     let touches = |i: usize, j: usize| gap[[i, j]] <= T::zero();
     let mut fine = Array2::zeros(shape);
-    let rows: Vec<usize> = (0..shape.0).collect();
-    par::for_each(par::chunks_mut(flat_mut(&mut fine), shape.1), par::chunks(&rows, 1), |row, index| {
-        let (i, between) = (index[0] / rx, !index[0].is_multiple_of(rx));
+    par::for_each(par::chunks_mut(flat_mut(&mut fine), shape.1), |row, nodes| {
+        let (i, between) = (row / rx, !row.is_multiple_of(rx));
         let at = |shift: usize| shifted(i, shift, cx);
         let (mut line, mut contact) = (vec![0.0; cy], vec![false; cy]);
         for j in 0..cy {
@@ -287,7 +286,7 @@ fn prolong<T: Real>(
                 (u(1), touches(i, j))
             };
         }
-        for (k, g) in row.iter_mut().enumerate() {
+        for (k, g) in nodes.iter_mut().enumerate() {
             let (j, next) = (k / ry, shifted(k / ry, 2, cy));
             let (u, contact) = if k.is_multiple_of(ry) {
                 (line[j], contact[j])
@@ -295,7 +294,7 @@ fn prolong<T: Real>(
                 let (before, after) = (shifted(j, 0, cy), shifted(j, 3, cy));
                 (middle(line[before], line[j], line[next], line[after]), contact[j] && contact[next])
             };
-            let apart = u - surface.heights()[[index[0] * stride.0, k * stride.1]];
+            let apart = u - surface.heights()[[row * stride.0, k * stride.1]];
             *g = match projects {
                 true if contact => T::zero(),
                 true => T::lit(apart.max(0.0)),

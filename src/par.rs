@@ -2,10 +2,10 @@
 
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-#[cfg(feature = "parallel")]
-pub(crate) use parallel::*;
-#[cfg(not(feature = "parallel"))]
-pub(crate) use serial::*;
+use ndarray::{ArrayView2, ArrayViewMut2, Axis};
+
+/// The pieces that a loop is divided into for each worker, so that one that comes late has less to do.
+const PIECES: usize = 8;
 
 /// One workspace per worker, made once: the hot loop never allocates.
 #[derive(Debug)]
@@ -22,79 +22,302 @@ impl<W> Pool<W> {
     }
 }
 
-#[cfg(feature = "parallel")]
-mod parallel {
-    pub(crate) use rayon::iter::IndexedParallelIterator;
-    use rayon::iter::{IntoParallelIterator, ParallelIterator};
-    use rayon::slice::{Chunks, ChunksMut, ParallelSlice, ParallelSliceMut};
+/// A sequence of parts of one field or of several, each of them the work of one thread.
+pub(crate) trait Parts: Sized + Send {
+    /// A part: of each field one.
+    type Part;
 
-    pub(super) fn workers() -> usize {
-        rayon::current_num_threads()
-    }
+    /// The number of parts.
+    fn count(&self) -> usize;
 
-    pub(super) fn worker() -> usize {
-        rayon::current_thread_index().unwrap_or(0)
-    }
+    /// The first `at` parts, and the others.
+    fn divide(self, at: usize) -> (Self, Self);
 
-    pub(crate) fn chunks<T: Sync>(field: &[T], size: usize) -> Chunks<'_, T> {
-        field.par_chunks(size)
-    }
+    /// Takes the first part.
+    fn next(&mut self) -> Option<Self::Part>;
 
-    pub(crate) fn chunks_mut<T: Send>(field: &mut [T], size: usize) -> ChunksMut<'_, T> {
-        field.par_chunks_mut(size)
-    }
-
-    /// Runs `f` on the pairs of two sequences.
-    pub(crate) fn for_each<A, B>(a: A, b: B, f: impl Fn(A::Item, B::Item) + Sync + Send)
-    where
-        A: IntoParallelIterator<Iter: IndexedParallelIterator>,
-        B: IntoParallelIterator<Iter: IndexedParallelIterator>,
-    {
-        (a, b).into_par_iter().for_each(|(a, b)| f(a, b));
-    }
-
-    /// Runs `f(index, item, result)` on every item; a worker takes at least `batch` of them at once.
-    pub(crate) fn update<A, R: Send>(
-        items: A,
-        results: &mut [R],
-        batch: usize,
-        f: impl Fn(usize, A::Item, &mut R) + Sync + Send,
-    ) where
-        A: IndexedParallelIterator,
-    {
-        items.zip(results).enumerate().with_min_len(batch).for_each(|(i, (item, result))| f(i, item, result));
+    /// The pairs of these parts and those of another sequence.
+    fn zip<B: Parts>(self, other: B) -> (Self, B) {
+        (self, other)
     }
 }
 
+impl<A: Parts, B: Parts> Parts for (A, B) {
+    type Part = (A::Part, B::Part);
+
+    fn count(&self) -> usize {
+        self.0.count().min(self.1.count())
+    }
+
+    fn divide(self, at: usize) -> (Self, Self) {
+        let ((a, c), (b, d)) = (self.0.divide(at), self.1.divide(at));
+        ((a, b), (c, d))
+    }
+
+    fn next(&mut self) -> Option<Self::Part> {
+        match (self.0.next(), self.1.next()) {
+            (Some(a), Some(b)) => Some((a, b)),
+            _ => None,
+        }
+    }
+}
+
+/// Runs of `size` nodes, the last of which may be shorter.
+pub(crate) struct Chunks<'a, T>(&'a [T], usize);
+
+impl<'a, T: Sync> Parts for Chunks<'a, T> {
+    type Part = &'a [T];
+
+    fn count(&self) -> usize {
+        self.0.len().div_ceil(self.1)
+    }
+
+    fn divide(self, at: usize) -> (Self, Self) {
+        let (first, others) = self.0.split_at(self.0.len().min(at * self.1));
+        (Self(first, self.1), Self(others, self.1))
+    }
+
+    fn next(&mut self) -> Option<Self::Part> {
+        let (first, others) = self.0.split_at(self.0.len().min(self.1));
+        self.0 = others;
+        (!first.is_empty()).then_some(first)
+    }
+}
+
+/// Runs of `size` nodes to write, the last of which may be shorter.
+pub(crate) struct ChunksMut<'a, T>(&'a mut [T], usize);
+
+impl<'a, T: Send> Parts for ChunksMut<'a, T> {
+    type Part = &'a mut [T];
+
+    fn count(&self) -> usize {
+        self.0.len().div_ceil(self.1)
+    }
+
+    fn divide(self, at: usize) -> (Self, Self) {
+        let end = self.0.len().min(at * self.1);
+        let (first, others) = self.0.split_at_mut(end);
+        (Self(first, self.1), Self(others, self.1))
+    }
+
+    fn next(&mut self) -> Option<Self::Part> {
+        let nodes = std::mem::take(&mut self.0);
+        let end = nodes.len().min(self.1);
+        let (first, others) = nodes.split_at_mut(end);
+        self.0 = others;
+        (!first.is_empty()).then_some(first)
+    }
+}
+
+/// Tiles of `size` rows, or of `size` columns, the last of which may be narrower.
+pub(crate) struct Tiles<'a, T>(ArrayView2<'a, T>, Axis, usize);
+
+impl<'a, T: Sync> Parts for Tiles<'a, T> {
+    type Part = ArrayView2<'a, T>;
+
+    fn count(&self) -> usize {
+        self.0.len_of(self.1).div_ceil(self.2)
+    }
+
+    fn divide(self, at: usize) -> (Self, Self) {
+        let end = self.0.len_of(self.1).min(at * self.2);
+        let (first, others) = self.0.split_at(self.1, end);
+        (Self(first, self.1, self.2), Self(others, self.1, self.2))
+    }
+
+    fn next(&mut self) -> Option<Self::Part> {
+        let end = self.0.len_of(self.1).min(self.2);
+        let (first, others) = self.0.split_at(self.1, end);
+        self.0 = others;
+        (end > 0).then_some(first)
+    }
+}
+
+/// Tiles of `size` rows, or of `size` columns, to write, the last of which may be narrower.
+pub(crate) struct TilesMut<'a, T>(ArrayViewMut2<'a, T>, Axis, usize);
+
+impl<'a, T: Send> Parts for TilesMut<'a, T> {
+    type Part = ArrayViewMut2<'a, T>;
+
+    fn count(&self) -> usize {
+        self.0.len_of(self.1).div_ceil(self.2)
+    }
+
+    fn divide(self, at: usize) -> (Self, Self) {
+        let end = self.0.len_of(self.1).min(at * self.2);
+        let (first, others) = self.0.split_at(self.1, end);
+        (Self(first, self.1, self.2), Self(others, self.1, self.2))
+    }
+
+    fn next(&mut self) -> Option<Self::Part> {
+        let end = self.0.len_of(self.1).min(self.2);
+        let nodes = std::mem::replace(&mut self.0, ArrayViewMut2::from_shape((0, 0), &mut []).ok()?);
+        let (first, others) = nodes.split_at(self.1, end);
+        self.0 = others;
+        (end > 0).then_some(first)
+    }
+}
+
+/// The results of parts, one for each.
+struct Results<'a, R>(&'a mut [R]);
+
+impl<'a, R: Send> Parts for Results<'a, R> {
+    type Part = &'a mut R;
+
+    fn count(&self) -> usize {
+        self.0.len()
+    }
+
+    fn divide(self, at: usize) -> (Self, Self) {
+        let (first, others) = self.0.split_at_mut(at);
+        (Self(first), Self(others))
+    }
+
+    fn next(&mut self) -> Option<Self::Part> {
+        self.0.split_off_first_mut()
+    }
+}
+
+/// The runs of `size` nodes of a field.
+pub(crate) fn chunks<T: Sync>(field: &[T], size: usize) -> Chunks<'_, T> {
+    Chunks(field, size.max(1))
+}
+
+/// The runs of `size` nodes of a field, to write.
+pub(crate) fn chunks_mut<T: Send>(field: &mut [T], size: usize) -> ChunksMut<'_, T> {
+    ChunksMut(field, size.max(1))
+}
+
+/// The tiles of `size` rows (axis 0) or columns (axis 1) of a field.
+pub(crate) fn tiles<T: Sync>(field: ArrayView2<'_, T>, axis: usize, size: usize) -> Tiles<'_, T> {
+    Tiles(field, Axis(axis), size.max(1))
+}
+
+/// The tiles of `size` rows (axis 0) or columns (axis 1) of a field, to write.
+pub(crate) fn tiles_mut<T: Send>(field: ArrayViewMut2<'_, T>, axis: usize, size: usize) -> TilesMut<'_, T> {
+    TilesMut(field, Axis(axis), size.max(1))
+}
+
+/// Runs `f(index, part)` on every part.
+pub(crate) fn for_each<P: Parts>(parts: P, f: impl Fn(usize, P::Part) + Sync) {
+    let most = most(parts.count(), 1);
+    piece(parts, 0, most, &f);
+}
+
+/// Runs `f(index, part, result)` on every part; a worker takes at least `batch` of them at once.
+pub(crate) fn update<P: Parts, R: Send>(
+    parts: P,
+    results: &mut [R],
+    batch: usize,
+    f: impl Fn(usize, P::Part, &mut R) + Sync,
+) {
+    let most = most(parts.count(), batch);
+    piece((parts, Results(results)), 0, most, &|i, (part, result): (_, &mut R)| f(i, part, result));
+}
+
+/// The most parts that a worker takes at once.
+fn most(count: usize, batch: usize) -> usize {
+    match workers() {
+        1 => count,
+        workers => count.div_ceil(PIECES * workers).max(batch),
+    }
+}
+
+/// Runs `f` on the parts, the first of which has the index `first`: one after the other if there are not too many.
+fn piece<P: Parts>(mut parts: P, first: usize, most: usize, f: &(impl Fn(usize, P::Part) + Sync)) {
+    let count = parts.count();
+    if count > most {
+        let half = count / 2;
+        let (left, right) = parts.divide(half);
+        let (mut left, mut right) = (Some(left), Some(right));
+        let mut left = || {
+            if let Some(parts) = left.take() {
+                piece(parts, first, most, f);
+            }
+        };
+        let mut right = || {
+            if let Some(parts) = right.take() {
+                piece(parts, first + half, most, f);
+            }
+        };
+        return both(&mut left, &mut right);
+    }
+    let mut index = first;
+    while let Some(part) = parts.next() {
+        f(index, part);
+        index += 1;
+    }
+}
+
+/// Runs both, side by side if a worker has nothing to do. The types of the closures end here, so that rayon's part is
+/// compiled once.
+#[cfg(feature = "parallel")]
+#[inline(never)]
+fn both(a: &mut (dyn FnMut() + Send), b: &mut (dyn FnMut() + Send)) {
+    rayon::join(a, b);
+}
+
+#[cfg(feature = "parallel")]
+fn workers() -> usize {
+    rayon::current_num_threads()
+}
+
+#[cfg(feature = "parallel")]
+fn worker() -> usize {
+    rayon::current_thread_index().unwrap_or(0)
+}
+
 #[cfg(not(feature = "parallel"))]
-mod serial {
-    /// The trait with `zip`, by its name in rayon.
-    pub(crate) use Iterator as IndexedParallelIterator;
-    use std::slice::{Chunks, ChunksMut};
+fn both(a: &mut (dyn FnMut() + Send), b: &mut (dyn FnMut() + Send)) {
+    a();
+    b();
+}
 
-    pub(super) fn workers() -> usize {
-        1
+#[cfg(not(feature = "parallel"))]
+fn workers() -> usize {
+    1
+}
+
+#[cfg(not(feature = "parallel"))]
+fn worker() -> usize {
+    0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use ndarray::Array2;
+
+    #[test]
+    fn every_part_is_visited_once_with_its_index() {
+        for (nodes, size) in [(0, 3), (1, 3), (9, 3), (10, 3), (1000, 7)] {
+            let (input, mut output) = ((0..nodes).collect::<Vec<_>>(), vec![usize::MAX; nodes]);
+            let mut lengths = vec![0; input.len().div_ceil(size)];
+            update(
+                chunks(&input, size).zip(chunks_mut(&mut output, size)),
+                &mut lengths,
+                1,
+                |i, (from, to), length| {
+                    assert_eq!(from[0], i * size);
+                    to.copy_from_slice(from);
+                    *length = to.len();
+                },
+            );
+            assert_eq!(input, output);
+            assert_eq!(lengths.iter().sum::<usize>(), nodes);
+        }
     }
 
-    pub(super) fn worker() -> usize {
-        0
-    }
-
-    pub(crate) fn chunks<T>(field: &[T], size: usize) -> Chunks<'_, T> {
-        field.chunks(size)
-    }
-
-    pub(crate) fn chunks_mut<T>(field: &mut [T], size: usize) -> ChunksMut<'_, T> {
-        field.chunks_mut(size)
-    }
-
-    /// Runs `f` on the pairs of two sequences.
-    pub(crate) fn for_each<A: IntoIterator, B: IntoIterator>(a: A, b: B, f: impl Fn(A::Item, B::Item)) {
-        std::iter::zip(a, b).for_each(|(a, b)| f(a, b));
-    }
-
-    /// Runs `f(index, item, result)` on every item.
-    pub(crate) fn update<A: Iterator, R>(items: A, results: &mut [R], _: usize, f: impl Fn(usize, A::Item, &mut R)) {
-        items.zip(results).enumerate().for_each(|(i, (item, result))| f(i, item, result));
+    #[test]
+    fn tiles_cover_a_field_along_either_axis() {
+        for axis in [0, 1] {
+            let field = Array2::from_shape_fn((13, 9), |(i, j)| 9 * i + j);
+            let mut copy = Array2::zeros((13, 9));
+            for_each(tiles(field.view(), axis, 4).zip(tiles_mut(copy.view_mut(), axis, 4)), |i, (from, mut to)| {
+                assert_eq!(from[[0, 0]], 4 * i * [9, 1][axis]);
+                to.assign(&from);
+            });
+            assert_eq!(field, copy);
+        }
     }
 }

@@ -12,7 +12,7 @@ use crate::constraint::{ContactConstraint, Projection};
 use crate::elastic::ElasticOperator;
 use crate::error::{Error, Result};
 use crate::field::{Partial, Reducer, flat, read, write};
-use crate::par::IndexedParallelIterator;
+use crate::par::Parts;
 use crate::problem::{Control, Problem, Window, smoothed_law};
 use crate::real::Real;
 use crate::solver::{Of, Potential, Solution, check_wall};

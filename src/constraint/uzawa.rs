@@ -7,7 +7,7 @@ use super::{ContactConstraint, Springs, Update, Wall};
 use crate::error::Result;
 use crate::field::{CHUNK, Partial, Reducer, flat, read, write};
 use crate::grid::Grid;
-use crate::par::{self, IndexedParallelIterator};
+use crate::par::{self, Parts};
 use crate::real::Real;
 
 /// The springs are made so much stiffer where more than this share of the interpenetration is left after a round.

@@ -92,9 +92,8 @@ fn padded(n: usize) -> usize {
 /// The displacement of every node by a unit pressure on the cell of node (0, 0), at the shorter distance.
 fn kernel(shape: (usize, usize), (a, b): (f64, f64), modulus: f64) -> Array2<f64> {
     let mut kernel = Array2::zeros(shape);
-    let rows: Vec<usize> = (0..shape.0).collect();
-    par::for_each(par::chunks_mut(field::flat_mut(&mut kernel), shape.1), par::chunks(&rows, 1), |row, index| {
-        let x = 2.0 * a * index[0].min(shape.0 - index[0]) as f64;
+    par::for_each(par::chunks_mut(field::flat_mut(&mut kernel), shape.1), |i, row| {
+        let x = 2.0 * a * i.min(shape.0 - i) as f64;
         for (j, value) in row.iter_mut().enumerate() {
             let y = 2.0 * b * j.min(shape.1 - j) as f64;
             *value = love((x, y), (a, b)) / (PI * modulus);

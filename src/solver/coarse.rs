@@ -1,9 +1,9 @@
 //! The coarse space of a solve: when it is told where the contacts are.
 
-use ndarray::{Array2, Axis};
+use ndarray::Array2;
 
 use crate::elastic::{CoarseSpace, ElasticOperator};
-use crate::par::{self, IndexedParallelIterator};
+use crate::par::{self, Parts};
 use crate::real::Real;
 
 /// The dimension of the space over the cube root of the number of nodes: then its decomposition takes 21 multiplications
@@ -30,8 +30,6 @@ pub(super) struct Coarse {
     contact: Vec<f64>,
     /// the same from each row of blocks, for this row and the next
     rows: Vec<f64>,
-    /// the first node of each row of blocks
-    firsts: Vec<usize>,
     /// whether the space has a contact map
     ready: bool,
     /// the iteration of the next renewal
@@ -44,10 +42,9 @@ impl Coarse {
     pub(super) fn of<T: Real>(operator: &dyn ElasticOperator<T>) -> Option<Self> {
         let nodes = operator.grid().nodes() as f64;
         let space = operator.coarse_space((DIMENSION * nodes.cbrt()) as usize)?;
-        let ([block, blocks], ny) = (space.blocks(), operator.grid().shape().1);
-        let firsts = (0..blocks.0).map(|row| row * block.0 * ny).collect();
+        let [_, blocks] = space.blocks();
         let [contact, rows] = [1, 2].map(|rows| vec![0.0; rows * blocks.0 * blocks.1]);
-        Some(Self { space, contact, rows, firsts, ready: false, due: 0, interval: INTERVAL })
+        Some(Self { space, contact, rows, ready: false, due: 0, interval: INTERVAL })
     }
 
     /// Whether the contact map is to be taken in an iteration; the first one waits until the contacts have settled.
@@ -88,17 +85,17 @@ impl Coarse {
     fn map<T: Real>(&mut self, field: &Array2<T>, touches: impl Fn(usize, T) -> bool + Sync + Send) -> bool {
         let ([block, blocks], ny) = (self.space.blocks(), field.ncols());
         let share = (field.len() as f64).recip();
-        let rows = field.axis_chunks_iter(Axis(0), block.0);
+        let rows = par::tiles(field.view(), 0, block.0);
         // for each row of blocks: its own share, and that of the next row
-        let shares = par::chunks_mut(&mut self.rows, 2 * blocks.1).zip(par::chunks(&self.firsts, 1));
-        par::for_each(rows, shares, |nodes, (shares, first)| {
+        let shares = par::chunks_mut(&mut self.rows, 2 * blocks.1);
+        par::for_each(rows.zip(shares), |row_of_blocks, (nodes, shares)| {
             shares.fill(0.0);
             let (here, next) = shares.split_at_mut(blocks.1);
             for (i, row) in nodes.rows().into_iter().enumerate() {
                 let down = i as f64 / nodes.nrows() as f64;
                 for (k, nodes) in row.to_slice().unwrap_or_default().chunks(block.1).enumerate() {
                     let (mut count, mut offsets) = (0, 0);
-                    let first = first[0] + i * ny + k * block.1;
+                    let first = (row_of_blocks * block.0 + i) * ny + k * block.1;
                     for (j, &node) in nodes.iter().enumerate() {
                         let touches = usize::from(touches(first + j, node));
                         count += touches;

@@ -9,7 +9,7 @@ use super::state::State;
 use crate::elastic::Boundary;
 use crate::error::Result;
 use crate::field::{Partial, read, write};
-use crate::par::IndexedParallelIterator;
+use crate::par::Parts;
 use crate::problem::{Load, mu_rho};
 use crate::real::Real;
 

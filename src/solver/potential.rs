@@ -4,7 +4,7 @@
 use crate::adhesion::{AdhesionLaw, NoAdhesion};
 use crate::constraint::{ContactConstraint, Wall};
 use crate::field::{CHUNK, Nodes, Partial, Reducer};
-use crate::par::IndexedParallelIterator;
+use crate::par::Parts;
 use crate::problem::Window;
 use crate::real::Real;
 
@@ -64,11 +64,11 @@ impl<'a, T: Real> Potential<'a, T> {
 
     /// Runs a pass `f(potential, first node, nodes)` over the chunks, as [`Reducer::run`]: in pieces of which all nodes
     /// face the surface, or none does. The first node is that on the surface's grid.
-    pub(crate) fn run<A: IndexedParallelIterator<Item: Nodes>>(
+    pub(crate) fn run<A: Parts<Part: Nodes>>(
         &self,
         reducer: &mut Reducer,
         chunks: A,
-        f: impl Fn(&Self, usize, A::Item) -> Partial + Sync + Send,
+        f: impl Fn(&Self, usize, A::Part) -> Partial + Sync + Send,
     ) -> Partial {
         match self.window {
             None => reducer.run(chunks, |first, chunk| f(self, first, chunk)),
@@ -77,13 +77,13 @@ impl<'a, T: Real> Potential<'a, T> {
     }
 
     /// Runs a pass over the chunks whose kept number is `wanted`, as [`Reducer::run_where`].
-    pub(crate) fn run_where<A: IndexedParallelIterator<Item: Nodes>>(
+    pub(crate) fn run_where<A: Parts<Part: Nodes>>(
         &self,
         reducer: &mut Reducer,
         kept: &[f64],
         wanted: impl Fn(f64) -> bool + Sync + Send,
         chunks: A,
-        f: impl Fn(&Self, usize, A::Item) -> Partial + Sync + Send,
+        f: impl Fn(&Self, usize, A::Part) -> Partial + Sync + Send,
     ) -> Partial {
         match self.window {
             None => reducer.run_where(kept, wanted, chunks, |first, chunk| f(self, first, chunk)),

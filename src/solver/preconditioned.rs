@@ -5,7 +5,7 @@ use super::potential::{CLOSER, Potential};
 use super::state::{Left, Made, Residual, State};
 use crate::error::Result;
 use crate::field::{CHUNK, Partial, read, write};
-use crate::par::IndexedParallelIterator;
+use crate::par::Parts;
 use crate::real::{Real, cast};
 
 /// The number of attempts at a descending step before the solve has stalled.

@@ -4,7 +4,7 @@ use super::passes::Fields;
 use super::state::State;
 use crate::error::Result;
 use crate::field::{Partial, read, write};
-use crate::par::IndexedParallelIterator;
+use crate::par::Parts;
 use crate::problem::Load;
 use crate::real::{Real, cast};
 

@@ -15,7 +15,7 @@ use crate::constraint::ContactConstraint;
 use crate::elastic::{Boundary, Foundation};
 use crate::error::{Error, Result};
 use crate::field::{Partial, read, write};
-use crate::par::IndexedParallelIterator;
+use crate::par::Parts;
 use crate::problem::{Control, Load, PressedFlat, Window};
 use crate::real::Real;
 

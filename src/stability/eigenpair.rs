@@ -5,7 +5,7 @@ use ndarray::Array2;
 use super::hessian::Hessian;
 use crate::error::Result;
 use crate::field::{Partial, read};
-use crate::par::IndexedParallelIterator;
+use crate::par::Parts;
 use crate::real::Real;
 
 /// An eigenpair, and the accuracy to which it was found.

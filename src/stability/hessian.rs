@@ -5,7 +5,7 @@ use ndarray::Array2;
 use crate::elastic::{ElasticOperator, Foundation};
 use crate::error::Result;
 use crate::field::{self, Partial, Reducer, read, write};
-use crate::par::IndexedParallelIterator;
+use crate::par::Parts;
 use crate::problem::Load;
 use crate::real::Real;
 

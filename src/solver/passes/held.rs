@@ -7,7 +7,7 @@
 
 use super::Fields;
 use crate::field::{CHUNK, read, write};
-use crate::par::IndexedParallelIterator;
+use crate::par::Parts;
 use crate::real::{Real, cast};
 use crate::solver::potential::{Of, Potential};
 use crate::vector::sums;

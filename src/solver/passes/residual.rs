@@ -3,7 +3,7 @@
 use super::tally::tractions;
 use super::{Fields, count, idles};
 use crate::field::{CHUNK, Partial, read, write};
-use crate::par::IndexedParallelIterator;
+use crate::par::Parts;
 use crate::real::{Real, cast};
 use crate::solver::potential::Potential;
 use crate::vector::sums;

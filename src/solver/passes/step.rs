@@ -6,7 +6,7 @@ use super::residual::{Continued, Working, release_chunk};
 use super::tally::{PRODUCT, Tally, tally_local, tally_of, tractions};
 use super::{Fields, count, idles};
 use crate::field::{CHUNK, Partial, SUMS, read, write};
-use crate::par::IndexedParallelIterator;
+use crate::par::Parts;
 use crate::real::{Real, cast};
 use crate::solver::potential::{Least, Of, Potential};
 use crate::vector::{sums, vectors};

@@ -4,7 +4,7 @@ use ndarray::Array2;
 
 use super::{Fields, count};
 use crate::field::{CHUNK, Partial, read};
-use crate::par::IndexedParallelIterator;
+use crate::par::Parts;
 use crate::real::Real;
 use crate::solver::potential::{Of, Potential};
 use crate::vector::sums;
