@@ -74,6 +74,8 @@ impl Chart {
             .x_desc(self.axes[0])
             .y_desc(self.axes[1])
             .label_style(("sans-serif", 15))
+            .x_label_formatter(&label)
+            .y_label_formatter(&label)
             .draw()?;
         for Series { name, colour, style, points } in &self.series {
             let line = colour.stroke_width(if *style == Style::Line { 3 } else { 1 });
@@ -96,4 +98,9 @@ impl Chart {
         legend(&mut chart, self.labels.clone())?;
         Ok(())
     }
+}
+
+/// A number without the rounding of its steps, nor the sign of zero.
+fn label(value: &f64) -> String {
+    ((1e6 * value).round() / 1e6 + 0.0).to_string()
 }
