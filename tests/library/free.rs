@@ -523,7 +523,7 @@ fn a_tension_beyond_the_pull_off_detaches_and_one_below_it_holds() {
     assert_eq!((lost.status, lost.contact_nodes, lost.reaches_edge), (Status::Detached, 0, false));
     assert!((lost.normal_force / pull_off + 1.1).abs() < 1e-12 && lost.carried_pressure.abs() < 1e-3 * pull_off);
     // a search for a hold at a few mean gaps, and none where the law itself holds less
-    assert!(lost.operator_applications < 300, "{}", lost.operator_applications);
+    assert!(lost.operator_applications < 350, "{}", lost.operator_applications);
     let strongest = work / range * 0.24 * 0.24;
     for force in [-1.1 * strongest, -1e3 * strongest] {
         let torn = Solver::default().solve(&mut problem, Control::Force(force)).unwrap().report;
