@@ -17,13 +17,13 @@ const SECTIONS: usize = 12;
 const GOLDEN: f64 = 0.618;
 
 /// Gaps at which the law is asked for its strongest traction.
-const SAMPLES: usize = 100;
+const SAMPLES: usize = 1000;
 
 /// How much more than concave functions the tension may rise between mean gaps at which it is known.
 const RISE: f64 = 2.0;
 
 /// The excess over the strongest of the sampled tractions that there may be between the samples.
-const BETWEEN: f64 = 1.05;
+const BETWEEN: f64 = 1.1;
 
 /// The distance at which surfaces are held apart, and the largest one at which a hold is sought, in ranges of adhesion
 /// beyond the heights.
