@@ -6,7 +6,7 @@
 
 use ndarray::{Array2, ArrayView2, Axis, Zip};
 
-use crate::adhesion::AdhesionLaw;
+use crate::adhesion::{AdhesionLaw, noticeable};
 use crate::elastic::Boundary;
 use crate::error::{Error, Result};
 use crate::grid::Grid;
@@ -24,9 +24,6 @@ pub use patch::Patch;
 /// The excess area of a contact map per edge between a node in contact and one that is not, in cells: (π − 1 + ln
 /// 2)/24.
 const EDGE_EXCESS: f64 = (std::f64::consts::PI - 1.0 + std::f64::consts::LN_2) / 24.0;
-
-/// The share of w/ρ that the adhesive traction must exceed where surfaces are said to attract each other.
-const NOTICEABLE: f64 = 0.01;
 
 impl<T: Real> Solution<T> {
     /// The contact map: true at nodes without a gap (g ≤ 0) and at nodes with a contact pressure (λ > 0).
@@ -244,8 +241,7 @@ impl ContactStatistics {
         let attracts = if law.is_zero() {
             vec![false; gap.len()]
         } else {
-            let scale = (law.work_of_adhesion() / law.range()).widen();
-            let least = T::lit(if scale.is_finite() { NOTICEABLE * scale } else { 0.0 });
+            let least = T::lit(noticeable(law));
             let gaps: Vec<T> = gap.iter().map(|gap| gap.max(T::zero())).collect();
             let mut tractions = vec![T::zero(); gaps.len()];
             law.tractions(0, &gaps, &mut tractions);
