@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use asperity::io::{read_topography, write_topography};
-use asperity::{Topography, Trend};
+use asperity::{RowAlignment, ScanAxis, Topography, Trend};
 use clap::{Args, ValueEnum};
 use serde_json::json;
 
@@ -21,7 +21,7 @@ use crate::scene::Scene;
 /// A measurement has missing points, a tilt, and edges that do not meet; a surface that is solved is complete and
 /// periodic. Nothing is done that is not asked for, and each step is told in a line; FILE.scene.toml beside the result
 /// repeats them. Whatever the order of the options, the steps are: --lengths, --scale, --unit, --crop, --flip,
-/// --detrend, --fill, --window or --mirror, --resample.
+/// --align-rows, --detrend, --fill, --window or --mirror, --resample.
 #[derive(Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Options {
@@ -44,9 +44,17 @@ pub struct Options {
     /// Turn peaks into valleys: for a replica
     #[arg(long)]
     flip: bool,
-    /// Subtract the least-squares fit to all measured points
-    #[arg(long, value_enum)]
-    detrend: Option<Order>,
+    /// Bring the scan lines of an AFM to one height: median (of each line), median-difference (from line to line, for
+    /// large features) or polynomial:ORDER (of each line; ORDER is 1 if it is left out)
+    #[arg(long, value_name = "METHOD", value_parser = alignment)]
+    align_rows: Option<RowAlignment>,
+    /// Direction of the scan lines of --align-rows [default: x]
+    #[arg(long, value_enum, requires = "align_rows")]
+    scan_axis: Option<Scan>,
+    /// Subtract the least-squares fit to all measured points: mean, plane, quadric (as of a sphere or a cylinder), or a
+    /// polynomial of this order, up to 12
+    #[arg(long, value_name = "TREND", allow_hyphen_values = true, value_parser = trend)]
+    detrend: Option<Trend>,
     /// Fill missing points smoothly from their surroundings, by Laplace's equation
     #[arg(long)]
     fill: bool,
@@ -82,23 +90,48 @@ const EXAMPLES: &str = "\
       --window 0.05 --resample 1024 1024 --out fine.npz";
 
 #[derive(Clone, Copy, ValueEnum)]
-enum Order {
-    /// the mean height
-    Mean,
-    /// a plane: the tilt
-    Plane,
-    /// a plane and curvatures, as of a sphere or a cylinder
-    Quadric,
+enum Scan {
+    X,
+    Y,
 }
 
-impl Order {
-    fn trend(self) -> Trend {
+impl Scan {
+    fn axis(self) -> ScanAxis {
         match self {
-            Self::Mean => Trend::Mean,
-            Self::Plane => Trend::Plane,
-            Self::Quadric => Trend::Quadric,
+            Self::X => ScanAxis::X,
+            Self::Y => ScanAxis::Y,
         }
     }
+}
+
+/// A trend by its name or order.
+fn trend(text: &str) -> Result<Trend, String> {
+    match (text.trim(), order(text)) {
+        ("mean", _) => Ok(Trend::Mean),
+        ("plane", _) => Ok(Trend::Plane),
+        ("quadric", _) => Ok(Trend::Quadric),
+        (_, Some(order)) => Ok(Trend::Polynomial(order)),
+        _ => Err(format!("it must be mean, plane, quadric, or an order from 0 to {}", Trend::MOST)),
+    }
+}
+
+/// An alignment of scan lines by its name.
+fn alignment(text: &str) -> Result<RowAlignment, String> {
+    let (name, rest) = text.trim().split_once(':').unwrap_or((text.trim(), "1"));
+    match (name, order(rest)) {
+        ("median", _) if name == text.trim() => Ok(RowAlignment::Median),
+        ("median-difference", _) if name == text.trim() => Ok(RowAlignment::MedianDifference),
+        ("polynomial", Some(order)) => Ok(RowAlignment::Polynomial(order)),
+        _ => Err(format!(
+            "it must be median, median-difference, or polynomial:ORDER with an order from 0 to {}",
+            Trend::MOST
+        )),
+    }
+}
+
+/// The order of a polynomial.
+fn order(text: &str) -> Option<usize> {
+    text.trim().parse().ok().filter(|order| *order <= Trend::MOST)
 }
 
 /// Runs the command; always successful if it ends.
@@ -168,20 +201,19 @@ fn prepared(options: &Options, lines: &mut Vec<(&'static str, String)>) -> Outco
         map = map.flip();
         tell("flip", "peaks are valleys now".to_owned());
     }
-    if let Some(order) = options.detrend {
-        let (fit, before) = (map.fit(order.trend())?, rms(&map));
-        map = map.detrend(order.trend())?;
-        let per = if map.lengths.is_some() { "" } else { " per spacing" };
-        let mut text = format!("mean {} removed", quantity(fit.height, &map));
-        if !matches!(order, Order::Mean) {
-            let (x, y) = fit.slopes;
-            text = format!("tilt {}{per} along x, {}{per} along y removed", plain(x), plain(y));
-        }
-        if matches!(order, Order::Quadric) {
-            let (xx, xy, yy) = fit.curvatures;
-            text.push_str(&format!(", curvatures xx {}, xy {}, yy {}", plain(xx), plain(xy), plain(yy)));
-        }
-        tell("detrend", format!("{text}: rms height {} from {before}", rms(&map)));
+    if let Some(alignment) = options.align_rows {
+        let before = map.clone();
+        let ((nx, ny), scan) = (map.heights.dim(), options.scan_axis.unwrap_or(Scan::X));
+        map = map.align_rows(alignment, scan.axis())?;
+        let (axis, lines) = if scan.axis() == ScanAxis::X { ("x", ny) } else { ("y", nx) };
+        let by = changed(&before, &map);
+        tell("align-rows", format!("{lines} lines along {axis} {by}: rms height {} from {}", rms(&map), rms(&before)));
+    }
+    if let Some(trend) = options.detrend {
+        let before = map.clone();
+        map = map.detrend(trend)?;
+        let what = removed(trend, &before, &map)?;
+        tell("detrend", format!("{what}: rms height {} from {}", rms(&map), rms(&before)));
     }
     if options.fill {
         let (missing, nodes) = (map.missing(), map.heights.len());
@@ -214,6 +246,35 @@ fn prepared(options: &Options, lines: &mut Vec<(&'static str, String)>) -> Outco
         tell("left", format!("points are missing still, {holes}: add --fill before solving"));
     }
     Ok(map)
+}
+
+/// What a trend takes away.
+fn removed(trend: Trend, before: &Topography, after: &Topography) -> Outcome<String> {
+    let fit = before.fit(trend)?;
+    let per = if before.lengths.is_some() { "" } else { " per spacing" };
+    let (x, y) = fit.slopes;
+    let tilt = format!("tilt {}{per} along x, {}{per} along y", plain(x), plain(y));
+    Ok(match trend {
+        Trend::Mean | Trend::Polynomial(0) => format!("mean {} removed", quantity(fit.height, before)),
+        Trend::Plane | Trend::Polynomial(1) => format!("{tilt} removed"),
+        Trend::Quadric | Trend::Polynomial(2) => {
+            let (xx, xy, yy) = fit.curvatures;
+            format!("{tilt} removed, curvatures xx {}, xy {}, yy {}", plain(xx), plain(xy), plain(yy))
+        }
+        Trend::Polynomial(order) => format!("polynomial of order {order} removed, heights {}", changed(before, after)),
+        _ => format!("trend removed, heights {}", changed(before, after)),
+    })
+}
+
+/// By how much measured heights have changed.
+fn changed(before: &Topography, after: &Topography) -> String {
+    let changes = before.heights.iter().zip(&after.heights).map(|(before, after)| after - before);
+    let (mut squares, mut most, mut count) = (0.0, 0.0, 0.0);
+    for change in changes.filter(|change| change.is_finite()) {
+        (squares, most, count) = (squares + change * change, f64::max(most, change.abs()), count + 1.0);
+    }
+    let rms = f64::sqrt(squares / f64::max(count, 1.0));
+    format!("changed by {} rms, by {} at most", quantity(rms, after), quantity(most, after))
 }
 
 /// Running out of memory cannot be caught later.

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use approx::assert_relative_eq;
 use ndarray::{Array2, Zip};
 
-use super::{Topography, Trend};
+use super::{RowAlignment, ScanAxis, Topography, Trend};
 use crate::error::Error;
 use crate::grid::Grid;
 use crate::surface::{Amplitude, SelfAffine, Surface};
@@ -294,4 +294,86 @@ fn what_cannot_be_is_refused() {
         Surface::new(Grid::new((6, 5), (6.0, 5.0)).unwrap(), full.heights.clone()).unwrap(),
         full.surface().unwrap()
     );
+}
+
+#[test]
+fn polynomials_of_any_order_are_removed_exactly() {
+    for order in 0..=Trend::MOST {
+        // all terms of the order, on oblong cells with holes
+        let whole = map((41, 33), (4.0, 1.0), |i, j| {
+            let (x, y) = ((i - 20.0) / 20.0, (j - 16.0) / 16.0);
+            (0..=order).map(|k| (1.0 + k as f64) * x.powi(k as i32) * y.powi((order - k) as i32)).sum::<f64>() + 7.0
+        });
+        let pierced = pierced(whole, |i, j| (3 * i + 5 * j).is_multiple_of(11) || i < 6 && j > 20);
+        let flat = pierced.clone().detrend(Trend::Polynomial(order)).unwrap();
+        assert!(flat.heights.iter().all(|h| !h.is_finite() || h.abs() < 1e-11), "order {order}");
+        if order > 0 {
+            let lower = pierced.detrend(Trend::Polynomial(order - 1)).unwrap();
+            assert!(lower.rms_height() > 1e-4, "order {order}: {}", lower.rms_height());
+        }
+    }
+    let map = rough((40, 36), 12.0);
+    for (trend, order) in [(Trend::Mean, 0), (Trend::Plane, 1), (Trend::Quadric, 2)] {
+        assert_eq!(map.fit(trend).unwrap(), map.fit(Trend::Polynomial(order)).unwrap());
+    }
+    let refused = map.detrend(Trend::Polynomial(13)).unwrap_err();
+    assert!(matches!(refused, Error::Value { name: "order of the trend", value: 13.0, .. }), "{refused}");
+}
+
+/// A rough map whose lines along x have offsets, with a lost line and lost points.
+fn scanned(offset: impl Fn(usize, usize) -> f64) -> Topography {
+    let mut map = pierced(rough((60, 41), 12.0), |i, j| j == 17 || (7 * i + 3 * j).is_multiple_of(29));
+    map.heights.indexed_iter_mut().for_each(|((i, j), h)| *h += offset(i, j));
+    map
+}
+
+#[test]
+fn aligned_rows_do_not_know_of_offsets_between_lines() {
+    let drift = |j: usize| 30.0 * (1.3 * j as f64).sin() + j as f64;
+    let (even, uneven) = (scanned(|_, _| 0.0), scanned(|_, j| drift(j)));
+    for alignment in [RowAlignment::Median, RowAlignment::MedianDifference, RowAlignment::Polynomial(0)] {
+        let [a, b] = [&even, &uneven].map(|map| map.clone().align_rows(alignment, ScanAxis::X).unwrap());
+        assert_relative_eq!(a.mean(), even.mean(), epsilon = 1e-12);
+        assert_relative_eq!(b.mean(), uneven.mean(), max_relative = 1e-12);
+        // the same but for the mean height of the drift, with the rounding of heights of 70
+        let shift = b.mean() - a.mean();
+        for (a, b) in a.heights.iter().zip(&b.heights) {
+            assert!(a.is_nan() && b.is_nan() || (b - a - shift).abs() < 1e-12, "{alignment:?}: {a} {b}");
+        }
+        // lines along y are another matter
+        let mut turned = uneven.clone();
+        turned.heights = turned.heights.reversed_axes();
+        let turned = turned.align_rows(alignment, ScanAxis::Y).unwrap();
+        assert!(turned.heights.t().iter().zip(&b.heights).all(|(a, b)| a.is_nan() && b.is_nan() || a == b));
+        assert_ne!(uneven.clone().align_rows(alignment, ScanAxis::Y).unwrap(), b);
+    }
+    // tilts and bows of each line, too
+    let bent = scanned(|i, j| drift(j) + (j as f64).cos() * i as f64 + 0.1 * (j as f64).sin() * (i * i) as f64);
+    let [a, b] = [&even, &bent].map(|map| map.clone().align_rows(RowAlignment::Polynomial(2), ScanAxis::X).unwrap());
+    let shift = b.mean() - a.mean();
+    for (a, b) in a.heights.iter().zip(&b.heights) {
+        assert!(a.is_nan() && b.is_nan() || (b - a - shift).abs() < 1e-9, "{a} {b}");
+    }
+    assert!(matches!(
+        bent.align_rows(RowAlignment::Polynomial(13), ScanAxis::X),
+        Err(Error::Value { value: 13.0, .. })
+    ));
+}
+
+#[test]
+fn differences_of_lines_keep_a_large_feature_that_medians_flatten() {
+    // a plateau that grows by two nodes from line to line, until it covers most of them, on lines with offsets
+    let plateau = |i: f64, j: f64| if j > 12.0 && i + 2.0 * (j - 12.0) > 40.0 { 5.0 } else { 0.0 };
+    let offset = |j: f64| 20.0 * (2.0 * j).cos();
+    let map = map((40, 30), (1.0, 1.0), |i, j| plateau(i, j) + offset(j) + 0.1 * (3.0 * i + 7.0 * j).sin());
+    // beside the plateau, the last lines above the first: 0 but for the noise, or its height below
+    let beside = |alignment| {
+        let heights = map.clone().align_rows(alignment, ScanAxis::X).unwrap().heights;
+        let mean = |lines| {
+            heights.select(ndarray::Axis(1), lines).rows().into_iter().take(5).map(|r| r.sum()).sum::<f64>() / 25.0
+        };
+        mean(&[25, 26, 27, 28, 29]) - mean(&[5, 6, 7, 8, 9])
+    };
+    let (medians, differences) = (beside(RowAlignment::Median), beside(RowAlignment::MedianDifference));
+    assert!((medians + 5.0).abs() < 0.5 && differences.abs() < 0.5, "{medians} {differences}");
 }
