@@ -9,21 +9,27 @@ use crate::error::{Error, Result};
 use crate::grid::Grid;
 use crate::surface::Surface;
 
+mod despike;
 mod fill;
+mod form;
+mod missing;
 mod resample;
 mod rows;
 #[cfg(test)]
 mod tests;
 mod trend;
 
+pub use despike::Spikes;
+pub use form::{Form, FormFit};
 pub use rows::{RowAlignment, ScanAxis};
 pub use trend::{Fit, Trend};
 
 /// A measured map of heights on its way to a [`Surface`]: points may be missing, side lengths and unit unknown.
 ///
 /// A surface is periodic and complete; a measurement is neither. Each step between the two is a method of its own, and
-/// nothing is done unasked: [`align_rows`](Self::align_rows) of a scan, [`fill`](Self::fill) missing points,
-/// [`detrend`](Self::detrend), make the map periodic by
+/// nothing is done unasked: take codes for [`missing`](Self::declare_missing) points, [`align_rows`](Self::align_rows)
+/// of a scan, [`despike`](Self::despike), [`remove_form`](Self::remove_form), [`detrend`](Self::detrend),
+/// [`fill`](Self::fill) missing points, make the map periodic by
 /// [`window`](Self::window) or [`mirror`](Self::mirror), [`crop`](Self::crop) it, [`flip`](Self::flip) it, and
 /// [`resample`](Self::resample) it. Heights that are NaN or infinite are missing: all methods leave them missing, and
 /// out of their sums, but for `fill`, which gives them values, and `window` and `resample`, which refuse them.

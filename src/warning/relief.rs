@@ -8,7 +8,7 @@ use super::{CODES, FAR, LONE, SPIKE};
 /// Sides of fewer nodes tell nothing of tilt and edges: a few nodes may rise one after the other by chance.
 const LEAST_NODES: usize = 16;
 
-/// The lowest and the highest height, their counts, and the range of all other heights.
+/// The lowest and the highest of the heights that are not missing, their counts, and the range of all others.
 pub struct Extremes {
     pub low: f64,
     pub high: f64,
@@ -21,9 +21,10 @@ pub struct Extremes {
 impl Extremes {
     pub fn of(heights: &Array2<f64>) -> Self {
         let (low, high) = (f64::INFINITY, f64::NEG_INFINITY);
-        let (low, high) = heights.iter().fold((low, high), |(low, high), &h| (low.min(h), high.max(h)));
+        let known = || heights.iter().filter(|h| h.is_finite());
+        let (low, high) = known().fold((low, high), |(low, high), &h| (low.min(h), high.max(h)));
         let mut found = Self { low, high, low_count: 0, high_count: 0, rest: (f64::INFINITY, f64::NEG_INFINITY) };
-        for &h in heights {
+        for &h in known() {
             if h == low {
                 found.low_count += 1;
             } else if h == high {
@@ -40,8 +41,14 @@ impl Extremes {
         self.high - self.low
     }
 
+    /// The extreme values that stand for missing points, and at how many nodes.
+    pub fn codes(&self) -> Vec<(f64, usize)> {
+        let ends = [(self.low, self.low_count), (self.high, self.high_count)];
+        ends.into_iter().filter(|&(value, count)| self.is_code(value, count)).collect()
+    }
+
     /// Whether an extreme value stands for missing points: far outside the rest, and repeated or well known.
-    pub fn is_code(&self, value: f64, count: usize) -> bool {
+    fn is_code(&self, value: f64, count: usize) -> bool {
         let (low, high) = self.rest;
         let (span, distance) = (high - low, (low - value).max(value - high));
         // of two or three levels none is a code

@@ -3,25 +3,25 @@
 use std::path::PathBuf;
 
 use asperity::io::{read_topography, write_topography};
-use asperity::{RowAlignment, ScanAxis, Topography, Trend};
+use asperity::{Form, FormFit, RowAlignment, ScanAxis, Topography, Trend, Warning};
 use clap::{Args, ValueEnum};
 use serde_json::json;
 
-use crate::allowed::{nodes, positive};
+use crate::allowed::{finite, nodes, positive};
 use crate::heights::{given, holes, sides, warn_of_unread};
 use crate::numbers::plain;
 use crate::outcome::Outcome;
 use crate::output::OutputFile;
-use crate::printing::Printing;
-use crate::printing::say;
+use crate::printing::{Printing, complain, say};
 use crate::scene::Scene;
+use crate::warnings;
 
 /// Make a surface that can be solved of a measured map.
 ///
 /// A measurement has missing points, a tilt, and edges that do not meet; a surface that is solved is complete and
 /// periodic. Nothing is done that is not asked for, and each step is told in a line; FILE.scene.toml beside the result
-/// repeats them. Whatever the order of the options, the steps are: --lengths, --scale, --unit, --crop, --flip,
-/// --align-rows, --detrend, --fill, --window or --mirror, --resample.
+/// repeats them. Whatever the order of the options, the steps are: --lengths, --missing, --scale, --unit, --crop,
+/// --flip, --align-rows, --despike, --remove-form, --detrend, --fill, --window or --mirror, --resample.
 #[derive(Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Options {
@@ -32,6 +32,9 @@ pub struct Options {
     /// Side lengths, instead of the file's; LX alone means square cells
     #[arg(long, value_names = ["LX", "LY"], num_args = 1..=2, allow_negative_numbers = true, value_parser = positive)]
     lengths: Option<Vec<f64>>,
+    /// Value that stands for missing points, in the unit of the heights as they are read; may be repeated
+    #[arg(long, value_name = "CODE", value_delimiter = ',', allow_negative_numbers = true, value_parser = finite)]
+    missing: Vec<f64>,
     /// Multiply the heights, as by 1e-9 for nm where the side lengths are in m
     #[arg(long, value_name = "F", allow_hyphen_values = true, value_parser = positive)]
     scale: Option<f64>,
@@ -51,6 +54,14 @@ pub struct Options {
     /// Direction of the scan lines of --align-rows [default: x]
     #[arg(long, value_enum, requires = "align_rows")]
     scan_axis: Option<Scan>,
+    /// Give spikes the median of the 5 x 5 nodes around them, if they are farther from it than this many robust standard
+    /// deviations of all nodes [default: 10 if --despike stands alone]
+    #[arg(long, value_name = "THRESHOLD", num_args = 0..=1, default_missing_value = "10", value_parser = positive)]
+    #[arg(allow_negative_numbers = true)]
+    despike: Option<f64>,
+    /// Subtract the sphere or the circular cylinder that fits all measured points best
+    #[arg(long, value_enum, value_name = "FORM")]
+    remove_form: Option<Body>,
     /// Subtract the least-squares fit to all measured points: mean, plane, quadric (as of a sphere or a cylinder), or a
     /// polynomial of this order, up to 12
     #[arg(long, value_name = "TREND", allow_hyphen_values = true, value_parser = trend)]
@@ -85,9 +96,26 @@ const EXAMPLES: &str = "\
   A measured map, tilted and with missing points, pressed against a half-space of 1 GPa:
     asperity prepare measured.gsf --detrend plane --fill --mirror --out surface.npz
     asperity solve --heights surface.npz --modulus 1e9 --mean-pressure 1e6 --out results
+  An AFM map with offsets between its lines, and spikes:
+    asperity prepare afm.gwy --align-rows median --despike --detrend plane --mirror --out surface.npz
   Heights in nm of a map of 5 by 4 micrometres, a sphere subtracted, on a finer grid:
     asperity prepare heights.txt --scale 1e-9 --lengths 5e-6 4e-6 --unit m --detrend quadric \\
       --window 0.05 --resample 1024 1024 --out fine.npz";
+
+#[derive(Clone, Copy, ValueEnum)]
+enum Body {
+    Sphere,
+    Cylinder,
+}
+
+impl Body {
+    fn form(self) -> Form {
+        match self {
+            Self::Sphere => Form::Sphere,
+            Self::Cylinder => Form::Cylinder,
+        }
+    }
+}
 
 #[derive(Clone, Copy, ValueEnum)]
 enum Scan {
@@ -138,8 +166,8 @@ fn order(text: &str) -> Option<usize> {
 pub fn run(options: &Options, scene: &Scene) -> Outcome<bool> {
     scene.check_beside(&options.out, options.force)?;
     let file = OutputFile::create(&options.out, options.force)?;
-    let mut lines = Vec::new();
-    let map = prepared(options, &mut lines)?;
+    let (mut lines, mut warnings) = (Vec::new(), Vec::new());
+    let map = prepared(options, &mut lines, &mut warnings)?;
     file.write(|path| write_topography(path, &map))?;
     let scene_file = scene.written_beside(&options.out)?;
     file.commit()?;
@@ -153,6 +181,7 @@ pub fn run(options: &Options, scene: &Scene) -> Outcome<bool> {
             "lengths": map.lengths,
             "length_unit": map.unit,
             "steps": lines.iter().map(|(step, text)| json!({ "step": step, "what": text })).collect::<Vec<_>>(),
+            "warnings": warnings::report(&warnings),
             "version": env!("CARGO_PKG_VERSION"),
         })
     });
@@ -174,7 +203,11 @@ fn unit(text: &str) -> Result<String, String> {
 }
 
 /// Takes the steps, and tells them.
-fn prepared(options: &Options, lines: &mut Vec<(&'static str, String)>) -> Outcome<Topography> {
+fn prepared(
+    options: &Options,
+    lines: &mut Vec<(&'static str, String)>,
+    warnings: &mut Vec<Warning>,
+) -> Outcome<Topography> {
     let mut map = read_topography(&options.input)?;
     let mut tell = |step: &'static str, text: String| lines.push((step, text));
     tell("read", described(&map));
@@ -185,6 +218,14 @@ fn prepared(options: &Options, lines: &mut Vec<(&'static str, String)>) -> Outco
         tell("lengths", format!("{}, before {before}", sides(lengths, map.unit.as_deref())));
     }
     warn_of_unread(&options.input, &map, "stay unknown");
+    for code in &options.missing {
+        let before = map.missing();
+        map = map.declare_missing(*code);
+        let (found, nodes) = (map.missing() - before, map.heights.len());
+        tell("missing", format!("{} stood at {found} of {nodes} points: rms height {}", plain(*code), rms(&map)));
+    }
+    warnings.extend(Warning::of_topography(&map));
+    warnings.iter().for_each(|warning| complain("warning", &warning.to_string()));
     if let Some(factor) = options.scale {
         map.heights.mapv_inplace(|h| factor * h);
         tell("scale", format!("heights times {}: rms height {}", plain(factor), rms(&map)));
@@ -208,6 +249,25 @@ fn prepared(options: &Options, lines: &mut Vec<(&'static str, String)>) -> Outco
         let (axis, lines) = if scan.axis() == ScanAxis::X { ("x", ny) } else { ("y", nx) };
         let by = changed(&before, &map);
         tell("align-rows", format!("{lines} lines along {axis} {by}: rms height {} from {}", rms(&map), rms(&before)));
+    }
+    if let Some(threshold) = options.despike {
+        let (spikes, before, nodes) = (map.spikes(threshold)?, rms(&map), map.heights.len());
+        map = map.despike(threshold)?;
+        let limit = quantity(spikes.limit, &map);
+        let what = match spikes.worst {
+            Some(((i, j), distance)) => format!(
+                "{} of {nodes} points beyond {limit} from the median around them have it now, the worst by {} at index [{i}, {j}]",
+                spikes.nodes.len(),
+                quantity(distance, &map)
+            ),
+            None => format!("none of {nodes} points is beyond {limit} from the median around it"),
+        };
+        tell("despike", format!("{what}: rms height {} from {before}", rms(&map)));
+    }
+    if let Some(body) = options.remove_form {
+        let (fit, before) = (map.fit_form(body.form())?, rms(&map));
+        map = map.remove_form(body.form())?;
+        tell("remove-form", format!("{} removed: rms height {} from {before}", described_form(&fit, &map), rms(&map)));
     }
     if let Some(trend) = options.detrend {
         let before = map.clone();
@@ -246,6 +306,18 @@ fn prepared(options: &Options, lines: &mut Vec<(&'static str, String)>) -> Outco
         tell("left", format!("points are missing still, {holes}: add --fill before solving"));
     }
     Ok(map)
+}
+
+/// A sphere, or a cylinder and its direction.
+fn described_form(fit: &FormFit, map: &Topography) -> String {
+    let (radius, side) = (quantity(fit.radius.abs(), map), if fit.radius > 0.0 { "upwards" } else { "downwards" });
+    match fit.axis {
+        None => format!("sphere of radius {radius}, bulging {side},"),
+        Some(axis) => {
+            let degrees = plain(axis.to_degrees());
+            format!("cylinder of radius {radius}, bulging {side}, its axis at {degrees} degrees from x,")
+        }
+    }
 }
 
 /// What a trend takes away.
