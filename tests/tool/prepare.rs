@@ -188,13 +188,14 @@ fn what_cannot_be_prepared_is_refused_and_nothing_is_written() {
     }
 }
 
-/// Written by numpy 2.4 and gsffile 0.5: h = i + 10 j on 4 x 3 nodes of 2 by 3 µm, and [2, 1] is missing.
+/// Written by numpy 2.4, gsffile 0.5 and gwyfile 0.2: h = i + 10 j on 4 x 3 nodes of 2 by 3 µm, and [2, 1] is missing.
 #[test]
 fn files_of_others_have_their_heights_where_they_belong() {
     for (name, scale, lengths, unit) in [
         ("map.npz", 1.0, Some((2e-6, 3e-6)), Some("m")),
         ("map-deflated.npz", 1.0, Some((2.0, 3.0)), Some("\u{b5}m")),
         ("map.gsf", 1.0, Some((2e-6, 3e-6)), Some("m")),
+        ("map.gwy", 1.0, Some((2e-6, 3e-6)), Some("m")),
         ("bare.gsf", 1.0, None, None),
         ("gwyddion.txt", 1e-9, Some((2e-6, 3e-6)), Some("m")),
         ("map.xyz", 1.0, Some((2.0, 3.0)), None),

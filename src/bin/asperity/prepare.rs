@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use asperity::io::{read_topography, write_topography};
+use asperity::io::{read_channel, read_topography, write_topography};
 use asperity::{Form, FormFit, RowAlignment, ScanAxis, Topography, Trend, Warning};
 use clap::{Args, ValueEnum};
 use serde_json::json;
@@ -25,9 +25,13 @@ use crate::warnings;
 #[derive(Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Options {
-    /// The map: .npy, .npz, .gsf (Gwyddion), .xyz, Gwyddion's text export, or a text matrix
+    /// The map: .npy, .npz, .gwy or .gsf (Gwyddion), .xyz, Gwyddion's text export, or a text matrix
     #[arg(value_name = "IN")]
     input: PathBuf,
+
+    /// Channel of a .gwy file, by its number or its title, if several have heights
+    #[arg(long, value_name = "NAME")]
+    channel: Option<String>,
 
     /// Side lengths, instead of the file's; LX alone means square cells
     #[arg(long, value_names = ["LX", "LY"], num_args = 1..=2, allow_negative_numbers = true, value_parser = positive)]
@@ -208,7 +212,10 @@ fn prepared(
     lines: &mut Vec<(&'static str, String)>,
     warnings: &mut Vec<Warning>,
 ) -> Outcome<Topography> {
-    let mut map = read_topography(&options.input)?;
+    let mut map = match &options.channel {
+        Some(channel) => read_channel(&options.input, channel)?,
+        None => read_topography(&options.input)?,
+    };
     let mut tell = |step: &'static str, text: String| lines.push((step, text));
     tell("read", described(&map));
 
