@@ -186,7 +186,7 @@ fn a_code_is_guessed_and_named_but_not_taken_unasked() {
     let warned = |arguments: &str| {
         let output = bench.run(arguments);
         assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
-        (text(&output.stderr).to_owned(), text(&output.stdout).to_owned())
+        (text(&output.stderr), text(&output.stdout))
     };
     let (warning, said) = warned("prepare scan.npz --out a.npz --json");
     for part in ["warning: missing-code: -9999 stands at 20 nodes", "--missing -9999"] {
