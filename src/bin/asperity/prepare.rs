@@ -101,7 +101,8 @@ const EXAMPLES: &str = "\
     asperity prepare measured.gsf --detrend plane --fill --mirror --out surface.npz
     asperity solve --heights surface.npz --modulus 1e9 --mean-pressure 1e6 --out results
   An AFM map with offsets between its lines, and spikes:
-    asperity prepare afm.gwy --align-rows median --despike --detrend plane --mirror --out scan.npz
+    asperity prepare afm.gwy --align-rows median --despike --detrend plane --mirror \\
+      --out scan.npz
   Heights in nm of a map of 5 by 4 micrometres, a sphere subtracted, on a finer grid:
     asperity prepare heights.txt --scale 1e-9 --lengths 5e-6 4e-6 --unit m --detrend quadric \\
       --window 0.05 --resample 1024 1024 --out fine.npz";
