@@ -74,7 +74,11 @@ impl Warnings {
 
     /// The warnings as a report lists them.
     pub fn report(&self) -> Value {
-        let all = self.found.iter();
-        all.map(|warning| json!({ "code": warning.code.name(), "message": warning.message })).collect()
+        report(&self.found)
     }
+}
+
+/// Warnings as a report lists them.
+pub fn report(warnings: &[Warning]) -> Value {
+    warnings.iter().map(|warning| json!({ "code": warning.code.name(), "message": warning.message })).collect()
 }
