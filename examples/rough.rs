@@ -24,7 +24,7 @@ use std::path::{Path, PathBuf};
 
 use arguments::size_and_out;
 use asperity::contact::ContactStatistics;
-use asperity::picture::{Colouring, Map};
+use asperity::picture::{Colouring, DPI, Map};
 use asperity::{
     AdhesionLaw, Amplitude, Control, Exponential, Grid, Problem, SelfAffine, Solution, Solver, Start, Status, Surface,
     Sweep, Westergaard,
@@ -274,7 +274,7 @@ fn figure5(out: &Path, surface: &Surface) -> Outcome<()> {
         unit: Some("L"),
         ..Map::new(surface.heights().view(), grid, Colouring::Sequential)
     };
-    Ok(map.write_png(&out.join("figure5.png"))?)
+    Ok(map.draw(DPI)?.write(&out.join("figure5.png"))?)
 }
 
 /// Figures 6 and 7 of one solution.
@@ -297,7 +297,7 @@ fn maps(out: &Path, file: &str, title: &str, grid: Grid, solution: &Solution<f64
         unit: Some("E*"),
         ..Map::new(pressure.view(), grid, Colouring::Diverging)
     };
-    map.write_png(&out.join(format!("figure6-{file}.png")))?;
+    map.draw(DPI)?.write(&out.join(format!("figure6-{file}.png")))?;
 
     let found = ContactStatistics::of(solution, &grid, law)?;
     let least = 0.01 * law.work_of_adhesion() / law.range();
@@ -323,7 +323,7 @@ fn maps(out: &Path, file: &str, title: &str, grid: Grid, solution: &Solution<f64
         label: "apart 0, attraction 1, contact 2",
         ..Map::new(parts.view(), grid, Colouring::Sequential)
     };
-    Ok(map.write_png(&out.join(format!("figure7-{file}.png")))?)
+    Ok(map.draw(DPI)?.write(&out.join(format!("figure7-{file}.png")))?)
 }
 
 /// Which of the two loads is meant.

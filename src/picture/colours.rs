@@ -1,13 +1,13 @@
 //! Colours: from the values of a field to pixels.
 
 use colorous::{RED_BLUE, VIRIDIS};
-use embedded_graphics::pixelcolor::Rgb888;
 use ndarray::ArrayView2;
 
 use super::scale::TINY;
+use super::shape::Colour;
 
 /// The colour of values that are not finite, which is on none of the colour maps.
-pub(super) const MISSING: Rgb888 = Rgb888::new(201, 120, 199);
+pub(super) const MISSING: Colour = [201, 120, 199];
 
 /// Values of one sign that are all weaker than this share of the other sign's greatest are not shown.
 const NOISE: f64 = 1e-6;
@@ -44,18 +44,25 @@ pub(super) struct Colours {
     pub(super) extremes: (f64, f64),
     /// The values at the ends of the colour bar.
     pub(super) limits: (f64, f64),
+    /// Whether these were given.
+    given: bool,
 }
 
 impl Colours {
-    pub(super) fn new(values: ArrayView2<'_, f64>, colouring: Colouring) -> Self {
+    /// The colours of `values`, up to these `limits` where they are given.
+    pub(super) fn new(values: ArrayView2<'_, f64>, colouring: Colouring, limits: Option<(f64, f64)>) -> Self {
         let of_all = values.iter().filter(|v| drawable(**v));
         let extremes = of_all.fold(None, |range: Option<(f64, f64)>, v| {
             Some(range.map_or((*v, *v), |(low, high)| (low.min(*v), high.max(*v))))
         });
         let (low, high) = extremes.unwrap_or((0.0, 0.0));
-        let limits = match colouring {
-            Colouring::Sequential => widened(low, high),
-            Colouring::Diverging => {
+        let given = limits.is_some();
+        let limits = match (colouring, limits) {
+            (Colouring::Sequential, Some(limits)) => limits,
+            // each end is that of its sign
+            (Colouring::Diverging, Some((low, high))) => (low.min(0.0), high.max(0.0)),
+            (Colouring::Sequential, None) => widened(low, high),
+            (Colouring::Diverging, None) => {
                 let noise = NOISE * high.max(-low);
                 let end = |sign, largest| if largest > noise.max(TINY) { limit(values, sign, largest) } else { 0.0 };
                 match (-end(-1.0, -low), end(1.0, high)) {
@@ -63,9 +70,9 @@ impl Colours {
                     limits => limits,
                 }
             }
-            Colouring::Binary => (0.0, 1.0),
+            (Colouring::Binary, _) => (0.0, 1.0),
         };
-        Self { colouring, extremes: (low, high), limits }
+        Self { colouring, extremes: (low, high), limits, given }
     }
 
     /// The number that a value contributes to the average over a block of nodes.
@@ -77,13 +84,13 @@ impl Colours {
         }
     }
 
-    pub(super) fn of(&self, value: f64) -> Rgb888 {
+    pub(super) fn of(&self, value: f64) -> Colour {
         let (low, high) = self.limits;
         let colour = match self.colouring {
             _ if value.is_nan() => return MISSING,
             Colouring::Binary => {
                 let grey = (255.0 * (1.0 - value)).round() as u8;
-                return Rgb888::new(grey, grey, grey);
+                return [grey; 3];
             }
             Colouring::Sequential => VIRIDIS.eval_continuous((value - low) / (high - low)),
             // A sign without a scale is noise.
@@ -92,13 +99,13 @@ impl Colours {
                 RED_BLUE.eval_continuous(if end > 0.0 { 0.5 - 0.5 * value / end } else { 0.5 })
             }
         };
-        Rgb888::new(colour.r, colour.g, colour.b)
+        [colour.r, colour.g, colour.b]
     }
 
     /// Whether values are below the lower end of the colour bar, and above the upper end.
     pub(super) fn beyond(&self) -> (bool, bool) {
         let ((min, max), (low, high)) = (self.extremes, self.limits);
-        (low != 0.0 && min < low, high != 0.0 && max > high)
+        ((self.given || low != 0.0) && min < low, (self.given || high != 0.0) && max > high)
     }
 
     /// The ranges of values that share the colour bar equally.
@@ -111,6 +118,9 @@ impl Colours {
 
     /// The values on the axis of a curve.
     pub(super) fn range_of_curve(&self) -> (f64, f64) {
+        if self.given {
+            return self.limits;
+        }
         let (low, high) = self.extremes;
         let signed = self.colouring == Colouring::Diverging;
         let (low, high) = if signed { widened(low.min(0.0), high.max(0.0)) } else { widened(low, high) };
@@ -156,7 +166,6 @@ fn limit(values: ArrayView2<'_, f64>, sign: f64, largest: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use embedded_graphics::prelude::RgbColor;
     use ndarray::Array2;
 
     use super::*;
@@ -164,25 +173,25 @@ mod tests {
     #[test]
     fn each_sign_has_its_own_scale_and_zero_is_neutral() {
         let values = Array2::from_shape_fn((10, 10), |(i, _)| if i < 5 { -2.5e7 } else { 2e9 });
-        let colours = Colours::new(values.view(), Colouring::Diverging);
+        let colours = Colours::new(values.view(), Colouring::Diverging, None);
         assert_eq!((colours.limits, colours.beyond()), ((-2.5e7, 2e9), (false, false)));
         let zero = colours.of(0.0);
-        assert!([zero.r(), zero.g(), zero.b()].iter().all(|c| *c > 230));
+        assert!(zero.iter().all(|c| *c > 230));
         let (attraction, compression) = (colours.of(-2.5e7), colours.of(2e9));
-        assert!(attraction.b() > attraction.r() + 80 && compression.r() > compression.b() + 60);
+        assert!(attraction[2] > attraction[0] + 80 && compression[0] > compression[2] + 60);
     }
 
     #[test]
     fn a_singular_peak_is_cut_and_a_tail_of_noise_is_not() {
         let mut values = Array2::from_elem((100, 100), 1.0);
         values[[3, 4]] = 50.0;
-        let colours = Colours::new(values.view(), Colouring::Diverging);
+        let colours = Colours::new(values.view(), Colouring::Diverging, None);
         assert_eq!((colours.limits, colours.beyond()), ((0.0, 1.0), (false, true)));
         // Of 10 000 nodes, 5 are in contact: these, and not the noise, are the scale.
         let mut values = Array2::from_elem((100, 100), -1e-9);
         values.iter_mut().step_by(2).for_each(|v| *v = 1e-9);
         values.iter_mut().take(5).for_each(|v| *v = 3.0);
-        let colours = Colours::new(values.view(), Colouring::Diverging);
+        let colours = Colours::new(values.view(), Colouring::Diverging, None);
         assert_eq!((colours.limits, colours.beyond()), ((0.0, 3.0), (false, false)));
         assert_eq!(colours.of(-1e-9), colours.of(0.0));
     }
