@@ -26,7 +26,59 @@ const EDGE_EXCESS: f64 = (std::f64::consts::PI - 1.0 + std::f64::consts::LN_2) /
 /// The share of w/ρ that the adhesive traction must exceed where surfaces are said to attract each other.
 const NOTICEABLE: f64 = 0.01;
 
+/// What the two surfaces do to each other at a node.
+///
+/// As numbers these are the classes of [`Colouring::Contact`](crate::picture::Colouring::Contact): 1, −1, 0 and NaN.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Region {
+    /// They touch, as [`Solution::contact_map`] says.
+    Contact,
+    /// They attract each other without contact, as [`ContactStatistics::attractive_fraction`] counts it.
+    Attractive,
+    /// They do not notice each other.
+    Apart,
+    /// There is no surface: the node is [absent](crate::Surface::with_absent).
+    Absent,
+}
+
+impl From<Region> for f64 {
+    fn from(region: Region) -> Self {
+        match region {
+            Region::Contact => 1.0,
+            Region::Attractive => -1.0,
+            Region::Apart => 0.0,
+            Region::Absent => Self::NAN,
+        }
+    }
+}
+
 impl<T: Real> Solution<T> {
+    /// The region of each node: contact, attraction, neither, or no surface, under the law of the solution.
+    ///
+    /// ```
+    /// use asperity::contact::{ContactStatistics, Region};
+    /// use asperity::{Control, Exponential, Grid, Problem, Solver, Surface, Westergaard};
+    /// let (grid, law) = (Grid::square(64, 1.0)?, Exponential::new(1e-4, 4e-3)?);
+    /// let sphere = Surface::paraboloid(grid, 2.0)?;
+    /// let mut problem = Problem::new(&sphere, Westergaard::<f64>::new(grid, 1.0)?, law.clone())?;
+    /// let solution = Solver::default().solve(&mut problem, Control::MeanGap(0.0398))?;
+    /// let attracting = solution.regions(&law).iter().filter(|region| **region == Region::Attractive).count();
+    /// let statistics = ContactStatistics::of(&solution, &grid, &law)?;
+    /// assert_eq!(attracting as f64 / 4096.0, statistics.attractive_fraction);
+    /// # Ok::<(), asperity::Error>(())
+    /// ```
+    pub fn regions(&self, law: &impl AdhesionLaw<T>) -> Array2<Region> {
+        let attracts = attracting(self.gap.view(), law);
+        let contact = self.contact_map();
+        let mut nodes = contact.iter().zip(&self.gap).enumerate();
+        Array2::from_shape_simple_fn(self.gap.dim(), || match nodes.next() {
+            Some((_, (true, _))) => Region::Contact,
+            Some((_, (_, gap))) if !gap.is_finite() => Region::Absent,
+            Some((node, _)) if attracts.get(node) == Some(&true) => Region::Attractive,
+            _ => Region::Apart,
+        })
+    }
+
     /// The contact map: true at nodes without a gap (g ≤ 0) and at nodes with a contact pressure (λ > 0).
     ///
     /// This is what contact means everywhere: in [`Report::contact_nodes`](crate::Report::contact_nodes) and
@@ -48,6 +100,19 @@ impl<T: Real> Solution<T> {
     pub fn contact_map(&self) -> Array2<bool> {
         contact_map(self.gap.view(), self.contact_pressure.view())
     }
+}
+
+/// Whether the adhesive traction at each node is noticeable, whatever touches; empty without adhesion.
+fn attracting<T: Real>(gap: ArrayView2<'_, T>, law: &impl AdhesionLaw<T>) -> Vec<bool> {
+    if law.is_zero() {
+        return Vec::new();
+    }
+    let scale = (law.work_of_adhesion() / law.range()).widen();
+    let least = T::lit(if scale.is_finite() { NOTICEABLE * scale } else { 0.0 });
+    let gaps: Vec<T> = gap.iter().map(|gap| gap.max(T::zero())).collect();
+    let mut tractions = vec![T::zero(); gaps.len()];
+    law.tractions(0, &gaps, &mut tractions);
+    tractions.into_iter().map(|traction| traction > least).collect()
 }
 
 /// The contact map of a gap and a contact pressure of one shape.
@@ -219,16 +284,8 @@ impl ContactStatistics {
         let ContactArea { contact_nodes, contact_fraction, corrected_contact_fraction, perimeter } =
             ContactArea::within(contact.view(), grid, boundary, facing)?;
         let share = |count: usize| count as f64 / facing as f64;
-        let attracting = if law.is_zero() {
-            0
-        } else {
-            let scale = (law.work_of_adhesion() / law.range()).widen();
-            let least = T::lit(if scale.is_finite() { NOTICEABLE * scale } else { 0.0 });
-            let gaps: Vec<T> = gap.iter().map(|gap| gap.max(T::zero())).collect();
-            let mut tractions = vec![T::zero(); gaps.len()];
-            law.tractions(0, &gaps, &mut tractions);
-            contact.iter().zip(tractions).filter(|&(&touches, traction)| !touches && traction > least).count()
-        };
+        let attracts = attracting(gap, law);
+        let attracting = contact.iter().zip(attracts).filter(|(touches, attracts)| !**touches && *attracts).count();
         Ok(Self {
             contact_nodes,
             contact_fraction,

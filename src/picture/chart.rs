@@ -80,8 +80,8 @@ impl Chart<'_> {
     pub fn draw(&self, dpi: f64) -> Result<Picture> {
         let x = self.range(|point| point.0, self.x_log, self.x_unit);
         let y = self.range(|point| point.1, self.y_log, self.y_unit);
-        let below = Axis::new(&[x.part()], self.x_label, (SIZE.0 / STEP_BELOW) as i32);
-        let beside = Axis::new(&[y.part()], self.y_label, (SIZE.1 / STEP_BESIDE) as i32);
+        let below = Axis::new(&x.part(), self.x_label, (SIZE.0 / STEP_BELOW) as i32);
+        let beside = Axis::new(&y.part(), self.y_label, (SIZE.1 / STEP_BESIDE) as i32);
         let entries = self.curves.iter().zip(COLOURS.into_iter().cycle());
         let entry = |((name, _), colour): (&(&str, _), Colour)| Entry { colour, line: true, text: (*name).to_owned() };
         let legend = entries.map(entry).filter(|entry| !entry.text.is_empty()).collect();

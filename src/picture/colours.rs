@@ -4,10 +4,13 @@ use colorous::{RED_BLUE, VIRIDIS};
 use ndarray::ArrayView2;
 
 use super::scale::TINY;
-use super::shape::Colour;
+use super::shape::{BLACK, Colour, WHITE};
 
 /// The colour of values that are not finite, which is on none of the colour maps.
 pub(super) const MISSING: Colour = [201, 120, 199];
+
+/// The colour of attraction without contact.
+pub(super) const ATTRACTIVE: Colour = [107, 174, 214];
 
 /// Values of one sign that are all weaker than this share of the other sign's greatest are not shown.
 const NOISE: f64 = 1e-6;
@@ -22,19 +25,19 @@ pub enum Colouring {
     Sequential,
     /// Zero in light grey, positive values (compression) in red, negative ones (attraction) in blue.
     ///
-    /// Each sign has a scale of its own, so that an attraction much weaker than the compression is as
-    /// visible: the two halves of the colour bar have different scales, with the numbers of each. Only a
+    /// Each sign has a scale and a colour bar of its own, so that a tension of 50 MPa is seen beside a compression of
+    /// 5 GPa; [`Map::signs`](crate::picture::Map::signs) has the names of the two. Only a
     /// sign that nowhere reaches 1e-6 of the other, mere rounding, is drawn as zero.
     ///
     /// A scale ends at the greatest magnitude, unless a few nodes reach more than twice as far as all others
     /// (a singular peak). It then ends where the others do, and the colour bar has an arrow and the extreme
     /// value at this end.
     Diverging,
-    /// Black where the value is not zero, on white: contact.
+    /// Classes of contact: black where the value is positive (contact), blue where it is negative (attractive), and white
+    /// where it is zero (apart), with a legend; [`Solution::regions`](crate::Solution::regions) has them.
     ///
-    /// The legend calls black by [`Map::label`](crate::picture::Map::label), say "contact", and white "no contact".
-    /// On a map drawn with fewer pixels than nodes, grey is the share of black.
-    Binary,
+    /// On a map drawn with fewer pixels than nodes, the colours are mixed by the share of each.
+    Contact,
 }
 
 /// The colours of a field: its colouring, and the range of values that the colours cover.
@@ -70,27 +73,26 @@ impl Colours {
                     limits => limits,
                 }
             }
-            (Colouring::Binary, _) => (0.0, 1.0),
+            (Colouring::Contact, _) => (0.0, 1.0),
         };
         Self { colouring, extremes: (low, high), limits, given }
     }
 
-    /// The number that a value contributes to the average over a block of nodes.
+    /// A value, or NaN if it cannot be drawn.
     pub(super) fn shown(&self, value: f64) -> f64 {
-        match self.colouring {
-            _ if !drawable(value) => f64::NAN,
-            Colouring::Binary => f64::from(value != 0.0),
-            _ => value,
-        }
+        if drawable(value) { value } else { f64::NAN }
     }
 
     pub(super) fn of(&self, value: f64) -> Colour {
         let (low, high) = self.limits;
         let colour = match self.colouring {
             _ if value.is_nan() => return MISSING,
-            Colouring::Binary => {
-                let grey = (255.0 * (1.0 - value)).round() as u8;
-                return [grey; 3];
+            Colouring::Contact => {
+                return match value {
+                    0.0 => WHITE,
+                    _ if value < 0.0 => ATTRACTIVE,
+                    _ => BLACK,
+                };
             }
             Colouring::Sequential => VIRIDIS.eval_continuous((value - low) / (high - low)),
             // A sign without a scale is noise.
@@ -100,6 +102,19 @@ impl Colours {
             }
         };
         [colour.r, colour.g, colour.b]
+    }
+
+    /// The colour of a block of nodes: that of the mean of their values, or for classes the mean of their colours.
+    pub(super) fn of_block(&self, values: impl Iterator<Item = f64> + Clone) -> Colour {
+        let count = values.clone().count() as f64;
+        if self.colouring != Colouring::Contact {
+            return self.of(values.map(|value| self.shown(value)).sum::<f64>() / count);
+        }
+        let mut sums = [0.0; 3];
+        for colour in values.map(|value| self.of(self.shown(value))) {
+            sums.iter_mut().zip(colour).for_each(|(sum, part)| *sum += f64::from(part));
+        }
+        sums.map(|sum| (sum / count).round() as u8)
     }
 
     /// Whether values are below the lower end of the colour bar, and above the upper end.

@@ -4,7 +4,7 @@ use ndarray::ArrayView2;
 
 use super::Picture;
 use super::chart::{COLOURS, WIDTH, pieces};
-use super::colours::{Colouring, Colours, MISSING, drawable};
+use super::colours::{ATTRACTIVE, Colouring, Colours, MISSING, drawable};
 use super::frame::{
     Entry, LINE, MARGIN, NUMBERS, STEP_BELOW, STEP_BESIDE, Texts, draw_axis_below, draw_axis_beside, label_length, room,
 };
@@ -17,6 +17,8 @@ use crate::grid::Grid;
 const BAR: f64 = 11.0;
 const GAP: f64 = 15.0;
 const ARROW: f64 = 9.0;
+/// The distance between the bars of two signs.
+const SPLIT: f64 = 10.0;
 /// The pixels of a map to a point, for which its size is chosen.
 const PIXELS: f64 = 2.0;
 
@@ -67,12 +69,26 @@ pub struct Map<'a> {
     /// The values at the ends of the colour bar, as for maps that are to be compared; those of the field if `None`.
     /// With [`Colouring::Diverging`] each is that of its sign.
     pub limits: Option<(f64, f64)>,
+    /// The names of negative and of positive values, such as "tension" and "compression", at colour bars of their own; the
+    /// label stands at both if they are empty.
+    pub signs: [&'a str; 2],
 }
 
 impl<'a> Map<'a> {
     /// A map of `values` on `grid`, as yet without text or units.
     pub fn new(values: ArrayView2<'a, f64>, grid: Grid, colouring: Colouring) -> Self {
-        Self { values, grid, colouring, title: "", caption: "", length_unit: None, label: "", unit: None, limits: None }
+        Self {
+            values,
+            grid,
+            colouring,
+            title: "",
+            caption: "",
+            length_unit: None,
+            label: "",
+            unit: None,
+            limits: None,
+            signs: [""; 2],
+        }
     }
 
     /// Draws the map, for `dpi` pixels per inch: [`DPI`](super::DPI), or more.
@@ -93,14 +109,15 @@ impl<'a> Map<'a> {
         }
         let colours = Colours::new(self.values, self.colouring, self.limits);
         let (width, height) = self.size();
-        let (x, y, bar) = self.axes(&colours, width, height);
-        let bar_height = bar.as_ref().map_or(0.0, |bar| bar.height);
+        let (x, y, bars) = self.axes(&colours, width, height);
+        let bars_height = bars.iter().map(|bar| bar.place.1).fold(0.0, f64::max);
         let texts = Texts { title: self.title, caption: self.caption, legend: self.legend() };
 
         let left = 2.0 * MARGIN + y.as_ref().map_or(0.0, room);
-        let right = bar.as_ref().map_or(3.0 * MARGIN, |bar| GAP + BAR + bar.room() + MARGIN);
+        let bars_room = bars.iter().map(|bar| room(&bar.axis)).fold(0.0, f64::max);
+        let right = if bars.is_empty() { 3.0 * MARGIN } else { GAP + BAR + bars_room + MARGIN };
         let plot = Area::new(left, texts.above(), width, height);
-        let bottom = plot.top + height.max(bar_height - NUMBERS - LINE) + NUMBERS + LINE + MARGIN;
+        let bottom = plot.top + height.max(bars_height - NUMBERS - LINE) + NUMBERS + LINE + MARGIN;
         let across = left + (width + right).max(texts.widest() + MARGIN);
         let mut picture = Picture::new(self.title, (across.ceil(), bottom + texts.below()), dpi)?;
         if y.is_some() && self.is_line() {
@@ -114,8 +131,8 @@ impl<'a> Map<'a> {
         if let Some(y) = y {
             draw_axis_beside(&mut picture, &y, plot, -1.0, room(&y));
         }
-        if let Some(bar) = bar {
-            bar.draw(&mut picture, (plot.right() + GAP, plot.top), &colours);
+        for bar in bars {
+            bar.draw(&mut picture, (plot.right() + GAP, plot.top), bars_room, &colours);
         }
         texts.draw(&mut picture, left, bottom);
         Ok((picture, plot))
@@ -129,7 +146,7 @@ impl<'a> Map<'a> {
     /// The width and height of the map or curve.
     fn size(&self) -> (f64, f64) {
         match (self.is_line(), self.colouring) {
-            (true, Colouring::Binary) => (360.0, 30.0),
+            (true, Colouring::Contact) => (360.0, 30.0),
             (true, _) => (360.0, label_length(self.label).max(180.0)),
             _ => {
                 let (width, height) = map_size(self.grid.shape(), self.grid.lengths());
@@ -138,34 +155,66 @@ impl<'a> Map<'a> {
         }
     }
 
-    /// The axis below, the one at the left, and the colour bar.
-    fn axes(&self, colours: &Colours, width: f64, height: f64) -> (Axis, Option<Axis>, Option<Bar>) {
+    /// The axis below, the one at the left, and the colour bars.
+    fn axes(&self, colours: &Colours, width: f64, height: f64) -> (Axis, Option<Axis>, Vec<Bar>) {
         let (lx, ly) = self.grid.lengths();
         let (steps_below, steps_beside) = ((width / STEP_BELOW) as i32, (height / STEP_BESIDE) as i32);
         let across = |length: f64, longest: f64, name: &str| {
-            Axis::new(&[Part::side(length, longest, self.length_unit)], name, steps_below)
+            Axis::new(&Part::side(length, longest, self.length_unit), name, steps_below)
         };
-        let binary = self.colouring == Colouring::Binary;
+        let classes = self.colouring == Colouring::Contact;
         if self.is_line() {
             let (length, name) = if self.grid.is_line() { (lx, "x") } else { (ly, "y") };
             let (low, high) = colours.range_of_curve();
-            let values = Axis::new(&[Part::new(low, high, self.unit)], self.label, steps_beside);
-            return (across(length, length, name), (!binary).then_some(values), None);
+            let values = Axis::new(&Part::new(low, high, self.unit), self.label, steps_beside);
+            return (across(length, length, name), (!classes).then_some(values), Vec::new());
         }
-        let y = Axis::new(&[Part::side(ly, lx.max(ly), self.length_unit)], "y", steps_beside);
-        let bar = (!binary).then(|| Bar::new(colours, height.max(label_length(self.label)), self.label, self.unit));
-        (across(lx, lx.max(ly), "x"), Some(y), bar)
+        let y = Axis::new(&Part::side(ly, lx.max(ly), self.length_unit), "y", steps_beside);
+        let bars = if classes { Vec::new() } else { self.bars(colours, height) };
+        (across(lx, lx.max(ly), "x"), Some(y), bars)
+    }
+
+    /// A colour bar for all values, or one for each sign, the positive one on top.
+    fn bars(&self, colours: &Colours, height: f64) -> Vec<Bar> {
+        let ranges = colours.ranges();
+        let count = ranges.len();
+        let named = |sign: &str| if count == 2 && !sign.is_empty() { sign } else { self.label }.to_owned();
+        let names = self.signs.map(named);
+        let longest = names.iter().map(|name| label_length(name)).fold(0.0, f64::max);
+        let length = ((height - SPLIT * (count as f64 - 1.0)) / count as f64).max(longest);
+        let (below, above) = colours.beyond();
+        let bar = |(k, (range, name)): (usize, ((f64, f64), &String))| {
+            let top = (count - 1 - k) as f64 * (length + SPLIT);
+            let arrow = |there: bool| if there { ARROW } else { 0.0 };
+            let arrows = (arrow(below && k == 0), arrow(above && k + 1 == count));
+            let body = length - arrows.0 - arrows.1;
+            let mut axis = Axis::new(&Part::new(range.0, range.1, self.unit), name, (body / STEP_BESIDE) as i32);
+            for (there, share, extreme, value) in [
+                (arrows.0 > 0.0, -ARROW / body, "min", colours.extremes.0),
+                (arrows.1 > 0.0, 1.0 + ARROW / body, "max", colours.extremes.1),
+            ] {
+                if there {
+                    axis.ticks.push((share, format!("{extreme} {}", three_digits(value, self.unit))));
+                }
+            }
+            Bar { axis, range, place: (top, top + length), arrows }
+        };
+        ranges.into_iter().zip(&names).enumerate().map(bar).collect()
     }
 
     fn legend(&self) -> Vec<Entry> {
         let mut legend = Vec::new();
-        let mut entry = |colour, text: String| legend.push(Entry { colour, line: false, text });
-        if self.colouring == Colouring::Binary && !self.label.is_empty() {
-            entry(BLACK, self.label.to_owned());
-            entry(WHITE, format!("no {}", self.label));
+        let mut entry = |colour, text: &str| legend.push(Entry { colour, line: false, text: text.to_owned() });
+        let classes = self.colouring == Colouring::Contact;
+        if classes {
+            entry(BLACK, "contact");
+            if self.values.iter().any(|v| *v < 0.0) {
+                entry(ATTRACTIVE, "attractive");
+            }
+            entry(WHITE, "apart");
         }
         if self.values.iter().any(|v| !drawable(*v)) {
-            entry(MISSING, "not finite".to_owned());
+            entry(MISSING, if classes { "no surface" } else { "not finite" });
         }
         legend
     }
@@ -186,9 +235,8 @@ impl<'a> Map<'a> {
             let across = nodes(row, rows, ny);
             for column in 0..columns {
                 let along = nodes(column, columns, nx);
-                let count = along.len() * across.len();
-                let cells = along.flat_map(|ix| across.clone().map(move |iy| colours.shown(values[[ix, iy]])));
-                pixels.push(colours.of(cells.sum::<f64>() / count as f64));
+                let cells = along.flat_map(|ix| across.clone().map(move |iy| values[[ix, iy]]));
+                pixels.push(colours.of_block(cells));
             }
         }
         Image { area: plot, columns, pixels }
@@ -217,57 +265,33 @@ impl<'a> Map<'a> {
 /// A colour bar with its numbers, and an arrow at each end beyond which there are values.
 struct Bar {
     axis: Axis,
-    height: f64,
+    range: (f64, f64),
+    /// The top and the bottom, below the top of the map.
+    place: (f64, f64),
     /// The room for the arrows at the lower and the upper end.
     arrows: (f64, f64),
 }
 
 impl Bar {
-    fn new(colours: &Colours, height: f64, name: &str, unit: Option<&str>) -> Self {
-        let parts: Vec<_> = colours.ranges().into_iter().map(|(from, to)| Part::new(from, to, unit)).collect();
-        let mut axis = Axis::new(&parts, name, (height / STEP_BESIDE) as i32);
-        let (below, above) = colours.beyond();
-        let arrows = (if below { ARROW } else { 0.0 }, if above { ARROW } else { 0.0 });
-        let tip = ARROW / (height - arrows.0 - arrows.1);
-        if below {
-            axis.ticks.push((-tip, format!("min {}", three_digits(colours.extremes.0, unit))));
-        }
-        if above {
-            axis.ticks.push((1.0 + tip, format!("max {}", three_digits(colours.extremes.1, unit))));
-        }
-        Self { axis, height, arrows }
-    }
-
-    fn room(&self) -> f64 {
-        room(&self.axis)
-    }
-
-    fn draw(&self, picture: &mut Picture, (left, top): (f64, f64), colours: &Colours) {
-        let body = Area::new(left, top + self.arrows.1, BAR, self.height - self.arrows.0 - self.arrows.1);
-        let ranges = colours.ranges();
-        // two pixels for each point, in whole parts
+    fn draw(&self, picture: &mut Picture, (left, top): (f64, f64), room: f64, colours: &Colours) {
+        let (top, bottom) = (top + self.place.0, top + self.place.1);
+        let body = Area::new(left, top + self.arrows.1, BAR, bottom - top - self.arrows.0 - self.arrows.1);
         let rows = (PIXELS * body.height).round() as usize;
         let shade = |row: usize| {
-            let along = (rows as f64 - row as f64 - 0.5) / rows as f64 * ranges.len() as f64;
-            let (from, to) = ranges[along as usize];
-            colours.of(from + (to - from) * along.fract())
+            let along = (rows as f64 - row as f64 - 0.5) / rows as f64;
+            colours.of(self.range.0 + (self.range.1 - self.range.0) * along)
         };
         picture.shapes.push(Shape::Image(Image { area: body, columns: 1, pixels: (0..rows).map(shade).collect() }));
         picture.outline(body);
-        for (room, base, tip, end) in [
-            (self.arrows.0, body.bottom(), top + self.height, colours.limits.0),
-            (self.arrows.1, body.top, top, colours.limits.1),
-        ] {
-            if room > 0.0 {
-                let corners = |out: f64| [(left - out, base), (left + BAR + out, base), (left + 0.5 * BAR, tip)];
-                picture.shapes.push(Shape::Triangle(corners(HAIRLINE), colours.of(end)));
-                let [a, b, tip] = corners(0.0);
-                let around = Area::new(left - 1.0, base.min(tip.1) - 1.0, BAR + 2.0, room + 2.0);
-                let pieces = vec![vec![a, tip, b]];
-                picture.shapes.push(Shape::Curve(Curve { pieces, width: HAIRLINE, colour: BLACK, within: around }));
-            }
+        let ends = [(self.arrows.0, body.bottom(), bottom, self.range.0), (self.arrows.1, body.top, top, self.range.1)];
+        for (length, base, tip, end) in ends.into_iter().filter(|(length, ..)| *length > 0.0) {
+            let corners = |out: f64| [(left - out, base), (left + 0.5 * BAR, tip), (left + BAR + out, base)];
+            picture.shapes.push(Shape::Triangle(corners(HAIRLINE), colours.of(end)));
+            let within = Area::new(left - 1.0, base.min(tip) - 1.0, BAR + 2.0, length + 2.0);
+            let pieces = vec![corners(0.0).to_vec()];
+            picture.shapes.push(Shape::Curve(Curve { pieces, width: HAIRLINE, colour: BLACK, within }));
         }
-        draw_axis_beside(picture, &self.axis, body, 1.0, room(&self.axis));
+        draw_axis_beside(picture, &self.axis, body, 1.0, room);
     }
 }
 

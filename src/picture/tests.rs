@@ -47,7 +47,7 @@ fn x_runs_to_the_right_and_y_upwards_from_neutral_zero() {
 fn black_is_the_share_of_contact() {
     for (n, side) in [(60, 600), (250, 500), (1200, 600)] {
         let values = Array2::from_shape_fn((n, n), |(i, j)| f64::from((7 * i + 3 * j) % 10 < 3));
-        let map = Map::new(values.view(), Grid::square(n, 1.0).unwrap(), Colouring::Binary);
+        let map = Map::new(values.view(), Grid::square(n, 1.0).unwrap(), Colouring::Contact);
         let (width, _, pixels, [x, y, w, h]) = drawn(&map, &format!("contact-{n}"));
         assert_eq!((w, h), (side, side));
         let plot = (y..y + h).flat_map(|row| &pixels[row * width + x..row * width + x + w]);
@@ -80,7 +80,7 @@ fn degenerate_fields_are_drawn() {
         for shape in [(1, 1), (1, 5), (2, 3)] {
             let mut values = Array2::from_elem(shape, value);
             values[[0, 0]] = first;
-            for colouring in [Colouring::Sequential, Colouring::Diverging, Colouring::Binary] {
+            for colouring in [Colouring::Sequential, Colouring::Diverging, Colouring::Contact] {
                 // Flat, for a small picture.
                 let map = Map::new(values.view(), Grid::new(shape, (1e300, 1e-300)).unwrap(), colouring);
                 let map = Map { label: "µ\n−🦀", unit: Some("m"), length_unit: Some("m"), ..map };
@@ -119,6 +119,57 @@ fn what_cannot_be_drawn_or_written_is_refused() {
     for limits in [(1.0, 1.0), (2.0, 1.0), (0.0, f64::NAN)] {
         assert!(matches!(Map { limits: Some(limits), ..map.clone() }.draw(DPI), Err(Error::Value { .. })));
     }
+}
+
+/// The texts of a picture, in the order in which they are drawn.
+fn texts(picture: &Picture) -> Vec<String> {
+    let text = |shape: &Shape| if let Shape::Text(text) = shape { Some(text.text.clone()) } else { None };
+    picture.shapes.iter().filter_map(text).collect()
+}
+
+#[test]
+fn tension_and_compression_have_a_scale_and_a_colour_bar_each() {
+    let values = Array2::from_shape_fn((40, 40), |(i, _)| if i < 20 { -5e7 } else { 5e9 });
+    let map = Map { label: "pressure", unit: Some("Pa"), signs: ["tension", "compression"], ..signed(&values) };
+    let found = texts(&map.draw(DPI).unwrap());
+    for text in ["tension (MPa)", "compression (GPa)", "−40", "−20", "2", "4"] {
+        assert!(found.iter().any(|found| found == text), "{text}: {found:?}");
+    }
+    // both ends have the full colour
+    let (_, _, pixels, [x, y, w, h]) = drawn(&map, "signs");
+    let width = pixels.len() / (2.0 * map.draw(DPI).unwrap().height) as usize;
+    let middle = |column: usize| pixels[(y + h / 2) * width + column];
+    assert_eq!([middle(x + 5), middle(x + w - 5)], [[4, 47, 96], [103, 0, 31]]);
+    // without adhesion one bar is enough
+    let compressed = values.mapv(|v| v.max(0.0));
+    let map = Map { label: "pressure", signs: ["tension", "compression"], ..signed(&compressed) };
+    let found = texts(&map.draw(DPI).unwrap());
+    assert!(found.contains(&"pressure (10⁹)".to_owned()) && !found.iter().any(|text| text.contains("tension")));
+}
+
+/// A map of pressures on a square.
+fn signed(values: &Array2<f64>) -> Map<'_> {
+    Map::new(values.view(), Grid::square(values.nrows(), 1.0).unwrap(), Colouring::Diverging)
+}
+
+#[test]
+fn contact_attraction_and_what_is_apart_have_a_colour_each() {
+    let values = ndarray::array![[1.0, -1.0], [0.0, f64::NAN]];
+    let map = Map::new(values.view(), Grid::square(2, 1.0).unwrap(), Colouring::Contact);
+    let (width, _, pixels, [x, y, w, h]) = drawn(&map, "classes");
+    let at = |ix: usize, iy: usize| pixels[(y + h - 1 - h * iy / 2 - 10) * width + x + w * ix / 2 + 10];
+    let expected = [[0; 3], colours::ATTRACTIVE, [255; 3], colours::MISSING];
+    assert_eq!([at(0, 0), at(0, 1), at(1, 0), at(1, 1)], expected);
+    let found = texts(&map.draw(DPI).unwrap());
+    assert!(["contact", "attractive", "apart", "no surface"].iter().all(|name| found.iter().any(|text| text == name)));
+    // mixed where there are more nodes than pixels
+    let many = Array2::from_shape_fn((2000, 2000), |(i, _)| if i % 2 == 0 { -1.0 } else { 0.0 });
+    let map = Map::new(many.view(), Grid::square(2000, 1.0).unwrap(), Colouring::Contact);
+    let (width, _, pixels, [x, y, ..]) = drawn(&map, "mixed");
+    assert_eq!(
+        pixels[(y + 9) * width + x + 9],
+        colours::ATTRACTIVE.map(|part| (255.0 / 2.0 + f64::from(part) / 2.0).round() as u8)
+    );
 }
 
 /// A map with a title that SVG and PDF have to escape, and a chart of a broken curve, each drawn.
@@ -200,12 +251,8 @@ fn limits_hold_for_any_field_and_arrows_say_what_is_beyond() {
         Shape::Image(image) => image.pixels.clone(),
         shape => panic!("{shape:?}"),
     };
-    let texts = |picture: &Picture| {
-        let text = |shape: &Shape| if let Shape::Text(text) = shape { Some(text.text.clone()) } else { None };
-        picture.shapes.iter().filter_map(text).collect::<Vec<_>>()
-    };
     let (all, inner) = (limited(&values), limited(&values.mapv(|v| v.clamp(1.0, 3.0))));
     assert_eq!(colours_of(&all), colours_of(&inner));
-    assert!(texts(&all).iter().any(|text| text == "max 4.00") && texts(&all).iter().any(|text| text == "min 0.00"));
+    assert!(texts(&all).iter().any(|text| text == "max 4.00") && texts(&all).iter().any(|text| text == "min 0"));
     assert!(!texts(&inner).iter().any(|text| text.contains("max") || text.contains("min")));
 }

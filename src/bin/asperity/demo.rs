@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use asperity::io::{OutputFolder, write_npy};
 use asperity::picture::{Colouring, Map, Picture};
-use asperity::{Amplitude, Exponential, Grid, NoAdhesion, SelfAffine, Status, Surface};
+use asperity::{AdhesionLaw, Amplitude, Exponential, Grid, NoAdhesion, SelfAffine, Status, Surface};
 use clap::{Args, Command, FromArgMatches};
 use ndarray::Array2;
 use serde_json::json;
@@ -102,7 +102,7 @@ pub fn run(options: &Options) -> Outcome<bool> {
     let law = Exponential::new(WORK_OF_ADHESION, RANGE)?;
     let (bare, without) =
         case::solve::<f64, _>(surface.clone(), NoAdhesion, &case, None, progress("without adhesion"))?;
-    let (sticky, with) = case::solve::<f64, _>(surface, law, &case, None, progress("with adhesion"))?;
+    let (sticky, with) = case::solve::<f64, _>(surface, law.clone(), &case, None, progress("with adhesion"))?;
 
     let folder = OutputFolder::create(out, &names, true)?;
     let draw = || {
@@ -110,12 +110,14 @@ pub fn run(options: &Options) -> Outcome<bool> {
         draw_heights(grid, &heights, dpi)?.write(&path("heights"))?;
         write_npy(&folder.path("heights.npy"), &heights)?;
         write_text(&folder.path(scene::NAME), &scene.text(out))?;
-        for (name, solution, adhesive) in [("without adhesion", &bare, false), ("with adhesion", &sticky, true)] {
+        // a law of no work is no adhesion
+        let none = Exponential::new(0.0, RANGE)?;
+        for (name, solution, law) in [("without adhesion", &bare, &none), ("with adhesion", &sticky, &law)] {
             let path = |what: &str| path(&format!("{what}-{}", name.replace(' ', "-")));
-            let contact = pictures::draw_contact(grid, &format!("Contact {name}"), UNITS, solution, dpi)?;
+            let contact = pictures::draw_contact(grid, &format!("Contact {name}"), UNITS, (solution, law), dpi)?;
             contact.write(&path("contact"))?;
             let (caption, title) = (format!("mean {}", si(PRESSURE, "Pa")), format!("Pressure {name}"));
-            let pressure = pictures::pressure_to_draw(solution, adhesive);
+            let pressure = pictures::pressure_to_draw(solution, !law.is_zero());
             let pressure = pictures::draw_pressure(grid, (&title, &caption), UNITS, pressure, None, dpi)?;
             pressure.write(&path("pressure"))?;
         }

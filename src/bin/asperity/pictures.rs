@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use asperity::picture::{Chart, Colouring, DPI, Format, Map, Picture};
-use asperity::{Error, Grid, Result, Solution};
+use asperity::{AdhesionLaw, Error, Grid, Result, Solution};
 use clap::{Args, ValueEnum};
 use ndarray::Array2;
 use serde_json::Value;
@@ -182,22 +182,33 @@ fn legs(rows: &[Value]) -> Vec<(String, &[Value])> {
     starts.iter().enumerate().map(|(k, start)| (direction(start + 1) + &number(k), legs[k])).collect()
 }
 
-/// Draws the nodes in contact, black on white.
+/// Draws the nodes in contact, those that attract each other, and those that are apart.
 pub fn draw_contact<T: Scalar>(
     grid: Grid,
     title: &str,
     units: Units<'_>,
-    solution: &Solution<T>,
+    (solution, law): (&Solution<T>, &impl AdhesionLaw<T>),
     dpi: f64,
 ) -> Result<Picture> {
-    let contact = solution.contact_map().mapv(f64::from);
-    let caption = format!("{} % contact", percent(solution.report.contact_fraction));
+    draw_regions(grid, title, units, &solution.regions(law).mapv(f64::from), dpi)
+}
+
+/// Draws regions, as numbers: 1 contact, -1 attraction, 0 apart, NaN no surface.
+pub fn draw_regions(grid: Grid, title: &str, units: Units<'_>, regions: &Array2<f64>, dpi: f64) -> Result<Picture> {
+    let share = |of: fn(f64) -> bool| {
+        let facing = regions.iter().filter(|region| !region.is_nan()).count();
+        percent(regions.iter().filter(|region| of(**region)).count() as f64 / facing as f64)
+    };
+    let attractive = match regions.iter().any(|region| *region < 0.0) {
+        true => format!(", {} % attractive", share(|region| region < 0.0)),
+        false => String::new(),
+    };
+    let caption = format!("{} % contact{attractive}", share(|region| region > 0.0));
     let map = Map {
         title,
         caption: &caption,
         length_unit: units.length,
-        label: "contact",
-        ..Map::new(contact.view(), grid, Colouring::Binary)
+        ..Map::new(regions.view(), grid, Colouring::Contact)
     };
     map.draw(dpi)
 }
@@ -225,6 +236,7 @@ pub fn draw_pressure<T: Scalar>(
         label: "pressure",
         unit: units.pressure,
         limits,
+        signs: ["tension", "compression"],
         ..Map::new(pressure.view(), grid, Colouring::Diverging)
     };
     map.draw(dpi)

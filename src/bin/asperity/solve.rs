@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use asperity::io::{OutputFolder, write_npy, write_npz, write_vti};
-use asperity::{Control, Grid, Level, Status};
+use asperity::{AdhesionLaw, Control, Grid, Level, Status};
 use clap::{ArgGroup, Args, ValueEnum};
 use serde_json::{Value, json};
 
@@ -268,7 +268,7 @@ impl Job<'_> {
         account.strongest = adhesion.strongest();
 
         let folder = output_folder(out, &self.names, *force)?;
-        let written = self.write(&folder, grid, &solution, &account);
+        let written = self.write(&folder, grid, &solution, &account, &adhesion.law()?);
         written.map_err(|error| at_destination(error, out))?;
         folder.commit()?;
 
@@ -291,6 +291,7 @@ impl Job<'_> {
         grid: Grid,
         solution: &asperity::Solution<T>,
         account: &Account,
+        law: &impl AdhesionLaw<T>,
     ) -> asperity::Result<()> {
         let path = |name: &str| folder.path(name);
         let mode = account.stability.as_ref().map(|stability| &stability.mode);
@@ -315,7 +316,7 @@ impl Job<'_> {
             let Options { ref pressure_unit, picture_format, resolution: Resolution { dpi }, .. } = *self.options;
             let units = Units { length: self.length_unit, pressure: pressure_unit.as_deref(), force: None };
             let [contact_name, pressure_name] = picture_format.of(PICTURES);
-            pictures::draw_contact(grid, "Contact", units, solution, dpi)?.write(&path(contact_name))?;
+            pictures::draw_contact(grid, "Contact", units, (solution, law), dpi)?.write(&path(contact_name))?;
             let pressure = pictures::pressure_to_draw(solution, self.options.adhesion.law != Law::None);
             let limits = self.options.colour_limits();
             let picture = pictures::draw_pressure(grid, ("Pressure", ""), units, pressure, limits, dpi)?;
