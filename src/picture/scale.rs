@@ -107,7 +107,7 @@ impl Part {
     /// The place of a value, as a share of the range.
     pub(super) fn share(&self, value: f64) -> f64 {
         let Self { from, to, .. } = *self;
-        if self.logarithmic { (value / from).ln() / (to / from).ln() } else { (value - from) / (to - from) }
+        if self.logarithmic { (value.ln() - from.ln()) / (to.ln() - from.ln()) } else { (value - from) / (to - from) }
     }
 
     /// Round numbers on the range, each with its text, or none beside one that has. There is room for `most` steps; at

@@ -117,7 +117,7 @@ pub fn run(options: &Options) -> Outcome<bool> {
             let contact = pictures::draw_contact(grid, &format!("Contact {name}"), UNITS, (solution, law), dpi)?;
             contact.write(&path("contact"))?;
             let (caption, title) = (format!("mean {}", si(PRESSURE, "Pa")), format!("Pressure {name}"));
-            let pressure = pictures::pressure_to_draw(solution, !law.is_zero());
+            let pressure = pictures::pressure_to_draw(solution, AdhesionLaw::<f64>::work_of_adhesion(law) > 0.0);
             let pressure = pictures::draw_pressure(grid, (&title, &caption), UNITS, pressure, None, dpi)?;
             pressure.write(&path("pressure"))?;
         }
