@@ -11,7 +11,7 @@ use crate::error::Result;
 /// Curves over two axes, such as the loads on a path over its mean gaps.
 ///
 /// The axes reach over all points that are finite, and on a logarithmic one positive; a curve is broken where they are
-/// not. A curve of few points has a dot at each. Units are written as those of a [`Map`](super::Map).
+/// not. Where no curve has more than thirty points, each point has a dot. Units are written as those of a [`Map`](super::Map).
 ///
 /// ```
 /// use asperity::picture::{Chart, DPI};
@@ -48,8 +48,8 @@ pub(super) const COLOURS: [Colour; 4] = [[33, 74, 135], [214, 96, 30], [0, 140, 
 /// The width of a curve, and the diameter of its dots.
 pub(super) const WIDTH: f64 = 1.0;
 const DOT: f64 = 3.5;
-/// The largest number of points that have dots.
-const MOST_DOTS: usize = 60;
+/// The largest number of points on a curve of a chart with dots.
+const MOST_DOTS: usize = 30;
 /// The part of an axis beyond the points, as a share of their range.
 const SLACK: f64 = 0.03;
 
@@ -96,6 +96,7 @@ impl Chart<'_> {
             let zero = plot.bottom() - plot.height * above.share(0.0);
             picture.fill(Area::new(plot.left, zero - 0.5 * HAIRLINE, plot.width, HAIRLINE), GREY);
         }
+        let dotted = self.curves.iter().all(|(_, points)| points.len() <= MOST_DOTS);
         for ((_, points), colour) in self.curves.iter().zip(COLOURS.into_iter().cycle()) {
             let place = |&(x, y): &(f64, f64)| {
                 (plot.left + plot.width * across.share(x), plot.bottom() - plot.height * above.share(y))
@@ -103,7 +104,7 @@ impl Chart<'_> {
             let points: Vec<_> = points.iter().map(place).collect();
             let curve = |pieces, width| Shape::Curve(Curve { pieces, width, colour, within: plot });
             let pieces = pieces(&points);
-            if points.len() <= MOST_DOTS {
+            if dotted {
                 let dots = pieces.iter().flatten().map(|point| vec![*point]).collect();
                 picture.shapes.push(curve(dots, DOT));
             }

@@ -262,9 +262,12 @@ fn page_of_table(table: &Path) -> Outcome<String> {
     }
     page.heading("Curves");
     page.figure("chart", &chart_of_loads(&rows, units, FINE)?.svg()?);
-    let more = [("mean_gap", "contact_fraction"), ("mean_gap", if cycle { "dissipated" } else { "elastic_energy" })];
-    for (x, y) in more {
-        page.figure("chart", &chart_of_columns(&rows, x, y, units, FINE)?.svg()?);
+    let energy = if cycle { "dissipated" } else { "elastic_energy" };
+    for (x, y) in [("mean_gap", "contact_fraction"), ("mean_gap", energy)] {
+        // what is the same in all rows needs no curve
+        if rows.iter().any(|row| row[y] != rows[0][y]) {
+            page.figure("chart", &chart_of_columns(&rows, x, y, units, FINE)?.svg()?);
+        }
     }
     page.heading("Rows");
     let head: String =
