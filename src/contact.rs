@@ -4,7 +4,7 @@
 //! they are corrected; [`Clusters`] are the pieces that hang together; [`PressureDistribution`] is the histogram of the
 //! pressure.
 
-use ndarray::{Array2, ArrayView2, Zip};
+use ndarray::{Array2, ArrayView2, Axis, Zip};
 
 use crate::adhesion::AdhesionLaw;
 use crate::elastic::Boundary;
@@ -15,9 +15,11 @@ use crate::solver::{Report, Solution};
 
 mod clusters;
 mod distribution;
+mod patch;
 
 pub use clusters::{Clusters, Connectivity};
 pub use distribution::PressureDistribution;
+pub use patch::Patch;
 
 /// The excess area of a contact map per edge between a node in contact and one that is not, in cells: (π − 1 + ln
 /// 2)/24.
@@ -68,14 +70,14 @@ impl<T: Real> Solution<T> {
     /// # Ok::<(), asperity::Error>(())
     /// ```
     pub fn regions(&self, law: &impl AdhesionLaw<T>) -> Array2<Region> {
-        let attracts = attracting(self.gap.view(), law);
         let contact = self.contact_map();
-        let mut nodes = contact.iter().zip(&self.gap).enumerate();
+        let attracts = attracting(&contact, self.gap.view(), law);
+        let mut nodes = self.gap.iter().zip(&contact).zip(attracts);
         Array2::from_shape_simple_fn(self.gap.dim(), || match nodes.next() {
-            Some((_, (true, _))) => Region::Contact,
-            Some((_, (_, gap))) if !gap.is_finite() => Region::Absent,
-            Some((node, _)) if attracts.get(node) == Some(&true) => Region::Attractive,
-            _ => Region::Apart,
+            Some(((_, true), _)) => Region::Contact,
+            Some((_, true)) => Region::Attractive,
+            Some(((gap, _), _)) if gap.is_finite() => Region::Apart,
+            _ => Region::Absent,
         })
     }
 
@@ -102,17 +104,17 @@ impl<T: Real> Solution<T> {
     }
 }
 
-/// Whether the adhesive traction at each node is noticeable, whatever touches; empty without adhesion.
-fn attracting<T: Real>(gap: ArrayView2<'_, T>, law: &impl AdhesionLaw<T>) -> Vec<bool> {
+/// Whether each node attracts without contact: whether its adhesive traction is noticeable.
+fn attracting<T: Real>(contact: &Array2<bool>, gap: ArrayView2<'_, T>, law: &impl AdhesionLaw<T>) -> Vec<bool> {
     if law.is_zero() {
-        return Vec::new();
+        return vec![false; gap.len()];
     }
     let scale = (law.work_of_adhesion() / law.range()).widen();
     let least = T::lit(if scale.is_finite() { NOTICEABLE * scale } else { 0.0 });
     let gaps: Vec<T> = gap.iter().map(|gap| gap.max(T::zero())).collect();
     let mut tractions = vec![T::zero(); gaps.len()];
     law.tractions(0, &gaps, &mut tractions);
-    tractions.into_iter().map(|traction| traction > least).collect()
+    contact.iter().zip(tractions).map(|(&touches, traction)| !touches && traction > least).collect()
 }
 
 /// The contact map of a gap and a contact pressure of one shape.
@@ -178,7 +180,7 @@ impl ContactArea {
     /// The area on a map within a boundary, of whose nodes so many face the half-space.
     fn within(map: ArrayView2<'_, bool>, grid: &Grid, boundary: Boundary, facing: usize) -> Result<Self> {
         Error::shape("contact map", map.dim(), grid.shape())?;
-        let contact_nodes = map.iter().filter(|&&touches| touches).count();
+        let contact_nodes = map.fold(0, |count, &touches| count + usize::from(touches));
         let (along_x, along_y) = edges(map, boundary == Boundary::Periodic);
         let (dx, dy) = grid.spacing();
         let (perimeter, excess) = if grid.is_line() {
@@ -253,12 +255,32 @@ pub struct ContactStatistics {
     pub attractive_fraction: f64,
     /// The share of the other nodes, which do not notice each other.
     pub apart_fraction: f64,
+    /// The same where the law [varies](crate::Varying) over the surface, for the nodes of each work of adhesion, the least
+    /// first; nodes are said to attract by the traction above, that of the strongest. Empty for a law that is the same
+    /// everywhere, and for more than 16 works of adhesion.
+    ///
+    /// ```
+    /// use asperity::contact::ContactStatistics;
+    /// use asperity::{Control, Exponential, Grid, Problem, Solver, Surface, Varying, Westergaard};
+    /// let grid = Grid::square(64, 1.0)?;
+    /// let surface = Surface::wave_2d(grid, 0.01, 2)?;
+    /// let work = grid.sample(|x, _| if x < 0.0 { 1e-6 } else { 1e-5 });
+    /// let law = Varying::new(Exponential::new(1e-5, 2e-3)?, work.view())?;
+    /// let mut problem = Problem::new(&surface, Westergaard::<f64>::new(grid, 1.0)?, &law)?;
+    /// let solution = Solver::default().solve(&mut problem, Control::MeanPressure(0.01))?;
+    /// let statistics = ContactStatistics::of(&solution, &grid, &law)?;
+    /// let [weak, strong] = statistics.patches[..] else { panic!("two works of adhesion") };
+    /// assert!(strong.contact_fraction > weak.contact_fraction);
+    /// assert_eq!((weak.area_fraction, strong.area_fraction), (0.5, 0.5));
+    /// # Ok::<(), asperity::Error>(())
+    /// ```
+    pub patches: Vec<Patch>,
 }
 
 impl ContactStatistics {
     /// The statistics of a solution on its grid, with the law with which it was found.
     ///
-    /// Memory per node, until it returns: nine bytes, and with adhesion two scalars.
+    /// Memory per node, until it returns: ten bytes, and with adhesion two scalars.
     ///
     /// # Errors
     /// [`Error::Shape`] if a field does not have the shape of the grid.
@@ -284,8 +306,10 @@ impl ContactStatistics {
         let ContactArea { contact_nodes, contact_fraction, corrected_contact_fraction, perimeter } =
             ContactArea::within(contact.view(), grid, boundary, facing)?;
         let share = |count: usize| count as f64 / facing as f64;
-        let attracts = attracting(gap, law);
-        let attracting = contact.iter().zip(attracts).filter(|(touches, attracts)| !**touches && *attracts).count();
+        let attracts = attracting(&contact, gap, law);
+        let attracting = attracts.iter().filter(|&&attracts| attracts).count();
+        let nodes = gap.iter().zip(&contact).zip(&attracts);
+        let nodes = nodes.map(|((gap, &touches), &attracts)| gap.is_finite().then_some([touches, attracts]));
         Ok(Self {
             contact_nodes,
             contact_fraction,
@@ -295,6 +319,7 @@ impl ContactStatistics {
             repulsive_fraction: share(contact_pressure.iter().filter(|&&p| p > T::zero()).count()),
             attractive_fraction: share(attracting),
             apart_fraction: share(facing - contact_nodes - attracting),
+            patches: patch::patches(law, nodes),
         })
     }
 }
@@ -303,10 +328,11 @@ impl ContactStatistics {
 /// neighbours if the map is periodic, and otherwise nothing is beyond them.
 fn edges(map: ArrayView2<'_, bool>, periodic: bool) -> (usize, usize) {
     let (mut along_x, mut along_y) = (0, 0);
+    let different = |count, here: &bool, there: &bool| count + usize::from(here != there);
     for (i, row) in map.outer_iter().enumerate() {
-        let (below, shifted) = (map.row((i + 1) % map.nrows()), row.iter().cycle().skip(1));
-        along_x += row.iter().zip(below).filter(|(here, there)| here != there).count();
-        along_y += row.iter().zip(shifted).filter(|(here, there)| here != there).count();
+        along_x += Zip::from(row).and(map.row((i + 1) % map.nrows())).fold(0, different);
+        let ((left, _), (_, right)) = (row.split_at(Axis(0), row.len() - 1), row.split_at(Axis(0), 1));
+        along_y += Zip::from(left).and(right).fold(usize::from(row[0] != row[row.len() - 1]), different);
     }
     if !periodic {
         // across the sides each meets nothing in place of the other

@@ -206,6 +206,9 @@ impl Warning {
     /// The probable mistakes in the range of `law` on a surface pressed against a body of contact `modulus` E*:
     /// [`Range`](WarningCode::Range). Nothing without adhesion.
     pub fn of_law<T: Real>(law: &impl AdhesionLaw<T>, surface: &Surface, modulus: f64) -> Vec<Self> {
+        if law.is_zero() {
+            return Vec::new();
+        }
         let mu_rho = mu_rho(law, surface.grid(), modulus);
         let (range, span) = (law.range().widen(), Extremes::of(surface.heights()).span());
         let mut found = Vec::new();
@@ -221,7 +224,7 @@ impl Warning {
             );
             found.push(Self { code: WarningCode::Range, message });
         }
-        if !law.is_zero() && law.work_of_adhesion() > T::zero() && span > 0.0 && range > span {
+        if law.work_of_adhesion() > T::zero() && span > 0.0 && range > span {
             let message = format!(
                 "the range of adhesion, {}, exceeds the heights, which span {}: it then pulls on the whole surface \
                  alike, as a pressure would; give it in the unit of the lengths",

@@ -89,7 +89,8 @@ class Topography:
         -------
         matplotlib Axes
         """
-        return _plot.heights(self, ax)
+        lengths = self.lengths or (float(self.heights.shape[0]), float(self.heights.shape[1]))
+        return _plot.heights(np.asarray(self), lengths, self.unit, ax)
 
 
 def read(path: str | os.PathLike[str]) -> Topography:

@@ -1,12 +1,12 @@
 //! The outcome of a solve, with the names and in the order of the tool's `report.json`.
 
-use asperity::Warning;
 use asperity::stability::Stability;
+use asperity::{Level, Warning};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use crate::account::{Account, Scalar};
-use crate::inputs::name_and_value;
+use crate::inputs::stiffness;
 
 /// A dictionary of its entries.
 macro_rules! dictionary {
@@ -21,7 +21,6 @@ macro_rules! dictionary {
 pub fn of<'py, T: Scalar>(py: Python<'py>, account: &Account<T>) -> PyResult<Bound<'py, PyDict>> {
     let Account { solution, area, pressures, .. } = account;
     let report = &solution.report;
-    let (control, held) = name_and_value(account.control);
     let stability = account.stability.as_ref().map(|found| stability(py, found)).transpose()?;
     let departures = account.departures.as_ref().map(|left| {
         left.iter()
@@ -30,6 +29,9 @@ pub fn of<'py, T: Scalar>(py: Python<'py>, account: &Account<T>) -> PyResult<Bou
             })
             .collect::<PyResult<Vec<_>>>()
     });
+    let levels =
+        |(levels, _): &(Vec<Level>, f64)| levels.iter().map(|found| level(py, found)).collect::<PyResult<Vec<_>>>();
+    let levels = account.grids.as_ref().map(levels).transpose()?;
     let warnings = account.warnings.iter().map(|found| warning(py, found)).collect::<PyResult<Vec<_>>>()?;
     Ok(dictionary!(py,
         "status": report.status.name(),
@@ -38,14 +40,19 @@ pub fn of<'py, T: Scalar>(py: Python<'py>, account: &Account<T>) -> PyResult<Bou
         "criterion": report.criterion.name(),
         "iterations": report.iterations,
         "operator_applications": report.operator_applications,
-        "levels": py.None(),
-        "equivalent_applications": py.None(),
+        "levels": levels,
+        "equivalent_applications": account.grids.as_ref().map(|(_, applications)| applications),
         "mean_gap": report.mean_gap,
         "mean_pressure": report.mean_pressure,
+        "normal_force": report.normal_force,
+        "approach": report.approach,
+        "spring_stiffness": stiffness(account.control),
         "carried_pressure": report.carried_pressure,
         "mean_contact_pressure": report.mean_contact_pressure,
         "contact_fraction": report.contact_fraction,
         "contact_nodes": report.contact_nodes,
+        "absent_points": report.absent_nodes,
+        "edge_traction": report.edge_traction,
         "corrected_contact_fraction": area.corrected_contact_fraction,
         "perimeter": area.perimeter,
         "min_gap": report.min_gap,
@@ -56,27 +63,27 @@ pub fn of<'py, T: Scalar>(py: Python<'py>, account: &Account<T>) -> PyResult<Bou
         "stability": stability,
         "departures": departures.transpose()?,
         "mu_rho": report.mu_rho,
+        "mu_rho_node": account.strongest.map(|(x, y)| [x, y]),
         "under_resolved": report.under_resolved,
         "warnings": warnings,
         "seconds": account.seconds,
-        "control": control,
-        "control_value": held,
+        "control": account.control.name(),
+        "control_value": account.control.value(),
     ))
 }
 
-/// The boundary of the half-space, and what the bodies as a whole do: by the names of the library.
-pub fn of_bodies<'py, T: Scalar>(py: Python<'py>, account: &Account<T>) -> PyResult<Bound<'py, PyDict>> {
-    let report = &account.solution.report;
+/// The cost of one of the nested grids.
+fn level<'py>(py: Python<'py>, level: &Level) -> PyResult<Bound<'py, PyDict>> {
     Ok(dictionary!(py,
-        "boundary": report.boundary.name(),
-        "normal_force": report.normal_force,
-        "approach": report.approach,
-        "absent_points": report.absent_nodes,
-        "edge_traction": report.edge_traction,
+        "shape": [level.shape.0, level.shape.1],
+        "status": level.status.name(),
+        "iterations": level.iterations,
+        "operator_applications": level.operator_applications,
     ))
 }
 
-fn stability<'py, T: Scalar>(py: Python<'py>, found: &Stability<T>) -> PyResult<Bound<'py, PyDict>> {
+/// The stability of an equilibrium.
+pub fn stability<'py, T: Scalar>(py: Python<'py>, found: &Stability<T>) -> PyResult<Bound<'py, PyDict>> {
     Ok(dictionary!(py,
         "verdict": found.verdict.name(),
         "eigenvalue": found.eigenvalue,

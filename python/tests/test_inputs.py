@@ -121,6 +121,18 @@ def test_a_data_array_brings_its_coordinates(rough):
         gap(DataArray(rough.heights, {"x": x, "y": x}, {"units": "nm"}, "m"), None)
 
 
+def test_a_data_array_of_xarray_gives_the_same_bits(rough):
+    xarray = pytest.importorskip("xarray")
+    x = np.arange(64) / 64
+    data = xarray.DataArray(rough.heights, dims=("x", "y"), coords={"x": x, "y": x}, attrs={"units": "m"})
+    assert gap(data, None).tobytes() == gap(rough.heights).tobytes()
+    assert asperity.prepare(data).unit == "m"
+    line = asperity.prepare(data.isel(y=3))
+    assert line.shape == (64,) and line.lengths == (1.0, 1.0)
+    missing = data.where(data < data.max())
+    assert asperity.prepare(missing).missing == 1 and asperity.prepare(missing, fill=True).missing == 0
+
+
 def test_files_are_read_with_what_belongs_to_them(tmp_path, rough):
     path = tmp_path / "heights.npz"
     np.savez(path, heights=rough.heights, lengths=(2.0, 2.0), unit="m")

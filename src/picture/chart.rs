@@ -11,7 +11,8 @@ use crate::error::Result;
 /// Curves over two axes, such as the loads on a path over its mean gaps.
 ///
 /// The axes reach over all points that are finite, and on a logarithmic one positive; a curve is broken where they are
-/// not. Where no curve has more than thirty points, each point has a dot. Units are written as those of a [`Map`](super::Map).
+/// not. Where no curve has more than thirty points, each point has a dot. Units are written as those of a
+/// [`Map`](super::Map).
 ///
 /// ```
 /// use asperity::picture::{Chart, DPI};

@@ -50,8 +50,12 @@ impl<T: Real, L: Real> State<'_, T, L> {
         // flats that attract each other have no waves but those of rounding
         let traction = self.tally.traction / self.nodes();
         let (softest, stiffest) = self.operators.state().stiffness_range();
-        // and so have flats that are held apart
-        let lifted = if self.tally.contact > 0.0 { 0.0 } else { self.tally.sum_gap / self.nodes() };
+        // and so have flats that are held apart, by their mean gap or by the law itself, whose range their gaps are then of
+        let lifted = match self.constraint.wall() {
+            Wall::None => self.mean_gap().abs().max(self.law.range().widen()),
+            _ if self.tally.contact > 0.0 => 0.0,
+            _ => self.mean_gap(),
+        };
         let flat =
             if softest > 0.0 { epsilon * (traction * traction / softest + softest * lifted * lifted) } else { 0.0 };
         let waves = self.mean_work().max(apart);

@@ -316,7 +316,7 @@ fn a_path_goes_on_through_a_bifurcation_bit_for_bit() {
     let mut problem = two_waves(64, 0.0);
     let whole = follow(&mut problem, loads.clone(), settings, 1e-6);
     assert!(names(&whole).contains(&"bifurcation"));
-    resumes(&mut problem, &loads, settings, &whole, 1);
+    resumes(&mut problem, &loads, settings, &whole, 3);
 }
 
 #[test]
@@ -357,7 +357,7 @@ fn a_path_goes_on_from_a_checkpoint_bit_for_bit() {
     let mut problem = wave(48, 2e-3);
     let whole = follow(&mut problem, loads.clone(), settings, 1e-6);
     assert!(names(&whole).len() > 1);
-    resumes(&mut problem, &loads, settings, &whole, 3);
+    resumes(&mut problem, &loads, settings, &whole, 6);
 }
 
 #[test]

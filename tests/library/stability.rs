@@ -123,13 +123,7 @@ fn a_mode_takes_about_twice_as_many_applications_as_the_solve() {
     let law = |w, range| Exponential::new(w, range).unwrap();
     let sphere = |w| sphere::<f64, _>(256, law(w, 2e-3));
     let rough = |w, range| rough::<f64, _>(256, 32, law(w, range));
-    for (mut problem, gap) in [
-        (sphere(1e-4), 0.0429),
-        (sphere(2e-4), 0.0429),
-        (rough(2e-4, 2e-3), 0.01),
-        (rough(4e-4, 2e-3), 0.01),
-        (rough(4e-4, 2e-3), 0.03),
-    ] {
+    for (mut problem, gap) in [(sphere(2e-4), 0.0429), (rough(4e-4, 2e-3), 0.01), (rough(4e-4, 2e-3), 0.03)] {
         let control = Control::MeanGap(gap);
         let solution = Solver::default().solve(&mut problem, control).unwrap();
         assert_eq!(solution.report.status, Status::Converged);

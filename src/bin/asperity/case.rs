@@ -7,8 +7,8 @@ use std::time::Instant;
 use asperity::contact::ContactStatistics;
 use asperity::stability::{Departure, Stability, StabilityTest, Verdict};
 use asperity::{
-    AdhesionLaw, Control, Grid, Level, Nested, NestedSolution, NoAdhesion, Problem, Report, Settings, Solution, Solver,
-    Start, Surface,
+    AdhesionLaw, Control, Grid, Level, Nested, NestedSolution, Problem, Report, Settings, Solution, Solver, Start,
+    Surface,
 };
 use ndarray::Array2;
 use serde_json::Value;
@@ -101,11 +101,7 @@ pub fn solve<T: Scalar, L: AdhesionLaw<T>>(
         }
         let found = StabilityTest::default().run_with(&mut problem, &case.wall, case.control, &solution)?;
         let leaves = case.leave && found.verdict == Verdict::Unstable && departures.len() < MOST_DEPARTURES;
-        let left = if leaves {
-            found.leave(&mut Solver::new(case.settings), &mut problem, case.control, &solution)?
-        } else {
-            None
-        };
+        let left = if leaves { found.leave(&mut solver, &mut problem, case.control, &solution)? } else { None };
         let Some(left) = left.filter(|left| left.energy_drop > 0.0) else {
             break Some(steadiness(found));
         };
@@ -113,7 +109,7 @@ pub fn solve<T: Scalar, L: AdhesionLaw<T>>(
         departures.push(Left { eigenvalue: found.eigenvalue, energy_drop, distance });
         solution = left.solution;
     };
-    let (solution, account) = account(solution, &grid, None, clock)?;
+    let (solution, account) = account(solution, problem.law(), &grid, None, clock)?;
     Ok((solution, Account { stability, departures, ..account }))
 }
 
@@ -131,7 +127,7 @@ pub fn solve_nested<T: Scalar, L: AdhesionLaw<T>>(
     let found = Nested { solver, coarse_tolerance, coarsest }.solve_observed(
         surface,
         half_space,
-        law,
+        &law,
         case.control,
         |grid, state| {
             progress.update_on(grid, state);
@@ -140,11 +136,12 @@ pub fn solve_nested<T: Scalar, L: AdhesionLaw<T>>(
     )?;
     let applications = found.equivalent_applications();
     let NestedSolution { solution, levels, .. } = found;
-    account(solution, surface.grid(), Some((levels, applications)), clock)
+    account(solution, &law, surface.grid(), Some((levels, applications)), clock)
 }
 
 fn account<T: Scalar>(
     solution: Solution<T>,
+    law: &impl AdhesionLaw<T>,
     grid: &Grid,
     grids: Option<(Vec<Level>, f64)>,
     clock: Instant,
@@ -158,7 +155,7 @@ fn account<T: Scalar>(
     let account = Account {
         report: solution.report.clone(),
         nodes: solution.gap.len(),
-        contact: ContactStatistics::of(&solution, grid, &NoAdhesion)?,
+        contact: ContactStatistics::of(&solution, grid, law)?,
         pressures,
         grids,
         seconds,

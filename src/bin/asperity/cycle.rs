@@ -10,7 +10,7 @@ use clap::{ArgGroup, Args};
 use ndarray::Array2;
 use serde_json::{Map, Value, json};
 
-use crate::adhesion::{Adhesion, AdhesionOptions, Wall};
+use crate::adhesion::{Adhesion, AdhesionOptions};
 use crate::allowed::positive;
 use crate::boundary::{Boundary, LOADS, LoadsOptions};
 use crate::columns::{Cell, OUTCOME, STATE, outcome, state};
@@ -127,9 +127,6 @@ fn names() -> Vec<&'static str> {
 /// Runs the command; whether all rows converged.
 pub fn run(options: &Options, scene: &Scene) -> Outcome<bool> {
     options.check_files()?;
-    if options.adhesion.wall == Wall::None {
-        return Err("a cycle needs a wall: give --wall hard, or follow the loads by asperity sweep".into());
-    }
     options.surface.beyond.boundary.check(options.loads.control(0.0))?;
     let given = options.table().problem.read()?;
     match options.solver.precision {
@@ -152,7 +149,7 @@ impl Options {
         let law = adhesion.law::<T>()?;
         let mut problem = Problem::new(&surface, operator, adhesion.law::<T>()?)?;
         drop(surface);
-        let mut solver = Solver::new(self.solver.settings());
+        let mut solver = Solver { settings: self.solver.settings(), constraint: self.adhesion.wall };
         let settings = PathSettings {
             steps: self.steps,
             smallest_step: self.smallest_step,

@@ -1,7 +1,8 @@
 //! The command-line tool: `asperity demo` solves a built-in case, `asperity solve` one given by files, `asperity sweep`
 //! many loads and `asperity cycle` a path with jumps; `asperity surface` makes files of heights, `asperity prepare`
-//! makes them of measured maps, and `asperity stats` measures them. `asperity laws` lists the
-//! adhesion laws. `asperity report` puts results on a page for a browser. `asperity run` does any of these by a scene file, which every run leaves beside its results.
+//! makes them of measured maps, and `asperity stats` measures them. `asperity laws` lists the adhesion laws. `asperity
+//! run` does any of these by a scene file, which every run leaves beside its results, and `asperity report` puts the
+//! results on a page for a browser.
 
 // the commands
 mod completions;

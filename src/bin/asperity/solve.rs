@@ -2,12 +2,13 @@
 
 use std::path::PathBuf;
 
+use asperity::contact::Patch;
 use asperity::io::{OutputFolder, write_npy, write_npz, write_vti};
 use asperity::{AdhesionLaw, Control, Grid, Level, Status};
 use clap::{ArgGroup, Args, ValueEnum};
 use serde_json::{Value, json};
 
-use crate::adhesion::{AdhesionOptions, Law, Wall};
+use crate::adhesion::{AdhesionOptions, Law};
 use crate::allowed::finite;
 use crate::boundary::{LOAD, LoadOptions};
 use crate::case::{self, Account, Case, Left};
@@ -135,9 +136,6 @@ const PICTURES: [[&str; 2]; 3] =
 pub fn run(options: &Options, scene: &Scene) -> Outcome<bool> {
     let problem = options.problem();
     problem.adhesion.check()?;
-    if options.leave && options.adhesion.wall == Wall::None {
-        return Err("--leave needs a wall: give --stability alone, or --wall hard".into());
-    }
     problem.surface.beyond.boundary.check(options.load.control())?;
     let limits = options.colour_limits();
     if let Some((low, high)) = limits.filter(|(low, high)| low >= high) {
@@ -212,6 +210,9 @@ impl Options {
             "edge_traction": report.edge_traction,
             "corrected_contact_fraction": account.contact.corrected_contact_fraction,
             "perimeter": account.contact.perimeter,
+            "repulsive_fraction": account.contact.repulsive_fraction,
+            "attractive_fraction": account.contact.attractive_fraction,
+            "patches": account.contact.patches.iter().map(patch).collect::<Vec<_>>(),
             "min_gap": report.min_gap,
             "min_pressure": account.pressures.0,
             "max_pressure": account.pressures.1,
@@ -324,6 +325,16 @@ impl Job<'_> {
         }
         Ok(())
     }
+}
+
+/// The contact of the nodes of one work of adhesion.
+fn patch(patch: &Patch) -> Value {
+    json!({
+        "work_of_adhesion": patch.work_of_adhesion,
+        "area_fraction": patch.area_fraction,
+        "contact_fraction": patch.contact_fraction,
+        "attractive_fraction": patch.attractive_fraction,
+    })
 }
 
 /// The stiffness of a spring, if the load is one.
