@@ -62,7 +62,7 @@ impl<T: Real> Solution<T> {
     /// use asperity::{Control, Exponential, Grid, Problem, Solver, Surface, Westergaard};
     /// let (grid, law) = (Grid::square(64, 1.0)?, Exponential::new(1e-4, 4e-3)?);
     /// let sphere = Surface::paraboloid(grid, 2.0)?;
-    /// let mut problem = Problem::new(&sphere, Westergaard::<f64>::new(grid, 1.0)?, law.clone())?;
+    /// let mut problem = Problem::new(&sphere, Westergaard::<f64>::new(grid, 1.0)?, law)?;
     /// let solution = Solver::default().solve(&mut problem, Control::MeanGap(0.0398))?;
     /// let attracting = solution.regions(&law).iter().filter(|region| **region == Region::Attractive).count();
     /// let statistics = ContactStatistics::of(&solution, &grid, &law)?;

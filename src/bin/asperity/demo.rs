@@ -102,7 +102,7 @@ pub fn run(options: &Options) -> Outcome<bool> {
     let law = Exponential::new(WORK_OF_ADHESION, RANGE)?;
     let (bare, without) =
         case::solve::<f64, _>(surface.clone(), NoAdhesion, &case, None, progress("without adhesion"))?;
-    let (sticky, with) = case::solve::<f64, _>(surface, law.clone(), &case, None, progress("with adhesion"))?;
+    let (sticky, with) = case::solve::<f64, _>(surface, law, &case, None, progress("with adhesion"))?;
 
     let folder = OutputFolder::create(out, &names, true)?;
     let draw = || {
