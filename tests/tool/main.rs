@@ -8,6 +8,7 @@ mod commands;
 mod free_tool;
 mod hostile;
 mod laws_tool;
+mod pictures;
 mod prepare;
 mod scene_tool;
 mod surface_tool;

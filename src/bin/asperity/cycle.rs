@@ -22,7 +22,7 @@ use crate::loads::name_and_value;
 use crate::numbers::Style;
 use crate::options::{Given, Precision, ProblemOptions, Scalar, SolverOptions, SurfaceOptions};
 use crate::outcome::Outcome;
-use crate::output::OutputFile;
+use crate::pictures::{Resolution, check_plot, write_picture};
 use crate::printing::{Printing, say};
 use crate::scene::Scene;
 use crate::table::{self, Table, TableOptions};
@@ -76,9 +76,11 @@ pub struct Options {
     #[arg(long, value_name = "DIR", help_heading = "Output")]
     fields: Option<PathBuf>,
     /// File for a picture of the mean pressure over the mean gap, with a free boundary of the normal force over the
-    /// approach, .png
+    /// approach, .png, .svg or .pdf
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     plot: Option<PathBuf>,
+    #[command(flatten)]
+    resolution: Resolution,
     /// Unit of the lengths, on the picture only; m gets prefixes
     #[arg(long, value_name = "UNIT", help_heading = "Output")]
     length_unit: Option<String>,
@@ -236,14 +238,7 @@ impl Options {
         if !ends(&self.out, "csv") {
             return Err(Error::file(&self.out, "does not end in .csv: rename it").into());
         }
-        let Some(plot) = &self.plot else { return Ok(()) };
-        if !ends(plot, "png") {
-            return Err(Error::file(plot, "does not end in .png: rename it").into());
-        }
-        if plot.exists() && !self.out.exists() && !self.force {
-            return Err(Error::file(plot, "exists: use --force to replace it, or choose another --plot").into());
-        }
-        Ok(())
+        check_plot(self.plot.as_deref(), &self.out, self.force)
     }
 
     /// The inputs on which the rows depend.
@@ -352,9 +347,7 @@ impl Options {
             curves: curves.iter().map(|(name, points)| (name.as_str(), points.clone())).collect(),
             ..Chart::default()
         };
-        let file = OutputFile::create(plot, true)?;
-        file.write(|path| chart.write_png(path))?;
-        Ok(file.commit()?)
+        write_picture(plot, &chart.draw(self.resolution.dpi)?)
     }
 }
 

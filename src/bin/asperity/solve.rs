@@ -4,11 +4,12 @@ use std::path::PathBuf;
 
 use asperity::contact::Patch;
 use asperity::io::{OutputFolder, write_npy, write_npz, write_vti};
-use asperity::{Control, Grid, Level, Status};
+use asperity::{AdhesionLaw, Control, Grid, Level, Status};
 use clap::{ArgGroup, Args, ValueEnum};
 use serde_json::{Value, json};
 
 use crate::adhesion::{AdhesionOptions, Law};
+use crate::allowed::finite;
 use crate::boundary::{LOAD, LoadOptions};
 use crate::case::{self, Account, Case, Left};
 use crate::loads::name_and_value;
@@ -17,7 +18,7 @@ use crate::options::{Given, Precision, ProblemOptions, Scalar, SolverOptions, Su
 use crate::outcome::Outcome;
 use crate::output::at_destination;
 use crate::output::{output_folder, write_text};
-use crate::pictures::{self, Units};
+use crate::pictures::{self, PictureFormat, Resolution, Units};
 use crate::printing::Printing;
 use crate::printing::say;
 use crate::progress::Progress;
@@ -30,8 +31,8 @@ use crate::warnings::{Strictness, Warnings};
 ///
 /// All quantities are in any consistent units, as m, Pa and J/m²; heights of files with units of length are in m.
 /// Writes gap.npy, pressure.npy (the full elastic pressure, compression positive) and contact_pressure.npy (its
-/// repulsive part), or files as --format says, report.json, contact.png, pressure.png, and scene.toml, which repeats
-/// the run, all or none. Exits with 0 if converged, 2 if not (the fields are written all the same), and 1 if the input
+/// repulsive part), or files as --format says, report.json, contact.png, pressure.png (or .svg, .pdf), and scene.toml,
+/// which repeats the run, all or none. Exits with 0 if converged, 2 if not (the fields are written all the same), and 1 if the input
 /// is refused or the files cannot be written (then there are none). Probable mistakes, as a tilt, are said on a line
 /// each and in the report; --strict refuses them.
 #[derive(Args)]
@@ -79,9 +80,19 @@ pub struct Options {
     strictness: Strictness,
     #[command(flatten)]
     printing: Printing,
-    /// Write no .png files
+    /// Write no pictures
     #[arg(long, help_heading = "Output")]
     no_pictures: bool,
+    /// Format of the pictures
+    #[arg(long, value_enum, value_name = "FORMAT", default_value = "png", help_heading = "Output")]
+    picture_format: PictureFormat,
+    #[command(flatten)]
+    resolution: Resolution,
+    /// Pressures at the ends of the colour bar, as for pictures that are to be compared; with adhesion that of the largest
+    /// tension, negative, and that of the largest compression
+    #[arg(long, value_names = ["LOW", "HIGH"], num_args = 2, allow_hyphen_values = true, value_parser = finite)]
+    #[arg(help_heading = "Output")]
+    colour_limits: Option<Vec<f64>>,
     /// Unit of the lengths, on pictures only; m gets prefixes
     #[arg(long, value_name = "UNIT", help_heading = "Output")]
     length_unit: Option<String>,
@@ -118,14 +129,20 @@ const MODE: &str = "mode.npy";
 const NPZ: &str = "fields.npz";
 const VTI: &str = "fields.vti";
 const REPORT: &str = "report.json";
-const PICTURES: [&str; 2] = ["contact.png", "pressure.png"];
+const PICTURES: [[&str; 2]; 3] =
+    [["contact.png", "pressure.png"], ["contact.svg", "pressure.svg"], ["contact.pdf", "pressure.pdf"]];
 
 /// Runs the command; whether it converged.
 pub fn run(options: &Options, scene: &Scene) -> Outcome<bool> {
     let problem = options.problem();
     problem.adhesion.check()?;
     problem.surface.beyond.boundary.check(options.load.control())?;
-    let pictures = PICTURES.iter().filter(|_| !options.no_pictures);
+    let limits = options.colour_limits();
+    if let Some((low, high)) = limits.filter(|(low, high)| low >= high) {
+        return Err(format!("--colour-limits {low} {high}: the lower one must come first").into());
+    }
+    let pictures = options.picture_format.of(PICTURES);
+    let pictures = pictures.iter().filter(|_| !options.no_pictures);
     let mode = options.case().stability.then_some(&MODE);
     let arrays = FIELDS.iter().chain(mode).filter(|_| options.writes(Format::Npy));
     let archives = [(Format::Npz, &NPZ), (Format::Vti, &VTI)].into_iter().filter(|(format, _)| options.writes(*format));
@@ -147,6 +164,10 @@ pub fn run(options: &Options, scene: &Scene) -> Outcome<bool> {
 impl Options {
     fn writes(&self, format: Format) -> bool {
         self.format.contains(&format)
+    }
+
+    fn colour_limits(&self) -> Option<(f64, f64)> {
+        self.colour_limits.as_deref().map(|limits| (limits[0], limits[1]))
     }
 
     fn problem(&self) -> ProblemOptions<'_> {
@@ -248,7 +269,7 @@ impl Job<'_> {
         account.strongest = adhesion.strongest();
 
         let folder = output_folder(out, &self.names, *force)?;
-        let written = self.write(&folder, grid, &solution, &account);
+        let written = self.write(&folder, grid, &solution, &account, &adhesion.law()?);
         written.map_err(|error| at_destination(error, out))?;
         folder.commit()?;
 
@@ -271,6 +292,7 @@ impl Job<'_> {
         grid: Grid,
         solution: &asperity::Solution<T>,
         account: &Account,
+        law: &impl AdhesionLaw<T>,
     ) -> asperity::Result<()> {
         let path = |name: &str| folder.path(name);
         let mode = account.stability.as_ref().map(|stability| &stability.mode);
@@ -292,10 +314,14 @@ impl Job<'_> {
         write_text(&path(REPORT), &format!("{:#}\n", self.report(grid, account)))?;
         write_text(&path(scene::NAME), &self.scene.text(&self.options.out))?;
         if !self.options.no_pictures {
-            let units = Units { length: self.length_unit, pressure: self.options.pressure_unit.as_deref() };
-            pictures::draw_contact(&path("contact.png"), grid, "Contact", units, solution)?;
+            let Options { ref pressure_unit, picture_format, resolution: Resolution { dpi }, .. } = *self.options;
+            let units = Units { length: self.length_unit, pressure: pressure_unit.as_deref(), force: None };
+            let [contact_name, pressure_name] = picture_format.of(PICTURES);
+            pictures::draw_contact(grid, "Contact", units, (solution, law), dpi)?.write(&path(contact_name))?;
             let pressure = pictures::pressure_to_draw(solution, self.options.adhesion.law != Law::None);
-            pictures::draw_pressure(&path("pressure.png"), grid, "Pressure", "", units, pressure)?;
+            let limits = self.options.colour_limits();
+            let picture = pictures::draw_pressure(grid, ("Pressure", ""), units, pressure, limits, dpi)?;
+            picture.write(&path(pressure_name))?;
         }
         Ok(())
     }
