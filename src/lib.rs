@@ -100,6 +100,7 @@
 //! depends on libm, ndarray, num-traits, pulp and rustfft alone.
 #![doc = include_str!("equations.html")]
 
+pub mod accuracy;
 mod adhesion;
 mod constraint;
 pub mod contact;

@@ -6,6 +6,7 @@ use ndarray::Array2;
 
 use crate::adhesion::AdhesionLaw;
 use crate::constraint::{ContactConstraint, Projection};
+use crate::contact::ContactArea;
 use crate::elastic::{Boundary, ElasticOperator};
 use crate::error::{Error, Result};
 use crate::field::flat_mut;
@@ -14,6 +15,7 @@ use crate::par;
 use crate::problem::{Control, Problem};
 use crate::real::Real;
 use crate::solver::{Iteration, Settings, Solution, Solver, Start, Status};
+use crate::stability::ContactStiffness;
 use crate::surface::Surface;
 
 /// The resolution measure μ_ρ above which a coarse grid would pin the contact.
@@ -58,10 +60,13 @@ pub struct Nested<C = Projection> {
     pub coarse_tolerance: f64,
     /// The least number of nodes along a side of a coarser grid. Default 64.
     pub coarsest: usize,
+    /// The relative error to which the contact stiffness of each grid is found; `None`, the default, finds none.
+    pub stiffness: Option<f64>,
 }
 
-/// The cost of the solve on one of the nested grids.
+/// The cost of the solve on one of the nested grids, and what it found there.
 ///
+/// The figures of a coarser grid are those of its solution to the coarse tolerance; how good it is says its relative error.
 /// [`NestedSolution`] has an example.
 #[non_exhaustive]
 #[derive(Clone, Debug, PartialEq)]
@@ -74,6 +79,40 @@ pub struct Level {
     pub iterations: usize,
     /// The number of operator applications, with the one that constructs the problem.
     pub operator_applications: usize,
+    /// The certified relative error, [`Report::relative_error`](crate::Report::relative_error).
+    pub relative_error: f64,
+    /// The mean gap, [`Report::mean_gap`](crate::Report::mean_gap).
+    pub mean_gap: f64,
+    /// The mean external pressure, [`Report::mean_pressure`](crate::Report::mean_pressure).
+    pub mean_pressure: f64,
+    /// The mean contact pressure, [`Report::mean_contact_pressure`](crate::Report::mean_contact_pressure).
+    pub mean_contact_pressure: f64,
+    /// The elastic energy per area, [`Report::elastic_energy`](crate::Report::elastic_energy).
+    pub elastic_energy: f64,
+    /// The contact area, as nodes count it and corrected.
+    pub area: ContactArea,
+    /// The contact stiffness, if [`Nested::stiffness`] asks for it.
+    pub stiffness: Option<ContactStiffness>,
+}
+
+impl Level {
+    /// The level of a solution on its grid.
+    pub(crate) fn of<T: Real>(solution: &Solution<T>, grid: &Grid) -> Result<Self> {
+        let report = &solution.report;
+        Ok(Self {
+            shape: grid.shape(),
+            status: report.status,
+            iterations: report.iterations,
+            operator_applications: report.operator_applications + 1,
+            relative_error: report.relative_error,
+            mean_gap: report.mean_gap,
+            mean_pressure: report.mean_pressure,
+            mean_contact_pressure: report.mean_contact_pressure,
+            elastic_energy: report.elastic_energy,
+            area: ContactArea::of_solution(solution, solution.contact_map().view(), grid)?,
+            stiffness: None,
+        })
+    }
 }
 
 /// The solution on the finest of nested grids.
@@ -112,7 +151,7 @@ impl<T> NestedSolution<T> {
 impl Nested {
     /// Nested grids for a solver that confines the gap to g ≥ 0 by projection.
     pub fn new(settings: Settings) -> Self {
-        Self { solver: Solver::new(settings), coarse_tolerance: 1e-2, coarsest: 64 }
+        Self { solver: Solver::new(settings), coarse_tolerance: 1e-2, coarsest: 64, stiffness: None }
     }
 }
 
@@ -188,13 +227,10 @@ impl<C> Nested<C> {
                 if stopped || done { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
             });
             self.solver.settings = settings;
-            let Solution { gap, report, .. } = result?;
-            levels.push(Level {
-                shape: coarse.grid().shape(),
-                status: report.status,
-                iterations: report.iterations,
-                operator_applications: report.operator_applications + 1,
-            });
+            let solution = result?;
+            let stiffness = self.stiffness_of(&mut problem, &solution)?;
+            levels.push(Level { stiffness, ..Level::of(&solution, coarse.grid())? });
+            let Solution { gap, report, .. } = solution;
             // a coarse grid that does not carry its load says nothing of a finer one
             if report.load_error < CARRIED {
                 let finer = finer(&strides, stride);
@@ -208,13 +244,27 @@ impl<C> Nested<C> {
             stopped = stopped || observe(surface.grid(), iteration).is_break();
             if stopped { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         })?;
-        levels.push(Level {
-            shape: surface.grid().shape(),
-            status: solution.report.status,
-            iterations: solution.report.iterations,
-            operator_applications: solution.report.operator_applications + 1,
-        });
+        let stiffness = self.stiffness_of(&mut problem, &solution)?;
+        levels.push(Level { stiffness, ..Level::of(&solution, surface.grid())? });
         Ok(NestedSolution { solution, levels })
+    }
+}
+
+impl<C> Nested<C> {
+    /// The contact stiffness of a solution, if it is asked for.
+    pub(crate) fn stiffness_of<T, O, L>(
+        &self,
+        problem: &mut Problem<T, O, L>,
+        solution: &Solution<T>,
+    ) -> Result<Option<ContactStiffness>>
+    where
+        T: Real,
+        O: ElasticOperator<T>,
+        L: AdhesionLaw<T>,
+        C: ContactConstraint<T>,
+    {
+        let find = |tolerance| ContactStiffness::of_constrained(problem, &self.solver.constraint, solution, tolerance);
+        self.stiffness.map(find).transpose()
     }
 }
 
@@ -249,7 +299,7 @@ fn coarsen(surface: &Surface, (x, y): (usize, usize)) -> Result<Option<Surface>>
 }
 
 /// The gap prolonged to the next finer grid, which has every `stride`-th node of the surface.
-fn prolong<T: Real>(
+pub(crate) fn prolong<T: Real>(
     surface: &Surface,
     stride: (usize, usize),
     coarse: &Surface,

@@ -106,6 +106,22 @@ fn nested_grids_find_what_the_finest_finds() {
 }
 
 #[test]
+fn a_level_says_what_it_found() {
+    let surface = surface(256, 1);
+    let NestedSolution { solution, levels, .. } = solve::<f64>(&surface, none(), PRESSED, 1e-6);
+    let (finest, report) = (levels.last().unwrap(), &solution.report);
+    let area = contact::ContactArea::of_solution(&solution, solution.contact_map().view(), surface.grid()).unwrap();
+    assert_eq!((finest.mean_gap, finest.mean_pressure), (report.mean_gap, report.mean_pressure));
+    assert_eq!((finest.elastic_energy, finest.area), (report.elastic_energy, area));
+    // the shortest wave has four nodes on the finest grid, so that coarser ones agree roughly
+    for level in &levels {
+        assert_eq!(level.mean_pressure, report.mean_pressure);
+        assert!((level.mean_gap / report.mean_gap - 1.0).abs() < 0.1, "{level:?}");
+        assert!(level.area.corrected_contact_fraction < level.area.contact_fraction);
+    }
+}
+
+#[test]
 fn lines_and_rectangles_have_nested_grids_too() {
     let line = Grid::line(4096, 1.0).unwrap();
     let (long, wide) = (Grid::new((384, 256), (1.5, 1.0)).unwrap(), Grid::new((160, 320), (1.0, 2.0)).unwrap());

@@ -18,6 +18,7 @@ mod surface;
 mod sweep;
 
 // the parts of which commands are made
+mod accuracy;
 mod adhesion;
 mod allowed;
 mod boundary;

@@ -8,7 +8,8 @@ use asperity::{AdhesionLaw, Control, Grid, Level, Status};
 use clap::{ArgGroup, Args, ValueEnum};
 use serde_json::{Value, json};
 
-use crate::adhesion::{AdhesionOptions, Law};
+use crate::accuracy::{self, AccuracyOptions};
+use crate::adhesion::{AdhesionOptions, Law, Wall};
 use crate::allowed::finite;
 use crate::boundary::{LOAD, LoadOptions};
 use crate::case::{self, Account, Case, Left};
@@ -51,6 +52,8 @@ pub struct Options {
     /// Solve on coarser grids first, where sizes are even and the grids resolve the adhesion; saves time at loose tolerances
     #[arg(long, help_heading = "Solver", conflicts_with = "initial_gap")]
     nested: bool,
+    #[command(flatten)]
+    accuracy: AccuracyOptions,
 
     /// Folder for the results, made if needed
     #[arg(long, value_name = "DIR", help_heading = "Output")]
@@ -65,6 +68,9 @@ pub struct Options {
     /// --stability
     #[arg(long, help_heading = "Output", conflicts_with = "nested")]
     leave: bool,
+    /// Find the contact stiffness: how much the mean pressure grows with the approach, pressure per length
+    #[arg(long, help_heading = "Output")]
+    stiffness: bool,
     /// Files for the fields: .npy one each, all in fields.npz for numpy, or in fields.vti for ParaView; may be
     /// repeated
     #[arg(
@@ -112,6 +118,8 @@ const EXAMPLES: &str = "\
   The same load without adhesion on a large map, by way of coarser grids:
     asperity solve --heights heights.npy --lengths 1e-6 1e-6 --modulus 1e9 \\
       --mean-pressure 2.5e6 --nested --out nested
+  A contact area that is right to 5 %, on a grid as fine as that takes:
+    asperity solve --heights heights.npy --mean-pressure 0.01 --accuracy 0.05 --out right
   On from the case with adhesion to a tension:
     asperity solve --heights heights.npy --lengths 1e-6 1e-6 --modulus 1e9 \\
       --law exponential --work-of-adhesion 0.05 --range 1e-9 \\
@@ -180,7 +188,16 @@ impl Options {
         let (control, settings) = (self.load.control(), self.solver.settings());
         let stability = self.stability || self.leave;
         let wall = self.adhesion.wall;
-        Case { boundary: beyond.boundary, modulus, control, settings, wall, stability, leave: self.leave }
+        Case {
+            boundary: beyond.boundary,
+            modulus,
+            control,
+            settings,
+            wall,
+            stability,
+            leave: self.leave,
+            stiffness: self.stiffness,
+        }
     }
 
     /// All that one needs for understanding a run later; numbers that are not finite become null.
@@ -197,6 +214,14 @@ impl Options {
             "operator_applications": report.operator_applications,
             "levels": levels,
             "equivalent_applications": account.grids.as_ref().map(|(_, applications)| applications),
+            "grid_error": account.grids.as_ref().map(|(levels, _)| {
+                accuracy::errors(levels, account.nodes_per_wave, report.mu_rho, &case)
+            }),
+            "accuracy": account.reached.as_ref().map(|reached| json!({
+                "wanted": reached.accuracy,
+                "of": reached.of.name(),
+                "reached": reached.reached,
+            })),
             "mean_gap": report.mean_gap,
             "mean_pressure": report.mean_pressure,
             "normal_force": report.normal_force,
@@ -227,6 +252,8 @@ impl Options {
                 "smoothed": stability.smoothed,
                 "operator_applications": stability.operator_applications,
             })),
+            "contact_stiffness": account.stiffness.map(|found| found.pressure_per_length),
+            "normal_stiffness": account.stiffness.map(|found| found.force_per_length),
             "departures": self.leave.then(|| account.departures.iter().map(departure).collect::<Vec<_>>()),
             "mu_rho": report.mu_rho,
             "mu_rho_node": account.strongest,
@@ -236,7 +263,10 @@ impl Options {
             "control": control,
             "control_value": held,
         });
-        report::report("solve", outcome, report::inputs(self.problem(), &grid, length_unit))
+        let mut inputs = report::inputs(self.problem(), &grid, length_unit);
+        // with an accuracy the one that was chosen
+        inputs.insert("tolerance".to_owned(), report.tolerance.into());
+        report::report("solve", outcome, inputs)
     }
 }
 
@@ -252,14 +282,27 @@ struct Job<'a> {
 impl Job<'_> {
     fn run<T: Scalar>(&self, Given { surface, adhesion, start, .. }: Given<'_>) -> Outcome<bool> {
         let Options { out, force, printing, .. } = self.options;
-        let grid = *surface.grid();
+        let mut grid = *surface.grid();
         let start = start.map(T::field);
-        let progress = Progress::new("", self.case.settings.tolerance_in::<T>(), grid.nodes(), printing.without_bars());
+        let mut wanted = self.options.accuracy.goal(&self.case);
+        let tolerance = match &wanted {
+            Some(wanted) => wanted.tolerance()?,
+            None => self.case.settings.tolerance_in::<T>(),
+        };
+        let progress = Progress::new("", tolerance, grid.nodes(), printing.without_bars());
         let mut warnings =
             Warnings::of_input::<T>(self.options.strictness, &surface, &adhesion, self.options.problem())?;
         warnings.say();
         let law = adhesion.law()?;
-        let (solution, mut account) = if self.options.nested {
+        let (solution, mut account) = if let Some(wanted) = &mut wanted {
+            let mut operator = self.case.boundary.half_space(grid, self.case.modulus)?;
+            let plan = wanted.plan::<T>(&surface, &mut operator, self.case.control)?;
+            drop(operator);
+            printing.say(&accuracy::announced(wanted, &plan));
+            let (fine, solution, account) = case::solve_to(&surface, law, &self.case, wanted, progress)?;
+            grid = *fine.grid();
+            (solution, account)
+        } else if self.options.nested {
             case::solve_nested::<T, _>(&surface, law, &self.case, progress)?
         } else {
             case::solve::<T, _>(surface, law, &self.case, start, progress)?
@@ -279,7 +322,8 @@ impl Job<'_> {
         }
         printing.report(|| self.report(grid, &account));
         warn("", &account, &self.case);
-        Ok(account.report.status == Status::Converged)
+        let reached = account.reached.as_ref().is_none_or(|reached| reached.reached);
+        Ok(account.report.status == Status::Converged && reached)
     }
 
     fn report(&self, grid: Grid, account: &Account) -> Value {
@@ -342,13 +386,21 @@ fn spring_stiffness(control: Control) -> Option<f64> {
     if let Control::Spring { stiffness, .. } = control { Some(stiffness) } else { None }
 }
 
-/// The cost of one of the nested grids; the applications include the one that constructs its problem.
+/// The cost of one of the nested grids and what it found; the applications include the one that constructs its problem.
 fn level(level: &Level) -> Value {
     json!({
         "shape": level.shape,
         "status": level.status.name(),
         "iterations": level.iterations,
         "operator_applications": level.operator_applications,
+        "relative_error": level.relative_error,
+        "mean_gap": level.mean_gap,
+        "mean_pressure": level.mean_pressure,
+        "mean_contact_pressure": level.mean_contact_pressure,
+        "elastic_energy": level.elastic_energy,
+        "contact_fraction": level.area.contact_fraction,
+        "corrected_contact_fraction": level.area.corrected_contact_fraction,
+        "contact_stiffness": level.stiffness.map(|found| found.pressure_per_length),
     })
 }
 

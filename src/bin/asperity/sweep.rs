@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use asperity::contact::ContactStatistics;
+use asperity::stability::ContactStiffness;
 use asperity::{Control, Error, Problem, Report, Solver, Status, Surface, Sweep};
 use clap::{ArgGroup, Args, ValueEnum};
 use ndarray::Array2;
@@ -10,7 +11,8 @@ use serde_json::{Map, Value, json};
 
 use crate::adhesion::{Adhesion, AdhesionOptions};
 use crate::boundary::{LOADS, LoadsOptions};
-use crate::columns::{OUTCOME, STATE, outcome, state};
+use crate::case::Case;
+use crate::columns::{OUTCOME, STATE, STIFFNESS, outcome, state, stiffness};
 use crate::csv;
 use crate::identity::{Identity, identity};
 use crate::journal::Row;
@@ -58,6 +60,10 @@ pub struct Options {
     fields: Option<PathBuf>,
     #[command(flatten)]
     plot: PlotOptions,
+    /// Find the contact stiffness under each load, in two more columns: contact_stiffness, how much the mean pressure
+    /// grows with the approach, and normal_stiffness, how much the force does
+    #[arg(long, help_heading = "Output")]
+    stiffness: bool,
     /// Start over, and replace files that are there
     #[arg(long, help_heading = "Output")]
     force: bool,
@@ -82,9 +88,9 @@ enum Format {
     Jsonl,
 }
 
-/// The names of the columns.
-fn names() -> Vec<&'static str> {
-    [&STATE[..], &OUTCOME[..]].concat()
+/// The names of the columns, with the contact stiffness or without.
+fn names(stiffness: bool) -> Vec<&'static str> {
+    [&STATE[..], &OUTCOME[..], if stiffness { &STIFFNESS[..] } else { &[] }].concat()
 }
 
 /// Runs the command; whether all rows converged.
@@ -114,7 +120,7 @@ impl Options {
         let mut problem = Problem::new(&surface, operator, adhesion.law::<T>()?)?;
         drop(surface);
         let format = self.format()?;
-        let header = if format == Format::Csv { names().join(",") + "\n" } else { String::new() };
+        let header = if format == Format::Csv { names(self.stiffness).join(",") + "\n" } else { String::new() };
         let kept = Kept(self.fields.as_deref());
         kept.check(self.force || self.out.exists())?;
         let (mut table, saved) = Table::open(self.table(), scene, &header, identity, Some(loads), warnings)?;
@@ -137,7 +143,12 @@ impl Options {
             let (control, solution) = step?;
             table.check(&solution)?;
             let statistics = ContactStatistics::of(&solution, &grid, &law)?;
-            let row = row(control, &solution.report, &statistics);
+            let mut row = row(control, &solution.report, &statistics);
+            if self.stiffness {
+                let (problem, tolerance) = (sweep.problem(), Case::STIFFNESS);
+                let found = ContactStiffness::of_constrained(problem, &self.adhesion.wall, &solution, tolerance)?;
+                row.extend(stiffness(&found).map(|(name, value)| (name.to_owned(), value)));
+            }
             let text = match format {
                 Format::Csv => csv::line(&row),
                 Format::Jsonl => Value::Object(row).to_string(),
@@ -149,11 +160,12 @@ impl Options {
             self.printing.say(&format!("{:>width$}/{count}  {}", k + 1, table::brief(&solution.report)));
         }
         let text = table.text()?;
-        let rows = text.lines().skip(usize::from(format == Format::Csv)).map(|row| parsed(format, row));
+        let names = names(self.stiffness);
+        let rows = text.lines().skip(usize::from(format == Format::Csv)).map(|row| parsed(format, &names, row));
         self.plot.draw(&rows.collect::<Vec<_>>(), unit.as_deref())?;
         self.printing.say(&format!("{count} rows in {}", self.out.display()));
         self.printing.report(|| {
-            let last = parsed(format, text.lines().next_back().unwrap_or_default());
+            let last = parsed(format, &names, text.lines().next_back().unwrap_or_default());
             table.report(
                 "sweep",
                 self.loads.control(0.0).name(),
@@ -187,15 +199,16 @@ impl Options {
         let csv = self.format().is_ok_and(|format| format == Format::Csv);
         identity.insert("control".to_owned(), self.loads.kind().into());
         identity.insert("fields".to_owned(), if self.fields.is_some() { "kept" } else { "not kept" }.into());
+        identity.insert("stiffness".to_owned(), if self.stiffness { "found" } else { "not found" }.into());
         identity.insert("format".to_owned(), if csv { "csv" } else { "jsonl" }.into());
         identity
     }
 }
 
 /// A row of the file.
-fn parsed(format: Format, row: &str) -> Value {
+fn parsed(format: Format, names: &[&'static str], row: &str) -> Value {
     match format {
-        Format::Csv => csv::parsed(&names(), row),
+        Format::Csv => csv::parsed(names, row),
         Format::Jsonl => serde_json::from_str(row).unwrap_or_default(),
     }
 }
