@@ -160,7 +160,8 @@ const ORDERS: (f64, f64) = (0.5, 3.0);
 /// | contact stiffness k | √((0.3 δk)² + (0.11 δA)²) |
 /// | mean gap ḡ, mean pressure p̄ | √((0.15 δḡ)² + (0.001 δA)²), and with p̄ likewise |
 ///
-/// and on a line, where the area is not corrected, δQ of area and stiffness, and a third of it of gap and pressure.
+/// and on a line, where the area is not corrected, the factors are 1 and 0.3 for area and stiffness, and 1/3 and 0.02 for
+/// gap and pressure.
 /// δA tells how many of the nodes in contact are at the edge, and so the scale of all that depends on where between the
 /// nodes the edge falls; δQ alone may be small by luck. The factors are fitted to rough surfaces, and the page
 /// [`choosing`](crate::guide::choosing) has how good the estimates are on others.
@@ -225,8 +226,8 @@ impl GridError {
         let line = finest.shape.0 == 1 || finest.shape.1 == 1;
         let (share, of_edge, regular) = match quantity {
             // where the area is not corrected, all is of first order, or of second
-            Quantity::Area | Quantity::Stiffness if line => (1.0, 0.0, false),
-            Quantity::Gap | Quantity::Pressure if line => (1.0 / 3.0, 0.0, order.is_some()),
+            Quantity::Area | Quantity::Stiffness if line => (1.0, 0.3, false),
+            Quantity::Gap | Quantity::Pressure if line => (1.0 / 3.0, 0.02, order.is_some()),
             Quantity::Area => (0.25, 0.17, true),
             Quantity::Stiffness => (0.3, 0.11, true),
             Quantity::Gap | Quantity::Pressure => (0.15, 0.001, order.is_some()),

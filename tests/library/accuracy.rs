@@ -158,11 +158,11 @@ fn a_free_sphere_an_adhesive_one_and_a_line_have_accuracies_too() {
 
     let wave = Surface::wave(Grid::line(32, 1.0).unwrap(), 0.02, 1).unwrap();
     let control = Control::MeanPressure(0.02);
-    let found = Accuracy::new(1e-3, Quantity::Gap).solve(&wave, half_space, NoAdhesion, control).unwrap();
+    let found = Accuracy::new(5e-3, Quantity::Gap).solve(&wave, half_space, NoAdhesion, control).unwrap();
     let s: f64 = 0.02 / (std::f64::consts::PI * 0.02);
     let exact = 0.02 * (1.0 - s + s * s.ln());
     let error = found.solution.report.mean_gap / exact - 1.0;
-    assert!(found.reached && error.abs() < 1e-3, "{error} {:?}", found.error);
+    assert!(found.reached && error.abs() < 5e-3, "{error} {:?}", found.error);
 }
 
 #[test]
