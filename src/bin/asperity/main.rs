@@ -4,6 +4,9 @@
 //! run` does any of these by a scene file, which every run leaves beside its results, and `asperity report` puts the
 //! results on a page for a browser.
 
+// the report of a solve has more keys than serde_json's macro expands otherwise
+#![recursion_limit = "256"]
+
 // the commands
 mod completions;
 mod cycle;

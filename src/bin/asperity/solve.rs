@@ -9,7 +9,7 @@ use clap::{ArgGroup, Args, ValueEnum};
 use serde_json::{Value, json};
 
 use crate::accuracy::{self, AccuracyOptions};
-use crate::adhesion::{AdhesionOptions, Law, Wall};
+use crate::adhesion::{AdhesionOptions, Law};
 use crate::allowed::finite;
 use crate::boundary::{LOAD, LoadOptions};
 use crate::case::{self, Account, Case, Left};
