@@ -105,8 +105,9 @@ impl<T: Real, L: Real> State<'_, T, L> {
             let [at_edge, largest] = [largest(edge(&pressure)), largest(pressure.iter().copied())];
             let share = if at_edge == 0.0 { 0.0 } else { at_edge / largest };
             report.edge_traction = Some(share);
-            // of bodies that are apart it says nothing how far the last of their attraction reaches
-            let apart = report.status == Status::Detached || report.contact_nodes == 0 && largest <= noticeable(law);
+            // of bodies that are apart it says nothing how far the last of their attraction, or rounding, reaches
+            let attract = !law.is_zero() && largest > noticeable(law);
+            let apart = report.status == Status::Detached || report.contact_nodes == 0 && !attract;
             report.reaches_edge = !apart && (share > EDGE || edge(&gap).any(|gap| gap <= T::zero()));
         }
         Ok(Solution { gap, pressure, contact_pressure, report })
