@@ -134,13 +134,23 @@ fn lines_and_rectangles_have_nested_grids_too() {
 }
 
 #[test]
-fn odd_sizes_have_the_finest_grid_alone() {
-    let surface = surface(255, 1);
+fn odd_sizes_have_nested_grids_too() {
+    let surface = surface(511, 1);
     for control in [PRESSED, APART] {
-        let found = solve::<f64>(&surface, none(), control, 1e-6);
-        assert_eq!(shapes(&found), [(255, 255)]);
-        assert_eq!(found.solution, single(&surface, none(), control, 1e-6));
+        let (found, alone) = (solve::<f64>(&surface, none(), control, 1e-6), single(&surface, none(), control, 1e-6));
+        assert_eq!(shapes(&found), [(64, 64), (128, 128), (256, 256), (511, 511)]);
+        agree(&found, &alone, 1e-5, 5);
+        assert!(found.equivalent_applications() < 1.05 * (alone.report.operator_applications + 1) as f64);
     }
+}
+
+#[test]
+fn surfaces_that_are_nearly_closed_start_anew_on_the_finest_grid() {
+    let surface = surface(256, 1);
+    let control = Control::MeanPressure(10.0);
+    let (found, alone) = (solve::<f64>(&surface, none(), control, 1e-6), single(&surface, none(), control, 1e-6));
+    assert_eq!(shapes(&found), [(64, 64), (256, 256)]);
+    assert_eq!(found.solution, alone);
 }
 
 #[test]

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use asperity::io::{OutputFolder, write_npy, write_npz, write_vti};
-use asperity::{Control, Grid, Level, Status};
+use asperity::{AdhesionLaw, Control, Grid, Level, Nested, Status, Surface};
 use clap::{ArgGroup, Args, ValueEnum};
 use serde_json::{Value, json};
 
@@ -46,9 +46,12 @@ pub struct Options {
     adhesion: AdhesionOptions,
     #[command(flatten)]
     solver: SolverOptions,
-    /// Solve on coarser grids first, where sizes are even and the grids resolve the adhesion; saves time at loose tolerances
-    #[arg(long, help_heading = "Solver", conflicts_with = "initial_gap")]
+    /// Solve on coarser grids first, where these resolve the adhesion; the default where that is faster
+    #[arg(long, help_heading = "Solver", conflicts_with = "initial_gap", overrides_with = "no_nested")]
     nested: bool,
+    /// Solve on the grid of the heights alone
+    #[arg(long, help_heading = "Solver", overrides_with = "nested")]
+    no_nested: bool,
 
     /// Folder for the results, made if needed
     #[arg(long, value_name = "DIR", help_heading = "Output")]
@@ -97,7 +100,7 @@ const EXAMPLES: &str = "\
     asperity solve --heights heights.npy --lengths 1e-6 1e-6 --modulus 1e9 \\
       --law exponential --work-of-adhesion 0.05 --range 1e-9 \\
       --mean-pressure 2.5e6 --length-unit m --pressure-unit Pa --out sticky
-  The same load without adhesion on a large map, by way of coarser grids:
+  The same load without adhesion, by way of coarser grids, which is the default where it is faster:
     asperity solve --heights heights.npy --lengths 1e-6 1e-6 --modulus 1e9 \\
       --mean-pressure 2.5e6 --nested --out nested
   On from the case with adhesion to a tension:
@@ -237,7 +240,7 @@ impl Job<'_> {
             Warnings::of_input::<T>(self.options.strictness, &surface, &adhesion, self.options.problem())?;
         warnings.say();
         let law = adhesion.law()?;
-        let (solution, mut account) = if self.options.nested {
+        let (solution, mut account) = if self.nests::<T>(&surface, &law, start.is_some()) {
             case::solve_nested::<T, _>(&surface, law, &self.case, progress)?
         } else {
             case::solve::<T, _>(surface, law, &self.case, start, progress)?
@@ -258,6 +261,13 @@ impl Job<'_> {
         printing.report(|| self.report(grid, &account));
         warn("", &account, &self.case);
         Ok(account.report.status == Status::Converged)
+    }
+
+    /// Whether to solve on coarser grids first.
+    fn nests<T: Scalar>(&self, surface: &Surface, law: &dyn AdhesionLaw<T>, started: bool) -> bool {
+        let Case { control, settings, wall, stability, .. } = self.case;
+        let pays = || wall == Wall::Hard && Nested::new(settings).pays(surface, law, control);
+        self.options.nested || !(self.options.no_nested || started || stability) && pays()
     }
 
     fn report(&self, grid: Grid, account: &Account) -> Value {
