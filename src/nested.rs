@@ -46,7 +46,8 @@ const CARRIED: f64 = 0.5;
 /// grid all is as with [`Solver::solve`].
 ///
 /// The finest grid starts anew, by [`Start::Default`], where the coarsest one is nearly closed (a share of contact of more than
-/// 0.8), where a coarser one does not carry its load, and where the solve from the prolonged start has stalled or has come apart.
+/// 0.8), where a coarser one does not carry its load, and where the solve from the prolonged start has come apart or stalled with an
+/// error above the coarse tolerance.
 ///
 /// Nested grids do not always pay: [`Nested::pays`] says where they are the faster way, by measurement.
 ///
@@ -293,7 +294,13 @@ impl<C> Nested<C> {
             Some(start) => (finest(Start::Near(start))?, true),
             None => (finest(Start::Default)?, false),
         };
-        lost = lost && matches!(solution.report.status, Status::Stalled | Status::Detached);
+        // at the floor of rounding another start would stall as well
+        let error = solution.report.relative_error.max(solution.report.load_error);
+        lost = lost
+            && match solution.report.status {
+                Status::Stalled => error > self.coarse_tolerance,
+                status => status == Status::Detached,
+            };
         let spent = if lost { solution.report.operator_applications } else { 0 };
         if lost {
             drop(solution);
