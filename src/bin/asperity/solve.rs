@@ -4,12 +4,12 @@ use std::path::PathBuf;
 
 use asperity::contact::Patch;
 use asperity::io::{OutputFolder, write_npy, write_npz, write_vti};
-use asperity::{AdhesionLaw, Control, Grid, Level, Status};
+use asperity::{AdhesionLaw, Control, Grid, Level, Nested, Status, Surface};
 use clap::{ArgGroup, Args, ValueEnum};
 use serde_json::{Value, json};
 
 use crate::accuracy::{self, AccuracyOptions};
-use crate::adhesion::{AdhesionOptions, Law};
+use crate::adhesion::{AdhesionOptions, Law, Wall};
 use crate::allowed::finite;
 use crate::boundary::{LOAD, LoadOptions};
 use crate::case::{self, Account, Case, Left};
@@ -49,9 +49,12 @@ pub struct Options {
     adhesion: AdhesionOptions,
     #[command(flatten)]
     solver: SolverOptions,
-    /// Solve on coarser grids first, where sizes are even and the grids resolve the adhesion; saves time at loose tolerances
-    #[arg(long, help_heading = "Solver", conflicts_with = "initial_gap")]
+    /// Solve on coarser grids first, where these resolve the adhesion; the default where that is faster
+    #[arg(long, help_heading = "Solver", conflicts_with = "initial_gap", overrides_with = "no_nested")]
     nested: bool,
+    /// Solve on the grid of the heights alone
+    #[arg(long, help_heading = "Solver", overrides_with = "nested")]
+    no_nested: bool,
     #[command(flatten)]
     accuracy: AccuracyOptions,
 
@@ -115,7 +118,7 @@ const EXAMPLES: &str = "\
     asperity solve --heights heights.npy --lengths 1e-6 1e-6 --modulus 1e9 \\
       --law exponential --work-of-adhesion 0.05 --range 1e-9 \\
       --mean-pressure 2.5e6 --length-unit m --pressure-unit Pa --out sticky
-  The same load without adhesion on a large map, by way of coarser grids:
+  The same load without adhesion, by way of coarser grids, which is the default where it is faster:
     asperity solve --heights heights.npy --lengths 1e-6 1e-6 --modulus 1e9 \\
       --mean-pressure 2.5e6 --nested --out nested
   A contact area that is right to 5 %, on a grid as fine as that takes:
@@ -302,7 +305,7 @@ impl Job<'_> {
             let (fine, solution, account) = case::solve_to(&surface, law, &self.case, wanted, progress)?;
             grid = *fine.grid();
             (solution, account)
-        } else if self.options.nested {
+        } else if self.nests::<T>(&surface, &law, start.is_some()) {
             case::solve_nested::<T, _>(&surface, law, &self.case, progress)?
         } else {
             case::solve::<T, _>(surface, law, &self.case, start, progress)?
@@ -324,6 +327,13 @@ impl Job<'_> {
         warn("", &account, &self.case);
         let reached = account.reached.as_ref().is_none_or(|reached| reached.reached);
         Ok(account.report.status == Status::Converged && reached)
+    }
+
+    /// Whether to solve on coarser grids first.
+    fn nests<T: Scalar>(&self, surface: &Surface, law: &dyn AdhesionLaw<T>, started: bool) -> bool {
+        let Case { control, settings, wall, stability, .. } = self.case;
+        let pays = || wall == Wall::Hard && Nested::new(settings).pays(surface, law, control);
+        self.options.nested || !(self.options.no_nested || started || stability) && pays()
     }
 
     fn report(&self, grid: Grid, account: &Account) -> Value {
