@@ -189,7 +189,7 @@ class Problem:
         tolerance: float | None,
         max_iterations: int | None,
         method: str,
-        nested: bool,
+        nested: bool | None,
         threads: int | None,
     ) -> Problem: ...
     def inputs(self) -> tuple[float, int, int]: ...

@@ -35,7 +35,7 @@ class Scene:
         method: str,
         precision: str,
         threads: int | None,
-        nested: bool = False,
+        nested: bool | None = False,
     ) -> None:
         self.topography: Topography = taken(heights, lengths)
         lengths = sides(self.topography)

@@ -90,8 +90,8 @@ def solve(
         undeformed bodies that come from afar, at the ``mean_gap``, the ``approach`` or the position at rest of the
         ``spring``: by default those with adhesion are found sticking.
     nested : bool, optional
-        Solves on coarser grids first, where sizes are even and the grids resolve the adhesion: saves time at loose
-        tolerances. None leaves it to the library, which solves on one grid.
+        Solves on coarser grids first, where these resolve the adhesion; ``report["grid_error"]`` estimates the error of
+        the grid then. None leaves it to the library, which does so where it is faster.
     observe : callable, optional
         Called with an `Iteration` in every iteration. ``raise StopIteration`` in it ends the solve; any other
         exception arrives as it was raised, with what was reached as its attribute ``solution``.
@@ -151,7 +151,7 @@ def solve(
         method=method,
         precision=precision,
         threads=threads,
-        nested=bool(nested),
+        nested=nested,
     )
     found = scene.problem.solve(load, scene.start(start, [load]), observe, stability or leave, leave)
     return scene.solution("solve", found)

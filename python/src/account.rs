@@ -1,8 +1,9 @@
 //! The account of a solve: all that its report and the solution of Python have.
 
+use asperity::accuracy::{GridError, Quantity};
 use asperity::contact::{ContactArea, ContactStatistics};
 use asperity::stability::Stability;
-use asperity::{Control, Grid, Level, Real, Solution, Warning, WarningCode};
+use asperity::{Control, Grid, Level, NestedSolution, Real, Solution, Warning, WarningCode};
 use numpy::Element;
 use numpy::ndarray::Array2;
 use rayon::prelude::*;
@@ -11,18 +12,41 @@ use rayon::prelude::*;
 pub trait Scalar: Real + Element {}
 impl<T: Real + Element> Scalar for T {}
 
+/// The account of nested grids.
+pub struct Grids {
+    pub levels: Vec<Level>,
+    /// The applications on all of them in units of one on the finest.
+    pub applications: f64,
+    /// The estimated errors of the finest grid, where they can be told.
+    pub errors: Vec<(Quantity, Option<GridError>)>,
+}
+
+impl Grids {
+    /// The account of a solution, of a surface with so many nodes in its shortest wave.
+    pub fn of<T>(found: &NestedSolution<T>, nodes_per_wave: f64, control: Control) -> Self {
+        let all = [Quantity::Area, Quantity::Gap, Quantity::Pressure, Quantity::Stiffness];
+        let mu_rho = found.solution.report.mu_rho;
+        let error = |of: Quantity| {
+            of.check(control).ok()?;
+            GridError::of(&found.levels, of, nodes_per_wave, mu_rho)
+        };
+        let errors = all.into_iter().map(|of| (of, error(of))).collect();
+        Self { levels: found.levels.clone(), applications: found.equivalent_applications(), errors }
+    }
+}
+
 /// The account of a solve.
 pub struct Account<T> {
     pub solution: Solution<T>,
     pub contact: Array2<bool>,
     pub area: ContactArea,
-    /// The statistics of a row of a table.
+    /// The statistics of the contact.
     pub statistics: Option<ContactStatistics>,
     /// The least (most tensile) and the greatest elastic pressure.
     pub pressures: (f64, f64),
     pub control: Control,
-    /// The nested grids, if they were used, and their applications in units of one on the finest.
-    pub grids: Option<(Vec<Level>, f64)>,
+    /// The nested grids, if they were used.
+    pub grids: Option<Grids>,
     pub stability: Option<Stability<T>>,
     /// The eigenvalue, energy drop and distance of each unstable equilibrium that was left.
     pub departures: Option<Vec<(f64, f64, f64)>>,

@@ -7,8 +7,8 @@ use asperity::contact::ContactStatistics;
 use asperity::path::{Event, Path, PathCheckpoint, PathSettings};
 use asperity::stability::{StabilityTest, Verdict};
 use asperity::{
-    AdhesionLaw, Control, ElasticOperator, Error, Grid, Nested, NestedSolution, Real, Settings, Solution, Solver,
-    Start, Status, Surface, Sweep, Warning,
+    AdhesionLaw, Control, ElasticOperator, Error, Grid, Nested, Real, Settings, Solution, Solver, Start, Status,
+    Surface, Sweep, Warning,
 };
 use numpy::ndarray::Array2;
 use numpy::{IntoPyArray, PyReadonlyArray2};
@@ -16,7 +16,7 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use crate::account::{Account, Scalar};
+use crate::account::{Account, Grids, Scalar};
 use crate::answer::answer;
 use crate::inputs::{Beyond, Load, Wall, control, settings};
 use crate::law::{law, strongest};
@@ -25,21 +25,27 @@ use crate::refusal::{refusal, refusal_of_heights};
 use crate::report;
 use crate::running::{Observe, run};
 
+/// The tolerance on coarser grids, as in the tool.
+const COARSE: f64 = 1e-3;
+
 /// The largest number of departures from unstable equilibria, as in the tool.
 const MOST_DEPARTURES: usize = 10;
 
 /// A surface on its half-space with its law, of whatever kind they are.
 type Boxed<T> = asperity::Problem<T, Box<dyn ElasticOperator<T>>, Box<dyn AdhesionLaw<T>>>;
 
-/// The surface on its half-space with its law: as a problem, or as what one is made of on each of nested grids.
+/// The surface on its half-space with its law: what a problem is made of on each of nested grids, and the problem.
 enum Body<T: Real> {
-    Single(Boxed<T>),
-    Nested(Surface, Box<dyn AdhesionLaw<T>>),
+    Surface(Surface, Box<dyn AdhesionLaw<T>>),
+    Problem(Boxed<T>),
+    /// While a problem is made of a surface, and if that has failed.
+    Spent,
 }
 
 /// A problem in one precision, with all that a sequence of solves carries on.
 struct State<T: Real> {
     body: Body<T>,
+    nested: Option<bool>,
     grid: Grid,
     solver: Solver<Wall>,
     beyond: Beyond,
@@ -49,7 +55,6 @@ struct State<T: Real> {
     strongest: Option<(usize, usize)>,
     /// of the input
     warnings: Vec<Warning>,
-    setup: f64,
     history: Vec<(Control, Array2<T>)>,
     place: Option<PathCheckpoint<T>>,
 }
@@ -61,7 +66,8 @@ struct Made {
     modulus: f64,
     wall: Wall,
     settings: Settings,
-    nested: bool,
+    /// Whether to solve on nested grids; the library chooses if it is not said.
+    nested: Option<bool>,
 }
 
 /// The request for one solve.
@@ -105,14 +111,6 @@ fn field<T: Real>(gap: PyReadonlyArray2<'_, f64>) -> Array2<T> {
     gap.as_array().mapv(T::lit)
 }
 
-/// A problem on one grid, which all but a solve on nested grids needs.
-fn single<T: Real>(body: &mut Body<T>) -> asperity::Result<&mut Boxed<T>> {
-    match body {
-        Body::Single(problem) => Ok(problem),
-        Body::Nested(..) => Err(Error::Control { control: "nested", reason: "of one load without its stability" }),
-    }
-}
-
 impl<T: Scalar> State<T> {
     fn new(
         surface: Surface,
@@ -125,14 +123,9 @@ impl<T: Scalar> State<T> {
         warnings.extend(Warning::of_law(&law, &surface, modulus));
         let scale = (law.work_of_adhesion() / law.range()).widen();
         let noticeable = if scale.is_finite() { 0.01 * scale } else { 0.0 };
-        let clock = Instant::now();
-        let body = if nested {
-            Body::Nested(surface, law)
-        } else {
-            Body::Single(asperity::Problem::new(&surface, beyond.half_space(grid, modulus)?, law)?)
-        };
         Ok(Self {
-            body,
+            body: Body::Surface(surface, law),
+            nested,
             grid,
             solver: Solver { settings, constraint: wall },
             beyond,
@@ -140,7 +133,6 @@ impl<T: Scalar> State<T> {
             noticeable,
             strongest,
             warnings,
-            setup: clock.elapsed().as_secs_f64(),
             history: Vec::new(),
             place: None,
         })
@@ -155,19 +147,52 @@ impl<T: Scalar> State<T> {
 
     /// The account of a row of a table, with the statistics of its contact.
     fn row(&mut self, solution: Solution<T>, control: Control, seconds: f64) -> asperity::Result<Account<T>> {
-        let statistics = ContactStatistics::of(&solution, &self.grid, single(&mut self.body)?.law())?;
+        let law = match &self.body {
+            Body::Surface(_, law) => law,
+            Body::Problem(problem) => problem.law(),
+            Body::Spent => return Err(spent()),
+        };
+        let statistics = ContactStatistics::of(&solution, &self.grid, law)?;
         Ok(Account { statistics: Some(statistics), ..self.account(solution, control, seconds)? })
     }
 
-    /// The solution on nested grids.
-    fn nested(&mut self, control: Control, observe: Observe<'_>) -> asperity::Result<Option<NestedSolution<T>>> {
-        let Body::Nested(surface, law) = &self.body else { return Ok(None) };
-        let (beyond, modulus) = (self.beyond, self.modulus);
+    /// The account of a solve on nested grids, if these are asked for; or, with the default start, if they are faster.
+    fn nested(
+        &mut self,
+        control: Control,
+        begins: bool,
+        observe: Observe<'_>,
+    ) -> asperity::Result<Option<(Solution<T>, Grids)>> {
+        let Body::Surface(surface, law) = &self.body else { return Ok(None) };
+        let (beyond, modulus, settings) = (self.beyond, self.modulus, self.solver.settings);
         let half_space = |grid| beyond.half_space(grid, modulus);
-        let Nested { coarse_tolerance, coarsest, .. } = Nested::default();
-        let mut nested = Nested { solver: self.solver.clone(), coarse_tolerance, coarsest, stiffness: None };
-        nested.solve_observed(surface, half_space, law, control, |_, state| observe(state)).map(Some)
+        let pays = || matches!(self.solver.constraint, Wall::Hard) && Nested::new(settings).pays(surface, law, control);
+        if !self.nested.unwrap_or_else(|| begins && pays()) {
+            return Ok(None);
+        }
+        let Nested { coarsest, stiffness, .. } = Nested::default();
+        let mut nested = Nested { solver: self.solver.clone(), coarse_tolerance: COARSE, coarsest, stiffness };
+        let found = nested.solve_observed(surface, half_space, law, control, |_, state| observe(state))?;
+        let nodes_per_wave = surface.nodes_per_wave(found.solution.report.boundary);
+        let grids = Grids::of(&found, nodes_per_wave, control);
+        Ok(Some((found.solution, grids)))
     }
+}
+
+/// The problem on one grid, which all but a solve on nested grids needs; it is made with its first use.
+fn single<T: Scalar>(body: &mut Body<T>, beyond: Beyond, modulus: f64) -> asperity::Result<&mut Boxed<T>> {
+    if let Body::Surface(surface, _) = body {
+        let half_space = beyond.half_space(*surface.grid(), modulus)?;
+        if let Body::Surface(surface, law) = std::mem::replace(body, Body::Spent) {
+            *body = Body::Problem(asperity::Problem::new(&surface, half_space, law)?);
+        }
+    }
+    if let Body::Problem(problem) = body { Ok(problem) } else { Err(spent()) }
+}
+
+/// A problem that could not be made the first time cannot be made the second time.
+fn spent() -> Error {
+    Error::Control { control: "problem", reason: "it was refused before: make it anew" }
 }
 
 impl<T: Scalar> Solves for State<T> {
@@ -176,12 +201,11 @@ impl<T: Scalar> Solves for State<T> {
         let start = start.map(field::<T>);
         let found = run(py, at.pool, at.observer, |observe: Observe<'_>| {
             let clock = Instant::now();
-            if let Some(found) = self.nested(control, observe)? {
-                let grids = Some((found.levels.clone(), found.equivalent_applications()));
-                let account = self.account(found.solution, control, self.setup + clock.elapsed().as_secs_f64())?;
-                return Ok(Account { grids, ..account });
+            if let Some((solution, grids)) = self.nested(control, start.is_none() && !stability, observe)? {
+                let account = self.row(solution, control, clock.elapsed().as_secs_f64())?;
+                return Ok(Account { grids: Some(grids), ..account });
             }
-            let problem = single(&mut self.body)?;
+            let problem = single(&mut self.body, self.beyond, self.modulus)?;
             let from = start.as_ref().map_or(Start::Default, |gap| Start::From(gap));
             let mut solution = self.solver.solve_with(problem, control, from, observe)?;
             let (mut departures, mut verdict) = (Vec::new(), None);
@@ -199,8 +223,7 @@ impl<T: Scalar> Solves for State<T> {
                 departures.push((found.eigenvalue, left.energy_drop, left.distance));
                 solution = left.solution;
             }
-            let seconds = self.setup + clock.elapsed().as_secs_f64();
-            let account = self.account(solution, control, seconds)?;
+            let account = self.row(solution, control, clock.elapsed().as_secs_f64())?;
             Ok(Account { stability: verdict, departures: leave.then_some(departures), ..account })
         })?;
         answer(py, found)
@@ -213,7 +236,7 @@ impl<T: Scalar> Solves for State<T> {
             let clock = Instant::now();
             let history = std::mem::take(&mut self.history);
             let kept = history.clone();
-            let problem = single(&mut self.body)?;
+            let problem = single(&mut self.body, self.beyond, self.modulus)?;
             let mut sweep = Sweep::new(&mut self.solver, problem, [control]).continuing(history);
             if let Some(start) = start {
                 sweep = sweep.starting_from(start);
@@ -242,7 +265,7 @@ impl<T: Scalar> Solves for State<T> {
         let (found, raised) = run(py, at.pool, at.observer, |observe: Observe<'_>| -> asperity::Result<_> {
             let clock = Instant::now();
             let mut solver = Solver::new(self.solver.settings);
-            let mut path = Path::new(&mut solver, single(&mut self.body)?, loads, settings)?;
+            let mut path = Path::new(&mut solver, single(&mut self.body, self.beyond, self.modulus)?, loads, settings)?;
             path = match (self.place.clone(), start) {
                 (Some(place), _) => path.continuing(place)?,
                 (None, Some(start)) => path.starting_from(start),
@@ -278,7 +301,8 @@ impl<T: Scalar> Solves for State<T> {
         (gap, relative_error): (PyReadonlyArray2<'py, f64>, f64),
     ) -> PyResult<Bound<'py, PyDict>> {
         let gap = field::<T>(gap);
-        let (problem, wall) = (single(&mut self.body).map_err(refusal)?, &self.solver.constraint);
+        let (problem, wall) =
+            (single(&mut self.body, self.beyond, self.modulus).map_err(refusal)?, &self.solver.constraint);
         let test = || StabilityTest::default().of_gap(problem, wall, control, &gap, relative_error);
         let found = py.detach(|| pool.get().install(test)).map_err(refusal)?;
         let entries = report::stability(py, &found)?;
@@ -343,7 +367,7 @@ impl Problem {
         tolerance: Option<f64>,
         max_iterations: Option<usize>,
         method: &str,
-        nested: bool,
+        nested: Option<bool>,
         threads: Option<usize>,
     ) -> PyResult<Self> {
         let settings = settings(tolerance, max_iterations, method)?;

@@ -1,11 +1,13 @@
 //! The outcome of a solve, with the names and in the order of the tool's `report.json`.
 
+use asperity::accuracy::GridError;
+use asperity::contact::Patch;
 use asperity::stability::Stability;
 use asperity::{Level, Warning};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use crate::account::{Account, Scalar};
+use crate::account::{Account, Grids, Scalar};
 use crate::inputs::stiffness;
 
 /// A dictionary of its entries.
@@ -29,9 +31,12 @@ pub fn of<'py, T: Scalar>(py: Python<'py>, account: &Account<T>) -> PyResult<Bou
             })
             .collect::<PyResult<Vec<_>>>()
     });
-    let levels =
-        |(levels, _): &(Vec<Level>, f64)| levels.iter().map(|found| level(py, found)).collect::<PyResult<Vec<_>>>();
+    let levels = |grids: &Grids| grids.levels.iter().map(|found| level(py, found)).collect::<PyResult<Vec<_>>>();
     let levels = account.grids.as_ref().map(levels).transpose()?;
+    let grid_error = account.grids.as_ref().map(|grids| grid_error(py, grids)).transpose()?;
+    let statistics = account.statistics.as_ref();
+    let patches =
+        statistics.map(|found| found.patches.iter().map(|found| patch(py, found)).collect::<PyResult<Vec<_>>>());
     let warnings = account.warnings.iter().map(|found| warning(py, found)).collect::<PyResult<Vec<_>>>()?;
     Ok(dictionary!(py,
         "status": report.status.name(),
@@ -41,7 +46,9 @@ pub fn of<'py, T: Scalar>(py: Python<'py>, account: &Account<T>) -> PyResult<Bou
         "iterations": report.iterations,
         "operator_applications": report.operator_applications,
         "levels": levels,
-        "equivalent_applications": account.grids.as_ref().map(|(_, applications)| applications),
+        "equivalent_applications": account.grids.as_ref().map(|grids| grids.applications),
+        "grid_error": grid_error,
+        "accuracy": py.None(),
         "mean_gap": report.mean_gap,
         "mean_pressure": report.mean_pressure,
         "normal_force": report.normal_force,
@@ -55,12 +62,17 @@ pub fn of<'py, T: Scalar>(py: Python<'py>, account: &Account<T>) -> PyResult<Bou
         "edge_traction": report.edge_traction,
         "corrected_contact_fraction": area.corrected_contact_fraction,
         "perimeter": area.perimeter,
+        "repulsive_fraction": statistics.map(|found| found.repulsive_fraction),
+        "attractive_fraction": statistics.map(|found| found.attractive_fraction),
+        "patches": patches.transpose()?,
         "min_gap": report.min_gap,
         "min_pressure": pressures.0,
         "max_pressure": pressures.1,
         "elastic_energy": report.elastic_energy,
         "adhesive_energy": report.adhesive_energy,
         "stability": stability,
+        "contact_stiffness": py.None(),
+        "normal_stiffness": py.None(),
         "departures": departures.transpose()?,
         "mu_rho": report.mu_rho,
         "mu_rho_node": account.strongest.map(|(x, y)| [x, y]),
@@ -79,6 +91,36 @@ fn level<'py>(py: Python<'py>, level: &Level) -> PyResult<Bound<'py, PyDict>> {
         "status": level.status.name(),
         "iterations": level.iterations,
         "operator_applications": level.operator_applications,
+        "relative_error": level.relative_error,
+        "mean_gap": level.mean_gap,
+        "mean_pressure": level.mean_pressure,
+        "mean_contact_pressure": level.mean_contact_pressure,
+        "elastic_energy": level.elastic_energy,
+        "contact_fraction": level.area.contact_fraction,
+        "corrected_contact_fraction": level.area.corrected_contact_fraction,
+        "contact_stiffness": level.stiffness.map(|found| found.pressure_per_length),
+    ))
+}
+
+/// The estimated errors of the finest of nested grids.
+fn grid_error<'py>(py: Python<'py>, grids: &Grids) -> PyResult<Bound<'py, PyDict>> {
+    let entries = PyDict::new(py);
+    for (of, estimate) in &grids.errors {
+        let error = |found: &GridError| -> PyResult<_> {
+            Ok(dictionary!(py, "relative": found.relative, "order": found.order, "rough": found.rough,))
+        };
+        entries.set_item(of.name(), estimate.as_ref().map(error).transpose()?)?;
+    }
+    Ok(entries)
+}
+
+/// The contact where the work of adhesion has one of its values.
+fn patch<'py>(py: Python<'py>, patch: &Patch) -> PyResult<Bound<'py, PyDict>> {
+    Ok(dictionary!(py,
+        "work_of_adhesion": patch.work_of_adhesion,
+        "area_fraction": patch.area_fraction,
+        "contact_fraction": patch.contact_fraction,
+        "attractive_fraction": patch.attractive_fraction,
     ))
 }
 
