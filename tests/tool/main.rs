@@ -10,6 +10,7 @@ mod hostile;
 mod laws_tool;
 mod prepare;
 mod scene_tool;
+mod selftest;
 mod surface_tool;
 mod sweep_tool;
 mod tool;
