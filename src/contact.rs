@@ -6,7 +6,7 @@
 
 use ndarray::{Array2, ArrayView2, Axis, Zip};
 
-use crate::adhesion::AdhesionLaw;
+use crate::adhesion::{AdhesionLaw, noticeable};
 use crate::elastic::Boundary;
 use crate::error::{Error, Result};
 use crate::grid::Grid;
@@ -25,10 +25,59 @@ pub use patch::Patch;
 /// 2)/24.
 const EDGE_EXCESS: f64 = (std::f64::consts::PI - 1.0 + std::f64::consts::LN_2) / 24.0;
 
-/// The share of w/ρ that the adhesive traction must exceed where surfaces are said to attract each other.
-const NOTICEABLE: f64 = 0.01;
+/// What the two surfaces do to each other at a node.
+///
+/// As numbers these are the classes of [`Colouring::Contact`](crate::picture::Colouring::Contact): 1, −1, 0 and NaN.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Region {
+    /// They touch, as [`Solution::contact_map`] says.
+    Contact,
+    /// They attract each other without contact, as [`ContactStatistics::attractive_fraction`] counts it.
+    Attractive,
+    /// They do not notice each other.
+    Apart,
+    /// There is no surface: the node is [absent](crate::Surface::with_absent).
+    Absent,
+}
+
+impl From<Region> for f64 {
+    fn from(region: Region) -> Self {
+        match region {
+            Region::Contact => 1.0,
+            Region::Attractive => -1.0,
+            Region::Apart => 0.0,
+            Region::Absent => Self::NAN,
+        }
+    }
+}
 
 impl<T: Real> Solution<T> {
+    /// The region of each node: contact, attraction, neither, or no surface, under the law of the solution.
+    ///
+    /// ```
+    /// use asperity::contact::{ContactStatistics, Region};
+    /// use asperity::{Control, Exponential, Grid, Problem, Solver, Surface, Westergaard};
+    /// let (grid, law) = (Grid::square(64, 1.0)?, Exponential::new(1e-4, 4e-3)?);
+    /// let sphere = Surface::paraboloid(grid, 2.0)?;
+    /// let mut problem = Problem::new(&sphere, Westergaard::<f64>::new(grid, 1.0)?, law)?;
+    /// let solution = Solver::default().solve(&mut problem, Control::MeanGap(0.0398))?;
+    /// let attracting = solution.regions(&law).iter().filter(|region| **region == Region::Attractive).count();
+    /// let statistics = ContactStatistics::of(&solution, &grid, &law)?;
+    /// assert_eq!(attracting as f64 / 4096.0, statistics.attractive_fraction);
+    /// # Ok::<(), asperity::Error>(())
+    /// ```
+    pub fn regions(&self, law: &impl AdhesionLaw<T>) -> Array2<Region> {
+        let contact = self.contact_map();
+        let attracts = attracting(&contact, self.gap.view(), law);
+        let mut nodes = self.gap.iter().zip(&contact).zip(attracts);
+        Array2::from_shape_simple_fn(self.gap.dim(), || match nodes.next() {
+            Some(((_, true), _)) => Region::Contact,
+            Some((_, true)) => Region::Attractive,
+            Some(((gap, _), _)) if gap.is_finite() => Region::Apart,
+            _ => Region::Absent,
+        })
+    }
+
     /// The contact map: true at nodes without a gap (g ≤ 0) and at nodes with a contact pressure (λ > 0).
     ///
     /// This is what contact means everywhere: in [`Report::contact_nodes`](crate::Report::contact_nodes) and
@@ -50,6 +99,18 @@ impl<T: Real> Solution<T> {
     pub fn contact_map(&self) -> Array2<bool> {
         contact_map(self.gap.view(), self.contact_pressure.view())
     }
+}
+
+/// Whether each node attracts without contact: whether its adhesive traction is noticeable.
+fn attracting<T: Real>(contact: &Array2<bool>, gap: ArrayView2<'_, T>, law: &impl AdhesionLaw<T>) -> Vec<bool> {
+    if law.is_zero() {
+        return vec![false; gap.len()];
+    }
+    let least = T::lit(noticeable(law));
+    let gaps: Vec<T> = gap.iter().map(|gap| gap.max(T::zero())).collect();
+    let mut tractions = vec![T::zero(); gaps.len()];
+    law.tractions(0, &gaps, &mut tractions);
+    contact.iter().zip(tractions).map(|(&touches, traction)| !touches && traction > least).collect()
 }
 
 /// The contact map of a gap and a contact pressure of one shape.
@@ -241,16 +302,7 @@ impl ContactStatistics {
         let ContactArea { contact_nodes, contact_fraction, corrected_contact_fraction, perimeter } =
             ContactArea::within(contact.view(), grid, boundary, facing)?;
         let share = |count: usize| count as f64 / facing as f64;
-        let attracts = if law.is_zero() {
-            vec![false; gap.len()]
-        } else {
-            let scale = (law.work_of_adhesion() / law.range()).widen();
-            let least = T::lit(if scale.is_finite() { NOTICEABLE * scale } else { 0.0 });
-            let gaps: Vec<T> = gap.iter().map(|gap| gap.max(T::zero())).collect();
-            let mut tractions = vec![T::zero(); gaps.len()];
-            law.tractions(0, &gaps, &mut tractions);
-            contact.iter().zip(tractions).map(|(&touches, traction)| !touches && traction > least).collect()
-        };
+        let attracts = attracting(&contact, gap, law);
         let attracting = attracts.iter().filter(|&&attracts| attracts).count();
         let nodes = gap.iter().zip(&contact).zip(&attracts);
         let nodes = nodes.map(|((gap, &touches), &attracts)| gap.is_finite().then_some([touches, attracts]));

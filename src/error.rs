@@ -98,6 +98,21 @@ pub enum Error {
         /// The reason, and a remedy.
         reason: &'static str,
     },
+    /// An accuracy that takes a grid that does not fit into memory.
+    Unaffordable {
+        /// The quantity, by the name of [`Quantity::name`](crate::accuracy::Quantity::name).
+        quantity: &'static str,
+        /// The accuracy that was asked for.
+        accuracy: f64,
+        /// The shape of the grid that is likely to reach it.
+        shape: (usize, usize),
+        /// The memory that the grid takes, in bytes.
+        bytes: f64,
+        /// The memory that there is, in bytes.
+        available: f64,
+        /// The accuracy that the finest affordable grid is likely to reach.
+        affordable: f64,
+    },
     /// A surface with waves that are too short for the grid.
     Unresolved {
         /// The wave number k_s of the shortest waves, in units of 2π/Lx.
@@ -204,6 +219,16 @@ impl fmt::Display for Error {
             }
             Self::Control { control, reason } => write!(f, "{control}: {reason}"),
             Self::Wall { wall, reason } => write!(f, "{wall}: {reason}"),
+            Self::Unaffordable { quantity, accuracy, shape, bytes, available, affordable } => write!(
+                f,
+                "an accuracy of {} of the {quantity} takes about {} x {} nodes and {}: there are {}, enough for about \
+                 {affordable:.1e}",
+                Short(*accuracy),
+                shape.0,
+                shape.1,
+                Bytes(*bytes),
+                Bytes(*available)
+            ),
             Self::Unresolved { k_s, limit, shape } => write!(
                 f,
                 "k_s is {}: it must be below {} for {} x {} nodes to resolve it: use more nodes, or a smaller k_s",
@@ -226,5 +251,15 @@ impl fmt::Display for Short {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self(value) = self;
         if *value == 0.0 || (1e-4..1e6).contains(&value.abs()) { write!(f, "{value}") } else { write!(f, "{value:e}") }
+    }
+}
+
+/// An amount of memory, in bytes.
+struct Bytes(f64);
+
+impl fmt::Display for Bytes {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let mebibytes = self.0 / 1_048_576.0;
+        if mebibytes < 1024.0 { write!(f, "{mebibytes:.1} MiB") } else { write!(f, "{:.1} GiB", mebibytes / 1024.0) }
     }
 }

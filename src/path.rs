@@ -184,6 +184,11 @@ where
         Self { start: Some(gap), ..self }
     }
 
+    /// Ends the present leg: the path heads for the next load from where it is, as from surfaces that have come apart.
+    pub fn end_leg(&mut self) {
+        self.state.end_leg();
+    }
+
     /// The present place of the path, from which [`Path::continuing`] goes on.
     pub fn checkpoint(&self) -> PathCheckpoint<T> {
         let fields = self.gaps.iter().chain(&self.watch.mode).cloned().collect();

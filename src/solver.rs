@@ -27,6 +27,7 @@ mod state;
 mod tension;
 mod work;
 
+pub(crate) use coarse::Coarse;
 use driver::Job;
 pub(crate) use driver::Observer;
 pub(crate) use potential::{Least, Of, Potential, bounded};

@@ -21,11 +21,13 @@ mod bound;
 mod departure;
 mod eigenpair;
 mod hessian;
+mod stiffness;
 mod watch;
 
 pub use departure::Departure;
 use eigenpair::{Eigenpair, lowest};
 use hessian::Hessian;
+pub use stiffness::ContactStiffness;
 pub(crate) use watch::{Saddle, Watch};
 
 /// The verdict on an equilibrium: stable, unstable, or undecided.
@@ -237,15 +239,7 @@ impl StabilityTest {
         C: ContactConstraint<T>,
     {
         Error::positive("tolerance", self.tolerance)?;
-        Error::shape("gap", gap.dim(), problem.grid().shape())?;
-        if problem.flat.window.is_none() {
-            Error::all_finite("gap", gap.view())?;
-        }
-        check_wall(&problem.law, constraint.wall())?;
-        if let Some(gap) = gap.iter().find(|&&gap| constraint.wall().is_rigid() && gap < T::zero()) {
-            let requirement = "zero or positive; a solution with springs or without a wall is tested with its constraint, by run_with";
-            return Err(Error::Value { name: "gap", value: gap.widen(), requirement });
-        }
+        check_gap(problem, constraint, gap)?;
         // the value of a mean gap is that of the solution, which springs may make negative
         let kind = if let Control::MeanGap(_) = control { Control::MeanGap(0.0) } else { control };
         let (load, window) = (problem.flat.load(kind, constraint.wall())?, problem.flat.window.as_ref());
@@ -293,6 +287,26 @@ impl StabilityTest {
         let more = hessian.applications() - taken;
         Ok(stability(verdict, pair, lower, taken, more))
     }
+}
+
+/// Refuses a gap that is not one of a problem with a constraint.
+fn check_gap<T, O, L>(problem: &Problem<T, O, L>, constraint: &dyn ContactConstraint<T>, gap: &Array2<T>) -> Result<()>
+where
+    T: Real,
+    O: ElasticOperator<T>,
+    L: AdhesionLaw<T>,
+{
+    Error::shape("gap", gap.dim(), problem.grid().shape())?;
+    if problem.flat.window.is_none() {
+        Error::all_finite("gap", gap.view())?;
+    }
+    check_wall(&problem.law, constraint.wall())?;
+    if let Some(gap) = gap.iter().find(|&&gap| constraint.wall().is_rigid() && gap < T::zero()) {
+        let requirement =
+            "zero or positive; a solution with springs or without a wall is looked at with its constraint";
+        return Err(Error::Value { name: "gap", value: gap.widen(), requirement });
+    }
+    Ok(())
 }
 
 /// The second derivative of the local energy at every node of the operator's grid, and infinity where a rigid wall is

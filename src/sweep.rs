@@ -87,6 +87,11 @@ where
         &self.history
     }
 
+    /// The problem, to look at a solution with, as for its contact stiffness.
+    pub fn problem(&mut self) -> &mut Problem<T, O, L> {
+        self.problem
+    }
+
     /// The sweep continued after others: with the [`Sweep::history`] of another sweep it goes on just as
     /// that one would have, bit for bit. Of more than two gaps the first ones are not used.
     ///

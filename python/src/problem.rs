@@ -165,7 +165,7 @@ impl<T: Scalar> State<T> {
         let (beyond, modulus) = (self.beyond, self.modulus);
         let half_space = |grid| beyond.half_space(grid, modulus);
         let Nested { coarse_tolerance, coarsest, .. } = Nested::default();
-        let mut nested = Nested { solver: self.solver.clone(), coarse_tolerance, coarsest };
+        let mut nested = Nested { solver: self.solver.clone(), coarse_tolerance, coarsest, stiffness: None };
         nested.solve_observed(surface, half_space, law, control, |_, state| observe(state)).map(Some)
     }
 }

@@ -159,3 +159,14 @@ def test_prepare_takes_the_steps_of_the_tool():
         asperity.prepare(tilted, detrend="cubic")
     with pytest.raises(ValueError, match="crop"):
         asperity.prepare(tilted, crop=(0, 0, 100, 1))
+    coded = tilted.copy()
+    coded[3, 4], coded[20, 10] = -9999, 1e4
+    made = asperity.prepare(coded, missing=-9999, align_rows="median", despike=10, detrend=3)
+    assert made.missing == 1 and np.nanmax(np.abs(made.heights)) < 20
+    assert np.nanstd(asperity.prepare(coded, missing=[-9999, 1e4], align_rows=1).heights) < 2
+    x, y = np.meshgrid(np.arange(40) - 20, np.arange(30) - 15, indexing="ij")
+    ball = asperity.prepare(np.sqrt(90.0**2 - x**2 - y**2), (40.0, 30.0), remove_form="sphere")
+    assert np.abs(ball.heights).max() < 1e-9
+    for wrong in [{"align_rows": "mode"}, {"scan_axis": "z"}, {"remove_form": "cone"}, {"detrend": 13}]:
+        with pytest.raises(ValueError):
+            asperity.prepare(tilted, (40.0, 30.0), **wrong)

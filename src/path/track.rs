@@ -128,6 +128,12 @@ impl State {
         self.span.0 == self.span.1 || self.here().slope(self.mode).0 == self.span.1
     }
 
+    /// Ends the leg where the path is.
+    pub(super) fn end_leg(&mut self) {
+        let (x, _) = self.here().slope(self.mode);
+        self.span = (x, x);
+    }
+
     /// Where the leg ends.
     pub(super) fn end(&self) -> f64 {
         self.span.1
@@ -335,9 +341,7 @@ impl State {
         if let Some((end, start)) = self.pressures {
             let short = (end - next.pressure) * (end - start).signum();
             if short <= LANDING * (end - start).abs() {
-                // the leg ends here
-                let x = next.slope(self.mode).0;
-                self.span = (x, x);
+                self.end_leg();
             } else if !self.free && end > start && next.gap == self.span.1 {
                 // pressed flat, the surfaces bear any pressure
                 self.pressures = None;

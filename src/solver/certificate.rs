@@ -11,6 +11,9 @@ use crate::real::Real;
 /// The tolerance on the way to a start: the edge of the adhesive zone has to be right to a node.
 const START: f64 = 1e-4;
 
+/// The tolerance at which a state shows how much tension it holds.
+const HOLD: f64 = 1e-3;
+
 /// The share of the best error below which an error is progress.
 const PROGRESS: f64 = 0.95;
 
@@ -106,7 +109,7 @@ impl<T: Real, L: Real> State<'_, T, L> {
     pub(super) fn meets(&self, load_error: f64) -> bool {
         let tolerance = self.settings.tolerance_in::<T>();
         if self.goal != Goal::Solution {
-            let tolerance = tolerance.max(START);
+            let tolerance = tolerance.max(if self.goal == Goal::Hold { HOLD } else { START });
             return self.relative_error() <= tolerance && load_error <= tolerance;
         }
         let criterion = match self.settings.criterion {

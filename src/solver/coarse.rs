@@ -24,7 +24,7 @@ const LONGER: f64 = 1.4;
 
 /// The coarse space of a solve.
 #[derive(Debug)]
-pub(super) struct Coarse {
+pub(crate) struct Coarse {
     space: CoarseSpace,
     /// the shares of contact at the first nodes of the blocks
     contact: Vec<f64>,
@@ -39,7 +39,7 @@ pub(super) struct Coarse {
 
 impl Coarse {
     /// The coarse space of an operator, if it has one.
-    pub(super) fn of<T: Real>(operator: &dyn ElasticOperator<T>) -> Option<Self> {
+    pub(crate) fn of<T: Real>(operator: &dyn ElasticOperator<T>) -> Option<Self> {
         let nodes = operator.grid().nodes() as f64;
         let space = operator.coarse_space((DIMENSION * nodes.cbrt()) as usize)?;
         let [_, blocks] = space.blocks();
@@ -48,14 +48,14 @@ impl Coarse {
     }
 
     /// Whether the contact map is to be taken in an iteration; the first one waits until the contacts have settled.
-    pub(super) fn is_due(&self, iteration: usize, settled: bool) -> bool {
+    pub(crate) fn is_due(&self, iteration: usize, settled: bool) -> bool {
         iteration >= self.due && (self.ready || settled)
     }
 
     /// Takes the contact map from a field, of which the nodes in contact are told by their values. `stiffness` is
     /// that which the surface meets as it is pressed flat, `spring` that of the spring that holds the mean gap, `range`
     /// that of the softest and the stiffest wave; with `held` the mean gap is given.
-    pub(super) fn renew<T: Real>(
+    pub(crate) fn renew<T: Real>(
         &mut self,
         iteration: usize,
         field: &Array2<T>,
@@ -74,7 +74,7 @@ impl Coarse {
     }
 
     /// The space, if it has a contact map.
-    pub(super) fn ready(&mut self) -> Option<&mut CoarseSpace> {
+    pub(crate) fn ready(&mut self) -> Option<&mut CoarseSpace> {
         self.ready.then_some(&mut self.space)
     }
 

@@ -8,6 +8,7 @@ use crate::field::{self, Partial, Reducer, read, write};
 use crate::par::Parts;
 use crate::problem::Load;
 use crate::real::Real;
+use crate::solver::Coarse;
 
 /// K⁻¹ + φ'' on fields that vanish on the contact, and have no mean if the mean gap is given; a spring adds its stiffness
 /// to the mean.
@@ -21,6 +22,8 @@ pub(super) struct Hessian<'a, T> {
     free: f64,
     least: f64,
     pub(super) reducer: Reducer,
+    /// the longest waves in the preconditioner, if it knows where the contacts are
+    coarse: Option<Coarse>,
     applications: usize,
 }
 
@@ -37,7 +40,7 @@ impl<'a, T: Real> Hessian<'a, T> {
             part
         });
         let (free, least) = (total.sum[0], total.min);
-        Self { operator, slopes, centred, spring, free, least, reducer, applications: 0 }
+        Self { operator, slopes, centred, spring, free, least, reducer, coarse: None, applications: 0 }
     }
 
     pub(super) fn shape(&self) -> (usize, usize) {
@@ -52,6 +55,21 @@ impl<'a, T: Real> Hessian<'a, T> {
     pub(super) fn dimension(&self) -> usize {
         let free = self.free as usize;
         if self.centred { free.saturating_sub(1) } else { free }
+    }
+
+    /// The number of nodes that are not in contact.
+    pub(super) fn free(&self) -> f64 {
+        self.free
+    }
+
+    /// Tells the preconditioner where the contacts are; `stiffness` is that which the surface meets as it is pressed
+    /// flat.
+    pub(super) fn hold(&mut self, stiffness: f64) {
+        let range = self.operator.stiffness_range();
+        let Some(mut coarse) = Coarse::of(&*self.operator) else { return };
+        let touches = |_, slope: T| slope.is_infinite();
+        coarse.renew(0, &self.slopes, touches, (stiffness, self.spring), range, self.centred);
+        self.coarse = Some(coarse);
     }
 
     /// The least φ''.
@@ -79,8 +97,35 @@ impl<'a, T: Real> Hessian<'a, T> {
         elastic + self.least_slope()
     }
 
-    /// Makes a field admissible.
-    pub(super) fn project(&mut self, field: &mut Array2<T>) {
+    /// Makes a field vanish on the contact and have the mean 1; it becomes uniform if it has no positive mean.
+    pub(super) fn admit(&mut self, field: &mut Array2<T>) {
+        let Self { reducer, slopes, free, .. } = self;
+        let total = reducer.run(read(slopes).zip(write(field)), |_, (slopes, values)| {
+            let mut part = Partial::NONE;
+            for (slope, value) in slopes.iter().zip(values) {
+                *value = if slope.is_finite() { *value } else { T::zero() };
+                part.sum[0] += value.widen();
+            }
+            part
+        });
+        let (sum, nodes) = (total.sum[0], field.len() as f64);
+        let uniform = T::lit(nodes / *free);
+        let factor = if sum > 0.0 { T::lit(nodes / sum) } else { T::zero() };
+        let usable = factor > T::zero() && factor.is_finite();
+        reducer.run(read(slopes).zip(write(field)), |_, (slopes, values)| {
+            for (slope, value) in slopes.iter().zip(values) {
+                *value = match usable {
+                    true => factor * *value,
+                    false if slope.is_finite() => uniform,
+                    false => T::zero(),
+                };
+            }
+            Partial::NONE
+        });
+    }
+
+    /// Makes a field admissible; returns the mean that was taken out.
+    pub(super) fn project(&mut self, field: &mut Array2<T>) -> f64 {
         let Self { reducer, slopes, centred, free, .. } = self;
         let mut mean = T::zero();
         if *centred && *free > 0.0 {
@@ -99,10 +144,12 @@ impl<'a, T: Real> Hessian<'a, T> {
             }
             Partial::NONE
         });
+        mean.widen()
     }
 
-    /// The image of an admissible field; takes one operator application.
-    pub(super) fn apply(&mut self, field: &Array2<T>, image: &mut Array2<T>) -> Result<()> {
+    /// The image of an admissible field, made admissible; returns the mean that was taken out. Takes one operator
+    /// application.
+    pub(super) fn apply(&mut self, field: &Array2<T>, image: &mut Array2<T>) -> Result<f64> {
         self.operator.pressure(field.view(), image.view_mut())?;
         self.applications += 1;
         let mean = if self.spring > 0.0 { field::mean(field.view(), T::widen) } else { 0.0 };
@@ -116,18 +163,19 @@ impl<'a, T: Real> Hessian<'a, T> {
             }
             Partial::NONE
         });
-        self.project(image);
-        Ok(())
+        Ok(self.project(image))
     }
 
-    /// The compliance, as preconditioner, of an admissible field; takes one operator application.
-    pub(super) fn precondition(&mut self, residual: &Array2<T>, result: &mut Array2<T>) -> Result<()> {
+    /// The compliance, as preconditioner, of an admissible field r; returns the mean of r·Kr. Takes one operator
+    /// application.
+    pub(super) fn precondition(&mut self, residual: &Array2<T>, result: &mut Array2<T>) -> Result<f64> {
         let softest = self.softest();
-        let foundation = Foundation::uniform(softest, softest + self.spring);
-        self.operator.precondition(residual.view(), foundation, result.view_mut())?;
+        let coarse = self.coarse.as_mut().and_then(Coarse::ready);
+        let foundation = Foundation { coarse, ..Foundation::uniform(softest, softest + self.spring) };
+        let found = self.operator.precondition(residual.view(), foundation, result.view_mut())?;
         self.applications += 1;
         self.project(result);
-        Ok(())
+        Ok(found.error)
     }
 
     /// The mean product of two fields.

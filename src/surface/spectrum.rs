@@ -9,6 +9,9 @@ use super::{Surface, centre};
 use crate::fft::{powers, synthesise};
 use crate::grid::Grid;
 
+/// The share of the mean square slope that the waves shorter than the shortest have.
+const SHORTEST: f64 = 0.05;
+
 /// The power spectrum of a periodic surface: |ĥ(q)|² of each of its waves.
 ///
 /// With ĥ(q) = ⟨h e^(−iq·x)⟩, the mean over the nodes, Parseval's theorem reads ⟨h²⟩ = Σ|ĥ|², the mean height left
@@ -203,6 +206,43 @@ impl Spectrum {
         }
         let Psd { wave_numbers: lags, densities: means, .. } = rings.psd(1.0);
         lags.into_iter().zip(means).collect()
+    }
+
+    /// The number of nodes along a side, the lesser of the two, that the shortest wave has; infinite for a flat surface.
+    ///
+    /// The shortest wave is that beyond which there is 5 % of the mean square slope: the nodes are as many as the other
+    /// waves have at least.
+    ///
+    /// ```
+    /// use asperity::{Grid, SelfAffine, Surface};
+    /// let grid = Grid::square(128, 1.0)?;
+    /// assert_eq!(Surface::wave(grid, 0.1, 4)?.spectrum().nodes_per_wave(), 32.0);
+    /// let rough = SelfAffine { k_s: 16.0, ..SelfAffine::default() }.surface(grid)?;
+    /// assert!((8.0..9.0).contains(&rough.spectrum().nodes_per_wave()));
+    /// # Ok::<(), asperity::Error>(())
+    /// ```
+    pub fn nodes_per_wave(&self) -> f64 {
+        let (nx, ny) = self.grid.shape();
+        // the waves by the larger of their shares of the shortest wave that the grid has along the sides
+        let finest = nx.max(ny);
+        let mut slopes = vec![0.0; finest + 1];
+        for (ky, row) in self.powers.outer_iter().enumerate() {
+            let qy = self.grid.wave_number_y(ky);
+            for (kx, power) in row.iter().enumerate() {
+                let square = power * (self.grid.wave_number_x(kx).powi(2) + qy * qy);
+                let share = (kx.min(nx - kx) as f64 / nx as f64).max(ky as f64 / ny as f64);
+                slopes[(share * finest as f64).round() as usize] += self.weight(ky) as f64 * square;
+            }
+        }
+        let total: f64 = slopes.iter().sum();
+        let mut beyond = 0.0;
+        for (k, slope) in slopes.iter().enumerate().rev() {
+            beyond += slope;
+            if k > 0 && beyond > SHORTEST * total {
+                return finest as f64 / k as f64;
+            }
+        }
+        f64::INFINITY
     }
 
     /// The sum of |q|²ⁿ|ĥ|².

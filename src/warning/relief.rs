@@ -23,16 +23,16 @@ fn join(a: (f64, f64), b: (f64, f64)) -> (f64, f64) {
     (a.0.min(b.0), a.1.max(b.1))
 }
 
-/// What `f` makes of the heights of each chunk.
+/// What `f` makes of the heights of each chunk that are not missing.
 fn fold<A: Copy + Send + Sync>(heights: &Array2<f64>, from: A, f: impl Fn(A, f64) -> A + Send + Sync) -> Vec<A> {
     let mut parts = vec![from; heights.len().div_ceil(CHUNK)];
     par::update(par::chunks(flat(heights), CHUNK), &mut parts, 1, |_, chunk, part| {
-        *part = chunk.iter().fold(from, |found, &h| f(found, h));
+        *part = chunk.iter().filter(|h| h.is_finite()).fold(from, |found, &h| f(found, h));
     });
     parts
 }
 
-/// The lowest and the highest height, their counts, and the range of all other heights.
+/// The lowest and the highest of the heights that are not missing, their counts, and the range of all others.
 #[derive(Clone, Copy)]
 pub struct Extremes {
     pub low: f64,
@@ -71,8 +71,14 @@ impl Extremes {
         self.high - self.low
     }
 
+    /// The extreme values that stand for missing points, and at how many nodes.
+    pub fn codes(&self) -> Vec<(f64, usize)> {
+        let ends = [(self.low, self.low_count), (self.high, self.high_count)];
+        ends.into_iter().filter(|&(value, count)| self.is_code(value, count)).collect()
+    }
+
     /// Whether an extreme value stands for missing points: far outside the rest, and repeated or well known.
-    pub fn is_code(&self, value: f64, count: usize) -> bool {
+    fn is_code(&self, value: f64, count: usize) -> bool {
         let (low, high) = self.rest;
         let (span, distance) = (high - low, (low - value).max(value - high));
         // of two or three levels none is a code

@@ -3,6 +3,7 @@
 #[path = "../common/mod.rs"]
 mod common;
 
+mod accuracy;
 mod algorithm3;
 mod architecture;
 mod constraints;
@@ -24,5 +25,6 @@ mod rough_contact;
 mod solvers;
 mod stability;
 mod statistics;
+mod stiffness;
 mod stress;
 mod sweep;

@@ -1,6 +1,7 @@
 //! The command-line tool, end to end, with the files that it reads and the documentation that tells how to run it.
 #![cfg(feature = "cli")]
 
+mod accuracy_tool;
 mod bench;
 
 #[cfg(unix)]
@@ -8,6 +9,7 @@ mod commands;
 mod free_tool;
 mod hostile;
 mod laws_tool;
+mod pictures;
 mod prepare;
 mod scene_tool;
 mod selftest;

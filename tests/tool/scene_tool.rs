@@ -241,6 +241,11 @@ fn reports_are_one_document_whose_keys_are_documented() {
     for (arguments, expected) in [
         (format!("solve {quick} {ADHESION} --mean-gap 0.02 --leave --out one"), vec!["stability", "departures"]),
         (format!("solve {quick} --mean-pressure 0.01 --nested --out two"), vec!["status", "equivalent_applications"]),
+        (
+            format!("solve {quick} --mean-gap 0.02 --accuracy 0.5 --stiffness --out right"),
+            vec!["accuracy", "grid_error"],
+        ),
+        (format!("sweep {quick} --mean-gaps 0.02 --stiffness --out stiff.csv"), vec!["rows", "last"]),
         (format!("sweep {quick} --mean-pressures 1e-3,1e-2 --out sweep.csv"), vec!["rows", "unconverged", "last"]),
         (format!("sweep {quick} --mean-gaps 0.02,0.01 --out sweep.jsonl"), vec!["rows", "unconverged", "last"]),
         (

@@ -4,8 +4,9 @@ use std::borrow::Cow;
 use std::ops::ControlFlow;
 use std::time::Instant;
 
+use asperity::accuracy::{Accuracy, AccurateSolution};
 use asperity::contact::ContactStatistics;
-use asperity::stability::{Departure, Stability, StabilityTest, Verdict};
+use asperity::stability::{ContactStiffness, Departure, Stability, StabilityTest, Verdict};
 use asperity::{
     AdhesionLaw, Control, Grid, Level, Nested, NestedSolution, Problem, Report, Settings, Solution, Solver, Start,
     Surface,
@@ -13,6 +14,7 @@ use asperity::{
 use ndarray::Array2;
 use serde_json::Value;
 
+use crate::accuracy::Reached;
 use crate::adhesion::Wall;
 use crate::boundary::Boundary;
 use crate::options::Scalar;
@@ -31,7 +33,27 @@ pub struct Case {
     pub stability: bool,
     /// Whether to go on from an unstable solution.
     pub leave: bool,
+    /// Whether to find the contact stiffness of the solution.
+    pub stiffness: bool,
 }
+
+impl Case {
+    /// The relative error to which a contact stiffness is found.
+    pub const STIFFNESS: f64 = 1e-4;
+
+    /// The relative error to which the contact stiffness is to be found, if it is.
+    pub fn stiffness_to(&self) -> Option<f64> {
+        self.stiffness.then_some(Self::STIFFNESS)
+    }
+
+    /// The solver.
+    pub fn solver(&self) -> Solver<Wall> {
+        Solver { settings: self.settings, constraint: self.wall }
+    }
+}
+
+/// The tolerance on coarser grids: tight enough for the error of the finest to be estimated from them.
+const COARSE: f64 = 1e-3;
 
 /// The stability of a solution; see [`asperity::stability::Stability`].
 pub struct Steadiness {
@@ -68,6 +90,12 @@ pub struct Account {
     /// The time for setting up and solving, stability included, without that for files and pictures.
     pub seconds: f64,
     pub stability: Option<Steadiness>,
+    /// The contact stiffness, if it was asked for.
+    pub stiffness: Option<ContactStiffness>,
+    /// The nodes of the shortest wave of the surface, for the error of the grid; zero where that is not asked for.
+    pub nodes_per_wave: f64,
+    /// What became of an accuracy, if one was asked for.
+    pub reached: Option<Reached>,
     /// The unstable equilibria on the way to the solution, in order.
     pub departures: Vec<Left>,
     /// The node with the largest work of adhesion, where that varies.
@@ -89,7 +117,7 @@ pub fn solve<T: Scalar, L: AdhesionLaw<T>>(
     let mut problem = Problem::new(&surface, case.boundary.half_space(grid, case.modulus)?, law)?;
     drop(surface);
     let start = start.as_ref().map_or(Start::Default, |start| Start::From(start));
-    let mut solver = Solver { settings: case.settings, constraint: case.wall };
+    let mut solver = case.solver();
     let mut solution = solver.solve_with(&mut problem, case.control, start, |state| {
         progress.update(state);
         ControlFlow::Continue(())
@@ -109,8 +137,10 @@ pub fn solve<T: Scalar, L: AdhesionLaw<T>>(
         departures.push(Left { eigenvalue: found.eigenvalue, energy_drop, distance });
         solution = left.solution;
     };
+    let find = || ContactStiffness::of_constrained(&mut problem, &case.wall, &solution, Case::STIFFNESS);
+    let stiffness = case.stiffness.then(find).transpose()?;
     let (solution, account) = account(solution, problem.law(), &grid, None, clock)?;
-    Ok((solution, Account { stability, departures, ..account }))
+    Ok((solution, Account { stability, stiffness, departures, ..account }))
 }
 
 /// Solves a case on nested grids.
@@ -122,21 +152,52 @@ pub fn solve_nested<T: Scalar, L: AdhesionLaw<T>>(
 ) -> Outcome<(Solution<T>, Account)> {
     let clock = Instant::now();
     let half_space = |grid| case.boundary.half_space(grid, case.modulus);
-    let Nested { coarse_tolerance, coarsest, .. } = Nested::default();
-    let solver = Solver { settings: case.settings, constraint: case.wall };
-    let found = Nested { solver, coarse_tolerance, coarsest }.solve_observed(
+    let Nested { coarsest, .. } = Nested::default();
+    let (solver, stiffness, tolerance) = (case.solver(), case.stiffness_to(), case.settings.tolerance_in::<T>());
+    let found = Nested { solver, coarse_tolerance: COARSE, coarsest, stiffness }.solve_observed(
         surface,
         half_space,
         &law,
         case.control,
         |grid, state| {
-            progress.update_on(grid, state);
+            let finest = grid.nodes() == surface.grid().nodes();
+            progress.update_on(grid, state, if finest { tolerance } else { tolerance.max(COARSE) });
             ControlFlow::Continue(())
         },
     )?;
     let applications = found.equivalent_applications();
     let NestedSolution { solution, levels, .. } = found;
-    account(solution, &law, surface.grid(), Some((levels, applications)), clock)
+    let stiffness = levels.last().and_then(|finest| finest.stiffness);
+    let (solution, account) = account(solution, &law, surface.grid(), Some((levels, applications)), clock)?;
+    let nodes_per_wave = surface.nodes_per_wave(account.report.boundary);
+    Ok((solution, Account { stiffness, nodes_per_wave, ..account }))
+}
+
+/// Solves a case to an accuracy; returns the surface on the grid of the answer, too.
+pub fn solve_to<T: Scalar, L: AdhesionLaw<T>>(
+    surface: &Surface,
+    law: L,
+    case: &Case,
+    wanted: &mut Accuracy<Wall>,
+    mut progress: Progress,
+) -> Outcome<(Surface, Solution<T>, Account)> {
+    let clock = Instant::now();
+    let half_space = |grid| case.boundary.half_space(grid, case.modulus);
+    let tolerance = wanted.tolerance()?;
+    let refinable = surface.absent().is_none() && law.shape().is_none();
+    let found = wanted.solve_observed(surface, half_space, &law, case.control, |grid, state| {
+        progress.update_on(grid, state, tolerance);
+        ControlFlow::Continue(())
+    })?;
+    let AccurateSolution { solution, surface, levels, error, reached, unaffordable, .. } = found;
+    let nodes = |level: &Level| (level.shape.0 * level.shape.1) as f64;
+    let applications = levels.iter().map(|level| level.operator_applications as f64 * nodes(level)).sum::<f64>()
+        / solution.gap.len() as f64;
+    let stiffness = levels.last().and_then(|finest| finest.stiffness);
+    let reached = Reached { accuracy: wanted.target, of: wanted.of, reached, error, unaffordable, refinable };
+    let (solution, account) = account(solution, &law, surface.grid(), Some((levels, applications)), clock)?;
+    let nodes_per_wave = surface.nodes_per_wave(account.report.boundary);
+    Ok((surface, solution, Account { stiffness, nodes_per_wave, reached: Some(reached), ..account }))
 }
 
 fn account<T: Scalar>(
@@ -160,6 +221,9 @@ fn account<T: Scalar>(
         grids,
         seconds,
         stability: None,
+        stiffness: None,
+        nodes_per_wave: 0.0,
+        reached: None,
         departures: Vec::new(),
         strongest: None,
         warnings: Value::Array(Vec::new()),

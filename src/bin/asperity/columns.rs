@@ -1,6 +1,7 @@
 //! The columns that the tables of `asperity sweep` and `asperity cycle` share: the state, and how its solve ended.
 
 use asperity::contact::ContactStatistics;
+use asperity::stability::ContactStiffness;
 use asperity::{Control, Report};
 use serde_json::Value;
 
@@ -33,6 +34,9 @@ pub const STATE: [&str; 18] = [
 
 /// The names of the cells of an outcome, in the order of [`outcome`].
 pub const OUTCOME: [&str; 5] = ["relative_error", "load_error", "iterations", "operator_applications", "status"];
+
+/// The names of the cells of a contact stiffness, in the order of [`stiffness`].
+pub const STIFFNESS: [&str; 2] = ["contact_stiffness", "normal_stiffness"];
 
 /// The load and the state under it. Nothing in it depends on the clock.
 pub fn state(control: Control, report: &Report, statistics: &ContactStatistics) -> impl Iterator<Item = Cell> {
@@ -70,4 +74,9 @@ pub fn outcome(report: &Report) -> impl Iterator<Item = Cell> {
         report.status.name().into(),
     ];
     OUTCOME.into_iter().zip(values)
+}
+
+/// The contact stiffness.
+pub fn stiffness(found: &ContactStiffness) -> impl Iterator<Item = Cell> {
+    STIFFNESS.into_iter().zip([found.pressure_per_length.into(), found.force_per_length.into()])
 }

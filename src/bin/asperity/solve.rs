@@ -4,11 +4,13 @@ use std::path::PathBuf;
 
 use asperity::contact::Patch;
 use asperity::io::{OutputFolder, write_npy, write_npz, write_vti};
-use asperity::{Control, Grid, Level, Status};
+use asperity::{AdhesionLaw, Control, Grid, Level, Nested, Status, Surface};
 use clap::{ArgGroup, Args, ValueEnum};
 use serde_json::{Value, json};
 
-use crate::adhesion::{AdhesionOptions, Law};
+use crate::accuracy::{self, AccuracyOptions};
+use crate::adhesion::{AdhesionOptions, Law, Wall};
+use crate::allowed::finite;
 use crate::boundary::{LOAD, LoadOptions};
 use crate::case::{self, Account, Case, Left};
 use crate::loads::name_and_value;
@@ -17,7 +19,7 @@ use crate::options::{Given, Precision, ProblemOptions, Scalar, SolverOptions, Su
 use crate::outcome::Outcome;
 use crate::output::at_destination;
 use crate::output::{output_folder, write_text};
-use crate::pictures::{self, Units};
+use crate::pictures::{self, PictureFormat, Resolution, Units};
 use crate::printing::Printing;
 use crate::printing::say;
 use crate::progress::Progress;
@@ -30,8 +32,8 @@ use crate::warnings::{Strictness, Warnings};
 ///
 /// All quantities are in any consistent units, as m, Pa and J/m²; heights of files with units of length are in m.
 /// Writes gap.npy, pressure.npy (the full elastic pressure, compression positive) and contact_pressure.npy (its
-/// repulsive part), or files as --format says, report.json, contact.png, pressure.png, and scene.toml, which repeats
-/// the run, all or none. Exits with 0 if converged, 2 if not (the fields are written all the same), and 1 if the input
+/// repulsive part), or files as --format says, report.json, contact.png, pressure.png (or .svg, .pdf), and scene.toml,
+/// which repeats the run, all or none. Exits with 0 if converged, 2 if not (the fields are written all the same), and 1 if the input
 /// is refused or the files cannot be written (then there are none). Probable mistakes, as a tilt, are said on a line
 /// each and in the report; --strict refuses them.
 #[derive(Args)]
@@ -47,9 +49,14 @@ pub struct Options {
     adhesion: AdhesionOptions,
     #[command(flatten)]
     solver: SolverOptions,
-    /// Solve on coarser grids first, where sizes are even and the grids resolve the adhesion; saves time at loose tolerances
-    #[arg(long, help_heading = "Solver", conflicts_with = "initial_gap")]
+    /// Solve on coarser grids first, where these resolve the adhesion; the default where that is faster
+    #[arg(long, help_heading = "Solver", conflicts_with = "initial_gap", overrides_with = "no_nested")]
     nested: bool,
+    /// Solve on the grid of the heights alone
+    #[arg(long, help_heading = "Solver", overrides_with = "nested")]
+    no_nested: bool,
+    #[command(flatten)]
+    accuracy: AccuracyOptions,
 
     /// Folder for the results, made if needed
     #[arg(long, value_name = "DIR", help_heading = "Output")]
@@ -64,6 +71,9 @@ pub struct Options {
     /// --stability
     #[arg(long, help_heading = "Output", conflicts_with = "nested")]
     leave: bool,
+    /// Find the contact stiffness: how much the mean pressure grows with the approach, pressure per length
+    #[arg(long, help_heading = "Output")]
+    stiffness: bool,
     /// Files for the fields: .npy one each, all in fields.npz for numpy, or in fields.vti for ParaView; may be
     /// repeated
     #[arg(
@@ -79,9 +89,19 @@ pub struct Options {
     strictness: Strictness,
     #[command(flatten)]
     printing: Printing,
-    /// Write no .png files
+    /// Write no pictures
     #[arg(long, help_heading = "Output")]
     no_pictures: bool,
+    /// Format of the pictures
+    #[arg(long, value_enum, value_name = "FORMAT", default_value = "png", help_heading = "Output")]
+    picture_format: PictureFormat,
+    #[command(flatten)]
+    resolution: Resolution,
+    /// Pressures at the ends of the colour bar, as for pictures that are to be compared; with adhesion that of the largest
+    /// tension, negative, and that of the largest compression
+    #[arg(long, value_names = ["LOW", "HIGH"], num_args = 2, allow_hyphen_values = true, value_parser = finite)]
+    #[arg(help_heading = "Output")]
+    colour_limits: Option<Vec<f64>>,
     /// Unit of the lengths, on pictures only; m gets prefixes
     #[arg(long, value_name = "UNIT", help_heading = "Output")]
     length_unit: Option<String>,
@@ -98,9 +118,11 @@ const EXAMPLES: &str = "\
     asperity solve --heights heights.npy --lengths 1e-6 1e-6 --modulus 1e9 \\
       --law exponential --work-of-adhesion 0.05 --range 1e-9 \\
       --mean-pressure 2.5e6 --length-unit m --pressure-unit Pa --out sticky
-  The same load without adhesion on a large map, by way of coarser grids:
+  The same load without adhesion, by way of coarser grids, which is the default where it is faster:
     asperity solve --heights heights.npy --lengths 1e-6 1e-6 --modulus 1e9 \\
       --mean-pressure 2.5e6 --nested --out nested
+  A contact area that is right to 5 %, on a grid as fine as that takes:
+    asperity solve --heights heights.npy --mean-pressure 0.01 --accuracy 0.05 --out right
   On from the case with adhesion to a tension:
     asperity solve --heights heights.npy --lengths 1e-6 1e-6 --modulus 1e9 \\
       --law exponential --work-of-adhesion 0.05 --range 1e-9 \\
@@ -118,14 +140,20 @@ const MODE: &str = "mode.npy";
 const NPZ: &str = "fields.npz";
 const VTI: &str = "fields.vti";
 const REPORT: &str = "report.json";
-const PICTURES: [&str; 2] = ["contact.png", "pressure.png"];
+const PICTURES: [[&str; 2]; 3] =
+    [["contact.png", "pressure.png"], ["contact.svg", "pressure.svg"], ["contact.pdf", "pressure.pdf"]];
 
 /// Runs the command; whether it converged.
 pub fn run(options: &Options, scene: &Scene) -> Outcome<bool> {
     let problem = options.problem();
     problem.adhesion.check()?;
     problem.surface.beyond.boundary.check(options.load.control())?;
-    let pictures = PICTURES.iter().filter(|_| !options.no_pictures);
+    let limits = options.colour_limits();
+    if let Some((low, high)) = limits.filter(|(low, high)| low >= high) {
+        return Err(format!("--colour-limits {low} {high}: the lower one must come first").into());
+    }
+    let pictures = options.picture_format.of(PICTURES);
+    let pictures = pictures.iter().filter(|_| !options.no_pictures);
     let mode = options.case().stability.then_some(&MODE);
     let arrays = FIELDS.iter().chain(mode).filter(|_| options.writes(Format::Npy));
     let archives = [(Format::Npz, &NPZ), (Format::Vti, &VTI)].into_iter().filter(|(format, _)| options.writes(*format));
@@ -149,6 +177,10 @@ impl Options {
         self.format.contains(&format)
     }
 
+    fn colour_limits(&self) -> Option<(f64, f64)> {
+        self.colour_limits.as_deref().map(|limits| (limits[0], limits[1]))
+    }
+
     fn problem(&self) -> ProblemOptions<'_> {
         ProblemOptions { surface: &self.surface, adhesion: &self.adhesion, solver: &self.solver }
     }
@@ -159,7 +191,16 @@ impl Options {
         let (control, settings) = (self.load.control(), self.solver.settings());
         let stability = self.stability || self.leave;
         let wall = self.adhesion.wall;
-        Case { boundary: beyond.boundary, modulus, control, settings, wall, stability, leave: self.leave }
+        Case {
+            boundary: beyond.boundary,
+            modulus,
+            control,
+            settings,
+            wall,
+            stability,
+            leave: self.leave,
+            stiffness: self.stiffness,
+        }
     }
 
     /// All that one needs for understanding a run later; numbers that are not finite become null.
@@ -176,6 +217,14 @@ impl Options {
             "operator_applications": report.operator_applications,
             "levels": levels,
             "equivalent_applications": account.grids.as_ref().map(|(_, applications)| applications),
+            "grid_error": account.grids.as_ref().map(|(levels, _)| {
+                accuracy::errors(levels, account.nodes_per_wave, report.mu_rho, &case)
+            }),
+            "accuracy": account.reached.as_ref().map(|reached| json!({
+                "wanted": reached.accuracy,
+                "of": reached.of.name(),
+                "reached": reached.reached,
+            })),
             "mean_gap": report.mean_gap,
             "mean_pressure": report.mean_pressure,
             "normal_force": report.normal_force,
@@ -206,6 +255,8 @@ impl Options {
                 "smoothed": stability.smoothed,
                 "operator_applications": stability.operator_applications,
             })),
+            "contact_stiffness": account.stiffness.map(|found| found.pressure_per_length),
+            "normal_stiffness": account.stiffness.map(|found| found.force_per_length),
             "departures": self.leave.then(|| account.departures.iter().map(departure).collect::<Vec<_>>()),
             "mu_rho": report.mu_rho,
             "mu_rho_node": account.strongest,
@@ -215,7 +266,10 @@ impl Options {
             "control": control,
             "control_value": held,
         });
-        report::report("solve", outcome, report::inputs(self.problem(), &grid, length_unit))
+        let mut inputs = report::inputs(self.problem(), &grid, length_unit);
+        // with an accuracy the one that was chosen
+        inputs.insert("tolerance".to_owned(), report.tolerance.into());
+        report::report("solve", outcome, inputs)
     }
 }
 
@@ -231,14 +285,27 @@ struct Job<'a> {
 impl Job<'_> {
     fn run<T: Scalar>(&self, Given { surface, adhesion, start, .. }: Given<'_>) -> Outcome<bool> {
         let Options { out, force, printing, .. } = self.options;
-        let grid = *surface.grid();
+        let mut grid = *surface.grid();
         let start = start.map(T::field);
-        let progress = Progress::new("", self.case.settings.tolerance_in::<T>(), grid.nodes(), printing.without_bars());
+        let mut wanted = self.options.accuracy.goal(&self.case);
+        let tolerance = match &wanted {
+            Some(wanted) => wanted.tolerance()?,
+            None => self.case.settings.tolerance_in::<T>(),
+        };
+        let progress = Progress::new("", tolerance, grid.nodes(), printing.without_bars());
         let mut warnings =
             Warnings::of_input::<T>(self.options.strictness, &surface, &adhesion, self.options.problem())?;
         warnings.say();
         let law = adhesion.law()?;
-        let (solution, mut account) = if self.options.nested {
+        let (solution, mut account) = if let Some(wanted) = &mut wanted {
+            let mut operator = self.case.boundary.half_space(grid, self.case.modulus)?;
+            let plan = wanted.plan::<T>(&surface, &mut operator, self.case.control)?;
+            drop(operator);
+            printing.say(&accuracy::announced(wanted, &plan));
+            let (fine, solution, account) = case::solve_to(&surface, law, &self.case, wanted, progress)?;
+            grid = *fine.grid();
+            (solution, account)
+        } else if self.nests::<T>(&surface, &law, start.is_some()) {
             case::solve_nested::<T, _>(&surface, law, &self.case, progress)?
         } else {
             case::solve::<T, _>(surface, law, &self.case, start, progress)?
@@ -248,7 +315,7 @@ impl Job<'_> {
         account.strongest = adhesion.strongest();
 
         let folder = output_folder(out, &self.names, *force)?;
-        let written = self.write(&folder, grid, &solution, &account);
+        let written = self.write(&folder, grid, &solution, &account, &adhesion.law()?);
         written.map_err(|error| at_destination(error, out))?;
         folder.commit()?;
 
@@ -258,7 +325,15 @@ impl Job<'_> {
         }
         printing.report(|| self.report(grid, &account));
         warn("", &account, &self.case);
-        Ok(account.report.status == Status::Converged)
+        let reached = account.reached.as_ref().is_none_or(|reached| reached.reached);
+        Ok(account.report.status == Status::Converged && reached)
+    }
+
+    /// Whether to solve on coarser grids first.
+    fn nests<T: Scalar>(&self, surface: &Surface, law: &dyn AdhesionLaw<T>, started: bool) -> bool {
+        let Case { control, settings, wall, stability, .. } = self.case;
+        let pays = || wall == Wall::Hard && Nested::new(settings).pays(surface, law, control);
+        self.options.nested || !(self.options.no_nested || started || stability) && pays()
     }
 
     fn report(&self, grid: Grid, account: &Account) -> Value {
@@ -271,6 +346,7 @@ impl Job<'_> {
         grid: Grid,
         solution: &asperity::Solution<T>,
         account: &Account,
+        law: &impl AdhesionLaw<T>,
     ) -> asperity::Result<()> {
         let path = |name: &str| folder.path(name);
         let mode = account.stability.as_ref().map(|stability| &stability.mode);
@@ -292,10 +368,14 @@ impl Job<'_> {
         write_text(&path(REPORT), &format!("{:#}\n", self.report(grid, account)))?;
         write_text(&path(scene::NAME), &self.scene.text(&self.options.out))?;
         if !self.options.no_pictures {
-            let units = Units { length: self.length_unit, pressure: self.options.pressure_unit.as_deref() };
-            pictures::draw_contact(&path("contact.png"), grid, "Contact", units, solution)?;
+            let Options { ref pressure_unit, picture_format, resolution: Resolution { dpi }, .. } = *self.options;
+            let units = Units { length: self.length_unit, pressure: pressure_unit.as_deref(), force: None };
+            let [contact_name, pressure_name] = picture_format.of(PICTURES);
+            pictures::draw_contact(grid, "Contact", units, (solution, law), dpi)?.write(&path(contact_name))?;
             let pressure = pictures::pressure_to_draw(solution, self.options.adhesion.law != Law::None);
-            pictures::draw_pressure(&path("pressure.png"), grid, "Pressure", "", units, pressure)?;
+            let limits = self.options.colour_limits();
+            let picture = pictures::draw_pressure(grid, ("Pressure", ""), units, pressure, limits, dpi)?;
+            picture.write(&path(pressure_name))?;
         }
         Ok(())
     }
@@ -316,13 +396,21 @@ fn spring_stiffness(control: Control) -> Option<f64> {
     if let Control::Spring { stiffness, .. } = control { Some(stiffness) } else { None }
 }
 
-/// The cost of one of the nested grids; the applications include the one that constructs its problem.
+/// The cost of one of the nested grids and what it found; the applications include the one that constructs its problem.
 fn level(level: &Level) -> Value {
     json!({
         "shape": level.shape,
         "status": level.status.name(),
         "iterations": level.iterations,
         "operator_applications": level.operator_applications,
+        "relative_error": level.relative_error,
+        "mean_gap": level.mean_gap,
+        "mean_pressure": level.mean_pressure,
+        "mean_contact_pressure": level.mean_contact_pressure,
+        "elastic_energy": level.elastic_energy,
+        "contact_fraction": level.area.contact_fraction,
+        "corrected_contact_fraction": level.area.corrected_contact_fraction,
+        "contact_stiffness": level.stiffness.map(|found| found.pressure_per_length),
     })
 }
 

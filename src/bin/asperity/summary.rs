@@ -3,6 +3,7 @@
 use asperity::stability::Verdict;
 use asperity::{Report, Status};
 
+use crate::accuracy::{self, Reached};
 use crate::case::{Account, Case, Steadiness};
 use crate::numbers::{Style, percent, plain};
 use crate::printing::complain;
@@ -43,6 +44,11 @@ pub fn table(names: &[&str], solves: &[&Account], style: Style) -> String {
     row("greatest pressure", &|s, _| style.number(s.pressures.1, "Pa"));
     row("elastic energy per area", &|_, r| style.number(r.elastic_energy, "J/m²"));
     row("adhesive energy per area", &|_, r| style.number(r.adhesive_energy, "J/m²"));
+    if solves.iter().any(|solve| solve.stiffness.is_some()) {
+        row("contact stiffness", &|s, _| {
+            s.stiffness.map_or(String::new(), |found| style.number(found.pressure_per_length, "Pa/m"))
+        });
+    }
     row("mu_rho", &|_, r| plain(r.mu_rho));
     row("certified error", &|_, r| format!("{:.1e}", r.relative_error));
     if solves.iter().any(|solve| solve.stability.is_some()) {
@@ -66,6 +72,13 @@ pub fn table(names: &[&str], solves: &[&Account], style: Style) -> String {
     if solves.iter().any(|solve| solve.grids.is_some()) {
         let count = |s: &Account| s.grids.as_ref().map_or(0.0, |(_, applications)| *applications);
         row("with coarser grids", &|s, _| format!("{:.1}", count(s)));
+    }
+    if solves.iter().any(|solve| solve.grids.is_some()) {
+        row("error of the grid", &|s, r| {
+            let of_area = |(levels, _): &(Vec<_>, _)| accuracy::area_error(levels, s.nodes_per_wave, r.mu_rho);
+            let told = || s.grids.as_ref().and_then(of_area).unwrap_or("unknown".to_owned());
+            s.reached.as_ref().map_or_else(told, Reached::estimate)
+        });
     }
     row("time", &|s, _| format!("{:.3} s", s.seconds));
     row("status", &|_, r| r.status.to_string());
@@ -112,6 +125,18 @@ pub fn warn(name: &str, account: &Account, case: &Case) {
         let text = format!(
             "{name}not converged ({}): error {:.1e}{load} after {} iterations, tolerance {tolerance:e}; {remedy}",
             report.status, report.relative_error, report.iterations
+        );
+        complain("warning", &text);
+    }
+    if let Some(reached) =
+        account.reached.as_ref().filter(|reached| !reached.reached && report.status == Status::Converged)
+    {
+        let text = format!(
+            "{name}the accuracy of {} of the {} is not reached: the estimate is {}; {}",
+            reached.accuracy,
+            reached.of,
+            reached.estimate(),
+            reached.reason()
         );
         complain("warning", &text);
     }

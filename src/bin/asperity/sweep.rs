@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use asperity::contact::ContactStatistics;
+use asperity::stability::ContactStiffness;
 use asperity::{Control, Error, Problem, Report, Solver, Status, Surface, Sweep};
 use clap::{ArgGroup, Args, ValueEnum};
 use ndarray::Array2;
@@ -10,13 +11,15 @@ use serde_json::{Map, Value, json};
 
 use crate::adhesion::{Adhesion, AdhesionOptions};
 use crate::boundary::{LOADS, LoadsOptions};
-use crate::columns::{OUTCOME, STATE, outcome, state};
+use crate::case::Case;
+use crate::columns::{OUTCOME, STATE, STIFFNESS, outcome, state, stiffness};
 use crate::csv;
 use crate::identity::{Identity, identity};
 use crate::journal::Row;
 use crate::kept::Kept;
 use crate::options::{Given, Precision, ProblemOptions, Scalar, SolverOptions, SurfaceOptions};
 use crate::outcome::Outcome;
+use crate::pictures::PlotOptions;
 use crate::printing::Printing;
 use crate::scene::Scene;
 use crate::table::{self, Table, TableOptions};
@@ -55,6 +58,12 @@ pub struct Options {
     /// Folder for the fields, made if needed: gap-0001.npy, pressure-0001.npy, contact_pressure-0001.npy and so on
     #[arg(long, value_name = "DIR", help_heading = "Output")]
     fields: Option<PathBuf>,
+    #[command(flatten)]
+    plot: PlotOptions,
+    /// Find the contact stiffness under each load, in two more columns: contact_stiffness, how much the mean pressure
+    /// grows with the approach, and normal_stiffness, how much the force does
+    #[arg(long, help_heading = "Output")]
+    stiffness: bool,
     /// Start over, and replace files that are there
     #[arg(long, help_heading = "Output")]
     force: bool,
@@ -67,7 +76,8 @@ pub struct Options {
 const EXAMPLES: &str = "\
 \u{1b}[1;4mExamples:\u{1b}[0m
   Contact area against load, twenty loads over two decades:
-    asperity sweep --heights heights.npy --mean-pressures 1e-3:1e-1:20:log --out area.csv
+    asperity sweep --heights heights.npy --mean-pressures 1e-3:1e-1:20:log --out area.csv \\
+      --plot area.pdf
   Approach and withdrawal with adhesion, eleven mean gaps each:
     asperity sweep --heights heights.npy --law exponential --work-of-adhesion 1e-4 \\
       --range 4e-3 --mean-gaps 0.05:0.03:11,0.03:0.05:11 --out hysteresis.jsonl";
@@ -78,14 +88,15 @@ enum Format {
     Jsonl,
 }
 
-/// The names of the columns.
-fn names() -> Vec<&'static str> {
-    [&STATE[..], &OUTCOME[..]].concat()
+/// The names of the columns, with the contact stiffness or without.
+fn names(stiffness: bool) -> Vec<&'static str> {
+    [&STATE[..], &OUTCOME[..], if stiffness { &STIFFNESS[..] } else { &[] }].concat()
 }
 
 /// Runs the command; whether all rows converged.
 pub fn run(options: &Options, scene: &Scene) -> Outcome<bool> {
     options.format()?;
+    options.plot.check(&options.out, options.force)?;
     options.surface.beyond.boundary.check(options.loads.control(0.0))?;
     let given = options.table().problem.read()?;
     match options.solver.precision {
@@ -109,7 +120,7 @@ impl Options {
         let mut problem = Problem::new(&surface, operator, adhesion.law::<T>()?)?;
         drop(surface);
         let format = self.format()?;
-        let header = if format == Format::Csv { names().join(",") + "\n" } else { String::new() };
+        let header = if format == Format::Csv { names(self.stiffness).join(",") + "\n" } else { String::new() };
         let kept = Kept(self.fields.as_deref());
         kept.check(self.force || self.out.exists())?;
         let (mut table, saved) = Table::open(self.table(), scene, &header, identity, Some(loads), warnings)?;
@@ -132,7 +143,12 @@ impl Options {
             let (control, solution) = step?;
             table.check(&solution)?;
             let statistics = ContactStatistics::of(&solution, &grid, &law)?;
-            let row = row(control, &solution.report, &statistics);
+            let mut row = row(control, &solution.report, &statistics);
+            if self.stiffness {
+                let (problem, tolerance) = (sweep.problem(), Case::STIFFNESS);
+                let found = ContactStiffness::of_constrained(problem, &self.adhesion.wall, &solution, tolerance)?;
+                row.extend(stiffness(&found).map(|(name, value)| (name.to_owned(), value)));
+            }
             let text = match format {
                 Format::Csv => csv::line(&row),
                 Format::Jsonl => Value::Object(row).to_string(),
@@ -143,9 +159,13 @@ impl Options {
             table.append(&Row { text: &text, load, converged, fields: &fields, numbers: &[] })?;
             self.printing.say(&format!("{:>width$}/{count}  {}", k + 1, table::brief(&solution.report)));
         }
+        let text = table.text()?;
+        let names = names(self.stiffness);
+        let rows = text.lines().skip(usize::from(format == Format::Csv)).map(|row| parsed(format, &names, row));
+        self.plot.draw(&rows.collect::<Vec<_>>(), unit.as_deref())?;
         self.printing.say(&format!("{count} rows in {}", self.out.display()));
         self.printing.report(|| {
-            let last = last_row(format, &table.text().unwrap_or_default());
+            let last = parsed(format, &names, text.lines().next_back().unwrap_or_default());
             table.report(
                 "sweep",
                 self.loads.control(0.0).name(),
@@ -179,17 +199,17 @@ impl Options {
         let csv = self.format().is_ok_and(|format| format == Format::Csv);
         identity.insert("control".to_owned(), self.loads.kind().into());
         identity.insert("fields".to_owned(), if self.fields.is_some() { "kept" } else { "not kept" }.into());
+        identity.insert("stiffness".to_owned(), if self.stiffness { "found" } else { "not found" }.into());
         identity.insert("format".to_owned(), if csv { "csv" } else { "jsonl" }.into());
         identity
     }
 }
 
-/// The last row of the file, of which this is the text.
-fn last_row(format: Format, text: &str) -> Value {
-    let last = text.lines().next_back().unwrap_or_default();
+/// A row of the file.
+fn parsed(format: Format, names: &[&'static str], row: &str) -> Value {
     match format {
-        Format::Csv => csv::parsed(&names(), last),
-        Format::Jsonl => serde_json::from_str(last).unwrap_or_default(),
+        Format::Csv => csv::parsed(names, row),
+        Format::Jsonl => serde_json::from_str(row).unwrap_or_default(),
     }
 }
 

@@ -1,0 +1,246 @@
+//! The accuracy that is wanted: how wrong the grid is, and a solve that refines it until it is right enough.
+//!
+//! An answer has two errors: that of the solver, which the certificate bounds, and that of the grid. [`GridError`]
+//! estimates the latter from the solutions on nested grids; [`Accuracy`] asks for a relative error of a [`Quantity`] and
+//! chooses tolerance and grid itself.
+
+use std::fmt;
+
+use crate::elastic::Boundary;
+use crate::error::{Error, Result};
+use crate::nested::Level;
+use crate::problem::Control;
+use crate::surface::{Surface, Topography};
+
+mod goal;
+mod refine;
+
+pub use goal::{Accuracy, AccurateSolution, Plan};
+
+/// The quantity of which an accuracy is asked.
+///
+/// ```
+/// use asperity::Control;
+/// use asperity::accuracy::Quantity;
+/// assert!(Quantity::Gap.check(Control::MeanPressure(0.1)).is_ok());
+/// let error = Quantity::Gap.check(Control::MeanGap(0.1)).unwrap_err();
+/// assert_eq!(error.to_string(), "accuracy of the gap: the mean gap is given: ask for that of the pressure, or of the area");
+/// ```
+#[non_exhaustive]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Quantity {
+    /// The contact area corrected for its edge,
+    /// [`ContactArea::corrected_contact_fraction`](crate::contact::ContactArea::corrected_contact_fraction).
+    Area,
+    /// The mean gap, under a given pressure or force in a periodic cell.
+    Gap,
+    /// The mean external pressure, where it is not given.
+    Pressure,
+    /// The contact stiffness, [`ContactStiffness`](crate::stability::ContactStiffness).
+    Stiffness,
+}
+
+impl Quantity {
+    /// The name that the tool uses: `"area"`, `"gap"`, `"pressure"` or `"stiffness"`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Area => "area",
+            Self::Gap => "gap",
+            Self::Pressure => "pressure",
+            Self::Stiffness => "stiffness",
+        }
+    }
+
+    /// Refuses a quantity that a control gives instead of finding it.
+    ///
+    /// # Errors
+    /// [`Error::Control`].
+    pub fn check(self, control: Control) -> Result<()> {
+        let (control, reason) = match (self, control) {
+            (Self::Gap, Control::MeanGap(_)) => {
+                ("accuracy of the gap", "the mean gap is given: ask for that of the pressure, or of the area")
+            }
+            (Self::Gap, Control::Approach(_)) => (
+                "accuracy of the gap",
+                "a free half-space has no mean gap: ask for that of the pressure, which is that of the force, or of the area",
+            ),
+            (Self::Pressure, Control::MeanPressure(_) | Control::Force(_)) => {
+                ("accuracy of the pressure", "it is given: ask for that of the gap, or of the area")
+            }
+            _ => return Ok(()),
+        };
+        Err(Error::Control { control, reason })
+    }
+
+    /// The value on a level; the counted area beside the corrected one.
+    fn of(self, level: &Level) -> Option<(f64, f64)> {
+        let value = match self {
+            Self::Area => return Some((level.area.corrected_contact_fraction, level.area.contact_fraction)),
+            Self::Gap => level.mean_gap,
+            Self::Pressure => level.mean_pressure,
+            Self::Stiffness => level.stiffness?.pressure_per_length,
+        };
+        Some((value, value))
+    }
+}
+
+impl Quantity {
+    /// The error that is to be expected with so many nodes in the shortest wave, by what rough surfaces had.
+    fn expected(self, nodes_per_wave: f64) -> f64 {
+        let (share, order) = match self {
+            Self::Area => (0.12, 1.0),
+            Self::Gap => (0.05, 2.0),
+            Self::Pressure => (0.1, 2.0),
+            Self::Stiffness => (0.06, 1.0),
+        };
+        share * nodes_per_wave.powf(-order)
+    }
+}
+
+impl fmt::Display for Quantity {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+impl Surface {
+    /// The number of nodes that the shortest wave of the surface has, [`Spectrum::nodes_per_wave`](crate::Spectrum::nodes_per_wave);
+    /// with a boundary that does not repeat, of the surface continued by its mirror images.
+    ///
+    /// ```
+    /// use asperity::{Boundary, Boussinesq, ElasticOperator, Grid, Surface};
+    /// let grid = Grid::square(64, 1.0)?;
+    /// // a tilt repeats with a jump, and ends without one
+    /// let tilt = Surface::from_fn(grid, |x, _| x)?;
+    /// let free = Boussinesq::<f64>::new(grid, 1.0)?.boundary();
+    /// assert!(tilt.nodes_per_wave(Boundary::Periodic) < 3.0 && tilt.nodes_per_wave(free) > 8.0);
+    /// # Ok::<(), asperity::Error>(())
+    /// ```
+    pub fn nodes_per_wave(&self, boundary: Boundary) -> f64 {
+        let mirrored = || {
+            let mut map = Topography::new(self.heights().clone());
+            map.lengths = Some(self.grid().lengths());
+            map.mirror().surface()
+        };
+        match boundary {
+            Boundary::Periodic => self.spectrum().nodes_per_wave(),
+            // side lengths and heights are those of a surface
+            Boundary::Free { .. } => mirrored().map_or(0.0, |surface| surface.spectrum().nodes_per_wave()),
+        }
+    }
+}
+
+/// The nodes along a side that the shortest wave of a surface must have on a grid for its solution to say something of
+/// finer ones.
+pub(crate) const RESOLVED: f64 = 4.0;
+
+/// The relative error of the solver on a coarser grid above which its difference to a finer one says nothing.
+const SOLVED: f64 = 3e-3;
+
+/// The resolution measure μ_ρ above which the answer depends on the grid.
+const UNDER_RESOLVED: f64 = 0.5;
+
+/// The nodes of the shortest wave on the coarser grid below which an estimate may be far off.
+const FINE: f64 = 8.0;
+
+/// The factor by which a rough estimate is taken larger where an accuracy is asked for.
+const CAUTION: f64 = 1.5;
+
+/// How far a coarser grid may be from half the nodes along a side, as that of an odd number is.
+const HALVED: f64 = 0.02;
+
+/// The orders of convergence that are believed.
+const ORDERS: (f64, f64) = (0.5, 3.0);
+
+/// The estimated relative error of the grid, of one quantity.
+///
+/// With δQ the relative difference of a quantity Q between the grid and one of half as many nodes along its sides, the
+/// error is taken to be
+///
+/// | quantity | estimate |
+/// |---|---|
+/// | corrected area A_c | √((0.25 δA_c)² + (0.17 δA)²), with A the area as nodes count it |
+/// | contact stiffness k | √((0.3 δk)² + (0.11 δA)²) |
+/// | mean gap ḡ, mean pressure p̄ | √((0.15 δḡ)² + (0.001 δA)²), and with p̄ likewise |
+///
+/// and on a line, where the area is not corrected, the factors are 1 and 0.3 for area and stiffness, and 1/3 and 0.02 for
+/// gap and pressure.
+/// δA tells how many of the nodes in contact are at the edge, and so the scale of all that depends on where between the
+/// nodes the edge falls; δQ alone may be small by luck. The factors are fitted to rough surfaces, and the page
+/// [`choosing`](crate::guide::choosing) has how good the estimates are on others.
+///
+/// A coarser grid counts if it has the same waves, the shortest of which ([`Surface::nodes_per_wave`]) with at least four
+/// nodes, resolves the adhesion (μ_ρ ≤ 0.5), and was solved to 3e-3. An estimate is [`rough`](Self::rough) if the
+/// shortest wave has fewer than eight nodes on the coarser grid; that of mean gap and mean pressure also unless the
+/// differences of three grids fall by an order between 0.5 and 3.
+///
+/// ```
+/// use asperity::accuracy::{GridError, Quantity};
+/// use asperity::{Boundary, Control, Grid, Nested, NoAdhesion, SelfAffine, Westergaard};
+/// let surface = SelfAffine { k_s: 16.0, ..SelfAffine::default() }.surface(Grid::square(256, 1.0)?)?;
+/// let half_space = |grid| Westergaard::<f64>::new(grid, 1.0);
+/// let mut nested = Nested { coarse_tolerance: 1e-3, ..Nested::default() };
+/// let found = nested.solve(&surface, half_space, NoAdhesion, Control::MeanPressure(2e-3))?;
+/// let error = GridError::of(&found.levels, Quantity::Area, surface.nodes_per_wave(Boundary::Periodic), 0.0).unwrap();
+/// assert!(error.relative > 1e-3 && error.relative < 2e-2);
+/// # Ok::<(), asperity::Error>(())
+/// ```
+#[non_exhaustive]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct GridError {
+    /// The error, relative to the value on the finest grid.
+    pub relative: f64,
+    /// The observed order of convergence of the quantity, where three grids have one between 0.5 and 3.
+    pub order: Option<f64>,
+    /// Whether the estimate may be far off: less than a third of the error.
+    pub rough: bool,
+}
+
+impl GridError {
+    /// The error of the finest of some nested grids, the coarsest first; nothing where it cannot be told from them.
+    ///
+    /// `nodes_per_wave` is that of the surface on the finest grid, and `mu_rho` its resolution measure of the adhesion.
+    pub fn of(levels: &[Level], quantity: Quantity, nodes_per_wave: f64, mu_rho: f64) -> Option<Self> {
+        let finest = levels.last()?;
+        let value = |level: &Level| quantity.of(level).filter(|(value, _)| !value.is_nan());
+        let mut values = vec![value(finest)?];
+        for level in levels.iter().rev().skip(1) {
+            let factor = finest.shape.0 as f64 / level.shape.0 as f64;
+            let next = f64::from(1 << values.len());
+            let resolves = nodes_per_wave / factor >= RESOLVED && mu_rho * factor.sqrt() <= UNDER_RESOLVED;
+            if (factor / next - 1.0).abs() > HALVED || !resolves || level.relative_error > SOLVED {
+                break;
+            }
+            values.push(value(level)?);
+        }
+        let ((fine, counted), (coarse, coarse_counted)) = (values[0], *values.get(1)?);
+        if (fine, counted) == (coarse, coarse_counted) {
+            // no contact, or nothing else
+            return Some(Self { relative: 0.0, order: None, rough: true });
+        }
+        if !(fine.is_finite() && coarse.is_finite()) || fine == 0.0 {
+            return None;
+        }
+        let difference = (fine - coarse) / fine;
+        let edge = (counted - coarse_counted) / counted.max(coarse_counted);
+        let before = values.get(2).map(|(coarser, _)| (coarse - coarser) / fine);
+        let order = before.map(|before| (before / difference).log2());
+        let order = order.filter(|order| (ORDERS.0..=ORDERS.1).contains(order));
+        let line = finest.shape.0 == 1 || finest.shape.1 == 1;
+        let (share, of_edge, regular) = match quantity {
+            // where the area is not corrected, all is of first order, or of second
+            Quantity::Area | Quantity::Stiffness if line => (1.0, 0.3, false),
+            Quantity::Gap | Quantity::Pressure if line => (1.0 / 3.0, 0.02, order.is_some()),
+            Quantity::Area => (0.25, 0.17, true),
+            Quantity::Stiffness => (0.3, 0.11, true),
+            Quantity::Gap | Quantity::Pressure => (0.15, 0.001, order.is_some()),
+        };
+        let relative = (share * difference).hypot(of_edge * edge);
+        Some(Self { relative, order, rough: !regular || nodes_per_wave < 2.0 * FINE })
+    }
+
+    /// The error, larger where it may be far off.
+    pub(crate) fn cautious(&self) -> f64 {
+        if self.rough { CAUTION * self.relative } else { self.relative }
+    }
+}

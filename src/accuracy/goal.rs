@@ -1,0 +1,305 @@
+//! A solve to an accuracy: grids that become finer until the estimated error is small enough.
+
+use std::ops::ControlFlow;
+use std::time::Instant;
+
+use ndarray::Array2;
+
+use super::refine::{refined, twice};
+use super::{GridError, Quantity, RESOLVED};
+use crate::adhesion::AdhesionLaw;
+use crate::constraint::{ContactConstraint, Projection};
+use crate::elastic::{Boundary, ElasticOperator};
+use crate::error::{Error, Result};
+use crate::grid::Grid;
+use crate::nested::{Level, Nested, NestedSolution, prolong};
+use crate::problem::{Control, Problem};
+use crate::real::Real;
+use crate::solver::{Iteration, Settings, Solution, Start, Status};
+use crate::surface::Surface;
+
+/// The tolerance of the solver as a share of the accuracy, and the largest.
+const SHARE: f64 = 0.1;
+const LOOSEST: f64 = 1e-3;
+
+/// The least number of nodes along a side of a coarser grid.
+const COARSEST: usize = 16;
+
+/// The memory that a solve may take unless it is said, in bytes: 4 GiB.
+const MEMORY: f64 = 4.0 * 1_073_741_824.0;
+
+/// The numbers of 8 bytes that a solve holds for each node at most, with those of the surface and of its refinement.
+const NUMBERS: f64 = 12.0;
+
+/// The operator applications that a solve takes, those on coarser grids included, as they are expected.
+const APPLICATIONS: f64 = 40.0;
+
+/// The factor by which expected errors may be too large where an accuracy is refused.
+const DOUBT: f64 = 3.0;
+
+/// An accuracy that is asked for: a relative error of a quantity, from which tolerance and grid follow.
+///
+/// The given grid is solved first, with coarser ones below it ([`Nested`]), to a tolerance of a tenth of the
+/// accuracy, and at most 1e-3; then the error of the grid is estimated ([`GridError`]). As long as the estimate, half as large
+/// again where it is rough, and the certified error of the solver together are larger than the accuracy, or the estimate
+/// cannot be told, the surface is put on twice
+/// as many nodes along its sides by Fourier interpolation, as [`Topography::resample`](crate::Topography::resample) does, and
+/// solved there from the prolonged solution. With a free boundary it is continued by its mirror images for that.
+///
+/// The grid of the answer is that of [`AccurateSolution::surface`]; a grid that is finer than need be stays as it is.
+/// A surface with absent nodes and a law that varies from node to node are known on their grid alone, which is not
+/// refined then.
+///
+/// | field | default | meaning |
+/// |---|---|---|
+/// | `target` | | the relative error, between 0 and 1 |
+/// | `of` | | the quantity |
+/// | `memory` | 4 GiB | the bytes that a solve on a refined grid may take |
+/// | `nested` | coarser grids down to 16 nodes along a side | the solver; a tolerance of its settings must be as small as the one above |
+///
+/// ```
+/// use asperity::accuracy::{Accuracy, Quantity};
+/// use asperity::{Control, Grid, NoAdhesion, SelfAffine, Westergaard};
+/// // the shortest wave has four nodes: too few for an area that is right to 3 %
+/// let surface = SelfAffine { k_s: 16.0, ..SelfAffine::default() }.surface(Grid::square(64, 1.0)?)?;
+/// let half_space = |grid| Westergaard::<f64>::new(grid, 1.0);
+/// let mut wanted = Accuracy::new(0.03, Quantity::Area);
+/// let found = wanted.solve(&surface, half_space, NoAdhesion, Control::MeanPressure(2e-3))?;
+/// assert!(found.reached && found.error.unwrap().relative < 0.03);
+/// assert!(found.surface.grid().shape() >= (128, 128));
+/// assert_eq!(found.solution.gap.dim(), found.surface.grid().shape());
+/// # Ok::<(), asperity::Error>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct Accuracy<C = Projection> {
+    /// The relative error that is wanted, between 0 and 1.
+    pub target: f64,
+    /// The quantity that has it.
+    pub of: Quantity,
+    /// The bytes that a solve on a refined grid may take.
+    pub memory: f64,
+    /// The solver, on the given grid and coarser ones.
+    pub nested: Nested<C>,
+}
+
+/// The plan of a solve to an accuracy, from what other surfaces took: what is to be expected, and no promise.
+#[non_exhaustive]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Plan {
+    /// The nodes of the shortest wave on the given grid, [`Spectrum::nodes_per_wave`](crate::Spectrum::nodes_per_wave).
+    pub nodes_per_wave: f64,
+    /// The tolerance of the solver.
+    pub tolerance: f64,
+    /// The grid that is likely to be fine enough.
+    pub shape: (usize, usize),
+    /// The memory that it takes, in bytes.
+    pub bytes: f64,
+    /// The time that it takes, in seconds, by that of an operator application on the given grid.
+    pub seconds: f64,
+}
+
+/// The solution to an accuracy; [`Accuracy`] has an example.
+#[non_exhaustive]
+#[derive(Clone, Debug)]
+pub struct AccurateSolution<T> {
+    /// The solution on the finest grid.
+    pub solution: Solution<T>,
+    /// The surface on that grid.
+    pub surface: Surface,
+    /// All grids, the finest last.
+    pub levels: Vec<Level>,
+    /// The estimated error of the finest grid, if it can be told.
+    pub error: Option<GridError>,
+    /// Whether the estimate, with the error of the solver, is as small as it was wanted.
+    pub reached: bool,
+    /// The next finer grid, and its memory in bytes, if that was too much.
+    pub unaffordable: Option<((usize, usize), f64)>,
+}
+
+impl Accuracy {
+    /// An accuracy of a quantity, by a solver with the default settings that confines the gap by projection.
+    pub fn new(target: f64, of: Quantity) -> Self {
+        let nested = Nested { coarsest: COARSEST, ..Nested::new(Settings::default()) };
+        Self { target, of, memory: MEMORY, nested }
+    }
+}
+
+impl<C> Accuracy<C> {
+    /// The tolerance of the solver: a tenth of the accuracy, and at most 1e-3; or the one that was given.
+    ///
+    /// # Errors
+    /// [`Error::Value`] if the accuracy is not between 0 and 1, or the given tolerance is larger.
+    pub fn tolerance(&self) -> Result<f64> {
+        if !(self.target > 0.0 && self.target < 1.0) {
+            let (name, value, requirement) = ("accuracy", self.target, "between 0 and 1, as 0.01 for 1 %");
+            return Err(Error::Value { name, value, requirement });
+        }
+        let needed = (SHARE * self.target).min(LOOSEST);
+        match self.nested.solver.settings.tolerance {
+            Some(value) if value > needed => {
+                let requirement = "at most a tenth of the accuracy, and at most 1e-3; without one it is chosen";
+                Err(Error::Value { name: "tolerance", value, requirement })
+            }
+            given => Ok(given.unwrap_or(needed)),
+        }
+    }
+
+    /// The plan for a surface, a control, and the operator on the grid of the surface, of which it takes three
+    /// applications.
+    ///
+    /// # Errors
+    /// [`Error::Unaffordable`] if the grid that would do is far beyond the memory; [`Error::Control`] if the control gives
+    /// the quantity; those of [`Accuracy::tolerance`].
+    pub fn plan<T: Real>(
+        &self,
+        surface: &Surface,
+        operator: &mut dyn ElasticOperator<T>,
+        control: Control,
+    ) -> Result<Plan> {
+        let tolerance = self.tolerance()?;
+        self.of.check(control)?;
+        let nodes_per_wave = surface.nodes_per_wave(operator.boundary());
+        let fixed = surface.absent().is_some();
+        let needed = |smaller| if fixed { 0 } else { self.refinements(nodes_per_wave, smaller) };
+        let refinements = needed(1.0);
+        let nodes = operator.grid().nodes() as f64;
+        let per_line = if surface.grid().is_line() { 2.0_f64 } else { 4.0 };
+        let bytes = |refinements: i32| 8.0 * NUMBERS * nodes * per_line.powi(refinements);
+        let shape = |refinements| (0..refinements).fold(surface.grid().shape(), |shape, _| twice(shape));
+        let least = needed(DOUBT);
+        if least > 0 && bytes(least) > self.memory {
+            let most = (0..least).rev().find(|&refinements| bytes(refinements) <= self.memory).unwrap_or(0);
+            return Err(Error::Unaffordable {
+                quantity: self.of.name(),
+                accuracy: self.target,
+                shape: shape(refinements),
+                bytes: bytes(refinements),
+                available: self.memory,
+                affordable: self.of.expected(nodes_per_wave * f64::from(most).exp2()),
+            });
+        }
+        let mut fields = [(); 2].map(|()| Array2::<T>::zeros(operator.grid().shape()));
+        let [u, p] = &mut fields;
+        operator.pressure(u.view(), p.view_mut())?;
+        let clock = Instant::now();
+        for _ in 0..2 {
+            operator.pressure(u.view(), p.view_mut())?;
+        }
+        let application = 0.5 * clock.elapsed().as_secs_f64();
+        let seconds = APPLICATIONS * application * per_line.powi(refinements);
+        Ok(Plan { nodes_per_wave, tolerance, shape: shape(refinements), bytes: bytes(refinements), seconds })
+    }
+
+    /// How often the grid is likely to be refined, if errors are smaller than expected by a factor.
+    fn refinements(&self, nodes_per_wave: f64, smaller: f64) -> i32 {
+        let enough = |refinements: &i32| {
+            let nodes = nodes_per_wave * f64::from(*refinements).exp2();
+            nodes >= 2.0 * RESOLVED && self.of.expected(nodes) <= smaller * self.target
+        };
+        (0..40).find(enough).unwrap_or(40)
+    }
+
+    /// Solves to the accuracy; `operator` makes the operator on each grid.
+    ///
+    /// A solve that does not come to the accuracy is no error: see [`AccurateSolution::reached`].
+    ///
+    /// # Errors
+    /// [`Error::Control`] if the control gives the quantity; those of [`Accuracy::tolerance`] and [`Nested::solve`].
+    pub fn solve<T, O, L>(
+        &mut self,
+        surface: &Surface,
+        operator: impl FnMut(Grid) -> Result<O>,
+        law: L,
+        control: Control,
+    ) -> Result<AccurateSolution<T>>
+    where
+        T: Real,
+        O: ElasticOperator<T>,
+        L: AdhesionLaw<T>,
+        C: ContactConstraint<T>,
+    {
+        self.solve_observed(surface, operator, law, control, |_, _| ControlFlow::Continue(()))
+    }
+
+    /// Solves as [`Accuracy::solve`], and calls `observe` with the grid in every iteration. Where it stops a solve, no
+    /// finer grid follows.
+    ///
+    /// # Errors
+    /// Those of [`Accuracy::solve`].
+    pub fn solve_observed<T, O, L>(
+        &mut self,
+        surface: &Surface,
+        mut operator: impl FnMut(Grid) -> Result<O>,
+        law: L,
+        control: Control,
+        mut observe: impl FnMut(&Grid, &Iteration) -> ControlFlow<()>,
+    ) -> Result<AccurateSolution<T>>
+    where
+        T: Real,
+        O: ElasticOperator<T>,
+        L: AdhesionLaw<T>,
+        C: ContactConstraint<T>,
+    {
+        let tolerance = self.tolerance()?;
+        self.of.check(control)?;
+        let kept = (self.nested.solver.settings, self.nested.coarse_tolerance, self.nested.stiffness);
+        self.nested.solver.settings.tolerance = Some(tolerance);
+        self.nested.coarse_tolerance = tolerance;
+        if self.of == Quantity::Stiffness {
+            self.nested.stiffness = Some(kept.2.map_or(tolerance, |given| given.min(tolerance)));
+        }
+        let found = self.refine(surface, &mut operator, &law, control, &mut observe);
+        (self.nested.solver.settings, self.nested.coarse_tolerance, self.nested.stiffness) = kept;
+        found
+    }
+
+    fn refine<T, O, L>(
+        &mut self,
+        surface: &Surface,
+        operator: &mut dyn FnMut(Grid) -> Result<O>,
+        law: &L,
+        control: Control,
+        observe: &mut dyn FnMut(&Grid, &Iteration) -> ControlFlow<()>,
+    ) -> Result<AccurateSolution<T>>
+    where
+        T: Real,
+        O: ElasticOperator<T>,
+        L: AdhesionLaw<T>,
+        C: ContactConstraint<T>,
+    {
+        let found = self.nested.solve_observed(surface, &mut *operator, law, control, &mut *observe)?;
+        let NestedSolution { mut solution, mut levels, .. } = found;
+        let periodic = solution.report.boundary == Boundary::Periodic;
+        let mut waves = surface.nodes_per_wave(solution.report.boundary);
+        let mut surface = surface.clone();
+        let fixed = surface.absent().is_some() || law.shape().is_some();
+        let (error, reached, unaffordable) = loop {
+            let error = GridError::of(&levels, self.of, waves, solution.report.mu_rho);
+            let report = &solution.report;
+            let enough = |error: &GridError| error.cautious() + report.relative_error <= self.target;
+            let converged = report.status == Status::Converged;
+            if !converged || fixed || error.as_ref().is_some_and(enough) {
+                break (error, converged && error.as_ref().is_some_and(enough), None);
+            }
+            let shape = twice(surface.grid().shape());
+            let half_space = operator(Grid::new(shape, surface.grid().lengths())?)?;
+            let bytes = 8.0 * NUMBERS * half_space.grid().nodes() as f64;
+            if bytes > self.memory {
+                break (error, false, Some((shape, bytes)));
+            }
+            let fine = refined(&surface, periodic)?;
+            let rigid = self.nested.solver.constraint.wall().is_rigid();
+            let start = prolong(&fine, &surface, solution.gap, (rigid, periodic));
+            let mut problem = Problem::new(&fine, half_space, law)?;
+            let grid = *fine.grid();
+            solution = self
+                .nested
+                .solver
+                .solve_with(&mut problem, control, Start::Near(start), |iteration| observe(&grid, iteration))?;
+            let stiffness = self.nested.stiffness_of(&mut problem, &solution)?;
+            levels.push(Level { stiffness, ..Level::of(&solution, &grid)? });
+            (surface, waves) = (fine, 2.0 * waves);
+        };
+        Ok(AccurateSolution { solution, surface, levels, error, reached, unaffordable })
+    }
+}

@@ -1,0 +1,151 @@
+//! The accuracy that is asked for: its options, its plan, and what was reached.
+
+use asperity::accuracy::{Accuracy, GridError, Plan, Quantity};
+use asperity::{Level, Nested};
+use clap::{Args, ValueEnum};
+use serde_json::{Map, Value, json};
+
+use crate::adhesion::Wall;
+use crate::allowed::positive;
+use crate::case::Case;
+use crate::numbers::percent;
+
+/// The bytes of a GiB.
+const GIB: f64 = 1_073_741_824.0;
+
+/// The accuracy that is asked for, from which tolerance and grid follow.
+#[derive(Args)]
+pub struct AccuracyOptions {
+    /// Relative error that is wanted, as 0.01: chooses the tolerance, solves on coarser grids too, and interpolates the
+    /// surface on finer ones until the estimated error is as small; the results are on the finest grid
+    #[arg(long, value_name = "A", allow_hyphen_values = true, value_parser = positive, help_heading = "Solver")]
+    #[arg(conflicts_with_all = ["initial_gap", "nested", "stability", "leave"])]
+    pub accuracy: Option<f64>,
+    /// Quantity that has the accuracy [default: area]
+    #[arg(long, value_enum, value_name = "QUANTITY", requires = "accuracy", help_heading = "Solver")]
+    pub accuracy_of: Option<Of>,
+    /// Memory that --accuracy may take, in GiB [default: what is there]
+    #[arg(long, value_name = "GIB", allow_hyphen_values = true, value_parser = positive, help_heading = "Solver")]
+    #[arg(requires = "accuracy")]
+    pub memory: Option<f64>,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+pub enum Of {
+    /// Contact area, corrected for its edge
+    Area,
+    /// Mean gap
+    Gap,
+    /// Mean pressure
+    Pressure,
+    /// Contact stiffness
+    Stiffness,
+}
+
+impl AccuracyOptions {
+    /// The accuracy of a case, if one is asked for.
+    pub fn goal(&self, case: &Case) -> Option<Accuracy<Wall>> {
+        let quantity = match self.accuracy_of.unwrap_or(Of::Area) {
+            Of::Area => Quantity::Area,
+            Of::Gap => Quantity::Gap,
+            Of::Pressure => Quantity::Pressure,
+            Of::Stiffness => Quantity::Stiffness,
+        };
+        let Accuracy { target, of, nested: Nested { coarse_tolerance, coarsest, .. }, .. } =
+            Accuracy::new(self.accuracy?, quantity);
+        let memory = self.memory.map_or_else(available, |memory| memory * GIB);
+        let nested = Nested { solver: case.solver(), stiffness: case.stiffness_to(), coarse_tolerance, coarsest };
+        Some(Accuracy { target, of, memory, nested })
+    }
+}
+
+/// The memory that is there, in bytes; without limit where the system does not tell.
+fn available() -> f64 {
+    let told = std::fs::read_to_string("/proc/meminfo").unwrap_or_default();
+    let line = told.lines().find_map(|line| line.strip_prefix("MemAvailable:"));
+    let kilobytes = line.and_then(|line| line.trim().strip_suffix("kB")?.trim().parse::<f64>().ok());
+    kilobytes.map_or(f64::INFINITY, |kilobytes| 1024.0 * kilobytes)
+}
+
+/// What is to be expected, in words.
+pub fn announced<C>(wanted: &Accuracy<C>, plan: &Plan) -> String {
+    let waves = if plan.nodes_per_wave.is_finite() {
+        format!("the shortest wave has {:.1} nodes; ", plan.nodes_per_wave)
+    } else {
+        String::new()
+    };
+    format!(
+        "accuracy {} of the {}: {waves}likely {} x {} nodes, tolerance {:.0e}, about {}, {}",
+        wanted.target,
+        wanted.of,
+        plan.shape.0,
+        plan.shape.1,
+        plan.tolerance,
+        seconds(plan.seconds),
+        bytes(plan.bytes)
+    )
+}
+
+fn seconds(seconds: f64) -> String {
+    if seconds < 100.0 { format!("{seconds:.1} s") } else { format!("{:.0} min", seconds / 60.0) }
+}
+
+/// Bytes in words.
+pub fn bytes(bytes: f64) -> String {
+    if bytes < GIB { format!("{:.0} MiB", bytes * 1024.0 / GIB) } else { format!("{:.1} GiB", bytes / GIB) }
+}
+
+/// The result of a solve to an accuracy.
+pub struct Reached {
+    pub accuracy: f64,
+    pub of: Quantity,
+    pub reached: bool,
+    pub error: Option<GridError>,
+    /// The next finer grid, and its bytes, if that was too much.
+    pub unaffordable: Option<((usize, usize), f64)>,
+    /// Whether the surface could have been refined.
+    pub refinable: bool,
+}
+
+impl Reached {
+    /// The estimated error in words.
+    pub fn estimate(&self) -> String {
+        self.error.map_or("unknown".to_owned(), |error| estimate(&error, self.of))
+    }
+
+    /// The reason why the accuracy was not reached, with a remedy.
+    pub fn reason(&self) -> String {
+        match self.unaffordable {
+            Some(((nx, ny), size)) => {
+                format!("{nx} x {ny} nodes would be next, and take {}: raise --memory, or ask for less", bytes(size))
+            }
+            None if !self.refinable => {
+                "absent nodes, and a work of adhesion from a map, are known on this grid alone: give a finer one"
+                    .to_owned()
+            }
+            None => "the solve has not converged".to_owned(),
+        }
+    }
+}
+
+/// An estimated error in words.
+fn estimate(error: &GridError, of: Quantity) -> String {
+    format!("{} % of the {of}{}", percent(error.relative), if error.rough { ", roughly" } else { "" })
+}
+
+/// The estimated errors of the finest of some grids, by quantity; `null` where one cannot be told, or is given.
+pub fn errors(levels: &[Level], nodes_per_wave: f64, mu_rho: f64, case: &Case) -> Value {
+    let all = [Quantity::Area, Quantity::Gap, Quantity::Pressure, Quantity::Stiffness];
+    let error = |of: Quantity| {
+        of.check(case.control).ok()?;
+        let GridError { relative, order, rough, .. } = GridError::of(levels, of, nodes_per_wave, mu_rho)?;
+        Some(json!({ "relative": relative, "order": order, "rough": rough }))
+    };
+    Value::Object(all.into_iter().map(|of| (of.name().to_owned(), error(of).into())).collect::<Map<_, _>>())
+}
+
+/// The estimated error of the area in words, if it can be told.
+pub fn area_error(levels: &[Level], nodes_per_wave: f64, mu_rho: f64) -> Option<String> {
+    let of = Quantity::Area;
+    GridError::of(levels, of, nodes_per_wave, mu_rho).map(|error| estimate(&error, of))
+}

@@ -1,0 +1,181 @@
+//! Accuracies that are asked for, and how wrong grids are said to be.
+
+use asperity::accuracy::{Accuracy, GridError, Quantity};
+use asperity::*;
+
+fn half_space(grid: Grid) -> Result<Westergaard<f64>> {
+    Westergaard::new(grid, 1.0)
+}
+
+fn free(grid: Grid) -> Result<Boussinesq<f64>> {
+    Boussinesq::new(grid, 1.0)
+}
+
+/// A surface whose shortest wave is an eighth of the side, the same on every grid.
+fn surface(n: usize, seed: u64) -> Surface {
+    let amplitude = Amplitude::RmsSlope(0.1);
+    let rough =
+        SelfAffine { k_l: 1.0, k_r: 2.0, k_s: 8.0, amplitude, random_phase: true, seed, ..SelfAffine::default() };
+    rough.surface(Grid::square(n, 1.0).unwrap()).unwrap()
+}
+
+const PRESSED: Control = Control::MeanPressure(5e-3);
+
+fn truth(seed: u64, control: Control) -> Level {
+    let mut nested = Nested { stiffness: Some(1e-5), ..Nested::default() };
+    let found = nested.solve(&surface(512, seed), half_space, NoAdhesion, control).unwrap();
+    found.levels.last().unwrap().clone()
+}
+
+#[test]
+fn an_accuracy_of_each_quantity_is_reached_and_true() {
+    for (seed, target) in [(1, 0.02), (2, 0.03)] {
+        for (quantity, control) in [
+            (Quantity::Area, PRESSED),
+            (Quantity::Gap, PRESSED),
+            (Quantity::Stiffness, PRESSED),
+            (Quantity::Pressure, Control::MeanGap(0.01)),
+        ] {
+            let found =
+                Accuracy::new(target, quantity).solve(&surface(32, seed), half_space, NoAdhesion, control).unwrap();
+            let error = found.error.unwrap();
+            assert!(found.reached && error.relative < target && found.unaffordable.is_none(), "{quantity}: {error:?}");
+            // a finer grid, twice as fine each time, and the answer on it
+            let shapes: Vec<_> = found.levels.iter().map(|level| level.shape.0).collect();
+            assert!(shapes.windows(2).all(|pair| pair[1] == 2 * pair[0]) && shapes.len() > 1, "{shapes:?}");
+            assert_eq!(found.surface.grid().shape().0, *shapes.last().unwrap());
+            assert_eq!(found.solution.gap.dim(), found.surface.grid().shape());
+            let (level, truth) = (found.levels.last().unwrap(), truth(seed, control));
+            let of = |level: &Level| match quantity {
+                Quantity::Gap => level.mean_gap,
+                Quantity::Pressure => level.mean_pressure,
+                Quantity::Stiffness => level.stiffness.unwrap().pressure_per_length,
+                _ => level.area.corrected_contact_fraction,
+            };
+            assert!((of(level) / of(&truth) - 1.0).abs() < target, "{quantity} {seed}: {level:?} {truth:?}");
+        }
+    }
+}
+
+#[test]
+fn the_refined_surface_is_the_same_one() {
+    let found = Accuracy::new(0.03, Quantity::Area).solve(&surface(32, 1), half_space, NoAdhesion, PRESSED).unwrap();
+    let n = found.surface.grid().shape().0;
+    let same = surface(n, 1);
+    assert!(n > 32);
+    let worst = found.surface.heights() - same.heights();
+    let mean = worst.mean().unwrap();
+    assert!(worst.iter().all(|h| (h - mean).abs() < 1e-12 * 0.1), "{n}");
+}
+
+#[test]
+fn grids_that_say_nothing_leave_the_error_unknown() {
+    let estimate = |n, quantity, nodes_per_wave, mu_rho, coarse_tolerance| {
+        let mut nested = Nested { coarsest: 32, coarse_tolerance, ..Nested::default() };
+        let found = nested.solve(&surface(n, 1), half_space, NoAdhesion, PRESSED).unwrap();
+        GridError::of(&found.levels, quantity, nodes_per_wave, mu_rho)
+    };
+    let waves = surface(128, 1).nodes_per_wave(Boundary::Periodic);
+    assert!((15.0..19.0).contains(&waves), "{waves}");
+    let error = estimate(128, Quantity::Area, waves, 0.0, 1e-3).unwrap();
+    assert!(!error.rough && error.relative > 1e-3 && error.relative < 0.05, "{error:?}");
+    // fewer than eight nodes on the coarser grid, and fewer than four
+    assert!(estimate(128, Quantity::Area, 12.0, 0.0, 1e-3).unwrap().rough);
+    assert_eq!(estimate(128, Quantity::Area, 7.9, 0.0, 1e-3), None);
+    // the coarser grid does not resolve the adhesion, was not solved, or is not there; nobody asked for the stiffness
+    assert_eq!(estimate(128, Quantity::Area, waves, 0.36, 1e-3), None);
+    assert_eq!(estimate(128, Quantity::Area, waves, 0.0, 1e-1), None);
+    assert_eq!(estimate(32, Quantity::Area, waves, 0.0, 1e-3), None);
+    assert_eq!(estimate(128, Quantity::Stiffness, waves, 0.0, 1e-3), None);
+}
+
+#[test]
+fn what_cannot_be_had_is_refused_by_name() {
+    let (surface, control) = (surface(32, 1), PRESSED);
+    let solve = |wanted: &mut Accuracy| wanted.solve(&surface, half_space, NoAdhesion, control).map(|_| ());
+    for target in [0.0, -0.01, 1.0, f64::NAN, f64::INFINITY] {
+        let error = solve(&mut Accuracy::new(target, Quantity::Area)).unwrap_err();
+        assert!(matches!(error, Error::Value { name: "accuracy", .. }), "{error}");
+    }
+    let error = solve(&mut Accuracy::new(0.01, Quantity::Pressure)).unwrap_err();
+    assert!(matches!(error, Error::Control { control: "accuracy of the pressure", .. }), "{error}");
+    assert!(
+        Quantity::Gap.check(Control::MeanGap(0.1)).is_err() && Quantity::Gap.check(Control::Approach(0.1)).is_err()
+    );
+    assert!(Quantity::Pressure.check(Control::Force(0.1)).is_err());
+    // a tolerance that contradicts it, and one that does not
+    let mut wanted = Accuracy::new(0.05, Quantity::Area);
+    wanted.nested.solver.settings.tolerance = Some(1e-2);
+    let error = solve(&mut wanted).unwrap_err();
+    assert!(matches!(error, Error::Value { name: "tolerance", value: 1e-2, .. }), "{error}");
+    wanted.nested.solver.settings.tolerance = Some(1e-5);
+    let found = wanted.solve(&surface, half_space, NoAdhesion, control).unwrap();
+    assert!(found.solution.report.tolerance == 1e-5 && found.levels[0].relative_error <= 1e-5);
+    assert_eq!(wanted.nested.solver.settings.tolerance, Some(1e-5));
+
+    // no grid that fits, told before: which would, and its memory
+    let small = Accuracy { memory: 1e6, ..Accuracy::new(1e-4, Quantity::Area) };
+    let mut operator = half_space(*surface.grid()).unwrap();
+    let error = small.plan(&surface, &mut operator, control).unwrap_err();
+    let Error::Unaffordable { shape, bytes, available, affordable, .. } = error else { panic!("{error}") };
+    assert!(shape.0 >= 4096 && bytes > 1e9 && available == 1e6 && affordable > 1e-3, "{shape:?} {bytes} {affordable}");
+    let text = error_text(&small, &surface);
+    assert!(text.contains("an accuracy of 0.0001 of the area takes about") && text.contains("GiB"), "{text}");
+    // and on the way
+    let mut small = Accuracy { memory: 1e6, ..Accuracy::new(3e-3, Quantity::Area) };
+    let found = small.solve(&surface, half_space, NoAdhesion, control).unwrap();
+    let (shape, bytes) = found.unaffordable.unwrap();
+    assert!(!found.reached && shape.0 == 2 * found.surface.grid().shape().0 && bytes > 1e6);
+    assert!(found.error.unwrap().relative > 3e-3);
+}
+
+fn error_text(wanted: &Accuracy, surface: &Surface) -> String {
+    let mut operator = half_space(*surface.grid()).unwrap();
+    wanted.plan(surface, &mut operator, PRESSED).unwrap_err().to_string()
+}
+
+#[test]
+fn a_plan_says_the_grid_that_is_taken() {
+    let (surface, wanted) = (surface(32, 1), Accuracy::new(0.02, Quantity::Area));
+    let mut operator = half_space(*surface.grid()).unwrap();
+    let plan = wanted.plan(&surface, &mut operator, PRESSED).unwrap();
+    assert!((3.9..5.0).contains(&plan.nodes_per_wave) && plan.tolerance == 1e-3, "{plan:?}");
+    assert!([64, 128].contains(&plan.shape.0) && plan.bytes > 0.0 && plan.seconds > 0.0, "{plan:?}");
+}
+
+#[test]
+fn a_free_sphere_an_adhesive_one_and_a_line_have_accuracies_too() {
+    let sphere = Surface::paraboloid(Grid::square(48, 0.8).unwrap(), 1.0).unwrap();
+    let found = Accuracy::new(0.03, Quantity::Area).solve(&sphere, free, NoAdhesion, Control::Approach(0.04)).unwrap();
+    let exact = std::f64::consts::PI * 0.04 / 0.64; // πRδ
+    let area = found.levels.last().unwrap().area.corrected_contact_fraction;
+    assert!(found.reached && (area / exact - 1.0).abs() < 0.03, "{area} {exact}");
+
+    let law = || Exponential::new(4e-5, 3e-3).unwrap();
+    let found =
+        Accuracy::new(0.03, Quantity::Pressure).solve(&surface(32, 2), half_space, law(), Control::MeanGap(0.01));
+    assert!(found.unwrap().reached);
+
+    let wave = Surface::wave(Grid::line(32, 1.0).unwrap(), 0.02, 1).unwrap();
+    let control = Control::MeanPressure(0.02);
+    let found = Accuracy::new(5e-3, Quantity::Gap).solve(&wave, half_space, NoAdhesion, control).unwrap();
+    let s: f64 = 0.02 / (std::f64::consts::PI * 0.02);
+    let exact = 0.02 * (1.0 - s + s * s.ln());
+    let error = found.solution.report.mean_gap / exact - 1.0;
+    assert!(found.reached && error.abs() < 5e-3, "{error} {:?}", found.error);
+}
+
+#[test]
+fn what_is_known_on_one_grid_alone_is_not_refined() {
+    let grid = Grid::square(32, 1.0).unwrap();
+    let punch = Surface::with_absent(grid, grid.sample(|x, y| if x.hypot(y) < 0.3 { 0.0 } else { f64::NAN })).unwrap();
+    let found =
+        Accuracy::new(0.01, Quantity::Stiffness).solve(&punch, free, NoAdhesion, Control::Approach(0.01)).unwrap();
+    assert!(!found.reached && found.unaffordable.is_none());
+    assert_eq!(found.surface.grid().shape(), (32, 32));
+    // an observer that stops it leaves no finer grid either
+    let mut wanted = Accuracy::new(0.01, Quantity::Area);
+    let stop = |_: &Grid, _: &Iteration| std::ops::ControlFlow::Break(());
+    let found = wanted.solve_observed(&surface(32, 1), half_space, NoAdhesion, PRESSED, stop).unwrap();
+    assert_eq!((found.reached, found.solution.report.status), (false, Status::Stopped));
+}
