@@ -16,4 +16,5 @@ mod selftest;
 mod surface_tool;
 mod sweep_tool;
 mod tool;
+mod units_tool;
 mod warnings;
