@@ -1,8 +1,8 @@
 //! The command-line tool: `asperity demo` solves a built-in case, `asperity solve` one given by files, `asperity sweep`
 //! many loads and `asperity cycle` a path with jumps; `asperity surface` makes files of heights, `asperity prepare`
-//! makes them of measured maps, and `asperity stats` measures them. `asperity laws` lists the adhesion laws. `asperity
-//! run` does any of these by a scene file, which every run leaves beside its results, and `asperity report` puts the
-//! results on a page for a browser.
+//! makes them of measured maps, and `asperity stats` measures them. `asperity laws` lists the adhesion laws, and
+//! `asperity selftest` compares solves with theory. `asperity run` does any of these by a scene file, which every run
+//! leaves beside its results, and `asperity report` puts the results on a page for a browser.
 
 // the report of a solve has more keys than serde_json's macro expands otherwise
 #![recursion_limit = "256"]
@@ -15,6 +15,7 @@ mod laws;
 mod page;
 mod prepare;
 mod run;
+mod selftest;
 mod solve;
 mod stats;
 mod surface;
@@ -85,6 +86,7 @@ const EXAMPLES: &str = "\
   asperity cycle --heights heights.npy --law exponential --work-of-adhesion 1e-4 \\
     --range 4e-3 --mean-gaps 0.05,0.02,0.05 --out cycle.csv --plot cycle.png
   asperity laws
+  asperity selftest
   asperity solve --help";
 
 #[derive(Subcommand)]
@@ -99,6 +101,7 @@ enum Command {
     Surface(surface::Options),
     Stats(stats::Options),
     Laws(Box<laws::Options>),
+    Selftest(selftest::Options),
     Completions(completions::Options),
 }
 
@@ -144,6 +147,7 @@ fn execute(command: Command, scene: &Scene) -> ExitCode {
         Command::Surface(options) => surface::run(&options, scene),
         Command::Stats(options) => stats::run(&options),
         Command::Laws(options) => laws::run(&options),
+        Command::Selftest(options) => selftest::run(&options),
         Command::Completions(options) => completions::run(&options, Tool::command()),
         Command::Run(_) => Err("a scene cannot run another one: name a command in it".into()),
     };

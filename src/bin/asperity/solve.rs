@@ -102,10 +102,10 @@ pub struct Options {
     #[arg(long, value_names = ["LOW", "HIGH"], num_args = 2, allow_hyphen_values = true, value_parser = finite)]
     #[arg(help_heading = "Output")]
     colour_limits: Option<Vec<f64>>,
-    /// Unit of the lengths, on pictures only; m gets prefixes
+    /// Unit of the lengths, on pictures; m gets prefixes, and with Pa for the pressures in the table, too
     #[arg(long, value_name = "UNIT", help_heading = "Output")]
     length_unit: Option<String>,
-    /// Unit of the pressures, on pictures only; Pa gets prefixes
+    /// Unit of the pressures, on pictures; Pa gets prefixes, and with lengths in m in the table, too
     #[arg(long, value_name = "UNIT", help_heading = "Output")]
     pressure_unit: Option<String>,
 }
@@ -320,7 +320,9 @@ impl Job<'_> {
         folder.commit()?;
 
         if printing.for_people() {
-            say(&table(&[], &[&account], Style::Plain));
+            let units = (self.length_unit, self.options.pressure_unit.as_deref());
+            let style = if units == (Some("m"), Some("Pa")) { Style::Si } else { Style::Plain };
+            say(&table(&[], &[&account], style));
             say(&format!("results in {}: {}", out.display(), self.names.join(", ")));
         }
         printing.report(|| self.report(grid, &account));
