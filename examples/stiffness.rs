@@ -89,7 +89,7 @@ fn draw(path: &PathBuf, size: usize, curves: &[Curve]) -> Outcome<()> {
         .margin_right(24)
         .x_label_area_size(48)
         .y_label_area_size(90)
-        .build_cartesian_2d((5e-5..1.0).log_scale(), (1e-4..20.0).log_scale())?;
+        .build_cartesian_2d((5e-5..1.0).log_scale(), (1e-4..50.0).log_scale())?;
     chart
         .configure_mesh()
         .light_line_style(TRANSPARENT)

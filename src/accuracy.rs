@@ -88,7 +88,7 @@ impl Quantity {
     /// The error that is to be expected with so many nodes in the shortest wave, by what rough surfaces had.
     fn expected(self, nodes_per_wave: f64) -> f64 {
         let (share, order) = match self {
-            Self::Area => (0.12, 1.0),
+            Self::Area => (0.15, 1.0),
             Self::Gap => (0.05, 2.0),
             Self::Pressure => (0.1, 2.0),
             Self::Stiffness => (0.06, 1.0),

@@ -159,9 +159,9 @@ fn estimates(scenes: &[Scene], truths: &[Found], quick: bool) -> Outcome<()> {
                     continue;
                 }
                 let surface = scene.surface(n)?;
-                let settings = Settings { tolerance: Some(1e-3), ..Settings::default() };
-                let stiffness = (quantity == Quantity::Stiffness).then_some(1e-3);
-                let mut nested = Nested { coarse_tolerance: 1e-3, coarsest: GIVEN, stiffness, ..Nested::new(settings) };
+                // as the tool does: the solver leaves next to nothing on the finest grid
+                let stiffness = (quantity == Quantity::Stiffness).then_some(1e-4);
+                let mut nested = Nested { coarse_tolerance: 1e-3, coarsest: GIVEN, stiffness, ..Nested::default() };
                 let found = nested.solve(&surface, half_space, scene.law()?, scene.control)?;
                 let waves = surface.nodes_per_wave(Boundary::Periodic);
                 let mu_rho = found.solution.report.mu_rho;
@@ -260,7 +260,8 @@ fn knob(scenes: &[Scene], truths: &[Found], quick: bool, out: &Path) -> Outcome<
             let Some(level) = found.levels.last().filter(|_| found.reached) else { continue };
             reached += 1;
             let error = (level.area.corrected_contact_fraction / truth.area - 1.0).abs();
-            (errors.push(error), times.push(seconds));
+            errors.push(error);
+            times.push(seconds);
             points.push((target, error.max(1e-6)));
         }
         let hits = share(&errors, |error| *error <= target);

@@ -87,7 +87,11 @@ pub fn announced<C>(wanted: &Accuracy<C>, plan: &Plan) -> String {
 }
 
 fn seconds(seconds: f64) -> String {
-    if seconds < 100.0 { format!("{seconds:.1} s") } else { format!("{:.0} min", seconds / 60.0) }
+    match seconds {
+        seconds if seconds < 0.1 => format!("{:.0} ms", 1e3 * seconds),
+        seconds if seconds < 100.0 => format!("{seconds:.1} s"),
+        seconds => format!("{:.0} min", seconds / 60.0),
+    }
 }
 
 /// Bytes in words.
