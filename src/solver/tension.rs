@@ -180,7 +180,8 @@ mod tests {
         let bound = |tried: &[(f64, f64)]| most_between(&mut tried.to_vec(), 1e-3);
         // −(x − 1)² + 1, which is largest at 1
         let at = |x: f64| (x, 1.0 - (x - 1.0).powi(2));
-        let bounds = [0.8, 0.4, 0.1, 0.01].map(|width| bound(&[at(1.1 + width), at(1.1), at(1.1 - width)]));
+        let bounds = [0.8, 0.4, 0.1, 0.01]
+            .map(|width| bound(&[at(1.0 + 1.1 * width), at(1.0 + 0.1 * width), at(1.0 - 0.9 * width)]));
         assert!(bounds.iter().all(|&bound| bound >= 1.0) && bounds.is_sorted_by(|a, b| a > b) && bounds[3] < 1.02);
         // lost beyond the largest
         assert!(bound(&[(0.8, 0.9), (1.0, 1.0), (1.1, 0.0)]) > 1.05);
