@@ -170,9 +170,8 @@ const ORDERS: (f64, f64) = (0.5, 3.0);
 /// [`choosing`](crate::guide::choosing) has how good the estimates are on others.
 ///
 /// A coarser grid counts if it has the same waves, the shortest of which ([`Surface::nodes_per_wave`]) with at least four
-/// nodes, resolves the adhesion (μ_ρ ≤ 0.5), and was solved to 3e-3. An estimate is [`rough`](Self::rough) if the
-/// shortest wave has fewer than eight nodes on the coarser grid; that of mean gap and mean pressure also unless the
-/// differences of three grids fall by an order between 0.5 and 3.
+/// nodes, resolves the adhesion (μ_ρ ≤ 0.5), and was solved to 3e-3. The estimate of the area is sure if the shortest wave has
+/// at least eight nodes on the coarser grid; all others, and those on a line, are [`rough`](Self::rough).
 ///
 /// ```
 /// use asperity::accuracy::{GridError, Quantity};
@@ -227,16 +226,17 @@ impl GridError {
         let order = before.map(|before| (before / difference).log2());
         let order = order.filter(|order| (ORDERS.0..=ORDERS.1).contains(order));
         let line = finest.shape.0 == 1 || finest.shape.1 == 1;
-        let (share, of_edge, regular) = match quantity {
+        let (share, of_edge) = match quantity {
             // where the area is not corrected, all is of first order, or of second
-            Quantity::Area | Quantity::Stiffness if line => (1.0, 0.3, false),
-            Quantity::Gap | Quantity::Pressure if line => (1.0 / 3.0, 0.02, order.is_some()),
-            Quantity::Area => (0.25, 0.17, true),
-            Quantity::Stiffness => (0.3, 0.11, true),
-            Quantity::Gap | Quantity::Pressure => (0.15, 0.001, order.is_some()),
+            Quantity::Area | Quantity::Stiffness if line => (1.0, 0.3),
+            Quantity::Gap | Quantity::Pressure if line => (1.0 / 3.0, 0.02),
+            Quantity::Area => (0.25, 0.17),
+            Quantity::Stiffness => (0.3, 0.11),
+            Quantity::Gap | Quantity::Pressure => (0.15, 0.001),
         };
+        let rough = line || quantity != Quantity::Area || nodes_per_wave < 2.0 * FINE;
         let relative = (share * difference).hypot(of_edge * edge);
-        Some(Self { relative, order, rough: !regular || nodes_per_wave < 2.0 * FINE })
+        Some(Self { relative, order, rough })
     }
 
     /// The error, larger where it may be far off.
