@@ -24,13 +24,13 @@ use std::path::{Path, PathBuf};
 
 use arguments::size_and_out;
 use asperity::contact::ContactStatistics;
-use asperity::picture::{Colouring, Map};
+use asperity::picture::{Colouring, DPI, Map};
 use asperity::{
-    AdhesionLaw, Amplitude, Control, Exponential, Grid, Problem, SelfAffine, Solution, Solver, Start, Status, Surface,
-    Sweep, Westergaard,
+    Amplitude, Control, Exponential, Grid, Problem, SelfAffine, Solution, Solver, Start, Status, Surface, Sweep,
+    Westergaard,
 };
 use legend::legend;
-use ndarray::{Array2, Zip};
+use ndarray::Array2;
 use plotters::coord::Shift;
 use plotters::prelude::*;
 
@@ -274,7 +274,7 @@ fn figure5(out: &Path, surface: &Surface) -> Outcome<()> {
         unit: Some("L"),
         ..Map::new(surface.heights().view(), grid, Colouring::Sequential)
     };
-    Ok(map.write_png(&out.join("figure5.png"))?)
+    Ok(map.draw(DPI)?.write(&out.join("figure5.png"))?)
 }
 
 /// Figures 6 and 7 of one solution.
@@ -297,20 +297,10 @@ fn maps(out: &Path, file: &str, title: &str, grid: Grid, solution: &Solution<f64
         unit: Some("E*"),
         ..Map::new(pressure.view(), grid, Colouring::Diverging)
     };
-    map.write_png(&out.join(format!("figure6-{file}.png")))?;
+    map.draw(DPI)?.write(&out.join(format!("figure6-{file}.png")))?;
 
     let found = ContactStatistics::of(solution, &grid, law)?;
-    let least = 0.01 * law.work_of_adhesion() / law.range();
-    let parts = Zip::from(&solution.contact_map()).and(&solution.gap).map_collect(|&touches, &gap| {
-        // in this order, so that the mean of neighbours in contact and attraction is not taken for apart
-        if touches {
-            2.0
-        } else if law.work_of_adhesion() > 0.0 && law.traction(gap) > least {
-            1.0
-        } else {
-            0.0
-        }
-    });
+    let regions = solution.regions(law).mapv(f64::from);
     let percent = |share: f64| format!("{:.1} %", 100.0 * share);
     let map = Map {
         title: &format!("Figure 7: {title}"),
@@ -320,10 +310,9 @@ fn maps(out: &Path, file: &str, title: &str, grid: Grid, solution: &Solution<f64
             percent(found.attractive_fraction)
         ),
         length_unit: Some("L"),
-        label: "apart 0, attraction 1, contact 2",
-        ..Map::new(parts.view(), grid, Colouring::Sequential)
+        ..Map::new(regions.view(), grid, Colouring::Contact)
     };
-    Ok(map.write_png(&out.join(format!("figure7-{file}.png")))?)
+    Ok(map.draw(DPI)?.write(&out.join(format!("figure7-{file}.png")))?)
 }
 
 /// Which of the two loads is meant.

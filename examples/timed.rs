@@ -4,10 +4,10 @@
 //! cargo run --release --example timed -- HEIGHTS [NAME=VALUE ...]
 //! ```
 //!
-//! `HEIGHTS` is a file of heights on a periodic square of side 1 (or a rectangle of square cells, Lx = 1), whose
-//! contact modulus is 1. One of `pressure=P`, `gap=G` (the control) and `apply=N` (only the operator: the median of N
-//! applications, after two that do not count) must be there. Beside them: `precision=f64|f32`, `tolerance=1e-6`,
-//! `work=W range=R` (the exponential law), `method=single|nested|mixed` (one grid, nested grids, or these in f32 to
+//! `HEIGHTS` is a file of heights on a square of side 1 (or a rectangle of square cells, Lx = 1), whose
+//! contact modulus is 1. One of `pressure=P`, `gap=G`, `approach=D` (the control) and `apply=N` (only the periodic
+//! operator: the median of N applications, after two that do not count) must be there. Beside them:
+//! `boundary=periodic|free`, `precision=f64|f32`, `tolerance=1e-6`, `work=W range=R` (the exponential law), `method=single|nested|mixed` (one grid, nested grids, or these in f32 to
 //! 1e-4 and on in f64), `repeat=N`, `save=FILE.npy` (the elastic pressure p + p̄ of the last solve, in f64).
 //!
 //! `seconds` counts from the heights in memory to the solution in memory, `solve` only the solve without the
@@ -26,8 +26,8 @@ use std::time::Instant;
 
 use asperity::io::{read_field, write_npy};
 use asperity::{
-    AdhesionLaw, Control, ElasticOperator, Exponential, Grid, Nested, NoAdhesion, Problem, Real, Settings, Solution,
-    Solver, Start, Surface, Westergaard,
+    AdhesionLaw, Boussinesq, Control, ElasticOperator, Exponential, Grid, Nested, NoAdhesion, Problem, Real, Settings,
+    Solution, Solver, Start, Surface, Westergaard,
 };
 use ndarray::Array2;
 use serde_json::json;
@@ -41,8 +41,20 @@ type Outcome<T> = Result<T, Box<dyn Error>>;
 struct Options(HashMap<String, String>);
 
 impl Options {
-    const NAMES: [&str; 10] =
-        ["pressure", "gap", "apply", "precision", "tolerance", "work", "range", "method", "repeat", "save"];
+    const NAMES: [&str; 12] = [
+        "pressure",
+        "gap",
+        "approach",
+        "apply",
+        "boundary",
+        "precision",
+        "tolerance",
+        "work",
+        "range",
+        "method",
+        "repeat",
+        "save",
+    ];
 
     fn new(arguments: impl Iterator<Item = String>) -> Outcome<Self> {
         let mut options = HashMap::new();
@@ -71,6 +83,30 @@ impl Options {
     }
 }
 
+/// A half-space of contact modulus 1, in either precision.
+trait HalfSpace {
+    type Operator<T: Real>: ElasticOperator<T>;
+    fn new<T: Real>(grid: Grid) -> asperity::Result<Self::Operator<T>>;
+}
+
+struct Periodic;
+
+impl HalfSpace for Periodic {
+    type Operator<T: Real> = Westergaard<T>;
+    fn new<T: Real>(grid: Grid) -> asperity::Result<Westergaard<T>> {
+        Westergaard::new(grid, 1.0)
+    }
+}
+
+struct Free;
+
+impl HalfSpace for Free {
+    type Operator<T: Real> = Boussinesq<T>;
+    fn new<T: Real>(grid: Grid) -> asperity::Result<Boussinesq<T>> {
+        Boussinesq::new(grid, 1.0)
+    }
+}
+
 fn main() -> Outcome<()> {
     let mut arguments = std::env::args().skip(1);
     let heights = arguments.next().ok_or("the file of heights must be given")?;
@@ -90,22 +126,32 @@ fn time<T: Real>(heights: Array2<f64>, options: &Options) -> Outcome<()> {
         return apply::<T>(grid, &heights, count, options.count("repeat")?.unwrap_or(1));
     }
     let surface = Surface::new(grid, heights)?;
+    match options.text("boundary").unwrap_or("periodic") {
+        "periodic" => stick::<T, Periodic>(&surface, options),
+        "free" => stick::<T, Free>(&surface, options),
+        other => Err(format!("boundary={other}: periodic or free").into()),
+    }
+}
+
+fn stick<T: Real, H: HalfSpace>(surface: &Surface, options: &Options) -> Outcome<()> {
     match (options.number("work")?, options.number("range")?) {
-        (Some(work), Some(range)) => solve::<T, _>(&surface, Exponential::new(work, range)?, options),
-        (None, None) => solve::<T, _>(&surface, NoAdhesion, options),
+        (Some(work), Some(range)) => solve::<T, H, _>(surface, Exponential::new(work, range)?, options),
+        (None, None) => solve::<T, H, _>(surface, NoAdhesion, options),
         _ => Err("work and range must both be given, or neither".into()),
     }
 }
 
-fn solve<T: Real, L: AdhesionLaw<T> + AdhesionLaw<f32> + Copy>(
+fn solve<T: Real, H: HalfSpace, L: AdhesionLaw<T> + AdhesionLaw<f32> + Copy>(
     surface: &Surface,
     law: L,
     options: &Options,
 ) -> Outcome<()> {
-    let control = match (options.number("pressure")?, options.number("gap")?) {
-        (Some(pressure), None) => Control::MeanPressure(pressure),
-        (None, Some(gap)) => Control::MeanGap(gap),
-        _ => return Err("give one of pressure=P, gap=G and apply=N".into()),
+    let held = ["pressure", "gap", "approach"].map(|name| options.number(name));
+    let control = match held.into_iter().collect::<Outcome<Vec<_>>>()?[..] {
+        [Some(pressure), None, None] => Control::MeanPressure(pressure),
+        [None, Some(gap), None] => Control::MeanGap(gap),
+        [None, None, Some(approach)] => Control::Approach(approach),
+        _ => return Err("give one of pressure=P, gap=G, approach=D and apply=N".into()),
     };
     let settings = Settings { tolerance: options.number("tolerance")?, ..Settings::default() };
     let tolerance = settings.tolerance_in::<T>();
@@ -113,16 +159,16 @@ fn solve<T: Real, L: AdhesionLaw<T> + AdhesionLaw<f32> + Copy>(
         forget_peak();
         let begin = Instant::now();
         let (solution, seconds) = match options.text("method").unwrap_or("single") {
-            "single" => run::<T, L>(surface, law, control, settings, None)?,
-            "nested" => nested::<T, L>(surface, law, control, settings)?,
+            "single" => run::<T, H, L>(surface, law, control, settings, None)?,
+            "nested" => nested::<T, H, L>(surface, law, control, settings)?,
             // what single precision reaches is then all that is wanted
-            "mixed" if T::NAME == "f32" || tolerance >= SINGLE => nested::<T, L>(surface, law, control, settings)?,
+            "mixed" if T::NAME == "f32" || tolerance >= SINGLE => nested::<T, H, L>(surface, law, control, settings)?,
             "mixed" => {
                 let settings_single = Settings { tolerance: Some(SINGLE), ..settings };
-                let (near, seconds) = nested::<f32, L>(surface, law, control, settings_single)?;
+                let (near, seconds) = nested::<f32, H, L>(surface, law, control, settings_single)?;
                 let gap = near.gap.mapv(|g| T::lit(g.widen()));
                 drop(near);
-                let (solution, more) = run::<T, L>(surface, law, control, settings, Some(gap))?;
+                let (solution, more) = run::<T, H, L>(surface, law, control, settings, Some(gap))?;
                 (solution, seconds + more)
             }
             other => return Err(format!("method={other}: single, nested or mixed").into()),
@@ -135,6 +181,7 @@ fn solve<T: Real, L: AdhesionLaw<T> + AdhesionLaw<f32> + Copy>(
             "area": report.contact_fraction,
             "mean_gap": report.mean_gap,
             "mean_pressure": report.mean_pressure,
+            "approach": report.approach,
             "applications": report.operator_applications,
             "relative_error": report.relative_error,
             "status": report.status.name(),
@@ -149,15 +196,14 @@ fn solve<T: Real, L: AdhesionLaw<T> + AdhesionLaw<f32> + Copy>(
 }
 
 /// The solution, and the seconds that the solve alone took; `near` is where it starts, if that is known.
-fn run<T: Real, L: AdhesionLaw<T>>(
+fn run<T: Real, H: HalfSpace, L: AdhesionLaw<T>>(
     surface: &Surface,
     law: L,
     control: Control,
     settings: Settings,
     near: Option<Array2<T>>,
 ) -> Outcome<(Solution<T>, f64)> {
-    let half_space = Westergaard::<T>::new(*surface.grid(), 1.0)?;
-    let mut problem = Problem::new(surface, half_space, law)?;
+    let mut problem = Problem::new(surface, H::new::<T>(*surface.grid())?, law)?;
     let begin = Instant::now();
     let mut solver = Solver::new(settings);
     let start = near.map_or(Start::Default, Start::Near);
@@ -165,15 +211,14 @@ fn run<T: Real, L: AdhesionLaw<T>>(
     Ok((solution, begin.elapsed().as_secs_f64()))
 }
 
-fn nested<T: Real, L: AdhesionLaw<T>>(
+fn nested<T: Real, H: HalfSpace, L: AdhesionLaw<T>>(
     surface: &Surface,
     law: L,
     control: Control,
     settings: Settings,
 ) -> Outcome<(Solution<T>, f64)> {
     let begin = Instant::now();
-    let half_space = |grid| Westergaard::<T>::new(grid, 1.0);
-    let solution = Nested::new(settings).solve(surface, half_space, law, control)?.solution;
+    let solution = Nested::new(settings).solve(surface, H::new::<T>, law, control)?.solution;
     Ok((solution, begin.elapsed().as_secs_f64()))
 }
 

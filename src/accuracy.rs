@@ -146,6 +146,9 @@ const FINE: f64 = 8.0;
 /// The factor by which a rough estimate is taken larger where an accuracy is asked for.
 const CAUTION: f64 = 1.5;
 
+/// How far a coarser grid may be from half the nodes along a side, as that of an odd number is.
+const HALVED: f64 = 0.02;
+
 /// The orders of convergence that are believed.
 const ORDERS: (f64, f64) = (0.5, 3.0);
 
@@ -204,7 +207,7 @@ impl GridError {
             let factor = finest.shape.0 as f64 / level.shape.0 as f64;
             let next = f64::from(1 << values.len());
             let resolves = nodes_per_wave / factor >= RESOLVED && mu_rho * factor.sqrt() <= UNDER_RESOLVED;
-            if factor != next || !resolves || level.relative_error > SOLVED {
+            if (factor / next - 1.0).abs() > HALVED || !resolves || level.relative_error > SOLVED {
                 break;
             }
             values.push(value(level)?);

@@ -25,6 +25,9 @@ pub use power_law::PowerLaw;
 pub use tabulated::Tabulated;
 pub use varying::Varying;
 
+/// The share of w/ρ that the adhesive traction must exceed where surfaces are said to attract each other.
+const NOTICEABLE: f64 = 0.01;
+
 /// An adhesion law: the energy per area by which two surfaces attract each other, a function of the gap alone.
 ///
 /// A law is three functions of one gap `g ≥ 0`: the energy φ(g) ≤ 0, its derivative φ'(g), the
@@ -214,6 +217,13 @@ pub fn check_law<T: Real>(law: &impl AdhesionLaw<T>, largest_gap: f64) -> Result
     // closer than half its gap of rest a law may grow without bound
     let least = law.rest().map_or(0.0, |rest| 0.5 * rest.widen());
     derivatives::check::<T>(functions, (least, largest_gap), length)
+}
+
+/// The adhesive traction above which surfaces are said to attract each other: a share of w/ρ; zero where that has no
+/// bound.
+pub(crate) fn noticeable<T: Real>(law: &dyn AdhesionLaw<T>) -> f64 {
+    let scale = (law.work_of_adhesion() / law.range()).widen();
+    if scale.is_finite() { NOTICEABLE * scale } else { 0.0 }
 }
 
 #[cfg(test)]

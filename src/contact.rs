@@ -4,9 +4,9 @@
 //! they are corrected; [`Clusters`] are the pieces that hang together; [`PressureDistribution`] is the histogram of the
 //! pressure.
 
-use ndarray::{Array2, ArrayView2, Zip};
+use ndarray::{Array2, ArrayView2, Axis, Zip};
 
-use crate::adhesion::AdhesionLaw;
+use crate::adhesion::{AdhesionLaw, noticeable};
 use crate::elastic::Boundary;
 use crate::error::{Error, Result};
 use crate::grid::Grid;
@@ -15,18 +15,69 @@ use crate::solver::{Report, Solution};
 
 mod clusters;
 mod distribution;
+mod patch;
 
 pub use clusters::{Clusters, Connectivity};
 pub use distribution::PressureDistribution;
+pub use patch::Patch;
 
 /// The excess area of a contact map per edge between a node in contact and one that is not, in cells: (π − 1 + ln
 /// 2)/24.
 const EDGE_EXCESS: f64 = (std::f64::consts::PI - 1.0 + std::f64::consts::LN_2) / 24.0;
 
-/// The share of w/ρ that the adhesive traction must exceed where surfaces are said to attract each other.
-const NOTICEABLE: f64 = 0.01;
+/// What the two surfaces do to each other at a node.
+///
+/// As numbers these are the classes of [`Colouring::Contact`](crate::picture::Colouring::Contact): 1, −1, 0 and NaN.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Region {
+    /// They touch, as [`Solution::contact_map`] says.
+    Contact,
+    /// They attract each other without contact, as [`ContactStatistics::attractive_fraction`] counts it.
+    Attractive,
+    /// They do not notice each other.
+    Apart,
+    /// There is no surface: the node is [absent](crate::Surface::with_absent).
+    Absent,
+}
+
+impl From<Region> for f64 {
+    fn from(region: Region) -> Self {
+        match region {
+            Region::Contact => 1.0,
+            Region::Attractive => -1.0,
+            Region::Apart => 0.0,
+            Region::Absent => Self::NAN,
+        }
+    }
+}
 
 impl<T: Real> Solution<T> {
+    /// The region of each node: contact, attraction, neither, or no surface, under the law of the solution.
+    ///
+    /// ```
+    /// use asperity::contact::{ContactStatistics, Region};
+    /// use asperity::{Control, Exponential, Grid, Problem, Solver, Surface, Westergaard};
+    /// let (grid, law) = (Grid::square(64, 1.0)?, Exponential::new(1e-4, 4e-3)?);
+    /// let sphere = Surface::paraboloid(grid, 2.0)?;
+    /// let mut problem = Problem::new(&sphere, Westergaard::<f64>::new(grid, 1.0)?, law)?;
+    /// let solution = Solver::default().solve(&mut problem, Control::MeanGap(0.0398))?;
+    /// let attracting = solution.regions(&law).iter().filter(|region| **region == Region::Attractive).count();
+    /// let statistics = ContactStatistics::of(&solution, &grid, &law)?;
+    /// assert_eq!(attracting as f64 / 4096.0, statistics.attractive_fraction);
+    /// # Ok::<(), asperity::Error>(())
+    /// ```
+    pub fn regions(&self, law: &impl AdhesionLaw<T>) -> Array2<Region> {
+        let contact = self.contact_map();
+        let attracts = attracting(&contact, self.gap.view(), law);
+        let mut nodes = self.gap.iter().zip(&contact).zip(attracts);
+        Array2::from_shape_simple_fn(self.gap.dim(), || match nodes.next() {
+            Some(((_, true), _)) => Region::Contact,
+            Some((_, true)) => Region::Attractive,
+            Some(((gap, _), _)) if gap.is_finite() => Region::Apart,
+            _ => Region::Absent,
+        })
+    }
+
     /// The contact map: true at nodes without a gap (g ≤ 0) and at nodes with a contact pressure (λ > 0).
     ///
     /// This is what contact means everywhere: in [`Report::contact_nodes`](crate::Report::contact_nodes) and
@@ -48,6 +99,18 @@ impl<T: Real> Solution<T> {
     pub fn contact_map(&self) -> Array2<bool> {
         contact_map(self.gap.view(), self.contact_pressure.view())
     }
+}
+
+/// Whether each node attracts without contact: whether its adhesive traction is noticeable.
+fn attracting<T: Real>(contact: &Array2<bool>, gap: ArrayView2<'_, T>, law: &impl AdhesionLaw<T>) -> Vec<bool> {
+    if law.is_zero() {
+        return vec![false; gap.len()];
+    }
+    let least = T::lit(noticeable(law));
+    let gaps: Vec<T> = gap.iter().map(|gap| gap.max(T::zero())).collect();
+    let mut tractions = vec![T::zero(); gaps.len()];
+    law.tractions(0, &gaps, &mut tractions);
+    contact.iter().zip(tractions).map(|(&touches, traction)| !touches && traction > least).collect()
 }
 
 /// The contact map of a gap and a contact pressure of one shape.
@@ -113,7 +176,7 @@ impl ContactArea {
     /// The area on a map within a boundary, of whose nodes so many face the half-space.
     fn within(map: ArrayView2<'_, bool>, grid: &Grid, boundary: Boundary, facing: usize) -> Result<Self> {
         Error::shape("contact map", map.dim(), grid.shape())?;
-        let contact_nodes = map.iter().filter(|&&touches| touches).count();
+        let contact_nodes = map.fold(0, |count, &touches| count + usize::from(touches));
         let (along_x, along_y) = edges(map, boundary == Boundary::Periodic);
         let (dx, dy) = grid.spacing();
         let (perimeter, excess) = if grid.is_line() {
@@ -188,12 +251,32 @@ pub struct ContactStatistics {
     pub attractive_fraction: f64,
     /// The share of the other nodes, which do not notice each other.
     pub apart_fraction: f64,
+    /// The same where the law [varies](crate::Varying) over the surface, for the nodes of each work of adhesion, the least
+    /// first; nodes are said to attract by the traction above, that of the strongest. Empty for a law that is the same
+    /// everywhere, and for more than 16 works of adhesion.
+    ///
+    /// ```
+    /// use asperity::contact::ContactStatistics;
+    /// use asperity::{Control, Exponential, Grid, Problem, Solver, Surface, Varying, Westergaard};
+    /// let grid = Grid::square(64, 1.0)?;
+    /// let surface = Surface::wave_2d(grid, 0.01, 2)?;
+    /// let work = grid.sample(|x, _| if x < 0.0 { 1e-6 } else { 1e-5 });
+    /// let law = Varying::new(Exponential::new(1e-5, 2e-3)?, work.view())?;
+    /// let mut problem = Problem::new(&surface, Westergaard::<f64>::new(grid, 1.0)?, &law)?;
+    /// let solution = Solver::default().solve(&mut problem, Control::MeanPressure(0.01))?;
+    /// let statistics = ContactStatistics::of(&solution, &grid, &law)?;
+    /// let [weak, strong] = statistics.patches[..] else { panic!("two works of adhesion") };
+    /// assert!(strong.contact_fraction > weak.contact_fraction);
+    /// assert_eq!((weak.area_fraction, strong.area_fraction), (0.5, 0.5));
+    /// # Ok::<(), asperity::Error>(())
+    /// ```
+    pub patches: Vec<Patch>,
 }
 
 impl ContactStatistics {
     /// The statistics of a solution on its grid, with the law with which it was found.
     ///
-    /// Memory per node, until it returns: nine bytes, and with adhesion two scalars.
+    /// Memory per node, until it returns: ten bytes, and with adhesion two scalars.
     ///
     /// # Errors
     /// [`Error::Shape`] if a field does not have the shape of the grid.
@@ -219,16 +302,10 @@ impl ContactStatistics {
         let ContactArea { contact_nodes, contact_fraction, corrected_contact_fraction, perimeter } =
             ContactArea::within(contact.view(), grid, boundary, facing)?;
         let share = |count: usize| count as f64 / facing as f64;
-        let attracting = if law.is_zero() {
-            0
-        } else {
-            let scale = (law.work_of_adhesion() / law.range()).widen();
-            let least = T::lit(if scale.is_finite() { NOTICEABLE * scale } else { 0.0 });
-            let gaps: Vec<T> = gap.iter().map(|gap| gap.max(T::zero())).collect();
-            let mut tractions = vec![T::zero(); gaps.len()];
-            law.tractions(0, &gaps, &mut tractions);
-            contact.iter().zip(tractions).filter(|&(&touches, traction)| !touches && traction > least).count()
-        };
+        let attracts = attracting(&contact, gap, law);
+        let attracting = attracts.iter().filter(|&&attracts| attracts).count();
+        let nodes = gap.iter().zip(&contact).zip(&attracts);
+        let nodes = nodes.map(|((gap, &touches), &attracts)| gap.is_finite().then_some([touches, attracts]));
         Ok(Self {
             contact_nodes,
             contact_fraction,
@@ -238,6 +315,7 @@ impl ContactStatistics {
             repulsive_fraction: share(contact_pressure.iter().filter(|&&p| p > T::zero()).count()),
             attractive_fraction: share(attracting),
             apart_fraction: share(facing - contact_nodes - attracting),
+            patches: patch::patches(law, nodes),
         })
     }
 }
@@ -246,10 +324,11 @@ impl ContactStatistics {
 /// neighbours if the map is periodic, and otherwise nothing is beyond them.
 fn edges(map: ArrayView2<'_, bool>, periodic: bool) -> (usize, usize) {
     let (mut along_x, mut along_y) = (0, 0);
+    let different = |count, here: &bool, there: &bool| count + usize::from(here != there);
     for (i, row) in map.outer_iter().enumerate() {
-        let (below, shifted) = (map.row((i + 1) % map.nrows()), row.iter().cycle().skip(1));
-        along_x += row.iter().zip(below).filter(|(here, there)| here != there).count();
-        along_y += row.iter().zip(shifted).filter(|(here, there)| here != there).count();
+        along_x += Zip::from(row).and(map.row((i + 1) % map.nrows())).fold(0, different);
+        let ((left, _), (_, right)) = (row.split_at(Axis(0), row.len() - 1), row.split_at(Axis(0), 1));
+        along_y += Zip::from(left).and(right).fold(usize::from(row[0] != row[row.len() - 1]), different);
     }
     if !periodic {
         // across the sides each meets nothing in place of the other

@@ -5,6 +5,7 @@
 //! | one paraboloid | [`Hertz`] | none |
 //! | | [`Jkr`] | of no range |
 //! | | [`MaugisDugdale`] | a constant traction up to a range |
+//! | a sphere with concentric waves | [`WavySphere`] | of no range |
 //! | a paraboloid of two curvatures | [`EllipticHertz`] | none |
 //! | a cone, a flat punch | [`Cone`], [`FlatPunch`] | none |
 //! | a uniform pressure on a square | [`square_centre`] | none |
@@ -48,6 +49,7 @@ mod periodic;
 mod punch;
 mod sphere;
 mod wave;
+mod wavy_sphere;
 mod westergaard;
 
 pub use cone::Cone;
@@ -61,4 +63,5 @@ pub use periodic::{C2, M1, Periodic, PeriodicContact};
 pub use punch::{FlatPunch, square_centre};
 pub use sphere::Sphere;
 pub use wave::WaveContact;
+pub use wavy_sphere::WavySphere;
 pub use westergaard::{WavyLine, closing_pressure_2d};

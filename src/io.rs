@@ -1,12 +1,14 @@
 //! Reading height maps and gaps, and writing results.
 //!
-//! [`read_topography`] takes what measuring instruments, Gwyddion and numpy write: `.npy`, `.npz`, `.gsf`, `.xyz` and
-//! text matrices, with side lengths and units where they are known; [`read_field`] takes the numbers alone.
+//! [`read_topography`] takes what measuring instruments, Gwyddion and numpy write: `.npy`, `.npz`, `.gwy`, `.gsf`, `.xyz` and
+//! text matrices, with side lengths and units where they are known; [`read_field`] takes the numbers alone, and
+//! [`read_channel`] one of several channels.
 //! [`write_topography`] writes maps, [`write_npz`] and [`write_vti`] all fields of a solution into one file, for numpy
 //! and for ParaView. [`OutputFolder`] collects the files of one run and shows them only once all of them are complete.
 
 mod foreign;
 mod gsf;
+mod gwy;
 mod npy;
 mod npz;
 mod output;
@@ -25,6 +27,7 @@ use ndarray_npy::WritableElement;
 use crate::error::{Error, Result};
 use crate::surface::Topography;
 use gsf::{GSF, read_gsf, write_gsf};
+use gwy::{GWY, read_gwy};
 use npy::{NPY, read_npy};
 pub use npz::write_npz;
 use npz::{ZIP, read_npz};
@@ -69,6 +72,9 @@ pub fn read_field(path: &Path) -> Result<Array2<f64>> {
 ///   either memory order. Integers beyond 2^53 are rounded.
 /// - `.npz`: as `.npy`, compressed or not, with exactly one array in it, or with one named `heights`. Arrays
 ///   `lengths`, two numbers, and `unit`, a text, are taken beside that; [`Topography::unread`] names all others.
+/// - Gwyddion's own files (`.gwy`): their only channel, or the only one with heights in a unit of length;
+///   [`read_channel`] takes any. Masks and shown corrections are left where they are; [`Topography::unread`] names the
+///   other channels.
 /// - Gwyddion Simple Field (`.gsf`): with the side lengths XReal and YReal, and units.
 /// - text: one row per line; numbers separated by white space, or by commas, or by semicolons. `#` and `%`
 ///   start a comment, blank lines are skipped. Decimal commas are not understood.
@@ -79,7 +85,7 @@ pub fn read_field(path: &Path) -> Result<Array2<f64>> {
 ///   lengths are Nx Δx and Ny Δy.
 ///
 /// **Orientation.** Arrays and plain texts have shape (Nx, Ny): the first index, in a text the line, runs along x.
-/// Images have lines along x, from the top to the bottom: line r of Ny in Gwyddion's two formats becomes column Ny − 1
+/// Images have lines along x, from the top to the bottom: line r of Ny in Gwyddion's three formats becomes column Ny − 1
 /// − r of the map, so that y runs upwards and pictures of the map show what Gwyddion shows.
 ///
 /// **Units.** Where the file gives units of length for both side lengths and heights, the map is in metres, whatever
@@ -110,7 +116,22 @@ pub fn read_field(path: &Path) -> Result<Array2<f64>> {
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn read_topography(path: &Path) -> Result<Topography> {
-    read_any(path).map_err(|reason| Error::file(path, reason))
+    read_any(path, None).map_err(|reason| Error::file(path, reason))
+}
+
+/// Reads one of the channels of a `.gwy` file, by its number or its title; otherwise as [`read_topography`].
+///
+/// ```no_run
+/// # use std::path::Path;
+/// let retrace = asperity::io::read_channel(Path::new("scan.gwy"), "Height Retrace")?;
+/// # Ok::<(), asperity::Error>(())
+/// ```
+///
+/// # Errors
+///
+/// As for [`read_topography`], and [`Error::File`] if the file has no such channel, or is of a format without channels.
+pub fn read_channel(path: &Path, channel: &str) -> Result<Topography> {
+    read_any(path, Some(channel)).map_err(|reason| Error::file(path, reason))
 }
 
 /// Writes a map, over a file that may be there; the ending of `path` decides on the format.
@@ -172,17 +193,21 @@ pub fn write_npy<T: WritableElement>(path: &Path, field: &Array2<T>) -> Result<(
     ndarray_npy::write_npy(path, field).map_err(|e| Error::file(path, format!("cannot be written: {e}")))
 }
 
-fn read_any(path: &Path) -> Parsed<Topography> {
+fn read_any(path: &Path, channel: Option<&str>) -> Parsed<Topography> {
     // Before opening, which would wait for ever on a named pipe.
     let metadata = fs::metadata(path).map_err(unreadable)?;
     if !metadata.is_file() {
         let kind = if metadata.is_dir() { "a folder" } else { "not a regular file" };
-        return Err(format!("is {kind}: name a .npy, .npz, .gsf, .xyz or text file"));
+        return Err(format!("is {kind}: name a .npy, .npz, .gwy, .gsf, .xyz or text file"));
     }
     let (ending, size) = (ending(path), metadata.len());
     let mut reader = BufReader::new(File::open(path).map_err(unreadable)?);
     let start = reader.fill_buf().map_err(unreadable)?;
-    let map = if start.starts_with(NPY) {
+    let map = if start.starts_with(GWY) {
+        read_gwy(&mut reader, size, channel)
+    } else if channel.is_some() {
+        Err("has no channels, as only .gwy files do: leave the channel out".to_owned())
+    } else if start.starts_with(NPY) {
         read_npy(&mut reader, size).map(Topography::new)
     } else if ZIP.iter().any(|magic| start.starts_with(magic)) {
         read_npz(reader, size)

@@ -145,7 +145,10 @@ pub use nested::{Level, Nested, NestedSolution};
 pub use problem::{Control, Problem};
 pub use real::Real;
 pub use solver::{Criterion, Iteration, Method, Report, Settings, Solution, Solver, Start, Status};
-pub use surface::{Amplitude, Fit, Psd, SelfAffine, Spectrum, Surface, SurfaceStatistics, Topography, Trend};
+pub use surface::{
+    Amplitude, Fit, Form, FormFit, Psd, RowAlignment, ScanAxis, SelfAffine, Spectrum, Spikes, Surface,
+    SurfaceStatistics, Topography, Trend,
+};
 pub use sweep::Sweep;
 pub use warning::{Warning, WarningCode};
 

@@ -8,12 +8,14 @@ use std::ops::ControlFlow;
 use ndarray::Array2;
 
 use crate::adhesion::AdhesionLaw;
-use crate::constraint::Wall;
+use crate::constraint::{ContactConstraint, Projection};
 use crate::elastic::{Boundary, ElasticOperator};
 use crate::error::{Error, Result};
 use crate::problem::{Control, Parts, Problem, smoothed_law};
 use crate::real::Real;
-use crate::solver::{Iteration, Solution, Solver, Start, Status};
+use crate::solver::{
+    Iteration, Least, Potential, Solution, Solver, Start, Status, bounded, check_wall, refuse_springs,
+};
 use crate::stability::Watch;
 
 mod event;
@@ -35,11 +37,10 @@ use track::{State, Track, Way};
 ///
 /// Each load is any [`Control`] that the problem has; the first one is where the path starts, and from each to the next
 /// leads a *leg*. Where below a mean gap is given, that is the approach with a free boundary, and with a spring its rest.
-/// A step starts from the extrapolation of the last two states, clipped to g ≥ 0, so that it stays on the
-/// branch; its length adapts to how much the branch bends.
+/// A step starts from the extrapolation of the last two states, clipped to gaps that are feasible, so that it stays on
+/// the branch; its length adapts to how much the branch bends.
 ///
-/// The wall is rigid: a law that keeps the surfaces apart by itself is followed by [`Sweep`](crate::Sweep) with
-/// [`NoWall`](crate::NoWall), or cut at its gap of rest.
+/// The wall is that of the solver: rigid, or [none](crate::NoWall) for a law that keeps the surfaces apart by itself.
 ///
 /// # Jumps
 ///
@@ -114,8 +115,8 @@ use track::{State, Track, Way};
 /// # Ok::<(), asperity::Error>(())
 /// ```
 #[derive(Debug)]
-pub struct Path<'a, T, O, L> {
-    solver: &'a mut Solver,
+pub struct Path<'a, T, O, L, C = Projection> {
+    solver: &'a mut Solver<C>,
     problem: &'a mut Problem<T, O, L>,
     legs: Vec<Control>,
     settings: PathSettings,
@@ -130,29 +131,36 @@ pub struct Path<'a, T, O, L> {
 /// The number of further solves after one that did not converge, where the step cannot be halved.
 const RETRIES: usize = 3;
 
+/// The number of gaps at which a law without a wall is asked whether it bears a pressure.
+const CLOSEST: usize = 64;
+
 /// The farthest extrapolation of the last step, in steps.
 const FARTHEST: f64 = 2.0;
 
-impl<'a, T, O, L> Path<'a, T, O, L>
+impl<'a, T, O, L, C> Path<'a, T, O, L, C>
 where
     T: Real,
     O: ElasticOperator<T>,
     L: AdhesionLaw<T>,
+    C: ContactConstraint<T>,
 {
     /// The path through `loads`, of which the first is the start.
     ///
     /// # Errors
     /// [`Error::Value`] for settings that are out of range, or a load that is not finite, or a negative mean gap;
-    /// [`Error::Control`] for a load that the problem does not have, and for a periodic surface with absent nodes.
+    /// [`Error::Control`] for a load that the problem does not have, and for a periodic surface with absent nodes;
+    /// [`Error::Wall`] for springs, and for a law that is not made for the wall.
     pub fn new(
-        solver: &'a mut Solver,
+        solver: &'a mut Solver<C>,
         problem: &'a mut Problem<T, O, L>,
         loads: impl IntoIterator<Item = Control>,
         settings: PathSettings,
     ) -> Result<Self> {
-        let legs: Vec<_> = loads.into_iter().collect();
+        let (legs, wall): (Vec<_>, _) = (loads.into_iter().collect(), solver.constraint.wall());
+        refuse_springs(wall)?;
+        check_wall(&problem.law, wall)?;
         for load in &legs {
-            problem.flat.load(*load, Wall::Rigid)?;
+            problem.flat.load(*load, wall)?;
             if problem.flat.window.is_some() && problem.flat.boundary == Boundary::Periodic {
                 let reason = "a periodic surface with absent nodes has no mean gap along which a path could be followed: \
                               solve at one load after the other, as Sweep does, or take a free half-space";
@@ -174,6 +182,11 @@ where
     /// The path with a gap of shape (Nx, Ny) as the start at the first load.
     pub fn starting_from(self, gap: Array2<T>) -> Self {
         Self { start: Some(gap), ..self }
+    }
+
+    /// Ends the present leg: the path heads for the next load from where it is, as from surfaces that have come apart.
+    pub fn end_leg(&mut self) {
+        self.state.end_leg();
     }
 
     /// The present place of the path, from which [`Path::continuing`] goes on.
@@ -334,9 +347,9 @@ where
         }
         let detached = report.status == Status::Detached;
         if self.state.mode == Mode::Pressure && (trial.jumped && !good || detached || lost) {
-            let law = &self.problem.law;
-            let far = 2.0 * (self.problem.flat.height_span + 10.0 * law.range().widen());
-            self.state.leave_pressure_control(far, !lost, &self.settings);
+            let far = 2.0 * (self.problem.flat.height_span + 10.0 * self.problem.law.range().widen());
+            let close = self.closest(self.state.end());
+            self.state.leave_pressure_control((close, far), !lost, &self.settings);
             return Ok(None);
         }
         let mut way = Way { jumped: trial.jumped && !good, bifurcation: None };
@@ -367,6 +380,26 @@ where
         Ok(Some(self.step(solution, control, event)))
     }
 
+    /// The least gaps after a step.
+    fn least(&self) -> Option<Least<T>> {
+        Potential::new(&self.problem.law, &self.solver.constraint, None).least()
+    }
+
+    /// The mean gap to which surfaces are pressed together where a branch under a pressure breaks off: zero at a wall,
+    /// and otherwise one at which the law alone repels flats by more than that pressure.
+    fn closest(&self, pressure: f64) -> f64 {
+        let law = &self.problem.law;
+        if self.solver.constraint.wall().is_rigid() {
+            return 0.0;
+        }
+        let [rest, range] = [law.rest().unwrap_or_else(T::zero), law.range()];
+        let bounded = law.energy(T::zero()).is_finite();
+        let closer = |gap: &T| Some(if bounded { *gap - range } else { T::lit(0.5) * *gap });
+        let gaps = std::iter::successors(Some(rest), closer).take(CLOSEST);
+        let mut gaps = gaps.skip_while(|&gap| -law.traction(gap).widen() <= pressure);
+        gaps.next().map_or(rest.widen(), T::widen)
+    }
+
     /// The gap at `target`, extrapolated from the last two gaps.
     fn predict(&self, target: f64) -> Array2<T> {
         let shape = self.problem.grid().shape();
@@ -374,8 +407,10 @@ where
             [before, last] => {
                 let steps = self.state.extrapolation(target).clamp(-FARTHEST, FARTHEST);
                 let steps = T::lit(if steps.is_finite() { steps } else { 0.0 });
-                let mut start = last.clone();
-                start.zip_mut_with(before, |last, &before| *last = (*last + steps * (*last - before)).max(T::zero()));
+                let (least, mut start) = (self.least(), last.clone());
+                start.zip_mut_with(before, |last, &before| {
+                    *last = bounded(least, *last, *last + steps * (*last - before));
+                });
                 start
             }
             [.., last] => last.clone(),
@@ -389,11 +424,12 @@ where
     }
 }
 
-impl<T, O, L> Iterator for Path<'_, T, O, L>
+impl<T, O, L, C> Iterator for Path<'_, T, O, L, C>
 where
     T: Real,
     O: ElasticOperator<T>,
     L: AdhesionLaw<T>,
+    C: ContactConstraint<T>,
 {
     type Item = Result<PathStep<T>>;
 

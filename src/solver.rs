@@ -30,10 +30,10 @@ mod work;
 pub(crate) use coarse::Coarse;
 use driver::Job;
 pub(crate) use driver::Observer;
-pub(crate) use potential::{Of, Potential};
+pub(crate) use potential::{Least, Of, Potential, bounded};
 pub use report::{Iteration, Report, Solution, Status};
 pub use start::Start;
-pub(crate) use start::check_wall;
+pub(crate) use start::{check_wall, refuse_springs};
 
 /// The method of iteration, one of two.
 ///

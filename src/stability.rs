@@ -202,17 +202,53 @@ impl StabilityTest {
         L: AdhesionLaw<T>,
         C: ContactConstraint<T>,
     {
+        self.of_gap(problem, constraint, control, &solution.gap, solution.report.relative_error)
+    }
+
+    /// Tests, as [`StabilityTest::run_with`], the gap of a solution that was kept without the rest of it but for its
+    /// [`Report::relative_error`](crate::Report::relative_error).
+    ///
+    /// # Errors
+    /// Those of [`StabilityTest::run_with`].
+    ///
+    /// ```
+    /// use asperity::stability::{StabilityTest, Verdict};
+    /// use asperity::{Control, Exponential, Grid, Problem, Projection, Solver, Surface, Westergaard};
+    /// let surface = Surface::wave_2d(Grid::square(32, 1.0)?, 0.02, 1)?;
+    /// let half_space = Westergaard::<f64>::new(*surface.grid(), 1.0)?;
+    /// let mut problem = Problem::new(&surface, half_space, Exponential::new(1e-5, 4e-3)?)?;
+    /// let control = Control::MeanGap(0.01);
+    /// let solution = Solver::default().solve(&mut problem, control)?;
+    /// let (gap, error) = (solution.gap, solution.report.relative_error);
+    /// let stability = StabilityTest::default().of_gap(&mut problem, &Projection, control, &gap, error)?;
+    /// assert_eq!(stability.verdict, Verdict::Stable);
+    /// # Ok::<(), asperity::Error>(())
+    /// ```
+    pub fn of_gap<T, O, L, C>(
+        &self,
+        problem: &mut Problem<T, O, L>,
+        constraint: &C,
+        control: Control,
+        gap: &Array2<T>,
+        relative_error: f64,
+    ) -> Result<Stability<T>>
+    where
+        T: Real,
+        O: ElasticOperator<T>,
+        L: AdhesionLaw<T>,
+        C: ContactConstraint<T>,
+    {
         Error::positive("tolerance", self.tolerance)?;
-        check_solution(problem, constraint, solution)?;
+        check_gap(problem, constraint, gap)?;
         // the value of a mean gap is that of the solution, which springs may make negative
         let kind = if let Control::MeanGap(_) = control { Control::MeanGap(0.0) } else { control };
         let (load, window) = (problem.flat.load(kind, constraint.wall())?, problem.flat.window.as_ref());
         let smoothed = smoothed_law(&problem.operator, &problem.law);
         let local = Potential::new(smoothed.as_deref().unwrap_or(&problem.law), constraint, None);
-        let slopes = slopes(&solution.gap, local, window)?;
+        let slopes = slopes(gap, local, window)?;
         let smoothed = smoothed.is_some();
         let hessian = Hessian::new(&mut problem.operator, slopes, load);
-        let mut stability = self.judge(hessian, solution.report.relative_error, smoothed)?;
+        let mut stability = self.judge(hessian, relative_error, smoothed)?;
         if let Some(window) = window {
             stability.mode = window.crop(&stability.mode, T::zero());
         }
@@ -253,23 +289,19 @@ impl StabilityTest {
     }
 }
 
-/// Refuses a solution that is not one of a problem with a constraint.
-fn check_solution<T, O, L>(
-    problem: &Problem<T, O, L>,
-    constraint: &dyn ContactConstraint<T>,
-    solution: &Solution<T>,
-) -> Result<()>
+/// Refuses a gap that is not one of a problem with a constraint.
+fn check_gap<T, O, L>(problem: &Problem<T, O, L>, constraint: &dyn ContactConstraint<T>, gap: &Array2<T>) -> Result<()>
 where
     T: Real,
     O: ElasticOperator<T>,
     L: AdhesionLaw<T>,
 {
-    Error::shape("gap", solution.gap.dim(), problem.grid().shape())?;
+    Error::shape("gap", gap.dim(), problem.grid().shape())?;
     if problem.flat.window.is_none() {
-        Error::all_finite("gap", solution.gap.view())?;
+        Error::all_finite("gap", gap.view())?;
     }
     check_wall(&problem.law, constraint.wall())?;
-    if let Some(gap) = solution.gap.iter().find(|&&gap| constraint.wall().is_rigid() && gap < T::zero()) {
+    if let Some(gap) = gap.iter().find(|&&gap| constraint.wall().is_rigid() && gap < T::zero()) {
         let requirement =
             "zero or positive; a solution with springs or without a wall is looked at with its constraint";
         return Err(Error::Value { name: "gap", value: gap.widen(), requirement });

@@ -18,7 +18,7 @@ pub(crate) use philox::uniform;
 pub use self_affine::{Amplitude, SelfAffine};
 pub use spectrum::{Psd, Spectrum};
 pub use statistics::SurfaceStatistics;
-pub use topography::{Fit, Topography, Trend};
+pub use topography::{Fit, Form, FormFit, RowAlignment, ScanAxis, Spikes, Topography, Trend};
 
 /// The heights of the rigid rough surface on a grid: peaks have the larger height.
 ///

@@ -11,7 +11,7 @@ use crate::par;
 use crate::problem::mu_rho;
 use crate::real::Real;
 use crate::solver::Solution;
-use crate::surface::Surface;
+use crate::surface::{Surface, Topography};
 
 mod relief;
 #[cfg(test)]
@@ -187,10 +187,7 @@ impl Warning {
             found.push(Self { code: WarningCode::Flat, message });
             return found;
         }
-        let codes: Vec<_> = [(extremes.low, extremes.low_count), (extremes.high, extremes.high_count)]
-            .into_iter()
-            .filter(|&(value, count)| extremes.is_code(value, count))
-            .collect();
+        let codes = extremes.codes();
         if !codes.is_empty() {
             found.extend(codes.into_iter().map(|(value, count)| missing_code(value, count, &extremes)));
             return found;
@@ -203,9 +200,27 @@ impl Warning {
         found
     }
 
+    /// The probable mistakes in a measured map that is still to be prepared: [`MissingCode`](WarningCode::MissingCode).
+    ///
+    /// ```
+    /// use asperity::{Topography, Warning};
+    /// let mut map = Topography::new(ndarray::Array2::from_shape_fn((9, 9), |(i, j)| ((7 * i + 5 * j) as f64).sin()));
+    /// map.heights.row_mut(3).fill(-99.0);
+    /// let found = Warning::of_topography(&map);
+    /// assert!(found[0].message.starts_with("-99 stands at 9 nodes"));
+    /// assert!(Warning::of_topography(&map.declare_missing(-99.0)).is_empty());
+    /// ```
+    pub fn of_topography(map: &Topography) -> Vec<Self> {
+        let extremes = Extremes::of(&map.heights.as_standard_layout().into_owned());
+        extremes.codes().into_iter().map(|(value, count)| missing_code(value, count, &extremes)).collect()
+    }
+
     /// The probable mistakes in the range of `law` on a surface pressed against a body of contact `modulus` E*:
     /// [`Range`](WarningCode::Range). Nothing without adhesion.
     pub fn of_law<T: Real>(law: &impl AdhesionLaw<T>, surface: &Surface, modulus: f64) -> Vec<Self> {
+        if law.is_zero() {
+            return Vec::new();
+        }
         let mu_rho = mu_rho(law, surface.grid(), modulus);
         let (range, span) = (law.range().widen(), Extremes::of(surface.heights()).span());
         let mut found = Vec::new();
@@ -221,7 +236,7 @@ impl Warning {
             );
             found.push(Self { code: WarningCode::Range, message });
         }
-        if !law.is_zero() && law.work_of_adhesion() > T::zero() && span > 0.0 && range > span {
+        if law.work_of_adhesion() > T::zero() && span > 0.0 && range > span {
             let message = format!(
                 "the range of adhesion, {}, exceeds the heights, which span {}: it then pulls on the whole surface \
                  alike, as a pressure would; give it in the unit of the lengths",
@@ -306,9 +321,12 @@ fn cells(grid: &Grid) -> Option<Warning> {
 }
 
 fn missing_code(value: f64, count: usize, extremes: &Extremes) -> Warning {
+    // all digits, as the remedy needs them
+    let value = if (1e-3..1e9).contains(&value.abs()) { format!("{value}") } else { format!("{value:e}") };
     let message = format!(
         "{value} stands at {count} {}, far outside of the other heights, {} to {}, as a code for missing points \
-         does: set them to NaN, and fill them; nothing else can be told of the heights before",
+         does: declare it missing, and fill (prepare --missing {value} --fill); nothing else can be told of the heights \
+         before",
         if count == 1 { "node" } else { "nodes" },
         figure(extremes.rest.0),
         figure(extremes.rest.1)

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""asperity beside FFTW, SciPy, aspher and Tamaas, on the same heights, in one run; prints Markdown tables.
+"""asperity beside FFTW, SciPy, aspher, Tamaas and ContactMechanics, on the same heights, in one run; prints Markdown tables.
 
     benches/peers/setup.sh                       (once)
-    benches/peers/compare.py [--quick] [--rows application,wall,adhesion]
+    benches/peers/compare.py [--quick] [--rows application,wall,adhesion,free]
 
 Rules
 -----
@@ -42,6 +42,7 @@ CACHE = Path(os.environ.get("XDG_CACHE_HOME", Path.home() / ".cache")) / "asperi
 ONE_THREAD = {"OMP_NUM_THREADS": "1", "RAYON_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
 
 PRESSURE = 0.02  # of E* h', at an rms slope h' of 1
+RADIUS, FORCE = 0.25, 0.1  # of the sphere that the same roughness is on, and of E* L²
 SEED = 1
 OURS = {
     "f64": ["3e-2", "1e-2", "3e-3", "1e-3", "3e-4", "1e-4", "3e-5", "1e-5", "1e-6"],
@@ -56,6 +57,8 @@ ASPHER = {
     "f32": [("float", ["1e-3", "3e-4", "1e-4", "3e-5", "1e-5", "4e-6", "2e-6"])],
 }
 TAMAAS = ["1e-3", "1e-4", "1e-5", "1e-6", "1e-8", "1e-10"]
+# the largest penetration, a length
+CONTACT_MECHANICS = ["1e-4", "1e-5", "1e-6", "1e-7", "1e-8", "1e-10", "1e-12"]
 ADHESIVE = ["1e-2", "1e-3", "1e-4", "1e-5", "1e-6", "1e-8"]
 # the levels: (name, which error, how small)
 LEVELS = {
@@ -108,13 +111,22 @@ class Bench:
             subprocess.run(list(map(str, command)), check=True, capture_output=True)
         return path
 
-    def ours(self, n, settings, save=None):
+    def rough_sphere(self, n):
+        import numpy as np
+
+        path = self.work / f"sphere-{n}.npy"
+        if not path.exists():
+            x = np.arange(n) / n - 0.5
+            np.save(path, np.load(self.heights(n)) - (x[:, None] ** 2 + x[None, :] ** 2) / (2 * RADIUS))
+        return path
+
+    def ours(self, heights, settings, save=None):
         """The command of a solve of ours: the only place that knows how it is called."""
-        command = [self.timed, self.heights(n), *arguments(settings), *self.options.ours.split()]
+        command = [self.timed, heights, *arguments(settings), *self.options.ours.split()]
         return command + ([f"save={save}"] if save else [])
 
-    def theirs(self, program, n, settings, save=None):
-        command = [self.python, HERE / "peer.py", program, self.heights(n), *arguments(settings)]
+    def theirs(self, program, heights, settings, save=None):
+        command = [self.python, HERE / "peer.py", program, heights, *arguments(settings)]
         return command + ([f"save={save}"] if save else [])
 
 
@@ -202,12 +214,16 @@ class Case:
         from scipy import fft
 
         self.bench, self.n, self.problem, self.np, self.fft = bench, n, problem, np, fft
+        self.weights, self.heights = self.compliances(), bench.heights(n)
+
+    def compliances(self):
+        np, n = self.np, self.n
         # K on the half spectrum, with the weights of Parseval's sum
         k = np.fft.fftfreq(n, 1 / n)[:, None]
         l = np.arange(n // 2 + 1)[None, :]
         q = np.hypot(k, l)
         q[0, 0] = np.inf
-        self.weights = np.where((l == 0) | (2 * l == n), 1.0, 2.0) / (np.pi * q)
+        return np.where((l == 0) | (2 * l == n), 1.0, 2.0) / (np.pi * q)
 
     def settings(self, precision, tolerance):
         return {"precision": precision, "tolerance": tolerance} | self.problem
@@ -222,21 +238,21 @@ class Case:
         return {"area": area, "energy": (self.square(pressure - self.pressure) / self.energy) ** 0.5}
 
     def ours(self, precision):
-        command = lambda tolerance, save=None: self.bench.ours(self.n, self.settings(precision, tolerance), save)
+        command = lambda tolerance, save=None: self.bench.ours(self.heights, self.settings(precision, tolerance), save)
         return f"asperity {precision}", command, OURS[precision], 0.4 * (self.n / 512) ** 2
 
     def aspher(self, mode, tolerances):
-        command = lambda tolerance, save=None: self.bench.theirs("aspher", self.n, self.settings(mode, tolerance), save)
+        command = lambda tolerance, save=None: self.bench.theirs("aspher", self.heights, self.settings(mode, tolerance), save)
         return f"aspher {mode}", command, tolerances, 0.5 * (self.n / 512) ** 2
 
     def tamaas(self, tolerances):
-        command = lambda tolerance, save=None: self.bench.theirs("tamaas", self.n, self.settings("f64", tolerance), save)
+        command = lambda tolerance, save=None: self.bench.theirs("tamaas", self.heights, self.settings("f64", tolerance), save)
         return "tamaas", command, tolerances, (6 if "work" in self.problem else 3) * (self.n / 512) ** 3
 
     def climb(self, ladders):
         """Finds the reference and runs the ladders: for each a list of (tolerance, command, report, errors)."""
         reference = self.bench.work / "reference.npy"
-        todo = [(self.bench.ours(self.n, self.settings("f64", "1e-12"), reference), (self.n / 512) ** 2)]
+        todo = [(self.bench.ours(self.heights, self.settings("f64", "1e-12"), reference), (self.n / 512) ** 2)]
         path = lambda i, tolerance: self.bench.work / f"solution-{i}-{tolerance}.npy"
         for i, (_, command, tolerances, seconds) in enumerate(ladders):
             todo += [(command(tolerance, path(i, tolerance)), seconds) for tolerance in tolerances]
@@ -261,6 +277,36 @@ class Case:
         self.bench.disagreement |= errors["area"] > 1e-3 or errors["energy"] > 1e-3
         nodes = round(errors["area"] * self.reference["area"] * self.n**2)
         return f"contact areas differ by {nodes} nodes, pressures by {errors['energy']:.0e} (its tolerance {tolerance})"
+
+
+class FreeCase(Case):
+    """A rough sphere on a free half-space."""
+
+    def __init__(self, bench, n, problem):
+        super().__init__(bench, n, problem | {"boundary": "free"})
+        self.heights = bench.rough_sphere(n)
+
+    def compliances(self):
+        """Love's kernel on the padded grid, as its modes."""
+        np, n = self.np, self.n
+        x = np.minimum(np.arange(2 * n), 2 * n - np.arange(2 * n)) / n
+        x, y, half = x[:, None], x[None, :], 0.5 / n
+        f = lambda t, s, u: t * (np.arcsinh(s / np.abs(t)) - np.arcsinh(u / np.abs(t)))
+        low, high = (x - half, y - half), (x + half, y + half)
+        kernel = f(high[0], high[1], low[1]) + f(high[1], high[0], low[0])
+        kernel += f(low[0], low[1], high[1]) + f(low[1], low[0], high[0])
+        modes = self.fft.rfft2(kernel / np.pi).real
+        l = np.arange(n + 1)[None, :]
+        return modes * np.where((l == 0) | (l == n), 1.0, 2.0)
+
+    def square(self, pressure):
+        spectrum = self.fft.rfft2(pressure, s=(2 * self.n, 2 * self.n))
+        return float((self.weights * (spectrum.real**2 + spectrum.imag**2)).sum())
+
+    def contact_mechanics(self, tolerances):
+        theirs = lambda settings, save: self.bench.theirs("contactmechanics", self.heights, settings, save)
+        command = lambda tolerance, save=None: theirs(self.settings("f64", tolerance), save)
+        return "ContactMechanics", command, tolerances, 20 * (self.n / 512) ** 2
 
 
 def chosen(steps, error, limit):
@@ -345,7 +391,7 @@ def adhesion(bench):
     rows, notes = [], []
     for n in [512] if bench.options.quick else [n for n in bench.options.sizes if n <= 1024]:
         rms = float(np.load(bench.heights(n)).std())
-        wall = bench.ours(n, {"pressure": PRESSURE, "tolerance": "1e-8"})
+        wall = bench.ours(bench.heights(n), {"pressure": PRESSURE, "tolerance": "1e-8"})
         [wall] = bench.run([(wall, (n / 512) ** 2)])
         case = Case(bench, n, {"gap": wall["mean_gap"], "range": 0.1 * rms, "work": 0.1 * 0.1 * rms})
         large = n > 512
@@ -370,12 +416,41 @@ def adhesion(bench):
     print()
 
 
+def free(bench):
+    rows, notes = [], []
+    for n in [512] if bench.options.quick else [n for n in bench.options.sizes if n <= 1024]:
+        rounds = 3 if bench.options.quick else 5
+        case = FreeCase(bench, n, {"pressure": FORCE})
+        aspher = [case.aspher(*mode) for mode in ASPHER["f64"]]
+        ours, *theirs = case.climb([case.ours("f64"), *aspher, case.contact_mechanics(CONTACT_MECHANICS)])
+        notes.append(
+            f"{n}²: reference {100 * case.reference['area']:.4f} % contact, certified to "
+            f"{case.reference['relative_error']:.0e}; aspher: {case.agreement(theirs[0])}; "
+            f"ContactMechanics: {case.agreement(theirs[-1])}"
+        )
+        wanted = [("force", "aspher", (ours, theirs[:-1], level, rounds)) for level in LEVELS["f64"]]
+        wanted += [("force", "ContactMechanics", (ours, theirs[-1:], level, 1)) for level in LEVELS["f64"]]
+        found = [(held, peer, row) for (held, peer, _), (row, _, _) in zip(wanted, compared(case, [w for *_, w in wanted]))]
+        # at the approach of that force
+        case = FreeCase(bench, n, {"approach": case.reference["approach"]})
+        ours, theirs = case.climb([case.ours("f64"), case.contact_mechanics(CONTACT_MECHANICS)])
+        notes[-1] += f", by approach {case.agreement(theirs)}"
+        for row, _, _ in compared(case, [(ours, [theirs], level, 1) for level in LEVELS["f64"]]):
+            found.append(("approach", "ContactMechanics", row))
+        rows += [[f"{n}²", *cells, *row] for *cells, row in found]
+    print(f"### Rough sphere on a free half-space, R = {RADIUS} L, F = {FORCE} E*L², roughness as on the hard wall\n")
+    table(["grid", "given", *HEAD[2:]], rows)
+    for note in notes:
+        print(f"- {note}")
+    print()
+
+
 def conditions(bench):
     model = next((l.split(":")[1].strip() for l in Path("/proc/cpuinfo").read_text().splitlines() if "model name" in l), "?")
     flags = next((l for l in Path("/proc/cpuinfo").read_text().splitlines() if l.startswith("flags")), "")
     vectors = "AVX-512" if "avx512f" in flags else "AVX2" if "avx2" in flags else "SSE2"
     git = subprocess.run(["git", "describe", "--always", "--dirty"], cwd=ROOT, capture_output=True, text=True)
-    names = ["tamaas", "numpy", "scipy", "aspher"]
+    names = ["tamaas", "ContactMechanics", "numpy", "scipy", "aspher"]
     code = f"from importlib.metadata import version; print(', '.join(f'{{p}} {{version(p)}}' for p in {names}))"
     where = os.environ | {"PYTHONPATH": str(bench.peers / "aspher-native")}
     versions = subprocess.run([bench.python, "-c", code], env=where, capture_output=True, text=True).stdout.strip()
@@ -393,7 +468,7 @@ def main():
     parser.add_argument("--quick", action="store_true", help="512² (and 1024² applications) only, fewer rounds")
     sizes = lambda text: [int(n) for n in text.split(",")]
     parser.add_argument("--sizes", type=sizes, default=[512, 1024, 2048], help="nodes along a side, of the solves")
-    parser.add_argument("--rows", default="application,wall,adhesion", help="which tables")
+    parser.add_argument("--rows", default="application,wall,adhesion,free", help="which tables")
     parser.add_argument("--prefix", default="", help="a command to run every measurement under, such as 'taskset -c 1'")
     parser.add_argument("--ours", default="", help="further NAME=VALUE arguments for every solve of examples/timed.rs")
     options = parser.parse_args()
@@ -403,7 +478,7 @@ def main():
         os.execv(python, [str(python), __file__, *sys.argv[1:]])
     bench = Bench(options)
     conditions(bench)
-    tables = {"application": application, "wall": wall, "adhesion": adhesion}
+    tables = {"application": application, "wall": wall, "adhesion": adhesion, "free": free}
     for name in options.rows.split(","):
         if name not in tables:
             sys.exit(f"--rows {name}: the tables are {', '.join(tables)}")

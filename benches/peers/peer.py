@@ -34,7 +34,7 @@ def symbol(n, kind=np.float64):
 
 
 def aspher(path, options):
-    """Periodic, nested. Light result, coarse tolerance 1e-3, build: the fastest of those tried (see README.md)."""
+    """Nested, periodic or free. Light result, coarse tolerance 1e-3, build: the fastest of those tried (see README.md)."""
     build = "portable" if options["precision"] == "float" else "native"
     sys.path.insert(0, str(Path(sys.prefix).parent / f"aspher-{build}"))
     import aspher as program
@@ -49,7 +49,7 @@ def aspher(path, options):
         grid_size=n,
         gap=gap,
         p_nominal=float(options["pressure"]),
-        backend="periodic",
+        backend="fft" if options.get("boundary") == "free" else "periodic",
         tol=float(options["tolerance"]),
         precision=options["precision"],
         coarse_tol=1e-3,
@@ -99,6 +99,30 @@ def tamaas(path, options):
     return report, pressure
 
 
+def contactmechanics(path, options):
+    """Constrained conjugate gradients on a free half-space, for a given force or offset."""
+    from ContactMechanics import FreeFFTElasticHalfSpace
+    from ContactMechanics.Factory import make_system
+    from SurfaceTopography import Topography
+
+    base = resident("VmRSS")
+    heights = np.load(path)
+    n = heights.shape[0]
+    forget_peak()
+    begin = time.perf_counter()
+    held = {"external_force": float(options["pressure"])} if "pressure" in options else {}
+    if "approach" in options:
+        held = {"offset": float(options["approach"]) - heights.max()}
+    substrate = FreeFFTElasticHalfSpace((n, n), 1.0, (1.0, 1.0))
+    system = make_system(interaction="hardwall", substrate=substrate, surface=Topography(heights, (1.0, 1.0)))
+    result = system.minimize_proxy(pentol=float(options["tolerance"]), maxiter=20000, **held)
+    seconds = time.perf_counter() - begin
+    peak = resident("VmHWM")
+    status = "converged" if result.success else "not converged"
+    report = {"area": float(system.compute_contact_area()), "status": status}
+    return report | {"seconds": seconds, "peak": peak, "base": base}, lambda: np.array(system.force) * n * n
+
+
 def scipy(path, options):
     """One operator application by SciPy's pocketfft."""
     import scipy.fft
@@ -117,10 +141,13 @@ def scipy(path, options):
     return {"seconds": statistics.median(seconds[1:]), "check": float(np.sum(result.astype(float) ** 2))}, None
 
 
+PROGRAMS = {"aspher": aspher, "contactmechanics": contactmechanics, "tamaas": tamaas, "scipy": scipy}
+
+
 def main():
     program, path = sys.argv[1:3]
     options = dict(argument.split("=", 1) for argument in sys.argv[3:])
-    report, pressure = {"aspher": aspher, "tamaas": tamaas, "scipy": scipy}[program](path, options)
+    report, pressure = PROGRAMS[program](path, options)
     print(json.dumps(report), flush=True)
     if "save" in options:
         np.save(options["save"], pressure())

@@ -15,10 +15,24 @@ from __future__ import annotations
 
 from . import contact, exact, surface
 from ._asperity import VERSION as __version__
-from ._asperity import Exponential, Iteration, MaugisDugdale, check_law
+from ._asperity import (
+    CutOff,
+    Exponential,
+    Iteration,
+    Law,
+    LennardJones,
+    MaugisDugdale,
+    Morse,
+    PowerLaw,
+    Tabulated,
+    VanDerWaals,
+    Varying,
+    check_law,
+)
 from ._cycle import Cycle, Step, cycle
 from ._solution import ContactStatistics, Solution
 from ._solve import solve
+from ._stability import Stability, stability
 from ._sweep import Sweep, sweep
 from ._topography import Topography, from_topography, prepare, read
 from ._warnings import ConvergenceWarning, InputWarning
@@ -26,15 +40,24 @@ from ._warnings import ConvergenceWarning, InputWarning
 __all__ = [
     "ContactStatistics",
     "ConvergenceWarning",
+    "CutOff",
     "Cycle",
     "Exponential",
     "InputWarning",
     "Iteration",
+    "Law",
+    "LennardJones",
     "MaugisDugdale",
+    "Morse",
+    "PowerLaw",
     "Solution",
+    "Stability",
     "Step",
     "Sweep",
+    "Tabulated",
     "Topography",
+    "VanDerWaals",
+    "Varying",
     "__version__",
     "check_law",
     "contact",
@@ -44,6 +67,7 @@ __all__ = [
     "prepare",
     "read",
     "solve",
+    "stability",
     "surface",
     "sweep",
 ]

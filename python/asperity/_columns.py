@@ -8,8 +8,41 @@ from typing import Any, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
+from ._solution import Solution
+
 T = TypeVar("T")
 R = TypeVar("R", bound="Rows[Any]")
+
+#: The columns of a state, and of how its solve ended, as in the tool's tables.
+STATE = (
+    "control",
+    "control_value",
+    "mean_pressure",
+    "mean_contact_pressure",
+    "mean_gap",
+    "normal_force",
+    "approach",
+    "edge_traction",
+    "contact_fraction",
+    "corrected_contact_fraction",
+    "perimeter",
+    "clusters",
+    "largest_cluster",
+    "repulsive_fraction",
+    "attractive_fraction",
+    "elastic_energy",
+    "adhesive_energy",
+    "min_gap",
+)
+OUTCOME = ("relative_error", "load_error", "iterations", "operator_applications", "status")
+
+
+def state(solution: Solution) -> dict[str, Any]:
+    """The numbers of a solution by the names of columns."""
+    statistics = solution.statistics
+    sizes = statistics.cluster_sizes
+    largest = int(sizes[0]) if len(sizes) else 0
+    return {**solution.report, **statistics._asdict(), "clusters": len(sizes), "largest_cluster": largest}
 
 
 class Rows(Iterator[T]):
@@ -21,6 +54,10 @@ class Rows(Iterator[T]):
     def __init__(self) -> None:
         self.rows: list[dict[str, Any]] = []
 
+    def append(self, numbers: dict[str, Any]) -> None:
+        """Keeps the numbers that have a column."""
+        self.rows.append({name: numbers[name] for name in self.names})
+
     def run(self: R) -> R:
         """Solves what is left, and returns itself."""
         for _ in self:
@@ -29,6 +66,13 @@ class Rows(Iterator[T]):
 
     @property
     def columns(self) -> dict[str, NDArray[Any]]:
-        """The columns of the tool's table by name, as ``pandas.DataFrame`` takes them; solves what is left."""
+        """The columns of the tool's table by name, as ``pandas.DataFrame`` takes them; solves what is left.
+
+        Numbers that do not apply are NaN, an event that did not happen is None.
+        """
         self.run()
-        return {name: np.array([row[name] for row in self.rows]) for name in self.names}
+        return {name: np.array([_cell(name, row[name]) for row in self.rows]) for name in self.names}
+
+
+def _cell(name: str, value: Any) -> Any:
+    return np.nan if value is None and name != "event" else value

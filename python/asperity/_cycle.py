@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from . import _control, _plot
 from ._asperity import Iteration
-from ._columns import Rows
+from ._columns import OUTCOME, STATE, Rows, state
 from ._scene import Scene
 from ._solution import Solution
 
@@ -24,6 +24,8 @@ class Step:
         The state itself.
     leg : int
         Leg that it is on: 0 is the start, 1 the way to the second load.
+    direction : str
+        ``"approach"`` or ``"withdrawal"``, of the start ``"start"``.
     work : float
         Work done by the load since the start, per area.
     dissipated : float
@@ -36,8 +38,9 @@ class Step:
         Energy that the jump dissipates, per area.
     """
 
-    def __init__(self, solution: Solution, found: dict[str, Any]) -> None:
+    def __init__(self, solution: Solution, direction: str, found: dict[str, Any]) -> None:
         self.solution = solution
+        self.direction = direction
         self.leg: int = found["leg"]
         self.work: float = found["work"]
         self.dissipated: float = found["dissipated"]
@@ -48,35 +51,13 @@ class Step:
     def __repr__(self) -> str:
         event = f", {self.event}" if self.event else ""
         gap, pressure = self.solution.mean_gap, self.solution.mean_pressure
-        return f"Step(leg {self.leg}: mean_gap={gap:.7g}, mean_pressure={pressure:.7g}{event})"
+        return f"Step({self.direction}, leg {self.leg}: mean_gap={gap:.7g}, mean_pressure={pressure:.7g}{event})"
 
 
 class Cycle(Rows[Step]):
     """The states of a cycle, each found when it is asked for, and the columns of their numbers."""
 
-    names = (
-        "leg",
-        "control",
-        "control_value",
-        "mean_gap",
-        "mean_pressure",
-        "mean_contact_pressure",
-        "normal_force",
-        "approach",
-        "edge_traction",
-        "contact_fraction",
-        "elastic_energy",
-        "adhesive_energy",
-        "work",
-        "dissipated",
-        "imbalance",
-        "event",
-        "energy_drop",
-        "relative_error",
-        "iterations",
-        "operator_applications",
-        "status",
-    )
+    names = ("leg", "direction", *STATE, "work", "dissipated", "imbalance", "event", "energy_drop", *OUTCOME)
 
     def __init__(
         self,
@@ -88,7 +69,7 @@ class Cycle(Rows[Step]):
     ) -> None:
         super().__init__()
         self._scene, self._loads, self._settings, self._observe = scene, loads, settings, observe
-        self._start = scene.start(start)
+        self._start = scene.start(start, loads)
         self._ended = False
 
     def __next__(self) -> Step:
@@ -99,10 +80,27 @@ class Cycle(Rows[Step]):
         if found is None:
             self._ended = True
             raise StopIteration
-        step = Step(self._scene.solution("cycle", found), found)
-        all_numbers = {**step.solution.report, **found["bodies"], **found}
-        self.rows.append({name: all_numbers[name] for name in self.names})
+        solution = self._scene.solution("cycle", found)
+        step = Step(solution, self._direction(found["leg"]), found)
+        self.append({**found, **state(solution), "direction": step.direction})
+        self._ended = self._is_apart()
         return step
+
+    def _direction(self, leg: int) -> str:
+        """The direction of a leg; the start has none."""
+        if leg == 0:
+            return "start"
+        (name, before), (_, after) = self._loads[leg - 1 : leg + 1]
+        # the loads under which bodies come together as they grow
+        free = self._scene.inputs["boundary"] == "free"
+        pressing = free if name == "spring" else name != "mean_gap"
+        return "approach" if (after[-1] > before[-1]) == pressing else "withdrawal"
+
+    def _is_apart(self) -> bool:
+        """Whether the surfaces are apart in a withdrawal that is the last leg: there is no more to find."""
+        row = self.rows[-1]
+        ends = row["leg"] == len(self._loads) - 1 and row["direction"] == "withdrawal"
+        return bool(ends and row["contact_fraction"] == row["attractive_fraction"] == 0.0)
 
     @property
     def events(self) -> list[dict[str, Any]]:
@@ -152,6 +150,7 @@ def cycle(
     boundary: str = "periodic",
     absent_missing: bool = False,
     law: Any = None,
+    wall: str = "hard",
     steps: int = 50,
     smallest_step: float = 1e-4,
     imbalance: float = 1e-4,
@@ -166,7 +165,8 @@ def cycle(
 ) -> Cycle:
     """Follows a branch of equilibria through turning points, in steps that adapt themselves, and locates its jumps.
 
-    Parameters that are not here are those of `solve`.
+    If the last leg is a withdrawal, the cycle ends once the surfaces are apart. Parameters that are not here are those
+    of `solve`; a cycle needs a hard wall.
 
     Parameters
     ----------
@@ -212,17 +212,20 @@ def cycle(
     )
     if len(loads) < 2:
         raise ValueError("a cycle needs two turning points at least: give more loads")
+    if wall == "none":
+        raise ValueError("wall is none: a cycle needs wall='hard', or follow the loads by asperity.sweep")
     scene = Scene(
         heights,
         lengths,
-        absent_missing,
-        boundary,
-        modulus,
-        law,
-        precision,
-        tolerance,
-        max_iterations,
-        method,
-        threads,
+        modulus=modulus,
+        boundary=boundary,
+        absent_missing=absent_missing,
+        law=law,
+        wall=wall,
+        tolerance=tolerance,
+        max_iterations=max_iterations,
+        method=method,
+        precision=precision,
+        threads=threads,
     )
     return Cycle(scene, loads, (steps, smallest_step, imbalance, smooth), start, observe)

@@ -11,9 +11,6 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-    from ._solution import Solution
-    from ._topography import Topography
-
 _PREFIXES = {-12: "p", -9: "n", -6: "µ", -3: "m", 0: "", 3: "k", 6: "M", 9: "G", 12: "T"}
 
 
@@ -56,19 +53,17 @@ def _map(ax: Axes, field: NDArray[Any], lengths: tuple[float, float], length_uni
     return image
 
 
-def heights(topography: Topography, ax: Axes | None) -> Axes:
+def heights(field: NDArray[Any], lengths: tuple[float, float], length_unit: str | None, ax: Axes | None) -> Axes:
     """The heights of a map."""
     plt = _pyplot()
     if ax is None:
         _, ax = plt.subplots(figsize=(4.6, 3.8), layout="constrained")
-    field = np.asarray(topography)
-    lengths = topography.lengths or (float(topography.heights.shape[0]), float(topography.heights.shape[1]))
-    factor, unit = _scaled(field, topography.unit)
+    factor, unit = _scaled(field, length_unit)
     if field.ndim == 1:
-        _profile(ax, factor * field, lengths[0], topography.unit, color="0.2")
+        _profile(ax, factor * field, lengths[0], length_unit, color="0.2")
         ax.set_ylabel(_label("height", unit))
         return ax
-    image = _map(ax, factor * field, lengths, topography.unit, cmap="cividis")
+    image = _map(ax, factor * field, lengths, length_unit, cmap="cividis")
     ax.figure.colorbar(image, ax=ax, label=_label("height", unit))
     return ax
 
@@ -80,29 +75,32 @@ def _profile(ax: Axes, values: NDArray[Any], length: float, length_unit: str | N
     ax.set_xlabel(_label("x", unit))
 
 
-def solution(found: Solution, length_unit: str | None, pressure_unit: str | None) -> Figure:
+def contact_and_pressure(
+    contact: NDArray[np.bool_],
+    pressure: NDArray[Any],
+    lengths: tuple[float, float],
+    adhesive: bool,
+    contact_fraction: float,
+    length_unit: str | None,
+    pressure_unit: str | None,
+) -> Figure:
     """Contact and pressure of a solution, side by side."""
     plt = _pyplot()
-    # without adhesion the elastic pressure is the contact pressure but for the tolerance of the solve, of either sign
-    adhesive = found.report["law"] != "none"
-    field = found.pressure if adhesive else found.contact_pressure
-    factor, unit = _scaled(field, pressure_unit)
-    pressure = factor * np.asarray(field, dtype=float)
-    if found.gap.ndim == 1:
-        return _lines(found, pressure, length_unit, unit)
+    factor, unit = _scaled(pressure, pressure_unit)
+    pressure = factor * pressure
     figure, (left, right) = plt.subplots(
         1, 2, figsize=(8.6 if adhesive else 7.8, 3.4), sharey=True, layout="compressed"
     )
-    _map(left, found.contact.astype(float), found.lengths, length_unit, cmap="Greys", vmin=0, vmax=1.15)
-    left.set_title(f"contact {100 * found.contact_fraction:.3g} %")
+    _map(left, contact.astype(float), lengths, length_unit, cmap="Greys", vmin=0, vmax=1.15)
+    left.set_title(f"contact {100 * contact_fraction:.3g} %")
     # compression and tension differ by orders of magnitude: each has a scale of its own
     compression = np.ma.masked_less_equal(pressure, 0.0)
     largest = float(pressure.max()) if (pressure > 0).any() else 1.0
-    image = _map(right, compression, found.lengths, length_unit, cmap="YlOrRd", vmin=0.0, vmax=largest)
+    image = _map(right, compression, lengths, length_unit, cmap="YlOrRd", vmin=0.0, vmax=largest)
     bars = [(image, "compression" if adhesive else "pressure")]
     if adhesive:
         tension = np.ma.masked_less_equal(-pressure, 0.0)
-        image = _map(right, tension, found.lengths, length_unit, cmap="Blues", vmin=0.0, vmax=max(-pressure.min(), 0.0))
+        image = _map(right, tension, lengths, length_unit, cmap="Blues", vmin=0.0, vmax=max(-pressure.min(), 0.0))
         bars.append((image, "tension"))
     # the last bar is drawn next to the map
     for image, name in reversed(bars):
@@ -112,19 +110,25 @@ def solution(found: Solution, length_unit: str | None, pressure_unit: str | None
     return figure  # type: ignore[no-any-return]
 
 
-def _lines(found: Solution, pressure: NDArray[Any], length_unit: str | None, pressure_unit: str) -> Figure:
-    """Surfaces and pressure of a solution on a line."""
+def profiles(
+    sides: tuple[NDArray[Any], NDArray[Any]],
+    pressure: NDArray[Any],
+    length: float,
+    length_unit: str | None,
+    pressure_unit: str | None,
+) -> Figure:
+    """Surface and half-space of a solution on a line, and the pressure between them."""
     plt = _pyplot()
     figure, (upper, lower) = plt.subplots(2, 1, sharex=True, figsize=(5.2, 4.2), layout="constrained")
-    factor, unit = _scaled(found.heights, length_unit)
-    length = found.lengths[0]
-    _profile(upper, factor * found.heights, length, length_unit, color="0.2", label="surface")
-    _profile(upper, factor * found.displacement, length, length_unit, color="C0", label="half-space")
+    factor, unit = _scaled(sides[0], length_unit)
+    for side, color, name in zip(sides, ("0.2", "C0"), ("surface", "half-space")):
+        _profile(upper, factor * side, length, length_unit, color=color, label=name)
     upper.set_ylabel(_label("height", unit))
     upper.legend(frameon=False)
-    _profile(lower, pressure, length, length_unit, color="C3")
+    factor, unit = _scaled(pressure, pressure_unit)
+    _profile(lower, factor * pressure, length, length_unit, color="C3")
     lower.axhline(0.0, color="0.7", linewidth=0.8)
-    lower.set_ylabel(_label("pressure", pressure_unit))
+    lower.set_ylabel(_label("pressure", unit))
     upper.set_xlabel("")
     return figure  # type: ignore[no-any-return]
 
@@ -151,7 +155,7 @@ def cycle(
     force_unit: str | None,
 ) -> Axes:
     """Mean pressure over mean gap, or normal force over approach, a line for each leg, with the jumps dotted."""
-    free = any(approach is not None for approach in columns["approach"])
+    free = bool(np.isfinite(columns["approach"]).any())
     x, y = ("approach", "normal_force") if free else ("mean_gap", "mean_pressure")
     if ax is None:
         _, ax = _pyplot().subplots(figsize=(4.6, 3.4), layout="constrained")
@@ -159,16 +163,18 @@ def cycle(
     up_factor, up_unit = _scaled(columns[y], force_unit if free else pressure_unit)
     across, up = across_factor * columns[x], up_factor * columns[y]
     legs = columns["leg"]
-    jumps = np.array([drop is not None and drop > 0 for drop in columns["energy_drop"]], dtype=bool)
-    for leg in range(1, int(legs.max(initial=0)) + 1):
+    jumps = columns["energy_drop"] > 0
+    count = int(legs.max(initial=0))
+    for leg in range(1, count + 1):
         on = np.flatnonzero(legs == leg)
         if on.size == 0:
             continue
+        name = str(columns["direction"][on[0]]) + (f" {(leg + 1) // 2}" if count > 2 else "")
         on = np.concatenate([[on[0] - 1], on]) if on[0] > 0 else on
         # a line ends where the state jumps, and begins anew behind
         pieces = np.split(on, [k for k in range(1, on.size) if jumps[on[k]]])
         for k, piece in enumerate(pieces):
-            label = f"leg {leg}" if k == 0 else None
+            label = name if k == 0 else None
             ax.plot(across[piece], up[piece], color=f"C{leg - 1}", label=label)
         for k in on[1:][jumps[on[1:]]]:
             ax.plot(across[k - 1 : k + 1], up[k - 1 : k + 1], ":", color=f"C{leg - 1}")

@@ -10,7 +10,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from . import _asperity
+from . import _asperity, _law
+from ._control import Load
 from ._solution import Solution
 from ._topography import Topography, field_of, sides, taken
 from ._warnings import ConvergenceWarning, InputWarning
@@ -23,15 +24,18 @@ class Scene:
         self,
         heights: Any,
         lengths: float | tuple[float, float] | None,
-        absent_missing: bool,
-        boundary: str,
+        *,
         modulus: float,
+        boundary: str,
+        absent_missing: bool,
         law: Any,
-        precision: str,
+        wall: str,
         tolerance: float | None,
         max_iterations: int | None,
         method: str,
+        precision: str,
         threads: int | None,
+        nested: bool | None = False,
     ) -> None:
         self.topography: Topography = taken(heights, lengths)
         lengths = sides(self.topography)
@@ -42,10 +46,12 @@ class Scene:
             boundary,
             modulus,
             law,
+            wall,
             precision,
             tolerance,
             max_iterations,
             method,
+            nested,
             threads,
         )
         tolerance, max_iterations, threads = self.problem.inputs()
@@ -55,10 +61,9 @@ class Scene:
             "shape": list(self.topography.heights.shape),
             "lengths": list(lengths),
             "length_unit": self.topography.unit,
+            "boundary": boundary,
             "modulus": float(modulus),
-            "law": _law_name(law),
-            "work_of_adhesion": _number(law, "work_of_adhesion"),
-            "range": _number(law, "range"),
+            **_law.entries(law, wall),
             "method": method,
             "precision": precision,
             "tolerance": tolerance,
@@ -66,7 +71,7 @@ class Scene:
             "threads": threads,
             "version": _asperity.VERSION,
         }
-        self._law = law
+        self._adhesion = law
         self._warned: set[str] = set()
         if self.topography.periodic is False and boundary == "periodic":
             warnings.warn(
@@ -76,17 +81,45 @@ class Scene:
                 stacklevel=_outside(),
             )
 
-    def start(self, start: Solution | NDArray[np.floating[Any]] | None) -> NDArray[np.float64] | None:
-        """The gap from which to start."""
+    def start(self, start: Any, loads: list[Load]) -> NDArray[np.float64] | None:
+        """The gap from which to start under the first of some loads."""
         if start is None:
-            return None
+            return self._afar(loads)
+        if isinstance(start, str):
+            if start != "apart":
+                raise ValueError(f"start is {start!r}: it must be 'apart', an array of gaps, or a solution")
+            self.inputs["initial_gap"] = "apart"
+            return self._apart(*loads[0])
         self.inputs["initial_gap"] = "array"
         return field_of(start.gap if isinstance(start, Solution) else start, "start gaps")
+
+    def _afar(self, loads: list[Load]) -> NDArray[np.float64] | None:
+        """The start of bodies that come from afar: under loads that grow from an approach before touch.
+
+        With adhesion the default start of a solve would find them sticking.
+        """
+        if len(loads) < 2 or self.inputs["boundary"] != "free" or loads[0][0] not in ("approach", "spring"):
+            return None
+        (name, first), (_, second) = loads[:2]
+        return self._apart(name, first) if first[-1] < min(0.0, second[-1]) else None
+
+    def _apart(self, name: str, numbers: list[float]) -> NDArray[np.float64]:
+        """The gap of undeformed bodies at the approach, the mean gap, or the position at rest of a load."""
+        heights, at, free = self.topography.heights, numbers[-1], self.inputs["boundary"] == "free"
+        if name not in ("approach", "mean_gap", "spring"):
+            remedy = "an approach or a spring" if free else "a mean gap or a spring"
+            raise ValueError(f"start is 'apart', but {name} does not say how far: give {remedy}, or a gap to start from")
+        gap: NDArray[np.float64] = np.nanmax(heights) - heights - at if free else at + np.nanmean(heights) - heights
+        if np.nanmin(gap) < 0:
+            raise ValueError(
+                f"start is 'apart', but undeformed bodies overlap where {name} is {at}: give one at which they are apart"
+            )
+        return gap
 
     def solution(self, command: str, found: dict[str, Any]) -> Solution:
         """The solution of what the compiled core found, with its warnings given; raises what ended it early."""
         report = {"command": command, **found["report"], **self.inputs}
-        solution = Solution(self.topography, self._law, report, found)
+        solution = Solution(self.topography, self._adhesion, report, found)
         raised = found["raised"]
         if raised is not None:
             # an exception with slots has no room for it
@@ -99,32 +132,20 @@ class Scene:
                 text = f"{warning['code']}: {warning['message']}"
                 warnings.warn(text, InputWarning, stacklevel=_outside())
         if not solution.converged:
-            warnings.warn(
-                _not_converged(report, solution.boundary == "periodic"), ConvergenceWarning, stacklevel=_outside()
-            )
+            warnings.warn(_not_converged(report), ConvergenceWarning, stacklevel=_outside())
         return solution
 
 
-def _not_converged(report: dict[str, Any], periodic: bool) -> str:
+def _not_converged(report: dict[str, Any]) -> str:
     text = f"the solve ended as {report['status']} after {report['iterations']} iterations, "
     text += f"with a certified error of {report['relative_error']:.1e} for a tolerance of {report['tolerance']:.1e}"
-    held = "a mean gap" if periodic else "an approach"
+    held = "a mean gap" if report["boundary"] == "periodic" else "an approach"
     remedy = {
         "iteration-limit": "raise max_iterations, or start from a solution nearby",
         "stalled": "raise the tolerance" + (", or use precision='f64'" if report["precision"] == "f32" else ""),
         "detached": f"no equilibrium holds this tension: press more, or give {held}",
     }.get(report["status"])
     return f"{text}: {remedy}" if remedy else text
-
-
-def _law_name(law: Any) -> str:
-    names = {_asperity.Exponential: "exponential", _asperity.MaugisDugdale: "maugis-dugdale"}
-    return "none" if law is None else names.get(type(law), type(law).__name__)
-
-
-def _number(law: Any, name: str) -> float | None:
-    value = getattr(law, name, None)
-    return None if value is None else float(value)
 
 
 def _outside() -> int:

@@ -66,6 +66,10 @@ class Solution:
         Contact map.
     mode : ndarray or None
         Change of the gap along which the energy is softest, of mean square 1, where stability was asked for.
+    topography : Topography
+        Map of the heights that were solved.
+    law : object or None
+        Adhesion law.
     report : dict
         Account of the solve, with the keys of the tool's ``report.json``. ``"heights"`` is the file that they came from, if
         they came from one.
@@ -89,10 +93,11 @@ class Solution:
     report: dict[str, Any]
 
     def __init__(self, topography: Topography, law: Any, report: dict[str, Any], found: dict[str, Any]) -> None:
-        self._topography = topography
-        self._law = law
+        self.topography = topography
+        self.law = law
         self.report = report
-        self._bodies: dict[str, Any] = found["bodies"]
+        if found["statistics"] is not None:
+            self.statistics = ContactStatistics(*found["statistics"])
         for name in ("gap", "pressure", "contact_pressure", "contact"):
             setattr(self, name, found[name].reshape(topography.shape))
         self.mode = None if found["mode"] is None else found["mode"].reshape(topography.shape)
@@ -100,16 +105,16 @@ class Solution:
     @cached_property
     def statistics(self) -> ContactStatistics:
         """Areas, perimeter and clusters of the contact; computed when it is asked for."""
-        shape = self._topography.heights.shape
+        shape = self.topography.heights.shape
         gap, contact_pressure = self.gap.reshape(shape), self.contact_pressure.reshape(shape)
         return ContactStatistics(
-            *_asperity.contact_statistics(gap, contact_pressure, self.lengths, self.boundary, self._law)
+            *_asperity.contact_statistics(gap, contact_pressure, self.lengths, self.boundary, self.law)
         )
 
     @property
     def heights(self) -> NDArray[np.float64]:
         """Heights of the surface."""
-        return self._topography.heights.reshape(self._topography.shape)
+        return self.topography.heights.reshape(self.topography.shape)
 
     @property
     def lengths(self) -> tuple[float, float]:
@@ -150,12 +155,12 @@ class Solution:
     @property
     def boundary(self) -> str:
         """``"periodic"`` or ``"free"``."""
-        return str(self._bodies["boundary"])
+        return str(self.report["boundary"])
 
     @property
     def normal_force(self) -> float:
         """Normal force F = p̄·Lx·Ly, compression positive."""
-        return float(self._bodies["normal_force"])
+        return float(self.report["normal_force"])
 
     @property
     def approach(self) -> float | None:
@@ -163,13 +168,13 @@ class Solution:
 
         It is how far the bodies have moved towards each other since they would first touch undeformed.
         """
-        found: float | None = self._bodies["approach"]
+        found: float | None = self.report["approach"]
         return found
 
     @property
     def absent_points(self) -> int:
         """Number of absent nodes, at which nothing faces the half-space."""
-        return int(self._bodies["absent_points"])
+        return int(self.report["absent_points"])
 
     @property
     def edge_traction(self) -> float | None:
@@ -177,7 +182,7 @@ class Solution:
 
         Unless the body ends there, more than a thousandth says that the heights should go further.
         """
-        found: float | None = self._bodies["edge_traction"]
+        found: float | None = self.report["edge_traction"]
         return found
 
     @property
@@ -234,6 +239,8 @@ class Solution:
         rows.append(("certified error", f"{report['relative_error']:.1e}"))
         rows.append(("iterations", str(report["iterations"])))
         rows.append(("operator applications", str(report["operator_applications"])))
+        if report["levels"] is not None:
+            rows.append(("with coarser grids", f"{report['equivalent_applications']:.1f}"))
         rows.append(("time", f"{report['seconds']:.3f} s"))
         return rows
 
@@ -270,4 +277,14 @@ class Solution:
         matplotlib Figure
             ``savefig`` writes it as PDF or SVG.
         """
-        return _plot.solution(self, length_unit or self.report["length_unit"], pressure_unit)
+        # without adhesion the elastic pressure is the contact pressure but for the tolerance of the solve, of either sign
+        adhesive = self.report["law"] != "none"
+        pressure = np.asarray(self.pressure if adhesive else self.contact_pressure, dtype=float)
+        length_unit = length_unit or self.report["length_unit"]
+        if self.gap.ndim == 1:
+            return _plot.profiles(
+                (self.heights, self.displacement), pressure, self.lengths[0], length_unit, pressure_unit
+            )
+        return _plot.contact_and_pressure(
+            self.contact, pressure, self.lengths, adhesive, self.contact_fraction, length_unit, pressure_unit
+        )

@@ -24,11 +24,13 @@ def solve(
     boundary: str = "periodic",
     absent_missing: bool = False,
     law: Any = None,
+    wall: str = "hard",
     tolerance: float | None = None,
     max_iterations: int | None = None,
     method: str = "default",
     precision: str = "f64",
     start: Any = None,
+    nested: bool | None = None,
     observe: Callable[[Iteration], object] | None = None,
     stability: bool = False,
     leave: bool = False,
@@ -68,9 +70,13 @@ def solve(
     absent_missing : bool
         Takes missing points for absent nodes, at which nothing faces the half-space, as around a punch or in a hole.
         There the gap is infinite and the pressures are zero; fractions and the mean gap are of the other nodes.
-    law : Exponential, MaugisDugdale or an object of your own, optional
-        Adhesion law; none by default. An object with ``energy(gap)``, ``traction(gap)`` and ``slope(gap)`` of arrays
-        is a law, too: see `check_law`.
+    law : Law or an object of your own, optional
+        Adhesion law; none by default. `Exponential`, `MaugisDugdale`, `LennardJones`, `Morse`, `PowerLaw`,
+        `VanDerWaals` and `Tabulated` are laws, `CutOff` ends one, and with `Varying` its work of adhesion differs from
+        node to node. An object with ``energy(gap)``, ``traction(gap)`` and ``slope(gap)`` of arrays is a law, too: see
+        `check_law`.
+    wall : {"hard", "none"}
+        What keeps the surfaces apart: a rigid wall at zero gap, or the repulsion of `LennardJones` or `Morse` alone.
     tolerance : float, optional
         Certified relative error at which to stop; 1e-6 by default, 1e-4 in f32.
     max_iterations : int, optional
@@ -79,8 +85,13 @@ def solve(
         Preconditioned conjugate gradients, or Algorithm 3 of Rey, Anciaux and Molinari (2017).
     precision : {"f64", "f32"}
         Precision of the solve, and of the fields that it returns.
-    start : array_like or Solution, optional
-        Gap from which to start, of the shape of the heights. With adhesion it chooses the branch.
+    start : array_like, Solution or "apart", optional
+        Gap from which to start, of the shape of the heights. With adhesion it chooses the branch. ``"apart"`` are
+        undeformed bodies that come from afar, at the ``mean_gap``, the ``approach`` or the position at rest of the
+        ``spring``: by default those with adhesion are found sticking.
+    nested : bool, optional
+        Solves on coarser grids first, where these resolve the adhesion; ``report["grid_error"]`` estimates the error of
+        the grid then. None leaves it to the library, which does so where it is faster.
     observe : callable, optional
         Called with an `Iteration` in every iteration. ``raise StopIteration`` in it ends the solve; any other
         exception arrives as it was raised, with what was reached as its attribute ``solution``.
@@ -123,18 +134,24 @@ def solve(
     load = _control.one(
         mean_pressure=mean_pressure, mean_gap=mean_gap, normal_force=normal_force, approach=approach, spring=spring
     )
+    if nested and (start is not None or stability or leave):
+        raise ValueError("nested grids make their own start, and do not test stability: leave out start, stability and leave")
+    if leave and wall == "none":
+        raise ValueError("leave needs wall='hard': give stability=True alone")
     scene = Scene(
         heights,
         lengths,
-        absent_missing,
-        boundary,
-        modulus,
-        law,
-        precision,
-        tolerance,
-        max_iterations,
-        method,
-        threads,
+        modulus=modulus,
+        boundary=boundary,
+        absent_missing=absent_missing,
+        law=law,
+        wall=wall,
+        tolerance=tolerance,
+        max_iterations=max_iterations,
+        method=method,
+        precision=precision,
+        threads=threads,
+        nested=nested,
     )
-    found = scene.problem.solve(load, scene.start(start), observe, stability or leave, leave)
+    found = scene.problem.solve(load, scene.start(start, [load]), observe, stability or leave, leave)
     return scene.solution("solve", found)

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from . import _control, _plot
 from ._asperity import Iteration
-from ._columns import Rows
+from ._columns import OUTCOME, STATE, Rows, state
 from ._scene import Scene
 from ._solution import Solution
 
@@ -22,36 +22,12 @@ class Sweep(Rows[Solution]):
     solve.
     """
 
-    names = (
-        "control",
-        "control_value",
-        "mean_pressure",
-        "mean_contact_pressure",
-        "mean_gap",
-        "normal_force",
-        "approach",
-        "edge_traction",
-        "contact_fraction",
-        "corrected_contact_fraction",
-        "perimeter",
-        "clusters",
-        "largest_cluster",
-        "repulsive_fraction",
-        "attractive_fraction",
-        "elastic_energy",
-        "adhesive_energy",
-        "min_gap",
-        "relative_error",
-        "load_error",
-        "iterations",
-        "operator_applications",
-        "status",
-    )
+    names = STATE + OUTCOME
 
     def __init__(self, scene: Scene, loads: list[_control.Load], start: Any, observe: Any) -> None:
         super().__init__()
         self._scene, self._loads, self._observe = scene, loads, observe
-        self._start = scene.start(start)
+        self._start = scene.start(start, loads)
 
     def __len__(self) -> int:
         """The number of loads."""
@@ -67,10 +43,7 @@ class Sweep(Rows[Solution]):
         if solution.status == "stopped":
             # ended by the observer: the sweep goes no further
             self._loads = self._loads[: done + 1]
-        sizes = solution.statistics.cluster_sizes
-        counts = {"clusters": len(sizes), "largest_cluster": int(sizes[0]) if len(sizes) else 0}
-        all_numbers = {**solution.report, **found["bodies"], **solution.statistics._asdict(), **counts}
-        self.rows.append({name: all_numbers[name] for name in self.names})
+        self.append(state(solution))
         return solution
 
     def __repr__(self) -> str:
@@ -106,6 +79,7 @@ def sweep(
     boundary: str = "periodic",
     absent_missing: bool = False,
     law: Any = None,
+    wall: str = "hard",
     tolerance: float | None = None,
     max_iterations: int | None = None,
     method: str = "default",
@@ -116,7 +90,8 @@ def sweep(
 ) -> Sweep:
     """Solves under many loads, one after the other, each from where the ones before lead.
 
-    Parameters are those of `solve`, but for the loads.
+    Parameters are those of `solve`, but for the loads. Along approaches or springs that grow from a negative one, and
+    with a free boundary, it begins with the bodies apart.
 
     Parameters
     ----------
@@ -154,14 +129,15 @@ def sweep(
     scene = Scene(
         heights,
         lengths,
-        absent_missing,
-        boundary,
-        modulus,
-        law,
-        precision,
-        tolerance,
-        max_iterations,
-        method,
-        threads,
+        modulus=modulus,
+        boundary=boundary,
+        absent_missing=absent_missing,
+        law=law,
+        wall=wall,
+        tolerance=tolerance,
+        max_iterations=max_iterations,
+        method=method,
+        precision=precision,
+        threads=threads,
     )
     return Sweep(scene, loads, start, observe)

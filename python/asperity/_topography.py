@@ -89,7 +89,8 @@ class Topography:
         -------
         matplotlib Axes
         """
-        return _plot.heights(self, ax)
+        lengths = self.lengths or (float(self.heights.shape[0]), float(self.heights.shape[1]))
+        return _plot.heights(np.asarray(self), lengths, self.unit, ax)
 
 
 def read(path: str | os.PathLike[str]) -> Topography:
@@ -98,7 +99,7 @@ def read(path: str | os.PathLike[str]) -> Topography:
     Parameters
     ----------
     path : str or path
-        ``.npy``, ``.npz``, Gwyddion's ``.gsf`` or text, ``.xyz``, or a plain text matrix; the content decides.
+        ``.npy``, ``.npz``, Gwyddion's ``.gwy``, ``.gsf`` or text, ``.xyz``, or a plain text matrix; the content decides.
 
     Returns
     -------
@@ -144,10 +145,15 @@ def prepare(
     lengths: float | tuple[float, float] | None = None,
     *,
     unit: str | None = None,
+    missing: float | list[float] | None = None,
     scale: float | None = None,
     crop: tuple[int, int, int, int] | None = None,
     flip: bool = False,
-    detrend: str | None = None,
+    align_rows: str | int | None = None,
+    scan_axis: str = "x",
+    despike: float | None = None,
+    remove_form: str | None = None,
+    detrend: str | int | None = None,
     fill: bool = False,
     window: float | None = None,
     mirror: bool = False,
@@ -163,14 +169,25 @@ def prepare(
         Side lengths (Lx, Ly); one alone means square cells. Those of the map by default.
     unit : str, optional
         Unit of the heights after ``scale``, and of the side lengths.
+    missing : float or list of float, optional
+        Values that stand for missing points, as -9999, in the unit of the heights before ``scale``.
     scale : float, optional
         Factor of the heights, as 1e-9 for heights in nm and side lengths in m.
     crop : (int, int, int, int), optional
         First node along x and y, and numbers of nodes.
     flip : bool
         Peaks become valleys.
-    detrend : {"mean", "plane", "quadric"}, optional
-        Trend that is fitted and removed.
+    align_rows : {"median", "median-difference"} or int, optional
+        How scan lines are brought to one height; a number is the order of a polynomial that is taken from each.
+    scan_axis : {"x", "y"}
+        Direction of the scan lines.
+    despike : float, optional
+        Robust standard deviations from the median of the 5 x 5 nodes around it from which a node is a spike, and gets
+        that median; 10 leaves the features of most surfaces.
+    remove_form : {"sphere", "cylinder"}, optional
+        Form that is fitted and removed.
+    detrend : {"mean", "plane", "quadric"} or int, optional
+        Trend that is fitted and removed; a number is the order of a polynomial.
     fill : bool
         Missing points get values, smoothly from those around them.
     window : float, optional
@@ -193,11 +210,34 @@ def prepare(
     Topography(64 x 48 heights, 2e-06 x 1.5e-06 m)
     """
     given = taken(heights, lengths)
+    codes = [] if missing is None else [float(code) for code in np.ravel(missing)]
     made, sides, unit = _asperity.prepare(
-        given.heights, given.lengths, unit or given.unit, scale, crop, flip, detrend, fill, window, mirror, resample
+        given.heights,
+        given.lengths,
+        unit or given.unit,
+        codes,
+        scale,
+        crop,
+        flip,
+        _by_order(align_rows),
+        scan_axis,
+        despike,
+        remove_form,
+        _by_order(detrend),
+        fill,
+        window,
+        mirror,
+        resample,
     )
     periodic = True if mirror or window else given.periodic
     return Topography(made, sides, unit, periodic, given.source, given._is_line and made.shape[1] == 1)
+
+
+def _by_order(method: str | int | None) -> tuple[str, int] | None:
+    """A method by its name, or a polynomial by its order."""
+    if method is None:
+        return None
+    return (method, 0) if isinstance(method, str) else ("polynomial", int(method))
 
 
 def taken(heights: Any, lengths: float | tuple[float, float] | None = None) -> Topography:

@@ -2,7 +2,8 @@
 # # A law of one's own
 #
 # An adhesion law is three functions of the gap: the energy per area, its derivative, the traction, and the slope of the
-# traction. As an example that which van der Waals forces leave between two half-spaces, with a cut-off z₀.
+# traction. As an example charged surfaces in an electrolyte, by Derjaguin, Landau, Verwey and Overbeek: van der Waals
+# forces attract, and double layers repel over a Debye length κ⁻¹, so that there is a barrier on the way to contact.
 
 # %%
 from dataclasses import dataclass
@@ -14,20 +15,25 @@ import asperity
 
 
 @dataclass
-class VanDerWaals:
-    """φ(g) = −w z₀²/(g + z₀)²"""
+class Dlvo:
+    """φ(g) = −w z₀²/(g + z₀)² + v exp(−κg)"""
 
-    work_of_adhesion: float
-    cut_off: float
+    attraction: float  # w, an energy per area
+    contact_distance: float  # z₀
+    repulsion: float  # v, an energy per area
+    range: float  # the Debye length 1/κ
 
     def energy(self, gap):
-        return -self.work_of_adhesion * self.cut_off**2 / (gap + self.cut_off) ** 2
+        attraction = -self.attraction * self.contact_distance**2 / (gap + self.contact_distance) ** 2
+        return attraction + self.repulsion * np.exp(-gap / self.range)
 
     def traction(self, gap):
-        return 2 * self.work_of_adhesion * self.cut_off**2 / (gap + self.cut_off) ** 3
+        attraction = 2 * self.attraction * self.contact_distance**2 / (gap + self.contact_distance) ** 3
+        return attraction - self.repulsion / self.range * np.exp(-gap / self.range)
 
     def slope(self, gap):
-        return -6 * self.work_of_adhesion * self.cut_off**2 / (gap + self.cut_off) ** 4
+        attraction = -6 * self.attraction * self.contact_distance**2 / (gap + self.contact_distance) ** 4
+        return attraction + self.repulsion / self.range**2 * np.exp(-gap / self.range)
 
 
 # %% [markdown]
@@ -36,25 +42,25 @@ class VanDerWaals:
 # longer than with the exponential of the library.
 
 # %%
-law = VanDerWaals(work_of_adhesion=1e-4, cut_off=8e-3)
+law = Dlvo(attraction=1e-4, contact_distance=4e-3, repulsion=6e-5, range=6e-3)
 asperity.check_law(law, largest_gap=0.1)
 
 x = np.arange(128) / 128 - 0.5
 sphere = -(x[:, None] ** 2 + x**2) / 4  # radius of curvature 2
-gap = 0.0398
-own = asperity.solve(sphere, 1.0, modulus=1.0, mean_gap=gap, law=law)
-# the exponential of the same work of adhesion and the same traction at contact
-exponential = asperity.solve(sphere, 1.0, modulus=1.0, mean_gap=gap, law=asperity.Exponential(1e-4, 4e-3))
-for solution in (own, exponential):
+own = asperity.solve(sphere, 1.0, modulus=1.0, mean_gap=0.0398, law=law)
+# the same attraction alone, which the library has: the power law of exponent 2 and range z₀/2
+bare = asperity.solve(sphere, 1.0, modulus=1.0, mean_gap=0.0398, law=asperity.PowerLaw(1e-4, 2e-3, 2))
+for solution in (own, bare):
     print(f"{solution.report['law']:>12}: {solution.contact.sum()} nodes, mean pressure {solution.mean_pressure:.4e}")
-assert own.converged and exponential.converged
+assert own.converged and bare.converged
+assert own.mean_pressure > bare.mean_pressure
 
 # %%
 figure, ax = plt.subplots(figsize=(4.6, 3.4), layout="constrained")
-for solution, label in ((own, "van der Waals"), (exponential, "exponential")):
+for solution, label in ((own, "with double layers"), (bare, "without")):
     ax.plot(x, solution.pressure[:, 64], label=label)
 ax.axhline(0, color="0.7", linewidth=0.8)
 ax.set_xlabel("x")
 ax.set_ylabel("pressure across the contact")
-ax.legend(frameon=False)
+ax.legend(frameon=False, loc="upper left", fontsize="small")
 figure.savefig("own_law.png", dpi=150)

@@ -1,72 +1,95 @@
-//! The account of a solve, and the dictionary in which Python gets it.
+//! The account of a solve: all that its report and the solution of Python have.
 
-use asperity::contact::ContactArea;
+use asperity::accuracy::{GridError, Quantity};
+use asperity::contact::{ContactArea, ContactStatistics};
 use asperity::stability::Stability;
-use asperity::{Control, Grid, Real, Solution, Warning};
+use asperity::{Control, Grid, Level, NestedSolution, Real, Solution, Warning, WarningCode};
+use numpy::Element;
 use numpy::ndarray::Array2;
-use numpy::{Element, IntoPyArray};
-use pyo3::prelude::*;
-use pyo3::types::PyDict;
 use rayon::prelude::*;
-
-use crate::refusal::refusal;
-use crate::report;
 
 /// A scalar in which one can solve, and that numpy has.
 pub trait Scalar: Real + Element {}
 impl<T: Real + Element> Scalar for T {}
 
-/// The account of a solve: all that the report and the solution of Python have.
+/// The account of nested grids.
+pub struct Grids {
+    pub levels: Vec<Level>,
+    /// The applications on all of them in units of one on the finest.
+    pub applications: f64,
+    /// The estimated errors of the finest grid, where they can be told.
+    pub errors: Vec<(Quantity, Option<GridError>)>,
+}
+
+impl Grids {
+    /// The account of a solution, of a surface with so many nodes in its shortest wave.
+    pub fn of<T>(found: &NestedSolution<T>, nodes_per_wave: f64, control: Control) -> Self {
+        let all = [Quantity::Area, Quantity::Gap, Quantity::Pressure, Quantity::Stiffness];
+        let mu_rho = found.solution.report.mu_rho;
+        let error = |of: Quantity| {
+            of.check(control).ok()?;
+            GridError::of(&found.levels, of, nodes_per_wave, mu_rho)
+        };
+        let errors = all.into_iter().map(|of| (of, error(of))).collect();
+        Self { levels: found.levels.clone(), applications: found.equivalent_applications(), errors }
+    }
+}
+
+/// The account of a solve.
 pub struct Account<T> {
     pub solution: Solution<T>,
     pub contact: Array2<bool>,
     pub area: ContactArea,
+    /// The statistics of the contact.
+    pub statistics: Option<ContactStatistics>,
     /// The least (most tensile) and the greatest elastic pressure.
     pub pressures: (f64, f64),
     pub control: Control,
+    /// The nested grids, if they were used.
+    pub grids: Option<Grids>,
     pub stability: Option<Stability<T>>,
     /// The eigenvalue, energy drop and distance of each unstable equilibrium that was left.
     pub departures: Option<Vec<(f64, f64, f64)>>,
+    /// The node with the largest work of adhesion, where that varies.
+    pub strongest: Option<(usize, usize)>,
     pub warnings: Vec<Warning>,
     pub seconds: f64,
 }
 
 impl<T: Scalar> Account<T> {
-    /// The account of a solution, with the warnings of the answer alone.
-    pub fn of(solution: Solution<T>, grid: &Grid, modulus: f64, control: Control) -> asperity::Result<Self> {
+    /// The account of a solution, with the warnings of the answer alone. Bodies are apart where none touches, and no
+    /// traction is noticeable.
+    pub fn of(
+        solution: Solution<T>,
+        grid: &Grid,
+        control: Control,
+        (modulus, noticeable): (f64, f64),
+    ) -> asperity::Result<Self> {
         let contact = || {
             let map = solution.contact_map();
             ContactArea::of_solution(&solution, map.view(), grid).map(|area| (map, area))
         };
-        let (contact, pressures) = rayon::join(contact, || extremes(&solution.pressure));
+        let pressures = || (extremes(&solution.pressure), Warning::of_solution(&solution, modulus));
+        let (contact, (pressures, mut warnings)) = rayon::join(contact, pressures);
         let (contact, area) = contact?;
-        let warnings = Warning::of_solution(&solution, modulus);
-        let (stability, departures, seconds) = (None, None, 0.0);
-        Ok(Self { solution, contact, area, pressures, control, stability, departures, warnings, seconds })
+        // of bodies that are apart it says nothing how far the last of their attraction reaches
+        let apart = solution.report.contact_nodes == 0 && pressures.0.abs().max(pressures.1.abs()) <= noticeable;
+        warnings.retain(|warning| !(apart && warning.code == WarningCode::WindowEdge));
+        Ok(Self {
+            solution,
+            contact,
+            area,
+            statistics: None,
+            pressures,
+            control,
+            grids: None,
+            stability: None,
+            departures: None,
+            strongest: None,
+            warnings,
+            seconds: 0.0,
+        })
     }
-}
-
-/// The dictionary of an account, and the exception that ended its solve early.
-pub fn returned<'py, T: Scalar>(
-    py: Python<'py>,
-    found: (asperity::Result<Account<T>>, Option<PyErr>),
-) -> PyResult<Bound<'py, PyDict>> {
-    let (account, raised) = match found {
-        (Ok(account), raised) => (account, raised),
-        (Err(_), Some(raised)) => return Err(raised),
-        (Err(error), None) => return Err(refusal(error)),
-    };
-    let found = PyDict::new(py);
-    found.set_item("report", report::of(py, &account)?)?;
-    found.set_item("bodies", report::of_bodies(py, &account)?)?;
-    let Account { solution, contact, stability, .. } = account;
-    found.set_item("gap", solution.gap.into_pyarray(py))?;
-    found.set_item("pressure", solution.pressure.into_pyarray(py))?;
-    found.set_item("contact_pressure", solution.contact_pressure.into_pyarray(py))?;
-    found.set_item("contact", contact.into_pyarray(py))?;
-    found.set_item("mode", stability.map(|stability| stability.mode.into_pyarray(py)))?;
-    found.set_item("raised", raised)?;
-    Ok(found)
 }
 
 /// The least and the greatest value of a field.

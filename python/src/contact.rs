@@ -6,13 +6,10 @@ use numpy::{IntoPyArray, PyArray1, PyArray2, PyReadonlyArray2};
 use pyo3::prelude::*;
 
 use crate::account::Scalar;
+use crate::answer::{Statistics, statistics};
 use crate::inputs::Beyond;
 use crate::law::law;
 use crate::refusal::refusal;
-
-/// Nodes in contact, their share, its corrected value, the perimeter, sizes of clusters, and the shares of the nodes
-/// that repel, attract and do not notice each other.
-type Statistics<'py> = (usize, f64, f64, f64, Bound<'py, PyArray1<i64>>, f64, f64, f64);
 
 /// The statistics of a gap and a contact pressure, both in `f64` or both in `f32`.
 #[pyfunction]
@@ -44,18 +41,7 @@ fn of_fields<'py, T: Scalar>(
         let grid = Grid::new(gap.dim(), lengths)?;
         ContactStatistics::of_fields(gap, contact_pressure, (&grid, beyond.boundary(grid)), &law)
     });
-    let found = found.map_err(refusal)?;
-    let sizes: Vec<i64> = found.cluster_sizes.iter().map(|&size| size as i64).collect();
-    Ok((
-        found.contact_nodes,
-        found.contact_fraction,
-        found.corrected_contact_fraction,
-        found.perimeter,
-        sizes.into_pyarray(py),
-        found.repulsive_fraction,
-        found.attractive_fraction,
-        found.apart_fraction,
-    ))
+    Ok(statistics(py, found.map_err(refusal)?))
 }
 
 /// Sizes and labels of clusters.

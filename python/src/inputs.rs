@@ -1,8 +1,8 @@
-//! The inputs of a problem by the names of their keywords: body, load and settings. The law has a file of its own.
+//! The inputs of a problem by the names of their keywords: body, wall, load and settings. The law has a file of its own.
 
 use asperity::{
-    Boundary, Boussinesq, Control, Criterion, ElasticOperator, Grid, Real, Settings, Surface, Warning, WarningCode,
-    Westergaard,
+    Boundary, Boussinesq, ContactConstraint, Control, Criterion, ElasticOperator, Grid, NoWall, Projection, Real,
+    Settings, Surface, Warning, WarningCode, Westergaard,
 };
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -55,6 +55,35 @@ impl Beyond {
     }
 }
 
+/// What keeps the surfaces apart.
+#[derive(Clone, Copy, PartialEq)]
+pub enum Wall {
+    /// A rigid wall, at zero gap
+    Hard,
+    /// The law itself
+    None,
+}
+
+impl Wall {
+    /// The wall of a name.
+    pub fn of(name: &str) -> PyResult<Self> {
+        match name {
+            "hard" => Ok(Self::Hard),
+            "none" => Ok(Self::None),
+            other => Err(PyValueError::new_err(format!("wall is {other}: it must be hard or none"))),
+        }
+    }
+}
+
+impl<T: Real> ContactConstraint<T> for Wall {
+    fn wall(&self) -> asperity::Wall<'_, T> {
+        match self {
+            Self::Hard => Projection.wall(),
+            Self::None => NoWall.wall(),
+        }
+    }
+}
+
 /// A load as Python passes it: the name of the keyword and its numbers.
 pub type Load = (String, Vec<f64>);
 
@@ -70,9 +99,9 @@ pub fn control((name, numbers): &Load) -> PyResult<Control> {
     }
 }
 
-/// The name and the value of a load, as in the tool's reports.
-pub fn name_and_value(control: Control) -> (&'static str, f64) {
-    (control.name(), control.value())
+/// The stiffness of a spring, if the load is one.
+pub fn stiffness(control: Control) -> Option<f64> {
+    if let Control::Spring { stiffness, .. } = control { Some(stiffness) } else { None }
 }
 
 /// The settings of a solver.

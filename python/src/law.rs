@@ -1,58 +1,202 @@
 //! Adhesion laws: those of the library as classes, and any object of Python with the three functions of a law.
 
-use std::sync::{Mutex, PoisonError};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
-use asperity::{AdhesionLaw, NoAdhesion, Real};
-use numpy::PyArray1;
-use pyo3::exceptions::{PyTypeError, PyValueError};
+use asperity::{AdhesionLaw, Error, NoAdhesion, Real};
+use numpy::ndarray::ArrayD;
+use numpy::{PyArray1, ToPyArray};
+use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
-use crate::numbers::{Numbers, mapped};
+use crate::functions::{self, Functions};
+use crate::numbers::{Numbers, mapped, returned};
 use crate::refusal::refusal;
 use crate::table::Table;
 
-/// A law of the library, which is given by work of adhesion and range, as a class.
+/// A law in either precision.
+#[derive(Clone, PartialEq)]
+pub enum Form {
+    Exponential(asperity::Exponential),
+    MaugisDugdale(asperity::MaugisDugdale),
+    LennardJones(asperity::LennardJones),
+    Morse(asperity::Morse),
+    PowerLaw(asperity::PowerLaw),
+    Tabulated(asperity::Tabulated),
+    CutOff(asperity::CutOff<Box<Form>>),
+    Varying(asperity::Varying<Box<Form>>),
+    /// That of an object of Python
+    Table(Arc<Table>),
+}
+
+impl Form {
+    /// The form of an object: that of a law of the library, or a table of the functions that it has.
+    fn of(object: &Bound<'_, PyAny>) -> PyResult<Self> {
+        match object.cast::<Law>() {
+            Ok(law) => Ok(law.get().0.clone()),
+            Err(_) => Ok(Self::Table(Arc::new(Table::of(&Functions::of(object)?)?))),
+        }
+    }
+
+    fn law<T: Real>(&self) -> &dyn AdhesionLaw<T> {
+        match self {
+            Self::Exponential(law) => law,
+            Self::MaugisDugdale(law) => law,
+            Self::LennardJones(law) => law,
+            Self::Morse(law) => law,
+            Self::PowerLaw(law) => law,
+            Self::Tabulated(law) => law,
+            Self::CutOff(law) => law,
+            Self::Varying(law) => law,
+            Self::Table(law) => law.as_ref(),
+        }
+    }
+}
+
+impl<T: Real> AdhesionLaw<T> for Form {
+    fn energy(&self, gap: T) -> T {
+        self.law().energy(gap)
+    }
+    fn traction(&self, gap: T) -> T {
+        self.law().traction(gap)
+    }
+    fn slope(&self, gap: T) -> T {
+        self.law().slope(gap)
+    }
+    fn work_of_adhesion(&self) -> T {
+        self.law().work_of_adhesion()
+    }
+    fn range(&self) -> T {
+        self.law().range()
+    }
+    fn is_zero(&self) -> bool {
+        self.law::<T>().is_zero()
+    }
+    fn rest(&self) -> Option<T> {
+        self.law().rest()
+    }
+    fn shape(&self) -> Option<(usize, usize)> {
+        self.law::<T>().shape()
+    }
+    fn coarsened(&self, stride: (usize, usize)) -> Option<Box<dyn AdhesionLaw<T> + '_>> {
+        self.law().coarsened(stride)
+    }
+    fn smoothed(&self, compliance: T) -> Option<Box<dyn AdhesionLaw<T> + '_>> {
+        self.law().smoothed(compliance)
+    }
+    fn energies(&self, first: usize, gaps: &[T], energies: &mut [T]) {
+        self.law().energies(first, gaps, energies);
+    }
+    fn tractions(&self, first: usize, gaps: &[T], tractions: &mut [T]) {
+        self.law().tractions(first, gaps, tractions);
+    }
+    fn slopes(&self, first: usize, gaps: &[T], slopes: &mut [T]) {
+        self.law().slopes(first, gaps, slopes);
+    }
+    fn tractions_and_slopes(&self, first: usize, gaps: &[T], tractions: &mut [T], slopes: &mut [T]) {
+        self.law().tractions_and_slopes(first, gaps, tractions, slopes);
+    }
+}
+
+/// The law of an object in the precision of a solve; no adhesion for `None`.
+pub fn law<T: Real>(object: &Bound<'_, PyAny>) -> PyResult<Box<dyn AdhesionLaw<T>>> {
+    if object.is_none() { Ok(Box::new(NoAdhesion)) } else { Ok(Box::new(Form::of(object)?)) }
+}
+
+/// The node at which the work of adhesion of an object is largest, if it varies.
+pub fn strongest(object: &Bound<'_, PyAny>) -> Option<(usize, usize)> {
+    match &object.cast::<Law>().ok()?.get().0 {
+        Form::Varying(law) => Some(law.strongest()),
+        _ => None,
+    }
+}
+
+/// An adhesion law of the library: functions of the gap between the surfaces, a length.
+#[pyclass(frozen, eq, subclass, module = "asperity")]
+#[derive(Clone, PartialEq)]
+pub struct Law(Form);
+
+#[pymethods]
+impl Law {
+    /// Adhesive energy φ(g) per area, of the shape of the gaps.
+    fn energy<'py>(&self, py: Python<'py>, gap: Numbers<'py>) -> PyResult<Bound<'py, PyAny>> {
+        self.at(py, &gap, AdhesionLaw::energy, AdhesionLaw::energies)
+    }
+    /// Adhesive traction φ'(g), positive attracts, of the shape of the gaps.
+    fn traction<'py>(&self, py: Python<'py>, gap: Numbers<'py>) -> PyResult<Bound<'py, PyAny>> {
+        self.at(py, &gap, AdhesionLaw::traction, AdhesionLaw::tractions)
+    }
+    /// Slope of the traction φ''(g), of the shape of the gaps.
+    fn slope<'py>(&self, py: Python<'py>, gap: Numbers<'py>) -> PyResult<Bound<'py, PyAny>> {
+        self.at(py, &gap, AdhesionLaw::slope, AdhesionLaw::slopes)
+    }
+    /// The constructor's call, with its parameters by name.
+    fn __repr__(law: &Bound<'_, Self>) -> PyResult<String> {
+        let names: Vec<String> = law.getattr("__match_args__")?.extract()?;
+        let values: Vec<Bound<'_, PyAny>> = law.call_method0("__getnewargs__")?.extract()?;
+        let parameters = names.iter().zip(values).map(|(name, value)| Ok(format!("{name}={}", value.repr()?)));
+        Ok(format!("{}({})", law.get_type().name()?, parameters.collect::<PyResult<Vec<_>>>()?.join(", ")))
+    }
+}
+
+impl Law {
+    /// A function at gaps of any shape; where the work of adhesion varies, at one for each of its nodes or one for all.
+    fn at<'py>(
+        &self,
+        py: Python<'py>,
+        gap: &Numbers<'py>,
+        one: impl Fn(&Form, f64) -> f64,
+        all: impl Fn(&Form, usize, &[f64], &mut [f64]),
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let Some((nx, ny)) = AdhesionLaw::<f64>::shape(&self.0) else {
+            return mapped(py, gap, |gap| one(&self.0, gap));
+        };
+        let gap = gap.as_array();
+        let gap = if gap.len() == 1 { ArrayD::from_elem(vec![nx, ny], gap.sum()) } else { gap.to_owned() };
+        if gap.len() != nx * ny {
+            return Err(PyValueError::new_err(format!(
+                "gap has shape {:?}: the work of adhesion varies, so that it must be [{nx}, {ny}], or one number",
+                gap.shape()
+            )));
+        }
+        let mut values = ArrayD::zeros(gap.shape());
+        let gaps: Vec<f64> = gap.iter().copied().collect();
+        all(&self.0, 0, &gaps, values.as_slice_mut().unwrap_or_default());
+        returned(py, values)
+    }
+}
+
+/// The type of a parameter's name.
+macro_rules! name {
+    ($parameter:ident) => { &'static str };
+}
+
+/// A law of the library as a class: its parameters, and how it is made of them.
 macro_rules! class {
-    ($(#[$doc:meta])* $name:ident) => {
+    ($(#[$doc:meta])* $name:ident($($parameter:ident: $type:ty $(= $default:tt)?),*), $make:expr) => {
         $(#[$doc])*
-        #[pyclass(frozen, eq, module = "asperity")]
-        #[derive(Clone, PartialEq)]
-        pub struct $name(asperity::$name);
+        #[pyclass(frozen, extends = Law, module = "asperity")]
+        pub struct $name { $($parameter: $type),* }
 
         #[pymethods]
         impl $name {
+            #[classattr]
+            #[expect(non_upper_case_globals, reason = "Python's name")]
+            const __match_args__: ($(name!($parameter),)*) = ($(stringify!($parameter),)*);
             #[new]
-            fn new(work_of_adhesion: f64, range: f64) -> PyResult<Self> {
-                asperity::$name::new(work_of_adhesion, range).map(Self).map_err(refusal)
+            #[pyo3(signature = ($($parameter $(= $default)?),*))]
+            fn new($($parameter: $type),*) -> PyResult<PyClassInitializer<Self>> {
+                let form: asperity::Result<Form> = $make;
+                Ok(PyClassInitializer::from(Law(form.map_err(refusal)?)).add_subclass(Self { $($parameter),* }))
             }
-            /// Work of adhesion w, an energy per area.
-            #[getter]
-            fn work_of_adhesion(&self) -> f64 {
-                self.0.work_of_adhesion()
-            }
-            /// Range ρ, a length.
-            #[getter]
-            fn range(&self) -> f64 {
-                self.0.range()
-            }
-            /// Adhesive energy φ(g) per area, of the shape of the gaps.
-            fn energy<'py>(&self, py: Python<'py>, gap: Numbers<'py>) -> PyResult<Bound<'py, PyAny>> {
-                mapped(py, &gap, |gap| self.0.energy(gap))
-            }
-            /// Adhesive traction φ'(g), positive attracts, of the shape of the gaps.
-            fn traction<'py>(&self, py: Python<'py>, gap: Numbers<'py>) -> PyResult<Bound<'py, PyAny>> {
-                mapped(py, &gap, |gap| self.0.traction(gap))
-            }
-            /// Slope of the traction φ''(g), of the shape of the gaps.
-            fn slope<'py>(&self, py: Python<'py>, gap: Numbers<'py>) -> PyResult<Bound<'py, PyAny>> {
-                mapped(py, &gap, |gap| self.0.slope(gap))
-            }
-            fn __repr__(&self) -> String {
-                let (work, range) = (self.0.work_of_adhesion(), self.0.range());
-                format!(concat!(stringify!($name), "(work_of_adhesion={:?}, range={:?})"), work, range)
-            }
-            fn __getnewargs__(&self) -> (f64, f64) {
-                (self.0.work_of_adhesion(), self.0.range())
+            $(
+                #[getter]
+                fn $parameter(&self) -> $type {
+                    self.$parameter
+                }
+            )*
+            fn __getnewargs__(&self) -> ($($type,)*) {
+                ($(self.$parameter,)*)
             }
         }
     };
@@ -74,7 +218,8 @@ class! {
     /// >>> law = asperity.Exponential(work_of_adhesion=0.05, range=2e-9)
     /// >>> law.energy(0.0)
     /// -0.05
-    Exponential
+    Exponential(work_of_adhesion: f64, range: f64),
+    asperity::Exponential::new(work_of_adhesion, range).map(Form::Exponential)
 }
 class! {
     /// The law of Maugis and Dugdale: a constant traction w/ρ where the gap is below ρ.
@@ -91,131 +236,277 @@ class! {
     /// >>> import asperity
     /// >>> asperity.MaugisDugdale(work_of_adhesion=1e-4, range=2e-3).traction([0.0, 3e-3])
     /// array([0.05, 0.  ])
-    MaugisDugdale
+    MaugisDugdale(work_of_adhesion: f64, range: f64),
+    asperity::MaugisDugdale::new(work_of_adhesion, range).map(Form::MaugisDugdale)
 }
-
-/// The law of an object: none of `None`, a class of the library, or a table of the functions that the object has.
-pub fn law<T: Real>(object: &Bound<'_, PyAny>) -> PyResult<Box<dyn AdhesionLaw<T>>> {
-    if object.is_none() {
-        return Ok(Box::new(NoAdhesion));
-    }
-    if let Ok(law) = object.cast::<Exponential>() {
-        return Ok(Box::new(law.get().0));
-    }
-    if let Ok(law) = object.cast::<MaugisDugdale>() {
-        return Ok(Box::new(law.get().0));
-    }
-    Ok(Box::new(Table::of(&Functions::of(object)?)?))
-}
-
-/// The three functions of a law, in the order in which each is the derivative of the one before.
-#[derive(Clone, Copy)]
-pub enum Function {
-    Energy,
-    Traction,
-    Slope,
-}
-
-impl Function {
-    pub const ALL: [Self; 3] = [Self::Energy, Self::Traction, Self::Slope];
-
-    /// The name of the method.
-    fn method(self) -> &'static str {
-        match self {
-            Self::Energy => "energy",
-            Self::Traction => "traction",
-            Self::Slope => "slope",
-        }
-    }
-
-    /// The name in messages, as the library has it.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Energy => "adhesive energy",
-            Self::Traction => "adhesive traction",
-            Self::Slope => "slope of the adhesive traction",
-        }
-    }
-}
-
-/// An object of Python with the methods `energy`, `traction` and `slope` of an array of gaps.
-pub struct Functions<'py> {
-    object: Bound<'py, PyAny>,
-}
-
-impl<'py> Functions<'py> {
-    /// The functions of an object.
+class! {
+    /// The law of Lennard-Jones between two half-spaces, φ'(g) = 8w/3z₀ (x³ − x⁹) with x = z₀/g.
     ///
-    /// # Errors
-    /// `TypeError` if it lacks one.
-    pub fn of(object: &Bound<'py, PyAny>) -> PyResult<Self> {
-        for method in Function::ALL.map(Function::method) {
-            if !object.getattr(method).is_ok_and(|method| method.is_callable()) {
-                let class = object.get_type().name()?;
-                return Err(PyTypeError::new_err(format!(
-                    "law is a {class} without a method {method}(gap): it must have energy, traction and slope, each of \
-                     an array of gaps, or be asperity.Exponential, asperity.MaugisDugdale or None"
+    /// It attracts beyond the distance of rest z₀, and repels below: for a solve with ``wall="none"``, where contact is
+    /// where it repels. For one with ``wall="hard"`` it has to be cut at z₀, from which the gap counts then.
+    ///
+    /// Parameters
+    /// ----------
+    /// work_of_adhesion : float
+    ///     Work of adhesion w > 0, an energy per area.
+    /// range : float
+    ///     Distance of rest z₀ > 0, a length.
+    /// cut : bool
+    ///     Leaves the repulsion to a wall at z₀: x = z₀/(z₀ + g).
+    ///
+    /// Examples
+    /// --------
+    /// >>> import asperity
+    /// >>> law = asperity.LennardJones(work_of_adhesion=0.05, range=3e-10)
+    /// >>> law.traction(3e-10), bool(law.traction(2.9e-10) < 0)
+    /// (0.0, True)
+    LennardJones(work_of_adhesion: f64, range: f64, cut: bool = false),
+    asperity::LennardJones::new(work_of_adhesion, range)
+        .map(|law| Form::LennardJones(if cut { law.cut() } else { law }))
+}
+class! {
+    /// The law of Morse, φ(g) = w (e² − 2e) with e = exp(−g/ρ): it attracts at g > 0, and repels at g < 0.
+    ///
+    /// With ``wall="none"`` it keeps the surfaces apart by itself; with a wall at g = 0 the attraction is what counts.
+    ///
+    /// Parameters
+    /// ----------
+    /// work_of_adhesion : float
+    ///     Work of adhesion w > 0, an energy per area.
+    /// range : float
+    ///     Range ρ > 0, a length.
+    ///
+    /// Examples
+    /// --------
+    /// >>> import asperity
+    /// >>> asperity.Morse(work_of_adhesion=0.05, range=5e-10).energy(0.0)
+    /// -0.05
+    Morse(work_of_adhesion: f64, range: f64),
+    asperity::Morse::new(work_of_adhesion, range).map(Form::Morse)
+}
+class! {
+    /// A power law, φ(g) = −w (1 + g/nρ)⁻ⁿ. Its tail reaches far: `CutOff` ends it.
+    ///
+    /// Parameters
+    /// ----------
+    /// work_of_adhesion : float
+    ///     Work of adhesion w ≥ 0, an energy per area.
+    /// range : float
+    ///     Range ρ > 0, a length.
+    /// exponent : float
+    ///     Exponent n > 0 of the energy.
+    ///
+    /// Examples
+    /// --------
+    /// >>> import asperity
+    /// >>> asperity.PowerLaw(work_of_adhesion=0.05, range=2e-9, exponent=3).traction(0.0)
+    /// 25000000.0
+    PowerLaw(work_of_adhesion: f64, range: f64, exponent: f64),
+    asperity::PowerLaw::new(work_of_adhesion, range, exponent).map(Form::PowerLaw)
+}
+class! {
+    /// The van der Waals attraction of two half-spaces, φ(g) = −A/12π(D₀ + g)². Its tail reaches far: `CutOff` ends it.
+    ///
+    /// Parameters
+    /// ----------
+    /// hamaker : float
+    ///     Hamaker's constant A ≥ 0, an energy.
+    /// range : float
+    ///     Distance D₀ > 0 between the surfaces in contact, a length, often taken to be 0.165 nm.
+    ///
+    /// Examples
+    /// --------
+    /// >>> import asperity
+    /// >>> law = asperity.VanDerWaals(hamaker=6e-20, range=0.165e-9)
+    /// >>> f"work of adhesion {-law.energy(0.0):.4f} J/m²"
+    /// 'work of adhesion 0.0585 J/m²'
+    VanDerWaals(hamaker: f64, range: f64),
+    asperity::PowerLaw::van_der_waals(hamaker, range).map(Form::PowerLaw)
+}
+
+/// A law of which the traction is a monotone cubic through the points of a table.
+///
+/// Parameters
+/// ----------
+/// gaps : array_like, shape (N,)
+///     Gaps, lengths that rise from zero.
+/// tractions : array_like, shape (N,)
+///     Tractions, attraction positive; the last one is zero.
+/// source : str, optional
+///     File that they come from, as `read` sets it.
+///
+/// Examples
+/// --------
+/// >>> import asperity
+/// >>> law = asperity.Tabulated([0.0, 1e-9, 2e-9], [50e6, 25e6, 0.0])
+/// >>> f"{-law.energy(0.0):.3f}"
+/// '0.050'
+#[pyclass(frozen, extends = Law, module = "asperity")]
+pub struct Tabulated {
+    gaps: Vec<f64>,
+    tractions: Vec<f64>,
+    #[pyo3(get)]
+    source: Option<String>,
+}
+
+#[pymethods]
+impl Tabulated {
+    #[classattr]
+    #[expect(non_upper_case_globals, reason = "Python's name")]
+    const __match_args__: (&str, &str, &str) = ("gaps", "tractions", "source");
+    #[new]
+    #[pyo3(signature = (gaps, tractions, source = None))]
+    fn new(gaps: Numbers<'_>, tractions: Numbers<'_>, source: Option<String>) -> PyResult<PyClassInitializer<Self>> {
+        let [gaps, tractions] = [gaps, tractions].map(|values| values.as_array().iter().copied().collect());
+        Self::through(gaps, tractions, source).map_err(refusal)
+    }
+    /// The law of a file with a gap and a traction on each line.
+    ///
+    /// Parameters
+    /// ----------
+    /// path : str or path
+    ///     A text of two columns, or ``.npy``.
+    #[staticmethod]
+    fn read(py: Python<'_>, path: PathBuf) -> PyResult<Py<Self>> {
+        Py::new(py, Self::of_file(&path).map_err(refusal)?)
+    }
+    #[getter]
+    fn gaps<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+        self.gaps.to_pyarray(py)
+    }
+    #[getter]
+    fn tractions<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+        self.tractions.to_pyarray(py)
+    }
+    fn __getnewargs__<'py>(
+        &self,
+        py: Python<'py>,
+    ) -> (Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>, Option<String>) {
+        (self.gaps(py), self.tractions(py), self.source.clone())
+    }
+}
+
+impl Tabulated {
+    fn through(
+        gaps: Vec<f64>,
+        tractions: Vec<f64>,
+        source: Option<String>,
+    ) -> asperity::Result<PyClassInitializer<Self>> {
+        let law = Law(Form::Tabulated(asperity::Tabulated::new(&gaps, &tractions)?));
+        Ok(PyClassInitializer::from(law).add_subclass(Self { gaps, tractions, source }))
+    }
+
+    fn of_file(path: &Path) -> asperity::Result<PyClassInitializer<Self>> {
+        let table = asperity::io::read_field(path)?;
+        if table.ncols() != 2 {
+            let columns = table.ncols();
+            let reason = format!("has {columns} columns, not two: put a gap and a traction on each line");
+            return Err(Error::file(path, reason));
+        }
+        let [gaps, tractions] = [0, 1].map(|column| table.column(column).to_vec());
+        let source = Some(path.to_string_lossy().into_owned());
+        Self::through(gaps, tractions, source).map_err(|error| Error::file(path, format!("is no law: {error}")))
+    }
+}
+
+/// A law that ends at a gap, smoothly: zero from there on, with energy, traction and slope continuous.
+///
+/// Parameters
+/// ----------
+/// law : Law or an object of your own
+///     Law that reaches further.
+/// distance : float
+///     Gap > 0 at which it ends, a length.
+///
+/// Examples
+/// --------
+/// >>> import asperity
+/// >>> law = asperity.CutOff(asperity.VanDerWaals(hamaker=6e-20, range=0.165e-9), distance=5e-9)
+/// >>> law.traction(5e-9)
+/// 0.0
+#[pyclass(frozen, extends = Law, module = "asperity")]
+pub struct CutOff {
+    #[pyo3(get)]
+    law: Py<PyAny>,
+    #[pyo3(get)]
+    distance: f64,
+}
+
+#[pymethods]
+impl CutOff {
+    #[classattr]
+    #[expect(non_upper_case_globals, reason = "Python's name")]
+    const __match_args__: (&str, &str) = ("law", "distance");
+    #[new]
+    fn new(law: &Bound<'_, PyAny>, distance: f64) -> PyResult<PyClassInitializer<Self>> {
+        let form = Form::of(law)?;
+        if matches!(form, Form::Varying(_) | Form::CutOff(_)) {
+            return Err(PyValueError::new_err(
+                "the law to be cut off is cut off already, or varies: give Varying(CutOff(law, distance), \
+                 work_of_adhesion)",
+            ));
+        }
+        let form = asperity::CutOff::new(Box::new(form), distance).map_err(refusal)?;
+        let own = Self { law: law.clone().unbind(), distance };
+        Ok(PyClassInitializer::from(Law(Form::CutOff(form))).add_subclass(own))
+    }
+    fn __getnewargs__(&self, py: Python<'_>) -> (Py<PyAny>, f64) {
+        (self.law.clone_ref(py), self.distance)
+    }
+}
+
+/// A law of which the work of adhesion differs from node to node: energy, traction and slope in proportion to it.
+///
+/// Parameters
+/// ----------
+/// law : Law or an object of your own
+///     Law that varies; its own work of adhesion > 0 is replaced.
+/// work_of_adhesion : array_like, shape (Nx, Ny) or (N,)
+///     Works of adhesion ≥ 0 at the nodes of the heights, energies per area.
+///
+/// Examples
+/// --------
+/// >>> import numpy as np, asperity
+/// >>> wetted = np.where(np.arange(64)[:, None] < 32, 0.07, 0.02) * np.ones((64, 64))
+/// >>> law = asperity.Varying(asperity.Exponential(work_of_adhesion=0.07, range=2e-9), wetted)
+/// >>> law.energy(0.0)[[0, 63], 0]
+/// array([-0.07, -0.02])
+#[pyclass(frozen, extends = Law, module = "asperity")]
+pub struct Varying {
+    #[pyo3(get)]
+    law: Py<PyAny>,
+    #[pyo3(get)]
+    work_of_adhesion: Py<PyAny>,
+}
+
+#[pymethods]
+impl Varying {
+    #[classattr]
+    #[expect(non_upper_case_globals, reason = "Python's name")]
+    const __match_args__: (&str, &str) = ("law", "work_of_adhesion");
+    #[new]
+    fn new(law: &Bound<'_, PyAny>, work_of_adhesion: Numbers<'_>) -> PyResult<PyClassInitializer<Self>> {
+        let form = Form::of(law)?;
+        if matches!(form, Form::Varying(_)) {
+            return Err(PyValueError::new_err("the law varies already: give the law that it is made of"));
+        }
+        let works = work_of_adhesion.as_array();
+        let map = match *works.shape() {
+            [n] => works.to_owned().into_shape_with_order((n, 1)),
+            [nx, ny] => works.to_owned().into_shape_with_order((nx, ny)),
+            ref shape => {
+                return Err(PyValueError::new_err(format!(
+                    "work_of_adhesion has shape {shape:?}: it must be that of the heights, (Nx, Ny), or (N,) on a line"
                 )));
             }
-        }
-        Ok(Self { object: object.clone() })
+        };
+        let map = map.map_err(|error| PyValueError::new_err(error.to_string()))?;
+        let varying = asperity::Varying::new(Box::new(form), map.view()).map_err(refusal)?;
+        let own = Self { law: law.clone().unbind(), work_of_adhesion: returned(law.py(), works.to_owned())?.unbind() };
+        Ok(PyClassInitializer::from(Law(Form::Varying(varying))).add_subclass(own))
     }
-
-    /// A function at many gaps, in one call.
-    ///
-    /// # Errors
-    /// What the method raises, and `ValueError` if it returns another number of values.
-    pub fn at(&self, function: Function, gaps: &[f64]) -> PyResult<Vec<f64>> {
-        let method = function.method();
-        let found: Numbers<'_> =
-            self.object.call_method1(method, (PyArray1::from_slice(self.object.py(), gaps),))?.extract()?;
-        let found = found.as_array();
-        match found.len() {
-            1 => Ok(vec![found.sum(); gaps.len()]),
-            count if count == gaps.len() => Ok(found.iter().copied().collect()),
-            _ => Err(PyValueError::new_err(format!(
-                "law.{method} returned an array of shape {:?} for gaps of shape [{}]: it must return one value for \
-                 each gap",
-                found.shape(),
-                gaps.len()
-            ))),
-        }
-    }
-
-    /// A number that the object may have as an attribute.
-    pub fn number(&self, name: &str) -> PyResult<Option<f64>> {
-        match self.object.getattr_opt(name)? {
-            Some(value) if !value.is_none() => value.extract().map(Some),
-            _ => Ok(None),
-        }
-    }
-}
-
-/// A law of Python, called for each gap; keeps the first exception.
-struct Called {
-    object: Py<PyAny>,
-    raised: Mutex<Option<PyErr>>,
-}
-
-impl Called {
-    fn at(&self, function: Function, gap: f64) -> f64 {
-        let found = Python::attach(|py| Functions { object: self.object.bind(py).clone() }.at(function, &[gap]));
-        found.map(|values| values[0]).unwrap_or_else(|error| {
-            self.raised.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(error);
-            f64::NAN
-        })
-    }
-}
-
-impl AdhesionLaw<f64> for Called {
-    fn energy(&self, gap: f64) -> f64 {
-        self.at(Function::Energy, gap)
-    }
-    fn traction(&self, gap: f64) -> f64 {
-        self.at(Function::Traction, gap)
-    }
-    fn slope(&self, gap: f64) -> f64 {
-        self.at(Function::Slope, gap)
+    fn __getnewargs__(&self, py: Python<'_>) -> (Py<PyAny>, Py<PyAny>) {
+        (self.law.clone_ref(py), self.work_of_adhesion.clone_ref(py))
     }
 }
 
@@ -253,11 +544,8 @@ impl AdhesionLaw<f64> for Called {
 /// >>> asperity.check_law(Linear(), largest_gap=0.01)
 #[pyfunction]
 pub fn check_law(law: &Bound<'_, PyAny>, largest_gap: f64) -> PyResult<()> {
-    Functions::of(law)?;
-    let called = Called { object: law.clone().unbind(), raised: Mutex::new(None) };
-    let checked = asperity::check_law(&called, largest_gap);
-    match called.raised.into_inner().unwrap_or_else(PoisonError::into_inner) {
-        Some(error) => Err(error),
-        None => checked.map_err(refusal),
+    match law.cast::<Law>() {
+        Ok(law) => asperity::check_law::<f64>(&law.get().0, largest_gap).map_err(refusal),
+        Err(_) => functions::check(law, largest_gap),
     }
 }

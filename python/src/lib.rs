@@ -2,8 +2,10 @@
 //! the folder `asperity` beside this one.
 
 mod account;
+mod answer;
 mod contact;
 mod exact;
+mod functions;
 mod inputs;
 mod law;
 mod numbers;
@@ -26,7 +28,10 @@ mod _asperity {
     #[pymodule_export]
     use crate::exact::{AdhesiveWavyLine, Contact, Hertz, Jkr, WaveContact, WavyLine, closing_pressure_2d};
     #[pymodule_export]
-    use crate::law::{Exponential, MaugisDugdale, check_law};
+    use crate::law::{
+        CutOff, Exponential, Law, LennardJones, MaugisDugdale, Morse, PowerLaw, Tabulated, VanDerWaals, Varying,
+        check_law,
+    };
     #[pymodule_export]
     use crate::problem::Problem;
     #[pymodule_export]

@@ -3,38 +3,71 @@
 use std::sync::{Mutex, PoisonError};
 use std::time::Instant;
 
+use asperity::contact::ContactStatistics;
 use asperity::path::{Event, Path, PathCheckpoint, PathSettings};
 use asperity::stability::{StabilityTest, Verdict};
 use asperity::{
-    AdhesionLaw, Control, ElasticOperator, Error, Grid, Real, Settings, Solution, Solver, Start, Status, Surface,
-    Sweep, Warning,
+    AdhesionLaw, Control, ElasticOperator, Error, Grid, Nested, Real, Settings, Solution, Solver, Start, Status,
+    Surface, Sweep, Warning,
 };
-use numpy::PyReadonlyArray2;
 use numpy::ndarray::Array2;
+use numpy::{IntoPyArray, PyReadonlyArray2};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use crate::account::{Account, Scalar, returned};
-use crate::inputs::{Beyond, Load, control, settings};
-use crate::law::law;
+use crate::account::{Account, Grids, Scalar};
+use crate::answer::answer;
+use crate::inputs::{Beyond, Load, Wall, control, settings};
+use crate::law::{law, strongest};
 use crate::pools::Pool;
 use crate::refusal::{refusal, refusal_of_heights};
+use crate::report;
 use crate::running::{Observe, run};
+
+/// The tolerance on coarser grids, as in the tool.
+const COARSE: f64 = 1e-3;
 
 /// The largest number of departures from unstable equilibria, as in the tool.
 const MOST_DEPARTURES: usize = 10;
 
+/// A surface on its half-space with its law, of whatever kind they are.
+type Boxed<T> = asperity::Problem<T, Box<dyn ElasticOperator<T>>, Box<dyn AdhesionLaw<T>>>;
+
+/// The surface on its half-space with its law: what a problem is made of on each of nested grids, and the problem.
+enum Body<T: Real> {
+    Surface(Surface, Box<dyn AdhesionLaw<T>>),
+    Problem(Boxed<T>),
+    /// While a problem is made of a surface, and if that has failed.
+    Spent,
+}
+
 /// A problem in one precision, with all that a sequence of solves carries on.
 struct State<T: Real> {
-    problem: asperity::Problem<T, Box<dyn ElasticOperator<T>>, Box<dyn AdhesionLaw<T>>>,
-    solver: Solver,
+    body: Body<T>,
+    nested: Option<bool>,
+    grid: Grid,
+    solver: Solver<Wall>,
+    beyond: Beyond,
     modulus: f64,
+    /// the traction above which surfaces are said to attract each other, as in `ContactStatistics`
+    noticeable: f64,
+    strongest: Option<(usize, usize)>,
     /// of the input
     warnings: Vec<Warning>,
-    setup: f64,
     history: Vec<(Control, Array2<T>)>,
     place: Option<PathCheckpoint<T>>,
+}
+
+/// What a problem is made of beside its surface and its law.
+#[derive(Clone, Copy)]
+struct Made {
+    beyond: Beyond,
+    modulus: f64,
+    wall: Wall,
+    settings: Settings,
+    /// Whether to solve on nested grids; the library chooses if it is not said.
+    nested: Option<bool>,
 }
 
 /// The request for one solve.
@@ -57,6 +90,13 @@ trait Solves: Send {
         settings: PathSettings,
         start: Option<PyReadonlyArray2<'py, f64>>,
     ) -> PyResult<Option<Bound<'py, PyDict>>>;
+    fn stability<'py>(
+        &mut self,
+        py: Python<'py>,
+        pool: &Pool,
+        control: Control,
+        found: (PyReadonlyArray2<'py, f64>, f64),
+    ) -> PyResult<Bound<'py, PyDict>>;
 }
 
 /// The threads and the observer of a solve.
@@ -73,26 +113,86 @@ fn field<T: Real>(gap: PyReadonlyArray2<'_, f64>) -> Array2<T> {
 
 impl<T: Scalar> State<T> {
     fn new(
-        surface: &Surface,
+        surface: Surface,
         law: Box<dyn AdhesionLaw<T>>,
-        (beyond, modulus): (Beyond, f64),
-        settings: Settings,
+        strongest: Option<(usize, usize)>,
+        Made { beyond, modulus, wall, settings, nested }: Made,
     ) -> asperity::Result<Self> {
-        let clock = Instant::now();
-        let operator = beyond.half_space(*surface.grid(), modulus)?;
-        let mut warnings = beyond.warnings(surface);
-        warnings.extend(Warning::of_law(&law, surface, modulus));
-        let problem = asperity::Problem::new(surface, operator, law)?;
-        let (solver, setup) = (Solver::new(settings), clock.elapsed().as_secs_f64());
-        Ok(Self { problem, solver, modulus, warnings, setup, history: Vec::new(), place: None })
+        let grid = *surface.grid();
+        let mut warnings = beyond.warnings(&surface);
+        warnings.extend(Warning::of_law(&law, &surface, modulus));
+        let scale = (law.work_of_adhesion() / law.range()).widen();
+        let noticeable = if scale.is_finite() { 0.01 * scale } else { 0.0 };
+        Ok(Self {
+            body: Body::Surface(surface, law),
+            nested,
+            grid,
+            solver: Solver { settings, constraint: wall },
+            beyond,
+            modulus,
+            noticeable,
+            strongest,
+            warnings,
+            history: Vec::new(),
+            place: None,
+        })
     }
 
     /// The account of a solution.
     fn account(&self, solution: Solution<T>, control: Control, seconds: f64) -> asperity::Result<Account<T>> {
-        let account = Account::of(solution, self.problem.grid(), self.modulus, control)?;
+        let account = Account::of(solution, &self.grid, control, (self.modulus, self.noticeable))?;
         let warnings = self.warnings.iter().cloned().chain(account.warnings).collect();
-        Ok(Account { warnings, seconds, ..account })
+        Ok(Account { warnings, seconds, strongest: self.strongest, ..account })
     }
+
+    /// The account of a row of a table, with the statistics of its contact.
+    fn row(&mut self, solution: Solution<T>, control: Control, seconds: f64) -> asperity::Result<Account<T>> {
+        let law = match &self.body {
+            Body::Surface(_, law) => law,
+            Body::Problem(problem) => problem.law(),
+            Body::Spent => return Err(spent()),
+        };
+        let statistics = ContactStatistics::of(&solution, &self.grid, law)?;
+        Ok(Account { statistics: Some(statistics), ..self.account(solution, control, seconds)? })
+    }
+
+    /// The account of a solve on nested grids, if these are asked for; or, with the default start, if they are faster.
+    fn nested(
+        &mut self,
+        control: Control,
+        begins: bool,
+        observe: Observe<'_>,
+    ) -> asperity::Result<Option<(Solution<T>, Grids)>> {
+        let Body::Surface(surface, law) = &self.body else { return Ok(None) };
+        let (beyond, modulus, settings) = (self.beyond, self.modulus, self.solver.settings);
+        let half_space = |grid| beyond.half_space(grid, modulus);
+        let pays = || matches!(self.solver.constraint, Wall::Hard) && Nested::new(settings).pays(surface, law, control);
+        if !self.nested.unwrap_or_else(|| begins && pays()) {
+            return Ok(None);
+        }
+        let Nested { coarsest, stiffness, .. } = Nested::default();
+        let mut nested = Nested { solver: self.solver.clone(), coarse_tolerance: COARSE, coarsest, stiffness };
+        let found = nested.solve_observed(surface, half_space, law, control, |_, state| observe(state))?;
+        let nodes_per_wave = surface.nodes_per_wave(found.solution.report.boundary);
+        let grids = Grids::of(&found, nodes_per_wave, control);
+        Ok(Some((found.solution, grids)))
+    }
+}
+
+/// The problem on one grid, which all but a solve on nested grids needs; it is made with its first use.
+fn single<T: Scalar>(body: &mut Body<T>, beyond: Beyond, modulus: f64) -> asperity::Result<&mut Boxed<T>> {
+    if let Body::Surface(surface, _) = body {
+        let half_space = beyond.half_space(*surface.grid(), modulus)?;
+        if let Body::Surface(surface, law) = std::mem::replace(body, Body::Spent) {
+            *body = Body::Problem(asperity::Problem::new(&surface, half_space, law)?);
+        }
+    }
+    if let Body::Problem(problem) = body { Ok(problem) } else { Err(spent()) }
+}
+
+/// A problem that could not be made the first time cannot be made the second time.
+fn spent() -> Error {
+    Error::Control { control: "problem", reason: "it was refused before: make it anew" }
 }
 
 impl<T: Scalar> Solves for State<T> {
@@ -101,14 +201,19 @@ impl<T: Scalar> Solves for State<T> {
         let start = start.map(field::<T>);
         let found = run(py, at.pool, at.observer, |observe: Observe<'_>| {
             let clock = Instant::now();
+            if let Some((solution, grids)) = self.nested(control, start.is_none() && !stability, observe)? {
+                let account = self.row(solution, control, clock.elapsed().as_secs_f64())?;
+                return Ok(Account { grids: Some(grids), ..account });
+            }
+            let problem = single(&mut self.body, self.beyond, self.modulus)?;
             let from = start.as_ref().map_or(Start::Default, |gap| Start::From(gap));
-            let mut solution = self.solver.solve_with(&mut self.problem, control, from, observe)?;
+            let mut solution = self.solver.solve_with(problem, control, from, observe)?;
             let (mut departures, mut verdict) = (Vec::new(), None);
             while stability && solution.report.status != Status::Stopped {
-                let found = StabilityTest::default().run(&mut self.problem, control, &solution)?;
+                let found = StabilityTest::default().run_with(problem, &self.solver.constraint, control, &solution)?;
                 let leaves = leave && found.verdict == Verdict::Unstable && departures.len() < MOST_DEPARTURES;
                 let left = match leaves {
-                    true => found.leave(&mut self.solver, &mut self.problem, control, &solution)?,
+                    true => found.leave(&mut Solver::new(self.solver.settings), problem, control, &solution)?,
                     false => None,
                 };
                 let Some(left) = left.filter(|left| left.energy_drop > 0.0) else {
@@ -118,11 +223,10 @@ impl<T: Scalar> Solves for State<T> {
                 departures.push((found.eigenvalue, left.energy_drop, left.distance));
                 solution = left.solution;
             }
-            let seconds = self.setup + clock.elapsed().as_secs_f64();
-            let account = self.account(solution, control, seconds)?;
+            let account = self.row(solution, control, clock.elapsed().as_secs_f64())?;
             Ok(Account { stability: verdict, departures: leave.then_some(departures), ..account })
         })?;
-        returned(py, found)
+        answer(py, found)
     }
 
     fn next_load<'py>(&mut self, py: Python<'py>, at: Run<'_>, request: Request<'py>) -> PyResult<Bound<'py, PyDict>> {
@@ -132,7 +236,8 @@ impl<T: Scalar> Solves for State<T> {
             let clock = Instant::now();
             let history = std::mem::take(&mut self.history);
             let kept = history.clone();
-            let mut sweep = Sweep::new(&mut self.solver, &mut self.problem, [control]).continuing(history);
+            let problem = single(&mut self.body, self.beyond, self.modulus)?;
+            let mut sweep = Sweep::new(&mut self.solver, problem, [control]).continuing(history);
             if let Some(start) = start {
                 sweep = sweep.starting_from(start);
             }
@@ -143,9 +248,9 @@ impl<T: Scalar> Solves for State<T> {
             // a load that was not reached is tried again from where the ones before lead
             let stopped = solution.report.status == Status::Stopped;
             self.history = if stopped { kept } else { history };
-            self.account(solution, control, clock.elapsed().as_secs_f64())
+            self.row(solution, control, clock.elapsed().as_secs_f64())
         })?;
-        returned(py, found)
+        answer(py, found)
     }
 
     fn next_step<'py>(
@@ -159,7 +264,8 @@ impl<T: Scalar> Solves for State<T> {
         let start = start.map(field::<T>);
         let (found, raised) = run(py, at.pool, at.observer, |observe: Observe<'_>| -> asperity::Result<_> {
             let clock = Instant::now();
-            let mut path = Path::new(&mut self.solver, &mut self.problem, loads, settings)?;
+            let mut solver = Solver::new(self.solver.settings);
+            let mut path = Path::new(&mut solver, single(&mut self.body, self.beyond, self.modulus)?, loads, settings)?;
             path = match (self.place.clone(), start) {
                 (Some(place), _) => path.continuing(place)?,
                 (None, Some(start)) => path.starting_from(start),
@@ -168,7 +274,7 @@ impl<T: Scalar> Solves for State<T> {
             let Some(step) = path.next_observed(observe) else { return Ok(None) };
             let step = step?;
             self.place = Some(path.checkpoint());
-            let account = self.account(step.solution, step.control, clock.elapsed().as_secs_f64())?;
+            let account = self.row(step.solution, step.control, clock.elapsed().as_secs_f64())?;
             let balance = [("work", step.work), ("dissipated", step.dissipated), ("imbalance", step.imbalance)];
             Ok(Some((account, step.leg, balance, step.event)))
         })?;
@@ -179,12 +285,29 @@ impl<T: Scalar> Solves for State<T> {
                 None => return Ok(None),
             },
         };
-        let step = returned(py, (Ok(account), None))?;
+        let step = answer(py, (Ok(account), None))?;
         step.set_item("leg", leg)?;
         balance.into_iter().try_for_each(|(name, value)| step.set_item(name, value))?;
         step.set_item("event", event.as_ref().map(Event::name))?;
         step.set_item("energy_drop", event.as_ref().and_then(Event::jump).map(|jump| jump.energy_drop))?;
         Ok(Some(step))
+    }
+
+    fn stability<'py>(
+        &mut self,
+        py: Python<'py>,
+        pool: &Pool,
+        control: Control,
+        (gap, relative_error): (PyReadonlyArray2<'py, f64>, f64),
+    ) -> PyResult<Bound<'py, PyDict>> {
+        let gap = field::<T>(gap);
+        let (problem, wall) =
+            (single(&mut self.body, self.beyond, self.modulus).map_err(refusal)?, &self.solver.constraint);
+        let test = || StabilityTest::default().of_gap(problem, wall, control, &gap, relative_error);
+        let found = py.detach(|| pool.get().install(test)).map_err(refusal)?;
+        let entries = report::stability(py, &found)?;
+        entries.set_item("mode", found.mode.into_pyarray(py))?;
+        Ok(entries)
     }
 }
 
@@ -194,11 +317,10 @@ fn state<T: Scalar>(
     pool: &Pool,
     surface: Surface,
     given: &Bound<'_, PyAny>,
-    body: (Beyond, f64),
-    settings: Settings,
+    made: Made,
 ) -> PyResult<Box<dyn Solves>> {
-    let law = law::<T>(given)?;
-    let state = py.detach(|| pool.get().install(|| State::new(&surface, law, body, settings)));
+    let (law, strongest) = (law::<T>(given)?, strongest(given));
+    let state = py.detach(|| pool.get().install(|| State::new(surface, law, strongest, made)));
     Ok(Box::new(state.map_err(refusal)?))
 }
 
@@ -228,7 +350,8 @@ impl Problem {
 impl Problem {
     #[new]
     #[pyo3(signature = (
-        heights, lengths, absent_missing, boundary, modulus, law, precision, tolerance, max_iterations, method, threads
+        heights, lengths, absent_missing, boundary, modulus, law, wall, precision, tolerance, max_iterations, method,
+        nested, threads
     ))]
     #[expect(clippy::too_many_arguments, reason = "called by the Python layer alone, by name")]
     fn new(
@@ -239,22 +362,24 @@ impl Problem {
         boundary: &str,
         modulus: f64,
         law: &Bound<'_, PyAny>,
+        wall: &str,
         precision: &str,
         tolerance: Option<f64>,
         max_iterations: Option<usize>,
         method: &str,
+        nested: Option<bool>,
         threads: Option<usize>,
     ) -> PyResult<Self> {
         let settings = settings(tolerance, max_iterations, method)?;
         let pool = Pool::of(threads)?;
         let heights = heights.as_array().to_owned();
-        let body = (Beyond::of(boundary)?, modulus);
+        let made = Made { beyond: Beyond::of(boundary)?, modulus, wall: Wall::of(wall)?, settings, nested };
         let make = if absent_missing { Surface::with_absent } else { Surface::new };
         let surface = Grid::new(heights.dim(), lengths).and_then(|grid| make(grid, heights));
         let surface = surface.map_err(refusal_of_heights)?;
         let solves = match precision {
-            "f64" => state::<f64>(py, &pool, surface, law, body, settings)?,
-            "f32" => state::<f32>(py, &pool, surface, law, body, settings)?,
+            "f64" => state::<f64>(py, &pool, surface, law, made)?,
+            "f32" => state::<f32>(py, &pool, surface, law, made)?,
             other => return Err(PyValueError::new_err(format!("precision is {other}: it must be f64 or f32"))),
         };
         Ok(Self { solves: Mutex::new(solves), threads, settings, single: precision == "f32" })
@@ -315,5 +440,17 @@ impl Problem {
         let settings = PathSettings { steps, smallest_step, imbalance, smooth };
         let (pool, solves) = self.parts()?;
         solves.next_step(py, Run { pool: &pool, observer: observe.as_ref() }, loads, settings, start)
+    }
+    /// The stability of a gap under a load, of which the certified error is known.
+    #[pyo3(signature = (load, gap, relative_error))]
+    fn stability<'py>(
+        &mut self,
+        py: Python<'py>,
+        load: Load,
+        gap: PyReadonlyArray2<'py, f64>,
+        relative_error: f64,
+    ) -> PyResult<Bound<'py, PyDict>> {
+        let (pool, solves) = self.parts()?;
+        solves.stability(py, &pool, control(&load)?, (gap, relative_error))
     }
 }

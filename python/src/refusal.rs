@@ -22,6 +22,10 @@ fn refused(error: Error, also: &str) -> PyErr {
         error => error.to_string(),
     };
     let message = message
+        .replace(
+            "solve it without a wall (NoWall), or cut it at its gap of rest",
+            "give wall='none', or LennardJones(..., cut=True)",
+        )
         .replace("or take a free half-space", "or boundary='free'")
         .replace("as by Topography::fill", "as by asperity.prepare(heights, lengths, fill=True)")
         .replace("set Topography::lengths", "give lengths=(Lx, Ly)")

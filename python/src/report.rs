@@ -1,12 +1,14 @@
 //! The outcome of a solve, with the names and in the order of the tool's `report.json`.
 
-use asperity::Warning;
+use asperity::accuracy::GridError;
+use asperity::contact::Patch;
 use asperity::stability::Stability;
+use asperity::{Level, Warning};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use crate::account::{Account, Scalar};
-use crate::inputs::name_and_value;
+use crate::account::{Account, Grids, Scalar};
+use crate::inputs::stiffness;
 
 /// A dictionary of its entries.
 macro_rules! dictionary {
@@ -21,7 +23,6 @@ macro_rules! dictionary {
 pub fn of<'py, T: Scalar>(py: Python<'py>, account: &Account<T>) -> PyResult<Bound<'py, PyDict>> {
     let Account { solution, area, pressures, .. } = account;
     let report = &solution.report;
-    let (control, held) = name_and_value(account.control);
     let stability = account.stability.as_ref().map(|found| stability(py, found)).transpose()?;
     let departures = account.departures.as_ref().map(|left| {
         left.iter()
@@ -30,6 +31,12 @@ pub fn of<'py, T: Scalar>(py: Python<'py>, account: &Account<T>) -> PyResult<Bou
             })
             .collect::<PyResult<Vec<_>>>()
     });
+    let levels = |grids: &Grids| grids.levels.iter().map(|found| level(py, found)).collect::<PyResult<Vec<_>>>();
+    let levels = account.grids.as_ref().map(levels).transpose()?;
+    let grid_error = account.grids.as_ref().map(|grids| grid_error(py, grids)).transpose()?;
+    let statistics = account.statistics.as_ref();
+    let patches =
+        statistics.map(|found| found.patches.iter().map(|found| patch(py, found)).collect::<PyResult<Vec<_>>>());
     let warnings = account.warnings.iter().map(|found| warning(py, found)).collect::<PyResult<Vec<_>>>()?;
     Ok(dictionary!(py,
         "status": report.status.name(),
@@ -38,45 +45,87 @@ pub fn of<'py, T: Scalar>(py: Python<'py>, account: &Account<T>) -> PyResult<Bou
         "criterion": report.criterion.name(),
         "iterations": report.iterations,
         "operator_applications": report.operator_applications,
-        "levels": py.None(),
-        "equivalent_applications": py.None(),
+        "levels": levels,
+        "equivalent_applications": account.grids.as_ref().map(|grids| grids.applications),
+        "grid_error": grid_error,
+        "accuracy": py.None(),
         "mean_gap": report.mean_gap,
         "mean_pressure": report.mean_pressure,
+        "normal_force": report.normal_force,
+        "approach": report.approach,
+        "spring_stiffness": stiffness(account.control),
         "carried_pressure": report.carried_pressure,
         "mean_contact_pressure": report.mean_contact_pressure,
         "contact_fraction": report.contact_fraction,
         "contact_nodes": report.contact_nodes,
+        "absent_points": report.absent_nodes,
+        "edge_traction": report.edge_traction,
         "corrected_contact_fraction": area.corrected_contact_fraction,
         "perimeter": area.perimeter,
+        "repulsive_fraction": statistics.map(|found| found.repulsive_fraction),
+        "attractive_fraction": statistics.map(|found| found.attractive_fraction),
+        "patches": patches.transpose()?,
         "min_gap": report.min_gap,
         "min_pressure": pressures.0,
         "max_pressure": pressures.1,
         "elastic_energy": report.elastic_energy,
         "adhesive_energy": report.adhesive_energy,
         "stability": stability,
+        "contact_stiffness": py.None(),
+        "normal_stiffness": py.None(),
         "departures": departures.transpose()?,
         "mu_rho": report.mu_rho,
+        "mu_rho_node": account.strongest.map(|(x, y)| [x, y]),
         "under_resolved": report.under_resolved,
         "warnings": warnings,
         "seconds": account.seconds,
-        "control": control,
-        "control_value": held,
+        "control": account.control.name(),
+        "control_value": account.control.value(),
     ))
 }
 
-/// The boundary of the half-space, and what the bodies as a whole do: by the names of the library.
-pub fn of_bodies<'py, T: Scalar>(py: Python<'py>, account: &Account<T>) -> PyResult<Bound<'py, PyDict>> {
-    let report = &account.solution.report;
+/// The cost of one of the nested grids.
+fn level<'py>(py: Python<'py>, level: &Level) -> PyResult<Bound<'py, PyDict>> {
     Ok(dictionary!(py,
-        "boundary": report.boundary.name(),
-        "normal_force": report.normal_force,
-        "approach": report.approach,
-        "absent_points": report.absent_nodes,
-        "edge_traction": report.edge_traction,
+        "shape": [level.shape.0, level.shape.1],
+        "status": level.status.name(),
+        "iterations": level.iterations,
+        "operator_applications": level.operator_applications,
+        "relative_error": level.relative_error,
+        "mean_gap": level.mean_gap,
+        "mean_pressure": level.mean_pressure,
+        "mean_contact_pressure": level.mean_contact_pressure,
+        "elastic_energy": level.elastic_energy,
+        "contact_fraction": level.area.contact_fraction,
+        "corrected_contact_fraction": level.area.corrected_contact_fraction,
+        "contact_stiffness": level.stiffness.map(|found| found.pressure_per_length),
     ))
 }
 
-fn stability<'py, T: Scalar>(py: Python<'py>, found: &Stability<T>) -> PyResult<Bound<'py, PyDict>> {
+/// The estimated errors of the finest of nested grids.
+fn grid_error<'py>(py: Python<'py>, grids: &Grids) -> PyResult<Bound<'py, PyDict>> {
+    let entries = PyDict::new(py);
+    for (of, estimate) in &grids.errors {
+        let error = |found: &GridError| -> PyResult<_> {
+            Ok(dictionary!(py, "relative": found.relative, "order": found.order, "rough": found.rough,))
+        };
+        entries.set_item(of.name(), estimate.as_ref().map(error).transpose()?)?;
+    }
+    Ok(entries)
+}
+
+/// The contact where the work of adhesion has one of its values.
+fn patch<'py>(py: Python<'py>, patch: &Patch) -> PyResult<Bound<'py, PyDict>> {
+    Ok(dictionary!(py,
+        "work_of_adhesion": patch.work_of_adhesion,
+        "area_fraction": patch.area_fraction,
+        "contact_fraction": patch.contact_fraction,
+        "attractive_fraction": patch.attractive_fraction,
+    ))
+}
+
+/// The stability of an equilibrium.
+pub fn stability<'py, T: Scalar>(py: Python<'py>, found: &Stability<T>) -> PyResult<Bound<'py, PyDict>> {
     Ok(dictionary!(py,
         "verdict": found.verdict.name(),
         "eigenvalue": found.eigenvalue,

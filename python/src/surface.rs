@@ -2,8 +2,7 @@
 
 use std::path::PathBuf;
 
-use asperity::{Amplitude, Error, Grid, Psd, SelfAffine, Surface, Topography, Trend};
-use numpy::ndarray::Array2;
+use asperity::{Amplitude, Error, Form, Grid, Psd, RowAlignment, ScanAxis, SelfAffine, Surface, Topography, Trend};
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyReadonlyArray2};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -113,37 +112,68 @@ pub fn prepare<'py>(
     heights: PyReadonlyArray2<'_, f64>,
     lengths: Option<(f64, f64)>,
     unit: Option<String>,
+    missing: Vec<f64>,
     scale: Option<f64>,
     crop: Option<(usize, usize, usize, usize)>,
     flip: bool,
-    detrend: Option<&str>,
+    align_rows: Option<(&str, usize)>,
+    scan_axis: &str,
+    despike: Option<f64>,
+    remove_form: Option<&str>,
+    detrend: Option<(&str, usize)>,
     fill: bool,
     window: Option<f64>,
     mirror: bool,
     resample: Option<(usize, usize)>,
 ) -> PyResult<Map<'py>> {
+    let unknown = |name, value, expected| PyValueError::new_err(format!("{name} is {value}: it must be {expected}"));
     let trend = match detrend {
         None => None,
-        Some("mean") => Some(Trend::Mean),
-        Some("plane") => Some(Trend::Plane),
-        Some("quadric") => Some(Trend::Quadric),
-        Some(other) => {
-            return Err(PyValueError::new_err(format!("detrend is {other}: it must be mean, plane or quadric")));
-        }
+        Some(("mean", _)) => Some(Trend::Mean),
+        Some(("plane", _)) => Some(Trend::Plane),
+        Some(("quadric", _)) => Some(Trend::Quadric),
+        Some(("polynomial", order)) => Some(Trend::Polynomial(order)),
+        Some((other, _)) => return Err(unknown("detrend", other, "mean, plane, quadric or an order")),
     };
-    let scaled: Array2<f64> = match scale {
-        Some(factor) => heights.as_array().mapv(|height| factor * height),
-        None => heights.as_array().to_owned(),
+    let alignment = match align_rows {
+        None => None,
+        Some(("median", _)) => Some(RowAlignment::Median),
+        Some(("median-difference", _)) => Some(RowAlignment::MedianDifference),
+        Some(("polynomial", order)) => Some(RowAlignment::Polynomial(order)),
+        Some((other, _)) => return Err(unknown("align_rows", other, "median, median-difference or an order")),
     };
-    let mut measured = Topography::new(scaled);
+    let along = match scan_axis {
+        "x" => ScanAxis::X,
+        "y" => ScanAxis::Y,
+        other => return Err(unknown("scan_axis", other, "x or y")),
+    };
+    let form = match remove_form {
+        None => None,
+        Some("sphere") => Some(Form::Sphere),
+        Some("cylinder") => Some(Form::Cylinder),
+        Some(other) => return Err(unknown("remove_form", other, "sphere or cylinder")),
+    };
+    let mut measured = Topography::new(heights.as_array().to_owned());
     (measured.lengths, measured.unit) = (lengths, unit);
     let prepared = apart(py, move || -> Result<Topography, Error> {
-        let mut map = measured;
+        let mut map = missing.into_iter().fold(measured, Topography::declare_missing);
+        if let Some(factor) = scale {
+            map.heights.mapv_inplace(|height| factor * height);
+        }
         if let Some((x, y, nx, ny)) = crop {
             map = map.crop(x..x.saturating_add(nx), y..y.saturating_add(ny))?;
         }
         if flip {
             map = map.flip();
+        }
+        if let Some(alignment) = alignment {
+            map = map.align_rows(alignment, along)?;
+        }
+        if let Some(threshold) = despike {
+            map = map.despike(threshold)?;
+        }
+        if let Some(form) = form {
+            map = map.remove_form(form)?;
         }
         if let Some(trend) = trend {
             map = map.detrend(trend)?;

@@ -4,7 +4,7 @@ use asperity::{AdhesionLaw, Error, Real};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
-use crate::law::{Function, Functions};
+use crate::functions::{Function, Functions};
 use crate::refusal::refusal;
 
 /// The powers of two of a gap in ranges ρ between which the table has intervals of its own. Below there is one
@@ -28,6 +28,7 @@ const PLACES: [f64; 5] = [0.0, 0.25, 0.5, 0.75, 1.0];
 ///
 /// Intervals are 1/128 of an octave of the gap over the range ρ, so that the bits of a gap number them, and are halved
 /// until the table agrees with the law in between. A jump is enclosed between two neighbouring numbers.
+#[derive(PartialEq)]
 pub struct Table {
     range: f64,
     work_of_adhesion: f64,
@@ -39,7 +40,7 @@ pub struct Table {
 }
 
 /// The traction over one piece: Σ cₙ tⁿ with t from 0 to 1.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, PartialEq)]
 struct Piece {
     /// the start, in ranges
     start: f64,

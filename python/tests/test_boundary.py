@@ -99,7 +99,7 @@ def test_a_tip_with_adhesion_on_a_spring_jumps_in_and_off():
     x = 0.24 * (np.arange(24) / 24 - 0.5)
     tip = -(x[:, None] ** 2 + x**2) / (2 * RADIUS)
     law = asperity.Exponential(2e-5, 2e-3)
-    # apart, what little attraction there is spans the window
+    # before the jump-in what little attraction there is spans the window
     with pytest.warns(asperity.InputWarning, match="window-edge"):
         cycle = asperity.cycle(
             tip,
@@ -108,15 +108,35 @@ def test_a_tip_with_adhesion_on_a_spring_jumps_in_and_off():
             law=law,
             springs=[(0.01, rest) for rest in (-0.02, 0.0, -0.03)],
             boundary="free",
-            start=0.02 - tip,
             steps=10,
             smallest_step=1e-3,
             tolerance=1e-7,
         ).run()
+    assert list(dict.fromkeys(cycle.columns["direction"])) == ["start", "approach", "withdrawal"]
+    assert cycle.columns["contact_fraction"][-1] == cycle.columns["attractive_fraction"][-1] == 0
     assert [event["event"] for event in cycle.events if event["energy_drop"]] == ["jump-in", "pull-off"]
     assert cycle.columns["normal_force"].min() < 0
     axes = cycle.plot(force_unit="N")
     assert axes.get_xlabel() == "approach" and axes.get_ylabel() == "normal force (µN)"
+
+
+def test_bodies_start_apart_where_that_is_asked_for(tip):
+    law = asperity.Exponential(2e-5, 2e-3)
+    strong = asperity.Exponential(1e-4, 2e-3)
+    adhesive = {"law": strong, "approach": -0.0045, "tolerance": 1e-5}
+    with pytest.warns(asperity.InputWarning, match="window-edge"):
+        apart, sticking = pressed(tip, start="apart", **adhesive), pressed(tip, **adhesive)
+    assert apart.contact_fraction == 0 < sticking.contact_fraction
+    assert apart.report["initial_gap"] == "apart" and sticking.report["initial_gap"] is None
+    periodic = {"modulus": 1.0, "law": law, "mean_gap": 0.02}
+    assert asperity.solve(tip, start="apart", **periodic).contact_fraction == 0
+    for given, message in [
+        ({"start": "afar", "approach": -0.01}, "start is 'afar': it must be 'apart'"),
+        ({"start": "apart", "normal_force": 1.0}, "normal_force does not say how far: give an approach or a spring"),
+        ({"start": "apart", "approach": 0.01}, "undeformed bodies overlap where approach is 0.01"),
+    ]:
+        with pytest.raises(ValueError, match=message):
+            pressed(tip, **given)
 
 
 def test_what_the_boundary_does_not_have_is_refused(tip, rough):

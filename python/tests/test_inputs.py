@@ -121,6 +121,18 @@ def test_a_data_array_brings_its_coordinates(rough):
         gap(DataArray(rough.heights, {"x": x, "y": x}, {"units": "nm"}, "m"), None)
 
 
+def test_a_data_array_of_xarray_gives_the_same_bits(rough):
+    xarray = pytest.importorskip("xarray")
+    x = np.arange(64) / 64
+    data = xarray.DataArray(rough.heights, dims=("x", "y"), coords={"x": x, "y": x}, attrs={"units": "m"})
+    assert gap(data, None).tobytes() == gap(rough.heights).tobytes()
+    assert asperity.prepare(data).unit == "m"
+    line = asperity.prepare(data.isel(y=3))
+    assert line.shape == (64,) and line.lengths == (1.0, 1.0)
+    missing = data.where(data < data.max())
+    assert asperity.prepare(missing).missing == 1 and asperity.prepare(missing, fill=True).missing == 0
+
+
 def test_files_are_read_with_what_belongs_to_them(tmp_path, rough):
     path = tmp_path / "heights.npz"
     np.savez(path, heights=rough.heights, lengths=(2.0, 2.0), unit="m")
@@ -147,3 +159,14 @@ def test_prepare_takes_the_steps_of_the_tool():
         asperity.prepare(tilted, detrend="cubic")
     with pytest.raises(ValueError, match="crop"):
         asperity.prepare(tilted, crop=(0, 0, 100, 1))
+    coded = tilted.copy()
+    coded[3, 4], coded[20, 10] = -9999, 1e4
+    made = asperity.prepare(coded, missing=-9999, align_rows="median", despike=10, detrend=3)
+    assert made.missing == 1 and np.nanmax(np.abs(made.heights)) < 20
+    assert np.nanstd(asperity.prepare(coded, missing=[-9999, 1e4], align_rows=1).heights) < 2
+    x, y = np.meshgrid(np.arange(40) - 20, np.arange(30) - 15, indexing="ij")
+    ball = asperity.prepare(np.sqrt(90.0**2 - x**2 - y**2), (40.0, 30.0), remove_form="sphere")
+    assert np.abs(ball.heights).max() < 1e-9
+    for wrong in [{"align_rows": "mode"}, {"scan_axis": "z"}, {"remove_form": "cone"}, {"detrend": 13}]:
+        with pytest.raises(ValueError):
+            asperity.prepare(tilted, (40.0, 30.0), **wrong)

@@ -69,6 +69,120 @@ def test_functions_of_the_library_take_any_shape():
         asperity.MaugisDugdale(1.0, -1.0)
 
 
+W, RANGE = 2e-5, 8e-3
+GAPS = np.linspace(0.0, 2e-2, 9)
+LAWS = [
+    asperity.Exponential(W, RANGE),
+    asperity.MaugisDugdale(W, RANGE),
+    asperity.LennardJones(W, RANGE),
+    asperity.LennardJones(W, RANGE, cut=True),
+    asperity.Morse(W, RANGE),
+    asperity.PowerLaw(W, RANGE, 3.0),
+    asperity.VanDerWaals(1e-7, RANGE),
+    asperity.Tabulated(GAPS, W / RANGE * np.exp(-GAPS / RANGE) * (GAPS < 2e-2)),
+    asperity.CutOff(asperity.PowerLaw(W, RANGE, 3.0), 0.03),
+]
+
+
+@pytest.mark.parametrize("law", LAWS, ids=lambda law: type(law).__name__)
+def test_laws_of_the_library_agree_with_themselves_and_travel(law):
+    asperity.check_law(law, 0.05)
+    assert isinstance(law, asperity.Law)
+    other = pickle.loads(pickle.dumps(law))
+    assert other == law and repr(other) == repr(law)
+    if not isinstance(law, asperity.Tabulated):  # of which eight digits are written
+        assert eval(repr(law), dict(vars(asperity))) == law
+    assert np.array_equal(law.traction(GAPS[1:]), other.traction(GAPS[1:]))
+    assert law != asperity.Exponential(W, 2 * RANGE)
+
+
+def test_laws_have_their_textbook_values():
+    # Israelachvili: w = A/12πD₀²; the greatest attraction of Lennard-Jones is 1.03 w/z₀, that of Morse w/2ρ
+    assert np.isclose(-asperity.VanDerWaals(6e-20, 0.165e-9).energy(0.0), 6e-20 / (12 * np.pi * 0.165e-9**2))
+    gaps = np.linspace(1.0, 3.0, 2001)
+    assert np.isclose(asperity.LennardJones(1.0, 1.0).traction(gaps).max(), 1.026, atol=1e-3)
+    assert np.isclose(asperity.Morse(1.0, 1.0).traction(gaps - 1).max(), 0.5, atol=1e-6)
+    cut = asperity.LennardJones(1.0, 1.0, cut=True)
+    assert np.array_equal(cut.traction(gaps - 1), asperity.LennardJones(1.0, 1.0).traction(1 + (gaps - 1)))
+
+
+def test_a_table_is_read_from_a_file(tmp_path):
+    np.savetxt(tmp_path / "law.txt", np.column_stack([[0.0, 1e-9, 2e-9], [50e6, 25e6, 0.0]]))
+    law = asperity.Tabulated.read(tmp_path / "law.txt")
+    assert law == asperity.Tabulated([0.0, 1e-9, 2e-9], [50e6, 25e6, 0.0])
+    assert law.source == str(tmp_path / "law.txt") and law.gaps.tolist() == [0.0, 1e-9, 2e-9]
+    with pytest.raises(ValueError, match="last traction in the table is 1"):
+        asperity.Tabulated([0.0, 1.0, 2.0], [1.0, 1.0, 1.0])
+    with pytest.raises(FileNotFoundError):
+        asperity.Tabulated.read(tmp_path / "none.txt")
+    np.savetxt(tmp_path / "wide.txt", np.ones((3, 3)))
+    with pytest.raises(ValueError, match="has 3 columns, not two"):
+        asperity.Tabulated.read(tmp_path / "wide.txt")
+
+
+def test_without_a_wall_the_law_keeps_the_surfaces_apart(rough):
+    options = {"modulus": 1.0, "mean_pressure": 0.01}
+    for law in (asperity.LennardJones(W, RANGE), asperity.Morse(W, RANGE)):
+        soft = asperity.solve(rough, law=law, wall="none", **options)
+        # contact is where the law repels, and its repulsion the contact pressure
+        repels = law.traction(soft.gap) < 0
+        assert np.array_equal(soft.contact, repels) and soft.report["wall"] == "none"
+        assert np.allclose(soft.contact_pressure[repels], -law.traction(soft.gap)[repels], rtol=1e-3)
+        assert asperity.stability(soft).verdict == "stable"
+    for given, message in [
+        ({"law": asperity.LennardJones(W, RANGE)}, r"wall='none', or LennardJones\(..., cut=True\)"),
+        ({"law": asperity.Exponential(W, RANGE), "wall": "none"}, "does not repel"),
+        ({"law": asperity.Morse(W, RANGE), "wall": "soft"}, "wall is soft: it must be hard or none"),
+        ({"law": asperity.Morse(W, RANGE), "wall": "none", "leave": True}, "leave needs wall='hard'"),
+    ]:
+        with pytest.raises(ValueError, match=message):
+            asperity.solve(rough, **options, **given)
+    with pytest.raises(ValueError, match="a cycle needs wall='hard'"):
+        asperity.cycle(rough, modulus=1.0, mean_gaps=[0.1, 0.05], law=asperity.Morse(W, RANGE), wall="none")
+
+
+def test_a_work_of_adhesion_may_differ_from_node_to_node(rough):
+    works = np.where(np.arange(64)[:, None] < 32, 0.0, W) * np.ones((64, 64))
+    options = {"modulus": 1.0, "mean_pressure": 1e-3}
+    for law in (asperity.Exponential(1.0, RANGE), Exponential(1.0, RANGE), LAWS[-1]):
+        varying = asperity.Varying(law, works)
+        assert np.allclose(-varying.energy(0.0), works, rtol=1e-12)
+        assert varying.energy(np.full((64, 64), 1e-3)).shape == (64, 64)
+        solution = asperity.solve(rough, law=varying, **options)
+        assert np.isclose(varying.energy(solution.gap).mean(), solution.adhesive_energy, rtol=1e-9)
+        # nothing pulls where there is no work of adhesion, but for the tolerance
+        assert solution.pressure[:32].min() > -1e-3 * W / RANGE > 1e-2 * solution.pressure[32:].min()
+        assert solution.report["mu_rho_node"] == [32, 0] and solution.report["work_of_adhesion"] is None
+        other = asperity.Varying(law, works)
+        assert other == varying or isinstance(law, Exponential)
+    travelled = pickle.loads(pickle.dumps(asperity.Varying(asperity.Exponential(1.0, RANGE), works)))
+    assert np.array_equal(travelled.work_of_adhesion, works) and travelled.law == asperity.Exponential(1.0, RANGE)
+    for given, message in [
+        ((asperity.Exponential(1.0, RANGE), -works), "work of adhesion is -2e-5"),
+        ((asperity.Exponential(0.0, RANGE), works), "work of adhesion of the law that varies is 0"),
+        ((asperity.Exponential(1.0, RANGE), np.ones((2, 2, 2))), "work_of_adhesion has shape"),
+        ((asperity.Varying(asperity.Exponential(1.0, RANGE), works), works), "varies already"),
+    ]:
+        with pytest.raises(ValueError, match=message):
+            asperity.Varying(*given)
+    with pytest.raises(ValueError, match="varies: give Varying"):
+        asperity.CutOff(asperity.Varying(asperity.Exponential(1.0, RANGE), works), 0.1)
+    with pytest.raises(ValueError, match="32 x 64"):
+        asperity.solve(rough, law=asperity.Varying(asperity.Exponential(1.0, RANGE), works[32:]), **options)
+    with pytest.raises(ValueError, match=r"gap has shape \[3\]"):
+        asperity.Varying(asperity.Exponential(1.0, RANGE), works).traction([1.0, 2.0, 3.0])
+
+
+def test_a_law_in_python_may_be_cut_off(rough):
+    cut = asperity.CutOff(Exponential(2e-5, 8e-3), 0.03)
+    built_in = asperity.CutOff(asperity.Exponential(2e-5, 8e-3), 0.03)
+    gaps = np.linspace(0.0, 0.04, 50)
+    # the table has energy and traction to 1e-11 of their largest values
+    assert np.allclose(cut.traction(gaps), built_in.traction(gaps), rtol=0, atol=1e-10 * built_in.traction(0.0))
+    solution = asperity.solve(rough, modulus=1.0, mean_pressure=0.01, law=cut)
+    assert solution.report["law"] == "Exponential" and solution.report["cut_off"] == 0.03
+
+
 @pytest.mark.parametrize("threads", [1, 2])
 def test_a_law_in_python_is_that_of_the_library(rough, threads):
     options = {"modulus": 1.0, "mean_pressure": 0.01, "tolerance": 1e-8, "threads": threads}

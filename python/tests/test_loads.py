@@ -38,7 +38,7 @@ def test_an_interrupted_sweep_goes_on_with_the_same_bits(rough):
         sweep.run()
     assert len(sweep.rows) == 2
     for name, column in sweep.columns.items():
-        assert column.tolist() == whole[name].tolist(), name
+        assert repr(column.tolist()) == repr(whole[name].tolist()), name  # NaN is itself
 
 
 def test_a_sweep_warns_for_each_load_that_has_not_converged(rough):
@@ -52,7 +52,7 @@ def test_a_cycle_finds_the_jumps_and_keeps_the_balance_of_energy():
     law = asperity.Exponential(1e-3, 8e-3)
     cycle = asperity.cycle(wave, 1.0, modulus=1.0, law=law, mean_gaps=[0.08, 0.01, 0.08], steps=10)
     first = next(cycle)
-    assert first.leg == 0 and first.solution.gap.shape == (64,) and "leg 0" in repr(first)
+    assert first.leg == 0 and first.solution.gap.shape == (64,) and "start, leg 0" in repr(first)
     names = [event["event"] for event in cycle.events]
     assert names == ["jump-in", "pull-off"]
     table = pd.DataFrame(cycle.columns)

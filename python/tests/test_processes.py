@@ -34,6 +34,13 @@ def test_processes_find_the_same_however_they_are_started(method):
         assert list(pool.map(share, range(6), [None] * 6, timeout=100)) == expected
 
 
+@pytest.mark.parametrize("backend", ["loky", "threading"])
+def test_joblib_finds_the_same(backend):
+    joblib = pytest.importorskip("joblib")
+    found = joblib.Parallel(n_jobs=2, backend=backend)(joblib.delayed(share)(seed) for seed in range(6))
+    assert found == [share(seed) for seed in range(6)]
+
+
 @pytest.mark.skipif(sys.platform != "linux", reason="the peak of the memory is in kilobytes on Linux alone")
 def test_ten_thousand_solves_do_not_grow_the_memory():
     heights = asperity.surface.self_affine(16, 1.0, rms_slope=0.1, k_l=2, k_s=6)

@@ -177,6 +177,36 @@ def test_stability_is_asked_for(sphere, law):
     assert np.isclose((solution.mode**2).mean(), 1.0)
 
 
+def test_the_stability_of_a_solution_depends_on_what_holds_it(sphere, law):
+    options = {"modulus": 1.0, "mean_gap": 0.0398, "law": law}
+    asked = asperity.solve(sphere, 1.0, stability=True, **options)
+    found = asperity.stability(asperity.solve(sphere, 1.0, **options))
+    assert {**found._asdict(), "mode": None} == {**asked.report["stability"], "mode": None}
+    assert found.mode.tobytes() == asked.mode.tobytes()
+    # a sphere that is pulled comes off under a pressure before it does at a mean gap
+    for state in asperity.cycle(sphere, 1.0, modulus=1.0, law=law, mean_gaps=[0.0398, 0.06], steps=8):
+        under_pressure = asperity.stability(state.solution, mean_pressure=state.solution.mean_pressure).verdict
+        if under_pressure == "unstable":
+            assert asperity.stability(state.solution).verdict == "stable"
+            break
+    else:
+        raise AssertionError("no state that a pressure would not hold")
+
+
+def test_nested_grids_come_to_the_same_equilibrium():
+    rough = asperity.surface.self_affine(128, 1.0, rms_slope=0.1, k_l=2, k_s=16, seed=3)
+    seen = []
+    nested = asperity.solve(rough, modulus=1.0, mean_pressure=0.01, nested=True, observe=seen.append)
+    single = asperity.solve(rough, modulus=1.0, mean_pressure=0.01, nested=False)
+    assert len(nested.report["levels"]) == 2 and single.report["levels"] is None
+    assert len(seen) > nested.iterations
+    assert np.isclose(nested.mean_gap, single.mean_gap, rtol=1e-6)
+    assert asperity.stability(nested).verdict == "stable"
+    for given in ({"start": single}, {"stability": True}, {"leave": True}):
+        with pytest.raises(ValueError, match="nested grids make their own start"):
+            asperity.solve(rough, modulus=1.0, mean_pressure=0.01, nested=True, **given)
+
+
 def test_an_unstable_equilibrium_is_left():
     law = asperity.Exponential(1e-3, 1e-2)
     with pytest.warns(asperity.InputWarning, match="flat"):

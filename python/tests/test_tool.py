@@ -9,46 +9,126 @@ import pytest
 
 import asperity
 
-#: Inputs that only one of the two has.
-DIFFERENT = {"seconds", "heights", "version"}
+#: Inputs that only one of the two has: its time, its files, its version.
+DIFFERENT = {"seconds", "heights", "initial_gap", "law_table", "work_of_adhesion_map", "version"}
 
-#: Keys and columns of bodies as a whole, which one of the two may have alone.
-BODIES = {"boundary", "normal_force", "approach", "spring_stiffness", "absent_points", "edge_traction"}
+WORK, REACH = 2e-5, 8e-3
+GAPS, TRACTIONS = [0.0, 4e-3, 1.6e-2], [2.5e-3, 1.5e-3, 0.0]
+#: Works of adhesion that differ over the surface.
+WORKS = np.linspace(0.0, 1.0, 64)[:, None] * np.linspace(1.0, 0.5, 64) * WORK
 
-#: Keys of laws, walls and maps that the tool has alone.
-LAWS = {"mu_rho_node", "exponent", "hamaker", "law_table", "cut_off", "work_of_adhesion_map", "wall"}
-
-
-def shared(names):
-    return [name for name in names if name not in BODIES | LAWS]
+GIVEN = ["--work-of-adhesion", WORK, "--range", REACH]
+#: Laws and walls of the tool by its options, beside those of Python.
+LAWS = {
+    "none": ([], None, "hard"),
+    "exponential": (GIVEN, asperity.Exponential(WORK, REACH), "hard"),
+    "maugis-dugdale": (GIVEN, asperity.MaugisDugdale(WORK, REACH), "hard"),
+    "lennard-jones": (GIVEN, asperity.LennardJones(WORK, REACH, cut=True), "hard"),
+    "morse": (GIVEN, asperity.Morse(WORK, REACH), "hard"),
+    "power": ([*GIVEN, "--exponent", 3], asperity.PowerLaw(WORK, REACH, 3.0), "hard"),
+    "van-der-waals": (
+        ["--hamaker", 1e-7, "--range", REACH, "--cut-off", 0.05],
+        asperity.CutOff(asperity.VanDerWaals(1e-7, REACH), 0.05),
+        "hard",
+    ),
+    "table": (["--law-table", "law.txt"], asperity.Tabulated(GAPS, TRACTIONS), "hard"),
+}
+WITHOUT_WALL = {
+    "lennard-jones": ([*GIVEN, "--wall", "none"], asperity.LennardJones(WORK, REACH), "none"),
+    "morse": ([*GIVEN, "--wall", "none"], asperity.Morse(WORK, REACH), "none"),
+}
+VARYING = {
+    "exponential": (
+        ["--work-of-adhesion-map", "works.npy", "--range", REACH],
+        asperity.Varying(asperity.Exponential(WORKS.max(), REACH), WORKS),
+        "hard",
+    )
+}
+SCENES = [*LAWS.items(), *WITHOUT_WALL.items(), *VARYING.items()]
 
 
 def asked(tool, folder, command, *options):
     subprocess.run([tool, command, *map(str, options)], cwd=folder, check=True, capture_output=True)
 
 
+def same(folder, solution):
+    """Holds the fields and the report of a folder against those of a solution."""
+    for field in ("gap", "pressure", "contact_pressure"):
+        assert np.load(folder / f"{field}.npy").tobytes() == getattr(solution, field).tobytes(), field
+    report = json.loads((folder / "report.json").read_text())
+    assert list(report) == list(solution.report)
+    found = json.loads(json.dumps(solution.report), parse_constant=lambda _: None)
+    for key in report.keys() - DIFFERENT:
+        assert report[key] == found[key], key
+    for key in ("initial_gap", "law_table", "work_of_adhesion_map"):
+        assert (report[key] is None) == (found[key] is None), key
+
+
 @pytest.mark.parametrize("precision", ["f64", "f32"])
-@pytest.mark.parametrize("name", [None, "exponential", "maugis-dugdale"])
-def test_fields_have_the_same_bits_and_the_report_the_same_keys(tmp_path, tool, rough, name, precision):
+@pytest.mark.parametrize("scene", SCENES, ids=lambda scene: f"{scene[0]}-{scene[1][2]}")
+def test_fields_have_the_same_bits_and_the_report_the_same_keys(tmp_path, tool, rough, scene, precision):
+    name, (options, law, wall) = scene
     np.save(tmp_path / "heights.npy", rough.heights)
-    work, reach = 2e-5, 8e-3
-    options = ["--work-of-adhesion", work, "--range", reach, "--law", name] if name else []
+    np.save(tmp_path / "works.npy", WORKS)
+    np.savetxt(tmp_path / "law.txt", np.column_stack([GAPS, TRACTIONS]))
     # fmt: off
     asked(tool, tmp_path, "solve", "--heights", "heights.npy", "--lengths", 2, 2, "--modulus", 3, "--mean-pressure", 0.02,
-          "--precision", precision, "--stability", "--no-pictures", "--out", "out", *options)
+          "--precision", precision, "--stability", "--no-pictures", "--out", "out", "--law", name, *options)
     # fmt: on
-    laws = {None: None, "exponential": asperity.Exponential, "maugis-dugdale": asperity.MaugisDugdale}
-    law = laws[name] and laws[name](work, reach)
     solution = asperity.solve(
-        rough.heights, (2.0, 2.0), modulus=3.0, mean_pressure=0.02, law=law, precision=precision, stability=True
+        rough.heights,
+        (2.0, 2.0),
+        modulus=3.0,
+        mean_pressure=0.02,
+        law=law,
+        wall=wall,
+        precision=precision,
+        stability=True,
     )
-    for field in ("gap", "pressure", "contact_pressure"):
-        assert np.load(tmp_path / "out" / f"{field}.npy").tobytes() == getattr(solution, field).tobytes()
-    report = json.loads((tmp_path / "out" / "report.json").read_text())
-    assert shared(report) == shared(solution.report)
-    found = json.loads(json.dumps(solution.report), parse_constant=lambda _: None)
-    for key in (report.keys() & found.keys()) - DIFFERENT:
-        assert report[key] == found[key], key
+    same(tmp_path / "out", solution)
+
+
+def test_nested_grids_are_those_of_the_tool(tmp_path, tool):
+    rough = asperity.surface.self_affine(256, 1.0, rms_slope=0.1, k_l=2, k_s=32, seed=3)
+    np.save(tmp_path / "heights.npy", rough.heights)
+    # fmt: off
+    asked(tool, tmp_path, "solve", "--heights", "heights.npy", "--mean-pressure", 0.02, "--nested", "--no-pictures",
+          "--out", "out")
+    # fmt: on
+    solution = asperity.solve(rough, modulus=1.0, mean_pressure=0.02, nested=True)
+    same(tmp_path / "out", solution)
+    assert [level["shape"] for level in solution.report["levels"]] == [[64, 64], [128, 128], [256, 256]]
+    assert "with coarser grids" in repr(solution)
+
+
+@pytest.mark.parametrize("load", ["approach", "spring"])
+def test_a_tip_is_that_of_the_tool(tmp_path, tool, sphere, load):
+    np.save(tmp_path / "heights.npy", sphere)
+    given = {"approach": ["--approach", 0.01], "spring": ["--spring-stiffness", 0.1, "--spring-position", 0.05]}
+    # fmt: off
+    asked(tool, tmp_path, "solve", "--heights", "heights.npy", "--boundary", "free", "--no-pictures", "--out", "out",
+          "--law", "exponential", "--work-of-adhesion", 1e-4, "--range", 8e-3, *given[load])
+    # fmt: on
+    law = asperity.Exponential(1e-4, 8e-3)
+    keyword = {"approach": {"approach": 0.01}, "spring": {"spring": (0.1, 0.05)}}
+    solution = asperity.solve(sphere, 1.0, modulus=1.0, boundary="free", law=law, **keyword[load])
+    same(tmp_path / "out", solution)
+
+
+def table(path):
+    """The rows of a table of the tool."""
+    with open(path, newline="") as file:
+        return list(csv.DictReader(file))
+
+
+def same_columns(rows, columns):
+    assert list(rows[0]) == list(columns)
+    for name, column in columns.items():
+        if column.dtype.kind == "f":
+            # a cell that does not apply is empty
+            assert np.array([float(row[name] or "nan") for row in rows]).tobytes() == column.tobytes(), name
+        else:
+            assert [row[name] for row in rows] == ["" if cell is None else str(cell) for cell in column], name
 
 
 def test_a_sweep_has_the_columns_of_the_tool(tmp_path, tool, rough, law):
@@ -57,30 +137,51 @@ def test_a_sweep_has_the_columns_of_the_tool(tmp_path, tool, rough, law):
     asked(tool, tmp_path, "sweep", "--heights", "heights.npy", "--mean-pressures", "0.01,0.02,0.015", "--out", "sweep.csv",
           "--law", "exponential", "--work-of-adhesion", law.work_of_adhesion, "--range", law.range)
     # fmt: on
-    with open(tmp_path / "sweep.csv", newline="") as file:
-        rows = list(csv.DictReader(file))
     columns = asperity.sweep(rough, modulus=1.0, mean_pressures=[0.01, 0.02, 0.015], law=law).columns
-    assert shared(rows[0]) == shared(columns)
-    for name in shared(columns):
-        column = columns[name]
-        assert [type(column[0])(row[name]) for row in rows] == list(column), name
+    same_columns(table(tmp_path / "sweep.csv"), columns)
 
 
-def test_a_cycle_has_the_columns_of_the_tool(tmp_path, tool):
+def test_a_sweep_without_a_wall_has_the_columns_of_the_tool(tmp_path, tool, rough):
+    np.save(tmp_path / "heights.npy", rough.heights)
+    # fmt: off
+    asked(tool, tmp_path, "sweep", "--heights", "heights.npy", "--mean-gaps", "0.02,0.015", "--out", "sweep.csv",
+          "--law", "morse", "--wall", "none", *GIVEN)
+    # fmt: on
+    law = asperity.Morse(WORK, REACH)
+    columns = asperity.sweep(rough, modulus=1.0, mean_gaps=[0.02, 0.015], law=law, wall="none").columns
+    same_columns(table(tmp_path / "sweep.csv"), columns)
+
+
+@pytest.mark.parametrize("gaps", [[0.05, 0.012, 0.05, 0.04], [0.05, 0.012, 0.2]])
+def test_a_cycle_has_the_columns_of_the_tool(tmp_path, tool, gaps):
     wave = 0.02 * np.cos(2 * np.pi * np.arange(64) / 64)
     np.save(tmp_path / "heights.npy", wave[:, None])
-    law = asperity.Exponential(2e-4, 4e-3)
     # fmt: off
     asked(tool, tmp_path, "cycle", "--heights", "heights.npy", "--law", "exponential", "--work-of-adhesion", 2e-4,
-          "--range", 4e-3, "--mean-gaps", "0.05,0.012,0.05,0.04", "--steps", 10, "--out", "cycle.csv")
+          "--range", 4e-3, "--mean-gaps", ",".join(map(str, gaps)), "--steps", 10, "--out", "cycle.csv")
     # fmt: on
-    with open(tmp_path / "cycle.csv", newline="") as file:
-        rows = list(csv.DictReader(file))
-    columns = asperity.cycle(wave, 1.0, modulus=1.0, law=law, mean_gaps=[0.05, 0.012, 0.05, 0.04], steps=10).columns
-    assert set(shared(columns)) <= set(rows[0])
-    assert [row["event"] or None for row in rows] == list(columns["event"])
-    for name in ("mean_gap", "mean_pressure", "work", "dissipated", "imbalance"):
-        assert [float(row[name]) for row in rows] == list(columns[name]), name
+    law = asperity.Exponential(2e-4, 4e-3)
+    columns = asperity.cycle(wave, 1.0, modulus=1.0, law=law, mean_gaps=gaps, steps=10).columns
+    same_columns(table(tmp_path / "cycle.csv"), columns)
+
+
+def test_a_cycle_of_a_tip_from_afar_has_the_columns_of_the_tool(tmp_path, tool):
+    x = 0.24 * (np.arange(24) / 24 - 0.5)
+    tip = -(x[:, None] ** 2 + x**2) / 4
+    np.save(tmp_path / "heights.npy", tip)
+    # fmt: off
+    asked(tool, tmp_path, "cycle", "--heights", "heights.npy", "--lengths", 0.24, "--boundary", "free", "--law", "exponential",
+          "--work-of-adhesion", 2e-5, "--range", 2e-3, "--spring-stiffness", 0.01, "--spring-positions=-0.02,0,-0.03",
+          "--steps", 10, "--smallest-step", 1e-3, "--out", "cycle.csv")
+    # fmt: on
+    law, springs = asperity.Exponential(2e-5, 2e-3), [(0.01, rest) for rest in (-0.02, 0.0, -0.03)]
+    cycle = asperity.cycle(
+        tip, 0.24, modulus=1.0, law=law, springs=springs, boundary="free", steps=10, smallest_step=1e-3
+    )
+    with pytest.warns(asperity.InputWarning, match="window-edge"):
+        cycle.run()
+    same_columns(table(tmp_path / "cycle.csv"), cycle.columns)
+    assert [event["event"] for event in cycle.events if event["energy_drop"]] == ["jump-in", "pull-off"]
 
 
 def test_a_self_affine_surface_is_that_of_the_tool(tmp_path, tool):

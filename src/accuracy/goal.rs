@@ -289,7 +289,7 @@ impl<C> Accuracy<C> {
             }
             let fine = refined(&surface, periodic)?;
             let rigid = self.nested.solver.constraint.wall().is_rigid();
-            let start = prolong(&fine, (1, 1), &surface, &solution.gap, (rigid, periodic));
+            let start = prolong(&fine, &surface, solution.gap, (rigid, periodic));
             let mut problem = Problem::new(&fine, half_space, law)?;
             let grid = *fine.grid();
             solution = self

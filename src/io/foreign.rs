@@ -1,14 +1,14 @@
 //! Formats that are not read, and how to convert them.
 
-const GWYDDION: &str = "open it in Gwyddion, and save its heights as .gsf or export them as text";
+const GWYDDION: &str = "open it in Gwyddion, and save it as .gwy or its heights as .gsf; \
+                        or in Python: asperity.from_topography(SurfaceTopography.read_topography(file))";
 const IMAGE: &str = "if its grey values are heights, import it in Gwyddion and save it as .gsf; \
                      else export the heights from the program of the instrument";
 const UNPACK: &str = "unpack it first";
 
 /// The first bytes of foreign formats, their names, and the ways to convert them.
-const STARTS: [(&[u8], &str, &str); 42] = [
-    (b"GWYP", "a Gwyddion file (.gwy)", GWYDDION),
-    (b"GWYO", "a Gwyddion file (.gwy)", GWYDDION),
+const STARTS: [(&[u8], &str, &str); 41] = [
+    (b"GWYO", "a file of Gwyddion 1 (.gwy)", GWYDDION),
     (b"\\*File list", "a Nanoscope file (.spm)", GWYDDION),
     (b"?*File list", "a Nanoscope file (.spm)", GWYDDION),
     (b"\\*Force file list", "a Nanoscope file of force curves (.spm)", "save a map of heights instead"),

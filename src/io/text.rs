@@ -9,7 +9,7 @@ use super::{Parsed, quoted, unreadable};
 use crate::surface::Topography;
 
 const NUMBERS: &str =
-    "expected a .npy, .npz or .gsf file, or rows of numbers with decimal points (comments behind # or %)";
+    "expected a .npy, .npz, .gwy or .gsf file, or rows of numbers with decimal points (comments behind # or %)";
 
 /// Reads a matrix, one row of nodes along y per line; with the header of Gwyddion's text export, one row along x, from
 /// the top, and side lengths and units.

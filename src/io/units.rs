@@ -20,6 +20,11 @@ fn per_metre(unit: &str) -> Option<f64> {
     })
 }
 
+/// Whether a unit is one of length.
+pub(super) fn is_length(unit: &str) -> bool {
+    per_metre(unit).is_some()
+}
+
 /// A map of which the file gives side lengths and heights each in a unit, which may be empty for unknown: in metres,
 /// or in the unit that they share.
 pub(super) fn in_one_unit(

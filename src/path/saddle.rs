@@ -4,11 +4,12 @@ use std::ops::ControlFlow;
 
 use super::Path;
 use crate::adhesion::AdhesionLaw;
+use crate::constraint::ContactConstraint;
 use crate::elastic::ElasticOperator;
 use crate::error::Result;
 use crate::problem::{Control, Parts, smoothed_law};
 use crate::real::Real;
-use crate::solver::{Iteration, Solution, Status};
+use crate::solver::{Iteration, Potential, Solution, Status};
 use crate::stability::Saddle;
 
 /// The largest change of the gap that is made along the mode, in ranges of adhesion.
@@ -21,18 +22,20 @@ const DRAWN: f64 = 0.1;
 /// The largest number of saddles that are left one after the other at one load.
 const SADDLES: usize = 4;
 
-impl<T, O, L> Path<'_, T, O, L>
+impl<T, O, L, C> Path<'_, T, O, L, C>
 where
     T: Real,
     O: ElasticOperator<T>,
     L: AdhesionLaw<T>,
+    C: ContactConstraint<T>,
 {
     /// Whether a state is a saddle at its mean gap, of the law that the path follows.
     pub(super) fn saddle(&mut self, solution: &Solution<T>) -> Result<Option<Saddle>> {
         let load = self.state.held(&self.problem.flat);
         let Parts { operator, law, flat } = self.problem.parts();
         let smoothed = if self.settings.smooth { smoothed_law(&*operator, law) } else { None };
-        self.watch.look(operator, smoothed.as_deref().unwrap_or(law), (&solution.gap, flat.window.as_ref()), load)
+        let local = Potential::new(smoothed.as_deref().unwrap_or(law), &self.solver.constraint, None);
+        self.watch.look(operator, local, (&solution.gap, flat.window.as_ref()), load)
     }
 
     /// Goes down from a saddle along its mode, to a state that is none, if there is one; and whether the branch was
@@ -54,7 +57,8 @@ where
         let mut gap = from.gap.clone();
         for _ in 0..SADDLES {
             let amplitude = PERTURBATION * self.problem.law.range().widen();
-            self.watch.displace(&mut gap, amplitude, drawn.then_some(share));
+            let least = self.least();
+            self.watch.displace(&mut gap, least, amplitude, drawn.then_some(share));
             let left = self.solve(control, Some(&gap), observe)?;
             if left.report.status != Status::Converged {
                 self.failed |= left.report.status == Status::Stopped;

@@ -128,6 +128,17 @@ impl State {
         self.span.0 == self.span.1 || self.here().slope(self.mode).0 == self.span.1
     }
 
+    /// Ends the leg where the path is.
+    pub(super) fn end_leg(&mut self) {
+        let (x, _) = self.here().slope(self.mode);
+        self.span = (x, x);
+    }
+
+    /// Where the leg ends.
+    pub(super) fn end(&self) -> f64 {
+        self.span.1
+    }
+
     /// Begins a leg.
     pub(super) fn enter(&mut self, leg: usize, load: Control, settings: &PathSettings) {
         let (mode, end) = match load {
@@ -220,11 +231,17 @@ impl State {
         }
     }
 
-    /// Goes on at given mean gaps, from a limit point or from before a bifurcation.
-    pub(super) fn leave_pressure_control(&mut self, far: f64, limit_point: bool, settings: &PathSettings) {
+    /// Goes on at given mean gaps, from a limit point or from before a bifurcation: no closer than the surfaces bear the
+    /// pressure at which the leg ends, and no farther than they reach each other.
+    pub(super) fn leave_pressure_control(
+        &mut self,
+        (close, far): (f64, f64),
+        limit_point: bool,
+        settings: &PathSettings,
+    ) {
         let here = self.here();
         let (from, to) = self.span;
-        if !self.free && here.gap == 0.0 && to > from {
+        if !self.free && here.gap <= close && to > from {
             // pressed flat, and no way to go on
             self.span = (here.pressure, here.pressure);
             return;
@@ -233,7 +250,7 @@ impl State {
         self.pressures = Some((to, from));
         let end = match to > from {
             true if self.free => here.position - far,
-            true => 0.0,
+            true => close,
             false if self.free => here.position + far,
             false => far.max(2.0 * here.gap),
         };
@@ -324,10 +341,8 @@ impl State {
         if let Some((end, start)) = self.pressures {
             let short = (end - next.pressure) * (end - start).signum();
             if short <= LANDING * (end - start).abs() {
-                // the leg ends here
-                let x = next.slope(self.mode).0;
-                self.span = (x, x);
-            } else if !self.free && next.gap == 0.0 {
+                self.end_leg();
+            } else if !self.free && end > start && next.gap == self.span.1 {
                 // pressed flat, the surfaces bear any pressure
                 self.pressures = None;
                 self.turn(Mode::Pressure, end, settings);

@@ -1,25 +1,24 @@
 //! The chart: curves over two axes.
 
-use std::path::Path;
-
-use super::canvas::{Canvas, text_width};
+use super::Picture;
+use super::frame::{
+    Entry, LINE, MARGIN, NUMBERS, STEP_BELOW, STEP_BESIDE, Texts, draw_axis_below, draw_axis_beside, room,
+};
 use super::scale::{Axis, Part};
-use super::{LABEL, LINE, MARGIN, NUMBERS, TITLE, area, draw_axis_below, draw_axis_beside, legend_entry, room};
+use super::shape::{Area, Colour, Curve, GREY, HAIRLINE, Shape};
 use crate::error::Result;
-use embedded_graphics::pixelcolor::Rgb888;
-use embedded_graphics::prelude::*;
-use embedded_graphics::text::Alignment;
 
-/// Curves over two linear axes, such as the loads on a path over its mean gaps.
+/// Curves over two axes, such as the loads on a path over its mean gaps.
 ///
-/// The axes reach over all points that are finite; a curve is broken where they are not. Units are written as those of
-/// a [`Map`](super::Map).
+/// The axes reach over all points that are finite, and on a logarithmic one positive; a curve is broken where they are
+/// not. Where no curve has more than thirty points, each point has a dot. Units are written as those of a
+/// [`Map`](super::Map).
 ///
 /// ```
-/// use asperity::picture::Chart;
+/// use asperity::picture::{Chart, DPI};
 /// let wave = (0..100).map(|i| (f64::from(i), (0.1 * f64::from(i)).sin())).collect();
 /// let chart = Chart { x_label: "time", y_label: "height", curves: vec![("wave", wave)], ..Chart::default() };
-/// chart.write_png(&std::env::temp_dir().join("asperity-wave.png"))?;
+/// chart.draw(DPI)?.write(&std::env::temp_dir().join("asperity-wave.svg"))?;
 /// # Ok::<(), asperity::Error>(())
 /// ```
 #[derive(Clone, Debug, Default)]
@@ -32,76 +31,119 @@ pub struct Chart<'a> {
     pub x_label: &'a str,
     /// Its unit.
     pub x_unit: Option<&'a str>,
+    /// Whether its axis is logarithmic.
+    pub x_log: bool,
     /// The quantity y, upwards.
     pub y_label: &'a str,
     /// Its unit.
     pub y_unit: Option<&'a str>,
+    /// Whether its axis is logarithmic.
+    pub y_log: bool,
     /// The curves: their names, for the legend, and their points (x, y).
     pub curves: Vec<(&'a str, Vec<(f64, f64)>)>,
 }
 
-const SIZE: (i32, i32) = (720, 480);
+const SIZE: (f64, f64) = (360.0, 240.0);
 /// Blue, red, green, violet: distinct also to eyes that confuse two of them, by their lightness.
-const COLOURS: [Rgb888; 4] =
-    [Rgb888::new(33, 74, 135), Rgb888::new(214, 96, 30), Rgb888::new(0, 140, 100), Rgb888::new(150, 90, 170)];
+pub(super) const COLOURS: [Colour; 4] = [[33, 74, 135], [214, 96, 30], [0, 140, 100], [150, 90, 170]];
+/// The width of a curve, and the diameter of its dots.
+pub(super) const WIDTH: f64 = 1.0;
+const DOT: f64 = 3.5;
+/// The largest number of points on a curve of a chart with dots.
+const MOST_DOTS: usize = 30;
 /// The part of an axis beyond the points, as a share of their range.
 const SLACK: f64 = 0.03;
 
+/// The range of an axis, and the unit of its numbers.
+#[derive(Clone, Copy)]
+struct Range<'a> {
+    low: f64,
+    high: f64,
+    logarithmic: bool,
+    unit: Option<&'a str>,
+}
+
+impl Range<'_> {
+    fn part(&self) -> Part {
+        if self.logarithmic {
+            Part::logarithmic(self.low, self.high, self.unit)
+        } else {
+            Part::new(self.low, self.high, self.unit)
+        }
+    }
+}
+
 impl Chart<'_> {
-    /// Draws the curves and writes them to a PNG file, which it replaces.
+    /// Draws the curves, for `dpi` pixels per inch: [`DPI`](super::DPI), or more.
     ///
     /// # Errors
-    /// [`Error::File`](crate::Error::File) if the file cannot be written.
-    pub fn write_png(&self, path: &Path) -> Result<()> {
-        let (width, height) = SIZE;
-        let [x_range, y_range] = [|p: &(f64, f64)| p.0, |p: &(f64, f64)| p.1].map(|of| self.range(of));
-        let x = Axis::new(&[Part::new(x_range.0, x_range.1, self.x_unit)], self.x_label, width / 90);
-        let y = Axis::new(&[Part::new(y_range.0, y_range.1, self.y_unit)], self.y_label, height / 50);
-        let lines = [self.title, self.caption].iter().filter(|text| !text.is_empty()).count() as i32;
-        let (left, top) = (2 * MARGIN + room(&y), 2 * MARGIN + lines * LINE);
-        let legend: i32 = self.curves.iter().map(|(name, _)| legend_entry(name)).sum();
-        let widest =
-            (width + 3 * MARGIN).max(text_width(self.caption).max(text_width(self.title)).max(legend) + MARGIN);
-        let bottom = top + height + NUMBERS + LINE + MARGIN;
-        let mut canvas = Canvas::new(left + widest, bottom + LINE + MARGIN / 2);
-        let mut row = MARGIN + LINE / 2;
-        for (text, font) in [(self.title, TITLE), (self.caption, LABEL)] {
-            if !text.is_empty() {
-                canvas.text(text, Point::new(left, row), font, Alignment::Left);
-                row += LINE;
+    /// [`Error::Value`](crate::Error::Value) if `dpi` is below 36 or above 1200.
+    pub fn draw(&self, dpi: f64) -> Result<Picture> {
+        let x = self.range(|point| point.0, self.x_log, self.x_unit);
+        let y = self.range(|point| point.1, self.y_log, self.y_unit);
+        let below = Axis::new(&x.part(), self.x_label, (SIZE.0 / STEP_BELOW) as i32);
+        let beside = Axis::new(&y.part(), self.y_label, (SIZE.1 / STEP_BESIDE) as i32);
+        let entries = self.curves.iter().zip(COLOURS.into_iter().cycle());
+        let entry = |((name, _), colour): (&(&str, _), Colour)| Entry { colour, line: true, text: (*name).to_owned() };
+        let legend = entries.map(entry).filter(|entry| !entry.text.is_empty()).collect();
+        let texts = Texts { title: self.title, caption: self.caption, legend };
+
+        let plot = Area::new(2.0 * MARGIN + room(&beside), texts.above(), SIZE.0, SIZE.1);
+        let bottom = plot.bottom() + NUMBERS + LINE + MARGIN;
+        let width = plot.left + (SIZE.0 + 3.0 * MARGIN).max(texts.widest() + MARGIN);
+        let mut picture = Picture::new(self.title, (width.ceil(), bottom + texts.below()), dpi)?;
+        let (across, above) = (x.part(), y.part());
+        if !y.logarithmic && y.low < 0.0 && y.high > 0.0 {
+            let zero = plot.bottom() - plot.height * above.share(0.0);
+            picture.fill(Area::new(plot.left, zero - 0.5 * HAIRLINE, plot.width, HAIRLINE), GREY);
+        }
+        let dotted = self.curves.iter().all(|(_, points)| points.len() <= MOST_DOTS);
+        for ((_, points), colour) in self.curves.iter().zip(COLOURS.into_iter().cycle()) {
+            let place = |&(x, y): &(f64, f64)| {
+                (plot.left + plot.width * across.share(x), plot.bottom() - plot.height * above.share(y))
+            };
+            let points: Vec<_> = points.iter().map(place).collect();
+            let curve = |pieces, width| Shape::Curve(Curve { pieces, width, colour, within: plot });
+            let pieces = pieces(&points);
+            if dotted {
+                let dots = pieces.iter().flatten().map(|point| vec![*point]).collect();
+                picture.shapes.push(curve(dots, DOT));
             }
+            picture.shapes.push(curve(pieces, WIDTH));
         }
-        let plot = area(left, top, width, height);
-        let across = |v: f64| f64::from(left) + f64::from(width) * (v - x_range.0) / (x_range.1 - x_range.0);
-        let above = |v: f64| f64::from(top) + f64::from(height) * (y_range.1 - v) / (y_range.1 - y_range.0);
-        if y_range.0 < 0.0 && y_range.1 > 0.0 {
-            canvas.fill(area(left, above(0.0) as i32, width, 1), Rgb888::CSS_LIGHT_GRAY);
-        }
-        let mut column = left;
-        for ((name, points), colour) in self.curves.iter().zip(COLOURS.into_iter().cycle()) {
-            let points: Vec<_> = points.iter().map(|&(x, y)| (across(x), above(y))).collect();
-            let points: Vec<_> =
-                points.into_iter().map(|(x, y)| if x.is_finite() { (x, y) } else { (0.0, f64::NAN) }).collect();
-            canvas.curve(&points, plot, colour);
-            canvas.fill(area(column, bottom + 5, 14, 3), colour);
-            canvas.text(name, Point::new(column + 22, bottom + 6), LABEL, Alignment::Left);
-            column += legend_entry(name);
-        }
-        canvas.frame(plot);
-        draw_axis_below(&mut canvas, &x, plot);
-        draw_axis_beside(&mut canvas, &y, plot, -1);
-        canvas.write_png(path)
+        picture.outline(plot);
+        draw_axis_below(&mut picture, &below, plot);
+        draw_axis_beside(&mut picture, &beside, plot, -1.0, room(&beside));
+        texts.draw(&mut picture, plot.left, bottom);
+        Ok(picture)
     }
 
-    /// From the least to the largest finite value, and a little beyond.
-    fn range(&self, of: impl Fn(&(f64, f64)) -> f64) -> (f64, f64) {
-        let values = self.curves.iter().flat_map(|(_, points)| points).map(of).filter(|value| value.is_finite());
+    /// From the least to the largest value that the axis can have, and a little beyond.
+    fn range<'u>(&self, of: impl Fn(&(f64, f64)) -> f64, logarithmic: bool, unit: Option<&'u str>) -> Range<'u> {
+        let values = self.curves.iter().flat_map(|(_, points)| points).map(of);
+        let values = values.filter(|value| value.is_finite() && (!logarithmic || *value > 0.0));
         let (low, high) =
             values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| (low.min(value), high.max(value)));
-        match high - low {
-            span if span > 0.0 && span.is_finite() => (low - SLACK * span, high + SLACK * span),
-            _ if low.is_finite() => (low - low.abs().max(1e-3), low + low.abs().max(1e-3)),
-            _ => (0.0, 1.0),
-        }
+        let (low, high) = if logarithmic {
+            let slack = (high / low).powf(SLACK);
+            match high / low {
+                ratio if ratio > 1.0 && ratio.is_finite() => (low / slack, high * slack),
+                _ if low.is_finite() => (low / 2.0, low * 2.0),
+                _ => (0.1, 1.0),
+            }
+        } else {
+            match high - low {
+                span if span > 0.0 && span.is_finite() => (low - SLACK * span, high + SLACK * span),
+                _ if low.is_finite() => (low - low.abs().max(1e-3), low + low.abs().max(1e-3)),
+                _ => (0.0, 1.0),
+            }
+        };
+        Range { low, high, logarithmic, unit }
     }
+}
+
+/// The pieces of a curve, which is broken where a point is not finite.
+pub(super) fn pieces(points: &[(f64, f64)]) -> Vec<Vec<(f64, f64)>> {
+    let finite = |point: &(f64, f64)| point.0.is_finite() && point.1.is_finite();
+    points.split(|point| !finite(point)).filter(|piece| !piece.is_empty()).map(<[_]>::to_vec).collect()
 }

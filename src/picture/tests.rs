@@ -5,20 +5,21 @@ use std::io::BufReader;
 
 use ndarray::Array2;
 
+use super::map::map_size;
 use super::*;
+use crate::grid::Grid;
 
 /// Writes a map, and reads its width, height and pixels, and the corner and size of the plot.
 fn drawn(map: &Map<'_>, name: &str) -> (usize, usize, Vec<[u8; 3]>, [usize; 4]) {
     let path = std::env::temp_dir().join(format!("asperity-{}-{name}.png", std::process::id()));
-    map.write_png(&path).unwrap();
-    let mut reader = png::Decoder::new(BufReader::new(File::open(&path).unwrap())).read_info().unwrap();
+    let (picture, plot) = map.draw_plot(DPI).unwrap();
+    picture.write(&path).unwrap();
+    let mut reader = ::png::Decoder::new(BufReader::new(File::open(&path).unwrap())).read_info().unwrap();
     let mut data = vec![0; reader.output_buffer_size().unwrap()];
     let info = reader.next_frame(&mut data).unwrap();
-    assert_eq!((info.color_type, info.bit_depth), (png::ColorType::Rgb, png::BitDepth::Eight));
+    assert_eq!((info.color_type, info.bit_depth), (::png::ColorType::Rgb, ::png::BitDepth::Eight));
     std::fs::remove_file(&path).unwrap();
-    let plot = map.draw().1;
-    let [x, y] = [plot.top_left.x, plot.top_left.y].map(|c| c as usize);
-    let plot = [x, y, plot.size.width as usize, plot.size.height as usize];
+    let plot = [plot.left, plot.top, plot.width, plot.height].map(|side| (2.0 * side).round() as usize);
     let pixels = data.chunks_exact(3).map(|c| [c[0], c[1], c[2]]).collect();
     (info.width as usize, info.height as usize, pixels, plot)
 }
@@ -46,7 +47,7 @@ fn x_runs_to_the_right_and_y_upwards_from_neutral_zero() {
 fn black_is_the_share_of_contact() {
     for (n, side) in [(60, 600), (250, 500), (1200, 600)] {
         let values = Array2::from_shape_fn((n, n), |(i, j)| f64::from((7 * i + 3 * j) % 10 < 3));
-        let map = Map::new(values.view(), Grid::square(n, 1.0).unwrap(), Colouring::Binary);
+        let map = Map::new(values.view(), Grid::square(n, 1.0).unwrap(), Colouring::Contact);
         let (width, _, pixels, [x, y, w, h]) = drawn(&map, &format!("contact-{n}"));
         assert_eq!((w, h), (side, side));
         let plot = (y..y + h).flat_map(|row| &pixels[row * width + x..row * width + x + w]);
@@ -79,12 +80,12 @@ fn degenerate_fields_are_drawn() {
         for shape in [(1, 1), (1, 5), (2, 3)] {
             let mut values = Array2::from_elem(shape, value);
             values[[0, 0]] = first;
-            for colouring in [Colouring::Sequential, Colouring::Diverging, Colouring::Binary] {
+            for colouring in [Colouring::Sequential, Colouring::Diverging, Colouring::Contact] {
                 // Flat, for a small picture.
                 let map = Map::new(values.view(), Grid::new(shape, (1e300, 1e-300)).unwrap(), colouring);
                 let map = Map { label: "µ\n−🦀", unit: Some("m"), length_unit: Some("m"), ..map };
-                let size = map.draw().0.size();
-                assert!(size.width < 4000 && size.height < 1000, "{value} {first} {shape:?}: {size}");
+                let Picture { width, height, .. } = map.draw(DPI).unwrap();
+                assert!(width < 2000.0 && height < 500.0, "{value} {first} {shape:?}: {width} {height}");
             }
         }
     }
@@ -108,8 +109,150 @@ fn a_curve_goes_through_its_nodes() {
 fn what_cannot_be_drawn_or_written_is_refused() {
     let values = Array2::zeros((4, 3));
     let map = Map::new(values.view(), Grid::square(4, 1.0).unwrap(), Colouring::Sequential);
-    assert!(matches!(map.write_png(Path::new("x.png")), Err(Error::Shape { found: (4, 3), .. })));
+    assert!(matches!(map.draw(DPI), Err(Error::Shape { found: (4, 3), .. })));
     let map = Map { grid: Grid::new((4, 3), (1.0, 1.0)).unwrap(), ..map };
     let path = Path::new("/no/such/directory/x.png");
-    assert!(matches!(map.write_png(path), Err(Error::File { path: p, .. }) if p == path));
+    let picture = map.draw(DPI).unwrap();
+    assert!(matches!(picture.write(path), Err(Error::File { path: p, .. }) if p == path));
+    assert!(matches!(picture.write(Path::new("x.gif")), Err(Error::File { .. })));
+    assert!(matches!(map.draw(5.0), Err(Error::Value { value: 5.0, .. })));
+    for limits in [(1.0, 1.0), (2.0, 1.0), (0.0, f64::NAN)] {
+        assert!(matches!(Map { limits: Some(limits), ..map.clone() }.draw(DPI), Err(Error::Value { .. })));
+    }
+}
+
+/// The texts of a picture, in the order in which they are drawn.
+fn texts(picture: &Picture) -> Vec<String> {
+    let text = |shape: &Shape| if let Shape::Text(text) = shape { Some(text.text.clone()) } else { None };
+    picture.shapes.iter().filter_map(text).collect()
+}
+
+#[test]
+fn tension_and_compression_have_a_scale_and_a_colour_bar_each() {
+    let values = Array2::from_shape_fn((40, 40), |(i, _)| if i < 20 { -5e7 } else { 5e9 });
+    let map = Map { label: "pressure", unit: Some("Pa"), signs: ["tension", "compression"], ..signed(&values) };
+    let found = texts(&map.draw(DPI).unwrap());
+    for text in ["tension (MPa)", "compression (GPa)", "−40", "−20", "2", "4"] {
+        assert!(found.iter().any(|found| found == text), "{text}: {found:?}");
+    }
+    // both ends have the full colour
+    let (_, _, pixels, [x, y, w, h]) = drawn(&map, "signs");
+    let width = pixels.len() / (2.0 * map.draw(DPI).unwrap().height) as usize;
+    let middle = |column: usize| pixels[(y + h / 2) * width + column];
+    assert_eq!([middle(x + 5), middle(x + w - 5)], [[4, 47, 96], [103, 0, 31]]);
+    // without adhesion one bar is enough
+    let compressed = values.mapv(|v| v.max(0.0));
+    let map = Map { label: "pressure", signs: ["tension", "compression"], ..signed(&compressed) };
+    let found = texts(&map.draw(DPI).unwrap());
+    assert!(found.contains(&"pressure (10⁹)".to_owned()) && !found.iter().any(|text| text.contains("tension")));
+}
+
+/// A map of pressures on a square.
+fn signed(values: &Array2<f64>) -> Map<'_> {
+    Map::new(values.view(), Grid::square(values.nrows(), 1.0).unwrap(), Colouring::Diverging)
+}
+
+#[test]
+fn contact_attraction_and_what_is_apart_have_a_colour_each() {
+    let values = ndarray::array![[1.0, -1.0], [0.0, f64::NAN]];
+    let map = Map::new(values.view(), Grid::square(2, 1.0).unwrap(), Colouring::Contact);
+    let (width, _, pixels, [x, y, w, h]) = drawn(&map, "classes");
+    let at = |ix: usize, iy: usize| pixels[(y + h - 1 - h * iy / 2 - 10) * width + x + w * ix / 2 + 10];
+    let expected = [[0; 3], colours::ATTRACTIVE, [255; 3], colours::MISSING];
+    assert_eq!([at(0, 0), at(0, 1), at(1, 0), at(1, 1)], expected);
+    let found = texts(&map.draw(DPI).unwrap());
+    assert!(["contact", "attractive", "apart", "no surface"].iter().all(|name| found.iter().any(|text| text == name)));
+    // mixed where there are more nodes than pixels
+    let many = Array2::from_shape_fn((2000, 2000), |(i, _)| if i % 2 == 0 { -1.0 } else { 0.0 });
+    let map = Map::new(many.view(), Grid::square(2000, 1.0).unwrap(), Colouring::Contact);
+    let (width, _, pixels, [x, y, ..]) = drawn(&map, "mixed");
+    assert_eq!(
+        pixels[(y + 9) * width + x + 9],
+        colours::ATTRACTIVE.map(|part| (255.0 / 2.0 + f64::from(part) / 2.0).round() as u8)
+    );
+}
+
+/// A map with a title that SVG and PDF have to escape, and a chart of a broken curve, each drawn.
+fn pictures() -> [Picture; 2] {
+    let values = Array2::from_shape_fn((3, 2), |(i, j)| (i + 2 * j) as f64);
+    let map = Map {
+        title: "Gap < 1 & (µm)",
+        label: "gap",
+        unit: Some("m"),
+        ..Map::new(values.view(), Grid::new((3, 2), (3.0, 2.0)).unwrap(), Colouring::Sequential)
+    };
+    let points = vec![(1e-3, 1.0), (1e-2, f64::NAN), (1e-1, 10.0), (1.0, 100.0)];
+    let chart = Chart { x_log: true, y_log: true, x_label: "load", curves: vec![("area", points)], ..Chart::default() };
+    [map.draw(DPI).unwrap(), chart.draw(DPI).unwrap()]
+}
+
+#[test]
+fn svg_has_text_as_text_and_the_map_as_an_image() {
+    let [map, chart] = pictures().map(|picture| picture.svg().unwrap());
+    assert!(map.contains("<title>Gap &lt; 1 &amp; (µm)</title>") && map.contains(">gap (m)</text>"));
+    // the map and its colour bar
+    assert_eq!(map.matches("href=\"data:image/png;base64,iVBORw0KGgo").count(), 2);
+    assert!(
+        [">0.001<", ">0.1<", ">load<", ">area<"].iter().all(|text| chart.contains(text)) && !chart.contains("<image")
+    );
+    assert!(!map.contains("NaN") && !chart.contains("NaN") && !chart.contains("inf"));
+}
+
+#[test]
+fn pdf_has_its_objects_where_the_table_says() {
+    for (picture, images) in pictures().iter().zip([2, 0]) {
+        let file = pdf::encode(picture).unwrap();
+        let text = String::from_utf8_lossy(&file);
+        assert_eq!(text.matches("/Subtype/Image").count(), images);
+        assert!(text.contains("/FontFile2") && text.contains("/ToUnicode"));
+        let number = |bytes: &[u8]| std::str::from_utf8(bytes).unwrap().trim().parse::<usize>().unwrap();
+        let found = |from: usize, what: &[u8]| from + file[from..].windows(what.len()).position(|w| w == what).unwrap();
+        let end = file.windows(9).rposition(|w| w == b"startxref").unwrap();
+        let table = number(&file[end + 9..found(end, b"%%EOF")]);
+        assert!(file[table..].starts_with(b"xref\n0 "));
+        let line = found(table + 5, b"\n") + 1;
+        for object in 1..11 + images {
+            let place = number(&file[line + 20 * object..line + 20 * object + 10]);
+            assert!(file[place..].starts_with(format!("{object} 0 obj\n").as_bytes()), "{object}");
+        }
+        for begin in file.windows(8).enumerate().filter(|(_, w)| *w == b">>stream").map(|(at, _)| at) {
+            let length = file[..begin].windows(8).rposition(|w| w == b"/Length ").unwrap() + 8;
+            let length = number(&file[length..begin]);
+            assert!(file[begin + 9 + length..].starts_with(b"\nendstream"));
+        }
+    }
+}
+
+#[test]
+fn more_pixels_per_inch_make_the_same_picture_larger() {
+    let values = Array2::from_shape_fn((60, 60), |(i, j)| ((7 * i + 3 * j) % 10) as f64);
+    let map = Map::new(values.view(), Grid::square(60, 1.0).unwrap(), Colouring::Sequential);
+    let [usual, fine] = [DPI, 2.0 * DPI].map(|dpi| Raster::of(&map.draw(dpi).unwrap()));
+    assert_eq!((fine.columns, fine.pixels.len()), (2 * usual.columns, 4 * usual.pixels.len()));
+    let plot = map.draw_plot(DPI).unwrap().1;
+    let (left, top) = ((2.0 * plot.left) as usize, (2.0 * plot.top) as usize);
+    for (row, column) in (0..600).step_by(37).flat_map(|row| (0..600).step_by(37).map(move |column| (row, column))) {
+        let at = |raster: &Raster, factor: usize| {
+            raster.pixels[factor * (top + row) * raster.columns + factor * (left + column)]
+        };
+        assert_eq!(at(&usual, 1), at(&fine, 2));
+    }
+}
+
+#[test]
+fn limits_hold_for_any_field_and_arrows_say_what_is_beyond() {
+    let grid = Grid::new((3, 2), (3.0, 2.0)).unwrap();
+    let values = Array2::from_shape_fn((3, 2), |(i, j)| (i + 2 * j) as f64);
+    let limited = |field: &Array2<f64>| {
+        let map = Map { limits: Some((1.0, 3.0)), ..Map::new(field.view(), grid, Colouring::Sequential) };
+        map.draw(DPI).unwrap()
+    };
+    let colours_of = |picture: &Picture| match &picture.shapes[0] {
+        Shape::Image(image) => image.pixels.clone(),
+        shape => panic!("{shape:?}"),
+    };
+    let (all, inner) = (limited(&values), limited(&values.mapv(|v| v.clamp(1.0, 3.0))));
+    assert_eq!(colours_of(&all), colours_of(&inner));
+    assert!(texts(&all).iter().any(|text| text == "max 4.00") && texts(&all).iter().any(|text| text == "min 0"));
+    assert!(!texts(&inner).iter().any(|text| text.contains("max") || text.contains("min")));
 }

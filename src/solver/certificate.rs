@@ -11,6 +11,9 @@ use crate::real::Real;
 /// The tolerance on the way to a start: the edge of the adhesive zone has to be right to a node.
 const START: f64 = 1e-4;
 
+/// The tolerance at which a state shows how much tension it holds.
+const HOLD: f64 = 1e-3;
+
 /// The share of the best error below which an error is progress.
 const PROGRESS: f64 = 0.95;
 
@@ -50,8 +53,12 @@ impl<T: Real, L: Real> State<'_, T, L> {
         // flats that attract each other have no waves but those of rounding
         let traction = self.tally.traction / self.nodes();
         let (softest, stiffest) = self.operators.state().stiffness_range();
-        // and so have flats that are held apart
-        let lifted = if self.tally.contact > 0.0 { 0.0 } else { self.tally.sum_gap / self.nodes() };
+        // and so have flats that are held apart, by their mean gap or by the law itself, whose range their gaps are then of
+        let lifted = match self.constraint.wall() {
+            Wall::None => self.mean_gap().abs().max(self.law.range().widen()),
+            _ if self.tally.contact > 0.0 => 0.0,
+            _ => self.mean_gap(),
+        };
         let flat =
             if softest > 0.0 { epsilon * (traction * traction / softest + softest * lifted * lifted) } else { 0.0 };
         let waves = self.mean_work().max(apart);
@@ -102,7 +109,7 @@ impl<T: Real, L: Real> State<'_, T, L> {
     pub(super) fn meets(&self, load_error: f64) -> bool {
         let tolerance = self.settings.tolerance_in::<T>();
         if self.goal != Goal::Solution {
-            let tolerance = tolerance.max(START);
+            let tolerance = tolerance.max(if self.goal == Goal::Hold { HOLD } else { START });
             return self.relative_error() <= tolerance && load_error <= tolerance;
         }
         let criterion = match self.settings.criterion {

@@ -90,7 +90,11 @@ fn run<T: Real, L: Real>(operators: &mut dyn Operators<T, L>, job: Job<'_, T>) -
     if near {
         state.stays_near();
     }
-    if let Some(smoothed) = &smoothed {
+    let torn = state.is_torn();
+    if torn {
+        state.hold_apart();
+    }
+    if let Some(smoothed) = smoothed.as_ref().filter(|_| !torn) {
         state.change_law(&**smoothed, Goal::Start);
         let end = minimise(&mut state, &mut *observe)?;
         state.sharpen(law)?;

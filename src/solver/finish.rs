@@ -6,6 +6,7 @@ use super::passes::Fields;
 use super::potential::Potential;
 use super::report::{Report, Solution, Status};
 use super::state::State;
+use crate::adhesion::noticeable;
 use crate::elastic::Boundary;
 use crate::error::Result;
 use crate::field::{Partial, read, write};
@@ -101,9 +102,12 @@ impl<T: Real, L: Real> State<'_, T, L> {
         let pressure = window.crop(&pressure, T::zero());
         let contact_pressure = window.crop(&contact_pressure, T::zero());
         if flat.boundary != Boundary::Periodic {
-            let share = edge_share(&pressure);
+            let [at_edge, largest] = [largest(edge(&pressure)), largest(pressure.iter().copied())];
+            let share = if at_edge == 0.0 { 0.0 } else { at_edge / largest };
             report.edge_traction = Some(share);
-            let apart = report.status == Status::Detached;
+            // of bodies that are apart it says nothing how far the last of their attraction, or rounding, reaches
+            let attract = !law.is_zero() && largest > noticeable(law);
+            let apart = report.status == Status::Detached || report.contact_nodes == 0 && !attract;
             report.reaches_edge = !apart && (share > EDGE || edge(&gap).any(|gap| gap <= T::zero()));
         }
         Ok(Solution { gap, pressure, contact_pressure, report })
@@ -131,9 +135,7 @@ fn edge<T: Real>(field: &Array2<T>) -> impl Iterator<Item = T> {
     sides.into_iter().flat_map(|side| side.to_vec())
 }
 
-/// The largest traction on the outermost nodes as a share of the largest; zero without any traction.
-fn edge_share<T: Real>(pressure: &Array2<T>) -> f64 {
-    let largest = |largest: f64, pressure: T| largest.max(pressure.widen().abs());
-    let (at_edge, anywhere) = (edge(pressure).fold(0.0, largest), pressure.iter().copied().fold(0.0, largest));
-    if at_edge == 0.0 { 0.0 } else { at_edge / anywhere }
+/// The largest magnitude of some tractions.
+fn largest<T: Real>(tractions: impl Iterator<Item = T>) -> f64 {
+    tractions.fold(0.0, |largest, traction| largest.max(traction.widen().abs()))
 }

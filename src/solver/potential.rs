@@ -23,10 +23,16 @@ pub(crate) struct Least<T> {
 }
 
 impl<T: Real> Least<T> {
+    /// The least gap of a node that has this gap before the step.
     #[inline(always)]
     pub(crate) fn after(self, gap: T) -> T {
         if gap > self.rest { self.rest } else { self.share * gap - self.depth }
     }
+}
+
+/// A gap that is wanted in the place of another, or the least that it may become.
+pub(crate) fn bounded<T: Real>(least: Option<Least<T>>, gap: T, wanted: T) -> T {
+    least.map_or(wanted, |least| wanted.max(least.after(gap)))
 }
 
 /// The local energy of every node: the adhesion law, and the constraint where it is a term of the energy.

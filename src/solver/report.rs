@@ -169,7 +169,8 @@ pub struct Report {
     /// Nothing in a periodic cell.
     pub edge_traction: Option<f64>,
     /// Whether contact, or more than a thousandth of the largest traction, reaches the outermost nodes of a free
-    /// boundary's window. Unless the body ends there, the window is too small for it.
+    /// boundary's window. Unless the body ends there, the window is too small for it. Not where the bodies are apart, with
+    /// no traction above 1 % of w/ρ.
     pub reaches_edge: bool,
     /// The smallest gap: zero in contact, negative only where the constraint lets the surfaces interpenetrate.
     pub min_gap: f64,

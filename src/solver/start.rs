@@ -103,6 +103,13 @@ pub(super) fn given_start<T: Real>(
     Ok(gap)
 }
 
+/// Refuses springs, where the energy of a solution has to be in its report.
+pub(crate) fn refuse_springs<T: Real>(wall: Wall<'_, T>) -> Result<()> {
+    let reason = "the energy of springs is not in the report of a solution, so that jumps could not be told from work: \
+                  take a rigid wall (Projection), or NoWall with a law that repels";
+    if let Wall::Springs(_) = wall { Err(Error::Wall { wall: "springs", reason }) } else { Ok(()) }
+}
+
 /// Refuses a law that is not made for a wall.
 pub(crate) fn check_wall<T: Real>(law: &dyn AdhesionLaw<T>, wall: Wall<'_, T>) -> Result<()> {
     let (wall, reason) = match wall {

@@ -405,14 +405,16 @@ impl<'a, T: Real, L: Real> State<'a, T, L> {
         let Fields { residual, preconditioned, .. } = &mut self.fields;
         let found =
             self.operators.corrections().precondition(residual.view(), foundation, preconditioned.view_mut())?;
-        let (mut sum, mut certificate) = (found.mean * self.nodes(), found.error.max(0.0));
+        let [mut sum, mut descent] = [found.mean, found.descent].map(|mean| mean * self.nodes());
+        let mut certificate = found.error.max(0.0);
         if let Some(held) = held {
             sum = passes::release_held(&mut self.fields, &local, held);
+            descent += held.descent;
             // two loads, of which the sum is the residual: their responses add up in the energy norm
             certificate = (certificate.sqrt() + (held.beside / self.nodes()).sqrt()).powi(2);
         }
         self.certificate = if found.error.is_nan() { f64::INFINITY } else { certificate };
-        self.preconditioned = Preconditioned { descent: found.descent * self.nodes(), sum };
+        self.preconditioned = Preconditioned { descent, sum };
         self.applications += 1;
         Ok(())
     }

@@ -17,7 +17,13 @@ const SECTIONS: usize = 12;
 const GOLDEN: f64 = 0.618;
 
 /// Gaps at which the law is asked for its strongest traction.
-const SAMPLES: usize = 100;
+const SAMPLES: usize = 1000;
+
+/// How much more than concave functions the tension may rise between mean gaps at which it is known.
+const RISE: f64 = 2.0;
+
+/// The excess over the strongest of the sampled tractions that there may be between the samples.
+const BETWEEN: f64 = 1.1;
 
 /// The distance at which surfaces are held apart, and the largest one at which a hold is sought, in ranges of adhesion
 /// beyond the heights.
@@ -43,6 +49,12 @@ impl<T: Real, L: Real> State<'_, T, L> {
         pressed && self.tally.sum_gap / self.nodes() > self.start_gap + 2.0 * self.out_of_reach()
     }
 
+    /// Whether the load pulls by more than the law holds at its strongest on all nodes that face the surface.
+    pub(super) fn is_torn(&self) -> bool {
+        let facing = self.flat.window.as_ref().map_or(1.0, |window| window.facing() as f64 / self.nodes());
+        matches!(self.load, Load::Pressure(load) if -load > BETWEEN * facing * self.strongest_traction())
+    }
+
     /// Looks for a state that holds more than the tensile load that is given, to go on from under the load; `false` if
     /// it finds none.
     ///
@@ -52,13 +64,13 @@ impl<T: Real, L: Real> State<'_, T, L> {
     /// them close up to an equilibrium.
     pub(super) fn seek_hold(&mut self, observe: Observer<'_>) -> Result<bool> {
         let Load::Pressure(load) = self.load else { return Ok(false) };
-        if -load > self.strongest_traction() || !self.projects() {
+        if !self.projects() {
             return Ok(false);
         }
         let touch = self.flat.peak;
         let mut interval = [0.5 * touch, 1.5 * touch + 0.5 * REACH * self.law.range().widen()];
         let [mut gaps, mut held] = [[0.0; 2]; 2];
-        let mut next = None;
+        let (mut next, mut tried) = (None, Vec::with_capacity(SECTIONS));
         for section in 0..SECTIONS {
             let side = next.unwrap_or(section % 2);
             let width = interval[1] - interval[0];
@@ -72,9 +84,13 @@ impl<T: Real, L: Real> State<'_, T, L> {
                 Some(tension) => tension,
                 None => break,
             };
+            tried.push((gaps[side], held[side]));
+            if most_between(&mut tried, HARDLY * -load) < -load {
+                break;
+            }
             if section > 0 {
-                // the larger tension stays inside
-                let larger = usize::from(held[1] > held[0]);
+                // the larger tension stays inside; where hardly any is held the surfaces are apart
+                let larger = usize::from(held[1] > held[0].max(HARDLY * -load));
                 interval[1 - larger] = gaps[1 - larger];
                 (gaps[1 - larger], held[1 - larger]) = (gaps[larger], held[larger]);
                 next = Some(larger);
@@ -84,9 +100,11 @@ impl<T: Real, L: Real> State<'_, T, L> {
         Ok(false)
     }
 
-    /// The tension at a given mean gap, from a uniform gap; nothing if the solve was stopped or ran out of iterations.
+    /// The tension at a given mean gap, from the present contact or from a uniform gap; nothing if the solve was stopped or ran out of iterations.
     fn tension_at(&mut self, gap: f64, observe: Observer<'_>) -> Result<Option<f64>> {
-        self.fields.gap.fill(T::lit(gap));
+        if self.tally.contact == 0.0 {
+            self.fields.gap.fill(T::lit(gap));
+        }
         self.go_on(self.holding(gap), Goal::Hold)?;
         let end = minimise(self, observe)?;
         let gave = matches!(end, End::Gave(Status::Stopped | Status::IterationLimit));
@@ -133,5 +151,41 @@ impl<T: Real, L: Real> State<'_, T, L> {
         self.detached = Some(self.given);
         self.load = self.holding(target);
         self.restart();
+    }
+}
+
+/// The most tension that surfaces may hold about the mean gap at which they held most of those that were tried, as (gap,
+/// tension): what a concave function cannot exceed, and some more. Without bound where all held hardly any, or that gap
+/// has no neighbours.
+fn most_between(tried: &mut [(f64, f64)], hardly: f64) -> f64 {
+    tried.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let best = (0..tried.len()).max_by(|&a, &b| tried[a].1.total_cmp(&tried[b].1)).unwrap_or_default();
+    let (Some(&before), Some(&after)) = (best.checked_sub(1).and_then(|at| tried.get(at)), tried.get(best + 1)) else {
+        return f64::INFINITY;
+    };
+    let (gap, most) = tried[best];
+    if most <= hardly {
+        return f64::INFINITY;
+    }
+    let rise = |from: (f64, f64), to: (f64, f64)| (most - from.1) / (gap - from.0) * (to.0 - gap);
+    most + RISE * rise(before, after).max(rise(after, before))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_most_tension_is_bounded_between_three_gaps() {
+        let bound = |tried: &[(f64, f64)]| most_between(&mut tried.to_vec(), 1e-3);
+        // −(x − 1)² + 1, which is largest at 1
+        let at = |x: f64| (x, 1.0 - (x - 1.0).powi(2));
+        let bounds = [0.8, 0.4, 0.1, 0.01]
+            .map(|width| bound(&[at(1.0 + 1.1 * width), at(1.0 + 0.1 * width), at(1.0 - 0.9 * width)]));
+        assert!(bounds.iter().all(|&bound| bound >= 1.0) && bounds.is_sorted_by(|a, b| a > b) && bounds[3] < 1.02);
+        // lost beyond the largest
+        assert!(bound(&[(0.8, 0.9), (1.0, 1.0), (1.1, 0.0)]) > 1.05);
+        // no neighbour on one side, and nothing held at all
+        assert_eq!([bound(&[at(0.5), at(0.7)]), bound(&[(0.0, -1.0), (1.0, 1e-9), (2.0, 0.0)])], [f64::INFINITY; 2]);
     }
 }

@@ -4,12 +4,13 @@ use std::ops::ControlFlow;
 
 use super::Stability;
 use crate::adhesion::AdhesionLaw;
+use crate::constraint::ContactConstraint;
 use crate::elastic::ElasticOperator;
 use crate::error::{Error, Result};
 use crate::field;
 use crate::problem::{Control, Problem};
 use crate::real::Real;
-use crate::solver::{Solution, Solver, Start};
+use crate::solver::{Potential, Solution, Solver, Start, bounded, refuse_springs};
 
 /// The departure from an equilibrium: the end of a minimisation that left it along its softest mode.
 #[non_exhaustive]
@@ -35,11 +36,12 @@ impl<T: Real> Stability<T> {
     ///
     /// The perturbation changes the gap by a tenth of the range of adhesion at most. From a saddle the energy falls
     /// along the mode, and the solver never raises it again: it does not come back. From a stable equilibrium it does,
-    /// within that distance. The wall is rigid. `None` if the mode is zero, as where all nodes are in contact, or
+    /// within that distance. The wall is that of the solver. `None` if the mode is zero, as where all nodes are in contact, or
     /// without adhesion.
     ///
     /// # Errors
-    /// [`Error::Shape`] if the solution is of another grid, and those of [`Solver::solve_with`].
+    /// [`Error::Shape`] if the solution is of another grid, [`Error::Wall`] for springs, and those of
+    /// [`Solver::solve_with`].
     ///
     /// ```
     /// use asperity::stability::{StabilityTest, Verdict};
@@ -58,9 +60,9 @@ impl<T: Real> Stability<T> {
     /// assert_eq!(stability.verdict, Verdict::Stable);
     /// # Ok::<(), asperity::Error>(())
     /// ```
-    pub fn leave<O, L>(
+    pub fn leave<O, L, C>(
         &self,
-        solver: &mut Solver,
+        solver: &mut Solver<C>,
         problem: &mut Problem<T, O, L>,
         control: Control,
         from: &Solution<T>,
@@ -68,7 +70,9 @@ impl<T: Real> Stability<T> {
     where
         O: ElasticOperator<T>,
         L: AdhesionLaw<T>,
+        C: ContactConstraint<T>,
     {
+        refuse_springs(solver.constraint.wall())?;
         Error::shape("gap", from.gap.dim(), self.mode.dim())?;
         let largest = self.mode.iter().fold(T::zero(), |largest, value| largest.max(value.abs()));
         let amplitude = T::lit(PERTURBATION) * problem.law.range() / largest;
@@ -99,7 +103,8 @@ impl<T: Real> Stability<T> {
         for direction in [1.0, -1.0] {
             let step = T::lit(direction) * amplitude;
             let mut start = from.gap.clone();
-            start.zip_mut_with(&self.mode, |gap, &mode| *gap = (*gap + step * mode).max(T::zero()));
+            let least = Potential::new(&problem.law, &solver.constraint, None).least();
+            start.zip_mut_with(&self.mode, |gap, &mode| *gap = bounded(least, *gap, *gap + step * mode));
             let solution = solver.solve_with(problem, control, Start::From(&start), |_| ControlFlow::Continue(()))?;
             let energy_drop = energy(from) - energy(&solution);
             if best.as_ref().is_none_or(|best| energy_drop > best.energy_drop) {

@@ -3,7 +3,7 @@
 use ndarray::Array2;
 
 use super::hessian::Hessian;
-use super::{check_solution, slopes};
+use super::{check_gap, slopes};
 use crate::adhesion::AdhesionLaw;
 use crate::constraint::{ContactConstraint, Projection};
 use crate::elastic::ElasticOperator;
@@ -114,7 +114,7 @@ impl ContactStiffness {
         C: ContactConstraint<T>,
     {
         Error::positive("tolerance", tolerance)?;
-        check_solution(problem, constraint, solution)?;
+        check_gap(problem, constraint, &solution.gap)?;
         let Problem { operator, law, flat } = problem;
         if law.is_zero() && solution.report.contact_nodes == 0 {
             return Ok(Self {

@@ -5,14 +5,12 @@ use ndarray::Array2;
 use super::eigenpair::{Eigenpair, UNCERTAIN, lowest_from, normalise};
 use super::hessian::Hessian;
 use super::slopes;
-use crate::adhesion::AdhesionLaw;
-use crate::constraint::Projection;
 use crate::elastic::ElasticOperator;
 use crate::error::Result;
 use crate::field::mean_of_both;
 use crate::problem::{Load, Window};
 use crate::real::Real;
-use crate::solver::Potential;
+use crate::solver::{Least, Potential, bounded};
 
 /// The share of a random field that is added to the mode of the last state. Without it a mode that has no share in the
 /// start, as an antisymmetric one beside a symmetric one, would never be found.
@@ -49,21 +47,21 @@ impl<T: Real> Watch<T> {
         Self { mode, random: None }
     }
 
-    /// Whether an equilibrium is a saddle at its mean gap, of a law; with a load that is a spring, under that.
+    /// Whether an equilibrium is a saddle at its mean gap, of law and wall; with a load that is a spring, under that.
     ///
     /// Takes nothing if the softest stiffness and the least φ'' show that it is none, and otherwise some operator
     /// applications: five or seven, as a rule.
     pub(crate) fn look(
         &mut self,
         operator: &mut dyn ElasticOperator<T>,
-        law: &dyn AdhesionLaw<T>,
+        local: Potential<'_, T>,
         (gap, window): (&Array2<T>, Option<&Window>),
         load: Load,
     ) -> Result<Option<Saddle>> {
-        if law.is_zero() {
+        if local.is_zero() {
             return Ok(None);
         }
-        let slopes = slopes(gap, Potential::new(law, &Projection, None), window)?;
+        let slopes = slopes(gap, local, window)?;
         let mut hessian = Hessian::new(operator, slopes, load);
         if hessian.simple_bound() > 0.0 || hessian.dimension() == 0 {
             return Ok(None);
@@ -114,15 +112,16 @@ impl<T: Real> Watch<T> {
     }
 
     /// Adds the mode to a gap, with the largest change given: with the sign of its `share` in another change of the
-    /// gap, or so that the gap closes at the first of the nodes where the mode is as large as anywhere.
-    pub(crate) fn displace(&self, gap: &mut Array2<T>, largest: f64, share: Option<f64>) {
+    /// gap, or so that the gap closes at the first of the nodes where the mode is as large as anywhere. No gap becomes
+    /// smaller than it may after a step.
+    pub(crate) fn displace(&self, gap: &mut Array2<T>, least: Option<Least<T>>, largest: f64, share: Option<f64>) {
         let Some(mode) = &self.mode else { return };
         let top = mode.iter().fold(T::zero(), |top, value| top.max(value.abs()));
         let first = mode.iter().find(|value| value.abs() >= T::lit(NEARLY) * top);
         let sign = share.unwrap_or_else(|| -first.map_or(0.0, |value| value.widen())).signum();
         let factor = T::lit(sign * largest) / top;
         if factor.is_finite() {
-            gap.zip_mut_with(mode, |gap, &mode| *gap = (*gap + factor * mode).max(T::zero()));
+            gap.zip_mut_with(mode, |gap, &mode| *gap = bounded(least, *gap, *gap + factor * mode));
         }
     }
 }

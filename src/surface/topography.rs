@@ -9,18 +9,27 @@ use crate::error::{Error, Result};
 use crate::grid::Grid;
 use crate::surface::Surface;
 
+mod despike;
 mod fill;
+mod form;
+mod missing;
 mod resample;
+mod rows;
 #[cfg(test)]
 mod tests;
 mod trend;
 
+pub use despike::Spikes;
+pub use form::{Form, FormFit};
+pub use rows::{RowAlignment, ScanAxis};
 pub use trend::{Fit, Trend};
 
 /// A measured map of heights on its way to a [`Surface`]: points may be missing, side lengths and unit unknown.
 ///
 /// A surface is periodic and complete; a measurement is neither. Each step between the two is a method of its own, and
-/// nothing is done unasked: [`fill`](Self::fill) missing points, [`detrend`](Self::detrend), make the map periodic by
+/// nothing is done unasked: take codes for [`missing`](Self::declare_missing) points, [`align_rows`](Self::align_rows)
+/// of a scan, [`despike`](Self::despike), [`remove_form`](Self::remove_form), [`detrend`](Self::detrend),
+/// [`fill`](Self::fill) missing points, make the map periodic by
 /// [`window`](Self::window) or [`mirror`](Self::mirror), [`crop`](Self::crop) it, [`flip`](Self::flip) it, and
 /// [`resample`](Self::resample) it. Heights that are NaN or infinite are missing: all methods leave them missing, and
 /// out of their sums, but for `fill`, which gives them values, and `window` and `resample`, which refuse them.
@@ -221,4 +230,19 @@ impl From<Surface> for Topography {
         }
         Self { lengths, ..Self::new(heights) }
     }
+}
+
+/// The median of the values that are finite: of an even number, the mean of the two in the middle; none if there are
+/// no such values.
+fn median(values: impl Iterator<Item = f64>) -> Option<f64> {
+    let mut finite: Vec<f64> = values.filter(|value| value.is_finite()).collect();
+    let middle = finite.len() / 2;
+    if finite.is_empty() {
+        return None;
+    }
+    let even = finite.len().is_multiple_of(2);
+    let (below, upper, _) = finite.select_nth_unstable_by(middle, f64::total_cmp);
+    let upper = *upper;
+    let lower = if even { below.iter().copied().fold(f64::NEG_INFINITY, f64::max) } else { upper };
+    Some(lower + 0.5 * (upper - lower))
 }

@@ -1,14 +1,39 @@
 //! The relief of a surface: its figures for the warnings, from a few passes over the heights. Sums are in `f64` and in
 //! the order of the nodes, whatever the number of threads.
 
-use ndarray::{Array2, ArrayView1};
+use ndarray::Array2;
 
 use super::{CODES, FAR, LONE, SPIKE};
+use crate::field::flat;
+use crate::par;
+
+/// Nodes of a chunk, rows of a block and columns of a strip, which a thread takes at once.
+const CHUNK: usize = 1 << 14;
+const BLOCK: usize = 16;
+const STRIP: usize = 64;
 
 /// Sides of fewer nodes tell nothing of tilt and edges: a few nodes may rise one after the other by chance.
 const LEAST_NODES: usize = 16;
 
-/// The lowest and the highest height, their counts, and the range of all other heights.
+/// The lowest and the highest of no heights.
+const NOTHING: (f64, f64) = (f64::INFINITY, f64::NEG_INFINITY);
+
+/// The lowest and the highest of two pairs.
+fn join(a: (f64, f64), b: (f64, f64)) -> (f64, f64) {
+    (a.0.min(b.0), a.1.max(b.1))
+}
+
+/// What `f` makes of the heights of each chunk that are not missing.
+fn fold<A: Copy + Send + Sync>(heights: &Array2<f64>, from: A, f: impl Fn(A, f64) -> A + Send + Sync) -> Vec<A> {
+    let mut parts = vec![from; heights.len().div_ceil(CHUNK)];
+    par::update(par::chunks(flat(heights), CHUNK), &mut parts, 1, |_, chunk, part| {
+        *part = chunk.iter().filter(|h| h.is_finite()).fold(from, |found, &h| f(found, h));
+    });
+    parts
+}
+
+/// The lowest and the highest of the heights that are not missing, their counts, and the range of all others.
+#[derive(Clone, Copy)]
 pub struct Extremes {
     pub low: f64,
     pub high: f64,
@@ -20,10 +45,10 @@ pub struct Extremes {
 
 impl Extremes {
     pub fn of(heights: &Array2<f64>) -> Self {
-        let (low, high) = (f64::INFINITY, f64::NEG_INFINITY);
-        let (low, high) = heights.iter().fold((low, high), |(low, high), &h| (low.min(h), high.max(h)));
-        let mut found = Self { low, high, low_count: 0, high_count: 0, rest: (f64::INFINITY, f64::NEG_INFINITY) };
-        for &h in heights {
+        let nothing = Self { low: f64::INFINITY, high: f64::NEG_INFINITY, low_count: 0, high_count: 0, rest: NOTHING };
+        let (low, high) =
+            fold(heights, NOTHING, |found, h| (found.0.min(h), found.1.max(h))).into_iter().fold(NOTHING, join);
+        let found = fold(heights, Self { low, high, ..nothing }, |mut found, h| {
             if h == low {
                 found.low_count += 1;
             } else if h == high {
@@ -31,8 +56,14 @@ impl Extremes {
             } else {
                 found.rest = (found.rest.0.min(h), found.rest.1.max(h));
             }
-        }
-        found
+            found
+        });
+        found.into_iter().fold(Self { low, high, ..nothing }, |all, part| Self {
+            low_count: all.low_count + part.low_count,
+            high_count: all.high_count + part.high_count,
+            rest: join(all.rest, part.rest),
+            ..all
+        })
     }
 
     /// The highest less the lowest height; infinite if the difference is beyond `f64`.
@@ -40,8 +71,14 @@ impl Extremes {
         self.high - self.low
     }
 
+    /// The extreme values that stand for missing points, and at how many nodes.
+    pub fn codes(&self) -> Vec<(f64, usize)> {
+        let ends = [(self.low, self.low_count), (self.high, self.high_count)];
+        ends.into_iter().filter(|&(value, count)| self.is_code(value, count)).collect()
+    }
+
     /// Whether an extreme value stands for missing points: far outside the rest, and repeated or well known.
-    pub fn is_code(&self, value: f64, count: usize) -> bool {
+    fn is_code(&self, value: f64, count: usize) -> bool {
         let (low, high) = self.rest;
         let (span, distance) = (high - low, (low - value).max(value - high));
         // of two or three levels none is a code
@@ -116,6 +153,7 @@ pub struct Relief {
     /// Along x and along y.
     pub sides: [Side; 2],
     pub spikes: Spikes,
+    /// NaN where there are no spikes.
     pub kurtosis: f64,
     mean_square: f64,
 }
@@ -123,45 +161,56 @@ pub struct Relief {
 impl Relief {
     /// The relief of heights that are not flat.
     pub fn of(heights: &Array2<f64>, extremes: &Extremes) -> Self {
-        let unit = 0.5 * extremes.high - 0.5 * extremes.low;
-        let middle = 0.5 * extremes.high + 0.5 * extremes.low;
-        let scaled = |row: ArrayView1<'_, f64>, into: &mut Vec<f64>| {
-            into.clear();
-            into.extend(row.iter().map(|h| (h - middle) / unit));
-        };
-        let ((nx, ny), nodes) = (heights.dim(), heights.len() as f64);
-        let (mut row_means, mut row_steps) = (Vec::with_capacity(nx), Vec::with_capacity(nx));
-        let (mut column_means, mut column_steps) = (vec![0.0; ny], vec![0.0; ny]);
-        let mut squares = 0.0;
-        let [mut first, mut before, mut here] = [const { Vec::new() }; 3];
-        for (i, row) in heights.rows().into_iter().enumerate() {
-            scaled(row, &mut here);
-            row_means.push(here.iter().sum::<f64>() / ny as f64);
-            squares += here.iter().map(|h| h * h).sum::<f64>();
-            column_means.iter_mut().zip(&here).for_each(|(mean, h)| *mean += h / nx as f64);
-            // the last is the step across the edge
-            let after = here.iter().skip(1).chain(here.first());
-            let steps = here.iter().zip(after).map(|(h, after)| (after - h).powi(2) / nx as f64);
-            column_steps.iter_mut().zip(steps).for_each(|(sum, step)| *sum += step);
-            if i == 0 {
-                first.clone_from(&here);
-            } else {
-                row_steps.push(mean_square_step(&before, &here));
+        let scale = Scale::new(extremes);
+        let ((nx, ny), nodes, all) = (heights.dim(), heights.len() as f64, flat(heights));
+        // of each row the sums of the heights, of their squares, and of the squared steps from the row before, which of
+        // the first is the last; and the greatest step
+        let mut rows = vec![[0.0; 4]; nx];
+        par::update(par::chunks(all, ny), &mut rows, BLOCK, |i, row, found| {
+            let before = &all[(i + nx - 1) % nx * ny..][..ny];
+            let [sum, squares, steps, greatest] = found;
+            for (&h, &before) in row.iter().zip(before) {
+                let (h, step) = (scale.of(h), scale.of(h) - scale.of(before));
+                *sum += h;
+                *squares += h * h;
+                *steps += step * step;
+                *greatest = if step.abs() > *greatest { step.abs() } else { *greatest };
             }
-            std::mem::swap(&mut before, &mut here);
-        }
-        let edge = mean_square_step(&before, &first);
-        let column_edge = column_steps.pop().unwrap_or_default();
+        });
+        // of each column the mean, and the mean square step to the one after, at last to the first
+        let mut strips = vec![Vec::new(); ny.div_ceil(STRIP)];
+        par::update(par::chunks(&all[..ny], STRIP), &mut strips, 1, |strip, first, columns| {
+            *columns = vec![(0.0, 0.0); first.len()];
+            let from = strip * STRIP;
+            for row in all.chunks(ny) {
+                let after = row[from + 1..].iter().chain(row.first());
+                for ((&h, &after), (mean, step)) in row[from..].iter().zip(after).zip(&mut *columns) {
+                    let (h, after) = (scale.of(h), scale.of(after));
+                    *mean += h;
+                    *step += (after - h) * (after - h);
+                }
+            }
+            columns.iter_mut().for_each(|(mean, step)| (*mean, *step) = (*mean / nx as f64, *step / nx as f64));
+        });
+        let (column_means, mut column_steps): (Vec<f64>, Vec<f64>) = strips.into_iter().flatten().unzip();
+        let row_means: Vec<f64> = rows.iter().map(|row| row[0] / ny as f64).collect();
+        let row_steps: Vec<f64> = rows.iter().skip(1).map(|row| row[2] / ny as f64).collect();
+        let squares: f64 = rows.iter().map(|row| row[1]).sum();
+        let (edge, column_edge) = (rows[0][2] / ny as f64, column_steps.pop().unwrap_or_default());
         let mean = row_means.iter().sum::<f64>() / nx as f64;
         let sides = [Side::new(&row_means, &row_steps, edge), Side::new(&column_means, &column_steps, column_edge)];
         let mut relief = Self {
-            unit,
+            unit: scale.inverse.recip(),
             sides,
             spikes: Spikes::default(),
             kurtosis: f64::NAN,
             mean_square: squares / nodes - mean * mean,
         };
-        relief.look_for_spikes(heights, mean, &scaled);
+        // from each neighbour a spike differs by more than half of its distance from their mean
+        let greatest = rows.iter().fold(0.0, |greatest: f64, row| greatest.max(row[3]));
+        if nx == 1 || greatest > (1.0 - 1.0 / LONE) * relief.rms_about_plane() {
+            relief.look_for_spikes(heights, mean, scale);
+        }
         relief
     }
 
@@ -179,39 +228,42 @@ impl Relief {
     /// Counts the spikes: nodes whose distance from the mean of their eight neighbours (two on a line) exceeds the rms
     /// height about the plane, [`SPIKE`] times the rms of this distance, and [`LONE`] times the range of the
     /// neighbours. The edges of the map are left out.
-    fn look_for_spikes(
-        &mut self,
-        heights: &Array2<f64>,
-        mean: f64,
-        scaled: &impl Fn(ArrayView1<'_, f64>, &mut Vec<f64>),
-    ) {
+    fn look_for_spikes(&mut self, heights: &Array2<f64>, mean: f64, scale: Scale) {
         let rms = self.rms_about_plane();
-        let mut fourth = 0.0;
-        let mut squares = 0.0;
-        let mut count = 0.0;
-        let mut candidates = Vec::new();
         let (nx, ny) = heights.dim();
         let slope = [self.sides[0].drop / nx as f64, self.sides[1].drop / ny as f64];
         let centre = [0.5 * (nx as f64 - 1.0), 0.5 * (ny as f64 - 1.0)];
-        for_each_three(heights, scaled, |i, rows| {
-            let (mut row_squares, mut row_fourth) = (0.0, 0.0);
-            for (j, h) in rows[1].iter().enumerate() {
-                let plane = mean + slope[0] * (i as f64 - centre[0]) + slope[1] * (j as f64 - centre[1]);
-                row_fourth += ((h - plane) / rms).powi(4);
-                let Some((around, range)) = neighbours(rows, j) else { continue };
-                let out = (h - around).abs();
-                row_squares += out * out;
-                count += 1.0;
-                if out > LONE * range && out > rms {
-                    candidates.push((out, (i, j)));
+        let mut blocks = vec![Block::default(); nx.div_ceil(BLOCK)];
+        par::update(par::chunks(flat(heights), BLOCK * ny), &mut blocks, 1, |block, within, found| {
+            let mut around = Around::default();
+            for i in (0..within.len() / ny).map(|i| block * BLOCK + i) {
+                around.of_row(heights, i, scale);
+                let fourth = |(j, h): (usize, &f64)| {
+                    let plane = mean + slope[0] * (i as f64 - centre[0]) + slope[1] * (j as f64 - centre[1]);
+                    ((h - plane) / rms).powi(4)
+                };
+                found.fourth.push(around.here.iter().enumerate().map(fourth).sum());
+                let mut squares = 0.0;
+                for (k, (&(sum, low, high), &h)) in
+                    around.neighbours.iter().zip(&around.here[around.first..]).enumerate()
+                {
+                    let out = (h - sum / around.count).abs();
+                    squares += out * out;
+                    if out > LONE * (high - low) && out > rms {
+                        found.candidates.push((out, (i, around.first + k)));
+                    }
                 }
+                found.squares.push(squares);
+                found.count += around.neighbours.len();
             }
-            squares += row_squares;
-            fourth += row_fourth;
         });
-        self.kurtosis = fourth / heights.len() as f64;
-        let usual = f64::sqrt(squares / count);
-        for (out, node) in candidates.into_iter().filter(|(out, _)| *out > SPIKE * usual) {
+        // row by row
+        let total = |of: fn(&Block) -> &Vec<f64>| blocks.iter().flat_map(of).sum::<f64>();
+        self.kurtosis = total(|block| &block.fourth) / heights.len() as f64;
+        let count: usize = blocks.iter().map(|block| block.count).sum();
+        let usual = f64::sqrt(total(|block| &block.squares) / count as f64);
+        let candidates = blocks.iter().flat_map(|block| &block.candidates);
+        for &(out, node) in candidates.filter(|(out, _)| *out > SPIKE * usual) {
             self.spikes.count += 1;
             if out > self.spikes.farthest {
                 (self.spikes.farthest, self.spikes.node) = (out, node);
@@ -220,54 +272,85 @@ impl Relief {
     }
 }
 
-fn mean_square_step(from: &[f64], to: &[f64]) -> f64 {
-    from.iter().zip(to).map(|(a, b)| (b - a).powi(2)).sum::<f64>() / from.len() as f64
+/// One over the unit of heights, and where they count from.
+#[derive(Clone, Copy)]
+struct Scale {
+    inverse: f64,
+    middle: f64,
 }
 
-/// Hands out each row with the one before and the one after it, which are empty at the edges of the map.
-fn for_each_three(
-    heights: &Array2<f64>,
-    scaled: impl Fn(ArrayView1<'_, f64>, &mut Vec<f64>),
-    mut f: impl FnMut(usize, &[Vec<f64>; 3]),
-) {
-    let nx = heights.nrows();
-    let mut rows = [const { Vec::new() }; 3];
-    scaled(heights.row(0), &mut rows[2]);
-    for i in 0..nx {
-        rows.rotate_left(1);
-        if i + 1 < nx {
-            scaled(heights.row(i + 1), &mut rows[2]);
-        } else {
-            rows[2].clear();
-        }
-        f(i, &rows);
+impl Scale {
+    fn new(extremes: &Extremes) -> Self {
+        let unit = 0.5 * extremes.high - 0.5 * extremes.low;
+        Self { inverse: unit.recip().min(f64::MAX), middle: 0.5 * extremes.high + 0.5 * extremes.low }
+    }
+
+    #[inline]
+    fn of(self, height: f64) -> f64 {
+        (height - self.middle) * self.inverse
     }
 }
 
-/// The mean of the neighbours of a node, and their highest less their lowest; nothing at the edges of the map.
-fn neighbours(rows: &[Vec<f64>; 3], j: usize) -> Option<(f64, f64)> {
-    let [before, here, after] = rows;
-    let (mut sum, mut count, mut low, mut high) = (0.0, 0.0, f64::INFINITY, f64::NEG_INFINITY);
-    let mut add = |h: f64| {
-        sum += h;
-        count += 1.0;
-        low = low.min(h);
-        high = high.max(h);
-    };
-    match (before.get(j), after.get(j)) {
-        // a line along y
-        (None, None) => [j.checked_sub(1), Some(j + 1)].into_iter().try_for_each(|j| here.get(j?).map(|h| add(*h)))?,
-        (before, after) if here.len() == 1 => {
-            add(*before?);
-            add(*after?);
+/// What the search for spikes finds in a block of rows.
+#[derive(Clone, Default)]
+struct Block {
+    /// of each row the fourth powers of the heights about the plane, and the squares of the distances from neighbours
+    fourth: Vec<f64>,
+    squares: Vec<f64>,
+    /// the nodes that have all their neighbours
+    count: usize,
+    candidates: Vec<(f64, (usize, usize))>,
+}
+
+/// A row of scaled heights with the ones beside it, and of its nodes from `first` on that have all their `count` neighbours these neighbours'
+/// sum, lowest and highest. The edges of the map are left out.
+#[derive(Default)]
+struct Around {
+    before: Vec<f64>,
+    here: Vec<f64>,
+    after: Vec<f64>,
+    first: usize,
+    count: f64,
+    neighbours: Vec<(f64, f64, f64)>,
+}
+
+impl Around {
+    fn of_row(&mut self, heights: &Array2<f64>, i: usize, scale: Scale) {
+        let (nx, ny) = heights.dim();
+        let inside = i > 0 && i + 1 < nx;
+        let rows =
+            [(i.saturating_sub(1), &mut self.before), (i, &mut self.here), ((i + 1).min(nx - 1), &mut self.after)];
+        for (i, row) in rows {
+            row.clear();
+            row.extend(flat(heights)[i * ny..][..ny].iter().map(|&h| scale.of(h)));
         }
-        (Some(_), Some(_)) => {
-            let around = j.checked_sub(1)?..j + 2;
-            before.get(around.clone())?.iter().chain(after.get(around)?).for_each(|h| add(*h));
-            add(here[j - 1]);
-            add(here[j + 1]);
+        let Self { before, here, after, .. } = self;
+        self.neighbours.clear();
+        match (nx, ny) {
+            // a line along y
+            (1, 3..) => {
+                (self.first, self.count) = (1, 2.0);
+                self.neighbours.extend(here.windows(3).map(|h| gathered([h[0], h[2]])));
+            }
+            (_, 1) if inside => {
+                (self.first, self.count) = (0, 2.0);
+                self.neighbours.push(gathered([before[0], after[0]]));
+            }
+            (_, 3..) if inside => {
+                (self.first, self.count) = (1, 8.0);
+                let of = |((b, h), a): ((&[f64], &[f64]), &[f64])| {
+                    gathered([b[0], b[1], b[2], a[0], a[1], a[2], h[0], h[2]])
+                };
+                self.neighbours.extend(before.windows(3).zip(here.windows(3)).zip(after.windows(3)).map(of));
+            }
+            _ => {}
         }
-        _ => return None,
     }
-    Some((sum / count, high - low))
+}
+
+/// The sum of some heights, the lowest and the highest.
+fn gathered<const N: usize>(heights: [f64; N]) -> (f64, f64, f64) {
+    heights.into_iter().fold((0.0, f64::INFINITY, f64::NEG_INFINITY), |(sum, low, high), h| {
+        (sum + h, if h < low { h } else { low }, if h > high { h } else { high })
+    })
 }

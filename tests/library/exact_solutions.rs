@@ -544,3 +544,46 @@ fn what_has_no_solution_is_refused_by_name() {
     named(sticky.at_mean_pressure(-1.0).unwrap_err(), "mean pressure");
     named(sticky.at_half_width(0.5).unwrap_err(), "half-width");
 }
+
+#[test]
+fn a_wavy_sphere_is_that_of_its_parts() {
+    use asperity::exact::WavySphere;
+    let (radius, work) = (20.0, 1e-3);
+    // without a wave it is that of Johnson, Kendall and Roberts, whose one branch ends where contact is lost
+    let (plain, jkr) = (WavySphere::new(radius, 1.0, work, (0.0, 1.0)).unwrap(), Jkr::new(radius, 1.0, work).unwrap());
+    for a in [0.1, 0.7, 2.0] {
+        let contact = jkr.at_contact_radius(a).unwrap();
+        assert!(
+            (plain.load(a) - contact.load()).abs() < 1e-14 && (plain.approach(a) - contact.approach()).abs() < 1e-15
+        );
+    }
+    let lost = plain.jumps(0.1, -1.0).unwrap();
+    // dδ/da = 0: a³ = πwR²/8E*
+    assert!(
+        lost.len() == 1 && (lost[0][0] - (PI * work * radius * radius / 8.0).cbrt()).abs() < 1e-6 && lost[0][1] == 0.0
+    );
+    // F' = 2E*a δ' for what does not adhere
+    let wavy = WavySphere::new(radius, 1.0, work, (0.012, 1.0)).unwrap();
+    let sphere =
+        |a: f64| (wavy.load(a) + (8.0 * PI * work * a.powi(3)).sqrt(), wavy.approach(a) + (2.0 * PI * work * a).sqrt());
+    for a in [0.05, 0.3, 1.1, 2.9] {
+        let step = 1e-4;
+        let (low, high) = (sphere(a - step), sphere(a + step));
+        let (load, approach) = (high.0 - low.0, high.1 - low.1);
+        assert!((load - 2.0 * a * approach).abs() < 1e-5 * load.abs().max(1e-4), "{a}");
+    }
+    // each jump keeps the approach, and lets the force fall as the bodies come together and rise as they part
+    let (far, near) = (-0.12, wavy.approach(3.0));
+    for (from, to, count, sign) in [(far, near, 3, 1.0), (near, far, 3, -1.0)] {
+        let jumps = wavy.jumps(from, to).unwrap();
+        assert_eq!(jumps.len(), count, "{jumps:?}");
+        for [before, after] in jumps {
+            assert!(sign * (after - before) > 0.0);
+            if after > 0.0 {
+                assert!((wavy.approach(before) - wavy.approach(after)).abs() < 1e-9);
+            }
+            assert!(wavy.load(before) >= wavy.load(after) || sign < 0.0);
+        }
+    }
+    assert!(wavy.jumps(f64::NAN, 0.0).is_err() && WavySphere::new(radius, 1.0, work, (-1.0, 1.0)).is_err());
+}

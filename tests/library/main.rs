@@ -15,6 +15,7 @@ mod laws;
 mod light_loads;
 mod maugis_dugdale;
 mod nested;
+mod no_wall;
 mod operators;
 mod paper;
 mod path;

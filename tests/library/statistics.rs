@@ -198,3 +198,44 @@ fn statistics_refuse_what_does_not_fit() {
     let uniform = PressureDistribution::of_pressure(&solution, 1).unwrap();
     assert_eq!((uniform.edges, uniform.density), (vec![-3.0, -1.0], vec![0.5]));
 }
+
+#[test]
+fn patches_share_out_the_contact_by_their_work_of_adhesion() {
+    fn patched<T: Real>(works: usize) {
+        let grid = Grid::square(48, 1.0).unwrap();
+        let surface = Surface::wave_2d(grid, 0.01, 2).unwrap();
+        // stripes along y, of which those without adhesion come first
+        let work = grid.sample(|x, _| 2e-5 * ((works as f64 * (x + 0.5)).floor() / works as f64));
+        let law = Varying::new(Exponential::new(2e-5, 3e-3).unwrap(), work.view()).unwrap();
+        let mut problem = Problem::new(&surface, Westergaard::<T>::new(grid, 1.0).unwrap(), &law).unwrap();
+        let solution = Solver::default().solve(&mut problem, Control::MeanPressure(5e-3)).unwrap();
+        let found = ContactStatistics::of(&solution, &grid, &&law).unwrap();
+        if works > 16 {
+            assert!(found.patches.is_empty());
+            return;
+        }
+        assert_eq!(found.patches.len(), works);
+        let contact = solution.contact_map();
+        for (k, patch) in found.patches.iter().enumerate() {
+            let expected = 2e-5 * k as f64 / works as f64;
+            assert!((patch.work_of_adhesion - expected).abs() <= 4.0 * T::epsilon().widen() * 2e-5);
+            let own = |&(at, _): &((usize, usize), &bool)| (work[at] - expected).abs() < 1e-9;
+            let all = contact.indexed_iter().filter(own).count() as f64;
+            let touching = contact.indexed_iter().filter(own).filter(|(_, touches)| **touches).count() as f64;
+            assert_eq!((patch.area_fraction, patch.contact_fraction), (all / 2304.0, touching / all));
+        }
+        assert_eq!(found.patches[0].attractive_fraction, 0.0);
+        let total = |share: fn(&contact::Patch) -> f64| -> f64 {
+            found.patches.iter().map(|patch| patch.area_fraction * share(patch)).sum()
+        };
+        assert!((total(|patch| patch.contact_fraction) - found.contact_fraction).abs() < 1e-12);
+        assert!((total(|patch| patch.attractive_fraction) - found.attractive_fraction).abs() < 1e-12);
+    }
+    patched::<f64>(2);
+    patched::<f32>(3);
+    patched::<f64>(16);
+    patched::<f64>(17);
+    // one work of adhesion for all has no patches
+    let mut problem = sphere::<f64, _>(32, Exponential::new(1e-5, 1e-2).unwrap());
+    assert!(statistics(&mut problem, Control::MeanGap(0.04)).1.patches.is_empty());
+}

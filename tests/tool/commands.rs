@@ -46,8 +46,9 @@ impl Reader {
             if !(reads && ours) {
                 continue;
             }
-            if let Some((_, "txt" | "gsf")) = word.rsplit_once('.') {
-                fs::write(self.folder.path().join(word), measured(word.ends_with(".gsf"))).unwrap();
+            if let Some((_, "txt" | "gsf" | "gwy")) = word.rsplit_once('.') {
+                // the content and not the ending decides
+                fs::write(self.folder.path().join(word), measured(!word.ends_with(".txt"))).unwrap();
             } else if word.ends_with(".npy") {
                 let roughness = format!("--lengths {side} --k-l 2 --k-s 20 --rms-height {}", 0.01 * side);
                 let made = self.shell(&format!("asperity surface --size 64 {roughness} --force --quiet --out {word}"));

@@ -92,6 +92,14 @@ fn a_tip_jumps_in_and_off_and_the_cycle_ends_where_it_is_apart() {
     let before = bench.bytes("c.csv");
     bench.said(&format!("{cycle} --fields jumps"));
     assert!(before == bench.bytes("c.csv"));
+    // a withdrawal that is not the last ends there too
+    let loads = "--approaches 0.01,-0.2,0.005 --steps 8";
+    bench.said(&format!("cycle --heights tip.npz --boundary free {loads} --quiet --out d.csv"));
+    let table = rows(&bench, "d.csv");
+    let withdrawn = table.iter().rfind(|row| cell(row, "direction") == "withdrawal").unwrap();
+    assert_eq!(cell(withdrawn, "contact_fraction"), "0.0");
+    assert!(cell(withdrawn, "control_value").parse::<f64>().unwrap() > -0.05);
+    assert_eq!((cell(table.last().unwrap(), "leg"), cell(table.last().unwrap(), "control_value")), ("2", "0.005"));
 }
 
 #[test]

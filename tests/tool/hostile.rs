@@ -53,7 +53,7 @@ const NUMBERS: [&str; 14] = [
 ];
 
 /// The insertions into headers and texts.
-const PIECES: [&str; 29] = [
+const PIECES: [&str; 33] = [
     "'descr': '<f8'",
     "'shape': (",
     ")",
@@ -83,6 +83,10 @@ const PIECES: [&str; 29] = [
     "# Width: 1 nm\n# Height: 1 nm\n# Value units: m\n",
     "'descr': '<U4', 'fortran_order': False, 'shape': ()",
     "1 1 1\n",
+    "GWYPGwyContainer\0",
+    "/1/data\0oGwyDataField\0",
+    "data\0D\u{7}\0\0\0",
+    "xres\0i\u{7f}\u{7f}\u{7f}\u{7f}",
 ];
 
 /// One or more changes to a file of the corpus, or something made from nothing.
@@ -288,7 +292,7 @@ mod tool {
         "prepare heights.npy --crop 1 2 9 8 --mirror --resample 20 30",
     ];
 
-    const OPTIONS: [&str; 43] = [
+    const OPTIONS: [&str; 49] = [
         "--heights",
         "--lengths",
         "--modulus",
@@ -324,6 +328,12 @@ mod tool {
         "--unit",
         "--crop",
         "--flip",
+        "--missing",
+        "--align-rows",
+        "--scan-axis",
+        "--despike",
+        "--remove-form",
+        "--channel",
         "--detrend",
         "--mirror",
         "--window",

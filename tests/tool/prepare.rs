@@ -122,6 +122,124 @@ fn steps_have_a_fixed_order_and_are_those_of_the_library() {
     assert!(fit.contains("unknown side lengths") && fit.contains("removed"), "{fit}");
 }
 
+/// A scan of 60 by 50 nodes on 6 by 5 nm: rough, with offsets between its lines, three spikes and a code.
+fn scanned() -> Topography {
+    let grid = Grid::new((60, 50), (6.0, 5.0)).unwrap();
+    let amplitude = Amplitude::RmsHeight(0.1);
+    let rough = SelfAffine { hurst: 0.8, k_l: 1.0, k_r: 2.0, k_s: 12.0, amplitude, random_phase: false, seed: 4 };
+    let mut map = Topography::from(rough.surface(grid).unwrap());
+    map.unit = Some("nm".to_owned());
+    map.heights.indexed_iter_mut().for_each(|((_, j), h)| *h += (1.7 * j as f64).sin());
+    [(7, 9), (30, 31), (55, 2)].iter().for_each(|node| map.heights[*node] += 25.0);
+    (20..40).for_each(|i| map.heights[[i, 44]] = -9999.0);
+    map
+}
+
+#[test]
+fn a_scan_loses_its_code_its_offsets_and_its_spikes_step_by_step() {
+    let bench = Bench::new();
+    let map = scanned();
+    write_topography(&bench.path("scan.npz"), &map).unwrap();
+    let steps = "--missing -9999 --align-rows median --despike --detrend 3 --fill";
+    let said = bench.said(&format!("prepare scan.npz {steps} --out a.npz"));
+    let order = ["read", "missing", "align-rows", "despike", "detrend", "fill", "written"];
+    assert_eq!(said.lines().map(|line| line.split_whitespace().next().unwrap()).collect::<Vec<_>>(), order, "{said}");
+    for part in ["-9999 stood at 20 of 3000 points", "50 lines along x changed by 0.", "3 of 3000 points beyond"] {
+        assert!(said.contains(part), "{part}: {said}");
+    }
+    // the offsets have an rms of 1/sqrt(2), and the spikes are 25 above their surroundings
+    assert!((after(&said, "changed by ") - 0.7).abs() < 0.1, "{said}");
+    assert!((after(&said, "the worst by ") - 25.0).abs() < 1.0, "{said}");
+    assert!(said.contains("polynomial of order 3 removed, heights changed by") && said.contains(" nm rms"), "{said}");
+    let expected = map.declare_missing(-9999.0).align_rows(asperity::RowAlignment::Median, asperity::ScanAxis::X);
+    let expected = expected.unwrap().despike(10.0).unwrap().detrend(asperity::Trend::Polynomial(3)).unwrap();
+    let prepared = read_topography(&bench.path("a.npz")).unwrap();
+    assert_eq!(prepared, expected.fill().unwrap());
+    assert!(prepared.rms_height() < 0.2, "{}", prepared.rms_height());
+    // its scene repeats it
+    bench.said("run a.npz.scene.toml --out b.npz");
+    assert_eq!(read_topography(&bench.path("b.npz")).unwrap(), prepared);
+    // other thresholds, methods and directions, each told
+    let said = bench
+        .said("prepare scan.npz --missing -9999 --align-rows polynomial:2 --scan-axis y --despike 1e9 --out c.npz");
+    assert!(said.contains("60 lines along y") && said.contains("none of 3000 points"), "{said}");
+    bench.said("run c.npz.scene.toml --align-rows median-difference --out d.npz");
+    for (arguments, parts) in [
+        ("--align-rows mode", ["mode", "median-difference"]),
+        ("--align-rows median:2", ["median:2", "polynomial:ORDER"]),
+        ("--align-rows polynomial:13", ["polynomial:13", "from 0 to 12"]),
+        ("--scan-axis y", ["--align-rows", ""]),
+        ("--despike 0", ["--despike", "positive"]),
+        ("--missing x", ["--missing", "number"]),
+        ("--detrend 13", ["--detrend", "from 0 to 12"]),
+        ("--channel 0", ["no channels", "leave"]),
+        ("--remove-form cone", ["cone", "cylinder"]),
+    ] {
+        bench.refused_with(&format!("prepare scan.npz {arguments} --out n.npz"), &parts);
+    }
+}
+
+#[test]
+fn a_code_is_guessed_and_named_but_not_taken_unasked() {
+    let bench = Bench::new();
+    write_topography(&bench.path("scan.npz"), &scanned()).unwrap();
+    let warned = |arguments: &str| {
+        let output = bench.run(arguments);
+        assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+        (text(&output.stderr), text(&output.stdout))
+    };
+    let (warning, said) = warned("prepare scan.npz --out a.npz --json");
+    for part in ["warning: missing-code: -9999 stands at 20 nodes", "--missing -9999"] {
+        assert!(warning.contains(part), "{part}: {warning}");
+    }
+    let report: serde_json::Value = serde_json::from_str(&said).unwrap();
+    assert_eq!(report["warnings"][0]["code"], "missing-code");
+    assert_eq!(read_topography(&bench.path("a.npz")).unwrap(), scanned());
+    assert_eq!(warned("prepare scan.npz --missing -9999 --out b.npz").0, "");
+    // a map without one has no warning, holes or not
+    write_topography(&bench.path("measured.npz"), &measured()).unwrap();
+    assert_eq!(warned("prepare measured.npz --out c.npz").0, "");
+}
+
+#[test]
+fn a_form_is_removed_and_told_with_its_radius() {
+    let bench = Bench::new();
+    let grid = Grid::new((40, 30), (4e-6, 3e-6)).unwrap();
+    let rod = grid.sample(|x, y| (1e-10 - (0.6 * x - 0.8 * y).powi(2)).sqrt() + 1e-9 * (4e6 * x).sin());
+    let mut map = Topography::new(rod);
+    (map.lengths, map.unit) = (Some((4e-6, 3e-6)), Some("m".to_owned()));
+    write_topography(&bench.path("rod.npz"), &map).unwrap();
+    let said = bench.said("prepare rod.npz --remove-form cylinder --out a.npz");
+    assert!(
+        (after(&said, "cylinder of radius ") / 1e-5 - 1.0).abs() < 0.01 && said.contains("m, bulging upwards"),
+        "{said}"
+    );
+    // the axis is where 0.6 x = 0.8 y
+    assert!((after(&said, "axis at ") - 0.6_f64.atan2(0.8).to_degrees()).abs() < 0.5, "{said}");
+    let rms = read_topography(&bench.path("a.npz")).unwrap().rms_height();
+    assert!(rms < 1e-9 && rms > 1e-10, "{rms}");
+    let said = bench.said("prepare rod.npz --flip --remove-form sphere --out b.npz");
+    assert!(said.contains("sphere of radius") && said.contains("bulging downwards"), "{said}");
+    bench.said("prepare rod.npz --out rod.npy");
+    bench.refused_with("prepare rod.npy --remove-form sphere --out n.npz", &["side length Lx", "known"]);
+}
+
+#[test]
+fn a_channel_of_a_gwyddion_file_is_chosen_where_several_have_heights() {
+    let bench = Bench::new();
+    fs::copy(corpus("bad-channels.gwy"), bench.path("scan.gwy")).unwrap();
+    fs::copy(corpus("map.gwy"), bench.path("map.gwy")).unwrap();
+    for command in ["stats scan.gwy", "prepare scan.gwy --out n.npz", "solve --heights scan.gwy --mean-gap 1 --out n"] {
+        bench.refused_with(command, &["0 \"Trace\", 1 \"Retrace\"", "asperity prepare --channel"]);
+    }
+    for channel in ["0", "Retrace"] {
+        bench.said(&format!("prepare scan.gwy --channel {channel} --fill --out {channel}.npz"));
+        bench.said(&format!("stats {channel}.npz"));
+    }
+    assert!(bench.said("prepare map.gwy --out map.npz").contains("4 x 3 heights, 1 missing, 2e-6 x 3e-6 m"));
+    bench.refused_with("prepare map.gwy --channel Amplitude --out n.npz", &["\"Amplitude\"", "1 \"Phase\""]);
+}
+
 #[test]
 fn lengths_of_files_and_of_options() {
     let bench = Bench::new();
@@ -181,20 +299,19 @@ fn what_cannot_be_prepared_is_refused_and_nothing_is_written() {
     }
     assert_eq!(fs::read(bench.path("old.npz")).unwrap(), b"old");
     let help = bench.said("prepare --help").split_whitespace().collect::<Vec<_>>().join(" ");
-    for part in
-        ["Nothing is done that is not asked for", "--detrend, --fill, --window or --mirror, --resample", "Examples"]
-    {
+    for part in ["Nothing is done that is not asked for", "--remove-form, --detrend, --fill, --window", "Examples"] {
         assert!(help.contains(part), "{part}: {help}");
     }
 }
 
-/// Written by numpy 2.4 and gsffile 0.5: h = i + 10 j on 4 x 3 nodes of 2 by 3 µm, and [2, 1] is missing.
+/// Written by numpy 2.4, gsffile 0.5 and gwyfile 0.2: h = i + 10 j on 4 x 3 nodes of 2 by 3 µm, and [2, 1] is missing.
 #[test]
 fn files_of_others_have_their_heights_where_they_belong() {
     for (name, scale, lengths, unit) in [
         ("map.npz", 1.0, Some((2e-6, 3e-6)), Some("m")),
         ("map-deflated.npz", 1.0, Some((2.0, 3.0)), Some("\u{b5}m")),
         ("map.gsf", 1.0, Some((2e-6, 3e-6)), Some("m")),
+        ("map.gwy", 1.0, Some((2e-6, 3e-6)), Some("m")),
         ("bare.gsf", 1.0, None, None),
         ("gwyddion.txt", 1e-9, Some((2e-6, 3e-6)), Some("m")),
         ("map.xyz", 1.0, Some((2.0, 3.0)), None),

@@ -414,7 +414,7 @@ fn bad_cycles_are_refused_on_one_line() {
     for (arguments, part) in [
         ("--mean-gaps 0.03 --out a.csv", "two turning points"),
         ("--mean-gaps 0.03,0.02 --out a.txt", ".csv"),
-        ("--mean-gaps 0.03,0.02 --out a.csv --plot a.svg", ".png"),
+        ("--mean-gaps 0.03,0.02 --out a.csv --plot a.gif", ".png, .svg or .pdf"),
         ("--mean-gaps 0.03,0.02 --smallest-step 2 --out a.csv", "smallest step is 2"),
         ("--mean-gaps 0.03,0.02 --steps 0 --out a.csv", "number of steps is 0"),
         ("--out a.csv", "--mean-gaps"),

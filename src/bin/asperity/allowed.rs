@@ -34,3 +34,8 @@ pub fn nodes(text: &str) -> Result<usize, String> {
         _ => Err("it must be a whole number from 1 to 16777216".to_owned()),
     }
 }
+
+/// A resolution in pixels per inch.
+pub fn resolution(text: &str) -> Result<f64, String> {
+    number(text, |v| (36.0..=1200.0).contains(&v), "a number of pixels per inch, from 36 to 1200")
+}

@@ -8,8 +8,8 @@ use asperity::accuracy::{Accuracy, AccurateSolution};
 use asperity::contact::ContactStatistics;
 use asperity::stability::{ContactStiffness, Departure, Stability, StabilityTest, Verdict};
 use asperity::{
-    AdhesionLaw, Control, Grid, Level, Nested, NestedSolution, NoAdhesion, Problem, Report, Settings, Solution, Solver,
-    Start, Surface,
+    AdhesionLaw, Control, Grid, Level, Nested, NestedSolution, Problem, Report, Settings, Solution, Solver, Start,
+    Surface,
 };
 use ndarray::Array2;
 use serde_json::Value;
@@ -129,11 +129,7 @@ pub fn solve<T: Scalar, L: AdhesionLaw<T>>(
         }
         let found = StabilityTest::default().run_with(&mut problem, &case.wall, case.control, &solution)?;
         let leaves = case.leave && found.verdict == Verdict::Unstable && departures.len() < MOST_DEPARTURES;
-        let left = if leaves {
-            found.leave(&mut Solver::new(case.settings), &mut problem, case.control, &solution)?
-        } else {
-            None
-        };
+        let left = if leaves { found.leave(&mut solver, &mut problem, case.control, &solution)? } else { None };
         let Some(left) = left.filter(|left| left.energy_drop > 0.0) else {
             break Some(steadiness(found));
         };
@@ -143,7 +139,7 @@ pub fn solve<T: Scalar, L: AdhesionLaw<T>>(
     };
     let find = || ContactStiffness::of_constrained(&mut problem, &case.wall, &solution, Case::STIFFNESS);
     let stiffness = case.stiffness.then(find).transpose()?;
-    let (solution, account) = account(solution, &grid, None, clock)?;
+    let (solution, account) = account(solution, problem.law(), &grid, None, clock)?;
     Ok((solution, Account { stability, stiffness, departures, ..account }))
 }
 
@@ -161,7 +157,7 @@ pub fn solve_nested<T: Scalar, L: AdhesionLaw<T>>(
     let found = Nested { solver, coarse_tolerance: COARSE, coarsest, stiffness }.solve_observed(
         surface,
         half_space,
-        law,
+        &law,
         case.control,
         |grid, state| {
             let finest = grid.nodes() == surface.grid().nodes();
@@ -172,7 +168,7 @@ pub fn solve_nested<T: Scalar, L: AdhesionLaw<T>>(
     let applications = found.equivalent_applications();
     let NestedSolution { solution, levels, .. } = found;
     let stiffness = levels.last().and_then(|finest| finest.stiffness);
-    let (solution, account) = account(solution, surface.grid(), Some((levels, applications)), clock)?;
+    let (solution, account) = account(solution, &law, surface.grid(), Some((levels, applications)), clock)?;
     let nodes_per_wave = surface.nodes_per_wave(account.report.boundary);
     Ok((solution, Account { stiffness, nodes_per_wave, ..account }))
 }
@@ -189,7 +185,7 @@ pub fn solve_to<T: Scalar, L: AdhesionLaw<T>>(
     let half_space = |grid| case.boundary.half_space(grid, case.modulus);
     let tolerance = wanted.tolerance()?;
     let refinable = surface.absent().is_none() && law.shape().is_none();
-    let found = wanted.solve_observed(surface, half_space, law, case.control, |grid, state| {
+    let found = wanted.solve_observed(surface, half_space, &law, case.control, |grid, state| {
         progress.update_on(grid, state, tolerance);
         ControlFlow::Continue(())
     })?;
@@ -199,13 +195,14 @@ pub fn solve_to<T: Scalar, L: AdhesionLaw<T>>(
         / solution.gap.len() as f64;
     let stiffness = levels.last().and_then(|finest| finest.stiffness);
     let reached = Reached { accuracy: wanted.target, of: wanted.of, reached, error, unaffordable, refinable };
-    let (solution, account) = account(solution, surface.grid(), Some((levels, applications)), clock)?;
+    let (solution, account) = account(solution, &law, surface.grid(), Some((levels, applications)), clock)?;
     let nodes_per_wave = surface.nodes_per_wave(account.report.boundary);
     Ok((surface, solution, Account { stiffness, nodes_per_wave, reached: Some(reached), ..account }))
 }
 
 fn account<T: Scalar>(
     solution: Solution<T>,
+    law: &impl AdhesionLaw<T>,
     grid: &Grid,
     grids: Option<(Vec<Level>, f64)>,
     clock: Instant,
@@ -219,7 +216,7 @@ fn account<T: Scalar>(
     let account = Account {
         report: solution.report.clone(),
         nodes: solution.gap.len(),
-        contact: ContactStatistics::of(&solution, grid, &NoAdhesion)?,
+        contact: ContactStatistics::of(&solution, grid, law)?,
         pressures,
         grids,
         seconds,

@@ -10,7 +10,7 @@ use clap::{ArgGroup, Args};
 use ndarray::Array2;
 use serde_json::{Map, Value, json};
 
-use crate::adhesion::{Adhesion, AdhesionOptions, Wall};
+use crate::adhesion::{Adhesion, AdhesionOptions};
 use crate::allowed::positive;
 use crate::boundary::{Boundary, LOADS, LoadsOptions};
 use crate::columns::{Cell, OUTCOME, STATE, outcome, state};
@@ -22,7 +22,7 @@ use crate::loads::name_and_value;
 use crate::numbers::Style;
 use crate::options::{Given, Precision, ProblemOptions, Scalar, SolverOptions, SurfaceOptions};
 use crate::outcome::Outcome;
-use crate::output::OutputFile;
+use crate::pictures::{Resolution, check_plot, write_picture};
 use crate::printing::{Printing, say};
 use crate::scene::Scene;
 use crate::table::{self, Table, TableOptions};
@@ -31,8 +31,8 @@ use crate::warnings::{Strictness, Warnings};
 /// Follow the contact along a cycle of approach and withdrawal, and find its jumps.
 ///
 /// The loads are the turning points, at least two: the first is the start, and from each to the next the tool goes in
-/// steps that adapt themselves, an approach or a withdrawal. If the last leg is a withdrawal, it ends once the surfaces
-/// are apart, where they neither touch nor attract each other. Where the state jumps, the step is halved down to a
+/// steps that adapt themselves, an approach or a withdrawal. A withdrawal ends once the surfaces are apart, where they
+/// neither touch nor attract each other. Where the state jumps, the step is halved down to a
 /// given share of the way, so that the jump is located and its energy known. Under given pressures or forces it goes on
 /// at given mean gaps (with a free boundary approaches) past the limit points, where there is no equilibrium close by.
 /// A row for each state is appended to the file as it comes, with the columns of asperity sweep, the work done by the
@@ -76,9 +76,11 @@ pub struct Options {
     #[arg(long, value_name = "DIR", help_heading = "Output")]
     fields: Option<PathBuf>,
     /// File for a picture of the mean pressure over the mean gap, with a free boundary of the normal force over the
-    /// approach, .png
+    /// approach, .png, .svg or .pdf
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     plot: Option<PathBuf>,
+    #[command(flatten)]
+    resolution: Resolution,
     /// Unit of the lengths, on the picture only; m gets prefixes
     #[arg(long, value_name = "UNIT", help_heading = "Output")]
     length_unit: Option<String>,
@@ -125,9 +127,6 @@ fn names() -> Vec<&'static str> {
 /// Runs the command; whether all rows converged.
 pub fn run(options: &Options, scene: &Scene) -> Outcome<bool> {
     options.check_files()?;
-    if options.adhesion.wall == Wall::None {
-        return Err("a cycle needs a wall: give --wall hard, or follow the loads by asperity sweep".into());
-    }
     options.surface.beyond.boundary.check(options.loads.control(0.0))?;
     let given = options.table().problem.read()?;
     match options.solver.precision {
@@ -150,7 +149,7 @@ impl Options {
         let law = adhesion.law::<T>()?;
         let mut problem = Problem::new(&surface, operator, adhesion.law::<T>()?)?;
         drop(surface);
-        let mut solver = Solver::new(self.solver.settings());
+        let mut solver = Solver { settings: self.solver.settings(), constraint: self.adhesion.wall };
         let settings = PathSettings {
             steps: self.steps,
             smallest_step: self.smallest_step,
@@ -174,8 +173,11 @@ impl Options {
         }
         let text = table.text()?;
         let mut had_event = text.lines().next_back().is_some_and(|row| !csv::parsed(&names, row)["event"].is_null());
-        let mut ended = self.ends(&csv::parsed(&names, text.lines().next_back().unwrap_or_default()));
-        while !ended {
+        let mut apart = Self::is_apart(&csv::parsed(&names, text.lines().next_back().unwrap_or_default()));
+        loop {
+            if apart {
+                path.end_leg();
+            }
             let name = (table.rows() + 1).to_string();
             let step = table.observed(&name, grid.nodes(), |observe| path.next_observed(observe));
             let Some(step) = step else { break };
@@ -196,7 +198,7 @@ impl Options {
             had_event = step.event.is_some();
             let event = step.event.map_or(String::new(), |event| format!("  {event}"));
             self.printing.say(&format!("{:>4}  {}{event}", table.rows(), table::brief(report)));
-            ended = self.ends(&row.into());
+            apart = Self::is_apart(&row.into());
         }
         drop(path);
         self.conclude(&table, self.length_unit.as_deref().or(unit.as_deref()), &grid)?;
@@ -224,13 +226,10 @@ impl Options {
         if (to > from) == pressing { APPROACH } else { WITHDRAWAL }
     }
 
-    /// Whether the cycle ends with a row: the surfaces are apart in a withdrawal that is the last leg.
-    fn ends(&self, row: &Value) -> bool {
+    /// Whether a row ends its leg: the surfaces are apart in a withdrawal.
+    fn is_apart(row: &Value) -> bool {
         let is_none = |name: &str| row[name].as_f64() == Some(0.0);
-        row["leg"].as_u64() == Some(self.loads.values().len() as u64 - 1)
-            && row["direction"] == WITHDRAWAL
-            && is_none("contact_fraction")
-            && is_none("attractive_fraction")
+        row["direction"] == WITHDRAWAL && is_none("contact_fraction") && is_none("attractive_fraction")
     }
 
     fn check_files(&self) -> Outcome<()> {
@@ -239,14 +238,7 @@ impl Options {
         if !ends(&self.out, "csv") {
             return Err(Error::file(&self.out, "does not end in .csv: rename it").into());
         }
-        let Some(plot) = &self.plot else { return Ok(()) };
-        if !ends(plot, "png") {
-            return Err(Error::file(plot, "does not end in .png: rename it").into());
-        }
-        if plot.exists() && !self.out.exists() && !self.force {
-            return Err(Error::file(plot, "exists: use --force to replace it, or choose another --plot").into());
-        }
-        Ok(())
+        check_plot(self.plot.as_deref(), &self.out, self.force)
     }
 
     /// The inputs on which the rows depend.
@@ -355,9 +347,7 @@ impl Options {
             curves: curves.iter().map(|(name, points)| (name.as_str(), points.clone())).collect(),
             ..Chart::default()
         };
-        let file = OutputFile::create(plot, true)?;
-        file.write(|path| chart.write_png(path))?;
-        Ok(file.commit()?)
+        write_picture(plot, &chart.draw(self.resolution.dpi)?)
     }
 }
 

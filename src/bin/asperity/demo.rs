@@ -4,8 +4,8 @@ use std::ffi::{OsStr, OsString};
 use std::path::{Path, PathBuf};
 
 use asperity::io::{OutputFolder, write_npy};
-use asperity::picture::{Colouring, Map};
-use asperity::{Amplitude, Exponential, Grid, NoAdhesion, SelfAffine, Status, Surface};
+use asperity::picture::{Colouring, Map, Picture};
+use asperity::{AdhesionLaw, Amplitude, Exponential, Grid, NoAdhesion, SelfAffine, Status, Surface};
 use clap::{Args, Command, FromArgMatches};
 use ndarray::Array2;
 use serde_json::json;
@@ -16,7 +16,7 @@ use crate::numbers::{Style, si};
 use crate::outcome::Outcome;
 use crate::output::at_destination;
 use crate::output::write_text;
-use crate::pictures::{self, Units};
+use crate::pictures::{self, PictureFormat, Resolution, Units};
 use crate::printing::Printing;
 use crate::progress::Progress;
 use crate::scene::{self, Scene};
@@ -34,6 +34,11 @@ pub struct Options {
     /// Folder for the maps; those of an earlier demo are replaced
     #[arg(long, value_name = "DIR", default_value = "asperity-demo", help_heading = "Output")]
     out: PathBuf,
+    /// Format of the maps
+    #[arg(long, value_enum, value_name = "FORMAT", default_value = "png", help_heading = "Output")]
+    picture_format: PictureFormat,
+    #[command(flatten)]
+    resolution: Resolution,
     #[command(flatten)]
     printing: Printing,
     /// Threads; the results do not depend on it [default: one per core]
@@ -55,25 +60,27 @@ const MODULUS: f64 = 1e9;
 const PRESSURE: f64 = 5e6;
 const WORK_OF_ADHESION: f64 = 0.05;
 const RANGE: f64 = 1e-9;
-const UNITS: Units<'static> = Units { length: Some("m"), pressure: Some("Pa") };
+const UNITS: Units<'static> = Units { length: Some("m"), pressure: Some("Pa"), force: None };
 
-const NAMES: [&str; 7] = [
-    "heights.png",
-    "contact-without-adhesion.png",
-    "contact-with-adhesion.png",
-    "pressure-without-adhesion.png",
-    "pressure-with-adhesion.png",
-    "heights.npy",
-    scene::NAME,
+/// The names of the maps, as yet without endings.
+const MAPS: [&str; 5] = [
+    "heights",
+    "contact-without-adhesion",
+    "contact-with-adhesion",
+    "pressure-without-adhesion",
+    "pressure-with-adhesion",
 ];
 
 /// Runs the command; whether both solves converged.
 pub fn run(options: &Options) -> Outcome<bool> {
-    let &Options { ref out, printing, .. } = options;
+    let &Options { ref out, printing, picture_format, resolution: Resolution { dpi }, .. } = options;
+    let [ending] = picture_format.of([[".png"], [".svg"], [".pdf"]]);
+    let maps = MAPS.map(|name| format!("{name}{ending}"));
+    let names: Vec<_> = maps.iter().map(String::as_str).chain(["heights.npy", scene::NAME]).collect();
     let (bare_options, _) = solve_options(out, false)?;
     let (sticky_options, scene) = solve_options(out, true)?;
     Scene::check(&out.join(scene::NAME))?;
-    drop(OutputFolder::create(out, &NAMES, true)?);
+    drop(OutputFolder::create(out, &names, true)?);
     use_threads(options.threads)?;
 
     let grid = Grid::square(NODES, SIDE)?;
@@ -97,17 +104,22 @@ pub fn run(options: &Options) -> Outcome<bool> {
         case::solve::<f64, _>(surface.clone(), NoAdhesion, &case, None, progress("without adhesion"))?;
     let (sticky, with) = case::solve::<f64, _>(surface, law, &case, None, progress("with adhesion"))?;
 
-    let folder = OutputFolder::create(out, &NAMES, true)?;
+    let folder = OutputFolder::create(out, &names, true)?;
     let draw = || {
-        draw_heights(&folder.path("heights.png"), grid, &heights)?;
+        let path = |what: &str| folder.path(&format!("{what}{ending}"));
+        draw_heights(grid, &heights, dpi)?.write(&path("heights"))?;
         write_npy(&folder.path("heights.npy"), &heights)?;
         write_text(&folder.path(scene::NAME), &scene.text(out))?;
-        for (name, solution, adhesive) in [("without adhesion", &bare, false), ("with adhesion", &sticky, true)] {
-            let path = |what: &str| folder.path(&format!("{what}-{}.png", name.replace(' ', "-")));
-            pictures::draw_contact(&path("contact"), grid, &format!("Contact {name}"), UNITS, solution)?;
+        // a law of no work is no adhesion
+        let none = Exponential::new(0.0, RANGE)?;
+        for (name, solution, law) in [("without adhesion", &bare, &none), ("with adhesion", &sticky, &law)] {
+            let path = |what: &str| path(&format!("{what}-{}", name.replace(' ', "-")));
+            let contact = pictures::draw_contact(grid, &format!("Contact {name}"), UNITS, (solution, law), dpi)?;
+            contact.write(&path("contact"))?;
             let (caption, title) = (format!("mean {}", si(PRESSURE, "Pa")), format!("Pressure {name}"));
-            let pressure = pictures::pressure_to_draw(solution, adhesive);
-            pictures::draw_pressure(&path("pressure"), grid, &title, &caption, UNITS, pressure)?;
+            let pressure = pictures::pressure_to_draw(solution, AdhesionLaw::<f64>::work_of_adhesion(law) > 0.0);
+            let pressure = pictures::draw_pressure(grid, (&title, &caption), UNITS, pressure, None, dpi)?;
+            pressure.write(&path("pressure"))?;
         }
         Ok(())
     };
@@ -115,7 +127,7 @@ pub fn run(options: &Options) -> Outcome<bool> {
     folder.commit()?;
 
     printing.say(&table(&["without adhesion", "with adhesion"], &[&without, &with], Style::Si));
-    printing.say(&format!("\nmaps in {}: {}\n", out.display(), NAMES.join(", ")));
+    printing.say(&format!("\nmaps in {}: {}\n", out.display(), names.join(", ")));
     let command: Vec<_> = arguments(out, true).iter().map(|word| quoted(word)).collect();
     let (command, file) = (command.join(" "), quoted(out.join(scene::NAME).as_os_str()));
     printing.say(&format!(
@@ -139,7 +151,7 @@ fn rough(grid: Grid) -> asperity::Result<Surface> {
     SelfAffine { k_l: 3.0, k_r: 3.0, k_s: 40.0, amplitude, seed: 2017, ..SelfAffine::default() }.surface(grid)
 }
 
-fn draw_heights(path: &Path, grid: Grid, heights: &Array2<f64>) -> asperity::Result<()> {
+fn draw_heights(grid: Grid, heights: &Array2<f64>, dpi: f64) -> asperity::Result<Picture> {
     let map = Map {
         title: "Rough surface",
         caption: &format!("rms height {}", si(RMS_HEIGHT, "m")),
@@ -148,7 +160,7 @@ fn draw_heights(path: &Path, grid: Grid, heights: &Array2<f64>) -> asperity::Res
         unit: UNITS.length,
         ..Map::new(heights.view(), grid, Colouring::Sequential)
     };
-    map.write_png(path)
+    map.draw(dpi)
 }
 
 /// The arguments of `asperity solve` for one of the two cases, with the heights in `folder`.

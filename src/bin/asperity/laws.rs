@@ -3,12 +3,13 @@
 use std::path::PathBuf;
 
 use asperity::AdhesionLaw;
-use asperity::picture::Chart;
+use asperity::picture::{Chart, Format};
 use clap::{Args, ValueEnum};
 
 use crate::adhesion::{AdhesionOptions, Law};
 use crate::outcome::Outcome;
 use crate::output::OutputFile;
+use crate::pictures::Resolution;
 use crate::printing::{bold, say};
 
 /// List the adhesion laws, with formula, parameters and source.
@@ -21,9 +22,11 @@ use crate::printing::{bold, say};
 pub struct Options {
     #[command(flatten)]
     adhesion: AdhesionOptions,
-    /// File for a picture of the traction over the gap, .png
+    /// File for a picture of the traction over the gap, .png, .svg or .pdf
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     plot: Option<PathBuf>,
+    #[command(flatten)]
+    resolution: Resolution,
     /// Unit of the gaps, on the picture only; m gets prefixes
     #[arg(long, value_name = "UNIT", help_heading = "Output")]
     length_unit: Option<String>,
@@ -57,6 +60,7 @@ pub fn run(options: &Options) -> Outcome<bool> {
     if chosen == Law::None {
         return Err("--plot needs a law: choose one by --law, with its parameters".into());
     }
+    Format::of(path)?;
     options.adhesion.check()?;
     let law = options.adhesion.read(None)?.law::<f64>()?;
     let file = OutputFile::create(path, options.force)?;
@@ -80,8 +84,10 @@ pub fn run(options: &Options) -> Outcome<bool> {
         y_label: "traction",
         y_unit: options.pressure_unit.as_deref(),
         curves: vec![(&name, gaps.map(|gap| (gap, law.traction(gap))).collect())],
+        ..Chart::default()
     };
-    file.write(|path| chart.write_png(path))?;
+    let picture = chart.draw(options.resolution.dpi)?;
+    file.write(|path| picture.write(path))?;
     file.commit()?;
     Ok(true)
 }

@@ -1,15 +1,21 @@
 //! The command-line tool: `asperity demo` solves a built-in case, `asperity solve` one given by files, `asperity sweep`
 //! many loads and `asperity cycle` a path with jumps; `asperity surface` makes files of heights, `asperity prepare`
-//! makes them of measured maps, and `asperity stats` measures them. `asperity laws` lists the
-//! adhesion laws. `asperity run` does any of these by a scene file, which every run leaves beside its results.
+//! makes them of measured maps, and `asperity stats` measures them. `asperity laws` lists the adhesion laws, and
+//! `asperity selftest` compares solves with theory. `asperity run` does any of these by a scene file, which every run
+//! leaves beside its results, and `asperity report` puts the results on a page for a browser.
+
+// the report of a solve has more keys than serde_json's macro expands otherwise
+#![recursion_limit = "256"]
 
 // the commands
 mod completions;
 mod cycle;
 mod demo;
 mod laws;
+mod page;
 mod prepare;
 mod run;
+mod selftest;
 mod solve;
 mod stats;
 mod surface;
@@ -21,6 +27,7 @@ mod adhesion;
 mod allowed;
 mod boundary;
 mod case;
+mod citation;
 mod columns;
 mod csv;
 mod form;
@@ -73,11 +80,13 @@ const EXAMPLES: &str = "\
   asperity stats heights.npy
   asperity prepare measured.gsf --detrend plane --fill --mirror --out surface.npz
   asperity solve --heights heights.npy --mean-pressure 0.01 --out results
+  asperity report results
   asperity run results/scene.toml --mean-pressure 0.02 --out more
   asperity sweep --heights heights.npy --mean-pressures 1e-3:1e-1:20:log --out sweep.csv
   asperity cycle --heights heights.npy --law exponential --work-of-adhesion 1e-4 \\
     --range 4e-3 --mean-gaps 0.05,0.02,0.05 --out cycle.csv --plot cycle.png
   asperity laws
+  asperity selftest
   asperity solve --help";
 
 #[derive(Subcommand)]
@@ -87,10 +96,12 @@ enum Command {
     Sweep(Box<sweep::Options>),
     Cycle(Box<cycle::Options>),
     Run(run::Options),
+    Report(page::Options),
     Prepare(prepare::Options),
     Surface(surface::Options),
     Stats(stats::Options),
     Laws(Box<laws::Options>),
+    Selftest(selftest::Options),
     Completions(completions::Options),
 }
 
@@ -131,10 +142,12 @@ fn execute(command: Command, scene: &Scene) -> ExitCode {
         Command::Solve(options) => solve::run(&options, scene),
         Command::Sweep(options) => sweep::run(&options, scene),
         Command::Cycle(options) => cycle::run(&options, scene),
+        Command::Report(options) => page::run(&options),
         Command::Prepare(options) => prepare::run(&options, scene),
         Command::Surface(options) => surface::run(&options, scene),
         Command::Stats(options) => stats::run(&options),
         Command::Laws(options) => laws::run(&options),
+        Command::Selftest(options) => selftest::run(&options),
         Command::Completions(options) => completions::run(&options, Tool::command()),
         Command::Run(_) => Err("a scene cannot run another one: name a command in it".into()),
     };

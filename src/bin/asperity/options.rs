@@ -18,8 +18,8 @@ use crate::threads::use_threads;
 /// The surface and the half-space.
 #[derive(Args)]
 pub struct SurfaceOptions {
-    /// Heights of the rough surface, shape (Nx, Ny), peaks up: .npy, .npz, .gsf (Gwyddion), .xyz, Gwyddion's text
-    /// export, or a text matrix
+    /// Heights of the rough surface, shape (Nx, Ny), peaks up: .npy, .npz, .gwy or .gsf (Gwyddion), .xyz, Gwyddion's
+    /// text export, or a text matrix
     #[arg(long, value_name = "FILE", help_heading = "Surface")]
     pub heights: PathBuf,
     /// Side lengths of the map, in the unit of the heights; LX alone means square cells [default: the file's, else 1

@@ -1,39 +1,216 @@
-//! The maps of contact and pressure that commands draw.
+//! The pictures that commands draw: maps of contact and pressure, and charts of tables.
 
 use std::path::Path;
 
-use asperity::picture::{Colouring, Map};
-use asperity::{Grid, Result, Solution};
+use asperity::picture::{Chart, Colouring, DPI, Format, Map, Picture};
+use asperity::{AdhesionLaw, Error, Grid, Result, Solution};
+use clap::{Args, ValueEnum};
 use ndarray::Array2;
+use serde_json::Value;
 
+use crate::allowed::resolution;
 use crate::numbers::percent;
 use crate::options::Scalar;
+use crate::outcome::Outcome;
+use crate::output::OutputFile;
+
+/// The format of pictures of which the tool chooses the names.
+#[derive(Clone, Copy, Default, PartialEq, ValueEnum)]
+pub enum PictureFormat {
+    /// Pixels
+    #[default]
+    Png,
+    /// Vectors for web pages and drawing programs, with the maps as images in them
+    Svg,
+    /// Vectors for print, with the maps as images in them, and with the font
+    Pdf,
+}
+
+impl PictureFormat {
+    /// The one of `names`, without and with ending, that the format asks for.
+    pub fn of<const N: usize>(self, [png, svg, pdf]: [[&'static str; N]; 3]) -> [&'static str; N] {
+        match self {
+            Self::Png => png,
+            Self::Svg => svg,
+            Self::Pdf => pdf,
+        }
+    }
+}
+
+/// The resolution of pictures.
+#[derive(Args, Clone, Copy)]
+pub struct Resolution {
+    /// Pixels per inch of pictures, in .svg and .pdf of the maps in them; 300 to 600 for print
+    #[arg(long, value_name = "N", default_value_t = DPI, allow_hyphen_values = true, value_parser = resolution)]
+    #[arg(help_heading = "Output")]
+    pub dpi: f64,
+}
 
 /// The units that pictures have on their axes.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Default)]
 pub struct Units<'a> {
     pub length: Option<&'a str>,
     pub pressure: Option<&'a str>,
+    pub force: Option<&'a str>,
 }
 
-/// Draws the nodes in contact, black on white.
+/// The chart of a table, and the units on it.
+#[derive(Args)]
+pub struct PlotOptions {
+    /// File for a chart of the loads: of the contact fraction over the pressure or force, or of the mean pressure over
+    /// the mean gap, or of the normal force over the approach; .png, .svg or .pdf
+    #[arg(long, value_name = "FILE", help_heading = "Output")]
+    pub plot: Option<std::path::PathBuf>,
+    #[command(flatten)]
+    resolution: Resolution,
+    /// Unit of the lengths, on the chart only; m gets prefixes
+    #[arg(long, value_name = "UNIT", help_heading = "Output")]
+    pub length_unit: Option<String>,
+    /// Unit of the pressures, on the chart only; Pa gets prefixes
+    #[arg(long, value_name = "UNIT", help_heading = "Output")]
+    pub pressure_unit: Option<String>,
+    /// Unit of the forces, on the chart only; N gets prefixes
+    #[arg(long, value_name = "UNIT", help_heading = "Output")]
+    pub force_unit: Option<String>,
+}
+
+impl PlotOptions {
+    /// Refuses a chart that is in no known format, or whose file is there, but not the `table`, unless `force` replaces it.
+    pub fn check(&self, table: &Path, force: bool) -> Outcome<()> {
+        check_plot(self.plot.as_deref(), table, force)
+    }
+
+    /// Draws the chart of all `rows`, if it is wanted; lengths are in `unit` where no other is given.
+    pub fn draw(&self, rows: &[Value], unit: Option<&str>) -> Outcome<()> {
+        let Some(plot) = &self.plot else { return Ok(()) };
+        let units = Units {
+            length: self.length_unit.as_deref().or(unit),
+            pressure: self.pressure_unit.as_deref(),
+            force: self.force_unit.as_deref(),
+        };
+        write_picture(plot, &chart_of_loads(rows, units, self.resolution.dpi)?)
+    }
+}
+
+/// Refuses a chart that is in no known format, or whose file is there, but not the `table`, unless `force` replaces it.
+pub fn check_plot(plot: Option<&Path>, table: &Path, force: bool) -> Outcome<()> {
+    let Some(plot) = plot else { return Ok(()) };
+    Format::of(plot)?;
+    if plot.exists() && !table.exists() && !force {
+        return Err(Error::file(plot, "exists: use --force to replace it, or choose another --plot").into());
+    }
+    Ok(())
+}
+
+/// Writes a picture over a file that may be there.
+pub fn write_picture(path: &Path, picture: &Picture) -> Outcome<()> {
+    let file = OutputFile::create(path, true)?;
+    file.write(|path| picture.write(path))?;
+    Ok(file.commit()?)
+}
+
+/// The chart that says most of the loads in the rows of a table.
+pub fn chart_of_loads(rows: &[Value], units: Units<'_>, dpi: f64) -> Result<Picture> {
+    let (x, y) = match rows.first().and_then(|row| row["control"].as_str()) {
+        Some("mean-gap") => ("mean_gap", "mean_pressure"),
+        Some("normal-force") => ("normal_force", "contact_fraction"),
+        Some("approach") => ("approach", "normal_force"),
+        Some("spring") if rows.iter().any(|row| !row["approach"].is_null()) => ("approach", "normal_force"),
+        Some("spring") => ("mean_gap", "mean_pressure"),
+        _ => ("mean_pressure", "contact_fraction"),
+    };
+    chart_of_columns(rows, x, y, units, dpi)
+}
+
+/// The chart of column `y` of a table over column `x`: a curve for each leg of a cycle, and for each part of a sweep in
+/// which the loads rise or fall. Axes are logarithmic where all values are positive and span more than a decade and a
+/// half.
+pub fn chart_of_columns(rows: &[Value], x: &str, y: &str, units: Units<'_>, dpi: f64) -> Result<Picture> {
+    let curves = legs(rows).into_iter().map(|(name, rows)| {
+        let value = |row: &Value, column: &str| row[column].as_f64().unwrap_or(f64::NAN);
+        (name, rows.iter().map(|row| (value(row, x), value(row, y))).collect::<Vec<_>>())
+    });
+    let curves: Vec<_> = curves.collect();
+    let points: Vec<_> = curves.iter().flat_map(|(_, points)| points).collect();
+    let wide = |values: Vec<f64>| {
+        let values = || values.iter().filter(|value| value.is_finite());
+        let low = values().fold(f64::INFINITY, |low, value| low.min(*value));
+        low > 0.0 && values().any(|value| *value > 30.0 * low)
+    };
+    let (x_log, y_log) =
+        (wide(points.iter().map(|point| point.0).collect()), wide(points.iter().map(|point| point.1).collect()));
+    let unit = |column: &str| match column {
+        "mean_gap" | "approach" => units.length,
+        "mean_pressure" => units.pressure,
+        "normal_force" => units.force,
+        _ => None,
+    };
+    let [x_label, y_label] = [x, y].map(|column| column.replace('_', " "));
+    let title = format!("{}{} over {x_label}", y_label[..1].to_uppercase(), &y_label[1..]);
+    let chart = Chart {
+        title: &title,
+        x_label: &x_label,
+        x_unit: unit(x),
+        x_log,
+        y_label: &y_label,
+        y_unit: unit(y),
+        y_log: x_log && y_log,
+        curves: curves.iter().map(|(name, points)| (name.as_str(), points.clone())).collect(),
+        ..Chart::default()
+    };
+    chart.draw(dpi)
+}
+
+/// The rows of each part of a table, with its name; a part begins with the row before it. A single one has no name.
+fn legs(rows: &[Value]) -> Vec<(String, &[Value])> {
+    let load = |row: &Value| row["control_value"].as_f64().unwrap_or(f64::NAN);
+    let cycle = rows.first().is_some_and(|row| row["leg"].is_u64());
+    let direction = |k: usize| match &rows[k]["direction"] {
+        Value::String(name) => name.clone(),
+        _ => if load(&rows[k]) < load(&rows[k - 1]) { "falling" } else { "rising" }.to_owned(),
+    };
+    // the first row is a start and no leg
+    let same = |k: usize| if cycle { rows[k]["leg"] == rows[k - 1]["leg"] } else { direction(k) == direction(k - 1) };
+    let mut starts = vec![0];
+    starts.extend((2..rows.len()).filter(|&k| !same(k)).map(|k| k - 1));
+    let ends = starts.iter().skip(1).map(|start| start + 1).chain([rows.len()]);
+    let legs: Vec<_> = starts.iter().zip(ends).map(|(&start, end)| &rows[start..end]).collect();
+    if legs.len() < 2 {
+        return legs.into_iter().map(|leg| (String::new(), leg)).collect();
+    }
+    let number = |k: usize| if legs.len() > 2 { format!(" {}", k / 2 + 1) } else { String::new() };
+    starts.iter().enumerate().map(|(k, start)| (direction(start + 1) + &number(k), legs[k])).collect()
+}
+
+/// Draws the nodes in contact, those that attract each other, and those that are apart.
 pub fn draw_contact<T: Scalar>(
-    path: &Path,
     grid: Grid,
     title: &str,
     units: Units<'_>,
-    solution: &Solution<T>,
-) -> Result<()> {
-    let contact = solution.contact_map().mapv(f64::from);
-    let caption = format!("{} % contact", percent(solution.report.contact_fraction));
+    (solution, law): (&Solution<T>, &impl AdhesionLaw<T>),
+    dpi: f64,
+) -> Result<Picture> {
+    draw_regions(grid, title, units, &solution.regions(law).mapv(f64::from), dpi)
+}
+
+/// Draws regions, as numbers: 1 contact, -1 attraction, 0 apart, NaN no surface.
+pub fn draw_regions(grid: Grid, title: &str, units: Units<'_>, regions: &Array2<f64>, dpi: f64) -> Result<Picture> {
+    let share = |of: fn(f64) -> bool| {
+        let facing = regions.iter().filter(|region| !region.is_nan()).count();
+        percent(regions.iter().filter(|region| of(**region)).count() as f64 / facing as f64)
+    };
+    let attractive = match regions.iter().any(|region| *region < 0.0) {
+        true => format!(", {} % attractive", share(|region| region < 0.0)),
+        false => String::new(),
+    };
+    let caption = format!("{} % contact{attractive}", share(|region| region > 0.0));
     let map = Map {
         title,
         caption: &caption,
         length_unit: units.length,
-        label: "contact",
-        ..Map::new(contact.view(), grid, Colouring::Binary)
+        ..Map::new(regions.view(), grid, Colouring::Contact)
     };
-    map.write_png(path)
+    map.draw(dpi)
 }
 
 /// The pressure that a map should show. Without adhesion this is the contact pressure: the pressure outside of the
@@ -42,15 +219,15 @@ pub fn pressure_to_draw<T>(solution: &Solution<T>, adhesive: bool) -> &Array2<T>
     if adhesive { &solution.pressure } else { &solution.contact_pressure }
 }
 
-/// Draws a pressure, compression red and attraction blue.
+/// Draws a pressure, compression red and attraction blue, up to `limits` where they are given.
 pub fn draw_pressure<T: Scalar>(
-    path: &Path,
     grid: Grid,
-    title: &str,
-    caption: &str,
+    (title, caption): (&str, &str),
     units: Units<'_>,
     pressure: &Array2<T>,
-) -> Result<()> {
+    limits: Option<(f64, f64)>,
+    dpi: f64,
+) -> Result<Picture> {
     let pressure = pressure.mapv(T::widen);
     let map = Map {
         title,
@@ -58,7 +235,9 @@ pub fn draw_pressure<T: Scalar>(
         length_unit: units.length,
         label: "pressure",
         unit: units.pressure,
+        limits,
+        signs: ["tension", "compression"],
         ..Map::new(pressure.view(), grid, Colouring::Diverging)
     };
-    map.write_png(path)
+    map.draw(dpi)
 }

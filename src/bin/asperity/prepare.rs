@@ -2,36 +2,43 @@
 
 use std::path::PathBuf;
 
-use asperity::io::{read_topography, write_topography};
-use asperity::{Topography, Trend};
+use asperity::io::{read_channel, read_topography, write_topography};
+use asperity::{Form, FormFit, RowAlignment, ScanAxis, Topography, Trend, Warning};
 use clap::{Args, ValueEnum};
 use serde_json::json;
 
-use crate::allowed::{nodes, positive};
+use crate::allowed::{finite, nodes, positive};
 use crate::heights::{given, holes, sides, warn_of_unread};
 use crate::numbers::plain;
 use crate::outcome::Outcome;
 use crate::output::OutputFile;
-use crate::printing::Printing;
-use crate::printing::say;
+use crate::printing::{Printing, complain, say};
 use crate::scene::Scene;
+use crate::warnings;
 
 /// Make a surface that can be solved of a measured map.
 ///
 /// A measurement has missing points, a tilt, and edges that do not meet; a surface that is solved is complete and
 /// periodic. Nothing is done that is not asked for, and each step is told in a line; FILE.scene.toml beside the result
-/// repeats them. Whatever the order of the options, the steps are: --lengths, --scale, --unit, --crop, --flip,
-/// --detrend, --fill, --window or --mirror, --resample.
+/// repeats them. Whatever the order of the options, the steps are: --lengths, --missing, --scale, --unit, --crop,
+/// --flip, --align-rows, --despike, --remove-form, --detrend, --fill, --window or --mirror, --resample.
 #[derive(Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Options {
-    /// The map: .npy, .npz, .gsf (Gwyddion), .xyz, Gwyddion's text export, or a text matrix
+    /// The map: .npy, .npz, .gwy or .gsf (Gwyddion), .xyz, Gwyddion's text export, or a text matrix
     #[arg(value_name = "IN")]
     input: PathBuf,
+
+    /// Channel of a .gwy file, by its number or its title, if several have heights
+    #[arg(long, value_name = "NAME")]
+    channel: Option<String>,
 
     /// Side lengths, instead of the file's; LX alone means square cells
     #[arg(long, value_names = ["LX", "LY"], num_args = 1..=2, allow_negative_numbers = true, value_parser = positive)]
     lengths: Option<Vec<f64>>,
+    /// Value that stands for missing points, in the unit of the heights as they are read; may be repeated
+    #[arg(long, value_name = "CODE", value_delimiter = ',', allow_negative_numbers = true, value_parser = finite)]
+    missing: Vec<f64>,
     /// Multiply the heights, as by 1e-9 for nm where the side lengths are in m
     #[arg(long, value_name = "F", allow_hyphen_values = true, value_parser = positive)]
     scale: Option<f64>,
@@ -44,9 +51,25 @@ pub struct Options {
     /// Turn peaks into valleys: for a replica
     #[arg(long)]
     flip: bool,
-    /// Subtract the least-squares fit to all measured points
-    #[arg(long, value_enum)]
-    detrend: Option<Order>,
+    /// Bring the scan lines of an AFM to one height: median (of each line), median-difference (from line to line, for
+    /// large features) or polynomial:ORDER (of each line; ORDER is 1 if it is left out)
+    #[arg(long, value_name = "METHOD", value_parser = alignment)]
+    align_rows: Option<RowAlignment>,
+    /// Direction of the scan lines of --align-rows [default: x]
+    #[arg(long, value_enum, requires = "align_rows")]
+    scan_axis: Option<Scan>,
+    /// Give spikes the median of the 5 x 5 nodes around them, if they are farther from it than this many robust standard
+    /// deviations of all nodes [default: 10 if --despike stands alone]
+    #[arg(long, value_name = "THRESHOLD", num_args = 0..=1, default_missing_value = "10", value_parser = positive)]
+    #[arg(allow_negative_numbers = true)]
+    despike: Option<f64>,
+    /// Subtract the sphere or the circular cylinder that fits all measured points best
+    #[arg(long, value_enum, value_name = "FORM")]
+    remove_form: Option<Body>,
+    /// Subtract the least-squares fit to all measured points: mean, plane, quadric (as of a sphere or a cylinder), or a
+    /// polynomial of this order, up to 12
+    #[arg(long, value_name = "TREND", allow_hyphen_values = true, value_parser = trend)]
+    detrend: Option<Trend>,
     /// Fill missing points smoothly from their surroundings, by Laplace's equation
     #[arg(long)]
     fill: bool,
@@ -77,36 +100,79 @@ const EXAMPLES: &str = "\
   A measured map, tilted and with missing points, pressed against a half-space of 1 GPa:
     asperity prepare measured.gsf --detrend plane --fill --mirror --out surface.npz
     asperity solve --heights surface.npz --modulus 1e9 --mean-pressure 1e6 --out results
+  An AFM map with offsets between its lines, and spikes:
+    asperity prepare afm.gwy --align-rows median --despike --detrend plane --mirror \\
+      --out scan.npz
   Heights in nm of a map of 5 by 4 micrometres, a sphere subtracted, on a finer grid:
     asperity prepare heights.txt --scale 1e-9 --lengths 5e-6 4e-6 --unit m --detrend quadric \\
       --window 0.05 --resample 1024 1024 --out fine.npz";
 
 #[derive(Clone, Copy, ValueEnum)]
-enum Order {
-    /// the mean height
-    Mean,
-    /// a plane: the tilt
-    Plane,
-    /// a plane and curvatures, as of a sphere or a cylinder
-    Quadric,
+enum Body {
+    Sphere,
+    Cylinder,
 }
 
-impl Order {
-    fn trend(self) -> Trend {
+impl Body {
+    fn form(self) -> Form {
         match self {
-            Self::Mean => Trend::Mean,
-            Self::Plane => Trend::Plane,
-            Self::Quadric => Trend::Quadric,
+            Self::Sphere => Form::Sphere,
+            Self::Cylinder => Form::Cylinder,
         }
     }
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum Scan {
+    X,
+    Y,
+}
+
+impl Scan {
+    fn axis(self) -> ScanAxis {
+        match self {
+            Self::X => ScanAxis::X,
+            Self::Y => ScanAxis::Y,
+        }
+    }
+}
+
+/// A trend by its name or order.
+fn trend(text: &str) -> Result<Trend, String> {
+    match (text.trim(), order(text)) {
+        ("mean", _) => Ok(Trend::Mean),
+        ("plane", _) => Ok(Trend::Plane),
+        ("quadric", _) => Ok(Trend::Quadric),
+        (_, Some(order)) => Ok(Trend::Polynomial(order)),
+        _ => Err(format!("it must be mean, plane, quadric, or an order from 0 to {}", Trend::MOST)),
+    }
+}
+
+/// An alignment of scan lines by its name.
+fn alignment(text: &str) -> Result<RowAlignment, String> {
+    let (name, rest) = text.trim().split_once(':').unwrap_or((text.trim(), "1"));
+    match (name, order(rest)) {
+        ("median", _) if name == text.trim() => Ok(RowAlignment::Median),
+        ("median-difference", _) if name == text.trim() => Ok(RowAlignment::MedianDifference),
+        ("polynomial", Some(order)) => Ok(RowAlignment::Polynomial(order)),
+        _ => Err(format!(
+            "it must be median, median-difference, or polynomial:ORDER with an order from 0 to {}",
+            Trend::MOST
+        )),
+    }
+}
+
+/// The order of a polynomial.
+fn order(text: &str) -> Option<usize> {
+    text.trim().parse().ok().filter(|order| *order <= Trend::MOST)
 }
 
 /// Runs the command; always successful if it ends.
 pub fn run(options: &Options, scene: &Scene) -> Outcome<bool> {
     scene.check_beside(&options.out, options.force)?;
     let file = OutputFile::create(&options.out, options.force)?;
-    let mut lines = Vec::new();
-    let map = prepared(options, &mut lines)?;
+    let (mut lines, mut warnings) = (Vec::new(), Vec::new());
+    let map = prepared(options, &mut lines, &mut warnings)?;
     file.write(|path| write_topography(path, &map))?;
     let scene_file = scene.written_beside(&options.out)?;
     file.commit()?;
@@ -120,6 +186,7 @@ pub fn run(options: &Options, scene: &Scene) -> Outcome<bool> {
             "lengths": map.lengths,
             "length_unit": map.unit,
             "steps": lines.iter().map(|(step, text)| json!({ "step": step, "what": text })).collect::<Vec<_>>(),
+            "warnings": warnings::report(&warnings),
             "version": env!("CARGO_PKG_VERSION"),
         })
     });
@@ -141,8 +208,15 @@ fn unit(text: &str) -> Result<String, String> {
 }
 
 /// Takes the steps, and tells them.
-fn prepared(options: &Options, lines: &mut Vec<(&'static str, String)>) -> Outcome<Topography> {
-    let mut map = read_topography(&options.input)?;
+fn prepared(
+    options: &Options,
+    lines: &mut Vec<(&'static str, String)>,
+    warnings: &mut Vec<Warning>,
+) -> Outcome<Topography> {
+    let mut map = match &options.channel {
+        Some(channel) => read_channel(&options.input, channel)?,
+        None => read_topography(&options.input)?,
+    };
     let mut tell = |step: &'static str, text: String| lines.push((step, text));
     tell("read", described(&map));
 
@@ -152,6 +226,14 @@ fn prepared(options: &Options, lines: &mut Vec<(&'static str, String)>) -> Outco
         tell("lengths", format!("{}, before {before}", sides(lengths, map.unit.as_deref())));
     }
     warn_of_unread(&options.input, &map, "stay unknown");
+    for code in &options.missing {
+        let before = map.missing();
+        map = map.declare_missing(*code);
+        let (found, nodes) = (map.missing() - before, map.heights.len());
+        tell("missing", format!("{} stood at {found} of {nodes} points: rms height {}", plain(*code), rms(&map)));
+    }
+    warnings.extend(Warning::of_topography(&map));
+    warnings.iter().for_each(|warning| complain("warning", &warning.to_string()));
     if let Some(factor) = options.scale {
         map.heights.mapv_inplace(|h| factor * h);
         tell("scale", format!("heights times {}: rms height {}", plain(factor), rms(&map)));
@@ -168,20 +250,38 @@ fn prepared(options: &Options, lines: &mut Vec<(&'static str, String)>) -> Outco
         map = map.flip();
         tell("flip", "peaks are valleys now".to_owned());
     }
-    if let Some(order) = options.detrend {
-        let (fit, before) = (map.fit(order.trend())?, rms(&map));
-        map = map.detrend(order.trend())?;
-        let per = if map.lengths.is_some() { "" } else { " per spacing" };
-        let mut text = format!("mean {} removed", quantity(fit.height, &map));
-        if !matches!(order, Order::Mean) {
-            let (x, y) = fit.slopes;
-            text = format!("tilt {}{per} along x, {}{per} along y removed", plain(x), plain(y));
-        }
-        if matches!(order, Order::Quadric) {
-            let (xx, xy, yy) = fit.curvatures;
-            text.push_str(&format!(", curvatures xx {}, xy {}, yy {}", plain(xx), plain(xy), plain(yy)));
-        }
-        tell("detrend", format!("{text}: rms height {} from {before}", rms(&map)));
+    if let Some(alignment) = options.align_rows {
+        let before = map.clone();
+        let ((nx, ny), scan) = (map.heights.dim(), options.scan_axis.unwrap_or(Scan::X));
+        map = map.align_rows(alignment, scan.axis())?;
+        let (axis, lines) = if scan.axis() == ScanAxis::X { ("x", ny) } else { ("y", nx) };
+        let by = changed(&before, &map);
+        tell("align-rows", format!("{lines} lines along {axis} {by}: rms height {} from {}", rms(&map), rms(&before)));
+    }
+    if let Some(threshold) = options.despike {
+        let (spikes, before, nodes) = (map.spikes(threshold)?, rms(&map), map.heights.len());
+        map = map.despike(threshold)?;
+        let limit = quantity(spikes.limit, &map);
+        let what = match spikes.worst {
+            Some(((i, j), distance)) => format!(
+                "{} of {nodes} points beyond {limit} from the median around them have it now, the worst by {} at index [{i}, {j}]",
+                spikes.nodes.len(),
+                quantity(distance, &map)
+            ),
+            None => format!("none of {nodes} points is beyond {limit} from the median around it"),
+        };
+        tell("despike", format!("{what}: rms height {} from {before}", rms(&map)));
+    }
+    if let Some(body) = options.remove_form {
+        let (fit, before) = (map.fit_form(body.form())?, rms(&map));
+        map = map.remove_form(body.form())?;
+        tell("remove-form", format!("{} removed: rms height {} from {before}", described_form(&fit, &map), rms(&map)));
+    }
+    if let Some(trend) = options.detrend {
+        let before = map.clone();
+        map = map.detrend(trend)?;
+        let what = removed(trend, &before, &map)?;
+        tell("detrend", format!("{what}: rms height {} from {}", rms(&map), rms(&before)));
     }
     if options.fill {
         let (missing, nodes) = (map.missing(), map.heights.len());
@@ -214,6 +314,47 @@ fn prepared(options: &Options, lines: &mut Vec<(&'static str, String)>) -> Outco
         tell("left", format!("points are missing still, {holes}: add --fill before solving"));
     }
     Ok(map)
+}
+
+/// A sphere, or a cylinder and its direction.
+fn described_form(fit: &FormFit, map: &Topography) -> String {
+    let (radius, side) = (quantity(fit.radius.abs(), map), if fit.radius > 0.0 { "upwards" } else { "downwards" });
+    match fit.axis {
+        None => format!("sphere of radius {radius}, bulging {side},"),
+        Some(axis) => {
+            let degrees = plain(axis.to_degrees());
+            format!("cylinder of radius {radius}, bulging {side}, its axis at {degrees} degrees from x,")
+        }
+    }
+}
+
+/// What a trend takes away.
+fn removed(trend: Trend, before: &Topography, after: &Topography) -> Outcome<String> {
+    let fit = before.fit(trend)?;
+    let per = if before.lengths.is_some() { "" } else { " per spacing" };
+    let (x, y) = fit.slopes;
+    let tilt = format!("tilt {}{per} along x, {}{per} along y", plain(x), plain(y));
+    Ok(match trend {
+        Trend::Mean | Trend::Polynomial(0) => format!("mean {} removed", quantity(fit.height, before)),
+        Trend::Plane | Trend::Polynomial(1) => format!("{tilt} removed"),
+        Trend::Quadric | Trend::Polynomial(2) => {
+            let (xx, xy, yy) = fit.curvatures;
+            format!("{tilt} removed, curvatures xx {}, xy {}, yy {}", plain(xx), plain(xy), plain(yy))
+        }
+        Trend::Polynomial(order) => format!("polynomial of order {order} removed, heights {}", changed(before, after)),
+        _ => format!("trend removed, heights {}", changed(before, after)),
+    })
+}
+
+/// By how much measured heights have changed.
+fn changed(before: &Topography, after: &Topography) -> String {
+    let changes = before.heights.iter().zip(&after.heights).map(|(before, after)| after - before);
+    let (mut squares, mut most, mut count) = (0.0, 0.0, 0.0);
+    for change in changes.filter(|change| change.is_finite()) {
+        (squares, most, count) = (squares + change * change, f64::max(most, change.abs()), count + 1.0);
+    }
+    let rms = f64::sqrt(squares / f64::max(count, 1.0));
+    format!("changed by {} rms, by {} at most", quantity(rms, after), quantity(most, after))
 }
 
 /// Running out of memory cannot be caught later.

@@ -2,13 +2,15 @@
 
 use std::path::PathBuf;
 
+use asperity::contact::Patch;
 use asperity::io::{OutputFolder, write_npy, write_npz, write_vti};
-use asperity::{Control, Grid, Level, Status};
+use asperity::{AdhesionLaw, Control, Grid, Level, Nested, Status, Surface};
 use clap::{ArgGroup, Args, ValueEnum};
 use serde_json::{Value, json};
 
 use crate::accuracy::{self, AccuracyOptions};
 use crate::adhesion::{AdhesionOptions, Law, Wall};
+use crate::allowed::finite;
 use crate::boundary::{LOAD, LoadOptions};
 use crate::case::{self, Account, Case, Left};
 use crate::loads::name_and_value;
@@ -17,7 +19,7 @@ use crate::options::{Given, Precision, ProblemOptions, Scalar, SolverOptions, Su
 use crate::outcome::Outcome;
 use crate::output::at_destination;
 use crate::output::{output_folder, write_text};
-use crate::pictures::{self, Units};
+use crate::pictures::{self, PictureFormat, Resolution, Units};
 use crate::printing::Printing;
 use crate::printing::say;
 use crate::progress::Progress;
@@ -30,8 +32,8 @@ use crate::warnings::{Strictness, Warnings};
 ///
 /// All quantities are in any consistent units, as m, Pa and J/m²; heights of files with units of length are in m.
 /// Writes gap.npy, pressure.npy (the full elastic pressure, compression positive) and contact_pressure.npy (its
-/// repulsive part), or files as --format says, report.json, contact.png, pressure.png, and scene.toml, which repeats
-/// the run, all or none. Exits with 0 if converged, 2 if not (the fields are written all the same), and 1 if the input
+/// repulsive part), or files as --format says, report.json, contact.png, pressure.png (or .svg, .pdf), and scene.toml,
+/// which repeats the run, all or none. Exits with 0 if converged, 2 if not (the fields are written all the same), and 1 if the input
 /// is refused or the files cannot be written (then there are none). Probable mistakes, as a tilt, are said on a line
 /// each and in the report; --strict refuses them.
 #[derive(Args)]
@@ -47,9 +49,12 @@ pub struct Options {
     adhesion: AdhesionOptions,
     #[command(flatten)]
     solver: SolverOptions,
-    /// Solve on coarser grids first, where sizes are even and the grids resolve the adhesion; saves time at loose tolerances
-    #[arg(long, help_heading = "Solver", conflicts_with = "initial_gap")]
+    /// Solve on coarser grids first, where these resolve the adhesion; the default where that is faster
+    #[arg(long, help_heading = "Solver", conflicts_with = "initial_gap", overrides_with = "no_nested")]
     nested: bool,
+    /// Solve on the grid of the heights alone
+    #[arg(long, help_heading = "Solver", overrides_with = "nested")]
+    no_nested: bool,
     #[command(flatten)]
     accuracy: AccuracyOptions,
 
@@ -84,13 +89,23 @@ pub struct Options {
     strictness: Strictness,
     #[command(flatten)]
     printing: Printing,
-    /// Write no .png files
+    /// Write no pictures
     #[arg(long, help_heading = "Output")]
     no_pictures: bool,
-    /// Unit of the lengths, on pictures only; m gets prefixes
+    /// Format of the pictures
+    #[arg(long, value_enum, value_name = "FORMAT", default_value = "png", help_heading = "Output")]
+    picture_format: PictureFormat,
+    #[command(flatten)]
+    resolution: Resolution,
+    /// Pressures at the ends of the colour bar, as for pictures that are to be compared; with adhesion that of the largest
+    /// tension, negative, and that of the largest compression
+    #[arg(long, value_names = ["LOW", "HIGH"], num_args = 2, allow_hyphen_values = true, value_parser = finite)]
+    #[arg(help_heading = "Output")]
+    colour_limits: Option<Vec<f64>>,
+    /// Unit of the lengths, on pictures; m gets prefixes, and with Pa for the pressures in the table, too
     #[arg(long, value_name = "UNIT", help_heading = "Output")]
     length_unit: Option<String>,
-    /// Unit of the pressures, on pictures only; Pa gets prefixes
+    /// Unit of the pressures, on pictures; Pa gets prefixes, and with lengths in m in the table, too
     #[arg(long, value_name = "UNIT", help_heading = "Output")]
     pressure_unit: Option<String>,
 }
@@ -103,7 +118,7 @@ const EXAMPLES: &str = "\
     asperity solve --heights heights.npy --lengths 1e-6 1e-6 --modulus 1e9 \\
       --law exponential --work-of-adhesion 0.05 --range 1e-9 \\
       --mean-pressure 2.5e6 --length-unit m --pressure-unit Pa --out sticky
-  The same load without adhesion on a large map, by way of coarser grids:
+  The same load without adhesion, by way of coarser grids, which is the default where it is faster:
     asperity solve --heights heights.npy --lengths 1e-6 1e-6 --modulus 1e9 \\
       --mean-pressure 2.5e6 --nested --out nested
   A contact area that is right to 5 %, on a grid as fine as that takes:
@@ -125,17 +140,20 @@ const MODE: &str = "mode.npy";
 const NPZ: &str = "fields.npz";
 const VTI: &str = "fields.vti";
 const REPORT: &str = "report.json";
-const PICTURES: [&str; 2] = ["contact.png", "pressure.png"];
+const PICTURES: [[&str; 2]; 3] =
+    [["contact.png", "pressure.png"], ["contact.svg", "pressure.svg"], ["contact.pdf", "pressure.pdf"]];
 
 /// Runs the command; whether it converged.
 pub fn run(options: &Options, scene: &Scene) -> Outcome<bool> {
     let problem = options.problem();
     problem.adhesion.check()?;
-    if options.leave && options.adhesion.wall == Wall::None {
-        return Err("--leave needs a wall: give --stability alone, or --wall hard".into());
-    }
     problem.surface.beyond.boundary.check(options.load.control())?;
-    let pictures = PICTURES.iter().filter(|_| !options.no_pictures);
+    let limits = options.colour_limits();
+    if let Some((low, high)) = limits.filter(|(low, high)| low >= high) {
+        return Err(format!("--colour-limits {low} {high}: the lower one must come first").into());
+    }
+    let pictures = options.picture_format.of(PICTURES);
+    let pictures = pictures.iter().filter(|_| !options.no_pictures);
     let mode = options.case().stability.then_some(&MODE);
     let arrays = FIELDS.iter().chain(mode).filter(|_| options.writes(Format::Npy));
     let archives = [(Format::Npz, &NPZ), (Format::Vti, &VTI)].into_iter().filter(|(format, _)| options.writes(*format));
@@ -157,6 +175,10 @@ pub fn run(options: &Options, scene: &Scene) -> Outcome<bool> {
 impl Options {
     fn writes(&self, format: Format) -> bool {
         self.format.contains(&format)
+    }
+
+    fn colour_limits(&self) -> Option<(f64, f64)> {
+        self.colour_limits.as_deref().map(|limits| (limits[0], limits[1]))
     }
 
     fn problem(&self) -> ProblemOptions<'_> {
@@ -216,6 +238,9 @@ impl Options {
             "edge_traction": report.edge_traction,
             "corrected_contact_fraction": account.contact.corrected_contact_fraction,
             "perimeter": account.contact.perimeter,
+            "repulsive_fraction": account.contact.repulsive_fraction,
+            "attractive_fraction": account.contact.attractive_fraction,
+            "patches": account.contact.patches.iter().map(patch).collect::<Vec<_>>(),
             "min_gap": report.min_gap,
             "min_pressure": account.pressures.0,
             "max_pressure": account.pressures.1,
@@ -280,7 +305,7 @@ impl Job<'_> {
             let (fine, solution, account) = case::solve_to(&surface, law, &self.case, wanted, progress)?;
             grid = *fine.grid();
             (solution, account)
-        } else if self.options.nested {
+        } else if self.nests::<T>(&surface, &law, start.is_some()) {
             case::solve_nested::<T, _>(&surface, law, &self.case, progress)?
         } else {
             case::solve::<T, _>(surface, law, &self.case, start, progress)?
@@ -290,18 +315,27 @@ impl Job<'_> {
         account.strongest = adhesion.strongest();
 
         let folder = output_folder(out, &self.names, *force)?;
-        let written = self.write(&folder, grid, &solution, &account);
+        let written = self.write(&folder, grid, &solution, &account, &adhesion.law()?);
         written.map_err(|error| at_destination(error, out))?;
         folder.commit()?;
 
         if printing.for_people() {
-            say(&table(&[], &[&account], Style::Plain));
+            let units = (self.length_unit, self.options.pressure_unit.as_deref());
+            let style = if units == (Some("m"), Some("Pa")) { Style::Si } else { Style::Plain };
+            say(&table(&[], &[&account], style));
             say(&format!("results in {}: {}", out.display(), self.names.join(", ")));
         }
         printing.report(|| self.report(grid, &account));
         warn("", &account, &self.case);
         let reached = account.reached.as_ref().is_none_or(|reached| reached.reached);
         Ok(account.report.status == Status::Converged && reached)
+    }
+
+    /// Whether to solve on coarser grids first.
+    fn nests<T: Scalar>(&self, surface: &Surface, law: &dyn AdhesionLaw<T>, started: bool) -> bool {
+        let Case { control, settings, wall, stability, .. } = self.case;
+        let pays = || wall == Wall::Hard && Nested::new(settings).pays(surface, law, control);
+        self.options.nested || !(self.options.no_nested || started || stability) && pays()
     }
 
     fn report(&self, grid: Grid, account: &Account) -> Value {
@@ -314,6 +348,7 @@ impl Job<'_> {
         grid: Grid,
         solution: &asperity::Solution<T>,
         account: &Account,
+        law: &impl AdhesionLaw<T>,
     ) -> asperity::Result<()> {
         let path = |name: &str| folder.path(name);
         let mode = account.stability.as_ref().map(|stability| &stability.mode);
@@ -335,13 +370,27 @@ impl Job<'_> {
         write_text(&path(REPORT), &format!("{:#}\n", self.report(grid, account)))?;
         write_text(&path(scene::NAME), &self.scene.text(&self.options.out))?;
         if !self.options.no_pictures {
-            let units = Units { length: self.length_unit, pressure: self.options.pressure_unit.as_deref() };
-            pictures::draw_contact(&path("contact.png"), grid, "Contact", units, solution)?;
+            let Options { ref pressure_unit, picture_format, resolution: Resolution { dpi }, .. } = *self.options;
+            let units = Units { length: self.length_unit, pressure: pressure_unit.as_deref(), force: None };
+            let [contact_name, pressure_name] = picture_format.of(PICTURES);
+            pictures::draw_contact(grid, "Contact", units, (solution, law), dpi)?.write(&path(contact_name))?;
             let pressure = pictures::pressure_to_draw(solution, self.options.adhesion.law != Law::None);
-            pictures::draw_pressure(&path("pressure.png"), grid, "Pressure", "", units, pressure)?;
+            let limits = self.options.colour_limits();
+            let picture = pictures::draw_pressure(grid, ("Pressure", ""), units, pressure, limits, dpi)?;
+            picture.write(&path(pressure_name))?;
         }
         Ok(())
     }
+}
+
+/// The contact of the nodes of one work of adhesion.
+fn patch(patch: &Patch) -> Value {
+    json!({
+        "work_of_adhesion": patch.work_of_adhesion,
+        "area_fraction": patch.area_fraction,
+        "contact_fraction": patch.contact_fraction,
+        "attractive_fraction": patch.attractive_fraction,
+    })
 }
 
 /// The stiffness of a spring, if the load is one.

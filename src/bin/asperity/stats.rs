@@ -24,7 +24,8 @@ use crate::report;
 #[derive(Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Options {
-    /// Heights, shape (Nx, Ny), peaks up: .npy, .npz, .gsf (Gwyddion), .xyz, Gwyddion's text export, or a text matrix
+    /// Heights, shape (Nx, Ny), peaks up: .npy, .npz, .gwy or .gsf (Gwyddion), .xyz, Gwyddion's text
+    /// export, or a text matrix
     #[arg(value_name = "FILE")]
     heights: PathBuf,
     /// Side lengths of the map, in the unit of the heights; LX alone means square cells [default: the file's, else 1

@@ -11,16 +11,24 @@ use crate::printing::{bold, green, yellow};
 
 /// A table with a column for each of the solves.
 pub fn table(names: &[&str], solves: &[&Account], style: Style) -> String {
-    let mut rows: Vec<(&str, Vec<String>)> = Vec::new();
+    let mut rows: Vec<(String, Vec<String>)> = Vec::new();
     if !names.is_empty() {
-        rows.push(("", names.iter().map(|name| (*name).to_owned()).collect()));
+        rows.push((String::new(), names.iter().map(|name| (*name).to_owned()).collect()));
     }
-    let mut row = |name, of: &dyn Fn(&Account, &Report) -> String| {
-        rows.push((name, solves.iter().map(|solve| of(solve, &solve.report)).collect()));
+    let mut row = |name: &str, of: &dyn Fn(&Account, &Report) -> String| {
+        rows.push((name.to_owned(), solves.iter().map(|solve| of(solve, &solve.report)).collect()));
     };
     row("contact", &|_, r| format!("{} %", percent(r.contact_fraction)));
     row("corrected for its edge", &|s, _| format!("{} %", percent(s.contact.corrected_contact_fraction)));
     row("nodes in contact", &|s, r| format!("{} of {}", r.contact_nodes, s.nodes - r.absent_nodes));
+    if let [solve] = solves {
+        for patch in &solve.contact.patches {
+            let [area, contact, attractive] =
+                [patch.area_fraction, patch.contact_fraction, patch.attractive_fraction].map(percent);
+            let shares = format!("{area} % of the nodes, {contact} % in contact, {attractive} % attracted");
+            row(&format!("  where w = {}", style.number(patch.work_of_adhesion, "J/m²")), &|_, _| shares.clone());
+        }
+    }
     row("mean gap", &|_, r| style.number(r.mean_gap, "m"));
     row("mean pressure", &|_, r| style.number(r.mean_pressure, "Pa"));
     row("normal force", &|_, r| style.number(r.normal_force, "N"));
@@ -79,11 +87,11 @@ pub fn table(names: &[&str], solves: &[&Account], style: Style) -> String {
     let first = rows.iter().map(|(name, _)| length(name)).max().unwrap_or(0);
     let widths: Vec<_> =
         (0..solves.len()).map(|k| rows.iter().map(|(_, cells)| length(&cells[k])).max().unwrap_or(0)).collect();
-    let line = |(name, cells): &(&str, Vec<String>)| {
+    let line = |(name, cells): &(String, Vec<String>)| {
         let cells = cells.iter().zip(&widths).map(|(cell, &width)| {
             // A single column reads better from the left.
             let cell = if solves.len() == 1 { cell.clone() } else { format!("{cell:>width$}") };
-            let cell = match *name {
+            let cell = match name.as_str() {
                 "" => bold(&cell),
                 "status" if cell.trim() == Status::Converged.name() => green(&cell),
                 "status" => yellow(&cell),

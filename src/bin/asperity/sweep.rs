@@ -19,6 +19,7 @@ use crate::journal::Row;
 use crate::kept::Kept;
 use crate::options::{Given, Precision, ProblemOptions, Scalar, SolverOptions, SurfaceOptions};
 use crate::outcome::Outcome;
+use crate::pictures::PlotOptions;
 use crate::printing::Printing;
 use crate::scene::Scene;
 use crate::table::{self, Table, TableOptions};
@@ -57,6 +58,8 @@ pub struct Options {
     /// Folder for the fields, made if needed: gap-0001.npy, pressure-0001.npy, contact_pressure-0001.npy and so on
     #[arg(long, value_name = "DIR", help_heading = "Output")]
     fields: Option<PathBuf>,
+    #[command(flatten)]
+    plot: PlotOptions,
     /// Find the contact stiffness under each load, in two more columns: contact_stiffness, how much the mean pressure
     /// grows with the approach, and normal_stiffness, how much the force does
     #[arg(long, help_heading = "Output")]
@@ -73,7 +76,8 @@ pub struct Options {
 const EXAMPLES: &str = "\
 \u{1b}[1;4mExamples:\u{1b}[0m
   Contact area against load, twenty loads over two decades:
-    asperity sweep --heights heights.npy --mean-pressures 1e-3:1e-1:20:log --out area.csv
+    asperity sweep --heights heights.npy --mean-pressures 1e-3:1e-1:20:log --out area.csv \\
+      --plot area.pdf
   Approach and withdrawal with adhesion, eleven mean gaps each:
     asperity sweep --heights heights.npy --law exponential --work-of-adhesion 1e-4 \\
       --range 4e-3 --mean-gaps 0.05:0.03:11,0.03:0.05:11 --out hysteresis.jsonl";
@@ -92,6 +96,7 @@ fn names(stiffness: bool) -> Vec<&'static str> {
 /// Runs the command; whether all rows converged.
 pub fn run(options: &Options, scene: &Scene) -> Outcome<bool> {
     options.format()?;
+    options.plot.check(&options.out, options.force)?;
     options.surface.beyond.boundary.check(options.loads.control(0.0))?;
     let given = options.table().problem.read()?;
     match options.solver.precision {
@@ -154,9 +159,13 @@ impl Options {
             table.append(&Row { text: &text, load, converged, fields: &fields, numbers: &[] })?;
             self.printing.say(&format!("{:>width$}/{count}  {}", k + 1, table::brief(&solution.report)));
         }
+        let text = table.text()?;
+        let names = names(self.stiffness);
+        let rows = text.lines().skip(usize::from(format == Format::Csv)).map(|row| parsed(format, &names, row));
+        self.plot.draw(&rows.collect::<Vec<_>>(), unit.as_deref())?;
         self.printing.say(&format!("{count} rows in {}", self.out.display()));
         self.printing.report(|| {
-            let last = last_row(format, &names(self.stiffness), &table.text().unwrap_or_default());
+            let last = parsed(format, &names, text.lines().next_back().unwrap_or_default());
             table.report(
                 "sweep",
                 self.loads.control(0.0).name(),
@@ -196,12 +205,11 @@ impl Options {
     }
 }
 
-/// The last row of the file, of which this is the text.
-fn last_row(format: Format, names: &[&'static str], text: &str) -> Value {
-    let last = text.lines().next_back().unwrap_or_default();
+/// A row of the file.
+fn parsed(format: Format, names: &[&'static str], row: &str) -> Value {
     match format {
-        Format::Csv => csv::parsed(names, last),
-        Format::Jsonl => serde_json::from_str(last).unwrap_or_default(),
+        Format::Csv => csv::parsed(names, row),
+        Format::Jsonl => serde_json::from_str(row).unwrap_or_default(),
     }
 }
 

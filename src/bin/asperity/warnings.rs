@@ -23,8 +23,6 @@ pub struct Warnings {
     strictness: Strictness,
     found: Vec<Warning>,
     said: usize,
-    /// The traction above which surfaces are said to attract each other, as in `ContactStatistics`.
-    noticeable: f64,
 }
 
 impl Warnings {
@@ -36,9 +34,7 @@ impl Warnings {
         options: ProblemOptions<'_>,
     ) -> Outcome<Self> {
         let law = adhesion.law::<T>()?;
-        let scale = (law.work_of_adhesion() / law.range()).widen();
-        let noticeable = if scale.is_finite() { 0.01 * scale } else { 0.0 };
-        let mut warnings = Self { strictness, found: Vec::new(), said: 0, noticeable };
+        let mut warnings = Self { strictness, found: Vec::new(), said: 0 };
         let mut found = Warning::of_surface(surface);
         // where nothing repeats, nothing has to meet, and a body that ends may be flat
         let free = options.surface.beyond.boundary == Boundary::Free;
@@ -54,12 +50,7 @@ impl Warnings {
 
     /// Looks at an answer, and prints its warnings; of many answers, the first with a warning counts.
     pub fn look_at<T: Scalar>(&mut self, solution: &Solution<T>, modulus: f64) -> Outcome<()> {
-        let mut found = Warning::of_solution(solution, modulus);
-        // of bodies that are apart it says nothing how far the last of their attraction reaches
-        let apart = solution.report.contact_nodes == 0
-            && solution.pressure.iter().all(|pressure| pressure.widen().abs() <= self.noticeable);
-        found.retain(|warning| !(apart && warning.code == WarningCode::WindowEdge));
-        self.add(found)?;
+        self.add(Warning::of_solution(solution, modulus))?;
         self.say();
         Ok(())
     }
@@ -83,7 +74,11 @@ impl Warnings {
 
     /// The warnings as a report lists them.
     pub fn report(&self) -> Value {
-        let all = self.found.iter();
-        all.map(|warning| json!({ "code": warning.code.name(), "message": warning.message })).collect()
+        report(&self.found)
     }
+}
+
+/// Warnings as a report lists them.
+pub fn report(warnings: &[Warning]) -> Value {
+    warnings.iter().map(|warning| json!({ "code": warning.code.name(), "message": warning.message })).collect()
 }

@@ -1,9 +1,9 @@
 //! The passes that fit the preconditioner to nodes which the law itself holds by its repulsion.
 //!
 //! The compliance M knows how waves answer a load, and nothing of the slopes κ = φ'' of the nodes that repel, which are
-//! often several times the stiffness of the stiffest wave. With s = 1/√(1 + κ/k) at each node, and k the stiffness of one
-//! node among its neighbours, the preconditioner is S M S: M itself where nothing repels, 1/κ where a node is held, and in
-//! the limit of a rigid wall M between the nodes that are apart.
+//! often several times the stiffness of the stiffest wave. With s = 1/(1 + κ/k)² at each node, and k the stiffness of one
+//! node among its neighbours, the preconditioner is S M S + (1 − S²)/(k + κ): M itself where nothing repels, the compliance
+//! of a node alone where it is held, and in the limit of a rigid wall M between the nodes that are apart.
 
 use super::Fields;
 use crate::field::{CHUNK, read, write};
@@ -12,10 +12,13 @@ use crate::real::{Real, cast};
 use crate::solver::potential::{Of, Potential};
 use crate::vector::sums;
 
-/// The share s of nodes with these slopes.
+/// The share s of a node in the waves, and its compliance beside them, (1 − s²)/(k + κ). No share is so small that r'
+/// could not be had back from its multiple.
 #[inline(always)]
-fn share<T: Real>(slope: T, stiffness: T) -> T {
-    (T::one() + slope.max(T::zero()) / stiffness).sqrt().recip()
+fn share<T: Real>(slope: T, stiffness: T) -> (T, T) {
+    let own = (stiffness + slope.max(T::zero())).recip();
+    let s = (stiffness * own).powi(2).max(T::epsilon());
+    (s, (T::one() - s * s) * own)
 }
 
 fn slopes<'a, T: Real>(local: &Potential<'_, T>, first: usize, gap: &[T], buffer: &'a mut [T; CHUNK]) -> &'a [T] {
@@ -35,6 +38,8 @@ pub(in crate::solver) struct Held {
     shares: f64,
     /// Σ (1 − s)² (r' − level)²/κ, the part of the certificate that M does not see
     pub(in crate::solver) beside: f64,
+    /// Σ (1 − s²)(r' − level)²/(k + κ), the part of ⟨r', z⟩ that is beside the waves
+    pub(in crate::solver) descent: f64,
 }
 
 /// Multiplies r' less its level by S.
@@ -52,7 +57,7 @@ pub(in crate::solver) fn hold<T: Real, L: Real>(
             let mut buffer = [T::zero(); CHUNK];
             let slopes = slopes(local, first, gap, &mut buffer);
             sums!(2, [slopes, residual], [], |i| {
-                let s = share(slopes[i], k);
+                let (s, _) = share(slopes[i], k);
                 ([(s * s).widen() * residual[i].widen(), (s * s).widen()], f64::INFINITY)
             })
         });
@@ -63,17 +68,18 @@ pub(in crate::solver) fn hold<T: Real, L: Real>(
     let total = local.run(reducer, read(gap).zip(write(residual)), |local, first, (gap, residual)| {
         let mut buffer = [T::zero(); CHUNK];
         let slopes = slopes(local, first, gap, &mut buffer);
-        sums!(1, [slopes], [residual], |i| {
-            let (slope, r, s) = (slopes[i], cast::<_, T>(residual[i]) - level, share(slopes[i], k));
+        sums!(2, [slopes], [residual], |i| {
+            let (slope, r, (s, own)) = (slopes[i], cast::<_, T>(residual[i]) - level, share(slopes[i], k));
             residual[i] = cast(s * r);
             let rest = ((T::one() - s) * r).widen();
-            ([if slope > T::zero() { rest * rest / slope.widen() } else { 0.0 }], f64::INFINITY)
+            let beside = if slope > T::zero() { rest * rest / slope.widen() } else { 0.0 };
+            ([beside, (own * r * r).widen()], f64::INFINITY)
         })
     });
-    Held { stiffness, level: level.widen(), shares, beside: total.sum[0] }
+    Held { stiffness, level: level.widen(), shares, beside: total.sum[0], descent: total.sum[1] }
 }
 
-/// Multiplies z by S, and puts r' back; returns Σ z.
+/// Multiplies z by S, adds what is beside the waves, and puts r' back; returns Σ z.
 pub(in crate::solver) fn release_held<T: Real, L: Real>(
     fields: &mut Fields<T, L>,
     local: &Potential<'_, T>,
@@ -86,9 +92,10 @@ pub(in crate::solver) fn release_held<T: Real, L: Real>(
         let mut buffer = [T::zero(); CHUNK];
         let slopes = slopes(local, first, gap, &mut buffer);
         sums!(1, [slopes], [residual, z], |i| {
-            let s = share(slopes[i], k);
-            let [r, moved]: [T; 2] = [cast(residual[i]), s * cast(z[i])];
-            (residual[i], z[i]) = (cast(r / s + level), cast(moved));
+            let (s, own) = share(slopes[i], k);
+            let r = cast::<_, T>(residual[i]) / s;
+            let moved = s * cast(z[i]) + own * r;
+            (residual[i], z[i]) = (cast(r + level), cast(moved));
             ([moved.widen()], f64::INFINITY)
         })
     });
@@ -102,7 +109,7 @@ pub(in crate::solver) fn release_held<T: Real, L: Real>(
         let mut buffer = [T::zero(); CHUNK];
         let slopes = slopes(local, first, gap, &mut buffer);
         sums!(1, [slopes], [z], |i| {
-            let s = share(slopes[i], k);
+            let (s, _) = share(slopes[i], k);
             let moved: T = cast::<_, T>(z[i]) - mean * (s * s);
             z[i] = cast(moved);
             ([moved.widen()], f64::INFINITY)

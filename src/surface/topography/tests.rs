@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use approx::assert_relative_eq;
 use ndarray::{Array2, Zip};
 
-use super::{Topography, Trend};
+use super::{Form, RowAlignment, ScanAxis, Topography, Trend};
 use crate::error::Error;
 use crate::grid::Grid;
 use crate::surface::{Amplitude, SelfAffine, Surface};
@@ -294,4 +294,211 @@ fn what_cannot_be_is_refused() {
         Surface::new(Grid::new((6, 5), (6.0, 5.0)).unwrap(), full.heights.clone()).unwrap(),
         full.surface().unwrap()
     );
+}
+
+#[test]
+fn polynomials_of_any_order_are_removed_exactly() {
+    for order in 0..=Trend::MOST {
+        // all terms of the order, on oblong cells with holes
+        let whole = map((41, 33), (4.0, 1.0), |i, j| {
+            let (x, y) = ((i - 20.0) / 20.0, (j - 16.0) / 16.0);
+            (0..=order).map(|k| (1.0 + k as f64) * x.powi(k as i32) * y.powi((order - k) as i32)).sum::<f64>() + 7.0
+        });
+        let pierced = pierced(whole, |i, j| (3 * i + 5 * j).is_multiple_of(11) || i < 6 && j > 20);
+        let flat = pierced.clone().detrend(Trend::Polynomial(order)).unwrap();
+        assert!(flat.heights.iter().all(|h| !h.is_finite() || h.abs() < 1e-11), "order {order}");
+        if order > 0 {
+            let lower = pierced.detrend(Trend::Polynomial(order - 1)).unwrap();
+            assert!(lower.rms_height() > 1e-4, "order {order}: {}", lower.rms_height());
+        }
+    }
+    let map = rough((40, 36), 12.0);
+    for (trend, order) in [(Trend::Mean, 0), (Trend::Plane, 1), (Trend::Quadric, 2)] {
+        assert_eq!(map.fit(trend).unwrap(), map.fit(Trend::Polynomial(order)).unwrap());
+    }
+    let refused = map.detrend(Trend::Polynomial(13)).unwrap_err();
+    assert!(matches!(refused, Error::Value { name: "order of the trend", value: 13.0, .. }), "{refused}");
+}
+
+/// A rough map whose lines along x have offsets, with a lost line and lost points.
+fn scanned(offset: impl Fn(usize, usize) -> f64) -> Topography {
+    let mut map = pierced(rough((60, 41), 12.0), |i, j| j == 17 || (7 * i + 3 * j).is_multiple_of(29));
+    map.heights.indexed_iter_mut().for_each(|((i, j), h)| *h += offset(i, j));
+    map
+}
+
+#[test]
+fn aligned_rows_do_not_know_of_offsets_between_lines() {
+    let drift = |j: usize| 30.0 * (1.3 * j as f64).sin() + j as f64;
+    let (even, uneven) = (scanned(|_, _| 0.0), scanned(|_, j| drift(j)));
+    for alignment in [RowAlignment::Median, RowAlignment::MedianDifference, RowAlignment::Polynomial(0)] {
+        let [a, b] = [&even, &uneven].map(|map| map.clone().align_rows(alignment, ScanAxis::X).unwrap());
+        assert_relative_eq!(a.mean(), even.mean(), epsilon = 1e-12);
+        assert_relative_eq!(b.mean(), uneven.mean(), max_relative = 1e-12);
+        // the same but for the mean height of the drift, with the rounding of heights of 70
+        let shift = b.mean() - a.mean();
+        for (a, b) in a.heights.iter().zip(&b.heights) {
+            assert!(a.is_nan() && b.is_nan() || (b - a - shift).abs() < 1e-12, "{alignment:?}: {a} {b}");
+        }
+        // lines along y are another matter
+        let mut turned = uneven.clone();
+        turned.heights = turned.heights.reversed_axes();
+        let turned = turned.align_rows(alignment, ScanAxis::Y).unwrap();
+        let same = |(a, b): (&f64, &f64)| a.is_nan() && b.is_nan() || (a - b).abs() < 1e-12;
+        assert!(turned.heights.t().iter().zip(&b.heights).all(same));
+        let across = uneven.clone().align_rows(alignment, ScanAxis::Y).unwrap();
+        assert!(across.heights.iter().zip(&b.heights).any(|(a, b)| (a - b).abs() > 1.0));
+    }
+    // tilts and bows of each line, too
+    let bent = scanned(|i, j| drift(j) + (j as f64).cos() * i as f64 + 0.1 * (j as f64).sin() * (i * i) as f64);
+    let [a, b] = [&even, &bent].map(|map| map.clone().align_rows(RowAlignment::Polynomial(2), ScanAxis::X).unwrap());
+    let shift = b.mean() - a.mean();
+    for (a, b) in a.heights.iter().zip(&b.heights) {
+        assert!(a.is_nan() && b.is_nan() || (b - a - shift).abs() < 1e-9, "{a} {b}");
+    }
+    assert!(matches!(
+        bent.align_rows(RowAlignment::Polynomial(13), ScanAxis::X),
+        Err(Error::Value { value: 13.0, .. })
+    ));
+}
+
+#[test]
+fn differences_of_lines_keep_a_large_feature_that_medians_flatten() {
+    // a plateau that grows by two nodes from line to line, until it covers most of them, on lines with offsets
+    let plateau = |i: f64, j: f64| if j > 12.0 && i + 2.0 * (j - 12.0) > 40.0 { 5.0 } else { 0.0 };
+    let offset = |j: f64| 20.0 * (2.0 * j).cos();
+    let map = map((40, 30), (1.0, 1.0), |i, j| plateau(i, j) + offset(j) + 0.1 * (3.0 * i + 7.0 * j).sin());
+    // beside the plateau, the last lines above the first: 0 but for the noise, or its height below
+    let beside = |alignment| {
+        let heights = map.clone().align_rows(alignment, ScanAxis::X).unwrap().heights;
+        let mean = |lines| {
+            heights.select(ndarray::Axis(1), lines).rows().into_iter().take(5).map(|r| r.sum()).sum::<f64>() / 25.0
+        };
+        mean(&[25, 26, 27, 28, 29]) - mean(&[5, 6, 7, 8, 9])
+    };
+    let (medians, differences) = (beside(RowAlignment::Median), beside(RowAlignment::MedianDifference));
+    assert!((medians + 5.0).abs() < 0.5 && differences.abs() < 0.5, "{medians} {differences}");
+}
+
+#[test]
+fn spikes_are_found_and_replaced_and_nothing_else() {
+    let clean = pierced(rough((80, 60), 8.0), |i, j| (i + 3 * j).is_multiple_of(37) || i < 6 && j < 20);
+    assert_eq!(clean.spikes(10.0).unwrap().worst, None);
+    assert!(clean.clone().despike(10.0).unwrap().heights.iter().zip(&clean.heights).all(|(a, b)| a == b || b.is_nan()));
+    // in a corner, beside a hole, down, and three nodes together
+    let spikes = [((79, 59), 50.0), ((6, 9), -80.0), ((40, 30), 60.0), ((40, 31), 61.0), ((41, 31), 62.0)];
+    let mut dirty = clean.clone();
+    spikes.iter().for_each(|(node, height)| dirty.heights[*node] = *height);
+    let found = dirty.spikes(10.0).unwrap();
+    let nodes: Vec<_> = found.nodes.iter().map(|(node, _)| *node).collect();
+    assert_eq!(nodes, [(6, 9), (40, 30), (40, 31), (41, 31), (79, 59)]);
+    let (worst, distance) = found.worst.unwrap();
+    // heights are 1 rms, and smooth
+    assert!(worst == (6, 9) && (distance + 80.0).abs() < 5.0, "{distance} at {worst:?}");
+    let despiked = dirty.despike(10.0).unwrap();
+    for ((node, after), before) in despiked.heights.indexed_iter().zip(&clean.heights) {
+        let spike = nodes.contains(&node);
+        assert!(
+            after == before || after.is_nan() && before.is_nan() || spike && after.abs() < 5.0,
+            "{after} at {node:?}"
+        );
+    }
+    // slopes at edges, in corners and beside holes are no spikes
+    let tilted = |i: f64, j: f64| 50.0 * i - 20.0 * j + 0.1 * (i * i + 3.0 * j).sin();
+    let tilted =
+        pierced(map((40, 30), (1.0, 1.0), tilted), |i, j| (10..20).contains(&i) && j < 12 || i == 30 && j != 4);
+    assert_eq!(tilted.spikes(10.0).unwrap().nodes, []);
+    // levels with a spike have a deviation, flat maps have none
+    let mut levels = map((30, 30), (1.0, 1.0), |i, _| if i < 15.0 { 1.0 } else { 2.0 });
+    assert!(levels.spikes(10.0).unwrap().nodes.is_empty());
+    levels.heights[[3, 3]] = 9.0;
+    assert_eq!(levels.spikes(10.0).unwrap().nodes, [((3, 3), 1.0)]);
+    assert!(matches!(levels.despike(0.0), Err(Error::Value { name: "threshold of spikes", .. })));
+}
+
+#[test]
+fn codes_become_missing_to_the_rounding_of_their_file() {
+    let code = -9999.9;
+    let mut coded = rough((20, 20), 6.0);
+    coded.heights[[3, 4]] = code;
+    coded.heights[[5, 6]] = f64::from(code as f32);
+    coded.heights[[7, 8]] = code + 0.1;
+    let declared = coded.declare_missing(code);
+    assert_eq!(declared.missing(), 2);
+    assert_eq!(declared.heights[[7, 8]], code + 0.1);
+    let zeros = map((4, 4), (1.0, 1.0), |i, j| i * j).declare_missing(0.0);
+    assert_eq!(zeros.missing(), 7);
+}
+
+/// The side of a sphere or a cylinder that faces up, or down if the radius is negative.
+fn body(form: Form, radius: f64, (x0, y0): (f64, f64), angle: f64) -> impl Fn(f64, f64) -> f64 {
+    move |i, j| {
+        let (x, y) = (0.1 * (i - 19.5) - x0, 0.1 * (j - 14.5) - y0);
+        let across = match form {
+            Form::Sphere => x * x + y * y,
+            Form::Cylinder => (y * angle.cos() - x * angle.sin()).powi(2),
+        };
+        -radius.signum() * across / (radius.abs() + (radius * radius - across).sqrt())
+    }
+}
+
+#[test]
+fn forms_are_found_and_removed_exactly_whatever_is_missing() {
+    for (form, radius, apex, angle) in [
+        (Form::Sphere, 3.5, (0.5, -0.3), 0.0),
+        (Form::Sphere, -40.0, (9.0, 2.0), 0.0),
+        (Form::Sphere, 1e6, (0.0, 0.0), 0.0),
+        (Form::Cylinder, 4.0, (0.3, 0.2), 0.4),
+        (Form::Cylinder, -30.0, (1.0, -2.0), -1.2),
+        (Form::Cylinder, 5.0, (0.0, 0.0), 1.5),
+    ] {
+        let whole = map((40, 30), (4.0, 3.0), body(form, radius, apex, angle));
+        let pierced = pierced(whole, |i, j| (3 * i + 5 * j).is_multiple_of(11) || i < 6 && j > 20);
+        let fit = pierced.fit_form(form).unwrap();
+        // rounding of the heights, relative to what the curvature makes of them
+        assert_relative_eq!(fit.radius, radius, max_relative = 1e-9 * radius.abs().max(1.0));
+        assert_eq!(fit.axis.is_some(), form == Form::Cylinder);
+        if let Some(axis) = fit.axis {
+            assert_relative_eq!(axis, angle, epsilon = 1e-8);
+        }
+        let flat = pierced.clone().remove_form(form).unwrap();
+        assert!(flat.rms_height() < 1e-11 && flat.missing() == pierced.missing(), "{}", flat.rms_height());
+        assert_relative_eq!(flat.rms_height(), fit.residual, epsilon = 1e-12);
+    }
+}
+
+#[test]
+fn a_fitted_form_has_the_least_squares_on_a_rough_body() {
+    for form in [Form::Sphere, Form::Cylinder] {
+        let roughness = rough((40, 30), 8.0);
+        let mut bent = map((40, 30), (4.0, 3.0), body(form, 4.0, (0.4, -0.2), 0.7));
+        bent.heights.zip_mut_with(&roughness.heights, |h, rough| *h += 0.02 * rough + 7.0);
+        let flat = bent.clone().remove_form(form).unwrap();
+        assert!(flat.rms_height() < 0.021 && flat.mean().abs() < 1e-9, "{}", flat.rms_height());
+        // no body of the same form that is shifted, tilted or bent a little fits better
+        let fit = bent.fit_form(form).unwrap();
+        for (shape, angle) in [((0.0, 1e-3), 0.7), ((1e-3, 0.0), 0.7), ((0.0, 0.0), 0.7 + 1e-3)] {
+            for sign in [-1.0, 1.0] {
+                let step = |a: f64, b: f64| sign * (a - b);
+                let (there, here) =
+                    (body(form, 4.0, (0.4 + shape.0, -0.2 + shape.1), angle), body(form, 4.0, (0.4, -0.2), 0.7));
+                let shifted = flat.heights.indexed_iter().map(|((i, j), h)| {
+                    let (i, j) = (i as f64, j as f64);
+                    h + step(there(i, j), here(i, j))
+                });
+                let (mean, count) = (shifted.clone().sum::<f64>() / 1200.0, 1200.0);
+                let rms = (shifted.map(|h| (h - mean).powi(2)).sum::<f64>() / count).sqrt();
+                // the step along the valley is not quite one between bodies of this radius: second order in 1e-3
+                assert!(rms > fit.residual - 1e-6, "{form:?} {shape:?}: {rms} below {}", fit.residual);
+            }
+        }
+    }
+    // what has no curvature is a plane; without side lengths there is no form
+    let plane = map((20, 20), (2.0, 2.0), |i, j| 0.3 * i - 0.1 * j);
+    assert!(plane.fit_form(Form::Sphere).unwrap().radius.abs() > 1e6);
+    assert!(plane.clone().remove_form(Form::Cylinder).unwrap().rms_height() < 1e-12);
+    let unknown = Topography::new(plane.heights).remove_form(Form::Sphere);
+    assert!(matches!(unknown, Err(Error::Value { name: "side length Lx", .. })));
+    let line = map((50, 1), (5.0, 7.0), |i, _| (9.0 - (0.1 * (i - 24.5)).powi(2)).sqrt());
+    assert_relative_eq!(line.fit_form(Form::Sphere).unwrap().radius, 3.0, max_relative = 1e-9);
 }

@@ -231,7 +231,7 @@ fn binary_files_are_named_with_a_remedy_and_none_of_their_bytes_reaches_the_term
     let bench = bench(16);
     let noise: Vec<u8> = (0..3000_u32).map(|i| (i * i / 7) as u8).collect();
     for (name, start, parts) in [
-        ("map.gwy", &b"GWYPGwyContainer\0"[..], ["Gwyddion file (.gwy)", "as .gsf"]),
+        ("map.gwy", &b"GWYOGwyContainer\0"[..], ["Gwyddion 1 (.gwy)", "as .gsf"]),
         ("map.spm", b"\\*File list\r\n\\Version: 0x05120000\r\n", ["Nanoscope file (.spm)", "Gwyddion"]),
         ("map.tif", b"II*\0\x08\0\0\0", ["TIFF image (.tif)", "numpy.save"]),
         ("map.sur", b"DIGITAL SURF\0", ["Digital Surf file (.sur)", "Gwyddion"]),

@@ -75,10 +75,11 @@ fn damaged_states_are_refused_and_the_table_is_kept() {
     }
 }
 
-const OUTPUTS: [&str; 9] = [
+const OUTPUTS: [&str; 10] = [
     "solve --heights heights.npy --mean-gap 0.0398 --out",
     "sweep --heights heights.npy --mean-gaps 0.04 --format csv --out",
     "sweep --heights heights.npy --mean-gaps 0.04 --out sweep.csv --fields",
+    "sweep --heights heights.npy --mean-gaps 0.04 --out sweep.csv --plot",
     "cycle --heights heights.npy --mean-gaps 0.04,0.039 --steps 1 --out",
     "cycle --heights heights.npy --mean-gaps 0.04,0.039 --steps 1 --out cycle.csv --plot",
     "surface --size 16 --rms-slope 0.1 --k-s 6 --out",

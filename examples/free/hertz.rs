@@ -1,12 +1,11 @@
-//! A sphere on a free half-space beside one in a periodic cell of the same window: accuracy and cost.
-//!
-//! `cargo run --release --example free -- [largest size]`; 1024 if nothing is given.
+//! A sphere by force on a free half-space beside one in a periodic cell of the same window: accuracy and cost.
 
 use std::time::Instant;
 
 use asperity::exact::{Hertz, Sphere};
 use asperity::{
-    Boussinesq, Control, ElasticOperator, Grid, NoAdhesion, Problem, Report, Result, Solver, Surface, Westergaard,
+    Boussinesq, Control, ElasticOperator, Error, Grid, NoAdhesion, Problem, Report, Result, Solver, Surface,
+    Westergaard,
 };
 
 const RADIUS: f64 = 2.0;
@@ -25,13 +24,14 @@ fn solve(surface: &Surface, operator: impl ElasticOperator<f64>) -> Result<(Repo
             best = Some((report, seconds));
         }
     }
-    best.ok_or(asperity::Error::Value { name: "number of solves", value: 0.0, requirement: "positive" })
+    best.ok_or(Error::Value { name: "number of solves", value: 0.0, requirement: "positive" })
 }
 
-fn main() -> Result<()> {
+/// Prints the error of the approach, the applications, and the time over that of the periodic solve.
+pub fn table(largest: usize) -> Result<()> {
     let exact = Hertz::new(RADIUS, 1.0)?.at_load(FORCE)?;
+    println!("sphere by force, beside Hertz and the periodic solve of the same window");
     println!("{:>5} {:>12} {:>12} {:>10} {:>10} {:>6}", "n", "approach", "error", "free", "periodic", "time");
-    let largest = std::env::args().nth(1).and_then(|n| n.parse().ok()).unwrap_or(1024);
     for n in [64, 128, 256, 512, 1024].into_iter().filter(|&n| n <= largest) {
         let grid = Grid::square(n, SIDE)?;
         let sphere = Surface::paraboloid(grid, RADIUS)?;

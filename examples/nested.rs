@@ -1,0 +1,124 @@
+//! Operator applications of nested grids beside those of the finest grid alone, over a set of scenes.
+//!
+//! `cargo run --release --example nested -- [size [tolerance [precision]]]`; 512, 1e-6 and f64 if nothing is given.
+
+#[path = "../tests/common/rough.rs"]
+mod rough;
+
+use asperity::{
+    AdhesionLaw, Boussinesq, Control, ElasticOperator, Exponential, Grid, MaugisDugdale, Nested, NoAdhesion, Problem,
+    Real, Result, Settings, Solver, Surface, Westergaard,
+};
+
+/// The sums of a table: how many scenes, the sum of the logarithms of the ratios, and the largest ratio, over all scenes
+/// and over those where nested grids are the default.
+struct Table {
+    settings: Settings,
+    all: (f64, f64, f64),
+    default: (f64, f64, f64),
+}
+
+fn main() -> Result<()> {
+    let mut arguments = std::env::args().skip(1);
+    let size = arguments.next().and_then(|n| n.parse().ok()).unwrap_or(512);
+    let tolerance = arguments.next().and_then(|n| n.parse().ok()).unwrap_or(1e-6);
+    match arguments.next().as_deref() {
+        Some("f32") => table::<f32>(size, tolerance),
+        _ => table::<f64>(size, tolerance),
+    }
+}
+
+fn table<T: Real>(size: usize, tolerance: f64) -> Result<()> {
+    let settings = Settings { tolerance: Some(tolerance), ..Settings::default() };
+    let none = (0.0, 0.0, 0.0);
+    let mut table = Table { settings, all: none, default: none };
+    println!(
+        "{:<38} {:>6} {:>7} {:>6}  default  difference of mean gap, mean pressure",
+        "scene", "single", "nested", "ratio"
+    );
+    let grid = Grid::square(size, 1.0)?;
+    for nodes in [8, 16, 32] {
+        let surface = rough::rough(grid, (size / nodes).max(5) as i32, 1);
+        let rms = surface.rms_height();
+        for control in [0.002, 0.0125, 0.2].map(Control::MeanPressure) {
+            table.row::<T, _>(&format!("rough, {nodes} nodes a wave"), &surface, NoAdhesion, control)?;
+        }
+        for control in [2.0, 1.0, 0.3].map(|gap| Control::MeanGap(gap * rms)) {
+            table.row::<T, _>(&format!("rough, {nodes} nodes a wave"), &surface, NoAdhesion, control)?;
+        }
+    }
+    let surface = rough::rough(grid, (size / 16).max(5) as i32, 1);
+    let rms = surface.rms_height();
+    let bowed = surface.heights()
+        + &grid.sample(|x, y| {
+            let turn = std::f64::consts::TAU;
+            rms * (3.0 * (turn * x).cos() + (turn * y).cos())
+        });
+    let bowed = Surface::new(grid, bowed)?;
+    let loads = [Control::MeanPressure(0.002), Control::MeanPressure(0.02), Control::MeanGap(rms)];
+    for control in loads {
+        table.row::<T, _>("rough, bowed", &bowed, NoAdhesion, control)?;
+        let law = |work, range| Exponential::new(work, range);
+        table.row::<T, _>("rough, exponential, weak", &surface, law(0.01 * rms * rms, 0.1 * rms)?, control)?;
+        table.row::<T, _>("rough, exponential, strong", &surface, law(1.42e-4, 2.9e-3)?, control)?;
+        let law = MaugisDugdale::new(1.42e-4, 2.9e-3)?;
+        table.row::<T, _>("rough, Maugis-Dugdale", &surface, law, control)?;
+    }
+    let sphere = Surface::paraboloid(grid, 2.0)?;
+    for control in [Control::MeanPressure(2e-3), Control::MeanGap(0.0398)] {
+        table.row::<T, _>("sphere", &sphere, NoAdhesion, control)?;
+        table.row::<T, _>("sphere, Maugis-Dugdale", &sphere, MaugisDugdale::new(1e-4, 2e-3)?, control)?;
+    }
+    table.row::<T, _>("wave", &Surface::wave_2d(grid, 0.02, 1)?, NoAdhesion, Control::MeanPressure(0.01))?;
+    table.free::<T>("sphere, free boundary", &sphere, Control::Force(2e-3))?;
+    table.free::<T>("rough, free boundary", &surface, Control::Force(0.0125))?;
+    for (name, (count, logarithms, worst)) in [("all", table.all), ("where it is the default", table.default)] {
+        println!("{name}: {count} scenes, ratio {:.2} in the mean, {worst:.2} at most", (logarithms / count).exp());
+    }
+    Ok(())
+}
+
+impl Table {
+    fn row<T: Real, L: AdhesionLaw<T>>(
+        &mut self,
+        name: &str,
+        surface: &Surface,
+        law: L,
+        control: Control,
+    ) -> Result<()> {
+        self.compare(name, surface, |grid| Westergaard::<T>::new(grid, 1.0), law, control)
+    }
+
+    fn free<T: Real>(&mut self, name: &str, surface: &Surface, control: Control) -> Result<()> {
+        self.compare(name, surface, |grid| Boussinesq::<T>::new(grid, 1.0), NoAdhesion, control)
+    }
+
+    fn compare<T: Real, O: ElasticOperator<T>, L: AdhesionLaw<T>>(
+        &mut self,
+        name: &str,
+        surface: &Surface,
+        half_space: impl Fn(Grid) -> Result<O>,
+        law: L,
+        control: Control,
+    ) -> Result<()> {
+        let mut problem = Problem::new(surface, half_space(*surface.grid())?, &law)?;
+        let single = Solver::new(self.settings).solve(&mut problem, control)?.report;
+        let mut nested = Nested::new(self.settings);
+        let pays = nested.pays(surface, &law, control);
+        let found = nested.solve(surface, half_space, &law, control)?;
+        let (alone, taken) = ((single.operator_applications + 1) as f64, found.equivalent_applications());
+        let (ratio, report) = (taken / alone, &found.solution.report);
+        for sums in [Some(&mut self.all), pays.then_some(&mut self.default)].into_iter().flatten() {
+            *sums = (sums.0 + 1.0, sums.1 + ratio.ln(), sums.2.max(ratio));
+        }
+        let ended = if report.status == single.status { String::new() } else { format!("{}", report.status) };
+        println!(
+            "{:<38} {alone:>6} {taken:>7.1} {ratio:>6.2}  {:<7}  {:.0e} {:.0e} {ended}",
+            format!("{name}, {} {:.4}", control.name(), control.value()),
+            if pays { "nested" } else { "single" },
+            (report.mean_gap / single.mean_gap - 1.0).abs(),
+            (report.mean_pressure / single.mean_pressure - 1.0).abs(),
+        );
+        Ok(())
+    }
+}

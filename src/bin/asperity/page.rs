@@ -1,0 +1,327 @@
+//! `asperity report`: the results of a run as one page for a browser.
+
+use std::fmt::Write;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use asperity::io::read_field;
+use asperity::picture::{Chart, Colouring, Map};
+use asperity::{Error, Grid};
+use clap::Args;
+use ndarray::{Array2, Zip};
+use serde_json::Value;
+use toml::Table;
+
+use crate::citation::citations;
+use crate::csv;
+use crate::outcome::Outcome;
+use crate::output::{OutputFile, write_text};
+use crate::pictures::{Units, chart_of_columns, chart_of_loads, draw_pressure, draw_regions};
+use crate::printing::say;
+use crate::scene;
+
+/// Put the results of a run on one page for a browser.
+///
+/// RESULTS is the folder of a solve, or the table of a sweep or a cycle. The page has the figures, the warnings, maps
+/// that can be zoomed, curves, the scene that repeats the run, and how to cite. It is one file, which loads nothing from
+/// elsewhere: for a colleague, or beside the data. Maps are drawn from gap.npy, pressure.npy and contact_pressure.npy.
+#[derive(Args)]
+#[command(after_help = EXAMPLES)]
+pub struct Options {
+    /// Folder of a solve, or table of a sweep or a cycle
+    #[arg(value_name = "RESULTS")]
+    results: PathBuf,
+    /// File for the page [default: report.html in the folder, or beside the table]
+    #[arg(long, value_name = "FILE", help_heading = "Output")]
+    out: Option<PathBuf>,
+    /// Replace a page that is there
+    #[arg(long, help_heading = "Output")]
+    force: bool,
+}
+
+const EXAMPLES: &str = "\
+\u{1b}[1;4mExamples:\u{1b}[0m
+    asperity solve --heights heights.npy --mean-gap 0.04 --out results
+    asperity report results
+    asperity sweep --heights heights.npy --mean-gaps 0.05:0.04:3 --out sweep.csv
+    asperity report sweep.csv";
+
+/// The resolution of the maps, for those who zoom.
+const FINE: f64 = 288.0;
+/// The share of w/ρ from which on attraction is shown, as in the column `attractive_fraction`.
+const NOTICEABLE: f64 = 0.01;
+/// The number of classes of the distribution of the pressure.
+const CLASSES: usize = 60;
+
+/// Runs the command; always successful if it ends.
+pub fn run(options: &Options) -> Outcome<bool> {
+    let results = &options.results;
+    let folder = results.is_dir();
+    let default = if folder { results.join("report.html") } else { beside(results) };
+    let file = OutputFile::create(options.out.as_ref().unwrap_or(&default), options.force)?;
+    let page = if folder { page_of_solve(results)? } else { page_of_table(results)? };
+    file.write(|path| write_text(path, &page))?;
+    file.commit()?;
+    say(&format!("page in {}", options.out.as_ref().unwrap_or(&default).display()));
+    Ok(true)
+}
+
+/// The page beside a table.
+fn beside(table: &Path) -> PathBuf {
+    let mut path = table.as_os_str().to_owned();
+    path.push(".html");
+    path.into()
+}
+
+/// A page as it grows.
+struct Page {
+    text: String,
+}
+
+impl Page {
+    fn new(title: &str, subtitle: &str) -> Self {
+        let title = escaped(title);
+        let text = format!(
+            "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n\
+             <meta name=\"viewport\" content=\"width=device-width\"/>\n<title>{title}</title>\n<style>\n{}</style>\n</head>\n\
+             <body>\n<h1>{title}</h1>\n<p>{}</p>\n",
+            include_str!("page/style.css"),
+            escaped(subtitle)
+        );
+        Self { text }
+    }
+
+    fn heading(&mut self, text: &str) {
+        let _ = writeln!(self.text, "<h2>{}</h2>", escaped(text));
+    }
+
+    fn warnings(&mut self, warnings: &[String]) {
+        if !warnings.is_empty() {
+            let items: String = warnings.iter().map(|text| format!("<li>{}</li>\n", escaped(text))).collect();
+            let _ = writeln!(self.text, "<h2>Warnings</h2>\n<ul class=\"warnings\">\n{items}</ul>");
+        }
+    }
+
+    /// A picture; a map can be zoomed.
+    fn figure(&mut self, kind: &str, svg: &str) {
+        let _ = writeln!(self.text, "<figure class=\"{kind}\">\n{svg}</figure>");
+    }
+
+    /// The scene, how to cite, and the end.
+    fn finish(mut self, scene: Option<&str>) -> String {
+        if let Some(scene) = scene {
+            let _ = writeln!(
+                self.text,
+                "<h2>Scene</h2>\n<p>asperity run repeats the run with this file.</p>\n<pre>{}</pre>",
+                escaped(scene)
+            );
+        }
+        let [program, paper] = citations().map(|citation| escaped(&citation));
+        let _ = write!(
+            self.text,
+            "<h2>How to cite</h2>\n<p>{program}</p>\n<p>{paper}</p>\n<script>\n{}</script>\n</body>\n</html>\n",
+            include_str!("page/zoom.js")
+        );
+        self.text
+    }
+}
+
+/// The page of a folder of `asperity solve`.
+fn page_of_solve(folder: &Path) -> Outcome<String> {
+    let path = folder.join("report.json");
+    let text = fs::read_to_string(&path).map_err(|_| {
+        Error::file(&path, "is not there: name the folder of a solve, or the table of a sweep or a cycle")
+    })?;
+    let report: Value =
+        serde_json::from_str(&text).map_err(|e| Error::file(&path, format!("is no report of a solve: {e}")))?;
+    let scene = fs::read_to_string(folder.join(scene::NAME)).ok();
+    let word = |key: &str| report[key].as_str().unwrap_or_default();
+    let name = folder.canonicalize().ok().and_then(|path| Some(path.file_name()?.to_string_lossy().into_owned()));
+    let name = name.unwrap_or_else(|| "results".to_owned());
+    let status = word("status");
+    let mut page = Page::new(&name, &format!("asperity solve, version {}: {status}", word("version")));
+
+    let mut warnings: Vec<String> = Vec::new();
+    if status != "converged" {
+        warnings.push(format!("The solve has not converged, it is {status}: the answer may be wrong."));
+    }
+    let said = report["warnings"].as_array().into_iter().flatten();
+    warnings.extend(said.filter_map(|warning| warning["message"].as_str()).map(str::to_owned));
+    let maps = maps_of_solve(folder, &report, scene.as_deref());
+    if let Err(error) = &maps {
+        warnings.push(format!("There are no maps on this page: {error}"));
+    }
+    page.warnings(&warnings);
+    if let Ok(maps) = maps {
+        page.heading("Maps and curves");
+        maps.iter().for_each(|(kind, svg)| page.figure(kind, svg));
+    }
+    page.heading("Figures");
+    page.text.push_str("<table>\n");
+    for (key, value) in report.as_object().into_iter().flatten().filter(|(key, _)| *key != "warnings") {
+        if let Some(value) = shown(value) {
+            let _ = writeln!(
+                page.text,
+                "<tr><th>{}</th><td>{}</td></tr>",
+                escaped(&key.replace('_', " ")),
+                escaped(&value)
+            );
+        }
+    }
+    page.text.push_str("</table>\n");
+    Ok(page.finish(scene.as_deref()))
+}
+
+/// The maps and the curve of a solve, each with its kind.
+fn maps_of_solve(folder: &Path, report: &Value, scene: Option<&str>) -> Outcome<Vec<(&'static str, String)>> {
+    let [gap, pressure, contact_pressure] =
+        ["gap", "pressure", "contact_pressure"].map(|name| read_field(&folder.join(format!("{name}.npy"))));
+    let (gap, pressure, contact_pressure) = (gap?, pressure?, contact_pressure?);
+    let side = |k: usize| report["lengths"][k].as_f64().unwrap_or(1.0);
+    let grid = Grid::new(gap.dim(), (side(0), side(1)))?;
+    if [pressure.dim(), contact_pressure.dim()] != [gap.dim(); 2] {
+        return Err("gap, pressure and contact pressure have not one shape: they are of different runs".into());
+    }
+    let (length, given) = (report["length_unit"].as_str(), units(scene));
+    let [_, pressure_unit, _] = given.each_ref().map(Option::as_deref);
+    let units = Units { length, pressure: pressure_unit, force: None };
+
+    let adhesive = report["law"].as_str() != Some("none");
+    // the traction of the law is what the contact pressure has more than the elastic one
+    let least =
+        report["work_of_adhesion"].as_f64().zip(report["range"].as_f64()).map(|(w, range)| NOTICEABLE * w / range);
+    let least = least.filter(|_| adhesive).unwrap_or(f64::INFINITY);
+    let regions = Zip::from(&gap).and(&pressure).and(&contact_pressure).map_collect(|&gap, &pressure, &contact| {
+        match contact - pressure {
+            _ if contact > 0.0 || gap <= 0.0 => 1.0,
+            _ if gap.is_nan() => f64::NAN,
+            traction if traction > least => -1.0,
+            _ => 0.0,
+        }
+    });
+    let contact = draw_regions(grid, "Contact", units, &regions, FINE)?;
+    let drawn = if adhesive { &pressure } else { &contact_pressure };
+    let pressures = draw_pressure(grid, ("Pressure", ""), units, drawn, None, FINE)?;
+    let gaps = Map {
+        title: "Gap",
+        length_unit: length,
+        label: "gap",
+        unit: length,
+        ..Map::new(gap.view(), grid, Colouring::Sequential)
+    };
+    let chart = distribution(&contact_pressure, pressure_unit)?;
+    Ok(vec![("map", contact.svg()?), ("map", pressures.svg()?), ("map", gaps.draw(FINE)?.svg()?), ("chart", chart)])
+}
+
+/// The distribution of the pressure in contact, as a density over its range.
+fn distribution(contact_pressure: &Array2<f64>, unit: Option<&str>) -> asperity::Result<String> {
+    let pressed = || contact_pressure.iter().copied().filter(|pressure| *pressure > 0.0);
+    let (largest, count) = (pressed().fold(0.0, f64::max), pressed().count() as f64);
+    let mut counts = vec![0.0; CLASSES];
+    for pressure in pressed() {
+        counts[((pressure / largest * CLASSES as f64) as usize).min(CLASSES - 1)] += 1.0;
+    }
+    let width = largest / CLASSES as f64;
+    let point = |(k, nodes): (usize, &f64)| ((k as f64 + 0.5) * width, 100.0 * nodes / count);
+    let curve = if count > 0.0 { counts.iter().enumerate().map(point).collect() } else { Vec::new() };
+    let chart = Chart {
+        title: "Distribution of the contact pressure",
+        x_label: "contact pressure",
+        x_unit: unit,
+        y_label: "nodes in contact",
+        y_unit: Some("%"),
+        curves: vec![("", curve)],
+        ..Chart::default()
+    };
+    chart.draw(FINE)?.svg()
+}
+
+/// The page of a table of `asperity sweep` or `asperity cycle`.
+fn page_of_table(table: &Path) -> Outcome<String> {
+    let text = fs::read_to_string(table).map_err(|_| {
+        Error::file(table, "cannot be read: name the folder of a solve, or the table of a sweep or a cycle")
+    })?;
+    let (columns, rows) = rows(&text);
+    if rows.is_empty() || !columns.iter().any(|column| column == "control_value") {
+        return Err(Error::file(table, "is no table of a sweep or a cycle: it has no column control_value").into());
+    }
+    let scene = fs::read_to_string(scene::beside(table)).ok();
+    let [length, pressure, force] = units(scene.as_deref());
+    let units = Units { length: length.as_deref(), pressure: pressure.as_deref(), force: force.as_deref() };
+    let name = table.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
+    let cycle = columns.iter().any(|column| column == "leg");
+    let command = if cycle { "cycle" } else { "sweep" };
+    let mut page = Page::new(&name, &format!("asperity {command}: {} rows", rows.len()));
+    let bad = |row: &Value| row["status"] != "converged";
+    let unconverged = rows.iter().filter(|row| bad(row)).count();
+    if unconverged > 0 {
+        page.warnings(&[format!(
+            "{unconverged} of {} rows have not converged; they are marked in the table.",
+            rows.len()
+        )]);
+    }
+    page.heading("Curves");
+    page.figure("chart", &chart_of_loads(&rows, units, FINE)?.svg()?);
+    let energy = if cycle { "dissipated" } else { "elastic_energy" };
+    for (x, y) in [("mean_gap", "contact_fraction"), ("mean_gap", energy)] {
+        // what is the same in all rows needs no curve
+        if rows.iter().any(|row| row[y] != rows[0][y]) {
+            page.figure("chart", &chart_of_columns(&rows, x, y, units, FINE)?.svg()?);
+        }
+    }
+    page.heading("Rows");
+    let head: String =
+        columns.iter().map(|column| format!("<th>{}</th>", escaped(&column.replace('_', " ")))).collect();
+    let _ = writeln!(page.text, "<div class=\"rows\">\n<table>\n<tr>{head}</tr>");
+    for row in &rows {
+        let cell = |column: &String| format!("<td>{}</td>", escaped(&shown(&row[column]).unwrap_or_default()));
+        let cells: String = columns.iter().map(cell).collect();
+        let _ = writeln!(page.text, "<tr{}>{cells}</tr>", if bad(row) { " class=\"bad\"" } else { "" });
+    }
+    page.text.push_str("</table>\n</div>\n");
+    Ok(page.finish(scene.as_deref()))
+}
+
+/// The columns and rows of a table, of comma-separated values or of a JSON object on each line.
+fn rows(text: &str) -> (Vec<String>, Vec<Value>) {
+    if text.starts_with('{') {
+        let rows: Vec<Value> = text.lines().filter_map(|line| serde_json::from_str(line).ok()).collect();
+        let columns = rows.first().and_then(Value::as_object).map(|row| row.keys().cloned().collect());
+        return (columns.unwrap_or_default(), rows);
+    }
+    let mut lines = text.lines();
+    let columns: Vec<_> = lines.next().unwrap_or_default().split(',').collect();
+    let rows = lines.map(|line| csv::parsed(&columns, line)).collect();
+    (columns.into_iter().map(str::to_owned).collect(), rows)
+}
+
+/// The units of length, pressure and force in a scene.
+fn units(scene: Option<&str>) -> [Option<String>; 3] {
+    let table: Table = scene.and_then(|scene| scene.parse().ok()).unwrap_or_default();
+    ["length-unit", "pressure-unit", "force-unit"].map(|key| Some(table.get("output")?.get(key)?.as_str()?.to_owned()))
+}
+
+/// A value as people read it; none for what there is not.
+fn shown(value: &Value) -> Option<String> {
+    match value {
+        Value::Null => None,
+        Value::String(word) => Some(word.clone()),
+        Value::Number(number) if number.is_f64() => number.as_f64().map(|number| match number.abs() {
+            0.0 => "0".to_owned(),
+            1e-3..1e6 => format!("{number:.6}").trim_end_matches('0').trim_end_matches('.').to_owned(),
+            _ => format!("{number:.6e}"),
+        }),
+        Value::Array(values) => Some(values.iter().filter_map(shown).collect::<Vec<_>>().join(" × ")),
+        Value::Object(values) => {
+            let parts =
+                values.iter().filter_map(|(key, value)| Some(format!("{} {}", key.replace('_', " "), shown(value)?)));
+            Some(parts.collect::<Vec<_>>().join(", "))
+        }
+        other => Some(other.to_string()),
+    }
+}
+
+/// A text without characters that mean something in HTML.
+fn escaped(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
+}

@@ -1,0 +1,131 @@
+//! The frame of a map or chart: title, caption, axes and legend.
+
+use super::font::width;
+use super::scale::Axis;
+use super::shape::{Anchor, Area, BLACK, Colour, HAIRLINE};
+use super::{Picture, font};
+
+/// The sizes of the font.
+pub(super) const TITLE: f64 = 10.0;
+pub(super) const LABEL: f64 = 9.0;
+pub(super) const NUMBER: f64 = 8.0;
+/// The height of a line of text, and of a row of ticks and numbers.
+pub(super) const LINE: f64 = 13.0;
+pub(super) const NUMBERS: f64 = 14.0;
+pub(super) const MARGIN: f64 = 6.0;
+const TICK: f64 = 3.0;
+/// The distance between an axis and the next number, and that between two numbers below.
+const SPACE: f64 = 2.0;
+/// The side of a square in the legend, and the distance from it to its text, and to the next one.
+const SWATCH: f64 = 7.0;
+const SWATCH_SPACE: f64 = 4.0;
+const ENTRY_SPACE: f64 = 14.0;
+
+/// How much of an axis a number takes, below and beside a plot.
+pub(super) const STEP_BELOW: f64 = 45.0;
+pub(super) const STEP_BESIDE: f64 = 25.0;
+
+/// An entry of a legend: its colour, whether that is a line or an area, and its text.
+pub(super) struct Entry {
+    pub(super) colour: Colour,
+    pub(super) line: bool,
+    pub(super) text: String,
+}
+
+impl Entry {
+    fn width(&self) -> f64 {
+        SWATCH + SWATCH_SPACE + width(&self.text, LABEL) + ENTRY_SPACE
+    }
+}
+
+/// The texts above and below a plot.
+pub(super) struct Texts<'a> {
+    pub(super) title: &'a str,
+    pub(super) caption: &'a str,
+    pub(super) legend: Vec<Entry>,
+}
+
+impl Texts<'_> {
+    /// The height of the lines above a plot, with the margins.
+    pub(super) fn above(&self) -> f64 {
+        let lines = [self.title, self.caption].iter().filter(|text| !text.is_empty()).count();
+        2.0 * MARGIN + lines as f64 * LINE
+    }
+
+    /// The height below the plot and its axis.
+    pub(super) fn below(&self) -> f64 {
+        if self.legend.is_empty() { 0.0 } else { LINE + 0.5 * MARGIN }
+    }
+
+    /// The width of the longest line.
+    pub(super) fn widest(&self) -> f64 {
+        let legend: f64 = self.legend.iter().map(Entry::width).sum();
+        width(self.title, TITLE).max(width(self.caption, LABEL)).max(legend)
+    }
+
+    /// Draws title and caption from the top, and the legend from `bottom` on.
+    pub(super) fn draw(&self, picture: &mut Picture, left: f64, bottom: f64) {
+        let mut row = MARGIN + 0.5 * LINE;
+        for (text, size) in [(self.title, TITLE), (self.caption, LABEL)] {
+            if !text.is_empty() {
+                picture.text(text, (left, row), size, Anchor::Start);
+                row += LINE;
+            }
+        }
+        let (mut column, middle) = (left, bottom + 0.5 * SWATCH);
+        for entry in &self.legend {
+            if entry.line {
+                picture.fill(Area::new(column, middle - 0.75, SWATCH + 1.0, 1.5), entry.colour);
+            } else {
+                let swatch = Area::new(column, bottom, SWATCH, SWATCH);
+                picture.fill(swatch, entry.colour);
+                picture.outline(swatch);
+            }
+            picture.text(&entry.text, (column + SWATCH + SWATCH_SPACE, middle), LABEL, Anchor::Start);
+            column += entry.width();
+        }
+    }
+}
+
+/// Draws the numbers and the label of an axis below `plot`.
+pub(super) fn draw_axis_below(picture: &mut Picture, axis: &Axis, plot: Area) {
+    let bottom = plot.bottom();
+    for (share, number) in &axis.ticks {
+        let x = plot.left + share * plot.width;
+        picture.fill(Area::new(x - 0.5 * HAIRLINE, bottom, HAIRLINE, length(number)), BLACK);
+        picture.text(number, (x, bottom + TICK + SPACE + 0.4 * NUMBER), NUMBER, Anchor::Middle);
+    }
+    let middle = (plot.left + 0.5 * plot.width, bottom + NUMBERS + 0.5 * LINE);
+    picture.text(&axis.label, middle, LABEL, Anchor::Middle);
+}
+
+/// Draws the numbers and the label of an axis at the left (`side = -1.0`) or the right (`1.0`) of `plot`, the label in
+/// `room`, the width of all of them.
+pub(super) fn draw_axis_beside(picture: &mut Picture, axis: &Axis, plot: Area, side: f64, room: f64) {
+    let edge = if side < 0.0 { plot.left } else { plot.right() };
+    for (share, number) in &axis.ticks {
+        let (y, tick) = (plot.bottom() - share * plot.height, length(number));
+        let start = if side < 0.0 { edge - tick } else { edge };
+        picture.fill(Area::new(start, y - 0.5 * HAIRLINE, tick, HAIRLINE), BLACK);
+        let anchor = if side < 0.0 { Anchor::End } else { Anchor::Start };
+        picture.text(number, (edge + side * (TICK + SPACE), y), NUMBER, anchor);
+    }
+    let middle = edge + side * (room - 0.5 * LINE);
+    picture.text_upwards(&axis.label, (middle, plot.bottom() - 0.5 * plot.height), LABEL);
+}
+
+/// The length of a tick, shorter where it has no number.
+fn length(number: &str) -> f64 {
+    if number.is_empty() { 0.5 * TICK } else { TICK }
+}
+
+/// The room beside a plot for the numbers and the label of an axis, in whole points.
+pub(super) fn room(axis: &Axis) -> f64 {
+    let widest = axis.ticks.iter().map(|(_, text)| font::width(text, NUMBER)).fold(0.0, f64::max);
+    (TICK + MARGIN + widest + if axis.label.is_empty() { 0.0 } else { LINE }).ceil()
+}
+
+/// The length of an axis that has room for its label and a unit, and for enough numbers.
+pub(super) fn label_length(label: &str) -> f64 {
+    (width(label, LABEL) + 45.0).max(100.0).ceil()
+}

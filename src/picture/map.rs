@@ -1,0 +1,312 @@
+//! The map: a field on its rectangle, in colours.
+
+use ndarray::ArrayView2;
+
+use super::Picture;
+use super::chart::{COLOURS, WIDTH, pieces};
+use super::colours::{ATTRACTIVE, Colouring, Colours, MISSING, drawable};
+use super::frame::{
+    Entry, LINE, MARGIN, NUMBERS, STEP_BELOW, STEP_BESIDE, Texts, draw_axis_below, draw_axis_beside, label_length, room,
+};
+use super::scale::{Axis, Part, three_digits};
+use super::shape::{Area, BLACK, Curve, GREY, HAIRLINE, Image, Shape, WHITE};
+use crate::error::{Error, Result};
+use crate::grid::Grid;
+
+/// The width of the colour bar, its distance from the map, and the height of its arrows.
+const BAR: f64 = 11.0;
+const GAP: f64 = 15.0;
+const ARROW: f64 = 9.0;
+/// The distance between the bars of two signs.
+const SPLIT: f64 = 10.0;
+/// The pixels of a map to a point, for which its size is chosen.
+const PIXELS: f64 = 2.0;
+
+/// A picture of a field on a periodic rectangle, with its title, axes and legend.
+///
+/// x runs to the right and y upwards, both from zero to the side length wherever the grid has its origin.
+/// At [`DPI`](super::DPI) each node is a cell of one or more pixels; more than 1000 nodes to a side, or more than there
+/// are pixels, are averaged in blocks. A value that is not finite has a colour of its own. The picture keeps the aspect ratio of the rectangle up to
+/// 5 : 1. A line (`Nx = 1` or `Ny = 1`) is drawn as a curve, on one linear scale whatever the colouring, or
+/// as a strip if that is [`Colouring::Binary`].
+///
+/// Units such as "m", "Pa" or "N/m" get the SI prefix that makes the numbers readable; others, and pure
+/// numbers (`None`), a power of ten where they are very large or small: "gap (10⁻⁶)".
+///
+/// ```
+/// use asperity::picture::{Colouring, DPI, Map};
+/// use asperity::Grid;
+/// let grid = Grid::square(64, 500e-9)?;
+/// let heights = grid.sample(|x, y| 2e-9 * (2e7 * x).cos() * (2e7 * y).cos());
+/// let map = Map {
+///     title: "Egg box",
+///     length_unit: Some("m"),
+///     label: "height",
+///     unit: Some("m"),
+///     ..Map::new(heights.view(), grid, Colouring::Sequential)
+/// };
+/// map.draw(DPI)?.write(&std::env::temp_dir().join("asperity-egg-box.png"))?;
+/// # Ok::<(), asperity::Error>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct Map<'a> {
+    /// The values at the nodes, of shape `(Nx, Ny)`.
+    pub values: ArrayView2<'a, f64>,
+    /// The grid of the nodes.
+    pub grid: Grid,
+    /// The colours of the values.
+    pub colouring: Colouring,
+    /// The title; may be empty.
+    pub title: &'a str,
+    /// A line below the title, such as "6.8 % contact"; may be empty.
+    pub caption: &'a str,
+    /// The unit of the side lengths.
+    pub length_unit: Option<&'a str>,
+    /// The quantity, such as "pressure"; may be empty.
+    pub label: &'a str,
+    /// The unit of the values.
+    pub unit: Option<&'a str>,
+    /// The values at the ends of the colour bar, as for maps that are to be compared; those of the field if `None`.
+    /// With [`Colouring::Diverging`] each is that of its sign.
+    pub limits: Option<(f64, f64)>,
+    /// The names of negative and of positive values, such as "tension" and "compression", at colour bars of their own; the
+    /// label stands at both if they are empty.
+    pub signs: [&'a str; 2],
+}
+
+impl<'a> Map<'a> {
+    /// A map of `values` on `grid`, as yet without text or units.
+    pub fn new(values: ArrayView2<'a, f64>, grid: Grid, colouring: Colouring) -> Self {
+        Self {
+            values,
+            grid,
+            colouring,
+            title: "",
+            caption: "",
+            length_unit: None,
+            label: "",
+            unit: None,
+            limits: None,
+            signs: [""; 2],
+        }
+    }
+
+    /// Draws the map, for `dpi` pixels per inch: [`DPI`](super::DPI), or more.
+    ///
+    /// # Errors
+    /// [`Error::Shape`] if the values are not on the grid, and [`Error::Value`] if `dpi` is below 36 or above 1200, or
+    /// the limits are not finite and in order.
+    pub fn draw(&self, dpi: f64) -> Result<Picture> {
+        self.draw_plot(dpi).map(|(picture, _)| picture)
+    }
+
+    /// The picture, and where in it the map or curve is.
+    pub(super) fn draw_plot(&self, dpi: f64) -> Result<(Picture, Area)> {
+        Error::shape("field to draw", self.values.dim(), self.grid.shape())?;
+        if let Some((_, value)) = self.limits.filter(|(low, high)| !(low < high && drawable(*low) && drawable(*high))) {
+            let (name, requirement) = ("upper limit of the colours", "finite and above the lower limit");
+            return Err(Error::Value { name, value, requirement });
+        }
+        let colours = Colours::new(self.values, self.colouring, self.limits);
+        let (width, height) = self.size();
+        let (x, y, bars) = self.axes(&colours, width, height);
+        let bars_height = bars.iter().map(|bar| bar.place.1).fold(0.0, f64::max);
+        let texts = Texts { title: self.title, caption: self.caption, legend: self.legend() };
+
+        let left = 2.0 * MARGIN + y.as_ref().map_or(0.0, room);
+        let bars_room = bars.iter().map(|bar| room(&bar.axis)).fold(0.0, f64::max);
+        let right = if bars.is_empty() { 3.0 * MARGIN } else { GAP + BAR + bars_room + MARGIN };
+        let plot = Area::new(left, texts.above(), width, height);
+        let bottom = plot.top + height.max(bars_height - NUMBERS - LINE) + NUMBERS + LINE + MARGIN;
+        let across = left + (width + right).max(texts.widest() + MARGIN);
+        let mut picture = Picture::new(self.title, (across.ceil(), bottom + texts.below()), dpi)?;
+        if y.is_some() && self.is_line() {
+            self.draw_curve(&mut picture, plot, &colours);
+        } else {
+            let image = self.image(plot, &colours, dpi);
+            picture.shapes.push(Shape::Image(image));
+        }
+        picture.outline(plot);
+        draw_axis_below(&mut picture, &x, plot);
+        if let Some(y) = y {
+            draw_axis_beside(&mut picture, &y, plot, -1.0, room(&y));
+        }
+        for bar in bars {
+            bar.draw(&mut picture, (plot.right() + GAP, plot.top), bars_room, &colours);
+        }
+        texts.draw(&mut picture, left, bottom);
+        Ok((picture, plot))
+    }
+
+    fn is_line(&self) -> bool {
+        let (nx, ny) = self.grid.shape();
+        nx == 1 || ny == 1
+    }
+
+    /// The width and height of the map or curve.
+    fn size(&self) -> (f64, f64) {
+        match (self.is_line(), self.colouring) {
+            (true, Colouring::Contact) => (360.0, 30.0),
+            (true, _) => (360.0, label_length(self.label).max(180.0)),
+            _ => {
+                let (width, height) = map_size(self.grid.shape(), self.grid.lengths());
+                (f64::from(width) / PIXELS, f64::from(height) / PIXELS)
+            }
+        }
+    }
+
+    /// The axis below, the one at the left, and the colour bars.
+    fn axes(&self, colours: &Colours, width: f64, height: f64) -> (Axis, Option<Axis>, Vec<Bar>) {
+        let (lx, ly) = self.grid.lengths();
+        let (steps_below, steps_beside) = ((width / STEP_BELOW) as i32, (height / STEP_BESIDE) as i32);
+        let across = |length: f64, longest: f64, name: &str| {
+            Axis::new(&Part::side(length, longest, self.length_unit), name, steps_below)
+        };
+        let classes = self.colouring == Colouring::Contact;
+        if self.is_line() {
+            let (length, name) = if self.grid.is_line() { (lx, "x") } else { (ly, "y") };
+            let (low, high) = colours.range_of_curve();
+            let values = Axis::new(&Part::new(low, high, self.unit), self.label, steps_beside);
+            return (across(length, length, name), (!classes).then_some(values), Vec::new());
+        }
+        let y = Axis::new(&Part::side(ly, lx.max(ly), self.length_unit), "y", steps_beside);
+        let bars = if classes { Vec::new() } else { self.bars(colours, height) };
+        (across(lx, lx.max(ly), "x"), Some(y), bars)
+    }
+
+    /// A colour bar for all values, or one for each sign, the positive one on top.
+    fn bars(&self, colours: &Colours, height: f64) -> Vec<Bar> {
+        let ranges = colours.ranges();
+        let count = ranges.len();
+        let named = |sign: &str| if count == 2 && !sign.is_empty() { sign } else { self.label }.to_owned();
+        let names = self.signs.map(named);
+        let longest = names.iter().map(|name| label_length(name)).fold(0.0, f64::max);
+        let length = ((height - SPLIT * (count as f64 - 1.0)) / count as f64).max(longest);
+        let (below, above) = colours.beyond();
+        let bar = |(k, (range, name)): (usize, ((f64, f64), &String))| {
+            let top = (count - 1 - k) as f64 * (length + SPLIT);
+            let arrow = |there: bool| if there { ARROW } else { 0.0 };
+            let arrows = (arrow(below && k == 0), arrow(above && k + 1 == count));
+            let body = length - arrows.0 - arrows.1;
+            let mut axis = Axis::new(&Part::new(range.0, range.1, self.unit), name, (body / STEP_BESIDE) as i32);
+            for (there, share, extreme, value) in [
+                (arrows.0 > 0.0, -ARROW / body, "min", colours.extremes.0),
+                (arrows.1 > 0.0, 1.0 + ARROW / body, "max", colours.extremes.1),
+            ] {
+                if there {
+                    axis.ticks.push((share, format!("{extreme} {}", three_digits(value, self.unit))));
+                }
+            }
+            Bar { axis, range, place: (top, top + length), arrows }
+        };
+        ranges.into_iter().zip(&names).enumerate().map(bar).collect()
+    }
+
+    fn legend(&self) -> Vec<Entry> {
+        let mut legend = Vec::new();
+        let mut entry = |colour, text: &str| legend.push(Entry { colour, line: false, text: text.to_owned() });
+        let classes = self.colouring == Colouring::Contact;
+        if classes {
+            entry(BLACK, "contact");
+            if self.values.iter().any(|v| *v < 0.0) {
+                entry(ATTRACTIVE, "attractive");
+            }
+            entry(WHITE, "apart");
+        }
+        if self.values.iter().any(|v| !drawable(*v)) {
+            entry(MISSING, if classes { "no surface" } else { "not finite" });
+        }
+        legend
+    }
+
+    /// A pixel for each node, or where there are more nodes than pixels, the mean of those within.
+    fn image(&self, plot: Area, colours: &Colours, dpi: f64) -> Image {
+        let (nx, ny) = self.grid.shape();
+        // A line along y is drawn along x.
+        let (values, nx, ny) = if nx == 1 { (self.values.reversed_axes(), ny, nx) } else { (self.values, nx, ny) };
+        let [columns, rows] = [(plot.width, nx), (plot.height, ny)]
+            .map(|(side, nodes)| nodes.min((side * dpi / 72.0).round().max(1.0) as usize));
+        let nodes = |pixel: usize, pixels: usize, n: usize| {
+            let first = pixel * n / pixels;
+            first..((pixel + 1) * n / pixels).max(first + 1)
+        };
+        let mut pixels = Vec::with_capacity(columns * rows);
+        for row in (0..rows).rev() {
+            let across = nodes(row, rows, ny);
+            for column in 0..columns {
+                let along = nodes(column, columns, nx);
+                let cells = along.flat_map(|ix| across.clone().map(move |iy| values[[ix, iy]]));
+                pixels.push(colours.of_block(cells));
+            }
+        }
+        Image { area: plot, columns, pixels }
+    }
+
+    /// The values on a line as a curve, periodically continued to the frame.
+    fn draw_curve(&self, picture: &mut Picture, plot: Area, colours: &Colours) {
+        let (low, high) = colours.range_of_curve();
+        let values: Vec<f64> = self.values.iter().map(|v| colours.shown(*v)).collect();
+        let cell = plot.width / values.len() as f64;
+        let above = |v: f64| plot.top + plot.height * (high - v) / (high - low);
+        if low < 0.0 && high > 0.0 {
+            picture.fill(Area::new(plot.left, above(0.0) - 0.5 * HAIRLINE, plot.width, HAIRLINE), GREY);
+        }
+        for (i, _) in values.iter().enumerate().filter(|(_, v)| v.is_nan()) {
+            picture.fill(Area::new(plot.left + i as f64 * cell, plot.top, cell, plot.height), MISSING);
+        }
+        let around = values.last().into_iter().chain(&values).chain(values.first());
+        let points: Vec<_> =
+            around.enumerate().map(|(i, v)| (plot.left + (i as f64 - 0.5) * cell, above(*v))).collect();
+        let curve = Curve { pieces: pieces(&points), width: WIDTH, colour: COLOURS[0], within: plot };
+        picture.shapes.push(Shape::Curve(curve));
+    }
+}
+
+/// A colour bar with its numbers, and an arrow at each end beyond which there are values.
+struct Bar {
+    axis: Axis,
+    range: (f64, f64),
+    /// The top and the bottom, below the top of the map.
+    place: (f64, f64),
+    /// The room for the arrows at the lower and the upper end.
+    arrows: (f64, f64),
+}
+
+impl Bar {
+    fn draw(&self, picture: &mut Picture, (left, top): (f64, f64), room: f64, colours: &Colours) {
+        let (top, bottom) = (top + self.place.0, top + self.place.1);
+        let body = Area::new(left, top + self.arrows.1, BAR, bottom - top - self.arrows.0 - self.arrows.1);
+        let rows = (PIXELS * body.height).round() as usize;
+        let shade = |row: usize| {
+            let along = (rows as f64 - row as f64 - 0.5) / rows as f64;
+            colours.of(self.range.0 + (self.range.1 - self.range.0) * along)
+        };
+        picture.shapes.push(Shape::Image(Image { area: body, columns: 1, pixels: (0..rows).map(shade).collect() }));
+        picture.outline(body);
+        let ends = [(self.arrows.0, body.bottom(), bottom, self.range.0), (self.arrows.1, body.top, top, self.range.1)];
+        for (length, base, tip, end) in ends.into_iter().filter(|(length, ..)| *length > 0.0) {
+            let corners = |out: f64| [(left - out, base), (left + 0.5 * BAR, tip), (left + BAR + out, base)];
+            picture.shapes.push(Shape::Triangle(corners(HAIRLINE), colours.of(end)));
+            let within = Area::new(left - 1.0, base.min(tip) - 1.0, BAR + 2.0, length + 2.0);
+            let pieces = vec![corners(0.0).to_vec()];
+            picture.shapes.push(Shape::Curve(Curve { pieces, width: HAIRLINE, colour: BLACK, within }));
+        }
+        draw_axis_beside(picture, &self.axis, body, 1.0, room);
+    }
+}
+
+/// The pixels of a map at the usual resolution: the longer side has a whole number of pixels for each node, about 600 in
+/// all, or of nodes for each pixel, at most 1000 pixels.
+pub(super) fn map_size((nx, ny): (usize, usize), (lx, ly): (f64, f64)) -> (i32, i32) {
+    let aspect = (lx / ly).clamp(0.2, 5.0);
+    let (long, short, aspect) = if aspect >= 1.0 { (nx, ny, aspect) } else { (ny, nx, 1.0 / aspect) };
+    // Where the nodes are closer along the shorter side, that decides.
+    let nodes = (long as f64).max(short as f64 * aspect).round();
+    let pixels = if nodes > 1000.0 {
+        (nodes / (nodes / 1000.0).ceil()).ceil()
+    } else {
+        nodes * (600.0 / nodes).round().max(1.0)
+    };
+    let (pixels, across) = (pixels as i32, (pixels / aspect).round() as i32);
+    if lx >= ly { (pixels, across) } else { (across, pixels) }
+}

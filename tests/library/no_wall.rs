@@ -1,0 +1,260 @@
+//! Branches of equilibria without a wall: jumps and stability of surfaces that the law itself keeps apart.
+
+use std::f64::consts::TAU;
+
+use asperity::path::{Event, Jump, Path, PathCheckpoint, PathSettings, PathStep};
+use asperity::stability::{StabilityTest, Verdict};
+use asperity::*;
+use ndarray::Array2;
+
+use crate::common::dense::Dense;
+
+fn without_wall(tolerance: f64) -> Solver<NoWall> {
+    Solver { settings: Settings { tolerance: Some(tolerance), ..Settings::default() }, constraint: NoWall }
+}
+
+#[track_caller]
+fn follow<L: AdhesionLaw<f64>>(
+    problem: &mut Problem<f64, Westergaard<f64>, L>,
+    loads: impl IntoIterator<Item = Control>,
+    tolerance: f64,
+) -> Vec<PathStep<f64>> {
+    let mut solver = without_wall(tolerance);
+    let path = Path::new(&mut solver, problem, loads, PathSettings::default()).unwrap();
+    let steps: Vec<_> = path.map(Result::unwrap).collect();
+    for step in &steps {
+        assert_eq!(step.solution.report.status, Status::Converged, "{:?} {:?}", step.solution.report, step.event);
+    }
+    steps
+}
+
+fn jump(step: &PathStep<f64>) -> Option<Jump> {
+    step.event.as_ref().and_then(Event::jump).copied()
+}
+
+fn flats<L: AdhesionLaw<f64>>(law: L) -> Problem<f64, Westergaard<f64>, L> {
+    let grid = Grid::square(8, 1.0).unwrap();
+    let flat = Surface::from_fn(grid, |_, _| 0.0).unwrap();
+    Problem::new(&flat, Westergaard::new(grid, 1.0).unwrap(), law).unwrap()
+}
+
+#[test]
+fn flats_on_a_spring_jump_where_its_stiffness_is_that_of_the_attraction() {
+    // κ + φ'' = 0: 2e² − e = −κρ²/2w with e = exp(−g/ρ); the softest wave, πE*/L, is stiffer than any attraction
+    let (work, range, stiffness) = (1e-3, 1e-2, 1.5);
+    let law = Morse::new(work, range).unwrap();
+    let springs = [0.1, -0.02, 0.1].map(|rest| Control::Spring { stiffness, rest });
+    let steps = follow(&mut flats(law), springs, 1e-6);
+    let jumps: Vec<_> = steps.iter().filter_map(|step| Some((step, jump(step)?))).collect();
+    assert_eq!(jumps.len(), 2);
+    assert_eq!([0, 1].map(|k| jumps[k].0.event.unwrap().name()), ["jump-in", "jump-out"]);
+    let root = (1.0 - 4.0 * stiffness * range * range / work).sqrt();
+    let width = PathSettings::default().smallest_step * 0.12;
+    for ((step, jump), e) in jumps.into_iter().zip([0.25 * (1.0 - root), 0.25 * (1.0 + root)]) {
+        let gap = -range * f64::ln(e);
+        let expected = gap + law.traction(gap) / stiffness;
+        let Control::Spring { rest, .. } = step.control else { panic!() };
+        assert!((rest - expected).abs() < 3.0 * width, "{rest} {expected}");
+        let energy = |g: f64| law.energy(g) + 0.5 * stiffness * (g - rest).powi(2);
+        let drop = energy(jump.mean_gap.0) - energy(jump.mean_gap.1);
+        // the load of the state before is of a spring that is a step behind
+        assert!((jump.energy_drop / drop - 1.0).abs() < 2e-2, "{} {drop}", jump.energy_drop);
+        let after = stiffness * (jump.mean_gap.1 - rest) + law.traction(jump.mean_gap.1);
+        assert!(after.abs() < 1e-6 * work / range, "{after:e}");
+    }
+}
+
+#[test]
+fn flats_under_a_tension_have_their_limit_point_at_the_strongest_traction() {
+    // x⁶ = 1/3, φ' = 16w/(9√3 z₀)
+    let (work, range) = (2e-4, 1e-2);
+    let law = LennardJones::new(work, range).unwrap();
+    let steps = follow(&mut flats(law), [0.02, -0.05].map(Control::MeanPressure), 1e-6);
+    let events: Vec<_> = steps.iter().filter_map(|step| step.event).collect();
+    let [Event::LimitPoint { mean_gap, mean_pressure }] = events[..] else { panic!("{events:?}") };
+    let strongest = 16.0 * work / (9.0 * 3.0_f64.sqrt() * range);
+    assert!((mean_pressure / -strongest - 1.0).abs() < 2e-3, "{mean_pressure} {strongest}");
+    assert!((mean_gap / (3.0_f64.powf(1.0 / 6.0) * range) - 1.0).abs() < 0.05, "{mean_gap}");
+    // past it every state is on the law, and the surfaces come apart without a jump
+    for step in &steps {
+        let report = &step.solution.report;
+        assert!((report.mean_pressure + law.traction(report.mean_gap)).abs() < 1e-7 * strongest);
+    }
+    let last = &steps[steps.len() - 1];
+    assert!(last.solution.report.mean_gap > 10.0 * range && last.dissipated == 0.0);
+}
+
+/// A wave with a side crest, its dense half-space, and Lennard-Jones, which makes it jump.
+fn waves() -> (Surface, Dense, LennardJones) {
+    let (shape, lengths) = ((32, 4), (1.0, 0.125));
+    let grid = Grid::new(shape, lengths).unwrap();
+    let surface = Surface::from_fn(grid, |x, _| 0.03 * (TAU * x).cos() + 0.01 * (2.0 * TAU * x).sin()).unwrap();
+    (surface, Dense::new(shape, lengths, 1.0), LennardJones::new(1e-3, 0.012).unwrap())
+}
+
+/// How many eigenvalues of K⁻¹ + φ'' over fields without mean are below a number.
+fn below(dense: &Dense, law: &LennardJones, gap: &Array2<f64>, number: f64) -> usize {
+    let (n, nodes) = (dense.nodes, dense.nodes as f64);
+    let mut rows: Vec<Vec<f64>> = dense.stiffness.chunks(n).map(<[f64]>::to_vec).collect();
+    for (i, &g) in gap.iter().enumerate() {
+        rows[i][i] += law.slope(g) - number;
+    }
+    for _ in 0..2 {
+        for row in &mut rows {
+            let mean = row.iter().sum::<f64>() / nodes;
+            row.iter_mut().for_each(|value| *value -= mean);
+        }
+        rows = (0..n).map(|j| rows.iter().map(|row| row[j]).collect()).collect();
+    }
+    // the mean itself is far up
+    rows.iter_mut().flatten().for_each(|value| *value += 1e3 / nodes);
+    let mut negative = 0;
+    for k in 0..n {
+        let (above, rest) = rows[k..].split_first_mut().unwrap();
+        negative += usize::from(above[k] < 0.0);
+        for row in rest {
+            let factor = row[k] / above[k];
+            row.iter_mut().zip(&*above).skip(k).for_each(|(value, above)| *value -= factor * above);
+        }
+    }
+    negative
+}
+
+#[test]
+fn states_between_jumps_are_minima_of_the_dense_energy_and_jumps_are_where_they_cease() {
+    let (surface, dense, law) = waves();
+    let mut problem = Problem::new(&surface, Westergaard::<f64>::new(*surface.grid(), 1.0).unwrap(), law).unwrap();
+    let steps = follow(&mut problem, [0.12, 0.02, 0.12].map(Control::MeanGap), 1e-8);
+    let mut last: Option<&PathStep<f64>> = None;
+    let (mut jumps, first) = (0, &steps[0].solution.report);
+    let largest = steps.iter().map(|step| step.work.abs()).fold(0.0, f64::max);
+    for step in &steps {
+        let Solution { gap, report, .. } = &step.solution;
+        assert!(report.min_gap > 0.0);
+        let u: Vec<f64> = gap.iter().zip(surface.heights()).map(|(g, h)| g + h).collect();
+        let r: Vec<f64> = dense.pressure(&u).iter().zip(gap).map(|(p, &g)| p + law.traction(g)).collect();
+        let mean = r.iter().sum::<f64>() / r.len() as f64;
+        assert!(r.iter().all(|r| (r - mean).abs() < 1e-5), "{:?}", step.control);
+        assert!((mean + report.mean_pressure).abs() < 1e-6);
+        assert_eq!(below(&dense, &law, gap, -1e-6), 0, "{:?}", step.control);
+        if let (Some(jump), Some(before)) = (jump(step), last) {
+            assert!(jump.energy_drop > 0.0);
+            // the softest eigenvalue has come down to a small share of the softest stiffness
+            assert!(below(&dense, &law, &before.solution.gap, 0.1 * dense.softest) >= 1, "{jump:?}");
+            jumps += 1;
+        }
+        let energy = |report: &Report| report.elastic_energy + report.adhesive_energy;
+        let change = energy(report) - energy(first);
+        assert!((step.work - step.dissipated + step.imbalance - change).abs() < 1e-9 * largest);
+        last = Some(step);
+    }
+    assert!(jumps >= 2, "{jumps}");
+
+    // interrupted and continued, it is the same path
+    let mut solver = without_wall(1e-8);
+    let loads = || [0.12, 0.02, 0.12].map(Control::MeanGap);
+    let mut path = Path::new(&mut solver, &mut problem, loads(), PathSettings::default()).unwrap();
+    assert_eq!(path.by_ref().take(20).count(), 20);
+    let kept: PathCheckpoint<f64> = path.checkpoint();
+    let mut solver = without_wall(1e-8);
+    let path = Path::new(&mut solver, &mut problem, loads(), PathSettings::default()).unwrap();
+    let next = path.continuing(kept).unwrap().next().unwrap().unwrap();
+    assert_eq!(next.solution.gap, steps[20].solution.gap);
+}
+
+#[test]
+fn a_pressure_presses_surfaces_together_past_the_limit_point() {
+    // the contact closes at once, and from there on any pressure is borne; a leg ends within a thousandth of itself
+    let grid = Grid::line(64, 1.0).unwrap();
+    let surface = Surface::wave(grid, 0.02, 1).unwrap();
+    let work = 0.5 * (0.2 * std::f64::consts::PI * 0.02_f64).powi(2);
+    let laws: [Box<dyn AdhesionLaw<f64>>; 2] =
+        [Box::new(Morse::new(work, 1e-3).unwrap()), Box::new(LennardJones::new(work, 3e-3).unwrap())];
+    for law in laws {
+        let mut problem = Problem::new(&surface, Westergaard::<f64>::new(grid, 1.0).unwrap(), &*law).unwrap();
+        let steps = follow(&mut problem, [6e-3, 0.12].map(Control::MeanPressure), 1e-8);
+        assert_eq!(steps.iter().find_map(|step| step.event).unwrap().name(), "limit-point");
+        let last = &steps[steps.len() - 1].solution.report;
+        assert!((last.mean_pressure - 0.12).abs() < 2e-4 && last.contact_fraction > 0.9, "{last:?}");
+    }
+}
+
+#[test]
+fn a_saddle_is_left_for_a_minimum_of_lower_energy() {
+    // flats at a uniform gap where φ'' is below −πE*/L
+    let law = LennardJones::new(1e-3, 1e-2).unwrap();
+    let mut problem = flats(law);
+    let (mut solver, control) = (without_wall(1e-8), Control::MeanGap(0.014));
+    let even = solver.solve(&mut problem, control).unwrap();
+    let test = StabilityTest::default();
+    let saddle = test.run_with(&mut problem, &NoWall, control, &even).unwrap();
+    assert_eq!(saddle.verdict, Verdict::Unstable);
+    let left = saddle.leave(&mut solver, &mut problem, control, &even).unwrap().unwrap();
+    let gap = &left.solution.gap;
+    assert!(left.energy_drop > 0.0 && left.solution.report.min_gap > 0.0);
+    assert_eq!(test.run_with(&mut problem, &NoWall, control, &left.solution).unwrap().verdict, Verdict::Stable);
+    let dense = Dense::new((8, 8), (1.0, 1.0), 1.0);
+    let energy = |gap: &Array2<f64>| {
+        let g: Vec<f64> = gap.iter().copied().collect();
+        let elastic = 0.5 * dense.pressure(&g).iter().zip(&g).map(|(p, g)| p * g).sum::<f64>();
+        (elastic + g.iter().map(|&g| law.energy(g)).sum::<f64>()) / g.len() as f64
+    };
+    let drop = energy(&even.gap) - energy(gap);
+    assert!((left.energy_drop / drop - 1.0).abs() < 1e-9, "{} {drop}", left.energy_drop);
+    assert_eq!(below(&dense, &law, gap, 0.0), 0);
+}
+
+#[test]
+fn springs_and_laws_that_do_not_repel_are_refused_on_a_path() {
+    let grid = Grid::line(16, 1.0).unwrap();
+    let surface = Surface::wave(grid, 0.02, 1).unwrap();
+    let half_space = Westergaard::<f64>::new(grid, 1.0).unwrap();
+    let mut problem = Problem::new(&surface, half_space, Exponential::new(1e-4, 1e-2).unwrap()).unwrap();
+    let loads = || [0.05, 0.02].map(Control::MeanGap);
+    let mut springs = Solver { settings: Settings::default(), constraint: Penalty::new(10.0).unwrap() };
+    let refused = Path::new(&mut springs, &mut problem, loads(), PathSettings::default());
+    assert!(matches!(refused, Err(Error::Wall { wall: "springs", .. })), "{refused:?}");
+    let mut nothing = without_wall(1e-6);
+    let refused = Path::new(&mut nothing, &mut problem, loads(), PathSettings::default());
+    assert!(matches!(refused, Err(Error::Wall { wall: "no wall", .. })), "{refused:?}");
+}
+
+/// The pull-off force of a sphere with Lennard-Jones on a free half-space, over πwR.
+fn pull_off(tabor: f64, n: usize) -> f64 {
+    // R = E* = 1, and lengths of contact of 0.02; at the window's edge the gap is 25 z₀
+    let (work, depth) = (8e-6, 4e-4);
+    let rest = depth / tabor;
+    let grid = Grid::square(n, 2.0 * (50.0 * rest).sqrt()).unwrap();
+    let surface = Surface::paraboloid(grid, 1.0).unwrap();
+    let law = LennardJones::new(work, rest).unwrap();
+    let mut problem = Problem::new(&surface, Boussinesq::<f64>::new(grid, 1.0).unwrap(), law).unwrap();
+    assert!(problem.mu_rho() < 0.5);
+    let loads = [0.5 * depth - rest, -2.0 * depth - rest].map(Control::Approach);
+    let settings = PathSettings { smallest_step: 1e-2, ..PathSettings::default() };
+    let mut solver = without_wall(1e-5);
+    let mut strongest = 0.0_f64;
+    for step in Path::new(&mut solver, &mut problem, loads, settings).unwrap() {
+        let report = step.unwrap().solution.report;
+        assert_eq!(report.status, Status::Converged);
+        let tension = -report.normal_force / (std::f64::consts::PI * work);
+        if tension < 0.95 * strongest {
+            break;
+        }
+        strongest = strongest.max(tension);
+    }
+    strongest
+}
+
+#[test]
+fn a_sphere_pulls_off_between_dmt_and_jkr_and_above_maugis_and_dugdale() {
+    use asperity::exact::{MaugisDugdale, Sphere};
+    // as the example adhesion_map finds it on 256² nodes
+    for (tabor, n, expected) in [(0.2, 32, 1.9174), (0.6, 48, 1.7528)] {
+        let force = pull_off(tabor, n);
+        assert!((force / expected - 1.0).abs() < 5e-3, "{tabor}: {force}");
+        // of the same largest traction
+        let dugdale = MaugisDugdale::new(1.0, 1.0, 8e-6, 4e-4 / tabor / 1.0264).unwrap();
+        let theirs = -dugdale.pull_off().load() / (std::f64::consts::PI * 8e-6);
+        assert!(theirs < force && force < 1.06 * theirs && force < 2.0, "{tabor}: {force} {theirs}");
+    }
+}

@@ -1,0 +1,179 @@
+//! Pictures in their formats, and the page of `asperity report`.
+
+use std::process::Command;
+
+use crate::bench::{Bench, text};
+
+const LAW: &str = "--law exponential --work-of-adhesion 1e-4 --range 8e-3";
+
+fn bench() -> Bench {
+    let bench = Bench::new();
+    bench.said("surface --size 32 --k-l 2 --k-s 8 --rms-height 0.01 --out heights.npy --quiet");
+    bench
+}
+
+/// The sides of a PNG file in pixels.
+fn sides(bytes: &[u8]) -> [u32; 2] {
+    [16, 20].map(|at| u32::from_be_bytes(bytes[at..at + 4].try_into().unwrap()))
+}
+
+#[test]
+fn pictures_come_in_the_format_and_the_resolution_that_is_asked_for() {
+    let bench = bench();
+    let solve = format!("solve --heights heights.npy --mean-pressure 0.01 {LAW} --quiet");
+    bench.said(&format!("{solve} --out png"));
+    bench.said(&format!("{solve} --dpi 288 --colour-limits -1e-3 0.02 --out fine"));
+    for name in ["contact.png", "pressure.png"] {
+        let [usual, fine] = ["png", "fine"].map(|folder| sides(&bench.bytes(&format!("{folder}/{name}"))));
+        assert!(usual[0] > 600, "{usual:?}");
+        // the numbers at the colour bars may be of other widths
+        assert!(fine[1] == 2 * usual[1] && fine[0].abs_diff(2 * usual[0]) < 100, "{usual:?} {fine:?}");
+    }
+    bench.said(&format!("{solve} --picture-format svg --pressure-unit Pa --length-unit m --out svg"));
+    let names = bench.names("svg");
+    assert!(names.contains(&"contact.svg".to_owned()) && !names.contains(&"contact.png".to_owned()), "{names:?}");
+    let (contact, pressure) = (bench.read("svg/contact.svg"), bench.read("svg/pressure.svg"));
+    for word in [">contact</text>", ">attractive</text>", ">apart</text>", "data:image/png;base64,"] {
+        assert!(contact.contains(word), "{word}");
+    }
+    // each of the two with its own scale
+    assert!([">tension (", ">compression ("].iter().all(|word| pressure.contains(word)));
+    assert!(contact.contains("% contact") && contact.contains("% attractive"));
+    bench.said(&format!("{solve} --picture-format pdf --out pdf"));
+    assert!(bench.bytes("pdf/pressure.pdf").starts_with(b"%PDF-1."));
+
+    bench.refused_with(&format!("{solve} --out no --colour-limits 2 1"), &["--colour-limits", "first"]);
+    bench.refused_with(&format!("{solve} --out no --dpi 10"), &["--dpi", "from 36 to 1200"]);
+    assert!(!bench.path("no").exists());
+}
+
+#[test]
+fn a_sweep_has_a_chart_of_its_loads() {
+    let bench = bench();
+    let sweep = "sweep --heights heights.npy --quiet --mean-pressures 1e-4:1e-1:4:log --out area.csv";
+    bench.said(&format!("{sweep} --plot area.svg --pressure-unit Pa"));
+    let chart = bench.read("area.svg");
+    assert!([">mean pressure (", ">contact fraction<"].iter().all(|label| chart.contains(label)), "{chart}");
+    // at least three numbers on each of the two logarithmic axes
+    for anchor in ["middle", "end"] {
+        let numbers = chart.lines().filter(|line| line.contains(&format!("font-size=\"8\" text-anchor=\"{anchor}\"")));
+        assert!(numbers.filter(|line| !line.contains("\"></text>")).count() >= 3, "{anchor}: {chart}");
+    }
+    bench.said(&format!("{sweep} --plot area.pdf"));
+    assert!(bench.bytes("area.pdf").starts_with(b"%PDF-1."));
+    bench.write("there.png", "");
+    let other = sweep.replace("area.csv", "b.csv");
+    bench.refused_with(&format!("{other} --plot there.png"), &["there.png", "exists", "--plot"]);
+    bench.refused_with(&format!("{other} --plot a.jpg"), &["a.jpg", ".png, .svg or .pdf"]);
+    assert!(!bench.path("b.csv").exists());
+}
+
+/// The names of the tags that are open at the end, or cross each other; nothing but the text between tags is looked at.
+fn unbalanced(page: &str) -> Vec<String> {
+    let (before, script) = page.split_once("<script>").unwrap();
+    let (_, after) = script.split_once("</script>").unwrap();
+    let mut open: Vec<String> = Vec::new();
+    for piece in [before, after].concat().split('<').skip(1) {
+        let tag = &piece[..piece.find('>').unwrap_or_else(|| panic!("an open tag: {piece:.60}"))];
+        let name = tag.trim_start_matches('/').split([' ', '/', '\n']).next().unwrap().to_owned();
+        match tag {
+            _ if tag.starts_with('!') || tag.ends_with('/') => {}
+            _ if tag.starts_with('/') && open.last() == Some(&name) => {
+                open.pop();
+            }
+            _ => open.push(name),
+        }
+    }
+    open
+}
+
+/// What a page would load: all addresses in attributes and styles that are not in the page itself.
+fn loaded(page: &str) -> Vec<&str> {
+    let places = ["src=\"", "href=\"", "url(", "@import"];
+    let found = places.iter().flat_map(|place| page.match_indices(place).map(|(at, place)| &page[at + place.len()..]));
+    found.filter(|rest| !rest.starts_with("data:")).map(|rest| &rest[..rest.len().min(60)]).collect()
+}
+
+#[test]
+fn a_report_is_one_page_that_loads_nothing() {
+    let bench = bench();
+    let units = "--length-unit m --pressure-unit Pa";
+    let solve = format!("solve --heights heights.npy --mean-pressure 0.01 {LAW} {units} --no-pictures --quiet");
+    bench.said(&format!("{solve} --out results"));
+    bench.said("report results");
+    let page = bench.read("results/report.html");
+    assert_eq!((unbalanced(&page), loaded(&page)), (vec![], vec![]));
+    assert_eq!(
+        (page.matches("<figure class=\"map\">").count(), page.matches("<figure class=\"chart\">").count()),
+        (3, 1)
+    );
+    let scene = bench.read("results/scene.toml").replace('"', "&quot;");
+    for part in
+        [">attractive<", ">tension (", "contact fraction", "<td>converged</td>", "10.1007/s00466-017-1392-5", &scene]
+    {
+        assert!(page.contains(part), "{part}");
+    }
+    bench.refused_with("report results", &["report.html", "exists", "--force"]);
+    // a solve that has not converged says so at once, as do its warnings
+    let hasty = bench.run(&format!("{solve} --max-iterations 1 --format npz --out hasty"));
+    assert_eq!(hasty.status.code(), Some(2), "{}", text(&hasty.stderr));
+    bench.said("report hasty --out hasty.html");
+    let page = bench.read("hasty.html");
+    assert!(page.find("has not converged").unwrap() < page.find("<h2>Figures").unwrap() && page.contains("no maps"));
+    assert_eq!(unbalanced(&page), Vec::<String>::new());
+
+    let cycle = format!("cycle --heights heights.npy {LAW} --mean-gaps 0.04,0.03,0.04 --steps 3 --quiet --out c.csv");
+    bench.said(&cycle);
+    bench.said("sweep --heights heights.npy --mean-gaps 0.04:0.03:3 --quiet --out s.jsonl");
+    for (table, command) in [("c.csv", "asperity cycle"), ("s.jsonl", "asperity sweep")] {
+        bench.said(&format!("report {table}"));
+        let page = bench.read(&format!("{table}.html"));
+        assert_eq!((unbalanced(&page), loaded(&page)), (vec![], vec![]));
+        assert!(page.contains(command) && page.contains("<th>mean gap</th>") && page.contains("doi:10.1007"));
+        let rows = bench.read(table).lines().count();
+        assert!(page.matches("<tr").count() >= rows, "{table}");
+    }
+    bench.refused_with("report nothing", &["nothing", "solve"]);
+    bench.refused_with("report heights.npy", &["heights.npy"]);
+}
+
+/// A browser of this machine that runs without a window.
+fn browser() -> Option<&'static str> {
+    let names = ["chromium", "chromium-browser", "google-chrome"];
+    let there = |name: &&&str| Command::new(name).arg("--version").output().is_ok_and(|output| output.status.success());
+    names.iter().find(there).copied()
+}
+
+#[test]
+fn a_browser_opens_a_report_and_zooms_its_maps() {
+    let Some(browser) = browser() else {
+        eprintln!("no chromium on this machine: the page is not opened, only parsed");
+        return;
+    };
+    let bench = bench();
+    bench.said("solve --heights heights.npy --mean-pressure 0.01 --no-pictures --quiet --out results");
+    bench.said("report results");
+    // a script after that of the page turns the wheel over the first map, and writes what it sees
+    let act = "<script>\
+               const svg = document.querySelector('figure.map svg'), place = svg.getBoundingClientRect();\
+               const seen = [svg.getAttribute('viewBox')];\
+               svg.dispatchEvent(new WheelEvent('wheel', { deltaY: -1, clientX: place.x + place.width / 2,\
+                 clientY: place.y + place.height / 2, cancelable: true }));\
+               seen.push(svg.getAttribute('viewBox'));\
+               document.querySelector('figure.map button[title=\"show all\"]').click();\
+               seen.push(svg.getAttribute('viewBox'), String(document.querySelector('svg image').getBBox().width));\
+               document.body.innerHTML = '<p>' + seen.join('|') + '|</p>';\
+               </script></body>";
+    bench.write("acted.html", &bench.read("results/report.html").replace("</body>", act));
+    let page = format!("file://{}", bench.path("acted.html").display());
+    let profile = format!("--user-data-dir={}", bench.path("profile").display());
+    let flags = ["--headless", "--no-sandbox", "--disable-gpu", "--no-first-run", "--dump-dom", &profile, &page];
+    let output = Command::new(browser).args(flags).output().unwrap();
+    let dom = text(&output.stdout);
+    let seen: Vec<_> = dom.split("<p>").nth(1).unwrap_or_else(|| panic!("{dom}")).split('|').collect();
+    let numbers = |text: &str| text.split(' ').map(|number| number.parse().unwrap()).collect::<Vec<f64>>();
+    let [before, zoomed, after] = [seen[0], seen[1], seen[2]].map(numbers);
+    assert_eq!(before, after);
+    assert!((zoomed[2] - before[2] / 1.25).abs() < 1e-6 * before[2] && zoomed[0] > 0.0, "{seen:?}");
+    assert!(seen[3].parse::<f64>().unwrap() > 100.0, "{seen:?}");
+}
