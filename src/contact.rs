@@ -260,8 +260,8 @@ pub struct ContactStatistics {
     /// use asperity::{Control, Exponential, Grid, Problem, Solver, Surface, Varying, Westergaard};
     /// let grid = Grid::square(64, 1.0)?;
     /// let surface = Surface::wave_2d(grid, 0.01, 2)?;
-    /// let work = grid.sample(|x, _| if x < 0.0 { 1e-6 } else { 1e-5 });
-    /// let law = Varying::new(Exponential::new(1e-5, 2e-3)?, work.view())?;
+    /// let work = grid.sample(|x, _| if x < 0.0 { 1e-6 } else { 1e-4 });
+    /// let law = Varying::new(Exponential::new(1e-4, 4e-3)?, work.view())?;
     /// let mut problem = Problem::new(&surface, Westergaard::<f64>::new(grid, 1.0)?, &law)?;
     /// let solution = Solver::default().solve(&mut problem, Control::MeanPressure(0.01))?;
     /// let statistics = ContactStatistics::of(&solution, &grid, &law)?;

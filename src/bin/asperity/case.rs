@@ -46,6 +46,12 @@ impl Case {
         self.stiffness.then_some(Self::STIFFNESS)
     }
 
+    /// Whether nested grids are the faster way to it from the default start.
+    pub fn nests<T: Scalar>(&self, surface: &Surface, law: &dyn AdhesionLaw<T>) -> bool {
+        let pays = || Nested::new(self.settings).pays(surface, law, self.control);
+        !self.stability && self.wall == Wall::Hard && pays()
+    }
+
     /// The solver.
     pub fn solver(&self) -> Solver<Wall> {
         Solver { settings: self.settings, constraint: self.wall }

@@ -4,12 +4,12 @@ use std::path::PathBuf;
 
 use asperity::contact::Patch;
 use asperity::io::{OutputFolder, write_npy, write_npz, write_vti};
-use asperity::{AdhesionLaw, Control, Grid, Level, Nested, Status, Surface};
+use asperity::{AdhesionLaw, Control, Grid, Level, Status, Surface};
 use clap::{ArgGroup, Args, ValueEnum};
 use serde_json::{Value, json};
 
 use crate::accuracy::{self, AccuracyOptions};
-use crate::adhesion::{AdhesionOptions, Law, Wall};
+use crate::adhesion::{AdhesionOptions, Law};
 use crate::allowed::finite;
 use crate::boundary::{LOAD, LoadOptions};
 use crate::case::{self, Account, Case, Left};
@@ -333,9 +333,7 @@ impl Job<'_> {
 
     /// Whether to solve on coarser grids first.
     fn nests<T: Scalar>(&self, surface: &Surface, law: &dyn AdhesionLaw<T>, started: bool) -> bool {
-        let Case { control, settings, wall, stability, .. } = self.case;
-        let pays = || wall == Wall::Hard && Nested::new(settings).pays(surface, law, control);
-        self.options.nested || !(self.options.no_nested || started || stability) && pays()
+        self.options.nested || !(self.options.no_nested || started) && self.case.nests(surface, law)
     }
 
     fn report(&self, grid: Grid, account: &Account) -> Value {
