@@ -1,13 +1,12 @@
 //! The accuracy that is asked for: its options, its plan, and what was reached.
 
 use asperity::accuracy::{Accuracy, GridError, Plan, Quantity};
-use asperity::{Level, Nested};
+use asperity::{Control, Level, Nested, Solver};
 use clap::{Args, ValueEnum};
 use serde_json::{Map, Value, json};
 
 use crate::adhesion::Wall;
 use crate::allowed::positive;
-use crate::case::Case;
 use crate::numbers::percent;
 
 /// The bytes of a GiB.
@@ -19,7 +18,7 @@ pub struct AccuracyOptions {
     /// Relative error that is wanted, as 0.01: chooses the tolerance, solves on coarser grids too, and interpolates the
     /// surface on finer ones until the estimated error is as small; the results are on the finest grid
     #[arg(long, value_name = "A", allow_hyphen_values = true, value_parser = positive, help_heading = "Solver")]
-    #[arg(conflicts_with_all = ["initial_gap", "nested", "stability", "leave"])]
+    #[arg(conflicts_with_all = ["initial_gap", "nested", "no_nested", "stability", "leave"])]
     pub accuracy: Option<f64>,
     /// Quantity that has the accuracy [default: area]
     #[arg(long, value_enum, value_name = "QUANTITY", requires = "accuracy", help_heading = "Solver")]
@@ -43,8 +42,8 @@ pub enum Of {
 }
 
 impl AccuracyOptions {
-    /// The accuracy of a case, if one is asked for.
-    pub fn goal(&self, case: &Case) -> Option<Accuracy<Wall>> {
+    /// The accuracy, if one is asked for, by a solver; with the contact stiffness to a relative error, if that is found.
+    pub fn goal(&self, solver: Solver<Wall>, stiffness: Option<f64>) -> Option<Accuracy<Wall>> {
         let quantity = match self.accuracy_of.unwrap_or(Of::Area) {
             Of::Area => Quantity::Area,
             Of::Gap => Quantity::Gap,
@@ -54,7 +53,7 @@ impl AccuracyOptions {
         let Accuracy { target, of, nested: Nested { coarse_tolerance, coarsest, .. }, .. } =
             Accuracy::new(self.accuracy?, quantity);
         let memory = self.memory.map_or_else(available, |memory| memory * GIB);
-        let nested = Nested { solver: case.solver(), stiffness: case.stiffness_to(), coarse_tolerance, coarsest };
+        let nested = Nested { solver, stiffness, coarse_tolerance, coarsest };
         Some(Accuracy { target, of, memory, nested })
     }
 }
@@ -138,10 +137,10 @@ fn estimate(error: &GridError, of: Quantity) -> String {
 }
 
 /// The estimated errors of the finest of some grids, by quantity; `null` where one cannot be told, or is given.
-pub fn errors(levels: &[Level], nodes_per_wave: f64, mu_rho: f64, case: &Case) -> Value {
+pub fn errors(levels: &[Level], nodes_per_wave: f64, mu_rho: f64, control: Control) -> Value {
     let all = [Quantity::Area, Quantity::Gap, Quantity::Pressure, Quantity::Stiffness];
     let error = |of: Quantity| {
-        of.check(case.control).ok()?;
+        of.check(control).ok()?;
         let GridError { relative, order, rough, .. } = GridError::of(levels, of, nodes_per_wave, mu_rho)?;
         Some(json!({ "relative": relative, "order": order, "rough": rough }))
     };

@@ -218,7 +218,7 @@ impl Options {
             "levels": levels,
             "equivalent_applications": account.grids.as_ref().map(|(_, applications)| applications),
             "grid_error": account.grids.as_ref().map(|(levels, _)| {
-                accuracy::errors(levels, account.nodes_per_wave, report.mu_rho, &case)
+                accuracy::errors(levels, account.nodes_per_wave, report.mu_rho, case.control)
             }),
             "accuracy": account.reached.as_ref().map(|reached| json!({
                 "wanted": reached.accuracy,
@@ -287,7 +287,7 @@ impl Job<'_> {
         let Options { out, force, printing, .. } = self.options;
         let mut grid = *surface.grid();
         let start = start.map(T::field);
-        let mut wanted = self.options.accuracy.goal(&self.case);
+        let mut wanted = self.options.accuracy.goal(self.case.solver(), self.case.stiffness_to());
         let tolerance = match &wanted {
             Some(wanted) => wanted.tolerance()?,
             None => self.case.settings.tolerance_in::<T>(),
