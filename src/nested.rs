@@ -184,7 +184,7 @@ impl<C> Nested<C> {
     /// That is at a given load from 256² nodes on, and at a given mean gap or approach from 512² on, if there is a coarser grid.
     /// Not with adhesion under a tension or with a spring, where there may be several equilibria; and not with
     /// [absent nodes](Surface::with_absent), a law that [varies](crate::Varying), or
-    /// [`Method::Rey2017`](crate::Method::Rey2017), where it was not measured.
+    /// [`Method::Rey2017`], where it was not measured.
     ///
     /// ```
     /// use asperity::{Control, Grid, Nested, NoAdhesion, SelfAffine};

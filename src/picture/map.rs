@@ -28,7 +28,7 @@ const PIXELS: f64 = 2.0;
 /// At [`DPI`](super::DPI) each node is a cell of one or more pixels; more than 1000 nodes to a side, or more than there
 /// are pixels, are averaged in blocks. A value that is not finite has a colour of its own. The picture keeps the aspect ratio of the rectangle up to
 /// 5 : 1. A line (`Nx = 1` or `Ny = 1`) is drawn as a curve, on one linear scale whatever the colouring, or
-/// as a strip if that is [`Colouring::Binary`].
+/// as a strip if that is [`Colouring::Contact`].
 ///
 /// Units such as "m", "Pa" or "N/m" get the SI prefix that makes the numbers readable; others, and pure
 /// numbers (`None`), a power of ten where they are very large or small: "gap (10⁻⁶)".
