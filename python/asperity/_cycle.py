@@ -83,7 +83,8 @@ class Cycle(Rows[Step]):
         solution = self._scene.solution("cycle", found)
         step = Step(solution, self._direction(found["leg"]), found)
         self.append({**found, **state(solution), "direction": step.direction})
-        self._ended = self._is_apart()
+        if self._is_apart():
+            self._scene.problem.end_leg()
         return step
 
     def _direction(self, leg: int) -> str:
@@ -97,10 +98,10 @@ class Cycle(Rows[Step]):
         return "approach" if (after[-1] > before[-1]) == pressing else "withdrawal"
 
     def _is_apart(self) -> bool:
-        """Whether the surfaces are apart in a withdrawal that is the last leg: there is no more to find."""
+        """Whether the surfaces are apart in a withdrawal: there is no more to find in its leg."""
         row = self.rows[-1]
-        ends = row["leg"] == len(self._loads) - 1 and row["direction"] == "withdrawal"
-        return bool(ends and row["contact_fraction"] == row["attractive_fraction"] == 0.0)
+        apart = row["contact_fraction"] == row["attractive_fraction"] == 0.0
+        return bool(apart and row["direction"] == "withdrawal")
 
     @property
     def events(self) -> list[dict[str, Any]]:
@@ -165,7 +166,7 @@ def cycle(
 ) -> Cycle:
     """Follows a branch of equilibria through turning points, in steps that adapt themselves, and locates its jumps.
 
-    If the last leg is a withdrawal, the cycle ends once the surfaces are apart. Parameters that are not here are those
+    A withdrawal ends once the surfaces are apart. Parameters that are not here are those
     of `solve`; a cycle needs a hard wall.
 
     Parameters

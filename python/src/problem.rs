@@ -57,6 +57,8 @@ struct State<T: Real> {
     warnings: Vec<Warning>,
     history: Vec<(Control, Array2<T>)>,
     place: Option<PathCheckpoint<T>>,
+    /// whether the present leg of the path ends at that place
+    leg_ends: bool,
 }
 
 /// What a problem is made of beside its surface and its law.
@@ -90,6 +92,7 @@ trait Solves: Send {
         settings: PathSettings,
         start: Option<PyReadonlyArray2<'py, f64>>,
     ) -> PyResult<Option<Bound<'py, PyDict>>>;
+    fn end_leg(&mut self);
     fn stability<'py>(
         &mut self,
         py: Python<'py>,
@@ -135,6 +138,7 @@ impl<T: Scalar> State<T> {
             warnings,
             history: Vec::new(),
             place: None,
+            leg_ends: false,
         })
     }
 
@@ -271,6 +275,9 @@ impl<T: Scalar> Solves for State<T> {
                 (None, Some(start)) => path.starting_from(start),
                 (None, None) => path,
             };
+            if std::mem::take(&mut self.leg_ends) {
+                path.end_leg();
+            }
             let Some(step) = path.next_observed(observe) else { return Ok(None) };
             let step = step?;
             self.place = Some(path.checkpoint());
@@ -291,6 +298,10 @@ impl<T: Scalar> Solves for State<T> {
         step.set_item("event", event.as_ref().map(Event::name))?;
         step.set_item("energy_drop", event.as_ref().and_then(Event::jump).map(|jump| jump.energy_drop))?;
         Ok(Some(step))
+    }
+
+    fn end_leg(&mut self) {
+        self.leg_ends = true;
     }
 
     fn stability<'py>(
@@ -441,6 +452,12 @@ impl Problem {
         let (pool, solves) = self.parts()?;
         solves.next_step(py, Run { pool: &pool, observer: observe.as_ref() }, loads, settings, start)
     }
+
+    /// Ends the present leg of the path: the next step heads for the next load.
+    fn end_leg(&mut self) {
+        self.solves.get_mut().unwrap_or_else(PoisonError::into_inner).end_leg();
+    }
+
     /// The stability of a gap under a load, of which the certified error is known.
     #[pyo3(signature = (load, gap, relative_error))]
     fn stability<'py>(
