@@ -82,9 +82,7 @@ impl Quantity {
         };
         Some((value, value))
     }
-}
 
-impl Quantity {
     /// The error that is to be expected with so many nodes in the shortest wave, by what rough surfaces had.
     fn expected(self, nodes_per_wave: f64) -> f64 {
         let (share, order) = match self {
@@ -196,6 +194,23 @@ pub struct GridError {
 }
 
 impl GridError {
+    /// A tolerance on coarser grids ([`Nested::coarse_tolerance`](crate::Nested::coarse_tolerance)) at which they tell the
+    /// error of the finest, with something to spare.
+    pub const COARSE_TOLERANCE: f64 = 1e-3;
+
+    /// The errors of all quantities that a control does not give, as [`GridError::of`] has them.
+    pub fn of_all(
+        levels: &[Level],
+        control: Control,
+        nodes_per_wave: f64,
+        mu_rho: f64,
+    ) -> [(Quantity, Option<Self>); 4] {
+        [Quantity::Area, Quantity::Gap, Quantity::Pressure, Quantity::Stiffness].map(|of| {
+            let found = of.check(control).is_ok().then(|| Self::of(levels, of, nodes_per_wave, mu_rho));
+            (of, found.flatten())
+        })
+    }
+
     /// The error of the finest of some nested grids, the coarsest first; nothing where it cannot be told from them.
     ///
     /// `nodes_per_wave` is that of the surface on the finest grid, and `mu_rho` its resolution measure of the adhesion.

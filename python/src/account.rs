@@ -3,7 +3,7 @@
 use asperity::accuracy::{GridError, Quantity};
 use asperity::contact::{ContactArea, ContactStatistics};
 use asperity::stability::Stability;
-use asperity::{Control, Grid, Level, NestedSolution, Real, Solution, Warning, WarningCode};
+use asperity::{Control, Grid, Level, NestedSolution, Real, Solution, Warning};
 use numpy::Element;
 use numpy::ndarray::Array2;
 use rayon::prelude::*;
@@ -18,19 +18,13 @@ pub struct Grids {
     /// The applications on all of them in units of one on the finest.
     pub applications: f64,
     /// The estimated errors of the finest grid, where they can be told.
-    pub errors: Vec<(Quantity, Option<GridError>)>,
+    pub errors: [(Quantity, Option<GridError>); 4],
 }
 
 impl Grids {
     /// The account of a solution, of a surface with so many nodes in its shortest wave.
     pub fn of<T>(found: &NestedSolution<T>, nodes_per_wave: f64, control: Control) -> Self {
-        let all = [Quantity::Area, Quantity::Gap, Quantity::Pressure, Quantity::Stiffness];
-        let mu_rho = found.solution.report.mu_rho;
-        let error = |of: Quantity| {
-            of.check(control).ok()?;
-            GridError::of(&found.levels, of, nodes_per_wave, mu_rho)
-        };
-        let errors = all.into_iter().map(|of| (of, error(of))).collect();
+        let errors = GridError::of_all(&found.levels, control, nodes_per_wave, found.solution.report.mu_rho);
         Self { levels: found.levels.clone(), applications: found.equivalent_applications(), errors }
     }
 }
@@ -57,24 +51,15 @@ pub struct Account<T> {
 }
 
 impl<T: Scalar> Account<T> {
-    /// The account of a solution, with the warnings of the answer alone. Bodies are apart where none touches, and no
-    /// traction is noticeable.
-    pub fn of(
-        solution: Solution<T>,
-        grid: &Grid,
-        control: Control,
-        (modulus, noticeable): (f64, f64),
-    ) -> asperity::Result<Self> {
+    /// The account of a solution, with the warnings of the answer alone.
+    pub fn of(solution: Solution<T>, grid: &Grid, control: Control, modulus: f64) -> asperity::Result<Self> {
         let contact = || {
             let map = solution.contact_map();
             ContactArea::of_solution(&solution, map.view(), grid).map(|area| (map, area))
         };
         let pressures = || (extremes(&solution.pressure), Warning::of_solution(&solution, modulus));
-        let (contact, (pressures, mut warnings)) = rayon::join(contact, pressures);
+        let (contact, (pressures, warnings)) = rayon::join(contact, pressures);
         let (contact, area) = contact?;
-        // of bodies that are apart it says nothing how far the last of their attraction reaches
-        let apart = solution.report.contact_nodes == 0 && pressures.0.abs().max(pressures.1.abs()) <= noticeable;
-        warnings.retain(|warning| !(apart && warning.code == WarningCode::WindowEdge));
         Ok(Self {
             solution,
             contact,

@@ -3,6 +3,7 @@
 use std::sync::{Mutex, PoisonError};
 use std::time::Instant;
 
+use asperity::accuracy::GridError;
 use asperity::contact::ContactStatistics;
 use asperity::path::{Event, Path, PathCheckpoint, PathSettings};
 use asperity::stability::{StabilityTest, Verdict};
@@ -24,9 +25,6 @@ use crate::pools::Pool;
 use crate::refusal::{refusal, refusal_of_heights};
 use crate::report;
 use crate::running::{Observe, run};
-
-/// The tolerance on coarser grids, as in the tool.
-const COARSE: f64 = 1e-3;
 
 /// The largest number of departures from unstable equilibria, as in the tool.
 const MOST_DEPARTURES: usize = 10;
@@ -50,8 +48,6 @@ struct State<T: Real> {
     solver: Solver<Wall>,
     beyond: Beyond,
     modulus: f64,
-    /// the traction above which surfaces are said to attract each other, as in `ContactStatistics`
-    noticeable: f64,
     strongest: Option<(usize, usize)>,
     /// of the input
     warnings: Vec<Warning>,
@@ -124,8 +120,6 @@ impl<T: Scalar> State<T> {
         let grid = *surface.grid();
         let mut warnings = beyond.warnings(&surface);
         warnings.extend(Warning::of_law(&law, &surface, modulus));
-        let scale = (law.work_of_adhesion() / law.range()).widen();
-        let noticeable = if scale.is_finite() { 0.01 * scale } else { 0.0 };
         Ok(Self {
             body: Body::Surface(surface, law),
             nested,
@@ -133,7 +127,6 @@ impl<T: Scalar> State<T> {
             solver: Solver { settings, constraint: wall },
             beyond,
             modulus,
-            noticeable,
             strongest,
             warnings,
             history: Vec::new(),
@@ -144,7 +137,7 @@ impl<T: Scalar> State<T> {
 
     /// The account of a solution.
     fn account(&self, solution: Solution<T>, control: Control, seconds: f64) -> asperity::Result<Account<T>> {
-        let account = Account::of(solution, &self.grid, control, (self.modulus, self.noticeable))?;
+        let account = Account::of(solution, &self.grid, control, self.modulus)?;
         let warnings = self.warnings.iter().cloned().chain(account.warnings).collect();
         Ok(Account { warnings, seconds, strongest: self.strongest, ..account })
     }
@@ -175,7 +168,8 @@ impl<T: Scalar> State<T> {
             return Ok(None);
         }
         let Nested { coarsest, stiffness, .. } = Nested::default();
-        let mut nested = Nested { solver: self.solver.clone(), coarse_tolerance: COARSE, coarsest, stiffness };
+        let mut nested =
+            Nested { solver: self.solver.clone(), coarse_tolerance: GridError::COARSE_TOLERANCE, coarsest, stiffness };
         let found = nested.solve_observed(surface, half_space, law, control, |_, state| observe(state))?;
         let nodes_per_wave = surface.nodes_per_wave(found.solution.report.boundary);
         let grids = Grids::of(&found, nodes_per_wave, control);

@@ -12,7 +12,7 @@ use crate::constraint::{ContactConstraint, Projection};
 use crate::elastic::{Boundary, ElasticOperator};
 use crate::error::{Error, Result};
 use crate::grid::Grid;
-use crate::nested::{Level, Nested, NestedSolution, prolong};
+use crate::nested::{Level, Nested, NestedSolution, equivalent_applications, prolong};
 use crate::problem::{Control, Problem};
 use crate::real::Real;
 use crate::solver::{Iteration, Settings, Solution, Start, Status};
@@ -112,8 +112,23 @@ pub struct AccurateSolution<T> {
     pub error: Option<GridError>,
     /// Whether the estimate, with the error of the solver, is as small as it was wanted.
     pub reached: bool,
+    /// Whether the surface and the law are known on finer grids than the given one.
+    pub refinable: bool,
     /// The next finer grid, and its memory in bytes, if that was too much.
     pub unaffordable: Option<((usize, usize), f64)>,
+}
+
+impl<T> AccurateSolution<T> {
+    /// All operator applications in units of one on the finest grid, as
+    /// [`NestedSolution::equivalent_applications`](crate::NestedSolution::equivalent_applications) counts them.
+    pub fn equivalent_applications(&self) -> f64 {
+        equivalent_applications(&self.levels)
+    }
+}
+
+/// Whether a surface and a law are known on finer grids.
+fn is_refinable<T: Real>(surface: &Surface, law: &dyn AdhesionLaw<T>) -> bool {
+    surface.absent().is_none() && law.shape().is_none()
 }
 
 impl Accuracy {
@@ -144,7 +159,7 @@ impl<C> Accuracy<C> {
         }
     }
 
-    /// The plan for a surface, a control, and the operator on the grid of the surface, of which it takes three
+    /// The plan for a surface, a law, a control, and the operator on the grid of the surface, of which it takes three
     /// applications.
     ///
     /// # Errors
@@ -154,13 +169,14 @@ impl<C> Accuracy<C> {
         &self,
         surface: &Surface,
         operator: &mut dyn ElasticOperator<T>,
+        law: &dyn AdhesionLaw<T>,
         control: Control,
     ) -> Result<Plan> {
         let tolerance = self.tolerance()?;
         self.of.check(control)?;
         let nodes_per_wave = surface.nodes_per_wave(operator.boundary());
-        let fixed = surface.absent().is_some();
-        let needed = |smaller| if fixed { 0 } else { self.refinements(nodes_per_wave, smaller) };
+        let refinable = is_refinable(surface, law);
+        let needed = |smaller| if refinable { self.refinements(nodes_per_wave, smaller) } else { 0 };
         let refinements = needed(1.0);
         let nodes = operator.grid().nodes() as f64;
         let per_line = if surface.grid().is_line() { 2.0_f64 } else { 4.0 };
@@ -272,13 +288,13 @@ impl<C> Accuracy<C> {
         let periodic = solution.report.boundary == Boundary::Periodic;
         let mut waves = surface.nodes_per_wave(solution.report.boundary);
         let mut surface = surface.clone();
-        let fixed = surface.absent().is_some() || law.shape().is_some();
+        let refinable = is_refinable(&surface, law);
         let (error, reached, unaffordable) = loop {
             let error = GridError::of(&levels, self.of, waves, solution.report.mu_rho);
             let report = &solution.report;
             let enough = |error: &GridError| error.cautious() + report.relative_error <= self.target;
             let converged = report.status == Status::Converged;
-            if !converged || fixed || error.as_ref().is_some_and(enough) {
+            if !converged || !refinable || error.as_ref().is_some_and(enough) {
                 break (error, converged && error.as_ref().is_some_and(enough), None);
             }
             let shape = twice(surface.grid().shape());
@@ -300,6 +316,6 @@ impl<C> Accuracy<C> {
             levels.push(Level { stiffness, ..Level::of(&solution, &grid)? });
             (surface, waves) = (fine, 2.0 * waves);
         };
-        Ok(AccurateSolution { solution, surface, levels, error, reached, unaffordable })
+        Ok(AccurateSolution { solution, surface, levels, error, reached, refinable, unaffordable })
     }
 }

@@ -116,7 +116,7 @@ fn what_cannot_be_had_is_refused_by_name() {
     // no grid that fits, told before: which would, and its memory
     let small = Accuracy { memory: 1e6, ..Accuracy::new(1e-4, Quantity::Area) };
     let mut operator = half_space(*surface.grid()).unwrap();
-    let error = small.plan(&surface, &mut operator, control).unwrap_err();
+    let error = small.plan(&surface, &mut operator, &NoAdhesion, control).unwrap_err();
     let Error::Unaffordable { shape, bytes, available, affordable, .. } = error else { panic!("{error}") };
     assert!(shape.0 >= 4096 && bytes > 1e9 && available == 1e6 && affordable > 1e-3, "{shape:?} {bytes} {affordable}");
     let text = error_text(&small, &surface);
@@ -131,14 +131,14 @@ fn what_cannot_be_had_is_refused_by_name() {
 
 fn error_text(wanted: &Accuracy, surface: &Surface) -> String {
     let mut operator = half_space(*surface.grid()).unwrap();
-    wanted.plan(surface, &mut operator, PRESSED).unwrap_err().to_string()
+    wanted.plan(surface, &mut operator, &NoAdhesion, PRESSED).unwrap_err().to_string()
 }
 
 #[test]
 fn a_plan_says_the_grid_that_is_taken() {
     let (surface, wanted) = (surface(32, 1), Accuracy::new(0.02, Quantity::Area));
     let mut operator = half_space(*surface.grid()).unwrap();
-    let plan = wanted.plan(&surface, &mut operator, PRESSED).unwrap();
+    let plan = wanted.plan(&surface, &mut operator, &NoAdhesion, PRESSED).unwrap();
     assert!((3.9..5.0).contains(&plan.nodes_per_wave) && plan.tolerance == 1e-3, "{plan:?}");
     assert!([64, 128].contains(&plan.shape.0) && plan.bytes > 0.0 && plan.seconds > 0.0, "{plan:?}");
 }

@@ -138,13 +138,12 @@ fn estimate(error: &GridError, of: Quantity) -> String {
 
 /// The estimated errors of the finest of some grids, by quantity; `null` where one cannot be told, or is given.
 pub fn errors(levels: &[Level], nodes_per_wave: f64, mu_rho: f64, control: Control) -> Value {
-    let all = [Quantity::Area, Quantity::Gap, Quantity::Pressure, Quantity::Stiffness];
-    let error = |of: Quantity| {
-        of.check(control).ok()?;
-        let GridError { relative, order, rough, .. } = GridError::of(levels, of, nodes_per_wave, mu_rho)?;
-        Some(json!({ "relative": relative, "order": order, "rough": rough }))
-    };
-    Value::Object(all.into_iter().map(|of| (of.name().to_owned(), error(of).into())).collect::<Map<_, _>>())
+    let all = GridError::of_all(levels, control, nodes_per_wave, mu_rho);
+    let told =
+        |GridError { relative, order, rough, .. }| json!({ "relative": relative, "order": order, "rough": rough });
+    Value::Object(
+        all.map(|(of, error)| (of.name().to_owned(), error.map(told).into())).into_iter().collect::<Map<_, _>>(),
+    )
 }
 
 /// The estimated error of the area in words, if it can be told.

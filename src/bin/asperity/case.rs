@@ -4,7 +4,7 @@ use std::borrow::Cow;
 use std::ops::ControlFlow;
 use std::time::Instant;
 
-use asperity::accuracy::{Accuracy, AccurateSolution};
+use asperity::accuracy::{Accuracy, AccurateSolution, GridError};
 use asperity::contact::ContactStatistics;
 use asperity::stability::{ContactStiffness, Departure, Stability, StabilityTest, Verdict};
 use asperity::{
@@ -35,6 +35,8 @@ pub struct Case {
     pub leave: bool,
     /// Whether to find the contact stiffness of the solution.
     pub stiffness: bool,
+    /// Whether to solve on nested grids; where it is not said, if that is faster.
+    pub nested: Option<bool>,
 }
 
 impl Case {
@@ -46,10 +48,10 @@ impl Case {
         self.stiffness.then_some(Self::STIFFNESS)
     }
 
-    /// Whether nested grids are the faster way to it from the default start.
-    pub fn nests<T: Scalar>(&self, surface: &Surface, law: &dyn AdhesionLaw<T>) -> bool {
+    /// Whether to solve on coarser grids first: if that is asked for, or faster from the default start.
+    fn nests<T: Scalar>(&self, surface: &Surface, law: &dyn AdhesionLaw<T>, started: bool) -> bool {
         let pays = || Nested::new(self.settings).pays(surface, law, self.control);
-        !self.stability && self.wall == Wall::Hard && pays()
+        self.nested.unwrap_or_else(|| !started && !self.stability && self.wall == Wall::Hard && pays())
     }
 
     /// The solver.
@@ -57,9 +59,6 @@ impl Case {
         Solver { settings: self.settings, constraint: self.wall }
     }
 }
-
-/// The tolerance on coarser grids: tight enough for the error of the finest to be estimated from them.
-const COARSE: f64 = 1e-3;
 
 /// The stability of a solution; see [`asperity::stability::Stability`].
 pub struct Steadiness {
@@ -110,7 +109,7 @@ pub struct Account {
     pub warnings: Value,
 }
 
-/// Solves a case, and frees the surface as soon as the problem has its heights.
+/// Solves a case on nested grids or on one, and frees the surface as soon as the problem has its heights.
 pub fn solve<T: Scalar, L: AdhesionLaw<T>>(
     surface: Surface,
     law: L,
@@ -118,6 +117,9 @@ pub fn solve<T: Scalar, L: AdhesionLaw<T>>(
     start: Option<Array2<T>>,
     mut progress: Progress,
 ) -> Outcome<(Solution<T>, Account)> {
+    if case.nests(&surface, &law, start.is_some()) {
+        return solve_nested(&surface, law, case, progress);
+    }
     let clock = Instant::now();
     let grid = *surface.grid();
     let mut problem = Problem::new(&surface, case.boundary.half_space(grid, case.modulus)?, law)?;
@@ -150,7 +152,7 @@ pub fn solve<T: Scalar, L: AdhesionLaw<T>>(
 }
 
 /// Solves a case on nested grids.
-pub fn solve_nested<T: Scalar, L: AdhesionLaw<T>>(
+fn solve_nested<T: Scalar, L: AdhesionLaw<T>>(
     surface: &Surface,
     law: L,
     case: &Case,
@@ -160,14 +162,18 @@ pub fn solve_nested<T: Scalar, L: AdhesionLaw<T>>(
     let half_space = |grid| case.boundary.half_space(grid, case.modulus);
     let Nested { coarsest, .. } = Nested::default();
     let (solver, stiffness, tolerance) = (case.solver(), case.stiffness_to(), case.settings.tolerance_in::<T>());
-    let found = Nested { solver, coarse_tolerance: COARSE, coarsest, stiffness }.solve_observed(
+    let found = Nested { solver, coarse_tolerance: GridError::COARSE_TOLERANCE, coarsest, stiffness }.solve_observed(
         surface,
         half_space,
         &law,
         case.control,
         |grid, state| {
             let finest = grid.nodes() == surface.grid().nodes();
-            progress.update_on(grid, state, if finest { tolerance } else { tolerance.max(COARSE) });
+            progress.update_on(
+                grid,
+                state,
+                if finest { tolerance } else { tolerance.max(GridError::COARSE_TOLERANCE) },
+            );
             ControlFlow::Continue(())
         },
     )?;
@@ -190,15 +196,12 @@ pub fn solve_to<T: Scalar, L: AdhesionLaw<T>>(
     let clock = Instant::now();
     let half_space = |grid| case.boundary.half_space(grid, case.modulus);
     let tolerance = wanted.tolerance()?;
-    let refinable = surface.absent().is_none() && law.shape().is_none();
     let found = wanted.solve_observed(surface, half_space, &law, case.control, |grid, state| {
         progress.update_on(grid, state, tolerance);
         ControlFlow::Continue(())
     })?;
-    let AccurateSolution { solution, surface, levels, error, reached, unaffordable, .. } = found;
-    let nodes = |level: &Level| (level.shape.0 * level.shape.1) as f64;
-    let applications = levels.iter().map(|level| level.operator_applications as f64 * nodes(level)).sum::<f64>()
-        / solution.gap.len() as f64;
+    let applications = found.equivalent_applications();
+    let AccurateSolution { solution, surface, levels, error, reached, refinable, unaffordable, .. } = found;
     let stiffness = levels.last().and_then(|finest| finest.stiffness);
     let reached = Reached { accuracy: wanted.target, of: wanted.of, reached, error, unaffordable, refinable };
     let (solution, account) = account(solution, &law, surface.grid(), Some((levels, applications)), clock)?;

@@ -100,8 +100,9 @@ pub fn run(options: &Options) -> Outcome<bool> {
     let progress =
         |name| Progress::new(name, case.settings.tolerance_in::<f64>(), grid.nodes(), printing.without_bars());
     let law = Exponential::new(WORK_OF_ADHESION, RANGE)?;
-    let (bare, without) = case::solve_nested::<f64, _>(&surface, NoAdhesion, &case, progress("without adhesion"))?;
-    let (sticky, with) = case::solve_nested::<f64, _>(&surface, law, &case, progress("with adhesion"))?;
+    let (bare, without) =
+        case::solve::<f64, _>(surface.clone(), NoAdhesion, &case, None, progress("without adhesion"))?;
+    let (sticky, with) = case::solve::<f64, _>(surface, law, &case, None, progress("with adhesion"))?;
 
     let folder = OutputFolder::create(out, &names, true)?;
     let draw = || {

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use asperity::contact::Patch;
 use asperity::io::{OutputFolder, write_npy, write_npz, write_vti};
-use asperity::{AdhesionLaw, Control, Grid, Level, Status, Surface};
+use asperity::{AdhesionLaw, Control, Grid, Level, Status};
 use clap::{ArgGroup, Args, ValueEnum};
 use serde_json::{Value, json};
 
@@ -200,6 +200,7 @@ impl Options {
             stability,
             leave: self.leave,
             stiffness: self.stiffness,
+            nested: (self.nested || self.no_nested).then_some(self.nested),
         }
     }
 
@@ -299,14 +300,12 @@ impl Job<'_> {
         let law = adhesion.law()?;
         let (solution, mut account) = if let Some(wanted) = &mut wanted {
             let mut operator = self.case.boundary.half_space(grid, self.case.modulus)?;
-            let plan = wanted.plan::<T>(&surface, &mut operator, self.case.control)?;
+            let plan = wanted.plan::<T>(&surface, &mut operator, &law, self.case.control)?;
             drop(operator);
             printing.say(&accuracy::announced(wanted, &plan));
             let (fine, solution, account) = case::solve_to(&surface, law, &self.case, wanted, progress)?;
             grid = *fine.grid();
             (solution, account)
-        } else if self.nests::<T>(&surface, &law, start.is_some()) {
-            case::solve_nested::<T, _>(&surface, law, &self.case, progress)?
         } else {
             case::solve::<T, _>(surface, law, &self.case, start, progress)?
         };
@@ -329,11 +328,6 @@ impl Job<'_> {
         warn("", &account, &self.case);
         let reached = account.reached.as_ref().is_none_or(|reached| reached.reached);
         Ok(account.report.status == Status::Converged && reached)
-    }
-
-    /// Whether to solve on coarser grids first.
-    fn nests<T: Scalar>(&self, surface: &Surface, law: &dyn AdhesionLaw<T>, started: bool) -> bool {
-        self.options.nested || !(self.options.no_nested || started) && self.case.nests(surface, law)
     }
 
     fn report(&self, grid: Grid, account: &Account) -> Value {
