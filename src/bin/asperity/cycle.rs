@@ -160,7 +160,7 @@ impl Options {
         let names = names();
         let header = names.join(",") + "\n";
         let kept = Kept(self.fields.as_deref());
-        kept.check(self.force || self.out.exists())?;
+        kept.check(self.force, &self.out)?;
         let (mut table, saved) = Table::open(self.table(), scene, &header, identity, None, warnings)?;
         if table.rows() > 0 {
             let fields = saved.fields.into_iter().map(T::field).collect();

@@ -18,13 +18,14 @@ const FIELDS: [&str; 3] = ["gap", "pressure", "contact_pressure"];
 pub struct Kept<'a>(pub Option<&'a Path>);
 
 impl Kept<'_> {
-    /// Refuses to replace fields, unless `replaces` says that they may be or are of this run.
-    pub fn check(self, replaces: bool) -> Outcome<()> {
+    /// Refuses to replace fields, unless they may be, or belong to the rows of a table that is there.
+    pub fn check(self, force: bool, table: &Path) -> Outcome<()> {
         let Some(folder) = self.0 else { return Ok(()) };
         // only a trial
         drop(OutputFolder::create(folder, &[], true)?);
+        // the fields first: a run that starts at the same time makes its table before them
         match present(folder).into_iter().next() {
-            Some(path) if !replaces => {
+            Some(path) if !force && !table.exists() => {
                 Err(Error::file(&path, "exists: use --force to replace it, or choose another --fields").into())
             }
             _ => Ok(()),

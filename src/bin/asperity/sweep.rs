@@ -122,7 +122,7 @@ impl Options {
         let format = self.format()?;
         let header = if format == Format::Csv { names(self.stiffness).join(",") + "\n" } else { String::new() };
         let kept = Kept(self.fields.as_deref());
-        kept.check(self.force || self.out.exists())?;
+        kept.check(self.force, &self.out)?;
         let (mut table, saved) = Table::open(self.table(), scene, &header, identity, Some(loads), warnings)?;
         let done = table.rows();
         let controls = self.loads.controls();
