@@ -30,6 +30,7 @@ mod case;
 mod citation;
 mod columns;
 mod csv;
+mod entries;
 mod form;
 mod hash;
 mod heights;
