@@ -242,9 +242,12 @@ impl Help {
 fn examples_of_the_help_run() {
     let help = Help::new();
     assert!(help.of.len() >= 9);
+    let (_, study) = help.of["study"].split_once("A study:\n").unwrap();
+    let study = study.split("\n\n").next().unwrap().to_owned();
     for (name, help) in help.of {
         let (_, examples) = help.split_once("Examples:\n").unwrap_or_else(|| panic!("{name} has no examples"));
         let mut reader = Reader::new();
+        fs::write(reader.folder.path().join("study.toml"), &study).unwrap();
         for command in commands(examples).iter().filter(|line| line.starts_with("asperity ")) {
             reader.follow(command, &name);
         }

@@ -13,6 +13,7 @@ mod pictures;
 mod prepare;
 mod scene_tool;
 mod selftest;
+mod study;
 mod surface_tool;
 mod sweep_tool;
 mod tool;

@@ -1,8 +1,9 @@
 //! The command-line tool: `asperity demo` solves a built-in case, `asperity solve` one given by files, `asperity sweep`
-//! many loads and `asperity cycle` a path with jumps; `asperity surface` makes files of heights, `asperity prepare`
-//! makes them of measured maps, and `asperity stats` measures them. `asperity laws` lists the adhesion laws, and
-//! `asperity selftest` compares solves with theory. `asperity run` does any of these by a scene file, which every run
-//! leaves beside its results, and `asperity report` puts the results on a page for a browser.
+//! many loads, `asperity cycle` a path with jumps, and `asperity study` every combination of options; `asperity surface`
+//! makes files of heights, `asperity prepare` makes them of measured maps, and `asperity stats` measures them.
+//! `asperity laws` lists the adhesion laws, and `asperity selftest` compares solves with theory. `asperity run` does any
+//! of these by a scene file, which every run leaves beside its results, and `asperity report` puts the results on a page
+//! for a browser.
 
 // the report of a solve has more keys than serde_json's macro expands otherwise
 #![recursion_limit = "256"]
@@ -18,6 +19,7 @@ mod run;
 mod selftest;
 mod solve;
 mod stats;
+mod study;
 mod surface;
 mod sweep;
 
@@ -60,7 +62,7 @@ use std::process::ExitCode;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 
-use crate::printing::complain;
+use crate::printing::{complain, on_one_line};
 use crate::scene::Scene;
 
 /// Frictionless normal contact of rough surfaces, with adhesion.
@@ -86,6 +88,7 @@ const EXAMPLES: &str = "\
   asperity sweep --heights heights.npy --mean-pressures 1e-3:1e-1:20:log --out sweep.csv
   asperity cycle --heights heights.npy --law exponential --work-of-adhesion 1e-4 \\
     --range 4e-3 --mean-gaps 0.05,0.02,0.05 --out cycle.csv --plot cycle.png
+  asperity study study.toml --jobs 4
   asperity laws
   asperity selftest
   asperity solve --help";
@@ -96,6 +99,7 @@ enum Command {
     Solve(Box<solve::Options>),
     Sweep(Box<sweep::Options>),
     Cycle(Box<cycle::Options>),
+    Study(study::Options),
     Run(run::Options),
     Report(page::Options),
     Prepare(prepare::Options),
@@ -143,6 +147,7 @@ fn execute(command: Command, scene: &Scene) -> ExitCode {
         Command::Solve(options) => solve::run(&options, scene),
         Command::Sweep(options) => sweep::run(&options, scene),
         Command::Cycle(options) => cycle::run(&options, scene),
+        Command::Study(options) => study::run(&options, Tool::command()),
         Command::Report(options) => page::run(&options),
         Command::Prepare(options) => prepare::run(&options, scene),
         Command::Surface(options) => surface::run(&options, scene),
@@ -178,23 +183,10 @@ fn usage(error: &clap::Error, blamed: impl Fn(&str) -> Option<String>) -> ExitCo
         }
         _ => {}
     }
-    let text = error.to_string();
-    let text = text.split("\nUsage:").next().unwrap_or_default();
-    let text = text.split("\nFor more information").next().unwrap_or_default();
-    let mut line = String::new();
-    for part in text.trim_start_matches("error: ").lines().map(str::trim).filter(|part| !part.is_empty()) {
-        line.push_str(match part {
-            _ if line.is_empty() => "",
-            _ if part.starts_with('[') || line.ends_with(':') => " ",
-            _ if part.starts_with("tip: ") => "; ",
-            _ => ", ",
-        });
-        line.push_str(part.trim_start_matches("tip: "));
-    }
     let argument = match error.get(ContextKind::InvalidArg) {
         Some(ContextValue::String(argument)) => argument.as_str(),
         _ => "",
     };
-    complain("error", &format!("{}{line}; see --help", blamed(argument).unwrap_or_default()));
+    complain("error", &format!("{}{}; see --help", blamed(argument).unwrap_or_default(), on_one_line(error)));
     REFUSED.into()
 }

@@ -73,3 +73,21 @@ pub fn complain(kind: &str, text: &str) {
     let kind = if kind == "error" { coloured("error:", 1) } else { yellow(&format!("{kind}:")) };
     let _ = writeln!(AutoStream::auto(io::stderr()), "{kind} {line}");
 }
+
+/// The mistake in some arguments on one line.
+pub fn on_one_line(error: &clap::Error) -> String {
+    let text = error.to_string();
+    let text = text.split("\nUsage:").next().unwrap_or_default();
+    let text = text.split("\nFor more information").next().unwrap_or_default();
+    let mut line = String::new();
+    for part in text.trim_start_matches("error: ").lines().map(str::trim).filter(|part| !part.is_empty()) {
+        line.push_str(match part {
+            _ if line.is_empty() => "",
+            _ if part.starts_with('[') || line.ends_with(':') => " ",
+            _ if part.starts_with("tip: ") => "; ",
+            _ => ", ",
+        });
+        line.push_str(part.trim_start_matches("tip: "));
+    }
+    line
+}

@@ -1,0 +1,178 @@
+//! `asperity study`: one problem for every combination of some options, as one table.
+
+mod cases;
+mod merge;
+mod work;
+
+use std::fmt;
+use std::path::PathBuf;
+use std::str::FromStr;
+use std::thread::available_parallelism;
+
+use asperity::Error;
+use clap::Args;
+use serde_json::json;
+
+use self::cases::Study;
+use self::merge::merge;
+use self::work::{Folder, solve};
+use crate::allowed::threads;
+use crate::outcome::Outcome;
+use crate::printing::{Printing, complain};
+use crate::report;
+
+/// Solve every combination of surfaces, laws and other options, as one table.
+///
+/// A study is a TOML file like the scene of a sweep or a cycle, with lists of values in a section [vary]: each
+/// combination of them is a case, the last list changes fastest. Options that belong together are a list of tables.
+/// With a section [make], the surface of each case is made with these options of asperity surface, which may vary as
+/// well. The table has the rows of all cases, after the number of the case and the values that vary.
+///
+/// Each case is a run of its own, kept in OUT.cases by what its rows depend on: the same command again goes on where an
+/// interrupted one was, and a study that has become larger solves only what is new. Slices of a study can be solved by
+/// several machines that share the folder; the table is written by the run that finds all cases done, with the same
+/// bytes whoever solved them. Exits with 0 if all rows converged or the slice is done, 2 if rows did not converge, and 1
+/// if a case is refused.
+#[derive(Args)]
+#[command(after_help = EXAMPLES)]
+pub struct Options {
+    /// Study file
+    #[arg(value_name = "STUDY")]
+    study: PathBuf,
+    /// File for the table, .csv or .jsonl [default: the out of the study]
+    #[arg(long, value_name = "FILE", help_heading = "Output")]
+    out: Option<PathBuf>,
+    /// Cases that are solved at the same time, each by a process of its own; they share the cores [default: one per
+    /// core]
+    #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = threads)]
+    jobs: Option<usize>,
+    /// Solve only a part of the cases: 3/16 is the third of sixteen
+    #[arg(long, value_name = "K/N", allow_hyphen_values = true)]
+    slice: Option<Slice>,
+    /// Print the cases, and solve none
+    #[arg(long)]
+    list: bool,
+    /// Replace a table that is not of this study
+    #[arg(long, help_heading = "Output")]
+    force: bool,
+    #[command(flatten)]
+    printing: Printing,
+}
+
+const EXAMPLES: &str = "\
+\u{1b}[1;4mA study:\u{1b}[0m
+    command = \"sweep\"
+    out = \"study.csv\"
+    [loads]
+    mean-pressures = \"1e-3:1e-1:5:log\"
+    [make]
+    size = 64
+    k-s = 16
+    rms-slope = 0.1
+    [vary]
+    hurst = [0.5, 0.8]
+    seed = \"1:3:3\"
+    [[vary.adhesion]]
+    law = \"none\"
+    [[vary.adhesion]]
+    law = \"exponential\"
+    work-of-adhesion = 1e-4
+    range = 1e-2
+
+\u{1b}[1;4mExamples:\u{1b}[0m
+  All cases on this machine, or a slice of them on each of sixteen, and then the table:
+    asperity study study.toml
+    asperity study study.toml --slice 3/16
+    asperity study study.toml";
+
+/// One of some parts of a study.
+#[derive(Clone, Copy, Debug)]
+struct Slice {
+    part: usize,
+    of: usize,
+}
+
+impl Slice {
+    const WHOLE: Self = Self { part: 1, of: 1 };
+
+    /// Whether the part has a case, counted from zero.
+    fn has(self, case: usize) -> bool {
+        case % self.of == self.part - 1
+    }
+}
+
+impl FromStr for Slice {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let parts = text.split_once('/').and_then(|(part, of)| Some((part.parse().ok()?, of.parse().ok()?)));
+        match parts {
+            Some((part, of)) if (1..=of).contains(&part) => Ok(Self { part, of }),
+            _ => Err("it must be a part of a whole, such as 3/16, the first of them 1/16".to_owned()),
+        }
+    }
+}
+
+impl fmt::Display for Slice {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}/{}", self.part, self.of)
+    }
+}
+
+/// Runs the command, of a `tool` with these commands and options; whether all rows converged.
+pub fn run(options: &Options, mut tool: clap::Command) -> Outcome<bool> {
+    tool.build();
+    let study = Study::read(&mut tool, &options.study, options.out.as_deref())?;
+    let folder = Folder::of(&study);
+    let printing = options.printing;
+    if options.list {
+        for (k, case) in study.cases.iter().enumerate() {
+            let done = if folder.is_done(case) { "done" } else { "to do" };
+            printing.say(&format!("{}  {done}  {}", k + 1, study.told(case)));
+        }
+    } else {
+        if study.out.exists() && !folder.exists() && !options.force {
+            return Err(Error::file(&study.out, "exists: use --force to replace it, or choose another --out").into());
+        }
+        let slice = options.slice.unwrap_or(Slice::WHOLE);
+        let chosen: Vec<_> = (0..study.cases.len()).filter(|&case| slice.has(case)).collect();
+        let jobs = options.jobs.unwrap_or_else(|| available_parallelism().map_or(1, usize::from));
+        let refused = solve(&study, &folder, &chosen, jobs, printing)?;
+        if refused > 0 {
+            return Err(
+                format!("{refused} of {} cases were refused: mend the study, and run it again", chosen.len()).into()
+            );
+        }
+    }
+    let (cases, done) = (study.cases.len(), study.cases.iter().filter(|case| folder.is_done(case)).count());
+    let table = if done == cases && !options.list { Some(merge(&study, &folder)?) } else { None };
+    let (rows, unconverged) = table.map_or((None, None), |table| (Some(table.rows), Some(table.unconverged)));
+    printing.say(&match rows {
+        Some(rows) => format!("{rows} rows of {cases} cases in {}", study.out.display()),
+        None => format!(
+            "{done} of {cases} cases are done; the run that finds all of them done writes {}",
+            study.out.display()
+        ),
+    });
+    printing.report(|| {
+        let outcome = json!({
+            "study": options.study.to_string_lossy(),
+            "slice": options.slice.map(|slice| slice.to_string()),
+            "cases": cases,
+            "done": done,
+            "rows": rows,
+            "unconverged": unconverged,
+            "out": study.out.to_string_lossy(),
+            "version": env!("CARGO_PKG_VERSION"),
+        });
+        report::report("study", outcome, serde_json::Map::new())
+    });
+    match unconverged {
+        Some(count) if count > 0 => {
+            let out = study.out.display();
+            complain("warning", &format!("{count} rows not converged, their status and errors are in {out}"));
+            Ok(false)
+        }
+        _ => Ok(true),
+    }
+}

@@ -1,0 +1,82 @@
+//! The table of a study: the rows of its cases, after what varies between them.
+
+use std::fs;
+
+use asperity::Error;
+use serde_json::{Map, Number, Value};
+
+use super::cases::{Case, Format, Study, text};
+use super::work::Folder;
+use crate::csv;
+use crate::outcome::Outcome;
+use crate::output::{OutputFile, write_text};
+
+/// The rows of a table that was written.
+pub struct Merged {
+    pub rows: usize,
+    /// The number of rows that did not converge
+    pub unconverged: usize,
+}
+
+/// Writes the table of a study whose cases are all done.
+pub fn merge(study: &Study, folder: &Folder) -> Outcome<Merged> {
+    let (mut table, mut merged) = (String::new(), Merged { rows: 0, unconverged: 0 });
+    let mut columns = Vec::new();
+    for (k, case) in study.cases.iter().enumerate() {
+        let path = folder.rows(case);
+        let rows = fs::read_to_string(&path).map_err(|e| Error::file(&path, format!("cannot be read: {e}")))?;
+        let mut lines = rows.lines();
+        let names: Vec<String> = match study.format {
+            Format::Csv => lines.next().unwrap_or_default().split(',').map(str::to_owned).collect(),
+            Format::Jsonl => {
+                let first: Map<_, _> = lines.clone().next().map_or(Ok(Map::new()), serde_json::from_str)?;
+                first.into_iter().map(|(name, _)| name).collect()
+            }
+        };
+        if k == 0 {
+            columns = names;
+            if study.format == Format::Csv {
+                let own = own(study, k, case, &columns);
+                let all: Vec<_> = own.iter().map(|(name, _)| name).chain(&columns).map(String::as_str).collect();
+                table = all.join(",") + "\n";
+            }
+        } else if names != columns {
+            return Err(Error::file(&path, "has other columns than the first case: vary nothing that adds some").into());
+        }
+        let own = own(study, k, case, &columns);
+        for line in lines {
+            // the digits of a row remain as they are
+            let (line, row) = match study.format {
+                Format::Csv => {
+                    let cells: Vec<_> = own.iter().map(|(_, value)| csv::cell(value)).collect();
+                    (cells.join(",") + "," + line, csv::parsed(&columns, line))
+                }
+                Format::Jsonl => {
+                    let whole = Value::Object(own.clone()).to_string();
+                    let (own, rest) = (&whole[..whole.len() - 1], line.strip_prefix('{').unwrap_or(line));
+                    (format!("{own},{rest}"), serde_json::from_str(line)?)
+                }
+            };
+            table += &line;
+            table.push('\n');
+            merged.rows += 1;
+            merged.unconverged += usize::from(row.get("status").is_none_or(|status| status != "converged"));
+        }
+    }
+    let file = OutputFile::create(&study.out, true)?;
+    file.write(|path| write_text(path, &table))?;
+    file.commit()?;
+    Ok(merged)
+}
+
+/// The number of a case, and its values of what varies, but for those that are columns of its rows.
+fn own(study: &Study, number: usize, case: &Case, columns: &[String]) -> Map<String, Value> {
+    let value = |value: &toml::Value| match value {
+        toml::Value::Integer(number) => (*number).into(),
+        toml::Value::Float(number) => (*number).into(),
+        other => text(other).parse::<Number>().map_or_else(|_| text(other).into(), Value::Number),
+    };
+    let values = study.columns.iter().zip(&case.values).filter(|(name, _)| !columns.contains(*name));
+    let values = values.map(|(name, found)| (name.clone(), found.as_ref().map_or(Value::Null, value)));
+    std::iter::once(("case".to_owned(), (number + 1).into())).chain(values).collect()
+}

@@ -1,0 +1,138 @@
+//! The work on a study: its cases, each by a process of its own that keeps its rows in a folder.
+
+use std::collections::HashSet;
+use std::env;
+use std::ffi::OsString;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+use std::sync::atomic::AtomicUsize;
+use std::sync::atomic::Ordering::Relaxed;
+use std::thread;
+
+use asperity::Error;
+
+use super::cases::{Case, Format, Study};
+use crate::journal::state_path;
+use crate::outcome::Outcome;
+use crate::printing::{Printing, complain};
+use crate::scene;
+use crate::threads;
+
+/// The folder of the cases, beside the table.
+pub struct Folder {
+    path: PathBuf,
+    extension: &'static str,
+}
+
+impl Folder {
+    pub fn of(study: &Study) -> Self {
+        let mut path = study.out.clone().into_os_string();
+        path.push(".cases");
+        Self { path: path.into(), extension: if study.format == Format::Csv { "csv" } else { "jsonl" } }
+    }
+
+    pub fn exists(&self) -> bool {
+        self.path.exists()
+    }
+
+    /// The file with the rows of a case.
+    pub fn rows(&self, case: &Case) -> PathBuf {
+        self.path.join(format!("{}.{}", case.identity, self.extension))
+    }
+
+    /// The file of the surface that is made for a case.
+    fn surface(&self, case: &Case) -> PathBuf {
+        self.path.join(format!("{}.npz", case.identity))
+    }
+
+    /// Whether a case has all of its rows: what it takes to go on with them is removed then.
+    pub fn is_done(&self, case: &Case) -> bool {
+        let rows = self.rows(case);
+        rows.exists() && !state_path(&rows).exists()
+    }
+}
+
+/// Solves the cases with these numbers that are not done, some at a time; how many were refused.
+pub fn solve(study: &Study, folder: &Folder, chosen: &[usize], jobs: usize, printing: Printing) -> Outcome<usize> {
+    fs::create_dir_all(&folder.path).map_err(|e| Error::file(&folder.path, format!("cannot be written: {e}")))?;
+    let program = env::current_exe().map_err(|e| format!("this program is not found any more: {e}"))?;
+    let jobs = jobs.min(chosen.len().max(1));
+    let threads = (threads::count() / jobs).max(1);
+    // equal cases are one
+    let mut known = HashSet::new();
+    let is_left = |number: &&usize| {
+        let case = &study.cases[**number];
+        !folder.is_done(case) && known.insert(case.identity.0)
+    };
+    let left: Vec<_> = chosen.iter().filter(is_left).collect();
+    let [next, done, refused] = [(); 3].map(|()| AtomicUsize::new(0));
+    let work = || {
+        while let Some(&&number) = left.get(next.fetch_add(1, Relaxed)) {
+            let case = &study.cases[number];
+            let name = format!("case {}: {}", number + 1, study.told(case));
+            match solved(study, case, folder, &program, threads) {
+                Ok(warnings) => {
+                    warnings.iter().for_each(|line| complain("warning", &format!("{name}: {line}")));
+                    let done = done.fetch_add(1, Relaxed) + 1;
+                    printing.say(&format!(
+                        "{done:>width$}/{}  {name}",
+                        left.len(),
+                        width = left.len().to_string().len()
+                    ));
+                }
+                Err(error) => {
+                    refused.fetch_add(1, Relaxed);
+                    complain("warning", &format!("{name} is refused: {error}"));
+                }
+            }
+        }
+    };
+    thread::scope(|scope| {
+        for _ in 0..jobs {
+            scope.spawn(work);
+        }
+    });
+    Ok(refused.into_inner())
+}
+
+/// Solves a case; the warnings of its runs, or the line by which one was refused.
+fn solved(study: &Study, case: &Case, folder: &Folder, program: &Path, threads: usize) -> Result<Vec<String>, String> {
+    let (rows, made) = (folder.rows(case), folder.surface(case));
+    let run = |command: &str, arguments: &[OsString]| run(program, command, arguments, threads);
+    let path = |name: &str, path: &Path| [OsString::from(name), path.into()];
+    let mut warnings = Vec::new();
+    let [out, file] = path("--out", &rows);
+    let mut arguments = [case.arguments.as_slice(), &[out, file]].concat();
+    if let Some(surface) = &case.surface {
+        let [out, file] = path("--out", &made);
+        warnings.extend(run("surface", &[surface.as_slice(), &[out, file, "--force".into()]].concat())?);
+        arguments.extend(path("--heights", &made));
+    }
+    warnings.extend(run(&study.command, &arguments)?);
+    // the state last: what is left with it is not done
+    if case.surface.is_some() {
+        let _ = fs::remove_file(&made);
+        let _ = fs::remove_file(scene::beside(&made));
+    }
+    let _ = fs::remove_file(scene::beside(&rows));
+    fs::remove_file(state_path(&rows)).map_err(|e| format!("its state cannot be removed: {e}"))?;
+    Ok(warnings)
+}
+
+/// Runs a command of this program; its warnings, or the line by which it was refused.
+fn run(program: &Path, command: &str, arguments: &[OsString], threads: usize) -> Result<Vec<String>, String> {
+    let mut process = Command::new(program);
+    process.arg(command).args(arguments).args(["--quiet", "--threads", &threads.to_string()]);
+    let output = process.stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::piped()).output();
+    let output = output.map_err(|e| format!("it cannot be started: {e}"))?;
+    let said = String::from_utf8_lossy(&output.stderr);
+    let mut lines =
+        said.lines().map(|line| line.trim_start_matches("warning: ").trim_start_matches("error: ").to_owned());
+    match output.status.code() {
+        // rows that did not converge are counted in the table
+        Some(0 | 2) => Ok(lines.filter(|line| !line.contains("rows not converged")).collect()),
+        Some(_) => Err(lines.next_back().unwrap_or_else(|| "it said nothing".to_owned())),
+        None => Err("its process was killed".to_owned()),
+    }
+}

@@ -1,0 +1,214 @@
+//! Studies: every combination of options as one table.
+
+use std::process::{Command, Stdio};
+use std::thread::sleep;
+use std::time::Duration;
+
+use crate::bench::{Bench, text};
+
+const MADE: &str = r#"
+command = "sweep"
+out = "study.csv"
+[loads]
+mean-pressures = "1e-3:1e-2:3:log"
+[make]
+size = 24
+k-l = 2
+k-s = 8
+rms-slope = 0.1
+[vary]
+seed = "1:2:2"
+[[vary.adhesion]]
+law = "none"
+[[vary.adhesion]]
+law = "exponential"
+work-of-adhesion = 1e-4
+range = 1e-2
+"#;
+
+/// The cells of a table by row.
+fn cells(table: &str) -> Vec<Vec<&str>> {
+    table.lines().map(|line| line.split(',').collect()).collect()
+}
+
+#[test]
+fn a_study_has_the_rows_of_the_sweeps_that_it_stands_for() {
+    let bench = Bench::new();
+    bench.write("study.toml", MADE);
+    let listed = bench.said("study study.toml --list");
+    assert!(listed.contains("4  to do  seed 2, law exponential, work_of_adhesion 0.0001, range 0.01"), "{listed}");
+    assert_eq!(bench.names("."), ["study.toml"], "a list writes nothing");
+    let report = bench.reported("study study.toml");
+    let number = |key: &str| report[key].as_u64();
+    assert_eq!(["cases", "done", "rows", "unconverged"].map(number), [Some(4), Some(4), Some(12), Some(0)]);
+    let table = bench.read("study.csv");
+    let rows = cells(&table);
+    assert_eq!(rows[0][..6], ["case", "seed", "law", "work_of_adhesion", "range", "control"]);
+    assert_eq!(rows[1][..5], ["1", "1", "none", "", ""]);
+    assert_eq!(rows[12][..5], ["4", "2", "exponential", "0.0001", "0.01"]);
+    // the last of the cases by hand
+    bench.said("surface --size 24 --k-l 2 --k-s 8 --rms-slope 0.1 --seed 2 --quiet --out second.npz");
+    bench.said(
+        "sweep --heights second.npz --law exponential --work-of-adhesion 1e-4 --range 1e-2 \
+         --mean-pressures 1e-3:1e-2:3:log --quiet --out second.csv",
+    );
+    let by_hand = bench.read("second.csv");
+    for (row, expected) in rows[10..].iter().zip(&cells(&by_hand)[1..]) {
+        assert_eq!(row[5..], expected[..]);
+    }
+    // nothing is left of what it takes to go on
+    let kept = bench.names("study.csv.cases");
+    assert!(kept.len() == 4 && kept.iter().all(|name| name.ends_with(".csv")), "{kept:?}");
+}
+
+#[test]
+fn slices_jobs_and_interruptions_come_to_the_same_table() {
+    let whole = Bench::new();
+    whole.write("study.toml", MADE);
+    whole.said("study study.toml --jobs 1 --quiet");
+    let table = whole.bytes("study.csv");
+
+    let slices = Bench::new();
+    slices.write("study.toml", MADE);
+    for slice in ["3/3", "1/3"] {
+        slices.said(&format!("study study.toml --slice {slice} --jobs 3 --quiet"));
+        assert!(!slices.path("study.csv").exists(), "cases are missing");
+    }
+    slices.said("study study.toml --slice 2/3 --quiet");
+    assert!(slices.bytes("study.csv") == table);
+
+    // a larger study solves what is new, in whatever order it stands; the rows of the other cases are not touched
+    let larger = MADE.replace("\"1:2:2\"", "[3, 1, 2]");
+    slices.write("study.toml", &larger);
+    let mark = |bench: &Bench| {
+        let names = bench.names("study.csv.cases");
+        let time = |name: &String| bench.path("study.csv.cases").join(name).metadata().unwrap().modified().unwrap();
+        names.iter().map(|name| (name.clone(), time(name))).collect::<Vec<_>>()
+    };
+    let before = mark(&slices);
+    let said = slices.said("study study.toml");
+    assert!(said.contains("2/2  case") && said.contains("18 rows of 6 cases in study.csv"), "{said}");
+    let after = mark(&slices);
+    assert!(after.len() == 6 && before.iter().all(|known| after.contains(known)));
+    let rows = |table: &[u8]| {
+        let table = text(table);
+        let rows: Vec<_> = table.lines().skip(1).map(|row| row.split_once(',').unwrap().1.to_owned()).collect();
+        rows
+    };
+    assert_eq!(rows(&slices.bytes("study.csv"))[6..], rows(&table)[..]);
+    // and one with another option solves all
+    slices.write("study.toml", &larger.replace("[make]", "[solver]\ntolerance = 1e-4\n[make]"));
+    assert!(slices.said("study study.toml --list").lines().take(6).all(|line| line.contains("to do")));
+}
+
+#[test]
+fn a_study_that_is_killed_goes_on() {
+    let long = MADE.replace(":3:log", ":4000:log");
+    let bench = Bench::new();
+    bench.write("study.toml", &long);
+    let mut study = Command::new(env!("CARGO_BIN_EXE_asperity"))
+        .current_dir(bench.path("."))
+        .args(["study", "study.toml", "--jobs", "1", "--quiet"])
+        .stdin(Stdio::null())
+        .spawn()
+        .unwrap();
+    let cases = bench.path("study.csv.cases");
+    let rows = || {
+        let files = std::fs::read_dir(&cases).into_iter().flatten().flatten().map(|entry| entry.path());
+        let tables = files.filter(|path| path.extension().is_some_and(|extension| extension == "csv"));
+        tables.map(|path| std::fs::read_to_string(path).map_or(0, |table| table.lines().count())).sum::<usize>()
+    };
+    while rows() < 3 && study.try_wait().unwrap().is_none() {
+        sleep(Duration::from_millis(5));
+    }
+    assert_eq!(study.try_wait().unwrap(), None, "too fast for this test");
+    study.kill().unwrap();
+    study.wait().unwrap();
+    assert!(!bench.path("study.csv").exists());
+    // the shorter study begins with other cases; the long one is still to do, and not lost
+    assert!(bench.said("study study.toml --list").contains("0 of 4 cases are done"));
+    bench.write("short.toml", &MADE.replace("study.csv", "short.csv"));
+    bench.said("study short.toml --quiet");
+    assert_eq!(bench.read("short.csv").lines().count(), 13);
+}
+
+#[test]
+fn files_vary_too_and_a_changed_file_is_another_case() {
+    let bench = Bench::new();
+    for (name, seed) in [("a,b.npy", 1), ("c.npy", 2)] {
+        bench.said(&format!("surface --size 16 --k-l 2 --k-s 6 --rms-slope 0.1 --seed {seed} --quiet --out {name}"));
+    }
+    let study = "command = \"sweep\"\nout = \"table.jsonl\"\n[surface]\nlengths = [1, 1]\n[loads]\nmean-gaps = 0.006\n\
+                 [vary]\nheights = [\"a,b.npy\", \"c.npy\"]\nmodulus = [1, 2.5]\n";
+    bench.write("study.toml", study);
+    bench.said("study study.toml --quiet");
+    let rows: Vec<serde_json::Value> =
+        bench.read("table.jsonl").lines().map(|row| serde_json::from_str(row).unwrap()).collect();
+    assert_eq!((rows.len(), &rows[1]["heights"], &rows[1]["modulus"]), (4, &"a,b.npy".into(), &2.5.into()));
+    assert_eq!(rows[2]["case"], 3);
+    // pressures go with the modulus
+    let ratio = rows[1]["mean_contact_pressure"].as_f64().unwrap() / rows[0]["mean_contact_pressure"].as_f64().unwrap();
+    assert!((ratio - 2.5).abs() < 1e-5, "{ratio}");
+    bench.write("csv.toml", &study.replace("table.jsonl", "table.csv"));
+    bench.said("study csv.toml --quiet");
+    assert!(bench.read("table.csv").lines().nth(1).unwrap().starts_with("1,\"a,b.npy\",1,mean-gap,"));
+    bench.said("surface --size 16 --k-l 2 --k-s 6 --rms-slope 0.1 --seed 3 --quiet --force --out c.npy");
+    assert!(bench.said("study study.toml --list").contains("2 of 4 cases are done"));
+}
+
+#[test]
+fn rows_that_do_not_converge_are_counted() {
+    let bench = Bench::new();
+    bench.write("study.toml", &MADE.replace("[make]", "[solver]\nmax-iterations = 1\n[make]"));
+    let output = bench.run("study study.toml --quiet");
+    let said = text(&output.stderr);
+    assert_eq!(output.status.code(), Some(2), "{said}");
+    assert!(said.contains("12 rows not converged") && bench.read("study.csv").contains("iteration-limit"), "{said}");
+}
+
+#[test]
+fn studies_that_cannot_be_are_refused_before_anything_is_solved() {
+    let bench = Bench::new();
+    let base = "command = \"sweep\"\nout = \"study.csv\"\n[loads]\nmean-gaps = 0.02\n[make]\nsize = 16\nk-s = 6\nrms-slope = 0.1\n";
+    let vary = |what: &str| format!("{base}[vary]\n{what}\n");
+    for (study, parts) in [
+        ("[loads]".to_owned(), &["study.toml", "add command"][..]),
+        (base.replace("sweep", "solve"), &["must be sweep or cycle"]),
+        (base.replace("out = \"study.csv\"\n", ""), &["names no table", "out = \"study.csv\""]),
+        (base.replace("study.csv", "study.txt"), &["study.txt", ".csv or .jsonl"]),
+        (base.replace("sweep", "cycle").replace("study.csv", "study.jsonl"), &["does not end in .csv"]),
+        (vary("seed = 3"), &["vary.seed is 3", "list"]),
+        (vary("seed = []"), &["vary.seed is []"]),
+        (vary("seed = [1, { law = \"none\" }]"), &["vary.seed has both"]),
+        (vary("size = [16, 24]"), &["size is there twice"]),
+        (vary("seeds = [1, 2]"), &["study.toml: case 1", "--seeds"]),
+        (vary("rms-height = [0.1]"), &["case 1", "--rms-height", "--rms-slope"]),
+        (vary("modulus = [0.5, -2]"), &["case 2", "--modulus"]),
+        (vary("threads = [1, 2]"), &["threads is not for a study"]),
+        (base.replace("[make]", "force = true\n[make]"), &["force is not for a study"]),
+        (vary("seed = \"1:100000:100000\"\nmodulus = \"1:2:100000\""), &["more cases than the 1000000"]),
+        (
+            base.replace("[make]\nsize = 16\nk-s = 6\nrms-slope = 0.1", "[surface]\nheights = \"none.npy\""),
+            &["none.npy"],
+        ),
+    ] {
+        bench.write("study.toml", &study);
+        bench.refused_with("study study.toml", parts);
+        assert_eq!(bench.names("."), ["study.toml"], "{study}");
+    }
+    bench.write("study.toml", base);
+    for slice in ["0/3", "4/3", "3", "a/b", "-1/2"] {
+        bench.refused_with(&format!("study study.toml --slice {slice}"), &["--slice", "3/16"]);
+    }
+    bench.write("study.csv", "a table of mine\n");
+    bench.refused_with("study study.toml", &["study.csv", "--force"]);
+    assert_eq!(bench.read("study.csv"), "a table of mine\n");
+    // a case that its command refuses is named, the others are solved, and no table is written
+    bench.write("study.toml", &(vary("hurst = [0.5, 0.8]\nk-r = [5, 400]").replace("study.csv", "other.csv")));
+    let output = bench.run("study study.toml --quiet");
+    let said = text(&output.stderr);
+    assert_eq!(output.status.code(), Some(1), "{said}");
+    assert!(said.contains("case 2: hurst 0.5, k_r 400 is refused") && said.contains("2 of 4 cases"), "{said}");
+    assert!(!bench.path("other.csv").exists());
+    assert!(bench.said("study study.toml --list").contains("2 of 4 cases are done"));
+}
