@@ -15,7 +15,8 @@
 //! | [`performance`] | how fast: applications, times, memory, beside other programs |
 //! | [`precision`] | how far rounding lets a solve go, and what becomes of extreme input |
 //! | [`paper_checked`] | the paper, its misprints, and its figures beside ours |
-//! | [`tool`] | the command-line tool: scenes, the keys of its reports, exit codes |
+//! | [`tool`] | the command-line tool: scenes, studies, the keys of its reports, exit codes |
+//! | [`cluster`] | job scripts for studies on many machines |
 //! | [`driver`] | what the solver minimises, its certificate, one iteration step by step, and every constant in it |
 //! | [`architecture`] | the layers of the crate, what may use what, and the data's way through one iteration |
 //!
@@ -44,5 +45,6 @@ page!(performance);
 page!(precision);
 page!(paper_checked);
 page!(tool);
+page!(cluster);
 page!(driver);
 page!(architecture);

@@ -53,7 +53,7 @@
 //! | a body that ends: free half-space, force, approach, spring, absent nodes | [`guide::boundary`] |
 //! | from Python: the package, and files | [`guide::python`] |
 //! | resolution, tolerance and precision for the accuracy you want | [`guide::choosing`] |
-//! | the command-line tool, its scenes and the keys of its reports | [`guide::tool`] |
+//! | the command-line tool, its scenes and the keys of its reports; studies on clusters | [`guide::tool`], [`guide::cluster`] |
 //! | how the crate is built, and how its solver works | [`guide::architecture`], [`guide::driver`] |
 //! | how fast it is, and how far rounding lets it go | [`guide::performance`], [`guide::precision`] |
 //! | what the paper says | [`guide::paper_checked`] |

@@ -212,3 +212,34 @@ fn studies_that_cannot_be_are_refused_before_anything_is_solved() {
     assert!(!bench.path("other.csv").exists());
     assert!(bench.said("study study.toml --list").contains("2 of 4 cases are done"));
 }
+
+/// The job scripts of the page `cluster`, with the words that Slurm gives its jobs.
+#[cfg(unix)]
+#[test]
+fn the_job_scripts_of_the_documentation_come_to_the_table() {
+    let bench = Bench::new();
+    bench.write("study.toml", MADE);
+    let page = concat!(env!("CARGO_MANIFEST_DIR"), "/src/guide/cluster.md");
+    let page = std::fs::read_to_string(page).unwrap();
+    let scripts: Vec<_> = page.split("```sh\n").skip(1).map(|rest| rest.split("```").next().unwrap()).collect();
+    let [slices, table] = scripts[..] else { panic!("{scripts:?}") };
+    let tools = std::path::Path::new(env!("CARGO_BIN_EXE_asperity")).parent().unwrap();
+    let path = std::env::join_paths(
+        [tools.to_owned()].into_iter().chain(std::env::split_paths(&std::env::var_os("PATH").unwrap_or_default())),
+    );
+    let submit = |script: &str, task: usize| {
+        let mut job = Command::new("sh");
+        job.args(["-euc", script]).current_dir(bench.path(".")).env("PATH", path.as_ref().unwrap());
+        job.env("SLURM_ARRAY_TASK_ID", task.to_string()).env("SLURM_ARRAY_TASK_COUNT", "3");
+        let output = job.env("SLURM_CPUS_PER_TASK", "2").output().unwrap();
+        assert_eq!((output.status.code(), text(&output.stderr)), (Some(0), String::new()), "{script}");
+        text(&output.stdout)
+    };
+    submit(slices, 1);
+    submit(slices, 3);
+    assert!(!bench.path("study.csv").exists());
+    // the second task never ran
+    let said = submit(table, 0);
+    assert!(said.contains("1/1  case 2") && said.contains("12 rows of 4 cases in study.csv"), "{said}");
+    submit(slices, 2);
+}
