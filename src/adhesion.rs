@@ -80,7 +80,8 @@ pub trait AdhesionLaw<T: Real>: Send + Sync {
     /// The length ρ over which the traction decays, for the resolution measure μ_ρ.
     ///
     /// The default is w/φ'(0), which is ρ for an exponential and for a constant traction. A law that attracts
-    /// most at some distance from contact should say its own.
+    /// most at some distance from contact should say its own. A peak of the traction that is narrower than a hundredth of
+    /// ρ may be overlooked where the solver asks whether the law can hold a tensile load at all.
     fn range(&self) -> T {
         let (w, traction) = (self.work_of_adhesion(), self.traction(T::zero()));
         if w > T::zero() && traction > T::zero() { w / traction } else { T::zero() }

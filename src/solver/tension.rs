@@ -100,7 +100,8 @@ impl<T: Real, L: Real> State<'_, T, L> {
         Ok(false)
     }
 
-    /// The tension at a given mean gap, from the present contact or from a uniform gap; nothing if the solve was stopped or ran out of iterations.
+    /// The tension at a given mean gap, from the present contact or from a uniform gap; nothing if the solve was stopped
+    /// or ran out of iterations.
     fn tension_at(&mut self, gap: f64, observe: Observer<'_>) -> Result<Option<f64>> {
         if self.tally.contact == 0.0 {
             self.fields.gap.fill(T::lit(gap));
@@ -111,7 +112,8 @@ impl<T: Real, L: Real> State<'_, T, L> {
         Ok((!gave).then(|| self.multiplier() - self.given))
     }
 
-    /// The largest of many tractions of the law: no uniform gap holds more.
+    /// The largest of many tractions of the law: no uniform gap holds more. A peak that is narrower than a hundredth of
+    /// the range may be missed.
     fn strongest_traction(&self) -> f64 {
         let range = self.law.range().widen();
         let gaps = (0..SAMPLES).map(|i| T::lit(REACH * range * i as f64 / SAMPLES as f64));
