@@ -2,8 +2,8 @@
 //!
 //! `cargo run --release -p asperity-examples --example figures`
 //!
-//! R = 2L, E* = 1, and the apex on a node. The exact solutions among periodic
-//! images are at the given mean gap, over the discrete mean of the heights; the lone Hertzian sphere is at their load.
+//! R = 2L, E* = 1, and the apex on a node. The exact solutions among periodic images are at the given mean gap, over
+//! the discrete mean of the heights; the lone Hertzian sphere is at their load.
 //!
 //! With adhesion there are several discrete equilibria, and the start chooses among them. Each grid is solved from the
 //! default start, shown in figures 2 and 3, and from the exact gap, to tell the start's part of the error.

@@ -476,7 +476,8 @@ def main():
     parser.add_argument("--sizes", type=sizes, default=[512, 1024, 2048], help="nodes along a side, of the solves")
     parser.add_argument("--rows", default="application,wall,adhesion,free", help="which tables")
     parser.add_argument("--prefix", default="", help="a command to run every measurement under, such as 'taskset -c 1'")
-    parser.add_argument("--ours", default="", help="further options for every solve of examples/timed.rs, as in --ours=--method=nested")
+    ours = "further options for every solve of examples/timed.rs, as in --ours=--method=nested"
+    parser.add_argument("--ours", default="", help=ours)
     options = parser.parse_args()
     # SciPy is in the peers' environment
     python = options.peers.resolve() / "venv/bin/python"
