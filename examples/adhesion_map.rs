@@ -1,31 +1,22 @@
 //! Greenwood's adhesion map of a sphere by Lennard-Jones: the pull-off force over Tabor's parameter, on a free half-space
 //! and without a wall, beside Maugis–Dugdale, JKR and DMT.
 //!
-//! ```text
-//! cargo run --release --example adhesion_map -- [--size N] [--out FILE.svg]
-//! ```
+//! `cargo run --release -p asperity-examples --example adhesion_map`
 //!
-//! `--size` is the number of nodes along a side (320 unless given); Tabor parameters whose adhesive zone they do not
-//! resolve (μ_ρ above 0.5) are left out. Lengths are in units of R, pressures of E*, and forces are drawn over πwR. The
-//! constant traction of Maugis–Dugdale is the largest of Lennard-Jones, 1.026 w/z₀.
+//! Tabor parameters whose adhesive zone the grid does not resolve (μ_ρ above 0.5) are left out. Lengths are in units of
+//! R, pressures of E*, and forces are drawn over πwR. The constant traction of Maugis–Dugdale is the largest of
+//! Lennard-Jones, 1.026 w/z₀.
 
-#[path = "common/arguments.rs"]
-mod arguments;
-#[path = "common/legend.rs"]
-mod legend;
-
-use std::error::Error;
 use std::f64::consts::PI;
-use std::path::Path as File;
+use std::path::{Path as File, PathBuf};
 
-use arguments::size_and_out;
 use asperity::exact::{self, Sphere};
 use asperity::path::{Path, PathSettings};
 use asperity::{Boussinesq, Control, Grid, LennardJones, NoWall, Problem, Settings, Solver, Status, Surface};
-use legend::legend;
+use clap::Parser;
+use common::legend::legend;
+use common::{Outcome, arguments};
 use plotters::prelude::*;
-
-type Outcome<T> = Result<T, Box<dyn Error>>;
 
 const TABOR: [f64; 9] = [0.1, 0.2, 0.35, 0.6, 1.0, 1.5, 2.0, 3.0, 4.0];
 /// (wR²/E*)^(1/3), the scale of contact radii, in R: small, so that the paraboloid is flat.
@@ -94,8 +85,18 @@ fn withdraw(tabor: f64, size: usize) -> Outcome<Option<Withdrawal>> {
     Ok(Some(found))
 }
 
+#[derive(Parser)]
+struct Arguments {
+    /// Nodes along a side
+    #[arg(long, value_name = "N", default_value_t = 320, value_parser = arguments::nodes::<32>)]
+    size: usize,
+    /// The figure
+    #[arg(long, value_name = "FILE.svg", default_value = "target/figures/adhesion-map.svg")]
+    out: PathBuf,
+}
+
 fn main() -> Outcome<()> {
-    let (size, out) = size_and_out(320, "target/figures/adhesion-map.svg")?;
+    let Arguments { size, out } = arguments::read(include_str!("adhesion_map.rs"));
     if let Some(folder) = out.parent() {
         std::fs::create_dir_all(folder)?;
     }

@@ -1,20 +1,27 @@
 //! Operator applications of the default method over a set of scenes, and their sum.
 //!
-//! `cargo run --release --example applications [size]`; the size is that of the squares, 256 nodes along a side unless
-//! given. `.ci/constants` measures by it how much the constants of the driver matter.
-
-#[path = "../tests/common/rough.rs"]
-mod rough;
+//! `cargo run --release -p asperity-examples --example applications`
+//!
+//! `.ci/constants` measures by it how much the constants of the driver matter.
 
 use asperity::{
     AdhesionLaw, ContactConstraint, Control, Exponential, Grid, MaugisDugdale, Nested, NoAdhesion, Penalty, Problem,
     Projection, Real, Result, Settings, Solver, Status, Surface, Sweep, Uzawa, Westergaard,
 };
+use clap::Parser;
+use common::{arguments, rough};
+
+#[derive(Parser)]
+struct Arguments {
+    /// Nodes along a side of the squares
+    #[arg(default_value_t = 256, value_parser = arguments::nodes::<32>)]
+    size: usize,
+}
 
 fn main() -> Result<()> {
-    let size = std::env::args().nth(1).and_then(|n| n.parse().ok()).unwrap_or(256);
-    let (square, line) = (Grid::square(size as usize, 1.0)?, Grid::line(16 * size as usize, 1.0)?);
-    let rough = rough::rough(square, (size / 4).min(64), 1);
+    let Arguments { size } = arguments::read(include_str!("applications.rs"));
+    let (square, line) = (Grid::square(size, 1.0)?, Grid::line(16 * size, 1.0)?);
+    let rough = rough::rough(square, (size / 4).min(64) as i32, 1);
     let mut bowed = rough.heights().clone();
     let rms = rough.rms_height();
     bowed.indexed_iter_mut().for_each(|((i, j), height)| {

@@ -1,8 +1,7 @@
 //! The share of a solve outside of operator applications, and the gain of single precision, for the corrections or for
 //! all, as medians over rounds.
 //!
-//! `RAYON_NUM_THREADS=1 cargo run --release --example budget -- [size [case]]`; 1024 if nothing is given, and of a case
-//! a part of its name.
+//! `RAYON_NUM_THREADS=1 cargo run --release -p asperity-examples --example budget`
 
 use std::ops::ControlFlow;
 use std::sync::Arc;
@@ -13,6 +12,8 @@ use asperity::{
     AdhesionLaw, Amplitude, CoarseSpace, Control, ElasticOperator, Exponential, Foundation, Grid, NoAdhesion,
     Preconditioned, Problem, Real, Result, SelfAffine, Settings, Solver, Start, Surface, Westergaard,
 };
+use clap::Parser;
+use common::{Outcome, arguments};
 use ndarray::{Array2, ArrayView2, ArrayViewMut2};
 
 const ROUNDS: usize = 5;
@@ -85,9 +86,18 @@ impl<T: Real> ElasticOperator<T> for Timed<T> {
     }
 }
 
-fn main() -> std::result::Result<(), Box<dyn std::error::Error>> {
-    let size = std::env::args().nth(1).map_or(Ok(1024), |size| size.parse())?;
-    let case = std::env::args().nth(2).unwrap_or_default();
+#[derive(Parser)]
+struct Arguments {
+    /// Nodes along a side
+    #[arg(default_value_t = 1024, value_parser = arguments::nodes::<129>)]
+    size: usize,
+    /// A part of the name of the cases that are measured, of all unless given
+    #[arg(default_value = "", hide_default_value = true)]
+    case: String,
+}
+
+fn main() -> Outcome<()> {
+    let Arguments { size, case } = arguments::read(include_str!("budget.rs"));
     let grid = Grid::square(size, 1.0)?;
     let surface =
         SelfAffine { k_s: 64.0, amplitude: Amplitude::RmsSlope(1.0), ..SelfAffine::default() }.surface(grid)?;

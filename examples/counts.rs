@@ -1,16 +1,23 @@
 //! Operator applications of the default and of the paper's Algorithm 3, on the same cases.
 //!
-//! `cargo run --release --example counts [largest size]`
-
-#[path = "../tests/common/rough.rs"]
-mod rough;
+//! `cargo run --release -p asperity-examples --example counts`
 
 use asperity::{
     AdhesionLaw, Control, Grid, MaugisDugdale, NoAdhesion, Problem, Result, Settings, Solver, Surface, Westergaard,
 };
+use clap::Parser;
+use common::arguments;
+use common::rough::rough;
+
+#[derive(Parser)]
+struct Arguments {
+    /// The largest grid, in nodes along a side
+    #[arg(default_value_t = 512, value_parser = arguments::nodes::<128>)]
+    largest: usize,
+}
 
 fn main() -> Result<()> {
-    let largest = std::env::args().nth(1).and_then(|n| n.parse().ok()).unwrap_or(512);
+    let Arguments { largest } = arguments::read(include_str!("counts.rs"));
     println!("Applications of the operator until the certified error is below 1e-6 (default), and until");
     println!("the paper's eps is below 1e-9 (Algorithm 3), with the one that constructs the problem.\n");
     println!("{:<37} {:>5} {:>8} {:>11} {:>9}  contact nodes", "case", "n", "default", "Algorithm 3", "ratio");
@@ -20,7 +27,7 @@ fn main() -> Result<()> {
         compare("Hertz, mean gap 0.0398", &sphere, NoAdhesion, Control::MeanGap(0.0398))?;
         let law = MaugisDugdale::new(1e-4, 2e-3)?;
         compare("Maugis-Dugdale, mean gap 0.0429", &sphere, law, Control::MeanGap(0.0429))?;
-        let surface = rough::rough(grid, if n < 256 { 63 } else { 64 }, 1);
+        let surface = rough(grid, if n < 256 { 63 } else { 64 }, 1);
         for (share, pressure) in [(3, 0.0125), (40, 0.205)] {
             let name = format!("rough, {share} % contact, mean pressure");
             let gap = compare(&name, &surface, NoAdhesion, Control::MeanPressure(pressure))?;

@@ -1,35 +1,26 @@
 //! Approach and withdrawal with adhesion: a sphere, a wave and a rough surface, against exact solutions where there are
 //! any.
 //!
-//! ```text
-//! cargo run --release --example cycles -- [--size N] [--out DIR]
-//! ```
+//! `cargo run --release -p asperity-examples --example cycles`
 //!
-//! `--size` is the number of nodes along a side of the sphere's and the rough surface's grid (256 unless given), and
-//! the waves have up to 32 times as many; `--out` is the folder for the pictures (`target/figures`). The sphere has
+//! The sphere has
 //! Tabor parameters from 0.1 to 5 and is compared with Maugis' solution among its periodic images; the wave has
 //! Johnson's α = 0.2, and ranges of adhesion that tend to none.
 
-#[path = "common/arguments.rs"]
-mod arguments;
-#[path = "common/legend.rs"]
-mod legend;
-
-use std::error::Error;
 use std::f64::consts::PI;
-use std::path::Path as File;
+use std::path::{Path as File, PathBuf};
 
-use arguments::size_and_out;
 use asperity::exact::{self, AdhesiveWavyLine, Periodic};
 use asperity::path::{Event, Path, PathSettings};
 use asperity::{
     AdhesionLaw, Control, Exponential, Grid, MaugisDugdale, Problem, SelfAffine, Settings, Solver, Status, Surface,
     Westergaard,
 };
-use legend::legend;
+use clap::Parser;
+use common::legend::legend;
+use common::{Outcome, arguments};
 use plotters::prelude::*;
 
-type Outcome<T> = Result<T, Box<dyn Error>>;
 type Points = Vec<(f64, f64)>;
 
 /// Tabor parameters with works of adhesion in E*L for which the grid resolves the range and the cell holds the contact.
@@ -110,8 +101,18 @@ fn cycle<L: AdhesionLaw<f64>>(surface: &Surface, law: L, gaps: [f64; 2], setting
     Ok(cycle)
 }
 
+#[derive(Parser)]
+struct Arguments {
+    /// Nodes along a side of the sphere's and the rough surface's grid; the waves have up to 32 times as many
+    #[arg(long, value_name = "N", default_value_t = 256, value_parser = arguments::nodes::<32>)]
+    size: usize,
+    /// The folder for the pictures
+    #[arg(long, value_name = "DIR", default_value = "target/figures")]
+    out: PathBuf,
+}
+
 fn main() -> Outcome<()> {
-    let (size, out) = size_and_out(256, "target/figures")?;
+    let Arguments { size, out } = arguments::read(include_str!("cycles.rs"));
     std::fs::create_dir_all(&out)?;
     spheres(size, &out.join("cycle-sphere.svg"))?;
     waves(size, &out.join("cycle-wave.svg"))?;

@@ -1,37 +1,28 @@
 //! Figures 1 to 4 of Rey, Anciaux and Molinari (2017): spheres without and with adhesion, against exact solutions.
 //!
-//! ```text
-//! cargo run --release --example figures -- [--size N] [--out DIR]
-//! ```
+//! `cargo run --release -p asperity-examples --example figures`
 //!
-//! `--size` is the largest grid (a power of two from 128 on; 1024 unless given, 2048 in the paper), `--out` the folder
-//! for the figures (`target/figures`). R = 2L, E* = 1, and the apex on a node. The exact solutions among periodic
-//! images are at the given mean gap, over the discrete mean of the heights; the lone Hertzian sphere is at their load.
+//! R = 2L, E* = 1, and the apex on a node. The exact solutions among periodic images are at the given mean gap, over
+//! the discrete mean of the heights; the lone Hertzian sphere is at their load.
 //!
 //! With adhesion there are several discrete equilibria, and the start chooses among them. Each grid is solved from the
 //! default start, shown in figures 2 and 3, and from the exact gap, to tell the start's part of the error.
 
-#[path = "common/arguments.rs"]
-mod arguments;
-#[path = "common/legend.rs"]
-mod legend;
-
-use std::error::Error;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
-use arguments::size_and_out;
 use asperity::exact::{Contact, Hertz, Jkr, MaugisDugdale as Maugis, Periodic, PeriodicContact, Sphere};
 use asperity::{
     AdhesionLaw, Control, ElasticOperator, Grid, MaugisDugdale, NoAdhesion, Problem, Settings, Solution, Solver,
     Status, Surface, Westergaard,
 };
-use legend::legend;
+use clap::Parser;
+use common::legend::legend;
+use common::{Outcome, arguments};
 use ndarray::{Array2, Zip};
 use plotters::coord::Shift;
 use plotters::prelude::*;
 
-type Outcome<T> = Result<T, Box<dyn Error>>;
 type Panel<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 
 const RADIUS: f64 = 2.0;
@@ -71,8 +62,18 @@ struct Run {
     surface: Surface,
 }
 
+#[derive(Parser)]
+struct Arguments {
+    /// The largest grid, in nodes along a side: a power of two from 128 on, in the paper 2048
+    #[arg(long, value_name = "N", default_value_t = 1024, value_parser = arguments::power_of_two::<{ 2 * SMALLEST }>)]
+    size: usize,
+    /// The folder for the pictures
+    #[arg(long, value_name = "DIR", default_value = "target/figures")]
+    out: PathBuf,
+}
+
 fn main() -> Outcome<()> {
-    let (size, out) = arguments()?;
+    let Arguments { size, out } = arguments::read(include_str!("figures.rs"));
     std::fs::create_dir_all(&out)?;
     println!("{:>16} {:>5} {:>10} {:>10} {:>10} {:>5} {:>11}", "case", "n", "start", "L2", "energy", "appl.", "p/E*");
 
@@ -114,14 +115,6 @@ fn main() -> Outcome<()> {
     convergence(&out.join("figure4.svg"), &cases)?;
     println!("figures 1 to 4 are in {}", out.display());
     Ok(())
-}
-
-fn arguments() -> Outcome<(usize, PathBuf)> {
-    let (size, out) = size_and_out(1024, "target/figures")?;
-    if size < 2 * SMALLEST || !size.is_power_of_two() {
-        return Err(format!("--size {size}: it must be a power of two, at least {}", 2 * SMALLEST).into());
-    }
-    Ok((size, out))
 }
 
 /// Solves one case on all grids, from each of the starts.

@@ -1,11 +1,9 @@
 //! One large solve: how long it takes, and how much memory the whole process needs.
 //!
-//! `cargo run --release --example large -- [size] [f32|f64] [none|exponential]`; 4096 f64 none if nothing is given.
+//! `cargo run --release -p asperity-examples --example large`
+//!
 //! A rough surface of 4 to 64 waves a side at the pressure of 0.02 times modulus and rms slope, 5 % contact without
 //! adhesion; 16384² needs 15 GiB in f64 and 8 GiB in f32.
-
-#[path = "common/memory.rs"]
-mod memory;
 
 use std::ops::ControlFlow;
 use std::time::Instant;
@@ -14,19 +12,35 @@ use asperity::{
     AdhesionLaw, Amplitude, Control, Exponential, Grid, NoAdhesion, Problem, Real, SelfAffine, Solver, Start,
     Westergaard,
 };
+use clap::{Parser, ValueEnum};
+use common::arguments::{self, Precision};
+use common::{Outcome, memory};
 
-type Outcome = Result<(), Box<dyn std::error::Error>>;
+#[derive(Parser)]
+struct Arguments {
+    /// Nodes along a side
+    #[arg(default_value_t = 4096, value_parser = arguments::nodes::<129>)]
+    size: usize,
+    #[arg(default_value = "f64")]
+    precision: Precision,
+    /// The law of adhesion
+    #[arg(default_value = "none")]
+    law: Law,
+}
 
-fn main() -> Outcome {
-    let arguments: Vec<String> = std::env::args().skip(1).collect();
-    let argument = |i: usize, default: &str| arguments.get(i).map_or(default.to_string(), String::clone);
-    let size: usize = argument(0, "4096").parse()?;
-    match (argument(1, "f64").as_str(), argument(2, "none").as_str()) {
-        ("f64", "none") => run::<f64, _>(size, |_| Ok(NoAdhesion)),
-        ("f32", "none") => run::<f32, _>(size, |_| Ok(NoAdhesion)),
-        ("f64", "exponential") => run::<f64, _>(size, exponential),
-        ("f32", "exponential") => run::<f32, _>(size, exponential),
-        (precision, law) => Err(format!("{precision} {law}: f32 or f64, none or exponential").into()),
+#[derive(Clone, ValueEnum)]
+enum Law {
+    None,
+    Exponential,
+}
+
+fn main() -> Outcome<()> {
+    let Arguments { size, precision, law } = arguments::read(include_str!("large.rs"));
+    match (precision, law) {
+        (Precision::F64, Law::None) => run::<f64, _>(size, |_| Ok(NoAdhesion)),
+        (Precision::F32, Law::None) => run::<f32, _>(size, |_| Ok(NoAdhesion)),
+        (Precision::F64, Law::Exponential) => run::<f64, _>(size, exponential),
+        (Precision::F32, Law::Exponential) => run::<f32, _>(size, exponential),
     }
 }
 
@@ -36,7 +50,7 @@ fn exponential(rms_height: f64) -> asperity::Result<Exponential> {
     Exponential::new(0.1 * range, range)
 }
 
-fn run<T: Real, L: AdhesionLaw<T>>(size: usize, law: impl Fn(f64) -> asperity::Result<L>) -> Outcome {
+fn run<T: Real, L: AdhesionLaw<T>>(size: usize, law: impl Fn(f64) -> asperity::Result<L>) -> Outcome<()> {
     let clock = Instant::now();
     let grid = Grid::square(size, 1.0)?;
     let surface =

@@ -1,14 +1,25 @@
 //! Operator applications of nested grids beside those of the finest grid alone, over a set of scenes.
 //!
-//! `cargo run --release --example nested -- [size [tolerance [precision]]]`; 512, 1e-6 and f64 if nothing is given.
-
-#[path = "../tests/common/rough.rs"]
-mod rough;
+//! `cargo run --release -p asperity-examples --example nested`
 
 use asperity::{
     AdhesionLaw, Boussinesq, Control, ElasticOperator, Exponential, Grid, MaugisDugdale, Nested, NoAdhesion, Problem,
     Real, Result, Settings, Solver, Surface, Westergaard,
 };
+use clap::Parser;
+use common::arguments::{self, Precision};
+use common::rough;
+
+#[derive(Parser)]
+struct Arguments {
+    /// Nodes along a side
+    #[arg(default_value_t = 512, value_parser = arguments::nodes::<32>)]
+    size: usize,
+    #[arg(default_value_t = 1e-6)]
+    tolerance: f64,
+    #[arg(default_value = "f64")]
+    precision: Precision,
+}
 
 /// The sums of a table: how many scenes, the sum of the logarithms of the ratios, and the largest ratio, over all scenes
 /// and over those where nested grids are the default.
@@ -19,12 +30,10 @@ struct Table {
 }
 
 fn main() -> Result<()> {
-    let mut arguments = std::env::args().skip(1);
-    let size = arguments.next().and_then(|n| n.parse().ok()).unwrap_or(512);
-    let tolerance = arguments.next().and_then(|n| n.parse().ok()).unwrap_or(1e-6);
-    match arguments.next().as_deref() {
-        Some("f32") => table::<f32>(size, tolerance),
-        _ => table::<f64>(size, tolerance),
+    let Arguments { size, tolerance, precision } = arguments::read(include_str!("nested.rs"));
+    match precision {
+        Precision::F32 => table::<f32>(size, tolerance),
+        Precision::F64 => table::<f64>(size, tolerance),
     }
 }
 

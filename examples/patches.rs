@@ -1,12 +1,14 @@
 //! Adhesion in patches and a wall with a soft coat, both written outside of the crate: a law and a constraint that
 //! differ from node to node.
 //!
-//! `cargo run --release --example patches -- [size]`; 256 if nothing is given.
+//! `cargo run --release -p asperity-examples --example patches`
 
 use asperity::{
     AdhesionLaw, ContactConstraint, Control, Exponential, Grid, NoAdhesion, Problem, Real, Result, Settings, Solver,
     Springs, Surface, Wall, Westergaard,
 };
+use clap::Parser;
+use common::arguments;
 
 /// A law on a chessboard: the work of adhesion of the black squares is a share of that of the white ones.
 struct Patches<L> {
@@ -78,8 +80,15 @@ impl Springs<f64> for Coat {
     }
 }
 
+#[derive(Parser)]
+struct Arguments {
+    /// Nodes along a side
+    #[arg(default_value_t = 256, value_parser = arguments::nodes::<16>)]
+    size: usize,
+}
+
 fn main() -> Result<()> {
-    let size = std::env::args().nth(1).and_then(|n| n.parse().ok()).unwrap_or(256);
+    let Arguments { size } = arguments::read(include_str!("patches.rs"));
     let grid = Grid::square(size, 1.0)?;
     let waves = Surface::wave_2d(grid, 5e-3, 4)?;
     let half_space = Westergaard::<f64>::new(grid, 1.0)?;

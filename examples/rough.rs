@@ -1,40 +1,29 @@
 //! Figures 5 to 8 of Rey, Anciaux and Molinari (2017): a rough surface, pressed without and with adhesion.
 //!
-//! ```text
-//! cargo run --release --example rough -- [--size N] [--out DIR]
-//! ```
-//!
-//! `--size` is the number of nodes along a side (1024 unless given, as in the paper); the surface is the same on every
-//! grid, so it must be above 2 k_s = 128. `--out` is the folder for the pictures (`target/figures`).
+//! `cargo run --release -p asperity-examples --example rough`
 //!
 //! The surface is the paper's, H = 0.8 and k from 4 to 64 periods a side, but of rms slope 0.1: with the paper's 0.001
 //! the load of Figures 6 and 7 presses it flat. The range of adhesion is one that the grid resolves; the paper's own is
 //! shown beside. Two loads are told apart: the external mean pressure p̄, which is the one that is given, and the mean
 //! contact pressure ⟨λ⟩ = p̄ + ⟨φ'⟩, which exceeds it by the adhesive traction.
 
-#[path = "common/arguments.rs"]
-mod arguments;
-#[path = "common/legend.rs"]
-mod legend;
-
-use std::error::Error;
 use std::f64::consts::PI;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
-use arguments::size_and_out;
 use asperity::contact::ContactStatistics;
 use asperity::picture::{Colouring, DPI, Map};
 use asperity::{
     Amplitude, Control, Exponential, Grid, Problem, SelfAffine, Solution, Solver, Start, Status, Surface, Sweep,
     Westergaard,
 };
-use legend::legend;
+use clap::Parser;
+use common::legend::legend;
+use common::{Outcome, arguments};
 use ndarray::Array2;
 use plotters::coord::Shift;
 use plotters::prelude::*;
 
-type Outcome<T> = Result<T, Box<dyn Error>>;
 type Panel<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 
 const SLOPE: f64 = 0.1;
@@ -71,8 +60,18 @@ struct Curve {
     shown: Option<Solution<f64>>,
 }
 
+#[derive(Parser)]
+struct Arguments {
+    /// Nodes along a side, in the paper 1024; the surface is the same on every grid, so it must be above 2 k_s = 128
+    #[arg(long, value_name = "N", default_value_t = 1024, value_parser = arguments::nodes::<129>)]
+    size: usize,
+    /// The folder for the pictures
+    #[arg(long, value_name = "DIR", default_value = "target/figures")]
+    out: PathBuf,
+}
+
 fn main() -> Outcome<()> {
-    let (size, out) = arguments()?;
+    let Arguments { size, out } = arguments::read(include_str!("rough.rs"));
     let surface = rough(size, SLOPE)?;
     std::fs::create_dir_all(&out)?;
     figure5(&out, &surface)?;
@@ -143,13 +142,6 @@ fn main() -> Outcome<()> {
         count => println!("{count} solves have NOT converged: see the table"),
     }
     Ok(())
-}
-
-fn arguments() -> Outcome<(usize, PathBuf)> {
-    let (size, out) = size_and_out(1024, "target/figures")?;
-    // (the error of the library, in words)
-    rough(size, SLOPE).map_err(|e| format!("--size {size}: {e}"))?;
-    Ok((size, out))
 }
 
 /// The surface of the figures, of side 1, on n × n nodes.

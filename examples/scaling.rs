@@ -1,8 +1,8 @@
-//! Time against the number of nodes, from the medians that `cargo bench` leaves in `target/criterion`.
+//! Time against the number of nodes, from the medians that the benches leave in `target/criterion`.
 //!
 //! ```text
-//! RAYON_NUM_THREADS=1 ASPERITY_BENCH=all cargo bench
-//! cargo run --release --example scaling -- [figure, target/figures/scaling.svg unless given]
+//! RAYON_NUM_THREADS=1 ASPERITY_BENCH=all cargo bench -p asperity-benches
+//! cargo run --release -p asperity-examples --example scaling
 //! ```
 //!
 //! One operator application, and solves of a rough surface at 3 % contact and given mean pressure, to a certified error
@@ -10,18 +10,14 @@
 //! that of the number of nodes, by least squares; it includes the misses of the caches. Grids that were not measured
 //! are left out.
 
-#[path = "common/legend.rs"]
-mod legend;
-
-use std::error::Error;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use legend::legend;
+use clap::Parser;
+use common::legend::legend;
+use common::{Outcome, arguments};
 use plotters::prelude::*;
 use serde_json::Value;
-
-type Outcome<T> = Result<T, Box<dyn Error>>;
 
 /// The lines of the figure: the folder in criterion's data, the name in the legend, and the colour.
 const LINES: [(&str, &str, RGBColor); 7] = [
@@ -34,12 +30,23 @@ const LINES: [(&str, &str, RGBColor); 7] = [
     ("application f32", "one application, f32", RGBColor(150, 150, 150)),
 ];
 
+#[derive(Parser)]
+struct Arguments {
+    /// The figure
+    #[arg(value_name = "FILE.svg", default_value = "target/figures/scaling.svg")]
+    path: PathBuf,
+}
+
 fn main() -> Outcome<()> {
+    let Arguments { path } = arguments::read(include_str!("scaling.rs"));
     let target = PathBuf::from(std::env::var_os("CARGO_TARGET_DIR").unwrap_or("target".into()));
-    let path = std::env::args_os().nth(1).map_or_else(|| target.join("figures/scaling.svg"), PathBuf::from);
     let lines: Vec<_> = LINES.iter().map(|(group, ..)| medians(&target.join("criterion").join(group))).collect();
     if lines.iter().all(|points| points.len() < 2) {
-        return Err(format!("there are no results in {}/criterion: run cargo bench", target.display()).into());
+        return Err(format!(
+            "there are no results in {}/criterion: run cargo bench -p asperity-benches",
+            target.display()
+        )
+        .into());
     }
     if let Some(folder) = path.parent() {
         fs::create_dir_all(folder)?;

@@ -4,23 +4,16 @@
 //! stiffness is proportional to the pressure; at light loads the few asperities of a finite surface make it larger,
 //! and towards full contact it grows without limit. Counts and figures are deterministic.
 //!
-//! `cargo run --release --example stiffness -- [--size N] [--out FILE.svg]`
+//! `cargo run --release -p asperity-examples --example stiffness`
 
-#[path = "common/arguments.rs"]
-mod arguments;
-#[path = "common/legend.rs"]
-mod legend;
-
-use std::error::Error;
 use std::path::PathBuf;
 
-use arguments::size_and_out;
 use asperity::stability::ContactStiffness;
 use asperity::{Amplitude, Control, Grid, NoAdhesion, Problem, SelfAffine, Solver, Sweep, Westergaard};
-use legend::legend;
-use plotters::prelude::*;
-
-type Outcome<T> = Result<T, Box<dyn Error>>;
+use clap::Parser;
+use common::chart::{COLOURS, Chart, Series, Style};
+use common::{Outcome, arguments};
+use plotters::prelude::{BLACK, SeriesLabelPosition};
 
 const SEEDS: [u64; 3] = [1, 2, 3];
 const HURST: [f64; 2] = [0.5, 0.8];
@@ -32,11 +25,18 @@ struct Curve {
     points: Vec<(f64, f64, f64)>,
 }
 
+#[derive(Parser)]
+struct Arguments {
+    /// Nodes along a side
+    #[arg(long, value_name = "N", default_value_t = 256, value_parser = arguments::nodes::<64>)]
+    size: usize,
+    /// The figure
+    #[arg(long, value_name = "FILE.svg", default_value = "target/figures/stiffness.svg")]
+    out: PathBuf,
+}
+
 fn main() -> Outcome<()> {
-    let (size, out) = size_and_out(256, "target/figures/stiffness.svg")?;
-    if size < 64 {
-        return Err(format!("--size {size}: it must be at least 64").into());
-    }
+    let Arguments { size, out } = arguments::read(include_str!("stiffness.rs"));
     let grid = Grid::square(size, 1.0)?;
     let pressures: Vec<f64> = (0..14).map(|k| 1e-4 * 10_f64.powf(0.3 * f64::from(k))).collect();
     let mut curves = Vec::new();
@@ -71,48 +71,29 @@ fn main() -> Outcome<()> {
         let contact = curves[0].points.get(k).map_or(1.0, |point| point.2);
         println!("{p:>9.1e} {:>8.2}% | {:>22} | {:>22}", 100.0 * contact, gammas(HURST[0]), gammas(HURST[1]));
     }
-    if let Some(folder) = out.parent() {
-        std::fs::create_dir_all(folder)?;
-    }
-    draw(&out, size, &curves)?;
+    chart(size, &curves).save(&out)?;
     println!("drawn in {}", out.display());
     Ok(())
 }
 
-fn draw(path: &PathBuf, size: usize, curves: &[Curve]) -> Outcome<()> {
-    let root = SVGBackend::new(path, (900, 640)).into_drawing_area();
-    root.fill(&WHITE)?;
-    let title = format!("Contact stiffness of self-affine surfaces, {size} × {size} nodes, three seeds each");
-    let root = root.titled(&title, ("sans-serif", 19))?;
-    let mut chart = ChartBuilder::on(&root)
-        .margin(12)
-        .margin_right(24)
-        .x_label_area_size(48)
-        .y_label_area_size(90)
-        .build_cartesian_2d((5e-5..1.0).log_scale(), (1e-4..50.0).log_scale())?;
-    chart
-        .configure_mesh()
-        .light_line_style(TRANSPARENT)
-        .x_desc("p / (E* h')")
-        .y_desc("K h_rms / (E* h')")
-        .x_label_formatter(&|x| format!("{x:.0e}"))
-        .y_label_formatter(&|y| format!("{y:.0e}"))
-        .label_style(("sans-serif", 15))
-        .axis_desc_style(("sans-serif", 17))
-        .draw()?;
-    for (hurst, colour) in HURST.into_iter().zip([BLUE.mix(0.7), BLACK.mix(0.7)]) {
-        let of = curves.iter().filter(|curve| curve.hurst == hurst).flat_map(|curve| &curve.points);
-        chart
-            .draw_series(of.map(|&(p, stiffness, _)| Circle::new((p, stiffness), 3, colour.filled())))?
-            .label(format!("H = {hurst}"))
-            .legend(move |(x, y)| Circle::new((x + 12, y), 4, colour.filled()));
+fn chart(size: usize, curves: &[Curve]) -> Chart {
+    let points = |hurst: f64| {
+        let curves = curves.iter().filter(|curve| curve.hurst == hurst);
+        curves.flat_map(|curve| &curve.points).map(|&(p, stiffness, _)| (p, stiffness)).collect()
+    };
+    let found = HURST.into_iter().zip(COLOURS).map(|(hurst, colour)| Series {
+        name: format!("H = {hurst}"),
+        colour,
+        style: Style::Dots,
+        points: points(hurst),
+    });
+    let line = [5e-5, 1.0].map(|p| (p, 2.0 * p)).to_vec();
+    let line = Series { name: "K = 2 p / h_rms".to_owned(), colour: BLACK, style: Style::Thin, points: line };
+    Chart {
+        title: format!("Contact stiffness of self-affine surfaces, {size} × {size} nodes, three seeds each"),
+        axes: ["p / (E* h')", "K h_rms / (E* h')"],
+        logarithmic: true,
+        labels: SeriesLabelPosition::UpperLeft,
+        series: found.chain([line]).collect(),
     }
-    let line = RED.stroke_width(2);
-    chart
-        .draw_series(LineSeries::new([5e-5, 1.0].map(|p| (p, 2.0 * p)), line))?
-        .label("K = 2 p / h_rms")
-        .legend(move |(x, y)| PathElement::new([(x, y), (x + 24, y)], line));
-    legend(&mut chart, SeriesLabelPosition::UpperLeft)?;
-    root.present()?;
-    Ok(())
 }

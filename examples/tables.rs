@@ -1,15 +1,7 @@
 //! Tables 1 to 4 of Rey, Anciaux and Molinari (2017), the paper's values beside ours; and waves and limits that have
 //! exact solutions.
 //!
-//! `cargo run --release --example tables [largest size]`, 1024 unless given. Below 512 the tables of larger grids are
-//! shown on smaller ones.
-
-#[path = "../tests/common/authors.rs"]
-mod authors;
-#[path = "../tests/common/outrun.rs"]
-mod outrun;
-#[path = "../tests/common/rough.rs"]
-mod rough;
+//! `cargo run --release -p asperity-examples --example tables`
 
 use std::f64::consts::{PI, TAU};
 use std::ops::ControlFlow;
@@ -23,12 +15,21 @@ use asperity::{
     AdhesionLaw, ContactConstraint, Control, ElasticOperator, Exponential, Grid, MaugisDugdale, NoAdhesion, Penalty,
     Problem, Projection, Result, Settings, Solution, Solver, Surface, Uzawa, Westergaard,
 };
-use authors::RADIUS;
+use clap::Parser;
+use common::authors::RADIUS;
+use common::outrun::Outrun;
+use common::{arguments, authors, rough};
 use ndarray::Array2;
-use outrun::Outrun;
+
+#[derive(Parser)]
+struct Arguments {
+    /// The largest grid, in nodes along a side; below 512 the tables of larger grids are shown on smaller ones
+    #[arg(default_value_t = 1024, value_parser = arguments::nodes::<64>)]
+    largest: usize,
+}
 
 fn main() -> Result<()> {
-    let largest = std::env::args().nth(1).and_then(|n| n.parse().ok()).unwrap_or(1024);
+    let Arguments { largest } = arguments::read(include_str!("tables.rs"));
     let sizes: Vec<usize> = [64, 128, 256, 512, 1024, 2048].into_iter().filter(|&n| n <= largest).collect();
     table_1(&sizes)?;
     table_2(largest.min(512))?;

@@ -1,27 +1,14 @@
 //! Times solves, or operator applications, of given heights: a line of JSON for each repetition.
 //!
-//! ```text
-//! cargo run --release --example timed -- HEIGHTS [NAME=VALUE ...]
-//! ```
-//!
-//! `HEIGHTS` is a file of heights on a square of side 1 (or a rectangle of square cells, Lx = 1), whose
-//! contact modulus is 1. One of `pressure=P`, `gap=G`, `approach=D` (the control) and `apply=N` (only the periodic
-//! operator: the median of N applications, after two that do not count) must be there. Beside them:
-//! `boundary=periodic|free`, `precision=f64|f32`, `tolerance=1e-6`, `work=W range=R` (the exponential law), `method=single|nested|mixed` (one grid, nested grids, or these in f32 to
-//! 1e-4 and on in f64), `repeat=N`, `save=FILE.npy` (the elastic pressure p + p̄ of the last solve, in f64).
+//! `cargo run --release -p asperity-examples --example timed`
 //!
 //! `seconds` counts from the heights in memory to the solution in memory, `solve` only the solve without the
 //! construction of operator and problem. `peak` is the largest resident memory of the process, in bytes, from before
 //! the repetition to its end (Linux only). `benches/peers` runs this against other programs.
 
-#[path = "common/memory.rs"]
-mod memory;
-
-use std::collections::HashMap;
-use std::error::Error;
 use std::fs;
 use std::ops::ControlFlow;
-use std::path::Path;
+use std::path::PathBuf;
 use std::time::Instant;
 
 use asperity::io::{read_field, write_npy};
@@ -29,58 +16,67 @@ use asperity::{
     AdhesionLaw, Boussinesq, Control, ElasticOperator, Exponential, Grid, Nested, NoAdhesion, Problem, Real, Settings,
     Solution, Solver, Start, Surface, Westergaard,
 };
+use clap::{ArgGroup, Parser, ValueEnum};
+use common::arguments::{self, Precision};
+use common::{Outcome, memory};
 use ndarray::Array2;
 use serde_json::json;
 
 /// The tolerance of the solve in single precision, on every grid.
 const SINGLE: f64 = 1e-4;
 
-type Outcome<T> = Result<T, Box<dyn Error>>;
+#[derive(Parser)]
+#[command(group(ArgGroup::new("job").required(true)))]
+struct Options {
+    /// Heights on a square of side 1 (or a rectangle of square cells, Lx = 1), whose contact modulus is 1
+    heights: PathBuf,
+    /// The mean pressure that is held
+    #[arg(long, value_name = "P", group = "job", allow_negative_numbers = true)]
+    pressure: Option<f64>,
+    /// The mean gap that is held
+    #[arg(long, value_name = "G", group = "job", allow_negative_numbers = true)]
+    gap: Option<f64>,
+    /// The approach that is held
+    #[arg(long, value_name = "D", group = "job", allow_negative_numbers = true)]
+    approach: Option<f64>,
+    /// No solve, but the periodic operator: the median of N applications, after two that do not count
+    #[arg(long, value_name = "N", group = "job", value_parser = arguments::nodes::<1>)]
+    apply: Option<usize>,
+    #[arg(long, default_value = "periodic")]
+    boundary: Boundary,
+    #[arg(long, default_value = "f64")]
+    precision: Precision,
+    /// The certified relative error at which the solve ends; of the precision unless given
+    #[arg(long)]
+    tolerance: Option<f64>,
+    /// The work of adhesion of the exponential law; no adhesion unless given
+    #[arg(long, value_name = "W", requires = "range")]
+    work: Option<f64>,
+    /// Its range
+    #[arg(long, value_name = "R", requires = "work")]
+    range: Option<f64>,
+    /// One grid, nested grids, or these in f32 to 1e-4 and on in f64
+    #[arg(long, default_value = "single")]
+    method: Method,
+    /// How often
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    repeat: usize,
+    /// A file for the elastic pressure p + p̄ of the last solve, in f64
+    #[arg(long, value_name = "FILE.npy")]
+    save: Option<PathBuf>,
+}
 
-/// The arguments NAME=VALUE.
-struct Options(HashMap<String, String>);
+#[derive(Clone, ValueEnum)]
+enum Boundary {
+    Periodic,
+    Free,
+}
 
-impl Options {
-    const NAMES: [&str; 12] = [
-        "pressure",
-        "gap",
-        "approach",
-        "apply",
-        "boundary",
-        "precision",
-        "tolerance",
-        "work",
-        "range",
-        "method",
-        "repeat",
-        "save",
-    ];
-
-    fn new(arguments: impl Iterator<Item = String>) -> Outcome<Self> {
-        let mut options = HashMap::new();
-        for argument in arguments {
-            let (name, value) = argument.split_once('=').ok_or_else(|| format!("{argument}: write NAME=VALUE"))?;
-            if !Self::NAMES.contains(&name) {
-                return Err(format!("{name}: the names are {}", Self::NAMES.join(", ")).into());
-            }
-            options.insert(name.to_owned(), value.to_owned());
-        }
-        Ok(Self(options))
-    }
-
-    fn text(&self, name: &str) -> Option<&str> {
-        self.0.get(name).map(String::as_str)
-    }
-
-    fn number(&self, name: &str) -> Outcome<Option<f64>> {
-        let parse = |text: &str| text.parse().map_err(|e| format!("{name}={text}: {e}"));
-        Ok(self.text(name).map(parse).transpose()?)
-    }
-
-    fn count(&self, name: &str) -> Outcome<Option<usize>> {
-        let parse = |text: &str| text.parse().map_err(|e| format!("{name}={text}: {e}"));
-        Ok(self.text(name).map(parse).transpose()?)
-    }
+#[derive(Clone, ValueEnum)]
+enum Method {
+    Single,
+    Nested,
+    Mixed,
 }
 
 /// A half-space of contact modulus 1, in either precision.
@@ -108,36 +104,31 @@ impl HalfSpace for Free {
 }
 
 fn main() -> Outcome<()> {
-    let mut arguments = std::env::args().skip(1);
-    let heights = arguments.next().ok_or("the file of heights must be given")?;
-    let options = Options::new(arguments)?;
-    let heights = read_field(Path::new(&heights))?;
-    match options.text("precision").unwrap_or("f64") {
-        "f64" => time::<f64>(heights, &options),
-        "f32" => time::<f32>(heights, &options),
-        other => Err(format!("precision={other}: f64 or f32").into()),
+    let options: Options = arguments::read(include_str!("timed.rs"));
+    let heights = read_field(&options.heights)?;
+    match options.precision {
+        Precision::F64 => time::<f64>(heights, &options),
+        Precision::F32 => time::<f32>(heights, &options),
     }
 }
 
 fn time<T: Real>(heights: Array2<f64>, options: &Options) -> Outcome<()> {
     let (nx, ny) = heights.dim();
     let grid = Grid::new((nx, ny), (1.0, ny as f64 / nx as f64))?;
-    if let Some(count) = options.count("apply")? {
-        return apply::<T>(grid, &heights, count, options.count("repeat")?.unwrap_or(1));
+    if let Some(count) = options.apply {
+        return apply::<T>(grid, &heights, count, options.repeat);
     }
     let surface = Surface::new(grid, heights)?;
-    match options.text("boundary").unwrap_or("periodic") {
-        "periodic" => stick::<T, Periodic>(&surface, options),
-        "free" => stick::<T, Free>(&surface, options),
-        other => Err(format!("boundary={other}: periodic or free").into()),
+    match options.boundary {
+        Boundary::Periodic => stick::<T, Periodic>(&surface, options),
+        Boundary::Free => stick::<T, Free>(&surface, options),
     }
 }
 
 fn stick<T: Real, H: HalfSpace>(surface: &Surface, options: &Options) -> Outcome<()> {
-    match (options.number("work")?, options.number("range")?) {
-        (Some(work), Some(range)) => solve::<T, H, _>(surface, Exponential::new(work, range)?, options),
-        (None, None) => solve::<T, H, _>(surface, NoAdhesion, options),
-        _ => Err("work and range must both be given, or neither".into()),
+    match options.work.zip(options.range) {
+        Some((work, range)) => solve::<T, H, _>(surface, Exponential::new(work, range)?, options),
+        None => solve::<T, H, _>(surface, NoAdhesion, options),
     }
 }
 
@@ -146,24 +137,22 @@ fn solve<T: Real, H: HalfSpace, L: AdhesionLaw<T> + AdhesionLaw<f32> + Copy>(
     law: L,
     options: &Options,
 ) -> Outcome<()> {
-    let held = ["pressure", "gap", "approach"].map(|name| options.number(name));
-    let control = match held.into_iter().collect::<Outcome<Vec<_>>>()?[..] {
-        [Some(pressure), None, None] => Control::MeanPressure(pressure),
-        [None, Some(gap), None] => Control::MeanGap(gap),
-        [None, None, Some(approach)] => Control::Approach(approach),
-        _ => return Err("give one of pressure=P, gap=G, approach=D and apply=N".into()),
-    };
-    let settings = Settings { tolerance: options.number("tolerance")?, ..Settings::default() };
+    let pressure = options.pressure.map(Control::MeanPressure);
+    let held = pressure.or(options.gap.map(Control::MeanGap)).or(options.approach.map(Control::Approach));
+    let control = held.ok_or("nothing is held")?;
+    let settings = Settings { tolerance: options.tolerance, ..Settings::default() };
     let tolerance = settings.tolerance_in::<T>();
-    for _ in 0..options.count("repeat")?.unwrap_or(1) {
+    for _ in 0..options.repeat {
         forget_peak();
         let begin = Instant::now();
-        let (solution, seconds) = match options.text("method").unwrap_or("single") {
-            "single" => run::<T, H, L>(surface, law, control, settings, None)?,
-            "nested" => nested::<T, H, L>(surface, law, control, settings)?,
+        let (solution, seconds) = match options.method {
+            Method::Single => run::<T, H, L>(surface, law, control, settings, None)?,
+            Method::Nested => nested::<T, H, L>(surface, law, control, settings)?,
             // what single precision reaches is then all that is wanted
-            "mixed" if T::NAME == "f32" || tolerance >= SINGLE => nested::<T, H, L>(surface, law, control, settings)?,
-            "mixed" => {
+            Method::Mixed if T::NAME == "f32" || tolerance >= SINGLE => {
+                nested::<T, H, L>(surface, law, control, settings)?
+            }
+            Method::Mixed => {
                 let settings_single = Settings { tolerance: Some(SINGLE), ..settings };
                 let (near, seconds) = nested::<f32, H, L>(surface, law, control, settings_single)?;
                 let gap = near.gap.mapv(|g| T::lit(g.widen()));
@@ -171,7 +160,6 @@ fn solve<T: Real, H: HalfSpace, L: AdhesionLaw<T> + AdhesionLaw<f32> + Copy>(
                 let (solution, more) = run::<T, H, L>(surface, law, control, settings, Some(gap))?;
                 (solution, seconds + more)
             }
-            other => return Err(format!("method={other}: single, nested or mixed").into()),
         };
         let (total, peak) = (begin.elapsed().as_secs_f64(), memory::peak());
         let report = &solution.report;
@@ -188,8 +176,8 @@ fn solve<T: Real, H: HalfSpace, L: AdhesionLaw<T> + AdhesionLaw<f32> + Copy>(
             "peak": peak,
         });
         println!("{line}");
-        if let Some(path) = options.text("save") {
-            write_npy(Path::new(path), &solution.pressure.mapv(Real::widen))?;
+        if let Some(path) = &options.save {
+            write_npy(path, &solution.pressure.mapv(Real::widen))?;
         }
     }
     Ok(())

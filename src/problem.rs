@@ -173,13 +173,76 @@ pub(crate) struct PressedFlat<T> {
     pub(crate) padding: f64,
 }
 
-impl<T> PressedFlat<T> {
+impl<T: Real> PressedFlat<T> {
+    /// Presses the surface flat against the body of the operator, if that and the law suit it.
+    fn of(surface: &Surface, operator: &mut dyn ElasticOperator<T>, law: &dyn AdhesionLaw<T>) -> Result<Self> {
+        let boundary = operator.boundary();
+        let (grid, expected) = match boundary {
+            Boundary::Periodic => (surface.grid(), *operator.grid()),
+            Boundary::Free { window, .. } => (surface.grid(), window),
+        };
+        Error::shape("surface", grid.shape(), expected.shape())?;
+        if let Some(shape) = law.shape() {
+            Error::shape("adhesion law that varies over the surface", shape, grid.shape())?;
+        }
+        let ((nx, ny), whole) = (expected.shape(), operator.grid().shape());
+        Error::shape("grid of the operator", whole, (whole.0.max(nx), whole.1.max(ny)))?;
+        if boundary != Boundary::Periodic {
+            Error::positive("mean compliance of the half-space", boundary.mean_compliance())?;
+        }
+        if grid.lengths() != expected.lengths() {
+            let (name, value) = match grid.lengths() {
+                (lx, _) if lx != expected.lengths().0 => ("side length Lx of the surface", lx),
+                (_, ly) => ("side length Ly of the surface", ly),
+            };
+            return Err(Error::Value { name, value, requirement: "the same as of the elastic operator's grid" });
+        }
+        let at_zero = [("adhesive energy", law.energy(T::zero())), ("adhesive traction", law.traction(T::zero()))];
+        let bounded = law.rest().is_none_or(|rest| rest <= T::zero());
+        if let Some((function, value)) = at_zero.into_iter().find(|(_, value)| bounded && !value.is_finite()) {
+            return Err(Error::Law { function, gap: 0.0, value: value.widen(), expected: None });
+        }
+        let window = Window::new(surface, operator.grid().shape());
+        let extended = window.as_ref().map(|window| window.extend(surface.heights().view()));
+        let padded;
+        let whole = match extended {
+            Some(heights) => {
+                padded = Surface::new(*operator.grid(), heights)?;
+                &padded
+            }
+            None => surface,
+        };
+        let (mean, rms_height) = (whole.mean(), whole.rms_height());
+        // where nothing faces the body there is no height: those that stand there do not exceed the others
+        let least = (f64::INFINITY, f64::NEG_INFINITY);
+        let (low, high) = surface.heights().iter().fold(least, |(low, high), &h| (low.min(h), high.max(h)));
+        let (peak, height_span) = (high - mean, high - low);
+        let mut surface_pressure = Array2::zeros(whole.grid().shape());
+        // a large datum would drown the heights in its rounding; a small one is not worth a copy
+        let centred = (mean.abs() > rms_height).then(|| whole.heights().mapv(|h| h - mean));
+        let heights = centred.as_ref().unwrap_or(whole.heights()).view();
+        let surface_work = operator.surface_pressure(heights, surface_pressure.view_mut())?.max(0.0);
+        drop(centred);
+        Error::all_finite("pressure K⁻¹h of the surface pressed flat", surface_pressure.view())?;
+        let stiffness = field::mean(surface_pressure.view(), |p: T| p.widen().powi(2)).sqrt() / rms_height;
+        let (lx, ly) = grid.lengths();
+        Ok(Self {
+            pressure: surface_pressure,
+            work: surface_work,
+            rms_height,
+            stiffness,
+            peak,
+            height_span,
+            window,
+            boundary,
+            area: lx * ly,
+            padding: whole.grid().nodes() as f64 / grid.nodes() as f64,
+        })
+    }
+
     /// A control on the operator's grid; refused if the problem does not have it. A mean gap may only be negative without a
     /// wall.
-    pub(crate) fn load(&self, control: Control, wall: Wall<'_, T>) -> Result<Load>
-    where
-        T: Real,
-    {
+    pub(crate) fn load(&self, control: Control, wall: Wall<'_, T>) -> Result<Load> {
         let refused = |reason| Err(Error::Control { control: control.name(), reason });
         let name = match control {
             Control::MeanGap(_) => "mean gap",
@@ -262,68 +325,7 @@ impl<T: Real, O: ElasticOperator<T>, L: AdhesionLaw<T>> Problem<T, O, L> {
     /// [`Error::Shape`] or [`Error::Value`] if the grids differ; [`Error::Law`] if the law is not finite at zero gap;
     /// [`Error::NotFinite`] if K⁻¹h leaves the range of T.
     pub fn new(surface: &Surface, mut operator: O, law: L) -> Result<Self> {
-        let boundary = operator.boundary();
-        let (grid, expected) = match boundary {
-            Boundary::Periodic => (surface.grid(), *operator.grid()),
-            Boundary::Free { window, .. } => (surface.grid(), window),
-        };
-        Error::shape("surface", grid.shape(), expected.shape())?;
-        if let Some(shape) = law.shape() {
-            Error::shape("adhesion law that varies over the surface", shape, grid.shape())?;
-        }
-        let ((nx, ny), whole) = (expected.shape(), operator.grid().shape());
-        Error::shape("grid of the operator", whole, (whole.0.max(nx), whole.1.max(ny)))?;
-        if boundary != Boundary::Periodic {
-            Error::positive("mean compliance of the half-space", boundary.mean_compliance())?;
-        }
-        if grid.lengths() != expected.lengths() {
-            let (name, value) = match grid.lengths() {
-                (lx, _) if lx != expected.lengths().0 => ("side length Lx of the surface", lx),
-                (_, ly) => ("side length Ly of the surface", ly),
-            };
-            return Err(Error::Value { name, value, requirement: "the same as of the elastic operator's grid" });
-        }
-        let at_zero = [("adhesive energy", law.energy(T::zero())), ("adhesive traction", law.traction(T::zero()))];
-        let bounded = law.rest().is_none_or(|rest| rest <= T::zero());
-        if let Some((function, value)) = at_zero.into_iter().find(|(_, value)| bounded && !value.is_finite()) {
-            return Err(Error::Law { function, gap: 0.0, value: value.widen(), expected: None });
-        }
-        let window = Window::new(surface, operator.grid().shape());
-        let extended = window.as_ref().map(|window| window.extend(surface.heights().view()));
-        let padded;
-        let whole = match extended {
-            Some(heights) => {
-                padded = Surface::new(*operator.grid(), heights)?;
-                &padded
-            }
-            None => surface,
-        };
-        let (mean, rms_height) = (whole.mean(), whole.rms_height());
-        // where nothing faces the body there is no height: those that stand there do not exceed the others
-        let least = (f64::INFINITY, f64::NEG_INFINITY);
-        let (low, high) = surface.heights().iter().fold(least, |(low, high), &h| (low.min(h), high.max(h)));
-        let (peak, height_span) = (high - mean, high - low);
-        let mut surface_pressure = Array2::zeros(whole.grid().shape());
-        // a large datum would drown the heights in its rounding; a small one is not worth a copy
-        let centred = (mean.abs() > rms_height).then(|| whole.heights().mapv(|h| h - mean));
-        let heights = centred.as_ref().unwrap_or(whole.heights()).view();
-        let surface_work = operator.surface_pressure(heights, surface_pressure.view_mut())?.max(0.0);
-        drop(centred);
-        Error::all_finite("pressure K⁻¹h of the surface pressed flat", surface_pressure.view())?;
-        let stiffness = field::mean(surface_pressure.view(), |p: T| p.widen().powi(2)).sqrt() / rms_height;
-        let (lx, ly) = grid.lengths();
-        let flat = PressedFlat {
-            pressure: surface_pressure,
-            work: surface_work,
-            rms_height,
-            stiffness,
-            peak,
-            height_span,
-            window,
-            boundary,
-            area: lx * ly,
-            padding: whole.grid().nodes() as f64 / grid.nodes() as f64,
-        };
+        let flat = PressedFlat::of(surface, &mut operator, &law)?;
         Ok(Self { operator, law, flat })
     }
 

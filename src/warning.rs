@@ -14,8 +14,6 @@ use crate::solver::Solution;
 use crate::surface::{Surface, Topography};
 
 mod relief;
-#[cfg(test)]
-mod tests;
 
 use relief::{Extremes, Relief};
 

@@ -78,8 +78,9 @@ class Bench:
         self.timed = ROOT / "target/release/examples/timed"
         self.folder = tempfile.TemporaryDirectory(prefix="asperity-peers-")
         self.work = Path(self.folder.name)
-        build = ["cargo", "build", "--release", "--quiet", "--bin", "asperity", "--example", "timed"]
-        subprocess.run(build, cwd=ROOT, check=True)
+        build = ["cargo", "build", "--release", "--quiet"]
+        subprocess.run([*build, "--bin", "asperity"], cwd=ROOT, check=True)
+        subprocess.run([*build, "-p", "asperity-examples", "--example", "timed"], cwd=ROOT, check=True)
 
     def run(self, commands):
         """The last line of JSON of each (command, about how many seconds it takes).
@@ -122,8 +123,8 @@ class Bench:
 
     def ours(self, heights, settings, save=None):
         """The command of a solve of ours: the only place that knows how it is called."""
-        command = [self.timed, heights, *arguments(settings), *self.options.ours.split()]
-        return command + ([f"save={save}"] if save else [])
+        command = [self.timed, heights, *options(settings), *self.options.ours.split()]
+        return command + (["--save", save] if save else [])
 
     def theirs(self, program, heights, settings, save=None):
         command = [self.python, HERE / "peer.py", program, heights, *arguments(settings)]
@@ -132,6 +133,10 @@ class Bench:
 
 def arguments(settings):
     return [f"{name}={value}" for name, value in settings.items()]
+
+
+def options(settings):
+    return [f"--{argument}" for argument in arguments(settings)]
 
 
 def log(*words):
@@ -168,8 +173,9 @@ def application(bench):
         for precision, bits in [("f64", 64), ("f32", 32)]:
             repeat = max(5, 40 * 512 // n)
             path = bench.heights(n)
-            kind = f"precision={precision}", f"apply={repeat}"
-            commands = {"ours": [bench.timed, path, *kind], "scipy": [bench.python, HERE / "peer.py", "scipy", path, *kind]}
+            kind = {"precision": precision, "apply": repeat}
+            scipy = [bench.python, HERE / "peer.py", "scipy", path, *arguments(kind)]
+            commands = {"ours": [bench.timed, path, *options(kind)], "scipy": scipy}
             for i, library in enumerate((bench.peers / f"fftw{bits}.libraries").read_text().split()):
                 commands[i] = [bench.peers / f"fftw{bits}", library, n, repeat, bench.work / f"wisdom-{bits}-{i}"]
             cases.append((n, precision, list(commands)))
@@ -470,7 +476,8 @@ def main():
     parser.add_argument("--sizes", type=sizes, default=[512, 1024, 2048], help="nodes along a side, of the solves")
     parser.add_argument("--rows", default="application,wall,adhesion,free", help="which tables")
     parser.add_argument("--prefix", default="", help="a command to run every measurement under, such as 'taskset -c 1'")
-    parser.add_argument("--ours", default="", help="further NAME=VALUE arguments for every solve of examples/timed.rs")
+    ours = "further options for every solve of examples/timed.rs, as in --ours=--method=nested"
+    parser.add_argument("--ours", default="", help=ours)
     options = parser.parse_args()
     # SciPy is in the peers' environment
     python = options.peers.resolve() / "venv/bin/python"

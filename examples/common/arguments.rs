@@ -1,18 +1,54 @@
-//! The arguments of the examples that draw.
+//! The arguments of the examples.
 
-use std::path::PathBuf;
+use std::process::exit;
 
-/// The values of `--size N` and `--out PATH`, or the given defaults.
-pub fn size_and_out(size: usize, out: &str) -> Result<(usize, PathBuf), String> {
-    let (mut size, mut out) = (size, PathBuf::from(out));
-    let mut arguments = std::env::args().skip(1);
-    while let Some(name) = arguments.next() {
-        let value = arguments.next().ok_or_else(|| format!("{name}: a value must follow"))?;
-        match name.as_str() {
-            "--size" => size = value.parse().map_err(|e| format!("--size {value}: {e}"))?,
-            "--out" => out = value.into(),
-            _ => return Err(format!("{name}: the options are --size N and --out PATH")),
+use clap::{Parser, ValueEnum};
+
+/// The arguments of the example with the given source, whose first paragraph begins its help.
+///
+/// Ends here where help is asked for, and, with a line on standard error and exit code 1, where an argument is unknown,
+/// missing, malformed or one too many.
+pub fn read<A: Parser>(source: &str) -> A {
+    let about = source.lines().map_while(|line| line.strip_prefix("//! ")).collect::<Vec<_>>().join(" ");
+    let command = A::command().about(about).max_term_width(120);
+    command.try_get_matches().and_then(|matches| A::from_arg_matches(&matches)).unwrap_or_else(|error| {
+        if !error.use_stderr() {
+            error.exit();
         }
+        let text = error.to_string();
+        let reason = text.split("\n\n").next().unwrap_or_default().lines().map(str::trim).collect::<Vec<_>>();
+        eprintln!("{}; see --help", reason.join(" "));
+        exit(1);
+    })
+}
+
+/// The precision of a solve.
+#[derive(Clone, Copy, ValueEnum)]
+pub enum Precision {
+    /// Single.
+    F32,
+    /// Double.
+    F64,
+}
+
+/// Refuses all arguments, for an example that takes none.
+pub fn none(source: &str) {
+    #[derive(Parser)]
+    struct Nothing {}
+    let Nothing {} = read(source);
+}
+
+/// Reads a number of nodes along a side, no fewer than these.
+pub fn nodes<const LEAST: usize>(text: &str) -> Result<usize, String> {
+    match text.parse() {
+        Ok(nodes) if nodes >= LEAST => Ok(nodes),
+        Ok(_) => Err(format!("it must be at least {LEAST}")),
+        Err(error) => Err(format!("{error}")),
     }
-    Ok((size, out))
+}
+
+/// Reads a power of two of them.
+pub fn power_of_two<const LEAST: usize>(text: &str) -> Result<usize, String> {
+    let nodes = nodes::<LEAST>(text)?;
+    if nodes.is_power_of_two() { Ok(nodes) } else { Err("it must be a power of two".to_owned()) }
 }

@@ -1,30 +1,31 @@
 //! A free half-space beside what is known of it: a sphere by force, a rough sphere, a sphere with waves, and the pull-off.
 //!
-//! ```text
-//! cargo run --release --example free -- [--size N] [--out DIR]
-//! ```
-//!
-//! `--size` is the number of nodes along a side of the windows of the spheres (256 unless given); the table of Hertz goes
-//! up to four times as many, and so does the shortest range of adhesion. `--out` is the folder of the picture
-//! (`target/figures`).
+//! `cargo run --release -p asperity-examples --example free`
 
-#[path = "../common/arguments.rs"]
-mod arguments;
-mod chart;
 mod hertz;
-#[path = "../common/legend.rs"]
-mod legend;
 mod pull_off;
 mod rough_sphere;
 mod wavy_sphere;
 
-use arguments::size_and_out;
+use std::path::PathBuf;
+
+use clap::Parser;
+use common::{Outcome, arguments};
 use plotters::prelude::*;
 
-type Outcome<T> = Result<T, Box<dyn std::error::Error>>;
+#[derive(Parser)]
+struct Arguments {
+    /// Nodes along a side of the windows of the spheres; Hertz' table goes up to four times as many, and so does the
+    /// shortest range of adhesion
+    #[arg(long, value_name = "N", default_value_t = 256, value_parser = arguments::nodes::<32>)]
+    size: usize,
+    /// The folder for the picture
+    #[arg(long, value_name = "DIR", default_value = "target/figures")]
+    out: PathBuf,
+}
 
 fn main() -> Outcome<()> {
-    let (size, out) = size_and_out(256, "target/figures")?;
+    let Arguments { size, out } = arguments::read(include_str!("main.rs"));
     std::fs::create_dir_all(&out)?;
     hertz::table(4 * size)?;
     let charts = [rough_sphere::chart(2 * size)?, wavy_sphere::chart(size)?, pull_off::chart(size)?];

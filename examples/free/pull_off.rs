@@ -7,8 +7,8 @@ use asperity::path::{Path, PathSettings};
 use asperity::{Boussinesq, Control, Grid, MaugisDugdale, Problem, Settings, Solver, Surface};
 use plotters::prelude::*;
 
-use crate::Outcome;
-use crate::chart::{COLOURS, Chart, Series, Style};
+use common::Outcome;
+use common::chart::{COLOURS, Chart, Series, Style};
 
 const RADIUS: f64 = 2.0;
 const WORK: f64 = 2e-5;

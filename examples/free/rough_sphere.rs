@@ -12,8 +12,8 @@ use asperity::{
 };
 use plotters::prelude::*;
 
-use crate::Outcome;
-use crate::chart::{COLOURS, Chart, Series, Style};
+use common::Outcome;
+use common::chart::{COLOURS, Chart, Series, Style};
 
 const RADIUS: f64 = 1.0;
 /// Rms slopes h'.

@@ -5,8 +5,8 @@ use asperity::path::{Event, Path, PathSettings};
 use asperity::{Boussinesq, Control, Grid, MaugisDugdale, Problem, Settings, Solver, Surface};
 use plotters::prelude::*;
 
-use crate::Outcome;
-use crate::chart::{COLOURS, Chart, Series, Style};
+use common::Outcome;
+use common::chart::{COLOURS, Chart, Series, Style};
 
 /// In wavelengths and E*.
 const RADIUS: f64 = 20.0;

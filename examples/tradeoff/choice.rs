@@ -6,8 +6,8 @@ use std::time::Instant;
 use asperity::{Control, Nested, Problem, Real, Settings, Solution, Solver, Start, Status, Surface, Westergaard};
 use ndarray::Array2;
 
-use crate::Outcome;
 use crate::scene::{Scene, State};
+use common::Outcome;
 
 /// The tolerance at which `f64` takes over from `f32`: above the rounding floor of light contacts of smooth bodies, on
 /// which it would stall.

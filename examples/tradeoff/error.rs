@@ -3,9 +3,9 @@
 use asperity::{ElasticOperator, Westergaard};
 use ndarray::Array2;
 
-use crate::Outcome;
 use crate::choice::{Choice, Found, measure};
 use crate::scene::{Scene, State};
+use common::Outcome;
 
 /// Relative differences of two states; over several loads the root mean square.
 #[derive(Clone, Copy, Default)]

@@ -13,7 +13,7 @@ use asperity::{
 };
 use plotters::prelude::*;
 
-use crate::Outcome;
+use common::Outcome;
 
 /// The shortest wave, per side; the nodes of the given map, and of the truth, along a side.
 const SHORTEST: f64 = 8.0;

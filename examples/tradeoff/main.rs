@@ -1,8 +1,6 @@
 //! The cost of accuracy: true errors against time and operator applications.
 //!
-//! ```text
-//! cargo run --release --example tradeoff -- [--quick] [--scene NAME] [--threads N] [--reference N] [--out DIR]
-//! ```
+//! `cargo run --release -p asperity-examples --example tradeoff`
 //!
 //! Four scenes: `hertz`, a paraboloid among its images; `wave`, Westergaard's wave on a line; `rough`, a self-affine
 //! hard wall; and `adhesive`, the same with an exponential law. The first two have exact solutions, the others a
@@ -18,10 +16,7 @@
 //! solution found and the truth. Pareto fronts and pictures take the sum of the first two: in the true error they may
 //! cancel by luck.
 //!
-//! Counts and errors are deterministic. Times are medians of repetitions, on one thread unless `--threads` says
-//! otherwise; the references are computed on all. `--quick` takes small grids and some seconds; without it all takes a
-//! few minutes, most of them for the references, whose grid `--reference` chooses (4096 unless given). The pictures go
-//! to `target/figures` unless `--out` says where.
+//! Counts and errors are deterministic. Times are medians of repetitions.
 
 mod choice;
 mod error;
@@ -34,56 +29,35 @@ mod table;
 use std::path::PathBuf;
 
 use choice::Choice;
+use clap::Parser;
+use common::{Outcome, arguments};
 use rayon::ThreadPoolBuilder;
 use scene::Scene;
 
 /// The scene of many surfaces, on which accuracies are asked for.
 const KNOB: &str = "knob";
 
-type Outcome<T> = Result<T, Box<dyn std::error::Error + Send + Sync>>;
-
-struct Options {
+#[derive(Parser)]
+struct Arguments {
+    /// Small grids and some seconds; without it all takes a few minutes, most of them for the references
+    #[arg(long)]
     quick: bool,
+    /// One scene alone: hertz, wave, rough, adhesive or knob
+    #[arg(long, value_name = "NAME")]
     scene: Option<String>,
+    /// The threads on which solves are timed; the references are computed on all
+    #[arg(long, value_name = "N", default_value_t = 1)]
     threads: usize,
+    /// Nodes along a side of the grid of the references, a power of two; 4096 unless given or --quick
+    #[arg(long, value_name = "N", value_parser = arguments::power_of_two::<256>)]
     reference: Option<usize>,
+    /// The folder for the pictures
+    #[arg(long, value_name = "DIR", default_value = "target/figures")]
     out: PathBuf,
 }
 
-impl Options {
-    fn read() -> Outcome<Self> {
-        let mut options = Self { quick: false, scene: None, threads: 1, reference: None, out: "target/figures".into() };
-        let mut arguments = std::env::args().skip(1);
-        while let Some(name) = arguments.next() {
-            if name == "--quick" {
-                options.quick = true;
-                continue;
-            }
-            let value = arguments.next().ok_or_else(|| format!("{name}: a value must follow"))?;
-            match name.as_str() {
-                "--scene" => options.scene = Some(value),
-                "--threads" => options.threads = value.parse().map_err(|e| format!("--threads {value}: {e}"))?,
-                "--reference" => {
-                    let n: usize = value.parse().map_err(|e| format!("--reference {value}: {e}"))?;
-                    if !n.is_power_of_two() || n < 256 {
-                        return Err(format!("--reference {value}: must be a power of two, and no less than 256").into());
-                    }
-                    options.reference = Some(n);
-                }
-                "--out" => options.out = value.into(),
-                _ => {
-                    return Err(
-                        format!("{name}: the options are --quick, --scene, --threads, --reference and --out").into()
-                    );
-                }
-            }
-        }
-        Ok(options)
-    }
-}
-
 fn main() -> Outcome<()> {
-    let options = Options::read()?;
+    let options: Arguments = arguments::read(include_str!("main.rs"));
     let mut scenes = Scene::all(options.quick, options.reference)?;
     let names: Vec<_> = scenes.iter().map(|scene| scene.name).chain([KNOB]).collect();
     let knob = options.scene.as_ref().is_none_or(|name| name == KNOB);

@@ -5,12 +5,12 @@ use std::path::Path;
 use plotters::coord::Shift;
 use plotters::prelude::*;
 
-use crate::Outcome;
 use crate::choice::Choice;
 use crate::error::{OnGrid, Part, Row};
 use crate::front::front;
 use crate::scene::Scene;
 use crate::table::pairs;
+use common::Outcome;
 
 /// The families of choices and their colours.
 const FAMILIES: [(&str, RGBColor); 7] = [

@@ -9,8 +9,8 @@ use asperity::{
 };
 use ndarray::Array2;
 
-use crate::Outcome;
 use crate::choice::{Choice, run};
+use common::Outcome;
 
 /// Radius of curvature, amplitude of the wave, rms slope of the rough surface; E* = L = 1.
 const RADIUS: f64 = 2.0;

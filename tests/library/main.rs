@@ -28,3 +28,4 @@ mod statistics;
 mod stiffness;
 mod stress;
 mod sweep;
+mod warnings;

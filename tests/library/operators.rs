@@ -1,7 +1,6 @@
 //! Elastic operators: every mode, every parity, adjointness, inverses, threads, allocations.
 
-#[allow(dead_code, reason = "its main is not called here")]
-#[path = "../../examples/layer.rs"]
+#[path = "../../examples/layer/stiffness.rs"]
 mod layer;
 
 use std::f64::consts::{PI, TAU};

@@ -199,6 +199,12 @@ fn examples_and_options_that_the_documentation_names_exist() {
             assert!(exists(folder, &name), "{file}: there is no {folder}/{name}.rs");
             named.insert(name);
         }
+        // each in its package, which is the folder's
+        for command in text.split("`").flat_map(|span| span.split("cargo ").skip(1)) {
+            for (folder, _) in targets(command).filter(|(folder, _)| *folder != "tests") {
+                assert!(command.contains(&format!("-p asperity-{folder} ")), "{file}: cargo {command}");
+            }
+        }
         for (target, module) in modules(&text) {
             assert!(exists(&format!("tests/{target}"), module), "{file}: there is no tests/{target}/{module}.rs");
         }

@@ -1,49 +1,34 @@
 //! An elastic operator of your own: a sphere on an elastic layer of finite thickness, from the half-space to an elastic
 //! foundation.
 //!
-//! `cargo run --release --example layer -- [size]`; 256 nodes along a side if nothing is given. It takes a second.
+//! `cargo run --release -p asperity-examples --example layer`. It takes a second.
 //!
 //! Each line ends with the ratio to the limit of the layer: where it is thick Hertz, and where it is thin springs of
 //! stiffness M/t (bonded) or E*/t (sliding), or, if it is incompressible, the flow of the material
 //! sideways through a narrow gap. Johnson, *Contact Mechanics* (1985), section 5.8.
 
+mod stiffness;
+
 use std::f64::consts::PI;
 
 use asperity::{Control, Grid, NoAdhesion, Problem, Result, Solver, Spectral, Status, Surface};
-
-/// The stiffness of waves on a layer of thickness t that is bonded to a rigid base, pressure per displacement.
-pub fn bonded(modulus: f64, thickness: f64, poisson: f64) -> impl Fn(f64) -> f64 + Send + Sync + 'static {
-    let a = 3.0 - 4.0 * poisson;
-    let b = 5.0 - 12.0 * poisson + 8.0 * poisson * poisson;
-    move |q| {
-        // beyond, both are one to the last digit, and would overflow
-        let x = (q * thickness).min(25.0);
-        0.5 * modulus * q * (a * (2.0 * x).cosh() + 2.0 * x * x + b) / (a * (2.0 * x).sinh() - 2.0 * x)
-    }
-}
-
-/// The same on a rigid base on which it slides without friction: Poisson's ratio enters by the contact modulus alone.
-pub fn sliding(modulus: f64, thickness: f64) -> impl Fn(f64) -> f64 + Send + Sync + 'static {
-    move |q| {
-        let x = (q * thickness).min(25.0);
-        0.5 * modulus * q * ((2.0 * x).sinh() + 2.0 * x) / (2.0 * x.sinh().powi(2))
-    }
-}
-
-/// The modulus M against compression without strain sideways, E(1 − ν)/((1 + ν)(1 − 2ν)), from E* = E/(1 − ν²).
-///
-/// By p̄t/M a mean pressure compresses the layer as a whole. The operator leaves it out, as a mean displacement is
-/// free.
-pub fn confined(modulus: f64, poisson: f64) -> f64 {
-    modulus * (1.0 - poisson).powi(2) / (1.0 - 2.0 * poisson)
-}
+use clap::Parser;
+use common::arguments;
+use stiffness::{bonded, confined, sliding};
 
 const MODULUS: f64 = 1.0;
 const RADIUS: f64 = 2.0;
 const LOAD: f64 = 0.003;
 
+#[derive(Parser)]
+struct Arguments {
+    /// Nodes along a side
+    #[arg(default_value_t = 256, value_parser = arguments::nodes::<16>)]
+    size: usize,
+}
+
 fn main() -> Result<()> {
-    let size = std::env::args().nth(1).and_then(|size| size.parse().ok()).unwrap_or(256);
+    let Arguments { size } = arguments::read(include_str!("main.rs"));
     println!("peak pressure under a sphere of radius {RADIUS} L pressed with {LOAD} E*L², and its ratio to the limits");
     println!("{:>18} {:>7} {:>10} {:>8} {:>8} {:>7}", "layer", "t/L", "p₀/E*", "thick", "thin", "applic.");
     for thickness in [2.0, 0.3, 0.1, 0.03, 0.01] {

@@ -1,10 +1,8 @@
 //! Tests of the warnings.
 
+use asperity::contact::ContactStatistics;
+use asperity::*;
 use ndarray::Array2;
-
-use super::*;
-use crate::adhesion::{Exponential, NoAdhesion};
-use crate::surface::{Amplitude, SelfAffine, Topography, Trend};
 
 const SIDES: (f64, f64) = (1.0, 0.8);
 
@@ -223,9 +221,6 @@ fn a_range_beyond_the_heights_or_below_the_grid_is_told() {
 
 #[test]
 fn a_contact_pressure_above_the_modulus_is_told() {
-    use crate::elastic::Westergaard;
-    use crate::problem::{Control, Problem};
-    use crate::solver::Solver;
     let grid = Grid::square(16, 1.0).unwrap();
     let surface = Surface::wave_2d(grid, 0.5, 1).unwrap();
     let mut problem = Problem::new(&surface, Westergaard::<f64>::new(grid, 2.0).unwrap(), NoAdhesion).unwrap();
@@ -241,10 +236,6 @@ fn a_contact_pressure_above_the_modulus_is_told() {
 
 #[test]
 fn the_contact_area_is_as_wrong_as_the_warning_says() {
-    use crate::contact::ContactStatistics;
-    use crate::elastic::Westergaard;
-    use crate::problem::{Control, Problem};
-    use crate::solver::Solver;
     let rough = SelfAffine { k_l: 2.0, k_r: 2.0, k_s: 8.0, seed: 3, ..SelfAffine::default() };
     // the adhesive zone E*ρ²/w is a 128th of the side
     let law = Exponential::new(1e-5, (1e-5_f64 / 128.0).sqrt()).unwrap();

@@ -1,5 +1,7 @@
 //! A chart of curves and points.
 
+use std::path::Path;
+
 use plotters::coord::Shift;
 use plotters::coord::ranged1d::{AsRangedCoord, ValueFormatter};
 use plotters::prelude::*;
@@ -13,29 +15,69 @@ pub const COLOURS: [RGBColor; 3] = [RGBColor(10, 90, 200), RGBColor(225, 110, 20
 /// How points are drawn.
 #[derive(Clone, Copy, PartialEq)]
 pub enum Style {
+    /// A line.
     Line,
+    /// A thin line.
     Thin,
+    /// A dot each.
     Dots,
+    /// A small dot each.
+    Specks,
+    /// A circle each.
+    Rings,
+}
+
+impl Style {
+    /// The radius of points, if that is what is drawn.
+    fn radius(self) -> Option<i32> {
+        match self {
+            Self::Line | Self::Thin => None,
+            Self::Dots | Self::Rings => Some(4),
+            Self::Specks => Some(2),
+        }
+    }
 }
 
 /// Points, with a name for the legend, which may be empty.
 pub struct Series {
+    /// The name.
     pub name: String,
+    /// The colour.
     pub colour: RGBColor,
+    /// As a line or as points.
     pub style: Style,
+    /// Their coordinates.
     pub points: Vec<(f64, f64)>,
 }
 
 /// A chart, linear or logarithmic along both axes.
 pub struct Chart {
+    /// The line above it.
     pub title: String,
+    /// The names of the axes.
     pub axes: [&'static str; 2],
+    /// Whether both axes are.
     pub logarithmic: bool,
+    /// Where the legend is.
     pub labels: SeriesLabelPosition,
+    /// What is drawn, the last one on top.
     pub series: Vec<Series>,
 }
 
 impl Chart {
+    /// Writes it as SVG, in a folder that is made if it is not there.
+    pub fn save(&self, path: &Path) -> Outcome<()> {
+        if let Some(folder) = path.parent() {
+            std::fs::create_dir_all(folder)?;
+        }
+        let root = SVGBackend::new(path, (900, 640)).into_drawing_area();
+        root.fill(&WHITE)?;
+        self.draw(&root)?;
+        root.present()?;
+        Ok(())
+    }
+
+    /// Draws it on an area.
     pub fn draw(&self, area: &DrawingArea<SVGBackend<'_>, Shift>) -> Outcome<()> {
         let area = area.titled(&self.title, ("sans-serif", 19))?;
         let [x, y] = [self.range(|point| point.0), self.range(|point| point.1)];
@@ -62,6 +104,7 @@ impl Chart {
         C: AsRangedCoord<Value = f64>,
         C::CoordDescType: ValueFormatter<f64>,
     {
+        let label = if self.logarithmic { power } else { plain };
         let mut chart = ChartBuilder::on(area)
             .margin(14)
             .margin_right(26)
@@ -79,21 +122,19 @@ impl Chart {
             .draw()?;
         for Series { name, colour, style, points } in &self.series {
             let line = colour.stroke_width(if *style == Style::Line { 3 } else { 1 });
-            let dot = colour.filled();
-            let drawn = if *style == Style::Dots {
-                chart.draw_series(points.iter().map(|&point| Circle::new(point, 4, dot)))?
-            } else {
-                chart.draw_series(LineSeries::new(points.iter().copied(), line))?
+            let dot = if *style == Style::Rings { colour.stroke_width(1) } else { colour.filled() };
+            let drawn = match style.radius() {
+                Some(radius) => chart.draw_series(points.iter().map(|&point| Circle::new(point, radius, dot)))?,
+                None => chart.draw_series(LineSeries::new(points.iter().copied(), line))?,
             };
             if name.is_empty() {
                 continue;
             }
             drawn.label(name);
-            if *style == Style::Dots {
-                drawn.legend(move |(x, y)| Circle::new((x + 11, y), 4, dot));
-            } else {
-                drawn.legend(move |(x, y)| PathElement::new([(x, y), (x + 22, y)], line));
-            }
+            match style.radius() {
+                Some(radius) => drawn.legend(move |(x, y)| Circle::new((x + 11, y), radius, dot)),
+                None => drawn.legend(move |(x, y)| PathElement::new([(x, y), (x + 22, y)], line)),
+            };
         }
         legend(&mut chart, self.labels.clone())?;
         Ok(())
@@ -101,6 +142,11 @@ impl Chart {
 }
 
 /// A number without the rounding of its steps, nor the sign of zero.
-fn label(value: &f64) -> String {
+fn plain(value: &f64) -> String {
     ((1e6 * value).round() / 1e6 + 0.0).to_string()
+}
+
+/// A number of a logarithmic axis, far from one as a power of ten.
+fn power(value: &f64) -> String {
+    if (1e-3..1e4).contains(value) { plain(value) } else { format!("{value:.0e}") }
 }
