@@ -61,6 +61,8 @@ class Scene:
             "shape": list(self.topography.heights.shape),
             "lengths": list(lengths),
             "length_unit": self.topography.unit,
+            "pressure_unit": None,
+            "given": None,
             "boundary": boundary,
             "modulus": float(modulus),
             **_law.entries(law, wall),

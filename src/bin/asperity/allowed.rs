@@ -11,10 +11,6 @@ pub fn positive(text: &str) -> Result<f64, String> {
     number(text, |v| v > 0.0 && v.is_finite(), "a number, positive and finite")
 }
 
-pub fn non_negative(text: &str) -> Result<f64, String> {
-    number(text, |v| v >= 0.0 && v.is_finite(), "a number, zero or positive and finite")
-}
-
 pub fn finite(text: &str) -> Result<f64, String> {
     number(text, f64::is_finite, "a number, and finite")
 }

@@ -19,13 +19,14 @@ use crate::identity::{Identity, identity};
 use crate::journal::Row;
 use crate::kept::Kept;
 use crate::loads::name_and_value;
-use crate::numbers::Style;
 use crate::options::{Given, Precision, ProblemOptions, Scalar, SolverOptions, SurfaceOptions};
 use crate::outcome::Outcome;
 use crate::pictures::{Resolution, check_plot, write_picture};
 use crate::printing::{Printing, say};
+use crate::quantity::{Dimension, ENERGY_PER_AREA, FORCE, LENGTH, PRESSURE};
 use crate::scene::Scene;
 use crate::table::{self, Table, TableOptions};
+use crate::units::{UnitOptions, Units};
 use crate::warnings::{Strictness, Warnings};
 
 /// Follow the contact along a cycle of approach and withdrawal, and find its jumps.
@@ -81,15 +82,8 @@ pub struct Options {
     plot: Option<PathBuf>,
     #[command(flatten)]
     resolution: Resolution,
-    /// Unit of the lengths, on the picture only; m gets prefixes
-    #[arg(long, value_name = "UNIT", help_heading = "Output")]
-    length_unit: Option<String>,
-    /// Unit of the pressures, on the picture only; Pa gets prefixes
-    #[arg(long, value_name = "UNIT", help_heading = "Output")]
-    pressure_unit: Option<String>,
-    /// Unit of the forces, on the picture only; N gets prefixes
-    #[arg(long, value_name = "UNIT", help_heading = "Output")]
-    force_unit: Option<String>,
+    #[command(flatten)]
+    units: UnitOptions,
     /// Start over, and replace files that are there
     #[arg(long, help_heading = "Output")]
     force: bool,
@@ -128,7 +122,7 @@ fn names() -> Vec<&'static str> {
 pub fn run(options: &Options, scene: &Scene) -> Outcome<bool> {
     options.check_files()?;
     options.surface.beyond.boundary.check(options.loads.control(0.0))?;
-    let given = options.table().problem.read()?;
+    let given = options.problem().read(scene.is_si())?;
     match options.solver.precision {
         Precision::F32 => options.run::<f32>(given, scene),
         Precision::F64 => options.run::<f64>(given, scene),
@@ -141,11 +135,13 @@ impl Options {
         if loads.len() < 2 {
             return Err("a cycle needs two turning points at least: give more loads, with commas between".into());
         }
-        let warnings = Warnings::of_input::<T>(self.strictness, &surface, &adhesion, self.table().problem)?;
+        let warnings = Warnings::of_input::<T>(self.strictness, &surface, &adhesion, self.problem())?;
         let grid = *surface.grid();
-        let identity = self.identity(&surface, &adhesion, start.as_ref());
+        let units = self.units.units(unit.as_deref(), scene.is_si())?;
+        let mut identity = self.identity(&surface, &adhesion, start.as_ref());
+        identity.insert("units".to_owned(), units.of_table().into());
         let start = start.or_else(|| self.surface.beyond.boundary.start_afar(&surface, &self.loads.controls()));
-        let operator = self.surface.beyond.boundary.half_space(grid, self.surface.modulus)?;
+        let operator = self.surface.beyond.boundary.half_space(grid, self.surface.modulus())?;
         let law = adhesion.law::<T>()?;
         let mut problem = Problem::new(&surface, operator, adhesion.law::<T>()?)?;
         drop(surface);
@@ -158,10 +154,12 @@ impl Options {
         };
         let mut path = Path::new(&mut solver, &mut problem, loads, settings)?;
         let names = names();
-        let header = names.join(",") + "\n";
+        let header = units.header(&names, self.loads.control(0.0).name(), grid.is_line());
+        let &Self { ref out, force, printing, .. } = self;
+        let options = TableOptions { problem: self.problem(), out, force, printing, scene, units: &units };
         let kept = Kept(self.fields.as_deref());
         kept.check(self.force || self.out.exists())?;
-        let (mut table, saved) = Table::open(self.table(), scene, &header, identity, None, warnings)?;
+        let (mut table, saved) = Table::open(options, &header, identity, None, warnings)?;
         if table.rows() > 0 {
             let fields = saved.fields.into_iter().map(T::field).collect();
             path = path.continuing(PathCheckpoint { numbers: saved.numbers, fields })?;
@@ -197,18 +195,16 @@ impl Options {
             }
             had_event = step.event.is_some();
             let event = step.event.map_or(String::new(), |event| format!("  {event}"));
-            self.printing.say(&format!("{:>4}  {}{event}", table.rows(), table::brief(report)));
+            self.printing.say(&format!("{:>4}  {}{event}", table.rows(), table::brief(report, &units)));
             apart = Self::is_apart(&row.into());
         }
         drop(path);
-        self.conclude(&table, self.length_unit.as_deref().or(unit.as_deref()), &grid)?;
+        self.conclude(&table, &units, &grid)?;
         Ok(table.converged("or use a larger --tolerance"))
     }
 
-    fn table(&self) -> TableOptions<'_> {
-        let problem = ProblemOptions { surface: &self.surface, adhesion: &self.adhesion, solver: &self.solver };
-        let &Self { ref out, force, printing, .. } = self;
-        TableOptions { problem, out, force, printing }
+    fn problem(&self) -> ProblemOptions<'_> {
+        ProblemOptions { surface: &self.surface, adhesion: &self.adhesion, solver: &self.solver }
     }
 
     /// The direction of a leg; the start has none.
@@ -243,7 +239,7 @@ impl Options {
 
     /// The inputs on which the rows depend.
     fn identity(&self, surface: &Surface, adhesion: &Adhesion<'_>, start: Option<&Array2<f64>>) -> Identity {
-        let mut identity = identity(self.table().problem, surface, adhesion, start);
+        let mut identity = identity(self.problem(), surface, adhesion, start);
         identity.insert("control".to_owned(), self.loads.kind().into());
         let values: Vec<_> = self.loads.values().iter().map(f64::to_string).collect();
         identity.insert("loads".to_owned(), values.join(" ").into());
@@ -260,7 +256,7 @@ impl Options {
     }
 
     /// Prints the summary or the report of all rows, and draws the picture.
-    fn conclude(&self, table: &Table<'_>, unit: Option<&str>, grid: &Grid) -> Outcome<()> {
+    fn conclude(&self, table: &Table<'_>, units: &Units, grid: &Grid) -> Outcome<()> {
         let (text, names) = (table.text()?, names());
         let rows: Vec<_> = text.lines().skip(1).map(|row| csv::parsed(&names, row)).collect();
         let number = |row: &Value, name: &str| row[name].as_f64().unwrap_or(f64::NAN);
@@ -272,6 +268,7 @@ impl Options {
         events.sort_by(|&a, &b| drop(b).total_cmp(&drop(a)));
         let free = self.surface.beyond.boundary == Boundary::Free;
         let (x, y) = if free { ("approach", "normal_force") } else { ("mean_gap", "mean_pressure") };
+        let y_dimension = if free { FORCE } else { PRESSURE };
         self.printing.report(|| {
             let last = rows.last().cloned().unwrap_or_default();
             let event = |&k: &usize| {
@@ -294,31 +291,31 @@ impl Options {
                 "imbalance": last["imbalance"],
                 "last": last,
             });
-            table.report("cycle", self.loads.control(0.0).name(), found, grid, unit)
+            table.report("cycle", self.loads.control(0.0).name(), found, grid)
         });
         if self.printing.for_people() {
-            let plain = |value| Style::Plain.number(value, "");
+            let energy = |value| units.number(value, ENERGY_PER_AREA);
             say(&format!("{} rows in {}", table.rows(), self.out.display()));
             if tension > 0.0 {
-                say(&format!("greatest tension        {}", plain(tension)));
-                say(&format!("greatest tensile force  {}", plain(-least("normal_force"))));
+                say(&format!("greatest tension        {}", units.number(tension, PRESSURE)));
+                say(&format!("greatest tensile force  {}", units.number(-least("normal_force"), FORCE)));
             }
             for &k in events.iter().take(MOST_EVENTS) {
                 let (row, before) = (&rows[k], &rows[k.saturating_sub(1)]);
                 let event = row["event"].as_str().unwrap_or_default();
-                let ways = [x, y].map(|name| {
-                    let (from, to) = (plain(number(before, name)), plain(number(row, name)));
+                let ways = [(x, LENGTH), (y, y_dimension)].map(|(name, dimension): (_, Dimension)| {
+                    let [from, to] = [before, row].map(|row| units.number(number(row, name), dimension));
                     format!("{} {from} to {to}", name.replace('_', " "))
                 });
-                let drop = row["energy_drop"].as_f64().map(|drop| format!(", energy drop {}", plain(drop)));
+                let drop = row["energy_drop"].as_f64().map(|drop| format!(", energy drop {}", energy(drop)));
                 say(&format!("{event:<23} {}{}", ways.join(", "), drop.unwrap_or_default()));
             }
             if events.len() > MOST_EVENTS {
                 say(&format!("and {} smaller events", events.len() - MOST_EVENTS));
             }
             if let Some(last) = rows.last() {
-                say(&format!("dissipated in jumps     {}", plain(number(last, "dissipated"))));
-                say(&format!("work done by the load   {}", plain(number(last, "work"))));
+                say(&format!("dissipated in jumps     {}", energy(number(last, "dissipated"))));
+                say(&format!("work done by the load   {}", energy(number(last, "work"))));
                 say(&format!("missing from balance    {:.1e}", number(last, "imbalance")));
             }
         }
@@ -334,14 +331,12 @@ impl Options {
             curves.push((name, before.into_iter().chain(points).collect()));
         }
         let (x_label, y_label) = (x.replace('_', " "), y.replace('_', " "));
-        let (title, y_unit) = match free {
-            true => ("Normal force over approach", &self.force_unit),
-            false => ("Mean pressure over mean gap", &self.pressure_unit),
-        };
+        let title = if free { "Normal force over approach" } else { "Mean pressure over mean gap" };
+        let [x_unit, y_unit] = [LENGTH, y_dimension].map(|dimension| units.of(dimension));
         let chart = Chart {
             title,
             x_label: &x_label,
-            x_unit: unit,
+            x_unit: x_unit.as_deref(),
             y_label: &y_label,
             y_unit: y_unit.as_deref(),
             curves: curves.iter().map(|(name, points)| (name.as_str(), points.clone())).collect(),

@@ -10,28 +10,28 @@ use serde_json::{Value, json};
 
 use crate::accuracy::{self, AccuracyOptions};
 use crate::adhesion::{AdhesionOptions, Law};
-use crate::allowed::finite;
 use crate::boundary::{LOAD, LoadOptions};
 use crate::case::{self, Account, Case, Left};
 use crate::loads::name_and_value;
-use crate::numbers::Style;
 use crate::options::{Given, Precision, ProblemOptions, Scalar, SolverOptions, SurfaceOptions};
 use crate::outcome::Outcome;
 use crate::output::at_destination;
 use crate::output::{output_folder, write_text};
-use crate::pictures::{self, PictureFormat, Resolution, Units};
+use crate::pictures::{self, PictureFormat, Resolution};
 use crate::printing::Printing;
 use crate::printing::say;
 use crate::progress::Progress;
+use crate::quantity::{PRESSURE, Quantity};
 use crate::report;
 use crate::scene::{self, Scene};
 use crate::summary::{table, warn};
+use crate::units::{UnitOptions, Units};
 use crate::warnings::{Strictness, Warnings};
 
 /// Solve a contact problem given by files.
 ///
-/// All quantities are in any consistent units, as m, Pa and J/m²; heights of files with units of length are in m.
-/// Writes gap.npy, pressure.npy (the full elastic pressure, compression positive) and contact_pressure.npy (its
+/// Numbers may have units, as 70GPa, 20um, 50mJ/m2, 5nN or 40N/m: then all of them must have one, all that is written is in
+/// the SI, and heights of a file without a unit are in m. Numbers without units are in any consistent ones. Writes gap.npy, pressure.npy (the full elastic pressure, compression positive) and contact_pressure.npy (its
 /// repulsive part), or files as --format says, report.json, contact.png, pressure.png (or .svg, .pdf), and scene.toml,
 /// which repeats the run, all or none. Exits with 0 if converged, 2 if not (the fields are written all the same), and 1 if the input
 /// is refused or the files cannot be written (then there are none). Probable mistakes, as a tilt, are said on a line
@@ -99,15 +99,11 @@ pub struct Options {
     resolution: Resolution,
     /// Pressures at the ends of the colour bar, as for pictures that are to be compared; with adhesion that of the largest
     /// tension, negative, and that of the largest compression
-    #[arg(long, value_names = ["LOW", "HIGH"], num_args = 2, allow_hyphen_values = true, value_parser = finite)]
-    #[arg(help_heading = "Output")]
-    colour_limits: Option<Vec<f64>>,
-    /// Unit of the lengths, on pictures; m gets prefixes, and with Pa for the pressures in the table, too
-    #[arg(long, value_name = "UNIT", help_heading = "Output")]
-    length_unit: Option<String>,
-    /// Unit of the pressures, on pictures; Pa gets prefixes, and with lengths in m in the table, too
-    #[arg(long, value_name = "UNIT", help_heading = "Output")]
-    pressure_unit: Option<String>,
+    #[arg(long, value_names = ["LOW", "HIGH"], num_args = 2, allow_hyphen_values = true)]
+    #[arg(value_parser = PRESSURE.finite(), help_heading = "Output")]
+    colour_limits: Option<Vec<Quantity>>,
+    #[command(flatten)]
+    units: UnitOptions,
 }
 
 const EXAMPLES: &str = "\
@@ -115,18 +111,17 @@ const EXAMPLES: &str = "\
   Press a map of 1 by 1, with a contact modulus of 1, to a mean gap of 0.04:
     asperity solve --heights heights.npy --mean-gap 0.04 --out results
   The surface of the demo (asperity-demo/heights.npy) in SI units, with adhesion:
-    asperity solve --heights heights.npy --lengths 1e-6 1e-6 --modulus 1e9 \\
-      --law exponential --work-of-adhesion 0.05 --range 1e-9 \\
-      --mean-pressure 2.5e6 --length-unit m --pressure-unit Pa --out sticky
+    asperity solve --heights heights.npy --lengths 1um --modulus 1GPa --mean-pressure 2.5MPa \\
+      --law exponential --work-of-adhesion 50mJ/m2 --range 1nm --out sticky
   The same load without adhesion, by way of coarser grids, which is the default where it is faster:
-    asperity solve --heights heights.npy --lengths 1e-6 1e-6 --modulus 1e9 \\
-      --mean-pressure 2.5e6 --nested --out nested
+    asperity solve --heights heights.npy --lengths 1um --modulus 1GPa --mean-pressure 2.5MPa \\
+      --nested --out nested
   A contact area that is right to 5 %, on a grid as fine as that takes:
     asperity solve --heights heights.npy --mean-pressure 0.01 --accuracy 0.05 --out right
   On from the case with adhesion to a tension:
-    asperity solve --heights heights.npy --lengths 1e-6 1e-6 --modulus 1e9 \\
-      --law exponential --work-of-adhesion 0.05 --range 1e-9 \\
-      --mean-pressure -1e4 --initial-gap sticky/gap.npy --out pulled";
+    asperity solve --heights heights.npy --lengths 1um --modulus 1GPa --mean-pressure -10kPa \\
+      --law exponential --work-of-adhesion 50mJ/m2 --range 1nm --initial-gap sticky/gap.npy \\
+      --out pulled";
 
 #[derive(Clone, Copy, PartialEq, ValueEnum)]
 enum Format {
@@ -162,10 +157,9 @@ pub fn run(options: &Options, scene: &Scene) -> Outcome<bool> {
     Scene::check(&options.out.join(scene::NAME))?;
     // Only a trial: a solve that is interrupted leaves nothing behind.
     drop(output_folder(&options.out, &names, options.force)?);
-    let given = problem.read()?;
-    let unit = given.unit.clone();
-    let length_unit = options.length_unit.as_deref().or(unit.as_deref());
-    let job = Job { options, scene, names, case: options.case(), length_unit };
+    let given = problem.read(scene.is_si())?;
+    let units = options.units.units(given.unit.as_deref(), scene.is_si())?;
+    let job = Job { options, scene, names, case: options.case(), units };
     match options.solver.precision {
         Precision::F32 => job.run::<f32>(given),
         Precision::F64 => job.run::<f64>(given),
@@ -178,7 +172,7 @@ impl Options {
     }
 
     fn colour_limits(&self) -> Option<(f64, f64)> {
-        self.colour_limits.as_deref().map(|limits| (limits[0], limits[1]))
+        self.colour_limits.as_deref().map(|limits| (limits[0].value, limits[1].value))
     }
 
     fn problem(&self) -> ProblemOptions<'_> {
@@ -187,13 +181,13 @@ impl Options {
 
     /// The case that the options choose.
     pub fn case(&self) -> Case {
-        let SurfaceOptions { beyond, modulus, .. } = self.surface;
+        let SurfaceOptions { beyond, .. } = self.surface;
         let (control, settings) = (self.load.control(), self.solver.settings());
         let stability = self.stability || self.leave;
         let wall = self.adhesion.wall;
         Case {
             boundary: beyond.boundary,
-            modulus,
+            modulus: self.surface.modulus(),
             control,
             settings,
             wall,
@@ -205,7 +199,7 @@ impl Options {
     }
 
     /// All that one needs for understanding a run later; numbers that are not finite become null.
-    pub fn report(&self, grid: Grid, account: &Account, length_unit: Option<&str>) -> Value {
+    pub fn report(&self, grid: Grid, account: &Account, units: &Units, scene: &Scene) -> Value {
         let (case, report) = (self.case(), &account.report);
         let (control, held) = name_and_value(case.control);
         let levels = account.grids.as_ref().map(|(levels, _)| levels.iter().map(level).collect::<Vec<_>>());
@@ -267,7 +261,7 @@ impl Options {
             "control": control,
             "control_value": held,
         });
-        let mut inputs = report::inputs(self.problem(), &grid, length_unit);
+        let mut inputs = report::inputs(self.problem(), &grid, units, scene);
         // with an accuracy the one that was chosen
         inputs.insert("tolerance".to_owned(), report.tolerance.into());
         report::report("solve", outcome, inputs)
@@ -280,7 +274,7 @@ struct Job<'a> {
     scene: &'a Scene,
     names: Vec<&'static str>,
     case: Case,
-    length_unit: Option<&'a str>,
+    units: Units,
 }
 
 impl Job<'_> {
@@ -319,9 +313,7 @@ impl Job<'_> {
         folder.commit()?;
 
         if printing.for_people() {
-            let units = (self.length_unit, self.options.pressure_unit.as_deref());
-            let style = if units == (Some("m"), Some("Pa")) { Style::Si } else { Style::Plain };
-            say(&table(&[], &[&account], style));
+            say(&table(&[], &[&account], &self.units));
             say(&format!("results in {}: {}", out.display(), self.names.join(", ")));
         }
         printing.report(|| self.report(grid, &account));
@@ -331,7 +323,7 @@ impl Job<'_> {
     }
 
     fn report(&self, grid: Grid, account: &Account) -> Value {
-        self.options.report(grid, account, self.length_unit)
+        self.options.report(grid, account, &self.units, self.scene)
     }
 
     fn write<T: Scalar>(
@@ -362,13 +354,12 @@ impl Job<'_> {
         write_text(&path(REPORT), &format!("{:#}\n", self.report(grid, account)))?;
         write_text(&path(scene::NAME), &self.scene.text(&self.options.out))?;
         if !self.options.no_pictures {
-            let Options { ref pressure_unit, picture_format, resolution: Resolution { dpi }, .. } = *self.options;
-            let units = Units { length: self.length_unit, pressure: pressure_unit.as_deref(), force: None };
+            let (Options { picture_format, resolution: Resolution { dpi }, .. }, units) = (self.options, &self.units);
             let [contact_name, pressure_name] = picture_format.of(PICTURES);
-            pictures::draw_contact(grid, "Contact", units, (solution, law), dpi)?.write(&path(contact_name))?;
+            pictures::draw_contact(grid, "Contact", units, (solution, law), *dpi)?.write(&path(contact_name))?;
             let pressure = pictures::pressure_to_draw(solution, self.options.adhesion.law != Law::None);
             let limits = self.options.colour_limits();
-            let picture = pictures::draw_pressure(grid, ("Pressure", ""), units, pressure, limits, dpi)?;
+            let picture = pictures::draw_pressure(grid, ("Pressure", ""), units, pressure, limits, *dpi)?;
             picture.write(&path(pressure_name))?;
         }
         Ok(())

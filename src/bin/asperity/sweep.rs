@@ -23,6 +23,7 @@ use crate::pictures::PlotOptions;
 use crate::printing::Printing;
 use crate::scene::Scene;
 use crate::table::{self, Table, TableOptions};
+use crate::units::UnitOptions;
 use crate::warnings::{Strictness, Warnings};
 
 /// Solve a contact problem under many loads, one after the other.
@@ -60,6 +61,8 @@ pub struct Options {
     fields: Option<PathBuf>,
     #[command(flatten)]
     plot: PlotOptions,
+    #[command(flatten)]
+    units: UnitOptions,
     /// Find the contact stiffness under each load, in two more columns: contact_stiffness, how much the mean pressure
     /// grows with the approach, and normal_stiffness, how much the force does
     #[arg(long, help_heading = "Output")]
@@ -78,6 +81,9 @@ const EXAMPLES: &str = "\
   Contact area against load, twenty loads over two decades:
     asperity sweep --heights heights.npy --mean-pressures 1e-3:1e-1:20:log --out area.csv \\
       --plot area.pdf
+  In SI units, in which rows and header then are:
+    asperity sweep --heights heights.npy --lengths 20um --modulus 70GPa \\
+      --mean-pressures 1MPa:1GPa:12:log --out steel.csv
   Approach and withdrawal with adhesion, eleven mean gaps each:
     asperity sweep --heights heights.npy --law exponential --work-of-adhesion 1e-4 \\
       --range 4e-3 --mean-gaps 0.05:0.03:11,0.03:0.05:11 --out hysteresis.jsonl";
@@ -98,7 +104,7 @@ pub fn run(options: &Options, scene: &Scene) -> Outcome<bool> {
     options.format()?;
     options.plot.check(&options.out, options.force)?;
     options.surface.beyond.boundary.check(options.loads.control(0.0))?;
-    let given = options.table().problem.read()?;
+    let given = options.problem().read(scene.is_si())?;
     match options.solver.precision {
         Precision::F32 => options.run::<f32>(given, scene),
         Precision::F64 => options.run::<f64>(given, scene),
@@ -112,18 +118,26 @@ impl Options {
             let (name, requirement) = ("load", "finite in the precision of the fields");
             return Err(Error::Value { name, value, requirement }.into());
         }
-        let warnings = Warnings::of_input::<T>(self.strictness, &surface, &adhesion, self.table().problem)?;
+        let warnings = Warnings::of_input::<T>(self.strictness, &surface, &adhesion, self.problem())?;
         let grid = *surface.grid();
-        let identity = self.identity(&surface, &adhesion, start.as_ref());
+        let units = self.units.units(unit.as_deref(), scene.is_si())?;
+        let mut identity = self.identity(&surface, &adhesion, start.as_ref());
+        identity.insert("units".to_owned(), units.of_table().into());
         let start = start.or_else(|| self.surface.beyond.boundary.start_afar(&surface, &self.loads.controls()));
-        let operator = self.surface.beyond.boundary.half_space(grid, self.surface.modulus)?;
+        let operator = self.surface.beyond.boundary.half_space(grid, self.surface.modulus())?;
         let mut problem = Problem::new(&surface, operator, adhesion.law::<T>()?)?;
         drop(surface);
         let format = self.format()?;
-        let header = if format == Format::Csv { names(self.stiffness).join(",") + "\n" } else { String::new() };
+        let control = self.loads.control(0.0).name();
+        let header = match format {
+            Format::Csv => units.header(&names(self.stiffness), control, grid.is_line()),
+            Format::Jsonl => String::new(),
+        };
+        let &Self { ref out, force, printing, .. } = self;
+        let options = TableOptions { problem: self.problem(), out, force, printing, scene, units: &units };
         let kept = Kept(self.fields.as_deref());
         kept.check(self.force || self.out.exists())?;
-        let (mut table, saved) = Table::open(self.table(), scene, &header, identity, Some(loads), warnings)?;
+        let (mut table, saved) = Table::open(options, &header, identity, Some(loads), warnings)?;
         let done = table.rows();
         let controls = self.loads.controls();
 
@@ -157,30 +171,27 @@ impl Options {
             let fields: Vec<_> = sweep.history().iter().map(|(_, gap)| gap.view()).collect();
             let converged = solution.report.status == Status::Converged;
             table.append(&Row { text: &text, load, converged, fields: &fields, numbers: &[] })?;
-            self.printing.say(&format!("{:>width$}/{count}  {}", k + 1, table::brief(&solution.report)));
+            self.printing.say(&format!("{:>width$}/{count}  {}", k + 1, table::brief(&solution.report, &units)));
         }
         let text = table.text()?;
         let names = names(self.stiffness);
         let rows = text.lines().skip(usize::from(format == Format::Csv)).map(|row| parsed(format, &names, row));
-        self.plot.draw(&rows.collect::<Vec<_>>(), unit.as_deref())?;
+        self.plot.draw(&rows.collect::<Vec<_>>(), &units)?;
         self.printing.say(&format!("{count} rows in {}", self.out.display()));
         self.printing.report(|| {
             let last = parsed(format, &names, text.lines().next_back().unwrap_or_default());
             table.report(
                 "sweep",
-                self.loads.control(0.0).name(),
+                control,
                 json!({ "spring_stiffness": self.loads.spring_stiffness(), "last": last }),
                 &grid,
-                unit.as_deref(),
             )
         });
         Ok(table.converged("use a larger --tolerance or finer steps, or less tension where they are detached"))
     }
 
-    fn table(&self) -> TableOptions<'_> {
-        let problem = ProblemOptions { surface: &self.surface, adhesion: &self.adhesion, solver: &self.solver };
-        let &Self { ref out, force, printing, .. } = self;
-        TableOptions { problem, out, force, printing }
+    fn problem(&self) -> ProblemOptions<'_> {
+        ProblemOptions { surface: &self.surface, adhesion: &self.adhesion, solver: &self.solver }
     }
 
     fn format(&self) -> Outcome<Format> {
@@ -195,7 +206,7 @@ impl Options {
 
     /// The inputs on which the rows depend beside the loads.
     fn identity(&self, surface: &Surface, adhesion: &Adhesion<'_>, start: Option<&Array2<f64>>) -> Identity {
-        let mut identity = identity(self.table().problem, surface, adhesion, start);
+        let mut identity = identity(self.problem(), surface, adhesion, start);
         let csv = self.format().is_ok_and(|format| format == Format::Csv);
         identity.insert("control".to_owned(), self.loads.kind().into());
         identity.insert("fields".to_owned(), if self.fields.is_some() { "kept" } else { "not kept" }.into());
