@@ -34,6 +34,8 @@ STATE = (
     "adhesive_energy",
     "min_gap",
 )
+#: The columns of a search for the load of a contact fraction.
+SEARCH = ("wanted_contact_fraction", "reached")
 OUTCOME = ("relative_error", "load_error", "iterations", "operator_applications", "status")
 
 
@@ -42,7 +44,10 @@ def state(solution: Solution) -> dict[str, Any]:
     statistics = solution.statistics
     sizes = statistics.cluster_sizes
     largest = int(sizes[0]) if len(sizes) else 0
-    return {**solution.report, **statistics._asdict(), "clusters": len(sizes), "largest_cluster": largest}
+    searched = solution.report["search"]
+    search = {} if searched is None else dict(zip(SEARCH, (searched["wanted"], searched["reached"]), strict=True))
+    counted = {**statistics._asdict(), "clusters": len(sizes), "largest_cluster": largest}
+    return {**solution.report, **counted, **search}
 
 
 class Rows(Iterator[T]):

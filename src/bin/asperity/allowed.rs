@@ -15,6 +15,11 @@ pub fn finite(text: &str) -> Result<f64, String> {
     number(text, f64::is_finite, "a number, and finite")
 }
 
+/// A share that is neither nothing nor all.
+pub fn share(text: &str) -> Result<f64, String> {
+    number(text, |v| v > 0.0 && v < 1.0, "a share between 0 and 1")
+}
+
 /// A number of threads; more than 1024 are taken for a slip of the pen.
 pub fn threads(text: &str) -> Result<usize, String> {
     match text.parse() {

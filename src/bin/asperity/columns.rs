@@ -5,6 +5,7 @@ use asperity::stability::ContactStiffness;
 use asperity::{Control, Report};
 use serde_json::Value;
 
+use crate::case::Search;
 use crate::loads::name_and_value;
 
 /// The content of a cell by the name of its column.
@@ -37,6 +38,14 @@ pub const OUTCOME: [&str; 5] = ["relative_error", "load_error", "iterations", "o
 
 /// The names of the cells of a contact stiffness, in the order of [`stiffness`].
 pub const STIFFNESS: [&str; 2] = ["contact_stiffness", "normal_stiffness"];
+
+/// The names of the cells of a search for the load of a contact fraction.
+pub const SEARCH: [&str; 2] = ["wanted_contact_fraction", "reached"];
+
+/// The search for the load of a contact fraction.
+pub fn search(found: &Search) -> impl Iterator<Item = Cell> {
+    SEARCH.into_iter().zip([found.wanted.into(), found.reached.into()])
+}
 
 /// The load and the state under it. Nothing in it depends on the clock.
 pub fn state(control: Control, report: &Report, statistics: &ContactStatistics) -> impl Iterator<Item = Cell> {

@@ -131,16 +131,17 @@ pub fn run(options: &Options, scene: &Scene) -> Outcome<bool> {
 
 impl Options {
     fn run<T: Scalar>(&self, Given { surface, adhesion, unit, start }: Given<'_>, scene: &Scene) -> Outcome<bool> {
-        let loads = self.loads.controls();
+        let values = self.loads.values(self.surface.full_pressure(&surface, self.loads.are_reduced())?);
+        let loads = self.loads.controls(&values);
         if loads.len() < 2 {
             return Err("a cycle needs two turning points at least: give more loads, with commas between".into());
         }
         let warnings = Warnings::of_input::<T>(self.strictness, &surface, &adhesion, self.problem())?;
         let grid = *surface.grid();
         let units = self.units.units(unit.as_deref(), scene.is_si())?;
-        let mut identity = self.identity(&surface, &adhesion, start.as_ref());
+        let mut identity = self.identity(&surface, &adhesion, start.as_ref(), &values);
         identity.insert("units".to_owned(), units.of_table().into());
-        let start = start.or_else(|| self.surface.beyond.boundary.start_afar(&surface, &self.loads.controls()));
+        let start = start.or_else(|| self.surface.beyond.boundary.start_afar(&surface, &loads));
         let operator = self.surface.beyond.boundary.half_space(grid, self.surface.modulus())?;
         let law = adhesion.law::<T>()?;
         let mut problem = Problem::new(&surface, operator, adhesion.law::<T>()?)?;
@@ -209,7 +210,7 @@ impl Options {
 
     /// The direction of a leg; the start has none.
     fn direction(&self, leg: usize) -> &'static str {
-        let values = self.loads.values();
+        let values = self.loads.list();
         let (Some(from), Some(to)) = (leg.checked_sub(1).and_then(|before| values.get(before)), values.get(leg)) else {
             return "start";
         };
@@ -238,10 +239,16 @@ impl Options {
     }
 
     /// The inputs on which the rows depend.
-    fn identity(&self, surface: &Surface, adhesion: &Adhesion<'_>, start: Option<&Array2<f64>>) -> Identity {
+    fn identity(
+        &self,
+        surface: &Surface,
+        adhesion: &Adhesion<'_>,
+        start: Option<&Array2<f64>>,
+        values: &[f64],
+    ) -> Identity {
         let mut identity = identity(self.problem(), surface, adhesion, start);
         identity.insert("control".to_owned(), self.loads.kind().into());
-        let values: Vec<_> = self.loads.values().iter().map(f64::to_string).collect();
+        let values: Vec<_> = values.iter().map(f64::to_string).collect();
         identity.insert("loads".to_owned(), values.join(" ").into());
         for (name, value) in [
             ("steps", self.steps.to_string()),
@@ -320,7 +327,7 @@ impl Options {
             }
         }
         let Some(plot) = &self.plot else { return Ok(()) };
-        let legs = self.loads.values().len() - 1;
+        let legs = self.loads.list().len() - 1;
         let mut curves: Vec<(String, Vec<(f64, f64)>)> = Vec::new();
         for leg in 1..=legs {
             let point = |row: &Value| (number(row, x), number(row, y));

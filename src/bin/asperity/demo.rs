@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use asperity::io::{OutputFolder, write_npy};
 use asperity::picture::{Colouring, Map, Picture};
-use asperity::{AdhesionLaw, Amplitude, Exponential, Grid, NoAdhesion, SelfAffine, Status, Surface};
+use asperity::{AdhesionLaw, Amplitude, Control, Exponential, Grid, NoAdhesion, SelfAffine, Status, Surface};
 use clap::{Args, Command, FromArgMatches};
 use ndarray::Array2;
 use serde_json::json;
@@ -96,7 +96,7 @@ pub fn run(options: &Options) -> Outcome<bool> {
         side = si(SIDE, "m"),
     ));
     let heights = surface.heights().clone();
-    let case = sticky_options.case();
+    let case = sticky_options.case(Control::MeanPressure(PRESSURE));
     let progress =
         |name| Progress::new(name, case.settings.tolerance_in::<f64>(), grid.nodes(), printing.without_bars());
     let law = Exponential::new(WORK_OF_ADHESION, RANGE)?;

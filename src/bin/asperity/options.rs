@@ -127,6 +127,18 @@ impl SurfaceOptions {
         self.modulus.value
     }
 
+    /// The pressure E* h'rms, of which a reduced pressure is a part; 1 where none is `wanted`.
+    pub fn full_pressure(&self, surface: &Surface, wanted: bool) -> Outcome<f64> {
+        match (wanted, surface.absent_nodes()) {
+            (false, _) => Ok(1.0),
+            (true, 0) => Ok(self.modulus() * surface.statistics().rms_slope),
+            (true, absent) => {
+                let reason = "which have no slope: give a pressure";
+                Err(format!("a reduced pressure is over the rms slope, but {absent} nodes are absent, {reason}").into())
+            }
+        }
+    }
+
     /// The surface of the file, and its unit of length if the file has one.
     fn surface_and_unit(&self, si: bool) -> Outcome<(Surface, Option<String>)> {
         let map = heights::map(&self.heights, self.lengths.as_deref(), si)?;

@@ -7,12 +7,19 @@ use std::fmt;
 pub struct Quantity {
     pub value: f64,
     pub has_unit: bool,
+    /// Whether it is a share or a ratio, which needs none.
+    is_number: bool,
 }
 
 impl Quantity {
     /// Whether it says nothing of units: zero is zero in all of them.
     pub fn is_bare(self) -> bool {
-        !self.has_unit && self.value != 0.0
+        !self.has_unit && !self.is_number && self.value != 0.0
+    }
+
+    /// A number without a dimension.
+    pub fn number(value: f64) -> Self {
+        Self { value, has_unit: false, is_number: true }
     }
 }
 
@@ -73,13 +80,13 @@ impl Dimension {
 
     fn parse(self, text: &str) -> Option<Quantity> {
         if let Ok(value) = text.parse() {
-            return Some(Quantity { value, has_unit: false });
+            return Some(Quantity { value, has_unit: false, is_number: false });
         }
         // the number is as much as can be read as one: 1e5Pa is no 1 of a unit e5Pa
         let splits = text.char_indices().rev().map(|(at, _)| text.split_at(at));
         let (number, unit) = splits.into_iter().find(|(number, _)| number.parse::<f64>().is_ok())?;
         let unit = Unit::parse(unit.trim()).filter(|unit| unit.force == self.force && unit.length == self.length)?;
-        Some(Quantity { value: unit.in_si(number)?, has_unit: true })
+        Some(Quantity { value: unit.in_si(number)?, has_unit: true, is_number: false })
     }
 }
 
@@ -215,7 +222,7 @@ mod tests {
             (LENGTH, "0.1", 0.1),
         ] {
             let has_unit = text != "0.1";
-            assert_eq!(dimension.parse(text), Some(Quantity { value, has_unit }), "{text}");
+            assert_eq!(dimension.parse(text), Some(Quantity { value, has_unit, is_number: false }), "{text}");
         }
         assert_eq!(["nm", "m", "Pa", "px", ""].map(power_of_length), [Some(-9), Some(0), None, None, None]);
         assert_eq!((times_ten_to(-9, 2.7), times_ten_to(9, 4e-6)), (2.7e-9, 4000.0));

@@ -11,7 +11,7 @@ use serde_json::{Value, json};
 use crate::accuracy::{self, AccuracyOptions};
 use crate::adhesion::{AdhesionOptions, Law};
 use crate::boundary::{LOAD, LoadOptions};
-use crate::case::{self, Account, Case, Left};
+use crate::case::{self, Account, Case, Left, Search};
 use crate::loads::name_and_value;
 use crate::options::{Given, Precision, ProblemOptions, Scalar, SolverOptions, SurfaceOptions};
 use crate::outcome::Outcome;
@@ -142,14 +142,14 @@ const PICTURES: [[&str; 2]; 3] =
 pub fn run(options: &Options, scene: &Scene) -> Outcome<bool> {
     let problem = options.problem();
     problem.adhesion.check()?;
-    problem.surface.beyond.boundary.check(options.load.control())?;
+    problem.surface.beyond.boundary.check(options.load.control(1.0))?;
     let limits = options.colour_limits();
     if let Some((low, high)) = limits.filter(|(low, high)| low >= high) {
         return Err(format!("--colour-limits {low} {high}: the lower one must come first").into());
     }
     let pictures = options.picture_format.of(PICTURES);
     let pictures = pictures.iter().filter(|_| !options.no_pictures);
-    let mode = options.case().stability.then_some(&MODE);
+    let mode = (options.stability || options.leave).then_some(&MODE);
     let arrays = FIELDS.iter().chain(mode).filter(|_| options.writes(Format::Npy));
     let archives = [(Format::Npz, &NPZ), (Format::Vti, &VTI)].into_iter().filter(|(format, _)| options.writes(*format));
     let fields = arrays.chain(archives.map(|(_, name)| name));
@@ -159,7 +159,8 @@ pub fn run(options: &Options, scene: &Scene) -> Outcome<bool> {
     drop(output_folder(&options.out, &names, options.force)?);
     let given = problem.read(scene.is_si())?;
     let units = options.units.units(given.unit.as_deref(), scene.is_si())?;
-    let job = Job { options, scene, names, case: options.case(), units };
+    let full = options.surface.full_pressure(&given.surface, options.load.is_reduced())?;
+    let job = Job { options, scene, names, case: options.case(options.load.control(full)), units };
     match options.solver.precision {
         Precision::F32 => job.run::<f32>(given),
         Precision::F64 => job.run::<f64>(given),
@@ -179,16 +180,17 @@ impl Options {
         ProblemOptions { surface: &self.surface, adhesion: &self.adhesion, solver: &self.solver }
     }
 
-    /// The case that the options choose.
-    pub fn case(&self) -> Case {
+    /// The case that the options choose, under a load.
+    pub fn case(&self, control: Control) -> Case {
         let SurfaceOptions { beyond, .. } = self.surface;
-        let (control, settings) = (self.load.control(), self.solver.settings());
+        let settings = self.solver.settings();
         let stability = self.stability || self.leave;
         let wall = self.adhesion.wall;
         Case {
             boundary: beyond.boundary,
             modulus: self.surface.modulus(),
             control,
+            fraction: self.load.contact_fraction,
             settings,
             wall,
             stability,
@@ -200,8 +202,8 @@ impl Options {
 
     /// All that one needs for understanding a run later; numbers that are not finite become null.
     pub fn report(&self, grid: Grid, account: &Account, units: &Units, scene: &Scene) -> Value {
-        let (case, report) = (self.case(), &account.report);
-        let (control, held) = name_and_value(case.control);
+        let report = &account.report;
+        let (control, held) = name_and_value(account.control);
         let levels = account.grids.as_ref().map(|(levels, _)| levels.iter().map(level).collect::<Vec<_>>());
         let outcome = json!({
             "status": report.status.name(),
@@ -213,18 +215,19 @@ impl Options {
             "levels": levels,
             "equivalent_applications": account.grids.as_ref().map(|(_, applications)| applications),
             "grid_error": account.grids.as_ref().map(|(levels, _)| {
-                accuracy::errors(levels, account.nodes_per_wave, report.mu_rho, case.control)
+                accuracy::errors(levels, account.nodes_per_wave, report.mu_rho, account.control)
             }),
             "accuracy": account.reached.as_ref().map(|reached| json!({
                 "wanted": reached.accuracy,
                 "of": reached.of.name(),
                 "reached": reached.reached,
             })),
+            "search": account.search.as_ref().map(search),
             "mean_gap": report.mean_gap,
             "mean_pressure": report.mean_pressure,
             "normal_force": report.normal_force,
             "approach": report.approach,
-            "spring_stiffness": spring_stiffness(case.control),
+            "spring_stiffness": spring_stiffness(account.control),
             "carried_pressure": report.carried_pressure,
             "mean_contact_pressure": report.mean_contact_pressure,
             "contact_fraction": report.contact_fraction,
@@ -318,7 +321,8 @@ impl Job<'_> {
         }
         printing.report(|| self.report(grid, &account));
         warn("", &account, &self.case);
-        let reached = account.reached.as_ref().is_none_or(|reached| reached.reached);
+        let reached = account.reached.as_ref().is_none_or(|reached| reached.reached)
+            && account.search.as_ref().is_none_or(|search| search.reached);
         Ok(account.report.status == Status::Converged && reached)
     }
 
@@ -373,6 +377,18 @@ fn patch(patch: &Patch) -> Value {
         "area_fraction": patch.area_fraction,
         "contact_fraction": patch.contact_fraction,
         "attractive_fraction": patch.attractive_fraction,
+    })
+}
+
+/// The search for the load of a contact fraction.
+fn search(search: &Search) -> Value {
+    json!({
+        "wanted": search.wanted,
+        "reached": search.reached,
+        "below": search.below,
+        "above": search.above,
+        "solves": search.solves,
+        "operator_applications": search.operator_applications,
     })
 }
 

@@ -4,7 +4,7 @@ use asperity::stability::Verdict;
 use asperity::{Report, Status};
 
 use crate::accuracy::{self, Reached};
-use crate::case::{Account, Case, Steadiness};
+use crate::case::{Account, Case, Search, Steadiness};
 use crate::numbers::{percent, plain};
 use crate::printing::complain;
 use crate::printing::{bold, green, yellow};
@@ -32,6 +32,12 @@ pub fn table(names: &[&str], solves: &[&Account], units: &Units) -> String {
                 shares.clone()
             });
         }
+    }
+    if solves.iter().any(|solve| solve.search.is_some()) {
+        row("wanted", &|s, _| {
+            let of = |search: &Search| format!("{} %, after {} solves", percent(search.wanted), search.solves);
+            s.search.as_ref().map_or(String::new(), of)
+        });
     }
     row("mean gap", &|_, r| units.number(r.mean_gap, LENGTH));
     row("mean pressure", &|_, r| units.number(r.mean_pressure, PRESSURE));
@@ -131,6 +137,10 @@ pub fn warn(name: &str, account: &Account, case: &Case) {
             report.status, report.relative_error, report.iterations
         );
         complain("warning", &text);
+    }
+    if let Some(search) = account.search.as_ref().filter(|search| !search.reached && report.status == Status::Converged)
+    {
+        complain("warning", &format!("{name}{}", search.told()));
     }
     if let Some(reached) =
         account.reached.as_ref().filter(|reached| !reached.reached && report.status == Status::Converged)
