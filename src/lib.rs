@@ -75,8 +75,8 @@
 //! # More than one number, more than one load
 //!
 //! [`contact`] has areas, clusters and pressures of the contact of a solution; [`Sweep`] solves under a sequence of
-//! loads, each from where the last ones lead, [`ContactSearch`] finds the load of a contact fraction, and [`Nested`] solves on
-//! coarser grids first.
+//! loads, each from where the last ones lead, [`ContactSearch`] finds the load of a contact fraction, and [`Nested`]
+//! solves on coarser grids first.
 //!
 //! # Measured surfaces
 //!

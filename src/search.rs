@@ -15,8 +15,8 @@ use crate::solver::{Iteration, Solution, Solver, Start, Status};
 /// The most solves of a search. One that is bracketed halves its bracket at least with every other solve.
 const MOST: usize = 60;
 
-/// The width of a bracket, in the logarithm of the load or relative to the approach, in which the contact fraction jumps:
-/// where it is smooth it changes by about as much, which is far less than any tolerance of it.
+/// The width of a bracket, in the logarithm of the load or relative to the approach, in which the contact fraction
+/// jumps: where it is smooth it changes by about as much, which is far less than any tolerance of it.
 const WIDTH: f64 = 1e-5;
 
 /// The share of a bracket that a step leaves to both sides at least.
@@ -28,17 +28,18 @@ const STEP: (f64, f64) = (1.4, 8.0);
 /// The load under which a given share of the nodes is in contact, found by solves.
 ///
 /// Without adhesion the contact grows with the load, and the search is for the mean pressure: on the logarithm of the
-/// pressure, by the secant of ln(−ln(1 − A)) over it, which is nearly straight for rough surfaces, and by a bracket as soon
-/// as there is one. It begins where Persson's theory has the fraction A, erf(p/(√2 p_rms)), with p_rms the rms pressure that
-/// presses the surface flat.
+/// pressure, by the secant of ln(−ln(1 − A)) over it, which is nearly straight for rough surfaces, and by a bracket as
+/// soon as there is one. It begins where Persson's theory has the fraction A, erf(p/(√2 p_rms)), with p_rms the rms
+/// pressure that presses the surface flat.
 ///
-/// With adhesion surfaces may stick at any load, and the contact jumps. The search is for the mean gap then, with a free
-/// boundary for the approach, under which more states are equilibria than under a pressure. It is a path: it goes from its
-/// start towards the wanted fraction, and never on from a state beyond it, so that it stays on the branch on which it is.
+/// With adhesion surfaces may stick at any load, and the contact jumps. The search is for the mean gap then, with a
+/// free boundary for the approach, under which more states are equilibria than under a pressure. It is a path: it goes
+/// from its start towards the wanted fraction, and never on from a state beyond it, so that it stays on the branch on
+/// which it is.
 ///
-/// The fraction counts nodes. It is reached if it is within one node or 1 % ([`with_tolerance`](Self::with_tolerance)) of the
-/// wanted one. Where no load has such a fraction, as the contact jumps past it, the state on the nearer side of the jump is
-/// returned, [`reached`](FoundContact::reached) is false, and [`below`](FoundContact::below) and
+/// The fraction counts nodes. It is reached if it is within one node or 1 % ([`with_tolerance`](Self::with_tolerance))
+/// of the wanted one. Where no load has such a fraction, as the contact jumps past it, the state on the nearer side of
+/// the jump is returned, [`reached`](FoundContact::reached) is false, and [`below`](FoundContact::below) and
 /// [`above`](FoundContact::above) say from where to where it jumps.
 ///
 /// One search after the other goes on from where the last one ended.
@@ -225,8 +226,8 @@ where
         self.at_observed(fraction, |_| ControlFlow::Continue(()))
     }
 
-    /// The same with an observer of the iterations of all solves. One that breaks off ends the search, with a state that
-    /// is not the wanted one.
+    /// The same with an observer of the iterations of all solves. One that breaks off ends the search, with a state
+    /// that is not the wanted one.
     ///
     /// # Errors
     /// Those of [`Self::at`].

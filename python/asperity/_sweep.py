@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from . import _control, _plot
 from ._asperity import Iteration
-from ._columns import OUTCOME, SEARCH, STATE, Rows, state
+from ._columns import INPUTS, OUTCOME, SEARCH, STATE, Rows, state
 from ._scene import Scene
 from ._solution import Solution
 
@@ -22,7 +22,7 @@ class Sweep(Rows[Solution]):
     solve.
     """
 
-    names = STATE + OUTCOME
+    names: tuple[str, ...] = STATE + OUTCOME + INPUTS
 
     def __init__(self, scene: Scene, loads: list[_control.Load], start: Any, observe: Any) -> None:
         super().__init__()
@@ -130,7 +130,7 @@ def sweep(
     ['0.030', '0.081', '0.219']
     >>> found = asperity.sweep(rough, modulus=1.0, contact_fractions=[0.05, 0.1]).columns
     >>> [f"{share:.2f}" for share in found["contact_fraction"]], [f"{p:.4f}" for p in found["mean_pressure"]]
-    (['0.05', '0.10'], ['0.0060', '0.0128'])
+    (['0.05', '0.10'], ['0.0019', '0.0040'])
     """
     loads = _control.many(
         mean_pressures=mean_pressures,

@@ -124,6 +124,10 @@ def table(path):
 def same_columns(rows, columns):
     assert list(rows[0]) == list(columns)
     for name, column in columns.items():
+        if name == "heights":
+            # the tool alone has read a file
+            assert {row[name] for row in rows} == {"heights.npy"}
+            continue
         if column.dtype.kind == "f":
             # a cell that does not apply is empty
             assert np.array([float(row[name] or "nan") for row in rows]).tobytes() == column.tobytes(), name

@@ -125,7 +125,7 @@ fn tables_name_the_units_of_their_columns() {
         "control,control_value [Pa],mean_pressure [Pa],mean_contact_pressure [Pa],mean_gap [m],normal_force [N],approach [m],\
          edge_traction,contact_fraction,corrected_contact_fraction,perimeter [m],clusters,largest_cluster,repulsive_fraction,\
          attractive_fraction,elastic_energy [J/m2],adhesive_energy [J/m2],min_gap [m],relative_error,load_error,iterations,\
-         operator_applications,status,contact_stiffness [Pa/m],normal_stiffness [N/m]"
+         operator_applications,status,modulus [Pa],law,work_of_adhesion [J/m2],range [m],heights,contact_stiffness [Pa/m],normal_stiffness [N/m]"
     );
     assert!(table.lines().nth(1).unwrap().starts_with("mean-pressure,1000000.0,1000000.0,"), "{table}");
     // a table goes on in its own units only, which are the SI's either way

@@ -113,9 +113,9 @@ pub struct LoadOptions {
     /// Mean pressure that is held, over the contact modulus and the rms slope of the surface: p/(E* h'rms)
     #[arg(long, value_name = "R", allow_hyphen_values = true, value_parser = finite, help_heading = "Load")]
     reduced_pressure: Option<f64>,
-    /// Share of the nodes that is to be in contact, to one node or 1 %: the mean pressure for it is searched for by some
-    /// solves, with adhesion the mean gap, with a free boundary and adhesion the approach. If the contact jumps past it, the
-    /// nearer side of the jump is written, and the exit code is 2
+    /// Share of the nodes that is to be in contact, to one node or 1 %: the mean pressure for it is searched for by
+    /// some solves, with adhesion the mean gap, with a free boundary and adhesion the approach. If the contact jumps
+    /// past it, the nearer side of the jump is written, and the exit code is 2
     #[arg(long, value_name = "A", allow_hyphen_values = true, value_parser = share, help_heading = "Load")]
     #[arg(conflicts_with_all = ["accuracy", "nested"])]
     pub contact_fraction: Option<f64>,

@@ -13,7 +13,7 @@ use serde_json::{Map, Value, json};
 use crate::adhesion::{Adhesion, AdhesionOptions};
 use crate::allowed::positive;
 use crate::boundary::{Boundary, LOADS, LoadsOptions};
-use crate::columns::{Cell, OUTCOME, STATE, outcome, state};
+use crate::columns::{Cell, INPUTS, OUTCOME, STATE, inputs, outcome, state};
 use crate::csv;
 use crate::identity::{Identity, identity};
 use crate::journal::Row;
@@ -31,16 +31,17 @@ use crate::warnings::{Strictness, Warnings};
 
 /// Follow the contact along a cycle of approach and withdrawal, and find its jumps.
 ///
-/// The loads are the turning points, at least two: the first is the start, and from each to the next the tool goes in
-/// steps that adapt themselves, an approach or a withdrawal. A withdrawal ends once the surfaces are apart, where they
-/// neither touch nor attract each other. Where the state jumps, the step is halved down to a
-/// given share of the way, so that the jump is located and its energy known. Under given pressures or forces it goes on
-/// at given mean gaps (with a free boundary approaches) past the limit points, where there is no equilibrium close by.
-/// A row for each state is appended to the file as it comes, with the columns of asperity sweep, the work done by the
-/// load so far and the energy dissipated in jumps so far, per area, what is missing from the balance of the two, and
-/// what happened on the way: jump-in, jump-out, pull-off, limit-point, bifurcation. The same command again goes on where an interrupted one was; for that it keeps FILE.state.npz beside
-/// the file, which may be deleted at the end. FILE.scene.toml beside it repeats or continues the cycle by asperity
-/// run. Exits with 0 if all rows converged, 2 if not, and 1 if the input is refused or a file cannot be written.
+/// Numbers may have units, all of them or none, as in asperity solve. The loads are the turning points, at least two:
+/// the first is the start, and from each to the next the tool goes in steps that adapt themselves, an approach or a
+/// withdrawal. A withdrawal ends once the surfaces are apart, where they neither touch nor attract each other. Where
+/// the state jumps, the step is halved down to a given share of the way, so that the jump is located and its energy
+/// known. Under given pressures or forces it goes on at given mean gaps (with a free boundary approaches) past the
+/// limit points, where there is no equilibrium close by. A row for each state is appended to the file as it comes, with
+/// the columns of asperity sweep, the work done by the load so far and the energy dissipated in jumps so far, per area,
+/// what is missing from the balance of the two, and what happened on the way: jump-in, jump-out, pull-off, limit-point,
+/// bifurcation. The same command again goes on where an interrupted one was; for that it keeps FILE.state.npz beside
+/// the file, which may be deleted at the end. FILE.scene.toml beside it repeats or continues the cycle by asperity run.
+/// Exits with 0 if all rows converged, 2 if not, and 1 if the input is refused or a file cannot be written.
 #[derive(Args)]
 #[command(after_help = EXAMPLES, group(ArgGroup::new("loads").required(true).args(LOADS)))]
 pub struct Options {
@@ -114,8 +115,14 @@ const MOST_EVENTS: usize = 8;
 
 /// The names of the columns.
 fn names() -> Vec<&'static str> {
-    [&["leg", "direction"], &STATE[..], &["work", "dissipated", "imbalance", "event", "energy_drop"], &OUTCOME[..]]
-        .concat()
+    [
+        &["leg", "direction"],
+        &STATE[..],
+        &["work", "dissipated", "imbalance", "event", "energy_drop"],
+        &OUTCOME[..],
+        &INPUTS[..],
+    ]
+    .concat()
 }
 
 /// Runs the command; whether all rows converged.
@@ -183,7 +190,7 @@ impl Options {
             let step = step?;
             table.check(&step.solution)?;
             let statistics = ContactStatistics::of(&step.solution, &grid, &law)?;
-            let row = row(&step, self.direction(step.leg), &statistics);
+            let row = row(self.problem(), &step, self.direction(step.leg), &statistics);
             let checkpoint = path.checkpoint();
             let fields: Vec<_> = checkpoint.fields.iter().map(|field| field.view()).collect();
             let (report, (_, load)) = (&step.solution.report, name_and_value(step.control));
@@ -354,7 +361,12 @@ impl Options {
 }
 
 /// The content of a row, by the names of the columns. Nothing in it depends on the clock.
-fn row<T>(step: &PathStep<T>, direction: &str, statistics: &ContactStatistics) -> Map<String, Value> {
+fn row<T>(
+    problem: ProblemOptions<'_>,
+    step: &PathStep<T>,
+    direction: &str,
+    statistics: &ContactStatistics,
+) -> Map<String, Value> {
     let report = &step.solution.report;
     let drop = step.event.as_ref().and_then(Event::jump).map(|jump| jump.energy_drop);
     let leg = [("leg", step.leg.into()), ("direction", direction.into())];
@@ -366,6 +378,6 @@ fn row<T>(step: &PathStep<T>, direction: &str, statistics: &ContactStatistics) -
         ("energy_drop", drop.into()),
     ];
     let state = state(step.control, report, statistics);
-    let cells = leg.into_iter().chain(state).chain(balance).chain(outcome(report));
+    let cells = leg.into_iter().chain(state).chain(balance).chain(outcome(report)).chain(inputs(problem));
     cells.map(|(name, value)| (name.to_owned(), value)).collect()
 }

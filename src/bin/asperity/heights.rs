@@ -16,8 +16,8 @@ const ROUNDING: f64 = 1e-2;
 const MOST_NAMES: usize = 10;
 
 /// The map of a file with the given `--lengths`, of which one means square cells; without any, those of the file, or
-/// else the unit square. Lengths that contradict the file are refused. In the SI all is in metres, and side lengths are not
-/// taken for granted.
+/// else the unit square. Lengths that contradict the file are refused. In the SI all is in metres, and side lengths are
+/// not taken for granted.
 pub fn map(path: &Path, lengths: Option<&[Quantity]>, si: bool) -> Outcome<Topography> {
     let mut map = read_topography(path)?;
     if si {

@@ -35,8 +35,8 @@ pub struct Options {
     #[arg(long, value_name = "NAME")]
     channel: Option<String>,
 
-    /// Side lengths, instead of the file's; LX alone means square cells. With a unit, as 20um, the result is in the --unit
-    /// or the file's, or else in m
+    /// Side lengths, instead of the file's; LX alone means square cells. With a unit, as 20um, the result is in the
+    /// --unit or the file's, or else in m
     #[arg(long, value_names = ["LX", "LY"], num_args = 1..=2, allow_negative_numbers = true)]
     #[arg(value_parser = LENGTH.positive())]
     lengths: Option<Vec<Quantity>>,
@@ -46,7 +46,7 @@ pub struct Options {
     /// Multiply the heights, as by 1e-9 for nm where the side lengths are in m
     #[arg(long, value_name = "F", allow_hyphen_values = true, value_parser = positive)]
     scale: Option<f64>,
-    /// Unit of side lengths and heights as they are after that, instead of the file's; for the pictures of solve
+    /// Unit of side lengths and heights as they are after that, instead of the file's; solve has it in tables and pictures
     #[arg(long, value_name = "UNIT", value_parser = unit)]
     unit: Option<String>,
     /// Keep NX x NY nodes from index [X, Y] on

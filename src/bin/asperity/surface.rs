@@ -165,7 +165,12 @@ pub fn run(options: &Options, scene: &Scene) -> Outcome<bool> {
     options.printing.report(|| {
         let figures = match absent {
             0 => statistics(&surface, &options.out, unit),
-            _ => json!({ "heights": options.out.to_string_lossy(), "shape": shape, "lengths": grid.lengths(), "length_unit": unit }),
+            _ => json!({
+                "heights": options.out.to_string_lossy(),
+                "shape": shape,
+                "lengths": grid.lengths(),
+                "length_unit": unit,
+            }),
         };
         let made = json!({
             "form": options.body.form.to_string(),

@@ -16,7 +16,7 @@ use serde_json::{Map, Value, json};
 use crate::adhesion::{Adhesion, AdhesionOptions, Law, Wall};
 use crate::boundary::{FractionsOptions, LOADS, LoadsOptions};
 use crate::case::{Case, Search};
-use crate::columns::{OUTCOME, SEARCH, STATE, STIFFNESS, outcome, search, state, stiffness};
+use crate::columns::{INPUTS, OUTCOME, SEARCH, STATE, STIFFNESS, inputs, outcome, search, state, stiffness};
 use crate::csv;
 use crate::identity::{Identity, identity};
 use crate::journal::Row;
@@ -32,14 +32,14 @@ use crate::warnings::{Strictness, Warnings};
 
 /// Solve a contact problem under many loads, one after the other.
 ///
-/// Each load starts from where the ones before lead. A row for each is appended to the file as it comes, with the
-/// loads, the mean gap, the contact area and its statistics, the energies, and how the solve ended; contact_fraction
-/// counts nodes, corrected_contact_fraction takes off what they count too much along the edge of the contact, and
-/// clusters are in nodes. The same command again goes on where an interrupted one was, or with loads that were added
-/// to the end of the list, and comes to the same file, byte for byte; for that it keeps FILE.state.npz beside the
-/// file, which may be deleted at the end. FILE.scene.toml beside it repeats or continues the sweep by asperity run.
-/// Exits with 0 if all rows converged, 2 if not (they are written all the same), and 1 if the input is refused or the
-/// file cannot be written.
+/// Each load starts from where the ones before lead. Numbers may have units, all of them or none, as in asperity solve.
+/// A row for each is appended to the file as it comes, with the loads, the mean gap, the contact area and its
+/// statistics, the energies, and how the solve ended; contact_fraction counts nodes, corrected_contact_fraction takes
+/// off what they count too much along the edge of the contact, and clusters are in nodes. The same command again goes
+/// on where an interrupted one was, or with loads that were added to the end of the list, and comes to the same file,
+/// byte for byte; for that it keeps FILE.state.npz beside the file, which may be deleted at the end. FILE.scene.toml
+/// beside it repeats or continues the sweep by asperity run. Exits with 0 if all rows converged, 2 if not (they are
+/// written all the same), and 1 if the input is refused or the file cannot be written.
 #[derive(Args)]
 #[command(after_help = EXAMPLES, group(ArgGroup::new("loads").required(true).args(LOADS).arg("contact_fractions")))]
 pub struct Options {
@@ -172,7 +172,7 @@ impl Options {
             let (control, solution, searched) = step?;
             table.check(&solution)?;
             let statistics = ContactStatistics::of(&solution, &grid, &law)?;
-            let mut row = row(control, &solution.report, &statistics);
+            let mut row = row(self.problem(), control, &solution.report, &statistics);
             row.extend(searched.iter().flat_map(search).map(|(name, value)| (name.to_owned(), value)));
             if self.stiffness {
                 let (problem, tolerance) = (steps.problem(), Case::STIFFNESS);
@@ -222,7 +222,7 @@ impl Options {
     /// The names of the columns: with those of a search or without, and with the contact stiffness or without.
     fn names(&self) -> Vec<&'static str> {
         let searched: &[_] = if self.fractions.values().is_some() { &SEARCH } else { &[] };
-        [&STATE[..], &OUTCOME[..], searched, if self.stiffness { &STIFFNESS[..] } else { &[] }].concat()
+        [&STATE[..], &OUTCOME[..], &INPUTS[..], searched, if self.stiffness { &STIFFNESS[..] } else { &[] }].concat()
     }
 
     fn problem(&self) -> ProblemOptions<'_> {
@@ -307,7 +307,12 @@ fn parsed(format: Format, names: &[&'static str], row: &str) -> Value {
 }
 
 /// The content of a row, by the names of the columns. Nothing in it depends on the clock.
-fn row(control: Control, report: &Report, statistics: &ContactStatistics) -> Map<String, Value> {
-    let cells = state(control, report, statistics).chain(outcome(report));
+fn row(
+    problem: ProblemOptions<'_>,
+    control: Control,
+    report: &Report,
+    statistics: &ContactStatistics,
+) -> Map<String, Value> {
+    let cells = state(control, report, statistics).chain(outcome(report)).chain(inputs(problem));
     cells.map(|(name, value)| (name.to_owned(), value)).collect()
 }

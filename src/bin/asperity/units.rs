@@ -98,11 +98,13 @@ impl Units {
     /// contact on a line is the number of its ends.
     pub fn of_column(&self, name: &str, control: &str, on_line: bool) -> Option<String> {
         self.of(match (name, control) {
-            ("mean_gap" | "min_gap" | "approach", _) => LENGTH,
+            ("mean_gap" | "min_gap" | "approach" | "range", _) => LENGTH,
             ("perimeter", _) if !on_line => LENGTH,
-            ("mean_pressure" | "mean_contact_pressure", _) => PRESSURE,
+            ("mean_pressure" | "mean_contact_pressure" | "modulus", _) => PRESSURE,
             ("normal_force", _) => FORCE,
-            ("elastic_energy" | "adhesive_energy" | "work" | "dissipated" | "energy_drop", _) => ENERGY_PER_AREA,
+            ("elastic_energy" | "adhesive_energy" | "work" | "dissipated" | "energy_drop" | "work_of_adhesion", _) => {
+                ENERGY_PER_AREA
+            }
             ("contact_stiffness", _) => PRESSURE_PER_LENGTH,
             ("normal_stiffness", _) => FORCE_PER_LENGTH,
             ("control_value", "mean-pressure") => PRESSURE,
