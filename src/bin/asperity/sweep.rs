@@ -252,10 +252,14 @@ impl Options {
     }
 }
 
+/// The elastic body, and the adhesion on it.
+type Body<T> = Box<dyn ElasticOperator<T>>;
+type Adhesive<T> = Box<dyn AdhesionLaw<T>>;
+
 /// The solves of the rows: under loads that are given, or that are found for contact fractions.
 enum Steps<'a, T: Scalar> {
-    Sweep(Sweep<'a, T, Box<dyn ElasticOperator<T>>, Box<dyn AdhesionLaw<T>>, std::vec::IntoIter<Control>, Wall>),
-    Search(ContactSearch<'a, T, Box<dyn ElasticOperator<T>>, Box<dyn AdhesionLaw<T>>, Wall>),
+    Sweep(Sweep<'a, T, Body<T>, Adhesive<T>, std::vec::IntoIter<Control>, Wall>),
+    Search(ContactSearch<'a, T, Body<T>, Adhesive<T>, Wall>),
 }
 
 /// A load, the solution under it, and the search for it if there was one.
@@ -279,7 +283,7 @@ impl<T: Scalar> Steps<'_, T> {
         }
     }
 
-    fn problem(&mut self) -> &mut Problem<T, Box<dyn ElasticOperator<T>>, Box<dyn AdhesionLaw<T>>> {
+    fn problem(&mut self) -> &mut Problem<T, Body<T>, Adhesive<T>> {
         match self {
             Self::Sweep(sweep) => sweep.problem(),
             Self::Search(search) => search.problem(),
