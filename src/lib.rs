@@ -75,7 +75,8 @@
 //! # More than one number, more than one load
 //!
 //! [`contact`] has areas, clusters and pressures of the contact of a solution; [`Sweep`] solves under a sequence of
-//! loads, each from where the last ones lead, and [`Nested`] on coarser grids first.
+//! loads, each from where the last ones lead, [`ContactSearch`] finds the load of a contact fraction, and [`Nested`]
+//! solves on coarser grids first.
 //!
 //! # Measured surfaces
 //!
@@ -121,6 +122,7 @@ pub mod path;
 pub mod picture;
 mod problem;
 mod real;
+mod search;
 mod solver;
 pub mod stability;
 mod surface;
@@ -144,6 +146,7 @@ pub use grid::Grid;
 pub use nested::{Level, Nested, NestedSolution};
 pub use problem::{Control, Problem};
 pub use real::Real;
+pub use search::{ContactSearch, FoundContact};
 pub use solver::{Criterion, Iteration, Method, Report, Settings, Solution, Solver, Start, Status};
 pub use surface::{
     Amplitude, Fit, Form, FormFit, Psd, RowAlignment, ScanAxis, SelfAffine, Spectrum, Spikes, Surface,

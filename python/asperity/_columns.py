@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterator
 from typing import Any, TypeVar
 
@@ -34,6 +35,10 @@ STATE = (
     "adhesive_energy",
     "min_gap",
 )
+#: The columns of the inputs, the same in all rows, so that tables can be put together.
+INPUTS = ("modulus", "law", "work_of_adhesion", "range", "heights")
+#: The columns of a search for the load of a contact fraction.
+SEARCH = ("wanted_contact_fraction", "reached")
 OUTCOME = ("relative_error", "load_error", "iterations", "operator_applications", "status")
 
 
@@ -42,7 +47,11 @@ def state(solution: Solution) -> dict[str, Any]:
     statistics = solution.statistics
     sizes = statistics.cluster_sizes
     largest = int(sizes[0]) if len(sizes) else 0
-    return {**solution.report, **statistics._asdict(), "clusters": len(sizes), "largest_cluster": largest}
+    searched = solution.report["search"]
+    search = {} if searched is None else dict(zip(SEARCH, (searched["wanted"], searched["reached"]), strict=True))
+    counted = {**statistics._asdict(), "clusters": len(sizes), "largest_cluster": largest}
+    source = solution.report["heights"]
+    return {**solution.report, **counted, **search, "heights": None if source is None else os.path.basename(source)}
 
 
 class Rows(Iterator[T]):

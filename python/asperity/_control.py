@@ -15,6 +15,8 @@ _PLURALS = {
     "normal_forces": "normal_force",
     "approaches": "approach",
     "springs": "spring",
+    "reduced_pressures": "reduced_pressure",
+    "contact_fractions": "contact_fraction",
 }
 
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from . import _control, _plot
 from ._asperity import Iteration
-from ._columns import OUTCOME, STATE, Rows, state
+from ._columns import INPUTS, OUTCOME, STATE, Rows, state
 from ._scene import Scene
 from ._solution import Solution
 
@@ -57,7 +57,7 @@ class Step:
 class Cycle(Rows[Step]):
     """The states of a cycle, each found when it is asked for, and the columns of their numbers."""
 
-    names = ("leg", "direction", *STATE, "work", "dissipated", "imbalance", "event", "energy_drop", *OUTCOME)
+    names = ("leg", "direction", *STATE, "work", "dissipated", "imbalance", "event", "energy_drop", *OUTCOME, *INPUTS)
 
     def __init__(
         self,

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from . import _asperity, _law
+from . import _asperity, _law, surface
 from ._control import Load
 from ._solution import Solution
 from ._topography import Topography, field_of, sides, taken
@@ -61,6 +61,8 @@ class Scene:
             "shape": list(self.topography.heights.shape),
             "lengths": list(lengths),
             "length_unit": self.topography.unit,
+            "pressure_unit": None,
+            "given": None,
             "boundary": boundary,
             "modulus": float(modulus),
             **_law.entries(law, wall),
@@ -80,6 +82,15 @@ class Scene:
                 InputWarning,
                 stacklevel=_outside(),
             )
+
+    def held(self, loads: list[Load]) -> list[Load]:
+        """Loads with reduced pressures as pressures, over the rms slope of the surface."""
+        if loads[:1] and loads[0][0] != "reduced_pressure":
+            return loads
+        if np.isnan(self.topography.heights).any():
+            raise ValueError("a reduced pressure is over the rms slope, and nodes that are absent have none: give a pressure")
+        slope = surface.statistics(self.topography).rms_slope
+        return [("mean_pressure", [ratio * (self.inputs["modulus"] * slope)]) for _, (ratio,) in loads]
 
     def start(self, start: Any, loads: list[Load]) -> NDArray[np.float64] | None:
         """The gap from which to start under the first of some loads."""
@@ -131,6 +142,11 @@ class Scene:
                 self._warned.add(warning["code"])
                 text = f"{warning['code']}: {warning['message']}"
                 warnings.warn(text, InputWarning, stacklevel=_outside())
+        searched = report["search"]
+        if solution.converged and searched is not None and not searched["reached"]:
+            text = f"no load was found with a contact fraction of {searched['wanted']}: it jumps from {searched['below']} to "
+            text += f"{searched['above']}, and the nearer one is the solution"
+            warnings.warn(text, ConvergenceWarning, stacklevel=_outside())
         if not solution.converged:
             warnings.warn(_not_converged(report), ConvergenceWarning, stacklevel=_outside())
         return solution

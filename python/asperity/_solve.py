@@ -21,6 +21,8 @@ def solve(
     normal_force: float | None = None,
     approach: float | None = None,
     spring: tuple[float, float] | None = None,
+    reduced_pressure: float | None = None,
+    contact_fraction: float | None = None,
     boundary: str = "periodic",
     absent_missing: bool = False,
     law: Any = None,
@@ -38,8 +40,8 @@ def solve(
 ) -> Solution:
     """Presses a rough surface against an elastic half-space.
 
-    Give one load: ``mean_pressure``, ``mean_gap``, ``normal_force``, ``approach`` or ``spring``. All quantities are in
-    any consistent units.
+    Give one load: ``mean_pressure``, ``mean_gap``, ``normal_force``, ``approach``, ``spring``, ``reduced_pressure`` or
+    ``contact_fraction``. All quantities are in any consistent units.
 
     Parameters
     ----------
@@ -64,6 +66,12 @@ def solve(
     spring : (float, float)
         Stiffness k of a spring in series, a force per length, and its position z at rest, a length: with a free
         boundary F = k (z − δ), with a periodic one and the mean gap ḡ, without absent nodes, F = k (ḡ − z).
+    reduced_pressure : float
+        Mean pressure over E* h'rms, with h'rms the rms slope of the surface.
+    contact_fraction : float
+        Share of the nodes that is to be in contact, to one node or 1 %. Its load is searched for by some solves: a mean
+        pressure, with adhesion a mean gap, or with a free boundary an approach. ``report["search"]`` says whether it was
+        ``reached``; where the contact jumps past it, the nearer side of the jump comes with a `ConvergenceWarning`.
     boundary : {"periodic", "free"}
         What is beyond the heights: the same again, or nothing, so that the half-space is free of traction there. Free
         needs an area, and four times the memory.
@@ -132,8 +140,16 @@ def solve(
     '1.000'
     """
     load = _control.one(
-        mean_pressure=mean_pressure, mean_gap=mean_gap, normal_force=normal_force, approach=approach, spring=spring
+        mean_pressure=mean_pressure,
+        mean_gap=mean_gap,
+        normal_force=normal_force,
+        approach=approach,
+        spring=spring,
+        reduced_pressure=reduced_pressure,
+        contact_fraction=contact_fraction,
     )
+    if nested and contact_fraction is not None:
+        raise ValueError("nested grids are for a load that is given: leave out nested, or give a load for contact_fraction")
     if nested and (start is not None or stability or leave):
         raise ValueError("nested grids make their own start, and do not test stability: leave out start, stability and leave")
     if leave and wall == "none":
@@ -153,5 +169,6 @@ def solve(
         threads=threads,
         nested=nested,
     )
+    (load,) = scene.held([load])
     found = scene.problem.solve(load, scene.start(start, [load]), observe, stability or leave, leave)
     return scene.solution("solve", found)

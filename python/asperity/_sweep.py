@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from . import _control, _plot
 from ._asperity import Iteration
-from ._columns import OUTCOME, STATE, Rows, state
+from ._columns import INPUTS, OUTCOME, SEARCH, STATE, Rows, state
 from ._scene import Scene
 from ._solution import Solution
 
@@ -22,10 +22,13 @@ class Sweep(Rows[Solution]):
     solve.
     """
 
-    names = STATE + OUTCOME
+    names: tuple[str, ...] = STATE + OUTCOME + INPUTS
 
     def __init__(self, scene: Scene, loads: list[_control.Load], start: Any, observe: Any) -> None:
         super().__init__()
+        loads = scene.held(loads)
+        if loads[:1] and loads[0][0] == "contact_fraction":
+            self.names = self.names + SEARCH
         self._scene, self._loads, self._observe = scene, loads, observe
         self._start = scene.start(start, loads)
 
@@ -76,6 +79,8 @@ def sweep(
     normal_forces: Iterable[float] | None = None,
     approaches: Iterable[float] | None = None,
     springs: Iterable[tuple[float, float]] | None = None,
+    reduced_pressures: Iterable[float] | None = None,
+    contact_fractions: Iterable[float] | None = None,
     boundary: str = "periodic",
     absent_missing: bool = False,
     law: Any = None,
@@ -105,6 +110,11 @@ def sweep(
         Approaches, with a free boundary.
     springs : sequence of (float, float)
         Stiffness and position at rest of a spring.
+    reduced_pressures : sequence of float
+        Mean pressures over E* h'rms, with h'rms the rms slope of the surface.
+    contact_fractions : sequence of float
+        Shares of the nodes that are to be in contact, as ``contact_fraction`` of `solve`; two more columns are
+        ``wanted_contact_fraction`` and ``reached``.
 
     Returns
     -------
@@ -118,6 +128,9 @@ def sweep(
     >>> found = asperity.sweep(rough, modulus=1.0, mean_pressures=np.geomspace(1e-3, 1e-2, 3))
     >>> [f"{share:.3f}" for share in found.columns["contact_fraction"]]
     ['0.030', '0.081', '0.219']
+    >>> found = asperity.sweep(rough, modulus=1.0, contact_fractions=[0.05, 0.1]).columns
+    >>> [f"{share:.2f}" for share in found["contact_fraction"]], [f"{p:.4f}" for p in found["mean_pressure"]]
+    (['0.05', '0.10'], ['0.0019', '0.0040'])
     """
     loads = _control.many(
         mean_pressures=mean_pressures,
@@ -125,6 +138,8 @@ def sweep(
         normal_forces=normal_forces,
         approaches=approaches,
         springs=springs,
+        reduced_pressures=reduced_pressures,
+        contact_fractions=contact_fractions,
     )
     scene = Scene(
         heights,

@@ -3,7 +3,7 @@
 use asperity::accuracy::{GridError, Quantity};
 use asperity::contact::{ContactArea, ContactStatistics};
 use asperity::stability::Stability;
-use asperity::{Control, Grid, Level, NestedSolution, Real, Solution, Warning};
+use asperity::{Control, FoundContact, Grid, Level, NestedSolution, Real, Solution, Warning};
 use numpy::Element;
 use numpy::ndarray::Array2;
 use rayon::prelude::*;
@@ -29,6 +29,24 @@ impl Grids {
     }
 }
 
+/// The account of a search for the load of a contact fraction.
+pub struct Search {
+    pub wanted: f64,
+    pub reached: bool,
+    pub below: Option<f64>,
+    pub above: Option<f64>,
+    pub solves: usize,
+    pub operator_applications: usize,
+}
+
+impl Search {
+    /// The account of what was found for a fraction.
+    pub fn of<T>(wanted: f64, found: &FoundContact<T>) -> Self {
+        let &FoundContact { reached, below, above, solves, operator_applications, .. } = found;
+        Self { wanted, reached, below, above, solves, operator_applications }
+    }
+}
+
 /// The account of a solve.
 pub struct Account<T> {
     pub solution: Solution<T>,
@@ -39,6 +57,8 @@ pub struct Account<T> {
     /// The least (most tensile) and the greatest elastic pressure.
     pub pressures: (f64, f64),
     pub control: Control,
+    /// The search for the load, if there was one.
+    pub search: Option<Search>,
     /// The nested grids, if they were used.
     pub grids: Option<Grids>,
     pub stability: Option<Stability<T>>,
@@ -67,6 +87,7 @@ impl<T: Scalar> Account<T> {
             statistics: None,
             pressures,
             control,
+            search: None,
             grids: None,
             stability: None,
             departures: None,

@@ -95,8 +95,15 @@ pub fn control((name, numbers): &Load) -> PyResult<Control> {
         ("normal_force", &[force]) => Ok(Control::Force(force)),
         ("approach", &[approach]) => Ok(Control::Approach(approach)),
         ("spring", &[stiffness, rest]) => Ok(Control::Spring { stiffness, rest }),
+        // of no meaning before it is found
+        ("contact_fraction", &[_]) => Ok(Control::MeanPressure(0.0)),
         (name, numbers) => Err(PyValueError::new_err(format!("{name} is no load with {} numbers", numbers.len()))),
     }
+}
+
+/// The contact fraction of a load, if its load is to be found.
+pub fn contact_fraction((name, numbers): &Load) -> Option<f64> {
+    if let ("contact_fraction", &[fraction]) = (name.as_str(), numbers.as_slice()) { Some(fraction) } else { None }
 }
 
 /// The stiffness of a spring, if the load is one.

@@ -8,8 +8,8 @@ use asperity::contact::ContactStatistics;
 use asperity::path::{Event, Path, PathCheckpoint, PathSettings};
 use asperity::stability::{StabilityTest, Verdict};
 use asperity::{
-    AdhesionLaw, Control, ElasticOperator, Error, Grid, Nested, Real, Settings, Solution, Solver, Start, Status,
-    Surface, Sweep, Warning,
+    AdhesionLaw, ContactSearch, Control, ElasticOperator, Error, Grid, Nested, Real, Settings, Solution, Solver, Start,
+    Status, Surface, Sweep, Warning,
 };
 use numpy::ndarray::Array2;
 use numpy::{IntoPyArray, PyReadonlyArray2};
@@ -17,9 +17,9 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use crate::account::{Account, Grids, Scalar};
+use crate::account::{Account, Grids, Scalar, Search};
 use crate::answer::answer;
-use crate::inputs::{Beyond, Load, Wall, control, settings};
+use crate::inputs::{Beyond, Load, Wall, contact_fraction, control, settings};
 use crate::law::{law, strongest};
 use crate::pools::Pool;
 use crate::refusal::{refusal, refusal_of_heights};
@@ -52,6 +52,8 @@ struct State<T: Real> {
     /// of the input
     warnings: Vec<Warning>,
     history: Vec<(Control, Array2<T>)>,
+    /// the numbers and the gap of a search for contact fractions
+    search: (Vec<f64>, Option<Array2<T>>),
     place: Option<PathCheckpoint<T>>,
     /// whether the present leg of the path ends at that place
     leg_ends: bool,
@@ -71,6 +73,8 @@ struct Made {
 /// The request for one solve.
 struct Request<'py> {
     control: Control,
+    /// The contact fraction whose load is to be found, if that is asked for.
+    fraction: Option<f64>,
     start: Option<PyReadonlyArray2<'py, f64>>,
     stability: bool,
     leave: bool,
@@ -130,6 +134,7 @@ impl<T: Scalar> State<T> {
             strongest,
             warnings,
             history: Vec::new(),
+            search: (Vec::new(), None),
             place: None,
             leg_ends: false,
         })
@@ -195,17 +200,29 @@ fn spent() -> Error {
 
 impl<T: Scalar> Solves for State<T> {
     fn solve<'py>(&mut self, py: Python<'py>, at: Run<'_>, request: Request<'py>) -> PyResult<Bound<'py, PyDict>> {
-        let Request { control, start, stability, leave } = request;
+        let Request { control, fraction, start, stability, leave } = request;
         let start = start.map(field::<T>);
         let found = run(py, at.pool, at.observer, |observe: Observe<'_>| {
             let clock = Instant::now();
-            if let Some((solution, grids)) = self.nested(control, start.is_none() && !stability, observe)? {
+            if fraction.is_none()
+                && let Some((solution, grids)) = self.nested(control, start.is_none() && !stability, observe)?
+            {
                 let account = self.row(solution, control, clock.elapsed().as_secs_f64())?;
                 return Ok(Account { grids: Some(grids), ..account });
             }
             let problem = single(&mut self.body, self.beyond, self.modulus)?;
-            let from = start.as_ref().map_or(Start::Default, |gap| Start::From(gap));
-            let mut solution = self.solver.solve_with(problem, control, from, observe)?;
+            let (mut solution, control, search) = match fraction {
+                Some(fraction) => {
+                    let mut search = ContactSearch::new(&mut self.solver, problem)?.continuing(&[], start);
+                    let found = search.at_observed(fraction, observe)?;
+                    let search = Search::of(fraction, &found);
+                    (found.solution, found.control, Some(search))
+                }
+                None => {
+                    let from = start.as_ref().map_or(Start::Default, |gap| Start::From(gap));
+                    (self.solver.solve_with(problem, control, from, observe)?, control, None)
+                }
+            };
             let (mut departures, mut verdict) = (Vec::new(), None);
             while stability && solution.report.status != Status::Stopped {
                 let found = StabilityTest::default().run_with(problem, &self.solver.constraint, control, &solution)?;
@@ -222,16 +239,29 @@ impl<T: Scalar> Solves for State<T> {
                 solution = left.solution;
             }
             let account = self.row(solution, control, clock.elapsed().as_secs_f64())?;
-            Ok(Account { stability: verdict, departures: leave.then_some(departures), ..account })
+            Ok(Account { search, stability: verdict, departures: leave.then_some(departures), ..account })
         })?;
         answer(py, found)
     }
 
     fn next_load<'py>(&mut self, py: Python<'py>, at: Run<'_>, request: Request<'py>) -> PyResult<Bound<'py, PyDict>> {
-        let Request { control, start, .. } = request;
+        let Request { control, fraction, start, .. } = request;
         let start = start.map(field::<T>);
         let found = run(py, at.pool, at.observer, |observe: Observe<'_>| {
             let clock = Instant::now();
+            if let Some(fraction) = fraction {
+                let problem = single(&mut self.body, self.beyond, self.modulus)?;
+                let (numbers, gap) = self.search.clone();
+                let mut search = ContactSearch::new(&mut self.solver, problem)?.continuing(&numbers, start.or(gap));
+                let found = search.at_observed(fraction, observe)?;
+                let (numbers, gap) = search.checkpoint();
+                if found.solution.report.status != Status::Stopped {
+                    self.search = (numbers, gap.cloned());
+                }
+                let search = Some(Search::of(fraction, &found));
+                let account = self.row(found.solution, found.control, clock.elapsed().as_secs_f64())?;
+                return Ok(Account { search, ..account });
+            }
             let history = std::mem::take(&mut self.history);
             let kept = history.clone();
             let problem = single(&mut self.body, self.beyond, self.modulus)?;
@@ -408,7 +438,7 @@ impl Problem {
         stability: bool,
         leave: bool,
     ) -> PyResult<Bound<'py, PyDict>> {
-        let request = Request { control: control(&load)?, start, stability, leave };
+        let request = Request { control: control(&load)?, fraction: contact_fraction(&load), start, stability, leave };
         let (pool, solves) = self.parts()?;
         solves.solve(py, Run { pool: &pool, observer: observe.as_ref() }, request)
     }
@@ -422,7 +452,13 @@ impl Problem {
         start: Option<PyReadonlyArray2<'py, f64>>,
         observe: Option<Py<PyAny>>,
     ) -> PyResult<Bound<'py, PyDict>> {
-        let request = Request { control: control(&load)?, start, stability: false, leave: false };
+        let request = Request {
+            control: control(&load)?,
+            fraction: contact_fraction(&load),
+            start,
+            stability: false,
+            leave: false,
+        };
         let (pool, solves) = self.parts()?;
         solves.next_load(py, Run { pool: &pool, observer: observe.as_ref() }, request)
     }

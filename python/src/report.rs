@@ -7,7 +7,7 @@ use asperity::{Level, Warning};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use crate::account::{Account, Grids, Scalar};
+use crate::account::{Account, Grids, Scalar, Search};
 use crate::inputs::stiffness;
 
 /// A dictionary of its entries.
@@ -49,6 +49,7 @@ pub fn of<'py, T: Scalar>(py: Python<'py>, account: &Account<T>) -> PyResult<Bou
         "equivalent_applications": account.grids.as_ref().map(|grids| grids.applications),
         "grid_error": grid_error,
         "accuracy": py.None(),
+        "search": account.search.as_ref().map(|found| search(py, found)).transpose()?,
         "mean_gap": report.mean_gap,
         "mean_pressure": report.mean_pressure,
         "normal_force": report.normal_force,
@@ -81,6 +82,18 @@ pub fn of<'py, T: Scalar>(py: Python<'py>, account: &Account<T>) -> PyResult<Bou
         "seconds": account.seconds,
         "control": account.control.name(),
         "control_value": account.control.value(),
+    ))
+}
+
+/// The search for the load of a contact fraction.
+fn search<'py>(py: Python<'py>, found: &Search) -> PyResult<Bound<'py, PyDict>> {
+    Ok(dictionary!(py,
+        "wanted": found.wanted,
+        "reached": found.reached,
+        "below": found.below,
+        "above": found.above,
+        "solves": found.solves,
+        "operator_applications": found.operator_applications,
     ))
 }
 

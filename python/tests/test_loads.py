@@ -70,3 +70,31 @@ def test_loads_that_are_refused(rough):
         asperity.sweep(rough, modulus=1.0, mean_gaps=[0.01, -1.0]).run()
     with pytest.raises(ValueError, match="number of steps is 0"):
         asperity.cycle(rough, modulus=1.0, mean_gaps=[0.02, 0.01], steps=0).run()
+
+
+def test_a_contact_that_jumps_past_the_fraction_is_told():
+    x = np.arange(32) / 32
+    ridge = np.repeat(0.02 * np.cos(2 * np.pi * x)[:, None], 16, axis=1)
+    with pytest.warns(asperity.ConvergenceWarning, match=r"from 0\.21875 to 0\.28125"):
+        solution = asperity.solve(ridge, (1.0, 0.5), modulus=1.0, contact_fraction=0.25)
+    assert solution.converged and not solution.report["search"]["reached"]
+    with pytest.raises(ValueError, match="contact fraction"):
+        asperity.solve(ridge, (1.0, 0.5), modulus=1.0, contact_fraction=1.0)
+    with pytest.raises(ValueError, match="nested"):
+        asperity.solve(ridge, (1.0, 0.5), modulus=1.0, contact_fraction=0.5, nested=True)
+
+
+def test_an_interrupted_search_goes_on_with_the_same_bits(rough):
+    whole = asperity.sweep(rough, modulus=1.0, contact_fractions=[0.05, 0.1, 0.2]).columns
+    seen = []
+
+    def observe(state):
+        if len(sweep.rows) == 1 and not seen:
+            seen.append(state)
+            raise KeyboardInterrupt
+
+    sweep = asperity.sweep(rough, modulus=1.0, contact_fractions=[0.05, 0.1, 0.2], observe=observe)
+    with pytest.raises(KeyboardInterrupt):
+        sweep.run()
+    for name, column in sweep.columns.items():
+        assert list(column) == list(whole[name]) or np.isnan(column).all(), name

@@ -124,6 +124,10 @@ def table(path):
 def same_columns(rows, columns):
     assert list(rows[0]) == list(columns)
     for name, column in columns.items():
+        if name == "heights":
+            # the tool alone has read a file
+            assert {row[name] for row in rows} == {"heights.npy"}
+            continue
         if column.dtype.kind == "f":
             # a cell that does not apply is empty
             assert np.array([float(row[name] or "nan") for row in rows]).tobytes() == column.tobytes(), name
@@ -150,6 +154,38 @@ def test_a_sweep_without_a_wall_has_the_columns_of_the_tool(tmp_path, tool, roug
     law = asperity.Morse(WORK, REACH)
     columns = asperity.sweep(rough, modulus=1.0, mean_gaps=[0.02, 0.015], law=law, wall="none").columns
     same_columns(table(tmp_path / "sweep.csv"), columns)
+
+
+@pytest.mark.parametrize("law", [None, asperity.Exponential(WORK, REACH)], ids=["none", "exponential"])
+def test_contact_fractions_are_found_as_by_the_tool(tmp_path, tool, rough, law):
+    np.save(tmp_path / "heights.npy", rough.heights)
+    options = [] if law is None else ["--law", "exponential", *GIVEN]
+    # fmt: off
+    asked(tool, tmp_path, "solve", "--heights", "heights.npy", "--contact-fraction", 0.1, "--no-pictures", "--out", "out",
+          *options)
+    asked(tool, tmp_path, "sweep", "--heights", "heights.npy", "--contact-fractions", "0.05,0.2", "--out", "sweep.csv",
+          *options)
+    # fmt: on
+    solution = asperity.solve(rough, modulus=1.0, law=law, contact_fraction=0.1)
+    same(tmp_path / "out", solution)
+    assert solution.report["search"]["reached"] and abs(solution.contact_fraction - 0.1) <= 1e-3
+    columns = asperity.sweep(rough, modulus=1.0, law=law, contact_fractions=[0.05, 0.2]).columns
+    rows = table(tmp_path / "sweep.csv")
+    assert [row.pop("reached") for row in rows] == ["true", "true"] and columns.pop("reached").all()
+    same_columns(rows, columns)
+
+
+def test_reduced_pressures_are_those_of_the_tool(tmp_path, tool, rough):
+    np.save(tmp_path / "heights.npy", rough.heights)
+    # fmt: off
+    asked(tool, tmp_path, "sweep", "--heights", "heights.npy", "--modulus", 3, "--reduced-pressures", "0.01,0.02", "--out",
+          "sweep.csv")
+    # fmt: on
+    same_columns(
+        table(tmp_path / "sweep.csv"), asperity.sweep(rough, modulus=3.0, reduced_pressures=[0.01, 0.02]).columns
+    )
+    alone = asperity.solve(rough, modulus=3.0, reduced_pressure=0.01)
+    assert alone.mean_pressure == pytest.approx(0.01 * 3.0 * asperity.surface.statistics(rough).rms_slope, rel=1e-14)
 
 
 @pytest.mark.parametrize("gaps", [[0.05, 0.012, 0.05, 0.04], [0.05, 0.012, 0.2]])

@@ -22,6 +22,7 @@ mod path;
 mod precision;
 mod rough;
 mod rough_contact;
+mod search;
 mod solvers;
 mod stability;
 mod statistics;

@@ -37,7 +37,10 @@ impl Reader {
     fn follow(&mut self, command: &str, text: &str) {
         let words: Vec<_> = command.split_whitespace().collect();
         let value = |option: &str| words.iter().skip_while(|word| **word != option).nth(1).copied();
-        let side: f64 = value("--lengths").map_or(1.0, |side| side.parse().unwrap());
+        // a number, and the unit that it may have
+        let side = value("--lengths").unwrap_or("1");
+        let (side, unit) = side.split_at(side.find(|c: char| c.is_alphabetic() && c != 'e').unwrap_or(side.len()));
+        let height = 0.01 * side.parse::<f64>().unwrap();
         let results = ["--out", "--psd", "--plot", "--fields"].map(value);
         let scene = (words[1] == "run" && !self.folder.path().join("heights.npy").exists()).then_some("heights.npy");
         for word in words.iter().copied().chain(scene) {
@@ -50,7 +53,7 @@ impl Reader {
                 // the content and not the ending decides
                 fs::write(self.folder.path().join(word), measured(!word.ends_with(".txt"))).unwrap();
             } else if word.ends_with(".npy") {
-                let roughness = format!("--lengths {side} --k-l 2 --k-s 20 --rms-height {}", 0.01 * side);
+                let roughness = format!("--lengths {side}{unit} --k-l 2 --k-s 20 --rms-height {height}{unit}");
                 let made = self.shell(&format!("asperity surface --size 64 {roughness} --force --quiet --out {word}"));
                 assert!(made.status.success(), "{}", String::from_utf8_lossy(&made.stderr));
             }

@@ -6,6 +6,7 @@ mod bench;
 
 #[cfg(unix)]
 mod commands;
+mod fraction_tool;
 mod free_tool;
 mod hostile;
 mod laws_tool;

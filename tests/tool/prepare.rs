@@ -54,7 +54,7 @@ fn a_measured_surface_goes_from_file_to_contact_map() {
     );
     bench.refused_with("stats measured.gsf", &[remedy]);
     bench.said(remedy.strip_prefix("asperity ").unwrap());
-    assert!(bench.said("stats filled.npz").contains("3.05e-6 x 2.25e-6 m"));
+    assert!(bench.said("stats filled.npz").contains("3.05 µm x 2.25 µm"));
 
     let said = bench.said("prepare measured.gsf --detrend plane --fill --mirror --out surface.npz");
     let lines: Vec<_> = said.lines().map(|line| line.split_whitespace().next().unwrap()).collect();
@@ -85,7 +85,7 @@ fn a_measured_surface_goes_from_file_to_contact_map() {
     // stats says units too
     let stats = bench.said("stats surface.npz");
     assert!(
-        stats.contains("6.1e-6 x 4.5e-6 m")
+        stats.contains("6.1 µm x 4.5 µm")
             && stats.lines().any(|l| l.starts_with("rms curvature") && l.ends_with(" 1/m"))
     );
 }
@@ -108,7 +108,7 @@ fn steps_have_a_fixed_order_and_are_those_of_the_library() {
     let expected = expected.crop(3..53, 2..42).unwrap().flip().detrend(asperity::Trend::Quadric).unwrap();
     let expected = expected.fill().unwrap().window(0.15).unwrap().resample((100, 64)).unwrap();
     assert_eq!(read_topography(&bench.path("a.npz")).unwrap(), expected);
-    assert!(said.contains("before 3.05e-6 x 2.25e-6 m") && said.contains("curvatures xx"), "{said}");
+    assert!(said.contains("before 3.05 µm x 2.25 µm") && said.contains("curvatures xx"), "{said}");
 
     // nothing is done unasked, and what is left undone is said
     let said = bench.said("prepare measured.npz --out same.npz");
@@ -211,7 +211,7 @@ fn a_form_is_removed_and_told_with_its_radius() {
     write_topography(&bench.path("rod.npz"), &map).unwrap();
     let said = bench.said("prepare rod.npz --remove-form cylinder --out a.npz");
     assert!(
-        (after(&said, "cylinder of radius ") / 1e-5 - 1.0).abs() < 0.01 && said.contains("m, bulging upwards"),
+        (after(&said, "cylinder of radius ") / 10.0 - 1.0).abs() < 0.01 && said.contains(" µm, bulging upwards"),
         "{said}"
     );
     // the axis is where 0.6 x = 0.8 y
@@ -236,7 +236,7 @@ fn a_channel_of_a_gwyddion_file_is_chosen_where_several_have_heights() {
         bench.said(&format!("prepare scan.gwy --channel {channel} --fill --out {channel}.npz"));
         bench.said(&format!("stats {channel}.npz"));
     }
-    assert!(bench.said("prepare map.gwy --out map.npz").contains("4 x 3 heights, 1 missing, 2e-6 x 3e-6 m"));
+    assert!(bench.said("prepare map.gwy --out map.npz").contains("4 x 3 heights, 1 missing, 2 µm x 3 µm"));
     bench.refused_with("prepare map.gwy --channel Amplitude --out n.npz", &["\"Amplitude\"", "1 \"Phase\""]);
 }
 
@@ -249,9 +249,9 @@ fn lengths_of_files_and_of_options() {
         let said = bench.said(arguments);
         said.lines().find_map(|line| line.strip_prefix("side lengths")).unwrap().trim().to_owned()
     };
-    assert_eq!(sides("stats g.txt"), "2e-9 x 1e-9 m");
+    assert_eq!(sides("stats g.txt"), "2 nm x 1 nm");
     // headers are rounded: what is near is taken as given
-    assert_eq!(sides("stats g.txt --lengths 2.01e-9 1e-9"), "2.01e-9 x 1e-9 m");
+    assert_eq!(sides("stats g.txt --lengths 2.01e-9 1e-9"), "2.01 nm x 1 nm");
     assert_eq!(sides("stats plain.txt"), "1 x 1");
     assert_eq!(sides("stats plain.txt --lengths 4"), "4 x 6");
     for command in
@@ -259,11 +259,11 @@ fn lengths_of_files_and_of_options() {
     {
         bench.refused_with(
             &format!("{command} --lengths 2 1"),
-            &["--lengths", "2 x 1", "2e-9 x 1e-9 m", "leave --lengths out", "asperity prepare"],
+            &["--lengths", "2 x 1", "2 nm x 1 nm", "leave --lengths out", "asperity prepare"],
         );
     }
     bench.said("prepare g.txt --lengths 2 1 --out g.npz");
-    assert_eq!(sides("stats g.npz"), "2 x 1 m");
+    assert_eq!(sides("stats g.npz"), "2 m x 1 m");
     // sweeps take the lengths and the unit too
     let output = bench.run("sweep --mean-gaps 1e-9 --heights g.txt --json --out s.csv");
     let report: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();

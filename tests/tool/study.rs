@@ -43,18 +43,23 @@ fn a_study_has_the_rows_of_the_sweeps_that_it_stands_for() {
     assert_eq!(["cases", "done", "rows", "unconverged"].map(number), [Some(4), Some(4), Some(12), Some(0)]);
     let table = bench.read("study.csv");
     let rows = cells(&table);
-    assert_eq!(rows[0][..6], ["case", "seed", "law", "work_of_adhesion", "range", "control"]);
-    assert_eq!(rows[1][..5], ["1", "1", "none", "", ""]);
-    assert_eq!(rows[12][..5], ["4", "2", "exponential", "0.0001", "0.01"]);
-    // the last of the cases by hand
+    assert_eq!(rows[0][..3], ["case", "seed", "control"]);
+    let column = |name: &str| rows[0].iter().position(|column| *column == name).unwrap();
+    let named = |row: usize| ["case", "seed", "law", "work_of_adhesion", "range"].map(|name| rows[row][column(name)]);
+    assert_eq!(named(1), ["1", "1", "none", "", ""]);
+    assert_eq!(named(12), ["4", "2", "exponential", "0.0001", "0.01"]);
+    // the last of the cases by hand, but for the name of its surface
     bench.said("surface --size 24 --k-l 2 --k-s 8 --rms-slope 0.1 --seed 2 --quiet --out second.npz");
     bench.said(
         "sweep --heights second.npz --law exponential --work-of-adhesion 1e-4 --range 1e-2 \
          --mean-pressures 1e-3:1e-2:3:log --quiet --out second.csv",
     );
     let by_hand = bench.read("second.csv");
-    for (row, expected) in rows[10..].iter().zip(&cells(&by_hand)[1..]) {
-        assert_eq!(row[5..], expected[..]);
+    let by_hand = cells(&by_hand);
+    let surface = by_hand[0].iter().position(|column| *column == "heights").unwrap();
+    for (row, expected) in rows.iter().take(1).chain(&rows[10..]).zip(&by_hand) {
+        let expected: Vec<_> = (0..expected.len()).filter(|k| *k != surface).map(|k| expected[k]).collect();
+        assert_eq!(row[2..], expected[..]);
     }
     // nothing is left of what it takes to go on
     let kept = bench.names("study.csv.cases");
@@ -151,7 +156,21 @@ fn files_vary_too_and_a_changed_file_is_another_case() {
     assert!((ratio - 2.5).abs() < 1e-5, "{ratio}");
     bench.write("csv.toml", &study.replace("table.jsonl", "table.csv"));
     bench.said("study csv.toml --quiet");
-    assert!(bench.read("table.csv").lines().nth(1).unwrap().starts_with("1,\"a,b.npy\",1,mean-gap,"));
+    let table = bench.read("table.csv");
+    let [header, row] = [0, 1].map(|line| table.lines().nth(line).unwrap());
+    assert!(
+        header.starts_with("case,control,") && row.starts_with("1,mean-gap,") && row.contains("\"a,b.npy\""),
+        "{row}"
+    );
+    // ranges with units, in the digits that one would write
+    let range = study.replace("[1, 1]", "[\"1um\", \"1um\"]").replace("[1, 2.5]", "\"1GPa:3GPa:3\"");
+    bench.write("units.toml", &range.replace("mean-gaps = 0.006", "mean-gaps = \"6nm\""));
+    let listed = bench.said("study units.toml --list");
+    assert!(listed.contains("2  to do  heights a,b.npy, modulus 2GPa"), "{listed}");
+    for wrong in ["1GPa:3MPa:3", "1GPa:3:3", "one:two:3"] {
+        bench.write("wrong.toml", &range.replace("1GPa:3GPa:3", wrong));
+        bench.refused_with("study wrong.toml", &["vary.modulus", "same unit"]);
+    }
     bench.said("surface --size 16 --k-l 2 --k-s 6 --rms-slope 0.1 --seed 3 --quiet --force --out c.npy");
     assert!(bench.said("study study.toml --list").contains("2 of 4 cases are done"));
 }

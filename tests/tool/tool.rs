@@ -552,7 +552,7 @@ fn help_and_version() {
                 "[default: the file's, else 1 1]",
                 "[default: 1e-6, in f32 1e-4]",
                 "Examples",
-                "--range 1e-9",
+                "--range 1nm",
             ],
         ),
         ("--version", vec![env!("CARGO_PKG_VERSION")]),

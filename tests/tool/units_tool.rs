@@ -1,5 +1,8 @@
 //! Units in what the tool prints.
 
+use asperity::io::{read_topography, write_topography};
+use serde_json::Value;
+
 use crate::bench::Bench;
 
 #[test]
@@ -22,8 +25,170 @@ fn the_table_of_a_solve_in_metres_and_pascals_has_prefixes() {
     assert_eq!(cell(&table, "mean pressure"), (5.0, "MPa".to_owned()));
     assert_eq!(cell(&table, "normal force"), (5.0, "µN".to_owned()));
     // units that are not known, or only in part
-    for units in ["", "--length-unit m", "--pressure-unit Pa", "--length-unit mm --pressure-unit MPa"] {
+    for (units, gap_unit, pressure) in [
+        ("", "", (5e6, "")),
+        ("--length-unit m", "nm", (5e6, "")),
+        ("--pressure-unit Pa", "", (5.0, "MPa")),
+        ("--length-unit mm --pressure-unit MPa", "mm", (5e6, "MPa")),
+    ] {
         let table = bench.said(&format!("{solve} {units} --out plain"));
-        assert_eq!(cell(&table, "mean pressure"), (5e6, String::new()), "{units}");
+        assert_eq!(cell(&table, "mean gap").1, gap_unit, "{units}");
+        assert_eq!(cell(&table, "mean pressure"), (pressure.0, pressure.1.to_owned()), "{units}");
     }
+}
+
+const PLAIN: &str =
+    "--lengths 1e-6 --modulus 1e9 --mean-pressure 5e6 --law exponential --work-of-adhesion 0.05 --range 2.5e-9";
+const UNITS: &str =
+    "--lengths 1um --modulus 1GPa --mean-pressure 5MPa --law exponential --work-of-adhesion 50mJ/m2 --range 2.5nm";
+
+fn rough() -> Bench {
+    let bench = Bench::new();
+    bench.said("surface --size 32 --lengths 1um --k-s 10 --rms-height 5nm --quiet --out heights.npy");
+    bench
+}
+
+#[test]
+fn numbers_with_units_are_those_in_the_si() {
+    let bench = rough();
+    bench.said(&format!("solve --heights heights.npy {PLAIN} --quiet --out plain"));
+    let table = bench.said(&format!("solve --heights heights.npy {UNITS} --out units"));
+    for field in ["gap.npy", "pressure.npy", "contact_pressure.npy"] {
+        assert!(bench.bytes(&format!("plain/{field}")) == bench.bytes(&format!("units/{field}")), "{field}");
+    }
+    assert!(
+        ["mean pressure             5 MPa", "normal force              5 µN"].iter().all(|row| table.contains(row)),
+        "{table}"
+    );
+    let (plain, units) = (bench.report("plain"), bench.report("units"));
+    for (key, here) in units.as_object().unwrap() {
+        match key.as_str() {
+            "seconds" => {}
+            "length_unit" => assert_eq!((here, &plain[key]), (&"m".into(), &Value::Null)),
+            "pressure_unit" => assert_eq!((here, &plain[key]), (&"Pa".into(), &Value::Null)),
+            "given" => {
+                assert_eq!(plain[key], Value::Null);
+                assert_eq!((&here["modulus"], &here["work_of_adhesion"]), (&"1GPa".into(), &"50mJ/m2".into()));
+            }
+            _ => assert_eq!(here, &plain[key], "{key}"),
+        }
+    }
+    // as they were typed, and for hands that write a scene
+    let scene = bench.read("units/scene.toml");
+    assert!(
+        ["modulus = \"1GPa\"", "lengths = \"1um\"", "mean-pressure = \"5MPa\""].iter().all(|line| scene.contains(line))
+    );
+    bench.said("run units/scene.toml --mean-pressure 6MPa --quiet --out more");
+    assert_eq!(bench.report("more")["mean_pressure"].as_f64(), Some(6e6));
+    bench.refused_with(
+        "run units/scene.toml --mean-pressure 6e6 --out no",
+        &["--mean-pressure is 6e6", "--lengths 1um"],
+    );
+}
+
+#[test]
+fn units_belong_to_all_numbers_or_to_none() {
+    let bench = rough();
+    let solve = "solve --heights heights.npy --out no";
+    for (arguments, parts) in [
+        ("--lengths 1um --modulus 70 --mean-pressure 1MPa", vec!["--modulus is 70, without a unit", "--lengths 1um"]),
+        ("--lengths 1um --mean-pressure 1MPa", vec!["--modulus is 1 by default", "--modulus with a unit"]),
+        ("--lengths 1um 2 --modulus 1GPa --mean-pressure 1MPa", vec!["--lengths is 1um 2", "without a unit"]),
+        ("--modulus 1GPa --mean-pressure 1MPa", vec!["how large", "--lengths"]),
+        ("--lengths 1um --modulus 1GN --mean-pressure 1MPa", vec!["--modulus", "'1GN'", "as 70GPa"]),
+        ("--lengths 1Pa --modulus 1GPa --mean-pressure 1MPa", vec!["--lengths", "'1Pa'", "unit of length"]),
+        (
+            "--lengths 1um --modulus 1GPa --mean-pressure 1MPa --length-unit nm",
+            vec!["--length-unit is nm", "m already"],
+        ),
+    ] {
+        bench.refused_with(&format!("{solve} {arguments}"), &parts);
+    }
+    let sweep = "sweep --heights heights.npy --lengths 1um --modulus 1GPa --out no.csv --mean-pressures";
+    bench.refused_with(&format!("{sweep} 1:2MPa:3"), &["1 has no unit"]);
+    bench.refused_with(&format!("{sweep} 1nm:2nm:3"), &["'1nm'", "pressure"]);
+    // zero has the same size in every unit
+    bench.said(&format!("{sweep} 0,1MPa --quiet").replace("no.csv", "zero.csv"));
+    assert!(!bench.path("no").exists() && !bench.path("no.csv").exists());
+}
+
+#[test]
+fn tables_name_the_units_of_their_columns() {
+    let bench = rough();
+    let sweep = "sweep --heights heights.npy --lengths 1um --modulus 1GPa --out sweep.csv";
+    let said = bench.said(&format!("{sweep} --mean-pressures 1MPa:4MPa:3:log --stiffness"));
+    assert!(said.contains("mean pressure 2 MPa  mean gap ") && said.contains(" nm  contact"), "{said}");
+    let table = bench.read("sweep.csv");
+    let header = table.lines().next().unwrap();
+    assert_eq!(
+        header,
+        "control,control_value [Pa],mean_pressure [Pa],mean_contact_pressure [Pa],mean_gap [m],normal_force [N],approach [m],\
+         edge_traction,contact_fraction,corrected_contact_fraction,perimeter [m],clusters,largest_cluster,repulsive_fraction,\
+         attractive_fraction,elastic_energy [J/m2],adhesive_energy [J/m2],min_gap [m],relative_error,load_error,iterations,\
+         operator_applications,status,modulus [Pa],law,work_of_adhesion [J/m2],range [m],heights,contact_stiffness [Pa/m],normal_stiffness [N/m]"
+    );
+    assert!(table.lines().nth(1).unwrap().starts_with("mean-pressure,1000000.0,1000000.0,"), "{table}");
+    // a table goes on in its own units only, which are the SI's either way
+    let more = "--mean-pressures 1MPa:4MPa:3:log,5MPa --stiffness";
+    assert!(bench.said(&format!("{sweep} {more} --plot area.svg")).contains("3 of 4 rows already"));
+    assert!(bench.read("area.svg").contains(">mean pressure (MPa)<"));
+    let plain = "sweep --heights heights.npy --lengths 1e-6 --modulus 1e9 --out sweep.csv --stiffness --mean-pressures";
+    bench.refused_with(&format!("{plain} 1e6:4e6:3:log,5e6"), &["units is m Pa N, and not none"]);
+    bench.said(&format!("{plain} 1e6:4e6:3:log,5e6 --length-unit m --pressure-unit Pa --quiet"));
+    // the page takes the units from the header
+    bench.said("report sweep.csv");
+    let page = bench.read("sweep.csv.html");
+    assert!(page.contains("<th>mean gap [m]</th>") && page.contains(">mean pressure (MPa)<"), "{page}");
+
+    let tip = "surface --form sphere --radius 20nm --size 48 --lengths 20nm --quiet --out tip.npz";
+    bench.said(tip);
+    let said = bench.said(
+        "cycle --heights tip.npz --boundary free --modulus 2GPa --law exponential --work-of-adhesion 50mJ/m2 --range 0.3nm \
+         --spring-stiffness 2N/m --spring-positions=-4nm,0,-12nm --steps 10 --smallest-step 1e-3 --out tip.csv --plot tip.svg",
+    );
+    assert!(said.contains("normal force 0 N") || said.contains(" nN  approach -"), "{said}");
+    assert!(
+        said.contains("greatest tensile force  ") && said.contains("energy drop ") && said.contains("J/m²"),
+        "{said}"
+    );
+    assert!(bench.read("tip.csv").starts_with("leg,direction,control,control_value [m],"));
+    assert!(bench.read("tip.svg").contains(">normal force (nN)<"));
+}
+
+#[test]
+fn maps_have_their_unit_and_come_into_the_si() {
+    let bench = Bench::new();
+    // 5 by 4 micrometres, and heights in nanometres
+    let row = |i: usize| (0..24).map(|j| (30.0 * ((i * j) as f64).sin()).to_string()).collect::<Vec<_>>().join(" ");
+    bench.write("heights.txt", &(0..30).map(row).collect::<Vec<_>>().join("\n"));
+    let said = bench.said("prepare heights.txt --lengths 5um 4um --unit nm --mirror --out map.npz");
+    assert!(said.contains("5000 nm x 4000 nm, before unknown"), "{said}");
+    let map = read_topography(&bench.path("map.npz")).unwrap();
+    assert_eq!((map.lengths, map.unit.as_deref()), (Some((10000.0, 8000.0)), Some("nm")));
+    assert!(bench.said("stats map.npz").contains("side lengths       10000 nm x 8000 nm"));
+    let solved = bench.reported("solve --heights map.npz --modulus 1GPa --mean-pressure 1MPa --no-pictures --out si");
+    assert_eq!((&solved["lengths"], &solved["length_unit"]), (&serde_json::json!([1e-5, 8e-6]), &"m".into()));
+    let mut metres = map.clone();
+    metres.heights.mapv_inplace(|height| height / 1e9);
+    (metres.lengths, metres.unit) = (Some((1e-5, 8e-6)), Some("m".to_owned()));
+    write_topography(&bench.path("metres.npz"), &metres).unwrap();
+    bench.said("solve --heights metres.npz --modulus 1e9 --mean-pressure 1e6 --no-pictures --quiet --out plain");
+    assert!(bench.bytes("si/gap.npy") == bench.bytes("plain/gap.npy"));
+    // in whatever unit the map is, if numbers have none
+    let plain = bench.reported("solve --heights map.npz --modulus 1 --mean-pressure 1e-3 --no-pictures --out nm");
+    assert_eq!((&plain["lengths"][0], &plain["length_unit"]), (&10000.0.into(), &"nm".into()));
+    bench.said("prepare heights.txt --lengths 5 4 --unit px --out px.npz");
+    bench.refused_with(
+        "solve --heights px.npz --modulus 1GPa --mean-pressure 1MPa --out no",
+        &["in px", "prepare --unit"],
+    );
+    bench.refused_with("prepare px.npz --lengths 5um --out no.npz", &["in px", "--unit"]);
+    // what is made with units has them in its file
+    assert!(
+        bench
+            .said("surface --size 16 --lengths 2um --k-s 6 --rms-height 5nm --out made.npz")
+            .contains("rms height         5 nm")
+    );
+    assert_eq!(read_topography(&bench.path("made.npz")).unwrap().unit.as_deref(), Some("m"));
+    bench.refused_with("surface --size 16 --k-s 6 --rms-height 5nm --out no.npz", &["how large", "--lengths"]);
 }

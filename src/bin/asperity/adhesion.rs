@@ -11,8 +11,9 @@ use asperity::{
 use clap::{Args, ValueEnum};
 use ndarray::Array2;
 
-use crate::allowed::{non_negative, positive};
+use crate::allowed::positive;
 use crate::outcome::Outcome;
+use crate::quantity::{ENERGY, ENERGY_PER_AREA, LENGTH, Quantity};
 
 /// The adhesion between the surfaces.
 #[derive(Args)]
@@ -21,23 +22,27 @@ pub struct AdhesionOptions {
     #[arg(long, value_enum, default_value_t = Law::None, help_heading = "Adhesion")]
     pub law: Law,
     /// Work of adhesion, an energy per area
-    #[arg(long, value_name = "W", allow_hyphen_values = true, value_parser = non_negative, help_heading = "Adhesion")]
-    pub work_of_adhesion: Option<f64>,
+    #[arg(long, value_name = "W", allow_hyphen_values = true, value_parser = ENERGY_PER_AREA.non_negative())]
+    #[arg(help_heading = "Adhesion")]
+    pub work_of_adhesion: Option<Quantity>,
     /// Range of adhesion, a length; for lennard-jones and van-der-waals the distance of the surfaces in contact
-    #[arg(long, value_name = "RHO", allow_hyphen_values = true, value_parser = positive, help_heading = "Adhesion")]
-    pub range: Option<f64>,
+    #[arg(long, value_name = "RHO", allow_hyphen_values = true, value_parser = LENGTH.positive())]
+    #[arg(help_heading = "Adhesion")]
+    pub range: Option<Quantity>,
     /// Exponent of the energy of a power law
     #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = positive, help_heading = "Adhesion")]
     pub exponent: Option<f64>,
     /// Hamaker's constant of van-der-waals, an energy
-    #[arg(long, value_name = "A", allow_hyphen_values = true, value_parser = positive, help_heading = "Adhesion")]
-    pub hamaker: Option<f64>,
+    #[arg(long, value_name = "A", allow_hyphen_values = true, value_parser = ENERGY.positive())]
+    #[arg(help_heading = "Adhesion")]
+    pub hamaker: Option<Quantity>,
     /// Table of a law: lines of a gap, rising from 0, and a traction, attraction positive, the last one 0
     #[arg(long, value_name = "FILE", help_heading = "Adhesion")]
     pub law_table: Option<PathBuf>,
     /// Gap at which a law that never ends is cut off, smoothly
-    #[arg(long, value_name = "D", allow_hyphen_values = true, value_parser = positive, help_heading = "Adhesion")]
-    pub cut_off: Option<f64>,
+    #[arg(long, value_name = "D", allow_hyphen_values = true, value_parser = LENGTH.positive())]
+    #[arg(help_heading = "Adhesion")]
+    pub cut_off: Option<Quantity>,
     /// Work of adhesion at each node, in a file as for the heights and of their shape, in the place of one for all
     #[arg(long, value_name = "FILE", help_heading = "Adhesion")]
     pub work_of_adhesion_map: Option<PathBuf>,
@@ -164,11 +169,11 @@ impl AdhesionOptions {
     /// Refuses a law without its parameters, parameters that are not those of the law, and a wall that does not fit.
     pub fn check(&self) -> Outcome<()> {
         let file = |path: &Option<PathBuf>| path.as_ref().map(|path| path.display().to_string());
-        let number = |value: Option<f64>| value.map(|value| value.to_string());
+        let number = |value: Option<Quantity>| value.map(|value| value.to_string());
         let parameters = [
             ("--work-of-adhesion", number(self.work_of_adhesion), "an energy per area"),
             ("--range", number(self.range), "a length"),
-            ("--exponent", number(self.exponent), "a number"),
+            ("--exponent", self.exponent.map(|value| value.to_string()), "a number"),
             ("--hamaker", number(self.hamaker), "an energy"),
             ("--law-table", file(&self.law_table), "a file of gaps and tractions"),
         ];
@@ -252,9 +257,9 @@ impl Adhesion<'_> {
     pub fn law<T: Real>(&self) -> asperity::Result<Box<dyn AdhesionLaw<T>>> {
         let options = self.options;
         let most = self.works.as_ref().map(|works| works.iter().copied().fold(0.0, f64::max));
-        let work = most.or(options.work_of_adhesion).unwrap_or_default();
-        let [range, exponent, hamaker] =
-            [options.range, options.exponent, options.hamaker].map(|value| value.unwrap_or_default());
+        let [work, range, hamaker] = [options.work_of_adhesion, options.range, options.hamaker]
+            .map(|quantity| quantity.map_or(0.0, |quantity| quantity.value));
+        let (work, exponent) = (most.unwrap_or(work), options.exponent.unwrap_or_default());
         match options.law {
             Law::None => Ok(Box::new(NoAdhesion)),
             Law::MaugisDugdale => self.varied(MaugisDugdale::new(work, range)?),
@@ -280,7 +285,7 @@ impl Adhesion<'_> {
         L: AdhesionLaw<T> + AdhesionLaw<f64> + 'static,
     {
         match self.options.cut_off {
-            Some(distance) => self.varied(CutOff::new(law, distance)?),
+            Some(distance) => self.varied(CutOff::new(law, distance.value)?),
             None => self.varied(law),
         }
     }

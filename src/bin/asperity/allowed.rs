@@ -11,12 +11,13 @@ pub fn positive(text: &str) -> Result<f64, String> {
     number(text, |v| v > 0.0 && v.is_finite(), "a number, positive and finite")
 }
 
-pub fn non_negative(text: &str) -> Result<f64, String> {
-    number(text, |v| v >= 0.0 && v.is_finite(), "a number, zero or positive and finite")
-}
-
 pub fn finite(text: &str) -> Result<f64, String> {
     number(text, f64::is_finite, "a number, and finite")
+}
+
+/// A share that is neither nothing nor all.
+pub fn share(text: &str) -> Result<f64, String> {
+    number(text, |v| v > 0.0 && v < 1.0, "a share between 0 and 1")
 }
 
 /// A number of threads; more than 1024 are taken for a slip of the pen.

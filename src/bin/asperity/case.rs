@@ -8,8 +8,8 @@ use asperity::accuracy::{Accuracy, AccurateSolution, GridError};
 use asperity::contact::ContactStatistics;
 use asperity::stability::{ContactStiffness, Departure, Stability, StabilityTest, Verdict};
 use asperity::{
-    AdhesionLaw, Control, Grid, Level, Nested, NestedSolution, Problem, Report, Settings, Solution, Solver, Start,
-    Surface,
+    AdhesionLaw, ContactSearch, Control, FoundContact, Grid, Iteration, Level, Nested, NestedSolution, Problem, Report,
+    Settings, Solution, Solver, Start, Surface,
 };
 use ndarray::Array2;
 use serde_json::Value;
@@ -17,6 +17,7 @@ use serde_json::Value;
 use crate::accuracy::Reached;
 use crate::adhesion::Wall;
 use crate::boundary::Boundary;
+use crate::numbers::percent;
 use crate::options::Scalar;
 use crate::outcome::Outcome;
 use crate::progress::Progress;
@@ -25,7 +26,10 @@ use crate::progress::Progress;
 pub struct Case {
     pub boundary: Boundary,
     pub modulus: f64,
+    /// The load; of no meaning where a contact fraction is wanted.
     pub control: Control,
+    /// The contact fraction for which a load is to be found, if one is.
+    pub fraction: Option<f64>,
     pub settings: Settings,
     /// What keeps the surfaces apart.
     pub wall: Wall,
@@ -51,7 +55,8 @@ impl Case {
     /// Whether to solve on coarser grids first: if that is asked for, or faster from the default start.
     fn nests<T: Scalar>(&self, surface: &Surface, law: &dyn AdhesionLaw<T>, started: bool) -> bool {
         let pays = || Nested::new(self.settings).pays(surface, law, self.control);
-        self.nested.unwrap_or_else(|| !started && !self.stability && self.wall == Wall::Hard && pays())
+        let may = || !started && !self.stability && self.wall == Wall::Hard && self.fraction.is_none();
+        self.nested.unwrap_or_else(|| may() && pays())
     }
 
     /// The solver.
@@ -79,12 +84,46 @@ pub struct Left {
     pub distance: f64,
 }
 
+/// The search for the load of a contact fraction; see [`asperity::FoundContact`].
+pub struct Search {
+    pub wanted: f64,
+    pub reached: bool,
+    pub below: Option<f64>,
+    pub above: Option<f64>,
+    pub solves: usize,
+    pub operator_applications: usize,
+}
+
+impl Search {
+    /// The search for a fraction.
+    pub fn of<T>(wanted: f64, found: &FoundContact<T>) -> Self {
+        let &FoundContact { reached, below, above, solves, operator_applications, .. } = found;
+        Self { wanted, reached, below, above, solves, operator_applications }
+    }
+
+    /// Where it ended, if the fraction was not reached by a solve that has converged.
+    pub fn told(&self) -> String {
+        let share =
+            |fraction: Option<f64>| fraction.map_or("nothing".to_owned(), |share| format!("{} %", percent(share)));
+        format!(
+            "no load was found with {} % contact: it jumps from {} to {}, and the nearer one is written",
+            percent(self.wanted),
+            share(self.below),
+            share(self.above)
+        )
+    }
+}
+
 /// The largest number of departures from unstable equilibria; a sane case takes a few.
 const MOST_DEPARTURES: usize = 10;
 
 /// The account of a solve, for the table and the report.
 pub struct Account {
     pub report: Report,
+    /// The load that was held.
+    pub control: Control,
+    /// The search for it, if there was one.
+    pub search: Option<Search>,
     pub nodes: usize,
     /// The contact and its edge, without statistics of the attraction.
     pub contact: ContactStatistics,
@@ -126,18 +165,30 @@ pub fn solve<T: Scalar, L: AdhesionLaw<T>>(
     drop(surface);
     let start = start.as_ref().map_or(Start::Default, |start| Start::From(start));
     let mut solver = case.solver();
-    let mut solution = solver.solve_with(&mut problem, case.control, start, |state| {
+    let observe = |state: &Iteration| {
         progress.update(state);
         ControlFlow::Continue(())
-    })?;
+    };
+    let (mut solution, control, search) = match case.fraction {
+        Some(fraction) => {
+            let mut search = ContactSearch::new(&mut solver, &mut problem)?;
+            if let Start::From(gap) = start {
+                search = search.starting_from(gap.to_owned());
+            }
+            let found = search.at_observed(fraction, observe)?;
+            let search = Search::of(fraction, &found);
+            (found.solution, found.control, Some(search))
+        }
+        None => (solver.solve_with(&mut problem, case.control, start, observe)?, case.control, None),
+    };
     let mut departures = Vec::new();
     let stability = loop {
         if !case.stability {
             break None;
         }
-        let found = StabilityTest::default().run_with(&mut problem, &case.wall, case.control, &solution)?;
+        let found = StabilityTest::default().run_with(&mut problem, &case.wall, control, &solution)?;
         let leaves = case.leave && found.verdict == Verdict::Unstable && departures.len() < MOST_DEPARTURES;
-        let left = if leaves { found.leave(&mut solver, &mut problem, case.control, &solution)? } else { None };
+        let left = if leaves { found.leave(&mut solver, &mut problem, control, &solution)? } else { None };
         let Some(left) = left.filter(|left| left.energy_drop > 0.0) else {
             break Some(steadiness(found));
         };
@@ -147,8 +198,8 @@ pub fn solve<T: Scalar, L: AdhesionLaw<T>>(
     };
     let find = || ContactStiffness::of_constrained(&mut problem, &case.wall, &solution, Case::STIFFNESS);
     let stiffness = case.stiffness.then(find).transpose()?;
-    let (solution, account) = account(solution, problem.law(), &grid, None, clock)?;
-    Ok((solution, Account { stability, stiffness, departures, ..account }))
+    let (solution, account) = account(solution, control, problem.law(), &grid, None, clock)?;
+    Ok((solution, Account { search, stability, stiffness, departures, ..account }))
 }
 
 /// Solves a case on nested grids.
@@ -180,7 +231,8 @@ fn solve_nested<T: Scalar, L: AdhesionLaw<T>>(
     let applications = found.equivalent_applications();
     let NestedSolution { solution, levels, .. } = found;
     let stiffness = levels.last().and_then(|finest| finest.stiffness);
-    let (solution, account) = account(solution, &law, surface.grid(), Some((levels, applications)), clock)?;
+    let (solution, account) =
+        account(solution, case.control, &law, surface.grid(), Some((levels, applications)), clock)?;
     let nodes_per_wave = surface.nodes_per_wave(account.report.boundary);
     Ok((solution, Account { stiffness, nodes_per_wave, ..account }))
 }
@@ -204,13 +256,15 @@ pub fn solve_to<T: Scalar, L: AdhesionLaw<T>>(
     let AccurateSolution { solution, surface, levels, error, reached, refinable, unaffordable, .. } = found;
     let stiffness = levels.last().and_then(|finest| finest.stiffness);
     let reached = Reached { accuracy: wanted.target, of: wanted.of, reached, error, unaffordable, refinable };
-    let (solution, account) = account(solution, &law, surface.grid(), Some((levels, applications)), clock)?;
+    let (solution, account) =
+        account(solution, case.control, &law, surface.grid(), Some((levels, applications)), clock)?;
     let nodes_per_wave = surface.nodes_per_wave(account.report.boundary);
     Ok((surface, solution, Account { stiffness, nodes_per_wave, reached: Some(reached), ..account }))
 }
 
 fn account<T: Scalar>(
     solution: Solution<T>,
+    control: Control,
     law: &impl AdhesionLaw<T>,
     grid: &Grid,
     grids: Option<(Vec<Level>, f64)>,
@@ -224,6 +278,8 @@ fn account<T: Scalar>(
         .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), p| (low.min(p.widen()), high.max(p.widen())));
     let account = Account {
         report: solution.report.clone(),
+        control,
+        search: None,
         nodes: solution.gap.len(),
         contact: ContactStatistics::of(&solution, grid, law)?,
         pressures,

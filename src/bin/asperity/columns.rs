@@ -5,7 +5,10 @@ use asperity::stability::ContactStiffness;
 use asperity::{Control, Report};
 use serde_json::Value;
 
+use crate::case::Search;
 use crate::loads::name_and_value;
+use crate::options::ProblemOptions;
+use crate::quantity::Quantity;
 
 /// The content of a cell by the name of its column.
 pub type Cell = (&'static str, Value);
@@ -37,6 +40,30 @@ pub const OUTCOME: [&str; 5] = ["relative_error", "load_error", "iterations", "o
 
 /// The names of the cells of a contact stiffness, in the order of [`stiffness`].
 pub const STIFFNESS: [&str; 2] = ["contact_stiffness", "normal_stiffness"];
+
+/// The names of the cells of the inputs, the same in all rows of a table, so that tables can be put together.
+pub const INPUTS: [&str; 5] = ["modulus", "law", "work_of_adhesion", "range", "heights"];
+
+/// The contact modulus, the adhesion, and the name of the file of heights.
+pub fn inputs(ProblemOptions { surface, adhesion, .. }: ProblemOptions<'_>) -> impl Iterator<Item = Cell> {
+    let number = |given: Option<Quantity>| given.map(|given| given.value).into();
+    let values: [Value; INPUTS.len()] = [
+        surface.modulus().into(),
+        adhesion.law.to_string().into(),
+        number(adhesion.work_of_adhesion),
+        number(adhesion.range),
+        surface.heights.file_name().map(|name| name.to_string_lossy()).into(),
+    ];
+    INPUTS.into_iter().zip(values)
+}
+
+/// The names of the cells of a search for the load of a contact fraction.
+pub const SEARCH: [&str; 2] = ["wanted_contact_fraction", "reached"];
+
+/// The search for the load of a contact fraction.
+pub fn search(found: &Search) -> impl Iterator<Item = Cell> {
+    SEARCH.into_iter().zip([found.wanted.into(), found.reached.into()])
+}
 
 /// The load and the state under it. Nothing in it depends on the clock.
 pub fn state(control: Control, report: &Report, statistics: &ContactStatistics) -> impl Iterator<Item = Cell> {

@@ -13,33 +13,35 @@ use serde_json::{Map, Value, json};
 use crate::adhesion::{Adhesion, AdhesionOptions};
 use crate::allowed::positive;
 use crate::boundary::{Boundary, LOADS, LoadsOptions};
-use crate::columns::{Cell, OUTCOME, STATE, outcome, state};
+use crate::columns::{Cell, INPUTS, OUTCOME, STATE, inputs, outcome, state};
 use crate::csv;
 use crate::identity::{Identity, identity};
 use crate::journal::Row;
 use crate::kept::Kept;
 use crate::loads::name_and_value;
-use crate::numbers::Style;
 use crate::options::{Given, Precision, ProblemOptions, Scalar, SolverOptions, SurfaceOptions};
 use crate::outcome::Outcome;
 use crate::pictures::{Resolution, check_plot, write_picture};
 use crate::printing::{Printing, say};
+use crate::quantity::{Dimension, ENERGY_PER_AREA, FORCE, LENGTH, PRESSURE};
 use crate::scene::Scene;
 use crate::table::{self, Table, TableOptions};
+use crate::units::{UnitOptions, Units};
 use crate::warnings::{Strictness, Warnings};
 
 /// Follow the contact along a cycle of approach and withdrawal, and find its jumps.
 ///
-/// The loads are the turning points, at least two: the first is the start, and from each to the next the tool goes in
-/// steps that adapt themselves, an approach or a withdrawal. A withdrawal ends once the surfaces are apart, where they
-/// neither touch nor attract each other. Where the state jumps, the step is halved down to a
-/// given share of the way, so that the jump is located and its energy known. Under given pressures or forces it goes on
-/// at given mean gaps (with a free boundary approaches) past the limit points, where there is no equilibrium close by.
-/// A row for each state is appended to the file as it comes, with the columns of asperity sweep, the work done by the
-/// load so far and the energy dissipated in jumps so far, per area, what is missing from the balance of the two, and
-/// what happened on the way: jump-in, jump-out, pull-off, limit-point, bifurcation. The same command again goes on where an interrupted one was; for that it keeps FILE.state.npz beside
-/// the file, which may be deleted at the end. FILE.scene.toml beside it repeats or continues the cycle by asperity
-/// run. Exits with 0 if all rows converged, 2 if not, and 1 if the input is refused or a file cannot be written.
+/// Numbers may have units, all of them or none, as in asperity solve. The loads are the turning points, at least two:
+/// the first is the start, and from each to the next the tool goes in steps that adapt themselves, an approach or a
+/// withdrawal. A withdrawal ends once the surfaces are apart, where they neither touch nor attract each other. Where
+/// the state jumps, the step is halved down to a given share of the way, so that the jump is located and its energy
+/// known. Under given pressures or forces it goes on at given mean gaps (with a free boundary approaches) past the
+/// limit points, where there is no equilibrium close by. A row for each state is appended to the file as it comes, with
+/// the columns of asperity sweep, the work done by the load so far and the energy dissipated in jumps so far, per area,
+/// what is missing from the balance of the two, and what happened on the way: jump-in, jump-out, pull-off, limit-point,
+/// bifurcation. The same command again goes on where an interrupted one was; for that it keeps FILE.state.npz beside
+/// the file, which may be deleted at the end. FILE.scene.toml beside it repeats or continues the cycle by asperity run.
+/// Exits with 0 if all rows converged, 2 if not, and 1 if the input is refused or a file cannot be written.
 #[derive(Args)]
 #[command(after_help = EXAMPLES, group(ArgGroup::new("loads").required(true).args(LOADS)))]
 pub struct Options {
@@ -81,15 +83,8 @@ pub struct Options {
     plot: Option<PathBuf>,
     #[command(flatten)]
     resolution: Resolution,
-    /// Unit of the lengths, on the picture only; m gets prefixes
-    #[arg(long, value_name = "UNIT", help_heading = "Output")]
-    length_unit: Option<String>,
-    /// Unit of the pressures, on the picture only; Pa gets prefixes
-    #[arg(long, value_name = "UNIT", help_heading = "Output")]
-    pressure_unit: Option<String>,
-    /// Unit of the forces, on the picture only; N gets prefixes
-    #[arg(long, value_name = "UNIT", help_heading = "Output")]
-    force_unit: Option<String>,
+    #[command(flatten)]
+    units: UnitOptions,
     /// Start over, and replace files that are there
     #[arg(long, help_heading = "Output")]
     force: bool,
@@ -120,15 +115,21 @@ const MOST_EVENTS: usize = 8;
 
 /// The names of the columns.
 fn names() -> Vec<&'static str> {
-    [&["leg", "direction"], &STATE[..], &["work", "dissipated", "imbalance", "event", "energy_drop"], &OUTCOME[..]]
-        .concat()
+    [
+        &["leg", "direction"],
+        &STATE[..],
+        &["work", "dissipated", "imbalance", "event", "energy_drop"],
+        &OUTCOME[..],
+        &INPUTS[..],
+    ]
+    .concat()
 }
 
 /// Runs the command; whether all rows converged.
 pub fn run(options: &Options, scene: &Scene) -> Outcome<bool> {
     options.check_files()?;
     options.surface.beyond.boundary.check(options.loads.control(0.0))?;
-    let given = options.table().problem.read()?;
+    let given = options.problem().read(scene.is_si())?;
     match options.solver.precision {
         Precision::F32 => options.run::<f32>(given, scene),
         Precision::F64 => options.run::<f64>(given, scene),
@@ -137,15 +138,18 @@ pub fn run(options: &Options, scene: &Scene) -> Outcome<bool> {
 
 impl Options {
     fn run<T: Scalar>(&self, Given { surface, adhesion, unit, start }: Given<'_>, scene: &Scene) -> Outcome<bool> {
-        let loads = self.loads.controls();
+        let values = self.loads.values(self.surface.full_pressure(&surface, self.loads.are_reduced())?);
+        let loads = self.loads.controls(&values);
         if loads.len() < 2 {
             return Err("a cycle needs two turning points at least: give more loads, with commas between".into());
         }
-        let warnings = Warnings::of_input::<T>(self.strictness, &surface, &adhesion, self.table().problem)?;
+        let warnings = Warnings::of_input::<T>(self.strictness, &surface, &adhesion, self.problem())?;
         let grid = *surface.grid();
-        let identity = self.identity(&surface, &adhesion, start.as_ref());
-        let start = start.or_else(|| self.surface.beyond.boundary.start_afar(&surface, &self.loads.controls()));
-        let operator = self.surface.beyond.boundary.half_space(grid, self.surface.modulus)?;
+        let units = self.units.units(unit.as_deref(), scene.is_si())?;
+        let mut identity = self.identity(&surface, &adhesion, start.as_ref(), &values);
+        identity.insert("units".to_owned(), units.of_table().into());
+        let start = start.or_else(|| self.surface.beyond.boundary.start_afar(&surface, &loads));
+        let operator = self.surface.beyond.boundary.half_space(grid, self.surface.modulus())?;
         let law = adhesion.law::<T>()?;
         let mut problem = Problem::new(&surface, operator, adhesion.law::<T>()?)?;
         drop(surface);
@@ -158,10 +162,12 @@ impl Options {
         };
         let mut path = Path::new(&mut solver, &mut problem, loads, settings)?;
         let names = names();
-        let header = names.join(",") + "\n";
+        let header = units.header(&names, self.loads.control(0.0).name(), grid.is_line());
+        let &Self { ref out, force, printing, .. } = self;
+        let options = TableOptions { problem: self.problem(), out, force, printing, scene, units: &units };
         let kept = Kept(self.fields.as_deref());
         kept.check(self.force, &self.out)?;
-        let (mut table, saved) = Table::open(self.table(), scene, &header, identity, None, warnings)?;
+        let (mut table, saved) = Table::open(options, &header, identity, None, warnings)?;
         if table.rows() > 0 {
             let fields = saved.fields.into_iter().map(T::field).collect();
             path = path.continuing(PathCheckpoint { numbers: saved.numbers, fields })?;
@@ -184,7 +190,7 @@ impl Options {
             let step = step?;
             table.check(&step.solution)?;
             let statistics = ContactStatistics::of(&step.solution, &grid, &law)?;
-            let row = row(&step, self.direction(step.leg), &statistics);
+            let row = row(self.problem(), &step, self.direction(step.leg), &statistics);
             let checkpoint = path.checkpoint();
             let fields: Vec<_> = checkpoint.fields.iter().map(|field| field.view()).collect();
             let (report, (_, load)) = (&step.solution.report, name_and_value(step.control));
@@ -197,23 +203,21 @@ impl Options {
             }
             had_event = step.event.is_some();
             let event = step.event.map_or(String::new(), |event| format!("  {event}"));
-            self.printing.say(&format!("{:>4}  {}{event}", table.rows(), table::brief(report)));
+            self.printing.say(&format!("{:>4}  {}{event}", table.rows(), table::brief(report, &units)));
             apart = Self::is_apart(&row.into());
         }
         drop(path);
-        self.conclude(&table, self.length_unit.as_deref().or(unit.as_deref()), &grid)?;
+        self.conclude(&table, &units, &grid)?;
         Ok(table.converged("or use a larger --tolerance"))
     }
 
-    fn table(&self) -> TableOptions<'_> {
-        let problem = ProblemOptions { surface: &self.surface, adhesion: &self.adhesion, solver: &self.solver };
-        let &Self { ref out, force, printing, .. } = self;
-        TableOptions { problem, out, force, printing }
+    fn problem(&self) -> ProblemOptions<'_> {
+        ProblemOptions { surface: &self.surface, adhesion: &self.adhesion, solver: &self.solver }
     }
 
     /// The direction of a leg; the start has none.
     fn direction(&self, leg: usize) -> &'static str {
-        let values = self.loads.values();
+        let values = self.loads.list();
         let (Some(from), Some(to)) = (leg.checked_sub(1).and_then(|before| values.get(before)), values.get(leg)) else {
             return "start";
         };
@@ -242,10 +246,16 @@ impl Options {
     }
 
     /// The inputs on which the rows depend.
-    fn identity(&self, surface: &Surface, adhesion: &Adhesion<'_>, start: Option<&Array2<f64>>) -> Identity {
-        let mut identity = identity(self.table().problem, surface, adhesion, start);
+    fn identity(
+        &self,
+        surface: &Surface,
+        adhesion: &Adhesion<'_>,
+        start: Option<&Array2<f64>>,
+        values: &[f64],
+    ) -> Identity {
+        let mut identity = identity(self.problem(), surface, adhesion, start);
         identity.insert("control".to_owned(), self.loads.kind().into());
-        let values: Vec<_> = self.loads.values().iter().map(f64::to_string).collect();
+        let values: Vec<_> = values.iter().map(f64::to_string).collect();
         identity.insert("loads".to_owned(), values.join(" ").into());
         for (name, value) in [
             ("steps", self.steps.to_string()),
@@ -260,7 +270,7 @@ impl Options {
     }
 
     /// Prints the summary or the report of all rows, and draws the picture.
-    fn conclude(&self, table: &Table<'_>, unit: Option<&str>, grid: &Grid) -> Outcome<()> {
+    fn conclude(&self, table: &Table<'_>, units: &Units, grid: &Grid) -> Outcome<()> {
         let (text, names) = (table.text()?, names());
         let rows: Vec<_> = text.lines().skip(1).map(|row| csv::parsed(&names, row)).collect();
         let number = |row: &Value, name: &str| row[name].as_f64().unwrap_or(f64::NAN);
@@ -272,6 +282,7 @@ impl Options {
         events.sort_by(|&a, &b| drop(b).total_cmp(&drop(a)));
         let free = self.surface.beyond.boundary == Boundary::Free;
         let (x, y) = if free { ("approach", "normal_force") } else { ("mean_gap", "mean_pressure") };
+        let y_dimension = if free { FORCE } else { PRESSURE };
         self.printing.report(|| {
             let last = rows.last().cloned().unwrap_or_default();
             let event = |&k: &usize| {
@@ -294,36 +305,36 @@ impl Options {
                 "imbalance": last["imbalance"],
                 "last": last,
             });
-            table.report("cycle", self.loads.control(0.0).name(), found, grid, unit)
+            table.report("cycle", self.loads.control(0.0).name(), found, grid)
         });
         if self.printing.for_people() {
-            let plain = |value| Style::Plain.number(value, "");
+            let energy = |value| units.number(value, ENERGY_PER_AREA);
             say(&format!("{} rows in {}", table.rows(), self.out.display()));
             if tension > 0.0 {
-                say(&format!("greatest tension        {}", plain(tension)));
-                say(&format!("greatest tensile force  {}", plain(-least("normal_force"))));
+                say(&format!("greatest tension        {}", units.number(tension, PRESSURE)));
+                say(&format!("greatest tensile force  {}", units.number(-least("normal_force"), FORCE)));
             }
             for &k in events.iter().take(MOST_EVENTS) {
                 let (row, before) = (&rows[k], &rows[k.saturating_sub(1)]);
                 let event = row["event"].as_str().unwrap_or_default();
-                let ways = [x, y].map(|name| {
-                    let (from, to) = (plain(number(before, name)), plain(number(row, name)));
+                let ways = [(x, LENGTH), (y, y_dimension)].map(|(name, dimension): (_, Dimension)| {
+                    let [from, to] = [before, row].map(|row| units.number(number(row, name), dimension));
                     format!("{} {from} to {to}", name.replace('_', " "))
                 });
-                let drop = row["energy_drop"].as_f64().map(|drop| format!(", energy drop {}", plain(drop)));
+                let drop = row["energy_drop"].as_f64().map(|drop| format!(", energy drop {}", energy(drop)));
                 say(&format!("{event:<23} {}{}", ways.join(", "), drop.unwrap_or_default()));
             }
             if events.len() > MOST_EVENTS {
                 say(&format!("and {} smaller events", events.len() - MOST_EVENTS));
             }
             if let Some(last) = rows.last() {
-                say(&format!("dissipated in jumps     {}", plain(number(last, "dissipated"))));
-                say(&format!("work done by the load   {}", plain(number(last, "work"))));
+                say(&format!("dissipated in jumps     {}", energy(number(last, "dissipated"))));
+                say(&format!("work done by the load   {}", energy(number(last, "work"))));
                 say(&format!("missing from balance    {:.1e}", number(last, "imbalance")));
             }
         }
         let Some(plot) = &self.plot else { return Ok(()) };
-        let legs = self.loads.values().len() - 1;
+        let legs = self.loads.list().len() - 1;
         let mut curves: Vec<(String, Vec<(f64, f64)>)> = Vec::new();
         for leg in 1..=legs {
             let point = |row: &Value| (number(row, x), number(row, y));
@@ -334,14 +345,12 @@ impl Options {
             curves.push((name, before.into_iter().chain(points).collect()));
         }
         let (x_label, y_label) = (x.replace('_', " "), y.replace('_', " "));
-        let (title, y_unit) = match free {
-            true => ("Normal force over approach", &self.force_unit),
-            false => ("Mean pressure over mean gap", &self.pressure_unit),
-        };
+        let title = if free { "Normal force over approach" } else { "Mean pressure over mean gap" };
+        let [x_unit, y_unit] = [LENGTH, y_dimension].map(|dimension| units.of(dimension));
         let chart = Chart {
             title,
             x_label: &x_label,
-            x_unit: unit,
+            x_unit: x_unit.as_deref(),
             y_label: &y_label,
             y_unit: y_unit.as_deref(),
             curves: curves.iter().map(|(name, points)| (name.as_str(), points.clone())).collect(),
@@ -352,7 +361,12 @@ impl Options {
 }
 
 /// The content of a row, by the names of the columns. Nothing in it depends on the clock.
-fn row<T>(step: &PathStep<T>, direction: &str, statistics: &ContactStatistics) -> Map<String, Value> {
+fn row<T>(
+    problem: ProblemOptions<'_>,
+    step: &PathStep<T>,
+    direction: &str,
+    statistics: &ContactStatistics,
+) -> Map<String, Value> {
     let report = &step.solution.report;
     let drop = step.event.as_ref().and_then(Event::jump).map(|jump| jump.energy_drop);
     let leg = [("leg", step.leg.into()), ("direction", direction.into())];
@@ -364,6 +378,6 @@ fn row<T>(step: &PathStep<T>, direction: &str, statistics: &ContactStatistics) -
         ("energy_drop", drop.into()),
     ];
     let state = state(step.control, report, statistics);
-    let cells = leg.into_iter().chain(state).chain(balance).chain(outcome(report));
+    let cells = leg.into_iter().chain(state).chain(balance).chain(outcome(report)).chain(inputs(problem));
     cells.map(|(name, value)| (name.to_owned(), value)).collect()
 }

@@ -5,24 +5,25 @@ use std::path::{Path, PathBuf};
 
 use asperity::io::{OutputFolder, write_npy};
 use asperity::picture::{Colouring, Map, Picture};
-use asperity::{AdhesionLaw, Amplitude, Exponential, Grid, NoAdhesion, SelfAffine, Status, Surface};
+use asperity::{AdhesionLaw, Amplitude, Control, Exponential, Grid, NoAdhesion, SelfAffine, Status, Surface};
 use clap::{Args, Command, FromArgMatches};
 use ndarray::Array2;
 use serde_json::json;
 
 use crate::allowed::threads;
 use crate::case;
-use crate::numbers::{Style, si};
+use crate::numbers::si;
 use crate::outcome::Outcome;
 use crate::output::at_destination;
 use crate::output::write_text;
-use crate::pictures::{self, PictureFormat, Resolution, Units};
+use crate::pictures::{self, PictureFormat, Resolution};
 use crate::printing::Printing;
 use crate::progress::Progress;
 use crate::scene::{self, Scene};
 use crate::solve;
 use crate::summary::{table, warn};
 use crate::threads::use_threads;
+use crate::units::Units;
 
 /// Press a built-in rough surface, without and with adhesion at the same load.
 ///
@@ -50,8 +51,8 @@ const EXAMPLES: &str = "\
 \u{1b}[1;4mExamples:\u{1b}[0m
   Then the case with adhesion at half the pressure, and what is left of it without adhesion:
     asperity demo
-    asperity run asperity-demo/scene.toml --mean-pressure 2.5e6 --out lighter
-    asperity run asperity-demo/scene.toml --mean-pressure 2.5e6 --law none --out bare";
+    asperity run asperity-demo/scene.toml --mean-pressure 2.5MPa --out lighter
+    asperity run asperity-demo/scene.toml --mean-pressure 2.5MPa --law none --out bare";
 
 const SIDE: f64 = 1e-6;
 const NODES: usize = 512;
@@ -60,7 +61,6 @@ const MODULUS: f64 = 1e9;
 const PRESSURE: f64 = 5e6;
 const WORK_OF_ADHESION: f64 = 0.05;
 const RANGE: f64 = 1e-9;
-const UNITS: Units<'static> = Units { length: Some("m"), pressure: Some("Pa"), force: None };
 
 /// The names of the maps, as yet without endings.
 const MAPS: [&str; 5] = [
@@ -77,13 +77,13 @@ pub fn run(options: &Options) -> Outcome<bool> {
     let [ending] = picture_format.of([[".png"], [".svg"], [".pdf"]]);
     let maps = MAPS.map(|name| format!("{name}{ending}"));
     let names: Vec<_> = maps.iter().map(String::as_str).chain(["heights.npy", scene::NAME]).collect();
-    let (bare_options, _) = solve_options(out, false)?;
+    let (bare_options, bare_scene) = solve_options(out, false)?;
     let (sticky_options, scene) = solve_options(out, true)?;
     Scene::check(&out.join(scene::NAME))?;
     drop(OutputFolder::create(out, &names, true)?);
     use_threads(options.threads)?;
 
-    let grid = Grid::square(NODES, SIDE)?;
+    let (grid, units) = (Grid::square(NODES, SIDE)?, Units::si());
     let surface = rough(grid)?;
     printing.say(&format!(
         "A rough surface of {side} by {side} ({NODES} x {NODES} nodes, rms height {}) pressed with {}\n\
@@ -96,7 +96,7 @@ pub fn run(options: &Options) -> Outcome<bool> {
         side = si(SIDE, "m"),
     ));
     let heights = surface.heights().clone();
-    let case = sticky_options.case();
+    let case = sticky_options.case(Control::MeanPressure(PRESSURE));
     let progress =
         |name| Progress::new(name, case.settings.tolerance_in::<f64>(), grid.nodes(), printing.without_bars());
     let law = Exponential::new(WORK_OF_ADHESION, RANGE)?;
@@ -114,11 +114,11 @@ pub fn run(options: &Options) -> Outcome<bool> {
         let none = Exponential::new(0.0, RANGE)?;
         for (name, solution, law) in [("without adhesion", &bare, &none), ("with adhesion", &sticky, &law)] {
             let path = |what: &str| path(&format!("{what}-{}", name.replace(' ', "-")));
-            let contact = pictures::draw_contact(grid, &format!("Contact {name}"), UNITS, (solution, law), dpi)?;
+            let contact = pictures::draw_contact(grid, &format!("Contact {name}"), &units, (solution, law), dpi)?;
             contact.write(&path("contact"))?;
             let (caption, title) = (format!("mean {}", si(PRESSURE, "Pa")), format!("Pressure {name}"));
             let pressure = pictures::pressure_to_draw(solution, AdhesionLaw::<f64>::work_of_adhesion(law) > 0.0);
-            let pressure = pictures::draw_pressure(grid, (&title, &caption), UNITS, pressure, None, dpi)?;
+            let pressure = pictures::draw_pressure(grid, (&title, &caption), &units, pressure, None, dpi)?;
             pressure.write(&path("pressure"))?;
         }
         Ok(())
@@ -126,7 +126,7 @@ pub fn run(options: &Options) -> Outcome<bool> {
     draw().map_err(|error| at_destination(error, out))?;
     folder.commit()?;
 
-    printing.say(&table(&["without adhesion", "with adhesion"], &[&without, &with], Style::Si));
+    printing.say(&table(&["without adhesion", "with adhesion"], &[&without, &with], &units));
     printing.say(&format!("\nmaps in {}: {}\n", out.display(), names.join(", ")));
     let command: Vec<_> = arguments(out, true).iter().map(|word| quoted(word)).collect();
     let (command, file) = (command.join(" "), quoted(out.join(scene::NAME).as_os_str()));
@@ -136,8 +136,8 @@ pub fn run(options: &Options) -> Outcome<bool> {
     printing.report(|| {
         json!({
             "command": "demo",
-            "without_adhesion": bare_options.report(grid, &without, UNITS.length),
-            "with_adhesion": sticky_options.report(grid, &with, UNITS.length),
+            "without_adhesion": bare_options.report(grid, &without, &units, &bare_scene),
+            "with_adhesion": sticky_options.report(grid, &with, &units, &scene),
         })
     });
     warn("without adhesion", &without, &case);
@@ -155,9 +155,9 @@ fn draw_heights(grid: Grid, heights: &Array2<f64>, dpi: f64) -> asperity::Result
     let map = Map {
         title: "Rough surface",
         caption: &format!("rms height {}", si(RMS_HEIGHT, "m")),
-        length_unit: UNITS.length,
+        length_unit: Some("m"),
         label: "height",
-        unit: UNITS.length,
+        unit: Some("m"),
         ..Map::new(heights.view(), grid, Colouring::Sequential)
     };
     map.draw(dpi)
@@ -165,11 +165,8 @@ fn draw_heights(grid: Grid, heights: &Array2<f64>, dpi: f64) -> asperity::Result
 
 /// The arguments of `asperity solve` for one of the two cases, with the heights in `folder`.
 fn arguments(folder: &Path, adhesive: bool) -> Vec<OsString> {
-    let law = format!("--law exponential --work-of-adhesion {WORK_OF_ADHESION} --range {RANGE:e}");
-    let given = format!(
-        "--lengths {SIDE:e} {SIDE:e} --modulus {MODULUS:e} --mean-pressure {PRESSURE:e} {} --length-unit m --pressure-unit Pa",
-        if adhesive { &law } else { "" }
-    );
+    let law = "--law exponential --work-of-adhesion 50mJ/m2 --range 1nm";
+    let given = format!("--lengths 1um --modulus 1GPa --mean-pressure 5MPa {}", if adhesive { law } else { "" });
     let mut arguments: Vec<OsString> = ["asperity", "solve", "--heights"].map(OsString::from).into();
     arguments.push(folder.join("heights.npy").into());
     arguments.extend(given.split_whitespace().map(OsString::from));

@@ -7,8 +7,9 @@ use asperity::{Grid, Surface};
 use clap::{Args, ValueEnum};
 use ndarray::Array2;
 
-use crate::allowed::{finite, positive};
+use crate::allowed::finite;
 use crate::outcome::Outcome;
+use crate::quantity::{LENGTH, Quantity};
 
 /// The form and its parameters.
 #[derive(Args, Clone)]
@@ -17,14 +18,14 @@ pub struct FormOptions {
     #[arg(long, value_enum, default_value_t = Form::SelfAffine, help_heading = "Form")]
     pub form: Form,
     /// Radius of a sphere or a flat punch, radius of curvature of a paraboloid
-    #[arg(long, value_name = "R", allow_hyphen_values = true, value_parser = positive, help_heading = "Form")]
-    radius: Option<f64>,
+    #[arg(long, value_name = "R", allow_hyphen_values = true, value_parser = LENGTH.positive(), help_heading = "Form")]
+    radius: Option<Quantity>,
     /// Angle between the side of a cone and the half-space, in degrees: 90 less half the angle at its apex
     #[arg(long, value_name = "DEGREES", allow_hyphen_values = true, value_parser = acute, help_heading = "Form")]
     angle: Option<f64>,
     /// Amplitude A of a wave
-    #[arg(long, value_name = "A", allow_hyphen_values = true, value_parser = positive, help_heading = "Form")]
-    amplitude: Option<f64>,
+    #[arg(long, value_name = "A", allow_hyphen_values = true, value_parser = LENGTH.positive(), help_heading = "Form")]
+    amplitude: Option<Quantity>,
     /// Periods of a wave along x, and along y [default: 1 0]
     #[arg(long, value_names = ["MX", "MY"], num_args = 1..=2, allow_negative_numbers = true, help_heading = "Form")]
     periods: Option<Vec<u32>>,
@@ -84,9 +85,9 @@ impl FormOptions {
 
     /// The heights of the form, NaN beyond the body.
     fn heights(&self, grid: &Grid) -> Outcome<Array2<f64>> {
-        let radius = self.radius.unwrap_or_default();
+        let [radius, amplitude] =
+            [self.radius, self.amplitude].map(|quantity| quantity.map_or(0.0, |quantity| quantity.value));
         let slope = self.angle.unwrap_or_default().to_radians().tan();
-        let amplitude = self.amplitude.unwrap_or_default();
         let (mx, my) = pair(self.periods.as_deref()).unwrap_or((1, 0));
         let ((nx, ny), (lx, ly)) = (grid.shape(), grid.lengths());
         for (name, periods, nodes) in [("MX", mx, nx), ("MY", my, ny)] {

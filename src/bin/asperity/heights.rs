@@ -7,6 +7,8 @@ use asperity::{Surface, Topography};
 
 use crate::outcome::Outcome;
 use crate::printing::complain;
+use crate::quantity::{LENGTH, Quantity, power_of_length, times_ten_to};
+use crate::units::Units;
 
 /// The relative difference that `--lengths` may have from the side lengths of the file, whose header rounds.
 const ROUNDING: f64 = 1e-2;
@@ -14,9 +16,17 @@ const ROUNDING: f64 = 1e-2;
 const MOST_NAMES: usize = 10;
 
 /// The map of a file with the given `--lengths`, of which one means square cells; without any, those of the file, or
-/// else the unit square. Lengths that contradict the file are refused.
-pub fn map(path: &Path, lengths: Option<&[f64]>) -> Outcome<Topography> {
+/// else the unit square. Lengths that contradict the file are refused. In the SI all is in metres, and side lengths are
+/// not taken for granted.
+pub fn map(path: &Path, lengths: Option<&[Quantity]>, si: bool) -> Outcome<Topography> {
     let mut map = read_topography(path)?;
+    if si {
+        map = converted(path, map, LENGTH.si)?;
+        if map.lengths.is_none() && lengths.is_none() {
+            let text = "the numbers have units, but nothing says how large the map is: give --lengths, as 20um";
+            return Err(format!("{}: {text}", path.display()).into());
+        }
+    }
     if let Some(given) = given(&map, lengths) {
         if let Some(found) = map.lengths {
             let near = |a: f64, b: f64| (a / b - 1.0).abs() <= ROUNDING;
@@ -57,13 +67,36 @@ pub fn warn_of_unread(path: &Path, map: &Topography, are: &str) {
 }
 
 /// The side lengths that `--lengths` means for a map.
-pub fn given(map: &Topography, lengths: Option<&[f64]>) -> Option<(f64, f64)> {
-    let (nx, ny) = map.heights.dim();
-    match lengths? {
-        [lx] => Some((*lx, lx / nx as f64 * ny as f64)),
-        [lx, ly, ..] => Some((*lx, *ly)),
-        [] => None,
+pub fn given(map: &Topography, lengths: Option<&[Quantity]>) -> Option<(f64, f64)> {
+    lengths.map(|lengths| both_sides(map.heights.dim(), lengths))
+}
+
+/// The side lengths of a map of a shape by one of them, which means square cells, or two.
+pub fn both_sides((nx, ny): (usize, usize), lengths: &[Quantity]) -> (f64, f64) {
+    match lengths {
+        [lx, ly, ..] => (lx.value, ly.value),
+        [lx] => (lx.value, lx.value / nx as f64 * ny as f64),
+        [] => (1.0, 1.0),
     }
+}
+
+/// A map in a unit of length. One without a unit is in it already.
+pub fn converted(path: &Path, mut map: Topography, unit: &str) -> Outcome<Topography> {
+    let of_map = map.unit.replace(unit.to_owned()).unwrap_or_else(|| unit.to_owned());
+    if of_map != unit {
+        let (Some(from), Some(to)) = (power_of_length(&of_map), power_of_length(unit)) else {
+            return Err(format!(
+                "{}: is in {of_map}, but numbers with units are in {unit}: give the unit of its lengths by asperity \
+                 prepare --unit, or numbers without units",
+                path.display()
+            )
+            .into());
+        };
+        let converted = |length| times_ten_to(from - to, length);
+        map.heights.mapv_inplace(converted);
+        map.lengths = map.lengths.map(|(lx, ly)| (converted(lx), converted(ly)));
+    }
+    Ok(map)
 }
 
 /// The surface of a map, and its unit. Its missing points become absent nodes, or are refused.
@@ -125,6 +158,6 @@ pub fn holes(map: &Topography) -> Option<String> {
 
 /// Side lengths with their unit.
 pub fn sides((lx, ly): (f64, f64), unit: Option<&str>) -> String {
-    let unit = unit.map_or(String::new(), |unit| format!(" {unit}"));
-    format!("{} x {}{unit}", crate::numbers::plain(lx), crate::numbers::plain(ly))
+    let side = |length| Units::of_map(unit).number(length, LENGTH);
+    format!("{} x {}", side(lx), side(ly))
 }

@@ -7,6 +7,7 @@ use serde_json::{Map, Value, json};
 use crate::adhesion::Adhesion;
 use crate::hash::Hash;
 use crate::options::ProblemOptions;
+use crate::quantity::Quantity;
 
 /// The inputs by name. A run goes on only with equal ones; numbers come as text, which can be compared exactly.
 pub type Identity = Map<String, Value>;
@@ -19,7 +20,7 @@ pub fn identity(
     start: Option<&Array2<f64>>,
 ) -> Identity {
     let (grid, settings) = (surface.grid(), solver.settings());
-    let number = |value: Option<f64>| value.map_or("none".to_owned(), |value| value.to_string());
+    let number = |value: Option<Quantity>| value.map_or("none".to_owned(), |value| value.to_string());
     let field = |field: &Array2<f64>| Hash::NEW.of_numbers(field).to_string();
     let pair = |a: String, b: String| format!("{a} {b}");
     let identity = json!({
@@ -28,11 +29,11 @@ pub fn identity(
         "lengths": pair(grid.lengths().0.to_string(), grid.lengths().1.to_string()),
         "absent_points": surface.absent().map_or("none".to_owned(), |absent| field(&absent.mapv(f64::from))),
         "boundary": options.beyond.boundary.to_string(),
-        "modulus": options.modulus.to_string(),
+        "modulus": options.modulus().to_string(),
         "law": adhesion.law.to_string(),
         "work_of_adhesion": number(adhesion.work_of_adhesion),
         "range": number(adhesion.range),
-        "exponent": number(adhesion.exponent),
+        "exponent": adhesion.exponent.map_or("none".to_owned(), |value| value.to_string()),
         "hamaker": number(adhesion.hamaker),
         "law_table": given.table.as_ref().map_or("none".to_owned(), field),
         "cut_off": number(adhesion.cut_off),

@@ -11,6 +11,8 @@ use crate::outcome::Outcome;
 use crate::output::OutputFile;
 use crate::pictures::Resolution;
 use crate::printing::{bold, say};
+use crate::scene::Scene;
+use crate::units::UnitOptions;
 
 /// List the adhesion laws, with formula, parameters and source.
 ///
@@ -27,12 +29,8 @@ pub struct Options {
     plot: Option<PathBuf>,
     #[command(flatten)]
     resolution: Resolution,
-    /// Unit of the gaps, on the picture only; m gets prefixes
-    #[arg(long, value_name = "UNIT", help_heading = "Output")]
-    length_unit: Option<String>,
-    /// Unit of the tractions, on the picture only; Pa gets prefixes
-    #[arg(long, value_name = "UNIT", help_heading = "Output")]
-    pressure_unit: Option<String>,
+    #[command(flatten)]
+    units: UnitOptions,
     /// Replace a file that is there
     #[arg(long, help_heading = "Output")]
     force: bool,
@@ -41,15 +39,16 @@ pub struct Options {
 const EXAMPLES: &str = "\
 \u{1b}[1;4mExamples:\u{1b}[0m
   asperity laws
-  asperity laws --law lennard-jones --work-of-adhesion 0.05 --range 3e-10 --wall none \\
-    --plot law.png --length-unit m --pressure-unit Pa";
+  asperity laws --law lennard-jones --work-of-adhesion 50mJ/m2 --range 0.3nm --wall none \\
+    --plot law.png";
 
 /// The points of the curve, and how far it goes, in ranges of the law.
 const POINTS: u32 = 400;
 const REACH: f64 = 5.0;
 
 /// Runs the command; always successful if it ends.
-pub fn run(options: &Options) -> Outcome<bool> {
+pub fn run(options: &Options, scene: &Scene) -> Outcome<bool> {
+    let units = options.units.units(None, scene.is_si())?;
     let chosen = options.adhesion.law;
     let listed =
         Law::value_variants().iter().filter(|&&law| if chosen == Law::None { law != Law::None } else { law == chosen });
@@ -80,9 +79,9 @@ pub fn run(options: &Options) -> Outcome<bool> {
         title: "Adhesive traction over the gap",
         caption: chosen.description()[0],
         x_label: "gap",
-        x_unit: options.length_unit.as_deref(),
+        x_unit: units.length.as_deref(),
         y_label: "traction",
-        y_unit: options.pressure_unit.as_deref(),
+        y_unit: units.pressure.as_deref(),
         curves: vec![(&name, gaps.map(|gap| (gap, law.traction(gap))).collect())],
         ..Chart::default()
     };

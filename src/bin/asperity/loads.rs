@@ -2,9 +2,15 @@
 
 use asperity::Control;
 
+use crate::quantity::Quantity;
+
 /// Loads in the order of a list.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Loads(pub Vec<f64>);
+pub struct Loads {
+    pub values: Vec<f64>,
+    /// The numbers that stand in the list
+    pub given: Vec<Quantity>,
+}
 
 /// The largest number of loads; more are taken for a slip of the pen.
 const MOST_LOADS: usize = 100_000;
@@ -14,26 +20,25 @@ pub fn name_and_value(control: Control) -> (&'static str, f64) {
     (control.name(), control.value())
 }
 
-/// Reads a list of mean gaps.
-pub fn gaps(text: &str) -> Result<Loads, String> {
-    list(text, |gap| gap >= 0.0 && gap.is_finite(), "zero or positive and finite")
-}
-
-/// Reads a list of loads that may have either sign.
-pub fn signed(text: &str) -> Result<Loads, String> {
-    list(text, f64::is_finite, "finite")
+/// The parser of numbers and ranges with commas between, from that of a number.
+pub fn list<P>(number: P) -> impl Fn(&str) -> Result<Loads, String> + Clone + Send + Sync + 'static
+where
+    P: Fn(&str) -> Result<Quantity, String> + Clone + Send + Sync + 'static,
+{
+    move |text| parsed(text, &number)
 }
 
 /// Reads numbers and ranges with commas between.
-fn list(text: &str, allowed: fn(f64) -> bool, requirement: &str) -> Result<Loads, String> {
-    let mut loads = Vec::new();
+pub fn parsed(text: &str, number: &dyn Fn(&str) -> Result<Quantity, String>) -> Result<Loads, String> {
+    let (mut loads, mut given) = (Vec::new(), Vec::new());
     for item in text.split(',').map(str::trim) {
         if loads.len() > MOST_LOADS {
             break;
         }
-        let number = |text: &str| match text.trim().parse() {
-            Ok(value) if allowed(value) => Ok(value),
-            _ => Err(format!("'{text}' must be a number, {requirement}")),
+        let mut number = |text: &str| {
+            let quantity = number(text).map_err(|error| format!("'{text}': {error}"))?;
+            given.push(quantity);
+            Ok::<_, String>(quantity.value)
         };
         let parts: Vec<_> = item.split(':').collect();
         let (from, to, count, log) = match parts[..] {
@@ -57,29 +62,44 @@ fn list(text: &str, allowed: fn(f64) -> bool, requirement: &str) -> Result<Loads
         let last = count - 1;
         loads.extend((0..last).map(|k| between(k as f64 / last as f64)));
         loads.push(to);
-        if let Some(load) = loads.iter().find(|load| !allowed(**load)) {
-            return Err(format!("'{item}' contains {load}: it must be {requirement}"));
+        if let Some(load) = loads.iter().find(|load| !load.is_finite()) {
+            return Err(format!("'{item}' contains {load}: it must be finite"));
         }
     }
     if loads.len() > MOST_LOADS {
         return Err(format!("it has more loads than the {MOST_LOADS} that are allowed"));
     }
-    Ok(Loads(loads))
+    let bare = given.iter().find(|given| given.is_bare());
+    if let Some(bare) = bare.filter(|_| given.iter().any(|given| given.has_unit)) {
+        return Err(format!("{bare} has no unit, but others in the list have one: give all of them units, or none"));
+    }
+    Ok(Loads { values: loads, given })
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::quantity::LENGTH;
+
+    fn gaps(text: &str) -> Result<Loads, String> {
+        list(LENGTH.non_negative())(text)
+    }
+
+    fn signed(text: &str) -> Result<Loads, String> {
+        list(LENGTH.finite())(text)
+    }
 
     #[test]
     fn lists_are_numbers_and_ranges() {
-        let check = |text, expected: &[f64]| assert_eq!(signed(text).unwrap(), Loads(expected.to_vec()), "{text}");
+        let check = |text, expected: &[f64]| assert_eq!(signed(text).unwrap().values, expected, "{text}");
         check("1", &[1.0]);
         check("1e-3, -2,3", &[1e-3, -2.0, 3.0]);
         check("0:1:5", &[0.0, 0.25, 0.5, 0.75, 1.0]);
         check("1:0:3,-1", &[1.0, 0.5, 0.0, -1.0]);
         check("1:16:5:log", &[1.0, 2.0, 4.0, 8.0, 16.0]);
         check("-4:-1:2:log", &[-4.0, -1.0]);
+        check("-6nm,0,1nm", &[-6e-9, 0.0, 1e-9]);
+        check("1um:4um:3:log", &[1e-6, 2e-6, 4e-6]);
     }
 
     #[test]
@@ -105,6 +125,9 @@ mod tests {
             ("0:1:5:log", ":log"),
             ("1:0:5:log", ":log"),
             ("0:-1:5", "'-1'"),
+            ("1nm,2", "2 has no unit"),
+            ("1:2nm:5", "1 has no unit"),
+            ("1nm:2nN:5", "'2nN'"),
         ] {
             let error = gaps(text).unwrap_err();
             assert!(error.contains(part) && error.lines().count() == 1, "{text}: {error}");

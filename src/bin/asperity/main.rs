@@ -47,11 +47,13 @@ mod output;
 mod pictures;
 mod printing;
 mod progress;
+mod quantity;
 mod report;
 mod scene;
 mod summary;
 mod table;
 mod threads;
+mod units;
 mod warnings;
 
 use std::env;
@@ -138,7 +140,11 @@ where
     let matches = tool.try_get_matches_from_mut(arguments)?;
     let command = Tool::from_arg_matches(&matches)?.command;
     let chosen = matches.subcommand().and_then(|(name, matches)| Some((tool.find_subcommand(name)?, matches)));
-    Ok((command, chosen.map_or_else(Scene::default, |(command, matches)| Scene::of(command, matches))))
+    let scene = chosen.map_or_else(Scene::default, |(command, matches)| Scene::of(command, matches));
+    match scene.check_units() {
+        Ok(()) => Ok((command, scene)),
+        Err(reason) => Err(tool.error(ErrorKind::ValueValidation, reason)),
+    }
 }
 
 fn execute(command: Command, scene: &Scene) -> ExitCode {
@@ -151,8 +157,8 @@ fn execute(command: Command, scene: &Scene) -> ExitCode {
         Command::Report(options) => page::run(&options),
         Command::Prepare(options) => prepare::run(&options, scene),
         Command::Surface(options) => surface::run(&options, scene),
-        Command::Stats(options) => stats::run(&options),
-        Command::Laws(options) => laws::run(&options),
+        Command::Stats(options) => stats::run(&options, scene),
+        Command::Laws(options) => laws::run(&options, scene),
         Command::Selftest(options) => selftest::run(&options),
         Command::Completions(options) => completions::run(&options, Tool::command()),
         Command::Run(_) => Err("a scene cannot run another one: name a command in it".into()),

@@ -1,23 +1,5 @@
 //! Numbers as text for people: digits, prefixes, shares.
 
-/// The units of the numbers in a table.
-#[derive(Clone, Copy, PartialEq)]
-pub enum Style {
-    /// In the unknown units of the input.
-    Plain,
-    /// In metres, pascals and joules.
-    Si,
-}
-
-impl Style {
-    pub fn number(self, value: f64, unit: &str) -> String {
-        match self {
-            Self::Plain => plain(value),
-            Self::Si => si(value, unit),
-        }
-    }
-}
-
 /// A share in percent, with enough digits that a little contact is not none.
 pub fn percent(share: f64) -> String {
     let percent = 100.0 * share;
@@ -47,15 +29,16 @@ pub fn plain(value: f64) -> String {
 
 /// A number to four digits with its unit, and the prefix that makes it readable.
 pub fn si(value: f64, unit: &str) -> String {
-    const PREFIXES: [&str; 9] = ["p", "n", "µ", "m", "", "k", "M", "G", "T"];
+    const PREFIXES: [&str; 10] = ["f", "p", "n", "µ", "m", "", "k", "M", "G", "T"];
     // Rounded first, so that 999.96 n is 1 µ.
     let rounded: f64 = format!("{value:.3e}").parse().unwrap_or(value);
     let power = if rounded == 0.0 { 0 } else { (rounded.abs().log10() + 1e-9).floor() as i32 }.div_euclid(3);
-    let power = power.clamp(-4, 4);
+    let power = power.clamp(-5, 4);
     let value = rounded / 10f64.powi(3 * power);
     let decimals = if value == 0.0 { 0.0 } else { (3.0 - value.abs().log10().floor()).clamp(0.0, 6.0) };
     let digits = trimmed(format!("{value:.*}", decimals as usize));
-    format!("{digits} {}{unit}", PREFIXES[(power + 4) as usize])
+    let prefix = if digits.trim_start_matches('-') == "0" { "" } else { PREFIXES[(power + 5) as usize] };
+    format!("{digits} {prefix}{unit}")
 }
 
 /// A number without zeros at the end of its decimals.

@@ -13,6 +13,7 @@ use crate::allowed::{positive, threads};
 use crate::boundary::BoundaryOptions;
 use crate::heights;
 use crate::outcome::Outcome;
+use crate::quantity::{LENGTH, PRESSURE, Quantity};
 use crate::threads::use_threads;
 
 /// The surface and the half-space.
@@ -24,13 +25,13 @@ pub struct SurfaceOptions {
     pub heights: PathBuf,
     /// Side lengths of the map, in the unit of the heights; LX alone means square cells [default: the file's, else 1
     /// 1]
-    #[arg(long, value_names = ["LX", "LY"], num_args = 1..=2, allow_negative_numbers = true, value_parser = positive)]
-    #[arg(help_heading = "Surface")]
-    pub lengths: Option<Vec<f64>>,
+    #[arg(long, value_names = ["LX", "LY"], num_args = 1..=2, allow_negative_numbers = true)]
+    #[arg(value_parser = LENGTH.positive(), help_heading = "Surface")]
+    pub lengths: Option<Vec<Quantity>>,
     /// Contact modulus E*, a pressure
-    #[arg(long, value_name = "E", default_value = "1", allow_hyphen_values = true, value_parser = positive)]
+    #[arg(long, value_name = "E", default_value = "1", allow_hyphen_values = true, value_parser = PRESSURE.positive())]
     #[arg(help_heading = "Surface")]
-    pub modulus: f64,
+    modulus: Quantity,
     #[command(flatten)]
     pub beyond: BoundaryOptions,
 }
@@ -99,10 +100,10 @@ pub struct Given<'a> {
 }
 
 impl<'a> ProblemOptions<'a> {
-    /// Checks the options, reads their files, and starts the threads.
-    pub fn read(self) -> Outcome<Given<'a>> {
+    /// Checks the options, reads their files, with all in metres if numbers are in the SI, and starts the threads.
+    pub fn read(self, si: bool) -> Outcome<Given<'a>> {
         self.adhesion.check()?;
-        let (surface, unit) = self.surface.surface_and_unit()?;
+        let (surface, unit) = self.surface.surface_and_unit(si)?;
         let adhesion = self.adhesion.read(Some(surface.grid()))?;
         let start = self.solver.start(&surface)?;
         use_threads(self.solver.threads)?;
@@ -121,9 +122,26 @@ impl Precision {
 }
 
 impl SurfaceOptions {
+    /// The contact modulus.
+    pub fn modulus(&self) -> f64 {
+        self.modulus.value
+    }
+
+    /// The pressure E* h'rms, of which a reduced pressure is a part; 1 where none is `wanted`.
+    pub fn full_pressure(&self, surface: &Surface, wanted: bool) -> Outcome<f64> {
+        match (wanted, surface.absent_nodes()) {
+            (false, _) => Ok(1.0),
+            (true, 0) => Ok(self.modulus() * surface.statistics().rms_slope),
+            (true, absent) => {
+                let reason = "which have no slope: give a pressure";
+                Err(format!("a reduced pressure is over the rms slope, but {absent} nodes are absent, {reason}").into())
+            }
+        }
+    }
+
     /// The surface of the file, and its unit of length if the file has one.
-    fn surface_and_unit(&self) -> Outcome<(Surface, Option<String>)> {
-        let map = heights::map(&self.heights, self.lengths.as_deref())?;
+    fn surface_and_unit(&self, si: bool) -> Outcome<(Surface, Option<String>)> {
+        let map = heights::map(&self.heights, self.lengths.as_deref(), si)?;
         heights::surface_or_absent(&self.heights, map, self.beyond.absent_missing)
     }
 }

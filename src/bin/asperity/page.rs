@@ -16,9 +16,10 @@ use crate::citation::citations;
 use crate::csv;
 use crate::outcome::Outcome;
 use crate::output::{OutputFile, write_text};
-use crate::pictures::{Units, chart_of_columns, chart_of_loads, draw_pressure, draw_regions};
+use crate::pictures::{chart_of_columns, chart_of_loads, draw_pressure, draw_regions};
 use crate::printing::say;
 use crate::scene;
+use crate::units::Units;
 
 /// Put the results of a run on one page for a browser.
 ///
@@ -147,7 +148,8 @@ fn page_of_solve(folder: &Path) -> Outcome<String> {
     }
     let said = report["warnings"].as_array().into_iter().flatten();
     warnings.extend(said.filter_map(|warning| warning["message"].as_str()).map(str::to_owned));
-    let maps = maps_of_solve(folder, &report, scene.as_deref());
+    let units = units_of_report(&report);
+    let maps = maps_of_solve(folder, &report, &units);
     if let Err(error) = &maps {
         warnings.push(format!("There are no maps on this page: {error}"));
     }
@@ -160,12 +162,11 @@ fn page_of_solve(folder: &Path) -> Outcome<String> {
     page.text.push_str("<table>\n");
     for (key, value) in report.as_object().into_iter().flatten().filter(|(key, _)| *key != "warnings") {
         if let Some(value) = shown(value) {
-            let _ = writeln!(
-                page.text,
-                "<tr><th>{}</th><td>{}</td></tr>",
-                escaped(&key.replace('_', " ")),
-                escaped(&value)
-            );
+            let unit = units
+                .of_column(key, word("control"), report["shape"][1] == 1)
+                .map_or(String::new(), |unit| format!(" {unit}"));
+            let name = key.replace('_', " ");
+            let _ = writeln!(page.text, "<tr><th>{}</th><td>{}</td></tr>", escaped(&name), escaped(&(value + &unit)));
         }
     }
     page.text.push_str("</table>\n");
@@ -173,7 +174,7 @@ fn page_of_solve(folder: &Path) -> Outcome<String> {
 }
 
 /// The maps and the curve of a solve, each with its kind.
-fn maps_of_solve(folder: &Path, report: &Value, scene: Option<&str>) -> Outcome<Vec<(&'static str, String)>> {
+fn maps_of_solve(folder: &Path, report: &Value, units: &Units) -> Outcome<Vec<(&'static str, String)>> {
     let [gap, pressure, contact_pressure] =
         ["gap", "pressure", "contact_pressure"].map(|name| read_field(&folder.join(format!("{name}.npy"))));
     let (gap, pressure, contact_pressure) = (gap?, pressure?, contact_pressure?);
@@ -182,9 +183,7 @@ fn maps_of_solve(folder: &Path, report: &Value, scene: Option<&str>) -> Outcome<
     if [pressure.dim(), contact_pressure.dim()] != [gap.dim(); 2] {
         return Err("gap, pressure and contact pressure have not one shape: they are of different runs".into());
     }
-    let (length, given) = (report["length_unit"].as_str(), units(scene));
-    let [_, pressure_unit, _] = given.each_ref().map(Option::as_deref);
-    let units = Units { length, pressure: pressure_unit, force: None };
+    let (length, pressure_unit) = (units.length.as_deref(), units.pressure.as_deref());
 
     let adhesive = report["law"].as_str() != Some("none");
     // the traction of the law is what the contact pressure has more than the elastic one
@@ -241,13 +240,12 @@ fn page_of_table(table: &Path) -> Outcome<String> {
     let text = fs::read_to_string(table).map_err(|_| {
         Error::file(table, "cannot be read: name the folder of a solve, or the table of a sweep or a cycle")
     })?;
-    let (columns, rows) = rows(&text);
+    let (header, columns, rows) = rows(&text);
     if rows.is_empty() || !columns.iter().any(|column| column == "control_value") {
         return Err(Error::file(table, "is no table of a sweep or a cycle: it has no column control_value").into());
     }
     let scene = fs::read_to_string(scene::beside(table)).ok();
-    let [length, pressure, force] = units(scene.as_deref());
-    let units = Units { length: length.as_deref(), pressure: pressure.as_deref(), force: force.as_deref() };
+    let units = units_of_table(&header, scene.as_deref());
     let name = table.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
     let cycle = columns.iter().any(|column| column == "leg");
     let command = if cycle { "cycle" } else { "sweep" };
@@ -261,17 +259,16 @@ fn page_of_table(table: &Path) -> Outcome<String> {
         )]);
     }
     page.heading("Curves");
-    page.figure("chart", &chart_of_loads(&rows, units, FINE)?.svg()?);
+    page.figure("chart", &chart_of_loads(&rows, &units, FINE)?.svg()?);
     let energy = if cycle { "dissipated" } else { "elastic_energy" };
     for (x, y) in [("mean_gap", "contact_fraction"), ("mean_gap", energy)] {
         // what is the same in all rows needs no curve
         if rows.iter().any(|row| row[y] != rows[0][y]) {
-            page.figure("chart", &chart_of_columns(&rows, x, y, units, FINE)?.svg()?);
+            page.figure("chart", &chart_of_columns(&rows, x, y, &units, FINE)?.svg()?);
         }
     }
     page.heading("Rows");
-    let head: String =
-        columns.iter().map(|column| format!("<th>{}</th>", escaped(&column.replace('_', " ")))).collect();
+    let head: String = header.iter().map(|column| format!("<th>{}</th>", escaped(&column.replace('_', " ")))).collect();
     let _ = writeln!(page.text, "<div class=\"rows\">\n<table>\n<tr>{head}</tr>");
     for row in &rows {
         let cell = |column: &String| format!("<td>{}</td>", escaped(&shown(&row[column]).unwrap_or_default()));
@@ -282,23 +279,43 @@ fn page_of_table(table: &Path) -> Outcome<String> {
     Ok(page.finish(scene.as_deref()))
 }
 
-/// The columns and rows of a table, of comma-separated values or of a JSON object on each line.
-fn rows(text: &str) -> (Vec<String>, Vec<Value>) {
+/// The header, the names of the columns, and the rows of a table, of comma-separated values or of a JSON object on each
+/// line.
+fn rows(text: &str) -> (Vec<String>, Vec<String>, Vec<Value>) {
     if text.starts_with('{') {
         let rows: Vec<Value> = text.lines().filter_map(|line| serde_json::from_str(line).ok()).collect();
         let columns = rows.first().and_then(Value::as_object).map(|row| row.keys().cloned().collect());
-        return (columns.unwrap_or_default(), rows);
+        let columns: Vec<_> = columns.unwrap_or_default();
+        return (columns.clone(), columns, rows);
     }
     let mut lines = text.lines();
-    let columns: Vec<_> = lines.next().unwrap_or_default().split(',').collect();
+    let header: Vec<_> = lines.next().unwrap_or_default().split(',').collect();
+    let columns: Vec<_> = header.iter().map(|column| column.split(" [").next().unwrap_or_default()).collect();
     let rows = lines.map(|line| csv::parsed(&columns, line)).collect();
-    (columns.into_iter().map(str::to_owned).collect(), rows)
+    let [header, columns] = [header, columns].map(|names| names.into_iter().map(str::to_owned).collect());
+    (header, columns, rows)
 }
 
-/// The units of length, pressure and force in a scene.
-fn units(scene: Option<&str>) -> [Option<String>; 3] {
-    let table: Table = scene.and_then(|scene| scene.parse().ok()).unwrap_or_default();
-    ["length-unit", "pressure-unit", "force-unit"].map(|key| Some(table.get("output")?.get(key)?.as_str()?.to_owned()))
+/// The units in the report of a solve.
+fn units_of_report(report: &Value) -> Units {
+    let [length, pressure] = ["length_unit", "pressure_unit"].map(|key| report[key].as_str().map(str::to_owned));
+    Units { length, pressure, force: None }
+}
+
+/// The units in the header of a table, or else those that the options in its scene name.
+fn units_of_table(header: &[String], scene: Option<&str>) -> Units {
+    let scene: Table = scene.and_then(|scene| scene.parse().ok()).unwrap_or_default();
+    let unit = |column: &str, option: &str| {
+        let start = format!("{column} [");
+        let in_header = header.iter().find_map(|name| name.strip_prefix(&start)?.strip_suffix(']'));
+        let in_scene = || scene.get("output")?.get(option)?.as_str();
+        in_header.or_else(in_scene).map(str::to_owned)
+    };
+    Units {
+        length: unit("mean_gap", "length-unit"),
+        pressure: unit("mean_pressure", "pressure-unit"),
+        force: unit("normal_force", "force-unit"),
+    }
 }
 
 /// A value as people read it; none for what there is not.

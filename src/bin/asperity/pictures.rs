@@ -13,6 +13,7 @@ use crate::numbers::percent;
 use crate::options::Scalar;
 use crate::outcome::Outcome;
 use crate::output::OutputFile;
+use crate::units::Units;
 
 /// The format of pictures of which the tool chooses the names.
 #[derive(Clone, Copy, Default, PartialEq, ValueEnum)]
@@ -46,15 +47,7 @@ pub struct Resolution {
     pub dpi: f64,
 }
 
-/// The units that pictures have on their axes.
-#[derive(Clone, Copy, Default)]
-pub struct Units<'a> {
-    pub length: Option<&'a str>,
-    pub pressure: Option<&'a str>,
-    pub force: Option<&'a str>,
-}
-
-/// The chart of a table, and the units on it.
+/// The chart of a table.
 #[derive(Args)]
 pub struct PlotOptions {
     /// File for a chart of the loads: of the contact fraction over the pressure or force, or of the mean pressure over
@@ -63,15 +56,6 @@ pub struct PlotOptions {
     pub plot: Option<std::path::PathBuf>,
     #[command(flatten)]
     resolution: Resolution,
-    /// Unit of the lengths, on the chart only; m gets prefixes
-    #[arg(long, value_name = "UNIT", help_heading = "Output")]
-    pub length_unit: Option<String>,
-    /// Unit of the pressures, on the chart only; Pa gets prefixes
-    #[arg(long, value_name = "UNIT", help_heading = "Output")]
-    pub pressure_unit: Option<String>,
-    /// Unit of the forces, on the chart only; N gets prefixes
-    #[arg(long, value_name = "UNIT", help_heading = "Output")]
-    pub force_unit: Option<String>,
 }
 
 impl PlotOptions {
@@ -80,14 +64,9 @@ impl PlotOptions {
         check_plot(self.plot.as_deref(), table, force)
     }
 
-    /// Draws the chart of all `rows`, if it is wanted; lengths are in `unit` where no other is given.
-    pub fn draw(&self, rows: &[Value], unit: Option<&str>) -> Outcome<()> {
+    /// Draws the chart of all `rows`, if it is wanted.
+    pub fn draw(&self, rows: &[Value], units: &Units) -> Outcome<()> {
         let Some(plot) = &self.plot else { return Ok(()) };
-        let units = Units {
-            length: self.length_unit.as_deref().or(unit),
-            pressure: self.pressure_unit.as_deref(),
-            force: self.force_unit.as_deref(),
-        };
         write_picture(plot, &chart_of_loads(rows, units, self.resolution.dpi)?)
     }
 }
@@ -110,7 +89,7 @@ pub fn write_picture(path: &Path, picture: &Picture) -> Outcome<()> {
 }
 
 /// The chart that says most of the loads in the rows of a table.
-pub fn chart_of_loads(rows: &[Value], units: Units<'_>, dpi: f64) -> Result<Picture> {
+pub fn chart_of_loads(rows: &[Value], units: &Units, dpi: f64) -> Result<Picture> {
     let (x, y) = match rows.first().and_then(|row| row["control"].as_str()) {
         Some("mean-gap") => ("mean_gap", "mean_pressure"),
         Some("normal-force") => ("normal_force", "contact_fraction"),
@@ -125,7 +104,7 @@ pub fn chart_of_loads(rows: &[Value], units: Units<'_>, dpi: f64) -> Result<Pict
 /// The chart of column `y` of a table over column `x`: a curve for each leg of a cycle, and for each part of a sweep in
 /// which the loads rise or fall. Axes are logarithmic where all values are positive and span more than a decade and a
 /// half.
-pub fn chart_of_columns(rows: &[Value], x: &str, y: &str, units: Units<'_>, dpi: f64) -> Result<Picture> {
+pub fn chart_of_columns(rows: &[Value], x: &str, y: &str, units: &Units, dpi: f64) -> Result<Picture> {
     let curves = legs(rows).into_iter().map(|(name, rows)| {
         let value = |row: &Value, column: &str| row[column].as_f64().unwrap_or(f64::NAN);
         (name, rows.iter().map(|row| (value(row, x), value(row, y))).collect::<Vec<_>>())
@@ -139,21 +118,16 @@ pub fn chart_of_columns(rows: &[Value], x: &str, y: &str, units: Units<'_>, dpi:
     };
     let (x_log, y_log) =
         (wide(points.iter().map(|point| point.0).collect()), wide(points.iter().map(|point| point.1).collect()));
-    let unit = |column: &str| match column {
-        "mean_gap" | "approach" => units.length,
-        "mean_pressure" => units.pressure,
-        "normal_force" => units.force,
-        _ => None,
-    };
+    let [x_unit, y_unit] = [x, y].map(|column| units.of_column(column, "", false));
     let [x_label, y_label] = [x, y].map(|column| column.replace('_', " "));
     let title = format!("{}{} over {x_label}", y_label[..1].to_uppercase(), &y_label[1..]);
     let chart = Chart {
         title: &title,
         x_label: &x_label,
-        x_unit: unit(x),
+        x_unit: x_unit.as_deref(),
         x_log,
         y_label: &y_label,
-        y_unit: unit(y),
+        y_unit: y_unit.as_deref(),
         y_log: x_log && y_log,
         curves: curves.iter().map(|(name, points)| (name.as_str(), points.clone())).collect(),
         ..Chart::default()
@@ -186,7 +160,7 @@ fn legs(rows: &[Value]) -> Vec<(String, &[Value])> {
 pub fn draw_contact<T: Scalar>(
     grid: Grid,
     title: &str,
-    units: Units<'_>,
+    units: &Units,
     (solution, law): (&Solution<T>, &impl AdhesionLaw<T>),
     dpi: f64,
 ) -> Result<Picture> {
@@ -194,7 +168,7 @@ pub fn draw_contact<T: Scalar>(
 }
 
 /// Draws regions, as numbers: 1 contact, -1 attraction, 0 apart, NaN no surface.
-pub fn draw_regions(grid: Grid, title: &str, units: Units<'_>, regions: &Array2<f64>, dpi: f64) -> Result<Picture> {
+pub fn draw_regions(grid: Grid, title: &str, units: &Units, regions: &Array2<f64>, dpi: f64) -> Result<Picture> {
     let share = |of: fn(f64) -> bool| {
         let facing = regions.iter().filter(|region| !region.is_nan()).count();
         percent(regions.iter().filter(|region| of(**region)).count() as f64 / facing as f64)
@@ -207,7 +181,7 @@ pub fn draw_regions(grid: Grid, title: &str, units: Units<'_>, regions: &Array2<
     let map = Map {
         title,
         caption: &caption,
-        length_unit: units.length,
+        length_unit: units.length.as_deref(),
         ..Map::new(regions.view(), grid, Colouring::Contact)
     };
     map.draw(dpi)
@@ -223,7 +197,7 @@ pub fn pressure_to_draw<T>(solution: &Solution<T>, adhesive: bool) -> &Array2<T>
 pub fn draw_pressure<T: Scalar>(
     grid: Grid,
     (title, caption): (&str, &str),
-    units: Units<'_>,
+    units: &Units,
     pressure: &Array2<T>,
     limits: Option<(f64, f64)>,
     dpi: f64,
@@ -232,9 +206,9 @@ pub fn draw_pressure<T: Scalar>(
     let map = Map {
         title,
         caption,
-        length_unit: units.length,
+        length_unit: units.length.as_deref(),
         label: "pressure",
-        unit: units.pressure,
+        unit: units.pressure.as_deref(),
         limits,
         signs: ["tension", "compression"],
         ..Map::new(pressure.view(), grid, Colouring::Diverging)

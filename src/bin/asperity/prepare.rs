@@ -13,7 +13,9 @@ use crate::numbers::plain;
 use crate::outcome::Outcome;
 use crate::output::OutputFile;
 use crate::printing::{Printing, complain, say};
+use crate::quantity::{LENGTH, Quantity, power_of_length, times_ten_to};
 use crate::scene::Scene;
+use crate::units::Units;
 use crate::warnings;
 
 /// Make a surface that can be solved of a measured map.
@@ -33,16 +35,18 @@ pub struct Options {
     #[arg(long, value_name = "NAME")]
     channel: Option<String>,
 
-    /// Side lengths, instead of the file's; LX alone means square cells
-    #[arg(long, value_names = ["LX", "LY"], num_args = 1..=2, allow_negative_numbers = true, value_parser = positive)]
-    lengths: Option<Vec<f64>>,
+    /// Side lengths, instead of the file's; LX alone means square cells. With a unit, as 20um, the result is in the
+    /// --unit or the file's, or else in m
+    #[arg(long, value_names = ["LX", "LY"], num_args = 1..=2, allow_negative_numbers = true)]
+    #[arg(value_parser = LENGTH.positive())]
+    lengths: Option<Vec<Quantity>>,
     /// Value that stands for missing points, in the unit of the heights as they are read; may be repeated
     #[arg(long, value_name = "CODE", value_delimiter = ',', allow_negative_numbers = true, value_parser = finite)]
     missing: Vec<f64>,
     /// Multiply the heights, as by 1e-9 for nm where the side lengths are in m
     #[arg(long, value_name = "F", allow_hyphen_values = true, value_parser = positive)]
     scale: Option<f64>,
-    /// Unit of side lengths and heights as they are after that, instead of the file's; for the pictures of solve
+    /// Unit of side lengths and heights as they are after that, instead of the file's; solve has it in tables and pictures
     #[arg(long, value_name = "UNIT", value_parser = unit)]
     unit: Option<String>,
     /// Keep NX x NY nodes from index [X, Y] on
@@ -99,13 +103,13 @@ const EXAMPLES: &str = "\
 \u{1b}[1;4mExamples:\u{1b}[0m
   A measured map, tilted and with missing points, pressed against a half-space of 1 GPa:
     asperity prepare measured.gsf --detrend plane --fill --mirror --out surface.npz
-    asperity solve --heights surface.npz --modulus 1e9 --mean-pressure 1e6 --out results
+    asperity solve --heights surface.npz --modulus 1GPa --mean-pressure 1MPa --out results
   An AFM map with offsets between its lines, and spikes:
     asperity prepare afm.gwy --align-rows median --despike --detrend plane --mirror \\
       --out scan.npz
   Heights in nm of a map of 5 by 4 micrometres, a sphere subtracted, on a finer grid:
-    asperity prepare heights.txt --scale 1e-9 --lengths 5e-6 4e-6 --unit m --detrend quadric \\
-      --window 0.05 --resample 1024 1024 --out fine.npz";
+    asperity prepare heights.txt --unit nm --lengths 5um 4um --detrend quadric --window 0.05 \\
+      --resample 1024 1024 --out fine.npz";
 
 #[derive(Clone, Copy, ValueEnum)]
 enum Body {
@@ -172,7 +176,7 @@ pub fn run(options: &Options, scene: &Scene) -> Outcome<bool> {
     scene.check_beside(&options.out, options.force)?;
     let file = OutputFile::create(&options.out, options.force)?;
     let (mut lines, mut warnings) = (Vec::new(), Vec::new());
-    let map = prepared(options, &mut lines, &mut warnings)?;
+    let map = prepared(options, scene.is_si(), &mut lines, &mut warnings)?;
     file.write(|path| write_topography(path, &map))?;
     let scene_file = scene.written_beside(&options.out)?;
     file.commit()?;
@@ -210,6 +214,7 @@ fn unit(text: &str) -> Result<String, String> {
 /// Takes the steps, and tells them.
 fn prepared(
     options: &Options,
+    si: bool,
     lines: &mut Vec<(&'static str, String)>,
     warnings: &mut Vec<Warning>,
 ) -> Outcome<Topography> {
@@ -220,8 +225,16 @@ fn prepared(
     let mut tell = |step: &'static str, text: String| lines.push((step, text));
     tell("read", described(&map));
 
-    if let Some(lengths) = given(&map, options.lengths.as_deref()) {
+    if let Some(mut lengths) = given(&map, options.lengths.as_deref()) {
         let before = map.lengths.map_or("unknown".to_owned(), |before| sides(before, map.unit.as_deref()));
+        if si {
+            let unit = options.unit.as_deref().or(map.unit.as_deref()).unwrap_or(LENGTH.si).to_owned();
+            let power = power_of_length(&unit).ok_or_else(|| {
+                format!("--lengths have a unit, but the map is in {unit}, which is none of length: give --unit, as nm")
+            })?;
+            lengths = (times_ten_to(-power, lengths.0), times_ten_to(-power, lengths.1));
+            map.unit = Some(unit);
+        }
         map.lengths = Some(lengths);
         tell("lengths", format!("{}, before {before}", sides(lengths, map.unit.as_deref())));
     }
@@ -378,6 +391,5 @@ fn rms(map: &Topography) -> String {
 }
 
 fn quantity(value: f64, map: &Topography) -> String {
-    let unit = map.unit.as_deref().map_or(String::new(), |unit| format!(" {unit}"));
-    format!("{}{unit}", plain(value))
+    Units::of_map(map.unit.as_deref()).number(value, LENGTH)
 }

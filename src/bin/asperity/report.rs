@@ -6,30 +6,37 @@ use asperity::Grid;
 use serde_json::{Map, Value, json};
 
 use crate::options::ProblemOptions;
+use crate::quantity::Quantity;
+use crate::scene::Scene;
 use crate::threads;
+use crate::units::Units;
 
 /// The inputs of a command, by their names in every report.
 pub fn inputs(
     ProblemOptions { surface, adhesion, solver }: ProblemOptions<'_>,
     grid: &Grid,
-    length_unit: Option<&str>,
+    units: &Units,
+    scene: &Scene,
 ) -> Map<String, Value> {
     let settings = solver.settings();
+    let number = |given: Option<Quantity>| given.map(|given| given.value);
     let inputs = json!({
         "heights": surface.heights.to_string_lossy(),
         "initial_gap": solver.initial_gap.as_deref().map(Path::to_string_lossy),
         "shape": grid.shape(),
         "lengths": grid.lengths(),
-        "length_unit": length_unit,
+        "length_unit": units.length,
+        "pressure_unit": units.pressure,
+        "given": scene.given(),
         "boundary": surface.beyond.boundary.to_string(),
-        "modulus": surface.modulus,
+        "modulus": surface.modulus(),
         "law": adhesion.law.to_string(),
-        "work_of_adhesion": adhesion.work_of_adhesion,
-        "range": adhesion.range,
+        "work_of_adhesion": number(adhesion.work_of_adhesion),
+        "range": number(adhesion.range),
         "exponent": adhesion.exponent,
-        "hamaker": adhesion.hamaker,
+        "hamaker": number(adhesion.hamaker),
         "law_table": adhesion.law_table.as_deref().map(Path::to_string_lossy),
-        "cut_off": adhesion.cut_off,
+        "cut_off": number(adhesion.cut_off),
         "work_of_adhesion_map": adhesion.work_of_adhesion_map.as_deref().map(Path::to_string_lossy),
         "wall": adhesion.wall.to_string(),
         "method": settings.method.name(),

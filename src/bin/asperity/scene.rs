@@ -1,4 +1,4 @@
-//! The scene file that repeats a run, written beside its results. (`run.rs` reads such files.)
+//! The scene of a run: its options, its quantities, and the file that repeats it. (`run.rs` reads such files.)
 
 use std::any::TypeId;
 use std::fs;
@@ -7,17 +7,32 @@ use std::path::{Component, Path, PathBuf};
 use asperity::Error;
 use clap::parser::ValueSource;
 use clap::{Arg, ArgAction, ArgMatches, Command};
+use serde_json::Map;
 use toml::Value;
 
+use crate::loads::Loads;
 use crate::outcome::Outcome;
 use crate::output::OutputFile;
 use crate::output::write_text;
+use crate::quantity::Quantity;
 
 /// A run as a scene file that repeats it: every option that was given or has a default.
 #[derive(Default)]
 pub struct Scene {
     command: String,
     entries: Vec<Entry>,
+    quantities: Vec<Given>,
+}
+
+/// The quantities of an option.
+struct Given {
+    key: String,
+    /// As they were typed
+    texts: Vec<String>,
+    has_unit: bool,
+    is_bare: bool,
+    /// Whether nobody typed them
+    is_default: bool,
 }
 
 struct Entry {
@@ -47,7 +62,46 @@ impl Scene {
     /// The scene of a command with the options in `matches`.
     pub fn of(command: &Command, matches: &ArgMatches) -> Self {
         let entries = command.get_arguments().filter_map(|arg| entry(arg, matches)).collect();
-        Self { command: command.get_name().to_owned(), entries }
+        let quantities = command.get_arguments().filter_map(|arg| Given::of(arg, matches)).collect();
+        Self { command: command.get_name().to_owned(), entries, quantities }
+    }
+
+    /// Whether quantities have units; then all numbers are in the SI.
+    pub fn is_si(&self) -> bool {
+        self.quantities.iter().any(|given| given.has_unit)
+    }
+
+    /// Refuses numbers without units beside quantities with units.
+    pub fn check_units(&self) -> Result<(), String> {
+        let with = self.quantities.iter().find(|given| given.has_unit);
+        let without = self.quantities.iter().find(|given| given.is_bare);
+        let (Some(with), Some(without)) = (with, without) else { return Ok(()) };
+        let (key, text) = (&without.key, without.texts.join(" "));
+        let (by, remedy) = if without.is_default {
+            (" by default", format!("give --{key} with a unit"))
+        } else {
+            ("", "give both units, or neither".to_owned())
+        };
+        Err(format!(
+            "--{key} is {text}{by}, without a unit, but --{} {} has one: {remedy}",
+            with.key,
+            with.texts.join(" ")
+        ))
+    }
+
+    /// The quantities as they were typed, by the names of reports; nothing if none has a unit.
+    pub fn given(&self) -> serde_json::Value {
+        if !self.is_si() {
+            return serde_json::Value::Null;
+        }
+        let entry = |given: &Given| {
+            let texts = match &given.texts[..] {
+                [one] => one.as_str().into(),
+                all => serde_json::Value::from(all),
+            };
+            (given.key.replace('-', "_"), texts)
+        };
+        self.quantities.iter().map(entry).collect::<Map<_, _>>().into()
     }
 
     /// The scene file, to be put into `folder`.
@@ -136,6 +190,24 @@ pub fn section(arg: &Arg) -> String {
     arg.get_help_heading().unwrap_or_default().to_lowercase()
 }
 
+impl Given {
+    fn of(arg: &Arg, matches: &ArgMatches) -> Option<Self> {
+        let id = arg.get_id().as_str();
+        let quantities: Vec<Quantity> = match arg.get_value_parser().type_id() {
+            parser if parser == TypeId::of::<Quantity>() => matches.get_many(id)?.copied().collect(),
+            parser if parser == TypeId::of::<Loads>() => matches.get_one::<Loads>(id)?.given.clone(),
+            _ => return None,
+        };
+        Some(Self {
+            key: key(arg)?,
+            texts: matches.get_raw(id)?.map(|raw| raw.to_string_lossy().trim().to_owned()).collect(),
+            has_unit: quantities.iter().any(|given| given.has_unit),
+            is_bare: quantities.iter().any(|given| given.is_bare()),
+            is_default: matches.value_source(id) == Some(ValueSource::DefaultValue),
+        })
+    }
+}
+
 fn entry(arg: &Arg, matches: &ArgMatches) -> Option<Entry> {
     let (id, key) = (arg.get_id().as_str(), key(arg)?);
     if LEFT_OUT.contains(&key.as_str()) || matches.value_source(id).is_none() {
@@ -157,7 +229,7 @@ fn entry(arg: &Arg, matches: &ArgMatches) -> Option<Entry> {
 /// A number in the digits of Rust, and everything else in quotation marks.
 fn literal(arg: &Arg, raw: &str) -> Literal {
     let (parser, trimmed) = (arg.get_value_parser().type_id(), raw.trim());
-    let number = if parser == TypeId::of::<f64>() {
+    let number = if [TypeId::of::<f64>(), TypeId::of::<Quantity>()].into_iter().any(|number| parser == number) {
         trimmed.parse::<f64>().ok().map(|number| format!("{number:?}"))
     } else if parser == TypeId::of::<usize>() || parser == TypeId::of::<u64>() {
         // TOML has no larger integers

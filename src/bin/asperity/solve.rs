@@ -10,32 +10,33 @@ use serde_json::{Value, json};
 
 use crate::accuracy::{self, AccuracyOptions};
 use crate::adhesion::{AdhesionOptions, Law};
-use crate::allowed::finite;
 use crate::boundary::{LOAD, LoadOptions};
-use crate::case::{self, Account, Case, Left};
+use crate::case::{self, Account, Case, Left, Search};
 use crate::loads::name_and_value;
-use crate::numbers::Style;
 use crate::options::{Given, Precision, ProblemOptions, Scalar, SolverOptions, SurfaceOptions};
 use crate::outcome::Outcome;
 use crate::output::at_destination;
 use crate::output::{output_folder, write_text};
-use crate::pictures::{self, PictureFormat, Resolution, Units};
+use crate::pictures::{self, PictureFormat, Resolution};
 use crate::printing::Printing;
 use crate::printing::say;
 use crate::progress::Progress;
+use crate::quantity::{PRESSURE, Quantity};
 use crate::report;
 use crate::scene::{self, Scene};
 use crate::summary::{table, warn};
+use crate::units::{UnitOptions, Units};
 use crate::warnings::{Strictness, Warnings};
 
 /// Solve a contact problem given by files.
 ///
-/// All quantities are in any consistent units, as m, Pa and J/m²; heights of files with units of length are in m.
+/// Numbers may have units, as 70GPa, 20um, 50mJ/m2, 5nN or 40N/m: then all of them must have one, all that is written
+/// is in the SI, and heights of a file without a unit are in m. Numbers without units are in any consistent ones.
 /// Writes gap.npy, pressure.npy (the full elastic pressure, compression positive) and contact_pressure.npy (its
 /// repulsive part), or files as --format says, report.json, contact.png, pressure.png (or .svg, .pdf), and scene.toml,
-/// which repeats the run, all or none. Exits with 0 if converged, 2 if not (the fields are written all the same), and 1 if the input
-/// is refused or the files cannot be written (then there are none). Probable mistakes, as a tilt, are said on a line
-/// each and in the report; --strict refuses them.
+/// which repeats the run, all or none. Exits with 0 if converged, 2 if not (the fields are written all the same), and 1
+/// if the input is refused or the files cannot be written (then there are none). Probable mistakes, as a tilt, are said
+/// on a line each and in the report; --strict refuses them.
 #[derive(Args)]
 #[command(after_help = EXAMPLES, group(ArgGroup::new("load").required(true).args(LOAD)))]
 pub struct Options {
@@ -99,15 +100,11 @@ pub struct Options {
     resolution: Resolution,
     /// Pressures at the ends of the colour bar, as for pictures that are to be compared; with adhesion that of the largest
     /// tension, negative, and that of the largest compression
-    #[arg(long, value_names = ["LOW", "HIGH"], num_args = 2, allow_hyphen_values = true, value_parser = finite)]
-    #[arg(help_heading = "Output")]
-    colour_limits: Option<Vec<f64>>,
-    /// Unit of the lengths, on pictures; m gets prefixes, and with Pa for the pressures in the table, too
-    #[arg(long, value_name = "UNIT", help_heading = "Output")]
-    length_unit: Option<String>,
-    /// Unit of the pressures, on pictures; Pa gets prefixes, and with lengths in m in the table, too
-    #[arg(long, value_name = "UNIT", help_heading = "Output")]
-    pressure_unit: Option<String>,
+    #[arg(long, value_names = ["LOW", "HIGH"], num_args = 2, allow_hyphen_values = true)]
+    #[arg(value_parser = PRESSURE.finite(), help_heading = "Output")]
+    colour_limits: Option<Vec<Quantity>>,
+    #[command(flatten)]
+    units: UnitOptions,
 }
 
 const EXAMPLES: &str = "\
@@ -115,18 +112,17 @@ const EXAMPLES: &str = "\
   Press a map of 1 by 1, with a contact modulus of 1, to a mean gap of 0.04:
     asperity solve --heights heights.npy --mean-gap 0.04 --out results
   The surface of the demo (asperity-demo/heights.npy) in SI units, with adhesion:
-    asperity solve --heights heights.npy --lengths 1e-6 1e-6 --modulus 1e9 \\
-      --law exponential --work-of-adhesion 0.05 --range 1e-9 \\
-      --mean-pressure 2.5e6 --length-unit m --pressure-unit Pa --out sticky
+    asperity solve --heights heights.npy --lengths 1um --modulus 1GPa --mean-pressure 2.5MPa \\
+      --law exponential --work-of-adhesion 50mJ/m2 --range 1nm --out sticky
   The same load without adhesion, by way of coarser grids, which is the default where it is faster:
-    asperity solve --heights heights.npy --lengths 1e-6 1e-6 --modulus 1e9 \\
-      --mean-pressure 2.5e6 --nested --out nested
+    asperity solve --heights heights.npy --lengths 1um --modulus 1GPa --mean-pressure 2.5MPa \\
+      --nested --out nested
   A contact area that is right to 5 %, on a grid as fine as that takes:
     asperity solve --heights heights.npy --mean-pressure 0.01 --accuracy 0.05 --out right
   On from the case with adhesion to a tension:
-    asperity solve --heights heights.npy --lengths 1e-6 1e-6 --modulus 1e9 \\
-      --law exponential --work-of-adhesion 0.05 --range 1e-9 \\
-      --mean-pressure -1e4 --initial-gap sticky/gap.npy --out pulled";
+    asperity solve --heights heights.npy --lengths 1um --modulus 1GPa --mean-pressure -10kPa \\
+      --law exponential --work-of-adhesion 50mJ/m2 --range 1nm --initial-gap sticky/gap.npy \\
+      --out pulled";
 
 #[derive(Clone, Copy, PartialEq, ValueEnum)]
 enum Format {
@@ -147,14 +143,14 @@ const PICTURES: [[&str; 2]; 3] =
 pub fn run(options: &Options, scene: &Scene) -> Outcome<bool> {
     let problem = options.problem();
     problem.adhesion.check()?;
-    problem.surface.beyond.boundary.check(options.load.control())?;
+    problem.surface.beyond.boundary.check(options.load.control(1.0))?;
     let limits = options.colour_limits();
     if let Some((low, high)) = limits.filter(|(low, high)| low >= high) {
         return Err(format!("--colour-limits {low} {high}: the lower one must come first").into());
     }
     let pictures = options.picture_format.of(PICTURES);
     let pictures = pictures.iter().filter(|_| !options.no_pictures);
-    let mode = options.case().stability.then_some(&MODE);
+    let mode = (options.stability || options.leave).then_some(&MODE);
     let arrays = FIELDS.iter().chain(mode).filter(|_| options.writes(Format::Npy));
     let archives = [(Format::Npz, &NPZ), (Format::Vti, &VTI)].into_iter().filter(|(format, _)| options.writes(*format));
     let fields = arrays.chain(archives.map(|(_, name)| name));
@@ -162,10 +158,10 @@ pub fn run(options: &Options, scene: &Scene) -> Outcome<bool> {
     Scene::check(&options.out.join(scene::NAME))?;
     // Only a trial: a solve that is interrupted leaves nothing behind.
     drop(output_folder(&options.out, &names, options.force)?);
-    let given = problem.read()?;
-    let unit = given.unit.clone();
-    let length_unit = options.length_unit.as_deref().or(unit.as_deref());
-    let job = Job { options, scene, names, case: options.case(), length_unit };
+    let given = problem.read(scene.is_si())?;
+    let units = options.units.units(given.unit.as_deref(), scene.is_si())?;
+    let full = options.surface.full_pressure(&given.surface, options.load.is_reduced())?;
+    let job = Job { options, scene, names, case: options.case(options.load.control(full)), units };
     match options.solver.precision {
         Precision::F32 => job.run::<f32>(given),
         Precision::F64 => job.run::<f64>(given),
@@ -178,23 +174,24 @@ impl Options {
     }
 
     fn colour_limits(&self) -> Option<(f64, f64)> {
-        self.colour_limits.as_deref().map(|limits| (limits[0], limits[1]))
+        self.colour_limits.as_deref().map(|limits| (limits[0].value, limits[1].value))
     }
 
     fn problem(&self) -> ProblemOptions<'_> {
         ProblemOptions { surface: &self.surface, adhesion: &self.adhesion, solver: &self.solver }
     }
 
-    /// The case that the options choose.
-    pub fn case(&self) -> Case {
-        let SurfaceOptions { beyond, modulus, .. } = self.surface;
-        let (control, settings) = (self.load.control(), self.solver.settings());
+    /// The case that the options choose, under a load.
+    pub fn case(&self, control: Control) -> Case {
+        let SurfaceOptions { beyond, .. } = self.surface;
+        let settings = self.solver.settings();
         let stability = self.stability || self.leave;
         let wall = self.adhesion.wall;
         Case {
             boundary: beyond.boundary,
-            modulus,
+            modulus: self.surface.modulus(),
             control,
+            fraction: self.load.contact_fraction,
             settings,
             wall,
             stability,
@@ -205,9 +202,9 @@ impl Options {
     }
 
     /// All that one needs for understanding a run later; numbers that are not finite become null.
-    pub fn report(&self, grid: Grid, account: &Account, length_unit: Option<&str>) -> Value {
-        let (case, report) = (self.case(), &account.report);
-        let (control, held) = name_and_value(case.control);
+    pub fn report(&self, grid: Grid, account: &Account, units: &Units, scene: &Scene) -> Value {
+        let report = &account.report;
+        let (control, held) = name_and_value(account.control);
         let levels = account.grids.as_ref().map(|(levels, _)| levels.iter().map(level).collect::<Vec<_>>());
         let outcome = json!({
             "status": report.status.name(),
@@ -219,18 +216,19 @@ impl Options {
             "levels": levels,
             "equivalent_applications": account.grids.as_ref().map(|(_, applications)| applications),
             "grid_error": account.grids.as_ref().map(|(levels, _)| {
-                accuracy::errors(levels, account.nodes_per_wave, report.mu_rho, case.control)
+                accuracy::errors(levels, account.nodes_per_wave, report.mu_rho, account.control)
             }),
             "accuracy": account.reached.as_ref().map(|reached| json!({
                 "wanted": reached.accuracy,
                 "of": reached.of.name(),
                 "reached": reached.reached,
             })),
+            "search": account.search.as_ref().map(search),
             "mean_gap": report.mean_gap,
             "mean_pressure": report.mean_pressure,
             "normal_force": report.normal_force,
             "approach": report.approach,
-            "spring_stiffness": spring_stiffness(case.control),
+            "spring_stiffness": spring_stiffness(account.control),
             "carried_pressure": report.carried_pressure,
             "mean_contact_pressure": report.mean_contact_pressure,
             "contact_fraction": report.contact_fraction,
@@ -267,7 +265,7 @@ impl Options {
             "control": control,
             "control_value": held,
         });
-        let mut inputs = report::inputs(self.problem(), &grid, length_unit);
+        let mut inputs = report::inputs(self.problem(), &grid, units, scene);
         // with an accuracy the one that was chosen
         inputs.insert("tolerance".to_owned(), report.tolerance.into());
         report::report("solve", outcome, inputs)
@@ -280,7 +278,7 @@ struct Job<'a> {
     scene: &'a Scene,
     names: Vec<&'static str>,
     case: Case,
-    length_unit: Option<&'a str>,
+    units: Units,
 }
 
 impl Job<'_> {
@@ -319,19 +317,18 @@ impl Job<'_> {
         folder.commit()?;
 
         if printing.for_people() {
-            let units = (self.length_unit, self.options.pressure_unit.as_deref());
-            let style = if units == (Some("m"), Some("Pa")) { Style::Si } else { Style::Plain };
-            say(&table(&[], &[&account], style));
+            say(&table(&[], &[&account], &self.units));
             say(&format!("results in {}: {}", out.display(), self.names.join(", ")));
         }
         printing.report(|| self.report(grid, &account));
         warn("", &account, &self.case);
-        let reached = account.reached.as_ref().is_none_or(|reached| reached.reached);
+        let reached = account.reached.as_ref().is_none_or(|reached| reached.reached)
+            && account.search.as_ref().is_none_or(|search| search.reached);
         Ok(account.report.status == Status::Converged && reached)
     }
 
     fn report(&self, grid: Grid, account: &Account) -> Value {
-        self.options.report(grid, account, self.length_unit)
+        self.options.report(grid, account, &self.units, self.scene)
     }
 
     fn write<T: Scalar>(
@@ -362,13 +359,12 @@ impl Job<'_> {
         write_text(&path(REPORT), &format!("{:#}\n", self.report(grid, account)))?;
         write_text(&path(scene::NAME), &self.scene.text(&self.options.out))?;
         if !self.options.no_pictures {
-            let Options { ref pressure_unit, picture_format, resolution: Resolution { dpi }, .. } = *self.options;
-            let units = Units { length: self.length_unit, pressure: pressure_unit.as_deref(), force: None };
+            let (Options { picture_format, resolution: Resolution { dpi }, .. }, units) = (self.options, &self.units);
             let [contact_name, pressure_name] = picture_format.of(PICTURES);
-            pictures::draw_contact(grid, "Contact", units, (solution, law), dpi)?.write(&path(contact_name))?;
+            pictures::draw_contact(grid, "Contact", units, (solution, law), *dpi)?.write(&path(contact_name))?;
             let pressure = pictures::pressure_to_draw(solution, self.options.adhesion.law != Law::None);
             let limits = self.options.colour_limits();
-            let picture = pictures::draw_pressure(grid, ("Pressure", ""), units, pressure, limits, dpi)?;
+            let picture = pictures::draw_pressure(grid, ("Pressure", ""), units, pressure, limits, *dpi)?;
             picture.write(&path(pressure_name))?;
         }
         Ok(())
@@ -382,6 +378,18 @@ fn patch(patch: &Patch) -> Value {
         "area_fraction": patch.area_fraction,
         "contact_fraction": patch.contact_fraction,
         "attractive_fraction": patch.attractive_fraction,
+    })
+}
+
+/// The search for the load of a contact fraction.
+fn search(search: &Search) -> Value {
+    json!({
+        "wanted": search.wanted,
+        "reached": search.reached,
+        "below": search.below,
+        "above": search.above,
+        "solves": search.solves,
+        "operator_applications": search.operator_applications,
     })
 }
 

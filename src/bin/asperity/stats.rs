@@ -7,14 +7,16 @@ use asperity::{Spectrum, Surface};
 use clap::Args;
 use serde_json::{Map, Value, json};
 
-use crate::allowed::positive;
 use crate::heights;
 use crate::numbers::plain;
 use crate::outcome::Outcome;
 use crate::output::OutputFile;
 use crate::output::write_text;
 use crate::printing::Printing;
+use crate::quantity::{Dimension, LENGTH, PER_LENGTH, Quantity};
 use crate::report;
+use crate::scene::Scene;
+use crate::units::Units;
 
 /// Print the statistics of a rough surface.
 ///
@@ -30,8 +32,9 @@ pub struct Options {
     heights: PathBuf,
     /// Side lengths of the map, in the unit of the heights; LX alone means square cells [default: the file's, else 1
     /// 1]
-    #[arg(long, value_names = ["LX", "LY"], num_args = 1..=2, allow_negative_numbers = true, value_parser = positive)]
-    lengths: Option<Vec<f64>>,
+    #[arg(long, value_names = ["LX", "LY"], num_args = 1..=2, allow_negative_numbers = true)]
+    #[arg(value_parser = LENGTH.positive())]
+    lengths: Option<Vec<Quantity>>,
     /// File for the radially averaged power spectral density, comma-separated: the wave number in radians per length,
     /// the density, of which the integral over both wave numbers is the mean square height, and of how many waves it
     /// is the mean
@@ -47,12 +50,12 @@ pub struct Options {
 const EXAMPLES: &str = "\
 \u{1b}[1;4mExamples:\u{1b}[0m
   asperity stats heights.npy
-  asperity stats asperity-demo/heights.npy --lengths 1e-6 --psd psd.csv";
+  asperity stats asperity-demo/heights.npy --lengths 1um --psd psd.csv";
 
 /// Runs the command; always successful if it ends.
-pub fn run(options: &Options) -> Outcome<bool> {
+pub fn run(options: &Options, scene: &Scene) -> Outcome<bool> {
     let psd = options.psd.as_deref().map(|path| OutputFile::create(path, options.force)).transpose()?;
-    let map = heights::map(&options.heights, options.lengths.as_deref())?;
+    let map = heights::map(&options.heights, options.lengths.as_deref(), scene.is_si())?;
     let (surface, unit) = heights::surface(&options.heights, map)?;
     if let Some(file) = psd {
         let text = density_table(&surface.spectrum(), None);
@@ -94,24 +97,28 @@ pub fn table(surface: &Surface, unit: Option<&str>) -> String {
     let (grid, found) = (surface.grid(), surface.statistics());
     let ((nx, ny), (lx, ly)) = (grid.shape(), grid.lengths());
     // Shape and Nayak's parameter have no meaning on a flat surface.
-    let number = |value: f64| if value.is_nan() { "-".to_owned() } else { plain(value) };
-    let (length, inverse) = unit.map_or_else(Default::default, |unit| (format!(" {unit}"), format!(" 1/{unit}")));
-    let sides = if grid.is_line() { number(lx) } else { format!("{} x {}", number(lx), number(ly)) } + &length;
+    let units = Units::of_map(unit);
+    let number = |value: f64, dimension: Option<Dimension>| match dimension {
+        _ if value.is_nan() => "-".to_owned(),
+        Some(dimension) => units.number(value, dimension),
+        None => plain(value),
+    };
+    let sides = if grid.is_line() { units.number(lx, LENGTH) } else { heights::sides((lx, ly), unit) };
     let mut rows = vec![("nodes", format!("{nx} x {ny}")), ("side lengths", sides)];
-    for (name, value, unit) in [
-        ("mean height", found.mean, length.as_str()),
-        ("lowest", found.lowest, &length),
-        ("highest", found.highest, &length),
-        ("rms height", found.rms_height, &length),
-        ("skewness", found.skewness, ""),
-        ("kurtosis", found.kurtosis, ""),
-        ("rms slope", found.rms_slope, ""),
-        ("  by differences", found.rms_slope_differences, ""),
-        ("rms curvature", found.rms_curvature, &inverse),
-        ("  by differences", found.rms_curvature_differences, &inverse),
-        ("Nayak's parameter", found.nayak, ""),
+    for (name, value, dimension) in [
+        ("mean height", found.mean, Some(LENGTH)),
+        ("lowest", found.lowest, Some(LENGTH)),
+        ("highest", found.highest, Some(LENGTH)),
+        ("rms height", found.rms_height, Some(LENGTH)),
+        ("skewness", found.skewness, None),
+        ("kurtosis", found.kurtosis, None),
+        ("rms slope", found.rms_slope, None),
+        ("  by differences", found.rms_slope_differences, None),
+        ("rms curvature", found.rms_curvature, Some(PER_LENGTH)),
+        ("  by differences", found.rms_curvature_differences, Some(PER_LENGTH)),
+        ("Nayak's parameter", found.nayak, None),
     ] {
-        rows.push((name, number(value) + unit));
+        rows.push((name, number(value, dimension)));
     }
     let width = rows.iter().map(|(name, _)| name.len()).max().unwrap_or(0);
     let lines = rows.iter().map(|(name, value)| format!("{name:width$}  {value}"));

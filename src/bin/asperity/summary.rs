@@ -4,13 +4,15 @@ use asperity::stability::Verdict;
 use asperity::{Report, Status};
 
 use crate::accuracy::{self, Reached};
-use crate::case::{Account, Case, Steadiness};
-use crate::numbers::{Style, percent, plain};
+use crate::case::{Account, Case, Search, Steadiness};
+use crate::numbers::{percent, plain};
 use crate::printing::complain;
 use crate::printing::{bold, green, yellow};
+use crate::quantity::{ENERGY_PER_AREA, FORCE, LENGTH, PRESSURE, PRESSURE_PER_LENGTH};
+use crate::units::Units;
 
 /// A table with a column for each of the solves.
-pub fn table(names: &[&str], solves: &[&Account], style: Style) -> String {
+pub fn table(names: &[&str], solves: &[&Account], units: &Units) -> String {
     let mut rows: Vec<(String, Vec<String>)> = Vec::new();
     if !names.is_empty() {
         rows.push((String::new(), names.iter().map(|name| (*name).to_owned()).collect()));
@@ -26,27 +28,35 @@ pub fn table(names: &[&str], solves: &[&Account], style: Style) -> String {
             let [area, contact, attractive] =
                 [patch.area_fraction, patch.contact_fraction, patch.attractive_fraction].map(percent);
             let shares = format!("{area} % of the nodes, {contact} % in contact, {attractive} % attracted");
-            row(&format!("  where w = {}", style.number(patch.work_of_adhesion, "J/m²")), &|_, _| shares.clone());
+            row(&format!("  where w = {}", units.number(patch.work_of_adhesion, ENERGY_PER_AREA)), &|_, _| {
+                shares.clone()
+            });
         }
     }
-    row("mean gap", &|_, r| style.number(r.mean_gap, "m"));
-    row("mean pressure", &|_, r| style.number(r.mean_pressure, "Pa"));
-    row("normal force", &|_, r| style.number(r.normal_force, "N"));
+    if solves.iter().any(|solve| solve.search.is_some()) {
+        row("wanted", &|s, _| {
+            let of = |search: &Search| format!("{} %, after {} solves", percent(search.wanted), search.solves);
+            s.search.as_ref().map_or(String::new(), of)
+        });
+    }
+    row("mean gap", &|_, r| units.number(r.mean_gap, LENGTH));
+    row("mean pressure", &|_, r| units.number(r.mean_pressure, PRESSURE));
+    row("normal force", &|_, r| units.number(r.normal_force, FORCE));
     if solves.iter().any(|solve| solve.report.approach.is_some()) {
-        row("approach", &|_, r| r.approach.map_or(String::new(), |approach| style.number(approach, "m")));
+        row("approach", &|_, r| r.approach.map_or(String::new(), |approach| units.number(approach, LENGTH)));
         row("traction at the edge", &|_, r| {
             r.edge_traction.map_or(String::new(), |share| format!("{} %", percent(share)))
         });
     }
-    row("carried pressure", &|_, r| style.number(r.carried_pressure, "Pa"));
-    row("mean contact pressure", &|_, r| style.number(r.mean_contact_pressure, "Pa"));
-    row("least pressure", &|s, _| style.number(s.pressures.0, "Pa"));
-    row("greatest pressure", &|s, _| style.number(s.pressures.1, "Pa"));
-    row("elastic energy per area", &|_, r| style.number(r.elastic_energy, "J/m²"));
-    row("adhesive energy per area", &|_, r| style.number(r.adhesive_energy, "J/m²"));
+    row("carried pressure", &|_, r| units.number(r.carried_pressure, PRESSURE));
+    row("mean contact pressure", &|_, r| units.number(r.mean_contact_pressure, PRESSURE));
+    row("least pressure", &|s, _| units.number(s.pressures.0, PRESSURE));
+    row("greatest pressure", &|s, _| units.number(s.pressures.1, PRESSURE));
+    row("elastic energy per area", &|_, r| units.number(r.elastic_energy, ENERGY_PER_AREA));
+    row("adhesive energy per area", &|_, r| units.number(r.adhesive_energy, ENERGY_PER_AREA));
     if solves.iter().any(|solve| solve.stiffness.is_some()) {
         row("contact stiffness", &|s, _| {
-            s.stiffness.map_or(String::new(), |found| style.number(found.pressure_per_length, "Pa/m"))
+            s.stiffness.map_or(String::new(), |found| units.number(found.pressure_per_length, PRESSURE_PER_LENGTH))
         });
     }
     row("mu_rho", &|_, r| plain(r.mu_rho));
@@ -62,7 +72,7 @@ pub fn table(names: &[&str], solves: &[&Account], style: Style) -> String {
         row("its lower bound", &|s, _| of(s, &|s| plain(s.lower_bound)));
         if solves.iter().any(|solve| !solve.departures.is_empty()) {
             row("energy drop in leaving", &|s, _| {
-                style.number(s.departures.iter().map(|left| left.energy_drop).sum(), "J/m²")
+                units.number(s.departures.iter().map(|left| left.energy_drop).sum(), ENERGY_PER_AREA)
             });
         }
         row("error bound", &|s, _| of(s, &|s| s.error_bound.map_or("none".to_owned(), |bound| format!("{bound:.1e}"))));
@@ -127,6 +137,10 @@ pub fn warn(name: &str, account: &Account, case: &Case) {
             report.status, report.relative_error, report.iterations
         );
         complain("warning", &text);
+    }
+    if let Some(search) = account.search.as_ref().filter(|search| !search.reached && report.status == Status::Converged)
+    {
+        complain("warning", &format!("{name}{}", search.told()));
     }
     if let Some(reached) =
         account.reached.as_ref().filter(|reached| !reached.reached && report.status == Status::Converged)

@@ -9,10 +9,12 @@ use serde_json::json;
 
 use crate::allowed::{nodes, positive, threads};
 use crate::form::{Form, FormOptions};
+use crate::heights::both_sides;
 use crate::outcome::Outcome;
 use crate::output::OutputFile;
 use crate::output::write_text;
 use crate::printing::Printing;
+use crate::quantity::{LENGTH, Quantity};
 use crate::report;
 use crate::scene::Scene;
 use crate::stats::{density_table, statistics, table};
@@ -38,16 +40,17 @@ pub struct Options {
     #[arg(help_heading = "Grid")]
     shape: Option<Vec<usize>>,
     /// Side lengths; LX alone means square cells [default: 1 1]
-    #[arg(long, value_names = ["LX", "LY"], num_args = 1..=2, allow_negative_numbers = true, value_parser = positive)]
-    #[arg(help_heading = "Grid")]
-    lengths: Option<Vec<f64>>,
+    #[arg(long, value_names = ["LX", "LY"], num_args = 1..=2, allow_negative_numbers = true)]
+    #[arg(value_parser = LENGTH.positive(), help_heading = "Grid")]
+    lengths: Option<Vec<Quantity>>,
 
     #[command(flatten)]
     body: FormOptions,
 
     /// Root mean square of the heights of the roughness, a length
-    #[arg(long, value_name = "H", allow_hyphen_values = true, value_parser = positive, help_heading = "Roughness")]
-    rms_height: Option<f64>,
+    #[arg(long, value_name = "H", allow_hyphen_values = true, value_parser = LENGTH.positive())]
+    #[arg(help_heading = "Roughness")]
+    rms_height: Option<Quantity>,
     /// Root mean square of the slope of the roughness
     #[arg(long, value_name = "S", allow_hyphen_values = true, value_parser = positive, help_heading = "Roughness")]
     rms_slope: Option<f64>,
@@ -91,13 +94,13 @@ const EXAMPLES: &str = "\
   The surface of the paper's figures, with a slope that can be pressed:
     asperity surface --size 1024 --rms-slope 0.1 --out heights.npy
   A rectangle of a micrometre by two, with a plateau in the spectrum, and the spectrum:
-    asperity surface --shape 256 512 --lengths 1e-6 2e-6 --rms-height 5e-9 --hurst 0.7 \\
+    asperity surface --shape 256 512 --lengths 1um 2um --rms-height 5nm --hurst 0.7 \\
       --k-l 2 --k-r 6 --k-s 50 --seed 7 --out rectangle.npy --psd psd.csv
   A profile:
     asperity surface --shape 4096 1 --rms-slope 0.1 --k-s 1000 --out profile.npy
   A tip of 20 nm on a map of 32 nm by 32 nm, as a sphere and as a rough one:
-    asperity surface --form sphere --radius 20e-9 --size 128 --lengths 32e-9 --out tip.npz
-    asperity surface --form sphere --radius 20e-9 --size 128 --lengths 32e-9 --rms-height 2e-10 \\
+    asperity surface --form sphere --radius 20nm --size 128 --lengths 32nm --out tip.npz
+    asperity surface --form sphere --radius 20nm --size 128 --lengths 32nm --rms-height 0.2nm \\
       --k-s 32 --out rough-tip.npz";
 
 /// Runs the command; always successful if it ends.
@@ -108,13 +111,18 @@ pub fn run(options: &Options, scene: &Scene) -> Outcome<bool> {
         (size, _) => (size.unwrap_or_default(), size.unwrap_or_default()),
     };
     options.body.check()?;
-    let (height, slope) = (options.rms_height.map(Amplitude::RmsHeight), options.rms_slope.map(Amplitude::RmsSlope));
+    let height = options.rms_height.map(|height| Amplitude::RmsHeight(height.value));
+    let slope = options.rms_slope.map(Amplitude::RmsSlope);
     let k_r = options.k_r.unwrap_or(k_l);
     let rough = height.or(slope).map(|amplitude| SelfAffine { hurst, k_l, k_r, k_s, amplitude, random_phase, seed });
     if rough.is_none() && options.body.form == Form::SelfAffine {
         return Err("--form self-affine lacks its roughness: give --rms-height or --rms-slope".into());
     }
-    let grid = grid(shape, options.lengths.as_deref())?;
+    let unit = scene.is_si().then_some(LENGTH.si);
+    if unit.is_some() && options.lengths.is_none() {
+        return Err("the numbers have units, but nothing says how large the map is: give --lengths, as 20um".into());
+    }
+    let grid = Grid::new(shape, both_sides(shape, options.lengths.as_deref().unwrap_or_default()))?;
     let heights = OutputFile::create(&options.out, options.force)?;
     let psd = options.psd.as_deref().map(|path| OutputFile::create(path, options.force)).transpose()?;
     if psd.as_ref().is_some_and(|psd| psd.is(&heights)) {
@@ -134,7 +142,8 @@ pub fn run(options: &Options, scene: &Scene) -> Outcome<bool> {
     if psd.is_some() && absent > 0 {
         return Err(format!("the body has no height at {absent} nodes, and so no spectrum: leave --psd out").into());
     }
-    let map = Topography::from(surface.clone());
+    let mut map = Topography::from(surface.clone());
+    map.unit = unit.map(str::to_owned);
     heights.write(|path| match path.extension().map(|ending| ending.to_ascii_lowercase()) {
         Some(ending) if ending == "gsf" || ending == "npz" => write_topography(path, &map),
         _ => write_npy(path, &map.heights),
@@ -149,14 +158,19 @@ pub fn run(options: &Options, scene: &Scene) -> Outcome<bool> {
     // what is absent has no statistics
     let (nx, ny) = shape;
     options.printing.say(&match absent {
-        0 => table(&surface, None),
+        0 => table(&surface, unit),
         _ => format!("{nx} x {ny} nodes, {absent} of them absent"),
     });
     options.printing.say(&format!("heights in {}", options.out.display()));
     options.printing.report(|| {
         let figures = match absent {
-            0 => statistics(&surface, &options.out, None),
-            _ => json!({ "heights": options.out.to_string_lossy(), "shape": shape, "lengths": grid.lengths() }),
+            0 => statistics(&surface, &options.out, unit),
+            _ => json!({
+                "heights": options.out.to_string_lossy(),
+                "shape": shape,
+                "lengths": grid.lengths(),
+                "length_unit": unit,
+            }),
         };
         let made = json!({
             "form": options.body.form.to_string(),
@@ -173,14 +187,4 @@ pub fn run(options: &Options, scene: &Scene) -> Outcome<bool> {
         report::report("surface", figures, made)
     });
     Ok(true)
-}
-
-/// The grid of a map with the given `--lengths`: one of them means square cells, none the unit square.
-fn grid((nx, ny): (usize, usize), lengths: Option<&[f64]>) -> asperity::Result<Grid> {
-    let lengths = match lengths {
-        Some([lx, ly, ..]) => (*lx, *ly),
-        Some([lx]) => (*lx, lx / nx as f64 * ny as f64),
-        _ => (1.0, 1.0),
-    };
-    Grid::new((nx, ny), lengths)
 }

@@ -1,18 +1,22 @@
 //! `asperity sweep`: equilibria at a list of loads, as a table.
 
+use std::ops::ControlFlow;
 use std::path::PathBuf;
 
 use asperity::contact::ContactStatistics;
 use asperity::stability::ContactStiffness;
-use asperity::{Control, Error, Problem, Report, Solver, Status, Surface, Sweep};
+use asperity::{
+    AdhesionLaw, ContactSearch, Control, ElasticOperator, Error, Iteration, Problem, Report, Solution, Solver, Status,
+    Surface, Sweep,
+};
 use clap::{ArgGroup, Args, ValueEnum};
-use ndarray::Array2;
+use ndarray::{Array2, ArrayView2};
 use serde_json::{Map, Value, json};
 
-use crate::adhesion::{Adhesion, AdhesionOptions};
-use crate::boundary::{LOADS, LoadsOptions};
-use crate::case::Case;
-use crate::columns::{OUTCOME, STATE, STIFFNESS, outcome, state, stiffness};
+use crate::adhesion::{Adhesion, AdhesionOptions, Law, Wall};
+use crate::boundary::{FractionsOptions, LOADS, LoadsOptions};
+use crate::case::{Case, Search};
+use crate::columns::{INPUTS, OUTCOME, SEARCH, STATE, STIFFNESS, inputs, outcome, search, state, stiffness};
 use crate::csv;
 use crate::identity::{Identity, identity};
 use crate::journal::Row;
@@ -20,29 +24,32 @@ use crate::kept::Kept;
 use crate::options::{Given, Precision, ProblemOptions, Scalar, SolverOptions, SurfaceOptions};
 use crate::outcome::Outcome;
 use crate::pictures::PlotOptions;
-use crate::printing::Printing;
+use crate::printing::{Printing, complain};
 use crate::scene::Scene;
 use crate::table::{self, Table, TableOptions};
+use crate::units::UnitOptions;
 use crate::warnings::{Strictness, Warnings};
 
 /// Solve a contact problem under many loads, one after the other.
 ///
-/// Each load starts from where the ones before lead. A row for each is appended to the file as it comes, with the
-/// loads, the mean gap, the contact area and its statistics, the energies, and how the solve ended; contact_fraction
-/// counts nodes, corrected_contact_fraction takes off what they count too much along the edge of the contact, and
-/// clusters are in nodes. The same command again goes on where an interrupted one was, or with loads that were added
-/// to the end of the list, and comes to the same file, byte for byte; for that it keeps FILE.state.npz beside the
-/// file, which may be deleted at the end. FILE.scene.toml beside it repeats or continues the sweep by asperity run.
-/// Exits with 0 if all rows converged, 2 if not (they are written all the same), and 1 if the input is refused or the
-/// file cannot be written.
+/// Each load starts from where the ones before lead. Numbers may have units, all of them or none, as in asperity solve.
+/// A row for each is appended to the file as it comes, with the loads, the mean gap, the contact area and its
+/// statistics, the energies, and how the solve ended; contact_fraction counts nodes, corrected_contact_fraction takes
+/// off what they count too much along the edge of the contact, and clusters are in nodes. The same command again goes
+/// on where an interrupted one was, or with loads that were added to the end of the list, and comes to the same file,
+/// byte for byte; for that it keeps FILE.state.npz beside the file, which may be deleted at the end. FILE.scene.toml
+/// beside it repeats or continues the sweep by asperity run. Exits with 0 if all rows converged, 2 if not (they are
+/// written all the same), and 1 if the input is refused or the file cannot be written.
 #[derive(Args)]
-#[command(after_help = EXAMPLES, group(ArgGroup::new("loads").required(true).args(LOADS)))]
+#[command(after_help = EXAMPLES, group(ArgGroup::new("loads").required(true).args(LOADS).arg("contact_fractions")))]
 pub struct Options {
     #[command(flatten)]
     surface: SurfaceOptions,
 
     #[command(flatten)]
     loads: LoadsOptions,
+    #[command(flatten)]
+    fractions: FractionsOptions,
 
     #[command(flatten)]
     adhesion: AdhesionOptions,
@@ -60,6 +67,8 @@ pub struct Options {
     fields: Option<PathBuf>,
     #[command(flatten)]
     plot: PlotOptions,
+    #[command(flatten)]
+    units: UnitOptions,
     /// Find the contact stiffness under each load, in two more columns: contact_stiffness, how much the mean pressure
     /// grows with the approach, and normal_stiffness, how much the force does
     #[arg(long, help_heading = "Output")]
@@ -78,6 +87,9 @@ const EXAMPLES: &str = "\
   Contact area against load, twenty loads over two decades:
     asperity sweep --heights heights.npy --mean-pressures 1e-3:1e-1:20:log --out area.csv \\
       --plot area.pdf
+  In SI units, in which rows and header then are:
+    asperity sweep --heights heights.npy --lengths 20um --modulus 70GPa \\
+      --mean-pressures 1MPa:1GPa:12:log --out steel.csv
   Approach and withdrawal with adhesion, eleven mean gaps each:
     asperity sweep --heights heights.npy --law exponential --work-of-adhesion 1e-4 \\
       --range 4e-3 --mean-gaps 0.05:0.03:11,0.03:0.05:11 --out hysteresis.jsonl";
@@ -88,17 +100,12 @@ enum Format {
     Jsonl,
 }
 
-/// The names of the columns, with the contact stiffness or without.
-fn names(stiffness: bool) -> Vec<&'static str> {
-    [&STATE[..], &OUTCOME[..], if stiffness { &STIFFNESS[..] } else { &[] }].concat()
-}
-
 /// Runs the command; whether all rows converged.
 pub fn run(options: &Options, scene: &Scene) -> Outcome<bool> {
     options.format()?;
     options.plot.check(&options.out, options.force)?;
     options.surface.beyond.boundary.check(options.loads.control(0.0))?;
-    let given = options.table().problem.read()?;
+    let given = options.problem().read(scene.is_si())?;
     match options.solver.precision {
         Precision::F32 => options.run::<f32>(given, scene),
         Precision::F64 => options.run::<f64>(given, scene),
@@ -107,45 +114,68 @@ pub fn run(options: &Options, scene: &Scene) -> Outcome<bool> {
 
 impl Options {
     fn run<T: Scalar>(&self, Given { surface, adhesion, unit, start }: Given<'_>, scene: &Scene) -> Outcome<bool> {
-        let loads = self.loads.values();
+        let listed = self.loads.values(self.surface.full_pressure(&surface, self.loads.are_reduced())?);
+        let loads = self.fractions.values().unwrap_or(&listed);
         if let Some(&value) = loads.iter().find(|&&load| !T::lit(load).is_finite()) {
             let (name, requirement) = ("load", "finite in the precision of the fields");
             return Err(Error::Value { name, value, requirement }.into());
         }
-        let warnings = Warnings::of_input::<T>(self.strictness, &surface, &adhesion, self.table().problem)?;
+        let warnings = Warnings::of_input::<T>(self.strictness, &surface, &adhesion, self.problem())?;
         let grid = *surface.grid();
-        let identity = self.identity(&surface, &adhesion, start.as_ref());
-        let start = start.or_else(|| self.surface.beyond.boundary.start_afar(&surface, &self.loads.controls()));
-        let operator = self.surface.beyond.boundary.half_space(grid, self.surface.modulus)?;
+        let units = self.units.units(unit.as_deref(), scene.is_si())?;
+        let mut identity = self.identity(&surface, &adhesion, start.as_ref());
+        identity.insert("units".to_owned(), units.of_table().into());
+        let start = start.or_else(|| self.surface.beyond.boundary.start_afar(&surface, &self.loads.controls(&listed)));
+        let operator = self.surface.beyond.boundary.half_space(grid, self.surface.modulus())?;
         let mut problem = Problem::new(&surface, operator, adhesion.law::<T>()?)?;
         drop(surface);
         let format = self.format()?;
-        let header = if format == Format::Csv { names(self.stiffness).join(",") + "\n" } else { String::new() };
+        // with adhesion a contact fraction is searched for by another load
+        let gap = self.fractions.values().is_some() && self.adhesion.law != Law::None;
+        let control = if gap { "mean-gap" } else { self.loads.control(0.0).name() };
+        let header = match format {
+            Format::Csv => units.header(&self.names(), control, grid.is_line()),
+            Format::Jsonl => String::new(),
+        };
+        let &Self { ref out, force, printing, .. } = self;
+        let options = TableOptions { problem: self.problem(), out, force, printing, scene, units: &units };
         let kept = Kept(self.fields.as_deref());
         kept.check(self.force, &self.out)?;
-        let (mut table, saved) = Table::open(self.table(), scene, &header, identity, Some(loads), warnings)?;
+        let (mut table, saved) = Table::open(options, &header, identity, Some(loads), warnings)?;
         let done = table.rows();
-        let controls = self.loads.controls();
+        let controls = self.loads.controls(loads);
 
         let law = adhesion.law::<T>()?;
         let mut solver = Solver { settings: self.solver.settings(), constraint: self.adhesion.wall };
-        let first = done.saturating_sub(saved.fields.len());
-        let history = controls[first..done].iter().copied().zip(saved.fields.into_iter().map(T::field)).collect();
-        let mut sweep = Sweep::new(&mut solver, &mut problem, controls[done..].iter().copied()).continuing(history);
-        if let (0, Some(start)) = (done, start) {
-            sweep = sweep.starting_from(T::field(start));
-        }
+        let mut steps = match self.fractions.values() {
+            Some(_) => {
+                let gap = saved.fields.into_iter().next_back().or(start.filter(|_| done == 0)).map(T::field);
+                Steps::Search(ContactSearch::new(&mut solver, &mut problem)?.continuing(&saved.numbers, gap))
+            }
+            None => {
+                let first = done.saturating_sub(saved.fields.len());
+                let history =
+                    controls[first..done].iter().copied().zip(saved.fields.into_iter().map(T::field)).collect();
+                let rest = controls[done..].to_vec();
+                let sweep = Sweep::new(&mut solver, &mut problem, rest).continuing(history);
+                Steps::Sweep(match start {
+                    Some(start) if done == 0 => sweep.starting_from(T::field(start)),
+                    _ => sweep,
+                })
+            }
+        };
         let (count, width) = (loads.len(), loads.len().to_string().len());
         for (k, &load) in loads.iter().enumerate().skip(done) {
             let name = format!("{}/{count}", k + 1);
-            let step = table.observed(&name, grid.nodes(), |observe| sweep.next_observed(observe));
+            let step = table.observed(&name, grid.nodes(), |observe| steps.next(load, observe));
             let Some(step) = step else { break };
-            let (control, solution) = step?;
+            let (control, solution, searched) = step?;
             table.check(&solution)?;
             let statistics = ContactStatistics::of(&solution, &grid, &law)?;
-            let mut row = row(control, &solution.report, &statistics);
+            let mut row = row(self.problem(), control, &solution.report, &statistics);
+            row.extend(searched.iter().flat_map(search).map(|(name, value)| (name.to_owned(), value)));
             if self.stiffness {
-                let (problem, tolerance) = (sweep.problem(), Case::STIFFNESS);
+                let (problem, tolerance) = (steps.problem(), Case::STIFFNESS);
                 let found = ContactStiffness::of_constrained(problem, &self.adhesion.wall, &solution, tolerance)?;
                 row.extend(stiffness(&found).map(|(name, value)| (name.to_owned(), value)));
             }
@@ -154,33 +184,49 @@ impl Options {
                 Format::Jsonl => Value::Object(row).to_string(),
             };
             kept.write(k + 1, &solution)?;
-            let fields: Vec<_> = sweep.history().iter().map(|(_, gap)| gap.view()).collect();
+            let (fields, numbers) = steps.place();
+            let reached = searched.as_ref().is_none_or(|searched| searched.reached);
             let converged = solution.report.status == Status::Converged;
-            table.append(&Row { text: &text, load, converged, fields: &fields, numbers: &[] })?;
-            self.printing.say(&format!("{:>width$}/{count}  {}", k + 1, table::brief(&solution.report)));
+            table.append(&Row {
+                text: &text,
+                load,
+                converged: converged && reached,
+                fields: &fields,
+                numbers: &numbers,
+            })?;
+            self.printing.say(&format!("{:>width$}/{count}  {}", k + 1, table::brief(&solution.report, &units)));
+            if let Some(searched) = searched.filter(|searched| converged && !searched.reached) {
+                complain("warning", &format!("row {}: {}", k + 1, searched.told()));
+            }
         }
         let text = table.text()?;
-        let names = names(self.stiffness);
+        let names = self.names();
         let rows = text.lines().skip(usize::from(format == Format::Csv)).map(|row| parsed(format, &names, row));
-        self.plot.draw(&rows.collect::<Vec<_>>(), unit.as_deref())?;
+        self.plot.draw(&rows.collect::<Vec<_>>(), &units)?;
         self.printing.say(&format!("{count} rows in {}", self.out.display()));
         self.printing.report(|| {
             let last = parsed(format, &names, text.lines().next_back().unwrap_or_default());
             table.report(
                 "sweep",
-                self.loads.control(0.0).name(),
+                control,
                 json!({ "spring_stiffness": self.loads.spring_stiffness(), "last": last }),
                 &grid,
-                unit.as_deref(),
             )
         });
-        Ok(table.converged("use a larger --tolerance or finer steps, or less tension where they are detached"))
+        Ok(table.converged(match self.fractions.values() {
+            Some(_) => "or leave out the contact fractions past which the contact jumps",
+            None => "use a larger --tolerance or finer steps, or less tension where they are detached",
+        }))
     }
 
-    fn table(&self) -> TableOptions<'_> {
-        let problem = ProblemOptions { surface: &self.surface, adhesion: &self.adhesion, solver: &self.solver };
-        let &Self { ref out, force, printing, .. } = self;
-        TableOptions { problem, out, force, printing }
+    /// The names of the columns: with those of a search or without, and with the contact stiffness or without.
+    fn names(&self) -> Vec<&'static str> {
+        let searched: &[_] = if self.fractions.values().is_some() { &SEARCH } else { &[] };
+        [&STATE[..], &OUTCOME[..], &INPUTS[..], searched, if self.stiffness { &STIFFNESS[..] } else { &[] }].concat()
+    }
+
+    fn problem(&self) -> ProblemOptions<'_> {
+        ProblemOptions { surface: &self.surface, adhesion: &self.adhesion, solver: &self.solver }
     }
 
     fn format(&self) -> Outcome<Format> {
@@ -195,13 +241,64 @@ impl Options {
 
     /// The inputs on which the rows depend beside the loads.
     fn identity(&self, surface: &Surface, adhesion: &Adhesion<'_>, start: Option<&Array2<f64>>) -> Identity {
-        let mut identity = identity(self.table().problem, surface, adhesion, start);
+        let mut identity = identity(self.problem(), surface, adhesion, start);
         let csv = self.format().is_ok_and(|format| format == Format::Csv);
-        identity.insert("control".to_owned(), self.loads.kind().into());
+        let kind = if self.fractions.values().is_some() { "contact-fraction".to_owned() } else { self.loads.kind() };
+        identity.insert("control".to_owned(), kind.into());
         identity.insert("fields".to_owned(), if self.fields.is_some() { "kept" } else { "not kept" }.into());
         identity.insert("stiffness".to_owned(), if self.stiffness { "found" } else { "not found" }.into());
         identity.insert("format".to_owned(), if csv { "csv" } else { "jsonl" }.into());
         identity
+    }
+}
+
+/// The elastic body, and the adhesion on it.
+type Body<T> = Box<dyn ElasticOperator<T>>;
+type Adhesive<T> = Box<dyn AdhesionLaw<T>>;
+
+/// The solves of the rows: under loads that are given, or that are found for contact fractions.
+enum Steps<'a, T: Scalar> {
+    Sweep(Sweep<'a, T, Body<T>, Adhesive<T>, std::vec::IntoIter<Control>, Wall>),
+    Search(ContactSearch<'a, T, Body<T>, Adhesive<T>, Wall>),
+}
+
+/// A load, the solution under it, and the search for it if there was one.
+type Step<T> = (Control, Solution<T>, Option<Search>);
+
+impl<T: Scalar> Steps<'_, T> {
+    /// The next solution; `load` is a contact fraction if that is searched for.
+    fn next(
+        &mut self,
+        load: f64,
+        observe: impl FnMut(&Iteration) -> ControlFlow<()>,
+    ) -> Option<asperity::Result<Step<T>>> {
+        match self {
+            Self::Sweep(sweep) => {
+                Some(sweep.next_observed(observe)?.map(|(control, solution)| (control, solution, None)))
+            }
+            Self::Search(search) => Some(search.at_observed(load, observe).map(|found| {
+                let searched = Search::of(load, &found);
+                (found.control, found.solution, Some(searched))
+            })),
+        }
+    }
+
+    fn problem(&mut self) -> &mut Problem<T, Body<T>, Adhesive<T>> {
+        match self {
+            Self::Sweep(sweep) => sweep.problem(),
+            Self::Search(search) => search.problem(),
+        }
+    }
+
+    /// The fields and numbers from which the next solve starts.
+    fn place(&self) -> (Vec<ArrayView2<'_, T>>, Vec<f64>) {
+        match self {
+            Self::Sweep(sweep) => (sweep.history().iter().map(|(_, gap)| gap.view()).collect(), Vec::new()),
+            Self::Search(search) => {
+                let (numbers, gap) = search.checkpoint();
+                (gap.into_iter().map(|gap| gap.view()).collect(), numbers)
+            }
+        }
     }
 }
 
@@ -214,7 +311,12 @@ fn parsed(format: Format, names: &[&'static str], row: &str) -> Value {
 }
 
 /// The content of a row, by the names of the columns. Nothing in it depends on the clock.
-fn row(control: Control, report: &Report, statistics: &ContactStatistics) -> Map<String, Value> {
-    let cells = state(control, report, statistics).chain(outcome(report));
+fn row(
+    problem: ProblemOptions<'_>,
+    control: Control,
+    report: &Report,
+    statistics: &ContactStatistics,
+) -> Map<String, Value> {
+    let cells = state(control, report, statistics).chain(outcome(report)).chain(inputs(problem));
     cells.map(|(name, value)| (name.to_owned(), value)).collect()
 }

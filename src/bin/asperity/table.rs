@@ -10,13 +10,15 @@ use serde_json::{Value, json};
 use crate::case::check_finite;
 use crate::identity::Identity;
 use crate::journal::{Journal, Row, Saved, state_path};
-use crate::numbers::{Style, percent};
+use crate::numbers::percent;
 use crate::options::{ProblemOptions, Scalar};
 use crate::outcome::Outcome;
 use crate::printing::{Printing, complain};
 use crate::progress::Progress;
+use crate::quantity::{FORCE, LENGTH, PRESSURE};
 use crate::report;
 use crate::scene::{self, Scene};
+use crate::units::Units;
 use crate::warnings::Warnings;
 
 /// The options of a table.
@@ -26,6 +28,8 @@ pub struct TableOptions<'a> {
     pub out: &'a Path,
     pub force: bool,
     pub printing: Printing,
+    pub scene: &'a Scene,
+    pub units: &'a Units,
 }
 
 /// A table on disk, new or continued, with the warnings of its run.
@@ -42,13 +46,12 @@ impl<'a> Table<'a> {
     /// state from which an interrupted run goes on. The rows are those of `loads`, where these are known before.
     pub fn open(
         options: TableOptions<'a>,
-        scene: &Scene,
         header: &str,
         identity: Identity,
         loads: Option<&[f64]>,
         mut warnings: Warnings,
     ) -> Outcome<(Self, Saved)> {
-        let TableOptions { out, force, .. } = options;
+        let TableOptions { out, force, scene, .. } = options;
         scene.check_beside(out, force || out.exists())?;
         let scene_file = scene.written_beside(out)?;
         let made = [state_path(out), scene::beside(out), out.to_owned()].into_iter().filter(|path| !path.exists());
@@ -91,7 +94,7 @@ impl<'a> Table<'a> {
     /// Looks at a solution before its row is written: refuses one that ran away, and says its warnings.
     pub fn check<T: Scalar>(&mut self, solution: &Solution<T>) -> Outcome<()> {
         check_finite(solution)?;
-        self.warnings.look_at(solution, self.options.problem.surface.modulus)
+        self.warnings.look_at(solution, self.options.problem.surface.modulus())
     }
 
     /// Appends a row.
@@ -100,7 +103,7 @@ impl<'a> Table<'a> {
     }
 
     /// The report on the table: the number of its rows, the figures that a command `found` in them, and the inputs.
-    pub fn report(&self, command: &str, control: &str, found: Value, grid: &Grid, unit: Option<&str>) -> Value {
+    pub fn report(&self, command: &str, control: &str, found: Value, grid: &Grid) -> Value {
         let mut outcome = json!({
             "control": control,
             "rows": self.rows(),
@@ -111,7 +114,8 @@ impl<'a> Table<'a> {
             outcome.extend(found);
             outcome.insert("warnings".to_owned(), self.warnings.report());
         }
-        report::report(command, outcome, report::inputs(self.options.problem, grid, unit))
+        let TableOptions { problem, units, scene, .. } = self.options;
+        report::report(command, outcome, report::inputs(problem, grid, units, scene))
     }
 
     /// Whether all rows converged; if not, a warning says so, with what else may help.
@@ -139,11 +143,16 @@ impl Drop for Table<'_> {
 }
 
 /// The fields of a row that are printed.
-pub fn brief(report: &Report) -> String {
-    let number = |value| Style::Plain.number(value, "");
+pub fn brief(report: &Report, units: &Units) -> String {
     let load = match report.approach {
-        Some(approach) => format!("normal force {}  approach {}", number(report.normal_force), number(approach)),
-        None => format!("mean pressure {}  mean gap {}", number(report.mean_pressure), number(report.mean_gap)),
+        Some(approach) => {
+            let (force, approach) = (units.number(report.normal_force, FORCE), units.number(approach, LENGTH));
+            format!("normal force {force}  approach {approach}")
+        }
+        None => {
+            let (pressure, gap) = (units.number(report.mean_pressure, PRESSURE), units.number(report.mean_gap, LENGTH));
+            format!("mean pressure {pressure}  mean gap {gap}")
+        }
     };
     format!("{load}  contact {} %  {}", percent(report.contact_fraction), report.status)
 }

@@ -43,7 +43,7 @@ impl Warnings {
             WarningCode::Flat => !free && surface.absent().is_none(),
             _ => true,
         });
-        found.extend(Warning::of_law(&law, surface, options.surface.modulus));
+        found.extend(Warning::of_law(&law, surface, options.surface.modulus()));
         warnings.add(found)?;
         Ok(warnings)
     }

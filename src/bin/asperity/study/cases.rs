@@ -11,9 +11,10 @@ use toml::{Table, Value};
 
 use crate::entries::{document, entries, spelled};
 use crate::hash::Hash;
-use crate::loads;
+use crate::loads::parsed;
 use crate::outcome::Outcome;
 use crate::printing::on_one_line;
+use crate::quantity::Quantity;
 use crate::scene::{is_path, key};
 
 /// The commands of which a case may be a run.
@@ -162,10 +163,7 @@ pub fn text(value: &Value) -> String {
 fn choices(key: String, value: Value) -> Result<Vec<Choice>, String> {
     let list = match value {
         Value::Array(list) if !list.is_empty() => list,
-        Value::String(range) if range.contains(':') => {
-            let numbers = loads::signed(&range).map_err(|error| format!("vary.{key}: {error}"))?;
-            numbers.0.into_iter().map(|number| Value::String(number.to_string())).collect()
-        }
+        Value::String(list) if list.contains(':') => range(&list).map_err(|error| format!("vary.{key}: {error}"))?,
         other => return Err(format!("vary.{key} is {other}: it must be a list of values, or FROM:TO:COUNT")),
     };
     let tables = list.iter().filter(|value| value.is_table()).count();
@@ -177,6 +175,21 @@ fn choices(key: String, value: Value) -> Result<Vec<Choice>, String> {
         value => vec![(key.clone(), value)],
     };
     Ok(list.into_iter().map(choice).collect())
+}
+
+/// The values of a range FROM:TO:COUNT or FROM:TO:COUNT:log, of which both ends have the same unit or none.
+fn range(text: &str) -> Result<Vec<Value>, String> {
+    let unit =
+        |end: &str| end.trim().trim_start_matches(|c: char| c.is_ascii_digit() || "+-.eE".contains(c)).to_owned();
+    let mut ends = text.split(':');
+    let units = [ends.next(), ends.next()].map(|end| end.map_or(String::new(), unit));
+    let number = |end: &str| match end.trim().trim_end_matches(&units[0]).trim().parse::<f64>() {
+        Ok(value) if value.is_finite() && units[0] == units[1] => Ok(Quantity::number(value)),
+        _ => Err("both ends of a range must be numbers, with the same unit or without one".to_owned()),
+    };
+    // in no unit, so that the digits are those that one would write
+    let values = parsed(text, &number)?.values;
+    Ok(values.into_iter().map(|value| Value::String(format!("{value}{}", units[0]))).collect())
 }
 
 /// The combination of this number, the last list changing fastest.

@@ -37,30 +37,29 @@ pub fn merge(study: &Study, folder: &Folder) -> Outcome<Merged> {
             columns = names;
             if study.format == Format::Csv {
                 let own = own(study, k, case, &columns);
-                let all: Vec<_> = own.iter().map(|(name, _)| name).chain(&columns).map(String::as_str).collect();
+                let kept = columns.iter().filter(|name| !is_left_out(study, name));
+                let all: Vec<_> = own.iter().map(|(name, _)| name).chain(kept).map(String::as_str).collect();
                 table = all.join(",") + "\n";
             }
         } else if names != columns {
             return Err(Error::file(&path, "has other columns than the first case: vary nothing that adds some").into());
         }
-        let own = own(study, k, case, &columns);
         for line in lines {
-            // the digits of a row remain as they are
-            let (line, row) = match study.format {
-                Format::Csv => {
-                    let cells: Vec<_> = own.iter().map(|(_, value)| csv::cell(value)).collect();
-                    (cells.join(",") + "," + line, csv::parsed(&columns, line))
-                }
-                Format::Jsonl => {
-                    let whole = Value::Object(own.clone()).to_string();
-                    let (own, rest) = (&whole[..whole.len() - 1], line.strip_prefix('{').unwrap_or(line));
-                    (format!("{own},{rest}"), serde_json::from_str(line)?)
-                }
+            let row = match study.format {
+                Format::Csv => csv::parsed(&columns, line),
+                Format::Jsonl => serde_json::from_str(line)?,
             };
-            table += &line;
-            table.push('\n');
+            let Value::Object(mut row) = row else { continue };
             merged.rows += 1;
             merged.unconverged += usize::from(row.get("status").is_none_or(|status| status != "converged"));
+            row.retain(|name, _| !is_left_out(study, name));
+            let mut whole = own(study, k, case, &columns);
+            whole.extend(row);
+            table += &match study.format {
+                Format::Csv => csv::line(&whole),
+                Format::Jsonl => Value::Object(whole).to_string(),
+            };
+            table.push('\n');
         }
     }
     let file = OutputFile::create(&study.out, true)?;
@@ -69,14 +68,21 @@ pub fn merge(study: &Study, folder: &Folder) -> Outcome<Merged> {
     Ok(merged)
 }
 
-/// The number of a case, and its values of what varies, but for those that are columns of its rows.
+/// Whether a column of the rows is left out of the table: the name of a surface that was made for a case.
+fn is_left_out(study: &Study, column: &str) -> bool {
+    column == "heights" && study.cases.iter().any(|case| case.surface.is_some())
+}
+
+/// The number of a case, and its values of what varies, but for those that are columns of its rows, where a unit may
+/// stand behind the name.
 fn own(study: &Study, number: usize, case: &Case, columns: &[String]) -> Map<String, Value> {
     let value = |value: &toml::Value| match value {
         toml::Value::Integer(number) => (*number).into(),
         toml::Value::Float(number) => (*number).into(),
         other => text(other).parse::<Number>().map_or_else(|_| text(other).into(), Value::Number),
     };
-    let values = study.columns.iter().zip(&case.values).filter(|(name, _)| !columns.contains(*name));
+    let is_column = |name: &String| columns.iter().any(|column| column.split(" [").next() == Some(name));
+    let values = study.columns.iter().zip(&case.values).filter(|(name, _)| !is_column(name));
     let values = values.map(|(name, found)| (name.clone(), found.as_ref().map_or(Value::Null, value)));
     std::iter::once(("case".to_owned(), (number + 1).into())).chain(values).collect()
 }

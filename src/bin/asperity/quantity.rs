@@ -1,0 +1,258 @@
+//! Quantities: numbers with a unit or without one, as options take them, and their dimensions.
+
+use std::fmt;
+
+/// A number in SI units if it was given with a unit, and otherwise in whatever units its user thinks in.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Quantity {
+    pub value: f64,
+    pub has_unit: bool,
+    /// Whether it is a share or a ratio, which needs none.
+    is_number: bool,
+}
+
+impl Quantity {
+    /// Whether it says nothing of units: zero is zero in all of them.
+    pub fn is_bare(self) -> bool {
+        !self.has_unit && !self.is_number && self.value != 0.0
+    }
+
+    /// A number without a dimension.
+    pub fn number(value: f64) -> Self {
+        Self { value, has_unit: false, is_number: true }
+    }
+}
+
+impl fmt::Display for Quantity {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.value.fmt(f)
+    }
+}
+
+/// A dimension: a product of powers of force and length.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Dimension {
+    /// In words, with an example as options take it.
+    what: &'static str,
+    /// The unit of the SI.
+    pub si: &'static str,
+    pub force: i32,
+    pub length: i32,
+}
+
+const fn dimension(what: &'static str, si: &'static str, force: i32, length: i32) -> Dimension {
+    Dimension { what, si, force, length }
+}
+
+pub const LENGTH: Dimension = dimension("length, as 20um", "m", 0, 1);
+pub const PER_LENGTH: Dimension = dimension("wave number, as 2/um", "1/m", 0, -1);
+pub const PRESSURE: Dimension = dimension("pressure, as 70GPa", "Pa", 1, -2);
+pub const PRESSURE_PER_LENGTH: Dimension = dimension("pressure per length, as 1GPa/um", "Pa/m", 1, -3);
+pub const FORCE: Dimension = dimension("force, as 5nN", "N", 1, 0);
+pub const FORCE_PER_LENGTH: Dimension = dimension("force per length, as 40N/m", "N/m", 1, -1);
+pub const ENERGY: Dimension = dimension("energy, as 60zJ", "J", 1, 1);
+pub const ENERGY_PER_AREA: Dimension = dimension("energy per area, as 50mJ/m2", "J/m²", 1, -1);
+
+impl Dimension {
+    pub fn positive(self) -> impl Fn(&str) -> Result<Quantity, String> + Clone + Send + Sync + 'static {
+        self.parser(|value| value > 0.0 && value.is_finite(), "positive and finite")
+    }
+
+    pub fn non_negative(self) -> impl Fn(&str) -> Result<Quantity, String> + Clone + Send + Sync + 'static {
+        self.parser(|value| value >= 0.0 && value.is_finite(), "zero or positive and finite")
+    }
+
+    pub fn finite(self) -> impl Fn(&str) -> Result<Quantity, String> + Clone + Send + Sync + 'static {
+        self.parser(f64::is_finite, "and finite")
+    }
+
+    /// The parser of quantities of this dimension.
+    fn parser(
+        self,
+        allowed: fn(f64) -> bool,
+        requirement: &'static str,
+    ) -> impl Fn(&str) -> Result<Quantity, String> + Clone + Send + Sync + 'static {
+        move |text| match self.parse(text.trim()) {
+            Some(found) if allowed(found.value) => Ok(found),
+            _ => Err(format!("it must be a number, {requirement}, alone or with a unit of {}", self.what)),
+        }
+    }
+
+    fn parse(self, text: &str) -> Option<Quantity> {
+        if let Ok(value) = text.parse() {
+            return Some(Quantity { value, has_unit: false, is_number: false });
+        }
+        // the number is as much as can be read as one: 1e5Pa is no 1 of a unit e5Pa
+        let splits = text.char_indices().rev().map(|(at, _)| text.split_at(at));
+        let (number, unit) = splits.into_iter().find(|(number, _)| number.parse::<f64>().is_ok())?;
+        let unit = Unit::parse(unit.trim()).filter(|unit| unit.force == self.force && unit.length == self.length)?;
+        Some(Quantity { value: unit.in_si(number)?, has_unit: true, is_number: false })
+    }
+}
+
+/// The power of ten that a unit of length is in metres; nothing if it is no unit of length.
+pub fn power_of_length(unit: &str) -> Option<i32> {
+    let unit = Unit::parse(unit).filter(|unit| (unit.force, unit.length) == (LENGTH.force, LENGTH.length))?;
+    Some(unit.ten)
+}
+
+/// A value times a power of ten. Powers of ten are whole numbers, by which a division rounds only once.
+pub fn times_ten_to(power: i32, value: f64) -> f64 {
+    let ten = 10f64.powi(power.abs());
+    if power < 0 { value / ten } else { value * ten }
+}
+
+/// A unit: powers of force and length, and how much it is in the SI.
+#[derive(Clone, Copy, Debug)]
+struct Unit {
+    force: i32,
+    length: i32,
+    /// The power of ten,
+    ten: i32,
+    /// and what is left beside it.
+    factor: f64,
+}
+
+/// The symbols of units: force, length, power of ten, and a factor.
+const SYMBOLS: [(&str, i32, i32, i32, f64); 8] = [
+    ("m", 0, 1, 0, 1.0),
+    ("Pa", 1, -2, 0, 1.0),
+    ("N", 1, 0, 0, 1.0),
+    ("J", 1, 1, 0, 1.0),
+    ("eV", 1, 1, -19, 1.602176634),
+    ("Å", 0, 1, -10, 1.0),
+    ("\u{212b}", 0, 1, -10, 1.0),
+    ("Angstrom", 0, 1, -10, 1.0),
+];
+
+/// The prefixes; of µ the micro sign, the Greek letter, and what stands for them.
+const PREFIXES: [(&str, i32); 14] = [
+    ("", 0),
+    ("z", -21),
+    ("a", -18),
+    ("f", -15),
+    ("p", -12),
+    ("n", -9),
+    ("u", -6),
+    ("µ", -6),
+    ("\u{3bc}", -6),
+    ("m", -3),
+    ("c", -2),
+    ("k", 3),
+    ("M", 6),
+    ("G", 9),
+];
+
+impl Unit {
+    /// A product of units with powers, as `mJ/m2`, `N/m²` or `MPa µm`.
+    fn parse(text: &str) -> Option<Self> {
+        let (above, below) = text.split_once('/').map_or((text, None), |(above, below)| (above, Some(below)));
+        let mut unit = Self { force: 0, length: 0, ten: 0, factor: 1.0 };
+        for (part, sign) in [(Some(above), 1), (below, -1)] {
+            for factor in part.into_iter().flat_map(|part| part.split([' ', '·', '*'])) {
+                let (symbol, power) = powers(factor);
+                let found = Self::symbol(symbol)?;
+                let power = sign * power;
+                unit.force += power * found.force;
+                unit.length += power * found.length;
+                unit.ten += power * found.ten;
+                unit.factor *= found.factor.powi(power);
+            }
+        }
+        Some(unit)
+    }
+
+    /// A symbol with a prefix or without one.
+    fn symbol(text: &str) -> Option<Self> {
+        SYMBOLS.iter().find_map(|&(symbol, force, length, ten, factor)| {
+            let prefix = text.strip_suffix(symbol)?;
+            let (_, power) = PREFIXES.iter().find(|(name, _)| *name == prefix)?;
+            Some(Self { force, length, ten: ten + power, factor })
+        })
+    }
+
+    /// The number with this unit, as near to it as one can be: 2.5 nm is the number that 2.5e-9 is.
+    fn in_si(self, number: &str) -> Option<f64> {
+        let (digits, exponent) = number.split_once(['e', 'E']).unwrap_or((number, "0"));
+        let exponent = exponent.parse::<i32>().ok()?.checked_add(self.ten)?;
+        Some(format!("{digits}e{exponent}").parse::<f64>().ok()? * self.factor)
+    }
+}
+
+/// A symbol, and its power behind it.
+fn powers(factor: &str) -> (&str, i32) {
+    for (digit, power) in [('2', 2), ('²', 2), ('3', 3), ('³', 3)] {
+        if let Some(symbol) = factor.strip_suffix(digit) {
+            return (symbol.strip_suffix('^').unwrap_or(symbol), power);
+        }
+    }
+    (factor, 1)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_quantity_has_the_bits_of_the_number_in_si_units() {
+        for (dimension, text, value) in [
+            (LENGTH, "20um", 20e-6),
+            (LENGTH, "2.7 nm", 2.7e-9),
+            (LENGTH, "-0.3nm", -0.3e-9),
+            (LENGTH, "3.3Å", 3.3e-10),
+            (LENGTH, "1e3µm", 1e-3),
+            (LENGTH, "7\u{3bc}m", 7e-6),
+            (LENGTH, "5m", 5.0),
+            (LENGTH, "5mm", 5e-3),
+            (LENGTH, "1.25cm", 1.25e-2),
+            (PRESSURE, "70GPa", 70e9),
+            (PRESSURE, "2.5MPa", 2.5e6),
+            (PRESSURE, "1E5Pa", 1e5),
+            (PRESSURE, "3mPa", 3e-3),
+            (PRESSURE, "4 N/mm2", 4e6),
+            (FORCE, "5nN", 5e-9),
+            (FORCE, "2MPa µm^2", 2e-6),
+            (FORCE_PER_LENGTH, "40N/m", 40.0),
+            (ENERGY_PER_AREA, "50mJ/m2", 50e-3),
+            (ENERGY_PER_AREA, "50mJ/m²", 50e-3),
+            (ENERGY_PER_AREA, "72mN/m", 72e-3),
+            (ENERGY, "60zJ", 60e-21),
+            (ENERGY, "2eV", 2e-19 * 1.602176634),
+            (PRESSURE_PER_LENGTH, "1GPa/um", 1e15),
+            (LENGTH, "0.1", 0.1),
+        ] {
+            let has_unit = text != "0.1";
+            assert_eq!(dimension.parse(text), Some(Quantity { value, has_unit, is_number: false }), "{text}");
+        }
+        assert_eq!(["nm", "m", "Pa", "px", ""].map(power_of_length), [Some(-9), Some(0), None, None, None]);
+        assert_eq!((times_ten_to(-9, 2.7), times_ten_to(9, 4e-6)), (2.7e-9, 4000.0));
+    }
+
+    #[test]
+    fn units_of_other_dimensions_and_nonsense_are_refused() {
+        let pressure = PRESSURE.positive();
+        for text in ["70", "70GPa"] {
+            assert!(pressure(text).is_ok(), "{text}");
+        }
+        for text in [
+            "70um",
+            "70N",
+            "GPa",
+            "70gpa",
+            "70 G",
+            "-1GPa",
+            "0Pa",
+            "infPa",
+            "1e400Pa",
+            "1Pa/",
+            "1/Pa",
+            "1e99999999999Pa",
+        ] {
+            let error = pressure(text).unwrap_err();
+            assert!(error.contains("positive and finite") && error.contains("as 70GPa"), "{text}: {error}");
+        }
+        assert!(LENGTH.non_negative()("0nm").is_ok() && LENGTH.finite()("-6nm").is_ok());
+        // zero says nothing of units
+        assert!(!LENGTH.finite()("0").unwrap().is_bare() && LENGTH.finite()("1").unwrap().is_bare());
+    }
+}

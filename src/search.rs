@@ -1,0 +1,371 @@
+//! A search: the load under which a given share of the surface is in contact.
+
+use std::ops::ControlFlow;
+
+use ndarray::Array2;
+
+use crate::adhesion::AdhesionLaw;
+use crate::constraint::{ContactConstraint, Projection, Wall};
+use crate::elastic::{Boundary, ElasticOperator};
+use crate::error::{Error, Result};
+use crate::problem::{Control, PressedFlat, Problem};
+use crate::real::Real;
+use crate::solver::{Iteration, Solution, Solver, Start, Status};
+
+/// The most solves of a search. One that is bracketed halves its bracket at least with every other solve.
+const MOST: usize = 60;
+
+/// The width of a bracket, in the logarithm of the load or relative to the approach, in which the contact fraction
+/// jumps: where it is smooth it changes by about as much, which is far less than any tolerance of it.
+const WIDTH: f64 = 1e-5;
+
+/// The share of a bracket that a step leaves to both sides at least.
+const MARGIN: f64 = 0.02;
+
+/// The largest step outside of a bracket, as a logarithm or relative to the approach, and the most that it grows to.
+const STEP: (f64, f64) = (1.4, 8.0);
+
+/// The load under which a given share of the nodes is in contact, found by solves.
+///
+/// Without adhesion the contact grows with the load, and the search is for the mean pressure: on the logarithm of the
+/// pressure, by the secant of ln(−ln(1 − A)) over it, which is nearly straight for rough surfaces, and by a bracket as
+/// soon as there is one. It begins where Persson's theory has the fraction A, erf(p/(√2 p_rms)), with p_rms the rms
+/// pressure that presses the surface flat.
+///
+/// With adhesion surfaces may stick at any load, and the contact jumps. The search is for the mean gap then, with a
+/// free boundary for the approach, under which more states are equilibria than under a pressure. It is a path: it goes
+/// from its start towards the wanted fraction, and never on from a state beyond it, so that it stays on the branch on
+/// which it is.
+///
+/// The fraction counts nodes. It is reached if it is within one node or 1 % ([`with_tolerance`](Self::with_tolerance))
+/// of the wanted one. Where no load has such a fraction, as the contact jumps past it, the state on the nearer side of
+/// the jump is returned, [`reached`](FoundContact::reached) is false, and [`below`](FoundContact::below) and
+/// [`above`](FoundContact::above) say from where to where it jumps.
+///
+/// One search after the other goes on from where the last one ended.
+///
+/// ```
+/// use asperity::{ContactSearch, Grid, NoAdhesion, Problem, SelfAffine, Solver, Westergaard};
+/// let grid = Grid::square(128, 1.0)?;
+/// let surface = SelfAffine { k_s: 16.0, ..SelfAffine::default() }.surface(grid)?;
+/// let mut problem = Problem::new(&surface, Westergaard::<f64>::new(grid, 1.0)?, NoAdhesion)?;
+/// let mut solver = Solver::default();
+/// let mut search = ContactSearch::new(&mut solver, &mut problem)?;
+/// for fraction in [0.05, 0.1, 0.2] {
+///     let found = search.at(fraction)?;
+///     assert!(found.reached && (found.solution.report.contact_fraction / fraction - 1.0).abs() < 0.01);
+/// }
+/// # Ok::<(), asperity::Error>(())
+/// ```
+#[derive(Debug)]
+pub struct ContactSearch<'a, T, O, L, C = Projection> {
+    solver: &'a mut Solver<C>,
+    problem: &'a mut Problem<T, O, L>,
+    axis: Axis,
+    tolerance: f64,
+    /// The gap from which the next solve starts.
+    gap: Option<Array2<T>>,
+    /// The last two results, the latest last.
+    points: Vec<Point>,
+}
+
+/// The result of a search.
+#[non_exhaustive]
+#[derive(Clone, Debug)]
+pub struct FoundContact<T> {
+    /// The state: the wanted one if it is reached.
+    pub solution: Solution<T>,
+    /// The control under which it was found: a mean pressure, with adhesion a mean gap or an approach.
+    pub control: Control,
+    /// Whether the solve has converged, and its contact fraction is the wanted one to the tolerance.
+    pub reached: bool,
+    /// The contact fraction next to the wanted one from below that was found, if there is any.
+    pub below: Option<f64>,
+    /// The contact fraction next to the wanted one from above that was found, if there is any.
+    pub above: Option<f64>,
+    /// The number of solves.
+    pub solves: usize,
+    /// The operator applications of all of them.
+    pub operator_applications: usize,
+}
+
+/// A place on the axis of a search, with the contact there.
+#[derive(Clone, Copy, Debug)]
+struct Point {
+    x: f64,
+    /// ln(−ln(1 − A)) of the contact fraction A
+    level: f64,
+    nodes: usize,
+}
+
+fn level(fraction: f64) -> f64 {
+    (-(-fraction).ln_1p()).ln()
+}
+
+/// The axis of a search, along which the contact grows.
+#[derive(Clone, Copy, Debug)]
+enum Axis {
+    /// the logarithm of the mean pressure
+    Pressure { flat: f64 },
+    /// minus the logarithm of the mean gap
+    Gap { rms_height: f64 },
+    /// the approach over the span of the heights
+    Approach { span: f64 },
+}
+
+impl Axis {
+    fn of<T: Real>(flat: &PressedFlat<T>, adhesion: bool) -> Result<Self> {
+        let &PressedFlat { rms_height, stiffness, height_span: span, .. } = flat;
+        Error::positive("rms height of the surface", rms_height)?;
+        match (adhesion, flat.boundary) {
+            // the waves of free heights begin and end at the edge of the window, those of the padding do not count
+            (false, _) => Ok(Self::Pressure { flat: stiffness * rms_height }),
+            (true, Boundary::Periodic) if flat.window.is_some() => Err(Error::Control {
+                control: "contact-fraction",
+                reason: "with adhesion it is searched for by the mean gap, which a periodic surface with absent nodes \
+                         does not have: give a pressure",
+            }),
+            (true, Boundary::Periodic) => Ok(Self::Gap { rms_height }),
+            (true, _) => Ok(Self::Approach { span }),
+        }
+    }
+
+    fn control(self, x: f64) -> Control {
+        match self {
+            Self::Pressure { .. } => Control::MeanPressure(x.exp()),
+            Self::Gap { .. } => Control::MeanGap((-x).exp()),
+            Self::Approach { span } => Control::Approach(x * span),
+        }
+    }
+
+    /// The place at which a search begins.
+    fn first(self, fraction: f64) -> f64 {
+        match self {
+            // the inverse of Persson's error function, exact at small and at large loads
+            Self::Pressure { flat } => {
+                let depth = -(-fraction).ln_1p();
+                (1.2533141373155 * flat * depth / (1.0 + depth).sqrt()).ln()
+            }
+            // as the contact of rough surfaces falls off with the gap
+            Self::Gap { rms_height } => -(-0.5 * rms_height * fraction.ln()).ln(),
+            // as that of a paraboloid grows with the approach
+            Self::Approach { .. } => fraction,
+        }
+    }
+
+    /// How much the level changes along the axis, roughly.
+    fn slope(self, x: f64) -> f64 {
+        match self {
+            Self::Pressure { .. } => 1.0,
+            Self::Gap { rms_height } => (2.0 * (-x).exp() / rms_height).clamp(0.1, 10.0),
+            Self::Approach { .. } => self.scale(x).recip(),
+        }
+    }
+
+    /// The length along the axis that is one in the logarithm of the load.
+    fn scale(self, x: f64) -> f64 {
+        if let Self::Approach { .. } = self { x.abs().max(1e-3) } else { 1.0 }
+    }
+}
+
+impl<'a, T, O, L, C> ContactSearch<'a, T, O, L, C>
+where
+    T: Real,
+    O: ElasticOperator<T>,
+    L: AdhesionLaw<T>,
+    C: ContactConstraint<T>,
+{
+    /// A search on a problem.
+    ///
+    /// # Errors
+    /// [`Error::Control`] without a wall, where nothing is in contact, and with adhesion on a periodic surface with absent
+    /// nodes; [`Error::Value`] for a flat surface.
+    pub fn new(solver: &'a mut Solver<C>, problem: &'a mut Problem<T, O, L>) -> Result<Self> {
+        if let Wall::None = solver.constraint.wall() {
+            let reason = "without a wall there is no contact to be counted: give a pressure or a gap";
+            return Err(Error::Control { control: "contact-fraction", reason });
+        }
+        let axis = Axis::of(&problem.flat, !problem.law.is_zero())?;
+        Ok(Self { solver, problem, axis, tolerance: 0.01, gap: None, points: Vec::new() })
+    }
+
+    /// The search to a relative error of the contact fraction, or one node where that is more; 0.01 by default.
+    pub fn with_tolerance(self, tolerance: f64) -> Self {
+        Self { tolerance, ..self }
+    }
+
+    /// The search with a gap of shape (Nx, Ny) as the start of its next solve.
+    pub fn starting_from(self, gap: Array2<T>) -> Self {
+        Self { gap: Some(gap), ..self }
+    }
+
+    /// The problem, to look at a solution with, as for its contact stiffness.
+    pub fn problem(&mut self) -> &mut Problem<T, O, L> {
+        self.problem
+    }
+
+    /// The place of the search: numbers, and the gap from which it goes on.
+    pub fn checkpoint(&self) -> (Vec<f64>, Option<&Array2<T>>) {
+        let numbers = self.points.iter().flat_map(|point| [point.x, point.level, point.nodes as f64]);
+        (numbers.collect(), self.gap.as_ref())
+    }
+
+    /// The search continued from the [`checkpoint`](Self::checkpoint) of another one: it goes on just as that one would
+    /// have, bit for bit.
+    pub fn continuing(self, numbers: &[f64], gap: Option<Array2<T>>) -> Self {
+        let point = |three: &[f64]| Point { x: three[0], level: three[1], nodes: three[2] as usize };
+        Self { points: numbers.chunks_exact(3).map(point).collect(), gap, ..self }
+    }
+
+    /// The state in which a share of the nodes is in contact.
+    ///
+    /// # Errors
+    /// [`Error::Value`] for a fraction that is not between 0 and 1, or less than a node; those of
+    /// [`Solver::solve_with`].
+    pub fn at(&mut self, fraction: f64) -> Result<FoundContact<T>> {
+        self.at_observed(fraction, |_| ControlFlow::Continue(()))
+    }
+
+    /// The same with an observer of the iterations of all solves. One that breaks off ends the search, with a state
+    /// that is not the wanted one.
+    ///
+    /// # Errors
+    /// Those of [`Self::at`].
+    pub fn at_observed(
+        &mut self,
+        fraction: f64,
+        mut observe: impl FnMut(&Iteration) -> ControlFlow<()>,
+    ) -> Result<FoundContact<T>> {
+        let nodes = self.problem.grid().nodes();
+        let facing = self.problem.flat.window.as_ref().map_or(nodes, |window| window.facing()) as f64;
+        let wanted = fraction * facing;
+        if !(wanted >= 1.0 && fraction < 1.0) {
+            let requirement = "at least one node, and less than 1";
+            return Err(Error::Value { name: "contact fraction", value: fraction, requirement });
+        }
+        let (goal, allowed) = (level(fraction), (self.tolerance * wanted).max(1.0));
+        let adhesion = !self.problem.law.is_zero();
+        let mut bracket = Bracket::default();
+        let mut x = self.axis.first(fraction);
+        if let [.., last] = self.points[..] {
+            bracket.add(last, wanted);
+            x = bracket.next(self.axis, goal, self.slope());
+        }
+        // the side from which the path comes
+        let mut from_below = self.points.last().map(|last| (last.nodes as f64) < wanted);
+        let mut nearest: Option<(Point, Solution<T>)> = None;
+        let (mut solves, mut applications) = (0, 0);
+        let reached = loop {
+            let start = self.gap.as_ref().map_or(Start::Default, |gap| Start::From(gap));
+            let solution = self.solver.solve_with(self.problem, self.axis.control(x), start, &mut observe)?;
+            let report = &solution.report;
+            solves += 1;
+            applications += report.operator_applications;
+            let (count, converged) = (report.contact_nodes, report.status == Status::Converged);
+            let point = Point { x, level: level(count as f64 / facing), nodes: count };
+            let distance = |nodes: usize| (nodes as f64 - wanted).abs();
+            let hit = converged && count > 0 && (count as f64) < facing && distance(count) <= allowed;
+            if hit || !converged {
+                nearest = Some((point, solution));
+                break hit;
+            }
+            let below = (count as f64) < wanted;
+            // with adhesion a state beyond the wanted one is on the way back already
+            if !adhesion || *from_below.get_or_insert(below) == below {
+                self.gap = Some(solution.gap.clone());
+            }
+            bracket.add(point, wanted);
+            if nearest.as_ref().is_none_or(|(kept, _)| distance(count) < distance(kept.nodes)) {
+                nearest = Some((point, solution));
+            }
+            self.remember(point);
+            if solves == MOST || bracket.is_narrow(self.axis) {
+                break false;
+            }
+            x = bracket.next(self.axis, goal, self.slope());
+        };
+        let Some((point, solution)) = nearest else {
+            // the loop ends with a solution
+            return Err(Error::Value { name: "contact fraction", value: fraction, requirement: "found by a solve" });
+        };
+        self.remember(point);
+        self.gap = Some(solution.gap.clone());
+        let share = |point: Point| point.nodes as f64 / facing;
+        Ok(FoundContact {
+            solution,
+            control: self.axis.control(point.x),
+            reached,
+            below: bracket.below.map(share),
+            above: bracket.above.map(share),
+            solves,
+            operator_applications: applications,
+        })
+    }
+
+    /// Keeps a result, and the one before it.
+    fn remember(&mut self, point: Point) {
+        self.points.retain(|known| known.x != point.x);
+        self.points.push(point);
+        self.points.drain(..self.points.len().saturating_sub(2));
+    }
+
+    /// How much the level changes along the axis: as between the last two results, if that is credible.
+    fn slope(&self) -> f64 {
+        let Some(last) = self.points.last() else { return 1.0 };
+        let usual = self.axis.slope(last.x);
+        let [before, last] = self.points[..] else { return usual };
+        let secant = (last.level - before.level) / (last.x - before.x);
+        if secant.is_finite() { secant.clamp(0.2 * usual, 5.0 * usual) } else { usual }
+    }
+}
+
+/// The places between which the wanted one is.
+#[derive(Clone, Copy, Debug, Default)]
+struct Bracket {
+    below: Option<Point>,
+    above: Option<Point>,
+    /// The widths of the brackets before
+    widths: [Option<f64>; 2],
+    /// How often the end was sought outside of what is known
+    widened: i32,
+}
+
+impl Bracket {
+    /// Takes a result in.
+    fn add(&mut self, point: Point, wanted: f64) {
+        let width = self.width();
+        *(if (point.nodes as f64) < wanted { &mut self.below } else { &mut self.above }) = Some(point);
+        self.widths = [width, self.widths[0]];
+    }
+
+    fn width(&self) -> Option<f64> {
+        Some(self.above?.x - self.below?.x)
+    }
+
+    /// Whether the contact jumps within it.
+    fn is_narrow(&self, axis: Axis) -> bool {
+        let ends = self.below.zip(self.above);
+        ends.is_some_and(|(below, above)| above.x - below.x <= WIDTH * axis.scale(above.x))
+    }
+
+    /// The next place to look at.
+    fn next(&mut self, axis: Axis, goal: f64, slope: f64) -> f64 {
+        match (self.below, self.above) {
+            (Some(below), Some(above)) => {
+                let share = (goal - below.level) / (above.level - below.level);
+                // a secant that does not halve the bracket in two steps gives way to the middle
+                let slow = self.widths[1].zip(self.width()).is_some_and(|(before, now)| now > 0.5 * before);
+                let share = if slow || !share.is_finite() { 0.5 } else { share.clamp(MARGIN, 1.0 - MARGIN) };
+                below.x + share * (above.x - below.x)
+            }
+            (Some(end), None) | (None, Some(end)) => {
+                let way = if self.below.is_some() { 1.0 } else { -1.0 };
+                let most = axis.scale(end.x) * (STEP.0 * 2f64.powi(self.widened)).min(STEP.1);
+                self.widened += 1;
+                let step = ((goal - end.level) / slope).abs();
+                end.x + way * if step.is_finite() { step.clamp(MARGIN * most, most) } else { most }
+            }
+            (None, None) => 0.0,
+        }
+    }
+}

@@ -1,0 +1,156 @@
+//! Searches for the load of a contact fraction: what they find, what it costs, and what they say where there is none.
+
+use crate::common::{check, rough, sphere};
+use asperity::*;
+
+/// Whether a contact fraction is within a node or 1 % of the wanted one.
+fn is_near(report: &Report, fraction: f64, facing: usize) -> bool {
+    let wanted = fraction * facing as f64;
+    (report.contact_nodes as f64 - wanted).abs() <= (0.01 * wanted).max(1.0)
+}
+
+/// Searches for fractions one after the other; returns the solves and applications of all.
+#[track_caller]
+fn search<T: Real, L: AdhesionLaw<T>>(
+    problem: &mut Problem<T, Westergaard<T>, L>,
+    fractions: &[f64],
+) -> (usize, usize) {
+    let nodes = problem.grid().nodes();
+    let mut solver = Solver::default();
+    let mut search = ContactSearch::new(&mut solver, problem).unwrap();
+    let (mut solves, mut applications) = (0, 0);
+    for &fraction in fractions {
+        let found = search.at(fraction).unwrap();
+        let report = &found.solution.report;
+        assert!(found.reached && is_near(report, fraction, nodes), "{fraction}: {}", report.contact_fraction);
+        check(&found.solution, search.problem().law(), found.control);
+        solves += found.solves;
+        applications += found.operator_applications;
+    }
+    (solves, applications)
+}
+
+#[test]
+fn a_search_finds_every_fraction_in_a_few_solves() {
+    let fractions = [0.01, 0.03, 0.1, 0.3, 0.6, 0.9, 0.99];
+    let alone: Vec<_> =
+        fractions.iter().map(|&fraction| search(&mut rough::<f64, _>(128, 32, NoAdhesion), &[fraction])).collect();
+    let together = search(&mut rough::<f64, _>(128, 32, NoAdhesion), &fractions);
+    assert!(alone.iter().all(|(solves, _)| *solves <= 5), "{alone:?}");
+    assert!(together.0 <= 18 && together.1 <= alone.iter().map(|(_, count)| count).sum(), "{together:?} {alone:?}");
+    search(&mut rough::<f32, _>(64, 16, NoAdhesion), &[0.02, 0.5]);
+    search(&mut sphere::<f64, _>(128, NoAdhesion), &[0.003, 0.05, 0.4]);
+}
+
+#[test]
+fn with_adhesion_a_search_follows_the_gap() {
+    let law = Exponential::new(2e-4, 4e-3).unwrap();
+    let mut problem = rough::<f64, _>(128, 16, law);
+    let rising = search(&mut problem, &[0.02, 0.1, 0.3, 0.7]);
+    let falling = search(&mut problem, &[0.7, 0.3, 0.1, 0.02]);
+    assert!(rising.0 <= 16 && falling.0 <= 16, "{rising:?} {falling:?}");
+    // as tension holds them there
+    let mut solver = Solver::default();
+    let found = ContactSearch::new(&mut solver, &mut problem).unwrap().at(0.02).unwrap();
+    assert!(matches!(found.control, Control::MeanGap(gap) if gap > 0.0));
+}
+
+#[test]
+fn a_free_tip_has_the_contact_that_hertz_gives() {
+    let grid = Grid::square(96, 1.0).unwrap();
+    let surface = Surface::paraboloid(grid, 2.0).unwrap();
+    let mut problem = Problem::new(&surface, Boussinesq::<f64>::new(grid, 1.0).unwrap(), NoAdhesion).unwrap();
+    let mut solver = Solver::default();
+    let found = ContactSearch::new(&mut solver, &mut problem).unwrap().at(0.05).unwrap();
+    assert!(found.reached && is_near(&found.solution.report, 0.05, 96 * 96), "{found:?}");
+    // F = 4E*a³/3R, and a to half a node
+    let radius = (0.05 / std::f64::consts::PI).sqrt();
+    let expected = 4.0 * radius.powi(3) / 6.0;
+    let force = found.solution.report.normal_force;
+    assert!((force / expected - 1.0).abs() < 3.0 * 0.5 / 96.0 / radius, "{force} {expected}");
+
+    let law = MaugisDugdale::new(2e-4, 6e-3).unwrap();
+    let mut problem = Problem::new(&surface, Boussinesq::<f64>::new(grid, 1.0).unwrap(), law).unwrap();
+    let found = ContactSearch::new(&mut solver, &mut problem).unwrap().at(0.05).unwrap();
+    assert!(found.reached && is_near(&found.solution.report, 0.05, 96 * 96), "{found:?}");
+    assert!(matches!(found.control, Control::Approach(_)));
+}
+
+#[test]
+fn a_fraction_past_which_the_contact_jumps_is_not_claimed() {
+    // the sides of a wave come into contact row by row, all nodes of a row at once
+    let grid = Grid::new((32, 16), (1.0, 0.5)).unwrap();
+    let ridge = Surface::from_fn(grid, |x, _| 0.02 * (std::f64::consts::TAU * x).cos()).unwrap();
+    let mut problem = Problem::new(&ridge, Westergaard::<f64>::new(grid, 1.0).unwrap(), NoAdhesion).unwrap();
+    let mut solver = Solver::default();
+    let mut search = ContactSearch::new(&mut solver, &mut problem).unwrap();
+    let found = search.at(0.25).unwrap();
+    let fraction = found.solution.report.contact_fraction;
+    assert!(!found.reached && found.solution.report.status == Status::Converged);
+    let (below, above) = (found.below.unwrap(), found.above.unwrap());
+    assert!(below < 0.25 && above > 0.25 && (above - below - 2.0 / 32.0).abs() < 1e-12, "{below} {above}");
+    assert!(fraction == below || fraction == above);
+    assert!(found.solves <= 40, "{}", found.solves);
+    // it goes on to one that there is
+    assert!(search.at(above).unwrap().reached);
+}
+
+#[test]
+fn a_jump_of_adhesion_is_told_from_its_side() {
+    // a wave whose crest snaps into contact, and off it
+    let line = Grid::new((256, 1), (1.0, 1.0 / 256.0)).unwrap();
+    let wave = Surface::from_fn(line, |x, _| 1e-3 * (std::f64::consts::TAU * x).cos()).unwrap();
+    let law = Exponential::new(1e-4, 5e-4).unwrap();
+    let mut problem = Problem::new(&wave, Westergaard::<f64>::new(line, 1.0).unwrap(), law).unwrap();
+    let mut solver = Solver::default();
+    let mut search = ContactSearch::new(&mut solver, &mut problem).unwrap();
+    let found = search.at(0.05).unwrap();
+    let fraction = found.solution.report.contact_fraction;
+    assert!(!found.reached && found.solution.report.status == Status::Converged, "{found:?}");
+    assert!(found.below == Some(0.0) && found.above.is_some_and(|above| above > 0.06 && above < 0.2), "{found:?}");
+    assert!(found.above == Some(fraction) || fraction == 0.0, "{fraction}");
+    // beyond the jump there are states again
+    let found = search.at(0.5).unwrap();
+    assert!(found.reached && is_near(&found.solution.report, 0.5, 256), "{found:?}");
+}
+
+#[test]
+fn a_search_goes_on_from_its_checkpoint_bit_for_bit() {
+    let fractions = [0.02, 0.05, 0.2];
+    let law = Exponential::new(1e-4, 4e-3).unwrap();
+    for adhesive in [false, true] {
+        let new = || -> Box<dyn AdhesionLaw<f64>> { if adhesive { Box::new(law) } else { Box::new(NoAdhesion) } };
+        let (mut whole, mut parts) = (rough::<f64, _>(64, 16, new()), rough::<f64, _>(64, 16, new()));
+        let (mut one, mut other) = (Solver::default(), Solver::default());
+        let mut search = ContactSearch::new(&mut one, &mut whole).unwrap();
+        let all: Vec<_> = fractions.iter().map(|&fraction| search.at(fraction).unwrap()).collect();
+        let mut place = (Vec::new(), None);
+        for (fraction, expected) in fractions.into_iter().zip(all) {
+            let mut search = ContactSearch::new(&mut other, &mut parts).unwrap().continuing(&place.0, place.1);
+            let found = search.at(fraction).unwrap();
+            assert!(found.solution == expected.solution && found.solves == expected.solves, "{fraction}");
+            let (numbers, gap) = search.checkpoint();
+            place = (numbers, gap.cloned());
+        }
+    }
+}
+
+#[test]
+fn what_cannot_be_searched_for_is_refused() {
+    let mut problem = rough::<f64, _>(16, 6, NoAdhesion);
+    let mut solver = Solver::default();
+    for fraction in [0.0, 1.0, -0.1, 1.5, f64::NAN, 0.5 / 256.0] {
+        let refused = ContactSearch::new(&mut solver, &mut problem).unwrap().at(fraction);
+        assert!(matches!(refused, Err(Error::Value { name: "contact fraction", .. })), "{fraction}");
+    }
+    let settings = Settings::default();
+    let mut without = Solver { settings, constraint: NoWall };
+    let law = Morse::new(1e-4, 4e-3).unwrap();
+    let mut repelled = rough::<f64, _>(16, 6, law);
+    let refused = ContactSearch::new(&mut without, &mut repelled);
+    assert!(matches!(refused, Err(Error::Control { control: "contact-fraction", .. })));
+    let flat = Surface::new(Grid::square(16, 1.0).unwrap(), ndarray::Array2::zeros((16, 16))).unwrap();
+    let half_space = Westergaard::<f64>::new(*flat.grid(), 1.0).unwrap();
+    let mut flat = Problem::new(&flat, half_space, NoAdhesion).unwrap();
+    assert!(matches!(ContactSearch::new(&mut solver, &mut flat), Err(Error::Value { .. })));
+}
