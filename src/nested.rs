@@ -322,7 +322,7 @@ impl<C> Nested<C> {
         Ok(NestedSolution { solution, levels })
     }
 
-    /// The contact stiffness of a solution, if it is asked for.
+    /// The contact stiffness of a solution, if it is asked for and the solve was not stopped.
     pub(crate) fn stiffness_of<T, O, L>(
         &self,
         problem: &mut Problem<T, O, L>,
@@ -335,7 +335,7 @@ impl<C> Nested<C> {
         C: ContactConstraint<T>,
     {
         let find = |tolerance| ContactStiffness::of_constrained(problem, &self.solver.constraint, solution, tolerance);
-        self.stiffness.map(find).transpose()
+        self.stiffness.filter(|_| solution.report.status != Status::Stopped).map(find).transpose()
     }
 }
 

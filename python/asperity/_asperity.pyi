@@ -192,7 +192,10 @@ class Problem:
         nested: bool | None,
         threads: int | None,
     ) -> Problem: ...
-    def inputs(self) -> tuple[float, int, int]: ...
+    def inputs(self) -> tuple[int, int]: ...
+    def plan(
+        self, load: tuple[str, list[float]], accuracy: tuple[float, str, float | None]
+    ) -> tuple[float, float, tuple[int, int], float, float]: ...
     def solve(
         self,
         load: tuple[str, list[float]],
@@ -200,9 +203,15 @@ class Problem:
         observe: Callable[[Iteration], object] | None,
         stability: bool,
         leave: bool,
+        stiffness: bool,
+        accuracy: tuple[float, str, float | None] | None,
     ) -> dict[str, Any]: ...
     def next_load(
-        self, load: tuple[str, list[float]], start: _Field | None, observe: Callable[[Iteration], object] | None
+        self,
+        load: tuple[str, list[float]],
+        start: _Field | None,
+        observe: Callable[[Iteration], object] | None,
+        stiffness: bool,
     ) -> dict[str, Any]: ...
     def next_step(
         self,
@@ -219,7 +228,7 @@ class Problem:
         self, load: tuple[str, list[float]], gap: _Field, relative_error: float
     ) -> dict[str, Any]: ...
 
-def read(path: str) -> _Map: ...
+def read(path: str, channel: str | None) -> _Map: ...
 def self_affine(
     shape: tuple[int, int],
     lengths: tuple[float, float],

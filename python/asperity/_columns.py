@@ -36,6 +36,9 @@ STATE = (
 )
 OUTCOME = ("relative_error", "load_error", "iterations", "operator_applications", "status")
 
+#: The columns of a contact stiffness, where it is asked for.
+STIFFNESS = ("contact_stiffness", "normal_stiffness")
+
 
 def state(solution: Solution) -> dict[str, Any]:
     """The numbers of a solution by the names of columns."""

@@ -5,16 +5,18 @@ from __future__ import annotations
 import contextlib
 import sys
 import warnings
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from . import _asperity, _law
+from ._accuracy import shortfall
 from ._control import Load
 from ._solution import Solution
 from ._topography import Topography, field_of, sides, taken
-from ._warnings import ConvergenceWarning, InputWarning
+from ._warnings import AccuracyWarning, ConvergenceWarning, InputWarning
 
 
 class Scene:
@@ -54,7 +56,7 @@ class Scene:
             nested,
             threads,
         )
-        tolerance, max_iterations, threads = self.problem.inputs()
+        max_iterations, threads = self.problem.inputs()
         self.inputs: dict[str, Any] = {
             "heights": self.topography.source,
             "initial_gap": None,
@@ -66,7 +68,7 @@ class Scene:
             **_law.entries(law, wall),
             "method": method,
             "precision": precision,
-            "tolerance": tolerance,
+            "tolerance": None,
             "max_iterations": max_iterations,
             "threads": threads,
             "version": _asperity.VERSION,
@@ -118,8 +120,13 @@ class Scene:
 
     def solution(self, command: str, found: dict[str, Any]) -> Solution:
         """The solution of what the compiled core found, with its warnings given; raises what ended it early."""
-        report = {"command": command, **found["report"], **self.inputs}
-        solution = Solution(self.topography, self._adhesion, report, found)
+        report = {"command": command, **found["report"], **self.inputs, "tolerance": found["tolerance"]}
+        topography = self.topography
+        if "heights" in found:
+            # those of an accuracy
+            topography = replace(topography, heights=found["heights"])
+            report["shape"] = list(topography.heights.shape)
+        solution = Solution(topography, self._adhesion, report, found)
         raised = found["raised"]
         if raised is not None:
             # an exception with slots has no room for it
@@ -133,6 +140,8 @@ class Scene:
                 warnings.warn(text, InputWarning, stacklevel=_outside())
         if not solution.converged:
             warnings.warn(_not_converged(report), ConvergenceWarning, stacklevel=_outside())
+        elif report["accuracy"] is not None and not report["accuracy"]["reached"]:
+            warnings.warn(shortfall(report, found), AccuracyWarning, stacklevel=_outside())
         return solution
 
 

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _asperity, _picture, _plot
+from ._accuracy import Plan, estimate
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -67,9 +68,11 @@ class Solution:
     mode : ndarray or None
         Change of the gap along which the energy is softest, of mean square 1, where stability was asked for.
     topography : Topography
-        Map of the heights that were solved.
+        Map of the heights that were solved: with an accuracy on the grid of the answer.
     law : object or None
         Adhesion law.
+    plan : Plan or None
+        What the accuracy was likely to take, where one was asked for.
     report : dict
         Account of the solve, with the keys of the tool's ``report.json``. ``"heights"`` is the file that they came from, if
         they came from one.
@@ -90,12 +93,14 @@ class Solution:
     contact_pressure: NDArray[np.floating[Any]]
     contact: NDArray[np.bool_]
     mode: NDArray[np.floating[Any]] | None
+    plan: Plan | None
     report: dict[str, Any]
 
     def __init__(self, topography: Topography, law: Any, report: dict[str, Any], found: dict[str, Any]) -> None:
         self.topography = topography
         self.law = law
         self.report = report
+        self.plan = found.get("plan")
         if found["statistics"] is not None:
             self.statistics = ContactStatistics(*found["statistics"])
         for name in ("gap", "pressure", "contact_pressure", "contact"):
@@ -206,6 +211,22 @@ class Solution:
         return float(self.report["adhesive_energy"])
 
     @property
+    def contact_stiffness(self) -> float | None:
+        """Contact stiffness dp̄/dδ, a pressure per length; None where it was not asked for.
+
+        How much the mean pressure grows as the bodies approach each other, or the mean gap falls: a flat punch with the
+        outline of the contact. Infinite where all nodes are in contact; with adhesion it may be negative.
+        """
+        found: float | None = self.report["contact_stiffness"]
+        return found
+
+    @property
+    def normal_stiffness(self) -> float | None:
+        """Normal stiffness dF/dδ, a force per length; None where it was not asked for."""
+        found: float | None = self.report["normal_stiffness"]
+        return found
+
+    @property
     def iterations(self) -> int:
         """Number of steps."""
         return int(self.report["iterations"])
@@ -233,6 +254,8 @@ class Solution:
         if report["law"] != "none":
             rows.append(("adhesive energy per area", f"{report['adhesive_energy']:.7g}"))
             rows.append(("mu_rho", f"{report['mu_rho']:.4g}"))
+        if self.contact_stiffness is not None:
+            rows.append(("contact stiffness", f"{self.contact_stiffness:.7g}"))
         if report["stability"] is not None:
             rows.append(("stability", report["stability"]["verdict"]))
             rows.append(("smallest eigenvalue", f"{report['stability']['eigenvalue']:.7g}"))
@@ -241,6 +264,7 @@ class Solution:
         rows.append(("operator applications", str(report["operator_applications"])))
         if report["levels"] is not None:
             rows.append(("with coarser grids", f"{report['equivalent_applications']:.1f}"))
+            rows.append(("error of the grid", estimate(report)))
         rows.append(("time", f"{report['seconds']:.3f} s"))
         return rows
 

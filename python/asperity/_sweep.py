@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from . import _control, _plot
 from ._asperity import Iteration
-from ._columns import OUTCOME, STATE, Rows, state
+from ._columns import OUTCOME, STATE, STIFFNESS, Rows, state
 from ._scene import Scene
 from ._solution import Solution
 
@@ -22,11 +22,12 @@ class Sweep(Rows[Solution]):
     solve.
     """
 
-    names = STATE + OUTCOME
-
-    def __init__(self, scene: Scene, loads: list[_control.Load], start: Any, observe: Any) -> None:
+    def __init__(
+        self, scene: Scene, loads: list[_control.Load], start: Any, observe: Any, stiffness: bool
+    ) -> None:
         super().__init__()
-        self._scene, self._loads, self._observe = scene, loads, observe
+        self.names = STATE + OUTCOME + (STIFFNESS if stiffness else ())
+        self._scene, self._loads, self._observe, self._stiffness = scene, loads, observe, stiffness
         self._start = scene.start(start, loads)
 
     def __len__(self) -> int:
@@ -38,7 +39,7 @@ class Sweep(Rows[Solution]):
         if done == len(self._loads):
             raise StopIteration
         start = self._start if done == 0 else None
-        found = self._scene.problem.next_load(self._loads[done], start, self._observe)
+        found = self._scene.problem.next_load(self._loads[done], start, self._observe, self._stiffness)
         solution = self._scene.solution("sweep", found)
         if solution.status == "stopped":
             # ended by the observer: the sweep goes no further
@@ -86,6 +87,7 @@ def sweep(
     precision: str = "f64",
     start: Any = None,
     observe: Callable[[Iteration], object] | None = None,
+    stiffness: bool = False,
     threads: int | None = None,
 ) -> Sweep:
     """Solves under many loads, one after the other, each from where the ones before lead.
@@ -105,6 +107,8 @@ def sweep(
         Approaches, with a free boundary.
     springs : sequence of (float, float)
         Stiffness and position at rest of a spring.
+    stiffness : bool
+        Finds the contact stiffness under each load: two more columns, ``contact_stiffness`` and ``normal_stiffness``.
 
     Returns
     -------
@@ -140,4 +144,4 @@ def sweep(
         precision=precision,
         threads=threads,
     )
-    return Sweep(scene, loads, start, observe)
+    return Sweep(scene, loads, start, observe, stiffness)

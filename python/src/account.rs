@@ -2,8 +2,8 @@
 
 use asperity::accuracy::{GridError, Quantity};
 use asperity::contact::{ContactArea, ContactStatistics};
-use asperity::stability::Stability;
-use asperity::{Control, Grid, Level, NestedSolution, Real, Solution, Warning};
+use asperity::stability::{ContactStiffness, Stability};
+use asperity::{Control, Grid, Level, Real, Solution, Warning};
 use numpy::Element;
 use numpy::ndarray::Array2;
 use rayon::prelude::*;
@@ -22,11 +22,29 @@ pub struct Grids {
 }
 
 impl Grids {
-    /// The account of a solution, of a surface with so many nodes in its shortest wave.
-    pub fn of<T>(found: &NestedSolution<T>, nodes_per_wave: f64, control: Control) -> Self {
-        let errors = GridError::of_all(&found.levels, control, nodes_per_wave, found.solution.report.mu_rho);
-        Self { levels: found.levels.clone(), applications: found.equivalent_applications(), errors }
+    /// The account of the grids on the way to a solution, of a surface with so many nodes in its shortest wave.
+    pub fn of<T>(
+        (levels, applications): (Vec<Level>, f64),
+        solution: &Solution<T>,
+        nodes_per_wave: f64,
+        control: Control,
+    ) -> Self {
+        let errors = GridError::of_all(&levels, control, nodes_per_wave, solution.report.mu_rho);
+        Self { levels, applications, errors }
     }
+}
+
+/// What became of an accuracy that was asked for.
+pub struct Reached {
+    pub wanted: f64,
+    pub of: Quantity,
+    pub reached: bool,
+    /// Whether the surface could be refined.
+    pub refinable: bool,
+    /// The next finer grid and its bytes, if that was too much.
+    pub unaffordable: Option<((usize, usize), f64)>,
+    /// The heights on the grid of the answer.
+    pub heights: Array2<f64>,
 }
 
 /// The account of a solve.
@@ -42,6 +60,8 @@ pub struct Account<T> {
     /// The nested grids, if they were used.
     pub grids: Option<Grids>,
     pub stability: Option<Stability<T>>,
+    pub stiffness: Option<ContactStiffness>,
+    pub reached: Option<Reached>,
     /// The eigenvalue, energy drop and distance of each unstable equilibrium that was left.
     pub departures: Option<Vec<(f64, f64, f64)>>,
     /// The node with the largest work of adhesion, where that varies.
@@ -69,6 +89,8 @@ impl<T: Scalar> Account<T> {
             control,
             grids: None,
             stability: None,
+            stiffness: None,
+            reached: None,
             departures: None,
             strongest: None,
             warnings,

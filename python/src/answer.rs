@@ -6,7 +6,7 @@ use numpy::PyArray1;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use crate::account::{Account, Scalar};
+use crate::account::{Account, Reached, Scalar};
 use crate::refusal::refusal;
 use crate::report;
 
@@ -22,13 +22,20 @@ pub fn answer<'py, T: Scalar>(
     };
     let found = PyDict::new(py);
     found.set_item("report", report::of(py, &account)?)?;
-    let Account { solution, contact, statistics: counted, stability, .. } = account;
+    let Account { solution, contact, statistics: counted, stability, reached, .. } = account;
+    found.set_item("tolerance", solution.report.tolerance)?;
     found.set_item("gap", solution.gap.into_pyarray(py))?;
     found.set_item("pressure", solution.pressure.into_pyarray(py))?;
     found.set_item("contact_pressure", solution.contact_pressure.into_pyarray(py))?;
     found.set_item("contact", contact.into_pyarray(py))?;
     found.set_item("mode", stability.map(|stability| stability.mode.into_pyarray(py)))?;
     found.set_item("statistics", counted.map(|counted| statistics(py, counted)))?;
+    // the grid of an accuracy, and what keeps it from being finer
+    if let Some(Reached { heights, refinable, unaffordable, .. }) = reached {
+        found.set_item("heights", heights.into_pyarray(py))?;
+        found.set_item("refinable", refinable)?;
+        found.set_item("unaffordable", unaffordable)?;
+    }
     found.set_item("raised", raised)?;
     Ok(found)
 }

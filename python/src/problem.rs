@@ -3,13 +3,13 @@
 use std::sync::{Mutex, PoisonError};
 use std::time::Instant;
 
-use asperity::accuracy::GridError;
+use asperity::accuracy::{Accuracy, AccurateSolution, GridError, Plan};
 use asperity::contact::ContactStatistics;
 use asperity::path::{Event, Path, PathCheckpoint, PathSettings};
-use asperity::stability::{StabilityTest, Verdict};
+use asperity::stability::{ContactStiffness, StabilityTest, Verdict};
 use asperity::{
-    AdhesionLaw, Control, ElasticOperator, Error, Grid, Nested, Real, Settings, Solution, Solver, Start, Status,
-    Surface, Sweep, Warning,
+    AdhesionLaw, Control, ElasticOperator, Error, Grid, Nested, NestedSolution, Real, Settings, Solution, Solver,
+    Start, Status, Surface, Sweep, Topography, Warning,
 };
 use numpy::ndarray::Array2;
 use numpy::{IntoPyArray, PyReadonlyArray2};
@@ -17,9 +17,9 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use crate::account::{Account, Grids, Scalar};
+use crate::account::{Account, Grids, Reached, Scalar};
 use crate::answer::answer;
-use crate::inputs::{Beyond, Load, Wall, control, settings};
+use crate::inputs::{Beyond, Goal, Load, Wall, accuracy, control, settings};
 use crate::law::{law, strongest};
 use crate::pools::Pool;
 use crate::refusal::{refusal, refusal_of_heights};
@@ -74,6 +74,8 @@ struct Request<'py> {
     start: Option<PyReadonlyArray2<'py, f64>>,
     stability: bool,
     leave: bool,
+    stiffness: bool,
+    accuracy: Option<Goal>,
 }
 
 /// What a problem does in either precision.
@@ -89,6 +91,7 @@ trait Solves: Send {
         start: Option<PyReadonlyArray2<'py, f64>>,
     ) -> PyResult<Option<Bound<'py, PyDict>>>;
     fn end_leg(&mut self);
+    fn plan(&self, py: Python<'_>, pool: &Pool, control: Control, goal: &Goal) -> PyResult<Plan>;
     fn stability<'py>(
         &mut self,
         py: Python<'py>,
@@ -135,31 +138,66 @@ impl<T: Scalar> State<T> {
         })
     }
 
-    /// The account of a solution.
-    fn account(&self, solution: Solution<T>, control: Control, seconds: f64) -> asperity::Result<Account<T>> {
-        let account = Account::of(solution, &self.grid, control, self.modulus)?;
-        let warnings = self.warnings.iter().cloned().chain(account.warnings).collect();
-        Ok(Account { warnings, seconds, strongest: self.strongest, ..account })
-    }
-
-    /// The account of a row of a table, with the statistics of its contact.
-    fn row(&mut self, solution: Solution<T>, control: Control, seconds: f64) -> asperity::Result<Account<T>> {
+    /// The account of a solution on the grid of the surface, or on a finer one.
+    fn account(
+        &self,
+        solution: Solution<T>,
+        grid: &Grid,
+        control: Control,
+        clock: Instant,
+    ) -> asperity::Result<Account<T>> {
+        let seconds = clock.elapsed().as_secs_f64();
         let law = match &self.body {
             Body::Surface(_, law) => law,
             Body::Problem(problem) => problem.law(),
             Body::Spent => return Err(spent()),
         };
-        let statistics = ContactStatistics::of(&solution, &self.grid, law)?;
-        Ok(Account { statistics: Some(statistics), ..self.account(solution, control, seconds)? })
+        let statistics = ContactStatistics::of(&solution, grid, law)?;
+        let account = Account::of(solution, grid, control, self.modulus)?;
+        let warnings = self.warnings.iter().cloned().chain(account.warnings).collect();
+        Ok(Account { statistics: Some(statistics), warnings, seconds, strongest: self.strongest, ..account })
+    }
+
+    /// The contact stiffness of a solution, if it is asked for and the solve was not stopped.
+    fn stiffness(&mut self, solution: &Solution<T>, asked: bool) -> asperity::Result<Option<ContactStiffness>> {
+        if !asked || solution.report.status == Status::Stopped {
+            return Ok(None);
+        }
+        let problem = single(&mut self.body, self.beyond, self.modulus)?;
+        let (wall, tolerance) = (&self.solver.constraint, ContactStiffness::TOLERANCE);
+        ContactStiffness::of_constrained(problem, wall, solution, tolerance).map(Some)
+    }
+
+    /// The account of a solve to an accuracy.
+    fn accurate(
+        &self,
+        mut wanted: Accuracy<Wall>,
+        control: Control,
+        observe: Observe<'_>,
+    ) -> asperity::Result<Account<T>> {
+        let Body::Surface(surface, law) = &self.body else { return Err(spent()) };
+        let clock = Instant::now();
+        let half_space = |grid| self.beyond.half_space(grid, self.modulus);
+        let found = wanted.solve_observed(surface, half_space, law, control, |_, state| observe(state))?;
+        let applications = found.equivalent_applications();
+        let AccurateSolution { solution, surface, levels, reached, refinable, unaffordable, .. } = found;
+        let stiffness = levels.last().and_then(|finest| finest.stiffness);
+        let nodes_per_wave = surface.nodes_per_wave(solution.report.boundary);
+        let grids = Some(Grids::of((levels, applications), &solution, nodes_per_wave, control));
+        let account = self.account(solution, surface.grid(), control, clock)?;
+        let heights = Topography::from(surface).heights;
+        let reached = Reached { wanted: wanted.target, of: wanted.of, reached, refinable, unaffordable, heights };
+        Ok(Account { grids, stiffness, reached: Some(reached), ..account })
     }
 
     /// The account of a solve on nested grids, if these are asked for; or, with the default start, if they are faster.
     fn nested(
-        &mut self,
+        &self,
         control: Control,
         begins: bool,
+        stiffness: bool,
         observe: Observe<'_>,
-    ) -> asperity::Result<Option<(Solution<T>, Grids)>> {
+    ) -> asperity::Result<Option<Account<T>>> {
         let Body::Surface(surface, law) = &self.body else { return Ok(None) };
         let (beyond, modulus, settings) = (self.beyond, self.modulus, self.solver.settings);
         let half_space = |grid| beyond.half_space(grid, modulus);
@@ -167,13 +205,19 @@ impl<T: Scalar> State<T> {
         if !self.nested.unwrap_or_else(|| begins && pays()) {
             return Ok(None);
         }
-        let Nested { coarsest, stiffness, .. } = Nested::default();
+        let clock = Instant::now();
+        let Nested { coarsest, .. } = Nested::default();
+        let stiffness = stiffness.then_some(ContactStiffness::TOLERANCE);
         let mut nested =
             Nested { solver: self.solver.clone(), coarse_tolerance: GridError::COARSE_TOLERANCE, coarsest, stiffness };
         let found = nested.solve_observed(surface, half_space, law, control, |_, state| observe(state))?;
-        let nodes_per_wave = surface.nodes_per_wave(found.solution.report.boundary);
-        let grids = Grids::of(&found, nodes_per_wave, control);
-        Ok(Some((found.solution, grids)))
+        let applications = found.equivalent_applications();
+        let NestedSolution { solution, levels, .. } = found;
+        let stiffness = levels.last().and_then(|finest| finest.stiffness);
+        let nodes_per_wave = surface.nodes_per_wave(solution.report.boundary);
+        let grids = Some(Grids::of((levels, applications), &solution, nodes_per_wave, control));
+        let account = self.account(solution, &self.grid, control, clock)?;
+        Ok(Some(Account { grids, stiffness, ..account }))
     }
 }
 
@@ -195,14 +239,20 @@ fn spent() -> Error {
 
 impl<T: Scalar> Solves for State<T> {
     fn solve<'py>(&mut self, py: Python<'py>, at: Run<'_>, request: Request<'py>) -> PyResult<Bound<'py, PyDict>> {
-        let Request { control, start, stability, leave } = request;
+        let Request { control, start, stability, leave, stiffness, accuracy: goal } = request;
         let start = start.map(field::<T>);
+        let mut wanted = goal.map(|goal| accuracy(&goal, self.solver.clone())).transpose()?;
+        if let Some(wanted) = &mut wanted {
+            wanted.nested.stiffness = stiffness.then_some(ContactStiffness::TOLERANCE);
+        }
         let found = run(py, at.pool, at.observer, |observe: Observe<'_>| {
-            let clock = Instant::now();
-            if let Some((solution, grids)) = self.nested(control, start.is_none() && !stability, observe)? {
-                let account = self.row(solution, control, clock.elapsed().as_secs_f64())?;
-                return Ok(Account { grids: Some(grids), ..account });
+            if let Some(wanted) = wanted {
+                return self.accurate(wanted, control, observe);
             }
+            if let Some(account) = self.nested(control, start.is_none() && !stability, stiffness, observe)? {
+                return Ok(account);
+            }
+            let clock = Instant::now();
             let problem = single(&mut self.body, self.beyond, self.modulus)?;
             let from = start.as_ref().map_or(Start::Default, |gap| Start::From(gap));
             let mut solution = self.solver.solve_with(problem, control, from, observe)?;
@@ -211,7 +261,7 @@ impl<T: Scalar> Solves for State<T> {
                 let found = StabilityTest::default().run_with(problem, &self.solver.constraint, control, &solution)?;
                 let leaves = leave && found.verdict == Verdict::Unstable && departures.len() < MOST_DEPARTURES;
                 let left = match leaves {
-                    true => found.leave(&mut Solver::new(self.solver.settings), problem, control, &solution)?,
+                    true => found.leave(&mut self.solver, problem, control, &solution)?,
                     false => None,
                 };
                 let Some(left) = left.filter(|left| left.energy_drop > 0.0) else {
@@ -221,14 +271,15 @@ impl<T: Scalar> Solves for State<T> {
                 departures.push((found.eigenvalue, left.energy_drop, left.distance));
                 solution = left.solution;
             }
-            let account = self.row(solution, control, clock.elapsed().as_secs_f64())?;
-            Ok(Account { stability: verdict, departures: leave.then_some(departures), ..account })
+            let stiffness = self.stiffness(&solution, stiffness)?;
+            let account = self.account(solution, &self.grid, control, clock)?;
+            Ok(Account { stability: verdict, stiffness, departures: leave.then_some(departures), ..account })
         })?;
         answer(py, found)
     }
 
     fn next_load<'py>(&mut self, py: Python<'py>, at: Run<'_>, request: Request<'py>) -> PyResult<Bound<'py, PyDict>> {
-        let Request { control, start, .. } = request;
+        let Request { control, start, stiffness, .. } = request;
         let start = start.map(field::<T>);
         let found = run(py, at.pool, at.observer, |observe: Observe<'_>| {
             let clock = Instant::now();
@@ -246,7 +297,8 @@ impl<T: Scalar> Solves for State<T> {
             // a load that was not reached is tried again from where the ones before lead
             let stopped = solution.report.status == Status::Stopped;
             self.history = if stopped { kept } else { history };
-            self.row(solution, control, clock.elapsed().as_secs_f64())
+            let stiffness = self.stiffness(&solution, stiffness)?;
+            Ok(Account { stiffness, ..self.account(solution, &self.grid, control, clock)? })
         })?;
         answer(py, found)
     }
@@ -262,8 +314,8 @@ impl<T: Scalar> Solves for State<T> {
         let start = start.map(field::<T>);
         let (found, raised) = run(py, at.pool, at.observer, |observe: Observe<'_>| -> asperity::Result<_> {
             let clock = Instant::now();
-            let mut solver = Solver::new(self.solver.settings);
-            let mut path = Path::new(&mut solver, single(&mut self.body, self.beyond, self.modulus)?, loads, settings)?;
+            let problem = single(&mut self.body, self.beyond, self.modulus)?;
+            let mut path = Path::new(&mut self.solver, problem, loads, settings)?;
             path = match (self.place.clone(), start) {
                 (Some(place), _) => path.continuing(place)?,
                 (None, Some(start)) => path.starting_from(start),
@@ -275,7 +327,7 @@ impl<T: Scalar> Solves for State<T> {
             let Some(step) = path.next_observed(observe) else { return Ok(None) };
             let step = step?;
             self.place = Some(path.checkpoint());
-            let account = self.row(step.solution, step.control, clock.elapsed().as_secs_f64())?;
+            let account = self.account(step.solution, &self.grid, step.control, clock)?;
             let balance = [("work", step.work), ("dissipated", step.dissipated), ("imbalance", step.imbalance)];
             Ok(Some((account, step.leg, balance, step.event)))
         })?;
@@ -296,6 +348,17 @@ impl<T: Scalar> Solves for State<T> {
 
     fn end_leg(&mut self) {
         self.leg_ends = true;
+    }
+
+    fn plan(&self, py: Python<'_>, pool: &Pool, control: Control, goal: &Goal) -> PyResult<Plan> {
+        let Body::Surface(surface, law) = &self.body else { return Err(refusal(spent())) };
+        let (wanted, beyond, grid, modulus) =
+            (accuracy(goal, self.solver.clone())?, self.beyond, self.grid, self.modulus);
+        let plan = || {
+            let mut operator = beyond.half_space::<T>(grid, modulus)?;
+            wanted.plan(surface, &mut operator, law, control)
+        };
+        py.detach(|| pool.get().install(plan)).map_err(refusal)
     }
 
     fn stability<'py>(
@@ -334,13 +397,15 @@ fn no_load() -> Error {
     Error::Value { name: "number of loads", value: 0.0, requirement: "at least 1" }
 }
 
+/// The nodes in the shortest wave, tolerance, shape, bytes and seconds of a plan.
+type Planned = (f64, f64, (usize, usize), f64, f64);
+
 /// A contact problem.
 #[pyclass(module = "asperity._asperity")]
 pub struct Problem {
     solves: Mutex<Box<dyn Solves>>,
     threads: Option<usize>,
-    settings: Settings,
-    single: bool,
+    max_iterations: usize,
 }
 
 impl Problem {
@@ -387,18 +452,26 @@ impl Problem {
             "f32" => state::<f32>(py, &pool, surface, law, made)?,
             other => return Err(PyValueError::new_err(format!("precision is {other}: it must be f64 or f32"))),
         };
-        Ok(Self { solves: Mutex::new(solves), threads, settings, single: precision == "f32" })
+        Ok(Self { solves: Mutex::new(solves), threads, max_iterations: settings.max_iterations })
     }
 
-    /// The tolerance, the limit of the iterations and the number of threads, with their defaults.
-    fn inputs(&self) -> PyResult<(f64, usize, usize)> {
-        let tolerance =
-            if self.single { self.settings.tolerance_in::<f32>() } else { self.settings.tolerance_in::<f64>() };
-        Ok((tolerance, self.settings.max_iterations, Pool::of(self.threads)?.threads()))
+    /// The limit of the iterations and the number of threads, with their defaults.
+    fn inputs(&self) -> PyResult<(usize, usize)> {
+        Ok((self.max_iterations, Pool::of(self.threads)?.threads()))
+    }
+
+    /// The plan of a solve to an accuracy.
+    #[pyo3(signature = (load, accuracy))]
+    fn plan(&mut self, py: Python<'_>, load: Load, accuracy: Goal) -> PyResult<Planned> {
+        let (pool, solves) = self.parts()?;
+        let Plan { nodes_per_wave, tolerance, shape, bytes, seconds, .. } =
+            solves.plan(py, &pool, control(&load)?, &accuracy)?;
+        Ok((nodes_per_wave, tolerance, shape, bytes, seconds))
     }
 
     /// The equilibrium at a load.
-    #[pyo3(signature = (load, start, observe, stability, leave))]
+    #[pyo3(signature = (load, start, observe, stability, leave, stiffness, accuracy))]
+    #[expect(clippy::too_many_arguments, reason = "called by the Python layer alone, by name")]
     fn solve<'py>(
         &mut self,
         py: Python<'py>,
@@ -407,22 +480,26 @@ impl Problem {
         observe: Option<Py<PyAny>>,
         stability: bool,
         leave: bool,
+        stiffness: bool,
+        accuracy: Option<Goal>,
     ) -> PyResult<Bound<'py, PyDict>> {
-        let request = Request { control: control(&load)?, start, stability, leave };
+        let request = Request { control: control(&load)?, start, stability, leave, stiffness, accuracy };
         let (pool, solves) = self.parts()?;
         solves.solve(py, Run { pool: &pool, observer: observe.as_ref() }, request)
     }
 
     /// The equilibrium at the next load of a sweep.
-    #[pyo3(signature = (load, start, observe))]
+    #[pyo3(signature = (load, start, observe, stiffness))]
     fn next_load<'py>(
         &mut self,
         py: Python<'py>,
         load: Load,
         start: Option<PyReadonlyArray2<'py, f64>>,
         observe: Option<Py<PyAny>>,
+        stiffness: bool,
     ) -> PyResult<Bound<'py, PyDict>> {
-        let request = Request { control: control(&load)?, start, stability: false, leave: false };
+        let (control, stability, leave, accuracy) = (control(&load)?, false, false, None);
+        let request = Request { control, start, stability, leave, stiffness, accuracy };
         let (pool, solves) = self.parts()?;
         solves.next_load(py, Run { pool: &pool, observer: observe.as_ref() }, request)
     }

@@ -7,7 +7,7 @@ use asperity::{Level, Warning};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use crate::account::{Account, Grids, Scalar};
+use crate::account::{Account, Grids, Reached, Scalar};
 use crate::inputs::stiffness;
 
 /// A dictionary of its entries.
@@ -34,6 +34,10 @@ pub fn of<'py, T: Scalar>(py: Python<'py>, account: &Account<T>) -> PyResult<Bou
     let levels = |grids: &Grids| grids.levels.iter().map(|found| level(py, found)).collect::<PyResult<Vec<_>>>();
     let levels = account.grids.as_ref().map(levels).transpose()?;
     let grid_error = account.grids.as_ref().map(|grids| grid_error(py, grids)).transpose()?;
+    let reached = |found: &Reached| -> PyResult<_> {
+        Ok(dictionary!(py, "wanted": found.wanted, "of": found.of.name(), "reached": found.reached,))
+    };
+    let reached = account.reached.as_ref().map(reached).transpose()?;
     let statistics = account.statistics.as_ref();
     let patches =
         statistics.map(|found| found.patches.iter().map(|found| patch(py, found)).collect::<PyResult<Vec<_>>>());
@@ -48,7 +52,7 @@ pub fn of<'py, T: Scalar>(py: Python<'py>, account: &Account<T>) -> PyResult<Bou
         "levels": levels,
         "equivalent_applications": account.grids.as_ref().map(|grids| grids.applications),
         "grid_error": grid_error,
-        "accuracy": py.None(),
+        "accuracy": reached,
         "mean_gap": report.mean_gap,
         "mean_pressure": report.mean_pressure,
         "normal_force": report.normal_force,
@@ -71,8 +75,8 @@ pub fn of<'py, T: Scalar>(py: Python<'py>, account: &Account<T>) -> PyResult<Bou
         "elastic_energy": report.elastic_energy,
         "adhesive_energy": report.adhesive_energy,
         "stability": stability,
-        "contact_stiffness": py.None(),
-        "normal_stiffness": py.None(),
+        "contact_stiffness": account.stiffness.map(|found| found.pressure_per_length),
+        "normal_stiffness": account.stiffness.map(|found| found.force_per_length),
         "departures": departures.transpose()?,
         "mu_rho": report.mu_rho,
         "mu_rho_node": account.strongest.map(|(x, y)| [x, y]),

@@ -40,12 +40,9 @@ pub struct Case {
 }
 
 impl Case {
-    /// The relative error to which a contact stiffness is found.
-    pub const STIFFNESS: f64 = 1e-4;
-
     /// The relative error to which the contact stiffness is to be found, if it is.
     pub fn stiffness_to(&self) -> Option<f64> {
-        self.stiffness.then_some(Self::STIFFNESS)
+        self.stiffness.then_some(ContactStiffness::TOLERANCE)
     }
 
     /// Whether to solve on coarser grids first: if that is asked for, or faster from the default start.
@@ -145,7 +142,7 @@ pub fn solve<T: Scalar, L: AdhesionLaw<T>>(
         departures.push(Left { eigenvalue: found.eigenvalue, energy_drop, distance });
         solution = left.solution;
     };
-    let find = || ContactStiffness::of_constrained(&mut problem, &case.wall, &solution, Case::STIFFNESS);
+    let find = || ContactStiffness::of_constrained(&mut problem, &case.wall, &solution, ContactStiffness::TOLERANCE);
     let stiffness = case.stiffness.then(find).transpose()?;
     let (solution, account) = account(solution, problem.law(), &grid, None, clock)?;
     Ok((solution, Account { stability, stiffness, departures, ..account }))

@@ -11,7 +11,6 @@ use serde_json::{Map, Value, json};
 
 use crate::adhesion::{Adhesion, AdhesionOptions};
 use crate::boundary::{LOADS, LoadsOptions};
-use crate::case::Case;
 use crate::columns::{OUTCOME, STATE, STIFFNESS, outcome, state, stiffness};
 use crate::csv;
 use crate::identity::{Identity, identity};
@@ -145,7 +144,7 @@ impl Options {
             let statistics = ContactStatistics::of(&solution, &grid, &law)?;
             let mut row = row(control, &solution.report, &statistics);
             if self.stiffness {
-                let (problem, tolerance) = (sweep.problem(), Case::STIFFNESS);
+                let (problem, tolerance) = (sweep.problem(), ContactStiffness::TOLERANCE);
                 let found = ContactStiffness::of_constrained(problem, &self.adhesion.wall, &solution, tolerance)?;
                 row.extend(stiffness(&found).map(|(name, value)| (name.to_owned(), value)));
             }
