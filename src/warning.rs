@@ -173,7 +173,7 @@ impl Warning {
     /// [`Steep`](WarningCode::Steep), [`Spikes`](WarningCode::Spikes), [`MissingCode`](WarningCode::MissingCode),
     /// [`Cells`](WarningCode::Cells) and [`Flat`](WarningCode::Flat).
     ///
-    /// Takes four passes over the heights. Where there are codes for missing points, the warnings that these codes
+    /// Takes three passes over the heights. Where there are codes for missing points, the warnings that these codes
     /// would cause are left out. Tilt and edges are looked at along sides of 16 nodes and more.
     pub fn of_surface(surface: &Surface) -> Vec<Self> {
         let extremes = Extremes::of(surface.heights());

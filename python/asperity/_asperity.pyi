@@ -18,6 +18,7 @@ __all__ = [
     "Jkr",
     "Law",
     "LennardJones",
+    "Look",
     "MaugisDugdale",
     "MaugisSphere",
     "Morse",
@@ -32,7 +33,6 @@ __all__ = [
     "check_law",
     "closing_pressure_2d",
     "clusters",
-    "contact_statistics",
     "prepare",
     "read",
     "self_affine",
@@ -175,6 +175,10 @@ class Iteration:
     def smoothed(self) -> bool: ...
 
 @final
+class Look:
+    def found(self) -> tuple[tuple[int, float, float, float, NDArray[np.int64], float, float, float], dict[str, Any]]: ...
+
+@final
 class Problem:
     def __new__(
         cls,
@@ -245,9 +249,6 @@ def statistics(heights: _Field, lengths: tuple[float, float]) -> list[float]: ..
 def spectrum(
     heights: _Field, lengths: tuple[float, float], along: str
 ) -> tuple[_Field, _Field, NDArray[np.int64], float]: ...
-def contact_statistics(
-    gap: NDArray[Any], contact_pressure: NDArray[Any], lengths: tuple[float, float], boundary: str, given: Any
-) -> tuple[int, float, float, float, NDArray[np.int64], float, float, float]: ...
 def clusters(map: NDArray[np.bool_], corners: bool) -> tuple[NDArray[np.int64], NDArray[np.int64]]: ...
 def prepare(
     heights: _Field,

@@ -120,28 +120,28 @@ class Scene:
 
     def solution(self, command: str, found: dict[str, Any]) -> Solution:
         """The solution of what the compiled core found, with its warnings given; raises what ended it early."""
-        report = {"command": command, **found["report"], **self.inputs, "tolerance": found["tolerance"]}
+        told = {"command": command, **found["report"], **self.inputs, "tolerance": found["tolerance"]}
         topography = self.topography
         if "heights" in found:
             # those of an accuracy
             topography = replace(topography, heights=found["heights"])
-            report["shape"] = list(topography.heights.shape)
-        solution = Solution(topography, self._adhesion, report, found)
+            told["shape"] = list(topography.heights.shape)
+        solution = Solution(topography, self._adhesion, told, found)
         raised = found["raised"]
         if raised is not None:
             # an exception with slots has no room for it
             with contextlib.suppress(AttributeError):
                 raised.solution = solution
             raise raised
-        for warning in report["warnings"]:
+        for warning in told["warnings"]:
             if warning["code"] not in self._warned:
                 self._warned.add(warning["code"])
                 text = f"{warning['code']}: {warning['message']}"
                 warnings.warn(text, InputWarning, stacklevel=_outside())
         if not solution.converged:
-            warnings.warn(_not_converged(report), ConvergenceWarning, stacklevel=_outside())
-        elif report["accuracy"] is not None and not report["accuracy"]["reached"]:
-            warnings.warn(shortfall(report, found), AccuracyWarning, stacklevel=_outside())
+            warnings.warn(_not_converged(told), ConvergenceWarning, stacklevel=_outside())
+        elif told["accuracy"] is not None and not told["accuracy"]["reached"]:
+            warnings.warn(shortfall(told, found), AccuracyWarning, stacklevel=_outside())
         return solution
 
 

@@ -2,8 +2,8 @@
 
 use asperity::accuracy::{Accuracy, Quantity, available_memory};
 use asperity::{
-    Boundary, Boussinesq, ContactConstraint, Control, Criterion, ElasticOperator, Grid, NoWall, Projection, Real,
-    Settings, Solver, Surface, Warning, WarningCode, Westergaard,
+    Boussinesq, ContactConstraint, Control, Criterion, ElasticOperator, Grid, NoWall, Projection, Real, Settings,
+    Solver, Surface, Warning, WarningCode, Westergaard,
 };
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -24,14 +24,6 @@ impl Beyond {
             "periodic" => Ok(Self::Periodic),
             "free" => Ok(Self::Free),
             other => Err(PyValueError::new_err(format!("boundary is {other}: it must be periodic or free"))),
-        }
-    }
-
-    /// The boundary of a surface on `grid`. Nothing is asked of its compliance: that of the half-space has it.
-    pub fn boundary(self, grid: Grid) -> Boundary {
-        match self {
-            Self::Periodic => Boundary::Periodic,
-            Self::Free => Boundary::Free { window: grid, mean_compliance: 0.0 },
         }
     }
 

@@ -1,10 +1,9 @@
 //! A contact problem, solved once, along loads, or along a path of equilibria.
 
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Instant;
 
 use asperity::accuracy::{Accuracy, AccurateSolution, GridError, Plan};
-use asperity::contact::ContactStatistics;
 use asperity::path::{Event, Path, PathCheckpoint, PathSettings};
 use asperity::stability::{ContactStiffness, StabilityTest, Verdict};
 use asperity::{
@@ -21,6 +20,7 @@ use crate::account::{Account, Grids, Reached, Scalar};
 use crate::answer::answer;
 use crate::inputs::{Beyond, Goal, Load, Wall, accuracy, control, settings};
 use crate::law::{law, strongest};
+use crate::look::{Estimate, Sight};
 use crate::pools::Pool;
 use crate::refusal::{refusal, refusal_of_heights};
 use crate::report;
@@ -30,12 +30,12 @@ use crate::running::{Observe, run};
 const MOST_DEPARTURES: usize = 10;
 
 /// A surface on its half-space with its law, of whatever kind they are.
-type Boxed<T> = asperity::Problem<T, Box<dyn ElasticOperator<T>>, Box<dyn AdhesionLaw<T>>>;
+type Boxed<T> = asperity::Problem<T, Box<dyn ElasticOperator<T>>, Arc<dyn AdhesionLaw<T>>>;
 
-/// The surface on its half-space with its law: what a problem is made of on each of nested grids, and the problem.
+/// The surface, of which a problem is made on each of nested grids, and the problem.
 enum Body<T: Real> {
-    Surface(Surface, Box<dyn AdhesionLaw<T>>),
-    Problem(Boxed<T>),
+    Surface(Arc<Surface>),
+    Problem(Box<Boxed<T>>),
     /// While a problem is made of a surface, and if that has failed.
     Spent,
 }
@@ -43,6 +43,8 @@ enum Body<T: Real> {
 /// A problem in one precision, with all that a sequence of solves carries on.
 struct State<T: Real> {
     body: Body<T>,
+    law: Arc<dyn AdhesionLaw<T>>,
+    threads: Option<usize>,
     nested: Option<bool>,
     grid: Grid,
     solver: Solver<Wall>,
@@ -66,6 +68,7 @@ struct Made {
     settings: Settings,
     /// Whether to solve on nested grids; the library chooses if it is not said.
     nested: Option<bool>,
+    threads: Option<usize>,
 }
 
 /// The request for one solve.
@@ -118,13 +121,15 @@ impl<T: Scalar> State<T> {
         surface: Surface,
         law: Box<dyn AdhesionLaw<T>>,
         strongest: Option<(usize, usize)>,
-        Made { beyond, modulus, wall, settings, nested }: Made,
+        Made { beyond, modulus, wall, settings, nested, threads }: Made,
     ) -> asperity::Result<Self> {
         let grid = *surface.grid();
         let mut warnings = beyond.warnings(&surface);
         warnings.extend(Warning::of_law(&law, &surface, modulus));
         Ok(Self {
-            body: Body::Surface(surface, law),
+            body: Body::Surface(Arc::new(surface)),
+            law: law.into(),
+            threads,
             nested,
             grid,
             solver: Solver { settings, constraint: wall },
@@ -138,24 +143,25 @@ impl<T: Scalar> State<T> {
         })
     }
 
-    /// The account of a solution on the grid of the surface, or on a finer one.
-    fn account(
-        &self,
-        solution: Solution<T>,
-        grid: &Grid,
-        control: Control,
-        clock: Instant,
-    ) -> asperity::Result<Account<T>> {
+    /// The account of a solution on the grid of the surface, or on a finer one, by a solve that began at a time.
+    fn account(&self, solution: Solution<T>, grid: Grid, control: Control, clock: Instant) -> Account<T> {
         let seconds = clock.elapsed().as_secs_f64();
-        let law = match &self.body {
-            Body::Surface(_, law) => law,
-            Body::Problem(problem) => problem.law(),
-            Body::Spent => return Err(spent()),
-        };
-        let statistics = ContactStatistics::of(&solution, grid, law)?;
-        let account = Account::of(solution, grid, control, self.modulus)?;
-        let warnings = self.warnings.iter().cloned().chain(account.warnings).collect();
-        Ok(Account { statistics: Some(statistics), warnings, seconds, strongest: self.strongest, ..account })
+        let mut warnings = self.warnings.clone();
+        warnings.extend(Warning::of_solution(&solution, self.modulus));
+        let (law, boundary, threads) = (self.law.clone(), solution.report.boundary, self.threads);
+        Account {
+            solution,
+            control,
+            grids: None,
+            stability: None,
+            stiffness: None,
+            reached: None,
+            departures: None,
+            strongest: self.strongest,
+            warnings,
+            seconds,
+            sight: Sight { law, grid, boundary, threads, estimate: None },
+        }
     }
 
     /// The contact stiffness of a solution, if it is asked for and the solve was not stopped.
@@ -163,7 +169,7 @@ impl<T: Scalar> State<T> {
         if !asked || solution.report.status == Status::Stopped {
             return Ok(None);
         }
-        let problem = single(&mut self.body, self.beyond, self.modulus)?;
+        let problem = single(&mut self.body, &self.law, self.beyond, self.modulus)?;
         let (wall, tolerance) = (&self.solver.constraint, ContactStiffness::TOLERANCE);
         ContactStiffness::of_constrained(problem, wall, solution, tolerance).map(Some)
     }
@@ -175,19 +181,21 @@ impl<T: Scalar> State<T> {
         control: Control,
         observe: Observe<'_>,
     ) -> asperity::Result<Account<T>> {
-        let Body::Surface(surface, law) = &self.body else { return Err(spent()) };
+        let Body::Surface(surface) = &self.body else { return Err(spent()) };
         let clock = Instant::now();
         let half_space = |grid| self.beyond.half_space(grid, self.modulus);
-        let found = wanted.solve_observed(surface, half_space, law, control, |_, state| observe(state))?;
+        let found = wanted.solve_observed(surface, half_space, &self.law, control, |_, state| observe(state))?;
         let applications = found.equivalent_applications();
         let AccurateSolution { solution, surface, levels, reached, refinable, unaffordable, .. } = found;
         let stiffness = levels.last().and_then(|finest| finest.stiffness);
-        let nodes_per_wave = surface.nodes_per_wave(solution.report.boundary);
-        let grids = Some(Grids::of((levels, applications), &solution, nodes_per_wave, control));
-        let account = self.account(solution, surface.grid(), control, clock)?;
+        let account = self.account(solution, *surface.grid(), control, clock);
+        let report = &account.solution.report;
+        let nodes_per_wave = surface.nodes_per_wave(report.boundary);
+        let estimate = Some(Estimate::Found(GridError::of_all(&levels, control, nodes_per_wave, report.mu_rho)));
+        let grids = Some(Grids { levels, applications });
         let heights = Topography::from(surface).heights;
-        let reached = Reached { wanted: wanted.target, of: wanted.of, reached, refinable, unaffordable, heights };
-        Ok(Account { grids, stiffness, reached: Some(reached), ..account })
+        let reached = Some(Reached { wanted: wanted.target, of: wanted.of, reached, refinable, unaffordable, heights });
+        Ok(Account { grids, stiffness, reached, sight: Sight { estimate, ..account.sight }, ..account })
     }
 
     /// The account of a solve on nested grids, if these are asked for; or, with the default start, if they are faster.
@@ -198,7 +206,8 @@ impl<T: Scalar> State<T> {
         stiffness: bool,
         observe: Observe<'_>,
     ) -> asperity::Result<Option<Account<T>>> {
-        let Body::Surface(surface, law) = &self.body else { return Ok(None) };
+        let Body::Surface(surface) = &self.body else { return Ok(None) };
+        let law = &self.law;
         let (beyond, modulus, settings) = (self.beyond, self.modulus, self.solver.settings);
         let half_space = |grid| beyond.half_space(grid, modulus);
         let pays = || matches!(self.solver.constraint, Wall::Hard) && Nested::new(settings).pays(surface, law, control);
@@ -214,19 +223,25 @@ impl<T: Scalar> State<T> {
         let applications = found.equivalent_applications();
         let NestedSolution { solution, levels, .. } = found;
         let stiffness = levels.last().and_then(|finest| finest.stiffness);
-        let nodes_per_wave = surface.nodes_per_wave(solution.report.boundary);
-        let grids = Some(Grids::of((levels, applications), &solution, nodes_per_wave, control));
-        let account = self.account(solution, &self.grid, control, clock)?;
-        Ok(Some(Account { grids, stiffness, ..account }))
+        let mu_rho = solution.report.mu_rho;
+        let account = self.account(solution, self.grid, control, clock);
+        let estimate = Some(Estimate::Open { surface: surface.clone(), levels: levels.clone(), control, mu_rho });
+        let grids = Some(Grids { levels, applications });
+        Ok(Some(Account { grids, stiffness, sight: Sight { estimate, ..account.sight }, ..account }))
     }
 }
 
 /// The problem on one grid, which all but a solve on nested grids needs; it is made with its first use.
-fn single<T: Scalar>(body: &mut Body<T>, beyond: Beyond, modulus: f64) -> asperity::Result<&mut Boxed<T>> {
-    if let Body::Surface(surface, _) = body {
+fn single<'a, T: Scalar>(
+    body: &'a mut Body<T>,
+    law: &Arc<dyn AdhesionLaw<T>>,
+    beyond: Beyond,
+    modulus: f64,
+) -> asperity::Result<&'a mut Boxed<T>> {
+    if let Body::Surface(surface) = body {
         let half_space = beyond.half_space(*surface.grid(), modulus)?;
-        if let Body::Surface(surface, law) = std::mem::replace(body, Body::Spent) {
-            *body = Body::Problem(asperity::Problem::new(&surface, half_space, law)?);
+        if let Body::Surface(surface) = std::mem::replace(body, Body::Spent) {
+            *body = Body::Problem(Box::new(asperity::Problem::new(&surface, half_space, law.clone())?));
         }
     }
     if let Body::Problem(problem) = body { Ok(problem) } else { Err(spent()) }
@@ -253,7 +268,7 @@ impl<T: Scalar> Solves for State<T> {
                 return Ok(account);
             }
             let clock = Instant::now();
-            let problem = single(&mut self.body, self.beyond, self.modulus)?;
+            let problem = single(&mut self.body, &self.law, self.beyond, self.modulus)?;
             let from = start.as_ref().map_or(Start::Default, |gap| Start::From(gap));
             let mut solution = self.solver.solve_with(problem, control, from, observe)?;
             let (mut departures, mut verdict) = (Vec::new(), None);
@@ -272,7 +287,7 @@ impl<T: Scalar> Solves for State<T> {
                 solution = left.solution;
             }
             let stiffness = self.stiffness(&solution, stiffness)?;
-            let account = self.account(solution, &self.grid, control, clock)?;
+            let account = self.account(solution, self.grid, control, clock);
             Ok(Account { stability: verdict, stiffness, departures: leave.then_some(departures), ..account })
         })?;
         answer(py, found)
@@ -285,7 +300,7 @@ impl<T: Scalar> Solves for State<T> {
             let clock = Instant::now();
             let history = std::mem::take(&mut self.history);
             let kept = history.clone();
-            let problem = single(&mut self.body, self.beyond, self.modulus)?;
+            let problem = single(&mut self.body, &self.law, self.beyond, self.modulus)?;
             let mut sweep = Sweep::new(&mut self.solver, problem, [control]).continuing(history);
             if let Some(start) = start {
                 sweep = sweep.starting_from(start);
@@ -298,7 +313,7 @@ impl<T: Scalar> Solves for State<T> {
             let stopped = solution.report.status == Status::Stopped;
             self.history = if stopped { kept } else { history };
             let stiffness = self.stiffness(&solution, stiffness)?;
-            Ok(Account { stiffness, ..self.account(solution, &self.grid, control, clock)? })
+            Ok(Account { stiffness, ..self.account(solution, self.grid, control, clock) })
         })?;
         answer(py, found)
     }
@@ -314,7 +329,7 @@ impl<T: Scalar> Solves for State<T> {
         let start = start.map(field::<T>);
         let (found, raised) = run(py, at.pool, at.observer, |observe: Observe<'_>| -> asperity::Result<_> {
             let clock = Instant::now();
-            let problem = single(&mut self.body, self.beyond, self.modulus)?;
+            let problem = single(&mut self.body, &self.law, self.beyond, self.modulus)?;
             let mut path = Path::new(&mut self.solver, problem, loads, settings)?;
             path = match (self.place.clone(), start) {
                 (Some(place), _) => path.continuing(place)?,
@@ -327,7 +342,7 @@ impl<T: Scalar> Solves for State<T> {
             let Some(step) = path.next_observed(observe) else { return Ok(None) };
             let step = step?;
             self.place = Some(path.checkpoint());
-            let account = self.account(step.solution, &self.grid, step.control, clock)?;
+            let account = self.account(step.solution, self.grid, step.control, clock);
             let balance = [("work", step.work), ("dissipated", step.dissipated), ("imbalance", step.imbalance)];
             Ok(Some((account, step.leg, balance, step.event)))
         })?;
@@ -351,9 +366,9 @@ impl<T: Scalar> Solves for State<T> {
     }
 
     fn plan(&self, py: Python<'_>, pool: &Pool, control: Control, goal: &Goal) -> PyResult<Plan> {
-        let Body::Surface(surface, law) = &self.body else { return Err(refusal(spent())) };
-        let (wanted, beyond, grid, modulus) =
-            (accuracy(goal, self.solver.clone())?, self.beyond, self.grid, self.modulus);
+        let Body::Surface(surface) = &self.body else { return Err(refusal(spent())) };
+        let (wanted, law) = (accuracy(goal, self.solver.clone())?, &self.law);
+        let (beyond, grid, modulus) = (self.beyond, self.grid, self.modulus);
         let plan = || {
             let mut operator = beyond.half_space::<T>(grid, modulus)?;
             wanted.plan(surface, &mut operator, law, control)
@@ -369,8 +384,8 @@ impl<T: Scalar> Solves for State<T> {
         (gap, relative_error): (PyReadonlyArray2<'py, f64>, f64),
     ) -> PyResult<Bound<'py, PyDict>> {
         let gap = field::<T>(gap);
-        let (problem, wall) =
-            (single(&mut self.body, self.beyond, self.modulus).map_err(refusal)?, &self.solver.constraint);
+        let problem = single(&mut self.body, &self.law, self.beyond, self.modulus).map_err(refusal)?;
+        let wall = &self.solver.constraint;
         let test = || StabilityTest::default().of_gap(problem, wall, control, &gap, relative_error);
         let found = py.detach(|| pool.get().install(test)).map_err(refusal)?;
         let entries = report::stability(py, &found)?;
@@ -443,7 +458,7 @@ impl Problem {
         let settings = settings(tolerance, max_iterations, method)?;
         let pool = Pool::of(threads)?;
         let heights = heights.as_array().to_owned();
-        let made = Made { beyond: Beyond::of(boundary)?, modulus, wall: Wall::of(wall)?, settings, nested };
+        let made = Made { beyond: Beyond::of(boundary)?, modulus, wall: Wall::of(wall)?, settings, nested, threads };
         let make = if absent_missing { Surface::with_absent } else { Surface::new };
         let surface = Grid::new(heights.dim(), lengths).and_then(|grid| make(grid, heights));
         let surface = surface.map_err(refusal_of_heights)?;

@@ -18,11 +18,6 @@ const LEAST_NODES: usize = 16;
 /// The lowest and the highest of no heights.
 const NOTHING: (f64, f64) = (f64::INFINITY, f64::NEG_INFINITY);
 
-/// The lowest and the highest of two pairs.
-fn join(a: (f64, f64), b: (f64, f64)) -> (f64, f64) {
-    (a.0.min(b.0), a.1.max(b.1))
-}
-
 /// What `f` makes of the heights of each chunk that are not missing.
 fn fold<A: Copy + Send + Sync>(heights: &Array2<f64>, from: A, f: impl Fn(A, f64) -> A + Send + Sync) -> Vec<A> {
     let mut parts = vec![from; heights.len().div_ceil(CHUNK)];
@@ -43,27 +38,44 @@ pub struct Extremes {
     pub rest: (f64, f64),
 }
 
+/// The lowest of some values, how often it is there, and the lowest of the others.
+#[derive(Clone, Copy)]
+struct End {
+    value: f64,
+    count: usize,
+    next: f64,
+}
+
+impl End {
+    const NONE: Self = Self { value: f64::INFINITY, count: 0, next: f64::INFINITY };
+
+    /// That of one more value, which is there so often.
+    fn with(self, value: f64, count: usize) -> Self {
+        if value < self.value {
+            Self { value, count, next: self.value }
+        } else if value == self.value {
+            Self { count: self.count + count, ..self }
+        } else if value < self.next {
+            Self { next: value, ..self }
+        } else {
+            self
+        }
+    }
+
+    /// That of the values of both.
+    fn join(self, other: Self) -> Self {
+        self.with(other.value, other.count).with(other.next, 0)
+    }
+}
+
 impl Extremes {
     pub fn of(heights: &Array2<f64>) -> Self {
-        let nothing = Self { low: f64::INFINITY, high: f64::NEG_INFINITY, low_count: 0, high_count: 0, rest: NOTHING };
-        let (low, high) =
-            fold(heights, NOTHING, |found, h| (found.0.min(h), found.1.max(h))).into_iter().fold(NOTHING, join);
-        let found = fold(heights, Self { low, high, ..nothing }, |mut found, h| {
-            if h == low {
-                found.low_count += 1;
-            } else if h == high {
-                found.high_count += 1;
-            } else {
-                found.rest = (found.rest.0.min(h), found.rest.1.max(h));
-            }
-            found
-        });
-        found.into_iter().fold(Self { low, high, ..nothing }, |all, part| Self {
-            low_count: all.low_count + part.low_count,
-            high_count: all.high_count + part.high_count,
-            rest: join(all.rest, part.rest),
-            ..all
-        })
+        let none = [End::NONE; 2];
+        let ends = fold(heights, none, |[low, high], h| [low.with(h, 1), high.with(-h, 1)]);
+        let [low, high] = ends.into_iter().fold(none, |[low, high], [a, b]| [low.join(a), high.join(b)]);
+        // of two levels nothing is left
+        let rest = if low.next < -high.value { (low.next, -high.next) } else { NOTHING };
+        Self { low: low.value, high: -high.value, low_count: low.count, high_count: high.count, rest }
     }
 
     /// The highest less the lowest height; infinite if the difference is beyond `f64`.
