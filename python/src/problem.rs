@@ -215,10 +215,15 @@ impl<T: Scalar> State<T> {
             return Ok(None);
         }
         let clock = Instant::now();
-        let Nested { coarsest, .. } = Nested::default();
+        let Nested { coarsest, closed, .. } = Nested::default();
         let stiffness = stiffness.then_some(ContactStiffness::TOLERANCE);
-        let mut nested =
-            Nested { solver: self.solver.clone(), coarse_tolerance: GridError::COARSE_TOLERANCE, coarsest, stiffness };
+        let mut nested = Nested {
+            solver: self.solver.clone(),
+            coarse_tolerance: GridError::COARSE_TOLERANCE,
+            coarsest,
+            stiffness,
+            closed,
+        };
         let found = nested.solve_observed(surface, half_space, law, control, |_, state| observe(state))?;
         let applications = found.equivalent_applications();
         let NestedSolution { solution, levels, .. } = found;

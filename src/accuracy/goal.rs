@@ -55,7 +55,7 @@ const DOUBT: f64 = 3.0;
 /// | `target` | | the relative error, between 0 and 1 |
 /// | `of` | | the quantity |
 /// | `memory` | 4 GiB | the bytes that a solve on a refined grid may take |
-/// | `nested` | coarser grids down to 16 nodes along a side | the solver; a tolerance of its settings must be as small as the one above |
+/// | `nested` | all coarser grids down to 16 nodes along a side | the solver; a tolerance of its settings must be as small as the one above |
 ///
 /// ```
 /// use asperity::accuracy::{Accuracy, Quantity};
@@ -150,7 +150,9 @@ impl<C> Accuracy<C> {
     /// ```
     pub fn with_solver(target: f64, of: Quantity, solver: Solver<C>) -> Self {
         let Nested { coarse_tolerance, stiffness, .. } = Nested::default();
-        Self { target, of, memory: MEMORY, nested: Nested { solver, coarse_tolerance, coarsest: COARSEST, stiffness } }
+        // a coarser grid that gives no start tells the error all the same
+        let nested = Nested { solver, coarse_tolerance, coarsest: COARSEST, stiffness, closed: 1.0 };
+        Self { target, of, memory: MEMORY, nested }
     }
 
     /// The tolerance of the solver: a tenth of the accuracy, and at most 1e-3; or the one that was given.

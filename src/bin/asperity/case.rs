@@ -157,14 +157,10 @@ fn solve_nested<T: Scalar, L: AdhesionLaw<T>>(
 ) -> Outcome<(Solution<T>, Account)> {
     let clock = Instant::now();
     let half_space = |grid| case.boundary.half_space(grid, case.modulus);
-    let Nested { coarsest, .. } = Nested::default();
+    let Nested { coarsest, closed, .. } = Nested::default();
     let (solver, stiffness, tolerance) = (case.solver(), case.stiffness_to(), case.settings.tolerance_in::<T>());
-    let found = Nested { solver, coarse_tolerance: GridError::COARSE_TOLERANCE, coarsest, stiffness }.solve_observed(
-        surface,
-        half_space,
-        &law,
-        case.control,
-        |grid, state| {
+    let found = Nested { solver, coarse_tolerance: GridError::COARSE_TOLERANCE, coarsest, stiffness, closed }
+        .solve_observed(surface, half_space, &law, case.control, |grid, state| {
             let finest = grid.nodes() == surface.grid().nodes();
             progress.update_on(
                 grid,
@@ -172,8 +168,7 @@ fn solve_nested<T: Scalar, L: AdhesionLaw<T>>(
                 if finest { tolerance } else { tolerance.max(GridError::COARSE_TOLERANCE) },
             );
             ControlFlow::Continue(())
-        },
-    )?;
+        })?;
     let applications = found.equivalent_applications();
     let NestedSolution { solution, levels, .. } = found;
     let stiffness = levels.last().and_then(|finest| finest.stiffness);
