@@ -13,9 +13,11 @@ use crate::problem::Control;
 use crate::surface::{Surface, Topography};
 
 mod goal;
+mod memory;
 mod refine;
 
 pub use goal::{Accuracy, AccurateSolution, Plan};
+pub use memory::available_memory;
 
 /// The quantity of which an accuracy is asked.
 ///

@@ -1,5 +1,7 @@
 //! The adhesion law: energy, traction and slope of the attraction as functions of the gap.
 
+use std::sync::Arc;
+
 use crate::derivatives::{self, Named};
 use crate::error::{Error, Result};
 use crate::real::Real;
@@ -188,7 +190,7 @@ macro_rules! forward {
         }
     )*};
 }
-forward!(&L, Box<L>);
+forward!(&L, Box<L>, Arc<L>);
 
 /// Tells whether the three functions of a law agree with one another.
 ///

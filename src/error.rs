@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use ndarray::ArrayView2;
 
+use crate::field::CHUNK;
 use crate::real::Real;
 
 /// The result of a function that can refuse its input.
@@ -167,9 +168,10 @@ impl Error {
 
     /// Refuses a field that holds NaN or infinities.
     pub(crate) fn all_finite<T: Real>(name: &'static str, field: ArrayView2<'_, T>) -> Result<()> {
-        // without places the pass is several times as fast
-        let finite = |value: &T| value.is_finite();
-        if field.as_slice_memory_order().map_or_else(|| field.iter().all(finite), |values| values.iter().all(finite)) {
+        // without places, and without an end within a chunk, the pass is many times as fast
+        let all =
+            |values: &[T]| values.chunks(CHUNK).all(|chunk| chunk.iter().fold(true, |all, v| all & v.is_finite()));
+        if field.as_slice_memory_order().map_or_else(|| field.iter().all(|value| value.is_finite()), all) {
             return Ok(());
         }
         let mut wrong = field.indexed_iter().filter(|(_, value)| !value.is_finite());

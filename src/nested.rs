@@ -24,10 +24,6 @@ pub(crate) use transfer::prolong;
 /// The resolution measure μ_ρ above which a coarse grid would pin the contact.
 const RESOLVED: f64 = 0.5;
 
-/// The share of contact of the coarsest grid above which nothing is gained: nearly all of what a start would have to tell are
-/// the heights of the finest grid.
-const CLOSED: f64 = 0.8;
-
 /// The least number of nodes for which nested grids pay at a given load, and at a given mean gap or approach.
 const PAYS: (usize, usize) = (1 << 16, 1 << 18);
 
@@ -49,9 +45,9 @@ const CARRIED: f64 = 0.5;
 /// and so does the finest one on its way from their solution, as it does from the default start. Without a coarser
 /// grid all is as with [`Solver::solve`].
 ///
-/// The finest grid starts anew, by [`Start::Default`], where the coarsest one is nearly closed (a share of contact of more than
-/// 0.8), where a coarser one does not carry its load, and where the solve from the prolonged start has come apart or stalled with an
-/// error above the coarse tolerance.
+/// The finest grid starts anew, by [`Start::Default`], where the coarsest one is nearly [`closed`](Self::closed), where a
+/// coarser one does not carry its load, and where the solve from the prolonged start has come apart or stalled with an error
+/// above the coarse tolerance.
 ///
 /// Nested grids do not always pay: [`Nested::pays`] says where they are the faster way, by measurement.
 ///
@@ -80,6 +76,10 @@ pub struct Nested<C = Projection> {
     pub coarsest: usize,
     /// The relative error to which the contact stiffness of each grid is found; `None`, the default, finds none.
     pub stiffness: Option<f64>,
+    /// The share of contact of the coarsest grid above which only the finest one follows. Default 0.8, above which nothing is
+    /// gained: nearly all of what a start would have to tell are the heights of the finest grid. With 1 all grids are solved,
+    /// from which [`GridError`](crate::accuracy::GridError) tells the error.
+    pub closed: f64,
 }
 
 /// The cost of the solve on one of the nested grids, and what it found there.
@@ -174,7 +174,7 @@ pub(crate) fn equivalent_applications(levels: &[Level]) -> f64 {
 impl Nested {
     /// Nested grids for a solver that confines the gap to g ≥ 0 by projection.
     pub fn new(settings: Settings) -> Self {
-        Self { solver: Solver::new(settings), coarse_tolerance: 1e-2, coarsest: 64, stiffness: None }
+        Self { solver: Solver::new(settings), coarse_tolerance: 1e-2, coarsest: 64, stiffness: None, closed: 0.8 }
     }
 }
 
@@ -283,7 +283,7 @@ impl<C> Nested<C> {
             let solution = result?;
             let stiffness = self.stiffness_of(&mut problem, &solution)?;
             levels.push(Level { stiffness, ..Level::of(&solution, coarse.grid())? });
-            if levels.len() == 1 && levels[0].area.contact_fraction > CLOSED {
+            if levels.len() == 1 && levels[0].area.contact_fraction > self.closed {
                 break;
             }
             let Solution { gap, report, .. } = solution;
@@ -322,7 +322,7 @@ impl<C> Nested<C> {
         Ok(NestedSolution { solution, levels })
     }
 
-    /// The contact stiffness of a solution, if it is asked for.
+    /// The contact stiffness of a solution, if it is asked for and the solve was not stopped.
     pub(crate) fn stiffness_of<T, O, L>(
         &self,
         problem: &mut Problem<T, O, L>,
@@ -335,7 +335,7 @@ impl<C> Nested<C> {
         C: ContactConstraint<T>,
     {
         let find = |tolerance| ContactStiffness::of_constrained(problem, &self.solver.constraint, solution, tolerance);
-        self.stiffness.map(find).transpose()
+        self.stiffness.filter(|_| solution.report.status != Status::Stopped).map(find).transpose()
     }
 }
 

@@ -3,15 +3,14 @@
 use std::fmt;
 
 use crate::adhesion::AdhesionLaw;
-use crate::field::CHUNK;
-use crate::field::Partial;
-use crate::field::Reducer;
+use crate::field::{CHUNK, Reducer};
 use crate::grid::Grid;
 use crate::par;
 use crate::problem::mu_rho;
 use crate::real::Real;
 use crate::solver::Solution;
 use crate::surface::{Surface, Topography};
+use crate::vector::sums;
 
 mod relief;
 
@@ -171,7 +170,7 @@ impl Warning {
     /// [`Steep`](WarningCode::Steep), [`Spikes`](WarningCode::Spikes), [`MissingCode`](WarningCode::MissingCode),
     /// [`Cells`](WarningCode::Cells) and [`Flat`](WarningCode::Flat).
     ///
-    /// Takes four passes over the heights. Where there are codes for missing points, the warnings that these codes
+    /// Takes two passes over the heights, and a third where single nodes may be far out. Where there are codes for missing points, the warnings that these codes
     /// would cause are left out. Tilt and edges are looked at along sides of 16 nodes and more.
     pub fn of_surface(surface: &Surface) -> Vec<Self> {
         let extremes = Extremes::of(surface.heights());
@@ -249,16 +248,13 @@ impl Warning {
     /// The probable mistakes in an answer, for the contact `modulus` E* with which it was found:
     /// [`BeyondModulus`](WarningCode::BeyondModulus), and [`WindowEdge`](WarningCode::WindowEdge) with a free boundary.
     pub fn of_solution<T: Real>(solution: &Solution<T>, modulus: f64) -> Vec<Self> {
-        let mut reducer = Reducer::new(solution.contact_pressure.len());
         let contiguous = solution.contact_pressure.as_standard_layout();
         let pressures = contiguous.as_slice().unwrap_or_default();
-        let total = reducer.run(par::chunks(pressures, CHUNK), |_, chunk| {
-            let mut part = Partial::NONE;
-            for pressure in chunk.iter().map(|pressure| pressure.widen()) {
-                part.sum[0] += if pressure > modulus { 1.0 } else { 0.0 };
-                part.min = part.min.min(-pressure);
-            }
-            part
+        let total = Reducer::new(pressures.len()).run(par::chunks(pressures, CHUNK), |_, chunk| {
+            sums!(1, [chunk], [], |i| {
+                let pressure = chunk[i].widen();
+                ([if pressure > modulus { 1.0 } else { 0.0 }], -pressure)
+            })
         });
         let (count, greatest) = (total.sum[0], -total.min);
         let mut found = Vec::new();

@@ -14,6 +14,7 @@ on the number of threads. The interpreter's lock is free during a solve.
 from __future__ import annotations
 
 from . import contact, exact, surface
+from ._accuracy import Plan
 from ._asperity import VERSION as __version__
 from ._asperity import (
     CutOff,
@@ -35,9 +36,10 @@ from ._solve import solve
 from ._stability import Stability, stability
 from ._sweep import Sweep, sweep
 from ._topography import Topography, from_topography, prepare, read
-from ._warnings import ConvergenceWarning, InputWarning
+from ._warnings import AccuracyWarning, ConvergenceWarning, InputWarning
 
 __all__ = [
+    "AccuracyWarning",
     "ContactStatistics",
     "ConvergenceWarning",
     "CutOff",
@@ -49,6 +51,7 @@ __all__ = [
     "LennardJones",
     "MaugisDugdale",
     "Morse",
+    "Plan",
     "PowerLaw",
     "Solution",
     "Stability",

@@ -18,6 +18,7 @@ __all__ = [
     "Jkr",
     "Law",
     "LennardJones",
+    "Look",
     "MaugisDugdale",
     "MaugisSphere",
     "Morse",
@@ -32,7 +33,6 @@ __all__ = [
     "check_law",
     "closing_pressure_2d",
     "clusters",
-    "contact_statistics",
     "prepare",
     "read",
     "self_affine",
@@ -175,6 +175,10 @@ class Iteration:
     def smoothed(self) -> bool: ...
 
 @final
+class Look:
+    def found(self) -> tuple[tuple[int, float, float, float, NDArray[np.int64], float, float, float], dict[str, Any]]: ...
+
+@final
 class Problem:
     def __new__(
         cls,
@@ -192,7 +196,10 @@ class Problem:
         nested: bool | None,
         threads: int | None,
     ) -> Problem: ...
-    def inputs(self) -> tuple[float, int, int]: ...
+    def inputs(self) -> tuple[int, int]: ...
+    def plan(
+        self, load: tuple[str, list[float]], accuracy: tuple[float, str, float | None]
+    ) -> tuple[float, float, tuple[int, int], float, float]: ...
     def solve(
         self,
         load: tuple[str, list[float]],
@@ -200,9 +207,15 @@ class Problem:
         observe: Callable[[Iteration], object] | None,
         stability: bool,
         leave: bool,
+        stiffness: bool,
+        accuracy: tuple[float, str, float | None] | None,
     ) -> dict[str, Any]: ...
     def next_load(
-        self, load: tuple[str, list[float]], start: _Field | None, observe: Callable[[Iteration], object] | None
+        self,
+        load: tuple[str, list[float]],
+        start: _Field | None,
+        observe: Callable[[Iteration], object] | None,
+        stiffness: bool,
     ) -> dict[str, Any]: ...
     def next_step(
         self,
@@ -219,7 +232,7 @@ class Problem:
         self, load: tuple[str, list[float]], gap: _Field, relative_error: float
     ) -> dict[str, Any]: ...
 
-def read(path: str) -> _Map: ...
+def read(path: str, channel: str | None) -> _Map: ...
 def self_affine(
     shape: tuple[int, int],
     lengths: tuple[float, float],
@@ -236,9 +249,6 @@ def statistics(heights: _Field, lengths: tuple[float, float]) -> list[float]: ..
 def spectrum(
     heights: _Field, lengths: tuple[float, float], along: str
 ) -> tuple[_Field, _Field, NDArray[np.int64], float]: ...
-def contact_statistics(
-    gap: NDArray[Any], contact_pressure: NDArray[Any], lengths: tuple[float, float], boundary: str, given: Any
-) -> tuple[int, float, float, float, NDArray[np.int64], float, float, float]: ...
 def clusters(map: NDArray[np.bool_], corners: bool) -> tuple[NDArray[np.int64], NDArray[np.int64]]: ...
 def prepare(
     heights: _Field,

@@ -41,6 +41,9 @@ INPUTS = ("modulus", "law", "work_of_adhesion", "range", "heights")
 SEARCH = ("wanted_contact_fraction", "reached")
 OUTCOME = ("relative_error", "load_error", "iterations", "operator_applications", "status")
 
+#: The columns of a contact stiffness, where it is asked for.
+STIFFNESS = ("contact_stiffness", "normal_stiffness")
+
 
 def state(solution: Solution) -> dict[str, Any]:
     """The numbers of a solution by the names of columns."""

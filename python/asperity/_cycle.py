@@ -166,8 +166,7 @@ def cycle(
 ) -> Cycle:
     """Follows a branch of equilibria through turning points, in steps that adapt themselves, and locates its jumps.
 
-    A withdrawal ends once the surfaces are apart. Parameters that are not here are those
-    of `solve`; a cycle needs a hard wall.
+    A withdrawal ends once the surfaces are apart. Parameters that are not here are those of `solve`.
 
     Parameters
     ----------
@@ -213,8 +212,6 @@ def cycle(
     )
     if len(loads) < 2:
         raise ValueError("a cycle needs two turning points at least: give more loads")
-    if wall == "none":
-        raise ValueError("wall is none: a cycle needs wall='hard', or follow the loads by asperity.sweep")
     scene = Scene(
         heights,
         lengths,

@@ -5,16 +5,18 @@ from __future__ import annotations
 import contextlib
 import sys
 import warnings
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from . import _asperity, _law, surface
+from ._accuracy import shortfall
 from ._control import Load
 from ._solution import Solution
 from ._topography import Topography, field_of, sides, taken
-from ._warnings import ConvergenceWarning, InputWarning
+from ._warnings import AccuracyWarning, ConvergenceWarning, InputWarning
 
 
 class Scene:
@@ -54,7 +56,7 @@ class Scene:
             nested,
             threads,
         )
-        tolerance, max_iterations, threads = self.problem.inputs()
+        max_iterations, threads = self.problem.inputs()
         self.inputs: dict[str, Any] = {
             "heights": self.topography.source,
             "initial_gap": None,
@@ -68,7 +70,7 @@ class Scene:
             **_law.entries(law, wall),
             "method": method,
             "precision": precision,
-            "tolerance": tolerance,
+            "tolerance": None,
             "max_iterations": max_iterations,
             "threads": threads,
             "version": _asperity.VERSION,
@@ -129,26 +131,33 @@ class Scene:
 
     def solution(self, command: str, found: dict[str, Any]) -> Solution:
         """The solution of what the compiled core found, with its warnings given; raises what ended it early."""
-        report = {"command": command, **found["report"], **self.inputs}
-        solution = Solution(self.topography, self._adhesion, report, found)
+        told = {"command": command, **found["report"], **self.inputs, "tolerance": found["tolerance"]}
+        topography = self.topography
+        if "heights" in found:
+            # those of an accuracy
+            topography = replace(topography, heights=found["heights"])
+            told["shape"] = list(topography.heights.shape)
+        solution = Solution(topography, self._adhesion, told, found)
         raised = found["raised"]
         if raised is not None:
             # an exception with slots has no room for it
             with contextlib.suppress(AttributeError):
                 raised.solution = solution
             raise raised
-        for warning in report["warnings"]:
+        for warning in told["warnings"]:
             if warning["code"] not in self._warned:
                 self._warned.add(warning["code"])
                 text = f"{warning['code']}: {warning['message']}"
                 warnings.warn(text, InputWarning, stacklevel=_outside())
-        searched = report["search"]
+        searched = told["search"]
         if solution.converged and searched is not None and not searched["reached"]:
             text = f"no load was found with a contact fraction of {searched['wanted']}: it jumps from {searched['below']} to "
             text += f"{searched['above']}, and the nearer one is the solution"
             warnings.warn(text, ConvergenceWarning, stacklevel=_outside())
         if not solution.converged:
-            warnings.warn(_not_converged(report), ConvergenceWarning, stacklevel=_outside())
+            warnings.warn(_not_converged(told), ConvergenceWarning, stacklevel=_outside())
+        elif told["accuracy"] is not None and not told["accuracy"]["reached"]:
+            warnings.warn(shortfall(told, found), AccuracyWarning, stacklevel=_outside())
         return solution
 
 

@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from . import _asperity, _picture, _plot
+from . import _picture, _plot
+from ._accuracy import Plan, estimate
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -51,7 +52,9 @@ class ContactStatistics(NamedTuple):
 class Solution:
     """An equilibrium: fields of the shape of the heights, and the account of the solve.
 
-    All numbers are in the units of the input; energies are per area, compression is positive.
+    All numbers are in the units of the input; energies are per area, compression is positive. Gap and pressures are
+    read-only: copy one to change it. What is found of them, contact, statistics and the rest of the report, is computed
+    when it is first asked for.
 
     Attributes
     ----------
@@ -62,17 +65,14 @@ class Solution:
         nodes.
     contact_pressure : ndarray
         Contact pressure λ ≥ 0, zero wherever the gap is not.
-    contact : ndarray of bool
-        Contact map.
     mode : ndarray or None
         Change of the gap along which the energy is softest, of mean square 1, where stability was asked for.
     topography : Topography
-        Map of the heights that were solved.
+        Map of the heights that were solved: with an accuracy on the grid of the answer.
     law : object or None
         Adhesion law.
-    report : dict
-        Account of the solve, with the keys of the tool's ``report.json``. ``"heights"`` is the file that they came from, if
-        they came from one.
+    plan : Plan or None
+        What the accuracy was likely to take, where one was asked for.
 
     Examples
     --------
@@ -88,28 +88,46 @@ class Solution:
     gap: NDArray[np.floating[Any]]
     pressure: NDArray[np.floating[Any]]
     contact_pressure: NDArray[np.floating[Any]]
-    contact: NDArray[np.bool_]
     mode: NDArray[np.floating[Any]] | None
-    report: dict[str, Any]
+    plan: Plan | None
 
-    def __init__(self, topography: Topography, law: Any, report: dict[str, Any], found: dict[str, Any]) -> None:
+    def __init__(self, topography: Topography, law: Any, told: dict[str, Any], found: dict[str, Any]) -> None:
         self.topography = topography
         self.law = law
-        self.report = report
-        if found["statistics"] is not None:
-            self.statistics = ContactStatistics(*found["statistics"])
-        for name in ("gap", "pressure", "contact_pressure", "contact"):
+        self.plan = found.get("plan")
+        for name in ("gap", "pressure", "contact_pressure"):
             setattr(self, name, found[name].reshape(topography.shape))
         self.mode = None if found["mode"] is None else found["mode"].reshape(topography.shape)
+        # the report without what is found of the fields, and what finds that
+        self._told, self._look = told, found["look"]
 
     @cached_property
+    def _looked(self) -> tuple[ContactStatistics, dict[str, Any]]:
+        counted, entries = self._look.found()
+        return ContactStatistics(*counted), entries
+
+    def __getstate__(self) -> dict[str, Any]:
+        # a solution travels complete, and without its view of the memory of this process
+        complete = {"_looked": self._looked, "_look": None}
+        return {**self.__dict__, **complete}
+
+    @cached_property
+    def contact(self) -> NDArray[np.bool_]:
+        """Contact map: where there is no gap, or a contact pressure."""
+        return (self.gap <= 0) | (self.contact_pressure > 0)
+
+    @property
     def statistics(self) -> ContactStatistics:
-        """Areas, perimeter and clusters of the contact; computed when it is asked for."""
-        shape = self.topography.heights.shape
-        gap, contact_pressure = self.gap.reshape(shape), self.contact_pressure.reshape(shape)
-        return ContactStatistics(
-            *_asperity.contact_statistics(gap, contact_pressure, self.lengths, self.boundary, self.law)
-        )
+        """Areas, perimeter and clusters of the contact."""
+        return self._looked[0]
+
+    @cached_property
+    def report(self) -> dict[str, Any]:
+        """Account of the solve, with the keys of the tool's ``report.json``.
+
+        ``"heights"`` is the file that they came from, if they came from one.
+        """
+        return {**self._told, **self._looked[1]}
 
     @property
     def heights(self) -> NDArray[np.float64]:
@@ -119,7 +137,7 @@ class Solution:
     @property
     def lengths(self) -> tuple[float, float]:
         """Side lengths (Lx, Ly)."""
-        lx, ly = self.report["lengths"]
+        lx, ly = self._told["lengths"]
         return (lx, ly)
 
     @property
@@ -130,7 +148,7 @@ class Solution:
     @property
     def status(self) -> str:
         """``"converged"``, ``"iteration-limit"``, ``"stalled"``, ``"stopped"`` or ``"detached"``."""
-        return str(self.report["status"])
+        return str(self._told["status"])
 
     @property
     def converged(self) -> bool:
@@ -140,27 +158,27 @@ class Solution:
     @property
     def relative_error(self) -> float:
         """Certified relative error in the energy norm."""
-        return float(self.report["relative_error"])
+        return float(self._told["relative_error"])
 
     @property
     def mean_gap(self) -> float:
         """Mean gap."""
-        return float(self.report["mean_gap"])
+        return float(self._told["mean_gap"])
 
     @property
     def mean_pressure(self) -> float:
         """Mean external pressure p̄, the normal force over the nominal area."""
-        return float(self.report["mean_pressure"])
+        return float(self._told["mean_pressure"])
 
     @property
     def boundary(self) -> str:
         """``"periodic"`` or ``"free"``."""
-        return str(self.report["boundary"])
+        return str(self._told["boundary"])
 
     @property
     def normal_force(self) -> float:
         """Normal force F = p̄·Lx·Ly, compression positive."""
-        return float(self.report["normal_force"])
+        return float(self._told["normal_force"])
 
     @property
     def approach(self) -> float | None:
@@ -168,13 +186,13 @@ class Solution:
 
         It is how far the bodies have moved towards each other since they would first touch undeformed.
         """
-        found: float | None = self.report["approach"]
+        found: float | None = self._told["approach"]
         return found
 
     @property
     def absent_points(self) -> int:
         """Number of absent nodes, at which nothing faces the half-space."""
-        return int(self.report["absent_points"])
+        return int(self._told["absent_points"])
 
     @property
     def edge_traction(self) -> float | None:
@@ -182,38 +200,54 @@ class Solution:
 
         Unless the body ends there, more than a thousandth says that the heights should go further.
         """
-        found: float | None = self.report["edge_traction"]
+        found: float | None = self._told["edge_traction"]
         return found
 
     @property
     def mean_contact_pressure(self) -> float:
         """Mean contact pressure."""
-        return float(self.report["mean_contact_pressure"])
+        return float(self._told["mean_contact_pressure"])
 
     @property
     def contact_fraction(self) -> float:
         """Share of the nodes in contact, of those that are not absent."""
-        return float(self.report["contact_fraction"])
+        return float(self._told["contact_fraction"])
 
     @property
     def elastic_energy(self) -> float:
         """Elastic energy per area."""
-        return float(self.report["elastic_energy"])
+        return float(self._told["elastic_energy"])
 
     @property
     def adhesive_energy(self) -> float:
         """Adhesive energy per area."""
-        return float(self.report["adhesive_energy"])
+        return float(self._told["adhesive_energy"])
+
+    @property
+    def contact_stiffness(self) -> float | None:
+        """Contact stiffness dp̄/dδ, a pressure per length; None where it was not asked for.
+
+        How much the mean pressure grows as the bodies approach each other, or the mean gap falls: a flat punch with the
+        outline of the contact. Infinite where all nodes are in contact; with adhesion it may be negative.
+        """
+        found: float | None = self._told["contact_stiffness"]
+        return found
+
+    @property
+    def normal_stiffness(self) -> float | None:
+        """Normal stiffness dF/dδ, a force per length; None where it was not asked for."""
+        found: float | None = self._told["normal_stiffness"]
+        return found
 
     @property
     def iterations(self) -> int:
         """Number of steps."""
-        return int(self.report["iterations"])
+        return int(self._told["iterations"])
 
     @property
     def operator_applications(self) -> int:
         """Number of operator applications, each a forward and an inverse transform."""
-        return int(self.report["operator_applications"])
+        return int(self._told["operator_applications"])
 
     def _rows(self) -> list[tuple[str, str]]:
         report = self.report
@@ -233,6 +267,8 @@ class Solution:
         if report["law"] != "none":
             rows.append(("adhesive energy per area", f"{report['adhesive_energy']:.7g}"))
             rows.append(("mu_rho", f"{report['mu_rho']:.4g}"))
+        if self.contact_stiffness is not None:
+            rows.append(("contact stiffness", f"{self.contact_stiffness:.7g}"))
         if report["stability"] is not None:
             rows.append(("stability", report["stability"]["verdict"]))
             rows.append(("smallest eigenvalue", f"{report['stability']['eigenvalue']:.7g}"))
@@ -241,6 +277,7 @@ class Solution:
         rows.append(("operator applications", str(report["operator_applications"])))
         if report["levels"] is not None:
             rows.append(("with coarser grids", f"{report['equivalent_applications']:.1f}"))
+            rows.append(("error of the grid", estimate(report)))
         rows.append(("time", f"{report['seconds']:.3f} s"))
         return rows
 

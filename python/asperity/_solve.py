@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
-from . import _control
+from . import _accuracy, _control
 from ._asperity import Iteration
 from ._scene import Scene
 from ._solution import Solution
@@ -36,6 +36,10 @@ def solve(
     observe: Callable[[Iteration], object] | None = None,
     stability: bool = False,
     leave: bool = False,
+    stiffness: bool = False,
+    accuracy: float | None = None,
+    accuracy_of: str | None = None,
+    memory: float | None = None,
     threads: int | None = None,
 ) -> Solution:
     """Presses a rough surface against an elastic half-space.
@@ -107,13 +111,27 @@ def solve(
         Finds out whether the solution is stable: ``report["stability"]`` and ``mode``.
     leave : bool
         Goes on from an unstable equilibrium to a stable one.
+    stiffness : bool
+        Finds the contact stiffness, how much the load grows as the bodies approach each other: ``contact_stiffness``
+        and ``normal_stiffness`` of the solution.
+    accuracy : float, optional
+        Relative error that is wanted, as 0.01. Chooses the tolerance, solves on coarser grids too, and interpolates the
+        heights on finer ones until the estimated error is as small: the fields, and ``heights`` and ``topography`` of
+        the solution, are on the finest grid. The logger ``asperity`` says before what that is likely to take, and
+        ``plan`` of the solution keeps it. A tolerance beside it may be smaller than the one that it chooses.
+    accuracy_of : {"area", "gap", "pressure", "stiffness"}, optional
+        Quantity that has the accuracy: the contact area corrected for its edge, by default; the mean gap or the mean
+        pressure, if it is not given; or the contact stiffness.
+    memory : float, optional
+        Memory that an accuracy may take, in GiB; what is there by default.
     threads : int, optional
         Threads of this solve; one per core by default. The results do not depend on it.
 
     Returns
     -------
     Solution
-        Also where it has not converged: then with a `ConvergenceWarning`.
+        Also where it has not converged: then with a `ConvergenceWarning`. With an `AccuracyWarning` where it has, and an
+        accuracy was not reached.
 
     Raises
     ------
@@ -138,6 +156,13 @@ def solve(
     >>> hertz = asperity.exact.Hertz(radius=2.0, modulus=1.0).at_load(0.01)
     >>> f"{tip.approach / hertz.approach:.3f}"
     '1.000'
+
+    A contact area that is right to 5 %, on as fine a grid as that takes:
+
+    >>> rough = asperity.surface.self_affine(32, 1.0, rms_slope=0.1, k_s=8, seed=1)
+    >>> right = asperity.solve(rough, modulus=1.0, mean_pressure=5e-3, accuracy=0.05)
+    >>> right.report["accuracy"], right.heights.shape
+    ({'wanted': 0.05, 'of': 'area', 'reached': True}, (64, 64))
     """
     load = _control.one(
         mean_pressure=mean_pressure,
@@ -148,12 +173,21 @@ def solve(
         reduced_pressure=reduced_pressure,
         contact_fraction=contact_fraction,
     )
+    if accuracy is not None and contact_fraction is not None:
+        raise ValueError("an accuracy is for a load that is given: leave out accuracy, or give a load for contact_fraction")
     if nested and contact_fraction is not None:
         raise ValueError("nested grids are for a load that is given: leave out nested, or give a load for contact_fraction")
     if nested and (start is not None or stability or leave):
         raise ValueError("nested grids make their own start, and do not test stability: leave out start, stability and leave")
-    if leave and wall == "none":
-        raise ValueError("leave needs wall='hard': give stability=True alone")
+    goal = _accuracy.goal(
+        accuracy,
+        accuracy_of,
+        memory,
+        start=start is not None,
+        nested=nested is not None,
+        stability=stability,
+        leave=leave,
+    )
     scene = Scene(
         heights,
         lengths,
@@ -170,5 +204,8 @@ def solve(
         nested=nested,
     )
     (load,) = scene.held([load])
-    found = scene.problem.solve(load, scene.start(start, [load]), observe, stability or leave, leave)
-    return scene.solution("solve", found)
+    begin = scene.start(start, [load])
+    plan = goal.plan(scene.problem, load) if goal else None
+    given = goal.given if goal else None
+    found = scene.problem.solve(load, begin, observe, stability or leave, leave, stiffness, given)
+    return scene.solution("solve", {**found, "plan": plan})

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from . import _control, _plot
 from ._asperity import Iteration
-from ._columns import INPUTS, OUTCOME, SEARCH, STATE, Rows, state
+from ._columns import INPUTS, OUTCOME, SEARCH, STATE, STIFFNESS, Rows, state
 from ._scene import Scene
 from ._solution import Solution
 
@@ -22,14 +22,14 @@ class Sweep(Rows[Solution]):
     solve.
     """
 
-    names: tuple[str, ...] = STATE + OUTCOME + INPUTS
-
-    def __init__(self, scene: Scene, loads: list[_control.Load], start: Any, observe: Any) -> None:
+    def __init__(
+        self, scene: Scene, loads: list[_control.Load], start: Any, observe: Any, stiffness: bool
+    ) -> None:
         super().__init__()
         loads = scene.held(loads)
-        if loads[:1] and loads[0][0] == "contact_fraction":
-            self.names = self.names + SEARCH
-        self._scene, self._loads, self._observe = scene, loads, observe
+        searched = loads[:1] and loads[0][0] == "contact_fraction"
+        self.names = STATE + OUTCOME + INPUTS + (SEARCH if searched else ()) + (STIFFNESS if stiffness else ())
+        self._scene, self._loads, self._observe, self._stiffness = scene, loads, observe, stiffness
         self._start = scene.start(start, loads)
 
     def __len__(self) -> int:
@@ -41,7 +41,7 @@ class Sweep(Rows[Solution]):
         if done == len(self._loads):
             raise StopIteration
         start = self._start if done == 0 else None
-        found = self._scene.problem.next_load(self._loads[done], start, self._observe)
+        found = self._scene.problem.next_load(self._loads[done], start, self._observe, self._stiffness)
         solution = self._scene.solution("sweep", found)
         if solution.status == "stopped":
             # ended by the observer: the sweep goes no further
@@ -91,6 +91,7 @@ def sweep(
     precision: str = "f64",
     start: Any = None,
     observe: Callable[[Iteration], object] | None = None,
+    stiffness: bool = False,
     threads: int | None = None,
 ) -> Sweep:
     """Solves under many loads, one after the other, each from where the ones before lead.
@@ -115,6 +116,8 @@ def sweep(
     contact_fractions : sequence of float
         Shares of the nodes that are to be in contact, as ``contact_fraction`` of `solve`; two more columns are
         ``wanted_contact_fraction`` and ``reached``.
+    stiffness : bool
+        Finds the contact stiffness under each load: two more columns, ``contact_stiffness`` and ``normal_stiffness``.
 
     Returns
     -------
@@ -155,4 +158,4 @@ def sweep(
         precision=precision,
         threads=threads,
     )
-    return Sweep(scene, loads, start, observe)
+    return Sweep(scene, loads, start, observe, stiffness)

@@ -93,13 +93,15 @@ class Topography:
         return _plot.heights(np.asarray(self), lengths, self.unit, ax)
 
 
-def read(path: str | os.PathLike[str]) -> Topography:
+def read(path: str | os.PathLike[str], channel: int | str | None = None) -> Topography:
     """Reads a file of heights.
 
     Parameters
     ----------
     path : str or path
         ``.npy``, ``.npz``, Gwyddion's ``.gwy``, ``.gsf`` or text, ``.xyz``, or a plain text matrix; the content decides.
+    channel : int or str, optional
+        Channel of a ``.gwy`` file, by number or title; needed only if several have heights.
 
     Returns
     -------
@@ -109,9 +111,9 @@ def read(path: str | os.PathLike[str]) -> Topography:
     Raises
     ------
     FileNotFoundError, ValueError
-        If there is no such file, or it cannot be understood.
+        If there is no such file or channel, or it cannot be understood.
     """
-    heights, lengths, unit = _asperity.read(os.fspath(path))
+    heights, lengths, unit = _asperity.read(os.fspath(path), None if channel is None else str(channel))
     return Topography(heights, lengths, unit, source=os.fspath(path))
 
 

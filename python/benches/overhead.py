@@ -1,14 +1,16 @@
 #!/usr/bin/env python3
 """The overhead of a call from Python over the solve in Rust.
 
-    python python/benches/overhead.py [NODES] [REPETITIONS]
+    python python/benches/overhead.py [NODES] [REPETITIONS] [THREADS]
 
-A line for each scene: the median time of the solve, that of the call, and the median of the overhead, all of the same
-calls. The solve is what `report["seconds"]` has: the problem and its solution, from heights to fields in memory. What
-is left of the call are checks and copies of the input, the statistics of the report, and the way of the fields to
-numpy.
+A line for each scene: the median time of the solve; that of the rest of the call, and its quartiles; the median of the
+rest over the solve of the same call; the median of the processor time of the call, all threads together; and the median
+time of the first look at the report. The solve is what `report["seconds"]` has: the problem and its solution, from
+heights to fields in memory. The rest are a copy of the heights, the checks of input and answer, and the way of the
+fields to numpy. What a look finds, as the contact statistics, is no part of the call.
 """
 
+import gc
 import statistics
 import sys
 import time
@@ -20,27 +22,38 @@ SCENES = {
     "f64": {},
     "f32": {"precision": "f32"},
     "f64, tolerance 1e-3": {"tolerance": 1e-3},
+    "f64, one grid": {"nested": False},
     "f64, exponential": {"law": LAW},
 }
 
 
+def measured(heights, options):
+    """The times of a solve, of its call, of the processor in it, and of a look at the report."""
+    gc.collect()
+    begin, processor = time.perf_counter(), time.process_time()
+    solution = asperity.solve(heights, 1.0, modulus=1.0, mean_pressure=0.01, **options)
+    called, processor = time.perf_counter(), time.process_time() - processor
+    seconds = solution.report["seconds"]
+    return seconds, called - begin, processor, time.perf_counter() - called
+
+
 def main():
-    nodes = int(sys.argv[1]) if len(sys.argv) > 1 else 1024
-    repetitions = int(sys.argv[2]) if len(sys.argv) > 2 else 9
+    nodes, repetitions, threads = (int(given) for given in (sys.argv[1:] + ["1024", "21", "0"][len(sys.argv) - 1 :])[:3])
     heights = asperity.surface.self_affine(nodes, 1.0, rms_slope=0.1, k_s=nodes / 16, seed=1).heights
-    print(f"{nodes} x {nodes} nodes, {repetitions} calls     solve / s   call / s   overhead")
+    print(f"{nodes} x {nodes} nodes, {repetitions} calls, {threads or 'all'} threads")
+    print(f"{'':<22} {'solve/s':>9} {'rest/ms':>9} {'quartiles':>15} {'rest':>8} {'processor/s':>12} {'look/ms':>8}")
+    gc.disable()
     for name, options in SCENES.items():
-        calls, solves = [], []
-        for _ in range(repetitions + 1):
-            begin = time.perf_counter()
-            solution = asperity.solve(heights, 1.0, modulus=1.0, mean_pressure=0.01, **options)
-            calls.append(time.perf_counter() - begin)
-            solves.append(solution.report["seconds"])
         # the first call starts threads and plans transforms
-        del calls[0], solves[0]
-        overhead = statistics.median(call / solve - 1 for call, solve in zip(calls, solves))
-        solve, call = statistics.median(solves), statistics.median(calls)
-        print(f"{name:<32} {solve:9.3f} {call:10.3f} {100 * overhead:9.2f} %")
+        rows = [measured(heights, {**options, "threads": threads or None}) for _ in range(repetitions + 1)][1:]
+        rests = [call - solve for solve, call, _, _ in rows]
+        low, _, high = statistics.quantiles(rests, n=4)
+        share = statistics.median(rest / solve for rest, (solve, *_) in zip(rests, rows))
+        solve, _, processor, look = (statistics.median(column) for column in zip(*rows))
+        print(
+            f"{name:<22} {solve:9.3f} {1e3 * statistics.median(rests):9.2f} "
+            f"{f'{1e3 * low:.2f} to {1e3 * high:.2f}':>15} {100 * share:6.2f} % {processor:12.3f} {1e3 * look:8.1f}"
+        )
 
 
 if __name__ == "__main__":

@@ -1,8 +1,9 @@
 //! The inputs of a problem by the names of their keywords: body, wall, load and settings. The law has a file of its own.
 
+use asperity::accuracy::{Accuracy, Quantity, available_memory};
 use asperity::{
-    Boundary, Boussinesq, ContactConstraint, Control, Criterion, ElasticOperator, Grid, NoWall, Projection, Real,
-    Settings, Surface, Warning, WarningCode, Westergaard,
+    Boussinesq, ContactConstraint, Control, Criterion, ElasticOperator, Grid, NoWall, Projection, Real, Settings,
+    Solver, Surface, Warning, WarningCode, Westergaard,
 };
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -23,14 +24,6 @@ impl Beyond {
             "periodic" => Ok(Self::Periodic),
             "free" => Ok(Self::Free),
             other => Err(PyValueError::new_err(format!("boundary is {other}: it must be periodic or free"))),
-        }
-    }
-
-    /// The boundary of a surface on `grid`. Nothing is asked of its compliance: that of the half-space has it.
-    pub fn boundary(self, grid: Grid) -> Boundary {
-        match self {
-            Self::Periodic => Boundary::Periodic,
-            Self::Free => Boundary::Free { window: grid, mean_compliance: 0.0 },
         }
     }
 
@@ -104,6 +97,28 @@ pub fn control((name, numbers): &Load) -> PyResult<Control> {
 /// The contact fraction of a load, if its load is to be found.
 pub fn contact_fraction((name, numbers): &Load) -> Option<f64> {
     if let ("contact_fraction", &[fraction]) = (name.as_str(), numbers.as_slice()) { Some(fraction) } else { None }
+}
+
+/// An accuracy as Python passes it: the relative error, the name of the quantity, and the memory in GiB.
+pub type Goal = (f64, String, Option<f64>);
+
+/// The bytes of a GiB.
+const GIB: f64 = 1_073_741_824.0;
+
+/// The accuracy that is asked for, by a solver.
+pub fn accuracy((target, of, memory): &Goal, solver: Solver<Wall>) -> PyResult<Accuracy<Wall>> {
+    let quantities = [Quantity::Area, Quantity::Gap, Quantity::Pressure, Quantity::Stiffness];
+    let Some(quantity) = quantities.into_iter().find(|quantity| quantity.name() == of) else {
+        let names = quantities.map(Quantity::name).join(", ");
+        return Err(PyValueError::new_err(format!("accuracy_of is {of}: it must be one of {names}")));
+    };
+    let mut wanted = Accuracy::with_solver(*target, quantity, solver);
+    wanted.memory = match *memory {
+        None => available_memory(),
+        Some(memory) if memory > 0.0 => memory * GIB,
+        Some(memory) => return Err(PyValueError::new_err(format!("memory is {memory}: it must be positive, in GiB"))),
+    };
+    Ok(wanted)
 }
 
 /// The stiffness of a spring, if the load is one.

@@ -8,6 +8,7 @@ mod exact;
 mod functions;
 mod inputs;
 mod law;
+mod look;
 mod numbers;
 mod pools;
 mod problem;
@@ -24,7 +25,7 @@ mod _asperity {
     const VERSION: &str = env!("CARGO_PKG_VERSION");
 
     #[pymodule_export]
-    use crate::contact::{clusters, contact_statistics};
+    use crate::contact::clusters;
     #[pymodule_export]
     use crate::exact::{AdhesiveWavyLine, Contact, Hertz, Jkr, WaveContact, WavyLine, closing_pressure_2d};
     #[pymodule_export]
@@ -32,6 +33,8 @@ mod _asperity {
         CutOff, Exponential, Law, LennardJones, MaugisDugdale, Morse, PowerLaw, Tabulated, VanDerWaals, Varying,
         check_law,
     };
+    #[pymodule_export]
+    use crate::look::Look;
     #[pymodule_export]
     use crate::problem::Problem;
     #[pymodule_export]

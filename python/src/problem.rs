@@ -1,15 +1,14 @@
 //! A contact problem, solved once, along loads, or along a path of equilibria.
 
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Instant;
 
-use asperity::accuracy::GridError;
-use asperity::contact::ContactStatistics;
+use asperity::accuracy::{Accuracy, AccurateSolution, GridError, Plan};
 use asperity::path::{Event, Path, PathCheckpoint, PathSettings};
-use asperity::stability::{StabilityTest, Verdict};
+use asperity::stability::{ContactStiffness, StabilityTest, Verdict};
 use asperity::{
-    AdhesionLaw, ContactSearch, Control, ElasticOperator, Error, Grid, Nested, Real, Settings, Solution, Solver, Start,
-    Status, Surface, Sweep, Warning,
+    AdhesionLaw, ContactSearch, Control, ElasticOperator, Error, Grid, Nested, NestedSolution, Real, Settings,
+    Solution, Solver, Start, Status, Surface, Sweep, Topography, Warning,
 };
 use numpy::ndarray::Array2;
 use numpy::{IntoPyArray, PyReadonlyArray2};
@@ -17,10 +16,11 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use crate::account::{Account, Grids, Scalar, Search};
+use crate::account::{Account, Grids, Reached, Scalar, Search};
 use crate::answer::answer;
-use crate::inputs::{Beyond, Load, Wall, contact_fraction, control, settings};
+use crate::inputs::{Beyond, Goal, Load, Wall, accuracy, contact_fraction, control, settings};
 use crate::law::{law, strongest};
+use crate::look::{Estimate, Sight};
 use crate::pools::Pool;
 use crate::refusal::{refusal, refusal_of_heights};
 use crate::report;
@@ -30,12 +30,12 @@ use crate::running::{Observe, run};
 const MOST_DEPARTURES: usize = 10;
 
 /// A surface on its half-space with its law, of whatever kind they are.
-type Boxed<T> = asperity::Problem<T, Box<dyn ElasticOperator<T>>, Box<dyn AdhesionLaw<T>>>;
+type Boxed<T> = asperity::Problem<T, Box<dyn ElasticOperator<T>>, Arc<dyn AdhesionLaw<T>>>;
 
-/// The surface on its half-space with its law: what a problem is made of on each of nested grids, and the problem.
+/// The surface, of which a problem is made on each of nested grids, and the problem.
 enum Body<T: Real> {
-    Surface(Surface, Box<dyn AdhesionLaw<T>>),
-    Problem(Boxed<T>),
+    Surface(Arc<Surface>),
+    Problem(Box<Boxed<T>>),
     /// While a problem is made of a surface, and if that has failed.
     Spent,
 }
@@ -43,6 +43,8 @@ enum Body<T: Real> {
 /// A problem in one precision, with all that a sequence of solves carries on.
 struct State<T: Real> {
     body: Body<T>,
+    law: Arc<dyn AdhesionLaw<T>>,
+    threads: Option<usize>,
     nested: Option<bool>,
     grid: Grid,
     solver: Solver<Wall>,
@@ -68,6 +70,7 @@ struct Made {
     settings: Settings,
     /// Whether to solve on nested grids; the library chooses if it is not said.
     nested: Option<bool>,
+    threads: Option<usize>,
 }
 
 /// The request for one solve.
@@ -78,6 +81,8 @@ struct Request<'py> {
     start: Option<PyReadonlyArray2<'py, f64>>,
     stability: bool,
     leave: bool,
+    stiffness: bool,
+    accuracy: Option<Goal>,
 }
 
 /// What a problem does in either precision.
@@ -93,6 +98,7 @@ trait Solves: Send {
         start: Option<PyReadonlyArray2<'py, f64>>,
     ) -> PyResult<Option<Bound<'py, PyDict>>>;
     fn end_leg(&mut self);
+    fn plan(&self, py: Python<'_>, pool: &Pool, control: Control, goal: &Goal) -> PyResult<Plan>;
     fn stability<'py>(
         &mut self,
         py: Python<'py>,
@@ -119,13 +125,15 @@ impl<T: Scalar> State<T> {
         surface: Surface,
         law: Box<dyn AdhesionLaw<T>>,
         strongest: Option<(usize, usize)>,
-        Made { beyond, modulus, wall, settings, nested }: Made,
+        Made { beyond, modulus, wall, settings, nested, threads }: Made,
     ) -> asperity::Result<Self> {
         let grid = *surface.grid();
         let mut warnings = beyond.warnings(&surface);
         warnings.extend(Warning::of_law(&law, &surface, modulus));
         Ok(Self {
-            body: Body::Surface(surface, law),
+            body: Body::Surface(Arc::new(surface)),
+            law: law.into(),
+            threads,
             nested,
             grid,
             solver: Solver { settings, constraint: wall },
@@ -140,54 +148,111 @@ impl<T: Scalar> State<T> {
         })
     }
 
-    /// The account of a solution.
-    fn account(&self, solution: Solution<T>, control: Control, seconds: f64) -> asperity::Result<Account<T>> {
-        let account = Account::of(solution, &self.grid, control, self.modulus)?;
-        let warnings = self.warnings.iter().cloned().chain(account.warnings).collect();
-        Ok(Account { warnings, seconds, strongest: self.strongest, ..account })
+    /// The account of a solution on the grid of the surface, or on a finer one, by a solve that began at a time.
+    fn account(&self, solution: Solution<T>, grid: Grid, control: Control, clock: Instant) -> Account<T> {
+        let seconds = clock.elapsed().as_secs_f64();
+        let mut warnings = self.warnings.clone();
+        warnings.extend(Warning::of_solution(&solution, self.modulus));
+        let (law, boundary, threads) = (self.law.clone(), solution.report.boundary, self.threads);
+        Account {
+            solution,
+            control,
+            grids: None,
+            stability: None,
+            stiffness: None,
+            reached: None,
+            departures: None,
+            search: None,
+            strongest: self.strongest,
+            warnings,
+            seconds,
+            sight: Sight { law, grid, boundary, threads, estimate: None },
+        }
     }
 
-    /// The account of a row of a table, with the statistics of its contact.
-    fn row(&mut self, solution: Solution<T>, control: Control, seconds: f64) -> asperity::Result<Account<T>> {
-        let law = match &self.body {
-            Body::Surface(_, law) => law,
-            Body::Problem(problem) => problem.law(),
-            Body::Spent => return Err(spent()),
-        };
-        let statistics = ContactStatistics::of(&solution, &self.grid, law)?;
-        Ok(Account { statistics: Some(statistics), ..self.account(solution, control, seconds)? })
+    /// The contact stiffness of a solution, if it is asked for and the solve was not stopped.
+    fn stiffness(&mut self, solution: &Solution<T>, asked: bool) -> asperity::Result<Option<ContactStiffness>> {
+        if !asked || solution.report.status == Status::Stopped {
+            return Ok(None);
+        }
+        let problem = single(&mut self.body, &self.law, self.beyond, self.modulus)?;
+        let (wall, tolerance) = (&self.solver.constraint, ContactStiffness::TOLERANCE);
+        ContactStiffness::of_constrained(problem, wall, solution, tolerance).map(Some)
+    }
+
+    /// The account of a solve to an accuracy.
+    fn accurate(
+        &self,
+        mut wanted: Accuracy<Wall>,
+        control: Control,
+        observe: Observe<'_>,
+    ) -> asperity::Result<Account<T>> {
+        let Body::Surface(surface) = &self.body else { return Err(spent()) };
+        let clock = Instant::now();
+        let half_space = |grid| self.beyond.half_space(grid, self.modulus);
+        let found = wanted.solve_observed(surface, half_space, &self.law, control, |_, state| observe(state))?;
+        let applications = found.equivalent_applications();
+        let AccurateSolution { solution, surface, levels, reached, refinable, unaffordable, .. } = found;
+        let stiffness = levels.last().and_then(|finest| finest.stiffness);
+        let account = self.account(solution, *surface.grid(), control, clock);
+        let report = &account.solution.report;
+        let nodes_per_wave = surface.nodes_per_wave(report.boundary);
+        let estimate = Some(Estimate::Found(GridError::of_all(&levels, control, nodes_per_wave, report.mu_rho)));
+        let grids = Some(Grids { levels, applications });
+        let heights = Topography::from(surface).heights;
+        let reached = Some(Reached { wanted: wanted.target, of: wanted.of, reached, refinable, unaffordable, heights });
+        Ok(Account { grids, stiffness, reached, sight: Sight { estimate, ..account.sight }, ..account })
     }
 
     /// The account of a solve on nested grids, if these are asked for; or, with the default start, if they are faster.
     fn nested(
-        &mut self,
+        &self,
         control: Control,
         begins: bool,
+        stiffness: bool,
         observe: Observe<'_>,
-    ) -> asperity::Result<Option<(Solution<T>, Grids)>> {
-        let Body::Surface(surface, law) = &self.body else { return Ok(None) };
+    ) -> asperity::Result<Option<Account<T>>> {
+        let Body::Surface(surface) = &self.body else { return Ok(None) };
+        let law = &self.law;
         let (beyond, modulus, settings) = (self.beyond, self.modulus, self.solver.settings);
         let half_space = |grid| beyond.half_space(grid, modulus);
         let pays = || matches!(self.solver.constraint, Wall::Hard) && Nested::new(settings).pays(surface, law, control);
         if !self.nested.unwrap_or_else(|| begins && pays()) {
             return Ok(None);
         }
-        let Nested { coarsest, stiffness, .. } = Nested::default();
-        let mut nested =
-            Nested { solver: self.solver.clone(), coarse_tolerance: GridError::COARSE_TOLERANCE, coarsest, stiffness };
+        let clock = Instant::now();
+        let Nested { coarsest, closed, .. } = Nested::default();
+        let stiffness = stiffness.then_some(ContactStiffness::TOLERANCE);
+        let mut nested = Nested {
+            solver: self.solver.clone(),
+            coarse_tolerance: GridError::COARSE_TOLERANCE,
+            coarsest,
+            stiffness,
+            closed,
+        };
         let found = nested.solve_observed(surface, half_space, law, control, |_, state| observe(state))?;
-        let nodes_per_wave = surface.nodes_per_wave(found.solution.report.boundary);
-        let grids = Grids::of(&found, nodes_per_wave, control);
-        Ok(Some((found.solution, grids)))
+        let applications = found.equivalent_applications();
+        let NestedSolution { solution, levels, .. } = found;
+        let stiffness = levels.last().and_then(|finest| finest.stiffness);
+        let mu_rho = solution.report.mu_rho;
+        let account = self.account(solution, self.grid, control, clock);
+        let estimate = Some(Estimate::Open { surface: surface.clone(), levels: levels.clone(), control, mu_rho });
+        let grids = Some(Grids { levels, applications });
+        Ok(Some(Account { grids, stiffness, sight: Sight { estimate, ..account.sight }, ..account }))
     }
 }
 
 /// The problem on one grid, which all but a solve on nested grids needs; it is made with its first use.
-fn single<T: Scalar>(body: &mut Body<T>, beyond: Beyond, modulus: f64) -> asperity::Result<&mut Boxed<T>> {
-    if let Body::Surface(surface, _) = body {
+fn single<'a, T: Scalar>(
+    body: &'a mut Body<T>,
+    law: &Arc<dyn AdhesionLaw<T>>,
+    beyond: Beyond,
+    modulus: f64,
+) -> asperity::Result<&'a mut Boxed<T>> {
+    if let Body::Surface(surface) = body {
         let half_space = beyond.half_space(*surface.grid(), modulus)?;
-        if let Body::Surface(surface, law) = std::mem::replace(body, Body::Spent) {
-            *body = Body::Problem(asperity::Problem::new(&surface, half_space, law)?);
+        if let Body::Surface(surface) = std::mem::replace(body, Body::Spent) {
+            *body = Body::Problem(Box::new(asperity::Problem::new(&surface, half_space, law.clone())?));
         }
     }
     if let Body::Problem(problem) = body { Ok(problem) } else { Err(spent()) }
@@ -200,17 +265,23 @@ fn spent() -> Error {
 
 impl<T: Scalar> Solves for State<T> {
     fn solve<'py>(&mut self, py: Python<'py>, at: Run<'_>, request: Request<'py>) -> PyResult<Bound<'py, PyDict>> {
-        let Request { control, fraction, start, stability, leave } = request;
+        let Request { control, fraction, start, stability, leave, stiffness, accuracy: goal } = request;
         let start = start.map(field::<T>);
+        let mut wanted = goal.map(|goal| accuracy(&goal, self.solver.clone())).transpose()?;
+        if let Some(wanted) = &mut wanted {
+            wanted.nested.stiffness = stiffness.then_some(ContactStiffness::TOLERANCE);
+        }
         let found = run(py, at.pool, at.observer, |observe: Observe<'_>| {
-            let clock = Instant::now();
-            if fraction.is_none()
-                && let Some((solution, grids)) = self.nested(control, start.is_none() && !stability, observe)?
-            {
-                let account = self.row(solution, control, clock.elapsed().as_secs_f64())?;
-                return Ok(Account { grids: Some(grids), ..account });
+            if let Some(wanted) = wanted {
+                return self.accurate(wanted, control, observe);
             }
-            let problem = single(&mut self.body, self.beyond, self.modulus)?;
+            if fraction.is_none()
+                && let Some(account) = self.nested(control, start.is_none() && !stability, stiffness, observe)?
+            {
+                return Ok(account);
+            }
+            let clock = Instant::now();
+            let problem = single(&mut self.body, &self.law, self.beyond, self.modulus)?;
             let (mut solution, control, search) = match fraction {
                 Some(fraction) => {
                     let mut search = ContactSearch::new(&mut self.solver, problem)?.continuing(&[], start);
@@ -228,7 +299,7 @@ impl<T: Scalar> Solves for State<T> {
                 let found = StabilityTest::default().run_with(problem, &self.solver.constraint, control, &solution)?;
                 let leaves = leave && found.verdict == Verdict::Unstable && departures.len() < MOST_DEPARTURES;
                 let left = match leaves {
-                    true => found.leave(&mut Solver::new(self.solver.settings), problem, control, &solution)?,
+                    true => found.leave(&mut self.solver, problem, control, &solution)?,
                     false => None,
                 };
                 let Some(left) = left.filter(|left| left.energy_drop > 0.0) else {
@@ -238,19 +309,20 @@ impl<T: Scalar> Solves for State<T> {
                 departures.push((found.eigenvalue, left.energy_drop, left.distance));
                 solution = left.solution;
             }
-            let account = self.row(solution, control, clock.elapsed().as_secs_f64())?;
-            Ok(Account { search, stability: verdict, departures: leave.then_some(departures), ..account })
+            let stiffness = self.stiffness(&solution, stiffness)?;
+            let account = self.account(solution, self.grid, control, clock);
+            Ok(Account { search, stability: verdict, stiffness, departures: leave.then_some(departures), ..account })
         })?;
         answer(py, found)
     }
 
     fn next_load<'py>(&mut self, py: Python<'py>, at: Run<'_>, request: Request<'py>) -> PyResult<Bound<'py, PyDict>> {
-        let Request { control, fraction, start, .. } = request;
+        let Request { control, fraction, start, stiffness, .. } = request;
         let start = start.map(field::<T>);
         let found = run(py, at.pool, at.observer, |observe: Observe<'_>| {
             let clock = Instant::now();
             if let Some(fraction) = fraction {
-                let problem = single(&mut self.body, self.beyond, self.modulus)?;
+                let problem = single(&mut self.body, &self.law, self.beyond, self.modulus)?;
                 let (numbers, gap) = self.search.clone();
                 let mut search = ContactSearch::new(&mut self.solver, problem)?.continuing(&numbers, start.or(gap));
                 let found = search.at_observed(fraction, observe)?;
@@ -259,12 +331,13 @@ impl<T: Scalar> Solves for State<T> {
                     self.search = (numbers, gap.cloned());
                 }
                 let search = Some(Search::of(fraction, &found));
-                let account = self.row(found.solution, found.control, clock.elapsed().as_secs_f64())?;
-                return Ok(Account { search, ..account });
+                let stiffness = self.stiffness(&found.solution, stiffness)?;
+                let account = self.account(found.solution, self.grid, found.control, clock);
+                return Ok(Account { search, stiffness, ..account });
             }
             let history = std::mem::take(&mut self.history);
             let kept = history.clone();
-            let problem = single(&mut self.body, self.beyond, self.modulus)?;
+            let problem = single(&mut self.body, &self.law, self.beyond, self.modulus)?;
             let mut sweep = Sweep::new(&mut self.solver, problem, [control]).continuing(history);
             if let Some(start) = start {
                 sweep = sweep.starting_from(start);
@@ -276,7 +349,8 @@ impl<T: Scalar> Solves for State<T> {
             // a load that was not reached is tried again from where the ones before lead
             let stopped = solution.report.status == Status::Stopped;
             self.history = if stopped { kept } else { history };
-            self.row(solution, control, clock.elapsed().as_secs_f64())
+            let stiffness = self.stiffness(&solution, stiffness)?;
+            Ok(Account { stiffness, ..self.account(solution, self.grid, control, clock) })
         })?;
         answer(py, found)
     }
@@ -292,8 +366,8 @@ impl<T: Scalar> Solves for State<T> {
         let start = start.map(field::<T>);
         let (found, raised) = run(py, at.pool, at.observer, |observe: Observe<'_>| -> asperity::Result<_> {
             let clock = Instant::now();
-            let mut solver = Solver::new(self.solver.settings);
-            let mut path = Path::new(&mut solver, single(&mut self.body, self.beyond, self.modulus)?, loads, settings)?;
+            let problem = single(&mut self.body, &self.law, self.beyond, self.modulus)?;
+            let mut path = Path::new(&mut self.solver, problem, loads, settings)?;
             path = match (self.place.clone(), start) {
                 (Some(place), _) => path.continuing(place)?,
                 (None, Some(start)) => path.starting_from(start),
@@ -305,7 +379,7 @@ impl<T: Scalar> Solves for State<T> {
             let Some(step) = path.next_observed(observe) else { return Ok(None) };
             let step = step?;
             self.place = Some(path.checkpoint());
-            let account = self.row(step.solution, step.control, clock.elapsed().as_secs_f64())?;
+            let account = self.account(step.solution, self.grid, step.control, clock);
             let balance = [("work", step.work), ("dissipated", step.dissipated), ("imbalance", step.imbalance)];
             Ok(Some((account, step.leg, balance, step.event)))
         })?;
@@ -328,6 +402,17 @@ impl<T: Scalar> Solves for State<T> {
         self.leg_ends = true;
     }
 
+    fn plan(&self, py: Python<'_>, pool: &Pool, control: Control, goal: &Goal) -> PyResult<Plan> {
+        let Body::Surface(surface) = &self.body else { return Err(refusal(spent())) };
+        let (wanted, law) = (accuracy(goal, self.solver.clone())?, &self.law);
+        let (beyond, grid, modulus) = (self.beyond, self.grid, self.modulus);
+        let plan = || {
+            let mut operator = beyond.half_space::<T>(grid, modulus)?;
+            wanted.plan(surface, &mut operator, law, control)
+        };
+        py.detach(|| pool.get().install(plan)).map_err(refusal)
+    }
+
     fn stability<'py>(
         &mut self,
         py: Python<'py>,
@@ -336,8 +421,8 @@ impl<T: Scalar> Solves for State<T> {
         (gap, relative_error): (PyReadonlyArray2<'py, f64>, f64),
     ) -> PyResult<Bound<'py, PyDict>> {
         let gap = field::<T>(gap);
-        let (problem, wall) =
-            (single(&mut self.body, self.beyond, self.modulus).map_err(refusal)?, &self.solver.constraint);
+        let problem = single(&mut self.body, &self.law, self.beyond, self.modulus).map_err(refusal)?;
+        let wall = &self.solver.constraint;
         let test = || StabilityTest::default().of_gap(problem, wall, control, &gap, relative_error);
         let found = py.detach(|| pool.get().install(test)).map_err(refusal)?;
         let entries = report::stability(py, &found)?;
@@ -364,13 +449,15 @@ fn no_load() -> Error {
     Error::Value { name: "number of loads", value: 0.0, requirement: "at least 1" }
 }
 
+/// The nodes in the shortest wave, tolerance, shape, bytes and seconds of a plan.
+type Planned = (f64, f64, (usize, usize), f64, f64);
+
 /// A contact problem.
 #[pyclass(module = "asperity._asperity")]
 pub struct Problem {
     solves: Mutex<Box<dyn Solves>>,
     threads: Option<usize>,
-    settings: Settings,
-    single: bool,
+    max_iterations: usize,
 }
 
 impl Problem {
@@ -408,7 +495,7 @@ impl Problem {
         let settings = settings(tolerance, max_iterations, method)?;
         let pool = Pool::of(threads)?;
         let heights = heights.as_array().to_owned();
-        let made = Made { beyond: Beyond::of(boundary)?, modulus, wall: Wall::of(wall)?, settings, nested };
+        let made = Made { beyond: Beyond::of(boundary)?, modulus, wall: Wall::of(wall)?, settings, nested, threads };
         let make = if absent_missing { Surface::with_absent } else { Surface::new };
         let surface = Grid::new(heights.dim(), lengths).and_then(|grid| make(grid, heights));
         let surface = surface.map_err(refusal_of_heights)?;
@@ -417,18 +504,26 @@ impl Problem {
             "f32" => state::<f32>(py, &pool, surface, law, made)?,
             other => return Err(PyValueError::new_err(format!("precision is {other}: it must be f64 or f32"))),
         };
-        Ok(Self { solves: Mutex::new(solves), threads, settings, single: precision == "f32" })
+        Ok(Self { solves: Mutex::new(solves), threads, max_iterations: settings.max_iterations })
     }
 
-    /// The tolerance, the limit of the iterations and the number of threads, with their defaults.
-    fn inputs(&self) -> PyResult<(f64, usize, usize)> {
-        let tolerance =
-            if self.single { self.settings.tolerance_in::<f32>() } else { self.settings.tolerance_in::<f64>() };
-        Ok((tolerance, self.settings.max_iterations, Pool::of(self.threads)?.threads()))
+    /// The limit of the iterations and the number of threads, with their defaults.
+    fn inputs(&self) -> PyResult<(usize, usize)> {
+        Ok((self.max_iterations, Pool::of(self.threads)?.threads()))
+    }
+
+    /// The plan of a solve to an accuracy.
+    #[pyo3(signature = (load, accuracy))]
+    fn plan(&mut self, py: Python<'_>, load: Load, accuracy: Goal) -> PyResult<Planned> {
+        let (pool, solves) = self.parts()?;
+        let Plan { nodes_per_wave, tolerance, shape, bytes, seconds, .. } =
+            solves.plan(py, &pool, control(&load)?, &accuracy)?;
+        Ok((nodes_per_wave, tolerance, shape, bytes, seconds))
     }
 
     /// The equilibrium at a load.
-    #[pyo3(signature = (load, start, observe, stability, leave))]
+    #[pyo3(signature = (load, start, observe, stability, leave, stiffness, accuracy))]
+    #[expect(clippy::too_many_arguments, reason = "called by the Python layer alone, by name")]
     fn solve<'py>(
         &mut self,
         py: Python<'py>,
@@ -437,28 +532,28 @@ impl Problem {
         observe: Option<Py<PyAny>>,
         stability: bool,
         leave: bool,
+        stiffness: bool,
+        accuracy: Option<Goal>,
     ) -> PyResult<Bound<'py, PyDict>> {
-        let request = Request { control: control(&load)?, fraction: contact_fraction(&load), start, stability, leave };
+        let (control, fraction) = (control(&load)?, contact_fraction(&load));
+        let request = Request { control, fraction, start, stability, leave, stiffness, accuracy };
         let (pool, solves) = self.parts()?;
         solves.solve(py, Run { pool: &pool, observer: observe.as_ref() }, request)
     }
 
     /// The equilibrium at the next load of a sweep.
-    #[pyo3(signature = (load, start, observe))]
+    #[pyo3(signature = (load, start, observe, stiffness))]
     fn next_load<'py>(
         &mut self,
         py: Python<'py>,
         load: Load,
         start: Option<PyReadonlyArray2<'py, f64>>,
         observe: Option<Py<PyAny>>,
+        stiffness: bool,
     ) -> PyResult<Bound<'py, PyDict>> {
-        let request = Request {
-            control: control(&load)?,
-            fraction: contact_fraction(&load),
-            start,
-            stability: false,
-            leave: false,
-        };
+        let (control, fraction, stability, leave, accuracy) =
+            (control(&load)?, contact_fraction(&load), false, false, None);
+        let request = Request { control, fraction, start, stability, leave, stiffness, accuracy };
         let (pool, solves) = self.parts()?;
         solves.next_load(py, Run { pool: &pool, observer: observe.as_ref() }, request)
     }

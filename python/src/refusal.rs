@@ -28,6 +28,10 @@ fn refused(error: Error, also: &str) -> PyErr {
         )
         .replace("or take a free half-space", "or boundary='free'")
         .replace("as by Topography::fill", "as by asperity.prepare(heights, lengths, fill=True)")
+        .replace(
+            "choose one, by asperity prepare --channel NUMBER",
+            "choose one, by asperity.read(path, channel=NUMBER)",
+        )
         .replace("set Topography::lengths", "give lengths=(Lx, Ly)")
         + also;
     match error {

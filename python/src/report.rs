@@ -1,14 +1,15 @@
 //! The outcome of a solve, with the names and in the order of the tool's `report.json`.
 
 use asperity::accuracy::GridError;
-use asperity::contact::Patch;
+use asperity::contact::{ContactStatistics, Patch};
 use asperity::stability::Stability;
 use asperity::{Level, Warning};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use crate::account::{Account, Grids, Scalar, Search};
+use crate::account::{Account, Errors, Grids, Reached, Scalar, Search};
 use crate::inputs::stiffness;
+use crate::look::Estimate;
 
 /// A dictionary of its entries.
 macro_rules! dictionary {
@@ -19,10 +20,9 @@ macro_rules! dictionary {
     }};
 }
 
-/// The outcome of a solve.
+/// The outcome of a solve; what the fields have is left to [`of_fields`].
 pub fn of<'py, T: Scalar>(py: Python<'py>, account: &Account<T>) -> PyResult<Bound<'py, PyDict>> {
-    let Account { solution, area, pressures, .. } = account;
-    let report = &solution.report;
+    let report = &account.solution.report;
     let stability = account.stability.as_ref().map(|found| stability(py, found)).transpose()?;
     let departures = account.departures.as_ref().map(|left| {
         left.iter()
@@ -33,10 +33,12 @@ pub fn of<'py, T: Scalar>(py: Python<'py>, account: &Account<T>) -> PyResult<Bou
     });
     let levels = |grids: &Grids| grids.levels.iter().map(|found| level(py, found)).collect::<PyResult<Vec<_>>>();
     let levels = account.grids.as_ref().map(levels).transpose()?;
-    let grid_error = account.grids.as_ref().map(|grids| grid_error(py, grids)).transpose()?;
-    let statistics = account.statistics.as_ref();
-    let patches =
-        statistics.map(|found| found.patches.iter().map(|found| patch(py, found)).collect::<PyResult<Vec<_>>>());
+    let errors = account.sight.estimate.as_ref().and_then(Estimate::found);
+    let grid_error = errors.map(|errors| grid_error(py, errors)).transpose()?;
+    let reached = |found: &Reached| -> PyResult<_> {
+        Ok(dictionary!(py, "wanted": found.wanted, "of": found.of.name(), "reached": found.reached,))
+    };
+    let reached = account.reached.as_ref().map(reached).transpose()?;
     let warnings = account.warnings.iter().map(|found| warning(py, found)).collect::<PyResult<Vec<_>>>()?;
     Ok(dictionary!(py,
         "status": report.status.name(),
@@ -48,7 +50,7 @@ pub fn of<'py, T: Scalar>(py: Python<'py>, account: &Account<T>) -> PyResult<Bou
         "levels": levels,
         "equivalent_applications": account.grids.as_ref().map(|grids| grids.applications),
         "grid_error": grid_error,
-        "accuracy": py.None(),
+        "accuracy": reached,
         "search": account.search.as_ref().map(|found| search(py, found)).transpose()?,
         "mean_gap": report.mean_gap,
         "mean_pressure": report.mean_pressure,
@@ -61,19 +63,19 @@ pub fn of<'py, T: Scalar>(py: Python<'py>, account: &Account<T>) -> PyResult<Bou
         "contact_nodes": report.contact_nodes,
         "absent_points": report.absent_nodes,
         "edge_traction": report.edge_traction,
-        "corrected_contact_fraction": area.corrected_contact_fraction,
-        "perimeter": area.perimeter,
-        "repulsive_fraction": statistics.map(|found| found.repulsive_fraction),
-        "attractive_fraction": statistics.map(|found| found.attractive_fraction),
-        "patches": patches.transpose()?,
+        "corrected_contact_fraction": py.None(),
+        "perimeter": py.None(),
+        "repulsive_fraction": py.None(),
+        "attractive_fraction": py.None(),
+        "patches": py.None(),
         "min_gap": report.min_gap,
-        "min_pressure": pressures.0,
-        "max_pressure": pressures.1,
+        "min_pressure": py.None(),
+        "max_pressure": py.None(),
         "elastic_energy": report.elastic_energy,
         "adhesive_energy": report.adhesive_energy,
         "stability": stability,
-        "contact_stiffness": py.None(),
-        "normal_stiffness": py.None(),
+        "contact_stiffness": account.stiffness.map(|found| found.pressure_per_length),
+        "normal_stiffness": account.stiffness.map(|found| found.force_per_length),
         "departures": departures.transpose()?,
         "mu_rho": report.mu_rho,
         "mu_rho_node": account.strongest.map(|(x, y)| [x, y]),
@@ -97,6 +99,26 @@ fn search<'py>(py: Python<'py>, found: &Search) -> PyResult<Bound<'py, PyDict>> 
     ))
 }
 
+/// The entries that the fields have: the contact, the least and the greatest pressure, and the errors of nested grids.
+pub fn of_fields<'py>(
+    py: Python<'py>,
+    statistics: &ContactStatistics,
+    pressures: (f64, f64),
+    errors: Option<&Errors>,
+) -> PyResult<Bound<'py, PyDict>> {
+    let patches = statistics.patches.iter().map(|found| patch(py, found)).collect::<PyResult<Vec<_>>>()?;
+    Ok(dictionary!(py,
+        "grid_error": errors.map(|errors| grid_error(py, errors)).transpose()?,
+        "corrected_contact_fraction": statistics.corrected_contact_fraction,
+        "perimeter": statistics.perimeter,
+        "repulsive_fraction": statistics.repulsive_fraction,
+        "attractive_fraction": statistics.attractive_fraction,
+        "patches": patches,
+        "min_pressure": pressures.0,
+        "max_pressure": pressures.1,
+    ))
+}
+
 /// The cost of one of the nested grids.
 fn level<'py>(py: Python<'py>, level: &Level) -> PyResult<Bound<'py, PyDict>> {
     Ok(dictionary!(py,
@@ -116,9 +138,9 @@ fn level<'py>(py: Python<'py>, level: &Level) -> PyResult<Bound<'py, PyDict>> {
 }
 
 /// The estimated errors of the finest of nested grids.
-fn grid_error<'py>(py: Python<'py>, grids: &Grids) -> PyResult<Bound<'py, PyDict>> {
+fn grid_error<'py>(py: Python<'py>, errors: &Errors) -> PyResult<Bound<'py, PyDict>> {
     let entries = PyDict::new(py);
-    for (of, estimate) in &grids.errors {
+    for (of, estimate) in errors {
         let error = |found: &GridError| -> PyResult<_> {
             Ok(dictionary!(py, "relative": found.relative, "order": found.order, "rough": found.rough,))
         };

@@ -28,10 +28,15 @@ fn surface(heights: PyReadonlyArray2<'_, f64>, lengths: (f64, f64)) -> PyResult<
     Grid::new(heights.dim(), lengths).and_then(|grid| Surface::new(grid, heights)).map_err(refusal)
 }
 
-/// Reads a file of heights.
+/// Reads a file of heights, of several channels the one of a number or title.
 #[pyfunction]
-pub fn read(py: Python<'_>, path: PathBuf) -> PyResult<Map<'_>> {
-    Ok(map(py, apart(py, || asperity::io::read_topography(&path))?))
+#[pyo3(signature = (path, channel))]
+pub fn read(py: Python<'_>, path: PathBuf, channel: Option<String>) -> PyResult<Map<'_>> {
+    let read = || match &channel {
+        Some(channel) => asperity::io::read_channel(&path, channel),
+        None => asperity::io::read_topography(&path),
+    };
+    Ok(map(py, apart(py, read)?))
 }
 
 /// Draws a self-affine surface.

@@ -1,5 +1,7 @@
 """Heights from arrays of all kinds, and from the objects of other packages."""
 
+import struct
+
 import numpy as np
 import pytest
 
@@ -144,6 +146,58 @@ def test_files_are_read_with_what_belongs_to_them(tmp_path, rough):
     (tmp_path / "no.npy").write_text("nothing")
     with pytest.raises(ValueError, match="no.npy"):
         asperity.read(tmp_path / "no.npy")
+
+
+def gwy(path, *channels):
+    """Writes a file of Gwyddion with channels, each a title with heights in m."""
+
+    def item(name, kind, data):
+        return name.encode() + b"\0" + kind.encode() + data
+
+    def text(value):
+        return value.encode() + b"\0"
+
+    def of(name, *items):
+        data = b"".join(items)
+        return text(name) + struct.pack("<I", len(data)) + data
+
+    def field(heights):
+        nx, ny = heights.shape
+        values = heights.T.astype("<f8").tobytes()  # rows along x
+        unit = of("GwySIUnit", item("unitstr", "s", text("m")))
+        return of(
+            "GwyDataField",
+            item("xres", "i", struct.pack("<i", nx)),
+            item("yres", "i", struct.pack("<i", ny)),
+            item("xreal", "d", struct.pack("<d", 1e-6)),
+            item("yreal", "d", struct.pack("<d", 2e-6)),
+            item("si_unit_xy", "o", unit),
+            item("si_unit_z", "o", unit),
+            item("data", "D", struct.pack("<I", nx * ny) + values),
+        )
+
+    items = []
+    for number, (title, heights) in enumerate(channels):
+        items.append(item(f"/{number}/data", "o", field(heights)))
+        items.append(item(f"/{number}/data/title", "s", text(title)))
+    path.write_bytes(b"GWYP" + of("GwyContainer", *items))
+
+
+def test_a_channel_of_several_is_chosen_by_number_or_title(tmp_path):
+    trace = 1e-9 * np.arange(12.0).reshape(3, 4)
+    path = tmp_path / "scan.gwy"
+    gwy(path, ("Trace", trace), ("Retrace", 2 * trace))
+    with pytest.raises(ValueError, match=r'1 "Retrace".*choose one, by asperity.read\(path, channel=NUMBER\)'):
+        asperity.read(path)
+    for channel, factor in [(0, 1), ("Trace", 1), (1, 2), ("Retrace", 2)]:
+        found = asperity.read(path, channel=channel)
+        assert found.lengths == (1e-6, 2e-6) and found.unit == "m"
+        assert np.array_equal(np.sort(found.heights, axis=None), np.sort(factor * trace, axis=None))
+    with pytest.raises(ValueError, match="2 channels"):
+        asperity.read(path, channel=7)
+    np.save(tmp_path / "heights.npy", trace)
+    with pytest.raises(ValueError, match="has no channels"):
+        asperity.read(tmp_path / "heights.npy", channel=0)
 
 
 def test_prepare_takes_the_steps_of_the_tool():

@@ -19,9 +19,10 @@ def test_the_code_of_the_readme_runs(tmp_path, monkeypatch):
     np.savez("measured.npz", heights=measured, lengths=(2e-6, 2e-6), unit="m")
     found = {}
     blocks = re.findall(r"^```python\n(.*?)^```", README.read_text(), re.MULTILINE | re.DOTALL)
-    assert len(blocks) == 3
+    assert len(blocks) == 4
     for block in blocks:
         exec(block, found)
     assert found["solution"].converged and found["pressed"].converged and len(found["table"]) == 3
+    assert found["right"].report["accuracy"]["reached"]
     assert [event["event"] for event in found["cycle"].events] == ["jump-in", "pull-off"]
     assert pathlib.Path("pressed.pdf").stat().st_size > 1000

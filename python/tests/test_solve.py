@@ -225,6 +225,38 @@ def test_the_table_and_the_html_say_how_it_ended(rough, law):
     json.dumps(solution.report)  # plain numbers, lists and text
 
 
+def test_what_is_found_later_is_about_the_solve():
+    class Exponential:
+        """A law whose work of adhesion can be changed."""
+
+        range = 8e-3
+
+        def __init__(self, work):
+            self.work = work
+
+        def energy(self, gap):
+            return -self.work * np.exp(-gap / self.range)
+
+        def traction(self, gap):
+            return -self.energy(gap) / self.range
+
+        def slope(self, gap):
+            return self.energy(gap) / self.range**2
+
+    law = Exponential(2e-5)
+    heights = asperity.surface.self_affine(128, 1.0, rms_slope=0.1, k_l=2, k_s=10, seed=3).heights
+    options = {"modulus": 1.0, "mean_pressure": 0.01, "law": law, "nested": True}
+    told = asperity.solve(heights, 1.0, **options).report
+    solution = asperity.solve(heights, 1.0, **options)
+    for field in (solution.gap, solution.pressure, solution.contact_pressure):
+        with pytest.raises(ValueError, match="read-only"):
+            field[0, 0] = 1.0
+    law.work = law.range = 1.0
+    heights[:] = 0.0
+    assert told["grid_error"]["gap"] is not None and told["attractive_fraction"] > 0
+    assert {**solution.report, "seconds": None} == {**told, "seconds": None}
+
+
 def test_what_is_refused_says_why(rough):
     heights = rough.heights
     with pytest.raises(TypeError, match="mean_pressure and mean_gap given"):

@@ -201,6 +201,75 @@ def test_a_cycle_has_the_columns_of_the_tool(tmp_path, tool, gaps):
     same_columns(table(tmp_path / "cycle.csv"), columns)
 
 
+def test_a_cycle_without_a_wall_has_the_columns_of_the_tool(tmp_path, tool):
+    wave = 0.01 * np.cos(2 * np.pi * np.arange(64) / 64)
+    np.save(tmp_path / "heights.npy", wave[:, None])
+    # fmt: off
+    asked(tool, tmp_path, "cycle", "--heights", "heights.npy", "--law", "morse", "--work-of-adhesion", 1e-3,
+          "--range", 1e-2, "--wall", "none", "--mean-gaps", "0.06,0.002,0.06", "--steps", 10, "--smallest-step", 1e-3,
+          "--out", "cycle.csv")
+    # fmt: on
+    cycle = asperity.cycle(
+        wave,
+        1.0,
+        modulus=1.0,
+        law=asperity.Morse(1e-3, 1e-2),
+        wall="none",
+        mean_gaps=[0.06, 0.002, 0.06],
+        steps=10,
+        smallest_step=1e-3,
+    )
+    same_columns(table(tmp_path / "cycle.csv"), cycle.columns)
+
+
+@pytest.mark.parametrize(
+    ("of", "load"),
+    [("area", "mean_pressure"), ("gap", "mean_pressure"), ("pressure", "mean_gap"), ("stiffness", "mean_gap")],
+)
+@pytest.mark.parametrize("precision", ["f64", "f32"])
+def test_an_accuracy_is_that_of_the_tool(tmp_path, tool, of, load, precision):
+    rough = asperity.surface.self_affine(32, 1.0, rms_slope=0.1, k_l=1, k_r=2, k_s=8, seed=1)
+    np.save(tmp_path / "heights.npy", rough.heights)
+    held = {"mean_pressure": 5e-3, "mean_gap": 0.01}[load]
+    # fmt: off
+    asked(tool, tmp_path, "solve", "--heights", "heights.npy", f"--{load.replace('_', '-')}", held, "--accuracy", 0.03,
+          "--accuracy-of", of, "--precision", precision, "--no-pictures", "--out", "out")
+    # fmt: on
+    options = {"modulus": 1.0, load: held, "accuracy": 0.03, "accuracy_of": of, "precision": precision}
+    solution = asperity.solve(rough, **options)
+    same(tmp_path / "out", solution)
+    assert solution.report["accuracy"] == {"wanted": 0.03, "of": of, "reached": True}
+
+
+def test_an_accuracy_of_a_tip_is_that_of_the_tool(tmp_path, tool, sphere):
+    np.save(tmp_path / "heights.npy", sphere)
+    # fmt: off
+    asked(tool, tmp_path, "solve", "--heights", "heights.npy", "--boundary", "free", "--approach", 2e-3,
+          "--accuracy", 0.02, "--stiffness", "--no-pictures", "--out", "out")
+    # fmt: on
+    options = {"modulus": 1.0, "boundary": "free", "approach": 2e-3, "stiffness": True}
+    solution = asperity.solve(sphere, 1.0, accuracy=0.02, **options)
+    same(tmp_path / "out", solution)
+    assert solution.heights.shape == tuple(solution.report["levels"][-1]["shape"]) > (64, 64)
+
+
+@pytest.mark.parametrize("options", [[], ["--nested"]])
+def test_a_contact_stiffness_is_that_of_the_tool(tmp_path, tool, options):
+    rough = asperity.surface.self_affine(128, 2.0, rms_slope=0.1, k_l=2, k_s=16, seed=3)
+    np.save(tmp_path / "heights.npy", rough.heights)
+    # fmt: off
+    asked(tool, tmp_path, "solve", "--heights", "heights.npy", "--lengths", 2, "--mean-pressure", 0.02, "--stiffness",
+          *options, "--no-pictures", "--out", "out")
+    asked(tool, tmp_path, "sweep", "--heights", "heights.npy", "--lengths", 2, "--mean-pressures", "0.01,0.02",
+          "--stiffness", "--out", "sweep.csv")
+    # fmt: on
+    solution = asperity.solve(rough, modulus=1.0, mean_pressure=0.02, stiffness=True, nested=bool(options) or None)
+    same(tmp_path / "out", solution)
+    assert solution.normal_stiffness == 4.0 * solution.contact_stiffness > 0.0
+    sweep = asperity.sweep(rough, modulus=1.0, mean_pressures=[0.01, 0.02], stiffness=True)
+    same_columns(table(tmp_path / "sweep.csv"), sweep.columns)
+
+
 def test_a_cycle_of_a_tip_from_afar_has_the_columns_of_the_tool(tmp_path, tool):
     x = 0.24 * (np.arange(24) / 24 - 0.5)
     tip = -(x[:, None] ** 2 + x**2) / 4

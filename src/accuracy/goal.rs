@@ -15,7 +15,7 @@ use crate::grid::Grid;
 use crate::nested::{Level, Nested, NestedSolution, equivalent_applications, prolong};
 use crate::problem::{Control, Problem};
 use crate::real::Real;
-use crate::solver::{Iteration, Settings, Solution, Start, Status};
+use crate::solver::{Iteration, Solution, Solver, Start, Status};
 use crate::surface::Surface;
 
 /// The tolerance of the solver as a share of the accuracy, and the largest.
@@ -55,7 +55,7 @@ const DOUBT: f64 = 3.0;
 /// | `target` | | the relative error, between 0 and 1 |
 /// | `of` | | the quantity |
 /// | `memory` | 4 GiB | the bytes that a solve on a refined grid may take |
-/// | `nested` | coarser grids down to 16 nodes along a side | the solver; a tolerance of its settings must be as small as the one above |
+/// | `nested` | all coarser grids down to 16 nodes along a side | the solver; a tolerance of its settings must be as small as the one above |
 ///
 /// ```
 /// use asperity::accuracy::{Accuracy, Quantity};
@@ -134,12 +134,27 @@ fn is_refinable<T: Real>(surface: &Surface, law: &dyn AdhesionLaw<T>) -> bool {
 impl Accuracy {
     /// An accuracy of a quantity, by a solver with the default settings that confines the gap by projection.
     pub fn new(target: f64, of: Quantity) -> Self {
-        let nested = Nested { coarsest: COARSEST, ..Nested::new(Settings::default()) };
-        Self { target, of, memory: MEMORY, nested }
+        Self::with_solver(target, of, Solver::default())
     }
 }
 
 impl<C> Accuracy<C> {
+    /// An accuracy of a quantity, by a solver with settings and a constraint of its own.
+    ///
+    /// ```
+    /// use asperity::accuracy::{Accuracy, Quantity};
+    /// use asperity::{NoWall, Settings, Solver};
+    /// let solver = Solver { settings: Settings { tolerance: Some(1e-5), ..Settings::default() }, constraint: NoWall };
+    /// assert_eq!(Accuracy::with_solver(0.01, Quantity::Gap, solver).tolerance()?, 1e-5);
+    /// # Ok::<(), asperity::Error>(())
+    /// ```
+    pub fn with_solver(target: f64, of: Quantity, solver: Solver<C>) -> Self {
+        let Nested { coarse_tolerance, stiffness, .. } = Nested::default();
+        // a coarser grid that gives no start tells the error all the same
+        let nested = Nested { solver, coarse_tolerance, coarsest: COARSEST, stiffness, closed: 1.0 };
+        Self { target, of, memory: MEMORY, nested }
+    }
+
     /// The tolerance of the solver: a tenth of the accuracy, and at most 1e-3; or the one that was given.
     ///
     /// # Errors

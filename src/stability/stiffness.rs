@@ -81,6 +81,9 @@ pub struct ContactStiffness {
 }
 
 impl ContactStiffness {
+    /// A relative error far below that of any grid that can be afforded, in either precision.
+    pub const TOLERANCE: f64 = 1e-4;
+
     /// The contact stiffness of a solution, whose wall is rigid. The gap may be in any memory layout.
     ///
     /// Memory per node: six scalars, beside those of the problem.
@@ -93,7 +96,7 @@ impl ContactStiffness {
         O: ElasticOperator<T>,
         L: AdhesionLaw<T>,
     {
-        Self::of_constrained(problem, &Projection, solution, if T::NAME == f32::NAME { 1e-4 } else { 1e-6 })
+        Self::of_constrained(problem, &Projection, solution, if T::NAME == f32::NAME { Self::TOLERANCE } else { 1e-6 })
     }
 
     /// The contact stiffness of a solution that was found with a constraint, to a relative error. Springs of the

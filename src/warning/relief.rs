@@ -6,31 +6,21 @@ use ndarray::Array2;
 use super::{CODES, FAR, LONE, SPIKE};
 use crate::field::flat;
 use crate::par;
+use crate::vector::{LANES, vectorised};
 
-/// Nodes of a chunk, rows of a block and columns of a strip, which a thread takes at once.
+/// Nodes of a chunk, rows of a block, and bands of rows at most, which a thread takes at once.
 const CHUNK: usize = 1 << 14;
 const BLOCK: usize = 16;
-const STRIP: usize = 64;
+const BANDS: usize = 64;
+
+/// Nodes that are looked at once for heights beyond all others.
+const LOOK: usize = 1 << 10;
 
 /// Sides of fewer nodes tell nothing of tilt and edges: a few nodes may rise one after the other by chance.
 const LEAST_NODES: usize = 16;
 
 /// The lowest and the highest of no heights.
 const NOTHING: (f64, f64) = (f64::INFINITY, f64::NEG_INFINITY);
-
-/// The lowest and the highest of two pairs.
-fn join(a: (f64, f64), b: (f64, f64)) -> (f64, f64) {
-    (a.0.min(b.0), a.1.max(b.1))
-}
-
-/// What `f` makes of the heights of each chunk that are not missing.
-fn fold<A: Copy + Send + Sync>(heights: &Array2<f64>, from: A, f: impl Fn(A, f64) -> A + Send + Sync) -> Vec<A> {
-    let mut parts = vec![from; heights.len().div_ceil(CHUNK)];
-    par::update(par::chunks(flat(heights), CHUNK), &mut parts, 1, |_, chunk, part| {
-        *part = chunk.iter().filter(|h| h.is_finite()).fold(from, |found, &h| f(found, h));
-    });
-    parts
-}
 
 /// The lowest and the highest of the heights that are not missing, their counts, and the range of all others.
 #[derive(Clone, Copy)]
@@ -43,27 +33,54 @@ pub struct Extremes {
     pub rest: (f64, f64),
 }
 
+/// The lowest of some values, how often it is there, and the lowest of the others.
+#[derive(Clone, Copy)]
+struct End {
+    value: f64,
+    count: usize,
+    next: f64,
+}
+
+impl End {
+    const NONE: Self = Self { value: f64::INFINITY, count: 0, next: f64::INFINITY };
+
+    /// That of one more value, which is there so often.
+    fn with(self, value: f64, count: usize) -> Self {
+        if value < self.value {
+            Self { value, count, next: self.value }
+        } else if value == self.value {
+            Self { count: self.count + count, ..self }
+        } else if value < self.next {
+            Self { next: value, ..self }
+        } else {
+            self
+        }
+    }
+
+    /// That of the values of both.
+    fn join(self, other: Self) -> Self {
+        self.with(other.value, other.count).with(other.next, 0)
+    }
+}
+
 impl Extremes {
     pub fn of(heights: &Array2<f64>) -> Self {
-        let nothing = Self { low: f64::INFINITY, high: f64::NEG_INFINITY, low_count: 0, high_count: 0, rest: NOTHING };
-        let (low, high) =
-            fold(heights, NOTHING, |found, h| (found.0.min(h), found.1.max(h))).into_iter().fold(NOTHING, join);
-        let found = fold(heights, Self { low, high, ..nothing }, |mut found, h| {
-            if h == low {
-                found.low_count += 1;
-            } else if h == high {
-                found.high_count += 1;
-            } else {
-                found.rest = (found.rest.0.min(h), found.rest.1.max(h));
+        let none = [End::NONE; 2];
+        let mut ends = vec![none; heights.len().div_ceil(CHUNK)];
+        par::update(par::chunks(flat(heights), CHUNK), &mut ends, 1, |_, chunk, ends| {
+            for heights in chunk.chunks(LOOK) {
+                let ([low, high], (lowest, highest)) = (*ends, range(heights));
+                // most heights are within those that were there before
+                if lowest < low.next || -highest < high.next {
+                    let known = heights.iter().filter(|h| h.is_finite());
+                    *ends = known.fold([low, high], |[low, high], &h| [low.with(h, 1), high.with(-h, 1)]);
+                }
             }
-            found
         });
-        found.into_iter().fold(Self { low, high, ..nothing }, |all, part| Self {
-            low_count: all.low_count + part.low_count,
-            high_count: all.high_count + part.high_count,
-            rest: join(all.rest, part.rest),
-            ..all
-        })
+        let [low, high] = ends.into_iter().fold(none, |[low, high], [a, b]| [low.join(a), high.join(b)]);
+        // of two levels nothing is left
+        let rest = if low.next < -high.value { (low.next, -high.next) } else { NOTHING };
+        Self { low: low.value, high: -high.value, low_count: low.count, high_count: high.count, rest }
     }
 
     /// The highest less the lowest height; infinite if the difference is beyond `f64`.
@@ -163,36 +180,18 @@ impl Relief {
     pub fn of(heights: &Array2<f64>, extremes: &Extremes) -> Self {
         let scale = Scale::new(extremes);
         let ((nx, ny), nodes, all) = (heights.dim(), heights.len() as f64, flat(heights));
-        // of each row the sums of the heights, of their squares, and of the squared steps from the row before, which of
-        // the first is the last; and the greatest step
-        let mut rows = vec![[0.0; 4]; nx];
-        par::update(par::chunks(all, ny), &mut rows, BLOCK, |i, row, found| {
-            let before = &all[(i + nx - 1) % nx * ny..][..ny];
-            let [sum, squares, steps, greatest] = found;
-            for (&h, &before) in row.iter().zip(before) {
-                let (h, step) = (scale.of(h), scale.of(h) - scale.of(before));
-                *sum += h;
-                *squares += h * h;
-                *steps += step * step;
-                *greatest = if step.abs() > *greatest { step.abs() } else { *greatest };
-            }
+        let rows_of_band = nx.div_ceil(BANDS).max(BLOCK);
+        let mut bands = vec![Band::default(); nx.div_ceil(rows_of_band)];
+        par::update(par::chunks(all, rows_of_band * ny), &mut bands, 1, |band, within, found| {
+            let before = (band * rows_of_band + nx - 1) % nx;
+            *found = Band::of(within, &all[before * ny..][..ny], scale);
         });
-        // of each column the mean, and the mean square step to the one after, at last to the first
-        let mut strips = vec![Vec::new(); ny.div_ceil(STRIP)];
-        par::update(par::chunks(&all[..ny], STRIP), &mut strips, 1, |strip, first, columns| {
-            *columns = vec![(0.0, 0.0); first.len()];
-            let from = strip * STRIP;
-            for row in all.chunks(ny) {
-                let after = row[from + 1..].iter().chain(row.first());
-                for ((&h, &after), (mean, step)) in row[from..].iter().zip(after).zip(&mut *columns) {
-                    let (h, after) = (scale.of(h), scale.of(after));
-                    *mean += h;
-                    *step += (after - h) * (after - h);
-                }
-            }
-            columns.iter_mut().for_each(|(mean, step)| (*mean, *step) = (*mean / nx as f64, *step / nx as f64));
-        });
-        let (column_means, mut column_steps): (Vec<f64>, Vec<f64>) = strips.into_iter().flatten().unzip();
+        let rows: Vec<[f64; 4]> = bands.iter().flat_map(|band| band.rows.iter().copied()).collect();
+        let column = |of: fn(&Band) -> &Vec<f64>| {
+            let sum = |j: usize| bands.iter().map(|band| of(band)[j]).sum::<f64>();
+            (0..ny).map(|j| sum(j) / nx as f64).collect::<Vec<f64>>()
+        };
+        let (column_means, mut column_steps) = (column(|band| &band.sums), column(|band| &band.steps));
         let row_means: Vec<f64> = rows.iter().map(|row| row[0] / ny as f64).collect();
         let row_steps: Vec<f64> = rows.iter().skip(1).map(|row| row[2] / ny as f64).collect();
         let squares: f64 = rows.iter().map(|row| row[1]).sum();
@@ -285,10 +284,105 @@ impl Scale {
         Self { inverse: unit.recip().min(f64::MAX), middle: 0.5 * extremes.high + 0.5 * extremes.low }
     }
 
-    #[inline]
+    #[inline(always)]
     fn of(self, height: f64) -> f64 {
         (height - self.middle) * self.inverse
     }
+}
+
+/// The sums over a band of rows.
+#[derive(Clone, Default)]
+struct Band {
+    /// of each row the sums of the heights, of their squares, and of the squared steps from the row before, which of the
+    /// first is the last; and the greatest step
+    rows: Vec<[f64; 4]>,
+    /// of each column the sum of the heights, and of the squared steps to the one after, of the last to the first
+    sums: Vec<f64>,
+    steps: Vec<f64>,
+}
+
+impl Band {
+    /// That of some rows after the one before them.
+    fn of<'a>(rows: &'a [f64], mut before: &'a [f64], scale: Scale) -> Self {
+        let ny = before.len();
+        let [mut sums, mut steps] = [(); 2].map(|()| vec![0.0; ny]);
+        let across = |row| across(row, std::mem::replace(&mut before, row), scale, [&mut sums, &mut steps]);
+        let rows = rows.chunks(ny).map(across).collect();
+        Self { rows, sums, steps }
+    }
+}
+
+/// What a row adds to its band: its own sums, and those of each column.
+fn across(row: &[f64], before: &[f64], scale: Scale, [sums, steps]: [&mut [f64]; 2]) -> [f64; 4] {
+    let ny = row.len();
+    let whole = (ny - 1) / LANES * LANES;
+    let mut lanes = [[0.0; LANES]; 4];
+    let (total, column_sums, column_steps) = (&mut lanes, &mut sums[..whole], &mut steps[..whole]);
+    vectorised(
+        #[inline(always)]
+        move || {
+            let [mut sum, mut squares, mut steps, mut greatest] = [[0.0; LANES]; 4];
+            let columns =
+                column_sums.as_chunks_mut::<LANES>().0.iter_mut().zip(column_steps.as_chunks_mut::<LANES>().0);
+            let heights = row.as_chunks::<LANES>().0.iter().zip(row[1..].as_chunks::<LANES>().0);
+            let heights = heights.zip(before.as_chunks::<LANES>().0);
+            for ((column_sums, column_steps), ((here, after), before)) in columns.zip(heights) {
+                let [mut h, mut step, mut along] = [[0.0; LANES]; 3];
+                for l in 0..LANES {
+                    h[l] = scale.of(here[l]);
+                    step[l] = h[l] - scale.of(before[l]);
+                    along[l] = scale.of(after[l]) - h[l];
+                }
+                for l in 0..LANES {
+                    sum[l] += h[l];
+                    squares[l] += h[l] * h[l];
+                }
+                for l in 0..LANES {
+                    steps[l] += step[l] * step[l];
+                    greatest[l] = if step[l].abs() > greatest[l] { step[l].abs() } else { greatest[l] };
+                }
+                for l in 0..LANES {
+                    column_sums[l] += h[l];
+                    column_steps[l] += along[l] * along[l];
+                }
+            }
+            *total = [sum, squares, steps, greatest];
+        },
+    );
+    let [sum, squares, row_steps, greatest] = lanes;
+    let mut found = [sum, squares, row_steps].map(|lanes| lanes.iter().sum::<f64>());
+    let mut greatest = greatest.into_iter().fold(0.0, f64::max);
+    for j in whole..ny {
+        let [h, after, before] = [row[j], row[(j + 1) % ny], before[j]].map(|h| scale.of(h));
+        let step = h - before;
+        found = [found[0] + h, found[1] + h * h, found[2] + step * step];
+        greatest = f64::max(greatest, step.abs());
+        sums[j] += h;
+        steps[j] += (after - h) * (after - h);
+    }
+    [found[0], found[1], found[2], greatest]
+}
+
+/// The lowest and the highest of some heights, the missing ones left out.
+fn range(heights: &[f64]) -> (f64, f64) {
+    let (whole, rest) = heights.as_chunks::<LANES>();
+    let (mut low, mut high) = ([NOTHING.0; LANES], [NOTHING.1; LANES]);
+    let (lows, highs) = (&mut low, &mut high);
+    vectorised(
+        #[inline(always)]
+        move || {
+            let (mut low, mut high) = ([NOTHING.0; LANES], [NOTHING.1; LANES]);
+            for heights in whole {
+                for l in 0..LANES {
+                    low[l] = if heights[l] < low[l] { heights[l] } else { low[l] };
+                    high[l] = if heights[l] > high[l] { heights[l] } else { high[l] };
+                }
+            }
+            (*lows, *highs) = (low, high);
+        },
+    );
+    let (low, high) = (low.into_iter().chain(rest.iter().copied()), high.into_iter().chain(rest.iter().copied()));
+    (low.fold(NOTHING.0, f64::min), high.fold(NOTHING.1, f64::max))
 }
 
 /// What the search for spikes finds in a block of rows.

@@ -58,6 +58,22 @@ fn an_accuracy_of_each_quantity_is_reached_and_true() {
 }
 
 #[test]
+fn nearly_closed_contacts_have_an_estimate_on_their_own_grid() {
+    for (seed, pressure) in [(1, 0.09), (2, 0.09), (2, 0.12)] {
+        let control = Control::MeanPressure(pressure);
+        let found =
+            Accuracy::new(0.01, Quantity::Area).solve(&surface(128, seed), half_space, NoAdhesion, control).unwrap();
+        let (finest, truth) = (found.levels.last().unwrap().area, truth(seed, control).area);
+        assert!(truth.contact_fraction > 0.8 && truth.contact_fraction < 1.0, "{truth:?}");
+        // no finer grid was needed to tell the error
+        assert_eq!((found.reached, found.surface.grid().shape()), (true, (128, 128)));
+        let (estimate, error) =
+            (found.error.unwrap().relative, finest.corrected_contact_fraction / truth.corrected_contact_fraction - 1.0);
+        assert!(estimate > error.abs() / 3.0 && error.abs() < 0.01, "{seed} {pressure}: {estimate:e} {error:e}");
+    }
+}
+
+#[test]
 fn the_refined_surface_is_the_same_one() {
     let found = Accuracy::new(0.03, Quantity::Area).solve(&surface(32, 1), half_space, NoAdhesion, PRESSED).unwrap();
     let n = found.surface.grid().shape().0;

@@ -1,7 +1,7 @@
 //! The accuracy that is asked for: its options, its plan, and what was reached.
 
-use asperity::accuracy::{Accuracy, GridError, Plan, Quantity};
-use asperity::{Control, Level, Nested, Solver};
+use asperity::accuracy::{Accuracy, GridError, Plan, Quantity, available_memory};
+use asperity::{Control, Level, Solver};
 use clap::{Args, ValueEnum};
 use serde_json::{Map, Value, json};
 
@@ -50,20 +50,11 @@ impl AccuracyOptions {
             Of::Pressure => Quantity::Pressure,
             Of::Stiffness => Quantity::Stiffness,
         };
-        let Accuracy { target, of, nested: Nested { coarse_tolerance, coarsest, .. }, .. } =
-            Accuracy::new(self.accuracy?, quantity);
-        let memory = self.memory.map_or_else(available, |memory| memory * GIB);
-        let nested = Nested { solver, stiffness, coarse_tolerance, coarsest };
-        Some(Accuracy { target, of, memory, nested })
+        let mut wanted = Accuracy::with_solver(self.accuracy?, quantity, solver);
+        wanted.memory = self.memory.map_or_else(available_memory, |memory| memory * GIB);
+        wanted.nested.stiffness = stiffness;
+        Some(wanted)
     }
-}
-
-/// The memory that is there, in bytes; without limit where the system does not tell.
-fn available() -> f64 {
-    let told = std::fs::read_to_string("/proc/meminfo").unwrap_or_default();
-    let line = told.lines().find_map(|line| line.strip_prefix("MemAvailable:"));
-    let kilobytes = line.and_then(|line| line.trim().strip_suffix("kB")?.trim().parse::<f64>().ok());
-    kilobytes.map_or(f64::INFINITY, |kilobytes| 1024.0 * kilobytes)
 }
 
 /// What is to be expected, in words.

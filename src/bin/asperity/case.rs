@@ -44,12 +44,9 @@ pub struct Case {
 }
 
 impl Case {
-    /// The relative error to which a contact stiffness is found.
-    pub const STIFFNESS: f64 = 1e-4;
-
     /// The relative error to which the contact stiffness is to be found, if it is.
     pub fn stiffness_to(&self) -> Option<f64> {
-        self.stiffness.then_some(Self::STIFFNESS)
+        self.stiffness.then_some(ContactStiffness::TOLERANCE)
     }
 
     /// Whether to solve on coarser grids first: if that is asked for, or faster from the default start.
@@ -196,7 +193,7 @@ pub fn solve<T: Scalar, L: AdhesionLaw<T>>(
         departures.push(Left { eigenvalue: found.eigenvalue, energy_drop, distance });
         solution = left.solution;
     };
-    let find = || ContactStiffness::of_constrained(&mut problem, &case.wall, &solution, Case::STIFFNESS);
+    let find = || ContactStiffness::of_constrained(&mut problem, &case.wall, &solution, ContactStiffness::TOLERANCE);
     let stiffness = case.stiffness.then(find).transpose()?;
     let (solution, account) = account(solution, control, problem.law(), &grid, None, clock)?;
     Ok((solution, Account { search, stability, stiffness, departures, ..account }))
@@ -211,14 +208,10 @@ fn solve_nested<T: Scalar, L: AdhesionLaw<T>>(
 ) -> Outcome<(Solution<T>, Account)> {
     let clock = Instant::now();
     let half_space = |grid| case.boundary.half_space(grid, case.modulus);
-    let Nested { coarsest, .. } = Nested::default();
+    let Nested { coarsest, closed, .. } = Nested::default();
     let (solver, stiffness, tolerance) = (case.solver(), case.stiffness_to(), case.settings.tolerance_in::<T>());
-    let found = Nested { solver, coarse_tolerance: GridError::COARSE_TOLERANCE, coarsest, stiffness }.solve_observed(
-        surface,
-        half_space,
-        &law,
-        case.control,
-        |grid, state| {
+    let found = Nested { solver, coarse_tolerance: GridError::COARSE_TOLERANCE, coarsest, stiffness, closed }
+        .solve_observed(surface, half_space, &law, case.control, |grid, state| {
             let finest = grid.nodes() == surface.grid().nodes();
             progress.update_on(
                 grid,
@@ -226,8 +219,7 @@ fn solve_nested<T: Scalar, L: AdhesionLaw<T>>(
                 if finest { tolerance } else { tolerance.max(GridError::COARSE_TOLERANCE) },
             );
             ControlFlow::Continue(())
-        },
-    )?;
+        })?;
     let applications = found.equivalent_applications();
     let NestedSolution { solution, levels, .. } = found;
     let stiffness = levels.last().and_then(|finest| finest.stiffness);

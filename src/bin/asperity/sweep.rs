@@ -15,7 +15,7 @@ use serde_json::{Map, Value, json};
 
 use crate::adhesion::{Adhesion, AdhesionOptions, Law, Wall};
 use crate::boundary::{FractionsOptions, LOADS, LoadsOptions};
-use crate::case::{Case, Search};
+use crate::case::Search;
 use crate::columns::{INPUTS, OUTCOME, SEARCH, STATE, STIFFNESS, inputs, outcome, search, state, stiffness};
 use crate::csv;
 use crate::identity::{Identity, identity};
@@ -175,7 +175,7 @@ impl Options {
             let mut row = row(self.problem(), control, &solution.report, &statistics);
             row.extend(searched.iter().flat_map(search).map(|(name, value)| (name.to_owned(), value)));
             if self.stiffness {
-                let (problem, tolerance) = (steps.problem(), Case::STIFFNESS);
+                let (problem, tolerance) = (steps.problem(), ContactStiffness::TOLERANCE);
                 let found = ContactStiffness::of_constrained(problem, &self.adhesion.wall, &solution, tolerance)?;
                 row.extend(stiffness(&found).map(|(name, value)| (name.to_owned(), value)));
             }

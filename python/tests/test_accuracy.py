@@ -1,0 +1,111 @@
+"""Accuracies that are asked for, and contact stiffnesses."""
+
+import logging
+import pickle
+
+import numpy as np
+import pytest
+
+import asperity
+
+PRESSED = {"modulus": 1.0, "mean_pressure": 5e-3}
+
+
+@pytest.fixture(scope="module")
+def coarse():
+    """A rough surface whose shortest wave has four nodes."""
+    return asperity.surface.self_affine(32, 1.0, rms_slope=0.1, k_l=1, k_r=2, k_s=8, seed=1)
+
+
+def test_an_accuracy_chooses_grid_and_tolerance(coarse, caplog):
+    caplog.set_level(logging.INFO, "asperity")
+    found = asperity.solve(coarse, accuracy=0.02, **PRESSED)
+    plan = found.plan
+    assert "accuracy 0.02 of the area: the shortest wave has 4." in caplog.text
+    assert f"likely {plan.shape[0]} x {plan.shape[1]} nodes, tolerance 1e-03" in caplog.text and "MiB" in caplog.text
+    assert plan.tolerance == found.report["tolerance"] == 1e-3 and 3.9 < plan.nodes_per_wave < 5
+    assert plan.bytes > 8 * np.prod(plan.shape) and plan.seconds > 0
+    # the fields are those of the finest grid, on which the old nodes keep their heights
+    shape, error = found.gap.shape, found.report["grid_error"]["area"]
+    assert shape >= (64, 64) and tuple(found.report["shape"]) == shape == found.topography.shape
+    assert [level["shape"][0] for level in found.report["levels"]][-1] == shape[0]
+    stride = shape[0] // 32
+    assert np.allclose(found.heights[::stride, ::stride], coarse.heights, rtol=0, atol=1e-15)
+    assert np.isclose(found.displacement.mean() - found.heights.mean(), found.mean_gap)
+    assert 0 < error["relative"] < 0.02 and "error of the grid" in repr(found) and "of the area" in repr(found)
+    # and it is true: the same surface on a grid of 32 nodes in the shortest wave
+    fine = asperity.surface.self_affine(256, 1.0, rms_slope=0.1, k_l=1, k_r=2, k_s=8, seed=1)
+    truth = asperity.solve(fine, **PRESSED).report["corrected_contact_fraction"]
+    assert abs(found.report["corrected_contact_fraction"] / truth - 1) < 0.02
+    other = pickle.loads(pickle.dumps(found))
+    assert other.plan == plan and other.report == found.report
+    # what is done with a solution is done on its grid
+    assert asperity.stability(found).verdict == "stable"
+
+
+def test_without_an_accuracy_there_is_no_plan(coarse):
+    found = asperity.solve(coarse, **PRESSED)
+    assert found.plan is None and found.report["accuracy"] is None and found.contact_stiffness is None
+    assert found.topography.heights is coarse.heights
+
+
+def test_a_line_is_refined_along_itself():
+    wave = 0.02 * np.cos(2 * np.pi * np.arange(32) / 32)
+    found = asperity.solve(wave, 1.0, modulus=1.0, mean_pressure=0.02, accuracy=0.02)
+    exact = asperity.exact.WavyLine(0.02, 1.0, 1.0).at_mean_pressure(0.02)
+    assert found.gap.shape == found.heights.shape == (found.report["shape"][0],) and found.gap.size > 32
+    assert np.isclose(found.contact_fraction, 2 * exact.half_width, rtol=0.02)
+
+
+def test_an_accuracy_that_is_not_reached_is_a_warning_with_the_reason(coarse):
+    with pytest.warns(asperity.AccuracyWarning, match=r"0.01 of the area is not reached.*would be next.*raise memory"):
+        found = asperity.solve(coarse, accuracy=0.01, memory=1e-3, **PRESSED)
+    assert found.converged and found.report["accuracy"]["reached"] is False
+    holes = np.where(coarse.heights > np.quantile(coarse.heights, 0.05), coarse.heights, np.nan)
+    with pytest.warns(asperity.AccuracyWarning, match="the estimate is .*absent nodes.*give a finer one"):
+        found = asperity.solve(holes, 1.0, accuracy=0.01, absent_missing=True, **PRESSED)
+    assert found.heights.shape == (32, 32)
+    # a solve that has not converged says that, and one that was stopped raises nothing of it
+    with pytest.warns(asperity.ConvergenceWarning, match="iteration-limit"):
+        found = asperity.solve(coarse, accuracy=0.01, max_iterations=1, **PRESSED)
+    assert found.report["accuracy"]["reached"] is False
+
+    def stop(state):
+        raise StopIteration
+
+    with pytest.warns(asperity.ConvergenceWarning, match="stopped"):
+        found = asperity.solve(coarse, accuracy=0.01, accuracy_of="stiffness", observe=stop, **PRESSED)
+    assert found.gap.shape == (32, 32) and found.contact_stiffness is None
+
+
+@pytest.mark.parametrize(
+    ("given", "message"),
+    [
+        ({"accuracy": 1.5}, "accuracy is 1.5: it must be between 0 and 1"),
+        ({"accuracy": np.nan}, "accuracy is NaN"),
+        ({"accuracy": 0.05, "tolerance": 1e-2}, "tolerance is 0.01: it must be at most a tenth of the accuracy"),
+        ({"accuracy": 0.05, "accuracy_of": "pressure"}, "accuracy of the pressure: it is given"),
+        ({"accuracy": 0.05, "accuracy_of": "energy"}, "accuracy_of is energy: it must be one of area, gap"),
+        ({"accuracy": 0.05, "memory": -1}, "memory is -1: it must be positive, in GiB"),
+        ({"accuracy": 1e-5, "memory": 1e-2}, "1e-5 of the area takes about .*GiB.*enough for about"),
+        ({"accuracy_of": "gap"}, "accuracy_of and memory are of an accuracy"),
+        ({"accuracy": 0.05, "nested": False}, "leave out nested"),
+        ({"accuracy": 0.05, "start": np.ones((32, 32)), "stability": True}, "leave out start and stability"),
+        ({"accuracy": 0.05, "leave": True}, "leave out leave"),
+    ],
+)
+def test_accuracies_that_make_no_sense_are_refused(coarse, given, message):
+    with pytest.raises(ValueError, match=message):
+        asperity.solve(coarse, **PRESSED, **given)
+
+
+def test_a_tip_is_as_stiff_as_a_punch_of_its_contact(sphere):
+    found = asperity.solve(sphere, 1.0, modulus=1.0, approach=0.04, boundary="free", stiffness=True)
+    # 18 nodes along the radius of the contact, which the map has to half a node
+    assert np.isclose(found.normal_stiffness, 2 * np.sqrt(2.0 * 0.04), rtol=0.03)
+    assert found.contact_stiffness == found.normal_stiffness and "contact stiffness" in repr(found)
+    loads = [1e-3, 2e-3]
+    sweep = asperity.sweep(sphere, 1.0, modulus=1.0, normal_forces=loads, boundary="free", stiffness=True)
+    assert list(sweep.columns)[-2:] == ["contact_stiffness", "normal_stiffness"]
+    hertz = asperity.exact.Hertz(2.0, 1.0).at_load(loads)
+    assert np.allclose(sweep.columns["normal_stiffness"], 2 * hertz.contact_radius, rtol=0.06)
