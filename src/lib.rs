@@ -120,13 +120,17 @@ pub mod path;
 #[cfg(feature = "picture")]
 pub mod picture;
 mod problem;
+mod ranks;
 mod real;
+mod slab;
 mod solver;
 pub mod stability;
 mod surface;
 mod sweep;
 mod vector;
 mod warning;
+#[cfg(feature = "mpi")]
+mod world;
 
 pub use ndarray;
 
@@ -151,6 +155,8 @@ pub use surface::{
 };
 pub use sweep::Sweep;
 pub use warning::{Warning, WarningCode};
+#[cfg(feature = "mpi")]
+pub use world::World;
 
 /// Runs the code of the README as a test.
 #[cfg(doctest)]

@@ -10,6 +10,7 @@ use crate::grid::Grid;
 use crate::par;
 use crate::problem::mu_rho;
 use crate::real::Real;
+use crate::slab::Slab;
 use crate::solver::Solution;
 use crate::surface::{Surface, Topography};
 
@@ -251,7 +252,7 @@ impl Warning {
     /// The probable mistakes in an answer, for the contact `modulus` E* with which it was found:
     /// [`BeyondModulus`](WarningCode::BeyondModulus), and [`WindowEdge`](WarningCode::WindowEdge) with a free boundary.
     pub fn of_solution<T: Real>(solution: &Solution<T>, modulus: f64) -> Vec<Self> {
-        let mut reducer = Reducer::new(solution.contact_pressure.len());
+        let mut reducer = Reducer::new(Slab::whole(solution.contact_pressure.dim()));
         let contiguous = solution.contact_pressure.as_standard_layout();
         let pressures = contiguous.as_slice().unwrap_or_default();
         let total = reducer.run(par::chunks(pressures, CHUNK), |_, chunk| {

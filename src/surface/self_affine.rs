@@ -105,8 +105,8 @@ impl SelfAffine {
     /// [`Error::Unresolved`] if the grid does not resolve k_s.
     pub fn surface(&self, grid: Grid) -> Result<Surface> {
         let band = Band::new(self, &grid)?;
-        let (nx, ny) = grid.shape();
-        let (mut heights, sum) = synthesise((nx, ny), |ky, column| {
+        let (nx, _) = grid.shape();
+        let (mut heights, sum) = synthesise(grid.slab(), |ky, column| {
             let mut sum = 0.0;
             for wave in band.waves(ky) {
                 let amplitude = self.draw(wave.kx, ky).scale(wave.density.sqrt());

@@ -1,0 +1,180 @@
+//! The slab of a grid that a process holds: consecutive rows of nodes, all of them where one process is alone.
+
+use std::ops::Range;
+
+use crate::ranks::{Ranks, Shares};
+
+/// The nodes of a chunk, which are summed one after the other. The rounding of sums of sums grows with the length of a
+/// run, not with the number of nodes.
+pub(crate) const CHUNK: usize = 256;
+
+/// Rows that are transformed together.
+pub(crate) const TILE: usize = 32;
+
+/// The nodes of a band at least, and the most bands of a grid.
+const BAND: usize = CHUNK * CHUNK;
+const BANDS: usize = 1024;
+
+/// The slab of a grid that this process holds, and those of the others.
+///
+/// A slab is a number of whole bands. A band is as many rows as make whole tiles of the transform and whole chunks of the
+/// sums, whatever the number of processes. Sums are summed in each band, and then the bands in their order: so they are
+/// the same, bit for bit, however the bands are shared. Where there are more processes than bands, the last ones hold
+/// nothing.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Slab {
+    /// of the whole grid
+    shape: (usize, usize),
+    /// rows of a band
+    band: usize,
+    ranks: Ranks,
+}
+
+impl Slab {
+    /// The slab of one of these ranks.
+    pub(crate) fn new(shape: (usize, usize), ranks: Ranks) -> Self {
+        let (nx, ny) = shape;
+        let band = if ny < 2 {
+            // the transform of a line has no slabs
+            nx
+        } else {
+            let unit = TILE.max(CHUNK >> ny.trailing_zeros().min(CHUNK.ilog2()));
+            BAND.div_ceil(ny).max(nx.div_ceil(BANDS)).next_multiple_of(unit)
+        };
+        Self { shape, band: band.max(1), ranks }
+    }
+
+    /// The whole grid.
+    pub(crate) fn whole(shape: (usize, usize)) -> Self {
+        Self::new(shape, Ranks::ALONE)
+    }
+
+    /// The slab of this process of another grid.
+    pub(crate) fn of(&self, shape: (usize, usize)) -> Self {
+        Self::new(shape, self.ranks)
+    }
+
+    /// The shape of the whole grid.
+    pub(crate) fn shape(&self) -> (usize, usize) {
+        self.shape
+    }
+
+    /// The number of nodes of the whole grid.
+    pub(crate) fn nodes(&self) -> usize {
+        self.shape.0 * self.shape.1
+    }
+
+    /// The processes that share the grid.
+    pub(crate) fn ranks(&self) -> Ranks {
+        self.ranks
+    }
+
+    /// Whether several processes share the grid.
+    pub(crate) fn is_shared(&self) -> bool {
+        self.ranks.count() > 1
+    }
+
+    /// The rows that this process holds.
+    pub(crate) fn rows(&self) -> Range<usize> {
+        self.rows_of(self.ranks.rank())
+    }
+
+    /// The shape of a field in the slab.
+    pub(crate) fn held(&self) -> (usize, usize) {
+        (self.rows().len(), self.shape.1)
+    }
+
+    /// The rows that a process holds.
+    pub(crate) fn rows_of(&self, rank: usize) -> Range<usize> {
+        let bands = self.bands_of(rank);
+        (bands.start * self.band).min(self.shape.0)..(bands.end * self.band).min(self.shape.0)
+    }
+
+    /// The share of `count` things, as the columns of a spectrum, that a process has: as large as that of the bands.
+    pub(crate) fn share_of(&self, count: usize, rank: usize) -> Range<usize> {
+        let (Range { start, end }, bands) = (self.bands_of(rank), self.bands());
+        count * start / bands..count * end / bands
+    }
+
+    /// The least number of all slabs.
+    pub(crate) fn least(&self, own: f64) -> f64 {
+        if self.is_shared() { self.ranks.each(own).into_iter().fold(f64::INFINITY, f64::min) } else { own }
+    }
+
+    /// The largest number of all slabs.
+    pub(crate) fn most(&self, own: f64) -> f64 {
+        if self.is_shared() { self.ranks.each(own).into_iter().fold(f64::NEG_INFINITY, f64::max) } else { own }
+    }
+
+    /// The number of the first slab.
+    pub(crate) fn first(&self, own: f64) -> f64 {
+        if self.is_shared() { self.ranks.each(own)[0] } else { own }
+    }
+
+    /// Adds up numbers of all slabs.
+    pub(crate) fn add_up(&self, own: &mut [u64]) {
+        if self.is_shared() {
+            self.ranks.add_up(own);
+        }
+    }
+
+    /// Whether something is so in one of the slabs.
+    pub(crate) fn has(&self, own: bool) -> bool {
+        if self.is_shared() { self.ranks.each(u8::from(own)).contains(&1) } else { own }
+    }
+
+    /// The bands that a process holds.
+    pub(crate) fn bands_of(&self, rank: usize) -> Range<usize> {
+        let (bands, count) = (self.bands(), self.ranks.count());
+        (rank * bands).div_ceil(count)..((rank + 1) * bands).div_ceil(count)
+    }
+
+    /// The number of bands of the grid.
+    pub(crate) fn bands(&self) -> usize {
+        self.shape.0.div_ceil(self.band)
+    }
+
+    /// The chunks of a band.
+    pub(crate) fn chunks_of_a_band(&self) -> usize {
+        (self.band * self.shape.1).div_ceil(CHUNK).max(1)
+    }
+
+    /// The parts of a buffer with `width` numbers for each band.
+    pub(crate) fn by_bands(&self, width: usize) -> Shares {
+        self.shares(|rank| width * self.bands_of(rank).len())
+    }
+
+    /// The parts of a buffer, of which a rank has so many numbers.
+    pub(crate) fn shares(&self, of: impl Fn(usize) -> usize) -> Shares {
+        Shares::new((0..self.ranks.count()).map(of))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn slabs_are_whole_tiles_and_whole_chunks_and_cover_the_grid() {
+        for shape in [(1, 1), (40, 40), (512, 512), (1000, 257), (999, 260), (4096, 4096), (65536, 65536), (70_000, 1)]
+        {
+            for count in [1, 2, 3, 4, 7, 2000] {
+                let slab = Slab::new(shape, Ranks::of(0, count));
+                assert!(slab.bands() <= BANDS + 1, "{shape:?}");
+                let (mut row, mut column) = (0, 0);
+                for rank in 0..count {
+                    let (rows, columns) = (slab.rows_of(rank), slab.share_of(shape.1 / 2 + 1, rank));
+                    assert_eq!((rows.start, columns.start), (row, column), "{shape:?} {count}");
+                    (row, column) = (rows.end, columns.end);
+                    if rows.end < shape.0 {
+                        assert!(rows.end.is_multiple_of(TILE) && (rows.end * shape.1).is_multiple_of(CHUNK));
+                    }
+                }
+                assert_eq!((row, column), (shape.0, shape.1 / 2 + 1), "{shape:?} {count}");
+            }
+        }
+        // as many as there are, of the same size
+        let slab = Slab::new((512, 512), Ranks::of(0, 4));
+        assert_eq!([0, 1, 2, 3].map(|rank| slab.rows_of(rank)), [0..128, 128..256, 256..384, 384..512]);
+    }
+}
