@@ -197,6 +197,19 @@ impl Error {
         if found == expected { Ok(()) } else { Err(Self::Shape { name, found, expected }) }
     }
 
+    /// Refuses a field that holds NaN or infinities in some slab: the process that has the first of them has the error.
+    pub(crate) fn all_finite_in<T: Real>(slab: Slab, name: &'static str, field: ArrayView2<'_, T>) -> Result<()> {
+        let mut found = Self::all_finite(name, field);
+        if let Err(Self::NotFinite { count, nodes, first, .. }) = &mut found {
+            let mut all = [*count as u64];
+            slab.add_up(&mut all);
+            (*count, *nodes, first.0) = (all[0] as usize, slab.nodes(), first.0 + slab.rows().start);
+        } else {
+            slab.add_up(&mut [0]);
+        }
+        Self::agreed(slab, found)
+    }
+
     /// Refuses a field that holds NaN or infinities.
     pub(crate) fn all_finite<T: Real>(name: &'static str, field: ArrayView2<'_, T>) -> Result<()> {
         // without places the pass is several times as fast

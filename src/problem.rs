@@ -320,8 +320,7 @@ impl<T: Real, O: ElasticOperator<T>, L: AdhesionLaw<T>> Problem<T, O, L> {
         let heights = centred.as_ref().unwrap_or(whole.heights()).view();
         let surface_work = operator.surface_pressure(heights, surface_pressure.view_mut())?.max(0.0);
         drop(centred);
-        let finite = Error::all_finite("pressure K⁻¹h of the surface pressed flat", surface_pressure.view());
-        Error::agreed(slab, finite)?;
+        Error::all_finite_in(slab, "pressure K⁻¹h of the surface pressed flat", surface_pressure.view())?;
         let stiffness = field::mean_over(slab, surface_pressure.view(), |p: T| p.widen().powi(2)).sqrt() / rms_height;
         let (lx, ly) = grid.lengths();
         let flat = PressedFlat {

@@ -2,6 +2,8 @@
 
 use std::ops::Range;
 
+use ndarray::{Array2, ArrayView2};
+
 use crate::ranks::{Ranks, Shares};
 
 /// The nodes of a chunk, which are summed one after the other. The rounding of sums of sums grows with the length of a
@@ -94,6 +96,34 @@ impl Slab {
     pub(crate) fn share_of(&self, count: usize, rank: usize) -> Range<usize> {
         let (Range { start, end }, bands) = (self.bands_of(rank), self.bands());
         count * start / bands..count * end / bands
+    }
+
+    /// Rows of a field of all slabs, of which `held` are those of this one: `wanted` tells for each process the first row that
+    /// it needs and the number of them; the last row of the grid is followed by the first.
+    pub(crate) fn fetch(&self, held: ArrayView2<'_, f64>, wanted: impl Fn(usize) -> (usize, usize)) -> Array2<f64> {
+        let (own, ranks) = (self.ranks.rank(), 0..self.ranks.count());
+        // the rows of one process that another needs, in the order in which it needs them
+        let passed = |from: usize, to: usize| {
+            let (rows, (first, count)) = (self.rows_of(from), wanted(to));
+            (0..count).map(move |k| (k, (first + k) % self.shape.0)).filter(move |(_, row)| rows.contains(row))
+        };
+        let (start, width) = (self.rows().start, held.ncols());
+        let mut sent = Vec::new();
+        for to in ranks.clone() {
+            passed(own, to).for_each(|(_, row)| sent.extend(held.row(row - start)));
+        }
+        let mut received = vec![0.0; wanted(own).1 * width];
+        let of = |from: usize, to: usize| passed(from, to).count() * width;
+        self.ranks.exchange(&sent, &self.shares(|to| of(own, to)), &mut received, &self.shares(|from| of(from, own)));
+        let mut rows = Array2::zeros((wanted(own).1, width));
+        let mut next = received.chunks(width.max(1));
+        for from in ranks {
+            for (k, _) in passed(from, own) {
+                let row = next.next().unwrap_or_default();
+                rows.row_mut(k).iter_mut().zip(row).for_each(|(to, from)| *to = *from);
+            }
+        }
+        rows
     }
 
     /// The least number of all slabs.

@@ -47,8 +47,8 @@ impl Surface {
     /// # Errors
     /// [`Error::Shape`] if they do not fit the grid, [`Error::NotFinite`] with the number and place of missing points.
     pub fn new(grid: Grid, heights: Array2<f64>) -> Result<Self> {
-        let shape = Error::shape("heights", heights.dim(), grid.field_shape());
-        Error::agreed(grid.slab(), shape.and_then(|()| Error::all_finite("heights", heights.view())))?;
+        Error::agreed(grid.slab(), Error::shape("heights", heights.dim(), grid.field_shape()))?;
+        Error::all_finite_in(grid.slab(), "heights", heights.view())?;
         let heights = if heights.is_standard_layout() { heights } else { heights.as_standard_layout().into_owned() };
         Ok(Self { grid, heights, absent: None })
     }
@@ -80,7 +80,7 @@ impl Surface {
         if slab.has(heights.iter().any(|h| h.is_nan())) {
             Error::alone("absent nodes", slab)?;
         }
-        Error::shape("heights", heights.dim(), grid.shape())?;
+        Error::agreed(slab, Error::shape("heights", heights.dim(), grid.field_shape()))?;
         if !heights.iter().any(|h| h.is_nan()) {
             return Self::new(grid, heights);
         }

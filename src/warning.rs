@@ -176,7 +176,10 @@ impl Warning {
     ///
     /// Takes four passes over the heights. Where there are codes for missing points, the warnings that these codes
     /// would cause are left out. Tilt and edges are looked at along sides of 16 nodes and more.
+    ///
+    /// Where several processes share the grid, each of them takes the whole surface for it, as [`Surface::whole`] gives it.
     pub fn of_surface(surface: &Surface) -> Vec<Self> {
+        let surface = &*surface.whole();
         let extremes = Extremes::of(surface.heights());
         let mut found = Vec::new();
         found.extend(cells(surface.grid()));
@@ -223,7 +226,7 @@ impl Warning {
             return Vec::new();
         }
         let mu_rho = mu_rho(law, surface.grid(), modulus);
-        let (range, span) = (law.range().widen(), Extremes::of(surface.heights()).span());
+        let (range, span) = (law.range().widen(), Extremes::of(surface.whole().heights()).span());
         let mut found = Vec::new();
         if mu_rho > RESOLVED {
             // μ_ρ goes with the root of the spacing, and with the inverse of the range

@@ -83,16 +83,13 @@ pub(super) fn given_start<T: Real>(
         Some(window) => window.start(start.view())?.into(),
         None => start,
     };
-    let usable = || {
-        Error::shape("starting gap", start.dim(), slab.held())?;
-        Error::all_finite("starting gap", start.view())?;
-        if let Some(gap) = start.iter().find(|&&gap| projects && gap < T::zero()) {
-            let requirement = "zero or positive at every node";
-            return Err(Error::Value { name: "starting gap", value: gap.widen(), requirement });
-        }
-        Ok(())
-    };
-    Error::agreed(slab, usable())?;
+    Error::agreed(slab, Error::shape("starting gap", start.dim(), slab.held()))?;
+    Error::all_finite_in(slab, "starting gap", start.view())?;
+    let negative = start.iter().find(|&&gap| projects && gap < T::zero()).map_or(Ok(()), |gap| {
+        let requirement = "zero or positive at every node";
+        Err(Error::Value { name: "starting gap", value: gap.widen(), requirement })
+    });
+    Error::agreed(slab, negative)?;
     let mut gap = if start.is_standard_layout() { start.into_owned() } else { start.as_standard_layout().into_owned() };
     if let Load::Gap(mean) = load {
         let present = field::mean_over(slab, gap.view(), T::widen);
