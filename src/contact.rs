@@ -11,7 +11,6 @@ use crate::elastic::Boundary;
 use crate::error::{Error, Result};
 use crate::grid::Grid;
 use crate::real::Real;
-use crate::slab::Slab;
 use crate::solver::{Report, Solution};
 
 mod clusters;
@@ -179,8 +178,8 @@ impl ContactArea {
         let slab = grid.slab();
         Error::agreed(slab, Error::shape("contact map", map.dim(), grid.field_shape()))?;
         let contact_nodes = map.fold(0, |count, &touches| count + usize::from(touches));
-        let contact_nodes = total(slab, contact_nodes);
-        let (along_x, along_y) = edges(map, slab, boundary == Boundary::Periodic);
+        let contact_nodes = grid.total(contact_nodes);
+        let (along_x, along_y) = edges(map, grid, boundary == Boundary::Periodic);
         let (dx, dy) = grid.spacing();
         let (perimeter, excess) = if grid.is_line() {
             (along_x as f64, 0.0)
@@ -302,12 +301,12 @@ impl ContactStatistics {
         Error::agreed(slab, Error::shape("gap", gap.dim(), grid.field_shape()))?;
         Error::agreed(slab, Error::shape("contact pressure", contact_pressure.dim(), grid.field_shape()))?;
         let contact = contact_map(gap, contact_pressure);
-        let facing = total(slab, gap.iter().filter(|gap| gap.is_finite()).count());
+        let facing = grid.total(gap.iter().filter(|gap| gap.is_finite()).count());
         let ContactArea { contact_nodes, contact_fraction, corrected_contact_fraction, perimeter } =
             ContactArea::within(contact.view(), grid, boundary, facing)?;
         let share = |count: usize| count as f64 / facing as f64;
         let attracts = attracting(&contact, gap, law);
-        let attracting = total(slab, attracts.iter().filter(|&&attracts| attracts).count());
+        let attracting = grid.total(attracts.iter().filter(|&&attracts| attracts).count());
         let nodes = gap.iter().zip(&contact).zip(&attracts);
         let nodes = nodes.map(|((gap, &touches), &attracts)| gap.is_finite().then_some([touches, attracts]));
         Ok(Self {
@@ -316,7 +315,7 @@ impl ContactStatistics {
             corrected_contact_fraction,
             perimeter,
             cluster_sizes: clusters::sizes(contact.view(), slab, boundary),
-            repulsive_fraction: share(total(slab, contact_pressure.iter().filter(|&&p| p > T::zero()).count())),
+            repulsive_fraction: share(grid.total(contact_pressure.iter().filter(|&&p| p > T::zero()).count())),
             attractive_fraction: share(attracting),
             apart_fraction: share(facing - contact_nodes - attracting),
             patches: patch::patches(law, nodes),
@@ -324,19 +323,13 @@ impl ContactStatistics {
     }
 }
 
-/// The number of something in all slabs.
-fn total(slab: Slab, own: usize) -> usize {
-    let mut all = [own as u64];
-    slab.add_up(&mut all);
-    all[0] as usize
-}
-
 /// The number of pairs of neighbours along x, and along y, of which one is on the map and one is not; opposite sides are
 /// neighbours if the map is periodic, and otherwise nothing is beyond them.
-fn edges(map: ArrayView2<'_, bool>, slab: Slab, periodic: bool) -> (usize, usize) {
+fn edges(map: ArrayView2<'_, bool>, grid: &Grid, periodic: bool) -> (usize, usize) {
     let (mut along_x, mut along_y) = (0, 0);
     let different = |count, here: &bool, there: &bool| count + usize::from(here != there);
     // the first row of the next slab
+    let slab = grid.slab();
     let next = slab.is_shared().then(|| {
         let wanted = |rank| (slab.rows_of(rank).end, usize::from(!slab.rows_of(rank).is_empty()));
         slab.fetch(map.mapv(|touches| f64::from(u8::from(touches))).view(), wanted).mapv(|touches| touches > 0.0)
@@ -351,7 +344,7 @@ fn edges(map: ArrayView2<'_, bool>, slab: Slab, periodic: bool) -> (usize, usize
         along_y += Zip::from(left).and(right).fold(usize::from(row[0] != row[row.len() - 1]), different);
     }
     if slab.is_shared() {
-        return (total(slab, along_x), total(slab, along_y));
+        return (grid.total(along_x), grid.total(along_y));
     }
     if !periodic {
         // across the sides each meets nothing in place of the other
@@ -369,7 +362,7 @@ mod tests {
 
     fn edges_of(rows: &[&str], periodic: bool) -> (usize, usize) {
         let map = clusters::tests::map(rows);
-        edges(map.view(), Slab::whole(map.dim()), periodic)
+        edges(map.view(), &Grid::new(map.dim(), (1.0, 1.0)).unwrap(), periodic)
     }
 
     #[test]

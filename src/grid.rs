@@ -90,6 +90,18 @@ impl Grid {
         self.slab.is_shared()
     }
 
+    /// A number of nodes, added up over the processes that share the grid. All of them have to ask.
+    pub fn total(&self, own: usize) -> usize {
+        let mut all = [own as u64];
+        self.slab.add_up(&mut all);
+        all[0] as usize
+    }
+
+    /// The least and the largest of two numbers of each of the processes that share the grid. All of them have to ask.
+    pub fn extremes(&self, (low, high): (f64, f64)) -> (f64, f64) {
+        (self.slab.least(low), self.slab.most(high))
+    }
+
     /// The part of the grid that this process holds.
     pub(crate) fn slab(&self) -> Slab {
         self.slab

@@ -89,6 +89,14 @@ impl Ranks {
         values
     }
 
+    /// The bytes of the first rank.
+    pub(crate) fn first(self, own: &[u8]) -> Vec<u8> {
+        let count = self.each(own.len() as u64)[0] as usize;
+        let (mut bytes, own) = (vec![0; count], if self.rank == 0 { own } else { &[] });
+        self.gather(own, &Shares::new((0..self.count).map(|rank| if rank == 0 { count } else { 0 })), &mut bytes);
+        bytes
+    }
+
     /// Adds the numbers of all ranks to those of this one.
     pub(crate) fn add_up(self, numbers: &mut [u64]) {
         if self.count > 1 {

@@ -5,6 +5,7 @@ use std::ops::Range;
 use ndarray::{Array2, ArrayView2};
 
 use crate::ranks::{Ranks, Shares};
+use crate::real::Real;
 
 /// The nodes of a chunk, which are summed one after the other. The rounding of sums of sums grows with the length of a
 /// run, not with the number of nodes.
@@ -124,6 +125,16 @@ impl Slab {
             }
         }
         rows
+    }
+
+    /// The field of all slabs, of which `held` is that of this one.
+    pub(crate) fn whole_of<T: Real>(&self, held: &Array2<T>) -> Array2<T> {
+        let shares = self.shares(|rank| self.rows_of(rank).len() * self.shape.1);
+        let own: Vec<f64> = held.iter().map(|value| value.widen()).collect();
+        let mut all = vec![0.0; self.nodes()];
+        self.ranks.gather(&own, &shares, &mut all);
+        let mut all = all.into_iter();
+        Array2::from_shape_simple_fn(self.shape, || T::lit(all.next().unwrap_or_default()))
     }
 
     /// The least number of all slabs.

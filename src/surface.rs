@@ -6,7 +6,7 @@ use std::f64::consts::TAU;
 use ndarray::Array2;
 
 use crate::error::{Error, Result};
-use crate::field::{self, flat, flat_mut};
+use crate::field;
 use crate::grid::Grid;
 
 mod philox;
@@ -155,10 +155,7 @@ impl Surface {
         if !self.grid.is_shared() {
             return Cow::Borrowed(self);
         }
-        let (slab, mut heights) = (self.grid.slab(), Array2::zeros(self.grid.shape()));
-        let shares = slab.shares(|rank| slab.rows_of(rank).len() * heights.ncols());
-        slab.ranks().gather(flat(&self.heights), &shares, flat_mut(&mut heights));
-        Cow::Owned(Self { grid: self.grid.alone(), heights, absent: None })
+        Cow::Owned(Self { grid: self.grid.alone(), heights: self.grid.slab().whole_of(&self.heights), absent: None })
     }
 
     /// The absent nodes, at which nothing faces the half-space, of shape (Nx, Ny); nothing if there are none.

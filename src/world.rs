@@ -89,6 +89,11 @@ impl World {
         Error::agreed(Slab::new((1, 1), self.ranks), result)
     }
 
+    /// The text of the first process. All processes have to ask.
+    pub fn told(&self, text: &str) -> String {
+        String::from_utf8_lossy(&self.ranks.first(text.as_bytes())).into_owned()
+    }
+
     /// The bytes that this process has sent to others in the transforms of operator applications.
     ///
     /// An application on Nx × Ny nodes has two exchanges, in each of which a process sends about

@@ -1,11 +1,14 @@
 //! The report of a solve: its status, its figures, and the fields of the solution.
 
+use std::borrow::Cow;
 use std::fmt;
 
 use ndarray::Array2;
 
 use super::{Criterion, Method};
 use crate::elastic::Boundary;
+use crate::grid::Grid;
+use crate::real::Real;
 
 /// The status of a solve: how it ended, and how good its fields are.
 ///
@@ -219,4 +222,17 @@ pub struct Solution<T> {
     pub contact_pressure: Array2<T>,
     /// The account.
     pub report: Report,
+}
+
+impl<T: Real> Solution<T> {
+    /// The solution with the whole of its fields: itself, unless several processes share its grid. All of these have to ask
+    /// for it, and get it.
+    pub fn whole(&self, grid: &Grid) -> Cow<'_, Self> {
+        if !grid.is_shared() {
+            return Cow::Borrowed(self);
+        }
+        let [gap, pressure, contact_pressure] =
+            [&self.gap, &self.pressure, &self.contact_pressure].map(|field| grid.slab().whole_of(field));
+        Cow::Owned(Self { gap, pressure, contact_pressure, report: self.report.clone() })
+    }
 }

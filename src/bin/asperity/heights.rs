@@ -1,12 +1,15 @@
 //! Heights from files, with the side lengths and units that those may have.
 
+use std::ops::Range;
 use std::path::Path;
 
-use asperity::io::read_topography;
-use asperity::{Surface, Topography};
+use asperity::io::{read_rows, read_topography};
+use asperity::{Error, Grid, Surface, Topography};
+use ndarray::Array2;
 
 use crate::outcome::Outcome;
 use crate::printing::complain;
+use crate::processes::Processes;
 
 /// The relative difference that `--lengths` may have from the side lengths of the file, whose header rounds.
 const ROUNDING: f64 = 1e-2;
@@ -17,11 +20,50 @@ const MOST_NAMES: usize = 10;
 /// else the unit square. Lengths that contradict the file are refused.
 pub fn map(path: &Path, lengths: Option<&[f64]>) -> Outcome<Topography> {
     let mut map = read_topography(path)?;
-    if let Some(given) = given(&map, lengths) {
-        if let Some(found) = map.lengths {
+    map.lengths = Some(sides_of(path, &map, map.heights.dim(), lengths)?);
+    Ok(map)
+}
+
+/// Some rows of the field of a file, and the shape of the whole; none of them if it has fewer.
+pub fn rows(path: &Path, rows: Range<usize>) -> Outcome<(Array2<f64>, (usize, usize))> {
+    let (map, shape) = read_rows(path, |(nx, _)| rows.start.min(nx)..rows.end.min(nx))?;
+    Ok((map.heights, shape))
+}
+
+/// The surface of a file, of which every process reads its rows, and its unit.
+pub fn shared(path: &Path, lengths: Option<&[f64]>, processes: &Processes) -> Outcome<(Surface, Option<String>)> {
+    let read = || {
+        let mut refused = None;
+        let (map, shape) = read_rows(path, |shape| {
+            let grid = Grid::new(shape, (1.0, 1.0)).and_then(|grid| processes.share(grid));
+            grid.map(|grid| grid.rows()).unwrap_or_else(|error| {
+                refused = Some(error);
+                0..0
+            })
+        })?;
+        if let Some(error) = refused {
+            return Err(error.into());
+        }
+        let sides = sides_of(path, &map, shape, lengths)?;
+        Ok((Grid::new(shape, sides)?, map))
+    };
+    let (grid, Topography { heights, unit, .. }) = processes.agree(read())?;
+    let surface = Surface::new(processes.share(grid)?, heights);
+    match surface {
+        Ok(surface) => Ok((surface, unit)),
+        Err(error @ Error::Elsewhere { .. }) => Err(error.into()),
+        Err(error) => Err(format!("{}: {error}", path.display()).into()),
+    }
+}
+
+/// The side lengths of a map with the given `--lengths`.
+fn sides_of(path: &Path, map: &Topography, shape: (usize, usize), lengths: Option<&[f64]>) -> Outcome<(f64, f64)> {
+    let mut known = map.lengths;
+    if let Some(given) = sides_given(shape, lengths) {
+        if let Some(found) = known {
             let near = |a: f64, b: f64| (a / b - 1.0).abs() <= ROUNDING;
             // a line has no width
-            let agree = near(given.0, found.0) && (map.heights.ncols() == 1 || near(given.1, found.1));
+            let agree = near(given.0, found.0) && (shape.1 == 1 || near(given.1, found.1));
             if !agree {
                 let found = sides(found, map.unit.as_deref());
                 return Err(format!(
@@ -33,11 +75,12 @@ pub fn map(path: &Path, lengths: Option<&[f64]>) -> Outcome<Topography> {
                 .into());
             }
         }
-        map.lengths = Some(given);
+        known = Some(given);
     }
-    warn_of_unread(path, &map, "are taken as 1 x 1");
-    map.lengths = map.lengths.or(Some((1.0, 1.0)));
-    Ok(map)
+    if known.is_none() {
+        warn_of_unread(path, map, "are taken as 1 x 1");
+    }
+    Ok(known.unwrap_or((1.0, 1.0)))
 }
 
 /// Warns of the arrays of a file that were not read, if its side lengths are unknown and may be among them; `are` says
@@ -58,7 +101,10 @@ pub fn warn_of_unread(path: &Path, map: &Topography, are: &str) {
 
 /// The side lengths that `--lengths` means for a map.
 pub fn given(map: &Topography, lengths: Option<&[f64]>) -> Option<(f64, f64)> {
-    let (nx, ny) = map.heights.dim();
+    sides_given(map.heights.dim(), lengths)
+}
+
+fn sides_given((nx, ny): (usize, usize), lengths: Option<&[f64]>) -> Option<(f64, f64)> {
     match lengths? {
         [lx] => Some((*lx, lx / nx as f64 * ny as f64)),
         [lx, ly, ..] => Some((*lx, *ly)),
