@@ -137,6 +137,17 @@ impl Slab {
         Array2::from_shape_simple_fn(self.shape, || T::lit(all.next().unwrap_or_default()))
     }
 
+    /// The field of all slabs, on the first process alone.
+    pub(crate) fn gathered<T: Real>(&self, held: &Array2<T>) -> Option<Array2<T>> {
+        let (own, first): (Vec<f64>, _) = (held.iter().map(|value| value.widen()).collect(), self.ranks.rank() == 0);
+        let sent = self.shares(|to| if to == 0 { own.len() } else { 0 });
+        let received = self.shares(|from| if first { self.rows_of(from).len() * self.shape.1 } else { 0 });
+        let mut all = vec![0.0; if first { self.nodes() } else { 0 }];
+        self.ranks.exchange(&own, &sent, &mut all, &received);
+        let mut all = all.into_iter();
+        first.then(|| Array2::from_shape_simple_fn(self.shape, || T::lit(all.next().unwrap_or_default())))
+    }
+
     /// The least number of all slabs.
     pub(crate) fn least(&self, own: f64) -> f64 {
         if self.is_shared() { self.ranks.each(own).into_iter().fold(f64::INFINITY, f64::min) } else { own }

@@ -158,6 +158,16 @@ impl Surface {
         Cow::Owned(Self { grid: self.grid.alone(), heights: self.grid.slab().whole_of(&self.heights), absent: None })
     }
 
+    /// The whole surface, as [`Surface::whole`], on the first of the processes that share its grid, and nothing on the
+    /// others. All of them have to ask.
+    pub fn gathered(&self) -> Option<Cow<'_, Self>> {
+        if !self.grid.is_shared() {
+            return Some(Cow::Borrowed(self));
+        }
+        let heights = self.grid.slab().gathered(&self.heights)?;
+        Some(Cow::Owned(Self { grid: self.grid.alone(), heights, absent: None }))
+    }
+
     /// The absent nodes, at which nothing faces the half-space, of shape (Nx, Ny); nothing if there are none.
     pub fn absent(&self) -> Option<&Array2<bool>> {
         self.absent.as_ref()

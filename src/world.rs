@@ -94,7 +94,7 @@ impl World {
         String::from_utf8_lossy(&self.ranks.first(text.as_bytes())).into_owned()
     }
 
-    /// The bytes that this process has sent to others in the transforms of operator applications.
+    /// The bytes that this process has sent to others in exchanges of fields, as those of operator applications.
     ///
     /// An application on Nx × Ny nodes has two exchanges, in each of which a process sends about
     /// 16·Nx(Ny/2 + 1)/P·(1 − 1/P) bytes of `f64`, or half as many of `f32`, with P the number of processes.

@@ -225,14 +225,14 @@ pub struct Solution<T> {
 }
 
 impl<T: Real> Solution<T> {
-    /// The solution with the whole of its fields: itself, unless several processes share its grid. All of these have to ask
-    /// for it, and get it.
-    pub fn whole(&self, grid: &Grid) -> Cow<'_, Self> {
+    /// The solution with the whole of its fields, on the first of the processes that share the grid of the surface, and
+    /// nothing on the others. All of them have to ask. The solution itself, if the grid is not shared.
+    pub fn gathered(&self, grid: &Grid) -> Option<Cow<'_, Self>> {
         if !grid.is_shared() {
-            return Cow::Borrowed(self);
+            return Some(Cow::Borrowed(self));
         }
-        let [gap, pressure, contact_pressure] =
-            [&self.gap, &self.pressure, &self.contact_pressure].map(|field| grid.slab().whole_of(field));
-        Cow::Owned(Self { gap, pressure, contact_pressure, report: self.report.clone() })
+        let fields = [&self.gap, &self.pressure, &self.contact_pressure].map(|field| grid.slab().gathered(field));
+        let [Some(gap), Some(pressure), Some(contact_pressure)] = fields else { return None };
+        Some(Cow::Owned(Self { gap, pressure, contact_pressure, report: self.report.clone() }))
     }
 }

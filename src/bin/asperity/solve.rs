@@ -320,10 +320,10 @@ impl Job<'_> {
         };
         let progress = Progress::new("", tolerance, grid.nodes(), printing.without_bars());
         let strictness = self.options.strictness;
-        let mut warnings = match fits {
-            true => Warnings::of_input::<T>(strictness, &surface, &adhesion, self.options.problem())?,
-            false => Warnings::none(strictness)?,
-        };
+        let mut warnings = processes.agree(match if fits { surface.gathered() } else { None } {
+            Some(surface) => Warnings::of_input::<T>(strictness, &surface, &adhesion, self.options.problem()),
+            None => Warnings::none(strictness, fits),
+        })?;
         warnings.say();
         let law = adhesion.law()?;
         let (solution, mut account) = if let Some(wanted) = &mut wanted {
@@ -337,10 +337,9 @@ impl Job<'_> {
         } else {
             case::solve::<T, _>(surface, law, &self.case, start, progress)?
         };
-        let whole = if fits { solution.whole(&grid) } else { Cow::Borrowed(&solution) };
-        if fits {
-            warnings.look_at(&whole, self.case.modulus)?;
-        }
+        let whole = if fits { solution.gathered(&grid) } else { None };
+        let look = |whole: &Cow<'_, _>| warnings.look_at(whole, self.case.modulus);
+        processes.agree(whole.as_ref().map_or(Ok(()), look))?;
         account.warnings = warnings.report();
         account.strongest = adhesion.strongest();
 
@@ -351,7 +350,8 @@ impl Job<'_> {
         }
         processes.first(|| {
             let Some(folder) = folder else { return Ok(()) };
-            let written = self.write(&folder, grid, &whole, &account, &adhesion.law()?);
+            let whole = whole.as_deref().unwrap_or(&solution);
+            let written = self.write(&folder, grid, whole, &account, &adhesion.law()?);
             written.map_err(|error| at_destination(error, out))?;
             Ok(folder.commit()?)
         })?;
