@@ -31,6 +31,7 @@ impl Sent for Complex64 {}
 
 /// The parts of a buffer, one after the other, that belong to the ranks.
 #[derive(Clone, Debug)]
+#[cfg_attr(not(feature = "mpi"), expect(dead_code, reason = "one process has nothing to send"))]
 pub(crate) struct Shares {
     counts: Vec<i32>,
     places: Vec<i32>,
@@ -90,6 +91,7 @@ impl Ranks {
     }
 
     /// The bytes of the first rank.
+    #[cfg(feature = "mpi")]
     pub(crate) fn first(self, own: &[u8]) -> Vec<u8> {
         let count = self.each(own.len() as u64)[0] as usize;
         let (mut bytes, own) = (vec![0; count], if self.rank == 0 { own } else { &[] });
