@@ -150,8 +150,8 @@ impl Error {
         Self::File { path: path.to_owned(), reason: reason.to_string() }
     }
 
-    /// The result of this process, unless one before it, of those that share a slab, has an error, or it has none itself
-    /// and another one has: then that one is named. All processes of the slab have to call it.
+    /// The result of this process, unless one before it, of those that share a slab, has an error, or it has none
+    /// itself and another one has: then that one is named. All processes of the slab have to call it.
     pub(crate) fn agreed<T>(slab: Slab, result: Result<T>) -> Result<T> {
         if !slab.is_shared() {
             return result;

@@ -31,8 +31,8 @@ const SLACK: usize = 8;
 ///
 /// Two real rows ride in one complex transform. The half spectrum is stored transposed, `(n1/2 + 1, n0)`, so
 /// that a column of the field is contiguous: it is transformed, multiplied and transformed back while it is
-/// in cache. Memory: the spectrum, one field's worth and `n0` complex numbers more, and a tile per worker. Where several
-/// processes share the grid each has some of the columns, and the spectrum twice.
+/// in cache. Memory: the spectrum, one field's worth and `n0` complex numbers more, and a tile per worker. Where
+/// several processes share the grid each has some of the columns, and the spectrum twice.
 pub(crate) struct Convolver<T: Real> {
     slab: Slab,
     layout: Layout,

@@ -187,8 +187,8 @@ pub fn create_npy<T: WritableElement>(path: &Path, shape: (usize, usize)) -> Res
     ndarray_npy::write_zeroed_npy::<T, _>(&file, shape).map_err(|e| unwritable(path, e))
 }
 
-/// Writes some rows of a field into a `.npy` that [`create_npy`] has made, from the row `first` on. Several processes may
-/// write rows into one file.
+/// Writes some rows of a field into a `.npy` that [`create_npy`] has made, from the row `first` on. Several processes
+/// may write rows into one file.
 ///
 /// ```
 /// use asperity::io::{create_npy, read_field, write_npy_rows};

@@ -261,7 +261,8 @@ impl<T: Real, O: ElasticOperator<T>, L: AdhesionLaw<T>> Problem<T, O, L> {
     /// # Errors
     /// [`Error::Shape`] or [`Error::Value`] if the grids differ; [`Error::Law`] if the law is not finite at zero gap;
     /// [`Error::NotFinite`] if K⁻¹h leaves the range of T; [`Error::Shared`] where several processes share the grid and
-    /// the operator does not take slabs, the law varies over the surface, or only one of surface and operator is shared.
+    /// the operator does not take slabs, the law varies over the surface, or only one of surface and operator is
+    /// shared.
     pub fn new(surface: &Surface, mut operator: O, law: L) -> Result<Self> {
         let boundary = operator.boundary();
         let (grid, expected) = match boundary {

@@ -38,8 +38,8 @@ pub(crate) struct Shares {
 }
 
 impl Shares {
-    /// Parts of so many numbers for each rank. Buffers have at most 2³¹ numbers, which [`Slab::fits`](crate::slab::Slab)
-    /// sees to.
+    /// Parts of so many numbers for each rank, all together at most 2³¹: the number of processes that share a grid is such
+    /// that each holds fewer.
     pub(crate) fn new(counts: impl Iterator<Item = usize>) -> Self {
         let counts: Vec<i32> = counts.map(|count| count as i32).collect();
         let mut place = 0;
@@ -167,7 +167,8 @@ mod job {
     pub(crate) struct Job(#[expect(dead_code, reason = "kept, as MPI ends where it is dropped")] Universe);
 
     impl Job {
-        /// Joins the job; nothing if this process has done so before, or if the MPI cannot be called from the threads that solve.
+        /// Joins the job; nothing if this process has done so before, or if the MPI cannot be called from the threads
+        /// that solve.
         pub(crate) fn start() -> Option<Self> {
             // one call at a time, from whatever thread a solve runs on
             let (universe, threading) = mpi::initialize_with_threading(Threading::Serialized)?;

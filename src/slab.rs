@@ -20,10 +20,10 @@ const BANDS: usize = 1024;
 
 /// The slab of a grid that this process holds, and those of the others.
 ///
-/// A slab is a number of whole bands. A band is as many rows as make whole tiles of the transform and whole chunks of the
-/// sums, whatever the number of processes. Sums are summed in each band, and then the bands in their order: so they are
-/// the same, bit for bit, however the bands are shared. Where there are more processes than bands, the last ones hold
-/// nothing.
+/// A slab is a number of whole bands. A band is as many rows as make whole tiles of the transform and whole chunks of
+/// the sums, whatever the number of processes. Sums are summed in each band, and then the bands in their order: so they
+/// are the same, bit for bit, however the bands are shared. Where there are more processes than bands, the last ones
+/// hold nothing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Slab {
     /// of the whole grid
@@ -99,8 +99,8 @@ impl Slab {
         count * start / bands..count * end / bands
     }
 
-    /// Rows of a field of all slabs, of which `held` are those of this one: `wanted` tells for each process the first row that
-    /// it needs and the number of them; the last row of the grid is followed by the first.
+    /// Rows of a field of all slabs, of which `held` are those of this one: `wanted` tells for each process the first
+    /// row that it needs and the number of them; the last row of the grid is followed by the first.
     pub(crate) fn fetch(&self, held: ArrayView2<'_, f64>, wanted: impl Fn(usize) -> (usize, usize)) -> Array2<f64> {
         let (own, ranks) = (self.ranks.rank(), 0..self.ranks.count());
         // the rows of one process that another needs, in the order in which it needs them
@@ -127,25 +127,38 @@ impl Slab {
         rows
     }
 
-    /// The field of all slabs, of which `held` is that of this one.
-    pub(crate) fn whole_of<T: Real>(&self, held: &Array2<T>) -> Array2<T> {
-        let shares = self.shares(|rank| self.rows_of(rank).len() * self.shape.1);
-        let own: Vec<f64> = held.iter().map(|value| value.widen()).collect();
-        let mut all = vec![0.0; self.nodes()];
-        self.ranks.gather(&own, &shares, &mut all);
-        let mut all = all.into_iter();
-        Array2::from_shape_simple_fn(self.shape, || T::lit(all.next().unwrap_or_default()))
-    }
-
-    /// The field of all slabs, on the first process alone.
-    pub(crate) fn gathered<T: Real>(&self, held: &Array2<T>) -> Option<Array2<T>> {
-        let (own, first): (Vec<f64>, _) = (held.iter().map(|value| value.widen()).collect(), self.ranks.rank() == 0);
-        let sent = self.shares(|to| if to == 0 { own.len() } else { 0 });
-        let received = self.shares(|from| if first { self.rows_of(from).len() * self.shape.1 } else { 0 });
-        let mut all = vec![0.0; if first { self.nodes() } else { 0 }];
-        self.ranks.exchange(&own, &sent, &mut all, &received);
-        let mut all = all.into_iter();
-        first.then(|| Array2::from_shape_simple_fn(self.shape, || T::lit(all.next().unwrap_or_default())))
+    /// The field of all slabs, of which `held` is that of this one, on every process, or on the first alone.
+    pub(crate) fn whole_of<T: Real>(&self, held: &Array2<T>, everywhere: bool) -> Option<Array2<T>> {
+        let (own, ny) = (self.ranks.rank(), self.shape.1);
+        let gets = everywhere || own == 0;
+        let mut whole = gets.then(|| Array2::zeros(self.shape));
+        // a band of each process at a time, as MPI counts no more than 2³¹ numbers
+        let most = (0..self.ranks.count()).map(|rank| self.bands_of(rank).len()).max().unwrap_or_default();
+        for turn in 0..most {
+            let rows = |rank: usize| {
+                let Range { start, end } = self.bands_of(rank);
+                let [first, last] = [turn, turn + 1].map(|band| self.shape.0.min((start + band).min(end) * self.band));
+                first..last
+            };
+            let (first, count) = (rows(own).start - self.rows().start, rows(own).len());
+            let sent = held.rows().into_iter().skip(first).take(count);
+            let sent: Vec<f64> = sent.flat_map(|row| row.into_iter().map(|value| value.widen())).collect();
+            let from = self.shares(|rank| if gets { rows(rank).len() * ny } else { 0 });
+            let total = (0..self.ranks.count()).map(|rank| rows(rank).len()).sum::<usize>();
+            let mut received = vec![0.0; if gets { total * ny } else { 0 }];
+            if everywhere {
+                self.ranks.gather(&sent, &from, &mut received);
+            } else {
+                let to = self.shares(|rank| if rank == 0 { sent.len() } else { 0 });
+                self.ranks.exchange(&sent, &to, &mut received, &from);
+            }
+            let mut received = received.chunks(ny.max(1));
+            for row in whole.iter().flat_map(|_| (0..self.ranks.count()).flat_map(rows)).collect::<Vec<_>>() {
+                let (Some(whole), Some(values)) = (&mut whole, received.next()) else { break };
+                whole.row_mut(row).iter_mut().zip(values).for_each(|(to, &from)| *to = T::lit(from));
+            }
+        }
+        whole
     }
 
     /// The least number of all slabs.

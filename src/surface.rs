@@ -73,8 +73,8 @@ impl Surface {
     ///
     /// # Errors
     /// [`Error::Shape`] if the heights do not fit the grid, [`Error::NotFinite`] with the number and place of infinite
-    /// ones, [`Error::Value`] if all nodes are absent, [`Error::Shared`] for absent nodes on a grid that several processes
-    /// share.
+    /// ones, [`Error::Value`] if all nodes are absent, [`Error::Shared`] for absent nodes on a grid that several
+    /// processes share.
     pub fn with_absent(grid: Grid, heights: Array2<f64>) -> Result<Self> {
         let slab = grid.slab();
         if slab.has(heights.iter().any(|h| h.is_nan())) {
@@ -143,8 +143,8 @@ impl Surface {
         &self.grid
     }
 
-    /// The heights, of shape (Nx, Ny), in row-major layout; on a grid that several processes share, of the rows that this
-    /// one holds.
+    /// The heights, of shape (Nx, Ny), in row-major layout; on a grid that several processes share, of the rows that
+    /// this one holds.
     pub fn heights(&self) -> &Array2<f64> {
         &self.heights
     }
@@ -155,7 +155,8 @@ impl Surface {
         if !self.grid.is_shared() {
             return Cow::Borrowed(self);
         }
-        Cow::Owned(Self { grid: self.grid.alone(), heights: self.grid.slab().whole_of(&self.heights), absent: None })
+        let heights = self.grid.slab().whole_of(&self.heights, true).unwrap_or_default();
+        Cow::Owned(Self { grid: self.grid.alone(), heights, absent: None })
     }
 
     /// The whole surface, as [`Surface::whole`], on the first of the processes that share its grid, and nothing on the
@@ -164,7 +165,7 @@ impl Surface {
         if !self.grid.is_shared() {
             return Some(Cow::Borrowed(self));
         }
-        let heights = self.grid.slab().gathered(&self.heights)?;
+        let heights = self.grid.slab().whole_of(&self.heights, false)?;
         Some(Cow::Owned(Self { grid: self.grid.alone(), heights, absent: None }))
     }
 

@@ -177,7 +177,8 @@ impl Warning {
     /// Takes four passes over the heights. Where there are codes for missing points, the warnings that these codes
     /// would cause are left out. Tilt and edges are looked at along sides of 16 nodes and more.
     ///
-    /// Where several processes share the grid, each of them takes the whole surface for it, as [`Surface::whole`] gives it.
+    /// Where several processes share the grid, each of them takes the whole surface for it, as [`Surface::whole`] gives
+    /// it.
     pub fn of_surface(surface: &Surface) -> Vec<Self> {
         let surface = &*surface.whole();
         let extremes = Extremes::of(surface.heights());

@@ -12,12 +12,14 @@ use crate::slab::Slab;
 /// Every process runs the same program. On a grid that they [share](Self::share), a field has the rows of nodes that a
 /// process holds, [`Grid::rows`]: so have the heights of a [`Surface`](crate::Surface) and the fields of a
 /// [`Solution`](crate::Solution). All else is as in one process, where a grid is not shared: the operator knows that
-/// its grid is, and reports and errors are the same on all. All answers are the same, bit for bit, for any number of processes.
+/// its grid is, and reports and errors are the same on all. All answers are the same, bit for bit, for any number of
+/// processes.
 ///
 /// Every process has to make the same calls, in the same order, with the same arguments but for the fields. Where one
 /// refuses its part, the others have [`Error::Elsewhere`].
 ///
-/// MPI ends where the value is dropped: keep it until the end of `main`. Where a process panics, it ends all of the job.
+/// MPI ends where the value is dropped: keep it until the end of `main`. Where a process panics, it ends all of the
+/// job.
 ///
 /// ```no_run
 /// use asperity::{Control, Grid, NoAdhesion, Problem, SelfAffine, Solver, Westergaard, World};
@@ -80,8 +82,8 @@ impl World {
         Ok(grid.within(slab))
     }
 
-    /// The result of this process; if another one before it has an error, or this one has none and another has, an error
-    /// that names it. All processes have to ask.
+    /// The result of this process; if another one before it has an error, or this one has none and another has, an
+    /// error that names it. All processes have to ask.
     ///
     /// # Errors
     /// That of the result, or [`Error::Elsewhere`].

@@ -13,8 +13,8 @@ use crate::slab::Slab;
 /// The columns of a spectrum that this process transforms, where it has the rows of a slab alone.
 ///
 /// The half spectrum of the slab is stored column by column, so that what another process is to get is one piece of it.
-/// From there comes one piece, too, with all of the columns and the rows of that process; a column is put together where
-/// it is transformed.
+/// From there comes one piece, too, with all of the columns and the rows of that process; a column is put together
+/// where it is transformed.
 pub(super) struct Shared<T> {
     slab: Slab,
     layout: Layout,

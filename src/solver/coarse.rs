@@ -23,8 +23,8 @@ const MEAN: f64 = 1e-3;
 const INTERVAL: f64 = 2.0;
 const LONGER: f64 = 1.4;
 
-/// The contact of a block of nodes, in whole numbers, of which the order of a sum does not matter: the number of nodes, the
-/// sum of their places along y, and both times the place along x.
+/// The contact of a block of nodes, in whole numbers, of which the order of a sum does not matter: the number of nodes,
+/// the sum of their places along y, and both times the place along x.
 type Count = [u64; 4];
 
 /// The coarse space of a solve.

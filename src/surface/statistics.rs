@@ -54,7 +54,8 @@ impl Surface {
     /// # Ok::<(), asperity::Error>(())
     /// ```
     ///
-    /// Where several processes share the grid, each of them takes the whole surface for it, as [`Surface::whole`] gives it.
+    /// Where several processes share the grid, each of them takes the whole surface for it, as [`Surface::whole`] gives
+    /// it.
     pub fn statistics(&self) -> SurfaceStatistics {
         if self.grid.is_shared() {
             return self.whole().statistics();

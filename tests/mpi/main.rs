@@ -61,6 +61,9 @@ where
     let (of_one, of_all) = (solve(alone)?, solve(shared)?);
     assert!(of_one.report.iterations > 5, "{name}: {:?}", of_one.report);
     same_solutions(&name, &shared, &of_all, &of_one);
+    let whole = of_all.gathered(&shared);
+    assert_eq!(whole.is_some(), world.rank() == 0 || world.size() == 1);
+    assert!(whole.is_none_or(|whole| *whole == of_one), "{name}");
     let statistics = contact::ContactStatistics::of(&of_one, &alone, &law)?;
     assert_eq!(contact::ContactStatistics::of(&of_all, &shared, &law)?, statistics, "{name}");
     say(world, &format!("{name}: {} applications", of_one.report.operator_applications));

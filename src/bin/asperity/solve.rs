@@ -144,8 +144,8 @@ const REPORT: &str = "report.json";
 const PICTURES: [[&str; 2]; 3] =
     [["contact.png", "pressure.png"], ["contact.svg", "pressure.svg"], ["contact.pdf", "pressure.pdf"]];
 
-/// The most nodes of which one process takes the whole fields, where several have solved: for pictures, for warnings, and
-/// for files that are not written in rows.
+/// The most nodes of which one process takes the whole fields, where several have solved: for pictures, for warnings,
+/// and for files that are not written in rows.
 const WHOLE: usize = 4096 * 4096;
 
 /// Runs the command; whether it converged.
