@@ -68,6 +68,12 @@ pub trait ContactConstraint<T: Real>: Send + Sync {
         Ok(())
     }
 
+    /// Whether the constraint is met where several processes share the grid, and each has the nodes of the rows that it
+    /// holds: nodes then count from the first of these. The default is that it is not: such a solve is refused.
+    fn takes_slabs(&self) -> bool {
+        false
+    }
+
     /// Called when a solve has converged: updates the multipliers, and tells whether to solve again with them. At nodes
     /// where the surface is [absent](crate::Surface::with_absent) the gap is infinite.
     fn update(&mut self, _gap: ArrayView2<'_, T>) -> Update {

@@ -175,9 +175,11 @@ impl ContactArea {
 
     /// The area on a map within a boundary, of whose nodes so many face the half-space.
     fn within(map: ArrayView2<'_, bool>, grid: &Grid, boundary: Boundary, facing: usize) -> Result<Self> {
-        Error::shape("contact map", map.dim(), grid.shape())?;
+        let slab = grid.slab();
+        Error::agreed(slab, Error::shape("contact map", map.dim(), grid.field_shape()))?;
         let contact_nodes = map.fold(0, |count, &touches| count + usize::from(touches));
-        let (along_x, along_y) = edges(map, boundary == Boundary::Periodic);
+        let contact_nodes = grid.total(contact_nodes);
+        let (along_x, along_y) = edges(map, grid, boundary == Boundary::Periodic);
         let (dx, dy) = grid.spacing();
         let (perimeter, excess) = if grid.is_line() {
             (along_x as f64, 0.0)
@@ -295,15 +297,16 @@ impl ContactStatistics {
         (grid, boundary): (&Grid, Boundary),
         law: &impl AdhesionLaw<T>,
     ) -> Result<Self> {
-        Error::shape("gap", gap.dim(), grid.shape())?;
-        Error::shape("contact pressure", contact_pressure.dim(), grid.shape())?;
+        let slab = grid.slab();
+        Error::agreed(slab, Error::shape("gap", gap.dim(), grid.field_shape()))?;
+        Error::agreed(slab, Error::shape("contact pressure", contact_pressure.dim(), grid.field_shape()))?;
         let contact = contact_map(gap, contact_pressure);
-        let facing = gap.iter().filter(|gap| gap.is_finite()).count();
+        let facing = grid.total(gap.iter().filter(|gap| gap.is_finite()).count());
         let ContactArea { contact_nodes, contact_fraction, corrected_contact_fraction, perimeter } =
             ContactArea::within(contact.view(), grid, boundary, facing)?;
         let share = |count: usize| count as f64 / facing as f64;
         let attracts = attracting(&contact, gap, law);
-        let attracting = attracts.iter().filter(|&&attracts| attracts).count();
+        let attracting = grid.total(attracts.iter().filter(|&&attracts| attracts).count());
         let nodes = gap.iter().zip(&contact).zip(&attracts);
         let nodes = nodes.map(|((gap, &touches), &attracts)| gap.is_finite().then_some([touches, attracts]));
         Ok(Self {
@@ -311,8 +314,8 @@ impl ContactStatistics {
             contact_fraction,
             corrected_contact_fraction,
             perimeter,
-            cluster_sizes: Clusters::within(contact.view(), Connectivity::Sides, boundary).sizes,
-            repulsive_fraction: share(contact_pressure.iter().filter(|&&p| p > T::zero()).count()),
+            cluster_sizes: clusters::sizes(contact.view(), slab, boundary),
+            repulsive_fraction: share(grid.total(contact_pressure.iter().filter(|&&p| p > T::zero()).count())),
             attractive_fraction: share(attracting),
             apart_fraction: share(facing - contact_nodes - attracting),
             patches: patch::patches(law, nodes),
@@ -322,13 +325,26 @@ impl ContactStatistics {
 
 /// The number of pairs of neighbours along x, and along y, of which one is on the map and one is not; opposite sides are
 /// neighbours if the map is periodic, and otherwise nothing is beyond them.
-fn edges(map: ArrayView2<'_, bool>, periodic: bool) -> (usize, usize) {
+fn edges(map: ArrayView2<'_, bool>, grid: &Grid, periodic: bool) -> (usize, usize) {
     let (mut along_x, mut along_y) = (0, 0);
     let different = |count, here: &bool, there: &bool| count + usize::from(here != there);
+    // the first row of the next slab
+    let slab = grid.slab();
+    let next = slab.is_shared().then(|| {
+        let wanted = |rank| (slab.rows_of(rank).end, usize::from(!slab.rows_of(rank).is_empty()));
+        slab.fetch(map.mapv(|touches| f64::from(u8::from(touches))).view(), wanted).mapv(|touches| touches > 0.0)
+    });
     for (i, row) in map.outer_iter().enumerate() {
-        along_x += Zip::from(row).and(map.row((i + 1) % map.nrows())).fold(0, different);
+        let after = match &next {
+            Some(next) if i + 1 == map.nrows() => next.row(0),
+            _ => map.row((i + 1) % map.nrows()),
+        };
+        along_x += Zip::from(row).and(after).fold(0, different);
         let ((left, _), (_, right)) = (row.split_at(Axis(0), row.len() - 1), row.split_at(Axis(0), 1));
         along_y += Zip::from(left).and(right).fold(usize::from(row[0] != row[row.len() - 1]), different);
+    }
+    if slab.is_shared() {
+        return (grid.total(along_x), grid.total(along_y));
     }
     if !periodic {
         // across the sides each meets nothing in place of the other
@@ -344,9 +360,14 @@ fn edges(map: ArrayView2<'_, bool>, periodic: bool) -> (usize, usize) {
 mod tests {
     use super::*;
 
+    fn edges_of(rows: &[&str], periodic: bool) -> (usize, usize) {
+        let map = clusters::tests::map(rows);
+        edges(map.view(), &Grid::new(map.dim(), (1.0, 1.0)).unwrap(), periodic)
+    }
+
     #[test]
     fn edges_are_counted_across_the_boundaries() {
-        let count = |rows: &[&str]| edges(clusters::tests::map(rows).view(), true);
+        let count = |rows: &[&str]| edges_of(rows, true);
         assert_eq!(count(&["....", "....", "...."]), (0, 0));
         assert_eq!(count(&["####", "####", "####"]), (0, 0));
         assert_eq!(count(&["....", ".#..", "...."]), (2, 2));
@@ -364,7 +385,7 @@ mod tests {
 
     #[test]
     fn beyond_a_free_boundary_nothing_is_in_contact() {
-        let count = |rows: &[&str]| edges(clusters::tests::map(rows).view(), false);
+        let count = |rows: &[&str]| edges_of(rows, false);
         assert_eq!(count(&["....", ".#..", "...."]), (2, 2));
         assert_eq!(count(&["#...", "....", "#..."]), (4, 4));
         assert_eq!(count(&["####", "####"]), (8, 4));

@@ -78,7 +78,7 @@ pub trait ElasticOperator<T: Real>: Send {
         mut pressure: ArrayViewMut2<'_, T>,
     ) -> Result<f64> {
         self.pressure(displacement, pressure.view_mut())?;
-        Ok(mean_product(displacement, pressure.view()))
+        Ok(mean_product(self.grid(), displacement, pressure.view()))
     }
 
     /// The displacement u = Kp of a pressure p, both of shape (Nx, Ny). The mean of u is zero.
@@ -112,7 +112,7 @@ pub trait ElasticOperator<T: Real>: Send {
     fn surface_pressure(&mut self, heights: ArrayView2<'_, f64>, mut pressure: ArrayViewMut2<'_, T>) -> Result<f64> {
         let rounded = heights.mapv(T::lit);
         self.pressure(rounded.view(), pressure.view_mut())?;
-        Ok(mean_product(heights, pressure.view()))
+        Ok(mean_product(self.grid(), heights, pressure.view()))
     }
 
     /// The space of the longest waves, of about `dimension` dimensions, that the preconditioner treats with the
@@ -133,6 +133,13 @@ pub trait ElasticOperator<T: Real>: Send {
     /// a stiffness leaves the range of `f32`; an operator that wraps it passes this on only if it changes nothing.
     fn in_single(&self) -> Option<Box<dyn ElasticOperator<f32>>> {
         None
+    }
+
+    /// Whether the operator takes fields of the shape [`Grid::field_shape`] on a grid that several processes share.
+    ///
+    /// The default is that it does not: such a [`Problem`](crate::Problem) is refused. [`Spectral`] does.
+    fn takes_slabs(&self) -> bool {
+        false
     }
 
     /// Gives back the memory that is kept between two applications; the next one takes it anew. The default does
@@ -156,8 +163,8 @@ pub trait ElasticOperator<T: Real>: Send {
         mut preconditioned: ArrayViewMut2<'_, T>,
     ) -> Result<Preconditioned> {
         self.displacement(residual, preconditioned.view_mut())?;
-        let error = mean_product(residual, preconditioned.view());
-        let mean_residual = field::mean(residual, T::widen);
+        let error = mean_product(self.grid(), residual, preconditioned.view());
+        let mean_residual = field::mean_over(self.grid().slab(), residual, T::widen);
         let mean = mean_residual / foundation.mean_stiffness;
         let shift = T::lit(mean);
         preconditioned.mapv_inplace(|u| u + shift);
@@ -243,8 +250,8 @@ pub struct Preconditioned {
 }
 
 /// The mean over the nodes of a product.
-fn mean_product<S: Real, T: Real>(a: ArrayView2<'_, S>, b: ArrayView2<'_, T>) -> f64 {
-    field::mean_of_both(a, b, |a: S, b: T| a.widen() * b.widen())
+fn mean_product<S: Real, T: Real>(grid: &Grid, a: ArrayView2<'_, S>, b: ArrayView2<'_, T>) -> f64 {
+    field::mean_of_both(grid.slab(), a, b, |a: S, b: T| a.widen() * b.widen())
 }
 
 /// The methods of an operator that is another one, `$inner` of `$this`.
@@ -306,6 +313,10 @@ macro_rules! delegate {
         fn in_single(&self) -> Option<Box<dyn ElasticOperator<f32>>> {
             let $this = self;
             $inner.in_single()
+        }
+        fn takes_slabs(&self) -> bool {
+            let $this = self;
+            $inner.takes_slabs()
         }
         fn release_memory(&mut self) {
             let $this = self;

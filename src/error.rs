@@ -7,6 +7,7 @@ use ndarray::ArrayView2;
 
 use crate::field::CHUNK;
 use crate::real::Real;
+use crate::slab::Slab;
 
 /// The result of a function that can refuse its input.
 ///
@@ -123,6 +124,18 @@ pub enum Error {
         /// The grid's shape, `(Nx, Ny)`.
         shape: (usize, usize),
     },
+    /// A grid that several processes share, where that has no form.
+    Shared {
+        /// The quantity, the solve, or the part of it, that was asked for.
+        what: &'static str,
+        /// The reason, and a remedy.
+        reason: &'static str,
+    },
+    /// A refusal by another process of those that share a grid, which has the error.
+    Elsewhere {
+        /// The number of that process, from zero on.
+        rank: usize,
+    },
     /// A file that could not be read or written.
     File {
         /// The path of the file.
@@ -136,6 +149,25 @@ impl Error {
     /// A file that could not be read or written, for `reason`.
     pub fn file(path: &Path, reason: impl fmt::Display) -> Self {
         Self::File { path: path.to_owned(), reason: reason.to_string() }
+    }
+
+    /// The result of this process, unless one before it, of those that share a slab, has an error, or it has none
+    /// itself and another one has: then that one is named. All processes of the slab have to call it.
+    pub(crate) fn agreed<T>(slab: Slab, result: Result<T>) -> Result<T> {
+        if !slab.is_shared() {
+            return result;
+        }
+        let refused = slab.ranks().each(u8::from(result.is_err())).iter().position(|&refused| refused > 0);
+        match refused {
+            Some(rank) if rank != slab.ranks().rank() => Err(Self::Elsewhere { rank }),
+            _ => result,
+        }
+    }
+
+    /// Refuses a slab that several processes share.
+    pub(crate) fn alone(what: &'static str, slab: Slab) -> Result<()> {
+        let reason = "that has no form for slabs: take the whole grid in one process";
+        if slab.is_shared() { Err(Self::Shared { what, reason }) } else { Ok(()) }
     }
 
     /// Passes `value` on if it is positive and finite.
@@ -164,6 +196,19 @@ impl Error {
     /// Refuses a field of another shape than `expected`.
     pub(crate) fn shape(name: &'static str, found: (usize, usize), expected: (usize, usize)) -> Result<()> {
         if found == expected { Ok(()) } else { Err(Self::Shape { name, found, expected }) }
+    }
+
+    /// Refuses a field that holds NaN or infinities in some slab: the process that has the first of them has the error.
+    pub(crate) fn all_finite_in<T: Real>(slab: Slab, name: &'static str, field: ArrayView2<'_, T>) -> Result<()> {
+        let mut found = Self::all_finite(name, field);
+        if let Err(Self::NotFinite { count, nodes, first, .. }) = &mut found {
+            let mut all = [*count as u64];
+            slab.add_up(&mut all);
+            (*count, *nodes, first.0) = (all[0] as usize, slab.nodes(), first.0 + slab.rows().start);
+        } else {
+            slab.add_up(&mut [0]);
+        }
+        Self::agreed(slab, found)
     }
 
     /// Refuses a field that holds NaN or infinities.
@@ -239,6 +284,8 @@ impl fmt::Display for Error {
                 shape.0,
                 shape.1
             ),
+            Self::Shared { what, reason } => write!(f, "{what} with several processes: {reason}"),
+            Self::Elsewhere { rank } => write!(f, "process {rank} has refused its part: its own error says why"),
             Self::File { path, reason } => write!(f, "{}: {reason}", path.display()),
         }
     }

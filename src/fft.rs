@@ -1,6 +1,7 @@
 //! The two-dimensional real transform, as a convolution: forward, a factor per mode, inverse.
 
 use std::fmt;
+use std::ops::Range;
 
 use asperity_fft::Transform;
 use asperity_fft::num_complex::Complex;
@@ -11,16 +12,17 @@ use crate::error::{Error, Result};
 use crate::field::flat_mut;
 use crate::par::{self, Parts, Pool};
 use crate::real::{Compiled, Real};
+use crate::slab::{Slab, TILE};
 
 mod layout;
 mod pack;
+mod shared;
 
 pub(crate) use layout::Layout;
 use layout::Twiddles;
 use pack::{join, lines_mut, pack, separate, unpack};
-
-/// Rows that are transformed together, so that the transposed store moves whole cache lines.
-const TILE: usize = 32;
+pub(crate) use shared::Modes;
+use shared::Shared;
 
 /// Slack after each line of a tile: with a power-of-two stride a column of the tile would fall into one cache set.
 const SLACK: usize = 8;
@@ -29,15 +31,21 @@ const SLACK: usize = 8;
 ///
 /// Two real rows ride in one complex transform. The half spectrum is stored transposed, `(n1/2 + 1, n0)`, so
 /// that a column of the field is contiguous: it is transformed, multiplied and transformed back while it is
-/// in cache. Memory: the spectrum, one field's worth and `n0` complex numbers more, and a tile per worker.
+/// in cache. Memory: the spectrum, one field's worth and `n0` complex numbers more, and a tile per worker. Where
+/// several processes share the grid each has some of the columns, and the spectrum twice.
 pub(crate) struct Convolver<T: Real> {
+    slab: Slab,
     layout: Layout,
     twiddles: Option<Twiddles<T>>,
     rows: Transform<T>,
     columns: Transform<T>,
+    /// its columns, of the rows in the slab
     spectrum: Array2<Complex<T>>,
+    /// the columns that this process transforms
+    own: Range<usize>,
     sums: Vec<Sums>,
     pool: Pool<Workspace<T>>,
+    shared: Option<Shared<T>>,
 }
 
 /// The sums over the columns of the spectrum.
@@ -59,6 +67,8 @@ impl Compiled for Plan {
 
 struct Workspace<T> {
     tile: Vec<Complex<T>>,
+    /// a column, where it comes in pieces from several processes
+    column: Vec<Complex<T>>,
     scratch: Vec<Complex<T>>,
 }
 
@@ -71,36 +81,40 @@ impl<T: Real> fmt::Debug for Convolver<T> {
 impl<T: Real> Clone for Convolver<T> {
     /// A convolver with the same plans, and a spectrum of its own.
     fn clone(&self) -> Self {
-        Self::planned(self.layout, self.rows.clone(), self.columns.clone())
+        Self::planned(self.slab, self.layout, self.rows.clone(), self.columns.clone())
     }
 }
 
 impl<T: Real> Convolver<T> {
-    /// Plans for fields of the given shape.
-    pub(crate) fn new(shape: (usize, usize)) -> Self {
-        Self::with(Layout::new(shape))
+    /// Plans for fields in a slab.
+    pub(crate) fn new(slab: Slab) -> Self {
+        Self::with(slab, Layout::new(slab.shape()))
     }
 
-    fn with(layout: Layout) -> Self {
+    fn with(slab: Slab, layout: Layout) -> Self {
         let (n0, n1) = layout.plane();
-        Self::planned(layout, T::call::<Plan>(n1), T::call::<Plan>(n0))
+        Self::planned(slab, layout, T::call::<Plan>(n1), T::call::<Plan>(n0))
     }
 
-    fn planned(layout: Layout, rows: Transform<T>, columns: Transform<T>) -> Self {
+    fn planned(slab: Slab, layout: Layout, rows: Transform<T>, columns: Transform<T>) -> Self {
         let (n0, n1) = layout.plane();
-        let scratch = rows.scratch_len().max(columns.scratch_len());
+        let (own, scratch) = (layout.columns_of(&slab), rows.scratch_len().max(columns.scratch_len()));
+        let shared = slab.is_shared().then(|| Shared::new(slab, layout));
+        let line = if shared.as_ref().is_some_and(Shared::is_in_pieces) { n0 } else { 0 };
         let pool = Pool::new(|| Workspace {
             tile: vec![Complex::zero(); TILE.min(n0).div_ceil(2) * (n1 + SLACK)],
+            column: vec![Complex::zero(); line],
             scratch: vec![Complex::zero(); scratch],
         });
-        let spectrum = Array2::zeros(layout.spectrum());
-        let (twiddles, sums) = (Twiddles::new(&layout), vec![[0.0; 3]; spectrum.nrows()]);
-        Self { layout, twiddles, rows, columns, spectrum, sums, pool }
+        let spectrum = Array2::zeros(layout.spectrum_of(&slab));
+        let (twiddles, sums) = (Twiddles::new(&layout), vec![[0.0; 3]; own.len()]);
+        Self { slab, layout, twiddles, rows, columns, spectrum, own, sums, pool, shared }
     }
 
     /// Gives back the spectrum; the next convolution takes it anew.
     pub(crate) fn release_memory(&mut self) {
         self.spectrum = Array2::zeros((0, 0));
+        self.shared.iter_mut().for_each(Shared::release_memory);
     }
 
     /// The layout of the modes that `modify` gets.
@@ -129,40 +143,48 @@ impl<T: Real> Convolver<T> {
         input: ArrayView2<'_, T>,
         output: ArrayViewMut2<'_, U>,
         ahead: usize,
-        look: impl FnOnce(ArrayView2<'_, Complex<T>>) -> L,
+        look: impl FnOnce(&Modes<'_, T>) -> L,
         modify: impl Fn(&L, usize, &mut [Complex<T>]) -> Sums + Sync + Send,
     ) -> Result<Sums> {
-        let (shape, mut output) = (self.layout.shape(), output);
-        Error::shape("operator input", input.dim(), shape)?;
-        Error::shape("operator output", output.dim(), shape)?;
+        let (held, shape, mut output) = (self.slab.held(), self.layout.shape(), output);
+        Error::shape("operator input", input.dim(), held)?;
+        Error::shape("operator output", output.dim(), held)?;
         let norm = T::lit(1.0 / (shape.0 as f64 * shape.1 as f64));
         if self.spectrum.is_empty() {
-            self.spectrum = Array2::zeros(self.layout.spectrum());
+            self.spectrum = Array2::zeros(self.layout.spectrum_of(&self.slab));
         }
-        self.rows_forward(self.layout.view(&input).view());
-        let Self { columns, spectrum, sums, pool, twiddles, .. } = self;
-        let n0 = spectrum.ncols();
+        if held.0 > 0 {
+            self.rows_forward(self.layout.view(&input).view());
+        }
+        let Self { columns, spectrum, own, sums, pool, twiddles, shared, slab, .. } = self;
+        let mut columns_of = ColumnsOf { own: own.clone(), spectrum, shared, pool, sums, n0: self.layout.plane().0 };
+        columns_of.come();
         let turn = |k: usize, column: &mut [_], back| twiddles.iter().for_each(|t| t.turn(k, column, back));
         let forward = |k: usize, column: &mut [_], scratch: &mut [_]| {
             turn(k, column, false);
             columns.forward.process_with_scratch(column, scratch);
         };
         if ahead > 0 {
-            let first = flat_mut(spectrum).get_mut(..ahead * n0).unwrap_or_default();
-            par::update(par::chunks_mut(first, n0), &mut sums[..ahead], 1, |k, column, _| {
-                forward(k, column, &mut pool.get().scratch);
+            columns_of.each(ahead, |k, column, scratch| {
+                forward(k, column, scratch);
+                [0.0; 3]
             });
         }
-        let seen = look(spectrum.view());
-        par::update(par::chunks_mut(flat_mut(spectrum), n0), sums, 1, |k, column, sum| {
-            let scratch = &mut pool.get().scratch;
+        let seen = look(&columns_of.modes(*slab));
+        columns_of.each(usize::MAX, |k, column, scratch| {
             if k >= ahead {
                 forward(k, column, scratch);
             }
-            *sum = modify(&seen, k, column);
+            let sums = modify(&seen, k, column);
             columns.inverse.process_with_scratch(column, scratch);
             turn(k, column, true);
+            sums
         });
+        columns_of.go();
+        let sums = columns_of.sums();
+        if held.0 == 0 {
+            return Ok(sums);
+        }
         if let Some(plane) = self.layout.view_mut(output.view_mut()) {
             self.rows_inverse(plane, norm);
         } else {
@@ -172,14 +194,14 @@ impl<T: Real> Convolver<T> {
             }
             output.assign(&line);
         }
-        Ok(self.sums.iter().fold([0.0; 3], |a, b| std::array::from_fn(|i| a[i] + b[i])))
+        Ok(sums)
     }
 
     fn rows_forward(&mut self, input: ArrayView2<'_, T>) {
         let Self { rows, spectrum, pool, layout, .. } = self;
         let (_, n1) = layout.plane();
         par::for_each(par::tiles(input, 0, TILE).zip(par::tiles_mut(spectrum.view_mut(), 1, TILE)), |_, (x, z)| {
-            let Workspace { tile, scratch } = &mut *pool.get();
+            let Workspace { tile, scratch, .. } = &mut *pool.get();
             pack(x, tile);
             for line in lines_mut(tile, n1).take(x.nrows().div_ceil(2)) {
                 rows.forward.process_with_scratch(line, scratch);
@@ -192,7 +214,7 @@ impl<T: Real> Convolver<T> {
         let Self { rows, spectrum, pool, layout, .. } = self;
         let (_, n1) = layout.plane();
         par::for_each(par::tiles_mut(output, 0, TILE).zip(par::tiles(spectrum.view(), 1, TILE)), |_, (x, z)| {
-            let Workspace { tile, scratch } = &mut *pool.get();
+            let Workspace { tile, scratch, .. } = &mut *pool.get();
             join(z, n1, norm, tile);
             for line in lines_mut(tile, n1).take(x.nrows().div_ceil(2)) {
                 rows.inverse.process_with_scratch(line, scratch);
@@ -202,12 +224,79 @@ impl<T: Real> Convolver<T> {
     }
 }
 
+/// The columns of the half spectrum that this process transforms.
+struct ColumnsOf<'a, T: Real> {
+    own: Range<usize>,
+    spectrum: &'a mut Array2<Complex<T>>,
+    shared: &'a mut Option<Shared<T>>,
+    pool: &'a Pool<Workspace<T>>,
+    sums: &'a mut [Sums],
+    n0: usize,
+}
+
+impl<T: Real> ColumnsOf<'_, T> {
+    /// Brings the columns from the processes that have their rows.
+    fn come(&mut self) {
+        let spectrum = flat_mut(self.spectrum);
+        self.shared.iter_mut().for_each(|shared| shared.come(spectrum));
+    }
+
+    /// Sends the columns to the processes that have their rows.
+    fn go(&mut self) {
+        let spectrum = flat_mut(self.spectrum);
+        self.shared.iter_mut().for_each(|shared| shared.go(spectrum));
+    }
+
+    /// Runs `f(index, column, scratch)` over the columns below `end`, and keeps what it returns as their sums.
+    fn each(&mut self, end: usize, f: impl Fn(usize, &mut [Complex<T>], &mut [Complex<T>]) -> Sums + Sync + Send) {
+        let (first, pool) = (self.own.start, self.pool);
+        let count = end.clamp(first, self.own.end) - first;
+        let sums = &mut self.sums[..count];
+        if let Some(pieces) = self.shared.as_mut().and_then(|shared| shared.pieces(count)) {
+            return par::update(pieces, sums, 1, |k, mut pieces: Vec<&mut [_]>, sum| {
+                let Workspace { column, scratch, .. } = &mut *pool.get();
+                let mut rest = &mut column[..];
+                for piece in &pieces {
+                    let (to, others) = rest.split_at_mut(piece.len());
+                    to.copy_from_slice(piece);
+                    rest = others;
+                }
+                *sum = f(first + k, column, scratch);
+                let mut rest = &column[..];
+                for piece in &mut pieces {
+                    let (from, others) = rest.split_at(piece.len());
+                    piece.copy_from_slice(from);
+                    rest = others;
+                }
+            });
+        }
+        let columns = flat_mut(self.spectrum).get_mut(..count * self.n0).unwrap_or_default();
+        par::update(par::chunks_mut(columns, self.n0), sums, 1, |k, column, sum| {
+            *sum = f(first + k, column, &mut pool.get().scratch);
+        });
+    }
+
+    /// The modes of the columns that are transformed.
+    fn modes(&self, slab: Slab) -> Modes<'_, T> {
+        Modes::new(slab, self.n0, self.spectrum.as_slice().unwrap_or_default(), self.shared.as_ref())
+    }
+
+    /// The sums over all columns, in their order.
+    fn sums(&mut self) -> Sums {
+        let add = |a: Sums, b: &Sums| std::array::from_fn(|i| a[i] + b[i]);
+        match &mut *self.shared {
+            None => self.sums.iter().fold([0.0; 3], add),
+            Some(shared) => shared.gather(self.sums).iter().fold([0.0; 3], add),
+        }
+    }
+}
+
 /// The squared modulus of each mode of a field, the amplitude of a constant being its value.
 ///
 /// In the layout of the half spectrum, `(n1/2 + 1, n0)`.
 pub(crate) fn powers(field: ArrayView2<'_, f64>) -> Array2<f64> {
     let (n0, n1) = field.dim();
-    let mut convolver = Convolver::with(Layout::plain((n0, n1)));
+    let mut convolver = Convolver::with(Slab::whole((n0, n1)), Layout::plain((n0, n1)));
     convolver.rows_forward(field);
     let Convolver { columns, spectrum, pool, .. } = &mut convolver;
     let norm = (n0 as f64 * n1 as f64).recip().powi(2);
@@ -223,7 +312,7 @@ pub(crate) fn powers(field: ArrayView2<'_, f64>) -> Array2<f64> {
 /// The modes of a field that is even along both axes, which are real and even: of each column of the half spectrum, in
 /// the layout of a convolver, the first half and the one in the middle. For a plane, not a line.
 pub(crate) fn even_modes(field: ArrayView2<'_, f64>) -> Array2<f64> {
-    let mut convolver = Convolver::new(field.dim());
+    let mut convolver = Convolver::new(Slab::whole(field.dim()));
     convolver.rows_forward(convolver.layout.view(&field).view());
     let Convolver { columns, spectrum, pool, .. } = &mut convolver;
     let (count, n0) = spectrum.dim();
@@ -237,23 +326,32 @@ pub(crate) fn even_modes(field: ArrayView2<'_, f64>) -> Array2<f64> {
     modes
 }
 
-/// The field of given modes, and the sum of the values of `fill`, in order.
+/// The field of given modes in a slab, and the sum of the values of `fill`, in order. What is at index zero along the
+/// first axis comes to the middle.
 ///
 /// `fill` gets the column's index along the second axis, and zeros to overwrite by its modes along the first. Those of
 /// column 0, and of the Nyquist column, must be even with conjugation.
 pub(crate) fn synthesise(
-    shape: (usize, usize),
+    slab: Slab,
     fill: impl Fn(usize, &mut [Complex<f64>]) -> f64 + Sync + Send,
 ) -> (Array2<f64>, f64) {
-    let mut convolver = Convolver::with(Layout::plain(shape));
-    let Convolver { columns, spectrum, sums, pool, .. } = &mut convolver;
-    par::update(par::chunks_mut(flat_mut(spectrum), shape.0), sums, 1, |k, column, sum| {
-        *sum = [fill(k, column), 0.0, 0.0];
-        columns.inverse.process_with_scratch(column, &mut pool.get().scratch);
+    let mut convolver = Convolver::with(slab, Layout::plain(slab.shape()));
+    let Convolver { columns, spectrum, own, sums, pool, shared, layout, .. } = &mut convolver;
+    let mut columns_of = ColumnsOf { own: own.clone(), spectrum, shared, pool, sums, n0: layout.plane().0 };
+    columns_of.each(usize::MAX, |k, column, scratch| {
+        let sum = fill(k, column);
+        columns.inverse.process_with_scratch(column, scratch);
+        let half = column.len() / 2;
+        column.rotate_right(half);
+        [sum, 0.0, 0.0]
     });
-    let mut field = Array2::zeros(shape);
-    convolver.rows_inverse(field.view_mut(), 1.0);
-    (field, convolver.sums.iter().map(|[sum, ..]| sum).sum())
+    columns_of.go();
+    let [sum, ..] = columns_of.sums();
+    let mut field = Array2::zeros(slab.held());
+    if !field.is_empty() {
+        convolver.rows_inverse(field.view_mut(), 1.0);
+    }
+    (field, sum)
 }
 
 #[cfg(test)]
@@ -295,7 +393,7 @@ mod tests {
             let x = field(shape);
             let even = |k: usize, n: usize| k.min(n - k) as f64;
             let factor = |k0: usize, k1: usize| 1.0 / (1.0 + even(k0, shape.0).hypot(2.0 * even(k1, shape.1)));
-            let mut convolver = Convolver::new(shape);
+            let mut convolver = Convolver::new(Slab::whole(shape));
             let layout = convolver.layout();
             let mut y = Array2::from_elem(shape, f64::NAN);
             for _ in 0..2 {
@@ -329,7 +427,7 @@ mod tests {
             // one wave along both axes, where there is room for it
             let (k0, k1) = (n0.min(2) - 1, (n1 - 1) / 2);
             let amplitude = Complex::new(0.25, if k1 > 0 { -0.5 } else { 0.0 });
-            let (wave, returned) = synthesise((n0, n1), |k, column| {
+            let (wave, returned) = synthesise(Slab::whole((n0, n1)), |k, column| {
                 if k == k1 {
                     column[k0] += amplitude;
                     if k1 == 0 {
@@ -340,6 +438,8 @@ mod tests {
             });
             assert_eq!(returned, (0..=n1 / 2).sum::<usize>() as f64);
             for ((i, j), value) in wave.indexed_iter() {
+                // what is at index zero is in the middle
+                let i = (i + n0 - n0 / 2) % n0;
                 let phase = TAU * ((i * k0) as f64 / n0 as f64 + (j * k1) as f64 / n1 as f64);
                 let expected = 2.0 * (amplitude * Complex::from_polar(1.0, phase)).re;
                 assert_relative_eq!(*value, expected, epsilon = 1e-13);
@@ -363,7 +463,7 @@ mod tests {
                 column.iter_mut().for_each(|z| *z = z.scale(2.0));
                 [1.0, 0.0, -2.0]
             };
-            let mut convolver = Convolver::new(shape);
+            let mut convolver = Convolver::new(Slab::whole(shape));
             let columns = convolver.layout().spectrum().0 as f64;
             let sums = convolver.convolve(x.view(), a.view_mut(), double);
             assert_eq!(sums, Ok([columns, 0.0, -2.0 * columns]));
@@ -398,7 +498,7 @@ mod tests {
 
     #[test]
     fn wrong_shapes_are_refused() {
-        let mut convolver = Convolver::<f64>::new((4, 4));
+        let mut convolver = Convolver::<f64>::new(Slab::whole((4, 4)));
         let (x, mut y) = (Array2::zeros((4, 5)), Array2::<f64>::zeros((4, 4)));
         assert!(convolver.convolve(x.view(), y.view_mut(), |_, _| [0.0; 3]).is_err());
     }

@@ -3,10 +3,9 @@
 use ndarray::{Array2, ArrayView2};
 
 use crate::par::{self, Parts};
-
-/// The nodes of a chunk, which are summed one after the other. The rounding of sums of sums grows with the length of a
-/// run, not with the number of nodes.
-pub(crate) const CHUNK: usize = 256;
+use crate::ranks::Shares;
+pub(crate) use crate::slab::CHUNK;
+use crate::slab::Slab;
 
 /// Chunks that a worker takes at once.
 const BATCH: usize = 8;
@@ -75,18 +74,56 @@ impl<A: Nodes, B: Nodes> Nodes for (A, B) {
     }
 }
 
-/// The reducer: runs passes over fields of one size, and adds up the results of the chunks in their order.
+/// The reducer: runs passes over fields in a slab, and adds up the results of the chunks in their order, and those of
+/// the slabs.
 #[derive(Debug)]
-pub(crate) struct Reducer(Vec<Partial>);
+pub(crate) struct Reducer {
+    chunks: Vec<Partial>,
+    /// the chunks of a band
+    band: usize,
+    others: Option<Others>,
+}
+
+/// The sums of the bands, where several processes share them.
+#[derive(Debug)]
+struct Others {
+    slab: Slab,
+    shares: Shares,
+    own: Vec<[f64; NUMBERS]>,
+    all: Vec<[f64; NUMBERS]>,
+}
+
+/// The numbers of a partial result.
+const NUMBERS: usize = SUMS + 1;
+
+impl Others {
+    fn new(slab: Slab) -> Self {
+        let [own, all] =
+            [slab.bands_of(slab.ranks().rank()).len(), slab.bands()].map(|bands| vec![[0.0; NUMBERS]; bands]);
+        Self { slab, shares: slab.by_bands(NUMBERS), own, all }
+    }
+
+    /// The results of all bands, of which these are those of this process.
+    fn gather(&mut self, bands: impl Iterator<Item = Partial>) -> impl Iterator<Item = Partial> {
+        for (numbers, Partial { sum, min }) in self.own.iter_mut().zip(bands) {
+            numbers[..SUMS].copy_from_slice(&sum);
+            numbers[SUMS] = min;
+        }
+        self.slab.ranks().gather(self.own.as_flattened(), &self.shares, self.all.as_flattened_mut());
+        self.all.iter().map(|numbers| Partial { sum: std::array::from_fn(|i| numbers[i]), min: numbers[SUMS] })
+    }
+}
 
 impl Reducer {
-    pub(crate) fn new(nodes: usize) -> Self {
-        Self(vec![Partial::NONE; nodes.div_ceil(CHUNK)])
+    pub(crate) fn new(slab: Slab) -> Self {
+        let (rows, columns) = slab.held();
+        let chunks = vec![Partial::NONE; (rows * columns).div_ceil(CHUNK)];
+        Self { chunks, band: slab.chunks_of_a_band(), others: slab.is_shared().then(|| Others::new(slab)) }
     }
 
     /// Runs `f(first node, chunk)` over the chunks.
     pub(crate) fn run<A: Parts>(&mut self, chunks: A, f: impl Fn(usize, A::Part) -> Partial + Sync + Send) -> Partial {
-        par::update(chunks, &mut self.0, BATCH, |i, chunk, part| *part = f(i * CHUNK, chunk));
+        par::update(chunks, &mut self.chunks, BATCH, |i, chunk, part| *part = f(i * CHUNK, chunk));
         self.total()
     }
 
@@ -98,7 +135,7 @@ impl Reducer {
         chunks: A,
         f: impl Fn(usize, A::Part) -> Partial + Sync + Send,
     ) -> Partial {
-        par::update(chunks, &mut self.0, BATCH, |i, chunk, part| {
+        par::update(chunks, &mut self.chunks, BATCH, |i, chunk, part| {
             *part = if wanted(kept[i]) { f(i * CHUNK, chunk) } else { Partial::NONE };
         });
         self.total()
@@ -106,34 +143,46 @@ impl Reducer {
 
     /// Keeps a number of each chunk of the last pass, for a later one.
     pub(crate) fn keep(&self, of: impl Fn(&Partial) -> f64, kept: &mut [f64]) {
-        kept.iter_mut().zip(&self.0).for_each(|(kept, part)| *kept = of(part));
+        kept.iter_mut().zip(&self.chunks).for_each(|(kept, part)| *kept = of(part));
     }
 
     /// The number of chunks.
     pub(crate) fn chunks(&self) -> usize {
-        self.0.len()
+        self.chunks.len()
     }
 
-    fn total(&self) -> Partial {
+    fn total(&mut self) -> Partial {
         // the sums of chunks are summed as nodes are: in runs, and then the runs
-        self.0
-            .chunks(CHUNK)
-            .map(|run| run.iter().fold(Partial::NONE, Partial::add))
-            .fold(Partial::NONE, |a, b| a.add(&b))
+        let add = |a: Partial, b: Partial| a.add(&b);
+        let run = |run: &[Partial]| run.iter().fold(Partial::NONE, Partial::add);
+        let bands = self.chunks.chunks(self.band).map(|band| band.chunks(CHUNK).map(run).fold(Partial::NONE, add));
+        match &mut self.others {
+            None => bands.fold(Partial::NONE, add),
+            Some(others) => others.gather(bands).fold(Partial::NONE, add),
+        }
     }
 }
 
 /// The mean of a function of the nodes of a field, in any layout.
 pub(crate) fn mean<T: Copy + Sync>(field: ArrayView2<'_, T>, of: impl Fn(T) -> f64 + Sync + Send) -> f64 {
-    let field = field.as_standard_layout();
-    let values = field.as_slice().unwrap_or_default();
-    let total = Reducer::new(values.len())
-        .run(par::chunks(values, CHUNK), |_, values| Partial::of(values.iter().map(|&value| of(value))));
-    total.sum[0] / values.len() as f64
+    mean_over(Slab::whole(field.dim()), field, of)
 }
 
-/// The mean of a function of the nodes of two fields of one shape, in any layout.
+/// The mean of a function of all nodes of a grid, of which the field has those of a slab, in any layout.
+pub(crate) fn mean_over<T: Copy + Sync>(
+    slab: Slab,
+    field: ArrayView2<'_, T>,
+    of: impl Fn(T) -> f64 + Sync + Send,
+) -> f64 {
+    let field = field.as_standard_layout();
+    let chunks = par::chunks(field.as_slice().unwrap_or_default(), CHUNK);
+    let total = Reducer::new(slab).run(chunks, |_, values| Partial::of(values.iter().map(|&value| of(value))));
+    total.sum[0] / slab.nodes() as f64
+}
+
+/// The mean of a function of all nodes of a grid, of which two fields have those of a slab, in any layout.
 pub(crate) fn mean_of_both<S: Copy + Sync, T: Copy + Sync>(
+    slab: Slab,
     a: ArrayView2<'_, S>,
     b: ArrayView2<'_, T>,
     of: impl Fn(S, T) -> f64 + Sync + Send,
@@ -141,8 +190,8 @@ pub(crate) fn mean_of_both<S: Copy + Sync, T: Copy + Sync>(
     let (a, b) = (a.as_standard_layout(), b.as_standard_layout());
     let chunks = par::chunks(a.as_slice().unwrap_or_default(), CHUNK);
     let chunks = chunks.zip(par::chunks(b.as_slice().unwrap_or_default(), CHUNK));
-    let total = Reducer::new(a.len()).run(chunks, |_, (a, b)| Partial::of(a.iter().zip(b).map(|(&a, &b)| of(a, b))));
-    total.sum[0] / a.len() as f64
+    let total = Reducer::new(slab).run(chunks, |_, (a, b)| Partial::of(a.iter().zip(b).map(|(&a, &b)| of(a, b))));
+    total.sum[0] / slab.nodes() as f64
 }
 
 /// The nodes of a field that this crate made, in row-major order.

@@ -1,10 +1,12 @@
 //! The grid: equidistant nodes on a periodic rectangle or line.
 
 use std::f64::consts::TAU;
+use std::ops::Range;
 
 use ndarray::Array2;
 
 use crate::error::{Error, Result};
+use crate::slab::Slab;
 
 /// A periodic rectangle with its nodes: Nx × Ny of them on sides Lx × Ly.
 ///
@@ -21,7 +23,7 @@ use crate::error::{Error, Result};
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Grid {
-    shape: (usize, usize),
+    slab: Slab,
     lengths: (f64, f64),
 }
 
@@ -48,7 +50,7 @@ impl Grid {
         }
         Error::positive("side length Lx", lengths.0)?;
         Error::positive("side length Ly", lengths.1)?;
-        Ok(Self { shape, lengths })
+        Ok(Self { slab: Slab::whole(shape), lengths })
     }
 
     /// A square grid: `n` × `n` nodes on sides of `length`.
@@ -69,7 +71,56 @@ impl Grid {
 
     /// The numbers of nodes `(Nx, Ny)`.
     pub fn shape(&self) -> (usize, usize) {
-        self.shape
+        self.slab.shape()
+    }
+
+    /// The rows of nodes, of `0..Nx`, that this process holds: all of them, unless several processes share the grid.
+    pub fn rows(&self) -> Range<usize> {
+        self.slab.rows()
+    }
+
+    /// The shape of a field on the grid in this process: (Nx, Ny), unless several processes share the grid. Then a
+    /// field has the rows that [`Grid::rows`] names.
+    pub fn field_shape(&self) -> (usize, usize) {
+        self.slab.held()
+    }
+
+    /// Whether several processes share the grid.
+    pub fn is_shared(&self) -> bool {
+        self.slab.is_shared()
+    }
+
+    /// A number of nodes, added up over the processes that share the grid. All of them have to ask.
+    pub fn total(&self, own: usize) -> usize {
+        let mut all = [own as u64];
+        self.slab.add_up(&mut all);
+        all[0] as usize
+    }
+
+    /// The least and the largest of two numbers of each of the processes that share the grid. All of them have to ask.
+    pub fn extremes(&self, (low, high): (f64, f64)) -> (f64, f64) {
+        (self.slab.least(low), self.slab.most(high))
+    }
+
+    /// The part of the grid that this process holds.
+    pub(crate) fn slab(&self) -> Slab {
+        self.slab
+    }
+
+    /// The grid for this process alone.
+    pub(crate) fn alone(self) -> Self {
+        Self { slab: Slab::whole(self.shape()), ..self }
+    }
+
+    /// The grid with another division into slabs.
+    #[cfg(feature = "mpi")]
+    pub(crate) fn within(self, slab: Slab) -> Self {
+        Self { slab, ..self }
+    }
+
+    /// The grid, shared by the processes that share another one.
+    pub(crate) fn shared_as(self, other: &Self) -> Self {
+        Self { slab: other.slab.of(self.shape()), ..self }
     }
 
     /// The side lengths `(Lx, Ly)`.
@@ -79,17 +130,17 @@ impl Grid {
 
     /// The number of nodes, Nx·Ny.
     pub fn nodes(&self) -> usize {
-        self.shape.0 * self.shape.1
+        self.slab.nodes()
     }
 
     /// Whether there is only one row of nodes, `Ny = 1`.
     pub fn is_line(&self) -> bool {
-        self.shape.1 == 1
+        self.shape().1 == 1
     }
 
     /// The distances between nodes `(Δx, Δy) = (Lx/Nx, Ly/Ny)`.
     pub fn spacing(&self) -> (f64, f64) {
-        (self.lengths.0 / self.shape.0 as f64, self.lengths.1 / self.shape.1 as f64)
+        (self.lengths.0 / self.shape().0 as f64, self.lengths.1 / self.shape().1 as f64)
     }
 
     /// The larger of Δx and Δy; on a line Δx.
@@ -100,29 +151,30 @@ impl Grid {
 
     /// The coordinate of row `i` along x; zero at `i = Nx / 2`.
     pub fn x(&self, i: usize) -> f64 {
-        coordinate(i, self.shape.0, self.lengths.0)
+        coordinate(i, self.shape().0, self.lengths.0)
     }
 
     /// The coordinate of column `j` along y; zero at `j = Ny / 2`.
     pub fn y(&self, j: usize) -> f64 {
-        coordinate(j, self.shape.1, self.lengths.1)
+        coordinate(j, self.shape().1, self.lengths.1)
     }
 
     /// The wave number along x of line `k` of a spectrum: 2πk/Lx, the upper half standing for negative ones.
     ///
     /// For even Nx the line `Nx / 2` is the Nyquist frequency, returned as positive.
     pub fn wave_number_x(&self, k: usize) -> f64 {
-        wave_number(k, self.shape.0, self.lengths.0)
+        wave_number(k, self.shape().0, self.lengths.0)
     }
 
     /// The wave number along y, as [`Grid::wave_number_x`] along x.
     pub fn wave_number_y(&self, k: usize) -> f64 {
-        wave_number(k, self.shape.1, self.lengths.1)
+        wave_number(k, self.shape().1, self.lengths.1)
     }
 
-    /// The field of a function of the coordinates, `(x, y) → f`.
+    /// The field of a function of the coordinates, `(x, y) → f`, of shape [`Grid::field_shape`].
     pub fn sample(&self, f: impl Fn(f64, f64) -> f64) -> Array2<f64> {
-        Array2::from_shape_fn(self.shape, |(i, j)| f(self.x(i), self.y(j)))
+        let first = self.rows().start;
+        Array2::from_shape_fn(self.field_shape(), |(i, j)| f(self.x(first + i), self.y(j)))
     }
 }
 

@@ -17,18 +17,20 @@ mod units;
 mod vti;
 mod xyz;
 
-use std::fs::{self, File};
-use std::io::{self, BufRead, BufReader};
+use std::fmt::Display;
+use std::fs::{self, File, OpenOptions};
+use std::io::{self, BufRead, BufReader, Read, Seek, SeekFrom};
+use std::ops::Range;
 use std::path::Path;
 
-use ndarray::Array2;
+use ndarray::{Array2, Axis, Slice};
 use ndarray_npy::WritableElement;
 
 use crate::error::{Error, Result};
 use crate::surface::Topography;
 use gsf::{GSF, read_gsf, write_gsf};
 use gwy::{GWY, read_gwy};
-use npy::{NPY, read_npy};
+use npy::{NPY, read_npy, read_npy_rows};
 pub use npz::write_npz;
 use npz::{ZIP, read_npz};
 pub use output::OutputFolder;
@@ -134,6 +136,94 @@ pub fn read_channel(path: &Path, channel: &str) -> Result<Topography> {
     read_any(path, Some(channel)).map_err(|reason| Error::file(path, reason))
 }
 
+/// Reads the rows of a height map that `rows` chooses by its shape (Nx, Ny), and tells that shape; otherwise as
+/// [`read_topography`]. Of a `.npy` in row-major order no more is read than these rows.
+///
+/// For a grid that several processes share, of which each holds the rows [`Grid::rows`](crate::Grid::rows).
+///
+/// ```
+/// use asperity::io::{read_rows, write_npy};
+/// let folder = tempfile::tempdir()?;
+/// let path = folder.path().join("heights.npy");
+/// write_npy(&path, &ndarray::array![[1.0, 2.0], [3.0, 4.0], [5.0, 6.0]])?;
+/// let (map, shape) = read_rows(&path, |(nx, _)| 1..nx)?;
+/// assert_eq!((map.heights, shape), (ndarray::array![[3.0, 4.0], [5.0, 6.0]], (3, 2)));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+///
+/// As for [`read_topography`].
+pub fn read_rows(
+    path: &Path,
+    rows: impl FnOnce((usize, usize)) -> Range<usize>,
+) -> Result<(Topography, (usize, usize))> {
+    let is_npy = || {
+        let mut start = [0; NPY.len()];
+        io::Result::Ok(File::open(path)?.read_exact(&mut start).is_ok() && start == NPY)
+    };
+    if !fs::metadata(path).is_ok_and(|metadata| metadata.is_file()) || !is_npy().is_ok_and(|is| is) {
+        let mut map = read_topography(path)?;
+        let shape = map.heights.dim();
+        map.heights = map.heights.slice_axis(Axis(0), Slice::from(rows(shape))).to_owned();
+        return Ok((map, shape));
+    }
+    let read = || {
+        let file = File::open(path).map_err(unreadable)?;
+        let size = file.metadata().map_err(unreadable)?.len();
+        let (heights, shape) = read_npy_rows(&mut BufReader::new(file), size, rows)?;
+        Ok((Topography::new(heights), shape))
+    };
+    read().map_err(|reason: String| Error::file(path, reason))
+}
+
+/// Creates a `.npy` of zeros of a shape, over a file that may be there, for [`write_npy_rows`].
+///
+/// # Errors
+///
+/// [`Error::File`] if the file cannot be written.
+pub fn create_npy<T: WritableElement>(path: &Path, shape: (usize, usize)) -> Result<()> {
+    let file = File::create(path).map_err(|e| unwritable(path, e))?;
+    ndarray_npy::write_zeroed_npy::<T, _>(&file, shape).map_err(|e| unwritable(path, e))
+}
+
+/// Writes some rows of a field into a `.npy` that [`create_npy`] has made, from the row `first` on. Several processes
+/// may write rows into one file.
+///
+/// ```
+/// use asperity::io::{create_npy, read_field, write_npy_rows};
+/// let folder = tempfile::tempdir()?;
+/// let path = folder.path().join("gap.npy");
+/// create_npy::<f64>(&path, (3, 2))?;
+/// write_npy_rows(&path, (3, 2), 1, &ndarray::array![[1.0, 2.0], [3.0, 4.0]])?;
+/// assert_eq!(read_field(&path)?, ndarray::array![[0.0, 0.0], [1.0, 2.0], [3.0, 4.0]]);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+///
+/// [`Error::File`] if the file cannot be written, [`Error::Shape`] if the rows are not rows of that shape.
+pub fn write_npy_rows<T: WritableElement + Clone>(
+    path: &Path,
+    shape: (usize, usize),
+    first: usize,
+    rows: &Array2<T>,
+) -> Result<()> {
+    let (count, ny) = rows.dim();
+    Error::shape("rows to write", (first + count, ny), ((first + count).min(shape.0), shape.1))?;
+    let mut file = OpenOptions::new().write(true).open(path).map_err(|e| unwritable(path, e))?;
+    // the numbers are all that follows the header
+    let size = file.metadata().map_err(|e| unwritable(path, e))?.len();
+    let numbers = ((shape.0 - first) * ny * size_of::<T>()) as u64;
+    file.seek(SeekFrom::Start(size.saturating_sub(numbers))).map_err(|e| unwritable(path, e))?;
+    let rows = rows.as_standard_layout();
+    T::write_slice(rows.as_slice().unwrap_or_default(), &mut file).map_err(|e| unwritable(path, e))
+}
+
+fn unwritable(path: &Path, error: impl Display) -> Error {
+    Error::file(path, format!("cannot be written: {error}"))
+}
+
 /// Writes a map, over a file that may be there; the ending of `path` decides on the format.
 ///
 /// - `.npz`: `heights`, and `lengths` and `unit` if they are known. Nothing is lost.
@@ -190,7 +280,7 @@ fn ending(path: &Path) -> String {
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn write_npy<T: WritableElement>(path: &Path, field: &Array2<T>) -> Result<()> {
-    ndarray_npy::write_npy(path, field).map_err(|e| Error::file(path, format!("cannot be written: {e}")))
+    ndarray_npy::write_npy(path, field).map_err(|e| unwritable(path, e))
 }
 
 fn read_any(path: &Path, channel: Option<&str>) -> Parsed<Topography> {

@@ -55,6 +55,7 @@
 //! | resolution, tolerance and precision for the accuracy you want | [`guide::choosing`] |
 //! | the command-line tool, its scenes and the keys of its reports; studies on clusters | [`guide::tool`], [`guide::cluster`] |
 //! | how the crate is built, and how its solver works | [`guide::architecture`], [`guide::driver`] |
+//! | past one machine, by MPI | [`guide::scaling`] |
 //! | how fast it is, and how far rounding lets it go | [`guide::performance`], [`guide::precision`] |
 //! | what the paper says | [`guide::paper_checked`] |
 //!
@@ -96,7 +97,8 @@
 //!
 //! # Features
 //!
-//! `parallel` (default): threads, with the same results bit for bit. `io`: files, the module `io`. `picture`: maps and
+//! `parallel` (default): threads, with the same results bit for bit. `mpi`: processes, on one machine or on many, with
+//! the same results bit for bit, the type `World`. `io`: files, the module `io`. `picture`: maps and
 //! charts, the module `picture`. `cli` (default): both, and the command-line tool. Without any of them the library
 //! depends on libm, ndarray, num-traits, pulp and rustfft alone.
 #![doc = include_str!("equations.html")]
@@ -121,14 +123,18 @@ pub mod path;
 #[cfg(feature = "picture")]
 pub mod picture;
 mod problem;
+mod ranks;
 mod real;
 mod search;
+mod slab;
 mod solver;
 pub mod stability;
 mod surface;
 mod sweep;
 mod vector;
 mod warning;
+#[cfg(feature = "mpi")]
+mod world;
 
 pub use ndarray;
 
@@ -154,6 +160,8 @@ pub use surface::{
 };
 pub use sweep::Sweep;
 pub use warning::{Warning, WarningCode};
+#[cfg(feature = "mpi")]
+pub use world::World;
 
 /// Runs the code of the README as a test.
 #[cfg(doctest)]

@@ -62,6 +62,23 @@ impl<A: Parts, B: Parts> Parts for (A, B) {
     }
 }
 
+/// Of each sequence one part.
+impl<A: Parts> Parts for Vec<A> {
+    type Part = Vec<A::Part>;
+
+    fn count(&self) -> usize {
+        self.iter().map(A::count).min().unwrap_or(0)
+    }
+
+    fn divide(self, at: usize) -> (Self, Self) {
+        self.into_iter().map(|parts| parts.divide(at)).unzip()
+    }
+
+    fn next(&mut self) -> Option<Self::Part> {
+        if self.is_empty() { None } else { self.iter_mut().map(A::next).collect() }
+    }
+}
+
 /// Runs of `size` nodes, the last of which may be shorter.
 pub(crate) struct Chunks<'a, T>(&'a [T], usize);
 

@@ -243,6 +243,9 @@ where
 
     fn advance(&mut self, observe: &mut dyn FnMut(&Iteration) -> ControlFlow<()>) -> Option<Result<PathStep<T>>> {
         if !self.state.solved {
+            if let Err(error) = Error::alone("path", self.problem.grid().slab()) {
+                return Some(Err(error));
+            }
             let control = *self.legs.first()?;
             let start = self.start.take();
             return self.begin(control, start, observe).transpose();

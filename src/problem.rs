@@ -182,7 +182,16 @@ impl<T: Real> PressedFlat<T> {
             Boundary::Free { window, .. } => (surface.grid(), window),
         };
         Error::shape("surface", grid.shape(), expected.shape())?;
+        let (slab, one) =
+            (operator.grid().slab(), "surface and operator have to be on one grid: make both on the shared one");
+        if grid.is_shared() != slab.is_shared() {
+            return Err(Error::Shared { what: "contact", reason: one });
+        }
+        if !operator.takes_slabs() {
+            Error::alone("elastic operator", slab)?;
+        }
         if let Some(shape) = law.shape() {
+            Error::alone("adhesion law that varies over the surface", slab)?;
             Error::shape("adhesion law that varies over the surface", shape, grid.shape())?;
         }
         let ((nx, ny), whole) = (expected.shape(), operator.grid().shape());
@@ -216,15 +225,16 @@ impl<T: Real> PressedFlat<T> {
         // where nothing faces the body there is no height: those that stand there do not exceed the others
         let least = (f64::INFINITY, f64::NEG_INFINITY);
         let (low, high) = surface.heights().iter().fold(least, |(low, high), &h| (low.min(h), high.max(h)));
+        let (low, high) = (slab.least(low), slab.most(high));
         let (peak, height_span) = (high - mean, high - low);
-        let mut surface_pressure = Array2::zeros(whole.grid().shape());
+        let mut surface_pressure = Array2::zeros(whole.grid().field_shape());
         // a large datum would drown the heights in its rounding; a small one is not worth a copy
         let centred = (mean.abs() > rms_height).then(|| whole.heights().mapv(|h| h - mean));
         let heights = centred.as_ref().unwrap_or(whole.heights()).view();
         let surface_work = operator.surface_pressure(heights, surface_pressure.view_mut())?.max(0.0);
         drop(centred);
-        Error::all_finite("pressure K⁻¹h of the surface pressed flat", surface_pressure.view())?;
-        let stiffness = field::mean(surface_pressure.view(), |p: T| p.widen().powi(2)).sqrt() / rms_height;
+        Error::all_finite_in(slab, "pressure K⁻¹h of the surface pressed flat", surface_pressure.view())?;
+        let stiffness = field::mean_over(slab, surface_pressure.view(), |p: T| p.widen().powi(2)).sqrt() / rms_height;
         let (lx, ly) = grid.lengths();
         Ok(Self {
             pressure: surface_pressure,
@@ -323,7 +333,9 @@ impl<T: Real, O: ElasticOperator<T>, L: AdhesionLaw<T>> Problem<T, O, L> {
     ///
     /// # Errors
     /// [`Error::Shape`] or [`Error::Value`] if the grids differ; [`Error::Law`] if the law is not finite at zero gap;
-    /// [`Error::NotFinite`] if K⁻¹h leaves the range of T.
+    /// [`Error::NotFinite`] if K⁻¹h leaves the range of T; [`Error::Shared`] where several processes share the grid and
+    /// the operator does not take slabs, the law varies over the surface, or only one of surface and operator is
+    /// shared.
     pub fn new(surface: &Surface, mut operator: O, law: L) -> Result<Self> {
         let flat = PressedFlat::of(surface, &mut operator, &law)?;
         Ok(Self { operator, law, flat })

@@ -15,6 +15,7 @@ use crate::field::{Partial, Reducer, flat, read, write};
 use crate::par::Parts;
 use crate::problem::{Control, Problem, Window, smoothed_law};
 use crate::real::Real;
+use crate::slab::Slab;
 use crate::solver::{Of, Potential, Solution, check_wall};
 
 mod bound;
@@ -296,6 +297,7 @@ where
     O: ElasticOperator<T>,
     L: AdhesionLaw<T>,
 {
+    Error::alone("stability", problem.grid().slab())?;
     Error::shape("gap", gap.dim(), problem.grid().shape())?;
     if problem.flat.window.is_none() {
         Error::all_finite("gap", gap.view())?;
@@ -320,7 +322,7 @@ fn slopes<T: Real>(gap: &Array2<T>, local: Potential<'_, T>, window: Option<&Win
         &standard
     };
     let mut slopes = Array2::zeros(gap.dim());
-    let mut reducer = Reducer::new(gap.len());
+    let mut reducer = Reducer::new(Slab::whole(gap.dim()));
     let wrong = reducer.run(read(gap).zip(write(&mut slopes)), |first, (gap, slopes)| {
         let mut part = Partial::NONE;
         local.evaluate(Of::Slope, first, gap, slopes);

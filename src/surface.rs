@@ -1,11 +1,12 @@
 //! The surface: heights on a grid.
 
+use std::borrow::Cow;
 use std::f64::consts::TAU;
 
 use ndarray::Array2;
 
 use crate::error::{Error, Result};
-use crate::field::{self, flat_mut};
+use crate::field;
 use crate::grid::Grid;
 
 mod philox;
@@ -46,8 +47,8 @@ impl Surface {
     /// # Errors
     /// [`Error::Shape`] if they do not fit the grid, [`Error::NotFinite`] with the number and place of missing points.
     pub fn new(grid: Grid, heights: Array2<f64>) -> Result<Self> {
-        Error::shape("heights", heights.dim(), grid.shape())?;
-        Error::all_finite("heights", heights.view())?;
+        Error::agreed(grid.slab(), Error::shape("heights", heights.dim(), grid.field_shape()))?;
+        Error::all_finite_in(grid.slab(), "heights", heights.view())?;
         let heights = if heights.is_standard_layout() { heights } else { heights.as_standard_layout().into_owned() };
         Ok(Self { grid, heights, absent: None })
     }
@@ -72,9 +73,14 @@ impl Surface {
     ///
     /// # Errors
     /// [`Error::Shape`] if the heights do not fit the grid, [`Error::NotFinite`] with the number and place of infinite
-    /// ones, [`Error::Value`] if all nodes are absent.
+    /// ones, [`Error::Value`] if all nodes are absent, [`Error::Shared`] for absent nodes on a grid that several
+    /// processes share.
     pub fn with_absent(grid: Grid, heights: Array2<f64>) -> Result<Self> {
-        Error::shape("heights", heights.dim(), grid.shape())?;
+        let slab = grid.slab();
+        if slab.has(heights.iter().any(|h| h.is_nan())) {
+            Error::alone("absent nodes", slab)?;
+        }
+        Error::agreed(slab, Error::shape("heights", heights.dim(), grid.field_shape()))?;
         if !heights.iter().any(|h| h.is_nan()) {
             return Self::new(grid, heights);
         }
@@ -137,9 +143,30 @@ impl Surface {
         &self.grid
     }
 
-    /// The heights, of shape (Nx, Ny), in row-major layout.
+    /// The heights, of shape (Nx, Ny), in row-major layout; on a grid that several processes share, of the rows that
+    /// this one holds.
     pub fn heights(&self) -> &Array2<f64> {
         &self.heights
+    }
+
+    /// The whole surface, on a grid that this process has alone: the surface itself, unless several processes share its
+    /// grid. All of these have to ask for it, and get it.
+    pub fn whole(&self) -> Cow<'_, Self> {
+        if !self.grid.is_shared() {
+            return Cow::Borrowed(self);
+        }
+        let heights = self.grid.slab().whole_of(&self.heights, true).unwrap_or_default();
+        Cow::Owned(Self { grid: self.grid.alone(), heights, absent: None })
+    }
+
+    /// The whole surface, as [`Surface::whole`], on the first of the processes that share its grid, and nothing on the
+    /// others. All of them have to ask.
+    pub fn gathered(&self) -> Option<Cow<'_, Self>> {
+        if !self.grid.is_shared() {
+            return Some(Cow::Borrowed(self));
+        }
+        let heights = self.grid.slab().whole_of(&self.heights, false)?;
+        Some(Cow::Owned(Self { grid: self.grid.alone(), heights, absent: None }))
     }
 
     /// The absent nodes, at which nothing faces the half-space, of shape (Nx, Ny); nothing if there are none.
@@ -155,21 +182,21 @@ impl Surface {
     /// The mean height.
     pub fn mean(&self) -> f64 {
         // about the first height, so that a large datum costs no digits
-        let datum = self.heights[[0, 0]];
-        datum + field::mean(self.heights.view(), |h| h - datum)
+        let slab = self.grid.slab();
+        let datum = slab.first(self.heights.first().copied().unwrap_or_default());
+        datum + field::mean_over(slab, self.heights.view(), |h| h - datum)
     }
 
     /// The root mean square of the heights about their mean.
     pub fn rms_height(&self) -> f64 {
         let mean = self.mean();
-        field::mean(self.heights.view(), |h| (h - mean).powi(2)).sqrt()
+        field::mean_over(self.grid.slab(), self.heights.view(), |h| (h - mean).powi(2)).sqrt()
     }
 }
 
-/// Moves what is at index zero to the origin of the grid.
+/// Moves what is at index zero along y to the origin of the grid.
 fn centre(field: &mut Array2<f64>) {
-    let (nx, ny) = field.dim();
-    flat_mut(field).rotate_right(nx / 2 * ny);
+    let ny = field.ncols();
     field.rows_mut().into_iter().filter_map(|row| row.into_slice()).for_each(|row| row.rotate_right(ny / 2));
 }
 

@@ -8,6 +8,7 @@ use crate::grid::Grid;
 use crate::par;
 use crate::problem::mu_rho;
 use crate::real::Real;
+use crate::slab::Slab;
 use crate::solver::Solution;
 use crate::surface::{Surface, Topography};
 use crate::vector::sums;
@@ -172,7 +173,11 @@ impl Warning {
     ///
     /// Takes two passes over the heights, and a third where single nodes may be far out. Where there are codes for missing points, the warnings that these codes
     /// would cause are left out. Tilt and edges are looked at along sides of 16 nodes and more.
+    ///
+    /// Where several processes share the grid, each of them takes the whole surface for it, as [`Surface::whole`] gives
+    /// it.
     pub fn of_surface(surface: &Surface) -> Vec<Self> {
+        let surface = &*surface.whole();
         let extremes = Extremes::of(surface.heights());
         let mut found = Vec::new();
         found.extend(cells(surface.grid()));
@@ -219,7 +224,7 @@ impl Warning {
             return Vec::new();
         }
         let mu_rho = mu_rho(law, surface.grid(), modulus);
-        let (range, span) = (law.range().widen(), Extremes::of(surface.heights()).span());
+        let (range, span) = (law.range().widen(), Extremes::of(surface.whole().heights()).span());
         let mut found = Vec::new();
         if mu_rho > RESOLVED {
             // μ_ρ goes with the root of the spacing, and with the inverse of the range
@@ -250,12 +255,15 @@ impl Warning {
     pub fn of_solution<T: Real>(solution: &Solution<T>, modulus: f64) -> Vec<Self> {
         let contiguous = solution.contact_pressure.as_standard_layout();
         let pressures = contiguous.as_slice().unwrap_or_default();
-        let total = Reducer::new(pressures.len()).run(par::chunks(pressures, CHUNK), |_, chunk| {
-            sums!(1, [chunk], [], |i| {
-                let pressure = chunk[i].widen();
-                ([if pressure > modulus { 1.0 } else { 0.0 }], -pressure)
-            })
-        });
+        let total = Reducer::new(Slab::whole(solution.contact_pressure.dim())).run(
+            par::chunks(pressures, CHUNK),
+            |_, chunk| {
+                sums!(1, [chunk], [], |i| {
+                    let pressure = chunk[i].widen();
+                    ([if pressure > modulus { 1.0 } else { 0.0 }], -pressure)
+                })
+            },
+        );
         let (count, greatest) = (total.sum[0], -total.min);
         let mut found = Vec::new();
         found.extend(window_edge(solution));

@@ -187,6 +187,7 @@ impl<C> Accuracy<C> {
         law: &dyn AdhesionLaw<T>,
         control: Control,
     ) -> Result<Plan> {
+        Error::alone("accuracy", surface.grid().slab())?;
         let tolerance = self.tolerance()?;
         self.of.check(control)?;
         let nodes_per_wave = surface.nodes_per_wave(operator.boundary());

@@ -26,4 +26,7 @@ impl<T: Real> ContactConstraint<T> for NoWall {
     fn wall(&self) -> Wall<'_, T> {
         Wall::None
     }
+    fn takes_slabs(&self) -> bool {
+        true
+    }
 }

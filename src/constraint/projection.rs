@@ -23,4 +23,7 @@ impl<T: Real> ContactConstraint<T> for Projection {
     fn wall(&self) -> Wall<'_, T> {
         Wall::Rigid
     }
+    fn takes_slabs(&self) -> bool {
+        true
+    }
 }

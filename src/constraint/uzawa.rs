@@ -9,6 +9,7 @@ use crate::field::{CHUNK, Partial, Reducer, flat, read, write};
 use crate::grid::Grid;
 use crate::par::{self, Parts};
 use crate::real::Real;
+use crate::slab::Slab;
 
 /// The springs are made so much stiffer where more than this share of the interpenetration is left after a round.
 const STIFFEN: f64 = 4.0;
@@ -69,6 +70,7 @@ pub struct Uzawa<T> {
     /// the tolerance of the solve
     solved_to: f64,
     multipliers: Array2<T>,
+    slab: Slab,
     rounds: usize,
 }
 
@@ -91,6 +93,7 @@ impl<T: Real> Uzawa<T> {
             stiffest: 0.0,
             solved_to: 0.0,
             multipliers,
+            slab: Slab::whole((0, 0)),
             rounds: 0,
         })
     }
@@ -116,7 +119,8 @@ impl<T: Real> ContactConstraint<T> for Uzawa<T> {
     }
     fn start(&mut self, grid: &Grid, stiffest: f64, tolerance: f64) -> Result<()> {
         self.solved_to = tolerance;
-        self.multipliers = Array2::zeros(grid.shape());
+        self.multipliers = Array2::zeros(grid.field_shape());
+        self.slab = grid.slab();
         self.rounds = 0;
         (self.stiffness, self.off, self.stiffest) = (self.softest, f64::INFINITY, stiffest);
         if stiffest > 0.0 {
@@ -124,13 +128,16 @@ impl<T: Real> ContactConstraint<T> for Uzawa<T> {
         }
         Ok(())
     }
+    fn takes_slabs(&self) -> bool {
+        true
+    }
     fn update(&mut self, gap: ArrayView2<'_, T>) -> Update {
         self.rounds += 1;
-        let (nodes, stiffness) = (self.multipliers.len(), self.stiffness);
+        let (slab, stiffness) = (self.slab, self.stiffness);
         let gap = gap.as_standard_layout();
         let gaps = || par::chunks(gap.as_slice().unwrap_or_default(), CHUNK);
         let next = move |multiplier: T, gap: T| (multiplier - stiffness * gap).max(T::zero());
-        let mut reducer = Reducer::new(nodes);
+        let mut reducer = Reducer::new(slab);
         let total = reducer.run(read(&self.multipliers).zip(gaps()), |_, (multipliers, gaps)| {
             let mut part = Partial::NONE;
             for (&multiplier, &gap) in multipliers.iter().zip(gaps) {
@@ -144,7 +151,7 @@ impl<T: Real> ContactConstraint<T> for Uzawa<T> {
             part
         });
         let [change, change_squared, sum, squared, ..] = total.sum;
-        let (nodes, k) = (nodes as f64, stiffness.widen());
+        let (nodes, k) = (slab.nodes() as f64, stiffness.widen());
         let off = change_squared.sqrt() / k;
         let left = (self.stiffest * off).powi(2) + self.stiffest * change * change / (nodes * k);
         // but for the rounding of their difference

@@ -55,6 +55,7 @@ impl<T: Real> Boussinesq<T> {
     /// or if a compliance leaves the range of T or is not positive, as rounding could make it on cells far from square.
     pub fn new(window: Grid, modulus: f64) -> Result<Self> {
         Error::positive("contact modulus", modulus)?;
+        Error::alone("free half-space", window.slab())?;
         let (shape, (dx, dy)) = (window.shape(), window.spacing());
         for (name, nodes) in [("number of nodes Nx of a free half-space", shape.0), ("number of nodes Ny", shape.1)] {
             if nodes < 2 {

@@ -29,7 +29,9 @@ const POWERS: usize = 20;
 /// # Ok::<(), asperity::Error>(())
 /// ```
 pub fn check_operator<T: Real>(operator: &mut (impl ElasticOperator<T> + ?Sized)) -> Result<()> {
-    let shape = operator.grid().shape();
+    let grid = *operator.grid();
+    Error::alone("check of an operator", grid.slab())?;
+    let shape = grid.shape();
     let field = || Array2::<T>::zeros(shape);
     let ([a, b], mut of_a, mut of_b) = ([1, 2].map(|seed| random::<T>(shape, seed)), field(), field());
     let (softest, stiffest) = operator.stiffness_range();
@@ -37,7 +39,7 @@ pub fn check_operator<T: Real>(operator: &mut (impl ElasticOperator<T> + ?Sized)
         return Ok(());
     }
     let rounding = 64.0 * T::epsilon().widen();
-    let product = |a: &Array2<T>, b: &Array2<T>| mean_product(a.view(), b.view());
+    let product = |a: &Array2<T>, b: &Array2<T>| mean_product(&grid, a.view(), b.view());
     let mean = |field: &Array2<T>| field::mean(field.view(), T::widen);
     let holds = |property, found: f64, expected: f64, allowed: f64| match (found - expected).abs() <= allowed {
         true => Ok(()),

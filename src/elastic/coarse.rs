@@ -4,9 +4,8 @@ use std::f64::consts::{PI, SQRT_2};
 use std::ops::Range;
 
 use asperity_fft::num_complex::Complex;
-use ndarray::ArrayView2;
 
-use crate::fft::{Layout, Sums};
+use crate::fft::{Layout, Modes, Sums};
 use crate::grid::Grid;
 use crate::real::Real;
 
@@ -132,11 +131,10 @@ impl CoarseSpace {
     }
 
     /// Finds the response to a load, whose half spectrum is given.
-    pub(super) fn respond<T: Real>(&mut self, spectrum: ArrayView2<'_, Complex<T>>) {
+    pub(super) fn respond<T: Real>(&mut self, spectrum: &Modes<'_, T>) {
         let Self { waves, factor, apart, held, load, response, vector, .. } = self;
-        for (i, (load, wave)) in load.iter_mut().zip(waves).enumerate() {
-            let mode = spectrum[[wave.column, wave.row]];
-            *load = Complex::new(mode.re.widen(), mode.im.widen());
+        spectrum.read(waves.iter().map(|wave| (wave.column, wave.row)), load);
+        for (i, load) in load.iter().enumerate() {
             if i == 0 {
                 vector[0] = load.re;
             } else {
@@ -234,6 +232,7 @@ mod tests {
     use super::*;
     use crate::elastic::{ElasticOperator, Foundation, Spectral};
     use crate::field::{mean, mean_of_both};
+    use crate::slab::Slab;
 
     const SHAPES: [(usize, usize); 6] = [(16, 16), (15, 21), (24, 10), (5, 40), (90, 1), (1, 64)];
     const STIFFNESS: f64 = 3.0;
@@ -263,7 +262,7 @@ mod tests {
         let foundation = Foundation { coarse: Some(space), ..Foundation::uniform(0.7, 0.9) };
         let found = body.precondition(r.view(), foundation, z.view_mut()).unwrap();
         // the sums that come from the transform
-        let product = mean_of_both(r.view(), z.view(), |a, b| a * b);
+        let product = mean_of_both(Slab::whole(r.dim()), r.view(), z.view(), |a, b| a * b);
         assert!((found.descent - product).abs() < 1e-13, "{} {product}", found.descent);
         assert!((found.mean - mean(z.view(), |z| z)).abs() < 1e-13);
         z
@@ -284,7 +283,7 @@ mod tests {
     }
 
     fn product(a: &Array2<f64>, b: &Array2<f64>) -> f64 {
-        mean_of_both(a.view(), b.view(), |a, b| a * b)
+        mean_of_both(Slab::whole(a.dim()), a.view(), b.view(), |a, b| a * b)
     }
 
     #[test]

@@ -7,11 +7,11 @@ use std::sync::Arc;
 
 use super::*;
 use crate::fft::{Convolver, Layout, Sums};
-use crate::real::{Compiled, cast};
+use crate::real::Compiled;
 
 mod stiffness;
 
-use stiffness::{Stiffness, check_range, half_space, soften, stiffen, stiffness};
+use stiffness::{Columns, Stiffness, check_range, half_space, soften, stiffen, stiffness};
 
 /// The stiffness k(qx, qy) of a wave, pressure per displacement.
 type Symbol = Arc<dyn Fn(f64, f64) -> f64 + Send + Sync>;
@@ -66,16 +66,11 @@ impl<T: Real> Spectral<T> {
         Error::positive("contact modulus", modulus)?;
         let symbol: Symbol = Arc::new(symbol);
         let stiffness = stiffness(&grid, &symbol)?;
-        let modes = || stiffness.iter().skip(1).map(|k: &T| k.widen());
-        let range = if grid.nodes() == 1 {
-            (0.0, 0.0)
-        } else {
-            (modes().fold(f64::INFINITY, f64::min), modes().fold(0.0, f64::max))
-        };
+        let range = stiffness.range();
         if grid.nodes() > 1 {
             check_range::<T>(range.0, range.1)?;
         }
-        let (stiffness, convolver) = (Stiffness::Stored(stiffness), Convolver::new(grid.shape()));
+        let (stiffness, convolver) = (Stiffness::Stored(stiffness), Convolver::new(grid.slab()));
         Ok(Self { grid, modulus, symbol, stiffness, range, convolver })
     }
 
@@ -84,7 +79,7 @@ impl<T: Real> Spectral<T> {
         Error::positive("contact modulus", modulus)?;
         let symbol: Symbol = Arc::new(move |qx, qy| 0.5 * modulus * qx.hypot(qy));
         let (stiffness, range) = half_space(&grid, modulus)?;
-        Ok(Self { grid, modulus, symbol, stiffness, range, convolver: Convolver::new(grid.shape()) })
+        Ok(Self { grid, modulus, symbol, stiffness, range, convolver: Convolver::new(grid.slab()) })
     }
 
     /// The operator of a compliance that is even along both axes, without folded lines: of each column of the half
@@ -99,16 +94,16 @@ impl<T: Real> Spectral<T> {
         if let Some(mean) = modes.first_mut() {
             *mean = 0.0;
         }
-        let waves = || modes.iter().skip(1).copied();
-        let range = (waves().fold(f64::INFINITY, f64::min), waves().fold(0.0, f64::max));
+        let modes = Columns::new(grid.slab(), modes.ncols(), |column, i| modes[[column, i]]);
+        let range = modes.range();
         check_range::<T>(range.0, range.1)?;
-        let (convolver, modes) = (Convolver::new(grid.shape()), Arc::new(modes));
+        let (convolver, modes) = (Convolver::new(grid.slab()), Arc::new(modes));
         let (exchanged, (lx, ly)) = (convolver.layout().mode(0, 1).0 == 0, grid.lengths());
         let symbol = {
             let modes = Arc::clone(&modes);
             move |qx: f64, qy: f64| {
                 let [i, j] = [(qx * lx).abs() / TAU, (qy * ly).abs() / TAU].map(|number| number.round() as usize);
-                modes.get(if exchanged { [i, j] } else { [j, i] }).copied().unwrap_or(f64::NAN)
+                modes.get(if exchanged { [i, j] } else { [j, i] }).unwrap_or(f64::NAN)
             }
         };
         Ok(Self { grid, modulus, symbol: Arc::new(symbol), stiffness: Stiffness::Even(modes), range, convolver })
@@ -210,7 +205,7 @@ impl<T: Real> Spectral<T> {
             Stiffness::HalfSpace { .. } | Stiffness::Line { .. } => half_space(&self.grid, self.modulus)?.0,
         };
         let layout = self.convolver.layout();
-        Convolver::<f64>::new(self.grid.shape())
+        Convolver::<f64>::new(self.grid.slab())
             .convolve(heights, pressure, |k, column| weigh(layout, k, stiffness.modify(k, column, stiffen)))
     }
 
@@ -255,7 +250,7 @@ impl<T: Real> ElasticOperator<T> for Spectral<T> {
         let (stiffness, range) = match &self.stiffness {
             Stiffness::Stored(stiffness) => {
                 check_range::<f32>(self.range.0, self.range.1).ok()?;
-                (Stiffness::Stored(stiffness.mapv(cast)), self.range)
+                (Stiffness::Stored(stiffness.cast()), self.range)
             }
             Stiffness::Even(modes) => {
                 check_range::<f32>(self.range.0, self.range.1).ok()?;
@@ -264,7 +259,11 @@ impl<T: Real> ElasticOperator<T> for Spectral<T> {
             Stiffness::HalfSpace { .. } | Stiffness::Line { .. } => half_space(&self.grid, self.modulus).ok()?,
         };
         let (grid, modulus, symbol) = (self.grid, self.modulus, Arc::clone(&self.symbol));
-        Some(Box::new(Spectral { grid, modulus, symbol, stiffness, range, convolver: Convolver::new(grid.shape()) }))
+        Some(Box::new(Spectral { grid, modulus, symbol, stiffness, range, convolver: Convolver::new(grid.slab()) }))
+    }
+
+    fn takes_slabs(&self) -> bool {
+        true
     }
 
     fn release_memory(&mut self) {

@@ -1,12 +1,13 @@
 //! The layout of a field for its transform.
 
 use std::f64::consts::TAU;
+use std::ops::Range;
 
 use asperity_fft::num_complex::Complex;
 use ndarray::{Array2, ArrayView2, ArrayViewMut2, CowArray, Ix2};
 
-use super::TILE;
 use crate::real::Real;
+use crate::slab::{Slab, TILE};
 use crate::vector::vectorised;
 
 /// The length of a run of twiddles that is read from memory; a factor turns it into any other run.
@@ -62,6 +63,19 @@ impl Layout {
     /// The shape of the half spectrum: its columns, which are contiguous, and the modes in each.
     pub(crate) fn spectrum(&self) -> (usize, usize) {
         (self.plane.1 / 2 + 1, self.plane.0)
+    }
+
+    /// The shape of the part of the half spectrum that belongs to the rows of a slab.
+    pub(super) fn spectrum_of(&self, slab: &Slab) -> (usize, usize) {
+        let (columns, modes) = self.spectrum();
+        let (rows, _) = slab.held();
+        // a plane that is not the field is in one piece
+        (columns, if rows == slab.shape().0 { modes } else { rows })
+    }
+
+    /// The columns of the half spectrum that the process of a slab has.
+    pub(crate) fn columns_of(&self, slab: &Slab) -> Range<usize> {
+        slab.share_of(self.spectrum().0, slab.ranks().rank())
     }
 
     /// The indices of a mode along both axes of the field.

@@ -1,9 +1,10 @@
 //! Height maps in NumPy arrays (`.npy`).
 
-use std::io::Read;
+use std::io::{Read, Seek};
+use std::ops::Range;
 
 use super::{DAMAGED, Parsed, TRUNCATED, quoted, unreadable};
-use ndarray::Array2;
+use ndarray::{Array2, Axis, Slice};
 
 pub(super) const NPY: &[u8] = b"\x93NUMPY";
 const HEADER: &str = "has a .npy header that cannot be understood: save it again with numpy.save";
@@ -17,6 +18,48 @@ type Decoder = (usize, fn(&[u8]) -> f64);
 
 /// Reads a `.npy` array that takes `size` bytes, which bounds what its header may make us allocate.
 pub(super) fn read_npy(reader: &mut impl Read, size: u64) -> Parsed<Array2<f64>> {
+    let Header { shape: (rows, columns), decoder, reversed, fortran } = read_shape(reader, size)?;
+    let values = read_values(reader, rows * columns, decoder, reversed)?;
+    ended(reader)?;
+    if fortran {
+        let transposed = Array2::from_shape_vec((columns, rows), values).map_err(|e| e.to_string())?;
+        Ok(transposed.t().as_standard_layout().into_owned())
+    } else {
+        Array2::from_shape_vec((rows, columns), values).map_err(|e| e.to_string())
+    }
+}
+
+/// Reads some rows of a `.npy` array, as [`read_npy`], which `rows` chooses by its shape.
+pub(super) fn read_npy_rows<R: Read + Seek>(
+    reader: &mut R,
+    size: u64,
+    rows: impl FnOnce((usize, usize)) -> Range<usize>,
+) -> Parsed<(Array2<f64>, (usize, usize))> {
+    let Header { shape, decoder, reversed, fortran } = read_shape(reader, size)?;
+    let rows = rows(shape);
+    if fortran {
+        reader.rewind().map_err(unreadable)?;
+        let all = read_npy(reader, size)?;
+        return Ok((all.slice_axis(Axis(0), Slice::from(rows)).to_owned(), shape));
+    }
+    let skipped = (rows.start * shape.1 * decoder.0) as u64;
+    reader.seek_relative(skipped as i64).map_err(unreadable)?;
+    let values = read_values(reader, rows.len() * shape.1, decoder, reversed)?;
+    let field = Array2::from_shape_vec((rows.len(), shape.1), values).map_err(|e| e.to_string())?;
+    Ok((field, shape))
+}
+
+/// The header of an array of numbers, of one dimension or two.
+struct Header {
+    shape: (usize, usize),
+    decoder: Decoder,
+    /// whether the bytes of a number are in big-endian order
+    reversed: bool,
+    /// whether the first index runs fastest
+    fortran: bool,
+}
+
+fn read_shape(reader: &mut impl Read, size: u64) -> Parsed<Header> {
     let (header, data_size) = read_header(reader, size)?;
     let (dtype, fortran, shape) = parse_header(&header).ok_or(HEADER)?;
     let Some(decoder) = decoder(dtype) else {
@@ -40,13 +83,7 @@ pub(super) fn read_npy(reader: &mut impl Read, size: u64) -> Parsed<Array2<f64>>
              it is truncated or damaged, save it again"
         ));
     }
-    let values = read_values(reader, rows * columns, decoder, dtype.starts_with('>'))?;
-    if fortran {
-        let transposed = Array2::from_shape_vec((columns, rows), values).map_err(|e| e.to_string())?;
-        Ok(transposed.t().as_standard_layout().into_owned())
-    } else {
-        Array2::from_shape_vec((rows, columns), values).map_err(|e| e.to_string())
-    }
+    Ok(Header { shape: (rows, columns), decoder, reversed: dtype.starts_with('>'), fortran })
 }
 
 /// Reads a `.npy` text, of no dimension, that takes `size` bytes.
@@ -97,7 +134,7 @@ fn read_header(reader: &mut impl Read, size: u64) -> Parsed<(String, u64)> {
     Ok((String::from_utf8(header).unwrap_or_else(|e| String::from_utf8_lossy(e.as_bytes()).into_owned()), data_size))
 }
 
-/// Reads the rest of `reader`, `count` values, each with its bytes `reversed` if they are big-endian.
+/// Reads `count` values, each with its bytes `reversed` if they are big-endian.
 fn read_values(reader: &mut impl Read, count: usize, (width, decode): Decoder, reversed: bool) -> Parsed<Vec<f64>> {
     let mut values = Vec::new();
     values.try_reserve_exact(count).map_err(|_| format!("needs too much memory for its {count} values"))?;
@@ -112,7 +149,6 @@ fn read_values(reader: &mut impl Read, count: usize, (width, decode): Decoder, r
             values.push(decode(item));
         }
     }
-    ended(reader)?;
     Ok(values)
 }
 

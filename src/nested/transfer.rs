@@ -1,6 +1,6 @@
 //! Heights and gaps from one grid to another: a surface on a coarser one, and the solution there as a start on the finer.
 
-use ndarray::Array2;
+use ndarray::{Array2, ArrayView2};
 
 use crate::error::Result;
 use crate::field::flat_mut;
@@ -14,19 +14,45 @@ const WIDER: f64 = 0.77;
 
 /// The surface on a coarser grid; nothing if all of its nodes are absent.
 pub(super) fn coarsen(surface: &Surface, shape: (usize, usize)) -> Result<Option<Surface>> {
-    let grid = Grid::new(shape, surface.grid().lengths())?;
+    let grid = Grid::new(shape, surface.grid().lengths())?.shared_as(surface.grid());
     let (nx, ny) = surface.grid().shape();
-    let [along_x, along_y] = [(nx, shape.0), (ny, shape.1)].map(|(from, to)| places(from, to, true));
-    let heights = surface.heights();
+    let [mut along_x, along_y] = [(nx, shape.0), (ny, shape.1)].map(|(from, to)| places(from, to, true));
+    let needed = fetched(surface.heights().view(), surface.grid(), &grid, &mut along_x);
+    let heights = needed.as_ref().unwrap_or(surface.heights());
     let faces = |i, j| surface.absent().is_none_or(|absent| !absent[[i, j]]);
-    let heights = Array2::from_shape_fn(shape, |(i, j)| {
+    let heights = Array2::from_shape_fn(grid.field_shape(), |(i, j)| {
         let ([x, y], here) = ([&along_x[i], &along_y[j]], (along_x[i].nodes[1], along_y[j].nodes[1]));
         match faces(here.0, here.1) {
             false => f64::NAN,
             true => x.cubic(|i| y.cubic(|j| heights[[i, j]])),
         }
     });
-    if heights.iter().all(|h| h.is_nan()) { Ok(None) } else { Surface::with_absent(grid, heights).map(Some) }
+    let some = grid.slab().has(heights.iter().any(|h| !h.is_nan()));
+    if some { Surface::with_absent(grid, heights).map(Some) } else { Ok(None) }
+}
+
+/// The rows of a field on one grid that this process needs for its rows of another one, where several processes share
+/// them, and the places of these rows among them.
+fn fetched(field: ArrayView2<'_, f64>, from: &Grid, to: &Grid, places: &mut Vec<Place>) -> Option<Array2<f64>> {
+    if !from.is_shared() {
+        return None;
+    }
+    let nx = from.shape().0;
+    // from the node before the first place to the second one after the last
+    let needed = |rank| {
+        let rows = to.slab().rows_of(rank);
+        if rows.is_empty() {
+            return (0, 0);
+        }
+        let at = |k: usize| k * nx / to.shape().0;
+        ((at(rows.start) + nx - 1) % nx, at(rows.end - 1) - at(rows.start) + 4)
+    };
+    let (first, _) = needed(to.slab().ranks().rank());
+    *places = places.drain(..).skip(to.rows().start).take(to.rows().len()).collect();
+    for place in &mut *places {
+        place.nodes.iter_mut().for_each(|node| *node = (*node + nx - first) % nx);
+    }
+    Some(from.slab().fetch(field, needed))
 }
 
 /// The place of a node among those of another grid along a side.
@@ -96,17 +122,25 @@ pub(crate) fn prolong<T: Real>(
     (projects, periodic): (bool, bool),
 ) -> Array2<T> {
     let ((cx, cy), (nx, ny)) = (coarse.grid().shape(), surface.grid().shape());
-    let (along_x, along_y, coarse_y) = (places(cx, nx, periodic), places(cy, ny, periodic), places(ny, cy, true));
+    let (mut along_x, along_y, coarse_y) = (places(cx, nx, periodic), places(cy, ny, periodic), places(ny, cy, true));
     let heights = surface.heights();
+    let grids = (coarse.grid(), surface.grid());
+    let coarse_heights = fetched(coarse.heights().view(), grids.0, grids.1, &mut places(cx, nx, periodic));
+    let coarse_heights = coarse_heights.as_ref().unwrap_or(coarse.heights());
+    let gap = match grids.0.is_shared() {
+        true => fetched(gap.mapv(T::widen).view(), grids.0, grids.1, &mut along_x).map(|gap| gap.mapv(T::lit)),
+        false => None,
+    }
+    .unwrap_or(gap);
     // where nothing faces the half-space, a start need not be good
     let gap_at = |i: usize, j: usize| Some(gap[[i, j]].widen()).filter(|gap| gap.is_finite()).unwrap_or(0.0);
-    let mut fine = Array2::zeros((nx, ny));
+    let mut fine = Array2::zeros(surface.grid().field_shape());
     par::for_each(par::chunks_mut(flat_mut(&mut fine), ny), |i, row| {
         let x = &along_x[i];
         // displacement and gap along the row, at the coarse nodes of y
         let mut line = vec![(0.0, 0.0); cy];
         for (j, node) in line.iter_mut().enumerate() {
-            let u = x.cubic(|k| gap_at(k, j) + coarse.heights()[[k, j]]);
+            let u = x.cubic(|k| gap_at(k, j) + coarse_heights[[k, j]]);
             let height = coarse_y[j].cubic(|k| heights[[i, k]]);
             let apart = if projects { (u - height).max(0.0) } else { u - height };
             let touches = projects && x.touches(|k| gap[[k, j]].widen());

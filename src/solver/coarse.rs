@@ -1,10 +1,11 @@
 //! The coarse space of a solve: when it is told where the contacts are.
 
-use ndarray::Array2;
+use ndarray::{Array2, ArrayView2, Axis};
 
 use crate::elastic::{CoarseSpace, ElasticOperator};
 use crate::par::{self, Parts};
 use crate::real::Real;
+use crate::slab::Slab;
 
 /// The dimension of the space over the cube root of the number of nodes: then its decomposition takes 21 multiplications
 /// for each node, a third of the cube.
@@ -22,14 +23,19 @@ const MEAN: f64 = 1e-3;
 const INTERVAL: f64 = 2.0;
 const LONGER: f64 = 1.4;
 
+/// The contact of a block of nodes, in whole numbers, of which the order of a sum does not matter: the number of nodes,
+/// the sum of their places along y, and both times the place along x.
+type Count = [u64; 4];
+
 /// The coarse space of a solve.
 #[derive(Debug)]
 pub(crate) struct Coarse {
     space: CoarseSpace,
+    slab: Slab,
     /// the shares of contact at the first nodes of the blocks
     contact: Vec<f64>,
-    /// the same from each row of blocks, for this row and the next
-    rows: Vec<f64>,
+    /// the contact of each block
+    counts: Vec<Count>,
     /// whether the space has a contact map
     ready: bool,
     /// the iteration of the next renewal
@@ -40,11 +46,11 @@ pub(crate) struct Coarse {
 impl Coarse {
     /// The coarse space of an operator, if it has one.
     pub(crate) fn of<T: Real>(operator: &dyn ElasticOperator<T>) -> Option<Self> {
-        let nodes = operator.grid().nodes() as f64;
+        let (slab, nodes) = (operator.grid().slab(), operator.grid().nodes() as f64);
         let space = operator.coarse_space((DIMENSION * nodes.cbrt()) as usize)?;
         let [_, blocks] = space.blocks();
-        let [contact, rows] = [1, 2].map(|rows| vec![0.0; rows * blocks.0 * blocks.1]);
-        Some(Self { space, contact, rows, ready: false, due: 0, interval: INTERVAL })
+        let (contact, counts) = (vec![0.0; blocks.0 * blocks.1], vec![Count::default(); blocks.0 * blocks.1]);
+        Some(Self { space, slab, contact, counts, ready: false, due: 0, interval: INTERVAL })
     }
 
     /// Whether the contact map is to be taken in an iteration; the first one waits until the contacts have settled.
@@ -83,39 +89,52 @@ impl Coarse {
     /// A node counts for the first nodes of its own block and of the next one by linear interpolation: then the map has the
     /// symmetries of the surface about such nodes.
     fn map<T: Real>(&mut self, field: &Array2<T>, touches: impl Fn(usize, T) -> bool + Sync + Send) -> bool {
-        let ([block, blocks], ny) = (self.space.blocks(), field.ncols());
-        let share = (field.len() as f64).recip();
-        let rows = par::tiles(field.view(), 0, block.0);
-        // for each row of blocks: its own share, and that of the next row
-        let shares = par::chunks_mut(&mut self.rows, 2 * blocks.1);
-        par::for_each(rows.zip(shares), |row_of_blocks, (nodes, shares)| {
-            shares.fill(0.0);
-            let (here, next) = shares.split_at_mut(blocks.1);
+        let ([block, blocks], (nx, ny)) = (self.space.blocks(), self.slab.shape());
+        let count = |nodes: ArrayView2<'_, T>, from: usize, node: usize, counts: &mut [Count]| {
             for (i, row) in nodes.rows().into_iter().enumerate() {
-                let down = i as f64 / nodes.nrows() as f64;
-                for (k, nodes) in row.to_slice().unwrap_or_default().chunks(block.1).enumerate() {
-                    let (mut count, mut offsets) = (0, 0);
-                    let first = (row_of_blocks * block.0 + i) * ny + k * block.1;
+                for ((k, nodes), sums) in
+                    row.to_slice().unwrap_or_default().chunks(block.1).enumerate().zip(&mut *counts)
+                {
+                    let (mut count, mut places, first) = (0, 0, node + i * ny + k * block.1);
                     for (j, &node) in nodes.iter().enumerate() {
-                        let touches = usize::from(touches(first + j, node));
+                        let touches = u64::from(touches(first + j, node));
                         count += touches;
-                        offsets += touches * j;
+                        places += touches * j as u64;
                     }
-                    let right = share * offsets as f64 / nodes.len() as f64;
-                    let left = share * count as f64 - right;
-                    for (k, share) in [(k, left), ((k + 1) % blocks.1, right)] {
-                        here[k] += (1.0 - down) * share;
-                        next[k] += down * share;
-                    }
+                    let along = (from + i) as u64;
+                    let more = [count, places, along * count, along * places];
+                    sums.iter_mut().zip(more).for_each(|(sum, more)| *sum += more);
                 }
             }
+        };
+        self.counts.fill(Count::default());
+        let rows = self.slab.rows();
+        // the rest of a row of blocks that begins in another slab
+        let begun = rows.start % block.0;
+        let (head, others) = field.view().split_at(Axis(0), ((block.0 - begun) % block.0).min(rows.len()));
+        let (before, after) = self.counts.split_at_mut(rows.start.div_ceil(block.0) * blocks.1);
+        if let Some(counts) = before.len().checked_sub(blocks.1).and_then(|at| before.get_mut(at..)) {
+            count(head, begun, 0, counts);
+        }
+        par::for_each(par::tiles(others, 0, block.0).zip(par::chunks_mut(after, blocks.1)), |i, (nodes, counts)| {
+            count(nodes, 0, (head.nrows() + i * block.0) * ny, counts);
         });
-        let before = self.rows.chunks(2 * blocks.1).cycle().skip(blocks.0 - 1);
-        for ((contact, own), before) in
-            self.contact.chunks_mut(blocks.1).zip(self.rows.chunks(2 * blocks.1)).zip(before)
-        {
-            let shares = own.iter().zip(&before[blocks.1..]);
-            contact.iter_mut().zip(shares).for_each(|(contact, (own, before))| *contact = own + before);
+        self.slab.add_up(self.counts.as_flattened_mut());
+
+        let share = (nx as f64 * ny as f64).recip();
+        self.contact.fill(0.0);
+        for (b, counts) in self.counts.chunks(blocks.1).enumerate() {
+            let along = block.0.min(nx - b * block.0) as f64;
+            let next = (b + 1) % blocks.0 * blocks.1;
+            for (k, &[count, places, along_count, along_places]) in counts.iter().enumerate() {
+                let across = block.1.min(ny - k * block.1) as f64;
+                let [right, below_right] = [places, along_places].map(|places| places as f64 / across);
+                let [left, below_left] = [count as f64 - right, along_count as f64 - below_right];
+                for (k, whole, below) in [(k, left, below_left), ((k + 1) % blocks.1, right, below_right)] {
+                    self.contact[b * blocks.1 + k] += share * (whole - below / along);
+                    self.contact[next + k] += share * (below / along);
+                }
+            }
         }
         let total: f64 = self.contact.iter().sum();
         total > 0.0 && total < 1.0 - 0.5 * share

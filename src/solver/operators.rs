@@ -74,7 +74,7 @@ impl<'a> Two<'a> {
         idle: &mut [&mut Array2<f32>],
         apply: impl FnOnce(&mut dyn ElasticOperator<f64>) -> Result<R>,
     ) -> Result<R> {
-        let shape = self.state.grid().shape();
+        let shape = self.state.grid().field_shape();
         self.corrections.release_memory();
         idle.iter_mut().for_each(|field| **field = Array2::zeros((0, 0)));
         let result = apply(self.state);

@@ -8,6 +8,7 @@ use ndarray::Array2;
 
 use crate::field::Reducer;
 use crate::real::Real;
+use crate::slab::Slab;
 
 mod held;
 mod residual;
@@ -44,9 +45,9 @@ pub(super) struct Fields<T, L> {
 
 impl<T: Real, L: Real> Fields<T, L> {
     /// The fields of a solve that starts from this gap and its pressure.
-    pub(super) fn new(gap: Array2<T>, pressure: Array2<T>) -> Self {
+    pub(super) fn new(slab: Slab, gap: Array2<T>, pressure: Array2<T>) -> Self {
         let field = || Array2::zeros(gap.dim());
-        let reducer = Reducer::new(gap.len());
+        let reducer = Reducer::new(slab);
         let [residual, preconditioned, change] = std::array::from_fn(|_| field());
         let [least_r, moving] = std::array::from_fn(|_| vec![0.0; reducer.chunks()]);
         Self { gap, pressure, residual, preconditioned, change, reducer, least_r, moving }

@@ -23,6 +23,10 @@ impl<'a, T: Real, L: Real> State<'a, T, L> {
         if self.energy().is_finite() && self.tally.sum_r.is_finite() {
             return Ok(());
         }
+        Error::agreed(self.operators.state().grid().slab(), self.check_gaps())
+    }
+
+    fn check_gaps(&self) -> Result<()> {
         let law = self.law;
         let mut value = [T::zero()];
         for (node, gap) in flat(&self.fields.gap).iter().enumerate() {

@@ -1,11 +1,14 @@
 //! The report of a solve: its status, its figures, and the fields of the solution.
 
+use std::borrow::Cow;
 use std::fmt;
 
 use ndarray::Array2;
 
 use super::{Criterion, Method};
 use crate::elastic::Boundary;
+use crate::grid::Grid;
+use crate::real::Real;
 
 /// The status of a solve: how it ended, and how good its fields are.
 ///
@@ -219,4 +222,18 @@ pub struct Solution<T> {
     pub contact_pressure: Array2<T>,
     /// The account.
     pub report: Report,
+}
+
+impl<T: Real> Solution<T> {
+    /// The solution with the whole of its fields, on the first of the processes that share the grid of the surface, and
+    /// nothing on the others. All of them have to ask. The solution itself, if the grid is not shared.
+    pub fn gathered(&self, grid: &Grid) -> Option<Cow<'_, Self>> {
+        if !grid.is_shared() {
+            return Some(Cow::Borrowed(self));
+        }
+        let fields =
+            [&self.gap, &self.pressure, &self.contact_pressure].map(|field| grid.slab().whole_of(field, false));
+        let [Some(gap), Some(pressure), Some(contact_pressure)] = fields else { return None };
+        Some(Cow::Owned(Self { gap, pressure, contact_pressure, report: self.report.clone() }))
+    }
 }

@@ -8,6 +8,7 @@ use crate::error::{Error, Result};
 use crate::field;
 use crate::problem::{Load, PressedFlat, Window};
 use crate::real::Real;
+use crate::slab::Slab;
 
 /// The start of a solve: the gap from which the energy is minimised.
 ///
@@ -73,7 +74,7 @@ pub(super) fn uniform_start<T: Real>(law: &dyn AdhesionLaw<T>, flat: &PressedFla
 /// A gap that was given, as a start under a control.
 pub(super) fn given_start<T: Real>(
     start: CowArray<'_, T, Ix2>,
-    shape: (usize, usize),
+    slab: Slab,
     window: Option<&Window>,
     load: Load,
     projects: bool,
@@ -82,16 +83,17 @@ pub(super) fn given_start<T: Real>(
         Some(window) => window.start(start.view())?.into(),
         None => start,
     };
-    Error::shape("starting gap", start.dim(), shape)?;
-    Error::all_finite("starting gap", start.view())?;
-    if let Some(gap) = start.iter().find(|&&gap| projects && gap < T::zero()) {
+    Error::agreed(slab, Error::shape("starting gap", start.dim(), slab.held()))?;
+    Error::all_finite_in(slab, "starting gap", start.view())?;
+    let negative = start.iter().find(|&&gap| projects && gap < T::zero()).map_or(Ok(()), |gap| {
         let requirement = "zero or positive at every node";
-        return Err(Error::Value { name: "starting gap", value: gap.widen(), requirement });
-    }
+        Err(Error::Value { name: "starting gap", value: gap.widen(), requirement })
+    });
+    Error::agreed(slab, negative)?;
     let mut gap = if start.is_standard_layout() { start.into_owned() } else { start.as_standard_layout().into_owned() };
     if let Load::Gap(mean) = load {
-        let present = field::mean(gap.view(), T::widen);
-        if gap.iter().any(|&g| g < T::zero()) {
+        let present = field::mean_over(slab, gap.view(), T::widen);
+        if slab.has(gap.iter().any(|&g| g < T::zero())) {
             // gaps of both signs may have hardly any mean
             gap.mapv_inplace(|g| g + T::lit(mean - present));
         } else if present > 0.0 {

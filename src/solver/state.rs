@@ -165,9 +165,12 @@ impl<'a, T: Real, L: Real> State<'a, T, L> {
         settings: Settings,
     ) -> Result<Self> {
         let operator = operators.state();
-        let shape = operator.grid().shape();
+        let (slab, shape) = (operator.grid().slab(), operator.grid().field_shape());
         let surface = flat.window.as_ref().map_or(operator.grid(), Window::grid);
         check_wall(law, constraint.wall())?;
+        if !constraint.takes_slabs() {
+            Error::alone("contact constraint", slab)?;
+        }
         constraint.start(surface, operator.stiffness_range().1, settings.tolerance_in::<T>())?;
         let load = flat.load(control, constraint.wall())?;
         if settings.method == Method::Rey2017 && (flat.window.is_some() || load.stiffness() > 0.0) {
@@ -181,7 +184,7 @@ impl<'a, T: Real, L: Real> State<'a, T, L> {
         let uniform = start.is_none();
         let (gap, pressure) = match start {
             Some(start) => (
-                given_start(start, shape, flat.window.as_ref(), load, constraint.wall().is_rigid())?,
+                given_start(start, slab, flat.window.as_ref(), load, constraint.wall().is_rigid())?,
                 Array2::zeros(shape),
             ),
             None => (Array2::from_elem(shape, T::lit(uniform_start(law, flat, load))), flat.pressure.clone()),
@@ -197,7 +200,7 @@ impl<'a, T: Real, L: Real> State<'a, T, L> {
             given: 0.0,
             settings,
             goal: Goal::Solution,
-            fields: Fields::new(gap, pressure),
+            fields: Fields::new(slab, gap, pressure),
             tally: Tally::default(),
             work: Work::default(),
             drift: 0.0,
@@ -232,7 +235,7 @@ impl<'a, T: Real, L: Real> State<'a, T, L> {
     }
 
     pub(super) fn nodes(&self) -> f64 {
-        self.fields.gap.len() as f64
+        self.operators.state().grid().nodes() as f64
     }
 
     /// Takes the gap of undeformed bodies that just touch: under no pressure.

@@ -10,6 +10,7 @@ use crate::error::{Error, Result};
 use crate::field;
 use crate::problem::{Control, Problem};
 use crate::real::Real;
+use crate::slab::Slab;
 use crate::solver::{Potential, Solution, Solver, Start, bounded, refuse_springs};
 
 /// The departure from an equilibrium: the end of a minimisation that left it along its softest mode.
@@ -109,7 +110,9 @@ impl<T: Real> Stability<T> {
             let energy_drop = energy(from) - energy(&solution);
             if best.as_ref().is_none_or(|best| energy_drop > best.energy_drop) {
                 let square = |a: T, b: T| if a == b { 0.0 } else { (a - b).widen().powi(2) };
-                let distance = field::mean_of_both(solution.gap.view(), from.gap.view(), square).sqrt();
+                let distance =
+                    field::mean_of_both(Slab::whole(from.gap.dim()), solution.gap.view(), from.gap.view(), square)
+                        .sqrt();
                 best = Some(Departure { solution, energy_drop, distance, direction });
             }
         }

@@ -8,6 +8,7 @@ use crate::field::{self, Partial, Reducer, read, write};
 use crate::par::Parts;
 use crate::problem::Load;
 use crate::real::Real;
+use crate::slab::Slab;
 use crate::solver::Coarse;
 
 /// K⁻¹ + φ'' on fields that vanish on the contact, and have no mean if the mean gap is given; a spring adds its stiffness
@@ -30,7 +31,7 @@ pub(super) struct Hessian<'a, T> {
 impl<'a, T: Real> Hessian<'a, T> {
     pub(super) fn new(operator: &'a mut dyn ElasticOperator<T>, slopes: Array2<T>, load: Load) -> Self {
         let (centred, spring) = (matches!(load, Load::Gap(_)), load.stiffness());
-        let mut reducer = Reducer::new(slopes.len());
+        let mut reducer = Reducer::new(Slab::whole(slopes.dim()));
         let total = reducer.run(read(&slopes), |_, slopes| {
             let mut part = Partial::NONE;
             for slope in slopes {

@@ -10,6 +10,7 @@ use crate::error::Result;
 use crate::field::mean_of_both;
 use crate::problem::{Load, Window};
 use crate::real::Real;
+use crate::slab::Slab;
 use crate::solver::{Least, Potential, bounded};
 
 /// The share of a random field that is added to the mode of the last state. Without it a mode that has no share in the
@@ -106,7 +107,9 @@ impl<T: Real> Watch<T> {
     /// The share of the mode in a change of the gap: the cosine of the angle between them.
     pub(crate) fn share(&self, change: &Array2<T>) -> f64 {
         let Some(mode) = &self.mode else { return 0.0 };
-        let product = |a: &Array2<T>, b: &Array2<T>| mean_of_both(a.view(), b.view(), |a, b| a.widen() * b.widen());
+        let product = |a: &Array2<T>, b: &Array2<T>| {
+            mean_of_both(Slab::whole(a.dim()), a.view(), b.view(), |a, b| a.widen() * b.widen())
+        };
         let share = product(mode, change) / (product(mode, mode) * product(change, change)).sqrt();
         if share.is_finite() { share } else { 0.0 }
     }

@@ -105,8 +105,8 @@ impl SelfAffine {
     /// [`Error::Unresolved`] if the grid does not resolve k_s.
     pub fn surface(&self, grid: Grid) -> Result<Surface> {
         let band = Band::new(self, &grid)?;
-        let (nx, ny) = grid.shape();
-        let (mut heights, sum) = synthesise((nx, ny), |ky, column| {
+        let (nx, _) = grid.shape();
+        let (mut heights, sum) = synthesise(grid.slab(), |ky, column| {
             let mut sum = 0.0;
             for wave in band.waves(ky) {
                 let amplitude = self.draw(wave.kx, ky).scale(wave.density.sqrt());
@@ -253,6 +253,7 @@ impl Band {
 mod tests {
     use super::*;
     use crate::fft::Convolver;
+    use crate::slab::Slab;
 
     /// White noise filtered on the nodes, as the paper does it; `root` takes the root of Φ/S.
     fn filtered(root: bool) -> (Spectrum, Spectrum) {
@@ -274,7 +275,7 @@ mod tests {
             }
             [0.0; 3]
         };
-        Convolver::new((n, n)).convolve(noise.view(), heights.view_mut(), filter).unwrap();
+        Convolver::new(Slab::whole((n, n))).convolve(noise.view(), heights.view_mut(), filter).unwrap();
         (Surface::new(grid, heights).unwrap().spectrum(), target)
     }
 

@@ -70,10 +70,11 @@ impl Psd {
 impl Surface {
     /// The power spectrum, by a Fourier transform.
     pub fn spectrum(&self) -> Spectrum {
-        let mean = self.mean();
-        let mut powers = powers(self.heights.mapv(|h| h - mean).view());
+        let whole = self.whole();
+        let mean = whole.mean();
+        let mut powers = powers(whole.heights.mapv(|h| h - mean).view());
         powers[[0, 0]] = 0.0;
-        Spectrum::new(self.grid, powers)
+        Spectrum::new(whole.grid, powers)
     }
 }
 
@@ -178,7 +179,7 @@ impl Spectrum {
     ///
     /// The lag of an element is its coordinate on the grid: Δx = 0, where R = ⟨h²⟩, is at the node `(Nx / 2, Ny / 2)`.
     pub fn autocorrelation(&self) -> Array2<f64> {
-        let (mut field, _) = synthesise(self.grid.shape(), |ky, column| {
+        let (mut field, _) = synthesise(self.grid.slab(), |ky, column| {
             column.iter_mut().zip(self.powers.row(ky)).for_each(|(z, power)| *z = Complex::from(*power));
             0.0
         });

@@ -53,7 +53,13 @@ impl Surface {
     /// assert!((statistics.nayak - 1.0).abs() < 1e-12);
     /// # Ok::<(), asperity::Error>(())
     /// ```
+    ///
+    /// Where several processes share the grid, each of them takes the whole surface for it, as [`Surface::whole`] gives
+    /// it.
     pub fn statistics(&self) -> SurfaceStatistics {
+        if self.grid.is_shared() {
+            return self.whole().statistics();
+        }
         let (mean, rms_height) = (self.mean(), self.rms_height());
         // of heights over the rms height, whose fourth powers stay in range
         let power = |n: i32| field::mean(self.heights.view(), |h| ((h - mean) / rms_height).powi(n));

@@ -86,6 +86,9 @@ impl<T: Real> ContactConstraint<T> for Wall {
             Self::None => NoWall.wall(),
         }
     }
+    fn takes_slabs(&self) -> bool {
+        true
+    }
 }
 
 /// The law that the options choose, with what their files hold.

@@ -263,16 +263,15 @@ fn account<T: Scalar>(
     clock: Instant,
 ) -> Outcome<(Solution<T>, Account)> {
     let seconds = clock.elapsed().as_secs_f64();
-    check_finite(&solution)?;
-    let pressures = solution
-        .pressure
-        .iter()
-        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), p| (low.min(p.widen()), high.max(p.widen())));
+    check_finite(&solution, grid)?;
+    let least = (f64::INFINITY, f64::NEG_INFINITY);
+    let pressures = solution.pressure.iter().fold(least, |(low, high), p| (low.min(p.widen()), high.max(p.widen())));
+    let pressures = grid.extremes(pressures);
     let account = Account {
         report: solution.report.clone(),
         control,
         search: None,
-        nodes: solution.gap.len(),
+        nodes: grid.nodes(),
         contact: ContactStatistics::of(&solution, grid, law)?,
         pressures,
         grids,
@@ -302,11 +301,11 @@ fn steadiness<T: Scalar>(found: Stability<T>) -> Steadiness {
 }
 
 /// Refuses fields that are not finite, as of a solve that has run away.
-pub fn check_finite<T: Scalar>(solution: &Solution<T>) -> Outcome<()> {
+pub fn check_finite<T: Scalar>(solution: &Solution<T>, grid: &Grid) -> Outcome<()> {
     let Solution { gap, pressure, contact_pressure, report, .. } = solution;
     let fields = [("gap", gap), ("pressure", pressure), ("contact pressure", contact_pressure)];
     for (name, field) in fields {
-        let count = field.iter().filter(|value| !value.is_finite()).count();
+        let count = grid.total(field.iter().filter(|value| !value.is_finite()).count());
         // at absent nodes the gap is infinite
         let absent = if name == "gap" { report.absent_nodes } else { 0 };
         if count != absent {
@@ -316,7 +315,7 @@ pub fn check_finite<T: Scalar>(solution: &Solution<T>) -> Outcome<()> {
                  units in which the numbers are moderate",
                 report.iterations,
                 T::NAME,
-                field.len()
+                grid.nodes()
             )
             .into());
         }

@@ -1,12 +1,15 @@
 //! Heights from files, with the side lengths and units that those may have.
 
+use std::ops::Range;
 use std::path::Path;
 
-use asperity::io::read_topography;
-use asperity::{Surface, Topography};
+use asperity::io::{read_rows, read_topography};
+use asperity::{Error, Grid, Surface, Topography};
+use ndarray::Array2;
 
 use crate::outcome::Outcome;
 use crate::printing::complain;
+use crate::processes::Processes;
 use crate::quantity::{LENGTH, Quantity, power_of_length, times_ten_to};
 use crate::units::Units;
 
@@ -22,16 +25,67 @@ pub fn map(path: &Path, lengths: Option<&[Quantity]>, si: bool) -> Outcome<Topog
     let mut map = read_topography(path)?;
     if si {
         map = converted(path, map, LENGTH.si)?;
-        if map.lengths.is_none() && lengths.is_none() {
-            let text = "the numbers have units, but nothing says how large the map is: give --lengths, as 20um";
-            return Err(format!("{}: {text}", path.display()).into());
-        }
     }
-    if let Some(given) = given(&map, lengths) {
-        if let Some(found) = map.lengths {
+    map.lengths = Some(sides_of(path, &map, map.heights.dim(), lengths, si)?);
+    Ok(map)
+}
+
+/// Some rows of the field of a file, and the shape of the whole; none of them if it has fewer.
+pub fn rows(path: &Path, rows: Range<usize>) -> Outcome<(Array2<f64>, (usize, usize))> {
+    let (map, shape) = read_rows(path, |(nx, _)| rows.start.min(nx)..rows.end.min(nx))?;
+    Ok((map.heights, shape))
+}
+
+/// The surface of a file, of which every process reads its rows, and its unit.
+pub fn shared(
+    path: &Path,
+    lengths: Option<&[Quantity]>,
+    si: bool,
+    processes: &Processes,
+) -> Outcome<(Surface, Option<String>)> {
+    let read = || {
+        let mut refused = None;
+        let (map, shape) = read_rows(path, |shape| {
+            let grid = Grid::new(shape, (1.0, 1.0)).and_then(|grid| processes.share(grid));
+            grid.map(|grid| grid.rows()).unwrap_or_else(|error| {
+                refused = Some(error);
+                0..0
+            })
+        })?;
+        if let Some(error) = refused {
+            return Err(error.into());
+        }
+        let map = if si { converted(path, map, LENGTH.si)? } else { map };
+        let sides = sides_of(path, &map, shape, lengths, si)?;
+        Ok((Grid::new(shape, sides)?, map))
+    };
+    let (grid, Topography { heights, unit, .. }) = processes.agree(read())?;
+    let surface = Surface::new(processes.share(grid)?, heights);
+    match surface {
+        Ok(surface) => Ok((surface, unit)),
+        Err(error @ Error::Elsewhere { .. }) => Err(error.into()),
+        Err(error) => Err(format!("{}: {error}", path.display()).into()),
+    }
+}
+
+/// The side lengths of a map of this shape with the given `--lengths`. In the SI they are not taken for granted.
+fn sides_of(
+    path: &Path,
+    map: &Topography,
+    shape: (usize, usize),
+    lengths: Option<&[Quantity]>,
+    si: bool,
+) -> Outcome<(f64, f64)> {
+    if si && map.lengths.is_none() && lengths.is_none() {
+        let text = "the numbers have units, but nothing says how large the map is: give --lengths, as 20um";
+        return Err(format!("{}: {text}", path.display()).into());
+    }
+    let mut known = map.lengths;
+    if let Some(given) = lengths.map(|lengths| both_sides(shape, lengths)) {
+        if let Some(found) = known {
             let near = |a: f64, b: f64| (a / b - 1.0).abs() <= ROUNDING;
             // a line has no width
-            let agree = near(given.0, found.0) && (map.heights.ncols() == 1 || near(given.1, found.1));
+            let agree = near(given.0, found.0) && (shape.1 == 1 || near(given.1, found.1));
             if !agree {
                 let found = sides(found, map.unit.as_deref());
                 return Err(format!(
@@ -43,11 +97,12 @@ pub fn map(path: &Path, lengths: Option<&[Quantity]>, si: bool) -> Outcome<Topog
                 .into());
             }
         }
-        map.lengths = Some(given);
+        known = Some(given);
     }
-    warn_of_unread(path, &map, "are taken as 1 x 1");
-    map.lengths = map.lengths.or(Some((1.0, 1.0)));
-    Ok(map)
+    if known.is_none() {
+        warn_of_unread(path, map, "are taken as 1 x 1");
+    }
+    Ok(known.unwrap_or((1.0, 1.0)))
 }
 
 /// Warns of the arrays of a file that were not read, if its side lengths are unknown and may be among them; `are` says

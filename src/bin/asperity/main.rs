@@ -46,6 +46,7 @@ mod outcome;
 mod output;
 mod pictures;
 mod printing;
+mod processes;
 mod progress;
 mod quantity;
 mod report;
@@ -64,7 +65,9 @@ use std::process::ExitCode;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 
+use crate::outcome::Outcome;
 use crate::printing::{complain, on_one_line};
+use crate::processes::{Processes, is_elsewhere};
 use crate::scene::Scene;
 
 /// Frictionless normal contact of rough surfaces, with adhesion.
@@ -117,18 +120,25 @@ const REFUSED: u8 = 1;
 const NOT_CONVERGED: u8 = 2;
 
 fn main() -> ExitCode {
+    match Processes::start() {
+        Ok(processes) => run_on(&processes),
+        Err(error) => refused(&*error),
+    }
+}
+
+fn run_on(processes: &Processes) -> ExitCode {
     let mut tool = Tool::command();
     tool.build();
     match parsed(&mut tool, env::args_os()) {
         Ok((Command::Run(options), _)) => match run::Arguments::read(&tool, options) {
             Ok(read) => match parsed(&mut tool, read.arguments.clone()) {
-                Ok((command, scene)) => execute(command, &scene),
-                Err(error) => usage(&error, |argument| read.blamed(argument)),
+                Ok((command, scene)) => execute(command, &scene, processes),
+                Err(error) => usage(&error, processes, |argument| read.blamed(argument)),
             },
-            Err(error) => refused(&*error),
+            Err(error) => agreed(processes, Err(error)),
         },
-        Ok((command, scene)) => execute(command, &scene),
-        Err(error) => usage(&error, |_| None),
+        Ok((command, scene)) => execute(command, &scene, processes),
+        Err(error) => usage(&error, processes, |_| None),
     }
 }
 
@@ -147,10 +157,15 @@ where
     }
 }
 
-fn execute(command: Command, scene: &Scene) -> ExitCode {
+fn execute(command: Command, scene: &Scene, processes: &Processes) -> ExitCode {
+    if !matches!(command, Command::Solve(_))
+        && let Err(error) = processes.alone("every command but solve")
+    {
+        return agreed(processes, Err(error));
+    }
     let converged = match command {
         Command::Demo(options) => demo::run(&options),
-        Command::Solve(options) => solve::run(&options, scene),
+        Command::Solve(options) => solve::run(&options, scene, processes),
         Command::Sweep(options) => sweep::run(&options, scene),
         Command::Cycle(options) => cycle::run(&options, scene),
         Command::Study(options) => study::run(&options, Tool::command()),
@@ -163,21 +178,32 @@ fn execute(command: Command, scene: &Scene) -> ExitCode {
         Command::Completions(options) => completions::run(&options, Tool::command()),
         Command::Run(_) => Err("a scene cannot run another one: name a command in it".into()),
     };
-    match converged {
+    agreed(processes, converged)
+}
+
+/// The exit code of an outcome; one process tells of an error.
+fn agreed(processes: &Processes, converged: Outcome<bool>) -> ExitCode {
+    match processes.agree(converged) {
         Ok(true) => CONVERGED,
         Ok(false) => NOT_CONVERGED.into(),
         Err(error) => refused(&*error),
     }
 }
 
-fn refused(error: &dyn Error) -> ExitCode {
-    complain("error", &error.to_string());
+fn refused(error: &(dyn Error + 'static)) -> ExitCode {
+    if !is_elsewhere(error) {
+        complain("error", &error.to_string());
+    }
     REFUSED.into()
 }
 
 /// Prints help where it was asked for, and otherwise the mistake in the arguments on one line, after the name of the
 /// file that has the argument (`blamed`).
-fn usage(error: &clap::Error, blamed: impl Fn(&str) -> Option<String>) -> ExitCode {
+fn usage(error: &clap::Error, processes: &Processes, blamed: impl Fn(&str) -> Option<String>) -> ExitCode {
+    let help = matches!(error.kind(), ErrorKind::DisplayHelp | ErrorKind::DisplayVersion);
+    if !processes.is_first() {
+        return if help { CONVERGED } else { REFUSED.into() };
+    }
     match error.kind() {
         ErrorKind::DisplayHelp | ErrorKind::DisplayVersion => {
             let _ = error.print();

@@ -13,6 +13,7 @@ use crate::allowed::{positive, threads};
 use crate::boundary::BoundaryOptions;
 use crate::heights;
 use crate::outcome::Outcome;
+use crate::processes::Processes;
 use crate::quantity::{LENGTH, PRESSURE, Quantity};
 use crate::threads::use_threads;
 
@@ -107,6 +108,29 @@ impl<'a> ProblemOptions<'a> {
         let adhesion = self.adhesion.read(Some(surface.grid()))?;
         let start = self.solver.start(&surface)?;
         use_threads(self.solver.threads)?;
+        Ok(Given { surface, adhesion, unit, start })
+    }
+
+    /// As [`ProblemOptions::read`], of the files of fields the rows that this process holds.
+    pub fn read_rows(self, si: bool, processes: &Processes) -> Outcome<Given<'a>> {
+        if self.surface.beyond.absent_missing {
+            processes.alone("--absent-missing")?;
+        }
+        if self.adhesion.work_of_adhesion_map.is_some() {
+            processes.alone("--work-of-adhesion-map")?;
+        }
+        self.adhesion.check()?;
+        let (surface, unit) = heights::shared(&self.surface.heights, self.surface.lengths.as_deref(), si, processes)?;
+        let adhesion = processes.agree(self.adhesion.read(Some(surface.grid())))?;
+        let start = self.solver.initial_gap.as_deref().map(|path| {
+            let (grid, read) = (surface.grid(), processes.agree(heights::rows(path, surface.grid().rows()))?);
+            let (start, found) = read;
+            let expected = grid.shape();
+            let name = "--initial-gap";
+            if found == expected { Ok(start) } else { Err(Error::Shape { name, found, expected }.into()) }
+        });
+        let start: Option<Array2<f64>> = start.transpose().map_err(|error: Box<dyn std::error::Error>| error)?;
+        processes.agree(use_threads(self.solver.threads))?;
         Ok(Given { surface, adhesion, unit, start })
     }
 }

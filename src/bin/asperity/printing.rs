@@ -1,6 +1,7 @@
 //! Printing: tables for people or JSON, and the colours of a terminal.
 
 use std::io::{self, Write};
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use anstream::AutoStream;
 use clap::Args;
@@ -25,7 +26,7 @@ impl Printing {
 
     /// Whether bars are unwanted.
     pub fn without_bars(self) -> bool {
-        self.quiet
+        self.quiet || is_silent()
     }
 
     /// Prints words for people, if they are wanted.
@@ -61,14 +62,32 @@ pub fn yellow(text: &str) -> String {
     coloured(text, 3)
 }
 
+/// Whether this process prints nothing but its errors, as another one prints for all.
+static SILENT: AtomicBool = AtomicBool::new(false);
+
+/// Leaves all printing but that of errors to another process.
+pub fn silence() {
+    SILENT.store(true, Ordering::Relaxed);
+}
+
+fn is_silent() -> bool {
+    SILENT.load(Ordering::Relaxed)
+}
+
 /// Prints to standard output, with colours only if that is a terminal. Nobody may be listening any more, as behind
 /// `| head`: the files are written all the same.
 pub fn say(text: &str) {
+    if is_silent() {
+        return;
+    }
     let _ = writeln!(AutoStream::auto(io::stdout()), "{text}");
 }
 
 /// Prints one line to standard error, whatever names with line breaks it quotes.
 pub fn complain(kind: &str, text: &str) {
+    if is_silent() && kind != "error" {
+        return;
+    }
     let line: String = text.chars().map(|c| if c.is_control() { ' ' } else { c }).collect();
     let kind = if kind == "error" { coloured("error:", 1) } else { yellow(&format!("{kind}:")) };
     let _ = writeln!(AutoStream::auto(io::stderr()), "{kind} {line}");

@@ -1,9 +1,10 @@
 //! `asperity solve`: the equilibrium at one load.
 
+use std::borrow::Cow;
 use std::path::PathBuf;
 
 use asperity::contact::Patch;
-use asperity::io::{OutputFolder, write_npy, write_npz, write_vti};
+use asperity::io::{OutputFolder, create_npy, write_npy, write_npy_rows, write_npz, write_vti};
 use asperity::{AdhesionLaw, Control, Grid, Level, Status};
 use clap::{ArgGroup, Args, ValueEnum};
 use serde_json::{Value, json};
@@ -18,8 +19,8 @@ use crate::outcome::Outcome;
 use crate::output::at_destination;
 use crate::output::{output_folder, write_text};
 use crate::pictures::{self, PictureFormat, Resolution};
-use crate::printing::Printing;
-use crate::printing::say;
+use crate::printing::{Printing, complain, say};
+use crate::processes::Processes;
 use crate::progress::Progress;
 use crate::quantity::{PRESSURE, Quantity};
 use crate::report;
@@ -139,9 +140,14 @@ const REPORT: &str = "report.json";
 const PICTURES: [[&str; 2]; 3] =
     [["contact.png", "pressure.png"], ["contact.svg", "pressure.svg"], ["contact.pdf", "pressure.pdf"]];
 
+/// The most nodes of which one process takes the whole fields, where several have solved: for pictures, for warnings,
+/// and for files that are not written in rows.
+const WHOLE: usize = 4096 * 4096;
+
 /// Runs the command; whether it converged.
-pub fn run(options: &Options, scene: &Scene) -> Outcome<bool> {
+pub fn run(options: &Options, scene: &Scene, processes: &Processes) -> Outcome<bool> {
     let problem = options.problem();
+    options.check_shared(processes)?;
     problem.adhesion.check()?;
     problem.surface.beyond.boundary.check(options.load.control(1.0))?;
     let limits = options.colour_limits();
@@ -155,13 +161,17 @@ pub fn run(options: &Options, scene: &Scene) -> Outcome<bool> {
     let archives = [(Format::Npz, &NPZ), (Format::Vti, &VTI)].into_iter().filter(|(format, _)| options.writes(*format));
     let fields = arrays.chain(archives.map(|(_, name)| name));
     let names: Vec<_> = fields.chain([&REPORT, &scene::NAME]).chain(pictures).copied().collect();
-    Scene::check(&options.out.join(scene::NAME))?;
-    // Only a trial: a solve that is interrupted leaves nothing behind.
-    drop(output_folder(&options.out, &names, options.force)?);
-    let given = problem.read(scene.is_si())?;
-    let units = options.units.units(given.unit.as_deref(), scene.is_si())?;
+    processes.first(|| {
+        Scene::check(&options.out.join(scene::NAME))?;
+        // Only a trial: a solve that is interrupted leaves nothing behind.
+        drop(output_folder(&options.out, &names, options.force)?);
+        Ok(())
+    })?;
+    let si = scene.is_si();
+    let given = if processes.count() > 1 { problem.read_rows(si, processes)? } else { problem.read(si)? };
+    let units = processes.agree(options.units.units(given.unit.as_deref(), si))?;
     let full = options.surface.full_pressure(&given.surface, options.load.is_reduced())?;
-    let job = Job { options, scene, names, case: options.case(options.load.control(full)), units };
+    let job = Job { options, scene, processes, names, case: options.case(options.load.control(full)), units };
     match options.solver.precision {
         Precision::F32 => job.run::<f32>(given),
         Precision::F64 => job.run::<f64>(given),
@@ -169,6 +179,18 @@ pub fn run(options: &Options, scene: &Scene) -> Outcome<bool> {
 }
 
 impl Options {
+    /// Refuses what has no form for several processes.
+    fn check_shared(&self, processes: &Processes) -> Outcome<()> {
+        let whole = [
+            ("--stability", self.stability),
+            ("--leave", self.leave),
+            ("--stiffness", self.stiffness),
+            ("--accuracy", self.accuracy.accuracy.is_some()),
+            ("--contact-fraction", self.load.contact_fraction.is_some()),
+        ];
+        whole.into_iter().filter(|(_, wanted)| *wanted).try_for_each(|(option, _)| processes.alone(option))
+    }
+
     fn writes(&self, format: Format) -> bool {
         self.format.contains(&format)
     }
@@ -276,15 +298,20 @@ impl Options {
 struct Job<'a> {
     options: &'a Options,
     scene: &'a Scene,
+    processes: &'a Processes,
     names: Vec<&'static str>,
     case: Case,
     units: Units,
 }
 
 impl Job<'_> {
-    fn run<T: Scalar>(&self, Given { surface, adhesion, start, .. }: Given<'_>) -> Outcome<bool> {
+    fn run<T: Scalar>(mut self, Given { surface, adhesion, start, .. }: Given<'_>) -> Outcome<bool> {
         let Options { out, force, printing, .. } = self.options;
-        let mut grid = *surface.grid();
+        let (mut grid, processes) = (*surface.grid(), self.processes);
+        let fits = !grid.is_shared() || grid.nodes() <= WHOLE;
+        if !fits {
+            self.leave_out_what_takes_whole_fields()?;
+        }
         let start = start.map(T::field);
         let mut wanted = self.options.accuracy.goal(self.case.solver(), self.case.stiffness_to());
         let tolerance = match &wanted {
@@ -292,8 +319,11 @@ impl Job<'_> {
             None => self.case.settings.tolerance_in::<T>(),
         };
         let progress = Progress::new("", tolerance, grid.nodes(), printing.without_bars());
-        let mut warnings =
-            Warnings::of_input::<T>(self.options.strictness, &surface, &adhesion, self.options.problem())?;
+        let strictness = self.options.strictness;
+        let mut warnings = processes.agree(match if fits { surface.gathered() } else { None } {
+            Some(surface) => Warnings::of_input::<T>(strictness, &surface, &adhesion, self.options.problem()),
+            None => Warnings::none(strictness, fits),
+        })?;
         warnings.say();
         let law = adhesion.law()?;
         let (solution, mut account) = if let Some(wanted) = &mut wanted {
@@ -307,14 +337,24 @@ impl Job<'_> {
         } else {
             case::solve::<T, _>(surface, law, &self.case, start, progress)?
         };
-        warnings.look_at(&solution, self.case.modulus)?;
+        let whole = if fits { solution.gathered(&grid) } else { None };
+        let look = |whole: &Cow<'_, _>| warnings.look_at(whole, self.case.modulus);
+        processes.agree(whole.as_ref().map_or(Ok(()), look))?;
         account.warnings = warnings.report();
         account.strongest = adhesion.strongest();
 
-        let folder = output_folder(out, &self.names, *force)?;
-        let written = self.write(&folder, grid, &solution, &account, &adhesion.law()?);
-        written.map_err(|error| at_destination(error, out))?;
-        folder.commit()?;
+        let folder = processes.is_first().then(|| output_folder(out, &self.names, *force)).transpose();
+        let folder = processes.agree(folder)?;
+        if grid.is_shared() && self.options.writes(Format::Npy) {
+            self.write_rows(folder.as_ref(), grid, &solution)?;
+        }
+        processes.first(|| {
+            let Some(folder) = folder else { return Ok(()) };
+            let whole = whole.as_deref().unwrap_or(&solution);
+            let written = self.write(&folder, grid, whole, &account, &adhesion.law()?);
+            written.map_err(|error| at_destination(error, out))?;
+            Ok(folder.commit()?)
+        })?;
 
         if printing.for_people() {
             say(&table(&[], &[&account], &self.units));
@@ -325,6 +365,45 @@ impl Job<'_> {
         let reached = account.reached.as_ref().is_none_or(|reached| reached.reached)
             && account.search.as_ref().is_none_or(|search| search.reached);
         Ok(account.report.status == Status::Converged && reached)
+    }
+
+    /// Leaves out the pictures, and refuses files, for which one process would have to take the whole of the fields.
+    fn leave_out_what_takes_whole_fields(&mut self) -> Outcome<()> {
+        for (format, name) in [(Format::Npz, "--format npz"), (Format::Vti, "--format vti")] {
+            if self.options.writes(format) {
+                self.processes.alone(&format!("{name} of more than 4096 x 4096 nodes"))?;
+            }
+        }
+        if !self.options.no_pictures {
+            complain(
+                "warning",
+                "pictures, and a look for mistakes in the heights and in the answer, have no form for several \
+                                 processes and more than 4096 x 4096 nodes: there are none",
+            );
+        }
+        let pictures = self.options.picture_format.of(PICTURES);
+        self.names.retain(|name| !pictures.contains(name));
+        Ok(())
+    }
+
+    /// Writes the fields, each process its rows.
+    fn write_rows<T: Scalar>(
+        &self,
+        folder: Option<&OutputFolder>,
+        grid: Grid,
+        solution: &asperity::Solution<T>,
+    ) -> Outcome<()> {
+        let path = folder.map_or(String::new(), |folder| folder.path("").display().to_string());
+        let (files, out) = (PathBuf::from(self.processes.told(path)), &self.options.out);
+        let at_destination = |error| at_destination(error, out).into();
+        self.processes.first(|| {
+            let create = |name| create_npy::<T>(&files.join(name), grid.shape());
+            FIELDS.iter().try_for_each(create).map_err(at_destination)
+        })?;
+        let fields = [&solution.gap, &solution.pressure, &solution.contact_pressure];
+        let mut fields = FIELDS.iter().zip(fields);
+        let write = |(name, field)| write_npy_rows(&files.join(name), grid.shape(), grid.rows().start, field);
+        self.processes.agree(fields.try_for_each(write).map_err(at_destination))
     }
 
     fn report(&self, grid: Grid, account: &Account) -> Value {
@@ -343,7 +422,7 @@ impl Job<'_> {
         let mode = account.stability.as_ref().map(|stability| &stability.mode);
         let gap = case::gap_to_write(solution);
         let fields = [&*gap, &solution.pressure, &solution.contact_pressure];
-        if self.options.writes(Format::Npy) {
+        if self.options.writes(Format::Npy) && !grid.is_shared() {
             FIELDS.iter().zip(fields).try_for_each(|(name, field)| write_npy(&path(name), field))?;
             mode.map_or(Ok(()), |mode| write_npy(&path(MODE), mode))?;
         }
@@ -358,7 +437,7 @@ impl Job<'_> {
         }
         write_text(&path(REPORT), &format!("{:#}\n", self.report(grid, account)))?;
         write_text(&path(scene::NAME), &self.scene.text(&self.options.out))?;
-        if !self.options.no_pictures {
+        if !self.options.no_pictures && self.names.contains(&self.options.picture_format.of(PICTURES)[0]) {
             let (Options { picture_format, resolution: Resolution { dpi }, .. }, units) = (self.options, &self.units);
             let [contact_name, pressure_name] = picture_format.of(PICTURES);
             pictures::draw_contact(grid, "Contact", units, (solution, law), *dpi)?.write(&path(contact_name))?;

@@ -93,7 +93,7 @@ impl<'a> Table<'a> {
 
     /// Looks at a solution before its row is written: refuses one that ran away, and says its warnings.
     pub fn check<T: Scalar>(&mut self, solution: &Solution<T>) -> Outcome<()> {
-        check_finite(solution)?;
+        check_finite(solution, &Grid::new(solution.gap.dim(), (1.0, 1.0))?)?;
         self.warnings.look_at(solution, self.options.problem.surface.modulus())
     }
 

@@ -48,6 +48,16 @@ impl Warnings {
         Ok(warnings)
     }
 
+    /// No warnings: as another process looks, or, with `--strict` an error, none does.
+    pub fn none(strictness: Strictness, elsewhere: bool) -> Outcome<Self> {
+        if strictness.strict && !elsewhere {
+            return Err(
+                "--strict has no form for several processes and more than 4096 x 4096 nodes: leave it out".into()
+            );
+        }
+        Ok(Self { strictness, found: Vec::new(), said: 0 })
+    }
+
     /// Looks at an answer, and prints its warnings; of many answers, the first with a warning counts.
     pub fn look_at<T: Scalar>(&mut self, solution: &Solution<T>, modulus: f64) -> Outcome<()> {
         self.add(Warning::of_solution(solution, modulus))?;

@@ -9,14 +9,16 @@ use ndarray::Array2;
 use super::Symbol;
 use crate::error::{Error, Result};
 use crate::fft::{Layout, Sums};
+use crate::field::flat;
 use crate::grid::Grid;
-use crate::real::Real;
+use crate::real::{Real, cast};
+use crate::slab::Slab;
 use crate::vector::{BLOCK, LANES, vectorised};
 
 /// The stiffness of each mode, in the layout of the spectrum.
 #[derive(Clone)]
 pub(super) enum Stiffness<T> {
-    Stored(Array2<T>),
+    Stored(Columns<T>),
     /// the half-space, `unit·√(x² + y²)`, which is faster computed than stored: the squares x² and y² in and across
     /// columns
     HalfSpace {
@@ -31,7 +33,47 @@ pub(super) enum Stiffness<T> {
     },
     /// even along both axes, in `f64` whatever the precision: of each column the first half of its modes, and the one
     /// in the middle
-    Even(Arc<Array2<f64>>),
+    Even(Arc<Columns<f64>>),
+}
+
+/// Numbers for each mode of the columns that this process transforms.
+#[derive(Clone)]
+pub(super) struct Columns<T> {
+    slab: Slab,
+    /// the first of these columns
+    first: usize,
+    modes: Array2<T>,
+}
+
+impl<T: Real> Columns<T> {
+    /// The numbers of modes `f(column, mode)`, `count` of them in each column.
+    pub(super) fn new(slab: Slab, count: usize, mut f: impl FnMut(usize, usize) -> T) -> Self {
+        let own = Layout::new(slab.shape()).columns_of(&slab);
+        let modes = Array2::from_shape_fn((own.len(), count), |(k, i)| f(own.start + k, i));
+        Self { slab, first: own.start, modes }
+    }
+
+    /// The numbers of a column.
+    fn column(&self, k: usize) -> &[T] {
+        flat(&self.modes).chunks(self.modes.ncols().max(1)).nth(k - self.first).unwrap_or_default()
+    }
+
+    /// The number of a mode, if this process has it.
+    pub(super) fn get(&self, [column, mode]: [usize; 2]) -> Option<T> {
+        self.modes.get([column.checked_sub(self.first)?, mode]).copied()
+    }
+
+    /// The least and the largest number of all modes, the mean excluded; zero if there are none.
+    pub(super) fn range(&self) -> (f64, f64) {
+        let waves = || self.modes.iter().skip(usize::from(self.first == 0)).map(|k: &T| k.widen());
+        let (least, most) = (waves().fold(f64::INFINITY, f64::min), waves().fold(0.0, f64::max));
+        if self.slab.nodes() > 1 { (self.slab.least(least), self.slab.most(most)) } else { (0.0, 0.0) }
+    }
+
+    /// The same numbers in another precision.
+    pub(super) fn cast<U: Real>(&self) -> Columns<U> {
+        Columns { slab: self.slab, first: self.first, modes: self.modes.mapv(cast) }
+    }
 }
 
 /// The stiffness of the homogeneous half-space, and that of its softest and stiffest wave.
@@ -80,10 +122,10 @@ pub(super) fn check_range<T: Real>(softest: f64, stiffest: f64) -> Result<()> {
 const REPRESENTABLE: &str = "positive and finite in the precision of the fields";
 
 /// The symbol at every mode of the half spectrum, in the layout of the convolver.
-pub(super) fn stiffness<T: Real>(grid: &Grid, symbol: &Symbol) -> Result<Array2<T>> {
+pub(super) fn stiffness<T: Real>(grid: &Grid, symbol: &Symbol) -> Result<Columns<T>> {
     let (nx, ny) = grid.shape();
     let (layout, mut wrong) = (Layout::new((nx, ny)), None);
-    let modes = Array2::from_shape_fn(layout.spectrum(), |(column, i)| {
+    let modes = Columns::new(grid.slab(), layout.spectrum().1, |column, i| {
         let (i, j) = layout.mode(column, i);
         if (i, j) == (0, 0) {
             return T::zero();
@@ -97,10 +139,11 @@ pub(super) fn stiffness<T: Real>(grid: &Grid, symbol: &Symbol) -> Result<Array2<
         }
         rounded
     });
-    match wrong {
+    let result = match wrong {
         Some(value) => Err(Error::Value { name: "stiffness of a wave", value, requirement: REPRESENTABLE }),
         None => Ok(modes),
-    }
+    };
+    Error::agreed(grid.slab(), result)
 }
 
 impl<T: Real> Stiffness<T> {
@@ -109,7 +152,7 @@ impl<T: Real> Stiffness<T> {
     pub(super) fn modify(&self, k: usize, column: &mut [Complex<T>], by: impl Fn(T) -> [T; 3]) -> Sums {
         match self {
             Self::Stored(stiffness) => {
-                let stiffness = stiffness.row(k).to_slice().unwrap_or_default();
+                let stiffness = stiffness.column(k);
                 modify(column, stiffness, by)
             }
             Self::HalfSpace { unit, x, y } => {
@@ -131,7 +174,7 @@ impl<T: Real> Stiffness<T> {
                 )
             }
             Self::Even(stiffness) => {
-                let stiffness = stiffness.row(k).to_slice().unwrap_or_default();
+                let stiffness = stiffness.column(k);
                 let (first, second) = column.split_at_mut(stiffness.len());
                 let mut sums = modify(
                     first,

@@ -1,0 +1,158 @@
+//! The spectrum of a field that several processes share: its way to those that transform the columns, and back.
+
+use std::marker::PhantomData;
+
+use asperity_fft::num_complex::Complex;
+
+use super::{Layout, Sums};
+use crate::par::{self, ChunksMut};
+use crate::ranks::{Ranks, Shares};
+use crate::real::{Compiled, Real};
+use crate::slab::Slab;
+
+/// The columns of a spectrum that this process transforms, where it has the rows of a slab alone.
+///
+/// The half spectrum of the slab is stored column by column, so that what another process is to get is one piece of it.
+/// From there comes one piece, too, with all of the columns and the rows of that process; a column is put together
+/// where it is transformed.
+pub(super) struct Shared<T> {
+    slab: Slab,
+    layout: Layout,
+    /// what the others get of the spectrum of this slab, and what comes from them
+    sent: Shares,
+    received: Shares,
+    /// the pieces that come
+    pieces: Vec<Complex<T>>,
+    /// the sums over the columns of each process, and of all
+    sums: Shares,
+    all: Vec<Sums>,
+}
+
+impl<T: Real> Shared<T> {
+    pub(super) fn new(slab: Slab, layout: Layout) -> Self {
+        let (columns, _) = layout.spectrum();
+        let (own, rows) = (layout.columns_of(&slab).len(), slab.rows().len());
+        Self {
+            slab,
+            layout,
+            sent: slab.shares(|rank| slab.share_of(columns, rank).len() * rows),
+            received: slab.shares(|rank| slab.rows_of(rank).len() * own),
+            pieces: Vec::new(),
+            sums: slab.shares(|rank| 3 * slab.share_of(columns, rank).len()),
+            all: vec![[0.0; 3]; columns],
+        }
+    }
+
+    /// Whether columns come in pieces: not if one process has all of them.
+    pub(super) fn is_in_pieces(&self) -> bool {
+        self.slab.bands() > 1
+    }
+
+    pub(super) fn release_memory(&mut self) {
+        self.pieces = Vec::new();
+    }
+
+    fn take_memory(&mut self) {
+        if self.is_in_pieces() && self.pieces.is_empty() {
+            self.pieces = vec![Complex::default(); self.layout.columns_of(&self.slab).len() * self.slab.shape().0];
+        }
+    }
+
+    /// Brings the columns of this process from the spectra of all slabs.
+    pub(super) fn come(&mut self, spectrum: &[Complex<T>]) {
+        self.take_memory();
+        if self.is_in_pieces() {
+            let Self { slab, sent, received, pieces, .. } = self;
+            T::call::<Exchange<'_>>((slab.ranks(), (spectrum, sent), (pieces, received)));
+        }
+    }
+
+    /// Sends the columns of this process to the spectra of all slabs.
+    pub(super) fn go(&mut self, spectrum: &mut [Complex<T>]) {
+        if self.is_in_pieces() {
+            let Self { slab, sent, received, pieces, .. } = self;
+            T::call::<Exchange<'_>>((slab.ranks(), (pieces, received), (spectrum, sent)));
+        }
+    }
+
+    /// The first `count` of the columns, each in its pieces; nothing if they are whole.
+    pub(super) fn pieces(&mut self, count: usize) -> Option<Vec<ChunksMut<'_, Complex<T>>>> {
+        self.take_memory();
+        if !self.is_in_pieces() {
+            return None;
+        }
+        let own = self.layout.columns_of(&self.slab).len();
+        let (mut rest, slab) = (&mut self.pieces[..], self.slab);
+        let rows = (0..slab.ranks().count()).map(|rank| slab.rows_of(rank).len()).filter(|&rows| rows > 0);
+        Some(
+            rows.map(|rows| {
+                let (piece, others) = std::mem::take(&mut rest).split_at_mut(rows * own);
+                rest = others;
+                par::chunks_mut(&mut piece[..rows * count], rows)
+            })
+            .collect(),
+        )
+    }
+
+    /// The sums over the columns of all processes, of which these are those of this one.
+    pub(super) fn gather(&mut self, own: &[Sums]) -> &[Sums] {
+        self.slab.ranks().gather(own.as_flattened(), &self.sums, self.all.as_flattened_mut());
+        &self.all
+    }
+
+    /// A mode of one of the columns of this process.
+    fn mode(&self, column: usize, row: usize) -> Complex<T> {
+        let own = self.layout.columns_of(&self.slab);
+        let rows = (0..self.slab.ranks().count()).map(|rank| self.slab.rows_of(rank)).find(|rows| rows.contains(&row));
+        let rows = rows.unwrap_or_default();
+        self.pieces[own.len() * rows.start + (column - own.start) * rows.len() + (row - rows.start)]
+    }
+}
+
+/// An exchange between all processes.
+struct Exchange<'a>(PhantomData<&'a ()>);
+
+impl<'a> Compiled for Exchange<'a> {
+    type Input<T: Real> = (Ranks, (&'a [Complex<T>], &'a Shares), (&'a mut [Complex<T>], &'a Shares));
+    type Output<T: Real> = ();
+    fn single((ranks, (from, sent), (into, received)): Self::Input<f32>) {
+        ranks.exchange(from, sent, into, received);
+    }
+    fn double((ranks, (from, sent), (into, received)): Self::Input<f64>) {
+        ranks.exchange(from, sent, into, received);
+    }
+}
+
+/// Modes of the half spectrum, in columns that are transformed.
+pub(crate) struct Modes<'a, T> {
+    slab: Slab,
+    n0: usize,
+    spectrum: &'a [Complex<T>],
+    shared: Option<&'a Shared<T>>,
+}
+
+impl<'a, T: Real> Modes<'a, T> {
+    pub(super) fn new(slab: Slab, n0: usize, spectrum: &'a [Complex<T>], shared: Option<&'a Shared<T>>) -> Self {
+        Self { slab, n0, spectrum, shared }
+    }
+
+    /// The modes at some places, column and row, sorted by their columns.
+    pub(crate) fn read(&self, places: impl Iterator<Item = (usize, usize)> + Clone, modes: &mut [Complex<f64>]) {
+        let widened = |mode: Complex<T>| Complex::new(mode.re.widen(), mode.im.widen());
+        let Some(shared) = self.shared else {
+            let found = places.map(|(column, row)| self.spectrum[column * self.n0 + row]);
+            return modes.iter_mut().zip(found).for_each(|(mode, found)| *mode = widened(found));
+        };
+        let (columns, _) = shared.layout.spectrum();
+        let of = |rank: usize| {
+            let own = self.slab.share_of(columns, rank);
+            places.clone().filter(move |(column, _)| own.contains(column))
+        };
+        let found = of(self.slab.ranks().rank()).map(|(column, row)| match shared.is_in_pieces() {
+            true => shared.mode(column, row),
+            false => self.spectrum[column * self.n0 + row],
+        });
+        let own: Vec<_> = found.map(widened).collect();
+        self.slab.ranks().gather(&own, &self.slab.shares(|rank| of(rank).count()), modes);
+    }
+}

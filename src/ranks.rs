@@ -1,0 +1,194 @@
+//! The processes that share a grid: one, or with the feature `mpi` all of an MPI job. The only file that knows MPI.
+
+use std::fmt::Debug;
+
+use asperity_fft::num_complex::{Complex32, Complex64};
+
+#[cfg(feature = "mpi")]
+pub(crate) use job::Job;
+
+/// The processes that share a grid, and which of them this one is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Ranks {
+    rank: usize,
+    count: usize,
+}
+
+/// A number that can be sent to another process.
+#[cfg(not(feature = "mpi"))]
+pub(crate) trait Sent: Copy + Default + Debug + Send + 'static {}
+
+/// A number that can be sent to another process.
+#[cfg(feature = "mpi")]
+pub(crate) trait Sent: Copy + Default + Debug + Send + mpi::datatype::Equivalence + 'static {}
+
+impl Sent for f32 {}
+impl Sent for f64 {}
+impl Sent for u8 {}
+impl Sent for u64 {}
+impl Sent for Complex32 {}
+impl Sent for Complex64 {}
+
+/// The parts of a buffer, one after the other, that belong to the ranks.
+#[derive(Clone, Debug)]
+#[cfg_attr(not(feature = "mpi"), expect(dead_code, reason = "one process has nothing to send"))]
+pub(crate) struct Shares {
+    counts: Vec<i32>,
+    places: Vec<i32>,
+}
+
+impl Shares {
+    /// Parts of so many numbers for each rank, all together at most 2³¹: the number of processes that share a grid is such
+    /// that each holds fewer.
+    pub(crate) fn new(counts: impl Iterator<Item = usize>) -> Self {
+        let counts: Vec<i32> = counts.map(|count| count as i32).collect();
+        let mut place = 0;
+        let places = counts
+            .iter()
+            .map(|count| {
+                place += count;
+                place - count
+            })
+            .collect();
+        Self { counts, places }
+    }
+}
+
+impl Ranks {
+    /// One process alone.
+    pub(crate) const ALONE: Self = Self { rank: 0, count: 1 };
+
+    /// One of some processes.
+    #[cfg(test)]
+    pub(crate) fn of(rank: usize, count: usize) -> Self {
+        Self { rank, count }
+    }
+
+    /// The number of this process, from zero on.
+    pub(crate) fn rank(self) -> usize {
+        self.rank
+    }
+
+    /// The number of processes.
+    pub(crate) fn count(self) -> usize {
+        self.count
+    }
+
+    /// The parts of all ranks, in their order, of which this one has `own`.
+    pub(crate) fn gather<E: Sent>(self, own: &[E], shares: &Shares, all: &mut [E]) {
+        if self.count == 1 {
+            all.copy_from_slice(own);
+        } else {
+            job::gather(own, shares, all);
+        }
+    }
+
+    /// The value of every rank, in their order.
+    pub(crate) fn each<E: Sent>(self, value: E) -> Vec<E> {
+        let mut values = vec![value; self.count];
+        self.gather(&[value], &Shares::new((0..self.count).map(|_| 1)), &mut values);
+        values
+    }
+
+    /// The bytes of the first rank.
+    #[cfg(feature = "mpi")]
+    pub(crate) fn first(self, own: &[u8]) -> Vec<u8> {
+        let count = self.each(own.len() as u64)[0] as usize;
+        let (mut bytes, own) = (vec![0; count], if self.rank == 0 { own } else { &[] });
+        self.gather(own, &Shares::new((0..self.count).map(|rank| if rank == 0 { count } else { 0 })), &mut bytes);
+        bytes
+    }
+
+    /// Adds the numbers of all ranks to those of this one.
+    pub(crate) fn add_up(self, numbers: &mut [u64]) {
+        if self.count > 1 {
+            job::add_up(numbers);
+        }
+    }
+
+    /// Sends a part of `from` to every rank, and receives a part of `into` from every rank.
+    pub(crate) fn exchange<E: Sent>(self, from: &[E], sent: &Shares, into: &mut [E], received: &Shares) {
+        if self.count == 1 {
+            into.copy_from_slice(from);
+        } else {
+            job::exchange(self.rank, (from, sent), (into, received));
+        }
+    }
+}
+
+/// Without MPI there is one process, which has nothing to send.
+#[cfg(not(feature = "mpi"))]
+mod job {
+    use super::{Sent, Shares};
+
+    pub(super) fn gather<E: Sent>(_: &[E], _: &Shares, _: &mut [E]) {}
+
+    pub(super) fn add_up(_: &mut [u64]) {}
+
+    pub(super) fn exchange<E: Sent>(_: usize, _: (&[E], &Shares), _: (&mut [E], &Shares)) {}
+}
+
+#[cfg(feature = "mpi")]
+mod job {
+    use std::sync::atomic::{AtomicU64, Ordering};
+
+    use mpi::Threading;
+    use mpi::collective::SystemOperation;
+    use mpi::datatype::{Partition, PartitionMut};
+    use mpi::environment::Universe;
+    use mpi::topology::SimpleCommunicator;
+    use mpi::traits::{Communicator, CommunicatorCollectives};
+
+    use super::{Ranks, Sent, Shares};
+
+    /// The bytes that this process has sent to others in exchanges.
+    static BYTES: AtomicU64 = AtomicU64::new(0);
+
+    pub(super) fn gather<E: Sent>(own: &[E], shares: &Shares, all: &mut [E]) {
+        let mut all = PartitionMut::new(all, &shares.counts[..], &shares.places[..]);
+        SimpleCommunicator::world().all_gather_varcount_into(own, &mut all);
+    }
+
+    pub(super) fn add_up(numbers: &mut [u64]) {
+        let own = numbers.to_vec();
+        SimpleCommunicator::world().all_reduce_into(&own[..], numbers, SystemOperation::sum());
+    }
+
+    pub(super) fn exchange<E: Sent>(rank: usize, (from, sent): (&[E], &Shares), (into, received): (&mut [E], &Shares)) {
+        let counts = sent.counts.iter().enumerate().filter(|&(to, _)| to != rank);
+        let numbers: u64 = counts.map(|(_, &count)| count as u64).sum();
+        BYTES.fetch_add(numbers * size_of::<E>() as u64, Ordering::Relaxed);
+        let from = Partition::new(from, &sent.counts[..], &sent.places[..]);
+        let mut into = PartitionMut::new(into, &received.counts[..], &received.places[..]);
+        SimpleCommunicator::world().all_to_all_varcount_into(&from, &mut into);
+    }
+
+    /// An MPI job: all processes that `mpiexec` started. MPI ends with it.
+    pub(crate) struct Job(#[expect(dead_code, reason = "kept, as MPI ends where it is dropped")] Universe);
+
+    impl Job {
+        /// Joins the job; nothing if this process has done so before, or if the MPI cannot be called from the threads
+        /// that solve.
+        pub(crate) fn start() -> Option<Self> {
+            // one call at a time, from whatever thread a solve runs on
+            let (universe, threading) = mpi::initialize_with_threading(Threading::Serialized)?;
+            (threading >= Threading::Serialized).then_some(Self(universe))
+        }
+
+        /// The processes of the job.
+        pub(crate) fn ranks(&self) -> Ranks {
+            let world = SimpleCommunicator::world();
+            Ranks { rank: world.rank() as usize, count: world.size() as usize }
+        }
+
+        /// The bytes that this process has sent to others in exchanges.
+        pub(crate) fn bytes_sent(&self) -> u64 {
+            BYTES.load(Ordering::Relaxed)
+        }
+
+        /// Ends all processes of the job, at once.
+        pub(crate) fn abort(&self) -> ! {
+            SimpleCommunicator::world().abort(1)
+        }
+    }
+}

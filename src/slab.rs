@@ -1,0 +1,245 @@
+//! The slab of a grid that a process holds: consecutive rows of nodes, all of them where one process is alone.
+
+use std::ops::Range;
+
+use ndarray::{Array2, ArrayView2};
+
+use crate::ranks::{Ranks, Shares};
+use crate::real::Real;
+
+/// The nodes of a chunk, which are summed one after the other. The rounding of sums of sums grows with the length of a
+/// run, not with the number of nodes.
+pub(crate) const CHUNK: usize = 256;
+
+/// Rows that are transformed together.
+pub(crate) const TILE: usize = 32;
+
+/// The nodes of a band at least, and the most bands of a grid.
+const BAND: usize = CHUNK * CHUNK;
+const BANDS: usize = 1024;
+
+/// The slab of a grid that this process holds, and those of the others.
+///
+/// A slab is a number of whole bands. A band is as many rows as make whole tiles of the transform and whole chunks of
+/// the sums, whatever the number of processes. Sums are summed in each band, and then the bands in their order: so they
+/// are the same, bit for bit, however the bands are shared. Where there are more processes than bands, the last ones
+/// hold nothing.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Slab {
+    /// of the whole grid
+    shape: (usize, usize),
+    /// rows of a band
+    band: usize,
+    ranks: Ranks,
+}
+
+impl Slab {
+    /// The slab of one of these ranks.
+    pub(crate) fn new(shape: (usize, usize), ranks: Ranks) -> Self {
+        let (nx, ny) = shape;
+        let band = if ny < 2 {
+            // the transform of a line has no slabs
+            nx
+        } else {
+            let unit = TILE.max(CHUNK >> ny.trailing_zeros().min(CHUNK.ilog2()));
+            BAND.div_ceil(ny).max(nx.div_ceil(BANDS)).next_multiple_of(unit)
+        };
+        Self { shape, band: band.max(1), ranks }
+    }
+
+    /// The whole grid.
+    pub(crate) fn whole(shape: (usize, usize)) -> Self {
+        Self::new(shape, Ranks::ALONE)
+    }
+
+    /// The slab of this process of another grid.
+    pub(crate) fn of(&self, shape: (usize, usize)) -> Self {
+        Self::new(shape, self.ranks)
+    }
+
+    /// The shape of the whole grid.
+    pub(crate) fn shape(&self) -> (usize, usize) {
+        self.shape
+    }
+
+    /// The number of nodes of the whole grid.
+    pub(crate) fn nodes(&self) -> usize {
+        self.shape.0 * self.shape.1
+    }
+
+    /// The processes that share the grid.
+    pub(crate) fn ranks(&self) -> Ranks {
+        self.ranks
+    }
+
+    /// Whether several processes share the grid.
+    pub(crate) fn is_shared(&self) -> bool {
+        self.ranks.count() > 1
+    }
+
+    /// The rows that this process holds.
+    pub(crate) fn rows(&self) -> Range<usize> {
+        self.rows_of(self.ranks.rank())
+    }
+
+    /// The shape of a field in the slab.
+    pub(crate) fn held(&self) -> (usize, usize) {
+        (self.rows().len(), self.shape.1)
+    }
+
+    /// The rows that a process holds.
+    pub(crate) fn rows_of(&self, rank: usize) -> Range<usize> {
+        let bands = self.bands_of(rank);
+        (bands.start * self.band).min(self.shape.0)..(bands.end * self.band).min(self.shape.0)
+    }
+
+    /// The share of `count` things, as the columns of a spectrum, that a process has: as large as that of the bands.
+    pub(crate) fn share_of(&self, count: usize, rank: usize) -> Range<usize> {
+        let (Range { start, end }, bands) = (self.bands_of(rank), self.bands());
+        count * start / bands..count * end / bands
+    }
+
+    /// Rows of a field of all slabs, of which `held` are those of this one: `wanted` tells for each process the first
+    /// row that it needs and the number of them; the last row of the grid is followed by the first.
+    pub(crate) fn fetch(&self, held: ArrayView2<'_, f64>, wanted: impl Fn(usize) -> (usize, usize)) -> Array2<f64> {
+        let (own, ranks) = (self.ranks.rank(), 0..self.ranks.count());
+        // the rows of one process that another needs, in the order in which it needs them
+        let passed = |from: usize, to: usize| {
+            let (rows, (first, count)) = (self.rows_of(from), wanted(to));
+            (0..count).map(move |k| (k, (first + k) % self.shape.0)).filter(move |(_, row)| rows.contains(row))
+        };
+        let (start, width) = (self.rows().start, held.ncols());
+        let mut sent = Vec::new();
+        for to in ranks.clone() {
+            passed(own, to).for_each(|(_, row)| sent.extend(held.row(row - start)));
+        }
+        let mut received = vec![0.0; wanted(own).1 * width];
+        let of = |from: usize, to: usize| passed(from, to).count() * width;
+        self.ranks.exchange(&sent, &self.shares(|to| of(own, to)), &mut received, &self.shares(|from| of(from, own)));
+        let mut rows = Array2::zeros((wanted(own).1, width));
+        let mut next = received.chunks(width.max(1));
+        for from in ranks {
+            for (k, _) in passed(from, own) {
+                let row = next.next().unwrap_or_default();
+                rows.row_mut(k).iter_mut().zip(row).for_each(|(to, from)| *to = *from);
+            }
+        }
+        rows
+    }
+
+    /// The field of all slabs, of which `held` is that of this one, on every process, or on the first alone.
+    pub(crate) fn whole_of<T: Real>(&self, held: &Array2<T>, everywhere: bool) -> Option<Array2<T>> {
+        let (own, ny) = (self.ranks.rank(), self.shape.1);
+        let gets = everywhere || own == 0;
+        let mut whole = gets.then(|| Array2::zeros(self.shape));
+        // a band of each process at a time, as MPI counts no more than 2³¹ numbers
+        let most = (0..self.ranks.count()).map(|rank| self.bands_of(rank).len()).max().unwrap_or_default();
+        for turn in 0..most {
+            let rows = |rank: usize| {
+                let Range { start, end } = self.bands_of(rank);
+                let [first, last] = [turn, turn + 1].map(|band| self.shape.0.min((start + band).min(end) * self.band));
+                first..last
+            };
+            let (first, count) = (rows(own).start - self.rows().start, rows(own).len());
+            let sent = held.rows().into_iter().skip(first).take(count);
+            let sent: Vec<f64> = sent.flat_map(|row| row.into_iter().map(|value| value.widen())).collect();
+            let from = self.shares(|rank| if gets { rows(rank).len() * ny } else { 0 });
+            let total = (0..self.ranks.count()).map(|rank| rows(rank).len()).sum::<usize>();
+            let mut received = vec![0.0; if gets { total * ny } else { 0 }];
+            if everywhere {
+                self.ranks.gather(&sent, &from, &mut received);
+            } else {
+                let to = self.shares(|rank| if rank == 0 { sent.len() } else { 0 });
+                self.ranks.exchange(&sent, &to, &mut received, &from);
+            }
+            let mut received = received.chunks(ny.max(1));
+            for row in whole.iter().flat_map(|_| (0..self.ranks.count()).flat_map(rows)).collect::<Vec<_>>() {
+                let (Some(whole), Some(values)) = (&mut whole, received.next()) else { break };
+                whole.row_mut(row).iter_mut().zip(values).for_each(|(to, &from)| *to = T::lit(from));
+            }
+        }
+        whole
+    }
+
+    /// The least number of all slabs.
+    pub(crate) fn least(&self, own: f64) -> f64 {
+        if self.is_shared() { self.ranks.each(own).into_iter().fold(f64::INFINITY, f64::min) } else { own }
+    }
+
+    /// The largest number of all slabs.
+    pub(crate) fn most(&self, own: f64) -> f64 {
+        if self.is_shared() { self.ranks.each(own).into_iter().fold(f64::NEG_INFINITY, f64::max) } else { own }
+    }
+
+    /// The number of the first slab.
+    pub(crate) fn first(&self, own: f64) -> f64 {
+        if self.is_shared() { self.ranks.each(own)[0] } else { own }
+    }
+
+    /// Adds up numbers of all slabs.
+    pub(crate) fn add_up(&self, own: &mut [u64]) {
+        if self.is_shared() {
+            self.ranks.add_up(own);
+        }
+    }
+
+    /// Whether something is so in one of the slabs.
+    pub(crate) fn has(&self, own: bool) -> bool {
+        if self.is_shared() { self.ranks.each(u8::from(own)).contains(&1) } else { own }
+    }
+
+    /// The bands that a process holds.
+    pub(crate) fn bands_of(&self, rank: usize) -> Range<usize> {
+        let (bands, count) = (self.bands(), self.ranks.count());
+        (rank * bands).div_ceil(count)..((rank + 1) * bands).div_ceil(count)
+    }
+
+    /// The number of bands of the grid.
+    pub(crate) fn bands(&self) -> usize {
+        self.shape.0.div_ceil(self.band)
+    }
+
+    /// The chunks of a band.
+    pub(crate) fn chunks_of_a_band(&self) -> usize {
+        (self.band * self.shape.1).div_ceil(CHUNK).max(1)
+    }
+
+    /// The parts of a buffer with `width` numbers for each band.
+    pub(crate) fn by_bands(&self, width: usize) -> Shares {
+        self.shares(|rank| width * self.bands_of(rank).len())
+    }
+
+    /// The parts of a buffer, of which a rank has so many numbers.
+    pub(crate) fn shares(&self, of: impl Fn(usize) -> usize) -> Shares {
+        Shares::new((0..self.ranks.count()).map(of))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn slabs_are_whole_tiles_and_whole_chunks_and_cover_the_grid() {
+        for shape in [(1, 1), (40, 40), (512, 512), (1000, 257), (999, 260), (4096, 4096), (65536, 65536), (70_000, 1)]
+        {
+            for count in [1, 2, 3, 4, 7, 2000] {
+                let slab = Slab::new(shape, Ranks::of(0, count));
+                assert!(slab.bands() <= BANDS + 1, "{shape:?}");
+                let (mut row, mut column) = (0, 0);
+                for rank in 0..count {
+                    let (rows, columns) = (slab.rows_of(rank), slab.share_of(shape.1 / 2 + 1, rank));
+                    assert_eq!((rows.start, columns.start), (row, column), "{shape:?} {count}");
+                    (row, column) = (rows.end, columns.end);
+                    if rows.end < shape.0 {
+                        assert!(rows.end.is_multiple_of(TILE) && (rows.end * shape.1).is_multiple_of(CHUNK));
+                    }
+                }
+                assert_eq!((row, column), (shape.0, shape.1 / 2 + 1), "{shape:?} {count}");
+            }
+        }
+        // as many as there are, of the same size
+        let slab = Slab::new((512, 512), Ranks::of(0, 4));
+        assert_eq!([0, 1, 2, 3].map(|rank| slab.rows_of(rank)), [0..128, 128..256, 256..384, 384..512]);
+    }
+}

@@ -1,0 +1,126 @@
+//! The processes of an MPI job, which share grids.
+
+use std::fmt;
+
+use crate::error::{Error, Result};
+use crate::grid::Grid;
+use crate::ranks::{Job, Ranks};
+use crate::slab::Slab;
+
+/// The processes that `mpiexec` started (feature `mpi`), which solve one problem together.
+///
+/// Every process runs the same program. On a grid that they [share](Self::share), a field has the rows of nodes that a
+/// process holds, [`Grid::rows`]: so have the heights of a [`Surface`](crate::Surface) and the fields of a
+/// [`Solution`](crate::Solution). All else is as in one process, where a grid is not shared: the operator knows that
+/// its grid is, and reports and errors are the same on all. All answers are the same, bit for bit, for any number of
+/// processes.
+///
+/// Every process has to make the same calls, in the same order, with the same arguments but for the fields. Where one
+/// refuses its part, the others have [`Error::Elsewhere`].
+///
+/// MPI ends where the value is dropped: keep it until the end of `main`. Where a process panics, it ends all of the
+/// job.
+///
+/// ```no_run
+/// use asperity::{Control, Grid, NoAdhesion, Problem, SelfAffine, Solver, Westergaard, World};
+/// let world = World::start()?;
+/// let grid = world.share(Grid::square(65536, 1.0)?)?;
+/// let surface = SelfAffine { k_s: 8192.0, ..SelfAffine::default() }.surface(grid)?;
+/// let mut problem = Problem::new(&surface, Westergaard::<f64>::new(grid, 1.0)?, NoAdhesion)?;
+/// let solution = Solver::default().solve(&mut problem, Control::MeanPressure(0.01))?;
+/// if world.rank() == 0 {
+///     println!("{}", solution.report.contact_fraction); // of the whole surface
+/// }
+/// assert_eq!(solution.gap.dim(), (grid.rows().len(), 65536));
+/// # Ok::<(), asperity::Error>(())
+/// ```
+pub struct World {
+    job: Job,
+    ranks: Ranks,
+}
+
+/// The most numbers that MPI counts.
+const COUNTED: usize = i32::MAX as usize;
+
+impl World {
+    /// Joins the job, once in a process. A program that `mpiexec` has not started is alone.
+    ///
+    /// # Errors
+    /// [`Error::Shared`] if this process has joined before, or if this MPI cannot be called by a program with threads.
+    pub fn start() -> Result<Self> {
+        let reason = "it was started before, or it cannot be called by a program with threads: start it once, and take \
+                      another MPI";
+        let job = Job::start().ok_or(Error::Shared { what: "MPI", reason })?;
+        let ranks = job.ranks();
+        Ok(Self { job, ranks })
+    }
+
+    /// The number of this process, from zero on.
+    pub fn rank(&self) -> usize {
+        self.ranks.rank()
+    }
+
+    /// The number of processes.
+    pub fn size(&self) -> usize {
+        self.ranks.count()
+    }
+
+    /// A grid, shared by all processes: each holds a slab of whole rows. Slabs are of one size but for whole bands of
+    /// 65 536 nodes or somewhat more; where there are more processes than bands, the last ones hold nothing.
+    ///
+    /// # Errors
+    /// [`Error::Value`] if a process would hold more than 2³¹ nodes.
+    pub fn share(&self, grid: Grid) -> Result<Grid> {
+        let slab = Slab::new(grid.shape(), self.ranks);
+        // the half spectrum has one column more; a free half-space has four times the nodes, and some
+        let held = (0..self.size()).map(|rank| slab.rows_of(rank).len()).max().unwrap_or_default();
+        let nodes = held * (grid.shape().1 + 2);
+        if self.size() > 1 && nodes > COUNTED {
+            let requirement = "at most 2^31: take more processes";
+            return Err(Error::Value { name: "number of nodes of a process", value: nodes as f64, requirement });
+        }
+        Ok(grid.within(slab))
+    }
+
+    /// The result of this process; if another one before it has an error, or this one has none and another has, an
+    /// error that names it. All processes have to ask.
+    ///
+    /// # Errors
+    /// That of the result, or [`Error::Elsewhere`].
+    pub fn agree<T>(&self, result: Result<T>) -> Result<T> {
+        Error::agreed(Slab::new((1, 1), self.ranks), result)
+    }
+
+    /// The text of the first process. All processes have to ask.
+    pub fn told(&self, text: &str) -> String {
+        String::from_utf8_lossy(&self.ranks.first(text.as_bytes())).into_owned()
+    }
+
+    /// The bytes that this process has sent to others in exchanges of fields, as those of operator applications.
+    ///
+    /// An application on Nx × Ny nodes has two exchanges, in each of which a process sends about
+    /// 16·Nx(Ny/2 + 1)/P·(1 − 1/P) bytes of `f64`, or half as many of `f32`, with P the number of processes.
+    pub fn bytes_sent(&self) -> u64 {
+        self.job.bytes_sent()
+    }
+
+    /// Ends all processes, at once, with the exit code 1: for an error that the others do not know of.
+    pub fn abort(&self) -> ! {
+        self.job.abort()
+    }
+}
+
+impl fmt::Debug for World {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("World").field("rank", &self.rank()).field("size", &self.size()).finish_non_exhaustive()
+    }
+}
+
+impl Drop for World {
+    fn drop(&mut self) {
+        // the others would wait for a process that is gone
+        if std::thread::panicking() {
+            self.abort();
+        }
+    }
+}
