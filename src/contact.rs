@@ -4,7 +4,7 @@
 //! they are corrected; [`Clusters`] are the pieces that hang together; [`PressureDistribution`] is the histogram of the
 //! pressure.
 
-use ndarray::{Array2, ArrayView2, Axis, Zip};
+use ndarray::{Array2, ArrayView1, ArrayView2, Axis, Zip};
 
 use crate::adhesion::{AdhesionLaw, noticeable};
 use crate::elastic::Boundary;
@@ -343,17 +343,24 @@ fn edges(map: ArrayView2<'_, bool>, grid: &Grid, periodic: bool) -> (usize, usiz
         let ((left, _), (_, right)) = (row.split_at(Axis(0), row.len() - 1), row.split_at(Axis(0), 1));
         along_y += Zip::from(left).and(right).fold(usize::from(row[0] != row[row.len() - 1]), different);
     }
-    if slab.is_shared() {
-        return (grid.total(along_x), grid.total(along_y));
-    }
     if !periodic {
         // across the sides each meets nothing in place of the other
-        let [first, last] = [map.row(0), map.row(map.nrows() - 1)];
+        let ends = match &next {
+            None => Some((map.row(0), map.row(map.nrows() - 1))),
+            Some(next) => map
+                .rows()
+                .into_iter()
+                .next_back()
+                .filter(|_| slab.rows().end == slab.shape().0)
+                .map(|last| (next.row(0), last)),
+        };
         let [left, right] = [map.column(0), map.column(map.ncols() - 1)];
-        along_x += first.iter().zip(last).filter(|&(&a, &b)| a && b).count() * 2;
-        along_y += left.iter().zip(right).filter(|&(&a, &b)| a && b).count() * 2;
+        let both =
+            |a: ArrayView1<'_, bool>, b: ArrayView1<'_, bool>| a.iter().zip(b).filter(|&(&a, &b)| a && b).count();
+        along_x += ends.map_or(0, |(first, last)| both(first, last) * 2);
+        along_y += both(left, right) * 2;
     }
-    (along_x, along_y)
+    (grid.total(along_x), grid.total(along_y))
 }
 
 #[cfg(test)]

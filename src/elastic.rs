@@ -208,6 +208,14 @@ impl Boundary {
         }
     }
 
+    /// The boundary as a report has it, whose grid is the same on all processes that share it.
+    pub(crate) fn alone(self) -> Self {
+        match self {
+            Self::Periodic => self,
+            Self::Free { window, mean_compliance } => Self::Free { window: window.alone(), mean_compliance },
+        }
+    }
+
     /// The mean displacement of the operator's grid over the mean pressure on it; zero in a periodic cell, where only
     /// waves are deformations.
     pub(crate) fn mean_compliance(self) -> f64 {

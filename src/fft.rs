@@ -310,10 +310,25 @@ pub(crate) fn powers(field: ArrayView2<'_, f64>) -> Array2<f64> {
 }
 
 /// The modes of a field that is even along both axes, which are real and even: of each column of the half spectrum, in
-/// the layout of a convolver, the first half and the one in the middle. For a plane, not a line.
-pub(crate) fn even_modes(field: ArrayView2<'_, f64>) -> Array2<f64> {
-    let mut convolver = Convolver::new(Slab::whole(field.dim()));
-    convolver.rows_forward(convolver.layout.view(&field).view());
+/// the layout of a convolver, the first half and the one in the middle. For a plane, not a line. Of the columns that this
+/// process transforms.
+pub(crate) fn even_modes(slab: Slab, field: ArrayView2<'_, f64>) -> Array2<f64> {
+    let mut convolver = Convolver::new(slab);
+    if !field.is_empty() {
+        convolver.rows_forward(convolver.layout.view(&field).view());
+    }
+    if slab.is_shared() {
+        let Convolver { columns, spectrum, own, sums, pool, shared, layout, .. } = &mut convolver;
+        let (columns_own, (n0, _)) = (own.clone(), layout.plane());
+        let mut columns_of = ColumnsOf { own: own.clone(), spectrum, shared, pool, sums, n0 };
+        columns_of.come();
+        columns_of.each(usize::MAX, |_, column, scratch| {
+            columns.forward.process_with_scratch(column, scratch);
+            [0.0; 3]
+        });
+        let modes = columns_of.modes(slab);
+        return Array2::from_shape_fn((columns_own.len(), n0 / 2 + 1), |(k, i)| modes.own(columns_own.start + k, i).re);
+    }
     let Convolver { columns, spectrum, pool, .. } = &mut convolver;
     let (count, n0) = spectrum.dim();
     let half = n0 / 2 + 1;

@@ -211,7 +211,7 @@ impl<T: Real> PressedFlat<T> {
         if let Some((function, value)) = at_zero.into_iter().find(|(_, value)| bounded && !value.is_finite()) {
             return Err(Error::Law { function, gap: 0.0, value: value.widen(), expected: None });
         }
-        let window = Window::new(surface, operator.grid().shape());
+        let window = Window::new(surface, operator.grid().slab());
         let extended = window.as_ref().map(|window| window.extend(surface.heights().view()));
         let padded;
         let whole = match extended {

@@ -55,7 +55,6 @@ impl<T: Real> Boussinesq<T> {
     /// or if a compliance leaves the range of T or is not positive, as rounding could make it on cells far from square.
     pub fn new(window: Grid, modulus: f64) -> Result<Self> {
         Error::positive("contact modulus", modulus)?;
-        Error::alone("free half-space", window.slab())?;
         let (shape, (dx, dy)) = (window.shape(), window.spacing());
         for (name, nodes) in [("number of nodes Nx of a free half-space", shape.0), ("number of nodes Ny", shape.1)] {
             if nodes < 2 {
@@ -64,9 +63,9 @@ impl<T: Real> Boussinesq<T> {
             }
         }
         let padded = (padded(shape.0), padded(shape.1));
-        let grid = Grid::new(padded, (padded.0 as f64 * dx, padded.1 as f64 * dy))?;
-        let modes = even_modes(kernel(padded, (0.5 * dx, 0.5 * dy), modulus).view());
-        let mean_compliance = modes.first().copied().unwrap_or_default();
+        let grid = Grid::new(padded, (padded.0 as f64 * dx, padded.1 as f64 * dy))?.shared_as(&window);
+        let modes = even_modes(grid.slab(), kernel(&grid, (0.5 * dx, 0.5 * dy), modulus).view());
+        let mean_compliance = grid.slab().first(modes.first().copied().unwrap_or_default());
         let spectral = Spectral::of_compliance(grid, modulus, modes)?;
         Ok(Self { spectral, boundary: Boundary::Free { window, mean_compliance } })
     }
@@ -91,9 +90,11 @@ fn padded(n: usize) -> usize {
 }
 
 /// The displacement of every node by a unit pressure on the cell of node (0, 0), at the shorter distance.
-fn kernel(shape: (usize, usize), (a, b): (f64, f64), modulus: f64) -> Array2<f64> {
-    let mut kernel = Array2::zeros(shape);
+fn kernel(grid: &Grid, (a, b): (f64, f64), modulus: f64) -> Array2<f64> {
+    let (shape, first) = (grid.shape(), grid.rows().start);
+    let mut kernel = Array2::zeros(grid.field_shape());
     par::for_each(par::chunks_mut(field::flat_mut(&mut kernel), shape.1), |i, row| {
+        let i = first + i;
         let x = 2.0 * a * i.min(shape.0 - i) as f64;
         for (j, value) in row.iter_mut().enumerate() {
             let y = 2.0 * b * j.min(shape.1 - j) as f64;

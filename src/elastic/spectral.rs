@@ -83,18 +83,20 @@ impl<T: Real> Spectral<T> {
     }
 
     /// The operator of a compliance that is even along both axes, without folded lines: of each column of the half
-    /// spectrum the first half of its modes, and the one in the middle. That of the mean, the first one, is not used.
+    /// spectrum that this process transforms the first half of its modes, and the one in the middle. That of the mean, the first one, is not used.
     pub(super) fn of_compliance(grid: Grid, modulus: f64, mut modes: Array2<f64>) -> Result<Self> {
         Error::positive("contact modulus", modulus)?;
         let wrong = modes.iter().find(|&&compliance| !(compliance > 0.0 && compliance.is_finite()));
-        if let Some(&value) = wrong {
-            return Err(Error::Value { name: "compliance of a wave", value, requirement: "positive and finite" });
-        }
+        let wrong = wrong.map_or(Ok(()), |&value| {
+            Err(Error::Value { name: "compliance of a wave", value, requirement: "positive and finite" })
+        });
+        Error::agreed(grid.slab(), wrong)?;
         modes.mapv_inplace(f64::recip);
-        if let Some(mean) = modes.first_mut() {
+        let slab = grid.slab();
+        if let Some(mean) = modes.first_mut().filter(|_| slab.ranks().rank() == 0) {
             *mean = 0.0;
         }
-        let modes = Columns::new(grid.slab(), modes.ncols(), |column, i| modes[[column, i]]);
+        let modes = Columns::of(slab, modes);
         let range = modes.range();
         check_range::<T>(range.0, range.1)?;
         let (convolver, modes) = (Convolver::new(grid.slab()), Arc::new(modes));
@@ -103,7 +105,8 @@ impl<T: Real> Spectral<T> {
             let modes = Arc::clone(&modes);
             move |qx: f64, qy: f64| {
                 let [i, j] = [(qx * lx).abs() / TAU, (qy * ly).abs() / TAU].map(|number| number.round() as usize);
-                modes.get(if exchanged { [i, j] } else { [j, i] }).unwrap_or(f64::NAN)
+                // one process has it, and all ask
+                slab.most(modes.get(if exchanged { [i, j] } else { [j, i] }).unwrap_or(f64::NEG_INFINITY))
             }
         };
         Ok(Self { grid, modulus, symbol: Arc::new(symbol), stiffness: Stiffness::Even(modes), range, convolver })

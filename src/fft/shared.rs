@@ -136,6 +136,14 @@ impl<'a, T: Real> Modes<'a, T> {
         Self { slab, n0, spectrum, shared }
     }
 
+    /// A mode of a column of this process.
+    pub(super) fn own(&self, column: usize, row: usize) -> Complex<T> {
+        match self.shared {
+            Some(shared) if shared.is_in_pieces() => shared.mode(column, row),
+            _ => self.spectrum[column * self.n0 + row],
+        }
+    }
+
     /// The modes at some places, column and row, sorted by their columns.
     pub(crate) fn read(&self, places: impl Iterator<Item = (usize, usize)> + Clone, modes: &mut [Complex<f64>]) {
         let widened = |mode: Complex<T>| Complex::new(mode.re.widen(), mode.im.widen());
@@ -148,10 +156,7 @@ impl<'a, T: Real> Modes<'a, T> {
             let own = self.slab.share_of(columns, rank);
             places.clone().filter(move |(column, _)| own.contains(column))
         };
-        let found = of(self.slab.ranks().rank()).map(|(column, row)| match shared.is_in_pieces() {
-            true => shared.mode(column, row),
-            false => self.spectrum[column * self.n0 + row],
-        });
+        let found = of(self.slab.ranks().rank()).map(|(column, row)| self.own(column, row));
         let own: Vec<_> = found.map(widened).collect();
         self.slab.ranks().gather(&own, &self.slab.shares(|rank| of(rank).count()), modes);
     }

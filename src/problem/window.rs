@@ -2,11 +2,12 @@
 
 use std::ops::Range;
 
-use ndarray::{Array2, ArrayView2};
+use ndarray::{Array2, ArrayView2, Axis, Slice};
 
 use crate::error::{Error, Result};
 use crate::grid::Grid;
 use crate::real::Real;
+use crate::slab::Slab;
 use crate::surface::Surface;
 
 /// The window of a surface: the nodes of the operator's grid that face it. On all others there is neither wall nor law.
@@ -16,8 +17,8 @@ use crate::surface::Surface;
 pub(crate) struct Window {
     /// the grid of the surface
     grid: Grid,
-    /// the shape of the operator's grid
-    shape: (usize, usize),
+    /// of the operator's grid
+    slab: Slab,
     /// the runs of nodes that face the surface, within a row each, in their order
     runs: Vec<Run>,
     /// the number of these nodes
@@ -34,18 +35,19 @@ struct Run {
 
 impl Window {
     /// The window of a surface; none if every node of the operator's grid faces it.
-    pub(super) fn new(surface: &Surface, shape: (usize, usize)) -> Option<Self> {
+    pub(super) fn new(surface: &Surface, slab: Slab) -> Option<Self> {
         let grid = *surface.grid();
-        let (nx, ny) = grid.shape();
+        let ((nx, ny), shape) = (grid.shape(), slab.shape());
         if (nx, ny) == shape && surface.absent().is_none() {
             return None;
         }
+        let rows = slab.rows();
         let faces = |i: usize, j: usize| surface.absent().is_none_or(|absent| !absent[[i, j]]);
         let mut runs: Vec<Run> = Vec::new();
-        for i in 0..nx {
+        for i in rows.start..rows.end.min(nx) {
             let mut open = false;
             for j in 0..ny {
-                let node = i * shape.1 + j;
+                let node = (i - rows.start) * shape.1 + j;
                 match runs.last_mut() {
                     Some(run) if open && faces(i, j) => run.nodes.end = node + 1,
                     _ if faces(i, j) => runs.push(Run { nodes: node..node + 1, first: i * ny + j }),
@@ -54,8 +56,8 @@ impl Window {
                 open = faces(i, j);
             }
         }
-        let facing = runs.iter().map(|run| run.nodes.len()).sum();
-        Some(Self { grid, shape, runs, facing })
+        let facing = grid.total(runs.iter().map(|run| run.nodes.len()).sum());
+        Some(Self { grid, slab, runs, facing })
     }
 
     /// The grid of the surface.
@@ -101,8 +103,11 @@ impl Window {
     /// A field of the surface's grid on that of the operator: what is not finite, and the nodes beyond the window, are
     /// interpolated, linearly along the rows, and the rows that have nothing between the others; opposite sides meet.
     pub(crate) fn extend<T: Real>(&self, field: ArrayView2<'_, T>) -> Array2<T> {
-        let (nx, ny) = self.grid.shape();
-        let mut extended = Array2::from_elem(self.shape, T::nan());
+        let ((nx, ny), shape) = (self.grid.shape(), self.slab.shape());
+        if self.slab.is_shared() {
+            return self.extend_shared(field);
+        }
+        let mut extended = Array2::from_elem(shape, T::nan());
         field.indexed_iter().for_each(|(node, &value)| extended[node] = value);
         let mut rows = Vec::new();
         for i in 0..nx {
@@ -110,13 +115,13 @@ impl Window {
             if !known.is_empty() {
                 rows.push(i);
             }
-            between(&known, self.shape.1, |j, a, b, share| {
+            between(&known, shape.1, |j, a, b, share| {
                 let (a, b) = (extended[[i, a]], extended[[i, b]]);
                 extended[[i, j]] = a + T::lit(share) * (b - a);
             });
         }
-        between(&rows, self.shape.0, |i, a, b, share| {
-            for j in 0..self.shape.1 {
+        between(&rows, shape.0, |i, a, b, share| {
+            for j in 0..shape.1 {
                 let (a, b) = (extended[[a, j]], extended[[b, j]]);
                 extended[[i, j]] = a + T::lit(share) * (b - a);
             }
@@ -124,8 +129,44 @@ impl Window {
         extended
     }
 
+    /// As [`extend`](Self::extend), of fields without absent nodes, the rows that this process holds.
+    fn extend_shared<T: Real>(&self, field: ArrayView2<'_, T>) -> Array2<T> {
+        let ((nx, ny), (whole, width)) = (self.grid.shape(), self.slab.shape());
+        // of the surface the rows of the slab, and the last and the first one for those beyond
+        let wanted = |rank: usize| {
+            let Range { start, end } = self.slab.rows_of(rank);
+            let first = start.min(nx - 1);
+            (first, if start == end { 0 } else { end.min(nx).max(first + 1) - first + usize::from(end > nx) })
+        };
+        let (first, _) = wanted(self.slab.ranks().rank());
+        let known = self.grid.slab().fetch(field.mapv(T::widen).view(), wanted).mapv(T::lit);
+        let mut rows = Array2::zeros((known.nrows(), width));
+        for (mut row, known) in rows.rows_mut().into_iter().zip(known.rows()) {
+            row.iter_mut().zip(known).for_each(|(to, from)| *to = *from);
+            for step in 1..=width - ny {
+                let (a, b, share) = (known[ny - 1], known[0], step as f64 / (width - ny + 1) as f64);
+                row[ny - 1 + step] = a + T::lit(share) * (b - a);
+            }
+        }
+        let start = self.slab.rows().start;
+        Array2::from_shape_fn(self.slab.held(), |(i, j)| {
+            let i = start + i;
+            if i < nx {
+                return rows[[i - first, j]];
+            }
+            let (a, b) = (rows[[nx - 1 - first, j]], rows[[nx - first, j]]);
+            a + T::lit((i + 1 - nx) as f64 / (whole - nx + 1) as f64) * (b - a)
+        })
+    }
+
     /// A field of the operator's grid on that of the surface, with a value for the absent nodes.
     pub(crate) fn crop<T: Real>(&self, field: &Array2<T>, absent: T) -> Array2<T> {
+        if self.slab.is_shared() {
+            let surface = self.grid.slab();
+            let wanted = |rank| (surface.rows_of(rank).start, surface.rows_of(rank).len());
+            let rows = self.slab.fetch(field.mapv(T::widen).view(), wanted);
+            return rows.slice_axis(Axis(1), Slice::from(0..self.grid.shape().1)).mapv(T::lit);
+        }
         let mut cropped = Array2::from_elem(self.grid.shape(), absent);
         if let (Some(from), Some(to)) = (field.as_slice(), cropped.as_slice_mut()) {
             for Run { nodes, first } in &self.runs {
@@ -137,7 +178,7 @@ impl Window {
 
     /// A field of the surface's grid on that of the operator, with a value for the nodes that do not face it.
     pub(crate) fn place<T: Real>(&self, field: &Array2<T>, elsewhere: T) -> Array2<T> {
-        let mut placed = Array2::from_elem(self.shape, elsewhere);
+        let mut placed = Array2::from_elem(self.slab.shape(), elsewhere);
         if let (Some(from), Some(to)) = (field.as_slice(), placed.as_slice_mut()) {
             for Run { nodes, first } in &self.runs {
                 to[nodes.clone()].copy_from_slice(&from[*first..first + nodes.len()]);
@@ -148,7 +189,12 @@ impl Window {
 
     /// A gap of the surface's grid as one on that of the operator, whatever it has at absent nodes.
     pub(crate) fn start<T: Real>(&self, gap: ArrayView2<'_, T>) -> Result<Array2<T>> {
-        Error::shape("starting gap", gap.dim(), self.grid.shape())?;
+        let slab = self.grid.slab();
+        Error::agreed(slab, Error::shape("starting gap", gap.dim(), slab.held()))?;
+        if slab.is_shared() {
+            Error::all_finite_in(slab, "starting gap", gap)?;
+            return Ok(self.extend(gap));
+        }
         let mut known = Array2::from_elem(gap.dim(), T::nan());
         let ny = gap.dim().1;
         for Run { nodes, first } in &self.runs {
@@ -191,7 +237,7 @@ mod tests {
         let grid = Grid::new((3, 4), (3.0, 4.0)).unwrap();
         let mut heights = Array2::zeros((3, 4));
         (heights[[0, 1]], heights[[2, 0]]) = (f64::NAN, f64::NAN);
-        Window::new(&Surface::with_absent(grid, heights).unwrap(), (6, 8)).unwrap()
+        Window::new(&Surface::with_absent(grid, heights).unwrap(), Slab::whole((6, 8))).unwrap()
     }
 
     #[test]

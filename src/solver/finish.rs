@@ -10,6 +10,7 @@ use crate::adhesion::noticeable;
 use crate::elastic::Boundary;
 use crate::error::Result;
 use crate::field::{Partial, read, write};
+use crate::grid::Grid;
 use crate::par::Parts;
 use crate::problem::{Load, mu_rho};
 use crate::real::Real;
@@ -74,7 +75,7 @@ impl<T: Real, L: Real> State<'_, T, L> {
             orthogonality: self.scaled_orthogonality(),
             iterations: self.iterations,
             operator_applications: self.applications,
-            boundary: flat.boundary,
+            boundary: flat.boundary.alone(),
             mean_gap: if flat.window.is_some() { total.sum[1] / facing } else { self.mean_gap() },
             mean_pressure: given * padding,
             normal_force: given * padding * flat.area,
@@ -102,13 +103,16 @@ impl<T: Real, L: Real> State<'_, T, L> {
         let pressure = window.crop(&pressure, T::zero());
         let contact_pressure = window.crop(&contact_pressure, T::zero());
         if flat.boundary != Boundary::Periodic {
-            let [at_edge, largest] = [largest(edge(&pressure)), largest(pressure.iter().copied())];
+            let grid = window.grid();
+            let [at_edge, largest] =
+                [largest(edge(&pressure, grid)), largest(pressure.iter().copied())].map(|own| grid.slab().most(own));
             let share = if at_edge == 0.0 { 0.0 } else { at_edge / largest };
             report.edge_traction = Some(share);
             // of bodies that are apart it says nothing how far the last of their attraction, or rounding, reaches
             let attract = !law.is_zero() && largest > noticeable(law);
             let apart = report.status == Status::Detached || report.contact_nodes == 0 && !attract;
-            report.reaches_edge = !apart && (share > EDGE || edge(&gap).any(|gap| gap <= T::zero()));
+            let touches = grid.slab().has(edge(&gap, grid).any(|gap| gap <= T::zero()));
+            report.reaches_edge = !apart && (share > EDGE || touches);
         }
         Ok(Solution { gap, pressure, contact_pressure, report })
     }
@@ -129,10 +133,13 @@ impl<T: Real, L: Real> State<'_, T, L> {
 }
 
 /// The outermost nodes of a field; corners come twice.
-fn edge<T: Real>(field: &Array2<T>) -> impl Iterator<Item = T> {
-    let (nx, ny) = field.dim();
-    let sides = [field.row(0), field.row(nx - 1), field.column(0), field.column(ny - 1)];
-    sides.into_iter().flat_map(|side| side.to_vec())
+fn edge<T: Real>(field: &Array2<T>, grid: &Grid) -> impl Iterator<Item = T> {
+    let (rows, columns) = (grid.rows(), field.ncols());
+    let ends = [0, grid.shape().0 - 1].into_iter().filter(move |row| rows.contains(row));
+    let first = grid.rows().start;
+    let sides = ends.map(move |row| field.row(row - first));
+    let sides = sides.chain([0, columns - 1].map(|column| field.column(column)));
+    sides.flat_map(|side| side.to_vec())
 }
 
 /// The largest magnitude of some tractions.

@@ -11,7 +11,7 @@ use super::start::{check_wall, given_start, uniform_start};
 use super::work::{TRUSTED, Work};
 use super::{Criterion, Method, Settings};
 use crate::adhesion::AdhesionLaw;
-use crate::constraint::ContactConstraint;
+use crate::constraint::{ContactConstraint, Wall};
 use crate::elastic::{Boundary, Foundation};
 use crate::error::{Error, Result};
 use crate::field::{Partial, read, write};
@@ -168,6 +168,9 @@ impl<'a, T: Real, L: Real> State<'a, T, L> {
         let (slab, shape) = (operator.grid().slab(), operator.grid().field_shape());
         let surface = flat.window.as_ref().map_or(operator.grid(), Window::grid);
         check_wall(law, constraint.wall())?;
+        if flat.window.is_some() && matches!(constraint.wall(), Wall::Springs(_)) {
+            Error::alone("springs under a free half-space", slab)?;
+        }
         if !constraint.takes_slabs() {
             Error::alone("contact constraint", slab)?;
         }

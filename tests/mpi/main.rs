@@ -116,6 +116,9 @@ fn run(world: &World) -> Outcome {
     nested_grids_are_shared::<f32>(world, (1024, 1024), Control::MeanPressure(0.01))?;
     nested_grids_are_shared::<f64>(world, odd, Control::MeanPressure(0.01))?;
     nested_grids_are_shared::<f64>(world, square, Control::MeanGap(0.003))?;
+    free_half_spaces_are_shared::<f64>(world, (256, 256), Control::Force(1e-3))?;
+    free_half_spaces_are_shared::<f64>(world, (400, 257), Control::Approach(2e-3))?;
+    free_half_spaces_are_shared::<f32>(world, (520, 512), Control::Force(1e-3))?;
     clusters_hang_together_across_slabs(world)?;
     other_symbols_are_shared(world)?;
     exchanges_are_what_the_formula_says(world)?;
@@ -189,6 +192,32 @@ fn nested_grids_are_shared<T: Bits>(world: &World, shape: (usize, usize), contro
     assert_eq!(of_all.levels, of_one.levels);
     assert!(of_one.levels.len() > 2, "{shape:?}");
     say(world, &format!("{} nested grids, {} on {shape:?}", of_one.levels.len(), T::NAME));
+    Ok(())
+}
+
+fn free_half_spaces_are_shared<T: Bits>(world: &World, shape: (usize, usize), control: Control) -> Result<()> {
+    let solve = |grid: Grid, law: Option<Exponential>| {
+        let sphere =
+            Surface::from_fn(grid, |x, y| -(x * x + y * y) / 4.0 + 1e-3 * (40.0 * x).sin() * (33.0 * y).cos())?;
+        let body = Boussinesq::<T>::new(grid, 1.0)?;
+        let solution = match law {
+            Some(law) => Solver::default().solve(&mut Problem::new(&sphere, body, law)?, control)?,
+            None => Solver::default().solve(&mut Problem::new(&sphere, body, NoAdhesion)?, control)?,
+        };
+        let half_space = |grid| Boussinesq::<T>::new(grid, 1.0);
+        let nested = Nested::default().solve(&sphere, half_space, NoAdhesion, control)?;
+        let statistics = contact::ContactStatistics::of(&solution, &grid, &NoAdhesion)?;
+        Ok::<_, Error>((solution, nested, statistics))
+    };
+    let alone = Grid::new(shape, (0.4, 0.4))?;
+    let shared = world.share(alone)?;
+    let law = (T::NAME == "f64").then(|| Exponential::new(1e-6, 1e-4)).transpose()?;
+    let (of_one, of_all) = (solve(alone, law)?, solve(shared, law)?);
+    same_solutions("free", &shared, &of_all.0, &of_one.0);
+    same_solutions("free, nested", &shared, &of_all.1.solution, &of_one.1.solution);
+    assert_eq!((of_all.1.levels, of_all.2), (of_one.1.levels, of_one.2));
+    assert!(of_one.0.report.contact_nodes > 10);
+    say(world, &format!("free half-space, {} on {shape:?}", T::NAME));
     Ok(())
 }
 
@@ -271,7 +300,6 @@ fn what_has_no_slabs_is_refused(world: &World) -> Result<()> {
     if let Ok(varying) = Varying::new(law, work.view()) {
         refused("varying law", Problem::new(&surface, Westergaard::<f64>::new(grid, 1.0)?, &varying));
     }
-    refused("free half-space", Boussinesq::<f64>::new(grid, 1.0));
     let holes = grid.sample(|x, _| if x < -0.499 { f64::NAN } else { 0.0 });
     refused("absent nodes", Surface::with_absent(grid, holes));
     let alone = Grid::square(512, 1.0)?;

@@ -53,6 +53,11 @@ impl<T: Real> Columns<T> {
         Self { slab, first: own.start, modes }
     }
 
+    /// Numbers of the columns that this process transforms.
+    pub(super) fn of(slab: Slab, modes: Array2<T>) -> Self {
+        Self { slab, first: Layout::new(slab.shape()).columns_of(&slab).start, modes }
+    }
+
     /// The numbers of a column.
     fn column(&self, k: usize) -> &[T] {
         flat(&self.modes).chunks(self.modes.ncols().max(1)).nth(k - self.first).unwrap_or_default()
