@@ -22,8 +22,8 @@ struct Arguments {
     precision: Precision,
 }
 
-/// The sums of a table: how many scenes, the sum of the logarithms of the ratios, and the largest ratio, over all scenes
-/// and over those where nested grids are the default.
+/// The sums of a table: how many scenes, the sum of the logarithms of the ratios, and the largest ratio, over all
+/// scenes and over those where nested grids are the default.
 struct Table {
     settings: Settings,
     all: (f64, f64, f64),

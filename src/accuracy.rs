@@ -1,8 +1,8 @@
 //! The accuracy that is wanted: how wrong the grid is, and a solve that refines it until it is right enough.
 //!
 //! An answer has two errors: that of the solver, which the certificate bounds, and that of the grid. [`GridError`]
-//! estimates the latter from the solutions on nested grids; [`Accuracy`] asks for a relative error of a [`Quantity`] and
-//! chooses tolerance and grid itself.
+//! estimates the latter from the solutions on nested grids; [`Accuracy`] asks for a relative error of a [`Quantity`]
+//! and chooses tolerance and grid itself.
 
 use std::fmt;
 
@@ -104,8 +104,9 @@ impl fmt::Display for Quantity {
 }
 
 impl Surface {
-    /// The number of nodes that the shortest wave of the surface has, [`Spectrum::nodes_per_wave`](crate::Spectrum::nodes_per_wave);
-    /// with a boundary that does not repeat, of the surface continued by its mirror images.
+    /// The number of nodes that the shortest wave of the surface has,
+    /// [`Spectrum::nodes_per_wave`](crate::Spectrum::nodes_per_wave); with a boundary that does not repeat, of the
+    /// surface continued by its mirror images.
     ///
     /// ```
     /// use asperity::{Boundary, Boussinesq, ElasticOperator, Grid, Surface};
@@ -163,15 +164,15 @@ const ORDERS: (f64, f64) = (0.5, 3.0);
 /// | contact stiffness k | √((0.3 δk)² + (0.11 δA)²) |
 /// | mean gap ḡ, mean pressure p̄ | √((0.15 δḡ)² + (0.001 δA)²), and with p̄ likewise |
 ///
-/// and on a line, where the area is not corrected, the factors are 1 and 0.3 for area and stiffness, and 1/3 and 0.02 for
-/// gap and pressure.
-/// δA tells how many of the nodes in contact are at the edge, and so the scale of all that depends on where between the
-/// nodes the edge falls; δQ alone may be small by luck. The factors are fitted to rough surfaces, and the page
-/// [`choosing`](crate::guide::choosing) has how good the estimates are on others.
+/// and on a line, where the area is not corrected, the factors are 1 and 0.3 for area and stiffness, and 1/3 and 0.02
+/// for gap and pressure. δA tells how many of the nodes in contact are at the edge, and so the scale of all that
+/// depends on where between the nodes the edge falls; δQ alone may be small by luck. The factors are fitted to rough
+/// surfaces, and the page [`choosing`](crate::guide::choosing) has how good the estimates are on others.
 ///
-/// A coarser grid counts if it has the same waves, the shortest of which ([`Surface::nodes_per_wave`]) with at least four
-/// nodes, resolves the adhesion (μ_ρ ≤ 0.5), and was solved to 3e-3. The estimate of the area is sure if the shortest wave has
-/// at least eight nodes on the coarser grid; all others, and those on a line, are [`rough`](Self::rough).
+/// A coarser grid counts if it has the same waves, the shortest of which ([`Surface::nodes_per_wave`]) with at least
+/// four nodes, resolves the adhesion (μ_ρ ≤ 0.5), and was solved to 3e-3. The estimate of the area is sure if the
+/// shortest wave has at least eight nodes on the coarser grid; all others, and those on a line, are
+/// [`rough`](Self::rough).
 ///
 /// ```
 /// use asperity::accuracy::{GridError, Quantity};
@@ -196,8 +197,8 @@ pub struct GridError {
 }
 
 impl GridError {
-    /// A tolerance on coarser grids ([`Nested::coarse_tolerance`](crate::Nested::coarse_tolerance)) at which they tell the
-    /// error of the finest, with something to spare.
+    /// A tolerance on coarser grids ([`Nested::coarse_tolerance`](crate::Nested::coarse_tolerance)) at which they tell
+    /// the error of the finest, with something to spare.
     pub const COARSE_TOLERANCE: f64 = 1e-3;
 
     /// The errors of all quantities that a control does not give, as [`GridError::of`] has them.

@@ -35,8 +35,8 @@ const NOTICEABLE: f64 = 0.01;
 /// A law is three functions of one gap `g ≥ 0`: the energy φ(g) ≤ 0, its derivative φ'(g), the
 /// adhesive traction, positive where the surfaces attract each other, and the traction's slope φ''(g). Everything else
 /// has a default. The energy falls to zero, or to any constant, at large gaps. No law is asked for a negative gap, but
-/// for one that keeps the surfaces apart by itself ([`rest`](Self::rest)); what becomes of it where a [`ContactConstraint`](crate::ContactConstraint) lets the surfaces interpenetrate is said
-/// there.
+/// for one that keeps the surfaces apart by itself ([`rest`](Self::rest)); what becomes of it where a
+/// [`ContactConstraint`](crate::ContactConstraint) lets the surfaces interpenetrate is said there.
 ///
 /// [`check_law`] tells whether the three functions agree with one another; call it in a test of your law.
 ///
@@ -82,8 +82,8 @@ pub trait AdhesionLaw<T: Real>: Send + Sync {
     /// The length ρ over which the traction decays, for the resolution measure μ_ρ.
     ///
     /// The default is w/φ'(0), which is ρ for an exponential and for a constant traction. A law that attracts
-    /// most at some distance from contact should say its own. A peak of the traction that is narrower than a hundredth of
-    /// ρ may be overlooked where the solver asks whether the law can hold a tensile load at all.
+    /// most at some distance from contact should say its own. A peak of the traction that is narrower than a hundredth
+    /// of ρ may be overlooked where the solver asks whether the law can hold a tensile load at all.
     fn range(&self) -> T {
         let (w, traction) = (self.work_of_adhesion(), self.traction(T::zero()));
         if w > T::zero() && traction > T::zero() { w / traction } else { T::zero() }
@@ -94,8 +94,8 @@ pub trait AdhesionLaw<T: Real>: Send + Sync {
         false
     }
 
-    /// The gap of rest: below it the law repels, and keeps the surfaces apart by itself, above it attracts. Nothing, which
-    /// is the default, for a law that only attracts.
+    /// The gap of rest: below it the law repels, and keeps the surfaces apart by itself, above it attracts. Nothing,
+    /// which is the default, for a law that only attracts.
     ///
     /// A law with a gap of rest can be solved with [`NoWall`](crate::NoWall). It says its own
     /// [`work_of_adhesion`](Self::work_of_adhesion) and [`range`](Self::range).
@@ -194,10 +194,10 @@ forward!(&L, Box<L>, Arc<L>);
 
 /// Tells whether the three functions of a law agree with one another.
 ///
-/// Compares, at 200 gaps between 0 (or half the gap of rest) and `largest_gap`, the traction with central differences of
-/// the energy and the slope with central differences of the traction, in the precision of the law, to a hundredth of
-/// the largest value of that function. A function may jump (as the traction of Maugis–Dugdale does at ρ): gaps
-/// beside a jump, where the differences grow as their step shrinks, are passed over.
+/// Compares, at 200 gaps between 0 (or half the gap of rest) and `largest_gap`, the traction with central differences
+/// of the energy and the slope with central differences of the traction, in the precision of the law, to a hundredth of
+/// the largest value of that function. A function may jump (as the traction of Maugis–Dugdale does at ρ): gaps beside a
+/// jump, where the differences grow as their step shrinks, are passed over.
 ///
 /// # Errors
 /// [`Error::Law`] with the function, the first gap at which it is not finite or is not the derivative of the one

@@ -59,8 +59,9 @@ pub trait ContactConstraint<T: Real>: Send + Sync {
     /// The wall that keeps the surfaces apart in the present round.
     fn wall(&self) -> Wall<'_, T>;
 
-    /// Prepares for a solve on the grid of a surface, to a tolerance of its criterion. `stiffest` is the stiffness of the shortest
-    /// wave, of [`ElasticOperator::stiffness_range`](crate::ElasticOperator::stiffness_range), pressure per length.
+    /// Prepares for a solve on the grid of a surface, to a tolerance of its criterion. `stiffest` is the stiffness of
+    /// the shortest wave, of [`ElasticOperator::stiffness_range`](crate::ElasticOperator::stiffness_range), pressure
+    /// per length.
     ///
     /// # Errors
     /// Whatever cannot be used on that grid.
@@ -153,8 +154,8 @@ pub enum Update {
 /// [`check_law`](crate::check_law) does.
 ///
 /// # Errors
-/// [`Error::Law`] with the function of the springs, the first gap at which it is not finite, not the derivative of the one
-/// before it, or falls; [`Error::Value`] if `depth` is not positive and finite.
+/// [`Error::Law`] with the function of the springs, the first gap at which it is not finite, not the derivative of the
+/// one before it, or falls; [`Error::Value`] if `depth` is not positive and finite.
 ///
 /// ```
 /// use asperity::{Penalty, Projection, check_constraint};

@@ -208,8 +208,9 @@ impl ContactArea {
 ///
 /// with S the perimeter along the cells, averaged over the directions of the edge. That is 0.118 cells for each side
 /// of a cell on the perimeter; for Δx ≠ Δy the area Δx·Δy of the cell is taken for Δx². The remaining error is the
-/// scatter of the nodes about the edge: over Hertz contacts with radii of 3 to 7 nodes the mean error falls from 6 % to −0.5 %,
-/// the root mean square from 8 % to 5 %; with radii of 14 to 28 nodes from 1.5 % to −0.1 %, and from 1.6 % to 0.5 %.
+/// scatter of the nodes about the edge: over Hertz contacts with radii of 3 to 7 nodes the mean error falls from 6 % to
+/// −0.5 %, the root mean square from 8 % to 5 %; with radii of 14 to 28 nodes from 1.5 % to −0.1 %, and from 1.6 % to
+/// 0.5 %.
 ///
 /// On a line nothing is corrected, as the derivation is for edges in the plane; there the map counts about 0.19 nodes
 /// too many for each end point, measured on waves.
@@ -253,9 +254,9 @@ pub struct ContactStatistics {
     pub attractive_fraction: f64,
     /// The share of the other nodes, which do not notice each other.
     pub apart_fraction: f64,
-    /// The same where the law [varies](crate::Varying) over the surface, for the nodes of each work of adhesion, the least
-    /// first; nodes are said to attract by the traction above, that of the strongest. Empty for a law that is the same
-    /// everywhere, and for more than 16 works of adhesion.
+    /// The same where the law [varies](crate::Varying) over the surface, for the nodes of each work of adhesion, the
+    /// least first; nodes are said to attract by the traction above, that of the strongest. Empty for a law that is the
+    /// same everywhere, and for more than 16 works of adhesion.
     ///
     /// ```
     /// use asperity::contact::ContactStatistics;
@@ -286,8 +287,8 @@ impl ContactStatistics {
         Self::of_fields(solution.gap.view(), solution.contact_pressure.view(), (grid, solution.report.boundary), law)
     }
 
-    /// The statistics of the gap and the contact pressure of a solution, as those that come from a file, on its grid and
-    /// within its boundary. The gap of absent nodes is infinite.
+    /// The statistics of the gap and the contact pressure of a solution, as those that come from a file, on its grid
+    /// and within its boundary. The gap of absent nodes is infinite.
     ///
     /// # Errors
     /// Those of [`ContactStatistics::of`].
@@ -323,8 +324,8 @@ impl ContactStatistics {
     }
 }
 
-/// The number of pairs of neighbours along x, and along y, of which one is on the map and one is not; opposite sides are
-/// neighbours if the map is periodic, and otherwise nothing is beyond them.
+/// The number of pairs of neighbours along x, and along y, of which one is on the map and one is not; opposite sides
+/// are neighbours if the map is periodic, and otherwise nothing is beyond them.
 fn edges(map: ArrayView2<'_, bool>, grid: &Grid, periodic: bool) -> (usize, usize) {
     let (mut along_x, mut along_y) = (0, 0);
     let different = |count, here: &bool, there: &bool| count + usize::from(here != there);

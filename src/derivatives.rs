@@ -14,8 +14,8 @@ pub(crate) type Named<'a> = (&'static str, &'a dyn Fn(f64) -> f64);
 /// the functions vary. Gaps beside a jump, where the differences grow as their step shrinks, are passed over.
 ///
 /// # Errors
-/// [`Error::Law`] with the function, the first gap at which it is not finite or is not the derivative of the one before it,
-/// and the value that it should have there.
+/// [`Error::Law`] with the function, the first gap at which it is not finite or is not the derivative of the one before
+/// it, and the value that it should have there.
 pub(crate) fn check<T: Real>(functions: [Named<'_>; 3], (low, high): (f64, f64), length: f64) -> Result<()> {
     // the step that balances truncation against rounding in a central difference
     let step = length * T::epsilon().widen().cbrt();

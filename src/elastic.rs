@@ -24,9 +24,9 @@ pub use westergaard::Westergaard;
 /// The operator is linear, symmetric, and positive on fields without mean. A rigid translation costs nothing, so
 /// both applications return fields of zero mean and ignore the mean of their argument. [`Westergaard`] is the
 /// homogeneous half-space under periodic loads, [`Boussinesq`] the same under loads on a window alone, [`Spectral`] is
-/// any operator that acts on each wave by a factor; implement the trait for anything else. [`grid`](Self::grid), [`pressure`](Self::pressure),
-/// [`displacement`](Self::displacement), [`stiffness_range`](Self::stiffness_range) and [`modulus`](Self::modulus) are
-/// required.
+/// any operator that acts on each wave by a factor; implement the trait for anything else. [`grid`](Self::grid),
+/// [`pressure`](Self::pressure), [`displacement`](Self::displacement), [`stiffness_range`](Self::stiffness_range) and
+/// [`modulus`](Self::modulus) are required.
 ///
 /// Every application writes into the caller's array and, for the operators of this crate, allocates nothing.
 ///
@@ -129,8 +129,9 @@ pub trait ElasticOperator<T: Real>: Send {
     ///
     /// With one, a solve in `f64` applies it to the changes of the gap and to the residuals, and this operator only to
     /// the gap itself, now and then: an iteration then takes little more time than in `f32`. It must be this operator
-    /// but for rounding. The default is none: then this operator is applied to all of them. [`Spectral`] has one, unless
-    /// a stiffness leaves the range of `f32`; an operator that wraps it passes this on only if it changes nothing.
+    /// but for rounding. The default is none: then this operator is applied to all of them. [`Spectral`] has one,
+    /// unless a stiffness leaves the range of `f32`; an operator that wraps it passes this on only if it changes
+    /// nothing.
     fn in_single(&self) -> Option<Box<dyn ElasticOperator<f32>>> {
         None
     }

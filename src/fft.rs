@@ -310,8 +310,8 @@ pub(crate) fn powers(field: ArrayView2<'_, f64>) -> Array2<f64> {
 }
 
 /// The modes of a field that is even along both axes, which are real and even: of each column of the half spectrum, in
-/// the layout of a convolver, the first half and the one in the middle. For a plane, not a line. Of the columns that this
-/// process transforms.
+/// the layout of a convolver, the first half and the one in the middle. For a plane, not a line. Of the columns that
+/// this process transforms.
 pub(crate) fn even_modes(slab: Slab, field: ArrayView2<'_, f64>) -> Array2<f64> {
     let mut convolver = Convolver::new(slab);
     if !field.is_empty() {

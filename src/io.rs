@@ -1,10 +1,10 @@
 //! Reading height maps and gaps, and writing results.
 //!
-//! [`read_topography`] takes what measuring instruments, Gwyddion and numpy write: `.npy`, `.npz`, `.gwy`, `.gsf`, `.xyz` and
-//! text matrices, with side lengths and units where they are known; [`read_field`] takes the numbers alone, and
-//! [`read_channel`] one of several channels.
-//! [`write_topography`] writes maps, [`write_npz`] and [`write_vti`] all fields of a solution into one file, for numpy
-//! and for ParaView. [`OutputFolder`] collects the files of one run and shows them only once all of them are complete.
+//! [`read_topography`] takes what measuring instruments, Gwyddion and numpy write: `.npy`, `.npz`, `.gwy`, `.gsf`,
+//! `.xyz` and text matrices, with side lengths and units where they are known; [`read_field`] takes the numbers alone,
+//! and [`read_channel`] one of several channels. [`write_topography`] writes maps, [`write_npz`] and [`write_vti`] all
+//! fields of a solution into one file, for numpy and for ParaView. [`OutputFolder`] collects the files of one run and
+//! shows them only once all of them are complete.
 
 mod foreign;
 mod gsf;
@@ -87,8 +87,8 @@ pub fn read_field(path: &Path) -> Result<Array2<f64>> {
 ///   lengths are Nx Δx and Ny Δy.
 ///
 /// **Orientation.** Arrays and plain texts have shape (Nx, Ny): the first index, in a text the line, runs along x.
-/// Images have lines along x, from the top to the bottom: line r of Ny in Gwyddion's three formats becomes column Ny − 1
-/// − r of the map, so that y runs upwards and pictures of the map show what Gwyddion shows.
+/// Images have lines along x, from the top to the bottom: line r of Ny in Gwyddion's three formats becomes column Ny −
+/// 1 − r of the map, so that y runs upwards and pictures of the map show what Gwyddion shows.
 ///
 /// **Units.** Where the file gives units of length for both side lengths and heights, the map is in metres, whatever
 /// their prefixes. Where both are the same other unit it stays. All else that has units is refused, as are values that

@@ -1,8 +1,8 @@
 //! How rough surfaces touch and stick: frictionless normal contact of an elastic half-space with a rigid rough
 //! surface, with adhesion, by an FFT-based boundary element method.
 //!
-//! A half-space, periodic or free, with normal displacement u faces a rigid surface of heights h. The gap g = u − h ≥ 0 at
-//! equilibrium minimises the energy per area
+//! A half-space, periodic or free, with normal displacement u faces a rigid surface of heights h. The gap g = u − h ≥ 0
+//! at equilibrium minimises the energy per area
 //!
 //! ```math
 //! e(g) = ½ ⟨u, K⁻¹u⟩ + ⟨φ(g)⟩ ,   u = g + h ,   K⁻¹u = ½ E* |q| û  for each wave q ,

@@ -32,27 +32,27 @@ const CARRIED: f64 = 0.5;
 
 /// Nested grids: solutions on coarser grids, each the start on the next finer one.
 ///
-/// A coarser grid has every second node of the finer one, along both sides (along x on a line), and the heights of these nodes;
-/// of an odd number n of nodes it has (n + 1)/2, with heights by cubic interpolation. Its solution is prolonged by cubic
-/// interpolation of the displacement g + h. Nodes between nodes in contact are in contact; between a node in contact and one
-/// that is apart the edge of the contact is where the gaps of the next two nodes say, as gaps open with the power 3/2 of the
-/// distance to the edge. On the finest grid the iteration, the certificate and the tolerance are those of [`Solver`].
+/// A coarser grid has every second node of the finer one, along both sides (along x on a line), and the heights of
+/// these nodes; of an odd number n of nodes it has (n + 1)/2, with heights by cubic interpolation. Its solution is
+/// prolonged by cubic interpolation of the displacement g + h. Nodes between nodes in contact are in contact; between a
+/// node in contact and one that is apart the edge of the contact is where the gaps of the next two nodes say, as gaps
+/// open with the power 3/2 of the distance to the edge. On the finest grid the iteration, the certificate and the
+/// tolerance are those of [`Solver`].
 ///
-/// Sizes are halved while both sides keep `coarsest` nodes. A surface with [absent nodes](Surface::with_absent) and a law that
-/// [varies](crate::Varying) are halved while the sizes are even. With
-/// adhesion only grids that resolve it ([`Problem::mu_rho`] up to 0.5) are used, as a coarser one may pin the
-/// contact on another branch. If the traction of the law jumps, the coarser grids [smooth](AdhesionLaw::smoothed) it,
-/// and so does the finest one on its way from their solution, as it does from the default start. Without a coarser
-/// grid all is as with [`Solver::solve`].
+/// Sizes are halved while both sides keep `coarsest` nodes. A surface with [absent nodes](Surface::with_absent) and a
+/// law that [varies](crate::Varying) are halved while the sizes are even. With adhesion only grids that resolve it
+/// ([`Problem::mu_rho`] up to 0.5) are used, as a coarser one may pin the contact on another branch. If the traction of
+/// the law jumps, the coarser grids [smooth](AdhesionLaw::smoothed) it, and so does the finest one on its way from
+/// their solution, as it does from the default start. Without a coarser grid all is as with [`Solver::solve`].
 ///
-/// The finest grid starts anew, by [`Start::Default`], where the coarsest one is nearly [`closed`](Self::closed), where a
-/// coarser one does not carry its load, and where the solve from the prolonged start has come apart or stalled with an error
-/// above the coarse tolerance.
+/// The finest grid starts anew, by [`Start::Default`], where the coarsest one is nearly [`closed`](Self::closed), where
+/// a coarser one does not carry its load, and where the solve from the prolonged start has come apart or stalled with
+/// an error above the coarse tolerance.
 ///
 /// Nested grids do not always pay: [`Nested::pays`] says where they are the faster way, by measurement.
 ///
-/// Memory per node of the finest grid: no more than a solve on that grid alone, five scalars in `f64` and seven in `f32` with
-/// [`Westergaard`](crate::Westergaard); the start from the coarser grid becomes one of them.
+/// Memory per node of the finest grid: no more than a solve on that grid alone, five scalars in `f64` and seven in
+/// `f32` with [`Westergaard`](crate::Westergaard); the start from the coarser grid becomes one of them.
 ///
 /// ```
 /// use asperity::{Control, Grid, Nested, NoAdhesion, SelfAffine, Status, Westergaard};
@@ -76,16 +76,16 @@ pub struct Nested<C = Projection> {
     pub coarsest: usize,
     /// The relative error to which the contact stiffness of each grid is found; `None`, the default, finds none.
     pub stiffness: Option<f64>,
-    /// The share of contact of the coarsest grid above which only the finest one follows. Default 0.8, above which nothing is
-    /// gained: nearly all of what a start would have to tell are the heights of the finest grid. With 1 all grids are solved,
-    /// from which [`GridError`](crate::accuracy::GridError) tells the error.
+    /// The share of contact of the coarsest grid above which only the finest one follows. Default 0.8, above which
+    /// nothing is gained: nearly all of what a start would have to tell are the heights of the finest grid. With 1 all
+    /// grids are solved, from which [`GridError`](crate::accuracy::GridError) tells the error.
     pub closed: f64,
 }
 
 /// The cost of the solve on one of the nested grids, and what it found there.
 ///
-/// The figures of a coarser grid are those of its solution to the coarse tolerance; how good it is says its relative error.
-/// [`NestedSolution`] has an example.
+/// The figures of a coarser grid are those of its solution to the coarse tolerance; how good it is says its relative
+/// error. [`NestedSolution`] has an example.
 #[non_exhaustive]
 #[derive(Clone, Debug, PartialEq)]
 pub struct Level {
@@ -189,10 +189,10 @@ impl<C> Nested<C> {
     /// Whether nested grids are the faster way to the same equilibrium, by what was measured
     /// ([`performance`](crate::guide::performance)).
     ///
-    /// That is at a given load from 256² nodes on, and at a given mean gap or approach from 512² on, if there is a coarser grid.
-    /// Not with adhesion under a tension or with a spring, where there may be several equilibria; and not with
-    /// [absent nodes](Surface::with_absent), a law that [varies](crate::Varying), or
-    /// [`Method::Rey2017`], where it was not measured.
+    /// That is at a given load from 256² nodes on, and at a given mean gap or approach from 512² on, if there is a
+    /// coarser grid. Not with adhesion under a tension or with a spring, where there may be several equilibria; and not
+    /// with [absent nodes](Surface::with_absent), a law that [varies](crate::Varying), or [`Method::Rey2017`], where it
+    /// was not measured.
     ///
     /// ```
     /// use asperity::{Control, Grid, Nested, NoAdhesion, SelfAffine};

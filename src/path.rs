@@ -36,9 +36,9 @@ use track::{State, Track, Way};
 /// with its jumps.
 ///
 /// Each load is any [`Control`] that the problem has; the first one is where the path starts, and from each to the next
-/// leads a *leg*. Where below a mean gap is given, that is the approach with a free boundary, and with a spring its rest.
-/// A step starts from the extrapolation of the last two states, clipped to gaps that are feasible, so that it stays on
-/// the branch; its length adapts to how much the branch bends.
+/// leads a *leg*. Where below a mean gap is given, that is the approach with a free boundary, and with a spring its
+/// rest. A step starts from the extrapolation of the last two states, clipped to gaps that are feasible, so that it
+/// stays on the branch; its length adapts to how much the branch bends.
 ///
 /// The wall is that of the solver: rigid, or [none](crate::NoWall) for a law that keeps the surfaces apart by itself.
 ///
@@ -72,13 +72,13 @@ use track::{State, Track, Way};
 ///
 /// With adhesion, therefore, the smallest eigenvalue of the energy's second derivative is watched, over the changes
 /// of the gap that vanish where the surfaces touch and have no mean, as in a
-/// [`StabilityTest`](crate::stability::StabilityTest) at the given mean gap. Where the softest stiffness and the least φ'' show that it is positive, that takes nothing.
-/// Elsewhere it takes some five operator applications a state: an iteration or two from the mode of the state before,
-/// to which a little of a random field (the same in every path) is added, so that no symmetry holds the mode back. A
-/// step to a saddle is taken back and halved, as one that jumps is; at [`PathSettings::smallest_step`] the state is
-/// moved along the mode by a tenth of the range of adhesion, and the minimisation goes on from there, to a state that
-/// is no saddle. Of the two ways along the mode it takes that on which the gap closes at the first of the nodes where
-/// the mode is largest.
+/// [`StabilityTest`](crate::stability::StabilityTest) at the given mean gap. Where the softest stiffness and the least
+/// φ'' show that it is positive, that takes nothing. Elsewhere it takes some five operator applications a state: an
+/// iteration or two from the mode of the state before, to which a little of a random field (the same in every path) is
+/// added, so that no symmetry holds the mode back. A step to a saddle is taken back and halved, as one that jumps is;
+/// at [`PathSettings::smallest_step`] the state is moved along the mode by a tenth of the range of adhesion, and the
+/// minimisation goes on from there, to a state that is no saddle. Of the two ways along the mode it takes that on which
+/// the gap closes at the first of the nodes where the mode is largest.
 ///
 /// Its [`Event`] is a bifurcation, with the eigenvalue and the energy that it dissipates. Where the branch came to
 /// that place along the mode itself, as at a limit point, it is a jump like any other. Under a given pressure a

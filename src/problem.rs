@@ -250,8 +250,8 @@ impl<T: Real> PressedFlat<T> {
         })
     }
 
-    /// A control on the operator's grid; refused if the problem does not have it. A mean gap may only be negative without a
-    /// wall.
+    /// A control on the operator's grid; refused if the problem does not have it. A mean gap may only be negative
+    /// without a wall.
     pub(crate) fn load(&self, control: Control, wall: Wall<'_, T>) -> Result<Load> {
         let refused = |reason| Err(Error::Control { control: control.name(), reason });
         let name = match control {

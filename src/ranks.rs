@@ -38,8 +38,8 @@ pub(crate) struct Shares {
 }
 
 impl Shares {
-    /// Parts of so many numbers for each rank, all together at most 2³¹: the number of processes that share a grid is such
-    /// that each holds fewer.
+    /// Parts of so many numbers for each rank, all together at most 2³¹: the number of processes that share a grid is
+    /// such that each holds fewer.
     pub(crate) fn new(counts: impl Iterator<Item = usize>) -> Self {
         let counts: Vec<i32> = counts.map(|count| count as i32).collect();
         let mut place = 0;

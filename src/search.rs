@@ -178,8 +178,8 @@ where
     /// A search on a problem.
     ///
     /// # Errors
-    /// [`Error::Control`] without a wall, where nothing is in contact, and with adhesion on a periodic surface with absent
-    /// nodes; [`Error::Value`] for a flat surface; [`Error::Shared`] where several processes share the grid.
+    /// [`Error::Control`] without a wall, where nothing is in contact, and with adhesion on a periodic surface with
+    /// absent nodes; [`Error::Value`] for a flat surface; [`Error::Shared`] where several processes share the grid.
     pub fn new(solver: &'a mut Solver<C>, problem: &'a mut Problem<T, O, L>) -> Result<Self> {
         Error::alone("search for a contact fraction", problem.operator.grid().slab())?;
         if let Wall::None = solver.constraint.wall() {

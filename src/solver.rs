@@ -167,15 +167,15 @@ impl Settings {
 /// That is two operator applications an iteration, whether or not anything was clipped. τ follows the best
 /// lengths of the steps before. The page [`driver`](crate::guide::driver) derives all of it.
 ///
-/// In `f64` the gap, the pressure and all that is reported are in `f64`, and changes, residuals and transforms in `f32`,
-/// if the operator can be had [in single precision](crate::ElasticOperator::in_single); the certificate is that of the
-/// state in `f64`.
+/// In `f64` the gap, the pressure and all that is reported are in `f64`, and changes, residuals and transforms in
+/// `f32`, if the operator can be had [in single precision](crate::ElasticOperator::in_single); the certificate is that
+/// of the state in `f64`.
 ///
 /// Memory per node with a [`Westergaard`](crate::Westergaard) half-space, that of the problem included: in `f64` five
 /// scalars, in `f32` seven. The solution keeps three.
 /// With [`Boussinesq`](crate::Boussinesq) the grid has four times the nodes of the surface, or somewhat more.
-/// The [`CoarseSpace`](crate::CoarseSpace) adds up to 13 N^(2/3) numbers in `f64`: a fifth of a field on 512² nodes, and 5 % on
-/// 4096².
+/// The [`CoarseSpace`](crate::CoarseSpace) adds up to 13 N^(2/3) numbers in `f64`: a fifth of a field on 512² nodes,
+/// and 5 % on 4096².
 ///
 /// ```
 /// use asperity::{Control, Grid, NoAdhesion, Problem, Settings, Solver, Status, Surface, Westergaard};
@@ -245,11 +245,11 @@ impl<C> Solver<C> {
     ///
     /// # Errors
     /// [`Error::Control`](crate::Error::Control) for a control that the boundary does not have;
-    /// [`Error::Value`](crate::Error::Value) for a negative or infinite mean gap, an infinite pressure, a spring without
-    /// stiffness, or a tolerance that is not positive; [`Error::Shape`](crate::Error::Shape), [`Error::NotFinite`](crate::Error::NotFinite) or
-    /// [`Error::Value`](crate::Error::Value) for a start that does not fit, is not finite, or is negative somewhere;
-    /// [`Error::Law`](crate::Error::Law) if the law is not finite at the start; those of the constraint. A solve that
-    /// does not converge is no error: see [`Report::status`].
+    /// [`Error::Value`](crate::Error::Value) for a negative or infinite mean gap, an infinite pressure, a spring
+    /// without stiffness, or a tolerance that is not positive; [`Error::Shape`](crate::Error::Shape),
+    /// [`Error::NotFinite`](crate::Error::NotFinite) or [`Error::Value`](crate::Error::Value) for a start that does not
+    /// fit, is not finite, or is negative somewhere; [`Error::Law`](crate::Error::Law) if the law is not finite at the
+    /// start; those of the constraint. A solve that does not converge is no error: see [`Report::status`].
     pub fn solve_with<T, O, L>(
         &mut self,
         problem: &mut Problem<T, O, L>,

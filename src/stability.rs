@@ -71,8 +71,9 @@ impl fmt::Display for Verdict {
 /// ```
 ///
 /// over the changes v of the gap that vanish where the surfaces touch, and have no mean if the mean gap is given; a
-/// spring, and with a free boundary a given approach, adds its stiffness to that of the mean. It is found by locally optimal conjugate gradients (Knyazev, *SIAM J. Sci. Comput.* 23 (2001)) with the compliance as
-/// preconditioner, two operator applications an iteration.
+/// spring, and with a free boundary a given approach, adds its stiffness to that of the mean. It is found by locally
+/// optimal conjugate gradients (Knyazev, *SIAM J. Sci. Comput.* 23 (2001)) with the compliance as preconditioner, two
+/// operator applications an iteration.
 ///
 /// The Rayleigh quotient that they end with is above the smallest eigenvalue; a larger tolerance makes it likelier
 /// that it is the second one, where the two are close or the random start has hardly any share in the first mode. If

@@ -57,8 +57,8 @@ impl Surface {
     /// that are NaN.
     ///
     /// An absent node neither touches nor attracts: punches of any outline, holes, points that were not measured and
-    /// are not to be filled. [`heights`](Self::heights) has there what [`Topography::fill`] makes of them, which matters
-    /// for statistics of the heights alone. Without absent nodes all is as with [`Surface::new`].
+    /// are not to be filled. [`heights`](Self::heights) has there what [`Topography::fill`] makes of them, which
+    /// matters for statistics of the heights alone. Without absent nodes all is as with [`Surface::new`].
     ///
     /// ```
     /// use asperity::{Boussinesq, Control, Grid, NoAdhesion, Problem, Solver, Surface};

@@ -19,7 +19,8 @@ use crate::solver::{Iteration, Solution, Solver, Start};
 /// start, or from [`Sweep::starting_from`]; the others
 ///
 /// - without adhesion, from the last two gaps, extrapolated linearly in the mean gap, in the approach or in the rest of
-///   a spring, or in the logarithm of the mean pressure or of the force, and clipped to g ≥ 0; the solution is unique, and the start matters only for the work;
+///   a spring, or in the logarithm of the mean pressure or of the force, and clipped to g ≥ 0; the solution is unique,
+///   and the start matters only for the work;
 /// - with adhesion, or where the last two loads and this one are not of one kind, or pressures not all positive,
 ///   from the last gap. So a sweep follows the branch of equilibria that its loads lead along, up to the instability
 ///   at which it jumps: loading takes another one than unloading, and surfaces that were pulled apart

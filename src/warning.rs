@@ -171,8 +171,9 @@ impl Warning {
     /// [`Steep`](WarningCode::Steep), [`Spikes`](WarningCode::Spikes), [`MissingCode`](WarningCode::MissingCode),
     /// [`Cells`](WarningCode::Cells) and [`Flat`](WarningCode::Flat).
     ///
-    /// Takes two passes over the heights, and a third where single nodes may be far out. Where there are codes for missing points, the warnings that these codes
-    /// would cause are left out. Tilt and edges are looked at along sides of 16 nodes and more.
+    /// Takes two passes over the heights, and a third where single nodes may be far out. Where there are codes for
+    /// missing points, the warnings that these codes would cause are left out. Tilt and edges are looked at along sides
+    /// of 16 nodes and more.
     ///
     /// Where several processes share the grid, each of them takes the whole surface for it, as [`Surface::whole`] gives
     /// it.

@@ -84,8 +84,8 @@ impl Scene {
     }
 }
 
-/// All scenes: seeds, Hurst exponents, laws and loads; a mean gap is that under a pressure. The factors of the estimates
-/// were fitted to other seeds and exponents.
+/// All scenes: seeds, Hurst exponents, laws and loads; a mean gap is that under a pressure. The factors of the
+/// estimates were fitted to other seeds and exponents.
 fn scenes(quick: bool) -> Outcome<Vec<Scene>> {
     let (seeds, hursts): (&[u64], &[f64]) = if quick { (&[11], &[0.8]) } else { (&[11, 12, 13, 14], &[0.3, 0.6, 0.9]) };
     let loads = [

@@ -7,8 +7,8 @@
 //! reference converged to 1e-12 on a grid finer than all others. On each grid all that a user may choose is tried:
 //! tolerance, precision, nested grids, preset (`rey2017` on small grids only).
 //!
-//! The fifth, `knob`, is another experiment: on 120 rough scenes it compares the estimated error of the grid with the true
-//! one, and asks for accuracies of the contact area, which it compares with the best choice by hand.
+//! The fifth, `knob`, is another experiment: on 120 rough scenes it compares the estimated error of the grid with the
+//! true one, and asks for accuracies of the contact area, which it compares with the best choice by hand.
 //!
 //! Errors are relative, and root mean squares over a few loads, as the error of an area depends on how the edge falls
 //! between the nodes. The discretisation error is the difference between the solution converged to 1e-12 on the grid

@@ -1,4 +1,5 @@
-//! The inputs of a problem by the names of their keywords: body, wall, load and settings. The law has a file of its own.
+//! The inputs of a problem by the names of their keywords: body, wall, load and settings. The law has a file of its
+//! own.
 
 use asperity::accuracy::{Accuracy, Quantity, available_memory};
 use asperity::{

@@ -40,11 +40,11 @@ const DOUBT: f64 = 3.0;
 /// An accuracy that is asked for: a relative error of a quantity, from which tolerance and grid follow.
 ///
 /// The given grid is solved first, with coarser ones below it ([`Nested`]), to a tolerance of a tenth of the
-/// accuracy, and at most 1e-3; then the error of the grid is estimated ([`GridError`]). As long as the estimate, half as large
-/// again where it is rough, and the certified error of the solver together are larger than the accuracy, or the estimate
-/// cannot be told, the surface is put on twice
-/// as many nodes along its sides by Fourier interpolation, as [`Topography::resample`](crate::Topography::resample) does, and
-/// solved there from the prolonged solution. With a free boundary it is continued by its mirror images for that.
+/// accuracy, and at most 1e-3; then the error of the grid is estimated ([`GridError`]). As long as the estimate, half
+/// as large again where it is rough, and the certified error of the solver together are larger than the accuracy, or
+/// the estimate cannot be told, the surface is put on twice as many nodes along its sides by Fourier interpolation, as
+/// [`Topography::resample`](crate::Topography::resample) does, and solved there from the prolonged solution. With a
+/// free boundary it is continued by its mirror images for that.
 ///
 /// The grid of the answer is that of [`AccurateSolution::surface`]; a grid that is finer than need be stays as it is.
 /// A surface with absent nodes and a law that varies from node to node are known on their grid alone, which is not
@@ -178,8 +178,8 @@ impl<C> Accuracy<C> {
     /// applications.
     ///
     /// # Errors
-    /// [`Error::Unaffordable`] if the grid that would do is far beyond the memory; [`Error::Control`] if the control gives
-    /// the quantity; those of [`Accuracy::tolerance`].
+    /// [`Error::Unaffordable`] if the grid that would do is far beyond the memory; [`Error::Control`] if the control
+    /// gives the quantity; those of [`Accuracy::tolerance`].
     pub fn plan<T: Real>(
         &self,
         surface: &Surface,

@@ -13,8 +13,8 @@ use crate::real::Real;
 /// ```
 ///
 /// The larger n, the closer to the [`Exponential`](super::Exponential) law of the same w and ρ. With n = 2 it is the
-/// van der Waals attraction of two half-spaces, [`PowerLaw::van_der_waals`]. Its tail reaches far; [`CutOff`](super::CutOff)
-/// ends it.
+/// van der Waals attraction of two half-spaces, [`PowerLaw::van_der_waals`]. Its tail reaches far;
+/// [`CutOff`](super::CutOff) ends it.
 ///
 /// ```
 /// use asperity::{AdhesionLaw, PowerLaw};

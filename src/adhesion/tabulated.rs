@@ -40,8 +40,8 @@ impl Tabulated {
     /// and the last traction is zero.
     ///
     /// # Errors
-    /// [`Error::Value`] for fewer than three points, as many gaps as tractions lacking, a number that is not finite, gaps
-    /// that do not rise from zero, a last traction that is not zero, or a table without attraction.
+    /// [`Error::Value`] for fewer than three points, as many gaps as tractions lacking, a number that is not finite,
+    /// gaps that do not rise from zero, a last traction that is not zero, or a table without attraction.
     pub fn new(gaps: &[f64], tractions: &[f64]) -> Result<Self> {
         let wrong = |name, value, requirement| Err(Error::Value { name, value, requirement });
         if gaps.len() != tractions.len() {

@@ -9,8 +9,9 @@ use crate::solver::Solution;
 /// The distribution of the pressure over the surface: a histogram, as a probability density.
 ///
 /// The bins are equally wide; a bin has its lower edge, the last one its upper edge too. The density of a bin is the
-/// share of the nodes, but for absent ones, whose pressure is in it, divided by its width: Σ density · width is the share of the nodes that
-/// are counted, and Σ density · pressure · width is about the mean pressure that they contribute.
+/// share of the nodes, but for absent ones, whose pressure is in it, divided by its width: Σ density · width is the
+/// share of the nodes that are counted, and Σ density · pressure · width is about the mean pressure that they
+/// contribute.
 ///
 /// ```
 /// use asperity::contact::PressureDistribution;

@@ -101,12 +101,12 @@ impl CoarseSpace {
         [self.block, (self.moments.points[0].len(), self.moments.points[1].len())]
     }
 
-    /// Takes the contact map: for the first node of each block, in row-major order, the nodes in contact about it, as a share
-    /// of all nodes. A node counts for the first nodes around it by linear interpolation.
+    /// Takes the contact map: for the first node of each block, in row-major order, the nodes in contact about it, as a
+    /// share of all nodes. A node counts for the first nodes around it by linear interpolation.
     ///
-    /// `stiffness` is that of the foundation; `mean_stiffness`, which must be small beside it, keeps the mean from being
-    /// free. With `held` a response has no mean over the nodes that are apart: the mean gap is given. Returns `false`
-    /// if the matrix is not positive in its rounding.
+    /// `stiffness` is that of the foundation; `mean_stiffness`, which must be small beside it, keeps the mean from
+    /// being free. With `held` a response has no mean over the nodes that are apart: the mean gap is given. Returns
+    /// `false` if the matrix is not positive in its rounding.
     pub(crate) fn renew(&mut self, contact: &[f64], stiffness: f64, mean_stiffness: f64, held: bool) -> bool {
         let Self { waves, moments, factor, apart: [load, response], vector, .. } = self;
         moments.of(contact);

@@ -83,7 +83,8 @@ impl<T: Real> Spectral<T> {
     }
 
     /// The operator of a compliance that is even along both axes, without folded lines: of each column of the half
-    /// spectrum that this process transforms the first half of its modes, and the one in the middle. That of the mean, the first one, is not used.
+    /// spectrum that this process transforms the first half of its modes, and the one in the middle. That of the mean,
+    /// the first one, is not used.
     pub(super) fn of_compliance(grid: Grid, modulus: f64, mut modes: Array2<f64>) -> Result<Self> {
         Error::positive("contact modulus", modulus)?;
         let wrong = modes.iter().find(|&&compliance| !(compliance > 0.0 && compliance.is_finite()));

@@ -44,8 +44,8 @@ pub(super) fn peak(f: impl Fn(f64) -> f64, low: f64, high: f64) -> f64 {
     0.5 * (low + high)
 }
 
-/// The integral of a smooth function over [low, high], by the trapezoidal rule after the substitution tanh(½π sinh t): the
-/// error falls exponentially with the number of points.
+/// The integral of a smooth function over [low, high], by the trapezoidal rule after the substitution tanh(½π sinh t):
+/// the error falls exponentially with the number of points.
 pub(super) fn integral(f: impl Fn(f64) -> f64, low: f64, high: f64, points: usize) -> f64 {
     /// There the weights have fallen to rounding.
     const END: f64 = 3.2;

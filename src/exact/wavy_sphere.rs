@@ -5,8 +5,8 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use super::numerics::{falls_to, integral, peak};
 use crate::error::{Error, Result};
 
-/// Steps in which the branches are looked for: at least so many in a wave, and in the radius of the smallest contact that
-/// adhesion holds.
+/// Steps in which the branches are looked for: at least so many in a wave, and in the radius of the smallest contact
+/// that adhesion holds.
 const STEPS: f64 = 16.0;
 
 /// The contact of a sphere with concentric waves, of the profile r²/2R + A (1 − cos kr), k = 2π/λ, with adhesion of no
@@ -17,9 +17,9 @@ const STEPS: f64 = 16.0;
 /// F₁ = 4E*a³/3R + 2E*Ak a² ∫ sin²θ sin(ka sin θ) dθ ,   δ₁ = a²/R + Ak a ∫ sin(ka sin θ) dθ    over 0 ≤ θ ≤ π/2
 /// ```
 ///
-/// F₁ and δ₁ are load and approach of the contact without adhesion. Guduru (2007) has these integrals as Bessel and Struve
-/// functions. For A = 0 it is the contact of [`Jkr`](super::Jkr). The contact is taken to be a disc: adhesion has to close the
-/// troughs inside of it.
+/// F₁ and δ₁ are load and approach of the contact without adhesion. Guduru (2007) has these integrals as Bessel and
+/// Struve functions. For A = 0 it is the contact of [`Jkr`](super::Jkr). The contact is taken to be a disc: adhesion
+/// has to close the troughs inside of it.
 ///
 /// A wave makes δ fall with a in places: the contact jumps over these, and dissipates energy at each of the
 /// [`jumps`](Self::jumps).
@@ -44,8 +44,8 @@ pub struct WavySphere {
 }
 
 impl WavySphere {
-    /// A sphere of radius of curvature R (length) with a wave of amplitude A and wavelength λ (lengths) on a half-space of
-    /// contact modulus E* (pressure), with work of adhesion w (energy per area).
+    /// A sphere of radius of curvature R (length) with a wave of amplitude A and wavelength λ (lengths) on a half-space
+    /// of contact modulus E* (pressure), with work of adhesion w (energy per area).
     ///
     /// # Errors
     /// [`Error::Value`] if one is not positive and finite; the amplitude may be zero.
@@ -85,8 +85,8 @@ impl WavySphere {
         integral(|theta| weight(theta.sin()) * (ka * theta.sin()).sin(), 0.0, FRAC_PI_2, 48 + 3 * ka.ceil() as usize)
     }
 
-    /// The jumps of the contact radius as the approach, which is given, goes from one value to another: the radius before
-    /// and after each, where 0 is no contact.
+    /// The jumps of the contact radius as the approach, which is given, goes from one value to another: the radius
+    /// before and after each, where 0 is no contact.
     ///
     /// Bodies that come together start without contact, and those that move apart from the largest contact at their
     /// approach.
@@ -141,8 +141,8 @@ impl WavySphere {
         falls_to(|a| -self.approach(a), -approach, low, high)
     }
 
-    /// The branches that are stable at a given approach, on which the approach grows with the contact radius: the radii at
-    /// their ends, up to those that have more than the given approach.
+    /// The branches that are stable at a given approach, on which the approach grows with the contact radius: the radii
+    /// at their ends, up to those that have more than the given approach.
     fn branches(&self, highest: f64) -> Vec<[f64; 2]> {
         let Self { radius, modulus, work_of_adhesion, amplitude, wave_number } = *self;
         let curvature = radius.recip() + amplitude * wave_number * wave_number;

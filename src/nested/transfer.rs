@@ -1,4 +1,5 @@
-//! Heights and gaps from one grid to another: a surface on a coarser one, and the solution there as a start on the finer.
+//! Heights and gaps from one grid to another: a surface on a coarser one, and the solution there as a start on the
+//! finer.
 
 use ndarray::{Array2, ArrayView2};
 
@@ -61,8 +62,8 @@ struct Place {
     nodes: [usize; 4],
     /// The weights of the cubic through these.
     weights: [f64; 4],
-    /// The ratios of the gaps of two nodes beyond an edge, the farther to the nearer, from which on the place is within the
-    /// contact: for a contact before the place, and after it.
+    /// The ratios of the gaps of two nodes beyond an edge, the farther to the nearer, from which on the place is within
+    /// the contact: for a contact before the place, and after it.
     edges: [f64; 2],
 }
 
@@ -165,7 +166,8 @@ mod tests {
     #[test]
     fn an_edge_is_where_gaps_open_with_the_power_three_halves() {
         let place = &places(4, 8, false)[3]; // half-way between nodes 1 and 2
-        // with the share of the ratio that is asked for, the place touches if the edge is not farther than 0.16 before it
+        // with the share of the ratio that is asked for, the place touches if the edge is not farther than 0.16 before
+        // it
         for edge in [1.05, 1.2, 1.3, 1.4, 1.6, 1.75, 1.95] {
             let gap = |x: f64| (x - edge).max(0.0).powf(1.5);
             assert_eq!(place.touches(|i| gap(i as f64)), edge > 1.34, "{edge}");

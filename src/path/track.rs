@@ -231,8 +231,8 @@ impl State {
         }
     }
 
-    /// Goes on at given mean gaps, from a limit point or from before a bifurcation: no closer than the surfaces bear the
-    /// pressure at which the leg ends, and no farther than they reach each other.
+    /// Goes on at given mean gaps, from a limit point or from before a bifurcation: no closer than the surfaces bear
+    /// the pressure at which the leg ends, and no farther than they reach each other.
     pub(super) fn leave_pressure_control(
         &mut self,
         (close, far): (f64, f64),

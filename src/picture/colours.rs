@@ -33,8 +33,8 @@ pub enum Colouring {
     /// (a singular peak). It then ends where the others do, and the colour bar has an arrow and the extreme
     /// value at this end.
     Diverging,
-    /// Classes of contact: black where the value is positive (contact), blue where it is negative (attractive), and white
-    /// where it is zero (apart), with a legend; [`Solution::regions`](crate::Solution::regions) has them.
+    /// Classes of contact: black where the value is positive (contact), blue where it is negative (attractive), and
+    /// white where it is zero (apart), with a legend; [`Solution::regions`](crate::Solution::regions) has them.
     ///
     /// On a map drawn with fewer pixels than nodes, the colours are mixed by the share of each.
     Contact,

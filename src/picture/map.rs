@@ -26,9 +26,9 @@ const PIXELS: f64 = 2.0;
 ///
 /// x runs to the right and y upwards, both from zero to the side length wherever the grid has its origin.
 /// At [`DPI`](super::DPI) each node is a cell of one or more pixels; more than 1000 nodes to a side, or more than there
-/// are pixels, are averaged in blocks. A value that is not finite has a colour of its own. The picture keeps the aspect ratio of the rectangle up to
-/// 5 : 1. A line (`Nx = 1` or `Ny = 1`) is drawn as a curve, on one linear scale whatever the colouring, or
-/// as a strip if that is [`Colouring::Contact`].
+/// are pixels, are averaged in blocks. A value that is not finite has a colour of its own. The picture keeps the aspect
+/// ratio of the rectangle up to 5 : 1. A line (`Nx = 1` or `Ny = 1`) is drawn as a curve, on one linear scale whatever
+/// the colouring, or as a strip if that is [`Colouring::Contact`].
 ///
 /// Units such as "m", "Pa" or "N/m" get the SI prefix that makes the numbers readable; others, and pure
 /// numbers (`None`), a power of ten where they are very large or small: "gap (10⁻⁶)".
@@ -69,8 +69,8 @@ pub struct Map<'a> {
     /// The values at the ends of the colour bar, as for maps that are to be compared; those of the field if `None`.
     /// With [`Colouring::Diverging`] each is that of its sign.
     pub limits: Option<(f64, f64)>,
-    /// The names of negative and of positive values, such as "tension" and "compression", at colour bars of their own; the
-    /// label stands at both if they are empty.
+    /// The names of negative and of positive values, such as "tension" and "compression", at colour bars of their own;
+    /// the label stands at both if they are empty.
     pub signs: [&'a str; 2],
 }
 
@@ -295,8 +295,8 @@ impl Bar {
     }
 }
 
-/// The pixels of a map at the usual resolution: the longer side has a whole number of pixels for each node, about 600 in
-/// all, or of nodes for each pixel, at most 1000 pixels.
+/// The pixels of a map at the usual resolution: the longer side has a whole number of pixels for each node, about 600
+/// in all, or of nodes for each pixel, at most 1000 pixels.
 pub(super) fn map_size((nx, ny): (usize, usize), (lx, ly): (f64, f64)) -> (i32, i32) {
     let aspect = (lx / ly).clamp(0.2, 5.0);
     let (long, short, aspect) = if aspect >= 1.0 { (nx, ny, aspect) } else { (ny, nx, 1.0 / aspect) };

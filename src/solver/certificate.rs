@@ -53,7 +53,8 @@ impl<T: Real, L: Real> State<'_, T, L> {
         // flats that attract each other have no waves but those of rounding
         let traction = self.tally.traction / self.nodes();
         let (softest, stiffest) = self.operators.state().stiffness_range();
-        // and so have flats that are held apart, by their mean gap or by the law itself, whose range their gaps are then of
+        // and so have flats that are held apart, by their mean gap or by the law itself, whose range their gaps are
+        // then of
         let lifted = match self.constraint.wall() {
             Wall::None => self.mean_gap().abs().max(self.law.range().widen()),
             _ if self.tally.contact > 0.0 => 0.0,

@@ -7,12 +7,12 @@ use crate::par::{self, Parts};
 use crate::real::Real;
 use crate::slab::Slab;
 
-/// The dimension of the space over the cube root of the number of nodes: then its decomposition takes 21 multiplications
-/// for each node, a third of the cube.
+/// The dimension of the space over the cube root of the number of nodes: then its decomposition takes 21
+/// multiplications for each node, a third of the cube.
 const DIMENSION: f64 = 4.0;
 
-/// The stiffness of the contacts, over that which the surface meets as it is pressed flat: the best one does not depend on
-/// the grid.
+/// The stiffness of the contacts, over that which the surface meets as it is pressed flat: the best one does not depend
+/// on the grid.
 const STIFFNESS: f64 = 2.5;
 
 /// The stiffness of the mean gap without contacts, over that of the softest wave.
@@ -86,8 +86,8 @@ impl Coarse {
 
     /// Takes the contact map; returns whether some of the nodes touch, and some do not.
     ///
-    /// A node counts for the first nodes of its own block and of the next one by linear interpolation: then the map has the
-    /// symmetries of the surface about such nodes.
+    /// A node counts for the first nodes of its own block and of the next one by linear interpolation: then the map has
+    /// the symmetries of the surface about such nodes.
     fn map<T: Real>(&mut self, field: &Array2<T>, touches: impl Fn(usize, T) -> bool + Sync + Send) -> bool {
         let ([block, blocks], (nx, ny)) = (self.space.blocks(), self.slab.shape());
         let count = |nodes: ArrayView2<'_, T>, from: usize, node: usize, counts: &mut [Count]| {

@@ -147,9 +147,9 @@ impl<'a, T: Real> Potential<'a, T> {
         matches!(self.wall, Some(Wall::Rigid))
     }
 
-    /// The least gap after a step: zero at a rigid wall. Where the law itself repels, a node lands at the gap of rest, from
-    /// where the slope of the law is that of its repulsion, and keeps below it a part of its gap, if the repulsion has no
-    /// bound at zero gap. Elsewhere a gap may become negative.
+    /// The least gap after a step: zero at a rigid wall. Where the law itself repels, a node lands at the gap of rest,
+    /// from where the slope of the law is that of its repulsion, and keeps below it a part of its gap, if the repulsion
+    /// has no bound at zero gap. Elsewhere a gap may become negative.
     pub(crate) fn least(&self) -> Option<Least<T>> {
         match self.wall {
             Some(Wall::Rigid) => Some(Least { rest: T::zero(), share: T::zero(), depth: T::zero() }),

@@ -88,8 +88,8 @@ pub struct Iteration {
     /// The relative error of the load, [`Report::load_error`].
     pub load_error: f64,
     /// The energy that is minimised, per area of the operator's grid: elastic and adhesive energy, and under pressure
-    /// control p̄ times the mean gap; with a spring its energy. It is summed up step by step, in `f64` to the rounding of
-    /// `f32`; the report has it as it is.
+    /// control p̄ times the mean gap; with a spring its energy. It is summed up step by step, in `f64` to the rounding
+    /// of `f32`; the report has it as it is.
     pub energy: f64,
     /// The mean gap; with a free boundary or absent nodes over the operator's grid, on which the gap goes on as the
     /// displacement less heights that are interpolated.
@@ -133,9 +133,10 @@ pub struct Report {
     /// vanish then. Under the lightest loads ⟨u, p⟩ is computed as ⟨p, K p⟩, which does not cancel, and the error is
     /// never less than the rounding of the pressure alone makes it, so that it is not understated.
     pub relative_error: f64,
-    /// Under a given pressure or with a spring, the error of the load relative to the larger of |p̄| and the mean contact pressure: the
-    /// larger of the imbalance of the nodes that are apart and the difference between the load and the one that the
-    /// returned fields carry. One without contact under a load that needs it; zero under gap control.
+    /// Under a given pressure or with a spring, the error of the load relative to the larger of |p̄| and the mean
+    /// contact pressure: the larger of the imbalance of the nodes that are apart and the difference between the load
+    /// and the one that the returned fields carry. One without contact under a load that needs it; zero under gap
+    /// control.
     pub load_error: f64,
     /// The paper's criterion ε = Σ|g r'|, in units of E*·√(Lx·Ly), on the returned fields.
     pub orthogonality: f64,
@@ -172,8 +173,8 @@ pub struct Report {
     /// Nothing in a periodic cell.
     pub edge_traction: Option<f64>,
     /// Whether contact, or more than a thousandth of the largest traction, reaches the outermost nodes of a free
-    /// boundary's window. Unless the body ends there, the window is too small for it. Not where the bodies are apart, with
-    /// no traction above 1 % of w/ρ.
+    /// boundary's window. Unless the body ends there, the window is too small for it. Not where the bodies are apart,
+    /// with no traction above 1 % of w/ρ.
     pub reaches_edge: bool,
     /// The smallest gap: zero in contact, negative only where the constraint lets the surfaces interpenetrate.
     pub min_gap: f64,

@@ -12,8 +12,9 @@ use crate::slab::Slab;
 
 /// The start of a solve: the gap from which the energy is minimised.
 ///
-/// A gap has the shape (Nx, Ny) of the surface, whatever it has at absent nodes, may be an array or a view in any memory layout, and is scaled to the mean gap, if that is
-/// given. The start matters for the work, and with adhesion, where there may be several equilibria, for the answer.
+/// A gap has the shape (Nx, Ny) of the surface, whatever it has at absent nodes, may be an array or a view in any
+/// memory layout, and is scaled to the mean gap, if that is given. The start matters for the work, and with adhesion,
+/// where there may be several equilibria, for the answer.
 ///
 /// The solution in `f32` as a start near that in `f64`:
 ///
@@ -35,9 +36,9 @@ use crate::slab::Slab;
 #[derive(Clone, Debug, Default)]
 pub enum Start<'a, T> {
     /// A uniform gap: the mean gap, if that is given; under a given pressure twice the rms height without adhesion, and
-    /// full contact with adhesion. With a free boundary and without adhesion the undeformed bodies that just touch. If the traction of the law jumps, as that of
-    /// [`MaugisDugdale`](crate::MaugisDugdale) does, the equilibrium of the law with its jump
-    /// [smoothed](AdhesionLaw::smoothed) is found first and becomes the start, within the same solve.
+    /// full contact with adhesion. With a free boundary and without adhesion the undeformed bodies that just touch. If
+    /// the traction of the law jumps, as that of [`MaugisDugdale`](crate::MaugisDugdale) does, the equilibrium of the
+    /// law with its jump [smoothed](AdhesionLaw::smoothed) is found first and becomes the start, within the same solve.
     #[default]
     Default,
     /// A gap, as that of an equilibrium at another load. With adhesion it chooses the branch of the equilibrium that is

@@ -28,8 +28,8 @@ const SCALED: f64 = 64.0;
 /// The iterations between two certificates of [`Method::Rey2017`], which needs them for the report only.
 const CERTIFY: usize = 10;
 
-/// The stiffness of one node among its neighbours, over that of the stiffest wave: the reciprocal of the mean compliance of
-/// the waves of a square grid.
+/// The stiffness of one node among its neighbours, over that of the stiffest wave: the reciprocal of the mean
+/// compliance of the waves of a square grid.
 const HELD: f64 = 0.4;
 
 /// The goal of a minimisation.

@@ -100,8 +100,8 @@ impl<T: Real, L: Real> State<'_, T, L> {
         Ok(false)
     }
 
-    /// The tension at a given mean gap, from the present contact or from a uniform gap; nothing if the solve was stopped
-    /// or ran out of iterations.
+    /// The tension at a given mean gap, from the present contact or from a uniform gap; nothing if the solve was
+    /// stopped or ran out of iterations.
     fn tension_at(&mut self, gap: f64, observe: Observer<'_>) -> Result<Option<f64>> {
         if self.tally.contact == 0.0 {
             self.fields.gap.fill(T::lit(gap));
@@ -156,9 +156,9 @@ impl<T: Real, L: Real> State<'_, T, L> {
     }
 }
 
-/// The most tension that surfaces may hold about the mean gap at which they held most of those that were tried, as (gap,
-/// tension): what a concave function cannot exceed, and some more. Without bound where all held hardly any, or that gap
-/// has no neighbours.
+/// The most tension that surfaces may hold about the mean gap at which they held most of those that were tried, as
+/// (gap, tension): what a concave function cannot exceed, and some more. Without bound where all held hardly any, or
+/// that gap has no neighbours.
 fn most_between(tried: &mut [(f64, f64)], hardly: f64) -> f64 {
     tried.sort_by(|a, b| a.0.total_cmp(&b.0));
     let best = (0..tried.len()).max_by(|&a, &b| tried[a].1.total_cmp(&tried[b].1)).unwrap_or_default();

@@ -37,8 +37,8 @@ impl<T: Real> Stability<T> {
     ///
     /// The perturbation changes the gap by a tenth of the range of adhesion at most. From a saddle the energy falls
     /// along the mode, and the solver never raises it again: it does not come back. From a stable equilibrium it does,
-    /// within that distance. The wall is that of the solver. `None` if the mode is zero, as where all nodes are in contact, or
-    /// without adhesion.
+    /// within that distance. The wall is that of the solver. `None` if the mode is zero, as where all nodes are in
+    /// contact, or without adhesion.
     ///
     /// # Errors
     /// [`Error::Shape`] if the solution is of another grid, [`Error::Wall`] for springs, and those of

@@ -11,8 +11,8 @@ use crate::real::Real;
 use crate::slab::Slab;
 use crate::solver::Coarse;
 
-/// K⁻¹ + φ'' on fields that vanish on the contact, and have no mean if the mean gap is given; a spring adds its stiffness
-/// to the mean.
+/// K⁻¹ + φ'' on fields that vanish on the contact, and have no mean if the mean gap is given; a spring adds its
+/// stiffness to the mean.
 pub(super) struct Hessian<'a, T> {
     operator: &'a mut dyn ElasticOperator<T>,
     /// φ'', infinite on the contact

@@ -209,7 +209,8 @@ impl Spectrum {
         lags.into_iter().zip(means).collect()
     }
 
-    /// The number of nodes along a side, the lesser of the two, that the shortest wave has; infinite for a flat surface.
+    /// The number of nodes along a side, the lesser of the two, that the shortest wave has; infinite for a flat
+    /// surface.
     ///
     /// The shortest wave is that beyond which there is 5 % of the mean square slope: the nodes are as many as the other
     /// waves have at least.

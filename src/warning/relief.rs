@@ -293,8 +293,8 @@ impl Scale {
 /// The sums over a band of rows.
 #[derive(Clone, Default)]
 struct Band {
-    /// of each row the sums of the heights, of their squares, and of the squared steps from the row before, which of the
-    /// first is the last; and the greatest step
+    /// of each row the sums of the heights, of their squares, and of the squared steps from the row before, which of
+    /// the first is the last; and the greatest step
     rows: Vec<[f64; 4]>,
     /// of each column the sum of the heights, and of the squared steps to the one after, of the last to the first
     sums: Vec<f64>,
@@ -396,8 +396,8 @@ struct Block {
     candidates: Vec<(f64, (usize, usize))>,
 }
 
-/// A row of scaled heights with the ones beside it, and of its nodes from `first` on that have all their `count` neighbours these neighbours'
-/// sum, lowest and highest. The edges of the map are left out.
+/// A row of scaled heights with the ones beside it, and of its nodes from `first` on that have all their `count`
+/// neighbours these neighbours' sum, lowest and highest. The edges of the map are left out.
 #[derive(Default)]
 struct Around {
     before: Vec<f64>,

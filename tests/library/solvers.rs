@@ -428,8 +428,8 @@ fn a_solve_needs_five_fields_of_f64_and_seven_of_f32() {
             || Box::new(Exponential::new(1.42e-4, 2.9e-3).unwrap()),
         ];
         for law in laws {
-            // the spectrum, K⁻¹h, and another spectrum for that; then gap and pressure, and four halves: the corrections
-            // and their spectrum
+            // the spectrum, K⁻¹h, and another spectrum for that; then gap and pressure, and four halves: the
+            // corrections and their spectrum
             let [built, solved] = peak(grid, half_space, law, control);
             assert!((3.0..3.0 + small).contains(&built) && (5.0..5.0 + small).contains(&solved), "{built} {solved}");
         }

@@ -42,7 +42,8 @@ pub enum Of {
 }
 
 impl AccuracyOptions {
-    /// The accuracy, if one is asked for, by a solver; with the contact stiffness to a relative error, if that is found.
+    /// The accuracy, if one is asked for, by a solver; with the contact stiffness to a relative error, if that is
+    /// found.
     pub fn goal(&self, solver: Solver<Wall>, stiffness: Option<f64>) -> Option<Accuracy<Wall>> {
         let quantity = match self.accuracy_of.unwrap_or(Of::Area) {
             Of::Area => Quantity::Area,

@@ -1,9 +1,9 @@
 //! The command-line tool: `asperity demo` solves a built-in case, `asperity solve` one given by files, `asperity sweep`
-//! many loads, `asperity cycle` a path with jumps, and `asperity study` every combination of options; `asperity surface`
-//! makes files of heights, `asperity prepare` makes them of measured maps, and `asperity stats` measures them.
-//! `asperity laws` lists the adhesion laws, and `asperity selftest` compares solves with theory. `asperity run` does any
-//! of these by a scene file, which every run leaves beside its results, and `asperity report` puts the results on a page
-//! for a browser.
+//! many loads, `asperity cycle` a path with jumps, and `asperity study` every combination of options; `asperity
+//! surface` makes files of heights, `asperity prepare` makes them of measured maps, and `asperity stats` measures them.
+//! `asperity laws` lists the adhesion laws, and `asperity selftest` compares solves with theory. `asperity run` does
+//! any of these by a scene file, which every run leaves beside its results, and `asperity report` puts the results on a
+//! page for a browser.
 
 // the report of a solve has more keys than serde_json's macro expands otherwise
 #![recursion_limit = "256"]

@@ -59,7 +59,8 @@ pub struct PlotOptions {
 }
 
 impl PlotOptions {
-    /// Refuses a chart that is in no known format, or whose file is there, but not the `table`, unless `force` replaces it.
+    /// Refuses a chart that is in no known format, or whose file is there, but not the `table`, unless `force` replaces
+    /// it.
     pub fn check(&self, table: &Path, force: bool) -> Outcome<()> {
         check_plot(self.plot.as_deref(), table, force)
     }

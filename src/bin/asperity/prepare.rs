@@ -46,7 +46,8 @@ pub struct Options {
     /// Multiply the heights, as by 1e-9 for nm where the side lengths are in m
     #[arg(long, value_name = "F", allow_hyphen_values = true, value_parser = positive)]
     scale: Option<f64>,
-    /// Unit of side lengths and heights as they are after that, instead of the file's; solve has it in tables and pictures
+    /// Unit of side lengths and heights as they are after that, instead of the file's; solve has it in tables and
+    /// pictures
     #[arg(long, value_name = "UNIT", value_parser = unit)]
     unit: Option<String>,
     /// Keep NX x NY nodes from index [X, Y] on
@@ -62,8 +63,8 @@ pub struct Options {
     /// Direction of the scan lines of --align-rows [default: x]
     #[arg(long, value_enum, requires = "align_rows")]
     scan_axis: Option<Scan>,
-    /// Give spikes the median of the 5 x 5 nodes around them, if they are farther from it than this many robust standard
-    /// deviations of all nodes [default: 10 if --despike stands alone]
+    /// Give spikes the median of the 5 x 5 nodes around them, if they are farther from it than this many robust
+    /// standard deviations of all nodes [default: 10 if --despike stands alone]
     #[arg(long, value_name = "THRESHOLD", num_args = 0..=1, default_missing_value = "10", value_parser = positive)]
     #[arg(allow_negative_numbers = true)]
     despike: Option<f64>,

@@ -99,8 +99,8 @@ pub struct Options {
     picture_format: PictureFormat,
     #[command(flatten)]
     resolution: Resolution,
-    /// Pressures at the ends of the colour bar, as for pictures that are to be compared; with adhesion that of the largest
-    /// tension, negative, and that of the largest compression
+    /// Pressures at the ends of the colour bar, as for pictures that are to be compared; with adhesion that of the
+    /// largest tension, negative, and that of the largest compression
     #[arg(long, value_names = ["LOW", "HIGH"], num_args = 2, allow_hyphen_values = true)]
     #[arg(value_parser = PRESSURE.finite(), help_heading = "Output")]
     colour_limits: Option<Vec<Quantity>>,

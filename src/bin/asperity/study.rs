@@ -31,8 +31,8 @@ use crate::report;
 /// Each case is a run of its own, kept in OUT.cases by what its rows depend on: the same command again goes on where an
 /// interrupted one was, and a study that has become larger solves only what is new. Slices of a study can be solved by
 /// several machines that share the folder; the table is written by the run that finds all cases done, with the same
-/// bytes whoever solved them. Exits with 0 if all rows converged or the slice is done, 2 if rows did not converge, and 1
-/// if a case is refused.
+/// bytes whoever solved them. Exits with 0 if all rows converged or the slice is done, 2 if rows did not converge, and
+/// 1 if a case is refused.
 #[derive(Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Options {

@@ -68,8 +68,8 @@ impl Moments {
         if b < 0 { value(-a, -b).conj() } else { value(a, b) }
     }
 
-    /// The mean of χ times two functions of the basis: 0 is the constant, 2k − 1 the cosine of wave k, 2k its sine. Their
-    /// numbers of wave lengths along both sides are told by `number`.
+    /// The mean of χ times two functions of the basis: 0 is the constant, 2k − 1 the cosine of wave k, 2k its sine.
+    /// Their numbers of wave lengths along both sides are told by `number`.
     pub(super) fn mean_product(&self, number: impl Fn(usize) -> [isize; 2], i: usize, j: usize) -> f64 {
         let ([a, b], [c, d]) = (number(i), number(j));
         // the means of χ cos and χ sin

@@ -1,9 +1,9 @@
 //! The passes that fit the preconditioner to nodes which the law itself holds by its repulsion.
 //!
 //! The compliance M knows how waves answer a load, and nothing of the slopes κ = φ'' of the nodes that repel, which are
-//! often several times the stiffness of the stiffest wave. With s = 1/(1 + κ/k)² at each node, and k the stiffness of one
-//! node among its neighbours, the preconditioner is S M S + (1 − S²)/(k + κ): M itself where nothing repels, the compliance
-//! of a node alone where it is held, and in the limit of a rigid wall M between the nodes that are apart.
+//! often several times the stiffness of the stiffest wave. With s = 1/(1 + κ/k)² at each node, and k the stiffness of
+//! one node among its neighbours, the preconditioner is S M S + (1 − S²)/(k + κ): M itself where nothing repels, the
+//! compliance of a node alone where it is held, and in the limit of a rigid wall M between the nodes that are apart.
 
 use super::Fields;
 use crate::field::{CHUNK, read, write};

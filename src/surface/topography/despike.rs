@@ -30,8 +30,8 @@ impl Topography {
     /// A node is a spike if its height is farther than `threshold` standard deviations from the median of the 5 × 5
     /// nodes around it. The standard deviation is that of such distances over the whole map by their median magnitude,
     /// σ = 1.4826 median |h − ĥ|, which no spike carries; by their mean magnitude, if more than half of all distances
-    /// are 0. Gaussian noise does not reach 6 on any map, while edges and grains of a real surface may: with 10 little of
-    /// these is taken.
+    /// are 0. Gaussian noise does not reach 6 on any map, while edges and grains of a real surface may: with 10 little
+    /// of these is taken.
     ///
     /// Neighbours count in pairs on opposite sides, so that a slope at the edge of the map is no spike. Where there are
     /// less than two pairs, as in a corner or beside a hole, all neighbours count, and a spike is also farther from

@@ -31,9 +31,10 @@ pub enum RowAlignment {
 impl Topography {
     /// Brings scan lines to one height: the offsets from line to line that the drift of an instrument leaves.
     ///
-    /// Each line is shifted, or with [`RowAlignment::Polynomial`] straightened, on its own, by its measured points alone,
-    /// and the mean height of the map stays. Along the line, heights keep what they were; across the lines, slopes of
-    /// the surface that a whole line shares are taken for drift and go, too. Lines that are all missing stay so.
+    /// Each line is shifted, or with [`RowAlignment::Polynomial`] straightened, on its own, by its measured points
+    /// alone, and the mean height of the map stays. Along the line, heights keep what they were; across the lines,
+    /// slopes of the surface that a whole line shares are taken for drift and go, too. Lines that are all missing stay
+    /// so.
     ///
     /// ```
     /// use asperity::{RowAlignment, ScanAxis, Topography};

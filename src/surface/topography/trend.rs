@@ -22,7 +22,8 @@ pub enum Trend {
 
 /// The least-squares fit of a [`Trend`], about the centre of the map; terms that the trend does not have are 0.
 ///
-/// Of a polynomial of higher order these are its derivatives there. Slopes and curvatures are in terms of the side lengths; if those are unknown, of spacings.
+/// Of a polynomial of higher order these are its derivatives there. Slopes and curvatures are in terms of the side
+/// lengths; if those are unknown, of spacings.
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fit {

@@ -1,4 +1,5 @@
-//! Tests of what is done about the defects of a measurement: offsets of scan lines, spikes, and codes for missing points.
+//! Tests of what is done about the defects of a measurement: offsets of scan lines, spikes, and codes for missing
+//! points.
 
 use approx::assert_relative_eq;
 
