@@ -58,7 +58,9 @@ fn a_sweep_over_contact_fractions_can_be_continued() {
     let bench = rough();
     for law in ["", "--law exponential --work-of-adhesion 5e-5 --range 4e-3"] {
         let sweep = format!("sweep --heights heights.npy {law} --force --contact-fractions 0.02:0.4:4:log --out");
-        bench.said(&format!("{sweep} whole.csv"));
+        bench.said(&format!("{sweep} whole.csv --plot whole.svg"));
+        // whatever the load is by which the fractions are found
+        assert!(bench.read("whole.svg").contains("Contact fraction over mean pressure"));
         let (found, wanted) =
             (numbers(&bench, "whole.csv", "contact_fraction"), numbers(&bench, "whole.csv", "wanted_contact_fraction"));
         let near = |(found, wanted): (&f64, &f64)| (found - wanted).abs() <= f64::max(0.01 * wanted, 1.0 / 4096.0);

@@ -91,7 +91,10 @@ pub fn write_picture(path: &Path, picture: &Picture) -> Outcome<()> {
 
 /// The chart that says most of the loads in the rows of a table.
 pub fn chart_of_loads(rows: &[Value], units: &Units, dpi: f64) -> Result<Picture> {
-    let (x, y) = match rows.first().and_then(|row| row["control"].as_str()) {
+    let first = rows.first();
+    let searched = first.is_some_and(|row| !row["wanted_contact_fraction"].is_null());
+    let (x, y) = match first.and_then(|row| row["control"].as_str()) {
+        _ if searched => ("mean_pressure", "contact_fraction"),
         Some("mean-gap") => ("mean_gap", "mean_pressure"),
         Some("normal-force") => ("normal_force", "contact_fraction"),
         Some("approach") => ("approach", "normal_force"),
