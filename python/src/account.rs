@@ -1,19 +1,16 @@
 //! The account of a solve: all that its report and the solution of Python have.
 
-use asperity::accuracy::{GridError, Quantity};
+use asperity::accuracy::Quantity;
 use asperity::stability::{ContactStiffness, Stability};
 use asperity::{Control, FoundContact, Level, Real, Solution, Warning};
 use numpy::Element;
 use numpy::ndarray::Array2;
 
-use crate::look::Sight;
+use crate::sight::Sight;
 
 /// A scalar in which one can solve, and that numpy has.
 pub trait Scalar: Real + Element {}
 impl<T: Real + Element> Scalar for T {}
-
-/// The estimated errors of the finest of nested grids, where they can be told.
-pub type Errors = [(Quantity, Option<GridError>); 4];
 
 /// The account of nested grids.
 pub struct Grids {

@@ -15,6 +15,7 @@ mod problem;
 mod refusal;
 mod report;
 mod running;
+mod sight;
 mod surface;
 mod table;
 

@@ -1,55 +1,19 @@
 //! The look at a solution: what is found of its fields once it is asked for.
 
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Mutex, PoisonError};
 
-use asperity::accuracy::GridError;
+use asperity::Real;
 use asperity::contact::ContactStatistics;
-use asperity::{AdhesionLaw, Boundary, Control, Grid, Level, Real, Surface};
 use numpy::ndarray::ArrayView2;
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use crate::account::{Errors, Scalar};
+use crate::account::Scalar;
 use crate::pools::Pool;
 use crate::refusal::refusal;
 use crate::report;
-
-/// The errors of nested grids, which are estimated with the first look at them.
-pub enum Estimate {
-    Open { surface: Arc<Surface>, levels: Vec<Level>, control: Control, mu_rho: f64 },
-    Found(Errors),
-}
-
-impl Estimate {
-    /// The errors, if they have been estimated.
-    pub fn found(&self) -> Option<&Errors> {
-        if let Self::Found(errors) = self { Some(errors) } else { None }
-    }
-
-    /// The errors; the surface is not needed any more then.
-    fn errors(&mut self, boundary: Boundary) -> Errors {
-        let errors = match self {
-            Self::Open { surface, levels, control, mu_rho } => {
-                GridError::of_all(levels, *control, surface.nodes_per_wave(boundary), *mu_rho)
-            }
-            Self::Found(errors) => *errors,
-        };
-        *self = Self::Found(errors);
-        errors
-    }
-}
-
-/// What a look needs beside the fields.
-pub struct Sight<T> {
-    pub law: Arc<dyn AdhesionLaw<T>>,
-    pub grid: Grid,
-    pub boundary: Boundary,
-    /// The number of threads that was asked for
-    pub threads: Option<usize>,
-    /// Nothing where no nested grids were used
-    pub estimate: Option<Estimate>,
-}
+use crate::sight::{Estimate, Sight};
 
 /// A sight in either precision, with the fields.
 trait Looks: Send + Sync {

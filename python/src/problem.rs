@@ -20,11 +20,11 @@ use crate::account::{Account, Grids, Reached, Scalar, Search};
 use crate::answer::answer;
 use crate::inputs::{Beyond, Goal, Load, Wall, accuracy, contact_fraction, control, settings};
 use crate::law::{law, strongest};
-use crate::look::{Estimate, Sight};
 use crate::pools::Pool;
 use crate::refusal::{refusal, refusal_of_heights};
 use crate::report;
 use crate::running::{Observe, run};
+use crate::sight::{Estimate, Sight};
 
 /// The largest number of departures from unstable equilibria, as in the tool.
 const MOST_DEPARTURES: usize = 10;

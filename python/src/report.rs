@@ -7,9 +7,9 @@ use asperity::{Level, Warning};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use crate::account::{Account, Errors, Grids, Reached, Scalar, Search};
+use crate::account::{Account, Grids, Reached, Scalar, Search};
 use crate::inputs::stiffness;
-use crate::look::Estimate;
+use crate::sight::{Errors, Estimate};
 
 /// A dictionary of its entries.
 macro_rules! dictionary {

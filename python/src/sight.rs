@@ -1,0 +1,45 @@
+//! The sight of a solution: what a later look needs beside its fields.
+
+use std::sync::Arc;
+
+use asperity::accuracy::{GridError, Quantity};
+use asperity::{AdhesionLaw, Boundary, Control, Grid, Level, Surface};
+
+/// The estimated errors of the finest of nested grids, where they can be told.
+pub type Errors = [(Quantity, Option<GridError>); 4];
+
+/// The errors of nested grids, which are estimated with the first look at them.
+pub enum Estimate {
+    Open { surface: Arc<Surface>, levels: Vec<Level>, control: Control, mu_rho: f64 },
+    Found(Errors),
+}
+
+impl Estimate {
+    /// The errors, if they have been estimated.
+    pub fn found(&self) -> Option<&Errors> {
+        if let Self::Found(errors) = self { Some(errors) } else { None }
+    }
+
+    /// The errors; the surface is not needed any more then.
+    pub fn errors(&mut self, boundary: Boundary) -> Errors {
+        let errors = match self {
+            Self::Open { surface, levels, control, mu_rho } => {
+                GridError::of_all(levels, *control, surface.nodes_per_wave(boundary), *mu_rho)
+            }
+            Self::Found(errors) => *errors,
+        };
+        *self = Self::Found(errors);
+        errors
+    }
+}
+
+/// What a look needs beside the fields.
+pub struct Sight<T> {
+    pub law: Arc<dyn AdhesionLaw<T>>,
+    pub grid: Grid,
+    pub boundary: Boundary,
+    /// The number of threads that was asked for
+    pub threads: Option<usize>,
+    /// Nothing where no nested grids were used
+    pub estimate: Option<Estimate>,
+}
