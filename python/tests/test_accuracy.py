@@ -99,6 +99,11 @@ def test_accuracies_that_make_no_sense_are_refused(coarse, given, message):
         asperity.solve(coarse, **PRESSED, **given)
 
 
+def test_an_accuracy_is_of_a_load_that_is_given(coarse):
+    with pytest.raises(ValueError, match="leave out accuracy, or give a load"):
+        asperity.solve(coarse, modulus=1.0, contact_fraction=0.1, accuracy=0.05)
+
+
 def test_a_tip_is_as_stiff_as_a_punch_of_its_contact(sphere):
     found = asperity.solve(sphere, 1.0, modulus=1.0, approach=0.04, boundary="free", stiffness=True)
     # 18 nodes along the radius of the contact, which the map has to half a node
