@@ -6,6 +6,7 @@ use std::ops::Range;
 use ndarray::Array2;
 
 use crate::error::{Error, Result};
+use crate::ranks::COUNTED;
 use crate::slab::Slab;
 
 /// A periodic rectangle with its nodes: Nx × Ny of them on sides Lx × Ly.
@@ -113,14 +114,25 @@ impl Grid {
     }
 
     /// The grid with another division into slabs.
-    #[cfg(feature = "mpi")]
-    pub(crate) fn within(self, slab: Slab) -> Self {
-        Self { slab, ..self }
+    ///
+    /// # Errors
+    /// [`Error::Value`] if a process would hold more nodes than MPI counts.
+    pub(crate) fn within(self, slab: Slab) -> Result<Self> {
+        // the half spectrum has one column more
+        let nodes = slab.most_rows() * (self.shape().1 + 2);
+        if slab.is_shared() && nodes > COUNTED {
+            let requirement = "at most 2^31: take more processes";
+            return Err(Error::Value { name: "number of nodes of a process", value: nodes as f64, requirement });
+        }
+        Ok(Self { slab, ..self })
     }
 
     /// The grid, shared by the processes that share another one.
-    pub(crate) fn shared_as(self, other: &Self) -> Self {
-        Self { slab: other.slab.of(self.shape()), ..self }
+    ///
+    /// # Errors
+    /// Those of [`Grid::within`].
+    pub(crate) fn shared_as(self, other: &Self) -> Result<Self> {
+        self.within(other.slab.of(self.shape()))
     }
 
     /// The side lengths `(Lx, Ly)`.

@@ -29,6 +29,9 @@ impl Sent for u64 {}
 impl Sent for Complex32 {}
 impl Sent for Complex64 {}
 
+/// The most numbers that MPI counts, and thus of a buffer: a grid that would need more is refused.
+pub(crate) const COUNTED: usize = i32::MAX as usize;
+
 /// The parts of a buffer, one after the other, that belong to the ranks.
 #[derive(Clone, Debug)]
 #[cfg_attr(not(feature = "mpi"), expect(dead_code, reason = "one process has nothing to send"))]
@@ -38,8 +41,7 @@ pub(crate) struct Shares {
 }
 
 impl Shares {
-    /// Parts of so many numbers for each rank, all together at most 2³¹: the number of processes that share a grid is
-    /// such that each holds fewer.
+    /// Parts of so many numbers for each rank, [`COUNTED`] at most together.
     pub(crate) fn new(counts: impl Iterator<Item = usize>) -> Self {
         let counts: Vec<i32> = counts.map(|count| count as i32).collect();
         let mut place = 0;

@@ -93,6 +93,11 @@ impl Slab {
         (bands.start * self.band).min(self.shape.0)..(bands.end * self.band).min(self.shape.0)
     }
 
+    /// The most rows that a process holds.
+    pub(crate) fn most_rows(&self) -> usize {
+        (0..self.ranks.count()).map(|rank| self.rows_of(rank).len()).max().unwrap_or_default()
+    }
+
     /// The share of `count` things, as the columns of a spectrum, that a process has: as large as that of the bands.
     pub(crate) fn share_of(&self, count: usize, rank: usize) -> Range<usize> {
         let (Range { start, end }, bands) = (self.bands_of(rank), self.bands());

@@ -39,9 +39,6 @@ pub struct World {
     ranks: Ranks,
 }
 
-/// The most numbers that MPI counts.
-const COUNTED: usize = i32::MAX as usize;
-
 impl World {
     /// Joins the job, once in a process. A program that `mpiexec` has not started is alone.
     ///
@@ -71,15 +68,7 @@ impl World {
     /// # Errors
     /// [`Error::Value`] if a process would hold more than 2³¹ nodes.
     pub fn share(&self, grid: Grid) -> Result<Grid> {
-        let slab = Slab::new(grid.shape(), self.ranks);
-        // the half spectrum has one column more; a free half-space has four times the nodes, and some
-        let held = (0..self.size()).map(|rank| slab.rows_of(rank).len()).max().unwrap_or_default();
-        let nodes = held * (grid.shape().1 + 2);
-        if self.size() > 1 && nodes > COUNTED {
-            let requirement = "at most 2^31: take more processes";
-            return Err(Error::Value { name: "number of nodes of a process", value: nodes as f64, requirement });
-        }
-        Ok(grid.within(slab))
+        grid.within(Slab::new(grid.shape(), self.ranks))
     }
 
     /// The result of this process; if another one before it has an error, or this one has none and another has, an

@@ -15,7 +15,7 @@ const WIDER: f64 = 0.77;
 
 /// The surface on a coarser grid; nothing if all of its nodes are absent.
 pub(super) fn coarsen(surface: &Surface, shape: (usize, usize)) -> Result<Option<Surface>> {
-    let grid = Grid::new(shape, surface.grid().lengths())?.shared_as(surface.grid());
+    let grid = Grid::new(shape, surface.grid().lengths())?.shared_as(surface.grid())?;
     let (nx, ny) = surface.grid().shape();
     let [mut along_x, along_y] = [(nx, shape.0), (ny, shape.1)].map(|(from, to)| places(from, to, true));
     let needed = fetched(surface.heights().view(), surface.grid(), &grid, &mut along_x);
