@@ -14,10 +14,12 @@ use crate::par::{self, Parts, Pool};
 use crate::real::{Compiled, Real};
 use crate::slab::{Slab, TILE};
 
+mod columns;
 mod layout;
 mod pack;
 mod shared;
 
+use columns::ColumnsOf;
 pub(crate) use layout::Layout;
 use layout::Twiddles;
 use pack::{join, lines_mut, pack, separate, unpack};
@@ -224,73 +226,6 @@ impl<T: Real> Convolver<T> {
     }
 }
 
-/// The columns of the half spectrum that this process transforms.
-struct ColumnsOf<'a, T: Real> {
-    own: Range<usize>,
-    spectrum: &'a mut Array2<Complex<T>>,
-    shared: &'a mut Option<Shared<T>>,
-    pool: &'a Pool<Workspace<T>>,
-    sums: &'a mut [Sums],
-    n0: usize,
-}
-
-impl<T: Real> ColumnsOf<'_, T> {
-    /// Brings the columns from the processes that have their rows.
-    fn come(&mut self) {
-        let spectrum = flat_mut(self.spectrum);
-        self.shared.iter_mut().for_each(|shared| shared.come(spectrum));
-    }
-
-    /// Sends the columns to the processes that have their rows.
-    fn go(&mut self) {
-        let spectrum = flat_mut(self.spectrum);
-        self.shared.iter_mut().for_each(|shared| shared.go(spectrum));
-    }
-
-    /// Runs `f(index, column, scratch)` over the columns below `end`, and keeps what it returns as their sums.
-    fn each(&mut self, end: usize, f: impl Fn(usize, &mut [Complex<T>], &mut [Complex<T>]) -> Sums + Sync + Send) {
-        let (first, pool) = (self.own.start, self.pool);
-        let count = end.clamp(first, self.own.end) - first;
-        let sums = &mut self.sums[..count];
-        if let Some(pieces) = self.shared.as_mut().and_then(|shared| shared.pieces(count)) {
-            return par::update(pieces, sums, 1, |k, mut pieces: Vec<&mut [_]>, sum| {
-                let Workspace { column, scratch, .. } = &mut *pool.get();
-                let mut rest = &mut column[..];
-                for piece in &pieces {
-                    let (to, others) = rest.split_at_mut(piece.len());
-                    to.copy_from_slice(piece);
-                    rest = others;
-                }
-                *sum = f(first + k, column, scratch);
-                let mut rest = &column[..];
-                for piece in &mut pieces {
-                    let (from, others) = rest.split_at(piece.len());
-                    piece.copy_from_slice(from);
-                    rest = others;
-                }
-            });
-        }
-        let columns = flat_mut(self.spectrum).get_mut(..count * self.n0).unwrap_or_default();
-        par::update(par::chunks_mut(columns, self.n0), sums, 1, |k, column, sum| {
-            *sum = f(first + k, column, &mut pool.get().scratch);
-        });
-    }
-
-    /// The modes of the columns that are transformed.
-    fn modes(&self, slab: Slab) -> Modes<'_, T> {
-        Modes::new(slab, self.n0, self.spectrum.as_slice().unwrap_or_default(), self.shared.as_ref())
-    }
-
-    /// The sums over all columns, in their order.
-    fn sums(&mut self) -> Sums {
-        let add = |a: Sums, b: &Sums| std::array::from_fn(|i| a[i] + b[i]);
-        match &mut *self.shared {
-            None => self.sums.iter().fold([0.0; 3], add),
-            Some(shared) => shared.gather(self.sums).iter().fold([0.0; 3], add),
-        }
-    }
-}
-
 /// The squared modulus of each mode of a field, the amplitude of a constant being its value.
 ///
 /// In the layout of the half spectrum, `(n1/2 + 1, n0)`.
@@ -317,28 +252,16 @@ pub(crate) fn even_modes(slab: Slab, field: ArrayView2<'_, f64>) -> Array2<f64> 
     if !field.is_empty() {
         convolver.rows_forward(convolver.layout.view(&field).view());
     }
-    if slab.is_shared() {
-        let Convolver { columns, spectrum, own, sums, pool, shared, layout, .. } = &mut convolver;
-        let (columns_own, (n0, _)) = (own.clone(), layout.plane());
-        let mut columns_of = ColumnsOf { own: own.clone(), spectrum, shared, pool, sums, n0 };
-        columns_of.come();
-        columns_of.each(usize::MAX, |_, column, scratch| {
-            columns.forward.process_with_scratch(column, scratch);
-            [0.0; 3]
-        });
-        let modes = columns_of.modes(slab);
-        return Array2::from_shape_fn((columns_own.len(), n0 / 2 + 1), |(k, i)| modes.own(columns_own.start + k, i).re);
-    }
-    let Convolver { columns, spectrum, pool, .. } = &mut convolver;
-    let (count, n0) = spectrum.dim();
-    let half = n0 / 2 + 1;
-    let mut modes = Array2::zeros((count, half));
-    let pairs = par::chunks_mut(flat_mut(spectrum), n0).zip(par::chunks_mut(flat_mut(&mut modes), half));
-    par::for_each(pairs, |_, (z, modes)| {
-        columns.forward.process_with_scratch(z, &mut pool.get().scratch);
-        modes.iter_mut().zip(z).for_each(|(mode, z)| *mode = z.re);
+    let Convolver { columns, spectrum, own, sums, pool, shared, layout, .. } = &mut convolver;
+    let (first, count, n0) = (own.start, own.len(), layout.plane().0);
+    let mut columns_of = ColumnsOf { own: own.clone(), spectrum, shared, pool, sums, n0 };
+    columns_of.come();
+    columns_of.each(usize::MAX, |_, column, scratch| {
+        columns.forward.process_with_scratch(column, scratch);
+        [0.0; 3]
     });
-    modes
+    let modes = columns_of.modes(slab);
+    Array2::from_shape_fn((count, n0 / 2 + 1), |(k, i)| modes.own(first + k, i).re)
 }
 
 /// The field of given modes in a slab, and the sum of the values of `fill`, in order. What is at index zero along the

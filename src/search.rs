@@ -1,5 +1,6 @@
 //! A search: the load under which a given share of the surface is in contact.
 
+use std::f64::consts::FRAC_PI_2;
 use std::ops::ControlFlow;
 
 use ndarray::Array2;
@@ -144,7 +145,7 @@ impl Axis {
             // the inverse of Persson's error function, exact at small and at large loads
             Self::Pressure { flat } => {
                 let depth = -(-fraction).ln_1p();
-                (1.2533141373155 * flat * depth / (1.0 + depth).sqrt()).ln()
+                (FRAC_PI_2.sqrt() * flat * depth / (1.0 + depth).sqrt()).ln()
             }
             // as the contact of rough surfaces falls off with the gap
             Self::Gap { rms_height } => -(-0.5 * rms_height * fraction.ln()).ln(),

@@ -1,0 +1,84 @@
+//! The columns of a half spectrum that this process transforms, whole or in pieces from several processes.
+
+use std::ops::Range;
+
+use asperity_fft::num_complex::Complex;
+use ndarray::Array2;
+
+use super::shared::{Modes, Shared};
+use super::{Sums, Workspace};
+use crate::field::flat_mut;
+use crate::par::{self, Pool};
+use crate::real::Real;
+use crate::slab::Slab;
+
+/// The columns of the half spectrum that this process transforms.
+pub(super) struct ColumnsOf<'a, T: Real> {
+    pub(super) own: Range<usize>,
+    pub(super) spectrum: &'a mut Array2<Complex<T>>,
+    pub(super) shared: &'a mut Option<Shared<T>>,
+    pub(super) pool: &'a Pool<Workspace<T>>,
+    pub(super) sums: &'a mut [Sums],
+    pub(super) n0: usize,
+}
+
+impl<T: Real> ColumnsOf<'_, T> {
+    /// Brings the columns from the processes that have their rows.
+    pub(super) fn come(&mut self) {
+        let spectrum = flat_mut(self.spectrum);
+        self.shared.iter_mut().for_each(|shared| shared.come(spectrum));
+    }
+
+    /// Sends the columns to the processes that have their rows.
+    pub(super) fn go(&mut self) {
+        let spectrum = flat_mut(self.spectrum);
+        self.shared.iter_mut().for_each(|shared| shared.go(spectrum));
+    }
+
+    /// Runs `f(index, column, scratch)` over the columns below `end`, and keeps what it returns as their sums.
+    pub(super) fn each(
+        &mut self,
+        end: usize,
+        f: impl Fn(usize, &mut [Complex<T>], &mut [Complex<T>]) -> Sums + Sync + Send,
+    ) {
+        let (first, pool) = (self.own.start, self.pool);
+        let count = end.clamp(first, self.own.end) - first;
+        let sums = &mut self.sums[..count];
+        if let Some(pieces) = self.shared.as_mut().and_then(|shared| shared.pieces(count)) {
+            return par::update(pieces, sums, 1, |k, mut pieces: Vec<&mut [_]>, sum| {
+                let Workspace { column, scratch, .. } = &mut *pool.get();
+                let mut rest = &mut column[..];
+                for piece in &pieces {
+                    let (to, others) = rest.split_at_mut(piece.len());
+                    to.copy_from_slice(piece);
+                    rest = others;
+                }
+                *sum = f(first + k, column, scratch);
+                let mut rest = &column[..];
+                for piece in &mut pieces {
+                    let (from, others) = rest.split_at(piece.len());
+                    piece.copy_from_slice(from);
+                    rest = others;
+                }
+            });
+        }
+        let columns = flat_mut(self.spectrum).get_mut(..count * self.n0).unwrap_or_default();
+        par::update(par::chunks_mut(columns, self.n0), sums, 1, |k, column, sum| {
+            *sum = f(first + k, column, &mut pool.get().scratch);
+        });
+    }
+
+    /// The modes of the columns that are transformed.
+    pub(super) fn modes(&self, slab: Slab) -> Modes<'_, T> {
+        Modes::new(slab, self.n0, self.spectrum.as_slice().unwrap_or_default(), self.shared.as_ref())
+    }
+
+    /// The sums over all columns, in their order.
+    pub(super) fn sums(&mut self) -> Sums {
+        let add = |a: Sums, b: &Sums| std::array::from_fn(|i| a[i] + b[i]);
+        match &mut *self.shared {
+            None => self.sums.iter().fold([0.0; 3], add),
+            Some(shared) => shared.gather(self.sums).iter().fold([0.0; 3], add),
+        }
+    }
+}
