@@ -15,6 +15,7 @@ mod driver;
 mod energy;
 mod finish;
 mod foundation;
+mod minimisation;
 mod operators;
 mod passes;
 mod phases;

@@ -1,7 +1,8 @@
 //! The certificate: the distance of the state from the solution, and the tests that end a solve.
 
+use super::minimisation::Goal;
 use super::report::Status;
-use super::state::{Goal, State};
+use super::state::State;
 use super::{Criterion, Method};
 use crate::constraint::Wall;
 use crate::error::Result;

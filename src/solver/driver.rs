@@ -4,10 +4,11 @@
 use std::marker::PhantomData;
 use std::ops::ControlFlow;
 
+use super::minimisation::Goal;
 use super::operators::{One, Operators, Two};
 use super::report::{Iteration, Solution, Status};
 use super::start::Start;
-use super::state::{Goal, State};
+use super::state::State;
 use super::{Method, Settings};
 use crate::adhesion::AdhesionLaw;
 use crate::constraint::{ContactConstraint, Update, Wall};

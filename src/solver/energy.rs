@@ -1,7 +1,8 @@
 //! The energy of a state, the elastic work in it, and their rounding.
 
+use super::minimisation::Left;
 use super::passes::Fields;
-use super::state::{Left, State};
+use super::state::State;
 use super::work::{TRUSTED, Work};
 use crate::error::Result;
 use crate::real::Real;

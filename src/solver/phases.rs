@@ -1,7 +1,8 @@
 //! The phases of a solve, each with an energy and a goal of its own: their beginnings.
 
+use super::minimisation::{Goal, Progress};
 use super::start::uniform_start;
-use super::state::{Goal, Progress, State};
+use super::state::State;
 use crate::adhesion::AdhesionLaw;
 use crate::constraint::Update;
 use crate::error::{Error, Result};

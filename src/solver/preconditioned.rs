@@ -1,8 +1,9 @@
 //! Conjugate gradients with the compliance as preconditioner, two operator applications a step.
 
+use super::minimisation::{Left, Made, Residual};
 use super::passes::{self, Advance, Attempt, Continued, Fields, Tried, idles};
 use super::potential::{CLOSER, Potential};
-use super::state::{Left, Made, Residual, State};
+use super::state::State;
 use crate::error::Result;
 use crate::field::{CHUNK, Partial, read, write};
 use crate::par::Parts;

@@ -1,8 +1,9 @@
 //! Surfaces that come apart under a load: whether adhesion could hold them, and where they come to rest if not.
 
 use super::driver::{End, Observer, minimise};
+use super::minimisation::Goal;
 use super::report::Status;
-use super::state::{Goal, State};
+use super::state::State;
 use crate::error::Result;
 use crate::field::{Partial, write};
 use crate::problem::Load;
