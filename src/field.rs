@@ -7,9 +7,6 @@ use crate::ranks::Shares;
 pub(crate) use crate::slab::CHUNK;
 use crate::slab::Slab;
 
-/// Chunks that a worker takes at once.
-const BATCH: usize = 8;
-
 /// The number of sums of a pass.
 pub(crate) const SUMS: usize = 13;
 
@@ -123,7 +120,7 @@ impl Reducer {
 
     /// Runs `f(first node, chunk)` over the chunks.
     pub(crate) fn run<A: Parts>(&mut self, chunks: A, f: impl Fn(usize, A::Part) -> Partial + Sync + Send) -> Partial {
-        par::update(chunks, &mut self.chunks, BATCH, |i, chunk, part| *part = f(i * CHUNK, chunk));
+        par::update(chunks, &mut self.chunks, |i, chunk, part| *part = f(i * CHUNK, chunk));
         self.total()
     }
 
@@ -135,7 +132,7 @@ impl Reducer {
         chunks: A,
         f: impl Fn(usize, A::Part) -> Partial + Sync + Send,
     ) -> Partial {
-        par::update(chunks, &mut self.chunks, BATCH, |i, chunk, part| {
+        par::update(chunks, &mut self.chunks, |i, chunk, part| {
             *part = if wanted(kept[i]) { f(i * CHUNK, chunk) } else { Partial::NONE };
         });
         self.total()

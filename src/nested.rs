@@ -247,7 +247,7 @@ impl<C> Nested<C> {
         mut operator: impl FnMut(Grid) -> Result<O>,
         law: L,
         control: Control,
-        mut observe: impl FnMut(&Grid, &Iteration) -> ControlFlow<()>,
+        mut observe: impl FnMut(&Grid, &Iteration) -> ControlFlow<()> + Send,
     ) -> Result<NestedSolution<T>>
     where
         T: Real,

@@ -7,6 +7,9 @@ use ndarray::{ArrayView2, ArrayViewMut2, Axis};
 /// The pieces that a loop is divided into for each worker, so that one that comes late has less to do.
 const PIECES: usize = 8;
 
+/// The nodes that a worker takes at once, at least: fewer are done sooner than another worker hears of them.
+const WORTH: usize = 4096;
+
 /// One workspace per worker, made once: the hot loop never allocates.
 #[derive(Debug)]
 pub(crate) struct Pool<W>(Vec<Mutex<W>>);
@@ -30,6 +33,9 @@ pub(crate) trait Parts: Sized + Send {
     /// The number of parts.
     fn count(&self) -> usize;
 
+    /// The number of nodes of a part.
+    fn nodes(&self) -> usize;
+
     /// The first `at` parts, and the others.
     fn divide(self, at: usize) -> (Self, Self);
 
@@ -47,6 +53,10 @@ impl<A: Parts, B: Parts> Parts for (A, B) {
 
     fn count(&self) -> usize {
         self.0.count().min(self.1.count())
+    }
+
+    fn nodes(&self) -> usize {
+        self.0.nodes().max(self.1.nodes())
     }
 
     fn divide(self, at: usize) -> (Self, Self) {
@@ -70,6 +80,10 @@ impl<A: Parts> Parts for Vec<A> {
         self.iter().map(A::count).min().unwrap_or(0)
     }
 
+    fn nodes(&self) -> usize {
+        self.iter().map(A::nodes).sum()
+    }
+
     fn divide(self, at: usize) -> (Self, Self) {
         self.into_iter().map(|parts| parts.divide(at)).unzip()
     }
@@ -87,6 +101,10 @@ impl<'a, T: Sync> Parts for Chunks<'a, T> {
 
     fn count(&self) -> usize {
         self.0.len().div_ceil(self.1)
+    }
+
+    fn nodes(&self) -> usize {
+        self.1
     }
 
     fn divide(self, at: usize) -> (Self, Self) {
@@ -109,6 +127,10 @@ impl<'a, T: Send> Parts for ChunksMut<'a, T> {
 
     fn count(&self) -> usize {
         self.0.len().div_ceil(self.1)
+    }
+
+    fn nodes(&self) -> usize {
+        self.1
     }
 
     fn divide(self, at: usize) -> (Self, Self) {
@@ -136,6 +158,10 @@ impl<'a, T: Sync> Parts for Tiles<'a, T> {
         self.0.len_of(self.1).div_ceil(self.2)
     }
 
+    fn nodes(&self) -> usize {
+        self.2 * self.0.len() / self.0.len_of(self.1).max(1)
+    }
+
     fn divide(self, at: usize) -> (Self, Self) {
         let end = self.0.len_of(self.1).min(at * self.2);
         let (first, others) = self.0.split_at(self.1, end);
@@ -158,6 +184,10 @@ impl<'a, T: Send> Parts for TilesMut<'a, T> {
 
     fn count(&self) -> usize {
         self.0.len_of(self.1).div_ceil(self.2)
+    }
+
+    fn nodes(&self) -> usize {
+        self.2 * self.0.len() / self.0.len_of(self.1).max(1)
     }
 
     fn divide(self, at: usize) -> (Self, Self) {
@@ -183,6 +213,10 @@ impl<'a, R: Send> Parts for Results<'a, R> {
 
     fn count(&self) -> usize {
         self.0.len()
+    }
+
+    fn nodes(&self) -> usize {
+        1
     }
 
     fn divide(self, at: usize) -> (Self, Self) {
@@ -217,26 +251,20 @@ pub(crate) fn tiles_mut<T: Send>(field: ArrayViewMut2<'_, T>, axis: usize, size:
 
 /// Runs `f(index, part)` on every part.
 pub(crate) fn for_each<P: Parts>(parts: P, f: impl Fn(usize, P::Part) + Sync) {
-    let most = most(parts.count(), 1);
+    let most = most(&parts);
     piece(parts, 0, most, &f);
 }
 
-/// Runs `f(index, part, result)` on every part; a worker takes at least `batch` of them at once.
-pub(crate) fn update<P: Parts, R: Send>(
-    parts: P,
-    results: &mut [R],
-    batch: usize,
-    f: impl Fn(usize, P::Part, &mut R) + Sync,
-) {
-    let most = most(parts.count(), batch);
-    piece((parts, Results(results)), 0, most, &|i, (part, result): (_, &mut R)| f(i, part, result));
+/// Runs `f(index, part, result)` on every part.
+pub(crate) fn update<P: Parts, R: Send>(parts: P, results: &mut [R], f: impl Fn(usize, P::Part, &mut R) + Sync) {
+    for_each((parts, Results(results)), |i, (part, result): (_, &mut R)| f(i, part, result));
 }
 
 /// The most parts that a worker takes at once.
-fn most(count: usize, batch: usize) -> usize {
+fn most<P: Parts>(parts: &P) -> usize {
     match workers() {
-        1 => count,
-        workers => count.div_ceil(PIECES * workers).max(batch),
+        1 => parts.count(),
+        workers => parts.count().div_ceil(PIECES * workers).max(WORTH.div_ceil(parts.nodes().max(1))),
     }
 }
 
@@ -266,6 +294,13 @@ fn piece<P: Parts>(mut parts: P, first: usize, most: usize, f: &(impl Fn(usize, 
     }
 }
 
+/// Runs work that has many loops on one of the workers: each of its loops then starts at once, where the loop of
+/// another thread has to wake a worker and wait for it.
+#[cfg(feature = "parallel")]
+pub(crate) fn within<R: Send>(work: impl FnOnce() -> R + Send) -> R {
+    rayon::scope(|_| work())
+}
+
 /// Runs both, side by side if a worker has nothing to do. The types of the closures end here, so that rayon's part is
 /// compiled once.
 #[cfg(feature = "parallel")]
@@ -282,6 +317,11 @@ fn workers() -> usize {
 #[cfg(feature = "parallel")]
 fn worker() -> usize {
     rayon::current_thread_index().unwrap_or(0)
+}
+
+#[cfg(not(feature = "parallel"))]
+pub(crate) fn within<R: Send>(work: impl FnOnce() -> R + Send) -> R {
+    work()
 }
 
 #[cfg(not(feature = "parallel"))]
@@ -310,16 +350,11 @@ mod tests {
         for (nodes, size) in [(0, 3), (1, 3), (9, 3), (10, 3), (1000, 7)] {
             let (input, mut output) = ((0..nodes).collect::<Vec<_>>(), vec![usize::MAX; nodes]);
             let mut lengths = vec![0; input.len().div_ceil(size)];
-            update(
-                chunks(&input, size).zip(chunks_mut(&mut output, size)),
-                &mut lengths,
-                1,
-                |i, (from, to), length| {
-                    assert_eq!(from[0], i * size);
-                    to.copy_from_slice(from);
-                    *length = to.len();
-                },
-            );
+            update(chunks(&input, size).zip(chunks_mut(&mut output, size)), &mut lengths, |i, (from, to), length| {
+                assert_eq!(from[0], i * size);
+                to.copy_from_slice(from);
+                *length = to.len();
+            });
             assert_eq!(input, output);
             assert_eq!(lengths.iter().sum::<usize>(), nodes);
         }

@@ -14,7 +14,7 @@ use crate::error::{Error, Result};
 use crate::problem::{Control, Parts, Problem, smoothed_law};
 use crate::real::Real;
 use crate::solver::{
-    Iteration, Least, Potential, Solution, Solver, Start, Status, bounded, check_wall, refuse_springs,
+    Iteration, Least, Observer, Potential, Solution, Solver, Start, Status, bounded, check_wall, refuse_springs,
 };
 use crate::stability::Watch;
 
@@ -231,7 +231,7 @@ where
     /// Those of [`Solver::solve_with`]; after one the path ends.
     pub fn next_observed(
         &mut self,
-        mut observe: impl FnMut(&Iteration) -> ControlFlow<()>,
+        mut observe: impl FnMut(&Iteration) -> ControlFlow<()> + Send,
     ) -> Option<Result<PathStep<T>>> {
         if self.failed {
             return None;
@@ -241,7 +241,7 @@ where
         step
     }
 
-    fn advance(&mut self, observe: &mut dyn FnMut(&Iteration) -> ControlFlow<()>) -> Option<Result<PathStep<T>>> {
+    fn advance(&mut self, observe: Observer<'_>) -> Option<Result<PathStep<T>>> {
         if !self.state.solved {
             if let Err(error) = Error::alone("path", self.problem.grid().slab()) {
                 return Some(Err(error));
@@ -269,7 +269,7 @@ where
         &mut self,
         control: Control,
         start: Option<Array2<T>>,
-        observe: &mut dyn FnMut(&Iteration) -> ControlFlow<()>,
+        observe: Observer<'_>,
     ) -> Result<Option<PathStep<T>>> {
         let mut solution = self.first(control, start, observe)?;
         let mut on_saddle = solution.report.status == Status::Converged && self.saddle(&solution)?.is_some();
@@ -287,12 +287,7 @@ where
     }
 
     /// The first state. The default start is an equilibrium of the law itself.
-    fn first(
-        &mut self,
-        control: Control,
-        start: Option<Array2<T>>,
-        observe: &mut dyn FnMut(&Iteration) -> ControlFlow<()>,
-    ) -> Result<Solution<T>> {
+    fn first(&mut self, control: Control, start: Option<Array2<T>>, observe: Observer<'_>) -> Result<Solution<T>> {
         let jumps = self.settings.smooth && smoothed_law(&self.problem.operator, &self.problem.law).is_some();
         match start {
             Some(start) => self.solve(control, Some(&start), observe),
@@ -305,12 +300,7 @@ where
     }
 
     /// A solve with the jumps of the law smoothed, if they are to be.
-    fn solve(
-        &mut self,
-        control: Control,
-        start: Option<&Array2<T>>,
-        observe: &mut dyn FnMut(&Iteration) -> ControlFlow<()>,
-    ) -> Result<Solution<T>> {
+    fn solve(&mut self, control: Control, start: Option<&Array2<T>>, observe: Observer<'_>) -> Result<Solution<T>> {
         let Parts { operator, law, flat } = self.problem.parts();
         let smoothed = if self.settings.smooth && start.is_some() { smoothed_law(&*operator, law) } else { None };
         let parts = Parts { operator, law: smoothed.as_deref().unwrap_or(law), flat };
@@ -319,7 +309,7 @@ where
     }
 
     /// One step; `None` if it has to be taken back and halved.
-    fn attempt(&mut self, observe: &mut dyn FnMut(&Iteration) -> ControlFlow<()>) -> Result<Option<PathStep<T>>> {
+    fn attempt(&mut self, observe: Observer<'_>) -> Result<Option<PathStep<T>>> {
         let (target, smallest) = self.state.next_target(&self.settings);
         let control = self.state.control(target);
         let start = self.predict(target);

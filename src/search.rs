@@ -236,7 +236,7 @@ where
     pub fn at_observed(
         &mut self,
         fraction: f64,
-        mut observe: impl FnMut(&Iteration) -> ControlFlow<()>,
+        mut observe: impl FnMut(&Iteration) -> ControlFlow<()> + Send,
     ) -> Result<FoundContact<T>> {
         let nodes = self.problem.grid().nodes();
         let facing = self.problem.flat.window.as_ref().map_or(nodes, |window| window.facing()) as f64;

@@ -256,7 +256,7 @@ impl<C> Solver<C> {
         problem: &mut Problem<T, O, L>,
         control: Control,
         start: Start<'_, T>,
-        mut observe: impl FnMut(&Iteration) -> ControlFlow<()>,
+        mut observe: impl FnMut(&Iteration) -> ControlFlow<()> + Send,
     ) -> Result<Solution<T>>
     where
         T: Real,

@@ -12,7 +12,7 @@ use crate::constraint::{ContactConstraint, Projection};
 use crate::elastic::ElasticOperator;
 use crate::error::{Error, Result};
 use crate::field::{Partial, Reducer, flat, read, write};
-use crate::par::Parts;
+use crate::par::{self, Parts};
 use crate::problem::{Control, Problem, Window, smoothed_law};
 use crate::real::Real;
 use crate::slab::Slab;
@@ -250,7 +250,7 @@ impl StabilityTest {
         let slopes = slopes(gap, local, window)?;
         let smoothed = smoothed.is_some();
         let hessian = Hessian::new(&mut problem.operator, slopes, load);
-        let mut stability = self.judge(hessian, relative_error, smoothed)?;
+        let mut stability = par::within(|| self.judge(hessian, relative_error, smoothed))?;
         if let Some(window) = window {
             stability.mode = window.crop(&stability.mode, T::zero());
         }

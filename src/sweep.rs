@@ -122,7 +122,7 @@ where
     /// Those of [`Solver::solve_with`]; after one there is no next load.
     pub fn next_observed(
         &mut self,
-        observe: impl FnMut(&Iteration) -> ControlFlow<()>,
+        observe: impl FnMut(&Iteration) -> ControlFlow<()> + Send,
     ) -> Option<Result<(Control, Solution<T>)>> {
         if self.failed {
             return None;

@@ -264,7 +264,7 @@ impl<C> Accuracy<C> {
         mut operator: impl FnMut(Grid) -> Result<O>,
         law: L,
         control: Control,
-        mut observe: impl FnMut(&Grid, &Iteration) -> ControlFlow<()>,
+        mut observe: impl FnMut(&Grid, &Iteration) -> ControlFlow<()> + Send,
     ) -> Result<AccurateSolution<T>>
     where
         T: Real,
@@ -291,7 +291,7 @@ impl<C> Accuracy<C> {
         operator: &mut dyn FnMut(Grid) -> Result<O>,
         law: &L,
         control: Control,
-        observe: &mut dyn FnMut(&Grid, &Iteration) -> ControlFlow<()>,
+        observe: &mut (dyn FnMut(&Grid, &Iteration) -> ControlFlow<()> + Send),
     ) -> Result<AccurateSolution<T>>
     where
         T: Real,

@@ -45,7 +45,7 @@ impl<T: Real> ColumnsOf<'_, T> {
         let count = end.clamp(first, self.own.end) - first;
         let sums = &mut self.sums[..count];
         if let Some(pieces) = self.shared.as_mut().and_then(|shared| shared.pieces(count)) {
-            return par::update(pieces, sums, 1, |k, mut pieces: Vec<&mut [_]>, sum| {
+            return par::update(pieces, sums, |k, mut pieces: Vec<&mut [_]>, sum| {
                 let Workspace { column, scratch, .. } = &mut *pool.get();
                 let mut rest = &mut column[..];
                 for piece in &pieces {
@@ -63,7 +63,7 @@ impl<T: Real> ColumnsOf<'_, T> {
             });
         }
         let columns = flat_mut(self.spectrum).get_mut(..count * self.n0).unwrap_or_default();
-        par::update(par::chunks_mut(columns, self.n0), sums, 1, |k, column, sum| {
+        par::update(par::chunks_mut(columns, self.n0), sums, |k, column, sum| {
             *sum = f(first + k, column, &mut pool.get().scratch);
         });
     }

@@ -1,7 +1,5 @@
 //! The departure of a path from a branch of saddles.
 
-use std::ops::ControlFlow;
-
 use super::Path;
 use crate::adhesion::AdhesionLaw;
 use crate::constraint::ContactConstraint;
@@ -9,7 +7,7 @@ use crate::elastic::ElasticOperator;
 use crate::error::Result;
 use crate::problem::{Control, Parts, smoothed_law};
 use crate::real::Real;
-use crate::solver::{Iteration, Potential, Solution, Status};
+use crate::solver::{Observer, Potential, Solution, Status};
 use crate::stability::Saddle;
 
 /// The largest change of the gap that is made along the mode, in ranges of adhesion.
@@ -44,7 +42,7 @@ where
         &mut self,
         from: &Solution<T>,
         control: Control,
-        observe: &mut dyn FnMut(&Iteration) -> ControlFlow<()>,
+        observe: Observer<'_>,
     ) -> Result<(Option<Solution<T>>, bool)> {
         let moved = self.gaps.last().map(|last| {
             let mut moved = from.gap.clone();

@@ -14,6 +14,7 @@ use crate::adhesion::AdhesionLaw;
 use crate::constraint::{ContactConstraint, Update, Wall};
 use crate::elastic::ElasticOperator;
 use crate::error::{Error, Result};
+use crate::par;
 use crate::problem::{Control, Load, PressedFlat, smoothed_law};
 use crate::real::{Compiled, Real};
 
@@ -47,7 +48,7 @@ impl<T: Real> Job<'_, T> {
 }
 
 /// The observer, called in every iteration, which may stop the solve.
-pub(crate) type Observer<'a> = &'a mut dyn FnMut(&Iteration) -> ControlFlow<()>;
+pub(crate) type Observer<'a> = &'a mut (dyn FnMut(&Iteration) -> ControlFlow<()> + Send);
 
 /// The end of a minimisation.
 pub(super) enum End {
@@ -61,7 +62,7 @@ pub(super) enum End {
 
 /// Solves a problem, compiled once for each precision.
 pub(super) fn solve<'a, T: Real>(operator: &'a mut dyn ElasticOperator<T>, job: Job<'a, T>) -> Result<Solution<T>> {
-    T::call::<Solve<'a>>((operator, job))
+    par::within(|| T::call::<Solve<'a>>((operator, job)))
 }
 
 struct Solve<'a>(PhantomData<&'a ()>);

@@ -8,6 +8,7 @@ use crate::adhesion::AdhesionLaw;
 use crate::constraint::{ContactConstraint, Projection};
 use crate::elastic::ElasticOperator;
 use crate::error::{Error, Result};
+use crate::par;
 use crate::problem::{Load, Problem, smoothed_law};
 use crate::real::Real;
 use crate::solver::{Potential, Solution};
@@ -139,7 +140,7 @@ impl ContactStiffness {
             Some(window) => window.extend(solution.gap.view()),
             None => solution.gap.as_standard_layout().into_owned(),
         };
-        let (on_grid, relative_error) = least_energy(&mut hessian, start, tolerance)?;
+        let (on_grid, relative_error) = par::within(|| least_energy(&mut hessian, start, tolerance))?;
         let operator_applications = hessian.applications();
         // the mean of a free half-space gives way beside its waves
         let series = if on_grid == 0.0 { 0.0 } else { (on_grid.recip() + flat.boundary.mean_compliance()).recip() };

@@ -67,7 +67,7 @@ impl Extremes {
     pub fn of(heights: &Array2<f64>) -> Self {
         let none = [End::NONE; 2];
         let mut ends = vec![none; heights.len().div_ceil(CHUNK)];
-        par::update(par::chunks(flat(heights), CHUNK), &mut ends, 1, |_, chunk, ends| {
+        par::update(par::chunks(flat(heights), CHUNK), &mut ends, |_, chunk, ends| {
             for heights in chunk.chunks(LOOK) {
                 let ([low, high], (lowest, highest)) = (*ends, range(heights));
                 // most heights are within those that were there before
@@ -182,7 +182,7 @@ impl Relief {
         let ((nx, ny), nodes, all) = (heights.dim(), heights.len() as f64, flat(heights));
         let rows_of_band = nx.div_ceil(BANDS).max(BLOCK);
         let mut bands = vec![Band::default(); nx.div_ceil(rows_of_band)];
-        par::update(par::chunks(all, rows_of_band * ny), &mut bands, 1, |band, within, found| {
+        par::update(par::chunks(all, rows_of_band * ny), &mut bands, |band, within, found| {
             let before = (band * rows_of_band + nx - 1) % nx;
             *found = Band::of(within, &all[before * ny..][..ny], scale);
         });
@@ -233,7 +233,7 @@ impl Relief {
         let slope = [self.sides[0].drop / nx as f64, self.sides[1].drop / ny as f64];
         let centre = [0.5 * (nx as f64 - 1.0), 0.5 * (ny as f64 - 1.0)];
         let mut blocks = vec![Block::default(); nx.div_ceil(BLOCK)];
-        par::update(par::chunks(flat(heights), BLOCK * ny), &mut blocks, 1, |block, within, found| {
+        par::update(par::chunks(flat(heights), BLOCK * ny), &mut blocks, |block, within, found| {
             let mut around = Around::default();
             for i in (0..within.len() / ny).map(|i| block * BLOCK + i) {
                 around.of_row(heights, i, scale);

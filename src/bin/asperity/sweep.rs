@@ -270,7 +270,7 @@ impl<T: Scalar> Steps<'_, T> {
     fn next(
         &mut self,
         load: f64,
-        observe: impl FnMut(&Iteration) -> ControlFlow<()>,
+        observe: impl FnMut(&Iteration) -> ControlFlow<()> + Send,
     ) -> Option<asperity::Result<Step<T>>> {
         match self {
             Self::Sweep(sweep) => {

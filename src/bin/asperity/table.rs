@@ -81,7 +81,7 @@ impl<'a> Table<'a> {
         &self,
         name: &str,
         nodes: usize,
-        solve: impl FnOnce(&mut dyn FnMut(&Iteration) -> ControlFlow<()>) -> S,
+        solve: impl FnOnce(&mut (dyn FnMut(&Iteration) -> ControlFlow<()> + Send)) -> S,
     ) -> S {
         let tolerance = self.options.problem.solver.tolerance();
         let mut progress = Progress::new(name, tolerance, nodes, self.options.printing.without_bars());
