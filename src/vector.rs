@@ -26,9 +26,9 @@ pub(crate) fn vectorised(f: impl FnMut()) {
     Arch::new().dispatch(Vectorised(f));
 }
 
-/// Sums the terms of a chunk's nodes, and finds the least of one more number.
+/// Sums the terms of a chunk's nodes. With `least name`, the loop sets `name[i]` too, of which the least is found.
 macro_rules! sums {
-    ($count:literal, [$($read:ident),*], [$($write:ident),*], |$i:ident| $terms:expr) => {{
+    ($count:literal, [$($read:ident),*], [$($write:ident),*], $(least $low:ident,)? |$i:ident| $terms:expr) => {{
         let mut total = $crate::field::Partial::NONE;
         let part = &mut total;
         $(let $read = &$read[..];)*
@@ -39,25 +39,24 @@ macro_rules! sums {
             move || {
                 use $crate::vector::{BLOCK, LANES};
                 let len = usize::MAX$(.min($read.len()))*$(.min($write.len()))*;
-                let (mut lanes, mut least) = ([[0.0_f64; LANES]; $count], [f64::INFINITY; LANES]);
-                let (mut block, mut lows) = ([[0.0_f64; BLOCK]; $count], [f64::INFINITY; BLOCK]);
+                let (mut lanes, mut block) = ([[0.0_f64; LANES]; $count], [[0.0_f64; BLOCK]; $count]);
+                $(let (mut least, mut $low) = ([f64::INFINITY; LANES], [f64::INFINITY; BLOCK]);)?
                 let mut start = 0;
                 while start < len {
                     let size = BLOCK.min(len - start);
                     $(let $read = &$read[start..start + size];)*
                     $(let $write = &mut $write[start..start + size];)*
                     for $i in 0..size {
-                        let (terms, low): ([f64; $count], f64) = $terms;
+                        let terms: [f64; $count] = $terms;
                         for s in 0..$count {
                             block[s][$i] = terms[s];
                         }
-                        lows[$i] = low;
                     }
                     if size < BLOCK {
                         for s in 0..$count {
                             block[s][size..].fill(0.0);
                         }
-                        lows[size..].fill(f64::INFINITY);
+                        $($low[size..].fill(f64::INFINITY);)?
                     }
                     for s in 0..$count {
                         for k in 0..BLOCK / LANES {
@@ -66,21 +65,21 @@ macro_rules! sums {
                             }
                         }
                     }
-                    for k in 0..BLOCK / LANES {
+                    $(for k in 0..BLOCK / LANES {
                         for l in 0..LANES {
-                            let low = lows[k * LANES + l];
+                            let low = $low[k * LANES + l];
                             least[l] = if low < least[l] { low } else { least[l] };
                         }
-                    }
+                    })?
                     start += size;
                 }
                 for s in 0..$count {
                     let l = &lanes[s];
                     part.sum[s] = ((l[0] + l[4]) + (l[2] + l[6])) + ((l[1] + l[5]) + (l[3] + l[7]));
                 }
-                for low in least {
-                    part.min = if low < part.min { low } else { part.min };
-                }
+                $(for $low in least {
+                    part.min = if $low < part.min { $low } else { part.min };
+                })?
             },
         );
         total

@@ -73,8 +73,6 @@ struct Trial {
     /// Σ φ'·c, and Σ φ''·d²
     traction: f64,
     slopes: f64,
-    /// the largest a with g + a·c ≥ 0 at every node
-    reach: f64,
 }
 
 /// The length of a step to be taken, and its sums.
@@ -185,7 +183,7 @@ impl<T: Real, L: Real> State<'_, T, L> {
         let local = Potential::new(self.law, &*self.constraint, self.flat.window.as_ref());
         let tried = passes::trial(&mut self.fields, &local, attempt, surface);
         let Tried { change, clipped, blocked, descent, square, gap_descent, change_surface, gap_surface, .. } = tried;
-        let Tried { traction, slope_change, slope_mixed, slope_gap, reach, .. } = tried;
+        let Tried { traction, slope_change, slope_mixed, slope_gap, .. } = tried;
         // the present mean, not the one that is given: a long step would multiply the rounding of their difference
         let present = self.tally.sum_gap;
         let scale = if self.is_gap_controlled() && clipped > 0.0 { present / (present + change) } else { 1.0 };
@@ -204,7 +202,6 @@ impl<T: Real, L: Real> State<'_, T, L> {
             surface: [change_surface, gap_surface],
             traction,
             slopes: scale * scale * slope_change + 2.0 * scale * rest * slope_mixed + rest * rest * slope_gap,
-            reach,
         }
     }
 
@@ -318,12 +315,13 @@ impl<T: Real, L: Real> State<'_, T, L> {
         let stiff = quadratic + slopes > LEAST_CURVATURE * quadratic;
         let curvature = if stiff { quadratic + slopes } else { LEAST_CURVATURE * quadratic };
         let best = (-trial.slope / curvature).min(FARTHEST);
-        // a law without a bound at zero gap has to stay away from it
-        let reach = if local.projects() { trial.reach.max(1.0) } else { CLOSER * trial.reach };
         let mut length = match trial.clipped {
             true if best >= WHOLE => 1.0,
             true => best,
-            false => best.min(reach),
+            false if local.projects() && best <= 1.0 => best,
+            false if local.projects() => best.min(passes::reach(fields, &local).max(1.0)),
+            // a law without a bound at zero gap has to stay away from it
+            false => best.min(CLOSER * passes::reach(fields, &local)),
         };
         let mut after = 0.0;
         if !local.is_zero() {

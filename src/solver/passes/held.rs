@@ -58,7 +58,7 @@ pub(in crate::solver) fn hold<T: Real, L: Real>(
             let slopes = slopes(local, first, gap, &mut buffer);
             sums!(2, [slopes, residual], [], |i| {
                 let (s, _) = share(slopes[i], k);
-                ([(s * s).widen() * residual[i].widen(), (s * s).widen()], f64::INFINITY)
+                [(s * s).widen() * residual[i].widen(), (s * s).widen()]
             })
         });
         shares = total.sum[1];
@@ -73,7 +73,7 @@ pub(in crate::solver) fn hold<T: Real, L: Real>(
             residual[i] = cast(s * r);
             let rest = ((T::one() - s) * r).widen();
             let beside = if slope > T::zero() { rest * rest / slope.widen() } else { 0.0 };
-            ([beside, (own * r * r).widen()], f64::INFINITY)
+            [beside, (own * r * r).widen()]
         })
     });
     Held { stiffness, level: level.widen(), shares, beside: total.sum[0], descent: total.sum[1] }
@@ -96,7 +96,7 @@ pub(in crate::solver) fn release_held<T: Real, L: Real>(
             let r = cast::<_, T>(residual[i]) / s;
             let moved = s * cast(z[i]) + own * r;
             (residual[i], z[i]) = (cast(r + level), cast(moved));
-            ([moved.widen()], f64::INFINITY)
+            [moved.widen()]
         })
     });
     if held.shares == 0.0 {
@@ -112,7 +112,7 @@ pub(in crate::solver) fn release_held<T: Real, L: Real>(
             let (s, _) = share(slopes[i], k);
             let moved: T = cast::<_, T>(z[i]) - mean * (s * s);
             z[i] = cast(moved);
-            ([moved.widen()], f64::INFINITY)
+            [moved.widen()]
         })
     });
     total.sum[0]

@@ -78,7 +78,7 @@ pub(in crate::solver) fn released<T: Real, L: Real>(
             sums!(2, [gap, pressure, tractions], [], |i| {
                 let r = pressure[i] + tractions[i] + offset;
                 let released = projects & (gap[i] <= T::zero()) & (r < release);
-                ([count(released), if released { r.widen() } else { 0.0 }], f64::INFINITY)
+                [count(released), if released { r.widen() } else { 0.0 }]
             })
         },
     );
@@ -104,7 +104,7 @@ pub(in crate::solver) fn residual<T: Real, L: Real>(
             residual[i] = r;
             let [r, d, z] = [r, change[i], z[i]].map(L::widen);
             let moved = if may { d } else { 0.0 };
-            ([count(may), (gap[i].widen() * r).abs(), r * d, r * z, moved, difference * difference], f64::INFINITY)
+            [count(may), (gap[i].widen() * r).abs(), r * d, r * z, moved, difference * difference]
         })
     });
     reducer.keep(|part| part.sum[0], moving);
@@ -125,7 +125,7 @@ pub(super) fn release_chunk<T: Real, L: Real>(
         let (r, may): (L, _) = residual_of(projects, working, gap[i], cast(residual[i]));
         residual[i] = r;
         let [r, d, z] = [r, change[i], z[i]].map(L::widen);
-        ([count(may), (gap[i].widen() * r).abs(), r * d, r * z, if may { d } else { 0.0 }], f64::INFINITY)
+        [count(may), (gap[i].widen() * r).abs(), r * d, r * z, if may { d } else { 0.0 }]
     })
 }
 
@@ -153,9 +153,7 @@ pub(in crate::solver) fn idle<T: Real, L: Real>(fields: &mut Fields<T, L>) -> f6
         moving,
         |moving| moving < CHUNK as f64,
         read(residual).zip(read(preconditioned)),
-        |_, (residual, z)| {
-            sums!(1, [residual, z], [], |i| { ([if idles(residual[i]) { z[i].widen() } else { 0.0 }], f64::INFINITY) })
-        },
+        |_, (residual, z)| sums!(1, [residual, z], [], |i| [if idles(residual[i]) { z[i].widen() } else { 0.0 }]),
     );
     total.sum[0]
 }

@@ -47,8 +47,6 @@ pub(in crate::solver) struct Tried {
     pub(in crate::solver) slope_change: f64,
     pub(in crate::solver) slope_mixed: f64,
     pub(in crate::solver) slope_gap: f64,
-    /// the largest a with g + a·c ≥ 0
-    pub(in crate::solver) reach: f64,
 }
 
 /// A step of `length` along d = scale·(g + c) − g, with c the field of the change.
@@ -106,12 +104,6 @@ fn clipped_change<T: Real, L: Real>(
     }
 }
 
-/// The largest a with g + a·c ≥ 0 at one node, for a gap g and a change c.
-#[inline(always)]
-fn reach<T: Real, L: Real>(positive: bool, gap: T, change: L) -> f64 {
-    if positive & (change < L::zero()) { (gap / -cast::<_, T>(change)).widen() } else { f64::INFINITY }
-}
-
 /// Writes the clipped change c of a step; `surface` is K⁻¹h under gap control.
 pub(in crate::solver) fn trial<T: Real, L: Real>(
     fields: &mut Fields<T, L>,
@@ -130,21 +122,20 @@ pub(in crate::solver) fn trial<T: Real, L: Real>(
         local.tractions_and_slopes(first, gap, tractions, slopes);
         let found = sums!(4, [gap, change, tractions, slopes], [], |i| {
             let ([g, t, s], c) = ([gap[i], tractions[i], slopes[i]].map(T::widen), change[i].widen());
-            ([t * c, s * c * c, s * c * g, s * g * g], f64::INFINITY)
+            [t * c, s * c * c, s * c * g, s * g * g]
         });
         part.sum[SUMS - 4..].copy_from_slice(&found.sum[..4]);
     };
     let total = match surface {
         None => local.run(reducer, chunks, |local, first, (((gap, residual), z), change)| {
             let (least, lands) = (local.least(), local.projects());
-            let positive = least.is_some_and(|least| least.depth == T::zero());
             let mut part = sums!(5, [gap, residual, z], [change], |i| {
                 let (g, r) = (gap[i], residual[i]);
                 let (c, clipped) = clipped_change(least, attempt, g, r, z[i], change[i]);
                 change[i] = c;
                 let blocked = lands & clipped & (r > L::zero()) & (g > T::zero());
-                let (low, [r, c]) = (reach(positive, g, c), [r, c].map(L::widen));
-                ([c, count(clipped), count(blocked), r * c, c * c], low)
+                let [r, c] = [r, c].map(L::widen);
+                [c, count(clipped), count(blocked), r * c, c * c]
             });
             slopes(local, &mut part, first, gap, change);
             part
@@ -153,15 +144,13 @@ pub(in crate::solver) fn trial<T: Real, L: Real>(
             let chunks = chunks.zip(read(surface));
             local.run(reducer, chunks, |local, first, ((((gap, residual), z), change), surface)| {
                 let (least, lands) = (local.least(), local.projects());
-                let positive = least.is_some_and(|least| least.depth == T::zero());
                 let mut part = sums!(8, [gap, residual, z, surface], [change], |i| {
                     let (g, r) = (gap[i], residual[i]);
                     let (c, clipped) = clipped_change(least, attempt, g, r, z[i], change[i]);
                     change[i] = c;
                     let blocked = count(lands & clipped & (r > L::zero()) & (g > T::zero()));
-                    let low = reach(positive, g, c);
                     let ([g, h], [r, c]) = ([g, surface[i]].map(T::widen), [r, c].map(L::widen));
-                    ([c, count(clipped), blocked, r * c, c * c, r * g, c * h, g * h], low)
+                    [c, count(clipped), blocked, r * c, c * c, r * g, c * h, g * h]
                 });
                 slopes(local, &mut part, first, gap, change);
                 part
@@ -170,7 +159,6 @@ pub(in crate::solver) fn trial<T: Real, L: Real>(
     };
     let [change, clipped, blocked, descent, square, gap_descent, change_surface, gap_surface, ..] = total.sum;
     let [.., traction, slope_change, slope_mixed, slope_gap] = total.sum;
-    let reach = total.min;
     Tried {
         change,
         clipped,
@@ -184,8 +172,21 @@ pub(in crate::solver) fn trial<T: Real, L: Real>(
         slope_change,
         slope_mixed,
         slope_gap,
-        reach,
     }
+}
+
+/// The largest a with g + a·c ≥ 0 wherever a surface confines the gap, for a change c that was not clipped.
+pub(in crate::solver) fn reach<T: Real, L: Real>(fields: &mut Fields<T, L>, local: &Potential<'_, T>) -> f64 {
+    let Fields { reducer, gap, change, .. } = fields;
+    let total = local.run(reducer, read(gap).zip(read(change)), |local, _, (gap, change)| {
+        let confines = local.least().is_some_and(|least| least.depth == T::zero());
+        sums!(0, [gap, change], [], least low, |i| {
+            let closes = confines & (change[i] < L::zero());
+            low[i] = if closes { (gap[i] / -cast::<_, T>(change[i])).widen() } else { f64::INFINITY };
+            []
+        })
+    });
+    total.min
 }
 
 /// The sum of the local energy over the nodes after a step.
@@ -204,7 +205,7 @@ pub(in crate::solver) fn energy_after<T: Real, L: Real>(
             next[i] = moved::<T, L>(projects, gap[i], length * whole(scale, gap[i], cast(change[i])));
         });
         local.evaluate(Of::Energy, first, next, energies);
-        sums!(1, [energies], [], |i| ([energies[i].widen()], f64::INFINITY))
+        sums!(1, [energies], [], |i| [energies[i].widen()])
     });
     total.sum[0]
 }
@@ -229,8 +230,7 @@ pub(in crate::solver) fn advance<T: Real, L: Real>(
         });
         if !local.is_zero() {
             tally_local(&mut part, local, first, gap, tractions, local.is_soft());
-            let product =
-                sums!(1, [step, residual], [], |i| { ([step[i].widen() * residual[i].widen()], f64::INFINITY) });
+            let product = sums!(1, [step, residual], [], |i| [step[i].widen() * residual[i].widen()]);
             part.sum[PRODUCT] = product.sum[0];
         }
         part

@@ -74,13 +74,13 @@ pub(super) fn tractions<'a, T: Real>(
 
 /// The tally of a chunk by its gap, pressure and traction.
 pub(super) fn tally_of<T: Real>(projects: bool, offset: T, gap: &[T], pressure: &[T], traction: &[T]) -> Partial {
-    sums!(5, [gap, pressure, traction], [], |i| {
+    sums!(5, [gap, pressure, traction], [], least low, |i| {
         let (g, p) = (gap[i], pressure[i]);
         let r = (p + traction[i] + offset).widen();
         let touches = projects & (g <= T::zero());
         let free = count(!touches);
-        let terms = [free, if touches { 0.0 } else { r }, g.widen(), g.widen() * p.widen(), 1.0 - free];
-        (terms, if touches { r } else { f64::INFINITY })
+        low[i] = if touches { r } else { f64::INFINITY };
+        [free, if touches { 0.0 } else { r }, g.widen(), g.widen() * p.widen(), 1.0 - free]
     })
 }
 
@@ -95,7 +95,7 @@ pub(super) fn tally_local<T: Real>(
 ) {
     let mut buffer = [T::zero(); CHUNK];
     let out = &mut buffer[..gaps.len()];
-    let sum = |values: &[T]| sums!(1, [values], [], |i| ([values[i].widen()], f64::INFINITY)).sum[0];
+    let sum = |values: &[T]| sums!(1, [values], [], |i| [values[i].widen()]).sum[0];
     if !local.is_soft() {
         part.sum[5] = sum(tractions);
     } else {
@@ -125,9 +125,8 @@ pub(in crate::solver) fn tally<T: Real, L: Real>(
         if !local.is_zero() {
             tally_local(&mut part, local, first, gap, tractions, true);
         }
-        let more = sums!(2, [gap, pressure, surface], [], |i| {
-            ([gap[i].widen() * surface[i].widen(), pressure[i].widen()], f64::INFINITY)
-        });
+        let more =
+            sums!(2, [gap, pressure, surface], [], |i| { [gap[i].widen() * surface[i].widen(), pressure[i].widen()] });
         [part.sum[PRODUCT], part.sum[SUM_P]] = [more.sum[0], more.sum[1]];
         part
     });
