@@ -55,8 +55,8 @@ struct Options {
     /// Its range
     #[arg(long, value_name = "R", requires = "work")]
     range: Option<f64>,
-    /// One grid, nested grids, or these in f32 to 1e-4 and on in f64
-    #[arg(long, default_value = "single")]
+    /// Nested grids where they pay, one grid, nested grids, or these in f32 to 1e-4 and on in f64
+    #[arg(long, default_value = "default")]
     method: Method,
     /// How often
     #[arg(long, value_name = "N", default_value_t = 1)]
@@ -72,8 +72,9 @@ enum Boundary {
     Free,
 }
 
-#[derive(Clone, ValueEnum)]
+#[derive(Clone, Copy, ValueEnum)]
 enum Method {
+    Default,
     Single,
     Nested,
     Mixed,
@@ -142,11 +143,16 @@ fn solve<T: Real, H: HalfSpace, L: AdhesionLaw<T> + AdhesionLaw<f32> + Copy>(
     let control = held.ok_or("nothing is held")?;
     let settings = Settings { tolerance: options.tolerance, ..Settings::default() };
     let tolerance = settings.tolerance_in::<T>();
+    let method = match options.method {
+        Method::Default if Nested::new(settings).pays::<T>(surface, &law, control) => Method::Nested,
+        Method::Default => Method::Single,
+        method => method,
+    };
     for _ in 0..options.repeat {
         forget_peak();
         let begin = Instant::now();
-        let (solution, seconds) = match options.method {
-            Method::Single => run::<T, H, L>(surface, law, control, settings, None)?,
+        let (solution, seconds) = match method {
+            Method::Default | Method::Single => run::<T, H, L>(surface, law, control, settings, None)?,
             Method::Nested => nested::<T, H, L>(surface, law, control, settings)?,
             // what single precision reaches is then all that is wanted
             Method::Mixed if T::NAME == "f32" || tolerance >= SINGLE => {

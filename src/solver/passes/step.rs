@@ -179,12 +179,13 @@ pub(in crate::solver) fn trial<T: Real, L: Real>(
 pub(in crate::solver) fn reach<T: Real, L: Real>(fields: &mut Fields<T, L>, local: &Potential<'_, T>) -> f64 {
     let Fields { reducer, gap, change, .. } = fields;
     let total = local.run(reducer, read(gap).zip(read(change)), |local, _, (gap, change)| {
-        let confines = local.least().is_some_and(|least| least.depth == T::zero());
-        sums!(0, [gap, change], [], least low, |i| {
-            let closes = confines & (change[i] < L::zero());
-            low[i] = if closes { (gap[i] / -cast::<_, T>(change[i])).widen() } else { f64::INFINITY };
-            []
-        })
+        let mut part = Partial::NONE;
+        if local.least().is_some_and(|least| least.depth == T::zero()) {
+            for (&gap, &change) in gap.iter().zip(change).filter(|&(_, &change)| change < L::zero()) {
+                part.min = part.min.min((gap / -cast::<_, T>(change)).widen());
+            }
+        }
+        part
     });
     total.min
 }
