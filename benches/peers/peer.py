@@ -115,7 +115,7 @@ def contactmechanics(path, options):
         held = {"offset": float(options["approach"]) - heights.max()}
     substrate = FreeFFTElasticHalfSpace((n, n), 1.0, (1.0, 1.0))
     system = make_system(interaction="hardwall", substrate=substrate, surface=Topography(heights, (1.0, 1.0)))
-    result = system.minimize_proxy(pentol=float(options["tolerance"]), maxiter=20000, **held)
+    result = system.minimize_proxy(pentol=float(options["tolerance"]), maxiter=1000, **held)
     seconds = time.perf_counter() - begin
     peak = resident("VmHWM")
     status = "converged" if result.success else "not converged"
