@@ -232,8 +232,8 @@ impl<T: Real> Solution<T> {
         if !grid.is_shared() {
             return Some(Cow::Borrowed(self));
         }
-        let fields =
-            [&self.gap, &self.pressure, &self.contact_pressure].map(|field| grid.slab().whole_of(field, false));
+        let fields = [&self.gap, &self.pressure, &self.contact_pressure];
+        let fields = fields.map(|field| grid.gathered(field).map(Cow::into_owned));
         let [Some(gap), Some(pressure), Some(contact_pressure)] = fields else { return None };
         Some(Cow::Owned(Self { gap, pressure, contact_pressure, report: self.report.clone() }))
     }

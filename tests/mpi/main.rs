@@ -301,13 +301,6 @@ fn what_has_no_slabs_is_refused(world: &World) -> Result<()> {
         return Ok(());
     }
     let law = Exponential::new(1e-4, 4e-3)?;
-    let work = grid.sample(|x, _| if x < 0.0 { 1e-6 } else { 1e-4 });
-    // a process without nodes has no such law
-    if let Ok(varying) = Varying::new(law, work.view()) {
-        refused("varying law", Problem::new(&surface, Westergaard::<f64>::new(grid, 1.0)?, &varying));
-    }
-    let holes = grid.sample(|x, _| if x < -0.499 { f64::NAN } else { 0.0 });
-    refused("absent nodes", Surface::with_absent(grid, holes));
     let alone = Grid::square(512, 1.0)?;
     refused("mixed grids", Problem::new(&surface, Westergaard::<f64>::new(alone, 1.0)?, NoAdhesion));
     let mut problem = Problem::new(&surface, Westergaard::<f64>::new(grid, 1.0)?, law)?;
