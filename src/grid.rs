@@ -1,10 +1,9 @@
 //! The grid: equidistant nodes on a periodic rectangle or line.
 
-use std::borrow::Cow;
 use std::f64::consts::TAU;
 use std::ops::Range;
 
-use ndarray::Array2;
+use ndarray::{Array2, ArrayRef2, CowArray, Ix2};
 
 use crate::error::{Error, Result};
 use crate::ranks::COUNTED;
@@ -107,8 +106,8 @@ impl Grid {
 
     /// The whole of a field, of which each of the processes that share the grid has its rows, on the first of them, and
     /// nothing on the others; the field itself, if the grid is not shared. All of them have to ask.
-    pub fn gathered<'a, T: Real>(&self, field: &'a Array2<T>) -> Option<Cow<'a, Array2<T>>> {
-        if self.is_shared() { self.slab.whole_of(field, false).map(Cow::Owned) } else { Some(Cow::Borrowed(field)) }
+    pub fn gathered<'a, T: Real>(&self, field: &'a ArrayRef2<T>) -> Option<CowArray<'a, T, Ix2>> {
+        if self.is_shared() { self.slab.whole_of(field, false).map(CowArray::from) } else { Some(field.view().into()) }
     }
 
     /// The grid for this process alone, as for fields that were [gathered](Self::gathered).

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use ndarray::{Array2, ArrayView2, CowArray, Ix2};
+use ndarray::{Array2, ArrayRef2, ArrayView2, CowArray, Ix2};
 
 use crate::ranks::{Ranks, Shares};
 use crate::real::Real;
@@ -169,7 +169,7 @@ impl Slab {
     }
 
     /// The field of all slabs, of which `held` is that of this one, on every process, or on the first alone.
-    pub(crate) fn whole_of<T: Real>(&self, held: &Array2<T>, everywhere: bool) -> Option<Array2<T>> {
+    pub(crate) fn whole_of<T: Real>(&self, held: &ArrayRef2<T>, everywhere: bool) -> Option<Array2<T>> {
         let (own, ny) = (self.ranks.rank(), self.shape.1);
         let gets = everywhere || own == 0;
         let mut whole = gets.then(|| Array2::zeros(self.shape));

@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 use std::fmt;
 
-use ndarray::Array2;
+use ndarray::{Array2, CowArray};
 
 use super::{Criterion, Method};
 use crate::elastic::Boundary;
@@ -233,7 +233,7 @@ impl<T: Real> Solution<T> {
             return Some(Cow::Borrowed(self));
         }
         let fields = [&self.gap, &self.pressure, &self.contact_pressure];
-        let fields = fields.map(|field| grid.gathered(field).map(Cow::into_owned));
+        let fields = fields.map(|field| grid.gathered(field).map(CowArray::into_owned));
         let [Some(gap), Some(pressure), Some(contact_pressure)] = fields else { return None };
         Some(Cow::Owned(Self { gap, pressure, contact_pressure, report: self.report.clone() }))
     }

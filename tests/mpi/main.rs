@@ -1,5 +1,6 @@
 //! Solves that several processes share, against the same solves in one: every bit of every field and report. Run by
-//! `.ci/mpi`, under `mpiexec`; by itself it is one process. With the argument `quick` it runs a part of them.
+//! `.ci/mpi`, under `mpiexec`; by itself it is one process. With the argument `quick` it runs a part of them, some on
+//! three processes alone.
 
 use std::fmt::Debug;
 use std::ops::ControlFlow;
@@ -107,9 +108,11 @@ fn run(world: &World) -> Outcome {
     solves::<f64, _, _>(world, "exponential", square, exponential, Projection, Control::MeanPressure(1e-3))?;
     nested_grids_are_shared::<f64>(world, odd, Control::MeanPressure(0.01))?;
     free_half_spaces_are_shared::<f64>(world, (256, 256), Control::Force(1e-3))?;
-    laws_that_vary_are_shared::<f64>(world, (300, 257))?;
-    absent_nodes_are_shared::<f64>(world, (320, 257))?;
-    equilibria_are_judged_alike(world, (280, 256))?;
+    if !quick || world.size() == 3 {
+        laws_that_vary_are_shared::<f64>(world, (300, 257))?;
+        absent_nodes_are_shared::<f64>(world, (320, 257))?;
+        equilibria_are_judged_alike(world, (280, 256))?;
+    }
     clusters_hang_together_across_slabs(world)?;
     exchanges_are_what_the_formula_says(world)?;
     what_has_no_slabs_is_refused(world)?;
@@ -132,10 +135,9 @@ fn run(world: &World) -> Outcome {
     free_half_spaces_are_shared::<f64>(world, (400, 257), Control::Approach(2e-3))?;
     free_half_spaces_are_shared::<f32>(world, (520, 512), Control::Force(1e-3))?;
     other_symbols_are_shared(world)?;
-    laws_that_vary_are_shared::<f32>(world, square)?;
-    absent_nodes_are_shared::<f32>(world, square)?;
+    laws_that_vary_are_shared::<f32>(world, (300, 257))?;
+    absent_nodes_are_shared::<f32>(world, (320, 257))?;
     springs_under_free_half_spaces_are_shared(world, (300, 257))?;
-    equilibria_are_judged_alike(world, odd)?;
     paths_are_shared(world)?;
     say(world, "all the same");
     Ok(())
@@ -350,7 +352,7 @@ fn springs_under_free_half_spaces_are_shared(world: &World, shape: (usize, usize
         C: ContactConstraint<f64>,
     {
         let mut problem = Problem::new(&perforated(grid)?, Boussinesq::<f64>::new(grid, 1.0)?, NoAdhesion)?;
-        let mut solver = Solver { settings: Settings::default(), constraint };
+        let mut solver = Solver { settings: Settings { tolerance: Some(1e-3), ..Settings::default() }, constraint };
         let mut solution = solver.solve(&mut problem, Control::MeanPressure(0.01))?;
         let statistics = contact::ContactStatistics::of(&solution, &grid, &NoAdhesion)?;
         let test = stability::StabilityTest { max_iterations: 5, ..stability::StabilityTest::default() };
@@ -409,9 +411,9 @@ fn equilibria_are_judged_alike(world: &World, shape: (usize, usize)) -> Result<(
 
 fn paths_are_shared(world: &World) -> Result<()> {
     use path::{Path, PathSettings};
-    let law = Exponential::new(2e-4, 4e-3)?;
-    let legs = [0.03, 0.012, 0.05].map(Control::MeanGap);
-    let settings = PathSettings { steps: 4, ..PathSettings::default() };
+    let law = Exponential::new(1e-3, 4e-3)?;
+    let legs = [0.03, 0.012].map(Control::MeanGap);
+    let settings = PathSettings { steps: 4, smallest_step: 0.1, ..PathSettings::default() };
     let alone = Grid::new((300, 256), (1.0, 1.0))?;
     let shared = world.share(alone)?;
     let follow = |grid: Grid| {
@@ -419,7 +421,7 @@ fn paths_are_shared(world: &World) -> Result<()> {
         let mut problem = Problem::new(&surface, Westergaard::<f64>::new(grid, 1.0)?, law)?;
         let mut solver = Solver::default();
         let mut path = Path::new(&mut solver, &mut problem, legs, settings)?;
-        let mut steps = path.by_ref().take(4).collect::<Result<Vec<_>>>()?;
+        let mut steps = path.by_ref().take(3).collect::<Result<Vec<_>>>()?;
         let place = path.checkpoint();
         let rest = Path::new(&mut solver, &mut problem, legs, settings)?.continuing(place)?;
         steps.extend(rest.collect::<Result<Vec<_>>>()?);
@@ -434,7 +436,8 @@ fn paths_are_shared(world: &World) -> Result<()> {
         assert_eq!(figures(step), figures(expected));
         assert_eq!(step.event, expected.event);
     }
-    assert!(of_one.iter().any(|step| step.event.is_some()), "nothing jumps");
+    // a saddle is left on the way
+    assert!(of_one.iter().any(|step| step.event.is_some()));
     say(world, &format!("path of {} states", of_one.len()));
     Ok(())
 }

@@ -37,7 +37,7 @@ pub fn identity(
         "hamaker": number(adhesion.hamaker),
         "law_table": given.table.as_ref().map_or("none".to_owned(), field),
         "cut_off": number(adhesion.cut_off),
-        "work_of_adhesion_map": given.works.as_ref().map_or("none".to_owned(), field),
+        "work_of_adhesion_map": given.works.as_ref().map_or("none".to_owned(), |works| field(&works.rows)),
         "wall": adhesion.wall.to_string(),
         "precision": solver.precision.name(),
         "method": settings.method.name(),
