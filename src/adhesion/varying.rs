@@ -87,14 +87,13 @@ impl<L: AdhesionLaw<f64>> Varying<L> {
         }
         let most = slab.most(works.iter().fold(0.0, |most: f64, &work| most.max(work)));
         Error::positive("largest work of adhesion", most)?;
-        let strongest = works.indexed_iter().find(|&(_, &work)| work == most);
-        let strongest =
-            strongest.map_or(f64::INFINITY, |((ix, iy), _)| (slab.first_node() + ix * slab.shape().1 + iy) as f64);
-        let strongest = slab.least(strongest) as usize;
+        let (first, ny) = (slab.first_node(), slab.shape().1);
+        let own_strongest = works.indexed_iter().find(|&(_, &work)| work == most);
+        let node = own_strongest.map_or(f64::INFINITY, |((ix, iy), _)| (first + ix * ny + iy) as f64);
+        let node = slab.least(node) as usize;
         let shares = Arc::new(works.mapv(|work| work / own).as_standard_layout().into_owned());
         let repels = !slab.has(works.iter().any(|&work| work <= 0.0));
-        let strongest = (strongest / slab.shape().1, strongest % slab.shape().1);
-        Ok(Self { law, slab, shares, largest: most / own, strongest, repels })
+        Ok(Self { law, slab, shares, largest: most / own, strongest: (node / ny, node % ny), repels })
     }
 }
 
@@ -112,8 +111,10 @@ impl<L> Varying<L> {
     fn scale<T: Real>(&self, first: usize, values: &mut [T]) {
         let own = first.checked_sub(self.slab.first_node());
         let shares = own.and_then(|own| flat(&self.shares).get(own..)).unwrap_or_default();
-        debug_assert!(shares.len() >= values.len(), "these nodes are in another slab");
-        values.iter_mut().zip(shares).for_each(|(value, &share)| *value *= T::lit(share));
+        // nodes of another slab have no answer here
+        let (own, others) = values.split_at_mut(shares.len().min(values.len()));
+        others.fill(T::nan());
+        own.iter_mut().zip(shares).for_each(|(value, &share)| *value *= T::lit(share));
     }
 }
 

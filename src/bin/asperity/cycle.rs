@@ -7,7 +7,7 @@ use asperity::path::{Event, Path, PathCheckpoint, PathSettings, PathStep};
 use asperity::picture::Chart;
 use asperity::{Control, Error, Grid, Problem, Solver, Status, Surface};
 use clap::{ArgGroup, Args};
-use ndarray::Array2;
+use ndarray::ArrayRef2;
 use serde_json::{Map, Value, json};
 
 use crate::adhesion::{Adhesion, AdhesionOptions};
@@ -153,21 +153,14 @@ impl Options {
         let names = names();
         let header = units.header(&names, self.loads.control(0.0).name(), grid.is_line());
         let &Self { ref out, force, printing, strictness, .. } = self;
-        let (problem, fields) = (self.problem(), self.fields.as_deref());
+        let (fields, units) = (self.fields.as_deref(), &units);
         let options =
-            TableOptions { problem, out, force, printing, scene, units: &units, strictness, fields, processes };
-        let identity = |surface: &Surface, adhesion: &Adhesion<'_>, start: Option<&Array2<f64>>| {
-            let mut identity = self.identity(surface, adhesion, start, &values);
-            identity.insert("units".to_owned(), units.of_table().into());
-            identity
-        };
-        let given = (&surface, &adhesion, start.as_ref());
-        let (mut table, saved) = Table::open::<T>(options, &header, given, identity, None)?;
-        let start = start.or_else(|| self.surface.beyond.boundary.start_afar(&surface, &loads));
+            TableOptions { problem: self.problem(), out, force, printing, scene, units, strictness, fields, processes };
+        let identity =
+            |surface: &_, adhesion: &Adhesion<'_>, start: Option<&_>| self.identity(surface, adhesion, start, &values);
         let operator = self.surface.beyond.boundary.half_space(grid, self.surface.modulus())?;
         let law = adhesion.law::<T>()?;
         let mut problem = Problem::new(&surface, operator, adhesion.law::<T>()?)?;
-        drop(surface);
         let mut solver = Solver { settings: self.solver.settings(), constraint: self.adhesion.wall };
         let settings = PathSettings {
             steps: self.steps,
@@ -175,11 +168,15 @@ impl Options {
             imbalance: self.imbalance,
             smooth: !self.sharp,
         };
+        let afar = if start.is_none() { self.surface.beyond.boundary.start_afar(&surface, &loads) } else { None };
         let mut path = Path::new(&mut solver, &mut problem, loads, settings)?;
+        let given = (&surface, &adhesion, start.as_ref());
+        let (mut table, saved) = Table::open::<T>(options, &header, given, identity, None)?;
+        drop(surface);
         if table.rows() > 0 {
             let fields = saved.fields.into_iter().map(T::field).collect();
             path = path.continuing(PathCheckpoint { numbers: saved.numbers, fields })?;
-        } else if let Some(start) = start {
+        } else if let Some(start) = start.or(afar) {
             path = path.starting_from(T::field(start));
         }
         let text = table.text()?;
@@ -255,7 +252,7 @@ impl Options {
         &self,
         surface: &Surface,
         adhesion: &Adhesion<'_>,
-        start: Option<&Array2<f64>>,
+        start: Option<&ArrayRef2<f64>>,
         values: &[f64],
     ) -> Identity {
         let mut identity = identity(self.problem(), surface, adhesion, start);

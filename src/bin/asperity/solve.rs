@@ -278,7 +278,7 @@ impl Job<'_> {
                 write_fields(processes, folder.as_ref(), out, grid, &[(MODE.to_owned(), &stability.mode)])?;
             }
         }
-        if let Some(stability) = account.stability.as_mut().filter(|_| fits) {
+        if let Some(stability) = account.stability.as_mut().filter(|_| fits && grid.is_shared()) {
             stability.mode = grid.gathered(&stability.mode).map(CowArray::into_owned).unwrap_or_default();
         }
         processes.first(|| {

@@ -10,7 +10,7 @@ use asperity::{
     Surface, Sweep,
 };
 use clap::{ArgGroup, Args, ValueEnum};
-use ndarray::{Array2, ArrayView2};
+use ndarray::{ArrayRef2, ArrayView2};
 use serde_json::{Map, Value, json};
 
 use crate::adhesion::{Adhesion, AdhesionOptions, Law, Wall};
@@ -136,20 +136,17 @@ impl Options {
             Format::Jsonl => String::new(),
         };
         let &Self { ref out, force, printing, strictness, .. } = self;
-        let (problem, fields) = (self.problem(), self.fields.as_deref());
+        let (fields, units) = (self.fields.as_deref(), &units);
         let options =
-            TableOptions { problem, out, force, printing, scene, units: &units, strictness, fields, processes };
-        let identity = |surface: &Surface, adhesion: &Adhesion<'_>, start: Option<&Array2<f64>>| {
-            let mut identity = self.identity(surface, adhesion, start);
-            identity.insert("units".to_owned(), units.of_table().into());
-            identity
-        };
+            TableOptions { problem: self.problem(), out, force, printing, scene, units, strictness, fields, processes };
+        let identity =
+            |surface: &_, adhesion: &Adhesion<'_>, start: Option<&_>| self.identity(surface, adhesion, start);
+        let operator = self.surface.beyond.boundary.half_space(grid, self.surface.modulus())?;
+        let mut problem = Problem::new(&surface, operator, adhesion.law::<T>()?)?;
         let given = (&surface, &adhesion, start.as_ref());
         let (mut table, saved) = Table::open::<T>(options, &header, given, identity, Some(loads))?;
         let done = table.rows();
         let start = start.or_else(|| self.surface.beyond.boundary.start_afar(&surface, &self.loads.controls(&listed)));
-        let operator = self.surface.beyond.boundary.half_space(grid, self.surface.modulus())?;
-        let mut problem = Problem::new(&surface, operator, adhesion.law::<T>()?)?;
         drop(surface);
         let controls = self.loads.controls(loads);
 
@@ -242,7 +239,7 @@ impl Options {
     }
 
     /// The inputs on which the rows depend beside the loads.
-    fn identity(&self, surface: &Surface, adhesion: &Adhesion<'_>, start: Option<&Array2<f64>>) -> Identity {
+    fn identity(&self, surface: &Surface, adhesion: &Adhesion<'_>, start: Option<&ArrayRef2<f64>>) -> Identity {
         let mut identity = identity(self.problem(), surface, adhesion, start);
         let csv = self.format().is_ok_and(|format| format == Format::Csv);
         let kind = if self.fractions.values().is_some() { "contact-fraction".to_owned() } else { self.loads.kind() };

@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
 use asperity::{Grid, Iteration, Report, Solution, Surface};
-use ndarray::{Array2, Axis, CowArray, Slice};
+use ndarray::{Array2, ArrayRef2, Axis, Slice};
 use serde_json::{Value, json};
 
 use crate::adhesion::Adhesion;
@@ -61,7 +61,7 @@ impl<'a> Table<'a> {
         options: TableOptions<'a>,
         header: &str,
         (surface, adhesion, start): (&Surface, &Adhesion<'_>, Option<&Array2<f64>>),
-        identity: impl FnOnce(&Surface, &Adhesion<'_>, Option<&Array2<f64>>) -> Identity,
+        identity: impl FnOnce(&Surface, &Adhesion<'_>, Option<&ArrayRef2<f64>>) -> Identity,
         loads: Option<&[f64]>,
     ) -> Outcome<(Self, Saved)> {
         let TableOptions { problem, out, force, scene, strictness, processes, .. } = options;
@@ -81,7 +81,8 @@ impl<'a> Table<'a> {
             let scene_file = scene.written_beside(out)?;
             let made = [state_path(out), scene::beside(out), out.to_owned()].into_iter().filter(|path| !path.exists());
             let made: Vec<_> = made.collect();
-            let identity = identity(&surface, &adhesion, start.flatten().map(CowArray::into_owned).as_ref());
+            let mut identity = identity(&surface, &adhesion, start.flatten().as_deref());
+            identity.insert("units".to_owned(), options.units.of_table().into());
             let (journal, saved) = Journal::open(out, header, identity, loads, force)?;
             scene_file.commit()?;
             warnings.say();
