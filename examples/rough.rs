@@ -292,7 +292,7 @@ fn maps(out: &Path, file: &str, title: &str, grid: Grid, solution: &Solution<f64
     map.draw(DPI)?.write(&out.join(format!("figure6-{file}.png")))?;
 
     let found = ContactStatistics::of(solution, &grid, law)?;
-    let regions = solution.regions(law).mapv(f64::from);
+    let regions = solution.regions(&grid, law).mapv(f64::from);
     let percent = |share: f64| format!("{:.1} %", 100.0 * share);
     let map = Map {
         title: &format!("Figure 7: {title}"),

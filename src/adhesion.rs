@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use crate::derivatives::{self, Named};
 use crate::error::{Error, Result};
+use crate::grid::Grid;
 use crate::real::Real;
 
 mod cut_off;
@@ -109,6 +110,14 @@ pub trait AdhesionLaw<T: Real>: Send + Sync {
         None
     }
 
+    /// A law that varies over the surface and knows the nodes of some rows alone, as a process does that shares the
+    /// grid: the law of the rows of this grid, [`Grid::rows`], which may be others. Nothing, which is the default, if it
+    /// knows these. All processes ask.
+    fn in_rows_of(&self, grid: &Grid) -> Option<Box<dyn AdhesionLaw<T> + '_>> {
+        let _ = grid;
+        None
+    }
+
     /// A law that varies over the surface, on the coarser grid that has every nx-th and every ny-th node of its own.
     /// Nothing, which is the default, for a law of the gap alone.
     fn coarsened(&self, stride: (usize, usize)) -> Option<Box<dyn AdhesionLaw<T> + '_>> {
@@ -130,7 +139,8 @@ pub trait AdhesionLaw<T: Real>: Send + Sync {
         None
     }
 
-    /// The energies at the nodes from `first` on, in row-major order (node ix·Ny + iy), which have these gaps.
+    /// The energies at the nodes from `first` on, in row-major order (node ix·Ny + iy), which have these gaps. Nodes
+    /// count on the whole grid, also where several processes share it.
     ///
     /// The four slice functions are what a solve calls, for a few hundred nodes at once. A law of which the gap is all
     /// that matters need not write them. A law that varies over the surface writes them by the node, as
@@ -171,6 +181,7 @@ macro_rules! forward {
             fn is_zero(&self) -> bool { (**self).is_zero() }
             fn rest(&self) -> Option<T> { (**self).rest() }
             fn shape(&self) -> Option<(usize, usize)> { (**self).shape() }
+            fn in_rows_of(&self, grid: &Grid) -> Option<Box<dyn AdhesionLaw<T> + '_>> { (**self).in_rows_of(grid) }
             fn coarsened(&self, stride: (usize, usize)) -> Option<Box<dyn AdhesionLaw<T> + '_>> {
                 (**self).coarsened(stride)
             }

@@ -61,7 +61,7 @@ pub trait ContactConstraint<T: Real>: Send + Sync {
 
     /// Prepares for a solve on the grid of a surface, to a tolerance of its criterion. `stiffest` is the stiffness of
     /// the shortest wave, of [`ElasticOperator::stiffness_range`](crate::ElasticOperator::stiffness_range), pressure
-    /// per length.
+    /// per length. Where several processes share the grid, this one solves for the rows [`Grid::rows`].
     ///
     /// # Errors
     /// Whatever cannot be used on that grid.
@@ -69,8 +69,9 @@ pub trait ContactConstraint<T: Real>: Send + Sync {
         Ok(())
     }
 
-    /// Whether the constraint is met where several processes share the grid, and each has the nodes of the rows that it
-    /// holds: nodes then count from the first of these. The default is that it is not: such a solve is refused.
+    /// Whether the constraint is met where several processes share the grid, and each has the rows that it holds: of the
+    /// springs it asks those at its own nodes, which count on the whole grid, and its gap in [`update`](Self::update) is
+    /// that of its rows. The default is that it is not: such a solve is refused.
     fn takes_slabs(&self) -> bool {
         false
     }

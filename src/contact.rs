@@ -11,6 +11,7 @@ use crate::elastic::Boundary;
 use crate::error::{Error, Result};
 use crate::grid::Grid;
 use crate::real::Real;
+use crate::slab::Slab;
 use crate::solver::{Report, Solution};
 
 mod clusters;
@@ -61,14 +62,14 @@ impl<T: Real> Solution<T> {
     /// let sphere = Surface::paraboloid(grid, 2.0)?;
     /// let mut problem = Problem::new(&sphere, Westergaard::<f64>::new(grid, 1.0)?, law)?;
     /// let solution = Solver::default().solve(&mut problem, Control::MeanGap(0.0398))?;
-    /// let attracting = solution.regions(&law).iter().filter(|region| **region == Region::Attractive).count();
+    /// let attracting = solution.regions(&grid, &law).iter().filter(|region| **region == Region::Attractive).count();
     /// let statistics = ContactStatistics::of(&solution, &grid, &law)?;
     /// assert_eq!(attracting as f64 / 4096.0, statistics.attractive_fraction);
     /// # Ok::<(), asperity::Error>(())
     /// ```
-    pub fn regions(&self, law: &impl AdhesionLaw<T>) -> Array2<Region> {
+    pub fn regions(&self, grid: &Grid, law: &impl AdhesionLaw<T>) -> Array2<Region> {
         let contact = self.contact_map();
-        let attracts = attracting(&contact, self.gap.view(), law);
+        let attracts = attracting(&contact, self.gap.view(), grid.slab(), law);
         let mut nodes = self.gap.iter().zip(&contact).zip(attracts);
         Array2::from_shape_simple_fn(self.gap.dim(), || match nodes.next() {
             Some(((_, true), _)) => Region::Contact,
@@ -102,14 +103,19 @@ impl<T: Real> Solution<T> {
 }
 
 /// Whether each node attracts without contact: whether its adhesive traction is noticeable.
-fn attracting<T: Real>(contact: &Array2<bool>, gap: ArrayView2<'_, T>, law: &impl AdhesionLaw<T>) -> Vec<bool> {
+fn attracting<T: Real>(
+    contact: &Array2<bool>,
+    gap: ArrayView2<'_, T>,
+    slab: Slab,
+    law: &impl AdhesionLaw<T>,
+) -> Vec<bool> {
     if law.is_zero() {
         return vec![false; gap.len()];
     }
     let least = T::lit(noticeable(law));
     let gaps: Vec<T> = gap.iter().map(|gap| gap.max(T::zero())).collect();
     let mut tractions = vec![T::zero(); gaps.len()];
-    law.tractions(0, &gaps, &mut tractions);
+    law.tractions(slab.first_node(), &gaps, &mut tractions);
     contact.iter().zip(tractions).map(|(&touches, traction)| !touches && traction > least).collect()
 }
 
@@ -306,7 +312,7 @@ impl ContactStatistics {
         let ContactArea { contact_nodes, contact_fraction, corrected_contact_fraction, perimeter } =
             ContactArea::within(contact.view(), grid, boundary, facing)?;
         let share = |count: usize| count as f64 / facing as f64;
-        let attracts = attracting(&contact, gap, law);
+        let attracts = attracting(&contact, gap, slab, law);
         let attracting = grid.total(attracts.iter().filter(|&&attracts| attracts).count());
         let nodes = gap.iter().zip(&contact).zip(&attracts);
         let nodes = nodes.map(|((gap, &touches), &attracts)| gap.is_finite().then_some([touches, attracts]));
@@ -319,7 +325,7 @@ impl ContactStatistics {
             repulsive_fraction: share(grid.total(contact_pressure.iter().filter(|&&p| p > T::zero()).count())),
             attractive_fraction: share(attracting),
             apart_fraction: share(facing - contact_nodes - attracting),
-            patches: patch::patches(law, nodes),
+            patches: patch::patches(law, slab, nodes),
         })
     }
 }
@@ -332,7 +338,10 @@ fn edges(map: ArrayView2<'_, bool>, grid: &Grid, periodic: bool) -> (usize, usiz
     // the first row of the next slab
     let slab = grid.slab();
     let next = slab.is_shared().then(|| {
-        let wanted = |rank| (slab.rows_of(rank).end, usize::from(!slab.rows_of(rank).is_empty()));
+        let wanted = |rank| {
+            let rows = slab.rows_of(rank);
+            rows.last().map(|last| (last + 1) % slab.shape().0).into_iter()
+        };
         slab.fetch(map.mapv(|touches| f64::from(u8::from(touches))).view(), wanted).mapv(|touches| touches > 0.0)
     });
     for (i, row) in map.outer_iter().enumerate() {

@@ -76,6 +76,8 @@ impl<A: Nodes, B: Nodes> Nodes for (A, B) {
 #[derive(Debug)]
 pub(crate) struct Reducer {
     chunks: Vec<Partial>,
+    /// the number of the first node
+    first: usize,
     /// the chunks of a band
     band: usize,
     others: Option<Others>,
@@ -102,6 +104,8 @@ impl Others {
 
     /// The results of all bands, of which these are those of this process.
     fn gather(&mut self, bands: impl Iterator<Item = Partial>) -> impl Iterator<Item = Partial> {
+        // bands beyond a window have no nodes
+        let bands = bands.chain(std::iter::repeat(Partial::NONE));
         for (numbers, Partial { sum, min }) in self.own.iter_mut().zip(bands) {
             numbers[..SUMS].copy_from_slice(&sum);
             numbers[SUMS] = min;
@@ -115,12 +119,14 @@ impl Reducer {
     pub(crate) fn new(slab: Slab) -> Self {
         let (rows, columns) = slab.held();
         let chunks = vec![Partial::NONE; (rows * columns).div_ceil(CHUNK)];
-        Self { chunks, band: slab.chunks_of_a_band(), others: slab.is_shared().then(|| Others::new(slab)) }
+        let others = slab.is_shared().then(|| Others::new(slab));
+        Self { chunks, first: slab.first_node(), band: slab.chunks_of_a_band(), others }
     }
 
-    /// Runs `f(first node, chunk)` over the chunks.
+    /// Runs `f(first node, chunk)` over the chunks; nodes count on the whole grid.
     pub(crate) fn run<A: Parts>(&mut self, chunks: A, f: impl Fn(usize, A::Part) -> Partial + Sync + Send) -> Partial {
-        par::update(chunks, &mut self.chunks, |i, chunk, part| *part = f(i * CHUNK, chunk));
+        let first = self.first;
+        par::update(chunks, &mut self.chunks, |i, chunk, part| *part = f(first + i * CHUNK, chunk));
         self.total()
     }
 
@@ -132,8 +138,9 @@ impl Reducer {
         chunks: A,
         f: impl Fn(usize, A::Part) -> Partial + Sync + Send,
     ) -> Partial {
+        let first = self.first;
         par::update(chunks, &mut self.chunks, |i, chunk, part| {
-            *part = if wanted(kept[i]) { f(i * CHUNK, chunk) } else { Partial::NONE };
+            *part = if wanted(kept[i]) { f(first + i * CHUNK, chunk) } else { Partial::NONE };
         });
         self.total()
     }

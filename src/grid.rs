@@ -3,10 +3,11 @@
 use std::f64::consts::TAU;
 use std::ops::Range;
 
-use ndarray::Array2;
+use ndarray::{Array2, ArrayRef2, CowArray, Ix2};
 
 use crate::error::{Error, Result};
 use crate::ranks::COUNTED;
+use crate::real::Real;
 use crate::slab::Slab;
 
 /// A periodic rectangle with its nodes: Nx × Ny of them on sides Lx × Ly.
@@ -103,14 +104,20 @@ impl Grid {
         (self.slab.least(low), self.slab.most(high))
     }
 
+    /// The whole of a field, of which each of the processes that share the grid has its rows, on the first of them, and
+    /// nothing on the others; the field itself, if the grid is not shared. All of them have to ask.
+    pub fn gathered<'a, T: Real>(&self, field: &'a ArrayRef2<T>) -> Option<CowArray<'a, T, Ix2>> {
+        if self.is_shared() { self.slab.whole_of(field, false).map(CowArray::from) } else { Some(field.view().into()) }
+    }
+
+    /// The grid for this process alone, as for fields that were [gathered](Self::gathered).
+    pub fn alone(self) -> Self {
+        Self { slab: Slab::whole(self.shape()), ..self }
+    }
+
     /// The part of the grid that this process holds.
     pub(crate) fn slab(&self) -> Slab {
         self.slab
-    }
-
-    /// The grid for this process alone.
-    pub(crate) fn alone(self) -> Self {
-        Self { slab: Slab::whole(self.shape()), ..self }
     }
 
     /// The grid with another division into slabs.
@@ -125,6 +132,19 @@ impl Grid {
             return Err(Error::Value { name: "number of nodes of a process", value: nodes as f64, requirement });
         }
         Ok(Self { slab, ..self })
+    }
+
+    /// The grid in the rows of a slab of another one, on which it is a window.
+    pub(crate) fn in_rows_of(self, slab: &Slab) -> Self {
+        Self { slab: slab.window(self.shape()), ..self }
+    }
+
+    /// The grid, shared by the processes that share the one that is to be a window on it.
+    ///
+    /// # Errors
+    /// Those of [`Grid::within`].
+    pub(crate) fn shared_around(self, window: &Self) -> Result<Self> {
+        self.within(window.slab.around(self.shape()))
     }
 
     /// The grid, shared by the processes that share another one.

@@ -201,10 +201,10 @@ where
     /// [`Error::Shape`] if the fields are of another grid, [`Error::Value`] if the numbers are not those of a
     /// checkpoint.
     pub fn continuing(mut self, from: PathCheckpoint<T>) -> Result<Self> {
-        let shape = self.problem.grid().shape();
+        let slab = self.problem.grid().slab();
         let PathCheckpoint { numbers, mut fields } = from;
         for field in &mut fields {
-            Error::shape("field of the checkpoint", field.dim(), shape)?;
+            Error::agreed(slab, Error::shape("field of the checkpoint", field.dim(), slab.held()))?;
             if !field.is_standard_layout() {
                 *field = field.as_standard_layout().into_owned();
             }
@@ -243,9 +243,6 @@ where
 
     fn advance(&mut self, observe: Observer<'_>) -> Option<Result<PathStep<T>>> {
         if !self.state.solved {
-            if let Err(error) = Error::alone("path", self.problem.grid().slab()) {
-                return Some(Err(error));
-            }
             let control = *self.legs.first()?;
             let start = self.start.take();
             return self.begin(control, start, observe).transpose();
@@ -326,7 +323,7 @@ where
             return Ok(None);
         }
         let w = self.problem.law.work_of_adhesion().widen();
-        let rounding = T::epsilon().widen() / (solution.gap.len() as f64).sqrt() + f64::EPSILON;
+        let rounding = T::epsilon().widen() / (self.problem.grid().nodes() as f64).sqrt() + f64::EPSILON;
         let noise = 8.0 * rounding * self.problem.flat.work * self.problem.flat.padding;
         let (least, tolerance) = (1e-3 * w, self.settings.imbalance);
         let mut trial = self.state.judge(target, report, tolerance, least, noise);
@@ -395,7 +392,6 @@ where
 
     /// The gap at `target`, extrapolated from the last two gaps.
     fn predict(&self, target: f64) -> Array2<T> {
-        let shape = self.problem.grid().shape();
         match &self.gaps[..] {
             [before, last] => {
                 let steps = self.state.extrapolation(target).clamp(-FARTHEST, FARTHEST);
@@ -407,7 +403,7 @@ where
                 start
             }
             [.., last] => last.clone(),
-            [] => Array2::zeros(shape),
+            [] => Array2::zeros(self.problem.grid().field_shape()),
         }
     }
 

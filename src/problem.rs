@@ -191,7 +191,6 @@ impl<T: Real> PressedFlat<T> {
             Error::alone("elastic operator", slab)?;
         }
         if let Some(shape) = law.shape() {
-            Error::alone("adhesion law that varies over the surface", slab)?;
             Error::shape("adhesion law that varies over the surface", shape, grid.shape())?;
         }
         let ((nx, ny), whole) = (expected.shape(), operator.grid().shape());
@@ -334,8 +333,7 @@ impl<T: Real, O: ElasticOperator<T>, L: AdhesionLaw<T>> Problem<T, O, L> {
     /// # Errors
     /// [`Error::Shape`] or [`Error::Value`] if the grids differ; [`Error::Law`] if the law is not finite at zero gap;
     /// [`Error::NotFinite`] if K⁻¹h leaves the range of T; [`Error::Shared`] where several processes share the grid and
-    /// the operator does not take slabs, the law varies over the surface, or only one of surface and operator is
-    /// shared.
+    /// the operator does not take slabs, or only one of surface and operator is shared.
     pub fn new(surface: &Surface, mut operator: O, law: L) -> Result<Self> {
         let flat = PressedFlat::of(surface, &mut operator, &law)?;
         Ok(Self { operator, law, flat })

@@ -80,7 +80,7 @@ impl Ranks {
     pub(crate) fn gather<E: Sent>(self, own: &[E], shares: &Shares, all: &mut [E]) {
         if self.count == 1 {
             all.copy_from_slice(own);
-        } else {
+        } else if !all.is_empty() {
             job::gather(own, shares, all);
         }
     }

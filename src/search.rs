@@ -180,9 +180,8 @@ where
     ///
     /// # Errors
     /// [`Error::Control`] without a wall, where nothing is in contact, and with adhesion on a periodic surface with
-    /// absent nodes; [`Error::Value`] for a flat surface; [`Error::Shared`] where several processes share the grid.
+    /// absent nodes; [`Error::Value`] for a flat surface.
     pub fn new(solver: &'a mut Solver<C>, problem: &'a mut Problem<T, O, L>) -> Result<Self> {
-        Error::alone("search for a contact fraction", problem.operator.grid().slab())?;
         if let Wall::None = solver.constraint.wall() {
             let reason = "without a wall there is no contact to be counted: give a pressure or a gap";
             return Err(Error::Control { control: "contact-fraction", reason });

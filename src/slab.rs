@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use ndarray::{Array2, ArrayView2};
+use ndarray::{Array2, ArrayRef2, ArrayView2, CowArray, Ix2};
 
 use crate::ranks::{Ranks, Shares};
 use crate::real::Real;
@@ -30,21 +30,30 @@ pub(crate) struct Slab {
     shape: (usize, usize),
     /// rows of a band
     band: usize,
+    /// the number of bands that the ranks share
+    bands: usize,
     ranks: Ranks,
 }
 
 impl Slab {
     /// The slab of one of these ranks.
     pub(crate) fn new(shape: (usize, usize), ranks: Ranks) -> Self {
+        Self::of_window(shape, shape.1, ranks)
+    }
+
+    /// The slab of a grid with a window of this width, of which bands are whole chunks, too.
+    fn of_window(shape: (usize, usize), width: usize, ranks: Ranks) -> Self {
         let (nx, ny) = shape;
         let band = if ny < 2 {
             // the transform of a line has no slabs
             nx
         } else {
-            let unit = TILE.max(CHUNK >> ny.trailing_zeros().min(CHUNK.ilog2()));
+            let rows = |ny: usize| CHUNK >> ny.trailing_zeros().min(CHUNK.ilog2());
+            let unit = TILE.max(rows(ny)).max(rows(width));
             BAND.div_ceil(ny).max(nx.div_ceil(BANDS)).next_multiple_of(unit)
         };
-        Self { shape, band: band.max(1), ranks }
+        let band = band.max(1);
+        Self { shape, band, bands: nx.div_ceil(band), ranks }
     }
 
     /// The whole grid.
@@ -55,6 +64,16 @@ impl Slab {
     /// The slab of this process of another grid.
     pub(crate) fn of(&self, shape: (usize, usize)) -> Self {
         Self::new(shape, self.ranks)
+    }
+
+    /// The slab of this process of a larger grid, of which this one is to be a [`window`](Self::window).
+    pub(crate) fn around(&self, shape: (usize, usize)) -> Self {
+        Self::of_window(shape, self.shape.1, self.ranks)
+    }
+
+    /// The slab of a window on the first nodes along both sides, which has the rows of this one.
+    pub(crate) fn window(&self, shape: (usize, usize)) -> Self {
+        Self { shape, ..*self }
     }
 
     /// The shape of the whole grid.
@@ -104,24 +123,33 @@ impl Slab {
         count * start / bands..count * end / bands
     }
 
-    /// Rows of a field of all slabs, of which `held` are those of this one: `wanted` tells for each process the first
-    /// row that it needs and the number of them; the last row of the grid is followed by the first.
-    pub(crate) fn fetch(&self, held: ArrayView2<'_, f64>, wanted: impl Fn(usize) -> (usize, usize)) -> Array2<f64> {
+    /// The number of the first node that this process holds: nodes count along the rows of the whole grid.
+    pub(crate) fn first_node(&self) -> usize {
+        self.rows().start * self.shape.1
+    }
+
+    /// Rows of a field of all slabs, of which `held` are those of this one: `wanted` tells the rows that each process
+    /// needs.
+    pub(crate) fn fetch<I>(&self, held: ArrayView2<'_, f64>, wanted: impl Fn(usize) -> I) -> Array2<f64>
+    where
+        I: Iterator<Item = usize>,
+    {
         let (own, ranks) = (self.ranks.rank(), 0..self.ranks.count());
         // the rows of one process that another needs, in the order in which it needs them
         let passed = |from: usize, to: usize| {
-            let (rows, (first, count)) = (self.rows_of(from), wanted(to));
-            (0..count).map(move |k| (k, (first + k) % self.shape.0)).filter(move |(_, row)| rows.contains(row))
+            let rows = self.rows_of(from);
+            wanted(to).enumerate().filter(move |(_, row)| rows.contains(row))
         };
+        let count = wanted(own).count();
         let (start, width) = (self.rows().start, held.ncols());
         let mut sent = Vec::new();
         for to in ranks.clone() {
             passed(own, to).for_each(|(_, row)| sent.extend(held.row(row - start)));
         }
-        let mut received = vec![0.0; wanted(own).1 * width];
+        let mut received = vec![0.0; count * width];
         let of = |from: usize, to: usize| passed(from, to).count() * width;
         self.ranks.exchange(&sent, &self.shares(|to| of(own, to)), &mut received, &self.shares(|from| of(from, own)));
-        let mut rows = Array2::zeros((wanted(own).1, width));
+        let mut rows = Array2::zeros((count, width));
         let mut next = received.chunks(width.max(1));
         for from in ranks {
             for (k, _) in passed(from, own) {
@@ -132,8 +160,16 @@ impl Slab {
         rows
     }
 
+    /// A field in the rows of another slab of the same grid; all processes have to ask.
+    pub(crate) fn moved<'a, T: Real>(&self, field: CowArray<'a, T, Ix2>, to: &Self) -> CowArray<'a, T, Ix2> {
+        if !self.is_shared() || self == to {
+            return field;
+        }
+        self.fetch(field.mapv(T::widen).view(), |rank| to.rows_of(rank)).mapv(T::lit).into()
+    }
+
     /// The field of all slabs, of which `held` is that of this one, on every process, or on the first alone.
-    pub(crate) fn whole_of<T: Real>(&self, held: &Array2<T>, everywhere: bool) -> Option<Array2<T>> {
+    pub(crate) fn whole_of<T: Real>(&self, held: &ArrayRef2<T>, everywhere: bool) -> Option<Array2<T>> {
         let (own, ny) = (self.ranks.rank(), self.shape.1);
         let gets = everywhere || own == 0;
         let mut whole = gets.then(|| Array2::zeros(self.shape));
@@ -199,9 +235,9 @@ impl Slab {
         (rank * bands).div_ceil(count)..((rank + 1) * bands).div_ceil(count)
     }
 
-    /// The number of bands of the grid.
+    /// The number of bands that the processes share: those of the grid, or of the one on which it is a window.
     pub(crate) fn bands(&self) -> usize {
-        self.shape.0.div_ceil(self.band)
+        self.bands
     }
 
     /// The chunks of a band.

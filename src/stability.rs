@@ -11,11 +11,11 @@ use crate::adhesion::AdhesionLaw;
 use crate::constraint::{ContactConstraint, Projection};
 use crate::elastic::ElasticOperator;
 use crate::error::{Error, Result};
-use crate::field::{Partial, Reducer, flat, read, write};
+use crate::field::{CHUNK, Partial, Reducer, flat, write};
+use crate::grid::Grid;
 use crate::par::{self, Parts};
 use crate::problem::{Control, Problem, Window, smoothed_law};
 use crate::real::Real;
-use crate::slab::Slab;
 use crate::solver::{Of, Potential, Solution, check_wall};
 
 mod bound;
@@ -246,8 +246,8 @@ impl StabilityTest {
         let kind = if let Control::MeanGap(_) = control { Control::MeanGap(0.0) } else { control };
         let (load, window) = (problem.flat.load(kind, constraint.wall())?, problem.flat.window.as_ref());
         let smoothed = smoothed_law(&problem.operator, &problem.law);
-        let local = Potential::new(smoothed.as_deref().unwrap_or(&problem.law), constraint, None);
-        let slopes = slopes(gap, local, window)?;
+        let law = smoothed.as_deref().unwrap_or(&problem.law);
+        let slopes = slopes(gap, (law, constraint), (problem.operator.grid(), window))?;
         let smoothed = smoothed.is_some();
         let hessian = Hessian::new(&mut problem.operator, slopes, load);
         let mut stability = par::within(|| self.judge(hessian, relative_error, smoothed))?;
@@ -298,33 +298,36 @@ where
     O: ElasticOperator<T>,
     L: AdhesionLaw<T>,
 {
-    Error::alone("stability", problem.grid().slab())?;
-    Error::shape("gap", gap.dim(), problem.grid().shape())?;
+    let slab = problem.grid().slab();
+    Error::agreed(slab, Error::shape("gap", gap.dim(), slab.held()))?;
     if problem.flat.window.is_none() {
-        Error::all_finite("gap", gap.view())?;
+        Error::all_finite_in(slab, "gap", gap.view())?;
     }
     check_wall(&problem.law, constraint.wall())?;
-    if let Some(gap) = gap.iter().find(|&&gap| constraint.wall().is_rigid() && gap < T::zero()) {
+    let negative = gap.iter().find(|&&gap| constraint.wall().is_rigid() && gap < T::zero());
+    let refused = negative.map_or(Ok(()), |gap| {
         let requirement =
             "zero or positive; a solution with springs or without a wall is looked at with its constraint";
-        return Err(Error::Value { name: "gap", value: gap.widen(), requirement });
-    }
-    Ok(())
+        Err(Error::Value { name: "gap", value: gap.widen(), requirement })
+    });
+    Error::agreed(slab, refused)
 }
 
 /// The second derivative of the local energy at every node of the operator's grid, and infinity where a rigid wall is
 /// touched.
-fn slopes<T: Real>(gap: &Array2<T>, local: Potential<'_, T>, window: Option<&Window>) -> Result<Array2<T>> {
-    let standard;
-    let gap = if gap.is_standard_layout() {
-        gap
-    } else {
-        standard = gap.as_standard_layout().into_owned();
-        &standard
-    };
+fn slopes<T: Real>(
+    gap: &Array2<T>,
+    (law, constraint): (&dyn AdhesionLaw<T>, &dyn ContactConstraint<T>),
+    (grid, window): (&Grid, Option<&Window>),
+) -> Result<Array2<T>> {
+    let slab = window.map_or(grid, Window::held).slab();
+    let law_held = window.and_then(|window| law.in_rows_of(window.held()));
+    let local = Potential::new(law_held.as_deref().unwrap_or(law), constraint, None);
+    let gap = window.map_or_else(|| gap.view().into(), |window| window.hold(gap.view()));
+    let gap = gap.as_standard_layout();
+    let gaps = gap.as_slice().unwrap_or_default();
     let mut slopes = Array2::zeros(gap.dim());
-    let mut reducer = Reducer::new(Slab::whole(gap.dim()));
-    let wrong = reducer.run(read(gap).zip(write(&mut slopes)), |first, (gap, slopes)| {
+    let wrong = Reducer::new(slab).run(par::chunks(gaps, CHUNK).zip(write(&mut slopes)), |first, (gap, slopes)| {
         let mut part = Partial::NONE;
         local.evaluate(Of::Slope, first, gap, slopes);
         for (i, (slope, &gap)) in slopes.iter_mut().zip(gap).enumerate() {
@@ -337,9 +340,12 @@ fn slopes<T: Real>(gap: &Array2<T>, local: Potential<'_, T>, window: Option<&Win
         part
     });
     if wrong.min.is_finite() {
-        let node = wrong.min as usize;
-        let (gap, value) = (flat(gap)[node].widen(), flat(&slopes)[node].widen());
-        return Err(Error::Law { function: "slope of the local traction", gap, value, expected: None });
+        let own = (wrong.min as usize).checked_sub(slab.first_node());
+        let own = own.and_then(|node| Some((gaps.get(node)?.widen(), flat(&slopes).get(node)?.widen())));
+        let refused = own.map_or(Ok(()), |(gap, value)| {
+            Err(Error::Law { function: "slope of the local traction", gap, value, expected: None })
+        });
+        Error::agreed(slab, refused)?;
     }
     // nothing attracts, and nothing confines, where no surface faces the half-space
     Ok(match window {

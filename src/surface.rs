@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 use std::f64::consts::TAU;
 
-use ndarray::Array2;
+use ndarray::{Array2, Axis, Slice};
 
 use crate::error::{Error, Result};
 use crate::field;
@@ -73,28 +73,32 @@ impl Surface {
     ///
     /// # Errors
     /// [`Error::Shape`] if the heights do not fit the grid, [`Error::NotFinite`] with the number and place of infinite
-    /// ones, [`Error::Value`] if all nodes are absent, [`Error::Shared`] for absent nodes on a grid that several
-    /// processes share.
+    /// ones, [`Error::Value`] if all nodes are absent.
     pub fn with_absent(grid: Grid, heights: Array2<f64>) -> Result<Self> {
         let slab = grid.slab();
-        if slab.has(heights.iter().any(|h| h.is_nan())) {
-            Error::alone("absent nodes", slab)?;
-        }
         Error::agreed(slab, Error::shape("heights", heights.dim(), grid.field_shape()))?;
-        if !heights.iter().any(|h| h.is_nan()) {
+        let missing = heights.iter().filter(|h| h.is_nan()).count();
+        let all_missing = grid.total(missing);
+        if all_missing == 0 {
             return Self::new(grid, heights);
         }
-        if heights.iter().any(|h| h.is_infinite()) {
-            Error::all_finite("heights", heights.mapv(|h| if h.is_nan() { 0.0 } else { h }).view())?;
+        if slab.has(heights.iter().any(|h| h.is_infinite())) {
+            Error::all_finite_in(slab, "heights", heights.mapv(|h| if h.is_nan() { 0.0 } else { h }).view())?;
         }
-        let absent = Array2::from_shape_vec(grid.shape(), heights.iter().map(|h| h.is_nan()).collect()).ok();
-        if heights.iter().all(|h| h.is_nan()) {
+        let absent = Array2::from_shape_vec(slab.held(), heights.iter().map(|h| h.is_nan()).collect()).ok();
+        if all_missing == grid.nodes() {
             let requirement = "at least 1: all nodes are absent";
             return Err(Error::Value { name: "number of nodes with a surface", value: 0.0, requirement });
         }
-        let mut map = Topography::new(heights);
+        // holes are filled as on the whole map, by every process
+        let whole = if slab.is_shared() { slab.whole_of(&heights, true).unwrap_or_default() } else { heights };
+        let mut map = Topography::new(whole);
         map.lengths = Some(grid.lengths());
-        Ok(Self { absent, ..Self::new(grid, map.fill()?.heights)? })
+        let mut filled = map.fill()?.heights;
+        if slab.is_shared() {
+            filled = filled.slice_axis(Axis(0), Slice::from(slab.rows())).to_owned();
+        }
+        Ok(Self { absent, ..Self::new(grid, filled)? })
     }
 
     /// A surface from a function of the coordinates, `(x, y) → h`.
@@ -152,31 +156,38 @@ impl Surface {
     /// The whole surface, on a grid that this process has alone: the surface itself, unless several processes share its
     /// grid. All of these have to ask for it, and get it.
     pub fn whole(&self) -> Cow<'_, Self> {
-        if !self.grid.is_shared() {
-            return Cow::Borrowed(self);
-        }
-        let heights = self.grid.slab().whole_of(&self.heights, true).unwrap_or_default();
-        Cow::Owned(Self { grid: self.grid.alone(), heights, absent: None })
+        self.collected(true).unwrap_or(Cow::Borrowed(self))
     }
 
     /// The whole surface, as [`Surface::whole`], on the first of the processes that share its grid, and nothing on the
     /// others. All of them have to ask.
     pub fn gathered(&self) -> Option<Cow<'_, Self>> {
+        self.collected(false)
+    }
+
+    /// The whole surface on every process, or on the first alone.
+    fn collected(&self, everywhere: bool) -> Option<Cow<'_, Self>> {
         if !self.grid.is_shared() {
             return Some(Cow::Borrowed(self));
         }
-        let heights = self.grid.slab().whole_of(&self.heights, false)?;
-        Some(Cow::Owned(Self { grid: self.grid.alone(), heights, absent: None }))
+        let slab = self.grid.slab();
+        let heights = slab.whole_of(&self.heights, everywhere);
+        let flags = |absent: &Array2<bool>| absent.mapv(f64::from);
+        let absent = self.absent.as_ref().and_then(|absent| slab.whole_of(&flags(absent), everywhere));
+        let absent = absent.map(|flags| flags.mapv(|absent| absent > 0.0));
+        Some(Cow::Owned(Self { grid: self.grid.alone(), heights: heights?, absent }))
     }
 
-    /// The absent nodes, at which nothing faces the half-space, of shape (Nx, Ny); nothing if there are none.
+    /// The absent nodes, at which nothing faces the half-space, of the shape of the [heights](Self::heights); nothing
+    /// if there are none.
     pub fn absent(&self) -> Option<&Array2<bool>> {
         self.absent.as_ref()
     }
 
-    /// The number of absent nodes.
+    /// The number of absent nodes, of the whole surface. Where several processes share its grid, all have to ask.
     pub fn absent_nodes(&self) -> usize {
-        self.absent.as_ref().map_or(0, |absent| absent.iter().filter(|&&absent| absent).count())
+        let absent = |absent: &Array2<bool>| absent.iter().filter(|&&absent| absent).count();
+        self.absent.as_ref().map_or(0, |own| self.grid.total(absent(own)))
     }
 
     /// The mean height.

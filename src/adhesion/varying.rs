@@ -7,7 +7,9 @@ use ndarray::{Array2, ArrayView2};
 use super::AdhesionLaw;
 use crate::error::{Error, Result};
 use crate::field::flat;
+use crate::grid::Grid;
 use crate::real::Real;
+use crate::slab::Slab;
 
 /// A law whose work of adhesion differs from node to node, w(x, y): energy, traction and slope in proportion to it.
 ///
@@ -31,7 +33,9 @@ use crate::real::Real;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Varying<L> {
     law: L,
-    /// the work of adhesion at each node over that of the law
+    /// of the grid of the map
+    slab: Slab,
+    /// the work of adhesion at each node of the slab over that of the law
     shares: Arc<Array2<f64>>,
     largest: f64,
     strongest: (usize, usize),
@@ -42,27 +46,54 @@ pub struct Varying<L> {
 impl<L: AdhesionLaw<f64>> Varying<L> {
     /// The law with these works of adhesion at the nodes, shape (Nx, Ny), in place of its own.
     ///
+    /// Where several processes share the grid of the surface, each has all of these: [`Varying::on`] takes less memory.
+    ///
     /// # Errors
     /// [`Error::NotFinite`], or [`Error::Value`] if a work of adhesion is negative, if none is positive, or if the law
     /// has none that it could be scaled from.
     pub fn new(law: L, works: ArrayView2<'_, f64>) -> Result<Self> {
-        Error::all_finite("work of adhesion", works)?;
-        if let Some(&value) = works.iter().find(|&&work| work < 0.0) {
-            return Err(Error::Value {
-                name: "work of adhesion",
-                value,
-                requirement: "zero or positive at every node",
-            });
-        }
+        Self::in_slab(law, works, Slab::whole(works.dim()))
+    }
+
+    /// As [`Varying::new`], on a grid that several processes may share: the works of adhesion are those of the rows that
+    /// this one holds, [`Grid::rows`].
+    ///
+    /// ```
+    /// use asperity::{Exponential, Grid, Varying};
+    /// let grid = Grid::square(64, 1.0)?; // or a shared one
+    /// let work = grid.sample(|x, y| 1e-5 * (1.0 + (x - y).powi(2)));
+    /// let law = Varying::on(&grid, Exponential::new(1e-5, 2e-3)?, work.view())?;
+    /// assert_eq!(law.strongest(), (0, 63));
+    /// # Ok::<(), asperity::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Those of [`Varying::new`]; [`Error::Shape`] if the works of adhesion do not have the shape of the grid's fields.
+    pub fn on(grid: &Grid, law: L, works: ArrayView2<'_, f64>) -> Result<Self> {
+        Error::agreed(grid.slab(), Error::shape("work of adhesion", works.dim(), grid.field_shape()))?;
+        Self::in_slab(law, works, grid.slab())
+    }
+
+    fn in_slab(law: L, works: ArrayView2<'_, f64>, slab: Slab) -> Result<Self> {
+        Error::all_finite_in(slab, "work of adhesion", works)?;
+        let negative = works.iter().find(|&&work| work < 0.0).map_or(Ok(()), |&value| {
+            let requirement = "zero or positive at every node";
+            Err(Error::Value { name: "work of adhesion", value, requirement })
+        });
+        Error::agreed(slab, negative)?;
         let own = Error::positive("work of adhesion of the law that varies", law.work_of_adhesion())?;
-        let (strongest, &most) = works
-            .indexed_iter()
-            .reduce(|most, next| if next.1 > most.1 { next } else { most })
-            .ok_or(Error::Value { name: "number of nodes", value: 0.0, requirement: "positive" })?;
+        if slab.nodes() == 0 {
+            return Err(Error::Value { name: "number of nodes", value: 0.0, requirement: "positive" });
+        }
+        let most = slab.most(works.iter().fold(0.0, |most: f64, &work| most.max(work)));
         Error::positive("largest work of adhesion", most)?;
+        let (first, ny) = (slab.first_node(), slab.shape().1);
+        let own_strongest = works.indexed_iter().find(|&(_, &work)| work == most);
+        let node = own_strongest.map_or(f64::INFINITY, |((ix, iy), _)| (first + ix * ny + iy) as f64);
+        let node = slab.least(node) as usize;
         let shares = Arc::new(works.mapv(|work| work / own).as_standard_layout().into_owned());
-        let repels = works.iter().all(|&work| work > 0.0);
-        Ok(Self { law, shares, largest: most / own, strongest, repels })
+        let repels = !slab.has(works.iter().any(|&work| work <= 0.0));
+        Ok(Self { law, slab, shares, largest: most / own, strongest: (node / ny, node % ny), repels })
     }
 }
 
@@ -78,8 +109,12 @@ impl<L> Varying<L> {
     }
 
     fn scale<T: Real>(&self, first: usize, values: &mut [T]) {
-        let shares = flat(&self.shares).get(first..).unwrap_or_default();
-        values.iter_mut().zip(shares).for_each(|(value, &share)| *value *= T::lit(share));
+        let own = first.checked_sub(self.slab.first_node());
+        let shares = own.and_then(|own| flat(&self.shares).get(own..)).unwrap_or_default();
+        // nodes of another slab have no answer here
+        let (own, others) = values.split_at_mut(shares.len().min(values.len()));
+        others.fill(T::nan());
+        own.iter_mut().zip(shares).for_each(|(value, &share)| *value *= T::lit(share));
     }
 }
 
@@ -107,21 +142,33 @@ impl<T: Real, L: AdhesionLaw<T>> AdhesionLaw<T> for Varying<L> {
         self.law.is_zero()
     }
     fn shape(&self) -> Option<(usize, usize)> {
-        Some(self.shares.dim())
+        Some(self.slab.shape())
+    }
+    fn in_rows_of(&self, grid: &Grid) -> Option<Box<dyn AdhesionLaw<T> + '_>> {
+        if !self.slab.is_shared() || self.slab == grid.slab() {
+            return None;
+        }
+        let shares = Arc::new(self.slab.moved(self.shares.view().into(), &grid.slab()).into_owned());
+        let Self { largest, strongest, repels, .. } = *self;
+        let law: &dyn AdhesionLaw<T> = &self.law;
+        Some(Box::new(Varying { law, slab: grid.slab(), shares, largest, strongest, repels }))
     }
     fn coarsened(&self, (nx, ny): (usize, usize)) -> Option<Box<dyn AdhesionLaw<T> + '_>> {
-        let (rows, columns) = self.shares.dim();
-        let shape = (rows.div_ceil(nx), columns.div_ceil(ny));
-        let shares = Arc::new(Array2::from_shape_fn(shape, |(ix, iy)| self.shares[[ix * nx, iy * ny]]));
+        let (rows, columns) = self.slab.shape();
+        let slab = self.slab.of((rows.div_ceil(nx), columns.div_ceil(ny)));
+        let needed = |rank| slab.rows_of(rank).map(move |row| row * nx);
+        let fetched = self.slab.is_shared().then(|| self.slab.fetch(self.shares.view(), needed));
+        let (every, from) = fetched.as_ref().map_or((nx, &*self.shares), |fetched| (1, fetched));
+        let shares = Arc::new(Array2::from_shape_fn(slab.held(), |(ix, iy)| from[[ix * every, iy * ny]]));
         let Self { largest, strongest: (ix, iy), repels, .. } = *self;
         let law: &dyn AdhesionLaw<T> = &self.law;
-        Some(Box::new(Varying { law, shares, largest, strongest: (ix / nx, iy / ny), repels }))
+        Some(Box::new(Varying { law, slab, shares, largest, strongest: (ix / nx, iy / ny), repels }))
     }
     fn smoothed(&self, compliance: T) -> Option<Box<dyn AdhesionLaw<T> + '_>> {
         // where the law is strongest its jumps are the largest
         let law = self.law.smoothed(compliance * T::lit(self.largest))?;
-        let Self { largest, strongest, repels, .. } = *self;
-        Some(Box::new(Varying { law, shares: self.shares.clone(), largest, strongest, repels }))
+        let Self { slab, largest, strongest, repels, .. } = *self;
+        Some(Box::new(Varying { law, slab, shares: self.shares.clone(), largest, strongest, repels }))
     }
     fn energies(&self, first: usize, gaps: &[T], energies: &mut [T]) {
         self.law.energies(first, gaps, energies);

@@ -109,7 +109,8 @@ impl<T: Real> Uzawa<T> {
     }
 
     fn multiplier(&self, node: usize) -> T {
-        flat(&self.multipliers).get(node).copied().unwrap_or_default()
+        let own = node.checked_sub(self.slab.first_node());
+        own.and_then(|own| flat(&self.multipliers).get(own)).copied().unwrap_or_default()
     }
 }
 

@@ -2,6 +2,7 @@
 
 use crate::adhesion::AdhesionLaw;
 use crate::real::Real;
+use crate::slab::Slab;
 
 /// The largest number of works of adhesion that are told apart.
 const MOST: usize = 16;
@@ -22,10 +23,14 @@ pub struct Patch {
     pub attractive_fraction: f64,
 }
 
+/// A work of adhesion, and the nodes that have it: all, those in contact, and those that attract.
+type Counts = (f64, [u64; 3]);
+
 /// The patches, by their work of adhesion, of nodes of which is told whether they are in contact and whether they
 /// attract, and nothing of absent ones. None if the law is the same everywhere, or of too many works of adhesion.
 pub(super) fn patches<T: Real>(
     law: &impl AdhesionLaw<T>,
+    slab: Slab,
     nodes: impl ExactSizeIterator<Item = Option<[bool; 2]>>,
 ) -> Vec<Patch> {
     if law.shape().is_none() {
@@ -34,29 +39,45 @@ pub(super) fn patches<T: Real>(
     // where nothing presses them, the surfaces have given all of it up
     let gaps = vec![law.rest().unwrap_or_else(T::zero); nodes.len()];
     let mut energies = vec![T::zero(); gaps.len()];
-    law.energies(0, &gaps, &mut energies);
-    let mut counts: Vec<(f64, [usize; 3])> = Vec::new();
+    law.energies(slab.first_node(), &gaps, &mut energies);
+    let mut counts = Vec::new();
     for (energy, node) in energies.iter().zip(nodes) {
         let (Some([touches, attracts]), work) = (node, 0.0 - energy.widen()) else { continue };
-        let at = counts.iter().position(|(other, _)| *other == work).unwrap_or(counts.len());
-        if at == MOST {
-            return Vec::new();
+        count(&mut counts, work, [1, u64::from(touches), u64::from(attracts)]);
+    }
+    if slab.is_shared() {
+        let own: Vec<u64> = counts.iter().flat_map(|(work, [a, b, c])| [work.to_bits(), *a, *b, *c]).collect();
+        let ranks = slab.ranks();
+        let lengths = ranks.each(own.len() as u64);
+        let mut all = vec![0; lengths.iter().sum::<u64>() as usize];
+        ranks.gather(&own, &slab.shares(|rank| lengths[rank] as usize), &mut all);
+        counts.clear();
+        for patch in all.chunks_exact(4) {
+            count(&mut counts, f64::from_bits(patch[0]), [patch[1], patch[2], patch[3]]);
         }
-        if at == counts.len() {
-            counts.push((work, [0; 3]));
-        }
-        let (_, [all, contact, attracting]) = &mut counts[at];
-        *all += 1;
-        *contact += usize::from(touches);
-        *attracting += usize::from(attracts);
+    }
+    if counts.len() > MOST {
+        return Vec::new();
     }
     counts.sort_by(|(a, _), (b, _)| a.total_cmp(b));
-    let whole: usize = counts.iter().map(|(_, [all, ..])| all).sum();
-    let patch = |(work_of_adhesion, [all, contact, attracting]): (f64, [usize; 3])| {
-        let share = |count: usize, of: usize| count as f64 / of as f64;
+    let whole: u64 = counts.iter().map(|(_, [all, ..])| all).sum();
+    let patch = |(work_of_adhesion, [all, contact, attracting]): Counts| {
+        let share = |count: u64, of: u64| count as f64 / of as f64;
         let area_fraction = share(all, whole);
         let (contact_fraction, attractive_fraction) = (share(contact, all), share(attracting, all));
         Patch { work_of_adhesion, area_fraction, contact_fraction, attractive_fraction }
     };
     counts.into_iter().map(patch).collect()
+}
+
+/// Adds nodes to those of their work of adhesion; of more works than are told apart only one.
+fn count(counts: &mut Vec<Counts>, work: f64, nodes: [u64; 3]) {
+    let at = counts.iter().position(|(other, _)| *other == work).unwrap_or(counts.len());
+    if at == counts.len() {
+        if at > MOST {
+            return;
+        }
+        counts.push((work, [0; 3]));
+    }
+    counts[at].1.iter_mut().zip(nodes).for_each(|(count, more)| *count += more);
 }

@@ -20,7 +20,12 @@ pub(super) fn coarsen(surface: &Surface, shape: (usize, usize)) -> Result<Option
     let [mut along_x, along_y] = [(nx, shape.0), (ny, shape.1)].map(|(from, to)| places(from, to, true));
     let needed = fetched(surface.heights().view(), surface.grid(), &grid, &mut along_x);
     let heights = needed.as_ref().unwrap_or(surface.heights());
-    let faces = |i, j| surface.absent().is_none_or(|absent| !absent[[i, j]]);
+    let fetch_absent = |absent: &Array2<bool>| {
+        let flags = absent.mapv(f64::from);
+        fetched(flags.view(), surface.grid(), &grid, &mut places(nx, shape.0, true)).unwrap_or(flags)
+    };
+    let absent = surface.absent().map(fetch_absent);
+    let faces = |i, j| absent.as_ref().is_none_or(|absent| absent[[i, j]] == 0.0);
     let heights = Array2::from_shape_fn(grid.field_shape(), |(i, j)| {
         let ([x, y], here) = ([&along_x[i], &along_y[j]], (along_x[i].nodes[1], along_y[j].nodes[1]));
         match faces(here.0, here.1) {
@@ -42,13 +47,12 @@ fn fetched(field: ArrayView2<'_, f64>, from: &Grid, to: &Grid, places: &mut Vec<
     // from the node before the first place to the second one after the last
     let needed = |rank| {
         let rows = to.slab().rows_of(rank);
-        if rows.is_empty() {
-            return (0, 0);
-        }
         let at = |k: usize| k * nx / to.shape().0;
-        ((at(rows.start) + nx - 1) % nx, at(rows.end - 1) - at(rows.start) + 4)
+        let (first, count) =
+            if rows.is_empty() { (0, 0) } else { (at(rows.start), at(rows.end - 1) - at(rows.start) + 4) };
+        (first + nx - 1..).map(move |row| row % nx).take(count)
     };
-    let (first, _) = needed(to.slab().ranks().rank());
+    let first = needed(to.slab().ranks().rank()).next().unwrap_or_default();
     *places = places.drain(..).skip(to.rows().start).take(to.rows().len()).collect();
     for place in &mut *places {
         place.nodes.iter_mut().for_each(|node| *node = (*node + nx - first) % nx);

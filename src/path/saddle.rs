@@ -7,7 +7,7 @@ use crate::elastic::ElasticOperator;
 use crate::error::Result;
 use crate::problem::{Control, Parts, smoothed_law};
 use crate::real::Real;
-use crate::solver::{Observer, Potential, Solution, Status};
+use crate::solver::{Observer, Solution, Status};
 use crate::stability::Saddle;
 
 /// The largest change of the gap that is made along the mode, in ranges of adhesion.
@@ -32,8 +32,9 @@ where
         let load = self.state.held(&self.problem.flat);
         let Parts { operator, law, flat } = self.problem.parts();
         let smoothed = if self.settings.smooth { smoothed_law(&*operator, law) } else { None };
-        let local = Potential::new(smoothed.as_deref().unwrap_or(law), &self.solver.constraint, None);
-        self.watch.look(operator, local, (&solution.gap, flat.window.as_ref()), load)
+        let followed = smoothed.as_deref().unwrap_or(law);
+        let gap = (&solution.gap, flat.window.as_ref());
+        self.watch.look(operator, (followed, &self.solver.constraint), gap, load)
     }
 
     /// Goes down from a saddle along its mode, to a state that is none, if there is one; and whether the branch was
@@ -44,19 +45,20 @@ where
         control: Control,
         observe: Observer<'_>,
     ) -> Result<(Option<Solution<T>>, bool)> {
+        let slab = self.problem.grid().slab();
         let moved = self.gaps.last().map(|last| {
             let mut moved = from.gap.clone();
             // absent nodes are infinitely far, and stay there
             moved.zip_mut_with(last, |gap, &last| *gap = if *gap == last { T::zero() } else { *gap - last });
             moved
         });
-        let share = moved.map_or(0.0, |moved| self.watch.share(&moved));
+        let share = moved.map_or(0.0, |moved| self.watch.share(&moved, slab));
         let drawn = share.abs() > DRAWN;
         let mut gap = from.gap.clone();
         for _ in 0..SADDLES {
             let amplitude = PERTURBATION * self.problem.law.range().widen();
             let least = self.least();
-            self.watch.displace(&mut gap, least, amplitude, drawn.then_some(share));
+            self.watch.displace((&mut gap, slab), least, amplitude, drawn.then_some(share));
             let left = self.solve(control, Some(&gap), observe)?;
             if left.report.status != Status::Converged {
                 self.failed |= left.report.status == Status::Stopped;

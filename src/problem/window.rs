@@ -1,10 +1,12 @@
 //! The window of a surface on the grid of an operator: where a surface faces the half-space, and where nothing does.
 
+use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
-use ndarray::{Array2, ArrayView2, Axis, Slice};
+use ndarray::{Array2, ArrayView2, Axis, CowArray, Ix2, Slice, Zip};
 
 use crate::error::{Error, Result};
+use crate::field::{flat, flat_mut};
 use crate::grid::Grid;
 use crate::real::Real;
 use crate::slab::Slab;
@@ -12,16 +14,20 @@ use crate::surface::Surface;
 
 /// The window of a surface: the nodes of the operator's grid that face it. On all others there is neither wall nor law.
 ///
-/// The surface is on the first nodes along both axes; some of these may be absent.
+/// The surface is on the first nodes along both axes; some of these may be absent. Where several processes share the
+/// grids, they may divide that of the surface otherwise than that of the operator: what is done at the nodes of the
+/// surface is done by the process that has them on the operator's grid.
 #[derive(Clone, Debug)]
 pub(crate) struct Window {
     /// the grid of the surface
     grid: Grid,
+    /// the grid of the surface in the rows of the operator's slab
+    held: Grid,
     /// of the operator's grid
     slab: Slab,
     /// the runs of nodes that face the surface, within a row each, in their order
     runs: Vec<Run>,
-    /// the number of these nodes
+    /// the number of these nodes in all slabs
     facing: usize,
 }
 
@@ -37,17 +43,22 @@ impl Window {
     /// The window of a surface; none if every node of the operator's grid faces it.
     pub(super) fn new(surface: &Surface, slab: Slab) -> Option<Self> {
         let grid = *surface.grid();
-        let ((nx, ny), shape) = (grid.shape(), slab.shape());
-        if (nx, ny) == shape && surface.absent().is_none() {
+        let ((nx, ny), (whole, width)) = (grid.shape(), slab.shape());
+        if (nx, ny) == (whole, width) && surface.absent().is_none() {
             return None;
         }
-        let rows = slab.rows();
-        let faces = |i: usize, j: usize| surface.absent().is_none_or(|absent| !absent[[i, j]]);
+        let held = grid.in_rows_of(&slab);
+        let absent = surface.absent().map(|absent| {
+            let flags = CowArray::from(absent.mapv(f64::from));
+            grid.slab().moved(flags, &held.slab()).mapv(|absent| absent > 0.0)
+        });
+        let first = held.rows().start;
+        let faces = |i: usize, j: usize| absent.as_ref().is_none_or(|absent| !absent[[i - first, j]]);
         let mut runs: Vec<Run> = Vec::new();
-        for i in rows.start..rows.end.min(nx) {
+        for i in held.rows() {
             let mut open = false;
             for j in 0..ny {
-                let node = (i - rows.start) * shape.1 + j;
+                let node = i * width + j;
                 match runs.last_mut() {
                     Some(run) if open && faces(i, j) => run.nodes.end = node + 1,
                     _ if faces(i, j) => runs.push(Run { nodes: node..node + 1, first: i * ny + j }),
@@ -57,12 +68,17 @@ impl Window {
             }
         }
         let facing = grid.total(runs.iter().map(|run| run.nodes.len()).sum());
-        Some(Self { grid, slab, runs, facing })
+        Some(Self { grid, held, slab, runs, facing })
     }
 
     /// The grid of the surface.
     pub(crate) fn grid(&self) -> &Grid {
         &self.grid
+    }
+
+    /// The grid of the surface in the rows of the operator's slab.
+    pub(crate) fn held(&self) -> &Grid {
+        &self.held
     }
 
     /// The number of nodes that face the surface.
@@ -100,28 +116,37 @@ impl Window {
             .is_some_and(|run| run.nodes.contains(&node))
     }
 
+    /// A field of the surface's grid in the rows of the operator's slab.
+    pub(crate) fn hold<'a, T: Real>(&self, field: impl Into<CowArray<'a, T, Ix2>>) -> CowArray<'a, T, Ix2> {
+        self.grid.slab().moved(field.into(), &self.held.slab())
+    }
+
     /// A field of the surface's grid on that of the operator: what is not finite, and the nodes beyond the window, are
     /// interpolated, linearly along the rows, and the rows that have nothing between the others; opposite sides meet.
     pub(crate) fn extend<T: Real>(&self, field: ArrayView2<'_, T>) -> Array2<T> {
-        let ((nx, ny), shape) = (self.grid.shape(), self.slab.shape());
+        self.extended(self.hold(field).view())
+    }
+
+    /// As [`extend`](Self::extend), of a field in the rows of the operator's slab.
+    fn extended<T: Real>(&self, field: ArrayView2<'_, T>) -> Array2<T> {
+        let (nx, (_, width)) = (self.grid.shape().0, self.slab.shape());
+        let mut extended = Array2::from_elem((field.nrows().max(self.slab.held().0), width), T::nan());
+        let mut known = vec![0; field.nrows()];
+        for ((field, mut row), is_known) in field.rows().into_iter().zip(extended.rows_mut()).zip(&mut known) {
+            row.iter_mut().zip(field).for_each(|(to, &from)| *to = from);
+            let known: Vec<usize> = (0..field.len()).filter(|&j| field[j].is_finite()).collect();
+            *is_known = u8::from(!known.is_empty());
+            between(&known, width, |j, a, b, share| row[j] = row[a] + T::lit(share) * (row[b] - row[a]));
+        }
+        let slab = self.held.slab();
+        let mut rows = vec![0; nx];
+        slab.ranks().gather(&known, &slab.shares(|rank| slab.rows_of(rank).len()), &mut rows);
+        let rows: Vec<usize> = (0..nx).filter(|&i| rows[i] > 0).collect();
         if self.slab.is_shared() {
-            return self.extend_shared(field);
+            return self.extend_shared(extended, &rows);
         }
-        let mut extended = Array2::from_elem(shape, T::nan());
-        field.indexed_iter().for_each(|(node, &value)| extended[node] = value);
-        let mut rows = Vec::new();
-        for i in 0..nx {
-            let known: Vec<usize> = (0..ny).filter(|&j| extended[[i, j]].is_finite()).collect();
-            if !known.is_empty() {
-                rows.push(i);
-            }
-            between(&known, shape.1, |j, a, b, share| {
-                let (a, b) = (extended[[i, a]], extended[[i, b]]);
-                extended[[i, j]] = a + T::lit(share) * (b - a);
-            });
-        }
-        between(&rows, shape.0, |i, a, b, share| {
-            for j in 0..shape.1 {
+        between(&rows, self.slab.shape().0, |i, a, b, share| {
+            for j in 0..width {
                 let (a, b) = (extended[[a, j]], extended[[b, j]]);
                 extended[[i, j]] = a + T::lit(share) * (b - a);
             }
@@ -129,90 +154,75 @@ impl Window {
         extended
     }
 
-    /// As [`extend`](Self::extend), of fields without absent nodes, the rows that this process holds.
-    fn extend_shared<T: Real>(&self, field: ArrayView2<'_, T>) -> Array2<T> {
-        let ((nx, ny), (whole, width)) = (self.grid.shape(), self.slab.shape());
-        // of the surface the rows of the slab, and the last and the first one for those beyond
-        let wanted = |rank: usize| {
-            let Range { start, end } = self.slab.rows_of(rank);
-            let first = start.min(nx - 1);
-            (first, if start == end { 0 } else { end.min(nx).max(first + 1) - first + usize::from(end > nx) })
-        };
-        let (first, _) = wanted(self.slab.ranks().rank());
-        let known = self.grid.slab().fetch(field.mapv(T::widen).view(), wanted).mapv(T::lit);
-        let mut rows = Array2::zeros((known.nrows(), width));
-        for (mut row, known) in rows.rows_mut().into_iter().zip(known.rows()) {
-            row.iter_mut().zip(known).for_each(|(to, from)| *to = *from);
-            for step in 1..=width - ny {
-                let (a, b, share) = (known[ny - 1], known[0], step as f64 / (width - ny + 1) as f64);
-                row[ny - 1 + step] = a + T::lit(share) * (b - a);
-            }
+    /// The rows of the operator's slab by those of the window that are `known`, which several processes share.
+    fn extend_shared<T: Real>(&self, held: Array2<T>, known: &[usize]) -> Array2<T> {
+        let (whole, width) = self.slab.shape();
+        let mut sources: Vec<_> = (0..whole).map(|i| (i, i, 0.0)).collect();
+        between(known, whole, |i, a, b, share| sources[i] = (a, b, share));
+        let wanted = |rank| self.slab.rows_of(rank).flat_map(|i| [sources[i].0, sources[i].1]).collect::<BTreeSet<_>>();
+        let wanted: Vec<_> = (0..self.slab.ranks().count()).map(wanted).collect();
+        let window = self.slab.window((self.grid.shape().0, width));
+        let held = held.slice_axis(Axis(0), Slice::from(0..window.held().0));
+        let rows = window.fetch(held.mapv(T::widen).view(), |rank| wanted[rank].iter().copied());
+        let own: BTreeMap<_, _> = wanted[self.slab.ranks().rank()].iter().copied().zip(rows.rows()).collect();
+        let mut extended = Array2::zeros(self.slab.held());
+        for (row, &(a, b, share)) in extended.rows_mut().into_iter().zip(&sources[self.slab.rows()]) {
+            Zip::from(row).and(own[&a]).and(own[&b]).for_each(|to, &at_a, &at_b| {
+                let (at_a, at_b) = (T::lit(at_a), T::lit(at_b));
+                *to = if a == b { at_a } else { at_a + T::lit(share) * (at_b - at_a) };
+            });
         }
-        let start = self.slab.rows().start;
-        Array2::from_shape_fn(self.slab.held(), |(i, j)| {
-            let i = start + i;
-            if i < nx {
-                return rows[[i - first, j]];
-            }
-            let (a, b) = (rows[[nx - 1 - first, j]], rows[[nx - first, j]]);
-            a + T::lit((i + 1 - nx) as f64 / (whole - nx + 1) as f64) * (b - a)
-        })
+        extended
     }
 
     /// A field of the operator's grid on that of the surface, with a value for the absent nodes.
     pub(crate) fn crop<T: Real>(&self, field: &Array2<T>, absent: T) -> Array2<T> {
-        if self.slab.is_shared() {
-            let surface = self.grid.slab();
-            let wanted = |rank| (surface.rows_of(rank).start, surface.rows_of(rank).len());
-            let rows = self.slab.fetch(field.mapv(T::widen).view(), wanted);
-            return rows.slice_axis(Axis(1), Slice::from(0..self.grid.shape().1)).mapv(T::lit);
-        }
-        let mut cropped = Array2::from_elem(self.grid.shape(), absent);
-        if let (Some(from), Some(to)) = (field.as_slice(), cropped.as_slice_mut()) {
-            for Run { nodes, first } in &self.runs {
-                to[*first..first + nodes.len()].copy_from_slice(&from[nodes.clone()]);
-            }
-        }
-        cropped
+        self.held.slab().moved(self.cut(field, absent).into(), &self.grid.slab()).into_owned()
     }
 
-    /// A field of the surface's grid on that of the operator, with a value for the nodes that do not face it.
+    /// As [`crop`](Self::crop), in the rows of the operator's slab.
+    pub(crate) fn cut<T: Real>(&self, field: &Array2<T>, absent: T) -> Array2<T> {
+        let mut cut = Array2::from_elem(self.held.field_shape(), absent);
+        for (nodes, own) in self.places() {
+            flat_mut(&mut cut)[own].copy_from_slice(&flat(field)[nodes]);
+        }
+        cut
+    }
+
+    /// A field of the surface's grid, in the rows of the operator's slab, on the operator's grid, with a value for the
+    /// nodes that do not face it.
     pub(crate) fn place<T: Real>(&self, field: &Array2<T>, elsewhere: T) -> Array2<T> {
-        let mut placed = Array2::from_elem(self.slab.shape(), elsewhere);
-        if let (Some(from), Some(to)) = (field.as_slice(), placed.as_slice_mut()) {
-            for Run { nodes, first } in &self.runs {
-                to[nodes.clone()].copy_from_slice(&from[*first..first + nodes.len()]);
-            }
+        let mut placed = Array2::from_elem(self.slab.held(), elsewhere);
+        for (nodes, own) in self.places() {
+            flat_mut(&mut placed)[nodes].copy_from_slice(&flat(field)[own]);
         }
         placed
+    }
+
+    /// The places of the runs among the nodes that this process holds, on the operator's grid and on the surface's.
+    fn places(&self) -> impl Iterator<Item = (Range<usize>, Range<usize>)> {
+        let [start, first] = [&self.slab, &self.held.slab()].map(Slab::first_node);
+        self.runs.iter().map(move |run| {
+            let own = run.first - first;
+            (run.nodes.start - start..run.nodes.end - start, own..own + run.nodes.len())
+        })
     }
 
     /// A gap of the surface's grid as one on that of the operator, whatever it has at absent nodes.
     pub(crate) fn start<T: Real>(&self, gap: ArrayView2<'_, T>) -> Result<Array2<T>> {
         let slab = self.grid.slab();
         Error::agreed(slab, Error::shape("starting gap", gap.dim(), slab.held()))?;
-        if slab.is_shared() {
-            Error::all_finite_in(slab, "starting gap", gap)?;
-            return Ok(self.extend(gap));
-        }
-        let mut known = Array2::from_elem(gap.dim(), T::nan());
-        let ny = gap.dim().1;
-        for Run { nodes, first } in &self.runs {
-            for node in *first..first + nodes.len() {
-                let at = [node / ny, node % ny];
-                known[at] = gap[at];
-                if !gap[at].is_finite() {
-                    return Err(Error::NotFinite {
-                        name: "starting gap",
-                        count: gap.iter().filter(|gap| !gap.is_finite()).count(),
-                        nodes: gap.len(),
-                        first: at.into(),
-                        value: gap[at].widen(),
-                    });
-                }
-            }
-        }
-        Ok(self.extend(known.view()))
+        let gap = self.hold(gap);
+        let gap = gap.as_standard_layout();
+        let gap = gap.as_slice().unwrap_or_default();
+        // of absent nodes one value, and then the other
+        let facing = |elsewhere: T| {
+            let mut facing = Array2::from_elem(self.held.field_shape(), elsewhere);
+            self.places().for_each(|(_, own)| flat_mut(&mut facing)[own.clone()].copy_from_slice(&gap[own]));
+            facing
+        };
+        Error::all_finite_in(self.held.slab(), "starting gap", facing(T::zero()).view())?;
+        Ok(self.extended(facing(T::nan()).view()))
     }
 }
 

@@ -108,16 +108,16 @@ impl Coarse {
             }
         };
         self.counts.fill(Count::default());
-        let rows = self.slab.rows();
+        let (rows, first) = (self.slab.rows(), self.slab.first_node());
         // the rest of a row of blocks that begins in another slab
         let begun = rows.start % block.0;
         let (head, others) = field.view().split_at(Axis(0), ((block.0 - begun) % block.0).min(rows.len()));
         let (before, after) = self.counts.split_at_mut(rows.start.div_ceil(block.0) * blocks.1);
         if let Some(counts) = before.len().checked_sub(blocks.1).and_then(|at| before.get_mut(at..)) {
-            count(head, begun, 0, counts);
+            count(head, begun, first, counts);
         }
         par::for_each(par::tiles(others, 0, block.0).zip(par::chunks_mut(after, blocks.1)), |i, (nodes, counts)| {
-            count(nodes, 0, (head.nrows() + i * block.0) * ny, counts);
+            count(nodes, 0, first + (head.nrows() + i * block.0) * ny, counts);
         });
         self.slab.add_up(self.counts.as_flattened_mut());
 

@@ -84,6 +84,8 @@ impl<'a> Compiled for Solve<'a> {
 
 fn run<T: Real, L: Real>(operators: &mut dyn Operators<T, L>, job: Job<'_, T>) -> Result<Solution<T>> {
     let Job { law, flat, constraint, control, settings, start, observe } = job;
+    let held = flat.window.as_ref().and_then(|window| law.in_rows_of(window.held()));
+    let law = held.as_deref().unwrap_or(law);
     Error::positive("tolerance", settings.tolerance_in::<T>())?;
     let (default_start, near) = (matches!(start, Start::Default), matches!(start, Start::Near(_)));
     let smooth = (near || default_start) && settings.method == Method::Preconditioned;

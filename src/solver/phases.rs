@@ -30,7 +30,8 @@ impl<'a, T: Real, L: Real> State<'a, T, L> {
     fn check_gaps(&self) -> Result<()> {
         let law = self.law;
         let mut value = [T::zero()];
-        for (node, gap) in flat(&self.fields.gap).iter().enumerate() {
+        let first = self.operators.state().grid().slab().first_node();
+        for (node, gap) in (first..).zip(flat(&self.fields.gap)) {
             let node = match &self.flat.window {
                 None => node,
                 Some(window) => match window.pieces(node..node + 1).next() {
@@ -74,7 +75,7 @@ impl<'a, T: Real, L: Real> State<'a, T, L> {
 
     pub(super) fn update_constraint(&mut self) -> Update {
         // nothing is where no surface faces the half-space
-        let gap = self.flat.window.as_ref().map(|window| window.crop(&self.fields.gap, T::infinity()));
+        let gap = self.flat.window.as_ref().map(|window| window.cut(&self.fields.gap, T::infinity()));
         let outer = self.constraint.update(gap.as_ref().unwrap_or(&self.fields.gap).view());
         if outer == Update::Again {
             self.restart();

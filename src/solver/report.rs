@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 use std::fmt;
 
-use ndarray::Array2;
+use ndarray::{Array2, CowArray};
 
 use super::{Criterion, Method};
 use crate::elastic::Boundary;
@@ -232,8 +232,8 @@ impl<T: Real> Solution<T> {
         if !grid.is_shared() {
             return Some(Cow::Borrowed(self));
         }
-        let fields =
-            [&self.gap, &self.pressure, &self.contact_pressure].map(|field| grid.slab().whole_of(field, false));
+        let fields = [&self.gap, &self.pressure, &self.contact_pressure];
+        let fields = fields.map(|field| grid.gathered(field).map(CowArray::into_owned));
         let [Some(gap), Some(pressure), Some(contact_pressure)] = fields else { return None };
         Some(Cow::Owned(Self { gap, pressure, contact_pressure, report: self.report.clone() }))
     }

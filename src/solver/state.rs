@@ -12,7 +12,7 @@ use super::start::{check_wall, given_start, uniform_start};
 use super::work::{TRUSTED, Work};
 use super::{Criterion, Method, Settings};
 use crate::adhesion::AdhesionLaw;
-use crate::constraint::{ContactConstraint, Wall};
+use crate::constraint::ContactConstraint;
 use crate::elastic::{Boundary, Foundation};
 use crate::error::{Error, Result};
 use crate::field::{Partial, read, write};
@@ -90,11 +90,8 @@ impl<'a, T: Real, L: Real> State<'a, T, L> {
     ) -> Result<Self> {
         let operator = operators.state();
         let (slab, shape) = (operator.grid().slab(), operator.grid().field_shape());
-        let surface = flat.window.as_ref().map_or(operator.grid(), Window::grid);
+        let surface = flat.window.as_ref().map_or(operator.grid(), Window::held);
         check_wall(law, constraint.wall())?;
-        if flat.window.is_some() && matches!(constraint.wall(), Wall::Springs(_)) {
-            Error::alone("springs under a free half-space", slab)?;
-        }
         if !constraint.takes_slabs() {
             Error::alone("contact constraint", slab)?;
         }

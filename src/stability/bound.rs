@@ -41,7 +41,7 @@ pub(super) fn below<T: Real>(hessian: &mut Hessian<'_, T>, pair: &Eigenpair<T>, 
     hessian.precondition(&q, &mut z)?;
     let start = hessian.product(&q, &z);
     let least_variance = 1.0 / (hessian.stiffest() + hessian.softest());
-    let tangent = start * q.len() as f64 / least_variance / (LEAST * LEAST);
+    let tangent = start * hessian.nodes() / least_variance / (LEAST * LEAST);
     let (mut before, mut image) = (q.clone(), q.clone());
     before.fill(T::zero());
     let (mut diagonal, mut beside) = (Vec::new(), Vec::<f64>::new());

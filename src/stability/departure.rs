@@ -10,7 +10,6 @@ use crate::error::{Error, Result};
 use crate::field;
 use crate::problem::{Control, Problem};
 use crate::real::Real;
-use crate::slab::Slab;
 use crate::solver::{Potential, Solution, Solver, Start, bounded, refuse_springs};
 
 /// The departure from an equilibrium: the end of a minimisation that left it along its softest mode.
@@ -74,8 +73,10 @@ impl<T: Real> Stability<T> {
         C: ContactConstraint<T>,
     {
         refuse_springs(solver.constraint.wall())?;
-        Error::shape("gap", from.gap.dim(), self.mode.dim())?;
+        let slab = problem.grid().slab();
+        Error::agreed(slab, Error::shape("gap", from.gap.dim(), self.mode.dim()))?;
         let largest = self.mode.iter().fold(T::zero(), |largest, value| largest.max(value.abs()));
+        let largest = T::lit(slab.most(largest.widen()));
         let amplitude = T::lit(PERTURBATION) * problem.law.range() / largest;
         if !(amplitude > T::zero() && amplitude.is_finite()) {
             return Ok(None);
@@ -110,9 +111,7 @@ impl<T: Real> Stability<T> {
             let energy_drop = energy(from) - energy(&solution);
             if best.as_ref().is_none_or(|best| energy_drop > best.energy_drop) {
                 let square = |a: T, b: T| if a == b { 0.0 } else { (a - b).widen().powi(2) };
-                let distance =
-                    field::mean_of_both(Slab::whole(from.gap.dim()), solution.gap.view(), from.gap.view(), square)
-                        .sqrt();
+                let distance = field::mean_of_both(slab, solution.gap.view(), from.gap.view(), square).sqrt();
                 best = Some(Departure { solution, energy_drop, distance, direction });
             }
         }

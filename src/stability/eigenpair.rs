@@ -118,6 +118,7 @@ pub(super) fn normalise<T: Real>(hessian: &mut Hessian<'_, T>, field: &mut Array
 
 /// The mean products of three fields with one another, and with their images.
 fn products<T: Real>(hessian: &mut Hessian<'_, T>, of: [&Array2<T>; 3], images: [&Array2<T>; 3]) -> (Matrix, Matrix) {
+    let nodes = hessian.nodes();
     let [gram, energy] = [of, images].map(|others| {
         let ([a, b, c], [u, v, w]) = (of.map(read), others.map(read));
         let total = hessian.reducer.run(a.zip(b).zip(c).zip(u.zip(v).zip(w)), |_, (((a, b), c), ((u, v), w))| {
@@ -130,7 +131,7 @@ fn products<T: Real>(hessian: &mut Hessian<'_, T>, of: [&Array2<T>; 3], images: 
             }
             part
         });
-        let [aa, bb, cc, ab, ac, bc, ..] = total.sum.map(|sum| sum / of[0].len() as f64);
+        let [aa, bb, cc, ab, ac, bc, ..] = total.sum.map(|sum| sum / nodes);
         [[aa, ab, ac], [ab, bb, bc], [ac, bc, cc]]
     });
     (gram, energy)

@@ -5,10 +5,10 @@ use ndarray::Array2;
 use crate::elastic::{ElasticOperator, Foundation};
 use crate::error::Result;
 use crate::field::{self, Partial, Reducer, read, write};
+use crate::grid::Grid;
 use crate::par::Parts;
 use crate::problem::Load;
 use crate::real::Real;
-use crate::slab::Slab;
 use crate::solver::Coarse;
 
 /// K⁻¹ + φ'' on fields that vanish on the contact, and have no mean if the mean gap is given; a spring adds its
@@ -31,7 +31,7 @@ pub(super) struct Hessian<'a, T> {
 impl<'a, T: Real> Hessian<'a, T> {
     pub(super) fn new(operator: &'a mut dyn ElasticOperator<T>, slopes: Array2<T>, load: Load) -> Self {
         let (centred, spring) = (matches!(load, Load::Gap(_)), load.stiffness());
-        let mut reducer = Reducer::new(Slab::whole(slopes.dim()));
+        let mut reducer = Reducer::new(operator.grid().slab());
         let total = reducer.run(read(&slopes), |_, slopes| {
             let mut part = Partial::NONE;
             for slope in slopes {
@@ -44,8 +44,14 @@ impl<'a, T: Real> Hessian<'a, T> {
         Self { operator, slopes, centred, spring, free, least, reducer, coarse: None, applications: 0 }
     }
 
+    /// The shape of a field in this process.
     pub(super) fn shape(&self) -> (usize, usize) {
         self.slopes.dim()
+    }
+
+    /// The number of nodes of the grid.
+    pub(super) fn nodes(&self) -> f64 {
+        self.operator.grid().nodes() as f64
     }
 
     pub(super) fn applications(&self) -> usize {
@@ -100,6 +106,7 @@ impl<'a, T: Real> Hessian<'a, T> {
 
     /// Makes a field vanish on the contact and have the mean 1; it becomes uniform if it has no positive mean.
     pub(super) fn admit(&mut self, field: &mut Array2<T>) {
+        let nodes = self.nodes();
         let Self { reducer, slopes, free, .. } = self;
         let total = reducer.run(read(slopes).zip(write(field)), |_, (slopes, values)| {
             let mut part = Partial::NONE;
@@ -109,7 +116,7 @@ impl<'a, T: Real> Hessian<'a, T> {
             }
             part
         });
-        let (sum, nodes) = (total.sum[0], field.len() as f64);
+        let sum = total.sum[0];
         let uniform = T::lit(nodes / *free);
         let factor = if sum > 0.0 { T::lit(nodes / sum) } else { T::zero() };
         let usable = factor > T::zero() && factor.is_finite();
@@ -153,7 +160,8 @@ impl<'a, T: Real> Hessian<'a, T> {
     pub(super) fn apply(&mut self, field: &Array2<T>, image: &mut Array2<T>) -> Result<f64> {
         self.operator.pressure(field.view(), image.view_mut())?;
         self.applications += 1;
-        let mean = if self.spring > 0.0 { field::mean(field.view(), T::widen) } else { 0.0 };
+        let slab = self.operator.grid().slab();
+        let mean = if self.spring > 0.0 { field::mean_over(slab, field.view(), T::widen) } else { 0.0 };
         let uniform = T::lit(self.spring * mean);
         let Self { reducer, slopes, .. } = self;
         reducer.run(read(slopes).zip(read(field)).zip(write(image)), |_, ((slopes, field), image)| {
@@ -186,7 +194,7 @@ impl<'a, T: Real> Hessian<'a, T> {
             part.sum[0] = a.iter().zip(b).map(|(a, b)| a.widen() * b.widen()).sum();
             part
         });
-        total.sum[0] / a.len() as f64
+        total.sum[0] / self.nodes()
     }
 
     pub(super) fn scale(&mut self, field: &mut Array2<T>, factor: f64) {
@@ -226,7 +234,7 @@ impl<'a, T: Real> Hessian<'a, T> {
 
     /// An admissible field of independent normal numbers, the same for every `stream`.
     pub(super) fn random(&mut self, stream: u32) -> Array2<T> {
-        let mut field = normal_numbers(self.shape(), stream);
+        let mut field = normal_numbers(self.operator.grid(), stream);
         self.project(&mut field);
         field
     }
@@ -234,7 +242,7 @@ impl<'a, T: Real> Hessian<'a, T> {
     /// Normal numbers smoothed by the compliance, not admissible: the same whatever φ'' and the contact are. Takes one
     /// operator application.
     pub(super) fn smooth_random(&mut self, stream: u32) -> Result<Array2<T>> {
-        let random = normal_numbers::<T>(self.shape(), stream);
+        let random = normal_numbers::<T>(self.operator.grid(), stream);
         let (softest, mut smooth) = (self.softest(), Array2::zeros(random.dim()));
         self.operator.precondition(random.view(), Foundation::uniform(softest, softest), smooth.view_mut())?;
         self.applications += 1;
@@ -243,9 +251,10 @@ impl<'a, T: Real> Hessian<'a, T> {
 }
 
 /// Independent normal numbers, the same for every `stream`.
-fn normal_numbers<T: Real>(shape: (usize, usize), stream: u32) -> Array2<T> {
-    Array2::from_shape_fn(shape, |(i, j)| {
-        let node = (i * shape.1 + j) as u64;
+fn normal_numbers<T: Real>(grid: &Grid, stream: u32) -> Array2<T> {
+    let (first, ny) = (grid.slab().first_node(), grid.shape().1);
+    Array2::from_shape_fn(grid.field_shape(), |(i, j)| {
+        let node = (first + i * ny + j) as u64;
         let [a, b] = crate::surface::uniform([node as u32, (node >> 32) as u32, stream, 0], [0x5EED, 0]);
         T::lit((-2.0 * (1.0 - a).ln()).sqrt() * (std::f64::consts::TAU * b).cos())
     })

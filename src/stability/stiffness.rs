@@ -11,7 +11,7 @@ use crate::error::{Error, Result};
 use crate::par;
 use crate::problem::{Load, Problem, smoothed_law};
 use crate::real::Real;
-use crate::solver::{Potential, Solution};
+use crate::solver::Solution;
 
 /// Iterations at most; a sane case takes some ten.
 const MOST: usize = 500;
@@ -131,8 +131,8 @@ impl ContactStiffness {
         }
         let window = flat.window.as_ref();
         let smoothed = smoothed_law(operator, law);
-        let local = Potential::new(smoothed.as_deref().unwrap_or(law), constraint, None);
-        let slopes = slopes(&solution.gap, local, window)?;
+        let followed = smoothed.as_deref().unwrap_or(law);
+        let slopes = slopes(&solution.gap, (followed, constraint), (operator.grid(), window))?;
         let smoothed = smoothed.is_some();
         let mut hessian = Hessian::new(operator, slopes, Load::Gap(0.0));
         hessian.hold(flat.stiffness);

@@ -5,6 +5,8 @@ use ndarray::Array2;
 use super::eigenpair::{Eigenpair, UNCERTAIN, lowest_from, normalise};
 use super::hessian::Hessian;
 use super::slopes;
+use crate::adhesion::AdhesionLaw;
+use crate::constraint::ContactConstraint;
 use crate::elastic::ElasticOperator;
 use crate::error::Result;
 use crate::field::mean_of_both;
@@ -55,14 +57,14 @@ impl<T: Real> Watch<T> {
     pub(crate) fn look(
         &mut self,
         operator: &mut dyn ElasticOperator<T>,
-        local: Potential<'_, T>,
+        (law, constraint): (&dyn AdhesionLaw<T>, &dyn ContactConstraint<T>),
         (gap, window): (&Array2<T>, Option<&Window>),
         load: Load,
     ) -> Result<Option<Saddle>> {
-        if local.is_zero() {
+        if Potential::new(law, constraint, None).is_zero() {
             return Ok(None);
         }
-        let slopes = slopes(gap, local, window)?;
+        let slopes = slopes(gap, (law, constraint), (operator.grid(), window))?;
         let mut hessian = Hessian::new(operator, slopes, load);
         if hessian.simple_bound() > 0.0 || hessian.dimension() == 0 {
             return Ok(None);
@@ -104,24 +106,31 @@ impl<T: Real> Watch<T> {
         Ok(saddle)
     }
 
-    /// The share of the mode in a change of the gap: the cosine of the angle between them.
-    pub(crate) fn share(&self, change: &Array2<T>) -> f64 {
+    /// The share of the mode in a change of the gap, of a slab: the cosine of the angle between them.
+    pub(crate) fn share(&self, change: &Array2<T>, slab: Slab) -> f64 {
         let Some(mode) = &self.mode else { return 0.0 };
-        let product = |a: &Array2<T>, b: &Array2<T>| {
-            mean_of_both(Slab::whole(a.dim()), a.view(), b.view(), |a, b| a.widen() * b.widen())
-        };
+        let product =
+            |a: &Array2<T>, b: &Array2<T>| mean_of_both(slab, a.view(), b.view(), |a, b| a.widen() * b.widen());
         let share = product(mode, change) / (product(mode, mode) * product(change, change)).sqrt();
         if share.is_finite() { share } else { 0.0 }
     }
 
     /// Adds the mode to a gap, with the largest change given: with the sign of its `share` in another change of the
     /// gap, or so that the gap closes at the first of the nodes where the mode is as large as anywhere. No gap becomes
-    /// smaller than it may after a step.
-    pub(crate) fn displace(&self, gap: &mut Array2<T>, least: Option<Least<T>>, largest: f64, share: Option<f64>) {
+    /// smaller than it may after a step. The gap is that of a slab.
+    pub(crate) fn displace(
+        &self,
+        (gap, slab): (&mut Array2<T>, Slab),
+        least: Option<Least<T>>,
+        largest: f64,
+        share: Option<f64>,
+    ) {
         let Some(mode) = &self.mode else { return };
         let top = mode.iter().fold(T::zero(), |top, value| top.max(value.abs()));
-        let first = mode.iter().find(|value| value.abs() >= T::lit(NEARLY) * top);
-        let sign = share.unwrap_or_else(|| -first.map_or(0.0, |value| value.widen())).signum();
+        let top = T::lit(slab.most(top.widen()));
+        let own = mode.iter().find(|value| value.abs() >= T::lit(NEARLY) * top).map_or(f64::NAN, |value| value.widen());
+        let first = slab.ranks().each(own).into_iter().find(|value| !value.is_nan());
+        let sign = share.unwrap_or_else(|| -first.unwrap_or_default()).signum();
         let factor = T::lit(sign * largest) / top;
         if factor.is_finite() {
             gap.zip_mut_with(mode, |gap, &mode| *gap = bounded(least, *gap, *gap + factor * mode));

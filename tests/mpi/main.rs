@@ -1,5 +1,6 @@
 //! Solves that several processes share, against the same solves in one: every bit of every field and report. Run by
-//! `.ci/mpi`, under `mpiexec`; by itself it is one process. With the argument `quick` it runs a part of them.
+//! `.ci/mpi`, under `mpiexec`; by itself it is one process. With the argument `quick` it runs a part of them, some on
+//! three processes alone.
 
 use std::fmt::Debug;
 use std::ops::ControlFlow;
@@ -107,6 +108,11 @@ fn run(world: &World) -> Outcome {
     solves::<f64, _, _>(world, "exponential", square, exponential, Projection, Control::MeanPressure(1e-3))?;
     nested_grids_are_shared::<f64>(world, odd, Control::MeanPressure(0.01))?;
     free_half_spaces_are_shared::<f64>(world, (256, 256), Control::Force(1e-3))?;
+    if !quick || world.size() == 3 {
+        laws_that_vary_are_shared::<f64>(world, (300, 257))?;
+        absent_nodes_are_shared::<f64>(world, (320, 257))?;
+        equilibria_are_judged_alike(world, (280, 256))?;
+    }
     clusters_hang_together_across_slabs(world)?;
     exchanges_are_what_the_formula_says(world)?;
     what_has_no_slabs_is_refused(world)?;
@@ -129,6 +135,10 @@ fn run(world: &World) -> Outcome {
     free_half_spaces_are_shared::<f64>(world, (400, 257), Control::Approach(2e-3))?;
     free_half_spaces_are_shared::<f32>(world, (520, 512), Control::Force(1e-3))?;
     other_symbols_are_shared(world)?;
+    laws_that_vary_are_shared::<f32>(world, (300, 257))?;
+    absent_nodes_are_shared::<f32>(world, (320, 257))?;
+    springs_under_free_half_spaces_are_shared(world, (300, 257))?;
+    paths_are_shared(world)?;
     say(world, "all the same");
     Ok(())
 }
@@ -227,6 +237,211 @@ fn free_half_spaces_are_shared<T: Bits>(world: &World, shape: (usize, usize), co
     Ok(())
 }
 
+/// Solves on a grid alone and on the same grid shared, which have to find the same.
+fn compare<T: Bits>(
+    world: &World,
+    name: &str,
+    alone: Grid,
+    solve: impl Fn(Grid) -> Result<(Solution<T>, contact::ContactStatistics)>,
+) -> Result<Solution<T>> {
+    let shared = world.share(alone)?;
+    let ((of_one, statistics), (of_all, shared_statistics)) = (solve(alone)?, solve(shared)?);
+    let name = format!("{name}, {} on {:?}", T::NAME, alone.shape());
+    same_solutions(&name, &shared, &of_all, &of_one);
+    assert_eq!(shared_statistics, statistics, "{name}");
+    assert!(of_one.report.iterations > 5 && of_one.report.contact_nodes > 10, "{name}: {:?}", of_one.report);
+    say(world, &format!("{name}: {} applications", of_one.report.operator_applications));
+    Ok(of_all)
+}
+
+fn laws_that_vary_are_shared<T: Bits>(world: &World, shape: (usize, usize)) -> Result<()> {
+    let work = |x: f64, y: f64| if (9.0 * x).sin() * (7.0 * y).cos() > 0.2 { 1e-4 } else { 2e-5 };
+    let law = |grid: &Grid| Varying::on(grid, Exponential::new(1e-4, 2e-3)?, grid.sample(work).view());
+    let control = Control::MeanPressure(2e-3);
+    let alone = Grid::new(shape, (1.0, shape.1 as f64 / shape.0 as f64))?;
+    let shared = world.share(alone)?;
+    assert_eq!(law(&shared)?.strongest(), law(&alone)?.strongest());
+    let found = compare::<T>(world, "varying law", alone, |grid| {
+        let law = law(&grid)?;
+        let mut problem = Problem::new(&rough(grid)?, Westergaard::<T>::new(grid, 1.0)?, &law)?;
+        let solution = Solver::default().solve(&mut problem, control)?;
+        let statistics = contact::ContactStatistics::of(&solution, &grid, &law)?;
+        assert_eq!(statistics.patches.len(), 2);
+        Ok((solution, statistics))
+    })?;
+    // each process has the whole map
+    let whole = Varying::new(Exponential::new(1e-4, 2e-3)?, alone.sample(work).view())?;
+    let mut problem = Problem::new(&rough(shared)?, Westergaard::<T>::new(shared, 1.0)?, &whole)?;
+    let solution = Solver::default().solve(&mut problem, control)?;
+    assert_eq!(solution, found, "whole map");
+    assert_eq!(found.regions(&shared, &law(&shared)?), found.regions(&shared, &whole));
+    // the jumps of the law are smoothed, and it is made coarser
+    let jumps = |grid: &Grid| Varying::on(grid, MaugisDugdale::new(1e-4, 2e-3)?, grid.sample(work).view());
+    compare::<T>(world, "varying law with jumps, nested", alone, |grid| {
+        let law = jumps(&grid)?;
+        let nested = Nested { coarsest: 32, ..Nested::default() };
+        let nested = { nested }.solve(&rough(grid)?, |grid| Westergaard::<T>::new(grid, 1.0), &law, control)?;
+        let statistics = contact::ContactStatistics::of(&nested.solution, &grid, &law)?;
+        Ok((nested.solution, statistics))
+    })?;
+    compare::<T>(world, "varying law under a free half-space", alone, |grid| {
+        let law = law(&grid)?;
+        let mut problem = Problem::new(&rough(grid)?, Boussinesq::<T>::new(grid, 1.0)?, &law)?;
+        let solution = Solver::default().solve(&mut problem, Control::MeanPressure(5e-3))?;
+        let statistics = contact::ContactStatistics::of(&solution, &grid, &law)?;
+        Ok((solution, statistics))
+    })?;
+    Ok(())
+}
+
+/// A rough surface with holes: some nodes, whole rows, and an edge.
+fn perforated(grid: Grid) -> Result<Surface> {
+    let (holes, mut heights) =
+        (grid.sample(|x, y| (23.0 * x).sin() * (31.0 * y).sin()), rough(grid)?.heights().clone());
+    let rows = grid.rows().start;
+    for (((i, j), height), hole) in heights.indexed_iter_mut().zip(holes) {
+        let i = rows + i;
+        if hole > 0.7 || (100..103).contains(&i) || i >= 250 || j < 3 {
+            *height = f64::NAN;
+        }
+    }
+    Surface::with_absent(grid, heights)
+}
+
+fn absent_nodes_are_shared<T: Bits>(world: &World, shape: (usize, usize)) -> Result<()> {
+    let alone = Grid::new(shape, (1.0, shape.1 as f64 / shape.0 as f64))?;
+    let shared = world.share(alone)?;
+    let (whole, slab) = (perforated(alone)?, perforated(shared)?);
+    same("filled heights", &shared, slab.heights(), whole.heights());
+    assert_eq!(slab.absent_nodes(), whole.absent_nodes());
+    assert_eq!(*slab.whole(), whole);
+    let periodic = compare::<T>(world, "absent nodes", alone, |grid| {
+        let mut problem = Problem::new(&perforated(grid)?, Westergaard::<T>::new(grid, 1.0)?, NoAdhesion)?;
+        let solution = Solver::default().solve(&mut problem, Control::MeanPressure(0.02))?;
+        assert!(solution.report.absent_nodes > 1000);
+        let statistics = contact::ContactStatistics::of(&solution, &grid, &NoAdhesion)?;
+        Ok((solution, statistics))
+    })?;
+    assert!(slab.absent_nodes() == periodic.report.absent_nodes);
+    compare::<T>(world, "absent nodes, from a start", alone, |grid| {
+        let mut problem = Problem::new(&perforated(grid)?, Westergaard::<T>::new(grid, 1.0)?, NoAdhesion)?;
+        let mut gap = grid.sample(|x, y| 0.01 * (1.0 + (x - y).sin())).mapv(T::lit);
+        if let Some(absent) = perforated(grid)?.absent() {
+            gap.zip_mut_with(absent, |gap, &absent| *gap = if absent { T::nan() } else { *gap });
+        }
+        let observe = |_: &Iteration| ControlFlow::Continue(());
+        let start = Start::From(&gap);
+        let solution = Solver::default().solve_with(&mut problem, Control::MeanPressure(0.02), start, observe)?;
+        let statistics = contact::ContactStatistics::of(&solution, &grid, &NoAdhesion)?;
+        Ok((solution, statistics))
+    })?;
+    let law = Exponential::new(1e-5, 1e-3)?;
+    compare::<T>(world, "absent nodes under a free half-space, nested", alone, |grid| {
+        let nested = Nested { coarsest: 32, ..Nested::default() };
+        let half_space = |grid| Boussinesq::<T>::new(grid, 1.0);
+        let nested = { nested }.solve(&perforated(grid)?, half_space, law, Control::MeanPressure(0.01))?;
+        let statistics = contact::ContactStatistics::of(&nested.solution, &grid, &law)?;
+        Ok((nested.solution, statistics))
+    })?;
+    Ok(())
+}
+
+fn springs_under_free_half_spaces_are_shared(world: &World, shape: (usize, usize)) -> Result<()> {
+    fn solve<C>(grid: Grid, constraint: C) -> Result<(Solution<f64>, contact::ContactStatistics)>
+    where
+        C: ContactConstraint<f64>,
+    {
+        let mut problem = Problem::new(&perforated(grid)?, Boussinesq::<f64>::new(grid, 1.0)?, NoAdhesion)?;
+        let mut solver = Solver { settings: Settings { tolerance: Some(1e-3), ..Settings::default() }, constraint };
+        let mut solution = solver.solve(&mut problem, Control::MeanPressure(0.01))?;
+        let statistics = contact::ContactStatistics::of(&solution, &grid, &NoAdhesion)?;
+        let test = stability::StabilityTest { max_iterations: 5, ..stability::StabilityTest::default() };
+        let stability = test.run_with(&mut problem, &solver.constraint, Control::Force(0.01), &solution)?;
+        // the mode is compared in the place of the pressure
+        solution.pressure = stability.mode;
+        Ok((solution, statistics))
+    }
+    let alone = Grid::new(shape, (1.0, shape.1 as f64 / shape.0 as f64))?;
+    compare(world, "penalty under a free half-space", alone, |grid| solve(grid, Penalty::new(500.0)?))?;
+    compare(world, "Uzawa under a free half-space", alone, |grid| solve(grid, Uzawa::new(500.0)?))?;
+    Ok(())
+}
+
+/// The stability, the stiffness and a departure, and a load for a contact fraction.
+fn equilibria_are_judged_alike(world: &World, shape: (usize, usize)) -> Result<()> {
+    let law = Exponential::new(1e-4, 2e-3)?;
+    let alone = Grid::new(shape, (1.0, shape.1 as f64 / shape.0 as f64))?;
+    let shared = world.share(alone)?;
+    let judge = |grid: Grid| {
+        let mut problem = Problem::new(&rough(grid)?, Westergaard::<f64>::new(grid, 1.0)?, law)?;
+        let (mut solver, control) = (Solver::default(), Control::MeanPressure(2e-3));
+        let solution = solver.solve(&mut problem, control)?;
+        let test = stability::StabilityTest { max_iterations: 30, ..stability::StabilityTest::default() };
+        let stability = test.run(&mut problem, control, &solution)?;
+        let left = stability.leave(&mut solver, &mut problem, control, &solution)?;
+        let stiffness = stability::ContactStiffness::of(&mut problem, &solution)?;
+        let mut bare = Problem::new(&rough(grid)?, Boussinesq::<f64>::new(grid, 1.0)?, NoAdhesion)?;
+        let found = ContactSearch::new(&mut solver, &mut bare)?.at(0.05)?;
+        let free = stability::ContactStiffness::of(&mut bare, &found.solution)?;
+        Ok::<_, Error>((stability, left, (stiffness, free), found))
+    };
+    let ((of_one, left, stiffness, found), (of_all, left_by_all, shared_stiffness, found_by_all)) =
+        (judge(alone)?, judge(shared)?);
+    same("mode", &shared, &of_all.mode, &of_one.mode);
+    let figures = |s: &stability::Stability<f64>| {
+        let numbers = [s.eigenvalue, s.residual, s.lower_bound, s.error_bound.unwrap_or_default()].map(f64::to_bits);
+        (s.verdict, numbers, s.operator_applications, s.bound_applications)
+    };
+    assert_eq!(figures(&of_all), figures(&of_one));
+    assert!(of_one.operator_applications > 10);
+    let (Some(left), Some(left_by_all)) = (left, left_by_all) else { panic!("there is a mode") };
+    same_solutions("departure", &shared, &left_by_all.solution, &left.solution);
+    let figures = |d: &stability::Departure<f64>| [d.energy_drop, d.distance, d.direction].map(f64::to_bits);
+    assert_eq!(figures(&left_by_all), figures(&left));
+    assert_eq!(shared_stiffness, stiffness);
+    assert!(stiffness.0.operator_applications > 5);
+    same_solutions("contact fraction", &shared, &found_by_all.solution, &found.solution);
+    assert_eq!((found_by_all.control, found_by_all.solves), (found.control, found.solves));
+    say(
+        world,
+        &format!("{} by {} applications, stiffness, contact fraction", of_one.verdict, of_one.operator_applications),
+    );
+    Ok(())
+}
+
+fn paths_are_shared(world: &World) -> Result<()> {
+    use path::{Path, PathSettings};
+    let law = Exponential::new(1e-3, 4e-3)?;
+    let legs = [0.03, 0.012].map(Control::MeanGap);
+    let settings = PathSettings { steps: 4, smallest_step: 0.1, ..PathSettings::default() };
+    let alone = Grid::new((300, 256), (1.0, 1.0))?;
+    let shared = world.share(alone)?;
+    let follow = |grid: Grid| {
+        let surface = Surface::wave_2d(grid, 0.02, 1)?;
+        let mut problem = Problem::new(&surface, Westergaard::<f64>::new(grid, 1.0)?, law)?;
+        let mut solver = Solver::default();
+        let mut path = Path::new(&mut solver, &mut problem, legs, settings)?;
+        let mut steps = path.by_ref().take(3).collect::<Result<Vec<_>>>()?;
+        let place = path.checkpoint();
+        let rest = Path::new(&mut solver, &mut problem, legs, settings)?.continuing(place)?;
+        steps.extend(rest.collect::<Result<Vec<_>>>()?);
+        Ok::<_, Error>(steps)
+    };
+    let (of_one, of_all) = (follow(alone)?, follow(shared)?);
+    assert_eq!(of_all.len(), of_one.len());
+    for (step, expected) in of_all.iter().zip(&of_one) {
+        same_solutions("path", &shared, &step.solution, &expected.solution);
+        let figures =
+            |s: &path::PathStep<f64>| (s.control, s.leg, [s.work, s.dissipated, s.imbalance].map(f64::to_bits));
+        assert_eq!(figures(step), figures(expected));
+        assert_eq!(step.event, expected.event);
+    }
+    // a saddle is left on the way
+    assert!(of_one.iter().any(|step| step.event.is_some()));
+    say(world, &format!("path of {} states", of_one.len()));
+    Ok(())
+}
+
 fn clusters_hang_together_across_slabs(world: &World) -> Result<()> {
     // pieces of every width, along both sides, some of which go around the cell
     let maps: [fn(f64, f64) -> bool; 4] = [
@@ -300,21 +515,15 @@ fn what_has_no_slabs_is_refused(world: &World) -> Result<()> {
     if world.size() == 1 {
         return Ok(());
     }
-    let law = Exponential::new(1e-4, 4e-3)?;
+    // a map of its rows is none of the whole grid
     let work = grid.sample(|x, _| if x < 0.0 { 1e-6 } else { 1e-4 });
-    // a process without nodes has no such law
-    if let Ok(varying) = Varying::new(law, work.view()) {
-        refused("varying law", Problem::new(&surface, Westergaard::<f64>::new(grid, 1.0)?, &varying));
+    if let Ok(varying) = Varying::new(Exponential::new(1e-4, 4e-3)?, work.view()) {
+        let refused = Problem::new(&surface, Westergaard::<f64>::new(grid, 1.0)?, varying).err();
+        assert!(matches!(refused, Some(Error::Shape { .. } | Error::Elsewhere { .. })), "{refused:?}");
     }
-    let holes = grid.sample(|x, _| if x < -0.499 { f64::NAN } else { 0.0 });
-    refused("absent nodes", Surface::with_absent(grid, holes));
     let alone = Grid::square(512, 1.0)?;
     refused("mixed grids", Problem::new(&surface, Westergaard::<f64>::new(alone, 1.0)?, NoAdhesion));
-    let mut problem = Problem::new(&surface, Westergaard::<f64>::new(grid, 1.0)?, law)?;
-    let control = Control::MeanPressure(0.01);
-    let solution = Solver::default().solve(&mut problem, control)?;
-    let test = stability::StabilityTest::default();
-    refused("stability", test.of_gap(&mut problem, &Projection, control, &solution.gap, 1e-6));
-    refused("contact stiffness", stability::ContactStiffness::of(&mut problem, &solution));
+    let mut body = Westergaard::<f64>::new(grid, 1.0)?;
+    refused("check of an operator", check_operator(&mut body));
     Ok(())
 }

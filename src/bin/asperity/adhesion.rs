@@ -12,7 +12,9 @@ use clap::{Args, ValueEnum};
 use ndarray::Array2;
 
 use crate::allowed::positive;
+use crate::heights;
 use crate::outcome::Outcome;
+use crate::processes::Processes;
 use crate::quantity::{ENERGY, ENERGY_PER_AREA, LENGTH, Quantity};
 
 /// The adhesion between the surfaces.
@@ -98,7 +100,34 @@ pub struct Adhesion<'a> {
     /// The numbers of the table of the law
     pub table: Option<Array2<f64>>,
     /// The works of adhesion of the map
-    pub works: Option<Array2<f64>>,
+    pub works: Option<Works>,
+}
+
+/// Works of adhesion that vary over the surface, on its grid.
+pub struct Works {
+    grid: Grid,
+    /// The rows that this process holds
+    pub rows: Array2<f64>,
+    most: f64,
+    /// The node with the largest work of adhesion: μ_ρ is that of this node
+    strongest: (usize, usize),
+}
+
+impl Works {
+    fn new(grid: Grid, rows: Array2<f64>) -> Self {
+        let (_, most) = grid.extremes((0.0, rows.iter().copied().fold(0.0, f64::max)));
+        let (first, (_, ny)) = (grid.rows().start, grid.shape());
+        let strongest = rows.indexed_iter().find(|&(_, &work)| work == most);
+        let node = strongest.map_or(f64::INFINITY, |((ix, iy), _)| ((first + ix) * ny + iy) as f64);
+        let (node, _) = grid.extremes((node, 0.0));
+        Self { grid, rows, most, strongest: (node as usize / ny, node as usize % ny) }
+    }
+
+    /// The whole of them, on the first of the processes that share the grid, and nothing on the others.
+    fn gathered(&self) -> Option<Self> {
+        let rows = self.grid.gathered(&self.rows)?.into_owned();
+        Some(Self { grid: self.grid.alone(), rows, ..*self })
+    }
 }
 
 impl Law {
@@ -218,23 +247,28 @@ impl AdhesionOptions {
         Ok(())
     }
 
-    /// Reads the files, of which the map must be of the shape of the grid, if there is one.
-    pub fn read(&self, grid: Option<&Grid>) -> Outcome<Adhesion<'_>> {
-        let field = |path: &Option<PathBuf>| path.as_deref().map(read_field).transpose();
-        let (table, works) = (field(&self.law_table)?, field(&self.work_of_adhesion_map)?);
+    /// The law without a map of works of adhesion; reads its table.
+    pub fn uniform(&self) -> Outcome<Adhesion<'_>> {
+        let table = self.law_table.as_deref().map(read_field).transpose()?;
         let law = match (&self.law_table, &table) {
             (Some(path), Some(table)) => Some(tabulated(path, table)?),
             _ => None,
         };
-        if let (Some(works), Some(grid)) = (&works, grid) {
-            let (name, found, expected) = ("--work-of-adhesion-map", works.dim(), grid.shape());
-            if found != expected {
-                return Err(Error::Shape { name, found, expected }.into());
-            }
-        }
-        let adhesion = Adhesion { options: self, law, table, works };
+        Ok(Adhesion { options: self, law, table, works: None })
+    }
+
+    /// Reads the files, of the map of works of adhesion the rows of the grid that this process holds.
+    pub fn read(&self, grid: &Grid, processes: &Processes) -> Outcome<Adhesion<'_>> {
+        let read = || {
+            let rows = self.work_of_adhesion_map.as_deref();
+            let rows = rows.map(|path| heights::rows_on("--work-of-adhesion-map", path, grid)).transpose()?;
+            Ok((self.uniform()?, rows))
+        };
+        let (uniform, rows) = processes.agree(read())?;
+        let adhesion = Adhesion { works: rows.map(|rows| Works::new(*grid, rows)), ..uniform };
         // whatever the laws refuse, before anything is solved
         match (adhesion.law::<f64>(), &self.work_of_adhesion_map) {
+            (Err(error @ Error::Elsewhere { .. }), _) => Err(error.into()),
             (Err(error), Some(path)) => Err(Error::file(path, format!("does not fit the law: {error}")).into()),
             (Err(error), None) => Err(error.into()),
             (Ok(_), _) => Ok(adhesion),
@@ -259,7 +293,7 @@ impl Adhesion<'_> {
     /// The law; its parameters are there after [`AdhesionOptions::check`].
     pub fn law<T: Real>(&self) -> asperity::Result<Box<dyn AdhesionLaw<T>>> {
         let options = self.options;
-        let most = self.works.as_ref().map(|works| works.iter().copied().fold(0.0, f64::max));
+        let most = self.works.as_ref().map(|works| works.most);
         let [work, range, hamaker] = [options.work_of_adhesion, options.range, options.hamaker]
             .map(|quantity| quantity.map_or(0.0, |quantity| quantity.value));
         let (work, exponent) = (most.unwrap_or(work), options.exponent.unwrap_or_default());
@@ -300,15 +334,24 @@ impl Adhesion<'_> {
         L: AdhesionLaw<T> + AdhesionLaw<f64> + 'static,
     {
         Ok(match &self.works {
-            Some(works) => Box::new(Varying::new(law, works.view())?),
+            Some(works) => Box::new(Varying::on(&works.grid, law, works.rows.view())?),
             None => Box::new(law),
         })
     }
 
     /// The node with the largest work of adhesion, where that varies: μ_ρ is that of this node.
     pub fn strongest(&self) -> Option<(usize, usize)> {
-        let most = self.works.as_ref()?.indexed_iter();
-        most.reduce(|most, next| if next.1 > most.1 { next } else { most }).map(|(node, _)| node)
+        self.works.as_ref().map(|works| works.strongest)
+    }
+
+    /// The same on the first of the processes that share the grid, with the whole of the map, and nothing on the others.
+    pub fn gathered(&self) -> Option<Self> {
+        let works = self.works.as_ref().map(Works::gathered);
+        let Self { options, law, table, .. } = self;
+        match works {
+            Some(None) => None,
+            works => Some(Adhesion { options, law: law.clone(), table: table.clone(), works: works.flatten() }),
+        }
     }
 }
 

@@ -50,6 +50,7 @@ impl Boundary {
         };
         let comes = self == Self::Free && from < 0.0 && to > from;
         let peak = surface.heights().fold(f64::NEG_INFINITY, |peak, &height| peak.max(height));
+        let (_, peak) = surface.grid().extremes((0.0, peak));
         comes.then(|| surface.heights().mapv(|height| peak - height - from))
     }
 

@@ -7,7 +7,7 @@ use asperity::path::{Event, Path, PathCheckpoint, PathSettings, PathStep};
 use asperity::picture::Chart;
 use asperity::{Control, Error, Grid, Problem, Solver, Status, Surface};
 use clap::{ArgGroup, Args};
-use ndarray::Array2;
+use ndarray::ArrayRef2;
 use serde_json::{Map, Value, json};
 
 use crate::adhesion::{Adhesion, AdhesionOptions};
@@ -17,17 +17,17 @@ use crate::columns::{Cell, INPUTS, OUTCOME, STATE, inputs, outcome, state};
 use crate::csv;
 use crate::identity::{Identity, identity};
 use crate::journal::Row;
-use crate::kept::Kept;
 use crate::loads::name_and_value;
 use crate::options::{Given, Precision, ProblemOptions, Scalar, SolverOptions, SurfaceOptions};
 use crate::outcome::Outcome;
 use crate::pictures::{Resolution, check_plot, write_picture};
 use crate::printing::{Printing, say};
+use crate::processes::Processes;
 use crate::quantity::{Dimension, ENERGY_PER_AREA, FORCE, LENGTH, PRESSURE};
 use crate::scene::Scene;
 use crate::table::{self, Table, TableOptions};
 use crate::units::{UnitOptions, Units};
-use crate::warnings::{Strictness, Warnings};
+use crate::warnings::Strictness;
 
 /// Follow the contact along a cycle of approach and withdrawal, and find its jumps.
 ///
@@ -126,33 +126,41 @@ fn names() -> Vec<&'static str> {
 }
 
 /// Runs the command; whether all rows converged.
-pub fn run(options: &Options, scene: &Scene) -> Outcome<bool> {
-    options.check_files()?;
+pub fn run(options: &Options, scene: &Scene, processes: &Processes) -> Outcome<bool> {
+    processes.first(|| options.check_files())?;
     options.surface.beyond.boundary.check(options.loads.control(0.0))?;
-    let given = options.problem().read(scene.is_si())?;
+    let given = options.problem().read(scene.is_si(), processes)?;
     match options.solver.precision {
-        Precision::F32 => options.run::<f32>(given, scene),
-        Precision::F64 => options.run::<f64>(given, scene),
+        Precision::F32 => options.run::<f32>(given, scene, processes),
+        Precision::F64 => options.run::<f64>(given, scene, processes),
     }
 }
 
 impl Options {
-    fn run<T: Scalar>(&self, Given { surface, adhesion, unit, start }: Given<'_>, scene: &Scene) -> Outcome<bool> {
+    fn run<T: Scalar>(
+        &self,
+        Given { surface, adhesion, unit, start }: Given<'_>,
+        scene: &Scene,
+        processes: &Processes,
+    ) -> Outcome<bool> {
         let values = self.loads.values(self.surface.full_pressure(&surface, self.loads.are_reduced())?);
         let loads = self.loads.controls(&values);
         if loads.len() < 2 {
             return Err("a cycle needs two turning points at least: give more loads, with commas between".into());
         }
-        let warnings = Warnings::of_input::<T>(self.strictness, &surface, &adhesion, self.problem())?;
         let grid = *surface.grid();
-        let units = self.units.units(unit.as_deref(), scene.is_si())?;
-        let mut identity = self.identity(&surface, &adhesion, start.as_ref(), &values);
-        identity.insert("units".to_owned(), units.of_table().into());
-        let start = start.or_else(|| self.surface.beyond.boundary.start_afar(&surface, &loads));
+        let units = processes.agree(self.units.units(unit.as_deref(), scene.is_si()))?;
+        let names = names();
+        let header = units.header(&names, self.loads.control(0.0).name(), grid.is_line());
+        let &Self { ref out, force, printing, strictness, .. } = self;
+        let (fields, units) = (self.fields.as_deref(), &units);
+        let options =
+            TableOptions { problem: self.problem(), out, force, printing, scene, units, strictness, fields, processes };
+        let identity =
+            |surface: &_, adhesion: &Adhesion<'_>, start: Option<&_>| self.identity(surface, adhesion, start, &values);
         let operator = self.surface.beyond.boundary.half_space(grid, self.surface.modulus())?;
         let law = adhesion.law::<T>()?;
         let mut problem = Problem::new(&surface, operator, adhesion.law::<T>()?)?;
-        drop(surface);
         let mut solver = Solver { settings: self.solver.settings(), constraint: self.adhesion.wall };
         let settings = PathSettings {
             steps: self.steps,
@@ -160,22 +168,16 @@ impl Options {
             imbalance: self.imbalance,
             smooth: !self.sharp,
         };
+        let afar = if start.is_none() { self.surface.beyond.boundary.start_afar(&surface, &loads) } else { None };
         let mut path = Path::new(&mut solver, &mut problem, loads, settings)?;
-        let names = names();
-        let header = units.header(&names, self.loads.control(0.0).name(), grid.is_line());
-        let &Self { ref out, force, printing, .. } = self;
-        let options = TableOptions { problem: self.problem(), out, force, printing, scene, units: &units };
-        let kept = Kept(self.fields.as_deref());
-        kept.check(self.force, &self.out)?;
-        let (mut table, saved) = Table::open(options, &header, identity, None, warnings)?;
+        let given = (&surface, &adhesion, start.as_ref());
+        let (mut table, saved) = Table::open::<T>(options, &header, given, identity, None)?;
+        drop(surface);
         if table.rows() > 0 {
             let fields = saved.fields.into_iter().map(T::field).collect();
             path = path.continuing(PathCheckpoint { numbers: saved.numbers, fields })?;
-        } else if let Some(start) = start {
+        } else if let Some(start) = start.or(afar) {
             path = path.starting_from(T::field(start));
-        }
-        if table.rows() == 0 {
-            kept.clear();
         }
         let text = table.text()?;
         let mut had_event = text.lines().next_back().is_some_and(|row| !csv::parsed(&names, row)["event"].is_null());
@@ -195,11 +197,11 @@ impl Options {
             let fields: Vec<_> = checkpoint.fields.iter().map(|field| field.view()).collect();
             let (report, (_, load)) = (&step.solution.report, name_and_value(step.control));
             let (text, converged) = (csv::line(&row), report.status == Status::Converged);
-            kept.write(table.rows() + 1, &step.solution)?;
-            table.append(&Row { text: &text, load, converged, fields: &fields, numbers: &checkpoint.numbers })?;
+            let row_to_keep = Row { text: &text, load, converged, fields: &fields, numbers: &checkpoint.numbers };
+            table.append(&row_to_keep, &step.solution)?;
             // the fields of a row stay where it or the next one has an event
             if !had_event && step.event.is_none() {
-                kept.forget(table.rows() - 1);
+                table.forget(table.rows() - 1);
             }
             had_event = step.event.is_some();
             let event = step.event.map_or(String::new(), |event| format!("  {event}"));
@@ -207,7 +209,7 @@ impl Options {
             apart = Self::is_apart(&row.into());
         }
         drop(path);
-        self.conclude(&table, &units, &grid)?;
+        self.conclude(&table, &units, &grid, processes)?;
         Ok(table.converged("or use a larger --tolerance"))
     }
 
@@ -250,7 +252,7 @@ impl Options {
         &self,
         surface: &Surface,
         adhesion: &Adhesion<'_>,
-        start: Option<&Array2<f64>>,
+        start: Option<&ArrayRef2<f64>>,
         values: &[f64],
     ) -> Identity {
         let mut identity = identity(self.problem(), surface, adhesion, start);
@@ -270,7 +272,7 @@ impl Options {
     }
 
     /// Prints the summary or the report of all rows, and draws the picture.
-    fn conclude(&self, table: &Table<'_>, units: &Units, grid: &Grid) -> Outcome<()> {
+    fn conclude(&self, table: &Table<'_>, units: &Units, grid: &Grid, processes: &Processes) -> Outcome<()> {
         let (text, names) = (table.text()?, names());
         let rows: Vec<_> = text.lines().skip(1).map(|row| csv::parsed(&names, row)).collect();
         let number = |row: &Value, name: &str| row[name].as_f64().unwrap_or(f64::NAN);
@@ -356,7 +358,7 @@ impl Options {
             curves: curves.iter().map(|(name, points)| (name.as_str(), points.clone())).collect(),
             ..Chart::default()
         };
-        write_picture(plot, &chart.draw(self.resolution.dpi)?)
+        processes.first(|| write_picture(plot, &chart.draw(self.resolution.dpi)?))
     }
 }
 

@@ -30,17 +30,21 @@ pub fn map(path: &Path, lengths: Option<&[Quantity]>, si: bool) -> Outcome<Topog
     Ok(map)
 }
 
-/// Some rows of the field of a file, and the shape of the whole; none of them if it has fewer.
-pub fn rows(path: &Path, rows: Range<usize>) -> Outcome<(Array2<f64>, (usize, usize))> {
-    let (map, shape) = read_rows(path, |(nx, _)| rows.start.min(nx)..rows.end.min(nx))?;
-    Ok((map.heights, shape))
+/// The rows of the field of a file, which an option names, that this process holds of a grid.
+pub fn rows_on(option: &'static str, path: &Path, grid: &Grid) -> Outcome<Array2<f64>> {
+    let Range { start, end } = grid.rows();
+    let (map, found) = read_rows(path, |(nx, _)| start.min(nx)..end.min(nx))?;
+    let expected = grid.shape();
+    if found == expected { Ok(map.heights) } else { Err(Error::Shape { name: option, found, expected }.into()) }
 }
 
-/// The surface of a file, of which every process reads its rows, and its unit.
+/// The surface of a file, of which every process reads its rows, and its unit. Its missing points become absent nodes,
+/// or are refused.
 pub fn shared(
     path: &Path,
     lengths: Option<&[Quantity]>,
     si: bool,
+    absent: bool,
     processes: &Processes,
 ) -> Outcome<(Surface, Option<String>)> {
     let read = || {
@@ -60,7 +64,8 @@ pub fn shared(
         Ok((Grid::new(shape, sides)?, map))
     };
     let (grid, Topography { heights, unit, .. }) = processes.agree(read())?;
-    let surface = Surface::new(processes.share(grid)?, heights);
+    let grid = processes.share(grid)?;
+    let surface = if absent { Surface::with_absent(grid, heights) } else { Surface::new(grid, heights) };
     match surface {
         Ok(surface) => Ok((surface, unit)),
         Err(error @ Error::Elsewhere { .. }) => Err(error.into()),

@@ -1,7 +1,7 @@
 //! The identity of a run: the inputs on which the rows of its table depend.
 
 use asperity::Surface;
-use ndarray::Array2;
+use ndarray::ArrayRef2;
 use serde_json::{Map, Value, json};
 
 use crate::adhesion::Adhesion;
@@ -17,11 +17,11 @@ pub fn identity(
     ProblemOptions { surface: options, adhesion, solver }: ProblemOptions<'_>,
     surface: &Surface,
     given: &Adhesion<'_>,
-    start: Option<&Array2<f64>>,
+    start: Option<&ArrayRef2<f64>>,
 ) -> Identity {
     let (grid, settings) = (surface.grid(), solver.settings());
     let number = |value: Option<Quantity>| value.map_or("none".to_owned(), |value| value.to_string());
-    let field = |field: &Array2<f64>| Hash::NEW.of_numbers(field).to_string();
+    let field = |field: &ArrayRef2<f64>| Hash::NEW.of_numbers(field).to_string();
     let pair = |a: String, b: String| format!("{a} {b}");
     let identity = json!({
         "shape": pair(grid.shape().0.to_string(), grid.shape().1.to_string()),
@@ -35,9 +35,9 @@ pub fn identity(
         "range": number(adhesion.range),
         "exponent": adhesion.exponent.map_or("none".to_owned(), |value| value.to_string()),
         "hamaker": number(adhesion.hamaker),
-        "law_table": given.table.as_ref().map_or("none".to_owned(), field),
+        "law_table": given.table.as_deref().map_or("none".to_owned(), field),
         "cut_off": number(adhesion.cut_off),
-        "work_of_adhesion_map": given.works.as_ref().map_or("none".to_owned(), field),
+        "work_of_adhesion_map": given.works.as_ref().map_or("none".to_owned(), |works| field(&works.rows)),
         "wall": adhesion.wall.to_string(),
         "precision": solver.precision.name(),
         "method": settings.method.name(),

@@ -44,6 +44,25 @@ pub struct Saved {
     pub numbers: Vec<f64>,
 }
 
+/// What a journal that another process has open has saved.
+#[derive(Debug)]
+pub struct Seen {
+    pub saved: Saved,
+    pub rows: usize,
+    /// The number of rows that did not converge
+    pub unconverged: usize,
+}
+
+impl Seen {
+    /// Reads the state of the journal of a table.
+    pub fn read(path: &Path) -> Outcome<Self> {
+        let refused = |reason: String| Error::file(path, format!("{reason}: {REMEDY}"));
+        let state = State::read(path).map_err(refused)?;
+        let (Written { rows, unconverged, .. }, fields) = (state.written, state.read_fields().map_err(refused)?);
+        Ok(Self { saved: Saved { fields, numbers: state.numbers }, rows, unconverged })
+    }
+}
+
 /// A row to append, with the fields (the latest last) and numbers from which the next one starts.
 pub struct Row<'a, T> {
     pub text: &'a str,

@@ -3,13 +3,14 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use asperity::io::{OutputFolder, write_npy};
-use asperity::{Error, Result, Solution};
+use asperity::io::OutputFolder;
+use asperity::{Error, Grid, Solution};
 
 use crate::case::gap_to_write;
+use crate::fields::write_fields;
 use crate::options::Scalar;
 use crate::outcome::Outcome;
-use crate::output::at_destination;
+use crate::processes::Processes;
 
 const FIELDS: [&str; 3] = ["gap", "pressure", "contact_pressure"];
 
@@ -37,15 +38,22 @@ impl Kept<'_> {
         self.0.map(present).into_iter().flatten().for_each(remove);
     }
 
-    /// Writes the fields of a row, the first of which is 1.
-    pub fn write<T: Scalar>(self, row: usize, solution: &Solution<T>) -> Result<()> {
-        let Some(folder) = self.0 else { return Ok(()) };
-        let files = OutputFolder::create(folder, &[], true)?;
+    /// Writes the fields of a row, the first of which is 1; each process its rows.
+    pub fn write<T: Scalar>(
+        self,
+        row: usize,
+        grid: Grid,
+        solution: &Solution<T>,
+        processes: &Processes,
+    ) -> Outcome<()> {
+        let Some(out) = self.0 else { return Ok(()) };
+        let create = || Ok(OutputFolder::create(out, &[], true)?);
+        let folder = processes.agree(processes.is_first().then(create).transpose())?;
         let gap = gap_to_write(solution);
         let fields = [&*gap, &solution.pressure, &solution.contact_pressure];
-        let mut write = FIELDS.iter().zip(fields).map(|(name, field)| write_npy(&files.path(&file(name, row)), field));
-        write.try_for_each(|written| written.map_err(|error| at_destination(error, folder)))?;
-        files.commit()
+        let named: Vec<_> = FIELDS.iter().zip(fields).map(|(name, field)| (file(name, row), field)).collect();
+        write_fields(processes, folder.as_ref(), out, grid, &named)?;
+        processes.first(|| folder.map_or(Ok(()), |folder| Ok(folder.commit()?)))
     }
 
     /// Removes the fields of a row.

@@ -61,7 +61,7 @@ pub fn run(options: &Options, scene: &Scene) -> Outcome<bool> {
     }
     Format::of(path)?;
     options.adhesion.check()?;
-    let law = options.adhesion.read(None)?.law::<f64>()?;
+    let law = options.adhesion.uniform()?.law::<f64>()?;
     let file = OutputFile::create(path, options.force)?;
     listed.for_each(|&law| list(law));
     let (range, rest) = (law.range(), law.rest());

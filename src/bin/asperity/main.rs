@@ -33,6 +33,7 @@ mod citation;
 mod columns;
 mod csv;
 mod entries;
+mod fields;
 mod form;
 mod hash;
 mod heights;
@@ -158,16 +159,16 @@ where
 }
 
 fn execute(command: Command, scene: &Scene, processes: &Processes) -> ExitCode {
-    if !matches!(command, Command::Solve(_))
-        && let Err(error) = processes.alone("every command but solve")
+    if !matches!(command, Command::Solve(_) | Command::Sweep(_) | Command::Cycle(_))
+        && let Err(error) = processes.alone("every command but solve, sweep and cycle")
     {
         return agreed(processes, Err(error));
     }
     let converged = match command {
         Command::Demo(options) => demo::run(&options),
         Command::Solve(options) => solve::run(&options, scene, processes),
-        Command::Sweep(options) => sweep::run(&options, scene),
-        Command::Cycle(options) => cycle::run(&options, scene),
+        Command::Sweep(options) => sweep::run(&options, scene, processes),
+        Command::Cycle(options) => cycle::run(&options, scene, processes),
         Command::Study(options) => study::run(&options, Tool::command()),
         Command::Report(options) => page::run(&options),
         Command::Prepare(options) => prepare::run(&options, scene),

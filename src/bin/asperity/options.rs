@@ -2,8 +2,7 @@
 
 use std::path::PathBuf;
 
-use asperity::io::read_field;
-use asperity::{Criterion, Error, Real, Settings, Surface};
+use asperity::{Criterion, Real, Settings, Surface};
 use clap::{Args, ValueEnum};
 use ndarray::Array2;
 use ndarray_npy::WritableElement;
@@ -101,35 +100,19 @@ pub struct Given<'a> {
 }
 
 impl<'a> ProblemOptions<'a> {
-    /// Checks the options, reads their files, with all in metres if numbers are in the SI, and starts the threads.
-    pub fn read(self, si: bool) -> Outcome<Given<'a>> {
+    /// Checks the options, reads their files, with all in metres if numbers are in the SI, of fields the rows that this
+    /// process holds, and starts the threads.
+    pub fn read(self, si: bool, processes: &Processes) -> Outcome<Given<'a>> {
         self.adhesion.check()?;
-        let (surface, unit) = self.surface.surface_and_unit(si)?;
-        let adhesion = self.adhesion.read(Some(surface.grid()))?;
-        let start = self.solver.start(&surface)?;
-        use_threads(self.solver.threads)?;
-        Ok(Given { surface, adhesion, unit, start })
-    }
-
-    /// As [`ProblemOptions::read`], of the files of fields the rows that this process holds.
-    pub fn read_rows(self, si: bool, processes: &Processes) -> Outcome<Given<'a>> {
-        if self.surface.beyond.absent_missing {
-            processes.alone("--absent-missing")?;
-        }
-        if self.adhesion.work_of_adhesion_map.is_some() {
-            processes.alone("--work-of-adhesion-map")?;
-        }
-        self.adhesion.check()?;
-        let (surface, unit) = heights::shared(&self.surface.heights, self.surface.lengths.as_deref(), si, processes)?;
-        let adhesion = processes.agree(self.adhesion.read(Some(surface.grid())))?;
-        let start = self.solver.initial_gap.as_deref().map(|path| {
-            let (grid, read) = (surface.grid(), processes.agree(heights::rows(path, surface.grid().rows()))?);
-            let (start, found) = read;
-            let expected = grid.shape();
-            let name = "--initial-gap";
-            if found == expected { Ok(start) } else { Err(Error::Shape { name, found, expected }.into()) }
-        });
-        let start: Option<Array2<f64>> = start.transpose().map_err(|error: Box<dyn std::error::Error>| error)?;
+        let SurfaceOptions { heights: path, lengths, beyond, .. } = self.surface;
+        let (surface, unit) = if processes.count() > 1 {
+            heights::shared(path, lengths.as_deref(), si, beyond.absent_missing, processes)?
+        } else {
+            let map = heights::map(path, lengths.as_deref(), si)?;
+            heights::surface_or_absent(path, map, beyond.absent_missing)?
+        };
+        let adhesion = self.adhesion.read(surface.grid(), processes)?;
+        let start = processes.agree(self.solver.start(&surface))?;
         processes.agree(use_threads(self.solver.threads))?;
         Ok(Given { surface, adhesion, unit, start })
     }
@@ -162,30 +145,22 @@ impl SurfaceOptions {
             }
         }
     }
-
-    /// The surface of the file, and its unit of length if the file has one.
-    fn surface_and_unit(&self, si: bool) -> Outcome<(Surface, Option<String>)> {
-        let map = heights::map(&self.heights, self.lengths.as_deref(), si)?;
-        heights::surface_or_absent(&self.heights, map, self.beyond.absent_missing)
-    }
 }
 
 impl SolverOptions {
     /// The gap from which to start, if it is given.
     fn start(&self, surface: &Surface) -> Outcome<Option<Array2<f64>>> {
         let Some(path) = &self.initial_gap else { return Ok(None) };
-        let start = read_field(path)?;
-        let expected = surface.grid().shape();
-        if start.dim() != expected {
-            return Err(Error::Shape { name: "--initial-gap", found: start.dim(), expected }.into());
-        }
+        let start = heights::rows_on("--initial-gap", path, surface.grid())?;
+        let first = surface.grid().rows().start;
         // the library refuses what is not finite, but for nodes without a gap
         let is_absent = |node: (usize, usize)| surface.absent().is_some_and(|absent| absent[node]);
         let unknown = |(node, gap): &((usize, usize), &f64)| !gap.is_finite() && !is_absent(*node);
         if let Some(((i, j), gap)) = start.indexed_iter().find(unknown) {
             return Err(format!(
-                "{}: the gap at index [{i}, {j}] is {gap}, where the surface has a height: only absent nodes may have none",
-                path.display()
+                "{}: the gap at index [{}, {j}] is {gap}, where the surface has a height: only absent nodes may have none",
+                path.display(),
+                first + i
             )
             .into());
         }

@@ -168,7 +168,7 @@ pub fn draw_contact<T: Scalar>(
     (solution, law): (&Solution<T>, &impl AdhesionLaw<T>),
     dpi: f64,
 ) -> Result<Picture> {
-    draw_regions(grid, title, units, &solution.regions(law).mapv(f64::from), dpi)
+    draw_regions(grid, title, units, &solution.regions(&grid, law).mapv(f64::from), dpi)
 }
 
 /// Draws regions, as numbers: 1 contact, -1 attraction, 0 apart, NaN no surface.

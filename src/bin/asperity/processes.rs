@@ -7,6 +7,10 @@ use asperity::{Error, Grid};
 use crate::outcome::Outcome;
 use crate::printing;
 
+/// The most nodes of which one process takes the whole fields, where several have solved: for pictures, for warnings,
+/// for the state of a table, and for files that are not written in rows.
+pub const WHOLE: usize = 4096 * 4096;
+
 /// The processes that solve one problem, and which of them this one is.
 pub struct Processes {
     #[cfg(feature = "mpi")]

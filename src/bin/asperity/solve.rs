@@ -5,22 +5,24 @@ mod report;
 use std::borrow::Cow;
 use std::path::PathBuf;
 
-use asperity::io::{OutputFolder, create_npy, write_npy, write_npy_rows, write_npz, write_vti};
+use asperity::io::{OutputFolder, write_npz, write_vti};
 use asperity::{AdhesionLaw, Control, Grid, Status};
 use clap::{ArgGroup, Args, ValueEnum};
+use ndarray::CowArray;
 use serde_json::Value;
 
 use crate::accuracy::{self, AccuracyOptions};
-use crate::adhesion::{AdhesionOptions, Law};
+use crate::adhesion::{Adhesion, AdhesionOptions, Law};
 use crate::boundary::{LOAD, LoadOptions};
 use crate::case::{self, Account, Case};
+use crate::fields::write_fields;
 use crate::options::{Given, Precision, ProblemOptions, Scalar, SolverOptions, SurfaceOptions};
 use crate::outcome::Outcome;
 use crate::output::at_destination;
 use crate::output::{output_folder, write_text};
 use crate::pictures::{self, PictureFormat, Resolution};
 use crate::printing::{Printing, complain, say};
-use crate::processes::Processes;
+use crate::processes::{Processes, WHOLE};
 use crate::progress::Progress;
 use crate::quantity::{PRESSURE, Quantity};
 use crate::scene::{self, Scene};
@@ -139,10 +141,6 @@ const REPORT: &str = "report.json";
 const PICTURES: [[&str; 2]; 3] =
     [["contact.png", "pressure.png"], ["contact.svg", "pressure.svg"], ["contact.pdf", "pressure.pdf"]];
 
-/// The most nodes of which one process takes the whole fields, where several have solved: for pictures, for warnings,
-/// and for files that are not written in rows.
-const WHOLE: usize = 4096 * 4096;
-
 /// Runs the command; whether it converged.
 pub fn run(options: &Options, scene: &Scene, processes: &Processes) -> Outcome<bool> {
     let problem = options.problem();
@@ -167,7 +165,7 @@ pub fn run(options: &Options, scene: &Scene, processes: &Processes) -> Outcome<b
         Ok(())
     })?;
     let si = scene.is_si();
-    let given = if processes.count() > 1 { problem.read_rows(si, processes)? } else { problem.read(si)? };
+    let given = problem.read(si, processes)?;
     let units = processes.agree(options.units.units(given.unit.as_deref(), si))?;
     let full = options.surface.full_pressure(&given.surface, options.load.is_reduced())?;
     let job = Job { options, scene, processes, names, case: options.case(options.load.control(full)), units };
@@ -180,14 +178,7 @@ pub fn run(options: &Options, scene: &Scene, processes: &Processes) -> Outcome<b
 impl Options {
     /// Refuses what has no form for several processes.
     fn check_shared(&self, processes: &Processes) -> Outcome<()> {
-        let whole = [
-            ("--stability", self.stability),
-            ("--leave", self.leave),
-            ("--stiffness", self.stiffness),
-            ("--accuracy", self.accuracy.accuracy.is_some()),
-            ("--contact-fraction", self.load.contact_fraction.is_some()),
-        ];
-        whole.into_iter().filter(|(_, wanted)| *wanted).try_for_each(|(option, _)| processes.alone(option))
+        if self.accuracy.accuracy.is_some() { processes.alone("--accuracy") } else { Ok(()) }
     }
 
     fn writes(&self, format: Format) -> bool {
@@ -249,8 +240,12 @@ impl Job<'_> {
         };
         let progress = Progress::new("", tolerance, grid.nodes(), printing.without_bars());
         let strictness = self.options.strictness;
-        let mut warnings = processes.agree(match if fits { surface.gathered() } else { None } {
-            Some(surface) => Warnings::of_input::<T>(strictness, &surface, &adhesion, self.options.problem()),
+        let whole_adhesion = if fits { adhesion.gathered() } else { None };
+        let whole = if fits { surface.gathered() } else { None }.zip(whole_adhesion.as_ref());
+        let mut warnings = processes.agree(match whole {
+            Some((surface, adhesion)) => {
+                Warnings::of_input::<T>(strictness, &surface, adhesion, self.options.problem())
+            }
             None => Warnings::none(strictness, fits),
         })?;
         warnings.say();
@@ -274,13 +269,23 @@ impl Job<'_> {
 
         let folder = processes.is_first().then(|| output_folder(out, &self.names, *force)).transpose();
         let folder = processes.agree(folder)?;
-        if grid.is_shared() && self.options.writes(Format::Npy) {
-            self.write_rows(folder.as_ref(), grid, &solution)?;
+        if self.options.writes(Format::Npy) {
+            let gap = case::gap_to_write(&solution);
+            let fields = [&*gap, &solution.pressure, &solution.contact_pressure];
+            let named: Vec<_> = FIELDS.into_iter().map(str::to_owned).zip(fields).collect();
+            write_fields(processes, folder.as_ref(), out, grid, &named)?;
+            if let Some(stability) = &account.stability {
+                write_fields(processes, folder.as_ref(), out, grid, &[(MODE.to_owned(), &stability.mode)])?;
+            }
+        }
+        if let Some(stability) = account.stability.as_mut().filter(|_| fits && grid.is_shared()) {
+            stability.mode = grid.gathered(&stability.mode).map(CowArray::into_owned).unwrap_or_default();
         }
         processes.first(|| {
             let Some(folder) = folder else { return Ok(()) };
-            let whole = whole.as_deref().unwrap_or(&solution);
-            let written = self.write(&folder, grid, whole, &account, &adhesion.law()?);
+            let law = whole_adhesion.as_ref().map(Adhesion::law).transpose()?;
+            let whole = whole.as_deref().zip(law.as_ref());
+            let written = self.write(&folder, grid.alone(), whole, &account);
             written.map_err(|error| at_destination(error, out))?;
             Ok(folder.commit()?)
         })?;
@@ -315,47 +320,26 @@ impl Job<'_> {
         Ok(())
     }
 
-    /// Writes the fields, each process its rows.
-    fn write_rows<T: Scalar>(
-        &self,
-        folder: Option<&OutputFolder>,
-        grid: Grid,
-        solution: &asperity::Solution<T>,
-    ) -> Outcome<()> {
-        let path = folder.map_or(String::new(), |folder| folder.path("").display().to_string());
-        let (files, out) = (PathBuf::from(self.processes.told(path)), &self.options.out);
-        let at_destination = |error| at_destination(error, out).into();
-        self.processes.first(|| {
-            let create = |name| create_npy::<T>(&files.join(name), grid.shape());
-            FIELDS.iter().try_for_each(create).map_err(at_destination)
-        })?;
-        let fields = [&solution.gap, &solution.pressure, &solution.contact_pressure];
-        let mut fields = FIELDS.iter().zip(fields);
-        let write = |(name, field)| write_npy_rows(&files.join(name), grid.shape(), grid.rows().start, field);
-        self.processes.agree(fields.try_for_each(write).map_err(at_destination))
-    }
-
     fn report(&self, grid: Grid, account: &Account) -> Value {
         self.options.report(grid, account, &self.units, self.scene)
     }
 
+    /// Writes the files but for fields of which each process writes its rows; those that take the `whole` solution, with
+    /// its law, where there is one.
     fn write<T: Scalar>(
         &self,
         folder: &OutputFolder,
         grid: Grid,
-        solution: &asperity::Solution<T>,
+        whole: Option<(&asperity::Solution<T>, &impl AdhesionLaw<T>)>,
         account: &Account,
-        law: &impl AdhesionLaw<T>,
     ) -> asperity::Result<()> {
         let path = |name: &str| folder.path(name);
-        let mode = account.stability.as_ref().map(|stability| &stability.mode);
+        write_text(&path(REPORT), &format!("{:#}\n", self.report(grid, account)))?;
+        write_text(&path(scene::NAME), &self.scene.text(&self.options.out))?;
+        let Some((solution, law)) = whole else { return Ok(()) };
         let gap = case::gap_to_write(solution);
         let fields = [&*gap, &solution.pressure, &solution.contact_pressure];
-        if self.options.writes(Format::Npy) && !grid.is_shared() {
-            FIELDS.iter().zip(fields).try_for_each(|(name, field)| write_npy(&path(name), field))?;
-            mode.map_or(Ok(()), |mode| write_npy(&path(MODE), mode))?;
-        }
-        let mode = mode.map(|mode| mode.mapv(T::lit));
+        let mode = account.stability.as_ref().map(|stability| stability.mode.mapv(T::lit));
         let named = FIELDS.into_iter().zip(fields).chain(mode.as_ref().map(|mode| (MODE, mode)));
         let named: Vec<_> = named.map(|(name, field)| (name.trim_end_matches(".npy"), field)).collect();
         if self.options.writes(Format::Npz) {
@@ -364,9 +348,7 @@ impl Job<'_> {
         if self.options.writes(Format::Vti) {
             write_vti(&path(VTI), &grid, &named)?;
         }
-        write_text(&path(REPORT), &format!("{:#}\n", self.report(grid, account)))?;
-        write_text(&path(scene::NAME), &self.scene.text(&self.options.out))?;
-        if !self.options.no_pictures && self.names.contains(&self.options.picture_format.of(PICTURES)[0]) {
+        if !self.options.no_pictures {
             let (Options { picture_format, resolution: Resolution { dpi }, .. }, units) = (self.options, &self.units);
             let [contact_name, pressure_name] = picture_format.of(PICTURES);
             pictures::draw_contact(grid, "Contact", units, (solution, law), *dpi)?.write(&path(contact_name))?;

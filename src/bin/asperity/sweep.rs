@@ -10,7 +10,7 @@ use asperity::{
     Surface, Sweep,
 };
 use clap::{ArgGroup, Args, ValueEnum};
-use ndarray::{Array2, ArrayView2};
+use ndarray::{ArrayRef2, ArrayView2};
 use serde_json::{Map, Value, json};
 
 use crate::adhesion::{Adhesion, AdhesionOptions, Law, Wall};
@@ -20,15 +20,15 @@ use crate::columns::{INPUTS, OUTCOME, SEARCH, STATE, STIFFNESS, inputs, outcome,
 use crate::csv;
 use crate::identity::{Identity, identity};
 use crate::journal::Row;
-use crate::kept::Kept;
 use crate::options::{Given, Precision, ProblemOptions, Scalar, SolverOptions, SurfaceOptions};
 use crate::outcome::Outcome;
 use crate::pictures::PlotOptions;
 use crate::printing::{Printing, complain};
+use crate::processes::Processes;
 use crate::scene::Scene;
 use crate::table::{self, Table, TableOptions};
 use crate::units::UnitOptions;
-use crate::warnings::{Strictness, Warnings};
+use crate::warnings::Strictness;
 
 /// Solve a contact problem under many loads, one after the other.
 ///
@@ -101,34 +101,32 @@ enum Format {
 }
 
 /// Runs the command; whether all rows converged.
-pub fn run(options: &Options, scene: &Scene) -> Outcome<bool> {
+pub fn run(options: &Options, scene: &Scene, processes: &Processes) -> Outcome<bool> {
     options.format()?;
-    options.plot.check(&options.out, options.force)?;
+    processes.first(|| options.plot.check(&options.out, options.force))?;
     options.surface.beyond.boundary.check(options.loads.control(0.0))?;
-    let given = options.problem().read(scene.is_si())?;
+    let given = options.problem().read(scene.is_si(), processes)?;
     match options.solver.precision {
-        Precision::F32 => options.run::<f32>(given, scene),
-        Precision::F64 => options.run::<f64>(given, scene),
+        Precision::F32 => options.run::<f32>(given, scene, processes),
+        Precision::F64 => options.run::<f64>(given, scene, processes),
     }
 }
 
 impl Options {
-    fn run<T: Scalar>(&self, Given { surface, adhesion, unit, start }: Given<'_>, scene: &Scene) -> Outcome<bool> {
+    fn run<T: Scalar>(
+        &self,
+        Given { surface, adhesion, unit, start }: Given<'_>,
+        scene: &Scene,
+        processes: &Processes,
+    ) -> Outcome<bool> {
         let listed = self.loads.values(self.surface.full_pressure(&surface, self.loads.are_reduced())?);
         let loads = self.fractions.values().unwrap_or(&listed);
         if let Some(&value) = loads.iter().find(|&&load| !T::lit(load).is_finite()) {
             let (name, requirement) = ("load", "finite in the precision of the fields");
             return Err(Error::Value { name, value, requirement }.into());
         }
-        let warnings = Warnings::of_input::<T>(self.strictness, &surface, &adhesion, self.problem())?;
         let grid = *surface.grid();
-        let units = self.units.units(unit.as_deref(), scene.is_si())?;
-        let mut identity = self.identity(&surface, &adhesion, start.as_ref());
-        identity.insert("units".to_owned(), units.of_table().into());
-        let start = start.or_else(|| self.surface.beyond.boundary.start_afar(&surface, &self.loads.controls(&listed)));
-        let operator = self.surface.beyond.boundary.half_space(grid, self.surface.modulus())?;
-        let mut problem = Problem::new(&surface, operator, adhesion.law::<T>()?)?;
-        drop(surface);
+        let units = processes.agree(self.units.units(unit.as_deref(), scene.is_si()))?;
         let format = self.format()?;
         // with adhesion a contact fraction is searched for by another load
         let gap = self.fractions.values().is_some() && self.adhesion.law != Law::None;
@@ -137,12 +135,19 @@ impl Options {
             Format::Csv => units.header(&self.names(), control, grid.is_line()),
             Format::Jsonl => String::new(),
         };
-        let &Self { ref out, force, printing, .. } = self;
-        let options = TableOptions { problem: self.problem(), out, force, printing, scene, units: &units };
-        let kept = Kept(self.fields.as_deref());
-        kept.check(self.force, &self.out)?;
-        let (mut table, saved) = Table::open(options, &header, identity, Some(loads), warnings)?;
+        let &Self { ref out, force, printing, strictness, .. } = self;
+        let (fields, units) = (self.fields.as_deref(), &units);
+        let options =
+            TableOptions { problem: self.problem(), out, force, printing, scene, units, strictness, fields, processes };
+        let identity =
+            |surface: &_, adhesion: &Adhesion<'_>, start: Option<&_>| self.identity(surface, adhesion, start);
+        let operator = self.surface.beyond.boundary.half_space(grid, self.surface.modulus())?;
+        let mut problem = Problem::new(&surface, operator, adhesion.law::<T>()?)?;
+        let given = (&surface, &adhesion, start.as_ref());
+        let (mut table, saved) = Table::open::<T>(options, &header, given, identity, Some(loads))?;
         let done = table.rows();
+        let start = start.or_else(|| self.surface.beyond.boundary.start_afar(&surface, &self.loads.controls(&listed)));
+        drop(surface);
         let controls = self.loads.controls(loads);
 
         let law = adhesion.law::<T>()?;
@@ -183,17 +188,11 @@ impl Options {
                 Format::Csv => csv::line(&row),
                 Format::Jsonl => Value::Object(row).to_string(),
             };
-            kept.write(k + 1, &solution)?;
             let (fields, numbers) = steps.place();
             let reached = searched.as_ref().is_none_or(|searched| searched.reached);
             let converged = solution.report.status == Status::Converged;
-            table.append(&Row {
-                text: &text,
-                load,
-                converged: converged && reached,
-                fields: &fields,
-                numbers: &numbers,
-            })?;
+            let row = Row { text: &text, load, converged: converged && reached, fields: &fields, numbers: &numbers };
+            table.append(&row, &solution)?;
             self.printing.say(&format!("{:>width$}/{count}  {}", k + 1, table::brief(&solution.report, &units)));
             if let Some(searched) = searched.filter(|searched| converged && !searched.reached) {
                 complain("warning", &format!("row {}: {}", k + 1, searched.told()));
@@ -202,7 +201,7 @@ impl Options {
         let text = table.text()?;
         let names = self.names();
         let rows = text.lines().skip(usize::from(format == Format::Csv)).map(|row| parsed(format, &names, row));
-        self.plot.draw(&rows.collect::<Vec<_>>(), &units)?;
+        processes.first(|| self.plot.draw(&rows.collect::<Vec<_>>(), &units))?;
         self.printing.say(&format!("{count} rows in {}", self.out.display()));
         self.printing.report(|| {
             let last = parsed(format, &names, text.lines().next_back().unwrap_or_default());
@@ -240,7 +239,7 @@ impl Options {
     }
 
     /// The inputs on which the rows depend beside the loads.
-    fn identity(&self, surface: &Surface, adhesion: &Adhesion<'_>, start: Option<&Array2<f64>>) -> Identity {
+    fn identity(&self, surface: &Surface, adhesion: &Adhesion<'_>, start: Option<&ArrayRef2<f64>>) -> Identity {
         let mut identity = identity(self.problem(), surface, adhesion, start);
         let csv = self.format().is_ok_and(|format| format == Format::Csv);
         let kind = if self.fractions.values().is_some() { "contact-fraction".to_owned() } else { self.loads.kind() };

@@ -4,22 +4,26 @@ use std::fs;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
-use asperity::{Grid, Iteration, Report, Solution};
+use asperity::{Grid, Iteration, Report, Solution, Surface};
+use ndarray::{Array2, ArrayRef2, Axis, Slice};
 use serde_json::{Value, json};
 
+use crate::adhesion::Adhesion;
 use crate::case::check_finite;
 use crate::identity::Identity;
-use crate::journal::{Journal, Row, Saved, state_path};
+use crate::journal::{Journal, Row, Saved, Seen, state_path};
+use crate::kept::Kept;
 use crate::numbers::percent;
 use crate::options::{ProblemOptions, Scalar};
 use crate::outcome::Outcome;
 use crate::printing::{Printing, complain};
+use crate::processes::{Processes, WHOLE};
 use crate::progress::Progress;
 use crate::quantity::{FORCE, LENGTH, PRESSURE};
 use crate::report;
 use crate::scene::{self, Scene};
 use crate::units::Units;
-use crate::warnings::Warnings;
+use crate::warnings::{Strictness, Warnings};
 
 /// The options of a table.
 #[derive(Clone, Copy)]
@@ -30,12 +34,20 @@ pub struct TableOptions<'a> {
     pub printing: Printing,
     pub scene: &'a Scene,
     pub units: &'a Units,
+    pub strictness: Strictness,
+    /// The folder for the fields of the rows
+    pub fields: Option<&'a Path>,
+    pub processes: &'a Processes,
 }
 
-/// A table on disk, new or continued, with the warnings of its run.
+/// A table on disk, new or continued, with the warnings of its run. The first of several processes has its file, and
+/// the whole of the fields from which it goes on.
 pub struct Table<'a> {
     options: TableOptions<'a>,
-    journal: Journal,
+    grid: Grid,
+    journal: Option<Journal>,
+    rows: usize,
+    unconverged: usize,
     warnings: Warnings,
     /// The files that this run made; the table, which is locked, comes last
     made: Vec<PathBuf>,
@@ -43,37 +55,74 @@ pub struct Table<'a> {
 
 impl<'a> Table<'a> {
     /// Opens the table, writes the scene of the run beside it, and says the warnings so far. Returns the table and the
-    /// state from which an interrupted run goes on. The rows are those of `loads`, where these are known before.
-    pub fn open(
+    /// state from which an interrupted run goes on, in the rows of nodes that this process holds. `identity` is that of
+    /// the whole of the fields; the rows are those of `loads`, where these are known before.
+    pub fn open<T: Scalar>(
         options: TableOptions<'a>,
         header: &str,
-        identity: Identity,
+        (surface, adhesion, start): (&Surface, &Adhesion<'_>, Option<&Array2<f64>>),
+        identity: impl FnOnce(&Surface, &Adhesion<'_>, Option<&ArrayRef2<f64>>) -> Identity,
         loads: Option<&[f64]>,
-        mut warnings: Warnings,
     ) -> Outcome<(Self, Saved)> {
-        let TableOptions { out, force, scene, .. } = options;
-        scene.check_beside(out, force || out.exists())?;
-        let scene_file = scene.written_beside(out)?;
-        let made = [state_path(out), scene::beside(out), out.to_owned()].into_iter().filter(|path| !path.exists());
-        let made = made.collect();
-        let (journal, saved) = Journal::open(out, header, identity, loads, force)?;
-        scene_file.commit()?;
-        warnings.say();
-        if journal.rows() > 0 {
-            let of = loads.map_or(String::new(), |loads| format!(" of {}", loads.len()));
-            options.printing.say(&format!("{} has {}{of} rows already", out.display(), journal.rows()));
+        let TableOptions { problem, out, force, scene, strictness, processes, .. } = options;
+        let grid = *surface.grid();
+        if grid.is_shared() && grid.nodes() > WHOLE {
+            processes.alone("a table of more than 4096 x 4096 nodes")?;
         }
-        Ok((Self { options, journal, warnings, made }, saved))
+        let kept = Kept(options.fields);
+        let start = start.map(|start| grid.gathered(start));
+        let whole = surface.gathered().zip(adhesion.gathered());
+        let mut opened = None;
+        processes.first(|| {
+            let Some((surface, adhesion)) = whole else { return Ok(()) };
+            let mut warnings = Warnings::of_input::<T>(strictness, &surface, &adhesion, problem)?;
+            kept.check(force, out)?;
+            scene.check_beside(out, force || out.exists())?;
+            let scene_file = scene.written_beside(out)?;
+            let made = [state_path(out), scene::beside(out), out.to_owned()].into_iter().filter(|path| !path.exists());
+            let made: Vec<_> = made.collect();
+            let mut identity = identity(&surface, &adhesion, start.flatten().as_deref());
+            identity.insert("units".to_owned(), options.units.of_table().into());
+            let (journal, saved) = Journal::open(out, header, identity, loads, force)?;
+            scene_file.commit()?;
+            warnings.say();
+            if journal.rows() == 0 {
+                kept.clear();
+            } else {
+                let of = loads.map_or(String::new(), |loads| format!(" of {}", loads.len()));
+                options.printing.say(&format!("{} has {}{of} rows already", out.display(), journal.rows()));
+            }
+            opened = Some((journal, saved, warnings, made));
+            Ok(())
+        })?;
+        let opened = match opened {
+            Some((journal, saved, warnings, made)) => {
+                let (rows, unconverged) = (journal.rows(), journal.unconverged());
+                Ok((saved, Self { options, grid, journal: Some(journal), rows, unconverged, warnings, made }))
+            }
+            None => Seen::read(out).and_then(|Seen { saved, rows, unconverged }| {
+                let warnings = Warnings::none(strictness, true)?;
+                Ok((saved, Self { options, grid, journal: None, rows, unconverged, warnings, made: Vec::new() }))
+            }),
+        };
+        let (mut saved, table) = processes.agree(opened)?;
+        if grid.is_shared() {
+            let own = |field: Array2<f64>| field.slice_axis(Axis(0), Slice::from(grid.rows())).to_owned();
+            saved.fields = saved.fields.into_iter().map(own).collect();
+        }
+        Ok((table, saved))
     }
 
     /// The number of rows.
     pub fn rows(&self) -> usize {
-        self.journal.rows()
+        self.rows
     }
 
     /// All rows, with their header.
-    pub fn text(&self) -> asperity::Result<String> {
-        self.journal.text()
+    pub fn text(&self) -> Outcome<String> {
+        let text = self.journal.as_ref().map_or(Ok(String::new()), |journal| Ok(journal.text()?));
+        let processes = self.options.processes;
+        Ok(processes.told(processes.agree(text)?))
     }
 
     /// Shows a bar with this name while `solve` runs, which gets the observer of its iterations.
@@ -93,13 +142,32 @@ impl<'a> Table<'a> {
 
     /// Looks at a solution before its row is written: refuses one that ran away, and says its warnings.
     pub fn check<T: Scalar>(&mut self, solution: &Solution<T>) -> Outcome<()> {
-        check_finite(solution, &Grid::new(solution.gap.dim(), (1.0, 1.0))?)?;
-        self.warnings.look_at(solution, self.options.problem.surface.modulus())
+        check_finite(solution, &self.grid)?;
+        let (whole, modulus) = (solution.gathered(&self.grid), self.options.problem.surface.modulus());
+        let looked = whole.map_or(Ok(()), |whole| self.warnings.look_at(&whole, modulus));
+        self.options.processes.agree(looked)
     }
 
-    /// Appends a row.
-    pub fn append<T: Scalar>(&mut self, row: &Row<'_, T>) -> Outcome<()> {
-        self.journal.append(row)
+    /// Appends a row, with its fields if they are kept.
+    pub fn append<T: Scalar>(&mut self, row: &Row<'_, T>, solution: &Solution<T>) -> Outcome<()> {
+        let TableOptions { fields, processes, .. } = self.options;
+        Kept(fields).write(self.rows + 1, self.grid, solution, processes)?;
+        let whole: Vec<_> = row.fields.iter().map(|field| self.grid.gathered(field)).collect();
+        processes.first(|| {
+            let Some(journal) = &mut self.journal else { return Ok(()) };
+            let fields: Vec<_> = whole.iter().flatten().map(|field| field.view()).collect();
+            journal.append(&Row { fields: &fields, ..*row })
+        })?;
+        self.rows += 1;
+        self.unconverged += usize::from(!row.converged);
+        Ok(())
+    }
+
+    /// Removes the fields of a row, if they were kept.
+    pub fn forget(&self, row: usize) {
+        if self.journal.is_some() {
+            Kept(self.options.fields).forget(row);
+        }
     }
 
     /// The report on the table: the number of its rows, the figures that a command `found` in them, and the inputs.
@@ -107,7 +175,7 @@ impl<'a> Table<'a> {
         let mut outcome = json!({
             "control": control,
             "rows": self.rows(),
-            "unconverged": self.journal.unconverged(),
+            "unconverged": self.unconverged,
             "out": self.options.out.to_string_lossy(),
         });
         if let (Value::Object(outcome), Value::Object(found)) = (&mut outcome, found) {
@@ -120,7 +188,7 @@ impl<'a> Table<'a> {
 
     /// Whether all rows converged; if not, a warning says so, with what else may help.
     pub fn converged(&self, remedy: &str) -> bool {
-        let (count, rows, path) = (self.journal.unconverged(), self.rows(), self.options.out.display());
+        let (count, rows, path) = (self.unconverged, self.rows(), self.options.out.display());
         if count > 0 {
             let text = format!(
                 "{count} of {rows} rows not converged, their status and errors are in {path}: raise --max-iterations, {remedy}"

@@ -1,0 +1,33 @@
+//! Fields as files, of which each process writes its rows.
+
+use std::path::{Path, PathBuf};
+
+use asperity::Grid;
+use asperity::io::{OutputFolder, create_npy, write_npy, write_npy_rows};
+use ndarray::Array2;
+
+use crate::options::Scalar;
+use crate::outcome::Outcome;
+use crate::output::at_destination;
+use crate::processes::Processes;
+
+/// Writes fields on a grid, under their names, into the folder that the first process has for the files in `out`.
+pub fn write_fields<T: Scalar>(
+    processes: &Processes,
+    folder: Option<&OutputFolder>,
+    out: &Path,
+    grid: Grid,
+    fields: &[(String, &Array2<T>)],
+) -> Outcome<()> {
+    let at_destination = |error| at_destination(error, out).into();
+    let path = folder.map_or(String::new(), |folder| folder.path("").display().to_string());
+    let files = PathBuf::from(processes.told(path));
+    let mut named = fields.iter().map(|(name, field)| (files.join(name), *field));
+    if !grid.is_shared() {
+        return named.try_for_each(|(path, field)| write_npy(&path, field)).map_err(at_destination);
+    }
+    let mut create = fields.iter().map(|(name, _)| create_npy::<T>(&files.join(name), grid.shape()));
+    processes.first(|| create.try_for_each(|created| created).map_err(at_destination))?;
+    let mut write = named.map(|(path, field)| write_npy_rows(&path, grid.shape(), grid.rows().start, field));
+    processes.agree(write.try_for_each(|written| written).map_err(at_destination))
+}
