@@ -160,7 +160,7 @@ fn estimates(scenes: &[Scene], truths: &[Found], quick: bool) -> Outcome<()> {
                 }
                 let surface = scene.surface(n)?;
                 // as the tool does: the solver leaves next to nothing on the finest grid
-                let stiffness = (quantity == Quantity::Stiffness).then_some(1e-4);
+                let stiffness = (quantity != Quantity::Area).then_some(ContactStiffness::TOLERANCE);
                 let mut nested = Nested { coarse_tolerance: 1e-3, coarsest: GIVEN, stiffness, ..Nested::default() };
                 let found = nested.solve(&surface, half_space, scene.law()?, scene.control)?;
                 let waves = surface.nodes_per_wave(Boundary::Periodic);

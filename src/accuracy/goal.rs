@@ -16,6 +16,7 @@ use crate::nested::{Level, Nested, NestedSolution, equivalent_applications, prol
 use crate::problem::{Control, Problem};
 use crate::real::Real;
 use crate::solver::{Iteration, Solution, Solver, Start, Status};
+use crate::stability::ContactStiffness;
 use crate::surface::Surface;
 
 /// The tolerance of the solver as a share of the accuracy, and the largest.
@@ -277,8 +278,10 @@ impl<C> Accuracy<C> {
         let kept = (self.nested.solver.settings, self.nested.coarse_tolerance, self.nested.stiffness);
         self.nested.solver.settings.tolerance = Some(tolerance);
         self.nested.coarse_tolerance = tolerance;
-        if self.of == Quantity::Stiffness {
-            self.nested.stiffness = Some(kept.2.map_or(tolerance, |given| given.min(tolerance)));
+        if self.of != Quantity::Area {
+            // the edge of the contact tells the error
+            let needed = tolerance.min(ContactStiffness::TOLERANCE);
+            self.nested.stiffness = Some(kept.2.map_or(needed, |given| given.min(needed)));
         }
         let found = self.refine(surface, &mut operator, &law, control, &mut observe);
         (self.nested.solver.settings, self.nested.coarse_tolerance, self.nested.stiffness) = kept;
