@@ -81,7 +81,7 @@ fn the_edge_tells_nothing_where_errors_are_others() {
     let grid = Grid::square(32, 1.0).unwrap();
     let wave = Surface::wave_2d(grid, 0.02, 1).unwrap();
     let mut problem = Problem::new(&wave, Westergaard::<f64>::new(grid, 1.0).unwrap(), NoAdhesion).unwrap();
-    let solution = solve(&mut problem, Control::MeanGap(0.01), 1e-8);
+    let solution = Solver::default().solve(&mut problem, Control::MeanGap(0.01)).unwrap();
     assert!(tells(ContactStiffness::of(&mut problem, &solution).unwrap()));
     let mut springs = Solver { settings: Settings::default(), constraint: Penalty::new(200.0).unwrap() };
     let solution = springs.solve(&mut problem, Control::MeanGap(0.01)).unwrap();
