@@ -215,9 +215,9 @@ const ORDERS: (f64, f64) = (0.5, 3.0);
 /// depends on where between the nodes the edge falls; δQ alone may be small by luck. The factors are fitted to rough
 /// surfaces, and the page [`choosing`](crate::guide::choosing) has how good the estimates are on others.
 ///
-/// A grid counts if it has the same waves, the shortest of which ([`Surface::nodes_per_wave`]) with at least four nodes,
-/// resolves the adhesion (μ_ρ ≤ 0.5), and, if it is a coarser one, was solved to 3e-3. The estimates of gap and pressure
-/// by the edge are sure; those of the area, and of the stiffness by the edge, if the shortest wave has at least
+/// A grid counts if it has the same waves, the shortest of which ([`Surface::nodes_per_wave`]) with at least four
+/// nodes, resolves the adhesion (μ_ρ ≤ 0.5), and, if it is a coarser one, was solved to 3e-3. The estimates of gap and
+/// pressure by the edge are sure; those of the area, and of the stiffness by the edge, if the shortest wave has at least
 /// sixteen nodes on the finest grid. All others, and those from coarser grids on a line, are [`rough`](Self::rough).
 ///
 /// ```

@@ -69,7 +69,7 @@ impl Scene {
         Ok(if self.adhesive { Box::new(Exponential::new(LAW.0, LAW.1)?) } else { Box::new(NoAdhesion) })
     }
 
-    /// The corrected area as the tool finds it without an accuracy, with coarser grids where they pay, and what it takes.
+    /// The corrected area as the tool finds it without an accuracy, with coarser grids where they pay, and the work.
     fn by_hand(&self, n: usize, tolerance: f64) -> Outcome<(f64, f64)> {
         let (surface, law) = (self.surface(n)?, self.law()?);
         let mut nested = Nested::new(Settings { tolerance: Some(tolerance), ..Settings::default() });

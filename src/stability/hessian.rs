@@ -167,8 +167,8 @@ impl<'a, T: Real> Hessian<'a, T> {
         Ok(self.project(image))
     }
 
-    /// The force that holds a field at zero on the contact: a level less K⁻¹ of the field there, and zero elsewhere. Takes
-    /// one operator application.
+    /// The force that holds a field at zero on the contact: a level less K⁻¹ of the field there, and zero elsewhere.
+    /// Takes one operator application.
     pub(super) fn reaction(&mut self, field: &Array2<T>, level: f64, reaction: &mut Array2<T>) -> Result<()> {
         self.operator.pressure(field.view(), reaction.view_mut())?;
         self.applications += 1;
