@@ -1,8 +1,8 @@
 //! The accuracy that is wanted: how wrong the grid is, and a solve that refines it until it is right enough.
 //!
 //! An answer has two errors: that of the solver, which the certificate bounds, and that of the grid. [`GridError`]
-//! estimates the latter from the edge of the contact and from the solutions on nested grids; [`Accuracy`] asks for a relative error of a [`Quantity`]
-//! and chooses tolerance and grid itself.
+//! estimates the latter from the edge of the contact and from the solutions on nested grids; [`Accuracy`] asks for a
+//! relative error of a [`Quantity`] and chooses tolerance and grid itself.
 
 use std::fmt;
 
@@ -217,8 +217,9 @@ const ORDERS: (f64, f64) = (0.5, 3.0);
 ///
 /// A grid counts if it has the same waves, the shortest of which ([`Surface::nodes_per_wave`]) with at least four
 /// nodes, resolves the adhesion (μ_ρ ≤ 0.5), and, if it is a coarser one, was solved to 3e-3. The estimates of gap and
-/// pressure by the edge are sure; those of the area, and of the stiffness by the edge, if the shortest wave has at least
-/// sixteen nodes on the finest grid. All others, and those from coarser grids on a line, are [`rough`](Self::rough).
+/// pressure by the edge are sure; those of the area, and of the stiffness by the edge, if the shortest wave has at
+/// least sixteen nodes on the finest grid. All others, and those from coarser grids on a line, are
+/// [`rough`](Self::rough).
 ///
 /// ```
 /// use asperity::accuracy::{GridError, Quantity};
