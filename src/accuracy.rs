@@ -88,7 +88,7 @@ impl Quantity {
     }
 
     /// The relative error on a level by the edge of its contact, if its stiffness was found.
-    fn at_edge(self, level: &Level) -> Option<f64> {
+    fn by_edge(self, level: &Level) -> Option<f64> {
         let stiffness = level.stiffness?;
         let edge = stiffness.edge?;
         let error = match self {
@@ -101,12 +101,7 @@ impl Quantity {
     }
 
     /// The relative error of the finer of two grids, by the values on them and the counted areas beside these.
-    fn from_coarser(
-        self,
-        (fine, counted): (f64, f64),
-        (coarse, coarse_counted): (f64, f64),
-        line: bool,
-    ) -> Option<f64> {
+    fn by_coarser(self, (fine, counted): (f64, f64), (coarse, coarse_counted): (f64, f64), line: bool) -> Option<f64> {
         if (fine, counted) == (coarse, coarse_counted) {
             // no contact, or nothing else
             return Some(0.0);
@@ -279,14 +274,14 @@ impl GridError {
         }
         let order = observed_order(&values);
         let fine = nodes_per_wave >= 2.0 * FINE;
-        match quantity.at_edge(finest) {
+        match quantity.by_edge(finest) {
             Some(relative) if resolves(1.0) => {
                 let rough = quantity == Quantity::Stiffness && !fine;
                 Some(Self { relative, order, rough })
             }
             _ => {
                 let line = finest.shape.0 == 1 || finest.shape.1 == 1;
-                let relative = quantity.from_coarser(values[0], *values.get(1)?, line)?;
+                let relative = quantity.by_coarser(values[0], *values.get(1)?, line)?;
                 let rough = line || quantity != Quantity::Area || !fine || relative == 0.0;
                 Some(Self { relative, order, rough })
             }
