@@ -1,8 +1,8 @@
 //! The accuracy that is wanted: how wrong the grid is, and a solve that refines it until it is right enough.
 //!
 //! An answer has two errors: that of the solver, which the certificate bounds, and that of the grid. [`GridError`]
-//! estimates the latter from the solutions on nested grids; [`Accuracy`] asks for a relative error of a [`Quantity`]
-//! and chooses tolerance and grid itself.
+//! estimates the latter from the edge of the contact and from the solutions on nested grids; [`Accuracy`] asks for a
+//! relative error of a [`Quantity`] and chooses tolerance and grid itself.
 
 use std::fmt;
 
@@ -10,6 +10,8 @@ use crate::elastic::Boundary;
 use crate::error::{Error, Result};
 use crate::nested::Level;
 use crate::problem::Control;
+#[cfg(doc)]
+use crate::stability::EdgeError;
 use crate::surface::{Surface, Topography};
 
 mod goal;
@@ -85,6 +87,41 @@ impl Quantity {
         Some((value, value))
     }
 
+    /// The relative error on a level by the edge of its contact, if its stiffness was found.
+    fn by_edge(self, level: &Level) -> Option<f64> {
+        let stiffness = level.stiffness?;
+        let edge = stiffness.edge?;
+        let error = match self {
+            Self::Area => return None,
+            Self::Gap => edge.gap / level.mean_gap,
+            Self::Pressure => edge.gap * stiffness.pressure_per_length / level.mean_pressure,
+            Self::Stiffness => edge.stiffness / stiffness.pressure_per_length,
+        };
+        Some(error.abs()).filter(|error| error.is_finite())
+    }
+
+    /// The relative error of the finer of two grids, by the values on them and the counted areas beside these.
+    fn by_coarser(self, (fine, counted): (f64, f64), (coarse, coarse_counted): (f64, f64), line: bool) -> Option<f64> {
+        if (fine, counted) == (coarse, coarse_counted) {
+            // no contact, or nothing else
+            return Some(0.0);
+        }
+        if !(fine.is_finite() && coarse.is_finite()) || fine == 0.0 {
+            return None;
+        }
+        let difference = (fine - coarse) / fine;
+        let edge = (counted - coarse_counted) / counted.max(coarse_counted);
+        let (share, of_edge) = match self {
+            // where the area is not corrected, all is of first order, or of second
+            Self::Area | Self::Stiffness if line => (1.0, 0.3),
+            Self::Gap | Self::Pressure if line => (1.0 / 3.0, 0.02),
+            Self::Area => (0.25, 0.17),
+            Self::Stiffness => (0.3, 0.11),
+            Self::Gap | Self::Pressure => (0.15, 0.001),
+        };
+        Some((share * difference).hypot(of_edge * edge))
+    }
+
     /// The error that is to be expected with so many nodes in the shortest wave, by what rough surfaces had.
     fn expected(self, nodes_per_wave: f64) -> f64 {
         let (share, order) = match self {
@@ -155,8 +192,12 @@ const ORDERS: (f64, f64) = (0.5, 3.0);
 
 /// The estimated relative error of the grid, of one quantity.
 ///
-/// With δQ the relative difference of a quantity Q between the grid and one of half as many nodes along its sides, the
-/// error is taken to be
+/// Where the contact stiffness k of the finest grid was found ([`Nested::stiffness`](crate::Nested::stiffness)), the
+/// errors of the mean gap, the mean pressure and the stiffness follow from its edge, [`EdgeError`], without another
+/// grid: that of the pressure under a given mean gap is k times that of the gap under a given pressure.
+///
+/// Otherwise they follow from a coarser grid. With δQ the relative difference of a quantity Q between the grid and one
+/// of half as many nodes along its sides, the error is taken to be
 ///
 /// | quantity | estimate |
 /// |---|---|
@@ -169,9 +210,10 @@ const ORDERS: (f64, f64) = (0.5, 3.0);
 /// depends on where between the nodes the edge falls; δQ alone may be small by luck. The factors are fitted to rough
 /// surfaces, and the page [`choosing`](crate::guide::choosing) has how good the estimates are on others.
 ///
-/// A coarser grid counts if it has the same waves, the shortest of which ([`Surface::nodes_per_wave`]) with at least
-/// four nodes, resolves the adhesion (μ_ρ ≤ 0.5), and was solved to 3e-3. The estimate of the area is sure if the
-/// shortest wave has at least eight nodes on the coarser grid; all others, and those on a line, are
+/// A grid counts if it has the same waves, the shortest of which ([`Surface::nodes_per_wave`]) with at least four
+/// nodes, resolves the adhesion (μ_ρ ≤ 0.5), and, if it is a coarser one, was solved to 3e-3. The estimates of gap and
+/// pressure by the edge are sure; those of the area, and of the stiffness by the edge, if the shortest wave has at
+/// least sixteen nodes on the finest grid. All others, and those from coarser grids on a line, are
 /// [`rough`](Self::rough).
 ///
 /// ```
@@ -219,46 +261,42 @@ impl GridError {
     /// `nodes_per_wave` is that of the surface on the finest grid, and `mu_rho` its resolution measure of the adhesion.
     pub fn of(levels: &[Level], quantity: Quantity, nodes_per_wave: f64, mu_rho: f64) -> Option<Self> {
         let finest = levels.last()?;
+        let resolves = |factor: f64| nodes_per_wave / factor >= RESOLVED && mu_rho * factor.sqrt() <= UNDER_RESOLVED;
         let value = |level: &Level| quantity.of(level).filter(|(value, _)| !value.is_nan());
         let mut values = vec![value(finest)?];
         for level in levels.iter().rev().skip(1) {
             let factor = finest.shape.0 as f64 / level.shape.0 as f64;
             let next = f64::from(1 << values.len());
-            let resolves = nodes_per_wave / factor >= RESOLVED && mu_rho * factor.sqrt() <= UNDER_RESOLVED;
-            if (factor / next - 1.0).abs() > HALVED || !resolves || level.relative_error > SOLVED {
+            if (factor / next - 1.0).abs() > HALVED || !resolves(factor) || level.relative_error > SOLVED {
                 break;
             }
             values.push(value(level)?);
         }
-        let ((fine, counted), (coarse, coarse_counted)) = (values[0], *values.get(1)?);
-        if (fine, counted) == (coarse, coarse_counted) {
-            // no contact, or nothing else
-            return Some(Self { relative: 0.0, order: None, rough: true });
+        let order = observed_order(&values);
+        let fine = nodes_per_wave >= 2.0 * FINE;
+        match quantity.by_edge(finest) {
+            Some(relative) if resolves(1.0) => {
+                let rough = quantity == Quantity::Stiffness && !fine;
+                Some(Self { relative, order, rough })
+            }
+            _ => {
+                let line = finest.shape.0 == 1 || finest.shape.1 == 1;
+                let relative = quantity.by_coarser(values[0], *values.get(1)?, line)?;
+                let rough = line || quantity != Quantity::Area || !fine || relative == 0.0;
+                Some(Self { relative, order, rough })
+            }
         }
-        if !(fine.is_finite() && coarse.is_finite()) || fine == 0.0 {
-            return None;
-        }
-        let difference = (fine - coarse) / fine;
-        let edge = (counted - coarse_counted) / counted.max(coarse_counted);
-        let before = values.get(2).map(|(coarser, _)| (coarse - coarser) / fine);
-        let order = before.map(|before| (before / difference).log2());
-        let order = order.filter(|order| (ORDERS.0..=ORDERS.1).contains(order));
-        let line = finest.shape.0 == 1 || finest.shape.1 == 1;
-        let (share, of_edge) = match quantity {
-            // where the area is not corrected, all is of first order, or of second
-            Quantity::Area | Quantity::Stiffness if line => (1.0, 0.3),
-            Quantity::Gap | Quantity::Pressure if line => (1.0 / 3.0, 0.02),
-            Quantity::Area => (0.25, 0.17),
-            Quantity::Stiffness => (0.3, 0.11),
-            Quantity::Gap | Quantity::Pressure => (0.15, 0.001),
-        };
-        let rough = line || quantity != Quantity::Area || nodes_per_wave < 2.0 * FINE;
-        let relative = (share * difference).hypot(of_edge * edge);
-        Some(Self { relative, order, rough })
     }
 
     /// The error, larger where it may be far off.
     pub(crate) fn cautious(&self) -> f64 {
         if self.rough { CAUTION * self.relative } else { self.relative }
     }
+}
+
+/// The order of convergence of values on grids, the finest first, where three have one that is believed.
+fn observed_order(values: &[(f64, f64)]) -> Option<f64> {
+    let &[(fine, _), (coarse, _), (coarser, _), ..] = values else { return None };
+    let order = ((coarse - coarser) / (fine - coarse)).log2();
+    (ORDERS.0..=ORDERS.1).contains(&order).then_some(order)
 }

@@ -20,12 +20,14 @@ use crate::solver::{Of, Potential, Solution, check_wall};
 
 mod bound;
 mod departure;
+mod edge;
 mod eigenpair;
 mod hessian;
 mod stiffness;
 mod watch;
 
 pub use departure::Departure;
+pub use edge::EdgeError;
 use eigenpair::{Eigenpair, lowest};
 use hessian::Hessian;
 pub use stiffness::ContactStiffness;

@@ -70,11 +70,16 @@ def goal(accuracy: float | None, of: str | None, memory: float | None, **choices
 
 
 def estimate(report: dict[str, Any]) -> str:
-    """The estimated error of the grid in words: of the quantity that has the accuracy, or of the area."""
-    of = report["accuracy"]["of"] if report["accuracy"] is not None else "area"
-    found = report["grid_error"][of]
-    if found is None:
-        return "unknown"
+    """The estimated error of the grid in words: of what has the accuracy, or of the area and all that is sure."""
+    errors = report["grid_error"]
+    if report["accuracy"] is not None:
+        of = report["accuracy"]["of"]
+        return _told(errors[of], of) if errors[of] is not None else "unknown"
+    told = [_told(found, of) for of, found in errors.items() if found and (of == "area" or not found["rough"])]
+    return ", ".join(told) or "unknown"
+
+
+def _told(found: dict[str, Any], of: str) -> str:
     return f"{100 * found['relative']:.2g} % of the {of}{', roughly' if found['rough'] else ''}"
 
 

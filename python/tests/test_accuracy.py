@@ -83,7 +83,7 @@ def test_an_accuracy_that_is_not_reached_is_a_warning_with_the_reason(coarse):
     [
         ({"accuracy": 1.5}, "accuracy is 1.5: it must be between 0 and 1"),
         ({"accuracy": np.nan}, "accuracy is NaN"),
-        ({"accuracy": 0.05, "tolerance": 1e-2}, "tolerance is 0.01: it must be at most a tenth of the accuracy"),
+        ({"accuracy": 0.05, "tolerance": 1e-2}, "tolerance is 0.01: it must be at most a twentieth of the accuracy"),
         ({"accuracy": 0.05, "accuracy_of": "pressure"}, "accuracy of the pressure: it is given"),
         ({"accuracy": 0.05, "accuracy_of": "energy"}, "accuracy_of is energy: it must be one of area, gap"),
         ({"accuracy": 0.05, "memory": -1}, "memory is -1: it must be positive, in GiB"),

@@ -16,10 +16,11 @@ use crate::nested::{Level, Nested, NestedSolution, equivalent_applications, prol
 use crate::problem::{Control, Problem};
 use crate::real::Real;
 use crate::solver::{Iteration, Solution, Solver, Start, Status};
+use crate::stability::ContactStiffness;
 use crate::surface::Surface;
 
 /// The tolerance of the solver as a share of the accuracy, and the largest.
-const SHARE: f64 = 0.1;
+const SHARE: f64 = 0.05;
 const LOOSEST: f64 = 1e-3;
 
 /// The least number of nodes along a side of a coarser grid.
@@ -39,7 +40,7 @@ const DOUBT: f64 = 3.0;
 
 /// An accuracy that is asked for: a relative error of a quantity, from which tolerance and grid follow.
 ///
-/// The given grid is solved first, with coarser ones below it ([`Nested`]), to a tolerance of a tenth of the
+/// The given grid is solved first, with coarser ones below it ([`Nested`]), to a tolerance of a twentieth of the
 /// accuracy, and at most 1e-3; then the error of the grid is estimated ([`GridError`]). As long as the estimate, half
 /// as large again where it is rough, and the certified error of the solver together are larger than the accuracy, or
 /// the estimate cannot be told, the surface is put on twice as many nodes along its sides by Fourier interpolation, as
@@ -155,7 +156,7 @@ impl<C> Accuracy<C> {
         Self { target, of, memory: MEMORY, nested }
     }
 
-    /// The tolerance of the solver: a tenth of the accuracy, and at most 1e-3; or the one that was given.
+    /// The tolerance of the solver: a twentieth of the accuracy, and at most 1e-3; or the one that was given.
     ///
     /// # Errors
     /// [`Error::Value`] if the accuracy is not between 0 and 1, or the given tolerance is larger.
@@ -167,7 +168,7 @@ impl<C> Accuracy<C> {
         let needed = (SHARE * self.target).min(LOOSEST);
         match self.nested.solver.settings.tolerance {
             Some(value) if value > needed => {
-                let requirement = "at most a tenth of the accuracy, and at most 1e-3; without one it is chosen";
+                let requirement = "at most a twentieth of the accuracy, and at most 1e-3; without one it is chosen";
                 Err(Error::Value { name: "tolerance", value, requirement })
             }
             given => Ok(given.unwrap_or(needed)),
@@ -277,8 +278,10 @@ impl<C> Accuracy<C> {
         let kept = (self.nested.solver.settings, self.nested.coarse_tolerance, self.nested.stiffness);
         self.nested.solver.settings.tolerance = Some(tolerance);
         self.nested.coarse_tolerance = tolerance;
-        if self.of == Quantity::Stiffness {
-            self.nested.stiffness = Some(kept.2.map_or(tolerance, |given| given.min(tolerance)));
+        if self.of != Quantity::Area {
+            // the edge of the contact tells the error
+            let needed = tolerance.min(ContactStiffness::TOLERANCE);
+            self.nested.stiffness = Some(kept.2.map_or(needed, |given| given.min(needed)));
         }
         let found = self.refine(surface, &mut operator, &law, control, &mut observe);
         (self.nested.solver.settings, self.nested.coarse_tolerance, self.nested.stiffness) = kept;

@@ -175,6 +175,21 @@ impl<'a, T: Real> Hessian<'a, T> {
         Ok(self.project(image))
     }
 
+    /// The force that holds a field at zero on the contact: a level less K⁻¹ of the field there, and zero elsewhere.
+    /// Takes one operator application.
+    pub(super) fn reaction(&mut self, field: &Array2<T>, level: f64, reaction: &mut Array2<T>) -> Result<()> {
+        self.operator.pressure(field.view(), reaction.view_mut())?;
+        self.applications += 1;
+        let level = T::lit(level);
+        self.reducer.run(read(&self.slopes).zip(write(reaction)), |_, (slopes, values)| {
+            for (slope, value) in slopes.iter().zip(values) {
+                *value = if slope.is_finite() { T::zero() } else { level - *value };
+            }
+            Partial::NONE
+        });
+        Ok(())
+    }
+
     /// The compliance, as preconditioner, of an admissible field r; returns the mean of r·Kr. Takes one operator
     /// application.
     pub(super) fn precondition(&mut self, residual: &Array2<T>, result: &mut Array2<T>) -> Result<f64> {

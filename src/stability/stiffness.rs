@@ -2,10 +2,11 @@
 
 use ndarray::Array2;
 
+use super::edge::EdgeError;
 use super::hessian::Hessian;
 use super::{check_gap, slopes};
 use crate::adhesion::AdhesionLaw;
-use crate::constraint::{ContactConstraint, Projection};
+use crate::constraint::{ContactConstraint, Projection, Wall};
 use crate::elastic::ElasticOperator;
 use crate::error::{Error, Result};
 use crate::par;
@@ -79,6 +80,18 @@ pub struct ContactStiffness {
     pub smoothed: bool,
     /// The number of operator applications.
     pub operator_applications: usize,
+    /// The estimated error of the grid in a periodic cell. Nothing with a free boundary or absent nodes, whose errors
+    /// are others, where no node, or every one, is in contact, where springs or a law are in the place of the wall, and
+    /// where several processes share the grid.
+    pub edge: Option<EdgeError>,
+}
+
+/// The change of a solution as the mean gap opens by 1, on the grid of the operator.
+pub(super) struct Tangent<T> {
+    /// The change of the gap.
+    pub(super) opening: Array2<T>,
+    /// The contact pressure that is lost.
+    pub(super) pressure: Array2<T>,
 }
 
 impl ContactStiffness {
@@ -87,7 +100,7 @@ impl ContactStiffness {
 
     /// The contact stiffness of a solution, whose wall is rigid. The gap may be in any memory layout.
     ///
-    /// Memory per node: six scalars, beside those of the problem.
+    /// Memory per node: seven scalars, beside those of the problem.
     ///
     /// # Errors
     /// Those of [`StabilityTest::run`](super::StabilityTest::run), but for its tolerance.
@@ -127,12 +140,16 @@ impl ContactStiffness {
                 relative_error: 0.0,
                 smoothed: false,
                 operator_applications: 0,
+                edge: None,
             });
         }
         let window = flat.window.as_ref();
         let smoothed = smoothed_law(operator, law);
         let followed = smoothed.as_deref().unwrap_or(law);
         let slopes = slopes(&solution.gap, (followed, constraint), (operator.grid(), window))?;
+        let rigid = matches!(constraint.wall(), Wall::Rigid) && window.is_none();
+        // the edge is looked at on a grid that this process has as a whole
+        let at_edge = rigid && !operator.grid().slab().is_shared() && solution.report.contact_nodes > 0;
         let smoothed = smoothed.is_some();
         let mut hessian = Hessian::new(operator, slopes, Load::Gap(0.0));
         hessian.hold(flat.stiffness);
@@ -140,29 +157,40 @@ impl ContactStiffness {
             Some(window) => window.extend(solution.gap.view()),
             None => solution.gap.as_standard_layout().into_owned(),
         };
-        let (on_grid, relative_error) = par::within(|| least_energy(&mut hessian, start, tolerance))?;
+        let least = par::within(|| least_energy(&mut hessian, start, tolerance))?;
+        let LeastEnergy { energy: on_grid, relative_error, tangent } = least;
         let operator_applications = hessian.applications();
         // the mean of a free half-space gives way beside its waves
         let series = if on_grid == 0.0 { 0.0 } else { (on_grid.recip() + flat.boundary.mean_compliance()).recip() };
         let pressure_per_length = flat.padding * series;
         let force_per_length = pressure_per_length * flat.area;
-        Ok(Self { pressure_per_length, force_per_length, relative_error, smoothed, operator_applications })
+        let edge = tangent
+            .filter(|_| at_edge)
+            .map(|tangent| EdgeError::of(solution, &tangent, operator.grid(), (operator.modulus(), on_grid)));
+        Ok(Self { pressure_per_length, force_per_length, relative_error, smoothed, operator_applications, edge })
     }
 }
 
-/// The least ⟨v, Hv⟩ of all v that vanish on the contact and have the mean 1, and its relative error, from a start that
-/// need not vanish or have that mean.
-fn least_energy<T: Real>(hessian: &mut Hessian<'_, T>, start: Array2<T>, tolerance: f64) -> Result<(f64, f64)> {
+/// The least ⟨v, Hv⟩ of all v that vanish on the contact and have the mean 1.
+struct LeastEnergy<T> {
+    energy: f64,
+    relative_error: f64,
+    /// That v, and its pressure; nothing where no v has a least energy.
+    tangent: Option<Tangent<T>>,
+}
+
+/// The least energy, from a start that need not vanish on the contact or have the mean 1.
+fn least_energy<T: Real>(hessian: &mut Hessian<'_, T>, start: Array2<T>, tolerance: f64) -> Result<LeastEnergy<T>> {
     if hessian.free() == 0.0 {
-        return Ok((f64::INFINITY, 0.0));
+        return Ok(LeastEnergy { energy: f64::INFINITY, relative_error: 0.0, tangent: None });
     }
-    let mut direction = start;
-    hessian.admit(&mut direction);
+    let mut opening = start;
+    hessian.admit(&mut opening);
     let [mut residual, mut image] = [(); 2].map(|()| Array2::<T>::zeros(hessian.shape()));
-    let level = hessian.apply(&direction, &mut image)?;
-    let mut energy = hessian.product(&direction, &image) + level;
+    let level = hessian.apply(&opening, &mut image)?;
+    let mut energy = hessian.product(&opening, &image) + level;
     hessian.combine(0.0, &mut residual, -1.0, &image);
-    let mut preconditioned = Array2::zeros(hessian.shape());
+    let [mut direction, mut preconditioned] = [(); 2].map(|()| Array2::zeros(hessian.shape()));
     let mut before = 0.0;
     let mut error = f64::INFINITY;
     for iteration in 0..=MOST {
@@ -176,12 +204,15 @@ fn least_energy<T: Real>(hessian: &mut Hessian<'_, T>, start: Array2<T>, toleran
         hessian.apply(&direction, &mut image)?;
         let curvature = hessian.product(&direction, &image);
         if curvature.is_nan() || curvature <= 0.0 {
-            return Ok((f64::NAN, f64::NAN));
+            return Ok(LeastEnergy { energy: f64::NAN, relative_error: f64::NAN, tangent: None });
         }
         let step = descent / curvature;
+        hessian.combine(1.0, &mut opening, step, &direction);
         hessian.combine(1.0, &mut residual, -step, &image);
         energy -= step * descent;
         before = descent;
     }
-    Ok((energy, if error == 0.0 { 0.0 } else { error / energy.abs() }))
+    hessian.reaction(&opening, energy, &mut image)?;
+    let relative_error = if error == 0.0 { 0.0 } else { error / energy.abs() };
+    Ok(LeastEnergy { energy, relative_error, tangent: Some(Tangent { opening, pressure: image }) })
 }

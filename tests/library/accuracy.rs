@@ -74,6 +74,38 @@ fn nearly_closed_contacts_have_an_estimate_on_their_own_grid() {
 }
 
 #[test]
+fn the_edge_of_the_contact_tells_the_error_of_a_single_grid() {
+    let [mut all, mut close] = [0; 2];
+    for (seed, pressure) in [(1, 2e-3), (2, 5e-3), (3, 0.012)] {
+        for (control, quantity) in [
+            (Control::MeanPressure(pressure), Quantity::Gap),
+            (Control::MeanPressure(pressure), Quantity::Stiffness),
+            (Control::MeanGap(0.01), Quantity::Pressure),
+        ] {
+            let truth = truth(seed, control);
+            for n in [64, 128] {
+                let mut nested = Nested { coarsest: n, stiffness: Some(1e-4), ..Nested::default() };
+                let found = nested.solve(&surface(n, seed), half_space, NoAdhesion, control).unwrap();
+                assert_eq!(found.levels.len(), 1);
+                let waves = surface(n, seed).nodes_per_wave(Boundary::Periodic);
+                let estimate = GridError::of(&found.levels, quantity, waves, 0.0).unwrap();
+                assert_eq!(estimate.rough, quantity == Quantity::Stiffness && n == 64);
+                let of = |level: &Level| match quantity {
+                    Quantity::Gap => level.mean_gap,
+                    Quantity::Pressure => level.mean_pressure,
+                    _ => level.stiffness.unwrap().pressure_per_length,
+                };
+                let ratio = estimate.relative / (of(&found.levels[0]) / of(&truth) - 1.0).abs();
+                assert!(ratio > 1.0 / 3.0, "{quantity} {seed} {n}: {ratio}");
+                (all, close) = (all + 1, close + usize::from(ratio < 3.0));
+            }
+        }
+    }
+    // more than that over many scenes, as `--example tradeoff` counts
+    assert!(4 * close > 3 * all, "{close} of {all}");
+}
+
+#[test]
 fn the_refined_surface_is_the_same_one() {
     let found = Accuracy::new(0.03, Quantity::Area).solve(&surface(32, 1), half_space, NoAdhesion, PRESSED).unwrap();
     let n = found.surface.grid().shape().0;

@@ -55,6 +55,44 @@ fn a_wave_on_a_line_follows_its_closed_form() {
     }
 }
 
+#[test]
+fn the_error_of_a_line_is_known_from_its_edge() {
+    // errors pass zero now and then; the scatter of the terms is what is left of the estimate there
+    for n in [256, 1024] {
+        let grid = Grid::line(n, 1.0).unwrap();
+        let wave = Surface::wave(grid, 0.02, 1).unwrap();
+        let mut problem = Problem::new(&wave, Westergaard::<f64>::new(grid, 1.0).unwrap(), NoAdhesion).unwrap();
+        for s in [0.05_f64, 0.13, 0.3, 0.31, 0.32, 0.8] {
+            let solution = solve(&mut problem, Control::MeanPressure(s * PI * 0.02), 1e-9);
+            let found = ContactStiffness::of(&mut problem, &solution).unwrap();
+            let edge = found.edge.unwrap();
+            let gap = solution.report.mean_gap - 0.02 * (1.0 - s + s * s.ln());
+            let stiffness = found.pressure_per_length + PI / s.ln();
+            for (estimate, error) in [(edge.gap, gap), (edge.stiffness, stiffness)] {
+                assert!((0.9..1.2).contains(&(estimate / error.abs())), "{n} {s}: {estimate:e} {error:e}");
+            }
+        }
+    }
+}
+
+#[test]
+fn the_edge_tells_nothing_where_errors_are_others() {
+    let tells = |found: ContactStiffness| found.edge.is_some();
+    let grid = Grid::square(32, 1.0).unwrap();
+    let wave = Surface::wave_2d(grid, 0.02, 1).unwrap();
+    let mut problem = Problem::new(&wave, Westergaard::<f64>::new(grid, 1.0).unwrap(), NoAdhesion).unwrap();
+    let solution = Solver::default().solve(&mut problem, Control::MeanGap(0.01)).unwrap();
+    assert!(tells(ContactStiffness::of(&mut problem, &solution).unwrap()));
+    let mut springs = Solver { settings: Settings::default(), constraint: Penalty::new(200.0).unwrap() };
+    let solution = springs.solve(&mut problem, Control::MeanGap(0.01)).unwrap();
+    let found = ContactStiffness::of_constrained(&mut problem, &springs.constraint, &solution, 1e-6).unwrap();
+    assert!(solution.report.contact_nodes > 0 && !tells(found), "{found:?}");
+    let sphere = Surface::paraboloid(grid, 2.0).unwrap();
+    let mut free = Problem::new(&sphere, Boussinesq::<f64>::new(grid, 1.0).unwrap(), NoAdhesion).unwrap();
+    let solution = Solver::default().solve(&mut free, Control::Approach(0.04)).unwrap();
+    assert!(!tells(ContactStiffness::of(&mut free, &solution).unwrap()));
+}
+
 /// −dp̄/dḡ between two solves at nearly the same mean gap.
 fn difference<L: AdhesionLaw<f64>>(
     problem: &mut Problem<f64, Westergaard<f64>, L>,

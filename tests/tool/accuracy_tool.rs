@@ -72,7 +72,7 @@ fn accuracies_that_make_no_sense_are_refused_on_one_line() {
     for (options, parts) in [
         ("--accuracy 1.5", &["accuracy is 1.5", "between 0 and 1"][..]),
         ("--accuracy 0", &["--accuracy", "positive"]),
-        ("--accuracy 0.05 --tolerance 1e-2", &["tolerance is 0.01", "a tenth of the accuracy"]),
+        ("--accuracy 0.05 --tolerance 1e-2", &["tolerance is 0.01", "a twentieth of the accuracy"]),
         ("--accuracy 0.05 --accuracy-of pressure", &["accuracy of the pressure", "it is given", "gap"]),
         ("--accuracy-of gap", &["--accuracy"]),
         ("--accuracy 0.05 --nested", &["--nested", "--accuracy"]),

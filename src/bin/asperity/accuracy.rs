@@ -138,8 +138,12 @@ pub fn errors(levels: &[Level], nodes_per_wave: f64, mu_rho: f64, control: Contr
     )
 }
 
-/// The estimated error of the area in words, if it can be told.
-pub fn area_error(levels: &[Level], nodes_per_wave: f64, mu_rho: f64) -> Option<String> {
-    let of = Quantity::Area;
-    GridError::of(levels, of, nodes_per_wave, mu_rho).map(|error| estimate(&error, of))
+/// The estimated errors in words: that of the area, if it can be told, and those that are sure.
+pub fn told_errors(levels: &[Level], nodes_per_wave: f64, mu_rho: f64, control: Control) -> Option<String> {
+    let all = GridError::of_all(levels, control, nodes_per_wave, mu_rho).into_iter();
+    let told = all.filter_map(|(of, error)| {
+        error.filter(|error| of == Quantity::Area || !error.rough).map(|error| estimate(&error, of))
+    });
+    let words: Vec<_> = told.collect();
+    (!words.is_empty()).then(|| words.join(", "))
 }

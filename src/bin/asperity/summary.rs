@@ -85,8 +85,9 @@ pub fn table(names: &[&str], solves: &[&Account], units: &Units) -> String {
     }
     if solves.iter().any(|solve| solve.grids.is_some()) {
         row("error of the grid", &|s, r| {
-            let of_area = |(levels, _): &(Vec<_>, _)| accuracy::area_error(levels, s.nodes_per_wave, r.mu_rho);
-            let told = || s.grids.as_ref().and_then(of_area).unwrap_or("unknown".to_owned());
+            let errors =
+                |(levels, _): &(Vec<_>, _)| accuracy::told_errors(levels, s.nodes_per_wave, r.mu_rho, s.control);
+            let told = || s.grids.as_ref().and_then(errors).unwrap_or("unknown".to_owned());
             s.reached.as_ref().map_or_else(told, Reached::estimate)
         });
     }
