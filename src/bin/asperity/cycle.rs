@@ -205,11 +205,11 @@ impl Options {
             }
             had_event = step.event.is_some();
             let event = step.event.map_or(String::new(), |event| format!("  {event}"));
-            self.printing.say(&format!("{:>4}  {}{event}", table.rows(), table::brief(report, &units)));
+            self.printing.say(&format!("{:>4}  {}{event}", table.rows(), table::brief(report, units)));
             apart = Self::is_apart(&row.into());
         }
         drop(path);
-        self.conclude(&table, &units, &grid, processes)?;
+        self.conclude(&table, units, &grid, processes)?;
         Ok(table.converged("or use a larger --tolerance"))
     }
 

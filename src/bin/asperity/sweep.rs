@@ -193,7 +193,7 @@ impl Options {
             let converged = solution.report.status == Status::Converged;
             let row = Row { text: &text, load, converged: converged && reached, fields: &fields, numbers: &numbers };
             table.append(&row, &solution)?;
-            self.printing.say(&format!("{:>width$}/{count}  {}", k + 1, table::brief(&solution.report, &units)));
+            self.printing.say(&format!("{:>width$}/{count}  {}", k + 1, table::brief(&solution.report, units)));
             if let Some(searched) = searched.filter(|searched| converged && !searched.reached) {
                 complain("warning", &format!("row {}: {}", k + 1, searched.told()));
             }
@@ -201,7 +201,7 @@ impl Options {
         let text = table.text()?;
         let names = self.names();
         let rows = text.lines().skip(usize::from(format == Format::Csv)).map(|row| parsed(format, &names, row));
-        processes.first(|| self.plot.draw(&rows.collect::<Vec<_>>(), &units))?;
+        processes.first(|| self.plot.draw(&rows.collect::<Vec<_>>(), units))?;
         self.printing.say(&format!("{count} rows in {}", self.out.display()));
         self.printing.report(|| {
             let last = parsed(format, &names, text.lines().next_back().unwrap_or_default());

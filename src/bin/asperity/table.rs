@@ -202,7 +202,8 @@ impl<'a> Table<'a> {
 /// A table that ends without a row, as by an error at the first one, leaves no file behind that it made.
 impl Drop for Table<'_> {
     fn drop(&mut self) {
-        if self.rows() == 0 {
+        // the journal may have a row whose state could not be saved
+        if self.journal.as_ref().is_some_and(|journal| journal.rows() == 0) {
             for path in &self.made {
                 let _ = fs::remove_file(path);
             }
