@@ -21,6 +21,9 @@ use crate::scene::{self, Scene};
 use crate::units::Units;
 use crate::warnings::Warnings;
 
+/// The code of the warning that rows have not converged; it stands before the message, as those of all warnings do.
+pub const UNCONVERGED: &str = "unconverged";
+
 /// The options of a table.
 #[derive(Clone, Copy)]
 pub struct TableOptions<'a> {
@@ -123,7 +126,8 @@ impl<'a> Table<'a> {
         let (count, rows, path) = (self.journal.unconverged(), self.rows(), self.options.out.display());
         if count > 0 {
             let text = format!(
-                "{count} of {rows} rows not converged, their status and errors are in {path}: raise --max-iterations, {remedy}"
+                "{UNCONVERGED}: {count} of {rows} rows not converged, their status and errors are in {path}: raise \
+                 --max-iterations, {remedy}"
             );
             complain("warning", &text);
         }
