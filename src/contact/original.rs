@@ -60,6 +60,16 @@ impl Original {
         Ok(Self { grid: Grid::new(nodes, (nodes.0 as f64 * dx, ly))?, whole: *whole })
     }
 
+    /// The same part of the map on another grid, coarser or finer.
+    ///
+    /// # Errors
+    /// Those of [`Original::new`].
+    pub fn on(&self, whole: &Grid) -> Result<Self> {
+        let (part, before, now) = (self.grid.shape(), self.whole.shape(), whole.shape());
+        let scaled = |nodes: usize, before: usize, now: usize| (nodes * now).div_ceil(before);
+        Self::new(whole, (scaled(part.0, before.0, now.0), scaled(part.1, before.1, now.1)))
+    }
+
     /// The grid of the original.
     pub fn grid(&self) -> &Grid {
         &self.grid

@@ -175,7 +175,8 @@ fn archive<T: WritableElement>(
     known: &Known<'_>,
 ) -> std::result::Result<Vec<u8>, WriteNpzError> {
     let mut bytes = Vec::new();
-    let size = fields.iter().map(|(_, field)| size_of::<T>() * field.len() + ENTRY).sum::<usize>() + ARRAYS.len() * ENTRY;
+    let size =
+        fields.iter().map(|(_, field)| size_of::<T>() * field.len() + ENTRY).sum::<usize>() + ARRAYS.len() * ENTRY;
     bytes.try_reserve_exact(size).map_err(|e| WriteNpyError::from(io::Error::from(e)))?;
     // in sizes of more than 32 bits, where one could need them
     let large = fields.iter().any(|(_, field)| field.len() >= 1 << 28);

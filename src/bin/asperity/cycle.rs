@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use asperity::contact::ContactStatistics;
 use asperity::path::{Event, Path, PathCheckpoint, PathSettings, PathStep};
 use asperity::picture::Chart;
-use asperity::{Control, Error, Grid, Problem, Solver, Status, Surface};
+use asperity::{Control, Error, Problem, Report, Solver, Status, Surface};
 use clap::{ArgGroup, Args};
 use ndarray::Array2;
 use serde_json::{Map, Value, json};
@@ -137,7 +137,9 @@ pub fn run(options: &Options, scene: &Scene) -> Outcome<bool> {
 }
 
 impl Options {
-    fn run<T: Scalar>(&self, Given { surface, adhesion, unit, start }: Given<'_>, scene: &Scene) -> Outcome<bool> {
+    fn run<T: Scalar>(&self, given: Given<'_>, scene: &Scene) -> Outcome<bool> {
+        let Given { surface, adhesion, origin, part, start } = given;
+        part.check(self.loads.control(0.0))?;
         let values = self.loads.values(self.surface.full_pressure(&surface, self.loads.are_reduced())?);
         let loads = self.loads.controls(&values);
         if loads.len() < 2 {
@@ -145,7 +147,7 @@ impl Options {
         }
         let warnings = Warnings::of_input::<T>(self.strictness, &surface, &adhesion, self.problem())?;
         let grid = *surface.grid();
-        let units = self.units.units(unit.as_deref(), scene.is_si())?;
+        let units = self.units.units(origin.unit.as_deref(), scene.is_si())?;
         let mut identity = self.identity(&surface, &adhesion, start.as_ref(), &values);
         identity.insert("units".to_owned(), units.of_table().into());
         let start = start.or_else(|| self.surface.beyond.boundary.start_afar(&surface, &loads));
@@ -164,7 +166,7 @@ impl Options {
         let names = names();
         let header = units.header(&names, self.loads.control(0.0).name(), grid.is_line());
         let &Self { ref out, force, printing, .. } = self;
-        let options = TableOptions { problem: self.problem(), out, force, printing, scene, units: &units };
+        let options = TableOptions { problem: self.problem(), out, force, printing, scene, units: &units, part: &part };
         let kept = Kept(self.fields.as_deref());
         kept.check(self.force, &self.out)?;
         let (mut table, saved) = Table::open(options, &header, identity, None, warnings)?;
@@ -189,13 +191,14 @@ impl Options {
             let Some(step) = step else { break };
             let step = step?;
             table.check(&step.solution)?;
-            let statistics = ContactStatistics::of(&step.solution, &grid, &law)?;
-            let row = row(self.problem(), &step, self.direction(step.leg), &statistics);
+            let (shown, statistics) = (part.of_solution(&step.solution), part.statistics(&step.solution, &law)?);
+            let inputs = inputs(self.problem(), &part, origin.seed);
+            let row = row(&step, &shown.report, self.direction(step.leg), &statistics, inputs);
             let checkpoint = path.checkpoint();
             let fields: Vec<_> = checkpoint.fields.iter().map(|field| field.view()).collect();
-            let (report, (_, load)) = (&step.solution.report, name_and_value(step.control));
+            let (report, (_, load)) = (&shown.report, name_and_value(step.control));
             let (text, converged) = (csv::line(&row), report.status == Status::Converged);
-            kept.write(table.rows() + 1, &step.solution)?;
+            kept.write(table.rows() + 1, &shown)?;
             table.append(&Row { text: &text, load, converged, fields: &fields, numbers: &checkpoint.numbers })?;
             // the fields of a row stay where it or the next one has an event
             if !had_event && step.event.is_none() {
@@ -207,7 +210,7 @@ impl Options {
             apart = Self::is_apart(&row.into());
         }
         drop(path);
-        self.conclude(&table, &units, &grid)?;
+        self.conclude(&table, &units)?;
         Ok(table.converged("or use a larger --tolerance"))
     }
 
@@ -270,7 +273,7 @@ impl Options {
     }
 
     /// Prints the summary or the report of all rows, and draws the picture.
-    fn conclude(&self, table: &Table<'_>, units: &Units, grid: &Grid) -> Outcome<()> {
+    fn conclude(&self, table: &Table<'_>, units: &Units) -> Outcome<()> {
         let (text, names) = (table.text()?, names());
         let rows: Vec<_> = text.lines().skip(1).map(|row| csv::parsed(&names, row)).collect();
         let number = |row: &Value, name: &str| row[name].as_f64().unwrap_or(f64::NAN);
@@ -305,7 +308,7 @@ impl Options {
                 "imbalance": last["imbalance"],
                 "last": last,
             });
-            table.report("cycle", self.loads.control(0.0).name(), found, grid)
+            table.report("cycle", self.loads.control(0.0).name(), found)
         });
         if self.printing.for_people() {
             let energy = |value| units.number(value, ENERGY_PER_AREA);
@@ -362,12 +365,12 @@ impl Options {
 
 /// The content of a row, by the names of the columns. Nothing in it depends on the clock.
 fn row<T>(
-    problem: ProblemOptions<'_>,
     step: &PathStep<T>,
+    report: &Report,
     direction: &str,
     statistics: &ContactStatistics,
+    inputs: impl Iterator<Item = Cell>,
 ) -> Map<String, Value> {
-    let report = &step.solution.report;
     let drop = step.event.as_ref().and_then(Event::jump).map(|jump| jump.energy_drop);
     let leg = [("leg", step.leg.into()), ("direction", direction.into())];
     let balance: [Cell; 5] = [
@@ -378,6 +381,6 @@ fn row<T>(
         ("energy_drop", drop.into()),
     ];
     let state = state(step.control, report, statistics);
-    let cells = leg.into_iter().chain(state).chain(balance).chain(outcome(report)).chain(inputs(problem));
+    let cells = leg.into_iter().chain(state).chain(balance).chain(outcome(report)).chain(inputs);
     cells.map(|(name, value)| (name.to_owned(), value)).collect()
 }

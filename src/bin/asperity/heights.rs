@@ -18,6 +18,23 @@ const ROUNDING: f64 = 1e-2;
 /// The largest number of names of arrays in a message.
 const MOST_NAMES: usize = 10;
 
+/// What the file of a surface says beside its heights.
+#[derive(Clone, Debug, Default)]
+pub struct Origin {
+    /// The unit of length.
+    pub unit: Option<String>,
+    /// The nodes of the original of a mirrored map.
+    pub original: Option<(usize, usize)>,
+    /// The seed of a random surface.
+    pub seed: Option<u64>,
+}
+
+impl Origin {
+    fn of(map: &Topography) -> Self {
+        Self { unit: map.unit.clone(), original: map.original, seed: map.seed }
+    }
+}
+
 /// The map of a file with the given `--lengths`, of which one means square cells; without any, those of the file, or
 /// else the unit square. Lengths that contradict the file are refused. In the SI all is in metres, and side lengths are
 /// not taken for granted.
@@ -154,8 +171,8 @@ pub fn converted(path: &Path, mut map: Topography, unit: &str) -> Outcome<Topogr
     Ok(map)
 }
 
-/// The surface of a map, and its unit. Its missing points become absent nodes, or are refused.
-pub fn surface_or_absent(path: &Path, map: Topography, absent: bool) -> Outcome<(Surface, Option<String>)> {
+/// The surface of a map, and its origin. Its missing points become absent nodes, or are refused.
+pub fn surface_or_absent(path: &Path, map: Topography, absent: bool) -> Outcome<(Surface, Origin)> {
     let infinite = map.heights.iter().any(|h| h.is_infinite());
     let missing = !infinite && map.missing() > 0;
     if !missing {
@@ -165,13 +182,13 @@ pub fn surface_or_absent(path: &Path, map: Topography, absent: bool) -> Outcome<
         let refused = surface(path, map);
         return refused.map_err(|error| format!("{error}, or take them for absent nodes by --absent-missing").into());
     }
-    let unit = map.unit.clone();
+    let origin = Origin::of(&map);
     let surface = map.surface_with_absent();
-    Ok((surface.map_err(|error| format!("{}: {error}", path.display()))?, unit))
+    Ok((surface.map_err(|error| format!("{}: {error}", path.display()))?, origin))
 }
 
-/// The surface of a map, and its unit.
-pub fn surface(path: &Path, map: Topography) -> Outcome<(Surface, Option<String>)> {
+/// The surface of a map, and its origin.
+pub fn surface(path: &Path, map: Topography) -> Outcome<(Surface, Origin)> {
     let (nx, ny) = map.heights.dim();
     let infinite = map.heights.iter().filter(|h| h.is_infinite()).count();
     if let Some((node, height)) = map.heights.indexed_iter().find(|(_, h)| h.is_infinite()) {
@@ -196,8 +213,8 @@ pub fn surface(path: &Path, map: Topography) -> Outcome<(Surface, Option<String>
         )
         .into());
     }
-    let unit = map.unit.clone();
-    Ok((map.surface()?, unit))
+    let origin = Origin::of(&map);
+    Ok((map.surface()?, origin))
 }
 
 /// The numbers of missing and of infinite heights, if there are any.

@@ -11,8 +11,9 @@ use ndarray_npy::WritableElement;
 use crate::adhesion::{Adhesion, AdhesionOptions};
 use crate::allowed::{positive, threads};
 use crate::boundary::BoundaryOptions;
-use crate::heights;
+use crate::heights::{self, Origin};
 use crate::outcome::Outcome;
+use crate::part::Part;
 use crate::processes::Processes;
 use crate::quantity::{LENGTH, PRESSURE, Quantity};
 use crate::threads::use_threads;
@@ -35,6 +36,10 @@ pub struct SurfaceOptions {
     modulus: Quantity,
     #[command(flatten)]
     pub beyond: BoundaryOptions,
+    /// Results on all nodes of a map that asperity prepare has mirrored: without it, fields, pictures, contact and force
+    /// are those of the original, a quarter of it
+    #[arg(long, help_heading = "Surface")]
+    pub whole: bool,
 }
 
 /// The method, the accuracy and the start of a solve.
@@ -94,8 +99,10 @@ pub struct ProblemOptions<'a> {
 pub struct Given<'a> {
     pub surface: Surface,
     pub adhesion: Adhesion<'a>,
-    /// The unit of length, if the file of the surface has one
-    pub unit: Option<String>,
+    /// What the file of the surface says beside its heights
+    pub origin: Origin,
+    /// The part of the surface that results are of
+    pub part: Part,
     /// The gap from which to start, if there is one
     pub start: Option<Array2<f64>>,
 }
@@ -104,14 +111,15 @@ impl<'a> ProblemOptions<'a> {
     /// Checks the options, reads their files, with all in metres if numbers are in the SI, and starts the threads.
     pub fn read(self, si: bool) -> Outcome<Given<'a>> {
         self.adhesion.check()?;
-        let (surface, unit) = self.surface.surface_and_unit(si)?;
+        let (surface, origin) = self.surface.surface_and_origin(si)?;
+        let part = Part::of(self.surface, &origin, *surface.grid())?;
         let adhesion = self.adhesion.read(Some(surface.grid()))?;
-        let start = self.solver.start(&surface)?;
+        let start = self.solver.start(&surface, &part)?;
         use_threads(self.solver.threads)?;
-        Ok(Given { surface, adhesion, unit, start })
+        Ok(Given { surface, adhesion, origin, part, start })
     }
 
-    /// As [`ProblemOptions::read`], of the files of fields the rows that this process holds.
+    /// As [`ProblemOptions::read`], of the files of fields the rows that this process holds; results are of all nodes.
     pub fn read_rows(self, si: bool, processes: &Processes) -> Outcome<Given<'a>> {
         if self.surface.beyond.absent_missing {
             processes.alone("--absent-missing")?;
@@ -131,7 +139,8 @@ impl<'a> ProblemOptions<'a> {
         });
         let start: Option<Array2<f64>> = start.transpose().map_err(|error: Box<dyn std::error::Error>| error)?;
         processes.agree(use_threads(self.solver.threads))?;
-        Ok(Given { surface, adhesion, unit, start })
+        let part = Part::all(*surface.grid());
+        Ok(Given { surface, adhesion, origin: Origin { unit, ..Origin::default() }, part, start })
     }
 }
 
@@ -163,18 +172,18 @@ impl SurfaceOptions {
         }
     }
 
-    /// The surface of the file, and its unit of length if the file has one.
-    fn surface_and_unit(&self, si: bool) -> Outcome<(Surface, Option<String>)> {
+    /// The surface of the file, and its origin.
+    fn surface_and_origin(&self, si: bool) -> Outcome<(Surface, Origin)> {
         let map = heights::map(&self.heights, self.lengths.as_deref(), si)?;
         heights::surface_or_absent(&self.heights, map, self.beyond.absent_missing)
     }
 }
 
 impl SolverOptions {
-    /// The gap from which to start, if it is given.
-    fn start(&self, surface: &Surface) -> Outcome<Option<Array2<f64>>> {
+    /// The gap from which to start, if it is given, of the whole surface or of the `part` of which results are.
+    fn start(&self, surface: &Surface, part: &Part) -> Outcome<Option<Array2<f64>>> {
         let Some(path) = &self.initial_gap else { return Ok(None) };
-        let start = read_field(path)?;
+        let start = part.whole_of(read_field(path)?);
         let expected = surface.grid().shape();
         if start.dim() != expected {
             return Err(Error::Shape { name: "--initial-gap", found: start.dim(), expected }.into());

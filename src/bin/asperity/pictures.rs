@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use asperity::picture::{Chart, Colouring, DPI, Format, Map, Picture};
-use asperity::{AdhesionLaw, Error, Grid, Result, Solution};
+use asperity::{Error, Grid, Result, Solution};
 use clap::{Args, ValueEnum};
 use ndarray::Array2;
 use serde_json::Value;
@@ -160,18 +160,7 @@ fn legs(rows: &[Value]) -> Vec<(String, &[Value])> {
     starts.iter().enumerate().map(|(k, start)| (direction(start + 1) + &number(k), legs[k])).collect()
 }
 
-/// Draws the nodes in contact, those that attract each other, and those that are apart.
-pub fn draw_contact<T: Scalar>(
-    grid: Grid,
-    title: &str,
-    units: &Units,
-    (solution, law): (&Solution<T>, &impl AdhesionLaw<T>),
-    dpi: f64,
-) -> Result<Picture> {
-    draw_regions(grid, title, units, &solution.regions(law).mapv(f64::from), dpi)
-}
-
-/// Draws regions, as numbers: 1 contact, -1 attraction, 0 apart, NaN no surface.
+/// Draws the nodes in contact, those that attract each other, and those that are apart, as numbers: 1 contact, -1 attraction, 0 apart, NaN no surface.
 pub fn draw_regions(grid: Grid, title: &str, units: &Units, regions: &Array2<f64>, dpi: f64) -> Result<Picture> {
     let share = |of: fn(f64) -> bool| {
         let facing = regions.iter().filter(|region| !region.is_nan()).count();

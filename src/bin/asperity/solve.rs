@@ -18,6 +18,7 @@ use crate::options::{Given, Precision, ProblemOptions, Scalar, SolverOptions, Su
 use crate::outcome::Outcome;
 use crate::output::at_destination;
 use crate::output::{output_folder, write_text};
+use crate::part::Part;
 use crate::pictures::{self, PictureFormat, Resolution};
 use crate::printing::{Printing, complain, say};
 use crate::processes::Processes;
@@ -168,9 +169,11 @@ pub fn run(options: &Options, scene: &Scene, processes: &Processes) -> Outcome<b
     })?;
     let si = scene.is_si();
     let given = if processes.count() > 1 { problem.read_rows(si, processes)? } else { problem.read(si)? };
-    let units = processes.agree(options.units.units(given.unit.as_deref(), si))?;
+    let units = processes.agree(options.units.units(given.origin.unit.as_deref(), si))?;
     let full = options.surface.full_pressure(&given.surface, options.load.is_reduced())?;
-    let job = Job { options, scene, processes, names, case: options.case(options.load.control(full)), units };
+    let (case, part) = (options.case(options.load.control(full)), given.part);
+    part.check(case.control)?;
+    let job = Job { options, scene, processes, names, case, units, part };
     match options.solver.precision {
         Precision::F32 => job.run::<f32>(given),
         Precision::F64 => job.run::<f64>(given),
@@ -231,6 +234,7 @@ struct Job<'a> {
     names: Vec<&'static str>,
     case: Case,
     units: Units,
+    part: Part,
 }
 
 impl Job<'_> {
@@ -262,14 +266,17 @@ impl Job<'_> {
             printing.say(&accuracy::announced(wanted, &plan));
             let (fine, solution, account) = case::solve_to(&surface, law, &self.case, wanted, progress)?;
             grid = *fine.grid();
+            self.part = self.part.on(grid)?;
             (solution, account)
         } else {
             case::solve::<T, _>(surface, law, &self.case, start, progress)?
         };
         let whole = if fits { solution.gathered(&grid) } else { None };
-        let look = |whole: &Cow<'_, _>| warnings.look_at(whole, self.case.modulus);
+        let look = |whole: &Cow<'_, _>| warnings.look_at(whole, self.case.modulus, &self.part);
         processes.agree(whole.as_ref().map_or(Ok(()), look))?;
         account.warnings = warnings.report();
+        let law = adhesion.law()?;
+        self.part_of(&mut account, &solution, &law)?;
         account.strongest = adhesion.strongest();
 
         let folder = processes.is_first().then(|| output_folder(out, &self.names, *force)).transpose();
@@ -280,16 +287,16 @@ impl Job<'_> {
         processes.first(|| {
             let Some(folder) = folder else { return Ok(()) };
             let whole = whole.as_deref().unwrap_or(&solution);
-            let written = self.write(&folder, grid, whole, &account, &adhesion.law()?);
+            let written = self.write(&folder, whole, &account, &law);
             written.map_err(|error| at_destination(error, out))?;
             Ok(folder.commit()?)
         })?;
 
         if printing.for_people() {
-            say(&table(&[], &[&account], &self.units));
+            say(&table(&[], &[&account], &self.units, &self.part));
             say(&format!("results in {}: {}", out.display(), self.names.join(", ")));
         }
-        printing.report(|| self.report(grid, &account));
+        printing.report(|| self.report(&account));
         warn("", &account, &self.case);
         let reached = account.reached.as_ref().is_none_or(|reached| reached.reached)
             && account.search.as_ref().is_none_or(|search| search.reached);
@@ -335,25 +342,42 @@ impl Job<'_> {
         self.processes.agree(fields.try_for_each(write).map_err(at_destination))
     }
 
-    fn report(&self, grid: Grid, account: &Account) -> Value {
-        self.options.report(grid, account, &self.units, self.scene)
+    fn report(&self, account: &Account) -> Value {
+        self.options.report(&self.part, account, &self.units, self.scene)
+    }
+
+    /// Makes the account of the whole one of the part that results are of.
+    fn part_of<T: Scalar>(
+        &self,
+        account: &mut Account,
+        solution: &asperity::Solution<T>,
+        law: &impl AdhesionLaw<T>,
+    ) -> Outcome<()> {
+        if self.part.solved().is_some() {
+            account.report = self.part.of_solution(solution).report.clone();
+            account.contact = self.part.statistics(solution, law)?;
+            account.nodes = self.part.grid().nodes();
+            let share = self.part.share();
+            account.stiffness.iter_mut().for_each(|found| found.force_per_length *= share);
+        }
+        Ok(())
     }
 
     fn write<T: Scalar>(
         &self,
         folder: &OutputFolder,
-        grid: Grid,
-        solution: &asperity::Solution<T>,
+        whole: &asperity::Solution<T>,
         account: &Account,
         law: &impl AdhesionLaw<T>,
     ) -> asperity::Result<()> {
         let path = |name: &str| folder.path(name);
-        let mode = account.stability.as_ref().map(|stability| &stability.mode);
+        let (grid, solution) = (self.part.grid(), &*self.part.of_solution(whole));
+        let mode = account.stability.as_ref().map(|stability| self.part.of_field(stability.mode.clone()));
         let gap = case::gap_to_write(solution);
         let fields = [&*gap, &solution.pressure, &solution.contact_pressure];
         if self.options.writes(Format::Npy) && !grid.is_shared() {
             FIELDS.iter().zip(fields).try_for_each(|(name, field)| write_npy(&path(name), field))?;
-            mode.map_or(Ok(()), |mode| write_npy(&path(MODE), mode))?;
+            mode.as_ref().map_or(Ok(()), |mode| write_npy(&path(MODE), mode))?;
         }
         let mode = mode.map(|mode| mode.mapv(T::lit));
         let named = FIELDS.into_iter().zip(fields).chain(mode.as_ref().map(|mode| (MODE, mode)));
@@ -364,12 +388,13 @@ impl Job<'_> {
         if self.options.writes(Format::Vti) {
             write_vti(&path(VTI), &grid, &named)?;
         }
-        write_text(&path(REPORT), &format!("{:#}\n", self.report(grid, account)))?;
+        write_text(&path(REPORT), &format!("{:#}\n", self.report(account)))?;
         write_text(&path(scene::NAME), &self.scene.text(&self.options.out))?;
         if !self.options.no_pictures && self.names.contains(&self.options.picture_format.of(PICTURES)[0]) {
             let (Options { picture_format, resolution: Resolution { dpi }, .. }, units) = (self.options, &self.units);
             let [contact_name, pressure_name] = picture_format.of(PICTURES);
-            pictures::draw_contact(grid, "Contact", units, (solution, law), *dpi)?.write(&path(contact_name))?;
+            let regions = self.part.of_field(whole.regions(law)).mapv(f64::from);
+            pictures::draw_regions(grid, "Contact", units, &regions, *dpi)?.write(&path(contact_name))?;
             let pressure = pictures::pressure_to_draw(solution, self.options.adhesion.law != Law::None);
             let limits = self.options.colour_limits();
             let picture = pictures::draw_pressure(grid, ("Pressure", ""), units, pressure, limits, *dpi)?;

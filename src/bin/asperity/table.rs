@@ -13,6 +13,7 @@ use crate::journal::{Journal, Row, Saved, state_path};
 use crate::numbers::percent;
 use crate::options::{ProblemOptions, Scalar};
 use crate::outcome::Outcome;
+use crate::part::Part;
 use crate::printing::{Printing, complain};
 use crate::progress::Progress;
 use crate::quantity::{FORCE, LENGTH, PRESSURE};
@@ -33,6 +34,8 @@ pub struct TableOptions<'a> {
     pub printing: Printing,
     pub scene: &'a Scene,
     pub units: &'a Units,
+    /// The part of the surface that the rows are of.
+    pub part: &'a Part,
 }
 
 /// A table on disk, new or continued, with the warnings of its run.
@@ -97,7 +100,7 @@ impl<'a> Table<'a> {
     /// Looks at a solution before its row is written: refuses one that ran away, and says its warnings.
     pub fn check<T: Scalar>(&mut self, solution: &Solution<T>) -> Outcome<()> {
         check_finite(solution, &Grid::new(solution.gap.dim(), (1.0, 1.0))?)?;
-        self.warnings.look_at(solution, self.options.problem.surface.modulus())
+        self.warnings.look_at(solution, self.options.problem.surface.modulus(), self.options.part)
     }
 
     /// Appends a row.
@@ -106,7 +109,7 @@ impl<'a> Table<'a> {
     }
 
     /// The report on the table: the number of its rows, the figures that a command `found` in them, and the inputs.
-    pub fn report(&self, command: &str, control: &str, found: Value, grid: &Grid) -> Value {
+    pub fn report(&self, command: &str, control: &str, found: Value) -> Value {
         let mut outcome = json!({
             "control": control,
             "rows": self.rows(),
@@ -117,8 +120,8 @@ impl<'a> Table<'a> {
             outcome.extend(found);
             outcome.insert("warnings".to_owned(), self.warnings.report());
         }
-        let TableOptions { problem, units, scene, .. } = self.options;
-        report::report(command, outcome, report::inputs(problem, grid, units, scene))
+        let TableOptions { problem, units, scene, part, .. } = self.options;
+        report::report(command, outcome, report::inputs(problem, part, units, scene))
     }
 
     /// Whether all rows converged; if not, a warning says so, with what else may help.
