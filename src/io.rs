@@ -227,8 +227,8 @@ fn unwritable(path: &Path, error: impl Display) -> Error {
 
 /// Writes a map, over a file that may be there; the ending of `path` decides on the format.
 ///
-/// - `.npz`: `heights`, and if they are known `lengths`, `unit`, `original` (two numbers of nodes), and `seed` (a text).
-///   Nothing is lost.
+/// - `.npz`: `heights`, and if they are known `lengths`, `unit`, `original` (two numbers of nodes), and `seed` (a
+///   text). Nothing is lost.
 /// - `.gsf`, for Gwyddion: the heights are rounded to `f32`.
 /// - `.npy`: the heights alone.
 ///

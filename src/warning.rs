@@ -139,8 +139,8 @@ impl fmt::Display for WarningCode {
 ///
 /// Nothing is refused or changed; whether a warning matters is for the reader to say. Clean periodic surfaces have
 /// none. [`of_surface`](Self::of_surface) looks at the heights, [`of_law`](Self::of_law) at the adhesion on them,
-/// both before a solve, [`of_solution`](Self::of_solution) at its answer, and [`of_images`](Self::of_images) at that on a
-/// mirrored map.
+/// both before a solve, [`of_solution`](Self::of_solution) at its answer, and [`of_images`](Self::of_images) at that on
+/// a mirrored map.
 ///
 /// ```
 /// use asperity::{Control, Exponential, Grid, Problem, Solver, Surface, Warning, WarningCode, Westergaard};
@@ -291,8 +291,8 @@ impl Warning {
         found
     }
 
-    /// A solution on a mirrored map whose contact is not that of its mirror images, [`Images`](WarningCode::Images): its
-    /// `original` does not stand for the whole.
+    /// A solution on a mirrored map whose contact is not that of its mirror images, [`Images`](WarningCode::Images):
+    /// its `original` does not stand for the whole.
     ///
     /// ```
     /// use asperity::contact::Original;

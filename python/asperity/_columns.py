@@ -81,7 +81,8 @@ class Rows(Iterator[T]):
     def columns(self) -> dict[str, NDArray[Any]]:
         """The columns of the tool's table by name, as ``pandas.DataFrame`` takes them; solves what is left.
 
-        Numbers that do not apply are NaN; an event that did not happen, and the part of a map that was not mirrored, are None.
+        Numbers that do not apply are NaN. An event that did not happen is None, and so is the part of a map that was not
+        mirrored.
         """
         self.run()
         return {name: np.array([_cell(name, row[name]) for row in self.rows]) for name in self.names}

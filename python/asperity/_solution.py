@@ -265,7 +265,8 @@ class Solution:
         if report["part"] is not None:
             solved = report["solved_shape"]
             of = "" if solved is None else f" of {solved[0]} x {solved[1]}"
-            rows.append(("part of the mirrored map", f"{report['part']}, {report['shape'][0]} x {report['shape'][1]}{of} nodes"))
+            nodes = " x ".join(map(str, report["shape"]))
+            rows.append(("part of the mirrored map", f"{report['part']}, {nodes}{of} nodes"))
         rows += [
             ("contact", f"{100 * report['contact_fraction']:.4g} %"),
             ("corrected for its edge", f"{100 * report['corrected_contact_fraction']:.4g} %"),

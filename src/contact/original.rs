@@ -13,9 +13,9 @@ use crate::solver::{Report, Solution};
 /// The original of a mirrored map: the nodes from the first on of which all others are mirror images.
 ///
 /// A map that [`Topography::mirror`](crate::Topography::mirror) has made periodic is solved with its images; what was
-/// measured is a part of it. Gaps, pressures, energies per area and shares are the same on the original as on the whole,
-/// as far as the solution has the symmetry of the surface; numbers of nodes, forces, the perimeter and clusters are not.
-/// With adhesion a symmetric state may be unstable, and contact begin on one of the images alone:
+/// measured is a part of it. Gaps, pressures, energies per area and shares are the same on the original as on the
+/// whole, as far as the solution has the symmetry of the surface; numbers of nodes, forces, the perimeter and clusters
+/// are not. With adhesion a symmetric state may be unstable, and contact begin on one of the images alone:
 /// [`Warning::of_images`](crate::Warning::of_images) tells.
 ///
 /// ```
@@ -43,12 +43,12 @@ pub struct Original {
 }
 
 impl Original {
-    /// The original with so many nodes along x and y, [`Topography::original`](crate::Topography::original), of a map on
-    /// the grid `whole`.
+    /// The original with so many nodes along x and y, [`Topography::original`](crate::Topography::original), of a map
+    /// on the grid `whole`.
     ///
     /// # Errors
-    /// [`Error::Value`] if it has no nodes, [`Error::Shape`] if it has more than the map, and [`Error::Shared`] if several
-    /// processes share the grid.
+    /// [`Error::Value`] if it has no nodes, [`Error::Shape`] if it has more than the map, and [`Error::Shared`] if
+    /// several processes share the grid.
     pub fn new(whole: &Grid, nodes: (usize, usize)) -> Result<Self> {
         Error::alone("the original of a mirrored map", whole.slab())?;
         let (shape, (dx, dy)) = (whole.shape(), whole.spacing());
@@ -114,8 +114,8 @@ impl Original {
         Solution { gap, pressure, contact_pressure, report }
     }
 
-    /// The statistics of the original, from the gap and the contact pressure of the whole: its clusters end at its sides,
-    /// and these are no part of the perimeter, as the images go on there.
+    /// The statistics of the original, from the gap and the contact pressure of the whole: its clusters end at its
+    /// sides, and these are no part of the perimeter, as the images go on there.
     ///
     /// # Errors
     /// [`Error::Shape`] if a field does not have the shape of the whole.

@@ -95,7 +95,8 @@ impl Topography {
         f64::sqrt(sum / count)
     }
 
-    /// The part of the map with the nodes `x` × `y`; the nodes keep their distances. Of a mirrored map it has no original.
+    /// The part of the map with the nodes `x` × `y`; the nodes keep their distances. Of a mirrored map it has no
+    /// original.
     ///
     /// ```
     /// # use asperity::Topography;
@@ -181,8 +182,8 @@ impl Topography {
     ///
     /// Row Nx + i is a copy of row Nx − 1 − i, and columns likewise, so that the outermost nodes have copies of
     /// themselves for neighbours. Heights stay as they are; slopes across the seams jump to their opposite, and all
-    /// that is found on the result, as contact clusters or spectra, has the symmetry of the mirrors. The map remembers its
-    /// [`original`](Self::original), and [`Original`](crate::contact::Original) finds it again in solutions.
+    /// that is found on the result, as contact clusters or spectra, has the symmetry of the mirrors. The map remembers
+    /// its [`original`](Self::original), and [`Original`](crate::contact::Original) finds it again in solutions.
     #[must_use]
     pub fn mirror(mut self) -> Self {
         let (nx, ny) = self.heights.dim();

@@ -45,8 +45,8 @@ pub const STIFFNESS: [&str; 2] = ["contact_stiffness", "normal_stiffness"];
 /// The names of the cells of the inputs, the same in all rows of a table, so that tables can be put together.
 pub const INPUTS: [&str; 7] = ["modulus", "law", "work_of_adhesion", "range", "heights", "part", "seed"];
 
-/// The contact modulus, the adhesion, the name of the file of heights, the part of them that the row is of, and the seed
-/// of a random surface.
+/// The contact modulus, the adhesion, the name of the file of heights, the part of them that the row is of, and the
+/// seed of a random surface.
 pub fn inputs(
     ProblemOptions { surface, adhesion, .. }: ProblemOptions<'_>,
     part: &Part,

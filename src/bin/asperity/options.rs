@@ -36,8 +36,8 @@ pub struct SurfaceOptions {
     modulus: Quantity,
     #[command(flatten)]
     pub beyond: BoundaryOptions,
-    /// Results on all nodes of a map that asperity prepare has mirrored: without it, fields, pictures, contact and force
-    /// are those of the original, a quarter of it
+    /// Results on all nodes of a map that asperity prepare has mirrored: without it, fields, pictures, contact and
+    /// force are those of the original, a quarter of it
     #[arg(long, help_heading = "Surface")]
     pub whole: bool,
 }

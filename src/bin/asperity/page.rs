@@ -23,9 +23,9 @@ use crate::units::Units;
 
 /// Put the results of a run on one page for a browser.
 ///
-/// RESULTS is the folder of a solve, or the table of a sweep, a cycle or a study. The page has the figures, the warnings, maps
-/// that can be zoomed, curves, the scene that repeats the run, and how to cite. It is one file, which loads nothing
-/// from elsewhere: for a colleague, or beside the data. Maps are drawn from gap.npy, pressure.npy and
+/// RESULTS is the folder of a solve, or the table of a sweep, a cycle or a study. The page has the figures, the
+/// warnings, maps that can be zoomed, curves, the scene that repeats the run, and how to cite. It is one file, which
+/// loads nothing from elsewhere: for a colleague, or beside the data. Maps are drawn from gap.npy, pressure.npy and
 /// contact_pressure.npy.
 #[derive(Args)]
 #[command(after_help = EXAMPLES)]

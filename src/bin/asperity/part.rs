@@ -26,8 +26,8 @@ impl Part {
         Self { whole: grid, original: None, is_whole: true }
     }
 
-    /// The original of a mirrored map, unless the options ask for the whole, or with a free boundary the images belong to
-    /// the body.
+    /// The original of a mirrored map, unless the options ask for the whole, or with a free boundary the images belong
+    /// to the body.
     pub fn of(options: &SurfaceOptions, origin: &Origin, grid: Grid) -> Result<Self> {
         let is_whole = options.whole || options.beyond.boundary != Boundary::Periodic;
         let original = origin.original.map(|nodes| Original::new(&grid, nodes)).transpose()?;

@@ -170,7 +170,8 @@ fn legs(rows: &[Value]) -> Vec<(String, &[Value])> {
     starts.iter().enumerate().map(|(k, start)| (direction(start + 1) + &number(k), legs[k])).collect()
 }
 
-/// Draws the nodes in contact, those that attract each other, and those that are apart, as numbers: 1 contact, -1 attraction, 0 apart, NaN no surface.
+/// Draws the nodes in contact, those that attract each other, and those that are apart, as numbers: 1 contact, -1
+/// attraction, 0 apart, NaN no surface.
 pub fn draw_regions(grid: Grid, title: &str, units: &Units, regions: &Array2<f64>, dpi: f64) -> Result<Picture> {
     let share = |of: fn(f64) -> bool| {
         let facing = regions.iter().filter(|region| !region.is_nan()).count();
