@@ -64,7 +64,7 @@ fn tables_say_of_which_part_and_seed_their_rows_are() {
         let cells = header.split(',').zip(row.split(','));
         cells.map(|(name, cell)| (name.to_owned(), cell.to_owned())).collect::<std::collections::HashMap<_, _>>()
     };
-    let sweep = "sweep --heights map.npz --mean-gaps 0.02,0.01 --fields fields --force --out table.csv";
+    let sweep = "sweep --heights map.npz --mean-pressures 0.005,0.01 --fields fields --force --out table.csv";
     let (part, whole) = (row(sweep), row(&format!("{sweep} --whole")));
     assert_eq!((&part["part"][..], &part["seed"][..], &whole["part"][..]), ("original", "5", "whole"));
     assert_eq!(part["contact_fraction"], whole["contact_fraction"]);
@@ -73,8 +73,10 @@ fn tables_say_of_which_part_and_seed_their_rows_are() {
         assert!(whole > 0.0 && (4.0 * part / whole - 1.0).abs() < 1e-12, "{name}: {part} of {whole}");
     }
     // a table goes on only with rows of the same part
-    bench
-        .refused_with("sweep --heights map.npz --mean-gaps 0.02,0.01,0.005 --fields fields --out table.csv", &["part"]);
+    bench.refused_with(
+        "sweep --heights map.npz --mean-pressures 0.005,0.01,0.02 --fields fields --out table.csv",
+        &["part"],
+    );
     let fractions = row("sweep --heights map.npz --contact-fractions 0.1 --force --out table.csv");
     assert_eq!(fractions["part"], "original");
     let cycle = "cycle --heights map.npz --mean-gaps 0.02,0.015 --steps 4 --fields fields --force --out table.csv";
