@@ -79,7 +79,7 @@ fn tables_say_of_which_part_and_seed_their_rows_are() {
     );
     let fractions = row("sweep --heights map.npz --contact-fractions 0.1 --force --out table.csv");
     assert_eq!(fractions["part"], "original");
-    let cycle = "cycle --heights map.npz --mean-gaps 0.02,0.015 --steps 4 --fields fields --force --out table.csv";
+    let cycle = "cycle --heights map.npz --mean-pressures 0.01,0.02 --steps 4 --fields fields --force --out table.csv";
     assert_eq!(row(cycle)["part"], "original");
     assert_eq!(read_field(&bench.path("fields/gap-0001.npy")).unwrap().dim(), (32, 24));
     // neither is known of a map that was not mirrored, and of one that is no surface of ours
