@@ -2,7 +2,7 @@
 //!
 //! A node is in contact as [`Solution::contact_map`] says. [`ContactStatistics`] has areas, and the perimeter by which
 //! they are corrected; [`Clusters`] are the pieces that hang together; [`PressureDistribution`] is the histogram of the
-//! pressure.
+//! pressure. [`Original`] is the part of a mirrored map that was measured.
 
 use ndarray::{Array2, ArrayView1, ArrayView2, Axis, Zip};
 
@@ -16,10 +16,12 @@ use crate::solver::{Report, Solution};
 
 mod clusters;
 mod distribution;
+mod original;
 mod patch;
 
 pub use clusters::{Clusters, Connectivity};
 pub use distribution::PressureDistribution;
+pub use original::Original;
 pub use patch::Patch;
 
 /// The excess area of a contact map per edge between a node in contact and one that is not, in cells: (π − 1 + ln

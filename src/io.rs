@@ -73,7 +73,8 @@ pub fn read_field(path: &Path) -> Result<Array2<f64>> {
 /// - `.npy`: floating-point numbers of 4 or 8 bytes or integers of 1 to 8 bytes, in either byte order and
 ///   either memory order. Integers beyond 2^53 are rounded.
 /// - `.npz`: as `.npy`, compressed or not, with exactly one array in it, or with one named `heights`. Arrays
-///   `lengths`, two numbers, and `unit`, a text, are taken beside that; [`Topography::unread`] names all others.
+///   `lengths`, two numbers, `unit`, a text, and what [`write_topography`] says of mirrors and seeds are taken beside
+///   that; [`Topography::unread`] names all others.
 /// - Gwyddion's own files (`.gwy`): their only channel, or the only one with heights in a unit of length;
 ///   [`read_channel`] takes any. Masks and shown corrections are left where they are; [`Topography::unread`] names the
 ///   other channels.
@@ -226,7 +227,8 @@ fn unwritable(path: &Path, error: impl Display) -> Error {
 
 /// Writes a map, over a file that may be there; the ending of `path` decides on the format.
 ///
-/// - `.npz`: `heights`, and `lengths` and `unit` if they are known. Nothing is lost.
+/// - `.npz`: `heights`, and if they are known `lengths`, `unit`, `original` (two numbers of nodes), and `seed` (a
+///   text). Nothing is lost.
 /// - `.gsf`, for Gwyddion: the heights are rounded to `f32`.
 /// - `.npy`: the heights alone.
 ///
@@ -237,7 +239,8 @@ fn unwritable(path: &Path, error: impl Display) -> Error {
 /// let folder = tempfile::tempdir()?;
 /// let path = folder.path().join("wave.npz");
 /// let mut wave = Topography::from(Surface::wave(Grid::new((8, 4), (2e-6, 1e-6))?, 1e-9, 1)?);
-/// wave.unit = Some("m".into());
+/// (wave.unit, wave.seed) = (Some("m".into()), Some(7));
+/// let wave = wave.mirror();
 /// write_topography(&path, &wave)?;
 /// assert_eq!(read_topography(&path)?, wave);
 /// # Ok::<(), Box<dyn std::error::Error>>(())

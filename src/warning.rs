@@ -3,6 +3,7 @@
 use std::fmt;
 
 use crate::adhesion::AdhesionLaw;
+use crate::contact::Original;
 use crate::field::{CHUNK, Reducer};
 use crate::grid::Grid;
 use crate::par;
@@ -69,6 +70,10 @@ const CELLS: f64 = 2.0;
 /// The range of heights, as a share of the greatest magnitude, up to which a surface is flat: a few roundings of `f64`.
 const FLAT: f64 = 4.0 * f64::EPSILON;
 
+/// The difference of contact between an original and the whole with its mirror images, as a share, from which the
+/// solution has lost their symmetry: beyond what nodes at the edge of the contact make.
+const UNLIKE: f64 = 0.05;
+
 /// The resolution measure μ_ρ that the grid resolves; see [`Report::under_resolved`](crate::Report).
 const RESOLVED: f64 = 0.5;
 
@@ -101,6 +106,8 @@ pub enum WarningCode {
     Flat,
     /// Contact or traction reaches the edge of a free boundary's window.
     WindowEdge,
+    /// The contact of a mirrored map is not that of its mirror images.
+    Images,
 }
 
 impl WarningCode {
@@ -117,6 +124,7 @@ impl WarningCode {
             Self::Range => "range",
             Self::Flat => "flat",
             Self::WindowEdge => "window-edge",
+            Self::Images => "images",
         }
     }
 }
@@ -131,7 +139,8 @@ impl fmt::Display for WarningCode {
 ///
 /// Nothing is refused or changed; whether a warning matters is for the reader to say. Clean periodic surfaces have
 /// none. [`of_surface`](Self::of_surface) looks at the heights, [`of_law`](Self::of_law) at the adhesion on them,
-/// both before a solve, and [`of_solution`](Self::of_solution) at its answer.
+/// both before a solve, [`of_solution`](Self::of_solution) at its answer, and [`of_images`](Self::of_images) at that on
+/// a mirrored map.
 ///
 /// ```
 /// use asperity::{Control, Exponential, Grid, Problem, Solver, Surface, Warning, WarningCode, Westergaard};
@@ -281,6 +290,38 @@ impl Warning {
         );
         found.push(Self { code: WarningCode::BeyondModulus, message });
         found
+    }
+
+    /// A solution on a mirrored map whose contact is not that of its mirror images, [`Images`](WarningCode::Images):
+    /// its `original` does not stand for the whole.
+    ///
+    /// ```
+    /// use asperity::contact::Original;
+    /// use asperity::{Control, Grid, NoAdhesion, Problem, Solver, Surface, Warning, Westergaard};
+    /// let grid = Grid::square(32, 1.0)?;
+    /// let sphere = Surface::paraboloid(grid, 2.0)?; // its mirror lines are between no nodes
+    /// let mut problem = Problem::new(&sphere, Westergaard::<f64>::new(grid, 1.0)?, NoAdhesion)?;
+    /// let solution = Solver::default().solve(&mut problem, Control::MeanPressure(0.001))?;
+    /// let [left, all] = [(16, 16), (32, 32)].map(|nodes| Original::new(&grid, nodes));
+    /// assert!(Warning::of_images(&left?, &solution).is_some());
+    /// assert!(Warning::of_images(&all?, &solution).is_none());
+    /// # Ok::<(), asperity::Error>(())
+    /// ```
+    pub fn of_images<T: Real>(original: &Original, solution: &Solution<T>) -> Option<Self> {
+        let whole = solution.report.contact_nodes as f64;
+        let part = original.of_solution(solution).report.contact_nodes as f64;
+        let expected = original.share() * whole;
+        if (part - expected).abs() <= f64::max(1.0, UNLIKE * expected) {
+            return None;
+        }
+        let share = |contact: f64, grid: &Grid| 100.0 * contact / grid.nodes() as f64;
+        let message = format!(
+            "{} % of the original of this mirrored map are in contact, but {} % of the whole: the contact is not that of \
+             its mirror images, as adhesion may begin on one of them; look at the whole",
+            figure(share(part, original.grid())),
+            figure(share(whole, original.whole()))
+        );
+        Some(Self { code: WarningCode::Images, message })
     }
 }
 

@@ -43,7 +43,7 @@ __all__ = [
 VERSION: str
 
 _Field = NDArray[np.float64]
-_Map = tuple[_Field, tuple[float, float] | None, str | None]
+_Map = tuple[_Field, tuple[float, float] | None, str | None, tuple[int, int] | None, int | None]
 
 @disjoint_base
 class Law:
@@ -195,6 +195,7 @@ class Problem:
         method: str,
         nested: bool | None,
         threads: int | None,
+        original: tuple[int, int] | None,
     ) -> Problem: ...
     def inputs(self) -> tuple[int, int]: ...
     def plan(
@@ -254,6 +255,7 @@ def prepare(
     heights: _Field,
     lengths: tuple[float, float] | None,
     unit: str | None,
+    original: tuple[int, int] | None,
     missing: list[float],
     scale: float | None,
     crop: tuple[int, int, int, int] | None,

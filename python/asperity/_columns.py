@@ -36,7 +36,7 @@ STATE = (
     "min_gap",
 )
 #: The columns of the inputs, the same in all rows, so that tables can be put together.
-INPUTS = ("modulus", "law", "work_of_adhesion", "range", "heights")
+INPUTS = ("modulus", "law", "work_of_adhesion", "range", "heights", "part", "seed")
 #: The columns of a search for the load of a contact fraction.
 SEARCH = ("wanted_contact_fraction", "reached")
 OUTCOME = ("relative_error", "load_error", "iterations", "operator_applications", "status")
@@ -54,7 +54,8 @@ def state(solution: Solution) -> dict[str, Any]:
     search = {} if searched is None else dict(zip(SEARCH, (searched["wanted"], searched["reached"]), strict=True))
     counted = {**statistics._asdict(), "clusters": len(sizes), "largest_cluster": largest}
     source = solution.report["heights"]
-    return {**solution.report, **counted, **search, "heights": None if source is None else os.path.basename(source)}
+    file = None if source is None else os.path.basename(source)
+    return {**solution.report, **counted, **search, "heights": file, "seed": solution.topography.seed}
 
 
 class Rows(Iterator[T]):
@@ -80,11 +81,12 @@ class Rows(Iterator[T]):
     def columns(self) -> dict[str, NDArray[Any]]:
         """The columns of the tool's table by name, as ``pandas.DataFrame`` takes them; solves what is left.
 
-        Numbers that do not apply are NaN, an event that did not happen is None.
+        Numbers that do not apply are NaN. An event that did not happen is None, and so is the part of a map that was not
+        mirrored.
         """
         self.run()
         return {name: np.array([_cell(name, row[name]) for row in self.rows]) for name in self.names}
 
 
 def _cell(name: str, value: Any) -> Any:
-    return np.nan if value is None and name != "event" else value
+    return np.nan if value is None and name not in ("event", "part") else value

@@ -163,6 +163,7 @@ def cycle(
     start: Any = None,
     observe: Callable[[Iteration], object] | None = None,
     threads: int | None = None,
+    whole: bool = False,
 ) -> Cycle:
     """Follows a branch of equilibria through turning points, in steps that adapt themselves, and locates its jumps.
 
@@ -225,5 +226,6 @@ def cycle(
         method=method,
         precision=precision,
         threads=threads,
+        whole=whole,
     )
     return Cycle(scene, loads, (steps, smallest_step, imbalance, smooth), start, observe)

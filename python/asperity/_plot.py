@@ -32,6 +32,11 @@ def _scaled(values: Any, unit: str | None) -> tuple[float, str]:
     return 10.0**-power, _PREFIXES[power] + unit
 
 
+def _is_wide(values: NDArray[Any]) -> bool:
+    """Whether values are positive and span more than a decade and a half, as for a logarithmic axis."""
+    return bool(values.size and values.min() > 0 and values.max() > 30 * values.min())
+
+
 def _label(name: str, unit: str) -> str:
     return f"{name} ({unit})" if unit else name
 
@@ -86,25 +91,25 @@ def contact_and_pressure(
 ) -> Figure:
     """Contact and pressure of a solution, side by side."""
     plt = _pyplot()
-    factor, unit = _scaled(pressure, pressure_unit)
-    pressure = factor * pressure
     figure, (left, right) = plt.subplots(
         1, 2, figsize=(8.6 if adhesive else 7.8, 3.4), sharey=True, layout="compressed"
     )
     _map(left, contact.astype(float), lengths, length_unit, cmap="Greys", vmin=0, vmax=1.15)
     left.set_title(f"contact {100 * contact_fraction:.3g} %")
     # compression and tension differ by orders of magnitude: each has a scale of its own
-    compression = np.ma.masked_less_equal(pressure, 0.0)
-    largest = float(pressure.max()) if (pressure > 0).any() else 1.0
-    image = _map(right, compression, lengths, length_unit, cmap="YlOrRd", vmin=0.0, vmax=largest)
-    bars = [(image, "compression" if adhesive else "pressure")]
+    sides = [(pressure, "compression" if adhesive else "pressure", "YlOrRd")]
     if adhesive:
-        tension = np.ma.masked_less_equal(-pressure, 0.0)
-        image = _map(right, tension, lengths, length_unit, cmap="Blues", vmin=0.0, vmax=max(-pressure.min(), 0.0))
-        bars.append((image, "tension"))
+        sides.append((-pressure, "tension", "Blues"))
+    bars = []
+    for side, name, colours in sides:
+        positive = np.ma.masked_less_equal(side, 0.0)
+        factor, unit = _scaled(positive.filled(0.0), pressure_unit)
+        largest = factor * float(positive.max()) if positive.count() else 1.0
+        image = _map(right, factor * positive, lengths, length_unit, cmap=colours, vmin=0.0, vmax=largest)
+        bars.append((image, _label(name, unit)))
     # the last bar is drawn next to the map
-    for image, name in reversed(bars):
-        figure.colorbar(image, ax=right, label=_label(name, unit), pad=0.03)
+    for image, label in reversed(bars):
+        figure.colorbar(image, ax=right, label=label, pad=0.03)
     right.set_title("elastic pressure" if adhesive else "contact pressure")
     right.set_ylabel("")
     return figure  # type: ignore[no-any-return]
@@ -139,9 +144,10 @@ def sweep(columns: dict[str, NDArray[Any]], ax: Axes | None, pressure_unit: str 
         _, ax = _pyplot().subplots(figsize=(4.6, 3.4), layout="constrained")
     factor, unit = _scaled(columns["mean_pressure"], pressure_unit)
     ax.plot(factor * columns["mean_pressure"], columns["contact_fraction"], "o-", markersize=3.5)
-    if len(columns["control"]) and columns["mean_pressure"].min() > 0 and columns["contact_fraction"].min() > 0:
+    if _is_wide(columns["mean_pressure"]):
         ax.set_xscale("log")
-        ax.set_yscale("log")
+        if _is_wide(columns["contact_fraction"]):
+            ax.set_yscale("log")
     ax.set_xlabel(_label("mean pressure", unit))
     ax.set_ylabel("contact fraction")
     return ax

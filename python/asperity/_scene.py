@@ -5,7 +5,6 @@ from __future__ import annotations
 import contextlib
 import sys
 import warnings
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -15,7 +14,7 @@ from . import _asperity, _law, surface
 from ._accuracy import shortfall
 from ._control import Load
 from ._solution import Solution
-from ._topography import Topography, field_of, sides, taken
+from ._topography import Topography, field_of, mirrored, refined, sides, taken
 from ._warnings import AccuracyWarning, ConvergenceWarning, InputWarning
 
 
@@ -38,9 +37,13 @@ class Scene:
         precision: str,
         threads: int | None,
         nested: bool | None = False,
+        whole: bool = False,
     ) -> None:
         self.topography: Topography = taken(heights, lengths)
         lengths = sides(self.topography)
+        original = self.topography.original
+        # with a free boundary the images belong to the body
+        self.original = None if whole or boundary != "periodic" else original
         self.problem = _asperity.Problem(
             self.topography.heights,
             lengths,
@@ -55,13 +58,14 @@ class Scene:
             method,
             nested,
             threads,
+            self.original,
         )
         max_iterations, threads = self.problem.inputs()
         self.inputs: dict[str, Any] = {
             "heights": self.topography.source,
             "initial_gap": None,
-            "shape": list(self.topography.heights.shape),
-            "lengths": list(lengths),
+            "part": None if original is None else "whole" if self.original is None else "original",
+            **self._shapes(self.topography),
             "length_unit": self.topography.unit,
             "pressure_unit": None,
             "given": None,
@@ -85,6 +89,15 @@ class Scene:
                 stacklevel=_outside(),
             )
 
+    def _shapes(self, topography: Topography) -> dict[str, Any]:
+        """The nodes and side lengths of results, and the nodes that are solved if these are more."""
+        shape, (lx, ly) = topography.heights.shape, sides(topography)
+        if topography.original is None or self.original is None:
+            return {"solved_shape": None, "shape": list(shape), "lengths": [lx, ly]}
+        nx, ny = topography.original
+        part = [lx / shape[0] * nx, ly if shape[1] == 1 else ly / shape[1] * ny]
+        return {"solved_shape": list(shape), "shape": [nx, ny], "lengths": part}
+
     def held(self, loads: list[Load]) -> list[Load]:
         """Loads with reduced pressures as pressures, over the rms slope of the surface."""
         if loads[:1] and loads[0][0] != "reduced_pressure":
@@ -96,6 +109,11 @@ class Scene:
 
     def start(self, start: Any, loads: list[Load]) -> NDArray[np.float64] | None:
         """The gap from which to start under the first of some loads."""
+        if self.original is not None and loads[:1] and loads[0][0] in ("normal_force", "spring"):
+            raise ValueError(
+                f"{loads[0][0]} would act on the mirror images of the map as well: give a pressure or a mean gap, or "
+                "whole=True for the force on all of them"
+            )
         if start is None:
             return self._afar(loads)
         if isinstance(start, str):
@@ -104,7 +122,8 @@ class Scene:
             self.inputs["initial_gap"] = "apart"
             return self._apart(*loads[0])
         self.inputs["initial_gap"] = "array"
-        return field_of(start.gap if isinstance(start, Solution) else start, "start gaps")
+        gap = field_of(start.whole_gap if isinstance(start, Solution) else start, "start gaps")
+        return mirrored(gap, self.topography) if gap.shape == self.topography.original else gap
 
     def _afar(self, loads: list[Load]) -> NDArray[np.float64] | None:
         """The start of bodies that come from afar: under loads that grow from an approach before touch.
@@ -135,8 +154,8 @@ class Scene:
         topography = self.topography
         if "heights" in found:
             # those of an accuracy
-            topography = replace(topography, heights=found["heights"])
-            told["shape"] = list(topography.heights.shape)
+            topography = refined(topography, found["heights"])
+            told |= self._shapes(topography)
         solution = Solution(topography, self._adhesion, told, found)
         raised = found["raised"]
         if raised is not None:

@@ -67,6 +67,9 @@ class Solution:
         Contact pressure λ ≥ 0, zero wherever the gap is not.
     mode : ndarray or None
         Change of the gap along which the energy is softest, of mean square 1, where stability was asked for.
+    whole_gap : ndarray
+        Gap on all nodes that were solved: on a mirrored map also on the mirror images of the original, of which the other
+        fields are unless the solve was asked for the whole. ``report["part"]`` says which it is.
     topography : Topography
         Map of the heights that were solved: with an accuracy on the grid of the answer.
     law : object or None
@@ -86,6 +89,7 @@ class Solution:
     """
 
     gap: NDArray[np.floating[Any]]
+    whole_gap: NDArray[np.floating[Any]]
     pressure: NDArray[np.floating[Any]]
     contact_pressure: NDArray[np.floating[Any]]
     mode: NDArray[np.floating[Any]] | None
@@ -95,11 +99,17 @@ class Solution:
         self.topography = topography
         self.law = law
         self.plan = found.get("plan")
+        self.whole_gap = found["gap"].reshape(topography.shape)
+        self._part = tuple(slice(nodes) for nodes in told["shape"][: len(topography.shape)])
         for name in ("gap", "pressure", "contact_pressure"):
-            setattr(self, name, found[name].reshape(topography.shape))
-        self.mode = None if found["mode"] is None else found["mode"].reshape(topography.shape)
+            setattr(self, name, self.part_of(found[name]))
+        self.mode = None if found["mode"] is None else self.part_of(found["mode"])
         # the report without what is found of the fields, and what finds that
         self._told, self._look = told, found["look"]
+
+    def part_of(self, field: NDArray[Any]) -> NDArray[Any]:
+        """The part of a field on the whole map that the solution is of."""
+        return field.reshape(self.topography.shape)[self._part]
 
     @cached_property
     def _looked(self) -> tuple[ContactStatistics, dict[str, Any]]:
@@ -132,7 +142,7 @@ class Solution:
     @property
     def heights(self) -> NDArray[np.float64]:
         """Heights of the surface."""
-        return self.topography.heights.reshape(self.topography.shape)
+        return self.part_of(self.topography.heights)
 
     @property
     def lengths(self) -> tuple[float, float]:
@@ -251,8 +261,13 @@ class Solution:
 
     def _rows(self) -> list[tuple[str, str]]:
         report = self.report
-        rows = [
-            ("status", report["status"]),
+        rows = [("status", report["status"])]
+        if report["part"] is not None:
+            solved = report["solved_shape"]
+            of = "" if solved is None else f" of {solved[0]} x {solved[1]}"
+            nodes = " x ".join(map(str, report["shape"]))
+            rows.append(("part of the mirrored map", f"{report['part']}, {nodes}{of} nodes"))
+        rows += [
             ("contact", f"{100 * report['contact_fraction']:.4g} %"),
             ("corrected for its edge", f"{100 * report['corrected_contact_fraction']:.4g} %"),
             ("nodes in contact", f"{report['contact_nodes']} of {self.gap.size - self.absent_points}"),

@@ -41,6 +41,7 @@ def solve(
     accuracy_of: str | None = None,
     memory: float | None = None,
     threads: int | None = None,
+    whole: bool = False,
 ) -> Solution:
     """Presses a rough surface against an elastic half-space.
 
@@ -126,6 +127,9 @@ def solve(
         Memory that an accuracy may take, in GiB; what is there by default.
     threads : int, optional
         Threads of this solve; one per core by default. The results do not depend on it.
+    whole : bool
+        Results on all nodes of a map that `prepare` has mirrored: without it fields, contact and force are those of its
+        original, a quarter of it.
 
     Returns
     -------
@@ -201,6 +205,7 @@ def solve(
         method=method,
         precision=precision,
         threads=threads,
+        whole=whole,
         nested=nested,
     )
     (load,) = scene.held([load])

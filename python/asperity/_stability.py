@@ -96,7 +96,8 @@ def stability(
         **{name: report[name] for name in ("modulus", "boundary", "wall", "precision", "method", "threads")},
         tolerance=report["tolerance"],
         max_iterations=report["max_iterations"],
+        whole=report["part"] == "whole",
     )
-    gap = np.asarray(solution.gap, dtype=np.float64).reshape(solution.topography.heights.shape)
+    gap = np.asarray(solution.whole_gap, dtype=np.float64).reshape(solution.topography.heights.shape)
     found = scene.problem.stability(_control.one(**given), gap, solution.relative_error)
-    return Stability(**{**found, "mode": found["mode"].reshape(solution.gap.shape)})
+    return Stability(**{**found, "mode": solution.part_of(found["mode"])})

@@ -93,6 +93,7 @@ def sweep(
     observe: Callable[[Iteration], object] | None = None,
     stiffness: bool = False,
     threads: int | None = None,
+    whole: bool = False,
 ) -> Sweep:
     """Solves under many loads, one after the other, each from where the ones before lead.
 
@@ -157,5 +158,6 @@ def sweep(
         method=method,
         precision=precision,
         threads=threads,
+        whole=whole,
     )
     return Sweep(scene, loads, start, observe, stiffness)

@@ -36,6 +36,10 @@ class Topography:
         Whether opposite edges meet, if that is known.
     source : str, optional
         File that the heights come from.
+    original : (int, int), optional
+        Nodes of the original, from the first on, if the others are its mirror images.
+    seed : int, optional
+        Seed of the random surface that the map was made from.
 
     Examples
     --------
@@ -49,6 +53,8 @@ class Topography:
     unit: str | None = None
     periodic: bool | None = None
     source: str | None = None
+    original: tuple[int, int] | None = None
+    seed: int | None = None
     _is_line: bool = field(default=False, compare=False)
 
     @property
@@ -71,6 +77,8 @@ class Topography:
         parts = [" x ".join(map(str, self.shape)) + " heights"]
         if self.missing:
             parts.append(f"{self.missing} missing")
+        if self.original is not None:
+            parts.append("mirror images of " + " x ".join(map(str, self.original[: len(self.shape)])))
         if self.lengths is None:
             parts.append("unknown side lengths")
         else:
@@ -113,8 +121,9 @@ def read(path: str | os.PathLike[str], channel: int | str | None = None) -> Topo
     FileNotFoundError, ValueError
         If there is no such file or channel, or it cannot be understood.
     """
-    heights, lengths, unit = _asperity.read(os.fspath(path), None if channel is None else str(channel))
-    return Topography(heights, lengths, unit, source=os.fspath(path))
+    found = _asperity.read(os.fspath(path), None if channel is None else str(channel))
+    heights, lengths, unit, original, seed = found
+    return Topography(heights, lengths, unit, source=os.fspath(path), original=original, seed=seed)
 
 
 def from_topography(topography: Any) -> Topography:
@@ -195,7 +204,8 @@ def prepare(
     window : float, optional
         Share of the sides that is tapered at each edge, at most 0.5.
     mirror : bool
-        Continues the map by its mirror image: twice as many nodes along both axes.
+        Continues the map by its mirror image: twice as many nodes along both axes. The map remembers its ``original``,
+        of which solutions are then.
     resample : (int, int), optional
         Numbers of nodes of the grid on which it is interpolated.
 
@@ -209,14 +219,15 @@ def prepare(
     >>> measured = 1e-9 * np.random.default_rng(0).normal(size=(32, 24)) + 1e-8 * np.arange(32)[:, None]
     >>> measured[3, 5] = np.nan
     >>> asperity.prepare(measured, 1e-6, unit="m", detrend="plane", fill=True, mirror=True)
-    Topography(64 x 48 heights, 2e-06 x 1.5e-06 m)
+    Topography(64 x 48 heights, mirror images of 32 x 24, 2e-06 x 1.5e-06 m)
     """
     given = taken(heights, lengths)
     codes = [] if missing is None else [float(code) for code in np.ravel(missing)]
-    made, sides, unit = _asperity.prepare(
+    made, sides, unit, original, _ = _asperity.prepare(
         given.heights,
         given.lengths,
         unit or given.unit,
+        given.original,
         codes,
         scale,
         crop,
@@ -232,7 +243,8 @@ def prepare(
         resample,
     )
     periodic = True if mirror or window else given.periodic
-    return Topography(made, sides, unit, periodic, given.source, given._is_line and made.shape[1] == 1)
+    is_line = given._is_line and made.shape[1] == 1
+    return Topography(made, sides, unit, periodic, given.source, original, given.seed, _is_line=is_line)
 
 
 def _by_order(method: str | int | None) -> tuple[str, int] | None:
@@ -265,6 +277,20 @@ def sides(topography: Topography) -> tuple[float, float]:
     if topography.lengths is None:
         raise ValueError("side lengths are unknown: give lengths=(Lx, Ly), in the unit of the heights")
     return topography.lengths
+
+
+def refined(topography: Topography, heights: NDArray[np.float64]) -> Topography:
+    """The map on a finer grid."""
+    pairs = zip(topography.original or (), heights.shape, topography.heights.shape, strict=False)
+    original = tuple(-(-nodes * now // before) for nodes, now, before in pairs)
+    return replace(topography, heights=heights, original=(original[0], original[1]) if original else None)
+
+
+def mirrored(field: NDArray[np.float64], topography: Topography) -> NDArray[np.float64]:
+    """A field of the original of a map, continued by its mirror images."""
+    places = [np.arange(n) % (2 * part) for n, part in zip(topography.heights.shape, field.shape, strict=True)]
+    images = [np.minimum(place, 2 * part - 1 - place) for place, part in zip(places, field.shape, strict=True)]
+    return field[np.ix_(*images)]
 
 
 def field_of(values: Any, name: str) -> NDArray[np.float64]:

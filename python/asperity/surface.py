@@ -112,7 +112,7 @@ def self_affine(
     nodes = (shape, shape) if isinstance(shape, int) else shape
     both = _lengths(lengths, nodes)
     heights = _asperity.self_affine(nodes, both, rms_height, rms_slope, hurst, k_l, k_r, k_s, random_phase, seed)
-    return Topography(heights, both, periodic=True)
+    return Topography(heights, both, periodic=True, seed=seed)
 
 
 def statistics(heights: Any, lengths: float | tuple[float, float] | None = None) -> SurfaceStatistics:

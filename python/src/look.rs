@@ -51,11 +51,14 @@ impl Look {
 
 impl<T: Scalar> Looks for Seen<T> {
     fn look<'py>(&self, py: Python<'py>) -> PyResult<(Statistics<'py>, Bound<'py, PyDict>)> {
-        let Sight { law, grid, boundary, threads, .. } = &self.sight;
+        let Sight { law, grid, boundary, original, threads, .. } = &self.sight;
         let [gap, pressure, contact_pressure] =
             [&self.gap, &self.pressure, &self.contact_pressure].map(|field| field.bind(py).readonly());
         let [gap, pressure, contact_pressure] = [&gap, &pressure, &contact_pressure].map(|field| field.as_array());
-        let statistics = || ContactStatistics::of_fields(gap, contact_pressure, (grid, *boundary), law);
+        let statistics = || match original {
+            Some(original) => original.statistics(gap, contact_pressure, law),
+            None => ContactStatistics::of_fields(gap, contact_pressure, (grid, *boundary), law),
+        };
         let errors = || {
             let mut estimate = self.estimate.lock().unwrap_or_else(PoisonError::into_inner);
             estimate.as_mut().map(|estimate| estimate.errors(*boundary))

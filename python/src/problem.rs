@@ -4,6 +4,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Instant;
 
 use asperity::accuracy::{Accuracy, AccurateSolution, GridError, Plan};
+use asperity::contact::Original;
 use asperity::path::{Event, Path, PathCheckpoint, PathSettings};
 use asperity::stability::{ContactStiffness, StabilityTest, Verdict};
 use asperity::{
@@ -51,6 +52,8 @@ struct State<T: Real> {
     beyond: Beyond,
     modulus: f64,
     strongest: Option<(usize, usize)>,
+    /// the part of a mirrored surface that numbers are of, if they are not of the whole
+    original: Option<Original>,
     /// of the input
     warnings: Vec<Warning>,
     history: Vec<(Control, Array2<T>)>,
@@ -71,6 +74,8 @@ struct Made {
     /// Whether to solve on nested grids; the library chooses if it is not said.
     nested: Option<bool>,
     threads: Option<usize>,
+    /// The nodes of the original of a mirrored surface, if numbers are to be of that.
+    original: Option<(usize, usize)>,
 }
 
 /// The request for one solve.
@@ -125,7 +130,7 @@ impl<T: Scalar> State<T> {
         surface: Surface,
         law: Box<dyn AdhesionLaw<T>>,
         strongest: Option<(usize, usize)>,
-        Made { beyond, modulus, wall, settings, nested, threads }: Made,
+        Made { beyond, modulus, wall, settings, nested, threads, original }: Made,
     ) -> asperity::Result<Self> {
         let grid = *surface.grid();
         let mut warnings = beyond.warnings(&surface);
@@ -140,6 +145,7 @@ impl<T: Scalar> State<T> {
             beyond,
             modulus,
             strongest,
+            original: original.map(|nodes| Original::new(&grid, nodes)).transpose()?,
             warnings,
             history: Vec::new(),
             search: (Vec::new(), None),
@@ -149,12 +155,20 @@ impl<T: Scalar> State<T> {
     }
 
     /// The account of a solution on the grid of the surface, or on a finer one, by a solve that began at a time.
-    fn account(&self, solution: Solution<T>, grid: Grid, control: Control, clock: Instant) -> Account<T> {
+    fn account(
+        &self,
+        solution: Solution<T>,
+        grid: Grid,
+        control: Control,
+        clock: Instant,
+    ) -> asperity::Result<Account<T>> {
         let seconds = clock.elapsed().as_secs_f64();
         let mut warnings = self.warnings.clone();
         warnings.extend(Warning::of_solution(&solution, self.modulus));
+        let original = self.original.map(|original| original.on(&grid)).transpose()?;
+        warnings.extend(original.and_then(|original| Warning::of_images(&original, &solution)));
         let (law, boundary, threads) = (self.law.clone(), solution.report.boundary, self.threads);
-        Account {
+        Ok(Account {
             solution,
             control,
             grids: None,
@@ -166,8 +180,8 @@ impl<T: Scalar> State<T> {
             strongest: self.strongest,
             warnings,
             seconds,
-            sight: Sight { law, grid, boundary, threads, estimate: None },
-        }
+            sight: Sight { law, grid, boundary, original, threads, estimate: None },
+        })
     }
 
     /// The contact stiffness of a solution, if it is asked for and the solve was not stopped.
@@ -194,7 +208,7 @@ impl<T: Scalar> State<T> {
         let applications = found.equivalent_applications();
         let AccurateSolution { solution, surface, levels, reached, refinable, unaffordable, .. } = found;
         let stiffness = levels.last().and_then(|finest| finest.stiffness);
-        let account = self.account(solution, *surface.grid(), control, clock);
+        let account = self.account(solution, *surface.grid(), control, clock)?;
         let report = &account.solution.report;
         let nodes_per_wave = surface.nodes_per_wave(report.boundary);
         let estimate = Some(Estimate::Found(GridError::of_all(&levels, control, nodes_per_wave, report.mu_rho)));
@@ -235,7 +249,7 @@ impl<T: Scalar> State<T> {
         let NestedSolution { solution, levels, .. } = found;
         let stiffness = levels.last().and_then(|finest| finest.stiffness);
         let mu_rho = solution.report.mu_rho;
-        let account = self.account(solution, self.grid, control, clock);
+        let account = self.account(solution, self.grid, control, clock)?;
         let estimate = Some(Estimate::Open { surface: surface.clone(), levels: levels.clone(), control, mu_rho });
         let grids = Some(Grids { levels, applications });
         Ok(Some(Account { grids, stiffness, sight: Sight { estimate, ..account.sight }, ..account }))
@@ -310,7 +324,7 @@ impl<T: Scalar> Solves for State<T> {
                 solution = left.solution;
             }
             let stiffness = self.stiffness(&solution, stiffness)?;
-            let account = self.account(solution, self.grid, control, clock);
+            let account = self.account(solution, self.grid, control, clock)?;
             Ok(Account { search, stability: verdict, stiffness, departures: leave.then_some(departures), ..account })
         })?;
         answer(py, found)
@@ -332,7 +346,7 @@ impl<T: Scalar> Solves for State<T> {
                 }
                 let search = Some(Search::of(fraction, &found));
                 let stiffness = self.stiffness(&found.solution, stiffness)?;
-                let account = self.account(found.solution, self.grid, found.control, clock);
+                let account = self.account(found.solution, self.grid, found.control, clock)?;
                 return Ok(Account { search, stiffness, ..account });
             }
             let history = std::mem::take(&mut self.history);
@@ -350,7 +364,7 @@ impl<T: Scalar> Solves for State<T> {
             let stopped = solution.report.status == Status::Stopped;
             self.history = if stopped { kept } else { history };
             let stiffness = self.stiffness(&solution, stiffness)?;
-            Ok(Account { stiffness, ..self.account(solution, self.grid, control, clock) })
+            Ok(Account { stiffness, ..self.account(solution, self.grid, control, clock)? })
         })?;
         answer(py, found)
     }
@@ -379,7 +393,7 @@ impl<T: Scalar> Solves for State<T> {
             let Some(step) = path.next_observed(observe) else { return Ok(None) };
             let step = step?;
             self.place = Some(path.checkpoint());
-            let account = self.account(step.solution, self.grid, step.control, clock);
+            let account = self.account(step.solution, self.grid, step.control, clock)?;
             let balance = [("work", step.work), ("dissipated", step.dissipated), ("imbalance", step.imbalance)];
             Ok(Some((account, step.leg, balance, step.event)))
         })?;
@@ -473,7 +487,7 @@ impl Problem {
     #[new]
     #[pyo3(signature = (
         heights, lengths, absent_missing, boundary, modulus, law, wall, precision, tolerance, max_iterations, method,
-        nested, threads
+        nested, threads, original
     ))]
     #[expect(clippy::too_many_arguments, reason = "called by the Python layer alone, by name")]
     fn new(
@@ -491,11 +505,13 @@ impl Problem {
         method: &str,
         nested: Option<bool>,
         threads: Option<usize>,
+        original: Option<(usize, usize)>,
     ) -> PyResult<Self> {
         let settings = settings(tolerance, max_iterations, method)?;
         let pool = Pool::of(threads)?;
         let heights = heights.as_array().to_owned();
-        let made = Made { beyond: Beyond::of(boundary)?, modulus, wall: Wall::of(wall)?, settings, nested, threads };
+        let (beyond, wall) = (Beyond::of(boundary)?, Wall::of(wall)?);
+        let made = Made { beyond, modulus, wall, settings, nested, threads, original };
         let make = if absent_missing { Surface::with_absent } else { Surface::new };
         let surface = Grid::new(heights.dim(), lengths).and_then(|grid| make(grid, heights));
         let surface = surface.map_err(refusal_of_heights)?;

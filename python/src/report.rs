@@ -22,7 +22,9 @@ macro_rules! dictionary {
 
 /// The outcome of a solve; what the fields have is left to [`of_fields`].
 pub fn of<'py, T: Scalar>(py: Python<'py>, account: &Account<T>) -> PyResult<Bound<'py, PyDict>> {
-    let report = &account.solution.report;
+    let part = account.sight.original.map(|original| original.of_solution(&account.solution).report);
+    let report = part.as_ref().unwrap_or(&account.solution.report);
+    let share = account.sight.original.map_or(1.0, |original| original.share());
     let stability = account.stability.as_ref().map(|found| stability(py, found)).transpose()?;
     let departures = account.departures.as_ref().map(|left| {
         left.iter()
@@ -75,7 +77,7 @@ pub fn of<'py, T: Scalar>(py: Python<'py>, account: &Account<T>) -> PyResult<Bou
         "adhesive_energy": report.adhesive_energy,
         "stability": stability,
         "contact_stiffness": account.stiffness.map(|found| found.pressure_per_length),
-        "normal_stiffness": account.stiffness.map(|found| found.force_per_length),
+        "normal_stiffness": account.stiffness.map(|found| share * found.force_per_length),
         "departures": departures.transpose()?,
         "mu_rho": report.mu_rho,
         "mu_rho_node": account.strongest.map(|(x, y)| [x, y]),

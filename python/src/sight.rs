@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use asperity::accuracy::{GridError, Quantity};
+use asperity::contact::Original;
 use asperity::{AdhesionLaw, Boundary, Control, Grid, Level, Surface};
 
 /// The estimated errors of the finest of nested grids, where they can be told.
@@ -38,6 +39,8 @@ pub struct Sight<T> {
     pub law: Arc<dyn AdhesionLaw<T>>,
     pub grid: Grid,
     pub boundary: Boundary,
+    /// The part that statistics are of, if they are not of the whole
+    pub original: Option<Original>,
     /// The number of threads that was asked for
     pub threads: Option<usize>,
     /// Nothing where no nested grids were used

@@ -10,8 +10,8 @@ use pyo3::prelude::*;
 use crate::pools::Pool;
 use crate::refusal::refusal;
 
-/// Heights, side lengths and unit of a map.
-type Map<'py> = (Bound<'py, PyArray2<f64>>, Option<(f64, f64)>, Option<String>);
+/// Heights, side lengths and unit of a map, the nodes of the original of a mirrored one, and the seed of a random one.
+type Map<'py> = (Bound<'py, PyArray2<f64>>, Option<(f64, f64)>, Option<String>, Option<(usize, usize)>, Option<u64>);
 
 /// Calls a function without the interpreter's lock, on the shared pool.
 fn apart<R: Send>(py: Python<'_>, act: impl FnOnce() -> asperity::Result<R> + Send) -> PyResult<R> {
@@ -20,7 +20,8 @@ fn apart<R: Send>(py: Python<'_>, act: impl FnOnce() -> asperity::Result<R> + Se
 }
 
 fn map(py: Python<'_>, topography: Topography) -> Map<'_> {
-    (topography.heights.into_pyarray(py), topography.lengths, topography.unit)
+    let Topography { heights, lengths, unit, original, seed, .. } = topography;
+    (heights.into_pyarray(py), lengths, unit, original, seed)
 }
 
 fn surface(heights: PyReadonlyArray2<'_, f64>, lengths: (f64, f64)) -> PyResult<Surface> {
@@ -117,6 +118,7 @@ pub fn prepare<'py>(
     heights: PyReadonlyArray2<'_, f64>,
     lengths: Option<(f64, f64)>,
     unit: Option<String>,
+    original: Option<(usize, usize)>,
     missing: Vec<f64>,
     scale: Option<f64>,
     crop: Option<(usize, usize, usize, usize)>,
@@ -159,7 +161,7 @@ pub fn prepare<'py>(
         Some(other) => return Err(unknown("remove_form", other, "sphere or cylinder")),
     };
     let mut measured = Topography::new(heights.as_array().to_owned());
-    (measured.lengths, measured.unit) = (lengths, unit);
+    (measured.lengths, measured.unit, measured.original) = (lengths, unit, original);
     let prepared = apart(py, move || -> Result<Topography, Error> {
         let mut map = missing.into_iter().fold(measured, Topography::declare_missing);
         if let Some(factor) = scale {

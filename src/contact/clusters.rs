@@ -74,7 +74,11 @@ impl Clusters {
     }
 
     /// The clusters on a map of which opposite sides along x, and along y, meet or do not.
-    fn meeting(map: ArrayView2<'_, bool>, connectivity: Connectivity, [meets_x, meets_y]: [bool; 2]) -> Self {
+    pub(super) fn meeting(
+        map: ArrayView2<'_, bool>,
+        connectivity: Connectivity,
+        [meets_x, meets_y]: [bool; 2],
+    ) -> Self {
         let (nx, ny) = map.dim();
         // each node's parent, which comes before it in its tree; nodes of no cluster have none
         let mut tree: Vec<usize> = map.iter().enumerate().map(|(k, &inside)| if inside { k } else { NONE }).collect();

@@ -92,7 +92,10 @@ pub(super) fn read_npy_text(reader: &mut impl Read, size: u64) -> Parsed<String>
     let (dtype, _, shape) = parse_header(&header).ok_or(HEADER)?;
     let characters = dtype.strip_prefix("<U").and_then(|n| n.parse::<u64>().ok()).filter(|n| *n <= LONGEST);
     if !shape.is_empty() || characters.and_then(|n| n.checked_mul(4)) != Some(data_size) {
-        return Err(format!("has a unit of dtype {}, expected a text: save it as numpy.array(\"m\")", quoted(dtype)));
+        return Err(format!(
+            "has a unit or a seed of dtype {}, expected a text: save it as numpy.array(\"m\")",
+            quoted(dtype)
+        ));
     }
     let mut text = vec![0; data_size as usize];
     reader.read_exact(&mut text).map_err(unreadable)?;

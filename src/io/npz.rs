@@ -23,7 +23,10 @@ const MAX_COMPRESSION: u64 = 1032;
 /// Room in bytes for what an archive has beside the numbers of an array.
 const ENTRY: usize = 1024;
 
-/// Reads the array `heights`, or the only one, of an archive of `size` bytes; beside it `lengths` and `unit`.
+/// The arrays that an archive of a map may have.
+const ARRAYS: [&str; 5] = ["heights", "lengths", "unit", "original", "seed"];
+
+/// Reads the array `heights`, or the only one, of an archive of `size` bytes; beside it what else a map has.
 pub(super) fn read_npz(mut reader: BufReader<File>, size: u64) -> Parsed<Topography> {
     check_counts(&mut reader).map_err(unreadable)?;
     let mut archive = ZipArchive::new(reader).map_err(damaged)?;
@@ -57,8 +60,30 @@ pub(super) fn read_npz(mut reader: BufReader<File>, size: u64) -> Parsed<Topogra
         let unit = read_entry(&mut archive, index, size, |entry, size| read_npy_text(entry, size))?;
         map.unit = Some(unit).filter(|unit| !unit.is_empty());
     }
+    if let Some(index) = archive.index_for_name("original.npy")
+        && archive.len() > 1
+    {
+        let nodes = read_entry(&mut archive, index, size, |entry, size| read_npy(entry, size))?;
+        let fits = |nodes: f64, of: usize| nodes >= 1.0 && nodes <= of as f64 && nodes.fract() == 0.0;
+        map.original = match nodes.as_slice() {
+            Some(&[x, y]) if fits(x, map.heights.nrows()) && fits(y, map.heights.ncols()) => {
+                Some((x as usize, y as usize))
+            }
+            _ => {
+                let text = "has an array original that is not two numbers of nodes of the map: prepare the map again";
+                return Err(text.to_owned());
+            }
+        };
+    }
+    if let Some(index) = archive.index_for_name("seed.npy")
+        && archive.len() > 1
+    {
+        let seed = read_entry(&mut archive, index, size, |entry, size| read_npy_text(entry, size))?;
+        let wrong = || format!("has the seed {}, expected a whole number: leave the array out", quoted(&seed));
+        map.seed = Some(seed.parse().map_err(|_| wrong())?);
+    }
     if archive.len() > 1 {
-        let unread = archive.file_names().map(array).filter(|name| !["heights", "lengths", "unit"].contains(name));
+        let unread = archive.file_names().map(array).filter(|name| !ARRAYS.contains(name));
         map.unread = unread.map(str::to_owned).collect();
     }
     Ok(map)
@@ -118,22 +143,28 @@ fn read_entry<T>(
 /// [`Error::Shape`] if a field does not fit the grid, [`Error::File`] if the file cannot be written.
 pub fn write_npz<T: WritableElement>(path: &Path, grid: &Grid, fields: &[(&str, &Array2<T>)]) -> Result<()> {
     fields.iter().try_for_each(|(_, field)| Error::shape("field", field.dim(), grid.shape()))?;
-    write(path, fields, Some(grid.lengths()), None)
+    write(path, fields, &Known { lengths: Some(grid.lengths()), ..Known::default() })
 }
 
 /// Writes a map with what is known of it.
 pub(super) fn write_map(path: &Path, map: &Topography) -> Result<()> {
     let heights = [("heights", &map.heights)];
-    write(path, &heights, map.lengths, map.unit.as_deref())
+    let seed = map.seed.map(|seed| seed.to_string());
+    let &Topography { lengths, original, .. } = map;
+    write(path, &heights, &Known { lengths, unit: map.unit.as_deref(), original, seed: seed.as_deref() })
 }
 
-fn write<T: WritableElement>(
-    path: &Path,
-    fields: &[(&str, &Array2<T>)],
+/// What is known of fields, beside them.
+#[derive(Default)]
+struct Known<'a> {
     lengths: Option<(f64, f64)>,
-    unit: Option<&str>,
-) -> Result<()> {
-    let bytes = archive(fields, lengths, unit).map_err(|e| Error::file(path, format!("cannot be written: {e}")))?;
+    unit: Option<&'a str>,
+    original: Option<(usize, usize)>,
+    seed: Option<&'a str>,
+}
+
+fn write<T: WritableElement>(path: &Path, fields: &[(&str, &Array2<T>)], known: &Known<'_>) -> Result<()> {
+    let bytes = archive(fields, known).map_err(|e| Error::file(path, format!("cannot be written: {e}")))?;
     fs::write(path, bytes).map_err(|e| Error::file(path, format!("cannot be written: {e}")))
 }
 
@@ -141,22 +172,25 @@ fn write<T: WritableElement>(
 /// on standard error when it is dropped.
 fn archive<T: WritableElement>(
     fields: &[(&str, &Array2<T>)],
-    lengths: Option<(f64, f64)>,
-    unit: Option<&str>,
+    known: &Known<'_>,
 ) -> std::result::Result<Vec<u8>, WriteNpzError> {
     let mut bytes = Vec::new();
-    let size = fields.iter().map(|(_, field)| size_of::<T>() * field.len() + ENTRY).sum::<usize>() + 2 * ENTRY;
+    let size =
+        fields.iter().map(|(_, field)| size_of::<T>() * field.len() + ENTRY).sum::<usize>() + ARRAYS.len() * ENTRY;
     bytes.try_reserve_exact(size).map_err(|e| WriteNpyError::from(io::Error::from(e)))?;
     // in sizes of more than 32 bits, where one could need them
     let large = fields.iter().any(|(_, field)| field.len() >= 1 << 28);
     let options = SimpleFileOptions::default().compression_method(CompressionMethod::Stored).large_file(large);
     let mut npz = NpzWriter::new_with_options(Cursor::new(bytes), options);
     fields.iter().try_for_each(|(name, field)| npz.add_array(*name, *field))?;
-    if let Some((lx, ly)) = lengths {
+    if let Some((lx, ly)) = known.lengths {
         npz.add_array("lengths", &arr1(&[lx, ly]))?;
     }
-    if let Some(unit) = unit {
-        npz.add_array("unit", &Text(unit))?;
+    for (name, text) in [("unit", known.unit), ("seed", known.seed)] {
+        text.map_or(Ok(()), |text| npz.add_array(name, &Text(text)))?;
+    }
+    if let Some((nx, ny)) = known.original {
+        npz.add_array("original", &arr1(&[nx as u64, ny as u64]))?;
     }
     npz.finish().map(Cursor::into_inner)
 }
@@ -316,6 +350,9 @@ mod tests {
             ("lengths.npy", npy("'<f8'", "False", "(3,)", &f8(&[1.0, 2.0, 3.0])), "lengths"),
             ("lengths.npy", npy("'<f8'", "False", "(2,)", &f8(&[1.0, f64::NAN])), "two positive numbers"),
             ("unit.npy", lengths, "a text"),
+            ("original.npy", npy("'<f8'", "False", "(2,)", &f8(&[1.0, 3.0])), "numbers of nodes"),
+            ("original.npy", npy("'<f8'", "False", "(2,)", &f8(&[0.5, 1.0])), "numbers of nodes"),
+            ("seed.npy", text_as_npy("-1"), "a whole number"),
             ("unit.npy", npy("'<U1'", "False", "()", &[0, 0, 0xff, 0xff]), "damaged"),
             ("unit.npy", npy("'<U9999999999999999999'", "False", "()", &[0; 4]), "a text"),
             ("unit.npy", npy("'<U1'", "False", "(1,)", &[b'm', 0, 0, 0]), "a text"),

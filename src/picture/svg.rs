@@ -22,13 +22,14 @@ pub(super) fn encode(picture: &Picture) -> std::io::Result<String> {
             }
             Shape::Triangle(corners, fill) => format!("<path fill=\"{}\" d=\"{}z\"/>", hex(*fill), path(corners)),
             Shape::Curve(curve) => {
-                // a view of its own cuts the curve off, without a name that another picture on a page could have too
+                // the name of what cuts the curve off says what it is: another picture on a page may have it, too
                 let [x, y, w, h] =
                     [curve.within.left, curve.within.top, curve.within.width, curve.within.height].map(number);
                 let pieces: String = curve.pieces.iter().map(|piece| path(piece)).collect();
                 format!(
-                    "<svg x=\"{x}\" y=\"{y}\" width=\"{w}\" height=\"{h}\" viewBox=\"{x} {y} {w} {h}\"><path fill=\"none\" \
-                     stroke=\"{}\" stroke-width=\"{}\" stroke-linecap=\"round\" stroke-linejoin=\"round\" d=\"{pieces}\"/></svg>",
+                    "<clipPath id=\"within-{x}-{y}-{w}-{h}\"><path d=\"M{x} {y}h{w}v{h}h-{w}z\"/></clipPath>\
+                     <path clip-path=\"url(#within-{x}-{y}-{w}-{h})\" fill=\"none\" stroke=\"{}\" stroke-width=\"{}\" \
+                     stroke-linecap=\"round\" stroke-linejoin=\"round\" d=\"{pieces}\"/>",
                     hex(curve.colour),
                     number(curve.width)
                 )

@@ -59,6 +59,10 @@ pub struct Topography {
     pub lengths: Option<(f64, f64)>,
     /// The unit of heights and side lengths, if it is known.
     pub unit: Option<String>,
+    /// The nodes along x and y of the original, if the map is that and its mirror images: see [`mirror`](Self::mirror).
+    pub original: Option<(usize, usize)>,
+    /// The seed of the [`SelfAffine`](crate::SelfAffine) surface from which the map was made, if there is one.
+    pub seed: Option<u64>,
     /// The names of the arrays that stand beside the heights in a file, and that reading it did not take.
     pub unread: Vec<String>,
 }
@@ -66,7 +70,7 @@ pub struct Topography {
 impl Topography {
     /// A map of shape (Nx, Ny) with unknown side lengths and unit.
     pub fn new(heights: Array2<f64>) -> Self {
-        Self { heights, lengths: None, unit: None, unread: Vec::new() }
+        Self { heights, lengths: None, unit: None, original: None, seed: None, unread: Vec::new() }
     }
 
     /// The number of missing heights: NaN or infinite.
@@ -91,7 +95,8 @@ impl Topography {
         f64::sqrt(sum / count)
     }
 
-    /// The part of the map with the nodes `x` × `y`; the nodes keep their distances.
+    /// The part of the map with the nodes `x` × `y`; the nodes keep their distances. Of a mirrored map it has no
+    /// original.
     ///
     /// ```
     /// # use asperity::Topography;
@@ -116,6 +121,7 @@ impl Topography {
         // on a line, Ly is nothing's distance but goes with Lx
         self.lengths = self.lengths.map(|(lx, ly)| (share(lx, &x, nx), share(ly, &y, ny)));
         self.heights = self.heights.slice_axis(Axis(0), x.into()).slice_axis(Axis(1), y.into()).to_owned();
+        self.original = None;
         Ok(self)
     }
 
@@ -176,7 +182,8 @@ impl Topography {
     ///
     /// Row Nx + i is a copy of row Nx − 1 − i, and columns likewise, so that the outermost nodes have copies of
     /// themselves for neighbours. Heights stay as they are; slopes across the seams jump to their opposite, and all
-    /// that is found on the result, as contact clusters or spectra, has the symmetry of the mirrors.
+    /// that is found on the result, as contact clusters or spectra, has the symmetry of the mirrors. The map remembers
+    /// its [`original`](Self::original), and [`Original`](crate::contact::Original) finds it again in solutions.
     #[must_use]
     pub fn mirror(mut self) -> Self {
         let (nx, ny) = self.heights.dim();
@@ -186,6 +193,7 @@ impl Topography {
         let heights = Array2::from_shape_fn((mx, my), |(i, j)| self.heights[[image(i, nx), image(j, ny)]]);
         self.lengths = self.lengths.map(|(lx, ly)| (lx * (mx / nx) as f64, ly * (my / ny) as f64));
         self.heights = heights;
+        self.original = self.original.or(Some((nx, ny)));
         self
     }
 

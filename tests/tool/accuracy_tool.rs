@@ -97,7 +97,7 @@ fn stiffness_is_found_where_it_is_asked_for() {
     bench.said(&format!("{sweep} sweep.csv --quiet"));
     let table = bench.read("sweep.csv");
     let (header, first) = (table.lines().next().unwrap(), table.lines().nth(1).unwrap());
-    assert!(header.ends_with(",heights,contact_stiffness,normal_stiffness"), "{header}");
+    assert!(header.ends_with(",heights,part,seed,contact_stiffness,normal_stiffness"), "{header}");
     let cells: Vec<f64> = first.rsplit(',').take(2).map(|cell| cell.parse().unwrap()).collect();
     assert!((cells[0] / normal - 1.0).abs() < 1e-3 && (cells[1] / stiffness - 1.0).abs() < 1e-3, "{first}");
     let other = "sweep --heights heights.npy --lengths 2 2 --mean-pressures 5e-3,1e-2 --out sweep.csv";

@@ -108,6 +108,13 @@ fn reduced_pressures_are_over_the_modulus_and_the_slope() {
         "sweep --heights heights.npy --lengths 1m --modulus 3GPa --reduced-pressures 0.01,0.05 --quiet --out si.csv",
     );
     let pressures = numbers(&bench, "si.csv", "mean_pressure [Pa]");
+    // the load for a contact fraction has the unit of its kind
+    for (law, unit) in [("", "Pa"), ("--law exponential --work-of-adhesion 0.1MJ/m2 --range 4mm", "m")] {
+        bench.said(&format!(
+            "sweep --heights heights.npy --lengths 1m --modulus 3GPa {law} --contact-fractions 0.1 --quiet --out {unit}.csv"
+        ));
+        assert!(bench.read(&format!("{unit}.csv")).contains(&format!("control,control_value [{unit}],")));
+    }
     assert!((pressures[1] / (0.05e9 * 3.0 * slope) - 1.0).abs() < 1e-9, "{pressures:?} {slope}");
     for arguments in
         ["--contact-fraction 0", "--contact-fraction 1", "--contact-fraction 1e-9", "--contact-fraction 10nm"]

@@ -10,6 +10,7 @@ mod fraction_tool;
 mod free_tool;
 mod hostile;
 mod laws_tool;
+mod mirror_tool;
 mod pictures;
 mod prepare;
 mod scene_tool;

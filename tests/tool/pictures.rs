@@ -91,7 +91,10 @@ fn unbalanced(page: &str) -> Vec<String> {
 fn loaded(page: &str) -> Vec<&str> {
     let places = ["src=\"", "href=\"", "url(", "@import"];
     let found = places.iter().flat_map(|place| page.match_indices(place).map(|(at, place)| &page[at + place.len()..]));
-    found.filter(|rest| !rest.starts_with("data:")).map(|rest| &rest[..rest.len().min(60)]).collect()
+    found
+        .filter(|rest| !rest.starts_with("data:") && !rest.starts_with('#'))
+        .map(|rest| &rest[..rest.len().min(60)])
+        .collect()
 }
 
 #[test]

@@ -73,7 +73,7 @@ fn a_measured_surface_goes_from_file_to_contact_map() {
     let said = bench.said(&format!("solve --heights surface.npz {solve} results --format npz,vti"));
     assert!(said.contains("converged"), "{said}");
     let report = bench.report("results");
-    assert_eq!((report["length_unit"].as_str(), report["lengths"][0].as_f64()), (Some("m"), Some(lx)));
+    assert_eq!((report["length_unit"].as_str(), report["lengths"][0].as_f64()), (Some("m"), Some(lx / 2.0)));
     let contact = report["contact_fraction"].as_f64().unwrap();
     assert!(contact > 0.005 && contact < 0.5, "{contact}");
     let names: Vec<_> = said.lines().last().unwrap().split(": ").last().unwrap().split(", ").collect();

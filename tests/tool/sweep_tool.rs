@@ -108,7 +108,7 @@ fn a_sweep_writes_a_row_for_each_load() {
         "control,control_value,mean_pressure,mean_contact_pressure,mean_gap,normal_force,approach,edge_traction,\
          contact_fraction,corrected_contact_fraction,perimeter,clusters,largest_cluster,repulsive_fraction,attractive_fraction,\
          elastic_energy,adhesive_energy,min_gap,relative_error,load_error,iterations,operator_applications,status,modulus,law,\
-         work_of_adhesion,range,heights"
+         work_of_adhesion,range,heights,part,seed"
     );
     assert_eq!(bench.names("new"), ["sweep.csv", "sweep.csv.scene.toml", "sweep.csv.state.npz"]);
     assert_eq!(column(&table, "control_value"), [1e-3, 2e-3, 4e-3, 0.01]);
@@ -120,7 +120,7 @@ fn a_sweep_writes_a_row_for_each_load() {
         table
             .lines()
             .skip(1)
-            .all(|row| row.starts_with("mean-pressure,") && row.ends_with(",converged,1.0,none,,,heights.npy"))
+            .all(|row| row.starts_with("mean-pressure,") && row.ends_with(",converged,1.0,none,,,heights.npy,,"))
     );
 
     // the first row is what a single solve gives
@@ -282,7 +282,7 @@ fn rows_that_did_not_converge_are_written_and_counted() {
     let warning = text(&first.stderr);
     assert!(warning.contains("1 of 3 rows") && warning.lines().count() == 1, "{warning}");
     let table = bench.read("sweep.csv");
-    let ends: Vec<_> = table.lines().skip(1).map(|row| row.rsplit(',').nth(5).unwrap()).collect();
+    let ends: Vec<_> = table.lines().skip(1).map(|row| row.rsplit(',').nth(7).unwrap()).collect();
     assert_eq!(ends, ["converged", "detached", "converged"]);
     // what there is already counts too
     let again = bench.sweep(arguments, 2);

@@ -13,6 +13,7 @@ use ndarray::Array2;
 
 use crate::allowed::positive;
 use crate::heights;
+use crate::numbers::plain;
 use crate::outcome::Outcome;
 use crate::processes::Processes;
 use crate::quantity::{ENERGY, ENERGY_PER_AREA, LENGTH, Quantity};
@@ -201,7 +202,7 @@ impl AdhesionOptions {
     /// Refuses a law without its parameters, parameters that are not those of the law, and a wall that does not fit.
     pub fn check(&self) -> Outcome<()> {
         let file = |path: &Option<PathBuf>| path.as_ref().map(|path| path.display().to_string());
-        let number = |value: Option<Quantity>| value.map(|value| value.to_string());
+        let number = |value: Option<Quantity>| value.map(|value| plain(value.value));
         let parameters = [
             ("--work-of-adhesion", number(self.work_of_adhesion), "an energy per area"),
             ("--range", number(self.range), "a length"),

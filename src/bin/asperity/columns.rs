@@ -8,6 +8,7 @@ use serde_json::Value;
 use crate::case::Search;
 use crate::loads::name_and_value;
 use crate::options::ProblemOptions;
+use crate::part::Part;
 use crate::quantity::Quantity;
 
 /// The content of a cell by the name of its column.
@@ -42,10 +43,15 @@ pub const OUTCOME: [&str; 5] = ["relative_error", "load_error", "iterations", "o
 pub const STIFFNESS: [&str; 2] = ["contact_stiffness", "normal_stiffness"];
 
 /// The names of the cells of the inputs, the same in all rows of a table, so that tables can be put together.
-pub const INPUTS: [&str; 5] = ["modulus", "law", "work_of_adhesion", "range", "heights"];
+pub const INPUTS: [&str; 7] = ["modulus", "law", "work_of_adhesion", "range", "heights", "part", "seed"];
 
-/// The contact modulus, the adhesion, and the name of the file of heights.
-pub fn inputs(ProblemOptions { surface, adhesion, .. }: ProblemOptions<'_>) -> impl Iterator<Item = Cell> {
+/// The contact modulus, the adhesion, the name of the file of heights, the part of them that the row is of, and the
+/// seed of a random surface.
+pub fn inputs(
+    ProblemOptions { surface, adhesion, .. }: ProblemOptions<'_>,
+    part: &Part,
+    seed: Option<u64>,
+) -> impl Iterator<Item = Cell> {
     let number = |given: Option<Quantity>| given.map(|given| given.value).into();
     let values: [Value; INPUTS.len()] = [
         surface.modulus().into(),
@@ -53,6 +59,8 @@ pub fn inputs(ProblemOptions { surface, adhesion, .. }: ProblemOptions<'_>) -> i
         number(adhesion.work_of_adhesion),
         number(adhesion.range),
         surface.heights.file_name().map(|name| name.to_string_lossy()).into(),
+        part.name().into(),
+        seed.into(),
     ];
     INPUTS.into_iter().zip(values)
 }
@@ -103,7 +111,7 @@ pub fn outcome(report: &Report) -> impl Iterator<Item = Cell> {
     OUTCOME.into_iter().zip(values)
 }
 
-/// The contact stiffness.
-pub fn stiffness(found: &ContactStiffness) -> impl Iterator<Item = Cell> {
-    STIFFNESS.into_iter().zip([found.pressure_per_length.into(), found.force_per_length.into()])
+/// The contact stiffness; the force is that of a `share` of the map.
+pub fn stiffness(found: &ContactStiffness, share: f64) -> impl Iterator<Item = Cell> {
+    STIFFNESS.into_iter().zip([found.pressure_per_length.into(), (share * found.force_per_length).into()])
 }

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use asperity::contact::ContactStatistics;
 use asperity::path::{Event, Path, PathCheckpoint, PathSettings, PathStep};
 use asperity::picture::Chart;
-use asperity::{Control, Error, Grid, Problem, Solver, Status, Surface};
+use asperity::{Control, Error, Problem, Report, Solver, Status, Surface};
 use clap::{ArgGroup, Args};
 use ndarray::ArrayRef2;
 use serde_json::{Map, Value, json};
@@ -137,25 +137,22 @@ pub fn run(options: &Options, scene: &Scene, processes: &Processes) -> Outcome<b
 }
 
 impl Options {
-    fn run<T: Scalar>(
-        &self,
-        Given { surface, adhesion, unit, start }: Given<'_>,
-        scene: &Scene,
-        processes: &Processes,
-    ) -> Outcome<bool> {
+    fn run<T: Scalar>(&self, given: Given<'_>, scene: &Scene, processes: &Processes) -> Outcome<bool> {
+        let Given { surface, adhesion, origin, part, start } = given;
+        part.check(self.loads.control(0.0))?;
         let values = self.loads.values(self.surface.full_pressure(&surface, self.loads.are_reduced())?);
         let loads = self.loads.controls(&values);
         if loads.len() < 2 {
             return Err("a cycle needs two turning points at least: give more loads, with commas between".into());
         }
         let grid = *surface.grid();
-        let units = processes.agree(self.units.units(unit.as_deref(), scene.is_si()))?;
+        let units = processes.agree(self.units.units(origin.unit.as_deref(), scene.is_si()))?;
         let names = names();
         let header = units.header(&names, self.loads.control(0.0).name(), grid.is_line());
         let &Self { ref out, force, printing, strictness, .. } = self;
         let (fields, units) = (self.fields.as_deref(), &units);
-        let options =
-            TableOptions { problem: self.problem(), out, force, printing, scene, units, strictness, fields, processes };
+        let (problem, part) = (self.problem(), &part);
+        let options = TableOptions { problem, out, force, printing, scene, units, part, strictness, fields, processes };
         let identity =
             |surface: &_, adhesion: &Adhesion<'_>, start: Option<&_>| self.identity(surface, adhesion, start, &values);
         let operator = self.surface.beyond.boundary.half_space(grid, self.surface.modulus())?;
@@ -191,14 +188,15 @@ impl Options {
             let Some(step) = step else { break };
             let step = step?;
             table.check(&step.solution)?;
-            let statistics = ContactStatistics::of(&step.solution, &grid, &law)?;
-            let row = row(self.problem(), &step, self.direction(step.leg), &statistics);
+            let (shown, statistics) = (part.of_solution(&step.solution), part.statistics(&step.solution, &law)?);
+            let inputs = inputs(self.problem(), part, origin.seed);
+            let row = row(&step, &shown.report, self.direction(step.leg), &statistics, inputs);
             let checkpoint = path.checkpoint();
             let fields: Vec<_> = checkpoint.fields.iter().map(|field| field.view()).collect();
-            let (report, (_, load)) = (&step.solution.report, name_and_value(step.control));
+            let (report, (_, load)) = (&shown.report, name_and_value(step.control));
             let (text, converged) = (csv::line(&row), report.status == Status::Converged);
             let row_to_keep = Row { text: &text, load, converged, fields: &fields, numbers: &checkpoint.numbers };
-            table.append(&row_to_keep, &step.solution)?;
+            table.append(&row_to_keep, &shown)?;
             // the fields of a row stay where it or the next one has an event
             if !had_event && step.event.is_none() {
                 table.forget(table.rows() - 1);
@@ -209,7 +207,7 @@ impl Options {
             apart = Self::is_apart(&row.into());
         }
         drop(path);
-        self.conclude(&table, units, &grid, processes)?;
+        self.conclude(&table, units, processes)?;
         Ok(table.converged("or use a larger --tolerance"))
     }
 
@@ -272,7 +270,7 @@ impl Options {
     }
 
     /// Prints the summary or the report of all rows, and draws the picture.
-    fn conclude(&self, table: &Table<'_>, units: &Units, grid: &Grid, processes: &Processes) -> Outcome<()> {
+    fn conclude(&self, table: &Table<'_>, units: &Units, processes: &Processes) -> Outcome<()> {
         let (text, names) = (table.text()?, names());
         let rows: Vec<_> = text.lines().skip(1).map(|row| csv::parsed(&names, row)).collect();
         let number = |row: &Value, name: &str| row[name].as_f64().unwrap_or(f64::NAN);
@@ -307,7 +305,7 @@ impl Options {
                 "imbalance": last["imbalance"],
                 "last": last,
             });
-            table.report("cycle", self.loads.control(0.0).name(), found, grid)
+            table.report("cycle", self.loads.control(0.0).name(), found)
         });
         if self.printing.for_people() {
             let energy = |value| units.number(value, ENERGY_PER_AREA);
@@ -364,12 +362,12 @@ impl Options {
 
 /// The content of a row, by the names of the columns. Nothing in it depends on the clock.
 fn row<T>(
-    problem: ProblemOptions<'_>,
     step: &PathStep<T>,
+    report: &Report,
     direction: &str,
     statistics: &ContactStatistics,
+    inputs: impl Iterator<Item = Cell>,
 ) -> Map<String, Value> {
-    let report = &step.solution.report;
     let drop = step.event.as_ref().and_then(Event::jump).map(|jump| jump.energy_drop);
     let leg = [("leg", step.leg.into()), ("direction", direction.into())];
     let balance: [Cell; 5] = [
@@ -380,6 +378,6 @@ fn row<T>(
         ("energy_drop", drop.into()),
     ];
     let state = state(step.control, report, statistics);
-    let cells = leg.into_iter().chain(state).chain(balance).chain(outcome(report)).chain(inputs(problem));
+    let cells = leg.into_iter().chain(state).chain(balance).chain(outcome(report)).chain(inputs);
     cells.map(|(name, value)| (name.to_owned(), value)).collect()
 }

@@ -16,6 +16,7 @@ use crate::numbers::si;
 use crate::outcome::Outcome;
 use crate::output::at_destination;
 use crate::output::write_text;
+use crate::part::Part;
 use crate::pictures::{self, PictureFormat, Resolution};
 use crate::printing::Printing;
 use crate::progress::Progress;
@@ -114,7 +115,8 @@ pub fn run(options: &Options) -> Outcome<bool> {
         let none = Exponential::new(0.0, RANGE)?;
         for (name, solution, law) in [("without adhesion", &bare, &none), ("with adhesion", &sticky, &law)] {
             let path = |what: &str| path(&format!("{what}-{}", name.replace(' ', "-")));
-            let contact = pictures::draw_contact(grid, &format!("Contact {name}"), &units, (solution, law), dpi)?;
+            let regions = solution.regions(&grid, law).mapv(f64::from);
+            let contact = pictures::draw_regions(grid, &format!("Contact {name}"), &units, &regions, dpi)?;
             contact.write(&path("contact"))?;
             let (caption, title) = (format!("mean {}", si(PRESSURE, "Pa")), format!("Pressure {name}"));
             let pressure = pictures::pressure_to_draw(solution, AdhesionLaw::<f64>::work_of_adhesion(law) > 0.0);
@@ -126,7 +128,7 @@ pub fn run(options: &Options) -> Outcome<bool> {
     draw().map_err(|error| at_destination(error, out))?;
     folder.commit()?;
 
-    printing.say(&table(&["without adhesion", "with adhesion"], &[&without, &with], &units));
+    printing.say(&table(&["without adhesion", "with adhesion"], &[&without, &with], &units, &Part::all(grid)));
     printing.say(&format!("\nmaps in {}: {}\n", out.display(), names.join(", ")));
     let command: Vec<_> = arguments(out, true).iter().map(|word| quoted(word)).collect();
     let (command, file) = (command.join(" "), quoted(out.join(scene::NAME).as_os_str()));
@@ -136,8 +138,8 @@ pub fn run(options: &Options) -> Outcome<bool> {
     printing.report(|| {
         json!({
             "command": "demo",
-            "without_adhesion": bare_options.report(grid, &without, &units, &bare_scene),
-            "with_adhesion": sticky_options.report(grid, &with, &units, &scene),
+            "without_adhesion": bare_options.report(&Part::all(grid), &without, &units, &bare_scene),
+            "with_adhesion": sticky_options.report(&Part::all(grid), &with, &units, &scene),
         })
     });
     warn("without adhesion", &without, &case);

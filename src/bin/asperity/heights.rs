@@ -18,6 +18,23 @@ const ROUNDING: f64 = 1e-2;
 /// The largest number of names of arrays in a message.
 const MOST_NAMES: usize = 10;
 
+/// What the file of a surface says beside its heights.
+#[derive(Clone, Debug, Default)]
+pub struct Origin {
+    /// The unit of length.
+    pub unit: Option<String>,
+    /// The nodes of the original of a mirrored map.
+    pub original: Option<(usize, usize)>,
+    /// The seed of a random surface.
+    pub seed: Option<u64>,
+}
+
+impl Origin {
+    fn of(map: &Topography) -> Self {
+        Self { unit: map.unit.clone(), original: map.original, seed: map.seed }
+    }
+}
+
 /// The map of a file with the given `--lengths`, of which one means square cells; without any, those of the file, or
 /// else the unit square. Lengths that contradict the file are refused. In the SI all is in metres, and side lengths are
 /// not taken for granted.
@@ -38,15 +55,15 @@ pub fn rows_on(option: &'static str, path: &Path, grid: &Grid) -> Outcome<Array2
     if found == expected { Ok(map.heights) } else { Err(Error::Shape { name: option, found, expected }.into()) }
 }
 
-/// The surface of a file, of which every process reads its rows, and its unit. Its missing points become absent nodes,
-/// or are refused.
+/// The surface of a file, of which every process reads its rows, and its origin, as that of a map without mirror images:
+/// results are of all nodes. Its missing points become absent nodes, or are refused.
 pub fn shared(
     path: &Path,
     lengths: Option<&[Quantity]>,
     si: bool,
     absent: bool,
     processes: &Processes,
-) -> Outcome<(Surface, Option<String>)> {
+) -> Outcome<(Surface, Origin)> {
     let read = || {
         let mut refused = None;
         let (map, shape) = read_rows(path, |shape| {
@@ -63,11 +80,12 @@ pub fn shared(
         let sides = sides_of(path, &map, shape, lengths, si)?;
         Ok((Grid::new(shape, sides)?, map))
     };
-    let (grid, Topography { heights, unit, .. }) = processes.agree(read())?;
-    let grid = processes.share(grid)?;
+    let (grid, map) = processes.agree(read())?;
+    let (grid, origin) = (processes.share(grid)?, Origin { original: None, ..Origin::of(&map) });
+    let heights = map.heights;
     let surface = if absent { Surface::with_absent(grid, heights) } else { Surface::new(grid, heights) };
     match surface {
-        Ok(surface) => Ok((surface, unit)),
+        Ok(surface) => Ok((surface, origin)),
         Err(error @ Error::Elsewhere { .. }) => Err(error.into()),
         Err(error) => Err(format!("{}: {error}", path.display()).into()),
     }
@@ -159,8 +177,8 @@ pub fn converted(path: &Path, mut map: Topography, unit: &str) -> Outcome<Topogr
     Ok(map)
 }
 
-/// The surface of a map, and its unit. Its missing points become absent nodes, or are refused.
-pub fn surface_or_absent(path: &Path, map: Topography, absent: bool) -> Outcome<(Surface, Option<String>)> {
+/// The surface of a map, and its origin. Its missing points become absent nodes, or are refused.
+pub fn surface_or_absent(path: &Path, map: Topography, absent: bool) -> Outcome<(Surface, Origin)> {
     let infinite = map.heights.iter().any(|h| h.is_infinite());
     let missing = !infinite && map.missing() > 0;
     if !missing {
@@ -170,13 +188,13 @@ pub fn surface_or_absent(path: &Path, map: Topography, absent: bool) -> Outcome<
         let refused = surface(path, map);
         return refused.map_err(|error| format!("{error}, or take them for absent nodes by --absent-missing").into());
     }
-    let unit = map.unit.clone();
+    let origin = Origin::of(&map);
     let surface = map.surface_with_absent();
-    Ok((surface.map_err(|error| format!("{}: {error}", path.display()))?, unit))
+    Ok((surface.map_err(|error| format!("{}: {error}", path.display()))?, origin))
 }
 
-/// The surface of a map, and its unit.
-pub fn surface(path: &Path, map: Topography) -> Outcome<(Surface, Option<String>)> {
+/// The surface of a map, and its origin.
+pub fn surface(path: &Path, map: Topography) -> Outcome<(Surface, Origin)> {
     let (nx, ny) = map.heights.dim();
     let infinite = map.heights.iter().filter(|h| h.is_infinite()).count();
     if let Some((node, height)) = map.heights.indexed_iter().find(|(_, h)| h.is_infinite()) {
@@ -201,8 +219,8 @@ pub fn surface(path: &Path, map: Topography) -> Outcome<(Surface, Option<String>
         )
         .into());
     }
-    let unit = map.unit.clone();
-    Ok((map.surface()?, unit))
+    let origin = Origin::of(&map);
+    Ok((map.surface()?, origin))
 }
 
 /// The numbers of missing and of infinite heights, if there are any.

@@ -45,6 +45,7 @@ mod numbers;
 mod options;
 mod outcome;
 mod output;
+mod part;
 mod pictures;
 mod printing;
 mod processes;

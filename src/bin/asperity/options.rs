@@ -2,7 +2,8 @@
 
 use std::path::PathBuf;
 
-use asperity::{Criterion, Real, Settings, Surface};
+use asperity::io::read_field;
+use asperity::{Criterion, Error, Real, Settings, Surface};
 use clap::{Args, ValueEnum};
 use ndarray::Array2;
 use ndarray_npy::WritableElement;
@@ -10,8 +11,9 @@ use ndarray_npy::WritableElement;
 use crate::adhesion::{Adhesion, AdhesionOptions};
 use crate::allowed::{positive, threads};
 use crate::boundary::BoundaryOptions;
-use crate::heights;
+use crate::heights::{self, Origin};
 use crate::outcome::Outcome;
+use crate::part::Part;
 use crate::processes::Processes;
 use crate::quantity::{LENGTH, PRESSURE, Quantity};
 use crate::threads::use_threads;
@@ -34,6 +36,10 @@ pub struct SurfaceOptions {
     modulus: Quantity,
     #[command(flatten)]
     pub beyond: BoundaryOptions,
+    /// Results on all nodes of a map that asperity prepare has mirrored: without it, fields, pictures, contact and
+    /// force are those of the original, a quarter of it
+    #[arg(long, help_heading = "Surface")]
+    pub whole: bool,
 }
 
 /// The method, the accuracy and the start of a solve.
@@ -93,8 +99,10 @@ pub struct ProblemOptions<'a> {
 pub struct Given<'a> {
     pub surface: Surface,
     pub adhesion: Adhesion<'a>,
-    /// The unit of length, if the file of the surface has one
-    pub unit: Option<String>,
+    /// What the file of the surface says beside its heights
+    pub origin: Origin,
+    /// The part of the surface that results are of
+    pub part: Part,
     /// The gap from which to start, if there is one
     pub start: Option<Array2<f64>>,
 }
@@ -105,16 +113,17 @@ impl<'a> ProblemOptions<'a> {
     pub fn read(self, si: bool, processes: &Processes) -> Outcome<Given<'a>> {
         self.adhesion.check()?;
         let SurfaceOptions { heights: path, lengths, beyond, .. } = self.surface;
-        let (surface, unit) = if processes.count() > 1 {
+        let (surface, origin) = if processes.count() > 1 {
             heights::shared(path, lengths.as_deref(), si, beyond.absent_missing, processes)?
         } else {
             let map = heights::map(path, lengths.as_deref(), si)?;
             heights::surface_or_absent(path, map, beyond.absent_missing)?
         };
+        let part = Part::of(self.surface, &origin, *surface.grid())?;
         let adhesion = self.adhesion.read(surface.grid(), processes)?;
-        let start = processes.agree(self.solver.start(&surface))?;
+        let start = processes.agree(self.solver.start(&surface, &part))?;
         processes.agree(use_threads(self.solver.threads))?;
-        Ok(Given { surface, adhesion, unit, start })
+        Ok(Given { surface, adhesion, origin, part, start })
     }
 }
 
@@ -148,11 +157,22 @@ impl SurfaceOptions {
 }
 
 impl SolverOptions {
-    /// The gap from which to start, if it is given.
-    fn start(&self, surface: &Surface) -> Outcome<Option<Array2<f64>>> {
+    /// The gap from which to start, if it is given, of the whole surface or of the `part` of which results are.
+    fn start(&self, surface: &Surface, part: &Part) -> Outcome<Option<Array2<f64>>> {
         let Some(path) = &self.initial_gap else { return Ok(None) };
-        let start = heights::rows_on("--initial-gap", path, surface.grid())?;
-        let first = surface.grid().rows().start;
+        let grid = surface.grid();
+        // a mirrored map, which one process has as a whole, may start from the gap of its original
+        let start = if part.name().is_some() {
+            let start = part.whole_of(read_field(path)?);
+            let (found, expected) = (start.dim(), grid.shape());
+            if found != expected {
+                return Err(Error::Shape { name: "--initial-gap", found, expected }.into());
+            }
+            start
+        } else {
+            heights::rows_on("--initial-gap", path, grid)?
+        };
+        let first = grid.rows().start;
         // the library refuses what is not finite, but for nodes without a gap
         let is_absent = |node: (usize, usize)| surface.absent().is_some_and(|absent| absent[node]);
         let unknown = |(node, gap): &((usize, usize), &f64)| !gap.is_finite() && !is_absent(*node);

@@ -23,14 +23,14 @@ use crate::units::Units;
 
 /// Put the results of a run on one page for a browser.
 ///
-/// RESULTS is the folder of a solve, or the table of a sweep or a cycle. The page has the figures, the warnings, maps
-/// that can be zoomed, curves, the scene that repeats the run, and how to cite. It is one file, which loads nothing
-/// from elsewhere: for a colleague, or beside the data. Maps are drawn from gap.npy, pressure.npy and
+/// RESULTS is the folder of a solve, or the table of a sweep, a cycle or a study. The page has the figures, the
+/// warnings, maps that can be zoomed, curves, the scene that repeats the run, and how to cite. It is one file, which
+/// loads nothing from elsewhere: for a colleague, or beside the data. Maps are drawn from gap.npy, pressure.npy and
 /// contact_pressure.npy.
 #[derive(Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Options {
-    /// Folder of a solve, or table of a sweep or a cycle
+    /// Folder of a solve, or table of a sweep, a cycle or a study
     #[arg(value_name = "RESULTS")]
     results: PathBuf,
     /// File for the page [default: report.html in the folder, or beside the table]
@@ -249,7 +249,14 @@ fn page_of_table(table: &Path) -> Outcome<String> {
     let units = units_of_table(&header, scene.as_deref());
     let name = table.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
     let cycle = columns.iter().any(|column| column == "leg");
-    let command = if cycle { "cycle" } else { "sweep" };
+    let study = columns.first().is_some_and(|column| column == "case");
+    let command = if study {
+        "study"
+    } else if cycle {
+        "cycle"
+    } else {
+        "sweep"
+    };
     let mut page = Page::new(&name, &format!("asperity {command}: {} rows", rows.len()));
     let bad = |row: &Value| row["status"] != "converged";
     let unconverged = rows.iter().filter(|row| bad(row)).count();

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use asperity::picture::{Chart, Colouring, DPI, Format, Map, Picture};
-use asperity::{AdhesionLaw, Error, Grid, Result, Solution};
+use asperity::{Error, Grid, Result, Solution};
 use clap::{Args, ValueEnum};
 use ndarray::Array2;
 use serde_json::Value;
@@ -14,6 +14,9 @@ use crate::options::Scalar;
 use crate::outcome::Outcome;
 use crate::output::OutputFile;
 use crate::units::Units;
+
+/// The most cases of a study that a chart names: it has as many colours.
+const MOST_NAMED: usize = 4;
 
 /// The format of pictures of which the tool chooses the names.
 #[derive(Clone, Copy, Default, PartialEq, ValueEnum)]
@@ -139,8 +142,15 @@ pub fn chart_of_columns(rows: &[Value], x: &str, y: &str, units: &Units, dpi: f6
     chart.draw(dpi)
 }
 
-/// The rows of each part of a table, with its name; a part begins with the row before it. A single one has no name.
+/// The rows of each part of a table, with its name; a part begins with the row before it, but for the cases of a study.
+/// A single one has no name, and neither have more cases than there are colours.
 fn legs(rows: &[Value]) -> Vec<(String, &[Value])> {
+    if rows.first().is_some_and(|row| row["case"].is_u64()) {
+        let cases: Vec<_> = rows.chunk_by(|row, next| row["case"] == next["case"]).collect();
+        let name = |rows: &[Value]| format!("case {}", rows[0]["case"]);
+        let named = (2..=MOST_NAMED).contains(&cases.len());
+        return cases.into_iter().map(|rows| (if named { name(rows) } else { String::new() }, rows)).collect();
+    }
     let load = |row: &Value| row["control_value"].as_f64().unwrap_or(f64::NAN);
     let cycle = rows.first().is_some_and(|row| row["leg"].is_u64());
     let direction = |k: usize| match &rows[k]["direction"] {
@@ -160,18 +170,8 @@ fn legs(rows: &[Value]) -> Vec<(String, &[Value])> {
     starts.iter().enumerate().map(|(k, start)| (direction(start + 1) + &number(k), legs[k])).collect()
 }
 
-/// Draws the nodes in contact, those that attract each other, and those that are apart.
-pub fn draw_contact<T: Scalar>(
-    grid: Grid,
-    title: &str,
-    units: &Units,
-    (solution, law): (&Solution<T>, &impl AdhesionLaw<T>),
-    dpi: f64,
-) -> Result<Picture> {
-    draw_regions(grid, title, units, &solution.regions(&grid, law).mapv(f64::from), dpi)
-}
-
-/// Draws regions, as numbers: 1 contact, -1 attraction, 0 apart, NaN no surface.
+/// Draws the nodes in contact, those that attract each other, and those that are apart, as numbers: 1 contact, -1
+/// attraction, 0 apart, NaN no surface.
 pub fn draw_regions(grid: Grid, title: &str, units: &Units, regions: &Array2<f64>, dpi: f64) -> Result<Picture> {
     let share = |of: fn(f64) -> bool| {
         let facing = regions.iter().filter(|region| !region.is_nan()).count();
@@ -218,4 +218,25 @@ pub fn draw_pressure<T: Scalar>(
         ..Map::new(pressure.view(), grid, Colouring::Diverging)
     };
     map.draw(dpi)
+}
+
+#[cfg(test)]
+mod tests {
+    use serde_json::json;
+
+    use super::*;
+
+    #[test]
+    fn the_cases_of_a_study_are_no_legs_of_one_sweep() {
+        let rows = |cases: &[u64]| -> Vec<Value> {
+            let row = |(k, case): (usize, &u64)| json!({ "case": case, "control_value": k % 2 });
+            cases.iter().enumerate().map(row).collect()
+        };
+        let found = |rows: &[Value]| -> Vec<(String, usize)> {
+            legs(rows).into_iter().map(|(name, rows)| (name, rows.len())).collect()
+        };
+        assert_eq!(found(&rows(&[1, 1, 2, 2])), [("case 1".to_owned(), 2), ("case 2".to_owned(), 2)]);
+        assert_eq!(found(&rows(&[1, 1])), [(String::new(), 2)]);
+        assert!(found(&rows(&[1, 2, 3, 4, 5])).iter().all(|(name, count)| name.is_empty() && *count == 1));
+    }
 }

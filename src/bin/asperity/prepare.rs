@@ -1,6 +1,6 @@
 //! `asperity prepare`: a measured height map made into a periodic surface.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use asperity::io::{read_channel, read_topography, write_topography};
 use asperity::{Form, FormFit, RowAlignment, ScanAxis, Topography, Trend, Warning};
@@ -82,7 +82,8 @@ pub struct Options {
     /// Fit for spectra; under load the flat frame may come into contact, where --mirror keeps all heights
     #[arg(long, value_name = "F", allow_hyphen_values = true, conflicts_with = "mirror")]
     window: Option<f64>,
-    /// Make the map periodic: continue it by its mirror images, to twice the size along both sides
+    /// Make the map periodic: continue it by its mirror images, to twice the size along both sides. A .npz remembers
+    /// its original, of which solve has results then
     #[arg(long)]
     mirror: bool,
     /// Interpolate on NX x NY nodes by Fourier series, finer or coarser; the map should be periodic by then
@@ -190,20 +191,28 @@ pub fn run(options: &Options, scene: &Scene) -> Outcome<bool> {
             "shape": map.heights.dim(),
             "lengths": map.lengths,
             "length_unit": map.unit,
+            "original": map.original,
             "steps": lines.iter().map(|(step, text)| json!({ "step": step, "what": text })).collect::<Vec<_>>(),
             "warnings": warnings::report(&warnings),
             "version": env!("CARGO_PKG_VERSION"),
         })
     });
     if options.printing.for_people() {
-        let known = map.lengths.is_some() && options.out.extension().is_some_and(|e| e.eq_ignore_ascii_case("npy"));
-        let hint = if known { ", without side lengths: give them again by --lengths" } else { "" };
-        lines.push(("written", format!("{}{hint}", options.out.display())));
+        lines.push(("written", format!("{}{}", options.out.display(), forgotten(&options.out, &map))));
         let width = lines.iter().map(|(name, _)| name.len()).max().unwrap_or(0);
         let lines = lines.iter().map(|(name, text)| format!("{name:width$}  {text}"));
         say(&lines.collect::<Vec<_>>().join("\n"));
     }
     Ok(true)
+}
+
+/// What a format has no place for, of all that is known of a map.
+fn forgotten(out: &Path, map: &Topography) -> String {
+    let is = |ending: &str| out.extension().is_some_and(|found| found.eq_ignore_ascii_case(ending));
+    let lengths = (map.lengths.is_some() && is("npy")).then_some("without side lengths: give them again by --lengths");
+    let mirror = "without the mark of a mirrored map: results will be of all its images too, with .npz of the original";
+    let mirror = (map.original.is_some() && !is("npz")).then_some(mirror);
+    lengths.into_iter().chain(mirror).map(|text| format!(", {text}")).collect()
 }
 
 /// A unit, which will be printed.

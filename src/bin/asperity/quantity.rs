@@ -74,20 +74,42 @@ impl Dimension {
     ) -> impl Fn(&str) -> Result<Quantity, String> + Clone + Send + Sync + 'static {
         move |text| match self.parse(text.trim()) {
             Some(found) if allowed(found.value) => Ok(found),
-            _ => Err(format!("it must be a number, {requirement}, alone or with a unit of {}", self.what)),
+            _ => {
+                let mistake = self.mistaken_unit(text.trim()).unwrap_or_default();
+                Err(format!("{mistake}it must be a number, {requirement}, alone or with a unit of {}", self.what))
+            }
         }
+    }
+
+    /// What is wrong with the unit behind a number, if something is.
+    fn mistaken_unit(self, text: &str) -> Option<String> {
+        let (_, unit) = number_and_unit(text).filter(|(_, unit)| !unit.is_empty())?;
+        match Unit::parse(unit) {
+            None => Some(format!("{unit} is no unit that is known, ")),
+            Some(found) if !self.has(found) => Some(format!("{unit} is a unit of something else, ")),
+            Some(_) => None,
+        }
+    }
+
+    /// Whether a unit is of this dimension.
+    fn has(self, unit: Unit) -> bool {
+        unit.force == self.force && unit.length == self.length
     }
 
     fn parse(self, text: &str) -> Option<Quantity> {
         if let Ok(value) = text.parse() {
             return Some(Quantity { value, has_unit: false, is_number: false });
         }
-        // the number is as much as can be read as one: 1e5Pa is no 1 of a unit e5Pa
-        let splits = text.char_indices().rev().map(|(at, _)| text.split_at(at));
-        let (number, unit) = splits.into_iter().find(|(number, _)| number.parse::<f64>().is_ok())?;
-        let unit = Unit::parse(unit.trim()).filter(|unit| unit.force == self.force && unit.length == self.length)?;
+        let (number, unit) = number_and_unit(text)?;
+        let unit = Unit::parse(unit).filter(|unit| self.has(*unit))?;
         Some(Quantity { value: unit.in_si(number)?, has_unit: true, is_number: false })
     }
+}
+
+/// A number, as much of a text as can be read as one, and what follows: 1e5Pa is no 1 of a unit e5Pa.
+fn number_and_unit(text: &str) -> Option<(&str, &str)> {
+    let mut splits = text.char_indices().rev().map(|(at, _)| text.split_at(at));
+    splits.find(|(number, _)| number.parse::<f64>().is_ok()).map(|(number, unit)| (number, unit.trim()))
 }
 
 /// The power of ten that a unit of length is in metres; nothing if it is no unit of length.
@@ -250,6 +272,12 @@ mod tests {
         ] {
             let error = pressure(text).unwrap_err();
             assert!(error.contains("positive and finite") && error.contains("as 70GPa"), "{text}: {error}");
+        }
+        for (text, mistake) in
+            [("70gpa", "gpa is no unit"), ("70um", "um is a unit of something else"), ("-1GPa", "it must")]
+        {
+            let error = pressure(text).unwrap_err();
+            assert!(error.starts_with(mistake), "{text}: {error}");
         }
         assert!(LENGTH.non_negative()("0nm").is_ok() && LENGTH.finite()("-6nm").is_ok());
         // zero says nothing of units

@@ -2,10 +2,10 @@
 
 use std::path::Path;
 
-use asperity::Grid;
 use serde_json::{Map, Value, json};
 
 use crate::options::ProblemOptions;
+use crate::part::Part;
 use crate::quantity::Quantity;
 use crate::scene::Scene;
 use crate::threads;
@@ -14,7 +14,7 @@ use crate::units::Units;
 /// The inputs of a command, by their names in every report.
 pub fn inputs(
     ProblemOptions { surface, adhesion, solver }: ProblemOptions<'_>,
-    grid: &Grid,
+    part: &Part,
     units: &Units,
     scene: &Scene,
 ) -> Map<String, Value> {
@@ -23,8 +23,10 @@ pub fn inputs(
     let inputs = json!({
         "heights": surface.heights.to_string_lossy(),
         "initial_gap": solver.initial_gap.as_deref().map(Path::to_string_lossy),
-        "shape": grid.shape(),
-        "lengths": grid.lengths(),
+        "part": part.name(),
+        "solved_shape": part.solved(),
+        "shape": part.grid().shape(),
+        "lengths": part.grid().lengths(),
         "length_unit": units.length,
         "pressure_unit": units.pressure,
         "given": scene.given(),

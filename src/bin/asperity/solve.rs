@@ -20,6 +20,7 @@ use crate::options::{Given, Precision, ProblemOptions, Scalar, SolverOptions, Su
 use crate::outcome::Outcome;
 use crate::output::at_destination;
 use crate::output::{output_folder, write_text};
+use crate::part::Part;
 use crate::pictures::{self, PictureFormat, Resolution};
 use crate::printing::{Printing, complain, say};
 use crate::processes::{Processes, WHOLE};
@@ -166,9 +167,11 @@ pub fn run(options: &Options, scene: &Scene, processes: &Processes) -> Outcome<b
     })?;
     let si = scene.is_si();
     let given = problem.read(si, processes)?;
-    let units = processes.agree(options.units.units(given.unit.as_deref(), si))?;
+    let units = processes.agree(options.units.units(given.origin.unit.as_deref(), si))?;
     let full = options.surface.full_pressure(&given.surface, options.load.is_reduced())?;
-    let job = Job { options, scene, processes, names, case: options.case(options.load.control(full)), units };
+    let (case, part) = (options.case(options.load.control(full)), given.part);
+    part.check(case.control)?;
+    let job = Job { options, scene, processes, names, case, units, part };
     match options.solver.precision {
         Precision::F32 => job.run::<f32>(given),
         Precision::F64 => job.run::<f64>(given),
@@ -222,6 +225,7 @@ struct Job<'a> {
     names: Vec<&'static str>,
     case: Case,
     units: Units,
+    part: Part,
 }
 
 impl Job<'_> {
@@ -257,25 +261,30 @@ impl Job<'_> {
             printing.say(&accuracy::announced(wanted, &plan));
             let (fine, solution, account) = case::solve_to(&surface, law, &self.case, wanted, progress)?;
             grid = *fine.grid();
+            self.part = self.part.on(grid)?;
             (solution, account)
         } else {
             case::solve::<T, _>(surface, law, &self.case, start, progress)?
         };
         let whole = if fits { solution.gathered(&grid) } else { None };
-        let look = |whole: &Cow<'_, _>| warnings.look_at(whole, self.case.modulus);
+        let look = |whole: &Cow<'_, _>| warnings.look_at(whole, self.case.modulus, &self.part);
         processes.agree(whole.as_ref().map_or(Ok(()), look))?;
         account.warnings = warnings.report();
+        let law = adhesion.law()?;
+        self.part_of(&mut account, &solution, &law)?;
         account.strongest = adhesion.strongest();
 
         let folder = processes.is_first().then(|| output_folder(out, &self.names, *force)).transpose();
         let folder = processes.agree(folder)?;
         if self.options.writes(Format::Npy) {
-            let gap = case::gap_to_write(&solution);
-            let fields = [&*gap, &solution.pressure, &solution.contact_pressure];
+            let (shown, part) = (&*self.part.of_solution(&solution), self.part.grid());
+            let gap = case::gap_to_write(shown);
+            let fields = [&*gap, &shown.pressure, &shown.contact_pressure];
             let named: Vec<_> = FIELDS.into_iter().map(str::to_owned).zip(fields).collect();
-            write_fields(processes, folder.as_ref(), out, grid, &named)?;
+            write_fields(processes, folder.as_ref(), out, part, &named)?;
             if let Some(stability) = &account.stability {
-                write_fields(processes, folder.as_ref(), out, grid, &[(MODE.to_owned(), &stability.mode)])?;
+                let mode = self.part.of_field(stability.mode.clone());
+                write_fields(processes, folder.as_ref(), out, part, &[(MODE.to_owned(), &mode)])?;
             }
         }
         if let Some(stability) = account.stability.as_mut().filter(|_| fits && grid.is_shared()) {
@@ -291,10 +300,10 @@ impl Job<'_> {
         })?;
 
         if printing.for_people() {
-            say(&table(&[], &[&account], &self.units));
+            say(&table(&[], &[&account], &self.units, &self.part));
             say(&format!("results in {}: {}", out.display(), self.names.join(", ")));
         }
-        printing.report(|| self.report(grid, &account));
+        printing.report(|| self.report(&account));
         warn("", &account, &self.case);
         let reached = account.reached.as_ref().is_none_or(|reached| reached.reached)
             && account.search.as_ref().is_none_or(|search| search.reached);
@@ -320,8 +329,25 @@ impl Job<'_> {
         Ok(())
     }
 
-    fn report(&self, grid: Grid, account: &Account) -> Value {
-        self.options.report(grid, account, &self.units, self.scene)
+    fn report(&self, account: &Account) -> Value {
+        self.options.report(&self.part, account, &self.units, self.scene)
+    }
+
+    /// Makes the account of the whole one of the part that results are of.
+    fn part_of<T: Scalar>(
+        &self,
+        account: &mut Account,
+        solution: &asperity::Solution<T>,
+        law: &impl AdhesionLaw<T>,
+    ) -> Outcome<()> {
+        if self.part.solved().is_some() {
+            account.report = self.part.of_solution(solution).report.clone();
+            account.contact = self.part.statistics(solution, law)?;
+            account.nodes = self.part.grid().nodes();
+            let share = self.part.share();
+            account.stiffness.iter_mut().for_each(|found| found.force_per_length *= share);
+        }
+        Ok(())
     }
 
     /// Writes the files but for fields of which each process writes its rows; those that take the `whole` solution, with
@@ -334,27 +360,29 @@ impl Job<'_> {
         account: &Account,
     ) -> asperity::Result<()> {
         let path = |name: &str| folder.path(name);
-        write_text(&path(REPORT), &format!("{:#}\n", self.report(grid, account)))?;
+        write_text(&path(REPORT), &format!("{:#}\n", self.report(account)))?;
         write_text(&path(scene::NAME), &self.scene.text(&self.options.out))?;
-        let Some((solution, law)) = whole else { return Ok(()) };
+        let Some((whole, law)) = whole else { return Ok(()) };
+        let (shown, solution) = (self.part.grid().alone(), &*self.part.of_solution(whole));
         let gap = case::gap_to_write(solution);
         let fields = [&*gap, &solution.pressure, &solution.contact_pressure];
-        let mode = account.stability.as_ref().map(|stability| stability.mode.mapv(T::lit));
+        let mode = account.stability.as_ref().map(|stability| self.part.of_field(stability.mode.mapv(T::lit)));
         let named = FIELDS.into_iter().zip(fields).chain(mode.as_ref().map(|mode| (MODE, mode)));
         let named: Vec<_> = named.map(|(name, field)| (name.trim_end_matches(".npy"), field)).collect();
         if self.options.writes(Format::Npz) {
-            write_npz(&path(NPZ), &grid, &named)?;
+            write_npz(&path(NPZ), &shown, &named)?;
         }
         if self.options.writes(Format::Vti) {
-            write_vti(&path(VTI), &grid, &named)?;
+            write_vti(&path(VTI), &shown, &named)?;
         }
         if !self.options.no_pictures {
             let (Options { picture_format, resolution: Resolution { dpi }, .. }, units) = (self.options, &self.units);
             let [contact_name, pressure_name] = picture_format.of(PICTURES);
-            pictures::draw_contact(grid, "Contact", units, (solution, law), *dpi)?.write(&path(contact_name))?;
+            let regions = self.part.of_field(whole.regions(&grid, law)).mapv(f64::from);
+            pictures::draw_regions(shown, "Contact", units, &regions, *dpi)?.write(&path(contact_name))?;
             let pressure = pictures::pressure_to_draw(solution, self.options.adhesion.law != Law::None);
             let limits = self.options.colour_limits();
-            let picture = pictures::draw_pressure(grid, ("Pressure", ""), units, pressure, limits, *dpi)?;
+            let picture = pictures::draw_pressure(shown, ("Pressure", ""), units, pressure, limits, *dpi)?;
             picture.write(&path(pressure_name))?;
         }
         Ok(())

@@ -7,7 +7,7 @@ use asperity::{Spectrum, Surface};
 use clap::Args;
 use serde_json::{Map, Value, json};
 
-use crate::heights;
+use crate::heights::{self, Origin};
 use crate::numbers::plain;
 use crate::outcome::Outcome;
 use crate::output::OutputFile;
@@ -56,28 +56,29 @@ const EXAMPLES: &str = "\
 pub fn run(options: &Options, scene: &Scene) -> Outcome<bool> {
     let psd = options.psd.as_deref().map(|path| OutputFile::create(path, options.force)).transpose()?;
     let map = heights::map(&options.heights, options.lengths.as_deref(), scene.is_si())?;
-    let (surface, unit) = heights::surface(&options.heights, map)?;
+    let (surface, origin) = heights::surface(&options.heights, map)?;
     if let Some(file) = psd {
         let text = density_table(&surface.spectrum(), None);
         file.write(|path| write_text(path, &text))?;
         file.commit()?;
     }
-    options.printing.say(&table(&surface, unit.as_deref()));
+    options.printing.say(&table(&surface, &origin));
     options.printing.report(|| {
         let version = Map::from_iter([("version".to_owned(), env!("CARGO_PKG_VERSION").into())]);
-        report::report("stats", statistics(&surface, &options.heights, unit.as_deref()), version)
+        report::report("stats", statistics(&surface, &options.heights, &origin), version)
     });
     Ok(true)
 }
 
 /// The statistics of the heights in a file, by name.
-pub fn statistics(surface: &Surface, heights: &Path, unit: Option<&str>) -> Value {
+pub fn statistics(surface: &Surface, heights: &Path, origin: &Origin) -> Value {
     let (grid, found) = (surface.grid(), surface.statistics());
     json!({
         "heights": heights.to_string_lossy(),
         "shape": grid.shape(),
         "lengths": grid.lengths(),
-        "length_unit": unit,
+        "length_unit": origin.unit,
+        "original": origin.original,
         "mean_height": found.mean,
         "lowest": found.lowest,
         "highest": found.highest,
@@ -92,9 +93,11 @@ pub fn statistics(surface: &Surface, heights: &Path, unit: Option<&str>) -> Valu
     })
 }
 
-/// The statistics, one to a line, with the unit of length if it is known.
-pub fn table(surface: &Surface, unit: Option<&str>) -> String {
+/// The statistics, one to a line, with the unit of length if it is known. Those of a mirrored map are its original's,
+/// as all of them are means.
+pub fn table(surface: &Surface, origin: &Origin) -> String {
     let (grid, found) = (surface.grid(), surface.statistics());
+    let unit = origin.unit.as_deref();
     let ((nx, ny), (lx, ly)) = (grid.shape(), grid.lengths());
     // Shape and Nayak's parameter have no meaning on a flat surface.
     let units = Units::of_map(unit);
@@ -105,6 +108,9 @@ pub fn table(surface: &Surface, unit: Option<&str>) -> String {
     };
     let sides = if grid.is_line() { units.number(lx, LENGTH) } else { heights::sides((lx, ly), unit) };
     let mut rows = vec![("nodes", format!("{nx} x {ny}")), ("side lengths", sides)];
+    if let Some((x, y)) = origin.original {
+        rows.push(("original", format!("{x} x {y} nodes, all others are its mirror images")));
+    }
     for (name, value, dimension) in [
         ("mean height", found.mean, Some(LENGTH)),
         ("lowest", found.lowest, Some(LENGTH)),

@@ -6,13 +6,14 @@ use asperity::{Report, Status};
 use crate::accuracy::{self, Reached};
 use crate::case::{Account, Case, Search, Steadiness};
 use crate::numbers::{percent, plain};
+use crate::part::Part;
 use crate::printing::complain;
 use crate::printing::{bold, green, yellow};
 use crate::quantity::{ENERGY_PER_AREA, FORCE, LENGTH, PRESSURE, PRESSURE_PER_LENGTH};
 use crate::units::Units;
 
 /// A table with a column for each of the solves.
-pub fn table(names: &[&str], solves: &[&Account], units: &Units) -> String {
+pub fn table(names: &[&str], solves: &[&Account], units: &Units, part: &Part) -> String {
     let mut rows: Vec<(String, Vec<String>)> = Vec::new();
     if !names.is_empty() {
         rows.push((String::new(), names.iter().map(|name| (*name).to_owned()).collect()));
@@ -20,6 +21,11 @@ pub fn table(names: &[&str], solves: &[&Account], units: &Units) -> String {
     let mut row = |name: &str, of: &dyn Fn(&Account, &Report) -> String| {
         rows.push((name.to_owned(), solves.iter().map(|solve| of(solve, &solve.report)).collect()));
     };
+    if let Some(name) = part.name() {
+        let nodes = |(nx, ny): (usize, usize)| format!("{nx} x {ny}");
+        let solved = part.solved().map_or(String::new(), |solved| format!(" of {}", nodes(solved)));
+        row("part of the mirrored map", &|_, _| format!("{name}, {}{solved} nodes", nodes(part.grid().shape())));
+    }
     row("contact", &|_, r| format!("{} %", percent(r.contact_fraction)));
     row("corrected for its edge", &|s, _| format!("{} %", percent(s.contact.corrected_contact_fraction)));
     row("nodes in contact", &|s, r| format!("{} of {}", r.contact_nodes, s.nodes - r.absent_nodes));

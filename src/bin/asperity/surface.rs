@@ -9,7 +9,7 @@ use serde_json::json;
 
 use crate::allowed::{nodes, positive, threads};
 use crate::form::{Form, FormOptions};
-use crate::heights::both_sides;
+use crate::heights::{Origin, both_sides};
 use crate::outcome::Outcome;
 use crate::output::OutputFile;
 use crate::output::write_text;
@@ -144,6 +144,8 @@ pub fn run(options: &Options, scene: &Scene) -> Outcome<bool> {
     }
     let mut map = Topography::from(surface.clone());
     map.unit = unit.map(str::to_owned);
+    map.seed = rough.map(|rough| rough.seed);
+    let origin = Origin { unit: map.unit.clone(), ..Origin::default() };
     heights.write(|path| match path.extension().map(|ending| ending.to_ascii_lowercase()) {
         Some(ending) if ending == "gsf" || ending == "npz" => write_topography(path, &map),
         _ => write_npy(path, &map.heights),
@@ -158,13 +160,13 @@ pub fn run(options: &Options, scene: &Scene) -> Outcome<bool> {
     // what is absent has no statistics
     let (nx, ny) = shape;
     options.printing.say(&match absent {
-        0 => table(&surface, unit),
+        0 => table(&surface, &origin),
         _ => format!("{nx} x {ny} nodes, {absent} of them absent"),
     });
     options.printing.say(&format!("heights in {}", options.out.display()));
     options.printing.report(|| {
         let figures = match absent {
-            0 => statistics(&surface, &options.out, unit),
+            0 => statistics(&surface, &options.out, &origin),
             _ => json!({
                 "heights": options.out.to_string_lossy(),
                 "shape": shape,

@@ -14,9 +14,9 @@ use ndarray::{ArrayRef2, ArrayView2};
 use serde_json::{Map, Value, json};
 
 use crate::adhesion::{Adhesion, AdhesionOptions, Law, Wall};
-use crate::boundary::{FractionsOptions, LOADS, LoadsOptions};
+use crate::boundary::{Boundary, FractionsOptions, LOADS, LoadsOptions};
 use crate::case::Search;
-use crate::columns::{INPUTS, OUTCOME, SEARCH, STATE, STIFFNESS, inputs, outcome, search, state, stiffness};
+use crate::columns::{Cell, INPUTS, OUTCOME, SEARCH, STATE, STIFFNESS, inputs, outcome, search, state, stiffness};
 use crate::csv;
 use crate::identity::{Identity, identity};
 use crate::journal::Row;
@@ -113,32 +113,27 @@ pub fn run(options: &Options, scene: &Scene, processes: &Processes) -> Outcome<b
 }
 
 impl Options {
-    fn run<T: Scalar>(
-        &self,
-        Given { surface, adhesion, unit, start }: Given<'_>,
-        scene: &Scene,
-        processes: &Processes,
-    ) -> Outcome<bool> {
+    fn run<T: Scalar>(&self, given: Given<'_>, scene: &Scene, processes: &Processes) -> Outcome<bool> {
+        let Given { surface, adhesion, origin, part, start } = given;
         let listed = self.loads.values(self.surface.full_pressure(&surface, self.loads.are_reduced())?);
         let loads = self.fractions.values().unwrap_or(&listed);
+        part.check(self.control())?;
         if let Some(&value) = loads.iter().find(|&&load| !T::lit(load).is_finite()) {
             let (name, requirement) = ("load", "finite in the precision of the fields");
             return Err(Error::Value { name, value, requirement }.into());
         }
         let grid = *surface.grid();
-        let units = processes.agree(self.units.units(unit.as_deref(), scene.is_si()))?;
+        let units = processes.agree(self.units.units(origin.unit.as_deref(), scene.is_si()))?;
         let format = self.format()?;
-        // with adhesion a contact fraction is searched for by another load
-        let gap = self.fractions.values().is_some() && self.adhesion.law != Law::None;
-        let control = if gap { "mean-gap" } else { self.loads.control(0.0).name() };
+        let control = self.control().name();
         let header = match format {
             Format::Csv => units.header(&self.names(), control, grid.is_line()),
             Format::Jsonl => String::new(),
         };
         let &Self { ref out, force, printing, strictness, .. } = self;
         let (fields, units) = (self.fields.as_deref(), &units);
-        let options =
-            TableOptions { problem: self.problem(), out, force, printing, scene, units, strictness, fields, processes };
+        let (problem, part) = (self.problem(), &part);
+        let options = TableOptions { problem, out, force, printing, scene, units, part, strictness, fields, processes };
         let identity =
             |surface: &_, adhesion: &Adhesion<'_>, start: Option<&_>| self.identity(surface, adhesion, start);
         let operator = self.surface.beyond.boundary.half_space(grid, self.surface.modulus())?;
@@ -176,13 +171,14 @@ impl Options {
             let Some(step) = step else { break };
             let (control, solution, searched) = step?;
             table.check(&solution)?;
-            let statistics = ContactStatistics::of(&solution, &grid, &law)?;
-            let mut row = row(self.problem(), control, &solution.report, &statistics);
+            let (shown, statistics) = (part.of_solution(&solution), part.statistics(&solution, &law)?);
+            let inputs = inputs(self.problem(), part, origin.seed);
+            let mut row = row(control, &shown.report, &statistics, inputs);
             row.extend(searched.iter().flat_map(search).map(|(name, value)| (name.to_owned(), value)));
             if self.stiffness {
                 let (problem, tolerance) = (steps.problem(), ContactStiffness::TOLERANCE);
                 let found = ContactStiffness::of_constrained(problem, &self.adhesion.wall, &solution, tolerance)?;
-                row.extend(stiffness(&found).map(|(name, value)| (name.to_owned(), value)));
+                row.extend(stiffness(&found, part.share()).map(|(name, value)| (name.to_owned(), value)));
             }
             let text = match format {
                 Format::Csv => csv::line(&row),
@@ -192,8 +188,8 @@ impl Options {
             let reached = searched.as_ref().is_none_or(|searched| searched.reached);
             let converged = solution.report.status == Status::Converged;
             let row = Row { text: &text, load, converged: converged && reached, fields: &fields, numbers: &numbers };
-            table.append(&row, &solution)?;
-            self.printing.say(&format!("{:>width$}/{count}  {}", k + 1, table::brief(&solution.report, units)));
+            table.append(&row, &shown)?;
+            self.printing.say(&format!("{:>width$}/{count}  {}", k + 1, table::brief(&shown.report, units)));
             if let Some(searched) = searched.filter(|searched| converged && !searched.reached) {
                 complain("warning", &format!("row {}: {}", k + 1, searched.told()));
             }
@@ -205,12 +201,7 @@ impl Options {
         self.printing.say(&format!("{count} rows in {}", self.out.display()));
         self.printing.report(|| {
             let last = parsed(format, &names, text.lines().next_back().unwrap_or_default());
-            table.report(
-                "sweep",
-                control,
-                json!({ "spring_stiffness": self.loads.spring_stiffness(), "last": last }),
-                &grid,
-            )
+            table.report("sweep", control, json!({ "spring_stiffness": self.loads.spring_stiffness(), "last": last }))
         });
         Ok(table.converged(match self.fractions.values() {
             Some(_) => "or leave out the contact fractions past which the contact jumps",
@@ -222,6 +213,16 @@ impl Options {
     fn names(&self) -> Vec<&'static str> {
         let searched: &[_] = if self.fractions.values().is_some() { &SEARCH } else { &[] };
         [&STATE[..], &OUTCOME[..], &INPUTS[..], searched, if self.stiffness { &STIFFNESS[..] } else { &[] }].concat()
+    }
+
+    /// The load of the rows, of no meaning but for its kind; a contact fraction is searched for by one of these.
+    fn control(&self) -> Control {
+        match (self.fractions.values(), self.adhesion.law, self.surface.beyond.boundary) {
+            (None, _, _) => self.loads.control(0.0),
+            (Some(_), Law::None, _) => Control::MeanPressure(0.0),
+            (Some(_), _, Boundary::Periodic) => Control::MeanGap(0.0),
+            (Some(_), _, Boundary::Free) => Control::Approach(0.0),
+        }
     }
 
     fn problem(&self) -> ProblemOptions<'_> {
@@ -311,11 +312,11 @@ fn parsed(format: Format, names: &[&'static str], row: &str) -> Value {
 
 /// The content of a row, by the names of the columns. Nothing in it depends on the clock.
 fn row(
-    problem: ProblemOptions<'_>,
     control: Control,
     report: &Report,
     statistics: &ContactStatistics,
+    inputs: impl Iterator<Item = Cell>,
 ) -> Map<String, Value> {
-    let cells = state(control, report, statistics).chain(outcome(report)).chain(inputs(problem));
+    let cells = state(control, report, statistics).chain(outcome(report)).chain(inputs);
     cells.map(|(name, value)| (name.to_owned(), value)).collect()
 }

@@ -16,6 +16,7 @@ use crate::kept::Kept;
 use crate::numbers::percent;
 use crate::options::{ProblemOptions, Scalar};
 use crate::outcome::Outcome;
+use crate::part::Part;
 use crate::printing::{Printing, complain};
 use crate::processes::{Processes, WHOLE};
 use crate::progress::Progress;
@@ -24,6 +25,9 @@ use crate::report;
 use crate::scene::{self, Scene};
 use crate::units::Units;
 use crate::warnings::{Strictness, Warnings};
+
+/// The code of the warning that rows have not converged; it stands before the message, as those of all warnings do.
+pub const UNCONVERGED: &str = "unconverged";
 
 /// The options of a table.
 #[derive(Clone, Copy)]
@@ -38,6 +42,8 @@ pub struct TableOptions<'a> {
     /// The folder for the fields of the rows
     pub fields: Option<&'a Path>,
     pub processes: &'a Processes,
+    /// The part of the surface that the rows are of.
+    pub part: &'a Part,
 }
 
 /// A table on disk, new or continued, with the warnings of its run. The first of several processes has its file, and
@@ -143,15 +149,15 @@ impl<'a> Table<'a> {
     /// Looks at a solution before its row is written: refuses one that ran away, and says its warnings.
     pub fn check<T: Scalar>(&mut self, solution: &Solution<T>) -> Outcome<()> {
         check_finite(solution, &self.grid)?;
-        let (whole, modulus) = (solution.gathered(&self.grid), self.options.problem.surface.modulus());
-        let looked = whole.map_or(Ok(()), |whole| self.warnings.look_at(&whole, modulus));
-        self.options.processes.agree(looked)
+        let TableOptions { problem, part, processes, .. } = self.options;
+        let (whole, modulus) = (solution.gathered(&self.grid), problem.surface.modulus());
+        processes.agree(whole.map_or(Ok(()), |whole| self.warnings.look_at(&whole, modulus, part)))
     }
 
-    /// Appends a row, with its fields if they are kept.
-    pub fn append<T: Scalar>(&mut self, row: &Row<'_, T>, solution: &Solution<T>) -> Outcome<()> {
-        let TableOptions { fields, processes, .. } = self.options;
-        Kept(fields).write(self.rows + 1, self.grid, solution, processes)?;
+    /// Appends a row, with the fields of its solution on the part of the surface, if they are kept.
+    pub fn append<T: Scalar>(&mut self, row: &Row<'_, T>, shown: &Solution<T>) -> Outcome<()> {
+        let TableOptions { fields, processes, part, .. } = self.options;
+        Kept(fields).write(self.rows + 1, part.grid(), shown, processes)?;
         let whole: Vec<_> = row.fields.iter().map(|field| self.grid.gathered(field)).collect();
         processes.first(|| {
             let Some(journal) = &mut self.journal else { return Ok(()) };
@@ -171,7 +177,7 @@ impl<'a> Table<'a> {
     }
 
     /// The report on the table: the number of its rows, the figures that a command `found` in them, and the inputs.
-    pub fn report(&self, command: &str, control: &str, found: Value, grid: &Grid) -> Value {
+    pub fn report(&self, command: &str, control: &str, found: Value) -> Value {
         let mut outcome = json!({
             "control": control,
             "rows": self.rows(),
@@ -182,8 +188,8 @@ impl<'a> Table<'a> {
             outcome.extend(found);
             outcome.insert("warnings".to_owned(), self.warnings.report());
         }
-        let TableOptions { problem, units, scene, .. } = self.options;
-        report::report(command, outcome, report::inputs(problem, grid, units, scene))
+        let TableOptions { problem, units, scene, part, .. } = self.options;
+        report::report(command, outcome, report::inputs(problem, part, units, scene))
     }
 
     /// Whether all rows converged; if not, a warning says so, with what else may help.
@@ -191,7 +197,8 @@ impl<'a> Table<'a> {
         let (count, rows, path) = (self.unconverged, self.rows(), self.options.out.display());
         if count > 0 {
             let text = format!(
-                "{count} of {rows} rows not converged, their status and errors are in {path}: raise --max-iterations, {remedy}"
+                "{UNCONVERGED}: {count} of {rows} rows not converged, their status and errors are in {path}: raise \
+                 --max-iterations, {remedy}"
             );
             complain("warning", &text);
         }

@@ -8,6 +8,7 @@ use crate::adhesion::Adhesion;
 use crate::boundary::Boundary;
 use crate::options::{ProblemOptions, Scalar};
 use crate::outcome::Outcome;
+use crate::part::Part;
 use crate::printing::complain;
 
 /// Whether warnings are errors.
@@ -59,8 +60,10 @@ impl Warnings {
     }
 
     /// Looks at an answer, and prints its warnings; of many answers, the first with a warning counts.
-    pub fn look_at<T: Scalar>(&mut self, solution: &Solution<T>, modulus: f64) -> Outcome<()> {
-        self.add(Warning::of_solution(solution, modulus))?;
+    pub fn look_at<T: Scalar>(&mut self, solution: &Solution<T>, modulus: f64, part: &Part) -> Outcome<()> {
+        let mut found = Warning::of_solution(solution, modulus);
+        found.extend(part.warning(solution));
+        self.add(found)?;
         self.say();
         Ok(())
     }

@@ -26,7 +26,7 @@ impl Topography {
     ///
     /// The polynomial is periodic: edges that do not meet make it ring. Use [`window`](Self::window) or
     /// [`mirror`](Self::mirror) first. On a coarse grid, peaks between the nodes are there to be found, higher than
-    /// any node.
+    /// any node. The original of a mirrored map gets as many of the new nodes as it had of the old ones, in proportion.
     ///
     /// ```
     /// use asperity::{Grid, Surface, Topography};
@@ -46,6 +46,9 @@ impl Topography {
         Error::all_finite("heights", self.heights.view())?;
         // about the mean, so that a large datum costs no digits
         let mean = self.mean();
+        let before = self.heights.dim();
+        let share = |n: usize, before: usize, now: usize| ((n * now) as f64 / before as f64).round().max(1.0) as usize;
+        self.original = self.original.map(|(x, y)| (share(x, before.0, nodes.0), share(y, before.1, nodes.1)));
         self.heights.mapv_inplace(|h| h - mean);
         let along_y = resample_rows(&self.heights, nodes.1);
         let along_x = resample_rows(&along_y.reversed_axes().as_standard_layout().into_owned(), nodes.0);

@@ -215,6 +215,10 @@ fn a_mirrored_map_is_periodic_and_continuous() {
     assert_eq!((mirrored.heights.dim(), mirrored.lengths), ((14, 8), Some((2.8, 4.0))));
     assert_relative_eq!(mirrored.mean(), map.mean(), max_relative = 1e-14);
     assert_relative_eq!(mirrored.rms_height(), map.rms_height(), max_relative = 1e-14);
+    assert_eq!((map.original, mirrored.original), (None, Some((7, 4))));
+    assert_eq!(mirrored.clone().mirror().original, Some((7, 4)));
+    assert_eq!(mirrored.clone().resample((21, 16)).unwrap().original, Some((11, 8)));
+    assert_eq!(mirrored.clone().crop(0..7, 0..4).unwrap().original, None);
     let h = &mirrored.heights;
     for ((i, j), value) in h.indexed_iter() {
         assert_eq!(*value, h[[13 - i, j]]);

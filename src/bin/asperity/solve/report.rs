@@ -1,20 +1,21 @@
 //! The report of a solve: what it found, by the keys of `report.json`.
 
 use asperity::contact::Patch;
-use asperity::{Control, Grid, Level};
+use asperity::{Control, Level};
 use serde_json::{Value, json};
 
 use super::Options;
 use crate::accuracy;
 use crate::case::{Account, Left, Search};
 use crate::loads::name_and_value;
+use crate::part::Part;
 use crate::report;
 use crate::scene::Scene;
 use crate::units::Units;
 
 impl Options {
     /// All that one needs for understanding a run later; numbers that are not finite become null.
-    pub fn report(&self, grid: Grid, account: &Account, units: &Units, scene: &Scene) -> Value {
+    pub fn report(&self, part: &Part, account: &Account, units: &Units, scene: &Scene) -> Value {
         let report = &account.report;
         let (control, held) = name_and_value(account.control);
         let levels = account.grids.as_ref().map(|(levels, _)| levels.iter().map(level).collect::<Vec<_>>());
@@ -77,7 +78,7 @@ impl Options {
             "control": control,
             "control_value": held,
         });
-        let mut inputs = report::inputs(self.problem(), &grid, units, scene);
+        let mut inputs = report::inputs(self.problem(), part, units, scene);
         // with an accuracy the one that was chosen
         inputs.insert("tolerance".to_owned(), report.tolerance.into());
         report::report("solve", outcome, inputs)

@@ -17,6 +17,7 @@ use crate::journal::state_path;
 use crate::outcome::Outcome;
 use crate::printing::{Printing, complain};
 use crate::scene;
+use crate::table::UNCONVERGED;
 use crate::threads;
 
 /// The folder of the cases, beside the table.
@@ -131,8 +132,13 @@ fn run(program: &Path, command: &str, arguments: &[OsString], threads: usize) ->
         said.lines().map(|line| line.trim_start_matches("warning: ").trim_start_matches("error: ").to_owned());
     match output.status.code() {
         // rows that did not converge are counted in the table
-        Some(0 | 2) => Ok(lines.filter(|line| !line.contains("rows not converged")).collect()),
+        Some(0 | 2) => Ok(lines.filter(|line| code(line) != Some(UNCONVERGED)).collect()),
         Some(_) => Err(lines.next_back().unwrap_or_else(|| "it said nothing".to_owned())),
         None => Err("its process was killed".to_owned()),
     }
+}
+
+/// The code of a warning, which stands before its message.
+fn code(line: &str) -> Option<&str> {
+    line.split_once(": ").map(|(code, _)| code)
 }

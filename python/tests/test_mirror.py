@@ -1,0 +1,57 @@
+"""Solutions on mirrored maps are of the original, unless the whole is asked for."""
+
+import numpy as np
+import pytest
+
+import asperity
+
+
+@pytest.fixture(scope="module")
+def mirrored():
+    rough = asperity.surface.self_affine(48, 1.0, rms_slope=0.1, k_l=2, k_s=10, seed=5)
+    return asperity.prepare(rough, crop=(4, 2, 32, 24), mirror=True)
+
+
+def test_a_solution_is_of_the_original(mirrored):
+    assert (mirrored.shape, mirrored.original, mirrored.seed) == ((64, 48), (32, 24), 5)
+    part = asperity.solve(mirrored, modulus=1.0, mean_pressure=0.01, stability=True, stiffness=True)
+    whole = asperity.solve(mirrored, modulus=1.0, mean_pressure=0.01, stability=True, stiffness=True, whole=True)
+    assert (part.report["part"], whole.report["part"]) == ("original", "whole")
+    assert (part.report["shape"], part.report["solved_shape"], whole.report["solved_shape"]) == ([32, 24], [64, 48], None)
+    for name in ("gap", "pressure", "contact_pressure", "heights", "contact", "mode"):
+        np.testing.assert_array_equal(getattr(part, name), getattr(whole, name)[:32, :24])
+    np.testing.assert_array_equal(part.whole_gap, whole.gap)
+    assert part.lengths == pytest.approx((32 / 48, 24 / 48))
+    assert part.contact_fraction == whole.contact_fraction
+    assert part.statistics.contact_nodes == part.report["contact_nodes"] == part.contact.sum()
+    for name in ("normal_force", "normal_stiffness"):
+        assert getattr(part, name) == pytest.approx(getattr(whole, name) / 4)
+    assert part.statistics.perimeter == pytest.approx(whole.statistics.perimeter / 4)
+    assert "original, 32 x 24 of 64 x 48 nodes" in repr(part)
+
+
+def test_a_start_may_be_of_either(mirrored):
+    first = asperity.solve(mirrored, modulus=1.0, mean_pressure=0.01)
+    for start in (first, first.gap, first.whole_gap):
+        again = asperity.solve(mirrored, modulus=1.0, mean_pressure=0.01, start=start)
+        assert again.converged and again.iterations < first.iterations
+    assert asperity.stability(first).mode.shape == (32, 24)
+
+
+def test_rows_say_of_which_part_and_seed_they_are(mirrored):
+    columns = asperity.sweep(mirrored, modulus=1.0, mean_gaps=[0.02, 0.01]).columns
+    assert list(columns["part"]) == ["original"] * 2 and list(columns["seed"]) == [5, 5]
+    plain = asperity.sweep(mirrored.heights, 1.0, modulus=1.0, mean_gaps=[0.02]).columns
+    assert plain["part"][0] is None and np.isnan(plain["seed"][0])
+
+
+def test_an_accuracy_refines_the_original_too(mirrored):
+    right = asperity.solve(mirrored, modulus=1.0, mean_pressure=0.01, accuracy=0.2)
+    assert right.gap.shape == right.heights.shape == tuple(right.report["shape"])
+    assert right.report["shape"] == [nodes // 2 for nodes in right.report["solved_shape"]]
+
+
+def test_a_force_would_be_on_the_images_too(mirrored):
+    with pytest.raises(ValueError, match="mirror images.*whole=True"):
+        asperity.solve(mirrored, modulus=1.0, normal_force=0.01)
+    assert asperity.solve(mirrored, modulus=1.0, normal_force=0.01, whole=True).normal_force == pytest.approx(0.01)

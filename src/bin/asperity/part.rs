@@ -1,0 +1,118 @@
+//! The part of a map that results are of: the original of a mirrored one, or the whole.
+
+use std::borrow::Cow;
+
+use asperity::contact::{ContactStatistics, Original};
+use asperity::{AdhesionLaw, Control, Grid, Result, Solution, Warning};
+use ndarray::Array2;
+
+use crate::boundary::Boundary;
+use crate::heights::Origin;
+use crate::options::{Scalar, SurfaceOptions};
+use crate::outcome::Outcome;
+
+/// The part of a map on its grid.
+#[derive(Clone, Copy)]
+pub struct Part {
+    whole: Grid,
+    /// The original, if the map was mirrored
+    original: Option<Original>,
+    is_whole: bool,
+}
+
+impl Part {
+    /// All of a map without mirror images.
+    pub fn all(grid: Grid) -> Self {
+        Self { whole: grid, original: None, is_whole: true }
+    }
+
+    /// The original of a mirrored map, unless the options ask for the whole, or with a free boundary the images belong
+    /// to the body.
+    pub fn of(options: &SurfaceOptions, origin: &Origin, grid: Grid) -> Result<Self> {
+        let is_whole = options.whole || options.beyond.boundary != Boundary::Periodic;
+        let original = origin.original.map(|nodes| Original::new(&grid, nodes)).transpose()?;
+        Ok(Self { whole: grid, original, is_whole })
+    }
+
+    /// The same part on another grid of the map.
+    pub fn on(self, grid: Grid) -> Result<Self> {
+        let original = self.original.map(|original| original.on(&grid)).transpose()?;
+        Ok(Self { whole: grid, original, ..self })
+    }
+
+    /// The name in reports and tables; none where there is only one.
+    pub fn name(&self) -> Option<&'static str> {
+        self.original.map(|_| if self.is_whole { "whole" } else { "original" })
+    }
+
+    /// The original, if results are of it.
+    fn wanted(&self) -> Option<Original> {
+        self.original.filter(|_| !self.is_whole)
+    }
+
+    /// The grid of the results.
+    pub fn grid(&self) -> Grid {
+        self.wanted().map_or(self.whole, |original| *original.grid())
+    }
+
+    /// The nodes that are solved, if results are of fewer.
+    pub fn solved(&self) -> Option<(usize, usize)> {
+        self.wanted().map(|_| self.whole.shape())
+    }
+
+    /// The share of the nodes of which results are.
+    pub fn share(&self) -> f64 {
+        self.wanted().map_or(1.0, |original| original.share())
+    }
+
+    /// Refuses a force, which would be on the images as well.
+    pub fn check(&self, control: Control) -> Outcome<()> {
+        match (self.wanted(), control) {
+            (Some(_), Control::Force(_) | Control::Spring { .. }) => Err(format!(
+                "a {} would act on the mirror images of the map as well: give a pressure or a mean gap, or --whole for \
+                 the force on all of them",
+                control.name().replace('-', " ")
+            )
+            .into()),
+            _ => Ok(()),
+        }
+    }
+
+    /// The solution on the part.
+    pub fn of_solution<'a, T: Scalar>(&self, solution: &'a Solution<T>) -> Cow<'a, Solution<T>> {
+        self.wanted().map_or(Cow::Borrowed(solution), |original| Cow::Owned(original.of_solution(solution)))
+    }
+
+    /// A field on the part.
+    pub fn of_field<A: Clone>(&self, field: Array2<A>) -> Array2<A> {
+        match self.wanted() {
+            Some(original) => original.of(field.view()),
+            None => field,
+        }
+    }
+
+    /// A field of the shape of the map, from one that may be of the original alone.
+    pub fn whole_of(&self, field: Array2<f64>) -> Array2<f64> {
+        match self.original.filter(|original| field.dim() == original.grid().shape()) {
+            Some(original) => original.mirrored(&field),
+            None => field,
+        }
+    }
+
+    /// The statistics of the part of a solution on the whole.
+    pub fn statistics<T: Scalar>(
+        &self,
+        solution: &Solution<T>,
+        law: &impl AdhesionLaw<T>,
+    ) -> Result<ContactStatistics> {
+        match self.wanted() {
+            Some(original) => original.statistics(solution.gap.view(), solution.contact_pressure.view(), law),
+            None => ContactStatistics::of(solution, &self.whole, law),
+        }
+    }
+
+    /// The warning that a solution does not have the symmetry of the map.
+    pub fn warning<T: Scalar>(&self, solution: &Solution<T>) -> Option<Warning> {
+        Warning::of_images(&self.wanted()?, solution)
+    }
+}

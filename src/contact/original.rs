@@ -1,0 +1,180 @@
+//! The original of a mirrored map, in the solutions on all of it.
+
+use ndarray::{Array2, ArrayView2, Axis, Slice};
+
+use super::{Clusters, Connectivity, ContactStatistics, contact_map};
+use crate::adhesion::AdhesionLaw;
+use crate::elastic::Boundary;
+use crate::error::{Error, Result};
+use crate::grid::Grid;
+use crate::real::Real;
+use crate::solver::{Report, Solution};
+
+/// The original of a mirrored map: the nodes from the first on of which all others are mirror images.
+///
+/// A map that [`Topography::mirror`](crate::Topography::mirror) has made periodic is solved with its images; what was
+/// measured is a part of it. Gaps, pressures, energies per area and shares are the same on the original as on the
+/// whole, as far as the solution has the symmetry of the surface; numbers of nodes, forces, the perimeter and clusters
+/// are not. With adhesion a symmetric state may be unstable, and contact begin on one of the images alone:
+/// [`Warning::of_images`](crate::Warning::of_images) tells.
+///
+/// ```
+/// use asperity::contact::Original;
+/// use asperity::{Control, Grid, NoAdhesion, Problem, SelfAffine, Solver, Topography, Westergaard};
+/// let rough = SelfAffine { k_s: 8.0, ..SelfAffine::default() }.surface(Grid::square(32, 1.0)?)?;
+/// let map = Topography::from(rough).crop(3..23, 5..25)?.mirror();
+/// let nodes = map.original.expect("a map that was mirrored");
+/// let surface = map.surface()?;
+/// let half_space = Westergaard::<f64>::new(*surface.grid(), 1.0)?;
+/// let mut problem = Problem::new(&surface, half_space, NoAdhesion)?;
+/// let whole = Solver::default().solve(&mut problem, Control::MeanPressure(0.01))?;
+///
+/// let original = Original::new(surface.grid(), nodes)?;
+/// let part = original.of_solution(&whole);
+/// assert_eq!((part.gap.dim(), original.grid().shape()), ((20, 20), (20, 20)));
+/// assert_eq!(4 * part.report.contact_nodes, whole.report.contact_nodes);
+/// assert_eq!(original.mirrored(&part.gap).dim(), whole.gap.dim());
+/// # Ok::<(), asperity::Error>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Original {
+    grid: Grid,
+    whole: Grid,
+}
+
+impl Original {
+    /// The original with so many nodes along x and y, [`Topography::original`](crate::Topography::original), of a map
+    /// on the grid `whole`.
+    ///
+    /// # Errors
+    /// [`Error::Value`] if it has no nodes, [`Error::Shape`] if it has more than the map, and [`Error::Shared`] if
+    /// several processes share the grid.
+    pub fn new(whole: &Grid, nodes: (usize, usize)) -> Result<Self> {
+        Error::alone("the original of a mirrored map", whole.slab())?;
+        let (shape, (dx, dy)) = (whole.shape(), whole.spacing());
+        if nodes.0 > shape.0 || nodes.1 > shape.1 {
+            return Err(Error::Shape { name: "original", found: nodes, expected: shape });
+        }
+        // the side of a line is no distance of nodes
+        let ly = if whole.is_line() { whole.lengths().1 } else { nodes.1 as f64 * dy };
+        Ok(Self { grid: Grid::new(nodes, (nodes.0 as f64 * dx, ly))?, whole: *whole })
+    }
+
+    /// The same part of the map on another grid, coarser or finer.
+    ///
+    /// # Errors
+    /// Those of [`Original::new`].
+    pub fn on(&self, whole: &Grid) -> Result<Self> {
+        let (part, before, now) = (self.grid.shape(), self.whole.shape(), whole.shape());
+        let scaled = |nodes: usize, before: usize, now: usize| (nodes * now).div_ceil(before);
+        Self::new(whole, (scaled(part.0, before.0, now.0), scaled(part.1, before.1, now.1)))
+    }
+
+    /// The grid of the original.
+    pub fn grid(&self) -> &Grid {
+        &self.grid
+    }
+
+    /// The grid of the whole.
+    pub fn whole(&self) -> &Grid {
+        &self.whole
+    }
+
+    /// The share of the nodes that are the original's.
+    pub fn share(&self) -> f64 {
+        self.grid.nodes() as f64 / self.whole.nodes() as f64
+    }
+
+    /// A field of the whole on the original.
+    pub fn of<A: Clone>(&self, field: ArrayView2<'_, A>) -> Array2<A> {
+        let (nx, ny) = self.grid.shape();
+        field.slice_axis(Axis(0), Slice::from(..nx)).slice_axis(Axis(1), Slice::from(..ny)).to_owned()
+    }
+
+    /// A field of the original, continued by its mirror images to the whole.
+    pub fn mirrored<A: Clone>(&self, field: &Array2<A>) -> Array2<A> {
+        let image = |i: usize, n: usize| {
+            let place = i % (2 * n);
+            if place < n { place } else { 2 * n - 1 - place }
+        };
+        let (nx, ny) = self.grid.shape();
+        Array2::from_shape_fn(self.whole.shape(), |(i, j)| field[[image(i, nx), image(j, ny)]].clone())
+    }
+
+    /// The solution on the original: its part of the fields, its nodes in contact, and its share of the force.
+    pub fn of_solution<T: Real>(&self, solution: &Solution<T>) -> Solution<T> {
+        let [gap, pressure, contact_pressure] =
+            [&solution.gap, &solution.pressure, &solution.contact_pressure].map(|field| self.of(field.view()));
+        let report = Report {
+            contact_nodes: contact_map(gap.view(), contact_pressure.view()).iter().filter(|&&touches| touches).count(),
+            absent_nodes: gap.iter().filter(|gap| !gap.is_finite()).count(),
+            normal_force: self.share() * solution.report.normal_force,
+            ..solution.report.clone()
+        };
+        Solution { gap, pressure, contact_pressure, report }
+    }
+
+    /// The statistics of the original, from the gap and the contact pressure of the whole: its clusters end at its
+    /// sides, and these are no part of the perimeter, as the images go on there.
+    ///
+    /// # Errors
+    /// [`Error::Shape`] if a field does not have the shape of the whole.
+    pub fn statistics<T: Real>(
+        &self,
+        gap: ArrayView2<'_, T>,
+        contact_pressure: ArrayView2<'_, T>,
+        law: &impl AdhesionLaw<T>,
+    ) -> Result<ContactStatistics> {
+        let whole = ContactStatistics::of_fields(gap, contact_pressure, (&self.whole, Boundary::Periodic), law)?;
+        let contact = self.of(contact_map(gap, contact_pressure).view());
+        Ok(ContactStatistics {
+            contact_nodes: contact.iter().filter(|&&touches| touches).count(),
+            perimeter: self.share() * whole.perimeter,
+            cluster_sizes: Clusters::meeting(contact.view(), Connectivity::Sides, [false; 2]).sizes,
+            ..whole
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use ndarray::array;
+
+    use super::*;
+    use crate::adhesion::NoAdhesion;
+
+    #[test]
+    fn a_field_is_mirrored_and_found_again() {
+        let field = array![[1, 2, 3], [4, 5, 6]];
+        for (shape, wanted) in [((4, 6), array![1, 2, 3, 3, 2, 1]), ((3, 5), array![1, 2, 3, 3, 2])] {
+            let original = Original::new(&Grid::new(shape, (1.0, 1.0)).unwrap(), (2, 3)).unwrap();
+            let whole = original.mirrored(&field);
+            assert_eq!((whole.dim(), whole.row(0)), (shape, wanted.view()));
+            assert_eq!(whole.row(2), whole.row(1));
+            assert_eq!(original.of(whole.view()), field);
+        }
+    }
+
+    #[test]
+    fn a_contact_at_the_side_goes_on_in_the_image() {
+        let grid = Grid::new((8, 6), (8.0, 6.0)).unwrap();
+        let original = Original::new(&grid, (4, 3)).unwrap();
+        let mut pressure = Array2::zeros((4, 3));
+        (pressure[[0, 1]], pressure[[2, 2]]) = (1.0, 1.0);
+        let pressure = original.mirrored(&pressure);
+        let gap = pressure.mapv(|pressure| 1.0 - pressure);
+        let found = original.statistics(gap.view(), pressure.view(), &NoAdhesion).unwrap();
+        assert_eq!((found.contact_nodes, &found.cluster_sizes[..]), (2, &[1, 1][..]));
+        assert_eq!(found.contact_fraction, 2.0 / 12.0);
+        // of each three sides of a cell
+        assert_eq!(found.perimeter, 6.0);
+    }
+
+    #[test]
+    fn an_original_that_does_not_fit_is_refused() {
+        let grid = Grid::new((8, 6), (1.0, 1.0)).unwrap();
+        for nodes in [(9, 3), (4, 7), (0, 3)] {
+            assert!(Original::new(&grid, nodes).is_err(), "{nodes:?}");
+        }
+    }
+}
