@@ -398,6 +398,9 @@ fn equilibria_are_judged_alike(world: &World, shape: (usize, usize)) -> Result<(
     same_solutions("departure", &shared, &left_by_all.solution, &left.solution);
     let figures = |d: &stability::Departure<f64>| [d.energy_drop, d.distance, d.direction].map(f64::to_bits);
     assert_eq!(figures(&left_by_all), figures(&left));
+    // the edge is looked at where one process has the whole of it
+    let mut stiffness = stiffness;
+    (stiffness.0.edge, stiffness.1.edge) = (None, None);
     assert_eq!(shared_stiffness, stiffness);
     assert!(stiffness.0.operator_applications > 5);
     same_solutions("contact fraction", &shared, &found_by_all.solution, &found.solution);
