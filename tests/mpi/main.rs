@@ -399,9 +399,11 @@ fn equilibria_are_judged_alike(world: &World, shape: (usize, usize)) -> Result<(
     let figures = |d: &stability::Departure<f64>| [d.energy_drop, d.distance, d.direction].map(f64::to_bits);
     assert_eq!(figures(&left_by_all), figures(&left));
     // the edge is looked at where one process has the whole of it
-    let mut stiffness = stiffness;
-    (stiffness.0.edge, stiffness.1.edge) = (None, None);
-    assert_eq!(shared_stiffness, stiffness);
+    let but_for_the_edge = |(mut of_law, mut free): (stability::ContactStiffness, stability::ContactStiffness)| {
+        (of_law.edge, free.edge) = (None, None);
+        (of_law, free)
+    };
+    assert_eq!(but_for_the_edge(shared_stiffness), but_for_the_edge(stiffness));
     assert!(stiffness.0.operator_applications > 5);
     same_solutions("contact fraction", &shared, &found_by_all.solution, &found.solution);
     assert_eq!((found_by_all.control, found_by_all.solves), (found.control, found.solves));
