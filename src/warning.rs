@@ -4,6 +4,7 @@ use std::fmt;
 
 use crate::adhesion::AdhesionLaw;
 use crate::contact::Original;
+use crate::error::Result;
 use crate::field::{CHUNK, Reducer};
 use crate::grid::Grid;
 use crate::par;
@@ -303,16 +304,20 @@ impl Warning {
     /// let mut problem = Problem::new(&sphere, Westergaard::<f64>::new(grid, 1.0)?, NoAdhesion)?;
     /// let solution = Solver::default().solve(&mut problem, Control::MeanPressure(0.001))?;
     /// let [left, all] = [(16, 16), (32, 32)].map(|nodes| Original::new(&grid, nodes));
-    /// assert!(Warning::of_images(&left?, &solution).is_some());
-    /// assert!(Warning::of_images(&all?, &solution).is_none());
+    /// assert!(Warning::of_images(&left?, &solution)?.is_some());
+    /// assert!(Warning::of_images(&all?, &solution)?.is_none());
     /// # Ok::<(), asperity::Error>(())
     /// ```
-    pub fn of_images<T: Real>(original: &Original, solution: &Solution<T>) -> Option<Self> {
+    ///
+    /// # Errors
+    /// [`Error::Shape`](crate::Error::Shape) if the solution is not one of the whole.
+    pub fn of_images<T: Real>(original: &Original, solution: &Solution<T>) -> Result<Option<Self>> {
         let whole = solution.report.contact_nodes as f64;
-        let part = original.of_solution(solution).report.contact_nodes as f64;
+        let contact = original.contact(solution.gap.view(), solution.contact_pressure.view())?;
+        let part = contact.iter().filter(|&&touches| touches).count() as f64;
         let expected = original.share() * whole;
         if (part - expected).abs() <= f64::max(1.0, UNLIKE * expected) {
-            return None;
+            return Ok(None);
         }
         let share = |contact: f64, grid: &Grid| 100.0 * contact / grid.nodes() as f64;
         let message = format!(
@@ -321,7 +326,7 @@ impl Warning {
             figure(share(part, original.grid())),
             figure(share(whole, original.whole()))
         );
-        Some(Self { code: WarningCode::Images, message })
+        Ok(Some(Self { code: WarningCode::Images, message }))
     }
 }
 

@@ -129,7 +129,7 @@ def solve(
         Threads of this solve; one per core by default. The results do not depend on it.
     whole : bool
         Results on all nodes of a map that `prepare` has mirrored: without it fields, contact and force are those of its
-        original, a quarter of it.
+        original.
 
     Returns
     -------

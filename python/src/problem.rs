@@ -166,7 +166,8 @@ impl<T: Scalar> State<T> {
         let mut warnings = self.warnings.clone();
         warnings.extend(Warning::of_solution(&solution, self.modulus));
         let original = self.original.map(|original| original.on(&grid)).transpose()?;
-        warnings.extend(original.and_then(|original| Warning::of_images(&original, &solution)));
+        let images = original.map(|original| Warning::of_images(&original, &solution)).transpose()?;
+        warnings.extend(images.flatten());
         let (law, boundary, threads) = (self.law.clone(), solution.report.boundary, self.threads);
         Ok(Account {
             solution,

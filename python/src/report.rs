@@ -9,6 +9,7 @@ use pyo3::types::PyDict;
 
 use crate::account::{Account, Grids, Reached, Scalar, Search};
 use crate::inputs::stiffness;
+use crate::refusal::refusal;
 use crate::sight::{Errors, Estimate};
 
 /// A dictionary of its entries.
@@ -22,8 +23,9 @@ macro_rules! dictionary {
 
 /// The outcome of a solve; what the fields have is left to [`of_fields`].
 pub fn of<'py, T: Scalar>(py: Python<'py>, account: &Account<T>) -> PyResult<Bound<'py, PyDict>> {
-    let part = account.sight.original.map(|original| original.of_solution(&account.solution).report);
-    let report = part.as_ref().unwrap_or(&account.solution.report);
+    let part = account.sight.original.map(|original| original.of_solution(&account.solution)).transpose();
+    let part = part.map_err(refusal)?;
+    let report = part.as_ref().map_or(&account.solution.report, |part| &part.report);
     let share = account.sight.original.map_or(1.0, |original| original.share());
     let stability = account.stability.as_ref().map(|found| stability(py, found)).transpose()?;
     let departures = account.departures.as_ref().map(|left| {

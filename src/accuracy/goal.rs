@@ -278,7 +278,8 @@ impl<C> Accuracy<C> {
         let kept = (self.nested.solver.settings, self.nested.coarse_tolerance, self.nested.stiffness);
         self.nested.solver.settings.tolerance = Some(tolerance);
         self.nested.coarse_tolerance = tolerance;
-        if self.of != Quantity::Area {
+        let has_edge = surface.absent().is_none() && self.nested.solver.constraint.wall().is_rigid();
+        if self.of == Quantity::Stiffness || (self.of != Quantity::Area && has_edge) {
             // the edge of the contact tells the error
             let needed = tolerance.min(ContactStiffness::TOLERANCE);
             self.nested.stiffness = Some(kept.2.map_or(needed, |given| given.min(needed)));

@@ -30,10 +30,10 @@ use crate::solver::{Report, Solution};
 /// let whole = Solver::default().solve(&mut problem, Control::MeanPressure(0.01))?;
 ///
 /// let original = Original::new(surface.grid(), nodes)?;
-/// let part = original.of_solution(&whole);
+/// let part = original.of_solution(&whole)?;
 /// assert_eq!((part.gap.dim(), original.grid().shape()), ((20, 20), (20, 20)));
 /// assert_eq!(4 * part.report.contact_nodes, whole.report.contact_nodes);
-/// assert_eq!(original.mirrored(&part.gap).dim(), whole.gap.dim());
+/// assert_eq!(original.mirrored(&part.gap)?.dim(), whole.gap.dim());
 /// # Ok::<(), asperity::Error>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -86,32 +86,52 @@ impl Original {
     }
 
     /// A field of the whole on the original.
-    pub fn of<A: Clone>(&self, field: ArrayView2<'_, A>) -> Array2<A> {
+    ///
+    /// # Errors
+    /// [`Error::Shape`] if the field does not have the shape of the whole.
+    pub fn of<A: Clone>(&self, field: ArrayView2<'_, A>) -> Result<Array2<A>> {
+        Error::shape("field", field.dim(), self.whole.shape())?;
         let (nx, ny) = self.grid.shape();
-        field.slice_axis(Axis(0), Slice::from(..nx)).slice_axis(Axis(1), Slice::from(..ny)).to_owned()
+        Ok(field.slice_axis(Axis(0), Slice::from(..nx)).slice_axis(Axis(1), Slice::from(..ny)).to_owned())
     }
 
-    /// A field of the original, continued by its mirror images to the whole.
-    pub fn mirrored<A: Clone>(&self, field: &Array2<A>) -> Array2<A> {
+    /// A field of the original, continued by its mirror images to the whole; to a node, where the map was resampled
+    /// after it was mirrored.
+    ///
+    /// # Errors
+    /// [`Error::Shape`] if the field does not have the shape of the original.
+    pub fn mirrored<A: Clone>(&self, field: &Array2<A>) -> Result<Array2<A>> {
+        Error::shape("field", field.dim(), self.grid.shape())?;
         let image = |i: usize, n: usize| {
             let place = i % (2 * n);
             if place < n { place } else { 2 * n - 1 - place }
         };
         let (nx, ny) = self.grid.shape();
-        Array2::from_shape_fn(self.whole.shape(), |(i, j)| field[[image(i, nx), image(j, ny)]].clone())
+        Ok(Array2::from_shape_fn(self.whole.shape(), |(i, j)| field[[image(i, nx), image(j, ny)]].clone()))
     }
 
-    /// The solution on the original: its part of the fields, its nodes in contact, and its share of the force.
-    pub fn of_solution<T: Real>(&self, solution: &Solution<T>) -> Solution<T> {
+    /// The nodes of the original that are in contact, by the fields of the whole.
+    pub(crate) fn contact<T: Real>(&self, gap: ArrayView2<'_, T>, pressure: ArrayView2<'_, T>) -> Result<Array2<bool>> {
+        self.of(contact_map(gap, pressure).view())
+    }
+
+    /// The solution on the original: its part of the fields, its nodes in contact, and its share of the force. Means,
+    /// fractions, extremes and energies stay those of the whole.
+    ///
+    /// # Errors
+    /// [`Error::Shape`] if the solution is not one of the whole.
+    pub fn of_solution<T: Real>(&self, solution: &Solution<T>) -> Result<Solution<T>> {
+        let contact = self.contact(solution.gap.view(), solution.contact_pressure.view())?;
         let [gap, pressure, contact_pressure] =
             [&solution.gap, &solution.pressure, &solution.contact_pressure].map(|field| self.of(field.view()));
+        let gap = gap?;
         let report = Report {
-            contact_nodes: contact_map(gap.view(), contact_pressure.view()).iter().filter(|&&touches| touches).count(),
+            contact_nodes: number(&contact),
             absent_nodes: gap.iter().filter(|gap| !gap.is_finite()).count(),
             normal_force: self.share() * solution.report.normal_force,
             ..solution.report.clone()
         };
-        Solution { gap, pressure, contact_pressure, report }
+        Ok(Solution { gap, pressure: pressure?, contact_pressure: contact_pressure?, report })
     }
 
     /// The statistics of the original, from the gap and the contact pressure of the whole: its clusters end at its
@@ -126,14 +146,19 @@ impl Original {
         law: &impl AdhesionLaw<T>,
     ) -> Result<ContactStatistics> {
         let whole = ContactStatistics::of_fields(gap, contact_pressure, (&self.whole, Boundary::Periodic), law)?;
-        let contact = self.of(contact_map(gap, contact_pressure).view());
+        let contact = self.contact(gap, contact_pressure)?;
         Ok(ContactStatistics {
-            contact_nodes: contact.iter().filter(|&&touches| touches).count(),
+            contact_nodes: number(&contact),
             perimeter: self.share() * whole.perimeter,
             cluster_sizes: Clusters::meeting(contact.view(), Connectivity::Sides, [false; 2]).sizes,
             ..whole
         })
     }
+}
+
+/// The number of nodes in contact.
+pub(crate) fn number(contact: &Array2<bool>) -> usize {
+    contact.iter().filter(|&&touches| touches).count()
 }
 
 #[cfg(test)]
@@ -148,10 +173,11 @@ mod tests {
         let field = array![[1, 2, 3], [4, 5, 6]];
         for (shape, wanted) in [((4, 6), array![1, 2, 3, 3, 2, 1]), ((3, 5), array![1, 2, 3, 3, 2])] {
             let original = Original::new(&Grid::new(shape, (1.0, 1.0)).unwrap(), (2, 3)).unwrap();
-            let whole = original.mirrored(&field);
+            let whole = original.mirrored(&field).unwrap();
             assert_eq!((whole.dim(), whole.row(0)), (shape, wanted.view()));
             assert_eq!(whole.row(2), whole.row(1));
-            assert_eq!(original.of(whole.view()), field);
+            assert_eq!(original.of(whole.view()).unwrap(), field);
+            assert!(original.of(field.view()).is_err() && original.mirrored(&whole).is_err());
         }
     }
 
@@ -161,7 +187,7 @@ mod tests {
         let original = Original::new(&grid, (4, 3)).unwrap();
         let mut pressure = Array2::zeros((4, 3));
         (pressure[[0, 1]], pressure[[2, 2]]) = (1.0, 1.0);
-        let pressure = original.mirrored(&pressure);
+        let pressure = original.mirrored(&pressure).unwrap();
         let gap = pressure.mapv(|pressure| 1.0 - pressure);
         let found = original.statistics(gap.view(), pressure.view(), &NoAdhesion).unwrap();
         assert_eq!((found.contact_nodes, &found.cluster_sizes[..]), (2, &[1, 1][..]));

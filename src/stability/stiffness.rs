@@ -157,16 +157,15 @@ impl ContactStiffness {
             Some(window) => window.extend(solution.gap.view()),
             None => solution.gap.as_standard_layout().into_owned(),
         };
-        let least = par::within(|| least_energy(&mut hessian, start, tolerance))?;
+        let least = par::within(|| least_energy(&mut hessian, start, (tolerance, at_edge)))?;
         let LeastEnergy { energy: on_grid, relative_error, tangent } = least;
         let operator_applications = hessian.applications();
         // the mean of a free half-space gives way beside its waves
         let series = if on_grid == 0.0 { 0.0 } else { (on_grid.recip() + flat.boundary.mean_compliance()).recip() };
         let pressure_per_length = flat.padding * series;
         let force_per_length = pressure_per_length * flat.area;
-        let edge = tangent
-            .filter(|_| at_edge)
-            .map(|tangent| EdgeError::of(solution, &tangent, operator.grid(), (operator.modulus(), on_grid)));
+        let edge =
+            tangent.map(|tangent| EdgeError::of(solution, &tangent, operator.grid(), (operator.modulus(), on_grid)));
         Ok(Self { pressure_per_length, force_per_length, relative_error, smoothed, operator_applications, edge })
     }
 }
@@ -175,12 +174,16 @@ impl ContactStiffness {
 struct LeastEnergy<T> {
     energy: f64,
     relative_error: f64,
-    /// That v, and its pressure; nothing where no v has a least energy.
+    /// That v, and its pressure; nothing where it is not wanted, or no v has a least energy.
     tangent: Option<Tangent<T>>,
 }
 
 /// The least energy, from a start that need not vanish on the contact or have the mean 1.
-fn least_energy<T: Real>(hessian: &mut Hessian<'_, T>, start: Array2<T>, tolerance: f64) -> Result<LeastEnergy<T>> {
+fn least_energy<T: Real>(
+    hessian: &mut Hessian<'_, T>,
+    start: Array2<T>,
+    (tolerance, with_tangent): (f64, bool),
+) -> Result<LeastEnergy<T>> {
     if hessian.free() == 0.0 {
         return Ok(LeastEnergy { energy: f64::INFINITY, relative_error: 0.0, tangent: None });
     }
@@ -212,7 +215,9 @@ fn least_energy<T: Real>(hessian: &mut Hessian<'_, T>, start: Array2<T>, toleran
         energy -= step * descent;
         before = descent;
     }
-    hessian.reaction(&opening, energy, &mut image)?;
+    if with_tangent {
+        hessian.reaction(&opening, energy, &mut image)?;
+    }
     let relative_error = if error == 0.0 { 0.0 } else { error / energy.abs() };
-    Ok(LeastEnergy { energy, relative_error, tangent: Some(Tangent { opening, pressure: image }) })
+    Ok(LeastEnergy { energy, relative_error, tangent: with_tangent.then_some(Tangent { opening, pressure: image }) })
 }

@@ -193,7 +193,8 @@ impl Topography {
         let heights = Array2::from_shape_fn((mx, my), |(i, j)| self.heights[[image(i, nx), image(j, ny)]]);
         self.lengths = self.lengths.map(|(lx, ly)| (lx * (mx / nx) as f64, ly * (my / ny) as f64));
         self.heights = heights;
-        self.original = self.original.or(Some((nx, ny)));
+        // an original of which the map is not whole images any more, as after resampling, is forgotten
+        self.original = self.original.filter(|&(x, y)| nx % x == 0 && ny % y == 0).or(Some((nx, ny)));
         self
     }
 

@@ -188,7 +188,7 @@ impl Options {
             let Some(step) = step else { break };
             let step = step?;
             table.check(&step.solution)?;
-            let (shown, statistics) = (part.of_solution(&step.solution), part.statistics(&step.solution, &law)?);
+            let (shown, statistics) = (part.of_solution(&step.solution)?, part.statistics(&step.solution, &law)?);
             let inputs = inputs(self.problem(), part, origin.seed);
             let row = row(&step, &shown.report, self.direction(step.leg), &statistics, inputs);
             let checkpoint = path.checkpoint();

@@ -55,8 +55,8 @@ pub fn rows_on(option: &'static str, path: &Path, grid: &Grid) -> Outcome<Array2
     if found == expected { Ok(map.heights) } else { Err(Error::Shape { name: option, found, expected }.into()) }
 }
 
-/// The surface of a file, of which every process reads its rows, and its origin, as that of a map without mirror images:
-/// results are of all nodes. Its missing points become absent nodes, or are refused.
+/// The surface of a file, of which every process reads its rows, and its origin. Its missing points become absent nodes,
+/// or are refused.
 pub fn shared(
     path: &Path,
     lengths: Option<&[Quantity]>,
@@ -81,7 +81,7 @@ pub fn shared(
         Ok((Grid::new(shape, sides)?, map))
     };
     let (grid, map) = processes.agree(read())?;
-    let (grid, origin) = (processes.share(grid)?, Origin { original: None, ..Origin::of(&map) });
+    let (grid, origin) = (processes.share(grid)?, Origin::of(&map));
     let heights = map.heights;
     let surface = if absent { Surface::with_absent(grid, heights) } else { Surface::new(grid, heights) };
     match surface {

@@ -28,7 +28,6 @@ pub fn identity(
         "heights": field(surface.heights()),
         "lengths": pair(grid.lengths().0.to_string(), grid.lengths().1.to_string()),
         "absent_points": surface.absent().map_or("none".to_owned(), |absent| field(&absent.mapv(f64::from))),
-        "part": if options.whole { "whole" } else { "original" },
         "boundary": options.beyond.boundary.to_string(),
         "modulus": options.modulus().to_string(),
         "law": adhesion.law.to_string(),

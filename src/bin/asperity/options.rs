@@ -37,7 +37,7 @@ pub struct SurfaceOptions {
     #[command(flatten)]
     pub beyond: BoundaryOptions,
     /// Results on all nodes of a map that asperity prepare has mirrored: without it, fields, pictures, contact and
-    /// force are those of the original, a quarter of it
+    /// force are those of the original
     #[arg(long, help_heading = "Surface")]
     pub whole: bool,
 }
@@ -119,7 +119,7 @@ impl<'a> ProblemOptions<'a> {
             let map = heights::map(path, lengths.as_deref(), si)?;
             heights::surface_or_absent(path, map, beyond.absent_missing)?
         };
-        let part = Part::of(self.surface, &origin, *surface.grid())?;
+        let part = processes.agree(Part::of(self.surface, &origin, *surface.grid()))?;
         let adhesion = self.adhesion.read(surface.grid(), processes)?;
         let start = processes.agree(self.solver.start(&surface, &part))?;
         processes.agree(use_threads(self.solver.threads))?;
@@ -162,8 +162,8 @@ impl SolverOptions {
         let Some(path) = &self.initial_gap else { return Ok(None) };
         let grid = surface.grid();
         // a mirrored map, which one process has as a whole, may start from the gap of its original
-        let start = if part.name().is_some() {
-            let start = part.whole_of(read_field(path)?);
+        let start = if part.has_original() {
+            let start = part.whole_of(read_field(path)?)?;
             let (found, expected) = (start.dim(), grid.shape());
             if found != expected {
                 return Err(Error::Shape { name: "--initial-gap", found, expected }.into());

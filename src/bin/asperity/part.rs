@@ -15,23 +15,31 @@ use crate::outcome::Outcome;
 #[derive(Clone, Copy)]
 pub struct Part {
     whole: Grid,
-    /// The original, if the map was mirrored
-    original: Option<Original>,
+    is_mirrored: bool,
     is_whole: bool,
+    /// The original, if the map was mirrored and this process has all of it
+    original: Option<Original>,
 }
 
 impl Part {
     /// All of a map without mirror images.
     pub fn all(grid: Grid) -> Self {
-        Self { whole: grid, original: None, is_whole: true }
+        Self { whole: grid, is_mirrored: false, is_whole: true, original: None }
     }
 
     /// The original of a mirrored map, unless the options ask for the whole, or with a free boundary the images belong
     /// to the body.
-    pub fn of(options: &SurfaceOptions, origin: &Origin, grid: Grid) -> Result<Self> {
+    pub fn of(options: &SurfaceOptions, origin: &Origin, grid: Grid) -> Outcome<Self> {
         let is_whole = options.whole || options.beyond.boundary != Boundary::Periodic;
-        let original = origin.original.map(|nodes| Original::new(&grid, nodes)).transpose()?;
-        Ok(Self { whole: grid, original, is_whole })
+        let is_mirrored = origin.original.is_some();
+        if is_mirrored && !is_whole && grid.is_shared() {
+            let text = "the original of a mirrored map has no form for several processes: give --whole for results on \
+                        all nodes, or solve in one process";
+            return Err(text.into());
+        }
+        let nodes = origin.original.filter(|_| !grid.is_shared());
+        let original = nodes.map(|nodes| Original::new(&grid, nodes)).transpose()?;
+        Ok(Self { whole: grid, is_mirrored, is_whole, original })
     }
 
     /// The same part on another grid of the map.
@@ -42,7 +50,12 @@ impl Part {
 
     /// The name in reports and tables; none where there is only one.
     pub fn name(&self) -> Option<&'static str> {
-        self.original.map(|_| if self.is_whole { "whole" } else { "original" })
+        self.is_mirrored.then_some(if self.is_whole { "whole" } else { "original" })
+    }
+
+    /// Whether a field may be of the original alone.
+    pub fn has_original(&self) -> bool {
+        self.original.is_some()
     }
 
     /// The original, if results are of it.
@@ -79,23 +92,23 @@ impl Part {
     }
 
     /// The solution on the part.
-    pub fn of_solution<'a, T: Scalar>(&self, solution: &'a Solution<T>) -> Cow<'a, Solution<T>> {
-        self.wanted().map_or(Cow::Borrowed(solution), |original| Cow::Owned(original.of_solution(solution)))
+    pub fn of_solution<'a, T: Scalar>(&self, solution: &'a Solution<T>) -> Result<Cow<'a, Solution<T>>> {
+        self.wanted().map_or(Ok(Cow::Borrowed(solution)), |original| Ok(Cow::Owned(original.of_solution(solution)?)))
     }
 
     /// A field on the part.
-    pub fn of_field<A: Clone>(&self, field: Array2<A>) -> Array2<A> {
+    pub fn of_field<A: Clone>(&self, field: Array2<A>) -> Result<Array2<A>> {
         match self.wanted() {
             Some(original) => original.of(field.view()),
-            None => field,
+            None => Ok(field),
         }
     }
 
     /// A field of the shape of the map, from one that may be of the original alone.
-    pub fn whole_of(&self, field: Array2<f64>) -> Array2<f64> {
+    pub fn whole_of(&self, field: Array2<f64>) -> Result<Array2<f64>> {
         match self.original.filter(|original| field.dim() == original.grid().shape()) {
             Some(original) => original.mirrored(&field),
-            None => field,
+            None => Ok(field),
         }
     }
 
@@ -112,7 +125,7 @@ impl Part {
     }
 
     /// The warning that a solution does not have the symmetry of the map.
-    pub fn warning<T: Scalar>(&self, solution: &Solution<T>) -> Option<Warning> {
-        Warning::of_images(&self.wanted()?, solution)
+    pub fn warning<T: Scalar>(&self, solution: &Solution<T>) -> Result<Option<Warning>> {
+        self.wanted().map_or(Ok(None), |original| Warning::of_images(&original, solution))
     }
 }

@@ -198,7 +198,7 @@ pub fn run(options: &Options, scene: &Scene) -> Outcome<bool> {
         })
     });
     if options.printing.for_people() {
-        lines.push(("written", format!("{}{}", options.out.display(), forgotten(&options.out, &map))));
+        lines.push(("written", format!("{}{}", options.out.display(), left_out(&options.out, &map))));
         let width = lines.iter().map(|(name, _)| name.len()).max().unwrap_or(0);
         let lines = lines.iter().map(|(name, text)| format!("{name:width$}  {text}"));
         say(&lines.collect::<Vec<_>>().join("\n"));
@@ -207,10 +207,10 @@ pub fn run(options: &Options, scene: &Scene) -> Outcome<bool> {
 }
 
 /// What a format has no place for, of all that is known of a map.
-fn forgotten(out: &Path, map: &Topography) -> String {
+fn left_out(out: &Path, map: &Topography) -> String {
     let is = |ending: &str| out.extension().is_some_and(|found| found.eq_ignore_ascii_case(ending));
     let lengths = (map.lengths.is_some() && is("npy")).then_some("without side lengths: give them again by --lengths");
-    let mirror = "without the mark of a mirrored map: results will be of all its images too, with .npz of the original";
+    let mirror = "without its original: results will be of all nodes, and of the original alone from an .npz";
     let mirror = (map.original.is_some() && !is("npz")).then_some(mirror);
     lengths.into_iter().chain(mirror).map(|text| format!(", {text}")).collect()
 }

@@ -277,13 +277,13 @@ impl Job<'_> {
         let folder = processes.is_first().then(|| output_folder(out, &self.names, *force)).transpose();
         let folder = processes.agree(folder)?;
         if self.options.writes(Format::Npy) {
-            let (shown, part) = (&*self.part.of_solution(&solution), self.part.grid());
+            let (shown, part) = (&*self.part.of_solution(&solution)?, self.part.grid());
             let gap = case::gap_to_write(shown);
             let fields = [&*gap, &shown.pressure, &shown.contact_pressure];
             let named: Vec<_> = FIELDS.into_iter().map(str::to_owned).zip(fields).collect();
             write_fields(processes, folder.as_ref(), out, part, &named)?;
             if let Some(stability) = &account.stability {
-                let mode = self.part.of_field(stability.mode.clone());
+                let mode = self.part.of_field(stability.mode.clone())?;
                 write_fields(processes, folder.as_ref(), out, part, &[(MODE.to_owned(), &mode)])?;
             }
         }
@@ -341,7 +341,7 @@ impl Job<'_> {
         law: &impl AdhesionLaw<T>,
     ) -> Outcome<()> {
         if self.part.solved().is_some() {
-            account.report = self.part.of_solution(solution).report.clone();
+            account.report = self.part.of_solution(solution)?.report.clone();
             account.contact = self.part.statistics(solution, law)?;
             account.nodes = self.part.grid().nodes();
             let share = self.part.share();
@@ -363,10 +363,11 @@ impl Job<'_> {
         write_text(&path(REPORT), &format!("{:#}\n", self.report(account)))?;
         write_text(&path(scene::NAME), &self.scene.text(&self.options.out))?;
         let Some((whole, law)) = whole else { return Ok(()) };
-        let (shown, solution) = (self.part.grid().alone(), &*self.part.of_solution(whole));
+        let (shown, solution) = (self.part.grid().alone(), &*self.part.of_solution(whole)?);
         let gap = case::gap_to_write(solution);
         let fields = [&*gap, &solution.pressure, &solution.contact_pressure];
-        let mode = account.stability.as_ref().map(|stability| self.part.of_field(stability.mode.mapv(T::lit)));
+        let mode =
+            account.stability.as_ref().map(|stability| self.part.of_field(stability.mode.mapv(T::lit))).transpose()?;
         let named = FIELDS.into_iter().zip(fields).chain(mode.as_ref().map(|mode| (MODE, mode)));
         let named: Vec<_> = named.map(|(name, field)| (name.trim_end_matches(".npy"), field)).collect();
         if self.options.writes(Format::Npz) {
@@ -378,7 +379,7 @@ impl Job<'_> {
         if !self.options.no_pictures {
             let (Options { picture_format, resolution: Resolution { dpi }, .. }, units) = (self.options, &self.units);
             let [contact_name, pressure_name] = picture_format.of(PICTURES);
-            let regions = self.part.of_field(whole.regions(&grid, law)).mapv(f64::from);
+            let regions = self.part.of_field(whole.regions(&grid, law))?.mapv(f64::from);
             pictures::draw_regions(shown, "Contact", units, &regions, *dpi)?.write(&path(contact_name))?;
             let pressure = pictures::pressure_to_draw(solution, self.options.adhesion.law != Law::None);
             let limits = self.options.colour_limits();

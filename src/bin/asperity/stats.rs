@@ -93,8 +93,8 @@ pub fn statistics(surface: &Surface, heights: &Path, origin: &Origin) -> Value {
     })
 }
 
-/// The statistics, one to a line, with the unit of length if it is known. Those of a mirrored map are its original's,
-/// as all of them are means.
+/// The statistics, one to a line, with the unit of length if it is known. Of a mirrored map they are those of
+/// all nodes.
 pub fn table(surface: &Surface, origin: &Origin) -> String {
     let (grid, found) = (surface.grid(), surface.statistics());
     let unit = origin.unit.as_deref();

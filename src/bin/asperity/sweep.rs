@@ -171,7 +171,7 @@ impl Options {
             let Some(step) = step else { break };
             let (control, solution, searched) = step?;
             table.check(&solution)?;
-            let (shown, statistics) = (part.of_solution(&solution), part.statistics(&solution, &law)?);
+            let (shown, statistics) = (part.of_solution(&solution)?, part.statistics(&solution, &law)?);
             let inputs = inputs(self.problem(), part, origin.seed);
             let mut row = row(control, &shown.report, &statistics, inputs);
             row.extend(searched.iter().flat_map(search).map(|(name, value)| (name.to_owned(), value)));

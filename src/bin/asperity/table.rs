@@ -46,8 +46,8 @@ pub struct TableOptions<'a> {
     pub part: &'a Part,
 }
 
-/// A table on disk, new or continued, with the warnings of its run. The first of several processes has its file, and
-/// the whole of the fields from which it goes on.
+/// A table on disk, new or continued, with the warnings of its run. The first of several processes has its file.
+/// All of them read the whole of the fields from which it goes on when it is opened again.
 pub struct Table<'a> {
     options: TableOptions<'a>,
     grid: Grid,
@@ -89,6 +89,7 @@ impl<'a> Table<'a> {
             let made: Vec<_> = made.collect();
             let mut identity = identity(&surface, &adhesion, start.flatten().as_deref());
             identity.insert("units".to_owned(), options.units.of_table().into());
+            identity.insert("part".to_owned(), options.part.name().unwrap_or("all").into());
             let (journal, saved) = Journal::open(out, header, identity, loads, force)?;
             scene_file.commit()?;
             warnings.say();
@@ -209,7 +210,7 @@ impl<'a> Table<'a> {
 /// A table that ends without a row, as by an error at the first one, leaves no file behind that it made.
 impl Drop for Table<'_> {
     fn drop(&mut self) {
-        // the journal may have a row whose state could not be saved
+        // by the rows of the journal: one may be in the file though its state could not be saved
         if self.journal.as_ref().is_some_and(|journal| journal.rows() == 0) {
             for path in &self.made {
                 let _ = fs::remove_file(path);

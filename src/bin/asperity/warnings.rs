@@ -62,7 +62,7 @@ impl Warnings {
     /// Looks at an answer, and prints its warnings; of many answers, the first with a warning counts.
     pub fn look_at<T: Scalar>(&mut self, solution: &Solution<T>, modulus: f64, part: &Part) -> Outcome<()> {
         let mut found = Warning::of_solution(solution, modulus);
-        found.extend(part.warning(solution));
+        found.extend(part.warning(solution)?);
         self.add(found)?;
         self.say();
         Ok(())

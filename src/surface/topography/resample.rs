@@ -26,7 +26,8 @@ impl Topography {
     ///
     /// The polynomial is periodic: edges that do not meet make it ring. Use [`window`](Self::window) or
     /// [`mirror`](Self::mirror) first. On a coarse grid, peaks between the nodes are there to be found, higher than
-    /// any node. The original of a mirrored map gets as many of the new nodes as it had of the old ones, in proportion.
+    /// any node. The original of a mirrored map has the new nodes that are on it; its
+    /// mirror lines may now pass through nodes, so that images are met to a node.
     ///
     /// ```
     /// use asperity::{Grid, Surface, Topography};
@@ -47,7 +48,7 @@ impl Topography {
         // about the mean, so that a large datum costs no digits
         let mean = self.mean();
         let before = self.heights.dim();
-        let share = |n: usize, before: usize, now: usize| ((n * now) as f64 / before as f64).round().max(1.0) as usize;
+        let share = |n: usize, before: usize, now: usize| (n * now).div_ceil(before);
         self.original = self.original.map(|(x, y)| (share(x, before.0, nodes.0), share(y, before.1, nodes.1)));
         self.heights.mapv_inplace(|h| h - mean);
         let along_y = resample_rows(&self.heights, nodes.1);
