@@ -400,7 +400,7 @@ def wall(bench):
 def adhesion(bench):
     import numpy as np
 
-    rows, notes = [], []
+    rows, notes, certified = [], [], ADHESIVE[-1]
     for n in [512] if bench.options.quick else [n for n in bench.options.sizes if n <= 1024]:
         rms = float(np.load(bench.heights(n)).std())
         wall = bench.ours(bench.heights(n), {"pressure": PRESSURE, "tolerance": "1e-8"})
@@ -427,7 +427,7 @@ def adhesion(bench):
 
 
 def free(bench):
-    rows, notes = [], []
+    rows, notes, certified = [], [], CONTACT_MECHANICS[-1]
     for n in [512] if bench.options.quick else [n for n in bench.options.sizes if n <= 1024]:
         rounds = 3 if bench.options.quick else 5
         large = n > 512
