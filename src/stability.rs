@@ -24,6 +24,7 @@ mod edge;
 mod eigenpair;
 mod hessian;
 mod stiffness;
+mod tangent;
 mod watch;
 
 pub use departure::Departure;

@@ -1,6 +1,6 @@
 //! The error that the grid leaves at the edge of the contact.
 
-use super::stiffness::Tangent;
+use super::tangent::Tangent;
 use crate::grid::Grid;
 use crate::real::Real;
 use crate::solver::Solution;

@@ -4,6 +4,7 @@ use ndarray::Array2;
 
 use super::edge::EdgeError;
 use super::hessian::Hessian;
+use super::tangent::Tangent;
 use super::{check_gap, slopes};
 use crate::adhesion::AdhesionLaw;
 use crate::constraint::{ContactConstraint, Projection, Wall};
@@ -84,14 +85,6 @@ pub struct ContactStiffness {
     /// are others, where no node, or every one, is in contact, where springs or a law are in the place of the wall, and
     /// where several processes share the grid.
     pub edge: Option<EdgeError>,
-}
-
-/// The change of a solution as the mean gap opens by 1, on the grid of the operator.
-pub(super) struct Tangent<T> {
-    /// The change of the gap.
-    pub(super) opening: Array2<T>,
-    /// The contact pressure that is lost.
-    pub(super) pressure: Array2<T>,
 }
 
 impl ContactStiffness {

@@ -112,14 +112,14 @@ impl<'a> ProblemOptions<'a> {
     /// process holds, and starts the threads.
     pub fn read(self, si: bool, processes: &Processes) -> Outcome<Given<'a>> {
         self.adhesion.check()?;
-        let SurfaceOptions { heights: path, lengths, beyond, .. } = self.surface;
+        let &SurfaceOptions { heights: ref path, ref lengths, ref beyond, whole, .. } = self.surface;
         let (surface, origin) = if processes.count() > 1 {
             heights::shared(path, lengths.as_deref(), si, beyond.absent_missing, processes)?
         } else {
             let map = heights::map(path, lengths.as_deref(), si)?;
             heights::surface_or_absent(path, map, beyond.absent_missing)?
         };
-        let part = processes.agree(Part::of(self.surface, &origin, *surface.grid()))?;
+        let part = processes.agree(Part::of(&origin, *surface.grid(), beyond.boundary, whole))?;
         let adhesion = self.adhesion.read(surface.grid(), processes)?;
         let start = processes.agree(self.solver.start(&surface, &part))?;
         processes.agree(use_threads(self.solver.threads))?;

@@ -3,12 +3,11 @@
 use std::borrow::Cow;
 
 use asperity::contact::{ContactStatistics, Original};
-use asperity::{AdhesionLaw, Control, Grid, Result, Solution, Warning};
+use asperity::{AdhesionLaw, Control, Grid, Real, Result, Solution, Warning};
 use ndarray::Array2;
 
 use crate::boundary::Boundary;
 use crate::heights::Origin;
-use crate::options::{Scalar, SurfaceOptions};
 use crate::outcome::Outcome;
 
 /// The part of a map on its grid.
@@ -27,10 +26,10 @@ impl Part {
         Self { whole: grid, is_mirrored: false, is_whole: true, original: None }
     }
 
-    /// The original of a mirrored map, unless the options ask for the whole, or with a free boundary the images belong
+    /// The original of a mirrored map, unless the whole is asked for, or with a free boundary the images belong
     /// to the body.
-    pub fn of(options: &SurfaceOptions, origin: &Origin, grid: Grid) -> Outcome<Self> {
-        let is_whole = options.whole || options.beyond.boundary != Boundary::Periodic;
+    pub fn of(origin: &Origin, grid: Grid, boundary: Boundary, whole: bool) -> Outcome<Self> {
+        let is_whole = whole || boundary != Boundary::Periodic;
         let is_mirrored = origin.original.is_some();
         if is_mirrored && !is_whole && grid.is_shared() {
             let text = "the original of a mirrored map has no form for several processes: give --whole for results on \
@@ -92,7 +91,7 @@ impl Part {
     }
 
     /// The solution on the part.
-    pub fn of_solution<'a, T: Scalar>(&self, solution: &'a Solution<T>) -> Result<Cow<'a, Solution<T>>> {
+    pub fn of_solution<'a, T: Real>(&self, solution: &'a Solution<T>) -> Result<Cow<'a, Solution<T>>> {
         self.wanted().map_or(Ok(Cow::Borrowed(solution)), |original| Ok(Cow::Owned(original.of_solution(solution)?)))
     }
 
@@ -113,11 +112,7 @@ impl Part {
     }
 
     /// The statistics of the part of a solution on the whole.
-    pub fn statistics<T: Scalar>(
-        &self,
-        solution: &Solution<T>,
-        law: &impl AdhesionLaw<T>,
-    ) -> Result<ContactStatistics> {
+    pub fn statistics<T: Real>(&self, solution: &Solution<T>, law: &impl AdhesionLaw<T>) -> Result<ContactStatistics> {
         match self.wanted() {
             Some(original) => original.statistics(solution.gap.view(), solution.contact_pressure.view(), law),
             None => ContactStatistics::of(solution, &self.whole, law),
@@ -125,7 +120,7 @@ impl Part {
     }
 
     /// The warning that a solution does not have the symmetry of the map.
-    pub fn warning<T: Scalar>(&self, solution: &Solution<T>) -> Result<Option<Warning>> {
+    pub fn warning<T: Real>(&self, solution: &Solution<T>) -> Result<Option<Warning>> {
         self.wanted().map_or(Ok(None), |original| Warning::of_images(&original, solution))
     }
 }
