@@ -5,6 +5,7 @@ import json
 import os
 import subprocess
 import sys
+import signal
 import threading
 import time
 import warnings
@@ -138,6 +139,8 @@ def test_an_exception_in_an_observer_arrives_as_it_was_raised_with_what_was_reac
 
 @pytest.mark.parametrize("observe", [None, [].append])
 def test_ctrl_c_ends_a_solve_with_what_was_reached(observe):
+    # a program that a script starts in the background ignores Ctrl-C
+    signal.signal(signal.SIGINT, signal.default_int_handler)
     heights = asperity.surface.self_affine(1024, 1.0, rms_slope=0.1, k_s=256)
     # it would take several seconds
     hard = {"method": "rey2017", "tolerance": 1e-10, "threads": 1, "observe": observe}
