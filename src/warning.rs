@@ -15,8 +15,10 @@ use crate::solver::Solution;
 use crate::surface::{Surface, Topography};
 use crate::vector::sums;
 
+mod code;
 mod relief;
 
+pub use code::WarningCode;
 use relief::{Extremes, Relief};
 
 /// The drop of a plane across the map, in rms heights about the plane, from which there is a tilt: at a few per cent
@@ -77,64 +79,6 @@ const UNLIKE: f64 = 0.05;
 
 /// The resolution measure μ_ρ that the grid resolves; see [`Report::under_resolved`](crate::Report).
 const RESOLVED: f64 = 0.5;
-
-/// The code of a [`Warning`].
-///
-/// ```
-/// use asperity::WarningCode;
-/// assert_eq!(WarningCode::OpenEdges.to_string(), "open-edges");
-/// ```
-#[non_exhaustive]
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum WarningCode {
-    /// The map as a whole is inclined: opposite edges differ by the drop of its plane.
-    Tilt,
-    /// The step across the periodic edge is far greater than any between neighbouring rows or columns inside.
-    OpenEdges,
-    /// The rms slope exceeds ½, as where heights and lengths are in different units.
-    Steep,
-    /// A contact pressure exceeds the contact modulus E*.
-    BeyondModulus,
-    /// Single nodes are far out of their neighbours.
-    Spikes,
-    /// A value far outside the rest that stands for missing points, as −9999.
-    MissingCode,
-    /// The cells of the grid are far from square.
-    Cells,
-    /// The range of adhesion exceeds the heights, or is too short for the grid.
-    Range,
-    /// All heights are the same.
-    Flat,
-    /// Contact or traction reaches the edge of a free boundary's window.
-    WindowEdge,
-    /// The contact of a mirrored map is not that of its mirror images.
-    Images,
-}
-
-impl WarningCode {
-    /// The name that the tool and `report.json` use.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Tilt => "tilt",
-            Self::OpenEdges => "open-edges",
-            Self::Steep => "steep",
-            Self::BeyondModulus => "beyond-modulus",
-            Self::Spikes => "spikes",
-            Self::MissingCode => "missing-code",
-            Self::Cells => "cells",
-            Self::Range => "range",
-            Self::Flat => "flat",
-            Self::WindowEdge => "window-edge",
-            Self::Images => "images",
-        }
-    }
-}
-
-impl fmt::Display for WarningCode {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.name())
-    }
-}
 
 /// A probable mistake in the input, or in an answer: a code, the number that shows it, and a remedy.
 ///
@@ -313,8 +257,7 @@ impl Warning {
     /// [`Error::Shape`](crate::Error::Shape) if the solution is not one of the whole.
     pub fn of_images<T: Real>(original: &Original, solution: &Solution<T>) -> Result<Option<Self>> {
         let whole = solution.report.contact_nodes as f64;
-        let contact = original.contact(solution.gap.view(), solution.contact_pressure.view())?;
-        let part = contact.iter().filter(|&&touches| touches).count() as f64;
+        let part = original.contact_nodes(solution)? as f64;
         let expected = original.share() * whole;
         if (part - expected).abs() <= f64::max(1.0, UNLIKE * expected) {
             return Ok(None);

@@ -110,8 +110,13 @@ impl Original {
         Ok(Array2::from_shape_fn(self.whole.shape(), |(i, j)| field[[image(i, nx), image(j, ny)]].clone()))
     }
 
+    /// The number of nodes of the original that are in contact, in a solution on the whole.
+    pub(crate) fn contact_nodes<T: Real>(&self, solution: &Solution<T>) -> Result<usize> {
+        Ok(number(&self.contact(solution.gap.view(), solution.contact_pressure.view())?))
+    }
+
     /// The nodes of the original that are in contact, by the fields of the whole.
-    pub(crate) fn contact<T: Real>(&self, gap: ArrayView2<'_, T>, pressure: ArrayView2<'_, T>) -> Result<Array2<bool>> {
+    fn contact<T: Real>(&self, gap: ArrayView2<'_, T>, pressure: ArrayView2<'_, T>) -> Result<Array2<bool>> {
         self.of(contact_map(gap, pressure).view())
     }
 
@@ -121,12 +126,12 @@ impl Original {
     /// # Errors
     /// [`Error::Shape`] if the solution is not one of the whole.
     pub fn of_solution<T: Real>(&self, solution: &Solution<T>) -> Result<Solution<T>> {
-        let contact = self.contact(solution.gap.view(), solution.contact_pressure.view())?;
+        let contact_nodes = self.contact_nodes(solution)?;
         let [gap, pressure, contact_pressure] =
             [&solution.gap, &solution.pressure, &solution.contact_pressure].map(|field| self.of(field.view()));
         let gap = gap?;
         let report = Report {
-            contact_nodes: number(&contact),
+            contact_nodes,
             absent_nodes: gap.iter().filter(|gap| !gap.is_finite()).count(),
             normal_force: self.share() * solution.report.normal_force,
             ..solution.report.clone()
@@ -157,7 +162,7 @@ impl Original {
 }
 
 /// The number of nodes in contact.
-pub(crate) fn number(contact: &Array2<bool>) -> usize {
+fn number(contact: &Array2<bool>) -> usize {
     contact.iter().filter(|&&touches| touches).count()
 }
 

@@ -1,0 +1,61 @@
+//! The code of a warning, by which programs tell warnings apart.
+
+use std::fmt;
+
+/// The code of a [`Warning`](crate::Warning).
+///
+/// ```
+/// use asperity::WarningCode;
+/// assert_eq!(WarningCode::OpenEdges.to_string(), "open-edges");
+/// ```
+#[non_exhaustive]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum WarningCode {
+    /// The map as a whole is inclined: opposite edges differ by the drop of its plane.
+    Tilt,
+    /// The step across the periodic edge is far greater than any between neighbouring rows or columns inside.
+    OpenEdges,
+    /// The rms slope exceeds ½, as where heights and lengths are in different units.
+    Steep,
+    /// A contact pressure exceeds the contact modulus E*.
+    BeyondModulus,
+    /// Single nodes are far out of their neighbours.
+    Spikes,
+    /// A value far outside the rest that stands for missing points, as −9999.
+    MissingCode,
+    /// The cells of the grid are far from square.
+    Cells,
+    /// The range of adhesion exceeds the heights, or is too short for the grid.
+    Range,
+    /// All heights are the same.
+    Flat,
+    /// Contact or traction reaches the edge of a free boundary's window.
+    WindowEdge,
+    /// The contact of a mirrored map is not that of its mirror images.
+    Images,
+}
+
+impl WarningCode {
+    /// The name that the tool and `report.json` use.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Tilt => "tilt",
+            Self::OpenEdges => "open-edges",
+            Self::Steep => "steep",
+            Self::BeyondModulus => "beyond-modulus",
+            Self::Spikes => "spikes",
+            Self::MissingCode => "missing-code",
+            Self::Cells => "cells",
+            Self::Range => "range",
+            Self::Flat => "flat",
+            Self::WindowEdge => "window-edge",
+            Self::Images => "images",
+        }
+    }
+}
+
+impl fmt::Display for WarningCode {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
