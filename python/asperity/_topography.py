@@ -289,7 +289,8 @@ def original_of(topography: Topography) -> _asperity.Original | None:
 def refined(topography: Topography, heights: NDArray[np.float64]) -> Topography:
     """The map on a finer grid."""
     original = original_of(topography)
-    return replace(topography, heights=heights, original=original and original.on(heights.shape).shape)
+    nodes = None if original is None else original.on(heights.shape).shape
+    return replace(topography, heights=heights, original=nodes)
 
 
 def field_of(values: Any, name: str) -> NDArray[np.float64]:
