@@ -324,9 +324,11 @@ where
         }
         let w = self.problem.law.work_of_adhesion().widen();
         let rounding = T::epsilon().widen() / (self.problem.grid().nodes() as f64).sqrt() + f64::EPSILON;
-        let noise = 8.0 * rounding * self.problem.flat.work * self.problem.flat.padding;
-        let (least, tolerance) = (1e-3 * w, self.settings.imbalance);
-        let mut trial = self.state.judge(target, report, tolerance, least, noise);
+        let flat = self.problem.flat.work * self.problem.flat.padding;
+        // what rounding makes of the energy, and what the tolerance leaves in that of surfaces that are apart
+        let noise = (8.0 * rounding * flat, report.tolerance.powi(2) * flat);
+        let scale = (self.settings.imbalance, 1e-3 * w);
+        let mut trial = self.state.judge(target, report, scale, noise);
         let converged = report.status == Status::Converged;
         let good = trial.balanced && converged;
         let saddle = if converged && (good || smallest) { self.saddle(&solution)? } else { None };
@@ -351,7 +353,7 @@ where
             }
             if let Some(left) = left {
                 (solution, on_saddle) = (left, false);
-                trial = self.state.judge(target, &solution.report, tolerance, least, noise);
+                trial = self.state.judge(target, &solution.report, scale, noise);
                 way.jumped |= trial.jumped && !trial.balanced;
                 way.bifurcation = (good && !drawn).then_some(saddle.eigenvalue);
             }

@@ -22,6 +22,7 @@ __all__ = [
     "MaugisDugdale",
     "MaugisSphere",
     "Morse",
+    "Original",
     "PowerLaw",
     "Problem",
     "Tabulated",
@@ -179,6 +180,16 @@ class Look:
     def found(self) -> tuple[tuple[int, float, float, float, NDArray[np.int64], float, float, float], dict[str, Any]]: ...
 
 @final
+class Original:
+    def __new__(cls, shape: tuple[int, ...], lengths: tuple[float, float], nodes: tuple[int, int]) -> Original: ...
+    @property
+    def shape(self) -> tuple[int, int]: ...
+    @property
+    def lengths(self) -> tuple[float, float]: ...
+    def on(self, shape: tuple[int, ...]) -> Original: ...
+    def mirrored(self, field: _Field) -> _Field: ...
+
+@final
 class Problem:
     def __new__(
         cls,
@@ -195,7 +206,7 @@ class Problem:
         method: str,
         nested: bool | None,
         threads: int | None,
-        original: tuple[int, int] | None,
+        original: Original | None,
     ) -> Problem: ...
     def inputs(self) -> tuple[int, int]: ...
     def plan(

@@ -20,6 +20,16 @@ _PLURALS = {
 }
 
 
+def number(name: str, value: Any) -> float:
+    """A number that a parameter has to be."""
+    try:
+        if not isinstance(value, str | bytes):
+            return float(value)
+    except (TypeError, ValueError):
+        pass
+    raise TypeError(f"{name} is {value!r}: it must be a number, in units that fit the others, as 70e9 for 70 GPa in Pa")
+
+
 def one(**given: Any) -> Load:
     """The one load of those that may be given."""
     return _load(*_only("load", given))
@@ -41,9 +51,9 @@ def _only(what: str, given: dict[str, Any]) -> tuple[str, Any]:
 
 def _load(name: str, value: Any) -> Load:
     if name != "spring":
-        return (name, [float(value)])
+        return (name, [number(name, value)])
     try:
         stiffness, rest = value
-        return (name, [float(stiffness), float(rest)])
     except (TypeError, ValueError):
         raise TypeError(f"spring is {value!r}: it must be (stiffness, rest)") from None
+    return (name, [number("stiffness of the spring", stiffness), number("rest of the spring", rest)])

@@ -80,6 +80,15 @@ def _profile(ax: Axes, values: NDArray[Any], length: float, length_unit: str | N
     ax.set_xlabel(_label("x", unit))
 
 
+def _from_white(name: str) -> Any:
+    """The colours of a scale, from white on: pressures of nothing but rounding, of either sign, look alike."""
+    from matplotlib.colors import LinearSegmentedColormap
+
+    colours = _pyplot().get_cmap(name)(np.linspace(0.0, 1.0, 33))
+    colours[0] = 1.0
+    return LinearSegmentedColormap.from_list(f"{name} from white", colours)
+
+
 def contact_and_pressure(
     contact: NDArray[np.bool_],
     pressure: NDArray[Any],
@@ -97,9 +106,9 @@ def contact_and_pressure(
     _map(left, contact.astype(float), lengths, length_unit, cmap="Greys", vmin=0, vmax=1.15)
     left.set_title(f"contact {100 * contact_fraction:.3g} %")
     # compression and tension differ by orders of magnitude: each has a scale of its own
-    sides = [(pressure, "compression" if adhesive else "pressure", "YlOrRd")]
+    sides = [(pressure, "compression" if adhesive else "pressure", _from_white("YlOrRd"))]
     if adhesive:
-        sides.append((-pressure, "tension", "Blues"))
+        sides.append((-pressure, "tension", _from_white("Blues")))
     bars = []
     for side, name, colours in sides:
         positive = np.ma.masked_less_equal(side, 0.0)

@@ -12,9 +12,9 @@ from numpy.typing import NDArray
 
 from . import _asperity, _law, surface
 from ._accuracy import shortfall
-from ._control import Load
+from ._control import Load, number
 from ._solution import Solution
-from ._topography import Topography, field_of, mirrored, refined, sides, taken
+from ._topography import Topography, field_of, original_of, refined, sides, taken
 from ._warnings import AccuracyWarning, ConvergenceWarning, InputWarning
 
 
@@ -40,8 +40,8 @@ class Scene:
         whole: bool = False,
     ) -> None:
         self.topography: Topography = taken(heights, lengths)
-        lengths = sides(self.topography)
-        original = self.topography.original
+        lengths, modulus = sides(self.topography), number("modulus", modulus)
+        original = original_of(self.topography)
         # with a free boundary the images belong to the body
         self.original = None if whole or boundary != "periodic" else original
         self.problem = _asperity.Problem(
@@ -70,7 +70,7 @@ class Scene:
             "pressure_unit": None,
             "given": None,
             "boundary": boundary,
-            "modulus": float(modulus),
+            "modulus": modulus,
             **_law.entries(law, wall),
             "method": method,
             "precision": precision,
@@ -91,12 +91,11 @@ class Scene:
 
     def _shapes(self, topography: Topography) -> dict[str, Any]:
         """The nodes and side lengths of results, and the nodes that are solved if these are more."""
-        shape, (lx, ly) = topography.heights.shape, sides(topography)
-        if topography.original is None or self.original is None:
-            return {"solved_shape": None, "shape": list(shape), "lengths": [lx, ly]}
-        nx, ny = topography.original
-        part = [lx / shape[0] * nx, ly if shape[1] == 1 else ly / shape[1] * ny]
-        return {"solved_shape": list(shape), "shape": [nx, ny], "lengths": part}
+        solved = list(topography.heights.shape)
+        original = None if self.original is None else original_of(topography)
+        if original is None:
+            return {"solved_shape": None, "shape": solved, "lengths": list(sides(topography))}
+        return {"solved_shape": solved, "shape": list(original.shape), "lengths": list(original.lengths)}
 
     def held(self, loads: list[Load]) -> list[Load]:
         """Loads with reduced pressures as pressures, over the rms slope of the surface."""
@@ -123,7 +122,8 @@ class Scene:
             return self._apart(*loads[0])
         self.inputs["initial_gap"] = "array"
         gap = field_of(start.whole_gap if isinstance(start, Solution) else start, "start gaps")
-        return mirrored(gap, self.topography) if gap.shape == self.topography.original else gap
+        original = original_of(self.topography)
+        return gap if original is None or gap.shape != original.shape else original.mirrored(gap)
 
     def _afar(self, loads: list[Load]) -> NDArray[np.float64] | None:
         """The start of bodies that come from afar: under loads that grow from an approach before touch.

@@ -279,18 +279,18 @@ def sides(topography: Topography) -> tuple[float, float]:
     return topography.lengths
 
 
+def original_of(topography: Topography) -> _asperity.Original | None:
+    """The original of a mirrored map, of which the side lengths are known."""
+    if topography.original is None:
+        return None
+    return _asperity.Original(topography.heights.shape, sides(topography), topography.original)
+
+
 def refined(topography: Topography, heights: NDArray[np.float64]) -> Topography:
     """The map on a finer grid."""
-    pairs = zip(topography.original or (), heights.shape, topography.heights.shape, strict=False)
-    original = tuple(-(-nodes * now // before) for nodes, now, before in pairs)
-    return replace(topography, heights=heights, original=(original[0], original[1]) if original else None)
-
-
-def mirrored(field: NDArray[np.float64], topography: Topography) -> NDArray[np.float64]:
-    """A field of the original of a map, continued by its mirror images."""
-    places = [np.arange(n) % (2 * part) for n, part in zip(topography.heights.shape, field.shape, strict=True)]
-    images = [np.minimum(place, 2 * part - 1 - place) for place, part in zip(places, field.shape, strict=True)]
-    return field[np.ix_(*images)]
+    original = original_of(topography)
+    nodes = None if original is None else original.on(heights.shape).shape
+    return replace(topography, heights=heights, original=nodes)
 
 
 def field_of(values: Any, name: str) -> NDArray[np.float64]:

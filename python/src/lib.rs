@@ -10,6 +10,7 @@ mod inputs;
 mod law;
 mod look;
 mod numbers;
+mod original;
 mod pools;
 mod problem;
 mod refusal;
@@ -36,6 +37,8 @@ mod _asperity {
     };
     #[pymodule_export]
     use crate::look::Look;
+    #[pymodule_export]
+    use crate::original::Original;
     #[pymodule_export]
     use crate::problem::Problem;
     #[pymodule_export]

@@ -74,8 +74,8 @@ struct Made {
     /// Whether to solve on nested grids; the library chooses if it is not said.
     nested: Option<bool>,
     threads: Option<usize>,
-    /// The nodes of the original of a mirrored surface, if numbers are to be of that.
-    original: Option<(usize, usize)>,
+    /// The original of a mirrored surface, if numbers are to be of that.
+    original: Option<Original>,
 }
 
 /// The request for one solve.
@@ -131,11 +131,11 @@ impl<T: Scalar> State<T> {
         law: Box<dyn AdhesionLaw<T>>,
         strongest: Option<(usize, usize)>,
         Made { beyond, modulus, wall, settings, nested, threads, original }: Made,
-    ) -> asperity::Result<Self> {
+    ) -> Self {
         let grid = *surface.grid();
         let mut warnings = beyond.warnings(&surface);
         warnings.extend(Warning::of_law(&law, &surface, modulus));
-        Ok(Self {
+        Self {
             body: Body::Surface(Arc::new(surface)),
             law: law.into(),
             threads,
@@ -145,13 +145,13 @@ impl<T: Scalar> State<T> {
             beyond,
             modulus,
             strongest,
-            original: original.map(|nodes| Original::new(&grid, nodes)).transpose()?,
+            original,
             warnings,
             history: Vec::new(),
             search: (Vec::new(), None),
             place: None,
             leg_ends: false,
-        })
+        }
     }
 
     /// The account of a solution on the grid of the surface, or on a finer one, by a solve that began at a time.
@@ -455,8 +455,7 @@ fn state<T: Scalar>(
     made: Made,
 ) -> PyResult<Box<dyn Solves>> {
     let (law, strongest) = (law::<T>(given)?, strongest(given));
-    let state = py.detach(|| pool.get().install(|| State::new(surface, law, strongest, made)));
-    Ok(Box::new(state.map_err(refusal)?))
+    Ok(Box::new(py.detach(|| pool.get().install(|| State::new(surface, law, strongest, made)))))
 }
 
 /// A sweep of one load always has a next one.
@@ -506,12 +505,13 @@ impl Problem {
         method: &str,
         nested: Option<bool>,
         threads: Option<usize>,
-        original: Option<(usize, usize)>,
+        original: Option<PyRef<'_, crate::original::Original>>,
     ) -> PyResult<Self> {
         let settings = settings(tolerance, max_iterations, method)?;
         let pool = Pool::of(threads)?;
         let heights = heights.as_array().to_owned();
         let (beyond, wall) = (Beyond::of(boundary)?, Wall::of(wall)?);
+        let original = original.map(|original| original.0);
         let made = Made { beyond, modulus, wall, settings, nested, threads, original };
         let make = if absent_missing { Surface::with_absent } else { Surface::new };
         let surface = Grid::new(heights.dim(), lengths).and_then(|grid| make(grid, heights));

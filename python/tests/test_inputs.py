@@ -224,3 +224,10 @@ def test_prepare_takes_the_steps_of_the_tool():
     for wrong in [{"align_rows": "mode"}, {"scan_axis": "z"}, {"remove_form": "cone"}, {"detrend": 13}]:
         with pytest.raises(ValueError):
             asperity.prepare(tilted, (40.0, 30.0), **wrong)
+
+
+def test_a_number_with_a_unit_is_refused_by_its_name(rough):
+    for wrong in ({"modulus": "70GPa"}, {"mean_gap": "1nm"}, {"mean_gap": None, "spring": ("2N/m", 0.0)}):
+        options = {"modulus": 1.0, "mean_gap": 0.01, **wrong}
+        with pytest.raises(TypeError, match=r"(modulus|mean_gap|stiffness of the spring) is '.*': it must be a number"):
+            asperity.solve(rough, **options)

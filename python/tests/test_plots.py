@@ -23,6 +23,9 @@ def test_a_solution_is_drawn(tmp_path, rough, law, form):
     labels = [axes.get_ylabel() for axes in figure.axes]
     # adhesion is on a scale of its own
     assert "compression (mPa)" in labels and any(label.startswith("tension (") for label in labels)
+    # zero looks the same on both
+    images = figure.axes[1].images
+    assert len(images) == 2 and all(image.cmap(0.0) == (1.0, 1.0, 1.0, 1.0) for image in images)
 
 
 def test_without_adhesion_there_is_no_scale_of_tension(rough):

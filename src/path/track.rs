@@ -207,7 +207,15 @@ impl State {
         }
     }
 
-    pub(super) fn judge(&self, target: f64, report: &Report, tolerance: f64, least: f64, noise: f64) -> Trial {
+    /// The balance of a step, up to an imbalance, as a share of how much the energy has changed, which is at least
+    /// `least`; up to the noise of rounding, and in any case to what the tolerance of the solver has `left`.
+    pub(super) fn judge(
+        &self,
+        target: f64,
+        report: &Report,
+        (imbalance, least): (f64, f64),
+        (noise, left): (f64, f64),
+    ) -> Trial {
         let (here, next) = (self.here(), Place::of(report).held_by(self.mode));
         let ((from, before), (_, after)) = (here.slope(self.mode), next.slope(self.mode));
         let step = target - from;
@@ -218,7 +226,7 @@ impl State {
         let excess = change - integral(&points[first..]);
         let (low, high) = self.track.range;
         let scale = (high.max(next.energy) - low.min(next.energy)).max(least);
-        let allowed = tolerance * scale + noise;
+        let allowed = (imbalance * scale + noise).max(left);
         let order = 1.0 + (points.len() - first) as f64;
         let growth = (0.5 * allowed / excess.abs()).powf(order.recip());
         let energy = next.energy - here.energy;

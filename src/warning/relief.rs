@@ -61,6 +61,41 @@ impl End {
     fn join(self, other: Self) -> Self {
         self.with(other.value, other.count).with(other.next, 0)
     }
+
+    /// Those of some heights of this range and of the heights with their signs changed, the missing ones left out.
+    fn of(heights: &[f64], (lowest, highest): (f64, f64)) -> [Self; 2] {
+        let bounded = lowest.is_finite() && highest.is_finite();
+        let (whole, rest) = if bounded { heights.as_chunks::<LANES>() } else { (&[][..], heights) };
+        let mut ends = [(lowest, 1.0), (highest, -1.0)].map(|(end, sign)| {
+            let (mut count, mut next) = ([0.0; LANES], [f64::INFINITY; LANES]);
+            let (counts, nexts) = (&mut count, &mut next);
+            vectorised(
+                #[inline(always)]
+                move || {
+                    let (mut count, mut next) = ([0.0; LANES], [f64::INFINITY; LANES]);
+                    for heights in whole {
+                        for l in 0..LANES {
+                            let value = sign * heights[l];
+                            count[l] += if heights[l] == end { 1.0 } else { 0.0 };
+                            let value = if heights[l] == end { f64::INFINITY } else { value };
+                            next[l] = if value < next[l] { value } else { next[l] };
+                        }
+                    }
+                    (*counts, *nexts) = (count, next);
+                },
+            );
+            let count = count.iter().sum::<f64>() as usize;
+            Self {
+                value: if bounded { sign * end } else { f64::INFINITY },
+                count,
+                next: next.into_iter().fold(f64::INFINITY, f64::min),
+            }
+        });
+        for &h in rest.iter().filter(|h| h.is_finite()) {
+            ends = [ends[0].with(h, 1), ends[1].with(-h, 1)];
+        }
+        ends
+    }
 }
 
 impl Extremes {
@@ -72,8 +107,8 @@ impl Extremes {
                 let ([low, high], (lowest, highest)) = (*ends, range(heights));
                 // most heights are within those that were there before
                 if lowest < low.next || -highest < high.next {
-                    let known = heights.iter().filter(|h| h.is_finite());
-                    *ends = known.fold([low, high], |[low, high], &h| [low.with(h, 1), high.with(-h, 1)]);
+                    let [least, greatest] = End::of(heights, (lowest, highest));
+                    *ends = [low.join(least), high.join(greatest)];
                 }
             }
         });
@@ -188,8 +223,12 @@ impl Relief {
         });
         let rows: Vec<[f64; 4]> = bands.iter().flat_map(|band| band.rows.iter().copied()).collect();
         let column = |of: fn(&Band) -> &Vec<f64>| {
-            let sum = |j: usize| bands.iter().map(|band| of(band)[j]).sum::<f64>();
-            (0..ny).map(|j| sum(j) / nx as f64).collect::<Vec<f64>>()
+            let mut sums = vec![0.0; ny];
+            for band in &bands {
+                sums.iter_mut().zip(of(band)).for_each(|(sum, part)| *sum += part);
+            }
+            sums.iter_mut().for_each(|sum| *sum /= nx as f64);
+            sums
         };
         let (column_means, mut column_steps) = (column(|band| &band.sums), column(|band| &band.steps));
         let row_means: Vec<f64> = rows.iter().map(|row| row[0] / ny as f64).collect();
@@ -341,8 +380,11 @@ fn across(row: &[f64], before: &[f64], scale: Scale, [sums, steps]: [&mut [f64];
                     steps[l] += step[l] * step[l];
                     greatest[l] = if step[l].abs() > greatest[l] { step[l].abs() } else { greatest[l] };
                 }
+                // in two loops: the sums may be one in memory, as far as a compiler can tell
                 for l in 0..LANES {
                     column_sums[l] += h[l];
+                }
+                for l in 0..LANES {
                     column_steps[l] += along[l] * along[l];
                 }
             }
@@ -447,4 +489,37 @@ fn gathered<const N: usize>(heights: [f64; N]) -> (f64, f64, f64) {
     heights.into_iter().fold((0.0, f64::INFINITY, f64::NEG_INFINITY), |(sum, low, high), h| {
         (sum + h, if h < low { h } else { low }, if h > high { h } else { high })
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn extremes_are_those_of_the_sorted_heights() {
+        // few levels, so that the extremes are repeated, and the range of a look is that of another one
+        let level = |i: usize| ((i as u64).wrapping_mul(0x9E37_79B9_7F4A_7C15) >> 40) % 97;
+        let bowl = |i: usize| if (3000..3500).contains(&i) { -1.0 } else { level(i) as f64 };
+        let infinite =
+            |i: usize| [bowl(i), f64::NAN, f64::INFINITY, f64::NEG_INFINITY][(level(i) as usize / 24).min(3)];
+        let flat = |_| 2.0;
+        let maps: [&dyn Fn(usize) -> f64; 4] = [&|i| level(i) as f64, &bowl, &infinite, &flat];
+        for of in maps {
+            for shape in [(1, 1), (3, 5), (40, 50), (150, 133)] {
+                let heights = Array2::from_shape_fn(shape, |(i, j)| of(i * shape.1 + j));
+                let mut sorted: Vec<f64> = heights.iter().copied().filter(|h| h.is_finite()).collect();
+                sorted.sort_by(f64::total_cmp);
+                let (Some(&low), Some(&high)) = (sorted.first(), sorted.last()) else { continue };
+                let count = |value: f64| sorted.iter().filter(|&&h| h == value).count();
+                let rest: Vec<f64> = sorted.iter().copied().filter(|&h| h != low && h != high).collect();
+                let found = Extremes::of(&heights);
+                assert_eq!(
+                    (found.low, found.low_count, found.high, found.high_count),
+                    (low, count(low), high, count(high))
+                );
+                let expected = rest.first().map_or(NOTHING, |&first| (first, rest[rest.len() - 1]));
+                assert_eq!(found.rest, expected, "{shape:?}");
+            }
+        }
+    }
 }

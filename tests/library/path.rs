@@ -351,6 +351,18 @@ fn without_adhesion_a_path_is_there_and_back() {
 }
 
 #[test]
+fn without_adhesion_a_path_strides_to_first_contact() {
+    let (mut problem, peak) = (rough::<f64, _>(48, 12, NoAdhesion), 0.05);
+    let settings = PathSettings::default();
+    let steps = follow(&mut problem, gaps(&[20.0 * peak, 0.5 * peak]), settings, 1e-6);
+    let touches = |step: &&PathStep<f64>| step.solution.report.contact_nodes > 0;
+    assert!(names(&steps).is_empty() && steps.last().is_some_and(|last| touches(&last)));
+    // mostly the longest steps: of the smallest ones a leg has ten thousand
+    let apart = steps.iter().take_while(|step| !touches(step)).count();
+    assert!(apart < 2 * settings.steps, "{apart}");
+}
+
+#[test]
 fn a_path_goes_on_from_a_checkpoint_bit_for_bit() {
     let loads = [gaps(&[0.03, 0.018]), pressures(&[2e-3, -0.05])].concat();
     let settings = PathSettings { steps: 12, ..PathSettings::default() };

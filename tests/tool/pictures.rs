@@ -43,6 +43,7 @@ fn pictures_come_in_the_format_and_the_resolution_that_is_asked_for() {
     assert!(bench.bytes("pdf/pressure.pdf").starts_with(b"%PDF-1."));
 
     bench.refused_with(&format!("{solve} --out no --colour-limits 2 1"), &["--colour-limits", "first"]);
+    bench.refused_with(&format!("{solve} --out no --colour-limits 1 2"), &["--colour-limits 1 2", "zero"]);
     bench.refused_with(&format!("{solve} --out no --dpi 10"), &["--dpi", "from 36 to 1200"]);
     assert!(!bench.path("no").exists());
 }

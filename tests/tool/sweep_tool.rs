@@ -288,6 +288,11 @@ fn rows_that_did_not_converge_are_written_and_counted() {
     let again = bench.sweep(arguments, 2);
     assert!(text(&again.stdout).contains("3 of 3 rows already") && text(&again.stderr).contains("1 of 3 rows"));
     assert_eq!(bench.read("sweep.csv"), table);
+    assert!(!warning.contains("f64"), "{warning}");
+    let single = bench.sweep("--precision f32 --tolerance 1e-9 --mean-pressures 4e-3 --out single.csv", 2);
+    assert!(
+        text(&single.stderr).contains("1 of 1 rows not converged") && text(&single.stderr).contains("--precision f64")
+    );
 
     let law = "--law maugis-dugdale --work-of-adhesion 1e-4 --range 1e-3";
     let output = bench.sweep(&format!("{law} --mean-gaps 0.03,0.02 --out unresolved.csv"), 0);

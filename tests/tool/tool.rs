@@ -459,6 +459,7 @@ fn bad_input_is_refused_on_one_line_and_writes_nothing() {
         (format!("{good} --initial-gap negative.npy"), vec!["gap", "-0.125000001", "zero or positive"]),
         ("--heights heights.npy --precision f32 --mean-gap 1e300".to_owned(), vec!["mean gap", "1e300", "precision"]),
         (format!("{good} --colour red"), vec!["--colour", "see --help"]),
+        ("heights.npy --mean-gap 1".to_owned(), vec!["'heights.npy'", "'--heights heights.npy'"]),
         ("--heights heights.npy --mean-gap -0.1".to_owned(), vec!["--mean-gap", "-0.1", "zero or positive"]),
         ("--heights heights.npy --mean-gap much".to_owned(), vec!["--mean-gap", "much", "a number"]),
         ("--heights heights.npy --mean-pressure inf".to_owned(), vec!["--mean-pressure", "inf", "finite"]),

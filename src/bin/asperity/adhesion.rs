@@ -115,13 +115,11 @@ pub struct Works {
 }
 
 impl Works {
-    fn new(grid: Grid, rows: Array2<f64>) -> Self {
-        let (_, most) = grid.extremes((0.0, rows.iter().copied().fold(0.0, f64::max)));
-        let (first, (_, ny)) = (grid.rows().start, grid.shape());
-        let strongest = rows.indexed_iter().find(|&(_, &work)| work == most);
-        let node = strongest.map_or(f64::INFINITY, |((ix, iy), _)| ((first + ix) * ny + iy) as f64);
-        let (node, _) = grid.extremes((node, 0.0));
-        Self { grid, rows, most, strongest: (node as usize / ny, node as usize % ny) }
+    fn new(grid: Grid, rows: Array2<f64>) -> asperity::Result<Self> {
+        // of a law of one unit they are multiples of one
+        let varying = Varying::on(&grid, MaugisDugdale::new(1.0, 1.0)?, rows.view())?;
+        let (most, strongest) = (AdhesionLaw::<f64>::work_of_adhesion(&varying), varying.strongest());
+        Ok(Self { grid, rows, most, strongest })
     }
 
     /// The whole of them, on the first of the processes that share the grid, and nothing on the others.
@@ -266,13 +264,12 @@ impl AdhesionOptions {
             Ok((self.uniform()?, rows))
         };
         let (uniform, rows) = processes.agree(read())?;
-        let adhesion = Adhesion { works: rows.map(|rows| Works::new(*grid, rows)), ..uniform };
         // whatever the laws refuse, before anything is solved
-        match (adhesion.law::<f64>(), &self.work_of_adhesion_map) {
+        let works = rows.map(|rows| Works::new(*grid, rows)).transpose();
+        match (works.and_then(|works| uniform.with(works)), &self.work_of_adhesion_map) {
             (Err(error @ Error::Elsewhere { .. }), _) => Err(error.into()),
             (Err(error), Some(path)) => Err(Error::file(path, format!("does not fit the law: {error}")).into()),
-            (Err(error), None) => Err(error.into()),
-            (Ok(_), _) => Ok(adhesion),
+            (accepted, _) => Ok(accepted?),
         }
     }
 }
@@ -291,6 +288,13 @@ fn tabulated(path: &Path, table: &Array2<f64>) -> asperity::Result<Tabulated> {
 }
 
 impl Adhesion<'_> {
+    /// The same with works of adhesion, if the law accepts them.
+    fn with(self, works: Option<Works>) -> asperity::Result<Self> {
+        let adhesion = Self { works, ..self };
+        adhesion.law::<f64>()?;
+        Ok(adhesion)
+    }
+
     /// The law; its parameters are there after [`AdhesionOptions::check`].
     pub fn law<T: Real>(&self) -> asperity::Result<Box<dyn AdhesionLaw<T>>> {
         let options = self.options;

@@ -44,6 +44,13 @@ pub struct Saved {
     pub numbers: Vec<f64>,
 }
 
+impl Saved {
+    /// Those of a state, or why it has none.
+    fn of(state: State) -> Result<Self, String> {
+        Ok(Self { fields: state.read_fields()?, numbers: state.numbers })
+    }
+}
+
 /// What a journal that another process has open has saved.
 #[derive(Debug)]
 pub struct Seen {
@@ -56,10 +63,10 @@ pub struct Seen {
 impl Seen {
     /// Reads the state of the journal of a table.
     pub fn read(path: &Path) -> Outcome<Self> {
-        let refused = |reason: String| Error::file(path, format!("{reason}: {REMEDY}"));
+        let refused = |reason| refused(path, reason);
         let state = State::read(path).map_err(refused)?;
-        let (Written { rows, unconverged, .. }, fields) = (state.written, state.read_fields().map_err(refused)?);
-        Ok(Self { saved: Saved { fields, numbers: state.numbers }, rows, unconverged })
+        let Written { rows, unconverged, .. } = state.written;
+        Ok(Self { saved: Saved::of(state).map_err(refused)?, rows, unconverged })
     }
 }
 
@@ -173,8 +180,8 @@ fn resume(
     identity: &Identity,
     loads: Option<&[f64]>,
 ) -> Outcome<(Written, Saved)> {
-    let refused = |reason: String| Error::file(path, format!("{reason}: {REMEDY}"));
-    let refuse = |reason: String| Err(refused(reason).into());
+    let refused = |reason| refused(path, reason);
+    let refuse = |reason| Err(refused(reason).into());
     let state = State::read(path).map_err(refused)?;
     let written = state.written;
     for (key, here) in identity {
@@ -207,8 +214,12 @@ fn resume(
     if Hash::NEW.of(kept) != written.content || !one_row {
         return refuse("was changed since it was written".to_owned());
     }
-    let fields = state.read_fields().map_err(refused)?;
-    Ok((written, Saved { fields, numbers: state.numbers }))
+    Ok((written, Saved::of(state).map_err(refused)?))
+}
+
+/// The error of a table with which a run cannot go on.
+fn refused(path: &Path, reason: String) -> Error {
+    Error::file(path, format!("{reason}: {REMEDY}"))
 }
 
 /// A value without quotation marks.

@@ -147,9 +147,10 @@ fn run_on(processes: &Processes) -> ExitCode {
 /// The command that the arguments name, and the scene that repeats it.
 fn parsed<I>(tool: &mut clap::Command, arguments: I) -> Result<(Command, Scene), clap::Error>
 where
-    I: IntoIterator<Item: Into<OsString> + Clone>,
+    I: IntoIterator<Item: Into<OsString>>,
 {
-    let matches = tool.try_get_matches_from_mut(arguments)?;
+    let arguments: Vec<OsString> = arguments.into_iter().map(Into::into).collect();
+    let matches = tool.try_get_matches_from_mut(&arguments).map_err(|error| hinted(tool, &arguments, error))?;
     let command = Tool::from_arg_matches(&matches)?.command;
     let chosen = matches.subcommand().and_then(|(name, matches)| Some((tool.find_subcommand(name)?, matches)));
     let scene = chosen.map_or_else(Scene::default, |(command, matches)| Scene::of(command, matches));
@@ -157,6 +158,21 @@ where
         Ok(()) => Ok((command, scene)),
         Err(reason) => Err(tool.error(ErrorKind::ValueValidation, reason)),
     }
+}
+
+/// The mistake in some arguments, which for a bare word where there is `--heights` is likely to be its file.
+fn hinted(tool: &clap::Command, arguments: &[OsString], mut error: clap::Error) -> clap::Error {
+    let name = arguments.get(1).and_then(|name| name.to_str()).unwrap_or_default();
+    let takes = tool.find_subcommand(name).is_some_and(|command| command.get_opts().any(|it| it.get_id() == "heights"));
+    if let (ErrorKind::UnknownArgument, Some(ContextValue::String(word))) =
+        (error.kind(), error.get(ContextKind::InvalidArg))
+        && takes
+        && !word.starts_with('-')
+    {
+        let hint = format!("a file of heights is given by '--heights {word}'");
+        error.insert(ContextKind::Suggested, ContextValue::StyledStrs(vec![hint.into()]));
+    }
+    error
 }
 
 fn execute(command: Command, scene: &Scene, processes: &Processes) -> ExitCode {

@@ -152,6 +152,10 @@ pub fn run(options: &Options, scene: &Scene, processes: &Processes) -> Outcome<b
     if let Some((low, high)) = limits.filter(|(low, high)| low >= high) {
         return Err(format!("--colour-limits {low} {high}: the lower one must come first").into());
     }
+    if let Some((low, high)) = limits.filter(|&(low, high)| low > 0.0 || high < 0.0) {
+        let text = "the scale of pressures always has zero: give one at or below it, and one at or above it";
+        return Err(format!("--colour-limits {low} {high}: {text}").into());
+    }
     let pictures = options.picture_format.of(PICTURES);
     let pictures = pictures.iter().filter(|_| !options.no_pictures);
     let mode = (options.stability || options.leave).then_some(&MODE);

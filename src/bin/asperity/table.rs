@@ -14,7 +14,7 @@ use crate::identity::Identity;
 use crate::journal::{Journal, Row, Saved, Seen, state_path};
 use crate::kept::Kept;
 use crate::numbers::percent;
-use crate::options::{ProblemOptions, Scalar};
+use crate::options::{Precision, ProblemOptions, Scalar};
 use crate::outcome::Outcome;
 use crate::part::Part;
 use crate::printing::{Printing, complain};
@@ -197,9 +197,13 @@ impl<'a> Table<'a> {
     pub fn converged(&self, remedy: &str) -> bool {
         let (count, rows, path) = (self.unconverged, self.rows(), self.options.out.display());
         if count > 0 {
+            let precise = match self.options.problem.solver.precision {
+                Precision::F32 => "use --precision f64, as f32 ends where its rounding does, ",
+                Precision::F64 => "",
+            };
             let text = format!(
-                "{UNCONVERGED}: {count} of {rows} rows not converged, their status and errors are in {path}: raise \
-                 --max-iterations, {remedy}"
+                "{UNCONVERGED}: {count} of {rows} rows not converged, their status and errors are in {path}: {precise}\
+                 raise --max-iterations, {remedy}"
             );
             complain("warning", &text);
         }
