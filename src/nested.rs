@@ -2,24 +2,22 @@
 
 use std::ops::ControlFlow;
 
-use ndarray::Array2;
-
 use crate::adhesion::AdhesionLaw;
 use crate::constraint::{ContactConstraint, Projection};
 use crate::contact::ContactArea;
-use crate::elastic::{Boundary, ElasticOperator};
+use crate::elastic::ElasticOperator;
 use crate::error::{Error, Result};
 use crate::grid::Grid;
 use crate::problem::{Control, Problem};
 use crate::real::Real;
-use crate::solver::{Iteration, Method, Settings, Solution, Solver, Start, Status};
+use crate::solver::{Begin, Iteration, Method, Settings, Solution, Solved, Solver, Start, Status};
 use crate::stability::ContactStiffness;
 use crate::surface::Surface;
 
 mod transfer;
 
+pub(crate) use transfer::Deformed;
 use transfer::coarsen;
-pub(crate) use transfer::prolong;
 
 /// The resolution measure μ_ρ above which a coarse grid would pin the contact.
 const RESOLVED: f64 = 0.5;
@@ -244,11 +242,30 @@ impl<C> Nested<C> {
     pub fn solve_observed<T, O, L>(
         &mut self,
         surface: &Surface,
+        operator: impl FnMut(Grid) -> Result<O>,
+        law: L,
+        control: Control,
+        observe: impl FnMut(&Grid, &Iteration) -> ControlFlow<()> + Send,
+    ) -> Result<NestedSolution<T>>
+    where
+        T: Real,
+        O: ElasticOperator<T>,
+        L: AdhesionLaw<T>,
+        C: ContactConstraint<T>,
+    {
+        let (Solved { solution, .. }, levels) = self.run(surface, operator, law, control, observe)?;
+        Ok(NestedSolution { solution, levels })
+    }
+
+    /// Solves as [`Nested::solve_observed`]; returns the gap on the grid of the operator as well.
+    pub(crate) fn run<T, O, L>(
+        &mut self,
+        surface: &Surface,
         mut operator: impl FnMut(Grid) -> Result<O>,
         law: L,
         control: Control,
         mut observe: impl FnMut(&Grid, &Iteration) -> ControlFlow<()> + Send,
-    ) -> Result<NestedSolution<T>>
+    ) -> Result<(Solved<T>, Vec<Level>)>
     where
         T: Real,
         O: ElasticOperator<T>,
@@ -259,7 +276,8 @@ impl<C> Nested<C> {
         let settings = self.solver.settings;
         let varies = law.shape().is_some();
         let mut surfaces = coarsened(surface, self.coarsest, !varies)?;
-        let (mut levels, mut start): (Vec<Level>, Option<Array2<T>>) = (Vec::new(), None);
+        let rigid = self.solver.constraint.wall().is_rigid();
+        let (mut levels, mut coarser): (Vec<Level>, Option<Deformed<T>>) = (Vec::new(), None);
         let mut stopped = false;
         while let Some(coarse) = surfaces.pop() {
             let ((nx, ny), (cx, cy)) = (surface.grid().shape(), coarse.grid().shape());
@@ -271,8 +289,8 @@ impl<C> Nested<C> {
             let tolerance = self.coarse_tolerance.max(settings.tolerance_in::<T>());
             self.solver.settings = Settings { tolerance: Some(tolerance), ..settings };
             let mut smoothed = false;
-            let begin = start.take().map_or(Start::Default, Start::Near);
-            let result = self.solver.solve_with(&mut problem, control, begin, |iteration| {
+            let begin = begin(coarser.take(), &coarse, problem.operator.grid(), rigid);
+            let result = self.solver.run(problem.parts(), control, begin, &mut |iteration| {
                 stopped = stopped || observe(coarse.grid(), iteration).is_break();
                 // the equilibrium of the smoothed law is all that the next grid needs
                 let done = smoothed && !iteration.smoothed;
@@ -280,7 +298,7 @@ impl<C> Nested<C> {
                 if stopped || done { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
             });
             self.solver.settings = settings;
-            let solution = result?;
+            let Solved { solution, whole } = result?;
             let stiffness = self.stiffness_of(&mut problem, &solution)?;
             levels.push(Level { stiffness, ..Level::of(&solution, coarse.grid())? });
             if levels.len() == 1 && levels[0].area.contact_fraction > self.closed {
@@ -289,37 +307,37 @@ impl<C> Nested<C> {
             let Solution { gap, report, .. } = solution;
             // a coarse grid that does not carry its load says nothing of a finer one
             if report.load_error < CARRIED && report.status != Status::Detached {
-                let rigid = self.solver.constraint.wall().is_rigid();
-                let finer = surfaces.last().unwrap_or(surface);
-                start = Some(prolong(finer, &coarse, gap, (rigid, report.boundary == Boundary::Periodic)));
+                coarser = Some(Deformed::of(&coarse, gap, whole));
             }
         }
         drop(surfaces);
         let mut problem = Problem::new(surface, operator(*surface.grid())?, law)?;
+        let started = coarser.is_some();
+        let begin = begin(coarser, surface, problem.operator.grid(), rigid);
         let mut finest = |begin| {
-            self.solver.solve_with(&mut problem, control, begin, |iteration| {
+            self.solver.run(problem.parts(), control, begin, &mut |iteration| {
                 stopped = stopped || observe(surface.grid(), iteration).is_break();
                 if stopped { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
             })
         };
-        let started = start.is_some();
-        let mut solution = finest(start.map_or(Start::Default, Start::Near))?;
-        let lost = match solution.report.status {
+        let mut solved = finest(begin)?;
+        let report = &solved.solution.report;
+        let lost = match report.status {
             // at the floor of rounding another start would stall as well
-            Status::Stalled => solution.report.relative_error.max(solution.report.load_error) > self.coarse_tolerance,
+            Status::Stalled => report.relative_error.max(report.load_error) > self.coarse_tolerance,
             status => status == Status::Detached,
         };
         let mut spent = 0;
         if started && lost {
-            spent = solution.report.operator_applications;
-            drop(solution);
-            solution = finest(Start::Default)?;
+            spent = report.operator_applications;
+            drop(solved);
+            solved = finest(Begin::At(Start::Default))?;
         }
-        let stiffness = self.stiffness_of(&mut problem, &solution)?;
-        let level = Level::of(&solution, surface.grid())?;
+        let stiffness = self.stiffness_of(&mut problem, &solved.solution)?;
+        let level = Level::of(&solved.solution, surface.grid())?;
         let operator_applications = level.operator_applications + spent;
         levels.push(Level { operator_applications, stiffness, ..level });
-        Ok(NestedSolution { solution, levels })
+        Ok((solved, levels))
     }
 
     /// The contact stiffness of a solution, if it is asked for and the solve was not stopped.
@@ -337,6 +355,12 @@ impl<C> Nested<C> {
         let find = |tolerance| ContactStiffness::of_constrained(problem, &self.solver.constraint, solution, tolerance);
         self.stiffness.filter(|_| solution.report.status != Status::Stopped).map(find).transpose()
     }
+}
+
+/// The start on a grid, from the solution on a coarser one if there is one.
+fn begin<T: Real>(coarser: Option<Deformed<T>>, surface: &Surface, grid: &Grid, projects: bool) -> Begin<'static, T> {
+    let prolonged = coarser.map(|coarser| coarser.prolonged(surface, grid, projects));
+    prolonged.map_or(Begin::At(Start::Default), Begin::Prolonged)
 }
 
 /// The shape of the next coarser grid, if it has `coarsest` nodes along its sides; without `odd` only of even sizes.
