@@ -20,7 +20,7 @@ struct Arguments {
     tolerance: f64,
     #[arg(default_value = "f64")]
     precision: Precision,
-    /// Spheres and rough spheres on a free half-space alone, by force, approach and spring
+    /// Other scenes: tips on a free half-space, by force, approach and spring
     #[arg(long)]
     free: bool,
 }
@@ -103,32 +103,28 @@ impl Table {
     }
 
     fn free_scenes<T: Real>(&mut self, grid: Grid) -> Result<()> {
-        let size = grid.shape().0;
         let sphere = Surface::paraboloid(grid, 2.0)?;
+        self.tip::<T>("sphere", &sphere)?;
         for nodes in [16, 64] {
-            let rough = rough::rough(grid, (size / nodes).max(5) as i32, 1);
-            let rough_sphere = Surface::new(grid, sphere.heights() + rough.heights())?;
-            for (name, surface) in [("sphere", &sphere), ("rough sphere", &rough_sphere)] {
-                if name == "sphere" && nodes == 64 {
-                    continue;
-                }
-                let name = format!("{name}, {nodes}");
-                for control in [2e-4, 5e-3].map(Control::Force) {
-                    self.free::<T, _>(&name, surface, NoAdhesion, control)?;
-                }
-                let approach = 0.02;
-                let spring = Control::Spring { stiffness: 0.1, rest: 0.03 };
-                self.free::<T, _>(&name, surface, NoAdhesion, Control::Approach(approach))?;
-                self.free::<T, _>(&name, surface, NoAdhesion, spring)?;
-                let law = Exponential::new(2e-4, 4e-3)?;
-                for control in [Control::Force(5e-3), Control::Approach(approach), spring] {
-                    self.free::<T, _>(&format!("{name}, exponential"), surface, law, control)?;
-                }
-                let law = MaugisDugdale::new(2e-4, 4e-3)?;
-                self.free::<T, _>(&format!("{name}, Maugis-Dugdale"), surface, law, Control::Force(2e-3))?;
-            }
+            let rough = rough::rough(grid, (grid.shape().0 / nodes).max(5) as i32, 1);
+            let tip = Surface::new(grid, sphere.heights() + rough.heights())?;
+            self.tip::<T>(&format!("rough sphere, {nodes} nodes a wave"), &tip)?;
         }
         Ok(())
+    }
+
+    /// A tip on a free half-space, under every control.
+    fn tip<T: Real>(&mut self, name: &str, tip: &Surface) -> Result<()> {
+        let (approach, spring) = (Control::Approach(0.02), Control::Spring { stiffness: 0.1, rest: 0.03 });
+        for control in [Control::Force(2e-4), Control::Force(5e-3), approach, spring] {
+            self.free::<T, _>(name, tip, NoAdhesion, control)?;
+        }
+        let law = Exponential::new(2e-4, 4e-3)?;
+        for control in [Control::Force(5e-3), approach, spring] {
+            self.free::<T, _>(&format!("{name}, exponential"), tip, law, control)?;
+        }
+        let law = MaugisDugdale::new(2e-4, 4e-3)?;
+        self.free::<T, _>(&format!("{name}, Maugis-Dugdale"), tip, law, Control::Force(2e-3))
     }
 
     fn row<T: Real, L: AdhesionLaw<T>>(

@@ -191,6 +191,6 @@ mod tests {
             assert!((sum / whole[[i, j]] - 1.0).abs() < 1e-12, "{i} {j}: {sum} {}", whole[[i, j]]);
         }
         // whatever the rows that are asked for
-        assert_eq!(quadrant(17..50, 70, (a, b)), whole.slice(ndarray::s![17.., ..]));
+        assert!(quadrant(17..50, 70, (a, b)).rows().into_iter().eq(whole.rows().into_iter().skip(17)));
     }
 }

@@ -240,6 +240,20 @@ mod tests {
     }
 
     #[test]
+    fn nodes_beyond_the_window_keep_their_distance_from_its_end_or_start() {
+        let (coarse, fine) = (Side { window: 10, whole: 24 }, Side { window: 20, whole: 45 });
+        for (k, place) in places(coarse, fine).iter().enumerate() {
+            // from the start of the window, or from that of the next one
+            let (start, distance) = if k <= 32 { (0.0, 0.5 * k as f64) } else { (24.0, 0.5 * (k as f64 - 45.0)) };
+            let [before, at, ..] = place.nodes;
+            let unwrapped = |shift: usize| (at + shift) as f64 - 1.0;
+            let found: f64 = place.weights.iter().enumerate().map(|(shift, weight)| weight * unwrapped(shift)).sum();
+            assert!((found - start - distance).abs() < 1e-13, "{k}: {found}");
+            assert_eq!((before + 1) % 24, at);
+        }
+    }
+
+    #[test]
     fn a_wave_is_prolonged_to_fourth_order() {
         for (shape, half) in [((64, 64), (32, 32)), ((64, 32), (32, 16)), ((64, 1), (32, 1)), ((65, 63), (33, 32))] {
             let grid = Grid::new(shape, (1.0, 1.0)).unwrap();

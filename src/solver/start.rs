@@ -58,6 +58,8 @@ pub(crate) enum Begin<'a, T> {
     /// The gap of the solution on another grid, near as that of [`Start::Near`], but on the grid of the operator, with
     /// the nodes that face no surface.
     Prolonged(Array2<T>),
+    /// The gap of the solution on a part of the grid, on the whole of that of the operator.
+    Found(Array2<T>),
 }
 
 impl<T> Begin<'_, T> {
@@ -91,8 +93,8 @@ pub(super) fn given_start<T: Real>(
         Begin::At(Start::Default) => return Ok(None),
         Begin::At(Start::From(gap)) => gap.view().into(),
         Begin::At(Start::Near(gap)) => gap.into(),
-        Begin::Prolonged(gap) if window.is_some() => return Ok(Some(gap)),
-        Begin::Prolonged(gap) => gap.into(),
+        Begin::Prolonged(gap) | Begin::Found(gap) if window.is_some() => return Ok(Some(gap)),
+        Begin::Prolonged(gap) | Begin::Found(gap) => gap.into(),
     };
     let start = match window {
         Some(window) => window.start(given.view())?.into(),
