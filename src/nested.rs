@@ -393,7 +393,8 @@ impl<C> Nested<C> {
             && surface.absent().is_none()
             && law.shape().is_none()
             && !surface.grid().is_shared();
-        let Some(part) = Part::of(surface.grid().shape(), gap, law).filter(|_| fits) else { return Ok(None) };
+        let part = if fits { Part::of(surface.grid().shape(), gap, law) } else { None };
+        let Some(part) = part else { return Ok(None) };
         let small = part.surface(surface)?;
         let mut problem = Problem::new(&small, operator(*small.grid())?, law)?;
         let share = problem.operator.grid().nodes() as f64 / half_space.grid().nodes() as f64;

@@ -132,9 +132,9 @@ mod tests {
         });
         let part = Part::of((100, 80), &gap, &NoAdhesion).unwrap();
         assert_eq!(part, Part { x: 30..91, y: 18..43 });
-        // the traction of an exponential law falls to a millionth of w/ρ at 13.8ρ
+        // to a gap of 6, as the traction of an exponential law falls to a millionth of w/ρ at 13.8ρ
         let part = Part::of((100, 80), &gap, &Exponential::new(1.0, 0.5).unwrap()).unwrap();
-        assert_eq!(part, Part { x: 21..100, y: 10..51 });
+        assert_eq!(part, Part { x: 21..100, y: 12..49 });
         // more than half of the window, or nothing
         assert_eq!(Part::of((100, 50), &gap, &NoAdhesion), Some(Part { x: 30..91, y: 18..43 }));
         assert_eq!(Part::of((60, 50), &gap, &Exponential::new(1.0, 2.0).unwrap()), None);
