@@ -159,22 +159,19 @@ pub(crate) struct Deformed<T> {
 impl<T: Real> Deformed<T> {
     /// The half-space under a surface, from the gap, and from that on the operator's grid if it is another one.
     pub(crate) fn of(surface: &Surface, gap: Array2<T>, whole: Option<(Grid, Array2<T>)>) -> Self {
-        let (window, displaced) = (surface.grid().shape(), |gap: &Array2<T>, heights: ArrayView2<'_, f64>| {
-            let mut displacement = heights.to_owned();
-            displacement.zip_mut_with(gap, |u, gap| *u += gap.widen());
-            displacement
-        });
-        let Some((grid, whole)) = whole else {
-            let displacement = displaced(&gap, surface.heights().view());
-            return Self { window, slab: surface.grid().slab(), displacement, gap };
+        let (slab, mut gap) = match whole {
+            Some((grid, whole)) => (grid.slab(), whole),
+            None => (surface.grid().slab(), gap),
         };
-        let slab = grid.slab();
-        let (mut displacement, mut gap) = (whole.mapv(T::widen), whole);
-        if let Some(facing) = Window::new(surface, slab) {
-            displacement += &facing.extend(surface.heights().view());
-            gap = facing.place(&facing.cut(&gap, T::infinity()), T::infinity());
+        let mut displacement = gap.mapv(T::widen);
+        match Window::new(surface, slab) {
+            Some(window) => {
+                displacement += &window.extend(surface.heights().view());
+                gap = window.place(&window.cut(&gap, T::infinity()), T::infinity());
+            }
+            None => displacement += surface.heights(),
         }
-        Self { window, slab, displacement, gap }
+        Self { window: surface.grid().shape(), slab, displacement, gap }
     }
 
     /// The start on the grid of another surface and its operator: a gap on the latter.
