@@ -12,20 +12,25 @@ use crate::error::{Error, Result};
 use crate::grid::Grid;
 use crate::problem::{Control, Problem};
 use crate::real::Real;
-use crate::solver::{Iteration, Method, Settings, Solution, Solver, Start, Status};
+use crate::solver::{Begin, Iteration, Method, Observer, Settings, Solution, Solved, Solver, Start, Status};
 use crate::stability::ContactStiffness;
 use crate::surface::Surface;
 
+mod part;
 mod transfer;
 
+use part::Part;
+pub(crate) use transfer::Deformed;
 use transfer::coarsen;
-pub(crate) use transfer::prolong;
 
 /// The resolution measure μ_ρ above which a coarse grid would pin the contact.
 const RESOLVED: f64 = 0.5;
 
-/// The least number of nodes for which nested grids pay at a given load, and at a given mean gap or approach.
+/// The least number of nodes for which nested grids pay at a given load or approach, and at a given mean gap.
 const PAYS: (usize, usize) = (1 << 16, 1 << 18);
+
+/// The tolerance of the solution on a part of the window, as a share of that on the whole.
+const PART: f64 = 0.5;
 
 /// The relative load error at and above which a coarse solution is not used as a start.
 const CARRIED: f64 = 0.5;
@@ -48,6 +53,11 @@ const CARRIED: f64 = 0.5;
 /// The finest grid starts anew, by [`Start::Default`], where the coarsest one is nearly [`closed`](Self::closed), where
 /// a coarser one does not carry its load, and where the solve from the prolonged start has come apart or stalled with
 /// an error above the coarse tolerance.
+///
+/// On a free half-space all contact may be on a part of the window. If all that touches or noticeably attracts in the
+/// start on the finest grid, with a margin, is on half of the nodes or fewer, that part is solved first, as a window of
+/// its own, and the whole from the deformation by the pressure found there: where the part was large enough, that is
+/// the solution already, and an application certifies it.
 ///
 /// Nested grids do not always pay: [`Nested::pays`] says where they are the faster way, by measurement.
 ///
@@ -95,7 +105,8 @@ pub struct Level {
     pub status: Status,
     /// The number of steps.
     pub iterations: usize,
-    /// The number of operator applications, with the one that constructs the problem.
+    /// The number of operator applications, with the one that constructs the problem; those on a part of the window in
+    /// units of one on the whole.
     pub operator_applications: usize,
     /// The certified relative error, [`Report::relative_error`](crate::Report::relative_error).
     pub relative_error: f64,
@@ -189,7 +200,7 @@ impl<C> Nested<C> {
     /// Whether nested grids are the faster way to the same equilibrium, by what was measured
     /// ([`performance`](crate::guide::performance)).
     ///
-    /// That is at a given load from 256² nodes on, and at a given mean gap or approach from 512² on, if there is a
+    /// That is at a given load or approach from 256² nodes on, and at a given mean gap from 512² on, if there is a
     /// coarser grid. Not with adhesion under a tension or with a spring, where there may be several equilibria; and not
     /// with [absent nodes](Surface::with_absent), a law that [varies](crate::Varying), or [`Method::Rey2017`], where it
     /// was not measured.
@@ -205,7 +216,8 @@ impl<C> Nested<C> {
     pub fn pays<T: Real>(&self, surface: &Surface, law: &dyn AdhesionLaw<T>, control: Control) -> bool {
         let (shape, nodes) = (surface.grid().shape(), surface.grid().nodes());
         let least = match control {
-            Control::MeanGap(_) | Control::Approach(_) => PAYS.1,
+            Control::MeanGap(_) => PAYS.1,
+            Control::Approach(_) => PAYS.0,
             Control::MeanPressure(load) | Control::Force(load) if law.is_zero() || load >= 0.0 => PAYS.0,
             Control::Spring { .. } if law.is_zero() => PAYS.0,
             _ => return false,
@@ -236,19 +248,38 @@ impl<C> Nested<C> {
         self.solve_observed(surface, operator, law, control, |_, _| ControlFlow::Continue(()))
     }
 
-    /// Solves as [`Nested::solve`], and calls `observe` with the grid in every iteration. Where it stops a solve, the
-    /// finer grids end with their first iteration.
+    /// Solves as [`Nested::solve`], and calls `observe` with the grid in every iteration, on a part of a window with that
+    /// of the whole. Where it stops a solve, the finer grids end with their first iteration.
     ///
     /// # Errors
     /// Those of [`Nested::solve`].
     pub fn solve_observed<T, O, L>(
         &mut self,
         surface: &Surface,
+        operator: impl FnMut(Grid) -> Result<O>,
+        law: L,
+        control: Control,
+        observe: impl FnMut(&Grid, &Iteration) -> ControlFlow<()> + Send,
+    ) -> Result<NestedSolution<T>>
+    where
+        T: Real,
+        O: ElasticOperator<T>,
+        L: AdhesionLaw<T>,
+        C: ContactConstraint<T>,
+    {
+        let (Solved { solution, .. }, levels) = self.run(surface, operator, law, control, observe)?;
+        Ok(NestedSolution { solution, levels })
+    }
+
+    /// Solves as [`Nested::solve_observed`]; returns the gap on the grid of the operator as well.
+    pub(crate) fn run<T, O, L>(
+        &mut self,
+        surface: &Surface,
         mut operator: impl FnMut(Grid) -> Result<O>,
         law: L,
         control: Control,
         mut observe: impl FnMut(&Grid, &Iteration) -> ControlFlow<()> + Send,
-    ) -> Result<NestedSolution<T>>
+    ) -> Result<(Solved<T>, Vec<Level>)>
     where
         T: Real,
         O: ElasticOperator<T>,
@@ -259,7 +290,8 @@ impl<C> Nested<C> {
         let settings = self.solver.settings;
         let varies = law.shape().is_some();
         let mut surfaces = coarsened(surface, self.coarsest, !varies)?;
-        let (mut levels, mut start): (Vec<Level>, Option<Array2<T>>) = (Vec::new(), None);
+        let rigid = self.solver.constraint.wall().is_rigid();
+        let (mut levels, mut coarser): (Vec<Level>, Option<Deformed<T>>) = (Vec::new(), None);
         let mut stopped = false;
         while let Some(coarse) = surfaces.pop() {
             let ((nx, ny), (cx, cy)) = (surface.grid().shape(), coarse.grid().shape());
@@ -271,8 +303,9 @@ impl<C> Nested<C> {
             let tolerance = self.coarse_tolerance.max(settings.tolerance_in::<T>());
             self.solver.settings = Settings { tolerance: Some(tolerance), ..settings };
             let mut smoothed = false;
-            let begin = start.take().map_or(Start::Default, Start::Near);
-            let result = self.solver.solve_with(&mut problem, control, begin, |iteration| {
+            let prolonged = coarser.take().map(|coarser| coarser.prolonged(&coarse, problem.operator.grid(), rigid));
+            let begin = prolonged.map_or(Begin::At(Start::Default), Begin::Prolonged);
+            let result = self.solver.run(problem.parts(), control, begin, &mut |iteration| {
                 stopped = stopped || observe(coarse.grid(), iteration).is_break();
                 // the equilibrium of the smoothed law is all that the next grid needs
                 let done = smoothed && !iteration.smoothed;
@@ -280,7 +313,7 @@ impl<C> Nested<C> {
                 if stopped || done { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
             });
             self.solver.settings = settings;
-            let solution = result?;
+            let Solved { solution, whole } = result?;
             let stiffness = self.stiffness_of(&mut problem, &solution)?;
             levels.push(Level { stiffness, ..Level::of(&solution, coarse.grid())? });
             if levels.len() == 1 && levels[0].area.contact_fraction > self.closed {
@@ -289,37 +322,91 @@ impl<C> Nested<C> {
             let Solution { gap, report, .. } = solution;
             // a coarse grid that does not carry its load says nothing of a finer one
             if report.load_error < CARRIED && report.status != Status::Detached {
-                let rigid = self.solver.constraint.wall().is_rigid();
-                let finer = surfaces.last().unwrap_or(surface);
-                start = Some(prolong(finer, &coarse, gap, (rigid, report.boundary == Boundary::Periodic)));
+                coarser = Some(Deformed::of(&coarse, gap, whole));
             }
         }
         drop(surfaces);
-        let mut problem = Problem::new(surface, operator(*surface.grid())?, law)?;
+        let half_space = operator(*surface.grid())?;
+        let prolonged = coarser.map(|coarser| coarser.prolonged(surface, half_space.grid(), rigid));
+        let started = prolonged.is_some();
+        let part = match &prolonged {
+            Some(gap) if rigid => {
+                self.solve_part(surface, (&half_space, &mut operator), &law, control, gap, &mut |iteration| {
+                    stopped = stopped || observe(surface.grid(), iteration).is_break();
+                    if stopped { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+                })?
+            }
+            _ => None,
+        };
+        let mut problem = Problem::new(surface, half_space, law)?;
+        let mut spent = part.as_ref().map_or(0, |part| part.2);
+        let begin = match (part, prolonged) {
+            (Some((part, solution, _)), _) if solution.report.status == Status::Converged => {
+                spent += 1;
+                Begin::Found(part.whole(&mut problem, (&solution.gap, &solution.pressure))?)
+            }
+            (_, prolonged) => prolonged.map_or(Begin::At(Start::Default), Begin::Prolonged),
+        };
         let mut finest = |begin| {
-            self.solver.solve_with(&mut problem, control, begin, |iteration| {
+            self.solver.run(problem.parts(), control, begin, &mut |iteration| {
                 stopped = stopped || observe(surface.grid(), iteration).is_break();
                 if stopped { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
             })
         };
-        let started = start.is_some();
-        let mut solution = finest(start.map_or(Start::Default, Start::Near))?;
-        let lost = match solution.report.status {
+        let mut solved = finest(begin)?;
+        let report = &solved.solution.report;
+        let lost = match report.status {
             // at the floor of rounding another start would stall as well
-            Status::Stalled => solution.report.relative_error.max(solution.report.load_error) > self.coarse_tolerance,
+            Status::Stalled => report.relative_error.max(report.load_error) > self.coarse_tolerance,
             status => status == Status::Detached,
         };
-        let mut spent = 0;
         if started && lost {
-            spent = solution.report.operator_applications;
-            drop(solution);
-            solution = finest(Start::Default)?;
+            spent += report.operator_applications;
+            drop(solved);
+            solved = finest(Begin::At(Start::Default))?;
         }
-        let stiffness = self.stiffness_of(&mut problem, &solution)?;
-        let level = Level::of(&solution, surface.grid())?;
+        let stiffness = self.stiffness_of(&mut problem, &solved.solution)?;
+        let level = Level::of(&solved.solution, surface.grid())?;
         let operator_applications = level.operator_applications + spent;
         levels.push(Level { operator_applications, stiffness, ..level });
-        Ok(NestedSolution { solution, levels })
+        Ok((solved, levels))
+    }
+
+    /// The solution on a small part of the window of a free half-space, if all contact is there in a gap prolonged to
+    /// the operator's grid, and the applications that it took, in units of one on that grid.
+    fn solve_part<T, O, L>(
+        &mut self,
+        surface: &Surface,
+        (half_space, operator): (&O, &mut impl FnMut(Grid) -> Result<O>),
+        law: &L,
+        control: Control,
+        gap: &Array2<T>,
+        observe: Observer<'_>,
+    ) -> Result<Option<(Part, Solution<T>, usize)>>
+    where
+        T: Real,
+        O: ElasticOperator<T>,
+        L: AdhesionLaw<T>,
+        C: ContactConstraint<T>,
+    {
+        let fits = half_space.boundary() != Boundary::Periodic
+            && surface.absent().is_none()
+            && law.shape().is_none()
+            && !surface.grid().is_shared();
+        let part = if fits { Part::of(surface.grid().shape(), gap, law) } else { None };
+        let Some(part) = part else { return Ok(None) };
+        let small = part.surface(surface)?;
+        let mut problem = Problem::new(&small, operator(*small.grid())?, law)?;
+        let share = problem.operator.grid().nodes() as f64 / half_space.grid().nodes() as f64;
+        let settings = self.solver.settings;
+        let tolerance = PART * settings.tolerance_in::<T>();
+        self.solver.settings = Settings { tolerance: Some(tolerance), ..settings };
+        let start = Begin::At(Start::Near(part.cut(gap).to_owned()));
+        let result = self.solver.run(problem.parts(), part.control(control, surface), start, observe);
+        self.solver.settings = settings;
+        let solution = result?.solution;
+        let applications = (share * (solution.report.operator_applications + 1) as f64).ceil() as usize;
+        Ok(Some((part, solution, applications)))
     }
 
     /// The contact stiffness of a solution, if it is asked for and the solve was not stopped.

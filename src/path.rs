@@ -14,7 +14,7 @@ use crate::error::{Error, Result};
 use crate::problem::{Control, Parts, Problem, smoothed_law};
 use crate::real::Real;
 use crate::solver::{
-    Iteration, Least, Observer, Potential, Solution, Solver, Start, Status, bounded, check_wall, refuse_springs,
+    Begin, Iteration, Least, Observer, Potential, Solution, Solver, Start, Status, bounded, check_wall, refuse_springs,
 };
 use crate::stability::Watch;
 
@@ -302,7 +302,7 @@ where
         let smoothed = if self.settings.smooth && start.is_some() { smoothed_law(&*operator, law) } else { None };
         let parts = Parts { operator, law: smoothed.as_deref().unwrap_or(law), flat };
         let start = start.map_or(Start::Default, |gap| Start::From(gap));
-        self.solver.run(parts, control, start, observe)
+        self.solver.run(parts, control, Begin::At(start), observe).map(|solved| solved.solution)
     }
 
     /// One step; `None` if it has to be taken back and halved.

@@ -32,9 +32,10 @@ pub(crate) use coarse::Coarse;
 use driver::Job;
 pub(crate) use driver::Observer;
 pub(crate) use potential::{Least, Of, Potential, bounded};
+pub(crate) use report::Solved;
 pub use report::{Iteration, Report, Solution, Status};
 pub use start::Start;
-pub(crate) use start::{check_wall, refuse_springs};
+pub(crate) use start::{Begin, check_wall, refuse_springs};
 
 /// The method of iteration, one of two.
 ///
@@ -264,7 +265,7 @@ impl<C> Solver<C> {
         L: AdhesionLaw<T>,
         C: ContactConstraint<T>,
     {
-        self.run(problem.parts(), control, start, &mut observe)
+        self.run(problem.parts(), control, Begin::At(start), &mut observe).map(|solved| solved.solution)
     }
 
     /// Solves as [`Solver::solve_with`], for the parts of a problem.
@@ -272,14 +273,14 @@ impl<C> Solver<C> {
         &'a mut self,
         problem: Parts<'a, T>,
         control: Control,
-        start: Start<'a, T>,
+        begin: Begin<'a, T>,
         observe: Observer<'a>,
-    ) -> Result<Solution<T>>
+    ) -> Result<Solved<T>>
     where
         C: ContactConstraint<T>,
     {
         let Self { settings, constraint } = self;
         let Parts { operator, law, flat } = problem;
-        driver::solve(operator, Job { law, flat, constraint, control, settings: *settings, start, observe })
+        driver::solve(operator, Job { law, flat, constraint, control, settings: *settings, begin, observe })
     }
 }

@@ -12,10 +12,10 @@ use crate::constraint::{ContactConstraint, Projection};
 use crate::elastic::{Boundary, ElasticOperator};
 use crate::error::{Error, Result};
 use crate::grid::Grid;
-use crate::nested::{Level, Nested, NestedSolution, equivalent_applications, prolong};
+use crate::nested::{Deformed, Level, Nested, equivalent_applications};
 use crate::problem::{Control, Problem};
 use crate::real::Real;
-use crate::solver::{Iteration, Solution, Solver, Start, Status};
+use crate::solver::{Begin, Iteration, Solution, Solved, Solver, Status};
 use crate::stability::ContactStiffness;
 use crate::surface::Surface;
 
@@ -303,8 +303,8 @@ impl<C> Accuracy<C> {
         L: AdhesionLaw<T>,
         C: ContactConstraint<T>,
     {
-        let found = self.nested.solve_observed(surface, &mut *operator, law, control, &mut *observe)?;
-        let NestedSolution { mut solution, mut levels, .. } = found;
+        let (Solved { mut solution, mut whole }, mut levels) =
+            self.nested.run(surface, &mut *operator, law, control, &mut *observe)?;
         let periodic = solution.report.boundary == Boundary::Periodic;
         let mut waves = surface.nodes_per_wave(solution.report.boundary);
         let mut surface = surface.clone();
@@ -325,13 +325,12 @@ impl<C> Accuracy<C> {
             }
             let fine = refined(&surface, periodic)?;
             let rigid = self.nested.solver.constraint.wall().is_rigid();
-            let start = prolong(&fine, &surface, solution.gap, (rigid, periodic));
+            let start = Deformed::of(&surface, solution.gap, whole).prolonged(&fine, half_space.grid(), rigid);
             let mut problem = Problem::new(&fine, half_space, law)?;
             let grid = *fine.grid();
-            solution = self
-                .nested
-                .solver
-                .solve_with(&mut problem, control, Start::Near(start), |iteration| observe(&grid, iteration))?;
+            let begin = Begin::Prolonged(start);
+            Solved { solution, whole } =
+                self.nested.solver.run(problem.parts(), control, begin, &mut |iteration| observe(&grid, iteration))?;
             let stiffness = self.nested.stiffness_of(&mut problem, &solution)?;
             levels.push(Level { stiffness, ..Level::of(&solution, &grid)? });
             (surface, waves) = (fine, 2.0 * waves);

@@ -1,10 +1,12 @@
 //! The free elastic half-space, loaded on a window: Love's kernel, on a padded grid.
 
 use std::f64::consts::PI;
+use std::ops::Range;
 
 use super::*;
 use crate::fft::even_modes;
 use crate::par;
+use crate::slab::TILE;
 
 /// The homogeneous elastic half-space under loads on a window alone: nothing repeats, and beyond the window the surface
 /// of the half-space is free.
@@ -90,34 +92,67 @@ fn padded(n: usize) -> usize {
 }
 
 /// The displacement of every node by a unit pressure on the cell of node (0, 0), at the shorter distance.
-fn kernel(grid: &Grid, (a, b): (f64, f64), modulus: f64) -> Array2<f64> {
-    let (shape, first) = (grid.shape(), grid.rows().start);
+fn kernel(grid: &Grid, cell: (f64, f64), modulus: f64) -> Array2<f64> {
+    let ((nx, ny), rows) = (grid.shape(), grid.rows());
+    let distance = |i: usize| i.min(nx - i);
+    let nearest = rows.clone().map(distance).min().unwrap_or_default();
+    let farthest = rows.clone().map(distance).max().unwrap_or_default();
+    let quadrant = quadrant(nearest..farthest + 1, ny / 2 + 1, cell);
     let mut kernel = Array2::zeros(grid.field_shape());
-    par::for_each(par::chunks_mut(field::flat_mut(&mut kernel), shape.1), |i, row| {
-        let i = first + i;
-        let x = 2.0 * a * i.min(shape.0 - i) as f64;
-        for (j, value) in row.iter_mut().enumerate() {
-            let y = 2.0 * b * j.min(shape.1 - j) as f64;
-            *value = love((x, y), (a, b)) / (PI * modulus);
-        }
+    par::for_each(par::chunks_mut(field::flat_mut(&mut kernel), ny), |i, row| {
+        let quadrant = quadrant.row(distance(rows.start + i) - nearest);
+        row.iter_mut().enumerate().for_each(|(j, value)| *value = quadrant[j.min(ny - j)] / (PI * modulus));
     });
     kernel
 }
 
-/// The sum of Love's four terms, for x ≥ 0 and y ≥ 0.
-fn love((x, y): (f64, f64), (a, b): (f64, f64)) -> f64 {
-    let term = |t: f64, high: f64, low: f64| if t == 0.0 { 0.0 } else { t * asinh_difference(high, low, t.abs()) };
-    (term(x + a, y + b, y - b) - term(x - a, y + b, y - b)) + (term(y + b, x + a, x - a) - term(y - b, x + a, x - a))
+/// The sum of Love's four terms at nodes of the first quadrant: in some rows, for so many columns from the first on.
+///
+/// Each term belongs to an edge of a cell, and is that of the next cell as well, with the other sign.
+fn quadrant(rows: Range<usize>, columns: usize, (a, b): (f64, f64)) -> Array2<f64> {
+    let (x, y) = (|i: usize| (2 * i + 1) as f64 * a, |j: usize| (2 * j + 1) as f64 * b);
+    // the farthest corners of the cells of a row from the origin, and the terms of the edges that end there along y
+    let edges = |i: usize, edges: &mut [(f64, f64)]| {
+        let mut near = 0.0;
+        for (j, edge) in edges.iter_mut().enumerate() {
+            let far = x(i).hypot(y(j));
+            *edge = (far, term(x(i), (y(j), 2.0 * b), (far, near)));
+            near = far;
+        }
+    };
+    let mut quadrant = Array2::zeros((rows.len(), columns));
+    par::for_each(par::chunks_mut(field::flat_mut(&mut quadrant), TILE * columns), |tile, values| {
+        let first = rows.start + tile * TILE;
+        let (mut before, mut here) = (vec![(0.0, 0.0); columns], vec![(0.0, 0.0); columns]);
+        if first > 0 {
+            edges(first - 1, &mut before);
+        }
+        for (i, row) in (first..).zip(values.chunks_mut(columns)) {
+            edges(i, &mut here);
+            let mut last = 0.0;
+            for (j, value) in row.iter_mut().enumerate() {
+                let ((far, along_y), (near, opposite_y)) = (here[j], before[j]);
+                let along_x = term(y(j), (x(i), 2.0 * a), (far, near));
+                // the cells at an axis have their opposite edges beyond it
+                let opposite_y = if i == 0 { -along_y } else { opposite_y };
+                let opposite_x = if j == 0 { -along_x } else { last };
+                *value = (along_y - opposite_y) + (along_x - opposite_x);
+                last = along_x;
+            }
+            std::mem::swap(&mut before, &mut here);
+        }
+    });
+    quadrant
 }
 
-/// asinh(s/t) − asinh(s'/t) for s > s' and t > 0, without cancellation.
-fn asinh_difference(high: f64, low: f64, t: f64) -> f64 {
-    if low <= 0.0 {
-        return (high / t).asinh() - (low / t).asinh();
+/// Love's term f(t; s, s − width) without cancellation, for an edge that begins beyond the axis, at the distance `near`
+/// from the origin, and ends at the distance `far`, or one with the axis in its middle.
+fn term(t: f64, (s, width): (f64, f64), (far, near): (f64, f64)) -> f64 {
+    let low = s - width;
+    match low > 0.0 {
+        true => t * ((width + width * (s + low) / (far + near)) / (low + near)).ln_1p(),
+        false => 2.0 * t * (s / t).asinh(),
     }
-    let (far, near) = (high.hypot(t), low.hypot(t));
-    let width = high - low;
-    ((width + width * (high + low) / (far + near)) / (low + near)).ln_1p()
 }
 
 #[cfg(test)]
@@ -129,30 +164,33 @@ mod tests {
         assert_eq!([2, 3, 7, 8, 12, 33, 65, 100, 512].map(padded), [4, 6, 16, 16, 24, 72, 144, 200, 1024]);
     }
 
+    /// The sum of Love's terms at a node.
+    fn love((i, j): (usize, usize), cell: (f64, f64)) -> f64 {
+        quadrant(i..i + 1, j + 1, cell)[[0, j]]
+    }
+
     #[test]
     fn the_kernel_is_that_of_a_point_force_far_away_and_of_a_square_at_its_centre() {
         // the next term of the far field is of second order in a/r, and vanishes on the diagonal of square cells
-        let far = love((3e4, 4e4), (0.5, 0.5));
+        let far = love((30_000, 40_000), (0.5, 0.5));
         assert!((far * 5e4 - 1.0).abs() < 1e-10, "{far}");
-        let far = love((3e4, 3e4), (0.5, 0.5));
+        let far = love((30_000, 30_000), (0.5, 0.5));
         assert!((far * 3e4 * 2f64.sqrt() - 1.0).abs() < 1e-10, "{far}");
-        let centre = love((0.0, 0.0), (0.5, 0.5));
+        let centre = love((0, 0), (0.5, 0.5));
         assert!((centre - 4.0 * (1.0 + 2f64.sqrt()).ln()).abs() < 1e-15, "{centre}");
     }
 
     #[test]
     fn pieces_of_a_cell_displace_as_the_cell_does() {
-        // a cell of 2a × 2b in four, at points inside, at its corner and outside
+        // cells of 2a × 2b, each of nine of a third of its sides
         let (a, b) = (0.7, 0.2);
-        for (x, y) in [(0.0, 0.0), (0.3, 0.1), (0.7, 0.2), (3.0, 0.0), (0.0, 5.0), (40.0, 30.0)] {
-            let pieces: f64 = [(-1.0, -1.0), (-1.0, 1.0), (1.0, -1.0), (1.0, 1.0)]
-                .iter()
-                .map(|(sx, sy): &(f64, f64)| {
-                    love(((x - 0.5 * sx * a).abs(), (y - 0.5 * sy * b).abs()), (0.5 * a, 0.5 * b))
-                })
-                .sum();
-            let whole = love((x, y), (a, b));
-            assert!((pieces / whole - 1.0).abs() < 1e-12, "{pieces} {whole}");
+        let (whole, pieces) = (quadrant(0..50, 70, (a, b)), quadrant(0..150, 210, (a / 3.0, b / 3.0)));
+        for (i, j) in [(0, 0), (0, 1), (1, 0), (1, 1), (0, 69), (49, 0), (31, 7), (32, 7), (49, 69)] {
+            let near = |i: usize| [(3 * i).abs_diff(1), 3 * i, 3 * i + 1];
+            let sum: f64 = near(i).iter().flat_map(|&p| near(j).map(|q| pieces[[p, q]])).sum();
+            assert!((sum / whole[[i, j]] - 1.0).abs() < 1e-12, "{i} {j}: {sum} {}", whole[[i, j]]);
         }
+        // whatever the rows that are asked for
+        assert!(quadrant(17..50, 70, (a, b)).rows().into_iter().eq(whole.rows().into_iter().skip(17)));
     }
 }

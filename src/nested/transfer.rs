@@ -1,13 +1,17 @@
 //! Heights and gaps from one grid to another: a surface on a coarser one, and the solution there as a start on the
 //! finer.
 
-use ndarray::{Array2, ArrayView2};
+use std::collections::BTreeSet;
+
+use ndarray::{Array2, ArrayView2, CowArray};
 
 use crate::error::Result;
 use crate::field::flat_mut;
 use crate::grid::Grid;
 use crate::par;
+use crate::problem::Window;
 use crate::real::Real;
+use crate::slab::Slab;
 use crate::surface::Surface;
 
 /// The share of the exact ratio of gaps: the best start has a little more contact.
@@ -17,12 +21,14 @@ const WIDER: f64 = 0.77;
 pub(super) fn coarsen(surface: &Surface, shape: (usize, usize)) -> Result<Option<Surface>> {
     let grid = Grid::new(shape, surface.grid().lengths())?.shared_as(surface.grid())?;
     let (nx, ny) = surface.grid().shape();
-    let [mut along_x, along_y] = [(nx, shape.0), (ny, shape.1)].map(|(from, to)| places(from, to, true));
-    let needed = fetched(surface.heights().view(), surface.grid(), &grid, &mut along_x);
+    let sides = [(nx, shape.0), (ny, shape.1)].map(|(from, to)| [from, to].map(Side::periodic));
+    let [mut along_x, along_y] = sides.map(|[from, to]| places(from, to));
+    let slabs = [surface.grid().slab(), grid.slab()];
+    let needed = fetched(surface.heights().view(), slabs, &mut along_x);
     let heights = needed.as_ref().unwrap_or(surface.heights());
     let fetch_absent = |absent: &Array2<bool>| {
         let flags = absent.mapv(f64::from);
-        fetched(flags.view(), surface.grid(), &grid, &mut places(nx, shape.0, true)).unwrap_or(flags)
+        fetched(flags.view(), slabs, &mut places(sides[0][0], sides[0][1])).unwrap_or(flags)
     };
     let absent = surface.absent().map(fetch_absent);
     let faces = |i, j| absent.as_ref().is_none_or(|absent| absent[[i, j]] == 0.0);
@@ -39,25 +45,21 @@ pub(super) fn coarsen(surface: &Surface, shape: (usize, usize)) -> Result<Option
 
 /// The rows of a field on one grid that this process needs for its rows of another one, where several processes share
 /// them, and the places of these rows among them.
-fn fetched(field: ArrayView2<'_, f64>, from: &Grid, to: &Grid, places: &mut Vec<Place>) -> Option<Array2<f64>> {
+fn fetched(field: ArrayView2<'_, f64>, [from, to]: [Slab; 2], places: &mut Vec<Place>) -> Option<Array2<f64>> {
     if !from.is_shared() {
         return None;
     }
-    let nx = from.shape().0;
-    // from the node before the first place to the second one after the last
-    let needed = |rank| {
-        let rows = to.slab().rows_of(rank);
-        let at = |k: usize| k * nx / to.shape().0;
-        let (first, count) =
-            if rows.is_empty() { (0, 0) } else { (at(rows.start), at(rows.end - 1) - at(rows.start) + 4) };
-        (first + nx - 1..).map(move |row| row % nx).take(count)
+    let needed = |rank: usize| {
+        let rows: BTreeSet<_> = to.rows_of(rank).flat_map(|row| places[row].nodes).collect();
+        rows.into_iter().collect::<Vec<_>>()
     };
-    let first = needed(to.slab().ranks().rank()).next().unwrap_or_default();
+    let needed: Vec<_> = (0..to.ranks().count()).map(needed).collect();
+    let own = &needed[to.ranks().rank()];
     *places = places.drain(..).skip(to.rows().start).take(to.rows().len()).collect();
-    for place in &mut *places {
-        place.nodes.iter_mut().for_each(|node| *node = (*node + nx - first) % nx);
+    for node in places.iter_mut().flat_map(|place| &mut place.nodes) {
+        *node = own.partition_point(|row| row < node);
     }
-    Some(from.slab().fetch(field, needed))
+    Some(from.fetch(field, |rank| needed[rank].iter().copied()))
 }
 
 /// The place of a node among those of another grid along a side.
@@ -91,6 +93,9 @@ impl Place {
         match (left <= 0.0, right <= 0.0) {
             _ if self.is_node() => left <= 0.0,
             (true, true) => true,
+            // up to where nothing faces the half-space
+            (true, false) if right.is_infinite() => true,
+            (false, true) if left.is_infinite() => true,
             (true, false) => after.is_finite() && after >= self.edges[0] * right,
             (false, true) => before.is_finite() && before >= self.edges[1] * left,
             (false, false) => false,
@@ -98,14 +103,35 @@ impl Place {
     }
 }
 
-/// The places of `to` nodes among `from` nodes along a side; beyond a free boundary is the last node again.
-fn places(from: usize, to: usize, periodic: bool) -> Vec<Place> {
+/// The nodes along a side: those of the window, the first ones, and those of the operator's grid.
+#[derive(Clone, Copy)]
+struct Side {
+    window: usize,
+    whole: usize,
+}
+
+impl Side {
+    /// The sides of a window on a grid.
+    fn of(window: (usize, usize), whole: (usize, usize)) -> [Self; 2] {
+        [Self { window: window.0, whole: whole.0 }, Self { window: window.1, whole: whole.1 }]
+    }
+
+    fn periodic(nodes: usize) -> Self {
+        Self { window: nodes, whole: nodes }
+    }
+}
+
+/// The places of the nodes of one grid among those of another along a side. The windows are as long; beyond them, a
+/// node in the first half has its distance from the end of the window, and one in the second half that from its start.
+fn places(from: Side, to: Side) -> Vec<Place> {
     let place = |k: usize| {
-        let (i, t) = (k * from / to, (k * from % to) as f64 / to as f64);
-        let node = |shift: usize| match periodic {
-            true => (i + from + shift - 1) % from,
-            false => (i + shift).clamp(1, from) - 1,
+        // in nodes, times those of the window
+        let place = match 2 * k <= to.window + to.whole {
+            true => k * from.window,
+            false => (from.whole * to.window).saturating_sub((to.whole - k) * from.window),
         };
+        let (i, t) = (place / to.window, (place % to.window) as f64 / to.window as f64);
+        let nodes = [0, 1, 2, 3].map(|shift| (i + from.whole + shift - 1) % from.whole);
         let weights = [
             -t * (t - 1.0) * (t - 2.0) / 6.0,
             (t + 1.0) * (t - 1.0) * (t - 2.0) / 2.0,
@@ -114,53 +140,84 @@ fn places(from: usize, to: usize, periodic: bool) -> Vec<Place> {
         ];
         // gaps grow with the power 3/2 of the distance to an edge at the place
         let edge = |t: f64| WIDER * ((2.0 - t) / (1.0 - t)).powf(1.5);
-        Place { nodes: [0, 1, 2, 3].map(node), weights, edges: [edge(t), edge(1.0 - t)] }
+        Place { nodes, weights, edges: [edge(t), edge(1.0 - t)] }
     };
-    (0..to).map(place).collect()
+    (0..to.whole).map(place).collect()
 }
 
-/// The gap prolonged to the grid of a finer surface.
-pub(crate) fn prolong<T: Real>(
-    surface: &Surface,
-    coarse: &Surface,
+/// A solution on one grid as the start on another one: the deformed half-space, on the grid of its operator.
+pub(crate) struct Deformed<T> {
+    /// the nodes of the window
+    window: (usize, usize),
+    slab: Slab,
+    /// the displacement u = g + h
+    displacement: Array2<f64>,
+    /// infinite where nothing faces the half-space
     gap: Array2<T>,
-    (projects, periodic): (bool, bool),
-) -> Array2<T> {
-    let ((cx, cy), (nx, ny)) = (coarse.grid().shape(), surface.grid().shape());
-    let (mut along_x, along_y, coarse_y) = (places(cx, nx, periodic), places(cy, ny, periodic), places(ny, cy, true));
-    let heights = surface.heights();
-    let grids = (coarse.grid(), surface.grid());
-    let coarse_heights = fetched(coarse.heights().view(), grids.0, grids.1, &mut places(cx, nx, periodic));
-    let coarse_heights = coarse_heights.as_ref().unwrap_or(coarse.heights());
-    let gap = match grids.0.is_shared() {
-        true => fetched(gap.mapv(T::widen).view(), grids.0, grids.1, &mut along_x).map(|gap| gap.mapv(T::lit)),
-        false => None,
+}
+
+impl<T: Real> Deformed<T> {
+    /// The half-space under a surface, from the gap, and from that on the operator's grid if it is another one.
+    pub(crate) fn of(surface: &Surface, gap: Array2<T>, whole: Option<(Grid, Array2<T>)>) -> Self {
+        let (slab, mut gap) = match whole {
+            Some((grid, whole)) => (grid.slab(), whole),
+            None => (surface.grid().slab(), gap),
+        };
+        let mut displacement = gap.mapv(T::widen);
+        match Window::new(surface, slab) {
+            Some(window) => {
+                displacement += &window.extend(surface.heights().view());
+                gap = window.place(&window.cut(&gap, T::infinity()), T::infinity());
+            }
+            None => displacement += surface.heights(),
+        }
+        Self { window: surface.grid().shape(), slab, displacement, gap }
     }
-    .unwrap_or(gap);
-    // where nothing faces the half-space, a start need not be good
-    let gap_at = |i: usize, j: usize| Some(gap[[i, j]].widen()).filter(|gap| gap.is_finite()).unwrap_or(0.0);
-    let mut fine = Array2::zeros(surface.grid().field_shape());
-    par::for_each(par::chunks_mut(flat_mut(&mut fine), ny), |i, row| {
-        let x = &along_x[i];
-        // displacement and gap along the row, at the coarse nodes of y
-        let mut line = vec![(0.0, 0.0); cy];
-        for (j, node) in line.iter_mut().enumerate() {
-            let u = x.cubic(|k| gap_at(k, j) + coarse_heights[[k, j]]);
-            let height = coarse_y[j].cubic(|k| heights[[i, k]]);
-            let apart = if projects { (u - height).max(0.0) } else { u - height };
-            let touches = projects && x.touches(|k| gap[[k, j]].widen());
-            *node = if touches { (height, 0.0) } else { (apart + height, apart) };
-        }
-        for (k, (g, y)) in row.iter_mut().zip(&along_y).enumerate() {
-            let apart = y.cubic(|j| line[j].0) - heights[[i, k]];
-            *g = match projects {
-                true if y.touches(|j| line[j].1) => T::zero(),
-                true => T::lit(apart.max(0.0)),
-                false => T::lit(apart),
-            };
-        }
-    });
-    fine
+
+    /// The start on the grid of another surface and its operator: a gap on the latter.
+    pub(crate) fn prolonged(self, surface: &Surface, grid: &Grid, projects: bool) -> Array2<T> {
+        let Self { window, slab, displacement, gap } = self;
+        let facing = Window::new(surface, grid.slab());
+        let heights: CowArray<'_, f64, _> = match &facing {
+            Some(facing) => facing.extend(surface.heights().view()).into(),
+            None => surface.heights().view().into(),
+        };
+        let [from, to] = [Side::of(window, slab.shape()), Side::of(surface.grid().shape(), grid.shape())];
+        let (mut along_x, along_y, back_y) = (places(from[0], to[0]), places(from[1], to[1]), places(to[1], from[1]));
+        let slabs = [slab, grid.slab()];
+        let gap =
+            fetched(gap.mapv(T::widen).view(), slabs, &mut places(from[0], to[0])).map_or(gap, |gap| gap.mapv(T::lit));
+        let displacement = fetched(displacement.view(), slabs, &mut along_x).unwrap_or(displacement);
+        let (width, first) = (grid.shape().1, grid.slab().first_node());
+        let faces = |node: usize| facing.as_ref().is_none_or(|facing| facing.faces(first + node));
+        let mut fine = Array2::zeros(grid.field_shape());
+        par::for_each(par::chunks_mut(flat_mut(&mut fine), width), |i, row| {
+            let x = &along_x[i];
+            // displacement and gap along the row, at the coarse nodes of y
+            let mut line = vec![(0.0, 0.0); back_y.len()];
+            for (j, node) in line.iter_mut().enumerate() {
+                let u = x.cubic(|k| displacement[[k, j]]);
+                let height = back_y[j].cubic(|k| heights[[i, k]]);
+                let faces = faces(i * width + back_y[j].nodes[1]);
+                let apart = if projects && faces { (u - height).max(0.0) } else { u - height };
+                let touches = projects && x.touches(|k| gap[[k, j]].widen());
+                *node = match faces {
+                    true if touches => (height, 0.0),
+                    true => (apart + height, apart),
+                    false => (u, f64::INFINITY),
+                };
+            }
+            for (k, (g, y)) in row.iter_mut().zip(&along_y).enumerate() {
+                let apart = y.cubic(|j| line[j].0) - heights[[i, k]];
+                *g = match projects && faces(i * width + k) {
+                    true if y.touches(|j| line[j].1) => T::zero(),
+                    true => T::lit(apart.max(0.0)),
+                    false => T::lit(apart),
+                };
+            }
+        });
+        fine
+    }
 }
 
 #[cfg(test)]
@@ -169,13 +226,27 @@ mod tests {
 
     #[test]
     fn an_edge_is_where_gaps_open_with_the_power_three_halves() {
-        let place = &places(4, 8, false)[3]; // half-way between nodes 1 and 2
+        let place = &places(Side::periodic(4), Side::periodic(8))[3]; // half-way between nodes 1 and 2
         // with the share of the ratio that is asked for, the place touches if the edge is not farther than 0.16 before
         // it
         for edge in [1.05, 1.2, 1.3, 1.4, 1.6, 1.75, 1.95] {
             let gap = |x: f64| (x - edge).max(0.0).powf(1.5);
             assert_eq!(place.touches(|i| gap(i as f64)), edge > 1.34, "{edge}");
             assert_eq!(place.touches(|i| gap(3.0 - i as f64)), edge > 1.34, "{edge}");
+        }
+    }
+
+    #[test]
+    fn nodes_beyond_the_window_keep_their_distance_from_its_end_or_start() {
+        let (coarse, fine) = (Side { window: 10, whole: 24 }, Side { window: 20, whole: 45 });
+        for (k, place) in places(coarse, fine).iter().enumerate() {
+            // from the start of the window, or from that of the next one
+            let (start, distance) = if k <= 32 { (0.0, 0.5 * k as f64) } else { (24.0, 0.5 * (k as f64 - 45.0)) };
+            let [before, at, ..] = place.nodes;
+            let unwrapped = |shift: usize| (at + shift) as f64 - 1.0;
+            let found: f64 = place.weights.iter().enumerate().map(|(shift, weight)| weight * unwrapped(shift)).sum();
+            assert!((found - start - distance).abs() < 1e-13, "{k}: {found}");
+            assert_eq!((before + 1) % 24, at);
         }
     }
 
@@ -192,7 +263,7 @@ mod tests {
                 Array2::from_shape_fn((nx, ny), |(i, j)| 2.0 + turn(i, nx).sin() * turn(j, ny).cos())
             };
             let (gap, exact) = (wave(coarse.grid()) - coarse.heights(), wave(&grid) - surface.heights());
-            let fine = prolong(&surface, &coarse, gap, (true, true));
+            let fine = Deformed::of(&coarse, gap, None).prolonged(&surface, &grid, true);
             // the error of the cubic in the middle, 3/128 of the fourth derivative, along both sides
             let spacing = std::f64::consts::TAU / 16.0;
             let worst = (&fine - &exact).iter().fold(0.0_f64, |worst, e| worst.max(e.abs()));
@@ -206,7 +277,7 @@ mod tests {
         let surface = Surface::wave_2d(grid, 0.1, 3).unwrap();
         let coarse = coarsen(&surface, (8, 8)).unwrap().unwrap();
         let gap = Array2::from_shape_fn((8, 8), |(i, _)| if i < 4 { 0.0_f32 } else { 1.0 });
-        let fine = prolong(&surface, &coarse, gap, (true, true));
+        let fine = Deformed::of(&coarse, gap, None).prolonged(&surface, &grid, true);
         assert!(fine.rows().into_iter().take(7).all(|row| row.iter().all(|&g| g == 0.0)));
         assert!(fine.rows().into_iter().skip(8).step_by(2).all(|row| row.iter().all(|&g| g > 0.0)));
     }

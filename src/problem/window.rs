@@ -41,7 +41,7 @@ struct Run {
 
 impl Window {
     /// The window of a surface; none if every node of the operator's grid faces it.
-    pub(super) fn new(surface: &Surface, slab: Slab) -> Option<Self> {
+    pub(crate) fn new(surface: &Surface, slab: Slab) -> Option<Self> {
         let grid = *surface.grid();
         let ((nx, ny), (whole, width)) = (grid.shape(), slab.shape());
         if (nx, ny) == (whole, width) && surface.absent().is_none() {

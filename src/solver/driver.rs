@@ -6,8 +6,8 @@ use std::ops::ControlFlow;
 
 use super::minimisation::Goal;
 use super::operators::{One, Operators, Two};
-use super::report::{Iteration, Solution, Status};
-use super::start::Start;
+use super::report::{Iteration, Solved, Status};
+use super::start::Begin;
 use super::state::State;
 use super::{Method, Settings};
 use crate::adhesion::AdhesionLaw;
@@ -25,7 +25,7 @@ pub(super) struct Job<'a, T> {
     pub(super) constraint: &'a mut dyn ContactConstraint<T>,
     pub(super) control: Control,
     pub(super) settings: Settings,
-    pub(super) start: Start<'a, T>,
+    pub(super) begin: Begin<'a, T>,
     pub(super) observe: Observer<'a>,
 }
 
@@ -61,7 +61,7 @@ pub(super) enum End {
 }
 
 /// Solves a problem, compiled once for each precision.
-pub(super) fn solve<'a, T: Real>(operator: &'a mut dyn ElasticOperator<T>, job: Job<'a, T>) -> Result<Solution<T>> {
+pub(super) fn solve<'a, T: Real>(operator: &'a mut dyn ElasticOperator<T>, job: Job<'a, T>) -> Result<Solved<T>> {
     par::within(|| T::call::<Solve<'a>>((operator, job)))
 }
 
@@ -69,11 +69,11 @@ struct Solve<'a>(PhantomData<&'a ()>);
 
 impl<'a> Compiled for Solve<'a> {
     type Input<T: Real> = (&'a mut dyn ElasticOperator<T>, Job<'a, T>);
-    type Output<T: Real> = Result<Solution<T>>;
-    fn single((operator, job): Self::Input<f32>) -> Result<Solution<f32>> {
+    type Output<T: Real> = Result<Solved<T>>;
+    fn single((operator, job): Self::Input<f32>) -> Result<Solved<f32>> {
         run(&mut One(operator), job)
     }
-    fn double((operator, job): Self::Input<f64>) -> Result<Solution<f64>> {
+    fn double((operator, job): Self::Input<f64>) -> Result<Solved<f64>> {
         let two = job.settings.method == Method::Preconditioned && !job.is_light() && !job.has_no_wall();
         match operator.in_single().filter(|_| two) {
             Some(corrections) => run(&mut Two::new(operator, corrections), job),
@@ -82,15 +82,15 @@ impl<'a> Compiled for Solve<'a> {
     }
 }
 
-fn run<T: Real, L: Real>(operators: &mut dyn Operators<T, L>, job: Job<'_, T>) -> Result<Solution<T>> {
-    let Job { law, flat, constraint, control, settings, start, observe } = job;
+fn run<T: Real, L: Real>(operators: &mut dyn Operators<T, L>, job: Job<'_, T>) -> Result<Solved<T>> {
+    let Job { law, flat, constraint, control, settings, begin, observe } = job;
     let held = flat.window.as_ref().and_then(|window| law.in_rows_of(window.held()));
     let law = held.as_deref().unwrap_or(law);
     Error::positive("tolerance", settings.tolerance_in::<T>())?;
-    let (default_start, near) = (matches!(start, Start::Default), matches!(start, Start::Near(_)));
+    let (default_start, near) = (begin.is_default(), begin.is_near());
     let smooth = (near || default_start) && settings.method == Method::Preconditioned;
     let smoothed = if smooth { smoothed_law(operators.state(), law) } else { None };
-    let mut state = State::new(operators, law, flat, constraint, control, start.into_gap(), settings)?;
+    let mut state = State::new(operators, law, flat, constraint, control, begin, settings)?;
     if near {
         state.stays_near();
     }

@@ -4,7 +4,7 @@ use ndarray::Array2;
 
 use super::passes::Fields;
 use super::potential::Potential;
-use super::report::{Report, Solution, Status};
+use super::report::{Report, Solution, Solved, Status};
 use super::state::State;
 use crate::adhesion::noticeable;
 use crate::elastic::Boundary;
@@ -20,7 +20,7 @@ const EDGE: f64 = 1e-3;
 
 impl<T: Real, L: Real> State<'_, T, L> {
     /// The solution: the final fields, and the report on them.
-    pub(super) fn finish(mut self, status: Status) -> Result<Solution<T>> {
+    pub(super) fn finish(mut self, status: Status) -> Result<Solved<T>> {
         if self.age > 0 {
             self.refresh()?;
             self.certificate = f64::INFINITY;
@@ -97,9 +97,13 @@ impl<T: Real, L: Real> State<'_, T, L> {
             criterion: self.settings.criterion,
             tolerance: self.settings.tolerance_in::<T>(),
         };
+        let grid = *self.operators.state().grid();
         let Fields { gap, pressure, .. } = self.fields;
-        let Some(window) = &flat.window else { return Ok(Solution { gap, pressure, contact_pressure, report }) };
-        let gap = window.crop(&gap, T::infinity());
+        let Some(window) = &flat.window else {
+            return Ok(Solved { solution: Solution { gap, pressure, contact_pressure, report }, whole: None });
+        };
+        let whole = (grid, gap);
+        let gap = window.crop(&whole.1, T::infinity());
         let pressure = window.crop(&pressure, T::zero());
         let contact_pressure = window.crop(&contact_pressure, T::zero());
         if flat.boundary != Boundary::Periodic {
@@ -114,7 +118,7 @@ impl<T: Real, L: Real> State<'_, T, L> {
             let touches = grid.slab().has(edge(&gap, grid).any(|gap| gap <= T::zero()));
             report.reaches_edge = !apart && (share > EDGE || touches);
         }
-        Ok(Solution { gap, pressure, contact_pressure, report })
+        Ok(Solved { solution: Solution { gap, pressure, contact_pressure, report }, whole: Some(whole) })
     }
 
     /// The status, corrected by the figures of the returned fields.

@@ -225,6 +225,12 @@ pub struct Solution<T> {
     pub report: Report,
 }
 
+/// A solution, and its gap on the grid of the operator, with that grid, if not all of its nodes face the surface.
+pub(crate) struct Solved<T> {
+    pub(crate) solution: Solution<T>,
+    pub(crate) whole: Option<(Grid, Array2<T>)>,
+}
+
 impl<T: Real> Solution<T> {
     /// The solution with the whole of its fields, on the first of the processes that share the grid of the surface, and
     /// nothing on the others. All of them have to ask. The solution itself, if the grid is not shared.

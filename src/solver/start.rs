@@ -52,14 +52,23 @@ pub enum Start<'a, T> {
     Near(Array2<T>),
 }
 
-impl<'a, T> Start<'a, T> {
-    /// The gap that is given, if one is.
-    pub(super) fn into_gap(self) -> Option<CowArray<'a, T, Ix2>> {
-        match self {
-            Self::Default => None,
-            Self::From(gap) => Some(gap.view().into()),
-            Self::Near(gap) => Some(gap.into()),
-        }
+/// Where a solve begins.
+pub(crate) enum Begin<'a, T> {
+    At(Start<'a, T>),
+    /// The gap of the solution on another grid, near as that of [`Start::Near`], but on the grid of the operator, with
+    /// the nodes that face no surface.
+    Prolonged(Array2<T>),
+    /// The gap of the solution on a part of the grid, on the whole of that of the operator.
+    Found(Array2<T>),
+}
+
+impl<T> Begin<'_, T> {
+    pub(super) fn is_default(&self) -> bool {
+        matches!(self, Self::At(Start::Default))
+    }
+
+    pub(super) fn is_near(&self) -> bool {
+        matches!(self, Self::At(Start::Near(_)) | Self::Prolonged(_))
     }
 }
 
@@ -72,17 +81,24 @@ pub(super) fn uniform_start<T: Real>(law: &dyn AdhesionLaw<T>, flat: &PressedFla
     }
 }
 
-/// A gap that was given, as a start under a control.
+/// The gap that is given, if one is, as a start under a control on the operator's grid.
 pub(super) fn given_start<T: Real>(
-    start: CowArray<'_, T, Ix2>,
+    begin: Begin<'_, T>,
     slab: Slab,
     window: Option<&Window>,
     load: Load,
     projects: bool,
-) -> Result<Array2<T>> {
+) -> Result<Option<Array2<T>>> {
+    let given: CowArray<'_, T, Ix2> = match begin {
+        Begin::At(Start::Default) => return Ok(None),
+        Begin::At(Start::From(gap)) => gap.view().into(),
+        Begin::At(Start::Near(gap)) => gap.into(),
+        Begin::Prolonged(gap) | Begin::Found(gap) if window.is_some() => return Ok(Some(gap)),
+        Begin::Prolonged(gap) | Begin::Found(gap) => gap.into(),
+    };
     let start = match window {
-        Some(window) => window.start(start.view())?.into(),
-        None => start,
+        Some(window) => window.start(given.view())?.into(),
+        None => given,
     };
     Error::agreed(slab, Error::shape("starting gap", start.dim(), slab.held()))?;
     Error::all_finite_in(slab, "starting gap", start.view())?;
@@ -103,7 +119,7 @@ pub(super) fn given_start<T: Real>(
             gap.fill(T::lit(mean));
         }
     }
-    Ok(gap)
+    Ok(Some(gap))
 }
 
 /// Refuses springs, where the energy of a solution has to be in its report.

@@ -1,6 +1,6 @@
 //! The state of a solve: its fields, and the sums over them on which the driver decides.
 
-use ndarray::{Array2, CowArray, Ix2};
+use ndarray::Array2;
 
 use super::coarse::Coarse;
 use super::minimisation::{Goal, Left, Made, Preconditioned, Progress, Residual};
@@ -8,7 +8,7 @@ use super::operators::Operators;
 use super::passes::{self, Continued, Fields, Taken, Tally, Working};
 use super::potential::Potential;
 use super::report::Iteration;
-use super::start::{check_wall, given_start, uniform_start};
+use super::start::{Begin, check_wall, given_start, uniform_start};
 use super::work::{TRUSTED, Work};
 use super::{Criterion, Method, Settings};
 use crate::adhesion::AdhesionLaw;
@@ -85,7 +85,7 @@ impl<'a, T: Real, L: Real> State<'a, T, L> {
         flat: &'a PressedFlat<T>,
         constraint: &'a mut dyn ContactConstraint<T>,
         control: Control,
-        start: Option<CowArray<'_, T, Ix2>>,
+        begin: Begin<'_, T>,
         settings: Settings,
     ) -> Result<Self> {
         let operator = operators.state();
@@ -105,12 +105,10 @@ impl<'a, T: Real, L: Real> State<'a, T, L> {
             );
             return Err(Error::Control { control, reason });
         }
-        let uniform = start.is_none();
-        let (gap, pressure) = match start {
-            Some(start) => (
-                given_start(start, slab, flat.window.as_ref(), load, constraint.wall().is_rigid())?,
-                Array2::zeros(shape),
-            ),
+        let uniform = begin.is_default();
+        let given = given_start(begin, slab, flat.window.as_ref(), load, constraint.wall().is_rigid())?;
+        let (gap, pressure) = match given {
+            Some(gap) => (gap, Array2::zeros(shape)),
             None => (Array2::from_elem(shape, T::lit(uniform_start(law, flat, load))), flat.pressure.clone()),
         };
         let preconditioned = settings.method == Method::Preconditioned;

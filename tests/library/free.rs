@@ -422,6 +422,42 @@ fn single_precision_and_nested_grids_come_to_the_same_state() {
     }
 }
 
+/// All applications in units of one on the finest grid, beside those of that grid alone: with contact on a part of the
+/// window, and on most of it.
+#[test]
+fn nested_grids_take_few_applications_under_every_control() {
+    let grid = Grid::square(256, 1.0).unwrap();
+    let roughness = SelfAffine { k_s: 16.0, amplitude: Amplitude::RmsSlope(0.05), ..SelfAffine::default() };
+    let tip = Surface::paraboloid(grid, 1.0).unwrap().heights() + roughness.surface(grid).unwrap().heights();
+    let tip = Surface::new(grid, tip).unwrap();
+    let adhesion = Exponential::new(1e-4, 2e-3).unwrap();
+    let spring = Control::Spring { stiffness: 0.1, rest: 0.02 };
+    let free = |grid| Boussinesq::<f64>::new(grid, 1.0);
+    for (law, control, counted) in [
+        (None, Control::Force(3e-4), 9.1),
+        (None, Control::Approach(0.01), 8.9),
+        (None, spring, 8.7),
+        (None, Control::Force(0.02), 25.9),
+        (Some(adhesion), Control::Force(3e-4), 37.5),
+        (Some(adhesion), Control::Approach(0.01), 31.8),
+        (Some(adhesion), Control::Force(0.02), 27.8),
+    ] {
+        let law: Box<dyn AdhesionLaw<f64>> = law.map_or(Box::new(NoAdhesion), |law| Box::new(law));
+        let one = solve(&mut problem(&tip, &*law), control, 1e-6);
+        let nested = Nested::default().solve(&tip, free, &*law, control).unwrap();
+        let (taken, alone) = (nested.equivalent_applications(), one.report.operator_applications + 1);
+        println!("{control:?}: {taken:.1} of {counted}, {alone}");
+        assert!(taken <= counted + 2.05, "{control:?}: {taken} and not {counted}, {alone} on one grid");
+        assert_eq!(nested.solution.report.status, Status::Converged);
+        assert!((nested.solution.report.approach.unwrap() / one.report.approach.unwrap() - 1.0).abs() < 1e-5);
+        assert!((nested.solution.report.normal_force / one.report.normal_force - 1.0).abs() < 1e-5);
+        assert!(nested.solution.report.contact_nodes.abs_diff(one.report.contact_nodes) <= 5);
+        // the whole of the window has its gaps
+        let differs = nested.solution.gap.iter().zip(&one.gap).fold(0.0_f64, |most, (a, b)| most.max((a - b).abs()));
+        assert!(differs < 1e-5 * one.report.mean_gap, "{differs:e}");
+    }
+}
+
 #[test]
 fn a_periodic_cell_takes_forces_springs_and_absent_nodes() {
     let grid = Grid::new((40, 32), (1.0, 0.8)).unwrap();
