@@ -21,7 +21,7 @@ const LEVELS: [usize; 5] = [32, 64, 128, 256, 512];
 const SLOPE: f64 = 0.1;
 /// Work of adhesion and range: resolved on the given map.
 const LAW: (f64, f64) = (4e-5, 3e-3);
-const TARGETS: [f64; 5] = [0.05, 0.03, 0.02, 0.01, 0.005];
+const TARGETS: [f64; 6] = [0.05, 0.03, 0.02, 0.01, 0.005, 0.002];
 /// The choices by hand: nodes along a side, each with these tolerances.
 const TOLERANCES: [f64; 2] = [1e-3, 1e-4];
 
@@ -77,7 +77,7 @@ impl Scene {
             nested.coarsest = n;
         }
         let found = nested.solve(&surface, half_space, law, self.control)?;
-        let area = ContactArea::of_solution(&found.solution, found.solution.contact_map().view(), surface.grid())?;
+        let area = ContactArea::of_solution(&found.solution, surface.grid())?;
         Ok((area.corrected_contact_fraction, work(&found.levels)))
     }
 
@@ -89,7 +89,7 @@ impl Scene {
         let solution = Solver::new(settings).solve(&mut problem, self.control)?;
         let stiffness =
             if stiffness { ContactStiffness::of(&mut problem, &solution)?.pressure_per_length } else { 0.0 };
-        let area = ContactArea::of_solution(&solution, solution.contact_map().view(), surface.grid())?;
+        let area = ContactArea::of_solution(&solution, surface.grid())?;
         let (gap, pressure) = (solution.report.mean_gap, solution.report.mean_pressure);
         Ok(Found { area: area.corrected_contact_fraction, gap, pressure, stiffness })
     }
@@ -326,7 +326,7 @@ fn draw(path: &Path, points: &[(f64, f64)]) -> Outcome<()> {
         .margin_right(24)
         .x_label_area_size(48)
         .y_label_area_size(80)
-        .build_cartesian_2d((0.003..0.08).log_scale(), (1e-5..0.2).log_scale())?;
+        .build_cartesian_2d((0.0012..0.08).log_scale(), (1e-5..0.2).log_scale())?;
     let percent = |x: &f64| format!("{} %", (1e5 * x).round() / 1e3);
     chart
         .configure_mesh()
