@@ -21,7 +21,7 @@ const LEVELS: [usize; 5] = [32, 64, 128, 256, 512];
 const SLOPE: f64 = 0.1;
 /// Work of adhesion and range: resolved on the given map.
 const LAW: (f64, f64) = (4e-5, 3e-3);
-const TARGETS: [f64; 6] = [0.05, 0.03, 0.02, 0.01, 0.005, 0.002];
+const TARGETS: [f64; 5] = [0.05, 0.03, 0.02, 0.01, 0.005];
 /// The choices by hand: nodes along a side, each with these tolerances.
 const TOLERANCES: [f64; 2] = [1e-3, 1e-4];
 
@@ -326,7 +326,7 @@ fn draw(path: &Path, points: &[(f64, f64)]) -> Outcome<()> {
         .margin_right(24)
         .x_label_area_size(48)
         .y_label_area_size(80)
-        .build_cartesian_2d((0.0012..0.08).log_scale(), (1e-5..0.2).log_scale())?;
+        .build_cartesian_2d((0.003..0.08).log_scale(), (1e-5..0.2).log_scale())?;
     let percent = |x: &f64| format!("{} %", (1e5 * x).round() / 1e3);
     chart
         .configure_mesh()

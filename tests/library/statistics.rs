@@ -245,6 +245,13 @@ fn the_area_is_the_same_bits_however_the_fields_lie() {
     }
     let transposed = level.t().as_standard_layout().to_owned();
     assert_eq!(area(&transposed, &Grid::new((36, 48), (0.9, 1.0)).unwrap()), expected);
+    // without a modulus the map alone tells it
+    let (gap, pressure) = (level.mapv(|l| (-l).max(0.0)), level.mapv(|l| 30.0 * l.max(0.0)));
+    let body = (Boundary::Periodic, 0.0);
+    let found = ContactStatistics::of_fields(gap.view(), pressure.view(), &grid, body, &NoAdhesion).unwrap();
+    let map = gap.mapv(|gap| gap <= 0.0);
+    let of_map = ContactArea::of(map.view(), &grid).unwrap().corrected_contact_fraction;
+    assert_eq!(found.corrected_contact_fraction, of_map);
     // where the surface ends, or the window, there is no edge
     let holed = Surface::with_absent(grid, grid.sample(|x, y| if x.hypot(y) < 0.3 { 0.0 } else { f64::NAN })).unwrap();
     let mut punch = Problem::new(&holed, Boussinesq::<f64>::new(grid, 1.0).unwrap(), NoAdhesion).unwrap();
