@@ -115,7 +115,7 @@ fn main() -> Outcome<()> {
             [|p: &Point| p.nodes, |p: &Point| p.corrected].map(|area| tangent(&curve.points, load, area, curve.work).1)
         });
         println!(
-            "  {:<12} {:>4}²: over p̄ {:.2}, corrected for the perimeter {:.2}; over ⟨λ⟩ {:.2}, {:.2}",
+            "  {:<12} {:>4}²: over p̄ {:.2}, corrected for the edge {:.2}; over ⟨λ⟩ {:.2}, {:.2}",
             named(curve.work),
             curve.n,
             external[0],
@@ -359,12 +359,14 @@ fn slope_without_adhesion(points: &[(f64, f64)]) -> f64 {
     tangent(&points, Load::External, |p| p.nodes, 0.0).1
 }
 
-/// Load and area extrapolated linearly in Δx from two grids: from nodes, and from areas with the perimeter's part taken
-/// off.
+/// Load and area extrapolated to Δx = 0 from two grids: from nodes, whose error is of first order, and from areas within
+/// the edge, where it is nearly of second order.
 fn extrapolated(fine: &Curve, coarse: Option<&Curve>) -> Option<[Vec<(f64, f64)>; 2]> {
     let coarse = coarse?;
-    let share = coarse.n as f64 / (fine.n - coarse.n) as f64;
-    Some([|p: &Point| p.nodes, |p: &Point| p.corrected].map(|area| {
+    let finer = fine.n as f64 / coarse.n as f64;
+    let [nodes, corrected]: [fn(&Point) -> f64; 2] = [|p| p.nodes, |p| p.corrected];
+    Some([(nodes, 1), (corrected, 2)].map(|(area, order)| {
+        let share = (finer.powi(order) - 1.0).recip();
         let pairs = fine.points.iter().zip(&coarse.points);
         pairs.map(|(fine, coarse)| (fine.external, area(fine) + share * (area(fine) - area(coarse)))).collect()
     }))

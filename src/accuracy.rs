@@ -110,14 +110,17 @@ impl Quantity {
             return None;
         }
         let difference = (fine - coarse) / fine;
+        if self == Self::Area {
+            let excess = (counted / fine - 1.0).abs();
+            return Some((0.25 * difference).hypot(0.12 * excess * excess.sqrt()));
+        }
         let edge = (counted - coarse_counted) / counted.max(coarse_counted);
         let (share, of_edge) = match self {
-            // where the area is not corrected, all is of first order, or of second
-            Self::Area | Self::Stiffness if line => (1.0, 0.3),
-            Self::Gap | Self::Pressure if line => (1.0 / 3.0, 0.02),
-            Self::Area => (0.25, 0.17),
+            // there all is of first order, or of second
+            Self::Stiffness if line => (1.0, 0.3),
+            _ if line => (1.0 / 3.0, 0.02),
             Self::Stiffness => (0.3, 0.11),
-            Self::Gap | Self::Pressure => (0.15, 0.001),
+            _ => (0.15, 0.001),
         };
         Some((share * difference).hypot(of_edge * edge))
     }
@@ -125,7 +128,7 @@ impl Quantity {
     /// The error that is to be expected with so many nodes in the shortest wave, by what rough surfaces had.
     fn expected(self, nodes_per_wave: f64) -> f64 {
         let (share, order) = match self {
-            Self::Area => (0.15, 1.0),
+            Self::Area => (0.3, 2.0),
             Self::Gap => (0.05, 2.0),
             Self::Pressure => (0.1, 2.0),
             Self::Stiffness => (0.06, 1.0),
@@ -201,14 +204,16 @@ const ORDERS: (f64, f64) = (0.5, 3.0);
 ///
 /// | quantity | estimate |
 /// |---|---|
-/// | corrected area A_c | √((0.25 δA_c)² + (0.17 δA)²), with A the area as nodes count it |
+/// | corrected area A_c | √((0.25 δA_c)² + (0.12 (A/A_c − 1)^{3/2})²), with A the area as nodes count it |
 /// | contact stiffness k | √((0.3 δk)² + (0.11 δA)²) |
 /// | mean gap ḡ, mean pressure p̄ | √((0.15 δḡ)² + (0.001 δA)²), and with p̄ likewise |
 ///
-/// and on a line, where the area is not corrected, the factors are 1 and 0.3 for area and stiffness, and 1/3 and 0.02
-/// for gap and pressure. δA tells how many of the nodes in contact are at the edge, and so the scale of all that
-/// depends on where between the nodes the edge falls; δQ alone may be small by luck. The factors are fitted to rough
-/// surfaces, and the page [`choosing`](crate::guide::choosing) has how good the estimates are on others.
+/// and on a line the factors are 1 and 0.3 for the stiffness, and 1/3 and 0.02 for gap and pressure. A/A_c − 1 and δA
+/// tell how many of the nodes in contact are at the edge, and so the scale of all that depends on where between the
+/// nodes the edge falls; δQ alone may be small by luck. The corrected area has lost what is the same all along the
+/// edge, and keeps what scatters: of a number of pieces of the edge that grows like 1/Δ, each wrong by a share of Δ²,
+/// the sum falls like the power 3/2 of Δ. The factors are fitted to rough surfaces, and the page
+/// [`choosing`](crate::guide::choosing) has how good the estimates are on others.
 ///
 /// A grid counts if it has the same waves, the shortest of which ([`Surface::nodes_per_wave`]) with at least four
 /// nodes, resolves the adhesion (μ_ρ ≤ 0.5), and, if it is a coarser one, was solved to 3e-3. The estimates of gap and

@@ -138,7 +138,7 @@ impl Level {
             mean_pressure: report.mean_pressure,
             mean_contact_pressure: report.mean_contact_pressure,
             elastic_energy: report.elastic_energy,
-            area: ContactArea::of_solution(solution, solution.contact_map().view(), grid)?,
+            area: ContactArea::of_solution(solution, grid)?,
             stiffness: None,
         })
     }

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use ndarray::{Array2, ArrayRef2, ArrayView2, CowArray, Ix2};
+use ndarray::{Array2, ArrayRef2, ArrayView2, Axis, CowArray, Ix2, Slice};
 
 use crate::ranks::{Ranks, Shares};
 use crate::real::Real;
@@ -158,6 +158,14 @@ impl Slab {
             }
         }
         rows
+    }
+
+    /// The row of a field after those of this slab, the first one after the last; none where the slab has no rows.
+    pub(crate) fn next_row<A>(&self, held: ArrayView2<'_, A>, number: impl Fn(&A) -> f64) -> Array2<f64> {
+        // of each slab somebody needs the first row, and nobody another one
+        let first = held.slice_axis(Axis(0), Slice::from(..held.nrows().min(1))).map(number);
+        let wanted = |rank| self.rows_of(rank).last().map(|last| (last + 1) % self.shape.0);
+        self.fetch(first.view(), |rank| wanted(rank).into_iter())
     }
 
     /// A field in the rows of another slab of the same grid; all processes have to ask.

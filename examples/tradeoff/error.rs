@@ -54,8 +54,8 @@ pub struct OnGrid {
     pub nodes: f64,
     /// Of the solution converged on the grid, against the truth.
     pub discretisation: Errors,
-    /// Of areas extrapolated from this grid and one of half the nodes along a side: counted, and corrected for the
-    /// edge.
+    /// Of areas extrapolated from this grid and one of half the nodes along a side: counted as of first order, and
+    /// corrected for the edge as of second.
     pub extrapolated: Option<[f64; 2]>,
     pub rows: Vec<Row>,
 }
@@ -111,14 +111,14 @@ pub fn on_grids(scene: &Scene, choices: impl Fn(usize) -> Vec<Choice>) -> Outcom
         let discretisation = against(&converged, &truths)?;
         let extrapolated = coarser.iter().all(|before| 2 * before.1 == n) && !coarser.is_empty();
         let extrapolated = extrapolated.then(|| {
-            let of = |part: fn(&State) -> f64| {
+            let of = |part: fn(&State) -> f64, share: f64| {
                 let error = |((fine, coarse), truth): ((&State, &(State, usize)), &State)| {
-                    (2.0 * part(fine) - part(&coarse.0)) / part(truth) - 1.0
+                    (part(fine) + share * (part(fine) - part(&coarse.0))) / part(truth) - 1.0
                 };
                 let pairs = converged.iter().zip(&coarser).zip(&truths);
                 (pairs.map(|pair| error(pair).powi(2)).sum::<f64>() / truths.len() as f64).sqrt()
             };
-            [of(|state| state.counted), of(|state| state.area)]
+            [of(|state| state.counted, 1.0), of(|state| state.area, 1.0 / 3.0)]
         });
         let mut rows = Vec::new();
         for choice in choices(n) {

@@ -30,7 +30,7 @@ class ContactStatistics(NamedTuple):
     contact_fraction : float
         Share of the nodes in contact.
     corrected_contact_fraction : float
-        Contact area without the excess of a map of nodes along its edge (Yastrebov et al. 2017).
+        Contact area within the edge that gap and contact pressure tell between the nodes.
     perimeter : float
         Length of the edge of the contact along the sides of the cells.
     cluster_sizes : ndarray of int64

@@ -51,13 +51,13 @@ impl Look {
 
 impl<T: Scalar> Looks for Seen<T> {
     fn look<'py>(&self, py: Python<'py>) -> PyResult<(Statistics<'py>, Bound<'py, PyDict>)> {
-        let Sight { law, grid, boundary, original, threads, .. } = &self.sight;
+        let Sight { law, grid, boundary, modulus, original, threads, .. } = &self.sight;
         let [gap, pressure, contact_pressure] =
             [&self.gap, &self.pressure, &self.contact_pressure].map(|field| field.bind(py).readonly());
         let [gap, pressure, contact_pressure] = [&gap, &pressure, &contact_pressure].map(|field| field.as_array());
         let statistics = || match original {
-            Some(original) => original.statistics(gap, contact_pressure, law),
-            None => ContactStatistics::of_fields(gap, contact_pressure, (grid, *boundary), law),
+            Some(original) => original.statistics(gap, contact_pressure, *modulus, law),
+            None => ContactStatistics::of_fields(gap, contact_pressure, grid, (*boundary, *modulus), law),
         };
         let errors = || {
             let mut estimate = self.estimate.lock().unwrap_or_else(PoisonError::into_inner);

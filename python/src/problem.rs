@@ -168,7 +168,8 @@ impl<T: Scalar> State<T> {
         let original = self.original.map(|original| original.on(&grid)).transpose()?;
         let images = original.map(|original| Warning::of_images(&original, &solution)).transpose()?;
         warnings.extend(images.flatten());
-        let (law, boundary, threads) = (self.law.clone(), solution.report.boundary, self.threads);
+        let (law, threads) = (self.law.clone(), self.threads);
+        let (boundary, modulus) = (solution.report.boundary, self.modulus);
         Ok(Account {
             solution,
             control,
@@ -181,7 +182,7 @@ impl<T: Scalar> State<T> {
             strongest: self.strongest,
             warnings,
             seconds,
-            sight: Sight { law, grid, boundary, original, threads, estimate: None },
+            sight: Sight { law, grid, boundary, modulus, original, threads, estimate: None },
         })
     }
 

@@ -39,6 +39,8 @@ pub struct Sight<T> {
     pub law: Arc<dyn AdhesionLaw<T>>,
     pub grid: Grid,
     pub boundary: Boundary,
+    /// The contact modulus
+    pub modulus: f64,
     /// The part that statistics are of, if they are not of the whole
     pub original: Option<Original>,
     /// The number of threads that was asked for

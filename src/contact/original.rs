@@ -139,7 +139,7 @@ impl Original {
         Ok(Solution { gap, pressure: pressure?, contact_pressure: contact_pressure?, report })
     }
 
-    /// The statistics of the original, from the gap and the contact pressure of the whole: its clusters end at its
+    /// The statistics of the original, from the gap and the contact pressure of the whole and the contact modulus: its clusters end at its
     /// sides, and these are no part of the perimeter, as the images go on there.
     ///
     /// # Errors
@@ -148,9 +148,11 @@ impl Original {
         &self,
         gap: ArrayView2<'_, T>,
         contact_pressure: ArrayView2<'_, T>,
+        modulus: f64,
         law: &impl AdhesionLaw<T>,
     ) -> Result<ContactStatistics> {
-        let whole = ContactStatistics::of_fields(gap, contact_pressure, (&self.whole, Boundary::Periodic), law)?;
+        let body = (Boundary::Periodic, modulus);
+        let whole = ContactStatistics::of_fields(gap, contact_pressure, &self.whole, body, law)?;
         let contact = self.contact(gap, contact_pressure)?;
         Ok(ContactStatistics {
             contact_nodes: number(&contact),
@@ -194,7 +196,7 @@ mod tests {
         (pressure[[0, 1]], pressure[[2, 2]]) = (1.0, 1.0);
         let pressure = original.mirrored(&pressure).unwrap();
         let gap = pressure.mapv(|pressure| 1.0 - pressure);
-        let found = original.statistics(gap.view(), pressure.view(), &NoAdhesion).unwrap();
+        let found = original.statistics(gap.view(), pressure.view(), 1.0, &NoAdhesion).unwrap();
         assert_eq!((found.contact_nodes, &found.cluster_sizes[..]), (2, &[1, 1][..]));
         assert_eq!(found.contact_fraction, 2.0 / 12.0);
         // of each three sides of a cell

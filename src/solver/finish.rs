@@ -62,7 +62,8 @@ impl<T: Real, L: Real> State<'_, T, L> {
             Load::Gap(_) => 0.0,
             _ => self.load_error().max(self.share_of_load(carried_pressure - mean)),
         };
-        let mu_rho = mu_rho(law, self.operators.state().grid(), self.operators.state().modulus());
+        let modulus = self.operators.state().modulus();
+        let mu_rho = mu_rho(law, self.operators.state().grid(), modulus);
         let facing = flat.window.as_ref().map_or(self.nodes(), |window| window.facing() as f64);
         let (given, padding) = (self.detached.unwrap_or(mean), flat.padding);
         // the mean of the displacement is no wave
@@ -76,6 +77,7 @@ impl<T: Real, L: Real> State<'_, T, L> {
             iterations: self.iterations,
             operator_applications: self.applications,
             boundary: flat.boundary.alone(),
+            modulus,
             mean_gap: if flat.window.is_some() { total.sum[1] / facing } else { self.mean_gap() },
             mean_pressure: given * padding,
             normal_force: given * padding * flat.area,

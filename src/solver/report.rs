@@ -147,6 +147,9 @@ pub struct Report {
     pub operator_applications: usize,
     /// The boundary of the elastic body.
     pub boundary: Boundary,
+    /// The contact modulus E* of the elastic body,
+    /// [`ElasticOperator::modulus`](crate::ElasticOperator::modulus).
+    pub modulus: f64,
     /// The mean gap, over the nodes that are not absent.
     pub mean_gap: f64,
     /// The mean external pressure p̄, the force over the nominal area Lx·Ly of the surface, compression positive; under

@@ -462,8 +462,8 @@ fn clusters_hang_together_across_slabs(world: &World) -> Result<()> {
         let shared = world.share(alone)?;
         let statistics = |grid: &Grid| {
             let gap = grid.sample(|x, y| if map(x, y) { 0.0 } else { 1.0 });
-            let boundary = (grid, Boundary::Periodic);
-            contact::ContactStatistics::of_fields(gap.view(), gap.mapv(|g| 1.0 - g).view(), boundary, &NoAdhesion)
+            let (pressure, body) = (gap.mapv(|g| 1.0 - g), (Boundary::Periodic, 1.0));
+            contact::ContactStatistics::of_fields(gap.view(), pressure.view(), grid, body, &NoAdhesion)
         };
         assert_eq!(statistics(&shared)?, statistics(&alone)?, "{shape:?}");
     }

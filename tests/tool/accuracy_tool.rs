@@ -48,10 +48,10 @@ fn an_accuracy_is_planned_reached_and_reported() {
 #[test]
 fn an_accuracy_that_is_not_reached_says_why() {
     let bench = rough();
-    let output = bench.run(&format!("{PRESSED} --accuracy 0.01 --memory 1e-3 --out near"));
+    let output = bench.run(&format!("{PRESSED} --accuracy 0.002 --memory 1e-3 --out near"));
     let warning = text(&output.stderr);
     assert_eq!((output.status.code(), warning.lines().count()), (Some(2), 1), "{warning}");
-    for part in ["the accuracy of 0.01 of the area is not reached: the estimate is", "would be next", "--memory"] {
+    for part in ["the accuracy of 0.002 of the area is not reached: the estimate is", "would be next", "--memory"] {
         assert!(warning.contains(part), "{warning}");
     }
     assert_eq!(bench.report("near")["accuracy"]["reached"], false);
@@ -76,7 +76,7 @@ fn accuracies_that_make_no_sense_are_refused_on_one_line() {
         ("--accuracy 0.05 --accuracy-of pressure", &["accuracy of the pressure", "it is given", "gap"]),
         ("--accuracy-of gap", &["--accuracy"]),
         ("--accuracy 0.05 --nested", &["--nested", "--accuracy"]),
-        ("--accuracy 1e-5 --memory 1e-2", &["1e-5 of the area takes about", "GiB", "enough for about"]),
+        ("--accuracy 1e-6 --memory 1e-2", &["1e-6 of the area takes about", "GiB", "enough for about"]),
     ] {
         bench.refused_with(&format!("{PRESSED} {options} --out no"), parts);
     }
