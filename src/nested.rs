@@ -12,7 +12,7 @@ use crate::error::{Error, Result};
 use crate::grid::Grid;
 use crate::problem::{Control, Problem};
 use crate::real::Real;
-use crate::solver::{Begin, Iteration, Method, Observer, Settings, Solution, Solved, Solver, Start, Status};
+use crate::solver::{Begin, Iteration, Method, Observer, Report, Settings, Solution, Solved, Solver, Start, Status};
 use crate::stability::ContactStiffness;
 use crate::surface::Surface;
 
@@ -103,7 +103,7 @@ pub struct Level {
     pub shape: (usize, usize),
     /// The status: how the solve ended.
     pub status: Status,
-    /// The number of steps.
+    /// The number of steps on the whole grid, from its last start.
     pub iterations: usize,
     /// The number of operator applications, with the one that constructs the problem; those on a part of the window in
     /// units of one on the whole.
@@ -227,7 +227,9 @@ impl<C> Nested<C> {
         measured && method && nodes >= least && coarser(shape, self.coarsest, true).is_some()
     }
 
-    /// Solves the contact of `surface` with the elastic body for which `operator` makes an operator on each grid.
+    /// Solves the contact of `surface` with the elastic body for which `operator` makes an operator on each grid: on
+    /// the coarser ones, the coarsest first, on that of the surface, and with a free boundary on one with the same
+    /// spacing for a part of the window.
     ///
     /// # Errors
     /// Those of `operator`, [`Problem::new`] and [`Solver::solve_with`]; [`Error::Value`] if the coarse tolerance is
@@ -338,12 +340,13 @@ impl<C> Nested<C> {
             }
             _ => None,
         };
+        let unique = law.is_zero();
         let mut problem = Problem::new(surface, half_space, law)?;
-        let mut spent = part.as_ref().map_or(0, |part| part.2);
+        let mut spent = part.as_ref().map_or(0, |part| part.3);
         let begin = match (part, prolonged) {
-            (Some((part, solution, _)), _) if solution.report.status == Status::Converged => {
+            (Some((part, grid, solution, _)), _) if leads(&solution.report, unique) => {
                 spent += 1;
-                Begin::Found(part.whole(&mut problem, (&solution.gap, &solution.pressure))?)
+                Begin::Found(part.whole(&grid, &mut problem, (&solution.gap, &solution.pressure))?)
             }
             (_, prolonged) => prolonged.map_or(Begin::At(Start::Default), Begin::Prolonged),
         };
@@ -373,7 +376,8 @@ impl<C> Nested<C> {
     }
 
     /// The solution on a small part of the window of a free half-space, if all contact is there in a gap prolonged to
-    /// the operator's grid, and the applications that it took, in units of one on that grid.
+    /// the operator's grid, with the grid of the part, and the applications that it took, in units of one on that grid
+    /// of the operator.
     fn solve_part<T, O, L>(
         &mut self,
         surface: &Surface,
@@ -382,18 +386,16 @@ impl<C> Nested<C> {
         control: Control,
         gap: &Array2<T>,
         observe: Observer<'_>,
-    ) -> Result<Option<(Part, Solution<T>, usize)>>
+    ) -> Result<Option<(Part, Grid, Solution<T>, usize)>>
     where
         T: Real,
         O: ElasticOperator<T>,
         L: AdhesionLaw<T>,
         C: ContactConstraint<T>,
     {
-        let fits = half_space.boundary() != Boundary::Periodic
-            && surface.absent().is_none()
-            && law.shape().is_none()
-            && !surface.grid().is_shared();
-        let part = if fits { Part::of(surface.grid().shape(), gap, law) } else { None };
+        let slab = half_space.grid().slab();
+        let fits = half_space.boundary() != Boundary::Periodic && surface.absent().is_none() && law.shape().is_none();
+        let part = if fits { Part::of(surface.grid().shape(), slab, gap, law) } else { None };
         let Some(part) = part else { return Ok(None) };
         let small = part.surface(surface)?;
         let mut problem = Problem::new(&small, operator(*small.grid())?, law)?;
@@ -401,12 +403,12 @@ impl<C> Nested<C> {
         let settings = self.solver.settings;
         let tolerance = PART * settings.tolerance_in::<T>();
         self.solver.settings = Settings { tolerance: Some(tolerance), ..settings };
-        let start = Begin::At(Start::Near(part.cut(gap).to_owned()));
-        let result = self.solver.run(problem.parts(), part.control(control, surface), start, observe);
+        let start = Begin::At(Start::Near(part.cut(gap, slab, small.grid().slab())));
+        let result = self.solver.run(problem.parts(), Part::control(control, surface, &small), start, observe);
         self.solver.settings = settings;
         let solution = result?.solution;
         let applications = (share * (solution.report.operator_applications + 1) as f64).ceil() as usize;
-        Ok(Some((part, solution, applications)))
+        Ok(Some((part, *small.grid(), solution, applications)))
     }
 
     /// The contact stiffness of a solution, if it is asked for and the solve was not stopped.
@@ -424,6 +426,13 @@ impl<C> Nested<C> {
         let find = |tolerance| ContactStiffness::of_constrained(problem, &self.solver.constraint, solution, tolerance);
         self.stiffness.filter(|_| solution.report.status != Status::Stopped).map(find).transpose()
     }
+}
+
+/// Whether the solution of a part leads to that of the whole: contact that reaches the end of the part may go on beyond
+/// it, and from where a solve has stalled another equilibrium may be found, unless there is but one.
+fn leads(report: &Report, unique: bool) -> bool {
+    let found = report.status == Status::Converged || (unique && report.status == Status::Stalled);
+    found && !report.reaches_edge
 }
 
 /// The shape of the next coarser grid, if it has `coarsest` nodes along its sides; without `odd` only of even sizes.

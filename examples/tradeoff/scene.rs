@@ -178,7 +178,7 @@ impl Scene {
 
     /// Solves on the finest grid, where there is no exact solution, and keeps the reference for all others.
     ///
-    /// The contact area corrected for its edge comes near the true one with an order between one and two, so that of
+    /// The contact area corrected for its edge comes near the true one with the second order, so that of
     /// the reference is extrapolated from the finest grid and one of half the nodes along a side.
     pub fn prepare(&mut self) -> Outcome<()> {
         let Some(finest) = self.finest() else { return Ok(()) };

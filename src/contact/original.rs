@@ -139,8 +139,8 @@ impl Original {
         Ok(Solution { gap, pressure: pressure?, contact_pressure: contact_pressure?, report })
     }
 
-    /// The statistics of the original, from the gap and the contact pressure of the whole and the contact modulus: its clusters end at its
-    /// sides, and these are no part of the perimeter, as the images go on there.
+    /// The statistics of the original, from the gap and the contact pressure of the whole and the contact modulus: its
+    /// clusters end at its sides, and these are no part of the perimeter, as the images go on there.
     ///
     /// # Errors
     /// [`Error::Shape`] if a field does not have the shape of the whole.

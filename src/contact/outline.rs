@@ -61,8 +61,8 @@ impl Node {
 struct Cut {
     /// from the node in contact, in spacings
     place: f64,
-    /// how far the edge is inside, in spacings
-    shift: f64,
+    /// the share of the kink of a hard wall
+    kink: f64,
 }
 
 impl<T: Real> Outline<'_, T> {
@@ -122,11 +122,14 @@ impl Step {
     /// Where the contour cuts the side along an axis between two nodes, of which one is in contact.
     fn cut(&self, one: Node, other: Node, axis: usize) -> Cut {
         let (inside, outside) = if one.touches { (one, other) } else { (other, one) };
-        let pressed = self.compliances[axis] * inside.pressure;
-        // a wall that gives lets the surfaces interpenetrate
-        let depth = pressed - inside.gap.min(0.0);
-        let hard = if depth > 0.0 { pressed / depth } else { 1.0 };
-        Cut { place: depth / (depth + outside.gap), shift: self.shift * hard * hard * hard }
+        let pressed = self.compliances[axis] * inside.pressure.max(0.0);
+        // a wall that gives lets the surfaces interpenetrate, and a law alone keeps them apart
+        let (below, above) = (-inside.gap.min(0.0), inside.gap.max(0.0));
+        let (depth, opening) = (pressed + below, outside.gap - above);
+        let hard = if pressed + below + above > 0.0 { pressed / (pressed + below + above) } else { 1.0 };
+        let place = if depth + opening > 0.0 { (depth / (depth + opening)).clamp(0.0, 1.0) } else { 0.5 };
+        let place = if above > 0.0 { hard * place + (1.0 - hard) * 0.5 } else { place };
+        Cut { place, kink: hard * hard * hard }
     }
 
     /// The excess between two nodes of a line.
@@ -134,8 +137,8 @@ impl Step {
         if one.touches == other.touches || one.gap.is_infinite() || other.gap.is_infinite() {
             return 0.0;
         }
-        let Cut { place, shift } = self.cut(one, other, 0);
-        0.5 - (place - shift)
+        let Cut { place, kink } = self.cut(one, other, 0);
+        0.5 - (place - self.shift * kink)
     }
 
     /// The excess within the rectangle of four nodes, not all of one kind, which follow each other around it.
@@ -153,38 +156,38 @@ impl Step {
         let around = |k: usize| [sides[(k + 3) % 4], sides[k]];
         let count = (0..4).filter(|&k| touches(k)).count();
         let area = match count {
-            3 => 1.0 - (0..4).filter(|&k| !touches(k)).map(|k| free_corner(around(k))).sum::<f64>(),
+            3 => 1.0 - (0..4).filter(|&k| !touches(k)).map(|k| self.free_corner(around(k))).sum::<f64>(),
             2 if touches(0) != touches(2) => {
                 let first = usize::from(touches(0) == touches(1));
-                band([sides[first], sides[first + 2]])
+                self.band([sides[first], sides[first + 2]])
             }
             // corners of contact that meet across a diagonal are apart, as clusters are
-            _ => (0..4).filter(|&k| touches(k)).map(|k| contact_corner(around(k))).sum(),
+            _ => (0..4).filter(|&k| touches(k)).map(|k| self.contact_corner(around(k))).sum(),
         };
         0.25 * count as f64 - area
     }
+
+    /// The area around one node in contact, by the cuts of its two sides.
+    fn contact_corner(&self, cuts: [Cut; 2]) -> f64 {
+        let [p, q] = cuts.map(|cut| cut.place);
+        0.5 * p * q - kink(cuts) * (self.shift * length(p, q) - 0.25 * TURN)
+    }
+
+    /// The area around one free node, by the cuts of its two sides.
+    fn free_corner(&self, cuts: [Cut; 2]) -> f64 {
+        let [p, q] = cuts.map(|cut| 1.0 - cut.place);
+        0.5 * p * q + kink(cuts) * (self.shift * length(p, q) + 0.25 * TURN)
+    }
+
+    /// The area beside two nodes in contact, by the cuts of the two sides that leave them.
+    fn band(&self, cuts: [Cut; 2]) -> f64 {
+        let [p, q] = cuts.map(|cut| cut.place);
+        0.5 * (p + q) - kink(cuts) * self.shift * length(1.0, p - q)
+    }
 }
 
-/// The area around one node in contact, by the cuts of its two sides.
-fn contact_corner(cuts: [Cut; 2]) -> f64 {
-    let [p, q] = cuts.map(|cut| cut.place);
-    0.5 * p * q - shift(cuts) * length(p, q) + 0.25 * TURN
-}
-
-/// The area around one free node, by the cuts of its two sides.
-fn free_corner(cuts: [Cut; 2]) -> f64 {
-    let [p, q] = cuts.map(|cut| 1.0 - cut.place);
-    0.5 * p * q + shift(cuts) * length(p, q) + 0.25 * TURN
-}
-
-/// The area beside two nodes in contact, by the cuts of the two sides that leave them.
-fn band(cuts: [Cut; 2]) -> f64 {
-    let [p, q] = cuts.map(|cut| cut.place);
-    0.5 * (p + q) - shift(cuts) * length(1.0, p - q)
-}
-
-fn shift(cuts: [Cut; 2]) -> f64 {
-    0.5 * (cuts[0].shift + cuts[1].shift)
+fn kink(cuts: [Cut; 2]) -> f64 {
+    0.5 * (cuts[0].kink + cuts[1].kink)
 }
 
 /// The root of a sum of squares, the same bits in either order.

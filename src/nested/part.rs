@@ -7,9 +7,11 @@ use ndarray::{Array2, ArrayRef2, ArrayView2, ArrayViewMut2, Slice};
 use crate::adhesion::AdhesionLaw;
 use crate::elastic::ElasticOperator;
 use crate::error::Result;
+use crate::field;
 use crate::grid::Grid;
 use crate::problem::{Control, Problem};
 use crate::real::Real;
+use crate::slab::Slab;
 use crate::surface::Surface;
 
 /// The largest share of the window's nodes of a part that is worth a solve of its own.
@@ -32,16 +34,26 @@ pub(super) struct Part {
 }
 
 impl Part {
-    /// The part about the contact in a gap on the window or on a larger grid, if it is a small one.
-    pub(super) fn of<T: Real>(window: (usize, usize), gap: &ArrayRef2<T>, law: &dyn AdhesionLaw<T>) -> Option<Self> {
+    /// The part about the contact in a gap on the window or on a larger grid, of which this process has the rows of a
+    /// slab, if it is a small one.
+    pub(super) fn of<T: Real>(
+        window: (usize, usize),
+        slab: Slab,
+        gap: &ArrayRef2<T>,
+        law: &dyn AdhesionLaw<T>,
+    ) -> Option<Self> {
         let least = T::lit(REACH) * law.work_of_adhesion() / law.range();
         let attracts = |gap: T| !law.is_zero() && (law.traction(gap) > least || !least.is_finite());
         let (mut x, mut y) = (window.0..0, window.1..0);
-        for ((i, j), &gap) in Self::all(window).cut(gap).indexed_iter() {
-            if gap <= T::zero() || attracts(gap) {
-                (x, y) = (x.start.min(i)..x.end.max(i + 1), y.start.min(j)..y.end.max(j + 1));
+        for (i, row) in slab.rows().zip(gap.rows()).filter(|(i, _)| *i < window.0) {
+            for (j, &gap) in row.iter().take(window.1).enumerate() {
+                if gap <= T::zero() || attracts(gap) {
+                    (x, y) = (x.start.min(i)..x.end.max(i + 1), y.start.min(j)..y.end.max(j + 1));
+                }
             }
         }
+        let of_all = |side: Range<usize>| slab.least(side.start as f64) as usize..slab.most(side.end as f64) as usize;
+        let (x, y) = (of_all(x), of_all(y));
         let widened = |side: Range<usize>, nodes: usize| {
             let margin = ((MARGIN.0 * side.len() as f64) as usize).max(MARGIN.1);
             side.start.saturating_sub(margin)..(side.end + margin).min(nodes)
@@ -54,36 +66,48 @@ impl Part {
         (nodes <= SMALL * (window.0 * window.1) as f64).then_some(part)
     }
 
-    /// The whole window.
-    fn all(window: (usize, usize)) -> Self {
-        Self { x: 0..window.0, y: 0..window.1 }
+    /// The part of a field in the rows of a slab, in those of the slab of the part.
+    pub(super) fn cut<T: Real>(&self, field: &ArrayRef2<T>, from: Slab, to: Slab) -> Array2<T> {
+        if !from.is_shared() {
+            return within(field, [&self.x, &self.y]).to_owned();
+        }
+        let rows = from.fetch(field.mapv(T::widen).view(), |rank| to.rows_of(rank).map(|row| self.x.start + row));
+        within(&rows, [&(0..rows.nrows()), &self.y]).mapv(T::lit)
     }
 
-    /// The part of a field.
-    pub(super) fn cut<'a, T>(&self, field: &'a ArrayRef2<T>) -> ArrayView2<'a, T> {
-        field.slice_each_axis(|axis| self.side(axis.axis.index()))
-    }
-
-    fn cut_mut<'a, T>(&self, field: &'a mut ArrayRef2<T>) -> ArrayViewMut2<'a, T> {
-        field.slice_each_axis_mut(|axis| self.side(axis.axis.index()))
-    }
-
-    fn side(&self, axis: usize) -> Slice {
-        Slice::from(if axis == 0 { self.x.clone() } else { self.y.clone() })
+    /// The rows of a slab that are in the part: their numbers in the slab of this process, and a field of the part there.
+    fn rows_of<T: Real>(&self, field: &ArrayRef2<T>, from: Slab, to: Slab) -> (Range<usize>, Array2<T>) {
+        let rows = |rank| {
+            let rows = to.rows_of(rank);
+            rows.start.max(self.x.start)..rows.end.min(self.x.end).max(rows.start.max(self.x.start))
+        };
+        let (own, first) = (rows(to.ranks().rank()), to.rows().start);
+        let field = match from.is_shared() {
+            true => {
+                let wanted = |rank| rows(rank).map(|row| row - self.x.start);
+                from.fetch(field.mapv(T::widen).view(), wanted).mapv(T::lit)
+            }
+            false => field.to_owned(),
+        };
+        (own.start.saturating_sub(first)..own.end.saturating_sub(first), field)
     }
 
     /// The part of a surface.
     pub(super) fn surface(&self, surface: &Surface) -> Result<Surface> {
         let (dx, dy) = surface.grid().spacing();
-        let grid = Grid::new((self.x.len(), self.y.len()), (self.x.len() as f64 * dx, self.y.len() as f64 * dy))?;
-        Surface::new(grid, self.cut(surface.heights()).to_owned())
+        let lengths = (self.x.len() as f64 * dx, self.y.len() as f64 * dy);
+        let grid = Grid::new((self.x.len(), self.y.len()), lengths)?.shared_as(surface.grid())?;
+        Surface::new(grid, self.cut(surface.heights(), surface.grid().slab(), grid.slab()))
     }
 
     /// The control of the part, whose highest node may be lower than that of the whole.
-    pub(super) fn control(&self, control: Control, surface: &Surface) -> Control {
-        let highest = |heights: ArrayView2<'_, f64>| heights.iter().fold(f64::NEG_INFINITY, |high, &h| high.max(h));
-        let lower = highest(surface.heights().view()) - highest(self.cut(surface.heights()));
-        let (lx, ly) = surface.grid().lengths();
+    pub(super) fn control(control: Control, whole: &Surface, part: &Surface) -> Control {
+        let highest = |surface: &Surface| {
+            let own = surface.heights().iter().fold(f64::NEG_INFINITY, |high, &h| high.max(h));
+            surface.grid().extremes((own, own)).1
+        };
+        let lower = highest(whole) - highest(part);
+        let (lx, ly) = whole.grid().lengths();
         match control {
             Control::MeanPressure(pressure) => Control::Force(pressure * lx * ly),
             Control::Approach(approach) => Control::Approach(approach - lower),
@@ -92,31 +116,45 @@ impl Part {
         }
     }
 
-    /// The gap of the whole, on the grid of its operator, under the pressure found on the part: with the gap found
-    /// there, and none that is negative on the window. Takes an application of the operator.
+    /// The gap of the whole, on the grid of its operator, under the pressure found on the part, whose grid is the first
+    /// argument: with the gap found there, and none that is negative on the window. Takes an application of the
+    /// operator.
     pub(super) fn whole<T, O, L>(
         &self,
+        grid: &Grid,
         problem: &mut Problem<T, O, L>,
-        (gap, pressure): (&ArrayRef2<T>, &ArrayRef2<T>),
+        (gap, pressure): (&Array2<T>, &Array2<T>),
     ) -> Result<Array2<T>>
     where
         T: Real,
         O: ElasticOperator<T>,
         L: AdhesionLaw<T>,
     {
-        let window = problem.grid().shape();
+        let (window, from, to) = (problem.grid().shape(), grid.slab(), problem.operator.grid().slab());
         // the displacement less the heights is K (p − K⁻¹h) and a constant
         let mut load = problem.flat.pressure.mapv(|p| -p);
-        self.cut_mut(&mut load).zip_mut_with(pressure, |load, &p| *load += p);
+        let (rows, pressure) = self.rows_of(pressure, from, to);
+        within_mut(&mut load, [&rows, &self.y]).zip_mut_with(&pressure, |load, &p| *load += p);
         let mut whole = Array2::zeros(load.dim());
         problem.operator.displacement(load.view(), whole.view_mut())?;
-        let differences = gap.iter().zip(self.cut(&whole)).map(|(gap, u)| gap.widen() - u.widen());
-        let shift = T::lit(differences.sum::<f64>() / gap.len() as f64);
-        whole.mapv_inplace(|gap| gap + shift);
-        Self::all(window).cut_mut(&mut whole).mapv_inplace(|gap| gap.max(T::zero()));
-        self.cut_mut(&mut whole).assign(gap);
+        let found = self.cut(&whole, to, from);
+        let shift = field::mean_of_both(from, gap.view(), found.view(), |gap, u| gap.widen() - u.widen());
+        whole.mapv_inplace(|gap| gap + T::lit(shift));
+        let own = window.0.saturating_sub(to.rows().start).min(to.rows().len());
+        within_mut(&mut whole, [&(0..own), &(0..window.1)]).mapv_inplace(|gap| gap.max(T::zero()));
+        within_mut(&mut whole, [&rows, &self.y]).assign(&self.rows_of(gap, from, to).1);
         Ok(whole)
     }
+}
+
+/// A rectangle of a field.
+fn within<'a, T>(field: &'a ArrayRef2<T>, sides: [&Range<usize>; 2]) -> ArrayView2<'a, T> {
+    field.slice_each_axis(|axis| Slice::from(sides[axis.axis.index()].clone()))
+}
+
+/// A rectangle of a field, to write.
+fn within_mut<'a, T>(field: &'a mut ArrayRef2<T>, sides: [&Range<usize>; 2]) -> ArrayViewMut2<'a, T> {
+    field.slice_each_axis_mut(|axis| Slice::from(sides[axis.axis.index()].clone()))
 }
 
 #[cfg(test)]
@@ -124,20 +162,24 @@ mod tests {
     use super::*;
     use crate::adhesion::{Exponential, NoAdhesion};
 
+    fn of(window: (usize, usize), gap: &Array2<f64>, law: &dyn AdhesionLaw<f64>) -> Option<Part> {
+        Part::of(window, Slab::whole(gap.dim()), gap, law)
+    }
+
     #[test]
     fn a_part_has_all_that_touches_or_attracts_and_a_margin() {
         let gap = Array2::from_shape_fn((200, 100), |(i, j)| {
             let apart = i.abs_diff(60).saturating_sub(20).max(j.abs_diff(30).saturating_sub(4));
             if i < 100 && j < 80 { apart as f64 } else { 0.0 }
         });
-        let part = Part::of((100, 80), &gap, &NoAdhesion).unwrap();
+        let part = of((100, 80), &gap, &NoAdhesion).unwrap();
         assert_eq!(part, Part { x: 30..91, y: 18..43 });
         // to a gap of 6, as the traction of an exponential law falls to a millionth of w/ρ at 13.8ρ
-        let part = Part::of((100, 80), &gap, &Exponential::new(1.0, 0.5).unwrap()).unwrap();
+        let part = of((100, 80), &gap, &Exponential::new(1.0, 0.5).unwrap()).unwrap();
         assert_eq!(part, Part { x: 21..100, y: 12..49 });
         // more than half of the window, or nothing
-        assert_eq!(Part::of((100, 50), &gap, &NoAdhesion), Some(Part { x: 30..91, y: 18..43 }));
-        assert_eq!(Part::of((60, 50), &gap, &Exponential::new(1.0, 2.0).unwrap()), None);
-        assert_eq!(Part::of((10, 10), &gap, &NoAdhesion), None);
+        assert_eq!(of((100, 50), &gap, &NoAdhesion), Some(Part { x: 30..91, y: 18..43 }));
+        assert_eq!(of((60, 50), &gap, &Exponential::new(1.0, 2.0).unwrap()), None);
+        assert_eq!(of((10, 10), &gap, &NoAdhesion), None);
     }
 }

@@ -185,8 +185,11 @@ impl<T: Real> Deformed<T> {
         let [from, to] = [Side::of(window, slab.shape()), Side::of(surface.grid().shape(), grid.shape())];
         let (mut along_x, along_y, back_y) = (places(from[0], to[0]), places(from[1], to[1]), places(to[1], from[1]));
         let slabs = [slab, grid.slab()];
-        let gap =
-            fetched(gap.mapv(T::widen).view(), slabs, &mut places(from[0], to[0])).map_or(gap, |gap| gap.mapv(T::lit));
+        let gap = match slab.is_shared() {
+            true => fetched(gap.mapv(T::widen).view(), slabs, &mut places(from[0], to[0]))
+                .map_or(gap, |gap| gap.mapv(T::lit)),
+            false => gap,
+        };
         let displacement = fetched(displacement.view(), slabs, &mut along_x).unwrap_or(displacement);
         let (width, first) = (grid.shape().1, grid.slab().first_node());
         let faces = |node: usize| facing.as_ref().is_none_or(|facing| facing.faces(first + node));

@@ -222,6 +222,40 @@ fn the_edge_of_a_contact_with_a_wall_that_gives_is_found_between_the_nodes() {
 }
 
 #[test]
+fn where_the_law_alone_repels_the_area_is_that_of_the_nodes_that_it_presses() {
+    // counted nodes are right in the mean over loads: pressure and gap have no kink there
+    let law = LennardJones::new(1e-3, 4e-3).unwrap();
+    let mut problem = sphere::<f64, _>(128, law);
+    let loads: Vec<f64> = (0..12).map(|k| 2e-3 * 1.1_f64.powi(k)).collect();
+    let excess = |load: &f64| {
+        let mut solver = Solver { settings: Settings::default(), constraint: NoWall };
+        let solution = solver.solve(&mut problem, Control::MeanPressure(*load)).unwrap();
+        let area = ContactArea::of_solution(&solution, problem.grid()).unwrap();
+        assert!(area.contact_nodes > 100 && solution.report.status == Status::Converged);
+        area.corrected_contact_fraction / area.contact_fraction - 1.0
+    };
+    let mean = loads.iter().map(excess).sum::<f64>() / loads.len() as f64;
+    assert!(mean.abs() < 0.02, "{mean}");
+}
+
+#[test]
+fn fields_that_no_solve_has_made_have_an_area_within_the_surface() {
+    let grid = Grid::square(4, 1.0).unwrap();
+    let area = |gap: &dyn Fn(usize) -> f64, pressure: f64| {
+        let field = |of: &dyn Fn(usize) -> f64| Array2::from_shape_fn((4, 4), |(i, j)| of((i + j) % 2));
+        let pressure = field(&|k| if k == 0 { pressure } else { 0.0 });
+        let body = (Boundary::Periodic, 1.0);
+        let of = ContactStatistics::of_fields(field(gap).view(), pressure.view(), &grid, body, &NoAdhesion).unwrap();
+        of.corrected_contact_fraction
+    };
+    // every other node, deep in a wall that gives, far from one, and under a tension that no wall holds
+    for (inside, outside, pressure) in [(-1.0, 1e-9, 1e-9), (0.0, 1.0, 1.0), (0.0, 1.0, -1.0), (0.0, 0.43, -1.0)] {
+        let area = area(&|k| if k == 0 { inside } else { outside }, pressure);
+        assert!((0.0..=1.0).contains(&area), "{inside} {outside} {pressure}: {area}");
+    }
+}
+
+#[test]
 fn the_area_is_the_same_bits_however_the_fields_lie() {
     // about a third of the nodes in contact, in clusters of all shapes that meet across diagonals, too
     let grid = Grid::new((48, 36), (1.0, 0.9)).unwrap();
