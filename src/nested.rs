@@ -342,9 +342,9 @@ impl<C> Nested<C> {
         };
         let unique = law.is_zero();
         let mut problem = Problem::new(surface, half_space, law)?;
-        let mut spent = part.as_ref().map_or(0, |part| part.3);
+        let mut spent = part.as_ref().map_or(0, |part| part.applications);
         let begin = match (part, prolonged) {
-            (Some((part, grid, solution, _)), _) if leads(&solution.report, unique) => {
+            (Some(OnPart { part, grid, solution, .. }), _) if leads(&solution.report, unique) => {
                 spent += 1;
                 Begin::Found(part.whole(&grid, &mut problem, (&solution.gap, &solution.pressure))?)
             }
@@ -376,8 +376,7 @@ impl<C> Nested<C> {
     }
 
     /// The solution on a small part of the window of a free half-space, if all contact is there in a gap prolonged to
-    /// the operator's grid, with the grid of the part, and the applications that it took, in units of one on that grid
-    /// of the operator.
+    /// the operator's grid.
     fn solve_part<T, O, L>(
         &mut self,
         surface: &Surface,
@@ -386,7 +385,7 @@ impl<C> Nested<C> {
         control: Control,
         gap: &Array2<T>,
         observe: Observer<'_>,
-    ) -> Result<Option<(Part, Grid, Solution<T>, usize)>>
+    ) -> Result<Option<OnPart<T>>>
     where
         T: Real,
         O: ElasticOperator<T>,
@@ -408,7 +407,7 @@ impl<C> Nested<C> {
         self.solver.settings = settings;
         let solution = result?.solution;
         let applications = (share * (solution.report.operator_applications + 1) as f64).ceil() as usize;
-        Ok(Some((part, *small.grid(), solution, applications)))
+        Ok(Some(OnPart { part, grid: *small.grid(), solution, applications }))
     }
 
     /// The contact stiffness of a solution, if it is asked for and the solve was not stopped.
@@ -426,6 +425,15 @@ impl<C> Nested<C> {
         let find = |tolerance| ContactStiffness::of_constrained(problem, &self.solver.constraint, solution, tolerance);
         self.stiffness.filter(|_| solution.report.status != Status::Stopped).map(find).transpose()
     }
+}
+
+/// The solution on a part of the window.
+struct OnPart<T> {
+    part: Part,
+    grid: Grid,
+    solution: Solution<T>,
+    /// in units of one on the whole
+    applications: usize,
 }
 
 /// Whether the solution of a part leads to that of the whole: contact that reaches the end of the part may go on beyond
