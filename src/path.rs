@@ -14,7 +14,7 @@ use crate::error::{Error, Result};
 use crate::problem::{Control, Parts, Problem, smoothed_law};
 use crate::real::Real;
 use crate::solver::{
-    Begin, Iteration, Least, Observer, Potential, Solution, Solver, Start, Status, bounded, check_wall, refuse_springs,
+    Begin, Iteration, Least, Observer, Potential, Solution, Solved, Solver, Start, Status, bounded, check_wall, refuse_springs,
 };
 use crate::stability::Watch;
 
@@ -39,6 +39,10 @@ use track::{State, Track, Way};
 /// leads a *leg*. Where below a mean gap is given, that is the approach with a free boundary, and with a spring its
 /// rest. A step starts from the extrapolation of the last two states, clipped to gaps that are feasible, so that it
 /// stays on the branch; its length adapts to how much the branch bends.
+///
+/// A step to a state that has not converged is taken back and halved, too, unless the residual of that state is at the
+/// floor of rounding, as it may be in `f32` in light contact: then a shorter step would bring it no closer, and the
+/// state is taken as it is, [`Stalled`](Status::Stalled).
 ///
 /// The wall is that of the solver: rigid, or [none](crate::NoWall) for a law that keeps the surfaces apart by itself.
 ///
@@ -268,8 +272,9 @@ where
         start: Option<Array2<T>>,
         observe: Observer<'_>,
     ) -> Result<Option<PathStep<T>>> {
-        let mut solution = self.first(control, start, observe)?;
-        let mut on_saddle = solution.report.status == Status::Converged && self.saddle(&solution)?.is_some();
+        let solved = self.first(control, start, observe)?;
+        let mut on_saddle = solved.is_settled() && self.saddle(&solved.solution)?.is_some();
+        let mut solution = solved.solution;
         if on_saddle {
             let (left, _) = self.leave(&solution, control, observe)?;
             if self.failed {
@@ -284,25 +289,25 @@ where
     }
 
     /// The first state. The default start is an equilibrium of the law itself.
-    fn first(&mut self, control: Control, start: Option<Array2<T>>, observe: Observer<'_>) -> Result<Solution<T>> {
+    fn first(&mut self, control: Control, start: Option<Array2<T>>, observe: Observer<'_>) -> Result<Solved<T>> {
         let jumps = self.settings.smooth && smoothed_law(&self.problem.operator, &self.problem.law).is_some();
         match start {
             Some(start) => self.solve(control, Some(&start), observe),
             None if jumps => {
                 let sharp = self.solve(control, None, observe)?;
-                self.solve(control, Some(&sharp.gap), observe)
+                self.solve(control, Some(&sharp.solution.gap), observe)
             }
             None => self.solve(control, None, observe),
         }
     }
 
     /// A solve with the jumps of the law smoothed, if they are to be.
-    fn solve(&mut self, control: Control, start: Option<&Array2<T>>, observe: Observer<'_>) -> Result<Solution<T>> {
+    fn solve(&mut self, control: Control, start: Option<&Array2<T>>, observe: Observer<'_>) -> Result<Solved<T>> {
         let Parts { operator, law, flat } = self.problem.parts();
         let smoothed = if self.settings.smooth && start.is_some() { smoothed_law(&*operator, law) } else { None };
         let parts = Parts { operator, law: smoothed.as_deref().unwrap_or(law), flat };
         let start = start.map_or(Start::Default, |gap| Start::From(gap));
-        self.solver.run(parts, control, Begin::At(start), observe).map(|solved| solved.solution)
+        self.solver.run(parts, control, Begin::At(start), observe)
     }
 
     /// One step; `None` if it has to be taken back and halved.
@@ -310,13 +315,16 @@ where
         let (target, smallest) = self.state.next_target(&self.settings);
         let control = self.state.control(target);
         let start = self.predict(target);
-        let mut solution = self.solve(control, Some(&start), observe)?;
+        let mut solved = self.solve(control, Some(&start), observe)?;
         // a long way after a jump may need another run-up
         for _ in 0..RETRIES {
-            if smallest && matches!(solution.report.status, Status::Stalled | Status::IterationLimit) {
-                solution = self.solve(control, Some(&solution.gap), observe)?;
+            let short = matches!(solved.solution.report.status, Status::Stalled | Status::IterationLimit);
+            if smallest && short && !solved.is_settled() {
+                solved = self.solve(control, Some(&solved.solution.gap), observe)?;
             }
         }
+        let settled = solved.is_settled();
+        let mut solution = solved.solution;
         let report = &solution.report;
         if report.status == Status::Stopped {
             self.failed = true;
@@ -329,9 +337,8 @@ where
         let noise = (8.0 * rounding * flat, report.tolerance.powi(2) * flat);
         let scale = (self.settings.imbalance, 1e-3 * w);
         let mut trial = self.state.judge(target, report, scale, noise);
-        let converged = report.status == Status::Converged;
-        let good = trial.balanced && converged;
-        let saddle = if converged && (good || smallest) { self.saddle(&solution)? } else { None };
+        let good = trial.balanced && settled;
+        let saddle = if settled && (good || smallest) { self.saddle(&solution)? } else { None };
         let lost = good && saddle.is_some() && !self.state.on_saddle;
         if (!good || lost) && !smallest {
             self.state.halve(&self.settings);

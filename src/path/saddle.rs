@@ -60,7 +60,9 @@ where
             let least = self.least();
             self.watch.displace((&mut gap, slab), least, amplitude, drawn.then_some(share));
             let left = self.solve(control, Some(&gap), observe)?;
-            if left.report.status != Status::Converged {
+            let settled = left.is_settled();
+            let left = left.solution;
+            if !settled {
                 self.failed |= left.report.status == Status::Stopped;
                 break;
             }
