@@ -102,7 +102,11 @@ impl<T: Real, L: Real> State<'_, T, L> {
         let (grid, at_floor) = (*self.operators.state().grid(), self.is_at_floor());
         let Fields { gap, pressure, .. } = self.fields;
         let Some(window) = &flat.window else {
-            return Ok(Solved { solution: Solution { gap, pressure, contact_pressure, report }, whole: None, at_floor });
+            return Ok(Solved {
+                solution: Solution { gap, pressure, contact_pressure, report },
+                whole: None,
+                at_floor,
+            });
         };
         let whole = (grid, gap);
         let gap = window.crop(&whole.1, T::infinity());

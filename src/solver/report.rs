@@ -248,6 +248,14 @@ impl<T> Solved<T> {
     }
 }
 
+impl<T: Clone> Solved<T> {
+    /// The solution, and its gap on the grid of the operator.
+    pub(crate) fn with_gap(self) -> (Solution<T>, Array2<T>) {
+        let gap = self.whole.map_or_else(|| self.solution.gap.clone(), |(_, gap)| gap);
+        (self.solution, gap)
+    }
+}
+
 impl<T: Real> Solution<T> {
     /// The solution with the whole of its fields, on the first of the processes that share the grid of the surface, and
     /// nothing on the others. All of them have to ask. The solution itself, if the grid is not shared.
