@@ -315,7 +315,7 @@ impl<C> Nested<C> {
                 if stopped || done { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
             });
             self.solver.settings = settings;
-            let Solved { solution, whole } = result?;
+            let Solved { solution, whole, .. } = result?;
             let stiffness = self.stiffness_of(&mut problem, &solution)?;
             levels.push(Level { stiffness, ..Level::of(&solution, coarse.grid())? });
             if levels.len() == 1 && levels[0].area.contact_fraction > self.closed {

@@ -14,7 +14,8 @@ use crate::error::{Error, Result};
 use crate::problem::{Control, Parts, Problem, smoothed_law};
 use crate::real::Real;
 use crate::solver::{
-    Begin, Iteration, Least, Observer, Potential, Solution, Solver, Start, Status, bounded, check_wall, refuse_springs,
+    Begin, Iteration, Least, Observer, Potential, Solution, Solved, Solver, Start, Status, check_wall, extrapolated,
+    refuse_springs,
 };
 use crate::stability::Watch;
 
@@ -39,6 +40,10 @@ use track::{State, Track, Way};
 /// leads a *leg*. Where below a mean gap is given, that is the approach with a free boundary, and with a spring its
 /// rest. A step starts from the extrapolation of the last two states, clipped to gaps that are feasible, so that it
 /// stays on the branch; its length adapts to how much the branch bends.
+///
+/// A step to a state that has not converged is taken back and halved, too, unless the residual of that state is at the
+/// floor of rounding, as it may be in `f32` in light contact: then a shorter step would bring it no closer, and the
+/// state is taken as it is, [`Stalled`](Status::Stalled).
 ///
 /// The wall is that of the solver: rigid, or [none](crate::NoWall) for a law that keeps the surfaces apart by itself.
 ///
@@ -122,7 +127,7 @@ pub struct Path<'a, T, O, L, C = Projection> {
     settings: PathSettings,
     start: Option<Array2<T>>,
     state: State,
-    /// the last gaps, the latest last: at most two
+    /// the last gaps, on the grid of the operator, the latest last: at most two
     gaps: Vec<Array2<T>>,
     watch: Watch<T>,
     failed: bool,
@@ -191,8 +196,12 @@ where
 
     /// The present place of the path, from which [`Path::continuing`] goes on.
     pub fn checkpoint(&self) -> PathCheckpoint<T> {
-        let fields = self.gaps.iter().chain(&self.watch.mode).cloned().collect();
-        PathCheckpoint { numbers: self.state.numbers(), fields }
+        let window = self.problem.flat.window.as_ref();
+        let mode = self.watch.mode.as_ref().map(|mode| match window {
+            Some(window) => window.place(&window.hold(mode.view()).into_owned(), T::zero()),
+            None => mode.clone(),
+        });
+        PathCheckpoint { numbers: self.state.numbers(), fields: self.gaps.iter().cloned().chain(mode).collect() }
     }
 
     /// The path continued from the checkpoint of another one with the same problem, loads and settings.
@@ -201,7 +210,7 @@ where
     /// [`Error::Shape`] if the fields are of another grid, [`Error::Value`] if the numbers are not those of a
     /// checkpoint.
     pub fn continuing(mut self, from: PathCheckpoint<T>) -> Result<Self> {
-        let slab = self.problem.grid().slab();
+        let slab = self.problem.operator.grid().slab();
         let PathCheckpoint { numbers, mut fields } = from;
         for field in &mut fields {
             Error::agreed(slab, Error::shape("field of the checkpoint", field.dim(), slab.held()))?;
@@ -219,7 +228,11 @@ where
             let (name, value) = ("number of numbers in the checkpoint", numbers.len() as f64);
             return Err(Error::Value { name, value, requirement: "as in PathCheckpoint, with all of its fields" });
         };
-        self.watch = Watch::from_mode(fields.drain(state.at.len()..).next());
+        let mode = fields.drain(state.at.len()..).next();
+        self.watch = Watch::from_mode(match &self.problem.flat.window {
+            Some(window) => mode.map(|mode| window.crop(&mode, T::zero())),
+            None => mode,
+        });
         (self.state, self.gaps) = (state, fields);
         Ok(self)
     }
@@ -268,41 +281,41 @@ where
         start: Option<Array2<T>>,
         observe: Observer<'_>,
     ) -> Result<Option<PathStep<T>>> {
-        let mut solution = self.first(control, start, observe)?;
-        let mut on_saddle = solution.report.status == Status::Converged && self.saddle(&solution)?.is_some();
+        let mut solved = self.first(control, start, observe)?;
+        let mut on_saddle = solved.is_settled() && self.saddle(&solved.solution)?.is_some();
         if on_saddle {
-            let (left, _) = self.leave(&solution, control, observe)?;
+            let (left, _) = self.leave(&solved.solution, control, observe)?;
             if self.failed {
                 return Ok(None);
             }
-            (solution, on_saddle) = left.map_or((solution, true), |left| (left, false));
+            (solved, on_saddle) = left.map_or((solved, true), |left| (left, false));
         }
+        let (solution, gap) = solved.with_gap();
         self.state.begin(&solution.report);
         self.state.on_saddle = on_saddle;
-        self.gaps.push(solution.gap.clone());
+        self.gaps.push(gap);
         Ok(Some(self.step(solution, control, None)))
     }
 
     /// The first state. The default start is an equilibrium of the law itself.
-    fn first(&mut self, control: Control, start: Option<Array2<T>>, observe: Observer<'_>) -> Result<Solution<T>> {
+    fn first(&mut self, control: Control, start: Option<Array2<T>>, observe: Observer<'_>) -> Result<Solved<T>> {
         let jumps = self.settings.smooth && smoothed_law(&self.problem.operator, &self.problem.law).is_some();
         match start {
-            Some(start) => self.solve(control, Some(&start), observe),
+            Some(start) => self.solve(control, Begin::At(Start::From(&start)), observe),
             None if jumps => {
-                let sharp = self.solve(control, None, observe)?;
-                self.solve(control, Some(&sharp.gap), observe)
+                let (_, sharp) = self.solve(control, Begin::At(Start::Default), observe)?.with_gap();
+                self.solve(control, Begin::Found(sharp), observe)
             }
-            None => self.solve(control, None, observe),
+            None => self.solve(control, Begin::At(Start::Default), observe),
         }
     }
 
     /// A solve with the jumps of the law smoothed, if they are to be.
-    fn solve(&mut self, control: Control, start: Option<&Array2<T>>, observe: Observer<'_>) -> Result<Solution<T>> {
+    fn solve(&mut self, control: Control, begin: Begin<'_, T>, observe: Observer<'_>) -> Result<Solved<T>> {
         let Parts { operator, law, flat } = self.problem.parts();
-        let smoothed = if self.settings.smooth && start.is_some() { smoothed_law(&*operator, law) } else { None };
+        let smoothed = if self.settings.smooth && !begin.is_default() { smoothed_law(&*operator, law) } else { None };
         let parts = Parts { operator, law: smoothed.as_deref().unwrap_or(law), flat };
-        let start = start.map_or(Start::Default, |gap| Start::From(gap));
-        self.solver.run(parts, control, Begin::At(start), observe).map(|solved| solved.solution)
+        self.solver.run(parts, control, begin, observe)
     }
 
     /// One step; `None` if it has to be taken back and halved.
@@ -310,14 +323,15 @@ where
         let (target, smallest) = self.state.next_target(&self.settings);
         let control = self.state.control(target);
         let start = self.predict(target);
-        let mut solution = self.solve(control, Some(&start), observe)?;
+        let mut solved = self.solve(control, Begin::Found(start), observe)?;
         // a long way after a jump may need another run-up
         for _ in 0..RETRIES {
-            if smallest && matches!(solution.report.status, Status::Stalled | Status::IterationLimit) {
-                solution = self.solve(control, Some(&solution.gap), observe)?;
+            let short = matches!(solved.solution.report.status, Status::Stalled | Status::IterationLimit);
+            if smallest && short && !solved.is_settled() {
+                solved = self.solve(control, Begin::Found(solved.with_gap().1), observe)?;
             }
         }
-        let report = &solution.report;
+        let (settled, report) = (solved.is_settled(), &solved.solution.report);
         if report.status == Status::Stopped {
             self.failed = true;
             return Ok(None);
@@ -325,13 +339,14 @@ where
         let w = self.problem.law.work_of_adhesion().widen();
         let rounding = T::epsilon().widen() / (self.problem.grid().nodes() as f64).sqrt() + f64::EPSILON;
         let flat = self.problem.flat.work * self.problem.flat.padding;
-        // what rounding makes of the energy, and what the tolerance leaves in that of surfaces that are apart
-        let noise = (8.0 * rounding * flat, report.tolerance.powi(2) * flat);
+        // what rounding makes of the energy, and what the tolerance leaves in that of surfaces that are apart, which
+        // nothing but adhesion makes jump
+        let left = if self.problem.law.is_zero() { report.tolerance.powi(2) * flat } else { 0.0 };
+        let noise = (8.0 * rounding * flat, left);
         let scale = (self.settings.imbalance, 1e-3 * w);
         let mut trial = self.state.judge(target, report, scale, noise);
-        let converged = report.status == Status::Converged;
-        let good = trial.balanced && converged;
-        let saddle = if converged && (good || smallest) { self.saddle(&solution)? } else { None };
+        let good = trial.balanced && settled;
+        let saddle = if settled && (good || smallest) { self.saddle(&solved.solution)? } else { None };
         let lost = good && saddle.is_some() && !self.state.on_saddle;
         if (!good || lost) && !smallest {
             self.state.halve(&self.settings);
@@ -347,17 +362,18 @@ where
         let mut way = Way { jumped: trial.jumped && !good, bifurcation: None };
         let mut on_saddle = saddle.is_some();
         if let Some(saddle) = saddle {
-            let (left, drawn) = self.leave(&solution, control, observe)?;
+            let (left, drawn) = self.leave(&solved.solution, control, observe)?;
             if self.failed {
                 return Ok(None);
             }
             if let Some(left) = left {
-                (solution, on_saddle) = (left, false);
-                trial = self.state.judge(target, &solution.report, scale, noise);
+                (solved, on_saddle) = (left, false);
+                trial = self.state.judge(target, &solved.solution.report, scale, noise);
                 way.jumped |= trial.jumped && !trial.balanced;
                 way.bifurcation = (good && !drawn).then_some(saddle.eigenvalue);
             }
         }
+        let (solution, gap) = solved.with_gap();
         if self.state.overshoots(&solution.report, &self.settings) {
             return Ok(None);
         }
@@ -368,7 +384,7 @@ where
         } else if self.gaps.len() == 2 {
             self.gaps.remove(0);
         }
-        self.gaps.push(solution.gap.clone());
+        self.gaps.push(gap);
         Ok(Some(self.step(solution, control, event)))
     }
 
@@ -397,15 +413,12 @@ where
         match &self.gaps[..] {
             [before, last] => {
                 let steps = self.state.extrapolation(target).clamp(-FARTHEST, FARTHEST);
-                let steps = T::lit(if steps.is_finite() { steps } else { 0.0 });
-                let (least, mut start) = (self.least(), last.clone());
-                start.zip_mut_with(before, |last, &before| {
-                    *last = bounded(least, *last, *last + steps * (*last - before));
-                });
-                start
+                let steps = if steps.is_finite() { steps } else { 0.0 };
+                let on = (self.problem.flat.window.as_ref(), self.problem.operator.grid().slab());
+                extrapolated([before, last], steps, self.least(), on)
             }
             [.., last] => last.clone(),
-            [] => Array2::zeros(self.problem.grid().field_shape()),
+            [] => Array2::zeros(self.problem.operator.grid().field_shape()),
         }
     }
 

@@ -35,7 +35,7 @@ pub(crate) use potential::{Least, Of, Potential, bounded};
 pub(crate) use report::Solved;
 pub use report::{Iteration, Report, Solution, Status};
 pub use start::Start;
-pub(crate) use start::{Begin, check_wall, refuse_springs};
+pub(crate) use start::{Begin, check_wall, extrapolated, refuse_springs};
 
 /// The method of iteration, one of two.
 ///

@@ -10,12 +10,12 @@ use crate::elastic::ElasticOperator;
 use crate::error::Result;
 use crate::problem::{Control, Problem};
 use crate::real::Real;
-use crate::solver::{Iteration, Solution, Solver, Start};
+use crate::solver::{Begin, Iteration, Potential, Solution, Solved, Solver, Start, extrapolated};
 
 /// Solves one problem under a sequence of loads, each from where the ones before lead: an iterator over the solutions.
 ///
 /// A load is any [`Control`]. A solution comes as soon as it is found; the sweep keeps no more than two
-/// gaps, two scalars per node, beside the problem and the solver. The first load starts from the solver's default
+/// gaps, two scalars per node of the operator's grid, beside the problem and the solver. The first load starts from the solver's default
 /// start, or from [`Sweep::starting_from`]; the others
 ///
 /// - without adhesion, from the last two gaps, extrapolated linearly in the mean gap, in the approach or in the rest of
@@ -83,7 +83,8 @@ where
         Self { start: Some(gap), ..self }
     }
 
-    /// The loads and gaps from which the next start is made, the latest last: at most two.
+    /// The loads and gaps from which the next start is made, the latest last: at most two. The gaps are on the grid of
+    /// the operator; beyond a window, where nothing faces the half-space, they go on as its displacement.
     pub fn history(&self) -> &[(Control, Array2<T>)] {
         &self.history
     }
@@ -122,26 +123,34 @@ where
     /// Those of [`Solver::solve_with`]; after one there is no next load.
     pub fn next_observed(
         &mut self,
-        observe: impl FnMut(&Iteration) -> ControlFlow<()> + Send,
+        mut observe: impl FnMut(&Iteration) -> ControlFlow<()> + Send,
     ) -> Option<Result<(Control, Solution<T>)>> {
         if self.failed {
             return None;
         }
         let control = self.loads.next()?;
-        self.extrapolate(control);
-        let last = self.start.as_ref().or(self.history.last().map(|(_, gap)| gap));
-        let start = last.map_or(Start::Default, |gap| Start::From(gap));
-        let solution = self.solver.solve_with(self.problem, control, start, observe);
-        match &solution {
-            Ok(solution) => self.remember(control, solution),
-            Err(_) => self.failed = true,
-        }
-        Some(solution.map(|solution| (control, solution)))
+        let start = self.start.take();
+        let begin = match (&start, self.next_start(control)) {
+            (Some(gap), _) => Begin::At(Start::From(gap)),
+            (None, Some(gap)) => Begin::Found(gap),
+            (None, None) => Begin::At(Start::Default),
+        };
+        let solved = self.solver.run(self.problem.parts(), control, begin, &mut observe).map(Solved::with_gap);
+        self.failed = solved.is_err();
+        Some(solved.map(|(solution, gap)| {
+            if !self.problem.law.is_zero() {
+                self.history.clear();
+            }
+            self.history.push((control, gap));
+            (control, solution)
+        }))
     }
 
-    /// Makes the start from the last two gaps, in the place of the older one, if that is possible.
-    fn extrapolate(&mut self, control: Control) {
-        let [(before, _), (last, _)] = &self.history[..] else { return };
+    /// The start under a load that the history leads to, if there is any. Of two gaps the older one is dropped.
+    fn next_start(&mut self, control: Control) -> Option<Array2<T>> {
+        let [(before, _), (last, _)] = &self.history[..] else {
+            return self.history.last().map(|(_, gap)| gap.clone());
+        };
         let steps = match (*before, *last, control) {
             (Control::MeanGap(a), Control::MeanGap(b), Control::MeanGap(c))
             | (Control::Approach(a), Control::Approach(b), Control::Approach(c)) => (c - b) / (b - a),
@@ -154,32 +163,14 @@ where
             ) if k == l && l == m => (c - b) / (b - a),
             _ => f64::NAN,
         };
-        let (_, mut start) = self.history.remove(0);
+        let (_, before) = self.history.remove(0);
         let last = &self.history[0].1;
-        if steps.is_finite() && self.problem.law.is_zero() && start.dim() == last.dim() {
-            let (steps, projects) =
-                (T::lit(steps.clamp(-FARTHEST, FARTHEST)), self.solver.constraint.wall().is_rigid());
-            start.zip_mut_with(last, |start, &last| {
-                let next = last + steps * (last - *start);
-                *start = if projects { next.max(T::zero()) } else { next };
-            });
-            self.start = Some(start);
+        if !(steps.is_finite() && self.problem.law.is_zero() && before.dim() == last.dim()) {
+            return Some(last.clone());
         }
-    }
-
-    /// Keeps the gap, and the one before it if the next start may be extrapolated from both.
-    fn remember(&mut self, control: Control, solution: &Solution<T>) {
-        let gap = match self.start.take() {
-            Some(mut room) if room.dim() == solution.gap.dim() => {
-                room.assign(&solution.gap);
-                room
-            }
-            _ => solution.gap.clone(),
-        };
-        if !self.problem.law.is_zero() {
-            self.history.clear();
-        }
-        self.history.push((control, gap));
+        let least = Potential::new(&self.problem.law, &self.solver.constraint, None).least();
+        let on = (self.problem.flat.window.as_ref(), self.problem.operator.grid().slab());
+        Some(extrapolated([&before, last], steps.clamp(-FARTHEST, FARTHEST), least, on))
     }
 }
 

@@ -303,7 +303,7 @@ impl<C> Accuracy<C> {
         L: AdhesionLaw<T>,
         C: ContactConstraint<T>,
     {
-        let (Solved { mut solution, mut whole }, mut levels) =
+        let (Solved { mut solution, mut whole, .. }, mut levels) =
             self.nested.run(surface, &mut *operator, law, control, &mut *observe)?;
         let periodic = solution.report.boundary == Boundary::Periodic;
         let mut waves = surface.nodes_per_wave(solution.report.boundary);
@@ -329,7 +329,7 @@ impl<C> Accuracy<C> {
             let mut problem = Problem::new(&fine, half_space, law)?;
             let grid = *fine.grid();
             let begin = Begin::Prolonged(start);
-            Solved { solution, whole } =
+            Solved { solution, whole, .. } =
                 self.nested.solver.run(problem.parts(), control, begin, &mut |iteration| observe(&grid, iteration))?;
             let stiffness = self.nested.stiffness_of(&mut problem, &solution)?;
             levels.push(Level { stiffness, ..Level::of(&solution, &grid)? });

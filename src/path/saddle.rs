@@ -1,5 +1,7 @@
 //! The departure of a path from a branch of saddles.
 
+use ndarray::CowArray;
+
 use super::Path;
 use crate::adhesion::AdhesionLaw;
 use crate::constraint::ContactConstraint;
@@ -7,7 +9,7 @@ use crate::elastic::ElasticOperator;
 use crate::error::Result;
 use crate::problem::{Control, Parts, smoothed_law};
 use crate::real::Real;
-use crate::solver::{Observer, Solution, Status};
+use crate::solver::{Begin, Observer, Solution, Solved, Start, Status};
 use crate::stability::Saddle;
 
 /// The largest change of the gap that is made along the mode, in ranges of adhesion.
@@ -44,12 +46,14 @@ where
         from: &Solution<T>,
         control: Control,
         observe: Observer<'_>,
-    ) -> Result<(Option<Solution<T>>, bool)> {
+    ) -> Result<(Option<Solved<T>>, bool)> {
         let slab = self.problem.grid().slab();
         let moved = self.gaps.last().map(|last| {
+            let window = self.problem.flat.window.as_ref();
+            let last = window.map_or(last.view().into(), |window| CowArray::from(window.crop(last, T::infinity())));
             let mut moved = from.gap.clone();
             // absent nodes are infinitely far, and stay there
-            moved.zip_mut_with(last, |gap, &last| *gap = if *gap == last { T::zero() } else { *gap - last });
+            moved.zip_mut_with(&last, |gap, &last| *gap = if *gap == last { T::zero() } else { *gap - last });
             moved
         });
         let share = moved.map_or(0.0, |moved| self.watch.share(&moved, slab));
@@ -59,15 +63,15 @@ where
             let amplitude = PERTURBATION * self.problem.law.range().widen();
             let least = self.least();
             self.watch.displace((&mut gap, slab), least, amplitude, drawn.then_some(share));
-            let left = self.solve(control, Some(&gap), observe)?;
-            if left.report.status != Status::Converged {
-                self.failed |= left.report.status == Status::Stopped;
+            let left = self.solve(control, Begin::At(Start::From(&gap)), observe)?;
+            if !left.is_settled() {
+                self.failed |= left.solution.report.status == Status::Stopped;
                 break;
             }
-            if self.saddle(&left)?.is_none() {
+            if self.saddle(&left.solution)?.is_none() {
                 return Ok((Some(left), drawn));
             }
-            gap = left.gap;
+            gap = left.solution.gap;
         }
         Ok((None, drawn))
     }

@@ -44,7 +44,8 @@ pub struct PathStep<T> {
     pub event: Option<Event>,
 }
 
-/// All that a path needs to go on: opaque numbers, and fields of shape (Nx, Ny). Both must come back bit for bit.
+/// All that a path needs to go on: opaque numbers, and fields on the grid of the operator. Both must come back bit
+/// for bit.
 ///
 /// ```
 /// use asperity::path::{Path, PathSettings};

@@ -99,10 +99,14 @@ impl<T: Real, L: Real> State<'_, T, L> {
             criterion: self.settings.criterion,
             tolerance: self.settings.tolerance_in::<T>(),
         };
-        let grid = *self.operators.state().grid();
+        let (grid, at_floor) = (*self.operators.state().grid(), self.is_at_floor());
         let Fields { gap, pressure, .. } = self.fields;
         let Some(window) = &flat.window else {
-            return Ok(Solved { solution: Solution { gap, pressure, contact_pressure, report }, whole: None });
+            return Ok(Solved {
+                solution: Solution { gap, pressure, contact_pressure, report },
+                whole: None,
+                at_floor,
+            });
         };
         let whole = (grid, gap);
         let gap = window.crop(&whole.1, T::infinity());
@@ -120,7 +124,7 @@ impl<T: Real, L: Real> State<'_, T, L> {
             let touches = grid.slab().has(edge(&gap, grid).any(|gap| gap <= T::zero()));
             report.reaches_edge = !apart && (share > EDGE || touches);
         }
-        Ok(Solved { solution: Solution { gap, pressure, contact_pressure, report }, whole: Some(whole) })
+        Ok(Solved { solution: Solution { gap, pressure, contact_pressure, report }, whole: Some(whole), at_floor })
     }
 
     /// The status, corrected by the figures of the returned fields.

@@ -228,10 +228,32 @@ pub struct Solution<T> {
     pub report: Report,
 }
 
-/// A solution, and its gap on the grid of the operator, with that grid, if not all of its nodes face the surface.
+/// A solution, and what only other solves need of it.
 pub(crate) struct Solved<T> {
     pub(crate) solution: Solution<T>,
+    /// the gap on the grid of the operator, with that grid, if not all of its nodes face the surface
     pub(crate) whole: Option<(Grid, Array2<T>)>,
+    /// whether the residual is at the rounding floor
+    pub(crate) at_floor: bool,
+}
+
+impl<T> Solved<T> {
+    /// Whether the fields are as good as the tolerance asks, or as good as rounding lets them be.
+    pub(crate) fn is_settled(&self) -> bool {
+        match self.solution.report.status {
+            Status::Converged => true,
+            Status::Stalled => self.at_floor,
+            _ => false,
+        }
+    }
+}
+
+impl<T: Clone> Solved<T> {
+    /// The solution, and its gap on the grid of the operator.
+    pub(crate) fn with_gap(self) -> (Solution<T>, Array2<T>) {
+        let gap = self.whole.map_or_else(|| self.solution.gap.clone(), |(_, gap)| gap);
+        (self.solution, gap)
+    }
 }
 
 impl<T: Real> Solution<T> {

@@ -2,6 +2,7 @@
 
 use ndarray::{Array2, ArrayRef2, CowArray, Ix2};
 
+use super::potential::{Least, bounded};
 use crate::adhesion::AdhesionLaw;
 use crate::constraint::Wall;
 use crate::error::{Error, Result};
@@ -58,12 +59,12 @@ pub(crate) enum Begin<'a, T> {
     /// The gap of the solution on another grid, near as that of [`Start::Near`], but on the grid of the operator, with
     /// the nodes that face no surface.
     Prolonged(Array2<T>),
-    /// The gap of the solution on a part of the grid, on the whole of that of the operator.
+    /// The gap of the solution at another load, or of that on a part of the grid, on the grid of the operator as well.
     Found(Array2<T>),
 }
 
 impl<T> Begin<'_, T> {
-    pub(super) fn is_default(&self) -> bool {
+    pub(crate) fn is_default(&self) -> bool {
         matches!(self, Self::At(Start::Default))
     }
 
@@ -89,20 +90,21 @@ pub(super) fn given_start<T: Real>(
     load: Load,
     projects: bool,
 ) -> Result<Option<Array2<T>>> {
-    let given: CowArray<'_, T, Ix2> = match begin {
+    let (given, whole): (CowArray<'_, T, Ix2>, _) = match begin {
         Begin::At(Start::Default) => return Ok(None),
-        Begin::At(Start::From(gap)) => gap.view().into(),
-        Begin::At(Start::Near(gap)) => gap.into(),
-        Begin::Prolonged(gap) | Begin::Found(gap) if window.is_some() => return Ok(Some(gap)),
-        Begin::Prolonged(gap) | Begin::Found(gap) => gap.into(),
+        Begin::At(Start::From(gap)) => (gap.view().into(), false),
+        Begin::At(Start::Near(gap)) => (gap.into(), false),
+        Begin::Prolonged(gap) | Begin::Found(gap) => (gap.into(), true),
     };
     let start = match window {
-        Some(window) => window.start(given.view())?.into(),
-        None => given,
+        Some(window) if !whole => window.start(given.view())?.into(),
+        _ => given,
     };
     Error::agreed(slab, Error::shape("starting gap", start.dim(), slab.held()))?;
     Error::all_finite_in(slab, "starting gap", start.view())?;
-    let negative = start.iter().find(|&&gap| projects && gap < T::zero()).map_or(Ok(()), |gap| {
+    let confined = |node: usize| projects && window.is_none_or(|window| window.faces(node));
+    let mut nodes = start.iter().zip(slab.first_node()..);
+    let negative = nodes.find(|&(&gap, node)| gap < T::zero() && confined(node)).map_or(Ok(()), |(gap, _)| {
         let requirement = "zero or positive at every node";
         Err(Error::Value { name: "starting gap", value: gap.widen(), requirement })
     });
@@ -120,6 +122,24 @@ pub(super) fn given_start<T: Real>(
         }
     }
     Ok(Some(gap))
+}
+
+/// The gap as many steps beyond the last one of two as given, on the grid of the operator: no node that faces the
+/// surface comes closer than it may in a step.
+pub(crate) fn extrapolated<T: Real>(
+    [before, last]: [&Array2<T>; 2],
+    steps: f64,
+    least: Option<Least<T>>,
+    (window, slab): (Option<&Window>, Slab),
+) -> Array2<T> {
+    let (steps, mut next) = (T::lit(steps), last.clone());
+    for ((gap, &before), node) in next.iter_mut().zip(before).zip(slab.first_node()..) {
+        let wanted = *gap + steps * (*gap - before);
+        let feasible = bounded(least, *gap, wanted);
+        let free = wanted < feasible && window.is_some_and(|window| !window.faces(node));
+        *gap = if free { wanted } else { feasible };
+    }
+    next
 }
 
 /// Refuses springs, where the energy of a solution has to be in its report.

@@ -394,6 +394,37 @@ fn an_interrupted_cycle_goes_on_to_the_same_file() {
 }
 
 #[test]
+fn what_is_interrupted_on_a_free_half_space_goes_on_to_the_same_file() {
+    let bench = Bench::new(4);
+    let tip = Surface::paraboloid(Grid::square(32, 1.0).unwrap(), 2.0).unwrap();
+    write_npy(&bench.path("heights.npy"), tip.heights()).unwrap();
+    let law = "--law exponential --work-of-adhesion 1e-4 --range 8e-3";
+    for (k, (command, options)) in [
+        ("sweep", "--normal-forces 1e-3:1e-2:12"),
+        ("sweep", &format!("{law} --normal-forces 1e-3:1e-2:12")),
+        ("sweep", "--contact-fractions 0.01:0.1:6"),
+        ("cycle", &format!("{law} --approaches -0.005,0.005 --steps 12")),
+    ]
+    .into_iter()
+    .enumerate()
+    {
+        let [whole, killed] = ["whole", "killed"].map(|name| format!("{name}-{k}.csv"));
+        let follow = |name: &str| {
+            let mut command =
+                bench.command_of(command, &format!("{options} --boundary free --quiet --threads 1 --out {name}"));
+            command.stderr(Stdio::null());
+            command
+        };
+        // contact fractions may jump, in whichever run
+        let code = follow(&whole).status().unwrap().code();
+        assert_ne!(code, Some(1), "{options}");
+        kill_at(&mut follow(&killed).spawn().unwrap(), &bench, &killed, 4);
+        assert_eq!(follow(&killed).status().unwrap().code(), code, "{options}");
+        assert_eq!(bench.read(&killed), bench.read(&whole), "{options}");
+    }
+}
+
+#[test]
 fn a_row_of_a_cycle_that_is_ahead_of_its_state_is_made_again() {
     let bench = bench_with_a_wave();
     bench.cycle(&format!("{CYCLE} --quiet --out whole.csv"), 0);

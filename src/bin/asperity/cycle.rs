@@ -152,10 +152,12 @@ impl Options {
         let &Self { ref out, force, printing, strictness, .. } = self;
         let (fields, units) = (self.fields.as_deref(), &units);
         let (problem, part) = (self.problem(), &part);
-        let options = TableOptions { problem, out, force, printing, scene, units, part, strictness, fields, processes };
+        let operator = self.surface.beyond.boundary.half_space(grid, self.surface.modulus())?;
+        let nodes = *operator.grid();
+        let options =
+            TableOptions { problem, out, force, printing, scene, units, part, strictness, fields, processes, nodes };
         let identity =
             |surface: &_, adhesion: &Adhesion<'_>, start: Option<&_>| self.identity(surface, adhesion, start, &values);
-        let operator = self.surface.beyond.boundary.half_space(grid, self.surface.modulus())?;
         let law = adhesion.law::<T>()?;
         let mut problem = Problem::new(&surface, operator, adhesion.law::<T>()?)?;
         let mut solver = Solver { settings: self.solver.settings(), constraint: self.adhesion.wall };

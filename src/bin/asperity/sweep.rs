@@ -133,10 +133,13 @@ impl Options {
         let &Self { ref out, force, printing, strictness, .. } = self;
         let (fields, units) = (self.fields.as_deref(), &units);
         let (problem, part) = (self.problem(), &part);
-        let options = TableOptions { problem, out, force, printing, scene, units, part, strictness, fields, processes };
+        let operator = self.surface.beyond.boundary.half_space(grid, self.surface.modulus())?;
+        // a search goes on from the gap on the surface
+        let nodes = if self.fractions.values().is_some() { grid } else { *operator.grid() };
+        let options =
+            TableOptions { problem, out, force, printing, scene, units, part, strictness, fields, processes, nodes };
         let identity =
             |surface: &_, adhesion: &Adhesion<'_>, start: Option<&_>| self.identity(surface, adhesion, start);
-        let operator = self.surface.beyond.boundary.half_space(grid, self.surface.modulus())?;
         let mut problem = Problem::new(&surface, operator, adhesion.law::<T>()?)?;
         let given = (&surface, &adhesion, start.as_ref());
         let (mut table, saved) = Table::open::<T>(options, &header, given, identity, Some(loads))?;

@@ -44,6 +44,8 @@ pub struct TableOptions<'a> {
     pub processes: &'a Processes,
     /// The part of the surface that the rows are of.
     pub part: &'a Part,
+    /// The grid of the fields from which the next row starts.
+    pub nodes: Grid,
 }
 
 /// A table on disk, new or continued, with the warnings of its run. The first of several processes has its file.
@@ -114,7 +116,7 @@ impl<'a> Table<'a> {
         };
         let (mut saved, table) = processes.agree(opened)?;
         if grid.is_shared() {
-            let own = |field: Array2<f64>| field.slice_axis(Axis(0), Slice::from(grid.rows())).to_owned();
+            let own = |field: Array2<f64>| field.slice_axis(Axis(0), Slice::from(options.nodes.rows())).to_owned();
             saved.fields = saved.fields.into_iter().map(own).collect();
         }
         Ok((table, saved))
@@ -157,9 +159,9 @@ impl<'a> Table<'a> {
 
     /// Appends a row, with the fields of its solution on the part of the surface, if they are kept.
     pub fn append<T: Scalar>(&mut self, row: &Row<'_, T>, shown: &Solution<T>) -> Outcome<()> {
-        let TableOptions { fields, processes, part, .. } = self.options;
+        let TableOptions { fields, processes, part, nodes, .. } = self.options;
         Kept(fields).write(self.rows + 1, part.grid(), shown, processes)?;
-        let whole: Vec<_> = row.fields.iter().map(|field| self.grid.gathered(field)).collect();
+        let whole: Vec<_> = row.fields.iter().map(|field| nodes.gathered(field)).collect();
         processes.first(|| {
             let Some(journal) = &mut self.journal else { return Ok(()) };
             let fields: Vec<_> = whole.iter().flatten().map(|field| field.view()).collect();

@@ -44,6 +44,8 @@ pub struct State {
     pub numbers: Vec<f64>,
     /// The number of fields
     fields: usize,
+    /// The shape of each of them
+    shape: (usize, usize),
 }
 
 impl State {
@@ -68,10 +70,7 @@ impl State {
         let stack = read_field(&self.path).map_err(|_| damaged(&self.path))?;
         let rows = stack.nrows().checked_div(self.fields).unwrap_or_default().max(1);
         let fields: Vec<_> = stack.axis_chunks_iter(Axis(0), rows).map(|field| field.to_owned()).collect();
-        let shape = |field: &Array2<f64>| Value::from(format!("{} {}", field.nrows(), field.ncols()));
-        let fits = |field: &Array2<f64>| {
-            self.identity.get("shape") == Some(&shape(field)) && field.iter().all(|value| !value.is_nan())
-        };
+        let fits = |field: &Array2<f64>| field.dim() == self.shape && field.iter().all(|value| !value.is_nan());
         if fields.len() != self.fields || !fields.iter().all(fits) {
             return Err(damaged(&self.path));
         }
@@ -101,6 +100,7 @@ impl State {
             written,
             numbers: numbers.collect::<Option<_>>()?,
             fields: number("gaps")?.try_into().ok()?,
+            shape: (number("rows_of_gap")?.try_into().ok()?, number("columns_of_gap")?.try_into().ok()?),
         })
     }
 }
@@ -132,6 +132,8 @@ pub fn save<T: WritableElement + Clone>(
     let comment = json!({
         "rows": written.rows,
         "gaps": fields.len(),
+        "rows_of_gap": fields.first().map_or(0, |field| field.nrows()),
+        "columns_of_gap": fields.first().map_or(0, |field| field.ncols()),
         "unconverged": written.unconverged,
         "loads": written.loads.to_string(),
         "bytes": written.bytes,
