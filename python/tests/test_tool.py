@@ -245,10 +245,10 @@ def test_an_accuracy_of_a_tip_is_that_of_the_tool(tmp_path, tool, sphere):
     np.save(tmp_path / "heights.npy", sphere)
     # fmt: off
     asked(tool, tmp_path, "solve", "--heights", "heights.npy", "--boundary", "free", "--approach", 2e-3,
-          "--accuracy", 0.02, "--stiffness", "--no-pictures", "--out", "out")
+          "--accuracy", 0.001, "--stiffness", "--no-pictures", "--out", "out")
     # fmt: on
     options = {"modulus": 1.0, "boundary": "free", "approach": 2e-3, "stiffness": True}
-    solution = asperity.solve(sphere, 1.0, accuracy=0.02, **options)
+    solution = asperity.solve(sphere, 1.0, accuracy=0.001, **options)
     same(tmp_path / "out", solution)
     assert solution.heights.shape == tuple(solution.report["levels"][-1]["shape"]) > (64, 64)
 
