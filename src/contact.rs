@@ -262,9 +262,9 @@ fn check<T: Real>(gap: ArrayView2<'_, T>, contact_pressure: ArrayView2<'_, T>, g
 /// κλΔ = E* g ,   κ = 2e/π ,
 /// ```
 ///
-/// with linear interpolation between the nodes, and is inside of it by β = 0.190 spacings Δ. Both numbers follow from the
-/// discrete half-space, for an edge along the nodes, by the method of Wiener and Hopf: E*/κΔ is the geometric mean of
-/// the stiffness E*\|q\|/2 of the waves on the grid, and, with q in units of 1/Δ,
+/// with linear interpolation between the nodes, and is inside of it by β = 0.190 spacings Δ. Both numbers follow from
+/// the discrete half-space, for an edge along the nodes, by the method of Wiener and Hopf: E*/κΔ is the geometric mean
+/// of the stiffness E*\|q\|/2 of the waves on the grid, and, with q in units of 1/Δ,
 ///
 /// ```math
 /// β = 1/4 − (1/4π) ∫_0^π ln(q / 2 sin(q/2)) / sin²(q/2) dq .
@@ -283,14 +283,16 @@ fn check<T: Real>(gap: ArrayView2<'_, T>, contact_pressure: ArrayView2<'_, T>, g
 /// area are taken with the spacings as units. On a line there are the ends alone, each β inside the contour. Nodes at
 /// the end of a surface, beside absent ones or the end of a window, are counted as a whole, and so is full contact.
 /// Where a wall gives, as that of [`Penalty`](crate::Penalty), the gap in contact counts as well, and β falls with the
-/// cube of the share of the pressure in κλΔ − E\*g, to zero where the gap has no kink left. Without a modulus, that is
-/// one that is not positive, the area is that of [`ContactArea::of`].
+/// cube of the share of the pressure in κλΔ − E\*g, to zero where the gap has no kink left. Where
+/// [the law alone repels](crate::NoWall) contact nodes are apart, and the more so, the nearer the edge is to the middle
+/// between the nodes: they are counted. Without a modulus, that is one that is not positive, the area is that of
+/// [`ContactArea::of`].
 ///
 /// Straight edges along the nodes, and those of waves on a line, are met to 0.01 spacings; in other directions to 0.03.
 /// Hertz contacts with radii of 3 to 7 nodes have a root mean square error of 0.4 % of the area, with radii of 14 to 28
 /// nodes of 0.06 %, where counting nodes is wrong by 8 and 1.6 %. The page [`choosing`](crate::guide::choosing) has
-/// errors of rough surfaces. With adhesion of a range that the grid does not resolve (μ_ρ above 0.5) the fields tell less,
-/// and the area is as good as that of [`ContactArea::of`].
+/// errors of rough surfaces. With adhesion of a range that the grid does not resolve (μ_ρ above 0.5) the fields tell
+/// less, and the area is as good as that of [`ContactArea::of`].
 ///
 /// ```
 /// use asperity::contact::ContactStatistics;

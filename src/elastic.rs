@@ -94,10 +94,10 @@ pub trait ElasticOperator<T: Real>: Send {
     /// on a grid of one node.
     fn stiffness_range(&self) -> (f64, f64);
 
-    /// The contact modulus E* that the half-space has for waves as short as the grid's spacing. It tells whether adhesion
-    /// is resolved, and where between the nodes the edge of the contact runs
-    /// ([`ContactStatistics`](crate::contact::ContactStatistics)), which expects that stiffness grows with the wave number
-    /// there.
+    /// The contact modulus E* that the half-space has for waves as short as the grid's spacing. It tells whether
+    /// adhesion is resolved, and where between the nodes the edge of the contact runs
+    /// ([`ContactStatistics`](crate::contact::ContactStatistics)), which expects that stiffness grows with the wave
+    /// number there.
     ///
     /// It is the unit of [`Criterion::Orthogonality`](crate::Criterion::Orthogonality) and enters
     /// [`Problem::mu_rho`](crate::Problem::mu_rho); with the spacing it gives the compliance by which jumps of

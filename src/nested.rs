@@ -250,8 +250,8 @@ impl<C> Nested<C> {
         self.solve_observed(surface, operator, law, control, |_, _| ControlFlow::Continue(()))
     }
 
-    /// Solves as [`Nested::solve`], and calls `observe` with the grid in every iteration, on a part of a window with that
-    /// of the whole. Where it stops a solve, the finer grids end with their first iteration.
+    /// Solves as [`Nested::solve`], and calls `observe` with the grid in every iteration, on a part of a window with
+    /// that of the whole. Where it stops a solve, the finer grids end with their first iteration.
     ///
     /// # Errors
     /// Those of [`Nested::solve`].

@@ -14,9 +14,9 @@ use crate::solver::{Begin, Iteration, Potential, Solution, Solved, Solver, Start
 
 /// Solves one problem under a sequence of loads, each from where the ones before lead: an iterator over the solutions.
 ///
-/// A load is any [`Control`]. A solution comes as soon as it is found; the sweep keeps no more than two
-/// gaps, two scalars per node of the operator's grid, beside the problem and the solver. The first load starts from the solver's default
-/// start, or from [`Sweep::starting_from`]; the others
+/// A load is any [`Control`]. A solution comes as soon as it is found; the sweep keeps no more than two gaps, two
+/// scalars per node of the operator's grid, beside the problem and the solver. The first load starts from the solver's
+/// default start, or from [`Sweep::starting_from`]; the others
 ///
 /// - without adhesion, from the last two gaps, extrapolated linearly in the mean gap, in the approach or in the rest of
 ///   a spring, or in the logarithm of the mean pressure or of the force, and clipped to g ≥ 0; the solution is unique,

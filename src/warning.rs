@@ -274,8 +274,8 @@ impl Warning {
 }
 
 /// The likely error of the contact area for a resolution measure μ_ρ, from a rough surface under one pressure on
-/// coarser and coarser grids against the finest, with nodes counted and corrected by the perimeter: 0.5 % at 0.7, 1 to 2 % at 1, 13 to 20 % at 1.4,
-/// 60 % at 2, and three times too large at 2.8.
+/// coarser and coarser grids against the finest, with nodes counted and corrected by the perimeter: 0.5 % at 0.7, 1 to
+/// 2 % at 1, 13 to 20 % at 1.4, 60 % at 2, and three times too large at 2.8.
 fn likely_error(mu_rho: f64) -> &'static str {
     match mu_rho {
         _ if mu_rho <= 1.0 => "by some 2 %",

@@ -75,7 +75,8 @@ impl Part {
         within(&rows, [&(0..rows.nrows()), &self.y]).mapv(T::lit)
     }
 
-    /// The rows of a slab that are in the part: their numbers in the slab of this process, and a field of the part there.
+    /// The rows of a slab that are in the part: their numbers in the slab of this process, and a field of the part
+    /// there.
     fn rows_of<T: Real>(&self, field: &ArrayRef2<T>, from: Slab, to: Slab) -> (Range<usize>, Array2<T>) {
         let rows = |rank| {
             let rows = to.rows_of(rank);

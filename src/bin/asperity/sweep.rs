@@ -34,12 +34,12 @@ use crate::warnings::Strictness;
 ///
 /// Each load starts from where the ones before lead. Numbers may have units, all of them or none, as in asperity solve.
 /// A row for each is appended to the file as it comes, with the loads, the mean gap, the contact area and its
-/// statistics, the energies, and how the solve ended; contact_fraction counts nodes, corrected_contact_fraction is
-/// the area within the edge that gap and pressure tell between the nodes, and clusters are in nodes. The same command again goes
-/// on where an interrupted one was, or with loads that were added to the end of the list, and comes to the same file,
-/// byte for byte; for that it keeps FILE.state.npz beside the file, which may be deleted at the end. FILE.scene.toml
-/// beside it repeats or continues the sweep by asperity run. Exits with 0 if all rows converged, 2 if not (they are
-/// written all the same), and 1 if the input is refused or the file cannot be written.
+/// statistics, the energies, and how the solve ended; contact_fraction counts nodes, corrected_contact_fraction is the
+/// area within the edge that gap and pressure tell between the nodes, and clusters are in nodes. The same command again
+/// goes on where an interrupted one was, or with loads that were added to the end of the list, and comes to the same
+/// file, byte for byte; for that it keeps FILE.state.npz beside the file, which may be deleted at the end.
+/// FILE.scene.toml beside it repeats or continues the sweep by asperity run. Exits with 0 if all rows converged, 2 if
+/// not (they are written all the same), and 1 if the input is refused or the file cannot be written.
 #[derive(Args)]
 #[command(after_help = EXAMPLES, group(ArgGroup::new("loads").required(true).args(LOADS).arg("contact_fractions")))]
 pub struct Options {
