@@ -4,7 +4,7 @@
 //! between the nodes, and the perimeter; [`Clusters`] are the pieces that hang together; [`PressureDistribution`] is the
 //! histogram of the pressure. [`Original`] is the part of a mirrored map that was measured.
 
-use ndarray::{Array2, ArrayView1, ArrayView2, Axis, Zip};
+use ndarray::{Array2, ArrayView2, Zip};
 
 use crate::adhesion::{AdhesionLaw, noticeable};
 use crate::elastic::Boundary;
@@ -16,20 +16,18 @@ use crate::solver::{Report, Solution};
 
 use outline::Outline;
 
+mod area;
 mod clusters;
 mod distribution;
 mod original;
 mod outline;
 mod patch;
 
+pub use area::ContactArea;
 pub use clusters::{Clusters, Connectivity};
 pub use distribution::PressureDistribution;
 pub use original::Original;
 pub use patch::Patch;
-
-/// The excess area of a contact map per edge between a node in contact and one that is not, in cells: (π − 1 + ln
-/// 2)/24.
-const EDGE_EXCESS: f64 = (std::f64::consts::PI - 1.0 + std::f64::consts::LN_2) / 24.0;
 
 /// What the two surfaces do to each other at a node.
 ///
@@ -127,117 +125,6 @@ fn attracting<T: Real>(
 /// The contact map of a gap and a contact pressure of one shape.
 fn contact_map<T: Real>(gap: ArrayView2<'_, T>, contact_pressure: ArrayView2<'_, T>) -> Array2<bool> {
     Zip::from(gap).and(contact_pressure).map_collect(|&gap, &pressure| gap <= T::zero() || pressure > T::zero())
-}
-
-/// The contact area, and its edge; [`ContactStatistics`] says how the area of a solution is corrected.
-///
-/// ```
-/// use asperity::Grid;
-/// use asperity::contact::ContactArea;
-/// let map = ndarray::array![[true, true, false, false], [false; 4], [false; 4], [false; 4]];
-/// let area = ContactArea::of(map.view(), &Grid::square(4, 1.0)?)?;
-/// assert_eq!((area.contact_nodes, area.perimeter), (2, 1.5)); // six sides of cells
-/// assert!(area.corrected_contact_fraction < area.contact_fraction);
-/// # Ok::<(), asperity::Error>(())
-/// ```
-#[non_exhaustive]
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ContactArea {
-    /// The number of nodes in contact.
-    pub contact_nodes: usize,
-    /// The share of nodes in contact.
-    pub contact_fraction: f64,
-    /// The contact area within the edge between the nodes, as a share of the nominal area.
-    pub corrected_contact_fraction: f64,
-    /// The length of the edge of the contact, as [`ContactStatistics::perimeter`].
-    pub perimeter: f64,
-}
-
-impl ContactArea {
-    /// The contact area of a map of shape (Nx, Ny) on its grid, of which nothing else is known.
-    ///
-    /// It is corrected by Yastrebov, Anciaux and Molinari (2017), *On the accurate computation of the true contact-area
-    /// in mechanical contact of random rough surfaces*: a map of nodes counts too much along the edge of the contact, by
-    ///
-    /// ```math
-    /// A ≈ A_nodes − (π − 1 + ln 2)/24 · S Δx
-    /// ```
-    ///
-    /// with S the perimeter along the cells, averaged over the directions of the edge. That is 0.118 cells for each side
-    /// of a cell on the perimeter; for Δx ≠ Δy the area Δx·Δy of the cell is taken for Δx². On a line nothing is
-    /// corrected. [`ContactArea::of_solution`] is several times as good.
-    ///
-    /// # Errors
-    /// [`Error::Shape`] if the map does not have the shape of the grid.
-    pub fn of(map: ArrayView2<'_, bool>, grid: &Grid) -> Result<Self> {
-        let slab = grid.slab();
-        Error::agreed(slab, Error::shape("contact map", map.dim(), grid.field_shape()))?;
-        Ok(Self::within(map, grid, true, grid.nodes(), |edges| excess_of_map(edges, grid)))
-    }
-
-    /// The area of a solution on its grid, within the edge that its gap and contact pressure tell. Shares are of the
-    /// nodes that are not [absent](crate::Surface::with_absent).
-    ///
-    /// ```
-    /// use asperity::contact::ContactArea;
-    /// use asperity::exact::{Hertz, Sphere};
-    /// use asperity::{Boussinesq, Control, Grid, NoAdhesion, Problem, Solver, Surface};
-    /// let grid = Grid::square(32, 0.4)?;
-    /// let sphere = Surface::paraboloid(grid, 2.0)?;
-    /// let mut problem = Problem::new(&sphere, Boussinesq::<f64>::new(grid, 1.0)?, NoAdhesion)?;
-    /// let solution = Solver::default().solve(&mut problem, Control::Force(1e-3))?;
-    /// let area = ContactArea::of_solution(&solution, &grid)?;
-    /// assert_eq!(area.contact_fraction, solution.report.contact_fraction);
-    /// let radius = Hertz::new(2.0, 1.0)?.at_load(1e-3)?.contact_radius();
-    /// let exact = std::f64::consts::PI * radius.powi(2) / 0.16;
-    /// assert!((area.corrected_contact_fraction / exact - 1.0).abs() < 0.01);
-    /// # Ok::<(), asperity::Error>(())
-    /// ```
-    ///
-    /// # Errors
-    /// [`Error::Shape`] if a field does not have the shape of the grid.
-    pub fn of_solution<T: Real>(solution: &Solution<T>, grid: &Grid) -> Result<Self> {
-        let Solution { gap, contact_pressure, report, .. } = solution;
-        let (gap, contact_pressure) = (gap.view(), contact_pressure.view());
-        check(gap, contact_pressure, grid)?;
-        let map = contact_map(gap, contact_pressure);
-        let periodic = report.boundary == Boundary::Periodic;
-        let outline = Outline { gap, contact_pressure, map: map.view(), grid, periodic, modulus: report.modulus };
-        Ok(Self::within_edge(&outline, grid.nodes().saturating_sub(report.absent_nodes)))
-    }
-
-    /// The area within the edge of a contact, of whose nodes so many face the half-space.
-    fn within_edge<T: Real>(outline: &Outline<'_, T>, facing: usize) -> Self {
-        let &Outline { map, grid, periodic, modulus, .. } = outline;
-        let known = modulus.is_finite() && modulus > 0.0;
-        let excess = |edges| if known { outline.excess() } else { excess_of_map(edges, grid) };
-        Self::within(map, grid, periodic, facing, excess)
-    }
-
-    /// The area on a map, of whose nodes so many face the half-space, less an excess in cells that may depend on the
-    /// numbers of edges.
-    fn within(
-        map: ArrayView2<'_, bool>,
-        grid: &Grid,
-        periodic: bool,
-        facing: usize,
-        excess: impl FnOnce((usize, usize)) -> f64,
-    ) -> Self {
-        let contact_nodes = map.fold(0, |count, &touches| count + usize::from(touches));
-        let contact_nodes = grid.total(contact_nodes);
-        let (along_x, along_y) = edges(map, grid, periodic);
-        let (dx, dy) = grid.spacing();
-        let perimeter = if grid.is_line() { along_x as f64 } else { along_x as f64 * dy + along_y as f64 * dx };
-        let (nodes, excess) = (facing as f64, excess((along_x, along_y)));
-        let (contact_fraction, corrected_contact_fraction) =
-            (contact_nodes as f64 / nodes, (contact_nodes as f64 - excess) / nodes);
-        Self { contact_nodes, contact_fraction, corrected_contact_fraction, perimeter }
-    }
-}
-
-/// The area of a map beyond that within its edge, in cells, by its numbers of edges along x and y.
-fn excess_of_map((along_x, along_y): (usize, usize), grid: &Grid) -> f64 {
-    if grid.is_line() { 0.0 } else { EDGE_EXCESS * (along_x + along_y) as f64 }
 }
 
 /// Refuses fields that do not have the shape of the grid.
@@ -403,80 +290,5 @@ impl ContactStatistics {
             apart_fraction: share(facing - contact_nodes - attracting),
             patches: patch::patches(law, slab, nodes),
         })
-    }
-}
-
-/// The number of pairs of neighbours along x, and along y, of which one is on the map and one is not; opposite sides
-/// are neighbours if the map is periodic, and otherwise nothing is beyond them.
-fn edges(map: ArrayView2<'_, bool>, grid: &Grid, periodic: bool) -> (usize, usize) {
-    let (mut along_x, mut along_y) = (0, 0);
-    let different = |count, here: &bool, there: &bool| count + usize::from(here != there);
-    // the first row of the next slab
-    let slab = grid.slab();
-    let next = slab
-        .is_shared()
-        .then(|| slab.next_row(map, |&touches| f64::from(u8::from(touches))).mapv(|touches| touches > 0.0));
-    for (i, row) in map.outer_iter().enumerate() {
-        let after = match &next {
-            Some(next) if i + 1 == map.nrows() => next.row(0),
-            _ => map.row((i + 1) % map.nrows()),
-        };
-        along_x += Zip::from(row).and(after).fold(0, different);
-        let ((left, _), (_, right)) = (row.split_at(Axis(0), row.len() - 1), row.split_at(Axis(0), 1));
-        along_y += Zip::from(left).and(right).fold(usize::from(row[0] != row[row.len() - 1]), different);
-    }
-    if !periodic {
-        // across the sides each meets nothing in place of the other
-        let ends = match &next {
-            None => Some((map.row(0), map.row(map.nrows() - 1))),
-            Some(next) => map
-                .rows()
-                .into_iter()
-                .next_back()
-                .filter(|_| slab.rows().end == slab.shape().0)
-                .map(|last| (next.row(0), last)),
-        };
-        let [left, right] = [map.column(0), map.column(map.ncols() - 1)];
-        let both =
-            |a: ArrayView1<'_, bool>, b: ArrayView1<'_, bool>| a.iter().zip(b).filter(|&(&a, &b)| a && b).count();
-        along_x += ends.map_or(0, |(first, last)| both(first, last) * 2);
-        along_y += both(left, right) * 2;
-    }
-    (grid.total(along_x), grid.total(along_y))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn edges_of(rows: &[&str], periodic: bool) -> (usize, usize) {
-        let map = clusters::tests::map(rows);
-        edges(map.view(), &Grid::new(map.dim(), (1.0, 1.0)).unwrap(), periodic)
-    }
-
-    #[test]
-    fn edges_are_counted_across_the_boundaries() {
-        let count = |rows: &[&str]| edges_of(rows, true);
-        assert_eq!(count(&["....", "....", "...."]), (0, 0));
-        assert_eq!(count(&["####", "####", "####"]), (0, 0));
-        assert_eq!(count(&["....", ".#..", "...."]), (2, 2));
-        // a corner, whose sides are on the other end
-        assert_eq!(count(&["#...", "....", "...."]), (2, 2));
-        // two neighbours across the boundary are one piece, as anywhere else
-        assert_eq!(count(&["#...", "....", "#..."]), (2, 4));
-        assert_eq!(count(&["#..#", "....", "...."]), (4, 2));
-        // a band around the cell has two straight edges
-        assert_eq!(count(&["....", "####", "...."]), (8, 0));
-        // where a side has two nodes they are neighbours twice, and a single one is its own
-        assert_eq!(count(&["#...", "...."]), (2, 2));
-        assert_eq!(count(&["##..#"]), (0, 2));
-    }
-
-    #[test]
-    fn beyond_a_free_boundary_nothing_is_in_contact() {
-        let count = |rows: &[&str]| edges_of(rows, false);
-        assert_eq!(count(&["....", ".#..", "...."]), (2, 2));
-        assert_eq!(count(&["#...", "....", "#..."]), (4, 4));
-        assert_eq!(count(&["####", "####"]), (8, 4));
     }
 }
