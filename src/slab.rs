@@ -130,8 +130,9 @@ impl Slab {
 
     /// Rows of a field of all slabs, of which `held` are those of this one: `wanted` tells the rows that each process
     /// needs.
-    pub(crate) fn fetch<I>(&self, held: ArrayView2<'_, f64>, wanted: impl Fn(usize) -> I) -> Array2<f64>
+    pub(crate) fn fetch<T, I>(&self, held: ArrayView2<'_, T>, wanted: impl Fn(usize) -> I) -> Array2<T>
     where
+        T: Real,
         I: Iterator<Item = usize>,
     {
         let (own, ranks) = (self.ranks.rank(), 0..self.ranks.count());
@@ -144,7 +145,7 @@ impl Slab {
         let (start, width) = (self.rows().start, held.ncols());
         let mut sent = Vec::new();
         for to in ranks.clone() {
-            passed(own, to).for_each(|(_, row)| sent.extend(held.row(row - start)));
+            passed(own, to).for_each(|(_, row)| sent.extend(held.row(row - start).iter().map(|value| value.widen())));
         }
         let mut received = vec![0.0; count * width];
         let of = |from: usize, to: usize| passed(from, to).count() * width;
@@ -154,7 +155,7 @@ impl Slab {
         for from in ranks {
             for (k, _) in passed(from, own) {
                 let row = next.next().unwrap_or_default();
-                rows.row_mut(k).iter_mut().zip(row).for_each(|(to, from)| *to = *from);
+                rows.row_mut(k).iter_mut().zip(row).for_each(|(to, &from)| *to = T::lit(from));
             }
         }
         rows
@@ -173,7 +174,7 @@ impl Slab {
         if !self.is_shared() || self == to {
             return field;
         }
-        self.fetch(field.mapv(T::widen).view(), |rank| to.rows_of(rank)).mapv(T::lit).into()
+        self.fetch(field.view(), |rank| to.rows_of(rank)).into()
     }
 
     /// The field of all slabs, of which `held` is that of this one, on every process, or on the first alone.

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use ndarray::{Array2, ArrayRef2, ArrayView2, ArrayViewMut2, Slice};
+use ndarray::{Array2, ArrayRef2, ArrayView2, ArrayViewMut2, CowArray, Ix2, Slice};
 
 use crate::adhesion::AdhesionLaw;
 use crate::elastic::ElasticOperator;
@@ -71,26 +71,30 @@ impl Part {
         if !from.is_shared() {
             return within(field, [&self.x, &self.y]).to_owned();
         }
-        let rows = from.fetch(field.mapv(T::widen).view(), |rank| to.rows_of(rank).map(|row| self.x.start + row));
-        within(&rows, [&(0..rows.nrows()), &self.y]).mapv(T::lit)
+        let rows = from.fetch(field.view(), |rank| to.rows_of(rank).map(|row| self.x.start + row));
+        within(&rows, [&(0..rows.nrows()), &self.y]).to_owned()
     }
 
     /// The rows of a slab that are in the part: their numbers in the slab of this process, and a field of the part
     /// there.
-    fn rows_of<T: Real>(&self, field: &ArrayRef2<T>, from: Slab, to: Slab) -> (Range<usize>, Array2<T>) {
+    fn rows_of<'a, T: Real>(
+        &self,
+        field: &'a ArrayRef2<T>,
+        from: Slab,
+        to: Slab,
+    ) -> (Range<usize>, CowArray<'a, T, Ix2>) {
         let rows = |rank| {
-            let rows = to.rows_of(rank);
-            rows.start.max(self.x.start)..rows.end.min(self.x.end).max(rows.start.max(self.x.start))
+            let (rows, part) = (to.rows_of(rank), &self.x);
+            rows.start.clamp(part.start, part.end)..rows.end.clamp(part.start, part.end)
         };
         let (own, first) = (rows(to.ranks().rank()), to.rows().start);
         let field = match from.is_shared() {
-            true => {
-                let wanted = |rank| rows(rank).map(|row| row - self.x.start);
-                from.fetch(field.mapv(T::widen).view(), wanted).mapv(T::lit)
-            }
-            false => field.to_owned(),
+            true => from.fetch(field.view(), |rank| rows(rank).map(|row| row - self.x.start)).into(),
+            false => field.view().into(),
         };
-        (own.start.saturating_sub(first)..own.end.saturating_sub(first), field)
+        // a slab that has none of the rows may be before them or behind
+        let start = own.start.saturating_sub(first);
+        (start.min(to.rows().len())..(start + own.len()).min(to.rows().len()), field)
     }
 
     /// The part of a surface.

@@ -45,7 +45,7 @@ pub(super) fn coarsen(surface: &Surface, shape: (usize, usize)) -> Result<Option
 
 /// The rows of a field on one grid that this process needs for its rows of another one, where several processes share
 /// them, and the places of these rows among them.
-fn fetched(field: ArrayView2<'_, f64>, [from, to]: [Slab; 2], places: &mut Vec<Place>) -> Option<Array2<f64>> {
+fn fetched<T: Real>(field: ArrayView2<'_, T>, [from, to]: [Slab; 2], places: &mut Vec<Place>) -> Option<Array2<T>> {
     if !from.is_shared() {
         return None;
     }
@@ -63,6 +63,7 @@ fn fetched(field: ArrayView2<'_, f64>, [from, to]: [Slab; 2], places: &mut Vec<P
 }
 
 /// The place of a node among those of another grid along a side.
+#[derive(Clone)]
 struct Place {
     /// The node before the one at or before the place, that node, and the two after it.
     nodes: [usize; 4],
@@ -185,11 +186,7 @@ impl<T: Real> Deformed<T> {
         let [from, to] = [Side::of(window, slab.shape()), Side::of(surface.grid().shape(), grid.shape())];
         let (mut along_x, along_y, back_y) = (places(from[0], to[0]), places(from[1], to[1]), places(to[1], from[1]));
         let slabs = [slab, grid.slab()];
-        let gap = match slab.is_shared() {
-            true => fetched(gap.mapv(T::widen).view(), slabs, &mut places(from[0], to[0]))
-                .map_or(gap, |gap| gap.mapv(T::lit)),
-            false => gap,
-        };
+        let gap = fetched(gap.view(), slabs, &mut along_x.clone()).unwrap_or(gap);
         let displacement = fetched(displacement.view(), slabs, &mut along_x).unwrap_or(displacement);
         let (width, first) = (grid.shape().1, grid.slab().first_node());
         let faces = |node: usize| facing.as_ref().is_none_or(|facing| facing.faces(first + node));

@@ -163,12 +163,11 @@ impl Window {
         let wanted: Vec<_> = (0..self.slab.ranks().count()).map(wanted).collect();
         let window = self.slab.window((self.grid.shape().0, width));
         let held = held.slice_axis(Axis(0), Slice::from(0..window.held().0));
-        let rows = window.fetch(held.mapv(T::widen).view(), |rank| wanted[rank].iter().copied());
+        let rows = window.fetch(held, |rank| wanted[rank].iter().copied());
         let own: BTreeMap<_, _> = wanted[self.slab.ranks().rank()].iter().copied().zip(rows.rows()).collect();
         let mut extended = Array2::zeros(self.slab.held());
         for (row, &(a, b, share)) in extended.rows_mut().into_iter().zip(&sources[self.slab.rows()]) {
             Zip::from(row).and(own[&a]).and(own[&b]).for_each(|to, &at_a, &at_b| {
-                let (at_a, at_b) = (T::lit(at_a), T::lit(at_b));
                 *to = if a == b { at_a } else { at_a + T::lit(share) * (at_b - at_a) };
             });
         }
