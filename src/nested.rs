@@ -2,24 +2,23 @@
 
 use std::ops::ControlFlow;
 
-use ndarray::Array2;
-
 use crate::adhesion::AdhesionLaw;
 use crate::constraint::{ContactConstraint, Projection};
-use crate::contact::ContactArea;
-use crate::elastic::{Boundary, ElasticOperator};
+use crate::elastic::ElasticOperator;
 use crate::error::{Error, Result};
 use crate::grid::Grid;
-use crate::problem::{Control, Problem};
+use crate::problem::{Control, Parts, Problem};
 use crate::real::Real;
-use crate::solver::{Begin, Iteration, Method, Observer, Report, Settings, Solution, Solved, Solver, Start, Status};
+use crate::solver::{Begin, Iteration, Method, Observer, Settings, Solution, Solved, Solver, Start, Status};
 use crate::stability::ContactStiffness;
 use crate::surface::Surface;
 
+mod level;
 mod part;
 mod transfer;
 
-use part::Part;
+pub use level::Level;
+pub(crate) use level::equivalent_applications;
 pub(crate) use transfer::Deformed;
 use transfer::coarsen;
 
@@ -28,9 +27,6 @@ const RESOLVED: f64 = 0.5;
 
 /// The least number of nodes for which nested grids pay at a given load or approach, and at a given mean gap.
 const PAYS: (usize, usize) = (1 << 16, 1 << 18);
-
-/// The tolerance of the solution on a part of the window, as a share of that on the whole.
-const PART: f64 = 0.5;
 
 /// The relative load error at and above which a coarse solution is not used as a start.
 const CARRIED: f64 = 0.5;
@@ -92,58 +88,6 @@ pub struct Nested<C = Projection> {
     pub closed: f64,
 }
 
-/// The cost of the solve on one of the nested grids, and what it found there.
-///
-/// The figures of a coarser grid are those of its solution to the coarse tolerance; how good it is says its relative
-/// error. [`NestedSolution`] has an example.
-#[non_exhaustive]
-#[derive(Clone, Debug, PartialEq)]
-pub struct Level {
-    /// The nodes (Nx, Ny) of the grid.
-    pub shape: (usize, usize),
-    /// The status: how the solve ended.
-    pub status: Status,
-    /// The number of steps on the whole grid, from its last start.
-    pub iterations: usize,
-    /// The number of operator applications, with the one that constructs the problem; those on a part of the window in
-    /// units of one on the whole.
-    pub operator_applications: usize,
-    /// The certified relative error, [`Report::relative_error`](crate::Report::relative_error).
-    pub relative_error: f64,
-    /// The mean gap, [`Report::mean_gap`](crate::Report::mean_gap).
-    pub mean_gap: f64,
-    /// The mean external pressure, [`Report::mean_pressure`](crate::Report::mean_pressure).
-    pub mean_pressure: f64,
-    /// The mean contact pressure, [`Report::mean_contact_pressure`](crate::Report::mean_contact_pressure).
-    pub mean_contact_pressure: f64,
-    /// The elastic energy per area, [`Report::elastic_energy`](crate::Report::elastic_energy).
-    pub elastic_energy: f64,
-    /// The contact area, as nodes count it and corrected.
-    pub area: ContactArea,
-    /// The contact stiffness, if [`Nested::stiffness`] asks for it.
-    pub stiffness: Option<ContactStiffness>,
-}
-
-impl Level {
-    /// The level of a solution on its grid.
-    pub(crate) fn of<T: Real>(solution: &Solution<T>, grid: &Grid) -> Result<Self> {
-        let report = &solution.report;
-        Ok(Self {
-            shape: grid.shape(),
-            status: report.status,
-            iterations: report.iterations,
-            operator_applications: report.operator_applications + 1,
-            relative_error: report.relative_error,
-            mean_gap: report.mean_gap,
-            mean_pressure: report.mean_pressure,
-            mean_contact_pressure: report.mean_contact_pressure,
-            elastic_energy: report.elastic_energy,
-            area: ContactArea::of_solution(solution, grid)?,
-            stiffness: None,
-        })
-    }
-}
-
 /// The solution on the finest of nested grids.
 ///
 /// ```
@@ -173,13 +117,6 @@ impl<T> NestedSolution<T> {
     pub fn equivalent_applications(&self) -> f64 {
         equivalent_applications(&self.levels)
     }
-}
-
-/// The operator applications on all levels, in units of one on the last.
-pub(crate) fn equivalent_applications(levels: &[Level]) -> f64 {
-    let nodes = |level: &Level| (level.shape.0 * level.shape.1) as f64;
-    let finest = levels.last().map_or(1.0, nodes);
-    levels.iter().map(|level| level.operator_applications as f64 * nodes(level) / finest).sum()
 }
 
 impl Nested {
@@ -289,33 +226,91 @@ impl<C> Nested<C> {
         C: ContactConstraint<T>,
     {
         Error::positive("coarse tolerance", self.coarse_tolerance)?;
-        let settings = self.solver.settings;
-        let varies = law.shape().is_some();
-        let mut surfaces = coarsened(surface, self.coarsest, !varies)?;
-        let rigid = self.solver.constraint.wall().is_rigid();
-        let (mut levels, mut coarser): (Vec<Level>, Option<Deformed<T>>) = (Vec::new(), None);
         let mut stopped = false;
+        let mut watch = |grid: &Grid, iteration: &Iteration| {
+            stopped = stopped || observe(grid, iteration).is_break();
+            if stopped { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        };
+        let (mut levels, coarser) = self.solve_coarser(surface, &mut operator, &law, control, &mut watch)?;
+        let half_space = operator(*surface.grid())?;
+        let rigid = self.solver.constraint.wall().is_rigid();
+        let prolonged = coarser.map(|coarser| coarser.prolonged(surface, half_space.grid(), rigid));
+        let started = prolonged.is_some();
+        let mut watch = |iteration: &Iteration| watch(surface.grid(), iteration);
+        let part = match &prolonged {
+            Some(gap) if rigid => {
+                self.solve_part(surface, (&half_space, &mut operator), &law, control, gap, &mut watch)?
+            }
+            _ => None,
+        };
+        let unique = law.is_zero();
+        let mut problem = Problem::new(surface, half_space, law)?;
+        let mut spent = part.as_ref().map_or(0, |part| part.applications);
+        let begin = match (part.filter(|part| part.leads(unique)), prolonged) {
+            (Some(part), _) => {
+                spent += 1;
+                Begin::Found(part.whole(&mut problem)?)
+            }
+            (None, Some(prolonged)) => Begin::Prolonged(prolonged),
+            (None, None) => Begin::At(Start::Default),
+        };
+        let mut solved = self.solver.run(problem.parts(), control, begin, &mut watch)?;
+        let report = &solved.solution.report;
+        let lost = match report.status {
+            // at the floor of rounding another start would stall as well
+            Status::Stalled => report.relative_error.max(report.load_error) > self.coarse_tolerance,
+            status => status == Status::Detached,
+        };
+        if started && lost {
+            spent += report.operator_applications;
+            drop(solved);
+            solved = self.solver.run(problem.parts(), control, Begin::At(Start::Default), &mut watch)?;
+        }
+        let stiffness = self.stiffness_of(&mut problem, &solved.solution)?;
+        let level = Level::of(&solved.solution, surface.grid())?;
+        let operator_applications = level.operator_applications + spent;
+        levels.push(Level { operator_applications, stiffness, ..level });
+        Ok((solved, levels))
+    }
+
+    /// The coarser grids, and the half-space as deformed on the finest of them that carries its load.
+    fn solve_coarser<T, O, L>(
+        &mut self,
+        surface: &Surface,
+        operator: &mut impl FnMut(Grid) -> Result<O>,
+        law: &L,
+        control: Control,
+        watch: &mut (impl FnMut(&Grid, &Iteration) -> ControlFlow<()> + Send),
+    ) -> Result<(Vec<Level>, Option<Deformed<T>>)>
+    where
+        T: Real,
+        O: ElasticOperator<T>,
+        L: AdhesionLaw<T>,
+        C: ContactConstraint<T>,
+    {
+        let varies = law.shape().is_some();
+        let rigid = self.solver.constraint.wall().is_rigid();
+        let tolerance = self.coarse_tolerance.max(self.solver.settings.tolerance_in::<T>());
+        let (mut levels, mut coarser): (Vec<Level>, Option<Deformed<T>>) = (Vec::new(), None);
+        let mut surfaces = coarsened(surface, self.coarsest, !varies)?;
         while let Some(coarse) = surfaces.pop() {
             let ((nx, ny), (cx, cy)) = (surface.grid().shape(), coarse.grid().shape());
-            let coarse_law = law.coarsened((nx / cx, ny / cy)).unwrap_or_else(|| Box::new(&law));
+            let coarse_law = law.coarsened((nx / cx, ny / cy)).unwrap_or_else(|| Box::new(law));
             let mut problem = Problem::new(&coarse, operator(*coarse.grid())?, coarse_law)?;
             if problem.mu_rho() > RESOLVED {
                 continue;
             }
-            let tolerance = self.coarse_tolerance.max(settings.tolerance_in::<T>());
-            self.solver.settings = Settings { tolerance: Some(tolerance), ..settings };
-            let mut smoothed = false;
             let prolonged = coarser.take().map(|coarser| coarser.prolonged(&coarse, problem.operator.grid(), rigid));
             let begin = prolonged.map_or(Begin::At(Start::Default), Begin::Prolonged);
-            let result = self.solver.run(problem.parts(), control, begin, &mut |iteration| {
-                stopped = stopped || observe(coarse.grid(), iteration).is_break();
-                // the equilibrium of the smoothed law is all that the next grid needs
-                let done = smoothed && !iteration.smoothed;
-                smoothed = iteration.smoothed;
-                if stopped || done { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
-            });
-            self.solver.settings = settings;
-            let Solved { solution, whole, .. } = result?;
+            let mut smoothed = false;
+            let Solved { solution, whole, .. } =
+                self.run_to(tolerance, problem.parts(), control, begin, &mut |iteration| {
+                    let next = watch(coarse.grid(), iteration);
+                    // the equilibrium of the smoothed law is all that the next grid needs
+                    let done = smoothed && !iteration.smoothed;
+                    smoothed = iteration.smoothed;
+                    if done { ControlFlow::Break(()) } else { next }
+                })?;
             let stiffness = self.stiffness_of(&mut problem, &solution)?;
             levels.push(Level { stiffness, ..Level::of(&solution, coarse.grid())? });
             if levels.len() == 1 && levels[0].area.contact_fraction > self.closed {
@@ -327,87 +322,26 @@ impl<C> Nested<C> {
                 coarser = Some(Deformed::of(&coarse, gap, whole));
             }
         }
-        drop(surfaces);
-        let half_space = operator(*surface.grid())?;
-        let prolonged = coarser.map(|coarser| coarser.prolonged(surface, half_space.grid(), rigid));
-        let started = prolonged.is_some();
-        let part = match &prolonged {
-            Some(gap) if rigid => {
-                self.solve_part(surface, (&half_space, &mut operator), &law, control, gap, &mut |iteration| {
-                    stopped = stopped || observe(surface.grid(), iteration).is_break();
-                    if stopped { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
-                })?
-            }
-            _ => None,
-        };
-        let unique = law.is_zero();
-        let mut problem = Problem::new(surface, half_space, law)?;
-        let mut spent = part.as_ref().map_or(0, |part| part.applications);
-        let begin = match (part, prolonged) {
-            (Some(OnPart { part, grid, solution, .. }), _) if leads(&solution.report, unique) => {
-                spent += 1;
-                Begin::Found(part.whole(&grid, &mut problem, (&solution.gap, &solution.pressure))?)
-            }
-            (_, prolonged) => prolonged.map_or(Begin::At(Start::Default), Begin::Prolonged),
-        };
-        let mut finest = |begin| {
-            self.solver.run(problem.parts(), control, begin, &mut |iteration| {
-                stopped = stopped || observe(surface.grid(), iteration).is_break();
-                if stopped { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
-            })
-        };
-        let mut solved = finest(begin)?;
-        let report = &solved.solution.report;
-        let lost = match report.status {
-            // at the floor of rounding another start would stall as well
-            Status::Stalled => report.relative_error.max(report.load_error) > self.coarse_tolerance,
-            status => status == Status::Detached,
-        };
-        if started && lost {
-            spent += report.operator_applications;
-            drop(solved);
-            solved = finest(Begin::At(Start::Default))?;
-        }
-        let stiffness = self.stiffness_of(&mut problem, &solved.solution)?;
-        let level = Level::of(&solved.solution, surface.grid())?;
-        let operator_applications = level.operator_applications + spent;
-        levels.push(Level { operator_applications, stiffness, ..level });
-        Ok((solved, levels))
+        Ok((levels, coarser))
     }
 
-    /// The solution on a small part of the window of a free half-space, if all contact is there in a gap prolonged to
-    /// the operator's grid.
-    fn solve_part<T, O, L>(
+    /// Runs the solver to a tolerance that is not that of its settings.
+    fn run_to<T: Real>(
         &mut self,
-        surface: &Surface,
-        (half_space, operator): (&O, &mut impl FnMut(Grid) -> Result<O>),
-        law: &L,
+        tolerance: f64,
+        problem: Parts<'_, T>,
         control: Control,
-        gap: &Array2<T>,
+        begin: Begin<'_, T>,
         observe: Observer<'_>,
-    ) -> Result<Option<OnPart<T>>>
+    ) -> Result<Solved<T>>
     where
-        T: Real,
-        O: ElasticOperator<T>,
-        L: AdhesionLaw<T>,
         C: ContactConstraint<T>,
     {
-        let slab = half_space.grid().slab();
-        let fits = half_space.boundary() != Boundary::Periodic && surface.absent().is_none() && law.shape().is_none();
-        let part = if fits { Part::of(surface.grid().shape(), slab, gap, law) } else { None };
-        let Some(part) = part else { return Ok(None) };
-        let small = part.surface(surface)?;
-        let mut problem = Problem::new(&small, operator(*small.grid())?, law)?;
-        let share = problem.operator.grid().nodes() as f64 / half_space.grid().nodes() as f64;
         let settings = self.solver.settings;
-        let tolerance = PART * settings.tolerance_in::<T>();
-        self.solver.settings = Settings { tolerance: Some(tolerance), ..settings };
-        let start = Begin::At(Start::Near(part.cut(gap, slab, small.grid().slab())));
-        let result = self.solver.run(problem.parts(), Part::control(control, surface, &small), start, observe);
+        self.solver.settings.tolerance = Some(tolerance);
+        let result = self.solver.run(problem, control, begin, observe);
         self.solver.settings = settings;
-        let solution = result?.solution;
-        let applications = (share * (solution.report.operator_applications + 1) as f64).ceil() as usize;
-        Ok(Some(OnPart { part, grid: *small.grid(), solution, applications }))
+        result
     }
 
     /// The contact stiffness of a solution, if it is asked for and the solve was not stopped.
@@ -425,22 +359,6 @@ impl<C> Nested<C> {
         let find = |tolerance| ContactStiffness::of_constrained(problem, &self.solver.constraint, solution, tolerance);
         self.stiffness.filter(|_| solution.report.status != Status::Stopped).map(find).transpose()
     }
-}
-
-/// The solution on a part of the window.
-struct OnPart<T> {
-    part: Part,
-    grid: Grid,
-    solution: Solution<T>,
-    /// in units of one on the whole
-    applications: usize,
-}
-
-/// Whether the solution of a part leads to that of the whole: contact that reaches the end of the part may go on beyond
-/// it, and from where a solve has stalled another equilibrium may be found, unless there is but one.
-fn leads(report: &Report, unique: bool) -> bool {
-    let found = report.status == Status::Converged || (unique && report.status == Status::Stalled);
-    found && !report.reaches_edge
 }
 
 /// The shape of the next coarser grid, if it has `coarsest` nodes along its sides; without `odd` only of even sizes.

@@ -269,12 +269,12 @@ impl<C> Solver<C> {
     }
 
     /// Solves as [`Solver::solve_with`], for the parts of a problem.
-    pub(crate) fn run<'a, T: Real>(
-        &'a mut self,
-        problem: Parts<'a, T>,
+    pub(crate) fn run<T: Real>(
+        &mut self,
+        problem: Parts<'_, T>,
         control: Control,
-        begin: Begin<'a, T>,
-        observe: Observer<'a>,
+        begin: Begin<'_, T>,
+        observe: Observer<'_>,
     ) -> Result<Solved<T>>
     where
         C: ContactConstraint<T>,

@@ -4,14 +4,17 @@ use std::ops::Range;
 
 use ndarray::{Array2, ArrayRef2, ArrayView2, ArrayViewMut2, CowArray, Ix2, Slice};
 
+use super::Nested;
 use crate::adhesion::AdhesionLaw;
-use crate::elastic::ElasticOperator;
+use crate::constraint::ContactConstraint;
+use crate::elastic::{Boundary, ElasticOperator};
 use crate::error::Result;
 use crate::field;
 use crate::grid::Grid;
 use crate::problem::{Control, Problem};
 use crate::real::Real;
 use crate::slab::Slab;
+use crate::solver::{Begin, Observer, Solution, Solved, Start, Status};
 use crate::surface::Surface;
 
 /// The largest share of the window's nodes of a part that is worth a solve of its own.
@@ -23,12 +26,15 @@ const REACH: f64 = 1e-6;
 /// The margin about the contact: a share of its extent, and so many nodes at least.
 const MARGIN: (f64, usize) = (0.25, 8);
 
+/// The tolerance of the solution on a part of the window, as a share of that on the whole.
+const SHARE: f64 = 0.5;
+
 /// A rectangle of nodes of a window on a free half-space, about the contact and what attracts.
 ///
 /// Where nothing presses, the half-space beyond the part is as if it were absent: the compliance between nodes of the
 /// part is that of the whole window.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Part {
+struct Part {
     x: Range<usize>,
     y: Range<usize>,
 }
@@ -36,12 +42,7 @@ pub(super) struct Part {
 impl Part {
     /// The part about the contact in a gap on the window or on a larger grid, of which this process has the rows of a
     /// slab, if it is a small one.
-    pub(super) fn of<T: Real>(
-        window: (usize, usize),
-        slab: Slab,
-        gap: &ArrayRef2<T>,
-        law: &dyn AdhesionLaw<T>,
-    ) -> Option<Self> {
+    fn of<T: Real>(window: (usize, usize), slab: Slab, gap: &ArrayRef2<T>, law: &dyn AdhesionLaw<T>) -> Option<Self> {
         let least = T::lit(REACH) * law.work_of_adhesion() / law.range();
         let attracts = |gap: T| !law.is_zero() && (law.traction(gap) > least || !least.is_finite());
         let (mut x, mut y) = (window.0..0, window.1..0);
@@ -67,7 +68,7 @@ impl Part {
     }
 
     /// The part of a field in the rows of a slab, in those of the slab of the part.
-    pub(super) fn cut<T: Real>(&self, field: &ArrayRef2<T>, from: Slab, to: Slab) -> Array2<T> {
+    fn cut<T: Real>(&self, field: &ArrayRef2<T>, from: Slab, to: Slab) -> Array2<T> {
         if !from.is_shared() {
             return within(field, [&self.x, &self.y]).to_owned();
         }
@@ -98,7 +99,7 @@ impl Part {
     }
 
     /// The part of a surface.
-    pub(super) fn surface(&self, surface: &Surface) -> Result<Surface> {
+    fn surface(&self, surface: &Surface) -> Result<Surface> {
         let (dx, dy) = surface.grid().spacing();
         let lengths = (self.x.len() as f64 * dx, self.y.len() as f64 * dy);
         let grid = Grid::new((self.x.len(), self.y.len()), lengths)?.shared_as(surface.grid())?;
@@ -106,7 +107,7 @@ impl Part {
     }
 
     /// The control of the part, whose highest node may be lower than that of the whole.
-    pub(super) fn control(control: Control, whole: &Surface, part: &Surface) -> Control {
+    fn control(control: Control, whole: &Surface, part: &Surface) -> Control {
         let highest = |surface: &Surface| {
             let own = surface.heights().iter().fold(f64::NEG_INFINITY, |high, &h| high.max(h));
             surface.grid().extremes((own, own)).1
@@ -120,35 +121,82 @@ impl Part {
             control => control,
         }
     }
+}
 
-    /// The gap of the whole, on the grid of its operator, under the pressure found on the part, whose grid is the first
-    /// argument: with the gap found there, and none that is negative on the window. Takes an application of the
-    /// operator.
-    pub(super) fn whole<T, O, L>(
-        &self,
-        grid: &Grid,
-        problem: &mut Problem<T, O, L>,
-        (gap, pressure): (&Array2<T>, &Array2<T>),
-    ) -> Result<Array2<T>>
+/// The solution on a part of the window.
+pub(super) struct OnPart<T> {
+    part: Part,
+    grid: Grid,
+    solution: Solution<T>,
+    /// The operator applications, in units of one on the whole.
+    pub(super) applications: usize,
+}
+
+impl<T: Real> OnPart<T> {
+    /// Whether the solution leads to that of the whole: contact that reaches the end of the part may go on beyond it,
+    /// and from where a solve has stalled another equilibrium may be found, unless there is but one.
+    pub(super) fn leads(&self, unique: bool) -> bool {
+        let report = &self.solution.report;
+        let found = report.status == Status::Converged || (unique && report.status == Status::Stalled);
+        found && !report.reaches_edge
+    }
+
+    /// The gap of the whole, on the grid of its operator, under the pressure found on the part: with the gap found
+    /// there, and none that is negative on the window. Takes an application of the operator.
+    pub(super) fn whole<O, L>(self, problem: &mut Problem<T, O, L>) -> Result<Array2<T>>
     where
-        T: Real,
         O: ElasticOperator<T>,
         L: AdhesionLaw<T>,
     {
+        let Self { part, grid, solution: Solution { gap, pressure, .. }, .. } = self;
         let (window, from, to) = (problem.grid().shape(), grid.slab(), problem.operator.grid().slab());
         // the displacement less the heights is K (p − K⁻¹h) and a constant
         let mut load = problem.flat.pressure.mapv(|p| -p);
-        let (rows, pressure) = self.rows_of(pressure, from, to);
-        within_mut(&mut load, [&rows, &self.y]).zip_mut_with(&pressure, |load, &p| *load += p);
+        let (rows, pressure) = part.rows_of(&pressure, from, to);
+        within_mut(&mut load, [&rows, &part.y]).zip_mut_with(&pressure, |load, &p| *load += p);
         let mut whole = Array2::zeros(load.dim());
         problem.operator.displacement(load.view(), whole.view_mut())?;
-        let found = self.cut(&whole, to, from);
+        let found = part.cut(&whole, to, from);
         let shift = field::mean_of_both(from, gap.view(), found.view(), |gap, u| gap.widen() - u.widen());
         whole.mapv_inplace(|gap| gap + T::lit(shift));
         let own = window.0.saturating_sub(to.rows().start).min(to.rows().len());
         within_mut(&mut whole, [&(0..own), &(0..window.1)]).mapv_inplace(|gap| gap.max(T::zero()));
-        within_mut(&mut whole, [&rows, &self.y]).assign(&self.rows_of(gap, from, to).1);
+        within_mut(&mut whole, [&rows, &part.y]).assign(&part.rows_of(&gap, from, to).1);
         Ok(whole)
+    }
+}
+
+impl<C> Nested<C> {
+    /// The solution on a small part of the window of a free half-space, if all contact is there in a gap prolonged to
+    /// the operator's grid.
+    pub(super) fn solve_part<T, O, L>(
+        &mut self,
+        surface: &Surface,
+        (half_space, operator): (&O, &mut impl FnMut(Grid) -> Result<O>),
+        law: &L,
+        control: Control,
+        gap: &Array2<T>,
+        observe: Observer<'_>,
+    ) -> Result<Option<OnPart<T>>>
+    where
+        T: Real,
+        O: ElasticOperator<T>,
+        L: AdhesionLaw<T>,
+        C: ContactConstraint<T>,
+    {
+        let slab = half_space.grid().slab();
+        let fits = half_space.boundary() != Boundary::Periodic && surface.absent().is_none() && law.shape().is_none();
+        let part = if fits { Part::of(surface.grid().shape(), slab, gap, law) } else { None };
+        let Some(part) = part else { return Ok(None) };
+        let small = part.surface(surface)?;
+        let mut problem = Problem::new(&small, operator(*small.grid())?, law)?;
+        let share = problem.operator.grid().nodes() as f64 / half_space.grid().nodes() as f64;
+        let tolerance = SHARE * self.solver.settings.tolerance_in::<T>();
+        let start = Begin::At(Start::Near(part.cut(gap, slab, small.grid().slab())));
+        let control = Part::control(control, surface, &small);
+        let Solved { solution, .. } = self.run_to(tolerance, problem.parts(), control, start, observe)?;
+        let applications = (share * (solution.report.operator_applications + 1) as f64).ceil() as usize;
+        Ok(Some(OnPart { part, grid: *small.grid(), solution, applications }))
     }
 }
 

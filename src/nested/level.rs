@@ -1,0 +1,67 @@
+//! The cost of one of nested grids, and what was found there.
+
+use crate::contact::ContactArea;
+use crate::error::Result;
+use crate::grid::Grid;
+use crate::real::Real;
+use crate::solver::{Solution, Status};
+use crate::stability::ContactStiffness;
+
+/// The cost of the solve on one of the nested grids, and what it found there.
+///
+/// The figures of a coarser grid are those of its solution to the coarse tolerance; how good it is says its relative
+/// error. [`NestedSolution`] has an example.
+#[non_exhaustive]
+#[derive(Clone, Debug, PartialEq)]
+pub struct Level {
+    /// The nodes (Nx, Ny) of the grid.
+    pub shape: (usize, usize),
+    /// The status: how the solve ended.
+    pub status: Status,
+    /// The number of steps on the whole grid, from its last start.
+    pub iterations: usize,
+    /// The number of operator applications, with the one that constructs the problem; those on a part of the window in
+    /// units of one on the whole.
+    pub operator_applications: usize,
+    /// The certified relative error, [`Report::relative_error`](crate::Report::relative_error).
+    pub relative_error: f64,
+    /// The mean gap, [`Report::mean_gap`](crate::Report::mean_gap).
+    pub mean_gap: f64,
+    /// The mean external pressure, [`Report::mean_pressure`](crate::Report::mean_pressure).
+    pub mean_pressure: f64,
+    /// The mean contact pressure, [`Report::mean_contact_pressure`](crate::Report::mean_contact_pressure).
+    pub mean_contact_pressure: f64,
+    /// The elastic energy per area, [`Report::elastic_energy`](crate::Report::elastic_energy).
+    pub elastic_energy: f64,
+    /// The contact area, as nodes count it and corrected.
+    pub area: ContactArea,
+    /// The contact stiffness, if [`Nested::stiffness`] asks for it.
+    pub stiffness: Option<ContactStiffness>,
+}
+
+impl Level {
+    /// The level of a solution on its grid.
+    pub(crate) fn of<T: Real>(solution: &Solution<T>, grid: &Grid) -> Result<Self> {
+        let report = &solution.report;
+        Ok(Self {
+            shape: grid.shape(),
+            status: report.status,
+            iterations: report.iterations,
+            operator_applications: report.operator_applications + 1,
+            relative_error: report.relative_error,
+            mean_gap: report.mean_gap,
+            mean_pressure: report.mean_pressure,
+            mean_contact_pressure: report.mean_contact_pressure,
+            elastic_energy: report.elastic_energy,
+            area: ContactArea::of_solution(solution, grid)?,
+            stiffness: None,
+        })
+    }
+}
+
+/// The operator applications on all levels, in units of one on the last.
+pub(crate) fn equivalent_applications(levels: &[Level]) -> f64 {
+    let nodes = |level: &Level| (level.shape.0 * level.shape.1) as f64;
+    let finest = levels.last().map_or(1.0, nodes);
+    levels.iter().map(|level| level.operator_applications as f64 * nodes(level) / finest).sum()
+}
