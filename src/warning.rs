@@ -16,10 +16,13 @@ use crate::surface::{Surface, Topography};
 use crate::vector::sums;
 
 mod code;
+mod extremes;
 mod relief;
+mod spikes;
 
 pub use code::WarningCode;
-use relief::{Extremes, Relief};
+use extremes::Extremes;
+use relief::Relief;
 
 /// The drop of a plane across the map, in rms heights about the plane, from which there is a tilt: at a few per cent
 /// of contact, some two rms heights above the mean, a fifth gives one side of Gaussian heights half as much contact
@@ -409,7 +412,7 @@ fn spikes(relief: &Relief) -> Option<Warning> {
         figure(spikes.farthest / rms),
         spikes.node.0,
         spikes.node.1,
-        figure(relief.kurtosis)
+        figure(spikes.kurtosis)
     );
     Some(Warning { code: WarningCode::Spikes, message })
 }
