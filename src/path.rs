@@ -19,19 +19,21 @@ use crate::solver::{
 };
 use crate::stability::Watch;
 
+mod account;
 mod event;
 mod place;
 mod quadrature;
 mod saddle;
 mod settings;
+mod state;
 mod step;
-mod track;
 
+use account::Account;
 pub use event::{Event, Jump};
 use place::Mode;
 pub use settings::PathSettings;
+use state::{State, Way};
 pub use step::{PathCheckpoint, PathStep};
-use track::{State, Track, Way};
 
 /// A path of equilibria: an iterator over the states of a branch that is followed from load to load in small steps,
 /// with its jumps.
@@ -423,7 +425,7 @@ where
     }
 
     fn step(&self, solution: Solution<T>, control: Control, event: Option<Event>) -> PathStep<T> {
-        let Track { work, dissipated, imbalance, .. } = self.state.track;
+        let Account { work, dissipated, imbalance, .. } = self.state.account;
         PathStep { solution, control, leg: self.state.leg, work, dissipated, imbalance, event }
     }
 }

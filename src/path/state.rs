@@ -1,5 +1,6 @@
-//! The track of a path in numbers: its last places, the length of the next step, and the balance of energy of the last.
+//! The state of a path: its leg, its last places, the length of the next step, and the account of energy.
 
+use super::account::{Account, Trial};
 use super::place::{Mode, Place};
 use super::quadrature::integral;
 use super::{Event, Jump, PathSettings};
@@ -7,30 +8,7 @@ use crate::elastic::Boundary;
 use crate::problem::{Control, Load, PressedFlat};
 use crate::solver::Report;
 
-/// The account of energy so far.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(super) struct Track {
-    pub(super) work: f64,
-    pub(super) dissipated: f64,
-    pub(super) imbalance: f64,
-    /// the least and the largest energy
-    range: (f64, f64),
-}
-
-/// The balance of energy of a trial step.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Trial {
-    /// whether the energy changed by the work of the load
-    pub(super) balanced: bool,
-    /// whether it fell by more than any work of the load in such a step
-    pub(super) jumped: bool,
-    /// the work by quadrature
-    work: f64,
-    /// the change of the energy beyond the work
-    excess: f64,
-    /// the factor by which the next step may be longer
-    growth: f64,
-}
+mod numbers;
 
 /// The way of a step to the state that is taken.
 #[derive(Clone, Copy, Debug, Default)]
@@ -48,7 +26,7 @@ impl Way {
     }
 }
 
-/// The track of a path: its leg, its step, and its last places.
+/// The state of a path between two steps.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct State {
     pub(super) solved: bool,
@@ -67,7 +45,7 @@ pub(super) struct State {
     limit: Option<(f64, f64)>,
     /// whether the last state is a saddle that could not be left
     pub(super) on_saddle: bool,
-    pub(super) track: Track,
+    pub(super) account: Account,
     /// the last states on the branch, the latest last: at most four
     places: Vec<Place>,
     /// the states of which the gaps are kept
@@ -84,7 +62,7 @@ const LANDING: f64 = 1e-3;
 const PLACES: usize = 4;
 
 impl State {
-    /// The track of a path that has not begun.
+    /// The state of a path that has not begun.
     pub(super) fn on<T>(flat: &PressedFlat<T>) -> Self {
         Self { free: flat.boundary != Boundary::Periodic, area: flat.area, ..Self::default() }
     }
@@ -118,7 +96,7 @@ impl State {
     pub(super) fn begin(&mut self, report: &Report) {
         let place = Place::of(report);
         self.solved = true;
-        self.track.range = (place.energy, place.energy);
+        self.account.range = (place.energy, place.energy);
         (self.places, self.at) = (vec![place], vec![place]);
         let (x, _) = place.slope(self.mode);
         self.span = (x, x);
@@ -224,7 +202,7 @@ impl State {
         let first = points.len().saturating_sub(PLACES);
         let change = next.potential(self.mode) - here.potential(self.mode);
         let excess = change - integral(&points[first..]);
-        let (low, high) = self.track.range;
+        let (low, high) = self.account.range;
         let scale = (high.max(next.energy) - low.min(next.energy)).max(least);
         let allowed = (imbalance * scale + noise).max(left);
         let order = 1.0 + (points.len() - first) as f64;
@@ -298,7 +276,7 @@ impl State {
             Mode::Spring(_) => next.rest = target,
             Mode::Pressure => next.pressure = target,
         }
-        let Track { work, dissipated, imbalance, range } = &mut self.track;
+        let Account { work, dissipated, imbalance, range } = &mut self.account;
         *range = (range.0.min(next.energy), range.1.max(next.energy));
         let mut event =
             self.limit.take().map(|(mean_gap, mean_pressure)| Event::LimitPoint { mean_gap, mean_pressure });
@@ -357,98 +335,5 @@ impl State {
             }
         }
         event
-    }
-
-    pub(super) fn numbers(&self) -> Vec<f64> {
-        let flag = |flag: bool| f64::from(u8::from(flag));
-        let pair =
-            |pair: Option<(f64, f64)>| [flag(pair.is_some()), pair.unwrap_or_default().0, pair.unwrap_or_default().1];
-        let Track { work, dissipated, imbalance, range } = self.track;
-        let mut numbers = vec![flag(self.solved), self.leg as f64, self.mode.code()];
-        numbers.push(flag(self.on_saddle));
-        numbers.extend([self.span.0, self.span.1, self.step]);
-        numbers.extend(pair(self.pressures).into_iter().chain(pair(self.limit)));
-        numbers.extend([work, dissipated, imbalance, range.0, range.1]);
-        for places in [&self.places, &self.at] {
-            numbers.push(places.len() as f64);
-            numbers.extend(places.iter().flat_map(|p| [p.position, p.rest, p.gap, p.pressure, p.energy, p.contact]));
-        }
-        numbers
-    }
-
-    /// The track of the numbers of another one, on the same problem as `on`.
-    pub(super) fn of_numbers(numbers: &[f64], on: Self) -> Option<Self> {
-        let mut rest = numbers.iter().copied();
-        let mut next = || rest.next();
-        let (solved, leg, mode, on_saddle) = (next()? != 0.0, next()?, next()?, next()? != 0.0);
-        let (span, step) = ((next()?, next()?), next()?);
-        let mut pair = || Some((next()? != 0.0, (next()?, next()?)));
-        let [pressures, limit] = [pair()?, pair()?].map(|(there, pair)| there.then_some(pair));
-        let track = Track { work: next()?, dissipated: next()?, imbalance: next()?, range: (next()?, next()?) };
-        let mut places = || -> Option<Vec<Place>> {
-            let count = next()?;
-            if !(0.0..=PLACES as f64).contains(&count) {
-                return None;
-            }
-            (0..count as usize)
-                .map(|_| {
-                    let (position, rest) = (next()?, next()?);
-                    let (gap, pressure, energy, contact) = (next()?, next()?, next()?, next()?);
-                    Some(Place { position, rest, gap, pressure, energy, contact })
-                })
-                .collect()
-        };
-        let (places, at) = (places()?, places()?);
-        let whole = leg >= 0.0 && leg.fract() == 0.0 && solved != places.is_empty();
-        let (mode, free, area) = (Mode::of_code(mode), on.free, on.area);
-        let state = Self {
-            solved,
-            leg: leg as usize,
-            mode,
-            free,
-            area,
-            span,
-            step,
-            pressures,
-            limit,
-            on_saddle,
-            track,
-            places,
-            at,
-        };
-        (whole && rest.next().is_none()).then_some(state)
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_state_comes_back_from_its_numbers() {
-        let place = |x: f64| Place { position: x, rest: 2.0 * x, gap: x, pressure: -x, energy: x * x, contact: 0.5 };
-        let state = State {
-            solved: true,
-            leg: 2,
-            mode: Mode::Spring(0.3),
-            free: true,
-            area: 2.0,
-            span: (0.1, 0.7),
-            step: 1e-3,
-            pressures: Some((0.2, 0.3)),
-            limit: None,
-            on_saddle: true,
-            track: Track { work: 1.0, dissipated: 2.0, imbalance: -3.0, range: (4.0, 5.0) },
-            places: vec![place(0.1), place(0.2), place(0.3)],
-            at: vec![place(0.3)],
-        };
-        let numbers = state.numbers();
-        let on = || State { free: true, area: 2.0, ..State::default() };
-        assert_eq!(State::of_numbers(&numbers, on()).unwrap(), state);
-        assert_eq!(State::of_numbers(&State::default().numbers(), State::default()).unwrap(), State::default());
-        for length in 0..numbers.len() {
-            assert_eq!(State::of_numbers(&numbers[..length], on()), None);
-        }
-        assert_eq!(State::of_numbers(&[numbers, vec![0.0]].concat(), on()), None);
     }
 }

@@ -65,7 +65,7 @@ pub struct PathStep<T> {
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct PathCheckpoint<T> {
-    /// The numbers of the path's track.
+    /// The numbers of the path's state.
     pub numbers: Vec<f64>,
     /// The last gaps, and the softest mode of the last state, where it was needed.
     pub fields: Vec<Array2<T>>,
