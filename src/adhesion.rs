@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use crate::derivatives::{self, Named};
+use crate::derivatives::{self, GAPS, Named};
 use crate::error::{Error, Result};
 use crate::grid::Grid;
 use crate::real::Real;
@@ -30,6 +30,9 @@ pub use varying::Varying;
 
 /// The share of w/ρ that the adhesive traction must exceed where surfaces are said to attract each other.
 const NOTICEABLE: f64 = 0.01;
+
+/// The roundings, in units of the largest traction, by which a traction that falls may seem to rise.
+const ROUNDINGS: f64 = 4.0;
 
 /// An adhesion law: the energy per area by which two surfaces attract each other, a function of the gap alone.
 ///
@@ -95,6 +98,13 @@ pub trait AdhesionLaw<T: Real>: Send + Sync {
         false
     }
 
+    /// Whether the energy is concave at all gaps: the traction nowhere rises with the gap. Its tangent then bounds the
+    /// energy after a step, which need not be evaluated to know that it has fallen. The default, that it need not be,
+    /// is safe for every law.
+    fn is_concave(&self) -> bool {
+        false
+    }
+
     /// The gap of rest: below it the law repels, and keeps the surfaces apart by itself, above it attracts. Nothing,
     /// which is the default, for a law that only attracts.
     ///
@@ -142,7 +152,7 @@ pub trait AdhesionLaw<T: Real>: Send + Sync {
     /// The energies at the nodes from `first` on, in row-major order (node ix·Ny + iy), which have these gaps. Nodes
     /// count on the whole grid, also where several processes share it.
     ///
-    /// The four slice functions are what a solve calls, for a few hundred nodes at once. A law of which the gap is all
+    /// The five slice functions are what a solve calls, for a few hundred nodes at once. A law of which the gap is all
     /// that matters need not write them. A law that varies over the surface writes them by the node, as
     /// `examples/patches.rs` does, and answers to the functions of one gap for the node where it is strongest. A law
     /// that can use vector instructions writes them for speed. They must not depend on where the slices begin and end.
@@ -163,7 +173,13 @@ pub trait AdhesionLaw<T: Real>: Send + Sync {
         slopes.iter_mut().zip(gaps).for_each(|(s, &g)| *s = self.slope(g));
     }
 
-    /// Both at once, for a law of which one follows from the other.
+    /// Energies and tractions at once, for a law of which one follows from the other.
+    fn energies_and_tractions(&self, first: usize, gaps: &[T], energies: &mut [T], tractions: &mut [T]) {
+        self.energies(first, gaps, energies);
+        self.tractions(first, gaps, tractions);
+    }
+
+    /// Tractions and slopes at once, for a law of which one follows from the other.
     fn tractions_and_slopes(&self, first: usize, gaps: &[T], tractions: &mut [T], slopes: &mut [T]) {
         self.tractions(first, gaps, tractions);
         self.slopes(first, gaps, slopes);
@@ -179,6 +195,7 @@ macro_rules! forward {
             fn work_of_adhesion(&self) -> T { (**self).work_of_adhesion() }
             fn range(&self) -> T { (**self).range() }
             fn is_zero(&self) -> bool { (**self).is_zero() }
+            fn is_concave(&self) -> bool { (**self).is_concave() }
             fn rest(&self) -> Option<T> { (**self).rest() }
             fn shape(&self) -> Option<(usize, usize)> { (**self).shape() }
             fn in_rows_of(&self, grid: &Grid) -> Option<Box<dyn AdhesionLaw<T> + '_>> { (**self).in_rows_of(grid) }
@@ -195,6 +212,9 @@ macro_rules! forward {
             fn slopes(&self, first: usize, gaps: &[T], slopes: &mut [T]) {
                 (**self).slopes(first, gaps, slopes)
             }
+            fn energies_and_tractions(&self, first: usize, gaps: &[T], energies: &mut [T], tractions: &mut [T]) {
+                (**self).energies_and_tractions(first, gaps, energies, tractions)
+            }
             fn tractions_and_slopes(&self, first: usize, gaps: &[T], tractions: &mut [T], slopes: &mut [T]) {
                 (**self).tractions_and_slopes(first, gaps, tractions, slopes)
             }
@@ -208,11 +228,13 @@ forward!(&L, Box<L>, Arc<L>);
 /// Compares, at 200 gaps between 0 (or half the gap of rest) and `largest_gap`, the traction with central differences
 /// of the energy and the slope with central differences of the traction, in the precision of the law, to a hundredth of
 /// the largest value of that function. A function may jump (as the traction of Maugis–Dugdale does at ρ): gaps beside a
-/// jump, where the differences grow as their step shrinks, are passed over.
+/// jump, where the differences grow as their step shrinks, are passed over. Of a law that says that its energy is
+/// [concave](AdhesionLaw::is_concave) the traction may not rise from one of the gaps to the next.
 ///
 /// # Errors
 /// [`Error::Law`] with the function, the first gap at which it is not finite or is not the derivative of the one
-/// before it, and what it should be there; [`Error::Value`] if `largest_gap` is not positive and finite.
+/// before it, and what it should be there; [`Error::Concave`] with the gap to which the traction rises;
+/// [`Error::Value`] if `largest_gap` is not positive and finite.
 ///
 /// ```
 /// use asperity::{Exponential, MaugisDugdale, check_law};
@@ -230,7 +252,19 @@ pub fn check_law<T: Real>(law: &impl AdhesionLaw<T>, largest_gap: f64) -> Result
     ];
     // closer than half its gap of rest a law may grow without bound
     let least = law.rest().map_or(0.0, |rest| 0.5 * rest.widen());
-    derivatives::check::<T>(functions, (least, largest_gap), length)
+    derivatives::check::<T>(functions, (least, largest_gap), length)?;
+    if !law.is_concave() {
+        return Ok(());
+    }
+    let largest = law.traction(T::zero()).abs().widen();
+    let gaps = (0..=GAPS).map(|i| largest_gap * i as f64 / GAPS as f64);
+    let tractions: Vec<_> = gaps.map(|gap| (gap, law.traction(T::lit(gap)).widen())).collect();
+    let rounding = ROUNDINGS * T::epsilon().widen() * largest;
+    let rises = |pair: &&[(f64, f64)]| pair[1].1 > pair[0].1 + rounding;
+    match tractions.windows(2).find(rises) {
+        Some(&[(_, nearer), (gap, traction)]) => Err(Error::Concave { gap, traction, nearer }),
+        _ => Ok(()),
+    }
 }
 
 /// The adhesive traction above which surfaces are said to attract each other: a share of w/ρ; zero where that has no
@@ -296,6 +330,73 @@ mod tests {
                 Err(Error::Law { function, .. }) => assert_eq!(function, wrong),
                 other => panic!("{other:?}"),
             }
+        }
+    }
+
+    #[test]
+    fn concave_are_the_laws_whose_traction_falls_everywhere() {
+        fn concave<T: Real>(law: &dyn AdhesionLaw<T>) -> bool {
+            check_law(&law, 10.0).unwrap();
+            law.is_concave()
+        }
+        let dugdale = MaugisDugdale::new(2.0, 0.5).unwrap();
+        assert!(concave::<f64>(&Exponential::new(2.0, 0.5).unwrap()) && concave::<f32>(&dugdale));
+        assert!(concave(&*AdhesionLaw::<f64>::smoothed(&dugdale, 0.1).unwrap()));
+        assert!(concave::<f64>(&PowerLaw::new(2.0, 0.5, 3.0).unwrap()));
+        assert!(concave::<f64>(&Tabulated::new(&[0.0, 1.0, 3.0], &[2.0, 2.0, 0.0]).unwrap()));
+        assert!(!concave::<f64>(&Tabulated::new(&[0.0, 1.0, 3.0], &[2.0, 2.5, 0.0]).unwrap()));
+        assert!(
+            !concave::<f64>(&LennardJones::new(2.0, 0.5).unwrap()) && !concave::<f64>(&Morse::new(2.0, 0.5).unwrap())
+        );
+    }
+
+    #[test]
+    fn a_law_that_is_not_concave_may_not_say_so() {
+        /// A traction that rises to a gap of one, and falls again.
+        struct Humped;
+        impl AdhesionLaw<f64> for Humped {
+            fn energy(&self, gap: f64) -> f64 {
+                -(1.0 + gap) * (-gap).exp()
+            }
+            fn traction(&self, gap: f64) -> f64 {
+                gap * (-gap).exp()
+            }
+            fn slope(&self, gap: f64) -> f64 {
+                (1.0 - gap) * (-gap).exp()
+            }
+            fn range(&self) -> f64 {
+                1.0
+            }
+            fn is_concave(&self) -> bool {
+                true
+            }
+        }
+        let error = check_law(&Humped, 5.0).unwrap_err();
+        let Error::Concave { gap, traction, nearer } = error else { panic!("{error}") };
+        assert_eq!((gap, traction, nearer), (0.025, Humped.traction(0.025), 0.0));
+    }
+
+    #[test]
+    fn what_is_evaluated_at_once_is_what_each_function_gives() {
+        fn check<T: Real>(law: &dyn AdhesionLaw<T>) {
+            let gaps: Vec<T> = (0..100).map(|i| T::lit(0.02 * f64::from(i))).collect();
+            let [mut energies, mut tractions, mut slopes, mut again] = [(); 4].map(|()| vec![T::zero(); gaps.len()]);
+            law.energies_and_tractions(0, &gaps, &mut energies, &mut tractions);
+            law.tractions_and_slopes(0, &gaps, &mut again, &mut slopes);
+            for (i, &gap) in gaps.iter().enumerate() {
+                let found = [energies[i], tractions[i], again[i], slopes[i]].map(T::widen);
+                let expected = [law.energy(gap), law.traction(gap), law.traction(gap), law.slope(gap)].map(T::widen);
+                for ((found, expected), size) in found.into_iter().zip(expected).zip([2.0, 4.0, 4.0, 8.0]) {
+                    // of an exponential of up to one, and some products
+                    let rounding = 4.0 * T::epsilon().widen() * size;
+                    assert!((found - expected).abs() <= rounding, "{found} {expected} at {gap}");
+                }
+            }
+        }
+        let law = Exponential::new(2.0, 0.5).unwrap();
+        check::<f32>(&law);
+        for law in [&law as &dyn AdhesionLaw<f64>, &CutOff::new(law, 1.0).unwrap(), &Morse::new(2.0, 0.5).unwrap()] {
+            check(law);
         }
     }
 

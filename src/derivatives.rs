@@ -4,7 +4,7 @@ use crate::error::{Error, Result};
 use crate::real::Real;
 
 /// How many gaps are looked at.
-const GAPS: usize = 200;
+pub(crate) const GAPS: usize = 200;
 
 /// A function of the gap, with its name.
 pub(crate) type Named<'a> = (&'static str, &'a dyn Fn(f64) -> f64);

@@ -77,6 +77,16 @@ pub enum Error {
         /// The value that agrees with the function before; none if `value` is not finite.
         expected: Option<f64>,
     },
+    /// An adhesion law whose traction rises with the gap, though it says that its energy is
+    /// [concave](crate::AdhesionLaw::is_concave).
+    Concave {
+        /// The gap before which the traction rises.
+        gap: f64,
+        /// The traction at that gap.
+        traction: f64,
+        /// The smaller traction at a smaller gap.
+        nearer: f64,
+    },
     /// An elastic operator without a property of its contract; see [`check_operator`](crate::check_operator).
     Operator {
         /// The property.
@@ -260,6 +270,14 @@ impl fmt::Display for Error {
                 Short(*value),
                 Short(*gap),
                 Short(*expected)
+            ),
+            Self::Concave { gap, traction, nearer } => write!(
+                f,
+                "the adhesive traction rises with the gap, from {} to {} at a gap of {}: it may not where the energy is concave, \
+                 as the law says of its own",
+                Short(*nearer),
+                Short(*traction),
+                Short(*gap)
             ),
             Self::Operator { property, found, expected } => {
                 write!(f, "{property} is {}: it should be {}", Short(*found), Short(*expected))

@@ -72,6 +72,9 @@ impl<T: Real> AdhesionLaw<T> for Form {
     fn is_zero(&self) -> bool {
         self.law::<T>().is_zero()
     }
+    fn is_concave(&self) -> bool {
+        self.law::<T>().is_concave()
+    }
     fn rest(&self) -> Option<T> {
         self.law().rest()
     }
@@ -92,6 +95,9 @@ impl<T: Real> AdhesionLaw<T> for Form {
     }
     fn slopes(&self, first: usize, gaps: &[T], slopes: &mut [T]) {
         self.law().slopes(first, gaps, slopes);
+    }
+    fn energies_and_tractions(&self, first: usize, gaps: &[T], energies: &mut [T], tractions: &mut [T]) {
+        self.law().energies_and_tractions(first, gaps, energies, tractions);
     }
     fn tractions_and_slopes(&self, first: usize, gaps: &[T], tractions: &mut [T], slopes: &mut [T]) {
         self.law().tractions_and_slopes(first, gaps, tractions, slopes);

@@ -55,6 +55,28 @@ impl<L> CutOff<L> {
         let end = T::lit(self.distance);
         [self.law.energy(end), self.law.traction(end), self.law.slope(end)]
     }
+
+    /// The energies, of those of the law itself.
+    fn cut_energies<T: Real>(&self, gaps: &[T], energies: &mut [T])
+    where
+        L: AdhesionLaw<T>,
+    {
+        let [energy, traction, slope] = self.end();
+        for (value, &gap) in energies.iter_mut().zip(gaps) {
+            *value = self.less(gap, *value, |x| energy + x * (traction + T::lit(0.5) * slope * x));
+        }
+    }
+
+    /// The tractions, of those of the law itself.
+    fn cut_tractions<T: Real>(&self, gaps: &[T], tractions: &mut [T])
+    where
+        L: AdhesionLaw<T>,
+    {
+        let [_, traction, slope] = self.end();
+        for (value, &gap) in tractions.iter_mut().zip(gaps) {
+            *value = self.less(gap, *value, |x| traction + slope * x);
+        }
+    }
 }
 
 impl<T: Real, L: AdhesionLaw<T>> AdhesionLaw<T> for CutOff<L> {
@@ -71,18 +93,17 @@ impl<T: Real, L: AdhesionLaw<T>> AdhesionLaw<T> for CutOff<L> {
         self.less(gap, self.law.slope(gap), |_| slope)
     }
     fn energies(&self, first: usize, gaps: &[T], energies: &mut [T]) {
-        let [energy, traction, slope] = self.end();
         self.law.energies(first, gaps, energies);
-        for (value, &gap) in energies.iter_mut().zip(gaps) {
-            *value = self.less(gap, *value, |x| energy + x * (traction + T::lit(0.5) * slope * x));
-        }
+        self.cut_energies(gaps, energies);
     }
     fn tractions(&self, first: usize, gaps: &[T], tractions: &mut [T]) {
-        let [_, traction, slope] = self.end();
         self.law.tractions(first, gaps, tractions);
-        for (value, &gap) in tractions.iter_mut().zip(gaps) {
-            *value = self.less(gap, *value, |x| traction + slope * x);
-        }
+        self.cut_tractions(gaps, tractions);
+    }
+    fn energies_and_tractions(&self, first: usize, gaps: &[T], energies: &mut [T], tractions: &mut [T]) {
+        self.law.energies_and_tractions(first, gaps, energies, tractions);
+        self.cut_energies(gaps, energies);
+        self.cut_tractions(gaps, tractions);
     }
     fn slopes(&self, first: usize, gaps: &[T], slopes: &mut [T]) {
         let [.., slope] = self.end();

@@ -78,6 +78,11 @@ impl<T: Real> AdhesionLaw<T> for Exponential {
         let (w, range) = self.rounded::<T>();
         exponentials(-w / range / range, -range.recip(), gaps, slopes);
     }
+    fn energies_and_tractions(&self, first: usize, gaps: &[T], energies: &mut [T], tractions: &mut [T]) {
+        self.tractions(first, gaps, tractions);
+        let range = T::lit(self.range);
+        energies.iter_mut().zip(tractions).for_each(|(e, t)| *e = -*t * range);
+    }
     fn tractions_and_slopes(&self, first: usize, gaps: &[T], tractions: &mut [T], slopes: &mut [T]) {
         self.tractions(first, gaps, tractions);
         let rate = -T::lit(self.range).recip();
@@ -85,6 +90,9 @@ impl<T: Real> AdhesionLaw<T> for Exponential {
     }
     fn range(&self) -> T {
         T::lit(self.range)
+    }
+    fn is_concave(&self) -> bool {
+        true
     }
     fn is_zero(&self) -> bool {
         T::lit(self.work_of_adhesion) == T::zero()

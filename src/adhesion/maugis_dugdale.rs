@@ -96,6 +96,9 @@ impl<T: Real> AdhesionLaw<T> for MaugisDugdale {
         let smoothing = (w / range * compliance).min(T::lit(2.0) * range).widen();
         (smoothing > 0.0).then(|| Box::new(Self { smoothing, ..*self }) as Box<dyn AdhesionLaw<T>>)
     }
+    fn is_concave(&self) -> bool {
+        true
+    }
     fn is_zero(&self) -> bool {
         T::lit(self.work_of_adhesion) == T::zero()
     }

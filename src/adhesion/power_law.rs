@@ -104,6 +104,9 @@ impl<T: Real> AdhesionLaw<T> for PowerLaw {
     fn range(&self) -> T {
         T::lit(self.range)
     }
+    fn is_concave(&self) -> bool {
+        true
+    }
     fn is_zero(&self) -> bool {
         T::lit(self.work_of_adhesion) == T::zero()
     }

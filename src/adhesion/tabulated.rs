@@ -153,4 +153,8 @@ impl<T: Real> AdhesionLaw<T> for Tabulated {
     fn range(&self) -> T {
         T::lit(self.range)
     }
+    fn is_concave(&self) -> bool {
+        // between the points there are no other extremes
+        self.points.is_sorted_by(|nearer, farther| nearer.cubic[0] >= farther.cubic[0])
+    }
 }

@@ -134,6 +134,9 @@ impl<T: Real, L: AdhesionLaw<T>> AdhesionLaw<T> for Varying<L> {
     fn range(&self) -> T {
         self.law.range()
     }
+    fn is_concave(&self) -> bool {
+        self.law.is_concave()
+    }
     fn rest(&self) -> Option<T> {
         // where there is no work of adhesion nothing repels either
         if self.repels { self.law.rest() } else { None }
@@ -181,6 +184,11 @@ impl<T: Real, L: AdhesionLaw<T>> AdhesionLaw<T> for Varying<L> {
     fn slopes(&self, first: usize, gaps: &[T], slopes: &mut [T]) {
         self.law.slopes(first, gaps, slopes);
         self.scale(first, slopes);
+    }
+    fn energies_and_tractions(&self, first: usize, gaps: &[T], energies: &mut [T], tractions: &mut [T]) {
+        self.law.energies_and_tractions(first, gaps, energies, tractions);
+        self.scale(first, energies);
+        self.scale(first, tractions);
     }
     fn tractions_and_slopes(&self, first: usize, gaps: &[T], tractions: &mut [T], slopes: &mut [T]) {
         self.law.tractions_and_slopes(first, gaps, tractions, slopes);

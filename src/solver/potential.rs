@@ -175,6 +175,20 @@ impl<'a, T: Real> Potential<'a, T> {
         }
     }
 
+    /// Whether the tangent of the local energy is nowhere below it.
+    pub(crate) fn is_concave(&self) -> bool {
+        self.projects() && self.law.is_concave()
+    }
+
+    /// The energies of the law alone, and the tractions of law and constraint, at once.
+    pub(crate) fn energies_and_tractions(&self, first: usize, gaps: &[T], energies: &mut [T], tractions: &mut [T]) {
+        if !matches!(self.wall, Some(Wall::Springs(_))) {
+            return self.law.energies_and_tractions(first, gaps, energies, tractions);
+        }
+        self.law(Of::Energy, first, gaps, energies);
+        self.evaluate(Of::Traction, first, gaps, tractions);
+    }
+
     /// Tractions and slopes at once.
     pub(crate) fn tractions_and_slopes(&self, first: usize, gaps: &[T], tractions: &mut [T], slopes: &mut [T]) {
         if !matches!(self.wall, Some(Wall::Springs(_))) {

@@ -90,8 +90,6 @@ struct Step {
     elastic: f64,
     /// what the spring adds to that
     spring: f64,
-    /// Σ of the local energy after the step
-    local: f64,
 }
 
 impl<T: Real, L: Real> State<'_, T, L> {
@@ -323,11 +321,12 @@ impl<T: Real, L: Real> State<'_, T, L> {
             // a law without a bound at zero gap has to stay away from it
             false => best.min(CLOSER * passes::reach(fields, &local)),
         };
-        let mut after = 0.0;
-        if !local.is_zero() {
+        // the tangent of a concave energy bounds it
+        let bound = length * trial.slope + 0.5 * length * length * quadratic;
+        if !(local.is_zero() || local.is_concave() && bound <= noise) {
             let before = tally.adhesive + tally.penalty;
             loop {
-                after = passes::energy_after(fields, &local, T::lit(length), scale);
+                let after = passes::energy_after(fields, &local, T::lit(length), scale);
                 let rise = length * shifted + 0.5 * length * length * quadratic + (after - before);
                 if rise.is_finite() && rise <= noise {
                     break;
@@ -342,13 +341,12 @@ impl<T: Real, L: Real> State<'_, T, L> {
         let ratio = if self.near { best.sqrt() } else { best };
         self.step_length = (self.step_length * ratio.clamp(ADAPT.0, ADAPT.1)).min(LONGEST);
         let (scale, slope, square) = (trial.scale, trial.slope, trial.square);
-        (length > 0.0).then_some(Step { length, scale, slope, change, square, work, elastic, spring, local: after })
+        (length > 0.0).then_some(Step { length, scale, slope, change, square, work, elastic, spring })
     }
 
     /// Takes a step: gap, pressure, and the tally of the new state.
     fn advance(&mut self, step: &Step) {
-        let projects = self.projects();
-        let &Step { length, scale, slope, change, square, work, elastic, spring, local: after } = step;
+        let &Step { length, scale, slope, change, square, work, elastic, spring } = step;
         self.given = self.load.pressure_at((self.tally.sum_gap + length * change) / self.nodes());
         let level = self.is_gap_controlled().then_some(T::lit(self.residual.level));
         let advance = Advance { length: T::lit(length), scale: T::lit(scale), offset: T::lit(self.offset()), level };
@@ -359,9 +357,6 @@ impl<T: Real, L: Real> State<'_, T, L> {
         let curvature =
             if local.is_zero() { length * length * (elastic + spring) } else { length * (advanced.product - slope) };
         self.tally = advanced.tally;
-        if projects {
-            self.tally.adhesive = after;
-        }
         let change = length * (2.0 * work + length * elastic);
         self.work = self.work.after(change, self.update_noise() * change.abs());
         let made = Made { factor: length, curvature, descent: 0.0, overlap: 0.0, sum: 0.0 };

@@ -1,6 +1,7 @@
 //! The driver: what its certificate promises, how many applications it takes, how it starts and ends.
 
 use std::ops::ControlFlow;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 use crate::common::{rough, solve, solve_from, sphere};
 use approx::assert_relative_eq;
@@ -473,6 +474,60 @@ impl AdhesionLaw<f64> for ByNode {
     fn slopes(&self, first: usize, gaps: &[f64], slopes: &mut [f64]) {
         self.0.slopes(first, gaps, slopes);
         self.scale(first, slopes);
+    }
+}
+
+/// A law that counts the evaluations of its energy alone, and says that this is concave or does not.
+struct Counting<'a> {
+    law: &'a dyn AdhesionLaw<f64>,
+    concave: bool,
+    energies: AtomicUsize,
+}
+
+impl AdhesionLaw<f64> for Counting<'_> {
+    fn energy(&self, gap: f64) -> f64 {
+        self.law.energy(gap)
+    }
+    fn traction(&self, gap: f64) -> f64 {
+        self.law.traction(gap)
+    }
+    fn slope(&self, gap: f64) -> f64 {
+        self.law.slope(gap)
+    }
+    fn is_concave(&self) -> bool {
+        self.concave
+    }
+    fn smoothed(&self, compliance: f64) -> Option<Box<dyn AdhesionLaw<f64> + '_>> {
+        self.law.smoothed(compliance)
+    }
+    fn energies(&self, first: usize, gaps: &[f64], energies: &mut [f64]) {
+        self.energies.fetch_add(gaps.len(), Ordering::Relaxed);
+        self.law.energies(first, gaps, energies);
+    }
+    fn energies_and_tractions(&self, first: usize, gaps: &[f64], energies: &mut [f64], tractions: &mut [f64]) {
+        self.law.energies(first, gaps, energies);
+        self.law.tractions(first, gaps, tractions);
+    }
+}
+
+/// A concave energy need not be evaluated before each step, and the solve is the same to the last bit: where its
+/// tangent bounds it, the energy itself would have passed as well.
+#[test]
+fn a_concave_energy_is_not_searched_for_a_descent() {
+    let (exponential, dugdale) = (Exponential::new(1e-4, 5e-3).unwrap(), MaugisDugdale::new(1e-4, 5e-3).unwrap());
+    let laws: [&dyn AdhesionLaw<f64>; 2] = [&exponential, &dugdale];
+    for law in laws {
+        for control in [Control::MeanPressure(0.01), Control::MeanGap(0.02)] {
+            let solved = |concave| {
+                let mut problem = rough::<f64, _>(64, 8, Counting { law, concave, energies: AtomicUsize::new(0) });
+                let solution = Solver::default().solve(&mut problem, control).unwrap();
+                (solution, problem.law().energies.load(Ordering::Relaxed) / 64 / 64)
+            };
+            let ((bounded, few), (searched, many)) = (solved(true), solved(false));
+            assert_eq!(bounded, searched);
+            assert_eq!(bounded.report.status, Status::Converged);
+            assert!(many >= 5 && few <= 2, "{few} {many}");
+        }
     }
 }
 

@@ -3,7 +3,7 @@
 use ndarray::Array2;
 
 use super::residual::{Continued, Working, release_chunk};
-use super::tally::{PRODUCT, Tally, tally_local, tally_of, tractions};
+use super::tally::{PRODUCT, Tally, tally_chunk};
 use super::{Fields, count, idles};
 use crate::field::{CHUNK, Partial, SUMS, read, write};
 use crate::par::Parts;
@@ -224,13 +224,12 @@ pub(in crate::solver) fn advance<T: Real, L: Real>(
     // r less the level takes the place of K⁻¹c; then the tally
     let finish = |local: &Potential<'_, T>, first, gap: &[T], pressure: &[T], step: &[L], residual: &mut [L]| {
         let mut buffer = [T::zero(); CHUNK];
-        let tractions = tractions(local, first, gap, &mut buffer);
-        let mut part = tally_of(local.projects(), offset, gap, pressure, tractions);
+        let tractions = &mut buffer[..gap.len()];
+        let mut part = tally_chunk(local, offset, first, (gap, pressure), tractions);
         vectors!([pressure, tractions], [residual], |i| {
             residual[i] = cast(pressure[i] + tractions[i] + offset - before);
         });
         if !local.is_zero() {
-            tally_local(&mut part, local, first, gap, tractions, local.is_soft());
             let product = sums!(1, [step, residual], [], |i| [step[i].widen() * residual[i].widen()]);
             part.sum[PRODUCT] = product.sum[0];
         }

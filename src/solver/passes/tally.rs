@@ -73,7 +73,7 @@ pub(super) fn tractions<'a, T: Real>(
 }
 
 /// The tally of a chunk by its gap, pressure and traction.
-pub(super) fn tally_of<T: Real>(projects: bool, offset: T, gap: &[T], pressure: &[T], traction: &[T]) -> Partial {
+fn tally_of<T: Real>(projects: bool, offset: T, gap: &[T], pressure: &[T], traction: &[T]) -> Partial {
     sums!(5, [gap, pressure, traction], [], least low, |i| {
         let (g, p) = (gap[i], pressure[i]);
         let r = (p + traction[i] + offset).widen();
@@ -84,29 +84,32 @@ pub(super) fn tally_of<T: Real>(projects: bool, offset: T, gap: &[T], pressure: 
     })
 }
 
-/// Adds the energies and tractions of law and constraint.
-pub(super) fn tally_local<T: Real>(
-    part: &mut Partial,
+/// The tally of a chunk by its gap and pressure, which writes the local tractions where law or springs have any.
+pub(super) fn tally_chunk<T: Real>(
     local: &Potential<'_, T>,
+    offset: T,
     first: usize,
-    gaps: &[T],
-    tractions: &[T],
-    energies: bool,
-) {
+    (gap, pressure): (&[T], &[T]),
+    tractions: &mut [T],
+) -> Partial {
+    let projects = local.projects();
+    if local.is_zero() {
+        return tally_of(projects, offset, gap, pressure, tractions);
+    }
     let mut buffer = [T::zero(); CHUNK];
-    let out = &mut buffer[..gaps.len()];
+    let values = &mut buffer[..gap.len()];
+    local.energies_and_tractions(first, gap, values, tractions);
+    let mut part = tally_of(projects, offset, gap, pressure, tractions);
     let sum = |values: &[T]| sums!(1, [values], [], |i| [values[i].widen()]).sum[0];
+    part.sum[6] = sum(values);
     if !local.is_soft() {
         part.sum[5] = sum(tractions);
     } else {
-        local.attractions(first, gaps, tractions, out);
-        part.sum[5] = sum(out);
-        [part.sum[4], part.sum[7]] = local.pressed(first, gaps, tractions);
+        local.attractions(first, gap, tractions, values);
+        part.sum[5] = sum(values);
+        [part.sum[4], part.sum[7]] = local.pressed(first, gap, tractions);
     }
-    if energies {
-        local.law(Of::Energy, first, gaps, out);
-        part.sum[6] = sum(out);
-    }
+    part
 }
 
 /// Takes the tally of gap and pressure, with K⁻¹h of the surface.
@@ -119,12 +122,8 @@ pub(in crate::solver) fn tally<T: Real, L: Real>(
     let Fields { reducer, least_r, gap, pressure, .. } = fields;
     let chunks = read(gap).zip(read(pressure)).zip(read(surface));
     let total = local.run(reducer, chunks, |local, first, ((gap, pressure), surface)| {
-        let mut buffer = [T::zero(); CHUNK];
-        let tractions = tractions(local, first, gap, &mut buffer);
-        let mut part = tally_of(local.projects(), offset, gap, pressure, tractions);
-        if !local.is_zero() {
-            tally_local(&mut part, local, first, gap, tractions, true);
-        }
+        let mut tractions = [T::zero(); CHUNK];
+        let mut part = tally_chunk(local, offset, first, (gap, pressure), &mut tractions[..gap.len()]);
         let more =
             sums!(2, [gap, pressure, surface], [], |i| { [gap[i].widen() * surface[i].widen(), pressure[i].widen()] });
         [part.sum[PRODUCT], part.sum[SUM_P]] = [more.sum[0], more.sum[1]];
