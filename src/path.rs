@@ -138,6 +138,9 @@ pub struct Path<'a, T, O, L, C = Projection> {
 /// The number of further solves after one that did not converge, where the step cannot be halved.
 const RETRIES: usize = 3;
 
+/// The roundings that the sums of the energy may have.
+const ROUNDINGS: f64 = 8.0;
+
 /// The number of gaps at which a law without a wall is asked whether it bears a pressure.
 const CLOSEST: usize = 64;
 
@@ -339,12 +342,12 @@ where
             return Ok(None);
         }
         let w = self.problem.law.work_of_adhesion().widen();
-        let rounding = T::epsilon().widen() / (self.problem.grid().nodes() as f64).sqrt() + f64::EPSILON;
         let flat = self.problem.flat.work * self.problem.flat.padding;
-        // what rounding makes of the energy, and what the tolerance leaves in that of surfaces that are apart, which
-        // nothing but adhesion makes jump
-        let left = if self.problem.law.is_zero() { report.tolerance.powi(2) * flat } else { 0.0 };
-        let noise = (8.0 * rounding * flat, left);
+        // what rounding makes of the energy: of surfaces that hardly touch it is the small difference of sums as large
+        // as that of the surface pressed flat, and rounding shifts whole waves of these alike
+        let rounding = ROUNDINGS * T::epsilon().widen() * flat;
+        // what the tolerance leaves in the energy of surfaces that are apart
+        let noise = (rounding, report.tolerance.powi(2) * flat);
         let scale = (self.settings.imbalance, 1e-3 * w);
         let mut trial = self.state.judge(target, report, scale, noise);
         let good = trial.balanced && settled;

@@ -389,9 +389,9 @@ fn without_adhesion_a_path_strides_to_first_contact() {
     assert!(apart < 2 * settings.steps, "{apart}");
 }
 
-/// The numbers of states on a path into contact and out of it, and of those that have stalled.
-fn there_and_back<T: Real>() -> (usize, usize) {
-    let mut problem = rough::<T, _>(64, 16, Exponential::new(1e-4, 4e-3).unwrap());
+/// The numbers of states on a path into contact and out of it, in which nothing happens, and of those that have stalled.
+fn there_and_back<T: Real>(n: usize, w: f64) -> (usize, usize) {
+    let mut problem = rough::<T, _>(n, n as i32 / 4, Exponential::new(w, 4e-3).unwrap());
     let mut solver = Solver::default();
     let path = Path::new(&mut solver, &mut problem, gaps(&[0.2, 0.02, 0.2]), PathSettings::default()).unwrap();
     let steps: Vec<_> = path.map(Result::unwrap).collect();
@@ -403,10 +403,13 @@ fn there_and_back<T: Real>() -> (usize, usize) {
 
 #[test]
 fn a_path_does_not_creep_where_its_states_are_at_the_floor_of_rounding() {
-    let (double, single) = (there_and_back::<f64>(), there_and_back::<f32>());
+    let (double, single) = (there_and_back::<f64>(64, 1e-4), there_and_back::<f32>(64, 1e-4));
     // a tenth more, as rounding differs between processors
-    assert!(double.0 <= 210 && double.1 == 0, "{double:?} and not (191, 0)");
-    assert!(single.0 <= 207 && (1..=30).contains(&single.1), "{single:?} and not (188, 15)");
+    assert!(double.0 <= 217 && double.1 == 0, "{double:?} and not (197, 0)");
+    assert!(single.0 <= 141 && (1..=8).contains(&single.1), "{single:?} and not (128, 4)");
+    // beside the energy of the surface pressed flat that of the adhesion is less than a hundred roundings
+    let weak = there_and_back::<f32>(128, 1e-6);
+    assert!(weak.0 <= 135 && weak.1 <= 10, "{weak:?} and not (123, 5)");
 }
 
 #[test]
