@@ -152,7 +152,7 @@ pub fn run(options: &Options, scene: &Scene) -> Outcome<bool> {
     })?;
     if let Some(file) = &psd {
         let target = rough.map(|rough| rough.spectrum(grid)).transpose()?;
-        let text = density_table(&surface.spectrum(), target.as_ref());
+        let text = density_table(&surface, target.as_ref(), unit);
         file.write(|path| write_text(path, &text))?;
     }
     let scene_file = scene.written_beside(&options.out)?;
