@@ -69,7 +69,7 @@ pub struct Options {
     /// Let only phases be random, and not the moduli of the waves
     #[arg(long, help_heading = "Roughness")]
     random_phase: bool,
-    /// Which surface of all those, a number from 0
+    /// Seed of the random numbers, from 0: each makes another surface
     #[arg(long, value_name = "N", default_value = "0", allow_hyphen_values = true, help_heading = "Roughness")]
     seed: u64,
 
