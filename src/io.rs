@@ -258,7 +258,7 @@ pub fn write_topography(path: &Path, map: &Topography) -> Result<()> {
             Err(Error::file(path, "cannot hold such heights, its numbers are f32: choose .npz or .npy"))
         }
         "gsf" => write_gsf(path, map).map_err(|e| Error::file(path, format!("cannot be written: {e}"))),
-        _ => Err(Error::file(path, "has no ending that names a format: choose .npz, .npy or .gsf")),
+        _ => Err(Error::file(path, "has no ending of a format that is written: choose .npz, .npy or .gsf")),
     }
 }
 

@@ -31,7 +31,7 @@ from ._asperity import (
     check_law,
 )
 from ._cycle import Cycle, Step, cycle
-from ._solution import ContactStatistics, Solution
+from ._solution import ContactStatistics, PressureDistribution, Solution
 from ._solve import solve
 from ._stability import Stability, stability
 from ._sweep import Sweep, sweep
@@ -53,6 +53,7 @@ __all__ = [
     "Morse",
     "Plan",
     "PowerLaw",
+    "PressureDistribution",
     "Solution",
     "Stability",
     "Step",

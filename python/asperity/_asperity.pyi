@@ -35,6 +35,7 @@ __all__ = [
     "closing_pressure_2d",
     "clusters",
     "prepare",
+    "pressure_distribution",
     "read",
     "self_affine",
     "spectrum",
@@ -262,6 +263,7 @@ def spectrum(
     heights: _Field, lengths: tuple[float, float], along: str
 ) -> tuple[_Field, _Field, NDArray[np.int64], float]: ...
 def clusters(map: NDArray[np.bool_], corners: bool) -> tuple[NDArray[np.int64], NDArray[np.int64]]: ...
+def pressure_distribution(gap: _Field, contact_pressure: _Field, bins: int) -> tuple[_Field, _Field]: ...
 def prepare(
     heights: _Field,
     lengths: tuple[float, float] | None,

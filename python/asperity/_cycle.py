@@ -148,6 +148,7 @@ def cycle(
     normal_forces: Iterable[float] | None = None,
     approaches: Iterable[float] | None = None,
     springs: Iterable[tuple[float, float]] | None = None,
+    reduced_pressures: Iterable[float] | None = None,
     boundary: str = "periodic",
     absent_missing: bool = False,
     law: Any = None,
@@ -181,6 +182,8 @@ def cycle(
         The same in approaches, with a free boundary.
     springs : sequence of (float, float)
         The same in the positions at rest of a spring: its stiffness, and the position.
+    reduced_pressures : sequence of float
+        The same in mean pressures over E* h'rms, with h'rms the rms slope of the surface.
     steps : int
         Least number of steps in a leg.
     smallest_step : float
@@ -210,6 +213,7 @@ def cycle(
         normal_forces=normal_forces,
         approaches=approaches,
         springs=springs,
+        reduced_pressures=reduced_pressures,
     )
     if len(loads) < 2:
         raise ValueError("a cycle needs two turning points at least: give more loads")
@@ -228,4 +232,4 @@ def cycle(
         threads=threads,
         whole=whole,
     )
-    return Cycle(scene, loads, (steps, smallest_step, imbalance, smooth), start, observe)
+    return Cycle(scene, scene.held(loads), (steps, smallest_step, imbalance, smooth), start, observe)

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from . import _picture, _plot
+from . import _asperity, _picture, _plot
 from ._accuracy import Plan, estimate
 
 if TYPE_CHECKING:
@@ -47,6 +47,21 @@ class ContactStatistics(NamedTuple):
     repulsive_fraction: float
     attractive_fraction: float
     apart_fraction: float
+
+
+class PressureDistribution(NamedTuple):
+    """The distribution of the contact pressure over the nodes: a histogram, as a probability density.
+
+    Attributes
+    ----------
+    density : ndarray
+        Share of the nodes in each bin over its width, per unit of pressure. Its integral is the contact fraction.
+    edges : ndarray
+        Edges of the bins, from zero to the largest contact pressure: one more than there are bins.
+    """
+
+    density: NDArray[np.float64]
+    edges: NDArray[np.float64]
 
 
 class Solution:
@@ -130,6 +145,35 @@ class Solution:
     def statistics(self) -> ContactStatistics:
         """Areas, perimeter and clusters of the contact."""
         return self._looked[0]
+
+    def pressure_distribution(self, bins: int = 50) -> PressureDistribution:
+        """Distribution of the contact pressure over the nodes in contact.
+
+        Nodes that are apart are in no bin, whether they attract or not, and absent nodes are not counted at all.
+
+        Parameters
+        ----------
+        bins : int
+            Number of bins, equally wide.
+
+        Returns
+        -------
+        PressureDistribution
+            ``density`` and ``edges``, as ``matplotlib.pyplot.stairs`` takes them.
+
+        Examples
+        --------
+        >>> import asperity
+        >>> rough = asperity.surface.self_affine(128, 1.0, rms_slope=0.1, k_s=16, seed=1)
+        >>> solution = asperity.solve(rough, modulus=1.0, mean_pressure=0.01)
+        >>> density, edges = solution.pressure_distribution(20)
+        >>> bool(abs(sum(density) * edges[1] - solution.contact_fraction) < 1e-12)
+        True
+        """
+        gap, pressure = (
+            np.asarray(field, dtype=float).reshape(field.shape[0], -1) for field in (self.gap, self.contact_pressure)
+        )
+        return PressureDistribution(*_asperity.pressure_distribution(gap, pressure, bins))
 
     @cached_property
     def report(self) -> dict[str, Any]:

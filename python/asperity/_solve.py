@@ -58,7 +58,7 @@ def solve(
         Side lengths (Lx, Ly) = (Nx Δx, Ny Δy), in the unit of the heights; one alone means square cells. Needed
         unless the heights bring them.
     modulus : float
-        Contact modulus E*, a pressure.
+        Contact modulus E*, a pressure: E/(1 − ν²), with Young's modulus E and Poisson's ratio ν of the body that deforms.
     mean_pressure : float
         Mean external pressure p̄ that is held, the normal force over the nominal area Lx·Ly, compression positive.
     mean_gap : float
@@ -93,7 +93,7 @@ def solve(
     tolerance : float, optional
         Certified relative error at which to stop; 1e-6 by default, 1e-4 in f32.
     max_iterations : int, optional
-        Iterations after which to give up; 2000 by default.
+        Iterations after which to give up; 2000 by default, 20000 with rey2017.
     method : {"default", "rey2017"}
         Preconditioned conjugate gradients, or Algorithm 3 of Rey, Anciaux and Molinari (2017).
     precision : {"f64", "f32"}

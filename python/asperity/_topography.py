@@ -189,12 +189,13 @@ def prepare(
     flip : bool
         Peaks become valleys.
     align_rows : {"median", "median-difference"} or int, optional
-        How scan lines are brought to one height; a number is the order of a polynomial that is taken from each.
+        Brings the scan lines of an AFM to one height: by the median of each line, by that of the differences from line
+        to line, for large features, or by a polynomial of this order, subtracted from each line.
     scan_axis : {"x", "y"}
         Direction of the scan lines.
     despike : float, optional
-        Robust standard deviations from the median of the 5 x 5 nodes around it from which a node is a spike, and gets
-        that median; 10 leaves the features of most surfaces.
+        Threshold, in robust standard deviations of all nodes: a node that is farther than this from the median of the
+        5 x 5 nodes around it is a spike, and gets that median. 10 leaves the features of most surfaces.
     remove_form : {"sphere", "cylinder"}, optional
         Form that is fitted and removed.
     detrend : {"mean", "plane", "quadric"} or int, optional
@@ -204,8 +205,8 @@ def prepare(
     window : float, optional
         Share of the sides that is tapered at each edge, at most 0.5.
     mirror : bool
-        Continues the map by its mirror image: twice as many nodes along both axes. The map remembers its ``original``,
-        of which solutions are then.
+        Continues the map by its mirror images: twice as many nodes along both axes. The map remembers its ``original``,
+        and a solution has results of that part alone, unless it is asked for the ``whole``.
     resample : (int, int), optional
         Numbers of nodes of the grid on which it is interpolated.
 

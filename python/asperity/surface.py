@@ -101,9 +101,9 @@ def self_affine(
         Wave numbers, in units of 2π/Lx, of the longest waves, the end of the plateau (k_l by default), and the shortest
         waves; the grid must have more than 2 k_s nodes along x.
     random_phase : bool
-        Whether only the phases of the waves are random.
+        Whether only the phases of the waves are random, and their amplitudes those of the spectrum.
     seed : int
-        Which surface of all those.
+        Seed of the random numbers, from 0: each makes another surface.
 
     Returns
     -------

@@ -1,8 +1,10 @@
-//! The contact of a solution: the clusters of a map.
+//! The contact of a solution: the clusters of a map, and the distribution of its pressure.
 
-use asperity::contact::{Clusters, Connectivity};
+use asperity::contact::{Clusters, Connectivity, PressureDistribution};
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyReadonlyArray2};
 use pyo3::prelude::*;
+
+use crate::refusal::refusal;
 
 /// Sizes and labels of clusters.
 type Found<'py> = (Bound<'py, PyArray1<i64>>, Bound<'py, PyArray2<i64>>);
@@ -15,4 +17,22 @@ pub fn clusters<'py>(py: Python<'py>, map: PyReadonlyArray2<'_, bool>, corners: 
     let Clusters { sizes, labels, .. } = py.detach(|| Clusters::of(map, connectivity));
     let sizes: Vec<i64> = sizes.into_iter().map(|size| size as i64).collect();
     Ok((sizes.into_pyarray(py), labels.mapv(|label| label as i64).into_pyarray(py)))
+}
+
+/// Density and edges of a distribution.
+type Density<'py> = (Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>);
+
+/// The distribution of a contact pressure beside its gap.
+#[pyfunction]
+pub fn pressure_distribution<'py>(
+    py: Python<'py>,
+    gap: PyReadonlyArray2<'_, f64>,
+    contact_pressure: PyReadonlyArray2<'_, f64>,
+    bins: i64,
+) -> PyResult<Density<'py>> {
+    let (gap, pressure) = (gap.as_array(), contact_pressure.as_array());
+    // what is negative is refused as no bins are
+    let bins = usize::try_from(bins).unwrap_or(0);
+    let found = py.detach(|| PressureDistribution::of_fields(gap, pressure, bins)).map_err(refusal)?;
+    Ok((found.density.into_pyarray(py), found.edges.into_pyarray(py)))
 }

@@ -99,18 +99,15 @@ macro_rules! sphere {
                 exact::$class::new($($parameter),*).map(Self).map_err(refusal)
             }
             /// Stable contacts at loads P, compression positive.
-            /// Stable contacts at loads P, compression positive.
-    fn at_load(&self, load: Numbers<'_>) -> PyResult<Contact> {
+            fn at_load(&self, load: Numbers<'_>) -> PyResult<Contact> {
                 tried(load.as_array(), |load| self.0.at_load(load).map_err(refusal)).map(Contact)
             }
             /// Stable contacts at approaches δ.
-            /// Stable contacts at approaches δ.
-    fn at_approach(&self, approach: Numbers<'_>) -> PyResult<Contact> {
+            fn at_approach(&self, approach: Numbers<'_>) -> PyResult<Contact> {
                 tried(approach.as_array(), |approach| self.0.at_approach(approach).map_err(refusal)).map(Contact)
             }
             /// Contacts of radii a ≥ 0.
-            /// Contacts of radii a ≥ 0.
-    fn at_contact_radius(&self, radius: Numbers<'_>) -> PyResult<Contact> {
+            fn at_contact_radius(&self, radius: Numbers<'_>) -> PyResult<Contact> {
                 tried(radius.as_array(), |radius| self.0.at_contact_radius(radius).map_err(refusal)).map(Contact)
             }
             /// Contact of least load: the pull-off force is minus its load.
@@ -188,18 +185,15 @@ macro_rules! wave {
                 self.0.closing_pressure()
             }
             /// Contacts of half-widths a.
-            /// Contacts of half-widths a.
-    fn at_half_width(&self, half_width: Numbers<'_>) -> PyResult<WaveContact> {
+            fn at_half_width(&self, half_width: Numbers<'_>) -> PyResult<WaveContact> {
                 tried(half_width.as_array(), |a| self.0.at_half_width(a).map_err(refusal)).map(WaveContact)
             }
             /// Contacts at mean pressures p̄: the stable ones.
-            /// Contacts at mean pressures p̄: the stable ones.
-    fn at_mean_pressure(&self, mean_pressure: Numbers<'_>) -> PyResult<WaveContact> {
+            fn at_mean_pressure(&self, mean_pressure: Numbers<'_>) -> PyResult<WaveContact> {
                 tried(mean_pressure.as_array(), |p| self.0.at_mean_pressure(p).map_err(refusal)).map(WaveContact)
             }
             /// Contacts at mean gaps: the stable ones.
-            /// Contacts at mean gaps: the stable ones.
-    fn at_mean_gap(&self, mean_gap: Numbers<'_>) -> PyResult<WaveContact> {
+            fn at_mean_gap(&self, mean_gap: Numbers<'_>) -> PyResult<WaveContact> {
                 tried(mean_gap.as_array(), |gap| self.0.at_mean_gap(gap).map_err(refusal)).map(WaveContact)
             }
             $($more)*

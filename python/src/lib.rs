@@ -27,7 +27,7 @@ mod _asperity {
     const VERSION: &str = env!("CARGO_PKG_VERSION");
 
     #[pymodule_export]
-    use crate::contact::clusters;
+    use crate::contact::{clusters, pressure_distribution};
     #[pymodule_export]
     use crate::exact::{AdhesiveWavyLine, Contact, Hertz, Jkr, WaveContact, WavyLine, closing_pressure_2d};
     #[pymodule_export]

@@ -285,3 +285,32 @@ def test_what_is_refused_says_why(rough):
     for arguments in ({"modulus": "stiff"}, {"lengths": "1 m"}, {"law": "exponential"}, {"mean_gap": [1.0]}):
         with pytest.raises(TypeError):
             asperity.solve(**{"heights": heights, "lengths": 1.0, "modulus": 1.0, "mean_gap": 0.01} | arguments)
+
+
+@pytest.mark.parametrize("precision", ["f32", "f64"])
+def test_the_distribution_of_the_pressure_integrates_to_the_contact(rough, law, precision):
+    solution = asperity.solve(rough, modulus=1.0, mean_pressure=0.01, law=law, precision=precision)
+    density, edges = solution.pressure_distribution(30)
+    assert density.shape == (30,) and edges.shape == (31,) and edges[0] == 0
+    # tension is in no bin
+    assert np.sum(density * np.diff(edges)) == pytest.approx(solution.contact_fraction, rel=1e-12)
+    assert edges[-1] == solution.contact_pressure.max() and solution.pressure.min() < 0
+    pressed = solution.contact_pressure[solution.contact]
+    counts, _ = np.histogram(pressed, bins=30, range=(0, edges[-1]))
+    # a pressure on an edge may be in either bin
+    assert np.abs(counts - density * np.diff(edges) * solution.gap.size).sum() <= 2
+    for bins in (0, -1):
+        with pytest.raises(ValueError, match="number of bins"):
+            solution.pressure_distribution(bins)
+
+
+def test_the_distribution_of_the_pressure_knows_lines_and_absent_nodes():
+    x = np.linspace(-0.5, 0.5, 64, endpoint=False)
+    line = asperity.solve(-(x**2) / 4, lengths=1.0, modulus=1.0, mean_gap=0.018)
+    disc = np.where(np.hypot(x[:, None], x) < 0.3, 0.0, np.nan)
+    free = {"boundary": "free", "absent_missing": True}
+    punch = asperity.solve(disc, lengths=(1.0, 1.0), modulus=1.0, approach=0.01, **free)
+    assert line.gap.ndim == 1 and punch.absent_points > 0 and punch.contact_fraction == 1.0
+    for solution in (line, punch):
+        density, edges = solution.pressure_distribution()
+        assert np.sum(density * np.diff(edges)) == pytest.approx(solution.contact_fraction, rel=1e-12)

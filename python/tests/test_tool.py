@@ -188,6 +188,16 @@ def test_reduced_pressures_are_those_of_the_tool(tmp_path, tool, rough):
     assert alone.mean_pressure == pytest.approx(0.01 * 3.0 * asperity.surface.statistics(rough).rms_slope, rel=1e-14)
 
 
+def test_a_cycle_takes_reduced_pressures_as_the_tool_does(tmp_path, tool, rough):
+    np.save(tmp_path / "heights.npy", rough.heights)
+    # fmt: off
+    asked(tool, tmp_path, "cycle", "--heights", "heights.npy", "--modulus", 3, "--reduced-pressures", "0.01,0.02",
+          "--steps", 3, "--out", "cycle.csv")
+    # fmt: on
+    found = asperity.cycle(rough, modulus=3.0, reduced_pressures=[0.01, 0.02], steps=3)
+    same_columns(table(tmp_path / "cycle.csv"), found.columns)
+
+
 @pytest.mark.parametrize("gaps", [[0.05, 0.012, 0.05, 0.04], [0.05, 0.012, 0.2]])
 def test_a_cycle_has_the_columns_of_the_tool(tmp_path, tool, gaps):
     wave = 0.02 * np.cos(2 * np.pi * np.arange(64) / 64)

@@ -2,6 +2,7 @@
 
 use ndarray::ArrayView2;
 
+use super::contact_map;
 use crate::error::{Error, Result};
 use crate::real::Real;
 use crate::solver::Solution;
@@ -45,18 +46,27 @@ impl PressureDistribution {
     /// [`Error::Value`] for no bins, or more than 2²⁴; [`Error::NotFinite`] if a pressure is not finite;
     /// [`Error::Shape`] if gap and contact pressure differ in shape.
     pub fn of_contact_pressure<T: Real>(solution: &Solution<T>, bins: usize) -> Result<Self> {
-        let pressure = solution.contact_pressure.view();
+        Self::of_fields(solution.gap.view(), solution.contact_pressure.view(), bins)
+    }
+
+    /// The distribution of the contact pressure of fields that come from elsewhere, as from files. The gap of absent
+    /// nodes is infinite or NaN.
+    ///
+    /// # Errors
+    /// Those of [`PressureDistribution::of_contact_pressure`].
+    pub fn of_fields<T: Real>(
+        gap: ArrayView2<'_, T>,
+        contact_pressure: ArrayView2<'_, T>,
+        bins: usize,
+    ) -> Result<Self> {
+        let pressure = contact_pressure;
         checked("contact pressure", pressure, bins)?;
-        Error::shape("contact pressure", pressure.dim(), solution.gap.dim())?;
-        let contact = solution.contact_map();
+        Error::shape("contact pressure", pressure.dim(), gap.dim())?;
+        let contact = contact_map(gap, pressure);
+        let facing = gap.iter().filter(|gap| gap.is_finite()).count();
         let counted = || contact.iter().zip(pressure).filter(|(touches, _)| **touches).map(|(_, p)| p.widen());
         let high = counted().fold(0.0, f64::max);
-        Ok(Self::count(
-            counted(),
-            (0.0, if high > 0.0 { high } else { 1.0 }),
-            bins,
-            pressure.len() - solution.report.absent_nodes,
-        ))
+        Ok(Self::count(counted(), (0.0, if high > 0.0 { high } else { 1.0 }), bins, facing))
     }
 
     /// The distribution of the full elastic pressure over all nodes, in so many bins from the least, which adhesion

@@ -192,11 +192,12 @@ fn block(n: usize, highest: usize) -> usize {
 /// The mean, and one wave of each pair ±q with |q| up to a radius, sorted by their columns in the half spectrum.
 fn waves(grid: &Grid, layout: Layout, symbol: &dyn Fn(f64, f64) -> f64, dimension: usize) -> Vec<Wave> {
     let ((nx, ny), (lx, ly)) = (grid.shape(), grid.lengths());
-    // the modes per area of the wave numbers, or per length
+    // the modes per area of the wave numbers, or per length: on a narrow grid, too, no waves but those along it are long
+    let along = |length: f64| PI * dimension as f64 / length;
     let radius = match (nx, ny) {
-        (1, _) => PI * dimension as f64 / ly,
-        (_, 1) => PI * dimension as f64 / lx,
-        _ => (4.0 * PI * dimension as f64 / (lx * ly)).sqrt(),
+        (1, _) => along(ly),
+        (_, 1) => along(lx),
+        _ => (4.0 * PI * dimension as f64 / (lx * ly)).sqrt().min(along(lx.max(ly))),
     };
     let signed = |i: usize, n: usize| if 2 * i < n { i as isize } else { i as isize - n as isize };
     let (columns, rows) = layout.spectrum();
@@ -330,6 +331,17 @@ mod tests {
                 let low = basis.iter().fold(Array2::zeros(shape), |low, wave| low + wave * product(wave, &of_a));
                 assert!(product(&(1.0 - &contact), &low).abs() < 1e-13, "{shape:?}");
             }
+        }
+    }
+
+    #[test]
+    fn a_narrow_grid_has_no_more_waves_than_a_square() {
+        for shape in [(256, 256), (16384, 4), (4, 16384), (4096, 16), (65536, 1)] {
+            let (long, sides) = (shape.0.max(shape.1) as f64, (shape.0 as f64, shape.1 as f64));
+            let grid = Grid::new(shape, (sides.0 / long, sides.1 / long)).unwrap();
+            let body = Spectral::<f64>::new(grid, 1.0, |qx, qy| 0.5 * qx.hypot(qy)).unwrap();
+            let found = body.coarse_space(40).unwrap().vector.len();
+            assert!((20..=60).contains(&found), "{found} of 40 on {shape:?}");
         }
     }
 

@@ -277,11 +277,14 @@ impl Bar {
         let (top, bottom) = (top + self.place.0, top + self.place.1);
         let body = Area::new(left, top + self.arrows.1, BAR, bottom - top - self.arrows.0 - self.arrows.1);
         let rows = (PIXELS * body.height).round() as usize;
+        // as many columns as at the usual resolution: programs that smooth an image would smear a single one
+        let columns = (PIXELS * BAR).round() as usize;
         let shade = |row: usize| {
             let along = (rows as f64 - row as f64 - 0.5) / rows as f64;
             colours.of(self.range.0 + (self.range.1 - self.range.0) * along)
         };
-        picture.shapes.push(Shape::Image(Image { area: body, columns: 1, pixels: (0..rows).map(shade).collect() }));
+        let pixels = (0..rows).flat_map(|row| std::iter::repeat_n(shade(row), columns)).collect();
+        picture.shapes.push(Shape::Image(Image { area: body, columns, pixels }));
         picture.outline(body);
         let ends = [(self.arrows.0, body.bottom(), bottom, self.range.0), (self.arrows.1, body.top, top, self.range.1)];
         for (length, base, tip, end) in ends.into_iter().filter(|(length, ..)| *length > 0.0) {

@@ -79,7 +79,7 @@ pub struct SelfAffine {
     /// Whether all waves have the modulus √Φ and only their phases are random. Otherwise (default) their complex
     /// amplitudes are Gaussian, as those of filtered white noise.
     pub random_phase: bool,
-    /// Which surface of all those; any number. Default 0.
+    /// Seed of the random numbers: each makes another surface. Default 0.
     pub seed: u64,
 }
 

@@ -71,6 +71,16 @@ fn a_surface_is_the_librarys_and_is_measured_alike() {
         ("wave_number,density,waves,target", "wave_number,density,waves")
     );
     assert_eq!(rows.iter().map(|row| row[..3].to_vec()).collect::<Vec<_>>(), same);
+    bench.said("surface --shape 100 90 --lengths 2um 3um --rms-height 10nm --k-s 20 --quiet --out si.npz --psd si.csv");
+    bench.said("stats rough.npy --lengths 2um 3um --quiet --psd units.csv");
+    bench.said("surface --shape 64 1 --lengths 2um --rms-height 10nm --k-s 20 --quiet --out line.npz --psd line.csv");
+    for (file, header) in [
+        ("si.csv", "wave_number [1/m],density [m4],waves,target [m4]"),
+        ("units.csv", "wave_number [1/m],density [m4],waves"),
+        ("line.csv", "wave_number [1/m],density [m3],waves,target [m3]"),
+    ] {
+        assert_eq!(csv(&bench, file).0, header, "{file}");
+    }
     let cell = TAU / 2e-6 * TAU / 3e-6;
     for column in [1, 3] {
         let variance = cell * rows.iter().map(|row| row[column] * row[2]).sum::<f64>();

@@ -49,6 +49,31 @@ fn rough() -> Bench {
 }
 
 #[test]
+fn the_distribution_of_the_pressure_has_units_and_integrates_to_the_contact() {
+    let bench = rough();
+    for (options, header) in
+        [("", "from_pressure,to_pressure,density"), (UNITS, "from_pressure [Pa],to_pressure [Pa],density [1/Pa]")]
+    {
+        let plain = "--mean-gap 0.5e-8 --lengths 1e-6 --modulus 1e9";
+        let options = if options.is_empty() { plain } else { options };
+        let solve = format!("solve --heights heights.npy {options} --no-pictures --quiet --force --out spread");
+        bench.said(&format!("{solve} --distribution 20"));
+        let text = bench.read("spread/distribution.csv");
+        let rows: Vec<Vec<f64>> =
+            text.lines().skip(1).map(|row| row.split(',').map(|cell| cell.parse().unwrap()).collect()).collect();
+        let integral: f64 = rows.iter().map(|row| row[2] * (row[1] - row[0])).sum();
+        let report = bench.report("spread");
+        assert_eq!((text.lines().next(), rows.len(), rows[0][0]), (Some(header), 20, 0.0));
+        // tension is in no bin
+        assert!((integral - report["contact_fraction"].as_f64().unwrap()).abs() < 1e-12 && integral > 0.0);
+        bench.said("run spread/scene.toml --quiet --force --out again");
+        assert_eq!(bench.read("again/distribution.csv"), text);
+    }
+    let refused = bench.refused("solve --heights heights.npy --mean-gap 0.5 --out none --distribution 0");
+    assert!(refused.contains("from 1 to 1000000"), "{refused}");
+}
+
+#[test]
 fn numbers_with_units_are_those_in_the_si() {
     let bench = rough();
     bench.said(&format!("solve --heights heights.npy {PLAIN} --quiet --out plain"));

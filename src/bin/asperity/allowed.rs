@@ -36,6 +36,14 @@ pub fn nodes(text: &str) -> Result<usize, String> {
     }
 }
 
+/// A number of bins; more than a million are taken for a slip of the pen.
+pub fn bins(text: &str) -> Result<usize, String> {
+    match text.parse() {
+        Ok(bins @ 1..=1_000_000) => Ok(bins),
+        _ => Err("it must be a whole number from 1 to 1000000".to_owned()),
+    }
+}
+
 /// A resolution in pixels per inch.
 pub fn resolution(text: &str) -> Result<f64, String> {
     number(text, |v| (36.0..=1200.0).contains(&v), "a number of pixels per inch, from 36 to 1200")

@@ -264,7 +264,7 @@ impl Options {
             ("smallest_step", self.smallest_step.to_string()),
             ("imbalance", self.imbalance.to_string()),
             ("sharp", self.sharp.to_string()),
-            ("fields", if self.fields.is_some() { "kept" } else { "not kept" }.to_owned()),
+            ("fields", if self.fields.is_some() { "kept" } else { "left out" }.to_owned()),
         ] {
             identity.insert(name.to_owned(), value.into());
         }

@@ -30,7 +30,8 @@ pub struct SurfaceOptions {
     #[arg(long, value_names = ["LX", "LY"], num_args = 1..=2, allow_negative_numbers = true)]
     #[arg(value_parser = LENGTH.positive(), help_heading = "Surface")]
     pub lengths: Option<Vec<Quantity>>,
-    /// Contact modulus E*, a pressure
+    /// Contact modulus E*, a pressure: E/(1 - nu^2), with Young's modulus E and Poisson's ratio nu of the body that
+    /// deforms
     #[arg(long, value_name = "E", default_value = "1", allow_hyphen_values = true, value_parser = PRESSURE.positive())]
     #[arg(help_heading = "Surface")]
     modulus: Quantity,

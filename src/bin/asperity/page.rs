@@ -4,11 +4,12 @@ use std::fmt::Write;
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use asperity::contact::PressureDistribution;
 use asperity::io::read_field;
 use asperity::picture::{Chart, Colouring, Map};
 use asperity::{Error, Grid};
 use clap::Args;
-use ndarray::{Array2, Zip};
+use ndarray::Zip;
 use serde_json::Value;
 use toml::Table;
 
@@ -209,21 +210,19 @@ fn maps_of_solve(folder: &Path, report: &Value, units: &Units) -> Outcome<Vec<(&
         unit: length,
         ..Map::new(gap.view(), grid, Colouring::Sequential)
     };
-    let chart = distribution(&contact_pressure, pressure_unit)?;
+    let chart =
+        distribution(&PressureDistribution::of_fields(gap.view(), contact_pressure.view(), CLASSES)?, pressure_unit)?;
     Ok(vec![("map", contact.svg()?), ("map", pressures.svg()?), ("map", gaps.draw(FINE)?.svg()?), ("chart", chart)])
 }
 
-/// The distribution of the pressure in contact, as a density over its range.
-fn distribution(contact_pressure: &Array2<f64>, unit: Option<&str>) -> asperity::Result<String> {
-    let pressed = || contact_pressure.iter().copied().filter(|pressure| *pressure > 0.0);
-    let (largest, count) = (pressed().fold(0.0, f64::max), pressed().count() as f64);
-    let mut counts = vec![0.0; CLASSES];
-    for pressure in pressed() {
-        counts[((pressure / largest * CLASSES as f64) as usize).min(CLASSES - 1)] += 1.0;
-    }
-    let width = largest / CLASSES as f64;
-    let point = |(k, nodes): (usize, &f64)| ((k as f64 + 0.5) * width, 100.0 * nodes / count);
-    let curve = if count > 0.0 { counts.iter().enumerate().map(point).collect() } else { Vec::new() };
+/// The chart of a distribution of the contact pressure: the nodes of each class, as a share of those in contact.
+fn distribution(found: &PressureDistribution, unit: Option<&str>) -> asperity::Result<String> {
+    let contact = found.integral();
+    let point = |(edges, density): (&[f64], &f64)| {
+        (0.5 * (edges[0] + edges[1]), 100.0 * density * (edges[1] - edges[0]) / contact)
+    };
+    let points = found.edges.windows(2).zip(&found.density).map(point);
+    let curve = if contact > 0.0 { points.collect() } else { Vec::new() };
     let chart = Chart {
         title: "Distribution of the contact pressure",
         x_label: "contact pressure",

@@ -109,8 +109,8 @@ pub fn chart_of_loads(rows: &[Value], units: &Units, dpi: f64) -> Result<Picture
 }
 
 /// The chart of column `y` of a table over column `x`: a curve for each leg of a cycle, and for each part of a sweep in
-/// which the loads rise or fall. Axes are logarithmic where all values are positive and span more than a decade and a
-/// half.
+/// which the loads rise or fall. Axes are logarithmic where the values along x span more than a decade, and are spread
+/// more evenly so; along y if that spans a decade, too.
 pub fn chart_of_columns(rows: &[Value], x: &str, y: &str, units: &Units, dpi: f64) -> Result<Picture> {
     let curves = legs(rows).into_iter().map(|(name, rows)| {
         let value = |row: &Value, column: &str| row[column].as_f64().unwrap_or(f64::NAN);
@@ -118,13 +118,10 @@ pub fn chart_of_columns(rows: &[Value], x: &str, y: &str, units: &Units, dpi: f6
     });
     let curves: Vec<_> = curves.collect();
     let points: Vec<_> = curves.iter().flat_map(|(_, points)| points).collect();
-    let wide = |values: Vec<f64>| {
-        let values = || values.iter().filter(|value| value.is_finite());
-        let low = values().fold(f64::INFINITY, |low, value| low.min(*value));
-        low > 0.0 && values().any(|value| *value > 30.0 * low)
-    };
     let (x_log, y_log) =
-        (wide(points.iter().map(|point| point.0).collect()), wide(points.iter().map(|point| point.1).collect()));
+        (Spread::of(points.iter().map(|point| point.0)), Spread::of(points.iter().map(|point| point.1)));
+    let x_log = x_log.is_some_and(|x| x.is_wide() && x.is_geometric());
+    let y_log = x_log && y_log.is_some_and(|y| y.is_wide());
     let [x_unit, y_unit] = [x, y].map(|column| units.of_column(column, "", false));
     let [x_label, y_label] = [x, y].map(|column| column.replace('_', " "));
     let title = format!("{}{} over {x_label}", y_label[..1].to_uppercase(), &y_label[1..]);
@@ -135,11 +132,39 @@ pub fn chart_of_columns(rows: &[Value], x: &str, y: &str, units: &Units, dpi: f6
         x_log,
         y_label: &y_label,
         y_unit: y_unit.as_deref(),
-        y_log: x_log && y_log,
+        y_log,
         curves: curves.iter().map(|(name, points)| (name.as_str(), points.clone())).collect(),
         ..Chart::default()
     };
     chart.draw(dpi)
+}
+
+/// The spread of the values along an axis.
+struct Spread {
+    low: f64,
+    median: f64,
+    high: f64,
+}
+
+impl Spread {
+    /// The spread of those that are finite, if there are any.
+    fn of(values: impl Iterator<Item = f64>) -> Option<Self> {
+        let mut values: Vec<_> = values.filter(|value| value.is_finite()).collect();
+        values.sort_by(f64::total_cmp);
+        let (&low, &high) = (values.first()?, values.last()?);
+        Some(Self { low, median: values[(values.len() - 1) / 2], high })
+    }
+
+    /// Whether they are positive and span more than a decade, but for rounding.
+    fn is_wide(&self) -> bool {
+        self.low > 0.0 && self.high > 9.99 * self.low
+    }
+
+    /// Whether the one in the middle is nearer to the geometric mean of the ends than to their arithmetic mean.
+    fn is_geometric(&self) -> bool {
+        let (geometric, arithmetic) = ((self.low * self.high).sqrt(), 0.5 * (self.low + self.high));
+        self.median * self.median < geometric * arithmetic
+    }
 }
 
 /// The rows of each part of a table, with its name; a part begins with the row before it, but for the cases of a study.
@@ -225,6 +250,17 @@ mod tests {
     use serde_json::json;
 
     use super::*;
+
+    #[test]
+    fn an_axis_is_logarithmic_where_values_are_spread_so() {
+        let log = |values: &[f64]| {
+            let spread = Spread::of(values.iter().copied()).unwrap();
+            spread.is_wide() && spread.is_geometric()
+        };
+        assert!(log(&[0.01, 0.02, 0.04, 0.08, 0.15, 0.3]) && log(&[1.0, 10.0]) && log(&[1.0, 3.0, 10.0, f64::NAN]));
+        assert!(!log(&[0.01, 0.11, 0.21, 0.31]) && !log(&[1.0, 3.0, 9.0]) && !log(&[0.0, 0.1, 1.0, 10.0]));
+        assert!(!log(&[-1.0, 0.1, 1.0, 10.0]) && Spread::of([f64::NAN].into_iter()).is_none());
+    }
 
     #[test]
     fn the_cases_of_a_study_are_no_legs_of_one_sweep() {

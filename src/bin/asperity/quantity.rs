@@ -47,6 +47,7 @@ const fn dimension(what: &'static str, si: &'static str, force: i32, length: i32
 pub const LENGTH: Dimension = dimension("length, as 20um", "m", 0, 1);
 pub const PER_LENGTH: Dimension = dimension("wave number, as 2/um", "1/m", 0, -1);
 pub const PRESSURE: Dimension = dimension("pressure, as 70GPa", "Pa", 1, -2);
+pub const PER_PRESSURE: Dimension = dimension("density over the pressure, as 2/GPa", "1/Pa", -1, 2);
 pub const PRESSURE_PER_LENGTH: Dimension = dimension("pressure per length, as 1GPa/um", "Pa/m", 1, -3);
 pub const FORCE: Dimension = dimension("force, as 5nN", "N", 1, 0);
 pub const FORCE_PER_LENGTH: Dimension = dimension("force per length, as 40N/m", "N/m", 1, -1);

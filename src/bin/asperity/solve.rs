@@ -1,10 +1,12 @@
 //! `asperity solve`: the equilibrium at one load.
 
+mod distribution;
 mod report;
 
 use std::borrow::Cow;
 use std::path::PathBuf;
 
+use asperity::contact::PressureDistribution;
 use asperity::io::{OutputFolder, write_npz, write_vti};
 use asperity::{AdhesionLaw, Control, Grid, Status};
 use clap::{ArgGroup, Args, ValueEnum};
@@ -13,9 +15,11 @@ use serde_json::Value;
 
 use crate::accuracy::{self, AccuracyOptions};
 use crate::adhesion::{Adhesion, AdhesionOptions, Law};
+use crate::allowed::bins;
 use crate::boundary::{LOAD, LoadOptions};
 use crate::case::{self, Account, Case};
 use crate::fields::write_fields;
+use crate::numbers::plain;
 use crate::options::{Given, Precision, ProblemOptions, Scalar, SolverOptions, SurfaceOptions};
 use crate::outcome::Outcome;
 use crate::output::at_destination;
@@ -78,6 +82,11 @@ pub struct Options {
     /// Find the contact stiffness: how much the mean pressure grows with the approach, pressure per length
     #[arg(long, help_heading = "Output")]
     stiffness: bool,
+    /// Write distribution.csv: the probability density of the contact pressure over the nodes, in so many bins from 0 to
+    /// the largest; its integral is the contact fraction [default: 50 if --distribution stands alone]
+    #[arg(long, value_name = "BINS", num_args = 0..=1, default_missing_value = "50", help_heading = "Output")]
+    #[arg(value_parser = bins, allow_negative_numbers = true)]
+    distribution: Option<usize>,
     /// Files for the fields: .npy one each, all in fields.npz for numpy, or in fields.vti for ParaView; may be
     /// repeated
     #[arg(
@@ -139,6 +148,7 @@ const MODE: &str = "mode.npy";
 const NPZ: &str = "fields.npz";
 const VTI: &str = "fields.vti";
 const REPORT: &str = "report.json";
+const DISTRIBUTION: &str = "distribution.csv";
 const PICTURES: [[&str; 2]; 3] =
     [["contact.png", "pressure.png"], ["contact.svg", "pressure.svg"], ["contact.pdf", "pressure.pdf"]];
 
@@ -150,11 +160,11 @@ pub fn run(options: &Options, scene: &Scene, processes: &Processes) -> Outcome<b
     problem.surface.beyond.boundary.check(options.load.control(1.0))?;
     let limits = options.colour_limits();
     if let Some((low, high)) = limits.filter(|(low, high)| low >= high) {
-        return Err(format!("--colour-limits {low} {high}: the lower one must come first").into());
+        return Err(format!("--colour-limits {} {}: the lower one must come first", plain(low), plain(high)).into());
     }
     if let Some((low, high)) = limits.filter(|&(low, high)| low > 0.0 || high < 0.0) {
         let text = "the scale of pressures always has zero: give one at or below it, and one at or above it";
-        return Err(format!("--colour-limits {low} {high}: {text}").into());
+        return Err(format!("--colour-limits {} {}: {text}", plain(low), plain(high)).into());
     }
     let pictures = options.picture_format.of(PICTURES);
     let pictures = pictures.iter().filter(|_| !options.no_pictures);
@@ -162,7 +172,8 @@ pub fn run(options: &Options, scene: &Scene, processes: &Processes) -> Outcome<b
     let arrays = FIELDS.iter().chain(mode).filter(|_| options.writes(Format::Npy));
     let archives = [(Format::Npz, &NPZ), (Format::Vti, &VTI)].into_iter().filter(|(format, _)| options.writes(*format));
     let fields = arrays.chain(archives.map(|(_, name)| name));
-    let names: Vec<_> = fields.chain([&REPORT, &scene::NAME]).chain(pictures).copied().collect();
+    let distribution = options.distribution.map(|_| &DISTRIBUTION);
+    let names: Vec<_> = fields.chain([&REPORT, &scene::NAME]).chain(distribution).chain(pictures).copied().collect();
     processes.first(|| {
         Scene::check(&options.out.join(scene::NAME))?;
         // Only a trial: a solve that is interrupted leaves nothing behind.
@@ -321,6 +332,9 @@ impl Job<'_> {
                 self.processes.alone(&format!("{name} of more than 4096 x 4096 nodes"))?;
             }
         }
+        if self.options.distribution.is_some() {
+            self.processes.alone("--distribution of more than 4096 x 4096 nodes")?;
+        }
         if !self.options.no_pictures {
             complain(
                 "warning",
@@ -379,6 +393,10 @@ impl Job<'_> {
         }
         if self.options.writes(Format::Vti) {
             write_vti(&path(VTI), &shown, &named)?;
+        }
+        if let Some(bins) = self.options.distribution {
+            let found = PressureDistribution::of_contact_pressure(solution, bins)?;
+            write_text(&path(DISTRIBUTION), &distribution::table(&found, &self.units))?;
         }
         if !self.options.no_pictures {
             let (Options { picture_format, resolution: Resolution { dpi }, .. }, units) = (self.options, &self.units);

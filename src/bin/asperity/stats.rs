@@ -58,7 +58,7 @@ pub fn run(options: &Options, scene: &Scene) -> Outcome<bool> {
     let map = heights::map(&options.heights, options.lengths.as_deref(), scene.is_si())?;
     let (surface, origin) = heights::surface(&options.heights, map)?;
     if let Some(file) = psd {
-        let text = density_table(&surface.spectrum(), None);
+        let text = density_table(&surface, None, origin.unit.as_deref());
         file.write(|path| write_text(path, &text))?;
         file.commit()?;
     }
@@ -131,12 +131,22 @@ pub fn table(surface: &Surface, origin: &Origin) -> String {
     lines.collect::<Vec<_>>().join("\n")
 }
 
-/// The radially averaged density as comma-separated values, beside that of a target.
-pub fn density_table(spectrum: &Spectrum, target: Option<&Spectrum>) -> String {
-    let psd = spectrum.radial_psd();
+/// The radially averaged density of a surface as comma-separated values, beside that of a target, with the units of the
+/// columns if that of length is known.
+pub fn density_table(surface: &Surface, target: Option<&Spectrum>, unit: Option<&str>) -> String {
+    let psd = surface.spectrum().radial_psd();
     let target = target.map(|target| target.radial_psd().densities);
-    let mut text = String::from("wave_number,density,waves");
-    text.push_str(if target.is_some() { ",target\n" } else { "\n" });
+    // a square height over a wave number, or over both
+    let power = if surface.grid().is_line() { 3 } else { 4 };
+    let [of_wave_number, of_density] = match unit {
+        Some(unit) => [format!(" [1/{unit}]"), format!(" [{unit}{power}]")],
+        None => [const { String::new() }; 2],
+    };
+    let mut text = format!("wave_number{of_wave_number},density{of_density},waves");
+    if target.is_some() {
+        let _ = write!(text, ",target{of_density}");
+    }
+    text.push('\n');
     for (i, ((q, density), waves)) in psd.wave_numbers.iter().zip(&psd.densities).zip(&psd.waves).enumerate() {
         let aim = target.as_ref().map_or_else(String::new, |target| format!(",{:e}", target[i]));
         // Writing to a string cannot fail.

@@ -69,7 +69,7 @@ pub struct Options {
     /// Let only phases be random, and not the moduli of the waves
     #[arg(long, help_heading = "Roughness")]
     random_phase: bool,
-    /// Which surface of all those, a number from 0
+    /// Seed of the random numbers, from 0: each makes another surface
     #[arg(long, value_name = "N", default_value = "0", allow_hyphen_values = true, help_heading = "Roughness")]
     seed: u64,
 
@@ -152,7 +152,7 @@ pub fn run(options: &Options, scene: &Scene) -> Outcome<bool> {
     })?;
     if let Some(file) = &psd {
         let target = rough.map(|rough| rough.spectrum(grid)).transpose()?;
-        let text = density_table(&surface.spectrum(), target.as_ref());
+        let text = density_table(&surface, target.as_ref(), unit);
         file.write(|path| write_text(path, &text))?;
     }
     let scene_file = scene.written_beside(&options.out)?;

@@ -248,8 +248,8 @@ impl Options {
         let csv = self.format().is_ok_and(|format| format == Format::Csv);
         let kind = if self.fractions.values().is_some() { "contact-fraction".to_owned() } else { self.loads.kind() };
         identity.insert("control".to_owned(), kind.into());
-        identity.insert("fields".to_owned(), if self.fields.is_some() { "kept" } else { "not kept" }.into());
-        identity.insert("stiffness".to_owned(), if self.stiffness { "found" } else { "not found" }.into());
+        identity.insert("fields".to_owned(), if self.fields.is_some() { "kept" } else { "left out" }.into());
+        identity.insert("stiffness".to_owned(), if self.stiffness { "asked for" } else { "left out" }.into());
         identity.insert("format".to_owned(), if csv { "csv" } else { "jsonl" }.into());
         identity
     }

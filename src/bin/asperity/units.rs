@@ -5,7 +5,8 @@ use clap::Args;
 use crate::numbers::{plain, si};
 use crate::outcome::Outcome;
 use crate::quantity::{
-    Dimension, ENERGY_PER_AREA, FORCE, FORCE_PER_LENGTH, LENGTH, PER_LENGTH, PRESSURE, PRESSURE_PER_LENGTH,
+    Dimension, ENERGY_PER_AREA, FORCE, FORCE_PER_LENGTH, LENGTH, PER_LENGTH, PER_PRESSURE, PRESSURE,
+    PRESSURE_PER_LENGTH,
 };
 
 /// The units of numbers that are given without them.
@@ -77,6 +78,7 @@ impl Units {
         let length = if lengths == 0 { "" } else { length? };
         Some(match (pressures, lengths) {
             (0, -1) => format!("1/{length}"),
+            (-1, _) => format!("1/{pressure}"),
             (_, -1) => format!("{pressure}/{length}"),
             (0, _) | (_, 0) => format!("{pressure}{length}"),
             (_, 1) => format!("{pressure}·{length}"),
@@ -100,7 +102,8 @@ impl Units {
         self.of(match (name, control) {
             ("mean_gap" | "min_gap" | "approach" | "range", _) => LENGTH,
             ("perimeter", _) if !on_line => LENGTH,
-            ("mean_pressure" | "mean_contact_pressure" | "modulus", _) => PRESSURE,
+            ("mean_pressure" | "mean_contact_pressure" | "modulus" | "from_pressure" | "to_pressure", _) => PRESSURE,
+            ("density", _) => PER_PRESSURE,
             ("normal_force", _) => FORCE,
             ("elastic_energy" | "adhesive_energy" | "work" | "dissipated" | "energy_drop" | "work_of_adhesion", _) => {
                 ENERGY_PER_AREA
@@ -142,12 +145,12 @@ mod tests {
 
     #[test]
     fn units_of_a_dimension_follow_from_length_and_pressure() {
-        let dimensions = [LENGTH, PRESSURE, FORCE, ENERGY_PER_AREA, PRESSURE_PER_LENGTH, PER_LENGTH];
+        let dimensions = [LENGTH, PRESSURE, FORCE, ENERGY_PER_AREA, PRESSURE_PER_LENGTH, PER_LENGTH, PER_PRESSURE];
         let names = |units: Units| dimensions.map(|dimension| units.of(dimension).unwrap_or_default());
-        assert_eq!(names(Units::si()), ["m", "Pa", "N", "J/m²", "Pa/m", "1/m"]);
-        assert_eq!(names(units("um", "MPa")), ["um", "MPa", "MPa·um²", "MPa·um", "MPa/um", "1/um"]);
-        assert_eq!(names(Units::of_map(Some("m"))), ["m", "", "", "", "", "1/m"]);
-        assert_eq!(names(Units::default()), [""; 6]);
+        assert_eq!(names(Units::si()), ["m", "Pa", "N", "J/m²", "Pa/m", "1/m", "1/Pa"]);
+        assert_eq!(names(units("um", "MPa")), ["um", "MPa", "MPa·um²", "MPa·um", "MPa/um", "1/um", "1/MPa"]);
+        assert_eq!(names(Units::of_map(Some("m"))), ["m", "", "", "", "", "1/m", ""]);
+        assert_eq!(names(Units::default()), [""; 7]);
     }
 
     #[test]
