@@ -76,15 +76,14 @@ impl Quantity {
         Err(Error::Control { control, reason })
     }
 
-    /// The value on a level; the counted area beside the corrected one.
-    fn of(self, level: &Level) -> Option<(f64, f64)> {
-        let value = match self {
-            Self::Area => return Some((level.area.corrected_contact_fraction, level.area.contact_fraction)),
+    /// The value on a level.
+    fn of(self, level: &Level) -> Option<f64> {
+        Some(match self {
+            Self::Area => level.area.corrected_contact_fraction,
             Self::Gap => level.mean_gap,
             Self::Pressure => level.mean_pressure,
             Self::Stiffness => level.stiffness?.pressure_per_length,
-        };
-        Some((value, value))
+        })
     }
 
     /// The relative error on a level by the edge of its contact, if its stiffness was found.
@@ -100,21 +99,29 @@ impl Quantity {
         Some(error.abs()).filter(|error| error.is_finite())
     }
 
-    /// The relative error of the finer of two grids, by the values on them and the counted areas beside these.
-    fn by_coarser(self, (fine, counted): (f64, f64), (coarse, coarse_counted): (f64, f64), line: bool) -> Option<f64> {
-        if (fine, counted) == (coarse, coarse_counted) {
+    /// The relative error of the finer of two grids, with its resolution measure of the adhesion.
+    fn by_coarser(self, fine: &Level, coarse: &Level, mu_rho: f64) -> Option<f64> {
+        let (value, coarser) = (self.of(fine)?, self.of(coarse)?);
+        let [counted, coarser_counted] = [fine, coarse].map(|level| level.area.contact_fraction);
+        if (value, counted) == (coarser, coarser_counted) {
             // no contact, or nothing else
             return Some(0.0);
         }
-        if !(fine.is_finite() && coarse.is_finite()) || fine == 0.0 {
+        if !(value.is_finite() && coarser.is_finite()) || value == 0.0 {
             return None;
         }
-        let difference = (fine - coarse) / fine;
+        let line = fine.shape.0 == 1 || fine.shape.1 == 1;
+        let difference = (value - coarser) / value;
         if self == Self::Area {
-            let excess = (counted / fine - 1.0).abs();
-            return Some((0.25 * difference).hypot(0.12 * excess * excess.sqrt()));
+            let edge = (counted / value - 1.0).abs();
+            if line {
+                return Some((difference / 3.0).hypot(0.4 * edge * edge));
+            }
+            let scatter = 0.09 * (edge / fine.area.contact_nodes.max(1) as f64).sqrt();
+            let adhesion = 0.1 * mu_rho * mu_rho.sqrt() * edge;
+            return Some((0.2 * difference).hypot(scatter).hypot(0.15 * edge * edge).hypot(adhesion));
         }
-        let edge = (counted - coarse_counted) / counted.max(coarse_counted);
+        let edge = (counted - coarser_counted) / counted.max(coarser_counted).max(f64::MIN_POSITIVE);
         let (share, of_edge) = match self {
             // there all is of first order, or of second
             Self::Stiffness if line => (1.0, 0.3),
@@ -204,16 +211,17 @@ const ORDERS: (f64, f64) = (0.5, 3.0);
 ///
 /// | quantity | estimate |
 /// |---|---|
-/// | corrected area A_c | √((0.25 δA_c)² + (0.12 (A/A_c − 1)^{3/2})²), with A the area as nodes count it |
+/// | corrected area A_c | √((0.2 δA_c)² + (0.15 ε²)² + 0.09² ε/N + (0.1 μ_ρ^{3/2} ε)²), with ε = A/A_c − 1 |
 /// | contact stiffness k | √((0.3 δk)² + (0.11 δA)²) |
 /// | mean gap ḡ, mean pressure p̄ | √((0.15 δḡ)² + (0.001 δA)²), and with p̄ likewise |
 ///
-/// and on a line the factors are 1 and 0.3 for the stiffness, and 1/3 and 0.02 for gap and pressure. A/A_c − 1 and δA
-/// tell how many of the nodes in contact are at the edge, and so the scale of all that depends on where between the
-/// nodes the edge falls; δQ alone may be small by luck. The corrected area has lost what is the same all along the
-/// edge, and keeps what scatters: of a number of pieces of the edge that grows like 1/Δ, each wrong by a share of Δ²,
-/// the sum falls like the power 3/2 of Δ. The factors are fitted to rough surfaces, and the page
-/// [`choosing`](crate::guide::choosing) has how good the estimates are on others.
+/// with A the area as nodes count it, and N their number. On a line that of the area is √((δA_c/3)² + (0.4 ε²)²), and
+/// the factors are 1 and 0.3 for the stiffness, and 1/3 and 0.02 for gap and pressure. ε and δA tell how many of the
+/// nodes in contact are at the edge, and so the scale of all that depends on where between the nodes the edge falls;
+/// δQ alone may be small by luck. The corrected area is of second order, by which its share of δA_c would be 1/3, and
+/// falls faster as long as the waves have few nodes; what scatters is that of the εN nodes beyond the edge, each wrong
+/// by some share of its own; and adhesion whose zone has few nodes, 1/μ_ρ², leaves a share of ε. The factors are fitted
+/// to rough surfaces, and the page [`choosing`](crate::guide::choosing) has how good the estimates are on others.
 ///
 /// A grid counts if it has the same waves, the shortest of which ([`Surface::nodes_per_wave`]) with at least four
 /// nodes, resolves the adhesion (μ_ρ ≤ 0.5), and, if it is a coarser one, was solved to 3e-3. The estimates of gap and
@@ -267,8 +275,9 @@ impl GridError {
     pub fn of(levels: &[Level], quantity: Quantity, nodes_per_wave: f64, mu_rho: f64) -> Option<Self> {
         let finest = levels.last()?;
         let resolves = |factor: f64| nodes_per_wave / factor >= RESOLVED && mu_rho * factor.sqrt() <= UNDER_RESOLVED;
-        let value = |level: &Level| quantity.of(level).filter(|(value, _)| !value.is_nan());
+        let value = |level: &Level| quantity.of(level).filter(|value| !value.is_nan());
         let mut values = vec![value(finest)?];
+        let mut coarser = None;
         for level in levels.iter().rev().skip(1) {
             let factor = finest.shape.0 as f64 / level.shape.0 as f64;
             let next = f64::from(1 << values.len());
@@ -276,6 +285,7 @@ impl GridError {
                 break;
             }
             values.push(value(level)?);
+            coarser = coarser.or(Some(level));
         }
         let order = observed_order(&values);
         let fine = nodes_per_wave >= 2.0 * FINE;
@@ -285,8 +295,8 @@ impl GridError {
                 Some(Self { relative, order, rough })
             }
             _ => {
+                let relative = quantity.by_coarser(finest, coarser?, mu_rho)?;
                 let line = finest.shape.0 == 1 || finest.shape.1 == 1;
-                let relative = quantity.by_coarser(values[0], *values.get(1)?, line)?;
                 let rough = line || quantity != Quantity::Area || !fine || relative == 0.0;
                 Some(Self { relative, order, rough })
             }
@@ -300,8 +310,8 @@ impl GridError {
 }
 
 /// The order of convergence of values on grids, the finest first, where three have one that is believed.
-fn observed_order(values: &[(f64, f64)]) -> Option<f64> {
-    let &[(fine, _), (coarse, _), (coarser, _), ..] = values else { return None };
+fn observed_order(values: &[f64]) -> Option<f64> {
+    let &[fine, coarse, coarser, ..] = values else { return None };
     let order = ((coarse - coarser) / (fine - coarse)).log2();
     (ORDERS.0..=ORDERS.1).contains(&order).then_some(order)
 }
