@@ -6,6 +6,7 @@
 
 use std::fmt;
 
+use crate::contact::ContactArea;
 use crate::elastic::Boundary;
 use crate::error::{Error, Result};
 use crate::nested::Level;
@@ -117,9 +118,8 @@ impl Quantity {
             if line {
                 return Some((difference / 3.0).hypot(0.4 * edge * edge));
             }
-            let scatter = 0.09 * (edge / fine.area.contact_nodes.max(1) as f64).sqrt();
-            let adhesion = 0.1 * mu_rho * mu_rho.sqrt() * edge;
-            return Some((0.2 * difference).hypot(scatter).hypot(0.15 * edge * edge).hypot(adhesion));
+            let [scatter, adhesion] = at_edge(&fine.area, mu_rho);
+            return Some((0.25 * difference).hypot(0.08 * scatter).hypot(0.1 * edge * edge).hypot(adhesion));
         }
         let edge = (counted - coarser_counted) / counted.max(coarser_counted).max(f64::MIN_POSITIVE);
         let (share, of_edge) = match self {
@@ -132,6 +132,13 @@ impl Quantity {
         Some((share * difference).hypot(of_edge * edge))
     }
 
+    /// The relative error on a grid beside which there is no coarser one, with so many nodes in the shortest wave.
+    fn by_waves(self, level: &Level, nodes_per_wave: f64, mu_rho: f64) -> Option<f64> {
+        let [scatter, adhesion] = at_edge(&level.area, mu_rho);
+        let error = self.expected(nodes_per_wave).hypot(0.2 * scatter).hypot(adhesion);
+        (self == Self::Area && error.is_finite()).then_some(error)
+    }
+
     /// The error that is to be expected with so many nodes in the shortest wave, by what rough surfaces had.
     fn expected(self, nodes_per_wave: f64) -> f64 {
         let (share, order) = match self {
@@ -142,6 +149,13 @@ impl Quantity {
         };
         share * nodes_per_wave.powf(-order)
     }
+}
+
+/// What the nodes in contact beyond the edge tell of the relative error of the corrected area: how the edge scatters
+/// between the nodes, but for a factor, and the part of the adhesion.
+fn at_edge(area: &ContactArea, mu_rho: f64) -> [f64; 2] {
+    let beyond = (area.contact_fraction / area.corrected_contact_fraction - 1.0).abs();
+    [(beyond / area.contact_nodes as f64).sqrt(), 0.1 * mu_rho * mu_rho.sqrt() * beyond]
 }
 
 impl fmt::Display for Quantity {
@@ -207,21 +221,23 @@ const ORDERS: (f64, f64) = (0.5, 3.0);
 /// grid: that of the pressure under a given mean gap is k times that of the gap under a given pressure.
 ///
 /// Otherwise they follow from a coarser grid. With δQ the relative difference of a quantity Q between the grid and one
-/// of half as many nodes along its sides, the error is taken to be
+/// of half as many nodes along its sides, the error is taken to be the root of the sum of the squares of
 ///
-/// | quantity | estimate |
+/// | quantity | terms |
 /// |---|---|
-/// | corrected area A_c | √((0.2 δA_c)² + (0.15 ε²)² + 0.09² ε/N + (0.1 μ_ρ^{3/2} ε)²), with ε = A/A_c − 1 |
-/// | contact stiffness k | √((0.3 δk)² + (0.11 δA)²) |
-/// | mean gap ḡ, mean pressure p̄ | √((0.15 δḡ)² + (0.001 δA)²), and with p̄ likewise |
+/// | corrected area A_c | δA_c/4, ε²/10, 0.08 √(ε/N), 0.1 μ_ρ^{3/2} ε |
+/// | contact stiffness k | 0.3 δk, 0.11 δA |
+/// | mean gap ḡ, mean pressure p̄ | 0.15 δḡ, 0.001 δA, and with p̄ likewise |
 ///
-/// with A the area as nodes count it, and N their number. On a line that of the area is √((δA_c/3)² + (0.4 ε²)²), and
-/// the factors are 1 and 0.3 for the stiffness, and 1/3 and 0.02 for gap and pressure. ε and δA tell how many of the
+/// where A is the area as nodes count it, N their number, and ε = A/A_c − 1. On a line the terms are δA_c/3 and 0.4 ε²,
+/// and the factors 1 and 0.3 for the stiffness, and 1/3 and 0.02 for gap and pressure. ε and δA tell how many of the
 /// nodes in contact are at the edge, and so the scale of all that depends on where between the nodes the edge falls;
-/// δQ alone may be small by luck. The corrected area is of second order, by which its share of δA_c would be 1/3, and
-/// falls faster as long as the waves have few nodes; what scatters is that of the εN nodes beyond the edge, each wrong
-/// by some share of its own; and adhesion whose zone has few nodes, 1/μ_ρ², leaves a share of ε. The factors are fitted
-/// to rough surfaces, and the page [`choosing`](crate::guide::choosing) has how good the estimates are on others.
+/// δQ alone may be small by luck. The error of the corrected area falls with the second order, for which the share of
+/// δA_c is 1/3, or faster while waves have few nodes. It scatters with the εN nodes beyond the edge, each of which is
+/// wrong by itself, and where the zone of the adhesion has few nodes, 1/μ_ρ², a share of ε is left. Without a coarser
+/// grid the error of the area is told by its scatter, 0.2 √(ε/N), the adhesion, and what rough surfaces have with n
+/// nodes in the shortest wave, 0.3/n². The factors are fitted to rough surfaces, and the page
+/// [`choosing`](crate::guide::choosing) has how good the estimates are on others.
 ///
 /// A grid counts if it has the same waves, the shortest of which ([`Surface::nodes_per_wave`]) with at least four
 /// nodes, resolves the adhesion (μ_ρ ≤ 0.5), and, if it is a coarser one, was solved to 3e-3. The estimates of gap and
@@ -289,18 +305,16 @@ impl GridError {
         }
         let order = observed_order(&values);
         let fine = nodes_per_wave >= 2.0 * FINE;
-        match quantity.by_edge(finest) {
-            Some(relative) if resolves(1.0) => {
-                let rough = quantity == Quantity::Stiffness && !fine;
-                Some(Self { relative, order, rough })
-            }
-            _ => {
-                let relative = quantity.by_coarser(finest, coarser?, mu_rho)?;
-                let line = finest.shape.0 == 1 || finest.shape.1 == 1;
-                let rough = line || quantity != Quantity::Area || !fine || relative == 0.0;
-                Some(Self { relative, order, rough })
-            }
+        if let Some(relative) = quantity.by_edge(finest).filter(|_| resolves(1.0)) {
+            return Some(Self { relative, order, rough: quantity == Quantity::Stiffness && !fine });
         }
+        let line = finest.shape.0 == 1 || finest.shape.1 == 1;
+        let (relative, sure) = match coarser {
+            Some(coarser) => (quantity.by_coarser(finest, coarser, mu_rho)?, fine && !line),
+            None if resolves(1.0) => (quantity.by_waves(finest, nodes_per_wave, mu_rho)?, false),
+            None => return None,
+        };
+        Some(Self { relative, order, rough: quantity != Quantity::Area || !sure || relative == 0.0 })
     }
 
     /// The error, larger where it may be far off.
