@@ -6,6 +6,7 @@
 
 use std::fmt;
 
+use crate::contact::ContactArea;
 use crate::elastic::Boundary;
 use crate::error::{Error, Result};
 use crate::nested::Level;
@@ -76,15 +77,14 @@ impl Quantity {
         Err(Error::Control { control, reason })
     }
 
-    /// The value on a level; the counted area beside the corrected one.
-    fn of(self, level: &Level) -> Option<(f64, f64)> {
-        let value = match self {
-            Self::Area => return Some((level.area.corrected_contact_fraction, level.area.contact_fraction)),
+    /// The value on a level.
+    fn of(self, level: &Level) -> Option<f64> {
+        Some(match self {
+            Self::Area => level.area.corrected_contact_fraction,
             Self::Gap => level.mean_gap,
             Self::Pressure => level.mean_pressure,
             Self::Stiffness => level.stiffness?.pressure_per_length,
-        };
-        Some((value, value))
+        })
     }
 
     /// The relative error on a level by the edge of its contact, if its stiffness was found.
@@ -100,21 +100,28 @@ impl Quantity {
         Some(error.abs()).filter(|error| error.is_finite())
     }
 
-    /// The relative error of the finer of two grids, by the values on them and the counted areas beside these.
-    fn by_coarser(self, (fine, counted): (f64, f64), (coarse, coarse_counted): (f64, f64), line: bool) -> Option<f64> {
-        if (fine, counted) == (coarse, coarse_counted) {
+    /// The relative error of the finer of two grids, with its resolution measure of the adhesion.
+    fn by_coarser(self, fine: &Level, coarse: &Level, mu_rho: f64) -> Option<f64> {
+        let (value, coarser) = (self.of(fine)?, self.of(coarse)?);
+        let [counted, coarser_counted] = [fine, coarse].map(|level| level.area.contact_fraction);
+        if (value, counted) == (coarser, coarser_counted) {
             // no contact, or nothing else
             return Some(0.0);
         }
-        if !(fine.is_finite() && coarse.is_finite()) || fine == 0.0 {
+        if !(value.is_finite() && coarser.is_finite()) || value == 0.0 {
             return None;
         }
-        let difference = (fine - coarse) / fine;
+        let line = fine.shape.0 == 1 || fine.shape.1 == 1;
+        let difference = (value - coarser) / value;
         if self == Self::Area {
-            let excess = (counted / fine - 1.0).abs();
-            return Some((0.25 * difference).hypot(0.12 * excess * excess.sqrt()));
+            let edge = (counted / value - 1.0).abs();
+            if line {
+                return Some((difference / 3.0).hypot(0.4 * edge * edge));
+            }
+            let [scatter, adhesion] = at_edge(&fine.area, mu_rho);
+            return Some((0.25 * difference).hypot(0.08 * scatter).hypot(0.1 * edge * edge).hypot(adhesion));
         }
-        let edge = (counted - coarse_counted) / counted.max(coarse_counted);
+        let edge = (counted - coarser_counted) / counted.max(coarser_counted).max(f64::MIN_POSITIVE);
         let (share, of_edge) = match self {
             // there all is of first order, or of second
             Self::Stiffness if line => (1.0, 0.3),
@@ -123,6 +130,13 @@ impl Quantity {
             _ => (0.15, 0.001),
         };
         Some((share * difference).hypot(of_edge * edge))
+    }
+
+    /// The relative error on a grid beside which there is no coarser one, with so many nodes in the shortest wave.
+    fn by_waves(self, level: &Level, nodes_per_wave: f64, mu_rho: f64) -> Option<f64> {
+        let [scatter, adhesion] = at_edge(&level.area, mu_rho);
+        let error = self.expected(nodes_per_wave).hypot(0.2 * scatter).hypot(adhesion);
+        (self == Self::Area && error.is_finite()).then_some(error)
     }
 
     /// The error that is to be expected with so many nodes in the shortest wave, by what rough surfaces had.
@@ -135,6 +149,13 @@ impl Quantity {
         };
         share * nodes_per_wave.powf(-order)
     }
+}
+
+/// What the nodes in contact beyond the edge tell of the relative error of the corrected area: how the edge scatters
+/// between the nodes, but for a factor, and the part of the adhesion.
+fn at_edge(area: &ContactArea, mu_rho: f64) -> [f64; 2] {
+    let beyond = (area.contact_fraction / area.corrected_contact_fraction - 1.0).abs();
+    [(beyond / area.contact_nodes as f64).sqrt(), 0.1 * mu_rho * mu_rho.sqrt() * beyond]
 }
 
 impl fmt::Display for Quantity {
@@ -200,19 +221,22 @@ const ORDERS: (f64, f64) = (0.5, 3.0);
 /// grid: that of the pressure under a given mean gap is k times that of the gap under a given pressure.
 ///
 /// Otherwise they follow from a coarser grid. With δQ the relative difference of a quantity Q between the grid and one
-/// of half as many nodes along its sides, the error is taken to be
+/// of half as many nodes along its sides, the error is taken to be the root of the sum of the squares of
 ///
-/// | quantity | estimate |
+/// | quantity | terms |
 /// |---|---|
-/// | corrected area A_c | √((0.25 δA_c)² + (0.12 (A/A_c − 1)^{3/2})²), with A the area as nodes count it |
-/// | contact stiffness k | √((0.3 δk)² + (0.11 δA)²) |
-/// | mean gap ḡ, mean pressure p̄ | √((0.15 δḡ)² + (0.001 δA)²), and with p̄ likewise |
+/// | corrected area A_c | δA_c/4, ε²/10, 0.08 √(ε/N), 0.1 μ_ρ^{3/2} ε |
+/// | contact stiffness k | 0.3 δk, 0.11 δA |
+/// | mean gap ḡ, mean pressure p̄ | 0.15 δḡ, 0.001 δA, and with p̄ likewise |
 ///
-/// and on a line the factors are 1 and 0.3 for the stiffness, and 1/3 and 0.02 for gap and pressure. A/A_c − 1 and δA
-/// tell how many of the nodes in contact are at the edge, and so the scale of all that depends on where between the
-/// nodes the edge falls; δQ alone may be small by luck. The corrected area has lost what is the same all along the
-/// edge, and keeps what scatters: of a number of pieces of the edge that grows like 1/Δ, each wrong by a share of Δ²,
-/// the sum falls like the power 3/2 of Δ. The factors are fitted to rough surfaces, and the page
+/// where A is the area as nodes count it, N their number, and ε = A/A_c − 1. On a line the terms are δA_c/3 and 0.4 ε²,
+/// and the factors 1 and 0.3 for the stiffness, and 1/3 and 0.02 for gap and pressure. ε and δA tell how many of the
+/// nodes in contact are at the edge, and so the scale of all that depends on where between the nodes the edge falls;
+/// δQ alone may be small by luck. The error of the corrected area falls with the second order, for which the share of
+/// δA_c is 1/3, or faster while waves have few nodes. It scatters with the εN nodes beyond the edge, each of which is
+/// wrong by itself, and where the zone of the adhesion has few nodes, 1/μ_ρ², a share of ε is left. Without a coarser
+/// grid the error of the area is told by its scatter, 0.2 √(ε/N), the adhesion, and what rough surfaces have with n
+/// nodes in the shortest wave, 0.3/n². The factors are fitted to rough surfaces, and the page
 /// [`choosing`](crate::guide::choosing) has how good the estimates are on others.
 ///
 /// A grid counts if it has the same waves, the shortest of which ([`Surface::nodes_per_wave`]) with at least four
@@ -267,8 +291,9 @@ impl GridError {
     pub fn of(levels: &[Level], quantity: Quantity, nodes_per_wave: f64, mu_rho: f64) -> Option<Self> {
         let finest = levels.last()?;
         let resolves = |factor: f64| nodes_per_wave / factor >= RESOLVED && mu_rho * factor.sqrt() <= UNDER_RESOLVED;
-        let value = |level: &Level| quantity.of(level).filter(|(value, _)| !value.is_nan());
+        let value = |level: &Level| quantity.of(level).filter(|value| !value.is_nan());
         let mut values = vec![value(finest)?];
+        let mut coarser = None;
         for level in levels.iter().rev().skip(1) {
             let factor = finest.shape.0 as f64 / level.shape.0 as f64;
             let next = f64::from(1 << values.len());
@@ -276,21 +301,20 @@ impl GridError {
                 break;
             }
             values.push(value(level)?);
+            coarser = coarser.or(Some(level));
         }
         let order = observed_order(&values);
         let fine = nodes_per_wave >= 2.0 * FINE;
-        match quantity.by_edge(finest) {
-            Some(relative) if resolves(1.0) => {
-                let rough = quantity == Quantity::Stiffness && !fine;
-                Some(Self { relative, order, rough })
-            }
-            _ => {
-                let line = finest.shape.0 == 1 || finest.shape.1 == 1;
-                let relative = quantity.by_coarser(values[0], *values.get(1)?, line)?;
-                let rough = line || quantity != Quantity::Area || !fine || relative == 0.0;
-                Some(Self { relative, order, rough })
-            }
+        if let Some(relative) = quantity.by_edge(finest).filter(|_| resolves(1.0)) {
+            return Some(Self { relative, order, rough: quantity == Quantity::Stiffness && !fine });
         }
+        let line = finest.shape.0 == 1 || finest.shape.1 == 1;
+        let (relative, sure) = match coarser {
+            Some(coarser) => (quantity.by_coarser(finest, coarser, mu_rho)?, fine && !line),
+            None if resolves(1.0) => (quantity.by_waves(finest, nodes_per_wave, mu_rho)?, false),
+            None => return None,
+        };
+        Some(Self { relative, order, rough: quantity != Quantity::Area || !sure || relative == 0.0 })
     }
 
     /// The error, larger where it may be far off.
@@ -300,8 +324,8 @@ impl GridError {
 }
 
 /// The order of convergence of values on grids, the finest first, where three have one that is believed.
-fn observed_order(values: &[(f64, f64)]) -> Option<f64> {
-    let &[(fine, _), (coarse, _), (coarser, _), ..] = values else { return None };
+fn observed_order(values: &[f64]) -> Option<f64> {
+    let &[fine, coarse, coarser, ..] = values else { return None };
     let order = ((coarse - coarser) / (fine - coarse)).log2();
     (ORDERS.0..=ORDERS.1).contains(&order).then_some(order)
 }

@@ -162,24 +162,26 @@ fn check<T: Real>(gap: ArrayView2<'_, T>, contact_pressure: ArrayView2<'_, T>, g
 /// The contour is a polygon, by marching squares on the rectangles between nodes, and the corrected area is
 ///
 /// ```math
-/// A = A_polygon − β Δ L + χ Δ² ,
+/// A = A_polygon − Δ ∫ (β − 0.0147 |sin 2θ|³) dL + 0.78 χ Δ² .
 /// ```
 ///
-/// with its length L, and the number χ of contacts less that of holes in them, by which the edge turns round: the last
-/// term is what a curved edge adds, and its factor, one, is fitted to Hertz contacts. For Δx ≠ Δy length and
-/// area are taken with the spacings as units. On a line there are the ends alone, each β inside the contour. Nodes at
-/// the end of a surface, beside absent ones or the end of a window, are counted as a whole, and so is full contact.
-/// Where a wall gives, as that of [`Penalty`](crate::Penalty), the gap in contact counts as well, and β falls with the
-/// cube of the share of the pressure in κλΔ − E\*g, to zero where the gap has no kink left. Where
+/// The integral is along the polygon, at the angle θ to the axes; what β is less by for edges that are askew to the nodes
+/// was measured on plane waves in ten directions. The last term is what a curved edge adds, with the number χ of
+/// contacts less that of holes in them, by which the edge turns round; its factor is fitted to Hertz contacts. For
+/// Δx ≠ Δy length and area are taken with the spacings as units. On a line there are the ends alone, each β inside the
+/// contour. Nodes at the end of a surface, beside absent ones or the end of a window, are counted as a whole, and so is
+/// full contact. Where a wall gives, as that of [`Penalty`](crate::Penalty), the gap in contact counts as well, and β
+/// falls with the cube of the share of the pressure in κλΔ − E\*g, to zero where the gap has no kink left. Where
 /// [the law alone repels](crate::NoWall) contact nodes are apart, and the more so, the nearer the edge is to the middle
 /// between the nodes: they are counted. Without a modulus, that is one that is not positive, the area is that of
 /// [`ContactArea::of`].
 ///
-/// Straight edges along the nodes, and those of waves on a line, are met to 0.01 spacings; in other directions to 0.03.
-/// Hertz contacts with radii of 3 to 7 nodes have a root mean square error of 0.4 % of the area, with radii of 14 to 28
-/// nodes of 0.06 %, where counting nodes is wrong by 8 and 1.6 %. The page [`choosing`](crate::guide::choosing) has
-/// errors of rough surfaces. With adhesion of a range that the grid does not resolve (μ_ρ above 0.5) the fields tell
-/// less, and the area is as good as that of [`ContactArea::of`].
+/// The error is of second order. Straight edges of waves of 26 nodes, in all directions, are met to 0.012 spacings on
+/// the average over their places between the nodes, and of 51 nodes to 0.006. Hertz contacts with radii of 3 to 7 nodes
+/// have a root mean square error of 0.12 % of the area, with radii of 14 to 28 nodes of 0.012 %, where counting nodes is
+/// wrong by 5.7 and 1.2 %. The page [`choosing`](crate::guide::choosing) has errors of rough surfaces. With adhesion of
+/// a range that the grid does not resolve (μ_ρ above 0.5) the fields tell less, and the area is as good as that of
+/// [`ContactArea::of`].
 ///
 /// ```
 /// use asperity::contact::ContactStatistics;

@@ -18,8 +18,12 @@ const SOFTNESS: f64 = 2.0 * E / PI;
 const SHIFT_PERIODIC: f64 = 0.190_009_285_9;
 const SHIFT_FREE: f64 = 0.174_653_2;
 
-/// The area that a full turn of the edge adds, in cells; fitted to Hertz contacts with radii of 3 to 14 nodes.
-const TURN: f64 = 1.0;
+/// How much less far an edge along the diagonals is inside the contour than one along the nodes, in spacings; in between
+/// by the third power of sin 2θ, with θ the angle to the nodes. Measured on plane waves in ten directions.
+const SLANT: f64 = 0.0147;
+
+/// The area that a full turn of the edge adds, in cells; fitted to Hertz contacts with radii of 3 to 40 nodes.
+const TURN: f64 = 0.78;
 
 /// A cell in the fixed-point numbers that are added up: the same sum in any order.
 const CELL: f64 = (1_u64 << 30) as f64;
@@ -170,27 +174,29 @@ impl Step {
     /// The area around one node in contact, by the cuts of its two sides.
     fn contact_corner(&self, cuts: [Cut; 2]) -> f64 {
         let [p, q] = cuts.map(|cut| cut.place);
-        0.5 * p * q - kink(cuts) * (self.shift * length(p, q) - 0.25 * TURN)
+        0.5 * p * q - kink(cuts) * (self.strip(p, q) - 0.25 * TURN)
     }
 
     /// The area around one free node, by the cuts of its two sides.
     fn free_corner(&self, cuts: [Cut; 2]) -> f64 {
         let [p, q] = cuts.map(|cut| 1.0 - cut.place);
-        0.5 * p * q + kink(cuts) * (self.shift * length(p, q) + 0.25 * TURN)
+        0.5 * p * q + kink(cuts) * (self.strip(p, q) + 0.25 * TURN)
     }
 
     /// The area beside two nodes in contact, by the cuts of the two sides that leave them.
     fn band(&self, cuts: [Cut; 2]) -> f64 {
         let [p, q] = cuts.map(|cut| cut.place);
-        0.5 * (p + q) - kink(cuts) * self.shift * length(1.0, p - q)
+        0.5 * (p + q) - kink(cuts) * self.strip(1.0, p - q)
+    }
+
+    /// The area between the edge and a piece of the contour with these components.
+    fn strip(&self, a: f64, b: f64) -> f64 {
+        let length = (a * a + b * b).sqrt();
+        let sine = if length > 0.0 { (2.0 * a * b).abs() / (length * length) } else { 0.0 };
+        (self.shift - SLANT * sine * sine * sine) * length
     }
 }
 
 fn kink(cuts: [Cut; 2]) -> f64 {
     0.5 * (cuts[0].kink + cuts[1].kink)
-}
-
-/// The root of a sum of squares, the same bits in either order.
-fn length(a: f64, b: f64) -> f64 {
-    (a * a + b * b).sqrt()
 }

@@ -29,7 +29,7 @@ fn truth(seed: u64, control: Control) -> Level {
 
 #[test]
 fn an_accuracy_of_each_quantity_is_reached_and_true() {
-    for (seed, target) in [(1, 0.02), (2, 0.03)] {
+    for (seed, target) in [(1, 0.02), (2, 0.015)] {
         for (quantity, control) in [
             (Quantity::Area, PRESSED),
             (Quantity::Gap, PRESSED),
@@ -107,7 +107,7 @@ fn the_edge_of_the_contact_tells_the_error_of_a_single_grid() {
 
 #[test]
 fn the_refined_surface_is_the_same_one() {
-    let found = Accuracy::new(0.03, Quantity::Area).solve(&surface(32, 1), half_space, NoAdhesion, PRESSED).unwrap();
+    let found = Accuracy::new(0.02, Quantity::Area).solve(&surface(32, 1), half_space, NoAdhesion, PRESSED).unwrap();
     let n = found.surface.grid().shape().0;
     let same = surface(n, 1);
     assert!(n > 32);
@@ -127,13 +127,20 @@ fn grids_that_say_nothing_leave_the_error_unknown() {
     assert!((15.0..19.0).contains(&waves), "{waves}");
     let error = estimate(128, Quantity::Area, waves, 0.0, 1e-3).unwrap();
     assert!(!error.rough && error.relative > 1e-3 && error.relative < 0.05, "{error:?}");
-    // fewer than eight nodes on the coarser grid, and fewer than four
+    // fewer than eight nodes on the coarser grid
     assert!(estimate(128, Quantity::Area, 12.0, 0.0, 1e-3).unwrap().rough);
-    assert_eq!(estimate(128, Quantity::Area, 7.9, 0.0, 1e-3), None);
-    // the coarser grid does not resolve the adhesion, was not solved, or is not there; nobody asked for the stiffness
-    assert_eq!(estimate(128, Quantity::Area, waves, 0.36, 1e-3), None);
-    assert_eq!(estimate(128, Quantity::Area, waves, 0.0, 1e-1), None);
-    assert_eq!(estimate(32, Quantity::Area, waves, 0.0, 1e-3), None);
+    // the coarser grid has fewer than four, does not resolve the adhesion, was not solved, or is not there: the waves
+    // tell the error of the area, and nothing that of the others
+    for (n, nodes_per_wave, mu_rho, tolerance) in
+        [(128, 7.9, 0.0, 1e-3), (128, waves, 0.36, 1e-3), (128, waves, 0.0, 1e-1), (32, waves, 0.0, 1e-3)]
+    {
+        let error = estimate(n, Quantity::Area, nodes_per_wave, mu_rho, tolerance).unwrap();
+        assert!(error.rough && error.order.is_none() && error.relative > 0.3 / nodes_per_wave.powi(2), "{error:?}");
+        assert_eq!(estimate(n, Quantity::Gap, nodes_per_wave, mu_rho, tolerance), None);
+    }
+    // neither do they where the grid itself does not resolve them, or the adhesion; nobody asked for the stiffness
+    assert_eq!(estimate(128, Quantity::Area, 3.9, 0.0, 1e-3), None);
+    assert_eq!(estimate(128, Quantity::Area, waves, 0.51, 1e-3), None);
     assert_eq!(estimate(128, Quantity::Stiffness, waves, 0.0, 1e-3), None);
 }
 
