@@ -136,7 +136,7 @@ impl Quantity {
     fn by_waves(self, level: &Level, nodes_per_wave: f64, mu_rho: f64) -> Option<f64> {
         let [scatter, adhesion] = at_edge(&level.area, mu_rho);
         let error = self.expected(nodes_per_wave).hypot(0.2 * scatter).hypot(adhesion);
-        (self == Self::Area && error.is_finite()).then_some(error)
+        (self == Self::Area && nodes_per_wave.is_finite() && error.is_finite()).then_some(error)
     }
 
     /// The error that is to be expected with so many nodes in the shortest wave, by what rough surfaces had.
@@ -242,8 +242,8 @@ const ORDERS: (f64, f64) = (0.5, 3.0);
 /// A grid counts if it has the same waves, the shortest of which ([`Surface::nodes_per_wave`]) with at least four
 /// nodes, resolves the adhesion (μ_ρ ≤ 0.5), and, if it is a coarser one, was solved to 3e-3. The estimates of gap and
 /// pressure by the edge are sure; those of the area, and of the stiffness by the edge, if the shortest wave has at
-/// least sixteen nodes on the finest grid. All others, and those from coarser grids on a line, are
-/// [`rough`](Self::rough).
+/// least sixteen nodes on the finest grid, the area from a coarser grid. All others, and all on a line that are not by
+/// the edge, are [`rough`](Self::rough).
 ///
 /// ```
 /// use asperity::accuracy::{GridError, Quantity};

@@ -31,7 +31,7 @@ pub use varying::Varying;
 /// The share of w/ρ that the adhesive traction must exceed where surfaces are said to attract each other.
 const NOTICEABLE: f64 = 0.01;
 
-/// The roundings, in units of the largest traction, by which a traction that falls may seem to rise.
+/// The roundings, in units of the traction in contact, by which a traction that falls may seem to rise.
 const ROUNDINGS: f64 = 4.0;
 
 /// An adhesion law: the energy per area by which two surfaces attract each other, a function of the gap alone.
@@ -98,9 +98,9 @@ pub trait AdhesionLaw<T: Real>: Send + Sync {
         false
     }
 
-    /// Whether the energy is concave at all gaps: the traction nowhere rises with the gap. Its tangent then bounds the
-    /// energy after a step, which need not be evaluated to know that it has fallen. The default, that it need not be,
-    /// is safe for every law.
+    /// Whether the energy is concave at all gaps: the traction nowhere rises with the gap. At a rigid wall its tangent
+    /// then bounds the energy after a step, which need not be evaluated to know that it falls. The default, false, is
+    /// safe for every law.
     fn is_concave(&self) -> bool {
         false
     }
@@ -256,10 +256,9 @@ pub fn check_law<T: Real>(law: &impl AdhesionLaw<T>, largest_gap: f64) -> Result
     if !law.is_concave() {
         return Ok(());
     }
-    let largest = law.traction(T::zero()).abs().widen();
     let gaps = (0..=GAPS).map(|i| largest_gap * i as f64 / GAPS as f64);
     let tractions: Vec<_> = gaps.map(|gap| (gap, law.traction(T::lit(gap)).widen())).collect();
-    let rounding = ROUNDINGS * T::epsilon().widen() * largest;
+    let rounding = ROUNDINGS * T::epsilon().widen() * law.traction(T::zero()).abs().widen();
     let rises = |pair: &&[(f64, f64)]| pair[1].1 > pair[0].1 + rounding;
     match tractions.windows(2).find(rises) {
         Some(&[(_, nearer), (gap, traction)]) => Err(Error::Concave { gap, traction, nearer }),

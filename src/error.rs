@@ -273,8 +273,8 @@ impl fmt::Display for Error {
             ),
             Self::Concave { gap, traction, nearer } => write!(
                 f,
-                "the adhesive traction rises with the gap, from {} to {} at a gap of {}: it may not where the energy is concave, \
-                 as the law says of its own",
+                "the adhesive traction rises with the gap, from {} to {} at a gap of {}: the energy is not concave, \
+                 as `is_concave` says",
                 Short(*nearer),
                 Short(*traction),
                 Short(*gap)

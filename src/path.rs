@@ -343,11 +343,12 @@ where
         }
         let w = self.problem.law.work_of_adhesion().widen();
         let flat = self.problem.flat.work * self.problem.flat.padding;
-        // what rounding makes of the energy: of surfaces that hardly touch it is the small difference of sums as large
-        // as that of the surface pressed flat, and rounding shifts whole waves of these alike
+        // where surfaces hardly touch, the energy is the small difference of sums as large as that of the surface
+        // pressed flat
         let rounding = ROUNDINGS * T::epsilon().widen() * flat;
-        // what the tolerance leaves in the energy of surfaces that are apart
-        let noise = (rounding, report.tolerance.powi(2) * flat);
+        // what the tolerance leaves in the energy of surfaces that are apart, which nothing but adhesion makes jump
+        let left = if self.problem.law.is_zero() { report.tolerance.powi(2) * flat } else { 0.0 };
+        let noise = (rounding, left);
         let scale = (self.settings.imbalance, 1e-3 * w);
         let mut trial = self.state.judge(target, report, scale, noise);
         let good = trial.balanced && settled;

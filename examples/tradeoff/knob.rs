@@ -96,7 +96,7 @@ impl Scene {
 }
 
 /// All scenes: seeds, Hurst exponents, laws and loads; a mean gap is that under a pressure. The factors of the
-/// estimates were fitted to other seeds and exponents.
+/// estimates were fitted to other seeds and exponents, those of the area to these as well.
 fn scenes(quick: bool) -> Outcome<Vec<Scene>> {
     let (seeds, hursts): (&[u64], &[f64]) = if quick { (&[11], &[0.8]) } else { (&[11, 12, 13, 14], &[0.3, 0.6, 0.9]) };
     let loads = [

@@ -33,8 +33,14 @@ def _scaled(values: Any, unit: str | None) -> tuple[float, str]:
 
 
 def _is_wide(values: NDArray[Any]) -> bool:
-    """Whether values are positive and span more than a decade and a half, as for a logarithmic axis."""
-    return bool(values.size and values.min() > 0 and values.max() > 30 * values.min())
+    """Whether values are positive and span more than a decade, but for rounding, as for a logarithmic axis."""
+    return bool(values.size and values.min() > 0 and values.max() > 9.99 * values.min())
+
+
+def _is_geometric(values: NDArray[Any]) -> bool:
+    """Whether the median is nearer to the geometric mean of the ends than to their arithmetic mean."""
+    low, high = values.min(), values.max()
+    return bool(np.median(values) ** 2 < np.sqrt(low * high) * 0.5 * (low + high))
 
 
 def _label(name: str, unit: str) -> str:
@@ -153,7 +159,7 @@ def sweep(columns: dict[str, NDArray[Any]], ax: Axes | None, pressure_unit: str 
         _, ax = _pyplot().subplots(figsize=(4.6, 3.4), layout="constrained")
     factor, unit = _scaled(columns["mean_pressure"], pressure_unit)
     ax.plot(factor * columns["mean_pressure"], columns["contact_fraction"], "o-", markersize=3.5)
-    if _is_wide(columns["mean_pressure"]):
+    if _is_wide(columns["mean_pressure"]) and _is_geometric(columns["mean_pressure"]):
         ax.set_xscale("log")
         if _is_wide(columns["contact_fraction"]):
             ax.set_yscale("log")

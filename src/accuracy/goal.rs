@@ -187,13 +187,17 @@ impl<C> Accuracy<C> {
         operator: &mut dyn ElasticOperator<T>,
         law: &dyn AdhesionLaw<T>,
         control: Control,
-    ) -> Result<Plan> {
+    ) -> Result<Plan>
+    where
+        C: ContactConstraint<T>,
+    {
         Error::alone("accuracy", surface.grid().slab())?;
         let tolerance = self.tolerance()?;
         self.of.check(control)?;
         let nodes_per_wave = surface.nodes_per_wave(operator.boundary());
         let refinable = is_refinable(surface, law);
-        let needed = |smaller| if refinable { self.refinements(nodes_per_wave, smaller) } else { 0 };
+        let by_edge = self.asks_the_edge::<T>(surface) && operator.boundary() == Boundary::Periodic;
+        let needed = |smaller| if refinable { self.refinements(nodes_per_wave, by_edge, smaller) } else { 0 };
         let refinements = needed(1.0);
         let nodes = operator.grid().nodes() as f64;
         let per_line = if surface.grid().is_line() { 2.0_f64 } else { 4.0 };
@@ -223,13 +227,22 @@ impl<C> Accuracy<C> {
         Ok(Plan { nodes_per_wave, tolerance, shape: shape(refinements), bytes: bytes(refinements), seconds })
     }
 
+    /// Whether the edge of the contact on a grid tells the error there.
+    fn asks_the_edge<T: Real>(&self, surface: &Surface) -> bool
+    where
+        C: ContactConstraint<T>,
+    {
+        self.of != Quantity::Area && surface.absent().is_none() && self.nested.solver.constraint.wall().is_rigid()
+    }
+
     /// How often the grid is likely to be refined, if errors are smaller than expected by a factor.
-    fn refinements(&self, nodes_per_wave: f64, smaller: f64) -> i32 {
+    fn refinements(&self, nodes_per_wave: f64, by_edge: bool, smaller: f64) -> i32 {
+        // without a coarser grid the waves tell the error of the area, and the edge that of the others
+        let least = if by_edge || self.of == Quantity::Area { RESOLVED } else { 2.0 * RESOLVED };
+        let sure = by_edge && self.of != Quantity::Stiffness;
         let enough = |refinements: &i32| {
             let nodes = nodes_per_wave * f64::from(*refinements).exp2();
-            // the area alone is told without a coarser grid
-            let least = if self.of == Quantity::Area { RESOLVED } else { 2.0 * RESOLVED };
-            let caution = if nodes < 2.0 * FINE { CAUTION } else { 1.0 };
+            let caution = if sure || nodes >= 2.0 * FINE { 1.0 } else { CAUTION };
             nodes >= least && caution * self.of.expected(nodes) <= smaller * self.target
         };
         (0..40).find(enough).unwrap_or(40)
@@ -281,9 +294,7 @@ impl<C> Accuracy<C> {
         let kept = (self.nested.solver.settings, self.nested.coarse_tolerance, self.nested.stiffness);
         self.nested.solver.settings.tolerance = Some(tolerance);
         self.nested.coarse_tolerance = tolerance;
-        let has_edge = surface.absent().is_none() && self.nested.solver.constraint.wall().is_rigid();
-        if self.of == Quantity::Stiffness || (self.of != Quantity::Area && has_edge) {
-            // the edge of the contact tells the error
+        if self.of == Quantity::Stiffness || self.asks_the_edge::<T>(surface) {
             let needed = tolerance.min(ContactStiffness::TOLERANCE);
             self.nested.stiffness = Some(kept.2.map_or(needed, |given| given.min(needed)));
         }

@@ -2,6 +2,8 @@
 
 use ndarray::{ArrayView1, ArrayView2, Axis, Zip};
 
+#[cfg(doc)]
+use super::ContactStatistics;
 use super::outline::Outline;
 use super::{check, contact_map};
 use crate::elastic::Boundary;

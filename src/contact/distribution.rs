@@ -9,7 +9,8 @@ use crate::solver::Solution;
 
 /// The distribution of the pressure over the surface: a histogram, as a probability density.
 ///
-/// The bins are equally wide; a bin has its lower edge, the last one its upper edge too. The density of a bin is the
+/// Fields are those of the whole surface, which processes that share a grid put together by
+/// [`Grid::gathered`](crate::Grid::gathered). The bins are equally wide; a bin has its lower edge, the last one its upper edge too. The density of a bin is the
 /// share of the nodes, but for absent ones, whose pressure is in it, divided by its width: Σ density · width is the
 /// share of the nodes that are counted, and Σ density · pressure · width is about the mean pressure that they
 /// contribute.
@@ -63,10 +64,9 @@ impl PressureDistribution {
         checked("contact pressure", pressure, bins)?;
         Error::shape("contact pressure", pressure.dim(), gap.dim())?;
         let contact = contact_map(gap, pressure);
-        let facing = gap.iter().filter(|gap| gap.is_finite()).count();
         let counted = || contact.iter().zip(pressure).filter(|(touches, _)| **touches).map(|(_, p)| p.widen());
         let high = counted().fold(0.0, f64::max);
-        Ok(Self::count(counted(), (0.0, if high > 0.0 { high } else { 1.0 }), bins, facing))
+        Ok(Self::count(counted(), (0.0, if high > 0.0 { high } else { 1.0 }), bins, facing(gap)))
     }
 
     /// The distribution of the full elastic pressure over all nodes, in so many bins from the least, which adhesion
@@ -80,16 +80,14 @@ impl PressureDistribution {
         let pressure = solution.pressure.view();
         checked("pressure", pressure, bins)?;
         Error::shape("pressure", pressure.dim(), solution.gap.dim())?;
-        // absent nodes are infinitely far
-        let counted =
-            || pressure.iter().zip(&solution.gap).filter(|(_, g)| **g < T::infinity()).map(|(p, _)| p.widen());
+        let counted = || pressure.iter().zip(&solution.gap).filter(|(_, gap)| gap.is_finite()).map(|(p, _)| p.widen());
         let (mut low, mut high) =
             counted().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), p| (low.min(p), high.max(p)));
         if low >= high {
             let half = if low == 0.0 { 0.5 } else { 0.5 * low.abs() };
             (low, high) = (low - half, high + half);
         }
-        Ok(Self::count(counted(), (low, high), bins, pressure.len() - solution.report.absent_nodes))
+        Ok(Self::count(counted(), (low, high), bins, facing(solution.gap.view())))
     }
 
     /// Σ density · width: the share of the nodes that are counted.
@@ -112,6 +110,11 @@ impl PressureDistribution {
             .map(|(&count, edges)| if count == 0 { 0.0 } else { count as f64 / nodes as f64 / (edges[1] - edges[0]) });
         Self { density: density.collect(), edges }
     }
+}
+
+/// The number of nodes that face a surface: the gap of absent ones is infinite or NaN.
+fn facing<T: Real>(gap: ArrayView2<'_, T>) -> usize {
+    gap.iter().filter(|gap| gap.is_finite()).count()
 }
 
 fn checked<T: Real>(name: &'static str, pressure: ArrayView2<'_, T>, bins: usize) -> Result<()> {

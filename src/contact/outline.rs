@@ -19,7 +19,8 @@ const SHIFT_PERIODIC: f64 = 0.190_009_285_9;
 const SHIFT_FREE: f64 = 0.174_653_2;
 
 /// How much less far an edge along the diagonals is inside the contour than one along the nodes, in spacings; in between
-/// by the third power of sin 2θ, with θ the angle to the nodes. Measured on plane waves in ten directions.
+/// by the third power of sin 2θ, with θ the angle to the nodes. Measured on plane waves in ten directions, in periodic
+/// cells; Hertz contacts on free half-spaces have the same.
 const SLANT: f64 = 0.0147;
 
 /// The area that a full turn of the edge adds, in cells; fitted to Hertz contacts with radii of 3 to 40 nodes.

@@ -1,5 +1,7 @@
 //! The cost of one of nested grids, and what was found there.
 
+#[cfg(doc)]
+use super::{Nested, NestedSolution};
 use crate::contact::ContactArea;
 use crate::error::Result;
 use crate::grid::Grid;

@@ -186,7 +186,7 @@ impl<T: Real> Deformed<T> {
         let [from, to] = [Side::of(window, slab.shape()), Side::of(surface.grid().shape(), grid.shape())];
         let (mut along_x, along_y, back_y) = (places(from[0], to[0]), places(from[1], to[1]), places(to[1], from[1]));
         let slabs = [slab, grid.slab()];
-        let gap = fetched(gap.view(), slabs, &mut along_x.clone()).unwrap_or(gap);
+        let gap = if slab.is_shared() { fetched(gap.view(), slabs, &mut along_x.clone()) } else { None }.unwrap_or(gap);
         let displacement = fetched(displacement.view(), slabs, &mut along_x).unwrap_or(displacement);
         let (width, first) = (grid.shape().1, grid.slab().first_node());
         let faces = |node: usize| facing.as_ref().is_none_or(|facing| facing.faces(first + node));

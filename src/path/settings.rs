@@ -10,9 +10,9 @@
 /// | `imbalance` | 1e-4 | how far the energy may be from the work done in a step, as a share of how much the energy has changed along the path (or of w/1000, if that is more) | positive |
 ///
 /// A smaller imbalance asks for a smaller tolerance of the solver too: its square must be well below.
-/// What that tolerance leaves in the energy of surfaces that are apart, its square times that of the surface pressed
-/// flat, is no imbalance, and neither is what rounding does: in `f32` jumps of less than a millionth of that energy are
-/// not told from it.
+/// Without adhesion, what that tolerance leaves in the energy of surfaces that are apart, its square times that of the
+/// surface pressed flat, is no imbalance. What rounding does is none either: in `f32` jumps of less than a millionth of
+/// that energy are not told from it.
 ///
 /// ```
 /// use asperity::path::PathSettings;

@@ -1,6 +1,6 @@
 //! Accuracies that are asked for, and how wrong grids are said to be.
 
-use asperity::accuracy::{Accuracy, GridError, Quantity};
+use asperity::accuracy::{Accuracy, AccurateSolution, GridError, Quantity};
 use asperity::*;
 
 fn half_space(grid: Grid) -> Result<Westergaard<f64>> {
@@ -117,6 +117,21 @@ fn the_refined_surface_is_the_same_one() {
 }
 
 #[test]
+fn an_accuracy_that_the_given_grid_has_ends_there() {
+    for seed in 1..5 {
+        let wanted = &mut Accuracy::new(0.1, Quantity::Area);
+        let found = wanted.solve(&surface(32, seed), half_space, NoAdhesion, PRESSED).unwrap();
+        let truth =
+            Accuracy::new(2e-3, Quantity::Area).solve(&surface(32, seed), half_space, NoAdhesion, PRESSED).unwrap();
+        let area = |found: &AccurateSolution<f64>| found.levels.last().unwrap().area.corrected_contact_fraction;
+        let (error, estimate) = (area(&found) / area(&truth) - 1.0, found.error.unwrap());
+        assert!(found.reached && estimate.rough && found.surface.grid().shape() == (32, 32), "{seed}: {estimate:?}");
+        assert!(truth.reached && truth.surface.grid().shape().0 >= 128, "{seed}");
+        assert!(error.abs() < 0.1 && estimate.relative > error.abs() / 3.0, "{seed}: {error} {estimate:?}");
+    }
+}
+
+#[test]
 fn grids_that_say_nothing_leave_the_error_unknown() {
     let estimate = |n, quantity, nodes_per_wave, mu_rho, coarse_tolerance| {
         let mut nested = Nested { coarsest: 32, coarse_tolerance, ..Nested::default() };
@@ -138,7 +153,8 @@ fn grids_that_say_nothing_leave_the_error_unknown() {
         assert!(error.rough && error.order.is_none() && error.relative > 0.3 / nodes_per_wave.powi(2), "{error:?}");
         assert_eq!(estimate(n, Quantity::Gap, nodes_per_wave, mu_rho, tolerance), None);
     }
-    // neither do they where the grid itself does not resolve them, or the adhesion; nobody asked for the stiffness
+    // a surface without waves tells nothing by them, and neither do they where the grid itself does not resolve them, or the adhesion; nobody asked for the stiffness
+    assert_eq!(estimate(32, Quantity::Area, f64::INFINITY, 0.0, 1e-3), None);
     assert_eq!(estimate(128, Quantity::Area, 3.9, 0.0, 1e-3), None);
     assert_eq!(estimate(128, Quantity::Area, waves, 0.51, 1e-3), None);
     assert_eq!(estimate(128, Quantity::Stiffness, waves, 0.0, 1e-3), None);

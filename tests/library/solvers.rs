@@ -498,7 +498,8 @@ impl AdhesionLaw<f64> for Counting<'_> {
         self.concave
     }
     fn smoothed(&self, compliance: f64) -> Option<Box<dyn AdhesionLaw<f64> + '_>> {
-        self.law.smoothed(compliance)
+        // on the way to the start alone
+        Some(Box::new(Smoothed { law: self.law.smoothed(compliance)?, concave: self.concave }))
     }
     fn energies(&self, first: usize, gaps: &[f64], energies: &mut [f64]) {
         self.energies.fetch_add(gaps.len(), Ordering::Relaxed);
@@ -507,6 +508,27 @@ impl AdhesionLaw<f64> for Counting<'_> {
     fn energies_and_tractions(&self, first: usize, gaps: &[f64], energies: &mut [f64], tractions: &mut [f64]) {
         self.law.energies(first, gaps, energies);
         self.law.tractions(first, gaps, tractions);
+    }
+}
+
+/// A smoothed law that says that its energy is concave or does not.
+struct Smoothed<'a> {
+    law: Box<dyn AdhesionLaw<f64> + 'a>,
+    concave: bool,
+}
+
+impl AdhesionLaw<f64> for Smoothed<'_> {
+    fn energy(&self, gap: f64) -> f64 {
+        self.law.energy(gap)
+    }
+    fn traction(&self, gap: f64) -> f64 {
+        self.law.traction(gap)
+    }
+    fn slope(&self, gap: f64) -> f64 {
+        self.law.slope(gap)
+    }
+    fn is_concave(&self) -> bool {
+        self.concave
     }
 }
 

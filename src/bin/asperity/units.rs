@@ -78,7 +78,7 @@ impl Units {
         let length = if lengths == 0 { "" } else { length? };
         Some(match (pressures, lengths) {
             (0, -1) => format!("1/{length}"),
-            (-1, _) => format!("1/{pressure}"),
+            (-1, 0) => format!("1/{pressure}"),
             (_, -1) => format!("{pressure}/{length}"),
             (0, _) | (_, 0) => format!("{pressure}{length}"),
             (_, 1) => format!("{pressure}·{length}"),
