@@ -161,12 +161,12 @@ def solve(
     >>> f"{tip.approach / hertz.approach:.3f}"
     '1.000'
 
-    A contact area that is right to 5 %, on as fine a grid as that takes:
+    A contact area that is right to 1 %, on as fine a grid as that takes:
 
     >>> rough = asperity.surface.self_affine(32, 1.0, rms_slope=0.1, k_s=8, seed=1)
-    >>> right = asperity.solve(rough, modulus=1.0, mean_pressure=5e-3, accuracy=0.05)
+    >>> right = asperity.solve(rough, modulus=1.0, mean_pressure=5e-3, accuracy=0.01)
     >>> right.report["accuracy"], right.heights.shape
-    ({'wanted': 0.05, 'of': 'area', 'reached': True}, (64, 64))
+    ({'wanted': 0.01, 'of': 'area', 'reached': True}, (64, 64))
     """
     load = _control.one(
         mean_pressure=mean_pressure,
