@@ -23,6 +23,7 @@ mod spikes;
 pub use code::WarningCode;
 use extremes::Extremes;
 use relief::Relief;
+use spikes::Spikes;
 
 /// The drop of a plane across the map, in rms heights about the plane, from which there is a tilt: at a few per cent
 /// of contact, some two rms heights above the mean, a fifth gives one side of Gaussian heights half as much contact
@@ -156,7 +157,7 @@ impl Warning {
         found.extend(tilt(&relief, surface.grid()));
         found.extend(open_edges(&relief));
         found.extend(steep(&relief, surface.grid()));
-        found.extend(spikes(&relief));
+        found.extend(spikes(&relief, &Spikes::of(surface.heights(), &relief)));
         found
     }
 
@@ -397,8 +398,7 @@ fn steep(relief: &Relief, grid: &Grid) -> Option<Warning> {
     Some(Warning { code: WarningCode::Steep, message })
 }
 
-fn spikes(relief: &Relief) -> Option<Warning> {
-    let spikes = &relief.spikes;
+fn spikes(relief: &Relief, spikes: &Spikes) -> Option<Warning> {
     if spikes.count == 0 {
         return None;
     }

@@ -3,9 +3,7 @@
 
 use ndarray::Array2;
 
-use super::LONE;
 use super::extremes::Extremes;
-use super::spikes::Spikes;
 use crate::field::flat;
 use crate::par;
 use crate::vector::{LANES, vectorised};
@@ -75,8 +73,11 @@ pub struct Relief {
     pub unit: f64,
     /// Along x and along y.
     pub sides: [Side; 2],
-    pub spikes: Spikes,
-    pub(super) mean: f64,
+    /// The mean height.
+    pub mean: f64,
+    /// The greatest step between neighbours along x.
+    pub greatest_single_step: f64,
+    pub scale: Scale,
     mean_square: f64,
 }
 
@@ -107,19 +108,14 @@ impl Relief {
         let (edge, column_edge) = (rows[0][2] / ny as f64, column_steps.pop().unwrap_or_default());
         let mean = row_means.iter().sum::<f64>() / nx as f64;
         let sides = [Side::new(&row_means, &row_steps, edge), Side::new(&column_means, &column_steps, column_edge)];
-        let mut relief = Self {
+        Self {
             unit: scale.inverse.recip(),
             sides,
-            spikes: Spikes::default(),
             mean,
+            greatest_single_step: rows.iter().fold(0.0, |greatest: f64, row| greatest.max(row[3])),
+            scale,
             mean_square: squares / nodes - mean * mean,
-        };
-        // from each neighbour a spike differs by more than half of its distance from their mean
-        let greatest = rows.iter().fold(0.0, |greatest: f64, row| greatest.max(row[3]));
-        if nx == 1 || greatest > (1.0 - 1.0 / LONE) * relief.rms_about_plane() {
-            relief.spikes = Spikes::of(heights, &relief, scale);
         }
-        relief
     }
 
     /// Whether there is but one row, or one column, of nodes.

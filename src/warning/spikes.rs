@@ -25,9 +25,13 @@ impl Spikes {
     /// The nodes whose distance from the mean of their eight neighbours (two on a line) exceeds the rms height about
     /// the plane, [`SPIKE`] times the rms of this distance, and [`LONE`] times the range of the neighbours. The edges
     /// of the map are left out.
-    pub fn of(heights: &Array2<f64>, relief: &Relief, scale: Scale) -> Self {
-        let rms = relief.rms_about_plane();
+    pub fn of(heights: &Array2<f64>, relief: &Relief) -> Self {
+        let (rms, scale) = (relief.rms_about_plane(), relief.scale);
         let (nx, ny) = heights.dim();
+        // from each neighbour a spike differs by more than half of its distance from their mean
+        if nx > 1 && relief.greatest_single_step <= (1.0 - 1.0 / LONE) * rms {
+            return Self::default();
+        }
         let slope = [relief.sides[0].drop / nx as f64, relief.sides[1].drop / ny as f64];
         let centre = [0.5 * (nx as f64 - 1.0), 0.5 * (ny as f64 - 1.0)];
         let mut blocks = vec![Block::default(); nx.div_ceil(BLOCK)];
