@@ -151,8 +151,8 @@ impl Quantity {
     }
 }
 
-/// What the nodes in contact beyond the edge tell of the relative error of the corrected area: how the edge scatters
-/// between the nodes, but for a factor, and the part of the adhesion.
+/// The scatter of the edge between the nodes, but for a factor, and the part of the adhesion in the relative error of
+/// the corrected area, by the nodes in contact beyond the edge.
 fn at_edge(area: &ContactArea, mu_rho: f64) -> [f64; 2] {
     let beyond = (area.contact_fraction / area.corrected_contact_fraction - 1.0).abs();
     [(beyond / area.contact_nodes as f64).sqrt(), 0.1 * mu_rho * mu_rho.sqrt() * beyond]

@@ -10,7 +10,9 @@ use crate::solver::Solution;
 /// The distribution of the pressure over the surface: a histogram, as a probability density.
 ///
 /// Fields are those of the whole surface, which processes that share a grid put together by
-/// [`Grid::gathered`](crate::Grid::gathered). The bins are equally wide; a bin has its lower edge, the last one its upper edge too. The density of a bin is the
+/// [`Grid::gathered`](crate::Grid::gathered).
+///
+/// The bins are equally wide; a bin has its lower edge, the last one its upper edge too. The density of a bin is the
 /// share of the nodes, but for absent ones, whose pressure is in it, divided by its width: Σ density · width is the
 /// share of the nodes that are counted, and Σ density · pressure · width is about the mean pressure that they
 /// contribute.
@@ -60,11 +62,10 @@ impl PressureDistribution {
         contact_pressure: ArrayView2<'_, T>,
         bins: usize,
     ) -> Result<Self> {
-        let pressure = contact_pressure;
-        checked("contact pressure", pressure, bins)?;
-        Error::shape("contact pressure", pressure.dim(), gap.dim())?;
-        let contact = contact_map(gap, pressure);
-        let counted = || contact.iter().zip(pressure).filter(|(touches, _)| **touches).map(|(_, p)| p.widen());
+        checked("contact pressure", contact_pressure, bins)?;
+        Error::shape("contact pressure", contact_pressure.dim(), gap.dim())?;
+        let contact = contact_map(gap, contact_pressure);
+        let counted = || contact.iter().zip(contact_pressure).filter(|(touches, _)| **touches).map(|(_, p)| p.widen());
         let high = counted().fold(0.0, f64::max);
         Ok(Self::count(counted(), (0.0, if high > 0.0 { high } else { 1.0 }), bins, facing(gap)))
     }

@@ -479,7 +479,7 @@ impl AdhesionLaw<f64> for ByNode {
 
 /// A law that counts the evaluations of its energy alone, and says that this is concave or does not.
 struct Counting<'a> {
-    law: &'a dyn AdhesionLaw<f64>,
+    law: Box<dyn AdhesionLaw<f64> + 'a>,
     concave: bool,
     energies: AtomicUsize,
 }
@@ -498,8 +498,11 @@ impl AdhesionLaw<f64> for Counting<'_> {
         self.concave
     }
     fn smoothed(&self, compliance: f64) -> Option<Box<dyn AdhesionLaw<f64> + '_>> {
-        // on the way to the start alone
-        Some(Box::new(Smoothed { law: self.law.smoothed(compliance)?, concave: self.concave }))
+        Some(Box::new(Counting {
+            law: self.law.smoothed(compliance)?,
+            concave: self.concave,
+            energies: AtomicUsize::new(0),
+        }))
     }
     fn energies(&self, first: usize, gaps: &[f64], energies: &mut [f64]) {
         self.energies.fetch_add(gaps.len(), Ordering::Relaxed);
@@ -508,27 +511,6 @@ impl AdhesionLaw<f64> for Counting<'_> {
     fn energies_and_tractions(&self, first: usize, gaps: &[f64], energies: &mut [f64], tractions: &mut [f64]) {
         self.law.energies(first, gaps, energies);
         self.law.tractions(first, gaps, tractions);
-    }
-}
-
-/// A smoothed law that says that its energy is concave or does not.
-struct Smoothed<'a> {
-    law: Box<dyn AdhesionLaw<f64> + 'a>,
-    concave: bool,
-}
-
-impl AdhesionLaw<f64> for Smoothed<'_> {
-    fn energy(&self, gap: f64) -> f64 {
-        self.law.energy(gap)
-    }
-    fn traction(&self, gap: f64) -> f64 {
-        self.law.traction(gap)
-    }
-    fn slope(&self, gap: f64) -> f64 {
-        self.law.slope(gap)
-    }
-    fn is_concave(&self) -> bool {
-        self.concave
     }
 }
 
@@ -541,7 +523,8 @@ fn a_concave_energy_is_not_searched_for_a_descent() {
     for law in laws {
         for control in [Control::MeanPressure(0.01), Control::MeanGap(0.02)] {
             let solved = |concave| {
-                let mut problem = rough::<f64, _>(64, 8, Counting { law, concave, energies: AtomicUsize::new(0) });
+                let mut problem =
+                    rough::<f64, _>(64, 8, Counting { law: Box::new(law), concave, energies: AtomicUsize::new(0) });
                 let solution = Solver::default().solve(&mut problem, control).unwrap();
                 (solution, problem.law().energies.load(Ordering::Relaxed) / 64 / 64)
             };
