@@ -210,41 +210,52 @@ impl<T: Real> Stiffness<T> {
 
 fn modify<T: Real, U: Copy>(column: &mut [Complex<T>], of: &[U], by: impl Fn(U) -> [T; 3]) -> Sums {
     let mut sums = [0.0; 3];
-    let mut factors = [[T::zero(); BLOCK]; 3];
     let total = &mut sums;
     vectorised(
         #[inline(always)]
         move || {
-            let mut lanes = [[0.0; LANES]; 2];
-            for (modes, of) in column.chunks_mut(BLOCK).zip(of.chunks(BLOCK)) {
-                for (i, &of) in of.iter().enumerate() {
-                    let [factor, a, b] = by(of);
-                    (factors[0][i], factors[1][i], factors[2][i]) = (factor, a, b);
-                }
-                for factors in &mut factors[1..] {
-                    factors[of.len()..].fill(T::zero());
-                }
-                let mut powers = [0.0; BLOCK];
-                for (power, z) in powers.iter_mut().zip(modes.iter()) {
-                    *power = z.re.widen() * z.re.widen() + z.im.widen() * z.im.widen();
-                }
-                for (z, &factor) in modes.iter_mut().zip(&factors[0]) {
-                    *z = Complex::new(z.re * factor, z.im * factor);
-                }
-                for (lanes, factors) in lanes.iter_mut().zip(&factors[1..]) {
-                    for k in 0..BLOCK / LANES {
-                        for l in 0..LANES {
-                            lanes[l] += powers[k * LANES + l] * factors[k * LANES + l].widen();
-                        }
-                    }
-                }
+            let (mut lanes, mut buffers) = ([[0.0; LANES]; 2], ([T::zero(); BLOCK], [[0.0; BLOCK]; 2]));
+            let mut blocks = column.chunks_exact_mut(BLOCK);
+            let mut ofs = of.chunks_exact(BLOCK);
+            for (modes, of) in blocks.by_ref().zip(ofs.by_ref()) {
+                block(modes, of, &by, &mut buffers, &mut lanes);
             }
+            buffers.1 = [[0.0; BLOCK]; 2];
+            block(blocks.into_remainder(), ofs.remainder(), &by, &mut buffers, &mut lanes);
             for (total, lanes) in total.iter_mut().zip(&lanes) {
                 *total = lanes.iter().sum();
             }
         },
     );
     sums
+}
+
+/// Modifies a block of a column, and adds to its sums.
+#[inline(always)]
+fn block<T: Real, U: Copy>(
+    modes: &mut [Complex<T>],
+    of: &[U],
+    by: &impl Fn(U) -> [T; 3],
+    (factors, terms): &mut ([T; BLOCK], [[f64; BLOCK]; 2]),
+    lanes: &mut [[f64; LANES]; 2],
+) {
+    for (i, (z, &of)) in modes.iter().zip(of).enumerate() {
+        let [factor, a, b] = by(of);
+        let power = z.re.widen() * z.re.widen() + z.im.widen() * z.im.widen();
+        factors[i] = factor;
+        terms[0][i] = power * a.widen();
+        terms[1][i] = power * b.widen();
+    }
+    for (z, &factor) in modes.iter_mut().zip(&*factors) {
+        *z = Complex::new(z.re * factor, z.im * factor);
+    }
+    for (lanes, terms) in lanes.iter_mut().zip(&*terms) {
+        for terms in terms.chunks_exact(LANES) {
+            for (lane, term) in lanes.iter_mut().zip(terms) {
+                *lane += term;
+            }
+        }
+    }
 }
 
 /// The factors of the pressure and, for the work, of |z|².
