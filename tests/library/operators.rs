@@ -197,12 +197,14 @@ fn bad_operators_are_refused() {
 }
 
 #[test]
-fn an_application_allocates_nothing() {
+fn an_application_after_the_first_allocates_nothing() {
     rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap().install(|| {
         for shape in [(64, 64), (4096, 1), (1, 4095), (4, 100)] {
             let grid = Grid::new(shape, (1.0, 1.0)).unwrap();
             let mut operator = Westergaard::<f64>::new(grid, 1.0).unwrap();
             let (u, mut p) = (noise(shape, 1), Array2::zeros(shape));
+            // the first takes the memory of the spectrum
+            operator.pressure(u.view(), p.view_mut()).unwrap();
             let count = allocation_counter::measure(|| {
                 operator.pressure(u.view(), p.view_mut()).unwrap();
                 operator.displacement(u.view(), p.view_mut()).unwrap();
