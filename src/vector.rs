@@ -26,6 +26,31 @@ pub(crate) fn vectorised(f: impl FnMut()) {
     Arch::new().dispatch(Vectorised(f));
 }
 
+/// The lowest and the highest of no values.
+pub(crate) const NOTHING: (f64, f64) = (f64::INFINITY, f64::NEG_INFINITY);
+
+/// The lowest and the highest of some values, those left out that are not a number.
+pub(crate) fn range(values: &[f64]) -> (f64, f64) {
+    let (whole, rest) = values.as_chunks::<LANES>();
+    let (mut low, mut high) = ([NOTHING.0; LANES], [NOTHING.1; LANES]);
+    let (lows, highs) = (&mut low, &mut high);
+    vectorised(
+        #[inline(always)]
+        move || {
+            let (mut low, mut high) = ([NOTHING.0; LANES], [NOTHING.1; LANES]);
+            for values in whole {
+                for l in 0..LANES {
+                    low[l] = if values[l] < low[l] { values[l] } else { low[l] };
+                    high[l] = if values[l] > high[l] { values[l] } else { high[l] };
+                }
+            }
+            (*lows, *highs) = (low, high);
+        },
+    );
+    let (low, high) = (low.into_iter().chain(rest.iter().copied()), high.into_iter().chain(rest.iter().copied()));
+    (low.fold(NOTHING.0, f64::min), high.fold(NOTHING.1, f64::max))
+}
+
 /// Sums the terms of a chunk's nodes. With `least name`, the loop sets `name[i]` too, of which the least is found.
 macro_rules! sums {
     ($count:literal, [$($read:ident),*], [$($write:ident),*], $(least $low:ident,)? |$i:ident| $terms:expr) => {{
