@@ -6,6 +6,7 @@ use crate::derivatives::{self, GAPS, Named};
 use crate::error::{Error, Result};
 use crate::grid::Grid;
 use crate::real::Real;
+use crate::vector::vectors;
 
 mod cut_off;
 mod exponential;
@@ -158,19 +159,25 @@ pub trait AdhesionLaw<T: Real>: Send + Sync {
     /// that can use vector instructions writes them for speed. They must not depend on where the slices begin and end.
     fn energies(&self, first: usize, gaps: &[T], energies: &mut [T]) {
         let _ = first;
-        energies.iter_mut().zip(gaps).for_each(|(e, &g)| *e = self.energy(g));
+        vectors!([gaps], [energies], |i| {
+            energies[i] = self.energy(gaps[i]);
+        });
     }
 
     /// The tractions at the nodes from `first` on.
     fn tractions(&self, first: usize, gaps: &[T], tractions: &mut [T]) {
         let _ = first;
-        tractions.iter_mut().zip(gaps).for_each(|(t, &g)| *t = self.traction(g));
+        vectors!([gaps], [tractions], |i| {
+            tractions[i] = self.traction(gaps[i]);
+        });
     }
 
     /// The slopes of the traction at the nodes from `first` on.
     fn slopes(&self, first: usize, gaps: &[T], slopes: &mut [T]) {
         let _ = first;
-        slopes.iter_mut().zip(gaps).for_each(|(s, &g)| *s = self.slope(g));
+        vectors!([gaps], [slopes], |i| {
+            slopes[i] = self.slope(gaps[i]);
+        });
     }
 
     /// Energies and tractions at once, for a law of which one follows from the other.

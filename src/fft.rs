@@ -108,9 +108,16 @@ impl<T: Real> Convolver<T> {
             column: vec![Complex::zero(); line],
             scratch: vec![Complex::zero(); scratch],
         });
-        let spectrum = Array2::zeros(layout.spectrum_of(&slab));
+        let spectrum = Array2::zeros((0, 0));
         let (twiddles, sums) = (Twiddles::new(&layout), vec![[0.0; 3]; own.len()]);
         Self { slab, layout, twiddles, rows, columns, spectrum, own, sums, pool, shared }
+    }
+
+    /// Takes the memory of the spectrum, unless it is there.
+    fn take_memory(&mut self) {
+        if self.spectrum.is_empty() {
+            self.spectrum = Array2::zeros(self.layout.spectrum_of(&self.slab));
+        }
     }
 
     /// Gives back the spectrum; the next convolution takes it anew.
@@ -152,9 +159,7 @@ impl<T: Real> Convolver<T> {
         Error::shape("operator input", input.dim(), held)?;
         Error::shape("operator output", output.dim(), held)?;
         let norm = T::lit(1.0 / (shape.0 as f64 * shape.1 as f64));
-        if self.spectrum.is_empty() {
-            self.spectrum = Array2::zeros(self.layout.spectrum_of(&self.slab));
-        }
+        self.take_memory();
         if held.0 > 0 {
             self.rows_forward(self.layout.view(&input).view());
         }
@@ -232,6 +237,7 @@ impl<T: Real> Convolver<T> {
 pub(crate) fn powers(field: ArrayView2<'_, f64>) -> Array2<f64> {
     let (n0, n1) = field.dim();
     let mut convolver = Convolver::with(Slab::whole((n0, n1)), Layout::plain((n0, n1)));
+    convolver.take_memory();
     convolver.rows_forward(field);
     let Convolver { columns, spectrum, pool, .. } = &mut convolver;
     let norm = (n0 as f64 * n1 as f64).recip().powi(2);
@@ -249,6 +255,7 @@ pub(crate) fn powers(field: ArrayView2<'_, f64>) -> Array2<f64> {
 /// this process transforms.
 pub(crate) fn even_modes(slab: Slab, field: ArrayView2<'_, f64>) -> Array2<f64> {
     let mut convolver = Convolver::new(slab);
+    convolver.take_memory();
     if !field.is_empty() {
         convolver.rows_forward(convolver.layout.view(&field).view());
     }
@@ -274,6 +281,7 @@ pub(crate) fn synthesise(
     fill: impl Fn(usize, &mut [Complex<f64>]) -> f64 + Sync + Send,
 ) -> (Array2<f64>, f64) {
     let mut convolver = Convolver::with(slab, Layout::plain(slab.shape()));
+    convolver.take_memory();
     let Convolver { columns, spectrum, own, sums, pool, shared, layout, .. } = &mut convolver;
     let mut columns_of = ColumnsOf { own: own.clone(), spectrum, shared, pool, sums, n0: layout.plane().0 };
     columns_of.each(usize::MAX, |k, column, scratch| {

@@ -23,7 +23,7 @@ type Symbol = Arc<dyn Fn(f64, f64) -> f64 + Send + Sync>;
 /// k = E*|q|/2, see [`Westergaard`].
 ///
 /// Memory per node, in units of one scalar: 1 for the spectrum, which a solve in `f64` gives back, and ½ for the
-/// stiffness, of which such a solve has one in `f32`, too; both once more, in `f64`,
+/// stiffness, of which such a solve has one in `f32`, too; in `f32` both once more, in `f64`,
 /// while the constructor of a [`Problem`](crate::Problem) transforms the heights.
 ///
 /// ```
@@ -152,13 +152,13 @@ impl<'a> Compiled for Apply<'a> {
 struct PressFlat<'a>(PhantomData<&'a ()>);
 
 impl<'a> Compiled for PressFlat<'a> {
-    type Input<T: Real> = (&'a Spectral<T>, ArrayView2<'a, f64>, ArrayViewMut2<'a, T>);
+    type Input<T: Real> = (&'a mut Spectral<T>, ArrayView2<'a, f64>, ArrayViewMut2<'a, T>);
     type Output<T: Real> = Result<Sums>;
     fn single((operator, heights, pressure): Self::Input<f32>) -> Result<Sums> {
-        operator.press_flat(heights, pressure)
+        operator.in_double()?.convolve(heights, pressure, Factor::Stiffness)
     }
     fn double((operator, heights, pressure): Self::Input<f64>) -> Result<Sums> {
-        operator.press_flat(heights, pressure)
+        operator.convolve(heights, pressure, Factor::Stiffness)
     }
 }
 
@@ -167,7 +167,12 @@ impl<T: Real> Spectral<T> {
         T::call::<Apply<'_>>((self, input, output, factor))
     }
 
-    fn convolve(&mut self, input: ArrayView2<'_, T>, output: ArrayViewMut2<'_, T>, factor: Factor<'_>) -> Result<Sums> {
+    fn convolve<U: Real>(
+        &mut self,
+        input: ArrayView2<'_, T>,
+        output: ArrayViewMut2<'_, U>,
+        factor: Factor<'_>,
+    ) -> Result<Sums> {
         let Self { stiffness, range: (softest, _), convolver, .. } = self;
         let layout = convolver.layout();
         match factor {
@@ -202,15 +207,19 @@ impl<T: Real> Spectral<T> {
         }
     }
 
-    fn press_flat(&self, heights: ArrayView2<'_, f64>, pressure: ArrayViewMut2<'_, T>) -> Result<Sums> {
+    /// The same operator with a stiffness in another precision.
+    fn with<U: Real>(&self, stiffness: Stiffness<U>, range: (f64, f64)) -> Spectral<U> {
+        let (grid, modulus, symbol) = (self.grid, self.modulus, Arc::clone(&self.symbol));
+        Spectral { grid, modulus, symbol, stiffness, range, convolver: Convolver::new(grid.slab()) }
+    }
+
+    fn in_double(&self) -> Result<Spectral<f64>> {
         let stiffness = match &self.stiffness {
             Stiffness::Stored(_) => Stiffness::Stored(stiffness(&self.grid, &self.symbol)?),
             Stiffness::Even(modes) => Stiffness::Even(Arc::clone(modes)),
             Stiffness::HalfSpace { .. } | Stiffness::Line { .. } => half_space(&self.grid, self.modulus)?.0,
         };
-        let layout = self.convolver.layout();
-        Convolver::<f64>::new(self.grid.slab())
-            .convolve(heights, pressure, |k, column| weigh(layout, k, stiffness.modify(k, column, stiffen)))
+        Ok(self.with(stiffness, self.range))
     }
 
     /// The number of nodes squared, over which a sum over modes is a mean over nodes.
@@ -262,8 +271,7 @@ impl<T: Real> ElasticOperator<T> for Spectral<T> {
             }
             Stiffness::HalfSpace { .. } | Stiffness::Line { .. } => half_space(&self.grid, self.modulus).ok()?,
         };
-        let (grid, modulus, symbol) = (self.grid, self.modulus, Arc::clone(&self.symbol));
-        Some(Box::new(Spectral { grid, modulus, symbol, stiffness, range, convolver: Convolver::new(grid.slab()) }))
+        Some(Box::new(self.with(stiffness, range)))
     }
 
     fn takes_slabs(&self) -> bool {

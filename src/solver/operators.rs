@@ -64,7 +64,6 @@ pub(super) struct Two<'a> {
 
 impl<'a> Two<'a> {
     pub(super) fn new(state: &'a mut dyn ElasticOperator<f64>, corrections: Box<dyn ElasticOperator<f32>>) -> Self {
-        state.release_memory();
         Self { state, corrections }
     }
 
@@ -89,6 +88,7 @@ impl Operators<f64, f32> for Two<'_> {
         self.state
     }
     fn corrections(&mut self) -> &mut dyn ElasticOperator<f32> {
+        self.state.release_memory();
         &mut *self.corrections
     }
     fn pressure(&mut self, gap: &Array2<f64>, pressure: &mut Array2<f64>, idle: &mut [&mut Array2<f32>]) -> Result<()> {

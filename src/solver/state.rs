@@ -111,8 +111,6 @@ impl<'a, T: Real, L: Real> State<'a, T, L> {
             Some(gap) => (gap, Array2::zeros(shape)),
             None => (Array2::from_elem(shape, T::lit(uniform_start(law, flat, load))), flat.pressure.clone()),
         };
-        let preconditioned = settings.method == Method::Preconditioned;
-        let coarse = if preconditioned { Coarse::of(&*operators.corrections()) } else { None };
         let mut state = Self {
             operators,
             law,
@@ -132,7 +130,7 @@ impl<'a, T: Real, L: Real> State<'a, T, L> {
             preconditioned: Preconditioned::default(),
             momentum: None,
             step_length: 1.0,
-            coarse,
+            coarse: None,
             near: false,
             residual_norm: None,
             progress: Progress::NONE,
@@ -150,6 +148,9 @@ impl<'a, T: Real, L: Real> State<'a, T, L> {
             state.work = state.count();
         } else {
             state.refresh()?;
+        }
+        if settings.method == Method::Preconditioned {
+            state.coarse = Coarse::of(&*state.operators.corrections());
         }
         state.start_gap = state.mean_gap();
         state.check_start()?;
