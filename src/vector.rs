@@ -2,9 +2,12 @@
 
 use pulp::{Arch, Simd, WithSimd};
 
-/// The nodes whose terms are stored before they are summed: a loop without sums vectorises. So few that to clear the
-/// place of these terms, for each chunk anew, takes hardly any time.
-pub(crate) const BLOCK: usize = 32;
+/// The modes of a spectrum whose terms are stored before they are summed: a loop without sums vectorises.
+pub(crate) const BLOCK: usize = 64;
+
+/// The nodes of which the same is done: so few that to clear the place of their terms, for each chunk anew, takes hardly
+/// any time. The sums do not depend on it.
+pub(crate) const NODES: usize = 32;
 
 /// Sums that run side by side.
 pub(crate) const LANES: usize = 8;
@@ -63,13 +66,13 @@ macro_rules! sums {
         $crate::vector::vectorised(
             #[inline(always)]
             move || {
-                use $crate::vector::{BLOCK, LANES};
+                use $crate::vector::{LANES, NODES};
                 let len = usize::MAX$(.min($read.len()))*$(.min($write.len()))*;
-                let (mut lanes, mut block) = ([[0.0_f64; LANES]; $count], [[0.0_f64; BLOCK]; $count]);
-                $(let (mut least, mut $low) = ([f64::INFINITY; LANES], [f64::INFINITY; BLOCK]);)?
+                let (mut lanes, mut block) = ([[0.0_f64; LANES]; $count], [[0.0_f64; NODES]; $count]);
+                $(let (mut least, mut $low) = ([f64::INFINITY; LANES], [f64::INFINITY; NODES]);)?
                 let mut start = 0;
                 while start < len {
-                    let size = BLOCK.min(len - start);
+                    let size = NODES.min(len - start);
                     $(let $read = &$read[start..start + size];)*
                     $(let $write = &mut $write[start..start + size];)*
                     for $i in 0..size {
@@ -78,20 +81,20 @@ macro_rules! sums {
                             block[s][$i] = terms[s];
                         }
                     }
-                    if size < BLOCK {
+                    if size < NODES {
                         for s in 0..$count {
                             block[s][size..].fill(0.0);
                         }
                         $($low[size..].fill(f64::INFINITY);)?
                     }
                     for s in 0..$count {
-                        for k in 0..BLOCK / LANES {
+                        for k in 0..NODES / LANES {
                             for l in 0..LANES {
                                 lanes[s][l] += block[s][k * LANES + l];
                             }
                         }
                     }
-                    $(for k in 0..BLOCK / LANES {
+                    $(for k in 0..NODES / LANES {
                         for l in 0..LANES {
                             let low = $low[k * LANES + l];
                             least[l] = if low < least[l] { low } else { least[l] };
