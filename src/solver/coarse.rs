@@ -105,13 +105,12 @@ impl Coarse {
                 count_columns(nodes.chunks(ny), &columns, (&mut touching, &mut along), |k, value| {
                     touches(node + k, value)
                 });
-                for (b, sums) in counts.iter_mut().enumerate().take(columns.end.div_ceil(block.1)).skip(first / block.1)
-                {
+                for b in first / block.1..columns.end.div_ceil(block.1) {
                     for k in columns.start.max(b * block.1)..columns.end.min((b + 1) * block.1) {
                         let [count, along] = [touching[k - first], along[k - first]].map(u64::from);
                         let (along, place) = (from as u64 * count + along, (k - b * block.1) as u64);
                         let more = [count, place * count, along, place * along];
-                        sums.iter_mut().zip(more).for_each(|(sum, more)| *sum += more);
+                        counts[b].iter_mut().zip(more).for_each(|(sum, more)| *sum += more);
                     }
                 }
             }
@@ -151,8 +150,8 @@ impl Coarse {
 }
 
 /// Counts the nodes in contact in some columns of a few rows, and adds up the numbers of their rows.
-fn count_columns<'a, T: Real>(
-    rows: Chunks<'a, T>,
+fn count_columns<T: Real>(
+    rows: Chunks<'_, T>,
     columns: &Range<usize>,
     (counts, along): (&mut [u32], &mut [u32]),
     touches: impl Fn(usize, T) -> bool,
