@@ -395,7 +395,7 @@ where
     }
 
     /// The least gaps after a step.
-    fn least(&self) -> Option<Least<T>> {
+    fn least(&self) -> Least<T> {
         Potential::new(&self.problem.law, &self.solver.constraint, None).least()
     }
 

@@ -12,6 +12,10 @@ pub(crate) const NODES: usize = 32;
 /// Sums that run side by side.
 pub(crate) const LANES: usize = 8;
 
+/// The terms of a block, where no vector of them crosses a line of the cache.
+#[repr(align(64))]
+pub(crate) struct Aligned<T>(pub(crate) T);
+
 /// A closure to run on vector instructions. Held in a struct it is inlined; called by value it would be compiled as a
 /// function of its own, without them.
 struct Vectorised<F>(F);
@@ -66,15 +70,17 @@ macro_rules! sums {
         $crate::vector::vectorised(
             #[inline(always)]
             move || {
-                use $crate::vector::{LANES, NODES};
+                use $crate::vector::{Aligned, LANES, NODES};
                 let len = usize::MAX$(.min($read.len()))*$(.min($write.len()))*;
-                let (mut lanes, mut block) = ([[0.0_f64; LANES]; $count], [[0.0_f64; NODES]; $count]);
-                $(let (mut least, mut $low) = ([f64::INFINITY; LANES], [f64::INFINITY; NODES]);)?
+                let (mut lanes, mut block) = ([[0.0_f64; LANES]; $count], Aligned([[0.0_f64; NODES]; $count]));
+                $(let (mut least, mut $low) = ([f64::INFINITY; LANES], Aligned([f64::INFINITY; NODES]));)?
                 let mut start = 0;
                 while start < len {
                     let size = NODES.min(len - start);
                     $(let $read = &$read[start..start + size];)*
                     $(let $write = &mut $write[start..start + size];)*
+                    let block = &mut block.0;
+                    $(let $low = &mut $low.0;)?
                     for $i in 0..size {
                         let terms: [f64; $count] = $terms;
                         for s in 0..$count {

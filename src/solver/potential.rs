@@ -23,6 +23,11 @@ pub(crate) struct Least<T> {
 }
 
 impl<T: Real> Least<T> {
+    /// A gap of any size.
+    fn unbounded() -> Self {
+        Self { rest: T::infinity(), share: T::zero(), depth: T::infinity() }
+    }
+
     /// The least gap of a node that has this gap before the step.
     #[inline(always)]
     pub(crate) fn after(self, gap: T) -> T {
@@ -31,8 +36,8 @@ impl<T: Real> Least<T> {
 }
 
 /// A gap that is wanted in the place of another, or the least that it may become.
-pub(crate) fn bounded<T: Real>(least: Option<Least<T>>, gap: T, wanted: T) -> T {
-    least.map_or(wanted, |least| wanted.max(least.after(gap)))
+pub(crate) fn bounded<T: Real>(least: Least<T>, gap: T, wanted: T) -> T {
+    wanted.max(least.after(gap))
 }
 
 /// The local energy of every node: the adhesion law, and the constraint where it is a term of the energy.
@@ -147,18 +152,23 @@ impl<'a, T: Real> Potential<'a, T> {
         matches!(self.wall, Some(Wall::Rigid))
     }
 
+    /// The largest gap of a node in contact with a rigid wall, which is zero; −∞ where there is none.
+    pub(crate) fn touching(&self) -> T {
+        if self.projects() { T::zero() } else { T::neg_infinity() }
+    }
+
     /// The least gap after a step: zero at a rigid wall. Where the law itself repels, a node lands at the gap of rest,
     /// from where the slope of the law is that of its repulsion, and keeps below it a part of its gap, if the repulsion
     /// has no bound at zero gap. Elsewhere a gap may become negative.
-    pub(crate) fn least(&self) -> Option<Least<T>> {
-        match self.wall {
-            Some(Wall::Rigid) => Some(Least { rest: T::zero(), share: T::zero(), depth: T::zero() }),
-            Some(Wall::None) => {
+    pub(crate) fn least(&self) -> Least<T> {
+        match (self.wall, self.law.rest()) {
+            (Some(Wall::Rigid), _) => Least { rest: T::zero(), share: T::zero(), depth: T::zero() },
+            (Some(Wall::None), Some(rest)) => {
                 let bounded = self.law.energy(T::zero()).is_finite();
                 let [share, depth] = if bounded { [T::zero(), T::infinity()] } else { [T::lit(CLOSER), T::zero()] };
-                self.law.rest().map(|rest| Least { rest, share, depth })
+                Least { rest, share, depth }
             }
-            Some(Wall::Springs(_)) | None => None,
+            _ => Least::unbounded(),
         }
     }
 

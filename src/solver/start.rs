@@ -131,7 +131,7 @@ pub(super) fn given_start<T: Real>(
 pub(crate) fn extrapolated<T: Real>(
     [before, last]: [&Array2<T>; 2],
     steps: f64,
-    least: Option<Least<T>>,
+    least: Least<T>,
     (window, slab): (Option<&Window>, Slab),
 ) -> Array2<T> {
     let (steps, mut next) = (T::lit(steps), last.clone());

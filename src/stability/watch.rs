@@ -121,7 +121,7 @@ impl<T: Real> Watch<T> {
     pub(crate) fn displace(
         &self,
         (gap, slab): (&mut Array2<T>, Slab),
-        least: Option<Least<T>>,
+        least: Least<T>,
         largest: f64,
         share: Option<f64>,
     ) {

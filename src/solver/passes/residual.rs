@@ -52,8 +52,8 @@ fn works<T: Real>(residual: T) -> T {
 
 /// r' of a node, and whether it may move.
 #[inline(always)]
-fn residual_of<T: Real, L: Real>(projects: bool, w: Working<T>, gap: T, r: T) -> (L, bool) {
-    let may = !projects | (gap > T::zero()) | (r < w.release);
+fn residual_of<T: Real, L: Real>(touching: T, w: Working<T>, gap: T, r: T) -> (L, bool) {
+    let may = (gap > touching) | (r < w.release);
     (if may { works(cast(r - w.level)) } else { L::neg_zero() }, may)
 }
 
@@ -72,12 +72,12 @@ pub(in crate::solver) fn released<T: Real, L: Real>(
         |least| least < limit,
         read(gap).zip(read(pressure)),
         |local, first, (gap, pressure)| {
-            let projects = local.projects();
+            let touching = local.touching();
             let mut buffer = [T::zero(); CHUNK];
             let tractions = tractions(local, first, gap, &mut buffer);
             sums!(2, [gap, pressure, tractions], [], |i| {
                 let r = pressure[i] + tractions[i] + offset;
-                let released = projects & (gap[i] <= T::zero()) & (r < release);
+                let released = (gap[i] <= touching) & (r < release);
                 [count(released), if released { r.widen() } else { 0.0 }]
             })
         },
@@ -94,12 +94,12 @@ pub(in crate::solver) fn residual<T: Real, L: Real>(
     let Fields { reducer, moving, gap, pressure, residual, preconditioned, change, .. } = fields;
     let chunks = read(gap).zip(read(pressure)).zip(write(residual)).zip(read(preconditioned)).zip(read(change));
     let total = local.run(reducer, chunks, |local, first, ((((gap, pressure), residual), z), change)| {
-        let projects = local.projects();
+        let touching = local.touching();
         let mut buffer = [T::zero(); CHUNK];
         let tractions = tractions(local, first, gap, &mut buffer);
         sums!(6, [gap, pressure, tractions, z, change], [residual], |i| {
             let r = pressure[i] + tractions[i] + working.offset;
-            let (r, may): (L, _) = residual_of(projects, working, gap[i], r);
+            let (r, may): (L, _) = residual_of(touching, working, gap[i], r);
             let difference = (r - residual[i]).widen();
             residual[i] = r;
             let [r, d, z] = [r, change[i], z[i]].map(L::widen);
@@ -115,14 +115,14 @@ pub(in crate::solver) fn residual<T: Real, L: Real>(
 /// The residual r' of a chunk, from the gradient less a constant in the same field, which release and level are less,
 /// too.
 pub(super) fn release_chunk<T: Real, L: Real>(
-    projects: bool,
+    touching: T,
     working: Working<T>,
     gap: &[T],
     (z, change): (&[L], &[L]),
     residual: &mut [L],
 ) -> Partial {
     sums!(5, [gap, z, change], [residual], |i| {
-        let (r, may): (L, _) = residual_of(projects, working, gap[i], cast(residual[i]));
+        let (r, may): (L, _) = residual_of(touching, working, gap[i], cast(residual[i]));
         residual[i] = r;
         let [r, d, z] = [r, change[i], z[i]].map(L::widen);
         [count(may), (gap[i].widen() * r).abs(), r * d, r * z, if may { d } else { 0.0 }]
@@ -139,7 +139,7 @@ pub(in crate::solver) fn release<T: Real, L: Real>(
     let Fields { reducer, moving, gap, residual, preconditioned, change, .. } = fields;
     let chunks = read(gap).zip(write(residual)).zip(read(preconditioned)).zip(read(change));
     let total = local.run(reducer, chunks, |local, _, (((gap, residual), z), change)| {
-        release_chunk(local.projects(), working, gap, (z, change), residual)
+        release_chunk(local.touching(), working, gap, (z, change), residual)
     });
     reducer.keep(|part| part.sum[0], moving);
     let [working, orthogonality, descent, overlap, sum_change, ..] = total.sum;

@@ -83,26 +83,20 @@ fn whole<T: Real>(scale: T, gap: T, change: T) -> T {
     if scale == T::one() { change } else { scale * (gap + change) - gap }
 }
 
-/// The change c of a step at one node, and whether it was clipped: the gap becomes no less than zero where a wall is;
-/// where the law repels, no less than the gap of rest, and from below it than a share of what it is.
+/// The change c of a step at one node of residual r', and whether it was clipped: the gap becomes no less than zero where
+/// a wall is; where the law repels, no less than the gap of rest, and from below it than a share of what it is.
 #[inline(always)]
-fn clipped_change<T: Real, L: Real>(
-    least: Option<Least<T>>,
-    attempt: Attempt<T>,
-    gap: T,
-    residual: L,
-    z: L,
-    change: L,
-) -> (L, bool) {
+fn clipped_change<T: Real>(least: Least<T>, attempt: Attempt<T>, gap: T, [r, z, change]: [T; 3]) -> (T, bool) {
     let Attempt { length, centre, keep, mean } = attempt;
-    let [z, change]: [T; 2] = [cast(z), cast(change)];
     let kept = if keep == T::zero() { T::zero() } else { keep * (change - mean) };
-    let next = if idles(residual) { gap } else { gap - length * (z - centre) + kept };
-    match least.map(|least| least.after(gap)) {
-        Some(least) if next < least => (cast(least - gap), true),
-        _ => (cast(next - gap), false),
-    }
+    let next = if idles(r) { gap } else { gap - length * (z - centre) + kept };
+    let least = least.after(gap);
+    let clipped = next < least;
+    ((if clipped { least } else { next }) - gap, clipped)
 }
+
+/// The slot of the nodes that a wall blocks.
+const BLOCKED: usize = 2;
 
 /// Writes the clipped change c of a step; `surface` is K⁻¹h under gap control.
 pub(in crate::solver) fn trial<T: Real, L: Real>(
@@ -113,7 +107,10 @@ pub(in crate::solver) fn trial<T: Real, L: Real>(
 ) -> Tried {
     let Fields { reducer, gap, residual, preconditioned, change, .. } = fields;
     let chunks = read(gap).zip(read(residual)).zip(read(preconditioned)).zip(write(change));
-    let slopes = |local: &Potential<'_, T>, part: &mut Partial, first, gap: &[T], change: &[L]| {
+    let finish = |local: &Potential<'_, T>, part: &mut Partial, first, gap: &[T], change: &[L]| {
+        if !local.projects() {
+            part.sum[BLOCKED] = 0.0;
+        }
         if local.is_zero() {
             return;
         }
@@ -128,31 +125,31 @@ pub(in crate::solver) fn trial<T: Real, L: Real>(
     };
     let total = match surface {
         None => local.run(reducer, chunks, |local, first, (((gap, residual), z), change)| {
-            let (least, lands) = (local.least(), local.projects());
+            let least = local.least();
             let mut part = sums!(5, [gap, residual, z], [change], |i| {
-                let (g, r) = (gap[i], residual[i]);
-                let (c, clipped) = clipped_change(least, attempt, g, r, z[i], change[i]);
-                change[i] = c;
-                let blocked = lands & clipped & (r > L::zero()) & (g > T::zero());
-                let [r, c] = [r, c].map(L::widen);
+                let (g, r): (_, T) = (gap[i], cast(residual[i]));
+                let (c, clipped) = clipped_change(least, attempt, g, [r, cast(z[i]), cast(change[i])]);
+                change[i] = cast(c);
+                let blocked = clipped & (r > T::zero()) & (g > T::zero());
+                let (r, c) = (r.widen(), change[i].widen());
                 [c, count(clipped), count(blocked), r * c, c * c]
             });
-            slopes(local, &mut part, first, gap, change);
+            finish(local, &mut part, first, gap, change);
             part
         }),
         Some(surface) => {
             let chunks = chunks.zip(read(surface));
             local.run(reducer, chunks, |local, first, ((((gap, residual), z), change), surface)| {
-                let (least, lands) = (local.least(), local.projects());
+                let least = local.least();
                 let mut part = sums!(8, [gap, residual, z, surface], [change], |i| {
-                    let (g, r) = (gap[i], residual[i]);
-                    let (c, clipped) = clipped_change(least, attempt, g, r, z[i], change[i]);
-                    change[i] = c;
-                    let blocked = count(lands & clipped & (r > L::zero()) & (g > T::zero()));
-                    let ([g, h], [r, c]) = ([g, surface[i]].map(T::widen), [r, c].map(L::widen));
-                    [c, count(clipped), blocked, r * c, c * c, r * g, c * h, g * h]
+                    let (g, r): (_, T) = (gap[i], cast(residual[i]));
+                    let (c, clipped) = clipped_change(least, attempt, g, [r, cast(z[i]), cast(change[i])]);
+                    change[i] = cast(c);
+                    let blocked = clipped & (r > T::zero()) & (g > T::zero());
+                    let ([g, h, r], c) = ([g, surface[i], r].map(T::widen), change[i].widen());
+                    [c, count(clipped), count(blocked), r * c, c * c, r * g, c * h, g * h]
                 });
-                slopes(local, &mut part, first, gap, change);
+                finish(local, &mut part, first, gap, change);
                 part
             })
         }
@@ -180,7 +177,7 @@ pub(in crate::solver) fn reach<T: Real, L: Real>(fields: &mut Fields<T, L>, loca
     let Fields { reducer, gap, change, .. } = fields;
     let total = local.run(reducer, read(gap).zip(read(change)), |local, _, (gap, change)| {
         let mut part = Partial::NONE;
-        if local.least().is_some_and(|least| least.depth == T::zero()) {
+        if local.least().depth == T::zero() {
             for (&gap, &change) in gap.iter().zip(change).filter(|&(_, &change)| change < L::zero()) {
                 part.min = part.min.min((gap / -cast::<_, T>(change)).widen());
             }
@@ -251,7 +248,7 @@ pub(in crate::solver) fn advance<T: Real, L: Real>(
             |local, first, ((((gap, pressure), response), change), z)| {
                 take(local.projects(), gap, pressure, change, response);
                 let mut part = finish(local, first, gap, pressure, change, response);
-                let new = release_chunk(local.projects(), working, gap, (z, change), response);
+                let new = release_chunk(local.touching(), working, gap, (z, change), response);
                 part.sum[SUMS - 4..].copy_from_slice(&new.sum[..4]);
                 part
             },

@@ -73,11 +73,11 @@ pub(super) fn tractions<'a, T: Real>(
 }
 
 /// The tally of a chunk by its gap, pressure and traction.
-fn tally_of<T: Real>(projects: bool, offset: T, gap: &[T], pressure: &[T], traction: &[T]) -> Partial {
+fn tally_of<T: Real>(touching: T, offset: T, gap: &[T], pressure: &[T], traction: &[T]) -> Partial {
     sums!(5, [gap, pressure, traction], [], least low, |i| {
         let (g, p) = (gap[i], pressure[i]);
         let r = (p + traction[i] + offset).widen();
-        let touches = projects & (g <= T::zero());
+        let touches = g <= touching;
         let free = count(!touches);
         low[i] = if touches { r } else { f64::INFINITY };
         [free, if touches { 0.0 } else { r }, g.widen(), g.widen() * p.widen(), 1.0 - free]
@@ -92,14 +92,14 @@ pub(super) fn tally_chunk<T: Real>(
     (gap, pressure): (&[T], &[T]),
     tractions: &mut [T],
 ) -> Partial {
-    let projects = local.projects();
+    let touching = local.touching();
     if local.is_zero() {
-        return tally_of(projects, offset, gap, pressure, tractions);
+        return tally_of(touching, offset, gap, pressure, tractions);
     }
     let mut buffer = [T::zero(); CHUNK];
     let values = &mut buffer[..gap.len()];
     local.energies_and_tractions(first, gap, values, tractions);
-    let mut part = tally_of(projects, offset, gap, pressure, tractions);
+    let mut part = tally_of(touching, offset, gap, pressure, tractions);
     let sum = |values: &[T]| sums!(1, [values], [], |i| [values[i].widen()]).sum[0];
     part.sum[6] = sum(values);
     if !local.is_soft() {
