@@ -105,8 +105,9 @@ pub(super) fn given_start<T: Real>(
     let confined = |node: usize| window.is_none_or(|window| window.faces(node));
     // without places, and without an end, the pass is several times as fast
     let some = projects && start.fold(false, |some, &gap| some | (gap < T::zero()));
-    let mut nodes = start.iter().zip(slab.first_node()..).filter(|_| some);
-    let negative = nodes.find(|&(&gap, node)| gap < T::zero() && confined(node)).map_or(Ok(()), |(gap, _)| {
+    let mut nodes = start.iter().zip(slab.first_node()..);
+    let find = || nodes.find(|&(&gap, node)| gap < T::zero() && confined(node));
+    let negative = some.then(find).flatten().map_or(Ok(()), |(gap, _)| {
         let requirement = "zero or positive at every node";
         Err(Error::Value { name: "starting gap", value: gap.widen(), requirement })
     });
