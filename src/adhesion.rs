@@ -401,7 +401,9 @@ mod tests {
         }
         let law = Exponential::new(2.0, 0.5).unwrap();
         check::<f32>(&law);
-        for law in [&law as &dyn AdhesionLaw<f64>, &CutOff::new(law, 1.0).unwrap(), &Morse::new(2.0, 0.5).unwrap()] {
+        let powers = [2.0, 3.5].map(|exponent| PowerLaw::new(2.0, 0.5, exponent).unwrap());
+        let (cut_off, morse) = (CutOff::new(law, 1.0).unwrap(), Morse::new(2.0, 0.5).unwrap());
+        for law in [&law as &dyn AdhesionLaw<f64>, &cut_off, &morse, &powers[0], &powers[1]] {
             check(law);
         }
     }

@@ -124,7 +124,7 @@ fn attracting<T: Real>(
 
 /// The contact map of a gap and a contact pressure of one shape.
 fn contact_map<T: Real>(gap: ArrayView2<'_, T>, contact_pressure: ArrayView2<'_, T>) -> Array2<bool> {
-    Zip::from(gap).and(contact_pressure).map_collect(|&gap, &pressure| gap <= T::zero() || pressure > T::zero())
+    Zip::from(gap).and(contact_pressure).map_collect(|&gap, &pressure| (gap <= T::zero()) | (pressure > T::zero()))
 }
 
 /// Refuses fields that do not have the shape of the grid.

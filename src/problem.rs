@@ -6,10 +6,11 @@ use crate::adhesion::AdhesionLaw;
 use crate::constraint::Wall;
 use crate::elastic::{Boundary, ElasticOperator};
 use crate::error::{Error, Result};
-use crate::field;
+use crate::field::{self, flat};
 use crate::grid::Grid;
 use crate::real::Real;
 use crate::surface::Surface;
+use crate::vector::range;
 
 mod window;
 
@@ -220,11 +221,10 @@ impl<T: Real> PressedFlat<T> {
             }
             None => surface,
         };
-        let (mean, rms_height) = (whole.mean(), whole.rms_height());
+        let mean = whole.mean();
+        let rms_height = whole.rms_about(mean);
         // where nothing faces the body there is no height: those that stand there do not exceed the others
-        let least = (f64::INFINITY, f64::NEG_INFINITY);
-        let (low, high) = surface.heights().iter().fold(least, |(low, high), &h| (low.min(h), high.max(h)));
-        let (low, high) = (slab.least(low), slab.most(high));
+        let (low, high) = surface.grid().extremes(range(flat(surface.heights())));
         let (peak, height_span) = (high - mean, high - low);
         let mut surface_pressure = Array2::zeros(whole.grid().field_shape());
         // a large datum would drown the heights in its rounding; a small one is not worth a copy
@@ -232,8 +232,12 @@ impl<T: Real> PressedFlat<T> {
         let heights = centred.as_ref().unwrap_or(whole.heights()).view();
         let surface_work = operator.surface_pressure(heights, surface_pressure.view_mut())?.max(0.0);
         drop(centred);
-        Error::all_finite_in(slab, "pressure K⁻¹h of the surface pressed flat", surface_pressure.view())?;
-        let stiffness = field::mean_over(slab, surface_pressure.view(), |p: T| p.widen().powi(2)).sqrt() / rms_height;
+        let mean_square = field::mean_over(slab, surface_pressure.view(), |p: T| p.widen().powi(2));
+        // squares may be beyond the range of finite pressures
+        if !mean_square.is_finite() {
+            Error::all_finite_in(slab, "pressure K⁻¹h of the surface pressed flat", surface_pressure.view())?;
+        }
+        let stiffness = mean_square.sqrt() / rms_height;
         let (lx, ly) = grid.lengths();
         Ok(Self {
             pressure: surface_pressure,

@@ -200,8 +200,12 @@ impl Surface {
 
     /// The root mean square of the heights about their mean.
     pub fn rms_height(&self) -> f64 {
-        let mean = self.mean();
-        field::mean_over(self.grid.slab(), self.heights.view(), |h| (h - mean).powi(2)).sqrt()
+        self.rms_about(self.mean())
+    }
+
+    /// The root mean square of the heights about a datum.
+    pub(crate) fn rms_about(&self, datum: f64) -> f64 {
+        field::mean_over(self.grid.slab(), self.heights.view(), |h| (h - datum).powi(2)).sqrt()
     }
 }
 

@@ -2,8 +2,12 @@
 
 use pulp::{Arch, Simd, WithSimd};
 
-/// The nodes whose terms are stored before they are summed: a loop without sums vectorises.
+/// The modes of a spectrum whose terms are stored before they are summed: a loop without sums vectorises.
 pub(crate) const BLOCK: usize = 64;
+
+/// The nodes of which the same is done: so few that to clear the place of their terms, for each chunk anew, takes hardly
+/// any time. The sums do not depend on it.
+pub(crate) const NODES: usize = 32;
 
 /// Sums that run side by side.
 pub(crate) const LANES: usize = 8;
@@ -30,6 +34,31 @@ pub(crate) fn vectorised(f: impl FnMut()) {
     Arch::new().dispatch(Vectorised(f));
 }
 
+/// The lowest and the highest of no values.
+pub(crate) const NOTHING: (f64, f64) = (f64::INFINITY, f64::NEG_INFINITY);
+
+/// The lowest and the highest of some values, those left out that are not a number.
+pub(crate) fn range(values: &[f64]) -> (f64, f64) {
+    let (whole, rest) = values.as_chunks::<LANES>();
+    let (mut low, mut high) = ([NOTHING.0; LANES], [NOTHING.1; LANES]);
+    let (lows, highs) = (&mut low, &mut high);
+    vectorised(
+        #[inline(always)]
+        move || {
+            let (mut low, mut high) = ([NOTHING.0; LANES], [NOTHING.1; LANES]);
+            for values in whole {
+                for l in 0..LANES {
+                    low[l] = if values[l] < low[l] { values[l] } else { low[l] };
+                    high[l] = if values[l] > high[l] { values[l] } else { high[l] };
+                }
+            }
+            (*lows, *highs) = (low, high);
+        },
+    );
+    let (low, high) = (low.into_iter().chain(rest.iter().copied()), high.into_iter().chain(rest.iter().copied()));
+    (low.fold(NOTHING.0, f64::min), high.fold(NOTHING.1, f64::max))
+}
+
 /// Sums the terms of a chunk's nodes. With `least name`, the loop sets `name[i]` too, of which the least is found.
 macro_rules! sums {
     ($count:literal, [$($read:ident),*], [$($write:ident),*], $(least $low:ident,)? |$i:ident| $terms:expr) => {{
@@ -41,13 +70,13 @@ macro_rules! sums {
         $crate::vector::vectorised(
             #[inline(always)]
             move || {
-                use $crate::vector::{Aligned, BLOCK, LANES};
+                use $crate::vector::{Aligned, LANES, NODES};
                 let len = usize::MAX$(.min($read.len()))*$(.min($write.len()))*;
-                let (mut lanes, mut block) = ([[0.0_f64; LANES]; $count], Aligned([[0.0_f64; BLOCK]; $count]));
-                $(let (mut least, mut $low) = ([f64::INFINITY; LANES], Aligned([f64::INFINITY; BLOCK]));)?
+                let (mut lanes, mut block) = ([[0.0_f64; LANES]; $count], Aligned([[0.0_f64; NODES]; $count]));
+                $(let (mut least, mut $low) = ([f64::INFINITY; LANES], Aligned([f64::INFINITY; NODES]));)?
                 let mut start = 0;
                 while start < len {
-                    let size = BLOCK.min(len - start);
+                    let size = NODES.min(len - start);
                     $(let $read = &$read[start..start + size];)*
                     $(let $write = &mut $write[start..start + size];)*
                     let block = &mut block.0;
@@ -58,20 +87,20 @@ macro_rules! sums {
                             block[s][$i] = terms[s];
                         }
                     }
-                    if size < BLOCK {
+                    if size < NODES {
                         for s in 0..$count {
                             block[s][size..].fill(0.0);
                         }
                         $($low[size..].fill(f64::INFINITY);)?
                     }
                     for s in 0..$count {
-                        for k in 0..BLOCK / LANES {
+                        for k in 0..NODES / LANES {
                             for l in 0..LANES {
                                 lanes[s][l] += block[s][k * LANES + l];
                             }
                         }
                     }
-                    $(for k in 0..BLOCK / LANES {
+                    $(for k in 0..NODES / LANES {
                         for l in 0..LANES {
                             let low = $low[k * LANES + l];
                             least[l] = if low < least[l] { low } else { least[l] };

@@ -62,6 +62,12 @@ impl Morse {
         exponentials(T::one(), -T::lit(self.range).recip(), gaps, values);
         values.iter_mut().for_each(|value| *value = of(*value));
     }
+
+    /// Two functions of e = exp(−g/ρ) at many gaps.
+    fn both<T: Real>(&self, gaps: &[T], [values, others]: [&mut [T]; 2], of: impl Fn(T) -> [T; 2]) {
+        exponentials(T::one(), -T::lit(self.range).recip(), gaps, values);
+        values.iter_mut().zip(others).for_each(|(value, other)| [*value, *other] = of(*value));
+    }
 }
 
 /// The energy in units of w, the traction of w/ρ, and its slope of w/ρ², of e.
@@ -99,6 +105,14 @@ impl<T: Real> AdhesionLaw<T> for Morse {
     fn slopes(&self, _: usize, gaps: &[T], slopes: &mut [T]) {
         let (w, range) = self.rounded::<T>();
         self.each(gaps, slopes, |e| w / range / range * slope(e));
+    }
+    fn energies_and_tractions(&self, _: usize, gaps: &[T], energies: &mut [T], tractions: &mut [T]) {
+        let (w, range) = self.rounded::<T>();
+        self.both(gaps, [energies, tractions], |e| [w * energy(e), w / range * traction(e)]);
+    }
+    fn tractions_and_slopes(&self, _: usize, gaps: &[T], tractions: &mut [T], slopes: &mut [T]) {
+        let (w, range) = self.rounded::<T>();
+        self.both(gaps, [tractions, slopes], |e| [w / range * traction(e), w / range / range * slope(e)]);
     }
     fn range(&self) -> T {
         T::lit(self.range)

@@ -5,6 +5,7 @@ use std::f64::consts::PI;
 use super::AdhesionLaw;
 use crate::error::{Error, Result};
 use crate::real::Real;
+use crate::vector::vectors;
 
 /// A power law: an energy that falls with the power n of the distance.
 ///
@@ -79,27 +80,39 @@ impl PowerLaw {
         self.exponent
     }
 
-    /// (1 + g/nρ)⁻ⁿ, and (1 + g/nρ)⁻¹.
+    /// Energy, traction and slope: powers of (1 + g/nρ)⁻¹.
     #[inline(always)]
-    fn decay<T: Real>(&self, gap: T) -> (T, T) {
-        let inverse = (T::one() + gap / T::lit(self.exponent * self.range)).recip();
-        let decay = if self.exponent == 2.0 { inverse * inverse } else { inverse.powf(T::lit(self.exponent)) };
-        (decay, inverse)
+    fn at<T: Real>(&self, gap: T) -> [T; 3] {
+        let Self { work_of_adhesion: w, range, exponent: n } = *self;
+        let inverse = (T::one() + gap / T::lit(n * range)).recip();
+        let decay = if n == 2.0 { inverse * inverse } else { inverse.powf(T::lit(n)) };
+        [
+            -T::lit(w) * decay,
+            T::lit(w / range) * decay * inverse,
+            -T::lit((n + 1.0) / n * w / range / range) * decay * inverse * inverse,
+        ]
     }
 }
 
 impl<T: Real> AdhesionLaw<T> for PowerLaw {
     fn energy(&self, gap: T) -> T {
-        -T::lit(self.work_of_adhesion) * self.decay(gap).0
+        self.at(gap)[0]
     }
     fn traction(&self, gap: T) -> T {
-        let (decay, inverse) = self.decay(gap);
-        T::lit(self.work_of_adhesion / self.range) * decay * inverse
+        self.at(gap)[1]
     }
     fn slope(&self, gap: T) -> T {
-        let (decay, inverse) = self.decay(gap);
-        let n = self.exponent;
-        -T::lit((n + 1.0) / n * self.work_of_adhesion / self.range / self.range) * decay * inverse * inverse
+        self.at(gap)[2]
+    }
+    fn energies_and_tractions(&self, _: usize, gaps: &[T], energies: &mut [T], tractions: &mut [T]) {
+        vectors!([gaps], [energies, tractions], |i| {
+            [energies[i], tractions[i], _] = self.at(gaps[i]);
+        });
+    }
+    fn tractions_and_slopes(&self, _: usize, gaps: &[T], tractions: &mut [T], slopes: &mut [T]) {
+        vectors!([gaps], [tractions, slopes], |i| {
+            [_, tractions[i], slopes[i]] = self.at(gaps[i]);
+        });
     }
     fn range(&self) -> T {
         T::lit(self.range)

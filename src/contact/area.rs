@@ -1,6 +1,6 @@
 //! The contact area of a map or of a solution, and its edge.
 
-use ndarray::{ArrayView1, ArrayView2, Axis, Zip};
+use ndarray::{ArrayView1, ArrayView2};
 
 #[cfg(doc)]
 use super::ContactStatistics;
@@ -131,20 +131,20 @@ fn excess_of_map((along_x, along_y): (usize, usize), grid: &Grid) -> f64 {
 /// are neighbours if the map is periodic, and otherwise nothing is beyond them.
 fn edges(map: ArrayView2<'_, bool>, grid: &Grid, periodic: bool) -> (usize, usize) {
     let (mut along_x, mut along_y) = (0, 0);
-    let different = |count, here: &bool, there: &bool| count + usize::from(here != there);
+    let map = map.as_standard_layout();
     // the first row of the next slab
     let slab = grid.slab();
     let next = slab
         .is_shared()
-        .then(|| slab.next_row(map, |&touches| f64::from(u8::from(touches))).mapv(|touches| touches > 0.0));
+        .then(|| slab.next_row(map.view(), |&touches| f64::from(u8::from(touches))).mapv(|touches| touches > 0.0));
     for (i, row) in map.outer_iter().enumerate() {
         let after = match &next {
             Some(next) if i + 1 == map.nrows() => next.row(0),
             _ => map.row((i + 1) % map.nrows()),
         };
-        along_x += Zip::from(row).and(after).fold(0, different);
-        let ((left, _), (_, right)) = (row.split_at(Axis(0), row.len() - 1), row.split_at(Axis(0), 1));
-        along_y += Zip::from(left).and(right).fold(usize::from(row[0] != row[row.len() - 1]), different);
+        let [row, after] = [row, after].map(|row| row.to_slice().unwrap_or_default());
+        along_x += differences(row, after);
+        along_y += differences(&row[1..], row) + usize::from(row[0] != row[row.len() - 1]);
     }
     if !periodic {
         // across the sides each meets nothing in place of the other
@@ -164,6 +164,13 @@ fn edges(map: ArrayView2<'_, bool>, grid: &Grid, periodic: bool) -> (usize, usiz
         along_y += both(left, right) * 2;
     }
     (grid.total(along_x), grid.total(along_y))
+}
+
+/// The number of nodes at which two rows differ, as far as both go.
+fn differences(a: &[bool], b: &[bool]) -> usize {
+    let count = |(a, b): (&[bool], &[bool])| u32::from(a.iter().zip(b).map(|(a, b)| u8::from(a != b)).sum::<u8>());
+    // so many that bytes count them, which vector instructions hold most of
+    a.chunks(128).zip(b.chunks(128)).map(count).sum::<u32>() as usize
 }
 
 #[cfg(test)]

@@ -5,6 +5,7 @@ use std::f64::consts::{E, PI};
 use ndarray::ArrayView2;
 
 use super::contact_map;
+use crate::field::flat;
 use crate::grid::Grid;
 use crate::real::Real;
 
@@ -87,31 +88,37 @@ impl<T: Real> Outline<'_, T> {
             let map = contact_map(gap.view(), pressure.view());
             (gap, pressure, map)
         });
-        let node = |i: usize, j: usize| match &after {
-            Some((gap, pressure, map)) if i == rows => Node::of(map[[0, j]], gap[[0, j]], pressure[[0, j]]),
-            _ => Node::of(map[[i % rows, j]], gap[[i % rows, j]], contact_pressure[[i % rows, j]]),
-        };
+        let node = |i: usize, j: usize| Node::of(map[[i, j]], gap[[i, j]], contact_pressure[[i, j]]);
+        let touching = map.as_standard_layout();
+        let row = |i: usize| &touching.as_slice().unwrap_or_default()[i * columns..][..columns];
+        // whether the four nodes of a cell are not all of one kind
+        let mut mixed = Vec::with_capacity(columns);
         let mut excess = 0_i64;
         for i in 0..rows {
             if !periodic && slab.rows().start + i + 1 == grid.shape().0 {
                 break;
             }
-            let (here, there) = match &after {
-                Some((.., map)) if i + 1 == rows => (self.map.row(i), map.row(0)),
-                _ => (map.row(i), map.row((i + 1) % rows)),
+            let below = (i + 1) % rows;
+            let (here, there, node_below): (_, _, &dyn Fn(usize) -> Node) = match &after {
+                Some((gap, pressure, map)) if i + 1 == rows => {
+                    (row(i), flat(map), &|j| Node::of(map[[0, j]], gap[[0, j]], pressure[[0, j]]))
+                }
+                _ => (row(i), row(below), &|j| node(below, j)),
             };
             if grid.is_line() {
-                excess += fixed(step.of_side(node(i, 0), node(i + 1, 0)));
+                excess += fixed(step.of_side(node(i, 0), node_below(0)));
                 continue;
             }
-            for j in 0..columns - usize::from(!periodic) {
-                let next = if j + 1 == columns { 0 } else { j + 1 };
-                let touching = [here[j], there[j], there[next], here[next]];
-                if touching.iter().all(|touches| *touches == touching[0]) {
-                    continue;
-                }
-                let corners = [node(i, j), node(i + 1, j), node(i + 1, next), node(i, next)];
-                excess += fixed(step.of_cell(corners));
+            let cells = here.iter().zip(&here[1..]).zip(there.iter().zip(&there[1..]));
+            mixed.clear();
+            mixed.extend(cells.map(|((a, b), (c, d))| (a != b) | (a != c) | (a != d)));
+            if *periodic {
+                let last = columns - 1;
+                mixed.push([here[0], there[0], there[last]].iter().any(|touches| *touches != here[last]));
+            }
+            for (j, _) in mixed.iter().enumerate().filter(|(_, mixed)| **mixed) {
+                let next = (j + 1) % columns;
+                excess += fixed(step.of_cell([node(i, j), node_below(j), node_below(next), node(i, next)]));
             }
         }
         // sums of negative numbers wrap around as well

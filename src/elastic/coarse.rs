@@ -12,12 +12,15 @@ use crate::real::Real;
 mod cholesky;
 mod moments;
 
-use cholesky::{decompose, dot, solve, start};
+use cholesky::{ROWS, decompose, dot, solve, start};
 use moments::Moments;
 
 /// Blocks of the contact map along a side, for each wave length that the shortest wave has there: a product of two
 /// waves has twice as many, and two blocks resolve one.
 const BLOCKS: usize = 4;
+
+/// The most nodes of a block along a side: the sum of the places of so many has 32 bits.
+const LARGEST: usize = 1 << 16;
 
 /// The longest waves of a grid on a foundation that holds the surface where it is in contact.
 ///
@@ -46,6 +49,8 @@ pub struct CoarseSpace {
     moments: Moments,
     /// the Cholesky factor, a lower triangle
     factor: Vec<f64>,
+    /// for the decomposition
+    workspace: Vec<[f64; ROWS]>,
     /// the nodes that are apart, as a load, and the response to it
     apart: [Vec<f64>; 2],
     /// whether the response has no mean over the nodes that are apart
@@ -87,6 +92,7 @@ impl CoarseSpace {
             block,
             moments: Moments::new([shape.0, shape.1], [block.0, block.1], highest),
             factor: vec![0.0; start(dimension)],
+            workspace: vec![[0.0; ROWS]; dimension],
             apart: [vec![0.0; dimension], vec![0.0; dimension]],
             held: false,
             load: vec![Complex::default(); count],
@@ -108,20 +114,27 @@ impl CoarseSpace {
     /// being free. With `held` a response has no mean over the nodes that are apart: the mean gap is given. Returns
     /// `false` if the matrix is not positive in its rounding.
     pub(crate) fn renew(&mut self, contact: &[f64], stiffness: f64, mean_stiffness: f64, held: bool) -> bool {
-        let Self { waves, moments, factor, apart: [load, response], vector, .. } = self;
+        let Self { waves, moments, factor, workspace, apart: [load, response], vector, .. } = self;
         moments.of(contact);
         let dimension = vector.len();
-        let number = |i: usize| waves[i.div_ceil(2)].number;
+        factor[0] = moments.at(0, 0).re;
+        for (k, wave) in waves.iter().enumerate().skip(1) {
+            let (cosine, sine) = factor[start(2 * k - 1)..start(2 * k + 1)].split_at_mut(2 * k);
+            [cosine[0], sine[0]] = moments.of_wave(wave.number);
+            let pairs = cosine[1..].chunks_mut(2).zip(sine[1..].chunks_mut(2));
+            for ((cosine, sine), other) in pairs.zip(&waves[1..]) {
+                let [with_cosine, with_sine] = moments.of_waves(wave.number, other.number);
+                sine.copy_from_slice(&with_sine);
+                cosine.copy_from_slice(&with_cosine[..cosine.len()]);
+            }
+        }
         for i in 0..dimension {
             let row = &mut factor[start(i)..start(i + 1)];
-            for (j, value) in row.iter_mut().enumerate() {
-                *value = moments.mean_product(number, i, j);
-            }
             load[i] = f64::from(u8::from(i == 0)) - row[0];
             row.iter_mut().for_each(|value| *value *= stiffness);
             row[i] += if i == 0 { mean_stiffness } else { waves[i.div_ceil(2)].stiffness };
         }
-        let positive = decompose(factor, dimension);
+        let positive = decompose(factor, workspace);
         if held && positive {
             response.copy_from_slice(load);
             solve(factor, response);
@@ -184,7 +197,7 @@ impl CoarseSpace {
 /// The nodes of a block along a side of n. It divides n unless that takes many more blocks: the map of a surface that
 /// repeats within the cell then does so too.
 fn block(n: usize, highest: usize) -> usize {
-    let most = (n / (BLOCKS * highest + 1)).max(1);
+    let most = (n / (BLOCKS * highest + 1)).clamp(1, LARGEST);
     let divides = (most.div_ceil(BLOCKS)..=most).rev().find(|&block| n.is_multiple_of(block));
     divides.unwrap_or(most)
 }

@@ -2,17 +2,20 @@
 //! finer.
 
 use std::collections::BTreeSet;
+use std::iter::repeat_n;
+use std::ops::Range;
 
-use ndarray::{Array2, ArrayView2, CowArray};
+use ndarray::{Array2, ArrayView2};
 
 use crate::error::Result;
-use crate::field::flat_mut;
+use crate::field::{flat, flat_mut};
 use crate::grid::Grid;
 use crate::par;
 use crate::problem::Window;
 use crate::real::Real;
 use crate::slab::Slab;
 use crate::surface::Surface;
+use crate::vector::vectors;
 
 /// The share of the exact ratio of gaps: the best start has a little more contact.
 const WIDER: f64 = 0.77;
@@ -32,15 +35,17 @@ pub(super) fn coarsen(surface: &Surface, shape: (usize, usize)) -> Result<Option
     };
     let absent = surface.absent().map(fetch_absent);
     let faces = |i, j| absent.as_ref().is_none_or(|absent| absent[[i, j]] == 0.0);
-    let heights = Array2::from_shape_fn(grid.field_shape(), |(i, j)| {
-        let ([x, y], here) = ([&along_x[i], &along_y[j]], (along_x[i].nodes[1], along_y[j].nodes[1]));
-        match faces(here.0, here.1) {
-            false => f64::NAN,
-            true => x.cubic(|i| y.cubic(|j| heights[[i, j]])),
+    let mut coarse = Array2::zeros(grid.field_shape());
+    par::for_each(par::chunks_mut(flat_mut(&mut coarse), shape.1), |i, row| {
+        let x = along_x[i];
+        let lines = x.nodes.map(|node| line(heights, node));
+        for (height, y) in row.iter_mut().zip(&along_y) {
+            let cubic = || x.cubic(|k| y.cubic(|l| lines[k][y.nodes[l]]));
+            *height = if faces(x.nodes[1], y.nodes[1]) { cubic() } else { f64::NAN };
         }
     });
-    let some = grid.slab().has(heights.iter().any(|h| !h.is_nan()));
-    if some { Surface::with_absent(grid, heights).map(Some) } else { Ok(None) }
+    let some = grid.slab().has(coarse.iter().any(|h| !h.is_nan()));
+    if some { Surface::with_absent(grid, coarse).map(Some) } else { Ok(None) }
 }
 
 /// The rows of a field on one grid that this process needs for its rows of another one, where several processes share
@@ -62,8 +67,13 @@ fn fetched<T: Real>(field: ArrayView2<'_, T>, [from, to]: [Slab; 2], places: &mu
     Some(from.fetch(field, |rank| needed[rank].iter().copied()))
 }
 
+/// A row of a field that this crate made.
+fn line<T>(field: &Array2<T>, row: usize) -> &[T] {
+    &flat(field)[row * field.ncols()..][..field.ncols()]
+}
+
 /// The place of a node among those of another grid along a side.
-#[derive(Clone)]
+#[derive(Clone, Copy)]
 struct Place {
     /// The node before the one at or before the place, that node, and the two after it.
     nodes: [usize; 4],
@@ -81,26 +91,25 @@ impl Place {
     }
 
     /// The cubic through values at the four nodes.
+    #[inline(always)]
     fn cubic(&self, value: impl Fn(usize) -> f64) -> f64 {
         match self.is_node() {
-            true => value(self.nodes[1]),
-            false => self.nodes.iter().zip(self.weights).map(|(&node, weight)| weight * value(node)).sum(),
+            true => value(1),
+            false => self.weights.iter().enumerate().map(|(k, weight)| weight * value(k)).sum(),
         }
     }
 
     /// Whether the place is in contact, from the gaps of the four nodes.
+    #[inline(always)]
     fn touches(&self, gap: impl Fn(usize) -> f64) -> bool {
-        let [before, left, right, after] = self.nodes.map(gap);
-        match (left <= 0.0, right <= 0.0) {
-            _ if self.is_node() => left <= 0.0,
-            (true, true) => true,
-            // up to where nothing faces the half-space
-            (true, false) if right.is_infinite() => true,
-            (false, true) if left.is_infinite() => true,
-            (true, false) => after.is_finite() && after >= self.edges[0] * right,
-            (false, true) => before.is_finite() && before >= self.edges[1] * left,
-            (false, false) => false,
+        let (left, right) = (gap(1), gap(2));
+        let [at_left, at_right] = [left, right].map(|gap| gap <= 0.0);
+        if self.is_node() || at_left == at_right {
+            return at_left;
         }
+        let (near, far, edge) = if at_left { (right, gap(3), self.edges[0]) } else { (left, gap(0), self.edges[1]) };
+        // up to where nothing faces the half-space
+        near.is_infinite() || (far.is_finite() && far >= edge * near)
     }
 }
 
@@ -179,40 +188,44 @@ impl<T: Real> Deformed<T> {
     pub(crate) fn prolonged(self, surface: &Surface, grid: &Grid, projects: bool) -> Array2<T> {
         let Self { window, slab, displacement, gap } = self;
         let facing = Window::new(surface, grid.slab());
-        let heights: CowArray<'_, f64, _> = match &facing {
-            Some(facing) => facing.extend(surface.heights().view()).into(),
-            None => surface.heights().view().into(),
-        };
+        let extended = facing.as_ref().map(|facing| facing.extend(surface.heights().view()));
+        let heights = flat(extended.as_ref().unwrap_or(surface.heights()));
         let [from, to] = [Side::of(window, slab.shape()), Side::of(surface.grid().shape(), grid.shape())];
         let (mut along_x, along_y, back_y) = (places(from[0], to[0]), places(from[1], to[1]), places(to[1], from[1]));
         let slabs = [slab, grid.slab()];
         let gap = if slab.is_shared() { fetched(gap.view(), slabs, &mut along_x.clone()) } else { None }.unwrap_or(gap);
         let displacement = fetched(displacement.view(), slabs, &mut along_x).unwrap_or(displacement);
         let (width, first) = (grid.shape().1, grid.slab().first_node());
-        let faces = |node: usize| facing.as_ref().is_none_or(|facing| facing.faces(first + node));
+        let facing_in = |nodes: Range<usize>| match &facing {
+            None => vec![true; nodes.len()],
+            Some(facing) => facing.pieces(nodes).flat_map(|(len, own)| repeat_n(own.is_some(), len)).collect(),
+        };
         let mut fine = Array2::zeros(grid.field_shape());
         par::for_each(par::chunks_mut(flat_mut(&mut fine), width), |i, row| {
-            let x = &along_x[i];
+            let (x, faces) = (along_x[i], facing_in(first + i * width..first + (i + 1) * width));
+            let heights = &heights[i * width..][..width];
             // displacement and gap along the row, at the coarse nodes of y
-            let mut line = vec![(0.0, 0.0); back_y.len()];
-            for (j, node) in line.iter_mut().enumerate() {
-                let u = x.cubic(|k| displacement[[k, j]]);
-                let height = back_y[j].cubic(|k| heights[[i, k]]);
-                let faces = faces(i * width + back_y[j].nodes[1]);
-                let apart = if projects && faces { (u - height).max(0.0) } else { u - height };
-                let touches = projects && x.touches(|k| gap[[k, j]].widen());
-                *node = match faces {
+            let [mut displaced, mut apart] = [(); 2].map(|()| vec![0.0; back_y.len()]);
+            let at: Vec<f64> = back_y.iter().map(|y| y.cubic(|l| heights[y.nodes[l]])).collect();
+            let facing: Vec<bool> = back_y.iter().map(|y| faces[y.nodes[1]]).collect();
+            let [u0, u1, u2, u3] = x.nodes.map(|node| line(&displacement, node));
+            let [g0, g1, g2, g3] = x.nodes.map(|node| line(&gap, node));
+            vectors!([u0, u1, u2, u3, g0, g1, g2, g3, at, facing], [displaced, apart], |j| {
+                let (u, height) = (x.cubic(|k| [u0[j], u1[j], u2[j], u3[j]][k]), at[j]);
+                let gap = if projects { (u - height).max(0.0) } else { u - height };
+                let touches = projects && x.touches(|k| [g0[j], g1[j], g2[j], g3[j]][k].widen());
+                (displaced[j], apart[j]) = match facing[j] {
                     true if touches => (height, 0.0),
-                    true => (apart + height, apart),
+                    true => (gap + height, gap),
                     false => (u, f64::INFINITY),
                 };
-            }
-            for (k, (g, y)) in row.iter_mut().zip(&along_y).enumerate() {
-                let apart = y.cubic(|j| line[j].0) - heights[[i, k]];
-                *g = match projects && faces(i * width + k) {
-                    true if y.touches(|j| line[j].1) => T::zero(),
-                    true => T::lit(apart.max(0.0)),
-                    false => T::lit(apart),
+            });
+            for (((g, y), height), faces) in row.iter_mut().zip(&along_y).zip(heights).zip(faces) {
+                let gap = y.cubic(|l| displaced[y.nodes[l]]) - height;
+                *g = match projects && faces {
+                    true if y.touches(|l| apart[y.nodes[l]]) => T::zero(),
+                    true => T::lit(gap.max(0.0)),
+                    false => T::lit(gap),
                 };
             }
         });
@@ -231,8 +244,8 @@ mod tests {
         // it
         for edge in [1.05, 1.2, 1.3, 1.4, 1.6, 1.75, 1.95] {
             let gap = |x: f64| (x - edge).max(0.0).powf(1.5);
-            assert_eq!(place.touches(|i| gap(i as f64)), edge > 1.34, "{edge}");
-            assert_eq!(place.touches(|i| gap(3.0 - i as f64)), edge > 1.34, "{edge}");
+            assert_eq!(place.touches(|k| gap(k as f64)), edge > 1.34, "{edge}");
+            assert_eq!(place.touches(|k| gap(3.0 - k as f64)), edge > 1.34, "{edge}");
         }
     }
 

@@ -1,11 +1,15 @@
 //! The coarse space of a solve: when it is told where the contacts are.
 
+use std::ops::Range;
+use std::slice::Chunks;
+
 use ndarray::{Array2, ArrayView2, Axis};
 
 use crate::elastic::{CoarseSpace, ElasticOperator};
 use crate::par::{self, Parts};
 use crate::real::Real;
 use crate::slab::Slab;
+use crate::vector::vectorised;
 
 /// The dimension of the space over the cube root of the number of nodes: then its decomposition takes 21
 /// multiplications for each node, a third of the cube.
@@ -22,6 +26,9 @@ const MEAN: f64 = 1e-3;
 /// renewal changes the preconditioner, which costs some of the conjugacy of the steps.
 const INTERVAL: f64 = 2.0;
 const LONGER: f64 = 1.4;
+
+/// The most columns of nodes that are counted together.
+const COLUMNS: usize = 1 << 10;
 
 /// The contact of a block of nodes, in whole numbers, of which the order of a sum does not matter: the number of nodes,
 /// the sum of their places along y, and both times the place along x.
@@ -91,19 +98,20 @@ impl Coarse {
     fn map<T: Real>(&mut self, field: &Array2<T>, touches: impl Fn(usize, T) -> bool + Sync + Send) -> bool {
         let ([block, blocks], (nx, ny)) = (self.space.blocks(), self.slab.shape());
         let count = |nodes: ArrayView2<'_, T>, from: usize, node: usize, counts: &mut [Count]| {
-            for (i, row) in nodes.rows().into_iter().enumerate() {
-                for ((k, nodes), sums) in
-                    row.to_slice().unwrap_or_default().chunks(block.1).enumerate().zip(&mut *counts)
-                {
-                    let (mut count, mut places, first) = (0, 0, node + i * ny + k * block.1);
-                    for (j, &node) in nodes.iter().enumerate() {
-                        let touches = u64::from(touches(first + j, node));
-                        count += touches;
-                        places += touches * j as u64;
+            let nodes = nodes.to_slice().unwrap_or_default();
+            for first in (0..ny).step_by(COLUMNS) {
+                let columns = first..ny.min(first + COLUMNS);
+                let (mut touching, mut along) = ([0; COLUMNS], [0; COLUMNS]);
+                count_columns(nodes.chunks(ny), &columns, (&mut touching, &mut along), |k, value| {
+                    touches(node + k, value)
+                });
+                for (b, counts) in (0..).zip(&mut *counts).take(columns.end.div_ceil(block.1)).skip(first / block.1) {
+                    for k in columns.start.max(b * block.1)..columns.end.min((b + 1) * block.1) {
+                        let [count, along] = [touching[k - first], along[k - first]].map(u64::from);
+                        let (along, place) = (from as u64 * count + along, (k - b * block.1) as u64);
+                        let more = [count, place * count, along, place * along];
+                        counts.iter_mut().zip(more).for_each(|(sum, more)| *sum += more);
                     }
-                    let along = (from + i) as u64;
-                    let more = [count, places, along * count, along * places];
-                    sums.iter_mut().zip(more).for_each(|(sum, more)| *sum += more);
                 }
             }
         };
@@ -139,6 +147,31 @@ impl Coarse {
         let total: f64 = self.contact.iter().sum();
         total > 0.0 && total < 1.0 - 0.5 * share
     }
+}
+
+/// Counts the nodes in contact in some columns of a few rows, and adds up the numbers of their rows.
+fn count_columns<T: Real>(
+    rows: Chunks<'_, T>,
+    columns: &Range<usize>,
+    (counts, along): (&mut [u32], &mut [u32]),
+    touches: impl Fn(usize, T) -> bool,
+) {
+    vectorised(
+        #[inline(always)]
+        || {
+            let mut first = columns.start;
+            for (i, row) in (0..).zip(rows.clone()) {
+                for (((&value, node), count), along) in
+                    row[columns.clone()].iter().zip(first..).zip(&mut *counts).zip(&mut *along)
+                {
+                    let touches = touches(node, value);
+                    *count += u32::from(touches);
+                    *along += if touches { i } else { 0 };
+                }
+                first += row.len();
+            }
+        },
+    );
 }
 
 #[cfg(test)]

@@ -14,6 +14,7 @@ use crate::grid::Grid;
 use crate::par::Parts;
 use crate::problem::{Load, mu_rho};
 use crate::real::Real;
+use crate::vector::sums;
 
 /// The share of the largest traction above which one at the edge of the window matters.
 const EDGE: f64 = 1e-3;
@@ -42,18 +43,15 @@ impl<T: Real, L: Real> State<'_, T, L> {
         let local = Potential::new(law, &**constraint, flat.window.as_ref());
         let fields = read(gap).zip(write(pressure)).zip(write(&mut contact_pressure));
         let total = local.run(reducer, fields, |local, first, ((gap, pressure), contact)| {
-            let mut part = Partial::NONE;
             pressure.iter_mut().for_each(|p| *p += shift);
             local.contact_pressures(first, gap, pressure, contact);
             if !local.is_surface() {
-                return part;
+                return Partial::NONE;
             }
-            for (&gap, contact) in gap.iter().zip(contact) {
-                part.sum[0] += contact.widen();
-                part.sum[1] += gap.widen();
-                part.min = part.min.min(gap.widen());
-            }
-            part
+            sums!(2, [gap, contact], [], least low, |i| {
+                low[i] = gap[i].widen();
+                [contact[i].widen(), gap[i].widen()]
+            })
         });
         let mean_contact_pressure = total.sum[0] / self.nodes();
         let carried_pressure = mean_contact_pressure - self.tally.traction / self.nodes();

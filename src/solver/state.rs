@@ -108,7 +108,11 @@ impl<'a, T: Real, L: Real> State<'a, T, L> {
         let uniform = begin.is_default();
         let given = given_start(begin, slab, flat.window.as_ref(), load, constraint.wall().is_rigid())?;
         let (gap, pressure) = match given {
-            Some(gap) => (gap, Array2::zeros(shape)),
+            Some(gap) => {
+                let mut pressure = Array2::zeros(shape);
+                operators.pressure(&gap, &mut pressure, &mut [])?;
+                (gap, pressure)
+            }
             None => (Array2::from_elem(shape, T::lit(uniform_start(law, flat, load))), flat.pressure.clone()),
         };
         let preconditioned = settings.method == Method::Preconditioned;
@@ -149,7 +153,7 @@ impl<'a, T: Real, L: Real> State<'a, T, L> {
         } else if uniform {
             state.work = state.count();
         } else {
-            state.refresh()?;
+            state.take_pressure(None)?;
         }
         state.start_gap = state.mean_gap();
         state.check_start()?;
@@ -233,6 +237,11 @@ impl<'a, T: Real, L: Real> State<'a, T, L> {
             Some(_) => self.operators.pressure(gap, pressure, &mut [residual])?,
             None => self.operators.pressure(gap, pressure, &mut [preconditioned, change])?,
         }
+        self.take_pressure(made)
+    }
+
+    /// Makes the pressure K⁻¹g of the gap that of the state, after the step that was made, and takes the tally.
+    fn take_pressure(&mut self, made: Option<Made>) -> Result<()> {
         self.applications += 1;
         (self.age, self.updates) = (0, 0.0);
         let Fields { reducer, pressure, .. } = &mut self.fields;

@@ -60,7 +60,8 @@ impl Surface {
         if self.grid.is_shared() {
             return self.whole().statistics();
         }
-        let (mean, rms_height) = (self.mean(), self.rms_height());
+        let mean = self.mean();
+        let rms_height = self.rms_about(mean);
         // of heights over the rms height, whose fourth powers stay in range
         let power = |n: i32| field::mean(self.heights.view(), |h| ((h - mean) / rms_height).powi(n));
         let (slope, laplacian) = self.differences();

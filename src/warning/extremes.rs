@@ -5,16 +5,13 @@ use ndarray::Array2;
 use super::{CODES, FAR};
 use crate::field::flat;
 use crate::par;
-use crate::vector::{LANES, vectorised};
+use crate::vector::{LANES, NOTHING, range, vectorised};
 
 /// Nodes that a thread takes at once.
 const CHUNK: usize = 1 << 14;
 
 /// Nodes that are looked at once for heights beyond all others.
 const LOOK: usize = 1 << 10;
-
-/// The lowest and the highest of no heights.
-const NOTHING: (f64, f64) = (f64::INFINITY, f64::NEG_INFINITY);
 
 /// The lowest and the highest of the heights that are not missing, their counts, and the range of all others.
 #[derive(Clone, Copy)]
@@ -130,28 +127,6 @@ impl Extremes {
         // of two or three levels none is a code
         span > 0.0 && distance > FAR * span && (count > 1 || CODES.contains(&value))
     }
-}
-
-/// The lowest and the highest of some heights, the missing ones left out.
-fn range(heights: &[f64]) -> (f64, f64) {
-    let (whole, rest) = heights.as_chunks::<LANES>();
-    let (mut low, mut high) = ([NOTHING.0; LANES], [NOTHING.1; LANES]);
-    let (lows, highs) = (&mut low, &mut high);
-    vectorised(
-        #[inline(always)]
-        move || {
-            let (mut low, mut high) = ([NOTHING.0; LANES], [NOTHING.1; LANES]);
-            for heights in whole {
-                for l in 0..LANES {
-                    low[l] = if heights[l] < low[l] { heights[l] } else { low[l] };
-                    high[l] = if heights[l] > high[l] { heights[l] } else { high[l] };
-                }
-            }
-            (*lows, *highs) = (low, high);
-        },
-    );
-    let (low, high) = (low.into_iter().chain(rest.iter().copied()), high.into_iter().chain(rest.iter().copied()));
-    (low.fold(NOTHING.0, f64::min), high.fold(NOTHING.1, f64::max))
 }
 
 #[cfg(test)]

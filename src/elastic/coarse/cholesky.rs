@@ -5,33 +5,46 @@
 use crate::vector::{LANES, vectorised};
 
 /// Rows of a matrix that are decomposed together.
-const ROWS: usize = 4;
+pub(super) const ROWS: usize = 4;
 
 /// The place of a row of a lower triangle, whose rows are stored one after the other.
 pub(super) fn start(row: usize) -> usize {
     row * (row + 1) / 2
 }
 
-/// Decomposes a symmetric matrix by Cholesky, in its lower triangle; `false` if it is not positive.
-pub(super) fn decompose(matrix: &mut [f64], dimension: usize) -> bool {
+/// Decomposes a symmetric matrix by Cholesky, in its lower triangle; `false` if it is not positive. The workspace, one
+/// array for each row, may be dirty.
+pub(super) fn decompose(matrix: &mut [f64], workspace: &mut [[f64; ROWS]]) -> bool {
+    let mut positive = false;
+    vectorised(
+        #[inline(always)]
+        || positive = decomposes(matrix, workspace),
+    );
+    positive
+}
+
+#[inline(always)]
+fn decomposes(matrix: &mut [f64], workspace: &mut [[f64; ROWS]]) -> bool {
+    let dimension = workspace.len();
     for first in (0..dimension).step_by(ROWS) {
         let last = (first + ROWS).min(dimension);
         let (above, below) = matrix.split_at_mut(start(first));
-        let block = &mut below[..start(last) - start(first)];
+        let (block, columns) = (&mut below[..start(last) - start(first)], &mut workspace[..first]);
+        // the rows side by side, so that their products with another one are sums of vectors
+        for (i, row) in (first..last).enumerate() {
+            let row = &block[start(row) - start(first)..][..first];
+            columns.iter_mut().zip(row).for_each(|(column, value)| column[i] = *value);
+        }
         for j in 0..first {
             let done = &above[start(j)..start(j + 1)];
-            let sums = if last - first == ROWS {
-                dots(&done[..j], std::array::from_fn(|i| &block[start(first + i) - start(first)..][..j]))
-            } else {
-                let mut sums = [0.0; ROWS];
-                let rows = (first..last).map(|i| dot(&done[..j], &block[start(i) - start(first)..][..j]));
-                sums.iter_mut().zip(rows).for_each(|(sum, product)| *sum = product);
-                sums
-            };
-            for (i, sum) in (first..last).zip(sums) {
-                let value = &mut block[start(i) - start(first) + j];
+            let sums = dots(&done[..j], &columns[..j]);
+            for (value, sum) in columns[j].iter_mut().zip(sums) {
                 *value = (*value - sum) / done[j];
             }
+        }
+        for (i, row) in (first..last).enumerate() {
+            let row = &mut block[start(row) - start(first)..][..first];
+            row.iter_mut().zip(&*columns).for_each(|(value, column)| *value = column[i]);
         }
         for i in first..last {
             let (before, row) = block.split_at_mut(start(i) - start(first));
@@ -52,43 +65,49 @@ pub(super) fn decompose(matrix: &mut [f64], dimension: usize) -> bool {
 /// Solves with the factor of [`decompose`].
 pub(super) fn solve(factor: &[f64], x: &mut [f64]) {
     let row = |i: usize| &factor[start(i)..start(i + 1)];
-    for i in 0..x.len() {
-        x[i] = (x[i] - dot(&row(i)[..i], &x[..i])) / row(i)[i];
-    }
-    for i in (0..x.len()).rev() {
-        let value = x[i] / row(i)[i];
-        x[i] = value;
-        x[..i].iter_mut().zip(row(i)).for_each(|(x, factor)| *x -= value * factor);
-    }
-}
-
-/// The products of a vector with some others of its length.
-fn dots<const N: usize>(vector: &[f64], others: [&[f64]; N]) -> [f64; N] {
-    let whole = vector.len() - vector.len() % LANES;
-    let rest = |other: &[f64]| other[whole..].iter().zip(&vector[whole..]).map(|(a, b)| a * b).sum::<f64>();
-    let mut sums = others.map(rest);
-    let total = &mut sums;
     vectorised(
         #[inline(always)]
-        move || {
-            let mut lanes = [[0.0; LANES]; N];
-            for k in (0..whole).step_by(LANES) {
-                let vector = &vector[k..k + LANES];
-                for (lanes, other) in lanes.iter_mut().zip(others) {
-                    let other = &other[k..k + LANES];
-                    for l in 0..LANES {
-                        lanes[l] += vector[l] * other[l];
-                    }
-                }
+        || {
+            for i in 0..x.len() {
+                x[i] = (x[i] - dot(&row(i)[..i], &x[..i])) / row(i)[i];
             }
-            total.iter_mut().zip(lanes).for_each(|(total, lanes)| *total += lanes.iter().sum::<f64>());
+            for i in (0..x.len()).rev() {
+                let value = x[i] / row(i)[i];
+                x[i] = value;
+                x[..i].iter_mut().zip(row(i)).for_each(|(x, factor)| *x -= value * factor);
+            }
         },
     );
+}
+
+/// The products of a vector with some others of its length, which are side by side.
+#[inline(always)]
+fn dots<const N: usize>(vector: &[f64], others: &[[f64; N]]) -> [f64; N] {
+    let add = |sums: &mut [f64; N], value: f64, others: &[f64; N]| {
+        sums.iter_mut().zip(others).for_each(|(sum, other)| *sum += value * other);
+    };
+    let ((values, last_values), (whole, last)) = (vector.as_chunks::<LANES>(), others.as_chunks::<LANES>());
+    let (mut sums, mut lanes) = ([0.0; N], [[0.0; N]; LANES]);
+    for (&value, others) in last_values.iter().zip(last) {
+        add(&mut sums, value, others);
+    }
+    for (values, others) in values.iter().zip(whole) {
+        for l in 0..LANES {
+            add(&mut lanes[l], values[l], &others[l]);
+        }
+    }
+    let mut total = [0.0; N];
+    for lane in &lanes {
+        add(&mut total, 1.0, lane);
+    }
+    add(&mut sums, 1.0, &total);
     sums
 }
 
+/// The product of two vectors.
+#[inline(always)]
 pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
-    dots(a, [b])[0]
+    dots(a, b.as_chunks::<1>().0)[0]
 }
 
 #[cfg(test)]
@@ -98,10 +117,10 @@ mod tests {
     #[test]
     fn a_matrix_that_is_not_positive_is_told() {
         let mut matrix = vec![4.0, 2.0, 1.0, 0.0, 0.0, 1.0];
-        assert!(!decompose(&mut matrix, 3));
+        assert!(!decompose(&mut matrix, &mut [[0.0; ROWS]; 3]));
         let mut x = [4.0, 4.0, 3.0];
         let mut matrix = vec![4.0, 2.0, 5.0, 0.0, 0.0, 9.0];
-        assert!(decompose(&mut matrix, 3));
+        assert!(decompose(&mut matrix, &mut [[0.0; ROWS]; 3]));
         solve(&matrix, &mut x);
         assert!(x.iter().zip([0.75, 0.5, 1.0 / 3.0]).all(|(x, y)| (x - y).abs() < 1e-15), "{x:?}");
     }

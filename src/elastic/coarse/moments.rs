@@ -68,28 +68,22 @@ impl Moments {
         if b < 0 { value(-a, -b).conj() } else { value(a, b) }
     }
 
-    /// The mean of χ times two functions of the basis: 0 is the constant, 2k − 1 the cosine of wave k, 2k its sine.
-    /// Their numbers of wave lengths along both sides are told by `number`.
-    pub(super) fn mean_product(&self, number: impl Fn(usize) -> [isize; 2], i: usize, j: usize) -> f64 {
-        let ([a, b], [c, d]) = (number(i), number(j));
-        // the means of χ cos and χ sin
-        let parts = |moment: Complex<f64>| (moment.re, -moment.im);
-        let (cos, sin) = parts(self.at(a + c, b + d));
-        if i == 0 || j == 0 {
-            return match i.max(j) {
-                0 => cos,
-                k if k % 2 == 1 => SQRT_2 * cos,
-                _ => SQRT_2 * sin,
-            };
-        }
-        let (cos_less, sin_less) = parts(self.at(a - c, b - d));
-        match (i % 2 == 1, j % 2 == 1) {
-            (true, true) => cos_less + cos,
-            (false, false) => cos_less - cos,
-            (false, true) => sin + sin_less,
-            (true, false) => sin - sin_less,
-        }
+    /// The means of χ √2 cos and χ √2 sin of a wave, of which the numbers of wave lengths along both sides are given.
+    pub(super) fn of_wave(&self, [a, b]: [isize; 2]) -> [f64; 2] {
+        parts(self.at(a, b)).map(|part| SQRT_2 * part)
     }
+
+    /// The means of χ times √2 cos and √2 sin of one wave times √2 cos and √2 sin of another.
+    pub(super) fn of_waves(&self, [a, b]: [isize; 2], [c, d]: [isize; 2]) -> [[f64; 2]; 2] {
+        let [cos, sin] = parts(self.at(a + c, b + d));
+        let [cos_less, sin_less] = parts(self.at(a - c, b - d));
+        [[cos_less + cos, sin - sin_less], [sin + sin_less, cos_less - cos]]
+    }
+}
+
+/// The means of χ cos and χ sin by the moment of a wave.
+fn parts(moment: Complex<f64>) -> [f64; 2] {
+    [moment.re, -moment.im]
 }
 
 /// The powers of some factors, one after the other from the power 0 on.
