@@ -16,7 +16,7 @@ use crate::printing::{Printing, complain, say};
 use crate::quantity::{LENGTH, Quantity, power_of_length, times_ten_to};
 use crate::scene::Scene;
 use crate::units::Units;
-use crate::warnings;
+use crate::warnings::{self, Told};
 
 /// Make a surface that can be solved of a measured map.
 ///
@@ -226,7 +226,7 @@ fn prepared(
     options: &Options,
     si: bool,
     lines: &mut Vec<(&'static str, String)>,
-    warnings: &mut Vec<Warning>,
+    warnings: &mut Vec<Told>,
 ) -> Outcome<Topography> {
     let mut map = match &options.channel {
         Some(channel) => read_channel(&options.input, channel)?,
@@ -255,7 +255,8 @@ fn prepared(
         let (found, nodes) = (map.missing() - before, map.heights.len());
         tell("missing", format!("{} stood at {found} of {nodes} points: rms height {}", plain(*code), rms(&map)));
     }
-    warnings.extend(Warning::of_topography(&map));
+    let units = Units::of_map(map.unit.as_deref());
+    warnings.extend(Warning::of_topography(&map).iter().map(|warning| Told::new(warning, &units)));
     warnings.iter().for_each(|warning| complain("warning", &warning.to_string()));
     if let Some(factor) = options.scale {
         map.heights.mapv_inplace(|h| factor * h);
