@@ -57,6 +57,13 @@ const STANDS_OUT: f64 = 1.5;
 /// surfaces have up to about this. Heights in another unit than the lengths are beyond it by orders of magnitude.
 const STEEP: f64 = 0.5;
 
+/// The same of a map that is still to be prepared: offsets between scan lines and spikes make slopes of several tens.
+const STEEP_AS_READ: f64 = 100.0;
+
+/// The rms slope up to which a surface is smooth beyond all that are made: the best mirrors have some 1e-7. Heights in
+/// a larger unit than the lengths are below it.
+const SMOOTH: f64 = 1e-7;
+
 /// The distance of a spike from the mean of its neighbours, in the rms of this distance over all nodes: Gaussian
 /// heights do not reach 6 on any map.
 const SPIKE: f64 = 6.0;
@@ -148,8 +155,8 @@ impl Warning {
     }
 
     /// The probable mistakes in the heights: [`Tilt`](WarningCode::Tilt), [`OpenEdges`](WarningCode::OpenEdges),
-    /// [`Steep`](WarningCode::Steep), [`Spikes`](WarningCode::Spikes), [`MissingCode`](WarningCode::MissingCode),
-    /// [`Cells`](WarningCode::Cells) and [`Flat`](WarningCode::Flat).
+    /// [`Steep`](WarningCode::Steep), [`Smooth`](WarningCode::Smooth), [`Spikes`](WarningCode::Spikes),
+    /// [`MissingCode`](WarningCode::MissingCode), [`Cells`](WarningCode::Cells) and [`Flat`](WarningCode::Flat).
     ///
     /// Takes two passes over the heights, and a third where single nodes may be far out. Where there are codes for
     /// missing points, the warnings that these codes would cause are left out. Tilt and edges are looked at along sides
@@ -179,12 +186,14 @@ impl Warning {
         let relief = Relief::of(surface.heights(), &extremes);
         found.extend(tilt(&relief, surface.grid()));
         found.extend(open_edges(&relief));
-        found.extend(steep(&relief, surface.grid()));
+        found.extend(slope(rms_slope(&relief, surface.grid()), STEEP));
         found.extend(spikes(&relief, &Spikes::of(surface.heights(), &relief)));
         found
     }
 
-    /// The probable mistakes in a measured map that is still to be prepared: [`MissingCode`](WarningCode::MissingCode).
+    /// The probable mistakes in a measured map that is still to be prepared: [`MissingCode`](WarningCode::MissingCode),
+    /// and, where the side lengths are known and no such code is there, [`Steep`](WarningCode::Steep), which here is an
+    /// rms slope above 100, and [`Smooth`](WarningCode::Smooth).
     ///
     /// ```
     /// use asperity::{Topography, Warning};
@@ -196,7 +205,11 @@ impl Warning {
     /// ```
     pub fn of_topography(map: &Topography) -> Vec<Self> {
         let extremes = Extremes::of(&map.heights.as_standard_layout().into_owned());
-        extremes.codes().into_iter().map(|(value, count)| missing_code(value, count, &extremes)).collect()
+        let codes = extremes.codes();
+        if codes.is_empty() {
+            return map.rms_slope().and_then(|found| slope(found, STEEP_AS_READ)).into_iter().collect();
+        }
+        codes.into_iter().map(|(value, count)| missing_code(value, count, &extremes)).collect()
     }
 
     /// The probable mistakes in the range of `law` on a surface pressed against a body of contact `modulus` E*:
@@ -414,19 +427,26 @@ fn open_edges(relief: &Relief) -> Option<Warning> {
     Some(Warning { code: WarningCode::OpenEdges, text: text.with(message) })
 }
 
-fn steep(relief: &Relief, grid: &Grid) -> Option<Warning> {
+/// The rms slope between neighbours.
+fn rms_slope(relief: &Relief, grid: &Grid) -> f64 {
     let (dx, dy) = grid.spacing();
     let along = |side: &relief::Side, spacing: f64| side.rms_step * (relief.unit / spacing);
-    let slope = along(&relief.sides[0], dx).hypot(along(&relief.sides[1], dy));
-    if slope <= STEEP {
-        return None;
-    }
+    along(&relief.sides[0], dx).hypot(along(&relief.sides[1], dy))
+}
+
+/// What is probably wrong with an rms slope, if more than `most` is steep.
+fn slope(slope: f64, most: f64) -> Option<Warning> {
+    let (code, than) = match slope {
+        _ if slope > most => (WarningCode::Steep, format!("more than {most}")),
+        _ if slope > 0.0 && slope < SMOOTH => (WarningCode::Smooth, format!("less than {SMOOTH:e}")),
+        _ => return None,
+    };
     let message = format!(
-        "the rms slope is {}, more than {STEEP}: are heights and lengths in one unit? scale the heights, or correct the \
-         side lengths",
+        "the rms slope is {}, {than}: are heights and lengths in one unit? scale the heights, or correct the side \
+         lengths",
         figure(slope)
     );
-    Some(Warning { code: WarningCode::Steep, text: Text::default().with(message) })
+    Some(Warning { code, text: Text::default().with(message) })
 }
 
 fn spikes(relief: &Relief, spikes: &Spikes) -> Option<Warning> {

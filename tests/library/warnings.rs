@@ -133,7 +133,7 @@ fn edges_that_do_not_meet_are_told_and_mirrors_or_a_window_close_them() {
 }
 
 #[test]
-fn heights_and_lengths_in_different_units_are_steep() {
+fn heights_and_lengths_in_different_units_are_steep_or_smooth() {
     // picometres on a side in metres
     assert_eq!(changed(|heights| heights.mapv_inplace(|h| (h * 1e6).round())), ["steep"]);
     let slope = |slope| {
@@ -142,6 +142,7 @@ fn heights_and_lengths_in_different_units_are_steep() {
         codes(&rough.surface(Grid::square(256, 1.0).unwrap()).unwrap())
     };
     assert_eq!((slope(0.49), slope(0.52)), (vec![], vec!["steep"]));
+    assert_eq!((slope(1.05e-7), slope(0.95e-7)), (vec![], vec!["smooth"]));
 }
 
 #[test]

@@ -131,12 +131,12 @@ pub fn spelled(key: &str, value: &Value, option: Option<&Arg>, folder: &Path) ->
     Ok(vec![typed])
 }
 
-/// The likeness of two names from which one may be the other misspelt, as clap takes it for options.
-const ALIKE: f64 = 0.7;
+/// The likeness of two names from which one may be the other misspelt: `ks` and `k-s` have 0.67, `ouput` and `out` 0.6.
+const ALIKE: f64 = 0.55;
 
 /// The one of these names that a misspelt one may mean.
 pub fn similar<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
-    let likeness = |known: &'a str| (strsim::jaro(name, known), known);
+    let likeness = |known: &'a str| (strsim::normalized_damerau_levenshtein(name, known), known);
     let alike = known.into_iter().map(likeness).filter(|(likeness, _)| *likeness > ALIKE);
     alike.max_by(|(one, _), (other, _)| one.total_cmp(other)).map(|(_, known)| known)
 }

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use asperity::io::{read_channel, read_topography, write_topography};
-use asperity::{Form, FormFit, RowAlignment, ScanAxis, Topography, Trend, Warning};
+use asperity::{Form, FormFit, RowAlignment, ScanAxis, Topography, Trend, Warning, WarningCode};
 use clap::{Args, ValueEnum};
 use serde_json::json;
 
@@ -255,9 +255,9 @@ fn prepared(
         let (found, nodes) = (map.missing() - before, map.heights.len());
         tell("missing", format!("{} stood at {found} of {nodes} points: rms height {}", plain(*code), rms(&map)));
     }
-    let units = Units::of_map(map.unit.as_deref());
-    warnings.extend(Warning::of_topography(&map).iter().map(|warning| Told::new(warning, &units)));
-    warnings.iter().for_each(|warning| complain("warning", &warning.to_string()));
+    let read = warned(&map, |code| code == WarningCode::MissingCode);
+    let has_codes = !read.is_empty();
+    warnings.extend(read);
     if let Some(factor) = options.scale {
         map.heights.mapv_inplace(|h| factor * h);
         tell("scale", format!("heights times {}: rms height {}", plain(factor), rms(&map)));
@@ -337,7 +337,19 @@ fn prepared(
     if let Some(holes) = holes(&map) {
         tell("left", format!("points are missing still, {holes}: add --fill before solving"));
     }
+    // heights and lengths are in their units by now; where codes for missing points are among the heights, they alone
+    // make the slope
+    warnings.extend(warned(&map, |code| code != WarningCode::MissingCode && !has_codes));
     Ok(map)
+}
+
+/// The warnings about a map, of some codes, which are printed.
+fn warned(map: &Topography, wanted: impl Fn(WarningCode) -> bool) -> Vec<Told> {
+    let units = Units::of_map(map.unit.as_deref());
+    let found = Warning::of_topography(map).into_iter().filter(|warning| wanted(warning.code));
+    let told: Vec<_> = found.map(|warning| Told::new(&warning, &units)).collect();
+    told.iter().for_each(|warning| complain("warning", &warning.to_string()));
+    told
 }
 
 /// A sphere, or a cylinder and its direction.
