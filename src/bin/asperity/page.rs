@@ -277,12 +277,16 @@ fn page_of_table(table: &Path) -> Outcome<String> {
         }
     }
     page.heading("Rows");
-    let head: String = header.iter().map(|column| format!("<th>{}</th>", escaped(&spaced(column)))).collect();
+    // what no row has is left out
+    let filled =
+        header.iter().zip(&columns).filter(|(_, column)| rows.iter().any(|row| !row[column.as_str()].is_null()));
+    let (header, columns): (Vec<_>, Vec<_>) = filled.unzip();
+    let head: String = header.iter().map(|name| format!("<th>{}</th>", escaped(&spaced(name)))).collect();
     let _ = writeln!(page.text, "<div class=\"rows\">\n<table>\n<tr>{head}</tr>");
     // the header has the units
     let number = |column: &str, value| shown(column, value, &|_, number| plain(number)).unwrap_or_default();
     for row in &rows {
-        let cell = |column: &String| format!("<td>{}</td>", escaped(&number(column, &row[column])));
+        let cell = |column: &&String| format!("<td>{}</td>", escaped(&number(column, &row[column.as_str()])));
         let cells: String = columns.iter().map(cell).collect();
         let _ = writeln!(page.text, "<tr{}>{cells}</tr>", if bad(row) { " class=\"bad\"" } else { "" });
     }

@@ -13,7 +13,7 @@ use crate::numbers::plain;
 use crate::outcome::Outcome;
 use crate::output::OutputFile;
 use crate::printing::{Printing, complain, say};
-use crate::quantity::{LENGTH, Quantity, power_of_length, times_ten_to};
+use crate::quantity::{LENGTH, PER_LENGTH, Quantity, power_of_length, times_ten_to};
 use crate::scene::Scene;
 use crate::units::Units;
 use crate::warnings::{self, Told};
@@ -375,7 +375,9 @@ fn removed(trend: Trend, before: &Topography, after: &Topography) -> Outcome<Str
         Trend::Plane | Trend::Polynomial(1) => format!("{tilt} removed"),
         Trend::Quadric | Trend::Polynomial(2) => {
             let (xx, xy, yy) = fit.curvatures;
-            format!("{tilt} removed, curvatures xx {}, xy {}, yy {}", plain(xx), plain(xy), plain(yy))
+            let units = Units::of_map(before.unit.as_deref().filter(|_| before.lengths.is_some()));
+            let [xx, xy, yy] = [xx, xy, yy].map(|curvature| units.number(curvature, PER_LENGTH));
+            format!("{tilt} removed, curvatures xx {xx}, xy {xy}, yy {yy}")
         }
         Trend::Polynomial(order) => format!("polynomial of order {order} removed, heights {}", changed(before, after)),
         _ => format!("trend removed, heights {}", changed(before, after)),
