@@ -214,7 +214,7 @@ fn a_range_beyond_the_heights_or_below_the_grid_is_told() {
     // √(1e-5/64)/ρ
     let (count, code, message) = resolved(found(1e-5, 3e-4));
     assert_eq!((count, code), (1, WarningCode::Range));
-    assert!(["mu_rho = 1.32", "7 times finer", "7.9e-4"].iter().all(|part| message.contains(part)), "{message}");
+    assert!(["mu_rho = 1.32", "7 times finer", "7.91e-4"].iter().all(|part| message.contains(part)), "{message}");
     let (count, code, message) = resolved(found(1e-5, 0.1));
     assert_eq!((count, code), (1, WarningCode::Range));
     assert!(["0.1", "0.02", "unit"].iter().all(|part| message.contains(part)), "{message}");
