@@ -146,7 +146,7 @@ impl Warning {
     /// let surface = Surface::wave_2d(Grid::square(64, 1e-6)?, 1e-9, 2)?;
     /// let found = Warning::of_law::<f64>(&Exponential::new(1e-5, 2e-8)?, &surface, 1e9);
     /// let message = found[0].message_with(|length| format!("{} nm", 1e9 * length), |pressure| format!("{pressure} Pa"));
-    /// assert!(message.starts_with("the range of adhesion, 20 nm, exceeds the heights, which span 4 nm"), "{message}");
+    /// assert!(message.starts_with("the range of adhesion, 20 nm, exceeds the heights, which span 2 nm"), "{message}");
     /// # Ok::<(), asperity::Error>(())
     /// ```
     pub fn message_with(&self, length: impl Fn(f64) -> String, pressure: impl Fn(f64) -> String) -> String {
@@ -200,7 +200,7 @@ impl Warning {
     /// let mut map = Topography::new(ndarray::Array2::from_shape_fn((9, 9), |(i, j)| ((7 * i + 5 * j) as f64).sin()));
     /// map.heights.row_mut(3).fill(-99.0);
     /// let found = Warning::of_topography(&map);
-    /// assert!(found[0].message.starts_with("-99 stands at 9 nodes"));
+    /// assert!(found[0].message().starts_with("-99 stands at 9 nodes"));
     /// assert!(Warning::of_topography(&map.declare_missing(-99.0)).is_empty());
     /// ```
     pub fn of_topography(map: &Topography) -> Vec<Self> {
