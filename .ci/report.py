@@ -190,7 +190,8 @@ def check_map(browser, number, told):
     by = [30, -20]
     browser.drag(before["screen"], by)
     after = now()
-    told(near(after["point"], [c - d / after["unit"] for c, d in zip(before["point"], by)]), "is not dragged by the mouse")
+    dragged = [place - way / after["unit"] for place, way in zip(before["point"], by)]
+    told(near(after["point"], dragged), "is not dragged by the mouse")
     browser.click(start["screen"], 2)
     told(now()["view"] == whole, "a double click does not show all")
     browser.wheel(start["screen"], -100)

@@ -145,7 +145,8 @@ impl Warning {
     /// use asperity::{Exponential, Grid, Surface, Warning};
     /// let surface = Surface::wave_2d(Grid::square(64, 1e-6)?, 1e-9, 2)?;
     /// let found = Warning::of_law::<f64>(&Exponential::new(1e-5, 2e-8)?, &surface, 1e9);
-    /// let message = found[0].message_with(|length| format!("{} nm", 1e9 * length), |pressure| format!("{pressure} Pa"));
+    /// let (nm, gpa) = (|length| format!("{} nm", 1e9 * length), |pressure| format!("{} GPa", 1e-9 * pressure));
+    /// let message = found[0].message_with(nm, gpa);
     /// assert!(message.starts_with("the range of adhesion, 20 nm, exceeds the heights, which span 2 nm"), "{message}");
     /// # Ok::<(), asperity::Error>(())
     /// ```
