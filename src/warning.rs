@@ -17,11 +17,13 @@ use crate::vector::sums;
 
 mod code;
 mod extremes;
+mod quantities;
 mod relief;
 mod spikes;
 
 pub use code::WarningCode;
 use extremes::Extremes;
+use quantities::Text;
 use relief::Relief;
 use spikes::Spikes;
 
@@ -54,6 +56,13 @@ const STANDS_OUT: f64 = 1.5;
 /// The rms slope from which a surface is steep: linear elasticity of a half-space is for small slopes, and real
 /// surfaces have up to about this. Heights in another unit than the lengths are beyond it by orders of magnitude.
 const STEEP: f64 = 0.5;
+
+/// The same of a map that is still to be prepared: offsets between scan lines and spikes make slopes of several tens.
+const STEEP_AS_READ: f64 = 100.0;
+
+/// The rms slope up to which a surface is smooth beyond all that are made: the best mirrors have some 1e-7. Heights in
+/// a larger unit than the lengths are below it.
+const SMOOTH: f64 = 1e-7;
 
 /// The distance of a spike from the mean of its neighbours, in the rms of this distance over all nodes: Gaussian
 /// heights do not reach 6 on any map.
@@ -109,25 +118,46 @@ const RESOLVED: f64 = 0.5;
 /// # Ok::<(), asperity::Error>(())
 /// ```
 #[non_exhaustive]
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Warning {
     /// The code.
     pub code: WarningCode,
-    /// The message: the observation, with its number, and the remedy, on one line. Lengths and pressures are in the
-    /// units of the input.
-    pub message: String,
+    text: Text,
 }
 
 impl fmt::Display for Warning {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}: {}", self.code, self.message)
+        write!(f, "{}: {}", self.code, self.message())
     }
 }
 
 impl Warning {
+    /// The message: the observation, with its number, and the remedy, on one line. Lengths and pressures are in the
+    /// units of the input.
+    pub fn message(&self) -> String {
+        self.message_with(figure, figure)
+    }
+
+    /// The message with lengths and pressures as these make texts of them, which may have units. They are rounded to
+    /// three digits.
+    ///
+    /// ```
+    /// use asperity::{Exponential, Grid, Surface, Warning};
+    /// let surface = Surface::wave_2d(Grid::square(64, 1e-6)?, 1e-9, 2)?;
+    /// let found = Warning::of_law::<f64>(&Exponential::new(1e-5, 2e-8)?, &surface, 1e9);
+    /// let (nm, gpa) = (|length| format!("{} nm", 1e9 * length), |pressure| format!("{} GPa", 1e-9 * pressure));
+    /// let message = found[0].message_with(nm, gpa);
+    /// assert!(message.starts_with("the range of adhesion, 20 nm, exceeds the heights, which span 2 nm"), "{message}");
+    /// # Ok::<(), asperity::Error>(())
+    /// ```
+    pub fn message_with(&self, length: impl Fn(f64) -> String, pressure: impl Fn(f64) -> String) -> String {
+        let rounded = |value: f64| format!("{value:.2e}").parse().unwrap_or(value);
+        self.text.written(|value| length(rounded(value)), |value| pressure(rounded(value)))
+    }
+
     /// The probable mistakes in the heights: [`Tilt`](WarningCode::Tilt), [`OpenEdges`](WarningCode::OpenEdges),
-    /// [`Steep`](WarningCode::Steep), [`Spikes`](WarningCode::Spikes), [`MissingCode`](WarningCode::MissingCode),
-    /// [`Cells`](WarningCode::Cells) and [`Flat`](WarningCode::Flat).
+    /// [`Steep`](WarningCode::Steep), [`Smooth`](WarningCode::Smooth), [`Spikes`](WarningCode::Spikes),
+    /// [`MissingCode`](WarningCode::MissingCode), [`Cells`](WarningCode::Cells) and [`Flat`](WarningCode::Flat).
     ///
     /// Takes two passes over the heights, and a third where single nodes may be far out. Where there are codes for
     /// missing points, the warnings that these codes would cause are left out. Tilt and edges are looked at along sides
@@ -141,11 +171,12 @@ impl Warning {
         let mut found = Vec::new();
         found.extend(cells(surface.grid()));
         if extremes.span() <= FLAT * extremes.low.abs().max(extremes.high.abs()) {
+            let mut text = Text::default();
             let message = format!(
                 "all heights are {}: there is nothing that could touch first; check the file, or the map",
-                figure(extremes.low)
+                text.length(extremes.low)
             );
-            found.push(Self { code: WarningCode::Flat, message });
+            found.push(Self { code: WarningCode::Flat, text: text.with(message) });
             return found;
         }
         let codes = extremes.codes();
@@ -156,24 +187,30 @@ impl Warning {
         let relief = Relief::of(surface.heights(), &extremes);
         found.extend(tilt(&relief, surface.grid()));
         found.extend(open_edges(&relief));
-        found.extend(steep(&relief, surface.grid()));
+        found.extend(slope(rms_slope(&relief, surface.grid()), STEEP));
         found.extend(spikes(&relief, &Spikes::of(surface.heights(), &relief)));
         found
     }
 
-    /// The probable mistakes in a measured map that is still to be prepared: [`MissingCode`](WarningCode::MissingCode).
+    /// The probable mistakes in a measured map that is still to be prepared: [`MissingCode`](WarningCode::MissingCode),
+    /// and, where the side lengths are known and no such code is there, [`Steep`](WarningCode::Steep), which here is an
+    /// rms slope above 100, and [`Smooth`](WarningCode::Smooth).
     ///
     /// ```
     /// use asperity::{Topography, Warning};
     /// let mut map = Topography::new(ndarray::Array2::from_shape_fn((9, 9), |(i, j)| ((7 * i + 5 * j) as f64).sin()));
     /// map.heights.row_mut(3).fill(-99.0);
     /// let found = Warning::of_topography(&map);
-    /// assert!(found[0].message.starts_with("-99 stands at 9 nodes"));
+    /// assert!(found[0].message().starts_with("-99 stands at 9 nodes"));
     /// assert!(Warning::of_topography(&map.declare_missing(-99.0)).is_empty());
     /// ```
     pub fn of_topography(map: &Topography) -> Vec<Self> {
         let extremes = Extremes::of(&map.heights.as_standard_layout().into_owned());
-        extremes.codes().into_iter().map(|(value, count)| missing_code(value, count, &extremes)).collect()
+        let codes = extremes.codes();
+        if codes.is_empty() {
+            return map.rms_slope().and_then(|found| slope(found, STEEP_AS_READ)).into_iter().collect();
+        }
+        codes.into_iter().map(|(value, count)| missing_code(value, count, &extremes)).collect()
     }
 
     /// The probable mistakes in the range of `law` on a surface pressed against a body of contact `modulus` E*:
@@ -188,23 +225,26 @@ impl Warning {
         if mu_rho > RESOLVED {
             // μ_ρ goes with the root of the spacing, and with the inverse of the range
             let (finer, longer) = ((mu_rho / RESOLVED).powi(2).ceil(), range * mu_rho / RESOLVED);
+            let mut text = Text::default();
             let message = format!(
                 "adhesion is under-resolved, mu_rho = {} exceeds {RESOLVED}: the answer depends on the grid and \
                  on the start, the contact area is likely to be wrong {}; use a grid {finer} times finer, or a \
-                 range of at least {longer:.1e}",
+                 range of at least {}",
                 figure(mu_rho),
-                likely_error(mu_rho)
+                likely_error(mu_rho),
+                text.length(longer)
             );
-            found.push(Self { code: WarningCode::Range, message });
+            found.push(Self { code: WarningCode::Range, text: text.with(message) });
         }
         if law.work_of_adhesion() > T::zero() && span > 0.0 && range > span {
+            let mut text = Text::default();
             let message = format!(
                 "the range of adhesion, {}, exceeds the heights, which span {}: it then pulls on the whole surface \
                  alike, as a pressure would; give it in the unit of the lengths",
-                figure(range),
-                figure(span)
+                text.length(range),
+                text.length(span)
             );
-            found.push(Self { code: WarningCode::Range, message });
+            found.push(Self { code: WarningCode::Range, text: text.with(message) });
         }
         found
     }
@@ -230,14 +270,15 @@ impl Warning {
         if count == 0.0 {
             return found;
         }
+        let mut text = Text::default();
         let message = format!(
             "the contact pressure is up to {}, {} times the contact modulus E*, and above it at {count} of {} nodes: \
              linear elasticity does not hold there; check the modulus, the load and the unit of the lengths",
-            figure(greatest),
+            text.pressure(greatest),
             figure(greatest / modulus),
             pressures.len()
         );
-        found.push(Self { code: WarningCode::BeyondModulus, message });
+        found.push(Self { code: WarningCode::BeyondModulus, text: text.with(message) });
         found
     }
 
@@ -273,7 +314,7 @@ impl Warning {
             figure(share(part, original.grid())),
             figure(share(whole, original.whole()))
         );
-        Ok(Some(Self { code: WarningCode::Images, message }))
+        Ok(Some(Self { code: WarningCode::Images, text: Text::default().with(message) }))
     }
 }
 
@@ -296,7 +337,7 @@ fn window_edge<T: Real>(solution: &Solution<T>) -> Option<Warning> {
          there; unless the body ends at this edge, take a larger window, or an adhesion of less range",
         figure(share)
     );
-    Some(Warning { code: WarningCode::WindowEdge, message })
+    Some(Warning { code: WarningCode::WindowEdge, text: Text::default().with(message) })
 }
 
 fn cells(grid: &Grid) -> Option<Warning> {
@@ -305,30 +346,32 @@ fn cells(grid: &Grid) -> Option<Warning> {
     if nx == 1 || ny == 1 || aspect <= CELLS {
         return None;
     }
+    let mut text = Text::default();
     let message = format!(
         "cells are {} by {}, {} times as long as wide: check the side lengths, {} by {} for {nx} x {ny} \
          nodes, or resample to square cells",
-        figure(dx),
-        figure(dy),
+        text.length(dx),
+        text.length(dy),
         figure(aspect),
-        figure(grid.lengths().0),
-        figure(grid.lengths().1)
+        text.length(grid.lengths().0),
+        text.length(grid.lengths().1)
     );
-    Some(Warning { code: WarningCode::Cells, message })
+    Some(Warning { code: WarningCode::Cells, text: text.with(message) })
 }
 
 fn missing_code(value: f64, count: usize, extremes: &Extremes) -> Warning {
     // all digits, as the remedy needs them
     let value = if (1e-3..1e9).contains(&value.abs()) { format!("{value}") } else { format!("{value:e}") };
+    let mut text = Text::default();
     let message = format!(
         "{value} stands at {count} {}, far outside of the other heights, {} to {}, as a code for missing points \
          does: declare it missing, and fill (prepare --missing {value} --fill); nothing else can be told of the heights \
          before",
         if count == 1 { "node" } else { "nodes" },
-        figure(extremes.rest.0),
-        figure(extremes.rest.1)
+        text.length(extremes.rest.0),
+        text.length(extremes.rest.1)
     );
-    Warning { code: WarningCode::MissingCode, message }
+    Warning { code: WarningCode::MissingCode, text: text.with(message) }
 }
 
 fn tilt(relief: &Relief, grid: &Grid) -> Option<Warning> {
@@ -344,21 +387,23 @@ fn tilt(relief: &Relief, grid: &Grid) -> Option<Warning> {
     }
     let (lx, ly) = grid.lengths();
     let [x, y] = [&relief.sides[0], &relief.sides[1]].map(|side| side.drop * relief.unit);
+    let mut text = Text::default();
     let message = format!(
         "the map is tilted by {} along x and {} along y, {} across it, {} times the rms height about that plane: \
          remove a plane (detrend)",
         figure(x / lx),
         figure(y / ly),
-        figure(x.abs() + y.abs()),
+        text.length(x.abs() + y.abs()),
         figure((x.abs() + y.abs()) / (rms * relief.unit))
     );
-    Some(Warning { code: WarningCode::Tilt, message })
+    Some(Warning { code: WarningCode::Tilt, text: text.with(message) })
 }
 
 fn open_edges(relief: &Relief) -> Option<Warning> {
     let factor = if relief.is_line() { OPEN_END } else { OPEN_EDGE };
     let stands_out = |side: &relief::Side| side.edge > STANDS_OUT * side.greatest_step;
     let open = |side: &relief::Side| side.tells() && side.edge > factor * side.rms_step && stands_out(side);
+    let mut text = Text::default();
     let parts: Vec<_> = relief
         .sides
         .iter()
@@ -367,7 +412,7 @@ fn open_edges(relief: &Relief) -> Option<Warning> {
         .map(|(side, name)| {
             format!(
                 "{} along {name}, {} times that between neighbours inside",
-                figure(side.edge * relief.unit),
+                text.length(side.edge * relief.unit),
                 figure(side.edge / side.rms_step)
             )
         })
@@ -380,22 +425,29 @@ fn open_edges(relief: &Relief) -> Option<Warning> {
          images or a window",
         parts.join(", and ")
     );
-    Some(Warning { code: WarningCode::OpenEdges, message })
+    Some(Warning { code: WarningCode::OpenEdges, text: text.with(message) })
 }
 
-fn steep(relief: &Relief, grid: &Grid) -> Option<Warning> {
+/// The rms slope between neighbours.
+fn rms_slope(relief: &Relief, grid: &Grid) -> f64 {
     let (dx, dy) = grid.spacing();
     let along = |side: &relief::Side, spacing: f64| side.rms_step * (relief.unit / spacing);
-    let slope = along(&relief.sides[0], dx).hypot(along(&relief.sides[1], dy));
-    if slope <= STEEP {
-        return None;
-    }
+    along(&relief.sides[0], dx).hypot(along(&relief.sides[1], dy))
+}
+
+/// What is probably wrong with an rms slope, if more than `most` is steep.
+fn slope(slope: f64, most: f64) -> Option<Warning> {
+    let (code, than) = match slope {
+        _ if slope > most => (WarningCode::Steep, format!("more than {most}")),
+        _ if slope > 0.0 && slope < SMOOTH => (WarningCode::Smooth, format!("less than {SMOOTH:e}")),
+        _ => return None,
+    };
     let message = format!(
-        "the rms slope is {}, more than {STEEP}: are heights and lengths in one unit? scale the heights, or correct the \
-         side lengths",
+        "the rms slope is {}, {than}: are heights and lengths in one unit? scale the heights, or correct the side \
+         lengths",
         figure(slope)
     );
-    Some(Warning { code: WarningCode::Steep, message })
+    Some(Warning { code, text: Text::default().with(message) })
 }
 
 fn spikes(relief: &Relief, spikes: &Spikes) -> Option<Warning> {
@@ -403,18 +455,19 @@ fn spikes(relief: &Relief, spikes: &Spikes) -> Option<Warning> {
         return None;
     }
     let rms = relief.rms_about_plane();
+    let mut text = Text::default();
     let message = format!(
         "{} single {} out of all neighbours, the farthest by {}, {} times the rms height, at index [{}, {}]; the kurtosis of the \
          heights is {} (3 if Gaussian): set such nodes to NaN, and fill them",
         spikes.count,
         if spikes.count == 1 { "node is far" } else { "nodes are far" },
-        figure(spikes.farthest * relief.unit),
+        text.length(spikes.farthest * relief.unit),
         figure(spikes.farthest / rms),
         spikes.node.0,
         spikes.node.1,
         figure(spikes.kurtosis)
     );
-    Some(Warning { code: WarningCode::Spikes, message })
+    Some(Warning { code: WarningCode::Spikes, text: text.with(message) })
 }
 
 /// A number to three digits.

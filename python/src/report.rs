@@ -177,5 +177,5 @@ pub fn stability<'py, T: Scalar>(py: Python<'py>, found: &Stability<T>) -> PyRes
 }
 
 fn warning<'py>(py: Python<'py>, found: &Warning) -> PyResult<Bound<'py, PyDict>> {
-    Ok(dictionary!(py, "code": found.code.name(), "message": &found.message,))
+    Ok(dictionary!(py, "code": found.code.name(), "message": found.message(),))
 }

@@ -95,6 +95,34 @@ impl Topography {
         f64::sqrt(sum / count)
     }
 
+    /// The root mean square slope between neighbours that are not missing, if the side lengths are known; NaN if there
+    /// are no such neighbours.
+    ///
+    /// ```
+    /// # use asperity::Topography;
+    /// let mut map = Topography::new(ndarray::Array2::from_shape_fn((8, 6), |(i, j)| (3 * i + 4 * j) as f64));
+    /// map.heights[[3, 2]] = f64::NAN;
+    /// map.lengths = Some((8.0, 6.0));
+    /// assert!((map.rms_slope().unwrap() - 5.0).abs() < 1e-12);
+    /// ```
+    pub fn rms_slope(&self) -> Option<f64> {
+        let ((nx, ny), (lx, ly)) = (self.heights.dim(), self.lengths?);
+        let along = |axis: usize, spacing: f64| {
+            let heights = self.heights.lanes(Axis(axis)).into_iter();
+            let slopes = heights.flat_map(|lane| (1..lane.len()).map(move |i| (lane[i] - lane[i - 1]) / spacing));
+            let slopes: Vec<_> = slopes.filter(|slope| slope.is_finite()).collect();
+            // in units of the steepest, of which no square leaves the range of `f64`
+            let most = slopes.iter().fold(0.0, |most: f64, slope| most.max(slope.abs()));
+            let squares = slopes.iter().map(|slope| if most > 0.0 { (slope / most).powi(2) } else { 0.0 });
+            most * f64::sqrt(squares.sum::<f64>() / slopes.len() as f64)
+        };
+        Some(match (nx, ny) {
+            (_, 1) => along(0, lx / nx as f64),
+            (1, _) => along(1, ly / ny as f64),
+            _ => along(0, lx / nx as f64).hypot(along(1, ly / ny as f64)),
+        })
+    }
+
     /// The part of the map with the nodes `x` × `y`; the nodes keep their distances. Of a mirrored map it has no
     /// original.
     ///

@@ -15,8 +15,10 @@ pub enum WarningCode {
     Tilt,
     /// The step across the periodic edge is far greater than any between neighbouring rows or columns inside.
     OpenEdges,
-    /// The rms slope exceeds ½, as where heights and lengths are in different units.
+    /// The rms slope exceeds ½, that of a measured map 100, as where heights and lengths are in different units.
     Steep,
+    /// The rms slope is less than that of any mirror, 1e-7, as where heights and lengths are in different units.
+    Smooth,
     /// A contact pressure exceeds the contact modulus E*.
     BeyondModulus,
     /// Single nodes are far out of their neighbours.
@@ -42,6 +44,7 @@ impl WarningCode {
             Self::Tilt => "tilt",
             Self::OpenEdges => "open-edges",
             Self::Steep => "steep",
+            Self::Smooth => "smooth",
             Self::BeyondModulus => "beyond-modulus",
             Self::Spikes => "spikes",
             Self::MissingCode => "missing-code",

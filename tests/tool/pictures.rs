@@ -1,7 +1,5 @@
 //! Pictures in their formats, and the page of `asperity report`.
 
-use std::process::Command;
-
 use crate::bench::{Bench, text};
 
 const LAW: &str = "--law exponential --work-of-adhesion 1e-4 --range 8e-3";
@@ -139,45 +137,4 @@ fn a_report_is_one_page_that_loads_nothing() {
     }
     bench.refused_with("report nothing", &["nothing", "solve"]);
     bench.refused_with("report heights.npy", &["heights.npy"]);
-}
-
-/// A browser of this machine that runs without a window.
-fn browser() -> Option<&'static str> {
-    let names = ["chromium", "chromium-browser", "google-chrome"];
-    let there = |name: &&&str| Command::new(name).arg("--version").output().is_ok_and(|output| output.status.success());
-    names.iter().find(there).copied()
-}
-
-#[test]
-fn a_browser_opens_a_report_and_zooms_its_maps() {
-    let Some(browser) = browser() else {
-        eprintln!("no chromium on this machine: the page is not opened, only parsed");
-        return;
-    };
-    let bench = bench();
-    bench.said("solve --heights heights.npy --mean-pressure 0.01 --no-pictures --quiet --out results");
-    bench.said("report results");
-    // a script after that of the page turns the wheel over the first map, and writes what it sees
-    let act = "<script>\
-               const svg = document.querySelector('figure.map svg'), place = svg.getBoundingClientRect();\
-               const seen = [svg.getAttribute('viewBox')];\
-               svg.dispatchEvent(new WheelEvent('wheel', { deltaY: -1, clientX: place.x + place.width / 2,\
-                 clientY: place.y + place.height / 2, cancelable: true }));\
-               seen.push(svg.getAttribute('viewBox'));\
-               document.querySelector('figure.map button[title=\"show all\"]').click();\
-               seen.push(svg.getAttribute('viewBox'), String(document.querySelector('svg image').getBBox().width));\
-               document.body.innerHTML = '<p>' + seen.join('|') + '|</p>';\
-               </script></body>";
-    bench.write("acted.html", &bench.read("results/report.html").replace("</body>", act));
-    let page = format!("file://{}", bench.path("acted.html").display());
-    let profile = format!("--user-data-dir={}", bench.path("profile").display());
-    let flags = ["--headless", "--no-sandbox", "--disable-gpu", "--no-first-run", "--dump-dom", &profile, &page];
-    let output = Command::new(browser).args(flags).output().unwrap();
-    let dom = text(&output.stdout);
-    let seen: Vec<_> = dom.split("<p>").nth(1).unwrap_or_else(|| panic!("{dom}")).split('|').collect();
-    let numbers = |text: &str| text.split(' ').map(|number| number.parse().unwrap()).collect::<Vec<f64>>();
-    let [before, zoomed, after] = [seen[0], seen[1], seen[2]].map(numbers);
-    assert_eq!(before, after);
-    assert!((zoomed[2] - before[2] / 1.25).abs() < 1e-6 * before[2] && zoomed[0] > 0.0, "{seen:?}");
-    assert!(seen[3].parse::<f64>().unwrap() > 100.0, "{seen:?}");
 }

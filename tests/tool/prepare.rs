@@ -233,10 +233,10 @@ fn a_channel_of_a_gwyddion_file_is_chosen_where_several_have_heights() {
         bench.refused_with(command, &["0 \"Trace\", 1 \"Retrace\"", "asperity prepare --channel"]);
     }
     for channel in ["0", "Retrace"] {
-        bench.said(&format!("prepare scan.gwy --channel {channel} --fill --out {channel}.npz"));
+        bench.said(&format!("prepare scan.gwy --channel {channel} --scale 1e-9 --fill --out {channel}.npz"));
         bench.said(&format!("stats {channel}.npz"));
     }
-    assert!(bench.said("prepare map.gwy --out map.npz").contains("4 x 3 heights, 1 missing, 2 µm x 3 µm"));
+    assert!(bench.said("prepare map.gwy --scale 1e-9 --out map.npz").contains("4 x 3 heights, 1 missing, 2 µm x 3 µm"));
     bench.refused_with("prepare map.gwy --channel Amplitude --out n.npz", &["\"Amplitude\"", "1 \"Phase\""]);
 }
 
@@ -262,7 +262,9 @@ fn lengths_of_files_and_of_options() {
             &["--lengths", "2 x 1", "2 nm x 1 nm", "leave --lengths out", "asperity prepare"],
         );
     }
-    bench.said("prepare g.txt --lengths 2 1 --out g.npz");
+    // the file has a unit, in which these are metres
+    let output = bench.run("prepare g.txt --lengths 2 1 --out g.npz");
+    assert!(text(&output.stderr).starts_with("warning: smooth: the rms slope is "), "{}", text(&output.stderr));
     assert_eq!(sides("stats g.npz"), "2 m x 1 m");
     // sweeps take the lengths and the unit too
     let output = bench.run("sweep --mean-gaps 1e-9 --heights g.txt --json --out s.csv");

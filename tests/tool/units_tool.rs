@@ -202,7 +202,7 @@ fn maps_have_their_unit_and_come_into_the_si() {
     // in whatever unit the map is, if numbers have none
     let plain = bench.reported("solve --heights map.npz --modulus 1 --mean-pressure 1e-3 --no-pictures --out nm");
     assert_eq!((&plain["lengths"][0], &plain["length_unit"]), (&5000.0.into(), &"nm".into()));
-    bench.said("prepare heights.txt --lengths 5 4 --unit px --out px.npz");
+    bench.said("prepare heights.txt --lengths 5000 4000 --unit px --out px.npz");
     bench.refused_with(
         "solve --heights px.npz --modulus 1GPa --mean-pressure 1MPa --out no",
         &["in px", "prepare --unit"],

@@ -21,6 +21,7 @@ fn bench() -> Bench {
     strip.row_mut(7).fill(-9999.0);
     write("strip.npy", &strip);
     write("picometres.npy", &heights.mapv(|h| (1e6 * h).round()));
+    write("metres.npy", &heights.mapv(|h| 1e-9 * h));
     let mut infinite = heights.clone();
     infinite[[3, 5]] = f64::NEG_INFINITY;
     write("infinite.npy", &infinite);
@@ -143,6 +144,47 @@ fn a_range_is_told_once_and_with_how_wrong_the_answer_may_be() {
         text(&output.stderr)
     );
     assert_eq!(codes(&bench.report("long")), ["range"]);
+}
+
+#[test]
+fn warnings_have_the_units_of_tables() {
+    let bench = bench();
+    let solve = "solve --heights clean.npy --lengths 1m --mean-gap 30mm --modulus 1GPa --no-pictures";
+    let law = "--law exponential --work-of-adhesion 100kJ/m2 --range";
+    let output = bench.run(&format!("{solve} {law} 2m --out long"));
+    let stderr = text(&output.stderr);
+    assert!(stderr.contains("range: the range of adhesion, 2 m, exceeds the heights, which span "), "{stderr}");
+    assert!(stderr.contains(" mm: "), "{stderr}");
+    // on the page, too
+    bench.said("report long");
+    assert!(bench.read("long/report.html").contains("<li>the range of adhesion, 2 m, exceeds"));
+    let output = bench.run("solve --heights clean.npy --lengths 1m --mean-pressure 5GPa --modulus 1GPa --out high");
+    let stderr = text(&output.stderr);
+    assert!(stderr.contains("beyond-modulus: the contact pressure is up to ") && stderr.contains(" GPa, "), "{stderr}");
+    let output = bench.run(&format!(
+        "solve --heights clean.npy --length-unit um --mean-gap 0.03 {} 2 --no-pictures --out plain",
+        law.replace("kJ/m2", "")
+    ));
+    assert!(text(&output.stderr).contains("the range of adhesion, 2 um, exceeds"), "{}", text(&output.stderr));
+}
+
+#[test]
+fn prepare_looks_at_the_slope_that_its_lengths_make() {
+    let bench = bench();
+    let prepare = |options: &str| {
+        let output = bench.run(&format!("prepare metres.npy {options} --out out.npz --force --json"));
+        assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+        let report: Value = serde_json::from_slice(&output.stdout).unwrap();
+        let found: Vec<_> = codes(&report).into_iter().map(str::to_owned).collect();
+        assert_eq!(said(&text(&output.stderr)), found);
+        found
+    };
+    assert_eq!(prepare("--lengths 1 --unit nm"), ["smooth"]);
+    assert_eq!(prepare("--lengths 1e-18 --unit m"), ["steep"]);
+    // with the step that mends it, or without lengths, there is nothing to say
+    assert_eq!(prepare("--lengths 1 --scale 1e9 --unit nm"), [""; 0]);
+    assert_eq!(prepare("--lengths 1nm"), [""; 0]);
+    assert_eq!(prepare(""), [""; 0]);
 }
 
 #[test]

@@ -54,11 +54,13 @@ fn large_integer(table: &DeTable<'_>) -> Option<(String, Range<usize>)> {
     })
 }
 
-/// The options of a scene, those before the first section and those of all sections.
-pub fn entries(table: Table, command: &Command) -> Result<Vec<(String, Value)>, String> {
+/// The options of a scene, those before the first section and those of all sections. Sections that have been taken out
+/// of the table are only named.
+pub fn entries(table: Table, command: &Command, taken: &[&str]) -> Result<Vec<(String, Value)>, String> {
     let mut sections: Vec<_> = command.get_arguments().map(section).collect();
     sections.retain(|section| !section.is_empty());
     sections.dedup();
+    let has = |key: &str| sections.iter().any(|section| section == key);
     let mut entries: Vec<(String, Value)> = Vec::new();
     let mut add = |key: String, value: Value| {
         if entries.iter().any(|(other, _)| *other == key) {
@@ -69,13 +71,15 @@ pub fn entries(table: Table, command: &Command) -> Result<Vec<(String, Value)>, 
     };
     for (key, value) in table {
         match value {
-            Value::Table(options) if sections.contains(&key) => {
+            Value::Table(options) if has(&key) => {
                 options.into_iter().try_for_each(|(key, value)| add(key, value))?;
             }
             Value::Table(_) => {
-                let known: Vec<_> = sections.iter().map(|section| format!("[{section}]")).collect();
-                let known = if known.is_empty() { "none".to_owned() } else { known.join(", ") };
-                return Err(format!("[{key}] is no section of {}, which has {known}", command.get_name()));
+                let known: Vec<_> = sections.iter().map(String::as_str).chain(taken.iter().copied()).collect();
+                let names: Vec<_> = known.iter().map(|section| format!("[{section}]")).collect();
+                let names = if names.is_empty() { "none".to_owned() } else { names.join(", ") };
+                let hint = similar(&key, known).map_or(String::new(), |meant| format!(": did you mean [{meant}]?"));
+                return Err(format!("[{key}] is no section of {}, which has {names}{hint}", command.get_name()));
             }
             value => add(key, value)?,
         }
@@ -125,6 +129,16 @@ pub fn spelled(key: &str, value: &Value, option: Option<&Arg>, folder: &Path) ->
     let mut typed = OsString::from(name + "=");
     typed.push(words.join(&OsString::from(",")));
     Ok(vec![typed])
+}
+
+/// The likeness of two names from which one may be the other misspelt: `ks` and `k-s` have 0.67, `ouput` and `out` 0.6.
+const ALIKE: f64 = 0.55;
+
+/// The one of these names that a misspelt one may mean.
+pub fn similar<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    let likeness = |known: &'a str| (strsim::normalized_damerau_levenshtein(name, known), known);
+    let alike = known.into_iter().map(likeness).filter(|(likeness, _)| *likeness > ALIKE);
+    alike.max_by(|(one, _), (other, _)| one.total_cmp(other)).map(|(_, known)| known)
 }
 
 /// The kinds of values that an option takes, in words.

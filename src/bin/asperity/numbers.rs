@@ -37,8 +37,11 @@ pub fn si(value: f64, unit: &str) -> String {
     let value = rounded / 10f64.powi(3 * power);
     let decimals = if value == 0.0 { 0.0 } else { (3.0 - value.abs().log10().floor()).clamp(0.0, 6.0) };
     let digits = trimmed(format!("{value:.*}", decimals as usize));
-    let prefix = if digits.trim_start_matches('-') == "0" { "" } else { PREFIXES[(power + 5) as usize] };
-    format!("{digits} {prefix}{unit}")
+    match digits.trim_start_matches('-') {
+        // too small for any prefix
+        "0" => format!("0 {unit}"),
+        _ => format!("{digits} {}{unit}", PREFIXES[(power + 5) as usize]),
+    }
 }
 
 /// A number without zeros at the end of its decimals.

@@ -15,12 +15,13 @@ use toml::Table;
 
 use crate::citation::citations;
 use crate::csv;
+use crate::numbers::plain;
 use crate::outcome::Outcome;
 use crate::output::{OutputFile, write_text};
 use crate::pictures::{chart_of_columns, chart_of_loads, draw_pressure, draw_regions};
 use crate::printing::say;
 use crate::scene;
-use crate::units::Units;
+use crate::units::{Units, dimension_of};
 
 /// Put the results of a run on one page for a browser.
 ///
@@ -162,13 +163,14 @@ fn page_of_solve(folder: &Path) -> Outcome<String> {
     }
     page.heading("Figures");
     page.text.push_str("<table>\n");
+    let on_line = report["shape"][1] == 1;
+    let number = |key: &str, value| match dimension_of(key, word("control"), on_line) {
+        Some(dimension) => units.number(value, dimension),
+        None => plain(value),
+    };
     for (key, value) in report.as_object().into_iter().flatten().filter(|(key, _)| *key != "warnings") {
-        if let Some(value) = shown(value) {
-            let unit = units
-                .of_column(key, word("control"), report["shape"][1] == 1)
-                .map_or(String::new(), |unit| format!(" {unit}"));
-            let name = key.replace('_', " ");
-            let _ = writeln!(page.text, "<tr><th>{}</th><td>{}</td></tr>", escaped(&name), escaped(&(value + &unit)));
+        if let Some(value) = shown(key, value, &number) {
+            let _ = writeln!(page.text, "<tr><th>{}</th><td>{}</td></tr>", escaped(&spaced(key)), escaped(&value));
         }
     }
     page.text.push_str("</table>\n");
@@ -275,10 +277,16 @@ fn page_of_table(table: &Path) -> Outcome<String> {
         }
     }
     page.heading("Rows");
-    let head: String = header.iter().map(|column| format!("<th>{}</th>", escaped(&column.replace('_', " ")))).collect();
+    // what no row has is left out
+    let filled =
+        header.iter().zip(&columns).filter(|(_, column)| rows.iter().any(|row| !row[column.as_str()].is_null()));
+    let (header, columns): (Vec<_>, Vec<_>) = filled.unzip();
+    let head: String = header.iter().map(|name| format!("<th>{}</th>", escaped(&spaced(name)))).collect();
     let _ = writeln!(page.text, "<div class=\"rows\">\n<table>\n<tr>{head}</tr>");
+    // the header has the units
+    let number = |column: &str, value| shown(column, value, &|_, number| plain(number)).unwrap_or_default();
     for row in &rows {
-        let cell = |column: &String| format!("<td>{}</td>", escaped(&shown(&row[column]).unwrap_or_default()));
+        let cell = |column: &&String| format!("<td>{}</td>", escaped(&number(column, &row[column.as_str()])));
         let cells: String = columns.iter().map(cell).collect();
         let _ = writeln!(page.text, "<tr{}>{cells}</tr>", if bad(row) { " class=\"bad\"" } else { "" });
     }
@@ -325,24 +333,28 @@ fn units_of_table(header: &[String], scene: Option<&str>) -> Units {
     }
 }
 
-/// A value as people read it; none for what there is not.
-fn shown(value: &Value) -> Option<String> {
+/// A value as people read it, with a number of a name as it is to be; none for what there is not.
+fn shown(name: &str, value: &Value, number: &dyn Fn(&str, f64) -> String) -> Option<String> {
+    let all = |parts: Vec<String>, between: &str| (!parts.is_empty()).then(|| parts.join(between));
     match value {
         Value::Null => None,
         Value::String(word) => Some(word.clone()),
-        Value::Number(number) if number.is_f64() => number.as_f64().map(|number| match number.abs() {
-            0.0 => "0".to_owned(),
-            1e-3..1e6 => format!("{number:.6}").trim_end_matches('0').trim_end_matches('.').to_owned(),
-            _ => format!("{number:.6e}"),
-        }),
-        Value::Array(values) => Some(values.iter().filter_map(shown).collect::<Vec<_>>().join(" × ")),
+        Value::Number(found) if found.is_f64() => found.as_f64().map(|found| number(name, found)),
+        Value::Array(values) => {
+            let between = if values.iter().any(Value::is_object) { "; " } else { " × " };
+            all(values.iter().filter_map(|value| shown(name, value, number)).collect(), between)
+        }
         Value::Object(values) => {
-            let parts =
-                values.iter().filter_map(|(key, value)| Some(format!("{} {}", key.replace('_', " "), shown(value)?)));
-            Some(parts.collect::<Vec<_>>().join(", "))
+            let part = |(name, value): (&String, _)| Some(format!("{} {}", spaced(name), shown(name, value, number)?));
+            all(values.iter().filter_map(part).collect(), ", ")
         }
         other => Some(other.to_string()),
     }
+}
+
+/// A name with spaces.
+fn spaced(name: &str) -> String {
+    name.replace('_', " ")
 }
 
 /// A text without characters that mean something in HTML.

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use asperity::io::{read_channel, read_topography, write_topography};
-use asperity::{Form, FormFit, RowAlignment, ScanAxis, Topography, Trend, Warning};
+use asperity::{Form, FormFit, RowAlignment, ScanAxis, Topography, Trend, Warning, WarningCode};
 use clap::{Args, ValueEnum};
 use serde_json::json;
 
@@ -13,10 +13,10 @@ use crate::numbers::plain;
 use crate::outcome::Outcome;
 use crate::output::OutputFile;
 use crate::printing::{Printing, complain, say};
-use crate::quantity::{LENGTH, Quantity, power_of_length, times_ten_to};
+use crate::quantity::{LENGTH, PER_LENGTH, Quantity, power_of_length, times_ten_to};
 use crate::scene::Scene;
 use crate::units::Units;
-use crate::warnings;
+use crate::warnings::{self, Told};
 
 /// Make a surface that can be solved of a measured map.
 ///
@@ -226,7 +226,7 @@ fn prepared(
     options: &Options,
     si: bool,
     lines: &mut Vec<(&'static str, String)>,
-    warnings: &mut Vec<Warning>,
+    warnings: &mut Vec<Told>,
 ) -> Outcome<Topography> {
     let mut map = match &options.channel {
         Some(channel) => read_channel(&options.input, channel)?,
@@ -255,8 +255,9 @@ fn prepared(
         let (found, nodes) = (map.missing() - before, map.heights.len());
         tell("missing", format!("{} stood at {found} of {nodes} points: rms height {}", plain(*code), rms(&map)));
     }
-    warnings.extend(Warning::of_topography(&map));
-    warnings.iter().for_each(|warning| complain("warning", &warning.to_string()));
+    let read = warned(&map, |code| code == WarningCode::MissingCode);
+    let has_codes = !read.is_empty();
+    warnings.extend(read);
     if let Some(factor) = options.scale {
         map.heights.mapv_inplace(|h| factor * h);
         tell("scale", format!("heights times {}: rms height {}", plain(factor), rms(&map)));
@@ -336,7 +337,19 @@ fn prepared(
     if let Some(holes) = holes(&map) {
         tell("left", format!("points are missing still, {holes}: add --fill before solving"));
     }
+    // heights and lengths are in their units by now; where codes for missing points are among the heights, they alone
+    // make the slope
+    warnings.extend(warned(&map, |code| code != WarningCode::MissingCode && !has_codes));
     Ok(map)
+}
+
+/// The warnings about a map, of some codes, which are printed.
+fn warned(map: &Topography, wanted: impl Fn(WarningCode) -> bool) -> Vec<Told> {
+    let units = Units::of_map(map.unit.as_deref());
+    let found = Warning::of_topography(map).into_iter().filter(|warning| wanted(warning.code));
+    let told: Vec<_> = found.map(|warning| Told::new(&warning, &units)).collect();
+    told.iter().for_each(|warning| complain("warning", &warning.to_string()));
+    told
 }
 
 /// A sphere, or a cylinder and its direction.
@@ -362,7 +375,9 @@ fn removed(trend: Trend, before: &Topography, after: &Topography) -> Outcome<Str
         Trend::Plane | Trend::Polynomial(1) => format!("{tilt} removed"),
         Trend::Quadric | Trend::Polynomial(2) => {
             let (xx, xy, yy) = fit.curvatures;
-            format!("{tilt} removed, curvatures xx {}, xy {}, yy {}", plain(xx), plain(xy), plain(yy))
+            let units = Units::of_map(before.unit.as_deref().filter(|_| before.lengths.is_some()));
+            let [xx, xy, yy] = [xx, xy, yy].map(|curvature| units.number(curvature, PER_LENGTH));
+            format!("{tilt} removed, curvatures xx {xx}, xy {xy}, yy {yy}")
         }
         Trend::Polynomial(order) => format!("polynomial of order {order} removed, heights {}", changed(before, after)),
         _ => format!("trend removed, heights {}", changed(before, after)),

@@ -76,7 +76,7 @@ impl Arguments {
             None => return Err(refuse("does not say what to do: add command = \"solve\"".to_owned()).into()),
         };
         let command = tool.find_subcommand(&name).ok_or_else(|| refuse(format!("{name} is not built in")))?;
-        let entries = entries(table, command).map_err(refuse)?;
+        let entries = entries(table, command, &[]).map_err(refuse)?;
         let mut replaced = replaced(command, &given);
         // those in the scene are of the file in the scene
         replaced.extend(brings_lengths(&given).then(|| "lengths".to_owned()));

@@ -263,9 +263,9 @@ impl Job<'_> {
         let whole = if fits { surface.gathered() } else { None }.zip(whole_adhesion.as_ref());
         let mut warnings = processes.agree(match whole {
             Some((surface, adhesion)) => {
-                Warnings::of_input::<T>(strictness, &surface, adhesion, self.options.problem())
+                Warnings::of_input::<T>(strictness, &surface, adhesion, self.options.problem(), &self.units)
             }
-            None => Warnings::none(strictness, fits),
+            None => Warnings::none(strictness, &self.units, fits),
         })?;
         warnings.say();
         let law = adhesion.law()?;

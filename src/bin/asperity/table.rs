@@ -83,7 +83,7 @@ impl<'a> Table<'a> {
         let mut opened = None;
         processes.first(|| {
             let Some((surface, adhesion)) = whole else { return Ok(()) };
-            let mut warnings = Warnings::of_input::<T>(strictness, &surface, &adhesion, problem)?;
+            let mut warnings = Warnings::of_input::<T>(strictness, &surface, &adhesion, problem, options.units)?;
             kept.check(force, out)?;
             scene.check_beside(out, force || out.exists())?;
             let scene_file = scene.written_beside(out)?;
@@ -110,7 +110,7 @@ impl<'a> Table<'a> {
                 Ok((saved, Self { options, grid, journal: Some(journal), rows, unconverged, warnings, made }))
             }
             None => Seen::read(out).and_then(|Seen { saved, rows, unconverged }| {
-                let warnings = Warnings::none(strictness, true)?;
+                let warnings = Warnings::none(strictness, options.units, true)?;
                 Ok((saved, Self { options, grid, journal: None, rows, unconverged, warnings, made: Vec::new() }))
             }),
         };

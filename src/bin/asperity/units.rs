@@ -5,7 +5,7 @@ use clap::Args;
 use crate::numbers::{plain, si};
 use crate::outcome::Outcome;
 use crate::quantity::{
-    Dimension, ENERGY_PER_AREA, FORCE, FORCE_PER_LENGTH, LENGTH, PER_LENGTH, PER_PRESSURE, PRESSURE,
+    Dimension, ENERGY, ENERGY_PER_AREA, FORCE, FORCE_PER_LENGTH, LENGTH, PER_LENGTH, PER_PRESSURE, PRESSURE,
     PRESSURE_PER_LENGTH,
 };
 
@@ -96,25 +96,9 @@ impl Units {
         }
     }
 
-    /// The unit of a column of a table under loads of this kind; none for shares, numbers and words. The perimeter of
-    /// contact on a line is the number of its ends.
+    /// The unit of a column of a table; see [`dimension_of`].
     pub fn of_column(&self, name: &str, control: &str, on_line: bool) -> Option<String> {
-        self.of(match (name, control) {
-            ("mean_gap" | "min_gap" | "approach" | "range", _) => LENGTH,
-            ("perimeter", _) if !on_line => LENGTH,
-            ("mean_pressure" | "mean_contact_pressure" | "modulus" | "from_pressure" | "to_pressure", _) => PRESSURE,
-            ("density", _) => PER_PRESSURE,
-            ("normal_force", _) => FORCE,
-            ("elastic_energy" | "adhesive_energy" | "work" | "dissipated" | "energy_drop" | "work_of_adhesion", _) => {
-                ENERGY_PER_AREA
-            }
-            ("contact_stiffness", _) => PRESSURE_PER_LENGTH,
-            ("normal_stiffness", _) => FORCE_PER_LENGTH,
-            ("control_value", "mean-pressure") => PRESSURE,
-            ("control_value", "normal-force") => FORCE,
-            ("control_value", "mean-gap" | "approach" | "spring") => LENGTH,
-            _ => return None,
-        })
+        self.of(dimension_of(name, control, on_line)?)
     }
 
     /// The units of a table, if they are all known, for comparing two runs.
@@ -133,6 +117,31 @@ impl Units {
         };
         names.iter().map(name).collect::<Vec<_>>().join(",") + "\n"
     }
+}
+
+/// The dimension of a column of a table, or of a figure of a report, under loads of this kind; none for shares, numbers
+/// and words. The perimeter of contact on a line is the number of its ends.
+pub fn dimension_of(name: &str, control: &str, on_line: bool) -> Option<Dimension> {
+    Some(match (name, control) {
+        ("mean_gap" | "min_gap" | "approach" | "range" | "cut_off" | "lengths", _) => LENGTH,
+        ("perimeter", _) if !on_line => LENGTH,
+        ("mean_pressure" | "carried_pressure" | "mean_contact_pressure" | "min_pressure" | "max_pressure", _) => {
+            PRESSURE
+        }
+        ("modulus" | "from_pressure" | "to_pressure", _) => PRESSURE,
+        ("density", _) => PER_PRESSURE,
+        ("normal_force", _) => FORCE,
+        ("elastic_energy" | "adhesive_energy" | "work" | "dissipated" | "energy_drop" | "work_of_adhesion", _) => {
+            ENERGY_PER_AREA
+        }
+        ("hamaker", _) => ENERGY,
+        ("contact_stiffness", _) => PRESSURE_PER_LENGTH,
+        ("normal_stiffness" | "spring_stiffness", _) => FORCE_PER_LENGTH,
+        ("control_value", "mean-pressure") => PRESSURE,
+        ("control_value", "normal-force") => FORCE,
+        ("control_value", "mean-gap" | "approach" | "spring") => LENGTH,
+        _ => return None,
+    })
 }
 
 #[cfg(test)]
@@ -156,6 +165,7 @@ mod tests {
     #[test]
     fn numbers_and_headers_have_their_units() {
         assert_eq!(Units::si().number(6.273889e-10, LENGTH), "627.4 pm");
+        assert_eq!(Units::si().number(-1e-25, LENGTH), "0 m");
         assert_eq!(Units::si().number(0.05, ENERGY_PER_AREA), "50 mJ/m²");
         assert_eq!(units("um", "MPa").number(0.5, PRESSURE), "0.5 MPa");
         assert_eq!(Units::default().number(0.5, PRESSURE), "0.5");

@@ -1,5 +1,7 @@
 //! The warnings of a command: printed, reported, or refused with `--strict`.
 
+use std::fmt;
+
 use asperity::{Solution, Surface, Warning, WarningCode};
 use clap::Args;
 use serde_json::{Value, json};
@@ -10,6 +12,8 @@ use crate::options::{ProblemOptions, Scalar};
 use crate::outcome::Outcome;
 use crate::part::Part;
 use crate::printing::complain;
+use crate::quantity::{LENGTH, PRESSURE};
+use crate::units::Units;
 
 /// Whether warnings are errors.
 #[derive(Args, Clone, Copy)]
@@ -19,10 +23,30 @@ pub struct Strictness {
     strict: bool,
 }
 
+/// A warning in the units of a run.
+pub struct Told {
+    code: WarningCode,
+    message: String,
+}
+
+impl Told {
+    pub fn new(warning: &Warning, units: &Units) -> Self {
+        let [length, pressure] = [LENGTH, PRESSURE].map(|dimension| move |value| units.number(value, dimension));
+        Self { code: warning.code, message: warning.message_with(length, pressure) }
+    }
+}
+
+impl fmt::Display for Told {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}: {}", self.code, self.message)
+    }
+}
+
 /// The warnings of a run so far, each of which is said once.
 pub struct Warnings {
     strictness: Strictness,
-    found: Vec<Warning>,
+    units: Units,
+    found: Vec<Told>,
     said: usize,
 }
 
@@ -33,9 +57,10 @@ impl Warnings {
         surface: &Surface,
         adhesion: &Adhesion<'_>,
         options: ProblemOptions<'_>,
+        units: &Units,
     ) -> Outcome<Self> {
         let law = adhesion.law::<T>()?;
-        let mut warnings = Self { strictness, found: Vec::new(), said: 0 };
+        let mut warnings = Self { strictness, units: units.clone(), found: Vec::new(), said: 0 };
         let mut found = Warning::of_surface(surface);
         // where nothing repeats, nothing has to meet, and a body that ends may be flat
         let free = options.surface.beyond.boundary == Boundary::Free;
@@ -50,13 +75,13 @@ impl Warnings {
     }
 
     /// No warnings: as another process looks, or, with `--strict` an error, none does.
-    pub fn none(strictness: Strictness, elsewhere: bool) -> Outcome<Self> {
+    pub fn none(strictness: Strictness, units: &Units, elsewhere: bool) -> Outcome<Self> {
         if strictness.strict && !elsewhere {
             return Err(
                 "--strict has no form for several processes and more than 4096 x 4096 nodes: leave it out".into()
             );
         }
-        Ok(Self { strictness, found: Vec::new(), said: 0 })
+        Ok(Self { strictness, units: units.clone(), found: Vec::new(), said: 0 })
     }
 
     /// Looks at an answer, and prints its warnings; of many answers, the first with a warning counts.
@@ -75,13 +100,14 @@ impl Warnings {
     }
 
     /// Keeps new warnings, or with `--strict` returns them as an error.
-    fn add(&mut self, mut found: Vec<Warning>) -> Outcome<()> {
-        found.retain(|new| self.found.iter().all(|known| known.code != new.code));
-        if self.strictness.strict && !found.is_empty() {
-            let all: Vec<_> = found.iter().map(Warning::to_string).collect();
+    fn add(&mut self, found: Vec<Warning>) -> Outcome<()> {
+        let new = found.iter().filter(|new| self.found.iter().all(|known| known.code != new.code));
+        let new: Vec<_> = new.map(|new| Told::new(new, &self.units)).collect();
+        if self.strictness.strict && !new.is_empty() {
+            let all: Vec<_> = new.iter().map(Told::to_string).collect();
             return Err(all.join("; and ").into());
         }
-        self.found.append(&mut found);
+        self.found.extend(new);
         Ok(())
     }
 
@@ -92,6 +118,6 @@ impl Warnings {
 }
 
 /// Warnings as a report lists them.
-pub fn report(warnings: &[Warning]) -> Value {
+pub fn report(warnings: &[Told]) -> Value {
     warnings.iter().map(|warning| json!({ "code": warning.code.name(), "message": warning.message })).collect()
 }

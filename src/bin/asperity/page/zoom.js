@@ -1,5 +1,6 @@
 "use strict";
-// The wheel, the buttons and the keys + - 0 zoom a map, dragging moves it, a double click shows all of it again.
+// The wheel, the buttons and the keys + - 0 zoom a map, dragging moves it, a double click shows all of it again. A map
+// that is shown whole lets the page scroll: under the wheel, which has nothing to zoom out, and under a finger.
 for (const figure of document.querySelectorAll("figure.map")) {
   const svg = figure.querySelector("svg"), box = svg.viewBox.baseVal;
   const all = [box.x, box.y, box.width, box.height];
@@ -7,6 +8,7 @@ for (const figure of document.querySelectorAll("figure.map")) {
     x = Math.min(Math.max(x, 0), all[2] - width);
     y = Math.min(Math.max(y, 0), all[3] - height);
     svg.setAttribute("viewBox", [x, y, width, height].join(" "));
+    figure.classList.toggle("zoomed", width < all[2]);
   };
   // the point of the picture under the pointer stays where it is
   const zoom = (factor, u, v) => {
@@ -14,6 +16,7 @@ for (const figure of document.querySelectorAll("figure.map")) {
     show(box.x + u * (box.width - width), box.y + v * (box.height - height), width, height);
   };
   svg.addEventListener("wheel", event => {
+    if (event.deltaY > 0 && box.width >= all[2]) return;
     event.preventDefault();
     const place = svg.getBoundingClientRect();
     zoom(event.deltaY < 0 ? 1.25 : 0.8, (event.clientX - place.x) / place.width, (event.clientY - place.y) / place.height);

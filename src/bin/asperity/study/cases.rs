@@ -9,7 +9,7 @@ use asperity::Error;
 use clap::Command;
 use toml::{Table, Value};
 
-use crate::entries::{document, entries, spelled};
+use crate::entries::{document, entries, similar, spelled};
 use crate::hash::Hash;
 use crate::loads::parsed;
 use crate::outcome::Outcome;
@@ -68,13 +68,13 @@ impl Study {
         let name = match table.remove("command") {
             Some(Value::String(name)) if COMMANDS.contains(&name.as_str()) => name,
             Some(other) => return Err(refuse(format!("command is {other}: it must be sweep or cycle")).into()),
-            None => return Err(refuse("does not say what to do: add command = \"sweep\"".to_owned()).into()),
+            None => return Err(refuse(lacks(&table, "command", "does not say what to do", "sweep")).into()),
         };
         let folder = path.parent().unwrap_or(Path::new(""));
         let out = match (out, table.remove("out")) {
             (Some(out), _) => out.to_owned(),
             (None, Some(Value::String(out))) if !out.is_empty() => folder.join(out),
-            (None, None) => return Err(refuse("names no table: add out = \"study.csv\"".to_owned()).into()),
+            (None, None) => return Err(refuse(lacks(&table, "out", "names no table", "study.csv")).into()),
             (None, Some(other)) => return Err(refuse(format!("out is {other}: it must be the name of a file")).into()),
         };
         let format = match out.extension().and_then(|extension| extension.to_str()) {
@@ -97,7 +97,7 @@ impl Study {
             command: tool.find_subcommand(&name).cloned().ok_or_else(|| refuse(format!("{name} is not built in")))?,
             surface: make.as_ref().and_then(|_| tool.find_subcommand("surface").cloned()),
         };
-        let fixed = entries(table, &commands.command).map_err(refuse)?;
+        let fixed = entries(table, &commands.command, &["make", "vary"]).map_err(refuse)?;
         let fixed: Vec<_> = fixed.into_iter().chain(make.into_iter().flatten()).collect();
         let choices = vary.into_iter().map(|(key, value)| choices(key, value)).collect::<Result<Vec<_>, _>>();
         let choices = choices.map_err(refuse)?;
@@ -117,10 +117,11 @@ impl Study {
             }
             keys.extend(here);
         }
-        if let Some(own) =
-            fixed.iter().map(|(key, _)| key.as_str()).chain(keys.iter().copied()).find(|key| OWN.contains(key))
-        {
-            return Err(refuse(format!("{own} is not for a study, which sees to it by itself: remove it")).into());
+        for key in fixed.iter().map(|(key, _)| key.as_str()).chain(keys.iter().copied()) {
+            if OWN.contains(&key) {
+                return Err(refuse(format!("{key} is not for a study, which sees to it by itself: remove it")).into());
+            }
+            commands.check(key).map_err(refuse)?;
         }
         let count = choices.iter().try_fold(1_usize, |count, list| count.checked_mul(list.len()));
         let Some(count @ ..=MOST_CASES) = count else {
@@ -148,6 +149,13 @@ impl Study {
         let told = values.filter_map(|(name, value)| Some(format!("{name} {}", text(value.as_ref()?))));
         told.collect::<Vec<_>>().join(", ")
     }
+}
+
+/// What to add to a file that lacks an entry, or to write in the place of one that may be it misspelt.
+fn lacks(table: &Table, key: &str, what: &str, value: &str) -> String {
+    let instead = similar(key, table.keys().map(String::as_str));
+    let instead = instead.map_or(String::new(), |found| format!(" in the place of {found}"));
+    format!("{what}: add {key} = \"{value}\"{instead}")
 }
 
 /// A value without quotation marks and brackets.
@@ -221,6 +229,19 @@ impl Commands {
             Some(surface) => (true, surface),
             None => (false, &self.command),
         }
+    }
+
+    /// Refuses what is no option of theirs.
+    fn check(&self, name: &str) -> Result<(), String> {
+        let commands = || self.surface.iter().chain([&self.command]);
+        let known: Vec<_> = commands().flat_map(Command::get_arguments).filter_map(key).collect();
+        if known.iter().any(|known| known == name) {
+            return Ok(());
+        }
+        let commands: Vec<_> = commands().map(Command::get_name).collect();
+        let meant = similar(name, known.iter().map(String::as_str).filter(|known| !OWN.contains(known)));
+        let hint = meant.map_or("remove it".to_owned(), |meant| format!("did you mean {meant}?"));
+        Err(format!("{name} is no option of {}: {hint}", commands.join(" or ")))
     }
 
     /// The arguments of both commands.

@@ -1,0 +1,256 @@
+#!/usr/bin/env python3
+"""Opens pages of `asperity report` in Chromium, uses them by mouse and keys, and takes pictures of them.
+
+    .ci/report.py BROWSER PAGE...
+
+The browser has no window and no network. It is led by its DevTools protocol, over a pipe. Exits with 1 and the
+complaints if a page is not as it should be.
+"""
+
+import base64
+import itertools
+import json
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+WIDTHS = {"wide": 1300, "narrow": 400}
+
+# what only a browser can tell of a page
+STATE = """(async () => {
+  const all = selector => [...document.querySelectorAll(selector)];
+  const pixels = async image => {
+    const copy = new Image();
+    copy.src = image.href.baseVal;
+    await copy.decode().catch(() => {});
+    return copy.naturalWidth * copy.naturalHeight;
+  };
+  return {
+    title: document.title,
+    heading: document.querySelector("h1").textContent,
+    text: document.body.innerText,
+    pixels: await Promise.all(all("image").map(pixels)),
+    maps: all("figure.map").length,
+    charts: all("figure.chart").length,
+    warnings: all(".warnings li").length,
+    widths: all("figure svg").map(svg => svg.getBoundingClientRect().width),
+    beyond: document.documentElement.scrollWidth - innerWidth,
+  };
+})()"""
+
+ZOOMED = 'document.querySelectorAll("figure.map")[%d].classList.contains("zoomed")'
+
+# of a map the part that is shown, the middles of its buttons on the screen, a point on it, and what is there
+MAP = """(() => {
+  const figure = document.querySelectorAll("figure.map")[%d], svg = figure.querySelector("svg");
+  const { x, y, width, height } = svg.getBoundingClientRect(), screen = [x + width / 3, y + height / 4];
+  const middle = box => [box.x + box.width / 2, box.y + box.height / 2];
+  const point = new DOMPoint(...screen).matrixTransform(svg.getScreenCTM().inverse());
+  return {
+    view: svg.getAttribute("viewBox").split(" ").map(Number),
+    buttons: Object.fromEntries(
+      [...figure.querySelectorAll("button")].map(button => [button.title, middle(button.getBoundingClientRect())])),
+    screen, point: [point.x, point.y], unit: svg.getScreenCTM().a, scrolled: scrollY,
+  };
+})()"""
+
+
+class Browser:
+    """A browser with one tab."""
+
+    def __init__(self, path):
+        (commands, self.commands), (self.answers, answers) = os.pipe(), os.pipe()
+        self.profile = tempfile.TemporaryDirectory(ignore_cleanup_errors=True)
+        flags = "--headless --no-sandbox --disable-gpu --no-first-run --remote-debugging-pipe".split()
+        self.process = subprocess.Popen(
+            ["bash", "-c", f'exec "$0" "$@" 3<&{commands} 4>&{answers}', path, *flags,
+             f"--user-data-dir={self.profile.name}"],
+            pass_fds=(commands, answers),
+            stdin=subprocess.DEVNULL,
+            stderr=subprocess.DEVNULL,
+        )
+        os.close(commands)
+        os.close(answers)
+        self.numbers, self.rest, self.events, self.session = itertools.count(1), b"", [], None
+        target = self("Target.createTarget", url="about:blank")["targetId"]
+        self.session = self("Target.attachToTarget", targetId=target, flatten=True)["sessionId"]
+        for domain in ["Page", "Runtime", "Log", "Network"]:
+            self(f"{domain}.enable")
+        self("Network.emulateNetworkConditions", offline=True, latency=0, downloadThroughput=0, uploadThroughput=0)
+
+    def message(self):
+        """The next message of the browser."""
+        while b"\0" not in self.rest:
+            read = os.read(self.answers, 1 << 16)
+            if not read:
+                sys.exit("the browser has ended: " + str(self.process.wait()))
+            self.rest += read
+        message, self.rest = self.rest.split(b"\0", 1)
+        return json.loads(message)
+
+    def __call__(self, method, **params):
+        """The answer to a command; events until then are kept."""
+        number = next(self.numbers)
+        command = {"id": number, "method": method, "params": params}
+        if self.session:
+            command["sessionId"] = self.session
+        os.write(self.commands, json.dumps(command).encode() + b"\0")
+        while (message := self.message()).get("id") != number:
+            self.events.append(message)
+        if "error" in message:
+            sys.exit(f"{method}: {message['error']}")
+        return message["result"]
+
+    def open(self, url):
+        """Opens a page, and returns when it has loaded."""
+        self.events.clear()
+        self("Page.navigate", url=url)
+        while not any(event["method"] == "Page.loadEventFired" for event in self.events):
+            self.events.append(self.message())
+
+    def close(self):
+        self("Browser.close")
+        self.process.wait()
+        self.profile.cleanup()
+
+    def value(self, script):
+        """The value of a script, or of what it promises."""
+        answer = self("Runtime.evaluate", expression=script, awaitPromise=True, returnByValue=True)
+        if "exceptionDetails" in answer:
+            sys.exit(f"{answer['exceptionDetails']}")
+        return answer["result"]["value"]
+
+    def mouse(self, kind, at, **params):
+        self("Input.dispatchMouseEvent", type=kind, x=at[0], y=at[1], **params)
+
+    def click(self, at, count=1):
+        for times in range(1, count + 1):
+            for kind in ["mousePressed", "mouseReleased"]:
+                self.mouse(kind, at, button="left", clickCount=times)
+
+    def wheel(self, at, turn):
+        self.mouse("mouseWheel", at, deltaX=0, deltaY=turn)
+
+    def comes_true(self, condition):
+        """Whether a condition comes true within five seconds: scrolling takes a while."""
+        return self.value(f"""new Promise(done => {{
+          const look = times => ({condition}) || !times ? done(times > 0) : setTimeout(look, 50, times - 1);
+          look(100);
+        }})""")
+
+    def drag(self, at, by):
+        """Moves the mouse with its button pressed."""
+        to = [at[0] + by[0], at[1] + by[1]]
+        self.mouse("mousePressed", at, button="left", clickCount=1)
+        self.mouse("mouseMoved", to, button="left", buttons=1)
+        self.mouse("mouseReleased", to, button="left", clickCount=1)
+
+    def key(self, key):
+        self("Input.dispatchKeyEvent", type="keyDown", key=key, text=key)
+        self("Input.dispatchKeyEvent", type="keyUp", key=key)
+
+    def picture(self, path):
+        """The whole page as a picture."""
+        size = self("Page.getLayoutMetrics")["cssContentSize"]
+        answer = self("Page.captureScreenshot", clip={**size, "scale": 1}, captureBeyondViewport=True)
+        path.write_bytes(base64.b64decode(answer["data"]))
+
+
+def near(some, others):
+    """Whether all numbers are the same to a thousandth of the largest: places on a screen are whole pixels."""
+    most = max(map(abs, [*some, *others, 1e-3]))
+    return all(abs(a - b) < 2e-3 * most for a, b in zip(some, others, strict=True))
+
+
+def check_map(browser, number, told):
+    """Uses all that zooms and moves a map."""
+    browser.value(f'document.querySelectorAll("figure.map")[{number}].scrollIntoView(), 0')
+
+    def now():
+        return browser.value(MAP % number)
+
+    start = now()
+    names, whole = list(start["buttons"]), start["view"]
+    if names != ["zoom in", "zoom out", "show all"]:
+        return told(False, f"has the buttons {names}")
+
+    def shown(what, share):
+        view = now()["view"]
+        told(near(view[2:], [share * side for side in whole[2:]]), f"{what}: {view} of {whole} is shown")
+
+    browser.click(start["buttons"]["zoom in"])
+    shown("zoom in", 1 / 1.5)
+    browser.key("+")
+    shown("the key +", 1 / 1.5**2)
+    browser.click(start["buttons"]["zoom out"])
+    shown("zoom out", 1 / 1.5)
+    before = now()
+    by = [30, -20]
+    browser.drag(before["screen"], by)
+    after = now()
+    dragged = [place - way / after["unit"] for place, way in zip(before["point"], by)]
+    told(near(after["point"], dragged), "is not dragged by the mouse")
+    browser.click(start["screen"], 2)
+    told(now()["view"] == whole, "a double click does not show all")
+    browser.wheel(start["screen"], -100)
+    told(browser.comes_true(f"scrollY != {start['scrolled']} || {ZOOMED % number}"), "the wheel does nothing")
+    shown("the wheel", 0.8)
+    told(near(now()["point"], start["point"]), "the wheel moves what is under the pointer away from it")
+    told(now()["scrolled"] == start["scrolled"], "the wheel scrolls where it zooms")
+    browser.click(start["buttons"]["show all"])
+    told(now()["view"] == whole, "the button does not show all")
+    browser.wheel(start["screen"], 100)
+    scrolled = browser.comes_true(f"scrollY > {start['scrolled']}")
+    told(scrolled, "the wheel does not scroll where there is nothing to zoom out")
+
+
+def check(browser, path):
+    """The complaints about a page."""
+    complaints = []
+
+    def told(holds, what):
+        if not holds:
+            complaints.append(f"{path}: {what}")
+
+    url = path.absolute().as_uri()
+    for name, width in WIDTHS.items():
+        browser("Emulation.setDeviceMetricsOverride", width=width, height=900, deviceScaleFactor=1, mobile=False)
+        browser.open(url)
+        state = browser.value(STATE)
+        solve = path.name == "report.html"
+        told(state["title"] == state["heading"] == (path.parent.name if solve else path.stem), f"is {state['title']}")
+        told(state["maps"] == (3 if solve else 0), f"has {state['maps']} maps")
+        told(len(state["pixels"]) >= state["maps"], f"has {len(state['pixels'])} images")
+        told(all(pixels >= 64 for pixels in state["pixels"]), f"has images of {state['pixels']} pixels")
+        told(state["charts"] >= (1 if solve else 2), f"has {state['charts']} charts")
+        told(state["warnings"] == (1 if solve else 0), f"has {state['warnings']} warnings")
+        told(all(0.75 * min(width, 600) < svg < width for svg in state["widths"]), f"{name}: {state['widths']} wide")
+        told(state["beyond"] <= 0, f"{name}: {state['beyond']} pixels wider than the window")
+        told("asperity run repeats" in state["text"] and "How to cite" in state["text"], "ends early")
+        for number in range(state["maps"]):
+            check_map(browser, number, lambda holds, what: told(holds, f"{name}, map {number}: {what}"))
+        browser.picture(path.with_suffix(f".{name}.png"))
+        for event in browser.events:
+            params = event["params"]
+            match event["method"]:
+                case "Runtime.exceptionThrown" | "Log.entryAdded" | "Runtime.consoleAPICalled":
+                    told(False, f"{name}: {params}")
+                case "Network.requestWillBeSent":
+                    asked = params["request"]["url"]
+                    told(asked == url or asked.startswith("data:"), f"asks for {asked:.100}")
+    return complaints
+
+
+def main():
+    browser = Browser(sys.argv[1])
+    pages = [pathlib.Path(page) for page in sys.argv[2:]]
+    complaints = [complaint for page in pages for complaint in check(browser, page)]
+    browser.close()
+    if complaints:
+        sys.exit("\n".join(complaints))
+    print(f"{len(pages)} pages opened, all as they should be")
+
+
+main()
