@@ -12,11 +12,15 @@ import itertools
 import json
 import os
 import pathlib
+import select
 import subprocess
 import sys
 import tempfile
 
 WIDTHS = {"wide": 1300, "narrow": 400}
+
+# seconds until a browser that is silent has failed
+PATIENCE = 60
 
 # what only a browser can tell of a page
 STATE = """(async () => {
@@ -64,9 +68,9 @@ class Browser:
         (commands, self.commands), (self.answers, answers) = os.pipe(), os.pipe()
         self.profile = tempfile.TemporaryDirectory(ignore_cleanup_errors=True)
         flags = "--headless --no-sandbox --disable-gpu --no-first-run --remote-debugging-pipe".split()
+        start = f'LD_LIBRARY_PATH=$BROWSER_LIBRARIES exec "$0" "$@" 3<&{commands} 4>&{answers}'
         self.process = subprocess.Popen(
-            ["bash", "-c", f'exec "$0" "$@" 3<&{commands} 4>&{answers}', path, *flags,
-             f"--user-data-dir={self.profile.name}"],
+            ["bash", "-c", start, path, *flags, f"--user-data-dir={self.profile.name}"],
             pass_fds=(commands, answers),
             stdin=subprocess.DEVNULL,
             stderr=subprocess.DEVNULL,
@@ -83,6 +87,8 @@ class Browser:
     def message(self):
         """The next message of the browser."""
         while b"\0" not in self.rest:
+            if not select.select([self.answers], [], [], PATIENCE)[0]:
+                sys.exit(f"the browser has said nothing for {PATIENCE} seconds")
             read = os.read(self.answers, 1 << 16)
             if not read:
                 sys.exit("the browser has ended: " + str(self.process.wait()))

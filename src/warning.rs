@@ -17,15 +17,15 @@ use crate::vector::sums;
 
 mod code;
 mod extremes;
-mod quantities;
 mod relief;
 mod spikes;
+mod text;
 
 pub use code::WarningCode;
 use extremes::Extremes;
-use quantities::Text;
 use relief::Relief;
 use spikes::Spikes;
+use text::Text;
 
 /// The drop of a plane across the map, in rms heights about the plane, from which there is a tilt: at a few per cent
 /// of contact, some two rms heights above the mean, a fifth gives one side of Gaussian heights half as much contact
@@ -57,12 +57,13 @@ const STANDS_OUT: f64 = 1.5;
 /// surfaces have up to about this. Heights in another unit than the lengths are beyond it by orders of magnitude.
 const STEEP: f64 = 0.5;
 
-/// The same of a map that is still to be prepared: offsets between scan lines and spikes make slopes of several tens.
-const STEEP_AS_READ: f64 = 100.0;
+/// The same of a measured map: offsets between scan lines and spikes, as far as they are left, make slopes of several
+/// tens.
+const STEEP_MAP: f64 = 100.0;
 
-/// The rms slope up to which a surface is smooth beyond all that are made: the best mirrors have some 1e-7. Heights in
-/// a larger unit than the lengths are below it.
-const SMOOTH: f64 = 1e-7;
+/// The rms slope below which heights and lengths are in different units: the best mirrors have some 5e-8, and heights
+/// in metres beside lengths in nanometres 1e-9 at most.
+const SMOOTH: f64 = 1e-8;
 
 /// The distance of a spike from the mean of its neighbours, in the rms of this distance over all nodes: Gaussian
 /// heights do not reach 6 on any map.
@@ -208,7 +209,7 @@ impl Warning {
         let extremes = Extremes::of(&map.heights.as_standard_layout().into_owned());
         let codes = extremes.codes();
         if codes.is_empty() {
-            return map.rms_slope().and_then(|found| slope(found, STEEP_AS_READ)).into_iter().collect();
+            return map.rms_slope().and_then(|found| slope(found, STEEP_MAP)).into_iter().collect();
         }
         codes.into_iter().map(|(value, count)| missing_code(value, count, &extremes)).collect()
     }
@@ -224,7 +225,7 @@ impl Warning {
         let mut found = Vec::new();
         if mu_rho > RESOLVED {
             // μ_ρ goes with the root of the spacing, and with the inverse of the range
-            let (finer, longer) = ((mu_rho / RESOLVED).powi(2).ceil(), range * mu_rho / RESOLVED);
+            let (finer, longer) = ((mu_rho / RESOLVED).powi(2).ceil(), rounded_up(range * mu_rho / RESOLVED));
             let mut text = Text::default();
             let message = format!(
                 "adhesion is under-resolved, mu_rho = {} exceeds {RESOLVED}: the answer depends on the grid and \
@@ -328,6 +329,12 @@ fn likely_error(mu_rho: f64) -> &'static str {
         _ if mu_rho <= 2.0 => "by up to 60 %",
         _ => "by a factor of two or more",
     }
+}
+
+/// A positive number with three digits, no less than this one.
+fn rounded_up(value: f64) -> f64 {
+    let unit = 10_f64.powf(value.log10().floor() - 2.0);
+    (value / unit).ceil() * unit
 }
 
 fn window_edge<T: Real>(solution: &Solution<T>) -> Option<Warning> {

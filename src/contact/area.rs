@@ -183,6 +183,15 @@ mod tests {
     }
 
     #[test]
+    fn differences_are_counted_in_rows_of_any_length() {
+        for len in [0, 1, 127, 128, 129, 256, 300] {
+            let row: Vec<bool> = (0..=len).map(|i| i % 2 == 0).collect();
+            assert_eq!(differences(&row[1..], &row), len);
+            assert_eq!(differences(&row, &row), 0);
+        }
+    }
+
+    #[test]
     fn edges_are_counted_across_the_boundaries() {
         let count = |rows: &[&str]| edges_of(rows, true);
         assert_eq!(count(&["....", "....", "...."]), (0, 0));

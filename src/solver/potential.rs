@@ -37,7 +37,8 @@ impl<T: Real> Least<T> {
 
 /// A gap that is wanted in the place of another, or the least that it may become.
 pub(crate) fn bounded<T: Real>(least: Least<T>, gap: T, wanted: T) -> T {
-    wanted.max(least.after(gap))
+    let least = least.after(gap);
+    if wanted < least { least } else { wanted }
 }
 
 /// The local energy of every node: the adhesion law, and the constraint where it is a term of the energy.

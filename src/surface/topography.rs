@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 use std::ops::Range;
 
-use ndarray::{Array2, Axis};
+use ndarray::{Array2, Axis, Zip};
 
 use crate::error::{Error, Result};
 use crate::grid::Grid;
@@ -95,8 +95,8 @@ impl Topography {
         f64::sqrt(sum / count)
     }
 
-    /// The root mean square slope between neighbours that are not missing, if the side lengths are known; NaN if there
-    /// are no such neighbours.
+    /// The root mean square slope between neighbours that are not missing, if the side lengths are known: along the
+    /// sides that have such neighbours, and NaN if neither has. [`Surface::statistics`] has that of a periodic surface.
     ///
     /// ```
     /// # use asperity::Topography;
@@ -104,23 +104,30 @@ impl Topography {
     /// map.heights[[3, 2]] = f64::NAN;
     /// map.lengths = Some((8.0, 6.0));
     /// assert!((map.rms_slope().unwrap() - 5.0).abs() < 1e-12);
+    /// map.heights.column_mut(1).fill(f64::NAN);
+    /// map.heights.column_mut(3).fill(f64::NAN);
+    /// map.heights.column_mut(5).fill(f64::NAN);
+    /// assert!((map.rms_slope().unwrap() - 3.0).abs() < 1e-12);
     /// ```
     pub fn rms_slope(&self) -> Option<f64> {
         let ((nx, ny), (lx, ly)) = (self.heights.dim(), self.lengths?);
         let along = |axis: usize, spacing: f64| {
-            let heights = self.heights.lanes(Axis(axis)).into_iter();
-            let slopes = heights.flat_map(|lane| (1..lane.len()).map(move |i| (lane[i] - lane[i - 1]) / spacing));
-            let slopes: Vec<_> = slopes.filter(|slope| slope.is_finite()).collect();
+            let count = self.heights.len_of(Axis(axis));
+            let part = |nodes: Range<usize>| self.heights.slice_axis(Axis(axis), nodes.into());
+            let slopes = Zip::from(part(0..count - 1)).and(part(1..count));
+            let slope = |before: &f64, after: &f64| Some((after - before) / spacing).filter(|slope| slope.is_finite());
             // in units of the steepest, of which no square leaves the range of `f64`
-            let most = slopes.iter().fold(0.0, |most: f64, slope| most.max(slope.abs()));
-            let squares = slopes.iter().map(|slope| if most > 0.0 { (slope / most).powi(2) } else { 0.0 });
-            most * f64::sqrt(squares.sum::<f64>() / slopes.len() as f64)
+            let most = |most: f64, a: &f64, b: &f64| slope(a, b).map_or(most, |slope| most.max(slope.abs()));
+            let most = slopes.clone().fold(0.0, most);
+            let add = |(sum, count): (f64, f64), slope: f64| match most > 0.0 {
+                true => (sum + (slope / most).powi(2), count + 1.0),
+                false => (sum, count + 1.0),
+            };
+            let (sum, count) = slopes.fold((0.0, 0.0), |sums, a, b| slope(a, b).map_or(sums, |slope| add(sums, slope)));
+            most * f64::sqrt(sum / count)
         };
-        Some(match (nx, ny) {
-            (_, 1) => along(0, lx / nx as f64),
-            (1, _) => along(1, ly / ny as f64),
-            _ => along(0, lx / nx as f64).hypot(along(1, ly / ny as f64)),
-        })
+        let sides = [along(0, lx / nx as f64), along(1, ly / ny as f64)].into_iter();
+        Some(sides.filter(|slope| !slope.is_nan()).reduce(f64::hypot).unwrap_or(f64::NAN))
     }
 
     /// The part of the map with the nodes `x` × `y`; the nodes keep their distances. Of a mirrored map it has no

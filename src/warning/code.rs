@@ -17,7 +17,7 @@ pub enum WarningCode {
     OpenEdges,
     /// The rms slope exceeds ½, that of a measured map 100, as where heights and lengths are in different units.
     Steep,
-    /// The rms slope is less than that of any mirror, 1e-7, as where heights and lengths are in different units.
+    /// The rms slope is less than 1e-8, as where heights and lengths are in different units.
     Smooth,
     /// A contact pressure exceeds the contact modulus E*.
     BeyondModulus,

@@ -142,7 +142,7 @@ fn heights_and_lengths_in_different_units_are_steep_or_smooth() {
         codes(&rough.surface(Grid::square(256, 1.0).unwrap()).unwrap())
     };
     assert_eq!((slope(0.49), slope(0.52)), (vec![], vec!["steep"]));
-    assert_eq!((slope(1.05e-7), slope(0.95e-7)), (vec![], vec!["smooth"]));
+    assert_eq!((slope(1.05e-8), slope(0.95e-8)), (vec![], vec!["smooth"]));
 }
 
 #[test]

@@ -236,7 +236,8 @@ fn a_channel_of_a_gwyddion_file_is_chosen_where_several_have_heights() {
         bench.said(&format!("prepare scan.gwy --channel {channel} --scale 1e-9 --fill --out {channel}.npz"));
         bench.said(&format!("stats {channel}.npz"));
     }
-    assert!(bench.said("prepare map.gwy --scale 1e-9 --out map.npz").contains("4 x 3 heights, 1 missing, 2 µm x 3 µm"));
+    let said = bench.said("prepare map.gwy --scale 1e-9 --out map.npz");
+    assert!(said.contains("4 x 3 heights, 1 missing, 2 µm x 3 µm"), "{said}");
     bench.refused_with("prepare map.gwy --channel Amplitude --out n.npz", &["\"Amplitude\"", "1 \"Phase\""]);
 }
 

@@ -131,7 +131,8 @@ pub fn spelled(key: &str, value: &Value, option: Option<&Arg>, folder: &Path) ->
     Ok(vec![typed])
 }
 
-/// The likeness of two names from which one may be the other misspelt: `ks` and `k-s` have 0.67, `ouput` and `out` 0.6.
+/// The likeness of two names above which one may be the other misspelt: `ks` and `k-s` have 0.67, `ouput` and `out`
+/// 0.6.
 const ALIKE: f64 = 0.55;
 
 /// The one of these names that a misspelt one may mean.

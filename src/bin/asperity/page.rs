@@ -283,7 +283,7 @@ fn page_of_table(table: &Path) -> Outcome<String> {
     let (header, columns): (Vec<_>, Vec<_>) = filled.unzip();
     let head: String = header.iter().map(|name| format!("<th>{}</th>", escaped(&spaced(name)))).collect();
     let _ = writeln!(page.text, "<div class=\"rows\">\n<table>\n<tr>{head}</tr>");
-    // the header has the units
+    // the header of a CSV table has the units
     let number = |column: &str, value| shown(column, value, &|_, number| plain(number)).unwrap_or_default();
     for row in &rows {
         let cell = |column: &&String| format!("<td>{}</td>", escaped(&number(column, &row[column.as_str()])));

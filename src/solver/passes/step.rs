@@ -83,8 +83,8 @@ fn whole<T: Real>(scale: T, gap: T, change: T) -> T {
     if scale == T::one() { change } else { scale * (gap + change) - gap }
 }
 
-/// The change c of a step at one node of residual r', and whether it was clipped: the gap becomes no less than zero where
-/// a wall is; where the law repels, no less than the gap of rest, and from below it than a share of what it is.
+/// The change c of a step at one node of residual r', and whether it was clipped: the gap becomes no less than zero
+/// where a wall is; where the law repels, no less than the gap of rest, and from below it than a share of what it is.
 #[inline(always)]
 fn clipped_change<T: Real>(least: Least<T>, attempt: Attempt<T>, gap: T, [r, z, change]: [T; 3]) -> (T, bool) {
     let Attempt { length, centre, keep, mean } = attempt;
