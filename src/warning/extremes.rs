@@ -2,10 +2,16 @@
 
 use ndarray::Array2;
 
-use super::{CODES, FAR};
 use crate::field::flat;
 use crate::par;
 use crate::vector::{LANES, NOTHING, range, vectorised};
+
+/// The distance of a repeated value from the rest of the heights, in heights of the rest from the lowest to the
+/// highest: codes for missing points are chosen to be far away, levels of a real surface are not.
+const FAR: f64 = 3.0;
+
+/// Codes for missing points that are recognised where they stand once, too.
+const CODES: [f64; 9] = [-9999.0, -99999.0, -999.0, 9999.0, 99999.0, -32768.0, 32767.0, 65535.0, -2147483648.0];
 
 /// Nodes that a thread takes at once.
 const CHUNK: usize = 1 << 14;

@@ -3,9 +3,16 @@
 use ndarray::Array2;
 
 use super::relief::{Relief, Scale};
-use super::{LONE, SPIKE};
 use crate::field::flat;
 use crate::par;
+
+/// The distance of a spike from the mean of its neighbours, in the rms of this distance over all nodes: Gaussian
+/// heights do not reach 6 on any map.
+const SPIKE: f64 = 6.0;
+
+/// The distance of a spike from the mean of its neighbours, in the range of their heights: the tip of a smooth body,
+/// however blunt or sharp, reaches 1.5.
+const LONE: f64 = 2.0;
 
 /// Rows that a thread takes at once.
 const BLOCK: usize = 16;

@@ -1,0 +1,172 @@
+//! What is told of heights: tilt, edges, slopes, spikes, codes of missing points, and their cells.
+
+use super::extremes::Extremes;
+use super::relief::{Relief, Side};
+use super::spikes::Spikes;
+use super::text::Text;
+use super::{Warning, WarningCode, figure};
+use crate::grid::Grid;
+
+/// The drop of a plane across the map, in rms heights about the plane, from which there is a tilt: at a few per cent
+/// of contact, some two rms heights above the mean, a fifth gives one side of Gaussian heights half as much contact
+/// again as the other.
+const TILT: f64 = 0.2;
+
+/// The least difference of mean height across the periodic edge, as a share of the drop of the plane. The share is 1
+/// on a tilted map, and 0 on a long wave, which also has a plane in it.
+const TILT_AT_EDGE: f64 = 0.5;
+
+/// The difference of mean height across the periodic edge from which a tilt stands out, in the greatest difference
+/// between the means of neighbouring rows (columns): one of these exceeds the others on every surface, but not by a
+/// factor of 3.
+const TILT_STANDS_OUT: f64 = 3.0;
+
+/// The rms step across the periodic edge, in rms steps between neighbouring rows (columns) inside, from which edges
+/// do not meet: on a periodic surface the edge is a place like any other, and the mean over many nodes along it
+/// scatters little.
+const OPEN_EDGE: f64 = 3.0;
+
+/// The same on a line, where the edge is one step alone, and that of Gaussian heights reaches no 6.
+const OPEN_END: f64 = 6.0;
+
+/// The rms step across the periodic edge from which it stands out, in the greatest rms step inside: a surface of
+/// steps, as a grating, may have one at the edge, but has equal ones inside.
+const STANDS_OUT: f64 = 1.5;
+
+/// The rms slope below which heights and lengths are in different units: the best mirrors have some 5e-8, and heights
+/// in metres beside lengths in nanometres 1e-9 at most.
+const SMOOTH: f64 = 1e-8;
+
+/// The aspect ratio of cells from which they are far from square: the longer side then resolves half as much, and
+/// side lengths may have been forgotten.
+const CELLS: f64 = 2.0;
+
+pub(super) fn cells(grid: &Grid) -> Option<Warning> {
+    let ((nx, ny), (dx, dy)) = (grid.shape(), grid.spacing());
+    let aspect = (dx / dy).max(dy / dx);
+    if nx == 1 || ny == 1 || aspect <= CELLS {
+        return None;
+    }
+    let mut text = Text::default();
+    let message = format!(
+        "cells are {} by {}, {} times as long as wide: check the side lengths, {} by {} for {nx} x {ny} \
+         nodes, or resample to square cells",
+        text.length(dx),
+        text.length(dy),
+        figure(aspect),
+        text.length(grid.lengths().0),
+        text.length(grid.lengths().1)
+    );
+    Some(Warning { code: WarningCode::Cells, text: text.with(message) })
+}
+
+pub(super) fn missing_code(value: f64, count: usize, extremes: &Extremes) -> Warning {
+    // all digits, as the remedy needs them
+    let value = if (1e-3..1e9).contains(&value.abs()) { format!("{value}") } else { format!("{value:e}") };
+    let mut text = Text::default();
+    let message = format!(
+        "{value} stands at {count} {}, far outside of the other heights, {} to {}, as a code for missing points \
+         does: declare it missing, and fill (prepare --missing {value} --fill); nothing else can be told of the heights \
+         before",
+        if count == 1 { "node" } else { "nodes" },
+        text.length(extremes.rest.0),
+        text.length(extremes.rest.1)
+    );
+    Warning { code: WarningCode::MissingCode, text: text.with(message) }
+}
+
+pub(super) fn tilt(relief: &Relief, grid: &Grid) -> Option<Warning> {
+    let rms = relief.rms_about_plane();
+    let tilted = |side: &Side| {
+        let drop = side.drop.abs();
+        let missed = -side.drop.signum() * side.mean_edge;
+        let stands_out = missed > TILT_STANDS_OUT * side.greatest_mean_step;
+        side.tells() && drop > TILT * rms && missed > TILT_AT_EDGE * drop && stands_out
+    };
+    if !relief.sides.iter().any(tilted) {
+        return None;
+    }
+    let (lx, ly) = grid.lengths();
+    let [x, y] = [&relief.sides[0], &relief.sides[1]].map(|side| side.drop * relief.unit);
+    let mut text = Text::default();
+    let message = format!(
+        "the map is tilted by {} along x and {} along y, {} across it, {} times the rms height about that plane: \
+         remove a plane (detrend)",
+        figure(x / lx),
+        figure(y / ly),
+        text.length(x.abs() + y.abs()),
+        figure((x.abs() + y.abs()) / (rms * relief.unit))
+    );
+    Some(Warning { code: WarningCode::Tilt, text: text.with(message) })
+}
+
+pub(super) fn open_edges(relief: &Relief) -> Option<Warning> {
+    let factor = if relief.is_line() { OPEN_END } else { OPEN_EDGE };
+    let stands_out = |side: &Side| side.edge > STANDS_OUT * side.greatest_step;
+    let open = |side: &Side| side.tells() && side.edge > factor * side.rms_step && stands_out(side);
+    let mut text = Text::default();
+    let parts: Vec<_> = relief
+        .sides
+        .iter()
+        .zip(["x", "y"])
+        .filter(|(side, _)| open(side))
+        .map(|(side, name)| {
+            format!(
+                "{} along {name}, {} times that between neighbours inside",
+                text.length(side.edge * relief.unit),
+                figure(side.edge / side.rms_step)
+            )
+        })
+        .collect();
+    if parts.is_empty() {
+        return None;
+    }
+    let message = format!(
+        "opposite edges do not meet, the rms step across the periodic edge is {}: make the map periodic, by mirror \
+         images or a window",
+        parts.join(", and ")
+    );
+    Some(Warning { code: WarningCode::OpenEdges, text: text.with(message) })
+}
+
+/// The rms slope between neighbours.
+pub(super) fn rms_slope(relief: &Relief, grid: &Grid) -> f64 {
+    let (dx, dy) = grid.spacing();
+    let along = |side: &Side, spacing: f64| side.rms_step * (relief.unit / spacing);
+    along(&relief.sides[0], dx).hypot(along(&relief.sides[1], dy))
+}
+
+/// What is probably wrong with an rms slope, if more than `most` is steep.
+pub(super) fn slope(slope: f64, most: f64) -> Option<Warning> {
+    let (code, than) = match slope {
+        _ if slope > most => (WarningCode::Steep, format!("more than {most}")),
+        _ if slope > 0.0 && slope < SMOOTH => (WarningCode::Smooth, format!("less than {SMOOTH:e}")),
+        _ => return None,
+    };
+    let message = format!(
+        "the rms slope is {}, {than}: are heights and lengths in one unit? scale the heights, or correct the side \
+         lengths",
+        figure(slope)
+    );
+    Some(Warning { code, text: Text::default().with(message) })
+}
+
+pub(super) fn spikes(relief: &Relief, spikes: &Spikes) -> Option<Warning> {
+    if spikes.count == 0 {
+        return None;
+    }
+    let rms = relief.rms_about_plane();
+    let mut text = Text::default();
+    let message = format!(
+        "{} single {} out of all neighbours, the farthest by {}, {} times the rms height, at index [{}, {}]; the kurtosis of the \
+         heights is {} (3 if Gaussian): set such nodes to NaN, and fill them",
+        spikes.count,
+        if spikes.count == 1 { "node is far" } else { "nodes are far" },
+        text.length(spikes.farthest * relief.unit),
+        figure(spikes.farthest / rms),
+        spikes.node.0,
+        spikes.node.1,
+        figure(spikes.kurtosis)
+    );
+    Some(Warning { code: WarningCode::Spikes, text: text.with(message) })
+}
