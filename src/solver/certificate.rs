@@ -141,9 +141,19 @@ impl<T: Real, L: Real> State<'_, T, L> {
             return Ok(true);
         }
         self.certify()?;
+        if self.converged() {
+            return Ok(true);
+        }
         // what the updated pressure claimed was no progress
-        self.progress.best_error = self.progress.best_error.max(self.relative_error());
-        Ok(self.converged())
+        let error = self.relative_error();
+        let progress = &mut self.progress;
+        progress.best_error = progress.best_error.max(error);
+        if error < PROGRESS * progress.least_refuted {
+            (progress.least_refuted, progress.refuted) = (error, 0);
+        } else {
+            progress.refuted += 1;
+        }
+        Ok(false)
     }
 
     /// Whether the solve has to end without having converged.
@@ -174,7 +184,7 @@ impl<T: Real, L: Real> State<'_, T, L> {
         if self.progress.idle == restart {
             (self.momentum, self.residual_norm) = (None, None);
         }
-        (self.progress.idle >= stall).then_some(Status::Stalled)
+        (self.progress.idle.max(self.progress.refuted) >= stall).then_some(Status::Stalled)
     }
 
     /// Computes the pressure from the gap, once, where a solve would stall after many updates of the pressure, whose

@@ -68,11 +68,21 @@ pub(super) struct Progress {
     pub(super) lowest_energy: f64,
     /// iterations without progress
     pub(super) idle: usize,
+    /// the least error that a pressure computed from its gap had, after its updates had met the goal
+    pub(super) least_refuted: f64,
+    /// how often such an error was no progress
+    pub(super) refuted: usize,
     /// whether the pressure was computed anew at the floor of rounding
     pub(super) renewed: bool,
 }
 
 impl Progress {
-    pub(super) const NONE: Self =
-        Self { best_error: f64::INFINITY, lowest_energy: f64::INFINITY, idle: 0, renewed: false };
+    pub(super) const NONE: Self = Self {
+        best_error: f64::INFINITY,
+        lowest_energy: f64::INFINITY,
+        idle: 0,
+        least_refuted: f64::INFINITY,
+        refuted: 0,
+        renewed: false,
+    };
 }

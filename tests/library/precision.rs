@@ -110,6 +110,21 @@ fn floor<T: Real>(n: usize, pressure: f64) -> (f64, usize, Array2<f64>) {
     (report.relative_error, report.iterations, solution.gap.mapv(|g| g.widen()))
 }
 
+#[test]
+fn a_tolerance_at_the_floor_ends_as_soon_as_one_below_it() {
+    let solve = |tolerance| solve(&mut rough::<f32, _>(512, 16, NoAdhesion), Control::MeanPressure(0.02), tolerance);
+    let below = solve(1e-7).report;
+    assert_eq!(below.status, Status::Stalled);
+    // the updated pressure meets some of these, and the pressure of the gap does not
+    for part in 14..26 {
+        let tolerance = 0.04 * f64::from(part) * below.relative_error;
+        let (least, most) = (below.operator_applications / 2, below.operator_applications * 5 / 4);
+        let report = solve(tolerance).report;
+        assert_eq!(report.status == Status::Converged, report.relative_error <= tolerance, "{tolerance:e}");
+        assert!((least..=most).contains(&report.operator_applications), "{tolerance:e}: {report:?}");
+    }
+}
+
 /// The certified error of a gap as it is, in `f64`.
 fn certified(n: usize, gap: &Array2<f64>) -> f64 {
     let mut problem = rough::<f64, _>(n, n as i32 / 4, NoAdhesion);
