@@ -192,10 +192,6 @@ impl Surface {
     }
 }
 
-/// The nodes along a side that the shortest wave of a surface must have on a grid for its solution to say something of
-/// finer ones.
-pub(crate) const RESOLVED: f64 = 4.0;
-
 /// The relative error of the solver on a coarser grid above which its difference to a finer one says nothing.
 const SOLVED: f64 = 3e-3;
 
@@ -272,6 +268,9 @@ impl GridError {
     /// the error of the finest, with something to spare.
     pub const COARSE_TOLERANCE: f64 = 1e-3;
 
+    /// The nodes that the shortest wave of a surface takes on a grid, for the solution there to tell the error.
+    pub const LEAST_NODES_PER_WAVE: f64 = 4.0;
+
     /// The errors of all quantities that a control does not give, as [`GridError::of`] has them.
     pub fn of_all(
         levels: &[Level],
@@ -290,7 +289,9 @@ impl GridError {
     /// `nodes_per_wave` is that of the surface on the finest grid, and `mu_rho` its resolution measure of the adhesion.
     pub fn of(levels: &[Level], quantity: Quantity, nodes_per_wave: f64, mu_rho: f64) -> Option<Self> {
         let finest = levels.last()?;
-        let resolves = |factor: f64| nodes_per_wave / factor >= RESOLVED && mu_rho * factor.sqrt() <= UNDER_RESOLVED;
+        let resolves = |factor: f64| {
+            nodes_per_wave / factor >= Self::LEAST_NODES_PER_WAVE && mu_rho * factor.sqrt() <= UNDER_RESOLVED
+        };
         let value = |level: &Level| quantity.of(level).filter(|value| !value.is_nan());
         let mut values = vec![value(finest)?];
         let mut coarser = None;

@@ -155,8 +155,8 @@ pub enum Update {
 /// [`check_law`](crate::check_law) does.
 ///
 /// # Errors
-/// [`Error::Law`] with the function of the springs, the first gap at which it is not finite, not the derivative of the
-/// one before it, or falls; [`Error::Value`] if `depth` is not positive and finite.
+/// [`Error::Law`] with the function of the springs, and the first gap at which it is not finite, or not the derivative
+/// of the one before it; [`Error::Value`] if their slope is negative somewhere, or `depth` not positive and finite.
 ///
 /// ```
 /// use asperity::{Penalty, Projection, check_constraint};
@@ -175,10 +175,8 @@ pub fn check_constraint<T: Real>(constraint: &impl ContactConstraint<T>, nodes: 
             ("slope of the springs", &slope),
         ];
         derivatives::check::<T>(functions, (-depth, depth), depth)?;
-        let gaps = (0..=100).map(|i| depth * (0.02 * f64::from(i) - 1.0));
-        if let Some(gap) = gaps.into_iter().find(|&gap| slope(gap) < 0.0) {
-            let (function, value) = ("slope of the springs", slope(gap));
-            return Err(Error::Law { function, gap, value, expected: Some(0.0) });
+        for i in 0..=100 {
+            Error::non_negative("slope of the springs", slope(depth * (0.02 * f64::from(i) - 1.0)))?;
         }
     }
     Ok(())

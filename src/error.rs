@@ -266,9 +266,10 @@ impl fmt::Display for Error {
             }
             Self::Law { function, gap, value, expected: Some(expected) } => write!(
                 f,
-                "the {function} is {} at a gap of {}: the function of which it is the derivative gives {}",
+                "the {function} is {} at a gap of {}, where the {} has the derivative {}: correct one of the two",
                 Short(*value),
                 Short(*gap),
+                if function.starts_with("slope") { "traction" } else { "energy" },
                 Short(*expected)
             ),
             Self::Concave { gap, traction, nearer } => write!(

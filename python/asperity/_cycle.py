@@ -129,7 +129,7 @@ class Cycle(Rows[Step]):
         ax : matplotlib Axes, optional
             Axes to draw on; new ones by default.
         length_unit, pressure_unit, force_unit : str, optional
-            Units for the axes.
+            Units for the axes; forces are in N where lengths are in m and pressures in Pa.
 
         Returns
         -------

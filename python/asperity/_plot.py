@@ -177,6 +177,8 @@ def cycle(
 ) -> Axes:
     """Mean pressure over mean gap, or normal force over approach, a line for each leg, with the jumps dotted."""
     free = bool(np.isfinite(columns["approach"]).any())
+    if (length_unit, pressure_unit) == ("m", "Pa"):
+        force_unit = force_unit or "N"
     x, y = ("approach", "normal_force") if free else ("mean_gap", "mean_pressure")
     if ax is None:
         _, ax = _pyplot().subplots(figsize=(4.6, 3.4), layout="constrained")

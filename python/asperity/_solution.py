@@ -320,8 +320,10 @@ class Solution:
             rows.append(("approach", f"{self.approach:.7g}"))
             rows.append(("normal force", f"{self.normal_force:.7g}"))
             rows.append(("traction at the edge", f"{100 * self.edge_traction:.4g} %"))
-        for name in ("mean_gap", "mean_pressure", "mean_contact_pressure", "min_pressure", "max_pressure"):
+        for name in ("mean_gap", "mean_pressure", "mean_contact_pressure"):
             rows.append((name.replace("_", " "), f"{report[name]:.7g}"))
+        rows.append(("least pressure", f"{report['min_pressure']:.7g}"))
+        rows.append(("greatest pressure", f"{report['max_pressure']:.7g}"))
         rows.append(("elastic energy per area", f"{report['elastic_energy']:.7g}"))
         if report["law"] != "none":
             rows.append(("adhesive energy per area", f"{report['adhesive_energy']:.7g}"))

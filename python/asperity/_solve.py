@@ -124,7 +124,7 @@ def solve(
         Quantity that has the accuracy: the contact area corrected for its edge, by default; the mean gap or the mean
         pressure, if it is not given; or the contact stiffness.
     memory : float, optional
-        Memory that an accuracy may take, in GiB; what is there by default.
+        Memory that an accuracy may take, in GiB; all that is free by default.
     threads : int, optional
         Threads of this solve; one per core by default. The results do not depend on it.
     whole : bool

@@ -118,6 +118,8 @@ def test_a_tip_with_adhesion_on_a_spring_jumps_in_and_off():
     assert cycle.columns["normal_force"].min() < 0
     axes = cycle.plot(force_unit="N")
     assert axes.get_xlabel() == "approach" and axes.get_ylabel() == "normal force (µN)"
+    axes = cycle.plot(length_unit="m", pressure_unit="Pa")
+    assert axes.get_xlabel() == "approach (mm)" and axes.get_ylabel() == "normal force (µN)"
 
 
 def test_bodies_start_apart_where_that_is_asked_for(tip):

@@ -19,10 +19,11 @@ def test_the_code_of_the_readme_runs(tmp_path, monkeypatch):
     np.savez("measured.npz", heights=measured, lengths=(2e-6, 2e-6), unit="m")
     found = {}
     blocks = re.findall(r"^```python\n(.*?)^```", README.read_text(), re.MULTILINE | re.DOTALL)
-    assert len(blocks) == 4
+    assert len(blocks) == 5
     for block in blocks:
         exec(block, found)
     assert found["solution"].converged and found["pressed"].converged and len(found["table"]) == 3
     assert found["right"].report["accuracy"]["reached"]
-    assert [event["event"] for event in found["cycle"].events] == ["jump-in", "pull-off"]
+    assert [event["event"] for event in found["cycle"].events] == ["jump-in", "jump-out"]
+    assert -found["cycle"].columns["normal_force"].min() == pytest.approx(5.09e-9, rel=1e-3)
     assert pathlib.Path("pressed.pdf").stat().st_size > 1000

@@ -223,6 +223,7 @@ def test_an_unstable_equilibrium_is_left():
 def test_the_table_and_the_html_say_how_it_ended(rough, law):
     solution = asperity.solve(rough, modulus=1.0, mean_pressure=0.01, law=law)
     assert repr(solution).startswith("status  ") and "converged" in repr(solution) and "mu_rho" in repr(solution)
+    assert "least pressure " in repr(solution) and "greatest pressure " in repr(solution)
     html = solution._repr_html_()
     assert "data:image/png;base64," in html and "converged" in html
     json.dumps(solution.report)  # plain numbers, lists and text

@@ -6,7 +6,7 @@ use std::time::Instant;
 use ndarray::Array2;
 
 use super::refine::{refined, twice};
-use super::{CAUTION, FINE, GridError, Quantity, RESOLVED};
+use super::{CAUTION, FINE, GridError, Quantity};
 use crate::adhesion::AdhesionLaw;
 use crate::constraint::{ContactConstraint, Projection};
 use crate::elastic::{Boundary, ElasticOperator};
@@ -238,7 +238,8 @@ impl<C> Accuracy<C> {
     /// How often the grid is likely to be refined, if errors are smaller than expected by a factor.
     fn refinements(&self, nodes_per_wave: f64, by_edge: bool, smaller: f64) -> i32 {
         // without a coarser grid the waves tell the error of the area, and the edge that of the others
-        let least = if by_edge || self.of == Quantity::Area { RESOLVED } else { 2.0 * RESOLVED };
+        let least = GridError::LEAST_NODES_PER_WAVE;
+        let least = if by_edge || self.of == Quantity::Area { least } else { 2.0 * least };
         let sure = by_edge && self.of != Quantity::Stiffness;
         let enough = |refinements: &i32| {
             let nodes = nodes_per_wave * f64::from(*refinements).exp2();

@@ -5,14 +5,13 @@ use super::frame::{
     Entry, LINE, MARGIN, NUMBERS, STEP_BELOW, STEP_BESIDE, Texts, draw_axis_below, draw_axis_beside, room,
 };
 use super::scale::{Axis, Part};
-use super::shape::{Area, Colour, Curve, GREY, HAIRLINE, Shape};
+use super::shape::{Area, BLACK, Colour, Curve, GREY, HAIRLINE, Shape};
 use crate::error::Result;
 
 /// Curves over two axes, such as the loads on a path over its mean gaps.
 ///
-/// The axes reach over all points that are finite, and on a logarithmic one positive; a curve is broken where they are
-/// not. Where no curve has more than thirty points, each point has a dot. Units are written as those of a
-/// [`Map`](super::Map).
+/// The axes reach over all points that are finite, and on a logarithmic one positive; other points break a curve. Where
+/// no curve has more than thirty points, each point has a dot. Units are written as those of a [`Map`](super::Map).
 ///
 /// ```
 /// use asperity::picture::{Chart, DPI};
@@ -41,6 +40,8 @@ pub struct Chart<'a> {
     pub y_log: bool,
     /// The curves: their names, for the legend, and their points (x, y).
     pub curves: Vec<(&'a str, Vec<(f64, f64)>)>,
+    /// Jumps between two points of curves, which are drawn as dashed lines.
+    pub jumps: Vec<[(f64, f64); 2]>,
 }
 
 const SIZE: (f64, f64) = (360.0, 240.0);
@@ -51,6 +52,8 @@ pub(super) const WIDTH: f64 = 1.0;
 const DOT: f64 = 3.5;
 /// The largest number of points on a curve of a chart with dots.
 const MOST_DOTS: usize = 30;
+/// The length of a dash, and of the space behind it.
+const DASH: f64 = 3.0;
 /// The part of an axis beyond the points, as a share of their range.
 const SLACK: f64 = 0.03;
 
@@ -97,11 +100,15 @@ impl Chart<'_> {
             let zero = plot.bottom() - plot.height * above.share(0.0);
             picture.fill(Area::new(plot.left, zero - 0.5 * HAIRLINE, plot.width, HAIRLINE), GREY);
         }
+        let place = |&(x, y): &(f64, f64)| {
+            (plot.left + plot.width * across.share(x), plot.bottom() - plot.height * above.share(y))
+        };
+        for [from, to] in &self.jumps {
+            let pieces = dashes(place(from), place(to));
+            picture.shapes.push(Shape::Curve(Curve { pieces, width: HAIRLINE, colour: BLACK, within: plot }));
+        }
         let dotted = self.curves.iter().all(|(_, points)| points.len() <= MOST_DOTS);
         for ((_, points), colour) in self.curves.iter().zip(COLOURS.into_iter().cycle()) {
-            let place = |&(x, y): &(f64, f64)| {
-                (plot.left + plot.width * across.share(x), plot.bottom() - plot.height * above.share(y))
-            };
             let points: Vec<_> = points.iter().map(place).collect();
             let curve = |pieces, width| Shape::Curve(Curve { pieces, width, colour, within: plot });
             let pieces = pieces(&points);
@@ -140,6 +147,17 @@ impl Chart<'_> {
         };
         Range { low, high, logarithmic, unit }
     }
+}
+
+/// The dashes of a line between two points; none if they are not finite.
+fn dashes(from: (f64, f64), to: (f64, f64)) -> Vec<Vec<(f64, f64)>> {
+    let (across, up) = (to.0 - from.0, to.1 - from.1);
+    let count = (0.5 * across.hypot(up) / DASH).ceil();
+    if !count.is_finite() {
+        return Vec::new();
+    }
+    let at = |share: f64| (from.0 + share * across, from.1 + share * up);
+    (0..count as usize).map(|k| [0.0, 0.5].map(|part| at((k as f64 + part) / count)).to_vec()).collect()
 }
 
 /// The pieces of a curve, which is broken where a point is not finite.

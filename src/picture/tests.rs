@@ -182,7 +182,9 @@ fn pictures() -> [Picture; 2] {
         ..Map::new(values.view(), Grid::new((3, 2), (3.0, 2.0)).unwrap(), Colouring::Sequential)
     };
     let points = vec![(1e-3, 1.0), (1e-2, f64::NAN), (1e-1, 10.0), (1.0, 100.0)];
-    let chart = Chart { x_log: true, y_log: true, x_label: "load", curves: vec![("area", points)], ..Chart::default() };
+    let jumps = vec![[(1e-3, 1.0), (1e-1, 10.0)], [(1.0, 100.0), (-1.0, 1.0)]];
+    let curves = vec![("area", points)];
+    let chart = Chart { x_log: true, y_log: true, x_label: "load", curves, jumps, ..Chart::default() };
     [map.draw(DPI).unwrap(), chart.draw(DPI).unwrap()]
 }
 
@@ -196,6 +198,9 @@ fn svg_has_text_as_text_and_the_map_as_an_image() {
         [">0.001<", ">0.1<", ">load<", ">area<"].iter().all(|text| chart.contains(text)) && !chart.contains("<image")
     );
     assert!(!map.contains("NaN") && !chart.contains("NaN") && !chart.contains("inf"));
+    // the jump from corner to corner, 360 by 240 points, in dashes of 3 points; the other one has no place
+    let dashed: Vec<_> = chart.split("<path").filter(|path| path.matches('M').count() > 10).collect();
+    assert!(dashed.len() == 1 && (25..75).contains(&dashed[0].matches('M').count()), "{dashed:?}");
 }
 
 #[test]

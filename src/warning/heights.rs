@@ -123,7 +123,7 @@ pub(super) fn open_edges(relief: &Relief) -> Option<Warning> {
     }
     let message = format!(
         "opposite edges do not meet, the rms step across the periodic edge is {}: make the map periodic, by mirror \
-         images or a window",
+         images (mirror) or a taper (window)",
         parts.join(", and ")
     );
     Some(Warning { code: WarningCode::OpenEdges, text: text.with(message) })
@@ -159,7 +159,7 @@ pub(super) fn spikes(relief: &Relief, spikes: &Spikes) -> Option<Warning> {
     let mut text = Text::default();
     let message = format!(
         "{} single {} out of all neighbours, the farthest by {}, {} times the rms height, at index [{}, {}]; the kurtosis of the \
-         heights is {} (3 if Gaussian): set such nodes to NaN, and fill them",
+         heights is {} (3 if Gaussian): give such nodes the median around them (despike)",
         spikes.count,
         if spikes.count == 1 { "node is far" } else { "nodes are far" },
         text.length(spikes.farthest * relief.unit),

@@ -46,6 +46,15 @@ fn an_accuracy_is_planned_reached_and_reported() {
 }
 
 #[test]
+fn an_error_of_the_grid_that_cannot_be_told_says_why() {
+    let bench = Bench::new();
+    bench.said("surface --size 64 --k-l 1 --k-s 31 --rms-slope 0.1 --quiet --out noisy.npy");
+    let said = bench.said("solve --heights noisy.npy --mean-pressure 5e-3 --nested --no-pictures --out out");
+    let told = said.lines().find(|line| line.starts_with("error of the grid")).unwrap();
+    assert!(told.contains("unknown: the shortest wave has 2.") && told.contains("takes 4: refine"), "{told}");
+}
+
+#[test]
 fn an_accuracy_that_is_not_reached_says_why() {
     let bench = rough();
     let output = bench.run(&format!("{PRESSED} --accuracy 0.002 --memory 1e-3 --out near"));

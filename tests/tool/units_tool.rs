@@ -22,8 +22,11 @@ fn the_table_of_a_solve_in_metres_and_pascals_has_prefixes() {
     assert_eq!(unit, "nm");
     // four digits
     assert!((1e-9 * number / gap - 1.0).abs() < 1e-3, "{number} {gap}");
+    assert_eq!(cell(&table, "side lengths"), (1.0, "µm x 1 µm".to_owned()));
     assert_eq!(cell(&table, "mean pressure"), (5.0, "MPa".to_owned()));
     assert_eq!(cell(&table, "normal force"), (5.0, "µN".to_owned()));
+    // without adhesion nothing is said of it
+    assert!(!table.contains("adhesive") && !table.contains("mu_rho"), "{table}");
     // units that are not known, or only in part
     for (units, gap_unit, pressure) in [
         ("", "", (5e6, "")),

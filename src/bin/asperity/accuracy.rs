@@ -23,7 +23,7 @@ pub struct AccuracyOptions {
     /// Quantity that has the accuracy [default: area]
     #[arg(long, value_enum, value_name = "QUANTITY", requires = "accuracy", help_heading = "Solver")]
     pub accuracy_of: Option<Of>,
-    /// Memory that --accuracy may take, in GiB [default: what is there]
+    /// Memory that --accuracy may take, in GiB [default: all that is free]
     #[arg(long, value_name = "GIB", allow_hyphen_values = true, value_parser = positive, help_heading = "Solver")]
     #[arg(requires = "accuracy")]
     pub memory: Option<f64>,
@@ -126,6 +126,15 @@ impl Reached {
 /// An estimated error in words.
 fn estimate(error: &GridError, of: Quantity) -> String {
     format!("{} % of the {of}{}", percent(error.relative), if error.rough { ", roughly" } else { "" })
+}
+
+/// Why no error is estimated, in words, with a remedy where the waves of the surface are the reason.
+pub fn unknown(nodes_per_wave: f64) -> String {
+    let least = GridError::LEAST_NODES_PER_WAVE;
+    if nodes_per_wave >= least {
+        return "unknown".to_owned();
+    }
+    format!("unknown: the shortest wave has {nodes_per_wave:.1} nodes, and takes {least}: refine the map (--accuracy)")
 }
 
 /// The estimated errors of the finest of some grids, by quantity; `null` where one cannot be told, or is given.

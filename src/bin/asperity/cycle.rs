@@ -4,7 +4,6 @@ use std::path::PathBuf;
 
 use asperity::contact::ContactStatistics;
 use asperity::path::{Event, Path, PathCheckpoint, PathSettings, PathStep};
-use asperity::picture::Chart;
 use asperity::{Control, Error, Problem, Report, Solver, Status, Surface};
 use clap::{ArgGroup, Args};
 use ndarray::ArrayRef2;
@@ -20,7 +19,7 @@ use crate::journal::Row;
 use crate::loads::name_and_value;
 use crate::options::{Given, Precision, ProblemOptions, Scalar, SolverOptions, SurfaceOptions};
 use crate::outcome::Outcome;
-use crate::pictures::{Resolution, check_plot, write_picture};
+use crate::pictures::{Resolution, chart_of_columns, check_plot, write_picture};
 use crate::printing::{Printing, say};
 use crate::processes::Processes;
 use crate::quantity::{Dimension, ENERGY_PER_AREA, FORCE, LENGTH, PRESSURE};
@@ -32,15 +31,15 @@ use crate::warnings::Strictness;
 /// Follow the contact along a cycle of approach and withdrawal, and find its jumps.
 ///
 /// Numbers may have units, all of them or none, as in asperity solve. The loads are the turning points, at least two:
-/// the first is the start, and from each to the next the tool goes in steps that adapt themselves, an approach or a
-/// withdrawal. A withdrawal ends once the surfaces are apart, where they neither touch nor attract each other. Where
-/// the state jumps, the step is halved down to a given share of the way, so that the jump is located and its energy
-/// known. Under given pressures or forces it goes on at given mean gaps (with a free boundary approaches) past the
-/// limit points, where there is no equilibrium close by. A row for each state is appended to the file as it comes, with
-/// the columns of asperity sweep, the work done by the load so far and the energy dissipated in jumps so far, per area,
-/// what is missing from the balance of the two, and what happened on the way: jump-in, jump-out, pull-off, limit-point,
-/// bifurcation. The same command again goes on where an interrupted one was; for that it keeps FILE.state.npz beside
-/// the file, which may be deleted at the end. FILE.scene.toml beside it repeats or continues the cycle by asperity run.
+/// the first is the start, and from each to the next the tool goes in adaptive steps, an approach or a withdrawal. A
+/// withdrawal ends once the surfaces are apart, where they neither touch nor attract each other. Where the state jumps,
+/// the step is halved down to a given share of the way, which locates the jump and the energy that it dissipates. A
+/// limit point is the greatest or least load of a branch; a cycle along pressures or forces goes on beyond it at given
+/// mean gaps (with a free boundary at given approaches). Each state gives a row of the file, with the columns of
+/// asperity sweep, the work done by the load so far and the energy dissipated in jumps so far, per area, the imbalance
+/// of energy, and the event on the way to it: jump-in, jump-out, pull-off, limit-point, bifurcation. The same command
+/// again continues an interrupted cycle; for that it keeps FILE.state.npz beside the file, which may be deleted at the
+/// end. FILE.scene.toml beside it repeats or continues the cycle by asperity run.
 /// Exits with 0 if all rows converged, 2 if not, and 1 if the input is refused or a file cannot be written.
 #[derive(Args)]
 #[command(after_help = EXAMPLES, group(ArgGroup::new("loads").required(true).args(LOADS)))]
@@ -78,7 +77,7 @@ pub struct Options {
     #[arg(long, value_name = "DIR", help_heading = "Output")]
     fields: Option<PathBuf>,
     /// File for a picture of the mean pressure over the mean gap, with a free boundary of the normal force over the
-    /// approach, .png, .svg or .pdf
+    /// approach, with jumps as dashed lines, .png, .svg or .pdf
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     plot: Option<PathBuf>,
     #[command(flatten)]
@@ -332,33 +331,11 @@ impl Options {
             if let Some(last) = rows.last() {
                 say(&format!("dissipated in jumps     {}", energy(number(last, "dissipated"))));
                 say(&format!("work done by the load   {}", energy(number(last, "work"))));
-                say(&format!("missing from balance    {:.1e}", number(last, "imbalance")));
+                say(&format!("imbalance of energy     {:.1e}", number(last, "imbalance")));
             }
         }
         let Some(plot) = &self.plot else { return Ok(()) };
-        let legs = self.loads.list().len() - 1;
-        let mut curves: Vec<(String, Vec<(f64, f64)>)> = Vec::new();
-        for leg in 1..=legs {
-            let point = |row: &Value| (number(row, x), number(row, y));
-            let points = rows.iter().filter(|row| number(row, "leg") == leg as f64).map(point);
-            let before = rows.iter().rfind(|row| number(row, "leg") < leg as f64).map(point);
-            let direction = self.direction(leg);
-            let name = if legs > 2 { format!("{direction} {}", leg.div_ceil(2)) } else { direction.to_owned() };
-            curves.push((name, before.into_iter().chain(points).collect()));
-        }
-        let (x_label, y_label) = (x.replace('_', " "), y.replace('_', " "));
-        let title = if free { "Normal force over approach" } else { "Mean pressure over mean gap" };
-        let [x_unit, y_unit] = [LENGTH, y_dimension].map(|dimension| units.of(dimension));
-        let chart = Chart {
-            title,
-            x_label: &x_label,
-            x_unit: x_unit.as_deref(),
-            y_label: &y_label,
-            y_unit: y_unit.as_deref(),
-            curves: curves.iter().map(|(name, points)| (name.as_str(), points.clone())).collect(),
-            ..Chart::default()
-        };
-        processes.first(|| write_picture(plot, &chart.draw(self.resolution.dpi)?))
+        processes.first(|| write_picture(plot, &chart_of_columns(&rows, x, y, units, self.resolution.dpi)?))
     }
 }
 

@@ -19,21 +19,24 @@ pub fn plain(value: f64) -> String {
         return "0".to_owned();
     }
     if !(1e-3..1e6).contains(&magnitude) {
-        let text = format!("{value:.6e}");
-        let Some((digits, exponent)) = text.split_once('e') else { return text };
-        return format!("{}e{exponent}", trimmed(digits.to_owned()));
+        return scientific(format!("{value:.6e}"));
     }
     let decimals = (6.0 - magnitude.log10().floor()).max(0.0) as usize;
     trimmed(format!("{value:.decimals$}"))
 }
 
-/// A number to four digits with its unit, and the prefix that makes it readable.
+/// A number to four digits with its unit, and the prefix that makes it readable; one that is too large for any prefix
+/// has a power of ten.
 pub fn si(value: f64, unit: &str) -> String {
     const PREFIXES: [&str; 10] = ["f", "p", "n", "µ", "m", "", "k", "M", "G", "T"];
     // Rounded first, so that 999.96 n is 1 µ.
-    let rounded: f64 = format!("{value:.3e}").parse().unwrap_or(value);
+    let text = format!("{value:.3e}");
+    let rounded: f64 = text.parse().unwrap_or(value);
     let power = if rounded == 0.0 { 0 } else { (rounded.abs().log10() + 1e-9).floor() as i32 }.div_euclid(3);
-    let power = power.clamp(-5, 4);
+    if power > 4 {
+        return format!("{} {unit}", scientific(text));
+    }
+    let power = power.max(-5);
     let value = rounded / 10f64.powi(3 * power);
     let decimals = if value == 0.0 { 0.0 } else { (3.0 - value.abs().log10().floor()).clamp(0.0, 6.0) };
     let digits = trimmed(format!("{value:.*}", decimals as usize));
@@ -41,6 +44,14 @@ pub fn si(value: f64, unit: &str) -> String {
         // too small for any prefix
         "0" => format!("0 {unit}"),
         _ => format!("{digits} {}{unit}", PREFIXES[(power + 5) as usize]),
+    }
+}
+
+/// A number in scientific notation, without zeros at the end of its decimals.
+fn scientific(text: String) -> String {
+    match text.split_once('e') {
+        Some((digits, exponent)) => format!("{}e{exponent}", trimmed(digits.to_owned())),
+        None => text,
     }
 }
 

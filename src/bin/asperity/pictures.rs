@@ -108,13 +108,23 @@ pub fn chart_of_loads(rows: &[Value], units: &Units, dpi: f64) -> Result<Picture
     chart_of_columns(rows, x, y, units, dpi)
 }
 
-/// The chart of column `y` of a table over column `x`: a curve for each leg of a cycle, and for each part of a sweep in
-/// which the loads rise or fall. Axes are logarithmic where the values along x span more than a decade, and are spread
-/// more evenly so; along y if that spans a decade, too.
+/// The chart of column `y` of a table over column `x`: a curve for each leg of a cycle, broken where the state jumps,
+/// and for each part of a sweep in which the loads rise or fall. Axes are logarithmic where the values along x span
+/// more than a decade, and are spread more evenly so; along y if that spans a decade, too.
 pub fn chart_of_columns(rows: &[Value], x: &str, y: &str, units: &Units, dpi: f64) -> Result<Picture> {
+    let value = |row: &Value, column: &str| row[column].as_f64().unwrap_or(f64::NAN);
+    let mut jumps = Vec::new();
     let curves = legs(rows).into_iter().map(|(name, rows)| {
-        let value = |row: &Value, column: &str| row[column].as_f64().unwrap_or(f64::NAN);
-        (name, rows.iter().map(|row| (value(row, x), value(row, y))).collect::<Vec<_>>())
+        let mut points: Vec<(f64, f64)> = Vec::new();
+        for row in rows {
+            let point = (value(row, x), value(row, y));
+            if let (Some(&before), true) = (points.last(), value(row, "energy_drop") > 0.0) {
+                jumps.push([before, point]);
+                points.push((f64::NAN, f64::NAN));
+            }
+            points.push(point);
+        }
+        (name, points)
     });
     let curves: Vec<_> = curves.collect();
     let points: Vec<_> = curves.iter().flat_map(|(_, points)| points).collect();
@@ -134,6 +144,7 @@ pub fn chart_of_columns(rows: &[Value], x: &str, y: &str, units: &Units, dpi: f6
         y_unit: y_unit.as_deref(),
         y_log,
         curves: curves.iter().map(|(name, points)| (name.as_str(), points.clone())).collect(),
+        jumps,
         ..Chart::default()
     };
     chart.draw(dpi)

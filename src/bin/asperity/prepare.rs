@@ -18,11 +18,11 @@ use crate::scene::Scene;
 use crate::units::Units;
 use crate::warnings::{self, Told};
 
-/// Make a surface that can be solved of a measured map.
+/// Make a measured map into a surface that can be solved.
 ///
 /// A measurement has missing points, a tilt, and edges that do not meet; a surface that is solved is complete and
-/// periodic. Nothing is done that is not asked for, and each step is told in a line; FILE.scene.toml beside the result
-/// repeats them. Whatever the order of the options, the steps are: --lengths, --missing, --scale, --unit, --crop,
+/// periodic. Nothing is done that is not asked for, and each step prints a line; FILE.scene.toml beside the result
+/// repeats the steps. Whatever the order of the options, the steps are: --lengths, --missing, --scale, --unit, --crop,
 /// --flip, --align-rows, --despike, --remove-form, --detrend, --fill, --window or --mirror, --resample.
 #[derive(Args)]
 #[command(after_help = EXAMPLES)]

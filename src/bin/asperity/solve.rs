@@ -35,15 +35,15 @@ use crate::summary::{table, warn};
 use crate::units::{UnitOptions, Units};
 use crate::warnings::{Strictness, Warnings};
 
-/// Solve a contact problem given by files.
+/// Solve a contact problem under one load.
 ///
-/// Numbers may have units, as 70GPa, 20um, 50mJ/m2, 5nN or 40N/m: then all of them must have one, all that is written
-/// is in the SI, and heights of a file without a unit are in m. Numbers without units are in any consistent ones.
-/// Writes gap.npy, pressure.npy (the full elastic pressure, compression positive) and contact_pressure.npy (its
-/// repulsive part), or files as --format says, report.json, contact.png, pressure.png (or .svg, .pdf), and scene.toml,
-/// which repeats the run, all or none. Exits with 0 if converged, 2 if not (the fields are written all the same), and 1
-/// if the input is refused or the files cannot be written (then there are none). Probable mistakes, as a tilt, are said
-/// on a line each and in the report; --strict refuses them.
+/// Either all numbers have units, as 70GPa, 20um, 50mJ/m2, 5nN or 40N/m, or none has, and then any consistent units
+/// will do. With units all results are in the SI, and heights of a file that names no unit are in m. The folder gets
+/// gap.npy, pressure.npy (the full elastic pressure, compression positive) and contact_pressure.npy (its repulsive
+/// part), or files as --format says, report.json, contact.png and pressure.png (or .svg, .pdf), and scene.toml, which
+/// repeats the run; all of them or none. Exits with 0 if converged, 2 if not (the fields are written all the same), and
+/// 1 if the input is refused or the files cannot be written. Probable mistakes, as a tilt, are warnings, on a line each
+/// and in the report; --strict takes them for errors.
 #[derive(Args)]
 #[command(after_help = EXAMPLES, group(ArgGroup::new("load").required(true).args(LOAD)))]
 pub struct Options {

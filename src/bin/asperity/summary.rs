@@ -5,6 +5,7 @@ use asperity::{Report, Status};
 
 use crate::accuracy::{self, Reached};
 use crate::case::{Account, Case, Search, Steadiness};
+use crate::heights::sides;
 use crate::numbers::{percent, plain};
 use crate::part::Part;
 use crate::printing::complain;
@@ -26,6 +27,11 @@ pub fn table(names: &[&str], solves: &[&Account], units: &Units, part: &Part) ->
         let solved = part.solved().map_or(String::new(), |solved| format!(" of {}", nodes(solved)));
         row("part of the mirrored map", &|_, _| format!("{name}, {}{solved} nodes", nodes(part.grid().shape())));
     }
+    let (lx, ly) = part.grid().lengths();
+    row("side lengths", &|_, _| match part.grid().is_line() {
+        true => units.number(lx, LENGTH),
+        false => sides((lx, ly), units.of(LENGTH).as_deref()),
+    });
     row("contact", &|_, r| format!("{} %", percent(r.contact_fraction)));
     row("corrected for its edge", &|s, _| format!("{} %", percent(s.contact.corrected_contact_fraction)));
     row("nodes in contact", &|s, r| format!("{} of {}", r.contact_nodes, s.nodes - r.absent_nodes));
@@ -59,13 +65,15 @@ pub fn table(names: &[&str], solves: &[&Account], units: &Units, part: &Part) ->
     row("least pressure", &|s, _| units.number(s.pressures.0, PRESSURE));
     row("greatest pressure", &|s, _| units.number(s.pressures.1, PRESSURE));
     row("elastic energy per area", &|_, r| units.number(r.elastic_energy, ENERGY_PER_AREA));
-    row("adhesive energy per area", &|_, r| units.number(r.adhesive_energy, ENERGY_PER_AREA));
+    if solves.iter().any(|solve| solve.report.mu_rho > 0.0 || solve.report.adhesive_energy != 0.0) {
+        row("adhesive energy per area", &|_, r| units.number(r.adhesive_energy, ENERGY_PER_AREA));
+        row("mu_rho", &|_, r| plain(r.mu_rho));
+    }
     if solves.iter().any(|solve| solve.stiffness.is_some()) {
         row("contact stiffness", &|s, _| {
             s.stiffness.map_or(String::new(), |found| units.number(found.pressure_per_length, PRESSURE_PER_LENGTH))
         });
     }
-    row("mu_rho", &|_, r| plain(r.mu_rho));
     row("certified error", &|_, r| format!("{:.1e}", r.relative_error));
     if solves.iter().any(|solve| solve.stability.is_some()) {
         let of = |account: &Account, text: &dyn Fn(&Steadiness) -> String| {
@@ -93,7 +101,7 @@ pub fn table(names: &[&str], solves: &[&Account], units: &Units, part: &Part) ->
         row("error of the grid", &|s, r| {
             let errors =
                 |(levels, _): &(Vec<_>, _)| accuracy::told_errors(levels, s.nodes_per_wave, r.mu_rho, s.control);
-            let told = || s.grids.as_ref().and_then(errors).unwrap_or("unknown".to_owned());
+            let told = || s.grids.as_ref().and_then(errors).unwrap_or_else(|| accuracy::unknown(s.nodes_per_wave));
             s.reached.as_ref().map_or_else(told, Reached::estimate)
         });
     }

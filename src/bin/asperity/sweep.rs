@@ -32,14 +32,15 @@ use crate::warnings::Strictness;
 
 /// Solve a contact problem under many loads, one after the other.
 ///
-/// Each load starts from where the ones before lead. Numbers may have units, all of them or none, as in asperity solve.
-/// A row for each is appended to the file as it comes, with the loads, the mean gap, the contact area and its
-/// statistics, the energies, and how the solve ended; contact_fraction counts nodes, corrected_contact_fraction is the
-/// area within the edge that gap and pressure tell between the nodes, and clusters are in nodes. The same command again
-/// goes on where an interrupted one was, or with loads that were added to the end of the list, and comes to the same
-/// file, byte for byte; for that it keeps FILE.state.npz beside the file, which may be deleted at the end.
-/// FILE.scene.toml beside it repeats or continues the sweep by asperity run. Exits with 0 if all rows converged, 2 if
-/// not (they are written all the same), and 1 if the input is refused or the file cannot be written.
+/// Each load starts from the solutions under the loads before it. Numbers may have units, all of them or none, as in
+/// asperity solve. Each load gives a row of the file: the load, the mean gap, the contact area and its statistics, the
+/// energies, and how the solve ended. contact_fraction counts nodes in contact; corrected_contact_fraction is the area
+/// within the contact edge, which gap and pressure locate between the nodes; clusters counts separate contacts, and
+/// largest_cluster the nodes of the largest. The same command again continues an interrupted sweep, or one with loads
+/// added to the end of the list, to the same file, byte for byte; for that it keeps FILE.state.npz beside the file,
+/// which may be deleted at the end. FILE.scene.toml beside it repeats or continues the sweep by asperity run. Exits
+/// with 0 if all rows converged, 2 if not (they are written all the same), and 1 if the input is refused or the file
+/// cannot be written.
 #[derive(Args)]
 #[command(after_help = EXAMPLES, group(ArgGroup::new("loads").required(true).args(LOADS).arg("contact_fractions")))]
 pub struct Options {
@@ -84,10 +85,10 @@ pub struct Options {
 
 const EXAMPLES: &str = "\
 \u{1b}[1;4mExamples:\u{1b}[0m
-  Contact area against load, twenty loads over two decades:
-    asperity sweep --heights heights.npy --mean-pressures 1e-3:1e-1:20:log --out area.csv \\
-      --plot area.pdf
-  In SI units, in which rows and header then are:
+  Contact area and stiffness against load, twenty loads over two decades:
+    asperity sweep --heights heights.npy --mean-pressures 1e-3:1e-1:20:log --stiffness \\
+      --out area.csv --plot area.pdf
+  With units; rows and header are in the SI then:
     asperity sweep --heights heights.npy --lengths 20um --modulus 70GPa \\
       --mean-pressures 1MPa:1GPa:12:log --out steel.csv
   Approach and withdrawal with adhesion, eleven mean gaps each:

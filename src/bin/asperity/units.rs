@@ -166,6 +166,9 @@ mod tests {
     fn numbers_and_headers_have_their_units() {
         assert_eq!(Units::si().number(6.273889e-10, LENGTH), "627.4 pm");
         assert_eq!(Units::si().number(-1e-25, LENGTH), "0 m");
+        assert_eq!(Units::si().number(9.999e14, PRESSURE_PER_LENGTH), "999.9 TPa/m");
+        assert_eq!(Units::si().number(9.9999e14, PRESSURE_PER_LENGTH), "1e15 Pa/m");
+        assert_eq!(Units::si().number(2.6170857e17, PRESSURE_PER_LENGTH), "2.617e17 Pa/m");
         assert_eq!(Units::si().number(0.05, ENERGY_PER_AREA), "50 mJ/m²");
         assert_eq!(units("um", "MPa").number(0.5, PRESSURE), "0.5 MPa");
         assert_eq!(Units::default().number(0.5, PRESSURE), "0.5");

@@ -18,7 +18,7 @@ use crate::units::Units;
 /// Whether warnings are errors.
 #[derive(Args, Clone, Copy)]
 pub struct Strictness {
-    /// Take for errors all warnings of input, or of an answer, that is probably a mistake: then it is not written
+    /// Take warnings for errors: refuse input with a probable mistake in it, and write no solution with one
     #[arg(long, help_heading = "Output")]
     strict: bool,
 }
