@@ -2,8 +2,8 @@
 
 use ndarray::ArrayView1;
 
-use super::Surface;
 use super::spectrum::is_line;
+use super::{Surface, rms_slope};
 use crate::field;
 
 /// The statistics of a rough surface: [`Surface::statistics`].
@@ -64,7 +64,7 @@ impl Surface {
         let rms_height = self.rms_about(mean);
         // of heights over the rms height, whose fourth powers stay in range
         let power = |n: i32| field::mean(self.heights.view(), |h| ((h - mean) / rms_height).powi(n));
-        let (slope, laplacian) = self.differences();
+        let laplacian = self.rms_laplacian();
         let spectrum = self.spectrum();
         SurfaceStatistics {
             mean,
@@ -74,32 +74,26 @@ impl Surface {
             skewness: power(3),
             kurtosis: power(4),
             rms_slope: spectrum.rms_slope(),
-            rms_slope_differences: slope,
+            rms_slope_differences: rms_slope(self.heights.view(), self.grid.spacing(), true),
             rms_curvature: spectrum.rms_curvature(),
             rms_curvature_differences: if is_line(&self.grid) { laplacian } else { 0.5 * laplacian },
             nayak: spectrum.nayak(),
         }
     }
 
-    /// The rms slope and the rms Laplacian from differences between neighbours.
-    fn differences(&self) -> (f64, f64) {
+    /// The rms Laplacian from differences between neighbours.
+    fn rms_laplacian(&self) -> f64 {
         let ((nx, ny), (dx, dy)) = (self.grid.shape(), self.grid.spacing());
-        let (mut slopes, mut laplacians) = (0.0, 0.0);
+        let mut sum = 0.0;
         for i in 0..nx {
             let row = |i: usize| self.heights.row(i % nx);
             let [before, here, after]: [ArrayView1<'_, f64>; 3] = [row(i + nx - 1), row(i), row(i + 1)];
-            let (mut slope, mut laplacian) = (0.0, 0.0);
-            for j in 0..ny {
-                let (h, above) = (here[j], here[(j + 1) % ny]);
-                let (along, across) = ((after[j] - h) / dx, (above - h) / dy);
-                slope += along * along + across * across;
-                let back = ((h - before[j]) / dx, (h - here[(j + ny - 1) % ny]) / dy);
-                laplacian += ((along - back.0) / dx + (across - back.1) / dy).powi(2);
-            }
-            slopes += slope;
-            laplacians += laplacian;
+            let laplacian = |j: usize| {
+                let (h, below, above) = (here[j], here[(j + ny - 1) % ny], here[(j + 1) % ny]);
+                ((after[j] - h) / dx - (h - before[j]) / dx) / dx + ((above - h) / dy - (h - below) / dy) / dy
+            };
+            sum += (0..ny).map(|j| laplacian(j).powi(2)).sum::<f64>();
         }
-        let nodes = self.grid.nodes() as f64;
-        ((slopes / nodes).sqrt(), (laplacians / nodes).sqrt())
+        (sum / self.grid.nodes() as f64).sqrt()
     }
 }
