@@ -3,7 +3,8 @@
 use ndarray::ArrayView1;
 
 use super::spectrum::is_line;
-use super::{Surface, rms_slope};
+use super::{Surface, Topography, rms_slope};
+use crate::error::Result;
 use crate::field;
 
 /// The statistics of a rough surface: [`Surface::statistics`].
@@ -13,7 +14,8 @@ use crate::field;
 /// (qΔ)²/12 of a curvature along an axis for a wave number q and a spacing Δ. If the two differ much, the grid does
 /// not resolve the surface, or its edges do not meet.
 ///
-/// Lengths are in the unit of the heights; [`Surface::statistics`] has an example.
+/// Lengths are in the unit of the heights; [`Surface::statistics`] has an example. [`Topography::statistics`] are those
+/// of a map, whose side lengths may be unknown.
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SurfaceStatistics {
@@ -95,5 +97,42 @@ impl Surface {
             sum += (0..ny).map(|j| laplacian(j).powi(2)).sum::<f64>();
         }
         (sum / self.grid.nodes() as f64).sqrt()
+    }
+}
+
+impl Topography {
+    /// The statistics of the map as a surface, periodic as it stands. Slopes, curvatures and Nayak's parameter, which
+    /// follow from the side lengths, are not a number where these are unknown.
+    ///
+    /// ```
+    /// use asperity::Topography;
+    /// let mut map = Topography::new(ndarray::arr2(&[[0.0, 1.0], [2.0, 1.0]]));
+    /// let found = map.statistics()?;
+    /// assert!(found.rms_slope.is_nan() && found.highest == 2.0);
+    /// map.lengths = Some((2.0, 2.0));
+    /// assert!(map.statistics()?.rms_slope > 0.0);
+    /// # Ok::<(), asperity::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::NotFinite`](crate::Error::NotFinite) if heights are missing, [`Error::Value`](crate::Error::Value) if the
+    /// side lengths are no lengths.
+    pub fn statistics(&self) -> Result<SurfaceStatistics> {
+        let mut map = self.clone();
+        let (nx, ny) = map.heights.dim();
+        map.lengths.get_or_insert((nx as f64, ny as f64));
+        let found = map.surface()?.statistics();
+        if self.lengths.is_some() {
+            return Ok(found);
+        }
+        let [rms_slope, rms_slope_differences, rms_curvature, rms_curvature_differences, nayak] = [f64::NAN; 5];
+        Ok(SurfaceStatistics {
+            rms_slope,
+            rms_slope_differences,
+            rms_curvature,
+            rms_curvature_differences,
+            nayak,
+            ..found
+        })
     }
 }

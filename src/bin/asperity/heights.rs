@@ -35,15 +35,14 @@ impl Origin {
     }
 }
 
-/// The map of a file with the given `--lengths`, of which one means square cells; without any, those of the file, or
-/// else the unit square. Lengths that contradict the file are refused. In the SI all is in metres, and side lengths are
-/// not taken for granted.
+/// The map of a file with the given `--lengths`, of which one means square cells, or those of the file, or none. Lengths
+/// that contradict the file are refused. In the SI all is in metres, and side lengths have to be known.
 pub fn map(path: &Path, lengths: Option<&[Quantity]>, si: bool) -> Outcome<Topography> {
     let mut map = read_topography(path)?;
     if si {
         map = converted(path, map, LENGTH.si)?;
     }
-    map.lengths = Some(sides_of(path, &map, map.heights.dim(), lengths, si)?);
+    map.lengths = sides_of(path, &map, map.heights.dim(), lengths, si)?;
     Ok(map)
 }
 
@@ -77,7 +76,7 @@ pub fn shared(
             return Err(error.into());
         }
         let map = if si { converted(path, map, LENGTH.si)? } else { map };
-        let sides = sides_of(path, &map, shape, lengths, si)?;
+        let sides = or_unit_square(path, &map, sides_of(path, &map, shape, lengths, si)?);
         Ok((Grid::new(shape, sides)?, map))
     };
     let (grid, map) = processes.agree(read())?;
@@ -91,14 +90,14 @@ pub fn shared(
     }
 }
 
-/// The side lengths of a map of this shape with the given `--lengths`. In the SI they are not taken for granted.
+/// The side lengths of a map of this shape with the given `--lengths`, if they are known. In the SI they have to be.
 fn sides_of(
     path: &Path,
     map: &Topography,
     shape: (usize, usize),
     lengths: Option<&[Quantity]>,
     si: bool,
-) -> Outcome<(f64, f64)> {
+) -> Outcome<Option<(f64, f64)>> {
     if si && map.lengths.is_none() && lengths.is_none() {
         let text = "the numbers have units, but nothing says how large the map is: give --lengths, as 20um";
         return Err(format!("{}: {text}", path.display()).into());
@@ -122,10 +121,15 @@ fn sides_of(
         }
         known = Some(given);
     }
-    if known.is_none() {
+    Ok(known)
+}
+
+/// Side lengths that are known, or those of the unit square.
+fn or_unit_square(path: &Path, map: &Topography, known: Option<(f64, f64)>) -> (f64, f64) {
+    known.unwrap_or_else(|| {
         warn_of_unread(path, map, "are taken as 1 x 1");
-    }
-    Ok(known.unwrap_or((1.0, 1.0)))
+        (1.0, 1.0)
+    })
 }
 
 /// Warns of the arrays of a file that were not read, if its side lengths are unknown and may be among them; `are` says
@@ -177,24 +181,23 @@ pub fn converted(path: &Path, mut map: Topography, unit: &str) -> Outcome<Topogr
     Ok(map)
 }
 
-/// The surface of a map, and its origin. Its missing points become absent nodes, or are refused.
-pub fn surface_or_absent(path: &Path, map: Topography, absent: bool) -> Outcome<(Surface, Origin)> {
+/// The surface of a map, on the unit square if its side lengths are unknown, and its origin. Its missing points become
+/// absent nodes, or are refused.
+pub fn surface_or_absent(path: &Path, mut map: Topography, absent: bool) -> Outcome<(Surface, Origin)> {
+    map.lengths = Some(or_unit_square(path, &map, map.lengths));
     let infinite = map.heights.iter().any(|h| h.is_infinite());
     let missing = !infinite && map.missing() > 0;
-    if !missing {
-        return surface(path, map);
-    }
-    if !absent {
-        let refused = surface(path, map);
-        return refused.map_err(|error| format!("{error}, or take them for absent nodes by --absent-missing").into());
+    if !missing || !absent {
+        let remedy = if missing { ", or take them for absent nodes by --absent-missing" } else { "" };
+        check_complete(path, &map).map_err(|error| format!("{error}{remedy}"))?;
     }
     let origin = Origin::of(&map);
-    let surface = map.surface_with_absent();
+    let surface = if missing { map.surface_with_absent() } else { map.surface() };
     Ok((surface.map_err(|error| format!("{}: {error}", path.display()))?, origin))
 }
 
-/// The surface of a map, and its origin.
-pub fn surface(path: &Path, map: Topography) -> Outcome<(Surface, Origin)> {
+/// Refuses a map with missing points.
+pub fn check_complete(path: &Path, map: &Topography) -> Outcome<()> {
     let (nx, ny) = map.heights.dim();
     let infinite = map.heights.iter().filter(|h| h.is_infinite()).count();
     if let Some((node, height)) = map.heights.indexed_iter().find(|(_, h)| h.is_infinite()) {
@@ -219,8 +222,7 @@ pub fn surface(path: &Path, map: Topography) -> Outcome<(Surface, Origin)> {
         )
         .into());
     }
-    let origin = Origin::of(&map);
-    Ok((map.surface()?, origin))
+    Ok(())
 }
 
 /// The numbers of missing and of infinite heights, if there are any.
