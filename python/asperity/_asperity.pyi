@@ -208,6 +208,7 @@ class Problem:
         nested: bool | None,
         threads: int | None,
         original: Original | None,
+        unit: str | None,
     ) -> Problem: ...
     def inputs(self) -> tuple[int, int]: ...
     def plan(
