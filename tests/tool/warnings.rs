@@ -169,6 +169,44 @@ fn warnings_have_the_units_of_tables() {
 }
 
 #[test]
+fn the_page_of_a_table_has_the_warnings_of_all_its_runs() {
+    let bench = bench();
+    let listed = |table: &str| -> Vec<String> {
+        bench.said(&format!("report {table} --force"));
+        let page = bench.read(&format!("{table}.html"));
+        let items = page.lines().filter_map(|line| line.strip_prefix("<li>")?.strip_suffix("</li>"));
+        items.map(|item| item.split([',', '.']).next().unwrap_or_default().to_owned()).collect()
+    };
+    let high = "the contact pressure is up to";
+    let first_words = |warnings: &[String]| warnings.iter().map(|text| text[..10].to_owned()).collect::<Vec<_>>();
+    bench.run("sweep --heights tilted.npy --mean-pressures 5 --out s.csv");
+    let found = listed("s.csv");
+    assert_eq!(first_words(&found), ["the map is", "opposite e", "the contac"], "{found:?}");
+    // a run that goes on adds what is new to what was said before
+    bench.run("sweep --heights clean.npy --mean-pressures 0.01 --out t.csv");
+    assert!(listed("t.csv").is_empty() && !bench.names(".").contains(&"t.csv.warnings.txt".to_owned()));
+    bench.run("sweep --heights clean.npy --mean-pressures 0.01,5 --out t.csv");
+    let found = listed("t.csv");
+    assert!(found.len() == 1 && found[0].starts_with(high), "{found:?}");
+    let again = bench.run("sweep --heights clean.npy --mean-pressures 0.01,5,0.02 --out t.csv --json");
+    let report: Value = serde_json::from_slice(&again.stdout).unwrap();
+    assert_eq!((codes(&report), said(&text(&again.stderr))), (vec!["beyond-modulus"], vec![]));
+    assert_eq!(listed("t.csv"), found);
+    bench.run("sweep --heights clean.npy --mean-pressures 0.01 --out t.csv --force");
+    assert!(listed("t.csv").is_empty());
+    bench.run("cycle --heights tilted.npy --mean-gaps 2,1 --steps 1 --smallest-step 0.5 --out c.csv");
+    assert_eq!(first_words(&listed("c.csv")), ["the map is", "opposite e"]);
+    bench.write(
+        "study.toml",
+        "command = \"sweep\"\nout = \"study.csv\"\nmean-pressures = \"0.01\"\n[vary]\n\
+         heights = [\"clean.npy\", \"tilted.npy\"]\nmodulus = [1.0, 2.0]\n",
+    );
+    bench.run("study study.toml");
+    let found = listed("study.csv");
+    assert!(found[0].starts_with("cases 3") && found.len() == 2, "{found:?}");
+}
+
+#[test]
 fn prepare_looks_at_the_slope_that_its_lengths_make() {
     let bench = bench();
     let prepare = |options: &str| {

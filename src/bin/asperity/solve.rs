@@ -267,7 +267,7 @@ impl Job<'_> {
             }
             None => Warnings::none(strictness, &self.units, fits),
         })?;
-        warnings.say();
+        warnings.say()?;
         let law = adhesion.law()?;
         let (solution, mut account) = if let Some(wanted) = &mut wanted {
             let mut operator = self.case.boundary.half_space(grid, self.case.modulus)?;

@@ -24,7 +24,7 @@ use crate::quantity::{FORCE, LENGTH, PRESSURE};
 use crate::report;
 use crate::scene::{self, Scene};
 use crate::units::Units;
-use crate::warnings::{Strictness, Warnings};
+use crate::warnings::{self, Strictness, Warnings};
 
 /// The code of the warning that rows have not converged; it stands before the message, as those of all warnings do.
 pub const UNCONVERGED: &str = "unconverged";
@@ -87,14 +87,16 @@ impl<'a> Table<'a> {
             kept.check(force, out)?;
             scene.check_beside(out, force || out.exists())?;
             let scene_file = scene.written_beside(out)?;
-            let made = [state_path(out), scene::beside(out), out.to_owned()].into_iter().filter(|path| !path.exists());
+            let made = [state_path(out), scene::beside(out), warnings::beside(out), out.to_owned()]
+                .into_iter()
+                .filter(|path| !path.exists());
             let made: Vec<_> = made.collect();
             let mut identity = identity(&surface, &adhesion, start.flatten().as_deref());
             identity.insert("units".to_owned(), options.units.of_table().into());
             identity.insert("part".to_owned(), options.part.name().unwrap_or("all").into());
             let (journal, saved) = Journal::open(out, header, identity, loads, force)?;
             scene_file.commit()?;
-            warnings.say();
+            warnings.keep_beside(out, journal.rows() > 0)?;
             if journal.rows() == 0 {
                 kept.clear();
             } else {
