@@ -305,7 +305,10 @@ impl<T: Scalar> Solves for State<T> {
             let problem = single(&mut self.body, &self.law, self.beyond, self.modulus)?;
             let (mut solution, control, search) = match fraction {
                 Some(fraction) => {
-                    let mut search = ContactSearch::new(&mut self.solver, problem)?.continuing(&[], start);
+                    let mut search = ContactSearch::new(&mut self.solver, problem)?;
+                    if let Some(start) = start {
+                        search = search.starting_from(start);
+                    }
                     let found = search.at_observed(fraction, observe)?;
                     let search = Search::of(fraction, &found);
                     (found.solution, found.control, Some(search))
@@ -345,7 +348,10 @@ impl<T: Scalar> Solves for State<T> {
             if let Some(fraction) = fraction {
                 let problem = single(&mut self.body, &self.law, self.beyond, self.modulus)?;
                 let (numbers, gap) = self.search.clone();
-                let mut search = ContactSearch::new(&mut self.solver, problem)?.continuing(&numbers, start.or(gap));
+                let mut search = ContactSearch::new(&mut self.solver, problem)?.continuing(&numbers, gap);
+                if let Some(start) = start {
+                    search = search.starting_from(start);
+                }
                 let found = search.at_observed(fraction, observe)?;
                 let (numbers, gap) = search.checkpoint();
                 if found.solution.report.status != Status::Stopped {
