@@ -1,6 +1,6 @@
 //! Input and answers that are probably a mistake, end to end: what the tool says of them, and what it refuses.
 
-use asperity::io::{write_npy, write_topography};
+use asperity::io::{read_field, write_npy, write_topography};
 use asperity::{SelfAffine, Topography};
 use ndarray::Array2;
 use serde_json::Value;
@@ -166,6 +166,32 @@ fn warnings_have_the_units_of_tables() {
         law.replace("kJ/m2", "")
     ));
     assert!(text(&output.stderr).contains("the range of adhesion, 2 um, exceeds"), "{}", text(&output.stderr));
+}
+
+#[test]
+fn a_code_for_missing_points_is_named_as_it_stands_in_the_file() {
+    let bench = bench();
+    let mut map = Topography::new(read_field(&bench.path("clean.npy")).unwrap());
+    (map.lengths, map.unit) = (Some((1.0, 1.0)), Some("nm".to_owned()));
+    for (code, count) in [(-999.0, 1), (1e30, 2)] {
+        (0..count).for_each(|j| map.heights[[3, j]] = code);
+        write_topography(&bench.path("map.npz"), &map).unwrap();
+        for command in ["solve --no-pictures --out o --mean-pressure", "sweep --out o.csv --mean-pressures"] {
+            let command = format!("{command} 1kPa --heights map.npz --modulus 1GPa --force --strict");
+            let refused = bench.refused(&command);
+            let start = format!("error: missing-code: {} stands at {count} node", display(code));
+            assert!(refused.starts_with(&start) && refused.contains(" nm to "), "{refused}");
+            assert!(refused.contains(&format!("--missing {} --fill", display(code))), "{refused}");
+        }
+        let filled = bench.said(&format!("prepare map.npz --missing {} --fill --out f.npz --force", display(code)));
+        assert!(filled.contains(&format!("stood at {count} of 1024 points")), "{filled}");
+        (0..count).for_each(|j| map.heights[[3, j]] = 0.0);
+    }
+}
+
+/// A code as messages have it.
+fn display(code: f64) -> String {
+    if code.abs() < 1e9 { format!("{code}") } else { format!("{code:e}") }
 }
 
 #[test]

@@ -27,23 +27,30 @@ pub struct Origin {
     pub original: Option<(usize, usize)>,
     /// The seed of a random surface.
     pub seed: Option<u64>,
+    /// The unit of the file, if its heights were converted from it.
+    pub converted_from: Option<String>,
 }
 
 impl Origin {
-    fn of(map: &Topography) -> Self {
-        Self { unit: map.unit.clone(), original: map.original, seed: map.seed }
+    /// That of a map which was converted from the unit of its file, or was not.
+    fn of(map: &Topography, converted_from: Option<String>) -> Self {
+        Self { unit: map.unit.clone(), original: map.original, seed: map.seed, converted_from }
     }
 }
 
 /// The map of a file with the given `--lengths`, of which one means square cells, or those of the file, or none. Lengths
 /// that contradict the file are refused. In the SI all is in metres, and side lengths have to be known.
-pub fn map(path: &Path, lengths: Option<&[Quantity]>, si: bool) -> Outcome<Topography> {
-    let mut map = read_topography(path)?;
-    if si {
-        map = converted(path, map, LENGTH.si)?;
-    }
+pub fn map(path: &Path, lengths: Option<&[Quantity]>, si: bool) -> Outcome<(Topography, Origin)> {
+    let (mut map, unit) = in_metres_if(si, path, read_topography(path)?)?;
     map.lengths = sides_of(path, &map, map.heights.dim(), lengths, si)?;
-    Ok(map)
+    let origin = Origin::of(&map, unit);
+    Ok((map, origin))
+}
+
+/// A map, in the SI in metres, and the unit from which it was converted.
+fn in_metres_if(si: bool, path: &Path, map: Topography) -> Outcome<(Topography, Option<String>)> {
+    let unit = map.unit.clone().filter(|unit| si && unit != LENGTH.si);
+    Ok((if si { converted(path, map, LENGTH.si)? } else { map }, unit))
 }
 
 /// The rows of the field of a file, which an option names, that this process holds of a grid.
@@ -75,12 +82,12 @@ pub fn shared(
         if let Some(error) = refused {
             return Err(error.into());
         }
-        let map = if si { converted(path, map, LENGTH.si)? } else { map };
+        let (map, unit) = in_metres_if(si, path, map)?;
         let sides = or_unit_square(path, &map, sides_of(path, &map, shape, lengths, si)?);
-        Ok((Grid::new(shape, sides)?, map))
+        Ok((Grid::new(shape, sides)?, map, unit))
     };
-    let (grid, map) = processes.agree(read())?;
-    let (grid, origin) = (processes.share(grid)?, Origin::of(&map));
+    let (grid, map, unit) = processes.agree(read())?;
+    let (grid, origin) = (processes.share(grid)?, Origin::of(&map, unit));
     let heights = map.heights;
     let surface = if absent { Surface::with_absent(grid, heights) } else { Surface::new(grid, heights) };
     match surface {
@@ -181,9 +188,9 @@ pub fn converted(path: &Path, mut map: Topography, unit: &str) -> Outcome<Topogr
     Ok(map)
 }
 
-/// The surface of a map, on the unit square if its side lengths are unknown, and its origin. Its missing points become
-/// absent nodes, or are refused.
-pub fn surface_or_absent(path: &Path, mut map: Topography, absent: bool) -> Outcome<(Surface, Origin)> {
+/// The surface of a map, on the unit square if its side lengths are unknown. Its missing points become absent nodes, or
+/// are refused.
+pub fn surface_or_absent(path: &Path, mut map: Topography, absent: bool) -> Outcome<Surface> {
     map.lengths = Some(or_unit_square(path, &map, map.lengths));
     let infinite = map.heights.iter().any(|h| h.is_infinite());
     let missing = !infinite && map.missing() > 0;
@@ -191,9 +198,8 @@ pub fn surface_or_absent(path: &Path, mut map: Topography, absent: bool) -> Outc
         let remedy = if missing { ", or take them for absent nodes by --absent-missing" } else { "" };
         check_complete(path, &map).map_err(|error| format!("{error}{remedy}"))?;
     }
-    let origin = Origin::of(&map);
     let surface = if missing { map.surface_with_absent() } else { map.surface() };
-    Ok((surface.map_err(|error| format!("{}: {error}", path.display()))?, origin))
+    Ok(surface.map_err(|error| format!("{}: {error}", path.display()))?)
 }
 
 /// Refuses a map with missing points.

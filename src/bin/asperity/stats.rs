@@ -56,7 +56,7 @@ const EXAMPLES: &str = "\
 pub fn run(options: &Options, scene: &Scene) -> Outcome<bool> {
     let (path, psd) = (&options.heights, options.psd.as_deref());
     let psd = psd.map(|path| OutputFile::create(path, options.force)).transpose()?;
-    let map = heights::map(path, options.lengths.as_deref(), scene.is_si())?;
+    let (map, _) = heights::map(path, options.lengths.as_deref(), scene.is_si())?;
     warn_of_unread(path, &map, "stay unknown");
     check_complete(path, &map)?;
     if let Some(file) = psd {

@@ -140,7 +140,7 @@ impl Options {
         let identity =
             |surface: &_, adhesion: &Adhesion<'_>, start: Option<&_>| self.identity(surface, adhesion, start);
         let mut problem = Problem::new(&surface, operator, adhesion.law::<T>()?)?;
-        let given = (&surface, &adhesion, start.as_ref());
+        let given = (&surface, &origin, &adhesion, start.as_ref());
         let (mut table, saved) = Table::open::<T>(options, &header, given, identity, Some(loads))?;
         let done = table.rows();
         let start = start.or_else(|| self.surface.beyond.boundary.start_afar(&surface, &self.loads.controls(&listed)));

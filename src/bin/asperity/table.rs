@@ -10,6 +10,7 @@ use serde_json::{Value, json};
 
 use crate::adhesion::Adhesion;
 use crate::case::check_finite;
+use crate::heights::Origin;
 use crate::identity::Identity;
 use crate::journal::{Journal, Row, Saved, Seen, state_path};
 use crate::kept::Kept;
@@ -68,7 +69,7 @@ impl<'a> Table<'a> {
     pub fn open<T: Scalar>(
         options: TableOptions<'a>,
         header: &str,
-        (surface, adhesion, start): (&Surface, &Adhesion<'_>, Option<&Array2<f64>>),
+        (surface, origin, adhesion, start): (&Surface, &Origin, &Adhesion<'_>, Option<&Array2<f64>>),
         identity: impl FnOnce(&Surface, &Adhesion<'_>, Option<&ArrayRef2<f64>>) -> Identity,
         loads: Option<&[f64]>,
     ) -> Outcome<(Self, Saved)> {
@@ -83,7 +84,8 @@ impl<'a> Table<'a> {
         let mut opened = None;
         processes.first(|| {
             let Some((surface, adhesion)) = whole else { return Ok(()) };
-            let mut warnings = Warnings::of_input::<T>(strictness, &surface, &adhesion, problem, options.units)?;
+            let mut warnings =
+                Warnings::of_input::<T>(strictness, (&surface, origin), &adhesion, problem, options.units)?;
             kept.check(force, out)?;
             scene.check_beside(out, force || out.exists())?;
             let scene_file = scene.written_beside(out)?;

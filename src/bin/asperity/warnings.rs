@@ -4,18 +4,19 @@ use std::fmt;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use asperity::{Error, Solution, Surface, Warning, WarningCode};
+use asperity::{Error, Solution, Surface, Topography, Warning, WarningCode};
 use clap::Args;
 use serde_json::{Value, json};
 
 use crate::adhesion::Adhesion;
 use crate::boundary::Boundary;
+use crate::heights::Origin;
 use crate::options::{ProblemOptions, Scalar};
 use crate::outcome::Outcome;
 use crate::output::with_suffix;
 use crate::part::Part;
 use crate::printing::complain;
-use crate::quantity::{LENGTH, PRESSURE};
+use crate::quantity::{LENGTH, PRESSURE, power_of_length, times_ten_to};
 use crate::units::Units;
 
 /// Whether warnings are errors.
@@ -89,7 +90,7 @@ impl Warnings {
     /// Looks at the heights and at the adhesion on them, before a solve.
     pub fn of_input<T: Scalar>(
         strictness: Strictness,
-        surface: &Surface,
+        (surface, origin): (&Surface, &Origin),
         adhesion: &Adhesion<'_>,
         options: ProblemOptions<'_>,
         units: &Units,
@@ -97,6 +98,11 @@ impl Warnings {
         let law = adhesion.law::<T>()?;
         let mut warnings = Self::empty(strictness, units);
         let mut found = Warning::of_surface(surface);
+        let codes = codes_in_file(surface, origin);
+        if !codes.is_empty() {
+            // nothing else can be told of the heights
+            found.retain(|warning| warning.code == WarningCode::Cells);
+        }
         // where nothing repeats, nothing has to meet, and a body that ends may be flat
         let free = options.surface.beyond.boundary == Boundary::Free;
         found.retain(|warning| match warning.code {
@@ -105,7 +111,8 @@ impl Warnings {
             _ => true,
         });
         found.extend(Warning::of_law(&law, surface, options.surface.modulus()));
-        warnings.add(found)?;
+        let told = found.iter().map(|warning| Told::new(warning, units));
+        warnings.add(told.chain(codes).collect())?;
         Ok(warnings)
     }
 
@@ -127,7 +134,7 @@ impl Warnings {
     pub fn look_at<T: Scalar>(&mut self, solution: &Solution<T>, modulus: f64, part: &Part) -> Outcome<()> {
         let mut found = Warning::of_solution(solution, modulus);
         found.extend(part.warning(solution)?);
-        self.add(found)?;
+        self.add(found.iter().map(|warning| Told::new(warning, &self.units)).collect())?;
         self.say()
     }
 
@@ -159,9 +166,8 @@ impl Warnings {
     }
 
     /// Keeps new warnings, or with `--strict` returns them as an error.
-    fn add(&mut self, found: Vec<Warning>) -> Outcome<()> {
-        let new = found.iter().filter(|new| self.is_new(new.code.name()));
-        let new: Vec<_> = new.map(|new| Told::new(new, &self.units)).collect();
+    fn add(&mut self, mut new: Vec<Told>) -> Outcome<()> {
+        new.retain(|new| self.is_new(&new.code));
         if self.strictness.strict && !new.is_empty() {
             let all: Vec<_> = new.iter().map(Told::to_string).collect();
             return Err(all.join("; and ").into());
@@ -174,6 +180,24 @@ impl Warnings {
     pub fn report(&self) -> Value {
         report(&self.found)
     }
+}
+
+/// The codes for missing points in heights that were converted, as they stand in the file, with its unit.
+fn codes_in_file(surface: &Surface, origin: &Origin) -> Vec<Told> {
+    let Some((unit, power)) = origin.converted_from.as_deref().and_then(|unit| Some((unit, power_of_length(unit)?)))
+    else {
+        return Vec::new();
+    };
+    // codes are whole numbers, of which the conversion may have rounded the last digit
+    let in_file = surface.heights().mapv(|height| {
+        let height = times_ten_to(-power, height);
+        let whole = height.round();
+        if (height - whole).abs() <= f64::EPSILON * whole.abs() { whole } else { height }
+    });
+    let mut codes = Warning::of_topography(&Topography::new(in_file));
+    codes.retain(|warning| warning.code == WarningCode::MissingCode);
+    let units = Units::of_map(Some(unit));
+    codes.iter().map(|warning| Told::new(warning, &units)).collect()
 }
 
 /// Warnings as a report lists them.
