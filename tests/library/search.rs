@@ -55,12 +55,15 @@ fn with_adhesion_a_search_follows_the_gap() {
     assert!(matches!(found.control, Control::MeanGap(gap) if gap > 0.0));
 }
 
+/// A sphere on a free half-space of n² nodes.
+fn free_sphere<L: AdhesionLaw<f64>>(n: usize, law: L) -> Problem<f64, Boussinesq<f64>, L> {
+    let grid = Grid::square(n, 1.0).unwrap();
+    Problem::new(&Surface::paraboloid(grid, 2.0).unwrap(), Boussinesq::new(grid, 1.0).unwrap(), law).unwrap()
+}
+
 #[test]
 fn a_free_tip_has_the_contact_that_hertz_gives() {
-    let grid = Grid::square(96, 1.0).unwrap();
-    let surface = Surface::paraboloid(grid, 2.0).unwrap();
-    let mut problem = Problem::new(&surface, Boussinesq::<f64>::new(grid, 1.0).unwrap(), NoAdhesion).unwrap();
-    let mut solver = Solver::default();
+    let (mut problem, mut solver) = (free_sphere(96, NoAdhesion), Solver::default());
     let found = ContactSearch::new(&mut solver, &mut problem).unwrap().at(0.05).unwrap();
     assert!(found.reached && is_near(&found.solution.report, 0.05, 96 * 96), "{found:?}");
     // F = 4E*a³/3R, and a to half a node
@@ -69,8 +72,7 @@ fn a_free_tip_has_the_contact_that_hertz_gives() {
     let force = found.solution.report.normal_force;
     assert!((force / expected - 1.0).abs() < 3.0 * 0.5 / 96.0 / radius, "{force} {expected}");
 
-    let law = MaugisDugdale::new(2e-4, 6e-3).unwrap();
-    let mut problem = Problem::new(&surface, Boussinesq::<f64>::new(grid, 1.0).unwrap(), law).unwrap();
+    let mut problem = free_sphere(96, MaugisDugdale::new(2e-4, 6e-3).unwrap());
     let found = ContactSearch::new(&mut solver, &mut problem).unwrap().at(0.05).unwrap();
     assert!(found.reached && is_near(&found.solution.report, 0.05, 96 * 96), "{found:?}");
     assert!(matches!(found.control, Control::Approach(_)));
@@ -116,10 +118,7 @@ fn a_jump_of_adhesion_is_told_from_its_side() {
 
 #[test]
 fn a_free_search_goes_on_from_the_whole_half_space() {
-    let grid = Grid::square(64, 1.0).unwrap();
-    let sphere = Surface::paraboloid(grid, 2.0).unwrap();
-    let mut problem = Problem::new(&sphere, Boussinesq::<f64>::new(grid, 1.0).unwrap(), NoAdhesion).unwrap();
-    let mut solver = Solver::default();
+    let (mut problem, mut solver) = (free_sphere(64, NoAdhesion), Solver::default());
     let mut search = ContactSearch::new(&mut solver, &mut problem).unwrap();
     let found = [0.02, 0.05, 0.1, 0.2, 0.4].map(|fraction| search.at(fraction).unwrap());
     assert!(found.iter().all(|found| found.reached));
