@@ -11,7 +11,7 @@ use crate::elastic::{Boundary, ElasticOperator};
 use crate::error::{Error, Result};
 use crate::problem::{Control, PressedFlat, Problem};
 use crate::real::Real;
-use crate::solver::{Iteration, Solution, Solver, Start, Status};
+use crate::solver::{Begin, Iteration, Solution, Solved, Solver, Start, Status};
 
 /// The most solves of a search. One that is bracketed halves its bracket at least with every other solve.
 const MOST: usize = 60;
@@ -64,7 +64,9 @@ pub struct ContactSearch<'a, T, O, L, C = Projection> {
     problem: &'a mut Problem<T, O, L>,
     axis: Axis,
     tolerance: f64,
-    /// The gap from which the next solve starts.
+    /// The given gap from which the next solve starts, on the grid of the surface.
+    start: Option<Array2<T>>,
+    /// The gap from which it starts otherwise, on the grid of the operator.
     gap: Option<Array2<T>>,
     /// The last two results, the latest last.
     points: Vec<Point>,
@@ -187,7 +189,7 @@ where
             return Err(Error::Control { control: "contact-fraction", reason });
         }
         let axis = Axis::of(&problem.flat, !problem.law.is_zero())?;
-        Ok(Self { solver, problem, axis, tolerance: 0.01, gap: None, points: Vec::new() })
+        Ok(Self { solver, problem, axis, tolerance: 0.01, start: None, gap: None, points: Vec::new() })
     }
 
     /// The search to a relative error of the contact fraction, or one node where that is more; 0.01 by default.
@@ -197,7 +199,7 @@ where
 
     /// The search with a gap of shape (Nx, Ny) as the start of its next solve.
     pub fn starting_from(self, gap: Array2<T>) -> Self {
-        Self { gap: Some(gap), ..self }
+        Self { start: Some(gap), ..self }
     }
 
     /// The problem, to look at a solution with, as for its contact stiffness.
@@ -205,7 +207,8 @@ where
         self.problem
     }
 
-    /// The place of the search: numbers, and the gap from which it goes on.
+    /// The place of the search: numbers, and the gap from which it goes on. The gap is on the grid of the operator;
+    /// beyond a window, where nothing faces the half-space, it goes on as its displacement.
     pub fn checkpoint(&self) -> (Vec<f64>, Option<&Array2<T>>) {
         let numbers = self.points.iter().flat_map(|point| [point.x, point.level, point.nodes as f64]);
         (numbers.collect(), self.gap.as_ref())
@@ -254,12 +257,17 @@ where
         }
         // the side from which the path comes
         let mut from_below = self.points.last().map(|last| (last.nodes as f64) < wanted);
-        let mut nearest: Option<(Point, Solution<T>)> = None;
+        let mut nearest: Option<(Point, Solved<T>)> = None;
         let (mut solves, mut applications) = (0, 0);
         let reached = loop {
-            let start = self.gap.as_ref().map_or(Start::Default, |gap| Start::From(gap));
-            let solution = self.solver.solve_with(self.problem, self.axis.control(x), start, &mut observe)?;
-            let report = &solution.report;
+            let start = self.start.take();
+            let begin = match (&start, &self.gap) {
+                (Some(gap), _) => Begin::At(Start::From(gap)),
+                (None, Some(gap)) => Begin::Found(gap.clone()),
+                (None, None) => Begin::At(Start::Default),
+            };
+            let solved = self.solver.run(self.problem.parts(), self.axis.control(x), begin, &mut observe)?;
+            let report = &solved.solution.report;
             solves += 1;
             applications += report.operator_applications;
             let (count, converged) = (report.contact_nodes, report.status == Status::Converged);
@@ -267,17 +275,17 @@ where
             let distance = |nodes: usize| (nodes as f64 - wanted).abs();
             let hit = converged && count > 0 && (count as f64) < facing && distance(count) <= allowed;
             if hit || !converged {
-                nearest = Some((point, solution));
+                nearest = Some((point, solved));
                 break hit;
             }
             let below = (count as f64) < wanted;
             // with adhesion a state beyond the wanted one is on the way back already
             if !adhesion || *from_below.get_or_insert(below) == below {
-                self.gap = Some(solution.gap.clone());
+                self.gap = Some(solved.gap().clone());
             }
             bracket.add(point, wanted);
             if nearest.as_ref().is_none_or(|(kept, _)| distance(count) < distance(kept.nodes)) {
-                nearest = Some((point, solution));
+                nearest = Some((point, solved));
             }
             self.remember(point);
             if solves == MOST || bracket.is_narrow(self.axis) {
@@ -285,12 +293,13 @@ where
             }
             x = bracket.next(self.axis, goal, self.slope());
         };
-        let Some((point, solution)) = nearest else {
+        let Some((point, solved)) = nearest else {
             // the loop ends with a solution
             return Err(Error::Value { name: "contact fraction", value: fraction, requirement: "found by a solve" });
         };
         self.remember(point);
-        self.gap = Some(solution.gap.clone());
+        let (solution, gap) = solved.with_gap();
+        self.gap = Some(gap);
         let share = |point: Point| point.nodes as f64 / facing;
         Ok(FoundContact {
             solution,

@@ -11,12 +11,14 @@ use crate::grid::Grid;
 
 mod philox;
 mod self_affine;
+mod slope;
 mod spectrum;
 mod statistics;
 mod topography;
 
 pub(crate) use philox::uniform;
 pub use self_affine::{Amplitude, SelfAffine};
+pub(crate) use slope::rms_slope;
 pub use spectrum::{Psd, Spectrum};
 pub use statistics::SurfaceStatistics;
 pub use topography::{Fit, Form, FormFit, RowAlignment, ScanAxis, Spikes, Topography, Trend};

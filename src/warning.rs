@@ -12,7 +12,7 @@ use crate::problem::mu_rho;
 use crate::real::Real;
 use crate::slab::Slab;
 use crate::solver::Solution;
-use crate::surface::{Surface, Topography};
+use crate::surface::{Surface, Topography, rms_slope};
 use crate::vector::sums;
 
 mod code;
@@ -24,7 +24,7 @@ mod text;
 
 pub use code::WarningCode;
 use extremes::Extremes;
-use heights::{cells, missing_code, open_edges, rms_slope, slope, spikes, tilt};
+use heights::{cells, missing_code, open_edges, slope, spikes, tilt};
 use relief::Relief;
 use spikes::Spikes;
 use text::Text;
@@ -113,9 +113,8 @@ impl Warning {
     /// [`Steep`](WarningCode::Steep), [`Smooth`](WarningCode::Smooth), [`Spikes`](WarningCode::Spikes),
     /// [`MissingCode`](WarningCode::MissingCode), [`Cells`](WarningCode::Cells) and [`Flat`](WarningCode::Flat).
     ///
-    /// Takes two passes over the heights, and a third where single nodes may be far out. Where there are codes for
-    /// missing points, the warnings that these codes would cause are left out. Tilt and edges are looked at along sides
-    /// of 16 nodes and more.
+    /// Takes a few passes over the heights. Where there are codes for missing points, the warnings that these codes
+    /// would cause are left out. Tilt and edges are looked at along sides of 16 nodes and more.
     ///
     /// Where several processes share the grid, each of them takes the whole surface for it, as [`Surface::whole`] gives
     /// it.
@@ -141,7 +140,7 @@ impl Warning {
         let relief = Relief::of(surface.heights(), &extremes);
         found.extend(tilt(&relief, surface.grid()));
         found.extend(open_edges(&relief));
-        found.extend(slope(rms_slope(&relief, surface.grid()), STEEP));
+        found.extend(slope(rms_slope(surface.heights().view(), surface.grid().spacing(), false), STEEP));
         found.extend(spikes(&relief, &Spikes::of(surface.heights(), &relief)));
         found
     }

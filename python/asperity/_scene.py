@@ -59,6 +59,7 @@ class Scene:
             nested,
             threads,
             self.original,
+            self.topography.unit,
         )
         max_iterations, threads = self.problem.inputs()
         self.inputs: dict[str, Any] = {

@@ -34,6 +34,8 @@ class SurfaceStatistics(NamedTuple):
         The same from differences between neighbours.
     nayak : float
         Nayak's parameter m₀m₄/m₂².
+
+    Slopes, curvatures and Nayak's parameter are NaN where the side lengths are unknown.
     """
 
     mean: float
@@ -123,14 +125,14 @@ def statistics(heights: Any, lengths: float | tuple[float, float] | None = None)
     heights : array_like, Topography, SurfaceTopography, DataArray or path of a file
         Heights of a periodic surface, shape (Nx, Ny).
     lengths : float or (float, float), optional
-        Side lengths; needed unless the heights bring them.
+        Side lengths, of which slopes, curvatures and Nayak's parameter are NaN if the heights do not bring them either.
 
     Returns
     -------
     SurfaceStatistics
     """
     given = taken(heights, lengths)
-    return SurfaceStatistics(*_asperity.statistics(given.heights, sides(given)))
+    return SurfaceStatistics(*_asperity.statistics(given.heights, given.lengths))
 
 
 def spectrum(

@@ -66,6 +66,8 @@ pub struct Account<T> {
     /// The node with the largest work of adhesion, where that varies.
     pub strongest: Option<(usize, usize)>,
     pub warnings: Vec<Warning>,
+    /// The unit of lengths, if it is known.
+    pub unit: Option<String>,
     /// The time of the solve.
     pub seconds: f64,
     /// What is found once it is asked for.

@@ -54,6 +54,8 @@ struct State<T: Real> {
     strongest: Option<(usize, usize)>,
     /// the part of a mirrored surface that numbers are of, if they are not of the whole
     original: Option<Original>,
+    /// of lengths
+    unit: Option<String>,
     /// of the input
     warnings: Vec<Warning>,
     history: Vec<(Control, Array2<T>)>,
@@ -65,7 +67,6 @@ struct State<T: Real> {
 }
 
 /// What a problem is made of beside its surface and its law.
-#[derive(Clone, Copy)]
 struct Made {
     beyond: Beyond,
     modulus: f64,
@@ -76,6 +77,8 @@ struct Made {
     threads: Option<usize>,
     /// The original of a mirrored surface, if numbers are to be of that.
     original: Option<Original>,
+    /// The unit of lengths, if it is known.
+    unit: Option<String>,
 }
 
 /// The request for one solve.
@@ -130,7 +133,7 @@ impl<T: Scalar> State<T> {
         surface: Surface,
         law: Box<dyn AdhesionLaw<T>>,
         strongest: Option<(usize, usize)>,
-        Made { beyond, modulus, wall, settings, nested, threads, original }: Made,
+        Made { beyond, modulus, wall, settings, nested, threads, original, unit }: Made,
     ) -> Self {
         let grid = *surface.grid();
         let mut warnings = beyond.warnings(&surface);
@@ -146,6 +149,7 @@ impl<T: Scalar> State<T> {
             modulus,
             strongest,
             original,
+            unit,
             warnings,
             history: Vec::new(),
             search: (Vec::new(), None),
@@ -181,6 +185,7 @@ impl<T: Scalar> State<T> {
             search: None,
             strongest: self.strongest,
             warnings,
+            unit: self.unit.clone(),
             seconds,
             sight: Sight { law, grid, boundary, modulus, original, threads, estimate: None },
         })
@@ -300,7 +305,10 @@ impl<T: Scalar> Solves for State<T> {
             let problem = single(&mut self.body, &self.law, self.beyond, self.modulus)?;
             let (mut solution, control, search) = match fraction {
                 Some(fraction) => {
-                    let mut search = ContactSearch::new(&mut self.solver, problem)?.continuing(&[], start);
+                    let mut search = ContactSearch::new(&mut self.solver, problem)?;
+                    if let Some(start) = start {
+                        search = search.starting_from(start);
+                    }
                     let found = search.at_observed(fraction, observe)?;
                     let search = Search::of(fraction, &found);
                     (found.solution, found.control, Some(search))
@@ -340,7 +348,10 @@ impl<T: Scalar> Solves for State<T> {
             if let Some(fraction) = fraction {
                 let problem = single(&mut self.body, &self.law, self.beyond, self.modulus)?;
                 let (numbers, gap) = self.search.clone();
-                let mut search = ContactSearch::new(&mut self.solver, problem)?.continuing(&numbers, start.or(gap));
+                let mut search = ContactSearch::new(&mut self.solver, problem)?.continuing(&numbers, gap);
+                if let Some(start) = start {
+                    search = search.starting_from(start);
+                }
                 let found = search.at_observed(fraction, observe)?;
                 let (numbers, gap) = search.checkpoint();
                 if found.solution.report.status != Status::Stopped {
@@ -488,7 +499,7 @@ impl Problem {
     #[new]
     #[pyo3(signature = (
         heights, lengths, absent_missing, boundary, modulus, law, wall, precision, tolerance, max_iterations, method,
-        nested, threads, original
+        nested, threads, original, unit
     ))]
     #[expect(clippy::too_many_arguments, reason = "called by the Python layer alone, by name")]
     fn new(
@@ -507,13 +518,14 @@ impl Problem {
         nested: Option<bool>,
         threads: Option<usize>,
         original: Option<PyRef<'_, crate::original::Original>>,
+        unit: Option<String>,
     ) -> PyResult<Self> {
         let settings = settings(tolerance, max_iterations, method)?;
         let pool = Pool::of(threads)?;
         let heights = heights.as_array().to_owned();
         let (beyond, wall) = (Beyond::of(boundary)?, Wall::of(wall)?);
         let original = original.map(|original| original.0);
-        let made = Made { beyond, modulus, wall, settings, nested, threads, original };
+        let made = Made { beyond, modulus, wall, settings, nested, threads, original, unit };
         let make = if absent_missing { Surface::with_absent } else { Surface::new };
         let surface = Grid::new(heights.dim(), lengths).and_then(|grid| make(grid, heights));
         let surface = surface.map_err(refusal_of_heights)?;

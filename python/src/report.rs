@@ -43,7 +43,8 @@ pub fn of<'py, T: Scalar>(py: Python<'py>, account: &Account<T>) -> PyResult<Bou
         Ok(dictionary!(py, "wanted": found.wanted, "of": found.of.name(), "reached": found.reached,))
     };
     let reached = account.reached.as_ref().map(reached).transpose()?;
-    let warnings = account.warnings.iter().map(|found| warning(py, found)).collect::<PyResult<Vec<_>>>()?;
+    let unit = account.unit.as_deref();
+    let warnings = account.warnings.iter().map(|found| warning(py, found, unit)).collect::<PyResult<Vec<_>>>()?;
     Ok(dictionary!(py,
         "status": report.status.name(),
         "relative_error": report.relative_error,
@@ -176,6 +177,12 @@ pub fn stability<'py, T: Scalar>(py: Python<'py>, found: &Stability<T>) -> PyRes
     ))
 }
 
-fn warning<'py>(py: Python<'py>, found: &Warning) -> PyResult<Bound<'py, PyDict>> {
-    Ok(dictionary!(py, "code": found.code.name(), "message": found.message(),))
+/// A warning, of which lengths have their unit if it is known.
+fn warning<'py>(py: Python<'py>, found: &Warning, unit: Option<&str>) -> PyResult<Bound<'py, PyDict>> {
+    let figure = |value: f64| match value.abs() {
+        magnitude if value == 0.0 || (1e-3..1e5).contains(&magnitude) => value.to_string(),
+        _ => format!("{value:e}"),
+    };
+    let length = |value| unit.map_or_else(|| figure(value), |unit| format!("{} {unit}", figure(value)));
+    Ok(dictionary!(py, "code": found.code.name(), "message": found.message_with(length, figure),))
 }

@@ -69,9 +69,14 @@ pub fn self_affine<'py>(
 
 /// The statistics of heights, in the order of the library.
 #[pyfunction]
-pub fn statistics(py: Python<'_>, heights: PyReadonlyArray2<'_, f64>, lengths: (f64, f64)) -> PyResult<[f64; 11]> {
-    let surface = surface(heights, lengths)?;
-    let found = apart(py, || Ok(surface.statistics()))?;
+pub fn statistics(
+    py: Python<'_>,
+    heights: PyReadonlyArray2<'_, f64>,
+    lengths: Option<(f64, f64)>,
+) -> PyResult<[f64; 11]> {
+    let mut map = Topography::new(heights.as_array().to_owned());
+    map.lengths = lengths;
+    let found = apart(py, || map.statistics())?;
     Ok([
         found.mean,
         found.lowest,

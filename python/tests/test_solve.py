@@ -83,6 +83,15 @@ def test_a_probable_mistake_is_a_warning_and_in_the_report(rough):
     assert [warning["code"] for warning in solution.report["warnings"]] == ["steep"]
 
 
+@pytest.mark.parametrize(("unit", "length"), [(None, "2"), ("nm", "2 nm")])
+def test_lengths_in_warnings_have_the_unit_of_the_map(rough, unit, length):
+    heights = asperity.Topography(rough.heights, rough.lengths, unit)
+    law = asperity.Exponential(work_of_adhesion=0.1, range=2.0)
+    with pytest.warns(asperity.InputWarning, match=f"range of adhesion, {length}, exceeds"):
+        solution = asperity.solve(heights, modulus=1.0, mean_gap=1.0, law=law)
+    assert f"range of adhesion, {length}, exceeds" in solution.report["warnings"][0]["message"]
+
+
 def test_an_observer_sees_the_iterations(rough):
     states = []
     solution = asperity.solve(rough, modulus=1.0, mean_pressure=0.01, observe=states.append)

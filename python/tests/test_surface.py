@@ -13,6 +13,8 @@ def test_a_surface_has_the_slope_that_is_asked_for():
     found = surface.statistics(rough)
     assert np.isclose(found.rms_slope, 0.1, rtol=1e-12) and np.isclose(found.rms_height, rough.heights.std())
     assert found == surface.statistics(rough.heights, rough.lengths)
+    alone = surface.statistics(rough.heights)
+    assert alone[:6] == found[:6] and np.isnan(alone[6:]).all()
     with pytest.raises(ValueError, match="rms_height or rms_slope"):
         surface.self_affine(64, 1.0)
     with pytest.raises(ValueError, match="k_s is 64"):

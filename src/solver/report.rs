@@ -249,6 +249,11 @@ impl<T> Solved<T> {
 }
 
 impl<T: Clone> Solved<T> {
+    /// The gap on the grid of the operator.
+    pub(crate) fn gap(&self) -> &Array2<T> {
+        self.whole.as_ref().map_or(&self.solution.gap, |(_, gap)| gap)
+    }
+
     /// The solution, and its gap on the grid of the operator.
     pub(crate) fn with_gap(self) -> (Solution<T>, Array2<T>) {
         let gap = self.whole.map_or_else(|| self.solution.gap.clone(), |(_, gap)| gap);

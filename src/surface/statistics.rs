@@ -2,8 +2,9 @@
 
 use ndarray::ArrayView1;
 
-use super::Surface;
 use super::spectrum::is_line;
+use super::{Surface, Topography, rms_slope};
+use crate::error::Result;
 use crate::field;
 
 /// The statistics of a rough surface: [`Surface::statistics`].
@@ -13,7 +14,8 @@ use crate::field;
 /// (qΔ)²/12 of a curvature along an axis for a wave number q and a spacing Δ. If the two differ much, the grid does
 /// not resolve the surface, or its edges do not meet.
 ///
-/// Lengths are in the unit of the heights; [`Surface::statistics`] has an example.
+/// Lengths are in the unit of the heights; [`Surface::statistics`] has an example. [`Topography::statistics`] are those
+/// of a map, whose side lengths may be unknown.
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SurfaceStatistics {
@@ -64,7 +66,7 @@ impl Surface {
         let rms_height = self.rms_about(mean);
         // of heights over the rms height, whose fourth powers stay in range
         let power = |n: i32| field::mean(self.heights.view(), |h| ((h - mean) / rms_height).powi(n));
-        let (slope, laplacian) = self.differences();
+        let laplacian = self.rms_laplacian();
         let spectrum = self.spectrum();
         SurfaceStatistics {
             mean,
@@ -74,32 +76,63 @@ impl Surface {
             skewness: power(3),
             kurtosis: power(4),
             rms_slope: spectrum.rms_slope(),
-            rms_slope_differences: slope,
+            rms_slope_differences: rms_slope(self.heights.view(), self.grid.spacing(), true),
             rms_curvature: spectrum.rms_curvature(),
             rms_curvature_differences: if is_line(&self.grid) { laplacian } else { 0.5 * laplacian },
             nayak: spectrum.nayak(),
         }
     }
 
-    /// The rms slope and the rms Laplacian from differences between neighbours.
-    fn differences(&self) -> (f64, f64) {
+    /// The rms Laplacian from differences between neighbours.
+    fn rms_laplacian(&self) -> f64 {
         let ((nx, ny), (dx, dy)) = (self.grid.shape(), self.grid.spacing());
-        let (mut slopes, mut laplacians) = (0.0, 0.0);
+        let mut sum = 0.0;
         for i in 0..nx {
             let row = |i: usize| self.heights.row(i % nx);
             let [before, here, after]: [ArrayView1<'_, f64>; 3] = [row(i + nx - 1), row(i), row(i + 1)];
-            let (mut slope, mut laplacian) = (0.0, 0.0);
-            for j in 0..ny {
-                let (h, above) = (here[j], here[(j + 1) % ny]);
-                let (along, across) = ((after[j] - h) / dx, (above - h) / dy);
-                slope += along * along + across * across;
-                let back = ((h - before[j]) / dx, (h - here[(j + ny - 1) % ny]) / dy);
-                laplacian += ((along - back.0) / dx + (across - back.1) / dy).powi(2);
-            }
-            slopes += slope;
-            laplacians += laplacian;
+            let laplacian = |j: usize| {
+                let (h, below, above) = (here[j], here[(j + ny - 1) % ny], here[(j + 1) % ny]);
+                ((after[j] - h) / dx - (h - before[j]) / dx) / dx + ((above - h) / dy - (h - below) / dy) / dy
+            };
+            sum += (0..ny).map(|j| laplacian(j).powi(2)).sum::<f64>();
         }
-        let nodes = self.grid.nodes() as f64;
-        ((slopes / nodes).sqrt(), (laplacians / nodes).sqrt())
+        (sum / self.grid.nodes() as f64).sqrt()
+    }
+}
+
+impl Topography {
+    /// The statistics of the map as a surface, periodic as it stands. Slopes, curvatures and Nayak's parameter, which
+    /// follow from the side lengths, are not a number where these are unknown.
+    ///
+    /// ```
+    /// use asperity::Topography;
+    /// let mut map = Topography::new(ndarray::arr2(&[[0.0, 1.0], [2.0, 1.0]]));
+    /// let found = map.statistics()?;
+    /// assert!(found.rms_slope.is_nan() && found.highest == 2.0);
+    /// map.lengths = Some((2.0, 2.0));
+    /// assert!(map.statistics()?.rms_slope > 0.0);
+    /// # Ok::<(), asperity::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::NotFinite`](crate::Error::NotFinite) if heights are missing, [`Error::Value`](crate::Error::Value) if the
+    /// side lengths are no lengths.
+    pub fn statistics(&self) -> Result<SurfaceStatistics> {
+        let mut map = self.clone();
+        let (nx, ny) = map.heights.dim();
+        map.lengths.get_or_insert((nx as f64, ny as f64));
+        let found = map.surface()?.statistics();
+        if self.lengths.is_some() {
+            return Ok(found);
+        }
+        let [rms_slope, rms_slope_differences, rms_curvature, rms_curvature_differences, nayak] = [f64::NAN; 5];
+        Ok(SurfaceStatistics {
+            rms_slope,
+            rms_slope_differences,
+            rms_curvature,
+            rms_curvature_differences,
+            nayak,
+            ..found
+        })
     }
 }

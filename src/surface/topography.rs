@@ -3,11 +3,11 @@
 use std::f64::consts::PI;
 use std::ops::Range;
 
-use ndarray::{Array2, Axis, Zip};
+use ndarray::{Array2, Axis};
 
 use crate::error::{Error, Result};
 use crate::grid::Grid;
-use crate::surface::Surface;
+use crate::surface::{Surface, rms_slope};
 
 mod despike;
 mod fill;
@@ -110,24 +110,7 @@ impl Topography {
     /// assert!((map.rms_slope().unwrap() - 3.0).abs() < 1e-12);
     /// ```
     pub fn rms_slope(&self) -> Option<f64> {
-        let ((nx, ny), (lx, ly)) = (self.heights.dim(), self.lengths?);
-        let along = |axis: usize, spacing: f64| {
-            let count = self.heights.len_of(Axis(axis));
-            let part = |nodes: Range<usize>| self.heights.slice_axis(Axis(axis), nodes.into());
-            let slopes = Zip::from(part(0..count - 1)).and(part(1..count));
-            let slope = |before: &f64, after: &f64| Some((after - before) / spacing).filter(|slope| slope.is_finite());
-            // in units of the steepest, of which no square leaves the range of `f64`
-            let most = |most: f64, a: &f64, b: &f64| slope(a, b).map_or(most, |slope| most.max(slope.abs()));
-            let most = slopes.clone().fold(0.0, most);
-            let add = |(sum, count): (f64, f64), slope: f64| match most > 0.0 {
-                true => (sum + (slope / most).powi(2), count + 1.0),
-                false => (sum, count + 1.0),
-            };
-            let (sum, count) = slopes.fold((0.0, 0.0), |sums, a, b| slope(a, b).map_or(sums, |slope| add(sums, slope)));
-            most * f64::sqrt(sum / count)
-        };
-        let sides = [along(0, lx / nx as f64), along(1, ly / ny as f64)].into_iter();
-        Some(sides.filter(|slope| !slope.is_nan()).reduce(f64::hypot).unwrap_or(f64::NAN))
+        self.lengths.map(|_| rms_slope(self.heights.view(), self.spacing(), false))
     }
 
     /// The part of the map with the nodes `x` × `y`; the nodes keep their distances. Of a mirrored map it has no

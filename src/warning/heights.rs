@@ -129,13 +129,6 @@ pub(super) fn open_edges(relief: &Relief) -> Option<Warning> {
     Some(Warning { code: WarningCode::OpenEdges, text: text.with(message) })
 }
 
-/// The rms slope between neighbours.
-pub(super) fn rms_slope(relief: &Relief, grid: &Grid) -> f64 {
-    let (dx, dy) = grid.spacing();
-    let along = |side: &Side, spacing: f64| side.rms_step * (relief.unit / spacing);
-    along(&relief.sides[0], dx).hypot(along(&relief.sides[1], dy))
-}
-
 /// What is probably wrong with an rms slope, if more than `most` is steep.
 pub(super) fn slope(slope: f64, most: f64) -> Option<Warning> {
     let (code, than) = match slope {

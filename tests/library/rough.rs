@@ -3,7 +3,7 @@
 use std::f64::consts::{PI, TAU};
 
 use approx::assert_relative_eq;
-use asperity::{Amplitude, Error, Grid, Psd, SelfAffine, Spectrum, Surface};
+use asperity::{Amplitude, Error, Grid, Psd, SelfAffine, Spectrum, Surface, Topography};
 
 /// A surface of which a quick test resolves all waves.
 fn short(seed: u64) -> SelfAffine {
@@ -363,6 +363,19 @@ fn statistics_of_waves_are_closed_sums() {
             let expected = sum(&|x, y| (x * grid.x(i) + y * grid.y(j)).cos());
             assert_relative_eq!(*r, expected, epsilon = 1e-9 * found.rms_height.powi(2));
         }
+    }
+}
+
+#[test]
+fn slopes_by_differences_have_the_edge_and_heights_of_any_size() {
+    let heights = ndarray::arr2(&[[0.0, 3.0], [4.0, 7.0], [8.0, 11.0], [12.0, 15.0]]);
+    let grid = Grid::new((4, 2), (4.0, 2.0)).unwrap();
+    // a step of 4 along x and of 3 along y, and back at the edge
+    let periodic = f64::sqrt((3.0 * 16.0 + 144.0) / 4.0 + 9.0);
+    for scale in [1.0, 1e200, 1e-200] {
+        let surface = Surface::new(grid, &heights * scale).unwrap();
+        assert_relative_eq!(surface.statistics().rms_slope_differences, scale * periodic, max_relative = 1e-14);
+        assert_relative_eq!(Topography::from(surface).rms_slope().unwrap(), scale * 5.0, max_relative = 1e-14);
     }
 }
 

@@ -199,7 +199,7 @@ mod tool {
         let folder = tempfile::tempdir().unwrap();
         let read = |name: &str| std::fs::read_to_string(folder.path().join(name)).unwrap();
         said(&folder, "surface --size 160 --rms-slope 0.1 --seed 3 --out rough.npy");
-        let statistics = said(&folder, "stats rough.npy");
+        let statistics = said(&folder, "stats rough.npy --lengths 1");
         let slope = statistics.lines().find_map(|line| line.strip_prefix("rms slope")).unwrap();
         assert!((slope.trim().parse::<f64>().unwrap() - 0.1).abs() < 1e-7, "{statistics}");
 

@@ -55,12 +55,15 @@ fn with_adhesion_a_search_follows_the_gap() {
     assert!(matches!(found.control, Control::MeanGap(gap) if gap > 0.0));
 }
 
+/// A sphere on a free half-space of n² nodes.
+fn free_sphere<L: AdhesionLaw<f64>>(n: usize, law: L) -> Problem<f64, Boussinesq<f64>, L> {
+    let grid = Grid::square(n, 1.0).unwrap();
+    Problem::new(&Surface::paraboloid(grid, 2.0).unwrap(), Boussinesq::new(grid, 1.0).unwrap(), law).unwrap()
+}
+
 #[test]
 fn a_free_tip_has_the_contact_that_hertz_gives() {
-    let grid = Grid::square(96, 1.0).unwrap();
-    let surface = Surface::paraboloid(grid, 2.0).unwrap();
-    let mut problem = Problem::new(&surface, Boussinesq::<f64>::new(grid, 1.0).unwrap(), NoAdhesion).unwrap();
-    let mut solver = Solver::default();
+    let (mut problem, mut solver) = (free_sphere(96, NoAdhesion), Solver::default());
     let found = ContactSearch::new(&mut solver, &mut problem).unwrap().at(0.05).unwrap();
     assert!(found.reached && is_near(&found.solution.report, 0.05, 96 * 96), "{found:?}");
     // F = 4E*a³/3R, and a to half a node
@@ -69,8 +72,7 @@ fn a_free_tip_has_the_contact_that_hertz_gives() {
     let force = found.solution.report.normal_force;
     assert!((force / expected - 1.0).abs() < 3.0 * 0.5 / 96.0 / radius, "{force} {expected}");
 
-    let law = MaugisDugdale::new(2e-4, 6e-3).unwrap();
-    let mut problem = Problem::new(&surface, Boussinesq::<f64>::new(grid, 1.0).unwrap(), law).unwrap();
+    let mut problem = free_sphere(96, MaugisDugdale::new(2e-4, 6e-3).unwrap());
     let found = ContactSearch::new(&mut solver, &mut problem).unwrap().at(0.05).unwrap();
     assert!(found.reached && is_near(&found.solution.report, 0.05, 96 * 96), "{found:?}");
     assert!(matches!(found.control, Control::Approach(_)));
@@ -115,12 +117,32 @@ fn a_jump_of_adhesion_is_told_from_its_side() {
 }
 
 #[test]
+fn a_free_search_goes_on_from_the_whole_half_space() {
+    let (mut problem, mut solver) = (free_sphere(64, NoAdhesion), Solver::default());
+    let mut search = ContactSearch::new(&mut solver, &mut problem).unwrap();
+    let found = [0.02, 0.05, 0.1, 0.2, 0.4].map(|fraction| search.at(fraction).unwrap());
+    assert!(found.iter().all(|found| found.reached));
+    // 641 from the gap within the window alone, and 572 from all of it
+    let applications: usize = found.iter().map(|found| found.operator_applications).sum();
+    assert!(applications <= 600, "{applications}");
+    assert_eq!(search.checkpoint().1.map(|gap| gap.dim()), Some((128, 128)));
+}
+
+#[test]
 fn a_search_goes_on_from_its_checkpoint_bit_for_bit() {
     let fractions = [0.02, 0.05, 0.2];
     let law = Exponential::new(1e-4, 4e-3).unwrap();
-    for adhesive in [false, true] {
-        let new = || -> Box<dyn AdhesionLaw<f64>> { if adhesive { Box::new(law) } else { Box::new(NoAdhesion) } };
-        let (mut whole, mut parts) = (rough::<f64, _>(64, 16, new()), rough::<f64, _>(64, 16, new()));
+    let grid = Grid::square(64, 1.0).unwrap();
+    let surface = SelfAffine { k_l: 2.0, k_s: 16.0, ..SelfAffine::default() }.surface(grid).unwrap();
+    for (adhesive, free) in [(false, false), (true, false), (false, true), (true, true)] {
+        let new = || {
+            let law: Box<dyn AdhesionLaw<f64>> = if adhesive { Box::new(law) } else { Box::new(NoAdhesion) };
+            let periodic = Westergaard::<f64>::new(grid, 1.0).unwrap();
+            let body: Box<dyn ElasticOperator<f64>> =
+                if free { Box::new(Boussinesq::<f64>::new(grid, 1.0).unwrap()) } else { Box::new(periodic) };
+            Problem::new(&surface, body, law).unwrap()
+        };
+        let (mut whole, mut parts) = (new(), new());
         let (mut one, mut other) = (Solver::default(), Solver::default());
         let mut search = ContactSearch::new(&mut one, &mut whole).unwrap();
         let all: Vec<_> = fractions.iter().map(|&fraction| search.at(fraction).unwrap()).collect();

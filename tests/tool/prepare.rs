@@ -253,7 +253,7 @@ fn lengths_of_files_and_of_options() {
     assert_eq!(sides("stats g.txt"), "2 nm x 1 nm");
     // headers are rounded: what is near is taken as given
     assert_eq!(sides("stats g.txt --lengths 2.01e-9 1e-9"), "2.01 nm x 1 nm");
-    assert_eq!(sides("stats plain.txt"), "1 x 1");
+    assert_eq!(sides("stats plain.txt"), "unknown: give --lengths for slopes, curvatures and Nayak's parameter");
     assert_eq!(sides("stats plain.txt --lengths 4"), "4 x 6");
     for command in
         ["stats g.txt", "solve --mean-gap 1 --out r --heights g.txt", "sweep --mean-gaps 1 --out r.csv --heights g.txt"]

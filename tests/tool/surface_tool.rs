@@ -130,10 +130,29 @@ fn statistics_of_text_and_of_flat_maps() {
         Surface::from_fn(Grid::square(4, 1.0).unwrap(), |_, _| 2.0).unwrap().heights(),
     )
     .unwrap();
-    let said = bench.said("stats flat.npy --psd flat.csv");
+    let said = bench.said("stats flat.npy --lengths 1 --psd flat.csv");
     assert_eq!(numbers(&said, "rms height"), [0.0]);
     assert!(said.contains("Nayak's parameter  -"), "{said}");
     assert!(csv(&bench, "flat.csv").1.iter().all(|row| row[1] == 0.0));
+}
+
+#[test]
+fn slopes_of_a_map_without_side_lengths_are_not_told() {
+    let bench = Bench::new();
+    fs::write(bench.path("wave.txt"), "0 1 0 -1\n".repeat(3)).unwrap();
+    let said = bench.said("stats wave.txt");
+    let row = |name: &str| said.lines().find_map(|line| line.strip_prefix(name)).map(str::trim);
+    assert!(row("side lengths").unwrap().starts_with("unknown: give --lengths"), "{said}");
+    assert_eq!((row("rms slope"), row("rms curvature"), row("Nayak's parameter")), (Some("-"), Some("-"), Some("-")));
+    assert_eq!((numbers(&said, "highest"), numbers(&said, "kurtosis")), (vec![1.0], vec![2.0]));
+    let (unknown, known) = (bench.reported("stats wave.txt"), bench.reported("stats wave.txt --lengths 3 4"));
+    for key in ["lengths", "rms_slope", "rms_slope_differences", "rms_curvature", "rms_curvature_differences", "nayak"]
+    {
+        assert!(unknown[key].is_null() && !known[key].is_null(), "{key}: {unknown} {known}");
+    }
+    assert_eq!((&unknown["rms_height"], &unknown["skewness"]), (&known["rms_height"], &known["skewness"]));
+    bench.refused_with("stats wave.txt --psd psd.csv", &["wave.txt", "side lengths are unknown", "--lengths"]);
+    assert_eq!(bench.names(""), ["wave.txt"]);
 }
 
 #[test]
@@ -193,7 +212,7 @@ fn help_has_examples() {
     for (arguments, parts) in [
         ("--help", vec!["surface", "stats"]),
         ("surface --help", vec!["--rms-slope", "k^(-2-2H)", "[default: 64]", "Examples", "--shape 4096 1"]),
-        ("stats --help", vec!["FILE", "--psd", "Examples", "[default: the file's, else 1 1]"]),
+        ("stats --help", vec!["FILE", "--psd", "Examples", "[default: the file's]"]),
     ] {
         let help = bench.said(arguments).split_whitespace().collect::<Vec<_>>().join(" ");
         assert!(parts.iter().all(|part| help.contains(part)), "{arguments}: {help}");

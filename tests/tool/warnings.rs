@@ -1,6 +1,6 @@
 //! Input and answers that are probably a mistake, end to end: what the tool says of them, and what it refuses.
 
-use asperity::io::{write_npy, write_topography};
+use asperity::io::{read_field, write_npy, write_topography};
 use asperity::{SelfAffine, Topography};
 use ndarray::Array2;
 use serde_json::Value;
@@ -166,6 +166,70 @@ fn warnings_have_the_units_of_tables() {
         law.replace("kJ/m2", "")
     ));
     assert!(text(&output.stderr).contains("the range of adhesion, 2 um, exceeds"), "{}", text(&output.stderr));
+}
+
+#[test]
+fn a_code_for_missing_points_is_named_as_it_stands_in_the_file() {
+    let bench = bench();
+    let mut map = Topography::new(read_field(&bench.path("clean.npy")).unwrap());
+    (map.lengths, map.unit) = (Some((1.0, 1.0)), Some("nm".to_owned()));
+    for (code, count) in [(-999.0, 1), (1e30, 2)] {
+        (0..count).for_each(|j| map.heights[[3, j]] = code);
+        write_topography(&bench.path("map.npz"), &map).unwrap();
+        for command in ["solve --no-pictures --out o --mean-pressure", "sweep --out o.csv --mean-pressures"] {
+            let command = format!("{command} 1kPa --heights map.npz --modulus 1GPa --force --strict");
+            let refused = bench.refused(&command);
+            let start = format!("error: missing-code: {} stands at {count} node", display(code));
+            assert!(refused.starts_with(&start) && refused.contains(" nm to "), "{refused}");
+            assert!(refused.contains(&format!("--missing {} --fill", display(code))), "{refused}");
+        }
+        let filled = bench.said(&format!("prepare map.npz --missing {} --fill --out f.npz --force", display(code)));
+        assert!(filled.contains(&format!("stood at {count} of 1024 points")), "{filled}");
+        (0..count).for_each(|j| map.heights[[3, j]] = 0.0);
+    }
+}
+
+/// A code as messages have it.
+fn display(code: f64) -> String {
+    if code.abs() < 1e9 { format!("{code}") } else { format!("{code:e}") }
+}
+
+#[test]
+fn the_page_of_a_table_has_the_warnings_of_all_its_runs() {
+    let bench = bench();
+    let listed = |table: &str| -> Vec<String> {
+        bench.said(&format!("report {table} --force"));
+        let page = bench.read(&format!("{table}.html"));
+        let items = page.lines().filter_map(|line| line.strip_prefix("<li>")?.strip_suffix("</li>"));
+        items.map(|item| item.split([',', '.']).next().unwrap_or_default().to_owned()).collect()
+    };
+    let high = "the contact pressure is up to";
+    let first_words = |warnings: &[String]| warnings.iter().map(|text| text[..10].to_owned()).collect::<Vec<_>>();
+    bench.run("sweep --heights tilted.npy --mean-pressures 5 --out s.csv");
+    let found = listed("s.csv");
+    assert_eq!(first_words(&found), ["the map is", "opposite e", "the contac"], "{found:?}");
+    // a run that goes on adds what is new to what was said before
+    bench.run("sweep --heights clean.npy --mean-pressures 0.01 --out t.csv");
+    assert!(listed("t.csv").is_empty() && !bench.names(".").contains(&"t.csv.warnings.txt".to_owned()));
+    bench.run("sweep --heights clean.npy --mean-pressures 0.01,5 --out t.csv");
+    let found = listed("t.csv");
+    assert!(found.len() == 1 && found[0].starts_with(high), "{found:?}");
+    let again = bench.run("sweep --heights clean.npy --mean-pressures 0.01,5,0.02 --out t.csv --json");
+    let report: Value = serde_json::from_slice(&again.stdout).unwrap();
+    assert_eq!((codes(&report), said(&text(&again.stderr))), (vec!["beyond-modulus"], vec![]));
+    assert_eq!(listed("t.csv"), found);
+    bench.run("sweep --heights clean.npy --mean-pressures 0.01 --out t.csv --force");
+    assert!(listed("t.csv").is_empty());
+    bench.run("cycle --heights tilted.npy --mean-gaps 2,1 --steps 1 --smallest-step 0.5 --out c.csv");
+    assert_eq!(first_words(&listed("c.csv")), ["the map is", "opposite e"]);
+    bench.write(
+        "study.toml",
+        "command = \"sweep\"\nout = \"study.csv\"\nmean-pressures = \"0.01\"\n[vary]\n\
+         heights = [\"clean.npy\", \"tilted.npy\"]\nmodulus = [1.0, 2.0]\n",
+    );
+    bench.run("study study.toml");
+    let found = listed("study.csv");
+    assert!(found[0].starts_with("cases 3") && found.len() == 2, "{found:?}");
 }
 
 #[test]

@@ -168,7 +168,7 @@ impl Options {
         };
         let afar = if start.is_none() { self.surface.beyond.boundary.start_afar(&surface, &loads) } else { None };
         let mut path = Path::new(&mut solver, &mut problem, loads, settings)?;
-        let given = (&surface, &adhesion, start.as_ref());
+        let given = (&surface, &origin, &adhesion, start.as_ref());
         let (mut table, saved) = Table::open::<T>(options, &header, given, identity, None)?;
         drop(surface);
         if table.rows() > 0 {

@@ -27,24 +27,30 @@ pub struct Origin {
     pub original: Option<(usize, usize)>,
     /// The seed of a random surface.
     pub seed: Option<u64>,
+    /// The unit of the file, if its heights were converted from it.
+    pub converted_from: Option<String>,
 }
 
 impl Origin {
-    fn of(map: &Topography) -> Self {
-        Self { unit: map.unit.clone(), original: map.original, seed: map.seed }
+    /// That of a map which was converted from the unit of its file, or was not.
+    fn of(map: &Topography, converted_from: Option<String>) -> Self {
+        Self { unit: map.unit.clone(), original: map.original, seed: map.seed, converted_from }
     }
 }
 
-/// The map of a file with the given `--lengths`, of which one means square cells; without any, those of the file, or
-/// else the unit square. Lengths that contradict the file are refused. In the SI all is in metres, and side lengths are
-/// not taken for granted.
-pub fn map(path: &Path, lengths: Option<&[Quantity]>, si: bool) -> Outcome<Topography> {
-    let mut map = read_topography(path)?;
-    if si {
-        map = converted(path, map, LENGTH.si)?;
-    }
-    map.lengths = Some(sides_of(path, &map, map.heights.dim(), lengths, si)?);
-    Ok(map)
+/// The map of a file with the given `--lengths`, of which one means square cells, or those of the file, or none. Lengths
+/// that contradict the file are refused. In the SI all is in metres, and side lengths have to be known.
+pub fn map(path: &Path, lengths: Option<&[Quantity]>, si: bool) -> Outcome<(Topography, Origin)> {
+    let (mut map, unit) = in_metres_if(si, path, read_topography(path)?)?;
+    map.lengths = sides_of(path, &map, map.heights.dim(), lengths, si)?;
+    let origin = Origin::of(&map, unit);
+    Ok((map, origin))
+}
+
+/// A map, in the SI in metres, and the unit from which it was converted.
+fn in_metres_if(si: bool, path: &Path, map: Topography) -> Outcome<(Topography, Option<String>)> {
+    let unit = map.unit.clone().filter(|unit| si && unit != LENGTH.si);
+    Ok((if si { converted(path, map, LENGTH.si)? } else { map }, unit))
 }
 
 /// The rows of the field of a file, which an option names, that this process holds of a grid.
@@ -76,12 +82,12 @@ pub fn shared(
         if let Some(error) = refused {
             return Err(error.into());
         }
-        let map = if si { converted(path, map, LENGTH.si)? } else { map };
-        let sides = sides_of(path, &map, shape, lengths, si)?;
-        Ok((Grid::new(shape, sides)?, map))
+        let (map, unit) = in_metres_if(si, path, map)?;
+        let sides = or_unit_square(path, &map, sides_of(path, &map, shape, lengths, si)?);
+        Ok((Grid::new(shape, sides)?, map, unit))
     };
-    let (grid, map) = processes.agree(read())?;
-    let (grid, origin) = (processes.share(grid)?, Origin::of(&map));
+    let (grid, map, unit) = processes.agree(read())?;
+    let (grid, origin) = (processes.share(grid)?, Origin::of(&map, unit));
     let heights = map.heights;
     let surface = if absent { Surface::with_absent(grid, heights) } else { Surface::new(grid, heights) };
     match surface {
@@ -91,14 +97,14 @@ pub fn shared(
     }
 }
 
-/// The side lengths of a map of this shape with the given `--lengths`. In the SI they are not taken for granted.
+/// The side lengths of a map of this shape with the given `--lengths`, if they are known. In the SI they have to be.
 fn sides_of(
     path: &Path,
     map: &Topography,
     shape: (usize, usize),
     lengths: Option<&[Quantity]>,
     si: bool,
-) -> Outcome<(f64, f64)> {
+) -> Outcome<Option<(f64, f64)>> {
     if si && map.lengths.is_none() && lengths.is_none() {
         let text = "the numbers have units, but nothing says how large the map is: give --lengths, as 20um";
         return Err(format!("{}: {text}", path.display()).into());
@@ -122,10 +128,15 @@ fn sides_of(
         }
         known = Some(given);
     }
-    if known.is_none() {
+    Ok(known)
+}
+
+/// Side lengths that are known, or those of the unit square.
+fn or_unit_square(path: &Path, map: &Topography, known: Option<(f64, f64)>) -> (f64, f64) {
+    known.unwrap_or_else(|| {
         warn_of_unread(path, map, "are taken as 1 x 1");
-    }
-    Ok(known.unwrap_or((1.0, 1.0)))
+        (1.0, 1.0)
+    })
 }
 
 /// Warns of the arrays of a file that were not read, if its side lengths are unknown and may be among them; `are` says
@@ -177,24 +188,22 @@ pub fn converted(path: &Path, mut map: Topography, unit: &str) -> Outcome<Topogr
     Ok(map)
 }
 
-/// The surface of a map, and its origin. Its missing points become absent nodes, or are refused.
-pub fn surface_or_absent(path: &Path, map: Topography, absent: bool) -> Outcome<(Surface, Origin)> {
+/// The surface of a map, on the unit square if its side lengths are unknown. Its missing points become absent nodes, or
+/// are refused.
+pub fn surface_or_absent(path: &Path, mut map: Topography, absent: bool) -> Outcome<Surface> {
+    map.lengths = Some(or_unit_square(path, &map, map.lengths));
     let infinite = map.heights.iter().any(|h| h.is_infinite());
     let missing = !infinite && map.missing() > 0;
-    if !missing {
-        return surface(path, map);
+    if !missing || !absent {
+        let remedy = if missing { ", or take them for absent nodes by --absent-missing" } else { "" };
+        check_complete(path, &map).map_err(|error| format!("{error}{remedy}"))?;
     }
-    if !absent {
-        let refused = surface(path, map);
-        return refused.map_err(|error| format!("{error}, or take them for absent nodes by --absent-missing").into());
-    }
-    let origin = Origin::of(&map);
-    let surface = map.surface_with_absent();
-    Ok((surface.map_err(|error| format!("{}: {error}", path.display()))?, origin))
+    let surface = if missing { map.surface_with_absent() } else { map.surface() };
+    Ok(surface.map_err(|error| format!("{}: {error}", path.display()))?)
 }
 
-/// The surface of a map, and its origin.
-pub fn surface(path: &Path, map: Topography) -> Outcome<(Surface, Origin)> {
+/// Refuses a map with missing points.
+pub fn check_complete(path: &Path, map: &Topography) -> Outcome<()> {
     let (nx, ny) = map.heights.dim();
     let infinite = map.heights.iter().filter(|h| h.is_infinite()).count();
     if let Some((node, height)) = map.heights.indexed_iter().find(|(_, h)| h.is_infinite()) {
@@ -219,8 +228,7 @@ pub fn surface(path: &Path, map: Topography) -> Outcome<(Surface, Origin)> {
         )
         .into());
     }
-    let origin = Origin::of(&map);
-    Ok((map.surface()?, origin))
+    Ok(())
 }
 
 /// The numbers of missing and of infinite heights, if there are any.

@@ -117,8 +117,8 @@ impl<'a> ProblemOptions<'a> {
         let (surface, origin) = if processes.count() > 1 {
             heights::shared(path, lengths.as_deref(), si, beyond.absent_missing, processes)?
         } else {
-            let map = heights::map(path, lengths.as_deref(), si)?;
-            heights::surface_or_absent(path, map, beyond.absent_missing)?
+            let (map, origin) = heights::map(path, lengths.as_deref(), si)?;
+            (heights::surface_or_absent(path, map, beyond.absent_missing)?, origin)
         };
         let part = processes.agree(Part::of(&origin, *surface.grid(), beyond.boundary, whole))?;
         let adhesion = self.adhesion.read(surface.grid(), processes)?;

@@ -1,5 +1,6 @@
 //! The output file of a command, which appears when it is complete.
 
+use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
 use asperity::Error;
@@ -67,4 +68,11 @@ pub fn at_destination(error: Error, folder: &Path) -> Error {
         }
         other => other,
     }
+}
+
+/// The path of a file beside another, whose name it continues.
+pub fn with_suffix(path: &Path, suffix: &str) -> PathBuf {
+    let mut name = OsString::from(path);
+    name.push(suffix);
+    name.into()
 }

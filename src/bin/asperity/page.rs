@@ -17,11 +17,12 @@ use crate::citation::citations;
 use crate::csv;
 use crate::numbers::plain;
 use crate::outcome::Outcome;
-use crate::output::{OutputFile, write_text};
+use crate::output::{OutputFile, with_suffix, write_text};
 use crate::pictures::{chart_of_columns, chart_of_loads, draw_pressure, draw_regions};
 use crate::printing::say;
 use crate::scene;
 use crate::units::{Units, dimension_of};
+use crate::warnings;
 
 /// Put the results of a run on one page for a browser.
 ///
@@ -61,20 +62,13 @@ const CLASSES: usize = 60;
 pub fn run(options: &Options) -> Outcome<bool> {
     let results = &options.results;
     let folder = results.is_dir();
-    let default = if folder { results.join("report.html") } else { beside(results) };
+    let default = if folder { results.join("report.html") } else { with_suffix(results, ".html") };
     let file = OutputFile::create(options.out.as_ref().unwrap_or(&default), options.force)?;
     let page = if folder { page_of_solve(results)? } else { page_of_table(results)? };
     file.write(|path| write_text(path, &page))?;
     file.commit()?;
     say(&format!("page in {}", options.out.as_ref().unwrap_or(&default).display()));
     Ok(true)
-}
-
-/// The page beside a table.
-fn beside(table: &Path) -> PathBuf {
-    let mut path = table.as_os_str().to_owned();
-    path.push(".html");
-    path.into()
 }
 
 /// A page as it grows.
@@ -261,12 +255,10 @@ fn page_of_table(table: &Path) -> Outcome<String> {
     let mut page = Page::new(&name, &format!("asperity {command}: {} rows", rows.len()));
     let bad = |row: &Value| row["status"] != "converged";
     let unconverged = rows.iter().filter(|row| bad(row)).count();
-    if unconverged > 0 {
-        page.warnings(&[format!(
-            "{unconverged} of {} rows have not converged; they are marked in the table.",
-            rows.len()
-        )]);
-    }
+    let count = rows.len();
+    let marked = format!("{unconverged} of {count} rows have not converged; they are marked in the table.");
+    let said = warnings::read_beside(table).into_iter().map(|told| told.message);
+    page.warnings(&(unconverged > 0).then_some(marked).into_iter().chain(said).collect::<Vec<_>>());
     page.heading("Curves");
     page.figure("chart", &chart_of_loads(&rows, &units, FINE)?.svg()?);
     let energy = if cycle { "dissipated" } else { "elastic_energy" };

@@ -12,8 +12,7 @@ use toml::Value;
 
 use crate::loads::Loads;
 use crate::outcome::Outcome;
-use crate::output::OutputFile;
-use crate::output::write_text;
+use crate::output::{OutputFile, with_suffix, write_text};
 use crate::quantity::Quantity;
 
 /// A run as a scene file that repeats it: every option that was given or has a default.
@@ -163,10 +162,7 @@ impl Scene {
 
 /// The path of the scene beside a file.
 pub fn beside(file: &Path) -> PathBuf {
-    let mut path = file.as_os_str().to_owned();
-    path.push(".");
-    path.push(NAME);
-    path.into()
+    with_suffix(file, &format!(".{NAME}"))
 }
 
 fn folder_of(file: &Path) -> &Path {

@@ -244,7 +244,7 @@ struct Job<'a> {
 }
 
 impl Job<'_> {
-    fn run<T: Scalar>(mut self, Given { surface, adhesion, start, .. }: Given<'_>) -> Outcome<bool> {
+    fn run<T: Scalar>(mut self, Given { surface, adhesion, origin, start, .. }: Given<'_>) -> Outcome<bool> {
         let Options { out, force, printing, .. } = self.options;
         let (mut grid, processes) = (*surface.grid(), self.processes);
         let fits = !grid.is_shared() || grid.nodes() <= WHOLE;
@@ -263,11 +263,12 @@ impl Job<'_> {
         let whole = if fits { surface.gathered() } else { None }.zip(whole_adhesion.as_ref());
         let mut warnings = processes.agree(match whole {
             Some((surface, adhesion)) => {
-                Warnings::of_input::<T>(strictness, &surface, adhesion, self.options.problem(), &self.units)
+                let given = (&*surface, &origin);
+                Warnings::of_input::<T>(strictness, given, adhesion, self.options.problem(), &self.units)
             }
             None => Warnings::none(strictness, &self.units, fits),
         })?;
-        warnings.say();
+        warnings.say()?;
         let law = adhesion.law()?;
         let (solution, mut account) = if let Some(wanted) = &mut wanted {
             let mut operator = self.case.boundary.half_space(grid, self.case.modulus)?;

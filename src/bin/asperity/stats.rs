@@ -3,11 +3,11 @@
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
-use asperity::{Spectrum, Surface};
+use asperity::{Spectrum, Surface, SurfaceStatistics, Topography};
 use clap::Args;
 use serde_json::{Map, Value, json};
 
-use crate::heights::{self, Origin};
+use crate::heights::{self, check_complete, warn_of_unread};
 use crate::numbers::plain;
 use crate::outcome::Outcome;
 use crate::output::OutputFile;
@@ -22,7 +22,8 @@ use crate::units::Units;
 ///
 /// Heights, slopes, curvatures and Nayak's parameter, of the surface as it stands, continued periodically: a tilt, or
 /// edges that do not meet, count as roughness. Slopes and curvatures come from the Fourier spectrum and from
-/// differences between neighbours; if they differ much, the map does not resolve the surface.
+/// differences between neighbours; if they differ much, the map does not resolve the surface. Where the side lengths are
+/// unknown, there are none, and no Nayak's parameter.
 #[derive(Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Options {
@@ -30,8 +31,7 @@ pub struct Options {
     /// export, or a text matrix
     #[arg(value_name = "FILE")]
     heights: PathBuf,
-    /// Side lengths of the map, in the unit of the heights; LX alone means square cells [default: the file's, else 1
-    /// 1]
+    /// Side lengths of the map, in the unit of the heights; LX alone means square cells [default: the file's]
     #[arg(long, value_names = ["LX", "LY"], num_args = 1..=2, allow_negative_numbers = true)]
     #[arg(value_parser = LENGTH.positive())]
     lengths: Option<Vec<Quantity>>,
@@ -54,31 +54,37 @@ const EXAMPLES: &str = "\
 
 /// Runs the command; always successful if it ends.
 pub fn run(options: &Options, scene: &Scene) -> Outcome<bool> {
-    let psd = options.psd.as_deref().map(|path| OutputFile::create(path, options.force)).transpose()?;
-    let map = heights::map(&options.heights, options.lengths.as_deref(), scene.is_si())?;
-    let (surface, origin) = heights::surface(&options.heights, map)?;
+    let (path, psd) = (&options.heights, options.psd.as_deref());
+    let psd = psd.map(|path| OutputFile::create(path, options.force)).transpose()?;
+    let (map, _) = heights::map(path, options.lengths.as_deref(), scene.is_si())?;
+    warn_of_unread(path, &map, "stay unknown");
+    check_complete(path, &map)?;
     if let Some(file) = psd {
-        let text = density_table(&surface, None, origin.unit.as_deref());
+        if map.lengths.is_none() {
+            let text = "the side lengths are unknown, and --psd is over wave numbers, which follow from them";
+            return Err(format!("{}: {text}: give --lengths", path.display()).into());
+        }
+        let text = density_table(&map.clone().surface()?, None, map.unit.as_deref());
         file.write(|path| write_text(path, &text))?;
         file.commit()?;
     }
-    options.printing.say(&table(&surface, &origin));
+    let found = map.statistics()?;
+    options.printing.say(&table(&map, &found));
     options.printing.report(|| {
         let version = Map::from_iter([("version".to_owned(), env!("CARGO_PKG_VERSION").into())]);
-        report::report("stats", statistics(&surface, &options.heights, &origin), version)
+        report::report("stats", statistics(&map, &found, path), version)
     });
     Ok(true)
 }
 
-/// The statistics of the heights in a file, by name.
-pub fn statistics(surface: &Surface, heights: &Path, origin: &Origin) -> Value {
-    let (grid, found) = (surface.grid(), surface.statistics());
+/// The statistics of the map in a file, by name.
+pub fn statistics(map: &Topography, found: &SurfaceStatistics, heights: &Path) -> Value {
     json!({
         "heights": heights.to_string_lossy(),
-        "shape": grid.shape(),
-        "lengths": grid.lengths(),
-        "length_unit": origin.unit,
-        "original": origin.original,
+        "shape": map.heights.dim(),
+        "lengths": map.lengths,
+        "length_unit": map.unit,
+        "original": map.original,
         "mean_height": found.mean,
         "lowest": found.lowest,
         "highest": found.highest,
@@ -93,12 +99,10 @@ pub fn statistics(surface: &Surface, heights: &Path, origin: &Origin) -> Value {
     })
 }
 
-/// The statistics, one to a line, with the unit of length if it is known. Of a mirrored map they are those of
+/// The statistics of a map, one to a line, with the unit of length if it is known. Of a mirrored map they are those of
 /// all nodes.
-pub fn table(surface: &Surface, origin: &Origin) -> String {
-    let (grid, found) = (surface.grid(), surface.statistics());
-    let unit = origin.unit.as_deref();
-    let ((nx, ny), (lx, ly)) = (grid.shape(), grid.lengths());
+pub fn table(map: &Topography, found: &SurfaceStatistics) -> String {
+    let ((nx, ny), unit) = (map.heights.dim(), map.unit.as_deref());
     // Shape and Nayak's parameter have no meaning on a flat surface.
     let units = Units::of_map(unit);
     let number = |value: f64, dimension: Option<Dimension>| match dimension {
@@ -106,9 +110,13 @@ pub fn table(surface: &Surface, origin: &Origin) -> String {
         Some(dimension) => units.number(value, dimension),
         None => plain(value),
     };
-    let sides = if grid.is_line() { units.number(lx, LENGTH) } else { heights::sides((lx, ly), unit) };
+    let sides = match map.lengths {
+        Some((lx, _)) if ny == 1 => units.number(lx, LENGTH),
+        Some(lengths) => heights::sides(lengths, unit),
+        None => "unknown: give --lengths for slopes, curvatures and Nayak's parameter".to_owned(),
+    };
     let mut rows = vec![("nodes", format!("{nx} x {ny}")), ("side lengths", sides)];
-    if let Some((x, y)) = origin.original {
+    if let Some((x, y)) = map.original {
         rows.push(("original", format!("{x} x {y} nodes, all others are its mirror images")));
     }
     for (name, value, dimension) in [

@@ -9,7 +9,7 @@ use serde_json::json;
 
 use crate::allowed::{nodes, positive, threads};
 use crate::form::{Form, FormOptions};
-use crate::heights::{Origin, both_sides};
+use crate::heights::both_sides;
 use crate::outcome::Outcome;
 use crate::output::OutputFile;
 use crate::output::write_text;
@@ -145,7 +145,6 @@ pub fn run(options: &Options, scene: &Scene) -> Outcome<bool> {
     let mut map = Topography::from(surface.clone());
     map.unit = unit.map(str::to_owned);
     map.seed = rough.map(|rough| rough.seed);
-    let origin = Origin { unit: map.unit.clone(), ..Origin::default() };
     heights.write(|path| match path.extension().map(|ending| ending.to_ascii_lowercase()) {
         Some(ending) if ending == "gsf" || ending == "npz" => write_topography(path, &map),
         _ => write_npy(path, &map.heights),
@@ -158,16 +157,16 @@ pub fn run(options: &Options, scene: &Scene) -> Outcome<bool> {
     let scene_file = scene.written_beside(&options.out)?;
     [Some(heights), psd, Some(scene_file)].into_iter().flatten().try_for_each(OutputFile::commit)?;
     // what is absent has no statistics
-    let (nx, ny) = shape;
-    options.printing.say(&match absent {
-        0 => table(&surface, &origin),
-        _ => format!("{nx} x {ny} nodes, {absent} of them absent"),
+    let ((nx, ny), found) = (shape, (absent == 0).then(|| surface.statistics()));
+    options.printing.say(&match &found {
+        Some(found) => table(&map, found),
+        None => format!("{nx} x {ny} nodes, {absent} of them absent"),
     });
     options.printing.say(&format!("heights in {}", options.out.display()));
     options.printing.report(|| {
-        let figures = match absent {
-            0 => statistics(&surface, &options.out, &origin),
-            _ => json!({
+        let figures = match &found {
+            Some(found) => statistics(&map, found, &options.out),
+            None => json!({
                 "heights": options.out.to_string_lossy(),
                 "shape": shape,
                 "lengths": grid.lengths(),

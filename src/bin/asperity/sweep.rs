@@ -135,14 +135,13 @@ impl Options {
         let (fields, units) = (self.fields.as_deref(), &units);
         let (problem, part) = (self.problem(), &part);
         let operator = self.surface.beyond.boundary.half_space(grid, self.surface.modulus())?;
-        // a search goes on from the gap on the surface
-        let nodes = if self.fractions.values().is_some() { grid } else { *operator.grid() };
+        let nodes = *operator.grid();
         let options =
             TableOptions { problem, out, force, printing, scene, units, part, strictness, fields, processes, nodes };
         let identity =
             |surface: &_, adhesion: &Adhesion<'_>, start: Option<&_>| self.identity(surface, adhesion, start);
         let mut problem = Problem::new(&surface, operator, adhesion.law::<T>()?)?;
-        let given = (&surface, &adhesion, start.as_ref());
+        let given = (&surface, &origin, &adhesion, start.as_ref());
         let (mut table, saved) = Table::open::<T>(options, &header, given, identity, Some(loads))?;
         let done = table.rows();
         let start = start.or_else(|| self.surface.beyond.boundary.start_afar(&surface, &self.loads.controls(&listed)));
@@ -153,8 +152,12 @@ impl Options {
         let mut solver = Solver { settings: self.solver.settings(), constraint: self.adhesion.wall };
         let mut steps = match self.fractions.values() {
             Some(_) => {
-                let gap = saved.fields.into_iter().next_back().or(start.filter(|_| done == 0)).map(T::field);
-                Steps::Search(ContactSearch::new(&mut solver, &mut problem)?.continuing(&saved.numbers, gap))
+                let gap = saved.fields.into_iter().next_back().map(T::field);
+                let search = ContactSearch::new(&mut solver, &mut problem)?.continuing(&saved.numbers, gap);
+                Steps::Search(match start {
+                    Some(start) if done == 0 => search.starting_from(T::field(start)),
+                    _ => search,
+                })
             }
             None => {
                 let first = done.saturating_sub(saved.fields.len());

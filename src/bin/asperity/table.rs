@@ -10,6 +10,7 @@ use serde_json::{Value, json};
 
 use crate::adhesion::Adhesion;
 use crate::case::check_finite;
+use crate::heights::Origin;
 use crate::identity::Identity;
 use crate::journal::{Journal, Row, Saved, Seen, state_path};
 use crate::kept::Kept;
@@ -24,7 +25,7 @@ use crate::quantity::{FORCE, LENGTH, PRESSURE};
 use crate::report;
 use crate::scene::{self, Scene};
 use crate::units::Units;
-use crate::warnings::{Strictness, Warnings};
+use crate::warnings::{self, Strictness, Warnings};
 
 /// The code of the warning that rows have not converged; it stands before the message, as those of all warnings do.
 pub const UNCONVERGED: &str = "unconverged";
@@ -68,7 +69,7 @@ impl<'a> Table<'a> {
     pub fn open<T: Scalar>(
         options: TableOptions<'a>,
         header: &str,
-        (surface, adhesion, start): (&Surface, &Adhesion<'_>, Option<&Array2<f64>>),
+        (surface, origin, adhesion, start): (&Surface, &Origin, &Adhesion<'_>, Option<&Array2<f64>>),
         identity: impl FnOnce(&Surface, &Adhesion<'_>, Option<&ArrayRef2<f64>>) -> Identity,
         loads: Option<&[f64]>,
     ) -> Outcome<(Self, Saved)> {
@@ -83,18 +84,21 @@ impl<'a> Table<'a> {
         let mut opened = None;
         processes.first(|| {
             let Some((surface, adhesion)) = whole else { return Ok(()) };
-            let mut warnings = Warnings::of_input::<T>(strictness, &surface, &adhesion, problem, options.units)?;
+            let mut warnings =
+                Warnings::of_input::<T>(strictness, (&surface, origin), &adhesion, problem, options.units)?;
             kept.check(force, out)?;
             scene.check_beside(out, force || out.exists())?;
             let scene_file = scene.written_beside(out)?;
-            let made = [state_path(out), scene::beside(out), out.to_owned()].into_iter().filter(|path| !path.exists());
+            let made = [state_path(out), scene::beside(out), warnings::beside(out), out.to_owned()]
+                .into_iter()
+                .filter(|path| !path.exists());
             let made: Vec<_> = made.collect();
             let mut identity = identity(&surface, &adhesion, start.flatten().as_deref());
             identity.insert("units".to_owned(), options.units.of_table().into());
             identity.insert("part".to_owned(), options.part.name().unwrap_or("all").into());
             let (journal, saved) = Journal::open(out, header, identity, loads, force)?;
             scene_file.commit()?;
-            warnings.say();
+            warnings.keep_beside(out, journal.rows() > 0)?;
             if journal.rows() == 0 {
                 kept.clear();
             } else {

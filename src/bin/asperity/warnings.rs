@@ -1,18 +1,22 @@
-//! The warnings of a command: printed, reported, or refused with `--strict`.
+//! The warnings of a command: printed, reported, kept beside a table, or refused with `--strict`.
 
 use std::fmt;
+use std::fs;
+use std::path::{Path, PathBuf};
 
-use asperity::{Solution, Surface, Warning, WarningCode};
+use asperity::{Error, Solution, Surface, Topography, Warning, WarningCode};
 use clap::Args;
 use serde_json::{Value, json};
 
 use crate::adhesion::Adhesion;
 use crate::boundary::Boundary;
+use crate::heights::Origin;
 use crate::options::{ProblemOptions, Scalar};
 use crate::outcome::Outcome;
+use crate::output::with_suffix;
 use crate::part::Part;
 use crate::printing::complain;
-use crate::quantity::{LENGTH, PRESSURE};
+use crate::quantity::{LENGTH, PRESSURE, power_of_length, times_ten_to};
 use crate::units::Units;
 
 /// Whether warnings are errors.
@@ -24,15 +28,22 @@ pub struct Strictness {
 }
 
 /// A warning in the units of a run.
+#[derive(Clone, PartialEq)]
 pub struct Told {
-    code: WarningCode,
-    message: String,
+    code: String,
+    pub message: String,
 }
 
 impl Told {
     pub fn new(warning: &Warning, units: &Units) -> Self {
         let [length, pressure] = [LENGTH, PRESSURE].map(|dimension| move |value| units.number(value, dimension));
-        Self { code: warning.code, message: warning.message_with(length, pressure) }
+        Self { code: warning.code.name().to_owned(), message: warning.message_with(length, pressure) }
+    }
+
+    /// The warning on a line, as it is written.
+    fn parse(line: &str) -> Option<Self> {
+        let (code, message) = line.split_once(": ")?;
+        Some(Self { code: code.to_owned(), message: message.to_owned() })
     }
 }
 
@@ -42,26 +53,56 @@ impl fmt::Display for Told {
     }
 }
 
+/// The file with the warnings of a table, beside it, a line for each; there is none if nothing was said.
+pub fn beside(table: &Path) -> PathBuf {
+    with_suffix(table, ".warnings.txt")
+}
+
+/// The warnings beside a table.
+pub fn read_beside(table: &Path) -> Vec<Told> {
+    let text = fs::read_to_string(beside(table)).unwrap_or_default();
+    text.lines().filter_map(Told::parse).collect()
+}
+
+/// Replaces the warnings beside a table.
+pub fn write_beside(table: &Path, warnings: &[Told]) -> Outcome<()> {
+    let path = beside(table);
+    let lines: String = warnings.iter().map(|warning| format!("{warning}\n")).collect();
+    let written = match lines.is_empty() {
+        true if !path.exists() => Ok(()),
+        true => fs::remove_file(&path),
+        false => fs::write(&path, lines),
+    };
+    written.map_err(|e| Error::file(&path, format!("cannot be written: {e}")).into())
+}
+
 /// The warnings of a run so far, each of which is said once.
 pub struct Warnings {
     strictness: Strictness,
     units: Units,
     found: Vec<Told>,
     said: usize,
+    /// The table that keeps them beside itself
+    table: Option<PathBuf>,
 }
 
 impl Warnings {
     /// Looks at the heights and at the adhesion on them, before a solve.
     pub fn of_input<T: Scalar>(
         strictness: Strictness,
-        surface: &Surface,
+        (surface, origin): (&Surface, &Origin),
         adhesion: &Adhesion<'_>,
         options: ProblemOptions<'_>,
         units: &Units,
     ) -> Outcome<Self> {
         let law = adhesion.law::<T>()?;
-        let mut warnings = Self { strictness, units: units.clone(), found: Vec::new(), said: 0 };
+        let mut warnings = Self::empty(strictness, units);
         let mut found = Warning::of_surface(surface);
+        let codes = codes_in_file(surface, origin);
+        if !codes.is_empty() {
+            // nothing else can be told of the heights
+            found.retain(|warning| warning.code == WarningCode::Cells);
+        }
         // where nothing repeats, nothing has to meet, and a body that ends may be flat
         let free = options.surface.beyond.boundary == Boundary::Free;
         found.retain(|warning| match warning.code {
@@ -70,7 +111,8 @@ impl Warnings {
             _ => true,
         });
         found.extend(Warning::of_law(&law, surface, options.surface.modulus()));
-        warnings.add(found)?;
+        let told = found.iter().map(|warning| Told::new(warning, units));
+        warnings.add(told.chain(codes).collect())?;
         Ok(warnings)
     }
 
@@ -81,28 +123,51 @@ impl Warnings {
                 "--strict has no form for several processes and more than 4096 x 4096 nodes: leave it out".into()
             );
         }
-        Ok(Self { strictness, units: units.clone(), found: Vec::new(), said: 0 })
+        Ok(Self::empty(strictness, units))
+    }
+
+    fn empty(strictness: Strictness, units: &Units) -> Self {
+        Self { strictness, units: units.clone(), found: Vec::new(), said: 0, table: None }
     }
 
     /// Looks at an answer, and prints its warnings; of many answers, the first with a warning counts.
     pub fn look_at<T: Scalar>(&mut self, solution: &Solution<T>, modulus: f64, part: &Part) -> Outcome<()> {
         let mut found = Warning::of_solution(solution, modulus);
         found.extend(part.warning(solution)?);
-        self.add(found)?;
-        self.say();
+        self.add(found.iter().map(|warning| Told::new(warning, &self.units)).collect())?;
+        self.say()
+    }
+
+    /// Keeps the warnings beside a table from now on, after those of the rows that it has already.
+    pub fn keep_beside(&mut self, table: &Path, has_rows: bool) -> Outcome<()> {
+        self.say()?;
+        let mut before = if has_rows { read_beside(table) } else { Vec::new() };
+        before.retain(|told| self.is_new(&told.code));
+        self.found.extend(before);
+        self.said = self.found.len();
+        self.table = Some(table.to_owned());
+        write_beside(table, &self.found)
+    }
+
+    /// Prints the warnings that were not printed before, and writes them beside the table that keeps them.
+    pub fn say(&mut self) -> Outcome<()> {
+        let new = &self.found[self.said..];
+        new.iter().for_each(|warning| complain("warning", &warning.to_string()));
+        match &self.table {
+            Some(table) if !new.is_empty() => write_beside(table, &self.found)?,
+            _ => {}
+        }
+        self.said = self.found.len();
         Ok(())
     }
 
-    /// Prints the warnings that were not printed before.
-    pub fn say(&mut self) {
-        self.found.iter().skip(self.said).for_each(|warning| complain("warning", &warning.to_string()));
-        self.said = self.found.len();
+    fn is_new(&self, code: &str) -> bool {
+        self.found.iter().all(|known| known.code != code)
     }
 
     /// Keeps new warnings, or with `--strict` returns them as an error.
-    fn add(&mut self, found: Vec<Warning>) -> Outcome<()> {
-        let new = found.iter().filter(|new| self.found.iter().all(|known| known.code != new.code));
-        let new: Vec<_> = new.map(|new| Told::new(new, &self.units)).collect();
+    fn add(&mut self, mut new: Vec<Told>) -> Outcome<()> {
+        new.retain(|new| self.is_new(&new.code));
         if self.strictness.strict && !new.is_empty() {
             let all: Vec<_> = new.iter().map(Told::to_string).collect();
             return Err(all.join("; and ").into());
@@ -117,7 +182,25 @@ impl Warnings {
     }
 }
 
+/// The codes for missing points in heights that were converted, as they stand in the file, with its unit.
+fn codes_in_file(surface: &Surface, origin: &Origin) -> Vec<Told> {
+    let Some((unit, power)) = origin.converted_from.as_deref().and_then(|unit| Some((unit, power_of_length(unit)?)))
+    else {
+        return Vec::new();
+    };
+    // codes are whole numbers, of which the conversion may have rounded the last digit
+    let in_file = surface.heights().mapv(|height| {
+        let height = times_ten_to(-power, height);
+        let whole = height.round();
+        if (height - whole).abs() <= f64::EPSILON * whole.abs() { whole } else { height }
+    });
+    let mut codes = Warning::of_topography(&Topography::new(in_file));
+    codes.retain(|warning| warning.code == WarningCode::MissingCode);
+    let units = Units::of_map(Some(unit));
+    codes.iter().map(|warning| Told::new(warning, &units)).collect()
+}
+
 /// Warnings as a report lists them.
 pub fn report(warnings: &[Told]) -> Value {
-    warnings.iter().map(|warning| json!({ "code": warning.code.name(), "message": warning.message })).collect()
+    warnings.iter().map(|warning| json!({ "code": warning.code, "message": warning.message })).collect()
 }

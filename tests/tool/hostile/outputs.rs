@@ -84,7 +84,7 @@ const OUTPUTS: [&str; 10] = [
     "cycle --heights heights.npy --mean-gaps 0.04,0.039 --steps 1 --out cycle.csv --plot",
     "surface --size 16 --rms-slope 0.1 --k-s 6 --out",
     "surface --size 16 --rms-slope 0.1 --k-s 6 --out rough.npy --psd",
-    "stats heights.npy --psd",
+    "stats heights.npy --lengths 1 --psd",
     "demo --out",
 ];
 

@@ -2,7 +2,6 @@
 //!
 //! The archive holds the fields from which the next row starts, one below the other, and a comment with all else.
 
-use std::ffi::OsString;
 use std::fs::{self, File};
 use std::io::{self, Cursor, Write};
 use std::path::{Path, PathBuf};
@@ -18,6 +17,7 @@ use zip::{CompressionMethod, ZipArchive, ZipWriter};
 use crate::hash::Hash;
 use crate::identity::Identity;
 use crate::outcome::Outcome;
+use crate::output::with_suffix;
 
 /// The content of the table that belongs to a state.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -112,12 +112,6 @@ fn damaged(path: &Path) -> String {
 /// The path of the state of a table.
 pub fn state_path(table: &Path) -> PathBuf {
     with_suffix(table, ".state.npz")
-}
-
-pub fn with_suffix(path: &Path, suffix: &str) -> PathBuf {
-    let mut name = OsString::from(path);
-    name.push(suffix);
-    name.into()
 }
 
 /// Replaces the state, in one go.

@@ -3,8 +3,8 @@
 use ndarray::array;
 use serde_json::json;
 
-use super::state::with_suffix;
 use super::*;
+use crate::output::with_suffix;
 
 const HEADER: &str = "load,answer\n";
 const LOADS: [f64; 3] = [1.0, 2.0, 3.0];

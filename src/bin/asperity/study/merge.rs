@@ -10,6 +10,7 @@ use super::work::Folder;
 use crate::csv;
 use crate::outcome::Outcome;
 use crate::output::{OutputFile, write_text};
+use crate::warnings::{Told, read_beside, write_beside};
 
 /// The rows of a table that was written.
 pub struct Merged {
@@ -65,7 +66,31 @@ pub fn merge(study: &Study, folder: &Folder) -> Outcome<Merged> {
     let file = OutputFile::create(&study.out, true)?;
     file.write(|path| write_text(path, &table))?;
     file.commit()?;
+    write_beside(&study.out, &warnings(study, folder))?;
     Ok(merged)
+}
+
+/// The warnings of all cases, each once, with the numbers of its cases if these are not all.
+fn warnings(study: &Study, folder: &Folder) -> Vec<Told> {
+    let mut all: Vec<(Told, Vec<usize>)> = Vec::new();
+    for (k, case) in study.cases.iter().enumerate() {
+        for told in read_beside(&folder.rows(case)) {
+            match all.iter_mut().find(|(known, _)| *known == told) {
+                Some((_, cases)) => cases.push(k + 1),
+                None => all.push((told, vec![k + 1])),
+            }
+        }
+    }
+    let with_cases = |(mut told, cases): (Told, Vec<usize>)| {
+        let numbers: Vec<_> = cases.iter().map(usize::to_string).collect();
+        match cases.len() {
+            count if count == study.cases.len() => {}
+            1 => told.message = format!("case {}: {}", numbers[0], told.message),
+            _ => told.message = format!("cases {}: {}", numbers.join(", "), told.message),
+        }
+        told
+    };
+    all.into_iter().map(with_cases).collect()
 }
 
 /// Whether a column of the rows is left out of the table: the name of a surface that was made for a case.

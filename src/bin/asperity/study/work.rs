@@ -15,6 +15,7 @@ use asperity::Error;
 use super::cases::{Case, Format, Study};
 use crate::journal::state_path;
 use crate::outcome::Outcome;
+use crate::output::with_suffix;
 use crate::printing::{Printing, complain};
 use crate::scene;
 use crate::table::UNCONVERGED;
@@ -28,9 +29,8 @@ pub struct Folder {
 
 impl Folder {
     pub fn of(study: &Study) -> Self {
-        let mut path = study.out.clone().into_os_string();
-        path.push(".cases");
-        Self { path: path.into(), extension: if study.format == Format::Csv { "csv" } else { "jsonl" } }
+        let path = with_suffix(&study.out, ".cases");
+        Self { path, extension: if study.format == Format::Csv { "csv" } else { "jsonl" } }
     }
 
     pub fn exists(&self) -> bool {

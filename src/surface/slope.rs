@@ -1,0 +1,30 @@
+//! The slope of heights between neighbours.
+
+use std::ops::Range;
+
+use ndarray::{ArrayView2, Axis, Zip};
+
+/// The root mean square slope between neighbouring nodes at a `spacing` along x and along y, (h(x + Δx) − h(x))/Δx and
+/// likewise along y: along the sides that have neighbours of finite height, and NaN if neither has. On a `periodic`
+/// surface the last node of a side is a neighbour of the first.
+pub(crate) fn rms_slope(heights: ArrayView2<'_, f64>, spacing: (f64, f64), periodic: bool) -> f64 {
+    let along = |axis: Axis, spacing: f64| {
+        let count = heights.len_of(axis);
+        let part = |lines: Range<usize>| heights.slice_axis(axis, lines.into());
+        let inside = Zip::from(part(0..count.saturating_sub(1))).and(part(1.min(count)..count));
+        let edge = periodic.then(|| Zip::from(part(count - 1..count)).and(part(0..1)));
+        let pairs = [Some(inside), edge].into_iter().flatten();
+        let slope = |before: &f64, after: &f64| Some((after - before) / spacing).filter(|slope| slope.is_finite());
+        // in units of the steepest, of which no square leaves the range of `f64`
+        let most = |most: f64, a: &f64, b: &f64| slope(a, b).map_or(most, |slope| most.max(slope.abs()));
+        let most = pairs.clone().fold(0.0, |found, pairs| pairs.fold(found, most));
+        let square = |slope: f64| if most > 0.0 { (slope / most).powi(2) } else { 0.0 };
+        let add = |(sum, count): (f64, f64), a: &f64, b: &f64| {
+            slope(a, b).map_or((sum, count), |slope| (sum + square(slope), count + 1.0))
+        };
+        let (sum, count) = pairs.fold((0.0, 0.0), |sums, pairs| pairs.fold(sums, add));
+        most * f64::sqrt(sum / count)
+    };
+    let sides = [along(Axis(0), spacing.0), along(Axis(1), spacing.1)].into_iter();
+    sides.filter(|slope| !slope.is_nan()).reduce(f64::hypot).unwrap_or(f64::NAN)
+}
