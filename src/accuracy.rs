@@ -293,10 +293,11 @@ impl GridError {
             nodes_per_wave / factor >= Self::LEAST_NODES_PER_WAVE && mu_rho * factor.sqrt() <= UNDER_RESOLVED
         };
         let value = |level: &Level| quantity.of(level).filter(|value| !value.is_nan());
+        let long = |level: &Level| level.shape.0.max(level.shape.1) as f64;
         let mut values = vec![value(finest)?];
         let mut coarser = None;
         for level in levels.iter().rev().skip(1) {
-            let factor = finest.shape.0 as f64 / level.shape.0 as f64;
+            let factor = long(finest) / long(level);
             let next = f64::from(1 << values.len());
             if (factor / next - 1.0).abs() > HALVED || !resolves(factor) || level.relative_error > SOLVED {
                 break;

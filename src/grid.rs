@@ -175,10 +175,14 @@ impl Grid {
         (self.lengths.0 / self.shape().0 as f64, self.lengths.1 / self.shape().1 as f64)
     }
 
-    /// The larger of Δx and Δy; on a line Δx.
+    /// The larger of Δx and Δy; that along the other side where one side has a single node.
     pub(crate) fn largest_spacing(&self) -> f64 {
         let (dx, dy) = self.spacing();
-        if self.is_line() { dx } else { dx.max(dy) }
+        match self.shape() {
+            (_, 1) => dx,
+            (1, _) => dy,
+            _ => dx.max(dy),
+        }
     }
 
     /// The coordinate of row `i` along x; zero at `i = Nx / 2`.

@@ -33,7 +33,7 @@ const CARRIED: f64 = 0.5;
 
 /// Nested grids: solutions on coarser grids, each the start on the next finer one.
 ///
-/// A coarser grid has every second node of the finer one, along both sides (along x on a line), and the heights of
+/// A coarser grid has every second node of the finer one, along the sides that have more than one, and the heights of
 /// these nodes; of an odd number n of nodes it has (n + 1)/2, with heights by cubic interpolation. Its solution is
 /// prolonged by cubic interpolation of the displacement g + h. Nodes between nodes in contact are in contact; between a
 /// node in contact and one that is apart the edge of the contact is where the gaps of the next two nodes say, as gaps
@@ -363,8 +363,11 @@ impl<C> Nested<C> {
 
 /// The shape of the next coarser grid, if it has `coarsest` nodes along its sides; without `odd` only of even sizes.
 fn coarser((nx, ny): (usize, usize), coarsest: usize, odd: bool) -> Option<(usize, usize)> {
-    let half = |n: usize| Some(n.div_ceil(2)).filter(|&half| (odd || n.is_multiple_of(2)) && half >= coarsest.max(4));
-    Some((half(nx)?, if ny == 1 { 1 } else { half(ny)? }))
+    let half = |n: usize| match n {
+        1 => Some(1),
+        n => Some(n.div_ceil(2)).filter(|&half| (odd || n.is_multiple_of(2)) && half >= coarsest.max(4)),
+    };
+    Some((half(nx)?, half(ny)?)).filter(|&coarse| coarse != (nx, ny))
 }
 
 /// The surface on all coarser grids, the coarsest last.
@@ -394,6 +397,8 @@ mod tests {
         let squares = |n| shapes((n, n), false).len();
         assert_eq!([64, 96, 127, 128, 192, 256, 1023, 1024, 1536].map(squares), [0, 0, 0, 1, 1, 2, 0, 4, 4]);
         assert_eq!(shapes((512, 1), false), [(256, 1), (128, 1), (64, 1)]);
+        assert_eq!(shapes((1, 512), false), [(1, 256), (1, 128), (1, 64)]);
+        assert_eq!(shapes((1, 1), true), []);
         assert_eq!(shapes((512, 192), false), [(256, 96)]);
         assert_eq!(shapes((512, 95), false), []);
         assert_eq!(shapes((650, 480), true), [(325, 240), (163, 120)]);

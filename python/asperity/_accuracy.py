@@ -91,7 +91,7 @@ def shortfall(report: dict[str, Any], found: dict[str, Any]) -> str:
         (nx, ny), size = found["unaffordable"]
         return f"{text}; {nx} x {ny} nodes would be next, and take {_memory(size)}: raise memory, or ask for less"
     if not found["refinable"]:
-        known = "absent nodes, and a work of adhesion that varies, are known on this grid alone"
+        known = "a single node, absent nodes, and a work of adhesion that varies are known on this grid alone"
         return f"{text}; {known}: give a finer one"
     return text
 

@@ -129,7 +129,7 @@ impl<T> AccurateSolution<T> {
 
 /// Whether a surface and a law are known on finer grids.
 fn is_refinable<T: Real>(surface: &Surface, law: &dyn AdhesionLaw<T>) -> bool {
-    surface.absent().is_none() && law.shape().is_none()
+    surface.absent().is_none() && law.shape().is_none() && surface.grid().nodes() > 1
 }
 
 impl Accuracy {
@@ -200,8 +200,9 @@ impl<C> Accuracy<C> {
         let needed = |smaller| if refinable { self.refinements(nodes_per_wave, by_edge, smaller) } else { 0 };
         let refinements = needed(1.0);
         let nodes = operator.grid().nodes() as f64;
-        let per_line = if surface.grid().is_line() { 2.0_f64 } else { 4.0 };
-        let bytes = |refinements: i32| 8.0 * NUMBERS * nodes * per_line.powi(refinements);
+        let (nx, ny) = twice(surface.grid().shape());
+        let growth = (nx * ny) as f64 / surface.grid().nodes() as f64;
+        let bytes = |refinements: i32| 8.0 * NUMBERS * nodes * growth.powi(refinements);
         let shape = |refinements| (0..refinements).fold(surface.grid().shape(), |shape, _| twice(shape));
         let least = needed(DOUBT);
         if least > 0 && bytes(least) > self.memory {
@@ -223,7 +224,7 @@ impl<C> Accuracy<C> {
             operator.pressure(u.view(), p.view_mut())?;
         }
         let application = 0.5 * clock.elapsed().as_secs_f64();
-        let seconds = APPLICATIONS * application * per_line.powi(refinements);
+        let seconds = APPLICATIONS * application * growth.powi(refinements);
         Ok(Plan { nodes_per_wave, tolerance, shape: shape(refinements), bytes: bytes(refinements), seconds })
     }
 

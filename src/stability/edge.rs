@@ -113,7 +113,8 @@ impl EdgeError {
                 waves.add(0.5 * release * wave / sides, 0.0);
             }
         }
-        let [of_stiffness, of_gap] = if grid.is_line() { [&ON_LINES; 2] } else { [&STIFFNESS, &GAP] };
+        let line = grid.shape().0 == 1 || grid.is_line();
+        let [of_stiffness, of_gap] = if line { [&ON_LINES; 2] } else { [&STIFFNESS, &GAP] };
         let nodes = grid.nodes() as f64;
         Self { gap: waves.size(of_gap) / (nodes * stiffness.abs()), stiffness: jumps.size(of_stiffness) / nodes }
     }

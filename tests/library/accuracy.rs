@@ -250,3 +250,14 @@ fn what_is_known_on_one_grid_alone_is_not_refined() {
     let found = wanted.solve_observed(&surface(32, 1), half_space, NoAdhesion, PRESSED, stop).unwrap();
     assert_eq!((found.reached, found.solution.report.status), (false, Status::Stopped));
 }
+
+#[test]
+fn a_flat_surface_needs_no_fine_grid() {
+    for shape in [(1, 1), (5, 1), (1, 5), (8, 8)] {
+        let flat = Surface::from_fn(Grid::new(shape, (1.0, 1.0)).unwrap(), |_, _| 0.3).unwrap();
+        let found = Accuracy::new(0.01, Quantity::Area).solve(&flat, half_space, NoAdhesion, PRESSED).unwrap();
+        assert!(found.levels.len() <= 2, "{shape:?}");
+        assert_eq!(found.reached, shape != (1, 1), "{shape:?}");
+        assert_eq!(found.solution.report.contact_fraction, 1.0);
+    }
+}

@@ -134,6 +134,22 @@ fn lines_and_rectangles_have_nested_grids_too() {
 }
 
 #[test]
+fn a_single_row_is_solved_as_a_single_column() {
+    let column = rough::rough(Grid::line(1024, 1.0).unwrap(), 48, 1);
+    let row = Grid::new((1, 1024), (1.0, 1.0)).unwrap();
+    let row = Surface::new(row, column.heights().t().to_owned()).unwrap();
+    let law = || Box::new(Exponential::new(1e-5, 1e-3).unwrap());
+    let [column, row] = [column, row].map(|surface| solve::<f64>(&surface, law(), PRESSED, 1e-8));
+    let applications = |found: &NestedSolution<f64>| -> Vec<_> {
+        found.levels.iter().map(|level| level.operator_applications).collect()
+    };
+    assert_eq!((row.levels.len(), applications(&row)), (5, applications(&column)));
+    let [a, b] = [&row, &column].map(|found| &found.solution.report);
+    assert_eq!((a.mu_rho, a.contact_nodes), (b.mu_rho, b.contact_nodes));
+    assert!((a.mean_gap / b.mean_gap - 1.0).abs() < 1e-8);
+}
+
+#[test]
 fn odd_sizes_have_nested_grids_too() {
     let surface = surface(511, 1);
     for control in [PRESSED, APART] {

@@ -115,7 +115,7 @@ impl Reached {
                 format!("{nx} x {ny} nodes would be next, and take {}: raise --memory, or ask for less", bytes(size))
             }
             None if !self.refinable => {
-                "absent nodes, and a work of adhesion from a map, are known on this grid alone: give a finer one"
+                "a single node, absent nodes, and a work of adhesion from a map are known on this grid alone: give a finer one"
                     .to_owned()
             }
             None => "the solve has not converged".to_owned(),
