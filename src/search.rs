@@ -45,6 +45,9 @@ const STEP: (f64, f64) = (1.4, 8.0);
 ///
 /// One search after the other goes on from where the last one ended.
 ///
+/// Memory: beside that of a solve the gap from which the next one starts, and the state next to the wanted one: four
+/// fields, and on a free half-space a fifth; of these two are on the grid of the operator there.
+///
 /// ```
 /// use asperity::{ContactSearch, Grid, NoAdhesion, Problem, SelfAffine, Solver, Westergaard};
 /// let grid = Grid::square(128, 1.0)?;
@@ -64,9 +67,9 @@ pub struct ContactSearch<'a, T, O, L, C = Projection> {
     problem: &'a mut Problem<T, O, L>,
     axis: Axis,
     tolerance: f64,
-    /// The given gap from which the next solve starts, on the grid of the surface.
+    /// The given gap from which solves start until one of them replaces it, on the grid of the surface.
     start: Option<Array2<T>>,
-    /// The gap from which it starts otherwise, on the grid of the operator.
+    /// The gap from which they start otherwise, on the grid of the operator.
     gap: Option<Array2<T>>,
     /// The last two results, the latest last.
     points: Vec<Point>,
@@ -197,7 +200,8 @@ where
         Self { tolerance, ..self }
     }
 
-    /// The search with a gap of shape (Nx, Ny) as the start of its next solve.
+    /// The search with a gap of shape (Nx, Ny) as its start, in the place of the default one or of that where another
+    /// search has ended.
     pub fn starting_from(self, gap: Array2<T>) -> Self {
         Self { start: Some(gap), ..self }
     }
@@ -207,15 +211,15 @@ where
         self.problem
     }
 
-    /// The place of the search: numbers, and the gap from which it goes on. The gap is on the grid of the operator;
-    /// beyond a window, where nothing faces the half-space, it goes on as its displacement.
+    /// The place of the search: numbers, and the gap from which it goes on, on the grid of the operator. That of a free
+    /// half-space has four times the nodes; those beyond the window have the displacement in the place of a gap.
     pub fn checkpoint(&self) -> (Vec<f64>, Option<&Array2<T>>) {
         let numbers = self.points.iter().flat_map(|point| [point.x, point.level, point.nodes as f64]);
         (numbers.collect(), self.gap.as_ref())
     }
 
-    /// The search continued from the [`checkpoint`](Self::checkpoint) of another one: it goes on just as that one would
-    /// have, bit for bit.
+    /// The search continued from the [`checkpoint`](Self::checkpoint) of another one, with a gap on the grid of the
+    /// operator: it goes on just as that one would have, bit for bit.
     pub fn continuing(self, numbers: &[f64], gap: Option<Array2<T>>) -> Self {
         let point = |three: &[f64]| Point { x: three[0], level: three[1], nodes: three[2] as usize };
         Self { points: numbers.chunks_exact(3).map(point).collect(), gap, ..self }
@@ -260,8 +264,7 @@ where
         let mut nearest: Option<(Point, Solved<T>)> = None;
         let (mut solves, mut applications) = (0, 0);
         let reached = loop {
-            let start = self.start.take();
-            let begin = match (&start, &self.gap) {
+            let begin = match (&self.start, &self.gap) {
                 (Some(gap), _) => Begin::At(Start::From(gap)),
                 (None, Some(gap)) => Begin::Found(gap.clone()),
                 (None, None) => Begin::At(Start::Default),
@@ -281,7 +284,7 @@ where
             let below = (count as f64) < wanted;
             // with adhesion a state beyond the wanted one is on the way back already
             if !adhesion || *from_below.get_or_insert(below) == below {
-                self.gap = Some(solved.gap().clone());
+                (self.start, self.gap) = (None, Some(solved.gap().clone()));
             }
             bracket.add(point, wanted);
             if nearest.as_ref().is_none_or(|(kept, _)| distance(count) < distance(kept.nodes)) {
@@ -299,7 +302,7 @@ where
         };
         self.remember(point);
         let (solution, gap) = solved.with_gap();
-        self.gap = Some(gap);
+        (self.start, self.gap) = (None, Some(gap));
         let share = |point: Point| point.nodes as f64 / facing;
         Ok(FoundContact {
             solution,

@@ -12,7 +12,7 @@ use crate::problem::mu_rho;
 use crate::real::Real;
 use crate::slab::Slab;
 use crate::solver::Solution;
-use crate::surface::{Surface, Topography, rms_slope};
+use crate::surface::{Surface, Topography};
 use crate::vector::sums;
 
 mod code;
@@ -140,7 +140,7 @@ impl Warning {
         let relief = Relief::of(surface.heights(), &extremes);
         found.extend(tilt(&relief, surface.grid()));
         found.extend(open_edges(&relief));
-        found.extend(slope(rms_slope(surface.heights().view(), surface.grid().spacing(), false), STEEP));
+        found.extend(slope(relief.rms_slope(surface.grid().spacing()), STEEP));
         found.extend(spikes(&relief, &Spikes::of(surface.heights(), &relief)));
         found
     }

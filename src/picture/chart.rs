@@ -107,7 +107,8 @@ impl Chart<'_> {
             let pieces = dashes(place(from), place(to));
             picture.shapes.push(Shape::Curve(Curve { pieces, width: HAIRLINE, colour: BLACK, within: plot }));
         }
-        let dotted = self.curves.iter().all(|(_, points)| points.len() <= MOST_DOTS);
+        let dots = |points: &[(f64, f64)]| points.iter().filter(|(x, y)| x.is_finite() && y.is_finite()).count();
+        let dotted = self.curves.iter().all(|(_, points)| dots(points) <= MOST_DOTS);
         for ((_, points), colour) in self.curves.iter().zip(COLOURS.into_iter().cycle()) {
             let points: Vec<_> = points.iter().map(place).collect();
             let curve = |pieces, width| Shape::Curve(Curve { pieces, width, colour, within: plot });

@@ -14,10 +14,15 @@ pub(crate) fn rms_slope(heights: ArrayView2<'_, f64>, spacing: (f64, f64), perio
         let inside = Zip::from(part(0..count.saturating_sub(1))).and(part(1.min(count)..count));
         let edge = periodic.then(|| Zip::from(part(count - 1..count)).and(part(0..1)));
         let pairs = [Some(inside), edge].into_iter().flatten();
-        let slope = |before: &f64, after: &f64| Some((after - before) / spacing).filter(|slope| slope.is_finite());
+        let slope = |before: &f64, after: &f64| {
+            (before.is_finite() && after.is_finite()).then(|| ((after - before) / spacing).abs())
+        };
         // in units of the steepest, of which no square leaves the range of `f64`
-        let most = |most: f64, a: &f64, b: &f64| slope(a, b).map_or(most, |slope| most.max(slope.abs()));
-        let most = pairs.clone().fold(0.0, |found, pairs| pairs.fold(found, most));
+        let most = |most: f64, a: &f64, b: &f64| slope(a, b).map_or(most, |slope| most.max(slope));
+        let most: f64 = pairs.clone().fold(0.0, |found, pairs| pairs.fold(found, most));
+        if most.is_infinite() {
+            return most;
+        }
         let square = |slope: f64| if most > 0.0 { (slope / most).powi(2) } else { 0.0 };
         let add = |(sum, count): (f64, f64), a: &f64, b: &f64| {
             slope(a, b).map_or((sum, count), |slope| (sum + square(slope), count + 1.0))

@@ -123,6 +123,12 @@ impl Relief {
         self.sides.iter().any(|side| side.nodes == 1)
     }
 
+    /// The rms slope between neighbours at a spacing along x and along y, from the steps that are known anyway.
+    pub fn rms_slope(&self, (dx, dy): (f64, f64)) -> f64 {
+        let along = |side: &Side, spacing: f64| side.rms_step * (self.unit / spacing);
+        along(&self.sides[0], dx).hypot(along(&self.sides[1], dy))
+    }
+
     /// The rms height about the least-squares plane.
     pub fn rms_about_plane(&self) -> f64 {
         let plane = self.sides[0].plane_square() + self.sides[1].plane_square();

@@ -377,6 +377,11 @@ fn slopes_by_differences_have_the_edge_and_heights_of_any_size() {
         assert_relative_eq!(surface.statistics().rms_slope_differences, scale * periodic, max_relative = 1e-14);
         assert_relative_eq!(Topography::from(surface).rms_slope().unwrap(), scale * 5.0, max_relative = 1e-14);
     }
+    // one beyond all numbers is not left out
+    let tiny = Grid::new((4, 2), (4e-12, 2e-12)).unwrap();
+    let surface = Surface::new(tiny, &heights * 1e300).unwrap();
+    assert_eq!(surface.statistics().rms_slope_differences, f64::INFINITY);
+    assert_eq!(Topography::from(surface).rms_slope(), Some(f64::INFINITY));
 }
 
 #[test]

@@ -218,6 +218,11 @@ fn the_page_of_a_table_has_the_warnings_of_all_its_runs() {
     let report: Value = serde_json::from_slice(&again.stdout).unwrap();
     assert_eq!((codes(&report), said(&text(&again.stderr))), (vec!["beyond-modulus"], vec![]));
     assert_eq!(listed("t.csv"), found);
+    // what was said before is no reason to write more of it with --strict
+    let table = bench.read("t.csv");
+    let further = "sweep --heights clean.npy --mean-pressures 0.01,5,0.02,6 --out t.csv --strict --quiet";
+    bench.refused_with(further, &["beyond-modulus"]);
+    assert_eq!(bench.read("t.csv"), table);
     bench.run("sweep --heights clean.npy --mean-pressures 0.01 --out t.csv --force");
     assert!(listed("t.csv").is_empty());
     bench.run("cycle --heights tilted.npy --mean-gaps 2,1 --steps 1 --smallest-step 0.5 --out c.csv");
@@ -229,7 +234,33 @@ fn the_page_of_a_table_has_the_warnings_of_all_its_runs() {
     );
     bench.run("study study.toml");
     let found = listed("study.csv");
-    assert!(found[0].starts_with("cases 3") && found.len() == 2, "{found:?}");
+    assert!(found[0].starts_with("cases 3-4: the map is") && found.len() == 2, "{found:?}");
+    // one of each code, though its figures differ
+    bench.write(
+        "rough.toml",
+        "command = \"sweep\"\nout = \"rough.csv\"\nmean-pressures = \"0.01\"\n[make]\nsize = 16\n\
+         rms-slope = 2.0\nk-s = 4\n[vary]\nseed = [1, 2, 3]\n",
+    );
+    bench.run("study rough.toml");
+    let found = listed("rough.csv");
+    assert!(found.len() == 1 && found[0].starts_with("all cases"), "{found:?}");
+    assert!(bench.read("rough.csv.warnings.txt").contains("with the figures of case 1: the rms slope is 1."));
+}
+
+#[test]
+fn the_file_of_warnings_of_a_table_replaces_no_other() {
+    let bench = bench();
+    let sweep = "sweep --heights clean.npy --mean-pressures 0.01 --out t.csv";
+    bench.write("t.csv.warnings.txt", "of another kind");
+    bench.refused_with(sweep, &["t.csv.warnings.txt: exists: use --force"]);
+    assert_eq!(bench.read("t.csv.warnings.txt"), "of another kind");
+    bench.said(&format!("{sweep} --force"));
+    assert!(!bench.names(".").contains(&"t.csv.warnings.txt".to_owned()));
+    // what cannot be replaced leaves no table
+    std::fs::create_dir(bench.path("u.csv.warnings.txt")).unwrap();
+    let before = bench.names(".");
+    bench.refused_with(&sweep.replace("t.csv", "u.csv --force"), &["u.csv.warnings.txt"]);
+    assert_eq!(bench.names("."), before);
 }
 
 #[test]

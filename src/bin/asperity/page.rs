@@ -257,7 +257,7 @@ fn page_of_table(table: &Path) -> Outcome<String> {
     let unconverged = rows.iter().filter(|row| bad(row)).count();
     let count = rows.len();
     let marked = format!("{unconverged} of {count} rows have not converged; they are marked in the table.");
-    let said = warnings::read_beside(table).into_iter().map(|told| told.message);
+    let said = warnings::read_beside(table)?.into_iter().map(|told| told.message);
     page.warnings(&(unconverged > 0).then_some(marked).into_iter().chain(said).collect::<Vec<_>>());
     page.heading("Curves");
     page.figure("chart", &chart_of_loads(&rows, &units, FINE)?.svg()?);

@@ -110,7 +110,8 @@ pub fn chart_of_loads(rows: &[Value], units: &Units, dpi: f64) -> Result<Picture
 
 /// The chart of column `y` of a table over column `x`: a curve for each leg of a cycle, broken where the state jumps,
 /// and for each part of a sweep in which the loads rise or fall. Axes are logarithmic where the values along x span
-/// more than a decade, and are spread more evenly so; along y if that spans a decade, too.
+/// more than a decade, and are spread more evenly so; along y if that spans a decade, too. Those of a cycle are not: the
+/// area of its loop is an energy.
 pub fn chart_of_columns(rows: &[Value], x: &str, y: &str, units: &Units, dpi: f64) -> Result<Picture> {
     let value = |row: &Value, column: &str| row[column].as_f64().unwrap_or(f64::NAN);
     let mut jumps = Vec::new();
@@ -130,7 +131,8 @@ pub fn chart_of_columns(rows: &[Value], x: &str, y: &str, units: &Units, dpi: f6
     let points: Vec<_> = curves.iter().flat_map(|(_, points)| points).collect();
     let (x_log, y_log) =
         (Spread::of(points.iter().map(|point| point.0)), Spread::of(points.iter().map(|point| point.1)));
-    let x_log = x_log.is_some_and(|x| x.is_wide() && x.is_geometric());
+    let is_cycle = rows.iter().any(|row| row["leg"].is_string());
+    let x_log = !is_cycle && x_log.is_some_and(|x| x.is_wide() && x.is_geometric());
     let y_log = x_log && y_log.is_some_and(|y| y.is_wide());
     let [x_unit, y_unit] = [x, y].map(|column| units.of_column(column, "", false));
     let [x_label, y_label] = [x, y].map(|column| column.replace('_', " "));

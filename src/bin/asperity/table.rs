@@ -88,6 +88,7 @@ impl<'a> Table<'a> {
                 Warnings::of_input::<T>(strictness, (&surface, origin), &adhesion, problem, options.units)?;
             kept.check(force, out)?;
             scene.check_beside(out, force || out.exists())?;
+            warnings::check_beside(out, force || out.exists())?;
             let scene_file = scene.written_beside(out)?;
             let made = [state_path(out), scene::beside(out), warnings::beside(out), out.to_owned()]
                 .into_iter()
@@ -98,8 +99,13 @@ impl<'a> Table<'a> {
             identity.insert("part".to_owned(), options.part.name().unwrap_or("all").into());
             let (journal, saved) = Journal::open(out, header, identity, loads, force)?;
             scene_file.commit()?;
-            warnings.keep_beside(out, journal.rows() > 0)?;
-            if journal.rows() == 0 {
+            let rows = journal.rows();
+            warnings.keep_beside(out, rows > 0).inspect_err(|_| {
+                if rows == 0 {
+                    remove(&made)
+                }
+            })?;
+            if rows == 0 {
                 kept.clear();
             } else {
                 let of = loads.map_or(String::new(), |loads| format!(" of {}", loads.len()));
@@ -222,10 +228,15 @@ impl Drop for Table<'_> {
     fn drop(&mut self) {
         // by the rows of the journal: one may be in the file though its state could not be saved
         if self.journal.as_ref().is_some_and(|journal| journal.rows() == 0) {
-            for path in &self.made {
-                let _ = fs::remove_file(path);
-            }
+            remove(&self.made);
         }
+    }
+}
+
+/// Removes files, as far as they are there.
+fn remove(made: &[PathBuf]) {
+    for path in made {
+        let _ = fs::remove_file(path);
     }
 }
 

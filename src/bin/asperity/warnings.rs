@@ -1,8 +1,7 @@
 //! The warnings of a command: printed, reported, kept beside a table, or refused with `--strict`.
 
-use std::fmt;
-use std::fs;
 use std::path::{Path, PathBuf};
+use std::{fmt, fs, io};
 
 use asperity::{Error, Solution, Surface, Topography, Warning, WarningCode};
 use clap::Args;
@@ -13,7 +12,7 @@ use crate::boundary::Boundary;
 use crate::heights::Origin;
 use crate::options::{ProblemOptions, Scalar};
 use crate::outcome::Outcome;
-use crate::output::with_suffix;
+use crate::output::{OutputFile, with_suffix, write_text};
 use crate::part::Part;
 use crate::printing::complain;
 use crate::quantity::{LENGTH, PRESSURE, power_of_length, times_ten_to};
@@ -30,7 +29,7 @@ pub struct Strictness {
 /// A warning in the units of a run.
 #[derive(Clone, PartialEq)]
 pub struct Told {
-    code: String,
+    pub code: String,
     pub message: String,
 }
 
@@ -58,22 +57,40 @@ pub fn beside(table: &Path) -> PathBuf {
     with_suffix(table, ".warnings.txt")
 }
 
+/// Refuses a file in the place of the warnings of a new table, unless `force` replaces it.
+pub fn check_beside(table: &Path, force: bool) -> Outcome<()> {
+    let path = beside(table);
+    if path.exists() && !force {
+        return Err(Error::file(&path, "exists: use --force to replace it, or choose another --out").into());
+    }
+    Ok(())
+}
+
 /// The warnings beside a table.
-pub fn read_beside(table: &Path) -> Vec<Told> {
-    let text = fs::read_to_string(beside(table)).unwrap_or_default();
-    text.lines().filter_map(Told::parse).collect()
+pub fn read_beside(table: &Path) -> Outcome<Vec<Told>> {
+    let path = beside(table);
+    match fs::read_to_string(&path) {
+        Ok(text) => Ok(text.lines().filter_map(Told::parse).collect()),
+        Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(Vec::new()),
+        Err(error) => Err(Error::file(&path, format!("cannot be read: {error}")).into()),
+    }
 }
 
 /// Replaces the warnings beside a table.
 pub fn write_beside(table: &Path, warnings: &[Told]) -> Outcome<()> {
     let path = beside(table);
+    if warnings.is_empty() {
+        return match fs::remove_file(&path) {
+            Err(error) if error.kind() != io::ErrorKind::NotFound => {
+                Err(Error::file(&path, format!("cannot be removed: {error}")).into())
+            }
+            _ => Ok(()),
+        };
+    }
     let lines: String = warnings.iter().map(|warning| format!("{warning}\n")).collect();
-    let written = match lines.is_empty() {
-        true if !path.exists() => Ok(()),
-        true => fs::remove_file(&path),
-        false => fs::write(&path, lines),
-    };
-    written.map_err(|e| Error::file(&path, format!("cannot be written: {e}")).into())
+    let file = OutputFile::create(&path, true)?;
+    file.write(|path| write_text(path, &lines))?;
+    Ok(file.commit()?)
 }
 
 /// The warnings of a run so far, each of which is said once.
@@ -141,7 +158,7 @@ impl Warnings {
     /// Keeps the warnings beside a table from now on, after those of the rows that it has already.
     pub fn keep_beside(&mut self, table: &Path, has_rows: bool) -> Outcome<()> {
         self.say()?;
-        let mut before = if has_rows { read_beside(table) } else { Vec::new() };
+        let mut before = if has_rows { read_beside(table)? } else { Vec::new() };
         before.retain(|told| self.is_new(&told.code));
         self.found.extend(before);
         self.said = self.found.len();
@@ -167,11 +184,12 @@ impl Warnings {
 
     /// Keeps new warnings, or with `--strict` returns them as an error.
     fn add(&mut self, mut new: Vec<Told>) -> Outcome<()> {
-        new.retain(|new| self.is_new(&new.code));
+        // earlier rows of a table may have said the same without it
         if self.strictness.strict && !new.is_empty() {
             let all: Vec<_> = new.iter().map(Told::to_string).collect();
             return Err(all.join("; and ").into());
         }
+        new.retain(|new| self.is_new(&new.code));
         self.found.extend(new);
         Ok(())
     }

@@ -66,31 +66,45 @@ pub fn merge(study: &Study, folder: &Folder) -> Outcome<Merged> {
     let file = OutputFile::create(&study.out, true)?;
     file.write(|path| write_text(path, &table))?;
     file.commit()?;
-    write_beside(&study.out, &warnings(study, folder))?;
+    write_beside(&study.out, &warnings(study, folder)?)?;
     Ok(merged)
 }
 
-/// The warnings of all cases, each once, with the numbers of its cases if these are not all.
-fn warnings(study: &Study, folder: &Folder) -> Vec<Told> {
-    let mut all: Vec<(Told, Vec<usize>)> = Vec::new();
+/// The warnings of all cases: of each code the first, with the numbers of its cases if these are not all, and of the
+/// one that it is the text of, if the texts differ.
+fn warnings(study: &Study, folder: &Folder) -> Outcome<Vec<Told>> {
+    let mut all: Vec<(Told, Vec<usize>, bool)> = Vec::new();
     for (k, case) in study.cases.iter().enumerate() {
-        for told in read_beside(&folder.rows(case)) {
-            match all.iter_mut().find(|(known, _)| *known == told) {
-                Some((_, cases)) => cases.push(k + 1),
-                None => all.push((told, vec![k + 1])),
+        for told in read_beside(&folder.rows(case))? {
+            match all.iter_mut().find(|(known, ..)| known.code == told.code) {
+                Some((known, cases, differ)) => {
+                    cases.push(k + 1);
+                    *differ |= *known != told;
+                }
+                None => all.push((told, vec![k + 1], false)),
             }
         }
     }
-    let with_cases = |(mut told, cases): (Told, Vec<usize>)| {
-        let numbers: Vec<_> = cases.iter().map(usize::to_string).collect();
-        match cases.len() {
-            count if count == study.cases.len() => {}
-            1 => told.message = format!("case {}: {}", numbers[0], told.message),
-            _ => told.message = format!("cases {}: {}", numbers.join(", "), told.message),
+    let with_cases = |(mut told, cases, differ): (Told, Vec<usize>, bool)| {
+        let all = cases.len() == study.cases.len();
+        let of = if all { "all cases".to_owned() } else { numbered(&cases) };
+        if differ {
+            told.message = format!("{of}, with the figures of case {}: {}", cases[0], told.message);
+        } else if !all {
+            told.message = format!("{of}: {}", told.message);
         }
         told
     };
-    all.into_iter().map(with_cases).collect()
+    Ok(all.into_iter().map(with_cases).collect())
+}
+
+/// Cases by their numbers, those in a row as a range: `cases 1-40, 57`, or `case 3`.
+fn numbered(cases: &[usize]) -> String {
+    let runs = cases.chunk_by(|case, next| case + 1 == *next).map(|run| match run {
+        [one] => one.to_string(),
+        run => format!("{}-{}", run[0], run[run.len() - 1]),
+    });
+    format!("case{} {}", if cases.len() > 1 { "s" } else { "" }, runs.collect::<Vec<_>>().join(", "))
 }
 
 /// Whether a column of the rows is left out of the table: the name of a surface that was made for a case.
