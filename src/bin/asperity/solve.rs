@@ -316,7 +316,8 @@ impl Job<'_> {
         })?;
 
         if printing.for_people() {
-            say(&table(&[], &[&account], &self.units, &self.part));
+            let adhesive = self.options.adhesion.law != Law::None;
+            say(&table(&[], &[&account], adhesive, &self.units, &self.part));
             say(&format!("results in {}: {}", out.display(), self.names.join(", ")));
         }
         printing.report(|| self.report(&account));
