@@ -38,7 +38,7 @@ fn main() -> Result<()> {
     Ok(())
 }
 
-/// Prints both presets' counts, and returns the mean gap.
+/// Prints the counts of both methods, and returns the mean gap.
 fn compare<L: AdhesionLaw<f64>>(name: &str, surface: &Surface, law: L, control: Control) -> Result<f64> {
     let grid = *surface.grid();
     let mut problem = Problem::new(surface, Westergaard::new(grid, 1.0)?, law)?;

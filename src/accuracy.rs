@@ -268,7 +268,7 @@ impl GridError {
     /// the error of the finest, with something to spare.
     pub const COARSE_TOLERANCE: f64 = 1e-3;
 
-    /// The nodes that the shortest wave of a surface takes on a grid, for the solution there to tell the error.
+    /// The nodes that the shortest wave of a surface needs on a grid, for the solution there to tell the error.
     pub const LEAST_NODES_PER_WAVE: f64 = 4.0;
 
     /// The errors of all quantities that a control does not give, as [`GridError::of`] has them.

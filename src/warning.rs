@@ -89,7 +89,7 @@ impl Warning {
     /// The message: the observation, with its number, and the remedy, on one line. Lengths and pressures are in the
     /// units of the input.
     pub fn message(&self) -> String {
-        self.message_with(figure, figure)
+        self.message_with(Self::figure, Self::figure)
     }
 
     /// The message with lengths and pressures as these make texts of them, which may have units. They are rounded to
@@ -107,6 +107,28 @@ impl Warning {
     pub fn message_with(&self, length: impl Fn(f64) -> String, pressure: impl Fn(f64) -> String) -> String {
         let rounded = |value: f64| format!("{value:.2e}").parse().unwrap_or(value);
         self.text.written(|value| length(rounded(value)), |value| pressure(rounded(value)))
+    }
+
+    /// A number as in messages: with three digits, below 1e-3 and from 1e5 on with an exponent.
+    ///
+    /// ```
+    /// use asperity::Warning;
+    /// assert_eq!([2.0, 0.01234, 1.5e-9].map(Warning::figure), ["2", "0.0123", "1.5e-9"]);
+    /// ```
+    pub fn figure(value: f64) -> String {
+        let magnitude = value.abs();
+        let (digits, exponent) = if value == 0.0 || (1e-3..1e5).contains(&magnitude) {
+            let decimals = if value == 0.0 { 0.0 } else { (2.0 - magnitude.log10().floor()).max(0.0) };
+            (format!("{value:.*}", decimals as usize), String::new())
+        } else {
+            let text = format!("{value:.2e}");
+            match text.split_once('e') {
+                Some((digits, exponent)) => (digits.to_owned(), format!("e{exponent}")),
+                None => (text, String::new()),
+            }
+        };
+        let digits = if digits.contains('.') { digits.trim_end_matches('0').trim_end_matches('.') } else { &digits };
+        format!("{digits}{exponent}")
     }
 
     /// The probable mistakes in the heights: [`Tilt`](WarningCode::Tilt), [`OpenEdges`](WarningCode::OpenEdges),
@@ -183,7 +205,7 @@ impl Warning {
                 "adhesion is under-resolved, mu_rho = {} exceeds {RESOLVED}: the answer depends on the grid and \
                  on the start, the contact area is likely to be wrong {}; use a grid {finer} times finer, or a \
                  range of at least {}",
-                figure(mu_rho),
+                Self::figure(mu_rho),
                 likely_error(mu_rho),
                 text.length(longer)
             );
@@ -228,7 +250,7 @@ impl Warning {
             "the contact pressure is up to {}, {} times the contact modulus E*, and above it at {count} of {} nodes: \
              linear elasticity does not hold there; check the modulus, the load and the unit of the lengths",
             text.pressure(greatest),
-            figure(greatest / modulus),
+            Self::figure(greatest / modulus),
             pressures.len()
         );
         found.push(Self { code: WarningCode::BeyondModulus, text: text.with(message) });
@@ -264,8 +286,8 @@ impl Warning {
         let message = format!(
             "{} % of the original of this mirrored map are in contact, but {} % of the whole: the contact is not that of \
              its mirror images, as adhesion may begin on one of them; look at the whole",
-            figure(share(part, original.grid())),
-            figure(share(whole, original.whole()))
+            Self::figure(share(part, original.grid())),
+            Self::figure(share(whole, original.whole()))
         );
         Ok(Some(Self { code: WarningCode::Images, text: Text::default().with(message) }))
     }
@@ -294,24 +316,7 @@ fn window_edge<T: Real>(solution: &Solution<T>) -> Option<Warning> {
     let message = format!(
         "contact or traction reaches the edge of the window, with {} of the largest traction: what lies beyond is not \
          there; unless the body ends at this edge, take a larger window, or an adhesion of less range",
-        figure(share)
+        Warning::figure(share)
     );
     Some(Warning { code: WarningCode::WindowEdge, text: Text::default().with(message) })
-}
-
-/// A number to three digits.
-fn figure(value: f64) -> String {
-    let magnitude = value.abs();
-    let (digits, exponent) = if value == 0.0 || (1e-3..1e5).contains(&magnitude) {
-        let decimals = if value == 0.0 { 0.0 } else { (2.0 - magnitude.log10().floor()).max(0.0) };
-        (format!("{value:.*}", decimals as usize), String::new())
-    } else {
-        let text = format!("{value:.2e}");
-        match text.split_once('e') {
-            Some((digits, exponent)) => (digits.to_owned(), format!("e{exponent}")),
-            None => (text, String::new()),
-        }
-    };
-    let digits = if digits.contains('.') { digits.trim_end_matches('0').trim_end_matches('.') } else { &digits };
-    format!("{digits}{exponent}")
 }

@@ -5,7 +5,7 @@
 //! Four scenes: `hertz`, a paraboloid among its images; `wave`, Westergaard's wave on a line; `rough`, a self-affine
 //! hard wall; and `adhesive`, the same with an exponential law. The first two have exact solutions, the others a
 //! reference converged to 1e-12 on a grid finer than all others. On each grid all that a user may choose is tried:
-//! tolerance, precision, nested grids, preset (`rey2017` on small grids only).
+//! tolerance, precision, nested grids, method (`rey2017` on small grids only).
 //!
 //! The fifth, `knob`, is another experiment: on 120 rough scenes it compares the estimated error of the grid with the
 //! true one, and asks for accuracies of the contact area, which it compares with the best choice by hand.

@@ -175,7 +175,7 @@ def cycle(
     pressure_unit: str | None,
     force_unit: str | None,
 ) -> Axes:
-    """Mean pressure over mean gap, or normal force over approach, a line for each leg, with the jumps dotted."""
+    """Mean pressure over mean gap, or normal force over approach, a line for each leg, with the jumps dashed."""
     free = bool(np.isfinite(columns["approach"]).any())
     if (length_unit, pressure_unit) == ("m", "Pa"):
         force_unit = force_unit or "N"
@@ -200,7 +200,7 @@ def cycle(
             label = name if k == 0 else None
             ax.plot(across[piece], up[piece], color=f"C{leg - 1}", label=label)
         for k in on[1:][jumps[on[1:]]]:
-            ax.plot(across[k - 1 : k + 1], up[k - 1 : k + 1], ":", color=f"C{leg - 1}")
+            ax.plot(across[k - 1 : k + 1], up[k - 1 : k + 1], "--", color="k", linewidth=0.5)
     ax.axhline(0.0, color="0.7", linewidth=0.8, zorder=0)
     ax.set_xlabel(_label(x.replace("_", " "), across_unit))
     ax.set_ylabel(_label(y.replace("_", " "), up_unit))

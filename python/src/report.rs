@@ -177,12 +177,12 @@ pub fn stability<'py, T: Scalar>(py: Python<'py>, found: &Stability<T>) -> PyRes
     ))
 }
 
-/// A warning, of which lengths have their unit if it is known.
+/// A warning, whose lengths have their unit if it is known.
 fn warning<'py>(py: Python<'py>, found: &Warning, unit: Option<&str>) -> PyResult<Bound<'py, PyDict>> {
-    let figure = |value: f64| match value.abs() {
-        magnitude if value == 0.0 || (1e-3..1e5).contains(&magnitude) => value.to_string(),
-        _ => format!("{value:e}"),
+    let with_unit = |unit: &str| {
+        let length = |value| format!("{} {unit}", Warning::figure(value));
+        found.message_with(length, Warning::figure)
     };
-    let length = |value| unit.map_or_else(|| figure(value), |unit| format!("{} {unit}", figure(value)));
-    Ok(dictionary!(py, "code": found.code.name(), "message": found.message_with(length, figure),))
+    let message = unit.map_or_else(|| found.message(), with_unit);
+    Ok(dictionary!(py, "code": found.code.name(), "message": message,))
 }

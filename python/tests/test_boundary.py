@@ -117,6 +117,7 @@ def test_a_tip_with_adhesion_on_a_spring_jumps_in_and_off():
     assert [event["event"] for event in cycle.events if event["energy_drop"]] == ["jump-in", "pull-off"]
     assert cycle.columns["normal_force"].min() < 0
     axes = cycle.plot(force_unit="N")
+    assert [line.get_color() for line in axes.lines if line.get_linestyle() == "--"] == ["k", "k"]
     assert axes.get_xlabel() == "approach" and axes.get_ylabel() == "normal force (µN)"
     axes = cycle.plot(length_unit="m", pressure_unit="Pa")
     assert axes.get_xlabel() == "approach (mm)" and axes.get_ylabel() == "normal force (µN)"

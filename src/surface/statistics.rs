@@ -115,8 +115,8 @@ impl Topography {
     /// ```
     ///
     /// # Errors
-    /// [`Error::NotFinite`](crate::Error::NotFinite) if heights are missing, [`Error::Value`](crate::Error::Value) if the
-    /// side lengths are no lengths.
+    /// [`Error::NotFinite`](crate::Error::NotFinite) if heights are missing, [`Error::Value`](crate::Error::Value) if
+    /// the side lengths are no lengths.
     pub fn statistics(&self) -> Result<SurfaceStatistics> {
         let mut map = self.clone();
         let (nx, ny) = map.heights.dim();

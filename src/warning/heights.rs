@@ -4,7 +4,7 @@ use super::extremes::Extremes;
 use super::relief::{Relief, Side};
 use super::spikes::Spikes;
 use super::text::Text;
-use super::{Warning, WarningCode, figure};
+use super::{Warning, WarningCode};
 use crate::grid::Grid;
 
 /// The drop of a plane across the map, in rms heights about the plane, from which there is a tilt: at a few per cent
@@ -53,7 +53,7 @@ pub(super) fn cells(grid: &Grid) -> Option<Warning> {
          nodes, or resample to square cells",
         text.length(dx),
         text.length(dy),
-        figure(aspect),
+        Warning::figure(aspect),
         text.length(grid.lengths().0),
         text.length(grid.lengths().1)
     );
@@ -66,8 +66,8 @@ pub(super) fn missing_code(value: f64, count: usize, extremes: &Extremes) -> War
     let mut text = Text::default();
     let message = format!(
         "{value} stands at {count} {}, far outside of the other heights, {} to {}, as a code for missing points \
-         does: declare it missing, and fill (prepare --missing {value} --fill); nothing else can be told of the heights \
-         before",
+         does: declare it missing, and fill (prepare --missing {value} --fill); nothing else can be told of the \
+         heights before",
         if count == 1 { "node" } else { "nodes" },
         text.length(extremes.rest.0),
         text.length(extremes.rest.1)
@@ -92,10 +92,10 @@ pub(super) fn tilt(relief: &Relief, grid: &Grid) -> Option<Warning> {
     let message = format!(
         "the map is tilted by {} along x and {} along y, {} across it, {} times the rms height about that plane: \
          remove a plane (detrend)",
-        figure(x / lx),
-        figure(y / ly),
+        Warning::figure(x / lx),
+        Warning::figure(y / ly),
         text.length(x.abs() + y.abs()),
-        figure((x.abs() + y.abs()) / (rms * relief.unit))
+        Warning::figure((x.abs() + y.abs()) / (rms * relief.unit))
     );
     Some(Warning { code: WarningCode::Tilt, text: text.with(message) })
 }
@@ -114,7 +114,7 @@ pub(super) fn open_edges(relief: &Relief) -> Option<Warning> {
             format!(
                 "{} along {name}, {} times that between neighbours inside",
                 text.length(side.edge * relief.unit),
-                figure(side.edge / side.rms_step)
+                Warning::figure(side.edge / side.rms_step)
             )
         })
         .collect();
@@ -139,7 +139,7 @@ pub(super) fn slope(slope: f64, most: f64) -> Option<Warning> {
     let message = format!(
         "the rms slope is {}, {than}: are heights and lengths in one unit? scale the heights, or correct the side \
          lengths",
-        figure(slope)
+        Warning::figure(slope)
     );
     Some(Warning { code, text: Text::default().with(message) })
 }
@@ -151,15 +151,15 @@ pub(super) fn spikes(relief: &Relief, spikes: &Spikes) -> Option<Warning> {
     let rms = relief.rms_about_plane();
     let mut text = Text::default();
     let message = format!(
-        "{} single {} out of all neighbours, the farthest by {}, {} times the rms height, at index [{}, {}]; the kurtosis of the \
-         heights is {} (3 if Gaussian): give such nodes the median around them (despike)",
+        "{} single {} out of all neighbours, the farthest by {}, {} times the rms height, at index [{}, {}]; the \
+         kurtosis of the heights is {} (3 if Gaussian): give such nodes the median around them (despike)",
         spikes.count,
         if spikes.count == 1 { "node is far" } else { "nodes are far" },
         text.length(spikes.farthest * relief.unit),
-        figure(spikes.farthest / rms),
+        Warning::figure(spikes.farthest / rms),
         spikes.node.0,
         spikes.node.1,
-        figure(spikes.kurtosis)
+        Warning::figure(spikes.kurtosis)
     );
     Some(Warning { code: WarningCode::Spikes, text: text.with(message) })
 }

@@ -176,7 +176,7 @@ fn library(surface: &Surface, mean_gap: f64, settings: Settings) -> Solution<f64
 }
 
 #[test]
-fn corrected_it_is_the_preset_of_the_library() {
+fn corrected_it_is_the_method_of_the_library() {
     for (surface, gap) in hard_cases() {
         let here = algorithm_3(&surface, &NoAdhesion, gap, PAPER, RIGHT);
         assert!(here.end == End::Converged && here.iterations < 100 && here.under_tension().0 == 0);
@@ -328,7 +328,7 @@ fn the_floor_of_epsilon_grows_like_the_cube_of_the_nodes_along_a_side() {
 }
 
 #[test]
-fn at_the_floor_of_rounding_the_preset_keeps_what_it_has() {
+fn at_the_floor_of_rounding_the_method_keeps_what_it_has() {
     let solution = library(&sphere(64), 0.0398, Settings { tolerance: Some(1e-30), ..Settings::rey2017() });
     let (points, _) = of_sphere(64, 0.0398);
     assert_eq!((solution.report.status, solution.report.contact_nodes), (Status::Stalled, points));

@@ -129,7 +129,7 @@ fn both_controls_find_the_same_state() {
 }
 
 #[test]
-fn both_presets_find_the_same_state() {
+fn both_methods_find_the_same_state() {
     for control in [Control::MeanGap(0.03), Control::MeanPressure(0.05)] {
         let mut problem = rough::<f64, _>(64, 16, NoAdhesion);
         let ours = solve(&mut problem, control, 1e-9);
@@ -145,7 +145,7 @@ fn both_presets_find_the_same_state() {
 }
 
 #[test]
-fn the_papers_preset_can_be_held_to_the_certified_error() {
+fn the_papers_method_can_be_held_to_the_certified_error() {
     let settings = Settings { criterion: Criterion::EnergyNorm, tolerance: Some(1e-7), ..Settings::rey2017() };
     let solution =
         Solver::new(settings).solve(&mut sphere::<f64, _>(64, NoAdhesion), Control::MeanGap(0.0398)).unwrap();

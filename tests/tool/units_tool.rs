@@ -27,6 +27,9 @@ fn the_table_of_a_solve_in_metres_and_pascals_has_prefixes() {
     assert_eq!(cell(&table, "normal force"), (5.0, "µN".to_owned()));
     // without adhesion nothing is said of it
     assert!(!table.contains("adhesive") && !table.contains("mu_rho"), "{table}");
+    // with a law all is said, be it zero
+    let table = bench.said(&format!("{solve} --law exponential --work-of-adhesion 0 --range 1e-9 --out nothing"));
+    assert_eq!((cell(&table, "adhesive energy per area").0, cell(&table, "mu_rho").0), (0.0, 0.0));
     // units that are not known, or only in part
     for (units, gap_unit, pressure) in [
         ("", "", (5e6, "")),

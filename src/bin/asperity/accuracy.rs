@@ -134,7 +134,9 @@ pub fn unknown(nodes_per_wave: f64) -> String {
     if nodes_per_wave >= least {
         return "unknown".to_owned();
     }
-    format!("unknown: the shortest wave has {nodes_per_wave:.1} nodes, and takes {least}: refine the map (--accuracy)")
+    // rounded down, as a wave that has too few nodes has less than these
+    let has = (10.0 * nodes_per_wave).floor() / 10.0;
+    format!("unknown: the shortest wave has {has:.1} nodes and needs {least}: refine the map (--accuracy)")
 }
 
 /// The estimated errors of the finest of some grids, by quantity; `null` where one cannot be told, or is given.

@@ -42,8 +42,8 @@ use crate::warnings::{Strictness, Warnings};
 /// gap.npy, pressure.npy (the full elastic pressure, compression positive) and contact_pressure.npy (its repulsive
 /// part), or files as --format says, report.json, contact.png and pressure.png (or .svg, .pdf), and scene.toml, which
 /// repeats the run; all of them or none. Exits with 0 if converged, 2 if not (the fields are written all the same), and
-/// 1 if the input is refused or the files cannot be written. Probable mistakes, as a tilt, are warnings, on a line each
-/// and in the report; --strict takes them for errors.
+/// 1 if the input is refused or the files cannot be written (then there are none). Probable mistakes, as a tilt, are
+/// warnings, on a line each and in the report; --strict takes them for errors.
 #[derive(Args)]
 #[command(after_help = EXAMPLES, group(ArgGroup::new("load").required(true).args(LOAD)))]
 pub struct Options {
@@ -316,7 +316,8 @@ impl Job<'_> {
         })?;
 
         if printing.for_people() {
-            say(&table(&[], &[&account], &self.units, &self.part));
+            let adhesive = self.options.adhesion.law != Law::None;
+            say(&table(&[], &[&account], adhesive, &self.units, &self.part));
             say(&format!("results in {}: {}", out.display(), self.names.join(", ")));
         }
         printing.report(|| self.report(&account));

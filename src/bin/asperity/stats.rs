@@ -22,8 +22,8 @@ use crate::units::Units;
 ///
 /// Heights, slopes, curvatures and Nayak's parameter, of the surface as it stands, continued periodically: a tilt, or
 /// edges that do not meet, count as roughness. Slopes and curvatures come from the Fourier spectrum and from
-/// differences between neighbours; if they differ much, the map does not resolve the surface. Where the side lengths are
-/// unknown, there are none, and no Nayak's parameter.
+/// differences between neighbours; if they differ much, the map does not resolve the surface. Where the side lengths
+/// are unknown, there are none, and no Nayak's parameter.
 #[derive(Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Options {
@@ -59,16 +59,17 @@ pub fn run(options: &Options, scene: &Scene) -> Outcome<bool> {
     let (map, _) = heights::map(path, options.lengths.as_deref(), scene.is_si())?;
     warn_of_unread(path, &map, "stay unknown");
     check_complete(path, &map)?;
+    let surface = map.lengths.map(|_| map.clone().surface()).transpose()?;
     if let Some(file) = psd {
-        if map.lengths.is_none() {
+        let Some(surface) = &surface else {
             let text = "the side lengths are unknown, and --psd is over wave numbers, which follow from them";
             return Err(format!("{}: {text}: give --lengths", path.display()).into());
-        }
-        let text = density_table(&map.clone().surface()?, None, map.unit.as_deref());
+        };
+        let text = density_table(surface, None, map.unit.as_deref());
         file.write(|path| write_text(path, &text))?;
         file.commit()?;
     }
-    let found = map.statistics()?;
+    let found = surface.map_or_else(|| map.statistics(), |surface| Ok(surface.statistics()))?;
     options.printing.say(&table(&map, &found));
     options.printing.report(|| {
         let version = Map::from_iter([("version".to_owned(), env!("CARGO_PKG_VERSION").into())]);

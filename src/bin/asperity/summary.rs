@@ -13,8 +13,8 @@ use crate::printing::{bold, green, yellow};
 use crate::quantity::{ENERGY_PER_AREA, FORCE, LENGTH, PRESSURE, PRESSURE_PER_LENGTH};
 use crate::units::Units;
 
-/// A table with a column for each of the solves.
-pub fn table(names: &[&str], solves: &[&Account], units: &Units, part: &Part) -> String {
+/// A table with a column for each of the solves, of which one has adhesion or none.
+pub fn table(names: &[&str], solves: &[&Account], adhesive: bool, units: &Units, part: &Part) -> String {
     let mut rows: Vec<(String, Vec<String>)> = Vec::new();
     if !names.is_empty() {
         rows.push((String::new(), names.iter().map(|name| (*name).to_owned()).collect()));
@@ -65,7 +65,7 @@ pub fn table(names: &[&str], solves: &[&Account], units: &Units, part: &Part) ->
     row("least pressure", &|s, _| units.number(s.pressures.0, PRESSURE));
     row("greatest pressure", &|s, _| units.number(s.pressures.1, PRESSURE));
     row("elastic energy per area", &|_, r| units.number(r.elastic_energy, ENERGY_PER_AREA));
-    if solves.iter().any(|solve| solve.report.mu_rho > 0.0 || solve.report.adhesive_energy != 0.0) {
+    if adhesive {
         row("adhesive energy per area", &|_, r| units.number(r.adhesive_energy, ENERGY_PER_AREA));
         row("mu_rho", &|_, r| plain(r.mu_rho));
     }
