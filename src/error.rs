@@ -122,7 +122,8 @@ pub enum Error {
         bytes: f64,
         /// The memory that there is, in bytes.
         available: f64,
-        /// The accuracy that the finest affordable grid is likely to reach.
+        /// The accuracy that the finest affordable grid is likely to reach; infinite where it does not resolve the
+        /// adhesion, so that nothing is known.
         affordable: f64,
     },
     /// A surface with waves that are too short for the grid.
@@ -285,16 +286,21 @@ impl fmt::Display for Error {
             }
             Self::Control { control, reason } => write!(f, "{control}: {reason}"),
             Self::Wall { wall, reason } => write!(f, "{wall}: {reason}"),
-            Self::Unaffordable { quantity, accuracy, shape, bytes, available, affordable } => write!(
-                f,
-                "an accuracy of {} of the {quantity} takes about {} x {} nodes and {}: there are {}, enough for about \
-                 {affordable:.1e}",
-                Short(*accuracy),
-                shape.0,
-                shape.1,
-                Bytes(*bytes),
-                Bytes(*available)
-            ),
+            Self::Unaffordable { quantity, accuracy, shape, bytes, available, affordable } => {
+                write!(
+                    f,
+                    "an accuracy of {} of the {quantity} takes about {} x {} nodes and {}: there are {}, ",
+                    Short(*accuracy),
+                    shape.0,
+                    shape.1,
+                    Bytes(*bytes),
+                    Bytes(*available)
+                )?;
+                match affordable.is_finite() {
+                    true => write!(f, "enough for about {affordable:.1e}"),
+                    false => f.write_str("too few to resolve the adhesion: take a longer range"),
+                }
+            }
             Self::Unresolved { k_s, limit, shape } => write!(
                 f,
                 "k_s is {}: it must be below {} for {} x {} nodes to resolve it: use more nodes, or a smaller k_s",

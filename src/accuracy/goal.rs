@@ -6,14 +6,14 @@ use std::time::Instant;
 use ndarray::Array2;
 
 use super::refine::{refined, twice};
-use super::{CAUTION, FINE, GridError, Quantity};
+use super::{CAUTION, FINE, GridError, Quantity, UNDER_RESOLVED};
 use crate::adhesion::AdhesionLaw;
 use crate::constraint::{ContactConstraint, Projection};
 use crate::elastic::{Boundary, ElasticOperator};
 use crate::error::{Error, Result};
 use crate::grid::Grid;
 use crate::nested::{Deformed, Level, Nested, equivalent_applications};
-use crate::problem::{Control, Problem};
+use crate::problem::{Control, Problem, mu_rho};
 use crate::real::Real;
 use crate::solver::{Begin, Iteration, Solution, Solved, Solver, Status};
 use crate::stability::ContactStiffness;
@@ -197,7 +197,8 @@ impl<C> Accuracy<C> {
         let nodes_per_wave = surface.nodes_per_wave(operator.boundary());
         let refinable = is_refinable(surface, law);
         let by_edge = self.asks_the_edge::<T>(surface) && operator.boundary() == Boundary::Periodic;
-        let needed = |smaller| if refinable { self.refinements(nodes_per_wave, by_edge, smaller) } else { 0 };
+        let mu_rho = mu_rho(law, surface.grid(), operator.modulus());
+        let needed = |smaller| if refinable { self.refinements((nodes_per_wave, mu_rho), by_edge, smaller) } else { 0 };
         let refinements = needed(1.0);
         let nodes = operator.grid().nodes() as f64;
         let (nx, ny) = twice(surface.grid().shape());
@@ -207,13 +208,15 @@ impl<C> Accuracy<C> {
         let least = needed(DOUBT);
         if least > 0 && bytes(least) > self.memory {
             let most = (0..least).rev().find(|&refinements| bytes(refinements) <= self.memory).unwrap_or(0);
+            let finer = f64::from(most).exp2();
+            let resolved = mu_rho <= UNDER_RESOLVED * finer.sqrt();
             return Err(Error::Unaffordable {
                 quantity: self.of.name(),
                 accuracy: self.target,
                 shape: shape(refinements),
                 bytes: bytes(refinements),
                 available: self.memory,
-                affordable: self.of.expected(nodes_per_wave * f64::from(most).exp2()),
+                affordable: if resolved { self.of.expected(nodes_per_wave * finer) } else { f64::INFINITY },
             });
         }
         let mut fields = [(); 2].map(|()| Array2::<T>::zeros(operator.grid().shape()));
@@ -236,16 +239,18 @@ impl<C> Accuracy<C> {
         self.of != Quantity::Area && surface.absent().is_none() && self.nested.solver.constraint.wall().is_rigid()
     }
 
-    /// How often the grid is likely to be refined, if errors are smaller than expected by a factor.
-    fn refinements(&self, nodes_per_wave: f64, by_edge: bool, smaller: f64) -> i32 {
+    /// How often a grid with so many nodes in the shortest wave, and its resolution measure of the adhesion, is likely
+    /// to be refined, if errors are smaller than expected by a factor.
+    fn refinements(&self, (nodes_per_wave, mu_rho): (f64, f64), by_edge: bool, smaller: f64) -> i32 {
         // without a coarser grid the waves tell the error of the area, and the edge that of the others
         let least = GridError::LEAST_NODES_PER_WAVE;
         let least = if by_edge || self.of == Quantity::Area { least } else { 2.0 * least };
         let sure = by_edge && self.of != Quantity::Stiffness;
         let enough = |refinements: &i32| {
-            let nodes = nodes_per_wave * f64::from(*refinements).exp2();
+            let finer = f64::from(*refinements).exp2();
+            let (nodes, resolved) = (nodes_per_wave * finer, mu_rho <= UNDER_RESOLVED * finer.sqrt());
             let caution = if sure || nodes >= 2.0 * FINE { 1.0 } else { CAUTION };
-            nodes >= least && caution * self.of.expected(nodes) <= smaller * self.target
+            resolved && nodes >= least && caution * self.of.expected(nodes) <= smaller * self.target
         };
         (0..40).find(enough).unwrap_or(40)
     }

@@ -212,6 +212,15 @@ fn a_plan_says_the_grid_that_is_taken() {
     let plan = wanted.plan(&surface, &mut operator, &NoAdhesion, PRESSED).unwrap();
     assert!((3.9..5.0).contains(&plan.nodes_per_wave) && plan.tolerance == 1e-3, "{plan:?}");
     assert!([64, 128].contains(&plan.shape.0) && plan.bytes > 0.0 && plan.seconds > 0.0, "{plan:?}");
+    // an adhesion that the grid does not resolve takes a finer one: μ_ρ is to be halved twice, which is 16 times as fine
+    let mut with = |mu_rho: f64| {
+        let law = Exponential::new(32.0 * (1e-3 * mu_rho).powi(2), 1e-3).unwrap();
+        wanted.plan(&surface, &mut operator, &law, PRESSED)
+    };
+    assert_eq!(with(2.0).unwrap().shape, (512, 512));
+    let error = with(1e3).unwrap_err();
+    assert!(matches!(error, Error::Unaffordable { affordable: f64::INFINITY, .. }), "{error}");
+    assert!(error.to_string().ends_with("too few to resolve the adhesion: take a longer range"), "{error}");
 }
 
 #[test]
