@@ -198,6 +198,11 @@ const SOLVED: f64 = 3e-3;
 /// The resolution measure μ_ρ above which the answer depends on the grid.
 const UNDER_RESOLVED: f64 = 0.5;
 
+/// Whether a grid so many times finer than one with this resolution measure resolves the adhesion.
+fn resolves_adhesion(mu_rho: f64, finer: f64) -> bool {
+    mu_rho <= UNDER_RESOLVED * finer.sqrt()
+}
+
 /// The nodes of the shortest wave on the coarser grid below which an estimate may be far off.
 const FINE: f64 = 8.0;
 
@@ -290,7 +295,7 @@ impl GridError {
     pub fn of(levels: &[Level], quantity: Quantity, nodes_per_wave: f64, mu_rho: f64) -> Option<Self> {
         let finest = levels.last()?;
         let resolves = |factor: f64| {
-            nodes_per_wave / factor >= Self::LEAST_NODES_PER_WAVE && mu_rho * factor.sqrt() <= UNDER_RESOLVED
+            nodes_per_wave / factor >= Self::LEAST_NODES_PER_WAVE && resolves_adhesion(mu_rho, factor.recip())
         };
         let value = |level: &Level| quantity.of(level).filter(|value| !value.is_nan());
         let long = |level: &Level| level.shape.0.max(level.shape.1) as f64;

@@ -6,7 +6,7 @@ use std::time::Instant;
 use ndarray::Array2;
 
 use super::refine::{refined, twice};
-use super::{CAUTION, FINE, GridError, Quantity, UNDER_RESOLVED};
+use super::{CAUTION, FINE, GridError, Quantity, resolves_adhesion};
 use crate::adhesion::AdhesionLaw;
 use crate::constraint::{ContactConstraint, Projection};
 use crate::elastic::{Boundary, ElasticOperator};
@@ -209,7 +209,7 @@ impl<C> Accuracy<C> {
         if least > 0 && bytes(least) > self.memory {
             let most = (0..least).rev().find(|&refinements| bytes(refinements) <= self.memory).unwrap_or(0);
             let finer = f64::from(most).exp2();
-            let resolved = mu_rho <= UNDER_RESOLVED * finer.sqrt();
+            let resolved = resolves_adhesion(mu_rho, finer);
             return Err(Error::Unaffordable {
                 quantity: self.of.name(),
                 accuracy: self.target,
@@ -248,9 +248,11 @@ impl<C> Accuracy<C> {
         let sure = by_edge && self.of != Quantity::Stiffness;
         let enough = |refinements: &i32| {
             let finer = f64::from(*refinements).exp2();
-            let (nodes, resolved) = (nodes_per_wave * finer, mu_rho <= UNDER_RESOLVED * finer.sqrt());
+            let nodes = nodes_per_wave * finer;
             let caution = if sure || nodes >= 2.0 * FINE { 1.0 } else { CAUTION };
-            resolved && nodes >= least && caution * self.of.expected(nodes) <= smaller * self.target
+            resolves_adhesion(mu_rho, finer)
+                && nodes >= least
+                && caution * self.of.expected(nodes) <= smaller * self.target
         };
         (0..40).find(enough).unwrap_or(40)
     }

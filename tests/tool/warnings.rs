@@ -256,6 +256,13 @@ fn the_file_of_warnings_of_a_table_replaces_no_other() {
     assert_eq!(bench.read("t.csv.warnings.txt"), "of another kind");
     bench.said(&format!("{sweep} --force"));
     assert!(!bench.names(".").contains(&"t.csv.warnings.txt".to_owned()));
+    bench.write(
+        "study.toml",
+        "command = \"sweep\"\nheights = \"clean.npy\"\nmean-pressures = \"0.01\"\n[vary]\nmodulus = [1.0, 2.0]\n",
+    );
+    bench.write("v.csv.warnings.txt", "of another kind");
+    bench.refused_with("study study.toml --out v.csv", &["v.csv.warnings.txt: exists: use --force"]);
+    assert_eq!(bench.read("v.csv.warnings.txt"), "of another kind");
     // what cannot be replaced leaves no table
     std::fs::create_dir(bench.path("u.csv.warnings.txt")).unwrap();
     let before = bench.names(".");

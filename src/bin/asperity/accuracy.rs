@@ -134,7 +134,7 @@ pub fn unknown(nodes_per_wave: f64) -> String {
     if nodes_per_wave >= least {
         return "unknown".to_owned();
     }
-    // rounded down, as a wave that has too few nodes has less than these
+    // rounded down: 3.96 nodes are not the 4.0 that are needed
     let has = (10.0 * nodes_per_wave).floor() / 10.0;
     format!("unknown: the shortest wave has {has:.1} nodes and needs {least}: refine the map (--accuracy)")
 }

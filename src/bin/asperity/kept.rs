@@ -4,12 +4,13 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use asperity::io::OutputFolder;
-use asperity::{Error, Grid, Solution};
+use asperity::{Grid, Solution};
 
 use crate::case::gap_to_write;
 use crate::fields::write_fields;
 use crate::options::Scalar;
 use crate::outcome::Outcome;
+use crate::output::check_free;
 use crate::processes::Processes;
 
 const FIELDS: [&str; 3] = ["gap", "pressure", "contact_pressure"];
@@ -25,12 +26,8 @@ impl Kept<'_> {
         // only a trial
         drop(OutputFolder::create(folder, &[], true)?);
         // the fields first: a run that starts at the same time makes its table before them
-        match present(folder).into_iter().next() {
-            Some(path) if !force && !table.exists() => {
-                Err(Error::file(&path, "exists: use --force to replace it, or choose another --fields").into())
-            }
-            _ => Ok(()),
-        }
+        let first = present(folder).into_iter().next();
+        first.map_or(Ok(()), |path| check_free(&path, force || table.exists(), "--fields"))
     }
 
     /// Removes the fields of all rows, of a run that starts over.

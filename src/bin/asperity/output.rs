@@ -11,11 +11,15 @@ use crate::outcome::Outcome;
 /// The folder `path` for files with these `names`. A file that exists is refused unless `force` replaces it.
 pub fn output_folder(path: &Path, names: &[&str], force: bool) -> Outcome<OutputFolder> {
     let existing = names.iter().map(|name| path.join(name)).find(|file| file.exists() && !file.is_dir());
-    match existing {
-        Some(file) if !force => {
-            Err(Error::file(&file, "exists: use --force to replace it, or choose another output folder").into())
-        }
-        _ => Ok(OutputFolder::create(path, names, force)?),
+    existing.map_or(Ok(()), |file| check_free(&file, force, "output folder"))?;
+    Ok(OutputFolder::create(path, names, force)?)
+}
+
+/// Refuses a file that exists, unless it may be replaced; `other` names what else may be chosen.
+pub fn check_free(path: &Path, replaceable: bool, other: &str) -> Outcome<()> {
+    match path.exists() && !replaceable {
+        true => Err(Error::file(path, format!("exists: use --force to replace it, or choose another {other}")).into()),
+        false => Ok(()),
     }
 }
 

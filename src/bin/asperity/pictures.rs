@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use asperity::picture::{Chart, Colouring, DPI, Format, Map, Picture};
-use asperity::{Error, Grid, Result, Solution};
+use asperity::{Grid, Result, Solution};
 use clap::{Args, ValueEnum};
 use ndarray::Array2;
 use serde_json::Value;
@@ -12,7 +12,7 @@ use crate::allowed::resolution;
 use crate::numbers::percent;
 use crate::options::Scalar;
 use crate::outcome::Outcome;
-use crate::output::OutputFile;
+use crate::output::{OutputFile, check_free};
 use crate::units::Units;
 
 /// The most cases of a study that a chart names: it has as many colours.
@@ -79,10 +79,7 @@ impl PlotOptions {
 pub fn check_plot(plot: Option<&Path>, table: &Path, force: bool) -> Outcome<()> {
     let Some(plot) = plot else { return Ok(()) };
     Format::of(plot)?;
-    if plot.exists() && !table.exists() && !force {
-        return Err(Error::file(plot, "exists: use --force to replace it, or choose another --plot").into());
-    }
-    Ok(())
+    check_free(plot, force || table.exists(), "--plot")
 }
 
 /// Writes a picture over a file that may be there.
@@ -113,7 +110,6 @@ pub fn chart_of_loads(rows: &[Value], units: &Units, dpi: f64) -> Result<Picture
 /// more than a decade, and are spread more evenly so; along y if that spans a decade, too. Those of a cycle are not: the
 /// area of its loop is an energy.
 pub fn chart_of_columns(rows: &[Value], x: &str, y: &str, units: &Units, dpi: f64) -> Result<Picture> {
-    let value = |row: &Value, column: &str| row[column].as_f64().unwrap_or(f64::NAN);
     let mut jumps = Vec::new();
     let curves = legs(rows).into_iter().map(|(name, rows)| {
         let mut points: Vec<(f64, f64)> = Vec::new();
@@ -128,12 +124,7 @@ pub fn chart_of_columns(rows: &[Value], x: &str, y: &str, units: &Units, dpi: f6
         (name, points)
     });
     let curves: Vec<_> = curves.collect();
-    let points: Vec<_> = curves.iter().flat_map(|(_, points)| points).collect();
-    let (x_log, y_log) =
-        (Spread::of(points.iter().map(|point| point.0)), Spread::of(points.iter().map(|point| point.1)));
-    let is_cycle = rows.iter().any(|row| row["leg"].is_string());
-    let x_log = !is_cycle && x_log.is_some_and(|x| x.is_wide() && x.is_geometric());
-    let y_log = x_log && y_log.is_some_and(|y| y.is_wide());
+    let [x_log, y_log] = logarithmic(rows, x, y);
     let [x_unit, y_unit] = [x, y].map(|column| units.of_column(column, "", false));
     let [x_label, y_label] = [x, y].map(|column| column.replace('_', " "));
     let title = format!("{}{} over {x_label}", y_label[..1].to_uppercase(), &y_label[1..]);
@@ -150,6 +141,23 @@ pub fn chart_of_columns(rows: &[Value], x: &str, y: &str, units: &Units, dpi: f6
         ..Chart::default()
     };
     chart.draw(dpi)
+}
+
+/// The value of a column, not a number where there is none.
+fn value(row: &Value, column: &str) -> f64 {
+    row[column].as_f64().unwrap_or(f64::NAN)
+}
+
+/// Whether the axes of columns `x` and `y` are logarithmic.
+fn logarithmic(rows: &[Value], x: &str, y: &str) -> [bool; 2] {
+    let [across, up] = [x, y].map(|column| Spread::of(rows.iter().map(|row| value(row, column))));
+    let x_log = !is_cycle(rows) && across.is_some_and(|x| x.is_wide() && x.is_geometric());
+    [x_log, x_log && up.is_some_and(|y| y.is_wide())]
+}
+
+/// Whether rows are those of a cycle.
+fn is_cycle(rows: &[Value]) -> bool {
+    rows.first().is_some_and(|row| row["leg"].is_u64())
 }
 
 /// The spread of the values along an axis.
@@ -189,8 +197,8 @@ fn legs(rows: &[Value]) -> Vec<(String, &[Value])> {
         let named = (2..=MOST_NAMED).contains(&cases.len());
         return cases.into_iter().map(|rows| (if named { name(rows) } else { String::new() }, rows)).collect();
     }
-    let load = |row: &Value| row["control_value"].as_f64().unwrap_or(f64::NAN);
-    let cycle = rows.first().is_some_and(|row| row["leg"].is_u64());
+    let load = |row: &Value| value(row, "control_value");
+    let cycle = is_cycle(rows);
     let direction = |k: usize| match &rows[k]["direction"] {
         Value::String(name) => name.clone(),
         _ => if load(&rows[k]) < load(&rows[k - 1]) { "falling" } else { "rising" }.to_owned(),
@@ -273,6 +281,13 @@ mod tests {
         assert!(log(&[0.01, 0.02, 0.04, 0.08, 0.15, 0.3]) && log(&[1.0, 10.0]) && log(&[1.0, 3.0, 10.0, f64::NAN]));
         assert!(!log(&[0.01, 0.11, 0.21, 0.31]) && !log(&[1.0, 3.0, 9.0]) && !log(&[0.0, 0.1, 1.0, 10.0]));
         assert!(!log(&[-1.0, 0.1, 1.0, 10.0]) && Spread::of([f64::NAN].into_iter()).is_none());
+        // but not of a cycle
+        let rows = |leg: Value| -> Vec<Value> {
+            let row = |load: f64| json!({ "leg": leg, "mean_gap": load, "mean_pressure": load });
+            [0.01, 0.02, 0.05, 0.1, 0.2].map(row).to_vec()
+        };
+        assert_eq!(logarithmic(&rows(Value::Null), "mean_gap", "mean_pressure"), [true; 2]);
+        assert_eq!(logarithmic(&rows(1.into()), "mean_gap", "mean_pressure"), [false; 2]);
     }
 
     #[test]

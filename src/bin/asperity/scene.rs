@@ -12,7 +12,7 @@ use toml::Value;
 
 use crate::loads::Loads;
 use crate::outcome::Outcome;
-use crate::output::{OutputFile, with_suffix, write_text};
+use crate::output::{OutputFile, check_free, with_suffix, write_text};
 use crate::quantity::Quantity;
 
 /// A run as a scene file that repeats it: every option that was given or has a default.
@@ -146,10 +146,7 @@ impl Scene {
         // whatever version has written it
         let rest = |text: &str| text.split_once('\n').map(|(_, rest)| rest.to_owned());
         let same = fs::read_to_string(&path).is_ok_and(|text| rest(&text) == rest(&self.text(folder_of(file))));
-        if path.exists() && !force && !same {
-            return Err(Error::file(&path, "exists: use --force to replace it, or choose another --out").into());
-        }
-        Ok(())
+        check_free(&path, force || same, "--out")
     }
 
     /// The file FILE.scene.toml beside `file`, written but for its name.

@@ -9,7 +9,6 @@ use std::path::PathBuf;
 use std::str::FromStr;
 use std::thread::available_parallelism;
 
-use asperity::Error;
 use clap::Args;
 use serde_json::json;
 
@@ -18,8 +17,10 @@ use self::merge::merge;
 use self::work::{Folder, solve};
 use crate::allowed::threads;
 use crate::outcome::Outcome;
+use crate::output::check_free;
 use crate::printing::{Printing, complain};
 use crate::report;
+use crate::warnings;
 
 /// Solve every combination of surfaces, laws and other options, as one table.
 ///
@@ -131,9 +132,9 @@ pub fn run(options: &Options, mut tool: clap::Command) -> Outcome<bool> {
             printing.say(&format!("{}  {done}  {}", k + 1, study.told(case)));
         }
     } else {
-        if study.out.exists() && !folder.exists() && !options.force {
-            return Err(Error::file(&study.out, "exists: use --force to replace it, or choose another --out").into());
-        }
+        let replaceable = folder.exists() || options.force;
+        check_free(&study.out, replaceable, "--out")?;
+        warnings::check_beside(&study.out, replaceable)?;
         let slice = options.slice.unwrap_or(Slice::WHOLE);
         let chosen: Vec<_> = (0..study.cases.len()).filter(|&case| slice.has(case)).collect();
         let jobs = options.jobs.unwrap_or_else(|| available_parallelism().map_or(1, usize::from));

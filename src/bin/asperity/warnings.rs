@@ -12,7 +12,7 @@ use crate::boundary::Boundary;
 use crate::heights::Origin;
 use crate::options::{ProblemOptions, Scalar};
 use crate::outcome::Outcome;
-use crate::output::{OutputFile, with_suffix, write_text};
+use crate::output::{OutputFile, check_free, with_suffix, write_text};
 use crate::part::Part;
 use crate::printing::complain;
 use crate::quantity::{LENGTH, PRESSURE, power_of_length, times_ten_to};
@@ -59,11 +59,7 @@ pub fn beside(table: &Path) -> PathBuf {
 
 /// Refuses a file in the place of the warnings of a new table, unless `force` replaces it.
 pub fn check_beside(table: &Path, force: bool) -> Outcome<()> {
-    let path = beside(table);
-    if path.exists() && !force {
-        return Err(Error::file(&path, "exists: use --force to replace it, or choose another --out").into());
-    }
-    Ok(())
+    check_free(&beside(table), force, "--out")
 }
 
 /// The warnings beside a table.
