@@ -153,7 +153,7 @@ pub use nested::{Level, Nested, NestedSolution};
 pub use problem::{Control, Problem};
 pub use real::Real;
 pub use search::{ContactSearch, FoundContact};
-pub use solver::{Criterion, Iteration, Method, Report, Settings, Solution, Solver, Start, Status};
+pub use solver::{Branch, Criterion, Iteration, Method, Report, Settings, Solution, Solver, Start, Status};
 pub use surface::{
     Amplitude, Fit, Form, FormFit, Psd, RowAlignment, ScanAxis, SelfAffine, Spectrum, Spikes, Surface,
     SurfaceStatistics, Topography, Trend,

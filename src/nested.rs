@@ -9,7 +9,7 @@ use crate::error::{Error, Result};
 use crate::grid::Grid;
 use crate::problem::{Control, Parts, Problem};
 use crate::real::Real;
-use crate::solver::{Begin, Iteration, Method, Observer, Settings, Solution, Solved, Solver, Start, Status};
+use crate::solver::{Begin, Branch, Iteration, Method, Observer, Settings, Solution, Solved, Solver, Start, Status};
 use crate::stability::ContactStiffness;
 use crate::surface::Surface;
 
@@ -246,13 +246,17 @@ impl<C> Nested<C> {
         let unique = law.is_zero();
         let mut problem = Problem::new(surface, half_space, law)?;
         let mut spent = part.as_ref().map_or(0, |part| part.applications);
+        let wall = self.solver.constraint.wall();
+        let load = problem.flat.load(control, wall)?;
+        let default = Begin::At(Start::Default);
+        let branch = Branch::of_start(&default, &self.solver.settings, &problem.law, (load, wall), &problem.flat)?;
         let begin = match (part.filter(|part| part.leads(unique)), prolonged) {
             (Some(part), _) => {
                 spent += 1;
                 Begin::Found(part.whole(&mut problem)?)
             }
             (None, Some(prolonged)) => Begin::Prolonged(prolonged),
-            (None, None) => Begin::At(Start::Default),
+            (None, None) => default,
         };
         let mut solved = self.solver.run(problem.parts(), control, begin, &mut watch)?;
         let report = &solved.solution.report;
@@ -266,6 +270,7 @@ impl<C> Nested<C> {
             drop(solved);
             solved = self.solver.run(problem.parts(), control, Begin::At(Start::Default), &mut watch)?;
         }
+        solved.solution.report.branch = branch;
         let stiffness = self.stiffness_of(&mut problem, &solved.solution)?;
         let level = Level::of(&solved.solution, surface.grid())?;
         let operator_applications = level.operator_applications + spent;

@@ -110,6 +110,16 @@ impl Load {
         }
     }
 
+    /// The load on the wall alone, of gaps that are counted from the equilibrium separation: nothing would hold a
+    /// tension.
+    pub(crate) fn of_wall(self, separation: f64) -> Self {
+        match self {
+            Self::Gap(gap) => Self::Gap((gap - separation).max(0.0)),
+            Self::Pressure(pressure) => Self::Pressure(pressure.max(0.0)),
+            Self::Spring { stiffness, rest } => Self::Spring { stiffness, rest: rest - separation },
+        }
+    }
+
     /// The energy of the load over its pressure times the mean gap from its rest.
     pub(crate) fn share(self) -> f64 {
         if let Self::Spring { .. } = self { 0.5 } else { 1.0 }

@@ -11,7 +11,7 @@ use crate::elastic::{Boundary, ElasticOperator};
 use crate::error::{Error, Result};
 use crate::problem::{Control, PressedFlat, Problem};
 use crate::real::Real;
-use crate::solver::{Begin, Iteration, Solution, Solved, Solver, Start, Status};
+use crate::solver::{Begin, Branch, Iteration, Method, Solution, Solved, Solver, Start, Status};
 
 /// The most solves of a search. One that is bracketed halves its bracket at least with every other solve.
 const MOST: usize = 60;
@@ -35,8 +35,8 @@ const STEP: (f64, f64) = (1.4, 8.0);
 ///
 /// With adhesion surfaces may stick at any load, and the contact jumps. The search is for the mean gap then, with a
 /// free boundary for the approach, under which more states are equilibria than under a pressure. It is a path: it goes
-/// from its start towards the wanted fraction, and never on from a state beyond it, so that it stays on the branch on
-/// which it is.
+/// from its start towards the wanted fraction, and never on from a state beyond it, so that it stays on its
+/// [branch](Branch): that of loading, from less contact, if the settings name none.
 ///
 /// The fraction counts nodes. It is reached if it is within one node or 1 % ([`with_tolerance`](Self::with_tolerance))
 /// of the wanted one. Where no load has such a fraction, as the contact jumps past it, the state on the nearer side of
@@ -259,15 +259,19 @@ where
             bracket.add(last, wanted);
             x = bracket.next(self.axis, goal, self.slope());
         }
+        let branch = self.branch();
         // the side from which the path comes
-        let mut from_below = self.points.last().map(|last| (last.nodes as f64) < wanted);
+        let mut from_below = match self.points.last() {
+            Some(last) => Some((last.nodes as f64) < wanted),
+            None => branch.map(|branch| branch == Branch::Loading),
+        };
         let mut nearest: Option<(Point, Solved<T>)> = None;
         let (mut solves, mut applications) = (0, 0);
         let reached = loop {
             let begin = match (&self.start, &self.gap) {
                 (Some(gap), _) => Begin::At(Start::From(gap)),
                 (None, Some(gap)) => Begin::Found(gap.clone()),
-                (None, None) => Begin::At(Start::Default),
+                (None, None) => branch.map_or(Begin::At(Start::Default), Begin::On),
             };
             let solved = self.solver.run(self.problem.parts(), self.axis.control(x), begin, &mut observe)?;
             let report = &solved.solution.report;
@@ -301,7 +305,8 @@ where
             return Err(Error::Value { name: "contact fraction", value: fraction, requirement: "found by a solve" });
         };
         self.remember(point);
-        let (solution, gap) = solved.with_gap();
+        let (mut solution, gap) = solved.with_gap();
+        solution.report.branch = branch;
         (self.start, self.gap) = (None, Some(gap));
         let share = |point: Point| point.nodes as f64 / facing;
         Ok(FoundContact {
@@ -313,6 +318,16 @@ where
             solves,
             operator_applications: applications,
         })
+    }
+
+    /// The branch of equilibria on which the search begins, from its default start with adhesion: that of loading, if
+    /// the settings name none, but for the paper's method and where springs stand for the wall.
+    fn branch(&self) -> Option<Branch> {
+        let Solver { settings, constraint } = &*self.solver;
+        let begins = self.points.is_empty() && self.start.is_none() && self.gap.is_none();
+        let usual = settings.method != Method::Rey2017 && constraint.wall().is_rigid();
+        let branch = settings.branch.or(usual.then_some(Branch::Loading));
+        branch.filter(|_| begins && !self.problem.law.is_zero())
     }
 
     /// Keeps a result, and the one before it.

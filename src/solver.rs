@@ -9,6 +9,7 @@ use crate::error::Result;
 use crate::problem::{Control, Parts, Problem};
 use crate::real::Real;
 
+mod branch;
 mod certificate;
 mod coarse;
 mod driver;
@@ -28,6 +29,7 @@ mod state;
 mod tension;
 mod work;
 
+pub use branch::Branch;
 pub(crate) use coarse::Coarse;
 use driver::Job;
 pub(crate) use driver::Observer;
@@ -103,6 +105,7 @@ impl Criterion {
 /// | `criterion` | [`Criterion::EnergyNorm`] | the measure that is compared with the tolerance | |
 /// | `tolerance` | `None`: 1e-6 in `f64`, 1e-4 in `f32`; 1e-9 of [`Criterion::Orthogonality`] | dimensionless; see below | positive |
 /// | `max_iterations` | 2000 | the iterations after which a solve ends without having converged | any |
+/// | `branch` | `None`: by the load | the branch of equilibria on which the default start is, with adhesion | |
 ///
 /// `None` is the default of the criterion in the precision of the solve: [`Settings::tolerance_in`] tells it, and
 /// [`Report::tolerance`] the one that a solve was held to. A solve whose tolerance is below the
@@ -124,18 +127,28 @@ pub struct Settings {
     pub tolerance: Option<f64>,
     /// The number of iterations after which the solve ends without having converged.
     pub max_iterations: usize,
+    /// The branch of equilibria on which [`Start::Default`] is, with adhesion. `None` is the branch of loading under a
+    /// load that presses, and that of unloading under one that pulls, at a given mean gap, and where the constraint
+    /// has springs: the sign of a load is that of the pressure under which undeformed surfaces would just touch.
+    pub branch: Option<Branch>,
 }
 
 impl Default for Settings {
     fn default() -> Self {
-        Self { method: Method::Preconditioned, criterion: Criterion::EnergyNorm, tolerance: None, max_iterations: 2000 }
+        Self {
+            method: Method::Preconditioned,
+            criterion: Criterion::EnergyNorm,
+            tolerance: None,
+            max_iterations: 2000,
+            branch: None,
+        }
     }
 }
 
 impl Settings {
     /// The paper's Algorithm 3 with its own criterion, ε < 1e-9.
     pub fn rey2017() -> Self {
-        Self { method: Method::Rey2017, criterion: Criterion::Orthogonality, tolerance: None, max_iterations: 20_000 }
+        Self { method: Method::Rey2017, criterion: Criterion::Orthogonality, max_iterations: 20_000, ..Self::default() }
     }
 
     /// The tolerance that holds in a precision: the given one, or the default of the criterion.

@@ -12,6 +12,9 @@ use crate::real::Real;
 /// The tolerance on the way to a start: the edge of the adhesive zone has to be right to a node.
 const START: f64 = 1e-4;
 
+/// The tolerance of the wall alone as a start: adhesion changes the gap by more.
+const WALL: f64 = 1e-2;
+
 /// The tolerance at which a state shows how much tension it holds.
 const HOLD: f64 = 1e-3;
 
@@ -111,7 +114,11 @@ impl<T: Real, L: Real> State<'_, T, L> {
     pub(super) fn meets(&self, load_error: f64) -> bool {
         let tolerance = self.settings.tolerance_in::<T>();
         if self.goal != Goal::Solution {
-            let tolerance = tolerance.max(if self.goal == Goal::Hold { HOLD } else { START });
+            let tolerance = tolerance.max(match self.goal {
+                Goal::Wall => WALL,
+                Goal::Hold => HOLD,
+                Goal::Start | Goal::Solution => START,
+            });
             return self.relative_error() <= tolerance && load_error <= tolerance;
         }
         let criterion = match self.settings.criterion {

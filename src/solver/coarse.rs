@@ -86,6 +86,11 @@ impl Coarse {
         }
     }
 
+    /// Forgets the contact map, as at the beginning of a solve.
+    pub(crate) fn forget(&mut self) {
+        (self.ready, self.due, self.interval) = (false, 0, INTERVAL);
+    }
+
     /// The space, if it has a contact map.
     pub(crate) fn ready(&mut self) -> Option<&mut CoarseSpace> {
         self.ready.then_some(&mut self.space)

@@ -7,11 +7,11 @@ use std::ops::ControlFlow;
 use super::minimisation::Goal;
 use super::operators::{One, Operators, Two};
 use super::report::{Iteration, Solved, Status};
-use super::start::Begin;
+use super::start::{Begin, check_wall};
 use super::state::State;
-use super::{Method, Settings};
-use crate::adhesion::AdhesionLaw;
-use crate::constraint::{ContactConstraint, Update, Wall};
+use super::{Branch, Method, Settings};
+use crate::adhesion::{AdhesionLaw, NoAdhesion};
+use crate::constraint::{ContactConstraint, Projection, Update, Wall};
 use crate::elastic::ElasticOperator;
 use crate::error::{Error, Result};
 use crate::par;
@@ -87,12 +87,35 @@ fn run<T: Real, L: Real>(operators: &mut dyn Operators<T, L>, job: Job<'_, T>) -
     let held = flat.window.as_ref().and_then(|window| law.in_rows_of(window.held()));
     let law = held.as_deref().unwrap_or(law);
     Error::positive("tolerance", settings.tolerance_in::<T>())?;
+    check_wall(law, constraint.wall())?;
+    let load = flat.load(control, constraint.wall())?;
     let (default_start, near) = (begin.is_default(), begin.is_near());
+    let branch = Branch::of_start(&begin, &settings, law, (load, constraint.wall()), flat)?;
+    let comes_from_afar = default_start && branch == Some(Branch::Loading);
     let smooth = (near || default_start) && settings.method == Method::Preconditioned;
     let smoothed = if smooth { smoothed_law(operators.state(), law) } else { None };
-    let mut state = State::new(operators, law, flat, constraint, control, begin, settings)?;
+    let (mut rigid, mut repelled): (_, Option<(&mut dyn ContactConstraint<T>, f64)>) = (Projection, None);
+    let (first, wall): (&dyn AdhesionLaw<T>, &mut dyn ContactConstraint<T>) = match constraint.wall() {
+        Wall::None if comes_from_afar => {
+            repelled = Some((&mut *constraint, law.rest().map_or(0.0, T::widen)));
+            (&NoAdhesion, &mut rigid)
+        }
+        _ if comes_from_afar => (&NoAdhesion, constraint),
+        _ => (law, constraint),
+    };
+    let separation = repelled.as_ref().map_or(0.0, |(_, separation)| *separation);
+    let first_load = if comes_from_afar { load.of_wall(separation) } else { load };
+    let mut state = State::new(operators, first, flat, wall, (first_load, branch), begin, settings)?;
     if near {
         state.stays_near();
+    }
+    if comes_from_afar {
+        state.goal = Goal::Wall;
+        let end = minimise(&mut state, &mut *observe)?;
+        state.adhere(law, load, repelled)?;
+        if let End::Gave(status @ (Status::Stopped | Status::IterationLimit)) = end {
+            return state.finish(status);
+        }
     }
     let torn = state.is_torn();
     if torn {
@@ -107,7 +130,7 @@ fn run<T: Real, L: Real>(operators: &mut dyn Operators<T, L>, job: Job<'_, T>) -
         }
     }
     // a given start is on a branch, which ends where the surfaces come apart
-    let mut seek = default_start;
+    let mut seek = default_start && !comes_from_afar;
     let status = loop {
         match minimise(&mut state, &mut *observe)? {
             End::Converged => match state.update_constraint() {

@@ -69,6 +69,7 @@ impl<T: Real, L: Real> State<'_, T, L> {
         let nominal = flat.window.as_ref().map_or(self.nodes(), |window| window.grid().nodes() as f64);
         let mut report = Report {
             status: self.final_status(status, load_error),
+            branch: self.branch,
             relative_error: self.relative_error(),
             load_error,
             orthogonality: self.scaled_orthogonality(),

@@ -3,6 +3,8 @@
 /// The goal of a minimisation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Goal {
+    /// The gap that the wall alone leaves, without adhesion: a start on the branch of loading.
+    Wall,
     /// A start for the law itself, from the law with its jumps smoothed.
     Start,
     /// A state at a given mean gap that holds a tensile load: a start under that load.

@@ -1,12 +1,14 @@
 //! The phases of a solve, each with an energy and a goal of its own: their beginnings.
 
+use super::coarse::Coarse;
 use super::minimisation::{Goal, Progress};
 use super::start::uniform_start;
 use super::state::State;
 use crate::adhesion::AdhesionLaw;
-use crate::constraint::Update;
+use crate::constraint::{ContactConstraint, Update};
 use crate::error::{Error, Result};
 use crate::field::flat;
+use crate::problem::Load;
 use crate::real::Real;
 
 /// The first trial length from a start near the solution. The residual r' then has short waves at the edges of
@@ -51,6 +53,28 @@ impl<'a, T: Real, L: Real> State<'a, T, L> {
             }
         }
         Ok(())
+    }
+
+    /// Goes on from the gap that the wall alone leaves with adhesion, under the load itself; with the constraint that
+    /// is no wall, if there is one, from as much above its equilibrium separation.
+    pub(super) fn adhere(
+        &mut self,
+        law: &'a dyn AdhesionLaw<T>,
+        load: Load,
+        repelled: Option<(&'a mut dyn ContactConstraint<T>, f64)>,
+    ) -> Result<()> {
+        (self.law, self.load, self.step_length) = (law, load, 1.0);
+        if let Some((constraint, separation)) = repelled {
+            self.constraint = constraint;
+            let lift = T::lit(separation);
+            self.fields.gap.mapv_inplace(|gap| gap + lift);
+        }
+        // the contacts of the wall alone are not those that adhesion makes
+        self.coarse.iter_mut().for_each(Coarse::forget);
+        self.change_law(law, Goal::Solution);
+        self.certificate = f64::INFINITY;
+        self.start_gap = self.mean_gap();
+        self.check_start()
     }
 
     /// Goes on with another law, whose equilibrium is the goal.

@@ -5,7 +5,7 @@ use std::fmt;
 
 use ndarray::{Array2, CowArray};
 
-use super::{Criterion, Method};
+use super::{Branch, Criterion, Method};
 use crate::elastic::Boundary;
 use crate::grid::Grid;
 use crate::real::Real;
@@ -133,6 +133,9 @@ pub struct Report {
     /// vanish then. Under the lightest loads ⟨u, p⟩ is computed as ⟨p, K p⟩, which does not cancel, and the error is
     /// never less than the rounding of the pressure alone makes it, so that it is not understated.
     pub relative_error: f64,
+    /// The branch of equilibria on which the solve has started; nothing without adhesion, where there is but one
+    /// equilibrium, from a given start, and of [`Method::Rey2017`].
+    pub branch: Option<Branch>,
     /// Under a given pressure or with a spring, the error of the load relative to the larger of |p̄| and the mean
     /// contact pressure: the larger of the imbalance of the nodes that are apart and the difference between the load
     /// and the one that the returned fields carry. One without contact under a load that needs it; zero under gap

@@ -2,6 +2,7 @@
 
 use ndarray::{Array2, ArrayRef2, CowArray, Ix2};
 
+use super::Branch;
 use super::potential::{Least, bounded};
 use crate::adhesion::AdhesionLaw;
 use crate::constraint::Wall;
@@ -36,10 +37,12 @@ use crate::slab::Slab;
 #[non_exhaustive]
 #[derive(Clone, Debug, Default)]
 pub enum Start<'a, T> {
-    /// A uniform gap: the mean gap, if that is given; under a given pressure twice the rms height without adhesion, and
-    /// full contact with adhesion. With a free boundary and without adhesion the undeformed bodies that just touch. If
-    /// the traction of the law jumps, as that of [`MaugisDugdale`](crate::MaugisDugdale) does, the equilibrium of the
-    /// law with its jump [smoothed](AdhesionLaw::smoothed) is found first and becomes the start, within the same solve.
+    /// Without adhesion a uniform gap: the mean gap, if that is given, otherwise twice the rms height; with a free
+    /// boundary the undeformed bodies that just touch. With adhesion the start of the [`Branch`] that
+    /// [`Settings::branch`](crate::Settings::branch) names: the gap that the wall alone would leave, which is found
+    /// first, within the same solve, or full contact, and at a given mean gap a uniform one. If the traction of the law
+    /// jumps, as that of [`MaugisDugdale`](crate::MaugisDugdale) does, the equilibrium of the law with its jump
+    /// [smoothed](AdhesionLaw::smoothed) is found next and becomes the start, within the same solve.
     #[default]
     Default,
     /// A gap, as that of an equilibrium at another load. With adhesion it chooses the branch of the equilibrium that is
@@ -56,6 +59,8 @@ pub enum Start<'a, T> {
 /// Where a solve begins.
 pub(crate) enum Begin<'a, T> {
     At(Start<'a, T>),
+    /// At the default start on a branch, whatever the settings say.
+    On(Branch),
     /// The gap of the solution on another grid, near as that of [`Start::Near`], but on the grid of the operator, with
     /// the nodes that face no surface.
     Prolonged(Array2<T>),
@@ -65,7 +70,7 @@ pub(crate) enum Begin<'a, T> {
 
 impl<T> Begin<'_, T> {
     pub(crate) fn is_default(&self) -> bool {
-        matches!(self, Self::At(Start::Default))
+        matches!(self, Self::At(Start::Default) | Self::On(_))
     }
 
     pub(super) fn is_near(&self) -> bool {
@@ -91,7 +96,7 @@ pub(super) fn given_start<T: Real>(
     projects: bool,
 ) -> Result<Option<Array2<T>>> {
     let (given, whole): (CowArray<'_, T, Ix2>, _) = match begin {
-        Begin::At(Start::Default) => return Ok(None),
+        Begin::At(Start::Default) | Begin::On(_) => return Ok(None),
         Begin::At(Start::From(gap)) => (gap.view().into(), false),
         Begin::At(Start::Near(gap)) => (gap.into(), false),
         Begin::Prolonged(gap) | Begin::Found(gap) => (gap.into(), true),

@@ -8,16 +8,16 @@ use super::operators::Operators;
 use super::passes::{self, Continued, Fields, Taken, Tally, Working};
 use super::potential::Potential;
 use super::report::Iteration;
-use super::start::{Begin, check_wall, given_start, uniform_start};
+use super::start::{Begin, given_start, uniform_start};
 use super::work::{TRUSTED, Work};
-use super::{Criterion, Method, Settings};
+use super::{Branch, Criterion, Method, Settings};
 use crate::adhesion::AdhesionLaw;
 use crate::constraint::ContactConstraint;
 use crate::elastic::{Boundary, Foundation};
 use crate::error::{Error, Result};
 use crate::field::{Partial, read, write};
 use crate::par::Parts;
-use crate::problem::{Control, Load, PressedFlat, Window};
+use crate::problem::{Load, PressedFlat, Window};
 use crate::real::Real;
 
 /// Iterations after which the pressure, updated step by step, is computed anew.
@@ -28,6 +28,10 @@ const SCALED: f64 = 64.0;
 
 /// The iterations between two certificates of [`Method::Rey2017`], which needs them for the report only.
 const CERTIFY: usize = 10;
+
+/// The mean pressure, over the rms pressure that presses the surface flat, up to which the gap of undeformed surfaces
+/// that touch is the better start without adhesion on a periodic grid.
+const HARDLY: f64 = 1e-3;
 
 /// The stiffness of one node among its neighbours, over that of the stiffest wave: the reciprocal of the mean
 /// compliance of the waves of a square grid.
@@ -40,6 +44,8 @@ pub(super) struct State<'a, T, L> {
     pub(super) flat: &'a PressedFlat<T>,
     pub(super) constraint: &'a mut dyn ContactConstraint<T>,
     pub(super) load: Load,
+    /// the branch of equilibria on which the solve has started
+    pub(super) branch: Option<Branch>,
     /// the given mean pressure p̄ of the present state, zero under gap control
     pub(super) given: f64,
     pub(super) settings: Settings,
@@ -84,19 +90,17 @@ impl<'a, T: Real, L: Real> State<'a, T, L> {
         law: &'a dyn AdhesionLaw<T>,
         flat: &'a PressedFlat<T>,
         constraint: &'a mut dyn ContactConstraint<T>,
-        control: Control,
+        (load, branch): (Load, Option<Branch>),
         begin: Begin<'_, T>,
         settings: Settings,
     ) -> Result<Self> {
         let operator = operators.state();
         let (slab, shape) = (operator.grid().slab(), operator.grid().field_shape());
         let surface = flat.window.as_ref().map_or(operator.grid(), Window::held);
-        check_wall(law, constraint.wall())?;
         if !constraint.takes_slabs() {
             Error::alone("contact constraint", slab)?;
         }
         constraint.start(surface, operator.stiffness_range().1, settings.tolerance_in::<T>())?;
-        let load = flat.load(control, constraint.wall())?;
         if settings.method == Method::Rey2017 && (flat.window.is_some() || load.stiffness() > 0.0) {
             let (control, reason) = (
                 "Algorithm 3 of Rey, Anciaux and Molinari (2017)",
@@ -123,6 +127,7 @@ impl<'a, T: Real, L: Real> State<'a, T, L> {
             flat,
             constraint,
             load,
+            branch,
             given: 0.0,
             settings,
             goal: Goal::Solution,
@@ -148,7 +153,7 @@ impl<'a, T: Real, L: Real> State<'a, T, L> {
             start_gap: 0.0,
             detached: None,
         };
-        if uniform && state.flat.boundary != Boundary::Periodic && state.law.is_zero() {
+        if uniform && state.law.is_zero() && (flat.boundary != Boundary::Periodic || state.is_hardly_pressed()) {
             state.start_undeformed()?;
         } else if uniform {
             state.work = state.count();
@@ -162,6 +167,12 @@ impl<'a, T: Real, L: Real> State<'a, T, L> {
 
     pub(super) fn nodes(&self) -> f64 {
         self.operators.state().grid().nodes() as f64
+    }
+
+    /// Whether the load on the way to the branch of loading hardly presses the surfaces together.
+    fn is_hardly_pressed(&self) -> bool {
+        let flat = self.flat.stiffness * self.flat.rms_height;
+        self.branch.is_some() && matches!(self.load, Load::Pressure(pressure) if pressure <= HARDLY * flat)
     }
 
     /// Takes the gap of undeformed bodies that just touch: under no pressure.

