@@ -8,8 +8,8 @@ use asperity::accuracy::{Accuracy, AccurateSolution, GridError};
 use asperity::contact::ContactStatistics;
 use asperity::stability::{ContactStiffness, Departure, Stability, StabilityTest, Verdict};
 use asperity::{
-    AdhesionLaw, ContactSearch, Control, FoundContact, Grid, Iteration, Level, Nested, NestedSolution, Problem, Report,
-    Settings, Solution, Solver, Start, Surface,
+    AdhesionLaw, Branch, ContactSearch, Control, FoundContact, Grid, Iteration, Level, Nested, NestedSolution, Problem,
+    Report, Settings, Solution, Solver, Start, Surface,
 };
 use ndarray::Array2;
 use serde_json::Value;
@@ -56,6 +56,17 @@ impl Case {
         self.nested.unwrap_or_else(|| may() && pays())
     }
 
+    /// The case on the other branch than that of a solution, without what is asked for beside it.
+    pub fn on_other_branch(&self, report: &Report) -> Outcome<Self> {
+        let other = match report.branch {
+            Some(Branch::Loading) => Branch::Unloading,
+            Some(Branch::Unloading) => Branch::Loading,
+            None => return Err("--branch both: without adhesion there is but one equilibrium".into()),
+        };
+        let settings = Settings { branch: Some(other), ..self.settings };
+        Ok(Self { settings, stability: false, leave: false, stiffness: false, ..*self })
+    }
+
     /// The solver.
     pub fn solver(&self) -> Solver<Wall> {
         Solver { settings: self.settings, constraint: self.wall }
@@ -79,6 +90,15 @@ pub struct Left {
     pub eigenvalue: f64,
     pub energy_drop: f64,
     pub distance: f64,
+}
+
+/// The solution on the other branch of equilibria.
+pub struct Other {
+    pub report: Report,
+    /// Its distance in the energy norm; see [`asperity::Solution::distance`].
+    pub distance: f64,
+    /// Whether the equilibrium is one.
+    pub same: bool,
 }
 
 /// The search for the load of a contact fraction; see [`asperity::FoundContact`].
@@ -137,6 +157,8 @@ pub struct Account {
     pub nodes_per_wave: f64,
     /// What became of an accuracy, if one was asked for.
     pub reached: Option<Reached>,
+    /// The solution on the other branch, if both are asked for.
+    pub other: Option<Other>,
     /// The unstable equilibria on the way to the solution, in order.
     pub departures: Vec<Left>,
     /// The node with the largest work of adhesion, where that varies.
@@ -280,6 +302,7 @@ fn account<T: Scalar>(
         stiffness: None,
         nodes_per_wave: 0.0,
         reached: None,
+        other: None,
         departures: Vec::new(),
         strongest: None,
         warnings: Value::Array(Vec::new()),

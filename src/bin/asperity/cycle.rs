@@ -127,6 +127,7 @@ fn names() -> Vec<&'static str> {
 /// Runs the command; whether all rows converged.
 pub fn run(options: &Options, scene: &Scene, processes: &Processes) -> Outcome<bool> {
     processes.first(|| options.check_files())?;
+    options.solver.check_table()?;
     options.surface.beyond.boundary.check(options.loads.control(0.0))?;
     let given = options.problem().read(scene.is_si(), processes)?;
     match options.solver.precision {

@@ -1,6 +1,6 @@
 //! The identity of a run: the inputs on which the rows of its table depend.
 
-use asperity::Surface;
+use asperity::{Branch, Surface};
 use ndarray::ArrayRef2;
 use serde_json::{Map, Value, json};
 
@@ -43,6 +43,7 @@ pub fn identity(
         "method": settings.method.name(),
         "tolerance": solver.tolerance().to_string(),
         "max_iterations": settings.max_iterations.to_string(),
+        "branch": settings.branch.map_or("by the load", Branch::name),
         "initial_gap": start.map_or("none".to_owned(), field),
         "version": env!("CARGO_PKG_VERSION"),
     });

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use asperity::io::read_field;
-use asperity::{Criterion, Error, Real, Settings, Surface};
+use asperity::{Branch, Criterion, Error, Real, Settings, Surface};
 use clap::{Args, ValueEnum};
 use ndarray::Array2;
 use ndarray_npy::WritableElement;
@@ -61,15 +61,27 @@ pub struct SolverOptions {
     /// Threads; the results do not depend on it [default: one per core]
     #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = threads, help_heading = "Solver")]
     pub threads: Option<usize>,
+    /// Equilibrium to find where adhesion has several: that of surfaces pressed together from afar, that of surfaces
+    /// pressed flat before, or with solve both [default: loading; unloading under a tension or at a given mean gap]
+    #[arg(long, value_enum, value_name = "BRANCH", help_heading = "Solver", conflicts_with = "initial_gap")]
+    pub branch: Option<Branches>,
     /// Gap from which to start, of the shape of the heights; scaled to the mean gap where that is given
     #[arg(long, value_name = "FILE", help_heading = "Solver")]
     pub initial_gap: Option<PathBuf>,
 }
 
-#[derive(Clone, Copy, ValueEnum)]
+#[derive(Clone, Copy, PartialEq, ValueEnum)]
 pub enum Iteration {
     Default,
     Rey2017,
+}
+
+/// The branches of equilibria to solve on.
+#[derive(Clone, Copy, PartialEq, ValueEnum)]
+pub enum Branches {
+    Loading,
+    Unloading,
+    Both,
 }
 
 #[derive(Clone, Copy, PartialEq, ValueEnum)]
@@ -188,6 +200,16 @@ impl SolverOptions {
         Ok(Some(start))
     }
 
+    /// Refuses both branches of equilibria where each state starts from the one before.
+    pub fn check_table(&self) -> Outcome<()> {
+        match self.branch {
+            Some(Branches::Both) => {
+                Err("--branch both compares two solves under one load: use asperity solve, or give one branch".into())
+            }
+            _ => Ok(()),
+        }
+    }
+
     /// The tolerance to which the solve is held.
     pub fn tolerance(&self) -> f64 {
         let settings = self.settings();
@@ -206,6 +228,11 @@ impl SolverOptions {
         Settings {
             tolerance: self.tolerance,
             max_iterations: self.max_iterations.unwrap_or(default.max_iterations),
+            branch: match self.branch {
+                Some(Branches::Loading) => Some(Branch::Loading),
+                Some(Branches::Unloading) => Some(Branch::Unloading),
+                Some(Branches::Both) | None => None,
+            },
             ..default
         }
     }

@@ -8,7 +8,7 @@ use std::path::PathBuf;
 
 use asperity::contact::PressureDistribution;
 use asperity::io::{OutputFolder, write_npz, write_vti};
-use asperity::{AdhesionLaw, Control, Grid, Status};
+use asperity::{AdhesionLaw, Control, Grid, Solution, Status, Surface};
 use clap::{ArgGroup, Args, ValueEnum};
 use ndarray::CowArray;
 use serde_json::Value;
@@ -17,10 +17,10 @@ use crate::accuracy::{self, AccuracyOptions};
 use crate::adhesion::{Adhesion, AdhesionOptions, Law};
 use crate::allowed::bins;
 use crate::boundary::{LOAD, LoadOptions};
-use crate::case::{self, Account, Case};
+use crate::case::{self, Account, Case, Other};
 use crate::fields::write_fields;
 use crate::numbers::plain;
-use crate::options::{Given, Precision, ProblemOptions, Scalar, SolverOptions, SurfaceOptions};
+use crate::options::{Branches, Given, Iteration, Precision, ProblemOptions, Scalar, SolverOptions, SurfaceOptions};
 use crate::outcome::Outcome;
 use crate::output::at_destination;
 use crate::output::{output_folder, write_text};
@@ -157,6 +157,7 @@ pub fn run(options: &Options, scene: &Scene, processes: &Processes) -> Outcome<b
     let problem = options.problem();
     options.check_shared(processes)?;
     problem.adhesion.check()?;
+    options.check_branches()?;
     problem.surface.beyond.boundary.check(options.load.control(1.0))?;
     let limits = options.colour_limits();
     if let Some((low, high)) = limits.filter(|(low, high)| low >= high) {
@@ -194,6 +195,26 @@ pub fn run(options: &Options, scene: &Scene, processes: &Processes) -> Outcome<b
 }
 
 impl Options {
+    /// Whether both branches of equilibria are asked for.
+    fn wants_both(&self) -> bool {
+        self.solver.branch == Some(Branches::Both)
+    }
+
+    /// Refuses both branches where there is nothing to be compared.
+    fn check_branches(&self) -> Outcome<()> {
+        let reason = match self {
+            _ if !self.wants_both() => return Ok(()),
+            _ if self.adhesion.law == Law::None => "without adhesion there is but one equilibrium",
+            _ if self.load.contact_fraction.is_some() => {
+                "each branch has a load of its own for a contact fraction: give a load"
+            }
+            _ if self.accuracy.accuracy.is_some() => "each branch has an accuracy of its own: give one branch",
+            _ if self.solver.method == Iteration::Rey2017 => "rey2017 has one start: take the default method",
+            _ => return Ok(()),
+        };
+        Err(format!("--branch both: {reason}").into())
+    }
+
     /// Refuses what has no form for several processes.
     fn check_shared(&self, processes: &Processes) -> Outcome<()> {
         if self.accuracy.accuracy.is_some() { processes.alone("--accuracy") } else { Ok(()) }
@@ -280,7 +301,12 @@ impl Job<'_> {
             self.part = self.part.on(grid)?;
             (solution, account)
         } else {
-            case::solve::<T, _>(surface, law, &self.case, start, progress)?
+            let again = self.options.wants_both().then(|| surface.clone());
+            let (solution, mut account) = case::solve::<T, _>(surface, law, &self.case, start, progress)?;
+            if let Some(surface) = again {
+                account.other = Some(self.other_branch(surface, &adhesion, &solution)?);
+            }
+            (solution, account)
         };
         let whole = if fits { solution.gathered(&grid) } else { None };
         let look = |whole: &Cow<'_, _>| warnings.look_at(whole, self.case.modulus, &self.part);
@@ -353,11 +379,27 @@ impl Job<'_> {
         self.options.report(&self.part, account, &self.units, self.scene)
     }
 
+    /// The solution on the other branch, beside that of the account.
+    fn other_branch<T: Scalar>(
+        &self,
+        surface: Surface,
+        adhesion: &Adhesion<'_>,
+        solution: &Solution<T>,
+    ) -> Outcome<Other> {
+        let (grid, case) = (*surface.grid(), self.case.on_other_branch(&solution.report)?);
+        let tolerance = case.settings.tolerance_in::<T>();
+        let progress = Progress::new("", tolerance, grid.nodes(), self.options.printing.without_bars());
+        let (found, _) = case::solve::<T, _>(surface, adhesion.law()?, &case, None, progress)?;
+        let (distance, same) = (found.distance(solution, &grid), found.agrees_with(solution, &grid));
+        let report = self.part.of_solution(&found)?.report.clone();
+        Ok(Other { report, distance, same })
+    }
+
     /// Makes the account of the whole one of the part that results are of.
     fn part_of<T: Scalar>(
         &self,
         account: &mut Account,
-        solution: &asperity::Solution<T>,
+        solution: &Solution<T>,
         law: &impl AdhesionLaw<T>,
     ) -> Outcome<()> {
         if self.part.solved().is_some() {
@@ -376,7 +418,7 @@ impl Job<'_> {
         &self,
         folder: &OutputFolder,
         grid: Grid,
-        whole: Option<(&asperity::Solution<T>, &impl AdhesionLaw<T>)>,
+        whole: Option<(&Solution<T>, &impl AdhesionLaw<T>)>,
         account: &Account,
     ) -> asperity::Result<()> {
         let path = |name: &str| folder.path(name);

@@ -74,6 +74,23 @@ pub fn table(names: &[&str], solves: &[&Account], adhesive: bool, units: &Units,
             s.stiffness.map_or(String::new(), |found| units.number(found.pressure_per_length, PRESSURE_PER_LENGTH))
         });
     }
+    if adhesive {
+        let name = |report: &Report| report.branch.map_or(String::new(), |branch| branch.to_string());
+        row("branch", &|_, r| name(r));
+        if let [Account { other: Some(other), .. }] = solves {
+            let r = &other.report;
+            let told = match other.same {
+                true => "the same equilibrium".to_owned(),
+                false => format!(
+                    "{} % contact, mean gap {}, {} % away in the energy norm",
+                    percent(r.contact_fraction),
+                    units.number(r.mean_gap, LENGTH),
+                    percent(other.distance)
+                ),
+            };
+            row(&format!("on that of {}", name(r)), &|_, _| told.clone());
+        }
+    }
     row("certified error", &|_, r| format!("{:.1e}", r.relative_error));
     if solves.iter().any(|solve| solve.stability.is_some()) {
         let of = |account: &Account, text: &dyn Fn(&Steadiness) -> String| {

@@ -105,6 +105,7 @@ enum Format {
 pub fn run(options: &Options, scene: &Scene, processes: &Processes) -> Outcome<bool> {
     options.format()?;
     processes.first(|| options.plot.check(&options.out, options.force))?;
+    options.solver.check_table()?;
     options.surface.beyond.boundary.check(options.loads.control(0.0))?;
     let given = options.problem().read(scene.is_si(), processes)?;
     match options.solver.precision {

@@ -1,12 +1,12 @@
 //! The report of a solve: what it found, by the keys of `report.json`.
 
 use asperity::contact::Patch;
-use asperity::{Control, Level};
+use asperity::{Branch, Control, Level};
 use serde_json::{Value, json};
 
 use super::Options;
 use crate::accuracy;
-use crate::case::{Account, Left, Search};
+use crate::case::{Account, Left, Other, Search};
 use crate::loads::name_and_value;
 use crate::part::Part;
 use crate::report;
@@ -21,6 +21,8 @@ impl Options {
         let levels = account.grids.as_ref().map(|(levels, _)| levels.iter().map(level).collect::<Vec<_>>());
         let outcome = json!({
             "status": report.status.name(),
+            "branch": report.branch.map(Branch::name),
+            "other_branch": account.other.as_ref().map(other),
             "relative_error": report.relative_error,
             "load_error": report.load_error,
             "criterion": report.criterion.name(),
@@ -92,6 +94,25 @@ fn patch(patch: &Patch) -> Value {
         "area_fraction": patch.area_fraction,
         "contact_fraction": patch.contact_fraction,
         "attractive_fraction": patch.attractive_fraction,
+    })
+}
+
+/// The equilibrium on the other branch, and its distance.
+fn other(other: &Other) -> Value {
+    let report = &other.report;
+    json!({
+        "branch": report.branch.map(Branch::name),
+        "status": report.status.name(),
+        "relative_error": report.relative_error,
+        "load_error": report.load_error,
+        "operator_applications": report.operator_applications,
+        "contact_fraction": report.contact_fraction,
+        "mean_gap": report.mean_gap,
+        "mean_pressure": report.mean_pressure,
+        "elastic_energy": report.elastic_energy,
+        "adhesive_energy": report.adhesive_energy,
+        "distance": other.distance,
+        "same": other.same,
     })
 }
 
