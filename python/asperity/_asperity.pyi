@@ -205,6 +205,7 @@ class Problem:
         tolerance: float | None,
         max_iterations: int | None,
         method: str,
+        branch: str | None,
         nested: bool | None,
         threads: int | None,
         original: Original | None,

@@ -57,3 +57,10 @@ def _load(name: str, value: Any) -> Load:
     except (TypeError, ValueError):
         raise TypeError(f"spring is {value!r}: it must be (stiffness, rest)") from None
     return (name, [number("stiffness of the spring", stiffness), number("rest of the spring", rest)])
+
+
+def only(branch: str | None) -> str | None:
+    """The branch of equilibria on which loads begin, one after the other."""
+    if branch == "both":
+        raise ValueError("branch is both: that compares two solves under one load: use solve, or give one branch")
+    return branch

@@ -30,6 +30,7 @@ def solve(
     tolerance: float | None = None,
     max_iterations: int | None = None,
     method: str = "default",
+    branch: str | None = None,
     precision: str = "f64",
     start: Any = None,
     nested: bool | None = None,
@@ -96,6 +97,10 @@ def solve(
         Iterations after which to give up; 2000 by default, 20000 with rey2017.
     method : {"default", "rey2017"}
         Preconditioned conjugate gradients, or Algorithm 3 of Rey, Anciaux and Molinari (2017).
+    branch : {"loading", "unloading", "both"}, optional
+        Equilibrium to find where adhesion has several: that of surfaces pressed together from afar, or that of surfaces
+        pressed flat before; by default loading, and unloading under a tension or at a given mean gap. ``"both"`` finds
+        that one, and says in ``report["other_branch"]`` what the other one is, how far away, and whether it is the same.
     precision : {"f64", "f32"}
         Precision of the solve, and of the fields that it returns.
     start : array_like, Solution or "apart", optional
@@ -183,6 +188,10 @@ def solve(
         raise ValueError("nested grids are for a load that is given: leave out nested, or give a load for contact_fraction")
     if nested and (start is not None or stability or leave):
         raise ValueError("nested grids make their own start, and do not test stability: leave out start, stability and leave")
+    if branch is not None and start is not None:
+        raise ValueError("start chooses the branch: leave out branch, or start")
+    if branch == "both":
+        _check_both(law, method, contact_fraction, accuracy)
     goal = _accuracy.goal(
         accuracy,
         accuracy_of,
@@ -203,6 +212,7 @@ def solve(
         tolerance=tolerance,
         max_iterations=max_iterations,
         method=method,
+        branch=branch,
         precision=precision,
         threads=threads,
         whole=whole,
@@ -214,3 +224,16 @@ def solve(
     given = goal.given if goal else None
     found = scene.problem.solve(load, begin, observe, stability or leave, leave, stiffness, given)
     return scene.solution("solve", {**found, "plan": plan})
+
+
+def _check_both(law: Any, method: str, contact_fraction: float | None, accuracy: float | None) -> None:
+    """Refuses both branches of equilibria where there is nothing to be compared."""
+    reason = None
+    if law is None:
+        reason = "without adhesion there is but one equilibrium"
+    elif method == "rey2017":
+        reason = "rey2017 has one start"
+    elif contact_fraction is not None or accuracy is not None:
+        reason = "each branch has a load or an accuracy of its own: give a load alone"
+    if reason is not None:
+        raise ValueError(f"branch is both: {reason}")

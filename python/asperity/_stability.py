@@ -96,6 +96,7 @@ def stability(
         **{name: report[name] for name in ("modulus", "boundary", "wall", "precision", "method", "threads")},
         tolerance=report["tolerance"],
         max_iterations=report["max_iterations"],
+        branch=None,
         whole=report["part"] == "whole",
     )
     gap = np.asarray(solution.whole_gap, dtype=np.float64).reshape(solution.topography.heights.shape)

@@ -2,7 +2,7 @@
 
 use asperity::accuracy::Quantity;
 use asperity::stability::{ContactStiffness, Stability};
-use asperity::{Control, FoundContact, Level, Real, Solution, Warning};
+use asperity::{Control, FoundContact, Level, Real, Report, Solution, Warning};
 use numpy::Element;
 use numpy::ndarray::Array2;
 
@@ -50,6 +50,13 @@ impl Search {
     }
 }
 
+/// The solution on the other branch of equilibria.
+pub struct Other {
+    pub report: Report,
+    pub distance: f64,
+    pub same: bool,
+}
+
 /// The account of a solve.
 pub struct Account<T> {
     pub solution: Solution<T>,
@@ -61,6 +68,8 @@ pub struct Account<T> {
     pub stability: Option<Stability<T>>,
     pub stiffness: Option<ContactStiffness>,
     pub reached: Option<Reached>,
+    /// The solution on the other branch, if both are asked for.
+    pub other: Option<Other>,
     /// The eigenvalue, energy drop and distance of each unstable equilibrium that was left.
     pub departures: Option<Vec<(f64, f64, f64)>>,
     /// The node with the largest work of adhesion, where that varies.

@@ -3,8 +3,8 @@
 
 use asperity::accuracy::{Accuracy, Quantity, available_memory};
 use asperity::{
-    Boussinesq, ContactConstraint, Control, Criterion, ElasticOperator, Grid, NoWall, Projection, Real, Settings,
-    Solver, Surface, Warning, WarningCode, Westergaard,
+    Boussinesq, Branch, ContactConstraint, Control, Criterion, ElasticOperator, Grid, NoWall, Projection, Real,
+    Settings, Solver, Surface, Warning, WarningCode, Westergaard,
 };
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -128,12 +128,25 @@ pub fn stiffness(control: Control) -> Option<f64> {
 }
 
 /// The settings of a solver.
-pub fn settings(tolerance: Option<f64>, max_iterations: Option<usize>, method: &str) -> PyResult<Settings> {
+pub fn settings(
+    tolerance: Option<f64>,
+    max_iterations: Option<usize>,
+    method: &str,
+    branch: Option<&str>,
+) -> PyResult<Settings> {
     let default = match method {
         "default" => Settings::default(),
         "rey2017" => Settings { criterion: Criterion::EnergyNorm, ..Settings::rey2017() },
         other => return Err(PyValueError::new_err(format!("method is {other}: it must be default or rey2017"))),
     };
     let max_iterations = max_iterations.unwrap_or(default.max_iterations);
-    Ok(Settings { tolerance, max_iterations, ..default })
+    let branch = match branch {
+        None | Some("both") => None,
+        Some("loading") => Some(Branch::Loading),
+        Some("unloading") => Some(Branch::Unloading),
+        Some(other) => {
+            return Err(PyValueError::new_err(format!("branch is {other}: it must be loading, unloading or both")));
+        }
+    };
+    Ok(Settings { tolerance, max_iterations, branch, ..default })
 }

@@ -8,7 +8,7 @@ use asperity::contact::Original;
 use asperity::path::{Event, Path, PathCheckpoint, PathSettings};
 use asperity::stability::{ContactStiffness, StabilityTest, Verdict};
 use asperity::{
-    AdhesionLaw, ContactSearch, Control, ElasticOperator, Error, Grid, Nested, NestedSolution, Real, Settings,
+    AdhesionLaw, Branch, ContactSearch, Control, ElasticOperator, Error, Grid, Nested, NestedSolution, Real, Settings,
     Solution, Solver, Start, Status, Surface, Sweep, Topography, Warning,
 };
 use numpy::ndarray::Array2;
@@ -17,7 +17,7 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use crate::account::{Account, Grids, Reached, Scalar, Search};
+use crate::account::{Account, Grids, Other, Reached, Scalar, Search};
 use crate::answer::answer;
 use crate::inputs::{Beyond, Goal, Load, Wall, accuracy, contact_fraction, control, settings};
 use crate::law::{law, strongest};
@@ -46,6 +46,7 @@ struct State<T: Real> {
     body: Body<T>,
     law: Arc<dyn AdhesionLaw<T>>,
     threads: Option<usize>,
+    both: bool,
     nested: Option<bool>,
     grid: Grid,
     solver: Solver<Wall>,
@@ -72,6 +73,8 @@ struct Made {
     modulus: f64,
     wall: Wall,
     settings: Settings,
+    /// Whether to solve on the other branch of equilibria, too.
+    both: bool,
     /// Whether to solve on nested grids; the library chooses if it is not said.
     nested: Option<bool>,
     threads: Option<usize>,
@@ -133,7 +136,7 @@ impl<T: Scalar> State<T> {
         surface: Surface,
         law: Box<dyn AdhesionLaw<T>>,
         strongest: Option<(usize, usize)>,
-        Made { beyond, modulus, wall, settings, nested, threads, original, unit }: Made,
+        Made { beyond, modulus, wall, settings, both, nested, threads, original, unit }: Made,
     ) -> Self {
         let grid = *surface.grid();
         let mut warnings = beyond.warnings(&surface);
@@ -142,6 +145,7 @@ impl<T: Scalar> State<T> {
             body: Body::Surface(Arc::new(surface)),
             law: law.into(),
             threads,
+            both,
             nested,
             grid,
             solver: Solver { settings, constraint: wall },
@@ -181,6 +185,7 @@ impl<T: Scalar> State<T> {
             stability: None,
             stiffness: None,
             reached: None,
+            other: None,
             departures: None,
             search: None,
             strongest: self.strongest,
@@ -223,6 +228,25 @@ impl<T: Scalar> State<T> {
         let heights = Topography::from(surface).heights;
         let reached = Some(Reached { wanted: wanted.target, of: wanted.of, reached, refinable, unaffordable, heights });
         Ok(Account { grids, stiffness, reached, sight: Sight { estimate, ..account.sight }, ..account })
+    }
+
+    /// An account with the solution on the other branch of equilibria, if both are asked for and it has a branch.
+    fn with_other(&mut self, account: Account<T>, observe: Observe<'_>) -> asperity::Result<Account<T>> {
+        let other = match account.solution.report.branch.filter(|_| self.both) {
+            Some(Branch::Loading) => Branch::Unloading,
+            Some(Branch::Unloading) => Branch::Loading,
+            None => return Ok(account),
+        };
+        let settings = Settings { branch: Some(other), ..self.solver.settings };
+        let mut solver = Solver { settings, ..self.solver.clone() };
+        let problem = single(&mut self.body, &self.law, self.beyond, self.modulus)?;
+        let found = solver.solve_with(problem, account.control, Start::Default, observe)?;
+        let (distance, same) =
+            (found.distance(&account.solution, &self.grid), found.agrees_with(&account.solution, &self.grid));
+        let original = self.original.map(|original| original.on(&self.grid)).transpose()?;
+        let part = original.map(|original| original.of_solution(&found)).transpose()?;
+        let report = part.as_ref().map_or(&found.report, |part| &part.report).clone();
+        Ok(Account { other: Some(Other { report, distance, same }), ..account })
     }
 
     /// The account of a solve on nested grids, if these are asked for; or, with the default start, if they are faster.
@@ -297,9 +321,9 @@ impl<T: Scalar> Solves for State<T> {
                 return self.accurate(wanted, control, observe);
             }
             if fraction.is_none()
-                && let Some(account) = self.nested(control, start.is_none() && !stability, stiffness, observe)?
+                && let Some(account) = self.nested(control, start.is_none() && !stability, stiffness, &mut *observe)?
             {
-                return Ok(account);
+                return self.with_other(account, observe);
             }
             let clock = Instant::now();
             let problem = single(&mut self.body, &self.law, self.beyond, self.modulus)?;
@@ -309,13 +333,13 @@ impl<T: Scalar> Solves for State<T> {
                     if let Some(start) = start {
                         search = search.starting_from(start);
                     }
-                    let found = search.at_observed(fraction, observe)?;
+                    let found = search.at_observed(fraction, &mut *observe)?;
                     let search = Search::of(fraction, &found);
                     (found.solution, found.control, Some(search))
                 }
                 None => {
                     let from = start.as_ref().map_or(Start::Default, |gap| Start::From(gap));
-                    (self.solver.solve_with(problem, control, from, observe)?, control, None)
+                    (self.solver.solve_with(problem, control, from, &mut *observe)?, control, None)
                 }
             };
             let (mut departures, mut verdict) = (Vec::new(), None);
@@ -335,7 +359,8 @@ impl<T: Scalar> Solves for State<T> {
             }
             let stiffness = self.stiffness(&solution, stiffness)?;
             let account = self.account(solution, self.grid, control, clock)?;
-            Ok(Account { search, stability: verdict, stiffness, departures: leave.then_some(departures), ..account })
+            let departures = leave.then_some(departures);
+            self.with_other(Account { search, stability: verdict, stiffness, departures, ..account }, observe)
         })?;
         answer(py, found)
     }
@@ -499,7 +524,7 @@ impl Problem {
     #[new]
     #[pyo3(signature = (
         heights, lengths, absent_missing, boundary, modulus, law, wall, precision, tolerance, max_iterations, method,
-        nested, threads, original, unit
+        branch, nested, threads, original, unit
     ))]
     #[expect(clippy::too_many_arguments, reason = "called by the Python layer alone, by name")]
     fn new(
@@ -515,17 +540,18 @@ impl Problem {
         tolerance: Option<f64>,
         max_iterations: Option<usize>,
         method: &str,
+        branch: Option<&str>,
         nested: Option<bool>,
         threads: Option<usize>,
         original: Option<PyRef<'_, crate::original::Original>>,
         unit: Option<String>,
     ) -> PyResult<Self> {
-        let settings = settings(tolerance, max_iterations, method)?;
+        let (settings, both) = (settings(tolerance, max_iterations, method, branch)?, branch == Some("both"));
         let pool = Pool::of(threads)?;
         let heights = heights.as_array().to_owned();
         let (beyond, wall) = (Beyond::of(boundary)?, Wall::of(wall)?);
         let original = original.map(|original| original.0);
-        let made = Made { beyond, modulus, wall, settings, nested, threads, original, unit };
+        let made = Made { beyond, modulus, wall, settings, both, nested, threads, original, unit };
         let make = if absent_missing { Surface::with_absent } else { Surface::new };
         let surface = Grid::new(heights.dim(), lengths).and_then(|grid| make(grid, heights));
         let surface = surface.map_err(refusal_of_heights)?;

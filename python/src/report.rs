@@ -3,11 +3,11 @@
 use asperity::accuracy::GridError;
 use asperity::contact::{ContactStatistics, Patch};
 use asperity::stability::Stability;
-use asperity::{Level, Warning};
+use asperity::{Branch, Level, Warning};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use crate::account::{Account, Grids, Reached, Scalar, Search};
+use crate::account::{Account, Grids, Other, Reached, Scalar, Search};
 use crate::inputs::stiffness;
 use crate::refusal::refusal;
 use crate::sight::{Errors, Estimate};
@@ -47,6 +47,8 @@ pub fn of<'py, T: Scalar>(py: Python<'py>, account: &Account<T>) -> PyResult<Bou
     let warnings = account.warnings.iter().map(|found| warning(py, found, unit)).collect::<PyResult<Vec<_>>>()?;
     Ok(dictionary!(py,
         "status": report.status.name(),
+        "branch": report.branch.map(Branch::name),
+        "other_branch": account.other.as_ref().map(|found| other(py, found)).transpose()?,
         "relative_error": report.relative_error,
         "load_error": report.load_error,
         "criterion": report.criterion.name(),
@@ -89,6 +91,25 @@ pub fn of<'py, T: Scalar>(py: Python<'py>, account: &Account<T>) -> PyResult<Bou
         "seconds": account.seconds,
         "control": account.control.name(),
         "control_value": account.control.value(),
+    ))
+}
+
+/// The equilibrium on the other branch, and its distance.
+fn other<'py>(py: Python<'py>, found: &Other) -> PyResult<Bound<'py, PyDict>> {
+    let report = &found.report;
+    Ok(dictionary!(py,
+        "branch": report.branch.map(Branch::name),
+        "status": report.status.name(),
+        "relative_error": report.relative_error,
+        "load_error": report.load_error,
+        "operator_applications": report.operator_applications,
+        "contact_fraction": report.contact_fraction,
+        "mean_gap": report.mean_gap,
+        "mean_pressure": report.mean_pressure,
+        "elastic_energy": report.elastic_energy,
+        "adhesive_energy": report.adhesive_energy,
+        "distance": found.distance,
+        "same": found.same,
     ))
 }
 
