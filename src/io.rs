@@ -38,6 +38,9 @@ use text::read_text;
 pub use vti::write_vti;
 use xyz::read_xyz;
 
+/// The largest number of characters of a unit in a file; far more than any has.
+pub const LONGEST_UNIT: usize = 64;
+
 const TRUNCATED: &str = "ends too early: it is truncated or damaged, copy or save it again";
 const DAMAGED: &str = "is damaged: copy or save it again";
 
@@ -248,10 +251,14 @@ fn unwritable(path: &Path, error: impl Display) -> Error {
 ///
 /// # Errors
 ///
-/// [`Error::File`] if the name has another ending, heights leave the range of the format, or the file cannot be
-/// written.
+/// [`Error::File`] if the name has another ending, heights leave the range of the format, the unit is longer than
+/// [`LONGEST_UNIT`], or the file cannot be written.
 pub fn write_topography(path: &Path, map: &Topography) -> Result<()> {
+    let longest = map.unit.as_ref().map_or(0, |unit| unit.chars().count());
     match ending(path).as_str() {
+        "npz" | "gsf" if longest > LONGEST_UNIT => {
+            Err(Error::file(path, format!("has a unit of {longest} characters: give one of at most {LONGEST_UNIT}")))
+        }
         "npy" => write_npy(path, &map.heights),
         "npz" => npz::write_map(path, map),
         "gsf" if map.heights.iter().any(|h| h.is_finite() && !(*h as f32).is_finite()) => {
@@ -313,13 +320,26 @@ fn read_any(path: &Path, channel: Option<&str>) -> Parsed<Topography> {
         let text = if ending == "xyz" { read_xyz(reader) } else { read_text(reader) };
         text.map_err(|reason| binary.unwrap_or(reason))
     }?;
+    // units that are not those of the file may have made them so
+    if let Some((lx, ly)) = map.lengths.filter(|(lx, ly)| !(is_side(*lx) && is_side(*ly))) {
+        return Err(format!("has side lengths of {lx} and {ly}, expected positive numbers: save it again with them"));
+    }
     match &map.unit {
         // it would reach terminals
         Some(unit) if unit.contains(char::is_control) => {
             Err(format!("has the unit {}, expected a text without control characters: save it again", quoted(unit)))
         }
+        Some(unit) if unit.chars().count() > LONGEST_UNIT => Err(format!(
+            "has the unit {}, of more than {LONGEST_UNIT} characters: save it with a shorter one",
+            quoted(unit)
+        )),
         _ => Ok(map),
     }
+}
+
+/// Whether a length is one of a side.
+fn is_side(length: f64) -> bool {
+    length > 0.0 && length.is_finite()
 }
 
 fn unreadable(error: io::Error) -> String {

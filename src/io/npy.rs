@@ -3,13 +3,11 @@
 use std::io::{Read, Seek};
 use std::ops::Range;
 
-use super::{DAMAGED, Parsed, TRUNCATED, quoted, unreadable};
+use super::{DAMAGED, LONGEST_UNIT, Parsed, TRUNCATED, quoted, unreadable};
 use ndarray::{Array2, Axis, Slice};
 
 pub(super) const NPY: &[u8] = b"\x93NUMPY";
 const HEADER: &str = "has a .npy header that cannot be understood: save it again with numpy.save";
-/// Characters of a unit; far more than any has.
-const LONGEST: u64 = 64;
 /// Numbers converted at a time, so that a file and its array are never both in memory.
 const CHUNK: usize = 8192;
 
@@ -90,7 +88,7 @@ fn read_shape(reader: &mut impl Read, size: u64) -> Parsed<Header> {
 pub(super) fn read_npy_text(reader: &mut impl Read, size: u64) -> Parsed<String> {
     let (header, data_size) = read_header(reader, size)?;
     let (dtype, _, shape) = parse_header(&header).ok_or(HEADER)?;
-    let characters = dtype.strip_prefix("<U").and_then(|n| n.parse::<u64>().ok()).filter(|n| *n <= LONGEST);
+    let characters = dtype.strip_prefix("<U").and_then(|n| n.parse::<u64>().ok()).filter(|n| *n <= LONGEST_UNIT as u64);
     if !shape.is_empty() || characters.and_then(|n| n.checked_mul(4)) != Some(data_size) {
         return Err(format!(
             "has a unit or a seed of dtype {}, expected a text: save it as numpy.array(\"m\")",

@@ -11,7 +11,7 @@ use zip::{CompressionMethod, ZipArchive};
 
 use super::foreign::by_member;
 use super::npy::{read_npy, read_npy_text, text_as_npy};
-use super::{DAMAGED, Parsed, quoted, unreadable};
+use super::{DAMAGED, Parsed, is_side, quoted, unreadable};
 use crate::error::{Error, Result};
 use crate::grid::Grid;
 use crate::surface::Topography;
@@ -50,7 +50,7 @@ pub(super) fn read_npz(mut reader: BufReader<File>, size: u64) -> Parsed<Topogra
     {
         let lengths = read_entry(&mut archive, index, size, |entry, size| read_npy(entry, size))?;
         match lengths.as_slice() {
-            Some(&[lx, ly]) if lx > 0.0 && ly > 0.0 && lx.is_finite() && ly.is_finite() => map.lengths = Some((lx, ly)),
+            Some(&[lx, ly]) if is_side(lx) && is_side(ly) => map.lengths = Some((lx, ly)),
             _ => return Err("has an array lengths that is not two positive numbers: save it as [Lx, Ly]".to_owned()),
         }
     }

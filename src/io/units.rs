@@ -2,7 +2,7 @@
 
 use ndarray::Array2;
 
-use super::{Parsed, quoted};
+use super::{Parsed, is_side, quoted};
 use crate::surface::Topography;
 
 /// The number of units of length in a metre, a whole one: division by it rounds only once.
@@ -33,7 +33,7 @@ pub(super) fn in_one_unit(
     lateral: &str,
     vertical: &str,
 ) -> Parsed<Topography> {
-    if lengths.is_some_and(|(lx, ly)| !(lx > 0.0 && ly > 0.0 && lx.is_finite() && ly.is_finite())) {
+    if lengths.is_some_and(|(lx, ly)| !(is_side(lx) && is_side(ly))) {
         let (lx, ly) = lengths.unwrap_or_default();
         return Err(format!("has side lengths of {lx} and {ly}, expected positive numbers: export it again"));
     }

@@ -184,6 +184,10 @@ pub fn converted(path: &Path, mut map: Topography, unit: &str) -> Outcome<Topogr
         let converted = |length| times_ten_to(from - to, length);
         map.heights.mapv_inplace(converted);
         map.lengths = map.lengths.map(|(lx, ly)| (converted(lx), converted(ly)));
+        if let Some((lx, ly)) = map.lengths.filter(|&(lx, ly)| !(lx.min(ly) > 0.0 && lx.max(ly).is_finite())) {
+            let what = format!("has side lengths of {lx} and {ly} {unit}, expected positive numbers: save it again");
+            return Err(Error::file(path, what).into());
+        }
     }
     Ok(map)
 }

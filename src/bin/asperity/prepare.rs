@@ -12,10 +12,10 @@ use crate::heights::{given, holes, sides, warn_of_unread};
 use crate::numbers::plain;
 use crate::outcome::Outcome;
 use crate::output::OutputFile;
-use crate::printing::{Printing, complain, say};
+use crate::printing::{Printing, complain, name, say};
 use crate::quantity::{LENGTH, PER_LENGTH, Quantity, power_of_length, times_ten_to};
 use crate::scene::Scene;
-use crate::units::Units;
+use crate::units::{Units, unit};
 use crate::warnings::{self, Told};
 
 /// Make a measured map into a surface that can be solved.
@@ -181,8 +181,7 @@ pub fn run(options: &Options, scene: &Scene) -> Outcome<bool> {
     let map = prepared(options, scene.is_si(), &mut lines, &mut warnings)?;
     file.write(|path| write_topography(path, &map))?;
     let scene_file = scene.written_beside(&options.out)?;
-    file.commit()?;
-    scene_file.commit()?;
+    scene_file.commit_after([file])?;
     options.printing.report(|| {
         json!({
             "command": "prepare",
@@ -198,7 +197,7 @@ pub fn run(options: &Options, scene: &Scene) -> Outcome<bool> {
         })
     });
     if options.printing.for_people() {
-        lines.push(("written", format!("{}{}", options.out.display(), left_out(&options.out, &map))));
+        lines.push(("written", format!("{}{}", name(&options.out), left_out(&options.out, &map))));
         let width = lines.iter().map(|(name, _)| name.len()).max().unwrap_or(0);
         let lines = lines.iter().map(|(name, text)| format!("{name:width$}  {text}"));
         say(&lines.collect::<Vec<_>>().join("\n"));
@@ -213,12 +212,6 @@ fn left_out(out: &Path, map: &Topography) -> String {
     let mirror = "without its original: results will be of all nodes, and of the original alone from an .npz";
     let mirror = (map.original.is_some() && !is("npz")).then_some(mirror);
     lengths.into_iter().chain(mirror).map(|text| format!(", {text}")).collect()
-}
-
-/// A unit, which will be printed.
-fn unit(text: &str) -> Result<String, String> {
-    let unit = Some(text.to_owned()).filter(|text| !text.contains(char::is_control));
-    unit.ok_or_else(|| "it must be a text without control characters".to_owned())
 }
 
 /// Takes the steps, and tells them.

@@ -18,7 +18,7 @@ use self::work::{Folder, solve};
 use crate::allowed::threads;
 use crate::outcome::Outcome;
 use crate::output::check_free;
-use crate::printing::{Printing, complain};
+use crate::printing::{Printing, complain, name, on_terminal};
 use crate::report;
 use crate::warnings;
 
@@ -129,7 +129,7 @@ pub fn run(options: &Options, mut tool: clap::Command) -> Outcome<bool> {
     if options.list {
         for (k, case) in study.cases.iter().enumerate() {
             let done = if folder.is_done(case) { "done" } else { "to do" };
-            printing.say(&format!("{}  {done}  {}", k + 1, study.told(case)));
+            printing.say(&format!("{}  {done}  {}", k + 1, on_terminal(&study.told(case))));
         }
     } else {
         let replaceable = folder.exists() || options.force;
@@ -149,11 +149,10 @@ pub fn run(options: &Options, mut tool: clap::Command) -> Outcome<bool> {
     let table = if done == cases && !options.list { Some(merge(&study, &folder)?) } else { None };
     let (rows, unconverged) = table.map_or((None, None), |table| (Some(table.rows), Some(table.unconverged)));
     printing.say(&match rows {
-        Some(rows) => format!("{rows} rows of {cases} cases in {}", study.out.display()),
-        None => format!(
-            "{done} of {cases} cases are done; the run that finds all of them done writes {}",
-            study.out.display()
-        ),
+        Some(rows) => format!("{rows} rows of {cases} cases in {}", name(&study.out)),
+        None => {
+            format!("{done} of {cases} cases are done; the run that finds all of them done writes {}", name(&study.out))
+        }
     });
     printing.report(|| {
         let outcome = json!({

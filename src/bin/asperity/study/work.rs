@@ -13,13 +13,15 @@ use std::thread;
 use asperity::Error;
 
 use super::cases::{Case, Format, Study};
-use crate::journal::state_path;
+use crate::hash::Hash;
+use crate::journal::{is_whole, state_path, written};
 use crate::outcome::Outcome;
-use crate::output::with_suffix;
-use crate::printing::{Printing, complain};
+use crate::output::{OutputFile, with_suffix, write_text};
+use crate::printing::{Printing, complain, on_terminal};
 use crate::scene;
 use crate::table::UNCONVERGED;
 use crate::threads;
+use crate::warnings;
 
 /// The folder of the cases, beside the table.
 pub struct Folder {
@@ -47,11 +49,31 @@ impl Folder {
         self.path.join(format!("{}.npz", case.identity))
     }
 
-    /// Whether a case has all of its rows: what it takes to go on with them is removed then.
+    /// Whether a case has all of its rows, as they were written: what it takes to go on with them is removed then.
     pub fn is_done(&self, case: &Case) -> bool {
         let rows = self.rows(case);
-        rows.exists() && !state_path(&rows).exists()
+        let found = || Some(checksum(Hash::NEW.of(&fs::read(&rows).ok()?), &rows));
+        !state_path(&rows).exists() && fs::read_to_string(sum_path(&rows)).is_ok_and(|sum| Some(sum) == found())
     }
+
+    /// Whether a case that is not done has rows with which no run goes on.
+    fn is_damaged(&self, case: &Case) -> bool {
+        let rows = self.rows(case);
+        // a run that has just begun has neither rows nor a state
+        let begun = fs::metadata(&rows).is_ok_and(|file| file.len() > 0) || state_path(&rows).exists() && rows.exists();
+        begun && !is_whole(&rows)
+    }
+}
+
+/// The file with the checksum of rows, beside them.
+fn sum_path(rows: &Path) -> PathBuf {
+    with_suffix(rows, ".sum")
+}
+
+/// The checksum of rows, with that of their warnings.
+fn checksum(of_rows: Hash, rows: &Path) -> String {
+    let warnings = fs::read(warnings::beside(rows)).unwrap_or_default();
+    format!("{of_rows} {}\n", Hash::NEW.of(&warnings))
 }
 
 /// Solves the cases with these numbers that are not done, some at a time; how many were refused.
@@ -72,13 +94,18 @@ pub fn solve(study: &Study, folder: &Folder, chosen: &[usize], jobs: usize, prin
         while let Some(&&number) = left.get(next.fetch_add(1, Relaxed)) {
             let case = &study.cases[number];
             let name = format!("case {}: {}", number + 1, study.told(case));
-            match solved(study, case, folder, &program, threads) {
+            let damaged = folder.is_damaged(case);
+            if damaged {
+                complain("warning", &format!("{name}: its rows are damaged, and it is solved again"));
+            }
+            match solved(study, case, folder, &program, threads, damaged) {
                 Ok(warnings) => {
                     warnings.iter().for_each(|line| complain("warning", &format!("{name}: {line}")));
                     let done = done.fetch_add(1, Relaxed) + 1;
                     printing.say(&format!(
-                        "{done:>width$}/{}  {name}",
+                        "{done:>width$}/{}  {}",
                         left.len(),
+                        on_terminal(&name),
                         width = left.len().to_string().len()
                     ));
                 }
@@ -97,14 +124,22 @@ pub fn solve(study: &Study, folder: &Folder, chosen: &[usize], jobs: usize, prin
     Ok(refused.into_inner())
 }
 
-/// Solves a case; the warnings of its runs, or the line by which one was refused.
-fn solved(study: &Study, case: &Case, folder: &Folder, program: &Path, threads: usize) -> Result<Vec<String>, String> {
+/// Solves a case, from its rows on or anew; the warnings of its runs, or the line by which one was refused.
+fn solved(
+    study: &Study,
+    case: &Case,
+    folder: &Folder,
+    program: &Path,
+    threads: usize,
+    anew: bool,
+) -> Result<Vec<String>, String> {
     let (rows, made) = (folder.rows(case), folder.surface(case));
     let run = |command: &str, arguments: &[OsString]| run(program, command, arguments, threads);
     let path = |name: &str, path: &Path| [OsString::from(name), path.into()];
     let mut warnings = Vec::new();
     let [out, file] = path("--out", &rows);
     let mut arguments = [case.arguments.as_slice(), &[out, file]].concat();
+    arguments.extend(anew.then(|| "--force".into()));
     if let Some(surface) = &case.surface {
         let [out, file] = path("--out", &made);
         warnings.extend(run("surface", &[surface.as_slice(), &[out, file, "--force".into()]].concat())?);
@@ -117,6 +152,13 @@ fn solved(study: &Study, case: &Case, folder: &Folder, program: &Path, threads: 
         let _ = fs::remove_file(scene::beside(&made));
     }
     let _ = fs::remove_file(scene::beside(&rows));
+    let sum = checksum(written(&rows)?, &rows);
+    let write = || -> Outcome<()> {
+        let file = OutputFile::create(&sum_path(&rows), true)?;
+        file.write(|path| write_text(path, &sum))?;
+        Ok(file.commit()?)
+    };
+    write().map_err(|error| error.to_string())?;
     fs::remove_file(state_path(&rows)).map_err(|e| format!("its state cannot be removed: {e}"))?;
     Ok(warnings)
 }
