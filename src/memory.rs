@@ -33,11 +33,15 @@ fn told(name: &str) -> Option<f64> {
 pub(crate) fn afford(what: &str, slab: Slab, bytes_per_node: usize) -> Result<()> {
     let ((nx, ny), (rows, _)) = (slab.shape(), slab.held());
     let bytes = rows as f64 * ny as f64 * bytes_per_node as f64;
-    let given = || Vec::<u8>::new().try_reserve_exact(bytes as usize).is_ok();
-    let there_is = || bytes <= available_memory() + told("SwapFree:").unwrap_or(0.0) && given();
     let what = || format!("{what} on {nx} x {ny} nodes");
-    let affordable = if bytes <= SMALL || there_is() { Ok(()) } else { Err(Error::Memory { what: what(), bytes }) };
+    let affordable = if is_there(bytes) { Ok(()) } else { Err(Error::Memory { what: what(), bytes }) };
     Error::agreed(slab, affordable)
+}
+
+/// Whether the system has so many bytes, and gives them to this process.
+pub(crate) fn is_there(bytes: f64) -> bool {
+    let given = || Vec::<u8>::new().try_reserve_exact(bytes as usize).is_ok();
+    bytes <= SMALL || bytes <= available_memory() + told("SwapFree:").unwrap_or(0.0) && given()
 }
 
 #[cfg(test)]

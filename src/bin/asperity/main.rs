@@ -38,6 +38,7 @@ mod form;
 mod hash;
 mod heights;
 mod identity;
+mod interruption;
 mod journal;
 mod kept;
 mod loads;
@@ -123,7 +124,10 @@ const NOT_CONVERGED: u8 = 2;
 
 fn main() -> ExitCode {
     match Processes::start() {
-        Ok(processes) => run_on(&processes),
+        Ok(processes) => {
+            interruption::listen();
+            run_on(&processes)
+        }
         Err(error) => refused(&*error),
     }
 }

@@ -18,7 +18,7 @@ use self::work::{Folder, solve};
 use crate::allowed::threads;
 use crate::outcome::Outcome;
 use crate::output::check_free;
-use crate::printing::{Printing, complain, name, on_terminal};
+use crate::printing::{Printing, complain, name};
 use crate::report;
 use crate::warnings;
 
@@ -129,7 +129,7 @@ pub fn run(options: &Options, mut tool: clap::Command) -> Outcome<bool> {
     if options.list {
         for (k, case) in study.cases.iter().enumerate() {
             let done = if folder.is_done(case) { "done" } else { "to do" };
-            printing.say(&format!("{}  {done}  {}", k + 1, on_terminal(&study.told(case))));
+            printing.say(&format!("{}  {done}  {}", k + 1, study.told(case)));
         }
     } else {
         let replaceable = folder.exists() || options.force;

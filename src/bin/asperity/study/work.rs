@@ -17,7 +17,7 @@ use crate::hash::Hash;
 use crate::journal::{is_whole, state_path, written};
 use crate::outcome::Outcome;
 use crate::output::{OutputFile, with_suffix, write_text};
-use crate::printing::{Printing, complain, on_terminal};
+use crate::printing::{Printing, complain};
 use crate::scene;
 use crate::table::UNCONVERGED;
 use crate::threads;
@@ -94,18 +94,13 @@ pub fn solve(study: &Study, folder: &Folder, chosen: &[usize], jobs: usize, prin
         while let Some(&&number) = left.get(next.fetch_add(1, Relaxed)) {
             let case = &study.cases[number];
             let name = format!("case {}: {}", number + 1, study.told(case));
-            let damaged = folder.is_damaged(case);
-            if damaged {
-                complain("warning", &format!("{name}: its rows are damaged, and it is solved again"));
-            }
-            match solved(study, case, folder, &program, threads, damaged) {
+            match solved(study, case, folder, &program, threads) {
                 Ok(warnings) => {
                     warnings.iter().for_each(|line| complain("warning", &format!("{name}: {line}")));
                     let done = done.fetch_add(1, Relaxed) + 1;
                     printing.say(&format!(
-                        "{done:>width$}/{}  {}",
+                        "{done:>width$}/{}  {name}",
                         left.len(),
-                        on_terminal(&name),
                         width = left.len().to_string().len()
                     ));
                 }
@@ -124,22 +119,18 @@ pub fn solve(study: &Study, folder: &Folder, chosen: &[usize], jobs: usize, prin
     Ok(refused.into_inner())
 }
 
-/// Solves a case, from its rows on or anew; the warnings of its runs, or the line by which one was refused.
-fn solved(
-    study: &Study,
-    case: &Case,
-    folder: &Folder,
-    program: &Path,
-    threads: usize,
-    anew: bool,
-) -> Result<Vec<String>, String> {
+/// Solves a case; the warnings of its runs, or the line by which one was refused.
+fn solved(study: &Study, case: &Case, folder: &Folder, program: &Path, threads: usize) -> Result<Vec<String>, String> {
     let (rows, made) = (folder.rows(case), folder.surface(case));
     let run = |command: &str, arguments: &[OsString]| run(program, command, arguments, threads);
     let path = |name: &str, path: &Path| [OsString::from(name), path.into()];
     let mut warnings = Vec::new();
     let [out, file] = path("--out", &rows);
     let mut arguments = [case.arguments.as_slice(), &[out, file]].concat();
-    arguments.extend(anew.then(|| "--force".into()));
+    if folder.is_damaged(case) {
+        warnings.push("its rows were damaged, and it was solved again".to_owned());
+        arguments.push("--force".into());
+    }
     if let Some(surface) = &case.surface {
         let [out, file] = path("--out", &made);
         warnings.extend(run("surface", &[surface.as_slice(), &[out, file, "--force".into()]].concat())?);
