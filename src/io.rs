@@ -452,6 +452,36 @@ mod tests {
     }
 
     #[test]
+    fn sides_that_become_nothing_or_infinite_are_refused() {
+        let gsf = |side: &str| {
+            let mut file =
+                format!("Gwyddion Simple Field 1.0\nXRes=1\nYRes=1\nXReal={side}\nYReal=1\nXYUnits=pm\nZUnits=pm\n")
+                    .into_bytes();
+            file.resize((file.len() / 4 + 1) * 4 + 4, 0);
+            read_map(file, "map.gsf").map(|map| map.lengths)
+        };
+        assert_eq!(gsf("2").unwrap(), Some((2e-12, 1e-12)));
+        for side in ["0", "-1", "inf", "nan", "1e-320"] {
+            assert_refused(gsf(side), &["side lengths of", "positive"]);
+        }
+        let points = |far: &str| read_map(format!("0 0 1\n{far} 0 2\n0 1 3\n{far} 1 4\n"), "map.xyz");
+        assert_eq!(points("2").unwrap().lengths, Some((4.0, 2.0)));
+        assert_refused(points("1e308"), &["side lengths of inf", "positive"]);
+    }
+
+    #[test]
+    fn units_are_written_as_long_as_they_are_read() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("map.npz");
+        let mut map = Topography::new(array![[1.0, 2.0]]);
+        map.unit = Some("µ".repeat(LONGEST_UNIT));
+        write_topography(&path, &map).unwrap();
+        assert_eq!(read_topography(&path).unwrap(), map);
+        map.unit = Some("µ".repeat(LONGEST_UNIT + 1));
+        assert_refused(write_topography(&path, &map), &["a unit of 65 characters", "at most 64"]);
+    }
+
+    #[test]
     fn written_npy_is_read_back() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("field.npy");
