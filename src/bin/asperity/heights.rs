@@ -42,9 +42,20 @@ impl Origin {
 /// that contradict the file are refused. In the SI all is in metres, and side lengths have to be known.
 pub fn map(path: &Path, lengths: Option<&[Quantity]>, si: bool) -> Outcome<(Topography, Origin)> {
     let (mut map, unit) = in_metres_if(si, path, read_topography(path)?)?;
+    check_room(map.heights.dim())?;
     map.lengths = sides_of(path, &map, map.heights.dim(), lengths, si)?;
     let origin = Origin::of(&map, unit);
     Ok((map, origin))
+}
+
+/// Refuses a map whose statistics, or a step of preparation, do not fit into memory: running out of it cannot be caught
+/// later.
+pub fn check_room((nx, ny): (usize, usize)) -> Outcome<()> {
+    let numbers = nx.checked_mul(ny).and_then(|nodes| nodes.checked_mul(4));
+    if numbers.is_none_or(|numbers| Vec::<f64>::new().try_reserve_exact(numbers).is_err()) {
+        return Err(format!("{nx} x {ny} nodes do not fit into memory: use fewer").into());
+    }
+    Ok(())
 }
 
 /// A map, in the SI in metres, and the unit from which it was converted.

@@ -18,7 +18,8 @@ fn listen_to_signals() {
     use signal_hook::low_level::emulate_default_handler;
 
     let Ok(mut signals) = Signals::new([SIGINT, SIGTERM]) else { return };
-    thread::spawn(move || {
+    // without it an interruption ends the run as it does any other
+    let _ = thread::Builder::new().spawn(move || {
         for signal in signals.forever() {
             OutputFolder::abandon_all();
             let _ = emulate_default_handler(signal);

@@ -8,7 +8,7 @@ use clap::{Args, ValueEnum};
 use serde_json::json;
 
 use crate::allowed::{finite, nodes, positive};
-use crate::heights::{given, holes, sides, warn_of_unread};
+use crate::heights::{check_room, given, holes, sides, warn_of_unread};
 use crate::numbers::plain;
 use crate::outcome::Outcome;
 use crate::output::OutputFile;
@@ -225,6 +225,7 @@ fn prepared(
         Some(channel) => read_channel(&options.input, channel)?,
         None => read_topography(&options.input)?,
     };
+    check_room(map.heights.dim())?;
     let mut tell = |step: &'static str, text: String| lines.push((step, text));
     tell("read", described(&map));
 
@@ -317,13 +318,13 @@ fn prepared(
         tell("window", format!("{share} % of the sides tapered at each edge: rms height {} from {before}", rms(&map)));
     }
     if options.mirror {
-        reserve((2 * map.heights.nrows(), 2 * map.heights.ncols()))?;
+        check_room((2 * map.heights.nrows(), 2 * map.heights.ncols()))?;
         map = map.mirror();
         tell("mirror", described(&map));
     }
     if let Some(&[nx, ny]) = options.resample.as_deref() {
         let before = rms(&map);
-        reserve((nx, map.heights.ncols().max(ny)))?;
+        check_room((nx, map.heights.ncols().max(ny)))?;
         map = map.resample((nx, ny))?;
         tell("resample", format!("{}: rms height {} from {before}", described(&map), rms(&map)));
     }
@@ -386,15 +387,6 @@ fn changed(before: &Topography, after: &Topography) -> String {
     }
     let rms = f64::sqrt(squares / f64::max(count, 1.0));
     format!("changed by {} rms, by {} at most", quantity(rms, after), quantity(most, after))
-}
-
-/// Running out of memory cannot be caught later.
-fn reserve((nx, ny): (usize, usize)) -> Outcome<()> {
-    let numbers = nx.checked_mul(ny).and_then(|nodes| nodes.checked_mul(4));
-    if numbers.is_none_or(|numbers| Vec::<f64>::new().try_reserve_exact(numbers).is_err()) {
-        return Err(format!("{nx} x {ny} nodes do not fit into memory: use fewer").into());
-    }
-    Ok(())
 }
 
 fn described(map: &Topography) -> String {

@@ -59,8 +59,11 @@ impl Told {
     /// The warning of such a line.
     fn parse(line: &str) -> Option<Self> {
         let (code, message) = line.split_once(": ")?;
-        let (code, severity) = code.strip_suffix(']')?.split_once(" [")?;
-        Some(Self { code: code.to_owned(), message: message.to_owned(), severity: severity.parse().ok()? })
+        let (code, severity) = match code.strip_suffix(']').and_then(|code| code.split_once(" [")) {
+            Some((code, severity)) => (code, severity.parse().ok()?),
+            None => (code, 0.0),
+        };
+        Some(Self { code: code.to_owned(), message: message.to_owned(), severity })
     }
 }
 

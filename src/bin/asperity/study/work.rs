@@ -55,14 +55,6 @@ impl Folder {
         let found = || Some(checksum(Hash::NEW.of(&fs::read(&rows).ok()?), &rows));
         !state_path(&rows).exists() && fs::read_to_string(sum_path(&rows)).is_ok_and(|sum| Some(sum) == found())
     }
-
-    /// Whether a case that is not done has rows with which no run goes on.
-    fn is_damaged(&self, case: &Case) -> bool {
-        let rows = self.rows(case);
-        // a run that has just begun has neither rows nor a state
-        let begun = fs::metadata(&rows).is_ok_and(|file| file.len() > 0) || state_path(&rows).exists() && rows.exists();
-        begun && !is_whole(&rows)
-    }
 }
 
 /// The file with the checksum of rows, beside them.
@@ -127,8 +119,11 @@ fn solved(study: &Study, case: &Case, folder: &Folder, program: &Path, threads: 
     let mut warnings = Vec::new();
     let [out, file] = path("--out", &rows);
     let mut arguments = [case.arguments.as_slice(), &[out, file]].concat();
-    if folder.is_damaged(case) {
-        warnings.push("its rows were damaged, and it was solved again".to_owned());
+    if !is_whole(&rows) {
+        // a run that has just begun has no row yet
+        if fs::metadata(&rows).is_ok_and(|file| file.len() > 0) {
+            warnings.push("its rows were damaged, and it was solved again".to_owned());
+        }
         arguments.push("--force".into());
     }
     if let Some(surface) = &case.surface {
