@@ -40,6 +40,7 @@ fn a_run_in_the_place_of_another_leaves_none_of_its_files() {
     // what is left of a run that was killed as it replaced another one
     bench.write("results/gap.npy", "of a former run");
     fs::remove_file(bench.path("results/report.json")).unwrap();
+    fs::remove_file(bench.path("results/scene.toml")).unwrap();
     fs::remove_file(bench.path("results/fields.npz")).unwrap();
     bench.refused_with("report results --force", &["report.json", "is not there"]);
     bench.refused_with(&format!("{solve} --format npz"), &["gap.npy", "--force"]);
@@ -124,7 +125,6 @@ fn names_that_a_scene_could_not_have_are_refused() {
         "sweep --mean-pressures 0.01 --out s.csv --heights",
         "solve --heights heights.npy --mean-pressure 0.01 --out results --initial-gap",
         "prepare --detrend plane --out map.npz",
-        "surface --size 16 --k-s 6 --rms-slope 0.1 --out",
     ] {
         let output = run_with(&bench, arguments, name);
         let said = text(&output.stderr);
@@ -225,7 +225,8 @@ fn assert_too_large(bench: &Bench, memory: &str, arguments: &str, parts: &[&str]
     command.current_dir(bench.path(".")).args(shell).args(arguments.split_whitespace());
     let output = command.output().unwrap();
     let said = text(&output.stderr);
-    assert_eq!((output.status.code(), said.lines().count()), (Some(1), 1), "{arguments}: {said}");
+    let errors = said.lines().filter(|line| !line.starts_with("warning: "));
+    assert_eq!((output.status.code(), errors.count()), (Some(1), 1), "{arguments}: {said}");
     assert!(parts.iter().all(|part| said.contains(part)), "{arguments}: {said}");
 }
 

@@ -239,13 +239,13 @@ fn the_page_of_a_table_has_the_warnings_of_all_its_runs() {
     bench.write(
         "rough.toml",
         "command = \"sweep\"\nout = \"rough.csv\"\nmean-pressures = \"0.01\"\n[make]\nsize = 16\n\
-         rms-slope = 2.0\nk-s = 4\n[vary]\nseed = [1, 2, 3]\n",
+         rms-slope = 2.0\nk-s = 4\n[vary]\nseed = [2, 3, 1]\n",
     );
     bench.run("study rough.toml");
     let found = listed("rough.csv");
     assert!(found.len() == 1 && found[0].starts_with("all cases"), "{found:?}");
     // with those of the worst of its cases
-    let alone = [1, 2, 3].map(|seed| {
+    let alone = [2, 3, 1].map(|seed| {
         bench.said(&format!("surface --size 16 --rms-slope 2 --k-s 4 --seed {seed} --quiet --force --out made.npy"));
         bench.run("sweep --heights made.npy --mean-pressures 0.01 --force --out made.csv");
         let (severity, message) =

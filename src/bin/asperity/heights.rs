@@ -42,7 +42,6 @@ impl Origin {
 /// that contradict the file are refused. In the SI all is in metres, and side lengths have to be known.
 pub fn map(path: &Path, lengths: Option<&[Quantity]>, si: bool) -> Outcome<(Topography, Origin)> {
     let (mut map, unit) = in_metres_if(si, path, read_topography(path)?)?;
-    check_room(map.heights.dim())?;
     map.lengths = sides_of(path, &map, map.heights.dim(), lengths, si)?;
     let origin = Origin::of(&map, unit);
     Ok((map, origin))

@@ -8,7 +8,7 @@ use clap::Args;
 use serde_json::{Map, Value, json};
 
 use crate::csv;
-use crate::heights::{self, check_complete, warn_of_unread};
+use crate::heights::{self, check_complete, check_room, warn_of_unread};
 use crate::numbers::plain;
 use crate::outcome::Outcome;
 use crate::output::{OutputFile, check_apart, write_text};
@@ -58,6 +58,7 @@ pub fn run(options: &Options, scene: &Scene) -> Outcome<bool> {
     psd.map_or(Ok(()), |psd| check_apart(psd, [path.as_path()]))?;
     let psd = psd.map(|path| OutputFile::create(path, options.force)).transpose()?;
     let (map, _) = heights::map(path, options.lengths.as_deref(), scene.is_si())?;
+    check_room(map.heights.dim())?;
     warn_of_unread(path, &map, "stay unknown");
     check_complete(path, &map)?;
     let surface = map.lengths.map(|_| map.clone().surface()).transpose()?;
