@@ -256,7 +256,7 @@ mod tests {
             fs::create_dir(&destination).unwrap();
             fs::write(destination.join("notes"), "mine").unwrap();
             former.iter().for_each(|name| fs::write(destination.join(name), "former").unwrap());
-            assert_refused(OutputFolder::create(&destination, &["fields", "mode"], false), &["mode", "exists"]);
+            assert_refused(OutputFolder::create(&destination, &["fields", "mode"], false), &["exists"]);
             let output = OutputFolder::create(&destination, &names, true).unwrap();
             new.iter().for_each(|name| fs::write(output.path(name), "new").unwrap());
             let steps = output.steps().unwrap();
