@@ -16,11 +16,10 @@ use crate::stability::EdgeError;
 use crate::surface::{Surface, Topography};
 
 mod goal;
-mod memory;
 mod refine;
 
+pub use crate::memory::available_memory;
 pub use goal::{Accuracy, AccurateSolution, Plan};
-pub use memory::available_memory;
 
 /// The quantity of which an accuracy is asked.
 ///

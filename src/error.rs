@@ -126,6 +126,13 @@ pub enum Error {
         /// adhesion, so that nothing is known.
         affordable: f64,
     },
+    /// Memory that the system does not have, or does not give to this process.
+    Memory {
+        /// What takes it, with its number of nodes or its file.
+        what: String,
+        /// The memory that it takes, in bytes.
+        bytes: f64,
+    },
     /// A surface with waves that are too short for the grid.
     Unresolved {
         /// The wave number k_s of the shortest waves, in units of 2π/Lx.
@@ -300,6 +307,13 @@ impl fmt::Display for Error {
                     true => write!(f, "enough for about {affordable:.1e}"),
                     false => f.write_str("too few to resolve the adhesion: take a longer range"),
                 }
+            }
+            Self::Memory { what, bytes } => {
+                write!(
+                    f,
+                    "{what} takes {} of memory, which there is not: take fewer nodes, or more memory",
+                    Bytes(*bytes)
+                )
             }
             Self::Unresolved { k_s, limit, shape } => write!(
                 f,

@@ -27,6 +27,7 @@ use ndarray::{Array2, Axis, Slice};
 use ndarray_npy::WritableElement;
 
 use crate::error::{Error, Result};
+use crate::memory::is_there;
 use crate::surface::Topography;
 use gsf::{GSF, read_gsf, write_gsf};
 use gwy::{GWY, read_gwy};
@@ -38,11 +39,60 @@ use text::read_text;
 pub use vti::write_vti;
 use xyz::read_xyz;
 
+/// The largest number of characters of a unit in a file that is written; far more than any has.
+pub const LONGEST_UNIT: usize = 64;
+
 const TRUNCATED: &str = "ends too early: it is truncated or damaged, copy or save it again";
 const DAMAGED: &str = "is damaged: copy or save it again";
 
-/// The result of a reader, with the reason of an error; [`read_field`] adds the path.
-type Parsed<T> = std::result::Result<T, String>;
+/// The result of a reader.
+type Parsed<T> = std::result::Result<T, Refusal>;
+
+/// Why a file is not read.
+enum Refusal {
+    /// It is not as it should be
+    Reason(String),
+    /// It takes more memory than there is, so many bytes
+    Memory(usize),
+}
+
+impl<T: Into<String>> From<T> for Refusal {
+    fn from(reason: T) -> Self {
+        Self::Reason(reason.into())
+    }
+}
+
+impl Refusal {
+    /// The error, with the path of the file.
+    fn of(self, path: &Path) -> Error {
+        match self {
+            Self::Reason(reason) => Error::file(path, reason),
+            Self::Memory(bytes) => Error::Memory { what: path.display().to_string(), bytes: bytes as f64 },
+        }
+    }
+}
+
+fn refuse<T>(reason: impl Into<String>) -> Parsed<T> {
+    Err(Refusal::Reason(reason.into()))
+}
+
+/// Makes room for `more` values, as they are read.
+fn reserve<T>(values: &mut Vec<T>, more: usize) -> Parsed<()> {
+    let (needed, room) = (values.len().saturating_add(more), values.capacity());
+    if needed <= room {
+        return Ok(());
+    }
+    // in steps that double it
+    let size = needed.max(2 * room);
+    let bytes = size.saturating_mul(size_of::<T>());
+    check_room(bytes)?;
+    values.try_reserve_exact(size - values.len()).map_err(|_| Refusal::Memory(bytes))
+}
+
+/// Refuses what takes more bytes than there are.
+fn check_room(bytes: usize) -> Parsed<()> {
+    if is_there(bytes as f64) { Ok(()) } else { Err(Refusal::Memory(bytes)) }
+}
 
 /// Reads a field, a height map or a gap, from a file of any of the formats of [`read_topography`]: its numbers alone.
 ///
@@ -103,7 +153,8 @@ pub fn read_field(path: &Path) -> Result<Array2<f64>> {
 ///
 /// [`Error::File`] if the file cannot be read, is truncated or damaged, or holds anything but one array of
 /// real numbers with one or two dimensions and at least one value; for `.xyz`, if its points are scattered. Files of
-/// instruments, images, and other binary files are named, with a way to convert them.
+/// instruments, images, and other binary files are named, with a way to convert them. [`Error::Memory`] if the heights
+/// take more than there is.
 ///
 /// ```
 /// use asperity::io::read_topography;
@@ -119,7 +170,7 @@ pub fn read_field(path: &Path) -> Result<Array2<f64>> {
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn read_topography(path: &Path) -> Result<Topography> {
-    read_any(path, None).map_err(|reason| Error::file(path, reason))
+    read_any(path, None).map_err(|refusal| refusal.of(path))
 }
 
 /// Reads one of the channels of a `.gwy` file, by its number or its title; otherwise as [`read_topography`].
@@ -134,7 +185,7 @@ pub fn read_topography(path: &Path) -> Result<Topography> {
 ///
 /// As for [`read_topography`], and [`Error::File`] if the file has no such channel, or is of a format without channels.
 pub fn read_channel(path: &Path, channel: &str) -> Result<Topography> {
-    read_any(path, Some(channel)).map_err(|reason| Error::file(path, reason))
+    read_any(path, Some(channel)).map_err(|refusal| refusal.of(path))
 }
 
 /// Reads the rows of a height map that `rows` chooses by its shape (Nx, Ny), and tells that shape; otherwise as
@@ -175,7 +226,7 @@ pub fn read_rows(
         let (heights, shape) = read_npy_rows(&mut BufReader::new(file), size, rows)?;
         Ok((Topography::new(heights), shape))
     };
-    read().map_err(|reason: String| Error::file(path, reason))
+    read().map_err(|refusal: Refusal| refusal.of(path))
 }
 
 /// Creates a `.npy` of zeros of a shape, over a file that may be there, for [`write_npy_rows`].
@@ -248,10 +299,14 @@ fn unwritable(path: &Path, error: impl Display) -> Error {
 ///
 /// # Errors
 ///
-/// [`Error::File`] if the name has another ending, heights leave the range of the format, or the file cannot be
-/// written.
+/// [`Error::File`] if the name has another ending, heights leave the range of the format, the unit is longer than
+/// [`LONGEST_UNIT`], or the file cannot be written.
 pub fn write_topography(path: &Path, map: &Topography) -> Result<()> {
+    let longest = map.unit.as_ref().map_or(0, |unit| unit.chars().count());
     match ending(path).as_str() {
+        "npz" if longest > LONGEST_UNIT => {
+            Err(Error::file(path, format!("has a unit of {longest} characters: give one of at most {LONGEST_UNIT}")))
+        }
         "npy" => write_npy(path, &map.heights),
         "npz" => npz::write_map(path, map),
         "gsf" if map.heights.iter().any(|h| h.is_finite() && !(*h as f32).is_finite()) => {
@@ -291,7 +346,7 @@ fn read_any(path: &Path, channel: Option<&str>) -> Parsed<Topography> {
     let metadata = fs::metadata(path).map_err(unreadable)?;
     if !metadata.is_file() {
         let kind = if metadata.is_dir() { "a folder" } else { "not a regular file" };
-        return Err(format!("is {kind}: name a .npy, .npz, .gwy, .gsf, .xyz or text file"));
+        return refuse(format!("is {kind}: name a .npy, .npz, .gwy, .gsf, .xyz or text file"));
     }
     let (ending, size) = (ending(path), metadata.len());
     let mut reader = BufReader::new(File::open(path).map_err(unreadable)?);
@@ -299,7 +354,7 @@ fn read_any(path: &Path, channel: Option<&str>) -> Parsed<Topography> {
     let map = if start.starts_with(GWY) {
         read_gwy(&mut reader, size, channel)
     } else if channel.is_some() {
-        Err("has no channels, as only .gwy files do: leave the channel out".to_owned())
+        refuse("has no channels, as only .gwy files do: leave the channel out")
     } else if start.starts_with(NPY) {
         read_npy(&mut reader, size).map(Topography::new)
     } else if ZIP.iter().any(|magic| start.starts_with(magic)) {
@@ -307,19 +362,30 @@ fn read_any(path: &Path, channel: Option<&str>) -> Parsed<Topography> {
     } else if start.starts_with(GSF) {
         read_gsf(&mut reader, size)
     } else if let Some(reason) = foreign::by_start(start) {
-        Err(reason)
+        refuse(reason)
     } else {
         let binary = foreign::by_ending(start, &ending);
         let text = if ending == "xyz" { read_xyz(reader) } else { read_text(reader) };
-        text.map_err(|reason| binary.unwrap_or(reason))
+        text.map_err(|refusal| binary.map_or(refusal, Refusal::Reason))
     }?;
+    // units that are not those of the file may have made them so
+    if let Some((lx, ly)) = map.lengths.filter(|(lx, ly)| !(is_side(*lx) && is_side(*ly))) {
+        return refuse(format!(
+            "has side lengths of {lx} and {ly}, expected positive numbers: save it again with them"
+        ));
+    }
     match &map.unit {
         // it would reach terminals
         Some(unit) if unit.contains(char::is_control) => {
-            Err(format!("has the unit {}, expected a text without control characters: save it again", quoted(unit)))
+            refuse(format!("has the unit {}, expected a text without control characters: save it again", quoted(unit)))
         }
         _ => Ok(map),
     }
+}
+
+/// Whether a length is one of a side.
+fn is_side(length: f64) -> bool {
+    length > 0.0 && length.is_finite()
 }
 
 fn unreadable(error: io::Error) -> String {
@@ -383,6 +449,36 @@ mod tests {
         if cfg!(unix) {
             assert_refused(read_field(Path::new("/dev/zero")), &["not a regular file"]);
         }
+    }
+
+    #[test]
+    fn sides_that_become_nothing_or_infinite_are_refused() {
+        let gsf = |side: &str| {
+            let mut file =
+                format!("Gwyddion Simple Field 1.0\nXRes=1\nYRes=1\nXReal={side}\nYReal=1\nXYUnits=pm\nZUnits=pm\n")
+                    .into_bytes();
+            file.resize((file.len() / 4 + 1) * 4 + 4, 0);
+            read_map(file, "map.gsf").map(|map| map.lengths)
+        };
+        assert_eq!(gsf("2").unwrap(), Some((2e-12, 1e-12)));
+        for side in ["0", "-1", "inf", "nan", "1e-320"] {
+            assert_refused(gsf(side), &["side lengths of", "positive"]);
+        }
+        let points = |far: &str| read_map(format!("0 0 1\n{far} 0 2\n0 1 3\n{far} 1 4\n"), "map.xyz");
+        assert_eq!(points("2").unwrap().lengths, Some((4.0, 2.0)));
+        assert_refused(points("1e308"), &["side lengths of inf", "positive"]);
+    }
+
+    #[test]
+    fn units_are_written_as_long_as_they_are_read() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("map.npz");
+        let mut map = Topography::new(array![[1.0, 2.0]]);
+        map.unit = Some("µ".repeat(LONGEST_UNIT));
+        write_topography(&path, &map).unwrap();
+        assert_eq!(read_topography(&path).unwrap(), map);
+        map.unit = Some("µ".repeat(LONGEST_UNIT + 1));
+        assert_refused(write_topography(&path, &map), &["a unit of 65 characters", "at most 64"]);
     }
 
     #[test]

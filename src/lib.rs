@@ -117,6 +117,7 @@ mod grid;
 pub mod guide;
 #[cfg(feature = "io")]
 pub mod io;
+mod memory;
 mod nested;
 mod par;
 pub mod path;

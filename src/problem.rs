@@ -8,6 +8,7 @@ use crate::elastic::{Boundary, ElasticOperator};
 use crate::error::{Error, Result};
 use crate::field::{self, flat};
 use crate::grid::Grid;
+use crate::memory::afford;
 use crate::real::Real;
 use crate::surface::Surface;
 use crate::vector::range;
@@ -221,7 +222,9 @@ impl<T: Real> PressedFlat<T> {
         if let Some((function, value)) = at_zero.into_iter().find(|(_, value)| bounded && !value.is_finite()) {
             return Err(Error::Law { function, gap: 0.0, value: value.widen(), expected: None });
         }
-        let window = Window::new(surface, operator.grid().slab());
+        // gap, pressure and K⁻¹h, and in f32 the other fields of a solve
+        afford("a solve", slab, 3 * size_of::<T>() + 16)?;
+        let window = Window::new(surface, slab);
         let extended = window.as_ref().map(|window| window.extend(surface.heights().view()));
         let padded;
         let whole = match extended {
@@ -347,7 +350,8 @@ impl<T: Real, O: ElasticOperator<T>, L: AdhesionLaw<T>> Problem<T, O, L> {
     /// # Errors
     /// [`Error::Shape`] or [`Error::Value`] if the grids differ; [`Error::Law`] if the law is not finite at zero gap;
     /// [`Error::NotFinite`] if K⁻¹h leaves the range of T; [`Error::Shared`] where several processes share the grid and
-    /// the operator does not take slabs, or only one of surface and operator is shared.
+    /// the operator does not take slabs, or only one of surface and operator is shared; [`Error::Memory`] if a solve
+    /// takes more memory than there is.
     pub fn new(surface: &Surface, mut operator: O, law: L) -> Result<Self> {
         let flat = PressedFlat::of(surface, &mut operator, &law)?;
         Ok(Self { operator, law, flat })

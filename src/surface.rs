@@ -8,6 +8,7 @@ use ndarray::{Array2, Axis, Slice};
 use crate::error::{Error, Result};
 use crate::field;
 use crate::grid::Grid;
+use crate::memory::afford;
 
 mod philox;
 mod self_affine;
@@ -106,8 +107,10 @@ impl Surface {
     /// A surface from a function of the coordinates, `(x, y) → h`.
     ///
     /// # Errors
-    /// [`Error::NotFinite`] if the function is not finite at a node.
+    /// [`Error::NotFinite`] if the function is not finite at a node, [`Error::Memory`] if the heights take more than
+    /// there is.
     pub fn from_fn(grid: Grid, height: impl Fn(f64, f64) -> f64) -> Result<Self> {
+        afford("a surface", grid.slab(), 8)?;
         Self::new(grid, grid.sample(height))
     }
 

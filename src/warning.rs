@@ -109,6 +109,20 @@ impl Warning {
         self.text.written(|value| length(rounded(value)), |value| pressure(rounded(value)))
     }
 
+    /// How bad it is, to choose the worst among warnings of one code: the figure of the message that exceeds its limit, as
+    /// far as there is one; otherwise zero.
+    ///
+    /// ```
+    /// use asperity::{Grid, Surface, Warning};
+    /// let wave = |slope| Surface::wave(Grid::line(64, 1.0)?, slope / 6.0, 1);
+    /// let severity = |surface: &Surface| Warning::of_surface(surface)[0].severity();
+    /// assert!(severity(&wave(9.0)?) > severity(&wave(2.0)?));
+    /// # Ok::<(), asperity::Error>(())
+    /// ```
+    pub fn severity(&self) -> f64 {
+        self.text.severity()
+    }
+
     /// A number as in messages: with three digits, below 1e-3 and from 1e5 on with an exponent.
     ///
     /// ```
@@ -209,7 +223,8 @@ impl Warning {
                 likely_error(mu_rho),
                 text.length(longer)
             );
-            found.push(Self { code: WarningCode::Range, text: text.with(message) });
+            let text = text.with(message).of_severity(mu_rho / RESOLVED);
+            found.push(Self { code: WarningCode::Range, text });
         }
         if law.work_of_adhesion() > T::zero() && span > 0.0 && range > span {
             let mut text = Text::default();
@@ -219,7 +234,7 @@ impl Warning {
                 text.length(range),
                 text.length(span)
             );
-            found.push(Self { code: WarningCode::Range, text: text.with(message) });
+            found.push(Self { code: WarningCode::Range, text: text.with(message).of_severity(range / span) });
         }
         found
     }
@@ -253,7 +268,8 @@ impl Warning {
             Self::figure(greatest / modulus),
             pressures.len()
         );
-        found.push(Self { code: WarningCode::BeyondModulus, text: text.with(message) });
+        let text = text.with(message).of_severity(greatest / modulus);
+        found.push(Self { code: WarningCode::BeyondModulus, text });
         found
     }
 
@@ -289,7 +305,8 @@ impl Warning {
             Self::figure(share(part, original.grid())),
             Self::figure(share(whole, original.whole()))
         );
-        Ok(Some(Self { code: WarningCode::Images, text: Text::default().with(message) }))
+        let text = Text::default().with(message).of_severity((part - expected).abs() / expected.max(1.0));
+        Ok(Some(Self { code: WarningCode::Images, text }))
     }
 }
 
@@ -318,5 +335,5 @@ fn window_edge<T: Real>(solution: &Solution<T>) -> Option<Warning> {
          there; unless the body ends at this edge, take a larger window, or an adhesion of less range",
         Warning::figure(share)
     );
-    Some(Warning { code: WarningCode::WindowEdge, text: Text::default().with(message) })
+    Some(Warning { code: WarningCode::WindowEdge, text: Text::default().with(message).of_severity(share) })
 }

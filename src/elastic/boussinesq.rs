@@ -5,6 +5,7 @@ use std::ops::Range;
 
 use super::*;
 use crate::fft::even_modes;
+use crate::memory::afford;
 use crate::par;
 use crate::slab::TILE;
 
@@ -54,7 +55,8 @@ impl<T: Real> Boussinesq<T> {
     ///
     /// # Errors
     /// [`Error::Value`] if the window has one row or column of nodes alone, if the modulus is not positive and finite,
-    /// or if a compliance leaves the range of T or is not positive, as rounding could make it on cells far from square.
+    /// or if a compliance leaves the range of T or is not positive, as rounding could make it on cells far from square;
+    /// [`Error::Memory`] if the kernel takes more than there is.
     pub fn new(window: Grid, modulus: f64) -> Result<Self> {
         Error::positive("contact modulus", modulus)?;
         let (shape, (dx, dy)) = (window.shape(), window.spacing());
@@ -66,6 +68,7 @@ impl<T: Real> Boussinesq<T> {
         }
         let padded = (padded(shape.0), padded(shape.1));
         let grid = Grid::new(padded, (padded.0 as f64 * dx, padded.1 as f64 * dy))?.shared_around(&window)?;
+        afford("a free half-space", grid.slab(), 16)?;
         let modes = even_modes(grid.slab(), kernel(&grid, (0.5 * dx, 0.5 * dy), modulus).view());
         let mean_compliance = grid.slab().first(modes.first().copied().unwrap_or_default());
         let spectral = Spectral::of_compliance(grid, modulus, modes)?;

@@ -7,6 +7,7 @@ use std::sync::Arc;
 
 use super::*;
 use crate::fft::{Convolver, Layout, Sums};
+use crate::memory::afford;
 use crate::real::Compiled;
 
 mod stiffness;
@@ -61,9 +62,11 @@ impl<T: Real> Spectral<T> {
     /// for q = 0. Where the Nyquist wave number has no sign, the mean of both signs is taken.
     ///
     /// # Errors
-    /// [`Error::Value`] if the modulus or the symbol at any mode is not positive and finite, in the precision of T.
+    /// [`Error::Value`] if the modulus or the symbol at any mode is not positive and finite, in the precision of T;
+    /// [`Error::Memory`] if the stiffness takes more than there is.
     pub fn new(grid: Grid, modulus: f64, symbol: impl Fn(f64, f64) -> f64 + Send + Sync + 'static) -> Result<Self> {
         Error::positive("contact modulus", modulus)?;
+        afford("an elastic operator", grid.slab(), size_of::<T>())?;
         let symbol: Symbol = Arc::new(symbol);
         let stiffness = stiffness(&grid, &symbol)?;
         let range = stiffness.range();

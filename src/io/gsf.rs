@@ -1,25 +1,27 @@
 //! Height maps in Gwyddion Simple Field files (`.gsf`).
 
 use std::fs::File;
-use std::io::{self, BufRead, BufWriter, Write};
+use std::io::{self, BufRead, BufWriter, Read, Write};
 use std::path::Path;
 
 use ndarray::Array2;
 
 use super::units::in_one_unit;
-use super::{Parsed, TRUNCATED, quoted, unreadable};
+use super::{Parsed, TRUNCATED, quoted, refuse, reserve, unreadable};
 use crate::surface::Topography;
 
 pub(super) const GSF: &[u8] = b"Gwyddion Simple Field ";
+/// The most bytes of a header; far more than any has.
+const LONGEST_HEADER: u64 = 1 << 20;
 const MAGIC: &str = "Gwyddion Simple Field 1.0";
 
 /// Reads a Gwyddion Simple Field of `size` bytes: a header of lines `name = value`, 1 to 4 zeros up to a multiple of
 /// four bytes, and the heights as little-endian `f32`, row by row from the top.
 pub(super) fn read_gsf(reader: &mut impl BufRead, size: u64) -> Parsed<Topography> {
     let mut header = Vec::new();
-    reader.read_until(0, &mut header).map_err(unreadable)?;
+    reader.by_ref().take(LONGEST_HEADER).read_until(0, &mut header).map_err(unreadable)?;
     if header.pop() != Some(0) {
-        return Err(TRUNCATED.to_owned());
+        return refuse(TRUNCATED);
     }
     let start = header.len() as u64 / 4 * 4 + 4;
     let padding = (start as usize - header.len() - 1).min(3);
@@ -27,7 +29,7 @@ pub(super) fn read_gsf(reader: &mut impl BufRead, size: u64) -> Parsed<Topograph
     let header = String::from_utf8_lossy(&header);
     let (magic, header) = header.split_once('\n').unwrap_or((&header, ""));
     if magic != MAGIC {
-        return Err(format!("starts with {}, expected \"{MAGIC}\": save it again as that", quoted(magic)));
+        return refuse(format!("starts with {}, expected \"{MAGIC}\": save it again as that", quoted(magic)));
     }
     let value = |name: &str| {
         let mut fields = header.lines().filter_map(|line| line.split_once('='));
@@ -35,25 +37,27 @@ pub(super) fn read_gsf(reader: &mut impl BufRead, size: u64) -> Parsed<Topograph
     };
     let nodes = |name: &str| match value(name).map(str::parse::<usize>) {
         Some(Ok(n)) if n > 0 => Ok(n),
-        _ => Err(format!("gives {} for {name}, expected a positive whole number", quoted(value(name).unwrap_or("")))),
+        _ => {
+            refuse(format!("gives {} for {name}, expected a positive whole number", quoted(value(name).unwrap_or(""))))
+        }
     };
     let (nx, ny) = (nodes("XRes")?, nodes("YRes")?);
     let bytes = nx.checked_mul(ny).and_then(|n| n.checked_mul(4));
     if bytes.is_none_or(|bytes| bytes as u64 != size.saturating_sub(start)) {
         let found = size.saturating_sub(start);
-        return Err(format!(
+        return refuse(format!(
             "promises {nx} x {ny} heights but has {found} bytes of data: it is truncated or damaged, save it again"
         ));
     }
     let number = |name: &str| match value(name).map(str::parse::<f64>) {
         None => Ok(None),
         Some(Ok(length)) => Ok(Some(length)),
-        Some(Err(_)) => Err(format!("gives {} for {name}, expected a number", quoted(value(name).unwrap_or("")))),
+        Some(Err(_)) => refuse(format!("gives {} for {name}, expected a number", quoted(value(name).unwrap_or("")))),
     };
     let lengths = number("XReal")?.zip(number("YReal")?);
 
     let mut values = Vec::new();
-    values.try_reserve_exact(nx * ny).map_err(|_| format!("needs too much memory for its {nx} x {ny} values"))?;
+    reserve(&mut values, nx * ny)?;
     values.resize(nx * ny, 0.0);
     let mut heights = Array2::from_shape_vec((nx, ny), values).map_err(|e| e.to_string())?;
     let mut row = vec![0; 4 * nx];

@@ -6,7 +6,7 @@ use std::io::Read;
 use ndarray::Array2;
 
 use super::units::{in_one_unit, is_length};
-use super::{DAMAGED, Parsed, TRUNCATED, quoted, unreadable};
+use super::{DAMAGED, Parsed, TRUNCATED, quoted, refuse, reserve, unreadable};
 use crate::surface::Topography;
 
 pub(super) const GWY: &[u8] = b"GWYP";
@@ -20,13 +20,12 @@ const MOST_NAMES: usize = 10;
 /// and arrays have their size before them, so that those of no interest are skipped unread.
 pub(super) fn read_gwy(reader: &mut impl Read, size: u64, channel: Option<&str>) -> Parsed<Topography> {
     let mut bytes = Vec::new();
-    let room = usize::try_from(size).ok().and_then(|size| bytes.try_reserve_exact(size).ok());
-    room.ok_or_else(|| format!("needs too much memory for its {size} bytes"))?;
+    reserve(&mut bytes, usize::try_from(size).unwrap_or(usize::MAX))?;
     reader.take(size).read_to_end(&mut bytes).map_err(unreadable)?;
     let mut start = Bytes(bytes.get(GWY.len()..).unwrap_or_default());
     let (kind, container) = start.object()?;
     if kind != b"GwyContainer" {
-        return Err(format!("holds a {}, expected a GwyContainer: save it again", quoted(&text(kind))));
+        return refuse(format!("holds a {}, expected a GwyContainer: save it again", quoted(&text(kind))));
     }
 
     let mut channels = BTreeMap::<usize, Channel>::new();
@@ -66,12 +65,12 @@ fn chosen(channels: &BTreeMap<usize, Channel>, asked: Option<&str>) -> Parsed<us
     let found = format!("{} channels ({}{more})", channels.len(), names.join(", "));
     match (&fits[..], asked) {
         (&[number], _) => Ok(number),
-        (_, None) if channels.is_empty() => Err("holds no channel of heights: save one in it".to_owned()),
-        ([], Some(asked)) => Err(format!("holds {found}, none of which is {}: name one of these", quoted(asked))),
-        (_, Some(asked)) => Err(format!("holds {found}, several of which are {}: give a number", quoted(asked))),
+        (_, None) if channels.is_empty() => refuse("holds no channel of heights: save one in it"),
+        ([], Some(asked)) => refuse(format!("holds {found}, none of which is {}: name one of these", quoted(asked))),
+        (_, Some(asked)) => refuse(format!("holds {found}, several of which are {}: give a number", quoted(asked))),
         (_, None) => {
             let heights = fits.len();
-            Err(format!(
+            refuse(format!(
                 "holds {found}, {heights} of them of heights: choose one, by asperity prepare --channel NUMBER"
             ))
         }
@@ -130,10 +129,10 @@ impl<'a> Field<'a> {
         let ((nx, ny), found) = (self.nodes, self.data.len());
         let shape = usize::try_from(nx).ok().zip(usize::try_from(ny).ok()).filter(|(nx, ny)| *nx > 0 && *ny > 0);
         let Some((nx, ny)) = shape.filter(|(nx, ny)| nx.checked_mul(*ny) == Some(found)) else {
-            return Err(format!("promises {nx} x {ny} heights but has {found}: it is damaged, save it again"));
+            return refuse(format!("promises {nx} x {ny} heights but has {found}: it is damaged, save it again"));
         };
         let mut values = Vec::new();
-        values.try_reserve_exact(found).map_err(|_| format!("needs too much memory for its {nx} x {ny} values"))?;
+        reserve(&mut values, found)?;
         // line by line from the top: the last one has y = 0
         let lines = || self.data.chunks_exact(nx).rev();
         values.extend((0..nx).flat_map(|i| lines().map(move |line| f64::from_le_bytes(line[i]))));
@@ -179,7 +178,7 @@ impl<'a> Bytes<'a> {
     }
 
     fn array<const N: usize>(&mut self) -> Parsed<[u8; N]> {
-        self.take(N)?.try_into().map_err(|_| DAMAGED.to_owned())
+        self.take(N)?.try_into().map_err(|_| DAMAGED.into())
     }
 
     /// A text that ends with a zero.
@@ -191,7 +190,7 @@ impl<'a> Bytes<'a> {
     }
 
     fn size(&mut self) -> Parsed<usize> {
-        usize::try_from(u32::from_le_bytes(self.array()?)).map_err(|_| DAMAGED.to_owned())
+        usize::try_from(u32::from_le_bytes(self.array()?)).map_err(|_| DAMAGED.into())
     }
 
     /// The type of an object, and its items.
@@ -240,7 +239,7 @@ impl<'a> Bytes<'a> {
                 }
                 Value::Other
             }
-            _ => return Err(DAMAGED.to_owned()),
+            _ => return refuse(DAMAGED),
         };
         Ok((name, value))
     }

@@ -3,13 +3,11 @@
 use std::io::{Read, Seek};
 use std::ops::Range;
 
-use super::{DAMAGED, Parsed, TRUNCATED, quoted, unreadable};
+use super::{DAMAGED, LONGEST_UNIT, Parsed, TRUNCATED, check_room, quoted, refuse, reserve, unreadable};
 use ndarray::{Array2, Axis, Slice};
 
 pub(super) const NPY: &[u8] = b"\x93NUMPY";
 const HEADER: &str = "has a .npy header that cannot be understood: save it again with numpy.save";
-/// Characters of a unit; far more than any has.
-const LONGEST: u64 = 64;
 /// Numbers converted at a time, so that a file and its array are never both in memory.
 const CHUNK: usize = 8192;
 
@@ -22,10 +20,11 @@ pub(super) fn read_npy(reader: &mut impl Read, size: u64) -> Parsed<Array2<f64>>
     let values = read_values(reader, rows * columns, decoder, reversed)?;
     ended(reader)?;
     if fortran {
+        check_room(size_of_val(&values[..]))?;
         let transposed = Array2::from_shape_vec((columns, rows), values).map_err(|e| e.to_string())?;
         Ok(transposed.t().as_standard_layout().into_owned())
     } else {
-        Array2::from_shape_vec((rows, columns), values).map_err(|e| e.to_string())
+        Ok(Array2::from_shape_vec((rows, columns), values).map_err(|e| e.to_string())?)
     }
 }
 
@@ -64,21 +63,25 @@ fn read_shape(reader: &mut impl Read, size: u64) -> Parsed<Header> {
     let (dtype, fortran, shape) = parse_header(&header).ok_or(HEADER)?;
     let Some(decoder) = decoder(dtype) else {
         let dtype = quoted(dtype);
-        return Err(format!(
+        return refuse(format!(
             "has dtype {dtype}, expected real numbers (f4, f8 or integers): convert with .astype('f8')"
         ));
     };
     let (rows, columns) = match shape[..] {
         [rows] => (rows, 1),
         [rows, columns] => (rows, columns),
-        _ => return Err(format!("has shape {shape:?}, expected two dimensions [Nx, Ny], or one: save one height map")),
+        _ => {
+            return refuse(format!(
+                "has shape {shape:?}, expected two dimensions [Nx, Ny], or one: save one height map"
+            ));
+        }
     };
     if rows == 0 || columns == 0 {
-        return Err(format!("has shape {shape:?}, expected at least one value: save the heights again"));
+        return refuse(format!("has shape {shape:?}, expected at least one value: save the heights again"));
     }
     let promised = rows.checked_mul(columns).and_then(|n| n.checked_mul(decoder.0));
     if promised.is_none_or(|bytes| bytes as u64 != data_size) {
-        return Err(format!(
+        return refuse(format!(
             "has shape {shape:?} of dtype {dtype} but {data_size} bytes of data: \
              it is truncated or damaged, save it again"
         ));
@@ -90,9 +93,9 @@ fn read_shape(reader: &mut impl Read, size: u64) -> Parsed<Header> {
 pub(super) fn read_npy_text(reader: &mut impl Read, size: u64) -> Parsed<String> {
     let (header, data_size) = read_header(reader, size)?;
     let (dtype, _, shape) = parse_header(&header).ok_or(HEADER)?;
-    let characters = dtype.strip_prefix("<U").and_then(|n| n.parse::<u64>().ok()).filter(|n| *n <= LONGEST);
+    let characters = dtype.strip_prefix("<U").and_then(|n| n.parse::<u64>().ok()).filter(|n| *n <= LONGEST_UNIT as u64);
     if !shape.is_empty() || characters.and_then(|n| n.checked_mul(4)) != Some(data_size) {
-        return Err(format!(
+        return refuse(format!(
             "has a unit or a seed of dtype {}, expected a text: save it as numpy.array(\"m\")",
             quoted(dtype)
         ));
@@ -101,7 +104,7 @@ pub(super) fn read_npy_text(reader: &mut impl Read, size: u64) -> Parsed<String>
     reader.read_exact(&mut text).map_err(unreadable)?;
     ended(reader)?;
     let characters = text.as_chunks().0.iter().map(|bytes| char::from_u32(u32::from_le_bytes(*bytes)));
-    characters.take_while(|c| *c != Some('\0')).collect::<Option<String>>().ok_or_else(|| DAMAGED.to_owned())
+    characters.take_while(|c| *c != Some('\0')).collect::<Option<String>>().ok_or_else(|| DAMAGED.into())
 }
 
 /// A text without dimensions in the form of `.npy`, of version 1.
@@ -119,20 +122,24 @@ fn read_header(reader: &mut impl Read, size: u64) -> Parsed<(String, u64)> {
     let mut start = [0; 8];
     reader.read_exact(&mut start).map_err(unreadable)?;
     if !start.starts_with(NPY) {
-        return Err("holds something else than a .npy array: save the heights with numpy.save or savez".to_owned());
+        return refuse("holds something else than a .npy array: save the heights with numpy.save or savez");
     }
     let prefix = match start[6] {
         1 => 2,
         2 | 3 => 4,
-        version => return Err(format!("is .npy of version {version}, expected 1 to 3: save it again with numpy.save")),
+        version => {
+            return refuse(format!("is .npy of version {version}, expected 1 to 3: save it again with numpy.save"));
+        }
     };
     let mut length = [0; 4];
     reader.read_exact(&mut length[..prefix]).map_err(unreadable)?;
     let length = u32::from_le_bytes(length);
     let Some(data_size) = size.checked_sub(8 + prefix as u64 + u64::from(length)) else {
-        return Err(TRUNCATED.to_owned());
+        return refuse(TRUNCATED);
     };
-    let mut header = vec![0; length as usize];
+    let mut header = Vec::new();
+    reserve(&mut header, length as usize)?;
+    header.resize(length as usize, 0);
     reader.read_exact(&mut header).map_err(unreadable)?;
     Ok((String::from_utf8(header).unwrap_or_else(|e| String::from_utf8_lossy(e.as_bytes()).into_owned()), data_size))
 }
@@ -140,7 +147,7 @@ fn read_header(reader: &mut impl Read, size: u64) -> Parsed<(String, u64)> {
 /// Reads `count` values, each with its bytes `reversed` if they are big-endian.
 fn read_values(reader: &mut impl Read, count: usize, (width, decode): Decoder, reversed: bool) -> Parsed<Vec<f64>> {
     let mut values = Vec::new();
-    values.try_reserve_exact(count).map_err(|_| format!("needs too much memory for its {count} values"))?;
+    reserve(&mut values, count)?;
     let mut buffer = vec![0; CHUNK * width];
     while values.len() < count {
         let chunk = &mut buffer[..(count - values.len()).min(CHUNK) * width];
@@ -157,7 +164,7 @@ fn read_values(reader: &mut impl Read, count: usize, (width, decode): Decoder, r
 
 /// Refuses what goes on after its last value. A zip entry is checked against its checksum when its end is reached.
 fn ended(reader: &mut impl Read) -> Parsed<()> {
-    if reader.read(&mut [0]).map_err(unreadable)? == 0 { Ok(()) } else { Err(DAMAGED.to_owned()) }
+    if reader.read(&mut [0]).map_err(unreadable)? == 0 { Ok(()) } else { refuse(DAMAGED) }
 }
 
 /// Takes the dtype, whether the order is Fortran's, and the shape from the dictionary in a `.npy` header.

@@ -11,7 +11,7 @@ use zip::{CompressionMethod, ZipArchive};
 
 use super::foreign::by_member;
 use super::npy::{read_npy, read_npy_text, text_as_npy};
-use super::{DAMAGED, Parsed, quoted, unreadable};
+use super::{DAMAGED, Parsed, is_side, quoted, refuse, unreadable};
 use crate::error::{Error, Result};
 use crate::grid::Grid;
 use crate::surface::Topography;
@@ -35,11 +35,11 @@ pub(super) fn read_npz(mut reader: BufReader<File>, size: u64) -> Parsed<Topogra
         (_, Some(index)) => index,
         (count, None) => {
             if let Some(reason) = by_member(archive.file_names()) {
-                return Err(reason);
+                return refuse(reason);
             }
             let names = archive.file_names().take(10).map(|name| quoted(array(name)));
             let names = names.collect::<Vec<_>>().join(", ");
-            return Err(format!(
+            return refuse(format!(
                 "holds {count} arrays ({names}), expected one, or one named heights: save the heights alone, as .npy or .npz"
             ));
         }
@@ -50,8 +50,8 @@ pub(super) fn read_npz(mut reader: BufReader<File>, size: u64) -> Parsed<Topogra
     {
         let lengths = read_entry(&mut archive, index, size, |entry, size| read_npy(entry, size))?;
         match lengths.as_slice() {
-            Some(&[lx, ly]) if lx > 0.0 && ly > 0.0 && lx.is_finite() && ly.is_finite() => map.lengths = Some((lx, ly)),
-            _ => return Err("has an array lengths that is not two positive numbers: save it as [Lx, Ly]".to_owned()),
+            Some(&[lx, ly]) if is_side(lx) && is_side(ly) => map.lengths = Some((lx, ly)),
+            _ => return refuse("has an array lengths that is not two positive numbers: save it as [Lx, Ly]"),
         }
     }
     if let Some(index) = archive.index_for_name("unit.npy")
@@ -71,7 +71,7 @@ pub(super) fn read_npz(mut reader: BufReader<File>, size: u64) -> Parsed<Topogra
             }
             _ => {
                 let text = "has an array original that is not two numbers of nodes of the map: prepare the map again";
-                return Err(text.to_owned());
+                return refuse(text);
             }
         };
     }
@@ -123,7 +123,7 @@ fn read_entry<T>(
 ) -> Parsed<T> {
     let mut entry = archive.by_index(index).map_err(damaged)?;
     let entry_size = entry.size();
-    if entry_size / MAX_COMPRESSION > size { Err(DAMAGED.to_owned()) } else { read(&mut entry, entry_size) }
+    if entry_size / MAX_COMPRESSION > size { refuse(DAMAGED) } else { read(&mut entry, entry_size) }
 }
 
 /// Writes fields on a grid into one `.npz` file, over one that may be there, and the side lengths with them as

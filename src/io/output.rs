@@ -1,7 +1,8 @@
 //! The output folder: all files of a run, or none.
 
-use std::fs;
 use std::path::{Path, PathBuf};
+use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::{fs, io};
 
 use tempfile::TempDir;
 
@@ -11,7 +12,8 @@ use crate::error::{Error, Result};
 ///
 /// Files are written at [`path`](Self::path), in a hidden temporary folder on the file system of the
 /// destination, and appear in the destination on [`commit`](Self::commit). Dropped without it, nothing stays
-/// behind. A process that is killed leaves the temporary folder, `.asperity-` and a few letters.
+/// behind. A process that is killed leaves the temporary folder, `.asperity-` and a few letters, unless it can still
+/// call [`abandon_all`](Self::abandon_all).
 ///
 /// ```
 /// use asperity::io::{OutputFolder, write_npy};
@@ -27,14 +29,40 @@ use crate::error::{Error, Result};
 #[derive(Debug)]
 pub struct OutputFolder {
     destination: PathBuf,
+    names: Vec<String>,
     force: bool,
     /// In the destination, or in the nearest folder above it that exists.
     temporary: TempDir,
 }
 
+/// The temporary folders of this process.
+static TEMPORARY: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
+
+/// A change of the destination.
+enum Step {
+    Remove(PathBuf),
+    Move(PathBuf, PathBuf),
+}
+
+impl Step {
+    fn take(&self) -> io::Result<()> {
+        match self {
+            Self::Remove(file) => match fs::remove_file(file) {
+                Err(error) if error.kind() != io::ErrorKind::NotFound => Err(error),
+                _ => Ok(()),
+            },
+            Self::Move(from, to) => fs::rename(from, to),
+        }
+    }
+}
+
 impl OutputFolder {
-    /// Prepares a folder at `path`, existing or not, for files with these `names`, and creates nothing there
-    /// yet. With `force` they may replace existing files; other files in the folder are left alone.
+    /// Prepares a folder at `path`, existing or not, for a run whose files have names among these, and creates nothing
+    /// there yet. With `force` the run takes the place of a former one, whose files of these `names` go, also where it
+    /// does not write them itself; other files in the folder are left alone.
+    ///
+    /// If there are several names, the first one stands for the run: its file goes before any other one changes, and
+    /// comes after all of them. So a file of this name is never beside those of two runs, even if the process is killed.
     ///
     /// # Errors
     ///
@@ -51,7 +79,9 @@ impl OutputFolder {
         }
         let unwritable = |e| Error::file(existing, format!("cannot be written ({e}): choose another output folder"));
         let temporary = tempfile::Builder::new().prefix(".asperity-").tempdir_in(existing).map_err(unwritable)?;
-        let folder = Self { destination: path.to_owned(), force, temporary };
+        live().push(temporary.path().to_owned());
+        let names = names.iter().map(|name| (*name).to_owned()).collect();
+        let folder = Self { destination: path.to_owned(), names, force, temporary };
         // A temporary folder is private: the files go one level deeper, in a folder with the usual permissions.
         fs::create_dir(folder.files()).map_err(unwritable)?;
         Ok(folder)
@@ -80,20 +110,58 @@ impl OutputFolder {
             }
             return fs::rename(self.files(), destination).map_err(unwritable);
         }
-        let entries: Vec<_> = fs::read_dir(self.files()).and_then(Iterator::collect).map_err(unwritable)?;
+        let steps = self.steps().map_err(unwritable)?;
         // All checks come before the first change.
-        for entry in &entries {
-            refuse_existing(&destination.join(entry.file_name()), self.force)?;
+        for Step::Remove(file) | Step::Move(_, file) in &steps {
+            refuse_existing(file, self.force)?;
         }
-        for entry in &entries {
-            fs::rename(entry.path(), destination.join(entry.file_name())).map_err(unwritable)?;
-        }
-        Ok(())
+        steps.iter().try_for_each(Step::take).map_err(unwritable)
+    }
+
+    /// The changes of a destination that exists, in their order.
+    fn steps(&self) -> io::Result<Vec<Step>> {
+        let mut written =
+            fs::read_dir(self.files())?.map(|entry| Ok(entry?.file_name())).collect::<io::Result<Vec<_>>>()?;
+        let seal = self.names.first().filter(|_| self.names.len() > 1);
+        written.sort_by_key(|name| seal.is_some_and(|seal| name == seal.as_str()));
+        let goes = |name: &&String| seal == Some(name) || !written.iter().any(|written| written == name.as_str());
+        let former = self.names.iter().filter(goes).map(|name| Step::Remove(self.destination.join(name)));
+        let new = written.iter().map(|name| Step::Move(self.files().join(name), self.destination.join(name)));
+        Ok(former.chain(new).collect())
     }
 
     fn files(&self) -> PathBuf {
         self.temporary.path().join("files")
     }
+
+    /// Removes the temporary folders of all that this process has not committed, before it ends by a signal. What goes
+    /// on with them fails.
+    ///
+    /// ```
+    /// use asperity::io::OutputFolder;
+    /// let parent = tempfile::tempdir()?;
+    /// let folder = OutputFolder::create(&parent.path().join("results"), &["gap.npy"], false)?;
+    /// assert!(std::fs::read_dir(parent.path())?.count() == 1);
+    /// OutputFolder::abandon_all();
+    /// assert!(std::fs::read_dir(parent.path())?.count() == 0);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn abandon_all() {
+        for folder in live().drain(..) {
+            // there may be files that another thread writes meanwhile
+            let _ = fs::remove_dir_all(&folder).or_else(|_| fs::remove_dir_all(&folder));
+        }
+    }
+}
+
+impl Drop for OutputFolder {
+    fn drop(&mut self) {
+        live().retain(|folder| folder != self.temporary.path());
+    }
+}
+
+fn live() -> MutexGuard<'static, Vec<PathBuf>> {
+    TEMPORARY.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 fn refuse_existing(file: &Path, force: bool) -> Result<()> {
@@ -176,6 +244,36 @@ mod tests {
 
         fs::create_dir(parent.path().join("sub")).unwrap();
         assert_refused(OutputFolder::create(parent.path(), &["sub"], true), &["is a folder"]);
+    }
+
+    #[test]
+    fn a_run_takes_the_place_of_a_former_one_and_is_never_mixed_with_it() {
+        let names = ["report", "gap", "pressure", "fields", "mode"];
+        let (former, new) = (["report", "gap", "pressure", "mode"], ["gap", "fields", "report"]);
+        let parent = tempfile::tempdir().unwrap();
+        for killed_after in 0..=8 {
+            let destination = parent.path().join(format!("results-{killed_after}"));
+            fs::create_dir(&destination).unwrap();
+            fs::write(destination.join("notes"), "mine").unwrap();
+            former.iter().for_each(|name| fs::write(destination.join(name), "former").unwrap());
+            assert_refused(OutputFolder::create(&destination, &["fields", "mode"], false), &["exists"]);
+            let output = OutputFolder::create(&destination, &names, true).unwrap();
+            new.iter().for_each(|name| fs::write(output.path(name), "new").unwrap());
+            let steps = output.steps().unwrap();
+            steps.iter().take(killed_after).for_each(|step| step.take().unwrap());
+            drop(output);
+            let content = |name: &String| fs::read_to_string(destination.join(name)).unwrap();
+            let found = names_in(&destination);
+            let runs: Vec<_> = found.iter().filter(|name| *name != "notes").map(content).collect();
+            if let Some(run) = found.contains(&"report".to_owned()).then(|| content(&"report".to_owned())) {
+                assert!(runs.iter().all(|other| *other == run), "{killed_after}: {found:?} {runs:?}");
+            }
+            assert_eq!(content(&"notes".to_owned()), "mine");
+            if killed_after >= steps.len() {
+                assert_eq!(found, ["fields", "gap", "notes", "report"]);
+            }
+            assert!(steps.len() <= 8);
+        }
     }
 
     #[test]

@@ -5,7 +5,7 @@ use std::io::BufRead;
 use ndarray::Array2;
 
 use super::units::in_one_unit;
-use super::{Parsed, quoted, unreadable};
+use super::{Parsed, quoted, refuse, reserve, unreadable};
 use crate::surface::Topography;
 
 const NUMBERS: &str =
@@ -23,11 +23,12 @@ pub(super) fn read_text(reader: impl BufRead) -> Parsed<Topography> {
             if rows == 0 {
                 columns = row.len();
             } else if row.len() != columns {
-                return Err(format!(
+                return refuse(format!(
                     "line {number} has {} numbers, expected {columns} as in the first row: write nan for missing points",
                     row.len()
                 ));
             }
+            reserve(&mut values, row.len())?;
             values.extend_from_slice(row);
             rows += 1;
             Ok(())
@@ -41,7 +42,7 @@ pub(super) fn read_text(reader: impl BufRead) -> Parsed<Topography> {
     let upright = heights.slice_axis(ndarray::Axis(0), ndarray::Slice::new(0, None, -1)).reversed_axes();
     let ((lx, lateral), (ly, other)) = (length(&width)?, length(&height)?);
     if lateral != other {
-        return Err(format!(
+        return refuse(format!(
             "has a width of {} and a height of {}, expected one unit",
             quoted(&width),
             quoted(&height)
@@ -89,7 +90,8 @@ pub(super) fn for_each_line(
     let (mut line, mut values, mut rows) = (Vec::new(), Vec::new(), 0);
     for number in 1.. {
         line.clear();
-        if reader.read_until(b'\n', &mut line).map_err(unreadable)? == 0 {
+        read_line(&mut reader, &mut line)?;
+        if line.is_empty() {
             break;
         }
         // Cut before decoding: instruments write their units in any encoding.
@@ -109,6 +111,7 @@ pub(super) fn for_each_line(
         let mut take = |word: &str| -> Parsed<()> {
             let value: f64 =
                 word.parse().map_err(|_| format!("line {number}: {} is not a number: {NUMBERS}", quoted(word)))?;
+            reserve(&mut values, 1)?;
             values.push(value);
             Ok(())
         };
@@ -120,7 +123,22 @@ pub(super) fn for_each_line(
         values.clear();
         rows += 1;
     }
-    if rows == 0 { Err(format!("holds no numbers: {NUMBERS}")) } else { Ok(()) }
+    if rows == 0 { refuse(format!("holds no numbers: {NUMBERS}")) } else { Ok(()) }
+}
+
+/// Reads on to the end of a line, or of the file.
+fn read_line(reader: &mut impl BufRead, line: &mut Vec<u8>) -> Parsed<()> {
+    loop {
+        let bytes = reader.fill_buf().map_err(unreadable)?;
+        let end = bytes.iter().position(|byte| *byte == b'\n');
+        let count = end.map_or(bytes.len(), |end| end + 1);
+        reserve(line, count)?;
+        line.extend_from_slice(&bytes[..count]);
+        reader.consume(count);
+        if end.is_some() || count == 0 {
+            return Ok(());
+        }
+    }
 }
 
 #[cfg(test)]

@@ -2,7 +2,7 @@
 
 use ndarray::Array2;
 
-use super::{Parsed, quoted};
+use super::{Parsed, is_side, quoted, refuse};
 use crate::surface::Topography;
 
 /// The number of units of length in a metre, a whole one: division by it rounds only once.
@@ -33,9 +33,9 @@ pub(super) fn in_one_unit(
     lateral: &str,
     vertical: &str,
 ) -> Parsed<Topography> {
-    if lengths.is_some_and(|(lx, ly)| !(lx > 0.0 && ly > 0.0 && lx.is_finite() && ly.is_finite())) {
+    if lengths.is_some_and(|(lx, ly)| !(is_side(lx) && is_side(ly))) {
         let (lx, ly) = lengths.unwrap_or_default();
-        return Err(format!("has side lengths of {lx} and {ly}, expected positive numbers: export it again"));
+        return refuse(format!("has side lengths of {lx} and {ly}, expected positive numbers: export it again"));
     }
     let lateral = if lengths.is_some() { lateral } else { vertical };
     let (scale, unit) = match (per_metre(lateral), per_metre(vertical)) {
@@ -48,7 +48,7 @@ pub(super) fn in_one_unit(
         _ if lateral == vertical => (1.0, Some(vertical).filter(|unit| !unit.is_empty())),
         _ => {
             let name = |unit: &str| if unit.is_empty() { "no unit".to_owned() } else { quoted(unit) };
-            return Err(format!(
+            return refuse(format!(
                 "has side lengths in {} and values in {}, expected lengths (pm, Å, nm, µm, mm, cm, m) for both: \
                  export the channel of heights, with both units",
                 name(lateral),

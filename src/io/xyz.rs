@@ -5,7 +5,7 @@ use std::io::BufRead;
 use ndarray::Array2;
 
 use super::text::for_each_line;
-use super::{Parsed, quoted};
+use super::{Parsed, check_room, quoted, refuse, reserve};
 use crate::surface::Topography;
 
 /// The largest distance of a point from its place on the grid, in spacings.
@@ -22,17 +22,20 @@ pub(super) fn read_xyz(reader: impl BufRead) -> Parsed<Topography> {
         |number, words| {
             let &[x, y, z] = words else {
                 let count = words.len();
-                return Err(format!(
+                return refuse(format!(
                     "line {number} has {count} numbers, expected x, y and z: end its name otherwise if it is a matrix"
                 ));
             };
             if !(x.is_finite() && y.is_finite()) {
-                return Err(format!("line {number} has the coordinates {x} and {y}, expected finite numbers"));
+                return refuse(format!("line {number} has the coordinates {x} and {y}, expected finite numbers"));
             }
+            reserve(&mut points, 1)?;
             points.push([x, y, z]);
             Ok(())
         },
     )?;
+    // what the axes and the map take at most
+    check_room(points.len().saturating_mul(64))?;
     let axis = |k: usize, name: &str| {
         Axis::new(points.iter().map(|point| point[k]).collect()).ok_or_else(|| {
             format!(
@@ -43,7 +46,7 @@ pub(super) fn read_xyz(reader: impl BufRead) -> Parsed<Topography> {
     };
     let (x, y) = (axis(0, "x")?, axis(1, "y")?);
     if x.nodes as f64 * y.nodes as f64 > SPARSEST * points.len() as f64 {
-        return Err(format!(
+        return refuse(format!(
             "is not on a regular grid: its {} points would be scattered over {} x {} nodes; \
              interpolate them on a grid first",
             points.len(),
@@ -55,7 +58,7 @@ pub(super) fn read_xyz(reader: impl BufRead) -> Parsed<Topography> {
     let (dx, dy) = match (x.spacing, y.spacing) {
         (Some(dx), dy) => (dx, dy.unwrap_or(dx)),
         (None, Some(dy)) => (dy, dy),
-        (None, None) => return Err("has points in one place only, expected a grid of them".to_owned()),
+        (None, None) => return refuse("has points in one place only, expected a grid of them"),
     };
     let mut heights = Array2::from_elem((x.nodes, y.nodes), f64::NAN);
     let mut taken = vec![false; heights.len()];
@@ -63,7 +66,9 @@ pub(super) fn read_xyz(reader: impl BufRead) -> Parsed<Topography> {
         let (i, j) = (x.index(px), y.index(py));
         if std::mem::replace(&mut taken[i * y.nodes + j], true) {
             let place = quoted(&format!("{px} {py}"));
-            return Err(format!("has two points at the node of {place}: it is not one map, or not on a regular grid"));
+            return refuse(format!(
+                "has two points at the node of {place}: it is not one map, or not on a regular grid"
+            ));
         }
         heights[[i, j]] = z;
     }

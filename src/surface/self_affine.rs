@@ -11,6 +11,7 @@ use super::{Spectrum, Surface, centre};
 use crate::error::{Error, Result};
 use crate::fft::synthesise;
 use crate::grid::Grid;
+use crate::memory::afford;
 
 /// Relative slack at the ends of the spectrum, so that the rounding of Lx/Ly decides on no wave.
 const SLACK: f64 = 1e-12;
@@ -102,9 +103,12 @@ impl SelfAffine {
     ///
     /// # Errors
     /// [`Error::Value`] if a parameter is not as its field says, or no wave of the grid is between k_l and k_s;
-    /// [`Error::Unresolved`] if the grid does not resolve k_s.
+    /// [`Error::Unresolved`] if the grid does not resolve k_s; [`Error::Memory`] if the transform takes more than there
+    /// is.
     pub fn surface(&self, grid: Grid) -> Result<Surface> {
         let band = Band::new(self, &grid)?;
+        // heights, spectrum, and what is made of them
+        afford("a random surface", grid.slab(), 32)?;
         let (nx, _) = grid.shape();
         let (mut heights, sum) = synthesise(grid.slab(), |ky, column| {
             let mut sum = 0.0;

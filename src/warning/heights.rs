@@ -57,7 +57,7 @@ pub(super) fn cells(grid: &Grid) -> Option<Warning> {
         text.length(grid.lengths().0),
         text.length(grid.lengths().1)
     );
-    Some(Warning { code: WarningCode::Cells, text: text.with(message) })
+    Some(Warning { code: WarningCode::Cells, text: text.with(message).of_severity(aspect) })
 }
 
 pub(super) fn missing_code(value: f64, count: usize, extremes: &Extremes) -> Warning {
@@ -72,7 +72,7 @@ pub(super) fn missing_code(value: f64, count: usize, extremes: &Extremes) -> War
         text.length(extremes.rest.0),
         text.length(extremes.rest.1)
     );
-    Warning { code: WarningCode::MissingCode, text: text.with(message) }
+    Warning { code: WarningCode::MissingCode, text: text.with(message).of_severity(count as f64) }
 }
 
 pub(super) fn tilt(relief: &Relief, grid: &Grid) -> Option<Warning> {
@@ -88,6 +88,7 @@ pub(super) fn tilt(relief: &Relief, grid: &Grid) -> Option<Warning> {
     }
     let (lx, ly) = grid.lengths();
     let [x, y] = [&relief.sides[0], &relief.sides[1]].map(|side| side.drop * relief.unit);
+    let across = (x.abs() + y.abs()) / (rms * relief.unit);
     let mut text = Text::default();
     let message = format!(
         "the map is tilted by {} along x and {} along y, {} across it, {} times the rms height about that plane: \
@@ -95,22 +96,23 @@ pub(super) fn tilt(relief: &Relief, grid: &Grid) -> Option<Warning> {
         Warning::figure(x / lx),
         Warning::figure(y / ly),
         text.length(x.abs() + y.abs()),
-        Warning::figure((x.abs() + y.abs()) / (rms * relief.unit))
+        Warning::figure(across)
     );
-    Some(Warning { code: WarningCode::Tilt, text: text.with(message) })
+    Some(Warning { code: WarningCode::Tilt, text: text.with(message).of_severity(across) })
 }
 
 pub(super) fn open_edges(relief: &Relief) -> Option<Warning> {
     let factor = if relief.is_line() { OPEN_END } else { OPEN_EDGE };
     let stands_out = |side: &Side| side.edge > STANDS_OUT * side.greatest_step;
     let open = |side: &Side| side.tells() && side.edge > factor * side.rms_step && stands_out(side);
-    let mut text = Text::default();
+    let (mut text, mut worst) = (Text::default(), 0.0);
     let parts: Vec<_> = relief
         .sides
         .iter()
         .zip(["x", "y"])
         .filter(|(side, _)| open(side))
         .map(|(side, name)| {
+            worst = f64::max(worst, side.edge / side.rms_step);
             format!(
                 "{} along {name}, {} times that between neighbours inside",
                 text.length(side.edge * relief.unit),
@@ -126,14 +128,14 @@ pub(super) fn open_edges(relief: &Relief) -> Option<Warning> {
          images (mirror) or a taper (window)",
         parts.join(", and ")
     );
-    Some(Warning { code: WarningCode::OpenEdges, text: text.with(message) })
+    Some(Warning { code: WarningCode::OpenEdges, text: text.with(message).of_severity(worst) })
 }
 
 /// What is probably wrong with an rms slope, if more than `most` is steep.
 pub(super) fn slope(slope: f64, most: f64) -> Option<Warning> {
-    let (code, than) = match slope {
-        _ if slope > most => (WarningCode::Steep, format!("more than {most}")),
-        _ if slope > 0.0 && slope < SMOOTH => (WarningCode::Smooth, format!("less than {SMOOTH:e}")),
+    let (code, than, severity) = match slope {
+        _ if slope > most => (WarningCode::Steep, format!("more than {most}"), slope),
+        _ if slope > 0.0 && slope < SMOOTH => (WarningCode::Smooth, format!("less than {SMOOTH:e}"), slope.recip()),
         _ => return None,
     };
     let message = format!(
@@ -141,14 +143,14 @@ pub(super) fn slope(slope: f64, most: f64) -> Option<Warning> {
          lengths",
         Warning::figure(slope)
     );
-    Some(Warning { code, text: Text::default().with(message) })
+    Some(Warning { code, text: Text::default().with(message).of_severity(severity) })
 }
 
 pub(super) fn spikes(relief: &Relief, spikes: &Spikes) -> Option<Warning> {
     if spikes.count == 0 {
         return None;
     }
-    let rms = relief.rms_about_plane();
+    let farthest = spikes.farthest / relief.rms_about_plane();
     let mut text = Text::default();
     let message = format!(
         "{} single {} out of all neighbours, the farthest by {}, {} times the rms height, at index [{}, {}]; the \
@@ -156,10 +158,10 @@ pub(super) fn spikes(relief: &Relief, spikes: &Spikes) -> Option<Warning> {
         spikes.count,
         if spikes.count == 1 { "node is far" } else { "nodes are far" },
         text.length(spikes.farthest * relief.unit),
-        Warning::figure(spikes.farthest / rms),
+        Warning::figure(farthest),
         spikes.node.0,
         spikes.node.1,
         Warning::figure(spikes.kurtosis)
     );
-    Some(Warning { code: WarningCode::Spikes, text: text.with(message) })
+    Some(Warning { code: WarningCode::Spikes, text: text.with(message).of_severity(farthest) })
 }

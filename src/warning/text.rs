@@ -13,6 +13,8 @@ pub struct Text {
     /// with a mark in the place of each quantity
     text: String,
     quantities: Vec<Quantity>,
+    /// how bad it is, among warnings of one code
+    severity: f64,
 }
 
 /// What stands for a quantity in a text: no message has another use for it.
@@ -35,6 +37,15 @@ impl Text {
     pub fn with(self, text: String) -> Self {
         debug_assert_eq!(text.matches(MARK).count(), self.quantities.len());
         Self { text, ..self }
+    }
+
+    /// The text, with how bad it is.
+    pub fn of_severity(self, severity: f64) -> Self {
+        Self { severity, ..self }
+    }
+
+    pub fn severity(&self) -> f64 {
+        self.severity
     }
 
     /// The text, with lengths and pressures as they are to be.

@@ -12,6 +12,7 @@ mod hostile;
 mod laws_tool;
 mod mirror_tool;
 mod pictures;
+mod places;
 mod prepare;
 mod scene_tool;
 mod selftest;

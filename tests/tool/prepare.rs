@@ -383,7 +383,7 @@ fn all_formats_hold_the_same_fields() {
     // what is there is not overwritten, whatever its format
     bench.refused_with(
         "solve --heights h.npy --mean-gap 1 --format vti --out f64",
-        &["fields.vti", "exists", "--force"],
+        &["f64/report.json", "exists", "--force"],
     );
     bench.refused_with("solve --heights h.npy --mean-gap 1 --format hdf5 --out x", &["hdf5", "npy", "npz", "vti"]);
 }

@@ -36,7 +36,7 @@ fn a_solve_leaves_a_scene_that_repeats_it() {
     }
     // in its own place only with force, and then it remains what it was
     let refused = bench.refused("run a/first/scene.toml");
-    assert!(refused.contains("a/first/gap.npy") && refused.contains("--force"), "{refused}");
+    assert!(refused.contains("a/first/report.json") && refused.contains("--force"), "{refused}");
     bench.said("run a/first/scene.toml --force --quiet");
     assert_eq!(bench.read("a/first/scene.toml"), scene);
     // also from elsewhere, and where the folder is a link
@@ -218,7 +218,7 @@ fn a_scene_can_name_what_has_no_hyphens() {
     let bench = rough();
     bench.write("measure.toml", "command = \"stats\"\nheights = \"heights.npy\"\nlengths = 2\n");
     assert_eq!(bench.said("run measure.toml"), bench.said("stats heights.npy --lengths 2"));
-    assert!(bench.refused("run measure.toml --psd heights.npy").contains("exists"));
+    assert!(bench.refused("run measure.toml --psd heights.npy").contains("is read by this run"));
 }
 
 /// The keys of a report, with those of the reports in it.

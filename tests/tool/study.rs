@@ -63,7 +63,8 @@ fn a_study_has_the_rows_of_the_sweeps_that_it_stands_for() {
     }
     // nothing is left of what it takes to go on
     let kept = bench.names("study.csv.cases");
-    assert!(kept.len() == 4 && kept.iter().all(|name| name.ends_with(".csv")), "{kept:?}");
+    let of = |ending| kept.iter().filter(|name| name.ends_with(ending)).count();
+    assert_eq!((kept.len(), of(".csv"), of(".csv.sum")), (8, 4, 4), "{kept:?}");
 }
 
 #[test]
@@ -94,7 +95,7 @@ fn slices_jobs_and_interruptions_come_to_the_same_table() {
     let said = slices.said("study study.toml");
     assert!(said.contains("2/2  case") && said.contains("18 rows of 6 cases in study.csv"), "{said}");
     let after = mark(&slices);
-    assert!(after.len() == 6 && before.iter().all(|known| after.contains(known)));
+    assert!(after.len() == 12 && before.iter().all(|known| after.contains(known)));
     let rows = |table: &[u8]| {
         let table = text(table);
         let rows: Vec<_> = table.lines().skip(1).map(|row| row.split_once(',').unwrap().1.to_owned()).collect();
@@ -135,6 +136,59 @@ fn a_study_that_is_killed_goes_on() {
     bench.write("short.toml", &MADE.replace("study.csv", "short.csv"));
     bench.said("study short.toml --quiet");
     assert_eq!(bench.read("short.csv").lines().count(), 13);
+}
+
+#[test]
+fn damaged_cases_are_solved_again() {
+    let bench = Bench::new();
+    // steep, for warnings
+    bench.write("study.toml", &MADE.replace("rms-slope = 0.1", "rms-slope = 0.7"));
+    let study = |code| {
+        let output = bench.run("study study.toml --quiet");
+        assert_eq!(output.status.code(), Some(code), "{}", text(&output.stderr));
+        text(&output.stderr)
+    };
+    study(0);
+    let [table, warnings] = ["study.csv", "study.csv.warnings.txt"].map(|name| bench.bytes(name));
+    let folder = bench.path("study.csv.cases");
+    let names: Vec<_> = bench.names("study.csv.cases");
+    let cases: Vec<_> = names.iter().filter(|name| name.ends_with(".csv")).collect();
+    let read = |name: &str| std::fs::read(folder.join(name)).unwrap();
+    let write = |name: &str, content: &[u8]| std::fs::write(folder.join(name), content).unwrap();
+    let mut damaged = 0;
+    let mut check = |damage: &dyn Fn(), said: usize| {
+        damage();
+        let stderr = study(0);
+        let again = stderr.lines().filter(|line| line.contains("its rows were damaged, and it was solved again"));
+        assert_eq!(again.count(), said, "{stderr}");
+        assert!(bench.bytes("study.csv") == table && bench.bytes("study.csv.warnings.txt") == warnings);
+        assert_eq!(bench.names("study.csv.cases"), names);
+        damaged += 1;
+    };
+    let case = cases[1].as_str();
+    let (rows, lines) = (read(case), text(&read(case)).lines().count());
+    assert_eq!(lines, 4);
+    for kept in [rows.len() - 1, rows.len() - 40, rows.len() / 2, 10] {
+        check(&|| write(case, &rows[..kept]), 1);
+    }
+    let whole = text(&rows);
+    for left in 0..lines {
+        let without: String =
+            whole.lines().enumerate().filter(|(k, _)| *k != left).map(|(_, line)| format!("{line}\n")).collect();
+        check(&|| write(case, without.as_bytes()), 1);
+    }
+    for at in (0..rows.len()).step_by(rows.len() / 10) {
+        let mut changed = rows.clone();
+        changed[at] ^= 1;
+        check(&|| write(case, &changed), 1);
+    }
+    check(&|| write(case, &[&rows[..], &rows[rows.len() - 30..]].concat()), 1);
+    check(&|| write(case, &read(cases[0])), 1);
+    check(&|| write(&format!("{case}.warnings.txt"), b"steep [1]: of nothing\n"), 1);
+    check(&|| write(&format!("{case}.sum"), b"0 0\n"), 1);
+    check(&|| std::fs::remove_file(folder.join(case)).unwrap(), 0);
+    check(&|| write(case, b""), 0);
+    assert!(damaged > 20);
 }
 
 #[test]

@@ -239,12 +239,48 @@ fn the_page_of_a_table_has_the_warnings_of_all_its_runs() {
     bench.write(
         "rough.toml",
         "command = \"sweep\"\nout = \"rough.csv\"\nmean-pressures = \"0.01\"\n[make]\nsize = 16\n\
-         rms-slope = 2.0\nk-s = 4\n[vary]\nseed = [1, 2, 3]\n",
+         rms-slope = 2.0\nk-s = 4\n[vary]\nseed = [2, 3, 1]\n",
     );
     bench.run("study rough.toml");
     let found = listed("rough.csv");
     assert!(found.len() == 1 && found[0].starts_with("all cases"), "{found:?}");
-    assert!(bench.read("rough.csv.warnings.txt").contains("with the figures of case 1: the rms slope is 1."));
+    // with those of the worst of its cases
+    let alone = [2, 3, 1].map(|seed| {
+        bench.said(&format!("surface --size 16 --rms-slope 2 --k-s 4 --seed {seed} --quiet --force --out made.npy"));
+        bench.run("sweep --heights made.npy --mean-pressures 0.01 --force --out made.csv");
+        let (severity, message) =
+            bench.read("made.csv.warnings.txt").split_once("]: ").map(|(a, b)| (a.to_owned(), b.to_owned())).unwrap();
+        (severity.split_once('[').unwrap().1.parse::<f64>().unwrap(), message)
+    });
+    let worst = (0..3).max_by(|i, j| alone[*i].0.total_cmp(&alone[*j].0)).unwrap();
+    let figures = format!("with the figures of case {}, the worst: {}", worst + 1, alone[worst].1);
+    assert!(worst > 0 && bench.read("rough.csv.warnings.txt").contains(&figures), "{alone:?}");
+    bench.write(
+        "range.toml",
+        "command = \"sweep\"\nout = \"range.csv\"\nheights = \"clean.npy\"\nmean-pressures = \"0.01\"\n[adhesion]\n\
+         law = \"exponential\"\nwork-of-adhesion = 1e-4\n[vary]\nrange = [3e-3, 9e-4, 2e-3]\n",
+    );
+    bench.run("study range.toml");
+    let found = bench.read("range.csv.warnings.txt");
+    assert!(
+        found.starts_with("range [") && found.contains("all cases, with the figures of case 2, the worst"),
+        "{found}"
+    );
+    bench.said("report range.csv");
+    assert!(bench.read("range.csv.html").contains("case 2, the worst"));
+    // and so do the rows of a sweep, in whatever order they come
+    for pressures in ["5,9,6", "9,5,6", "5,6,9"] {
+        let output =
+            bench.run(&format!("sweep --heights clean.npy --mean-pressures {pressures} --out rows.csv --force --json"));
+        let report: Value = serde_json::from_slice(&output.stdout).unwrap();
+        let message = report["warnings"][0]["message"].as_str().unwrap().to_owned();
+        assert_eq!(text(&output.stderr).lines().filter(|line| line.contains("beyond-modulus")).count(), 1);
+        assert!(bench.read("rows.csv.warnings.txt").ends_with(&format!("]: {message}\n")));
+        let only = bench.run("sweep --heights clean.npy --mean-pressures 9 --out only.csv --force --json");
+        let only: Value = serde_json::from_slice(&only.stdout).unwrap();
+        let figure = |text: &str| text.split(',').next().unwrap().to_owned();
+        assert_eq!(figure(&message), figure(only["warnings"][0]["message"].as_str().unwrap()), "{pressures}");
+    }
 }
 
 #[test]

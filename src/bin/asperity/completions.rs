@@ -6,6 +6,7 @@ use clap::{Args, Command};
 use clap_complete::{Shell, generate};
 
 use crate::outcome::Outcome;
+use crate::printing::printed;
 
 /// Print the completions of commands and options for a shell.
 ///
@@ -29,7 +30,6 @@ const EXAMPLES: &str = "\
 pub fn run(options: &Options, mut tool: Command) -> Outcome<bool> {
     let mut script = Vec::new();
     generate(options.shell, &mut tool, "asperity", &mut script);
-    // nobody may be listening any more
-    let _ = io::stdout().write_all(&script);
+    printed(io::stdout().write_all(&script));
     Ok(true)
 }

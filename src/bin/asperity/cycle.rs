@@ -20,7 +20,7 @@ use crate::loads::name_and_value;
 use crate::options::{Given, Precision, ProblemOptions, Scalar, SolverOptions, SurfaceOptions};
 use crate::outcome::Outcome;
 use crate::pictures::{Resolution, chart_of_columns, check_plot, write_picture};
-use crate::printing::{Printing, say};
+use crate::printing::{self, Printing, say};
 use crate::processes::Processes;
 use crate::quantity::{Dimension, ENERGY_PER_AREA, FORCE, LENGTH, PRESSURE};
 use crate::scene::Scene;
@@ -311,7 +311,7 @@ impl Options {
         });
         if self.printing.for_people() {
             let energy = |value| units.number(value, ENERGY_PER_AREA);
-            say(&format!("{} rows in {}", table.rows(), self.out.display()));
+            say(&format!("{} rows in {}", table.rows(), printing::name(&self.out)));
             if tension > 0.0 {
                 say(&format!("greatest tension        {}", units.number(tension, PRESSURE)));
                 say(&format!("greatest tensile force  {}", units.number(-least("normal_force"), FORCE)));

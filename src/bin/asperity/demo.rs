@@ -14,11 +14,10 @@ use crate::allowed::threads;
 use crate::case;
 use crate::numbers::si;
 use crate::outcome::Outcome;
-use crate::output::at_destination;
-use crate::output::write_text;
+use crate::output::{at_destination, write_text};
 use crate::part::Part;
 use crate::pictures::{self, PictureFormat, Resolution};
-use crate::printing::Printing;
+use crate::printing::{Printing, name, on_terminal};
 use crate::progress::Progress;
 use crate::scene::{self, Scene};
 use crate::solve;
@@ -80,7 +79,7 @@ pub fn run(options: &Options) -> Outcome<bool> {
     let names: Vec<_> = maps.iter().map(String::as_str).chain(["heights.npy", scene::NAME]).collect();
     let (bare_options, bare_scene) = solve_options(out, false)?;
     let (sticky_options, scene) = solve_options(out, true)?;
-    Scene::check(&out.join(scene::NAME))?;
+    scene.check(&out.join(scene::NAME))?;
     drop(OutputFolder::create(out, &names, true)?);
     use_threads(options.threads)?;
 
@@ -129,11 +128,13 @@ pub fn run(options: &Options) -> Outcome<bool> {
     folder.commit()?;
 
     printing.say(&table(&["without adhesion", "with adhesion"], &[&without, &with], true, &units, &Part::all(grid)));
-    printing.say(&format!("\nmaps in {}: {}\n", out.display(), names.join(", ")));
+    printing.say(&format!("\nmaps in {}: {}\n", name(out), names.join(", ")));
     let command: Vec<_> = arguments(out, true).iter().map(|word| quoted(word)).collect();
     let (command, file) = (command.join(" "), quoted(out.join(scene::NAME).as_os_str()));
     printing.say(&format!(
-        "the case with adhesion again, by its options or by its scene:\n  {command}\n  asperity run {file}"
+        "the case with adhesion again, by its options or by its scene:\n  {}\n  asperity run {}",
+        on_terminal(&command),
+        on_terminal(&file)
     ));
     printing.report(|| {
         json!({

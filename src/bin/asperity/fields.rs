@@ -20,12 +20,13 @@ pub fn write_fields<T: Scalar>(
     fields: &[(String, &Array2<T>)],
 ) -> Outcome<()> {
     let at_destination = |error| at_destination(error, out).into();
-    let path = folder.map_or(String::new(), |folder| folder.path("").display().to_string());
-    let files = PathBuf::from(processes.told(path));
-    let mut named = fields.iter().map(|(name, field)| (files.join(name), *field));
+    let here = folder.map_or(PathBuf::new(), |folder| folder.path(""));
     if !grid.is_shared() {
+        let mut named = fields.iter().map(|(name, field)| (here.join(name), *field));
         return named.try_for_each(|(path, field)| write_npy(&path, field)).map_err(at_destination);
     }
+    let files = PathBuf::from(processes.told(here.display().to_string()));
+    let named = fields.iter().map(|(name, field)| (files.join(name), *field));
     let mut create = fields.iter().map(|(name, _)| create_npy::<T>(&files.join(name), grid.shape()));
     processes.first(|| create.try_for_each(|created| created).map_err(at_destination))?;
     let mut write = named.map(|(path, field)| write_npy_rows(&path, grid.shape(), grid.rows().start, field));

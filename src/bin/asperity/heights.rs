@@ -47,6 +47,16 @@ pub fn map(path: &Path, lengths: Option<&[Quantity]>, si: bool) -> Outcome<(Topo
     Ok((map, origin))
 }
 
+/// Refuses a map whose statistics, or a step of preparation, do not fit into memory: running out of it cannot be caught
+/// later.
+pub fn check_room((nx, ny): (usize, usize)) -> Outcome<()> {
+    let numbers = nx.checked_mul(ny).and_then(|nodes| nodes.checked_mul(4));
+    if numbers.is_none_or(|numbers| Vec::<f64>::new().try_reserve_exact(numbers).is_err()) {
+        return Err(format!("{nx} x {ny} nodes do not fit into memory: use fewer").into());
+    }
+    Ok(())
+}
+
 /// A map, in the SI in metres, and the unit from which it was converted.
 fn in_metres_if(si: bool, path: &Path, map: Topography) -> Outcome<(Topography, Option<String>)> {
     let unit = map.unit.clone().filter(|unit| si && unit != LENGTH.si);
@@ -184,6 +194,10 @@ pub fn converted(path: &Path, mut map: Topography, unit: &str) -> Outcome<Topogr
         let converted = |length| times_ten_to(from - to, length);
         map.heights.mapv_inplace(converted);
         map.lengths = map.lengths.map(|(lx, ly)| (converted(lx), converted(ly)));
+        if let Some((lx, ly)) = map.lengths.filter(|&(lx, ly)| !(lx.min(ly) > 0.0 && lx.max(ly).is_finite())) {
+            let what = format!("has side lengths of {lx} and {ly} {unit}, expected positive numbers: save it again");
+            return Err(Error::file(path, what).into());
+        }
     }
     Ok(map)
 }

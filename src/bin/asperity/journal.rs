@@ -172,6 +172,19 @@ impl Journal {
     }
 }
 
+/// The checksum of the rows of a table as they were written, by its state.
+pub fn written(path: &Path) -> Result<Hash, String> {
+    State::read(path).map(|state| state.written.content)
+}
+
+/// Whether a run could go on with a table: all rows but one that was interrupted are as they were written, and so is
+/// the state.
+pub fn is_whole(path: &Path) -> bool {
+    let (Ok(state), Ok(content)) = (State::read(path), fs::read(path)) else { return false };
+    let kept = content.get(..state.written.bytes as usize);
+    kept.is_some_and(|kept| Hash::NEW.of(kept) == state.written.content) && state.read_fields().is_ok()
+}
+
 /// The part of the file that is kept, and the fields and numbers from which the run goes on.
 fn resume(
     path: &Path,

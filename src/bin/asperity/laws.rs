@@ -8,7 +8,7 @@ use clap::{Args, ValueEnum};
 
 use crate::adhesion::{AdhesionOptions, Law};
 use crate::outcome::Outcome;
-use crate::output::OutputFile;
+use crate::output::{OutputFile, check_apart};
 use crate::pictures::Resolution;
 use crate::printing::{bold, say};
 use crate::scene::Scene;
@@ -62,6 +62,7 @@ pub fn run(options: &Options, scene: &Scene) -> Outcome<bool> {
     Format::of(path)?;
     options.adhesion.check()?;
     let law = options.adhesion.uniform()?.law::<f64>()?;
+    check_apart(path, options.adhesion.law_table.as_deref())?;
     let file = OutputFile::create(path, options.force)?;
     listed.for_each(|&law| list(law));
     let (range, rest) = (law.range(), law.rest());

@@ -38,6 +38,7 @@ mod form;
 mod hash;
 mod heights;
 mod identity;
+mod interruption;
 mod journal;
 mod kept;
 mod loads;
@@ -68,7 +69,7 @@ use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 
 use crate::outcome::Outcome;
-use crate::printing::{complain, on_one_line};
+use crate::printing::{check_printed, complain, on_one_line, printed};
 use crate::processes::{Processes, is_elsewhere};
 use crate::scene::Scene;
 
@@ -123,7 +124,10 @@ const NOT_CONVERGED: u8 = 2;
 
 fn main() -> ExitCode {
     match Processes::start() {
-        Ok(processes) => run_on(&processes),
+        Ok(processes) => {
+            interruption::listen();
+            run_on(&processes)
+        }
         Err(error) => refused(&*error),
     }
 }
@@ -201,7 +205,7 @@ fn execute(command: Command, scene: &Scene, processes: &Processes) -> ExitCode {
 
 /// The exit code of an outcome; one process tells of an error.
 fn agreed(processes: &Processes, converged: Outcome<bool>) -> ExitCode {
-    match processes.agree(converged) {
+    match processes.agree(converged.and_then(|converged| check_printed().map(|()| converged))) {
         Ok(true) => CONVERGED,
         Ok(false) => NOT_CONVERGED.into(),
         Err(error) => refused(&*error),
@@ -224,8 +228,8 @@ fn usage(error: &clap::Error, processes: &Processes, blamed: impl Fn(&str) -> Op
     }
     match error.kind() {
         ErrorKind::DisplayHelp | ErrorKind::DisplayVersion => {
-            let _ = error.print();
-            return CONVERGED;
+            printed(error.print());
+            return agreed(processes, Ok(true));
         }
         ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand => {
             let _ = error.print();

@@ -1,6 +1,6 @@
 //! The options that more than one command has.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use asperity::io::read_field;
 use asperity::{Branch, Criterion, Error, Real, Settings, Surface};
@@ -166,6 +166,14 @@ impl SurfaceOptions {
                 Err(format!("a reduced pressure is over the rms slope, but {absent} nodes are absent, {reason}").into())
             }
         }
+    }
+}
+
+impl<'a> ProblemOptions<'a> {
+    /// The files of the problem: heights, law and works of adhesion.
+    pub fn files(self) -> impl Iterator<Item = &'a Path> {
+        let adhesion = [&self.adhesion.law_table, &self.adhesion.work_of_adhesion_map];
+        std::iter::once(&*self.surface.heights).chain(adhesion.into_iter().filter_map(Option::as_deref))
     }
 }
 

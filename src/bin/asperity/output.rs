@@ -2,6 +2,7 @@
 
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
+use std::{fs, io};
 
 use asperity::Error;
 use asperity::io::OutputFolder;
@@ -21,6 +22,28 @@ pub fn check_free(path: &Path, replaceable: bool, other: &str) -> Outcome<()> {
         true => Err(Error::file(path, format!("exists: use --force to replace it, or choose another {other}")).into()),
         false => Ok(()),
     }
+}
+
+/// Refuses an output that is one of the files that a command reads.
+pub fn check_apart<'a>(out: &Path, read: impl IntoIterator<Item = &'a Path>) -> Outcome<()> {
+    match read.into_iter().any(|read| resolved(&absolute(read)) == resolved(&absolute(out))) {
+        true => Err(Error::file(out, "is read by this run, which would replace it: choose another name").into()),
+        false => Ok(()),
+    }
+}
+
+/// A path from the root.
+pub fn absolute(path: &Path) -> PathBuf {
+    let path = if path.as_os_str().is_empty() { Path::new(".") } else { path };
+    std::path::absolute(path).unwrap_or_else(|_| path.to_owned())
+}
+
+/// A path without links and dots, as far as it exists.
+pub fn resolved(path: &Path) -> PathBuf {
+    fs::canonicalize(path).unwrap_or_else(|_| match (path.parent(), path.file_name()) {
+        (Some(parent), Some(name)) => resolved(parent).join(name),
+        _ => path.to_owned(),
+    })
 }
 
 /// A single file that appears complete or not at all.
@@ -43,11 +66,6 @@ impl OutputFile {
         Ok(Self { folder, parent: parent.to_owned(), name: name.to_owned() })
     }
 
-    /// Whether another file has the same path.
-    pub fn is(&self, other: &Self) -> bool {
-        self.parent == other.parent && self.name == other.name
-    }
-
     /// Writes the file by `write`, which gets the path of a temporary one.
     pub fn write(&self, write: impl FnOnce(&Path) -> asperity::Result<()>) -> asperity::Result<()> {
         write(&self.folder.path(&self.name)).map_err(|error| at_destination(error, &self.parent))
@@ -57,11 +75,25 @@ impl OutputFile {
     pub fn commit(self) -> asperity::Result<()> {
         self.folder.commit()
     }
+
+    /// Puts `files` in their places, and then this one, which stands for all of them: one of its name goes before, so
+    /// that it is never beside those of another run.
+    pub fn commit_after(self, files: impl IntoIterator<Item = Self>) -> asperity::Result<()> {
+        let place = self.parent.join(&self.name);
+        match fs::remove_file(&place) {
+            Err(error) if error.kind() != io::ErrorKind::NotFound => {
+                return Err(Error::file(&place, format!("cannot be replaced: {error}")));
+            }
+            _ => {}
+        }
+        files.into_iter().try_for_each(Self::commit)?;
+        self.commit()
+    }
 }
 
 /// Writes a text, or says where it could not be written.
 pub fn write_text(path: &Path, text: &str) -> asperity::Result<()> {
-    std::fs::write(path, text).map_err(|e| Error::file(path, format!("cannot be written: {e}")))
+    fs::write(path, text).map_err(|e| Error::file(path, format!("cannot be written: {e}")))
 }
 
 /// The error of a hidden temporary file as that of the file in its destination `folder`.

@@ -15,12 +15,14 @@ use toml::Table;
 
 use crate::citation::citations;
 use crate::csv;
+use crate::journal::state_path;
 use crate::numbers::plain;
 use crate::outcome::Outcome;
-use crate::output::{OutputFile, with_suffix, write_text};
+use crate::output::{OutputFile, check_apart, with_suffix, write_text};
 use crate::pictures::{chart_of_columns, chart_of_loads, draw_pressure, draw_regions};
-use crate::printing::say;
+use crate::printing::{name, say};
 use crate::scene;
+use crate::solve;
 use crate::units::{Units, dimension_of};
 use crate::warnings;
 
@@ -63,11 +65,17 @@ pub fn run(options: &Options) -> Outcome<bool> {
     let results = &options.results;
     let folder = results.is_dir();
     let default = if folder { results.join("report.html") } else { with_suffix(results, ".html") };
-    let file = OutputFile::create(options.out.as_ref().unwrap_or(&default), options.force)?;
+    let out = options.out.as_ref().unwrap_or(&default);
+    let read: Vec<_> = match folder {
+        true => solve::FILES.iter().map(|name| results.join(name)).collect(),
+        false => vec![results.clone(), scene::beside(results), warnings::beside(results), state_path(results)],
+    };
+    check_apart(out, read.iter().map(PathBuf::as_path))?;
+    let file = OutputFile::create(out, options.force)?;
     let page = if folder { page_of_solve(results)? } else { page_of_table(results)? };
     file.write(|path| write_text(path, &page))?;
     file.commit()?;
-    say(&format!("page in {}", options.out.as_ref().unwrap_or(&default).display()));
+    say(&format!("page in {}", name(out)));
     Ok(true)
 }
 
@@ -296,10 +304,10 @@ fn rows(text: &str) -> (Vec<String>, Vec<String>, Vec<Value>) {
         return (columns.clone(), columns, rows);
     }
     let mut lines = text.lines();
-    let header: Vec<_> = lines.next().unwrap_or_default().split(',').collect();
-    let columns: Vec<_> = header.iter().map(|column| column.split(" [").next().unwrap_or_default()).collect();
+    let header = csv::names(lines.next().unwrap_or_default());
+    let name = |column: &String| column.split(" [").next().unwrap_or_default().to_owned();
+    let columns: Vec<_> = header.iter().map(name).collect();
     let rows = lines.map(|line| csv::parsed(&columns, line)).collect();
-    let [header, columns] = [header, columns].map(|names| names.into_iter().map(str::to_owned).collect());
     (header, columns, rows)
 }
 

@@ -8,14 +8,14 @@ use clap::{Args, ValueEnum};
 use serde_json::json;
 
 use crate::allowed::{finite, nodes, positive};
-use crate::heights::{given, holes, sides, warn_of_unread};
+use crate::heights::{check_room, given, holes, sides, warn_of_unread};
 use crate::numbers::plain;
 use crate::outcome::Outcome;
 use crate::output::OutputFile;
-use crate::printing::{Printing, complain, say};
+use crate::printing::{Printing, complain, name, say};
 use crate::quantity::{LENGTH, PER_LENGTH, Quantity, power_of_length, times_ten_to};
 use crate::scene::Scene;
-use crate::units::Units;
+use crate::units::{Units, unit};
 use crate::warnings::{self, Told};
 
 /// Make a measured map into a surface that can be solved.
@@ -181,8 +181,7 @@ pub fn run(options: &Options, scene: &Scene) -> Outcome<bool> {
     let map = prepared(options, scene.is_si(), &mut lines, &mut warnings)?;
     file.write(|path| write_topography(path, &map))?;
     let scene_file = scene.written_beside(&options.out)?;
-    file.commit()?;
-    scene_file.commit()?;
+    scene_file.commit_after([file])?;
     options.printing.report(|| {
         json!({
             "command": "prepare",
@@ -198,7 +197,7 @@ pub fn run(options: &Options, scene: &Scene) -> Outcome<bool> {
         })
     });
     if options.printing.for_people() {
-        lines.push(("written", format!("{}{}", options.out.display(), left_out(&options.out, &map))));
+        lines.push(("written", format!("{}{}", name(&options.out), left_out(&options.out, &map))));
         let width = lines.iter().map(|(name, _)| name.len()).max().unwrap_or(0);
         let lines = lines.iter().map(|(name, text)| format!("{name:width$}  {text}"));
         say(&lines.collect::<Vec<_>>().join("\n"));
@@ -215,12 +214,6 @@ fn left_out(out: &Path, map: &Topography) -> String {
     lengths.into_iter().chain(mirror).map(|text| format!(", {text}")).collect()
 }
 
-/// A unit, which will be printed.
-fn unit(text: &str) -> Result<String, String> {
-    let unit = Some(text.to_owned()).filter(|text| !text.contains(char::is_control));
-    unit.ok_or_else(|| "it must be a text without control characters".to_owned())
-}
-
 /// Takes the steps, and tells them.
 fn prepared(
     options: &Options,
@@ -232,6 +225,7 @@ fn prepared(
         Some(channel) => read_channel(&options.input, channel)?,
         None => read_topography(&options.input)?,
     };
+    check_room(map.heights.dim())?;
     let mut tell = |step: &'static str, text: String| lines.push((step, text));
     tell("read", described(&map));
 
@@ -324,13 +318,13 @@ fn prepared(
         tell("window", format!("{share} % of the sides tapered at each edge: rms height {} from {before}", rms(&map)));
     }
     if options.mirror {
-        reserve((2 * map.heights.nrows(), 2 * map.heights.ncols()))?;
+        check_room((2 * map.heights.nrows(), 2 * map.heights.ncols()))?;
         map = map.mirror();
         tell("mirror", described(&map));
     }
     if let Some(&[nx, ny]) = options.resample.as_deref() {
         let before = rms(&map);
-        reserve((nx, map.heights.ncols().max(ny)))?;
+        check_room((nx, map.heights.ncols().max(ny)))?;
         map = map.resample((nx, ny))?;
         tell("resample", format!("{}: rms height {} from {before}", described(&map), rms(&map)));
     }
@@ -393,15 +387,6 @@ fn changed(before: &Topography, after: &Topography) -> String {
     }
     let rms = f64::sqrt(squares / f64::max(count, 1.0));
     format!("changed by {} rms, by {} at most", quantity(rms, after), quantity(most, after))
-}
-
-/// Running out of memory cannot be caught later.
-fn reserve((nx, ny): (usize, usize)) -> Outcome<()> {
-    let numbers = nx.checked_mul(ny).and_then(|nodes| nodes.checked_mul(4));
-    if numbers.is_none_or(|numbers| Vec::<f64>::new().try_reserve_exact(numbers).is_err()) {
-        return Err(format!("{nx} x {ny} nodes do not fit into memory: use fewer").into());
-    }
-    Ok(())
 }
 
 fn described(map: &Topography) -> String {

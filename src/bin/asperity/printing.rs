@@ -1,11 +1,15 @@
 //! Printing: tables for people or JSON, and the colours of a terminal.
 
 use std::io::{self, Write};
+use std::path::Path;
+use std::sync::OnceLock;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use anstream::AutoStream;
 use clap::Args;
 use serde_json::Value;
+
+use crate::outcome::Outcome;
 
 /// The form of standard output: a table, JSON or nothing.
 #[derive(Args, Clone, Copy)]
@@ -39,7 +43,12 @@ impl Printing {
     /// Prints a report as JSON, if that is wanted; numbers that are not finite become null.
     pub fn report(self, report: impl FnOnce() -> Value) {
         if self.json {
-            say(&format!("{:#}", report()));
+            // only within words, which may have them escaped
+            let escaped = |c: char| match c {
+                c if c.is_control() && c != '\n' => format!("\\u{:04x}", u32::from(c)),
+                c => c.to_string(),
+            };
+            say(&format!("{:#}", report()).chars().map(escaped).collect::<String>());
         }
     }
 }
@@ -74,13 +83,39 @@ fn is_silent() -> bool {
     SILENT.load(Ordering::Relaxed)
 }
 
-/// Prints to standard output, with colours only if that is a terminal. Nobody may be listening any more, as behind
-/// `| head`: the files are written all the same.
+/// The first error of standard output.
+static UNPRINTED: OnceLock<String> = OnceLock::new();
+
+/// Prints to standard output, with colours only if that is a terminal.
 pub fn say(text: &str) {
-    if is_silent() {
-        return;
+    if !is_silent() {
+        printed(writeln!(AutoStream::auto(io::stdout()), "{text}"));
     }
-    let _ = writeln!(AutoStream::auto(io::stdout()), "{text}");
+}
+
+/// Keeps the error of something that was printed, for [`check_printed`]. Nobody may be listening any more, as behind
+/// `| head`, which is none: the files are written all the same.
+pub fn printed(outcome: io::Result<()>) {
+    if let Err(error) = outcome.and_then(|()| io::stdout().flush())
+        && error.kind() != io::ErrorKind::BrokenPipe
+    {
+        let _ = UNPRINTED.set(error.to_string());
+    }
+}
+
+/// Refuses to have succeeded where something could not be printed.
+pub fn check_printed() -> Outcome<()> {
+    UNPRINTED.get().map_or(Ok(()), |reason| Err(format!("standard output cannot be written: {reason}").into()))
+}
+
+/// A text that quotes names, with nothing in it that controls a terminal, on one line.
+pub fn on_terminal(text: &str) -> String {
+    text.chars().map(|c| if c.is_control() { ' ' } else { c }).collect()
+}
+
+/// The name of a file for people.
+pub fn name(path: &Path) -> String {
+    on_terminal(&path.to_string_lossy())
 }
 
 /// Prints one line to standard error, whatever names with line breaks it quotes.
@@ -88,7 +123,7 @@ pub fn complain(kind: &str, text: &str) {
     if is_silent() && kind != "error" {
         return;
     }
-    let line: String = text.chars().map(|c| if c.is_control() { ' ' } else { c }).collect();
+    let line = on_terminal(text);
     let kind = if kind == "error" { coloured("error:", 1) } else { yellow(&format!("{kind}:")) };
     let _ = writeln!(AutoStream::auto(io::stderr()), "{kind} {line}");
 }

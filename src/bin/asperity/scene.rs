@@ -12,7 +12,7 @@ use toml::Value;
 
 use crate::loads::Loads;
 use crate::outcome::Outcome;
-use crate::output::{OutputFile, check_free, with_suffix, write_text};
+use crate::output::{OutputFile, absolute, check_free, resolved, with_suffix, write_text};
 use crate::quantity::Quantity;
 
 /// A run as a scene file that repeats it: every option that was given or has a default.
@@ -127,8 +127,19 @@ impl Scene {
         text
     }
 
-    /// Refuses to replace a file at `path` that was not written as a scene.
-    pub fn check(path: &Path) -> Outcome<()> {
+    /// Refuses to replace a file at `path` that was not written as a scene, and names of files that a scene there cannot
+    /// have.
+    pub fn check(&self, path: &Path) -> Outcome<()> {
+        for entry in &self.entries {
+            for value in &entry.values {
+                if let Literal::Path(name) = value
+                    && seen_from(name, folder_of(path)).to_str().is_none()
+                {
+                    let reason = "is no name in UTF-8, which the scene of this run could not have: rename it";
+                    return Err(Error::file(name, reason).into());
+                }
+            }
+        }
         match fs::read_to_string(path) {
             Ok(text) if !text.starts_with(FIRST) => {
                 let reason = "was not written by asperity, and would be replaced by the scene of this run: rename it, or choose another --out";
@@ -142,7 +153,7 @@ impl Scene {
     /// not written as a scene.
     pub fn check_beside(&self, file: &Path, force: bool) -> Outcome<()> {
         let path = beside(file);
-        Self::check(&path)?;
+        self.check(&path)?;
         // whatever version has written it
         let rest = |text: &str| text.split_once('\n').map(|(_, rest)| rest.to_owned());
         let same = fs::read_to_string(&path).is_ok_and(|text| rest(&text) == rest(&self.text(folder_of(file))));
@@ -261,18 +272,4 @@ fn seen_from(path: &Path, folder: &Path) -> PathBuf {
     let up = folder.map(|_| Component::ParentDir);
     let steps: PathBuf = up.chain(path).collect();
     if steps.as_os_str().is_empty() { ".".into() } else { steps }
-}
-
-/// A path from the root.
-fn absolute(path: &Path) -> PathBuf {
-    let path = if path.as_os_str().is_empty() { Path::new(".") } else { path };
-    std::path::absolute(path).unwrap_or_else(|_| path.to_owned())
-}
-
-/// A path without links and dots, as far as it exists.
-fn resolved(path: &Path) -> PathBuf {
-    fs::canonicalize(path).unwrap_or_else(|_| match (path.parent(), path.file_name()) {
-        (Some(parent), Some(name)) => resolved(parent).join(name),
-        _ => path.to_owned(),
-    })
 }

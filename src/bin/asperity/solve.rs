@@ -22,11 +22,10 @@ use crate::fields::write_fields;
 use crate::numbers::plain;
 use crate::options::{Branches, Given, Iteration, Precision, ProblemOptions, Scalar, SolverOptions, SurfaceOptions};
 use crate::outcome::Outcome;
-use crate::output::at_destination;
-use crate::output::{output_folder, write_text};
+use crate::output::{at_destination, check_apart, output_folder, write_text};
 use crate::part::Part;
 use crate::pictures::{self, PictureFormat, Resolution};
-use crate::printing::{Printing, complain, say};
+use crate::printing::{Printing, complain, name, say};
 use crate::processes::{Processes, WHOLE};
 use crate::progress::Progress;
 use crate::quantity::{PRESSURE, Quantity};
@@ -149,6 +148,24 @@ const NPZ: &str = "fields.npz";
 const VTI: &str = "fields.vti";
 const REPORT: &str = "report.json";
 const DISTRIBUTION: &str = "distribution.csv";
+/// All files that a solve may leave. The report stands for the run.
+pub const FILES: [&str; 15] = [
+    REPORT,
+    scene::NAME,
+    FIELDS[0],
+    FIELDS[1],
+    FIELDS[2],
+    MODE,
+    NPZ,
+    VTI,
+    DISTRIBUTION,
+    PICTURES[0][0],
+    PICTURES[0][1],
+    PICTURES[1][0],
+    PICTURES[1][1],
+    PICTURES[2][0],
+    PICTURES[2][1],
+];
 const PICTURES: [[&str; 2]; 3] =
     [["contact.png", "pressure.png"], ["contact.svg", "pressure.svg"], ["contact.pdf", "pressure.pdf"]];
 
@@ -176,9 +193,10 @@ pub fn run(options: &Options, scene: &Scene, processes: &Processes) -> Outcome<b
     let distribution = options.distribution.map(|_| &DISTRIBUTION);
     let names: Vec<_> = fields.chain([&REPORT, &scene::NAME]).chain(distribution).chain(pictures).copied().collect();
     processes.first(|| {
-        Scene::check(&options.out.join(scene::NAME))?;
+        scene.check(&options.out.join(scene::NAME))?;
+        FILES.iter().try_for_each(|name| check_apart(&options.out.join(name), problem.files()))?;
         // Only a trial: a solve that is interrupted leaves nothing behind.
-        drop(output_folder(&options.out, &names, options.force)?);
+        drop(output_folder(&options.out, &FILES, options.force)?);
         Ok(())
     })?;
     let si = scene.is_si();
@@ -316,7 +334,7 @@ impl Job<'_> {
         self.part_of(&mut account, &solution, &law)?;
         account.strongest = adhesion.strongest();
 
-        let folder = processes.is_first().then(|| output_folder(out, &self.names, *force)).transpose();
+        let folder = processes.is_first().then(|| output_folder(out, &FILES, *force)).transpose();
         let folder = processes.agree(folder)?;
         if self.options.writes(Format::Npy) {
             let (shown, part) = (&*self.part.of_solution(&solution)?, self.part.grid());
@@ -344,7 +362,7 @@ impl Job<'_> {
         if printing.for_people() {
             let adhesive = self.options.adhesion.law != Law::None;
             say(&table(&[], &[&account], adhesive, &self.units, &self.part));
-            say(&format!("results in {}: {}", out.display(), self.names.join(", ")));
+            say(&format!("results in {}: {}", name(out), self.names.join(", ")));
         }
         printing.report(|| self.report(&account));
         warn("", &account, &self.case);

@@ -7,11 +7,11 @@ use asperity::{Spectrum, Surface, SurfaceStatistics, Topography};
 use clap::Args;
 use serde_json::{Map, Value, json};
 
-use crate::heights::{self, check_complete, warn_of_unread};
+use crate::csv;
+use crate::heights::{self, check_complete, check_room, warn_of_unread};
 use crate::numbers::plain;
 use crate::outcome::Outcome;
-use crate::output::OutputFile;
-use crate::output::write_text;
+use crate::output::{OutputFile, check_apart, write_text};
 use crate::printing::Printing;
 use crate::quantity::{Dimension, LENGTH, PER_LENGTH, Quantity};
 use crate::report;
@@ -55,8 +55,10 @@ const EXAMPLES: &str = "\
 /// Runs the command; always successful if it ends.
 pub fn run(options: &Options, scene: &Scene) -> Outcome<bool> {
     let (path, psd) = (&options.heights, options.psd.as_deref());
+    psd.map_or(Ok(()), |psd| check_apart(psd, [path.as_path()]))?;
     let psd = psd.map(|path| OutputFile::create(path, options.force)).transpose()?;
     let (map, _) = heights::map(path, options.lengths.as_deref(), scene.is_si())?;
+    check_room(map.heights.dim())?;
     warn_of_unread(path, &map, "stay unknown");
     check_complete(path, &map)?;
     let surface = map.lengths.map(|_| map.clone().surface()).transpose()?;
@@ -151,11 +153,9 @@ pub fn density_table(surface: &Surface, target: Option<&Spectrum>, unit: Option<
         Some(unit) => [format!(" [1/{unit}]"), format!(" [{unit}{power}]")],
         None => [const { String::new() }; 2],
     };
-    let mut text = format!("wave_number{of_wave_number},density{of_density},waves");
-    if target.is_some() {
-        let _ = write!(text, ",target{of_density}");
-    }
-    text.push('\n');
+    let columns = [format!("wave_number{of_wave_number}"), format!("density{of_density}"), "waves".to_owned()];
+    let aim = target.iter().map(|_| format!("target{of_density}"));
+    let mut text = csv::header(columns.into_iter().chain(aim)) + "\n";
     for (i, ((q, density), waves)) in psd.wave_numbers.iter().zip(&psd.densities).zip(&psd.waves).enumerate() {
         let aim = target.as_ref().map_or_else(String::new, |target| format!(",{:e}", target[i]));
         // Writing to a string cannot fail.

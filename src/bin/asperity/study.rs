@@ -18,7 +18,7 @@ use self::work::{Folder, solve};
 use crate::allowed::threads;
 use crate::outcome::Outcome;
 use crate::output::check_free;
-use crate::printing::{Printing, complain};
+use crate::printing::{Printing, complain, name};
 use crate::report;
 use crate::warnings;
 
@@ -149,11 +149,10 @@ pub fn run(options: &Options, mut tool: clap::Command) -> Outcome<bool> {
     let table = if done == cases && !options.list { Some(merge(&study, &folder)?) } else { None };
     let (rows, unconverged) = table.map_or((None, None), |table| (Some(table.rows), Some(table.unconverged)));
     printing.say(&match rows {
-        Some(rows) => format!("{rows} rows of {cases} cases in {}", study.out.display()),
-        None => format!(
-            "{done} of {cases} cases are done; the run that finds all of them done writes {}",
-            study.out.display()
-        ),
+        Some(rows) => format!("{rows} rows of {cases} cases in {}", name(&study.out)),
+        None => {
+            format!("{done} of {cases} cases are done; the run that finds all of them done writes {}", name(&study.out))
+        }
     });
     printing.report(|| {
         let outcome = json!({

@@ -11,12 +11,11 @@ use crate::allowed::{nodes, positive, threads};
 use crate::form::{Form, FormOptions};
 use crate::heights::both_sides;
 use crate::outcome::Outcome;
-use crate::output::OutputFile;
-use crate::output::write_text;
-use crate::printing::Printing;
+use crate::output::{OutputFile, check_apart, write_text};
+use crate::printing::{Printing, name};
 use crate::quantity::{LENGTH, Quantity};
 use crate::report;
-use crate::scene::Scene;
+use crate::scene::{self, Scene};
 use crate::stats::{density_table, statistics, table};
 use crate::threads::use_threads;
 
@@ -125,16 +124,12 @@ pub fn run(options: &Options, scene: &Scene) -> Outcome<bool> {
     let grid = Grid::new(shape, both_sides(shape, options.lengths.as_deref().unwrap_or_default()))?;
     let heights = OutputFile::create(&options.out, options.force)?;
     let psd = options.psd.as_deref().map(|path| OutputFile::create(path, options.force)).transpose()?;
-    if psd.as_ref().is_some_and(|psd| psd.is(&heights)) {
+    let others = [options.out.clone(), scene::beside(&options.out)];
+    if options.psd.as_deref().is_some_and(|psd| check_apart(psd, others.iter().map(PathBuf::as_path)).is_err()) {
         return Err(format!("--psd is {}, as --out: give it a name of its own", options.out.display()).into());
     }
     scene.check_beside(&options.out, options.force)?;
     use_threads(options.threads)?;
-    // Running out of memory cannot be caught later: heights, transform and spectrum take four numbers per node at
-    // most.
-    if Vec::<f64>::new().try_reserve_exact(4 * grid.nodes()).is_err() {
-        return Err(format!("{} x {} nodes do not fit into memory: use fewer", shape.0, shape.1).into());
-    }
 
     let roughness = rough.map(|rough| rough.surface(grid)).transpose()?;
     let surface = options.body.surface(grid, roughness)?;
@@ -155,14 +150,14 @@ pub fn run(options: &Options, scene: &Scene) -> Outcome<bool> {
         file.write(|path| write_text(path, &text))?;
     }
     let scene_file = scene.written_beside(&options.out)?;
-    [Some(heights), psd, Some(scene_file)].into_iter().flatten().try_for_each(OutputFile::commit)?;
+    scene_file.commit_after([Some(heights), psd].into_iter().flatten())?;
     // what is absent has no statistics
     let ((nx, ny), found) = (shape, (absent == 0).then(|| surface.statistics()));
     options.printing.say(&match &found {
         Some(found) => table(&map, found),
         None => format!("{nx} x {ny} nodes, {absent} of them absent"),
     });
-    options.printing.say(&format!("heights in {}", options.out.display()));
+    options.printing.say(&format!("heights in {}", name(&options.out)));
     options.printing.report(|| {
         let figures = match &found {
             Some(found) => statistics(&map, found, &options.out),

@@ -23,7 +23,7 @@ use crate::journal::Row;
 use crate::options::{Given, Precision, ProblemOptions, Scalar, SolverOptions, SurfaceOptions};
 use crate::outcome::Outcome;
 use crate::pictures::PlotOptions;
-use crate::printing::{Printing, complain};
+use crate::printing::{Printing, complain, name};
 use crate::processes::Processes;
 use crate::scene::Scene;
 use crate::table::{self, Table, TableOptions};
@@ -206,7 +206,7 @@ impl Options {
         let names = self.names();
         let rows = text.lines().skip(usize::from(format == Format::Csv)).map(|row| parsed(format, &names, row));
         processes.first(|| self.plot.draw(&rows.collect::<Vec<_>>(), units))?;
-        self.printing.say(&format!("{count} rows in {}", self.out.display()));
+        self.printing.say(&format!("{count} rows in {}", name(&self.out)));
         self.printing.report(|| {
             let last = parsed(format, &names, text.lines().next_back().unwrap_or_default());
             table.report("sweep", control, json!({ "spring_stiffness": self.loads.spring_stiffness(), "last": last }))

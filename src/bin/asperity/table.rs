@@ -17,8 +17,9 @@ use crate::kept::Kept;
 use crate::numbers::percent;
 use crate::options::{Precision, ProblemOptions, Scalar};
 use crate::outcome::Outcome;
+use crate::output::check_apart;
 use crate::part::Part;
-use crate::printing::{Printing, complain};
+use crate::printing::{Printing, complain, name};
 use crate::processes::{Processes, WHOLE};
 use crate::progress::Progress;
 use crate::quantity::{FORCE, LENGTH, PRESSURE};
@@ -86,6 +87,7 @@ impl<'a> Table<'a> {
             let Some((surface, adhesion)) = whole else { return Ok(()) };
             let mut warnings =
                 Warnings::of_input::<T>(strictness, (&surface, origin), &adhesion, problem, options.units)?;
+            check_apart(out, problem.files().chain(problem.solver.initial_gap.as_deref()))?;
             kept.check(force, out)?;
             scene.check_beside(out, force || out.exists())?;
             warnings::check_beside(out, force || out.exists())?;
@@ -109,7 +111,7 @@ impl<'a> Table<'a> {
                 kept.clear();
             } else {
                 let of = loads.map_or(String::new(), |loads| format!(" of {}", loads.len()));
-                options.printing.say(&format!("{} has {}{of} rows already", out.display(), journal.rows()));
+                options.printing.say(&format!("{} has {}{of} rows already", name(out), journal.rows()));
             }
             opened = Some((journal, saved, warnings, made));
             Ok(())

@@ -1,7 +1,9 @@
 //! The units of the numbers that a command gives, as far as they are known.
 
+use asperity::io::LONGEST_UNIT;
 use clap::Args;
 
+use crate::csv;
 use crate::numbers::{plain, si};
 use crate::outcome::Outcome;
 use crate::quantity::{
@@ -13,14 +15,21 @@ use crate::quantity::{
 #[derive(Args)]
 pub struct UnitOptions {
     /// Unit of lengths that are given without one, for tables and pictures; m gets prefixes
-    #[arg(long, value_name = "UNIT", help_heading = "Output")]
+    #[arg(long, value_name = "UNIT", value_parser = unit, help_heading = "Output")]
     length_unit: Option<String>,
     /// Unit of pressures that are given without one, for tables and pictures; Pa gets prefixes
-    #[arg(long, value_name = "UNIT", help_heading = "Output")]
+    #[arg(long, value_name = "UNIT", value_parser = unit, help_heading = "Output")]
     pressure_unit: Option<String>,
     /// Unit of forces, for tables and pictures; N gets prefixes [default: that of pressure times length squared]
-    #[arg(long, value_name = "UNIT", help_heading = "Output")]
+    #[arg(long, value_name = "UNIT", value_parser = unit, help_heading = "Output")]
     force_unit: Option<String>,
+}
+
+/// A unit as it is typed, which will be printed, and may come into a file.
+pub fn unit(text: &str) -> Result<String, String> {
+    let fits = text.chars().count() <= LONGEST_UNIT && !text.contains(char::is_control);
+    let text = Some(text.to_owned()).filter(|_| fits);
+    text.ok_or_else(|| format!("it must be a text of at most {LONGEST_UNIT} characters, without control characters"))
 }
 
 /// The units of lengths, pressures and forces, from which the others follow.
@@ -115,7 +124,7 @@ impl Units {
             Some(unit) => format!("{name} [{}]", unit.replace('²', "2").replace('·', " ")),
             None => (*name).to_owned(),
         };
-        names.iter().map(name).collect::<Vec<_>>().join(",") + "\n"
+        csv::header(names.iter().map(name)) + "\n"
     }
 }
 

@@ -31,18 +31,39 @@ pub struct Strictness {
 pub struct Told {
     pub code: String,
     pub message: String,
+    /// How bad it is, among those of its code
+    severity: f64,
 }
 
 impl Told {
     pub fn new(warning: &Warning, units: &Units) -> Self {
         let [length, pressure] = [LENGTH, PRESSURE].map(|dimension| move |value| units.number(value, dimension));
-        Self { code: warning.code.name().to_owned(), message: warning.message_with(length, pressure) }
+        let message = warning.message_with(length, pressure);
+        Self { code: warning.code.name().to_owned(), message, severity: warning.severity() }
     }
 
-    /// The warning on a line, as it is written.
+    /// Takes the place of another one of its code, if it is worse; whether it is.
+    pub fn replace_if_worse(self, known: &mut Self) -> bool {
+        let worse = self.severity > known.severity;
+        if worse {
+            *known = self;
+        }
+        worse
+    }
+
+    /// The warning as a file has it on a line, with how bad it is behind its code.
+    fn line(&self) -> String {
+        format!("{} [{}]: {}\n", self.code, Warning::figure(self.severity), self.message)
+    }
+
+    /// The warning of such a line.
     fn parse(line: &str) -> Option<Self> {
         let (code, message) = line.split_once(": ")?;
-        Some(Self { code: code.to_owned(), message: message.to_owned() })
+        let (code, severity) = match code.strip_suffix(']').and_then(|code| code.split_once(" [")) {
+            Some((code, severity)) => (code, severity.parse().ok()?),
+            None => (code, 0.0),
+        };
+        Some(Self { code: code.to_owned(), message: message.to_owned(), severity })
     }
 }
 
@@ -83,18 +104,20 @@ pub fn write_beside(table: &Path, warnings: &[Told]) -> Outcome<()> {
             _ => Ok(()),
         };
     }
-    let lines: String = warnings.iter().map(|warning| format!("{warning}\n")).collect();
+    let lines: String = warnings.iter().map(Told::line).collect();
     let file = OutputFile::create(&path, true)?;
     file.write(|path| write_text(path, &lines))?;
     Ok(file.commit()?)
 }
 
-/// The warnings of a run so far, each of which is said once.
+/// The warnings of a run so far, each of which is said once, when it is first found; the worst of each code is kept.
 pub struct Warnings {
     strictness: Strictness,
     units: Units,
     found: Vec<Told>,
     said: usize,
+    /// Whether some have become worse since they were written
+    worse: bool,
     /// The table that keeps them beside itself
     table: Option<PathBuf>,
 }
@@ -140,10 +163,10 @@ impl Warnings {
     }
 
     fn empty(strictness: Strictness, units: &Units) -> Self {
-        Self { strictness, units: units.clone(), found: Vec::new(), said: 0, table: None }
+        Self { strictness, units: units.clone(), found: Vec::new(), said: 0, worse: false, table: None }
     }
 
-    /// Looks at an answer, and prints its warnings; of many answers, the first with a warning counts.
+    /// Looks at an answer, and prints its warnings; of many answers, the worst counts.
     pub fn look_at<T: Scalar>(&mut self, solution: &Solution<T>, modulus: f64, part: &Part) -> Outcome<()> {
         let mut found = Warning::of_solution(solution, modulus);
         found.extend(part.warning(solution)?);
@@ -154,9 +177,7 @@ impl Warnings {
     /// Keeps the warnings beside a table from now on, after those of the rows that it has already.
     pub fn keep_beside(&mut self, table: &Path, has_rows: bool) -> Outcome<()> {
         self.say()?;
-        let mut before = if has_rows { read_beside(table)? } else { Vec::new() };
-        before.retain(|told| self.is_new(&told.code));
-        self.found.extend(before);
+        self.keep(if has_rows { read_beside(table)? } else { Vec::new() });
         self.said = self.found.len();
         self.table = Some(table.to_owned());
         write_beside(table, &self.found)
@@ -167,26 +188,31 @@ impl Warnings {
         let new = &self.found[self.said..];
         new.iter().for_each(|warning| complain("warning", &warning.to_string()));
         match &self.table {
-            Some(table) if !new.is_empty() => write_beside(table, &self.found)?,
+            Some(table) if !new.is_empty() || self.worse => write_beside(table, &self.found)?,
             _ => {}
         }
-        self.said = self.found.len();
+        (self.said, self.worse) = (self.found.len(), false);
         Ok(())
     }
 
-    fn is_new(&self, code: &str) -> bool {
-        self.found.iter().all(|known| known.code != code)
+    /// Keeps warnings of new codes, and worse ones of those that are known.
+    fn keep(&mut self, new: Vec<Told>) {
+        for told in new {
+            match self.found.iter_mut().find(|known| known.code == told.code) {
+                Some(known) => self.worse |= told.replace_if_worse(known),
+                None => self.found.push(told),
+            }
+        }
     }
 
     /// Keeps new warnings, or with `--strict` returns them as an error.
-    fn add(&mut self, mut new: Vec<Told>) -> Outcome<()> {
+    fn add(&mut self, new: Vec<Told>) -> Outcome<()> {
         // earlier rows of a table may have said the same without it
         if self.strictness.strict && !new.is_empty() {
             let all: Vec<_> = new.iter().map(Told::to_string).collect();
             return Err(all.join("; and ").into());
         }
-        new.retain(|new| self.is_new(&new.code));
-        self.found.extend(new);
+        self.keep(new);
         Ok(())
     }
 

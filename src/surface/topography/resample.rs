@@ -7,6 +7,7 @@ use super::Topography;
 use crate::error::{Error, Result};
 
 use crate::grid::Grid;
+use crate::memory::afford;
 
 impl Topography {
     /// The map on `nodes` = (Mx, My) nodes of the same sides, finer or coarser, by Fourier interpolation.
@@ -40,10 +41,10 @@ impl Topography {
     /// ```
     ///
     /// # Errors
-    /// [`Error::Value`] if a number of nodes is zero, or such that fields do not fit into memory; [`Error::NotFinite`]
-    /// if heights are missing.
+    /// [`Error::Value`] if a number of nodes is zero; [`Error::Memory`] if they take more than there is;
+    /// [`Error::NotFinite`] if heights are missing.
     pub fn resample(mut self, nodes: (usize, usize)) -> Result<Self> {
-        Grid::new(nodes, (1.0, 1.0))?;
+        afford("a resampled map", Grid::new(nodes, (1.0, 1.0))?.slab(), 32)?;
         Error::all_finite("heights", self.heights.view())?;
         // about the mean, so that a large datum costs no digits
         let mean = self.mean();

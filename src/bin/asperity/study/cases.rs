@@ -13,7 +13,7 @@ use crate::entries::{document, entries, similar, spelled};
 use crate::hash::Hash;
 use crate::loads::parsed;
 use crate::outcome::Outcome;
-use crate::printing::on_one_line;
+use crate::printing::{on_one_line, on_terminal};
 use crate::quantity::Quantity;
 use crate::scene::{is_path, key};
 
@@ -143,11 +143,11 @@ impl Study {
         Ok(Self { command: name, out, format, columns, cases })
     }
 
-    /// The values of a case in words.
+    /// The values of a case in words, for people.
     pub fn told(&self, case: &Case) -> String {
         let values = self.columns.iter().zip(&case.values);
         let told = values.filter_map(|(name, value)| Some(format!("{name} {}", text(value.as_ref()?))));
-        told.collect::<Vec<_>>().join(", ")
+        on_terminal(&told.collect::<Vec<_>>().join(", "))
     }
 }
 

@@ -28,7 +28,7 @@ pub fn merge(study: &Study, folder: &Folder) -> Outcome<Merged> {
         let rows = fs::read_to_string(&path).map_err(|e| Error::file(&path, format!("cannot be read: {e}")))?;
         let mut lines = rows.lines();
         let names: Vec<String> = match study.format {
-            Format::Csv => lines.next().unwrap_or_default().split(',').map(str::to_owned).collect(),
+            Format::Csv => csv::names(lines.next().unwrap_or_default()),
             Format::Jsonl => {
                 let first: Map<_, _> = lines.clone().next().map_or(Ok(Map::new()), serde_json::from_str)?;
                 first.into_iter().map(|(name, _)| name).collect()
@@ -39,8 +39,7 @@ pub fn merge(study: &Study, folder: &Folder) -> Outcome<Merged> {
             if study.format == Format::Csv {
                 let own = own(study, k, case, &columns);
                 let kept = columns.iter().filter(|name| !is_left_out(study, name));
-                let all: Vec<_> = own.iter().map(|(name, _)| name).chain(kept).map(String::as_str).collect();
-                table = all.join(",") + "\n";
+                table = csv::header(own.iter().map(|(name, _)| name).chain(kept)) + "\n";
             }
         } else if names != columns {
             return Err(Error::file(&path, "has other columns than the first case: vary nothing that adds some").into());
@@ -70,26 +69,29 @@ pub fn merge(study: &Study, folder: &Folder) -> Outcome<Merged> {
     Ok(merged)
 }
 
-/// The warnings of all cases: of each code the first, with the numbers of its cases if these are not all, and of the
+/// The warnings of all cases: of each code the worst, with the numbers of its cases if these are not all, and of the
 /// one that it is the text of, if the texts differ.
 fn warnings(study: &Study, folder: &Folder) -> Outcome<Vec<Told>> {
-    let mut all: Vec<(Told, Vec<usize>, bool)> = Vec::new();
-    for (k, case) in study.cases.iter().enumerate() {
+    let mut all: Vec<(Told, usize, Vec<usize>, bool)> = Vec::new();
+    for (number, case) in (1..).zip(&study.cases) {
         for told in read_beside(&folder.rows(case))? {
             match all.iter_mut().find(|(known, ..)| known.code == told.code) {
-                Some((known, cases, differ)) => {
-                    cases.push(k + 1);
+                Some((known, worst, cases, differ)) => {
+                    cases.push(number);
                     *differ |= *known != told;
+                    if told.replace_if_worse(known) {
+                        *worst = number;
+                    }
                 }
-                None => all.push((told, vec![k + 1], false)),
+                None => all.push((told, number, vec![number], false)),
             }
         }
     }
-    let with_cases = |(mut told, cases, differ): (Told, Vec<usize>, bool)| {
+    let with_cases = |(mut told, worst, cases, differ): (Told, usize, Vec<usize>, bool)| {
         let all = cases.len() == study.cases.len();
         let of = if all { "all cases".to_owned() } else { numbered(&cases) };
         if differ {
-            told.message = format!("{of}, with the figures of case {}: {}", cases[0], told.message);
+            told.message = format!("{of}, with the figures of case {worst}, the worst: {}", told.message);
         } else if !all {
             told.message = format!("{of}: {}", told.message);
         }

@@ -13,13 +13,15 @@ use std::thread;
 use asperity::Error;
 
 use super::cases::{Case, Format, Study};
-use crate::journal::state_path;
+use crate::hash::Hash;
+use crate::journal::{is_whole, state_path, written};
 use crate::outcome::Outcome;
-use crate::output::with_suffix;
+use crate::output::{OutputFile, with_suffix, write_text};
 use crate::printing::{Printing, complain};
 use crate::scene;
 use crate::table::UNCONVERGED;
 use crate::threads;
+use crate::warnings;
 
 /// The folder of the cases, beside the table.
 pub struct Folder {
@@ -47,11 +49,23 @@ impl Folder {
         self.path.join(format!("{}.npz", case.identity))
     }
 
-    /// Whether a case has all of its rows: what it takes to go on with them is removed then.
+    /// Whether a case has all of its rows, as they were written: what it takes to go on with them is removed then.
     pub fn is_done(&self, case: &Case) -> bool {
         let rows = self.rows(case);
-        rows.exists() && !state_path(&rows).exists()
+        let found = || Some(checksum(Hash::NEW.of(&fs::read(&rows).ok()?), &rows));
+        !state_path(&rows).exists() && fs::read_to_string(sum_path(&rows)).is_ok_and(|sum| Some(sum) == found())
     }
+}
+
+/// The file with the checksum of rows, beside them.
+fn sum_path(rows: &Path) -> PathBuf {
+    with_suffix(rows, ".sum")
+}
+
+/// The checksum of rows, with that of their warnings.
+fn checksum(of_rows: Hash, rows: &Path) -> String {
+    let warnings = fs::read(warnings::beside(rows)).unwrap_or_default();
+    format!("{of_rows} {}\n", Hash::NEW.of(&warnings))
 }
 
 /// Solves the cases with these numbers that are not done, some at a time; how many were refused.
@@ -105,6 +119,13 @@ fn solved(study: &Study, case: &Case, folder: &Folder, program: &Path, threads: 
     let mut warnings = Vec::new();
     let [out, file] = path("--out", &rows);
     let mut arguments = [case.arguments.as_slice(), &[out, file]].concat();
+    if !is_whole(&rows) {
+        // a run that has just begun has no row yet
+        if fs::metadata(&rows).is_ok_and(|file| file.len() > 0) {
+            warnings.push("its rows were damaged, and it was solved again".to_owned());
+        }
+        arguments.push("--force".into());
+    }
     if let Some(surface) = &case.surface {
         let [out, file] = path("--out", &made);
         warnings.extend(run("surface", &[surface.as_slice(), &[out, file, "--force".into()]].concat())?);
@@ -117,6 +138,13 @@ fn solved(study: &Study, case: &Case, folder: &Folder, program: &Path, threads: 
         let _ = fs::remove_file(scene::beside(&made));
     }
     let _ = fs::remove_file(scene::beside(&rows));
+    let sum = checksum(written(&rows)?, &rows);
+    let write = || -> Outcome<()> {
+        let file = OutputFile::create(&sum_path(&rows), true)?;
+        file.write(|path| write_text(path, &sum))?;
+        Ok(file.commit()?)
+    };
+    write().map_err(|error| error.to_string())?;
     fs::remove_file(state_path(&rows)).map_err(|e| format!("its state cannot be removed: {e}"))?;
     Ok(warnings)
 }
