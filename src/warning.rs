@@ -24,7 +24,7 @@ mod text;
 
 pub use code::WarningCode;
 use extremes::Extremes;
-use heights::{cells, missing_code, open_edges, slope, spikes, tilt};
+use heights::{cells, ends_at_edges, ends_within, missing_code, open_edges, slope, spikes, tilt};
 use relief::Relief;
 use spikes::Spikes;
 use text::Text;
@@ -50,8 +50,8 @@ const RESOLVED: f64 = 0.5;
 /// A probable mistake in the input, or in an answer: a code, the number that shows it, and a remedy.
 ///
 /// Nothing is refused or changed; whether a warning matters is for the reader to say. Clean periodic surfaces have
-/// none. [`of_surface`](Self::of_surface) looks at the heights, [`of_law`](Self::of_law) at the adhesion on them,
-/// both before a solve, [`of_solution`](Self::of_solution) at its answer, and [`of_images`](Self::of_images) at that on
+/// none. [`of_surface`](Self::of_surface) looks at the heights, [`of_modulus`](Self::of_modulus) at the unit of the
+/// contact modulus beside them, [`of_law`](Self::of_law) at the adhesion on them, all before a solve, [`of_solution`](Self::of_solution) at its answer, and [`of_images`](Self::of_images) at that on
 /// a mirrored map.
 ///
 /// ```
@@ -146,8 +146,9 @@ impl Warning {
     }
 
     /// The probable mistakes in the heights: [`Tilt`](WarningCode::Tilt), [`OpenEdges`](WarningCode::OpenEdges),
-    /// [`Steep`](WarningCode::Steep), [`Smooth`](WarningCode::Smooth), [`Spikes`](WarningCode::Spikes),
-    /// [`MissingCode`](WarningCode::MissingCode), [`Cells`](WarningCode::Cells) and [`Flat`](WarningCode::Flat).
+    /// [`Ends`](WarningCode::Ends), [`Steep`](WarningCode::Steep), [`Smooth`](WarningCode::Smooth),
+    /// [`Spikes`](WarningCode::Spikes), [`MissingCode`](WarningCode::MissingCode), [`Cells`](WarningCode::Cells) and
+    /// [`Flat`](WarningCode::Flat). The first three are none where the boundary is free.
     ///
     /// Takes a few passes over the heights. Where there are codes for missing points, the warnings that these codes
     /// would cause are left out. Tilt and edges are looked at along sides of 16 nodes and more.
@@ -159,6 +160,7 @@ impl Warning {
         let extremes = Extremes::of(surface.heights());
         let mut found = Vec::new();
         found.extend(cells(surface.grid()));
+        found.extend(ends_within(surface));
         if extremes.span() <= FLAT * extremes.low.abs().max(extremes.high.abs()) {
             let mut text = Text::default();
             let message = format!(
@@ -176,6 +178,7 @@ impl Warning {
         let relief = Relief::of(surface.heights(), &extremes);
         found.extend(tilt(&relief, surface.grid()));
         found.extend(open_edges(&relief));
+        found.extend(ends_at_edges(&relief, surface));
         found.extend(slope(relief.rms_slope(surface.grid().spacing()), STEEP));
         found.extend(spikes(&relief, &Spikes::of(surface.heights(), &relief)));
         found
@@ -200,6 +203,22 @@ impl Warning {
             return map.rms_slope().and_then(|found| slope(found, STEEP_MAP)).into_iter().collect();
         }
         codes.into_iter().map(|(value, count)| missing_code(value, count, &extremes)).collect()
+    }
+
+    /// A contact `modulus` E* that is probably in another unit than the lengths of the `grid` ask for,
+    /// [`Modulus`](WarningCode::Modulus): below 1 kPa beside lengths in metres. These are in metres if their `unit` is m,
+    /// and without a unit if the nodes are less than 1e-7 apart. E* = 1 is none, as it makes all pressures relative.
+    ///
+    /// ```
+    /// use asperity::{Grid, Warning, WarningCode};
+    /// let grid = Grid::square(512, 10e-6)?;
+    /// assert_eq!(Warning::of_modulus(70.0, &grid, Some("m")).map(|found| found.code), Some(WarningCode::Modulus));
+    /// assert!(Warning::of_modulus(70e9, &grid, Some("m")).is_none());
+    /// assert!(Warning::of_modulus(70.0, &Grid::square(512, 10.0)?, Some("µm")).is_none());
+    /// # Ok::<(), asperity::Error>(())
+    /// ```
+    pub fn of_modulus(modulus: f64, grid: &Grid, unit: Option<&str>) -> Option<Self> {
+        heights::modulus(modulus, grid, unit)
     }
 
     /// The probable mistakes in the range of `law` on a surface pressed against a body of contact `modulus` E*:

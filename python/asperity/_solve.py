@@ -153,14 +153,16 @@ def solve(
     --------
     >>> import numpy as np, asperity
     >>> x = np.arange(64) / 64 - 0.5
-    >>> sphere = -(x[:, None] ** 2 + x**2) / 4
+    >>> wave = np.cos(2 * np.pi * x)
+    >>> bumps = (wave[:, None] + wave) / 80
     >>> law = asperity.MaugisDugdale(work_of_adhesion=1e-4, range=4e-3)
-    >>> solution = asperity.solve(sphere, 1.0, modulus=1.0, mean_gap=0.0398, law=law)
+    >>> solution = asperity.solve(bumps, 1.0, modulus=1.0, mean_gap=0.0235, law=law)
     >>> solution.status, int(solution.contact.sum())
     ('converged', 185)
 
-    A sphere that is no part of a row of spheres, beside Hertz:
+    A sphere, which is a body of its own, beside Hertz:
 
+    >>> sphere = -(x[:, None] ** 2 + x**2) / 4
     >>> tip = asperity.solve(sphere, 1.0, modulus=1.0, normal_force=0.01, boundary="free")
     >>> hertz = asperity.exact.Hertz(radius=2.0, modulus=1.0).at_load(0.01)
     >>> f"{tip.approach / hertz.approach:.3f}"

@@ -46,10 +46,11 @@ law = Dlvo(attraction=1e-4, contact_distance=4e-3, repulsion=6e-5, range=6e-3)
 asperity.check_law(law, largest_gap=0.1)
 
 x = np.arange(128) / 128 - 0.5
-sphere = -(x[:, None] ** 2 + x**2) / 4  # radius of curvature 2
-own = asperity.solve(sphere, 1.0, modulus=1.0, mean_gap=0.0398, law=law)
+wave = np.cos(2 * np.pi * x)
+bumps = (wave[:, None] + wave) / 80  # radius of curvature 2
+own = asperity.solve(bumps, 1.0, modulus=1.0, mean_gap=0.0235, law=law)
 # the same attraction alone, which the library has: the power law of exponent 2 and range z₀/2
-bare = asperity.solve(sphere, 1.0, modulus=1.0, mean_gap=0.0398, law=asperity.PowerLaw(1e-4, 2e-3, 2))
+bare = asperity.solve(bumps, 1.0, modulus=1.0, mean_gap=0.0235, law=asperity.PowerLaw(1e-4, 2e-3, 2))
 for solution in (own, bare):
     print(f"{solution.report['law']:>12}: {solution.contact.sum()} nodes, mean pressure {solution.mean_pressure:.4e}")
 assert own.converged and bare.converged

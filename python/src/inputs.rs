@@ -41,7 +41,7 @@ impl Beyond {
     pub fn warnings(self, surface: &Surface) -> Vec<Warning> {
         let (mut found, free) = (Warning::of_surface(surface), self == Self::Free);
         found.retain(|warning| match warning.code {
-            WarningCode::Tilt | WarningCode::OpenEdges => !free,
+            WarningCode::Tilt | WarningCode::OpenEdges | WarningCode::Ends => !free,
             WarningCode::Flat => !free && surface.absent().is_none(),
             _ => true,
         });

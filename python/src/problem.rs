@@ -140,6 +140,7 @@ impl<T: Scalar> State<T> {
     ) -> Self {
         let grid = *surface.grid();
         let mut warnings = beyond.warnings(&surface);
+        warnings.extend(Warning::of_modulus(modulus, &grid, unit.as_deref()));
         warnings.extend(Warning::of_law(&law, &surface, modulus));
         Self {
             body: Body::Surface(Arc::new(surface)),

@@ -83,6 +83,15 @@ def test_a_probable_mistake_is_a_warning_and_in_the_report(rough):
     assert [warning["code"] for warning in solution.report["warnings"]] == ["steep"]
 
 
+def test_a_body_in_a_periodic_cell_and_a_modulus_beside_metres_are_told(rough, sphere):
+    with pytest.warns(asperity.InputWarning, match="ends: the heights fall to all edges"):
+        asperity.solve(sphere, 1.0, modulus=1.0, mean_gap=0.05)
+    heights = asperity.Topography(1e-6 * rough.heights, (1e-6, 1e-6), "m")
+    with pytest.warns(asperity.InputWarning, match="modulus: the contact modulus is 70,"):
+        asperity.solve(heights, modulus=70.0, mean_pressure=0.1)
+    asperity.solve(heights, modulus=70e9, mean_pressure=1e8)
+
+
 @pytest.mark.parametrize(("unit", "length"), [(None, "2"), ("nm", "2 nm")])
 def test_lengths_in_warnings_have_the_unit_of_the_map(rough, unit, length):
     heights = asperity.Topography(rough.heights, rough.lengths, unit)
@@ -183,12 +192,14 @@ def test_the_interpreter_is_free_during_a_solve():
     assert len(within) > 5  # a held lock would leave one or two
 
 
+@pytest.mark.filterwarnings("ignore:ends")
 def test_stability_is_asked_for(sphere, law):
     solution = asperity.solve(sphere, 1.0, modulus=1.0, mean_gap=0.0398, law=law, stability=True)
     assert solution.report["stability"]["verdict"] == "stable" and solution.report["departures"] is None
     assert np.isclose((solution.mode**2).mean(), 1.0)
 
 
+@pytest.mark.filterwarnings("ignore:ends")
 def test_the_stability_of_a_solution_depends_on_what_holds_it(sphere, law):
     options = {"modulus": 1.0, "mean_gap": 0.0398, "law": law}
     asked = asperity.solve(sphere, 1.0, stability=True, **options)

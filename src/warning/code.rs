@@ -13,12 +13,17 @@ use std::fmt;
 pub enum WarningCode {
     /// The map as a whole is inclined: opposite edges differ by the drop of its plane.
     Tilt,
+    /// The heights fall to all edges, or end before them, as those of a sphere: a body, which in a periodic cell stands
+    /// among images of itself.
+    Ends,
     /// The step across the periodic edge is far greater than any between neighbouring rows or columns inside.
     OpenEdges,
     /// The rms slope exceeds ½, that of a measured map 100, as where heights and lengths are in different units.
     Steep,
     /// The rms slope is less than 1e-8, as where heights and lengths are in different units.
     Smooth,
+    /// The contact modulus E* is below that of any solid in the unit that the lengths ask for.
+    Modulus,
     /// A contact pressure exceeds the contact modulus E*.
     BeyondModulus,
     /// Single nodes are far out of their neighbours.
@@ -42,9 +47,11 @@ impl WarningCode {
     pub fn name(self) -> &'static str {
         match self {
             Self::Tilt => "tilt",
+            Self::Ends => "ends",
             Self::OpenEdges => "open-edges",
             Self::Steep => "steep",
             Self::Smooth => "smooth",
+            Self::Modulus => "modulus",
             Self::BeyondModulus => "beyond-modulus",
             Self::Spikes => "spikes",
             Self::MissingCode => "missing-code",

@@ -6,6 +6,7 @@ use super::spikes::Spikes;
 use super::text::Text;
 use super::{Warning, WarningCode};
 use crate::grid::Grid;
+use crate::surface::Surface;
 
 /// The drop of a plane across the map, in rms heights about the plane, from which there is a tilt: at a few per cent
 /// of contact, some two rms heights above the mean, a fifth gives one side of Gaussian heights half as much contact
@@ -32,6 +33,21 @@ const OPEN_END: f64 = 6.0;
 /// The rms step across the periodic edge from which it stands out, in the greatest rms step inside: a surface of
 /// steps, as a grating, may have one at the edge, but has equal ones inside.
 const STANDS_OUT: f64 = 1.5;
+
+/// The fall of mean height to an edge, in the greatest difference between the means of neighbouring rows (columns), from
+/// which heights fall to the edge: a sphere is steepest there, and a wave or an asperity within the map flat.
+const FALLS: f64 = 0.5;
+
+/// The bend of mean height across the periodic edge, in the greatest one inside, from which the edge is a crease. The
+/// bends of a mirrored map are as great along its mirror lines inside. That of a sphere goes with the number of nodes, and
+/// is 7 on 16; that of a cone, which has an apex inside, is 4 on 32.
+const CREASE: f64 = 4.0;
+
+/// The contact modulus in Pa below which lengths in metres have another unit of pressure beside them: that of soft gels.
+const SOFTEST: f64 = 1e3;
+
+/// The spacing of nodes below which lengths are in metres: in millimetres it would be less than an atom.
+const METRES: f64 = 1e-7;
 
 /// The rms slope below which heights and lengths are in different units: the best mirrors have some 5e-8, and heights
 /// in metres beside lengths in nanometres 1e-9 at most.
@@ -129,6 +145,68 @@ pub(super) fn open_edges(relief: &Relief) -> Option<Warning> {
         parts.join(", and ")
     );
     Some(Warning { code: WarningCode::OpenEdges, text: text.with(message).of_severity(worst) })
+}
+
+/// The highest of the heights along the edges, without those of absent nodes; −∞ if all of these are absent.
+fn highest_at_edges(surface: &Surface) -> f64 {
+    let (nx, ny) = surface.grid().shape();
+    let is_present = |node| surface.absent().is_none_or(|absent| !absent[node]);
+    let rows = [0, nx - 1].into_iter().flat_map(|i| (0..ny).map(move |j| (i, j)));
+    let edges = rows.chain((0..nx).flat_map(|i| [(i, 0), (i, ny - 1)]));
+    let heights = edges.filter(|&node| is_present(node)).map(|node| surface.heights()[node]);
+    heights.fold(f64::NEG_INFINITY, f64::max)
+}
+
+/// A body that ends before the edges.
+pub(super) fn ends_within(surface: &Surface) -> Option<Warning> {
+    let ends = surface.absent().is_some() && highest_at_edges(surface) == f64::NEG_INFINITY;
+    ends.then(|| ends_as("no node along the edges has a surface, as around a punch".to_owned(), Text::default()))
+}
+
+/// A body that falls to the edges, which are creases between it and its images.
+pub(super) fn ends_at_edges(relief: &Relief, surface: &Surface) -> Option<Warning> {
+    let falls = |side: &Side| {
+        let crease = side.falls.iter().sum::<f64>() > CREASE * side.greatest_bend;
+        side.tells() && crease && side.falls.iter().all(|fall| *fall > FALLS * side.greatest_mean_step)
+    };
+    let below = relief.mean - relief.scale.of(highest_at_edges(surface));
+    if !relief.sides.iter().all(falls) || below <= 0.0 {
+        return None;
+    }
+    let (dx, dy) = surface.grid().spacing();
+    let slope = |side: &Side, spacing: f64| side.falls.iter().sum::<f64>() * relief.unit / spacing;
+    let mut text = Text::default();
+    let seen = format!(
+        "the heights fall to all edges, {} and more below their mean, and the slope changes by {} there, as between \
+         spheres or cones side by side",
+        text.length(below * relief.unit),
+        Warning::figure(slope(&relief.sides[0], dx).max(slope(&relief.sides[1], dy)))
+    );
+    Some(ends_as(seen, text))
+}
+
+fn ends_as(seen: String, text: Text) -> Warning {
+    let message = format!(
+        "{seen}: in a periodic cell a body stands among images of itself; give it a free boundary (boundary free), or, \
+         if its roughness alone is wanted, remove its form (remove-form)"
+    );
+    Warning { code: WarningCode::Ends, text: text.with(message) }
+}
+
+pub(super) fn modulus(modulus: f64, grid: &Grid, unit: Option<&str>) -> Option<Warning> {
+    let spacing = grid.spacing().0.min(grid.spacing().1);
+    let in_metres = unit.map_or(spacing < METRES, |unit| unit == "m");
+    if modulus == 1.0 || modulus >= SOFTEST || !in_metres {
+        return None;
+    }
+    let mut text = Text::default();
+    let message = format!(
+        "the contact modulus is {}, and the lengths are in m, with nodes {} apart: beside these it is in Pa, and less \
+         than the {SOFTEST:e} Pa of soft gels; give it in Pa, as 7e10 for 70 GPa, or give all numbers a unit",
+        text.pressure(modulus),
+        text.length(spacing)
+    );
+    Some(Warning { code: WarningCode::Modulus, text: text.with(message) })
 }
 
 /// What is probably wrong with an rms slope, if more than `most` is steep.

@@ -25,6 +25,11 @@ pub struct Side {
     pub mean_edge: f64,
     /// The greatest difference of mean heights between neighbouring lines inside.
     pub greatest_mean_step: f64,
+    /// The fall of mean height to the first line and to the last, from the lines beside them.
+    pub falls: [f64; 2],
+    /// The greatest difference between the mean steps before and after a step inside: the edge, across which the falls
+    /// meet, is such a place.
+    pub greatest_bend: f64,
     /// The rms step from the last line to the first.
     pub edge: f64,
     /// The greatest rms step between neighbouring lines inside.
@@ -40,14 +45,17 @@ impl Side {
         let x = |i: usize| (i as f64 - 0.5 * (n as f64 - 1.0)) / n as f64;
         let squares: f64 = (0..n).map(|i| x(i) * x(i)).sum();
         let products: f64 = means.iter().enumerate().map(|(i, mean)| x(i) * mean).sum();
-        let mean_steps = means.windows(2).map(|pair| (pair[1] - pair[0]).abs());
+        let mean_steps: Vec<f64> = means.windows(2).map(|pair| pair[1] - pair[0]).collect();
+        let greatest_of = |values: &mut dyn Iterator<Item = f64>| values.fold(0.0, |most: f64, v| most.max(v.abs()));
         let greatest = steps.iter().copied().fold(0.0, f64::max);
         let mean_square = if steps.is_empty() { 0.0 } else { steps.iter().sum::<f64>() / steps.len() as f64 };
         Self {
             nodes: n,
             drop: if n > 1 { products / squares } else { 0.0 },
             mean_edge: means.first().zip(means.last()).map_or(0.0, |(first, last)| first - last),
-            greatest_mean_step: mean_steps.fold(0.0, f64::max),
+            greatest_mean_step: greatest_of(&mut mean_steps.iter().copied()),
+            falls: mean_steps.first().zip(mean_steps.last()).map_or([0.0; 2], |(first, last)| [*first, -last]),
+            greatest_bend: greatest_of(&mut mean_steps.windows(3).map(|steps| steps[2] - steps[0])),
             edge: edge.sqrt(),
             greatest_step: greatest.sqrt(),
             rms_step: mean_square.sqrt(),

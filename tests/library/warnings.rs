@@ -48,7 +48,6 @@ fn clean_periodic_surfaces_have_no_warning() {
     for n in [16, 33, 64, 257] {
         let (grid, line) = (Grid::square(n, 1.0).unwrap(), Grid::line(n, 1.0).unwrap());
         for (name, surface) in [
-            ("paraboloid", Surface::paraboloid(grid, 2.0)),
             ("cylinder", Surface::paraboloid(line, 2.0)),
             ("wave", Surface::wave(grid, 0.01, 1)),
             ("short waves", Surface::wave_2d(grid, 0.001, n / 2 - 1)),
@@ -129,6 +128,76 @@ fn edges_that_do_not_meet_are_told_and_mirrors_or_a_window_close_them() {
     assert!(message.contains(" along x") && !message.contains(" along y") && message.contains("mirror"), "{message}");
     for closed in [map.clone().mirror(), map.window(0.2).unwrap()] {
         assert_eq!(codes(&closed.surface().unwrap()), [""; 0]);
+    }
+}
+
+#[test]
+fn a_body_that_ends_is_told_and_no_surface_that_goes_on() {
+    for n in [32, 33, 64, 257] {
+        let grid = Grid::square(n, 1.0).unwrap();
+        let paraboloid = grid.sample(|x, y| -0.25 * (x * x + y * y));
+        let sphere_beside_the_middle = grid.sample(|x, y| (4.0 - (x + 0.03).powi(2) - (y - 0.05).powi(2)).sqrt());
+        let cone = grid.sample(|x, y| -0.1 * x.hypot(y));
+        let punch = grid.sample(|x, y| if x.hypot(y) < 0.3 { 0.0 } else { f64::NAN });
+        for (k, body) in [paraboloid, sphere_beside_the_middle, cone, punch].into_iter().enumerate() {
+            let found = codes(&Surface::with_absent(grid, body).unwrap());
+            assert!(found.contains(&"ends"), "{k} {n}: {found:?}");
+        }
+        let rough = SelfAffine {
+            k_l: 2.0,
+            k_r: 2.0,
+            k_s: 0.4 * n as f64,
+            amplitude: Amplitude::RmsHeight(0.002),
+            ..SelfAffine::default()
+        };
+        let tip = rough.surface(grid).unwrap().heights() + Surface::paraboloid(grid, 1.0).unwrap().heights();
+        assert_eq!(codes(&Surface::new(grid, tip).unwrap()), ["ends"], "rough tip {n}");
+        // in the hole of a surface that goes on
+        let hole =
+            grid.sample(|x, y| if x.hypot(y) > 0.6 { f64::NAN } else { 0.01 * (std::f64::consts::TAU * x).sin() });
+        assert!(!codes(&Surface::with_absent(grid, hole).unwrap()).contains(&"ends"), "hole {n}");
+    }
+    let message = Warning::of_surface(&Surface::paraboloid(Grid::square(64, 1.0).unwrap(), 2.0).unwrap())[0].message();
+    // −(31/64)²/4 against −1/24 on average, and slopes of 63/256 and 61/256 on the two sides
+    assert!(
+        ["0.017 and more below", "changes by 0.484", "boundary free"].iter().all(|part| message.contains(part)),
+        "{message}"
+    );
+    // a piece of a ball with its roughness, mirrored
+    for (seed, bow) in (0..30).flat_map(|seed| [0.0, 0.02, 0.3, 2.0].map(|bow| (seed, bow))) {
+        let rough = SelfAffine { k_l: 1.0, k_r: 1.0, k_s: 20.0, seed, ..SelfAffine::default() };
+        let mut map =
+            Topography::from(rough.surface(Grid::square(64, 1.0).unwrap()).unwrap()).crop(0..44, 7..60).unwrap();
+        map.heights.indexed_iter_mut().for_each(|((i, j), h)| {
+            let (x, y) = (i as f64 / 44.0 - 0.45, j as f64 / 53.0 - 0.55);
+            *h = 0.02 * *h - bow * (x * x + y * y);
+        });
+        assert!(!codes(&map.mirror().surface().unwrap()).contains(&"ends"), "{seed} {bow}");
+    }
+}
+
+#[test]
+fn a_modulus_in_another_unit_than_metres_ask_for_is_told() {
+    let found = |modulus: f64, length: f64, unit: Option<&str>| {
+        Warning::of_modulus(modulus, &Grid::square(100, length).unwrap(), unit).map(|found| found.message())
+    };
+    for (modulus, length, unit) in [(70.0, 1e-6, Some("m")), (2.5, 1e-3, Some("m")), (1100.0 / 2.0, 1e-6, None)] {
+        let message = found(modulus, length, unit).unwrap();
+        assert!(
+            message.contains(&format!("is {}, ", Warning::figure(modulus))) && message.contains("1e3 Pa"),
+            "{message}"
+        );
+    }
+    // pascals, another unit of length, no unit, and pressures over the modulus
+    for (modulus, length, unit) in [
+        (70e9, 1e-6, Some("m")),
+        (2e3, 1e-6, Some("m")),
+        (70.0, 1.0, Some("µm")),
+        (70.0, 1.0, None),
+        (70.0, 1e-3, None),
+        (1.0, 1e-6, Some("m")),
+    ] {
+        assert_eq!(found(modulus, length, unit), None, "{modulus} {length} {unit:?}");
     }
 }
 

@@ -242,7 +242,7 @@ mod tool {
 
     pub fn bench(n: usize) -> tempfile::TempDir {
         let bench = tempfile::tempdir().unwrap();
-        let surface = Surface::paraboloid(Grid::square(n, 1.0).unwrap(), 2.0).unwrap();
+        let surface = Surface::wave_2d(Grid::square(n, 1.0).unwrap(), 0.042, 1).unwrap();
         write_npy(&bench.path().join("heights.npy"), surface.heights()).unwrap();
         bench
     }

@@ -8,7 +8,10 @@ mod bench;
 mod commands;
 mod fraction_tool;
 mod free_tool;
+mod hints;
 mod hostile;
+#[cfg(unix)]
+mod interruption;
 mod laws_tool;
 mod mirror_tool;
 mod pictures;

@@ -140,7 +140,7 @@ fn bad_scenes_are_refused_on_one_line() {
     let solve = "command = \"solve\"\nheights = \"heights.npy\"\nout = \"results\"\n";
     for (lines, parts) in [
         ("", vec!["required", "--mean-gap", "--mean-pressure"]),
-        ("mean-gap = 0.02\nmodulu = 3", vec!["'--modulu'", "similar", "'--modulus'"]),
+        ("mean-gap = 0.02\nmodulu = 3", vec!["'--modulu'", "did you mean", "'--modulus'"]),
         ("mean_gap = 0.02", vec!["'--mean_gap'", "similar", "'--mean-gap'"]),
         ("mean-gap = \"much\"", vec!["'much'", "--mean-gap", "a number"]),
         ("mean-gap = -1", vec!["'-1'", "--mean-gap", "zero or positive"]),

@@ -85,6 +85,34 @@ fn each_command_says_what_is_probably_a_mistake_and_reports_it() {
 }
 
 #[test]
+fn a_tip_in_a_periodic_cell_and_a_modulus_beside_metres_are_told() {
+    let bench = bench();
+    bench.said("surface --form sphere --radius 20nm --size 32 --lengths 16nm --quiet --out tip.npz");
+    bench.said("surface --form sphere --radius 7nm --size 32 --lengths 16nm --quiet --out whole.npz");
+    bench.said("surface --size 32 --k-l 2 --k-s 10 --rms-slope 0.1 --lengths 1um --quiet --out rough.npz");
+    let bare = "--modulus 2e9 --normal-force 1e-9";
+    for (arguments, expected) in [
+        (format!("--heights tip.npz {bare}"), &["ends"][..]),
+        (format!("--heights whole.npz --absent-missing {bare}"), &["ends"]),
+        (format!("--heights tip.npz --boundary free {bare}"), &[]),
+        (format!("--heights whole.npz --absent-missing --boundary free {bare}"), &[]),
+        ("--heights rough.npz --modulus 70 --mean-pressure 1".to_owned(), &["modulus"]),
+        ("--heights rough.npz --modulus 70 --pressure-unit GPa --mean-pressure 1".to_owned(), &[]),
+        ("--heights rough.npz --modulus 70Pa --mean-pressure 1Pa".to_owned(), &[]),
+        ("--heights rough.npz --modulus 70e9 --mean-pressure 1e9".to_owned(), &[]),
+        ("--heights rough.npz --mean-pressure 0.01".to_owned(), &[]),
+    ] {
+        let output = bench.run(&format!("solve {arguments} --no-pictures --force --out results"));
+        let stderr = text(&output.stderr);
+        let found: Vec<_> = said(&stderr).into_iter().filter(|code| ["ends", "modulus"].contains(code)).collect();
+        assert_eq!((output.status.code(), &found[..]), (Some(0), expected), "{arguments}: {stderr}");
+    }
+    let output = bench.run("solve --heights rough.npz --modulus 70 --mean-pressure 1 --strict --out strict");
+    let told = "modulus: the contact modulus is 70, and the lengths are in m, with nodes 31.2 nm apart";
+    assert!(text(&output.stderr).contains(told), "{}", text(&output.stderr));
+}
+
+#[test]
 fn strict_takes_warnings_for_errors_and_writes_nothing() {
     let bench = bench();
     let before = bench.names(".");

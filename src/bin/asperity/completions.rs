@@ -2,13 +2,16 @@
 
 use std::io::{self, Write};
 
-use clap::{Args, Command};
+use clap::builder::PossibleValuesParser;
+use clap::{Arg, Args, Command, ValueHint};
 use clap_complete::{Shell, generate};
 
 use crate::outcome::Outcome;
+use crate::prepare::{ALIGNMENTS, TRENDS};
 use crate::printing::printed;
+use crate::scene::is_path;
 
-/// Print the completions of commands and options for a shell.
+/// Print the completions of commands, options and their values for a shell.
 ///
 /// Where they belong depends on the shell; most read them from a folder when they start.
 #[derive(Args)]
@@ -27,9 +30,23 @@ const EXAMPLES: &str = "\
     asperity completions fish > ~/.config/fish/completions/asperity.fish";
 
 /// Runs the command; always successful if it ends.
-pub fn run(options: &Options, mut tool: Command) -> Outcome<bool> {
+pub fn run(options: &Options, tool: Command) -> Outcome<bool> {
     let mut script = Vec::new();
+    let mut tool = tool.mut_subcommands(|command| command.mut_args(with_values));
     generate(options.shell, &mut tool, "asperity", &mut script);
     printed(io::stdout().write_all(&script));
     Ok(true)
+}
+
+/// An option with its values, as far as the definitions do not have them: words beside numbers, folders, and no files
+/// where a number is wanted.
+fn with_values(option: Arg) -> Arg {
+    let is_folder = option.get_value_names().is_some_and(|names| names == ["DIR"]);
+    match option.get_long() {
+        Some("align-rows") => option.value_parser(PossibleValuesParser::new(ALIGNMENTS)),
+        Some("detrend") => option.value_parser(PossibleValuesParser::new(TRENDS)),
+        Some(_) if is_folder => option.value_hint(ValueHint::DirPath),
+        Some(_) if option.get_action().takes_values() && !is_path(&option) => option.value_hint(ValueHint::Other),
+        _ => option,
+    }
 }

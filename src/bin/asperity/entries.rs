@@ -10,7 +10,9 @@ use clap::{Arg, ArgAction, Command};
 use toml::de::{DeTable, DeValue};
 use toml::{Spanned, Table, Value};
 
-use crate::scene::{is_path, section};
+use crate::hints::meant_by;
+use crate::scene::{is_path, key, section};
+use crate::synonyms::similar;
 
 /// Reads a file of options.
 pub fn document(path: &Path) -> asperity::Result<Table> {
@@ -89,19 +91,22 @@ pub fn entries(table: Table, command: &Command, taken: &[&str]) -> Result<Vec<(S
 
 /// An option of a scene as words of a command line. Only options that cannot be typed at all are refused here; all
 /// others are for the parser of the arguments to judge.
-pub fn spelled(key: &str, value: &Value, option: Option<&Arg>, folder: &Path) -> Result<Vec<OsString>, String> {
-    let name = format!("--{key}");
-    let Some(option) = option else {
-        let typed = key.chars().all(|c| c.is_alphanumeric() || c == '-' || c == '_');
+pub fn spelled(entry: &str, value: &Value, command: &Command, folder: &Path) -> Result<Vec<OsString>, String> {
+    let name = format!("--{entry}");
+    let Some(option) = command.get_arguments().find(|option| key(option).as_deref() == Some(entry)) else {
+        let typed = entry.chars().all(|c| c.is_alphanumeric() || c == '-' || c == '_');
         // not even known options that ask for help
-        let unknown = typed && !["help", "version"].contains(&key);
-        return if unknown { Ok(vec![name.into()]) } else { Err(format!("\"{key}\" is no option: remove it")) };
+        let unknown = typed && !["help", "version"].contains(&entry);
+        return if unknown { Ok(vec![name.into()]) } else { Err(format!("\"{entry}\" is no option: remove it")) };
     };
     if matches!(option.get_action(), ArgAction::SetTrue) {
         return match value {
             Value::Boolean(true) => Ok(vec![name.into()]),
             Value::Boolean(false) => Ok(Vec::new()),
-            other => Err(format!("{key} is {other}: it must be true or false")),
+            other => {
+                let hint = meant_by(command, entry, "").map_or(String::new(), |hint| format!("; {hint}"));
+                Err(format!("{entry} is {other}: it must be true or false{hint}"))
+            }
         };
     }
     let word = |value: &Value| match value {
@@ -110,7 +115,7 @@ pub fn spelled(key: &str, value: &Value, option: Option<&Arg>, folder: &Path) ->
         }
         Value::String(word) => Ok(word.into()),
         Value::Integer(_) | Value::Float(_) if !is_path(option) => Ok(value.to_string().into()),
-        other => Err(format!("{key} is {other}: it must be {}", wanted(option))),
+        other => Err(format!("{entry} is {other}: it must be {}", wanted(option))),
     };
     let words = match value {
         Value::Array(values) => values.iter().map(word).collect::<Result<Vec<_>, _>>()?,
@@ -122,24 +127,13 @@ pub fn spelled(key: &str, value: &Value, option: Option<&Arg>, folder: &Path) ->
     let most = option.get_num_args().map_or(1, |count| count.max_values());
     if most > 1 {
         if words.len() > most {
-            return Err(format!("{key} has {} values: give {most} at most", words.len()));
+            return Err(format!("{entry} has {} values: give {most} at most", words.len()));
         }
         return Ok(std::iter::once(name.into()).chain(words).collect());
     }
     let mut typed = OsString::from(name + "=");
     typed.push(words.join(&OsString::from(",")));
     Ok(vec![typed])
-}
-
-/// The likeness of two names above which one may be the other misspelt: `ks` and `k-s` have 0.67, `ouput` and `out`
-/// 0.6.
-const ALIKE: f64 = 0.55;
-
-/// The one of these names that a misspelt one may mean.
-pub fn similar<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
-    let likeness = |known: &'a str| (strsim::normalized_damerau_levenshtein(name, known), known);
-    let alike = known.into_iter().map(likeness).filter(|(likeness, _)| *likeness > ALIKE);
-    alike.max_by(|(one, _), (other, _)| one.total_cmp(other)).map(|(_, known)| known)
 }
 
 /// The kinds of values that an option takes, in words.

@@ -36,7 +36,14 @@ pub fn parsed(text: &str, number: &dyn Fn(&str) -> Result<Quantity, String>) -> 
             break;
         }
         let mut number = |text: &str| {
-            let quantity = number(text).map_err(|error| format!("'{text}': {error}"))?;
+            let quantity = number(text).map_err(|error| match ends_of(text, number) {
+                Some((from, to)) => {
+                    format!(
+                        "'{text}' is two numbers: a range is FROM:TO:COUNT, as {from}:{to}:10 or {from}:{to}:10:log"
+                    )
+                }
+                None => format!("'{text}': {error}"),
+            })?;
             given.push(quantity);
             Ok::<_, String>(quantity.value)
         };
@@ -74,6 +81,15 @@ pub fn parsed(text: &str, number: &dyn Fn(&str) -> Result<Quantity, String>) -> 
         return Err(format!("{bare} has no unit, but others in the list have one: give all of them units, or none"));
     }
     Ok(Loads { values: loads, given })
+}
+
+/// The two numbers of a range as people write it, 1MPa-2MPa, if it is one.
+fn ends_of<'a>(text: &'a str, number: &dyn Fn(&str) -> Result<Quantity, String>) -> Option<(&'a str, &'a str)> {
+    let splits = ["...", "..", "–", "-", " to "].into_iter().flat_map(|dash| {
+        let end = move |(at, _)| (text[..at].trim(), text[at + dash.len()..].trim());
+        text.match_indices(dash).map(end)
+    });
+    splits.into_iter().find(|(from, to)| number(from).is_ok() && number(to).is_ok())
 }
 
 #[cfg(test)]
@@ -125,6 +141,10 @@ mod tests {
             ("0:1:5:log", ":log"),
             ("1:0:5:log", ":log"),
             ("0:-1:5", "'-1'"),
+            ("1nm-2nm", "as 1nm:2nm:10 or"),
+            ("1e-3-1e-1", "as 1e-3:1e-1:10 or"),
+            ("1..2", "as 1:2:10 or"),
+            ("1nm-2N", "nm-2N is no unit"),
             ("1nm,2", "2 has no unit"),
             ("1:2nm:5", "1 has no unit"),
             ("1nm:2nN:5", "'2nN'"),

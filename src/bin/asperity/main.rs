@@ -37,6 +37,7 @@ mod fields;
 mod form;
 mod hash;
 mod heights;
+mod hints;
 mod identity;
 mod interruption;
 mod journal;
@@ -55,6 +56,7 @@ mod quantity;
 mod report;
 mod scene;
 mod summary;
+mod synonyms;
 mod table;
 mod threads;
 mod units;
@@ -68,6 +70,7 @@ use std::process::ExitCode;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 
+use crate::hints::hinted;
 use crate::outcome::Outcome;
 use crate::printing::{check_printed, complain, on_one_line, printed};
 use crate::processes::{Processes, is_elsewhere};
@@ -162,21 +165,6 @@ where
         Ok(()) => Ok((command, scene)),
         Err(reason) => Err(tool.error(ErrorKind::ValueValidation, reason)),
     }
-}
-
-/// The mistake in some arguments, which for a bare word where there is `--heights` is likely to be its file.
-fn hinted(tool: &clap::Command, arguments: &[OsString], mut error: clap::Error) -> clap::Error {
-    let name = arguments.get(1).and_then(|name| name.to_str()).unwrap_or_default();
-    let takes = tool.find_subcommand(name).is_some_and(|command| command.get_opts().any(|it| it.get_id() == "heights"));
-    if let (ErrorKind::UnknownArgument, Some(ContextValue::String(word))) =
-        (error.kind(), error.get(ContextKind::InvalidArg))
-        && takes
-        && !word.starts_with('-')
-    {
-        let hint = format!("a file of heights is given by '--heights {word}'");
-        error.insert(ContextKind::Suggested, ContextValue::StyledStrs(vec![hint.into()]));
-    }
-    error
 }
 
 fn execute(command: Command, scene: &Scene, processes: &Processes) -> ExitCode {

@@ -143,6 +143,10 @@ impl Scan {
     }
 }
 
+/// The trends that have a name, and the alignments of scan lines.
+pub const TRENDS: [&str; 3] = ["mean", "plane", "quadric"];
+pub const ALIGNMENTS: [&str; 3] = ["median", "median-difference", "polynomial"];
+
 /// A trend by its name or order.
 fn trend(text: &str) -> Result<Trend, String> {
     match (text.trim(), order(text)) {

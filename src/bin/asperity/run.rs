@@ -11,6 +11,7 @@ use toml::Value;
 use crate::entries::{document, entries, spelled};
 use crate::outcome::Outcome;
 use crate::scene::{key, section};
+use crate::study;
 
 /// Do what a scene file says.
 ///
@@ -51,7 +52,7 @@ const EXAMPLES: &str = "\
     asperity run sweep.csv.scene.toml";
 
 /// The commands that a scene may have.
-const COMMANDS: [&str; 7] = ["solve", "sweep", "cycle", "prepare", "surface", "stats", "demo"];
+pub const COMMANDS: [&str; 7] = ["solve", "sweep", "cycle", "prepare", "surface", "stats", "demo"];
 
 /// The arguments that a scene file stands for.
 pub struct Arguments {
@@ -68,6 +69,10 @@ impl Arguments {
         let Options { scene: path, options: given } = options;
         let refuse = |reason: String| Error::file(&path, reason);
         let mut table = document(&path)?;
+        if let Some(section) = study::SECTIONS.iter().find(|section| table.contains_key(**section)) {
+            let file = path.display();
+            return Err(refuse(format!("has [{section}], as a study: solve it by 'asperity study {file}'")).into());
+        }
         let name = match table.remove("command") {
             Some(Value::String(name)) if COMMANDS.contains(&name.as_str()) => name,
             Some(other) => {
@@ -84,8 +89,7 @@ impl Arguments {
         let folder = path.parent().unwrap_or(Path::new(""));
         for (name, value) in &entries {
             if !replaced.contains(name) {
-                let option = command.get_arguments().find(|arg| key(arg).as_ref() == Some(name));
-                arguments.extend(spelled(name, value, option, folder).map_err(refuse)?);
+                arguments.extend(spelled(name, value, command, folder).map_err(refuse)?);
             }
         }
         arguments.extend(given.iter().cloned());

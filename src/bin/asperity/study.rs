@@ -12,6 +12,7 @@ use std::thread::available_parallelism;
 use clap::Args;
 use serde_json::json;
 
+pub use self::cases::SECTIONS;
 use self::cases::Study;
 use self::merge::merge;
 use self::work::{Folder, solve};

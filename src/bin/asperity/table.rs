@@ -12,6 +12,7 @@ use crate::adhesion::Adhesion;
 use crate::case::check_finite;
 use crate::heights::Origin;
 use crate::identity::Identity;
+use crate::interruption;
 use crate::journal::{Journal, Row, Saved, Seen, state_path};
 use crate::kept::Kept;
 use crate::numbers::percent;
@@ -56,6 +57,8 @@ pub struct Table<'a> {
     options: TableOptions<'a>,
     grid: Grid,
     journal: Option<Journal>,
+    /// The number of loads, where that is known before
+    loads: Option<usize>,
     rows: usize,
     unconverged: usize,
     warnings: Warnings,
@@ -116,14 +119,21 @@ impl<'a> Table<'a> {
             opened = Some((journal, saved, warnings, made));
             Ok(())
         })?;
+        let count = loads.map(<[_]>::len);
         let opened = match opened {
             Some((journal, saved, warnings, made)) => {
                 let (rows, unconverged) = (journal.rows(), journal.unconverged());
-                Ok((saved, Self { options, grid, journal: Some(journal), rows, unconverged, warnings, made }))
+                Ok((
+                    saved,
+                    Self { options, grid, journal: Some(journal), loads: count, rows, unconverged, warnings, made },
+                ))
             }
             None => Seen::read(out).and_then(|Seen { saved, rows, unconverged }| {
                 let warnings = Warnings::none(strictness, options.units, true)?;
-                Ok((saved, Self { options, grid, journal: None, rows, unconverged, warnings, made: Vec::new() }))
+                Ok((
+                    saved,
+                    Self { options, grid, journal: None, loads: count, rows, unconverged, warnings, made: Vec::new() },
+                ))
             }),
         };
         let (mut saved, table) = processes.agree(opened)?;
@@ -131,7 +141,17 @@ impl<'a> Table<'a> {
             let own = |field: Array2<f64>| field.slice_axis(Axis(0), Slice::from(options.nodes.rows())).to_owned();
             saved.fields = saved.fields.into_iter().map(own).collect();
         }
+        table.stands();
         Ok((table, saved))
+    }
+
+    /// Sets what an interruption says of the rows.
+    fn stands(&self) {
+        let TableOptions { out, force, .. } = self.options;
+        let of = self.loads.map_or(String::new(), |loads| format!(" of {loads}"));
+        let command = if force { "the same command without --force" } else { "the same command" };
+        let (rows, out) = (self.rows, out.display());
+        interruption::stands(format!("{rows}{of} rows are in {out}: {command} goes on from there"));
     }
 
     /// The number of rows.
@@ -181,6 +201,7 @@ impl<'a> Table<'a> {
         })?;
         self.rows += 1;
         self.unconverged += usize::from(!row.converged);
+        self.stands();
         Ok(())
     }
 

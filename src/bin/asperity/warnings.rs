@@ -142,11 +142,15 @@ impl Warnings {
         // where nothing repeats, nothing has to meet, and a body that ends may be flat
         let free = options.surface.beyond.boundary == Boundary::Free;
         found.retain(|warning| match warning.code {
-            WarningCode::Tilt | WarningCode::OpenEdges => !free,
+            WarningCode::Tilt | WarningCode::OpenEdges | WarningCode::Ends => !free,
             WarningCode::Flat => !free && surface.absent().is_none(),
             _ => true,
         });
-        found.extend(Warning::of_law(&law, surface, options.surface.modulus()));
+        let modulus = options.surface.modulus();
+        // a unit of pressure that is known says what the modulus is in
+        let bare = units.pressure.is_none();
+        found.extend(Warning::of_modulus(modulus, surface.grid(), origin.unit.as_deref()).filter(|_| bare));
+        found.extend(Warning::of_law(&law, surface, modulus));
         let told = found.iter().map(|warning| Told::new(warning, units));
         warnings.add(told.chain(codes).collect())?;
         Ok(warnings)

@@ -9,16 +9,21 @@ use asperity::Error;
 use clap::Command;
 use toml::{Table, Value};
 
-use crate::entries::{document, entries, similar, spelled};
+use crate::entries::{document, entries, spelled};
 use crate::hash::Hash;
 use crate::loads::parsed;
 use crate::outcome::Outcome;
 use crate::printing::{on_one_line, on_terminal};
 use crate::quantity::Quantity;
+use crate::run;
 use crate::scene::{is_path, key};
+use crate::synonyms::similar;
 
 /// The commands of which a case may be a run.
 const COMMANDS: [&str; 2] = ["sweep", "cycle"];
+
+/// The sections that a study has beside those of its command.
+pub const SECTIONS: [&str; 2] = ["make", "vary"];
 
 /// Options that a study decides by itself.
 const OWN: [&str; 8] = ["out", "format", "force", "quiet", "json", "threads", "fields", "plot"];
@@ -67,7 +72,12 @@ impl Study {
         let mut table = document(path)?;
         let name = match table.remove("command") {
             Some(Value::String(name)) if COMMANDS.contains(&name.as_str()) => name,
-            Some(other) => return Err(refuse(format!("command is {other}: it must be sweep or cycle")).into()),
+            Some(other) => {
+                let is_scene = other.as_str().is_some_and(|name| run::COMMANDS.contains(&name));
+                let hint = format!(", or run the scene by 'asperity run {}'", path.display());
+                let hint = if is_scene { hint.as_str() } else { "" };
+                return Err(refuse(format!("command is {other}: it must be sweep or cycle{hint}")).into());
+            }
             None => return Err(refuse(lacks(&table, "command", "does not say what to do", "sweep")).into()),
         };
         let folder = path.parent().unwrap_or(Path::new(""));
@@ -91,13 +101,13 @@ impl Study {
             None => Ok(None),
             Some(other) => Err(refuse(format!("{name} is {other}: it must be a section, [{name}]"))),
         };
-        let make = section(&mut table, "make")?;
-        let vary = section(&mut table, "vary")?.unwrap_or_default();
+        let [make, vary] = SECTIONS.map(|name| section(&mut table, name));
+        let (make, vary) = (make?, vary?.unwrap_or_default());
         let commands = Commands {
             command: tool.find_subcommand(&name).cloned().ok_or_else(|| refuse(format!("{name} is not built in")))?,
             surface: make.as_ref().and_then(|_| tool.find_subcommand("surface").cloned()),
         };
-        let fixed = entries(table, &commands.command, &["make", "vary"]).map_err(refuse)?;
+        let fixed = entries(table, &commands.command, &SECTIONS).map_err(refuse)?;
         let fixed: Vec<_> = fixed.into_iter().chain(make.into_iter().flatten()).collect();
         let choices = vary.into_iter().map(|(key, value)| choices(key, value)).collect::<Result<Vec<_>, _>>();
         let choices = choices.map_err(refuse)?;
@@ -253,8 +263,7 @@ impl Commands {
         let (mut surface, mut arguments) = (Vec::new(), Vec::new());
         for (name, value) in entries {
             let (makes, command) = self.of(name);
-            let option = command.get_arguments().find(|arg| key(arg).as_ref() == Some(name));
-            if makes { &mut surface } else { &mut arguments }.extend(spelled(name, value, option, folder)?);
+            if makes { &mut surface } else { &mut arguments }.extend(spelled(name, value, command, folder)?);
         }
         Ok((self.surface.is_some().then_some(surface), arguments))
     }

@@ -3,17 +3,21 @@
 use std::collections::HashSet;
 use std::env;
 use std::ffi::OsString;
-use std::fs;
+use std::fs::{self, File, TryLockError};
+#[cfg(unix)]
+use std::os::unix::process::CommandExt;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::sync::atomic::AtomicUsize;
 use std::sync::atomic::Ordering::Relaxed;
+use std::sync::{Mutex, PoisonError};
 use std::thread;
 
 use asperity::Error;
 
 use super::cases::{Case, Format, Study};
 use crate::hash::Hash;
+use crate::interruption::{CASE, stands};
 use crate::journal::{is_whole, state_path, written};
 use crate::outcome::Outcome;
 use crate::output::{OutputFile, with_suffix, write_text};
@@ -49,6 +53,21 @@ impl Folder {
         self.path.join(format!("{}.npz", case.identity))
     }
 
+    /// The file that is locked as long as a run solves a case.
+    fn lock(&self, case: &Case) -> PathBuf {
+        self.path.join(format!("{}.lock", case.identity))
+    }
+
+    /// The lock of a case; nothing as long as another run has it, unless this one is to `wait` for that.
+    fn locked(&self, case: &Case, wait: bool) -> Result<Option<File>, String> {
+        let file = File::create(self.lock(case)).map_err(|e| format!("its lock cannot be written: {e}"))?;
+        match if wait { file.lock().map_err(TryLockError::Error) } else { file.try_lock() } {
+            Err(TryLockError::WouldBlock) => Ok(None),
+            // not every file system has locks
+            Ok(()) | Err(TryLockError::Error(_)) => Ok(Some(file)),
+        }
+    }
+
     /// Whether a case has all of its rows, as they were written: what it takes to go on with them is removed then.
     pub fn is_done(&self, case: &Case) -> bool {
         let rows = self.rows(case);
@@ -75,32 +94,53 @@ pub fn solve(study: &Study, folder: &Folder, chosen: &[usize], jobs: usize, prin
     let jobs = jobs.min(chosen.len().max(1));
     let threads = (threads::count() / jobs).max(1);
     // equal cases are one
-    let mut known = HashSet::new();
-    let is_left = |number: &&usize| {
-        let case = &study.cases[**number];
-        !folder.is_done(case) && known.insert(case.identity.0)
+    let (mut known, mut before) = (HashSet::new(), 0);
+    let is_left = |number: &usize| {
+        let case = &study.cases[*number];
+        let is_new = known.insert(case.identity.0);
+        let is_done = is_new && folder.is_done(case);
+        before += usize::from(is_done);
+        is_new && !is_done
     };
-    let left: Vec<_> = chosen.iter().filter(is_left).collect();
+    let left: Vec<_> = chosen.iter().copied().filter(is_left).collect();
     let [next, done, refused] = [(); 3].map(|()| AtomicUsize::new(0));
-    let work = || {
-        while let Some(&&number) = left.get(next.fetch_add(1, Relaxed)) {
-            let case = &study.cases[number];
-            let name = format!("case {}: {}", number + 1, study.told(case));
-            match solved(study, case, folder, &program, threads) {
-                Ok(warnings) => {
-                    warnings.iter().for_each(|line| complain("warning", &format!("{name}: {line}")));
-                    let done = done.fetch_add(1, Relaxed) + 1;
-                    printing.say(&format!(
-                        "{done:>width$}/{}  {name}",
-                        left.len(),
-                        width = left.len().to_string().len()
-                    ));
-                }
-                Err(error) => {
-                    refused.fetch_add(1, Relaxed);
-                    complain("warning", &format!("{name} is refused: {error}"));
-                }
+    let told = |number: usize| format!("case {}: {}", number + 1, study.told(&study.cases[number]));
+    let stand = |done: usize| {
+        let (done, all) = (before + done, before + left.len());
+        stands(format!("{done} of {all} cases are done: the same command goes on, also within those that were begun"));
+    };
+    stand(0);
+    // whether the case is over, as it is not where another run has it
+    let over = |number: usize, wait: bool| {
+        match solved(study, &study.cases[number], folder, &program, threads, wait) {
+            Ok(None) => return false,
+            Ok(Some(warnings)) => {
+                let name = told(number);
+                warnings.iter().for_each(|line| complain("warning", &format!("{name}: {line}")));
+                let done = done.fetch_add(1, Relaxed) + 1;
+                stand(done);
+                let width = left.len().to_string().len();
+                printing.say(&format!("{done:>width$}/{}  {name}", left.len()));
             }
+            Err(error) => {
+                refused.fetch_add(1, Relaxed);
+                complain("warning", &format!("{} is refused: {error}", told(number)));
+            }
+        }
+        true
+    };
+    let elsewhere = Mutex::new(Vec::new());
+    let elsewhere = || elsewhere.lock().unwrap_or_else(PoisonError::into_inner);
+    let work = || {
+        while let Some(&number) = left.get(next.fetch_add(1, Relaxed)) {
+            if !over(number, false) {
+                elsewhere().push(number);
+            }
+        }
+        loop {
+            let Some(number) = elsewhere().pop() else { break };
+            printing.say(&format!("{} is solved by another run: waiting for it", told(number)));
+            over(number, true);
         }
     };
     thread::scope(|scope| {
@@ -111,8 +151,27 @@ pub fn solve(study: &Study, folder: &Folder, chosen: &[usize], jobs: usize, prin
     Ok(refused.into_inner())
 }
 
+/// Solves a case that no other run has solved by then; the warnings of its runs, or the line by which one was refused.
+/// Nothing if another run is at it, unless this one is to `wait`.
+fn solved(
+    study: &Study,
+    case: &Case,
+    folder: &Folder,
+    program: &Path,
+    threads: usize,
+    wait: bool,
+) -> Result<Option<Vec<String>>, String> {
+    let Some(_lock) = folder.locked(case, wait)? else { return Ok(None) };
+    let mut warnings = Vec::new();
+    if !folder.is_done(case) {
+        warnings = rows_of(study, case, folder, program, threads)?;
+    }
+    let _ = fs::remove_file(folder.lock(case));
+    Ok(Some(warnings))
+}
+
 /// Solves a case; the warnings of its runs, or the line by which one was refused.
-fn solved(study: &Study, case: &Case, folder: &Folder, program: &Path, threads: usize) -> Result<Vec<String>, String> {
+fn rows_of(study: &Study, case: &Case, folder: &Folder, program: &Path, threads: usize) -> Result<Vec<String>, String> {
     let (rows, made) = (folder.rows(case), folder.surface(case));
     let run = |command: &str, arguments: &[OsString]| run(program, command, arguments, threads);
     let path = |name: &str, path: &Path| [OsString::from(name), path.into()];
@@ -153,8 +212,14 @@ fn solved(study: &Study, case: &Case, folder: &Folder, program: &Path, threads: 
 fn run(program: &Path, command: &str, arguments: &[OsString], threads: usize) -> Result<Vec<String>, String> {
     let mut process = Command::new(program);
     process.arg(command).args(arguments).args(["--quiet", "--threads", &threads.to_string()]);
-    let output = process.stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::piped()).output();
-    let output = output.map_err(|e| format!("it cannot be started: {e}"))?;
+    process.stdin(Stdio::piped()).stdout(Stdio::null()).stderr(Stdio::piped()).env(CASE, "1");
+    // ^C is for this process, with which the other one ends
+    #[cfg(unix)]
+    process.process_group(0);
+    let started = |e| format!("it cannot be started: {e}");
+    let mut process = process.spawn().map_err(started)?;
+    let _held = process.stdin.take();
+    let output = process.wait_with_output().map_err(started)?;
     let said = String::from_utf8_lossy(&output.stderr);
     let mut lines =
         said.lines().map(|line| line.trim_start_matches("warning: ").trim_start_matches("error: ").to_owned());

@@ -1,0 +1,126 @@
+//! Hints beside the mistakes in arguments: what may have been meant.
+
+use std::ffi::OsString;
+
+use clap::error::{ContextKind, ContextValue, Error, ErrorKind};
+use clap::{Arg, ArgAction, Command};
+
+use crate::scene::key;
+use crate::synonyms::{is_same, meant};
+
+/// A mistake in the arguments of a `tool`, with what may have been meant.
+pub fn hinted(tool: &Command, arguments: &[OsString], mut error: Error) -> Error {
+    let name = arguments.get(1).and_then(|name| name.to_str()).unwrap_or_default();
+    let context = |kind| match error.get(kind) {
+        Some(ContextValue::String(text)) => text.as_str(),
+        _ => "",
+    };
+    // with its value, or with the name of that
+    let word = context(ContextKind::InvalidArg).split([' ', '=']).next().unwrap_or_default();
+    let value = context(ContextKind::InvalidValue);
+    let hints = match (error.kind(), tool.find_subcommand(name)) {
+        (ErrorKind::InvalidSubcommand, _) if name.ends_with(".toml") => vec![of_scene(name)],
+        (ErrorKind::UnknownArgument, Some(command)) if is_option(word) => of_option(tool, command, word),
+        (ErrorKind::UnknownArgument, Some(command)) => of_value(command, word, before(arguments, word)),
+        (ErrorKind::TooManyValues, Some(command)) => of_value(command, value, word),
+        (ErrorKind::ValueValidation, Some(command)) => of_several(tool, command, word, value),
+        _ => Vec::new(),
+    };
+    if !hints.is_empty() {
+        let hints = hints.into_iter().map(Into::into).collect();
+        error.remove(ContextKind::SuggestedArg);
+        error.insert(ContextKind::Suggested, ContextValue::StyledStrs(hints));
+    }
+    error
+}
+
+/// The option that is meant by the name of none, with what its help says of it first.
+pub fn meant_by(command: &Command, name: &str, dashes: &str) -> Option<String> {
+    let known: Vec<_> = command.get_arguments().filter(|option| !option.is_positional()).filter_map(key).collect();
+    let meant = meant(name, known.iter().map(String::as_str))?;
+    let option = find(command, meant)?;
+    let help = option.get_help()?.to_string();
+    let (first, rest) = help.split_at_checked(1)?;
+    let rest = rest.split(';').next().unwrap_or_default();
+    let values: Vec<_> = option.get_possible_values().iter().map(|value| value.get_name().to_owned()).collect();
+    let values = if values.is_empty() { values.concat() } else { format!(": {}", values.join(", ")) };
+    Some(format!("did you mean '{dashes}{meant}', {}{rest}{values}?", first.to_lowercase()))
+}
+
+/// For a name that is no option of a command.
+fn of_option(tool: &Command, command: &Command, word: &str) -> Vec<String> {
+    let name = word.trim_start_matches('-');
+    let has = |command: &&Command| find(command, name).is_some();
+    let others: Vec<_> = tool.get_subcommands().filter(has).map(Command::get_name).collect();
+    let positional = command.get_positionals().find(|option| option.get_id() == name);
+    let mut hints: Vec<_> = meant_by(command, name, "--").into_iter().collect();
+    hints.extend(positional.map(|option| format!("{} is given without a name", option)));
+    hints.extend((!others.is_empty()).then(|| format!("'{word}' is an option of {}", listed(&others))));
+    hints
+}
+
+/// For a value that no option takes, after a word that may be an option without one.
+fn of_value(command: &Command, value: &str, before: &str) -> Vec<String> {
+    let mut hints = Vec::new();
+    let name = before.trim_start_matches('-');
+    let flag = find(command, name).filter(|option| matches!(option.get_action(), ArgAction::SetTrue));
+    if flag.is_some() && is_number(value) {
+        hints.push(format!("'--{name}' takes no value"));
+        hints.extend(meant_by(command, name, "--"));
+    } else if value.ends_with(".toml") {
+        hints.push(of_scene(value));
+    } else if !is_number(value) && find(command, "heights").is_some() {
+        hints.push(format!("a file of heights is given by '--heights {value}'"));
+    }
+    hints
+}
+
+/// For several values in the place of one, or in one word.
+fn of_several(tool: &Command, command: &Command, word: &str, value: &str) -> Vec<String> {
+    let name = word.trim_start_matches('-');
+    let several = |option: &Arg| option.get_num_args().is_some_and(|count| count.max_values() > 1);
+    if value.contains(',') && find(command, name).is_some_and(several) {
+        return vec![format!("give its values with spaces between, '{word} {}'", value.replace(',', " "))];
+    }
+    let list = |option: &&Arg| option.get_long().is_some_and(|long| long != name && is_same(long, name));
+    let has = |command: &&Command| command.get_arguments().any(|option| list(&option));
+    let lists: Vec<_> = tool.get_subcommands().filter(has).map(Command::get_name).collect();
+    let option = tool.get_subcommands().flat_map(Command::get_arguments).find(list).and_then(Arg::get_long);
+    match option {
+        Some(option) if value.contains([',', ':']) => {
+            vec![format!("a list is for {}, by '--{option}'", listed(&lists))]
+        }
+        _ => Vec::new(),
+    }
+}
+
+fn of_scene(file: &str) -> String {
+    format!("a scene is run by 'asperity run {file}', a study by 'asperity study {file}'")
+}
+
+fn find<'a>(command: &'a Command, name: &str) -> Option<&'a Arg> {
+    command.get_arguments().find(|option| option.get_long() == Some(name))
+}
+
+/// The argument before the one that begins with a word.
+fn before<'a>(arguments: &'a [OsString], word: &str) -> &'a str {
+    let pair = arguments.windows(2).find(|pair| pair[1].to_str().is_some_and(|next| next.starts_with(word)));
+    pair.and_then(|pair| pair[0].to_str()).unwrap_or_default()
+}
+
+fn is_option(word: &str) -> bool {
+    word.starts_with('-') && !is_number(word)
+}
+
+/// Whether a word begins as a number does.
+fn is_number(word: &str) -> bool {
+    word.trim_start_matches(['+', '-', '.']).starts_with(|first: char| first.is_ascii_digit())
+}
+
+/// Names with commas between, and the last one after "and".
+fn listed(names: &[&str]) -> String {
+    match names {
+        [names @ .., last] if !names.is_empty() => format!("{} and {last}", names.join(", ")),
+        names => names.concat(),
+    }
+}
