@@ -7,8 +7,8 @@
 mod law;
 
 use asperity::{
-    ContactConstraint, Control, Exponential, Grid, NoAdhesion, Problem, Result, Settings, Solver, Springs, Surface, Wall,
-    Westergaard, check_law,
+    ContactConstraint, Control, Exponential, Grid, NoAdhesion, Problem, Result, Settings, Solver, Springs, Surface,
+    Wall, Westergaard, check_law,
 };
 use clap::Parser;
 use common::arguments;

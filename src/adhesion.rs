@@ -152,7 +152,7 @@ pub trait AdhesionLaw<T: Real>: Send + Sync {
     ///
     /// The five slice functions are what a solve calls, for a few hundred nodes at once. A law of which the gap is all
     /// that matters need not write them. A law that varies over the surface writes them by the node, as
-    /// `examples/patches.rs` does, and answers to the functions of one gap for the node where it is strongest. A law
+    /// `examples/patches/law.rs` does, and answers to the functions of one gap for the node where it is strongest. A law
     /// that can use vector instructions writes them for speed. They must not depend on where the slices begin and end.
     fn energies(&self, first: usize, gaps: &[T], energies: &mut [T]) {
         let _ = first;

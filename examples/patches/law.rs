@@ -52,7 +52,8 @@ impl<T: Real, L: AdhesionLaw<T>> AdhesionLaw<T> for Patches<L> {
         let (rows, columns) = self.shape;
         let kept = (0..rows).step_by(nx).flat_map(|ix| (0..columns).step_by(ny).map(move |iy| ix * columns + iy));
         let shares = kept.map(|node| self.shares[node]).collect();
-        Some(Box::new(Patches { law: &self.law, shape: (rows.div_ceil(nx), columns.div_ceil(ny)), shares }))
+        let law: &dyn AdhesionLaw<T> = &self.law;
+        Some(Box::new(Patches { law, shape: (rows.div_ceil(nx), columns.div_ceil(ny)), shares }))
     }
     // the jumps of the traction are largest where the law is strongest
     fn smoothed(&self, compliance: T) -> Option<Box<dyn AdhesionLaw<T> + '_>> {

@@ -364,7 +364,8 @@ mod tests {
         // it would be taken for the same everywhere
         let Error::AtNode { node, value, expected, .. } = found(Part { shape: None, ..whole() }) else { panic!() };
         assert_eq!((node, value), (1, 0.25 * expected));
-        let weaker = found(Part { largest: 0.5, ..whole() });
+        let longer = MaugisDugdale::new(1.0, 5.0).unwrap();
+        let weaker = found(Part { law: longer, largest: 0.5, ..whole() });
         assert!(matches!(weaker, Error::AtNode { node: 0, value: -1.0, expected: -0.5, .. }), "{weaker}");
         let law = Varying::new(Morse::new(1.0, 1.0).unwrap(), ndarray::array![[0.0, 2.0], [1.0, 0.5]].view()).unwrap();
         check_law::<f64>(&law, 5.0).unwrap();

@@ -66,7 +66,8 @@ impl<L> CutOff<L> {
         let start = law.rest().unwrap_or(0.0);
         // numbers that were rounded on their way here
         if distance < (start + law.range()) * (1.0 - 4.0 * f64::EPSILON) {
-            let requirement = "at least a range of the law beyond contact, or beyond its gap of rest: give a larger one";
+            let requirement =
+                "at least a range of the law beyond contact, or beyond its gap of rest: give a larger one";
             return Err(Error::Value { name: "cut-off distance", value: distance, requirement });
         }
         let (energy, work) = (law.energy(start), law.work_of_adhesion());
