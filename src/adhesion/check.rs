@@ -117,7 +117,8 @@ impl<T: Real> Checked<'_, T> {
         let smooth = Checked { law: &*smoothed, ..*self };
         smooth.functions()?;
         let [work, left] = [self.law, smooth.law].map(|law| law.work_of_adhesion().widen());
-        if !((left - work).abs() <= SHARE * work.abs()) {
+        let keeps = (left - work).abs() <= SHARE * work.abs();
+        if !keeps {
             let requirement = "that of the law, which a smoothed one keeps";
             return Err(Error::Value { name: "work of adhesion of the smoothed law", value: left, requirement });
         }
@@ -172,8 +173,9 @@ impl<T: Real> Checked<'_, T> {
             for (node, (value, expected)) in values.iter().zip(&expected).enumerate() {
                 let (value, expected) = (value.widen(), expected[of].widen());
                 // of the rows of another process nothing is known
-                let known = shape.is_none() || !expected.is_nan();
-                if known && !((value - expected).abs() <= SHARE * size) {
+                let unknown = shape.is_some() && expected.is_nan();
+                let agrees = unknown || (value - expected).abs() <= SHARE * size;
+                if !agrees {
                     let gap = gaps[node].widen();
                     return Err(Error::AtNode { function: NAMES[of], node, gap, value, expected });
                 }

@@ -6,13 +6,41 @@ use ndarray::Array2;
 const W: f64 = 0.05;
 const RANGE: f64 = 2e-9;
 
-/// Every law that never ends, in both precisions.
-fn laws() -> [(Box<dyn AdhesionLaw<f64>>, Box<dyn AdhesionLaw<f32>>); 6] {
-    fn both<L: AdhesionLaw<f64> + AdhesionLaw<f32> + Copy + 'static>(
-        law: Result<L>,
-    ) -> (Box<dyn AdhesionLaw<f64>>, Box<dyn AdhesionLaw<f32>>) {
+/// One law in either precision.
+struct Both(Box<dyn AdhesionLaw<f64>>, Box<dyn AdhesionLaw<f32>>);
+
+macro_rules! either {
+    ($float:ty, $field:tt) => {
+        impl AdhesionLaw<$float> for Both {
+            fn energy(&self, gap: $float) -> $float {
+                self.$field.energy(gap)
+            }
+            fn traction(&self, gap: $float) -> $float {
+                self.$field.traction(gap)
+            }
+            fn slope(&self, gap: $float) -> $float {
+                self.$field.slope(gap)
+            }
+            fn work_of_adhesion(&self) -> $float {
+                self.$field.work_of_adhesion()
+            }
+            fn range(&self) -> $float {
+                self.$field.range()
+            }
+            fn rest(&self) -> Option<$float> {
+                self.$field.rest()
+            }
+        }
+    };
+}
+either!(f64, 0);
+either!(f32, 1);
+
+/// Every law that never ends.
+fn laws() -> [Both; 6] {
+    fn both<L: AdhesionLaw<f64> + AdhesionLaw<f32> + Copy + 'static>(law: Result<L>) -> Both {
         let law = law.unwrap();
-        (Box::new(law), Box::new(law))
+        Both(Box::new(law), Box::new(law))
     }
     [
         both(Exponential::new(W, RANGE)),
@@ -32,7 +60,7 @@ fn largest(law: &dyn AdhesionLaw<f64>) -> f64 {
 
 #[test]
 fn a_law_that_is_cut_off_keeps_its_work_its_rest_and_its_contact() {
-    for (law, _) in laws() {
+    for Both(law, _) in laws() {
         let start = law.rest().unwrap_or(0.0);
         for ranges in [1.0, 1.5, 2.5, 4.0, 30.0] {
             let end = start + ranges * law.range();
@@ -67,7 +95,7 @@ fn the_largest_traction_of_a_law_that_is_cut_off_is_that_of_the_page() {
     };
     let attractive = Some("exponential, power laws");
     let names = [attractive, Some("Lennard-Jones"), Some("Lennard-Jones"), Some("Morse"), None, attractive];
-    for ((law, _), name) in laws().iter().zip(names) {
+    for (Both(law, _), name) in laws().iter().zip(names) {
         let Some(name) = name else { continue };
         let expected = row(name);
         assert_eq!(expected.len(), 6);
@@ -82,9 +110,9 @@ fn the_largest_traction_of_a_law_that_is_cut_off_is_that_of_the_page() {
 
 #[test]
 fn single_precision_cuts_the_same_law_off() {
-    for (double, single) in laws() {
-        let end = double.rest().unwrap_or(0.0) + 2.5 * double.range();
-        let cut = CutOff::new(Both(double, single), end).unwrap();
+    for law in laws() {
+        let end = law.0.rest().unwrap_or(0.0) + 2.5 * law.0.range();
+        let cut = CutOff::new(law, end).unwrap();
         check_law::<f32>(&cut, 1.5 * end).unwrap();
         let scale = AdhesionLaw::<f64>::work_of_adhesion(&cut) / AdhesionLaw::<f64>::range(&cut);
         for i in 0..100 {
@@ -94,36 +122,6 @@ fn single_precision_cuts_the_same_law_off() {
         }
     }
 }
-
-/// One law in either precision.
-struct Both(Box<dyn AdhesionLaw<f64>>, Box<dyn AdhesionLaw<f32>>);
-
-macro_rules! either {
-    ($float:ty, $field:tt) => {
-        impl AdhesionLaw<$float> for Both {
-            fn energy(&self, gap: $float) -> $float {
-                self.$field.energy(gap)
-            }
-            fn traction(&self, gap: $float) -> $float {
-                self.$field.traction(gap)
-            }
-            fn slope(&self, gap: $float) -> $float {
-                self.$field.slope(gap)
-            }
-            fn work_of_adhesion(&self) -> $float {
-                self.$field.work_of_adhesion()
-            }
-            fn range(&self) -> $float {
-                self.$field.range()
-            }
-            fn rest(&self) -> Option<$float> {
-                self.$field.rest()
-            }
-        }
-    };
-}
-either!(f64, 0);
-either!(f32, 1);
 
 #[test]
 fn a_cut_off_within_the_attraction_is_refused() {
