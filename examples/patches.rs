@@ -3,52 +3,16 @@
 //!
 //! `cargo run --release -p asperity-examples --example patches`
 
+#[path = "patches/law.rs"]
+mod law;
+
 use asperity::{
-    AdhesionLaw, ContactConstraint, Control, Exponential, Grid, NoAdhesion, Problem, Real, Result, Settings, Solver,
-    Springs, Surface, Wall, Westergaard,
+    ContactConstraint, Control, Exponential, Grid, NoAdhesion, Problem, Result, Settings, Solver, Springs, Surface,
+    Wall, Westergaard, check_law,
 };
 use clap::Parser;
 use common::arguments;
-
-/// A law on a chessboard: the work of adhesion of the black squares is a share of that of the white ones.
-struct Patches<L> {
-    law: L,
-    /// of every node, in row-major order
-    shares: Vec<f64>,
-}
-
-impl<L> Patches<L> {
-    fn scale<T: Real>(&self, first: usize, values: &mut [T]) {
-        let shares = &self.shares[first..];
-        values.iter_mut().zip(shares).for_each(|(value, &share)| *value *= T::lit(share));
-    }
-}
-
-impl<T: Real, L: AdhesionLaw<T>> AdhesionLaw<T> for Patches<L> {
-    // the strongest node, for the resolution of the grid
-    fn energy(&self, gap: T) -> T {
-        self.law.energy(gap)
-    }
-    fn traction(&self, gap: T) -> T {
-        self.law.traction(gap)
-    }
-    fn slope(&self, gap: T) -> T {
-        self.law.slope(gap)
-    }
-    // every node, for the solve
-    fn energies(&self, first: usize, gaps: &[T], energies: &mut [T]) {
-        self.law.energies(first, gaps, energies);
-        self.scale(first, energies);
-    }
-    fn tractions(&self, first: usize, gaps: &[T], tractions: &mut [T]) {
-        self.law.tractions(first, gaps, tractions);
-        self.scale(first, tractions);
-    }
-    fn slopes(&self, first: usize, gaps: &[T], slopes: &mut [T]) {
-        self.law.slopes(first, gaps, slopes);
-        self.scale(first, slopes);
-    }
-}
+use law::Patches;
 
 /// A coat on part of the rigid surface, which resists being compressed below its thickness at each node.
 struct Coat {
@@ -100,7 +64,8 @@ fn main() -> Result<()> {
     println!("share of the work   contact, %   strongest tension, E*");
     for share in [0.0, 0.5, 1.0] {
         let shares = nodes(&|i, j| if (i + j) % 2 == 0 { 1.0 } else { share });
-        let law = Patches { law: Exponential::new(2e-5, 2e-3)?, shares };
+        let law = Patches { law: Exponential::new(2e-5, 2e-3)?, shape: (size, size), shares };
+        check_law::<f64>(&law, 0.02)?;
         let mut problem = Problem::new(&waves, half_space.clone(), law)?;
         let solution = Solver::default().solve(&mut problem, Control::MeanPressure(1e-3))?;
         let tension = solution.pressure.iter().fold(0.0_f64, |least, &p| least.min(p));

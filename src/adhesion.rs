@@ -2,12 +2,11 @@
 
 use std::sync::Arc;
 
-use crate::derivatives::{self, GAPS, Named};
-use crate::error::{Error, Result};
 use crate::grid::Grid;
 use crate::real::Real;
 use crate::vector::vectors;
 
+mod check;
 mod cut_off;
 mod exponential;
 mod exponentials;
@@ -19,6 +18,7 @@ mod power_law;
 mod tabulated;
 mod varying;
 
+pub use check::check_law;
 pub use cut_off::CutOff;
 pub use exponential::Exponential;
 pub use lennard_jones::LennardJones;
@@ -31,9 +31,6 @@ pub use varying::Varying;
 
 /// The share of w/ρ that the adhesive traction must exceed where surfaces are said to attract each other.
 const NOTICEABLE: f64 = 0.01;
-
-/// The roundings, in units of the traction in contact, by which a traction that falls may seem to rise.
-const ROUNDINGS: f64 = 4.0;
 
 /// An adhesion law: the energy per area by which two surfaces attract each other, a function of the gap alone.
 ///
@@ -155,7 +152,7 @@ pub trait AdhesionLaw<T: Real>: Send + Sync {
     ///
     /// The five slice functions are what a solve calls, for a few hundred nodes at once. A law of which the gap is all
     /// that matters need not write them. A law that varies over the surface writes them by the node, as
-    /// `examples/patches.rs` does, and answers to the functions of one gap for the node where it is strongest. A law
+    /// `examples/patches/law.rs` does, and answers to the functions of one gap for the node where it is strongest. A law
     /// that can use vector instructions writes them for speed. They must not depend on where the slices begin and end.
     fn energies(&self, first: usize, gaps: &[T], energies: &mut [T]) {
         let _ = first;
@@ -230,49 +227,6 @@ macro_rules! forward {
 }
 forward!(&L, Box<L>, Arc<L>);
 
-/// Tells whether the three functions of a law agree with one another.
-///
-/// Compares, at 200 gaps between 0 (or half the gap of rest) and `largest_gap`, the traction with central differences
-/// of the energy and the slope with central differences of the traction, in the precision of the law, to a hundredth of
-/// the largest value of that function. A function may jump (as the traction of Maugis–Dugdale does at ρ): gaps beside a
-/// jump, where the differences grow as their step shrinks, are passed over. Of a law that says that its energy is
-/// [concave](AdhesionLaw::is_concave) the traction may not rise from one of the gaps to the next.
-///
-/// # Errors
-/// [`Error::Law`] with the function, the first gap at which it is not finite or is not the derivative of the one
-/// before it, and what it should be there; [`Error::Concave`] with the gap to which the traction rises;
-/// [`Error::Value`] if `largest_gap` is not positive and finite.
-///
-/// ```
-/// use asperity::{Exponential, MaugisDugdale, check_law};
-/// check_law::<f64>(&Exponential::new(1e-4, 2e-3)?, 0.02)?;
-/// check_law::<f32>(&MaugisDugdale::new(1e-4, 2e-3)?, 0.02)?;
-/// # Ok::<(), asperity::Error>(())
-/// ```
-pub fn check_law<T: Real>(law: &impl AdhesionLaw<T>, largest_gap: f64) -> Result<()> {
-    Error::positive("largest gap", largest_gap)?;
-    let length = law.range().widen().clamp(1e-3 * largest_gap, largest_gap);
-    let functions: [Named<'_>; 3] = [
-        ("adhesive energy", &|g| law.energy(T::lit(g)).widen()),
-        ("adhesive traction", &|g| law.traction(T::lit(g)).widen()),
-        ("slope of the adhesive traction", &|g| law.slope(T::lit(g)).widen()),
-    ];
-    // closer than half its gap of rest a law may grow without bound
-    let least = law.rest().map_or(0.0, |rest| 0.5 * rest.widen());
-    derivatives::check::<T>(functions, (least, largest_gap), length)?;
-    if !law.is_concave() {
-        return Ok(());
-    }
-    let gaps = (0..=GAPS).map(|i| largest_gap * i as f64 / GAPS as f64);
-    let tractions: Vec<_> = gaps.map(|gap| (gap, law.traction(T::lit(gap)).widen())).collect();
-    let rounding = ROUNDINGS * T::epsilon().widen() * law.traction(T::zero()).abs().widen();
-    let rises = |pair: &&[(f64, f64)]| pair[1].1 > pair[0].1 + rounding;
-    match tractions.windows(2).find(rises) {
-        Some(&[(_, nearer), (gap, traction)]) => Err(Error::Concave { gap, traction, nearer }),
-        _ => Ok(()),
-    }
-}
-
 /// The adhesive traction above which surfaces are said to attract each other: a share of w/ρ; zero where that has no
 /// bound.
 pub(crate) fn noticeable<T: Real>(law: &dyn AdhesionLaw<T>) -> f64 {
@@ -283,104 +237,6 @@ pub(crate) fn noticeable<T: Real>(law: &dyn AdhesionLaw<T>) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    /// An exponential of unit size with one of its functions spoiled.
-    struct Spoiled(f64, f64, f64);
-
-    impl AdhesionLaw<f64> for Spoiled {
-        fn energy(&self, gap: f64) -> f64 {
-            -self.0 * (-gap).exp()
-        }
-        fn traction(&self, gap: f64) -> f64 {
-            self.1 * (-gap).exp()
-        }
-        fn slope(&self, gap: f64) -> f64 {
-            -self.2 * (-gap).exp()
-        }
-    }
-
-    #[test]
-    fn the_checker_accepts_every_built_in_law_in_both_precisions() {
-        for range in [1e-9, 1e-3, 10.0] {
-            for reach in [0.5, 5.0, 50.0] {
-                let (w, far) = (1e-2, reach * range);
-                let (exponential, dugdale) =
-                    (Exponential::new(w, range).unwrap(), MaugisDugdale::new(w, range).unwrap());
-                check_law::<f64>(&exponential, far).unwrap();
-                check_law::<f64>(&dugdale, far).unwrap();
-                check_law::<f32>(&exponential, far).unwrap();
-                check_law::<f32>(&dugdale, far).unwrap();
-                for compliance in [1e-3, 0.7, 1e9] {
-                    // a reference to a law has its jumps too
-                    let reference: &dyn AdhesionLaw<f64> = &dugdale;
-                    let smoothed = reference.smoothed(compliance * range * range / w).unwrap();
-                    check_law(&smoothed, far).unwrap();
-                    assert_eq!(smoothed.work_of_adhesion(), w);
-                }
-            }
-        }
-        check_law::<f64>(&NoAdhesion, 1.0).unwrap();
-    }
-
-    #[test]
-    fn the_checker_names_the_function_that_is_wrong() {
-        check_law(&Spoiled(1.0, 1.0, 1.0), 5.0).unwrap();
-        for (law, wrong) in [
-            (Spoiled(1.0, 1.1, 1.1), "adhesive traction"),
-            (Spoiled(1.0, -1.0, -1.0), "adhesive traction"),
-            (Spoiled(1.0, 1.0, 0.9), "slope of the adhesive traction"),
-            (Spoiled(1.0, f64::NAN, 1.0), "adhesive traction"),
-            (Spoiled(f64::INFINITY, 1.0, 1.0), "adhesive energy"),
-        ] {
-            match check_law(&law, 5.0) {
-                Err(Error::Law { function, .. }) => assert_eq!(function, wrong),
-                other => panic!("{other:?}"),
-            }
-        }
-    }
-
-    #[test]
-    fn concave_are_the_laws_whose_traction_falls_everywhere() {
-        fn concave<T: Real>(law: &dyn AdhesionLaw<T>) -> bool {
-            check_law(&law, 10.0).unwrap();
-            law.is_concave()
-        }
-        let dugdale = MaugisDugdale::new(2.0, 0.5).unwrap();
-        assert!(concave::<f64>(&Exponential::new(2.0, 0.5).unwrap()) && concave::<f32>(&dugdale));
-        assert!(concave(&*AdhesionLaw::<f64>::smoothed(&dugdale, 0.1).unwrap()));
-        assert!(concave::<f64>(&PowerLaw::new(2.0, 0.5, 3.0).unwrap()));
-        assert!(concave::<f64>(&Tabulated::new(&[0.0, 1.0, 3.0], &[2.0, 2.0, 0.0]).unwrap()));
-        assert!(!concave::<f64>(&Tabulated::new(&[0.0, 1.0, 3.0], &[2.0, 2.5, 0.0]).unwrap()));
-        assert!(
-            !concave::<f64>(&LennardJones::new(2.0, 0.5).unwrap()) && !concave::<f64>(&Morse::new(2.0, 0.5).unwrap())
-        );
-    }
-
-    #[test]
-    fn a_law_that_is_not_concave_may_not_say_so() {
-        /// A traction that rises to a gap of one, and falls again.
-        struct Humped;
-        impl AdhesionLaw<f64> for Humped {
-            fn energy(&self, gap: f64) -> f64 {
-                -(1.0 + gap) * (-gap).exp()
-            }
-            fn traction(&self, gap: f64) -> f64 {
-                gap * (-gap).exp()
-            }
-            fn slope(&self, gap: f64) -> f64 {
-                (1.0 - gap) * (-gap).exp()
-            }
-            fn range(&self) -> f64 {
-                1.0
-            }
-            fn is_concave(&self) -> bool {
-                true
-            }
-        }
-        let error = check_law(&Humped, 5.0).unwrap_err();
-        let Error::Concave { gap, traction, nearer } = error else { panic!("{error}") };
-        assert_eq!((gap, traction, nearer), (0.025, Humped.traction(0.025), 0.0));
-    }
 
     #[test]
     fn what_is_evaluated_at_once_is_what_each_function_gives() {

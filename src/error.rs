@@ -87,6 +87,26 @@ pub enum Error {
         /// The smaller traction at a smaller gap.
         nearer: f64,
     },
+    /// An adhesion law whose traction jumps, without a [smoothed](crate::AdhesionLaw::smoothed) law that does not.
+    Jump {
+        /// The gap at which it jumps.
+        gap: f64,
+        /// The traction by which it falls there.
+        fall: f64,
+    },
+    /// A function of an adhesion law that differs between its functions of one gap and those of many.
+    AtNode {
+        /// The function.
+        function: &'static str,
+        /// The node, in row-major order.
+        node: usize,
+        /// The gap.
+        gap: f64,
+        /// The value at the node.
+        value: f64,
+        /// The value that agrees with the other functions of the law.
+        expected: f64,
+    },
     /// An elastic operator without a property of its contract; see [`check_operator`](crate::check_operator).
     Operator {
         /// The property.
@@ -287,6 +307,22 @@ impl fmt::Display for Error {
                 Short(*nearer),
                 Short(*traction),
                 Short(*gap)
+            ),
+            Self::Jump { gap, fall } => write!(
+                f,
+                "the adhesive traction falls by {} at a gap of {}, and the edge of the adhesive zone would stay where an \
+                 iteration left it: give the law without its jump as `smoothed`",
+                Short(*fall),
+                Short(*gap)
+            ),
+            Self::AtNode { function, node, gap, value, expected } => write!(
+                f,
+                "the {function} is {} at node {node} and a gap of {}, and {} by another function of the law: those of \
+                 many gaps give what those of one gap do, or the law has a `shape` and those of one gap are of its \
+                 strongest node",
+                Short(*value),
+                Short(*gap),
+                Short(*expected)
             ),
             Self::Operator { property, found, expected } => {
                 write!(f, "{property} is {}: it should be {}", Short(*found), Short(*expected))

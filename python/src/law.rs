@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use asperity::{AdhesionLaw, Error, NoAdhesion, Real};
+use asperity::{AdhesionLaw, Error, Grid, NoAdhesion, Real};
 use numpy::ndarray::ArrayD;
 use numpy::{PyArray1, ToPyArray};
 use pyo3::exceptions::PyValueError;
@@ -80,6 +80,9 @@ impl<T: Real> AdhesionLaw<T> for Form {
     }
     fn shape(&self) -> Option<(usize, usize)> {
         self.law::<T>().shape()
+    }
+    fn in_rows_of(&self, grid: &Grid) -> Option<Box<dyn AdhesionLaw<T> + '_>> {
+        self.law().in_rows_of(grid)
     }
     fn coarsened(&self, stride: (usize, usize)) -> Option<Box<dyn AdhesionLaw<T> + '_>> {
         self.law().coarsened(stride)
@@ -417,12 +420,15 @@ impl Tabulated {
 
 /// A law that ends at a gap, smoothly: zero from there on, with energy, traction and slope continuous.
 ///
+/// It keeps its work of adhesion, its gap of rest, and its traction in contact; the energy that the tail had is given
+/// back before the end.
+///
 /// Parameters
 /// ----------
 /// law : Law or an object of your own
 ///     Law that reaches further.
 /// distance : float
-///     Gap > 0 at which it ends, a length.
+///     Gap at which it ends, a length: at least a range of the law beyond contact, or beyond its gap of rest.
 ///
 /// Examples
 /// --------

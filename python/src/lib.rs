@@ -7,6 +7,7 @@ mod contact;
 mod exact;
 mod functions;
 mod inputs;
+mod jumps;
 mod law;
 mod look;
 mod numbers;

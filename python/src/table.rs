@@ -5,6 +5,7 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
 use crate::functions::{Function, Functions};
+use crate::jumps::{Jump, Smoothed};
 use crate::refusal::refusal;
 
 /// The powers of two of a gap in ranges ρ between which the table has intervals of its own. Below there is one
@@ -16,6 +17,9 @@ const BITS: u32 = 7;
 
 /// The largest error of energy and traction in an interval, over the largest value of the function.
 const TOLERANCE: f64 = 1e-11;
+
+/// The least fall of the traction at one gap that is a jump, over the largest traction.
+const JUMP: f64 = 1e-6;
 
 /// The most pieces of a table.
 const MOST_PIECES: usize = 1 << 16;
@@ -35,6 +39,7 @@ pub struct Table {
     /// the first piece of each interval, and the number of pieces
     first: Vec<u32>,
     pieces: Vec<Piece>,
+    jumps: Vec<Jump>,
     /// the energy beyond the last interval
     far: f64,
 }
@@ -138,8 +143,12 @@ impl Table {
         let mut first = vec![0_u32; intervals + 1];
         found.iter().for_each(|(interval, _)| first[interval + 1] += 1);
         (0..intervals).for_each(|k| first[k + 1] += first[k]);
-        let pieces = found.into_iter().map(|(_, piece)| piece).collect();
-        Ok(Self { range, work_of_adhesion, first, pieces, far })
+        let pieces: Vec<Piece> = found.into_iter().map(|(_, piece)| piece).collect();
+        let falls = pieces
+            .windows(2)
+            .map(|pair| Jump { place: pair[1].start, fall: pair[0].traction(1.0) - pair[1].traction(0.0) });
+        let jumps = falls.filter(|jump| jump.fall.abs() > JUMP * largest[1]).collect();
+        Ok(Self { range, work_of_adhesion, first, pieces, jumps, far })
     }
 
     /// The piece of a gap g ≥ 0 and the place in it; none beyond the last.
@@ -154,9 +163,19 @@ impl Table {
         Some((piece, (x - piece.start) * piece.rate))
     }
 
-    /// Traction and slope at a gap.
-    fn traction_and_slope(&self, gap: f64) -> (f64, f64) {
-        self.find(gap).map_or((0.0, 0.0), |(piece, t)| (piece.traction(t), piece.slope(t) / self.range))
+    pub fn range(&self) -> f64 {
+        self.range
+    }
+
+    pub fn jumps(&self) -> &[Jump] {
+        &self.jumps
+    }
+
+    /// Energy, traction and slope at a gap.
+    pub fn at(&self, gap: f64) -> [f64; 3] {
+        let of =
+            |(piece, t): (&Piece, f64)| [piece.energy(t, self.range), piece.traction(t), piece.slope(t) / self.range];
+        self.find(gap).map_or([self.far, 0.0, 0.0], of)
     }
 }
 
@@ -213,13 +232,13 @@ fn too_rough(candidate: &Candidate, range: f64) -> PyErr {
 
 impl<T: Real> AdhesionLaw<T> for Table {
     fn energy(&self, gap: T) -> T {
-        T::lit(self.find(gap.widen()).map_or(self.far, |(piece, t)| piece.energy(t, self.range)))
+        T::lit(self.at(gap.widen())[0])
     }
     fn traction(&self, gap: T) -> T {
-        T::lit(self.traction_and_slope(gap.widen()).0)
+        T::lit(self.at(gap.widen())[1])
     }
     fn slope(&self, gap: T) -> T {
-        T::lit(self.traction_and_slope(gap.widen()).1)
+        T::lit(self.at(gap.widen())[2])
     }
     fn work_of_adhesion(&self) -> T {
         T::lit(self.work_of_adhesion)
@@ -227,9 +246,13 @@ impl<T: Real> AdhesionLaw<T> for Table {
     fn range(&self) -> T {
         T::lit(self.range)
     }
+    fn smoothed(&self, compliance: T) -> Option<Box<dyn AdhesionLaw<T> + '_>> {
+        let smoothed = Smoothed { table: self, compliance: compliance.widen() };
+        (!self.jumps.is_empty()).then(|| Box::new(smoothed) as Box<dyn AdhesionLaw<T>>)
+    }
     fn tractions_and_slopes(&self, _: usize, gaps: &[T], tractions: &mut [T], slopes: &mut [T]) {
         for ((gap, traction), slope) in gaps.iter().zip(tractions).zip(slopes) {
-            let (t, s) = self.traction_and_slope(gap.widen());
+            let [_, t, s] = self.at(gap.widen());
             (*traction, *slope) = (T::lit(t), T::lit(s));
         }
     }

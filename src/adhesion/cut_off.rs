@@ -1,37 +1,85 @@
-//! A law that ends at a distance, smoothly.
+//! A law that ends at a distance, smoothly, with its work of adhesion.
+
+use std::slice::from_mut;
 
 use super::AdhesionLaw;
 use crate::error::{Error, Result};
+use crate::grid::Grid;
 use crate::real::Real;
+
+/// The share of the work of adhesion by which the energy in contact may differ from it.
+const SLACK: f64 = 1e-2;
 
 /// A law that ends at the gap g_c: zero from there on, with energy, traction and slope continuous.
 ///
 /// ```math
-/// φ_c(g) = φ(g) − φ(g_c) − φ'(g_c) (g − g_c) − ½ φ''(g_c) (g − g_c)²   for g < g_c
+/// φ_c(g) = φ(g) − q(s) ,   s = (g − g₀)/(g_c − g₀)   for g₀ < g < g_c ,   φ_c = 0 beyond
+/// q(s) = s³ (a + b s + c s²) ,   q = φ , q' = φ' , q'' = φ''  at g_c
 /// ```
 ///
-/// The parabola takes a little off the work of adhesion: [`AdhesionLaw::work_of_adhesion`] says what is left.
+/// The quintic q has nothing, no slope and no curvature at g₀, which is the gap of rest of a law that repels, and contact
+/// for all others. So the work of adhesion w stays what it is, and so do the gap of rest, the traction and its slope in
+/// contact, and all of the repulsion; the energy that the tail had is given back before g_c. A law that ends before g_c
+/// is not changed. Cut off and [`Varying`](super::Varying) may be applied in either order.
+///
+/// With w kept, a law that ends early attracts more on the way. The largest traction over that of the law, by the
+/// distance from g₀ to g_c over the range ρ:
+///
+/// | | 1 | 1.5 | 2 | 2.5 | 3 | 4 |
+/// |---|---|---|---|---|---|---|
+/// | exponential, power laws | 1.5 | 1 | 1 | 1 | 1 | 1 |
+/// | Lennard-Jones | 1.57 | 1.10 | 1.03 | 1.01 | 1.01 | 1.00 |
+/// | Morse | 3.63 | 2.35 | 1.71 | 1.35 | 1.16 | 1.04 |
 ///
 /// ```
 /// use asperity::{AdhesionLaw, CutOff, PowerLaw, check_law};
-/// let law = CutOff::new(PowerLaw::van_der_waals(6e-20, 0.165e-9)?, 5e-9)?;
+/// let whole = PowerLaw::van_der_waals(6e-20, 0.165e-9)?;
+/// let law = CutOff::new(whole, 5e-9)?;
 /// assert_eq!((law.traction(5e-9), law.energy(8e-9)), (0.0, 0.0));
+/// assert_eq!((law.traction(0.0), law.energy(0.0)), (whole.traction(0.0), whole.energy(0.0)));
 /// check_law::<f64>(&law, 6e-9)?;
 /// # Ok::<(), asperity::Error>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CutOff<L> {
     law: L,
+    /// the gap g₀, below which nothing is changed
+    start: f64,
     distance: f64,
+    /// energy, traction and slope at g_c, of the strongest node
+    end: [f64; 3],
+    /// whether the nodes have ends of their own
+    varies: bool,
 }
 
 impl<L> CutOff<L> {
     /// The law cut off at the gap g_c.
     ///
     /// # Errors
-    /// [`Error::Value`] if g_c is not positive and finite.
-    pub fn new(law: L, distance: f64) -> Result<Self> {
-        Ok(Self { law, distance: Error::positive("cut-off distance", distance)? })
+    /// [`Error::Value`] if g_c is not finite, or less than a range ρ beyond contact or the gap of rest, where it would
+    /// cut into the attraction itself; or if the energy in contact is not −w, as of a law that does not fall to zero.
+    pub fn new(law: L, distance: f64) -> Result<Self>
+    where
+        L: AdhesionLaw<f64>,
+    {
+        Error::positive("cut-off distance", distance)?;
+        let start = law.rest().unwrap_or(0.0);
+        // numbers that were rounded on their way here
+        if distance < (start + law.range()) * (1.0 - 4.0 * f64::EPSILON) {
+            let requirement =
+                "at least a range of the law beyond contact, or beyond its gap of rest: give a larger one";
+            return Err(Error::Value { name: "cut-off distance", value: distance, requirement });
+        }
+        let (energy, work) = (law.energy(start), law.work_of_adhesion());
+        let falls = (energy + work).abs() <= SLACK * work.abs();
+        if !falls {
+            return Err(Error::Value {
+                name: "adhesive energy in contact, or at rest, of the law to be cut off",
+                value: energy,
+                requirement: "minus its work of adhesion, as of a law that falls to zero at large gaps",
+            });
+        }
+        Ok(Self::between(law, start, distance))
     }
 
     /// The gap g_c at which the law ends.
@@ -39,87 +87,152 @@ impl<L> CutOff<L> {
         self.distance
     }
 
-    /// Energy, traction or slope less what the parabola takes off, if the gap is within reach.
-    fn less<T: Real>(&self, gap: T, value: T, parabola: impl Fn(T) -> T) -> T {
-        let distance = T::lit(self.distance);
-        if gap < distance { value - parabola(gap - distance) } else { T::zero() }
+    fn between<T: Real>(law: L, start: f64, distance: f64) -> Self
+    where
+        L: AdhesionLaw<T>,
+    {
+        let gap = T::lit(distance);
+        let end = [law.energy(gap), law.traction(gap), law.slope(gap)].map(T::widen);
+        let varies = law.shape().is_some();
+        Self { law, start, distance, end, varies }
+    }
+
+    /// The same of this law on other nodes.
+    fn with<M>(&self, law: M) -> CutOff<M> {
+        let Self { start, distance, end, varies, .. } = *self;
+        CutOff { law, start, distance, end, varies }
+    }
+
+    /// Whether the law ends by itself before it is cut off.
+    fn has_ended(&self) -> bool {
+        self.end == [0.0; 3]
+    }
+
+    /// The coefficients a, b and c of a quintic that ends so.
+    fn quintic<T: Real>(&self, [energy, traction, slope]: [T; 3]) -> [T; 3] {
+        let (n, width) = (T::lit, T::lit(self.distance - self.start));
+        let (traction, slope) = (width * traction, n(0.5) * width * (width * slope));
+        [
+            n(10.0) * energy - n(4.0) * traction + slope,
+            n(7.0) * traction - n(15.0) * energy - n(2.0) * slope,
+            n(6.0) * energy - n(3.0) * traction + slope,
+        ]
+    }
+
+    /// What is left of a value of the law at a gap, less that of a quintic.
+    fn left<T: Real>(&self, gap: T, value: T, of: impl Fn(T, T, [T; 3]) -> T, quintic: impl FnOnce() -> [T; 3]) -> T {
+        let [start, distance] = [self.start, self.distance].map(T::lit);
+        if gap >= distance {
+            T::zero()
+        } else if gap <= start {
+            value
+        } else {
+            let rate = (distance - start).recip();
+            value - of((gap - start) * rate, rate, quintic())
+        }
+    }
+
+    /// What is left of the value of the strongest node.
+    fn one<T: Real>(&self, gap: T, value: T, of: impl Fn(T, T, [T; 3]) -> T) -> T {
+        self.left(gap, value, of, || self.quintic(self.end.map(T::lit)))
+    }
+
+    /// What is left of the values of the nodes from `first` on.
+    fn all<T: Real>(&self, first: usize, gaps: &[T], values: &mut [T], of: impl Fn(T, T, [T; 3]) -> T)
+    where
+        L: AdhesionLaw<T>,
+    {
+        let strongest = self.quintic(self.end.map(T::lit));
+        for (node, (value, &gap)) in (first..).zip(values.iter_mut().zip(gaps)) {
+            let quintic = || if self.varies { self.quintic(self.end_at(node)) } else { strongest };
+            *value = self.left(gap, *value, &of, quintic);
+        }
+    }
+
+    /// Energy, traction and slope of a node at g_c.
+    fn end_at<T: Real>(&self, node: usize) -> [T; 3]
+    where
+        L: AdhesionLaw<T>,
+    {
+        let (gap, mut end) = ([T::lit(self.distance)], [T::zero(); 3]);
+        let [energy, traction, slope] = &mut end;
+        self.law.energies(node, &gap, from_mut(energy));
+        self.law.tractions(node, &gap, from_mut(traction));
+        self.law.slopes(node, &gap, from_mut(slope));
+        end
     }
 }
 
-impl<L> CutOff<L> {
-    /// φ, φ' and φ'' at the end.
-    fn end<T: Real>(&self) -> [T; 3]
-    where
-        L: AdhesionLaw<T>,
-    {
-        let end = T::lit(self.distance);
-        [self.law.energy(end), self.law.traction(end), self.law.slope(end)]
-    }
-
-    /// The energies, of those of the law itself.
-    fn cut_energies<T: Real>(&self, gaps: &[T], energies: &mut [T])
-    where
-        L: AdhesionLaw<T>,
-    {
-        let [energy, traction, slope] = self.end();
-        for (value, &gap) in energies.iter_mut().zip(gaps) {
-            *value = self.less(gap, *value, |x| energy + x * (traction + T::lit(0.5) * slope * x));
-        }
-    }
-
-    /// The tractions, of those of the law itself.
-    fn cut_tractions<T: Real>(&self, gaps: &[T], tractions: &mut [T])
-    where
-        L: AdhesionLaw<T>,
-    {
-        let [_, traction, slope] = self.end();
-        for (value, &gap) in tractions.iter_mut().zip(gaps) {
-            *value = self.less(gap, *value, |x| traction + slope * x);
-        }
-    }
+/// The quintic at s, and its derivatives by the gap, of 1/(g_c − g₀).
+fn energy<T: Real>(s: T, _: T, [a, b, c]: [T; 3]) -> T {
+    s * s * s * (a + s * (b + s * c))
+}
+fn traction<T: Real>(s: T, rate: T, [a, b, c]: [T; 3]) -> T {
+    rate * s * s * (T::lit(3.0) * a + s * (T::lit(4.0) * b + T::lit(5.0) * s * c))
+}
+fn slope<T: Real>(s: T, rate: T, [a, b, c]: [T; 3]) -> T {
+    rate * rate * s * (T::lit(6.0) * a + s * (T::lit(12.0) * b + T::lit(20.0) * s * c))
 }
 
 impl<T: Real, L: AdhesionLaw<T>> AdhesionLaw<T> for CutOff<L> {
     fn energy(&self, gap: T) -> T {
-        let [energy, traction, slope] = self.end();
-        self.less(gap, self.law.energy(gap), |x| energy + x * (traction + T::lit(0.5) * slope * x))
+        self.one(gap, self.law.energy(gap), energy)
     }
     fn traction(&self, gap: T) -> T {
-        let [_, traction, slope] = self.end();
-        self.less(gap, self.law.traction(gap), |x| traction + slope * x)
+        self.one(gap, self.law.traction(gap), traction)
     }
     fn slope(&self, gap: T) -> T {
-        let [.., slope] = self.end();
-        self.less(gap, self.law.slope(gap), |_| slope)
-    }
-    fn energies(&self, first: usize, gaps: &[T], energies: &mut [T]) {
-        self.law.energies(first, gaps, energies);
-        self.cut_energies(gaps, energies);
-    }
-    fn tractions(&self, first: usize, gaps: &[T], tractions: &mut [T]) {
-        self.law.tractions(first, gaps, tractions);
-        self.cut_tractions(gaps, tractions);
-    }
-    fn energies_and_tractions(&self, first: usize, gaps: &[T], energies: &mut [T], tractions: &mut [T]) {
-        self.law.energies_and_tractions(first, gaps, energies, tractions);
-        self.cut_energies(gaps, energies);
-        self.cut_tractions(gaps, tractions);
-    }
-    fn slopes(&self, first: usize, gaps: &[T], slopes: &mut [T]) {
-        let [.., slope] = self.end();
-        self.law.slopes(first, gaps, slopes);
-        slopes.iter_mut().zip(gaps).for_each(|(value, &gap)| *value = self.less(gap, *value, |_| slope));
+        self.one(gap, self.law.slope(gap), slope)
     }
     fn work_of_adhesion(&self) -> T {
-        -self.energy(self.law.rest().unwrap_or_else(T::zero))
+        self.law.work_of_adhesion()
     }
     fn range(&self) -> T {
         self.law.range()
     }
+    fn is_zero(&self) -> bool {
+        self.law.is_zero()
+    }
+    fn is_concave(&self) -> bool {
+        // the quintic may bend the energy the other way
+        self.has_ended() && !self.varies && self.law.is_concave()
+    }
     fn rest(&self) -> Option<T> {
         self.law.rest()
     }
-    fn is_zero(&self) -> bool {
-        self.law.is_zero()
+    fn shape(&self) -> Option<(usize, usize)> {
+        self.law.shape()
+    }
+    fn in_rows_of(&self, grid: &Grid) -> Option<Box<dyn AdhesionLaw<T> + '_>> {
+        Some(Box::new(self.with(self.law.in_rows_of(grid)?)))
+    }
+    fn coarsened(&self, stride: (usize, usize)) -> Option<Box<dyn AdhesionLaw<T> + '_>> {
+        Some(Box::new(self.with(self.law.coarsened(stride)?)))
+    }
+    fn smoothed(&self, compliance: T) -> Option<Box<dyn AdhesionLaw<T> + '_>> {
+        let law = self.law.smoothed(compliance)?;
+        Some(if self.has_ended() { law } else { Box::new(CutOff::between(law, self.start, self.distance)) })
+    }
+    fn energies(&self, first: usize, gaps: &[T], energies: &mut [T]) {
+        self.law.energies(first, gaps, energies);
+        self.all(first, gaps, energies, energy);
+    }
+    fn tractions(&self, first: usize, gaps: &[T], tractions: &mut [T]) {
+        self.law.tractions(first, gaps, tractions);
+        self.all(first, gaps, tractions, traction);
+    }
+    fn slopes(&self, first: usize, gaps: &[T], slopes: &mut [T]) {
+        self.law.slopes(first, gaps, slopes);
+        self.all(first, gaps, slopes, slope);
+    }
+    fn energies_and_tractions(&self, first: usize, gaps: &[T], energies: &mut [T], tractions: &mut [T]) {
+        self.law.energies_and_tractions(first, gaps, energies, tractions);
+        self.all(first, gaps, energies, energy);
+        self.all(first, gaps, tractions, traction);
+    }
+    fn tractions_and_slopes(&self, first: usize, gaps: &[T], tractions: &mut [T], slopes: &mut [T]) {
+        self.law.tractions_and_slopes(first, gaps, tractions, slopes);
+        self.all(first, gaps, tractions, traction);
+        self.all(first, gaps, slopes, slope);
     }
 }

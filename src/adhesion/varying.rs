@@ -50,7 +50,7 @@ impl<L: AdhesionLaw<f64>> Varying<L> {
     ///
     /// # Errors
     /// [`Error::NotFinite`], or [`Error::Value`] if a work of adhesion is negative, if none is positive, or if the law
-    /// has none that it could be scaled from.
+    /// has none that it could be scaled from, or varies already.
     pub fn new(law: L, works: ArrayView2<'_, f64>) -> Result<Self> {
         Self::in_slab(law, works, Slab::whole(works.dim()))
     }
@@ -82,6 +82,10 @@ impl<L: AdhesionLaw<f64>> Varying<L> {
         });
         Error::agreed(slab, negative)?;
         let own = Error::positive("work of adhesion of the law that varies", law.work_of_adhesion())?;
+        if law.shape().is_some() {
+            let requirement = "one: give the law that the varying one is made of";
+            return Err(Error::Value { name: "number of works of adhesion at a node", value: 2.0, requirement });
+        }
         if slab.nodes() == 0 {
             return Err(Error::Value { name: "number of nodes", value: 0.0, requirement: "positive" });
         }

@@ -73,6 +73,22 @@ fn every_law_solves_and_is_in_report_and_scene() {
 }
 
 #[test]
+fn a_law_that_is_cut_off_keeps_the_work_that_is_given_as_a_number_or_as_a_map() {
+    let bench = wave();
+    bench.write("even.txt", &format!("{}\n", ["2e-5"; 16].join(" ")).repeat(16));
+    for (number, law) in
+        ["exponential", "lennard-jones", "lennard-jones --wall none", "morse", "power --exponent 3"].iter().enumerate()
+    {
+        let solve = format!("{SOLVE} --law {law} --range 0.01 --cut-off 0.025");
+        let one = bench.reported(&format!("{solve} --work-of-adhesion 2e-5 --out {number}"));
+        let map = bench.reported(&format!("{solve} --work-of-adhesion-map even.txt --out {number}-map"));
+        assert_eq!((&one["status"], &one["mu_rho"]), (&"converged".into(), &map["mu_rho"]), "{law}");
+        assert_eq!(one["adhesive_energy"], map["adhesive_energy"], "{law}");
+        assert_eq!(bench.bytes(&format!("{number}/gap.npy")), bench.bytes(&format!("{number}-map/gap.npy")), "{law}");
+    }
+}
+
+#[test]
 fn laws_that_lack_something_or_have_too_much_are_refused() {
     let bench = wave();
     bench.write("unsorted.txt", "0 1\n2 0.5\n1 0\n");
@@ -87,6 +103,15 @@ fn laws_that_lack_something_or_have_too_much_are_refused() {
         (format!("morse {w}"), ["lacks --range", "a length"]),
         (format!("exponential {w} {range} --exponent 2"), ["--exponent is 2", "leave it out"]),
         (format!("maugis-dugdale {w} {range} --cut-off 1"), ["--cut-off is 1", "ends by itself"]),
+        (format!("exponential {w} {range} --cut-off 0.005"), ["cut-off distance is 0.005", "a range of the law"]),
+        (
+            format!("exponential {range} --cut-off 0.005 --work-of-adhesion-map works.txt"),
+            ["error: cut-off distance is 0.005", "a range of the law"],
+        ),
+        (
+            format!("lennard-jones {w} {range} --wall none --cut-off 0.008"),
+            ["cut-off distance is 0.008", "gap of rest"],
+        ),
         (format!("exponential {w} {range} --wall none"), ["does not repel", "--wall hard"]),
         (format!("exponential {w} {range} --work-of-adhesion-map works.txt"), ["every node", "leave one of them out"]),
         ("none --work-of-adhesion-map works.txt".to_owned(), ["there is no adhesion", "leave it out"]),

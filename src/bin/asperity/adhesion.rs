@@ -42,7 +42,7 @@ pub struct AdhesionOptions {
     /// Table of a law: lines of a gap, rising from 0, and a traction, attraction positive, the last one 0
     #[arg(long, value_name = "FILE", help_heading = "Adhesion")]
     pub law_table: Option<PathBuf>,
-    /// Gap at which a law that never ends is cut off, smoothly
+    /// Gap at which a law that never ends is cut off, smoothly and with all of its work of adhesion
     #[arg(long, value_name = "D", allow_hyphen_values = true, value_parser = LENGTH.positive())]
     #[arg(help_heading = "Adhesion")]
     pub cut_off: Option<Quantity>,
@@ -264,7 +264,8 @@ impl AdhesionOptions {
             Ok((self.uniform()?, rows))
         };
         let (uniform, rows) = processes.agree(read())?;
-        // whatever the laws refuse, before anything is solved
+        // whatever the laws refuse, before anything is solved; of the law itself, of any work of adhesion
+        uniform.law::<f64>()?;
         let works = rows.map(|rows| Works::new(*grid, rows)).transpose();
         match (works.and_then(|works| uniform.with(works)), &self.work_of_adhesion_map) {
             (Err(error @ Error::Elsewhere { .. }), _) => Err(error.into()),
@@ -300,7 +301,7 @@ impl Adhesion<'_> {
         let options = self.options;
         let most = self.works.as_ref().map(|works| works.most);
         let [work, range, hamaker] = [options.work_of_adhesion, options.range, options.hamaker]
-            .map(|quantity| quantity.map_or(0.0, |quantity| quantity.value));
+            .map(|quantity| quantity.map_or(1.0, |quantity| quantity.value));
         let (work, exponent) = (most.unwrap_or(work), options.exponent.unwrap_or_default());
         match options.law {
             Law::None => Ok(Box::new(NoAdhesion)),
