@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+import sys
+import warnings
+from collections.abc import Iterable
+
 
 class ConvergenceWarning(UserWarning):
     """A solve that has not converged: its ``status`` says how it ended, its fields how far it got."""
@@ -13,3 +17,17 @@ class AccuracyWarning(UserWarning):
 
 class InputWarning(UserWarning):
     """A probable mistake in the heights, the units or the range of adhesion; the answer may be right all the same."""
+
+
+def warn_of_input(found: Iterable[dict[str, str]]) -> None:
+    """Gives the warnings of the compiled core, each a code and a message."""
+    for warning in found:
+        warn(f"{warning['code']}: {warning['message']}", InputWarning)
+
+
+def warn(text: str, category: type[Warning]) -> None:
+    """Gives a warning at the first caller outside of this package."""
+    level, frame = 1, sys._getframe(1)
+    while frame.f_back is not None and frame.f_globals.get("__name__", "").startswith("asperity."):
+        level, frame = level + 1, frame.f_back
+    warnings.warn(text, category, stacklevel=level + 1)

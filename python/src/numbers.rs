@@ -1,12 +1,49 @@
-//! Functions of one number as functions of arrays.
+//! Arrays of numpy as arrays of the library, and functions of one number as functions of arrays.
 
-use numpy::ndarray::{ArrayD, ArrayViewD};
-use numpy::{AllowTypeChange, IntoPyArray, PyArrayLikeDyn};
+use std::ops::Deref;
+
+use numpy::ndarray::{ArrayD, ArrayViewD, Dimension, Ix2, IxDyn};
+use numpy::{
+    AllowTypeChange, IntoPyArray, PyArray, PyArrayLike, PyArrayMethods, PyReadonlyArray, PyUntypedArrayMethods,
+};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
-/// Numbers of any shape: a number, a list, or an array of any float type, order and stride.
-pub type Numbers<'py> = PyArrayLikeDyn<'py, f64, AllowTypeChange>;
+/// The numbers of an array: of any float type, order and stride; masked ones are NaN.
+///
+/// The strides of ndarray count items, and its items are aligned. An array of which an item does not lie a whole number
+/// of items from the next, as the column of a packed record, is copied first.
+pub struct Items<'py, D: Dimension>(PyReadonlyArray<'py, f64, D>);
+
+/// Numbers of any shape: a number, a list, or an array.
+pub type Numbers<'py> = Items<'py, IxDyn>;
+
+/// The numbers of a matrix.
+pub type Field<'py> = Items<'py, Ix2>;
+
+impl<'a, 'py, D: Dimension + 'py> FromPyObject<'a, 'py> for Items<'py, D> {
+    type Error = PyErr;
+
+    fn extract(object: Borrowed<'a, 'py, PyAny>) -> PyResult<Self> {
+        let given: PyArrayLike<'py, f64, D, AllowTypeChange> = match object.getattr_opt("filled")? {
+            Some(_) => object.call_method1("astype", ("f8",))?.call_method1("filled", (f64::NAN,))?.extract()?,
+            None => object.extract()?,
+        };
+        let whole = |stride: &isize| stride.unsigned_abs().is_multiple_of(size_of::<f64>());
+        if given.data().is_aligned() && given.strides().iter().all(whole) {
+            return Ok(Self(given.clone()));
+        }
+        Ok(Self(given.call_method0("copy")?.cast_into::<PyArray<f64, D>>()?.readonly()))
+    }
+}
+
+impl<'py, D: Dimension> Deref for Items<'py, D> {
+    type Target = PyReadonlyArray<'py, f64, D>;
+
+    fn deref(&self) -> &Self::Target {
+        &self.0
+    }
+}
 
 /// The numbers of an array, as Python takes them: those without a shape as a `float`.
 pub fn returned(py: Python<'_>, numbers: ArrayD<f64>) -> PyResult<Bound<'_, PyAny>> {

@@ -2,10 +2,10 @@
 
 use asperity::Error;
 use pyo3::PyErr;
-use pyo3::exceptions::{PyFileNotFoundError, PyValueError};
+use pyo3::exceptions::{PyFileNotFoundError, PyMemoryError, PyValueError};
 
-/// The exception of an error: `ValueError` with the library's message, its remedies in the words of Python, and
-/// `FileNotFoundError` for a file that does not exist.
+/// The exception of an error: `ValueError` with the library's message, its remedies in the words of Python,
+/// `FileNotFoundError` for a file that does not exist, and `MemoryError` for memory that there is not.
 pub fn refusal(error: Error) -> PyErr {
     refused(error, "")
 }
@@ -36,6 +36,7 @@ fn refused(error: Error, also: &str) -> PyErr {
         + also;
     match error {
         Error::File { path, .. } if !path.exists() => PyFileNotFoundError::new_err(message),
+        Error::Memory { .. } => PyMemoryError::new_err(message),
         _ => PyValueError::new_err(message),
     }
 }

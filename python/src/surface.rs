@@ -3,10 +3,11 @@
 use std::path::PathBuf;
 
 use asperity::{Amplitude, Error, Form, Grid, Psd, RowAlignment, ScanAxis, SelfAffine, Surface, Topography, Trend};
-use numpy::{IntoPyArray, PyArray1, PyArray2, PyReadonlyArray2};
+use numpy::{IntoPyArray, PyArray1, PyArray2};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
+use crate::numbers::Field;
 use crate::pools::Pool;
 use crate::refusal::refusal;
 
@@ -24,7 +25,7 @@ fn map(py: Python<'_>, topography: Topography) -> Map<'_> {
     (heights.into_pyarray(py), lengths, unit, original, seed)
 }
 
-fn surface(heights: PyReadonlyArray2<'_, f64>, lengths: (f64, f64)) -> PyResult<Surface> {
+fn surface(heights: Field<'_>, lengths: (f64, f64)) -> PyResult<Surface> {
     let heights = heights.as_array().to_owned();
     Grid::new(heights.dim(), lengths).and_then(|grid| Surface::new(grid, heights)).map_err(refusal)
 }
@@ -69,11 +70,7 @@ pub fn self_affine<'py>(
 
 /// The statistics of heights, in the order of the library.
 #[pyfunction]
-pub fn statistics(
-    py: Python<'_>,
-    heights: PyReadonlyArray2<'_, f64>,
-    lengths: Option<(f64, f64)>,
-) -> PyResult<[f64; 11]> {
+pub fn statistics(py: Python<'_>, heights: Field<'_>, lengths: Option<(f64, f64)>) -> PyResult<[f64; 11]> {
     let mut map = Topography::new(heights.as_array().to_owned());
     map.lengths = lengths;
     let found = apart(py, || map.statistics())?;
@@ -97,12 +94,7 @@ type Density<'py> = (Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>, Bound
 
 /// The power spectral density of heights: radial, or of profiles along x or y.
 #[pyfunction]
-pub fn spectrum<'py>(
-    py: Python<'py>,
-    heights: PyReadonlyArray2<'_, f64>,
-    lengths: (f64, f64),
-    along: &str,
-) -> PyResult<Density<'py>> {
+pub fn spectrum<'py>(py: Python<'py>, heights: Field<'_>, lengths: (f64, f64), along: &str) -> PyResult<Density<'py>> {
     let surface = surface(heights, lengths)?;
     let of = match along {
         "radial" => asperity::Spectrum::radial_psd,
@@ -120,7 +112,7 @@ pub fn spectrum<'py>(
 #[expect(clippy::too_many_arguments, reason = "called by the Python layer alone, by name")]
 pub fn prepare<'py>(
     py: Python<'py>,
-    heights: PyReadonlyArray2<'_, f64>,
+    heights: Field<'_>,
     lengths: Option<(f64, f64)>,
     unit: Option<String>,
     original: Option<(usize, usize)>,

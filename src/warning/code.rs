@@ -35,6 +35,8 @@ pub enum WarningCode {
     WindowEdge,
     /// The contact of a mirrored map is not that of its mirror images.
     Images,
+    /// The lines across the scan lines that are to be brought to one height have by far the larger offsets.
+    ScanAxis,
 }
 
 impl WarningCode {
@@ -53,6 +55,7 @@ impl WarningCode {
             Self::Flat => "flat",
             Self::WindowEdge => "window-edge",
             Self::Images => "images",
+            Self::ScanAxis => "scan-axis",
         }
     }
 }
