@@ -16,6 +16,7 @@ mod problem;
 mod refusal;
 mod report;
 mod running;
+mod scales;
 mod sight;
 mod surface;
 mod table;

@@ -2,12 +2,15 @@
 
 use std::ops::Deref;
 
-use numpy::ndarray::{ArrayD, ArrayViewD, Dimension, Ix2, IxDyn};
+use asperity::Error;
+use numpy::ndarray::{Array2, ArrayD, ArrayViewD, Dimension, Ix2, IxDyn};
 use numpy::{
     AllowTypeChange, IntoPyArray, PyArray, PyArrayLike, PyArrayMethods, PyReadonlyArray, PyUntypedArrayMethods,
 };
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
+
+use crate::refusal::refusal;
 
 /// The numbers of an array: of any float type, order and stride; masked ones are NaN.
 ///
@@ -42,6 +45,29 @@ impl<'py, D: Dimension> Deref for Items<'py, D> {
 
     fn deref(&self) -> &Self::Target {
         &self.0
+    }
+}
+
+impl Field<'_> {
+    /// A copy of the numbers.
+    ///
+    /// # Errors
+    /// `MemoryError` if there is no room for it.
+    pub fn to_array(&self) -> PyResult<Array2<f64>> {
+        let numbers = self.as_array();
+        afford("a copy of a map", numbers.dim()).map_err(refusal)?;
+        Ok(numbers.to_owned())
+    }
+}
+
+/// Refuses a map that there is no room for: an allocation that fails would end the interpreter.
+pub fn afford(what: &str, (nx, ny): (usize, usize)) -> asperity::Result<()> {
+    match Vec::<f64>::new().try_reserve_exact(nx.saturating_mul(ny)) {
+        Ok(()) => Ok(()),
+        Err(_) => {
+            let bytes = nx as f64 * ny as f64 * size_of::<f64>() as f64;
+            Err(Error::Memory { what: format!("{what} of {nx} x {ny} nodes"), bytes })
+        }
     }
 }
 

@@ -40,7 +40,7 @@ impl Original {
 
     /// A field of the original, continued by its mirror images.
     fn mirrored<'py>(&self, py: Python<'py>, field: Field<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        let whole = self.0.mirrored(&field.as_array().to_owned()).map_err(refusal)?;
+        let whole = self.0.mirrored(&field.to_array()?).map_err(refusal)?;
         Ok(whole.into_pyarray(py))
     }
 }

@@ -523,7 +523,7 @@ impl Problem {
     ) -> PyResult<Self> {
         let settings = settings(tolerance, max_iterations, method)?;
         let pool = Pool::of(threads)?;
-        let heights = heights.as_array().to_owned();
+        let heights = heights.to_array()?;
         let (beyond, wall) = (Beyond::of(boundary)?, Wall::of(wall)?);
         let original = original.map(|original| original.0);
         let made = Made { beyond, modulus, wall, settings, nested, threads, original, unit };

@@ -16,6 +16,18 @@ pub fn refusal_of_heights(error: Error) -> PyErr {
     refused(error, if missing { ", or take them for absent nodes by absent_missing=True" } else { "" })
 }
 
+/// The exception of an error in a map of works of adhesion, in which no point can be missing.
+pub fn refusal_of_works(error: Error) -> PyErr {
+    match error {
+        Error::NotFinite { count, nodes, first, value, .. } => PyValueError::new_err(format!(
+            "work_of_adhesion: {count} of {nodes} nodes are not finite, the first ({value}) at index [{}, {}]: give each node \
+             a work of adhesion, 0 where nothing attracts",
+            first.0, first.1
+        )),
+        error => refusal(error),
+    }
+}
+
 fn refused(error: Error, also: &str) -> PyErr {
     let message = match &error {
         Error::Control { control, reason } => format!("{}: {reason}", control.replace('-', "_")),
