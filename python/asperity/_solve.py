@@ -93,7 +93,8 @@ def solve(
         node to node. An object with ``energy(gap)``, ``traction(gap)`` and ``slope(gap)`` of arrays is a law, too: see
         `check_law`.
     wall : {"hard", "none"}
-        What keeps the surfaces apart: a rigid wall at zero gap, or the repulsion of `LennardJones` or `Morse` alone.
+        What keeps the surfaces apart: a rigid wall at zero gap, or a law that repels alone, as `LennardJones` and
+        `Morse` do.
     tolerance : float, optional
         Certified relative error at which to stop; 1e-6 by default, 1e-4 in f32.
     max_iterations : int, optional

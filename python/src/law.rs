@@ -527,7 +527,7 @@ impl Varying {
         }
         let maps = law.py().import("asperity._topography")?;
         let (works, is_line): (Field<'_>, bool) =
-            maps.call_method1("array_of", (work_of_adhesion, "work_of_adhesion"))?.extract()?;
+            maps.call_method1("array_of", (work_of_adhesion, "works of adhesion"))?.extract()?;
         let works = works.to_array()?;
         let varying = asperity::Varying::new(Box::new(form), works.view()).map_err(refusal_of_works)?;
         let works = if is_line { works.column(0).to_owned().into_dyn() } else { works.into_dyn() };

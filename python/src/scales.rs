@@ -122,7 +122,8 @@ pub fn check_sign(law: &Functions<'_>) -> PyResult<()> {
     let [energies, tractions] = [law.at(Function::Energy, &gaps)?, law.at(Function::Traction, &gaps)?];
     let rises = energies.windows(2).map(|pair| pair[1] - pair[0]).enumerate().filter(|(_, rise)| rise.is_finite());
     let Some((place, rise)) = rises.max_by(|(_, a), (_, b)| a.abs().total_cmp(&b.abs())) else { return Ok(()) };
-    if rise * (tractions[place] + tractions[place + 1]) >= 0.0 {
+    let opposite = rise * (tractions[place] + tractions[place + 1]) < 0.0;
+    if !opposite {
         return Ok(());
     }
     Err(PyValueError::new_err(format!(
