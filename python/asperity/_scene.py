@@ -162,8 +162,10 @@ class Scene:
             with contextlib.suppress(AttributeError):
                 raised.solution = solution
             raise raised
-        warn_of_input(warning for warning in told["warnings"] if warning["code"] not in self._warned)
-        self._warned.update(warning["code"] for warning in told["warnings"])
+        for warning in told["warnings"]:
+            if warning["code"] not in self._warned:
+                self._warned.add(warning["code"])
+                warn_of_input(warning)
         searched = told["search"]
         if solution.converged and searched is not None and not searched["reached"]:
             text = f"no load was found with a contact fraction of {searched['wanted']}: it jumps from {searched['below']} to "

@@ -249,7 +249,8 @@ def prepare(
         mirror,
         resample,
     )
-    warn_of_input(warnings)
+    for warning in warnings:
+        warn_of_input(warning)
     periodic = True if mirror or window else given.periodic
     is_line = given._is_line and made.shape[1] == 1
     return Topography(made, sides, unit, periodic, given.source, original, given.seed, _is_line=is_line)

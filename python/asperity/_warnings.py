@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import sys
 import warnings
-from collections.abc import Iterable
 
 
 class ConvergenceWarning(UserWarning):
@@ -19,10 +18,9 @@ class InputWarning(UserWarning):
     """A probable mistake in the heights, the units or the range of adhesion; the answer may be right all the same."""
 
 
-def warn_of_input(found: Iterable[dict[str, str]]) -> None:
-    """Gives the warnings of the compiled core, each a code and a message."""
-    for warning in found:
-        warn(f"{warning['code']}: {warning['message']}", InputWarning)
+def warn_of_input(found: dict[str, str]) -> None:
+    """Gives a warning of the compiled core, its code and its message."""
+    warn(f"{found['code']}: {found['message']}", InputWarning)
 
 
 def warn(text: str, category: type[Warning]) -> None:

@@ -264,7 +264,8 @@ def test_columns_of_packed_records_are_read_right_wherever_an_array_goes(rough, 
     core = asperity.surface.statistics(asperity.Topography(h, (1.0, 1.0)))
     assert asperity.surface.statistics(z, 1.0) == core
     assert np.array_equal(asperity.surface.spectrum(z, 1.0).densities, asperity.surface.spectrum(h, 1.0).densities)
-    assert np.array_equal(asperity.prepare(z, 1.0, detrend="plane").heights, asperity.prepare(h, 1.0, detrend="plane").heights)
+    prepared = [asperity.prepare(heights, 1.0, detrend="plane").heights for heights in (z, h)]
+    assert np.array_equal(*prepared)
     start = gap(h) + 1e-3
     assert gap(h, start=view(start)).tobytes() == gap(h, start=start).tobytes()
     mirrored = asperity.prepare(h, 1.0, mirror=True)
@@ -278,7 +279,8 @@ def test_columns_of_packed_records_are_read_right_wherever_an_array_goes(rough, 
     for function in (law.energy, law.traction, law.slope):
         assert np.array_equal(function(view(start)), function(start))
     loads = np.abs(h) + 1e-4
-    assert np.array_equal(asperity.exact.Hertz(2.0, 1.0).at_load(view(loads)).approach, asperity.exact.Hertz(2.0, 1.0).at_load(loads).approach)
+    hertz = asperity.exact.Hertz(2.0, 1.0)
+    assert np.array_equal(hertz.at_load(view(loads)).approach, hertz.at_load(loads).approach)
     sizes = asperity.contact.clusters(h > 0.01).sizes
     assert np.array_equal(asperity.contact.clusters(packed(h > 0.01, "?", skip=3)).sizes, sizes)
 
@@ -302,7 +304,8 @@ def test_axes_say_which_axis_is_x(rough):
     assert next(cycle).solution.gap.shape == (64, 48)
     by_axis = [asperity.surface.spectrum(image, (1.0, 0.75), axes="yx", along=along).densities for along in "xy"]
     assert np.array_equal(by_axis[0], asperity.surface.spectrum(image.T, (1.0, 0.75), along="x").densities)
-    assert asperity.surface.statistics(image, (1.0, 0.75), axes="yx").rms_slope == asperity.surface.statistics(image.T, (1.0, 0.75)).rms_slope
+    slope = asperity.surface.statistics(image, (1.0, 0.75), axes="yx").rms_slope
+    assert slope == asperity.surface.statistics(image.T, (1.0, 0.75)).rms_slope
     with pytest.raises(ValueError, match="axes is 'zx': it must be 'xy'.*or 'yx'"):
         asperity.prepare(image, 1.0, axes="zx")
     for known in (rough, Map(image, (1.0, 1.0), True), "map.npy"):
@@ -325,7 +328,8 @@ def test_dimensions_that_are_named_say_which_axis_is_x(rough):
     with pytest.raises(ValueError, match=r"axes is 'xy', but the dimensions are \('y', 'x'\)"):
         asperity.prepare(data.T, axes="xy")
     # starts and works of adhesion, too
-    assert gap(data, None, start=data.T * 0 + 0.02).tobytes() == gap(data, None, start=np.full((64, 48), 0.02)).tobytes()
+    start = np.linspace(0.01, 0.02, 64)[:, None] * np.ones(48)
+    assert gap(data, None, start=data.T * 0 + start.T).tobytes() == gap(data, None, start=start).tobytes()
     law = asperity.Varying(asperity.Exponential(1.0, 8e-3), abs(data.T))
     assert np.array_equal(law.work_of_adhesion, np.abs(rough.heights[:, :48]))
 
@@ -365,16 +369,16 @@ def test_threads_are_as_many_as_in_the_tool(rough):
 @pytest.mark.parametrize(
     ("ask", "message"),
     [
-        (lambda h: asperity.sweep(h, modulus=1.0, mean_pressures=2e6), r"mean_pressures is 2000000.0: .* as \[2000000.0\]"),
+        (lambda h: asperity.sweep(h, modulus=1.0, mean_pressures=2e6), r"mean_pressures is 2000000.0: .* as \[2000000"),
         (lambda h: asperity.solve(h, modulus=1.0, mean_pressure=[1.0, 2.0]), r"asperity.sweep .* mean_pressures=\[...\]"),
         (lambda h: asperity.solve(h, modulus=1.0, mean_pressures=[1.0]), "give mean_pressure, .* asperity.sweep"),
         (lambda h: asperity.sweep(h, modulus=1.0, mean_gap=0.1), r"give mean_gaps=\[...\], or one load to asperity.solve"),
-        (lambda h: asperity.solve(h, modulus=1.0, pressure=1.0), r"solve\(\) has no keyword pressure: did you mean mean_pressure"),
+        (lambda h: asperity.solve(h, modulus=1.0, pressure=1.0), r"solve\(\) .* pressure: did you mean mean_pressure"),
         (lambda h: asperity.cycle(h, modulus=1.0, gap=[1.0]), "has no keyword gap: did you mean mean_gaps"),
         (lambda h: asperity.solve(h, E=1.0, mean_gap=1.0), "did you mean modulus"),
         (lambda h: asperity.solve(h, modulus=1.0, mean_gap=1.0, tolerence=1.0), "did you mean tolerance"),
         (lambda h: asperity.prepare(h, detrand="plane"), r"prepare\(\) has no keyword detrand: did you mean detrend"),
-        (lambda h: asperity.Exponential(work_of_adhesion=1.0, rho=1.0), r"Exponential\(\) has no keyword rho: did you mean range"),
+        (lambda h: asperity.Exponential(work_of_adhesion=1.0, rho=1.0), r"Exponential\(\) .* rho: did you mean range"),
         (lambda h: asperity.VanDerWaals(A=1.0, range=1.0), r"VanDerWaals\(\) has no keyword A: did you mean hamaker"),
         (lambda h: asperity.Morse(1.0), r"Morse\(\) is without range"),
         (lambda h: asperity.Morse(1.0, 1.0, colour=1.0), "it has work_of_adhesion, range"),

@@ -362,12 +362,14 @@ def test_a_law_in_python_that_repels_keeps_the_surfaces_apart(rough, precision):
         assert np.isclose(found.adhesive_energy, expected.adhesive_energy, rtol=1e-6 if precision == "f64" else 1e-3)
     # beside a wall the law of Morse need not say its range either
     wall = {**options, "wall": "hard"}
-    found, expected = (asperity.solve(rough, law=law, **wall) for law in (Shifted(W, RANGE, 0.0), asperity.Morse(W, RANGE)))
+    laws = (Shifted(W, RANGE, 0.0), asperity.Morse(W, RANGE))
+    found, expected = (asperity.solve(rough, law=law, **wall) for law in laws)
     assert np.allclose(found.gap / RANGE, expected.gap / RANGE, **close)
 
 
 def test_any_law_with_a_gap_of_rest_will_do(rough):
-    for law in (Powers(W, RANGE, 12, 6), Powers(W, RANGE, 3, 1.5), Powers(W, RANGE, 8, 2, shift=RANGE), Powers(W, 3.7e-3, 5, 3)):
+    powers = [(RANGE, 12, 6), (RANGE, 3, 1.5), (RANGE, 8, 2, RANGE), (3.7e-3, 5, 3)]
+    for law in (Powers(W, *given) for given in powers):
         asperity.check_law(law)
         for pressure in (1e-4, 0.01, 0.2):
             found = asperity.solve(rough, modulus=1.0, mean_pressure=pressure, law=law, wall="none")
@@ -401,7 +403,8 @@ def test_a_wrong_sign_is_told(rough):
 
     options = {"modulus": 1.0, "mean_pressure": 0.01}
     # those whose work and range are named, and those where they have to be found
-    for law in (Exponential(W, RANGE), Linear(W, RANGE), Powers(W, RANGE), Shifted(W, RANGE, 0.0), Shifted(W, RANGE, RANGE)):
+    shifted = [Shifted(W, RANGE, rest) for rest in (0.0, RANGE)]
+    for law in (Exponential(W, RANGE), Linear(W, RANGE), Powers(W, RANGE), *shifted):
         for functions in (["traction"], ["traction", "slope"], ["energy"]):
             for ask in (lambda law: asperity.solve(rough, law=law, **options), asperity.check_law):
                 with pytest.raises(ValueError, match="change the sign of one of the two|correct one of the two"):
@@ -436,5 +439,5 @@ def test_a_map_of_works_with_holes_is_refused_by_its_name(rough):
     works = np.full((64, 64), W)
     works[3, 4] = np.nan
     for holed in (works, np.ma.masked_array(np.full((64, 64), W), np.isnan(works))):
-        with pytest.raises(ValueError, match=r"work_of_adhesion: 1 of 4096 nodes .* \(NaN\) at index \[3, 4\]: give each node"):
+        with pytest.raises(ValueError, match=r"work_of_adhesion: 1 of 4096 nodes .* \(NaN\) at index \[3, 4\]: give"):
             asperity.Varying(asperity.Exponential(1.0, RANGE), holed)
