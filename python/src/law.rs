@@ -191,7 +191,10 @@ fn without(class: &str, parameter: &str) -> PyErr {
 
 /// A law of the library as a class: its parameters, and how it is made of them.
 macro_rules! class {
-    ($(#[$doc:meta])* $name:ident($($parameter:ident: $type:ty $(= $default:tt)?),*), $signature:literal, $make:expr) => {
+    (
+        $(#[$doc:meta])*
+        $name:ident($($parameter:ident: $type:ty $(= $default:tt)?),*), $signature:literal, $make:expr
+    ) => {
         $(#[$doc])*
         #[pyclass(frozen, extends = Law, module = "asperity")]
         pub struct $name { $($parameter: $type),* }

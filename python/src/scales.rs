@@ -5,7 +5,7 @@ use pyo3::prelude::*;
 
 use crate::functions::{Function, Functions};
 
-/// The powers of two between which the gap of rest is looked for, whatever the unit of length, and the gaps in an octave.
+/// The powers of two between which the gap of rest is looked for, in any unit of length, and the gaps in an octave.
 const OCTAVES: (i32, i32) = (-50, 20);
 const GAPS: i32 = 8;
 
@@ -19,8 +19,8 @@ const DEPTHS: std::ops::RangeInclusive<i32> = -8..=24;
 pub struct Scales {
     /// −φ in contact, or at the gap of rest.
     pub work_of_adhesion: f64,
-    /// The length over which the traction decays: w over the traction in contact, or over the greatest attraction of a law
-    /// that does not attract there.
+    /// The length over which the traction decays: w over the traction in contact, or over the greatest attraction of a
+    /// law that does not attract there.
     pub range: f64,
     /// The gap below which the law repels.
     pub rest: Option<f64>,
@@ -45,8 +45,8 @@ impl Scales {
         if !(range > 0.0 && range.is_finite()) {
             check_sign(law)?;
             return Err(PyValueError::new_err(format!(
-                "range of the law is {range}: it must be positive and finite: give the law an attribute range, the length \
-                 over which the traction decays (without one it is w/traction(0))"
+                "range of the law is {range}: it must be positive and finite: give the law an attribute range, the \
+                 length over which the traction decays (without one it is w/traction(0))"
             )));
         }
         let (mut least, mut goes_on) = (Some(0.0), false);
@@ -96,8 +96,8 @@ fn rest(law: &Functions<'_>, in_contact: f64) -> PyResult<(Option<f64>, f64)> {
     }
 }
 
-/// The least gap below that of rest down to which the law repels more and more, up to the strongest repulsion, and whether
-/// it ends so, and not where it is no longer defined.
+/// The least gap below that of rest down to which the law repels more and more, up to the strongest repulsion, and
+/// whether it ends so, and not where it is no longer defined.
 fn deepest(law: &Functions<'_>, rest: f64, range: f64, strongest: f64) -> PyResult<(Option<f64>, bool)> {
     let gaps = Vec::from_iter(DEPTHS.map(|half| rest - range * (0.5 * f64::from(half)).exp2()));
     let (mut least, mut before) = (None, 0.0);
@@ -127,8 +127,8 @@ pub fn check_sign(law: &Functions<'_>) -> PyResult<()> {
         return Ok(());
     }
     Err(PyValueError::new_err(format!(
-        "law.traction is {:e} at a gap of {:e}, where law.energy {} with the gap: the traction is the derivative of the \
-         energy, and positive where the surfaces attract each other: change the sign of one of the two",
+        "law.traction is {:e} at a gap of {:e}, where law.energy {} with the gap: the traction is the derivative of \
+         the energy, and positive where the surfaces attract each other: change the sign of one of the two",
         tractions[place],
         gaps[place],
         if rise > 0.0 { "rises" } else { "falls" }
