@@ -328,7 +328,7 @@ def array_of(values: Any, name: str = "heights", axes: str | None = None) -> tup
     if masked:
         array = array.astype(np.float64).filled(np.nan)
     # the compiled core counts strides in items
-    array = np.require(array, np.float64, "ALIGNED")
+    array = np.require(array, np.float64, ["ALIGNED"])
     if array.ndim == 1:
         return array[:, None], True
     return (array.T if order == "yx" else array), False
