@@ -52,7 +52,7 @@ impl Scales {
         let (mut least, mut goes_on) = (Some(0.0), false);
         if let Some(gap) = rest {
             if at(Function::Energy, 0.0)?.is_finite() {
-                (least, goes_on) = deepest(law, gap, range, STRONGEST * attraction)?;
+                (least, goes_on) = deepest(law, gap, range, STRONGEST * attraction);
                 // what does not repel below rests nowhere
                 (rest, least) = (rest.filter(|_| least.is_some()), least.or(Some(0.0)));
             } else {
@@ -98,19 +98,21 @@ fn rest(law: &Functions<'_>, in_contact: f64) -> PyResult<(Option<f64>, f64)> {
 
 /// The least gap below that of rest down to which the law repels more and more, up to the strongest repulsion, and
 /// whether it ends so, and not where it is no longer defined.
-fn deepest(law: &Functions<'_>, rest: f64, range: f64, strongest: f64) -> PyResult<(Option<f64>, bool)> {
+fn deepest(law: &Functions<'_>, rest: f64, range: f64, strongest: f64) -> (Option<f64>, bool) {
     let gaps = Vec::from_iter(DEPTHS.map(|half| rest - range * (0.5 * f64::from(half)).exp2()));
+    // a law may refuse negative gaps
+    let Ok(tractions) = law.at(Function::Traction, &gaps) else { return (None, false) };
     let (mut least, mut before) = (None, 0.0);
-    for (gap, traction) in gaps.iter().copied().zip(law.at(Function::Traction, &gaps)?) {
+    for (gap, traction) in gaps.into_iter().zip(tractions) {
         if !(traction < before && traction.is_finite()) {
-            return Ok((least, false));
+            return (least, false);
         }
         (least, before) = (Some(gap), traction);
         if -traction >= strongest {
             break;
         }
     }
-    Ok((least, true))
+    (least, true)
 }
 
 /// Tells whether the traction has the sign of the derivative of the energy, where that changes most.

@@ -384,6 +384,21 @@ def test_any_law_with_a_gap_of_rest_will_do(rough):
         asperity.solve(rough, modulus=1.0, mean_pressure=0.01, law=Linear(W, RANGE), wall="none")
 
 
+def test_a_law_may_refuse_negative_gaps(rough):
+    class Strict(Shifted):
+        def traction(self, gap):
+            if np.any(gap < 0):
+                raise ValueError("negative")
+            return super().traction(gap)
+
+    options = {"modulus": 1.0, "mean_pressure": 0.01}
+    found = asperity.solve(rough, law=Strict(W, RANGE, 0.0), **options)
+    expected = asperity.solve(rough, law=asperity.Morse(W, RANGE), **options)
+    assert np.allclose(found.gap / RANGE, expected.gap / RANGE, rtol=0, atol=1e-6)
+    with pytest.raises(ValueError, match="does not repel"):
+        asperity.solve(rough, law=Strict(W, RANGE, 0.0), wall="none", **options)
+
+
 def test_the_gap_of_rest_is_found_in_any_unit():
     heights = np.cos(2 * np.pi * np.arange(32) / 32)
     for unit in (1e-9, 1e-6, 1.0, 1e3):
