@@ -184,9 +184,9 @@ fn check_words(py: Python<'_>, class: &str, known: &[&str], other: Option<&Bound
     py.import("asperity._words")?.call_method1("check", (class, other, known)).map(|_| ())
 }
 
-/// The refusal of a law without a parameter.
-fn without(class: &str, parameter: &str) -> PyErr {
-    PyTypeError::new_err(format!("{class}() is without {parameter}: give a number"))
+/// The value of a parameter, refused if there is none.
+fn given<V>(class: &str, parameter: &str, value: Option<V>) -> PyResult<V> {
+    value.ok_or_else(|| PyTypeError::new_err(format!("{class}() is without {parameter}: give a number")))
 }
 
 /// A law of the library as a class: its parameters, and how it is made of them.
@@ -213,10 +213,7 @@ macro_rules! class {
             ) -> PyResult<PyClassInitializer<Self>> {
                 let class = stringify!($name);
                 check_words(py, class, &[$(stringify!($parameter)),*], other)?;
-                $(
-                    let $parameter = $parameter $(.or(Some($default)))?;
-                    let $parameter = $parameter.ok_or_else(|| without(class, stringify!($parameter)))?;
-                )*
+                $(let $parameter = given(class, stringify!($parameter), $parameter $(.or(Some($default)))?)?;)*
                 let form: asperity::Result<Form> = $make;
                 Ok(PyClassInitializer::from(Law(form.map_err(refusal)?)).add_subclass(Self { $($parameter),* }))
             }
