@@ -22,6 +22,7 @@ pub use self_affine::{Amplitude, SelfAffine};
 pub(crate) use slope::rms_slope;
 pub use spectrum::{Psd, Spectrum};
 pub use statistics::SurfaceStatistics;
+pub(crate) use topography::LineSteps;
 pub use topography::{Fit, Form, FormFit, RowAlignment, ScanAxis, Spikes, Topography, Trend};
 
 /// The heights of the rigid rough surface on a grid: peaks have the larger height.

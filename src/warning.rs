@@ -12,12 +12,13 @@ use crate::problem::mu_rho;
 use crate::real::Real;
 use crate::slab::Slab;
 use crate::solver::Solution;
-use crate::surface::{Surface, Topography};
+use crate::surface::{ScanAxis, Surface, Topography};
 use crate::vector::sums;
 
 mod code;
 mod extremes;
 mod heights;
+mod lines;
 mod relief;
 mod spikes;
 mod text;
@@ -219,6 +220,25 @@ impl Warning {
     /// ```
     pub fn of_modulus(modulus: f64, grid: &Grid, unit: Option<&str>) -> Option<Self> {
         heights::modulus(modulus, grid, unit)
+    }
+
+    /// A measured map whose scan lines, which are to be brought to one height, are probably not those along the given
+    /// axis: [`ScanAxis`](WarningCode::ScanAxis). Lines along the other axis are offset from one another by more than
+    /// half the rms step of their nodes, five times as irregularly as those along this one, neither as smoothly as the
+    /// profile of a surface nor on one that is rougher across them. Nothing where there are fewer than 64 lines.
+    ///
+    /// ```
+    /// use asperity::{ScanAxis, Topography, Warning};
+    /// // an image: rows are the scan lines, and drift moves each by some height
+    /// let drift = |row: usize| ((row as f64 * 0.618).fract() - 0.5).powi(3);
+    /// let grain = |row: usize, column: usize| 1e-3 * ((row * 7 + column * 13) as f64 * 0.414).fract();
+    /// let image = ndarray::Array2::from_shape_fn((96, 96), |(row, column)| drift(row) + grain(row, column));
+    /// let map = Topography::new(image);
+    /// assert!(Warning::of_lines(&map, ScanAxis::X).is_some());
+    /// assert!(Warning::of_lines(&map, ScanAxis::Y).is_none());
+    /// ```
+    pub fn of_lines(map: &Topography, along: ScanAxis) -> Option<Self> {
+        lines::scan_axis(map, along)
     }
 
     /// The probable mistakes in the range of `law` on a surface pressed against a body of contact `modulus` E*:

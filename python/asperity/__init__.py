@@ -13,7 +13,7 @@ on the number of threads. The interpreter's lock is free during a solve.
 
 from __future__ import annotations
 
-from . import contact, exact, surface
+from . import _cycle, _solve, _stability, _sweep, _topography, contact, exact, surface
 from ._accuracy import Plan
 from ._asperity import VERSION as __version__
 from ._asperity import (
@@ -30,13 +30,19 @@ from ._asperity import (
     Varying,
     check_law,
 )
-from ._cycle import Cycle, Step, cycle
+from ._cycle import Cycle, Step
 from ._solution import ContactStatistics, PressureDistribution, Solution
-from ._solve import solve
-from ._stability import Stability, stability
-from ._sweep import Sweep, sweep
-from ._topography import Topography, from_topography, prepare, read
+from ._stability import Stability
+from ._sweep import Sweep
+from ._topography import Topography, from_topography, read
 from ._warnings import AccuracyWarning, ConvergenceWarning, InputWarning
+from ._words import checked as _checked
+
+cycle = _checked(_cycle.cycle)
+prepare = _checked(_topography.prepare)
+solve = _checked(_solve.solve)
+stability = _checked(_stability.stability)
+sweep = _checked(_sweep.sweep)
 
 __all__ = [
     "AccuracyWarning",

@@ -5,11 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import Any
 
+import numpy as np
+
 #: A load as the compiled core takes it: the name of its keyword, and its numbers.
 Load = tuple[str, list[float]]
 
 #: The names of loads by the keywords of their sequences.
-_PLURALS = {
+PLURALS = {
     "mean_pressures": "mean_pressure",
     "mean_gaps": "mean_gap",
     "normal_forces": "normal_force",
@@ -32,13 +34,19 @@ def number(name: str, value: Any) -> float:
 
 def one(**given: Any) -> Load:
     """The one load of those that may be given."""
-    return _load(*_only("load", given))
+    name, value = _only("load", given)
+    if name != "spring" and np.ndim(value) > 0:
+        plural = next(plural for plural, one in PLURALS.items() if one == name)
+        raise TypeError(f"{name} is {value!r}: it must be one number; asperity.sweep takes many, as {plural}=[...]")
+    return _load(name, value)
 
 
 def many(**given: Iterable[Any] | None) -> list[Load]:
     """The sequence of loads of those that may be given, by the plural of their names."""
     name, values = _only("sequence of loads", given)
-    return [_load(_PLURALS[name], value) for value in values]
+    if np.ndim(values) == 0 and not isinstance(values, Iterable):
+        raise TypeError(f"{name} is {values!r}: it must be a sequence, as [{values!r}], or one load of asperity.solve")
+    return [_load(PLURALS[name], value) for value in values]
 
 
 def _only(what: str, given: dict[str, Any]) -> tuple[str, Any]:

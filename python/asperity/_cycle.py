@@ -142,6 +142,7 @@ def cycle(
     heights: Any,
     lengths: float | tuple[float, float] | None = None,
     *,
+    axes: str | None = None,
     modulus: float,
     mean_gaps: Iterable[float] | None = None,
     mean_pressures: Iterable[float] | None = None,
@@ -173,6 +174,8 @@ def cycle(
 
     Parameters
     ----------
+    heights, lengths, axes
+        Heights of the rigid surface, with x along the first axis, or the second if ``axes`` is "yx", as those of `solve`.
     mean_gaps : sequence of float
         Mean gaps at which the cycle starts, turns and ends: two at least.
     mean_pressures : sequence of float
@@ -221,6 +224,7 @@ def cycle(
     scene = Scene(
         heights,
         lengths,
+        axes=axes,
         modulus=modulus,
         boundary=boundary,
         absent_missing=absent_missing,

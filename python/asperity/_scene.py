@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import contextlib
-import sys
-import warnings
 from typing import Any
 
 import numpy as np
@@ -15,7 +13,7 @@ from ._accuracy import shortfall
 from ._control import Load, number
 from ._solution import Solution
 from ._topography import Topography, field_of, original_of, refined, sides, taken
-from ._warnings import AccuracyWarning, ConvergenceWarning, InputWarning
+from ._warnings import AccuracyWarning, ConvergenceWarning, InputWarning, warn, warn_of_input
 
 
 class Scene:
@@ -26,6 +24,7 @@ class Scene:
         heights: Any,
         lengths: float | tuple[float, float] | None,
         *,
+        axes: str | None = None,
         modulus: float,
         boundary: str,
         absent_missing: bool,
@@ -40,7 +39,7 @@ class Scene:
         nested: bool | None = False,
         whole: bool = False,
     ) -> None:
-        self.topography: Topography = taken(heights, lengths)
+        self.topography: Topography = taken(heights, lengths, axes)
         lengths, modulus = sides(self.topography), number("modulus", modulus)
         original = original_of(self.topography)
         # with a free boundary the images belong to the body
@@ -85,11 +84,10 @@ class Scene:
         self._adhesion = law
         self._warned: set[str] = set()
         if self.topography.periodic is False and boundary == "periodic":
-            warnings.warn(
+            warn(
                 "the map is not periodic, and the solve takes it for periodic: use asperity.prepare(heights, "
                 "mirror=True) or window=0.1, or boundary='free' if the body ends there",
                 InputWarning,
-                stacklevel=_outside(),
             )
 
     def _shapes(self, topography: Topography) -> dict[str, Any]:
@@ -169,17 +167,16 @@ class Scene:
         for warning in told["warnings"]:
             if warning["code"] not in self._warned:
                 self._warned.add(warning["code"])
-                text = f"{warning['code']}: {warning['message']}"
-                warnings.warn(text, InputWarning, stacklevel=_outside())
+                warn_of_input(warning)
         searched = told["search"]
         if solution.converged and searched is not None and not searched["reached"]:
             text = f"no load was found with a contact fraction of {searched['wanted']}: it jumps from {searched['below']} to "
             text += f"{searched['above']}, and the nearer one is the solution"
-            warnings.warn(text, ConvergenceWarning, stacklevel=_outside())
+            warn(text, ConvergenceWarning)
         if not solution.converged:
-            warnings.warn(_not_converged(told), ConvergenceWarning, stacklevel=_outside())
+            warn(_not_converged(told), ConvergenceWarning)
         elif told["accuracy"] is not None and not told["accuracy"]["reached"]:
-            warnings.warn(shortfall(told, found), AccuracyWarning, stacklevel=_outside())
+            warn(shortfall(told, found), AccuracyWarning)
         return solution
 
 
@@ -193,11 +190,3 @@ def _not_converged(report: dict[str, Any]) -> str:
         "detached": f"no equilibrium holds this tension: press more, or give {held}",
     }.get(report["status"])
     return f"{text}: {remedy}" if remedy else text
-
-
-def _outside() -> int:
-    """The level of the first caller outside of this package, for warnings."""
-    level, frame = 1, sys._getframe(1)
-    while frame.f_back is not None and frame.f_globals.get("__name__", "").startswith("asperity."):
-        level, frame = level + 1, frame.f_back
-    return level

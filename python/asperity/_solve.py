@@ -15,6 +15,7 @@ def solve(
     heights: Any,
     lengths: float | tuple[float, float] | None = None,
     *,
+    axes: str | None = None,
     modulus: float,
     mean_pressure: float | None = None,
     mean_gap: float | None = None,
@@ -58,6 +59,9 @@ def solve(
     lengths : float or (float, float), optional
         Side lengths (Lx, Ly) = (Nx Δx, Ny Δy), in the unit of the heights; one alone means square cells. Needed
         unless the heights bring them.
+    axes : {"xy", "yx"}, optional
+        Axes of an array of heights: "xy" by default, the first is x, or "yx" for an image, [row, column]. Dimensions of a
+        DataArray that are named x and y say it themselves. Results have x along the first axis in any case.
     modulus : float
         Contact modulus E*, a pressure: E/(1 − ν²), with Young's modulus E and Poisson's ratio ν of the body that deforms.
     mean_pressure : float
@@ -90,7 +94,8 @@ def solve(
         node to node. An object with ``energy(gap)``, ``traction(gap)`` and ``slope(gap)`` of arrays is a law, too: see
         `check_law`.
     wall : {"hard", "none"}
-        What keeps the surfaces apart: a rigid wall at zero gap, or the repulsion of `LennardJones` or `Morse` alone.
+        What keeps the surfaces apart: a rigid wall at zero gap, or a law that repels alone, as `LennardJones` and
+        `Morse` do.
     tolerance : float, optional
         Certified relative error at which to stop; 1e-6 by default, 1e-4 in f32.
     max_iterations : int, optional
@@ -104,7 +109,7 @@ def solve(
     precision : {"f64", "f32"}
         Precision of the solve, and of the fields that it returns.
     start : array_like, Solution or "apart", optional
-        Gap from which to start, of the shape of the heights. With adhesion it chooses the branch. ``"apart"`` are
+        Gap from which to start, of the shape (Nx, Ny) of the results. With adhesion it chooses the branch. ``"apart"`` are
         undeformed bodies that come from afar, at the ``mean_gap``, the ``approach`` or the position at rest of the
         ``spring``: by default those with adhesion are found sticking.
     nested : bool, optional
@@ -206,6 +211,7 @@ def solve(
     scene = Scene(
         heights,
         lengths,
+        axes=axes,
         modulus=modulus,
         boundary=boundary,
         absent_missing=absent_missing,

@@ -73,6 +73,7 @@ def sweep(
     heights: Any,
     lengths: float | tuple[float, float] | None = None,
     *,
+    axes: str | None = None,
     modulus: float,
     mean_pressures: Iterable[float] | None = None,
     mean_gaps: Iterable[float] | None = None,
@@ -103,6 +104,8 @@ def sweep(
 
     Parameters
     ----------
+    heights, lengths, axes
+        Heights of the rigid surface, with x along the first axis, or the second if ``axes`` is "yx", as those of `solve`.
     mean_pressures : sequence of float
         Mean external pressures, in their order.
     mean_gaps : sequence of float
@@ -149,6 +152,7 @@ def sweep(
     scene = Scene(
         heights,
         lengths,
+        axes=axes,
         modulus=modulus,
         boundary=boundary,
         absent_missing=absent_missing,

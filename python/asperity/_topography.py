@@ -7,9 +7,10 @@ from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from . import _asperity, _plot
+from ._warnings import warn_of_input
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -139,12 +140,12 @@ def from_topography(topography: Any) -> Topography:
     -------
     Topography
     """
-    if not callable(getattr(topography, "heights", None)) or not hasattr(topography, "physical_sizes"):
+    if not _is_topography(topography):
         name = type(topography).__name__
         raise TypeError(f"topography is a {name}: it must have heights() and physical_sizes")
     if not getattr(topography, "is_uniform", True):
         raise ValueError("topography is not on a uniform grid: interpolate it first, as by its to_uniform()")
-    heights, is_line = _array(topography.heights())
+    heights, is_line = array_of(topography.heights())
     sizes = topography.physical_sizes
     lengths = None if sizes is None else _lengths(sizes[0] if is_line else tuple(sizes), heights.shape)
     periodic = getattr(topography, "is_periodic", None)
@@ -155,6 +156,7 @@ def prepare(
     heights: Any,
     lengths: float | tuple[float, float] | None = None,
     *,
+    axes: str | None = None,
     unit: str | None = None,
     missing: float | list[float] | None = None,
     scale: float | None = None,
@@ -178,6 +180,9 @@ def prepare(
         Heights; NaN, infinite and masked points are missing.
     lengths : float or (float, float), optional
         Side lengths (Lx, Ly); one alone means square cells. Those of the map by default.
+    axes : {"xy", "yx"}, optional
+        Axes of an array: "xy" by default, the first is x, or "yx" for an image, [row, column]. Dimensions of a DataArray
+        that are named x and y say it themselves. The result has x along the first axis.
     unit : str, optional
         Unit of the heights after ``scale``, and of the side lengths.
     missing : float or list of float, optional
@@ -192,7 +197,8 @@ def prepare(
         Brings the scan lines of an AFM to one height: by the median of each line, by that of the differences from line
         to line, for large features, or by a polynomial of this order, subtracted from each line.
     scan_axis : {"x", "y"}
-        Direction of the scan lines.
+        Direction of the scan lines. Where lines along the other one have by far the larger offsets, an `InputWarning`
+        says so. The rows of an image are along x if ``axes`` is "yx", and along y if it is not.
     despike : float, optional
         Threshold, in robust standard deviations of all nodes: a node that is farther than this from the median of the
         5 x 5 nodes around it is a spike, and gets that median. 10 leaves the features of most surfaces.
@@ -222,9 +228,9 @@ def prepare(
     >>> asperity.prepare(measured, 1e-6, unit="m", detrend="plane", fill=True, mirror=True)
     Topography(64 x 48 heights, mirror images of 32 x 24, 2e-06 x 1.5e-06 m)
     """
-    given = taken(heights, lengths)
+    given = taken(heights, lengths, axes)
     codes = [] if missing is None else [float(code) for code in np.ravel(missing)]
-    made, sides, unit, original, _ = _asperity.prepare(
+    (made, sides, unit, original, _), warnings = _asperity.prepare(
         given.heights,
         given.lengths,
         unit or given.unit,
@@ -243,6 +249,8 @@ def prepare(
         mirror,
         resample,
     )
+    for warning in warnings:
+        warn_of_input(warning)
     periodic = True if mirror or window else given.periodic
     is_line = given._is_line and made.shape[1] == 1
     return Topography(made, sides, unit, periodic, given.source, original, given.seed, _is_line=is_line)
@@ -255,18 +263,22 @@ def _by_order(method: str | int | None) -> tuple[str, int] | None:
     return (method, 0) if isinstance(method, str) else ("polynomial", int(method))
 
 
-def taken(heights: Any, lengths: float | tuple[float, float] | None = None) -> Topography:
+def taken(
+    heights: Any, lengths: float | tuple[float, float] | None = None, axes: str | None = None
+) -> Topography:
     """The map of whatever holds heights, in float64; the data are not copied where they are that already."""
+    if axes is not None and (isinstance(heights, Topography | str | os.PathLike) or _is_topography(heights)):
+        raise ValueError(f"axes is {axes!r}, but a file or a map knows its axes: leave it out, or give an array")
     if isinstance(heights, Topography):
         found = heights
     elif isinstance(heights, str | os.PathLike):
         found = read(heights)
-    elif callable(getattr(heights, "heights", None)) and hasattr(heights, "physical_sizes"):
+    elif _is_topography(heights):
         found = from_topography(heights)
-    elif hasattr(heights, "dims") and hasattr(heights, "coords"):
-        found = _from_data_array(heights)
+    elif _is_data_array(heights):
+        found = _from_data_array(heights, axes)
     else:
-        array, is_line = _array(heights)
+        array, is_line = array_of(heights, axes=axes)
         found = Topography(array, _is_line=is_line)
     if lengths is None:
         return found
@@ -296,11 +308,17 @@ def refined(topography: Topography, heights: NDArray[np.float64]) -> Topography:
 
 def field_of(values: Any, name: str) -> NDArray[np.float64]:
     """A field as the compiled core takes it: two-dimensional, float64."""
-    return _array(values, name)[0]
+    return array_of(values, name)[0]
 
 
-def _array(values: ArrayLike, name: str = "heights") -> tuple[NDArray[np.float64], bool]:
-    """Values as a matrix of float64, and whether they are one line; masked points become NaN."""
+def array_of(values: Any, name: str = "heights", axes: str | None = None) -> tuple[NDArray[np.float64], bool]:
+    """Values as a matrix of float64 with x along its first axis, and whether they are one line.
+
+    Masked points become NaN.
+    """
+    order = _order(values, axes)
+    if _is_data_array(values):
+        values = np.ma.masked_invalid(values.values)
     masked = isinstance(values, np.ma.MaskedArray)
     array: Any = values if masked else np.asarray(values)
     if array.dtype.kind not in "fiub":
@@ -309,8 +327,32 @@ def _array(values: ArrayLike, name: str = "heights") -> tuple[NDArray[np.float64
         raise ValueError(f"{name} have shape {array.shape}: they must be (Nx, Ny), or (N,) on a line")
     if masked:
         array = array.astype(np.float64).filled(np.nan)
-    array = np.asarray(array, dtype=np.float64)
-    return (array[:, None], True) if array.ndim == 1 else (array, False)
+    # the compiled core counts strides in items
+    array = np.require(array, np.float64, ["ALIGNED"])
+    if array.ndim == 1:
+        return array[:, None], True
+    return (array.T if order == "yx" else array), False
+
+
+def _order(values: Any, axes: str | None) -> str:
+    """The order of the axes of an array: that of the names of its dimensions, or the one that is given."""
+    if axes not in (None, "xy", "yx"):
+        raise ValueError(f"axes is {axes!r}: it must be 'xy', x along the first axis, or 'yx', as of an image")
+    dims = [str(dim).lower() for dim in values.dims] if _is_data_array(values) else []
+    if len(dims) != 2 or not {"x", "y"} & set(dims):
+        return axes or "xy"
+    named = "yx" if dims[0] == "y" or dims[1] == "x" else "xy"
+    if axes not in (None, named):
+        raise ValueError(f"axes is {axes!r}, but the dimensions are {tuple(values.dims)}: leave axes out, or rename them")
+    return named
+
+
+def _is_data_array(values: Any) -> bool:
+    return hasattr(values, "dims") and hasattr(values, "coords")
+
+
+def _is_topography(values: Any) -> bool:
+    return callable(getattr(values, "heights", None)) and hasattr(values, "physical_sizes")
 
 
 def _lengths(lengths: float | tuple[float, float], shape: tuple[int, ...]) -> tuple[float, float]:
@@ -327,12 +369,13 @@ def _lengths(lengths: float | tuple[float, float], shape: tuple[int, ...]) -> tu
     return (pair[0], pair[1])
 
 
-def _from_data_array(data: Any) -> Topography:
-    """The heights of an xarray.DataArray along its own axes, with the side lengths of its coordinates."""
-    heights, is_line = _array(np.ma.masked_invalid(data.values))
+def _from_data_array(data: Any, axes: str | None) -> Topography:
+    """The heights of an xarray.DataArray, with the side lengths of its coordinates."""
+    heights, is_line = array_of(data, axes=axes)
     units = {data.attrs.get("units")}
     lengths = []
-    for axis, dim in enumerate(data.dims):
+    dims = data.dims[::-1] if _order(data, axes) == "yx" else data.dims
+    for axis, dim in enumerate(dims):
         if dim not in data.coords:
             break
         coordinate = np.asarray(data.coords[dim].values, dtype=np.float64)
@@ -346,6 +389,6 @@ def _from_data_array(data: Any) -> Topography:
     units.discard(None)
     if len(units) > 1:
         raise ValueError(f"heights and coordinates are in different units ({', '.join(sorted(units))}): convert one")
-    known = len(lengths) == len(data.dims)
+    known = len(lengths) == len(dims)
     both = _lengths(lengths[0] if is_line else tuple(lengths), heights.shape) if known else None
     return Topography(heights, both, next(iter(units), None), _is_line=is_line)

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import sys
+import warnings
+
 
 class ConvergenceWarning(UserWarning):
     """A solve that has not converged: its ``status`` says how it ended, its fields how far it got."""
@@ -13,3 +16,16 @@ class AccuracyWarning(UserWarning):
 
 class InputWarning(UserWarning):
     """A probable mistake in the heights, the units or the range of adhesion; the answer may be right all the same."""
+
+
+def warn_of_input(found: dict[str, str]) -> None:
+    """Gives a warning of the compiled core, its code and its message."""
+    warn(f"{found['code']}: {found['message']}", InputWarning)
+
+
+def warn(text: str, category: type[Warning]) -> None:
+    """Gives a warning at the first caller outside of this package."""
+    level, frame = 1, sys._getframe(1)
+    while frame.f_back is not None and frame.f_globals.get("__name__", "").startswith("asperity."):
+        level, frame = level + 1, frame.f_back
+    warnings.warn(text, category, stacklevel=level + 1)

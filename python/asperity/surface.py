@@ -117,7 +117,9 @@ def self_affine(
     return Topography(heights, both, periodic=True, seed=seed)
 
 
-def statistics(heights: Any, lengths: float | tuple[float, float] | None = None) -> SurfaceStatistics:
+def statistics(
+    heights: Any, lengths: float | tuple[float, float] | None = None, *, axes: str | None = None
+) -> SurfaceStatistics:
     """Heights, slopes and curvatures in numbers.
 
     Parameters
@@ -126,17 +128,23 @@ def statistics(heights: Any, lengths: float | tuple[float, float] | None = None)
         Heights of a periodic surface, shape (Nx, Ny).
     lengths : float or (float, float), optional
         Side lengths, of which slopes, curvatures and Nayak's parameter are NaN if the heights do not bring them either.
+    axes : {"xy", "yx"}, optional
+        Axes of an array, as of `asperity.solve`: "xy" by default, the first is x.
 
     Returns
     -------
     SurfaceStatistics
     """
-    given = taken(heights, lengths)
+    given = taken(heights, lengths, axes)
     return SurfaceStatistics(*_asperity.statistics(given.heights, given.lengths))
 
 
 def spectrum(
-    heights: Any, lengths: float | tuple[float, float] | None = None, *, along: str = "radial"
+    heights: Any,
+    lengths: float | tuple[float, float] | None = None,
+    *,
+    axes: str | None = None,
+    along: str = "radial",
 ) -> PowerSpectralDensity:
     """The power spectral density.
 
@@ -146,6 +154,8 @@ def spectrum(
         Heights of a periodic surface, shape (Nx, Ny).
     lengths : float or (float, float), optional
         Side lengths; needed unless the heights bring them.
+    axes : {"xy", "yx"}, optional
+        Axes of an array, as of `asperity.solve`: "xy" by default, the first is x.
     along : {"radial", "x", "y"}
         Averaged over directions, or that of profiles along an axis.
 
@@ -162,5 +172,5 @@ def spectrum(
     >>> f"{np.sqrt((densities * waves).sum() * cell):.4f}"
     '0.0100'
     """
-    given = taken(heights, lengths)
+    given = taken(heights, lengths, axes)
     return PowerSpectralDensity(*_asperity.spectrum(given.heights, sides(given), along))

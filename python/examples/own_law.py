@@ -43,7 +43,7 @@ class Dlvo:
 
 # %%
 law = Dlvo(attraction=1e-4, contact_distance=4e-3, repulsion=6e-5, range=6e-3)
-asperity.check_law(law, largest_gap=0.1)
+asperity.check_law(law)
 
 x = np.arange(128) / 128 - 0.5
 wave = np.cos(2 * np.pi * x)

@@ -4,6 +4,7 @@ use asperity::contact::{Clusters, Connectivity, PressureDistribution};
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyReadonlyArray2};
 use pyo3::prelude::*;
 
+use crate::numbers::Field;
 use crate::refusal::refusal;
 
 /// Sizes and labels of clusters.
@@ -26,8 +27,8 @@ type Density<'py> = (Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>);
 #[pyfunction]
 pub fn pressure_distribution<'py>(
     py: Python<'py>,
-    gap: PyReadonlyArray2<'_, f64>,
-    contact_pressure: PyReadonlyArray2<'_, f64>,
+    gap: Field<'_>,
+    contact_pressure: Field<'_>,
     bins: i64,
 ) -> PyResult<Density<'py>> {
     let (gap, pressure) = (gap.as_array(), contact_pressure.as_array());

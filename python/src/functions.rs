@@ -6,9 +6,11 @@ use asperity::{AdhesionLaw, Error};
 use numpy::PyArray1;
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
+use pyo3::types::IntoPyDict;
 
 use crate::numbers::Numbers;
 use crate::refusal::refusal;
+use crate::scales::Scales;
 
 /// The three functions of a law, in the order in which each is the derivative of the one before.
 #[derive(Clone, Copy)]
@@ -68,9 +70,13 @@ impl<'py> Functions<'py> {
     /// # Errors
     /// What the method raises, and `ValueError` if it returns another number of values.
     pub fn at(&self, function: Function, gaps: &[f64]) -> PyResult<Vec<f64>> {
-        let method = function.method();
-        let found: Numbers<'_> =
-            self.object.call_method1(method, (PyArray1::from_slice(self.object.py(), gaps),))?.extract()?;
+        let (py, method) = (self.object.py(), function.method());
+        // what is not finite is refused by its gap
+        let quiet = py.import("numpy")?.call_method("errstate", (), Some(&[("all", "ignore")].into_py_dict(py)?))?;
+        quiet.call_method0("__enter__")?;
+        let found = self.object.call_method1(method, (PyArray1::from_slice(py, gaps),));
+        quiet.call_method1("__exit__", (py.None(), py.None(), py.None()))?;
+        let found: Numbers<'_> = found.map_err(|error| self.hinted(method, gaps, error))?.extract()?;
         let found = found.as_array();
         match found.len() {
             1 => Ok(vec![found.sum(); gaps.len()]),
@@ -82,6 +88,27 @@ impl<'py> Functions<'py> {
                 gaps.len()
             ))),
         }
+    }
+
+    /// All functions at one gap.
+    pub fn all_at(&self, gap: f64) -> PyResult<[f64; 3]> {
+        let [energy, traction, slope] = Function::ALL.map(|function| self.at(function, &[gap; 2]));
+        Ok([energy?[0], traction?[0], slope?[0]])
+    }
+
+    /// What a method has raised at gaps, or that it takes one gap alone, if it does.
+    fn hinted(&self, method: &str, gaps: &[f64], raised: PyErr) -> PyErr {
+        let py = self.object.py();
+        let about_arrays = raised.is_instance_of::<PyValueError>(py) || raised.is_instance_of::<PyTypeError>(py);
+        if !about_arrays || gaps.first().is_none_or(|&gap| self.object.call_method1(method, (gap,)).is_err()) {
+            return raised;
+        }
+        let hint = PyTypeError::new_err(format!(
+            "law.{method} takes one gap alone, and is given arrays of gaps: write numpy.where(...) in the place of if, and \
+             functions of numpy in the place of those of math ({raised})"
+        ));
+        hint.set_cause(py, Some(raised));
+        hint
     }
 
     /// A number that the object may have as an attribute.
@@ -96,17 +123,18 @@ impl<'py> Functions<'py> {
 /// A law of Python, called for each gap; keeps the first exception.
 struct Called {
     object: Py<PyAny>,
+    scales: Scales,
     raised: Mutex<Option<PyErr>>,
 }
 
-/// Tells whether the functions of an object of Python agree with one another.
+/// Tells whether the functions of an object of Python agree with one another, up to a gap or that of most laws.
 ///
 /// # Errors
 /// What they raise; `ValueError` with the function that is wrong.
-pub fn check(object: &Bound<'_, PyAny>, largest_gap: f64) -> PyResult<()> {
-    Functions::of(object)?;
-    let called = Called { object: object.clone().unbind(), raised: Mutex::new(None) };
-    let checked = asperity::check_law(&called, largest_gap);
+pub fn check(object: &Bound<'_, PyAny>, largest_gap: Option<f64>) -> PyResult<()> {
+    let scales = Scales::of(&Functions::of(object)?)?;
+    let called = Called { object: object.clone().unbind(), scales, raised: Mutex::new(None) };
+    let checked = asperity::check_law(&called, largest_gap.unwrap_or_else(|| far(&called)));
     match called.raised.into_inner().unwrap_or_else(PoisonError::into_inner) {
         Some(error) => Err(error),
         // of which the table of the law has a smoothed one
@@ -115,9 +143,14 @@ pub fn check(object: &Bound<'_, PyAny>, largest_gap: f64) -> PyResult<()> {
     }
 }
 
+/// A gap at which most laws have decayed: ten ranges, from the gap of rest on.
+pub fn far(law: &dyn AdhesionLaw<f64>) -> f64 {
+    law.rest().unwrap_or(0.0) + 10.0 * law.range()
+}
+
 impl Called {
     fn at(&self, function: Function, gap: f64) -> f64 {
-        let found = Python::attach(|py| Functions { object: self.object.bind(py).clone() }.at(function, &[gap]));
+        let found = Python::attach(|py| Functions { object: self.object.bind(py).clone() }.at(function, &[gap; 2]));
         found.map(|values| values[0]).unwrap_or_else(|error| {
             self.raised.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(error);
             f64::NAN
@@ -134,5 +167,11 @@ impl AdhesionLaw<f64> for Called {
     }
     fn slope(&self, gap: f64) -> f64 {
         self.at(Function::Slope, gap)
+    }
+    fn range(&self) -> f64 {
+        self.scales.range
+    }
+    fn rest(&self) -> Option<f64> {
+        self.scales.rest
     }
 }

@@ -56,4 +56,7 @@ impl<T: Real> AdhesionLaw<T> for Smoothed<'_> {
     fn range(&self) -> T {
         T::lit(self.table.range())
     }
+    fn rest(&self) -> Option<T> {
+        self.table.rest()
+    }
 }

@@ -6,12 +6,13 @@ use std::sync::Arc;
 use asperity::{AdhesionLaw, Error, Grid, NoAdhesion, Real};
 use numpy::ndarray::ArrayD;
 use numpy::{PyArray1, ToPyArray};
-use pyo3::exceptions::PyValueError;
+use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
+use pyo3::types::PyDict;
 
 use crate::functions::{self, Functions};
-use crate::numbers::{Numbers, mapped, returned};
-use crate::refusal::refusal;
+use crate::numbers::{Field, Numbers, mapped, returned};
+use crate::refusal::{refusal, refusal_of_works};
 use crate::table::Table;
 
 /// A law in either precision.
@@ -180,9 +181,23 @@ macro_rules! name {
     ($parameter:ident) => { &'static str };
 }
 
+/// Refuses keywords that a class does not have, with those that they may mean.
+fn check_words(py: Python<'_>, class: &str, known: &[&str], other: Option<&Bound<'_, PyDict>>) -> PyResult<()> {
+    let Some(other) = other else { return Ok(()) };
+    py.import("asperity._words")?.call_method1("check", (class, other, known)).map(|_| ())
+}
+
+/// The value of a parameter, refused if there is none.
+fn given<V>(class: &str, parameter: &str, value: Option<V>) -> PyResult<V> {
+    value.ok_or_else(|| PyTypeError::new_err(format!("{class}() is without {parameter}: give a number")))
+}
+
 /// A law of the library as a class: its parameters, and how it is made of them.
 macro_rules! class {
-    ($(#[$doc:meta])* $name:ident($($parameter:ident: $type:ty $(= $default:tt)?),*), $make:expr) => {
+    (
+        $(#[$doc:meta])*
+        $name:ident($($parameter:ident: $type:ty $(= $default:tt)?),*), $signature:literal, $make:expr
+    ) => {
         $(#[$doc])*
         #[pyclass(frozen, extends = Law, module = "asperity")]
         pub struct $name { $($parameter: $type),* }
@@ -193,8 +208,15 @@ macro_rules! class {
             #[expect(non_upper_case_globals, reason = "Python's name")]
             const __match_args__: ($(name!($parameter),)*) = ($(stringify!($parameter),)*);
             #[new]
-            #[pyo3(signature = ($($parameter $(= $default)?),*))]
-            fn new($($parameter: $type),*) -> PyResult<PyClassInitializer<Self>> {
+            #[pyo3(signature = ($($parameter = None,)* **other), text_signature = $signature)]
+            fn new(
+                py: Python<'_>,
+                $($parameter: Option<$type>,)*
+                other: Option<&Bound<'_, PyDict>>,
+            ) -> PyResult<PyClassInitializer<Self>> {
+                let class = stringify!($name);
+                check_words(py, class, &[$(stringify!($parameter)),*], other)?;
+                $(let $parameter = given(class, stringify!($parameter), $parameter $(.or(Some($default)))?)?;)*
                 let form: asperity::Result<Form> = $make;
                 Ok(PyClassInitializer::from(Law(form.map_err(refusal)?)).add_subclass(Self { $($parameter),* }))
             }
@@ -228,6 +250,7 @@ class! {
     /// >>> law.energy(0.0)
     /// -0.05
     Exponential(work_of_adhesion: f64, range: f64),
+    "(work_of_adhesion, range)",
     asperity::Exponential::new(work_of_adhesion, range).map(Form::Exponential)
 }
 class! {
@@ -246,6 +269,7 @@ class! {
     /// >>> asperity.MaugisDugdale(work_of_adhesion=1e-4, range=2e-3).traction([0.0, 3e-3])
     /// array([0.05, 0.  ])
     MaugisDugdale(work_of_adhesion: f64, range: f64),
+    "(work_of_adhesion, range)",
     asperity::MaugisDugdale::new(work_of_adhesion, range).map(Form::MaugisDugdale)
 }
 class! {
@@ -270,6 +294,7 @@ class! {
     /// >>> law.traction(3e-10), bool(law.traction(2.9e-10) < 0)
     /// (0.0, True)
     LennardJones(work_of_adhesion: f64, range: f64, cut: bool = false),
+    "(work_of_adhesion, range, cut=False)",
     asperity::LennardJones::new(work_of_adhesion, range)
         .map(|law| Form::LennardJones(if cut { law.cut() } else { law }))
 }
@@ -291,6 +316,7 @@ class! {
     /// >>> asperity.Morse(work_of_adhesion=0.05, range=5e-10).energy(0.0)
     /// -0.05
     Morse(work_of_adhesion: f64, range: f64),
+    "(work_of_adhesion, range)",
     asperity::Morse::new(work_of_adhesion, range).map(Form::Morse)
 }
 class! {
@@ -311,6 +337,7 @@ class! {
     /// >>> asperity.PowerLaw(work_of_adhesion=0.05, range=2e-9, exponent=3).traction(0.0)
     /// 25000000.0
     PowerLaw(work_of_adhesion: f64, range: f64, exponent: f64),
+    "(work_of_adhesion, range, exponent)",
     asperity::PowerLaw::new(work_of_adhesion, range, exponent).map(Form::PowerLaw)
 }
 class! {
@@ -330,6 +357,7 @@ class! {
     /// >>> f"work of adhesion {-law.energy(0.0):.4f} J/m²"
     /// 'work of adhesion 0.0585 J/m²'
     VanDerWaals(hamaker: f64, range: f64),
+    "(hamaker, range)",
     asperity::PowerLaw::van_der_waals(hamaker, range).map(Form::PowerLaw)
 }
 
@@ -474,7 +502,8 @@ impl CutOff {
 /// law : Law or an object of your own
 ///     Law that varies; its own work of adhesion > 0 is replaced.
 /// work_of_adhesion : array_like, shape (Nx, Ny) or (N,)
-///     Works of adhesion ≥ 0 at the nodes of the heights, energies per area.
+///     Works of adhesion ≥ 0 at the nodes of the heights, energies per area; x along the first axis, or that of the
+///     dimensions x and y of a DataArray.
 ///
 /// Examples
 /// --------
@@ -497,24 +526,18 @@ impl Varying {
     #[expect(non_upper_case_globals, reason = "Python's name")]
     const __match_args__: (&str, &str) = ("law", "work_of_adhesion");
     #[new]
-    fn new(law: &Bound<'_, PyAny>, work_of_adhesion: Numbers<'_>) -> PyResult<PyClassInitializer<Self>> {
+    fn new(law: &Bound<'_, PyAny>, work_of_adhesion: &Bound<'_, PyAny>) -> PyResult<PyClassInitializer<Self>> {
         let form = Form::of(law)?;
         if matches!(form, Form::Varying(_)) {
             return Err(PyValueError::new_err("the law varies already: give the law that it is made of"));
         }
-        let works = work_of_adhesion.as_array();
-        let map = match *works.shape() {
-            [n] => works.to_owned().into_shape_with_order((n, 1)),
-            [nx, ny] => works.to_owned().into_shape_with_order((nx, ny)),
-            ref shape => {
-                return Err(PyValueError::new_err(format!(
-                    "work_of_adhesion has shape {shape:?}: it must be that of the heights, (Nx, Ny), or (N,) on a line"
-                )));
-            }
-        };
-        let map = map.map_err(|error| PyValueError::new_err(error.to_string()))?;
-        let varying = asperity::Varying::new(Box::new(form), map.view()).map_err(refusal)?;
-        let own = Self { law: law.clone().unbind(), work_of_adhesion: returned(law.py(), works.to_owned())?.unbind() };
+        let maps = law.py().import("asperity._topography")?;
+        let (works, is_line): (Field<'_>, bool) =
+            maps.call_method1("array_of", (work_of_adhesion, "works of adhesion"))?.extract()?;
+        let works = works.to_array()?;
+        let varying = asperity::Varying::new(Box::new(form), works.view()).map_err(refusal_of_works)?;
+        let works = if is_line { works.column(0).to_owned().into_dyn() } else { works.into_dyn() };
+        let own = Self { law: law.clone().unbind(), work_of_adhesion: returned(law.py(), works)?.unbind() };
         Ok(PyClassInitializer::from(Law(Form::Varying(varying))).add_subclass(own))
     }
     fn __getnewargs__(&self, py: Python<'_>) -> (Py<PyAny>, Py<PyAny>) {
@@ -532,9 +555,12 @@ impl Varying {
 ///     With the methods energy(gap), traction(gap) and slope(gap) of an array of gaps g ≥ 0, each of which returns an
 ///     array of the same shape: the energy per area φ(g), its derivative φ'(g), positive where the surfaces attract
 ///     each other, and the traction's derivative φ''(g). Attributes `work_of_adhesion`, −φ(0) by default, and `range`,
-///     the length over which the traction decays, w/φ'(0) by default, say how far the grid has to resolve it.
-/// largest_gap : float
-///     Largest gap, a length.
+///     the length over which the traction decays, w/φ'(0) by default, say how far the grid has to resolve it. A law
+///     that repels below some gap, at which it rests, keeps the surfaces apart with ``wall="none"``; by default it has
+///     the work of adhesion −φ there, and the range w over its greatest attraction. It is asked for negative gaps, too,
+///     unless its energy is infinite at zero gap.
+/// largest_gap : float, optional
+///     Largest gap, a length; ten ranges by default.
 ///
 /// Raises
 /// ------
@@ -553,11 +579,15 @@ impl Varying {
 /// ...         return 0.1 * (1 - gap / 2e-3).clip(0)
 /// ...     def slope(self, gap):
 /// ...         return -50.0 * (gap < 2e-3)
-/// >>> asperity.check_law(Linear(), largest_gap=0.01)
+/// >>> asperity.check_law(Linear())
 #[pyfunction]
-pub fn check_law(law: &Bound<'_, PyAny>, largest_gap: f64) -> PyResult<()> {
+#[pyo3(signature = (law, largest_gap = None))]
+pub fn check_law(law: &Bound<'_, PyAny>, largest_gap: Option<f64>) -> PyResult<()> {
     match law.cast::<Law>() {
-        Ok(law) => asperity::check_law::<f64>(&law.get().0, largest_gap).map_err(refusal),
+        Ok(law) => {
+            let form = &law.get().0;
+            asperity::check_law::<f64>(form, largest_gap.unwrap_or_else(|| functions::far(form))).map_err(refusal)
+        }
         Err(_) => functions::check(law, largest_gap),
     }
 }

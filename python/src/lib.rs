@@ -17,6 +17,7 @@ mod problem;
 mod refusal;
 mod report;
 mod running;
+mod scales;
 mod sight;
 mod surface;
 mod table;

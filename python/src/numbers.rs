@@ -1,12 +1,75 @@
-//! Functions of one number as functions of arrays.
+//! Arrays of numpy as arrays of the library, and functions of one number as functions of arrays.
 
-use numpy::ndarray::{ArrayD, ArrayViewD};
-use numpy::{AllowTypeChange, IntoPyArray, PyArrayLikeDyn};
+use std::ops::Deref;
+
+use asperity::Error;
+use numpy::ndarray::{Array2, ArrayD, ArrayViewD, Dimension, Ix2, IxDyn};
+use numpy::{
+    AllowTypeChange, IntoPyArray, PyArray, PyArrayLike, PyArrayMethods, PyReadonlyArray, PyUntypedArrayMethods,
+};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
-/// Numbers of any shape: a number, a list, or an array of any float type, order and stride.
-pub type Numbers<'py> = PyArrayLikeDyn<'py, f64, AllowTypeChange>;
+use crate::refusal::refusal;
+
+/// The numbers of an array: of any float type, order and stride; masked ones are NaN.
+///
+/// The strides of ndarray count items, and its items are aligned. An array of which an item does not lie a whole number
+/// of items from the next, as the column of a packed record, is copied first.
+pub struct Items<'py, D: Dimension>(PyReadonlyArray<'py, f64, D>);
+
+/// Numbers of any shape: a number, a list, or an array.
+pub type Numbers<'py> = Items<'py, IxDyn>;
+
+/// The numbers of a matrix.
+pub type Field<'py> = Items<'py, Ix2>;
+
+impl<'a, 'py, D: Dimension + 'py> FromPyObject<'a, 'py> for Items<'py, D> {
+    type Error = PyErr;
+
+    fn extract(object: Borrowed<'a, 'py, PyAny>) -> PyResult<Self> {
+        let given: PyArrayLike<'py, f64, D, AllowTypeChange> = match object.getattr_opt("filled")? {
+            Some(_) => object.call_method1("astype", ("f8",))?.call_method1("filled", (f64::NAN,))?.extract()?,
+            None => object.extract()?,
+        };
+        let whole = |stride: &isize| stride.unsigned_abs().is_multiple_of(size_of::<f64>());
+        if given.data().is_aligned() && given.strides().iter().all(whole) {
+            return Ok(Self(given.clone()));
+        }
+        Ok(Self(given.call_method0("copy")?.cast_into::<PyArray<f64, D>>()?.readonly()))
+    }
+}
+
+impl<'py, D: Dimension> Deref for Items<'py, D> {
+    type Target = PyReadonlyArray<'py, f64, D>;
+
+    fn deref(&self) -> &Self::Target {
+        &self.0
+    }
+}
+
+impl Field<'_> {
+    /// A copy of the numbers.
+    ///
+    /// # Errors
+    /// `MemoryError` if there is no room for it.
+    pub fn to_array(&self) -> PyResult<Array2<f64>> {
+        let numbers = self.as_array();
+        afford("a copy of a map", numbers.dim()).map_err(refusal)?;
+        Ok(numbers.to_owned())
+    }
+}
+
+/// Refuses a map that there is no room for: an allocation that fails would end the interpreter.
+pub fn afford(what: &str, (nx, ny): (usize, usize)) -> asperity::Result<()> {
+    match Vec::<f64>::new().try_reserve_exact(nx.saturating_mul(ny)) {
+        Ok(()) => Ok(()),
+        Err(_) => {
+            let bytes = nx as f64 * ny as f64 * size_of::<f64>() as f64;
+            Err(Error::Memory { what: format!("{what} of {nx} x {ny} nodes"), bytes })
+        }
+    }
+}
 
 /// The numbers of an array, as Python takes them: those without a shape as a `float`.
 pub fn returned(py: Python<'_>, numbers: ArrayD<f64>) -> PyResult<Bound<'_, PyAny>> {

@@ -1,9 +1,10 @@
 //! The original of a mirrored map, for the numbers and fields that Python reports of it.
 
 use asperity::Grid;
-use numpy::{IntoPyArray, PyArray2, PyReadonlyArray2};
+use numpy::{IntoPyArray, PyArray2};
 use pyo3::prelude::*;
 
+use crate::numbers::Field;
 use crate::refusal::refusal;
 
 /// The original of a mirrored map of some shape and side lengths: its first nodes along both axes.
@@ -38,8 +39,8 @@ impl Original {
     }
 
     /// A field of the original, continued by its mirror images.
-    fn mirrored<'py>(&self, py: Python<'py>, field: PyReadonlyArray2<'py, f64>) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        let whole = self.0.mirrored(&field.as_array().to_owned()).map_err(refusal)?;
+    fn mirrored<'py>(&self, py: Python<'py>, field: Field<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let whole = self.0.mirrored(&field.to_array()?).map_err(refusal)?;
         Ok(whole.into_pyarray(py))
     }
 }

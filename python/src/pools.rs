@@ -30,6 +30,9 @@ fn with_stock<R>(act: impl FnOnce(&mut Stock) -> R) -> R {
     act(stock.get_or_insert_default())
 }
 
+/// The most threads of a solve, as in the tool: more are taken for a slip of the pen.
+const MOST: usize = 1024;
+
 /// A pool on loan: one of its own for each solve that asks for a number of threads, the shared one for the others.
 pub struct Pool {
     threads: Option<usize>,
@@ -40,10 +43,11 @@ impl Pool {
     /// A pool of so many threads, or that of all cores.
     ///
     /// # Errors
-    /// `ValueError` for no threads, `RuntimeError` if they cannot be started.
+    /// `ValueError` for no threads or too many, `RuntimeError` if they cannot be started.
     pub fn of(threads: Option<usize>) -> PyResult<Self> {
-        if threads == Some(0) {
-            return Err(PyValueError::new_err("threads is 0: it must be at least 1, or None for one per core"));
+        if let Some(count) = threads.filter(|count| !(1..=MOST).contains(count)) {
+            let message = format!("threads is {count}: it must be from 1 to {MOST}, or None for one per core");
+            return Err(PyValueError::new_err(message));
         }
         let found = with_stock(|stock| match threads {
             None => stock.shared.clone(),

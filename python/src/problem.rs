@@ -11,8 +11,8 @@ use asperity::{
     AdhesionLaw, Branch, ContactSearch, Control, ElasticOperator, Error, Grid, Nested, NestedSolution, Real, Settings,
     Solution, Solver, Start, Status, Surface, Sweep, Topography, Warning,
 };
+use numpy::IntoPyArray;
 use numpy::ndarray::Array2;
-use numpy::{IntoPyArray, PyReadonlyArray2};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -21,6 +21,7 @@ use crate::account::{Account, Grids, Other, Reached, Scalar, Search};
 use crate::answer::answer;
 use crate::inputs::{Beyond, Goal, Load, Wall, accuracy, contact_fraction, control, settings};
 use crate::law::{law, strongest};
+use crate::numbers::Field;
 use crate::pools::Pool;
 use crate::refusal::{refusal, refusal_of_heights};
 use crate::report;
@@ -89,7 +90,7 @@ struct Request<'py> {
     control: Control,
     /// The contact fraction whose load is to be found, if that is asked for.
     fraction: Option<f64>,
-    start: Option<PyReadonlyArray2<'py, f64>>,
+    start: Option<Field<'py>>,
     stability: bool,
     leave: bool,
     stiffness: bool,
@@ -106,7 +107,7 @@ trait Solves: Send {
         run: Run<'_>,
         loads: Vec<Control>,
         settings: PathSettings,
-        start: Option<PyReadonlyArray2<'py, f64>>,
+        start: Option<Field<'py>>,
     ) -> PyResult<Option<Bound<'py, PyDict>>>;
     fn end_leg(&mut self);
     fn plan(&self, py: Python<'_>, pool: &Pool, control: Control, goal: &Goal) -> PyResult<Plan>;
@@ -115,7 +116,7 @@ trait Solves: Send {
         py: Python<'py>,
         pool: &Pool,
         control: Control,
-        found: (PyReadonlyArray2<'py, f64>, f64),
+        found: (Field<'py>, f64),
     ) -> PyResult<Bound<'py, PyDict>>;
 }
 
@@ -127,7 +128,7 @@ struct Run<'a> {
 }
 
 /// A gap from numpy in the precision of a solve.
-fn field<T: Real>(gap: PyReadonlyArray2<'_, f64>) -> Array2<T> {
+fn field<T: Real>(gap: Field<'_>) -> Array2<T> {
     gap.as_array().mapv(T::lit)
 }
 
@@ -414,7 +415,7 @@ impl<T: Scalar> Solves for State<T> {
         at: Run<'_>,
         loads: Vec<Control>,
         settings: PathSettings,
-        start: Option<PyReadonlyArray2<'py, f64>>,
+        start: Option<Field<'py>>,
     ) -> PyResult<Option<Bound<'py, PyDict>>> {
         let start = start.map(field::<T>);
         let (found, raised) = run(py, at.pool, at.observer, |observe: Observe<'_>| -> asperity::Result<_> {
@@ -471,7 +472,7 @@ impl<T: Scalar> Solves for State<T> {
         py: Python<'py>,
         pool: &Pool,
         control: Control,
-        (gap, relative_error): (PyReadonlyArray2<'py, f64>, f64),
+        (gap, relative_error): (Field<'py>, f64),
     ) -> PyResult<Bound<'py, PyDict>> {
         let gap = field::<T>(gap);
         let problem = single(&mut self.body, &self.law, self.beyond, self.modulus).map_err(refusal)?;
@@ -530,7 +531,7 @@ impl Problem {
     #[expect(clippy::too_many_arguments, reason = "called by the Python layer alone, by name")]
     fn new(
         py: Python<'_>,
-        heights: PyReadonlyArray2<'_, f64>,
+        heights: Field<'_>,
         lengths: (f64, f64),
         absent_missing: bool,
         boundary: &str,
@@ -549,7 +550,7 @@ impl Problem {
     ) -> PyResult<Self> {
         let (settings, both) = (settings(tolerance, max_iterations, method, branch)?, branch == Some("both"));
         let pool = Pool::of(threads)?;
-        let heights = heights.as_array().to_owned();
+        let heights = heights.to_array()?;
         let (beyond, wall) = (Beyond::of(boundary)?, Wall::of(wall)?);
         let original = original.map(|original| original.0);
         let made = Made { beyond, modulus, wall, settings, both, nested, threads, original, unit };
@@ -585,7 +586,7 @@ impl Problem {
         &mut self,
         py: Python<'py>,
         load: Load,
-        start: Option<PyReadonlyArray2<'py, f64>>,
+        start: Option<Field<'py>>,
         observe: Option<Py<PyAny>>,
         stability: bool,
         leave: bool,
@@ -604,7 +605,7 @@ impl Problem {
         &mut self,
         py: Python<'py>,
         load: Load,
-        start: Option<PyReadonlyArray2<'py, f64>>,
+        start: Option<Field<'py>>,
         observe: Option<Py<PyAny>>,
         stiffness: bool,
     ) -> PyResult<Bound<'py, PyDict>> {
@@ -626,7 +627,7 @@ impl Problem {
         smallest_step: f64,
         imbalance: f64,
         smooth: bool,
-        start: Option<PyReadonlyArray2<'py, f64>>,
+        start: Option<Field<'py>>,
         observe: Option<Py<PyAny>>,
     ) -> PyResult<Option<Bound<'py, PyDict>>> {
         let loads = loads.iter().map(control).collect::<PyResult<_>>()?;
@@ -646,7 +647,7 @@ impl Problem {
         &mut self,
         py: Python<'py>,
         load: Load,
-        gap: PyReadonlyArray2<'py, f64>,
+        gap: Field<'py>,
         relative_error: f64,
     ) -> PyResult<Bound<'py, PyDict>> {
         let (pool, solves) = self.parts()?;

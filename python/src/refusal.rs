@@ -2,10 +2,10 @@
 
 use asperity::Error;
 use pyo3::PyErr;
-use pyo3::exceptions::{PyFileNotFoundError, PyValueError};
+use pyo3::exceptions::{PyFileNotFoundError, PyMemoryError, PyValueError};
 
-/// The exception of an error: `ValueError` with the library's message, its remedies in the words of Python, and
-/// `FileNotFoundError` for a file that does not exist.
+/// The exception of an error: `ValueError` with the library's message, its remedies in the words of Python,
+/// `FileNotFoundError` for a file that does not exist, and `MemoryError` for memory that there is not.
 pub fn refusal(error: Error) -> PyErr {
     refused(error, "")
 }
@@ -14,6 +14,18 @@ pub fn refusal(error: Error) -> PyErr {
 pub fn refusal_of_heights(error: Error) -> PyErr {
     let missing = matches!(error, Error::NotFinite { value, .. } if value.is_nan());
     refused(error, if missing { ", or take them for absent nodes by absent_missing=True" } else { "" })
+}
+
+/// The exception of an error in a map of works of adhesion, in which no point can be missing.
+pub fn refusal_of_works(error: Error) -> PyErr {
+    match error {
+        Error::NotFinite { count, nodes, first, value, .. } => PyValueError::new_err(format!(
+            "work_of_adhesion: {count} of {nodes} nodes are not finite, the first ({value}) at index [{}, {}]: give each node \
+             a work of adhesion, 0 where nothing attracts",
+            first.0, first.1
+        )),
+        error => refusal(error),
+    }
 }
 
 fn refused(error: Error, also: &str) -> PyErr {
@@ -36,6 +48,7 @@ fn refused(error: Error, also: &str) -> PyErr {
         + also;
     match error {
         Error::File { path, .. } if !path.exists() => PyFileNotFoundError::new_err(message),
+        Error::Memory { .. } => PyMemoryError::new_err(message),
         _ => PyValueError::new_err(message),
     }
 }

@@ -199,7 +199,7 @@ pub fn stability<'py, T: Scalar>(py: Python<'py>, found: &Stability<T>) -> PyRes
 }
 
 /// A warning, whose lengths have their unit if it is known.
-fn warning<'py>(py: Python<'py>, found: &Warning, unit: Option<&str>) -> PyResult<Bound<'py, PyDict>> {
+pub fn warning<'py>(py: Python<'py>, found: &Warning, unit: Option<&str>) -> PyResult<Bound<'py, PyDict>> {
     let with_unit = |unit: &str| {
         let length = |value| format!("{} {unit}", Warning::figure(value));
         found.message_with(length, Warning::figure)

@@ -2,13 +2,16 @@
 
 use std::path::PathBuf;
 
-use asperity::{Amplitude, Error, Form, Grid, Psd, RowAlignment, ScanAxis, SelfAffine, Surface, Topography, Trend};
-use numpy::{IntoPyArray, PyArray1, PyArray2, PyReadonlyArray2};
+use asperity::{Amplitude, Form, Grid, Psd, RowAlignment, ScanAxis, SelfAffine, Surface, Topography, Trend, Warning};
+use numpy::{IntoPyArray, PyArray1, PyArray2};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
+use pyo3::types::PyDict;
 
+use crate::numbers::{Field, afford};
 use crate::pools::Pool;
 use crate::refusal::refusal;
+use crate::report;
 
 /// Heights, side lengths and unit of a map, the nodes of the original of a mirrored one, and the seed of a random one.
 type Map<'py> = (Bound<'py, PyArray2<f64>>, Option<(f64, f64)>, Option<String>, Option<(usize, usize)>, Option<u64>);
@@ -24,8 +27,8 @@ fn map(py: Python<'_>, topography: Topography) -> Map<'_> {
     (heights.into_pyarray(py), lengths, unit, original, seed)
 }
 
-fn surface(heights: PyReadonlyArray2<'_, f64>, lengths: (f64, f64)) -> PyResult<Surface> {
-    let heights = heights.as_array().to_owned();
+fn surface(heights: Field<'_>, lengths: (f64, f64)) -> PyResult<Surface> {
+    let heights = heights.to_array()?;
     Grid::new(heights.dim(), lengths).and_then(|grid| Surface::new(grid, heights)).map_err(refusal)
 }
 
@@ -69,12 +72,8 @@ pub fn self_affine<'py>(
 
 /// The statistics of heights, in the order of the library.
 #[pyfunction]
-pub fn statistics(
-    py: Python<'_>,
-    heights: PyReadonlyArray2<'_, f64>,
-    lengths: Option<(f64, f64)>,
-) -> PyResult<[f64; 11]> {
-    let mut map = Topography::new(heights.as_array().to_owned());
+pub fn statistics(py: Python<'_>, heights: Field<'_>, lengths: Option<(f64, f64)>) -> PyResult<[f64; 11]> {
+    let mut map = Topography::new(heights.to_array()?);
     map.lengths = lengths;
     let found = apart(py, || map.statistics())?;
     Ok([
@@ -97,12 +96,7 @@ type Density<'py> = (Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>, Bound
 
 /// The power spectral density of heights: radial, or of profiles along x or y.
 #[pyfunction]
-pub fn spectrum<'py>(
-    py: Python<'py>,
-    heights: PyReadonlyArray2<'_, f64>,
-    lengths: (f64, f64),
-    along: &str,
-) -> PyResult<Density<'py>> {
+pub fn spectrum<'py>(py: Python<'py>, heights: Field<'_>, lengths: (f64, f64), along: &str) -> PyResult<Density<'py>> {
     let surface = surface(heights, lengths)?;
     let of = match along {
         "radial" => asperity::Spectrum::radial_psd,
@@ -120,7 +114,7 @@ pub fn spectrum<'py>(
 #[expect(clippy::too_many_arguments, reason = "called by the Python layer alone, by name")]
 pub fn prepare<'py>(
     py: Python<'py>,
-    heights: PyReadonlyArray2<'_, f64>,
+    heights: Field<'_>,
     lengths: Option<(f64, f64)>,
     unit: Option<String>,
     original: Option<(usize, usize)>,
@@ -137,7 +131,7 @@ pub fn prepare<'py>(
     window: Option<f64>,
     mirror: bool,
     resample: Option<(usize, usize)>,
-) -> PyResult<Map<'py>> {
+) -> PyResult<(Map<'py>, Vec<Bound<'py, PyDict>>)> {
     let unknown = |name, value, expected| PyValueError::new_err(format!("{name} is {value}: it must be {expected}"));
     let trend = match detrend {
         None => None,
@@ -165,9 +159,10 @@ pub fn prepare<'py>(
         Some("cylinder") => Some(Form::Cylinder),
         Some(other) => return Err(unknown("remove_form", other, "sphere or cylinder")),
     };
-    let mut measured = Topography::new(heights.as_array().to_owned());
+    let mut measured = Topography::new(heights.to_array()?);
     (measured.lengths, measured.unit, measured.original) = (lengths, unit, original);
-    let prepared = apart(py, move || -> Result<Topography, Error> {
+    let (prepared, warnings) = apart(py, move || {
+        let mut warnings = Vec::new();
         let mut map = missing.into_iter().fold(measured, Topography::declare_missing);
         if let Some(factor) = scale {
             map.heights.mapv_inplace(|height| factor * height);
@@ -179,6 +174,7 @@ pub fn prepare<'py>(
             map = map.flip();
         }
         if let Some(alignment) = alignment {
+            warnings.extend(Warning::of_lines(&map, along));
             map = map.align_rows(alignment, along)?;
         }
         if let Some(threshold) = despike {
@@ -197,12 +193,17 @@ pub fn prepare<'py>(
             map = map.window(fraction)?;
         }
         if mirror {
+            let (nx, ny) = map.heights.dim();
+            afford("a mirrored map", (2 * nx, 2 * ny))?;
             map = map.mirror();
         }
-        match resample {
-            Some(shape) => map.resample(shape),
-            None => Ok(map),
+        if let Some(shape) = resample {
+            map = map.resample(shape)?;
         }
+        Ok((map, warnings))
     })?;
-    Ok(map(py, prepared))
+    let unit = prepared.unit.clone();
+    let warnings = warnings.iter().map(|found| report::warning(py, found, unit.as_deref()));
+    let warnings = warnings.collect::<PyResult<_>>()?;
+    Ok((map(py, prepared), warnings))
 }

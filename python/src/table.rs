@@ -7,6 +7,7 @@ use pyo3::prelude::*;
 use crate::functions::{Function, Functions};
 use crate::jumps::{Jump, Smoothed};
 use crate::refusal::refusal;
+use crate::scales::{Scales, check_sign};
 
 /// The powers of two of a gap in ranges ρ between which the table has intervals of its own. Below there is one
 /// interval; above, the energy is constant.
@@ -24,6 +25,9 @@ const JUMP: f64 = 1e-6;
 /// The most pieces of a table.
 const MOST_PIECES: usize = 1 << 16;
 
+/// Energy, traction and slope where a law repels without bound.
+const UNBOUNDED: [f64; 3] = [f64::INFINITY, f64::NEG_INFINITY, f64::INFINITY];
+
 /// The places in an interval at which the functions are read: its ends, and three more to compare with.
 const PLACES: [f64; 5] = [0.0, 0.25, 0.5, 0.75, 1.0];
 
@@ -36,6 +40,11 @@ const PLACES: [f64; 5] = [0.0, 0.25, 0.5, 0.75, 1.0];
 pub struct Table {
     range: f64,
     work_of_adhesion: f64,
+    rest: Option<f64>,
+    /// the gap from which intervals count
+    origin: f64,
+    /// the least gap of a law that repels, and energy, traction and slope there
+    floor: Option<(f64, [f64; 3])>,
     /// the first piece of each interval, and the number of pieces
     first: Vec<u32>,
     pieces: Vec<Piece>,
@@ -80,33 +89,26 @@ impl Table {
     /// What the functions raise; `ValueError` if one is not finite somewhere, or not the derivative of the one before,
     /// or rougher than a table can be.
     pub fn of(law: &Functions<'_>) -> PyResult<Self> {
-        let at_zero = |function| law.at(function, &[0.0]).map(|values| values[0]);
-        let work_of_adhesion =
-            law.number("work_of_adhesion")?.map_or_else(|| at_zero(Function::Energy).map(|e| -e), Ok)?;
-        let range = match law.number("range")? {
-            Some(range) => range,
-            None => work_of_adhesion / at_zero(Function::Traction)?,
-        };
-        if !(range > 0.0 && range.is_finite()) {
-            return Err(PyValueError::new_err(format!(
-                "range of the law is {range}: it must be positive and finite: give the law an attribute range, the length \
-                 over which the traction decays (without one it is w/traction(0))"
-            )));
-        }
+        let Scales { work_of_adhesion, range, rest, least, goes_on } = Scales::of(law)?;
+        let origin = least.unwrap_or(0.0);
         let (base, end) = (key(2f64.powi(OCTAVES.0)), key(2f64.powi(OCTAVES.1)));
         let mut open: Vec<Candidate> =
             (base..end).map(|k| Candidate { interval: k - base + 1, start: of_key(k), end: of_key(k + 1) }).collect();
-        open.insert(0, Candidate { interval: 0, start: 0.0, end: of_key(base) });
-        let intervals = open.len();
+        let intervals = 1 + open.len();
+        let start = if least.is_some() { 0.0 } else { of_key(base) };
+        if least.is_some() {
+            open.insert(0, Candidate { interval: 0, start, end: of_key(base) });
+        }
 
         let mut largest = [0.0_f64; 3];
         let (mut found, mut far) = (Vec::new(), 0.0);
         while !open.is_empty() {
             if found.len() + open.len() > MOST_PIECES {
-                return Err(too_rough(&open[0], range));
+                check_sign(law)?;
+                return Err(too_rough(origin + open[0].start * range));
             }
             let gaps: Vec<f64> =
-                open.iter().flat_map(|c| PLACES.map(|t| (c.start + t * (c.end - c.start)) * range)).collect();
+                open.iter().flat_map(|c| PLACES.map(|t| origin + (c.start + t * (c.end - c.start)) * range)).collect();
             let mut values = [const { Vec::new() }; 3];
             for (function, values) in Function::ALL.into_iter().zip(&mut values) {
                 *values = law.at(function, &gaps)?;
@@ -118,7 +120,12 @@ impl Table {
                 far = *values[0].last().unwrap_or(&0.0);
                 // an energy counts from where it is at large gaps
                 let datum = [far, 0.0, 0.0];
-                largest = std::array::from_fn(|n| values[n].iter().fold(0.0, |m: f64, v| m.max((v - datum[n]).abs())));
+                // a repulsion without bound is no measure of the attraction
+                let attracts = |gap: f64| rest.is_none_or(|rest| gap >= rest);
+                largest = std::array::from_fn(|n| {
+                    let beyond = gaps.iter().zip(&values[n]).filter(|&(&gap, _)| attracts(gap));
+                    beyond.fold(0.0, |m: f64, (_, v)| m.max((v - datum[n]).abs()))
+                });
                 if values[1].last().is_some_and(|traction| traction.abs() > TOLERANCE * largest[1]) {
                     return Err(too_far(gaps.last().copied().unwrap_or_default(), range));
                 }
@@ -129,7 +136,8 @@ impl Table {
                 let middle = 0.5 * (candidate.start + candidate.end);
                 let narrow = middle <= candidate.start || middle >= candidate.end;
                 let piece = Piece::between(&candidate, at(0), if narrow { at(0) } else { at(4) }, range);
-                let agrees = (1..PLACES.len()).all(|place| piece.agrees(PLACES[place], at(place), largest, range));
+                let sizes = if rest.is_some() { largest_of(largest, at(0)) } else { largest };
+                let agrees = (1..PLACES.len()).all(|place| piece.agrees(PLACES[place], at(place), sizes, range));
                 if agrees || narrow {
                     found.push((candidate.interval, piece));
                 } else {
@@ -144,16 +152,29 @@ impl Table {
         found.iter().for_each(|(interval, _)| first[interval + 1] += 1);
         (0..intervals).for_each(|k| first[k + 1] += first[k]);
         let pieces: Vec<Piece> = found.into_iter().map(|(_, piece)| piece).collect();
-        let falls = pieces
-            .windows(2)
-            .map(|pair| Jump { place: pair[1].start, fall: pair[0].traction(1.0) - pair[1].traction(0.0) });
-        let jumps = falls.filter(|jump| jump.fall.abs() > JUMP * largest[1]).collect();
-        Ok(Self { range, work_of_adhesion, first, pieces, jumps, far })
+        let falls = pieces.windows(2).map(|pair| Jump {
+            place: origin / range + pair[1].start,
+            fall: pair[0].traction(1.0) - pair[1].traction(0.0),
+        });
+        let attracts = |jump: &Jump| rest.is_none_or(|rest| jump.place * range >= rest);
+        let jumps = falls.filter(|jump| jump.fall.abs() > JUMP * largest[1] && attracts(jump)).collect();
+        let floor = match rest {
+            None => None,
+            Some(_) => Some((origin + start * range, if goes_on { law.all_at(origin)? } else { UNBOUNDED })),
+        };
+        Ok(Self { range, work_of_adhesion, rest, origin, floor, first, pieces, jumps, far })
     }
 
-    /// The piece of a gap g ≥ 0 and the place in it; none beyond the last.
+    /// Energy, traction and slope of a law that repels at a gap below its least: those of the tangent.
+    fn below(&self, gap: f64) -> Option<[f64; 3]> {
+        let (least, [energy, traction, slope]) = self.floor.filter(|&(least, _)| gap < least)?;
+        let x = gap - least;
+        Some([energy + x * (traction + 0.5 * x * slope), traction + x * slope, slope])
+    }
+
+    /// The piece of a gap and the place in it; none beyond the last.
     fn find(&self, gap: f64) -> Option<(&Piece, f64)> {
-        let x = gap / self.range;
+        let x = (gap - self.origin) / self.range;
         let base = key(2f64.powi(OCTAVES.0));
         let interval = if x < of_key(base) { 0 } else { key(x) - base + 1 };
         let end = *self.first.get(interval + 1)?;
@@ -175,7 +196,7 @@ impl Table {
     pub fn at(&self, gap: f64) -> [f64; 3] {
         let of =
             |(piece, t): (&Piece, f64)| [piece.energy(t, self.range), piece.traction(t), piece.slope(t) / self.range];
-        self.find(gap).map_or([self.far, 0.0, 0.0], of)
+        self.below(gap).or_else(|| self.find(gap).map(of)).unwrap_or([self.far, 0.0, 0.0])
     }
 }
 
@@ -211,6 +232,11 @@ impl Piece {
     }
 }
 
+/// The largest values of the functions, or those here, if they are larger.
+fn largest_of(largest: [f64; 3], here: [f64; 3]) -> [f64; 3] {
+    std::array::from_fn(|n| largest[n].max(here[n].abs()))
+}
+
 /// The refusal of a law that goes on beyond its table.
 fn too_far(gap: f64, range: f64) -> PyErr {
     PyValueError::new_err(format!(
@@ -221,12 +247,10 @@ fn too_far(gap: f64, range: f64) -> PyErr {
 }
 
 /// The refusal of a law of which the table does not come to an end.
-fn too_rough(candidate: &Candidate, range: f64) -> PyErr {
+fn too_rough(gap: f64) -> PyErr {
     PyValueError::new_err(format!(
-        "the functions of the law do not agree with one another, or are rough, at gaps from {:e} on: the traction must be \
-         the derivative of the energy and the slope that of the traction; asperity.check_law(law, largest_gap) says which is \
-         not",
-        candidate.start * range
+        "the functions of the law do not agree with one another, or are rough, at gaps from {gap:e} on: the traction must \
+         be the derivative of the energy and the slope that of the traction; asperity.check_law(law) says which is not"
     ))
 }
 
@@ -249,6 +273,9 @@ impl<T: Real> AdhesionLaw<T> for Table {
     fn smoothed(&self, compliance: T) -> Option<Box<dyn AdhesionLaw<T> + '_>> {
         let smoothed = Smoothed { table: self, compliance: compliance.widen() };
         (!self.jumps.is_empty()).then(|| Box::new(smoothed) as Box<dyn AdhesionLaw<T>>)
+    }
+    fn rest(&self) -> Option<T> {
+        self.rest.map(T::lit)
     }
     fn tractions_and_slopes(&self, _: usize, gaps: &[T], tractions: &mut [T], slopes: &mut [T]) {
         for ((gap, traction), slope) in gaps.iter().zip(tractions).zip(slopes) {

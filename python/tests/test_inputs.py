@@ -1,5 +1,7 @@
 """Heights from arrays of all kinds, and from the objects of other packages."""
 
+import inspect
+import pickle
 import struct
 
 import numpy as np
@@ -231,3 +233,167 @@ def test_a_number_with_a_unit_is_refused_by_its_name(rough):
         options = {"modulus": 1.0, "mean_gap": 0.01, **wrong}
         with pytest.raises(TypeError, match=r"(modulus|mean_gap|stiffness of the spring) is '.*': it must be a number"):
             asperity.solve(rough, **options)
+
+
+def packed(values, kind="<f8", skip=4):
+    """The same numbers as a column of a packed record, of which no item lies a whole number of items from the next."""
+    table = np.zeros(np.shape(values), np.dtype([("before", f"V{skip}"), ("z", kind)]))
+    table["z"] = values
+    return table["z"]
+
+
+VIEWS = [
+    packed,
+    lambda h: packed(h[::-1, ::-1])[::-1, ::-1],
+    lambda h: packed(h.T).T,
+    lambda h: packed(h, ">f8"),
+    lambda h: packed(h, skip=9),
+    lambda h: np.frombuffer(b"odd!" + h.tobytes(), offset=4).reshape(h.shape),
+]
+
+
+@pytest.mark.parametrize("view", VIEWS)
+def test_columns_of_packed_records_are_read_right_wherever_an_array_goes(rough, view):
+    h = rough.heights
+    z = view(h)
+    assert np.array_equal(z, h) and not (z.flags.aligned and z.dtype.isnative)
+    assert gap(z).tobytes() == gap(h).tobytes()
+    if z.dtype.isnative:
+        # past the checks of Python
+        assert gap(asperity.Topography(z, (1.0, 1.0)), None).tobytes() == gap(h).tobytes()
+    core = asperity.surface.statistics(asperity.Topography(h, (1.0, 1.0)))
+    assert asperity.surface.statistics(z, 1.0) == core
+    assert np.array_equal(asperity.surface.spectrum(z, 1.0).densities, asperity.surface.spectrum(h, 1.0).densities)
+    prepared = [asperity.prepare(heights, 1.0, detrend="plane").heights for heights in (z, h)]
+    assert np.array_equal(*prepared)
+    start = gap(h) + 1e-3
+    assert gap(h, start=view(start)).tobytes() == gap(h, start=start).tobytes()
+    mirrored = asperity.prepare(h, 1.0, mirror=True)
+    whole = asperity.solve(mirrored, modulus=1.0, mean_gap=0.01, start=start).gap
+    assert asperity.solve(mirrored, modulus=1.0, mean_gap=0.01, start=view(start)).gap.tobytes() == whole.tobytes()
+    works = 1e-5 * (1 + np.abs(h) / h.max())
+    laws = [asperity.Varying(asperity.Exponential(1.0, 8e-3), w) for w in (works, view(works))]
+    assert np.array_equal(laws[0].work_of_adhesion, laws[1].work_of_adhesion)
+    assert laws[0].energy(view(start)).tobytes() == laws[1].energy(start).tobytes()
+    law = asperity.Exponential(2e-5, 8e-3)
+    for function in (law.energy, law.traction, law.slope):
+        assert np.array_equal(function(view(start)), function(start))
+    loads = np.abs(h) + 1e-4
+    hertz = asperity.exact.Hertz(2.0, 1.0)
+    assert np.array_equal(hertz.at_load(view(loads)).approach, hertz.at_load(loads).approach)
+    sizes = asperity.contact.clusters(h > 0.01).sizes
+    assert np.array_equal(asperity.contact.clusters(packed(h > 0.01, "?", skip=3)).sizes, sizes)
+
+
+def test_tables_of_packed_records_are_read_right():
+    gaps, tractions = np.array([0.0, 1e-9, 2e-9]), np.array([50e6, 25e6, 0.0])
+    law = asperity.Tabulated(packed(gaps), packed(tractions))
+    assert law == asperity.Tabulated(gaps, tractions) and law.gaps.tolist() == gaps.tolist()
+
+
+OBLONG = asperity.surface.self_affine((64, 48), (1.0, 0.75), rms_slope=0.1, k_l=4, k_s=10, seed=3).heights
+
+
+def test_axes_say_which_axis_is_x(rough):
+    image = OBLONG.T  # [row, column]: 48 rows along y, of 64 columns along x
+    upright = asperity.solve(image.T, (1.0, 0.75), modulus=1.0, mean_pressure=0.01)
+    turned = asperity.solve(image, (1.0, 0.75), modulus=1.0, mean_pressure=0.01, axes="yx")
+    assert turned.gap.shape == (64, 48) and turned.gap.tobytes() == upright.gap.tobytes()
+    assert asperity.prepare(image, 1.0, axes="yx").lengths == (1.0, 0.75)
+    assert asperity.prepare(image, 1.0, axes="xy").lengths == (1.0, 64 / 48)
+    options = {"modulus": 1.0, "mean_pressures": [0.01], "axes": "yx"}
+    assert next(asperity.sweep(image, (1.0, 0.75), **options)).gap.tobytes() == upright.gap.tobytes()
+    cycle = asperity.cycle(image, (1.0, 0.75), modulus=1.0, mean_gaps=[0.02, 0.01], axes="yx", steps=2)
+    assert next(cycle).solution.gap.shape == (64, 48)
+    by_axis = [asperity.surface.spectrum(image, (1.0, 0.75), axes="yx", along=along).densities for along in "xy"]
+    assert np.array_equal(by_axis[0], asperity.surface.spectrum(image.T, (1.0, 0.75), along="x").densities)
+    slope = asperity.surface.statistics(image, (1.0, 0.75), axes="yx").rms_slope
+    assert slope == asperity.surface.statistics(image.T, (1.0, 0.75)).rms_slope
+    with pytest.raises(ValueError, match="axes is 'zx': it must be 'xy'.*or 'yx'"):
+        asperity.prepare(image, 1.0, axes="zx")
+    for known in (rough, Map(image, (1.0, 1.0), True), "map.npy"):
+        with pytest.raises(ValueError, match="axes is 'yx', but a file or a map knows its axes"):
+            asperity.prepare(known, axes="yx")
+
+
+def test_dimensions_that_are_named_say_which_axis_is_x():
+    xarray = pytest.importorskip("xarray")
+    x, y = np.arange(64) / 64, np.arange(48) / 64
+    data = xarray.DataArray(OBLONG, dims=("x", "y"), coords={"x": x, "y": y})
+    upright = gap(data, None)
+    for turned in (data.T, data.T.rename(x="X", y="Y"), data.T.rename(y="row"), data.T[::-1]):
+        assert asperity.prepare(turned).lengths == (1.0, 0.75)
+        assert gap(turned, None).tobytes() == upright.tobytes(), turned.dims
+    image = data.T.rename(x="column", y="row")
+    assert asperity.prepare(image).lengths == (0.75, 1.0)
+    assert gap(image, None, axes="yx").tobytes() == upright.tobytes()
+    assert gap(data, None, axes="xy").tobytes() == upright.tobytes()
+    with pytest.raises(ValueError, match=r"axes is 'xy', but the dimensions are \('y', 'x'\)"):
+        asperity.prepare(data.T, axes="xy")
+    # starts and works of adhesion, too
+    start = np.linspace(0.01, 0.02, 64)[:, None] * np.ones(48)
+    assert gap(data, None, start=data.T * 0 + start.T).tobytes() == gap(data, None, start=start).tobytes()
+    law = asperity.Varying(asperity.Exponential(1.0, 8e-3), abs(data.T))
+    assert np.array_equal(law.work_of_adhesion, np.abs(OBLONG))
+
+
+def test_offsets_of_lines_along_the_other_axis_are_a_warning():
+    x = np.linspace(0.0, 1.0, 96, endpoint=False)
+    smooth = 0.02 * np.sin(2 * np.pi * 3 * x[:, None]) * np.cos(2 * np.pi * 2 * x)
+    image = smooth + 0.02 * np.random.default_rng(1).normal(size=(96, 1))  # each row is a scan line
+    with pytest.warns(asperity.InputWarning, match="scan-axis: lines along y are offset .* those along x") as caught:
+        asperity.prepare(image, 1.0, align_rows="median")
+    assert caught[0].filename == __file__
+    aligned = asperity.prepare(image, 1.0, align_rows="median", axes="yx")
+    assert np.abs(aligned.heights.T - smooth).max() < 2e-3
+    along_y = asperity.prepare(image, 1.0, align_rows="median", scan_axis="y")
+    assert np.allclose(along_y.heights, aligned.heights.T, rtol=0, atol=1e-15)
+
+
+def test_maps_beyond_the_memory_are_an_error():
+    endless = np.broadcast_to(np.zeros(1), (2**20, 2**20))
+    small = np.random.default_rng(1).normal(size=(16, 16))
+    for ask in (
+        lambda: asperity.solve(endless, 1.0, modulus=1.0, mean_gap=1.0),
+        lambda: asperity.surface.statistics(endless, 1.0),
+        lambda: asperity.prepare(endless, 1.0),
+        lambda: asperity.prepare(small, 1.0, resample=(2**20, 2**20)),
+        lambda: asperity.surface.self_affine(2**20, 1.0, rms_slope=0.1),
+    ):
+        with pytest.raises(MemoryError, match="1048576 x 1048576 nodes takes .* GiB"):
+            ask()
+
+
+def test_threads_are_as_many_as_in_the_tool(rough):
+    for threads in (0, 1025, 10**9):
+        with pytest.raises(ValueError, match=f"threads is {threads}: it must be from 1 to 1024, or None"):
+            gap(rough, None, threads=threads)
+
+
+@pytest.mark.parametrize(
+    ("ask", "message"),
+    [
+        (lambda h: asperity.sweep(h, modulus=1.0, mean_pressures=2e6), r"mean_pressures is 2000000.0: .* as \[2000000"),
+        (lambda h: asperity.solve(h, modulus=1.0, mean_pressure=[1.0, 2.0]), r"asperity.sweep .* mean_pressures=\[...\]"),
+        (lambda h: asperity.solve(h, modulus=1.0, mean_pressures=[1.0]), "give mean_pressure, .* asperity.sweep"),
+        (lambda h: asperity.sweep(h, modulus=1.0, mean_gap=0.1), r"give mean_gaps=\[...\], or one load to asperity.solve"),
+        (lambda h: asperity.solve(h, modulus=1.0, pressure=1.0), r"solve\(\) .* pressure: did you mean mean_pressure"),
+        (lambda h: asperity.cycle(h, modulus=1.0, gap=[1.0]), "has no keyword gap: did you mean mean_gaps"),
+        (lambda h: asperity.solve(h, E=1.0, mean_gap=1.0), "did you mean modulus"),
+        (lambda h: asperity.solve(h, modulus=1.0, mean_gap=1.0, tolerence=1.0), "did you mean tolerance"),
+        (lambda h: asperity.prepare(h, detrand="plane"), r"prepare\(\) has no keyword detrand: did you mean detrend"),
+        (lambda h: asperity.Exponential(work_of_adhesion=1.0, rho=1.0), r"Exponential\(\) .* rho: did you mean range"),
+        (lambda h: asperity.VanDerWaals(A=1.0, range=1.0), r"VanDerWaals\(\) has no keyword A: did you mean hamaker"),
+        (lambda h: asperity.Morse(1.0), r"Morse\(\) is without range"),
+        (lambda h: asperity.Morse(1.0, 1.0, colour=1.0), "it has work_of_adhesion, range"),
+    ],
+)
+def test_a_keyword_that_is_wrong_is_told_by_the_right_one(rough, ask, message):
+    with pytest.raises(TypeError, match=message):
+        ask(rough)
+
+
+def test_functions_of_the_package_travel_to_other_processes():
+    for function in (asperity.solve, asperity.sweep, asperity.cycle, asperity.prepare, asperity.stability):
+        assert pickle.loads(pickle.dumps(function)) is function
+        assert "Parameters" in function.__doc__ and "kwargs" not in inspect.signature(function).parameters

@@ -1,5 +1,6 @@
 """Adhesion laws: the library's, and those written in Python."""
 
+import math
 import pickle
 import threading
 
@@ -171,7 +172,7 @@ def test_a_work_of_adhesion_may_differ_from_node_to_node(rough):
     for given, message in [
         ((asperity.Exponential(1.0, RANGE), -works), "work of adhesion is -2e-5"),
         ((asperity.Exponential(0.0, RANGE), works), "work of adhesion of the law that varies is 0"),
-        ((asperity.Exponential(1.0, RANGE), np.ones((2, 2, 2))), "work_of_adhesion has shape"),
+        ((asperity.Exponential(1.0, RANGE), np.ones((2, 2, 2))), "works of adhesion have shape"),
         ((asperity.Varying(asperity.Exponential(1.0, RANGE), works), works), "varies already"),
     ]:
         with pytest.raises(ValueError, match=message):
@@ -329,3 +330,156 @@ def test_laws_in_python_on_many_threads_do_not_wait_for_each_other(rough):
     for thread in threads:
         thread.join(60)
     assert len(found) == 8 and len(set(found)) == 1
+
+
+class Powers:
+    """Attraction by one power of the distance, and repulsion by a higher one, at rest at a distance of one range."""
+
+    def __init__(self, work_of_adhesion, rest, high=8, low=2, shift=0.0):
+        self.w, self.rest, self.high, self.low, self.shift = work_of_adhesion, rest, high, low, shift
+        self.factor = work_of_adhesion / (high - low)
+
+    def terms(self, gap, derivative):
+        for power, factor in ((self.high, self.low), (self.low, -self.high)):
+            yield power, self.factor * factor * (self.rest / (gap + self.shift)) ** (power + derivative)
+
+    def energy(self, gap):
+        return sum(term for _, term in self.terms(gap, 0))
+
+    def traction(self, gap):
+        return sum(-power / self.rest * term for power, term in self.terms(gap, 1))
+
+    def slope(self, gap):
+        return sum(power * (power + 1) / self.rest**2 * term for power, term in self.terms(gap, 2))
+
+
+class Shifted:
+    """A law of Morse whose gap counts from elsewhere."""
+
+    def __init__(self, work_of_adhesion, length, rest):
+        self.w, self.length, self.rest = work_of_adhesion, length, rest
+
+    def e(self, gap):
+        return np.exp(-(gap - self.rest) / self.length)
+
+    def energy(self, gap):
+        return self.w * self.e(gap) * (self.e(gap) - 2)
+
+    def traction(self, gap):
+        return 2 * self.w / self.length * self.e(gap) * (1 - self.e(gap))
+
+    def slope(self, gap):
+        return 2 * self.w / self.length**2 * self.e(gap) * (2 * self.e(gap) - 1)
+
+
+@pytest.mark.parametrize("precision", ["f64", "f32"])
+def test_a_law_in_python_that_repels_keeps_the_surfaces_apart(rough, precision):
+    options = {"modulus": 1.0, "mean_pressure": 0.01, "wall": "none", "precision": precision}
+    close = {"rtol": 0, "atol": 1e-6 if precision == "f64" else 1e-3}
+    for own, built_in, shift in [
+        (Powers(W, RANGE), asperity.LennardJones(W, RANGE), 0.0),
+        (Shifted(W, RANGE, 0.0), asperity.Morse(W, RANGE), 0.0),
+        (Shifted(W, RANGE, 2 * RANGE), asperity.Morse(W, RANGE), 2 * RANGE),
+    ]:
+        asperity.check_law(own)
+        found = asperity.solve(rough, law=own, **options)
+        expected = asperity.solve(rough, law=built_in, **options)
+        assert found.converged and np.allclose((found.gap - shift) / RANGE, expected.gap / RANGE, **close)
+        assert np.array_equal(found.contact, own.traction(found.gap) < 0) or precision == "f32"
+        assert np.isclose(found.adhesive_energy, expected.adhesive_energy, rtol=1e-6 if precision == "f64" else 1e-3)
+    # beside a wall the law of Morse need not say its range either
+    wall = {**options, "wall": "hard"}
+    laws = (Shifted(W, RANGE, 0.0), asperity.Morse(W, RANGE))
+    found, expected = (asperity.solve(rough, law=law, **wall) for law in laws)
+    assert np.allclose(found.gap / RANGE, expected.gap / RANGE, **close)
+
+
+def test_any_law_with_a_gap_of_rest_will_do(rough):
+    powers = [(RANGE, 12, 6), (RANGE, 3, 1.5), (RANGE, 8, 2, RANGE), (3.7e-3, 5, 3)]
+    for law in (Powers(W, *given) for given in powers):
+        asperity.check_law(law)
+        for pressure in (1e-4, 0.01, 0.2):
+            found = asperity.solve(rough, modulus=1.0, mean_pressure=pressure, law=law, wall="none")
+            assert found.converged
+            # the table has what the law has, node by node
+            assert np.isclose(found.adhesive_energy, law.energy(found.gap).mean(), rtol=1e-9)
+            assert np.isclose(law.traction(found.gap).mean(), -pressure, rtol=1e-4)
+            assert np.array_equal(found.contact, law.traction(found.gap) < 0) and found.contact.any()
+    with pytest.raises(ValueError, match=r"wall='none', or LennardJones"):
+        asperity.solve(rough, modulus=1.0, mean_pressure=0.01, law=Powers(W, RANGE))
+    with pytest.raises(ValueError, match="does not repel"):
+        asperity.solve(rough, modulus=1.0, mean_pressure=0.01, law=Linear(W, RANGE), wall="none")
+
+
+def test_a_law_may_refuse_negative_gaps(rough):
+    class Strict(Shifted):
+        def traction(self, gap):
+            if np.any(gap < 0):
+                raise ValueError("negative")
+            return super().traction(gap)
+
+    options = {"modulus": 1.0, "mean_pressure": 0.01}
+    found = asperity.solve(rough, law=Strict(W, RANGE, 0.0), **options)
+    expected = asperity.solve(rough, law=asperity.Morse(W, RANGE), **options)
+    assert np.allclose(found.gap / RANGE, expected.gap / RANGE, rtol=0, atol=1e-6)
+    with pytest.raises(ValueError, match="does not repel"):
+        asperity.solve(rough, law=Strict(W, RANGE, 0.0), wall="none", **options)
+
+
+def test_the_gap_of_rest_is_found_in_any_unit():
+    heights = np.cos(2 * np.pi * np.arange(32) / 32)
+    for unit in (1e-9, 1e-6, 1.0, 1e3):
+        law = Powers(1e-4 * unit, 0.01 * unit)
+        found = asperity.solve(0.02 * unit * heights, unit, modulus=1.0, mean_pressure=1e-3, law=law, wall="none")
+        assert found.converged and np.isclose(found.gap.min() / unit, 0.01, rtol=0.2)
+
+
+def test_a_wrong_sign_is_told(rough):
+    class Flipped:
+        def __init__(self, law, functions):
+            self.law, self.functions = law, functions
+
+        def __getattr__(self, name):
+            value = getattr(self.law, name)
+            return (lambda gap: -value(gap)) if name in self.functions else value
+
+    options = {"modulus": 1.0, "mean_pressure": 0.01}
+    # those whose work and range are named, and those where they have to be found
+    shifted = [Shifted(W, RANGE, rest) for rest in (0.0, RANGE)]
+    for law in (Exponential(W, RANGE), Linear(W, RANGE), Powers(W, RANGE), *shifted):
+        for functions in (["traction"], ["traction", "slope"], ["energy"]):
+            for ask in (lambda law: asperity.solve(rough, law=law, **options), asperity.check_law):
+                with pytest.raises(ValueError, match="change the sign of one of the two|correct one of the two"):
+                    ask(Flipped(law, functions))
+    upside_down = Flipped(Linear(W, RANGE), ["energy", "traction", "slope"])
+    with pytest.raises(ValueError, match="positive at no gap: the law repels"):
+        asperity.solve(rough, law=upside_down, **options)
+
+
+def test_a_law_for_one_gap_alone_is_told_of_arrays(rough):
+    class Scalar(Linear):
+        def traction(self, gap):
+            return 2 * self.w / self.range * (1 - gap / self.range) if gap < self.range else 0.0
+
+    class Math(Exponential):
+        def traction(self, gap):
+            return self.work_of_adhesion / self.range * math.exp(-gap / self.range)
+
+    for law in (Scalar(W, RANGE), Math(W, RANGE)):
+        for ask in (lambda law: asperity.solve(rough, modulus=1.0, mean_pressure=0.01, law=law), asperity.check_law):
+            with pytest.raises(TypeError, match=r"law.traction takes one gap alone.* arrays .*numpy.where") as raised:
+                ask(law)
+            assert isinstance(raised.value.__cause__, (TypeError, ValueError))
+
+
+def test_check_law_needs_no_gap():
+    for law in (*LAWS, Exponential(W, RANGE), Linear(W, RANGE), Powers(W, RANGE)):
+        asperity.check_law(law)
+
+
+def test_a_map_of_works_with_holes_is_refused_by_its_name(rough):
+    works = np.full((64, 64), W)
+    works[3, 4] = np.nan
+    for holed in (works, np.ma.masked_array(np.full((64, 64), W), np.isnan(works))):
+        with pytest.raises(ValueError, match=r"work_of_adhesion: 1 of 4096 nodes .* \(NaN\) at index \[3, 4\]: give"):
+            asperity.Varying(asperity.Exponential(1.0, RANGE), holed)

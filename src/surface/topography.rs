@@ -21,6 +21,7 @@ mod trend;
 
 pub use despike::Spikes;
 pub use form::{Form, FormFit};
+pub(crate) use rows::LineSteps;
 pub use rows::{RowAlignment, ScanAxis};
 pub use trend::{Fit, Trend};
 

@@ -40,6 +40,8 @@ pub enum WarningCode {
     WindowEdge,
     /// The contact of a mirrored map is not that of its mirror images.
     Images,
+    /// The lines across the scan lines that are to be brought to one height have by far the larger offsets.
+    ScanAxis,
 }
 
 impl WarningCode {
@@ -60,6 +62,7 @@ impl WarningCode {
             Self::Flat => "flat",
             Self::WindowEdge => "window-edge",
             Self::Images => "images",
+            Self::ScanAxis => "scan-axis",
         }
     }
 }

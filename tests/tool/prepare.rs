@@ -476,3 +476,26 @@ assert abs(back['heights'].ravel() - rest).max() < 1e-13, abs(back['heights'].ra
 print('same')");
     assert_eq!(said.trim(), "same");
 }
+
+#[test]
+fn offsets_of_lines_along_the_other_axis_are_told() {
+    let bench = Bench::new();
+    // an image whose rows are the scan lines, each with an offset of its own
+    let drift = |row: usize| ((row as f64 * 0.618).fract() - 0.5).powi(3);
+    let grain = |row: usize, column: usize| 1e-3 * ((row * 7 + column * 13) as f64 * 0.414).fract();
+    let image = ndarray::Array2::from_shape_fn((96, 80), |(row, column)| drift(row) + grain(row, column));
+    let mut map = Topography::new(image);
+    (map.lengths, map.unit) = (Some((96.0, 80.0)), Some("nm".to_owned()));
+    write_topography(&bench.path("image.npz"), &map).unwrap();
+    let told = |arguments: &str| {
+        let output = bench.run(&format!("prepare image.npz --align-rows median --json {arguments}"));
+        assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+        let report: serde_json::Value = serde_json::from_str(&text(&output.stdout)).unwrap();
+        let codes: Vec<_> = report["warnings"].as_array().unwrap().iter().map(|found| found["code"].clone()).collect();
+        (text(&output.stderr), codes)
+    };
+    let (said, codes) = told("--out a.npz");
+    assert_eq!(codes, ["scan-axis"]);
+    assert!(said.starts_with("warning: scan-axis: lines along y are offset") && said.contains(" nm, "), "{said}");
+    assert_eq!(told("--scan-axis y --out b.npz"), (String::new(), vec![]));
+}

@@ -253,7 +253,8 @@ fn prepared(
         let (found, nodes) = (map.missing() - before, map.heights.len());
         tell("missing", format!("{} stood at {found} of {nodes} points: rms height {}", plain(*code), rms(&map)));
     }
-    let read = warned(&map, |code| code == WarningCode::MissingCode);
+    let found = Warning::of_topography(&map).into_iter();
+    let read = told(found.filter(|warning| warning.code == WarningCode::MissingCode), &map);
     let has_codes = !read.is_empty();
     warnings.extend(read);
     if let Some(factor) = options.scale {
@@ -275,6 +276,7 @@ fn prepared(
     if let Some(alignment) = options.align_rows {
         let before = map.clone();
         let ((nx, ny), scan) = (map.heights.dim(), options.scan_axis.unwrap_or(Scan::X));
+        warnings.extend(told(Warning::of_lines(&map, scan.axis()), &map));
         map = map.align_rows(alignment, scan.axis())?;
         let (axis, lines) = if scan.axis() == ScanAxis::X { ("x", ny) } else { ("y", nx) };
         let by = changed(&before, &map);
@@ -337,15 +339,15 @@ fn prepared(
     }
     // heights and lengths are in their units by now; where codes for missing points are among the heights, they alone
     // make the slope
-    warnings.extend(warned(&map, |code| code != WarningCode::MissingCode && !has_codes));
+    let found = Warning::of_topography(&map).into_iter();
+    warnings.extend(told(found.filter(|warning| warning.code != WarningCode::MissingCode && !has_codes), &map));
     Ok(map)
 }
 
-/// The warnings about a map, of some codes, which are printed.
-fn warned(map: &Topography, wanted: impl Fn(WarningCode) -> bool) -> Vec<Told> {
+/// Warnings about a map, which are printed.
+fn told(found: impl IntoIterator<Item = Warning>, map: &Topography) -> Vec<Told> {
     let units = Units::of_map(map.unit.as_deref());
-    let found = Warning::of_topography(map).into_iter().filter(|warning| wanted(warning.code));
-    let told: Vec<_> = found.map(|warning| Told::new(&warning, &units)).collect();
+    let told: Vec<_> = found.into_iter().map(|warning| Told::new(&warning, &units)).collect();
     told.iter().for_each(|warning| complain("warning", &warning.to_string()));
     told
 }

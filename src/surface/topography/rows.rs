@@ -80,6 +80,38 @@ impl Topography {
     }
 }
 
+/// The steps between the lines of a map along an axis, each from one line to the next.
+pub(crate) struct LineSteps {
+    /// The median over the lines of the step that a whole line shares, about their tilt.
+    pub shared: f64,
+    /// The median change of that from one step to the next.
+    pub change: f64,
+    /// The rms step of single nodes about that of their line, the median over the lines.
+    pub single: f64,
+}
+
+impl LineSteps {
+    /// Those of the measured points; NaN where none are.
+    pub fn of(map: &Topography, along: ScanAxis) -> Self {
+        let lines: Vec<_> = map.heights.lanes(Axis(usize::from(along == ScanAxis::Y))).into_iter().collect();
+        let step = |pair: &[ArrayView1<'_, f64>]| {
+            let steps: Vec<f64> =
+                pair[1].iter().zip(pair[0]).map(|(h, before)| h - before).filter(|step| step.is_finite()).collect();
+            let shared = median(steps.iter().copied())?;
+            let squares: f64 = steps.iter().map(|step| (step - shared).powi(2)).sum();
+            Some((shared, f64::sqrt(squares / steps.len() as f64)))
+        };
+        let (shared, single): (Vec<f64>, Vec<f64>) = lines.windows(2).filter_map(step).unzip();
+        let middle = |values: &mut dyn Iterator<Item = f64>| median(values).unwrap_or(f64::NAN);
+        let tilt = middle(&mut shared.iter().copied());
+        Self {
+            shared: middle(&mut shared.iter().map(|step| (step - tilt).abs())),
+            change: middle(&mut shared.windows(2).map(|pair| (pair[1] - pair[0]).abs())),
+            single: middle(&mut single.into_iter()),
+        }
+    }
+}
+
 /// A line less the polynomial that fits its measured points.
 fn straightened(line: ArrayView1<'_, f64>, order: usize) -> Result<Array1<f64>> {
     let map = Topography::new(line.to_owned().insert_axis(Axis(1)));
