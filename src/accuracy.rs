@@ -100,8 +100,8 @@ impl Quantity {
         Some(error.abs()).filter(|error| error.is_finite())
     }
 
-    /// The relative error of the finer of two grids, with its resolution measure of the adhesion.
-    fn by_coarser(self, fine: &Level, coarse: &Level, mu_rho: f64) -> Option<f64> {
+    /// The relative error of the finer of two grids, with the error at the edge of its area.
+    fn by_coarser(self, fine: &Level, coarse: &Level, at_edge: f64) -> Option<f64> {
         let (value, coarser) = (self.of(fine)?, self.of(coarse)?);
         let [counted, coarser_counted] = [fine, coarse].map(|level| level.area.contact_fraction);
         if (value, counted) == (coarser, coarser_counted) {
@@ -111,17 +111,12 @@ impl Quantity {
         if !(value.is_finite() && coarser.is_finite()) || value == 0.0 {
             return None;
         }
-        let line = fine.shape.0 == 1 || fine.shape.1 == 1;
         let difference = (value - coarser) / value;
         if self == Self::Area {
-            let edge = (counted / value - 1.0).abs();
-            if line {
-                return Some((difference / 3.0).hypot(0.4 * edge * edge));
-            }
-            let [scatter, adhesion] = at_edge(&fine.area, mu_rho);
-            return Some((0.25 * difference).hypot(0.08 * scatter).hypot(0.1 * edge * edge).hypot(adhesion));
+            return Some((0.25 * difference).hypot(at_edge));
         }
         let edge = (counted - coarser_counted) / counted.max(coarser_counted).max(f64::MIN_POSITIVE);
+        let line = fine.shape.0 == 1 || fine.shape.1 == 1;
         let (share, of_edge) = match self {
             // there all is of first order, or of second
             Self::Stiffness if line => (1.0, 0.3),
@@ -132,10 +127,10 @@ impl Quantity {
         Some((share * difference).hypot(of_edge * edge))
     }
 
-    /// The relative error on a grid beside which there is no coarser one, with so many nodes in the shortest wave.
-    fn by_waves(self, level: &Level, nodes_per_wave: f64, mu_rho: f64) -> Option<f64> {
-        let [scatter, adhesion] = at_edge(&level.area, mu_rho);
-        let error = self.expected(nodes_per_wave).hypot(0.2 * scatter).hypot(adhesion);
+    /// The relative error on a grid beside which there is no coarser one, with so many nodes in the shortest wave and the
+    /// error at the edge of its area.
+    fn by_waves(self, nodes_per_wave: f64, at_edge: f64) -> Option<f64> {
+        let error = self.expected(nodes_per_wave).hypot(at_edge);
         (self == Self::Area && nodes_per_wave.is_finite() && error.is_finite()).then_some(error)
     }
 
@@ -151,11 +146,17 @@ impl Quantity {
     }
 }
 
-/// The scatter of the edge between the nodes, but for a factor, and the part of the adhesion in the relative error of
-/// the corrected area, by the nodes in contact beyond the edge.
-fn at_edge(area: &ContactArea, mu_rho: f64) -> [f64; 2] {
+/// The relative error of the corrected area at its edge, with so many nodes in the shortest wave.
+fn at_edge(area: &ContactArea, nodes_per_wave: f64, mu_rho: f64) -> f64 {
+    let (edges, nodes) = (area.edges as f64, area.contact_nodes as f64);
     let beyond = (area.contact_fraction / area.corrected_contact_fraction - 1.0).abs();
-    [(beyond / area.contact_nodes as f64).sqrt(), 0.1 * mu_rho * mu_rho.sqrt() * beyond]
+    let adhesion = 0.1 * mu_rho * mu_rho.sqrt() * beyond;
+    if area.edges == 0 {
+        return adhesion;
+    }
+    let [contact, apart] = [nodes, nodes / area.contact_fraction - nodes].map(|nodes| edges / nodes.max(1.0));
+    let place = contact * 0.03_f64.hypot(0.04 * (contact + 2.0 * apart));
+    (place.hypot(2.5 / nodes_per_wave.powi(2)) / area.places.sqrt()).hypot(adhesion)
 }
 
 impl fmt::Display for Quantity {
@@ -316,9 +317,10 @@ impl GridError {
             return Some(Self { relative, order, rough: quantity == Quantity::Stiffness && !fine });
         }
         let line = finest.shape.0 == 1 || finest.shape.1 == 1;
+        let at_edge = at_edge(&finest.area, nodes_per_wave, mu_rho);
         let (relative, sure) = match coarser {
-            Some(coarser) => (quantity.by_coarser(finest, coarser, mu_rho)?, fine && !line),
-            None if resolves(1.0) => (quantity.by_waves(finest, nodes_per_wave, mu_rho)?, false),
+            Some(coarser) => (quantity.by_coarser(finest, coarser, at_edge)?, fine && !line),
+            None if resolves(1.0) => (quantity.by_waves(nodes_per_wave, at_edge)?, false),
             None => return None,
         };
         Some(Self { relative, order, rough: quantity != Quantity::Area || !sure || relative == 0.0 })
