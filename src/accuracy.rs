@@ -100,8 +100,8 @@ impl Quantity {
         Some(error.abs()).filter(|error| error.is_finite())
     }
 
-    /// The relative error of the finer of two grids, with the error at the edge of its area.
-    fn by_coarser(self, fine: &Level, coarse: &Level, at_edge: f64) -> Option<f64> {
+    /// The relative error of the finer of two grids, with the errors at the edge of its area.
+    fn by_coarser(self, fine: &Level, coarse: &Level, [places, adhesion]: [f64; 2]) -> Option<f64> {
         let (value, coarser) = (self.of(fine)?, self.of(coarse)?);
         let [counted, coarser_counted] = [fine, coarse].map(|level| level.area.contact_fraction);
         if (value, counted) == (coarser, coarser_counted) {
@@ -113,7 +113,7 @@ impl Quantity {
         }
         let difference = (value - coarser) / value;
         if self == Self::Area {
-            return Some((0.25 * difference).hypot(at_edge));
+            return Some((0.25 * difference).hypot(places).hypot(adhesion));
         }
         let edge = (counted - coarser_counted) / counted.max(coarser_counted).max(f64::MIN_POSITIVE);
         let line = fine.shape.0 == 1 || fine.shape.1 == 1;
@@ -128,9 +128,9 @@ impl Quantity {
     }
 
     /// The relative error on a grid beside which there is no coarser one, with so many nodes in the shortest wave and the
-    /// error at the edge of its area.
-    fn by_waves(self, nodes_per_wave: f64, at_edge: f64) -> Option<f64> {
-        let error = self.expected(nodes_per_wave).hypot(at_edge);
+    /// errors at the edge of its area.
+    fn by_waves(self, nodes_per_wave: f64, [places, adhesion]: [f64; 2]) -> Option<f64> {
+        let error = self.expected(nodes_per_wave).hypot(2.0 * places).hypot(adhesion);
         (self == Self::Area && nodes_per_wave.is_finite() && error.is_finite()).then_some(error)
     }
 
@@ -146,17 +146,18 @@ impl Quantity {
     }
 }
 
-/// The relative error of the corrected area at its edge, with so many nodes in the shortest wave.
-fn at_edge(area: &ContactArea, nodes_per_wave: f64, mu_rho: f64) -> f64 {
+/// The relative error of the corrected area by the places of its edge, with so many nodes in the shortest wave, and by
+/// the adhesion there.
+fn at_edge(area: &ContactArea, nodes_per_wave: f64, mu_rho: f64) -> [f64; 2] {
     let (edges, nodes) = (area.edges as f64, area.contact_nodes as f64);
     let beyond = (area.contact_fraction / area.corrected_contact_fraction - 1.0).abs();
     let adhesion = 0.1 * mu_rho * mu_rho.sqrt() * beyond;
     if area.edges == 0 {
-        return adhesion;
+        return [0.0, adhesion];
     }
     let [contact, apart] = [nodes, nodes / area.contact_fraction - nodes].map(|nodes| edges / nodes.max(1.0));
-    let place = contact * 0.03_f64.hypot(0.04 * (contact + 2.0 * apart));
-    (place.hypot(2.5 / nodes_per_wave.powi(2)) / area.places.sqrt()).hypot(adhesion)
+    let alike = (0.1 * contact * (contact + 2.0 * apart)).hypot(4.0 / nodes_per_wave.powi(2));
+    [(0.03 * contact / area.places.sqrt()).hypot(alike / area.places), adhesion]
 }
 
 impl fmt::Display for Quantity {
@@ -227,7 +228,7 @@ const ORDERS: (f64, f64) = (0.5, 3.0);
 ///
 /// | quantity | terms |
 /// |---|---|
-/// | corrected area A_c | δA_c/4, κ √(0.03² + 0.04² (κ + 2κ')²) / √M, 2.5/(n² √M), 0.1 μ_ρ^{3/2} ε |
+/// | corrected area A_c | δA_c/4, 0.03 κ/√M, 0.1 κ(κ + 2κ')/M, 4/(n² M), 0.1 μ_ρ^{3/2} ε |
 /// | contact stiffness k | 0.3 δk, 0.11 δA |
 /// | mean gap ḡ, mean pressure p̄ | 0.15 δḡ, 0.001 δA, and with p̄ likewise |
 ///
@@ -238,13 +239,13 @@ const ORDERS: (f64, f64) = (0.5, 3.0);
 /// so the scale of all that depends on where between the nodes the edge falls; δQ alone may be small by luck.
 ///
 /// The error of the corrected area falls with the second order, for which the share of δA_c is 1/3, or faster while
-/// waves have few nodes. Each place of the edge is wrong by itself, by 0.03 cells and more where contacts or the gaps
-/// between them are a few nodes wide, and so is what falls between the nodes of each wave. On a rough surface these
-/// errors average. Along a strip all of the edge is between the same rows of nodes, and wrong in the same way: M is 2
-/// for a wave along a side, and some hundreds for a rough surface of 128² nodes. Where the zone of the adhesion has few
-/// nodes, 1/μ_ρ², a share of ε is left. Without a coarser grid 0.3/n², which rough surfaces have, takes the place of
-/// δA_c/4. The factors are fitted to rough surfaces, strips and lattices, and the page
-/// [`choosing`](crate::guide::choosing) has how good the estimates are on others.
+/// waves have few nodes. Each place of the edge is wrong by itself, and on a rough surface these errors average. Along a
+/// strip all of the edge is between the same rows of nodes, and wrong in the same way, the more so where contacts or the
+/// gaps between them are a few nodes wide, or waves: M is 2 for a wave along a side, and some hundreds for a rough
+/// surface of 128² nodes. Where the zone of the adhesion has few nodes, 1/μ_ρ², a share of ε is left. Without a coarser
+/// grid 0.3/n², which rough surfaces have, takes the place of δA_c/4, and the terms with M count twice. The factors are
+/// fitted to rough surfaces, strips and lattices, and the page [`choosing`](crate::guide::choosing) has how good the
+/// estimates are on others.
 ///
 /// A grid counts if it has the same waves, the shortest of which ([`Surface::nodes_per_wave`]) with at least four
 /// nodes, resolves the adhesion (μ_ρ ≤ 0.5), and, if it is a coarser one, was solved to 3e-3. The estimates of gap and
