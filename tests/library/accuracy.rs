@@ -186,7 +186,6 @@ fn strips_diagonals_and_lattices_are_as_right_as_is_asked() {
             reached.extend(found.reached.then_some((area / exact - 1.0).abs()));
         }
         let right = reached.iter().filter(|error| **error <= target).count();
-        println!("{target}: {right} of {}, {}", reached.len(), scenes.len());
         assert!(
             100 * right >= 95 * reached.len() && 10 * reached.len() >= 9 * scenes.len(),
             "{target}: {right} of {}",
