@@ -99,8 +99,8 @@ impl Quantity {
         Some(error.abs()).filter(|error| error.is_finite())
     }
 
-    /// The relative error of the finer of two grids, with its resolution measure of the adhesion.
-    fn by_coarser(self, fine: &Level, coarse: &Level, mu_rho: f64) -> Option<f64> {
+    /// The relative error of the finer of two grids, with the errors at the edge of its area.
+    fn by_coarser(self, fine: &Level, coarse: &Level, [places, adhesion]: [f64; 2]) -> Option<f64> {
         let (value, coarser) = (self.of(fine)?, self.of(coarse)?);
         let [counted, coarser_counted] = [fine, coarse].map(|level| level.area.contact_fraction);
         if (value, counted) == (coarser, coarser_counted) {
@@ -110,17 +110,12 @@ impl Quantity {
         if !(value.is_finite() && coarser.is_finite()) || value == 0.0 {
             return None;
         }
-        let line = fine.shape.0 == 1 || fine.shape.1 == 1;
         let difference = (value - coarser) / value;
         if self == Self::Area {
-            let edge = (counted / value - 1.0).abs();
-            if line {
-                return Some((difference / 3.0).hypot(0.4 * edge * edge));
-            }
-            let [scatter, adhesion] = at_edge(&fine.area, mu_rho);
-            return Some((0.25 * difference).hypot(0.08 * scatter).hypot(0.1 * edge * edge).hypot(adhesion));
+            return Some((0.25 * difference).hypot(places).hypot(adhesion));
         }
         let edge = (counted - coarser_counted) / counted.max(coarser_counted).max(f64::MIN_POSITIVE);
+        let line = fine.shape.0 == 1 || fine.shape.1 == 1;
         let (share, of_edge) = match self {
             // there all is of first order, or of second
             Self::Stiffness if line => (1.0, 0.3),
@@ -131,10 +126,10 @@ impl Quantity {
         Some((share * difference).hypot(of_edge * edge))
     }
 
-    /// The relative error on a grid beside which there is no coarser one, with so many nodes in the shortest wave.
-    fn by_waves(self, level: &Level, nodes_per_wave: f64, mu_rho: f64) -> Option<f64> {
-        let [scatter, adhesion] = at_edge(&level.area, mu_rho);
-        let error = self.expected(nodes_per_wave).hypot(0.2 * scatter).hypot(adhesion);
+    /// The relative error on a grid beside which there is no coarser one, with so many nodes in the shortest wave and the
+    /// errors at the edge of its area.
+    fn by_waves(self, nodes_per_wave: f64, [places, adhesion]: [f64; 2]) -> Option<f64> {
+        let error = self.expected(nodes_per_wave).hypot(2.0 * places).hypot(adhesion);
         (self == Self::Area && nodes_per_wave.is_finite() && error.is_finite()).then_some(error)
     }
 
@@ -150,11 +145,18 @@ impl Quantity {
     }
 }
 
-/// The scatter of the edge between the nodes, but for a factor, and the part of the adhesion in the relative error of
-/// the corrected area, by the nodes in contact beyond the edge.
-fn at_edge(area: &ContactArea, mu_rho: f64) -> [f64; 2] {
+/// The relative error of the corrected area by the places of its edge, with so many nodes in the shortest wave, and by
+/// the adhesion there.
+fn at_edge(area: &ContactArea, nodes_per_wave: f64, mu_rho: f64) -> [f64; 2] {
+    let (edges, nodes) = (area.edges as f64, area.contact_nodes as f64);
     let beyond = (area.contact_fraction / area.corrected_contact_fraction - 1.0).abs();
-    [(beyond / area.contact_nodes as f64).sqrt(), 0.1 * mu_rho * mu_rho.sqrt() * beyond]
+    let adhesion = 0.1 * mu_rho * mu_rho.sqrt() * beyond;
+    if area.edges == 0 {
+        return [0.0, adhesion];
+    }
+    let [contact, apart] = [nodes, nodes / area.contact_fraction - nodes].map(|nodes| edges / nodes.max(1.0));
+    let alike = (0.1 * contact * (contact + 2.0 * apart)).hypot(4.0 / nodes_per_wave.powi(2));
+    [(0.03 * contact / area.places.sqrt()).hypot(alike / area.places), adhesion]
 }
 
 impl fmt::Display for Quantity {
@@ -225,19 +227,24 @@ const ORDERS: (f64, f64) = (0.5, 3.0);
 ///
 /// | quantity | terms |
 /// |---|---|
-/// | corrected area A_c | δA_c/4, ε²/10, 0.08 √(ε/N), 0.1 μ_ρ^{3/2} ε |
+/// | corrected area A_c | δA_c/4, 0.03 κ/√M, 0.1 κ(κ + 2κ')/M, 4/(n² M), 0.1 μ_ρ^{3/2} ε |
 /// | contact stiffness k | 0.3 δk, 0.11 δA |
 /// | mean gap ḡ, mean pressure p̄ | 0.15 δḡ, 0.001 δA, and with p̄ likewise |
 ///
-/// where A is the area as nodes count it, N their number, and ε = A/A_c − 1. On a line the terms are δA_c/3 and 0.4 ε²,
-/// and the factors 1 and 0.3 for the stiffness, and 1/3 and 0.02 for gap and pressure. ε and δA tell how many of the
-/// nodes in contact are at the edge, and so the scale of all that depends on where between the nodes the edge falls;
-/// δQ alone may be small by luck. The error of the corrected area falls with the second order, for which the share of
-/// δA_c is 1/3, or faster while waves have few nodes. It scatters with the εN nodes beyond the edge, each of which is
-/// wrong by itself, and where the zone of the adhesion has few nodes, 1/μ_ρ², a share of ε is left. Without a coarser
-/// grid the error of the area is told by its scatter, 0.2 √(ε/N), the adhesion, and what rough surfaces have with n
-/// nodes in the shortest wave, 0.3/n². The factors are fitted to rough surfaces, and the page
-/// [`choosing`](crate::guide::choosing) has how good the estimates are on others.
+/// where A is the area as nodes count it, and ε = A/A_c − 1; κ and κ' are the neighbours between which the edge runs
+/// ([`ContactArea::edges`]), over the nodes in contact and over those apart; M is the number of them that are
+/// independent ([`ContactArea::places`]), and n that of the nodes in the shortest wave. On a line the factors are 1 and
+/// 0.3 for the stiffness, and 1/3 and 0.02 for gap and pressure. κ and δA tell how many of the nodes are at the edge, and
+/// so the scale of all that depends on where between the nodes the edge falls; δQ alone may be small by luck.
+///
+/// The error of the corrected area falls with the second order, for which the share of δA_c is 1/3, or faster while
+/// waves have few nodes. Each place of the edge is wrong by itself, and on a rough surface these errors average. Along a
+/// strip all of the edge is between the same rows of nodes, and wrong in the same way, the more so where contacts or the
+/// gaps between them are a few nodes wide, or waves: M is 2 for a wave along a side, and some hundreds for a rough
+/// surface of 128² nodes. Where the zone of the adhesion has few nodes, 1/μ_ρ², a share of ε is left. Without a coarser
+/// grid 0.3/n², which rough surfaces have, takes the place of δA_c/4, and the terms with M count twice. The factors are
+/// fitted to rough surfaces, strips and lattices, and the page [`choosing`](crate::guide::choosing) has how good the
+/// estimates are on others.
 ///
 /// A grid counts if it has the same waves, the shortest of which ([`Surface::nodes_per_wave`]) with at least four
 /// nodes, resolves the adhesion (μ_ρ ≤ 0.5), and, if it is a coarser one, was solved to 3e-3. The estimates of gap and
@@ -315,9 +322,10 @@ impl GridError {
             return Some(Self { relative, order, rough: quantity == Quantity::Stiffness && !fine });
         }
         let line = finest.shape.0 == 1 || finest.shape.1 == 1;
+        let at_edge = at_edge(&finest.area, nodes_per_wave, mu_rho);
         let (relative, sure) = match coarser {
-            Some(coarser) => (quantity.by_coarser(finest, coarser, mu_rho)?, fine && !line),
-            None if resolves(1.0) => (quantity.by_waves(finest, nodes_per_wave, mu_rho)?, false),
+            Some(coarser) => (quantity.by_coarser(finest, coarser, at_edge)?, fine && !line),
+            None if resolves(1.0) => (quantity.by_waves(nodes_per_wave, at_edge)?, false),
             None => return None,
         };
         Some(Self { relative, order, rough: quantity != Quantity::Area || !sure || relative == 0.0 })

@@ -22,6 +22,7 @@ mod distribution;
 mod original;
 mod outline;
 mod patch;
+mod places;
 
 pub use area::ContactArea;
 pub use clusters::{Clusters, Connectivity};
@@ -274,7 +275,7 @@ impl ContactStatistics {
         let facing = grid.total(gap.iter().filter(|gap| gap.is_finite()).count());
         let periodic = boundary == Boundary::Periodic;
         let outline = Outline { gap, contact_pressure, map: contact.view(), grid, periodic, modulus };
-        let ContactArea { contact_nodes, contact_fraction, corrected_contact_fraction, perimeter } =
+        let ContactArea { contact_nodes, contact_fraction, corrected_contact_fraction, perimeter, .. } =
             ContactArea::within_edge(&outline, facing);
         let share = |count: usize| count as f64 / facing as f64;
         let attracts = attracting(&contact, gap, slab, law);

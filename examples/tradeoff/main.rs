@@ -8,7 +8,9 @@
 //! tolerance, precision, nested grids, method (`rey2017` on small grids only).
 //!
 //! The fifth, `knob`, is another experiment: on 120 rough scenes it compares the estimated error of the grid with the
-//! true one, and asks for accuracies of the contact area, which it compares with the best choice by hand.
+//! true one, and asks for accuracies of the contact area, which it compares with the best choice by hand. The sixth,
+//! `strips`, asks for them on surfaces whose contact edges are at few independent places: waves, scratches and ground
+//! surfaces along the sides and at angles to them, and lattices.
 //!
 //! Errors are relative, and root mean squares over a few loads, as the error of an area depends on how the edge falls
 //! between the nodes. The discretisation error is the difference between the solution converged to 1e-12 on the grid
@@ -24,6 +26,7 @@ mod front;
 mod knob;
 mod picture;
 mod scene;
+mod strips;
 mod table;
 
 use std::path::PathBuf;
@@ -36,13 +39,15 @@ use scene::Scene;
 
 /// The scene of many surfaces, on which accuracies are asked for.
 const KNOB: &str = "knob";
+/// That of strips and lattices.
+const STRIPS: &str = "strips";
 
 #[derive(Parser)]
 struct Arguments {
     /// Small grids and some seconds; without it all takes a few minutes, most of them for the references
     #[arg(long)]
     quick: bool,
-    /// One scene alone: hertz, wave, rough, adhesive or knob
+    /// One scene alone: hertz, wave, rough, adhesive, knob or strips
     #[arg(long, value_name = "NAME")]
     scene: Option<String>,
     /// The threads on which solves are timed; the references are computed on all
@@ -59,11 +64,11 @@ struct Arguments {
 fn main() -> Outcome<()> {
     let options: Arguments = arguments::read(include_str!("main.rs"));
     let mut scenes = Scene::all(options.quick, options.reference)?;
-    let names: Vec<_> = scenes.iter().map(|scene| scene.name).chain([KNOB]).collect();
-    let knob = options.scene.as_ref().is_none_or(|name| name == KNOB);
+    let names: Vec<_> = scenes.iter().map(|scene| scene.name).chain([KNOB, STRIPS]).collect();
+    let [knob, strips] = [KNOB, STRIPS].map(|own| options.scene.as_ref().is_none_or(|name| name == own));
     if let Some(name) = &options.scene {
         scenes.retain(|scene| scene.name == name);
-        if scenes.is_empty() && !knob {
+        if scenes.is_empty() && !knob && !strips {
             return Err(format!("--scene {name}: the scenes are {}", names.join(", ")).into());
         }
     }
@@ -85,6 +90,9 @@ fn main() -> Outcome<()> {
     }
     if knob {
         pool.install(|| knob::measure(options.quick, &options.out))?;
+    }
+    if strips {
+        pool.install(|| strips::measure(options.quick))?;
     }
     Ok(())
 }

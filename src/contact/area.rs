@@ -4,7 +4,7 @@ use ndarray::{ArrayView1, ArrayView2};
 
 #[cfg(doc)]
 use super::ContactStatistics;
-use super::outline::Outline;
+use super::outline::{Edge, Outline};
 use super::{check, contact_map};
 use crate::elastic::Boundary;
 use crate::error::{Error, Result};
@@ -38,6 +38,11 @@ pub struct ContactArea {
     pub corrected_contact_fraction: f64,
     /// The length of the edge of the contact, as [`ContactStatistics::perimeter`].
     pub perimeter: f64,
+    /// The number of neighbours between which the edge runs: one is in contact, and the other apart.
+    pub edges: usize,
+    /// How many of the `edges` are independent: at places of their own between the nodes, as far as gaps and pressures
+    /// tell. The edge of a strip along the nodes is at the same place everywhere.
+    pub places: f64,
 }
 
 impl ContactArea {
@@ -59,7 +64,7 @@ impl ContactArea {
     pub fn of(map: ArrayView2<'_, bool>, grid: &Grid) -> Result<Self> {
         let slab = grid.slab();
         Error::agreed(slab, Error::shape("contact map", map.dim(), grid.field_shape()))?;
-        Ok(Self::within(map, grid, true, grid.nodes(), |edges| excess_of_map(edges, grid)))
+        Ok(Self::within(map, grid, true, grid.nodes(), |along| edge_of_map(along, grid)))
     }
 
     /// The area of a solution on its grid, within the edge that its gap and contact pressure tell. Shares are of the
@@ -97,34 +102,36 @@ impl ContactArea {
     pub(super) fn within_edge<T: Real>(outline: &Outline<'_, T>, facing: usize) -> Self {
         let &Outline { map, grid, periodic, modulus, .. } = outline;
         let known = modulus.is_finite() && modulus > 0.0;
-        let excess = |edges| if known { outline.excess() } else { excess_of_map(edges, grid) };
-        Self::within(map, grid, periodic, facing, excess)
+        let edge = |along| if known { outline.edge() } else { edge_of_map(along, grid) };
+        Self::within(map, grid, periodic, facing, edge)
     }
 
-    /// The area on a map, of whose nodes so many face the half-space, less an excess in cells that may depend on the
-    /// numbers of edges.
+    /// The area on a map, of whose nodes so many face the half-space, within an edge that may depend on its numbers of
+    /// neighbours along x and y.
     fn within(
         map: ArrayView2<'_, bool>,
         grid: &Grid,
         periodic: bool,
         facing: usize,
-        excess: impl FnOnce((usize, usize)) -> f64,
+        edge: impl FnOnce((usize, usize)) -> Edge,
     ) -> Self {
         let contact_nodes = map.fold(0, |count, &touches| count + usize::from(touches));
         let contact_nodes = grid.total(contact_nodes);
         let (along_x, along_y) = edges(map, grid, periodic);
         let (dx, dy) = grid.spacing();
         let perimeter = if grid.is_line() { along_x as f64 } else { along_x as f64 * dy + along_y as f64 * dx };
-        let (nodes, excess) = (facing as f64, excess((along_x, along_y)));
+        let (nodes, Edge { excess, edges, places }) = (facing as f64, edge((along_x, along_y)));
         let (contact_fraction, corrected_contact_fraction) =
             (contact_nodes as f64 / nodes, (contact_nodes as f64 - excess) / nodes);
-        Self { contact_nodes, contact_fraction, corrected_contact_fraction, perimeter }
+        Self { contact_nodes, contact_fraction, corrected_contact_fraction, perimeter, edges, places }
     }
 }
 
-/// The area of a map beyond that within its edge, in cells, by its numbers of edges along x and y.
-fn excess_of_map((along_x, along_y): (usize, usize), grid: &Grid) -> f64 {
-    if grid.is_line() { 0.0 } else { EDGE_EXCESS * (along_x + along_y) as f64 }
+/// The edge of a map of which nothing else is known, by its numbers of neighbours along x and y.
+fn edge_of_map((along_x, along_y): (usize, usize), grid: &Grid) -> Edge {
+    let edges = along_x + along_y;
+    let excess = if grid.is_line() { 0.0 } else { EDGE_EXCESS * edges as f64 };
+    Edge { excess, edges, places: edges as f64 }
 }
 
 /// The number of pairs of neighbours along x, and along y, of which one is on the map and one is not; opposite sides

@@ -5,6 +5,7 @@ use std::f64::consts::{E, PI};
 use ndarray::ArrayView2;
 
 use super::contact_map;
+use super::places::Places;
 use crate::field::flat;
 use crate::grid::Grid;
 use crate::real::Real;
@@ -40,6 +41,15 @@ pub(super) struct Outline<'a, T> {
     pub modulus: f64,
 }
 
+/// The edge of a contact.
+pub(super) struct Edge {
+    /// the area of the nodes in contact beyond that within the edge, in cells
+    pub excess: f64,
+    /// the neighbours between which the edge runs, and how many are at independent places
+    pub edges: usize,
+    pub places: f64,
+}
+
 /// What the edge does from one node to the next.
 struct Step {
     /// gap per pressure along x and y
@@ -67,13 +77,15 @@ impl Node {
 struct Cut {
     /// from the node in contact, in spacings
     place: f64,
+    /// the same by pressure and gap alone, however soft the contact is
+    told: f64,
     /// the share of the kink of a hard wall
     kink: f64,
 }
 
 impl<T: Real> Outline<'_, T> {
-    /// The area of the nodes in contact beyond that within the edge, in cells.
-    pub fn excess(&self) -> f64 {
+    /// The edge between the nodes.
+    pub fn edge(&self) -> Edge {
         let Self { gap, contact_pressure, map, grid, periodic, modulus } = self;
         let slab = grid.slab();
         let (rows, columns) = map.dim();
@@ -93,7 +105,7 @@ impl<T: Real> Outline<'_, T> {
         let row = |i: usize| &touching.as_slice().unwrap_or_default()[i * columns..][..columns];
         // whether the four nodes of a cell are not all of one kind
         let mut mixed = Vec::with_capacity(columns);
-        let mut excess = 0_i64;
+        let (mut excess, mut places) = (0_i64, Places::new());
         for i in 0..rows {
             if !periodic && slab.rows().start + i + 1 == grid.shape().0 {
                 break;
@@ -106,7 +118,7 @@ impl<T: Real> Outline<'_, T> {
                 _ => (row(i), row(below), &|j| node(below, j)),
             };
             if grid.is_line() {
-                excess += fixed(step.of_side(node(i, 0), node_below(0)));
+                excess += fixed(step.of_side(node(i, 0), node_below(0), &mut places));
                 continue;
             }
             let cells = here.iter().zip(&here[1..]).zip(there.iter().zip(&there[1..]));
@@ -118,11 +130,14 @@ impl<T: Real> Outline<'_, T> {
             }
             for (j, _) in mixed.iter().enumerate().filter(|(_, mixed)| **mixed) {
                 let next = (j + 1) % columns;
-                excess += fixed(step.of_cell([node(i, j), node_below(j), node_below(next), node(i, next)]));
+                let corners = [node(i, j), node_below(j), node_below(next), node(i, next)];
+                excess += fixed(step.of_cell(corners, &mut places));
             }
         }
+        let places = places.total(slab);
         // sums of negative numbers wrap around as well
-        grid.total(excess as usize) as i64 as f64 / CELL
+        let excess = grid.total(excess as usize) as i64 as f64 / CELL;
+        Edge { excess, edges: places.edges(), places: places.independent() }
     }
 }
 
@@ -139,22 +154,24 @@ impl Step {
         let (below, above) = (-inside.gap.min(0.0), inside.gap.max(0.0));
         let (depth, opening) = (pressed + below, outside.gap - above);
         let hard = if pressed + below + above > 0.0 { pressed / (pressed + below + above) } else { 1.0 };
-        let place = if depth + opening > 0.0 { (depth / (depth + opening)).clamp(0.0, 1.0) } else { 0.5 };
-        let place = if above > 0.0 { hard * place + (1.0 - hard) * 0.5 } else { place };
-        Cut { place, kink: hard * hard * hard }
+        let told = if depth + opening > 0.0 { (depth / (depth + opening)).clamp(0.0, 1.0) } else { 0.5 };
+        let place = if above > 0.0 { hard * told + (1.0 - hard) * 0.5 } else { told };
+        Cut { place, told, kink: hard * hard * hard }
     }
 
-    /// The excess between two nodes of a line.
-    fn of_side(&self, one: Node, other: Node) -> f64 {
+    /// The excess between two nodes of a line, with its place.
+    fn of_side(&self, one: Node, other: Node, places: &mut Places) -> f64 {
         if one.touches == other.touches || one.gap.is_infinite() || other.gap.is_infinite() {
             return 0.0;
         }
-        let Cut { place, kink } = self.cut(one, other, 0);
+        let Cut { place, told, kink } = self.cut(one, other, 0);
+        places.add(told);
         0.5 - (place - self.shift * kink)
     }
 
-    /// The excess within the rectangle of four nodes, not all of one kind, which follow each other around it.
-    fn of_cell(&self, corners: [Node; 4]) -> f64 {
+    /// The excess within the rectangle of four nodes, not all of one kind, which follow each other around it, with the
+    /// places on the sides that meet in the first.
+    fn of_cell(&self, corners: [Node; 4], places: &mut Places) -> f64 {
         // where the surface ends there is nothing beyond its nodes
         if corners.iter().any(|corner| corner.gap.is_infinite()) {
             return 0.0;
@@ -165,6 +182,7 @@ impl Step {
             true => Cut::default(),
             false => self.cut(corners[k], corners[(k + 1) % 4], k % 2),
         });
+        [0, 3].into_iter().filter(|&k| touches(k) != touches(k + 1)).for_each(|k| places.add(sides[k].told));
         let around = |k: usize| [sides[(k + 3) % 4], sides[k]];
         let count = (0..4).filter(|&k| touches(k)).count();
         let area = match count {
