@@ -82,6 +82,7 @@ class Scene:
             "version": _asperity.VERSION,
         }
         self._adhesion = law
+        self._unloads = branch == "unloading"
         self._warned: set[str] = set()
         if self.topography.periodic is False and boundary == "periodic":
             warn(
@@ -115,7 +116,7 @@ class Scene:
                 "whole=True for the force on all of them"
             )
         if start is None:
-            return self._afar(loads)
+            return None if self._unloads else self._afar(loads)
         if isinstance(start, str):
             if start != "apart":
                 raise ValueError(f"start is {start!r}: it must be 'apart', an array of gaps, or a solution")

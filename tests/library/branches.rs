@@ -233,3 +233,47 @@ fn tips_under_next_to_no_load_find_the_force_that_holds_them() {
         }
     }
 }
+
+/// The contact under pressures and adhesions of a rough surface, by loading, in the largest equilibrium and by
+/// unloading, with the applications that they take. Prints the table of the page `branches`.
+#[test]
+#[ignore = "takes a minute"]
+fn the_branch_of_loading_is_kept_where_the_grid_resolves_the_adhesion() {
+    let grid = Grid::square(64, 1.0).unwrap();
+    let surface = common::rough::rough(grid, 5, 1);
+    let (mut taken, mut scenes) = ([0; 2], 0);
+    println!("mu_rho  pressure  loading  largest  unloading  applications");
+    for (w, range) in [(1.42e-2, 2.9e-2), (6e-3, 1e-2), (3e-3, 4e-3), (2e-3, 2e-3), (1.42e-3, 1e-3)] {
+        let law = Exponential::new(w, range).unwrap();
+        let mut problem = Problem::new(&surface, Westergaard::<f64>::new(grid, 1.0).unwrap(), law).unwrap();
+        for pressure in [2e-3, 2e-2, 0.2] {
+            let control = Control::MeanPressure(pressure);
+            let [loading, unloading] = [Branch::Loading, Branch::Unloading].map(|branch| {
+                let settings = Settings { branch: Some(branch), ..Settings::default() };
+                common::solve_to(&mut problem, control, settings, Start::Default)
+            });
+            let largest = by_held_tractions(&surface, &law, control, &loading.gap + 100.0 * range);
+            let of_largest = largest.iter().filter(|&&gap| gap == 0.0).count() as f64 / 4096.0;
+            let [counts, shares] = [
+                [&loading, &unloading].map(|found| found.report.operator_applications as f64),
+                [&loading, &unloading].map(|found| found.report.contact_fraction),
+            ];
+            println!(
+                "{:6.2} {pressure:9.0e} {:8.4} {of_largest:8.4} {:10.4}  {:4} {:4}",
+                problem.mu_rho(),
+                shares[0],
+                shares[1],
+                counts[0],
+                counts[1]
+            );
+            taken[0] += loading.report.operator_applications;
+            taken[1] += unloading.report.operator_applications;
+            scenes += 1;
+            assert!(shares[0] >= of_largest - 1e-3 && shares[0] <= shares[1] + 1e-3);
+            if problem.mu_rho() < 1.0 {
+                assert!(apart(&loading.gap, &largest, range) < 1e-3);
+            }
+        }
+    }
+    println!("{scenes} scenes: {} applications by loading, {} by unloading", taken[0], taken[1]);
+}

@@ -41,7 +41,7 @@ impl Boundary {
     }
 
     /// The gap of a body that comes from afar: undeformed, at the approach at which `loads` begin, if they grow from
-    /// one before touch. With adhesion the default start of a solve would find the body sticking.
+    /// one before touch. The default start of a solve under a pull would find the body sticking.
     pub fn start_afar(self, surface: &Surface, loads: &[Control]) -> Option<Array2<f64>> {
         let (from, to) = match *loads {
             [Control::Approach(from), Control::Approach(to), ..] => (from, to),

@@ -167,7 +167,8 @@ impl Options {
             imbalance: self.imbalance,
             smooth: !self.sharp,
         };
-        let afar = if start.is_none() { self.surface.beyond.boundary.start_afar(&surface, &loads) } else { None };
+        let comes = start.is_none() && self.solver.comes_from_afar();
+        let afar = if comes { self.surface.beyond.boundary.start_afar(&surface, &loads) } else { None };
         let mut path = Path::new(&mut solver, &mut problem, loads, settings)?;
         let given = (&surface, &origin, &adhesion, start.as_ref());
         let (mut table, saved) = Table::open::<T>(options, &header, given, identity, None)?;

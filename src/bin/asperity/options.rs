@@ -208,6 +208,11 @@ impl SolverOptions {
         Ok(Some(start))
     }
 
+    /// Whether bodies may come from afar: not on the branch of unloading.
+    pub fn comes_from_afar(&self) -> bool {
+        self.branch != Some(Branches::Unloading)
+    }
+
     /// Refuses both branches of equilibria where each state starts from the one before.
     pub fn check_table(&self) -> Outcome<()> {
         match self.branch {

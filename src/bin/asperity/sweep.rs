@@ -145,7 +145,8 @@ impl Options {
         let given = (&surface, &origin, &adhesion, start.as_ref());
         let (mut table, saved) = Table::open::<T>(options, &header, given, identity, Some(loads))?;
         let done = table.rows();
-        let start = start.or_else(|| self.surface.beyond.boundary.start_afar(&surface, &self.loads.controls(&listed)));
+        let afar = || self.surface.beyond.boundary.start_afar(&surface, &self.loads.controls(&listed));
+        let start = start.or_else(|| self.solver.comes_from_afar().then(afar).flatten());
         drop(surface);
         let controls = self.loads.controls(loads);
 
