@@ -56,6 +56,14 @@ impl<T: Real, L: Real> State<'_, T, L> {
         contact + self.load.stiffness()
     }
 
+    /// Whether bodies that are apart and at rest have yet to follow a spring that is softer than the preconditioner takes
+    /// the mean gap to be.
+    pub(super) fn hangs_on_spring(&self) -> bool {
+        let spring = self.load.stiffness();
+        let soft = spring > 0.0 && spring < LEAST_MEAN * self.operators.state().stiffness_range().0;
+        soft && self.tally.contact == 0.0 && self.relative_error() <= self.settings.tolerance_in::<T>()
+    }
+
     /// Whether the contacts are where they will be, but for some nodes.
     fn is_settled(&self) -> bool {
         let loaded =

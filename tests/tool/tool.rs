@@ -398,6 +398,17 @@ fn results_are_replaced_only_with_force() {
 }
 
 #[test]
+fn a_load_that_is_not_met_is_said_alone() {
+    let bench = Bench::new();
+    let spring = "--boundary free --spring-stiffness 1e-6 --spring-position=-0.1";
+    let output = bench.run(&format!("solve --heights heights.npy {spring} --max-iterations 0 --out apart"));
+    assert_eq!(output.status.code(), Some(2));
+    let (warning, report) = (text(&output.stderr), bench.report("apart"));
+    assert!(warning.contains("not converged (iteration-limit): load error 1.0e0 after 0 iterations"), "{warning}");
+    assert!(number(&report, "relative_error") < 1e-10 && number(&report, "load_error") == 1.0);
+}
+
+#[test]
 fn what_did_not_converge_is_written_and_said() {
     let bench = Bench::new();
     for (arguments, status, remedy) in [
