@@ -119,7 +119,10 @@ impl<T: Real, L: Real> State<'_, T, L> {
         let length = std::mem::replace(&mut self.step_length, 1.0);
         self.fields.preconditioned.fill(L::zero());
         let trial = self.trial(shift, None);
-        let step = if trial.clipped || trial.slope >= 0.0 { None } else { self.search(&trial, 0.0) };
+        // of the sum of r: in that of r', which is of L, the waves have left their rounding
+        let slope = trial.change * self.tally.sum_r / self.tally.free;
+        let trial = Trial { slope, descent: slope, ..trial };
+        let step = if trial.clipped || slope >= 0.0 { None } else { self.search(&trial, 0.0) };
         self.step_length = length;
         if let Some(step) = &step {
             self.fields.residual.fill(L::zero());

@@ -75,7 +75,7 @@ impl<T: Real, L: Real> State<'_, T, L> {
             let side = next.unwrap_or(section % 2);
             let width = interval[1] - interval[0];
             gaps[side] = if side == 0 { interval[1] - GOLDEN * width } else { interval[0] + GOLDEN * width };
-            held[side] = match self.tension_at(gaps[side], &mut *observe)? {
+            held[side] = match self.tension_at(gaps[side], HARDLY * -load, &mut *observe)? {
                 Some(tension) if tension >= -load => {
                     self.go_on(Load::Pressure(load), Goal::Solution)?;
                     self.stays_near();
@@ -100,10 +100,12 @@ impl<T: Real, L: Real> State<'_, T, L> {
         Ok(false)
     }
 
-    /// The tension at a given mean gap, from the present contact or from a uniform gap; nothing if the solve was
-    /// stopped or ran out of iterations.
-    fn tension_at(&mut self, gap: f64, observe: Observer<'_>) -> Result<Option<f64>> {
-        if self.tally.contact == 0.0 {
+    /// The tension at a given mean gap, from the present contact or, where hardly any is held, from a uniform gap;
+    /// nothing if the solve was stopped or ran out of iterations.
+    fn tension_at(&mut self, gap: f64, hardly: f64, observe: Observer<'_>) -> Result<Option<f64>> {
+        // where the law itself keeps the surfaces apart, it may hold them with no node pressed
+        let holds = !self.projects() && self.tally.traction > hardly * self.nodes();
+        if self.tally.contact == 0.0 && !holds {
             self.fields.gap.fill(T::lit(gap));
         } else if !self.projects() && self.flat.window.is_none() {
             self.open_to(gap);

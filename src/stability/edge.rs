@@ -89,7 +89,8 @@ impl EdgeError {
         // the approach since a node came into contact, or until it will
         let distance = |node| {
             let apart = gap.at(node);
-            let (value, rate) = if apart > 0.0 { (apart, opening.at(node)) } else { (pressure.at(node), lost.at(node)) };
+            let (value, rate) =
+                if apart > 0.0 { (apart, opening.at(node)) } else { (pressure.at(node), lost.at(node)) };
             (apart > 0.0, value / rate, rate)
         };
         // of each node at the edge its jump, what it releases in contact, and its wave

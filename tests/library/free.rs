@@ -732,7 +732,8 @@ fn bodies_apart_follow_the_softest_spring_to_its_rest() {
         assert!((found - rest).abs() <= tolerance * (0.05 + distance), "{name}");
     }
     for surface in [sphere(64, 0.4), bumps((48, 40))] {
-        for (free, stiffness) in [false, true].into_iter().flat_map(|free| (0..9).map(move |k| (free, 0.1_f64.powi(k)))) {
+        for (free, stiffness) in [false, true].into_iter().flat_map(|free| (0..9).map(move |k| (free, 0.1_f64.powi(k))))
+        {
             for distance in [1e-3, 1e-2, 0.1, 1.0] {
                 check::<f64>(&surface, free, (stiffness, distance), 4e-15);
                 if distance < 0.5 {
