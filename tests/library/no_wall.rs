@@ -313,7 +313,7 @@ fn a_tension_is_held_without_a_wall_as_it_is_beside_one() {
         }
     }
     // next to the pull-off a hold may lie between the mean gaps that are tried
-    assert!(held >= 47 && lost.iter().all(|name| name.starts_with("0.95")), "{held}: {lost:#?}");
+    assert!(held >= 46 && lost.iter().all(|name| name.starts_with("0.95")), "{held}: {lost:#?}");
 }
 
 #[test]
