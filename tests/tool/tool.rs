@@ -400,7 +400,8 @@ fn results_are_replaced_only_with_force() {
 #[test]
 fn a_load_that_is_not_met_is_said_alone() {
     let bench = Bench::new();
-    bench.said("surface --form sphere --radius 2 --size 32 --lengths 0.4 --quiet --out tip.npz");
+    let made = bench.run("surface --form sphere --radius 2 --size 32 --lengths 0.4 --quiet --out tip.npz");
+    assert!(made.status.success());
     let spring = "--boundary free --spring-stiffness 1e-6 --spring-position=-0.1";
     let output = bench.run(&format!("solve --heights tip.npz {spring} --max-iterations 0 --out apart"));
     assert_eq!(output.status.code(), Some(2));
