@@ -168,7 +168,8 @@ impl fmt::Display for Quantity {
 impl Surface {
     /// The number of nodes that the shortest wave of the surface has,
     /// [`Spectrum::nodes_per_wave`](crate::Spectrum::nodes_per_wave); with a boundary that does not repeat, of the
-    /// surface continued by its mirror images.
+    /// surface continued by its mirror images. Where several processes share the grid it is that of the whole surface,
+    /// and all have to ask.
     ///
     /// ```
     /// use asperity::{Boundary, Boussinesq, ElasticOperator, Grid, Surface};
@@ -180,16 +181,18 @@ impl Surface {
     /// # Ok::<(), asperity::Error>(())
     /// ```
     pub fn nodes_per_wave(&self, boundary: Boundary) -> f64 {
-        let mirrored = || {
-            let mut map = Topography::new(self.heights().clone());
-            map.lengths = Some(self.grid().lengths());
+        let mirrored = |whole: &Self| {
+            let mut map = Topography::new(whole.heights().clone());
+            map.lengths = Some(whole.grid().lengths());
             map.mirror().surface()
         };
-        match boundary {
-            Boundary::Periodic => self.spectrum().nodes_per_wave(),
+        let of = |whole: &Self| match boundary {
+            Boundary::Periodic => whole.spectrum().nodes_per_wave(),
             // side lengths and heights are those of a surface
-            Boundary::Free { .. } => mirrored().map_or(0.0, |surface| surface.spectrum().nodes_per_wave()),
-        }
+            Boundary::Free { .. } => mirrored(whole).map_or(0.0, |surface| surface.spectrum().nodes_per_wave()),
+        };
+        // the first of several processes looks at the whole for all of them
+        self.grid().slab().first(self.gathered().map_or(0.0, |whole| of(&whole)))
     }
 }
 

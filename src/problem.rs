@@ -234,11 +234,14 @@ impl<T: Real> PressedFlat<T> {
             }
             None => surface,
         };
-        let mean = whole.mean();
+        let [datum, above] = whole.datum_and_mean();
+        let mean = datum + above;
         let rms_height = whole.rms_about(mean);
         // where nothing faces the body there is no height: those that stand there do not exceed the others
         let (low, high) = surface.grid().extremes(range(flat(surface.heights())));
-        let (peak, height_span) = (high - mean, high - low);
+        let height_span = high - low;
+        // a mean beyond the heights' own size is rounded more than the peak above it may be
+        let peak = if mean.abs() > height_span { (high - datum) - above } else { high - mean };
         let mut surface_pressure = Array2::zeros(whole.grid().field_shape());
         // a large datum would drown the heights in its rounding; a small one is not worth a copy
         let centred = (mean.abs() > rms_height).then(|| whole.heights().mapv(|h| h - mean));

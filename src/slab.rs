@@ -226,6 +226,17 @@ impl Slab {
         if self.is_shared() { self.ranks.each(own)[0] } else { own }
     }
 
+    /// What numbers become when the slabs add theirs to them one after the other: the sums of one process, to the bit.
+    pub(crate) fn in_turn<const N: usize>(&self, add: impl Fn([f64; N]) -> [f64; N]) -> [f64; N] {
+        let mut sums = [0.0; N];
+        for rank in 0..self.ranks.count() {
+            let own = if rank == self.ranks.rank() { add(sums) } else { sums };
+            let shares = self.shares(|from| if from == rank { N } else { 0 });
+            self.ranks.gather(&own[..if rank == self.ranks.rank() { N } else { 0 }], &shares, &mut sums);
+        }
+        sums
+    }
+
     /// Adds up numbers of all slabs.
     pub(crate) fn add_up(&self, own: &mut [u64]) {
         if self.is_shared() {

@@ -198,10 +198,15 @@ impl Surface {
 
     /// The mean height.
     pub fn mean(&self) -> f64 {
-        // about the first height, so that a large datum costs no digits
+        let [datum, above] = self.datum_and_mean();
+        datum + above
+    }
+
+    /// A height, the first one, and how far the mean is above it: that is not rounded to the digits of a large datum.
+    pub(crate) fn datum_and_mean(&self) -> [f64; 2] {
         let slab = self.grid.slab();
         let datum = slab.first(self.heights.first().copied().unwrap_or_default());
-        datum + field::mean_over(slab, self.heights.view(), |h| h - datum)
+        [datum, field::mean_over(slab, self.heights.view(), |h| h - datum)]
     }
 
     /// The root mean square of the heights about their mean.

@@ -183,11 +183,15 @@ class Scene:
 
 def _not_converged(report: dict[str, Any]) -> str:
     text = f"the solve ended as {report['status']} after {report['iterations']} iterations, "
-    text += f"with a certified error of {report['relative_error']:.1e} for a tolerance of {report['tolerance']:.1e}"
+    errors = {"certified": report["relative_error"], "load": report["load_error"]}
+    missed = {name: error for name, error in errors.items() if not error <= report["tolerance"]}
+    told = (f"a {name} error of {error:.1e}" for name, error in (missed or errors).items())
+    text += f"with {' and '.join(told)} for a tolerance of {report['tolerance']:.1e}"
     held = "a mean gap" if report["boundary"] == "periodic" else "an approach"
+    tolerance = "raise the tolerance" + (", or use precision='f64'" if report["precision"] == "f32" else "")
     remedy = {
         "iteration-limit": "raise max_iterations, or start from a solution nearby",
-        "stalled": "raise the tolerance" + (", or use precision='f64'" if report["precision"] == "f32" else ""),
+        "stalled": f"start from a solution nearby, or give {held}" if [*missed] == ["load"] else tolerance,
         "detached": f"no equilibrium holds this tension: press more, or give {held}",
     }.get(report["status"])
     return f"{text}: {remedy}" if remedy else text

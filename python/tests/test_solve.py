@@ -14,6 +14,7 @@ import numpy as np
 import pytest
 
 import asperity
+from asperity._scene import _not_converged
 
 
 def test_fields_are_arrays_of_the_shape_of_the_heights(rough):
@@ -75,6 +76,20 @@ def test_a_solve_that_has_not_converged_is_a_status_and_a_warning(rough):
     assert not solution.converged and solution.status == "iteration-limit"
     assert solution.gap.min() >= 0 and solution.relative_error > 1e-6
     assert caught[0].filename == __file__  # the line of the caller
+
+
+@pytest.mark.parametrize(
+    ("relative_error", "load_error", "text"),
+    [
+        (1.2e-14, 1.0, "with a load error of 1.0e+00 for a tolerance of 1.0e-06: start from a solution nearby"),
+        (1e-3, 1.0, "a certified error of 1.0e-03 and a load error of 1.0e+00 for a tolerance of 1.0e-06: raise the tol"),
+        (1e-3, 0.0, "with a certified error of 1.0e-03 for a tolerance of 1.0e-06: raise the tolerance"),
+    ],
+)
+def test_what_has_not_converged_says_which_error_is_too_large(relative_error, load_error, text):
+    errors = {"relative_error": relative_error, "load_error": load_error, "tolerance": 1e-6}
+    told = {"status": "stalled", "iterations": 9, "boundary": "periodic", "precision": "f64", **errors}
+    assert text in _not_converged(told)
 
 
 def test_a_probable_mistake_is_a_warning_and_in_the_report(rough):

@@ -87,7 +87,7 @@ impl<T: Real, L: Real> State<'_, T, L> {
             (Load::Gap(_), _) => 0.0,
             // contact everywhere: in balance, unless it is under tension somewhere
             (_, 0.0) => self.share_of_load((-self.tally.min_r).max(0.0)),
-            (_, free) => self.share_of_load(self.tally.sum_r / free),
+            _ => self.share_of_load(self.imbalance()),
         }
     }
 

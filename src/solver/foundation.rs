@@ -56,6 +56,20 @@ impl<T: Real, L: Real> State<'_, T, L> {
         contact + self.load.stiffness()
     }
 
+    /// Whether the bodies are apart on a spring that is softer than the preconditioner takes the mean gap to be.
+    pub(super) fn hangs_on_spring(&self) -> bool {
+        let spring = self.load.stiffness();
+        let soft = spring > 0.0 && spring < LEAST_MEAN * self.operators.state().stiffness_range().0;
+        soft && self.tally.contact == 0.0
+    }
+
+    /// The mean of r over the nodes that are apart. That of p has no part in it where all are; of its rounding little is
+    /// much to a soft spring.
+    pub(super) fn imbalance(&self) -> f64 {
+        let balance = || self.given + self.tally.traction / self.nodes();
+        if self.hangs_on_spring() { balance() } else { self.tally.sum_r / self.tally.free }
+    }
+
     /// Whether the contacts are where they will be, but for some nodes.
     fn is_settled(&self) -> bool {
         let loaded =

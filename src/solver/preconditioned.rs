@@ -95,6 +95,11 @@ struct Step {
 impl<T: Real, L: Real> State<'_, T, L> {
     /// A step along the projected, conjugate, preconditioned residual; `false` if no step lowers the energy.
     pub(super) fn preconditioned_step(&mut self) -> Result<bool> {
+        // with the waves at rest
+        let waits = self.hangs_on_spring() && self.relative_error() <= self.settings.tolerance_in::<T>();
+        if waits && self.shift()? {
+            return Ok(true);
+        }
         let length = self.step_length;
         if self.try_step()? {
             return Ok(true);
@@ -107,6 +112,29 @@ impl<T: Real, L: Real> State<'_, T, L> {
         self.residual();
         self.certify()?;
         self.try_step()
+    }
+
+    /// A step of the mean gap alone, to which the body does not respond: its length is that of the spring, and no
+    /// rounding of a response is in it. `false` if it ends at a wall, or does not lower the energy.
+    fn shift(&mut self) -> Result<bool> {
+        let imbalance = self.imbalance();
+        let length = std::mem::replace(&mut self.step_length, 1.0);
+        self.fields.preconditioned.fill(L::zero());
+        let trial = self.trial(-imbalance / self.load.stiffness(), None);
+        // in the sum of r', which is of L, the waves have left their rounding
+        let slope = trial.change * imbalance;
+        let trial = Trial { slope, descent: slope, ..trial };
+        let step = if trial.clipped || slope >= 0.0 { None } else { self.search(&trial, 0.0) };
+        self.step_length = length;
+        if let Some(step) = &step {
+            self.fields.residual.fill(L::zero());
+            self.advance(step);
+            self.left = Left::Nothing;
+        } else {
+            self.residual();
+            self.certify()?;
+        }
+        Ok(step.is_some())
     }
 
     fn try_step(&mut self) -> Result<bool> {

@@ -130,7 +130,11 @@ pub struct Report {
     /// Without adhesion it bounds the distance from the exact discrete solution (under pressure control: the one at
     /// the same mean gap). With adhesion it measures how far the state is from equilibrium, and bounds the error where
     /// that equilibrium is stable. As long as no node is in contact, ⟨h, K⁻¹h⟩ stands for a smaller ⟨u, p⟩, which may
-    /// vanish then. Under the lightest loads ⟨u, p⟩ is computed as ⟨p, K p⟩, which does not cancel, and the error is
+    /// vanish then. Without a wall ([`NoWall`](crate::NoWall)) the nodes that the law holds resist with its slope
+    /// κ = max(φ'', 0), and the norm is that of K⁻¹ + κ: in the place of √⟨r', K r'⟩ there is
+    /// √⟨s r', K s r'⟩ + √⟨(1 − s)² r'²/κ⟩, which bounds the distance in it, with the share s = (1 + κ/k)⁻² of a node in
+    /// the waves, k being 0.4 times the stiffness of the shortest wave, and with r' less its mean weighted by s² where
+    /// the mean gap is given. Under the lightest loads ⟨u, p⟩ is computed as ⟨p, K p⟩, which does not cancel, and the error is
     /// never less than the rounding of the pressure alone makes it, so that it is not understated.
     pub relative_error: f64,
     /// The branch of equilibria on which the solve has started; nothing without adhesion, where there is but one

@@ -2,12 +2,14 @@
 
 use super::driver::{End, Observer, minimise};
 use super::minimisation::Goal;
+use super::passes::Fields;
 use super::report::Status;
 use super::state::State;
 use crate::error::Result;
-use crate::field::{Partial, write};
+use crate::field::{Partial, read, write};
 use crate::problem::Load;
 use crate::real::Real;
+use crate::vector::sums;
 
 /// A share of the load that, held without contact, is hardly any.
 const HARDLY: f64 = 1e-3;
@@ -65,18 +67,15 @@ impl<T: Real, L: Real> State<'_, T, L> {
     /// them close up to an equilibrium.
     pub(super) fn seek_hold(&mut self, observe: Observer<'_>) -> Result<bool> {
         let Load::Pressure(load) = self.load else { return Ok(false) };
-        if !self.projects() {
-            return Ok(false);
-        }
-        let touch = self.flat.peak;
-        let mut interval = [0.5 * touch, 1.5 * touch + 0.5 * REACH * self.law.range().widen()];
+        let (touch, rest) = (self.flat.peak, self.closest().widen());
+        let mut interval = [rest + 0.5 * touch, rest + 1.5 * touch + 0.5 * REACH * self.law.range().widen()];
         let [mut gaps, mut held] = [[0.0; 2]; 2];
         let (mut next, mut tried) = (None, Vec::with_capacity(SECTIONS));
         for section in 0..SECTIONS {
             let side = next.unwrap_or(section % 2);
             let width = interval[1] - interval[0];
             gaps[side] = if side == 0 { interval[1] - GOLDEN * width } else { interval[0] + GOLDEN * width };
-            held[side] = match self.tension_at(gaps[side], &mut *observe)? {
+            held[side] = match self.tension_at(gaps[side], HARDLY * -load, &mut *observe)? {
                 Some(tension) if tension >= -load => {
                     self.go_on(Load::Pressure(load), Goal::Solution)?;
                     self.stays_near();
@@ -101,16 +100,46 @@ impl<T: Real, L: Real> State<'_, T, L> {
         Ok(false)
     }
 
-    /// The tension at a given mean gap, from the present contact or from a uniform gap; nothing if the solve was
-    /// stopped or ran out of iterations.
-    fn tension_at(&mut self, gap: f64, observe: Observer<'_>) -> Result<Option<f64>> {
-        if self.tally.contact == 0.0 {
+    /// The tension at a given mean gap, from the present contact or, where hardly any is held, from a uniform gap;
+    /// nothing if the solve was stopped or ran out of iterations.
+    fn tension_at(&mut self, gap: f64, hardly: f64, observe: Observer<'_>) -> Result<Option<f64>> {
+        // where the law itself keeps the surfaces apart, it may hold them with no node pressed
+        let holds = !self.projects() && self.tally.traction > hardly * self.nodes();
+        if self.tally.contact == 0.0 && !holds {
             self.fields.gap.fill(T::lit(gap));
+        } else if !self.projects() && self.flat.window.is_none() {
+            self.open_to(gap);
         }
         self.go_on(self.holding(gap), Goal::Hold)?;
         let end = minimise(self, observe)?;
         let gave = matches!(end, End::Gave(Status::Stopped | Status::IterationLimit));
         Ok((!gave).then(|| self.multiplier() - self.given))
+    }
+
+    /// The gap of nodes that touch: zero at a wall, and that of rest where the law itself repels.
+    fn closest(&self) -> T {
+        let rest = if self.projects() { None } else { self.law.rest() };
+        rest.unwrap_or_else(T::zero)
+    }
+
+    /// Scales the gaps of the nodes that do not touch, so that the mean gap is as given; where they could not be, all
+    /// gaps become that.
+    fn open_to(&mut self, mean: f64) {
+        let (nodes, closest) = (self.nodes(), self.closest());
+        let Fields { reducer, gap, .. } = &mut self.fields;
+        let total = reducer.run(read(gap), |_, gap| {
+            sums!(2, [gap], [], |i| [gap[i].min(closest).widen(), (gap[i] - closest).max(T::zero()).widen()])
+        });
+        let [near, apart, ..] = total.sum;
+        let scale = (mean * nodes - near) / apart;
+        let possible = scale.is_finite() && scale > 0.0;
+        let (scale, mean) = (T::lit(scale), T::lit(mean));
+        reducer.run(write(gap), |_, gap| {
+            for gap in gap.iter_mut().filter(|gap| !possible || **gap > closest) {
+                *gap = if possible { closest + scale * (*gap - closest) } else { mean };
+            }
+            Partial::NONE
+        });
     }
 
     /// The largest of many tractions of the law: no uniform gap holds more. A peak that is narrower than a hundredth of

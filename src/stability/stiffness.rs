@@ -82,8 +82,7 @@ pub struct ContactStiffness {
     /// The number of operator applications.
     pub operator_applications: usize,
     /// The estimated error of the grid in a periodic cell. Nothing with a free boundary or absent nodes, whose errors
-    /// are others, where no node, or every one, is in contact, where springs or a law are in the place of the wall, and
-    /// where several processes share the grid.
+    /// are others, where no node, or every one, is in contact, and where springs or a law are in the place of the wall.
     pub edge: Option<EdgeError>,
 }
 
@@ -141,8 +140,7 @@ impl ContactStiffness {
         let followed = smoothed.as_deref().unwrap_or(law);
         let slopes = slopes(&solution.gap, (followed, constraint), (operator.grid(), window))?;
         let rigid = matches!(constraint.wall(), Wall::Rigid) && window.is_none();
-        // the edge is looked at on a grid that this process has as a whole
-        let at_edge = rigid && !operator.grid().slab().is_shared() && solution.report.contact_nodes > 0;
+        let at_edge = rigid && solution.report.contact_nodes > 0;
         let smoothed = smoothed.is_some();
         let mut hessian = Hessian::new(operator, slopes, Load::Gap(0.0));
         hessian.hold(flat.stiffness);

@@ -711,6 +711,53 @@ fn bodies_apart_carry_nothing() {
 }
 
 #[test]
+fn bodies_apart_follow_the_softest_spring_to_its_rest() {
+    fn check<T: Real>(surface: &Surface, free: bool, (stiffness, distance): (f64, f64), tolerance: f64) {
+        let grid = *surface.grid();
+        let peak = surface.heights().fold(f64::NEG_INFINITY, |high, &h| high.max(h)) - surface.mean();
+        let rest = if free { -distance } else { peak + distance };
+        let control = Control::Spring { stiffness, rest };
+        let report = if free {
+            let body = Boussinesq::<T>::new(grid, 1.0).unwrap();
+            Solver::default().solve(&mut Problem::new(surface, body, NoAdhesion).unwrap(), control).unwrap().report
+        } else {
+            let body = Westergaard::<T>::new(grid, 1.0).unwrap();
+            Solver::default().solve(&mut Problem::new(surface, body, NoAdhesion).unwrap(), control).unwrap().report
+        };
+        let found = report.approach.unwrap_or(report.mean_gap);
+        let name = format!("{free} {stiffness:e} {distance} {}: {report:?}", T::NAME);
+        assert!(report.status == Status::Converged && report.iterations < 100, "{name}");
+        assert!((found - rest).abs() <= tolerance * (peak + distance), "{name}");
+    }
+    for surface in [sphere(64, 0.4), bumps((48, 40))] {
+        for (free, stiffness) in [false, true].into_iter().flat_map(|free| (0..9).map(move |k| (free, 0.1_f64.powi(k))))
+        {
+            for distance in [1e-3, 1e-2, 0.1, 1.0] {
+                check::<f64>(&surface, free, (stiffness, distance), 4e-15);
+                if distance < 0.5 {
+                    check::<f32>(&surface, free, (stiffness, distance), 2e-6);
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn a_datum_of_a_million_heights_costs_an_approach_nothing() {
+    // heights in units of 2⁻³⁵, so that a datum of 2¹⁷ leaves them as they are
+    let (grid, unit) = (Grid::square(32, 0.4).unwrap(), 2.0_f64.powi(-35));
+    let force = |datum: f64, approach: f64| {
+        let height = |x: f64, y: f64| ((-(x * x + y * y) / 4.0) / unit).round() * unit + datum;
+        let surface = Surface::from_fn(grid, height).unwrap();
+        solve(&mut problem(&surface, NoAdhesion), Control::Approach(approach), 1e-9).report.normal_force
+    };
+    for approach in [1e-6, 1e-5, 1e-4] {
+        let (low, high) = (force(0.0, approach), force(2.0_f64.powi(17), approach));
+        assert!((high / low - 1.0).abs() < 2e-9, "{approach}: {low:e} {high:e}");
+    }
+}
+
+#[test]
 fn applications_hardly_grow_with_the_window() {
     let of = |n: usize| {
         solve(&mut problem(&sphere(n, 0.4), NoAdhesion), Control::Force(1e-3), 1e-6).report.operator_applications

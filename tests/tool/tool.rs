@@ -404,6 +404,19 @@ fn results_are_replaced_only_with_force() {
 }
 
 #[test]
+fn a_load_that_is_not_met_is_said_alone() {
+    let bench = Bench::new();
+    let made = bench.run("surface --form sphere --radius 2 --size 32 --lengths 0.4 --quiet --out tip.npz");
+    assert!(made.status.success());
+    let spring = "--boundary free --spring-stiffness 1e-6 --spring-position=-0.1";
+    let output = bench.run(&format!("solve --heights tip.npz {spring} --max-iterations 0 --out apart"));
+    assert_eq!(output.status.code(), Some(2));
+    let (warning, report) = (text(&output.stderr), bench.report("apart"));
+    assert!(warning.contains("not converged (iteration-limit): load error 1.0e0 after 0 iterations"), "{warning}");
+    assert!(number(&report, "relative_error") < 1e-10 && number(&report, "load_error") == 1.0);
+}
+
+#[test]
 fn what_did_not_converge_is_written_and_said() {
     let bench = Bench::new();
     for (arguments, status, remedy) in [

@@ -157,16 +157,24 @@ pub fn warn(name: &str, account: &Account, case: &Case) {
                  start from its gap by --initial-gap, or follow the branch by asperity cycle --mean-gaps"
             }
             Status::IterationLimit => "the fields are not accurate: raise --max-iterations",
+            _ if report.load_error > tolerance && report.relative_error <= tolerance => {
+                "the load is not carried: try another start by --initial-gap, or hold a --mean-gap, or with a free \
+                 boundary an --approach"
+            }
             _ if report.precision == "f32" => "this is what f32 can do: use --precision f64, or a larger --tolerance",
             _ => "this is the best to be had: use a larger --tolerance, or another start by --initial-gap",
         };
-        let load = match report.load_error {
-            load if load > tolerance => format!(" and load error {load:.1e}"),
-            _ => String::new(),
-        };
+        let errors = [("error", report.relative_error), ("load error", report.load_error)];
+        let missed = errors.iter().filter(|(_, error)| *error > tolerance || error.is_nan());
+        let mut missed: Vec<_> = missed.map(|(name, error)| format!("{name} {error:.1e}")).collect();
+        if missed.is_empty() {
+            missed.push(format!("error {:.1e}", report.relative_error));
+        }
         let text = format!(
-            "{name}not converged ({}): error {:.1e}{load} after {} iterations, tolerance {tolerance:e}; {remedy}",
-            report.status, report.relative_error, report.iterations
+            "{name}not converged ({}): {} after {} iterations, tolerance {tolerance:e}; {remedy}",
+            report.status,
+            missed.join(" and "),
+            report.iterations
         );
         complain("warning", &text);
     }
