@@ -3,6 +3,7 @@
 
 mod accuracy_tool;
 mod bench;
+mod branch_tool;
 
 #[cfg(unix)]
 mod commands;
