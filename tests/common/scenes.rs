@@ -275,6 +275,12 @@ impl Scene {
         self.body == Body::Periodic && !self.heights.iter().any(|h| h.is_nan())
     }
 
+    /// Whether all heights are the same.
+    pub fn is_flat(&self) -> bool {
+        let largest = |heights: &[f64]| heights.iter().fold(0.0_f64, |most, h| most.max(h.abs()));
+        largest(&self.centred()) <= 1e-12 * largest(&self.heights.iter().copied().collect::<Vec<_>>())
+    }
+
     /// The pressure about which the surface is pressed flat.
     fn steepness(&self) -> f64 {
         let ((nx, ny), (dx, dy)) = (self.grid.shape(), self.grid.spacing());
