@@ -180,6 +180,9 @@ impl Law {
     }
 }
 
+/// A problem whose body and law are known at run time.
+pub type Boxed<T> = Problem<T, Box<dyn ElasticOperator<T>>, Box<dyn AdhesionLaw<T>>>;
+
 /// A scene: all that a solve is told.
 #[derive(Clone, Debug)]
 pub struct Scene {
@@ -351,7 +354,7 @@ impl Scene {
         }
     }
 
-    pub fn problem<T: Real>(&self) -> Result<Problem<T, Box<dyn ElasticOperator<T>>, Box<dyn AdhesionLaw<T>>>> {
+    pub fn problem<T: Real>(&self) -> Result<Boxed<T>> {
         Problem::new(&self.surface(), self.operator(), self.law.boxed())
     }
 

@@ -292,12 +292,15 @@ impl Account {
     }
 }
 
+/// What may be wrong with a solution, by name.
+type Wrong = (&'static str, fn(&mut Solution<f64>));
+
 /// What a solution may be wrong in is noticed.
 #[test]
 fn the_matrices_notice_what_is_wrong() {
     let features =
         Features { precisions: &[Precision::Mixed], laws: &[Kind::None, Kind::Exponential], ..Features::HARD };
-    let wrongs: [(&str, fn(&mut Solution<f64>)); 8] = [
+    let wrongs: [Wrong; 8] = [
         ("fields", |solution| solution.report.mean_contact_pressure *= 1.0 + 1e-9),
         ("contact", |solution| solution.report.contact_nodes += 1),
         ("pressure", |solution| solution.pressure.mapv_inplace(|p| p * (1.0 + 1e-6))),
