@@ -209,7 +209,7 @@ fn both<T: Real>(scene: &Scene, stiffness: f64) -> (Solution<T>, Solution<T>, us
 
 #[test]
 fn uzawa_ends_on_random_hard_walls() {
-    let mut touched = 0;
+    let [mut touched, mut otherwise] = [0; 2];
     for seed in 0..400 {
         let scene = Scene::of(seed, &Features { precisions: &[Precision::Mixed], ..Features::HARD });
         // nothing tells how far a plane is to fall
@@ -217,8 +217,10 @@ fn uzawa_ends_on_random_hard_walls() {
             continue;
         }
         let (projected, solution, rounds) = both::<f64>(&scene, scene.stiffness);
-        let floor = projected.report.status == Status::Stalled;
-        assert!(floor || solution.report.status == projected.report.status, "{rounds} rounds in {scene}");
+        // under the lightest loads springs stall where projection does not
+        let same = solution.report.status == projected.report.status;
+        otherwise += usize::from(!same);
+        assert!(same || solution.report.status == Status::Stalled, "{rounds} rounds in {scene}");
         if solution.report.status == Status::Converged && projected.report.contact_nodes > 0 {
             // an error of the tolerance in projection, in the last round, and for what interpenetrates after it
             let (mut operator, surface) = (scene.operator::<f64>(), scene.surface());
@@ -228,7 +230,7 @@ fn uzawa_ends_on_random_hard_walls() {
             touched += 1;
         }
     }
-    assert!(touched > 250, "{touched}");
+    assert!(touched > 250 && otherwise <= 12, "{touched} touch, {otherwise} end otherwise");
 }
 
 #[test]
