@@ -3,7 +3,6 @@
 
 pub mod authors;
 pub mod dense;
-pub mod love;
 pub mod outrun;
 pub mod rough;
 pub mod scenes;
@@ -122,7 +121,7 @@ pub fn rough<T: Real, L: AdhesionLaw<T>>(n: usize, shortest: i32, law: L) -> Pro
 /// The mean of u·K⁻¹u for the difference of two gaps, for the displacement of the second, and for the surface.
 pub fn energy_norms(
     surface: &Surface,
-    operator: &mut Westergaard<f64>,
+    operator: &mut impl ElasticOperator<f64>,
     a: &Array2<f64>,
     b: &Array2<f64>,
 ) -> (f64, f64, f64) {

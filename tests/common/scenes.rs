@@ -1,92 +1,553 @@
-//! Random scenes to hold one way of keeping the surfaces apart against another.
+//! Random small scenes: every body, law, wall, control, start and precision of the library, each from a seed.
+//!
+//! [`Scene::new`] draws from all of them, [`Scene::of`] from those that [`Features`] name.
+
+use std::f64::consts::TAU;
+use std::fmt;
 
 use asperity::*;
-use ndarray::Array2;
+use ndarray::{Array2, ArrayView2, ArrayViewMut2};
 use rand::rngs::ChaCha8Rng;
 use rand::{RngExt, SeedableRng};
 
-#[derive(Clone, Copy, Debug)]
-pub enum Law {
+use super::dense::{Dense, Held};
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Kind {
     None,
-    Exponential(f64, f64),
-    MaugisDugdale(f64, f64),
+    Exponential,
+    MaugisDugdale,
+    LennardJones,
+    Morse,
+    PowerLaw,
+    Table,
+    /// one of the others, cut off
+    CutOff,
+    /// one of the others with a work of adhesion that varies over the surface, cut off or not
+    Varying,
 }
 
-/// A scene on the unit square, or beside it, of a half-space of unit modulus.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Constraint {
+    Hard,
+    /// a hard wall by Algorithm 3 of the paper
+    Paper,
+    Penalty,
+    Uzawa,
+    /// the law alone keeps the surfaces apart
+    None,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Precision {
+    Single,
+    /// `f64`
+    Double,
+    /// `f64` with corrections in `f32`
+    Mixed,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Body {
+    Periodic,
+    Free,
+}
+
+/// What scenes are drawn from.
+#[derive(Clone, Copy, Debug)]
+pub struct Features {
+    pub laws: &'static [Kind],
+    pub constraints: &'static [Constraint],
+    pub precisions: &'static [Precision],
+    pub bodies: &'static [Body],
+    /// whether some have absent nodes
+    pub absent: bool,
+}
+
+impl Features {
+    pub const ALL: Self = Self {
+        laws: &[
+            Kind::None,
+            Kind::Exponential,
+            Kind::MaugisDugdale,
+            Kind::LennardJones,
+            Kind::Morse,
+            Kind::PowerLaw,
+            Kind::Table,
+            Kind::CutOff,
+            Kind::Varying,
+        ],
+        constraints: &[Constraint::Hard, Constraint::Paper, Constraint::Penalty, Constraint::Uzawa, Constraint::None],
+        precisions: &[Precision::Single, Precision::Double, Precision::Mixed],
+        bodies: &[Body::Periodic, Body::Free],
+        absent: true,
+    };
+
+    /// Hard walls in a periodic cell without adhesion: one solution, convex.
+    pub const HARD: Self = Self {
+        laws: &[Kind::None],
+        constraints: &[Constraint::Hard],
+        bodies: &[Body::Periodic],
+        absent: false,
+        ..Self::ALL
+    };
+
+    /// The combinations that there are, as often as they are to be drawn: most of hard walls.
+    fn combinations(&self) -> Vec<(Kind, Constraint, Precision)> {
+        let times = |law: Kind, constraint: Constraint| match (law, constraint) {
+            (Kind::None, Constraint::Hard) => 8,
+            (_, Constraint::Hard) => 3,
+            (Kind::None, Constraint::None) => 0,
+            (Kind::None, _) => 1,
+            (_, Constraint::Paper) => 0,
+            (Kind::LennardJones | Kind::Morse | Kind::CutOff | Kind::Varying, Constraint::None) => 2,
+            (_, Constraint::None) => 0,
+            _ => 1,
+        };
+        let pairs = self.constraints.iter().flat_map(|&constraint| self.laws.iter().map(move |&law| (law, constraint)));
+        let repeated = pairs.flat_map(|pair| std::iter::repeat_n(pair, times(pair.0, pair.1)));
+        let with = |(law, constraint)| self.precisions.iter().map(move |&precision| (law, constraint, precision));
+        repeated.flat_map(with).collect()
+    }
+}
+
+/// An adhesion law: of what kind, with a wall at its gap of rest or none.
+#[derive(Clone, Debug)]
+pub struct Law {
+    pub kind: Kind,
+    /// that which is cut off, or varies
+    pub base: Kind,
+    pub work: f64,
+    pub range: f64,
+    pub wall: bool,
+    pub cut_off: Option<f64>,
+    /// the works of adhesion over that of the law
+    pub shares: Option<Array2<f64>>,
+}
+
+impl Law {
+    pub fn is_none(&self) -> bool {
+        self.kind == Kind::None
+    }
+
+    /// The law at a node as a function of the gap alone; it counts for the work of adhesion times [`Self::share`].
+    pub fn of_gap<T: Real>(&self) -> Box<dyn AdhesionLaw<T>> {
+        Self { shares: None, ..self.clone() }.boxed()
+    }
+
+    pub fn share(&self, node: usize) -> f64 {
+        self.shares.as_ref().map_or(1.0, |shares| shares.as_slice().expect("in rows")[node])
+    }
+
+    /// The gap at which the law alone holds the surfaces apart.
+    pub fn rest(&self) -> f64 {
+        if self.base == Kind::LennardJones && !self.wall { self.range } else { 0.0 }
+    }
+
+    pub fn boxed<T: Real>(&self) -> Box<dyn AdhesionLaw<T>> {
+        let (w, range) = (self.work, self.range);
+        match self.base {
+            Kind::Exponential => self.changed(Exponential::new(w, range).unwrap()),
+            Kind::MaugisDugdale => self.changed(MaugisDugdale::new(w, range).unwrap()),
+            Kind::LennardJones if self.wall => self.changed(LennardJones::new(w, range).unwrap().cut()),
+            Kind::LennardJones => self.changed(LennardJones::new(w, range).unwrap()),
+            Kind::Morse => self.changed(Morse::new(w, range).unwrap()),
+            Kind::PowerLaw => self.changed(PowerLaw::new(w, range, 3.0).unwrap()),
+            Kind::Table => {
+                let points = [(0.0, 1.0), (0.5, 1.2), (1.0, 0.5), (2.0, 0.1), (3.0, 0.0)];
+                let gaps = points.map(|(gap, _)| gap * range);
+                self.changed(Tabulated::new(&gaps, &points.map(|(_, traction)| traction * w / (1.6 * range))).unwrap())
+            }
+            _ => Box::new(NoAdhesion),
+        }
+    }
+
+    fn changed<T: Real, L>(&self, law: L) -> Box<dyn AdhesionLaw<T>>
+    where
+        L: AdhesionLaw<T> + AdhesionLaw<f64> + 'static,
+    {
+        let works = self.shares.as_ref().map(|shares| shares * AdhesionLaw::<f64>::work_of_adhesion(&law));
+        match (self.cut_off, works) {
+            (None, None) => Box::new(law),
+            (None, Some(works)) => Box::new(Varying::new(law, works.view()).unwrap()),
+            (Some(end), None) => Box::new(CutOff::new(law, end).unwrap()),
+            (Some(end), Some(_)) => {
+                let law = CutOff::new(law, end).unwrap();
+                let work = AdhesionLaw::<f64>::work_of_adhesion(&law);
+                Box::new(Varying::new(law, self.shares.as_ref().map(|shares| shares * work).unwrap().view()).unwrap())
+            }
+        }
+    }
+}
+
+/// A problem whose body and law are known at run time.
+pub type Boxed<T> = Problem<T, Box<dyn ElasticOperator<T>>, Box<dyn AdhesionLaw<T>>>;
+
+/// A scene: all that a solve is told.
 #[derive(Clone, Debug)]
 pub struct Scene {
-    pub surface: Surface,
+    pub seed: u64,
+    pub grid: Grid,
+    pub body: Body,
+    pub modulus: f64,
+    /// the shape of the surface by name
+    pub relief: &'static str,
+    /// NaN where the surface is absent
+    pub heights: Array2<f64>,
     pub law: Law,
-    pub control: Control,
-    /// of the springs; in units of the shortest wave's, or of E*/L
+    pub constraint: Constraint,
+    /// of the springs of a wall
     pub stiffness: f64,
-    pub of_waves: bool,
-    pub tolerance: f64,
-    pub single: bool,
+    pub control: Control,
+    pub start: Option<Array2<f64>>,
+    pub settings: Settings,
+    pub precision: Precision,
+}
+
+impl fmt::Display for Scene {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { seed, body, law, constraint, control, settings, precision, .. } = self;
+        let (kind, base, tolerance) = (law.kind, law.base, settings.tolerance.unwrap_or_default());
+        let (shape, absent) = (self.grid.shape(), self.heights.iter().filter(|h| h.is_nan()).count());
+        write!(
+            f,
+            "scene {seed}: {body:?} {shape:?} without {absent}, {}, {kind:?} ({base:?}), {constraint:?}",
+            self.relief
+        )?;
+        let start = if self.start.is_some() { ", with a start" } else { "" };
+        write!(f, ", {control:?}, {precision:?} to {tolerance:.1e}{start}")
+    }
 }
 
 impl Scene {
-    /// Rough, random, spherical, wavy and stepped surfaces of 8² to 48² nodes, or long and narrow; nearly apart to
-    /// nearly flat; half of them hard walls.
+    /// One of all scenes.
     pub fn new(seed: u64) -> Self {
-        let mut random = ChaCha8Rng::seed_from_u64(seed);
-        let n = [8, 12, 16, 24, 32, 48][random.random_range(0..6)];
-        let ny = if random.random_bool(0.3) { [1, 2, 5, 9][random.random_range(0..4)] } else { n };
-        let mut power = |low: f64, high: f64| 10_f64.powf(random.random_range(low..high));
-        let aspect = if ny == n { 1.0 } else { power(-1.0, 1.0) };
-        let (rms, rho, mu) = (power(-3.0, -0.7), power(-2.0, 0.3), power(-1.5, 0.3));
-        let (gap, load, stiff) = (power(-4.0, 0.5), power(-5.0, 0.3), power(0.0, 3.0));
-        let (double_tolerance, single_tolerance) = (power(-8.0, -3.0), power(-4.5, -3.0));
-        let grid = Grid::new((n, ny), (1.0, aspect)).unwrap();
-        let kind = random.random_range(0..6);
-        let shape = match kind {
-            0 | 1 if ny == n => {
-                let k_s = (n / 2) as f64 / 1.01;
-                let surface = SelfAffine { k_l: 1.0, k_r: 2.0, k_s, random_phase: true, seed, ..SelfAffine::default() };
-                surface.surface(grid).unwrap().heights().clone()
+        Self::of(seed, &Features::ALL)
+    }
+
+    /// One of those with certain features: the seeds go through the combinations of law, wall and precision.
+    pub fn of(seed: u64, features: &Features) -> Self {
+        let combinations = features.combinations();
+        let (kind, constraint, precision) = combinations[(seed % combinations.len() as u64) as usize];
+        let random = &mut ChaCha8Rng::seed_from_u64(seed);
+        let body = features.bodies[random.random_range(0..features.bodies.len())];
+        // the paper's method knows periodic cells without absent nodes
+        let body = if constraint == Constraint::Paper { Body::Periodic } else { body };
+        let holes = features.absent && constraint != Constraint::Paper && random.random_bool(0.3);
+        let grid = grid(random, body);
+        let modulus = power(random, -3.0, 12.0);
+        let height = power(random, -6.0, 0.5) * grid.lengths().0;
+        let (relief, mut heights) = relief(random, grid.shape());
+        heights.mapv_inplace(|h| h * height);
+        if holes {
+            punch(random, &mut heights);
+        }
+        let spacing = grid.spacing().0.max(grid.spacing().1);
+        let range = height * power(random, -2.0, 1.0);
+        let law = law(random, kind, constraint, grid.shape(), (range, modulus / spacing));
+        let stiffness = modulus / spacing * power(random, -0.5, 3.0);
+        let tolerance = power(random, -9.0, -2.0);
+        let tolerance = if precision == Precision::Single { tolerance.max(1e-5) } else { tolerance };
+        let settings = match constraint {
+            Constraint::Paper => Settings { criterion: Criterion::EnergyNorm, ..Settings::rey2017() },
+            _ => Settings::default(),
+        };
+        let settings = Settings { tolerance: Some(tolerance), ..settings };
+        let control = Control::MeanGap(0.0);
+        let mut scene = Self {
+            seed,
+            grid,
+            body,
+            modulus,
+            relief,
+            heights,
+            law,
+            constraint,
+            stiffness,
+            control,
+            start: None,
+            settings,
+            precision,
+        };
+        scene.control = scene.load(random, height);
+        scene.start = scene.begin(random, height);
+        scene
+    }
+
+    pub fn is_whole(&self) -> bool {
+        self.body == Body::Periodic && !self.heights.iter().any(|h| h.is_nan())
+    }
+
+    /// Whether all heights are the same.
+    pub fn is_flat(&self) -> bool {
+        let largest = |heights: &[f64]| heights.iter().fold(0.0_f64, |most, h| most.max(h.abs()));
+        largest(&self.centred()) <= 1e-12 * largest(&self.heights.iter().copied().collect::<Vec<_>>())
+    }
+
+    /// The pressure about which the surface is pressed flat.
+    fn steepness(&self) -> f64 {
+        let ((nx, ny), (dx, dy)) = (self.grid.shape(), self.grid.spacing());
+        let slope = |(i, j): (usize, usize), (k, l): (usize, usize), length: f64| {
+            (self.heights[[i, j]] - self.heights[[k, l]]).abs() / length
+        };
+        let nodes = (0..nx).flat_map(|i| (0..ny).map(move |j| (i, j)));
+        let slopes = nodes.flat_map(|(i, j)| {
+            [slope((i, j), ((i + 1) % nx, j), dx), slope((i, j), (i, (j + 1) % ny), dy)].map(|s| s.max(0.0))
+        });
+        0.5 * self.modulus * slopes.fold(0.0, f64::max)
+    }
+
+    fn load(&self, random: &mut ChaCha8Rng, height: f64) -> Control {
+        let Law { work, range, .. } = self.law;
+        let area = self.grid.lengths().0 * self.grid.lengths().1;
+        let tension = random.random_bool(if self.law.is_none() { 0.03 } else { 0.3 });
+        let flat = self.steepness().max(1e-3 * self.modulus * height / self.grid.lengths().0);
+        let share = power(random, -6.0, 0.7);
+        let pressure = match tension {
+            true if self.law.is_none() => -flat * share,
+            true => -work / range * share.powf(0.3),
+            false => flat * share,
+        };
+        // down to a contact of one node and beyond
+        let exponent = random.random_range(-14.0..1.0);
+        let light = random.random_bool(0.25);
+        let pressure = if light { pressure.signum() * self.modulus * 10_f64.powf(exponent) } else { pressure };
+        let (rest, stiffness) = (self.law.rest(), self.modulus * area.sqrt() * power(random, -3.0, 2.0));
+        let gap = if random.random_bool(0.02) { rest } else { rest + height * share };
+        let deep = height * random.random_range(-0.2..0.5) * if light { 1e-3 } else { 1.0 } - rest;
+        let approach = if tension { -range * random.random_range(0.0..3.0) - rest } else { deep };
+        let force = pressure * area;
+        match (self.body, self.is_whole(), random.random_range(0..8)) {
+            (Body::Periodic, true, 0..4) => Control::MeanGap(gap),
+            (Body::Periodic, true, 4) if self.constraint != Constraint::Paper => {
+                Control::Spring { stiffness, rest: gap - force / stiffness }
             }
-            2 => Surface::paraboloid(grid, 1.0).unwrap().heights().clone(),
-            3 if ny > 4 => Surface::wave_2d(grid, 1.0, 1 + random.random_range(0..2)).unwrap().heights().clone(),
-            4 => Array2::from_shape_fn((n, ny), |(i, _)| f64::from(u8::from(2 * i < n))),
-            _ => Array2::from_shape_fn((n, ny), |_| random.random_range(0.0..1.0)),
-        };
-        let mean = shape.mean().unwrap();
-        let size = shape.mapv(|h| (h - mean).powi(2)).mean().unwrap().sqrt();
-        let surface = Surface::new(grid, shape.mapv(|h| (h - mean) / size * rms)).unwrap();
-        let rho = rho * rms;
-        let w = (mu * rho).powi(2) * n as f64;
-        let law = match random.random_range(0..4) {
-            0 | 1 => Law::None,
-            2 => Law::Exponential(w, rho),
-            _ => Law::MaugisDugdale(w, rho),
-        };
-        let control = match random.random_range(0..8) {
-            0..4 => Control::MeanGap(rms * gap),
-            4 if !matches!(law, Law::None) => Control::MeanPressure(-w / rho * load.sqrt()),
-            _ => Control::MeanPressure(3.0 * rms * load * n as f64),
-        };
-        let (of_waves, single) = (random.random_bool(0.5), random.random_bool(0.3));
-        let tolerance = if single { single_tolerance } else { double_tolerance };
-        Self { surface, law, control, stiffness: stiff, of_waves, tolerance, single }
+            (Body::Free, _, 0..3) => Control::Approach(approach),
+            (Body::Free, _, 3..5) => Control::Spring { stiffness, rest: approach + force / stiffness },
+            (_, _, 5) => Control::Force(force),
+            _ => Control::MeanPressure(pressure),
+        }
     }
 
-    pub fn problem<T: Real>(&self) -> Problem<T, Westergaard<T>, Box<dyn AdhesionLaw<T>>> {
-        let law: Box<dyn AdhesionLaw<T>> = match self.law {
-            Law::None => Box::new(NoAdhesion),
-            Law::Exponential(w, rho) => Box::new(Exponential::new(w, rho).unwrap()),
-            Law::MaugisDugdale(w, rho) => Box::new(MaugisDugdale::new(w, rho).unwrap()),
-        };
-        Problem::new(&self.surface, Westergaard::new(*self.surface.grid(), 1.0).unwrap(), law).unwrap()
+    fn begin(&self, random: &mut ChaCha8Rng, height: f64) -> Option<Array2<f64>> {
+        let (shape, rest) = (self.grid.shape(), self.law.rest());
+        let level = self.heights.mapv(|h| if h.is_nan() { 0.0 } else { h });
+        match random.random_range(0..6) {
+            0 => Some(Array2::from_shape_simple_fn(shape, || rest + height * random.random_range(0.0..1.0))),
+            1 => Some(Array2::from_elem(shape, rest)),
+            2 => Some(level.mapv(|h| rest + (0.3 * height - h).max(0.0))),
+            _ => None,
+        }
     }
 
-    /// By projection, and by Uzawa, which took so many rounds.
-    pub fn solve<T: Real>(&self) -> (Solution<T>, Solution<T>, usize) {
-        let mut problem = self.problem::<T>();
-        let settings = Settings { tolerance: Some(self.tolerance), ..Settings::default() };
-        let projected = Solver::new(settings).solve(&mut problem, self.control).unwrap();
-        let unit = if self.of_waves { problem.operator().stiffness_range().1 } else { 1.0 };
-        let mut solver = Solver { settings, constraint: Uzawa::new(self.stiffness * unit).unwrap() };
-        let solution = solver.solve(&mut problem, self.control).unwrap();
-        (projected, solution, solver.constraint.rounds())
+    pub fn surface(&self) -> Surface {
+        Surface::with_absent(self.grid, self.heights.clone()).unwrap()
     }
+
+    pub fn operator<T: Real>(&self) -> Box<dyn ElasticOperator<T>> {
+        let alone = self.precision == Precision::Double;
+        match self.body {
+            Body::Periodic if alone => Box::new(Alone(Westergaard::<T>::new(self.grid, self.modulus).unwrap())),
+            Body::Periodic => Box::new(Westergaard::<T>::new(self.grid, self.modulus).unwrap()),
+            Body::Free if alone => Box::new(Alone(Boussinesq::<T>::new(self.grid, self.modulus).unwrap())),
+            Body::Free => Box::new(Boussinesq::<T>::new(self.grid, self.modulus).unwrap()),
+        }
+    }
+
+    pub fn problem<T: Real>(&self) -> Result<Boxed<T>> {
+        Problem::new(&self.surface(), self.operator(), self.law.boxed())
+    }
+
+    pub fn start_in<T: Real>(&self) -> Option<Array2<T>> {
+        self.start.as_ref().map(|start| start.mapv(T::lit))
+    }
+
+    /// The solution by a rigid wall, or none where the law keeps the surfaces apart.
+    pub fn solution<T: Real>(&self) -> Result<Solution<T>> {
+        let (mut problem, start) = (self.problem()?, self.start_in());
+        let start = start.as_ref().map_or(Start::Default, |gap| Start::From(gap));
+        let go_on = |_: &Iteration| std::ops::ControlFlow::Continue(());
+        match self.constraint {
+            Constraint::None => {
+                let mut solver = Solver { settings: self.settings, constraint: NoWall };
+                solver.solve_with(&mut problem, self.control, start, go_on)
+            }
+            _ => Solver::new(self.settings).solve_with(&mut problem, self.control, start, go_on),
+        }
+    }
+
+    /// The elastic body as a matrix between the nodes that face it.
+    pub fn dense(&self) -> Dense {
+        let faces: Vec<bool> = self.heights.iter().map(|h| !h.is_nan()).collect();
+        match self.body {
+            Body::Periodic => Dense::new(self.grid.shape(), self.grid.lengths(), self.modulus),
+            Body::Free => Dense::free(&self.grid, self.modulus),
+        }
+        .facing(&faces)
+    }
+
+    /// The heights at the nodes that face the body, less their mean.
+    pub fn centred(&self) -> Vec<f64> {
+        let faces: Vec<f64> = self.heights.iter().copied().filter(|h| !h.is_nan()).collect();
+        let mean = faces.iter().sum::<f64>() / faces.len() as f64;
+        faces.iter().map(|h| h - mean).collect()
+    }
+
+    /// What holds the displacement of a dense body: that of the gap and the [centred](Self::centred) heights.
+    pub fn held(&self, dense: &Dense) -> Held {
+        let (heights, (lx, ly)) = (self.centred(), self.grid.lengths());
+        let top = heights.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let in_series = |stiffness: f64| 1.0 / (1.0 / stiffness + 1.0 / dense.rigid);
+        match self.control {
+            Control::MeanGap(gap) => Held::Shift(gap),
+            Control::MeanPressure(pressure) => Held::Pressure(pressure),
+            Control::Force(force) => Held::Pressure(force / (lx * ly)),
+            Control::Approach(approach) => Held::Spring { stiffness: dense.rigid, rest: top - approach },
+            Control::Spring { stiffness, rest } => {
+                let rest = if self.body == Body::Free { top - rest } else { rest };
+                Held::Spring { stiffness: in_series(stiffness / (lx * ly)), rest }
+            }
+            other => panic!("{other:?} is not a load of these scenes"),
+        }
+    }
+
+    /// The same with a law so weak that the energy is convex: half of what the softest wave resists.
+    pub fn convex(mut self) -> Self {
+        if !self.law.is_none() {
+            let (law, length) = (self.law.of_gap::<f64>(), 4.0 * self.law.range);
+            let steepest = (0..4000).map(|i| -law.slope(self.law.rest() + length * f64::from(i) / 4000.0));
+            self.law.work *= 0.5 * self.dense().softest / steepest.fold(0.0, f64::max);
+        }
+        self
+    }
+}
+
+/// An operator that has no other precision than its own.
+struct Alone<O>(O);
+
+impl<T: Real, O: ElasticOperator<T>> ElasticOperator<T> for Alone<O> {
+    fn grid(&self) -> &Grid {
+        self.0.grid()
+    }
+    fn boundary(&self) -> Boundary {
+        self.0.boundary()
+    }
+    fn pressure(&mut self, displacement: ArrayView2<'_, T>, pressure: ArrayViewMut2<'_, T>) -> Result<()> {
+        self.0.pressure(displacement, pressure)
+    }
+    fn displacement(&mut self, pressure: ArrayView2<'_, T>, displacement: ArrayViewMut2<'_, T>) -> Result<()> {
+        self.0.displacement(pressure, displacement)
+    }
+    fn stiffness_range(&self) -> (f64, f64) {
+        self.0.stiffness_range()
+    }
+    fn modulus(&self) -> f64 {
+        self.0.modulus()
+    }
+    fn surface_pressure(&mut self, heights: ArrayView2<'_, f64>, pressure: ArrayViewMut2<'_, T>) -> Result<f64> {
+        self.0.surface_pressure(heights, pressure)
+    }
+    fn coarse_space(&self, dimension: usize) -> Option<CoarseSpace> {
+        self.0.coarse_space(dimension)
+    }
+    fn precondition(
+        &mut self,
+        residual: ArrayView2<'_, T>,
+        foundation: Foundation<'_>,
+        preconditioned: ArrayViewMut2<'_, T>,
+    ) -> Result<Preconditioned> {
+        self.0.precondition(residual, foundation, preconditioned)
+    }
+}
+
+fn power(random: &mut ChaCha8Rng, low: f64, high: f64) -> f64 {
+    10_f64.powf(random.random_range(low..high))
+}
+
+/// Lines, strips, primes, and squares of up to 21² nodes; cells and sides of all proportions.
+fn grid(random: &mut ChaCha8Rng, body: Body) -> Grid {
+    let least = if body == Body::Free { 2 } else { 1 };
+    let shape = match random.random_range(0..20) {
+        0 => (least, random.random_range(least..40)),
+        1 => (random.random_range(least..160), least),
+        2 => (random.random_range(30..80), random.random_range(2..4)),
+        3 => (random.random_range(12..22), random.random_range(12..22)),
+        _ => (random.random_range(least..12), random.random_range(least..12)),
+    };
+    let lx = power(random, -9.0, 3.0);
+    let aspect = power(random, -1.5, 1.5);
+    // windows of cells that are not too far from square
+    let aspect = if body == Body::Free { aspect.powf(0.5) * shape.1 as f64 / shape.0 as f64 } else { aspect };
+    Grid::new(shape, (lx, lx * aspect)).unwrap()
+}
+
+/// Heights of some unit, by name.
+fn relief(random: &mut ChaCha8Rng, (nx, ny): (usize, usize)) -> (&'static str, Array2<f64>) {
+    let names = ["noise", "smooth", "levels", "spike", "step", "board", "flat", "sphere"];
+    let name = names[[0, 0, 0, 1, 1, 1, 2, 2, 3, 4, 5, 6, 7, 7][random.random_range(0..14)]];
+    let phases: [f64; 3] = std::array::from_fn(|_| random.random_range(0.0..7.0));
+    let wave = |i: usize, n: usize, phase: f64| (TAU * i as f64 / n as f64 + phase).cos();
+    let from_centre = |i: usize, n: usize| (i as f64 - 0.5 * n as f64) / n as f64;
+    let heights = Array2::from_shape_fn((nx, ny), |(i, j)| {
+        let (noise, level) = (random.random_range(0.0..1.0), f64::from(random.random_range(0..3_u8)));
+        match name {
+            "noise" => noise,
+            "smooth" => wave(i, nx, phases[0]) + wave(j, ny, phases[1]) + wave(2 * i + j, nx, phases[2]),
+            "levels" => 0.5 * level,
+            "spike" => f64::from(u8::from((i, j) == (nx / 2, ny / 3))),
+            "step" => f64::from(u8::from(2 * i < nx)),
+            "board" => f64::from(u8::from((i + j) % 2 == 0)),
+            "sphere" => -2.0 * (from_centre(i, nx).powi(2) + from_centre(j, ny).powi(2)),
+            _ => 0.25,
+        }
+    });
+    // its own mirror image
+    let mirrored = random.random_bool(0.15);
+    let mirror = |(i, j): (usize, usize)| heights[[i.min((nx - i) % nx), j]];
+    (name, if mirrored { Array2::from_shape_fn((nx, ny), mirror) } else { heights })
+}
+
+/// Takes the surface away at some nodes: here and there, or outside of an ellipse.
+fn punch(random: &mut ChaCha8Rng, heights: &mut Array2<f64>) {
+    let (share, round) = (random.random_range(0.02..0.5), random.random_bool(0.4));
+    let (nx, ny) = heights.dim();
+    let outside = |i: usize, n: usize| ((2 * i + 1) as f64 / n as f64 - 1.0).powi(2);
+    let kept = (random.random_range(0..nx), random.random_range(0..ny));
+    for ((i, j), height) in heights.indexed_iter_mut() {
+        let lost = if round { outside(i, nx) + outside(j, ny) > 1.0 } else { random.random_bool(share) };
+        if lost && (i, j) != kept {
+            *height = f64::NAN;
+        }
+    }
+}
+
+/// A law of some range, as strong as the stiffness of waves of some nodes lets it be felt.
+fn law(
+    random: &mut ChaCha8Rng,
+    kind: Kind,
+    constraint: Constraint,
+    shape: (usize, usize),
+    (range, stiff): (f64, f64),
+) -> Law {
+    let bases = match constraint {
+        Constraint::None => &[Kind::LennardJones, Kind::Morse][..],
+        _ => &Features::ALL.laws[1..7],
+    };
+    let base = match kind {
+        Kind::CutOff | Kind::Varying => bases[random.random_range(0..bases.len())],
+        kind => kind,
+    };
+    let work = (power(random, -2.0, 0.5) * range).powi(2) * stiff;
+    let cut = kind == Kind::CutOff || kind == Kind::Varying && random.random_bool(0.3);
+    let end = range * random.random_range(4.0..10.0);
+    // all of it nowhere only beside a wall
+    let least: f64 = if constraint == Constraint::None { 0.05 } else { 0.0 };
+    let patches = random.random_bool(0.3);
+    let mut shares = Array2::from_shape_simple_fn(shape, || {
+        let share: f64 = random.random_range(0.0..2.0);
+        if patches { least.max(f64::from(u8::from(share > 1.0))) } else { least.max(share) }
+    });
+    shares[[0, 0]] = 1.0;
+    let (cut_off, shares) = (cut.then_some(end), (kind == Kind::Varying).then_some(shares));
+    Law { kind, base, work, range, wall: constraint != Constraint::None, cut_off, shares }
 }

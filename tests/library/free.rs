@@ -10,7 +10,7 @@ use asperity::stability::{StabilityTest, Verdict};
 use asperity::*;
 use ndarray::Array2;
 
-use crate::common::love::Love;
+use crate::common::dense::{Dense, Held};
 
 /// A free half-space of unit modulus against a surface.
 fn problem<L: AdhesionLaw<f64>>(surface: &Surface, law: L) -> Problem<f64, Boussinesq<f64>, L> {
@@ -89,7 +89,7 @@ fn the_compliance_between_nodes_of_the_window_is_loves() {
     for (shape, lengths) in [((24, 20), (1.0, 0.7)), ((3, 17), (1.0, 0.5)), ((9, 2), (1.0, 9.0))] {
         let grid = Grid::new(shape, lengths).unwrap();
         let mut operator = Boussinesq::<f64>::new(grid, 1.3).unwrap();
-        let love = Love::new(&grid, 1.3);
+        let love = Dense::free(&grid, 1.3);
         let padded = operator.grid().shape();
         let Boundary::Free { mean_compliance, .. } = operator.boundary() else { panic!("free") };
         let pressure = Array2::from_shape_fn(shape, |(i, j)| ((7 * i + 3 * j + i * j) % 5) as f64 - 1.0);
@@ -124,12 +124,20 @@ fn a_uniform_pressure_on_a_square_displaces_its_centre_as_love_says() {
 #[test]
 fn contact_without_adhesion_is_that_of_the_dense_matrix_under_every_control() {
     for surface in [bumps((24, 20)), bumps((7, 19)), bumps_with_holes((24, 20))] {
-        let (love, faces) = (Love::new(surface.grid(), 1.0), faces(&surface));
+        let (love, faces) = (Dense::free(surface.grid(), 1.0), faces(&surface));
+        let pressed = Dense::free(surface.grid(), 1.0).facing(&faces);
         let heights = surface.heights().as_slice().unwrap();
+        let facing: Vec<f64> = pressed.faces.iter().map(|&node| heights[node]).collect();
         let top = heights.iter().zip(&faces).filter(|(_, faces)| **faces).fold(f64::MIN, |top, (h, _)| top.max(*h));
         let cell = surface.grid().spacing().0 * surface.grid().spacing().1;
         for approach in [0.004, 0.03] {
-            let expected = love.pressure_at(heights, &faces, top - approach).expect("no cycle");
+            let held = Held::Spring { stiffness: pressed.rigid, rest: top - approach };
+            let start: Vec<f64> = facing.iter().map(|h| (top - approach - h).max(0.0)).collect();
+            let gap = pressed.equilibrium(&facing, held, &|_, _| [0.0; 2], true, &start).expect("no cycle");
+            let u: Vec<f64> = gap.iter().zip(&facing).map(|(g, h)| g + h).collect();
+            let mut expected = vec![0.0; heights.len()];
+            let full = pressed.full(&u, held.pressure(pressed.shift(&u)));
+            pressed.faces.iter().zip(full).for_each(|(&node, p)| expected[node] = p);
             let gap: Vec<f64> =
                 love.displacement(&expected).iter().zip(heights).map(|(u, h)| u + top - approach - h).collect();
             let force = cell * expected.iter().sum::<f64>();
@@ -170,7 +178,7 @@ fn contact_without_adhesion_is_that_of_the_dense_matrix_under_every_control() {
 #[test]
 fn contact_with_adhesion_is_an_equilibrium_of_the_dense_matrix_under_every_control() {
     fn check(surface: &Surface, law: impl AdhesionLaw<f64> + Copy, traction: f64) {
-        let (love, faces) = (Love::new(surface.grid(), 1.0), faces(surface));
+        let (love, faces) = (Dense::free(surface.grid(), 1.0), faces(surface));
         let heights = surface.heights();
         let top = heights.iter().zip(&faces).filter(|(_, faces)| **faces).fold(f64::MIN, |top, (h, _)| top.max(*h));
         let mut problem = problem(surface, law);

@@ -7,7 +7,7 @@ use asperity::stability::{StabilityTest, Verdict};
 use asperity::*;
 use ndarray::Array2;
 
-use crate::common::dense::Dense;
+use crate::common::dense::{Dense, Held};
 
 fn without_wall(tolerance: f64) -> Solver<NoWall> {
     Solver { settings: Settings { tolerance: Some(tolerance), ..Settings::default() }, constraint: NoWall }
@@ -94,30 +94,8 @@ fn waves() -> (Surface, Dense, LennardJones) {
 
 /// How many eigenvalues of K⁻¹ + φ'' over fields without mean are below a number.
 fn below(dense: &Dense, law: &LennardJones, gap: &Array2<f64>, number: f64) -> usize {
-    let (n, nodes) = (dense.nodes, dense.nodes as f64);
-    let mut rows: Vec<Vec<f64>> = dense.stiffness.chunks(n).map(<[f64]>::to_vec).collect();
-    for (i, &g) in gap.iter().enumerate() {
-        rows[i][i] += law.slope(g) - number;
-    }
-    for _ in 0..2 {
-        for row in &mut rows {
-            let mean = row.iter().sum::<f64>() / nodes;
-            row.iter_mut().for_each(|value| *value -= mean);
-        }
-        rows = (0..n).map(|j| rows.iter().map(|row| row[j]).collect()).collect();
-    }
-    // the mean itself is far up
-    rows.iter_mut().flatten().for_each(|value| *value += 1e3 / nodes);
-    let mut negative = 0;
-    for k in 0..n {
-        let (above, rest) = rows[k..].split_first_mut().unwrap();
-        negative += usize::from(above[k] < 0.0);
-        for row in rest {
-            let factor = row[k] / above[k];
-            row.iter_mut().zip(&*above).skip(k).for_each(|(value, above)| *value -= factor * above);
-        }
-    }
-    negative
+    let slopes: Vec<f64> = gap.iter().map(|&g| law.slope(g)).collect();
+    dense.below(&dense.faces, Held::Shift(0.0), &slopes, number)
 }
 
 #[test]

@@ -1,0 +1,530 @@
+//! What a dense matrix says of a solution: its fields and figures, its certificate, its load, the equilibrium next to it
+//! and whether that is stable.
+
+use std::result::Result;
+
+use asperity::stability::{StabilityTest, Verdict};
+use asperity::*;
+use ndarray::Array2;
+
+use crate::common::dense::{Dense, Held, dot};
+use crate::common::scenes::{Constraint, Kind, Scene};
+
+/// The roundings that a sum over some nodes may have.
+const ROUNDINGS: f64 = 64.0;
+
+/// A solution beside the dense matrix of its body: fields at the nodes that face it, in `f64`.
+pub struct Judge<'a, T> {
+    scene: &'a Scene,
+    report: &'a Report,
+    solution: &'a Solution<T>,
+    dense: Dense,
+    held: Held,
+    heights: Vec<f64>,
+    gap: Vec<f64>,
+    pressure: Vec<f64>,
+    contact: Vec<f64>,
+    /// what the law and the springs of a wall do at each node: tractions
+    tractions: Vec<f64>,
+    springs: Vec<f64>,
+    /// the pressure that rounding makes of a gap
+    rounding: f64,
+    /// the same as an energy norm
+    noise: f64,
+    /// the scale of the relative error: the mean of u·p that the report says, without contact that of the surface
+    scale: Option<f64>,
+}
+
+fn need(good: bool, what: impl FnOnce() -> String) -> Result<(), String> {
+    if good { Ok(()) } else { Err(what()) }
+}
+
+fn close(name: &str, found: f64, expected: f64, allowed: f64) -> Result<(), String> {
+    need((found - expected).abs() <= allowed, || format!("{name}: {found:e} is not {expected:e} (± {allowed:e})"))
+}
+
+fn largest(values: &[f64]) -> f64 {
+    values.iter().fold(0.0_f64, |a, b| a.max(b.abs()))
+}
+
+impl<'a, T: Real> Judge<'a, T> {
+    pub fn new(
+        scene: &'a Scene,
+        solution: &'a Solution<T>,
+        wall: asperity::Wall<'_, T>,
+        operator: &dyn ElasticOperator<T>,
+    ) -> Self {
+        let (dense, heights, report) = (scene.dense(), scene.centred(), &solution.report);
+        let held = scene.held(&dense);
+        let at_faces = |field: &Array2<T>| -> Vec<f64> {
+            let field = field.as_slice().expect("in rows");
+            dense.faces.iter().map(|&node| field[node].widen()).collect()
+        };
+        let [gap, pressure, contact] = [&solution.gap, &solution.pressure, &solution.contact_pressure].map(at_faces);
+        let law = scene.law.of_gap::<T>();
+        let soft = scene.constraint == Constraint::None;
+        let within = |g: f64| T::lit(if soft { g } else { g.max(0.0) });
+        let faces = || dense.faces.iter().zip(&gap);
+        let tractions: Vec<f64> =
+            faces().map(|(&i, &g)| scene.law.share(i) * law.traction(within(g)).widen()).collect();
+        let springs = match wall {
+            asperity::Wall::Springs(springs) => {
+                faces().map(|(&i, &g)| springs.traction(i, T::lit(g)).widen()).collect()
+            }
+            _ => vec![0.0; gap.len()],
+        };
+        let (epsilon, (softest, stiffest)) = (T::epsilon().widen(), operator.stiffness_range());
+        let nodes = operator.grid().nodes() as f64;
+        let length = largest(&heights).max(largest(&gap));
+        let rounding = ROUNDINGS
+            * epsilon
+            * (nodes.sqrt() * stiffest * length
+                + report.carried_pressure.abs()
+                + largest(&tractions)
+                + largest(&springs));
+        let noise = if softest > 0.0 { rounding / softest.sqrt() } else { 0.0 };
+        // a rigid shift is no wave: its energy is not in the scale
+        let padding = nodes / dense.nodes as f64;
+        let of_mean = match report.boundary {
+            Boundary::Free { mean_compliance, .. } => mean_compliance * report.carried_pressure.powi(2) / padding,
+            _ => 0.0,
+        };
+        let work = 2.0 * report.elastic_energy - of_mean;
+        let scale = match report.contact_nodes > 0 {
+            true => Some(work),
+            false if scene.is_whole() => Some(work.max(dense.work(&heights))),
+            // of the heights as they go on where there is no surface
+            false => None,
+        };
+        // flats have no waves but those of rounding, which a body without a wall is measured beside
+        let lifted = epsilon * softest * (largest(&gap) + scene.law.range).powi(2);
+        let scale = scale.map(|scale| if scene.constraint == Constraint::None { scale.max(lifted) } else { scale });
+        let scale = scale.filter(|&scale| scale > 0.0 && !scene.is_flat() && report.relative_error.is_finite());
+        Self {
+            scene,
+            report,
+            solution,
+            dense,
+            held,
+            heights,
+            gap,
+            pressure,
+            contact,
+            tractions,
+            springs,
+            rounding,
+            noise,
+            scale,
+        }
+    }
+
+    fn epsilon() -> f64 {
+        T::epsilon().widen()
+    }
+
+    fn mean(&self, values: &[f64]) -> f64 {
+        values.iter().sum::<f64>() / self.dense.nodes as f64
+    }
+
+    /// The displacement of the faces.
+    fn displacement(&self) -> Vec<f64> {
+        self.gap.iter().zip(&self.heights).map(|(g, h)| g + h).collect()
+    }
+
+    fn projects(&self) -> bool {
+        matches!(self.scene.constraint, Constraint::Hard | Constraint::Paper)
+    }
+
+    fn detached(&self) -> bool {
+        self.report.status == Status::Detached
+    }
+
+    fn converged(&self) -> bool {
+        self.report.status == Status::Converged
+    }
+
+    fn tolerance(&self) -> f64 {
+        self.scene.settings.tolerance_in::<T>()
+    }
+
+    /// All that is judged by the solution alone; how far it is from an exact equilibrium over how far it may be.
+    pub fn all(&self) -> Result<Option<f64>, String> {
+        self.fields()?;
+        self.control()?;
+        self.elasticity()?;
+        self.certificate()?;
+        self.claim()?;
+        self.neighbour()
+    }
+
+    /// Feasibility, and that the figures are those of the fields.
+    fn fields(&self) -> Result<(), String> {
+        let Self { scene, report, solution, gap, contact, pressure, .. } = self;
+        need(gap.iter().chain(pressure).chain(contact).all(|x| x.is_finite()), || "a field is not finite".into())?;
+        let absent = scene.heights.iter().zip(&solution.gap).zip(&solution.pressure).filter(|((h, _), _)| h.is_nan());
+        let empty = |((_, g), p): ((&f64, &T), &T)| g.is_infinite() && p.widen() == 0.0;
+        need(absent.clone().all(empty), || "something at an absent node".into())?;
+        need(report.absent_nodes == absent.count(), || format!("{} absent nodes", report.absent_nodes))?;
+        need(contact.iter().all(|&p| p >= 0.0), || "a contact pressure is negative".into())?;
+        if self.projects() {
+            need(gap.iter().all(|&g| g >= 0.0), || "a gap is negative".into())?;
+            need(gap.iter().zip(contact).all(|(g, p)| g * p == 0.0), || "complementarity".into())?;
+        }
+        let touching = solution.contact_map().iter().filter(|&&touches| touches).count();
+        // without a wall a node at the gap of rest touches or does not
+        let edge = ROUNDINGS * Self::epsilon() * scene.law.work / scene.law.range;
+        let at_rest = self.tractions.iter().filter(|t| scene.constraint == Constraint::None && t.abs() <= edge).count();
+        let counted = report.contact_nodes.abs_diff(touching) <= at_rest;
+        need(counted, || format!("{} nodes touch, not {touching}", report.contact_nodes))?;
+        let fraction = report.contact_nodes as f64 / gap.len() as f64;
+        close("contact fraction", report.contact_fraction, fraction, 0.0)?;
+        close("least gap", report.min_gap, gap.iter().copied().fold(f64::INFINITY, f64::min), 0.0)?;
+        let (count, sums) = (gap.len() as f64, ROUNDINGS * Self::epsilon());
+        let size = gap.iter().map(|g| g.abs()).sum::<f64>() / count;
+        close("mean gap", report.mean_gap, gap.iter().sum::<f64>() / count, sums * size)?;
+        close("mean contact pressure", report.mean_contact_pressure, self.mean(contact), sums * self.mean(contact))?;
+        let carried = self.mean(contact) - self.mean(&self.tractions);
+        let terms = self.mean(contact) + self.mean(&self.tractions.iter().map(|t| t.abs()).collect::<Vec<_>>());
+        // without a wall the law is both
+        let carried = if scene.constraint == Constraint::None { -self.mean(&self.tractions) } else { carried };
+        let allowed = sums * terms + self.of_law(sums * scene.law.work / scene.law.range);
+        close("carried pressure", report.carried_pressure, carried, allowed)
+    }
+
+    /// That what is held is held.
+    fn control(&self) -> Result<(), String> {
+        let Self { scene, report, gap, .. } = self;
+        let (epsilon, (lx, ly)) = (Self::epsilon(), scene.grid.lengths());
+        let size = gap.iter().map(|g| g.abs()).sum::<f64>() / gap.len() as f64;
+        let area = lx * ly;
+        close(
+            "force",
+            report.normal_force,
+            report.mean_pressure * area,
+            8.0 * f64::EPSILON * report.normal_force.abs(),
+        )?;
+        let length = size + largest(&self.heights);
+        match scene.control {
+            Control::MeanGap(given) => close("given gap", report.mean_gap, given, 1e3 * epsilon * size),
+            _ if self.detached() => Ok(()),
+            Control::MeanPressure(given) => close("load", report.mean_pressure, given, epsilon * given.abs()),
+            Control::Force(given) => close("given force", report.normal_force, given, 4.0 * epsilon * given.abs()),
+            Control::Approach(given) => {
+                let found = report.approach.ok_or("no approach")?;
+                close("given approach", found, given, ROUNDINGS * epsilon * (length + given.abs()))
+            }
+            Control::Spring { stiffness, rest } => {
+                let length = length + rest.abs() + report.approach.unwrap_or(0.0).abs();
+                let stretched = report.approach.map_or(report.mean_gap - rest, |approach| rest - approach);
+                // what the mean displacement of the half-space takes of the force
+                let allowed = ROUNDINGS * epsilon * (stiffness * length + report.normal_force.abs());
+                close("force of the spring", report.normal_force, stiffness * stretched, allowed)
+            }
+            other => panic!("{other:?}"),
+        }
+    }
+
+    /// The distance from what is exact that the report admits, in the energy norm.
+    fn admitted(&self) -> Option<f64> {
+        Some(self.report.relative_error * self.scale?.sqrt())
+    }
+
+    /// That the pressure is that of the displacement, and the energies are those of the fields.
+    fn elasticity(&self) -> Result<(), String> {
+        let Self { scene, report, dense, gap, pressure, rounding, .. } = self;
+        let u = self.displacement();
+        let external = if self.detached() { self.mean(pressure) } else { report.mean_pressure };
+        if scene.is_whole() {
+            for (found, p) in pressure.iter().zip(dense.pressure(&u)) {
+                close("pressure", *found, p + external, *rounding)?;
+            }
+        } else if let (Some(admitted), false) = (self.admitted(), self.detached()) {
+            // where nothing faces the body the pressure vanishes but for the error
+            let bent = dense.displacement(pressure);
+            let off: Vec<f64> = u.iter().zip(&bent).map(|(u, bent)| u - bent).collect();
+            let distance = dense.work(&off).sqrt();
+            // a bound but for what the residuals of both kinds of nodes have in common
+            let allowed = 4.0 * (admitted + self.noise);
+            need(distance <= allowed, || format!("the pressure is off by {distance:e} (± {allowed:e})"))?;
+            if let Some(approach) = report.approach {
+                let top = self.heights.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+                let unbalanced = self.load_noise() + self.unbalanced();
+                let slack = (allowed + unbalanced / dense.rigid.sqrt()) / dense.rigid.sqrt();
+                close("approach", approach, top - dense.shift(&off), slack)?;
+            }
+        }
+        if let (Some(admitted), false) = (self.admitted(), self.detached()) {
+            // a uniform pressure is no wave of a periodic cell
+            let uniform = if scene.is_whole() { self.mean(pressure) } else { 0.0 };
+            let waves: Vec<f64> = pressure.iter().map(|p| p - uniform).collect();
+            let (found, expected) = ((2.0 * report.elastic_energy).sqrt(), dense.compliant(&waves).sqrt());
+            let soft = if dense.rigid.is_finite() {
+                (self.load_noise() + self.unbalanced()) / dense.rigid.sqrt()
+            } else {
+                0.0
+            };
+            let sums = Self::epsilon().sqrt() * expected;
+            close("root of the elastic work", found, expected, 4.0 * (admitted + self.noise + soft) + sums)?;
+        }
+        let (law, epsilon) = (scene.law.of_gap::<T>(), Self::epsilon());
+        let energy = |(&node, &g): (&usize, &f64)| {
+            let inside = if scene.constraint == Constraint::None { 0.0 } else { g.min(0.0) };
+            let bent = if inside < 0.0 { inside * law.traction(T::zero()).widen() } else { 0.0 };
+            let energy = law.energy(T::lit(g - inside)).widen() + bent;
+            scene.law.share(node) * energy
+        };
+        let energies: Vec<f64> = dense.faces.iter().zip(gap).map(energy).collect();
+        let steep: f64 = self.tractions.iter().zip(gap).map(|(t, g)| (t * g).abs()).sum();
+        let size = energies.iter().map(|e| e.abs()).sum::<f64>() + 4.0 * steep;
+        let decay = (largest(gap) / scene.law.range).min(100.0);
+        let allowed = self.of_law(ROUNDINGS * epsilon * scene.law.work)
+            + ROUNDINGS * epsilon * (1.0 + decay) * size / dense.nodes as f64;
+        close("adhesive energy", report.adhesive_energy, self.mean(&energies), allowed)
+    }
+
+    /// The rounding of a law that is evaluated far from contact.
+    fn of_law(&self, size: f64) -> f64 {
+        if self.scene.law.is_none() { 0.0 } else { size + T::min_positive_value().widen() }
+    }
+
+    /// The mean pressure that the report admits to be missing.
+    fn unbalanced(&self) -> f64 {
+        let report = self.report;
+        report.load_error * report.mean_pressure.abs().max(report.mean_contact_pressure)
+    }
+
+    /// What rounding does to the load of a spring.
+    fn load_noise(&self) -> f64 {
+        let rest = if let Held::Spring { rest, .. } = self.held { rest.abs() } else { 0.0 };
+        let length = rest + largest(&self.heights) + largest(&self.gap);
+        ROUNDINGS * Self::epsilon() * (self.held.stiffness() * length + self.report.mean_pressure.abs())
+    }
+
+    /// The residual of equilibrium where nodes may move, its level, and whether rounding decides which may.
+    fn residual(&self) -> (Vec<f64>, f64, bool) {
+        let (u, n) = (self.displacement(), self.gap.len());
+        let centred = self.detached() || matches!(self.held, Held::Shift(_));
+        let mean = match self.held {
+            _ if centred => 0.0,
+            Held::Pressure(pressure) => pressure,
+            held => held.pressure(self.dense.shift(&u)),
+        };
+        let share: Vec<f64> = self.dense.share.iter().map(|share| share * self.dense.nodes as f64).collect();
+        let full = self.dense.full(&u, mean);
+        let r: Vec<f64> = (0..n).map(|i| full[i] + self.tractions[i] + self.springs[i]).collect();
+        let free: Vec<bool> = self.gap.iter().map(|&g| !self.projects() || g > 0.0).collect();
+        let level = |of: &[bool]| {
+            let sum = |values: &[f64]| (0..n).filter(|&i| of[i]).map(|i| values[i]).sum::<f64>();
+            if centred && of.contains(&true) { sum(&r) / sum(&share) } else { 0.0 }
+        };
+        let lowest = (0..n).map(|i| r[i] / share[i]).fold(f64::INFINITY, f64::min);
+        let release = if centred && !free.contains(&true) { lowest } else { level(&free) };
+        let clear = (0..n).all(|i| free[i] || (r[i] - release * share[i]).abs() > self.rounding);
+        let working: Vec<bool> = (0..n).map(|i| free[i] || r[i] < release * share[i]).collect();
+        let level = level(&working);
+        let residual = (0..n).map(|i| if working[i] { r[i] - level * share[i] } else { 0.0 }).collect();
+        (residual, release, clear)
+    }
+
+    /// That the certificate is no less than that of the matrix, nor far more.
+    fn certificate(&self) -> Result<(), String> {
+        let (mut residual, _, clear) = self.residual();
+        // with multipliers the last round is what was certified, and without a wall the law's own stiffness is in it
+        let own = !matches!(self.scene.constraint, Constraint::Uzawa | Constraint::None);
+        let Some(scale) = self.scale.filter(|_| clear && own) else {
+            return Ok(());
+        };
+        let sum: f64 = residual.iter().sum();
+        residual.iter_mut().zip(&self.dense.share).for_each(|(r, share)| *r -= sum * share);
+        let (own, noise) = ((self.dense.compliant(&residual) / scale).sqrt(), self.noise / scale.sqrt());
+        let said = self.report.relative_error;
+        let bounded = if self.scene.is_whole() { 1.001 * said } else { 1.5 * said };
+        need(own <= bounded + 4.0 * noise, || format!("certificate {said:e} is less than {own:e}"))?;
+        if !self.scene.is_whole() {
+            return Ok(());
+        }
+        let light = scale < 1e3 * Self::epsilon() * self.dense.work(&self.heights);
+        let allowed = (0.05 * own + 8.0 * noise).max(self.tolerance());
+        need(light || said <= own + allowed, || format!("certificate {said:e} is far more than {own:e}"))
+    }
+
+    /// That a solve that says it has converged meets its tolerance and carries its load.
+    fn claim(&self) -> Result<(), String> {
+        let (report, tolerance) = (self.report, self.tolerance());
+        if !self.converged() {
+            return Ok(());
+        }
+        let good = report.relative_error <= tolerance && report.load_error <= tolerance;
+        need(good, || format!("converged with {:e}, {:e}", report.relative_error, report.load_error))?;
+        if matches!(self.held, Held::Shift(_)) {
+            return Ok(());
+        }
+        let size = report.mean_pressure.abs().max(report.mean_contact_pressure);
+        let magnitude =
+            self.mean(&self.contact).max(self.mean(&self.tractions.iter().map(|t| t.abs()).collect::<Vec<_>>()));
+        let allowed = 1.01 * tolerance * size + ROUNDINGS * Self::epsilon() * magnitude + self.load_noise();
+        close("carried load", report.carried_pressure, report.mean_pressure, allowed)
+    }
+
+    /// The nodes that may move.
+    fn free(&self) -> Vec<usize> {
+        (0..self.gap.len()).filter(|&i| !self.projects() || self.gap[i] > 0.0).collect()
+    }
+
+    /// The traction and the slope of a node's energy, in `f64`.
+    fn local<'b>(&'b self, law: &'b dyn AdhesionLaw<f64>) -> impl Fn(usize, f64) -> [f64; 2] + 'b {
+        move |i, gap| {
+            let share = self.scene.law.share(self.dense.faces[i]);
+            let soft = self.scene.constraint == Constraint::None;
+            let [traction, slope] =
+                if soft || gap >= 0.0 { [law.traction(gap), law.slope(gap)] } else { [law.traction(0.0), 0.0] };
+            let spring =
+                if self.scene.constraint == Constraint::Penalty && gap < 0.0 { self.scene.stiffness } else { 0.0 };
+            [share * traction + spring * gap, share * slope + spring]
+        }
+    }
+
+    /// That a converged state is as near to an exact equilibrium as it says, where that is a minimum by some margin;
+    /// how far it is over how far it may be, if there is one to compare with.
+    fn neighbour(&self) -> Result<Option<f64>, String> {
+        let law = self.scene.law.of_gap::<f64>();
+        let local = self.local(&*law);
+        let slopes: Vec<f64> = self.gap.iter().enumerate().map(|(i, &g)| local(i, g)[1]).collect();
+        let (Some(admitted), true) = (self.admitted(), self.converged() && self.scene.constraint != Constraint::Uzawa)
+        else {
+            return Ok(None);
+        };
+        // a law that attracts makes of the residual an error as large as the softest mode lets it
+        let (free, attracts) = (self.free(), slopes.iter().fold(0.0_f64, |most, slope| most.max(-slope)));
+        let mut margin = f64::INFINITY;
+        if attracts > 0.0 && !free.is_empty() {
+            margin = self.dense.softest;
+            while margin > 1e-3 * self.dense.softest && self.dense.below(&free, self.held, &slopes, margin) > 0 {
+                margin *= 0.25;
+            }
+            if margin <= 1e-3 * self.dense.softest {
+                return Ok(None);
+            }
+        }
+        let amplified = if attracts > 0.0 { 1.0 + attracts / margin } else { 1.0 };
+        // at the mean gap that the state has, where that is held
+        let held = match self.held {
+            Held::Shift(_) => Held::Shift(self.dense.shift(&self.displacement())),
+            held => held,
+        };
+        let Some(exact) = self.dense.equilibrium(&self.heights, held, &local, self.projects(), &self.gap) else {
+            return Ok(None);
+        };
+        let off: Vec<f64> = self.gap.iter().zip(&exact).map(|(a, b)| a - b).collect();
+        // of a law that bends on the way the matrix at one end says little
+        let bend = |(i, &gap): (usize, &f64)| (local(i, gap)[1] - slopes[i]).abs();
+        let bent = exact.iter().enumerate().map(bend).fold(0.0_f64, f64::max);
+        let jumps = self.scene.law.base == Kind::MaugisDugdale
+            && self.gap.iter().zip(&exact).any(|(a, b)| local(0, *a)[0] != local(0, *b)[0]);
+        if attracts > 0.0 && bent > 0.3 * margin.min(attracts) || jumps {
+            return Ok(None);
+        }
+        let distance = self.dense.work(&off).sqrt();
+        let mut allowed = admitted + self.noise;
+        if !matches!(held, Held::Shift(_)) {
+            let unbalanced = self.unbalanced() + self.load_noise() + self.rounding;
+            allowed += unbalanced * self.reach(&free, held, &slopes);
+        }
+        allowed *= 1.01 * amplified;
+        need(distance <= allowed, || {
+            format!(
+                "claims {allowed:e} ({:e}, amplified by {amplified:.1}) and is {distance:e} off",
+                self.report.relative_error
+            )
+        })?;
+        Ok(Some(distance / allowed))
+    }
+
+    /// The most that the energy norm changes for a unit change of the load.
+    fn reach(&self, free: &[usize], held: Held, slopes: &[f64]) -> f64 {
+        let (dense, nodes) = (&self.dense, self.dense.nodes as f64);
+        let touching = (0..self.gap.len()).filter(|i| !free.contains(i));
+        // a displacement that leaves a node where it is
+        let pinned = touching.map(|i| {
+            let force: Vec<f64> = dense
+                .share
+                .iter()
+                .enumerate()
+                .map(|(j, share)| nodes * (share - f64::from(u8::from(i == j))))
+                .collect();
+            dense.compliant(&force).sqrt()
+        });
+        let least = pinned.fold(f64::INFINITY, f64::min);
+        if least.is_finite() {
+            return least;
+        }
+        let right = free.iter().map(|&i| nodes * dense.share[i]).collect();
+        let step = crate::common::dense::eliminate(dense.hessian(free, held, slopes, 0.0), right).unwrap_or_default();
+        if step.len() == free.len() { dense.work(&step).sqrt() } else { 0.0 }
+    }
+
+    /// That the verdicts on the stability are those of the pivots of the second derivative: under the control, and under
+    /// the pressure that holds a given mean gap. Which they are.
+    pub fn stability<O, L, C>(&self, problem: &mut Problem<T, O, L>, constraint: &C) -> Result<Vec<Verdict>, String>
+    where
+        O: ElasticOperator<T>,
+        L: AdhesionLaw<T>,
+        C: ContactConstraint<T>,
+    {
+        let (scene, free) = (self.scene, self.free());
+        let jumps = scene.law.base == Kind::MaugisDugdale;
+        let rounds = scene.constraint == Constraint::Uzawa;
+        if scene.law.is_none() || jumps || rounds || !self.converged() || free.len() < 3 {
+            return Ok(Vec::new());
+        }
+        let law = scene.law.of_gap::<f64>();
+        let local = self.local(&*law);
+        let slopes: Vec<f64> = self.gap.iter().enumerate().map(|(i, &g)| local(i, g)[1]).collect();
+        let steepest = largest(&slopes) + self.dense.stiffest;
+        let margin = (1e-3 * self.dense.softest).max(ROUNDINGS * Self::epsilon() * steepest);
+        let pressure = self.report.mean_pressure;
+        let loads = [(scene.control, self.held), (Control::MeanPressure(pressure), Held::Pressure(pressure))];
+        let loads = &loads[..if matches!(self.held, Held::Shift(_)) { 2 } else { 1 }];
+        let verdict = |&(control, held): &(Control, Held)| {
+            let test = StabilityTest::default().run_with(problem, constraint, control, self.solution);
+            let stability = test.map_err(|error| format!("no stability test: {error}"))?;
+            let below = |number: f64| self.dense.below(&free, held, &slopes, number);
+            let (value, bound) = (stability.eigenvalue, stability.lower_bound);
+            match stability.verdict {
+                Verdict::Stable => need(below(-margin) == 0, || format!("stable with {value:e}, but it is a saddle"))?,
+                Verdict::Unstable => {
+                    need(below(margin) > 0, || format!("unstable with {value:e}, but it is a minimum"))?
+                }
+                Verdict::Undecided => {}
+            }
+            if scene.is_whole() && stability.verdict != Verdict::Undecided {
+                let allowed = 1e-3 * value.abs() + margin;
+                let (less, more) = (below(bound - allowed), below(value + allowed));
+                let least = less == 0 && more > 0;
+                need(least, || format!("{bound:e} to {value:e} is not the least: {less} below, {more} above"))?;
+            }
+            Ok(stability.verdict)
+        };
+        loads.iter().map(verdict).collect()
+    }
+
+    /// The terms of which the energy is the sum, per area.
+    pub fn magnitude(&self) -> f64 {
+        let u = self.rounding / (ROUNDINGS * Self::epsilon());
+        let lengths = self.mean(&self.gap.iter().map(|g| g.abs()).collect::<Vec<_>>());
+        self.dense.work(&self.heights) + u * lengths + self.report.adhesive_energy.abs()
+    }
+
+    /// How far rounding alone lets a state be from equilibrium, relative to the scale and to the load.
+    pub fn is_at_floor(&self, operator: &dyn ElasticOperator<T>) -> bool {
+        let (stiffest, report) = (operator.stiffness_range().1, self.report);
+        let mean = self.gap.iter().map(|g| g.abs()).sum::<f64>() / self.gap.len() as f64;
+        let rms = (dot(&self.heights, &self.heights) / self.heights.len() as f64).sqrt();
+        let rounded = self.dense.work(&self.heights) + stiffest * mean * (mean + rms);
+        let floor = Self::epsilon() * (rounded / report.elastic_energy).sqrt();
+        let size = report.mean_pressure.abs().max(report.mean_contact_pressure);
+        let of_load = self.load_noise() / size + Self::epsilon() * stiffest * (mean + rms) / size;
+        let within = |error: f64, floor: f64| error <= self.tolerance() || error < 40.0 * floor;
+        within(report.relative_error, floor) && within(report.load_error, floor.max(of_load))
+    }
+}
