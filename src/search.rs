@@ -291,7 +291,7 @@ where
                 (self.start, self.gap) = (None, Some(solved.gap().clone()));
             }
             bracket.add(point, wanted);
-            if nearest.as_ref().is_none_or(|(kept, _)| distance(count) < distance(kept.nodes)) {
+            if nearest.as_ref().is_none_or(|(kept, _)| distance(count) <= distance(kept.nodes)) {
                 nearest = Some((point, solved));
             }
             self.remember(point);

@@ -171,11 +171,7 @@ impl Law {
             (None, None) => Box::new(law),
             (None, Some(works)) => Box::new(Varying::new(law, works.view()).unwrap()),
             (Some(end), None) => Box::new(CutOff::new(law, end).unwrap()),
-            (Some(end), Some(_)) => {
-                let law = CutOff::new(law, end).unwrap();
-                let work = AdhesionLaw::<f64>::work_of_adhesion(&law);
-                Box::new(Varying::new(law, self.shares.as_ref().map(|shares| shares * work).unwrap().view()).unwrap())
-            }
+            (Some(end), Some(works)) => Box::new(CutOff::new(Varying::new(law, works.view()).unwrap(), end).unwrap()),
         }
     }
 }

@@ -104,16 +104,20 @@ fn a_jump_of_adhesion_is_told_from_its_side() {
     let wave = Surface::from_fn(line, |x, _| 1e-3 * (std::f64::consts::TAU * x).cos()).unwrap();
     let law = Exponential::new(1e-4, 5e-4).unwrap();
     let mut problem = Problem::new(&wave, Westergaard::<f64>::new(line, 1.0).unwrap(), law).unwrap();
-    let mut solver = Solver::default();
-    let mut search = ContactSearch::new(&mut solver, &mut problem).unwrap();
-    let found = search.at(0.05).unwrap();
-    let fraction = found.solution.report.contact_fraction;
-    assert!(!found.reached && found.solution.report.status == Status::Converged, "{found:?}");
-    assert!(found.below == Some(0.0) && found.above.is_some_and(|above| above > 0.06 && above < 0.2), "{found:?}");
-    assert!(found.above == Some(fraction) || fraction == 0.0, "{fraction}");
-    // beyond the jump there are states again
-    let found = search.at(0.5).unwrap();
-    assert!(found.reached && is_near(&found.solution.report, 0.5, 256), "{found:?}");
+    for (branch, beyond) in [(None, 0.4..0.5), (Some(Branch::Unloading), 0.06..0.2)] {
+        let mut solver = Solver::new(Settings { branch, ..Settings::default() });
+        let mut search = ContactSearch::new(&mut solver, &mut problem).unwrap();
+        let found = search.at(0.05).unwrap();
+        let fraction = found.solution.report.contact_fraction;
+        assert!(!found.reached && found.solution.report.status == Status::Converged, "{found:?}");
+        assert!(found.below == Some(0.0) && found.above.is_some_and(|above| beyond.contains(&above)), "{found:?}");
+        assert!(found.above == Some(fraction) || fraction == 0.0, "{fraction}");
+        // next to the jump
+        assert!(found.solution.report.mean_gap < 0.02, "{found:?}");
+        // beyond it there are states again
+        let found = search.at(0.5).unwrap();
+        assert!(found.reached && is_near(&found.solution.report, 0.5, 256), "{found:?}");
+    }
 }
 
 #[test]

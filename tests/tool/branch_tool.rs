@@ -9,7 +9,7 @@ const STICKY: &str = "--heights wave.npy --law exponential --work-of-adhesion 4e
 
 fn wave() -> Bench {
     let bench = Bench::new();
-    bench.said("surface --form wave --size 128 1 --lengths 1 1 --amplitude 0.02 --quiet --out wave.npy");
+    bench.said("surface --form wave --shape 128 1 --lengths 1 1 --amplitude 0.02 --quiet --out wave.npy");
     bench
 }
 
