@@ -95,7 +95,8 @@ fn falls<T: Real>(scene: &Scene, history: &[Iteration], magnitude: f64) -> Resul
         return Ok(());
     }
     let size = history.iter().map(|i| i.energy.abs()).fold(magnitude, f64::max);
-    let allowed = (64.0 * T::epsilon().widen()).max(f64::from(f32::EPSILON)) * size;
+    // of two sums of a change, its work and its elastic energy
+    let allowed = (64.0 * T::epsilon().widen()).max(2.0 * f64::from(f32::EPSILON)) * size;
     let within = history.windows(2).filter(|pair| pair[0].round == pair[1].round);
     let rise = within.map(|pair| pair[1].energy - pair[0].energy).fold(0.0, f64::max);
     if rise <= allowed { Ok(()) } else { Err(format!("energy rises by {rise:e} of {size:e}")) }
@@ -140,38 +141,38 @@ type Rates = [[u32; 2]; 3];
 
 /// What is held, by constraint and law.
 const ENDS: &[(Constraint, Kind, Rates)] = &[
-    (Constraint::Hard, Kind::None, [[713, 995], [977, 998], [976, 998]]),
+    (Constraint::Hard, Kind::None, [[714, 995], [977, 998], [976, 998]]),
     (Constraint::Hard, Kind::Exponential, [[843, 1000], [994, 1000], [1000, 1000]]),
-    (Constraint::Hard, Kind::MaugisDugdale, [[828, 1000], [976, 991], [991, 994]]),
-    (Constraint::Hard, Kind::LennardJones, [[837, 979], [1000, 1000], [997, 1000]]),
-    (Constraint::Hard, Kind::Morse, [[808, 994], [994, 1000], [997, 997]]),
-    (Constraint::Hard, Kind::PowerLaw, [[778, 1000], [994, 994], [991, 994]]),
-    (Constraint::Hard, Kind::Table, [[758, 997], [988, 994], [1000, 1000]]),
-    (Constraint::Hard, Kind::CutOff, [[775, 997], [991, 994], [988, 994]]),
-    (Constraint::Hard, Kind::Varying, [[823, 988], [994, 1000], [994, 997]]),
+    (Constraint::Hard, Kind::MaugisDugdale, [[831, 1000], [976, 991], [997, 997]]),
+    (Constraint::Hard, Kind::LennardJones, [[837, 982], [1000, 1000], [997, 1000]]),
+    (Constraint::Hard, Kind::Morse, [[811, 994], [994, 1000], [997, 997]]),
+    (Constraint::Hard, Kind::PowerLaw, [[781, 1000], [997, 997], [991, 994]]),
+    (Constraint::Hard, Kind::Table, [[758, 997], [991, 994], [1000, 1000]]),
+    (Constraint::Hard, Kind::CutOff, [[778, 991], [994, 997], [994, 997]]),
+    (Constraint::Hard, Kind::Varying, [[828, 994], [994, 1000], [994, 997]]),
     (Constraint::Paper, Kind::None, [[752, 946], [920, 929], [840, 867]]),
-    (Constraint::Penalty, Kind::None, [[752, 991], [964, 1000], [955, 973]]),
+    (Constraint::Penalty, Kind::None, [[752, 991], [973, 1000], [955, 973]]),
     (Constraint::Penalty, Kind::Exponential, [[805, 1000], [991, 1000], [982, 991]]),
-    (Constraint::Penalty, Kind::MaugisDugdale, [[796, 1000], [1000, 1000], [991, 1000]]),
+    (Constraint::Penalty, Kind::MaugisDugdale, [[787, 1000], [1000, 1000], [991, 1000]]),
     (Constraint::Penalty, Kind::LennardJones, [[787, 982], [991, 1000], [973, 1000]]),
     (Constraint::Penalty, Kind::Morse, [[778, 1000], [982, 982], [973, 1000]]),
-    (Constraint::Penalty, Kind::PowerLaw, [[761, 1000], [973, 982], [991, 991]]),
+    (Constraint::Penalty, Kind::PowerLaw, [[761, 1000], [991, 1000], [1000, 1000]]),
     (Constraint::Penalty, Kind::Table, [[823, 1000], [982, 1000], [991, 1000]]),
-    (Constraint::Penalty, Kind::CutOff, [[743, 991], [982, 982], [982, 982]]),
-    (Constraint::Penalty, Kind::Varying, [[778, 973], [991, 1000], [982, 982]]),
+    (Constraint::Penalty, Kind::CutOff, [[752, 991], [982, 982], [982, 982]]),
+    (Constraint::Penalty, Kind::Varying, [[778, 982], [991, 1000], [982, 982]]),
     (Constraint::Uzawa, Kind::None, [[654, 1000], [982, 1000], [938, 964]]),
-    (Constraint::Uzawa, Kind::Exponential, [[796, 1000], [982, 982], [973, 973]]),
-    (Constraint::Uzawa, Kind::MaugisDugdale, [[734, 973], [982, 991], [991, 1000]]),
+    (Constraint::Uzawa, Kind::Exponential, [[805, 1000], [982, 982], [973, 973]]),
+    (Constraint::Uzawa, Kind::MaugisDugdale, [[734, 982], [982, 991], [1000, 1000]]),
     (Constraint::Uzawa, Kind::LennardJones, [[796, 973], [964, 973], [982, 1000]]),
-    (Constraint::Uzawa, Kind::Morse, [[769, 991], [964, 973], [982, 982]]),
+    (Constraint::Uzawa, Kind::Morse, [[778, 991], [964, 973], [982, 982]]),
     (Constraint::Uzawa, Kind::PowerLaw, [[849, 991], [982, 982], [991, 991]]),
-    (Constraint::Uzawa, Kind::Table, [[787, 1000], [991, 1000], [955, 982]]),
-    (Constraint::Uzawa, Kind::CutOff, [[743, 1000], [964, 964], [982, 1000]]),
-    (Constraint::Uzawa, Kind::Varying, [[743, 982], [982, 982], [1000, 1000]]),
-    (Constraint::None, Kind::LennardJones, [[703, 964], [942, 946], [951, 955]]),
-    (Constraint::None, Kind::Morse, [[747, 960], [960, 960], [960, 964]]),
-    (Constraint::None, Kind::CutOff, [[712, 991], [995, 1000], [977, 1000]]),
-    (Constraint::None, Kind::Varying, [[716, 960], [969, 969], [991, 991]]),
+    (Constraint::Uzawa, Kind::Table, [[787, 1000], [1000, 1000], [955, 982]]),
+    (Constraint::Uzawa, Kind::CutOff, [[761, 1000], [964, 964], [991, 991]]),
+    (Constraint::Uzawa, Kind::Varying, [[743, 991], [982, 982], [1000, 1000]]),
+    (Constraint::None, Kind::LennardJones, [[707, 995], [995, 1000], [986, 991]]),
+    (Constraint::None, Kind::Morse, [[756, 986], [986, 986], [995, 995]]),
+    (Constraint::None, Kind::CutOff, [[725, 982], [995, 1000], [973, 995]]),
+    (Constraint::None, Kind::Varying, [[734, 982], [982, 982], [1000, 1000]]),
 ];
 
 /// The ends of the scenes of a combination.

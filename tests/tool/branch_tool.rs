@@ -20,7 +20,7 @@ fn both_branches_are_compared_and_the_default_is_loading() {
     let line =
         |name: &str| said.lines().find(|line| line.starts_with(name)).unwrap_or_else(|| panic!("{name}: {said}"));
     assert!(line("branch ").ends_with(" loading"), "{said}");
-    assert!(line("on that of unloading ").contains(" 100 % contact, mean gap 0"), "{said}");
+    assert!(line("on that of unloading ").contains(" 100.0 % contact, mean gap 0"), "{said}");
     let report = bench.report("both");
     let other = &report["other_branch"];
     assert_eq!(
