@@ -236,7 +236,6 @@ fn tips_under_next_to_no_load_find_the_force_that_holds_them() {
 /// The contact under pressures and adhesions of a rough surface, by loading, in the largest equilibrium and by
 /// unloading, with the applications that they take. Prints the table of the page `branches`.
 #[test]
-#[ignore = "takes a minute"]
 fn the_branch_of_loading_is_kept_where_the_grid_resolves_the_adhesion() {
     let grid = Grid::square(64, 1.0).unwrap();
     let surface = common::rough::rough(grid, 5, 1);
@@ -268,7 +267,7 @@ fn the_branch_of_loading_is_kept_where_the_grid_resolves_the_adhesion() {
             taken[0] += loading.report.operator_applications;
             taken[1] += unloading.report.operator_applications;
             scenes += 1;
-            assert!(shares[0] >= of_largest - 1e-3 && shares[0] <= shares[1] + 1e-3);
+            assert!(shares[0] >= of_largest - 1e-3 && shares[0] <= 1.08 * of_largest.max(0.01));
             if problem.mu_rho() < 1.0 {
                 assert!(apart(&loading.gap, &largest, range) < 1e-3);
             }
