@@ -3,7 +3,7 @@
 use super::coarse::Coarse;
 use super::minimisation::{Goal, Progress};
 use super::start::uniform_start;
-use super::state::State;
+use super::state::{State, prepare};
 use crate::adhesion::AdhesionLaw;
 use crate::constraint::{ContactConstraint, Update};
 use crate::error::{Error, Result};
@@ -65,6 +65,7 @@ impl<'a, T: Real, L: Real> State<'a, T, L> {
     ) -> Result<()> {
         (self.law, self.load, self.step_length) = (law, load, 1.0);
         if let Some((constraint, separation)) = repelled {
+            prepare(constraint, &*self.operators, self.flat, self.settings)?;
             self.constraint = constraint;
             let lift = T::lit(separation);
             self.fields.gap.mapv_inplace(|gap| gap + lift);

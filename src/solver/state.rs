@@ -84,6 +84,21 @@ pub(super) struct State<'a, T, L> {
     pub(super) detached: Option<f64>,
 }
 
+/// Prepares a constraint for a solve.
+pub(super) fn prepare<T: Real, L: Real>(
+    constraint: &mut dyn ContactConstraint<T>,
+    operators: &dyn Operators<T, L>,
+    flat: &PressedFlat<T>,
+    settings: Settings,
+) -> Result<()> {
+    let operator = operators.state();
+    if !constraint.takes_slabs() {
+        Error::alone("contact constraint", operator.grid().slab())?;
+    }
+    let surface = flat.window.as_ref().map_or(operator.grid(), Window::held);
+    constraint.start(surface, operator.stiffness_range().1, settings.tolerance_in::<T>())
+}
+
 impl<'a, T: Real, L: Real> State<'a, T, L> {
     pub(super) fn new(
         operators: &'a mut dyn Operators<T, L>,
@@ -94,13 +109,9 @@ impl<'a, T: Real, L: Real> State<'a, T, L> {
         begin: Begin<'_, T>,
         settings: Settings,
     ) -> Result<Self> {
-        let operator = operators.state();
-        let (slab, shape) = (operator.grid().slab(), operator.grid().field_shape());
-        let surface = flat.window.as_ref().map_or(operator.grid(), Window::held);
-        if !constraint.takes_slabs() {
-            Error::alone("contact constraint", slab)?;
-        }
-        constraint.start(surface, operator.stiffness_range().1, settings.tolerance_in::<T>())?;
+        prepare(constraint, &*operators, flat, settings)?;
+        let grid = operators.state().grid();
+        let (slab, shape) = (grid.slab(), grid.field_shape());
         if settings.method == Method::Rey2017 && (flat.window.is_some() || load.stiffness() > 0.0) {
             let (control, reason) = (
                 "Algorithm 3 of Rey, Anciaux and Molinari (2017)",
