@@ -123,6 +123,7 @@ def test_a_tip_with_adhesion_on_a_spring_jumps_in_and_off():
     assert axes.get_xlabel() == "approach (mm)" and axes.get_ylabel() == "normal force (µN)"
 
 
+@pytest.mark.filterwarnings("ignore:ends")
 def test_bodies_start_apart_where_that_is_asked_for(tip):
     law = asperity.Exponential(2e-5, 2e-3)
     strong = asperity.Exponential(1e-4, 2e-3)
