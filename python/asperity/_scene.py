@@ -130,7 +130,7 @@ class Scene:
     def _afar(self, loads: list[Load]) -> NDArray[np.float64] | None:
         """The start of bodies that come from afar: under loads that grow from an approach before touch.
 
-        With adhesion the default start of a solve would find them sticking.
+        Under a pull the default start of a solve with adhesion would find them sticking.
         """
         if len(loads) < 2 or self.inputs["boundary"] != "free" or loads[0][0] not in ("approach", "spring"):
             return None

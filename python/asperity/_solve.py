@@ -111,7 +111,7 @@ def solve(
     start : array_like, Solution or "apart", optional
         Gap from which to start, of the shape (Nx, Ny) of the results. With adhesion it chooses the branch. ``"apart"`` are
         undeformed bodies that come from afar, at the ``mean_gap``, the ``approach`` or the position at rest of the
-        ``spring``: by default those with adhesion are found sticking.
+        ``spring``: under a pull those with adhesion are found sticking otherwise.
     nested : bool, optional
         Solves on coarser grids first, where these resolve the adhesion; ``report["grid_error"]`` estimates the error of
         the grid then. None leaves it to the library, which does so where it is faster.
