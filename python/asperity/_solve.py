@@ -198,7 +198,7 @@ def solve(
     if branch is not None and start is not None:
         raise ValueError("start chooses the branch: leave out branch, or start")
     if branch == "both":
-        _check_both(law, method, contact_fraction, accuracy)
+        _check_both(law, method, contact_fraction, accuracy, leave)
     goal = _accuracy.goal(
         accuracy,
         accuracy_of,
@@ -234,11 +234,15 @@ def solve(
     return scene.solution("solve", {**found, "plan": plan})
 
 
-def _check_both(law: Any, method: str, contact_fraction: float | None, accuracy: float | None) -> None:
+def _check_both(
+    law: Any, method: str, contact_fraction: float | None, accuracy: float | None, leave: bool
+) -> None:
     """Refuses both branches of equilibria where there is nothing to be compared."""
     reason = None
     if law is None:
         reason = "without adhesion there is but one equilibrium"
+    elif leave:
+        reason = "an equilibrium that is left leads off its branch: give one branch"
     elif method == "rey2017":
         reason = "rey2017 has one start"
     elif contact_fraction is not None or accuracy is not None:

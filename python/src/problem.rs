@@ -8,7 +8,7 @@ use asperity::contact::Original;
 use asperity::path::{Event, Path, PathCheckpoint, PathSettings};
 use asperity::stability::{ContactStiffness, StabilityTest, Verdict};
 use asperity::{
-    AdhesionLaw, Branch, ContactSearch, Control, ElasticOperator, Error, Grid, Nested, NestedSolution, Real, Settings,
+    AdhesionLaw, ContactSearch, Control, ElasticOperator, Error, Grid, Nested, NestedSolution, Real, Settings,
     Solution, Solver, Start, Status, Surface, Sweep, Topography, Warning,
 };
 use numpy::IntoPyArray;
@@ -234,12 +234,8 @@ impl<T: Scalar> State<T> {
 
     /// An account with the solution on the other branch of equilibria, if both are asked for and it has a branch.
     fn with_other(&mut self, account: Account<T>, observe: Observe<'_>) -> asperity::Result<Account<T>> {
-        let other = match account.solution.report.branch.filter(|_| self.both) {
-            Some(Branch::Loading) => Branch::Unloading,
-            Some(Branch::Unloading) => Branch::Loading,
-            None => return Ok(account),
-        };
-        let settings = Settings { branch: Some(other), ..self.solver.settings };
+        let Some(branch) = account.solution.report.branch.filter(|_| self.both) else { return Ok(account) };
+        let settings = Settings { branch: Some(branch.other()), ..self.solver.settings };
         let mut solver = Solver { settings, ..self.solver.clone() };
         let problem = single(&mut self.body, &self.law, self.beyond, self.modulus)?;
         let found = solver.solve_with(problem, account.control, Start::Default, observe)?;

@@ -7,7 +7,7 @@ use ndarray::Zip;
 #[cfg(doc)]
 use super::Report;
 use super::start::{Begin, Start};
-use super::{Method, Settings, Solution};
+use super::{Method, Settings, Solution, Status};
 use crate::adhesion::AdhesionLaw;
 use crate::constraint::Wall;
 use crate::error::{Error, Result};
@@ -57,6 +57,14 @@ impl Branch {
         match self {
             Self::Loading => "loading",
             Self::Unloading => "unloading",
+        }
+    }
+
+    /// The other one of the two branches.
+    pub fn other(self) -> Self {
+        match self {
+            Self::Loading => Self::Unloading,
+            Self::Unloading => Self::Loading,
         }
     }
 
@@ -122,10 +130,14 @@ impl<T: Real> Solution<T> {
     }
 
     /// Whether two solutions of one problem under one load are the same equilibrium, to their accuracies: with adhesion
-    /// a certified error bounds the distance to the equilibrium but for a factor, that of how soft it is.
+    /// a certified error bounds the distance to the equilibrium but for a factor, that of how soft it is. Of solves that
+    /// have not converged it is not said.
     pub fn agrees_with(&self, other: &Self, grid: &Grid) -> bool {
         let [a, b] = [self, other].map(|solution| solution.report.relative_error.max(solution.report.load_error));
-        self.distance(other, grid) <= SOFT * (a + b)
+        let found = [self, other].iter().all(|solution| solution.report.status == Status::Converged);
+        // all processes that share the grid have to ask
+        let distance = self.distance(other, grid);
+        found && distance <= SOFT * (a + b)
     }
 }
 

@@ -8,8 +8,8 @@ use asperity::accuracy::{Accuracy, AccurateSolution, GridError};
 use asperity::contact::ContactStatistics;
 use asperity::stability::{ContactStiffness, Departure, Stability, StabilityTest, Verdict};
 use asperity::{
-    AdhesionLaw, Branch, ContactSearch, Control, FoundContact, Grid, Iteration, Level, Nested, NestedSolution, Problem,
-    Report, Settings, Solution, Solver, Start, Surface,
+    AdhesionLaw, ContactSearch, Control, FoundContact, Grid, Iteration, Level, Nested, NestedSolution, Problem, Report,
+    Settings, Solution, Solver, Start, Surface,
 };
 use ndarray::Array2;
 use serde_json::Value;
@@ -58,12 +58,10 @@ impl Case {
 
     /// The case on the other branch than that of a solution, without what is asked for beside it.
     pub fn on_other_branch(&self, report: &Report) -> Outcome<Self> {
-        let other = match report.branch {
-            Some(Branch::Loading) => Branch::Unloading,
-            Some(Branch::Unloading) => Branch::Loading,
-            None => return Err("--branch both: without adhesion there is but one equilibrium".into()),
+        let Some(branch) = report.branch else {
+            return Err("--branch both: without adhesion there is but one equilibrium".into());
         };
-        let settings = Settings { branch: Some(other), ..self.settings };
+        let settings = Settings { branch: Some(branch.other()), ..self.settings };
         Ok(Self { settings, stability: false, leave: false, stiffness: false, ..*self })
     }
 

@@ -227,6 +227,7 @@ impl Options {
                 "each branch has a load of its own for a contact fraction: give a load"
             }
             _ if self.accuracy.accuracy.is_some() => "each branch has an accuracy of its own: give one branch",
+            _ if self.leave => "an equilibrium that is left leads off its branch: give one branch",
             _ if self.solver.method == Iteration::Rey2017 => "rey2017 has one start: take the default method",
             _ => return Ok(()),
         };

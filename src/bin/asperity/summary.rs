@@ -81,6 +81,7 @@ pub fn table(names: &[&str], solves: &[&Account], adhesive: bool, units: &Units,
             let r = &other.report;
             let told = match other.same {
                 true => "the same equilibrium".to_owned(),
+                false if r.status != Status::Converged => format!("not found: {}", r.status),
                 false => format!(
                     "{} % contact, mean gap {}, {} % away in the energy norm",
                     percent(r.contact_fraction),
