@@ -287,7 +287,7 @@ impl ContactStatistics {
             contact_fraction,
             corrected_contact_fraction,
             perimeter,
-            cluster_sizes: clusters::sizes(contact.view(), slab, boundary),
+            cluster_sizes: Clusters::within(grid.whole(&contact).view(), Connectivity::Sides, boundary).sizes,
             repulsive_fraction: share(grid.total(contact_pressure.iter().filter(|&&p| p > T::zero()).count())),
             attractive_fraction: share(attracting),
             apart_fraction: share(facing - contact_nodes - attracting),

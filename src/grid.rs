@@ -6,9 +6,9 @@ use std::ops::Range;
 use ndarray::{Array2, ArrayRef2, CowArray, Ix2};
 
 use crate::error::{Error, Result};
-use crate::ranks::COUNTED;
+use crate::ranks::{COUNTED, Sent};
 use crate::real::Real;
-use crate::slab::Slab;
+use crate::slab::{Rows, Slab};
 
 /// A periodic rectangle with its nodes: Nx × Ny of them on sides Lx × Ly.
 ///
@@ -110,9 +110,47 @@ impl Grid {
         if self.is_shared() { self.slab.whole_of(field, false).map(CowArray::from) } else { Some(field.view().into()) }
     }
 
+    /// The whole of a field on every process. All of them have to ask.
+    pub(crate) fn whole<'a, A: Sent>(&self, field: &'a ArrayRef2<A>) -> CowArray<'a, A, Ix2> {
+        match self.is_shared().then(|| self.slab.whole_of(field, true)).flatten() {
+            Some(whole) => whole.into(),
+            None => field.view().into(),
+        }
+    }
+
     /// The grid for this process alone, as for fields that were [gathered](Self::gathered).
     pub fn alone(self) -> Self {
         Self { slab: Slab::whole(self.shape()), ..self }
+    }
+
+    /// The number of the first node that this process holds: nodes count along the rows of the whole grid.
+    pub(crate) fn first_node(&self) -> usize {
+        self.slab.first_node()
+    }
+
+    /// Whether something is so for one of the processes that share the grid. All of them have to ask.
+    pub(crate) fn has(&self, own: bool) -> bool {
+        self.slab.has(own)
+    }
+
+    /// The lists of the processes that share the grid, one after the other. All of them have to ask.
+    pub(crate) fn lists<E: Sent>(&self, own: Vec<E>) -> Vec<E> {
+        self.slab.ranks().lists(own)
+    }
+
+    /// The rows of a field that the rows of another grid need: `needs` tells them for a row. All processes have to ask.
+    pub(crate) fn rows_for<'a, A: Sent, I: IntoIterator<Item = usize>>(
+        &self,
+        field: impl Into<CowArray<'a, A, Ix2>>,
+        to: &Self,
+        needs: impl Fn(usize) -> I,
+    ) -> Rows<'a, A> {
+        self.slab.rows_for(field, &to.slab, needs)
+    }
+
+    /// A field in the rows of another division of the grid. All processes have to ask.
+    pub(crate) fn moved<'a, A: Sent>(&self, field: impl Into<CowArray<'a, A, Ix2>>, to: &Self) -> CowArray<'a, A, Ix2> {
+        self.slab.moved(field.into(), &to.slab)
     }
 
     /// The part of the grid that this process holds.
@@ -134,9 +172,9 @@ impl Grid {
         Ok(Self { slab, ..self })
     }
 
-    /// The grid in the rows of a slab of another one, on which it is a window.
-    pub(crate) fn in_rows_of(self, slab: &Slab) -> Self {
-        Self { slab: slab.window(self.shape()), ..self }
+    /// The grid in the rows of another one, on which it is a window.
+    pub(crate) fn in_rows_of(self, other: &Self) -> Self {
+        Self { slab: other.slab.window(self.shape()), ..self }
     }
 
     /// The grid, shared by the processes that share the one that is to be a window on it.

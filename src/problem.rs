@@ -224,7 +224,7 @@ impl<T: Real> PressedFlat<T> {
         }
         // gap, pressure and K⁻¹h, and in f32 the other fields of a solve
         afford("a solve", slab, 3 * size_of::<T>() + 16)?;
-        let window = Window::new(surface, slab);
+        let window = Window::new(surface, operator.grid());
         let extended = window.as_ref().map(|window| window.extend(surface.heights().view()));
         let padded;
         let whole = match extended {

@@ -14,16 +14,17 @@ pub(crate) struct Ranks {
     count: usize,
 }
 
-/// A number that can be sent to another process.
+/// A value that can be sent to another process.
 #[cfg(not(feature = "mpi"))]
-pub(crate) trait Sent: Copy + Default + Debug + Send + 'static {}
+pub trait Sent: Copy + Default + Debug + Send + 'static {}
 
-/// A number that can be sent to another process.
+/// A value that can be sent to another process.
 #[cfg(feature = "mpi")]
-pub(crate) trait Sent: Copy + Default + Debug + Send + mpi::datatype::Equivalence + 'static {}
+pub trait Sent: Copy + Default + Debug + Send + mpi::datatype::Equivalence + 'static {}
 
 impl Sent for f32 {}
 impl Sent for f64 {}
+impl Sent for bool {}
 impl Sent for u8 {}
 impl Sent for u64 {}
 impl Sent for Complex32 {}
@@ -90,6 +91,17 @@ impl Ranks {
         let mut values = vec![value; self.count];
         self.gather(&[value], &Shares::new((0..self.count).map(|_| 1)), &mut values);
         values
+    }
+
+    /// The lists of all ranks, one after the other.
+    pub(crate) fn lists<E: Sent>(self, own: Vec<E>) -> Vec<E> {
+        if self.count == 1 {
+            return own;
+        }
+        let lengths = self.each(own.len() as u64);
+        let mut all = vec![E::default(); lengths.iter().sum::<u64>() as usize];
+        self.gather(&own, &Shares::new(lengths.into_iter().map(|length| length as usize)), &mut all);
+        all
     }
 
     /// The bytes of the first rank.

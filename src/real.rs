@@ -4,6 +4,8 @@ use std::fmt::{Debug, Display, LowerExp};
 
 use num_traits::{Float, FromPrimitive, NumAssign, Signed};
 
+use crate::ranks::Sent;
+
 /// The scalar of every field: `f32` or `f64`.
 ///
 /// One trait gathers what the field arithmetic and the transforms need; sums over fields accumulate in
@@ -16,7 +18,7 @@ use num_traits::{Float, FromPrimitive, NumAssign, Signed};
 /// assert_eq!(half(3.0_f64).widen(), 1.5);
 /// ```
 pub trait Real:
-    Float + NumAssign + FromPrimitive + Signed + Default + Debug + Display + LowerExp + Send + Sync + Sealed + 'static
+    Float + NumAssign + FromPrimitive + Signed + Default + Debug + Display + LowerExp + Send + Sync + Sent + 'static
 {
     /// The name of the precision, as the report prints it: `"f32"` or `"f64"`.
     const NAME: &'static str;
@@ -51,11 +53,6 @@ pub trait Compiled {
     /// The function in `f64`.
     fn double(input: Self::Input<f64>) -> Self::Output<f64>;
 }
-
-/// Keeps other types from becoming scalars.
-pub trait Sealed {}
-impl Sealed for f32 {}
-impl Sealed for f64 {}
 
 impl Real for f32 {
     const NAME: &'static str = "f32";

@@ -1,11 +1,11 @@
 //! The slab of a grid that a process holds: consecutive rows of nodes, all of them where one process is alone.
 
+use std::collections::BTreeSet;
 use std::ops::Range;
 
-use ndarray::{Array2, ArrayRef2, ArrayView2, Axis, CowArray, Ix2, Slice};
+use ndarray::{Array2, ArrayRef2, ArrayView1, ArrayView2, CowArray, Ix2};
 
-use crate::ranks::{Ranks, Shares};
-use crate::real::Real;
+use crate::ranks::{Ranks, Sent, Shares};
 
 /// The nodes of a chunk, which are summed one after the other. The rounding of sums of sums grows with the length of a
 /// run, not with the number of nodes.
@@ -33,6 +33,26 @@ pub(crate) struct Slab {
     /// the number of bands that the ranks share
     bands: usize,
     ranks: Ranks,
+}
+
+/// The rows of a field that a process has, and those of other slabs that it needs.
+pub(crate) struct Rows<'a, A> {
+    held: CowArray<'a, A, Ix2>,
+    /// the number of the first of them
+    first: usize,
+    /// the numbers of the rows of other slabs, in their order
+    others: Vec<usize>,
+    fetched: Array2<A>,
+}
+
+impl<A> Rows<'_, A> {
+    /// A row, by its number in the whole field.
+    pub(crate) fn row(&self, row: usize) -> ArrayView1<'_, A> {
+        match row.checked_sub(self.first).filter(|&own| own < self.held.nrows()) {
+            Some(own) => self.held.row(own),
+            None => self.fetched.row(self.others.partition_point(|&other| other < row)),
+        }
+    }
 }
 
 impl Slab {
@@ -128,60 +148,72 @@ impl Slab {
         self.rows().start * self.shape.1
     }
 
-    /// Rows of a field of all slabs, of which `held` are those of this one: `wanted` tells the rows that each process
-    /// needs.
-    pub(crate) fn fetch<T, I>(&self, held: ArrayView2<'_, T>, wanted: impl Fn(usize) -> I) -> Array2<T>
-    where
-        T: Real,
-        I: Iterator<Item = usize>,
-    {
+    /// The rows of a field, of which `held` are those of this slab, that the rows of another slab need: `needs` tells
+    /// them for a row. All processes have to ask.
+    pub(crate) fn rows_for<'a, A: Sent, I: IntoIterator<Item = usize>>(
+        &self,
+        held: impl Into<CowArray<'a, A, Ix2>>,
+        to: &Self,
+        needs: impl Fn(usize) -> I,
+    ) -> Rows<'a, A> {
+        let (mut held, first) = (held.into(), self.rows().start);
+        if !held.is_standard_layout() {
+            held = held.as_standard_layout().into_owned().into();
+        }
+        if !self.is_shared() {
+            return Rows { held, first, others: Vec::new(), fetched: Array2::default((0, 0)) };
+        }
+        let of = |rank: usize| {
+            let own = self.rows_of(rank);
+            let needed: BTreeSet<_> = to.rows_of(rank).flat_map(&needs).filter(|row| !own.contains(row)).collect();
+            needed.into_iter().collect::<Vec<_>>()
+        };
+        let mut needed: Vec<_> = (0..self.ranks.count()).map(of).collect();
+        let fetched = self.fetch(held.view(), &needed);
+        Rows { held, first, others: needed.swap_remove(self.ranks.rank()), fetched }
+    }
+
+    /// Rows of a field of all slabs, of which `held` are those of this one: `wanted` are the rows that each process
+    /// needs, and none of its own.
+    fn fetch<A: Sent>(&self, held: ArrayView2<'_, A>, wanted: &[Vec<usize>]) -> Array2<A> {
         let (own, ranks) = (self.ranks.rank(), 0..self.ranks.count());
         // the rows of one process that another needs, in the order in which it needs them
         let passed = |from: usize, to: usize| {
             let rows = self.rows_of(from);
-            wanted(to).enumerate().filter(move |(_, row)| rows.contains(row))
+            wanted[to].iter().enumerate().filter(move |(_, row)| rows.contains(row))
         };
-        let count = wanted(own).count();
         let (start, width) = (self.rows().start, held.ncols());
         let mut sent = Vec::new();
         for to in ranks.clone() {
-            passed(own, to).for_each(|(_, row)| sent.extend(held.row(row - start).iter().map(|value| value.widen())));
+            passed(own, to).for_each(|(_, row)| sent.extend(held.row(row - start)));
         }
-        let mut received = vec![0.0; count * width];
+        let mut received = vec![A::default(); wanted[own].len() * width];
         let of = |from: usize, to: usize| passed(from, to).count() * width;
         self.ranks.exchange(&sent, &self.shares(|to| of(own, to)), &mut received, &self.shares(|from| of(from, own)));
-        let mut rows = Array2::zeros((count, width));
+        let mut rows = Array2::default((wanted[own].len(), width));
         let mut next = received.chunks(width.max(1));
-        for from in ranks {
-            for (k, _) in passed(from, own) {
-                let row = next.next().unwrap_or_default();
-                rows.row_mut(k).iter_mut().zip(row).for_each(|(to, &from)| *to = T::lit(from));
-            }
+        for (k, _) in ranks.flat_map(|from| passed(from, own)) {
+            rows.row_mut(k).iter_mut().zip(next.next().unwrap_or_default()).for_each(|(to, &from)| *to = from);
         }
         rows
     }
 
-    /// The row of a field after those of this slab, the first one after the last; none where the slab has no rows.
-    pub(crate) fn next_row<A>(&self, held: ArrayView2<'_, A>, number: impl Fn(&A) -> f64) -> Array2<f64> {
-        // of each slab somebody needs the first row, and nobody another one
-        let first = held.slice_axis(Axis(0), Slice::from(..held.nrows().min(1))).map(number);
-        let wanted = |rank| self.rows_of(rank).last().map(|last| (last + 1) % self.shape.0);
-        self.fetch(first.view(), |rank| wanted(rank).into_iter())
-    }
-
-    /// A field in the rows of another slab of the same grid; all processes have to ask.
-    pub(crate) fn moved<'a, T: Real>(&self, field: CowArray<'a, T, Ix2>, to: &Self) -> CowArray<'a, T, Ix2> {
+    /// A field in the rows of another slab of the same grid. All processes have to ask.
+    pub(crate) fn moved<'a, A: Sent>(&self, field: CowArray<'a, A, Ix2>, to: &Self) -> CowArray<'a, A, Ix2> {
         if !self.is_shared() || self == to {
             return field;
         }
-        self.fetch(field.view(), |rank| to.rows_of(rank)).into()
+        let width = field.ncols();
+        let rows = self.rows_for(field, to, |row| [row]);
+        let moved = to.rows().flat_map(|row| rows.row(row).to_vec()).collect();
+        Array2::from_shape_vec((to.rows().len(), width), moved).unwrap_or_default().into()
     }
 
     /// The field of all slabs, of which `held` is that of this one, on every process, or on the first alone.
-    pub(crate) fn whole_of<T: Real>(&self, held: &ArrayRef2<T>, everywhere: bool) -> Option<Array2<T>> {
+    pub(crate) fn whole_of<A: Sent>(&self, held: &ArrayRef2<A>, everywhere: bool) -> Option<Array2<A>> {
         let (own, ny) = (self.ranks.rank(), self.shape.1);
         let gets = everywhere || own == 0;
-        let mut whole = gets.then(|| Array2::zeros(self.shape));
+        let mut whole = gets.then(|| Array2::default(self.shape));
         // a band of each process at a time, as MPI counts no more than 2³¹ numbers
         let most = (0..self.ranks.count()).map(|rank| self.bands_of(rank).len()).max().unwrap_or_default();
         for turn in 0..most {
@@ -192,10 +224,10 @@ impl Slab {
             };
             let (first, count) = (rows(own).start - self.rows().start, rows(own).len());
             let sent = held.rows().into_iter().skip(first).take(count);
-            let sent: Vec<f64> = sent.flat_map(|row| row.into_iter().map(|value| value.widen())).collect();
+            let sent: Vec<A> = sent.flat_map(|row| row.to_vec()).collect();
             let from = self.shares(|rank| if gets { rows(rank).len() * ny } else { 0 });
             let total = (0..self.ranks.count()).map(|rank| rows(rank).len()).sum::<usize>();
-            let mut received = vec![0.0; if gets { total * ny } else { 0 }];
+            let mut received = vec![A::default(); if gets { total * ny } else { 0 }];
             if everywhere {
                 self.ranks.gather(&sent, &from, &mut received);
             } else {
@@ -205,7 +237,7 @@ impl Slab {
             let mut received = received.chunks(ny.max(1));
             for row in whole.iter().flat_map(|_| (0..self.ranks.count()).flat_map(rows)).collect::<Vec<_>>() {
                 let (Some(whole), Some(values)) = (&mut whole, received.next()) else { break };
-                whole.row_mut(row).iter_mut().zip(values).for_each(|(to, &from)| *to = T::lit(from));
+                whole.row_mut(row).iter_mut().zip(values).for_each(|(to, &from)| *to = from);
             }
         }
         whole
@@ -224,17 +256,6 @@ impl Slab {
     /// The number of the first slab.
     pub(crate) fn first(&self, own: f64) -> f64 {
         if self.is_shared() { self.ranks.each(own)[0] } else { own }
-    }
-
-    /// What numbers become when the slabs add theirs to them one after the other: the sums of one process, to the bit.
-    pub(crate) fn in_turn<const N: usize>(&self, add: impl Fn([f64; N]) -> [f64; N]) -> [f64; N] {
-        let mut sums = [0.0; N];
-        for rank in 0..self.ranks.count() {
-            let own = if rank == self.ranks.rank() { add(sums) } else { sums };
-            let shares = self.shares(|from| if from == rank { N } else { 0 });
-            self.ranks.gather(&own[..if rank == self.ranks.rank() { N } else { 0 }], &shares, &mut sums);
-        }
-        sums
     }
 
     /// Adds up numbers of all slabs.

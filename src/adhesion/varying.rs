@@ -163,10 +163,10 @@ impl<T: Real, L: AdhesionLaw<T>> AdhesionLaw<T> for Varying<L> {
     fn coarsened(&self, (nx, ny): (usize, usize)) -> Option<Box<dyn AdhesionLaw<T> + '_>> {
         let (rows, columns) = self.slab.shape();
         let slab = self.slab.of((rows.div_ceil(nx), columns.div_ceil(ny)));
-        let needed = |rank| slab.rows_of(rank).map(move |row| row * nx);
-        let fetched = self.slab.is_shared().then(|| self.slab.fetch(self.shares.view(), needed));
-        let (every, from) = fetched.as_ref().map_or((nx, &*self.shares), |fetched| (1, fetched));
-        let shares = Arc::new(Array2::from_shape_fn(slab.held(), |(ix, iy)| from[[ix * every, iy * ny]]));
+        let rows = self.slab.rows_for(self.shares.view(), &slab, |row| [row * nx]);
+        let first = slab.rows().start;
+        let shares = Array2::from_shape_fn(slab.held(), |(ix, iy)| rows.row((first + ix) * nx)[iy * ny]);
+        let shares = Arc::new(shares);
         let Self { largest, strongest: (ix, iy), repels, .. } = *self;
         let law: &dyn AdhesionLaw<T> = &self.law;
         Some(Box::new(Varying { law, slab, shares, largest, strongest: (ix / nx, iy / ny), repels }))

@@ -139,31 +139,17 @@ fn edge_of_map((along_x, along_y): (usize, usize), grid: &Grid) -> Edge {
 fn edges(map: ArrayView2<'_, bool>, grid: &Grid, periodic: bool) -> (usize, usize) {
     let (mut along_x, mut along_y) = (0, 0);
     let map = map.as_standard_layout();
-    // the first row of the next slab
-    let slab = grid.slab();
-    let next = slab
-        .is_shared()
-        .then(|| slab.next_row(map.view(), |&touches| f64::from(u8::from(touches))).mapv(|touches| touches > 0.0));
-    for (i, row) in map.outer_iter().enumerate() {
-        let after = match &next {
-            Some(next) if i + 1 == map.nrows() => next.row(0),
-            _ => map.row((i + 1) % map.nrows()),
-        };
+    let nx = grid.shape().0;
+    let rows = grid.rows_for(map.view(), grid, |row| [(row + 1) % nx]);
+    for i in grid.rows() {
+        let [row, after] = [i, (i + 1) % nx].map(|row| rows.row(row));
         let [row, after] = [row, after].map(|row| row.to_slice().unwrap_or_default());
         along_x += differences(row, after);
         along_y += differences(&row[1..], row) + usize::from(row[0] != row[row.len() - 1]);
     }
     if !periodic {
         // across the sides each meets nothing in place of the other
-        let ends = match &next {
-            None => Some((map.row(0), map.row(map.nrows() - 1))),
-            Some(next) => map
-                .rows()
-                .into_iter()
-                .next_back()
-                .filter(|_| slab.rows().end == slab.shape().0)
-                .map(|last| (next.row(0), last)),
-        };
+        let ends = grid.rows().contains(&(nx - 1)).then(|| (rows.row(0), rows.row(nx - 1)));
         let [left, right] = [map.column(0), map.column(map.ncols() - 1)];
         let both =
             |a: ArrayView1<'_, bool>, b: ArrayView1<'_, bool>| a.iter().zip(b).filter(|&(&a, &b)| a && b).count();

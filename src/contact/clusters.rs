@@ -5,7 +5,6 @@ use std::cmp::Reverse;
 use ndarray::{Array2, ArrayView2};
 
 use crate::elastic::Boundary;
-use crate::slab::Slab;
 
 /// The connectivity of a map: which nodes are neighbours.
 ///
@@ -127,42 +126,6 @@ impl Clusters {
         let labels = Array2::from_shape_vec((nx, ny), tree).unwrap_or_else(|_| Array2::zeros((nx, ny)));
         Self { sizes, labels }
     }
-}
-
-/// The sizes of the clusters, as [`Clusters::within`] has them for neighbours along a side, on the map of all slabs.
-pub(super) fn sizes(map: ArrayView2<'_, bool>, slab: Slab, boundary: Boundary) -> Vec<usize> {
-    if !slab.is_shared() {
-        return Clusters::within(map, Connectivity::Sides, boundary).sizes;
-    }
-    let (periodic, ranks) = (boundary == Boundary::Periodic, slab.ranks());
-    let own = Clusters::meeting(map, Connectivity::Sides, [false, periodic]);
-    let counts = ranks.each(own.sizes.len() as u64);
-    let of_own: Vec<u64> = own.sizes.iter().map(|&size| size as u64).collect();
-    let mut sizes = vec![0; counts.iter().sum::<u64>() as usize];
-    ranks.gather(&of_own, &slab.shares(|rank| counts[rank] as usize), &mut sizes);
-    // the clusters at the first and at the last row of every slab, by their places among those of all
-    let first: u64 = counts[..ranks.rank()].iter().sum();
-    let ends = [own.labels.rows().into_iter().next(), own.labels.rows().into_iter().next_back()].into_iter().flatten();
-    let label = |&label: &usize| if label == 0 { u64::MAX } else { first + label as u64 - 1 };
-    let of_own: Vec<u64> = ends.flat_map(|row| row.into_iter().map(label).collect::<Vec<_>>()).collect();
-    let width = 2 * map.ncols();
-    let held: Vec<usize> = (0..ranks.count()).filter(|&rank| !slab.rows_of(rank).is_empty()).collect();
-    let mut rows = vec![0; width * held.len()];
-    ranks.gather(&of_own, &slab.shares(|rank| if held.contains(&rank) { width } else { 0 }), &mut rows);
-    let mut tree: Vec<usize> = (0..sizes.len()).collect();
-    for (k, _) in held.iter().enumerate().filter(|(k, _)| periodic || k + 1 < held.len()) {
-        let (above, below) = (k * width + width / 2, (k + 1) % held.len() * width);
-        for j in 0..width / 2 {
-            if let [Some(a), Some(b)] = [rows[above + j], rows[below + j]].map(|at| tree.get(at as usize).map(|_| at)) {
-                unite(&mut tree, a as usize, b as usize);
-            }
-        }
-    }
-    let mut of_roots = vec![0; sizes.len()];
-    (0..sizes.len()).for_each(|cluster| of_roots[root(&mut tree, cluster)] += sizes[cluster] as usize);
-    of_roots.retain(|&size| size > 0);
-    of_roots.sort_by_key(|&size| Reverse(size));
-    of_roots
 }
 
 /// The parent of a node that belongs to no cluster.

@@ -4,9 +4,7 @@ use std::f64::consts::{E, PI};
 
 use ndarray::ArrayView2;
 
-use super::contact_map;
 use super::places::Places;
-use crate::field::flat;
 use crate::grid::Grid;
 use crate::real::Real;
 
@@ -87,38 +85,23 @@ impl<T: Real> Outline<'_, T> {
     /// The edge between the nodes.
     pub fn edge(&self) -> Edge {
         let Self { gap, contact_pressure, map, grid, periodic, modulus } = self;
-        let slab = grid.slab();
-        let (rows, columns) = map.dim();
+        let ((nx, columns), next) = (grid.shape(), |row| [(row + 1) % grid.shape().0]);
         let (dx, dy) = grid.spacing();
         let step = Step {
             compliances: [dx, dy].map(|spacing| SOFTNESS * spacing / modulus),
             shift: if *periodic { SHIFT_PERIODIC } else { SHIFT_FREE },
         };
-        let after = slab.is_shared().then(|| {
-            let [gap, pressure] =
-                [gap, contact_pressure].map(|field| slab.next_row(field.view(), |value| value.widen()));
-            let map = contact_map(gap.view(), pressure.view());
-            (gap, pressure, map)
-        });
-        let node = |i: usize, j: usize| Node::of(map[[i, j]], gap[[i, j]], contact_pressure[[i, j]]);
-        let touching = map.as_standard_layout();
-        let row = |i: usize| &touching.as_slice().unwrap_or_default()[i * columns..][..columns];
+        let (gap, contact_pressure) = (grid.rows_for(gap, grid, next), grid.rows_for(contact_pressure, grid, next));
+        let map = grid.rows_for(map, grid, next);
+        let node = |i: usize, j: usize| Node::of(map.row(i)[j], gap.row(i)[j], contact_pressure.row(i)[j]);
         // whether the four nodes of a cell are not all of one kind
         let mut mixed = Vec::with_capacity(columns);
         let (mut excess, mut places) = (0_i64, Places::new());
-        for i in 0..rows {
-            if !periodic && slab.rows().start + i + 1 == grid.shape().0 {
-                break;
-            }
-            let below = (i + 1) % rows;
-            let (here, there, node_below): (_, _, &dyn Fn(usize) -> Node) = match &after {
-                Some((gap, pressure, map)) if i + 1 == rows => {
-                    (row(i), flat(map), &|j| Node::of(map[[0, j]], gap[[0, j]], pressure[[0, j]]))
-                }
-                _ => (row(i), row(below), &|j| node(below, j)),
-            };
+        for i in grid.rows().filter(|i| *periodic || i + 1 < nx) {
+            let below = (i + 1) % nx;
+            let [here, there] = [i, below].map(|row| map.row(row).to_slice().unwrap_or_default());
             if grid.is_line() {
-                excess += fixed(step.of_side(node(i, 0), node_below(0), &mut places));
+                excess += fixed(step.of_side(node(i, 0), node(below, 0), &mut places));
                 continue;
             }
             let cells = here.iter().zip(&here[1..]).zip(there.iter().zip(&there[1..]));
@@ -130,11 +113,11 @@ impl<T: Real> Outline<'_, T> {
             }
             for (j, _) in mixed.iter().enumerate().filter(|(_, mixed)| **mixed) {
                 let next = (j + 1) % columns;
-                let corners = [node(i, j), node_below(j), node_below(next), node(i, next)];
+                let corners = [node(i, j), node(below, j), node(below, next), node(i, next)];
                 excess += fixed(step.of_cell(corners, &mut places));
             }
         }
-        let places = places.total(slab);
+        let places = places.total(grid.slab());
         // sums of negative numbers wrap around as well
         let excess = grid.total(excess as usize) as i64 as f64 / CELL;
         Edge { excess, edges: places.edges(), places: places.independent() }

@@ -45,16 +45,10 @@ pub(super) fn patches<T: Real>(
         let (Some([touches, attracts]), work) = (node, 0.0 - energy.widen()) else { continue };
         count(&mut counts, work, [1, u64::from(touches), u64::from(attracts)]);
     }
-    if slab.is_shared() {
-        let own: Vec<u64> = counts.iter().flat_map(|(work, [a, b, c])| [work.to_bits(), *a, *b, *c]).collect();
-        let ranks = slab.ranks();
-        let lengths = ranks.each(own.len() as u64);
-        let mut all = vec![0; lengths.iter().sum::<u64>() as usize];
-        ranks.gather(&own, &slab.shares(|rank| lengths[rank] as usize), &mut all);
-        counts.clear();
-        for patch in all.chunks_exact(4) {
-            count(&mut counts, f64::from_bits(patch[0]), [patch[1], patch[2], patch[3]]);
-        }
+    let own = counts.iter().flat_map(|(work, [a, b, c])| [work.to_bits(), *a, *b, *c]).collect();
+    counts.clear();
+    for &[work, all, touching, attracting] in slab.ranks().lists(own).as_chunks().0 {
+        count(&mut counts, f64::from_bits(work), [all, touching, attracting]);
     }
     if counts.len() > MOST {
         return Vec::new();

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use ndarray::{Array2, ArrayRef2, ArrayView2, ArrayViewMut2, CowArray, Ix2, Slice};
+use ndarray::{Array2, ArrayRef2, ArrayView1, ArrayViewMut1, Axis, Slice, Zip};
 
 use super::Nested;
 use crate::adhesion::AdhesionLaw;
@@ -13,7 +13,6 @@ use crate::field;
 use crate::grid::Grid;
 use crate::problem::{Control, Problem};
 use crate::real::Real;
-use crate::slab::Slab;
 use crate::solver::{Begin, Observer, Solution, Solved, Start, Status};
 use crate::surface::Surface;
 
@@ -42,18 +41,21 @@ struct Part {
 impl Part {
     /// The part about the contact in a gap on the window or on a larger grid, of which this process has the rows of a
     /// slab, if it is a small one.
-    fn of<T: Real>(window: (usize, usize), slab: Slab, gap: &ArrayRef2<T>, law: &dyn AdhesionLaw<T>) -> Option<Self> {
+    fn of<T: Real>(window: (usize, usize), grid: &Grid, gap: &ArrayRef2<T>, law: &dyn AdhesionLaw<T>) -> Option<Self> {
         let least = T::lit(REACH) * law.work_of_adhesion() / law.range();
         let attracts = |gap: T| !law.is_zero() && (law.traction(gap) > least || !least.is_finite());
         let (mut x, mut y) = (window.0..0, window.1..0);
-        for (i, row) in slab.rows().zip(gap.rows()).filter(|(i, _)| *i < window.0) {
+        for (i, row) in grid.rows().zip(gap.rows()).filter(|(i, _)| *i < window.0) {
             for (j, &gap) in row.iter().take(window.1).enumerate() {
                 if gap <= T::zero() || attracts(gap) {
                     (x, y) = (x.start.min(i)..x.end.max(i + 1), y.start.min(j)..y.end.max(j + 1));
                 }
             }
         }
-        let of_all = |side: Range<usize>| slab.least(side.start as f64) as usize..slab.most(side.end as f64) as usize;
+        let of_all = |side: Range<usize>| {
+            let (start, end) = grid.extremes((side.start as f64, side.end as f64));
+            start as usize..end as usize
+        };
         let (x, y) = (of_all(x), of_all(y));
         let widened = |side: Range<usize>, nodes: usize| {
             let margin = ((MARGIN.0 * side.len() as f64) as usize).max(MARGIN.1);
@@ -67,35 +69,29 @@ impl Part {
         (nodes <= SMALL * (window.0 * window.1) as f64).then_some(part)
     }
 
-    /// The part of a field in the rows of a slab, in those of the slab of the part.
-    fn cut<T: Real>(&self, field: &ArrayRef2<T>, from: Slab, to: Slab) -> Array2<T> {
-        if !from.is_shared() {
-            return within(field, [&self.x, &self.y]).to_owned();
-        }
-        let rows = from.fetch(field.view(), |rank| to.rows_of(rank).map(|row| self.x.start + row));
-        within(&rows, [&(0..rows.nrows()), &self.y]).to_owned()
+    /// The part of a field on a grid, on the grid of the part.
+    fn cut<T: Real>(&self, field: &ArrayRef2<T>, from: &Grid, to: &Grid) -> Array2<T> {
+        let rows = from.rows_for(field.view(), to, |row| [self.x.start + row]);
+        let cut = to.rows().flat_map(|row| {
+            rows.row(self.x.start + row).slice_axis_move(Axis(0), Slice::from(self.y.clone())).to_vec()
+        });
+        Array2::from_shape_vec(to.field_shape(), cut.collect()).unwrap_or_default()
     }
 
-    /// The rows of a slab that are in the part: their numbers in the slab of this process, and a field of the part
-    /// there.
-    fn rows_of<'a, T: Real>(
+    /// Calls `f` for each row of a field on a grid that is in the part, with the row of a field of the part.
+    fn meet<T: Real>(
         &self,
-        field: &'a ArrayRef2<T>,
-        from: Slab,
-        to: Slab,
-    ) -> (Range<usize>, CowArray<'a, T, Ix2>) {
-        let rows = |rank| {
-            let (rows, part) = (to.rows_of(rank), &self.x);
-            rows.start.clamp(part.start, part.end)..rows.end.clamp(part.start, part.end)
-        };
-        let (own, first) = (rows(to.ranks().rank()), to.rows().start);
-        let field = match from.is_shared() {
-            true => from.fetch(field.view(), |rank| rows(rank).map(|row| row - self.x.start)).into(),
-            false => field.view().into(),
-        };
-        // a slab that has none of the rows may be before them or behind
-        let start = own.start.saturating_sub(first);
-        (start.min(to.rows().len())..(start + own.len()).min(to.rows().len()), field)
+        (whole, to): (&mut Array2<T>, &Grid),
+        (field, from): (&Array2<T>, &Grid),
+        f: impl Fn(ArrayViewMut1<'_, T>, ArrayView1<'_, T>),
+    ) {
+        let of = |row: usize| self.x.contains(&row).then(|| row - self.x.start);
+        let rows = from.rows_for(field, to, of);
+        for (row, mut whole) in to.rows().zip(whole.rows_mut()) {
+            if let Some(own) = of(row) {
+                f(whole.slice_axis_mut(Axis(0), Slice::from(self.y.clone())), rows.row(own));
+            }
+        }
     }
 
     /// The part of a surface.
@@ -103,7 +99,7 @@ impl Part {
         let (dx, dy) = surface.grid().spacing();
         let lengths = (self.x.len() as f64 * dx, self.y.len() as f64 * dy);
         let grid = Grid::new((self.x.len(), self.y.len()), lengths)?.shared_as(surface.grid())?;
-        Surface::new(grid, self.cut(surface.heights(), surface.grid().slab(), grid.slab()))
+        Surface::new(grid, self.cut(surface.heights(), surface.grid(), &grid))
     }
 
     /// The control of the part, whose highest node may be lower than that of the whole.
@@ -149,19 +145,21 @@ impl<T: Real> OnPart<T> {
         L: AdhesionLaw<T>,
     {
         let Self { part, grid, solution: Solution { gap, pressure, .. }, .. } = self;
-        let (window, from, to) = (problem.grid().shape(), grid.slab(), problem.operator.grid().slab());
+        let (window, to) = (problem.grid().shape(), *problem.operator.grid());
         // the displacement less the heights is K (p − K⁻¹h) and a constant
         let mut load = problem.flat.pressure.mapv(|p| -p);
-        let (rows, pressure) = part.rows_of(&pressure, from, to);
-        within_mut(&mut load, [&rows, &part.y]).zip_mut_with(&pressure, |load, &p| *load += p);
+        part.meet((&mut load, &to), (&pressure, &grid), |load, p| {
+            Zip::from(load).and(p).for_each(|load, &p| *load += p)
+        });
         let mut whole = Array2::zeros(load.dim());
         problem.operator.displacement(load.view(), whole.view_mut())?;
-        let found = part.cut(&whole, to, from);
-        let shift = field::mean_of_both(from, gap.view(), found.view(), |gap, u| gap.widen() - u.widen());
+        let found = part.cut(&whole, &to, &grid);
+        let shift = field::mean_of_both(grid.slab(), gap.view(), found.view(), |gap, u| gap.widen() - u.widen());
         whole.mapv_inplace(|gap| gap + T::lit(shift));
-        let own = window.0.saturating_sub(to.rows().start).min(to.rows().len());
-        within_mut(&mut whole, [&(0..own), &(0..window.1)]).mapv_inplace(|gap| gap.max(T::zero()));
-        within_mut(&mut whole, [&rows, &part.y]).assign(&part.rows_of(&gap, from, to).1);
+        for (_, mut row) in to.rows().zip(whole.rows_mut()).filter(|(row, _)| *row < window.0) {
+            row.slice_axis_mut(Axis(0), Slice::from(..window.1)).mapv_inplace(|gap| gap.max(T::zero()));
+        }
+        part.meet((&mut whole, &to), (&gap, &grid), |mut whole, gap| whole.assign(&gap));
         Ok(whole)
     }
 }
@@ -184,30 +182,20 @@ impl<C> Nested<C> {
         L: AdhesionLaw<T>,
         C: ContactConstraint<T>,
     {
-        let slab = half_space.grid().slab();
+        let whole = half_space.grid();
         let fits = half_space.boundary() != Boundary::Periodic && surface.absent().is_none() && law.shape().is_none();
-        let part = if fits { Part::of(surface.grid().shape(), slab, gap, law) } else { None };
+        let part = if fits { Part::of(surface.grid().shape(), whole, gap, law) } else { None };
         let Some(part) = part else { return Ok(None) };
         let small = part.surface(surface)?;
         let mut problem = Problem::new(&small, operator(*small.grid())?, law)?;
         let share = problem.operator.grid().nodes() as f64 / half_space.grid().nodes() as f64;
         let tolerance = SHARE * self.solver.settings.tolerance_in::<T>();
-        let start = Begin::At(Start::Near(part.cut(gap, slab, small.grid().slab())));
+        let start = Begin::At(Start::Near(part.cut(gap, whole, small.grid())));
         let control = Part::control(control, surface, &small);
         let Solved { solution, .. } = self.run_to(tolerance, problem.parts(), control, start, observe)?;
         let applications = (share * (solution.report.operator_applications + 1) as f64).ceil() as usize;
         Ok(Some(OnPart { part, grid: *small.grid(), solution, applications }))
     }
-}
-
-/// A rectangle of a field.
-fn within<'a, T>(field: &'a ArrayRef2<T>, sides: [&Range<usize>; 2]) -> ArrayView2<'a, T> {
-    field.slice_each_axis(|axis| Slice::from(sides[axis.axis.index()].clone()))
-}
-
-/// A rectangle of a field, to write.
-fn within_mut<'a, T>(field: &'a mut ArrayRef2<T>, sides: [&Range<usize>; 2]) -> ArrayViewMut2<'a, T> {
-    field.slice_each_axis_mut(|axis| Slice::from(sides[axis.axis.index()].clone()))
 }
 
 #[cfg(test)]
@@ -216,7 +204,7 @@ mod tests {
     use crate::adhesion::{Exponential, NoAdhesion};
 
     fn of(window: (usize, usize), gap: &Array2<f64>, law: &dyn AdhesionLaw<f64>) -> Option<Part> {
-        Part::of(window, Slab::whole(gap.dim()), gap, law)
+        Part::of(window, &Grid::new(gap.dim(), (1.0, 1.0)).unwrap(), gap, law)
     }
 
     #[test]

@@ -1,11 +1,10 @@
 //! Heights and gaps from one grid to another: a surface on a coarser one, and the solution there as a start on the
 //! finer.
 
-use std::collections::BTreeSet;
 use std::iter::repeat_n;
 use std::ops::Range;
 
-use ndarray::{Array2, ArrayView2};
+use ndarray::Array2;
 
 use crate::error::Result;
 use crate::field::{flat, flat_mut};
@@ -13,7 +12,7 @@ use crate::grid::Grid;
 use crate::par;
 use crate::problem::Window;
 use crate::real::Real;
-use crate::slab::Slab;
+use crate::slab::Rows;
 use crate::surface::Surface;
 use crate::vector::vectors;
 
@@ -25,51 +24,27 @@ pub(super) fn coarsen(surface: &Surface, shape: (usize, usize)) -> Result<Option
     let grid = Grid::new(shape, surface.grid().lengths())?.shared_as(surface.grid())?;
     let (nx, ny) = surface.grid().shape();
     let sides = [(nx, shape.0), (ny, shape.1)].map(|(from, to)| [from, to].map(Side::periodic));
-    let [mut along_x, along_y] = sides.map(|[from, to]| places(from, to));
-    let slabs = [surface.grid().slab(), grid.slab()];
-    let needed = fetched(surface.heights().view(), slabs, &mut along_x);
-    let heights = needed.as_ref().unwrap_or(surface.heights());
-    let fetch_absent = |absent: &Array2<bool>| {
-        let flags = absent.mapv(f64::from);
-        fetched(flags.view(), slabs, &mut places(sides[0][0], sides[0][1])).unwrap_or(flags)
-    };
-    let absent = surface.absent().map(fetch_absent);
-    let faces = |i, j| absent.as_ref().is_none_or(|absent| absent[[i, j]] == 0.0);
+    let [along_x, along_y] = sides.map(|[from, to]| places(from, to));
+    let needed = |row: usize| along_x[row].nodes;
+    let heights = surface.grid().rows_for(surface.heights(), &grid, needed);
+    let absent = surface.absent().map(|absent| surface.grid().rows_for(absent, &grid, needed));
+    let faces = |i, j| absent.as_ref().is_none_or(|absent| !absent.row(i)[j]);
     let mut coarse = Array2::zeros(grid.field_shape());
     par::for_each(par::chunks_mut(flat_mut(&mut coarse), shape.1), |i, row| {
-        let x = along_x[i];
-        let lines = x.nodes.map(|node| line(heights, node));
+        let x = along_x[grid.rows().start + i];
+        let lines = x.nodes.map(|node| line(&heights, node));
         for (height, y) in row.iter_mut().zip(&along_y) {
             let cubic = || x.cubic(|k| y.cubic(|l| lines[k][y.nodes[l]]));
             *height = if faces(x.nodes[1], y.nodes[1]) { cubic() } else { f64::NAN };
         }
     });
-    let some = grid.slab().has(coarse.iter().any(|h| !h.is_nan()));
+    let some = grid.has(coarse.iter().any(|h| !h.is_nan()));
     if some { Surface::with_absent(grid, coarse).map(Some) } else { Ok(None) }
 }
 
-/// The rows of a field on one grid that this process needs for its rows of another one, where several processes share
-/// them, and the places of these rows among them.
-fn fetched<T: Real>(field: ArrayView2<'_, T>, [from, to]: [Slab; 2], places: &mut Vec<Place>) -> Option<Array2<T>> {
-    if !from.is_shared() {
-        return None;
-    }
-    let needed = |rank: usize| {
-        let rows: BTreeSet<_> = to.rows_of(rank).flat_map(|row| places[row].nodes).collect();
-        rows.into_iter().collect::<Vec<_>>()
-    };
-    let needed: Vec<_> = (0..to.ranks().count()).map(needed).collect();
-    let own = &needed[to.ranks().rank()];
-    *places = places.drain(..).skip(to.rows().start).take(to.rows().len()).collect();
-    for node in places.iter_mut().flat_map(|place| &mut place.nodes) {
-        *node = own.partition_point(|row| row < node);
-    }
-    Some(from.fetch(field, |rank| needed[rank].iter().copied()))
-}
-
 /// A row of a field that this crate made.
-fn line<T>(field: &Array2<T>, row: usize) -> &[T] {
-    &flat(field)[row * field.ncols()..][..field.ncols()]
+fn line<'a, T>(rows: &'a Rows<'_, T>, row: usize) -> &'a [T] {
+    rows.row(row).to_slice().unwrap_or_default()
 }
 
 /// The place of a node among those of another grid along a side.
@@ -159,7 +134,8 @@ fn places(from: Side, to: Side) -> Vec<Place> {
 pub(crate) struct Deformed<T> {
     /// the nodes of the window
     window: (usize, usize),
-    slab: Slab,
+    /// of the operator
+    grid: Grid,
     /// the displacement u = g + h
     displacement: Array2<f64>,
     /// infinite where nothing faces the half-space
@@ -169,40 +145,37 @@ pub(crate) struct Deformed<T> {
 impl<T: Real> Deformed<T> {
     /// The half-space under a surface, from the gap, and from that on the operator's grid if it is another one.
     pub(crate) fn of(surface: &Surface, gap: Array2<T>, whole: Option<(Grid, Array2<T>)>) -> Self {
-        let (slab, mut gap) = match whole {
-            Some((grid, whole)) => (grid.slab(), whole),
-            None => (surface.grid().slab(), gap),
-        };
+        let (grid, mut gap) = whole.unwrap_or((*surface.grid(), gap));
         let mut displacement = gap.mapv(T::widen);
-        match Window::new(surface, slab) {
+        match Window::new(surface, &grid) {
             Some(window) => {
                 displacement += &window.extend(surface.heights().view());
                 gap = window.place(&window.cut(&gap, T::infinity()), T::infinity());
             }
             None => displacement += surface.heights(),
         }
-        Self { window: surface.grid().shape(), slab, displacement, gap }
+        Self { window: surface.grid().shape(), grid, displacement, gap }
     }
 
     /// The start on the grid of another surface and its operator: a gap on the latter.
     pub(crate) fn prolonged(self, surface: &Surface, grid: &Grid, projects: bool) -> Array2<T> {
-        let Self { window, slab, displacement, gap } = self;
-        let facing = Window::new(surface, grid.slab());
+        let Self { window, grid: coarse, displacement, gap } = self;
+        let facing = Window::new(surface, grid);
         let extended = facing.as_ref().map(|facing| facing.extend(surface.heights().view()));
         let heights = flat(extended.as_ref().unwrap_or(surface.heights()));
-        let [from, to] = [Side::of(window, slab.shape()), Side::of(surface.grid().shape(), grid.shape())];
-        let (mut along_x, along_y, back_y) = (places(from[0], to[0]), places(from[1], to[1]), places(to[1], from[1]));
-        let slabs = [slab, grid.slab()];
-        let gap = if slab.is_shared() { fetched(gap.view(), slabs, &mut along_x.clone()) } else { None }.unwrap_or(gap);
-        let displacement = fetched(displacement.view(), slabs, &mut along_x).unwrap_or(displacement);
-        let (width, first) = (grid.shape().1, grid.slab().first_node());
+        let [from, to] = [Side::of(window, coarse.shape()), Side::of(surface.grid().shape(), grid.shape())];
+        let (along_x, along_y, back_y) = (places(from[0], to[0]), places(from[1], to[1]), places(to[1], from[1]));
+        let needed = |row: usize| along_x[row].nodes;
+        let displacement = coarse.rows_for(displacement, grid, needed);
+        let gap = coarse.rows_for(gap, grid, needed);
+        let (width, first) = (grid.shape().1, grid.first_node());
         let facing_in = |nodes: Range<usize>| match &facing {
             None => vec![true; nodes.len()],
             Some(facing) => facing.pieces(nodes).flat_map(|(len, own)| repeat_n(own.is_some(), len)).collect(),
         };
         let mut fine = Array2::zeros(grid.field_shape());
         par::for_each(par::chunks_mut(flat_mut(&mut fine), width), |i, row| {
-            let (x, faces) = (along_x[i], facing_in(first + i * width..first + (i + 1) * width));
+            let (x, faces) = (along_x[grid.rows().start + i], facing_in(first + i * width..first + (i + 1) * width));
             let heights = &heights[i * width..][..width];
             // displacement and gap along the row, at the coarse nodes of y
             let [mut displaced, mut apart] = [(); 2].map(|()| vec![0.0; back_y.len()]);

@@ -1,15 +1,13 @@
 //! The window of a surface on the grid of an operator: where a surface faces the half-space, and where nothing does.
 
-use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
-use ndarray::{Array2, ArrayView2, Axis, CowArray, Ix2, Slice, Zip};
+use ndarray::{Array2, ArrayView2, CowArray, Ix2, Zip};
 
 use crate::error::{Error, Result};
 use crate::field::{flat, flat_mut};
 use crate::grid::Grid;
 use crate::real::Real;
-use crate::slab::Slab;
 use crate::surface::Surface;
 
 /// The window of a surface: the nodes of the operator's grid that face it. On all others there is neither wall nor law.
@@ -23,8 +21,8 @@ pub(crate) struct Window {
     grid: Grid,
     /// the grid of the surface in the rows of the operator's slab
     held: Grid,
-    /// of the operator's grid
-    slab: Slab,
+    /// of the operator
+    whole: Grid,
     /// the runs of nodes that face the surface, within a row each, in their order
     runs: Vec<Run>,
     /// the number of these nodes in all slabs
@@ -41,17 +39,14 @@ struct Run {
 
 impl Window {
     /// The window of a surface; none if every node of the operator's grid faces it.
-    pub(crate) fn new(surface: &Surface, slab: Slab) -> Option<Self> {
+    pub(crate) fn new(surface: &Surface, operator: &Grid) -> Option<Self> {
         let grid = *surface.grid();
-        let ((nx, ny), (whole, width)) = (grid.shape(), slab.shape());
-        if (nx, ny) == (whole, width) && surface.absent().is_none() {
+        let (ny, width) = (grid.shape().1, operator.shape().1);
+        if grid.shape() == operator.shape() && surface.absent().is_none() {
             return None;
         }
-        let held = grid.in_rows_of(&slab);
-        let absent = surface.absent().map(|absent| {
-            let flags = CowArray::from(absent.mapv(f64::from));
-            grid.slab().moved(flags, &held.slab()).mapv(|absent| absent > 0.0)
-        });
+        let held = grid.in_rows_of(operator);
+        let absent = surface.absent().map(|absent| grid.moved(absent, &held));
         let first = held.rows().start;
         let faces = |i: usize, j: usize| absent.as_ref().is_none_or(|absent| !absent[[i - first, j]]);
         let mut runs: Vec<Run> = Vec::new();
@@ -68,7 +63,7 @@ impl Window {
             }
         }
         let facing = grid.total(runs.iter().map(|run| run.nodes.len()).sum());
-        Some(Self { grid, held, slab, runs, facing })
+        Some(Self { grid, held, whole: *operator, runs, facing })
     }
 
     /// The grid of the surface.
@@ -118,7 +113,7 @@ impl Window {
 
     /// A field of the surface's grid in the rows of the operator's slab.
     pub(crate) fn hold<'a, T: Real>(&self, field: impl Into<CowArray<'a, T, Ix2>>) -> CowArray<'a, T, Ix2> {
-        self.grid.slab().moved(field.into(), &self.held.slab())
+        self.grid.moved(field, &self.held)
     }
 
     /// A field of the surface's grid on that of the operator: what is not finite, and the nodes beyond the window, are
@@ -129,45 +124,23 @@ impl Window {
 
     /// As [`extend`](Self::extend), of a field in the rows of the operator's slab.
     fn extended<T: Real>(&self, field: ArrayView2<'_, T>) -> Array2<T> {
-        let (nx, (_, width)) = (self.grid.shape().0, self.slab.shape());
-        let mut extended = Array2::from_elem((field.nrows().max(self.slab.held().0), width), T::nan());
-        let mut known = vec![0; field.nrows()];
-        for ((field, mut row), is_known) in field.rows().into_iter().zip(extended.rows_mut()).zip(&mut known) {
+        let (nx, width) = self.whole.shape();
+        let mut held = Array2::from_elem((field.nrows(), width), T::nan());
+        let mut known = vec![false; field.nrows()];
+        for ((field, mut row), is_known) in field.rows().into_iter().zip(held.rows_mut()).zip(&mut known) {
             row.iter_mut().zip(field).for_each(|(to, &from)| *to = from);
             let known: Vec<usize> = (0..field.len()).filter(|&j| field[j].is_finite()).collect();
-            *is_known = u8::from(!known.is_empty());
+            *is_known = !known.is_empty();
             between(&known, width, |j, a, b, share| row[j] = row[a] + T::lit(share) * (row[b] - row[a]));
         }
-        let slab = self.held.slab();
-        let mut rows = vec![0; nx];
-        slab.ranks().gather(&known, &slab.shares(|rank| slab.rows_of(rank).len()), &mut rows);
-        let rows: Vec<usize> = (0..nx).filter(|&i| rows[i] > 0).collect();
-        if self.slab.is_shared() {
-            return self.extend_shared(extended, &rows);
-        }
-        between(&rows, self.slab.shape().0, |i, a, b, share| {
-            for j in 0..width {
-                let (a, b) = (extended[[a, j]], extended[[b, j]]);
-                extended[[i, j]] = a + T::lit(share) * (b - a);
-            }
-        });
-        extended
-    }
-
-    /// The rows of the operator's slab by those of the window that are `known`, which several processes share.
-    fn extend_shared<T: Real>(&self, held: Array2<T>, known: &[usize]) -> Array2<T> {
-        let (whole, width) = self.slab.shape();
-        let mut sources: Vec<_> = (0..whole).map(|i| (i, i, 0.0)).collect();
-        between(known, whole, |i, a, b, share| sources[i] = (a, b, share));
-        let wanted = |rank| self.slab.rows_of(rank).flat_map(|i| [sources[i].0, sources[i].1]).collect::<BTreeSet<_>>();
-        let wanted: Vec<_> = (0..self.slab.ranks().count()).map(wanted).collect();
-        let window = self.slab.window((self.grid.shape().0, width));
-        let held = held.slice_axis(Axis(0), Slice::from(0..window.held().0));
-        let rows = window.fetch(held, |rank| wanted[rank].iter().copied());
-        let own: BTreeMap<_, _> = wanted[self.slab.ranks().rank()].iter().copied().zip(rows.rows()).collect();
-        let mut extended = Array2::zeros(self.slab.held());
-        for (row, &(a, b, share)) in extended.rows_mut().into_iter().zip(&sources[self.slab.rows()]) {
-            Zip::from(row).and(own[&a]).and(own[&b]).for_each(|to, &at_a, &at_b| {
+        let known = self.held.lists(known);
+        let known: Vec<usize> = (0..known.len()).filter(|&i| known[i]).collect();
+        let mut sources: Vec<_> = (0..nx).map(|i| (i, i, 0.0)).collect();
+        between(&known, nx, |i, a, b, share| sources[i] = (a, b, share));
+        let rows = self.held.rows_for(held, &self.whole, |i| [sources[i].0, sources[i].1]);
+        let mut extended = Array2::zeros(self.whole.field_shape());
+        for (row, &(a, b, share)) in extended.rows_mut().into_iter().zip(&sources[self.whole.rows()]) {
+            Zip::from(row).and(rows.row(a)).and(rows.row(b)).for_each(|to, &at_a, &at_b| {
                 *to = if a == b { at_a } else { at_a + T::lit(share) * (at_b - at_a) };
             });
         }
@@ -176,7 +149,7 @@ impl Window {
 
     /// A field of the operator's grid on that of the surface, with a value for the absent nodes.
     pub(crate) fn crop<T: Real>(&self, field: &Array2<T>, absent: T) -> Array2<T> {
-        self.held.slab().moved(self.cut(field, absent).into(), &self.grid.slab()).into_owned()
+        self.held.moved(self.cut(field, absent), &self.grid).into_owned()
     }
 
     /// As [`crop`](Self::crop), in the rows of the operator's slab.
@@ -191,7 +164,7 @@ impl Window {
     /// A field of the surface's grid, in the rows of the operator's slab, on the operator's grid, with a value for the
     /// nodes that do not face it.
     pub(crate) fn place<T: Real>(&self, field: &Array2<T>, elsewhere: T) -> Array2<T> {
-        let mut placed = Array2::from_elem(self.slab.held(), elsewhere);
+        let mut placed = Array2::from_elem(self.whole.field_shape(), elsewhere);
         for (nodes, own) in self.places() {
             flat_mut(&mut placed)[nodes].copy_from_slice(&flat(field)[own]);
         }
@@ -200,7 +173,7 @@ impl Window {
 
     /// The places of the runs among the nodes that this process holds, on the operator's grid and on the surface's.
     fn places(&self) -> impl Iterator<Item = (Range<usize>, Range<usize>)> {
-        let [start, first] = [&self.slab, &self.held.slab()].map(Slab::first_node);
+        let [start, first] = [&self.whole, &self.held].map(Grid::first_node);
         self.runs.iter().map(move |run| {
             let own = run.first - first;
             (run.nodes.start - start..run.nodes.end - start, own..own + run.nodes.len())
@@ -246,7 +219,7 @@ mod tests {
         let grid = Grid::new((3, 4), (3.0, 4.0)).unwrap();
         let mut heights = Array2::zeros((3, 4));
         (heights[[0, 1]], heights[[2, 0]]) = (f64::NAN, f64::NAN);
-        Window::new(&Surface::with_absent(grid, heights).unwrap(), Slab::whole((6, 8))).unwrap()
+        Window::new(&Surface::with_absent(grid, heights).unwrap(), &Grid::new((6, 8), (1.0, 1.0)).unwrap()).unwrap()
     }
 
     #[test]

@@ -1,13 +1,9 @@
 //! The error that the grid leaves at the edge of the contact.
 
-use std::ops::Range;
-
-use ndarray::Array2;
-
 use super::tangent::Tangent;
 use crate::grid::Grid;
 use crate::real::Real;
-use crate::slab::Slab;
+use crate::slab::Rows;
 use crate::solver::Solution;
 
 /// The local stiffness of the grid, over E*/Δ: of an edge that is parallel to an axis.
@@ -83,19 +79,21 @@ impl EdgeError {
         grid: &Grid,
         (modulus, stiffness): (f64, f64),
     ) -> Self {
-        let slab = grid.slab();
-        let [gap, pressure] = [&solution.gap, &solution.contact_pressure].map(|field| Around::new(field, slab));
-        let [opening, lost] = [&tangent.opening, &tangent.pressure].map(|field| Around::new(field, slab));
+        let ((nx, ny), fields) = (grid.shape(), [&solution.gap, &solution.contact_pressure]);
+        let around = |row: usize| [(row + nx - 1) % nx, (row + 1) % nx];
+        let rows = |field| grid.rows_for(field, grid, around);
+        let ([gap, pressure], [opening, lost]) = (fields.map(rows), [&tangent.opening, &tangent.pressure].map(rows));
+        let at = |rows: &Rows<'_, T>, (i, j): (usize, usize)| rows.row(i)[j].widen();
         // the approach since a node came into contact, or until it will
         let distance = |node| {
-            let apart = gap.at(node);
+            let apart = at(&gap, node);
             let (value, rate) =
-                if apart > 0.0 { (apart, opening.at(node)) } else { (pressure.at(node), lost.at(node)) };
+                if apart > 0.0 { (apart, at(&opening, node)) } else { (at(&pressure, node), at(&lost, node)) };
             (apart > 0.0, value / rate, rate)
         };
         // of each node at the edge its jump, what it releases in contact, and its wave
         let mut at_edge = Vec::new();
-        for node in slab.rows().flat_map(|i| (0..grid.shape().1).map(move |j| (i, j))) {
+        for node in grid.rows().flat_map(|i| (0..ny).map(move |j| (i, j))) {
             let (apart, own, rate) = distance(node);
             let (mut release, mut passed, mut wave, mut sides) = (0.0, 0.0, 0.0, 0.0);
             for (other, spacing) in neighbours(node, grid) {
@@ -117,10 +115,11 @@ impl EdgeError {
                 at_edge.push([release * jump, if apart { 0.0 } else { release }, 0.5 * release * wave / sides]);
             }
         }
+        let at_edge = grid.lists(at_edge.into_flattened());
         let add = |[jump, jumps, excess, wave, waves]: [f64; 5], [j, e, w]: &[f64; 3]| {
             [jump + j, jumps + j * j, excess + e, wave + w, waves + w * w]
         };
-        let [jump, jumps, excess, wave, waves] = slab.in_turn(|sums| at_edge.iter().fold(sums, add));
+        let [jump, jumps, excess, wave, waves] = at_edge.as_chunks().0.iter().fold([0.0; 5], add);
         let line = grid.shape().0 == 1 || grid.is_line();
         let [of_stiffness, of_gap] = if line { [&ON_LINES; 2] } else { [&STIFFNESS, &GAP] };
         let nodes = grid.nodes() as f64;
@@ -135,38 +134,6 @@ impl Factors {
     /// The error by the sum of some terms, that of their squares, and the excess.
     fn size(&self, sum: f64, squares: f64, excess: f64) -> f64 {
         (self.sum * sum - self.excess * excess).hypot(self.scatter * squares.sqrt())
-    }
-}
-
-/// A field in the rows of a slab, with the rows before and after them.
-struct Around<'a, T> {
-    held: &'a Array2<T>,
-    beside: Array2<T>,
-    rows: Range<usize>,
-}
-
-impl<'a, T: Real> Around<'a, T> {
-    /// All processes have to ask.
-    fn new(held: &'a Array2<T>, slab: Slab) -> Self {
-        let rows_beside = |rank| {
-            let (rows, nx) = (slab.rows_of(rank), slab.shape().0);
-            let beside = [(rows.start + nx - 1) % nx, rows.end % nx];
-            beside.into_iter().take(if rows.is_empty() { 0 } else { 2 })
-        };
-        Self { held, beside: slab.fetch(held.view(), rows_beside), rows: slab.rows() }
-    }
-
-    /// The number at a node of the slab, or at a neighbour of one.
-    fn at(&self, (i, j): (usize, usize)) -> f64 {
-        let value = match i {
-            _ if self.rows.contains(&i) => self.held[[i - self.rows.start, j]],
-            _ if i == self.rows.end => self.beside[[1, j]],
-            _ if i + 1 == self.rows.start => self.beside[[0, j]],
-            // around the grid
-            0 => self.beside[[1, j]],
-            _ => self.beside[[0, j]],
-        };
-        value.widen()
     }
 }
 
