@@ -21,6 +21,7 @@ mod operators;
 mod passes;
 mod phases;
 mod potential;
+mod precision;
 mod preconditioned;
 mod report;
 mod rey2017;
@@ -294,6 +295,6 @@ impl<C> Solver<C> {
     {
         let Self { settings, constraint } = self;
         let Parts { operator, law, flat } = problem;
-        driver::solve(operator, Job { law, flat, constraint, control, settings: *settings, begin, observe })
+        precision::solve(operator, Job { law, flat, constraint, control, settings: *settings, begin, observe })
     }
 }

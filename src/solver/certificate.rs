@@ -1,6 +1,6 @@
 //! The certificate: the distance of the state from the solution, and the tests that end a solve.
 
-use super::minimisation::Goal;
+use super::minimisation::{Goal, Left};
 use super::report::Status;
 use super::state::State;
 use super::{Criterion, Method};
@@ -34,7 +34,7 @@ const STALL_REY2017: (usize, usize) = (400, 800);
 /// The roundings that the length of a spring may have.
 const SPRING_ROUNDINGS: f64 = 8.0;
 
-impl<T: Real, L: Real> State<'_, T, L> {
+impl<T: Real, Lo: Real> State<'_, T, Lo> {
     /// The certified relative error in the energy norm, √(certificate/⟨u, p⟩), and at least that of rounding.
     pub(super) fn relative_error(&self) -> f64 {
         let (scale, rounding) = self.error_scale();
@@ -129,29 +129,33 @@ impl<T: Real, L: Real> State<'_, T, L> {
         criterion <= tolerance && load_error <= tolerance
     }
 
-    /// Whether the state is converged with p = K⁻¹(g + h) computed from its gap, where steps had only updated p.
-    pub(super) fn confirm(&mut self) -> Result<bool> {
-        // a start needs no proof
+    /// Computes p = K⁻¹(g + h) from the gap, where steps had only updated it, and the certificate that the residual then
+    /// has: a solve ends only if that meets the tolerance. A start needs no such proof.
+    pub(super) fn confirm(&mut self) -> Result<()> {
         if self.age == 0 || self.goal != Goal::Solution {
-            return Ok(true);
+            return Ok(());
         }
         let before = self.certificate;
         // the difference δ of the two residuals adds at most ⟨δ, δ⟩/(softest stiffness) to the certificate
         self.momentum = None;
-        self.refresh()?;
-        self.residual();
+        self.refresh(Left::Nothing)?;
+        self.residual(Left::Nothing);
         let softest = self.operators.state().stiffness_range().0;
         let change = self.residual.difference;
         let difference = if change == 0.0 { 0.0 } else { change / self.nodes() / softest };
         self.certificate = (before.sqrt() + difference.sqrt()).powi(2);
         if !matches!(self.constraint.wall(), Wall::None) && self.converged() {
-            return Ok(true);
+            return Ok(());
         }
         self.certify()?;
-        if self.converged() {
-            return Ok(true);
+        if !self.converged() {
+            self.note_refutation();
         }
-        // what the updated pressure claimed was no progress
+        Ok(())
+    }
+
+    /// Notes that what an updated pressure claimed was no progress.
+    fn note_refutation(&mut self) {
         let error = self.relative_error();
         let progress = &mut self.progress;
         progress.best_error = progress.best_error.max(error);
@@ -160,22 +164,15 @@ impl<T: Real, L: Real> State<'_, T, L> {
         } else {
             progress.refuted += 1;
         }
-        Ok(false)
     }
 
-    /// Whether the solve has to end without having converged.
-    pub(super) fn verdict(&mut self) -> Option<Status> {
-        if self.iterations >= self.settings.max_iterations {
-            return Some(Status::IterationLimit);
-        }
+    /// Notes whether the last iteration has made progress, and forgets the last step after some that have not.
+    pub(super) fn note_progress(&mut self) {
         let energy = self.energy();
         let error = match self.settings.method {
             Method::Preconditioned => self.relative_error().max(self.load_error()),
             Method::Rey2017 => self.scaled_orthogonality(),
         };
-        if !energy.is_finite() || self.runs_away() {
-            return Some(Status::Stalled);
-        }
         if error < PROGRESS * self.progress.best_error || energy < self.progress.lowest_energy - self.energy_noise() {
             self.progress.idle = 0;
         } else {
@@ -183,27 +180,42 @@ impl<T: Real, L: Real> State<'_, T, L> {
         }
         self.progress.best_error = self.progress.best_error.min(error);
         self.progress.lowest_energy = self.progress.lowest_energy.min(energy);
-        let (restart, stall) = match self.settings.method {
+        if self.progress.idle == self.patience().0 {
+            (self.momentum, self.residual_norm) = (None, None);
+        }
+    }
+
+    /// The iterations without progress after which the last step is forgotten, and after which the solve has stalled.
+    fn patience(&self) -> (usize, usize) {
+        match self.settings.method {
             Method::Preconditioned if self.is_at_floor() => STALL_AT_FLOOR,
             Method::Preconditioned => STALL,
             Method::Rey2017 => STALL_REY2017,
-        };
-        if self.progress.idle == restart {
-            (self.momentum, self.residual_norm) = (None, None);
         }
-        (self.progress.idle.max(self.progress.refuted) >= stall).then_some(Status::Stalled)
     }
 
-    /// Computes the pressure from the gap, once, where a solve would stall after many updates of the pressure, whose
-    /// rounding may then be most of the residual. Returns whether it has done so.
-    pub(super) fn renew(&mut self) -> Result<bool> {
-        let due =
-            self.age > STALL_AT_FLOOR.1 && !self.progress.renewed && self.settings.method == Method::Preconditioned;
-        if due {
-            self.refresh()?;
-            self.restart();
-            self.progress.renewed = true;
+    /// The status of a solve that has to end without having converged.
+    pub(super) fn verdict(&self) -> Option<Status> {
+        if self.iterations >= self.settings.max_iterations {
+            return Some(Status::IterationLimit);
         }
-        Ok(due)
+        let idle = self.progress.idle.max(self.progress.refuted);
+        let stalled = !self.energy().is_finite() || self.runs_away() || idle >= self.patience().1;
+        stalled.then_some(Status::Stalled)
+    }
+
+    /// Whether a solve that would stall may go on with a pressure computed from the gap: once, after many updates, whose
+    /// rounding may then be most of the residual.
+    pub(super) fn may_renew(&self) -> bool {
+        self.age > STALL_AT_FLOOR.1 && !self.progress.renewed && self.settings.method == Method::Preconditioned
+    }
+
+    /// Computes the pressure from the gap.
+    pub(super) fn renew(&mut self) -> Result<()> {
+        self.refresh(Left::Nothing)?;
+        self.restart();
+        self.progress.renewed = true;
+        self.residual(Left::Nothing);
+        Ok(())
     }
 }

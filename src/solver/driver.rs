@@ -1,22 +1,18 @@
-//! The order of a solve: a start with the jumps of the law smoothed, rounds of the constraint, and the loop within
-//! each.
+//! The order of a solve: its phases, rounds of the constraint, and the loop within each.
 
-use std::marker::PhantomData;
 use std::ops::ControlFlow;
 
-use super::minimisation::Goal;
-use super::operators::{One, Operators, Two};
+use super::minimisation::{Goal, Left};
+use super::operators::Operators;
 use super::report::{Iteration, Solved, Status};
 use super::start::{Begin, check_wall};
 use super::state::State;
 use super::{Branch, Method, Settings};
 use crate::adhesion::{AdhesionLaw, NoAdhesion};
 use crate::constraint::{ContactConstraint, Projection, Update, Wall};
-use crate::elastic::ElasticOperator;
 use crate::error::{Error, Result};
-use crate::par;
-use crate::problem::{Control, Load, PressedFlat, smoothed_law};
-use crate::real::{Compiled, Real};
+use crate::problem::{Control, PressedFlat, smoothed_law};
+use crate::real::Real;
 
 /// The input of a solve, but for the operator.
 pub(super) struct Job<'a, T> {
@@ -27,24 +23,6 @@ pub(super) struct Job<'a, T> {
     pub(super) settings: Settings,
     pub(super) begin: Begin<'a, T>,
     pub(super) observe: Observer<'a>,
-}
-
-/// A mean pressure that is nothing beside the rounding of corrections in `f32`, over the rms pressure that presses the
-/// surface flat.
-const LIGHT: f64 = 1e-8;
-
-impl<T: Real> Job<'_, T> {
-    /// Whether the load is so light that corrections in `f32` would not find the first contact.
-    fn is_light(&self) -> bool {
-        let flat = self.flat.stiffness * self.flat.rms_height;
-        let load = self.flat.load(self.control, self.constraint.wall());
-        matches!(load, Ok(Load::Pressure(pressure)) if pressure.abs() < LIGHT * flat)
-    }
-
-    /// Whether the law itself keeps the surfaces apart: its slopes make much of the rounding of corrections.
-    fn has_no_wall(&self) -> bool {
-        matches!(self.constraint.wall(), Wall::None)
-    }
 }
 
 /// The observer, called in every iteration, which may stop the solve.
@@ -60,117 +38,120 @@ pub(super) enum End {
     Gave(Status),
 }
 
-/// Solves a problem, compiled once for each precision.
-pub(super) fn solve<'a, T: Real>(operator: &'a mut dyn ElasticOperator<T>, job: Job<'a, T>) -> Result<Solved<T>> {
-    par::within(|| T::call::<Solve<'a>>((operator, job)))
-}
-
-struct Solve<'a>(PhantomData<&'a ()>);
-
-impl<'a> Compiled for Solve<'a> {
-    type Input<T: Real> = (&'a mut dyn ElasticOperator<T>, Job<'a, T>);
-    type Output<T: Real> = Result<Solved<T>>;
-    fn single((operator, job): Self::Input<f32>) -> Result<Solved<f32>> {
-        run(&mut One(operator), job)
-    }
-    fn double((operator, job): Self::Input<f64>) -> Result<Solved<f64>> {
-        let two = job.settings.method == Method::Preconditioned && !job.is_light() && !job.has_no_wall();
-        match operator.in_single().filter(|_| two) {
-            Some(corrections) => run(&mut Two::new(operator, corrections), job),
-            None => run(&mut One(operator), job),
+impl End {
+    /// The status with which the solve ends, if it may not go on.
+    pub(super) fn is_final(&self) -> Option<Status> {
+        match *self {
+            Self::Gave(status @ (Status::Stopped | Status::IterationLimit)) => Some(status),
+            _ => None,
         }
     }
 }
 
-fn run<T: Real, L: Real>(operators: &mut dyn Operators<T, L>, job: Job<'_, T>) -> Result<Solved<T>> {
-    let Job { law, flat, constraint, control, settings, begin, observe } = job;
-    let held = flat.window.as_ref().and_then(|window| law.in_rows_of(window.held()));
-    let law = held.as_deref().unwrap_or(law);
-    Error::positive("tolerance", settings.tolerance_in::<T>())?;
-    check_wall(law, constraint.wall())?;
-    let load = flat.load(control, constraint.wall())?;
-    let (default_start, near) = (begin.is_default(), begin.is_near());
-    let branch = Branch::of_start(&begin, &settings, law, (load, constraint.wall()), flat)?;
-    let comes_from_afar = default_start && branch == Some(Branch::Loading);
-    let smooth = (near || default_start) && settings.method == Method::Preconditioned;
-    let smoothed = if smooth { smoothed_law(operators.state(), law) } else { None };
-    let (mut rigid, mut repelled): (_, Option<(&mut dyn ContactConstraint<T>, f64)>) = (Projection, None);
-    let (first, wall): (&dyn AdhesionLaw<T>, &mut dyn ContactConstraint<T>) = match constraint.wall() {
-        Wall::None if comes_from_afar => {
-            repelled = Some((&mut *constraint, law.rest().map_or(0.0, T::widen)));
-            (&NoAdhesion, &mut rigid)
-        }
-        _ if comes_from_afar => (&NoAdhesion, constraint),
-        _ => (law, constraint),
-    };
-    let separation = repelled.as_ref().map_or(0.0, |(_, separation)| *separation);
-    let first_load = if comes_from_afar { load.of_wall(separation) } else { load };
-    let mut state = State::new(operators, first, flat, wall, (first_load, branch), begin, settings)?;
-    if near {
-        state.stays_near();
-    }
-    if comes_from_afar {
-        state.goal = Goal::Wall;
-        let end = minimise(&mut state, &mut *observe)?;
-        state.adhere(law, load, repelled)?;
-        if let End::Gave(status @ (Status::Stopped | Status::IterationLimit)) = end {
-            return state.finish(status);
-        }
-    }
-    let torn = state.is_torn();
-    if torn {
-        state.hold_apart();
-    }
-    if let Some(smoothed) = smoothed.as_ref().filter(|_| !torn) {
-        state.change_law(&**smoothed, Goal::Start);
-        let end = minimise(&mut state, &mut *observe)?;
-        state.sharpen(law)?;
-        if let End::Gave(status @ (Status::Stopped | Status::IterationLimit)) = end {
-            return state.finish(status);
-        }
-    }
-    // a given start is on a branch, which ends where the surfaces come apart
-    let mut seek = default_start && !comes_from_afar;
-    let status = loop {
-        match minimise(&mut state, &mut *observe)? {
-            End::Converged => match state.update_constraint() {
-                Update::Done => break Status::Converged,
-                Update::Again => {}
-                Update::Failed => break Status::IterationLimit,
-            },
-            End::Adrift => {
-                if !(std::mem::take(&mut seek) && state.seek_hold(&mut *observe)?) {
-                    state.hold_apart();
-                }
-            }
-            End::Gave(status) => break status,
-        }
-    };
-    state.finish(status)
-}
-
-/// Minimises the energy with the present law, control and multipliers.
-pub(super) fn minimise<T: Real, L: Real>(state: &mut State<'_, T, L>, observe: Observer<'_>) -> Result<End> {
+/// Minimises the energy with the present law, load and multipliers.
+pub(super) fn minimise<T: Real, Lo: Real>(state: &mut State<'_, T, Lo>, observe: Observer<'_>) -> Result<End> {
+    state.residual(Left::Nothing);
     loop {
-        state.residual();
         state.precondition()?;
-        let converged = state.converged() && state.confirm()?;
+        if state.converged() {
+            state.confirm()?;
+        }
+        let converged = state.converged();
         if observe(&state.iteration()).is_break() {
             return Ok(End::Gave(Status::Stopped));
         }
         if converged {
             return Ok(End::Converged);
         }
-        match state.verdict() {
-            Some(Status::Stalled) if state.renew()? => continue,
-            Some(status) => return Ok(End::Gave(status)),
-            None => {}
+        state.note_progress();
+        let verdict = state.verdict();
+        if verdict == Some(Status::Stalled) && state.may_renew() {
+            state.renew()?;
+            continue;
+        }
+        if let Some(status) = verdict {
+            return Ok(End::Gave(status));
         }
         if state.is_adrift() {
             return Ok(End::Adrift);
         }
-        if !state.step()? && !state.renew()? {
+        let moved = state.step()?;
+        if !moved && !state.may_renew() {
             return Ok(End::Gave(Status::Stalled));
+        }
+        if !moved {
+            state.renew()?;
+        }
+    }
+}
+
+/// Solves a problem: on the way from afar the wall alone, then the law without its jumps, then the law itself.
+pub(super) fn run<T: Real, Lo: Real>(operators: &mut dyn Operators<T, Lo>, job: Job<'_, T>) -> Result<Solved<T>> {
+    let Job { law, flat, constraint, control, settings, begin, observe } = job;
+    let held = flat.window.as_ref().and_then(|window| law.in_rows_of(window.held()));
+    let law = held.as_deref().unwrap_or(law);
+    Error::positive("tolerance", settings.tolerance_in::<T>())?;
+    check_wall(law, constraint.wall())?;
+    let load = flat.load(control, constraint.wall())?;
+    let branch = Branch::of_start(&begin, &settings, law, (load, constraint.wall()), flat)?;
+    let (default_start, near) = (begin.is_default(), begin.is_near());
+    let from_afar = default_start && branch == Some(Branch::Loading);
+    let smooths = (near || default_start) && settings.method == Method::Preconditioned;
+    let smoothed = if smooths { smoothed_law(operators.state(), law) } else { None };
+
+    // a wall stands for the repulsion of a law, in gaps above its equilibrium separation
+    let mut rigid = Projection;
+    let (wall, repelled): (&mut dyn ContactConstraint<T>, Option<&mut dyn ContactConstraint<T>>) =
+        match constraint.wall() {
+            Wall::None if from_afar => (&mut rigid, Some(constraint)),
+            _ => (constraint, None),
+        };
+    let separation = repelled.as_ref().and_then(|_| law.rest()).unwrap_or_else(T::zero);
+    let (first_law, first_load): (&dyn AdhesionLaw<T>, _) =
+        if from_afar { (&NoAdhesion, load.of_wall(separation.widen())) } else { (law, load) };
+
+    let mut state = State::new(operators, first_law, flat, wall, (first_load, branch), begin, settings)?;
+    if near {
+        state.stays_near();
+    }
+    if from_afar {
+        state.goal = Goal::Wall;
+        let end = minimise(&mut state, &mut *observe)?;
+        if let Some(constraint) = repelled {
+            state.stand_on(constraint, separation)?;
+        }
+        state.adhere(law, load)?;
+        if let Some(status) = end.is_final() {
+            return state.finish(status);
+        }
+    }
+    if state.is_torn() {
+        state.hold_apart();
+    } else if let Some(smoothed) = &smoothed {
+        state.change_law(&**smoothed, Goal::Start);
+        let end = minimise(&mut state, &mut *observe)?;
+        state.sharpen(law)?;
+        if let Some(status) = end.is_final() {
+            return state.finish(status);
+        }
+    }
+    // a given start is on a branch, which ends where the surfaces come apart
+    let mut seeks = default_start && !from_afar;
+    loop {
+        match minimise(&mut state, &mut *observe)? {
+            End::Converged => match state.update_constraint() {
+                Update::Done => return state.finish(Status::Converged),
+                Update::Again => {}
+                Update::Failed => return state.finish(Status::IterationLimit),
+            },
+            End::Adrift => {
+                let held = seeks && state.seek_hold(&mut *observe)?;
+                if !held {
+                    state.hold_apart();
+                }
+                seeks = false;
+            }
+            End::Gave(status) => return state.finish(status),
         }
     }
 }

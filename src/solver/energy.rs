@@ -1,6 +1,5 @@
 //! The energy of a state, the elastic work in it, and their rounding.
 
-use super::minimisation::Left;
 use super::passes::Fields;
 use super::state::State;
 use super::work::{TRUSTED, Work};
@@ -13,7 +12,7 @@ const ROUNDINGS: f64 = 8.0;
 /// The residual below which the pressure is computed anew, in units of the rounding that its updates have left.
 const STALE: f64 = 200.0;
 
-impl<T: Real, L: Real> State<'_, T, L> {
+impl<T: Real, Lo: Real> State<'_, T, Lo> {
     /// The mean of u·p, twice the elastic energy per area.
     pub(super) fn mean_work(&self) -> f64 {
         (self.work.sum / self.nodes()).max(0.0)
@@ -26,7 +25,7 @@ impl<T: Real, L: Real> State<'_, T, L> {
 
     /// The rounding of the corrections, beyond that of the state.
     pub(super) fn rounding_of_corrections(&self) -> f64 {
-        L::epsilon().widen() - T::epsilon().widen()
+        Lo::epsilon().widen() - T::epsilon().widen()
     }
 
     /// The rounding of the work that a correction does, as a share of it, beyond that of the state.
@@ -55,11 +54,11 @@ impl<T: Real, L: Real> State<'_, T, L> {
         self.work.is_doubtful(TRUSTED)
     }
 
-    /// Computes the work as ⟨p, K p⟩ if rounding may exceed `share` of the present sum. Overwrites the preconditioned
-    /// residual z.
-    pub(super) fn trust_work(&mut self, share: f64) -> Result<()> {
+    /// Computes the work as ⟨p, K p⟩ if rounding may exceed `share` of the present sum; tells whether it did, and has
+    /// overwritten the corrections.
+    pub(super) fn trust_work(&mut self, share: f64) -> Result<bool> {
         if !self.work.is_doubtful(share) {
-            return Ok(());
+            return Ok(false);
         }
         let stiffness = self.foundation();
         let Fields { pressure, residual, preconditioned, change, .. } = &mut self.fields;
@@ -69,8 +68,7 @@ impl<T: Real, L: Real> State<'_, T, L> {
             let sum = self.nodes() * work.max(0.0);
             self.work = Work { sum, noise: self.sum_noise(sum) };
         }
-        self.left = Left::Nothing;
-        Ok(())
+        Ok(true)
     }
 
     /// The energy that is minimised, per area.

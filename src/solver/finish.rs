@@ -2,6 +2,7 @@
 
 use ndarray::Array2;
 
+use super::minimisation::Left;
 use super::passes::Fields;
 use super::potential::Potential;
 use super::report::{Report, Solution, Solved, Status};
@@ -19,15 +20,15 @@ use crate::vector::sums;
 /// The share of the largest traction above which one at the edge of the window matters.
 const EDGE: f64 = 1e-3;
 
-impl<T: Real, L: Real> State<'_, T, L> {
+impl<T: Real, Lo: Real> State<'_, T, Lo> {
     /// The solution: the final fields, and the report on them.
     pub(super) fn finish(mut self, status: Status) -> Result<Solved<T>> {
         if self.age > 0 {
-            self.refresh()?;
+            self.refresh(Left::Nothing)?;
             self.certificate = f64::INFINITY;
         }
         if self.certificate.is_infinite() {
-            self.residual();
+            self.residual(Left::Nothing);
             self.certify()?;
         }
         self.trust_work(T::epsilon().widen().sqrt())?;

@@ -18,7 +18,7 @@ const LOADED: f64 = 0.3;
 /// The relative error above which the contact map is not yet that of the solution with adhesion.
 const SETTLED: f64 = 0.1;
 
-impl<T: Real, L: Real> State<'_, T, L> {
+impl<T: Real, Lo: Real> State<'_, T, Lo> {
     /// The stiffness of the contacts against a change of the mean gap, about λ̄/h_rms for rough surfaces.
     fn contact_stiffness(&self) -> f64 {
         let external = if self.is_gap_controlled() { -self.multiplier() } else { self.given };

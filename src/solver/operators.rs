@@ -6,27 +6,27 @@ use crate::elastic::{ElasticOperator, Foundation};
 use crate::error::Result;
 use crate::real::Real;
 
-/// The operator of a solve whose state is of precision T and whose corrections are of precision L.
-pub(super) trait Operators<T: Real, L: Real> {
+/// The operator of a solve whose state is of precision T and whose corrections are of precision Lo.
+pub(super) trait Operators<T: Real, Lo: Real> {
     /// The operator for the state.
     fn state(&self) -> &dyn ElasticOperator<T>;
 
     /// The operator for the corrections: the response to a change, the preconditioner, and its coarse space.
-    fn corrections(&mut self) -> &mut dyn ElasticOperator<L>;
+    fn corrections(&mut self) -> &mut dyn ElasticOperator<Lo>;
 
     /// The pressure K⁻¹g of a gap. The memory of `idle` fields may be used; they are zero then.
-    fn pressure(&mut self, gap: &Array2<T>, pressure: &mut Array2<T>, idle: &mut [&mut Array2<L>]) -> Result<()>;
+    fn pressure(&mut self, gap: &Array2<T>, pressure: &mut Array2<T>, idle: &mut [&mut Array2<Lo>]) -> Result<()>;
 
     /// The displacement K p of a pressure. The memory of `idle` fields may be used; they are zero then.
     fn displacement(
         &mut self,
         pressure: &Array2<T>,
         displacement: &mut Array2<T>,
-        idle: [&mut Array2<L>; 3],
+        idle: [&mut Array2<Lo>; 3],
     ) -> Result<()>;
 
     /// The mean of p·K p. The memory of `idle` fields, of which there has to be one, may be used.
-    fn work(&mut self, pressure: &Array2<T>, foundation: f64, idle: [&mut Array2<L>; 3]) -> Result<f64>;
+    fn work(&mut self, pressure: &Array2<T>, foundation: f64, idle: [&mut Array2<Lo>; 3]) -> Result<f64>;
 }
 
 /// One operator for both.

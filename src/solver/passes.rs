@@ -21,21 +21,21 @@ pub(super) use residual::{idle, release, released, residual};
 pub(super) use step::{Advance, Attempt, Tried, advance, energy_after, reach, trial};
 pub(super) use tally::{Taken, Tally, tally};
 
-/// The fields of a solve: the state in the precision T, its corrections in L.
+/// The fields of a solve: the state in the precision T, its corrections in Lo.
 #[derive(Debug)]
-pub(super) struct Fields<T, L> {
+pub(super) struct Fields<T, Lo> {
     /// the gap g
     pub(super) gap: Array2<T>,
     /// the elastic pressure p = K⁻¹(g + h), of zero mean
     pub(super) pressure: Array2<T>,
     /// the residual r' (negative zero marks a node outside of the working set); while a step is made, K⁻¹c of the
     /// change c
-    pub(super) residual: Array2<L>,
+    pub(super) residual: Array2<Lo>,
     /// the preconditioned residual z = M r'; until it is computed, that of the previous state
-    pub(super) preconditioned: Array2<L>,
+    pub(super) preconditioned: Array2<Lo>,
     /// the change c, a multiple of the last step; while the next step is made, its change before the scale that
     /// restores the mean gap; the direction t of [`Method::Rey2017`](crate::Method)
-    pub(super) change: Array2<L>,
+    pub(super) change: Array2<Lo>,
     pub(super) reducer: Reducer,
     /// the least r in contact of each chunk, as of the present tally
     pub(super) least_r: Vec<f64>,
@@ -43,7 +43,7 @@ pub(super) struct Fields<T, L> {
     pub(super) moving: Vec<f64>,
 }
 
-impl<T: Real, L: Real> Fields<T, L> {
+impl<T: Real, Lo: Real> Fields<T, Lo> {
     /// The fields of a solve that starts from this gap and its pressure.
     pub(super) fn new(slab: Slab, gap: Array2<T>, pressure: Array2<T>) -> Self {
         let field = || Array2::zeros(gap.dim());

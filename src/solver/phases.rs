@@ -1,7 +1,7 @@
 //! The phases of a solve, each with an energy and a goal of its own: their beginnings.
 
 use super::coarse::Coarse;
-use super::minimisation::{Goal, Progress};
+use super::minimisation::{Goal, Left, Progress};
 use super::start::uniform_start;
 use super::state::{State, prepare};
 use crate::adhesion::AdhesionLaw;
@@ -15,7 +15,7 @@ use crate::real::Real;
 /// contacts, for which a whole step is too long.
 const NEAR: f64 = 0.5;
 
-impl<'a, T: Real, L: Real> State<'a, T, L> {
+impl<'a, T: Real, Lo: Real> State<'a, T, Lo> {
     /// Treats the start as near the solution.
     pub(super) fn stays_near(&mut self) {
         (self.near, self.step_length) = (true, NEAR);
@@ -55,21 +55,18 @@ impl<'a, T: Real, L: Real> State<'a, T, L> {
         Ok(())
     }
 
-    /// Goes on from the gap that the wall alone leaves with adhesion, under the load itself; with the constraint that
-    /// is no wall, if there is one, from as much above its equilibrium separation.
-    pub(super) fn adhere(
-        &mut self,
-        law: &'a dyn AdhesionLaw<T>,
-        load: Load,
-        repelled: Option<(&'a mut dyn ContactConstraint<T>, f64)>,
-    ) -> Result<()> {
-        (self.law, self.load, self.step_length) = (law, load, 1.0);
-        if let Some((constraint, separation)) = repelled {
-            prepare(constraint, &*self.operators, self.flat, self.settings)?;
-            self.constraint = constraint;
-            let lift = T::lit(separation);
-            self.fields.gap.mapv_inplace(|gap| gap + lift);
-        }
+    /// Puts the constraint of a law that repels in the place of the wall that stood for it, as much farther apart as the
+    /// equilibrium separation of the law.
+    pub(super) fn stand_on(&mut self, constraint: &'a mut dyn ContactConstraint<T>, separation: T) -> Result<()> {
+        prepare(constraint, &*self.operators, self.flat, self.settings)?;
+        self.constraint = constraint;
+        self.fields.gap.mapv_inplace(|gap| gap + separation);
+        Ok(())
+    }
+
+    /// Goes on with adhesion, under the load itself, from the gap that the wall alone leaves.
+    pub(super) fn adhere(&mut self, law: &'a dyn AdhesionLaw<T>, load: Load) -> Result<()> {
+        (self.load, self.step_length) = (load, 1.0);
         // the contacts of the wall alone are not those that adhesion makes
         self.coarse.iter_mut().for_each(Coarse::forget);
         self.change_law(law, Goal::Solution);
@@ -90,7 +87,7 @@ impl<'a, T: Real, L: Real> State<'a, T, L> {
         if self.is_adrift() {
             // the law itself may hold a tension that the smoothed one does not
             self.fields.gap.fill(T::lit(uniform_start(law, self.flat, self.load)));
-            self.refresh()?;
+            self.refresh(Left::Nothing)?;
         }
         self.change_law(law, Goal::Solution);
         // this certificate was of the smoothed law

@@ -92,24 +92,23 @@ struct Step {
     spring: f64,
 }
 
-impl<T: Real, L: Real> State<'_, T, L> {
-    /// A step along the projected, conjugate, preconditioned residual; `false` if no step lowers the energy.
-    pub(super) fn preconditioned_step(&mut self) -> Result<bool> {
+impl<T: Real, Lo: Real> State<'_, T, Lo> {
+    /// A step along the projected, conjugate, preconditioned residual, and what it leaves of that; nothing if no step
+    /// lowers the energy.
+    pub(super) fn preconditioned_step(&mut self) -> Result<Option<Left>> {
         // with the waves at rest
         let waits = self.hangs_on_spring() && self.relative_error() <= self.settings.tolerance_in::<T>();
         if waits && self.shift()? {
-            return Ok(true);
+            return Ok(Some(Left::Nothing));
         }
         let length = self.step_length;
-        if self.try_step()? {
-            return Ok(true);
-        }
-        if length >= SHORTEST || self.is_at_floor() {
-            return Ok(false);
+        let left = self.try_step()?;
+        if left.is_some() || length >= SHORTEST || self.is_at_floor() {
+            return Ok(left);
         }
         // a step shorter than the last digit of the gaps changes nothing: begin anew at full length
         (self.step_length, self.momentum) = (1.0, None);
-        self.residual();
+        self.residual(Left::Nothing);
         self.certify()?;
         self.try_step()
     }
@@ -119,44 +118,42 @@ impl<T: Real, L: Real> State<'_, T, L> {
     fn shift(&mut self) -> Result<bool> {
         let imbalance = self.imbalance();
         let length = std::mem::replace(&mut self.step_length, 1.0);
-        self.fields.preconditioned.fill(L::zero());
+        self.fields.preconditioned.fill(Lo::zero());
         let trial = self.trial(-imbalance / self.load.stiffness(), None);
-        // in the sum of r', which is of L, the waves have left their rounding
+        // in the sum of r', which is of Lo, the waves have left their rounding
         let slope = trial.change * imbalance;
         let trial = Trial { slope, descent: slope, ..trial };
         let step = if trial.clipped || slope >= 0.0 { None } else { self.search(&trial, 0.0) };
         self.step_length = length;
         if let Some(step) = &step {
-            self.fields.residual.fill(L::zero());
+            self.fields.residual.fill(Lo::zero());
             self.advance(step);
-            self.left = Left::Nothing;
         } else {
-            self.residual();
+            self.residual(Left::Nothing);
             self.certify()?;
         }
         Ok(step.is_some())
     }
 
-    fn try_step(&mut self) -> Result<bool> {
+    fn try_step(&mut self) -> Result<Option<Left>> {
         let (mut centre, mut momentum) = self.direction();
         for _ in 0..SHORTENINGS {
             let trial_length = self.step_length;
-            let Some(trial) = self.descend(&mut centre, &mut momentum) else { return Ok(false) };
+            let Some(trial) = self.descend(&mut centre, &mut momentum) else { return Ok(None) };
             let Fields { change, residual: response, .. } = &mut self.fields;
             let elastic = self.operators.corrections().pressure_and_work(change.view(), response.view_mut())?;
             self.applications += 1;
-            let Some(step) = self.search(&trial, elastic * self.nodes()) else { return Ok(false) };
+            let Some(step) = self.search(&trial, elastic * self.nodes()) else { return Ok(None) };
             if !trial.blocked || step.length >= SHORT {
-                self.advance(&step);
-                return Ok(true);
+                return Ok(Some(self.advance(&step)));
             }
             // a part so short leaves the blocked nodes apart: clip a step without the last change instead, or a
             // shorter one
             let shorten = if momentum.take().is_some() { 1.0 } else { step.length.max(LEAST_PART) };
             self.step_length = trial_length * shorten;
-            self.residual();
+            self.residual(Left::Nothing);
         }
-        Ok(false)
+        Ok(None)
     }
 
     /// The mean of z over the working set, and the multiple of the last change.
@@ -235,7 +232,7 @@ impl<T: Real, L: Real> State<'_, T, L> {
     fn land(&mut self, centre: f64, trial: Trial) -> Trial {
         let (length, centre) = (T::lit(self.step_length), T::lit(centre));
         let lands =
-            move |gap: T, r: L, z: L| gap > T::zero() && r > L::zero() && gap < length * (cast::<_, T>(z) - centre);
+            move |gap: T, r: Lo, z: Lo| gap > T::zero() && r > Lo::zero() && gap < length * (cast::<_, T>(z) - centre);
         let held = self.is_gap_controlled();
         let local = Potential::new(self.law, &*self.constraint, self.flat.window.as_ref());
         let Fields { reducer, gap, residual, preconditioned, change, .. } = &mut self.fields;
@@ -252,7 +249,7 @@ impl<T: Real, L: Real> State<'_, T, L> {
             part
         });
         let [landed, others, ..] = total.sum;
-        let lift = L::lit(if held { landed / others } else { 0.0 });
+        let lift = Lo::lit(if held { landed / others } else { 0.0 });
         let fields = read(gap).zip(read(residual)).zip(read(preconditioned)).zip(write(change));
         let total = local.run(reducer, fields, |local, first, (((gap, residual), z), change)| {
             let faces = local.is_surface();
@@ -268,9 +265,9 @@ impl<T: Real, L: Real> State<'_, T, L> {
                 } else if !idles(r) {
                     lift
                 } else {
-                    L::zero()
+                    Lo::zero()
                 };
-                let ([r, d], [t, s]) = ([r, *d].map(L::widen), [tractions[i], slopes[i]].map(T::widen));
+                let ([r, d], [t, s]) = ([r, *d].map(Lo::widen), [tractions[i], slopes[i]].map(T::widen));
                 part.sum[0] += r * d;
                 part.sum[1] += d;
                 part.sum[2] += t * d;
@@ -285,10 +282,10 @@ impl<T: Real, L: Real> State<'_, T, L> {
 
     /// Subtracts the mean from z, and sets z to zero at nodes in contact that it would press.
     fn hold(&mut self, centre: f64) {
-        let (centre, centred) = (L::lit(centre), self.is_gap_controlled());
+        let (centre, centred) = (Lo::lit(centre), self.is_gap_controlled());
         let local = Potential::new(self.law, &*self.constraint, self.flat.window.as_ref());
         let Fields { reducer, gap, residual, preconditioned, .. } = &mut self.fields;
-        let moves = move |faces: bool, gap: T, r: L, z: L| !idles(r) && (!faces || gap > T::zero() || z < centre);
+        let moves = move |faces: bool, gap: T, r: Lo, z: Lo| !idles(r) && (!faces || gap > T::zero() || z < centre);
         let fields = read(gap).zip(read(residual)).zip(read(preconditioned));
         let total = local.run(reducer, fields, |local, _, ((gap, residual), z)| {
             let (mut part, faces) = (Partial::NONE, local.is_surface());
@@ -301,12 +298,12 @@ impl<T: Real, L: Real> State<'_, T, L> {
             part
         });
         let [sum, count, ..] = total.sum;
-        let mean = L::lit(if centred && count > 0.0 { sum / count } else { 0.0 });
+        let mean = Lo::lit(if centred && count > 0.0 { sum / count } else { 0.0 });
         let fields = read(gap).zip(read(residual)).zip(write(preconditioned));
         local.run(reducer, fields, |local, _, ((gap, residual), z)| {
             let faces = local.is_surface();
             for ((&gap, &r), z) in gap.iter().zip(residual).zip(z) {
-                *z = if moves(faces, gap, r, *z) { *z - centre - mean } else { L::zero() };
+                *z = if moves(faces, gap, r, *z) { *z - centre - mean } else { Lo::zero() };
             }
             Partial::NONE
         });
@@ -372,8 +369,8 @@ impl<T: Real, L: Real> State<'_, T, L> {
         (length > 0.0).then_some(Step { length, scale, slope, change, square, work, elastic, spring })
     }
 
-    /// Takes a step: gap, pressure, and the tally of the new state.
-    fn advance(&mut self, step: &Step) {
+    /// Takes a step: gap, pressure, and the tally of the new state. Returns what it leaves of the residual.
+    fn advance(&mut self, step: &Step) -> Left {
         let &Step { length, scale, slope, change, square, work, elastic, spring } = step;
         self.given = self.load.pressure_at((self.tally.sum_gap + length * change) / self.nodes());
         let level = self.is_gap_controlled().then_some(T::lit(self.residual.level));
@@ -388,14 +385,14 @@ impl<T: Real, L: Real> State<'_, T, L> {
         let change = length * (2.0 * work + length * elastic);
         self.work = self.work.after(change, self.update_noise() * change.abs());
         let made = Made { factor: length, curvature, descent: 0.0, overlap: 0.0, sum: 0.0 };
-        self.left = match advanced.residual {
+        self.updates += (length * scale).powi(2) * square / self.nodes();
+        self.age += 1;
+        match advanced.residual {
             None => Left::Gradient(made),
             Some(Continued { orthogonality, working, descent, overlap, .. }) => {
                 self.residual = Residual { level: 0.0, working, orthogonality, ..self.residual };
                 Left::Residual(Made { descent, overlap, ..made })
             }
-        };
-        self.updates += (length * scale).powi(2) * square / self.nodes();
-        self.age += 1;
+        }
     }
 }

@@ -1,5 +1,6 @@
 //! Algorithm 3 of Rey, Anciaux and Molinari (2017), with its misprints corrected.
 
+use super::minimisation::Left;
 use super::passes::Fields;
 use super::state::State;
 use crate::error::Result;
@@ -8,10 +9,10 @@ use crate::par::Parts;
 use crate::problem::Load;
 use crate::real::{Real, cast};
 
-impl<T: Real, L: Real> State<'_, T, L> {
+impl<T: Real, Lo: Real> State<'_, T, Lo> {
     /// One pass of the algorithm's loop: one operator application for the direction, and one for the new gap where
     /// nodes were clipped or released.
-    pub(super) fn rey2017_step(&mut self) -> Result<bool> {
+    pub(super) fn rey2017_step(&mut self) -> Result<Option<Left>> {
         let projects = self.projects();
         let apart = move |gap: T| !projects || gap > T::zero();
 
@@ -39,7 +40,7 @@ impl<T: Real, L: Real> State<'_, T, L> {
             let mut part = Partial::NONE;
             for ((&gap, &t), &response) in gap.iter().zip(direction).zip(response) {
                 if apart(gap) {
-                    let [t, response] = [t, response].map(L::widen);
+                    let [t, response] = [t, response].map(Lo::widen);
                     part.sum[0] += response * t;
                     part.sum[1] += response;
                     part.sum[2] += t;
@@ -56,7 +57,7 @@ impl<T: Real, L: Real> State<'_, T, L> {
         // a direction that is uniform up to rounding has a curvature of rounding only
         let length = length.min(1.0 / (T::epsilon().widen().sqrt() * softest));
         if !length.is_finite() {
-            return Ok(false);
+            return Ok(None);
         }
 
         let length = T::lit(length);
@@ -67,7 +68,7 @@ impl<T: Real, L: Real> State<'_, T, L> {
                 let next = *gap - length * cast(t);
                 part.sum[2] += f64::from(u8::from(projects && next < T::zero()));
                 *gap = if projects { next.max(T::zero()) } else { next };
-                if projects && *gap <= T::zero() && r < L::zero() {
+                if projects && *gap <= T::zero() && r < Lo::zero() {
                     *gap = -length * cast(r);
                     part.sum[1] += 1.0;
                 }
@@ -84,33 +85,33 @@ impl<T: Real, L: Real> State<'_, T, L> {
             // every node was clipped: only the mean gap remains to be kept
             if let Load::Gap(mean) = self.load {
                 self.fields.gap.fill(T::lit(mean));
-                self.refresh()?;
-                self.residual();
+                self.refresh(Left::Nothing)?;
+                self.residual(Left::Nothing);
                 self.certificate = f64::INFINITY;
             }
-            return Ok(false);
+            return Ok(None);
         }
         self.residual_norm = (released == 0.0).then_some(norm.sum[0]);
         let linear = released == 0.0 && clipped == 0.0;
         self.scale(T::lit(scale), length, linear);
         if !linear {
-            self.refresh()?;
+            self.refresh(Left::Nothing)?;
         }
-        Ok(true)
+        Ok(Some(Left::Nothing))
     }
 
     /// The direction t = r' + `conjugate` t where the surfaces are apart, zero elsewhere; returns ⟨r', t⟩.
     fn conjugate_direction(&mut self, conjugate: f64) -> f64 {
         let projects = self.projects();
-        let conjugate = L::lit(conjugate);
+        let conjugate = Lo::lit(conjugate);
         let Fields { reducer, gap, residual, change, .. } = &mut self.fields;
         let total = reducer.run(read(gap).zip(read(residual)).zip(write(change)), |_, ((gap, residual), direction)| {
             let mut part = Partial::NONE;
             for ((&gap, &r), t) in gap.iter().zip(residual).zip(direction) {
                 *t = if !projects || gap > T::zero() {
-                    r + if conjugate > L::zero() { conjugate * *t } else { L::zero() }
+                    r + if conjugate > Lo::zero() { conjugate * *t } else { Lo::zero() }
                 } else {
-                    L::zero()
+                    Lo::zero()
                 };
                 part.sum[0] += r.widen() * t.widen();
             }

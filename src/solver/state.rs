@@ -38,8 +38,8 @@ const HARDLY: f64 = 1e-3;
 const HELD: f64 = 0.4;
 
 /// The state of a solve: its fields, and the sums over them on which the driver decides.
-pub(super) struct State<'a, T, L> {
-    pub(super) operators: &'a mut dyn Operators<T, L>,
+pub(super) struct State<'a, T, Lo> {
+    pub(super) operators: &'a mut dyn Operators<T, Lo>,
     pub(super) law: &'a dyn AdhesionLaw<T>,
     pub(super) flat: &'a PressedFlat<T>,
     pub(super) constraint: &'a mut dyn ContactConstraint<T>,
@@ -50,13 +50,12 @@ pub(super) struct State<'a, T, L> {
     pub(super) given: f64,
     pub(super) settings: Settings,
     pub(super) goal: Goal,
-    pub(super) fields: Fields<T, L>,
+    pub(super) fields: Fields<T, Lo>,
     pub(super) tally: Tally,
     /// Σ u·p, twice the elastic energy
     pub(super) work: Work,
     /// the mean of p, zero but for rounding
     pub(super) drift: f64,
-    pub(super) left: Left,
     pub(super) residual: Residual,
     /// the mean of r'·K r'
     pub(super) certificate: f64,
@@ -85,9 +84,9 @@ pub(super) struct State<'a, T, L> {
 }
 
 /// Prepares a constraint for a solve.
-pub(super) fn prepare<T: Real, L: Real>(
+pub(super) fn prepare<T: Real, Lo: Real>(
     constraint: &mut dyn ContactConstraint<T>,
-    operators: &dyn Operators<T, L>,
+    operators: &dyn Operators<T, Lo>,
     flat: &PressedFlat<T>,
     settings: Settings,
 ) -> Result<()> {
@@ -99,9 +98,9 @@ pub(super) fn prepare<T: Real, L: Real>(
     constraint.start(surface, operator.stiffness_range().1, settings.tolerance_in::<T>())
 }
 
-impl<'a, T: Real, L: Real> State<'a, T, L> {
+impl<'a, T: Real, Lo: Real> State<'a, T, Lo> {
     pub(super) fn new(
-        operators: &'a mut dyn Operators<T, L>,
+        operators: &'a mut dyn Operators<T, Lo>,
         law: &'a dyn AdhesionLaw<T>,
         flat: &'a PressedFlat<T>,
         constraint: &'a mut dyn ContactConstraint<T>,
@@ -146,7 +145,6 @@ impl<'a, T: Real, L: Real> State<'a, T, L> {
             tally: Tally::default(),
             work: Work::default(),
             drift: 0.0,
-            left: Left::Nothing,
             residual: Residual::default(),
             certificate: f64::INFINITY,
             preconditioned: Preconditioned::default(),
@@ -228,7 +226,9 @@ impl<'a, T: Real, L: Real> State<'a, T, L> {
     }
 
     /// Computes the pressure from the gap, p = K⁻¹g + K⁻¹h, and takes the tally anew.
-    pub(super) fn refresh(&mut self) -> Result<()> {
+    ///
+    /// After a step its change, and what it `left` of the residual, are still of use; returns what is left of that.
+    pub(super) fn refresh(&mut self, left: Left) -> Result<Left> {
         if let Load::Gap(mean) = self.load {
             let (scale, present) = (mean * self.nodes() / self.tally.sum_gap, self.tally.sum_gap / self.nodes());
             // the rounding summed up in the mean gap, if it is worth a pass
@@ -249,12 +249,11 @@ impl<'a, T: Real, L: Real> State<'a, T, L> {
                 });
             }
         }
-        let made = match self.left {
+        let made = match left {
             Left::Nothing => None,
             Left::Gradient(made) | Left::Residual(made) | Left::Renewed(made) => Some(made),
         };
         let Fields { gap, pressure, residual, preconditioned, change, .. } = &mut self.fields;
-        // after a step its change and z are still of use, otherwise the residual before
         match made {
             Some(_) => self.operators.pressure(gap, pressure, &mut [residual])?,
             None => self.operators.pressure(gap, pressure, &mut [preconditioned, change])?,
@@ -263,7 +262,7 @@ impl<'a, T: Real, L: Real> State<'a, T, L> {
     }
 
     /// Makes the pressure K⁻¹g of the gap that of the state, after the step that was made, and takes the tally.
-    fn take_pressure(&mut self, made: Option<Made>) -> Result<()> {
+    fn take_pressure(&mut self, made: Option<Made>) -> Result<Left> {
         self.applications += 1;
         (self.age, self.updates) = (0, 0.0);
         let Fields { reducer, pressure, .. } = &mut self.fields;
@@ -272,8 +271,8 @@ impl<'a, T: Real, L: Real> State<'a, T, L> {
             Partial::NONE
         });
         self.work = self.count();
-        self.left = made.map_or(Left::Nothing, Left::Renewed);
-        self.trust_work(TRUSTED)
+        let overwritten = self.trust_work(TRUSTED)?;
+        Ok(made.filter(|_| !overwritten).map_or(Left::Nothing, Left::Renewed))
     }
 
     /// Takes the tally of the present gap and pressure; returns the elastic work ⟨u, p⟩ by its sums.
@@ -285,7 +284,7 @@ impl<'a, T: Real, L: Real> State<'a, T, L> {
         self.drift = sum_p / self.nodes();
         self.given = self.load.pressure_at(tally.sum_gap / self.nodes());
         tally.shift(T::lit(self.offset()).widen() - offset.widen());
-        (self.tally, self.left) = (tally, Left::Nothing);
+        self.tally = tally;
         self.summed_work(tally.sum_gp, gap_surface)
     }
 
@@ -299,9 +298,10 @@ impl<'a, T: Real, L: Real> State<'a, T, L> {
         }
     }
 
-    /// r' on the working set: the nodes that are apart, and those in contact under tension.
-    pub(super) fn residual(&mut self) {
-        let (gradient, made) = match std::mem::replace(&mut self.left, Left::Nothing) {
+    /// r' on the working set, the nodes that are apart and those in contact under tension: made of the content that a
+    /// step has left in its field.
+    pub(super) fn residual(&mut self, left: Left) {
+        let (gradient, made) = match left {
             Left::Residual(made) => {
                 self.momentum = Some(made);
                 return;
@@ -375,19 +375,19 @@ impl<'a, T: Real, L: Real> State<'a, T, L> {
         Ok(())
     }
 
-    /// One step of the chosen method; `false` if none is possible.
+    /// One step of the chosen method, with the residual of the state to which it leads; `false` if none is possible.
     pub(super) fn step(&mut self) -> Result<bool> {
         let moved = match self.settings.method {
             Method::Preconditioned => self.preconditioned_step()?,
             Method::Rey2017 => self.rey2017_step()?,
         };
-        if moved {
-            self.iterations += 1;
-            if self.age >= REFRESH || self.has_lost_its_work() || self.has_lost_its_pressure() {
-                self.refresh()?;
-            }
+        let Some(mut left) = moved else { return Ok(false) };
+        self.iterations += 1;
+        if self.age >= REFRESH || self.has_lost_its_work() || self.has_lost_its_pressure() {
+            left = self.refresh(left)?;
         }
-        Ok(moved)
+        self.residual(left);
+        Ok(true)
     }
 
     pub(super) fn iteration(&self) -> Iteration {

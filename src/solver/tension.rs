@@ -1,9 +1,8 @@
 //! Surfaces that come apart under a load: whether adhesion could hold them, and where they come to rest if not.
 
-use super::driver::{End, Observer, minimise};
-use super::minimisation::Goal;
+use super::driver::{Observer, minimise};
+use super::minimisation::{Goal, Left};
 use super::passes::Fields;
-use super::report::Status;
 use super::state::State;
 use crate::error::Result;
 use crate::field::{Partial, read, write};
@@ -32,7 +31,7 @@ const BETWEEN: f64 = 1.1;
 /// beyond the heights.
 const REACH: f64 = 10.0;
 
-impl<T: Real, L: Real> State<'_, T, L> {
+impl<T: Real, Lo: Real> State<'_, T, Lo> {
     /// Whether a tensile load has pulled the surfaces apart: no contact, and hardly any traction left to hold them.
     pub(super) fn is_adrift(&self) -> bool {
         let Load::Pressure(pressure) = self.load else { return false };
@@ -112,8 +111,7 @@ impl<T: Real, L: Real> State<'_, T, L> {
         }
         self.go_on(self.holding(gap), Goal::Hold)?;
         let end = minimise(self, observe)?;
-        let gave = matches!(end, End::Gave(Status::Stopped | Status::IterationLimit));
-        Ok((!gave).then(|| self.multiplier() - self.given))
+        Ok(end.is_final().is_none().then(|| self.multiplier() - self.given))
     }
 
     /// The gap of nodes that touch: zero at a wall, and that of rest where the law itself repels.
@@ -164,7 +162,7 @@ impl<T: Real, L: Real> State<'_, T, L> {
         (self.load, self.goal) = (load, goal);
         // the mean of the present gap, which the refresh scales to the one that is held
         self.count();
-        self.refresh()?;
+        self.refresh(Left::Nothing)?;
         self.restart();
         self.certificate = f64::INFINITY;
         Ok(())

@@ -43,8 +43,8 @@ pub(in crate::solver) struct Held {
 }
 
 /// Multiplies r' less its level by S.
-pub(in crate::solver) fn hold<T: Real, L: Real>(
-    fields: &mut Fields<T, L>,
+pub(in crate::solver) fn hold<T: Real, Lo: Real>(
+    fields: &mut Fields<T, Lo>,
     local: &Potential<'_, T>,
     stiffness: f64,
     centred: bool,
@@ -80,8 +80,8 @@ pub(in crate::solver) fn hold<T: Real, L: Real>(
 }
 
 /// Multiplies z by S, adds what is beside the waves, and puts r' back; returns Σ z.
-pub(in crate::solver) fn release_held<T: Real, L: Real>(
-    fields: &mut Fields<T, L>,
+pub(in crate::solver) fn release_held<T: Real, Lo: Real>(
+    fields: &mut Fields<T, Lo>,
     local: &Potential<'_, T>,
     held: Held,
 ) -> f64 {

@@ -52,14 +52,14 @@ fn works<T: Real>(residual: T) -> T {
 
 /// r' of a node, and whether it may move.
 #[inline(always)]
-fn residual_of<T: Real, L: Real>(touching: T, w: Working<T>, gap: T, r: T) -> (L, bool) {
+fn residual_of<T: Real, Lo: Real>(touching: T, w: Working<T>, gap: T, r: T) -> (Lo, bool) {
     let may = (gap > touching) | (r < w.release);
-    (if may { works(cast(r - w.level)) } else { L::neg_zero() }, may)
+    (if may { works(cast(r - w.level)) } else { Lo::neg_zero() }, may)
 }
 
 /// The contact nodes that are released, by the tally of the present state.
-pub(in crate::solver) fn released<T: Real, L: Real>(
-    fields: &mut Fields<T, L>,
+pub(in crate::solver) fn released<T: Real, Lo: Real>(
+    fields: &mut Fields<T, Lo>,
     local: &Potential<'_, T>,
     offset: T,
     release: T,
@@ -86,8 +86,8 @@ pub(in crate::solver) fn released<T: Real, L: Real>(
 }
 
 /// Computes r' from gap and pressure. Returns Σ (r' − r'₀)², too, with r'₀ the previous content of the field.
-pub(in crate::solver) fn residual<T: Real, L: Real>(
-    fields: &mut Fields<T, L>,
+pub(in crate::solver) fn residual<T: Real, Lo: Real>(
+    fields: &mut Fields<T, Lo>,
     local: &Potential<'_, T>,
     working: Working<T>,
 ) -> (Continued, f64) {
@@ -99,10 +99,10 @@ pub(in crate::solver) fn residual<T: Real, L: Real>(
         let tractions = tractions(local, first, gap, &mut buffer);
         sums!(6, [gap, pressure, tractions, z, change], [residual], |i| {
             let r = pressure[i] + tractions[i] + working.offset;
-            let (r, may): (L, _) = residual_of(touching, working, gap[i], r);
+            let (r, may): (Lo, _) = residual_of(touching, working, gap[i], r);
             let difference = (r - residual[i]).widen();
             residual[i] = r;
-            let [r, d, z] = [r, change[i], z[i]].map(L::widen);
+            let [r, d, z] = [r, change[i], z[i]].map(Lo::widen);
             let moved = if may { d } else { 0.0 };
             [count(may), (gap[i].widen() * r).abs(), r * d, r * z, moved, difference * difference]
         })
@@ -114,25 +114,25 @@ pub(in crate::solver) fn residual<T: Real, L: Real>(
 
 /// The residual r' of a chunk, from the gradient less a constant in the same field, which release and level are less,
 /// too.
-pub(super) fn release_chunk<T: Real, L: Real>(
+pub(super) fn release_chunk<T: Real, Lo: Real>(
     touching: T,
     working: Working<T>,
     gap: &[T],
-    (z, change): (&[L], &[L]),
-    residual: &mut [L],
+    (z, change): (&[Lo], &[Lo]),
+    residual: &mut [Lo],
 ) -> Partial {
     sums!(5, [gap, z, change], [residual], |i| {
-        let (r, may): (L, _) = residual_of(touching, working, gap[i], cast(residual[i]));
+        let (r, may): (Lo, _) = residual_of(touching, working, gap[i], cast(residual[i]));
         residual[i] = r;
-        let [r, d, z] = [r, change[i], z[i]].map(L::widen);
+        let [r, d, z] = [r, change[i], z[i]].map(Lo::widen);
         [count(may), (gap[i].widen() * r).abs(), r * d, r * z, if may { d } else { 0.0 }]
     })
 }
 
 /// Computes r' from the gradient less a constant, which a step has written to the same field. Release and level are
 /// less that constant, too.
-pub(in crate::solver) fn release<T: Real, L: Real>(
-    fields: &mut Fields<T, L>,
+pub(in crate::solver) fn release<T: Real, Lo: Real>(
+    fields: &mut Fields<T, Lo>,
     local: &Potential<'_, T>,
     working: Working<T>,
 ) -> Continued {
@@ -147,7 +147,7 @@ pub(in crate::solver) fn release<T: Real, L: Real>(
 }
 
 /// Σ z outside of the working set of the present residual.
-pub(in crate::solver) fn idle<T: Real, L: Real>(fields: &mut Fields<T, L>) -> f64 {
+pub(in crate::solver) fn idle<T: Real, Lo: Real>(fields: &mut Fields<T, Lo>) -> f64 {
     let Fields { reducer, moving, residual, preconditioned, .. } = fields;
     let total = reducer.run_where(
         moving,

@@ -70,11 +70,11 @@ pub(in crate::solver) struct Advanced {
     pub(in crate::solver) residual: Option<Continued>,
 }
 
-/// The gap after a change, and exactly zero where it is no more than rounding above zero, that of the change in L.
+/// The gap after a change, and exactly zero where it is no more than rounding above zero, that of the change in Lo.
 #[inline(always)]
-fn moved<T: Real, L: Real>(projects: bool, gap: T, change: T) -> T {
+fn moved<T: Real, Lo: Real>(projects: bool, gap: T, change: T) -> T {
     let next = gap + change;
-    if projects & (next <= T::lit(4.0) * cast(L::epsilon()) * gap) { T::zero() } else { next }
+    if projects & (next <= T::lit(4.0) * cast(Lo::epsilon()) * gap) { T::zero() } else { next }
 }
 
 /// The step d = scale·(g + c) − g of unit length at one node.
@@ -99,15 +99,15 @@ fn clipped_change<T: Real>(least: Least<T>, attempt: Attempt<T>, gap: T, [r, z, 
 const BLOCKED: usize = 2;
 
 /// Writes the clipped change c of a step; `surface` is K⁻¹h under gap control.
-pub(in crate::solver) fn trial<T: Real, L: Real>(
-    fields: &mut Fields<T, L>,
+pub(in crate::solver) fn trial<T: Real, Lo: Real>(
+    fields: &mut Fields<T, Lo>,
     local: &Potential<'_, T>,
     attempt: Attempt<T>,
     surface: Option<&Array2<T>>,
 ) -> Tried {
     let Fields { reducer, gap, residual, preconditioned, change, .. } = fields;
     let chunks = read(gap).zip(read(residual)).zip(read(preconditioned)).zip(write(change));
-    let finish = |local: &Potential<'_, T>, part: &mut Partial, first, gap: &[T], change: &[L]| {
+    let finish = |local: &Potential<'_, T>, part: &mut Partial, first, gap: &[T], change: &[Lo]| {
         if !local.projects() {
             part.sum[BLOCKED] = 0.0;
         }
@@ -173,12 +173,12 @@ pub(in crate::solver) fn trial<T: Real, L: Real>(
 }
 
 /// The largest a with g + a·c ≥ 0 wherever a surface confines the gap, for a change c that was not clipped.
-pub(in crate::solver) fn reach<T: Real, L: Real>(fields: &mut Fields<T, L>, local: &Potential<'_, T>) -> f64 {
+pub(in crate::solver) fn reach<T: Real, Lo: Real>(fields: &mut Fields<T, Lo>, local: &Potential<'_, T>) -> f64 {
     let Fields { reducer, gap, change, .. } = fields;
     let total = local.run(reducer, read(gap).zip(read(change)), |local, _, (gap, change)| {
         let mut part = Partial::NONE;
         if local.least().depth == T::zero() {
-            for (&gap, &change) in gap.iter().zip(change).filter(|&(_, &change)| change < L::zero()) {
+            for (&gap, &change) in gap.iter().zip(change).filter(|&(_, &change)| change < Lo::zero()) {
                 part.min = part.min.min((gap / -cast::<_, T>(change)).widen());
             }
         }
@@ -188,8 +188,8 @@ pub(in crate::solver) fn reach<T: Real, L: Real>(fields: &mut Fields<T, L>, loca
 }
 
 /// The sum of the local energy over the nodes after a step.
-pub(in crate::solver) fn energy_after<T: Real, L: Real>(
-    fields: &mut Fields<T, L>,
+pub(in crate::solver) fn energy_after<T: Real, Lo: Real>(
+    fields: &mut Fields<T, Lo>,
     local: &Potential<'_, T>,
     length: T,
     scale: T,
@@ -200,7 +200,7 @@ pub(in crate::solver) fn energy_after<T: Real, L: Real>(
         let (mut next, mut buffer) = ([T::zero(); CHUNK], [T::zero(); CHUNK]);
         let (next, energies) = (&mut next[..gap.len()], &mut buffer[..gap.len()]);
         vectors!([gap, change], [next], |i| {
-            next[i] = moved::<T, L>(projects, gap[i], length * whole(scale, gap[i], cast(change[i])));
+            next[i] = moved::<T, Lo>(projects, gap[i], length * whole(scale, gap[i], cast(change[i])));
         });
         local.evaluate(Of::Energy, first, next, energies);
         sums!(1, [energies], [], |i| [energies[i].widen()])
@@ -209,8 +209,8 @@ pub(in crate::solver) fn energy_after<T: Real, L: Real>(
 }
 
 /// Takes a step: gap, pressure, r less the level in the place of the residual, and the tally of the new state.
-pub(in crate::solver) fn advance<T: Real, L: Real>(
-    fields: &mut Fields<T, L>,
+pub(in crate::solver) fn advance<T: Real, Lo: Real>(
+    fields: &mut Fields<T, Lo>,
     local: &Potential<'_, T>,
     step: Advance<T>,
     surface: &Array2<T>,
@@ -219,7 +219,7 @@ pub(in crate::solver) fn advance<T: Real, L: Real>(
     let Fields { reducer, least_r, gap, pressure, residual: response, preconditioned, change, .. } = fields;
     let before = level.unwrap_or(T::zero());
     // r less the level takes the place of K⁻¹c; then the tally
-    let finish = |local: &Potential<'_, T>, first, gap: &[T], pressure: &[T], step: &[L], residual: &mut [L]| {
+    let finish = |local: &Potential<'_, T>, first, gap: &[T], pressure: &[T], step: &[Lo], residual: &mut [Lo]| {
         let mut buffer = [T::zero(); CHUNK];
         let tractions = &mut buffer[..gap.len()];
         let mut part = tally_chunk(local, offset, first, (gap, pressure), tractions);
@@ -232,9 +232,9 @@ pub(in crate::solver) fn advance<T: Real, L: Real>(
         }
         part
     };
-    let take = |projects: bool, gap: &mut [T], pressure: &mut [T], change: &[L], response: &[L]| {
+    let take = |projects: bool, gap: &mut [T], pressure: &mut [T], change: &[Lo], response: &[Lo]| {
         vectors!([change, response], [gap, pressure], |i| {
-            gap[i] = moved::<T, L>(projects, gap[i], length * cast(change[i]));
+            gap[i] = moved::<T, Lo>(projects, gap[i], length * cast(change[i]));
             pressure[i] += length * cast(response[i]);
         });
     };
@@ -271,7 +271,7 @@ pub(in crate::solver) fn advance<T: Real, L: Real>(
                 let (g, p) = (gap[i], pressure[i]);
                 let d = whole(scale, g, cast(change[i]));
                 change[i] = cast(d);
-                gap[i] = moved::<T, L>(projects, g, length * d);
+                gap[i] = moved::<T, Lo>(projects, g, length * d);
                 pressure[i] = p + length * (scale * cast(response[i]) + rest * (p - surface[i]));
             });
             finish(local, first, gap, pressure, change, response)

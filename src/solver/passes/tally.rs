@@ -113,8 +113,8 @@ pub(super) fn tally_chunk<T: Real>(
 }
 
 /// Takes the tally of gap and pressure, with K⁻¹h of the surface.
-pub(in crate::solver) fn tally<T: Real, L: Real>(
-    fields: &mut Fields<T, L>,
+pub(in crate::solver) fn tally<T: Real, Lo: Real>(
+    fields: &mut Fields<T, Lo>,
     local: &Potential<'_, T>,
     offset: T,
     surface: &Array2<T>,
