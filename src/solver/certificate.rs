@@ -39,8 +39,8 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
     pub(super) fn relative_error(&self) -> f64 {
         let (scale, rounding) = self.error_scale();
         // where every node is in contact no gap is wrong
-        let rounding = if self.certificate == 0.0 && self.residual.working == 0.0 { 0.0 } else { rounding };
-        let square = self.certificate.max(rounding);
+        let rounding = if self.sums.certificate == 0.0 && self.sums.residual.working == 0.0 { 0.0 } else { rounding };
+        let square = self.sums.certificate.max(rounding);
         let error = if square == 0.0 { 0.0 } else { (square / scale).sqrt() };
         if error.is_nan() { f64::INFINITY } else { error }
     }
@@ -53,22 +53,22 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
     /// with k the stiffness of the shortest wave, as a transform spreads the rounding of a gap evenly over all waves.
     fn error_scale(&self) -> (f64, f64) {
         let epsilon = T::epsilon().widen();
-        let apart = if self.tally.contact > 0.0 { 0.0 } else { self.flat.work };
+        let apart = if self.sums.tally.contact > 0.0 { 0.0 } else { self.posed.flat.work };
         // flats that attract each other have no waves but those of rounding
-        let traction = self.tally.traction / self.nodes();
-        let (softest, stiffest) = self.operators.state().stiffness_range();
+        let traction = self.sums.tally.traction / self.posed.nodes();
+        let (softest, stiffest) = self.posed.operators.state().stiffness_range();
         // and so have flats that are held apart, by their mean gap or by the law itself, whose range their gaps are
         // then of
-        let lifted = match self.constraint.wall() {
-            Wall::None => self.mean_gap().abs().max(self.law.range().widen()),
-            _ if self.tally.contact > 0.0 => 0.0,
+        let lifted = match self.posed.constraint.wall() {
+            Wall::None => self.mean_gap().abs().max(self.posed.law.range().widen()),
+            _ if self.sums.tally.contact > 0.0 => 0.0,
             _ => self.mean_gap(),
         };
         let flat =
             if softest > 0.0 { epsilon * (traction * traction / softest + softest * lifted * lifted) } else { 0.0 };
         let waves = self.mean_work().max(apart);
-        let mean = (self.tally.sum_gap / self.nodes()).abs();
-        let carried = self.flat.work + 0.5 * stiffest * mean * (mean + self.flat.rms_height);
+        let mean = (self.sums.tally.sum_gap / self.posed.nodes()).abs();
+        let carried = self.posed.flat.work + 0.5 * stiffest * mean * (mean + self.posed.flat.rms_height);
         (waves.max(flat), if waves >= flat { epsilon * epsilon * carried } else { 0.0 })
     }
 
@@ -76,33 +76,33 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
     pub(super) fn is_at_floor(&self) -> bool {
         let (scale, rounding) = self.error_scale();
         let floor = (rounding / scale).sqrt();
-        self.certificate <= NEAR_FLOOR * NEAR_FLOOR * rounding && self.load_error() <= NEAR_FLOOR * floor
+        self.sums.certificate <= NEAR_FLOOR * NEAR_FLOOR * rounding && self.load_error() <= NEAR_FLOOR * floor
     }
 
     /// The error of the load under pressure control, relative to the load.
     ///
     /// Without contact every node is apart, and the mean of r is the part of the load that adhesion does not hold.
     pub(super) fn load_error(&self) -> f64 {
-        match (self.load, self.tally.free) {
+        match (self.posed.load, self.sums.tally.free) {
             (Load::Gap(_), _) => 0.0,
             // contact everywhere: in balance, unless it is under tension somewhere
-            (_, 0.0) => self.share_of_load((-self.tally.min_r).max(0.0)),
+            (_, 0.0) => self.share_of_load((-self.sums.tally.min_r).max(0.0)),
             _ => self.share_of_load(self.imbalance()),
         }
     }
 
     /// A pressure as a share of the larger of |p̄| and the mean contact pressure.
     pub(super) fn share_of_load(&self, pressure: f64) -> f64 {
-        let contact = self.given + self.tally.traction / self.nodes();
+        let contact = self.sums.given + self.sums.tally.traction / self.posed.nodes();
         // a spring that is relaxed carries nothing but the rounding of its length
-        let lengths = self.mean_gap().abs() + self.load.rest().abs();
-        let rounding = SPRING_ROUNDINGS * T::epsilon().widen() * self.load.stiffness() * lengths;
-        if pressure.abs() <= rounding { 0.0 } else { pressure.abs() / self.given.abs().max(contact.abs()) }
+        let lengths = self.mean_gap().abs() + self.posed.load.rest().abs();
+        let rounding = SPRING_ROUNDINGS * T::epsilon().widen() * self.posed.load.stiffness() * lengths;
+        if pressure.abs() <= rounding { 0.0 } else { pressure.abs() / self.sums.given.abs().max(contact.abs()) }
     }
 
     pub(super) fn scaled_orthogonality(&self) -> f64 {
-        let (lx, ly) = self.operators.state().grid().lengths();
-        self.residual.orthogonality / (self.operators.state().modulus() * (lx * ly).sqrt())
+        let (lx, ly) = self.posed.operators.state().grid().lengths();
+        self.sums.residual.orthogonality / (self.posed.operators.state().modulus() * (lx * ly).sqrt())
     }
 
     /// Whether the goal is reached.
@@ -112,18 +112,18 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
 
     /// Whether the goal is reached, given the relative error of the load.
     pub(super) fn meets(&self, load_error: f64) -> bool {
-        let tolerance = self.settings.tolerance_in::<T>();
-        if self.goal != Goal::Solution {
-            let tolerance = tolerance.max(match self.goal {
+        let tolerance = self.posed.settings.tolerance_in::<T>();
+        if self.posed.goal != Goal::Solution {
+            let tolerance = tolerance.max(match self.posed.goal {
                 Goal::Wall => WALL,
                 Goal::Hold => HOLD,
                 Goal::Start | Goal::Solution => START,
             });
             return self.relative_error() <= tolerance && load_error <= tolerance;
         }
-        let criterion = match self.settings.criterion {
+        let criterion = match self.posed.settings.criterion {
             Criterion::EnergyNorm => self.relative_error(),
-            Criterion::Orthogonality if self.residual.working > self.tally.free => f64::INFINITY,
+            Criterion::Orthogonality if self.sums.residual.working > self.sums.tally.free => f64::INFINITY,
             Criterion::Orthogonality => self.scaled_orthogonality(),
         };
         criterion <= tolerance && load_error <= tolerance
@@ -132,19 +132,19 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
     /// Computes p = K⁻¹(g + h) from the gap, where steps had only updated it, and the certificate that the residual then
     /// has: a solve ends only if that meets the tolerance. A start needs no such proof.
     pub(super) fn confirm(&mut self) -> Result<()> {
-        if self.age == 0 || self.goal != Goal::Solution {
+        if self.steps.age == 0 || self.posed.goal != Goal::Solution {
             return Ok(());
         }
-        let before = self.certificate;
+        let before = self.sums.certificate;
         // the difference δ of the two residuals adds at most ⟨δ, δ⟩/(softest stiffness) to the certificate
-        self.momentum = None;
+        self.steps.momentum = None;
         self.refresh(Left::Nothing)?;
         self.residual(Left::Nothing);
-        let softest = self.operators.state().stiffness_range().0;
-        let change = self.residual.difference;
-        let difference = if change == 0.0 { 0.0 } else { change / self.nodes() / softest };
-        self.certificate = (before.sqrt() + difference.sqrt()).powi(2);
-        if !matches!(self.constraint.wall(), Wall::None) && self.converged() {
+        let softest = self.posed.operators.state().stiffness_range().0;
+        let change = self.sums.residual.difference;
+        let difference = if change == 0.0 { 0.0 } else { change / self.posed.nodes() / softest };
+        self.sums.certificate = (before.sqrt() + difference.sqrt()).powi(2);
+        if !self.posed.has_no_wall() && self.converged() {
             return Ok(());
         }
         self.certify()?;
@@ -157,7 +157,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
     /// Notes that what an updated pressure claimed was no progress.
     fn note_refutation(&mut self) {
         let error = self.relative_error();
-        let progress = &mut self.progress;
+        let progress = &mut self.counters.progress;
         progress.best_error = progress.best_error.max(error);
         if error < PROGRESS * progress.least_refuted {
             (progress.least_refuted, progress.refuted) = (error, 0);
@@ -169,25 +169,27 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
     /// Notes whether the last iteration has made progress, and forgets the last step after some that have not.
     pub(super) fn note_progress(&mut self) {
         let energy = self.energy();
-        let error = match self.settings.method {
+        let error = match self.posed.settings.method {
             Method::Preconditioned => self.relative_error().max(self.load_error()),
             Method::Rey2017 => self.scaled_orthogonality(),
         };
-        if error < PROGRESS * self.progress.best_error || energy < self.progress.lowest_energy - self.energy_noise() {
-            self.progress.idle = 0;
+        if error < PROGRESS * self.counters.progress.best_error
+            || energy < self.counters.progress.lowest_energy - self.energy_noise()
+        {
+            self.counters.progress.idle = 0;
         } else {
-            self.progress.idle += 1;
+            self.counters.progress.idle += 1;
         }
-        self.progress.best_error = self.progress.best_error.min(error);
-        self.progress.lowest_energy = self.progress.lowest_energy.min(energy);
-        if self.progress.idle == self.patience().0 {
-            (self.momentum, self.residual_norm) = (None, None);
+        self.counters.progress.best_error = self.counters.progress.best_error.min(error);
+        self.counters.progress.lowest_energy = self.counters.progress.lowest_energy.min(energy);
+        if self.counters.progress.idle == self.patience().0 {
+            (self.steps.momentum, self.steps.residual_norm) = (None, None);
         }
     }
 
     /// The iterations without progress after which the last step is forgotten, and after which the solve has stalled.
     fn patience(&self) -> (usize, usize) {
-        match self.settings.method {
+        match self.posed.settings.method {
             Method::Preconditioned if self.is_at_floor() => STALL_AT_FLOOR,
             Method::Preconditioned => STALL,
             Method::Rey2017 => STALL_REY2017,
@@ -196,10 +198,10 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
 
     /// The status of a solve that has to end without having converged.
     pub(super) fn verdict(&self) -> Option<Status> {
-        if self.iterations >= self.settings.max_iterations {
+        if self.counters.iterations >= self.posed.settings.max_iterations {
             return Some(Status::IterationLimit);
         }
-        let idle = self.progress.idle.max(self.progress.refuted);
+        let idle = self.counters.progress.idle.max(self.counters.progress.refuted);
         let stalled = !self.energy().is_finite() || self.runs_away() || idle >= self.patience().1;
         stalled.then_some(Status::Stalled)
     }
@@ -207,14 +209,16 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
     /// Whether a solve that would stall may go on with a pressure computed from the gap: once, after many updates, whose
     /// rounding may then be most of the residual.
     pub(super) fn may_renew(&self) -> bool {
-        self.age > STALL_AT_FLOOR.1 && !self.progress.renewed && self.settings.method == Method::Preconditioned
+        self.steps.age > STALL_AT_FLOOR.1
+            && !self.counters.progress.renewed
+            && self.posed.settings.method == Method::Preconditioned
     }
 
     /// Computes the pressure from the gap.
     pub(super) fn renew(&mut self) -> Result<()> {
         self.refresh(Left::Nothing)?;
         self.restart();
-        self.progress.renewed = true;
+        self.counters.progress.renewed = true;
         self.residual(Left::Nothing);
         Ok(())
     }

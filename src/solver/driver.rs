@@ -4,6 +4,7 @@ use std::ops::ControlFlow;
 
 use super::minimisation::{Goal, Left};
 use super::operators::Operators;
+use super::posed::Posed;
 use super::report::{Iteration, Solved, Status};
 use super::start::{Begin, check_wall};
 use super::state::State;
@@ -110,12 +111,13 @@ pub(super) fn run<T: Real, Lo: Real>(operators: &mut dyn Operators<T, Lo>, job: 
     let (first_law, first_load): (&dyn AdhesionLaw<T>, _) =
         if from_afar { (&NoAdhesion, load.of_wall(separation.widen())) } else { (law, load) };
 
-    let mut state = State::new(operators, first_law, flat, wall, (first_load, branch), begin, settings)?;
+    let goal = if from_afar { Goal::Wall } else { Goal::Solution };
+    let posed = Posed { operators, law: first_law, flat, constraint: wall, load: first_load, branch, settings, goal };
+    let mut state = State::new(posed, begin)?;
     if near {
         state.stays_near();
     }
     if from_afar {
-        state.goal = Goal::Wall;
         let end = minimise(&mut state, &mut *observe)?;
         if let Some(constraint) = repelled {
             state.stand_on(constraint, separation)?;
@@ -125,7 +127,7 @@ pub(super) fn run<T: Real, Lo: Real>(operators: &mut dyn Operators<T, Lo>, job: 
             return state.finish(status);
         }
     }
-    if state.is_torn() {
+    if state.posed.is_torn() {
         state.hold_apart();
     } else if let Some(smoothed) = &smoothed {
         state.change_law(&**smoothed, Goal::Start);

@@ -15,12 +15,12 @@ const STALE: f64 = 200.0;
 impl<T: Real, Lo: Real> State<'_, T, Lo> {
     /// The mean of u·p, twice the elastic energy per area.
     pub(super) fn mean_work(&self) -> f64 {
-        (self.work.sum / self.nodes()).max(0.0)
+        (self.sums.work.sum / self.posed.nodes()).max(0.0)
     }
 
     /// The rounding of a sum over the nodes, with `size` the sum of the magnitudes of its terms.
     fn sum_noise(&self, size: f64) -> f64 {
-        ROUNDINGS * (T::epsilon().widen() / self.nodes().sqrt() + f64::EPSILON) * size
+        ROUNDINGS * (T::epsilon().widen() / self.posed.nodes().sqrt() + f64::EPSILON) * size
     }
 
     /// The rounding of the corrections, beyond that of the state.
@@ -30,7 +30,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
 
     /// The rounding of the work that a correction does, as a share of it, beyond that of the state.
     pub(super) fn update_noise(&self) -> f64 {
-        ROUNDINGS * self.rounding_of_corrections() / self.nodes().sqrt()
+        ROUNDINGS * self.rounding_of_corrections() / self.posed.nodes().sqrt()
     }
 
     /// Whether the rounding of the corrections, which the updated pressure has gathered, is no longer small beside the
@@ -40,51 +40,57 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
     /// norm of the certificate ε √(k⟨c, c⟩), with k the stiffness of the shortest wave.
     pub(super) fn has_lost_its_pressure(&self) -> bool {
         let rounding = STALE * self.rounding_of_corrections();
-        self.certificate < rounding * rounding * self.operators.state().stiffness_range().1 * self.updates
+        self.sums.certificate
+            < rounding * rounding * self.posed.operators.state().stiffness_range().1 * self.steps.updates
     }
 
     /// The work from the sums of a tally: Σ g·p and Σ g·K⁻¹h.
     pub(super) fn summed_work(&self, sum_gp: f64, gap_surface: f64) -> Work {
-        let surface = self.nodes() * self.flat.work;
+        let surface = self.posed.nodes() * self.posed.flat.work;
         Work { sum: sum_gp + gap_surface + surface, noise: self.sum_noise(surface) }
     }
 
     /// Whether the work has become so small in the steps since its last sum that its rounding matters.
     pub(super) fn has_lost_its_work(&self) -> bool {
-        self.work.is_doubtful(TRUSTED)
+        self.sums.work.is_doubtful(TRUSTED)
     }
 
     /// Computes the work as ⟨p, K p⟩ if rounding may exceed `share` of the present sum; tells whether it did, and has
     /// overwritten the corrections.
     pub(super) fn trust_work(&mut self, share: f64) -> Result<bool> {
-        if !self.work.is_doubtful(share) {
+        if !self.sums.work.is_doubtful(share) {
             return Ok(false);
         }
         let stiffness = self.foundation();
         let Fields { pressure, residual, preconditioned, change, .. } = &mut self.fields;
-        let work = self.operators.work(pressure, stiffness, [preconditioned, residual, change])?;
-        self.applications += 1;
+        let work = self.posed.operators.work(pressure, stiffness, [preconditioned, residual, change])?;
+        self.counters.applications += 1;
         if work.is_finite() {
-            let sum = self.nodes() * work.max(0.0);
-            self.work = Work { sum, noise: self.sum_noise(sum) };
+            let sum = self.posed.nodes() * work.max(0.0);
+            self.sums.work = Work { sum, noise: self.sum_noise(sum) };
         }
         Ok(true)
     }
 
     /// The energy that is minimised, per area.
     pub(super) fn energy(&self) -> f64 {
-        let of_load = match self.detached {
-            Some(load) => load * self.tally.sum_gap,
-            None => self.load.share() * self.given * (self.tally.sum_gap - self.nodes() * self.load.rest()),
+        let of_load = match self.sums.detached {
+            Some(load) => load * self.sums.tally.sum_gap,
+            None => {
+                self.posed.load.share()
+                    * self.sums.given
+                    * (self.sums.tally.sum_gap - self.posed.nodes() * self.posed.load.rest())
+            }
         };
-        0.5 * self.mean_work() + (self.tally.adhesive + self.tally.penalty + of_load) / self.nodes()
+        0.5 * self.mean_work() + (self.sums.tally.adhesive + self.sums.tally.penalty + of_load) / self.posed.nodes()
     }
 
     /// The rounding of the energy, per area.
     pub(super) fn energy_noise(&self) -> f64 {
-        let local = self.tally.adhesive.abs()
-            + self.tally.penalty.abs()
-            + self.given.abs() * (self.tally.sum_gap.abs() + self.nodes() * self.load.rest().abs());
-        2.0 * T::epsilon().widen() * (0.5 * self.mean_work() + local / self.nodes())
+        let local = self.sums.tally.adhesive.abs()
+            + self.sums.tally.penalty.abs()
+            + self.sums.given.abs()
+                * (self.sums.tally.sum_gap.abs() + self.posed.nodes() * self.posed.load.rest().abs());
+        2.0 * T::epsilon().widen() * (0.5 * self.mean_work() + local / self.posed.nodes())
     }
 }

@@ -4,7 +4,6 @@ use ndarray::Array2;
 
 use super::minimisation::Left;
 use super::passes::Fields;
-use super::potential::Potential;
 use super::report::{Report, Solution, Solved, Status};
 use super::state::State;
 use crate::adhesion::noticeable;
@@ -23,25 +22,25 @@ const EDGE: f64 = 1e-3;
 impl<T: Real, Lo: Real> State<'_, T, Lo> {
     /// The solution: the final fields, and the report on them.
     pub(super) fn finish(mut self, status: Status) -> Result<Solved<T>> {
-        if self.age > 0 {
+        if self.steps.age > 0 {
             self.refresh(Left::Nothing)?;
-            self.certificate = f64::INFINITY;
+            self.sums.certificate = f64::INFINITY;
         }
-        if self.certificate.is_infinite() {
+        if self.sums.certificate.is_infinite() {
             self.residual(Left::Nothing);
             self.certify()?;
         }
         self.trust_work(T::epsilon().widen().sqrt())?;
-        let mean = if self.is_gap_controlled() { -self.multiplier() } else { self.given };
-        let shift = T::lit(mean - self.drift);
-        let Self { fields, law, constraint, flat, .. } = &mut self;
-        let (law, flat) = (*law, *flat);
+        let mean = if self.posed.is_gap_controlled() { -self.multiplier() } else { self.sums.given };
+        let shift = T::lit(mean - self.sums.drift);
+        let (law, flat) = (self.posed.law, self.posed.flat);
+        let Self { fields, posed, .. } = &mut self;
         let Fields { reducer, gap, pressure, residual, preconditioned, change, .. } = fields;
         for correction in [residual, preconditioned, change] {
             *correction = Array2::zeros((0, 0));
         }
         let mut contact_pressure = Array2::zeros(gap.dim());
-        let local = Potential::new(law, &**constraint, flat.window.as_ref());
+        let local = posed.potential();
         let fields = read(gap).zip(write(pressure)).zip(write(&mut contact_pressure));
         let total = local.run(reducer, fields, |local, first, ((gap, pressure), contact)| {
             pressure.iter_mut().for_each(|p| *p += shift);
@@ -54,28 +53,28 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
                 [contact[i].widen(), gap[i].widen()]
             })
         });
-        let mean_contact_pressure = total.sum[0] / self.nodes();
-        let carried_pressure = mean_contact_pressure - self.tally.traction / self.nodes();
-        let load_error = match self.load {
-            _ if self.detached.is_some() => 1.0,
+        let mean_contact_pressure = total.sum[0] / self.posed.nodes();
+        let carried_pressure = mean_contact_pressure - self.sums.tally.traction / self.posed.nodes();
+        let load_error = match self.posed.load {
+            _ if self.sums.detached.is_some() => 1.0,
             Load::Gap(_) => 0.0,
             _ => self.load_error().max(self.share_of_load(carried_pressure - mean)),
         };
-        let modulus = self.operators.state().modulus();
-        let mu_rho = mu_rho(law, self.operators.state().grid(), modulus);
-        let facing = flat.window.as_ref().map_or(self.nodes(), |window| window.facing() as f64);
-        let (given, padding) = (self.detached.unwrap_or(mean), flat.padding);
+        let modulus = self.posed.operators.state().modulus();
+        let mu_rho = mu_rho(law, self.posed.operators.state().grid(), modulus);
+        let facing = flat.window.as_ref().map_or(self.posed.nodes(), |window| window.facing() as f64);
+        let (given, padding) = (self.sums.detached.unwrap_or(mean), flat.padding);
         // the mean of the displacement is no wave
         let of_mean = 0.5 * flat.boundary.mean_compliance() * carried_pressure.powi(2);
-        let nominal = flat.window.as_ref().map_or(self.nodes(), |window| window.grid().nodes() as f64);
+        let nominal = flat.window.as_ref().map_or(self.posed.nodes(), |window| window.grid().nodes() as f64);
         let mut report = Report {
             status: self.final_status(status, load_error),
-            branch: self.branch,
+            branch: self.posed.branch,
             relative_error: self.relative_error(),
             load_error,
             orthogonality: self.scaled_orthogonality(),
-            iterations: self.iterations,
-            operator_applications: self.applications,
+            iterations: self.counters.iterations,
+            operator_applications: self.counters.applications,
             boundary: flat.boundary.alone(),
             modulus,
             mean_gap: if flat.window.is_some() { total.sum[1] / facing } else { self.mean_gap() },
@@ -84,22 +83,22 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
             approach: flat.approach(self.mean_gap(), mean),
             carried_pressure: carried_pressure * padding,
             mean_contact_pressure: mean_contact_pressure * padding,
-            contact_fraction: self.tally.contact / facing,
-            contact_nodes: self.tally.contact as usize,
+            contact_fraction: self.sums.tally.contact / facing,
+            contact_nodes: self.sums.tally.contact as usize,
             absent_nodes: (nominal - facing) as usize,
             edge_traction: None,
             reaches_edge: false,
             min_gap: total.min,
             elastic_energy: padding * (0.5 * self.mean_work() + of_mean),
-            adhesive_energy: padding * self.tally.adhesive / self.nodes(),
+            adhesive_energy: padding * self.sums.tally.adhesive / self.posed.nodes(),
             mu_rho,
             under_resolved: mu_rho > 0.5,
             precision: T::NAME,
-            method: self.settings.method,
-            criterion: self.settings.criterion,
-            tolerance: self.settings.tolerance_in::<T>(),
+            method: self.posed.settings.method,
+            criterion: self.posed.settings.criterion,
+            tolerance: self.posed.settings.tolerance_in::<T>(),
         };
-        let (grid, at_floor) = (*self.operators.state().grid(), self.is_at_floor());
+        let (grid, at_floor) = (*self.posed.operators.state().grid(), self.is_at_floor());
         let Fields { gap, pressure, .. } = self.fields;
         let Some(window) = &flat.window else {
             return Ok(Solved {
@@ -132,11 +131,11 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         let good = self.meets(load_error);
         match status {
             Status::Stopped => status,
-            _ if self.detached.is_some() => Status::Detached,
+            _ if self.sums.detached.is_some() => Status::Detached,
             Status::Converged if !good => Status::Stalled,
             // the last computation of the pressure may have reached the tolerance; rounds of a constraint end by its
             // own word
-            Status::Stalled if good && self.projects() => Status::Converged,
+            Status::Stalled if good && self.posed.projects() => Status::Converged,
             _ => status,
         }
     }

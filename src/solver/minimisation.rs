@@ -1,4 +1,8 @@
-//! What a minimisation aims at, and what it carries from one step to the next.
+//! A minimisation: its goal, the sums of its present state, and what it carries from one step to the next.
+
+use super::coarse::Coarse;
+use super::passes::Tally;
+use super::work::Work;
 
 /// The goal of a minimisation.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -11,6 +15,85 @@ pub(super) enum Goal {
     Hold,
     /// The solution, to the tolerance of the settings.
     Solution,
+}
+
+/// The sums over the fields of the present state, on which the driver decides.
+#[derive(Debug)]
+pub(super) struct Sums {
+    pub(super) tally: Tally,
+    /// Σ u·p, twice the elastic energy
+    pub(super) work: Work,
+    /// the mean of p, zero but for rounding
+    pub(super) drift: f64,
+    /// the given mean pressure p̄, zero under gap control
+    pub(super) given: f64,
+    /// the load that has pulled the surfaces apart
+    pub(super) detached: Option<f64>,
+    pub(super) residual: Residual,
+    /// the mean of r'·K r'; infinite as long as it is not known
+    pub(super) certificate: f64,
+    pub(super) preconditioned: Preconditioned,
+}
+
+impl Default for Sums {
+    fn default() -> Self {
+        Self {
+            tally: Tally::default(),
+            work: Work::default(),
+            drift: 0.0,
+            given: 0.0,
+            detached: None,
+            residual: Residual::default(),
+            certificate: f64::INFINITY,
+            preconditioned: Preconditioned::default(),
+        }
+    }
+}
+
+/// The steps: where they came from, and what the next one is made of.
+#[derive(Debug)]
+pub(super) struct Steps {
+    /// the last step, if the next one may use it
+    pub(super) momentum: Option<Made>,
+    /// the trial length of the next step
+    pub(super) step_length: f64,
+    /// the contacts in the preconditioner
+    pub(super) coarse: Option<Coarse>,
+    /// whether the start is near the solution
+    pub(super) near: bool,
+    /// ⟨r', r'⟩ of the step before, for [`Method::Rey2017`](crate::Method::Rey2017)
+    pub(super) residual_norm: Option<f64>,
+    /// steps since the pressure was last computed from the gap
+    pub(super) age: usize,
+    /// the sum of ⟨c, c⟩/N over these steps, with c their change
+    pub(super) updates: f64,
+    /// the mean gap of the start
+    pub(super) start_gap: f64,
+}
+
+impl Steps {
+    pub(super) fn new(coarse: Option<Coarse>) -> Self {
+        Self {
+            momentum: None,
+            step_length: 1.0,
+            coarse,
+            near: false,
+            residual_norm: None,
+            age: 0,
+            updates: 0.0,
+            start_gap: 0.0,
+        }
+    }
+}
+
+/// The counters of a solve.
+#[derive(Debug, Default)]
+pub(super) struct Counters {
+    pub(super) iterations: usize,
+    pub(super) applications: usize,
+    /// how often the function to be minimised has changed
+    pub(super) rounds: usize,
+    pub(super) progress: Progress,
 }
 
 /// The last step d = `factor`·c, with c the field of the change, and the sums from which the next one is made
@@ -78,13 +161,15 @@ pub(super) struct Progress {
     pub(super) renewed: bool,
 }
 
-impl Progress {
-    pub(super) const NONE: Self = Self {
-        best_error: f64::INFINITY,
-        lowest_energy: f64::INFINITY,
-        idle: 0,
-        least_refuted: f64::INFINITY,
-        refuted: 0,
-        renewed: false,
-    };
+impl Default for Progress {
+    fn default() -> Self {
+        Self {
+            best_error: f64::INFINITY,
+            lowest_energy: f64::INFINITY,
+            idle: 0,
+            least_refuted: f64::INFINITY,
+            refuted: 0,
+            renewed: false,
+        }
+    }
 }

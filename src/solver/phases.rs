@@ -3,7 +3,7 @@
 use super::coarse::Coarse;
 use super::minimisation::{Goal, Left, Progress};
 use super::start::uniform_start;
-use super::state::{State, prepare};
+use super::state::State;
 use crate::adhesion::AdhesionLaw;
 use crate::constraint::{ContactConstraint, Update};
 use crate::error::{Error, Result};
@@ -18,23 +18,23 @@ const NEAR: f64 = 0.5;
 impl<'a, T: Real, Lo: Real> State<'a, T, Lo> {
     /// Treats the start as near the solution.
     pub(super) fn stays_near(&mut self) {
-        (self.near, self.step_length) = (true, NEAR);
+        (self.steps.near, self.steps.step_length) = (true, NEAR);
     }
 
     /// Refuses a law that is not finite at the gaps of the start.
     pub(super) fn check_start(&self) -> Result<()> {
-        if self.energy().is_finite() && self.tally.sum_r.is_finite() {
+        if self.energy().is_finite() && self.sums.tally.sum_r.is_finite() {
             return Ok(());
         }
-        Error::agreed(self.operators.state().grid().slab(), self.check_gaps())
+        Error::agreed(self.posed.operators.state().grid().slab(), self.check_gaps())
     }
 
     fn check_gaps(&self) -> Result<()> {
-        let law = self.law;
+        let law = self.posed.law;
         let mut value = [T::zero()];
-        let first = self.operators.state().grid().slab().first_node();
+        let first = self.posed.operators.state().grid().slab().first_node();
         for (node, gap) in (first..).zip(flat(&self.fields.gap)) {
-            let node = match &self.flat.window {
+            let node = match &self.posed.flat.window {
                 None => node,
                 Some(window) => match window.pieces(node..node + 1).next() {
                     Some((_, Some(node))) => node,
@@ -58,47 +58,47 @@ impl<'a, T: Real, Lo: Real> State<'a, T, Lo> {
     /// Puts the constraint of a law that repels in the place of the wall that stood for it, as much farther apart as the
     /// equilibrium separation of the law.
     pub(super) fn stand_on(&mut self, constraint: &'a mut dyn ContactConstraint<T>, separation: T) -> Result<()> {
-        prepare(constraint, &*self.operators, self.flat, self.settings)?;
-        self.constraint = constraint;
+        self.posed.constraint = constraint;
+        self.posed.prepare()?;
         self.fields.gap.mapv_inplace(|gap| gap + separation);
         Ok(())
     }
 
     /// Goes on with adhesion, under the load itself, from the gap that the wall alone leaves.
     pub(super) fn adhere(&mut self, law: &'a dyn AdhesionLaw<T>, load: Load) -> Result<()> {
-        (self.load, self.step_length) = (load, 1.0);
+        (self.posed.load, self.steps.step_length) = (load, 1.0);
         // the contacts of the wall alone are not those that adhesion makes
-        self.coarse.iter_mut().for_each(Coarse::forget);
+        self.steps.coarse.iter_mut().for_each(Coarse::forget);
         self.change_law(law, Goal::Solution);
-        self.certificate = f64::INFINITY;
-        self.start_gap = self.mean_gap();
+        self.sums.certificate = f64::INFINITY;
+        self.steps.start_gap = self.mean_gap();
         self.check_start()
     }
 
     /// Goes on with another law, whose equilibrium is the goal.
     pub(super) fn change_law(&mut self, law: &'a dyn AdhesionLaw<T>, goal: Goal) {
-        (self.law, self.goal) = (law, goal);
+        (self.posed.law, self.posed.goal) = (law, goal);
         self.restart();
     }
 
     /// Goes on with the law itself from an equilibrium of the smoothed one.
     pub(super) fn sharpen(&mut self, law: &'a dyn AdhesionLaw<T>) -> Result<()> {
-        self.law = law;
+        self.posed.law = law;
         if self.is_adrift() {
             // the law itself may hold a tension that the smoothed one does not
-            self.fields.gap.fill(T::lit(uniform_start(law, self.flat, self.load)));
+            self.fields.gap.fill(T::lit(uniform_start(law, self.posed.flat, self.posed.load)));
             self.refresh(Left::Nothing)?;
         }
         self.change_law(law, Goal::Solution);
         // this certificate was of the smoothed law
-        self.certificate = f64::INFINITY;
+        self.sums.certificate = f64::INFINITY;
         Ok(())
     }
 
     pub(super) fn update_constraint(&mut self) -> Update {
         // nothing is where no surface faces the half-space
-        let gap = self.flat.window.as_ref().map(|window| window.cut(&self.fields.gap, T::infinity()));
-        let outer = self.constraint.update(gap.as_ref().unwrap_or(&self.fields.gap).view());
+        let gap = self.posed.flat.window.as_ref().map(|window| window.cut(&self.fields.gap, T::infinity()));
+        let outer = self.posed.constraint.update(gap.as_ref().unwrap_or(&self.fields.gap).view());
         if outer == Update::Again {
             self.restart();
         }
@@ -107,9 +107,9 @@ impl<'a, T: Real, Lo: Real> State<'a, T, Lo> {
 
     /// Drops momentum, progress and certificate after a change of the energy or of the gap.
     pub(super) fn restart(&mut self) {
-        (self.momentum, self.residual_norm) = (None, None);
-        self.progress = Progress::NONE;
-        self.rounds += 1;
+        (self.steps.momentum, self.steps.residual_norm) = (None, None);
+        self.counters.progress = Progress::default();
+        self.counters.rounds += 1;
         self.count();
     }
 }

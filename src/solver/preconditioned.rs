@@ -2,7 +2,7 @@
 
 use super::minimisation::{Left, Made, Residual};
 use super::passes::{self, Advance, Attempt, Continued, Fields, Tried, idles};
-use super::potential::{CLOSER, Potential};
+use super::potential::CLOSER;
 use super::state::State;
 use crate::error::Result;
 use crate::field::{CHUNK, Partial, read, write};
@@ -97,17 +97,17 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
     /// lowers the energy.
     pub(super) fn preconditioned_step(&mut self) -> Result<Option<Left>> {
         // with the waves at rest
-        let waits = self.hangs_on_spring() && self.relative_error() <= self.settings.tolerance_in::<T>();
+        let waits = self.hangs_on_spring() && self.relative_error() <= self.posed.settings.tolerance_in::<T>();
         if waits && self.shift()? {
             return Ok(Some(Left::Nothing));
         }
-        let length = self.step_length;
+        let length = self.steps.step_length;
         let left = self.try_step()?;
         if left.is_some() || length >= SHORTEST || self.is_at_floor() {
             return Ok(left);
         }
         // a step shorter than the last digit of the gaps changes nothing: begin anew at full length
-        (self.step_length, self.momentum) = (1.0, None);
+        (self.steps.step_length, self.steps.momentum) = (1.0, None);
         self.residual(Left::Nothing);
         self.certify()?;
         self.try_step()
@@ -117,14 +117,14 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
     /// rounding of a response is in it. `false` if it ends at a wall, or does not lower the energy.
     fn shift(&mut self) -> Result<bool> {
         let imbalance = self.imbalance();
-        let length = std::mem::replace(&mut self.step_length, 1.0);
+        let length = std::mem::replace(&mut self.steps.step_length, 1.0);
         self.fields.preconditioned.fill(Lo::zero());
-        let trial = self.trial(-imbalance / self.load.stiffness(), None);
+        let trial = self.trial(-imbalance / self.posed.load.stiffness(), None);
         // in the sum of r', which is of Lo, the waves have left their rounding
         let slope = trial.change * imbalance;
         let trial = Trial { slope, descent: slope, ..trial };
         let step = if trial.clipped || slope >= 0.0 { None } else { self.search(&trial, 0.0) };
-        self.step_length = length;
+        self.steps.step_length = length;
         if let Some(step) = &step {
             self.fields.residual.fill(Lo::zero());
             self.advance(step);
@@ -138,19 +138,19 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
     fn try_step(&mut self) -> Result<Option<Left>> {
         let (mut centre, mut momentum) = self.direction();
         for _ in 0..SHORTENINGS {
-            let trial_length = self.step_length;
+            let trial_length = self.steps.step_length;
             let Some(trial) = self.descend(&mut centre, &mut momentum) else { return Ok(None) };
             let Fields { change, residual: response, .. } = &mut self.fields;
-            let elastic = self.operators.corrections().pressure_and_work(change.view(), response.view_mut())?;
-            self.applications += 1;
-            let Some(step) = self.search(&trial, elastic * self.nodes()) else { return Ok(None) };
+            let elastic = self.posed.operators.corrections().pressure_and_work(change.view(), response.view_mut())?;
+            self.counters.applications += 1;
+            let Some(step) = self.search(&trial, elastic * self.posed.nodes()) else { return Ok(None) };
             if !trial.blocked || step.length >= SHORT {
                 return Ok(Some(self.advance(&step)));
             }
             // a part so short leaves the blocked nodes apart: clip a step without the last change instead, or a
             // shorter one
             let shorten = if momentum.take().is_some() { 1.0 } else { step.length.max(LEAST_PART) };
-            self.step_length = trial_length * shorten;
+            self.steps.step_length = trial_length * shorten;
             self.residual(Left::Nothing);
         }
         Ok(None)
@@ -158,11 +158,15 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
 
     /// The mean of z over the working set, and the multiple of the last change.
     fn direction(&mut self) -> (f64, Option<Momentum>) {
-        let share =
-            if self.is_gap_controlled() && self.residual.working > 0.0 { 1.0 / self.residual.working } else { 0.0 };
-        let centre = if share > 0.0 { (self.preconditioned.sum - passes::idle(&mut self.fields)) * share } else { 0.0 };
-        let momentum = self.momentum.take().filter(|made| made.curvature > 0.0).map(|made| Momentum {
-            conjugate: made.factor * ((self.preconditioned.descent - made.overlap) / made.curvature).max(0.0),
+        let share = if self.posed.is_gap_controlled() && self.sums.residual.working > 0.0 {
+            1.0 / self.sums.residual.working
+        } else {
+            0.0
+        };
+        let centre =
+            if share > 0.0 { (self.sums.preconditioned.sum - passes::idle(&mut self.fields)) * share } else { 0.0 };
+        let momentum = self.steps.momentum.take().filter(|made| made.curvature > 0.0).map(|made| Momentum {
+            conjugate: made.factor * ((self.sums.preconditioned.descent - made.overlap) / made.curvature).max(0.0),
             remainder: made.factor * (-made.factor * made.descent / made.curvature).min(FARTHEST),
             mean: made.sum * share,
         });
@@ -187,29 +191,29 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
                 return Some(self.land(*centre, trial)).filter(|trial| trial.slope < 0.0);
             }
             // without a wall no node is in contact for good: a step so short that none is clipped descends
-            if self.projects() || !trial.clipped {
+            if self.posed.projects() || !trial.clipped {
                 self.hold(*centre);
                 *centre = 0.0;
             }
-            self.step_length *= HELD;
+            self.steps.step_length *= HELD;
         }
         None
     }
 
     /// The change that a step of the trial length makes, clipped; scaled, it leaves the mean gap as it is.
     fn trial(&mut self, centre: f64, momentum: Option<Momentum>) -> Trial {
-        let length = self.step_length;
+        let length = self.steps.step_length;
         let (keep, mean) = momentum.map_or((0.0, 0.0), |m| (length * m.conjugate + m.remainder, m.mean));
         let [length, centre, keep, mean] = [length, centre, keep, mean].map(T::lit);
         let attempt = Attempt { length, centre, keep, mean };
-        let surface = self.is_gap_controlled().then_some(&self.flat.pressure);
-        let local = Potential::new(self.law, &*self.constraint, self.flat.window.as_ref());
+        let surface = self.posed.is_gap_controlled().then_some(&self.posed.flat.pressure);
+        let local = self.posed.potential();
         let tried = passes::trial(&mut self.fields, &local, attempt, surface);
         let Tried { change, clipped, blocked, descent, square, gap_descent, change_surface, gap_surface, .. } = tried;
         let Tried { traction, slope_change, slope_mixed, slope_gap, .. } = tried;
         // the present mean, not the one that is given: a long step would multiply the rounding of their difference
-        let present = self.tally.sum_gap;
-        let scale = if self.is_gap_controlled() && clipped > 0.0 { present / (present + change) } else { 1.0 };
+        let present = self.sums.tally.sum_gap;
+        let scale = if self.posed.is_gap_controlled() && clipped > 0.0 { present / (present + change) } else { 1.0 };
         let possible = scale.is_finite() && scale > 0.0;
         // rounded as in the passes
         let scale = T::lit(scale).widen();
@@ -230,11 +234,11 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
 
     /// A change that puts the blocked nodes into contact and lifts the others evenly; both lower the energy.
     fn land(&mut self, centre: f64, trial: Trial) -> Trial {
-        let (length, centre) = (T::lit(self.step_length), T::lit(centre));
+        let (length, centre) = (T::lit(self.steps.step_length), T::lit(centre));
         let lands =
             move |gap: T, r: Lo, z: Lo| gap > T::zero() && r > Lo::zero() && gap < length * (cast::<_, T>(z) - centre);
-        let held = self.is_gap_controlled();
-        let local = Potential::new(self.law, &*self.constraint, self.flat.window.as_ref());
+        let held = self.posed.is_gap_controlled();
+        let local = self.posed.potential();
         let Fields { reducer, gap, residual, preconditioned, change, .. } = &mut self.fields;
         let fields = read(gap).zip(read(residual)).zip(read(preconditioned));
         let total = local.run(reducer, fields, |local, _, ((gap, residual), z)| {
@@ -282,8 +286,8 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
 
     /// Subtracts the mean from z, and sets z to zero at nodes in contact that it would press.
     fn hold(&mut self, centre: f64) {
-        let (centre, centred) = (Lo::lit(centre), self.is_gap_controlled());
-        let local = Potential::new(self.law, &*self.constraint, self.flat.window.as_ref());
+        let (centre, centred) = (Lo::lit(centre), self.posed.is_gap_controlled());
+        let local = self.posed.potential();
         let Fields { reducer, gap, residual, preconditioned, .. } = &mut self.fields;
         let moves = move |faces: bool, gap: T, r: Lo, z: Lo| !idles(r) && (!faces || gap > T::zero() || z < centre);
         let fields = read(gap).zip(read(residual)).zip(read(preconditioned));
@@ -311,11 +315,11 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
 
     /// The length of a step with `elastic` = ⟨c, K⁻¹c⟩; `None` if the energy rises at every length.
     fn search(&mut self, trial: &Trial, elastic: f64) -> Option<Step> {
-        let (shift, nodes) = (self.offset() - self.residual.level, self.nodes());
+        let (shift, nodes) = (self.offset() - self.sums.residual.level, self.posed.nodes());
         let noise = self.energy_noise() * nodes;
-        let stiffness = self.load.stiffness();
-        let Self { fields, law, constraint, tally, flat, .. } = self;
-        let local = Potential::new(*law, &**constraint, flat.window.as_ref());
+        let stiffness = self.posed.load.stiffness();
+        let Self { fields, posed, sums, .. } = self;
+        let (local, tally) = (posed.potential(), &sums.tally);
         let (scale, rest) = (T::lit(trial.scale), trial.scale - 1.0);
         // p = r' − φ'(g) and two constants, at every node with a change
         let pressed = trial.descent - shift * trial.change - trial.traction;
@@ -363,8 +367,8 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
             }
         }
         // near the solution the best lengths scatter about their mean: damp their changes
-        let ratio = if self.near { best.sqrt() } else { best };
-        self.step_length = (self.step_length * ratio.clamp(ADAPT.0, ADAPT.1)).min(LONGEST);
+        let ratio = if self.steps.near { best.sqrt() } else { best };
+        self.steps.step_length = (self.steps.step_length * ratio.clamp(ADAPT.0, ADAPT.1)).min(LONGEST);
         let (scale, slope, square) = (trial.scale, trial.slope, trial.square);
         (length > 0.0).then_some(Step { length, scale, slope, change, square, work, elastic, spring })
     }
@@ -372,25 +376,25 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
     /// Takes a step: gap, pressure, and the tally of the new state. Returns what it leaves of the residual.
     fn advance(&mut self, step: &Step) -> Left {
         let &Step { length, scale, slope, change, square, work, elastic, spring } = step;
-        self.given = self.load.pressure_at((self.tally.sum_gap + length * change) / self.nodes());
-        let level = self.is_gap_controlled().then_some(T::lit(self.residual.level));
+        self.sums.given = self.posed.load.pressure_at((self.sums.tally.sum_gap + length * change) / self.posed.nodes());
+        let level = self.posed.is_gap_controlled().then_some(T::lit(self.sums.residual.level));
         let advance = Advance { length: T::lit(length), scale: T::lit(scale), offset: T::lit(self.offset()), level };
-        let Self { fields, law, constraint, flat, .. } = self;
-        let local = Potential::new(*law, &**constraint, flat.window.as_ref());
-        let advanced = passes::advance(fields, &local, advance, &flat.pressure);
+        let Self { fields, posed, .. } = self;
+        let local = posed.potential();
+        let advanced = passes::advance(fields, &local, advance, &posed.flat.pressure);
         // `change` holds d after a scaled step, and c = d otherwise
         let curvature =
             if local.is_zero() { length * length * (elastic + spring) } else { length * (advanced.product - slope) };
-        self.tally = advanced.tally;
+        self.sums.tally = advanced.tally;
         let change = length * (2.0 * work + length * elastic);
-        self.work = self.work.after(change, self.update_noise() * change.abs());
+        self.sums.work = self.sums.work.after(change, self.update_noise() * change.abs());
         let made = Made { factor: length, curvature, descent: 0.0, overlap: 0.0, sum: 0.0 };
-        self.updates += (length * scale).powi(2) * square / self.nodes();
-        self.age += 1;
+        self.steps.updates += (length * scale).powi(2) * square / self.posed.nodes();
+        self.steps.age += 1;
         match advanced.residual {
             None => Left::Gradient(made),
             Some(Continued { orthogonality, working, descent, overlap, .. }) => {
-                self.residual = Residual { level: 0.0, working, orthogonality, ..self.residual };
+                self.sums.residual = Residual { level: 0.0, working, orthogonality, ..self.sums.residual };
                 Left::Residual(Made { descent, overlap, ..made })
             }
         }

@@ -13,7 +13,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
     /// One pass of the algorithm's loop: one operator application for the direction, and one for the new gap where
     /// nodes were clipped or released.
     pub(super) fn rey2017_step(&mut self) -> Result<Option<Left>> {
-        let projects = self.projects();
+        let projects = self.posed.projects();
         let apart = move |gap: T| !projects || gap > T::zero();
 
         let Fields { reducer, gap, residual, .. } = &mut self.fields;
@@ -24,7 +24,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
             }
             part
         });
-        let conjugate = self.residual_norm.map_or(0.0, |before| norm.sum[0] / before);
+        let conjugate = self.steps.residual_norm.map_or(0.0, |before| norm.sum[0] / before);
         let mut slope = self.conjugate_direction(if conjugate.is_finite() { conjugate } else { 0.0 });
         if !(slope.is_finite() && slope > 0.0) && conjugate > 0.0 {
             // uphill, or beyond all numbers: the residual's norm has jumped, as it may where rounding is all that is
@@ -32,8 +32,8 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
             slope = self.conjugate_direction(0.0);
         }
         let Fields { change, preconditioned: response, .. } = &mut self.fields;
-        self.operators.corrections().pressure(change.view(), response.view_mut())?;
-        self.applications += 1;
+        self.posed.operators.corrections().pressure(change.view(), response.view_mut())?;
+        self.counters.applications += 1;
 
         let Fields { reducer, gap, change, preconditioned: response, .. } = &mut self.fields;
         let total = reducer.run(read(gap).zip(read(change)).zip(read(response)), |_, ((gap, direction), response)| {
@@ -49,10 +49,10 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
             part
         });
         let [curvature, response, t, ..] = total.sum;
-        let mean = if self.is_gap_controlled() { response / self.tally.free } else { 0.0 };
+        let mean = if self.posed.is_gap_controlled() { response / self.sums.tally.free } else { 0.0 };
         let length = slope / (curvature - mean * t);
         // a uniform direction has no curvature: the stiffness of the softest wave bounds the step of the mean
-        let softest = self.operators.state().stiffness_range().0;
+        let softest = self.posed.operators.state().stiffness_range().0;
         let length = if length.is_finite() && length > 0.0 { length } else { 1.0 / softest };
         // a direction that is uniform up to rounding has a curvature of rounding only
         let length = length.min(1.0 / (T::epsilon().widen().sqrt() * softest));
@@ -77,21 +77,21 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
             part
         });
         let [sum, released, clipped, ..] = total.sum;
-        let scale = match self.load {
-            Load::Gap(mean) if projects => mean * self.nodes() / sum,
+        let scale = match self.posed.load {
+            Load::Gap(mean) if projects => mean * self.posed.nodes() / sum,
             _ => 1.0,
         };
         if !scale.is_finite() {
             // every node was clipped: only the mean gap remains to be kept
-            if let Load::Gap(mean) = self.load {
+            if let Load::Gap(mean) = self.posed.load {
                 self.fields.gap.fill(T::lit(mean));
                 self.refresh(Left::Nothing)?;
                 self.residual(Left::Nothing);
-                self.certificate = f64::INFINITY;
+                self.sums.certificate = f64::INFINITY;
             }
             return Ok(None);
         }
-        self.residual_norm = (released == 0.0).then_some(norm.sum[0]);
+        self.steps.residual_norm = (released == 0.0).then_some(norm.sum[0]);
         let linear = released == 0.0 && clipped == 0.0;
         self.scale(T::lit(scale), length, linear);
         if !linear {
@@ -102,7 +102,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
 
     /// The direction t = r' + `conjugate` t where the surfaces are apart, zero elsewhere; returns ⟨r', t⟩.
     fn conjugate_direction(&mut self, conjugate: f64) -> f64 {
-        let projects = self.projects();
+        let projects = self.posed.projects();
         let conjugate = Lo::lit(conjugate);
         let Fields { reducer, gap, residual, change, .. } = &mut self.fields;
         let total = reducer.run(read(gap).zip(read(residual)).zip(write(change)), |_, ((gap, residual), direction)| {
@@ -122,8 +122,8 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
 
     /// Scales the gap to its mean and, if the step was `linear`, the pressure with it: K⁻¹(s(g − τt) + h).
     fn scale(&mut self, scale: T, length: T, linear: bool) {
-        let Self { fields: Fields { reducer, gap, pressure, preconditioned: response, .. }, flat, .. } = self;
-        let fields = write(gap).zip(write(pressure)).zip(read(response)).zip(read(&flat.pressure));
+        let Fields { reducer, gap, pressure, preconditioned: response, .. } = &mut self.fields;
+        let fields = write(gap).zip(write(pressure)).zip(read(response)).zip(read(&self.posed.flat.pressure));
         reducer.run(fields, |_, (((gap, pressure), response), surface)| {
             gap.iter_mut().for_each(|gap| *gap *= scale);
             if linear {
@@ -134,8 +134,8 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
             Partial::NONE
         });
         if linear {
-            self.age += 1;
-            self.work = self.count();
+            self.steps.age += 1;
+            self.sums.work = self.count();
         }
     }
 }

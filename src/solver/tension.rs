@@ -3,6 +3,7 @@
 use super::driver::{Observer, minimise};
 use super::minimisation::{Goal, Left};
 use super::passes::Fields;
+use super::posed::Posed;
 use super::state::State;
 use crate::error::Result;
 use crate::field::{Partial, read, write};
@@ -31,30 +32,55 @@ const BETWEEN: f64 = 1.1;
 /// beyond the heights.
 const REACH: f64 = 10.0;
 
-impl<T: Real, Lo: Real> State<'_, T, Lo> {
-    /// Whether a tensile load has pulled the surfaces apart: no contact, and hardly any traction left to hold them.
-    pub(super) fn is_adrift(&self) -> bool {
-        let Load::Pressure(pressure) = self.load else { return false };
-        let held = self.tally.traction / self.nodes();
-        pressure < 0.0 && self.tally.contact == 0.0 && held <= HARDLY * -pressure
-    }
-
+impl<T: Real, Lo: Real> Posed<'_, T, Lo> {
     /// The mean gap from which on the surfaces hardly attract each other.
     fn out_of_reach(&self) -> f64 {
         self.flat.height_span + REACH * self.law.range().widen()
-    }
-
-    /// Whether the surfaces drift apart under a load that presses them, as rounding may make them where the load is
-    /// less than it: the mean gap is then beyond that of the start and of every equilibrium.
-    pub(super) fn runs_away(&self) -> bool {
-        let pressed = matches!(self.load, Load::Pressure(pressure) if pressure >= 0.0);
-        pressed && self.tally.sum_gap / self.nodes() > self.start_gap + 2.0 * self.out_of_reach()
     }
 
     /// Whether the load pulls by more than the law holds at its strongest on all nodes that face the surface.
     pub(super) fn is_torn(&self) -> bool {
         let facing = self.flat.window.as_ref().map_or(1.0, |window| window.facing() as f64 / self.nodes());
         matches!(self.load, Load::Pressure(load) if -load > BETWEEN * facing * self.strongest_traction())
+    }
+
+    /// The gap of nodes that touch: zero at a wall, and that of rest where the law itself repels.
+    fn closest(&self) -> T {
+        let rest = if self.projects() { None } else { self.law.rest() };
+        rest.unwrap_or_else(T::zero)
+    }
+
+    /// The largest of many tractions of the law: no uniform gap holds more. A peak that is narrower than a hundredth of
+    /// the range may be missed.
+    fn strongest_traction(&self) -> f64 {
+        let range = self.law.range().widen();
+        let gaps = (0..SAMPLES).map(|i| T::lit(REACH * range * i as f64 / SAMPLES as f64));
+        gaps.map(|gap| self.law.traction(gap).widen()).fold(0.0, f64::max)
+    }
+
+    /// The load that holds a mean gap: that itself, or, where some nodes face no surface, a spring as stiff as the
+    /// stiffest wave.
+    fn holding(&self, gap: f64) -> Load {
+        match self.flat.window {
+            None => Load::Gap(gap),
+            Some(_) => Load::Spring { stiffness: self.operators.state().stiffness_range().1, rest: gap },
+        }
+    }
+}
+
+impl<T: Real, Lo: Real> State<'_, T, Lo> {
+    /// Whether a tensile load has pulled the surfaces apart: no contact, and hardly any traction left to hold them.
+    pub(super) fn is_adrift(&self) -> bool {
+        let Load::Pressure(pressure) = self.posed.load else { return false };
+        let held = self.sums.tally.traction / self.posed.nodes();
+        pressure < 0.0 && self.sums.tally.contact == 0.0 && held <= HARDLY * -pressure
+    }
+
+    /// Whether the surfaces drift apart under a load that presses them, as rounding may make them where the load is
+    /// less than it: the mean gap is then beyond that of the start and of every equilibrium.
+    pub(super) fn runs_away(&self) -> bool {
+        let pressed = matches!(self.posed.load, Load::Pressure(pressure) if pressure >= 0.0);
+        pressed && self.sums.tally.sum_gap / self.posed.nodes() > self.steps.start_gap + 2.0 * self.posed.out_of_reach()
     }
 
     /// Looks for a state that holds more than the tensile load that is given, to go on from under the load; `false` if
@@ -65,9 +91,9 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
     /// at which surfaces that are not deformed would touch. From a state that holds more than the load, the load lets
     /// them close up to an equilibrium.
     pub(super) fn seek_hold(&mut self, observe: Observer<'_>) -> Result<bool> {
-        let Load::Pressure(load) = self.load else { return Ok(false) };
-        let (touch, rest) = (self.flat.peak, self.closest().widen());
-        let mut interval = [rest + 0.5 * touch, rest + 1.5 * touch + 0.5 * REACH * self.law.range().widen()];
+        let Load::Pressure(load) = self.posed.load else { return Ok(false) };
+        let (touch, rest) = (self.posed.flat.peak, self.posed.closest().widen());
+        let mut interval = [rest + 0.5 * touch, rest + 1.5 * touch + 0.5 * REACH * self.posed.law.range().widen()];
         let [mut gaps, mut held] = [[0.0; 2]; 2];
         let (mut next, mut tried) = (None, Vec::with_capacity(SECTIONS));
         for section in 0..SECTIONS {
@@ -103,27 +129,21 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
     /// nothing if the solve was stopped or ran out of iterations.
     fn tension_at(&mut self, gap: f64, hardly: f64, observe: Observer<'_>) -> Result<Option<f64>> {
         // where the law itself keeps the surfaces apart, it may hold them with no node pressed
-        let holds = !self.projects() && self.tally.traction > hardly * self.nodes();
-        if self.tally.contact == 0.0 && !holds {
+        let holds = !self.posed.projects() && self.sums.tally.traction > hardly * self.posed.nodes();
+        if self.sums.tally.contact == 0.0 && !holds {
             self.fields.gap.fill(T::lit(gap));
-        } else if !self.projects() && self.flat.window.is_none() {
+        } else if !self.posed.projects() && self.posed.flat.window.is_none() {
             self.open_to(gap);
         }
-        self.go_on(self.holding(gap), Goal::Hold)?;
+        self.go_on(self.posed.holding(gap), Goal::Hold)?;
         let end = minimise(self, observe)?;
-        Ok(end.is_final().is_none().then(|| self.multiplier() - self.given))
-    }
-
-    /// The gap of nodes that touch: zero at a wall, and that of rest where the law itself repels.
-    fn closest(&self) -> T {
-        let rest = if self.projects() { None } else { self.law.rest() };
-        rest.unwrap_or_else(T::zero)
+        Ok(end.is_final().is_none().then(|| self.multiplier() - self.sums.given))
     }
 
     /// Scales the gaps of the nodes that do not touch, so that the mean gap is as given; where they could not be, all
     /// gaps become that.
     fn open_to(&mut self, mean: f64) {
-        let (nodes, closest) = (self.nodes(), self.closest());
+        let (nodes, closest) = (self.posed.nodes(), self.posed.closest());
         let Fields { reducer, gap, .. } = &mut self.fields;
         let total = reducer.run(read(gap), |_, gap| {
             sums!(2, [gap], [], |i| [gap[i].min(closest).widen(), (gap[i] - closest).max(T::zero()).widen()])
@@ -140,46 +160,29 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         });
     }
 
-    /// The largest of many tractions of the law: no uniform gap holds more. A peak that is narrower than a hundredth of
-    /// the range may be missed.
-    fn strongest_traction(&self) -> f64 {
-        let range = self.law.range().widen();
-        let gaps = (0..SAMPLES).map(|i| T::lit(REACH * range * i as f64 / SAMPLES as f64));
-        gaps.map(|gap| self.law.traction(gap).widen()).fold(0.0, f64::max)
-    }
-
-    /// The load that holds a mean gap: that itself, or, where some nodes face no surface, a spring as stiff as the
-    /// stiffest wave.
-    fn holding(&self, gap: f64) -> Load {
-        match self.flat.window {
-            None => Load::Gap(gap),
-            Some(_) => Load::Spring { stiffness: self.operators.state().stiffness_range().1, rest: gap },
-        }
-    }
-
     /// Goes on from the present gap under another control.
     fn go_on(&mut self, load: Load, goal: Goal) -> Result<()> {
-        (self.load, self.goal) = (load, goal);
+        (self.posed.load, self.posed.goal) = (load, goal);
         // the mean of the present gap, which the refresh scales to the one that is held
         self.count();
         self.refresh(Left::Nothing)?;
         self.restart();
-        self.certificate = f64::INFINITY;
+        self.sums.certificate = f64::INFINITY;
         Ok(())
     }
 
     /// Holds surfaces that drift apart at a mean gap at which they do not reach each other, to let them come to rest.
     pub(super) fn hold_apart(&mut self) {
-        let far = 2.0 * self.out_of_reach();
-        let mean = self.tally.sum_gap / self.nodes();
+        let far = 2.0 * self.posed.out_of_reach();
+        let mean = self.sums.tally.sum_gap / self.posed.nodes();
         let target = mean.max(far);
         let lift = T::lit(target - mean);
         self.fields.reducer.run(write(&mut self.fields.gap), |_, gap| {
             gap.iter_mut().for_each(|gap| *gap += lift);
             Partial::NONE
         });
-        self.detached = Some(self.given);
-        self.load = self.holding(target);
+        self.sums.detached = Some(self.sums.given);
+        self.posed.load = self.posed.holding(target);
         self.restart();
     }
 }

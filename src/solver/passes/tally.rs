@@ -31,7 +31,11 @@ pub(in crate::solver) struct Tally {
     pub(in crate::solver) penalty: f64,
 }
 
-/// The slots of a pass that makes a tally for one more product, and for Σ p.
+/// The slots of a pass that makes a tally: those that law and springs fill, one more product, and Σ p.
+const CONTACT: usize = 4;
+const TRACTION: usize = 5;
+const ADHESIVE: usize = 6;
+const PENALTY: usize = 7;
 pub(super) const PRODUCT: usize = 8;
 const SUM_P: usize = 9;
 
@@ -101,13 +105,13 @@ pub(super) fn tally_chunk<T: Real>(
     local.energies_and_tractions(first, gap, values, tractions);
     let mut part = tally_of(touching, offset, gap, pressure, tractions);
     let sum = |values: &[T]| sums!(1, [values], [], |i| [values[i].widen()]).sum[0];
-    part.sum[6] = sum(values);
+    part.sum[ADHESIVE] = sum(values);
     if !local.is_soft() {
-        part.sum[5] = sum(tractions);
+        part.sum[TRACTION] = sum(tractions);
     } else {
         local.attractions(first, gap, tractions, values);
-        part.sum[5] = sum(values);
-        [part.sum[4], part.sum[7]] = local.pressed(first, gap, tractions);
+        part.sum[TRACTION] = sum(values);
+        [part.sum[CONTACT], part.sum[PENALTY]] = local.pressed(first, gap, tractions);
     }
     part
 }

@@ -1,0 +1,78 @@
+//! The problem that is posed to the driver: the energy to be minimised, and how well.
+
+use super::minimisation::Goal;
+use super::operators::Operators;
+use super::potential::Potential;
+use super::{Branch, Method, Settings};
+use crate::adhesion::AdhesionLaw;
+use crate::constraint::{ContactConstraint, Wall};
+use crate::error::{Error, Result};
+use crate::problem::{Load, PressedFlat, Window};
+use crate::real::Real;
+
+/// The mean pressure, over the rms pressure that presses the surface flat, up to which the gap of undeformed surfaces
+/// that touch is the better start without adhesion on a periodic grid.
+const HARDLY: f64 = 1e-3;
+
+/// The problem that is posed to the driver. A phase may change law, constraint, load and goal.
+pub(super) struct Posed<'a, T, Lo> {
+    pub(super) operators: &'a mut dyn Operators<T, Lo>,
+    pub(super) law: &'a dyn AdhesionLaw<T>,
+    pub(super) flat: &'a PressedFlat<T>,
+    pub(super) constraint: &'a mut dyn ContactConstraint<T>,
+    pub(super) load: Load,
+    /// the branch of equilibria on which the solve has started
+    pub(super) branch: Option<Branch>,
+    pub(super) settings: Settings,
+    pub(super) goal: Goal,
+}
+
+impl<'a, T: Real, Lo: Real> Posed<'a, T, Lo> {
+    /// Prepares the constraint for a solve; refused where constraint or method do not suit the grid or the load.
+    pub(super) fn prepare(&mut self) -> Result<()> {
+        let (flat, operator) = (self.flat, self.operators.state());
+        if !self.constraint.takes_slabs() {
+            Error::alone("contact constraint", operator.grid().slab())?;
+        }
+        let surface = flat.window.as_ref().map_or(operator.grid(), Window::held);
+        self.constraint.start(surface, operator.stiffness_range().1, self.settings.tolerance_in::<T>())?;
+        if self.settings.method == Method::Rey2017 && (flat.window.is_some() || self.load.stiffness() > 0.0) {
+            return Err(Error::Control {
+                control: "Algorithm 3 of Rey, Anciaux and Molinari (2017)",
+                reason: "it knows neither springs nor absent nodes nor a free boundary: take the default method",
+            });
+        }
+        Ok(())
+    }
+
+    /// The number of nodes of the operator's grid.
+    pub(super) fn nodes(&self) -> f64 {
+        self.operators.state().grid().nodes() as f64
+    }
+
+    /// The local energy of every node.
+    pub(super) fn potential(&self) -> Potential<'_, T> {
+        Potential::new(self.law, &*self.constraint, self.flat.window.as_ref())
+    }
+
+    /// Whether the gap is confined to g ≥ 0.
+    pub(super) fn projects(&self) -> bool {
+        self.constraint.wall().is_rigid()
+    }
+
+    /// Whether nothing but the law keeps the surfaces apart.
+    pub(super) fn has_no_wall(&self) -> bool {
+        matches!(self.constraint.wall(), Wall::None)
+    }
+
+    /// Whether the mean gap is given.
+    pub(super) fn is_gap_controlled(&self) -> bool {
+        matches!(self.load, Load::Gap(_))
+    }
+
+    /// Whether the load on the way to the branch of loading hardly presses the surfaces together.
+    pub(super) fn is_hardly_pressed(&self) -> bool {
+        let flat = self.flat.stiffness * self.flat.rms_height;
+        self.branch.is_some() && matches!(self.load, Load::Pressure(pressure) if pressure <= HARDLY * flat)
+    }
+}

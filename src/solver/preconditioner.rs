@@ -1,0 +1,153 @@
+//! The preconditioner: its application, which gives the certificate too, and its foundation, the stiffness of the
+//! contacts for long waves and for the mean gap.
+
+use super::coarse::Coarse;
+use super::minimisation::Preconditioned;
+use super::passes::{self, Fields, idles};
+use super::state::State;
+use super::{Criterion, Method};
+use crate::elastic::Foundation;
+use crate::error::Result;
+use crate::real::Real;
+
+/// The least stiffness of the contacts, as a share of the stiffness of the softest wave.
+const SOFTEST: f64 = 0.1;
+
+/// The least stiffness of the mean gap, as a share of the stiffness of the softest wave.
+const LEAST_MEAN: f64 = 0.01;
+
+/// The iterations from a far start under a given pressure before the space is used, and the error of the load above
+/// which the contact map is not yet that of the solution.
+const UNSETTLED: usize = 3;
+const LOADED: f64 = 0.3;
+
+/// The relative error above which the contact map is not yet that of the solution with adhesion.
+const SETTLED: f64 = 0.1;
+
+/// The stiffness of one node among its neighbours, over that of the stiffest wave: the reciprocal of the mean
+/// compliance of the waves of a square grid.
+const ALONE: f64 = 0.4;
+
+/// The iterations between two certificates of [`Method::Rey2017`], which needs them for the report only.
+const CERTIFY: usize = 10;
+
+impl<T: Real, Lo: Real> State<'_, T, Lo> {
+    /// z = M r' and the certificate, from one application.
+    pub(super) fn precondition(&mut self) -> Result<()> {
+        if self.posed.settings.method == Method::Rey2017 {
+            let due = self.posed.settings.criterion == Criterion::EnergyNorm
+                && self.counters.iterations.is_multiple_of(CERTIFY);
+            if !due {
+                self.sums.certificate = f64::INFINITY;
+                return Ok(());
+            }
+        }
+        self.certify()
+    }
+
+    /// As [`precondition`](Self::precondition), whatever the method.
+    pub(super) fn certify(&mut self) -> Result<()> {
+        self.renew_coarse();
+        let (stiffness, mean_stiffness) = (self.foundation(), self.mean_stiffness());
+        let centred = self.posed.is_gap_controlled();
+        let coarse = self.steps.coarse.as_mut().and_then(Coarse::ready);
+        let foundation = Foundation { stiffness, mean_stiffness, coarse };
+        let stiffest = self.posed.operators.state().stiffness_range().1;
+        let repels = self.posed.potential().repels() && stiffest > 0.0;
+        let held = repels.then(|| passes::hold(&mut self.fields, &self.posed.potential(), ALONE * stiffest, centred));
+        let Fields { residual, preconditioned, .. } = &mut self.fields;
+        let found =
+            self.posed.operators.corrections().precondition(residual.view(), foundation, preconditioned.view_mut())?;
+        let [mut sum, mut descent] = [found.mean, found.descent].map(|mean| mean * self.posed.nodes());
+        let mut certificate = found.error.max(0.0);
+        if let Some(held) = held {
+            sum = passes::release_held(&mut self.fields, &self.posed.potential(), held);
+            descent += held.descent;
+            // two loads, of which the sum is the residual: their responses add up in the energy norm
+            certificate = (certificate.sqrt() + (held.beside / self.posed.nodes()).sqrt()).powi(2);
+        }
+        self.sums.certificate = if found.error.is_nan() { f64::INFINITY } else { certificate };
+        self.sums.preconditioned = Preconditioned { descent, sum };
+        self.counters.applications += 1;
+        Ok(())
+    }
+
+    /// The stiffness of the contacts against a change of the mean gap, about λ̄/h_rms for rough surfaces.
+    fn contact_stiffness(&self) -> f64 {
+        let external = if self.posed.is_gap_controlled() { -self.multiplier() } else { self.sums.given };
+        (external + self.sums.tally.traction / self.posed.nodes()).abs() / self.posed.flat.rms_height
+    }
+
+    /// The stiffness of the foundation in the preconditioner: that of the contacts, which long waves meet beside their
+    /// own. On the way from a far start under a given pressure it is not known yet, and the softest wave's stiffness
+    /// takes its place.
+    pub(super) fn foundation(&self) -> f64 {
+        let (softest, stiffest) = self.posed.operators.state().stiffness_range();
+        if stiffest <= 0.0 {
+            return self.posed.operators.state().modulus() / self.posed.operators.state().grid().lengths().0;
+        }
+        let contact = self.contact_stiffness();
+        let near = self.steps.near || self.posed.is_gap_controlled();
+        if near && contact.is_finite() { contact.clamp(SOFTEST * softest, stiffest) } else { softest }
+    }
+
+    /// The stiffness of the mean gap in the preconditioner: that of the contacts, and of the spring if there is one.
+    ///
+    /// On the way from a far start, the geometric mean of the stiffness of the contacts, far too small for light
+    /// loads, and that of the softest wave.
+    pub(super) fn mean_stiffness(&self) -> f64 {
+        let (softest, stiffest) = self.posed.operators.state().stiffness_range();
+        if stiffest <= 0.0 {
+            // nothing resists the load of a node alone before it touches: a step is as long as the gap
+            let gap = self.sums.tally.sum_gap / self.posed.nodes();
+            let falls = gap > 0.0 && self.posed.law.is_zero() && self.sums.given > 0.0;
+            let contact = if falls { self.foundation().min(self.sums.given / gap) } else { self.foundation() };
+            return contact + self.posed.load.stiffness();
+        }
+        let mean = (softest * self.contact_stiffness()).sqrt();
+        let contact = if mean.is_finite() { mean.clamp(LEAST_MEAN * softest, stiffest) } else { softest };
+        contact + self.posed.load.stiffness()
+    }
+
+    /// Whether the bodies are apart on a spring that is softer than the preconditioner takes the mean gap to be.
+    pub(super) fn hangs_on_spring(&self) -> bool {
+        let spring = self.posed.load.stiffness();
+        let soft = spring > 0.0 && spring < LEAST_MEAN * self.posed.operators.state().stiffness_range().0;
+        soft && self.sums.tally.contact == 0.0
+    }
+
+    /// The mean of r over the nodes that are apart. That of p has no part in it where all are; of its rounding little is
+    /// much to a soft spring.
+    pub(super) fn imbalance(&self) -> f64 {
+        let balance = || self.sums.given + self.sums.tally.traction / self.posed.nodes();
+        if self.hangs_on_spring() { balance() } else { self.sums.tally.sum_r / self.sums.tally.free }
+    }
+
+    /// Whether the contacts are where they will be, but for some nodes.
+    fn is_settled(&self) -> bool {
+        let loaded = self.steps.near
+            || self.posed.is_gap_controlled()
+            || (self.counters.iterations >= UNSETTLED && self.load_error() <= LOADED);
+        loaded && (self.posed.law.is_zero() || self.relative_error() <= SETTLED)
+    }
+
+    /// Tells the coarse space where the contacts are, now and then: the nodes outside of the working set, or those that
+    /// springs hold.
+    pub(super) fn renew_coarse(&mut self) {
+        let (settled, projects, held) = (self.is_settled(), self.posed.projects(), self.posed.is_gap_controlled());
+        let (stiffness, range) = (self.posed.flat.stiffness, self.posed.operators.state().stiffness_range());
+        let (spring, window) = (self.posed.load.stiffness(), self.posed.flat.window.as_ref());
+        let iteration = self.counters.iterations;
+        let Some(coarse) = self.steps.coarse.as_mut().filter(|coarse| coarse.is_due(iteration, settled)) else {
+            return;
+        };
+        if projects {
+            let touches = |_, residual| idles(residual);
+            coarse.renew(iteration, &self.fields.residual, touches, (stiffness, spring), range, held);
+        } else {
+            let rest = self.posed.law.rest().unwrap_or_else(T::zero);
+            let touches = |node, gap| gap <= rest && window.is_none_or(|window| window.faces(node));
+            coarse.renew(iteration, &self.fields.gap, touches, (stiffness, spring), range, held);
+        }
+    }
+}
