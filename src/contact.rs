@@ -131,8 +131,8 @@ fn contact_map<T: Real>(gap: ArrayView2<'_, T>, contact_pressure: ArrayView2<'_,
 /// Refuses fields that do not have the shape of the grid.
 fn check<T: Real>(gap: ArrayView2<'_, T>, contact_pressure: ArrayView2<'_, T>, grid: &Grid) -> Result<()> {
     let slab = grid.slab();
-    Error::agreed(slab, Error::shape("gap", gap.dim(), grid.field_shape()))?;
-    Error::agreed(slab, Error::shape("contact pressure", contact_pressure.dim(), grid.field_shape()))
+    slab.agreed(Error::shape("gap", gap.dim(), grid.field_shape()))?;
+    slab.agreed(Error::shape("contact pressure", contact_pressure.dim(), grid.field_shape()))
 }
 
 /// Contact statistics: the area and the clusters of contact, and the area that attracts without contact.

@@ -148,7 +148,7 @@ pub use elastic::{
     Boundary, Boussinesq, CoarseSpace, ElasticOperator, Foundation, Preconditioned, Spectral, Westergaard,
     check_operator,
 };
-pub use error::{Error, Result};
+pub use error::{Error, ErrorKind, Result};
 pub use grid::Grid;
 pub use nested::{Level, Nested, NestedSolution};
 pub use problem::{Control, Problem};

@@ -35,7 +35,7 @@ pub(crate) fn afford(what: &str, slab: Slab, bytes_per_node: usize) -> Result<()
     let bytes = rows as f64 * ny as f64 * bytes_per_node as f64;
     let what = || format!("{what} on {nx} x {ny} nodes");
     let affordable = if is_there(bytes) { Ok(()) } else { Err(Error::Memory { what: what(), bytes }) };
-    Error::agreed(slab, affordable)
+    slab.agreed(affordable)
 }
 
 /// Whether the system has so many bytes, and gives them to this process.

@@ -6,7 +6,7 @@ use crate::adhesion::AdhesionLaw;
 use crate::constraint::Wall;
 use crate::elastic::{Boundary, ElasticOperator};
 use crate::error::{Error, Result};
-use crate::field::{self, flat};
+use crate::field::{self, all_finite_in, flat};
 use crate::grid::Grid;
 use crate::memory::afford;
 use crate::real::Real;
@@ -200,7 +200,7 @@ impl<T: Real> PressedFlat<T> {
             return Err(Error::Shared { what: "contact", reason: one });
         }
         if !operator.takes_slabs() {
-            Error::alone("elastic operator", slab)?;
+            slab.alone("elastic operator")?;
         }
         if let Some(shape) = law.shape() {
             Error::shape("adhesion law that varies over the surface", shape, grid.shape())?;
@@ -251,7 +251,7 @@ impl<T: Real> PressedFlat<T> {
         let mean_square = field::mean_over(slab, surface_pressure.view(), |p: T| p.widen().powi(2));
         // squares may be beyond the range of finite pressures
         if !mean_square.is_finite() {
-            Error::all_finite_in(slab, "pressure K⁻¹h of the surface pressed flat", surface_pressure.view())?;
+            all_finite_in(slab, "pressure K⁻¹h of the surface pressed flat", surface_pressure.view())?;
         }
         let stiffness = mean_square.sqrt() / rms_height;
         let (lx, ly) = grid.lengths();

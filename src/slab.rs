@@ -4,6 +4,7 @@ use std::ops::Range;
 
 use ndarray::{Array2, ArrayRef2, ArrayView2, Axis, CowArray, Ix2, Slice};
 
+use crate::error::{Error, Result};
 use crate::ranks::{Ranks, Shares};
 use crate::real::Real;
 
@@ -94,6 +95,25 @@ impl Slab {
     /// Whether several processes share the grid.
     pub(crate) fn is_shared(&self) -> bool {
         self.ranks.count() > 1
+    }
+
+    /// The result of this process, unless one before it has an error, or it has none itself and another one has: then
+    /// that one is named. All processes of the slab have to call it.
+    pub(crate) fn agreed<T>(&self, result: Result<T>) -> Result<T> {
+        if !self.is_shared() {
+            return result;
+        }
+        let refused = self.ranks.each(u8::from(result.is_err())).iter().position(|&refused| refused > 0);
+        match refused {
+            Some(rank) if rank != self.ranks.rank() => Err(Error::Elsewhere { rank }),
+            _ => result,
+        }
+    }
+
+    /// Refuses `what` where several processes share the slab.
+    pub(crate) fn alone(&self, what: &'static str) -> Result<()> {
+        let reason = "that has no form for slabs: take the whole grid in one process";
+        if self.is_shared() { Err(Error::Shared { what, reason }) } else { Ok(()) }
     }
 
     /// The rows that this process holds.

@@ -11,7 +11,7 @@ use crate::adhesion::AdhesionLaw;
 use crate::constraint::{ContactConstraint, Projection};
 use crate::elastic::ElasticOperator;
 use crate::error::{Error, Result};
-use crate::field::{CHUNK, Partial, Reducer, flat, write};
+use crate::field::{CHUNK, Partial, Reducer, all_finite_in, flat, write};
 use crate::grid::Grid;
 use crate::par::{self, Parts};
 use crate::problem::{Control, Problem, Window, smoothed_law};
@@ -302,9 +302,9 @@ where
     L: AdhesionLaw<T>,
 {
     let slab = problem.grid().slab();
-    Error::agreed(slab, Error::shape("gap", gap.dim(), slab.held()))?;
+    slab.agreed(Error::shape("gap", gap.dim(), slab.held()))?;
     if problem.flat.window.is_none() {
-        Error::all_finite_in(slab, "gap", gap.view())?;
+        all_finite_in(slab, "gap", gap.view())?;
     }
     check_wall(&problem.law, constraint.wall())?;
     let negative = gap.iter().find(|&&gap| constraint.wall().is_rigid() && gap < T::zero());
@@ -313,7 +313,7 @@ where
             "zero or positive; a solution with springs or without a wall is looked at with its constraint";
         Err(Error::Value { name: "gap", value: gap.widen(), requirement })
     });
-    Error::agreed(slab, refused)
+    slab.agreed(refused)
 }
 
 /// The second derivative of the local energy at every node of the operator's grid, and infinity where a rigid wall is
@@ -348,7 +348,7 @@ fn slopes<T: Real>(
         let refused = own.map_or(Ok(()), |(gap, value)| {
             Err(Error::Law { function: "slope of the local traction", gap, value, expected: None })
         });
-        Error::agreed(slab, refused)?;
+        slab.agreed(refused)?;
     }
     // nothing attracts, and nothing confines, where no surface faces the half-space
     Ok(match window {

@@ -191,7 +191,7 @@ impl<C> Accuracy<C> {
     where
         C: ContactConstraint<T>,
     {
-        Error::alone("accuracy", surface.grid().slab())?;
+        surface.grid().slab().alone("accuracy")?;
         let tolerance = self.tolerance()?;
         self.of.check(control)?;
         let nodes_per_wave = surface.nodes_per_wave(operator.boundary());

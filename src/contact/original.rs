@@ -50,7 +50,7 @@ impl Original {
     /// [`Error::Value`] if it has no nodes, [`Error::Shape`] if it has more than the map, and [`Error::Shared`] if
     /// several processes share the grid.
     pub fn new(whole: &Grid, nodes: (usize, usize)) -> Result<Self> {
-        Error::alone("the original of a mirrored map", whole.slab())?;
+        whole.slab().alone("the original of a mirrored map")?;
         let (shape, (dx, dy)) = (whole.shape(), whole.spacing());
         if nodes.0 > shape.0 || nodes.1 > shape.1 {
             return Err(Error::Shape { name: "original", found: nodes, expected: shape });

@@ -94,7 +94,7 @@ impl<T: Real> Spectral<T> {
         let wrong = wrong.map_or(Ok(()), |&value| {
             Err(Error::Value { name: "compliance of a wave", value, requirement: "positive and finite" })
         });
-        Error::agreed(grid.slab(), wrong)?;
+        grid.slab().agreed(wrong)?;
         modes.mapv_inplace(f64::recip);
         let slab = grid.slab();
         if let Some(mean) = modes.first_mut().filter(|_| slab.ranks().rank() == 0) {

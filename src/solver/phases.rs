@@ -26,7 +26,7 @@ impl<'a, T: Real, L: Real> State<'a, T, L> {
         if self.energy().is_finite() && self.tally.sum_r.is_finite() {
             return Ok(());
         }
-        Error::agreed(self.operators.state().grid().slab(), self.check_gaps())
+        self.operators.state().grid().slab().agreed(self.check_gaps())
     }
 
     fn check_gaps(&self) -> Result<()> {

@@ -93,7 +93,7 @@ pub(super) fn prepare<T: Real, L: Real>(
 ) -> Result<()> {
     let operator = operators.state();
     if !constraint.takes_slabs() {
-        Error::alone("contact constraint", operator.grid().slab())?;
+        operator.grid().slab().alone("contact constraint")?;
     }
     let surface = flat.window.as_ref().map_or(operator.grid(), Window::held);
     constraint.start(surface, operator.stiffness_range().1, settings.tolerance_in::<T>())

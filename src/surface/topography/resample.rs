@@ -4,7 +4,8 @@ use asperity_fft::num_complex::Complex;
 use ndarray::{Array2, Zip};
 
 use super::Topography;
-use crate::error::{Error, Result};
+use crate::error::Result;
+use crate::field::all_finite;
 
 use crate::grid::Grid;
 use crate::memory::afford;
@@ -45,7 +46,7 @@ impl Topography {
     /// [`Error::NotFinite`] if heights are missing.
     pub fn resample(mut self, nodes: (usize, usize)) -> Result<Self> {
         afford("a resampled map", Grid::new(nodes, (1.0, 1.0))?.slab(), 32)?;
-        Error::all_finite("heights", self.heights.view())?;
+        all_finite("heights", self.heights.view())?;
         // about the mean, so that a large datum costs no digits
         let mean = self.mean();
         let before = self.heights.dim();
