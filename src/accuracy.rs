@@ -18,7 +18,6 @@ use crate::surface::{Surface, Topography};
 mod goal;
 mod refine;
 
-pub use crate::memory::available_memory;
 pub use goal::{Accuracy, AccurateSolution, Plan};
 
 /// The quantity of which an accuracy is asked.

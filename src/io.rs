@@ -9,6 +9,7 @@
 mod foreign;
 mod gsf;
 mod gwy;
+mod memory;
 mod npy;
 mod npz;
 mod output;
@@ -26,10 +27,11 @@ use ndarray::{Array2, Axis, Slice};
 use ndarray_npy::WritableElement;
 
 use crate::error::{Error, Result};
-use crate::memory::is_there;
 use crate::surface::Topography;
 use gsf::{GSF, read_gsf, write_gsf};
 use gwy::{GWY, read_gwy};
+use memory::is_there;
+pub use memory::{available_memory, check_memory};
 use npy::{NPY, read_npy, read_npy_rows};
 pub use npz::write_npz;
 use npz::{ZIP, read_npz};
@@ -91,9 +93,10 @@ fn reserve<T>(values: &mut Vec<T>, more: usize) -> Parsed<()> {
     values.try_reserve_exact(size - values.len()).map_err(|_| Refusal::Memory(bytes))
 }
 
-/// Refuses what takes more bytes than there are.
+/// Refuses more bytes than the machine has, or gives to this process.
 fn check_room(bytes: usize) -> Parsed<()> {
-    if is_there(bytes as f64) { Ok(()) } else { Err(Refusal::Memory(bytes)) }
+    let given = || Vec::<u8>::new().try_reserve_exact(bytes).is_ok();
+    if is_there(bytes as f64) && given() { Ok(()) } else { Err(Refusal::Memory(bytes)) }
 }
 
 /// Reads a field, a height map or a gap, from a file of any of the formats of [`read_topography`]: its numbers alone.

@@ -117,7 +117,6 @@ mod grid;
 pub mod guide;
 #[cfg(feature = "io")]
 pub mod io;
-mod memory;
 mod nested;
 mod par;
 pub mod path;

@@ -8,7 +8,6 @@ use crate::elastic::{Boundary, ElasticOperator};
 use crate::error::{Error, Result};
 use crate::field::{self, all_finite_in, flat};
 use crate::grid::Grid;
-use crate::memory::afford;
 use crate::real::Real;
 use crate::surface::Surface;
 use crate::vector::range;
@@ -223,7 +222,7 @@ impl<T: Real> PressedFlat<T> {
             return Err(Error::Law { function, gap: 0.0, value: value.widen(), expected: None });
         }
         // gap, pressure and K⁻¹h, and in f32 the other fields of a solve
-        afford("a solve", slab, 3 * size_of::<T>() + 16)?;
+        slab.afford("a solve", 3 * size_of::<T>() + 16)?;
         let window = Window::new(surface, slab);
         let extended = window.as_ref().map(|window| window.extend(surface.heights().view()));
         let padded;

@@ -116,6 +116,17 @@ impl Slab {
         if self.is_shared() { Err(Error::Shared { what, reason }) } else { Ok(()) }
     }
 
+    /// Refuses what takes more memory than this process gets for its rows.
+    ///
+    /// An allocation that fails ends the process, so that it is asked for as a whole before the first of its parts,
+    /// and given back.
+    pub(crate) fn afford(&self, what: &str, bytes_per_node: usize) -> Result<()> {
+        let ((nx, ny), (rows, _)) = (self.shape, self.held());
+        let bytes = rows as f64 * ny as f64 * bytes_per_node as f64;
+        let given = Vec::<u8>::new().try_reserve_exact(bytes as usize);
+        self.agreed(given.map_err(|_| Error::Memory { what: format!("{what} on {nx} x {ny} nodes"), bytes }))
+    }
+
     /// The rows that this process holds.
     pub(crate) fn rows(&self) -> Range<usize> {
         self.rows_of(self.ranks.rank())
@@ -322,5 +333,16 @@ mod tests {
         // as many as there are, of the same size
         let slab = Slab::new((512, 512), Ranks::of(0, 4));
         assert_eq!([0, 1, 2, 3].map(|rank| slab.rows_of(rank)), [0..128, 128..256, 256..384, 384..512]);
+    }
+
+    #[test]
+    fn memory_that_no_system_has_is_refused() {
+        let asked = |shape| Slab::whole(shape).afford("a solve", 40);
+        // more than the addresses of a process, and more bytes than there are numbers for them
+        for shape in [(1 << 22, 1 << 22), (1 << 40, 1 << 40)] {
+            let text = asked(shape).unwrap_err().to_string();
+            assert!(text.starts_with(&format!("a solve on {} x {} nodes takes", shape.0, shape.1)), "{text}");
+        }
+        assert_eq!(asked((1 << 11, 1 << 11)), Ok(()));
     }
 }

@@ -9,7 +9,6 @@ use crate::error::{Error, Result};
 use crate::field;
 use crate::field::all_finite_in;
 use crate::grid::Grid;
-use crate::memory::afford;
 
 mod philox;
 mod self_affine;
@@ -112,7 +111,7 @@ impl Surface {
     /// [`Error::NotFinite`] if the function is not finite at a node, [`Error::Memory`] if the heights take more than
     /// there is.
     pub fn from_fn(grid: Grid, height: impl Fn(f64, f64) -> f64) -> Result<Self> {
-        afford("a surface", grid.slab(), 8)?;
+        grid.slab().afford("a surface", 8)?;
         Self::new(grid, grid.sample(height))
     }
 

@@ -110,7 +110,7 @@ trait Solves: Send {
         start: Option<Field<'py>>,
     ) -> PyResult<Option<Bound<'py, PyDict>>>;
     fn end_leg(&mut self);
-    fn plan(&self, py: Python<'_>, pool: &Pool, control: Control, goal: &Goal) -> PyResult<Plan>;
+    fn plan(&self, py: Python<'_>, pool: &Pool, control: Control, goal: &Goal) -> PyResult<(Plan, f64)>;
     fn stability<'py>(
         &mut self,
         py: Python<'py>,
@@ -452,13 +452,19 @@ impl<T: Scalar> Solves for State<T> {
         self.leg_ends = true;
     }
 
-    fn plan(&self, py: Python<'_>, pool: &Pool, control: Control, goal: &Goal) -> PyResult<Plan> {
+    fn plan(&self, py: Python<'_>, pool: &Pool, control: Control, goal: &Goal) -> PyResult<(Plan, f64)> {
         let Body::Surface(surface) = &self.body else { return Err(refusal(spent())) };
         let (wanted, law) = (accuracy(goal, self.solver.clone())?, &self.law);
         let (beyond, grid, modulus) = (self.beyond, self.grid, self.modulus);
         let plan = || {
             let mut operator = beyond.half_space::<T>(grid, modulus)?;
-            wanted.plan(surface, &mut operator, law, control)
+            let plan = wanted.plan(surface, &*operator, law, control)?;
+            let mut fields = [(); 2].map(|()| Array2::<T>::zeros(operator.grid().shape()));
+            let [u, p] = &mut fields;
+            operator.pressure(u.view(), p.view_mut())?;
+            let clock = Instant::now();
+            operator.pressure(u.view(), p.view_mut())?;
+            Ok((plan, plan.applications * clock.elapsed().as_secs_f64()))
         };
         py.detach(|| pool.get().install(plan)).map_err(refusal)
     }
@@ -570,7 +576,7 @@ impl Problem {
     #[pyo3(signature = (load, accuracy))]
     fn plan(&mut self, py: Python<'_>, load: Load, accuracy: Goal) -> PyResult<Planned> {
         let (pool, solves) = self.parts()?;
-        let Plan { nodes_per_wave, tolerance, shape, bytes, seconds, .. } =
+        let (Plan { nodes_per_wave, tolerance, shape, bytes, .. }, seconds) =
             solves.plan(py, &pool, control(&load)?, &accuracy)?;
         Ok((nodes_per_wave, tolerance, shape, bytes, seconds))
     }

@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use asperity::io::check_memory;
 use asperity::{Amplitude, Form, Grid, Psd, RowAlignment, ScanAxis, SelfAffine, Surface, Topography, Trend, Warning};
 use numpy::{IntoPyArray, PyArray1, PyArray2};
 use pyo3::exceptions::PyValueError;
@@ -66,6 +67,7 @@ pub fn self_affine<'py>(
     };
     let k_r = k_r.unwrap_or(k_l);
     let rough = SelfAffine { hurst, k_l, k_r, k_s, amplitude, random_phase, seed };
+    check_memory("a random surface", shape, 32).map_err(refusal)?;
     let drawn = apart(py, || rough.surface(Grid::new(shape, lengths)?).map(Topography::from))?;
     Ok(drawn.heights.into_pyarray(py))
 }

@@ -11,7 +11,6 @@ use super::{Spectrum, Surface, centre};
 use crate::error::{Error, Result};
 use crate::fft::synthesise;
 use crate::grid::Grid;
-use crate::memory::afford;
 
 /// Relative slack at the ends of the spectrum, so that the rounding of Lx/Ly decides on no wave.
 const SLACK: f64 = 1e-12;
@@ -108,7 +107,7 @@ impl SelfAffine {
     pub fn surface(&self, grid: Grid) -> Result<Surface> {
         let band = Band::new(self, &grid)?;
         // heights, spectrum, and what is made of them
-        afford("a random surface", grid.slab(), 32)?;
+        grid.slab().afford("a random surface", 32)?;
         let (nx, _) = grid.shape();
         let (mut heights, sum) = synthesise(grid.slab(), |ky, column| {
             let mut sum = 0.0;

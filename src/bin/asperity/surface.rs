@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use asperity::io::check_memory;
 use asperity::io::{write_npy, write_topography};
 use asperity::{Amplitude, Grid, SelfAffine, Topography};
 use clap::{ArgGroup, Args};
@@ -131,6 +132,9 @@ pub fn run(options: &Options, scene: &Scene) -> Outcome<bool> {
     scene.check_beside(&options.out, options.force)?;
     use_threads(options.threads)?;
 
+    if rough.is_some() {
+        check_memory("a random surface", shape, 32)?;
+    }
     let roughness = rough.map(|rough| rough.surface(grid)).transpose()?;
     let surface = options.body.surface(grid, roughness)?;
     let absent = surface.absent_nodes();
