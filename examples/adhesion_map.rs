@@ -12,7 +12,7 @@ use std::path::{Path as File, PathBuf};
 
 use asperity::exact::{self, Sphere};
 use asperity::path::{Path, PathSettings};
-use asperity::{Boussinesq, Control, Grid, LennardJones, NoWall, Problem, Settings, Solver, Status, Surface};
+use asperity::{Boussinesq, Control, Grid, LennardJones, NoWall, Problem, Report, Settings, Solver, Status, Surface};
 use clap::Parser;
 use common::legend::legend;
 use common::{Outcome, arguments};
@@ -60,7 +60,7 @@ fn withdraw(tabor: f64, size: usize) -> Outcome<Option<Withdrawal>> {
     let law = LennardJones::new(work, rest)?;
     let mut problem = Problem::new(&surface, Boussinesq::<f64>::new(grid, 1.0)?, law)?;
     let mu_rho = problem.mu_rho();
-    if mu_rho > 0.5 {
+    if mu_rho > Report::RESOLVED_MU_RHO {
         return Ok(None);
     }
     let mut solver = Solver { settings: Settings { tolerance: Some(1e-5), ..Settings::default() }, constraint: NoWall };

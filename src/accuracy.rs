@@ -11,6 +11,7 @@ use crate::elastic::Boundary;
 use crate::error::{Error, Result};
 use crate::nested::Level;
 use crate::problem::Control;
+use crate::solver::Report;
 #[cfg(doc)]
 use crate::stability::EdgeError;
 use crate::surface::{Surface, Topography};
@@ -198,12 +199,9 @@ impl Surface {
 /// The relative error of the solver on a coarser grid above which its difference to a finer one says nothing.
 const SOLVED: f64 = 3e-3;
 
-/// The resolution measure μ_ρ above which the answer depends on the grid.
-const UNDER_RESOLVED: f64 = 0.5;
-
 /// Whether a grid so many times finer than one with this resolution measure resolves the adhesion.
 fn resolves_adhesion(mu_rho: f64, finer: f64) -> bool {
-    mu_rho <= UNDER_RESOLVED * finer.sqrt()
+    mu_rho <= Report::RESOLVED_MU_RHO * finer.sqrt()
 }
 
 /// The nodes of the shortest wave on the coarser grid below which an estimate may be far off.

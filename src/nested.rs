@@ -9,7 +9,9 @@ use crate::error::{Error, Result};
 use crate::grid::Grid;
 use crate::problem::{Control, Parts, Problem};
 use crate::real::Real;
-use crate::solver::{Begin, Branch, Iteration, Method, Observer, Settings, Solution, Solved, Solver, Start, Status};
+use crate::solver::{
+    Begin, Branch, Iteration, Method, Observer, Report, Settings, Solution, Solved, Solver, Start, Status,
+};
 use crate::stability::ContactStiffness;
 use crate::surface::Surface;
 
@@ -21,9 +23,6 @@ pub use level::Level;
 pub(crate) use level::equivalent_applications;
 pub(crate) use transfer::Deformed;
 use transfer::coarsen;
-
-/// The resolution measure μ_ρ above which a coarse grid would pin the contact.
-const RESOLVED: f64 = 0.5;
 
 /// The least number of nodes for which nested grids pay at a given load or approach, and at a given mean gap.
 const PAYS: (usize, usize) = (1 << 16, 1 << 18);
@@ -302,7 +301,7 @@ impl<C> Nested<C> {
             let ((nx, ny), (cx, cy)) = (surface.grid().shape(), coarse.grid().shape());
             let coarse_law = law.coarsened((nx / cx, ny / cy)).unwrap_or_else(|| Box::new(law));
             let mut problem = Problem::new(&coarse, operator(*coarse.grid())?, coarse_law)?;
-            if problem.mu_rho() > RESOLVED {
+            if problem.mu_rho() > Report::RESOLVED_MU_RHO {
                 continue;
             }
             let prolonged = coarser.take().map(|coarser| coarser.prolonged(&coarse, problem.operator.grid(), rigid));

@@ -92,7 +92,7 @@ impl<T: Real, L: Real> State<'_, T, L> {
             elastic_energy: padding * (0.5 * self.mean_work() + of_mean),
             adhesive_energy: padding * self.tally.adhesive / self.nodes(),
             mu_rho,
-            under_resolved: mu_rho > 0.5,
+            under_resolved: mu_rho > Report::RESOLVED_MU_RHO,
             precision: T::NAME,
             method: self.settings.method,
             criterion: self.settings.criterion,
