@@ -63,8 +63,8 @@ fn withdraw(tabor: f64, size: usize) -> Outcome<Option<Withdrawal>> {
     if mu_rho > Report::RESOLVED_MU_RHO {
         return Ok(None);
     }
-    let mut solver = Solver { settings: Settings { tolerance: Some(1e-5), ..Settings::default() }, constraint: NoWall };
-    let settings = PathSettings { steps: 60, smallest_step: 1e-3, ..PathSettings::default() };
+    let mut solver = Solver { settings: Settings::default().tolerance(1e-5), constraint: NoWall };
+    let settings = PathSettings::default().steps(60).smallest_step(1e-3);
     // approaches count from touch, and the law keeps the surfaces apart by z₀
     let loads = [0.5 * depth - rest, -3.0 * depth - 2.0 * rest].map(Control::Approach);
     let mut found = Withdrawal { mu_rho, points: Vec::new(), applications: 0 };

@@ -255,9 +255,9 @@ const ORDERS: (f64, f64) = (0.5, 3.0);
 /// ```
 /// use asperity::accuracy::{GridError, Quantity};
 /// use asperity::{Boundary, Control, Grid, Nested, NoAdhesion, SelfAffine, Westergaard};
-/// let surface = SelfAffine { k_s: 16.0, ..SelfAffine::default() }.surface(Grid::square(256, 1.0)?)?;
+/// let surface = SelfAffine::default().k_s(16.0).surface(Grid::square(256, 1.0)?)?;
 /// let half_space = |grid| Westergaard::<f64>::new(grid, 1.0);
-/// let mut nested = Nested { coarse_tolerance: 1e-3, ..Nested::default() };
+/// let mut nested = Nested::default().coarse_tolerance(1e-3);
 /// let found = nested.solve(&surface, half_space, NoAdhesion, Control::MeanPressure(2e-3))?;
 /// let error = GridError::of(&found.levels, Quantity::Area, surface.nodes_per_wave(Boundary::Periodic), 0.0).unwrap();
 /// assert!(error.relative > 2e-4 && error.relative < 1e-2);

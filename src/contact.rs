@@ -33,6 +33,7 @@ pub use patch::Patch;
 /// What the two surfaces do to each other at a node.
 ///
 /// As numbers these are the classes of [`Colouring::Contact`](crate::picture::Colouring::Contact): 1, −1, 0 and NaN.
+#[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Region {
     /// They touch, as [`Solution::contact_map`] says.

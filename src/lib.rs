@@ -126,6 +126,7 @@ mod problem;
 mod ranks;
 mod real;
 mod search;
+mod setters;
 mod slab;
 mod solver;
 pub mod stability;

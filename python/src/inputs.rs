@@ -139,7 +139,7 @@ pub fn settings(
 ) -> PyResult<Settings> {
     let default = match method {
         "default" => Settings::default(),
-        "rey2017" => Settings { criterion: Criterion::EnergyNorm, ..Settings::rey2017() },
+        "rey2017" => Settings::rey2017().criterion(Criterion::EnergyNorm),
         other => return Err(PyValueError::new_err(format!("method is {other}: it must be default or rey2017"))),
     };
     let max_iterations = max_iterations.unwrap_or(default.max_iterations);
@@ -151,5 +151,5 @@ pub fn settings(
             return Err(PyValueError::new_err(format!("branch is {other}: it must be loading, unloading or both")));
         }
     };
-    Ok(Settings { tolerance, max_iterations, branch, ..default })
+    Ok(default.tolerance(tolerance).max_iterations(max_iterations).branch(branch))
 }

@@ -235,7 +235,7 @@ impl<T: Scalar> State<T> {
     /// An account with the solution on the other branch of equilibria, if both are asked for and it has a branch.
     fn with_other(&mut self, account: Account<T>, observe: Observe<'_>) -> asperity::Result<Account<T>> {
         let Some(branch) = account.solution.report.branch.filter(|_| self.both) else { return Ok(account) };
-        let settings = Settings { branch: Some(branch.other()), ..self.solver.settings };
+        let settings = self.solver.settings.branch(branch.other());
         let mut solver = Solver { settings, ..self.solver.clone() };
         let problem = single(&mut self.body, &self.law, self.beyond, self.modulus)?;
         let found = solver.solve_with(problem, account.control, Start::Default, observe)?;
@@ -264,15 +264,9 @@ impl<T: Scalar> State<T> {
             return Ok(None);
         }
         let clock = Instant::now();
-        let Nested { coarsest, closed, .. } = Nested::default();
-        let stiffness = stiffness.then_some(ContactStiffness::TOLERANCE);
-        let mut nested = Nested {
-            solver: self.solver.clone(),
-            coarse_tolerance: GridError::COARSE_TOLERANCE,
-            coarsest,
-            stiffness,
-            closed,
-        };
+        let mut nested = Nested::with_solver(self.solver.clone())
+            .coarse_tolerance(GridError::COARSE_TOLERANCE)
+            .stiffness(stiffness.then_some(ContactStiffness::TOLERANCE));
         let found = nested.solve_observed(surface, half_space, law, control, |_, state| observe(state))?;
         let applications = found.equivalent_applications();
         let NestedSolution { solution, levels, .. } = found;
@@ -633,7 +627,8 @@ impl Problem {
         observe: Option<Py<PyAny>>,
     ) -> PyResult<Option<Bound<'py, PyDict>>> {
         let loads = loads.iter().map(control).collect::<PyResult<_>>()?;
-        let settings = PathSettings { steps, smallest_step, imbalance, smooth };
+        let settings =
+            PathSettings::default().steps(steps).smallest_step(smallest_step).imbalance(imbalance).smooth(smooth);
         let (pool, solves) = self.parts()?;
         solves.next_step(py, Run { pool: &pool, observer: observe.as_ref() }, loads, settings, start)
     }

@@ -12,6 +12,7 @@ use crate::grid::Grid;
 use crate::nested::{Deformed, Level, Nested, equivalent_applications};
 use crate::problem::{Control, Problem, mu_rho};
 use crate::real::Real;
+use crate::setters::setters;
 use crate::solver::{Begin, Iteration, Solution, Solved, Solver, Status};
 use crate::stability::ContactStiffness;
 use crate::surface::Surface;
@@ -59,7 +60,7 @@ const DOUBT: f64 = 3.0;
 /// use asperity::accuracy::{Accuracy, Quantity};
 /// use asperity::{Control, Grid, NoAdhesion, SelfAffine, Westergaard};
 /// // the shortest wave has four nodes: too few for an area that is right to 2 %
-/// let surface = SelfAffine { k_s: 16.0, ..SelfAffine::default() }.surface(Grid::square(64, 1.0)?)?;
+/// let surface = SelfAffine::default().k_s(16.0).surface(Grid::square(64, 1.0)?)?;
 /// let half_space = |grid| Westergaard::<f64>::new(grid, 1.0);
 /// let mut wanted = Accuracy::new(0.02, Quantity::Area);
 /// let found = wanted.solve(&surface, half_space, NoAdhesion, Control::MeanPressure(2e-3))?;
@@ -68,6 +69,7 @@ const DOUBT: f64 = 3.0;
 /// assert_eq!(found.solution.gap.dim(), found.surface.grid().shape());
 /// # Ok::<(), asperity::Error>(())
 /// ```
+#[non_exhaustive]
 #[derive(Clone, Debug)]
 pub struct Accuracy<C = Projection> {
     /// The relative error that is wanted, between 0 and 1.
@@ -142,16 +144,17 @@ impl<C> Accuracy<C> {
     /// ```
     /// use asperity::accuracy::{Accuracy, Quantity};
     /// use asperity::{NoWall, Settings, Solver};
-    /// let solver = Solver { settings: Settings { tolerance: Some(1e-5), ..Settings::default() }, constraint: NoWall };
+    /// let solver = Solver { settings: Settings::default().tolerance(1e-5), constraint: NoWall };
     /// assert_eq!(Accuracy::with_solver(0.01, Quantity::Gap, solver).tolerance()?, 1e-5);
     /// # Ok::<(), asperity::Error>(())
     /// ```
     pub fn with_solver(target: f64, of: Quantity, solver: Solver<C>) -> Self {
-        let Nested { coarse_tolerance, stiffness, .. } = Nested::default();
         // a coarser grid that gives no start tells the error all the same
-        let nested = Nested { solver, coarse_tolerance, coarsest: COARSEST, stiffness, closed: 1.0 };
+        let nested = Nested::with_solver(solver).coarsest(COARSEST).closed(1.0);
         Self { target, of, memory: MEMORY, nested }
     }
+
+    setters! { memory: f64, nested: Nested<C> }
 
     /// The tolerance of the solver: a twentieth of the accuracy, and at most 1e-3; or the one that was given.
     ///

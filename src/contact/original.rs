@@ -21,7 +21,7 @@ use crate::solver::{Report, Solution};
 /// ```
 /// use asperity::contact::Original;
 /// use asperity::{Control, Grid, NoAdhesion, Problem, SelfAffine, Solver, Topography, Westergaard};
-/// let rough = SelfAffine { k_s: 8.0, ..SelfAffine::default() }.surface(Grid::square(32, 1.0)?)?;
+/// let rough = SelfAffine::default().k_s(8.0).surface(Grid::square(32, 1.0)?)?;
 /// let map = Topography::from(rough).crop(3..23, 5..25)?.mirror();
 /// let nodes = map.original.expect("a map that was mirrored");
 /// let surface = map.surface()?;

@@ -12,7 +12,7 @@ const SMALL: f64 = 67_108_864.0;
 /// ```
 /// use asperity::accuracy::{Accuracy, Quantity};
 /// use asperity::io::available_memory;
-/// let wanted = Accuracy { memory: available_memory(), ..Accuracy::new(0.01, Quantity::Area) };
+/// let wanted = Accuracy::new(0.01, Quantity::Area).memory(available_memory());
 /// assert!(wanted.memory > 0.0);
 /// ```
 pub fn available_memory() -> f64 {

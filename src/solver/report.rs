@@ -17,7 +17,7 @@ use crate::real::Real;
 /// let grid = Grid::square(32, 1.0)?;
 /// let surface = Surface::wave_2d(grid, 0.02, 1)?;
 /// let mut problem = Problem::new(&surface, Westergaard::<f64>::new(grid, 1.0)?, NoAdhesion)?;
-/// let mut solver = Solver::new(Settings { max_iterations: 2, ..Settings::default() });
+/// let mut solver = Solver::new(Settings::default().max_iterations(2));
 /// let report = solver.solve(&mut problem, Control::MeanGap(0.01))?.report;
 /// assert_eq!(report.status, Status::IterationLimit); // no error: the fields are there, and the report says how good
 /// assert_eq!(report.status.to_string(), "iteration-limit");

@@ -18,15 +18,14 @@ fn free(grid: Grid) -> Result<Boussinesq<f64>> {
 /// A surface whose shortest wave is an eighth of the side, the same on every grid.
 fn surface(n: usize, seed: u64) -> Surface {
     let amplitude = Amplitude::RmsSlope(0.1);
-    let rough =
-        SelfAffine { k_l: 1.0, k_r: 2.0, k_s: 8.0, amplitude, random_phase: true, seed, ..SelfAffine::default() };
+    let rough = SelfAffine::default().k_l(1.0).k_r(2.0).k_s(8.0).amplitude(amplitude).random_phase(true).seed(seed);
     rough.surface(Grid::square(n, 1.0).unwrap()).unwrap()
 }
 
 const PRESSED: Control = Control::MeanPressure(5e-3);
 
 fn truth(seed: u64, control: Control) -> Level {
-    let mut nested = Nested { stiffness: Some(1e-5), ..Nested::default() };
+    let mut nested = Nested::default().stiffness(1e-5);
     let found = nested.solve(&surface(512, seed), half_space, NoAdhesion, control).unwrap();
     found.levels.last().unwrap().clone()
 }
@@ -88,7 +87,7 @@ fn the_edge_of_the_contact_tells_the_error_of_a_single_grid() {
         ] {
             let truth = truth(seed, control);
             for n in [64, 128] {
-                let mut nested = Nested { coarsest: n, stiffness: Some(1e-4), ..Nested::default() };
+                let mut nested = Nested::default().coarsest(n).stiffness(1e-4);
                 let found = nested.solve(&surface(n, seed), half_space, NoAdhesion, control).unwrap();
                 assert_eq!(found.levels.len(), 1);
                 let waves = surface(n, seed).nodes_per_wave(Boundary::Periodic);
@@ -180,7 +179,7 @@ fn strips_diagonals_and_lattices_are_as_right_as_is_asked() {
     for target in [0.05, 0.03, 0.02, 0.01] {
         let mut reached = Vec::new();
         for (surface, control, exact) in &scenes {
-            let mut wanted = Accuracy { memory: 7e6, ..Accuracy::new(target, Quantity::Area) };
+            let mut wanted = Accuracy::new(target, Quantity::Area).memory(7e6);
             let found = wanted.solve(surface, half_space, NoAdhesion, *control).unwrap();
             let area = found.levels.last().unwrap().area.corrected_contact_fraction;
             reached.extend(found.reached.then_some((area / exact - 1.0).abs()));
@@ -223,7 +222,7 @@ fn an_accuracy_that_the_given_grid_has_ends_there() {
 #[test]
 fn grids_that_say_nothing_leave_the_error_unknown() {
     let estimate = |n, quantity, nodes_per_wave, mu_rho, coarse_tolerance| {
-        let mut nested = Nested { coarsest: 32, coarse_tolerance, ..Nested::default() };
+        let mut nested = Nested::default().coarsest(32).coarse_tolerance(coarse_tolerance);
         let found = nested.solve(&surface(n, 1), half_space, NoAdhesion, PRESSED).unwrap();
         GridError::of(&found.levels, quantity, nodes_per_wave, mu_rho)
     };
@@ -274,7 +273,7 @@ fn what_cannot_be_had_is_refused_by_name() {
     assert_eq!(wanted.nested.solver.settings.tolerance, Some(1e-5));
 
     // no grid that fits, told before: which would, and its memory
-    let small = Accuracy { memory: 1e6, ..Accuracy::new(1e-6, Quantity::Area) };
+    let small = Accuracy::new(1e-6, Quantity::Area).memory(1e6);
     let operator = half_space(*surface.grid()).unwrap();
     let error = small.plan(&surface, &operator, &NoAdhesion, control).unwrap_err();
     let Error::Unaffordable { shape, bytes, available, affordable, .. } = error else { panic!("{error}") };
@@ -282,7 +281,7 @@ fn what_cannot_be_had_is_refused_by_name() {
     let text = error_text(&small, &surface);
     assert!(text.contains("an accuracy of 1e-6 of the area takes about") && text.contains("GiB"), "{text}");
     // and on the way
-    let mut small = Accuracy { memory: 1e6, ..Accuracy::new(2e-3, Quantity::Area) };
+    let mut small = Accuracy::new(2e-3, Quantity::Area).memory(1e6);
     let found = small.solve(&surface, half_space, NoAdhesion, control).unwrap();
     let (shape, bytes) = found.unaffordable.unwrap();
     assert!(!found.reached && shape.0 == 2 * found.surface.grid().shape().0 && bytes > 1e6);
