@@ -24,7 +24,7 @@ fn solve<T: Real>(surface: &Surface, law: Law<T>, control: Control, settings: Se
 
 /// A solve that has nothing but iterations.
 fn some(max_iterations: usize) -> Settings {
-    Settings { max_iterations, tolerance: Some(1e-14), ..Settings::default() }
+    Settings::default().max_iterations(max_iterations).tolerance(1e-14)
 }
 
 fn two_threads(criterion: &mut Criterion) {
@@ -45,7 +45,7 @@ fn two_threads(criterion: &mut Criterion) {
 fn precisions(criterion: &mut Criterion) {
     let (surface, pool) = (rough_square(1024), threads(1));
     // what f32 reaches
-    let settings = Settings { tolerance: Some(1e-4), ..Settings::default() };
+    let settings = Settings::default().tolerance(1e-4);
     let mut group = group(criterion, "precision, to 1e-4 at 1024");
     group.bench_function("f32", |b| b.iter(|| pool.install(|| solve::<f32>(&surface, none(), PRESSURE, settings))));
     group.bench_function("f64", |b| b.iter(|| pool.install(|| solve::<f64>(&surface, none(), PRESSURE, settings))));

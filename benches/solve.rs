@@ -60,7 +60,7 @@ fn rey2017(criterion: &mut Criterion) {
     for n in [256, 512, 1024].into_iter().filter(|&n| n <= largest) {
         let surface = rough_square(n);
         // to the same certified error
-        let settings = Settings { criterion: Stop::EnergyNorm, tolerance: Some(1e-6), ..Settings::rey2017() };
+        let settings = Settings::rey2017().criterion(Stop::EnergyNorm).tolerance(1e-6);
         group.bench_function(BenchmarkId::from_parameter(n), |b| {
             b.iter(|| single::<f64>(&surface, none(), PRESSURE, settings));
         });

@@ -12,7 +12,7 @@ use std::path::{Path as File, PathBuf};
 
 use asperity::exact::{self, Sphere};
 use asperity::path::{Path, PathSettings};
-use asperity::{Boussinesq, Control, Grid, LennardJones, NoWall, Problem, Settings, Solver, Status, Surface};
+use asperity::{Boussinesq, Control, Grid, LennardJones, NoWall, Problem, Report, Settings, Solver, Status, Surface};
 use clap::Parser;
 use common::legend::legend;
 use common::{Outcome, arguments};
@@ -60,11 +60,11 @@ fn withdraw(tabor: f64, size: usize) -> Outcome<Option<Withdrawal>> {
     let law = LennardJones::new(work, rest)?;
     let mut problem = Problem::new(&surface, Boussinesq::<f64>::new(grid, 1.0)?, law)?;
     let mu_rho = problem.mu_rho();
-    if mu_rho > 0.5 {
+    if mu_rho > Report::RESOLVED_MU_RHO {
         return Ok(None);
     }
-    let mut solver = Solver { settings: Settings { tolerance: Some(1e-5), ..Settings::default() }, constraint: NoWall };
-    let settings = PathSettings { steps: 60, smallest_step: 1e-3, ..PathSettings::default() };
+    let mut solver = Solver { settings: Settings::default().tolerance(1e-5), constraint: NoWall };
+    let settings = PathSettings::default().steps(60).smallest_step(1e-3);
     // approaches count from touch, and the law keeps the surfaces apart by z₀
     let loads = [0.5 * depth - rest, -3.0 * depth - 2.0 * rest].map(Control::Approach);
     let mut found = Withdrawal { mu_rho, points: Vec::new(), applications: 0 };

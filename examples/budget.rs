@@ -99,8 +99,7 @@ struct Arguments {
 fn main() -> Outcome<()> {
     let Arguments { size, case } = arguments::read(include_str!("budget.rs"));
     let grid = Grid::square(size, 1.0)?;
-    let surface =
-        SelfAffine { k_s: 64.0, amplitude: Amplitude::RmsSlope(1.0), ..SelfAffine::default() }.surface(grid)?;
+    let surface = SelfAffine::default().k_s(64.0).amplitude(Amplitude::RmsSlope(1.0)).surface(grid)?;
     let range = 0.1 * surface.rms_height();
     let law = Exponential::new(0.1 * range, range)?;
     println!("{size} x {size} nodes; medians of {ROUNDS} rounds, least and largest in brackets");
@@ -127,7 +126,7 @@ fn measure<L: AdhesionLaw<f64> + AdhesionLaw<f32> + Copy>(
     let mut both = Problem::new(surface, Timed::<f64>::new(grid, true)?, law)?;
     let mut double = Problem::new(surface, Timed::<f64>::new(grid, false)?, law)?;
     let mut single = Problem::new(surface, Timed::<f32>::new(grid, false)?, law)?;
-    let loose = Settings { tolerance: Some(1e-4), ..Settings::default() };
+    let loose = Settings::default().tolerance(1e-4);
     let mut figures: [Vec<f64>; 6] = Default::default();
     for _ in 0..ROUNDS {
         let before = both.operator().seconds();

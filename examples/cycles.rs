@@ -77,7 +77,7 @@ fn cycle<L: AdhesionLaw<f64>>(surface: &Surface, law: L, gaps: [f64; 2], setting
     let mut problem = Problem::new(surface, Westergaard::<f64>::new(*surface.grid(), 1.0)?, law)?;
     let mu_rho = problem.mu_rho();
     let [far, near] = gaps.map(Control::MeanGap);
-    let mut solver = Solver::new(Settings { tolerance: Some(1e-5), ..Settings::default() });
+    let mut solver = Solver::new(Settings::default().tolerance(1e-5));
     let mut cycle = Cycle {
         approach: Vec::new(),
         withdrawal: Vec::new(),
@@ -127,7 +127,7 @@ fn spheres(size: usize, path: &File) -> Outcome<()> {
     let surface = Surface::paraboloid(grid, RADIUS)?;
     println!("sphere, {size}²: pull-off force over πwR");
     println!("{:>5} {:>8} {:>6} {:>8} {:>8} {:>7}", "μ_T", "w", "μ_ρ", "found", "exact", "error");
-    let settings = PathSettings { smallest_step: 1e-3, ..PathSettings::default() };
+    let settings = PathSettings::default().smallest_step(1e-3);
     let mut curves = Vec::new();
     for ((tabor, work), colour) in SPHERES.into_iter().zip(COLOURS) {
         let length = (work * work * RADIUS).cbrt();
@@ -198,13 +198,13 @@ fn waves(size: usize, path: &File) -> Outcome<()> {
 /// A rough surface.
 fn rough(size: usize, path: &File) -> Outcome<()> {
     let grid = Grid::square(size, 1.0)?;
-    let surface = SelfAffine { k_l: 2.0, k_r: 2.0, k_s: 8.0, ..SelfAffine::default() }.surface(grid)?;
+    let surface = SelfAffine::default().k_l(2.0).k_r(2.0).k_s(8.0).surface(grid)?;
     println!("\nrough surface, {size}², rms slope 0.1, k from 2 to 8; pressures in E*");
     println!("{:>8} {:>8} {:>6} {:>12} {:>12}", "w", "ρ", "μ_ρ", "pull-off", "dissipated");
     let mut curves = Vec::new();
     for ((work, range), colour) in [(2e-5, 1e-3), (5e-5, 1e-3), (1e-4, 1e-3)].into_iter().zip(COLOURS) {
         let gaps = [0.022, 0.005];
-        let settings = PathSettings { smallest_step: 1e-3, ..PathSettings::default() };
+        let settings = PathSettings::default().smallest_step(1e-3);
         let found = cycle(&surface, Exponential::new(work, range)?, gaps, settings)?;
         println!(
             "{work:>8.0e} {range:>8.0e} {:>6.2} {:>12.3e} {:>10.4} w  {}",

@@ -140,7 +140,7 @@ fn sweep<S: Sphere + Copy, L: AdhesionLaw<f64> + Copy>(
                 Start::Exact => Some((&reference - surface.heights()).mapv(|g| g.max(0.0))),
             };
             let given = given.as_ref().map_or(asperity::Start::Default, |gap| asperity::Start::From(gap));
-            let mut solver = Solver::new(Settings { tolerance: Some(1e-7), ..Settings::default() });
+            let mut solver = Solver::new(Settings::default().tolerance(1e-7));
             let solution =
                 solver.solve_with(&mut problem, Control::MeanGap(gap), given, |_| ControlFlow::Continue(()))?;
             let report = &solution.report;

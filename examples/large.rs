@@ -53,8 +53,7 @@ fn exponential(rms_height: f64) -> asperity::Result<Exponential> {
 fn run<T: Real, L: AdhesionLaw<T>>(size: usize, law: impl Fn(f64) -> asperity::Result<L>) -> Outcome<()> {
     let clock = Instant::now();
     let grid = Grid::square(size, 1.0)?;
-    let surface =
-        SelfAffine { k_s: 64.0, amplitude: Amplitude::RmsSlope(1.0), ..SelfAffine::default() }.surface(grid)?;
+    let surface = SelfAffine::default().k_s(64.0).amplitude(Amplitude::RmsSlope(1.0)).surface(grid)?;
     let law = law(surface.rms_height())?;
     let mut problem = Problem::new(&surface, Westergaard::<T>::new(grid, 1.0)?, law)?;
     drop(surface);

@@ -42,7 +42,7 @@ fn main() -> Result<()> {
 }
 
 fn table<T: Real>(size: usize, tolerance: f64, free: bool) -> Result<()> {
-    let settings = Settings { tolerance: Some(tolerance), ..Settings::default() };
+    let settings = Settings::default().tolerance(tolerance);
     let none = (0.0, 0.0, 0.0);
     let mut table = Table { settings, all: none, default: none };
     println!(

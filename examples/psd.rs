@@ -26,13 +26,13 @@ struct Arguments {
 fn main() -> Outcome<()> {
     let Arguments { size, out } = arguments::read(include_str!("psd.rs"));
     let grid = Grid::square(size, 1.0)?;
-    let rough = SelfAffine { k_l: 2.0, k_r: 8.0, k_s: 0.4 * size as f64, ..SelfAffine::default() };
+    let rough = SelfAffine::default().k_l(2.0).k_r(8.0).k_s(0.4 * size as f64);
     let target = rough.spectrum(grid)?.radial_psd();
     let one = rough.surface(grid)?.spectrum().radial_psd();
     let mut mean = one.clone();
     mean.densities.fill(0.0);
     for seed in 0..SURFACES {
-        let psd = SelfAffine { seed, ..rough }.surface(grid)?.spectrum().radial_psd();
+        let psd = rough.seed(seed).surface(grid)?.spectrum().radial_psd();
         mean.densities.iter_mut().zip(psd.densities).for_each(|(mean, density)| *mean += density / SURFACES as f64);
     }
     println!("{:>6} {:>12} {:>12} {:>12}", "k", "target", "one surface", "mean");

@@ -146,7 +146,7 @@ fn main() -> Outcome<()> {
 
 /// The surface of the figures, of side 1, on n × n nodes.
 fn rough(n: usize, slope: f64) -> Outcome<Surface> {
-    let rough = SelfAffine { amplitude: Amplitude::RmsSlope(slope), ..SelfAffine::default() };
+    let rough = SelfAffine::default().amplitude(Amplitude::RmsSlope(slope));
     Ok(rough.surface(Grid::square(n, 1.0)?)?)
 }
 

@@ -43,8 +43,15 @@ fn main() -> Outcome<()> {
     for (hurst, seed) in HURST.iter().flat_map(|&hurst| SEEDS.map(|seed| (hurst, seed))) {
         let k_s = size as f64 / 8.0;
         let amplitude = Amplitude::RmsSlope(SLOPE);
-        let surface =
-            SelfAffine { k_l: 1.0, k_r: 2.0, k_s, hurst, amplitude, seed, random_phase: true }.surface(grid)?;
+        let surface = SelfAffine::default()
+            .k_l(1.0)
+            .k_r(2.0)
+            .k_s(k_s)
+            .hurst(hurst)
+            .amplitude(amplitude)
+            .seed(seed)
+            .random_phase(true)
+            .surface(grid)?;
         let mut problem = Problem::new(&surface, Westergaard::<f64>::new(grid, 1.0)?, NoAdhesion)?;
         let mut solver = Solver::default();
         let loads: Vec<_> = pressures.iter().map(|p| Control::MeanPressure(SLOPE * p)).collect();

@@ -50,7 +50,7 @@ fn main() -> Result<()> {
 }
 
 fn settings(tolerance: f64) -> Settings {
-    Settings { tolerance: Some(tolerance), ..Settings::default() }
+    Settings::default().tolerance(tolerance)
 }
 
 fn table_1(sizes: &[usize]) -> Result<()> {

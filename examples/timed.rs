@@ -141,7 +141,7 @@ fn solve<T: Real, H: HalfSpace, L: AdhesionLaw<T> + AdhesionLaw<f32> + Copy>(
     let pressure = options.pressure.map(Control::MeanPressure);
     let held = pressure.or(options.gap.map(Control::MeanGap)).or(options.approach.map(Control::Approach));
     let control = held.ok_or("nothing is held")?;
-    let settings = Settings { tolerance: options.tolerance, ..Settings::default() };
+    let settings = Settings::default().tolerance(options.tolerance);
     let tolerance = settings.tolerance_in::<T>();
     let method = match options.method {
         Method::Default if Nested::new(settings).pays::<T>(surface, &law, control) => Method::Nested,
@@ -159,7 +159,7 @@ fn solve<T: Real, H: HalfSpace, L: AdhesionLaw<T> + AdhesionLaw<f32> + Copy>(
                 nested::<T, H, L>(surface, law, control, settings)?
             }
             Method::Mixed => {
-                let settings_single = Settings { tolerance: Some(SINGLE), ..settings };
+                let settings_single = settings.tolerance(SINGLE);
                 let (near, seconds) = nested::<f32, H, L>(surface, law, control, settings_single)?;
                 let gap = near.gap.mapv(|g| T::lit(g.widen()));
                 drop(near);

@@ -11,6 +11,7 @@ use crate::elastic::Boundary;
 use crate::error::{Error, Result};
 use crate::nested::Level;
 use crate::problem::Control;
+use crate::solver::Report;
 #[cfg(doc)]
 use crate::stability::EdgeError;
 use crate::surface::{Surface, Topography};
@@ -18,7 +19,6 @@ use crate::surface::{Surface, Topography};
 mod goal;
 mod refine;
 
-pub use crate::memory::available_memory;
 pub use goal::{Accuracy, AccurateSolution, Plan};
 
 /// The quantity of which an accuracy is asked.
@@ -199,12 +199,9 @@ impl Surface {
 /// The relative error of the solver on a coarser grid above which its difference to a finer one says nothing.
 const SOLVED: f64 = 3e-3;
 
-/// The resolution measure μ_ρ above which the answer depends on the grid.
-const UNDER_RESOLVED: f64 = 0.5;
-
 /// Whether a grid so many times finer than one with this resolution measure resolves the adhesion.
 fn resolves_adhesion(mu_rho: f64, finer: f64) -> bool {
-    mu_rho <= UNDER_RESOLVED * finer.sqrt()
+    mu_rho <= Report::RESOLVED_MU_RHO * finer.sqrt()
 }
 
 /// The nodes of the shortest wave on the coarser grid below which an estimate may be far off.
@@ -258,9 +255,9 @@ const ORDERS: (f64, f64) = (0.5, 3.0);
 /// ```
 /// use asperity::accuracy::{GridError, Quantity};
 /// use asperity::{Boundary, Control, Grid, Nested, NoAdhesion, SelfAffine, Westergaard};
-/// let surface = SelfAffine { k_s: 16.0, ..SelfAffine::default() }.surface(Grid::square(256, 1.0)?)?;
+/// let surface = SelfAffine::default().k_s(16.0).surface(Grid::square(256, 1.0)?)?;
 /// let half_space = |grid| Westergaard::<f64>::new(grid, 1.0);
-/// let mut nested = Nested { coarse_tolerance: 1e-3, ..Nested::default() };
+/// let mut nested = Nested::default().coarse_tolerance(1e-3);
 /// let found = nested.solve(&surface, half_space, NoAdhesion, Control::MeanPressure(2e-3))?;
 /// let error = GridError::of(&found.levels, Quantity::Area, surface.nodes_per_wave(Boundary::Periodic), 0.0).unwrap();
 /// assert!(error.relative > 2e-4 && error.relative < 1e-2);

@@ -33,6 +33,7 @@ pub use patch::Patch;
 /// What the two surfaces do to each other at a node.
 ///
 /// As numbers these are the classes of [`Colouring::Contact`](crate::picture::Colouring::Contact): 1, −1, 0 and NaN.
+#[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Region {
     /// They touch, as [`Solution::contact_map`] says.
@@ -131,8 +132,8 @@ fn contact_map<T: Real>(gap: ArrayView2<'_, T>, contact_pressure: ArrayView2<'_,
 /// Refuses fields that do not have the shape of the grid.
 fn check<T: Real>(gap: ArrayView2<'_, T>, contact_pressure: ArrayView2<'_, T>, grid: &Grid) -> Result<()> {
     let slab = grid.slab();
-    Error::agreed(slab, Error::shape("gap", gap.dim(), grid.field_shape()))?;
-    Error::agreed(slab, Error::shape("contact pressure", contact_pressure.dim(), grid.field_shape()))
+    slab.agreed(Error::shape("gap", gap.dim(), grid.field_shape()))?;
+    slab.agreed(Error::shape("contact pressure", contact_pressure.dim(), grid.field_shape()))
 }
 
 /// Contact statistics: the area and the clusters of contact, and the area that attracts without contact.

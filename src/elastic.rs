@@ -231,6 +231,7 @@ impl Boundary {
 }
 
 /// The foundation on which the half-space rests in the preconditioner, pressures per length.
+#[non_exhaustive]
 #[derive(Debug)]
 pub struct Foundation<'a> {
     /// The stiffness for every wave.
@@ -249,7 +250,15 @@ impl Foundation<'_> {
     }
 }
 
+impl Preconditioned {
+    /// The three products.
+    pub fn new(error: f64, descent: f64, mean: f64) -> Self {
+        Self { error, descent, mean }
+    }
+}
+
 /// The products of [`ElasticOperator::precondition`] beside M r, all of them means over the nodes.
+#[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Preconditioned {
     /// r·Kr without the mean of r, which bounds the error (see [`Report::relative_error`](crate::Report)): it must be

@@ -1,13 +1,11 @@
-//! The error of the crate, and the checks that return it.
+//! The error of the crate, and the checks of numbers that return it.
 
-use std::fmt;
+mod message;
+
+use std::error::Error as StdError;
+use std::fmt::Display;
 use std::path::{Path, PathBuf};
-
-use ndarray::ArrayView2;
-
-use crate::field::CHUNK;
-use crate::real::Real;
-use crate::slab::Slab;
+use std::sync::Arc;
 
 /// The result of a function that can refuse its input.
 ///
@@ -180,32 +178,89 @@ pub enum Error {
         path: PathBuf,
         /// The reason, and a remedy.
         reason: String,
+        /// The error of the system or of a format, if there is one.
+        cause: Option<Cause>,
     },
 }
 
+/// An error that another one wraps; two are equal where their messages are.
+#[derive(Clone, Debug)]
+pub struct Cause(Arc<dyn StdError + Send + Sync>);
+
+impl PartialEq for Cause {
+    fn eq(&self, other: &Self) -> bool {
+        self.0.to_string() == other.0.to_string()
+    }
+}
+
+/// The kind of an [`Error`], for programs that treat some of them in their own way.
+#[non_exhaustive]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum ErrorKind {
+    /// A number that its quantity does not allow.
+    Value,
+    /// A field of another shape than its grid.
+    Shape,
+    /// A field that holds NaN or infinities.
+    NotFinite,
+    /// An adhesion law or springs whose functions contradict one another.
+    Law,
+    /// An elastic operator without a property of its contract.
+    Operator,
+    /// A control that the problem does not have.
+    Control,
+    /// A wall that does not fit the law.
+    Wall,
+    /// Memory that there is not.
+    Memory,
+    /// A grid that is too coarse for a surface.
+    Resolution,
+    /// A grid of several processes, or a refusal by another process.
+    Shared,
+    /// A file that could not be read or written.
+    File,
+}
+
 impl Error {
+    /// The kind of the error.
+    ///
+    /// ```
+    /// use asperity::{ErrorKind, Grid};
+    /// assert_eq!(Grid::square(64, -1.0).unwrap_err().kind(), ErrorKind::Value);
+    /// ```
+    pub fn kind(&self) -> ErrorKind {
+        match self {
+            Self::Value { .. } => ErrorKind::Value,
+            Self::Shape { .. } => ErrorKind::Shape,
+            Self::NotFinite { .. } => ErrorKind::NotFinite,
+            Self::Law { .. } | Self::Concave { .. } | Self::Jump { .. } | Self::AtNode { .. } => ErrorKind::Law,
+            Self::Operator { .. } => ErrorKind::Operator,
+            Self::Control { .. } => ErrorKind::Control,
+            Self::Wall { .. } => ErrorKind::Wall,
+            Self::Unaffordable { .. } | Self::Memory { .. } => ErrorKind::Memory,
+            Self::Unresolved { .. } => ErrorKind::Resolution,
+            Self::Shared { .. } | Self::Elsewhere { .. } => ErrorKind::Shared,
+            Self::File { .. } => ErrorKind::File,
+        }
+    }
+
     /// A file that could not be read or written, for `reason`.
-    pub fn file(path: &Path, reason: impl fmt::Display) -> Self {
-        Self::File { path: path.to_owned(), reason: reason.to_string() }
+    pub fn file(path: impl AsRef<Path>, reason: impl Display) -> Self {
+        Self::File { path: path.as_ref().to_owned(), reason: reason.to_string(), cause: None }
     }
 
-    /// The result of this process, unless one before it, of those that share a slab, has an error, or it has none
-    /// itself and another one has: then that one is named. All processes of the slab have to call it.
-    pub(crate) fn agreed<T>(slab: Slab, result: Result<T>) -> Result<T> {
-        if !slab.is_shared() {
-            return result;
-        }
-        let refused = slab.ranks().each(u8::from(result.is_err())).iter().position(|&refused| refused > 0);
-        match refused {
-            Some(rank) if rank != slab.ranks().rank() => Err(Self::Elsewhere { rank }),
-            _ => result,
-        }
+    /// A file that could not be read, by an error that becomes the [source](StdError::source) of this one.
+    pub fn unreadable(path: impl AsRef<Path>, cause: impl StdError + Send + Sync + 'static) -> Self {
+        Self::caused(path.as_ref(), format!("cannot be read: {cause}"), cause)
     }
 
-    /// Refuses a slab that several processes share.
-    pub(crate) fn alone(what: &'static str, slab: Slab) -> Result<()> {
-        let reason = "that has no form for slabs: take the whole grid in one process";
-        if slab.is_shared() { Err(Self::Shared { what, reason }) } else { Ok(()) }
+    /// A file that could not be written, by an error that becomes the [source](StdError::source) of this one.
+    pub fn unwritable(path: impl AsRef<Path>, cause: impl StdError + Send + Sync + 'static) -> Self {
+        Self::caused(path.as_ref(), format!("cannot be written: {cause}"), cause)
+    }
+
+    pub(crate) fn caused(path: &Path, reason: String, cause: impl StdError + Send + Sync + 'static) -> Self {
+        Self::File { path: path.to_owned(), reason, cause: Some(Cause(Arc::new(cause))) }
     }
 
     /// Passes `value` on if it is positive and finite.
@@ -235,155 +290,29 @@ impl Error {
     pub(crate) fn shape(name: &'static str, found: (usize, usize), expected: (usize, usize)) -> Result<()> {
         if found == expected { Ok(()) } else { Err(Self::Shape { name, found, expected }) }
     }
-
-    /// Refuses a field that holds NaN or infinities in some slab: the process that has the first of them has the error.
-    pub(crate) fn all_finite_in<T: Real>(slab: Slab, name: &'static str, field: ArrayView2<'_, T>) -> Result<()> {
-        let mut found = Self::all_finite(name, field);
-        if let Err(Self::NotFinite { count, nodes, first, .. }) = &mut found {
-            let mut all = [*count as u64];
-            slab.add_up(&mut all);
-            (*count, *nodes, first.0) = (all[0] as usize, slab.nodes(), first.0 + slab.rows().start);
-        } else {
-            slab.add_up(&mut [0]);
-        }
-        Self::agreed(slab, found)
-    }
-
-    /// Refuses a field that holds NaN or infinities.
-    pub(crate) fn all_finite<T: Real>(name: &'static str, field: ArrayView2<'_, T>) -> Result<()> {
-        // without places, and without an end within a chunk, the pass is many times as fast
-        let all =
-            |values: &[T]| values.chunks(CHUNK).all(|chunk| chunk.iter().fold(true, |all, v| all & v.is_finite()));
-        if field.as_slice_memory_order().map_or_else(|| field.iter().all(|value| value.is_finite()), all) {
-            return Ok(());
-        }
-        let mut wrong = field.indexed_iter().filter(|(_, value)| !value.is_finite());
-        match wrong.next() {
-            None => Ok(()),
-            Some((first, value)) => {
-                let value = value.widen();
-                Err(Self::NotFinite { name, count: 1 + wrong.count(), nodes: field.len(), first, value })
-            }
-        }
-    }
 }
 
-impl fmt::Display for Error {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+impl StdError for Error {
+    fn source(&self) -> Option<&(dyn StdError + 'static)> {
         match self {
-            Self::Value { name, value, requirement } => {
-                write!(f, "{name} is {}: it must be {requirement}", Short(*value))
-            }
-            Self::Shape { name, found, expected } => {
-                write!(f, "{name} has shape {} x {}: it must be {} x {}", found.0, found.1, expected.0, expected.1)
-            }
-            Self::NotFinite { name, count, nodes, first, value } => {
-                let remedy = if value.is_nan() {
-                    "fill missing points first, as by Topography::fill"
-                } else {
-                    "an infinite value is not a missing point; correct it where it comes from"
-                };
-                write!(
-                    f,
-                    "{name}: {count} of {nodes} nodes are not finite, the first ({value}) at index [{}, {}]: {remedy}",
-                    first.0, first.1
-                )
-            }
-            Self::Law { function, gap, value, expected: None } => {
-                write!(f, "the {function} is {value} at a gap of {}: it must be finite at every gap", Short(*gap))
-            }
-            Self::Law { function, gap, value, expected: Some(expected) } => write!(
-                f,
-                "the {function} is {} at a gap of {}, where the {} has the derivative {}: correct one of the two",
-                Short(*value),
-                Short(*gap),
-                if function.starts_with("slope") { "traction" } else { "energy" },
-                Short(*expected)
-            ),
-            Self::Concave { gap, traction, nearer } => write!(
-                f,
-                "the adhesive traction rises with the gap, from {} to {} at a gap of {}: the energy is not concave, \
-                 as `is_concave` says",
-                Short(*nearer),
-                Short(*traction),
-                Short(*gap)
-            ),
-            Self::Jump { gap, fall } => write!(
-                f,
-                "the adhesive traction falls by {} at a gap of {}, and the edge of the adhesive zone would stay where an \
-                 iteration left it: give the law without its jump as `smoothed`",
-                Short(*fall),
-                Short(*gap)
-            ),
-            Self::AtNode { function, node, gap, value, expected } => write!(
-                f,
-                "the {function} is {} at node {node} and a gap of {}, and {} by another function of the law: those of \
-                 many gaps give what those of one gap do, or the law has a `shape` and those of one gap are of its \
-                 strongest node",
-                Short(*value),
-                Short(*gap),
-                Short(*expected)
-            ),
-            Self::Operator { property, found, expected } => {
-                write!(f, "{property} is {}: it should be {}", Short(*found), Short(*expected))
-            }
-            Self::Control { control, reason } => write!(f, "{control}: {reason}"),
-            Self::Wall { wall, reason } => write!(f, "{wall}: {reason}"),
-            Self::Unaffordable { quantity, accuracy, shape, bytes, available, affordable } => {
-                write!(
-                    f,
-                    "an accuracy of {} of the {quantity} takes about {} x {} nodes and {}: there are {}, ",
-                    Short(*accuracy),
-                    shape.0,
-                    shape.1,
-                    Bytes(*bytes),
-                    Bytes(*available)
-                )?;
-                match affordable.is_finite() {
-                    true => write!(f, "enough for about {affordable:.1e}"),
-                    false => f.write_str("too few to resolve the adhesion: take a longer range"),
-                }
-            }
-            Self::Memory { what, bytes } => {
-                write!(
-                    f,
-                    "{what} takes {} of memory, which there is not: take fewer nodes, or more memory",
-                    Bytes(*bytes)
-                )
-            }
-            Self::Unresolved { k_s, limit, shape } => write!(
-                f,
-                "k_s is {}: it must be below {} for {} x {} nodes to resolve it: use more nodes, or a smaller k_s",
-                Short(*k_s),
-                Short(*limit),
-                shape.0,
-                shape.1
-            ),
-            Self::Shared { what, reason } => write!(f, "{what} with several processes: {reason}"),
-            Self::Elsewhere { rank } => write!(f, "process {rank} has refused its part: its own error says why"),
-            Self::File { path, reason } => write!(f, "{}: {reason}", path.display()),
+            Self::File { cause: Some(Cause(cause)), .. } => Some(cause.as_ref()),
+            _ => None,
         }
     }
 }
 
-impl std::error::Error for Error {}
+#[cfg(test)]
+mod tests {
+    use super::*;
 
-/// A number without rows of zeros.
-struct Short(f64);
-
-impl fmt::Display for Short {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self(value) = self;
-        if *value == 0.0 || (1e-4..1e6).contains(&value.abs()) { write!(f, "{value}") } else { write!(f, "{value:e}") }
-    }
-}
-
-/// An amount of memory, in bytes.
-struct Bytes(f64);
-
-impl fmt::Display for Bytes {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let mebibytes = self.0 / 1_048_576.0;
-        if mebibytes < 1024.0 { write!(f, "{mebibytes:.1} MiB") } else { write!(f, "{:.1} GiB", mebibytes / 1024.0) }
+    #[test]
+    fn an_error_of_the_system_is_the_source() {
+        let cause = || std::io::Error::from(std::io::ErrorKind::PermissionDenied);
+        let error = Error::unwritable("u.npy", cause());
+        let source = error.source().and_then(|source| source.downcast_ref::<std::io::Error>()).unwrap();
+        assert_eq!(source.kind(), std::io::ErrorKind::PermissionDenied);
+        assert_eq!(error, Error::unwritable("u.npy", cause()));
+        assert_eq!(error.kind(), ErrorKind::File);
+        assert!(Error::file("u.npy", "is empty").source().is_none());
     }
 }

@@ -2,10 +2,40 @@
 
 use ndarray::{Array2, ArrayView2};
 
+use crate::error::{Error, Result};
 use crate::par::{self, Parts};
 use crate::ranks::Shares;
+use crate::real::Real;
 pub(crate) use crate::slab::CHUNK;
 use crate::slab::Slab;
+
+/// Refuses a field that holds NaN or infinities.
+pub(crate) fn all_finite<T: Real>(name: &'static str, field: ArrayView2<'_, T>) -> Result<()> {
+    // without places, and without an end within a chunk, the pass is many times as fast
+    let all = |values: &[T]| values.chunks(CHUNK).all(|chunk| chunk.iter().fold(true, |all, v| all & v.is_finite()));
+    if field.as_slice_memory_order().map_or_else(|| field.iter().all(|value| value.is_finite()), all) {
+        return Ok(());
+    }
+    let mut wrong = field.indexed_iter().filter(|(_, value)| !value.is_finite());
+    wrong.next().map_or(Ok(()), |(first, value)| {
+        let (count, nodes, value) = (1 + wrong.count(), field.len(), value.widen());
+        Err(Error::NotFinite { name, count, nodes, first, value })
+    })
+}
+
+/// Refuses a field that holds NaN or infinities in some slab: the process that has the first of them has the error.
+pub(crate) fn all_finite_in<T: Real>(slab: Slab, name: &'static str, field: ArrayView2<'_, T>) -> Result<()> {
+    let mut found = all_finite(name, field);
+    let mut all = [0];
+    if let Err(Error::NotFinite { count, .. }) = &found {
+        all = [*count as u64];
+    }
+    slab.add_up(&mut all);
+    if let Err(Error::NotFinite { count, nodes, first, .. }) = &mut found {
+        (*count, *nodes, first.0) = (all[0] as usize, slab.nodes(), first.0 + slab.rows().start);
+    }
+    slab.agreed(found)
+}
 
 /// The number of sums of a pass.
 pub(crate) const SUMS: usize = 13;

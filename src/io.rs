@@ -9,6 +9,7 @@
 mod foreign;
 mod gsf;
 mod gwy;
+mod memory;
 mod npy;
 mod npz;
 mod output;
@@ -17,7 +18,6 @@ mod units;
 mod vti;
 mod xyz;
 
-use std::fmt::Display;
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, BufRead, BufReader, Read, Seek, SeekFrom};
 use std::ops::Range;
@@ -27,10 +27,11 @@ use ndarray::{Array2, Axis, Slice};
 use ndarray_npy::WritableElement;
 
 use crate::error::{Error, Result};
-use crate::memory::is_there;
 use crate::surface::Topography;
 use gsf::{GSF, read_gsf, write_gsf};
 use gwy::{GWY, read_gwy};
+use memory::is_there;
+pub use memory::{available_memory, check_memory};
 use npy::{NPY, read_npy, read_npy_rows};
 pub use npz::write_npz;
 use npz::{ZIP, read_npz};
@@ -52,6 +53,8 @@ type Parsed<T> = std::result::Result<T, Refusal>;
 enum Refusal {
     /// It is not as it should be
     Reason(String),
+    /// The system does not read it
+    System(String, io::Error),
     /// It takes more memory than there is, so many bytes
     Memory(usize),
 }
@@ -67,6 +70,7 @@ impl Refusal {
     fn of(self, path: &Path) -> Error {
         match self {
             Self::Reason(reason) => Error::file(path, reason),
+            Self::System(reason, error) => Error::caused(path, reason, error),
             Self::Memory(bytes) => Error::Memory { what: path.display().to_string(), bytes: bytes as f64 },
         }
     }
@@ -89,9 +93,10 @@ fn reserve<T>(values: &mut Vec<T>, more: usize) -> Parsed<()> {
     values.try_reserve_exact(size - values.len()).map_err(|_| Refusal::Memory(bytes))
 }
 
-/// Refuses what takes more bytes than there are.
+/// Refuses more bytes than the machine has, or gives to this process.
 fn check_room(bytes: usize) -> Parsed<()> {
-    if is_there(bytes as f64) { Ok(()) } else { Err(Refusal::Memory(bytes)) }
+    let given = || Vec::<u8>::new().try_reserve_exact(bytes).is_ok();
+    if is_there(bytes as f64) && given() { Ok(()) } else { Err(Refusal::Memory(bytes)) }
 }
 
 /// Reads a field, a height map or a gap, from a file of any of the formats of [`read_topography`]: its numbers alone.
@@ -235,8 +240,8 @@ pub fn read_rows(
 ///
 /// [`Error::File`] if the file cannot be written.
 pub fn create_npy<T: WritableElement>(path: &Path, shape: (usize, usize)) -> Result<()> {
-    let file = File::create(path).map_err(|e| unwritable(path, e))?;
-    ndarray_npy::write_zeroed_npy::<T, _>(&file, shape).map_err(|e| unwritable(path, e))
+    let file = File::create(path).map_err(|e| Error::unwritable(path, e))?;
+    ndarray_npy::write_zeroed_npy::<T, _>(&file, shape).map_err(|e| Error::unwritable(path, e))
 }
 
 /// Writes some rows of a field into a `.npy` that [`create_npy`] has made, from the row `first` on. Several processes
@@ -263,17 +268,13 @@ pub fn write_npy_rows<T: WritableElement + Clone>(
 ) -> Result<()> {
     let (count, ny) = rows.dim();
     Error::shape("rows to write", (first + count, ny), ((first + count).min(shape.0), shape.1))?;
-    let mut file = OpenOptions::new().write(true).open(path).map_err(|e| unwritable(path, e))?;
+    let mut file = OpenOptions::new().write(true).open(path).map_err(|e| Error::unwritable(path, e))?;
     // the numbers are all that follows the header
-    let size = file.metadata().map_err(|e| unwritable(path, e))?.len();
+    let size = file.metadata().map_err(|e| Error::unwritable(path, e))?.len();
     let numbers = ((shape.0 - first) * ny * size_of::<T>()) as u64;
-    file.seek(SeekFrom::Start(size.saturating_sub(numbers))).map_err(|e| unwritable(path, e))?;
+    file.seek(SeekFrom::Start(size.saturating_sub(numbers))).map_err(|e| Error::unwritable(path, e))?;
     let rows = rows.as_standard_layout();
-    T::write_slice(rows.as_slice().unwrap_or_default(), &mut file).map_err(|e| unwritable(path, e))
-}
-
-fn unwritable(path: &Path, error: impl Display) -> Error {
-    Error::file(path, format!("cannot be written: {error}"))
+    T::write_slice(rows.as_slice().unwrap_or_default(), &mut file).map_err(|e| Error::unwritable(path, e))
 }
 
 /// Writes a map, over a file that may be there; the ending of `path` decides on the format.
@@ -312,7 +313,7 @@ pub fn write_topography(path: &Path, map: &Topography) -> Result<()> {
         "gsf" if map.heights.iter().any(|h| h.is_finite() && !(*h as f32).is_finite()) => {
             Err(Error::file(path, "cannot hold such heights, its numbers are f32: choose .npz or .npy"))
         }
-        "gsf" => write_gsf(path, map).map_err(|e| Error::file(path, format!("cannot be written: {e}"))),
+        "gsf" => write_gsf(path, map).map_err(|e| Error::unwritable(path, e)),
         _ => Err(Error::file(path, "has no ending of a format that is written: choose .npz, .npy or .gsf")),
     }
 }
@@ -338,7 +339,7 @@ fn ending(path: &Path) -> String {
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn write_npy<T: WritableElement>(path: &Path, field: &Array2<T>) -> Result<()> {
-    ndarray_npy::write_npy(path, field).map_err(|e| unwritable(path, e))
+    ndarray_npy::write_npy(path, field).map_err(|e| Error::unwritable(path, e))
 }
 
 fn read_any(path: &Path, channel: Option<&str>) -> Parsed<Topography> {
@@ -388,12 +389,13 @@ fn is_side(length: f64) -> bool {
     length > 0.0 && length.is_finite()
 }
 
-fn unreadable(error: io::Error) -> String {
-    match error.kind() {
+fn unreadable(error: io::Error) -> Refusal {
+    let reason = match error.kind() {
         io::ErrorKind::UnexpectedEof => TRUNCATED.to_owned(),
         io::ErrorKind::NotFound => "does not exist: check the path".to_owned(),
         _ => format!("cannot be read: {error}"),
-    }
+    };
+    Refusal::System(reason, error)
 }
 
 /// A piece of a file for a message: on one line, of a length that can be read.
@@ -428,7 +430,7 @@ mod tests {
         assert_eq!(error.to_string().lines().count(), 1, "{error:?}");
         assert!(error.to_string().chars().all(|c| !c.is_control()), "{error:?}");
         match error {
-            Error::File { reason, path } if !path.as_os_str().is_empty() => reason,
+            Error::File { reason, path, .. } if !path.as_os_str().is_empty() => reason,
             other => panic!("{other:?}"),
         }
     }

@@ -117,7 +117,6 @@ mod grid;
 pub mod guide;
 #[cfg(feature = "io")]
 pub mod io;
-mod memory;
 mod nested;
 mod par;
 pub mod path;
@@ -127,6 +126,7 @@ mod problem;
 mod ranks;
 mod real;
 mod search;
+mod setters;
 mod slab;
 mod solver;
 pub mod stability;
@@ -148,7 +148,7 @@ pub use elastic::{
     Boundary, Boussinesq, CoarseSpace, ElasticOperator, Foundation, Preconditioned, Spectral, Westergaard,
     check_operator,
 };
-pub use error::{Error, Result};
+pub use error::{Error, ErrorKind, Result};
 pub use grid::Grid;
 pub use nested::{Level, Nested, NestedSolution};
 pub use problem::{Control, Problem};

@@ -9,7 +9,10 @@ use crate::error::{Error, Result};
 use crate::grid::Grid;
 use crate::problem::{Control, Parts, Problem};
 use crate::real::Real;
-use crate::solver::{Begin, Branch, Iteration, Method, Observer, Settings, Solution, Solved, Solver, Start, Status};
+use crate::setters::setters;
+use crate::solver::{
+    Begin, Branch, Iteration, Method, Observer, Report, Settings, Solution, Solved, Solver, Start, Status,
+};
 use crate::stability::ContactStiffness;
 use crate::surface::Surface;
 
@@ -21,9 +24,6 @@ pub use level::Level;
 pub(crate) use level::equivalent_applications;
 pub(crate) use transfer::Deformed;
 use transfer::coarsen;
-
-/// The resolution measure μ_ρ above which a coarse grid would pin the contact.
-const RESOLVED: f64 = 0.5;
 
 /// The least number of nodes for which nested grids pay at a given load or approach, and at a given mean gap.
 const PAYS: (usize, usize) = (1 << 16, 1 << 18);
@@ -63,7 +63,7 @@ const CARRIED: f64 = 0.5;
 /// ```
 /// use asperity::{Control, Grid, Nested, NoAdhesion, SelfAffine, Status, Westergaard};
 /// let grid = Grid::square(256, 1.0)?;
-/// let surface = SelfAffine { k_s: 32.0, ..SelfAffine::default() }.surface(grid)?;
+/// let surface = SelfAffine::default().k_s(32.0).surface(grid)?;
 /// let half_space = |grid| Westergaard::<f64>::new(grid, 1.0);
 /// let nested = Nested::default().solve(&surface, half_space, NoAdhesion, Control::MeanPressure(0.01))?;
 /// assert_eq!(nested.solution.report.status, Status::Converged);
@@ -71,6 +71,7 @@ const CARRIED: f64 = 0.5;
 /// assert!(nested.equivalent_applications() < 40.0);
 /// # Ok::<(), asperity::Error>(())
 /// ```
+#[non_exhaustive]
 #[derive(Clone, Debug)]
 pub struct Nested<C = Projection> {
     /// The solver of all grids; its tolerance is that of the finest.
@@ -122,8 +123,17 @@ impl<T> NestedSolution<T> {
 impl Nested {
     /// Nested grids for a solver that confines the gap to g ≥ 0 by projection.
     pub fn new(settings: Settings) -> Self {
-        Self { solver: Solver::new(settings), coarse_tolerance: 1e-2, coarsest: 64, stiffness: None, closed: 0.8 }
+        Self::with_solver(Solver::new(settings))
     }
+}
+
+impl<C> Nested<C> {
+    /// Nested grids for a solver with a constraint of its own.
+    pub fn with_solver(solver: Solver<C>) -> Self {
+        Self { solver, coarse_tolerance: 1e-2, coarsest: 64, stiffness: None, closed: 0.8 }
+    }
+
+    setters! { coarse_tolerance: f64, coarsest: usize, stiffness: impl Into<Option<f64>>, closed: f64 }
 }
 
 impl Default for Nested {
@@ -144,7 +154,7 @@ impl<C> Nested<C> {
     ///
     /// ```
     /// use asperity::{Control, Grid, Nested, NoAdhesion, SelfAffine};
-    /// let surface = |n| SelfAffine { k_s: 16.0, ..SelfAffine::default() }.surface(Grid::square(n, 1.0)?);
+    /// let surface = |n| SelfAffine::default().k_s(16.0).surface(Grid::square(n, 1.0)?);
     /// let pays = |n, control| Ok::<_, asperity::Error>(Nested::default().pays::<f64>(&surface(n)?, &NoAdhesion, control));
     /// assert!(pays(256, Control::MeanPressure(0.01))? && pays(512, Control::MeanGap(0.01))?);
     /// assert!(!pays(256, Control::MeanGap(0.01))?);
@@ -302,7 +312,7 @@ impl<C> Nested<C> {
             let ((nx, ny), (cx, cy)) = (surface.grid().shape(), coarse.grid().shape());
             let coarse_law = law.coarsened((nx / cx, ny / cy)).unwrap_or_else(|| Box::new(law));
             let mut problem = Problem::new(&coarse, operator(*coarse.grid())?, coarse_law)?;
-            if problem.mu_rho() > RESOLVED {
+            if problem.mu_rho() > Report::RESOLVED_MU_RHO {
                 continue;
             }
             let prolonged = coarser.take().map(|coarser| coarser.prolonged(&coarse, problem.operator.grid(), rigid));

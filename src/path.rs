@@ -218,7 +218,7 @@ where
         let slab = self.problem.operator.grid().slab();
         let PathCheckpoint { numbers, mut fields } = from;
         for field in &mut fields {
-            Error::agreed(slab, Error::shape("field of the checkpoint", field.dim(), slab.held()))?;
+            slab.agreed(Error::shape("field of the checkpoint", field.dim(), slab.held()))?;
             if !field.is_standard_layout() {
                 *field = field.as_standard_layout().into_owned();
             }

@@ -83,7 +83,7 @@ impl Picture {
     /// # Errors
     /// [`Error::File`] if the name has another ending, or the file cannot be written.
     pub fn write(&self, path: &Path) -> Result<()> {
-        let unwritable = |e: std::io::Error| Error::file(path, format!("cannot be written: {e}"));
+        let unwritable = |e: std::io::Error| Error::unwritable(path, e);
         let bytes = match Format::of(path)? {
             Format::Png => {
                 let raster = Raster::of(self);

@@ -6,9 +6,8 @@ use crate::adhesion::AdhesionLaw;
 use crate::constraint::Wall;
 use crate::elastic::{Boundary, ElasticOperator};
 use crate::error::{Error, Result};
-use crate::field::{self, flat};
+use crate::field::{self, all_finite_in, flat};
 use crate::grid::Grid;
-use crate::memory::afford;
 use crate::real::Real;
 use crate::surface::Surface;
 use crate::vector::range;
@@ -200,7 +199,7 @@ impl<T: Real> PressedFlat<T> {
             return Err(Error::Shared { what: "contact", reason: one });
         }
         if !operator.takes_slabs() {
-            Error::alone("elastic operator", slab)?;
+            slab.alone("elastic operator")?;
         }
         if let Some(shape) = law.shape() {
             Error::shape("adhesion law that varies over the surface", shape, grid.shape())?;
@@ -223,7 +222,7 @@ impl<T: Real> PressedFlat<T> {
             return Err(Error::Law { function, gap: 0.0, value: value.widen(), expected: None });
         }
         // gap, pressure and K⁻¹h, and in f32 the other fields of a solve
-        afford("a solve", slab, 3 * size_of::<T>() + 16)?;
+        slab.afford("a solve", 3 * size_of::<T>() + 16)?;
         let window = Window::new(surface, operator.grid());
         let extended = window.as_ref().map(|window| window.extend(surface.heights().view()));
         let padded;
@@ -251,7 +250,7 @@ impl<T: Real> PressedFlat<T> {
         let mean_square = field::mean_over(slab, surface_pressure.view(), |p: T| p.widen().powi(2));
         // squares may be beyond the range of finite pressures
         if !mean_square.is_finite() {
-            Error::all_finite_in(slab, "pressure K⁻¹h of the surface pressed flat", surface_pressure.view())?;
+            all_finite_in(slab, "pressure K⁻¹h of the surface pressed flat", surface_pressure.view())?;
         }
         let stiffness = mean_square.sqrt() / rms_height;
         let (lx, ly) = grid.lengths();

@@ -51,7 +51,7 @@ const STEP: (f64, f64) = (1.4, 8.0);
 /// ```
 /// use asperity::{ContactSearch, Grid, NoAdhesion, Problem, SelfAffine, Solver, Westergaard};
 /// let grid = Grid::square(128, 1.0)?;
-/// let surface = SelfAffine { k_s: 16.0, ..SelfAffine::default() }.surface(grid)?;
+/// let surface = SelfAffine::default().k_s(16.0).surface(grid)?;
 /// let mut problem = Problem::new(&surface, Westergaard::<f64>::new(grid, 1.0)?, NoAdhesion)?;
 /// let mut solver = Solver::default();
 /// let mut search = ContactSearch::new(&mut solver, &mut problem)?;

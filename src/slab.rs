@@ -5,6 +5,7 @@ use std::ops::Range;
 
 use ndarray::{Array2, ArrayRef2, ArrayView1, ArrayView2, CowArray, Ix2};
 
+use crate::error::{Error, Result};
 use crate::ranks::{Ranks, Sent, Shares};
 
 /// The nodes of a chunk, which are summed one after the other. The rounding of sums of sums grows with the length of a
@@ -114,6 +115,36 @@ impl Slab {
     /// Whether several processes share the grid.
     pub(crate) fn is_shared(&self) -> bool {
         self.ranks.count() > 1
+    }
+
+    /// The result of this process, unless one before it has an error, or it has none itself and another one has: then
+    /// that one is named. All processes of the slab have to call it.
+    pub(crate) fn agreed<T>(&self, result: Result<T>) -> Result<T> {
+        if !self.is_shared() {
+            return result;
+        }
+        let refused = self.ranks.each(u8::from(result.is_err())).iter().position(|&refused| refused > 0);
+        match refused {
+            Some(rank) if rank != self.ranks.rank() => Err(Error::Elsewhere { rank }),
+            _ => result,
+        }
+    }
+
+    /// Refuses `what` where several processes share the slab.
+    pub(crate) fn alone(&self, what: &'static str) -> Result<()> {
+        let reason = "that has no form for slabs: take the whole grid in one process";
+        if self.is_shared() { Err(Error::Shared { what, reason }) } else { Ok(()) }
+    }
+
+    /// Refuses what takes more memory than this process gets for its rows.
+    ///
+    /// An allocation that fails ends the process, so that it is asked for as a whole before the first of its parts,
+    /// and given back.
+    pub(crate) fn afford(&self, what: &str, bytes_per_node: usize) -> Result<()> {
+        let ((nx, ny), (rows, _)) = (self.shape, self.held());
+        let bytes = rows as f64 * ny as f64 * bytes_per_node as f64;
+        let given = Vec::<u8>::new().try_reserve_exact(bytes as usize);
+        self.agreed(given.map_err(|_| Error::Memory { what: format!("{what} on {nx} x {ny} nodes"), bytes }))
     }
 
     /// The rows that this process holds.
@@ -323,5 +354,16 @@ mod tests {
         // as many as there are, of the same size
         let slab = Slab::new((512, 512), Ranks::of(0, 4));
         assert_eq!([0, 1, 2, 3].map(|rank| slab.rows_of(rank)), [0..128, 128..256, 256..384, 384..512]);
+    }
+
+    #[test]
+    fn memory_that_no_system_has_is_refused() {
+        let asked = |shape| Slab::whole(shape).afford("a solve", 40);
+        // more than the addresses of a process, and more bytes than there are numbers for them
+        for shape in [(1 << 22, 1 << 22), (1 << 40, 1 << 40)] {
+            let text = asked(shape).unwrap_err().to_string();
+            assert!(text.starts_with(&format!("a solve on {} x {} nodes takes", shape.0, shape.1)), "{text}");
+        }
+        assert_eq!(asked((1 << 11, 1 << 11)), Ok(()));
     }
 }

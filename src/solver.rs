@@ -8,6 +8,7 @@ use crate::elastic::ElasticOperator;
 use crate::error::Result;
 use crate::problem::{Control, Parts, Problem};
 use crate::real::Real;
+use crate::setters::setters;
 
 mod branch;
 mod certificate;
@@ -74,7 +75,7 @@ impl Method {
 /// ```
 /// use asperity::{Criterion, Settings};
 /// // the paper's iteration, held to the certified error
-/// let certified = Settings { criterion: Criterion::EnergyNorm, ..Settings::rey2017() };
+/// let certified = Settings::rey2017().criterion(Criterion::EnergyNorm);
 /// assert_eq!(certified.criterion, Settings::default().criterion);
 /// assert_eq!(certified.criterion.name(), "energy-norm");
 /// ```
@@ -115,9 +116,10 @@ impl Criterion {
 ///
 /// ```
 /// use asperity::Settings;
-/// let loose = Settings { tolerance: Some(1e-3), ..Settings::default() };
+/// let loose = Settings::default().tolerance(1e-3);
 /// assert_eq!((loose.tolerance_in::<f32>(), loose.max_iterations), (1e-3, 2000));
 /// ```
+#[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {
     /// The iteration.
@@ -151,6 +153,14 @@ impl Settings {
     /// The paper's Algorithm 3 with its own criterion, ε < 1e-9.
     pub fn rey2017() -> Self {
         Self { method: Method::Rey2017, criterion: Criterion::Orthogonality, max_iterations: 20_000, ..Self::default() }
+    }
+
+    setters! {
+        method: Method,
+        criterion: Criterion,
+        tolerance: impl Into<Option<f64>>,
+        max_iterations: usize,
+        branch: impl Into<Option<Branch>>,
     }
 
     /// The tolerance that holds in a precision: the given one, or the default of the criterion.
@@ -199,7 +209,7 @@ impl Settings {
 /// let grid = Grid::line(256, 1.0)?;
 /// let surface = Surface::wave(grid, 0.02, 1)?;
 /// let mut problem = Problem::new(&surface, Westergaard::<f64>::new(grid, 1.0)?, NoAdhesion)?;
-/// let mut solver = Solver::new(Settings { tolerance: Some(1e-8), ..Settings::default() });
+/// let mut solver = Solver::new(Settings::default().tolerance(1e-8));
 /// let solution = solver.solve(&mut problem, Control::MeanPressure(0.03))?;
 /// assert_eq!(solution.report.status, Status::Converged);
 /// # Ok::<(), asperity::Error>(())

@@ -11,11 +11,12 @@ use crate::adhesion::AdhesionLaw;
 use crate::constraint::{ContactConstraint, Projection};
 use crate::elastic::ElasticOperator;
 use crate::error::{Error, Result};
-use crate::field::{CHUNK, Partial, Reducer, flat, write};
+use crate::field::{CHUNK, Partial, Reducer, all_finite_in, flat, write};
 use crate::grid::Grid;
 use crate::par::{self, Parts};
 use crate::problem::{Control, Problem, Window, smoothed_law};
 use crate::real::Real;
+use crate::setters::setters;
 use crate::solver::{Of, Potential, Solution, check_wall};
 
 mod bound;
@@ -37,6 +38,7 @@ pub(crate) use watch::{Saddle, Watch};
 /// The verdict on an equilibrium: stable, unstable, or undecided.
 ///
 /// [`StabilityTest`] has an example.
+#[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Verdict {
     /// The smallest eigenvalue is bounded below by a positive number: a strict local minimum of the energy.
@@ -111,7 +113,7 @@ impl fmt::Display for Verdict {
 /// for (gap, verdict) in [(0.011, Verdict::Unstable), (0.012, Verdict::Stable)] {
 ///     let control = Control::MeanGap(gap);
 ///     let solution = Solver::default().solve(&mut problem, control)?;
-///     let test = StabilityTest { tolerance: 1e-3, ..StabilityTest::default() };
+///     let test = StabilityTest::default().tolerance(1e-3);
 ///     let stability = test.run(&mut problem, control, &solution)?;
 ///     let exact = std::f64::consts::PI - 10.0 * (-gap / 1e-2_f64).exp();
 ///     assert_eq!(stability.verdict, verdict);
@@ -119,6 +121,7 @@ impl fmt::Display for Verdict {
 /// }
 /// # Ok::<(), asperity::Error>(())
 /// ```
+#[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StabilityTest {
     /// The relative residual of the mode at which the iteration ends.
@@ -166,6 +169,8 @@ pub struct Stability<T> {
 }
 
 impl StabilityTest {
+    setters! { tolerance: f64, max_iterations: usize, bound: bool }
+
     /// Tests whether a solution is stable under a control, which need not be the one under which it was found.
     /// The wall is rigid: contact is where the gap is zero. The gap may be in any memory layout.
     ///
@@ -302,9 +307,9 @@ where
     L: AdhesionLaw<T>,
 {
     let slab = problem.grid().slab();
-    Error::agreed(slab, Error::shape("gap", gap.dim(), slab.held()))?;
+    slab.agreed(Error::shape("gap", gap.dim(), slab.held()))?;
     if problem.flat.window.is_none() {
-        Error::all_finite_in(slab, "gap", gap.view())?;
+        all_finite_in(slab, "gap", gap.view())?;
     }
     check_wall(&problem.law, constraint.wall())?;
     let negative = gap.iter().find(|&&gap| constraint.wall().is_rigid() && gap < T::zero());
@@ -313,7 +318,7 @@ where
             "zero or positive; a solution with springs or without a wall is looked at with its constraint";
         Err(Error::Value { name: "gap", value: gap.widen(), requirement })
     });
-    Error::agreed(slab, refused)
+    slab.agreed(refused)
 }
 
 /// The second derivative of the local energy at every node of the operator's grid, and infinity where a rigid wall is
@@ -348,7 +353,7 @@ fn slopes<T: Real>(
         let refused = own.map_or(Ok(()), |(gap, value)| {
             Err(Error::Law { function: "slope of the local traction", gap, value, expected: None })
         });
-        Error::agreed(slab, refused)?;
+        slab.agreed(refused)?;
     }
     // nothing attracts, and nothing confines, where no surface faces the half-space
     Ok(match window {

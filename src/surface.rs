@@ -7,8 +7,8 @@ use ndarray::{Array2, Axis, Slice};
 
 use crate::error::{Error, Result};
 use crate::field;
+use crate::field::all_finite_in;
 use crate::grid::Grid;
-use crate::memory::afford;
 
 mod philox;
 mod self_affine;
@@ -51,8 +51,8 @@ impl Surface {
     /// # Errors
     /// [`Error::Shape`] if they do not fit the grid, [`Error::NotFinite`] with the number and place of missing points.
     pub fn new(grid: Grid, heights: Array2<f64>) -> Result<Self> {
-        Error::agreed(grid.slab(), Error::shape("heights", heights.dim(), grid.field_shape()))?;
-        Error::all_finite_in(grid.slab(), "heights", heights.view())?;
+        grid.slab().agreed(Error::shape("heights", heights.dim(), grid.field_shape()))?;
+        all_finite_in(grid.slab(), "heights", heights.view())?;
         let heights = if heights.is_standard_layout() { heights } else { heights.as_standard_layout().into_owned() };
         Ok(Self { grid, heights, absent: None })
     }
@@ -80,14 +80,14 @@ impl Surface {
     /// ones, [`Error::Value`] if all nodes are absent.
     pub fn with_absent(grid: Grid, heights: Array2<f64>) -> Result<Self> {
         let slab = grid.slab();
-        Error::agreed(slab, Error::shape("heights", heights.dim(), grid.field_shape()))?;
+        slab.agreed(Error::shape("heights", heights.dim(), grid.field_shape()))?;
         let missing = heights.iter().filter(|h| h.is_nan()).count();
         let all_missing = grid.total(missing);
         if all_missing == 0 {
             return Self::new(grid, heights);
         }
         if slab.has(heights.iter().any(|h| h.is_infinite())) {
-            Error::all_finite_in(slab, "heights", heights.mapv(|h| if h.is_nan() { 0.0 } else { h }).view())?;
+            all_finite_in(slab, "heights", heights.mapv(|h| if h.is_nan() { 0.0 } else { h }).view())?;
         }
         let absent = Array2::from_shape_vec(slab.held(), heights.iter().map(|h| h.is_nan()).collect()).ok();
         if all_missing == grid.nodes() {
@@ -111,7 +111,7 @@ impl Surface {
     /// [`Error::NotFinite`] if the function is not finite at a node, [`Error::Memory`] if the heights take more than
     /// there is.
     pub fn from_fn(grid: Grid, height: impl Fn(f64, f64) -> f64) -> Result<Self> {
-        afford("a surface", grid.slab(), 8)?;
+        grid.slab().afford("a surface", 8)?;
         Self::new(grid, grid.sample(height))
     }
 

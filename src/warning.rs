@@ -11,7 +11,7 @@ use crate::par;
 use crate::problem::mu_rho;
 use crate::real::Real;
 use crate::slab::Slab;
-use crate::solver::Solution;
+use crate::solver::{Report, Solution};
 use crate::surface::{ScanAxis, Surface, Topography};
 use crate::vector::sums;
 
@@ -45,8 +45,8 @@ const FLAT: f64 = 4.0 * f64::EPSILON;
 /// solution has lost their symmetry: beyond what nodes at the edge of the contact make.
 const UNLIKE: f64 = 0.05;
 
-/// The resolution measure μ_ρ that the grid resolves; see [`Report::under_resolved`](crate::Report).
-const RESOLVED: f64 = 0.5;
+/// The resolution measure μ_ρ that the grid resolves.
+const RESOLVED: f64 = Report::RESOLVED_MU_RHO;
 
 /// A probable mistake in the input, or in an answer: a code, the number that shows it, and a remedy.
 ///

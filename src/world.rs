@@ -25,7 +25,7 @@ use crate::slab::Slab;
 /// use asperity::{Control, Grid, NoAdhesion, Problem, SelfAffine, Solver, Westergaard, World};
 /// let world = World::start()?;
 /// let grid = world.share(Grid::square(65536, 1.0)?)?;
-/// let surface = SelfAffine { k_s: 8192.0, ..SelfAffine::default() }.surface(grid)?;
+/// let surface = SelfAffine::default().k_s(8192.0).surface(grid)?;
 /// let mut problem = Problem::new(&surface, Westergaard::<f64>::new(grid, 1.0)?, NoAdhesion)?;
 /// let solution = Solver::default().solve(&mut problem, Control::MeanPressure(0.01))?;
 /// if world.rank() == 0 {

@@ -64,7 +64,7 @@ pub fn iterations<T: Real>(
     count: usize,
 ) -> Duration {
     let mut time = |max_iterations| {
-        let settings = Settings { max_iterations, tolerance: Some(1e-14), ..Settings::default() };
+        let settings = Settings::default().max_iterations(max_iterations).tolerance(1e-14);
         let clock = Instant::now();
         let solution = Solver::new(settings).solve(problem, control).expect("a good problem");
         let elapsed = clock.elapsed();

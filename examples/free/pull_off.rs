@@ -34,8 +34,8 @@ pub fn chart(size: usize) -> Outcome<Chart> {
         let mut problem = Problem::new(&surface, Boussinesq::<f64>::new(grid, 1.0)?, law)?;
         let mu_rho = problem.mu_rho();
         let legs = [1.0, -1.0].map(|sign| Control::Approach(maugis.approach() + sign * WAY * length));
-        let settings = PathSettings { steps: STEPS, smallest_step: 0.05, ..PathSettings::default() };
-        let mut solver = Solver::new(Settings { tolerance: Some(1e-5), ..Settings::default() });
+        let settings = PathSettings::default().steps(STEPS).smallest_step(0.05);
+        let mut solver = Solver::new(Settings::default().tolerance(1e-5));
         let (mut strongest, mut applications) = (0.0_f64, 0);
         for step in Path::new(&mut solver, &mut problem, legs, settings)? {
             let report = step?.solution.report;

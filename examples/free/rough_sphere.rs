@@ -79,7 +79,7 @@ pub fn chart(n: usize) -> Outcome<Chart> {
 fn surface(n: usize, slope: f64, seed: u64) -> Outcome<Surface> {
     let grid = Grid::square(n, 1.0)?;
     let amplitude = Amplitude::RmsSlope(slope);
-    let roughness = SelfAffine { amplitude, k_l: 8.0, k_r: 8.0, k_s: n as f64 / 12.0, seed, ..SelfAffine::default() };
+    let roughness = SelfAffine::default().amplitude(amplitude).k_l(8.0).k_r(8.0).k_s(n as f64 / 12.0).seed(seed);
     let sphere = Surface::paraboloid(grid, RADIUS)?;
     Ok(Surface::new(grid, roughness.surface(grid)?.heights() + sphere.heights())?)
 }
@@ -88,7 +88,7 @@ fn surface(n: usize, slope: f64, seed: u64) -> Outcome<Surface> {
 fn areas(surface: &Surface, loads: &[f64]) -> Outcome<Vec<f64>> {
     let grid = surface.grid();
     let mut problem = Problem::new(surface, Boussinesq::<f64>::new(*grid, 1.0)?, NoAdhesion)?;
-    let mut solver = Solver::new(Settings { tolerance: Some(1e-4), ..Settings::default() });
+    let mut solver = Solver::new(Settings::default().tolerance(1e-4));
     let mut areas = Vec::new();
     for step in Sweep::new(&mut solver, &mut problem, loads.iter().copied().map(Control::Force)) {
         let statistics = ContactStatistics::of(&step?.1, grid, &NoAdhesion)?;

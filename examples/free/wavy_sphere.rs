@@ -32,8 +32,8 @@ pub fn chart(n: usize) -> Outcome<Chart> {
     let (far, near) = (-0.12, exact.approach(LARGEST));
     let start = -far - surface.heights();
     let legs = [far, near, far].map(Control::Approach);
-    let settings = PathSettings { smallest_step: 2e-3, ..PathSettings::default() };
-    let mut solver = Solver::new(Settings { tolerance: Some(1e-5), ..Settings::default() });
+    let settings = PathSettings::default().smallest_step(2e-3);
+    let mut solver = Solver::new(Settings::default().tolerance(1e-5));
     let mut ways = [Vec::new(), Vec::new()];
     let mut jumps = [Vec::new(), Vec::new()];
     let mut steps = 0;

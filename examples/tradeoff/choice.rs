@@ -80,9 +80,9 @@ impl Choice {
     fn settings(&self, tolerance: f64) -> Settings {
         if self.rey2017 {
             let criterion = Settings::default().criterion;
-            Settings { tolerance: Some(tolerance), criterion, ..Settings::rey2017() }
+            Settings::rey2017().tolerance(tolerance).criterion(criterion)
         } else {
-            Settings { tolerance: Some(tolerance), ..Settings::default() }
+            Settings::default().tolerance(tolerance)
         }
     }
 }

@@ -61,7 +61,14 @@ impl Scene {
     fn surface(&self, n: usize) -> Outcome<Surface> {
         let &Self { seed, hurst, .. } = self;
         let (amplitude, random_phase) = (Amplitude::RmsSlope(SLOPE), seed.is_multiple_of(2));
-        let spectrum = SelfAffine { k_l: 1.0, k_r: 2.0, k_s: SHORTEST, hurst, amplitude, seed, random_phase };
+        let spectrum = SelfAffine::default()
+            .k_l(1.0)
+            .k_r(2.0)
+            .k_s(SHORTEST)
+            .hurst(hurst)
+            .amplitude(amplitude)
+            .seed(seed)
+            .random_phase(random_phase);
         Ok(spectrum.surface(Grid::square(n, 1.0)?)?)
     }
 
@@ -72,7 +79,7 @@ impl Scene {
     /// The corrected area as the tool finds it without an accuracy, with coarser grids where they pay, and the work.
     fn by_hand(&self, n: usize, tolerance: f64) -> Outcome<(f64, f64)> {
         let (surface, law) = (self.surface(n)?, self.law()?);
-        let mut nested = Nested::new(Settings { tolerance: Some(tolerance), ..Settings::default() });
+        let mut nested = Nested::new(Settings::default().tolerance(tolerance));
         if !nested.pays::<f64>(&surface, &law, self.control) {
             nested.coarsest = n;
         }
@@ -84,7 +91,7 @@ impl Scene {
     /// The solution on a grid; its contact stiffness if it is wanted.
     fn solve(&self, n: usize, tolerance: f64, stiffness: bool) -> Outcome<Found> {
         let surface = self.surface(n)?;
-        let settings = Settings { tolerance: Some(tolerance), ..Settings::default() };
+        let settings = Settings::default().tolerance(tolerance);
         let mut problem = Problem::new(&surface, half_space(*surface.grid())?, self.law()?)?;
         let solution = Solver::new(settings).solve(&mut problem, self.control)?;
         let stiffness =
@@ -176,7 +183,7 @@ fn estimates(scenes: &[Scene], truths: &[Found], quick: bool) -> Outcome<()> {
                 let surface = scene.surface(n)?;
                 // as the tool does: the solver leaves next to nothing on the finest grid
                 let stiffness = (quantity != Quantity::Area).then_some(ContactStiffness::TOLERANCE);
-                let mut nested = Nested { coarse_tolerance: 1e-3, coarsest: GIVEN, stiffness, ..Nested::default() };
+                let mut nested = Nested::default().coarse_tolerance(1e-3).coarsest(GIVEN).stiffness(stiffness);
                 let found = nested.solve(&surface, half_space, scene.law()?, scene.control)?;
                 let waves = surface.nodes_per_wave(Boundary::Periodic);
                 let mu_rho = found.solution.report.mu_rho;
@@ -212,8 +219,8 @@ fn coarse(scenes: &[Scene], quick: bool) -> Outcome<()> {
         for coarse_tolerance in [1e-2, 1e-3, 1e-4] {
             let mut sum = 0.0;
             for scene in scenes {
-                let settings = Settings { tolerance: Some(fine), ..Settings::default() };
-                let mut nested = Nested { coarse_tolerance, coarsest: GIVEN, ..Nested::new(settings) };
+                let settings = Settings::default().tolerance(fine);
+                let mut nested = Nested::new(settings).coarse_tolerance(coarse_tolerance).coarsest(GIVEN);
                 let found = nested.solve(&scene.surface(n)?, half_space, scene.law()?, scene.control)?;
                 sum += found.equivalent_applications();
             }
@@ -265,7 +272,7 @@ fn knob(scenes: &[Scene], truths: &[Found], quick: bool, out: &Path) -> Outcome<
         let (mut errors, mut taken, mut reached) = (Vec::new(), Vec::new(), 0);
         for (scene, truth) in scenes.iter().zip(truths) {
             let surface = scene.surface(GIVEN)?;
-            let found = Accuracy { memory: 2e8, ..Accuracy::new(target, Quantity::Area) }.solve(
+            let found = Accuracy::new(target, Quantity::Area).memory(2e8).solve(
                 &surface,
                 half_space,
                 scene.law()?,

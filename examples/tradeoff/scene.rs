@@ -149,7 +149,7 @@ impl Scene {
             Kind::Wave => Surface::wave(grid, AMPLITUDE, 1)?,
             Kind::Rough { k_s, .. } => {
                 let amplitude = Amplitude::RmsSlope(SLOPE);
-                SelfAffine { k_s, amplitude, seed: 1, ..SelfAffine::default() }.surface(grid)?
+                SelfAffine::default().k_s(k_s).amplitude(amplitude).seed(1).surface(grid)?
             }
         })
     }

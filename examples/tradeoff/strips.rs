@@ -123,7 +123,7 @@ impl Scene {
             let surface = Surface::from_fn(grid, |x, y| {
                 self.height(x / period) + if self.lattice { self.height(y / period) } else { 0.0 }
             })?;
-            let settings = Settings { tolerance: Some(1e-8), ..Settings::default() };
+            let settings = Settings::default().tolerance(1e-8);
             let found = Nested::new(settings).solve(&surface, half_space, NoAdhesion, self.control)?.solution;
             let area = ContactArea::of_solution(&found, &grid)?.corrected_contact_fraction;
             Ok((area, found.report.mean_gap))
@@ -143,7 +143,7 @@ impl Scene {
             let across = if self.lattice { self.height(kx * y - ky * x + other) } else { 0.0 };
             self.height(kx * x + ky * y + one) + across
         })?;
-        let found = Accuracy { memory: MEMORY, ..Accuracy::new(target, Quantity::Area) }.solve(
+        let found = Accuracy::new(target, Quantity::Area).memory(MEMORY).solve(
             &surface,
             half_space,
             NoAdhesion,

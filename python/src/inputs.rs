@@ -1,7 +1,8 @@
 //! The inputs of a problem by the names of their keywords: body, wall, load and settings. The law has a file of its
 //! own.
 
-use asperity::accuracy::{Accuracy, Quantity, available_memory};
+use asperity::accuracy::{Accuracy, Quantity};
+use asperity::io::{available_memory, check_memory};
 use asperity::{
     Boussinesq, Branch, ContactConstraint, Control, Criterion, ElasticOperator, Grid, NoWall, Projection, Real,
     Settings, Solver, Surface, Warning, WarningCode, Westergaard,
@@ -28,8 +29,10 @@ impl Beyond {
         }
     }
 
-    /// The elastic body of a problem.
+    /// The elastic body of a problem, if the machine has the memory for a solve: five fields of `f64`, and four times
+    /// as many with a free boundary.
     pub fn half_space<T: Real>(self, grid: Grid, modulus: f64) -> asperity::Result<Box<dyn ElasticOperator<T>>> {
+        check_memory("a solve", grid.shape(), if self == Self::Free { 160 } else { 40 })?;
         Ok(match self {
             Self::Periodic => Box::new(Westergaard::<T>::new(grid, modulus)?),
             Self::Free => Box::new(Boussinesq::<T>::new(grid, modulus)?),
@@ -136,7 +139,7 @@ pub fn settings(
 ) -> PyResult<Settings> {
     let default = match method {
         "default" => Settings::default(),
-        "rey2017" => Settings { criterion: Criterion::EnergyNorm, ..Settings::rey2017() },
+        "rey2017" => Settings::rey2017().criterion(Criterion::EnergyNorm),
         other => return Err(PyValueError::new_err(format!("method is {other}: it must be default or rey2017"))),
     };
     let max_iterations = max_iterations.unwrap_or(default.max_iterations);
@@ -148,5 +151,5 @@ pub fn settings(
             return Err(PyValueError::new_err(format!("branch is {other}: it must be loading, unloading or both")));
         }
     };
-    Ok(Settings { tolerance, max_iterations, branch, ..default })
+    Ok(default.tolerance(tolerance).max_iterations(max_iterations).branch(branch))
 }

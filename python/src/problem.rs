@@ -110,7 +110,7 @@ trait Solves: Send {
         start: Option<Field<'py>>,
     ) -> PyResult<Option<Bound<'py, PyDict>>>;
     fn end_leg(&mut self);
-    fn plan(&self, py: Python<'_>, pool: &Pool, control: Control, goal: &Goal) -> PyResult<Plan>;
+    fn plan(&self, py: Python<'_>, pool: &Pool, control: Control, goal: &Goal) -> PyResult<(Plan, f64)>;
     fn stability<'py>(
         &mut self,
         py: Python<'py>,
@@ -235,7 +235,7 @@ impl<T: Scalar> State<T> {
     /// An account with the solution on the other branch of equilibria, if both are asked for and it has a branch.
     fn with_other(&mut self, account: Account<T>, observe: Observe<'_>) -> asperity::Result<Account<T>> {
         let Some(branch) = account.solution.report.branch.filter(|_| self.both) else { return Ok(account) };
-        let settings = Settings { branch: Some(branch.other()), ..self.solver.settings };
+        let settings = self.solver.settings.branch(branch.other());
         let mut solver = Solver { settings, ..self.solver.clone() };
         let problem = single(&mut self.body, &self.law, self.beyond, self.modulus)?;
         let found = solver.solve_with(problem, account.control, Start::Default, observe)?;
@@ -264,15 +264,9 @@ impl<T: Scalar> State<T> {
             return Ok(None);
         }
         let clock = Instant::now();
-        let Nested { coarsest, closed, .. } = Nested::default();
-        let stiffness = stiffness.then_some(ContactStiffness::TOLERANCE);
-        let mut nested = Nested {
-            solver: self.solver.clone(),
-            coarse_tolerance: GridError::COARSE_TOLERANCE,
-            coarsest,
-            stiffness,
-            closed,
-        };
+        let mut nested = Nested::with_solver(self.solver.clone())
+            .coarse_tolerance(GridError::COARSE_TOLERANCE)
+            .stiffness(stiffness.then_some(ContactStiffness::TOLERANCE));
         let found = nested.solve_observed(surface, half_space, law, control, |_, state| observe(state))?;
         let applications = found.equivalent_applications();
         let NestedSolution { solution, levels, .. } = found;
@@ -452,13 +446,19 @@ impl<T: Scalar> Solves for State<T> {
         self.leg_ends = true;
     }
 
-    fn plan(&self, py: Python<'_>, pool: &Pool, control: Control, goal: &Goal) -> PyResult<Plan> {
+    fn plan(&self, py: Python<'_>, pool: &Pool, control: Control, goal: &Goal) -> PyResult<(Plan, f64)> {
         let Body::Surface(surface) = &self.body else { return Err(refusal(spent())) };
         let (wanted, law) = (accuracy(goal, self.solver.clone())?, &self.law);
         let (beyond, grid, modulus) = (self.beyond, self.grid, self.modulus);
         let plan = || {
             let mut operator = beyond.half_space::<T>(grid, modulus)?;
-            wanted.plan(surface, &mut operator, law, control)
+            let plan = wanted.plan(surface, &*operator, law, control)?;
+            let mut fields = [(); 2].map(|()| Array2::<T>::zeros(operator.grid().shape()));
+            let [u, p] = &mut fields;
+            operator.pressure(u.view(), p.view_mut())?;
+            let clock = Instant::now();
+            operator.pressure(u.view(), p.view_mut())?;
+            Ok((plan, plan.applications * clock.elapsed().as_secs_f64()))
         };
         py.detach(|| pool.get().install(plan)).map_err(refusal)
     }
@@ -570,7 +570,7 @@ impl Problem {
     #[pyo3(signature = (load, accuracy))]
     fn plan(&mut self, py: Python<'_>, load: Load, accuracy: Goal) -> PyResult<Planned> {
         let (pool, solves) = self.parts()?;
-        let Plan { nodes_per_wave, tolerance, shape, bytes, seconds, .. } =
+        let (Plan { nodes_per_wave, tolerance, shape, bytes, .. }, seconds) =
             solves.plan(py, &pool, control(&load)?, &accuracy)?;
         Ok((nodes_per_wave, tolerance, shape, bytes, seconds))
     }
@@ -627,7 +627,8 @@ impl Problem {
         observe: Option<Py<PyAny>>,
     ) -> PyResult<Option<Bound<'py, PyDict>>> {
         let loads = loads.iter().map(control).collect::<PyResult<_>>()?;
-        let settings = PathSettings { steps, smallest_step, imbalance, smooth };
+        let settings =
+            PathSettings::default().steps(steps).smallest_step(smallest_step).imbalance(imbalance).smooth(smooth);
         let (pool, solves) = self.parts()?;
         solves.next_step(py, Run { pool: &pool, observer: observe.as_ref() }, loads, settings, start)
     }

@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use asperity::io::check_memory;
 use asperity::{Amplitude, Form, Grid, Psd, RowAlignment, ScanAxis, SelfAffine, Surface, Topography, Trend, Warning};
 use numpy::{IntoPyArray, PyArray1, PyArray2};
 use pyo3::exceptions::PyValueError;
@@ -65,7 +66,15 @@ pub fn self_affine<'py>(
         _ => return Err(PyValueError::new_err("give rms_height or rms_slope, one of the two")),
     };
     let k_r = k_r.unwrap_or(k_l);
-    let rough = SelfAffine { hurst, k_l, k_r, k_s, amplitude, random_phase, seed };
+    let rough = SelfAffine::default()
+        .hurst(hurst)
+        .k_l(k_l)
+        .k_r(k_r)
+        .k_s(k_s)
+        .amplitude(amplitude)
+        .random_phase(random_phase)
+        .seed(seed);
+    check_memory("a random surface", shape, 32).map_err(refusal)?;
     let drawn = apart(py, || rough.surface(Grid::new(shape, lengths)?).map(Topography::from))?;
     Ok(drawn.heights.into_pyarray(py))
 }

@@ -1,9 +1,6 @@
 //! A solve to an accuracy: grids that become finer until the estimated error is small enough.
 
 use std::ops::ControlFlow;
-use std::time::Instant;
-
-use ndarray::Array2;
 
 use super::refine::{refined, twice};
 use super::{CAUTION, FINE, GridError, Quantity, resolves_adhesion};
@@ -15,6 +12,7 @@ use crate::grid::Grid;
 use crate::nested::{Deformed, Level, Nested, equivalent_applications};
 use crate::problem::{Control, Problem, mu_rho};
 use crate::real::Real;
+use crate::setters::setters;
 use crate::solver::{Begin, Iteration, Solution, Solved, Solver, Status};
 use crate::stability::ContactStiffness;
 use crate::surface::Surface;
@@ -62,7 +60,7 @@ const DOUBT: f64 = 3.0;
 /// use asperity::accuracy::{Accuracy, Quantity};
 /// use asperity::{Control, Grid, NoAdhesion, SelfAffine, Westergaard};
 /// // the shortest wave has four nodes: too few for an area that is right to 2 %
-/// let surface = SelfAffine { k_s: 16.0, ..SelfAffine::default() }.surface(Grid::square(64, 1.0)?)?;
+/// let surface = SelfAffine::default().k_s(16.0).surface(Grid::square(64, 1.0)?)?;
 /// let half_space = |grid| Westergaard::<f64>::new(grid, 1.0);
 /// let mut wanted = Accuracy::new(0.02, Quantity::Area);
 /// let found = wanted.solve(&surface, half_space, NoAdhesion, Control::MeanPressure(2e-3))?;
@@ -71,6 +69,7 @@ const DOUBT: f64 = 3.0;
 /// assert_eq!(found.solution.gap.dim(), found.surface.grid().shape());
 /// # Ok::<(), asperity::Error>(())
 /// ```
+#[non_exhaustive]
 #[derive(Clone, Debug)]
 pub struct Accuracy<C = Projection> {
     /// The relative error that is wanted, between 0 and 1.
@@ -95,8 +94,8 @@ pub struct Plan {
     pub shape: (usize, usize),
     /// The memory that it takes, in bytes.
     pub bytes: f64,
-    /// The time that it takes, in seconds, by that of an operator application on the given grid.
-    pub seconds: f64,
+    /// The time that it takes, in operator applications on the given grid.
+    pub applications: f64,
 }
 
 /// The solution to an accuracy; [`Accuracy`] has an example.
@@ -145,16 +144,17 @@ impl<C> Accuracy<C> {
     /// ```
     /// use asperity::accuracy::{Accuracy, Quantity};
     /// use asperity::{NoWall, Settings, Solver};
-    /// let solver = Solver { settings: Settings { tolerance: Some(1e-5), ..Settings::default() }, constraint: NoWall };
+    /// let solver = Solver { settings: Settings::default().tolerance(1e-5), constraint: NoWall };
     /// assert_eq!(Accuracy::with_solver(0.01, Quantity::Gap, solver).tolerance()?, 1e-5);
     /// # Ok::<(), asperity::Error>(())
     /// ```
     pub fn with_solver(target: f64, of: Quantity, solver: Solver<C>) -> Self {
-        let Nested { coarse_tolerance, stiffness, .. } = Nested::default();
         // a coarser grid that gives no start tells the error all the same
-        let nested = Nested { solver, coarse_tolerance, coarsest: COARSEST, stiffness, closed: 1.0 };
+        let nested = Nested::with_solver(solver).coarsest(COARSEST).closed(1.0);
         Self { target, of, memory: MEMORY, nested }
     }
+
+    setters! { memory: f64, nested: Nested<C> }
 
     /// The tolerance of the solver: a twentieth of the accuracy, and at most 1e-3; or the one that was given.
     ///
@@ -175,8 +175,7 @@ impl<C> Accuracy<C> {
         }
     }
 
-    /// The plan for a surface, a law, a control, and the operator on the grid of the surface, of which it takes three
-    /// applications.
+    /// The plan for a surface, a law, a control, and the operator on the grid of the surface.
     ///
     /// # Errors
     /// [`Error::Unaffordable`] if the grid that would do is far beyond the memory; [`Error::Control`] if the control
@@ -184,14 +183,14 @@ impl<C> Accuracy<C> {
     pub fn plan<T: Real>(
         &self,
         surface: &Surface,
-        operator: &mut dyn ElasticOperator<T>,
+        operator: &dyn ElasticOperator<T>,
         law: &dyn AdhesionLaw<T>,
         control: Control,
     ) -> Result<Plan>
     where
         C: ContactConstraint<T>,
     {
-        Error::alone("accuracy", surface.grid().slab())?;
+        surface.grid().slab().alone("accuracy")?;
         let tolerance = self.tolerance()?;
         self.of.check(control)?;
         let nodes_per_wave = surface.nodes_per_wave(operator.boundary());
@@ -219,16 +218,8 @@ impl<C> Accuracy<C> {
                 affordable: if resolved { self.of.expected(nodes_per_wave * finer) } else { f64::INFINITY },
             });
         }
-        let mut fields = [(); 2].map(|()| Array2::<T>::zeros(operator.grid().shape()));
-        let [u, p] = &mut fields;
-        operator.pressure(u.view(), p.view_mut())?;
-        let clock = Instant::now();
-        for _ in 0..2 {
-            operator.pressure(u.view(), p.view_mut())?;
-        }
-        let application = 0.5 * clock.elapsed().as_secs_f64();
-        let seconds = APPLICATIONS * application * growth.powi(refinements);
-        Ok(Plan { nodes_per_wave, tolerance, shape: shape(refinements), bytes: bytes(refinements), seconds })
+        let applications = APPLICATIONS * growth.powi(refinements);
+        Ok(Plan { nodes_per_wave, tolerance, shape: shape(refinements), bytes: bytes(refinements), applications })
     }
 
     /// Whether the edge of the contact on a grid tells the error there.

@@ -6,7 +6,7 @@ use ndarray::{Array2, ArrayView2};
 
 use super::AdhesionLaw;
 use crate::error::{Error, Result};
-use crate::field::flat;
+use crate::field::{all_finite_in, flat};
 use crate::grid::Grid;
 use crate::real::Real;
 use crate::slab::Slab;
@@ -70,17 +70,17 @@ impl<L: AdhesionLaw<f64>> Varying<L> {
     /// # Errors
     /// Those of [`Varying::new`]; [`Error::Shape`] if the works of adhesion do not have the shape of the grid's fields.
     pub fn on(grid: &Grid, law: L, works: ArrayView2<'_, f64>) -> Result<Self> {
-        Error::agreed(grid.slab(), Error::shape("work of adhesion", works.dim(), grid.field_shape()))?;
+        grid.slab().agreed(Error::shape("work of adhesion", works.dim(), grid.field_shape()))?;
         Self::in_slab(law, works, grid.slab())
     }
 
     fn in_slab(law: L, works: ArrayView2<'_, f64>, slab: Slab) -> Result<Self> {
-        Error::all_finite_in(slab, "work of adhesion", works)?;
+        all_finite_in(slab, "work of adhesion", works)?;
         let negative = works.iter().find(|&&work| work < 0.0).map_or(Ok(()), |&value| {
             let requirement = "zero or positive at every node";
             Err(Error::Value { name: "work of adhesion", value, requirement })
         });
-        Error::agreed(slab, negative)?;
+        slab.agreed(negative)?;
         let own = Error::positive("work of adhesion of the law that varies", law.work_of_adhesion())?;
         if law.shape().is_some() {
             let requirement = "one: give the law that the varying one is made of";

@@ -63,7 +63,7 @@ impl ContactArea {
     /// [`Error::Shape`] if the map does not have the shape of the grid.
     pub fn of(map: ArrayView2<'_, bool>, grid: &Grid) -> Result<Self> {
         let slab = grid.slab();
-        Error::agreed(slab, Error::shape("contact map", map.dim(), grid.field_shape()))?;
+        slab.agreed(Error::shape("contact map", map.dim(), grid.field_shape()))?;
         Ok(Self::within(map, grid, true, grid.nodes(), |along| edge_of_map(along, grid)))
     }
 

@@ -4,6 +4,7 @@ use ndarray::ArrayView2;
 
 use super::contact_map;
 use crate::error::{Error, Result};
+use crate::field::all_finite;
 use crate::real::Real;
 use crate::solver::Solution;
 
@@ -122,5 +123,5 @@ fn checked<T: Real>(name: &'static str, pressure: ArrayView2<'_, T>, bins: usize
     if !(1..=MOST_BINS).contains(&bins) {
         return Err(Error::Value { name: "number of bins", value: bins as f64, requirement: "from 1 to 16777216" });
     }
-    Error::all_finite(name, pressure)
+    all_finite(name, pressure)
 }

@@ -21,7 +21,7 @@ use crate::solver::{Report, Solution};
 /// ```
 /// use asperity::contact::Original;
 /// use asperity::{Control, Grid, NoAdhesion, Problem, SelfAffine, Solver, Topography, Westergaard};
-/// let rough = SelfAffine { k_s: 8.0, ..SelfAffine::default() }.surface(Grid::square(32, 1.0)?)?;
+/// let rough = SelfAffine::default().k_s(8.0).surface(Grid::square(32, 1.0)?)?;
 /// let map = Topography::from(rough).crop(3..23, 5..25)?.mirror();
 /// let nodes = map.original.expect("a map that was mirrored");
 /// let surface = map.surface()?;
@@ -50,7 +50,7 @@ impl Original {
     /// [`Error::Value`] if it has no nodes, [`Error::Shape`] if it has more than the map, and [`Error::Shared`] if
     /// several processes share the grid.
     pub fn new(whole: &Grid, nodes: (usize, usize)) -> Result<Self> {
-        Error::alone("the original of a mirrored map", whole.slab())?;
+        whole.slab().alone("the original of a mirrored map")?;
         let (shape, (dx, dy)) = (whole.shape(), whole.spacing());
         if nodes.0 > shape.0 || nodes.1 > shape.1 {
             return Err(Error::Shape { name: "original", found: nodes, expected: shape });

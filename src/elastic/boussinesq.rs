@@ -5,7 +5,6 @@ use std::ops::Range;
 
 use super::*;
 use crate::fft::even_modes;
-use crate::memory::afford;
 use crate::par;
 use crate::slab::TILE;
 
@@ -68,7 +67,7 @@ impl<T: Real> Boussinesq<T> {
         }
         let padded = (padded(shape.0), padded(shape.1));
         let grid = Grid::new(padded, (padded.0 as f64 * dx, padded.1 as f64 * dy))?.shared_around(&window)?;
-        afford("a free half-space", grid.slab(), 16)?;
+        grid.slab().afford("a free half-space", 16)?;
         let modes = even_modes(grid.slab(), kernel(&grid, (0.5 * dx, 0.5 * dy), modulus).view());
         let mean_compliance = grid.slab().first(modes.first().copied().unwrap_or_default());
         let spectral = Spectral::of_compliance(grid, modulus, modes)?;

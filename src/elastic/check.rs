@@ -30,7 +30,7 @@ const POWERS: usize = 20;
 /// ```
 pub fn check_operator<T: Real>(operator: &mut (impl ElasticOperator<T> + ?Sized)) -> Result<()> {
     let grid = *operator.grid();
-    Error::alone("check of an operator", grid.slab())?;
+    grid.slab().alone("check of an operator")?;
     let shape = grid.shape();
     let field = || Array2::<T>::zeros(shape);
     let ([a, b], mut of_a, mut of_b) = ([1, 2].map(|seed| random::<T>(shape, seed)), field(), field());

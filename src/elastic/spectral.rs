@@ -7,7 +7,6 @@ use std::sync::Arc;
 
 use super::*;
 use crate::fft::{Convolver, Layout, Sums};
-use crate::memory::afford;
 use crate::real::Compiled;
 
 mod stiffness;
@@ -66,7 +65,7 @@ impl<T: Real> Spectral<T> {
     /// [`Error::Memory`] if the stiffness takes more than there is.
     pub fn new(grid: Grid, modulus: f64, symbol: impl Fn(f64, f64) -> f64 + Send + Sync + 'static) -> Result<Self> {
         Error::positive("contact modulus", modulus)?;
-        afford("an elastic operator", grid.slab(), size_of::<T>())?;
+        grid.slab().afford("an elastic operator", size_of::<T>())?;
         let symbol: Symbol = Arc::new(symbol);
         let stiffness = stiffness(&grid, &symbol)?;
         let range = stiffness.range();
@@ -94,7 +93,7 @@ impl<T: Real> Spectral<T> {
         let wrong = wrong.map_or(Ok(()), |&value| {
             Err(Error::Value { name: "compliance of a wave", value, requirement: "positive and finite" })
         });
-        Error::agreed(grid.slab(), wrong)?;
+        grid.slab().agreed(wrong)?;
         modes.mapv_inplace(f64::recip);
         let slab = grid.slab();
         if let Some(mean) = modes.first_mut().filter(|_| slab.ranks().rank() == 0) {

@@ -164,8 +164,8 @@ struct Known<'a> {
 }
 
 fn write<T: WritableElement>(path: &Path, fields: &[(&str, &Array2<T>)], known: &Known<'_>) -> Result<()> {
-    let bytes = archive(fields, known).map_err(|e| Error::file(path, format!("cannot be written: {e}")))?;
-    fs::write(path, bytes).map_err(|e| Error::file(path, format!("cannot be written: {e}")))
+    let bytes = archive(fields, known).map_err(|e| Error::unwritable(path, e))?;
+    fs::write(path, bytes).map_err(|e| Error::unwritable(path, e))
 }
 
 /// The bytes of an archive. Written straight into a file that cannot take them, the writer of the archive would say so

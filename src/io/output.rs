@@ -103,7 +103,7 @@ impl OutputFolder {
     /// since [`create`](Self::create) and `force` was not given.
     pub fn commit(self) -> Result<()> {
         let destination = &self.destination;
-        let unwritable = |e| Error::file(destination, format!("cannot be written: {e}"));
+        let unwritable = |e| Error::unwritable(destination, e);
         if destination.symlink_metadata().is_err() {
             if let Some(parent) = destination.parent() {
                 fs::create_dir_all(parent).map_err(unwritable)?;

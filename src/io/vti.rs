@@ -30,7 +30,7 @@ use crate::real::Real;
 /// [`Error::Shape`] if a field does not fit the grid, [`Error::File`] if the file cannot be written.
 pub fn write_vti<T: Real + WritableElement>(path: &Path, grid: &Grid, fields: &[(&str, &Array2<T>)]) -> Result<()> {
     fields.iter().try_for_each(|(_, field)| Error::shape("field", field.dim(), grid.shape()))?;
-    write(path, grid, fields).map_err(|e| Error::file(path, format!("cannot be written: {e}")))
+    write(path, grid, fields).map_err(|e| Error::unwritable(path, e))
 }
 
 fn write<T: Real>(path: &Path, grid: &Grid, fields: &[(&str, &Array2<T>)]) -> io::Result<()> {

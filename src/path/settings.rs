@@ -1,5 +1,7 @@
 //! The settings of a path of equilibria.
 
+use crate::setters::setters;
+
 /// The settings of a path of equilibria.
 ///
 /// | field | default | meaning | range |
@@ -16,9 +18,10 @@
 ///
 /// ```
 /// use asperity::path::PathSettings;
-/// let sharp = PathSettings { smallest_step: 1e-6, ..PathSettings::default() };
+/// let sharp = PathSettings::default().smallest_step(1e-6);
 /// assert_eq!(sharp.steps, 50);
 /// ```
+#[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PathSettings {
     /// The least number of steps in a leg.
@@ -35,4 +38,8 @@ impl Default for PathSettings {
     fn default() -> Self {
         Self { steps: 50, smallest_step: 1e-4, imbalance: 1e-4, smooth: true }
     }
+}
+
+impl PathSettings {
+    setters! { steps: usize, smallest_step: f64, imbalance: f64, smooth: bool }
 }

@@ -52,7 +52,7 @@ pub struct PathStep<T> {
 /// use asperity::{Control, Grid, NoAdhesion, Problem, Solver, Surface, Westergaard};
 /// let grid = Grid::line(64, 1.0)?;
 /// let mut problem = Problem::new(&Surface::wave(grid, 0.02, 1)?, Westergaard::<f64>::new(grid, 1.0)?, NoAdhesion)?;
-/// let (mut solver, settings) = (Solver::default(), PathSettings { steps: 4, ..PathSettings::default() });
+/// let (mut solver, settings) = (Solver::default(), PathSettings::default().steps(4));
 /// let legs = [0.02, 0.01].map(Control::MeanGap);
 /// let whole = Path::new(&mut solver, &mut problem, legs, settings)?.collect::<Result<Vec<_>, _>>()?;
 ///

@@ -5,7 +5,7 @@ use std::ops::Range;
 use ndarray::{Array2, ArrayView2, CowArray, Ix2, Zip};
 
 use crate::error::{Error, Result};
-use crate::field::{flat, flat_mut};
+use crate::field::{all_finite_in, flat, flat_mut};
 use crate::grid::Grid;
 use crate::real::Real;
 use crate::surface::Surface;
@@ -183,7 +183,7 @@ impl Window {
     /// A gap of the surface's grid as one on that of the operator, whatever it has at absent nodes.
     pub(crate) fn start<T: Real>(&self, gap: ArrayView2<'_, T>) -> Result<Array2<T>> {
         let slab = self.grid.slab();
-        Error::agreed(slab, Error::shape("starting gap", gap.dim(), slab.held()))?;
+        slab.agreed(Error::shape("starting gap", gap.dim(), slab.held()))?;
         let gap = self.hold(gap);
         let gap = gap.as_standard_layout();
         let gap = gap.as_slice().unwrap_or_default();
@@ -193,7 +193,7 @@ impl Window {
             self.places().for_each(|(_, own)| flat_mut(&mut facing)[own.clone()].copy_from_slice(&gap[own]));
             facing
         };
-        Error::all_finite_in(self.held.slab(), "starting gap", facing(T::zero()).view())?;
+        all_finite_in(self.held.slab(), "starting gap", facing(T::zero()).view())?;
         Ok(self.extended(facing(T::nan()).view()))
     }
 }

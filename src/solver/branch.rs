@@ -34,7 +34,7 @@ const SOFT: f64 = 100.0;
 /// let wave = Surface::wave(grid, 0.02, 1)?;
 /// let mut problem = Problem::new(&wave, Westergaard::<f64>::new(grid, 1.0)?, Exponential::new(4e-4, 4e-3)?)?;
 /// let mut contact = |branch| {
-///     let mut solver = Solver::new(Settings { branch: Some(branch), ..Settings::default() });
+///     let mut solver = Solver::new(Settings::default().branch(branch));
 ///     Ok::<_, asperity::Error>(solver.solve(&mut problem, Control::MeanPressure(0.0))?.report.contact_fraction)
 /// };
 /// let [loading, unloading] = [contact(Branch::Loading)?, contact(Branch::Unloading)?];
@@ -112,7 +112,7 @@ impl<T: Real> Solution<T> {
     /// let surface = Surface::wave_2d(grid, 0.02, 1)?;
     /// let mut problem = Problem::new(&surface, Westergaard::<f64>::new(grid, 1.0)?, Exponential::new(1e-5, 4e-3)?)?;
     /// let mut solve = |branch| {
-    ///     let mut solver = Solver::new(Settings { branch: Some(branch), ..Settings::default() });
+    ///     let mut solver = Solver::new(Settings::default().branch(branch));
     ///     solver.solve(&mut problem, Control::MeanPressure(0.01))
     /// };
     /// let [loading, unloading] = [solve(Branch::Loading)?, solve(Branch::Unloading)?];

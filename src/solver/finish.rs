@@ -92,7 +92,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
             elastic_energy: padding * (0.5 * self.mean_work() + of_mean),
             adhesive_energy: padding * self.sums.tally.adhesive / self.posed.nodes(),
             mu_rho,
-            under_resolved: mu_rho > 0.5,
+            under_resolved: mu_rho > Report::RESOLVED_MU_RHO,
             precision: T::NAME,
             method: self.posed.settings.method,
             criterion: self.posed.settings.criterion,

@@ -26,7 +26,7 @@ impl<'a, T: Real, Lo: Real> State<'a, T, Lo> {
         if self.energy().is_finite() && self.sums.tally.sum_r.is_finite() {
             return Ok(());
         }
-        Error::agreed(self.posed.operators.state().grid().slab(), self.check_gaps())
+        self.posed.operators.state().grid().slab().agreed(self.check_gaps())
     }
 
     fn check_gaps(&self) -> Result<()> {

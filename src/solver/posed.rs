@@ -32,7 +32,7 @@ impl<'a, T: Real, Lo: Real> Posed<'a, T, Lo> {
     pub(super) fn prepare(&mut self) -> Result<()> {
         let (flat, operator) = (self.flat, self.operators.state());
         if !self.constraint.takes_slabs() {
-            Error::alone("contact constraint", operator.grid().slab())?;
+            operator.grid().slab().alone("contact constraint")?;
         }
         let surface = flat.window.as_ref().map_or(operator.grid(), Window::held);
         self.constraint.start(surface, operator.stiffness_range().1, self.settings.tolerance_in::<T>())?;

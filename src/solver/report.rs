@@ -17,7 +17,7 @@ use crate::real::Real;
 /// let grid = Grid::square(32, 1.0)?;
 /// let surface = Surface::wave_2d(grid, 0.02, 1)?;
 /// let mut problem = Problem::new(&surface, Westergaard::<f64>::new(grid, 1.0)?, NoAdhesion)?;
-/// let mut solver = Solver::new(Settings { max_iterations: 2, ..Settings::default() });
+/// let mut solver = Solver::new(Settings::default().max_iterations(2));
 /// let report = solver.solve(&mut problem, Control::MeanGap(0.01))?.report;
 /// assert_eq!(report.status, Status::IterationLimit); // no error: the fields are there, and the report says how good
 /// assert_eq!(report.status.to_string(), "iteration-limit");
@@ -194,7 +194,7 @@ pub struct Report {
     pub adhesive_energy: f64,
     /// The resolution measure μ_ρ of [`Problem::mu_rho`](crate::Problem::mu_rho).
     pub mu_rho: f64,
-    /// Whether μ_ρ exceeds 0.5: the answer then depends on the grid and on the start.
+    /// Whether μ_ρ exceeds [`Report::RESOLVED_MU_RHO`]: the answer then depends on the grid and on the start.
     pub under_resolved: bool,
     /// The precision of the fields, `"f32"` or `"f64"`.
     pub precision: &'static str,
@@ -206,6 +206,11 @@ pub struct Report {
     /// The tolerance to which the solve was held, [`Settings::tolerance_in`](crate::Settings::tolerance_in) its
     /// precision.
     pub tolerance: f64,
+}
+
+impl Report {
+    /// The largest resolution measure μ_ρ at which the grid resolves the adhesion.
+    pub const RESOLVED_MU_RHO: f64 = 0.5;
 }
 
 /// The fields of a solved problem, each of the shape (Nx, Ny) of the surface, and the account of the solve.

@@ -8,6 +8,7 @@ use crate::adhesion::AdhesionLaw;
 use crate::constraint::Wall;
 use crate::error::{Error, Result};
 use crate::field;
+use crate::field::all_finite_in;
 use crate::problem::{Load, PressedFlat, Window};
 use crate::real::Real;
 use crate::slab::Slab;
@@ -105,8 +106,8 @@ pub(super) fn given_start<T: Real>(
         Some(window) if !whole => window.start(given.view())?.into(),
         _ => given,
     };
-    Error::agreed(slab, Error::shape("starting gap", start.dim(), slab.held()))?;
-    Error::all_finite_in(slab, "starting gap", start.view())?;
+    slab.agreed(Error::shape("starting gap", start.dim(), slab.held()))?;
+    all_finite_in(slab, "starting gap", start.view())?;
     let confined = |node: usize| window.is_none_or(|window| window.faces(node));
     // without places, and without an end, the pass is several times as fast
     let some = projects && start.fold(false, |some, &gap| some | (gap < T::zero()));
@@ -116,7 +117,7 @@ pub(super) fn given_start<T: Real>(
         let requirement = "zero or positive at every node";
         Err(Error::Value { name: "starting gap", value: gap.widen(), requirement })
     });
-    Error::agreed(slab, negative)?;
+    slab.agreed(negative)?;
     let mut gap = if start.is_standard_layout() { start.into_owned() } else { start.as_standard_layout().into_owned() };
     if let Load::Gap(mean) = load {
         let present = field::mean_over(slab, gap.view(), T::widen);

@@ -74,7 +74,7 @@ impl<T: Real> Stability<T> {
     {
         refuse_springs(solver.constraint.wall())?;
         let slab = problem.grid().slab();
-        Error::agreed(slab, Error::shape("gap", from.gap.dim(), self.mode.dim()))?;
+        slab.agreed(Error::shape("gap", from.gap.dim(), self.mode.dim()))?;
         let largest = self.mode.iter().fold(T::zero(), |largest, value| largest.max(value.abs()));
         let largest = T::lit(slab.most(largest.widen()));
         let amplitude = T::lit(PERTURBATION) * problem.law.range() / largest;

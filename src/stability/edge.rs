@@ -52,7 +52,7 @@ const ON_LINES: Factors = Factors { sum: STIFF, scatter: 0.5, excess: 0.0 };
 /// use asperity::{Control, Grid, NoAdhesion, Problem, Settings, Solver, Surface, Westergaard};
 /// let grid = Grid::line(128, 1.0)?;
 /// let mut problem = Problem::new(&Surface::wave(grid, 0.02, 1)?, Westergaard::<f64>::new(grid, 1.0)?, NoAdhesion)?;
-/// let mut solver = Solver::new(Settings { tolerance: Some(1e-10), ..Settings::default() });
+/// let mut solver = Solver::new(Settings::default().tolerance(1e-10));
 /// let solution = solver.solve(&mut problem, Control::MeanPressure(0.02))?;
 /// let edge = ContactStiffness::of(&mut problem, &solution)?.edge.unwrap();
 /// let exact = WavyLine::new(0.02, 1.0, 1.0)?.at_mean_pressure(0.02)?.mean_gap();

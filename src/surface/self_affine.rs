@@ -11,7 +11,7 @@ use super::{Spectrum, Surface, centre};
 use crate::error::{Error, Result};
 use crate::fft::synthesise;
 use crate::grid::Grid;
-use crate::memory::afford;
+use crate::setters::setters;
 
 /// Relative slack at the ends of the spectrum, so that the rounding of Lx/Ly decides on no wave.
 const SLACK: f64 = 1e-12;
@@ -20,7 +20,7 @@ const SLACK: f64 = 1e-12;
 ///
 /// ```
 /// use asperity::{Amplitude, Grid, SelfAffine};
-/// let rough = SelfAffine { amplitude: Amplitude::RmsHeight(5e-9), ..SelfAffine::default() };
+/// let rough = SelfAffine::default().amplitude(Amplitude::RmsHeight(5e-9));
 /// let surface = rough.surface(Grid::square(150, 1e-6)?)?; // in m
 /// assert!((surface.rms_height() / 5e-9 - 1.0).abs() < 1e-12);
 /// # Ok::<(), asperity::Error>(())
@@ -57,13 +57,14 @@ pub enum Amplitude {
 ///
 /// ```
 /// use asperity::{Amplitude, Grid, SelfAffine};
-/// let rough = SelfAffine { amplitude: Amplitude::RmsSlope(0.1), seed: 7, ..SelfAffine::default() };
+/// let rough = SelfAffine::default().amplitude(Amplitude::RmsSlope(0.1)).seed(7);
 /// let coarse = rough.surface(Grid::square(150, 1.0)?)?;
 /// let fine = rough.surface(Grid::square(300, 1.0)?)?;
 /// assert!((coarse.statistics().rms_slope / 0.1 - 1.0).abs() < 1e-12);
 /// assert!((coarse.heights()[[10, 20]] - fine.heights()[[20, 40]]).abs() < 1e-15);
 /// # Ok::<(), asperity::Error>(())
 /// ```
+#[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SelfAffine {
     /// The Hurst exponent H, from 0 to 1. Default 0.8.
@@ -99,6 +100,8 @@ impl Default for SelfAffine {
 }
 
 impl SelfAffine {
+    setters! { hurst: f64, k_l: f64, k_r: f64, k_s: f64, amplitude: Amplitude, random_phase: bool, seed: u64 }
+
     /// Draws the surface on a grid.
     ///
     /// # Errors
@@ -108,7 +111,7 @@ impl SelfAffine {
     pub fn surface(&self, grid: Grid) -> Result<Surface> {
         let band = Band::new(self, &grid)?;
         // heights, spectrum, and what is made of them
-        afford("a random surface", grid.slab(), 32)?;
+        grid.slab().afford("a random surface", 32)?;
         let (nx, _) = grid.shape();
         let (mut heights, sum) = synthesise(grid.slab(), |ky, column| {
             let mut sum = 0.0;

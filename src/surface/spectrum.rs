@@ -39,7 +39,7 @@ pub struct Spectrum {
 ///
 /// ```
 /// use asperity::{Grid, SelfAffine};
-/// let surface = SelfAffine { k_s: 16.0, ..SelfAffine::default() }.surface(Grid::square(64, 1.0)?)?;
+/// let surface = SelfAffine::default().k_s(16.0).surface(Grid::square(64, 1.0)?)?;
 /// let psd = surface.spectrum().radial_psd();
 /// for (q, density) in psd.wave_numbers.iter().zip(&psd.densities) {
 ///     println!("{q} {density:e}"); // radians per length, length⁴
@@ -219,7 +219,7 @@ impl Spectrum {
     /// use asperity::{Grid, SelfAffine, Surface};
     /// let grid = Grid::square(128, 1.0)?;
     /// assert_eq!(Surface::wave(grid, 0.1, 4)?.spectrum().nodes_per_wave(), 32.0);
-    /// let rough = SelfAffine { k_s: 16.0, ..SelfAffine::default() }.surface(grid)?;
+    /// let rough = SelfAffine::default().k_s(16.0).surface(grid)?;
     /// assert!((8.0..11.0).contains(&rough.spectrum().nodes_per_wave()));
     /// # Ok::<(), asperity::Error>(())
     /// ```

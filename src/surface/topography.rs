@@ -6,6 +6,7 @@ use std::ops::Range;
 use ndarray::{Array2, Axis};
 
 use crate::error::{Error, Result};
+use crate::field::all_finite;
 use crate::grid::Grid;
 use crate::surface::{Surface, rms_slope};
 
@@ -174,7 +175,7 @@ impl Topography {
         if !(fraction > 0.0 && fraction <= 0.5) {
             return Err(Error::Value { name: "window", value: fraction, requirement: "more than 0, and at most 0.5" });
         }
-        Error::all_finite("heights", self.heights.view())?;
+        all_finite("heights", self.heights.view())?;
         let taper = |n: usize| -> Vec<f64> {
             let distance = |i: usize| (i.min(n - 1 - i) as f64 + 0.5) / n as f64 / fraction;
             (0..n)

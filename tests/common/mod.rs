@@ -28,7 +28,7 @@ pub fn solve_from<T: Real, O: ElasticOperator<T>, L: AdhesionLaw<T>>(
     tolerance: f64,
     start: Option<&Array2<T>>,
 ) -> Solution<T> {
-    let settings = Settings { tolerance: Some(tolerance), ..Settings::default() };
+    let settings = Settings::default().tolerance(tolerance);
     let mut history: Vec<Iteration> = Vec::new();
     let solution = Solver::new(settings)
         .solve_with(problem, control, start.map_or(Start::Default, |gap| Start::From(gap)), |iteration| {

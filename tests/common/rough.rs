@@ -6,6 +6,6 @@ use asperity::{Amplitude, Grid, SelfAffine, Surface};
 pub fn rough(grid: Grid, shortest: i32, seed: u64) -> Surface {
     let k_s = f64::from(shortest);
     let amplitude = Amplitude::RmsSlope(1.0);
-    let surface = SelfAffine { k_s, amplitude, random_phase: true, seed, ..SelfAffine::default() };
+    let surface = SelfAffine::default().k_s(k_s).amplitude(amplitude).random_phase(true).seed(seed);
     surface.surface(grid).expect("the grid resolves the waves")
 }

@@ -245,10 +245,10 @@ impl Scene {
         let tolerance = power(random, -9.0, -2.0);
         let tolerance = if precision == Precision::Single { tolerance.max(1e-5) } else { tolerance };
         let settings = match constraint {
-            Constraint::Paper => Settings { criterion: Criterion::EnergyNorm, ..Settings::rey2017() },
+            Constraint::Paper => Settings::rey2017().criterion(Criterion::EnergyNorm),
             _ => Settings::default(),
         };
-        let settings = Settings { tolerance: Some(tolerance), ..settings };
+        let settings = settings.tolerance(tolerance);
         let control = Control::MeanGap(0.0);
         let mut scene = Self {
             seed,

@@ -320,7 +320,7 @@ fn the_floor_of_epsilon_grows_like_the_cube_of_the_nodes_along_a_side() {
     assert!((0.5e-11..3e-11).contains(&at_512), "{at_512:e}");
     // the library's is some times higher: it adds the pressures of gap and surface, each larger than their sum
     let ours = sizes.map(|(n, limit)| {
-        let settings = Settings { tolerance: Some(1e-30), max_iterations: limit, ..Settings::rey2017() };
+        let settings = Settings::rey2017().tolerance(1e-30).max_iterations(limit);
         (n, library(&sphere(n), 0.0398, settings).report.orthogonality)
     });
     assert!((2.5..3.7).contains(&exponent(&ours)), "{ours:?}");
@@ -329,7 +329,7 @@ fn the_floor_of_epsilon_grows_like_the_cube_of_the_nodes_along_a_side() {
 
 #[test]
 fn at_the_floor_of_rounding_the_method_keeps_what_it_has() {
-    let solution = library(&sphere(64), 0.0398, Settings { tolerance: Some(1e-30), ..Settings::rey2017() });
+    let solution = library(&sphere(64), 0.0398, Settings::rey2017().tolerance(1e-30));
     let (points, _) = of_sphere(64, 0.0398);
     assert_eq!((solution.report.status, solution.report.contact_nodes), (Status::Stalled, points));
     assert!(solution.report.relative_error < 1e-11, "{:e}", solution.report.relative_error);

@@ -39,7 +39,7 @@ fn by_held_tractions(
     control: Control,
     mut gap: Array2<f64>,
 ) -> Array2<f64> {
-    let settings = Settings { tolerance: Some(1e-8), ..Settings::default() };
+    let settings = Settings::default().tolerance(1e-8);
     for _ in 0..2000 {
         let held = Held(gap.iter().map(|&gap| law.traction(gap)).collect());
         let half_space = Westergaard::new(*surface.grid(), 1.0).unwrap();
@@ -59,7 +59,7 @@ fn both(surface: &Surface, law: impl AdhesionLaw<f64>, control: Control) -> [Sol
     let half_space = Westergaard::new(*surface.grid(), 1.0).unwrap();
     let mut problem = Problem::new(surface, half_space, law).unwrap();
     [Branch::Loading, Branch::Unloading].map(|branch| {
-        let settings = Settings { branch: Some(branch), tolerance: Some(1e-7), ..Settings::default() };
+        let settings = Settings::default().branch(branch).tolerance(1e-7);
         let found = common::solve_to(&mut problem, control, settings, Start::Default);
         assert_eq!((found.report.status, found.report.branch), (Status::Converged, Some(branch)));
         found
@@ -117,7 +117,7 @@ fn pressing_from_afar_in_small_steps_ends_on_the_branch_of_loading() {
     let surface = Surface::wave(Grid::line(128, 1.0).unwrap(), 0.02, 1).unwrap();
     let law = Exponential::new(4e-4, 4e-3).unwrap();
     let mut problem = Problem::new(&surface, Westergaard::new(*surface.grid(), 1.0).unwrap(), law).unwrap();
-    let mut solver = Solver::new(Settings { tolerance: Some(1e-7), ..Settings::default() });
+    let mut solver = Solver::new(Settings::default().tolerance(1e-7));
     let rising: Vec<_> = (1..=12).map(|step| Control::MeanPressure(2e-4 * f64::from(step))).collect();
     let far = 0.1 - surface.heights();
     let mut last = None;
@@ -170,13 +170,13 @@ fn the_branch_follows_the_load_unless_it_is_given() {
     assert_eq!(from.report.branch, None);
     let mut springs = Solver { settings: Settings::default(), constraint: Penalty::new(100.0).unwrap() };
     assert_eq!(springs.solve(&mut problem, pressure(0.01)).unwrap().report.branch, unloading);
-    let mut paper = Solver::new(Settings { tolerance: Some(1e-6), ..Settings::rey2017() });
+    let mut paper = Solver::new(Settings::rey2017().tolerance(1e-6));
     assert_eq!(paper.solve(&mut problem, pressure(0.01)).unwrap().report.branch, None);
     paper.settings.branch = loading;
     assert!(matches!(paper.solve(&mut problem, pressure(0.01)), Err(Error::Control { .. })));
     let found = ContactSearch::new(&mut Solver::default(), &mut problem).unwrap().at(0.2).unwrap();
     assert_eq!(found.solution.report.branch, loading);
-    let nested = Nested { coarsest: 16, ..Nested::default() };
+    let nested = Nested::default().coarsest(16);
     let found =
         { nested }.solve(&surface, |grid| Westergaard::<f64>::new(grid, 1.0), law, pressure(0.01)).unwrap().solution;
     assert_eq!(found.report.branch, loading);
@@ -189,7 +189,7 @@ fn a_law_that_keeps_the_surfaces_apart_by_itself_has_both_branches() {
     let law = Morse::new(4e-4, 4e-3).unwrap();
     let mut problem = Problem::new(&surface, Westergaard::<f64>::new(line, 1.0).unwrap(), law).unwrap();
     let mut found = [Branch::Loading, Branch::Unloading].map(|branch| {
-        let settings = Settings { branch: Some(branch), ..Settings::default() };
+        let settings = Settings::default().branch(branch);
         let mut solver = Solver { settings, constraint: NoWall };
         let report = solver.solve(&mut problem, Control::MeanPressure(0.0)).unwrap().report;
         assert_eq!((report.status, report.branch), (Status::Converged, Some(branch)));
@@ -247,7 +247,7 @@ fn the_branch_of_loading_is_kept_where_the_grid_resolves_the_adhesion() {
         for pressure in [2e-3, 2e-2, 0.2] {
             let control = Control::MeanPressure(pressure);
             let [loading, unloading] = [Branch::Loading, Branch::Unloading].map(|branch| {
-                let settings = Settings { branch: Some(branch), ..Settings::default() };
+                let settings = Settings::default().branch(branch);
                 common::solve_to(&mut problem, control, settings, Start::Default)
             });
             let largest = by_held_tractions(&surface, &law, control, &loading.gap + 100.0 * range);
@@ -283,7 +283,7 @@ fn a_branch_that_is_not_found_agrees_with_none() {
     let mut problem = Problem::new(&surface, Westergaard::<f64>::new(*surface.grid(), 1.0).unwrap(), law).unwrap();
     // a tension that holds surfaces which were pressed flat, and none that come together
     let [loading, unloading] = [Branch::Loading, Branch::Unloading].map(|branch| {
-        let settings = Settings { branch: Some(branch), ..Settings::default() };
+        let settings = Settings::default().branch(branch);
         common::solve_to(&mut problem, Control::MeanPressure(-0.02), settings, Start::Default)
     });
     assert_eq!((loading.report.status, unloading.report.status), (Status::Detached, Status::Converged));

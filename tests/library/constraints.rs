@@ -16,7 +16,7 @@ fn with<T: Real, C: ContactConstraint<T>, L: AdhesionLaw<T>>(
     control: Control,
     tolerance: f64,
 ) -> (Solution<T>, C) {
-    let mut solver = Solver { settings: Settings { tolerance: Some(tolerance), ..Settings::default() }, constraint };
+    let mut solver = Solver { settings: Settings::default().tolerance(tolerance), constraint };
     let solution = solver.solve(problem, control).unwrap();
     (solution, solver.constraint)
 }
@@ -318,7 +318,7 @@ fn report_and_contact_map_count_the_same_nodes() {
 #[ignore = "prints the figures of the guide: cargo test --release --test library constraints::figures -- --ignored --nocapture"]
 fn figures_of_penalty_and_uzawa_on_a_rough_surface() {
     let grid = Grid::square(128, 1.0).unwrap();
-    let surface = SelfAffine { k_s: 16.0, amplitude: Amplitude::RmsSlope(0.1), ..SelfAffine::default() };
+    let surface = SelfAffine::default().k_s(16.0).amplitude(Amplitude::RmsSlope(0.1));
     let surface = surface.surface(grid).unwrap();
     let control = Control::MeanPressure(0.01);
     let laws: [Box<dyn AdhesionLaw<f64>>; 2] = [Box::new(NoAdhesion), Box::new(Exponential::new(2e-5, 2e-3).unwrap())];

@@ -172,7 +172,7 @@ fn cut_off_and_varying_are_one_law_in_either_order_and_for_one_number() {
     let surface = Surface::wave_2d(grid, 0.02, 2).unwrap();
     let (w, range, end) = (2e-5, 8e-3, 0.02);
     let half_space = |grid| Westergaard::<f64>::new(grid, 1.0);
-    let (control, settings) = (Control::MeanPressure(1e-3), Settings { tolerance: Some(1e-8), ..Settings::default() });
+    let (control, settings) = (Control::MeanPressure(1e-3), Settings::default().tolerance(1e-8));
     let solve = |law: &dyn AdhesionLaw<f64>| {
         let mut problem = Problem::new(&surface, half_space(grid).unwrap(), law).unwrap();
         let found = Solver::new(settings).solve(&mut problem, control).unwrap().report;
@@ -181,7 +181,7 @@ fn cut_off_and_varying_are_one_law_in_either_order_and_for_one_number() {
     };
     // on coarser grids a map has fewer nodes
     let nested = |law: &dyn AdhesionLaw<f64>| {
-        let mut nested = Nested { coarsest: 16, ..Nested::new(settings) };
+        let mut nested = Nested::new(settings).coarsest(16);
         let found = nested.solve(&surface, half_space, law, control).unwrap();
         assert!(found.levels.len() > 1);
         found.solution.report

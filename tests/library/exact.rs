@@ -71,7 +71,7 @@ fn solve_fine<L: AdhesionLaw<f64>>(
     tolerance: f64,
     start: Option<&Array2<f64>>,
 ) -> Report {
-    let mut solver = Solver::new(Settings { tolerance: Some(tolerance), ..Settings::default() });
+    let mut solver = Solver::new(Settings::default().tolerance(tolerance));
     let control = Control::MeanGap(mean_gap);
     let solution = solver
         .solve_with(problem, control, start.map_or(Start::Default, |gap| Start::From(gap)), |_| {

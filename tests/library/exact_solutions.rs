@@ -392,7 +392,7 @@ fn a_solve_with_maugis_law_tends_to_the_exact_state_among_images() {
         let start = (&u - surface.heights()).mapv(|g| g.max(0.0));
         let law = asperity::MaugisDugdale::new(w, range).unwrap();
         let mut problem = Problem::new(&surface, Westergaard::<f64>::new(grid, 1.0).unwrap(), law).unwrap();
-        let mut solver = Solver::new(Settings { tolerance: Some(1e-8), ..Settings::default() });
+        let mut solver = Solver::new(Settings::default().tolerance(1e-8));
         let found = solver
             .solve_with(&mut problem, Control::MeanGap(gap), Start::From(&start), |_| ControlFlow::Continue(()))
             .unwrap();

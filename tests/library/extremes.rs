@@ -237,7 +237,7 @@ fn scaled<T: Real>(length: f64, height: f64, modulus: f64, offset: f64) -> Resul
     let pressure = modulus * height / length;
     let law = Exponential::new(0.02 * pressure * height, 0.2 * height)?;
     let mut problem = Problem::new(&surface, Westergaard::<T>::new(grid, modulus)?, law)?;
-    let settings = Settings { tolerance: Some(1e-4), ..Settings::default() };
+    let settings = Settings::default().tolerance(1e-4);
     let solution = Solver::new(settings).solve(&mut problem, Control::MeanPressure(0.8 * pressure))?;
     Ok((solution, height, pressure))
 }

@@ -30,7 +30,7 @@ fn solve<T: Real, O: ElasticOperator<T>, L: AdhesionLaw<T>>(
     tolerance: f64,
 ) -> Solution<T> {
     let mut history: Vec<Iteration> = Vec::new();
-    let mut solver = Solver::new(Settings { tolerance: Some(tolerance), ..Settings::default() });
+    let mut solver = Solver::new(Settings::default().tolerance(tolerance));
     let solution = solver
         .solve_with(problem, control, Start::Default, |iteration| {
             history.push(*iteration);
@@ -317,7 +317,7 @@ fn pull_offs_at_256_are_those_of_maugis_to_one_per_cent() {
         assert!(problem.mu_rho() < 0.3);
         let pull_off = -exact.pull_off().load();
         let legs = [0.0, 2.0 * exact.pull_off().approach() - 1e-3].map(Control::Approach);
-        let settings = PathSettings { steps: 20, smallest_step: 1e-2, ..PathSettings::default() };
+        let settings = PathSettings::default().steps(20).smallest_step(1e-2);
         let (mut strongest, mut edge) = (0.0_f64, 0.0_f64);
         for step in Path::new(&mut Solver::default(), &mut problem, legs, settings).unwrap() {
             let report = step.unwrap().solution.report;
@@ -338,12 +338,12 @@ fn pull_offs_at_256_are_those_of_maugis_to_one_per_cent() {
 #[test]
 fn a_soft_spring_jumps_and_a_stiff_one_does_not() {
     let (surface, law) = (sphere(32, 0.24), Exponential::new(2e-5, 2e-3).unwrap());
-    let mut solver = Solver::new(Settings { tolerance: Some(1e-7), ..Settings::default() });
+    let mut solver = Solver::new(Settings::default().tolerance(1e-7));
     let mut jumps = |stiffness: f64| {
         let mut problem = problem(&surface, law);
         let legs = [-0.02, 0.004, -0.03].map(|rest| Control::Spring { stiffness, rest });
         let far = Array2::from_shape_fn((32, 32), |node| 0.02 - surface.heights()[node]);
-        let settings = PathSettings { steps: 20, smallest_step: 1e-3, ..PathSettings::default() };
+        let settings = PathSettings::default().steps(20).smallest_step(1e-3);
         let path = Path::new(&mut solver, &mut problem, legs, settings).unwrap().starting_from(far);
         let steps: Vec<_> = path.map(Result::unwrap).collect();
         for step in &steps {
@@ -435,7 +435,7 @@ fn single_precision_and_nested_grids_come_to_the_same_state() {
 #[test]
 fn nested_grids_take_few_applications_under_every_control() {
     let grid = Grid::square(256, 1.0).unwrap();
-    let roughness = SelfAffine { k_s: 16.0, amplitude: Amplitude::RmsSlope(0.05), ..SelfAffine::default() };
+    let roughness = SelfAffine::default().k_s(16.0).amplitude(Amplitude::RmsSlope(0.05));
     let tip = Surface::paraboloid(grid, 1.0).unwrap().heights() + roughness.surface(grid).unwrap().heights();
     let tip = Surface::new(grid, tip).unwrap();
     let adhesion = Exponential::new(1e-4, 2e-3).unwrap();
@@ -604,8 +604,8 @@ fn a_wavy_sphere_jumps_where_guduru_says() {
     assert!(problem.mu_rho() < 0.41);
     let (far, near) = (-0.12, exact.approach(3.0));
     let start = -far - surface.heights();
-    let settings = PathSettings { smallest_step: 2e-3, ..PathSettings::default() };
-    let mut solver = Solver::new(Settings { tolerance: Some(1e-5), ..Settings::default() });
+    let settings = PathSettings::default().smallest_step(2e-3);
+    let mut solver = Solver::new(Settings::default().tolerance(1e-5));
     let legs = [far, near, far].map(Control::Approach);
     let mut jumps = [Vec::new(), Vec::new(), Vec::new()];
     for step in Path::new(&mut solver, &mut problem, legs, settings).unwrap().starting_from(start) {
@@ -681,7 +681,7 @@ fn an_iteration_allocates_nothing_and_a_solve_twenty_three_fields_of_the_window(
     let surface = bumps((250, 256));
     let field = (surface.heights().len() * size_of::<f64>()) as f64;
     rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap().install(|| {
-        let few = |iterations| Settings { max_iterations: iterations, tolerance: Some(1e-14), ..Settings::default() };
+        let few = |iterations| Settings::default().max_iterations(iterations).tolerance(1e-14);
         let law = Exponential::new(1e-3, 2e-2).unwrap();
         let problem = std::cell::RefCell::new(problem(&surface, law));
         let count = |iterations| {

@@ -13,7 +13,7 @@ fn unit(n: usize) -> (Grid, Westergaard<f64>) {
 }
 
 fn without_wall(tolerance: f64) -> Solver<NoWall> {
-    Solver { settings: Settings { tolerance: Some(tolerance), ..Settings::default() }, constraint: NoWall }
+    Solver { settings: Settings::default().tolerance(tolerance), constraint: NoWall }
 }
 
 #[test]
@@ -202,7 +202,7 @@ fn a_hard_wall_is_the_limit_of_ever_stiffer_soft_walls() {
         let mut problem = Problem::new(&surface, half_space.clone(), law).unwrap();
         let control = Control::MeanPressure(0.1);
         let soft = without_wall(1e-8).solve(&mut problem, control).unwrap();
-        let settings = Settings { tolerance: Some(1e-8), ..Settings::default() };
+        let settings = Settings::default().tolerance(1e-8);
         let hard = Solver::new(settings).solve(&mut problem, control).unwrap();
         assert_eq!((soft.report.status, hard.report.status), (Status::Converged, Status::Converged));
         let mean = |a: &Array2<f64>| a.iter().map(|x| x * x).sum::<f64>();
@@ -225,7 +225,7 @@ fn flats_that_attract_in_patches_take_the_shape_of_the_closed_form() {
     assert_eq!(law.strongest(), (16, 0));
     assert!((AdhesionLaw::<f64>::work_of_adhesion(&law) - 1.5e-3).abs() < 1e-18);
     let mut problem = Problem::new(&flat, half_space, law).unwrap();
-    let settings = Settings { tolerance: Some(1e-10), ..Settings::default() };
+    let settings = Settings::default().tolerance(1e-10);
     let solution = Solver::new(settings).solve(&mut problem, Control::MeanGap(mean)).unwrap();
     assert_eq!(solution.report.status, Status::Converged);
     // p = −φ', and p̂ = ½E*q û with q = 2π
@@ -245,7 +245,7 @@ fn a_wave_with_two_works_of_adhesion_is_two_waves_side_by_side() {
     let law = Exponential::new(4e-4, 8e-3).unwrap();
     let works = grid.sample(|_, y| if y < 0.0 { 4e-4 } else { 1e-4 });
     let varying = Varying::new(law, works.view()).unwrap();
-    let settings = Settings { tolerance: Some(1e-8), ..Settings::default() };
+    let settings = Settings::default().tolerance(1e-8);
     let mut problem = Problem::new(&surface, Westergaard::<f64>::new(grid, 1.0).unwrap(), varying).unwrap();
     let solution = Solver::new(settings).solve(&mut problem, Control::MeanGap(0.017)).unwrap();
     assert_eq!(solution.report.status, Status::Converged);
@@ -278,7 +278,7 @@ fn flats_that_a_law_keeps_apart_are_stable_by_its_slope() {
     for gap in [-0.5 * range, 0.2 * range, 1.4 * range] {
         let control = Control::MeanGap(gap);
         let solution = without_wall(1e-8).solve(&mut problem, control).unwrap();
-        let test = StabilityTest { tolerance: 1e-4, ..StabilityTest::default() };
+        let test = StabilityTest::default().tolerance(1e-4);
         let found = test.run_with(&mut problem, &NoWall, control, &solution).unwrap();
         let exact = std::f64::consts::PI + AdhesionLaw::<f64>::slope(&law, gap);
         assert_eq!(found.verdict, if exact > 0.0 { Verdict::Stable } else { Verdict::Unstable });

@@ -14,7 +14,7 @@ fn solved<T: Real>(heights: &Array2<f64>, control: Control, tolerance: f64) -> S
     let grid = Grid::new(heights.dim(), (1.0, 1.0)).unwrap();
     let surface = Surface::new(grid, heights.clone()).unwrap();
     let mut problem = Problem::new(&surface, Westergaard::<T>::new(grid, 1.0).unwrap(), NoAdhesion).unwrap();
-    Solver::new(Settings { tolerance: Some(tolerance), ..Settings::default() }).solve(&mut problem, control).unwrap()
+    Solver::new(Settings::default().tolerance(tolerance)).solve(&mut problem, control).unwrap()
 }
 
 /// Heights without any order, of unit size.
@@ -29,7 +29,7 @@ fn paraboloid(n: usize) -> Array2<f64> {
 
 fn rough(n: usize) -> Array2<f64> {
     let grid = Grid::square(n, 1.0).unwrap();
-    SelfAffine { k_s: n as f64 / 4.0, ..SelfAffine::default() }.surface(grid).unwrap().heights().clone()
+    SelfAffine::default().k_s(n as f64 / 4.0).surface(grid).unwrap().heights().clone()
 }
 
 /// The certified error of a gap as it is, in `f64`.
@@ -37,7 +37,7 @@ fn seen_in_f64(heights: &Array2<f64>, gap: &Array2<f64>) -> f64 {
     let grid = Grid::new(heights.dim(), (1.0, 1.0)).unwrap();
     let surface = Surface::new(grid, heights.clone()).unwrap();
     let mut problem = Problem::new(&surface, Westergaard::<f64>::new(grid, 1.0).unwrap(), NoAdhesion).unwrap();
-    let mut solver = Solver::new(Settings { max_iterations: 0, tolerance: Some(1e-30), ..Settings::default() });
+    let mut solver = Solver::new(Settings::default().max_iterations(0).tolerance(1e-30));
     let go_on = |_: &Iteration| ControlFlow::Continue(());
     let as_it_is = Control::MeanGap(gap.mean().unwrap());
     solver.solve_with(&mut problem, as_it_is, Start::From(gap), go_on).unwrap().report.relative_error
@@ -135,7 +135,7 @@ fn the_status_is_that_of_the_figures() {
             for control in [Control::MeanGap(0.03), Control::MeanPressure(1e-3), Control::MeanPressure(1e-8)] {
                 let operator = Westergaard::<f64>::new(grid, 1.0).unwrap();
                 let mut problem = Problem::new(&surface, operator, NoAdhesion).unwrap();
-                let mut solver = Solver::new(Settings { tolerance: Some(tolerance), ..Settings::default() });
+                let mut solver = Solver::new(Settings::default().tolerance(tolerance));
                 let report = solver.solve(&mut problem, control).unwrap().report;
                 let good = report.relative_error <= tolerance && report.load_error <= tolerance;
                 assert_eq!(report.status == Status::Converged, good, "{seed} {tolerance:e} {control:?} {report:?}");

@@ -20,7 +20,7 @@ fn errors(n: usize, (range, work, gap): (f64, f64, f64), start: Option<f64>) -> 
     let exact = Periodic::new(sphere, 1.0).unwrap().at_mean_gap(gap, surface.mean()).unwrap();
     let law = MaugisDugdale::new(work, range).unwrap();
     let mut problem = Problem::new(&surface, Westergaard::new(grid, 1.0).unwrap(), law).unwrap();
-    let mut solver = Solver::new(Settings { tolerance: Some(1e-7), ..Settings::default() });
+    let mut solver = Solver::new(Settings::default().tolerance(1e-7));
     let start = start.map(|gap| Array2::from_elem(grid.shape(), gap));
     let start = start.as_ref().map_or(Start::Default, |gap| Start::From(gap));
     let control = Control::MeanGap(gap);
@@ -83,7 +83,7 @@ fn a_law_comes_back_as_it_was_however_the_solve_ends() {
     let adhesive =
         |solution: &Solution<f64>| solution.gap.iter().map(|&g| law.energy(g)).sum::<f64>() / solution.gap.len() as f64;
     for limit in [0, 3, 12, 2000] {
-        let mut solver = Solver::new(Settings { max_iterations: limit, ..Settings::default() });
+        let mut solver = Solver::new(Settings::default().max_iterations(limit));
         let limited = solver.solve(&mut problem, control).unwrap();
         assert_eq!(limited.report.status == Status::Converged, limit == 2000);
         let mut smoothed = 0;

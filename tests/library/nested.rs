@@ -23,7 +23,7 @@ fn exponential<T: Real>() -> Law<T> {
 }
 
 fn solve<T: Real>(surface: &Surface, law: Law<T>, control: Control, tolerance: f64) -> NestedSolution<T> {
-    let mut nested = Nested::new(Settings { tolerance: Some(tolerance), ..Settings::default() });
+    let mut nested = Nested::new(Settings::default().tolerance(tolerance));
     let found = nested.solve(surface, half_space::<T>, law, control).unwrap();
     let report = &found.solution.report;
     assert_eq!(report.status, Status::Converged);
@@ -33,7 +33,7 @@ fn solve<T: Real>(surface: &Surface, law: Law<T>, control: Control, tolerance: f
 
 fn single<T: Real>(surface: &Surface, law: Law<T>, control: Control, tolerance: f64) -> Solution<T> {
     let mut problem = Problem::new(surface, half_space::<T>(*surface.grid()).unwrap(), law).unwrap();
-    Solver::new(Settings { tolerance: Some(tolerance), ..Settings::default() }).solve(&mut problem, control).unwrap()
+    Solver::new(Settings::default().tolerance(tolerance)).solve(&mut problem, control).unwrap()
 }
 
 fn shapes<T>(found: &NestedSolution<T>) -> Vec<(usize, usize)> {

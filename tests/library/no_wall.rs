@@ -10,7 +10,7 @@ use ndarray::Array2;
 use crate::common::dense::{Dense, Held};
 
 fn without_wall(tolerance: f64) -> Solver<NoWall> {
-    Solver { settings: Settings { tolerance: Some(tolerance), ..Settings::default() }, constraint: NoWall }
+    Solver { settings: Settings::default().tolerance(tolerance), constraint: NoWall }
 }
 
 #[track_caller]
@@ -208,7 +208,7 @@ fn pull_off(tabor: f64, n: usize) -> f64 {
     let mut problem = Problem::new(&surface, Boussinesq::<f64>::new(grid, 1.0).unwrap(), law).unwrap();
     assert!(problem.mu_rho() < 0.5);
     let loads = [0.5 * depth - rest, -2.0 * depth - rest].map(Control::Approach);
-    let settings = PathSettings { smallest_step: 1e-2, ..PathSettings::default() };
+    let settings = PathSettings::default().smallest_step(1e-2);
     let mut solver = without_wall(1e-5);
     let mut strongest = 0.0_f64;
     for step in Path::new(&mut solver, &mut problem, loads, settings).unwrap() {
@@ -251,7 +251,7 @@ fn most_tension(
 #[test]
 fn a_tension_is_held_without_a_wall_as_it_is_beside_one() {
     let line = Surface::wave(Grid::line(64, 1.0).unwrap(), 0.02, 1).unwrap();
-    let rough = SelfAffine { k_s: 8.0, ..SelfAffine::default() };
+    let rough = SelfAffine::default().k_s(8.0);
     let rough = rough.surface(Grid::square(32, 1.0).unwrap()).unwrap();
     let sphere = Surface::paraboloid(Grid::square(32, 0.4).unwrap(), 2.0).unwrap();
     let (lennard_jones, morse) = (LennardJones::new(1e-4, 4e-3).unwrap(), Morse::new(1e-4, 2e-3).unwrap());

@@ -14,7 +14,7 @@ fn problem(n: usize) -> (Surface, Hertz) {
 
 fn pressed(n: usize) -> (Surface, Solution<f64>) {
     let (surface, mut problem) = problem(n);
-    let mut solver = Solver::new(Settings { tolerance: Some(1e-10), ..Settings::default() });
+    let mut solver = Solver::new(Settings::default().tolerance(1e-10));
     let solution = solver.solve(&mut problem, Control::MeanPressure(2e-4)).unwrap();
     assert_eq!(solution.report.status, Status::Converged);
     (surface, solution)
@@ -73,7 +73,7 @@ struct Table2 {
 fn table_2_in_squares(n: usize, expected: &Table2) {
     let (surface, mut problem) = problem(n);
     let load = 2e-4;
-    let settings = Settings { tolerance: Some(1e-9), ..Settings::default() };
+    let settings = Settings::default().tolerance(1e-9);
     let at_load = Solver::new(settings).solve(&mut problem, Control::MeanPressure(load)).unwrap();
     let control = Control::MeanGap(at_load.report.mean_gap);
     let near = |value: f64, expected: f64, digits: f64| {

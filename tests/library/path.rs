@@ -30,7 +30,7 @@ fn follow<L: AdhesionLaw<f64>>(
     settings: PathSettings,
     tolerance: f64,
 ) -> Vec<PathStep<f64>> {
-    let mut solver = Solver::new(Settings { tolerance: Some(tolerance), ..Settings::default() });
+    let mut solver = Solver::new(Settings::default().tolerance(tolerance));
     let path = Path::new(&mut solver, problem, loads, settings).unwrap();
     let steps: Vec<_> = path.map(Result::unwrap).collect();
     for step in &steps {
@@ -61,7 +61,7 @@ fn jumps_are_found_where_they_are_however_long_the_steps() {
     let mut found: Vec<Vec<Jump>> = Vec::new();
     let smallest_steps = [1e-2, 1e-3, 1e-4, 1e-5];
     for smallest_step in smallest_steps {
-        let settings = PathSettings { smallest_step, ..PathSettings::default() };
+        let settings = PathSettings::default().smallest_step(smallest_step);
         let steps = follow(&mut wave(128, 2e-3), gaps(&[0.03, 0.015, 0.03]), settings, 1e-6);
         assert_eq!(names(&steps), ["jump-in", "pull-off"]);
         found.push(jumps(&steps));
@@ -82,7 +82,7 @@ fn jumps_are_found_where_they_are_however_long_the_steps() {
 
 #[test]
 fn energy_is_balanced_over_a_cycle() {
-    let settings = PathSettings { imbalance: 1e-9, ..PathSettings::default() };
+    let settings = PathSettings::default().imbalance(1e-9);
     let mut problem = wave(256, 2e-3);
     let steps = follow(&mut problem, gaps(&[0.03, 0.012, 0.03]), settings, 1e-10);
     let (first, last) = (&steps[0], &steps[steps.len() - 1]);
@@ -178,7 +178,7 @@ fn are_the_same(found: &[Jump], expected: &[Jump], width: f64, node: f64) {
 fn two_equal_waves_come_into_contact_one_after_the_other() {
     for n in [128, 64] {
         let follow = |asymmetry, steps| {
-            let settings = PathSettings { steps, ..PathSettings::default() };
+            let settings = PathSettings::default().steps(steps);
             follow(&mut two_waves(n, asymmetry), gaps(&[0.03, 0.008, 0.03]), settings, 1e-6)
         };
         let w = 1.5e-4;
@@ -202,7 +202,7 @@ fn two_equal_waves_come_into_contact_one_after_the_other() {
 
 #[test]
 fn energy_is_balanced_through_a_bifurcation() {
-    let settings = PathSettings { imbalance: 1e-8, ..PathSettings::default() };
+    let settings = PathSettings::default().imbalance(1e-8);
     let steps = follow(&mut two_waves(256, 0.0), gaps(&[0.03, 0.01, 0.03]), settings, 1e-9);
     let bifurcation = steps.iter().position(|step| matches!(step.event, Some(Event::Bifurcation { .. }))).unwrap();
     let Some(Event::Bifurcation { eigenvalue, jump }) = steps[bifurcation].event else { unreachable!() };
@@ -243,7 +243,7 @@ fn a_mirrored_map_comes_into_contact_on_one_side_first() {
         };
         let (surface, law) = (Surface::from_fn(grid, height).unwrap(), Exponential::new(4e-4, 4e-3).unwrap());
         let mut problem = Problem::new(&surface, Westergaard::new(grid, 1.0).unwrap(), law).unwrap();
-        let settings = PathSettings { steps, ..PathSettings::default() };
+        let settings = PathSettings::default().steps(steps);
         follow(&mut problem, gaps(&[0.05, 0.005]), settings, 1e-6)
     };
     let expected = drops(&follow(1e-6, 50), 4e-7);
@@ -281,7 +281,7 @@ fn no_symmetry_breaks_where_there_is_none() {
     for seed in [3, 4] {
         let grid = Grid::square(32, 1.0).unwrap();
         let amplitude = Amplitude::RmsHeight(0.01);
-        let rough = SelfAffine { k_l: 1.0, k_r: 1.0, k_s: 8.0, amplitude, seed, ..SelfAffine::default() };
+        let rough = SelfAffine::default().k_l(1.0).k_r(1.0).k_s(8.0).amplitude(amplitude).seed(seed);
         let surface = rough.surface(grid).unwrap();
         let mut problem = Problem::new(&surface, Westergaard::new(grid, 1.0).unwrap(), law).unwrap();
         let steps = follow(&mut problem, gaps(&[0.06, 0.008, 0.06]), PathSettings::default(), 1e-6);
@@ -312,7 +312,7 @@ fn resumes<L: AdhesionLaw<f64>>(
 
 #[test]
 fn a_path_goes_on_through_a_bifurcation_bit_for_bit() {
-    let (loads, settings) = (gaps(&[0.03, 0.012]), PathSettings { steps: 12, ..PathSettings::default() });
+    let (loads, settings) = (gaps(&[0.03, 0.012]), PathSettings::default().steps(12));
     let mut problem = two_waves(64, 0.0);
     let whole = follow(&mut problem, loads.clone(), settings, 1e-6);
     assert!(names(&whole).contains(&"bifurcation"));
@@ -327,7 +327,7 @@ fn a_path_on_a_free_half_space_goes_on_bit_for_bit() {
     let surface = Surface::new(grid, heights).unwrap();
     let law = Exponential::new(2e-3, 8e-3).unwrap();
     let mut problem = Problem::new(&surface, Boussinesq::<f64>::new(grid, 1.0).unwrap(), law).unwrap();
-    let (loads, settings) = ([0.0, 0.005].map(Control::Approach), PathSettings { steps: 8, ..PathSettings::default() });
+    let (loads, settings) = ([0.0, 0.005].map(Control::Approach), PathSettings::default().steps(8));
     let (mut solver, mut most) = (Solver::default(), 0);
     let mut path = Path::new(&mut solver, &mut problem, loads, settings).unwrap();
     let mut whole = Vec::new();
@@ -349,7 +349,7 @@ fn a_path_on_a_free_half_space_goes_on_bit_for_bit() {
 #[test]
 fn the_fields_of_a_checkpoint_may_be_in_any_memory_layout() {
     let mut problem = rough::<f64, _>(16, 6, Exponential::new(4e-4, 4e-3).unwrap());
-    let (loads, settings) = (gaps(&[0.03, 0.02]), PathSettings { steps: 4, ..PathSettings::default() });
+    let (loads, settings) = (gaps(&[0.03, 0.02]), PathSettings::default().steps(4));
     let mut solver = Solver::default();
     let mut path = Path::new(&mut solver, &mut problem, loads.clone(), settings).unwrap();
     assert!(path.by_ref().take(3).all(|step| step.is_ok()));
@@ -415,7 +415,7 @@ fn a_path_does_not_creep_where_its_states_are_at_the_floor_of_rounding() {
 #[test]
 fn a_path_goes_on_from_a_checkpoint_bit_for_bit() {
     let loads = [gaps(&[0.03, 0.018]), pressures(&[2e-3, -0.05])].concat();
-    let settings = PathSettings { steps: 12, ..PathSettings::default() };
+    let settings = PathSettings::default().steps(12);
     let mut problem = wave(48, 2e-3);
     let whole = follow(&mut problem, loads.clone(), settings, 1e-6);
     assert!(names(&whole).len() > 1);
@@ -433,9 +433,9 @@ fn bad_settings_and_checkpoints_are_refused() {
     assert_eq!(refused(gaps(&[0.03, -1.0]), good), "mean gap");
     assert_eq!(refused(pressures(&[f64::NAN]), good), "mean pressure");
     let load = gaps(&[0.03]);
-    assert_eq!(refused(load.clone(), PathSettings { steps: 0, ..good }), "number of steps");
-    assert_eq!(refused(load.clone(), PathSettings { imbalance: -1.0, ..good }), "imbalance");
-    assert_eq!(refused(load.clone(), PathSettings { smallest_step: 1.0, ..good }), "smallest step");
+    assert_eq!(refused(load.clone(), good.steps(0)), "number of steps");
+    assert_eq!(refused(load.clone(), good.imbalance(-1.0)), "imbalance");
+    assert_eq!(refused(load.clone(), good.smallest_step(1.0)), "smallest step");
     assert!(Path::new(&mut solver, &mut problem, [], good).unwrap().next().is_none());
     let mut path = Path::new(&mut solver, &mut problem, load.clone(), good).unwrap();
     assert!(path.next().unwrap().is_ok() && path.next().is_none());
@@ -457,9 +457,9 @@ fn pull_off(n: usize, work: f64, range: f64, smooth: bool) -> (f64, f64) {
     let periodic = exact::Periodic::new(exact, 1.0).unwrap();
     let state = periodic.pull_off().unwrap();
     let at = state.mean_gap(mean);
-    let settings = PathSettings { steps: 40, smallest_step: 1e-2, smooth, ..PathSettings::default() };
+    let settings = PathSettings::default().steps(40).smallest_step(1e-2).smooth(smooth);
     let loads = gaps(&[at - 0.3 * range, at + 0.5 * range]);
-    let mut solver = Solver::new(Settings { tolerance: Some(1e-5), ..Settings::default() });
+    let mut solver = Solver::new(Settings::default().tolerance(1e-5));
     let path = Path::new(&mut solver, &mut problem, loads, settings).unwrap();
     let steps: Vec<_> = path.map(Result::unwrap).collect();
     let least = steps.iter().map(|step| step.solution.report.mean_pressure).fold(f64::INFINITY, f64::min);

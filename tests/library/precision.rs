@@ -33,9 +33,9 @@ fn the_default_tolerance_is_that_of_the_precision() {
     assert_eq!((held_to::<f32>(default), held_to::<f64>(default)), (1e-4, 1e-6));
     assert_eq!(held_to::<f64>(Settings::rey2017()), 1e-9);
     // by the certificate the paper's method has the default of the certificate, and what is given comes first
-    let certified = Settings { criterion: Criterion::EnergyNorm, ..Settings::rey2017() };
+    let certified = Settings::rey2017().criterion(Criterion::EnergyNorm);
     assert_eq!((held_to::<f32>(certified), held_to::<f64>(certified)), (1e-4, 1e-6));
-    let given = Settings { tolerance: Some(1e-3), ..default };
+    let given = default.tolerance(1e-3);
     assert_eq!((held_to::<f32>(given), held_to::<f64>(given)), (1e-3, 1e-3));
 }
 
@@ -128,7 +128,7 @@ fn a_tolerance_at_the_floor_ends_as_soon_as_one_below_it() {
 /// The certified error of a gap as it is, in `f64`.
 fn certified(n: usize, gap: &Array2<f64>) -> f64 {
     let mut problem = rough::<f64, _>(n, n as i32 / 4, NoAdhesion);
-    let mut solver = Solver::new(Settings { max_iterations: 0, tolerance: Some(1e-30), ..Settings::default() });
+    let mut solver = Solver::new(Settings::default().max_iterations(0).tolerance(1e-30));
     let go_on = |_: &Iteration| std::ops::ControlFlow::Continue(());
     let control = Control::MeanGap(gap.mean().unwrap());
     solver.solve_with(&mut problem, control, Start::From(gap), go_on).unwrap().report.relative_error

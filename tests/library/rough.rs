@@ -7,7 +7,7 @@ use asperity::{Amplitude, Error, Grid, Psd, SelfAffine, Spectrum, Surface, Topog
 
 /// A surface of which a quick test resolves all waves.
 fn short(seed: u64) -> SelfAffine {
-    SelfAffine { k_l: 2.0, k_r: 4.0, k_s: 20.0, seed, ..SelfAffine::default() }
+    SelfAffine::default().k_l(2.0).k_r(4.0).k_s(20.0).seed(seed)
 }
 
 /// Squares, rectangles, odd sizes and lines that resolve the waves of [`short`].
@@ -40,13 +40,13 @@ fn rms_height_and_slope_are_exact_to_rounding() {
         for random_phase in [false, true] {
             let height = 0.003 * grid.lengths().0;
             let amplitude = Amplitude::RmsHeight(height);
-            let surface = SelfAffine { amplitude, random_phase, ..short(1) }.surface(grid).unwrap();
+            let surface = short(1).amplitude(amplitude).random_phase(random_phase).surface(grid).unwrap();
             assert_relative_eq!(surface.rms_height(), height, max_relative = 1e-12);
             assert_relative_eq!(surface.spectrum().rms_height(), height, max_relative = 1e-12);
             assert!(surface.mean().abs() < 1e-14 * height);
 
             let amplitude = Amplitude::RmsSlope(0.25);
-            let surface = SelfAffine { amplitude, random_phase, ..short(1) }.surface(grid).unwrap();
+            let surface = short(1).amplitude(amplitude).random_phase(random_phase).surface(grid).unwrap();
             assert_relative_eq!(surface.statistics().rms_slope, 0.25, max_relative = 1e-12);
         }
     }
@@ -55,7 +55,7 @@ fn rms_height_and_slope_are_exact_to_rounding() {
 #[test]
 fn grids_that_resolve_a_surface_have_the_same_one() {
     for random_phase in [false, true] {
-        let rough = SelfAffine { random_phase, seed: 5, ..SelfAffine::default() };
+        let rough = SelfAffine::default().random_phase(random_phase).seed(5);
         let fine = rough.surface(Grid::square(512, 1.0).unwrap()).unwrap();
         let coarse = rough.surface(Grid::square(256, 1.0).unwrap()).unwrap();
         let rounding = 1e-12 * fine.rms_height();
@@ -130,7 +130,7 @@ fn threads_do_not_change_a_bit() {
 fn random_phases_have_the_target_for_their_spectrum() {
     for grid in grids() {
         for amplitude in [Amplitude::RmsHeight(0.01 * grid.lengths().0), Amplitude::RmsSlope(0.1)] {
-            let rough = SelfAffine { random_phase: true, amplitude, ..short(4) };
+            let rough = short(4).random_phase(true).amplitude(amplitude);
             let (target, measured) = (rough.spectrum(grid).unwrap(), rough.surface(grid).unwrap().spectrum());
             assert_same(&measured.radial_psd(), &target.radial_psd(), 1e-10);
             assert_relative_eq!(measured.rms_curvature(), target.rms_curvature(), max_relative = 1e-12);
@@ -145,7 +145,7 @@ fn the_target_has_plateau_power_law_and_ends() {
         let i = psd.wave_numbers.iter().position(|q| (q / TAU - k).abs() < 1e-9).unwrap();
         psd.densities[i]
     };
-    let rough = SelfAffine { hurst: 0.7, k_l: 3.0, k_r: 10.0, k_s: 50.0, ..SelfAffine::default() };
+    let rough = SelfAffine::default().hurst(0.7).k_l(3.0).k_r(10.0).k_s(50.0);
     let line = rough.spectrum(Grid::line(128, 1.0).unwrap()).unwrap().radial_psd();
     assert_eq!((at(&line, 2.0), at(&line, 51.0)), (0.0, 0.0));
     for (k, share) in [(3.0, 1.0), (10.0, 1.0), (20.0, 2_f64.powf(-2.4)), (50.0, 5_f64.powf(-2.4))] {
@@ -169,11 +169,11 @@ fn the_target_has_plateau_power_law_and_ends() {
 fn gaussian_surfaces_have_the_target_for_their_mean_spectrum() {
     let grid = Grid::square(96, 1.0).unwrap();
     let seeds = 64;
-    let rough = SelfAffine { k_s: 40.0, k_r: 8.0, amplitude: Amplitude::RmsHeight(1.0), ..SelfAffine::default() };
+    let rough = SelfAffine::default().k_s(40.0).k_r(8.0).amplitude(Amplitude::RmsHeight(1.0));
     let target = rough.spectrum(grid).unwrap().radial_psd();
     let mut mean = vec![0.0; target.densities.len()];
     for seed in 0..seeds {
-        let psd = SelfAffine { seed, ..rough }.surface(grid).unwrap().spectrum().radial_psd();
+        let psd = rough.seed(seed).surface(grid).unwrap().spectrum().radial_psd();
         mean.iter_mut().zip(psd.densities).for_each(|(mean, density)| *mean += density / seeds as f64);
     }
     let (mut squares, mut count) = (0.0, 0.0);
@@ -193,7 +193,7 @@ fn gaussian_surfaces_have_the_target_for_their_mean_spectrum() {
 #[test]
 fn amplitudes_and_heights_are_gaussian() {
     // on a line each entry of the spectrum is one wave
-    let rough = SelfAffine { k_l: 1.0, k_r: 4e4, k_s: 4e4, ..SelfAffine::default() };
+    let rough = SelfAffine::default().k_l(1.0).k_r(4e4).k_s(4e4);
     let grid = Grid::line(1 << 17, 1.0).unwrap();
     let (target, line) = (rough.spectrum(grid).unwrap(), rough.surface(grid).unwrap());
     let ratios: Vec<f64> = std::iter::zip(line.spectrum().radial_psd().densities, target.radial_psd().densities)
@@ -215,7 +215,7 @@ fn amplitudes_and_heights_are_gaussian() {
     // phases are uniform: waves do not prefer a direction
     let mut sums = [0.0; 3];
     for seed in 0..200 {
-        let s = SelfAffine { amplitude: Amplitude::RmsHeight(1.0), ..short(seed) };
+        let s = short(seed).amplitude(Amplitude::RmsHeight(1.0));
         let s = s.surface(Grid::square(42, 1.0).unwrap()).unwrap();
         let (h, side) = (s.heights()[[21, 21]], s.spectrum().profile_psd_x().total());
         assert_relative_eq!(side, 1.0, max_relative = 1e-12);
@@ -245,7 +245,7 @@ fn equation_32_needs_the_exponent_minus_two_times_one_plus_h() {
     let grid = Grid::square(1024, 1.0).unwrap();
     let with_exponent = |exponent: f64| {
         let hurst = -0.5 * exponent - 1.0;
-        SelfAffine { hurst, k_l: 1.0, k_r: 1.0, k_s: 500.0, ..SelfAffine::default() }.spectrum(grid).unwrap()
+        SelfAffine::default().hurst(hurst).k_l(1.0).k_r(1.0).k_s(500.0).spectrum(grid).unwrap()
     };
     let (right, printed) = (with_exponent(-2.0 * (1.0 + 0.8)), with_exponent(-2.0 - 0.8));
     let [right, printed] = [&right, &printed].map(|spectrum| 0.5 * structure_exponent(spectrum, 0.02));
@@ -258,18 +258,18 @@ fn bad_parameters_and_coarse_grids_are_refused() {
     let good = SelfAffine::default();
     let grid = Grid::square(256, 1.0).unwrap();
     for (rough, name) in [
-        (SelfAffine { hurst: -0.1, ..good }, "Hurst"),
-        (SelfAffine { hurst: 1.1, ..good }, "Hurst"),
-        (SelfAffine { hurst: f64::NAN, ..good }, "Hurst"),
-        (SelfAffine { k_l: 0.0, ..good }, "k_l is 0"),
-        (SelfAffine { k_l: f64::NAN, ..good }, "k_l is NaN"),
-        (SelfAffine { k_r: 3.0, ..good }, "k_r is 3: it must be at least k_l"),
-        (SelfAffine { k_r: f64::NAN, ..good }, "k_r is NaN"),
-        (SelfAffine { k_s: 3.0, ..good }, "k_s is 3: it must be at least k_r"),
-        (SelfAffine { k_s: f64::INFINITY, ..good }, "k_s is inf"),
-        (SelfAffine { amplitude: Amplitude::RmsHeight(0.0), ..good }, "rms height is 0"),
-        (SelfAffine { amplitude: Amplitude::RmsSlope(f64::NAN), ..good }, "rms slope is NaN"),
-        (SelfAffine { k_l: 4.1, k_r: 4.1, k_s: 4.11, ..good }, "number of waves from k_l to k_s is 0"),
+        (good.hurst(-0.1), "Hurst"),
+        (good.hurst(1.1), "Hurst"),
+        (good.hurst(f64::NAN), "Hurst"),
+        (good.k_l(0.0), "k_l is 0"),
+        (good.k_l(f64::NAN), "k_l is NaN"),
+        (good.k_r(3.0), "k_r is 3: it must be at least k_l"),
+        (good.k_r(f64::NAN), "k_r is NaN"),
+        (good.k_s(3.0), "k_s is 3: it must be at least k_r"),
+        (good.k_s(f64::INFINITY), "k_s is inf"),
+        (good.amplitude(Amplitude::RmsHeight(0.0)), "rms height is 0"),
+        (good.amplitude(Amplitude::RmsSlope(f64::NAN)), "rms slope is NaN"),
+        (good.k_l(4.1).k_r(4.1).k_s(4.11), "number of waves from k_l to k_s is 0"),
     ] {
         let error = rough.surface(grid).unwrap_err();
         assert!(matches!(error, Error::Value { .. }) && error.to_string().contains(name), "{error}");

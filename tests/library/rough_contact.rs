@@ -14,7 +14,7 @@ const LOAD: f64 = 0.003;
 
 fn press<L: AdhesionLaw<f64>>(n: usize, seed: u64, law: L) -> Problem<f64, Westergaard<f64>, L> {
     let grid = Grid::square(n, 1.0).unwrap();
-    let surface = SelfAffine { seed, ..SelfAffine::default() }.surface(grid).unwrap();
+    let surface = SelfAffine::default().seed(seed).surface(grid).unwrap();
     Problem::new(&surface, Westergaard::new(grid, 1.0).unwrap(), law).unwrap()
 }
 
@@ -24,7 +24,7 @@ fn solve<L: AdhesionLaw<f64>>(
     tolerance: f64,
     start: Option<&Array2<f64>>,
 ) -> Solution<f64> {
-    let mut solver = Solver::new(Settings { tolerance: Some(tolerance), ..Settings::default() });
+    let mut solver = Solver::new(Settings::default().tolerance(tolerance));
     let start = start.map_or(Start::Default, |gap| Start::From(gap));
     let solution = solver.solve_with(problem, control, start, |_| ControlFlow::Continue(())).unwrap();
     assert_eq!(solution.report.status, Status::Converged);

@@ -105,7 +105,7 @@ fn a_jump_of_adhesion_is_told_from_its_side() {
     let law = Exponential::new(1e-4, 5e-4).unwrap();
     let mut problem = Problem::new(&wave, Westergaard::<f64>::new(line, 1.0).unwrap(), law).unwrap();
     for (branch, beyond) in [(None, 0.4..0.5), (Some(Branch::Unloading), 0.06..0.2)] {
-        let mut solver = Solver::new(Settings { branch, ..Settings::default() });
+        let mut solver = Solver::new(Settings::default().branch(branch));
         let mut search = ContactSearch::new(&mut solver, &mut problem).unwrap();
         let found = search.at(0.05).unwrap();
         let fraction = found.solution.report.contact_fraction;
@@ -137,7 +137,7 @@ fn a_search_goes_on_from_its_checkpoint_bit_for_bit() {
     let fractions = [0.02, 0.05, 0.2];
     let law = Exponential::new(1e-4, 4e-3).unwrap();
     let grid = Grid::square(64, 1.0).unwrap();
-    let surface = SelfAffine { k_l: 2.0, k_s: 16.0, ..SelfAffine::default() }.surface(grid).unwrap();
+    let surface = SelfAffine::default().k_l(2.0).k_s(16.0).surface(grid).unwrap();
     for (adhesive, free) in [(false, false), (true, false), (false, true), (true, true)] {
         let new = || {
             let law: Box<dyn AdhesionLaw<f64>> = if adhesive { Box::new(law) } else { Box::new(NoAdhesion) };

@@ -9,7 +9,7 @@ use asperity::*;
 use ndarray::Array2;
 
 fn limited(max_iterations: usize, tolerance: f64) -> Solver {
-    Solver::new(Settings { max_iterations, tolerance: Some(tolerance), ..Settings::default() })
+    Solver::new(Settings::default().max_iterations(max_iterations).tolerance(tolerance))
 }
 
 #[test]
@@ -134,7 +134,7 @@ fn both_methods_find_the_same_state() {
     for control in [Control::MeanGap(0.03), Control::MeanPressure(0.05)] {
         let mut problem = rough::<f64, _>(64, 16, NoAdhesion);
         let ours = solve(&mut problem, control, 1e-9);
-        let mut paper = Solver::new(Settings { tolerance: Some(1e-11), ..Settings::rey2017() });
+        let mut paper = Solver::new(Settings::rey2017().tolerance(1e-11));
         let paper = paper.solve(&mut problem, control).unwrap();
         crate::common::check(&paper, &NoAdhesion, control);
         assert_eq!((paper.report.status, paper.report.method), (Status::Converged, Method::Rey2017));
@@ -147,7 +147,7 @@ fn both_methods_find_the_same_state() {
 
 #[test]
 fn the_papers_method_can_be_held_to_the_certified_error() {
-    let settings = Settings { criterion: Criterion::EnergyNorm, tolerance: Some(1e-7), ..Settings::rey2017() };
+    let settings = Settings::rey2017().criterion(Criterion::EnergyNorm).tolerance(1e-7);
     let solution =
         Solver::new(settings).solve(&mut sphere::<f64, _>(64, NoAdhesion), Control::MeanGap(0.0398)).unwrap();
     let (points, _) = crate::algorithm3::of_sphere(64, 0.0398);
@@ -230,7 +230,7 @@ impl AdhesionLaw<f64> for Untouched {
 fn no_adhesion_is_not_evaluated() {
     for control in [Control::MeanPressure(0.02), Control::MeanGap(0.02)] {
         let mut problem = rough::<f64, _>(64, 16, Untouched);
-        for settings in [Settings { tolerance: Some(1e-8), ..Settings::default() }, Settings::rey2017()] {
+        for settings in [Settings::default().tolerance(1e-8), Settings::rey2017()] {
             let report = Solver::new(settings).solve(&mut problem, control).unwrap().report;
             assert!(report.iterations > 0);
         }
@@ -300,7 +300,7 @@ fn an_observer_can_stop_and_the_limit_is_kept() {
 fn impossible_inputs_are_refused_by_name() {
     let mut problem = sphere::<f64, _>(16, NoAdhesion);
     let mut refuse = |control, start: Option<Array2<f64>>, tolerance, text: &str| {
-        let settings = Settings { tolerance: Some(tolerance), ..Settings::default() };
+        let settings = Settings::default().tolerance(tolerance);
         let start = start.as_ref().map_or(Start::Default, |s| Start::From(s));
         let error = Solver::new(settings)
             .solve_with(&mut problem, control, start, |_| ControlFlow::Continue(()))
@@ -554,7 +554,7 @@ fn a_law_may_differ_from_node_to_node() {
         let surface = Surface::new(grid, heights).unwrap();
         let half_space = Westergaard::<f64>::new(grid, 1.0).unwrap();
         let mut problem = Problem::new(&surface, half_space, ByNode(law, shares)).unwrap();
-        let settings = Settings { tolerance: Some(1e-9), ..Settings::default() };
+        let settings = Settings::default().tolerance(1e-9);
         Solver::new(settings).solve(&mut problem, Control::MeanPressure(2e-3)).unwrap()
     };
     let (here, there) = (moved((0, 0)), moved((17, 31)));

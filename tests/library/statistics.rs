@@ -22,7 +22,7 @@ fn disc(grid: &Grid, radius: f64) -> Solution<f64> {
     let mut problem =
         Problem::new(&Surface::wave(*grid, 0.1, 1).unwrap(), Westergaard::new(*grid, 1.0).unwrap(), NoAdhesion)
             .unwrap();
-    let settings = Settings { max_iterations: 0, ..Settings::default() };
+    let settings = Settings::default().max_iterations(0);
     let mut solution = Solver::new(settings).solve(&mut problem, Control::MeanGap(1.0)).unwrap();
     solution.gap = grid.sample(|x, y| (x.hypot(y) - radius).max(0.0));
     solution.contact_pressure = grid.sample(|x, y| (radius - x.hypot(y)).max(0.0));
@@ -213,7 +213,7 @@ fn the_edge_of_a_contact_with_a_wall_that_gives_is_found_between_the_nodes() {
             let grid = Grid::line(n, 1.0).unwrap();
             let surface = Surface::wave(grid, 0.02, 1).unwrap();
             let mut problem = Problem::new(&surface, Westergaard::<f64>::new(grid, 1.0).unwrap(), NoAdhesion).unwrap();
-            let settings = Settings { tolerance: Some(1e-8), ..Settings::default() };
+            let settings = Settings::default().tolerance(1e-8);
             let mut solver = Solver { settings, constraint: Penalty::new(stiffness).unwrap() };
             let solution = solver.solve(&mut problem, Control::MeanPressure(0.02)).unwrap();
             ContactStatistics::of(&solution, &grid, &NoAdhesion).unwrap().corrected_contact_fraction

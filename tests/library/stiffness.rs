@@ -29,7 +29,7 @@ fn a_contact_of_any_shape_resists_like_a_punch_of_its_radius() {
 
         // the force on a punch is proportional to its approach, on the grid too
         let mut flat = Problem::new(&punch(grid), half_space(), NoAdhesion).unwrap();
-        let tight = Settings { tolerance: Some(1e-8), ..Settings::default() };
+        let tight = Settings::default().tolerance(1e-8);
         let solution = Solver::new(tight).solve(&mut flat, Control::Approach(0.01)).unwrap();
         let found = ContactStiffness::of(&mut flat, &solution).unwrap();
         let linear = solution.report.normal_force / 0.01;
@@ -129,7 +129,7 @@ fn springs_and_laws_without_a_wall_resist_with_their_slopes() {
     let grid = Grid::square(32, 1.0).unwrap();
     let surface = Surface::wave_2d(grid, 0.02, 1).unwrap();
     let half_space = || Westergaard::<f64>::new(grid, 1.0).unwrap();
-    let tight = Settings { tolerance: Some(1e-9), ..Settings::default() };
+    let tight = Settings::default().tolerance(1e-9);
     let mut pressed = Problem::new(&surface, half_space(), NoAdhesion).unwrap();
     let mut springs = Solver { settings: tight, constraint: Penalty::new(200.0).unwrap() };
     let mut reports = |gap| springs.solve(&mut pressed, Control::MeanGap(gap)).unwrap();

@@ -125,7 +125,7 @@ fn holds(scene: &Scene) -> bool {
             true => Control::Approach(0.5 * span - far * (0.5 * span + 3.0 * scene.law.range) - scene.law.rest()),
             false => Control::MeanGap(scene.law.rest() + far * (span + 3.0 * scene.law.range)),
         };
-        let settings = Settings { tolerance: Some(1e-5), ..Settings::default() };
+        let settings = Settings::default().tolerance(1e-5);
         let start = last.take();
         let here = Scene { control, settings, start, precision: Precision::Mixed, ..scene.clone() };
         let Ok(solution) = here.solution::<f64>() else { return false };
@@ -353,7 +353,7 @@ fn all_scenes() {
 
 /// The certified error of a gap as it is, in `f64`.
 fn certified(scene: &Scene, gap: Array2<f64>) -> f64 {
-    let settings = Settings { max_iterations: 0, tolerance: Some(1e-30), ..Settings::default() };
+    let settings = Settings::default().max_iterations(0).tolerance(1e-30);
     let control = Control::MeanGap(gap.mean().unwrap());
     let scene = Scene { settings, control, start: Some(gap), ..scene.clone() };
     scene.solution::<f64>().unwrap().report.relative_error

@@ -13,7 +13,7 @@ fn codes(surface: &Surface) -> Vec<&'static str> {
 /// A rough map of 80 × 64 square cells, periodic.
 fn rough() -> Surface {
     let grid = Grid::new((80, 64), SIDES).unwrap();
-    let rough = SelfAffine { k_l: 2.0, k_r: 2.0, k_s: 24.0, ..SelfAffine::default() };
+    let rough = SelfAffine::default().k_l(2.0).k_r(2.0).k_s(24.0);
     rough.surface(grid).unwrap()
 }
 
@@ -37,7 +37,8 @@ fn clean_periodic_surfaces_have_no_warning() {
         for hurst in [0.2, 0.5, 0.8, 1.0] {
             for seed in 0..8 {
                 let amplitude = Amplitude::RmsSlope(0.4);
-                let rough = SelfAffine { hurst, k_l: 1.0, k_r: 1.0, k_s, amplitude, seed, ..SelfAffine::default() };
+                let rough =
+                    SelfAffine::default().hurst(hurst).k_l(1.0).k_r(1.0).k_s(k_s).amplitude(amplitude).seed(seed);
                 let surface = rough.surface(grid).unwrap();
                 assert_eq!(codes(&surface), none, "{shape:?} {hurst} {seed}");
                 count += 1;
@@ -143,13 +144,7 @@ fn a_body_that_ends_is_told_and_no_surface_that_goes_on() {
             let found = codes(&Surface::with_absent(grid, body).unwrap());
             assert!(found.contains(&"ends"), "{k} {n}: {found:?}");
         }
-        let rough = SelfAffine {
-            k_l: 2.0,
-            k_r: 2.0,
-            k_s: 0.4 * n as f64,
-            amplitude: Amplitude::RmsHeight(0.002),
-            ..SelfAffine::default()
-        };
+        let rough = SelfAffine::default().k_l(2.0).k_r(2.0).k_s(0.4 * n as f64).amplitude(Amplitude::RmsHeight(0.002));
         let tip = rough.surface(grid).unwrap().heights() + Surface::paraboloid(grid, 1.0).unwrap().heights();
         assert_eq!(codes(&Surface::new(grid, tip).unwrap()), ["ends"], "rough tip {n}");
         // in the hole of a surface that goes on
@@ -165,7 +160,7 @@ fn a_body_that_ends_is_told_and_no_surface_that_goes_on() {
     );
     // a piece of a ball with its roughness, mirrored
     for (seed, bow) in (0..30).flat_map(|seed| [0.0, 0.02, 0.3, 2.0].map(|bow| (seed, bow))) {
-        let rough = SelfAffine { k_l: 1.0, k_r: 1.0, k_s: 20.0, seed, ..SelfAffine::default() };
+        let rough = SelfAffine::default().k_l(1.0).k_r(1.0).k_s(20.0).seed(seed);
         let mut map =
             Topography::from(rough.surface(Grid::square(64, 1.0).unwrap()).unwrap()).crop(0..44, 7..60).unwrap();
         map.heights.indexed_iter_mut().for_each(|((i, j), h)| {
@@ -207,7 +202,7 @@ fn heights_and_lengths_in_different_units_are_steep_or_smooth() {
     assert_eq!(changed(|heights| heights.mapv_inplace(|h| (h * 1e6).round())), ["steep"]);
     let slope = |slope| {
         let amplitude = Amplitude::RmsSlope(slope);
-        let rough = SelfAffine { amplitude, k_s: 8.0, ..SelfAffine::default() };
+        let rough = SelfAffine::default().amplitude(amplitude).k_s(8.0);
         codes(&rough.surface(Grid::square(256, 1.0).unwrap()).unwrap())
     };
     assert_eq!((slope(0.49), slope(0.52)), (vec![], vec!["steep"]));
@@ -307,7 +302,7 @@ fn a_contact_pressure_above_the_modulus_is_told() {
 
 #[test]
 fn the_contact_area_is_as_wrong_as_the_warning_says() {
-    let rough = SelfAffine { k_l: 2.0, k_r: 2.0, k_s: 8.0, seed: 3, ..SelfAffine::default() };
+    let rough = SelfAffine::default().k_l(2.0).k_r(2.0).k_s(8.0).seed(3);
     // the adhesive zone E*ρ²/w is a 128th of the side
     let law = Exponential::new(1e-5, (1e-5_f64 / 128.0).sqrt()).unwrap();
     let found = |n: usize| {
@@ -315,7 +310,7 @@ fn the_contact_area_is_as_wrong_as_the_warning_says() {
         let surface = rough.surface(grid).unwrap();
         let mut problem = Problem::new(&surface, Westergaard::<f64>::new(grid, 1.0).unwrap(), law).unwrap();
         // the branch of loading is less wrong
-        let mut solver = Solver::new(Settings { branch: Some(Branch::Unloading), ..Settings::default() });
+        let mut solver = Solver::new(Settings::default().branch(Branch::Unloading));
         let solution = solver.solve(&mut problem, Control::MeanPressure(1e-3)).unwrap();
         let area = ContactStatistics::of(&solution, &grid, &law).unwrap().corrected_contact_fraction;
         (area, Warning::of_law::<f64>(&law, &surface, 1.0))
@@ -341,8 +336,7 @@ fn drawn(seed: u64, i: usize) -> f64 {
 fn rolled(hurst: f64, lay: usize, seed: u64) -> Topography {
     let grid = Grid::new((128, 128 / lay), (1.0, 1.0 / lay as f64)).unwrap();
     let k_s = 64.0 / (lay as f64).sqrt() - 0.6;
-    let rough =
-        SelfAffine { hurst, k_l: 1.0, k_r: 1.0, k_s: k_s.min(63.4 / lay as f64), seed, ..SelfAffine::default() };
+    let rough = SelfAffine::default().hurst(hurst).k_l(1.0).k_r(1.0).k_s(k_s.min(63.4 / lay as f64)).seed(seed);
     let map = Topography::from(rough.surface(grid).unwrap());
     if lay == 1 { map } else { map.resample((128, 128)).unwrap() }
 }

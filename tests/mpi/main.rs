@@ -41,7 +41,7 @@ fn same_solutions<T: Bits>(name: &str, grid: &Grid, shared: &Solution<T>, alone:
 }
 
 fn rough(grid: Grid) -> Result<Surface> {
-    SelfAffine { k_s: 40.0, amplitude: Amplitude::RmsSlope(0.1), seed: 3, ..SelfAffine::default() }.surface(grid)
+    SelfAffine::default().k_s(40.0).amplitude(Amplitude::RmsSlope(0.1)).seed(3).surface(grid)
 }
 
 /// Solves alone and shared, with a law, a wall and a load.
@@ -54,7 +54,7 @@ where
     let name = format!("{name}, {} on {shape:?}", T::NAME);
     let solve = |grid: Grid| {
         let mut problem = Problem::new(&rough(grid)?, Westergaard::<T>::new(grid, 1.0)?, law.clone())?;
-        let settings = Settings { max_iterations: 60, ..Settings::default() };
+        let settings = Settings::default().max_iterations(60);
         Solver { settings, constraint: wall.clone() }.solve(&mut problem, control)
     };
     let alone = Grid::new(shape, (1.0, shape.1 as f64 / shape.0 as f64))?;
@@ -215,7 +215,7 @@ fn starts_and_sweeps_are_shared(world: &World) -> Result<()> {
 fn nested_grids_are_shared<T: Bits>(world: &World, shape: (usize, usize), control: Control) -> Result<()> {
     let solve = |grid: Grid| {
         let half_space = |grid| Westergaard::<T>::new(grid, 1.0);
-        let nested = Nested { stiffness: Some(1e-3), ..Nested::default() };
+        let nested = Nested::default().stiffness(1e-3);
         { nested }.solve(&rough(grid)?, half_space, NoAdhesion, control)
     };
     let alone = Grid::new(shape, (1.0, shape.1 as f64 / shape.0 as f64))?;
@@ -296,7 +296,7 @@ fn laws_that_vary_are_shared<T: Bits>(world: &World, shape: (usize, usize)) -> R
     let jumps = |grid: &Grid| Varying::on(grid, MaugisDugdale::new(1e-4, 2e-3)?, grid.sample(work).view());
     compare::<T>(world, "varying law with jumps, nested", alone, |grid| {
         let law = jumps(&grid)?;
-        let nested = Nested { coarsest: 32, ..Nested::default() };
+        let nested = Nested::default().coarsest(32);
         let nested = { nested }.solve(&rough(grid)?, |grid| Westergaard::<T>::new(grid, 1.0), &law, control)?;
         let statistics = contact::ContactStatistics::of(&nested.solution, &grid, &law)?;
         Ok((nested.solution, statistics))
@@ -354,7 +354,7 @@ fn absent_nodes_are_shared<T: Bits>(world: &World, shape: (usize, usize)) -> Res
     })?;
     let law = Exponential::new(1e-5, 1e-3)?;
     compare::<T>(world, "absent nodes under a free half-space, nested", alone, |grid| {
-        let nested = Nested { coarsest: 32, ..Nested::default() };
+        let nested = Nested::default().coarsest(32);
         let half_space = |grid| Boussinesq::<T>::new(grid, 1.0);
         let nested = { nested }.solve(&perforated(grid)?, half_space, law, Control::MeanPressure(0.01))?;
         let statistics = contact::ContactStatistics::of(&nested.solution, &grid, &law)?;
@@ -369,10 +369,10 @@ fn springs_under_free_half_spaces_are_shared(world: &World, shape: (usize, usize
         C: ContactConstraint<f64>,
     {
         let mut problem = Problem::new(&perforated(grid)?, Boussinesq::<f64>::new(grid, 1.0)?, NoAdhesion)?;
-        let mut solver = Solver { settings: Settings { tolerance: Some(1e-3), ..Settings::default() }, constraint };
+        let mut solver = Solver { settings: Settings::default().tolerance(1e-3), constraint };
         let mut solution = solver.solve(&mut problem, Control::MeanPressure(0.01))?;
         let statistics = contact::ContactStatistics::of(&solution, &grid, &NoAdhesion)?;
-        let test = stability::StabilityTest { max_iterations: 5, ..stability::StabilityTest::default() };
+        let test = stability::StabilityTest::default().max_iterations(5);
         let stability = test.run_with(&mut problem, &solver.constraint, Control::Force(0.01), &solution)?;
         // the mode is compared in the place of the pressure
         solution.pressure = stability.mode;
@@ -393,7 +393,7 @@ fn equilibria_are_judged_alike(world: &World, shape: (usize, usize)) -> Result<(
         let mut problem = Problem::new(&rough(grid)?, Westergaard::<f64>::new(grid, 1.0)?, law)?;
         let (mut solver, control) = (Solver::default(), Control::MeanPressure(2e-3));
         let solution = solver.solve(&mut problem, control)?;
-        let test = stability::StabilityTest { max_iterations: 30, ..stability::StabilityTest::default() };
+        let test = stability::StabilityTest::default().max_iterations(30);
         let stability = test.run(&mut problem, control, &solution)?;
         let left = stability.leave(&mut solver, &mut problem, control, &solution)?;
         let stiffness = stability::ContactStiffness::of(&mut problem, &solution)?;
@@ -430,7 +430,7 @@ fn paths_are_shared(world: &World) -> Result<()> {
     use path::{Path, PathSettings};
     let law = Exponential::new(1e-3, 4e-3)?;
     let legs = [0.03, 0.012].map(Control::MeanGap);
-    let settings = PathSettings { steps: 4, smallest_step: 0.1, ..PathSettings::default() };
+    let settings = PathSettings::default().steps(4).smallest_step(0.1);
     let alone = Grid::new((300, 256), (1.0, 1.0))?;
     let shared = world.share(alone)?;
     let follow = |grid: Grid| {

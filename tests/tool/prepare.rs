@@ -18,7 +18,8 @@ fn corpus(name: &str) -> PathBuf {
 fn measured() -> Topography {
     let grid = Grid::new((61, 45), (3.05e-6, 2.25e-6)).unwrap();
     let amplitude = Amplitude::RmsHeight(20e-9);
-    let rough = SelfAffine { hurst: 0.8, k_l: 1.0, k_r: 2.0, k_s: 16.0, amplitude, random_phase: false, seed: 3 };
+    let rough =
+        SelfAffine::default().hurst(0.8).k_l(1.0).k_r(2.0).k_s(16.0).amplitude(amplitude).random_phase(false).seed(3);
     let mut map = Topography::from(rough.surface(grid).unwrap());
     map.unit = Some("m".to_owned());
     for ((i, j), h) in map.heights.indexed_iter_mut() {
@@ -126,7 +127,8 @@ fn steps_have_a_fixed_order_and_are_those_of_the_library() {
 fn scanned() -> Topography {
     let grid = Grid::new((60, 50), (6.0, 5.0)).unwrap();
     let amplitude = Amplitude::RmsHeight(0.1);
-    let rough = SelfAffine { hurst: 0.8, k_l: 1.0, k_r: 2.0, k_s: 12.0, amplitude, random_phase: false, seed: 4 };
+    let rough =
+        SelfAffine::default().hurst(0.8).k_l(1.0).k_r(2.0).k_s(12.0).amplitude(amplitude).random_phase(false).seed(4);
     let mut map = Topography::from(rough.surface(grid).unwrap());
     map.unit = Some("nm".to_owned());
     map.heights.indexed_iter_mut().for_each(|((_, j), h)| *h += (1.7 * j as f64).sin());

@@ -30,15 +30,14 @@ fn a_surface_is_the_librarys_and_is_measured_alike() {
     assert_eq!(bench.names(""), ["psd.csv", "rough.npy", "rough.npy.scene.toml"]);
 
     let grid = Grid::new((100, 90), (2e-6, 3e-6)).unwrap();
-    let rough = SelfAffine {
-        hurst: 0.6,
-        k_l: 2.0,
-        k_r: 5.0,
-        k_s: 25.0,
-        amplitude: Amplitude::RmsHeight(1e-8),
-        random_phase: false,
-        seed: 12,
-    };
+    let rough = SelfAffine::default()
+        .hurst(0.6)
+        .k_l(2.0)
+        .k_r(5.0)
+        .k_s(25.0)
+        .amplitude(Amplitude::RmsHeight(1e-8))
+        .random_phase(false)
+        .seed(12);
     let surface = rough.surface(grid).unwrap();
     assert_eq!(read_field(&bench.0.path().join("rough.npy")).unwrap(), surface.heights());
     let expected = surface.statistics();

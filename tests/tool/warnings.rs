@@ -10,7 +10,7 @@ use crate::bench::{Bench, text};
 /// A folder with a rough surface in it, periodic, and the same after changes.
 fn bench() -> Bench {
     let bench = Bench::new();
-    let rough = SelfAffine { k_l: 2.0, k_r: 2.0, k_s: 10.0, ..SelfAffine::default() };
+    let rough = SelfAffine::default().k_l(2.0).k_r(2.0).k_s(10.0);
     let heights = rough.surface(asperity::Grid::square(32, 1.0).unwrap()).unwrap().heights().clone();
     let write = |name: &str, heights: &Array2<f64>| write_npy(&bench.path(name), heights).unwrap();
     write("clean.npy", &heights);

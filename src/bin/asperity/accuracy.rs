@@ -1,8 +1,12 @@
 //! The accuracy that is asked for: its options, its plan, and what was reached.
 
-use asperity::accuracy::{Accuracy, GridError, Plan, Quantity, available_memory};
-use asperity::{Control, Level, Solver};
+use std::time::Instant;
+
+use asperity::accuracy::{Accuracy, GridError, Plan, Quantity};
+use asperity::io::available_memory;
+use asperity::{Control, ElasticOperator, Level, Real, Result, Solver};
 use clap::{Args, ValueEnum};
+use ndarray::Array2;
 use serde_json::{Map, Value, json};
 
 use crate::adhesion::Wall;
@@ -58,8 +62,18 @@ impl AccuracyOptions {
     }
 }
 
-/// What is to be expected, in words.
-pub fn announced<C>(wanted: &Accuracy<C>, plan: &Plan) -> String {
+/// The seconds of an operator application.
+pub fn seconds_of<T: Real>(operator: &mut dyn ElasticOperator<T>) -> Result<f64> {
+    let mut fields = [(); 2].map(|()| Array2::<T>::zeros(operator.grid().shape()));
+    let [u, p] = &mut fields;
+    operator.pressure(u.view(), p.view_mut())?;
+    let clock = Instant::now();
+    operator.pressure(u.view(), p.view_mut())?;
+    Ok(clock.elapsed().as_secs_f64())
+}
+
+/// The plan in words, by the seconds of an operator application.
+pub fn announced<C>(wanted: &Accuracy<C>, plan: &Plan, application: f64) -> String {
     let waves = if plan.nodes_per_wave.is_finite() {
         format!("the shortest wave has {:.1} nodes; ", plan.nodes_per_wave)
     } else {
@@ -72,7 +86,7 @@ pub fn announced<C>(wanted: &Accuracy<C>, plan: &Plan) -> String {
         plan.shape.0,
         plan.shape.1,
         plan.tolerance,
-        seconds(plan.seconds),
+        seconds(plan.applications * application),
         bytes(plan.bytes)
     )
 }

@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+use asperity::io::check_memory;
 use asperity::{Boussinesq, Control, ElasticOperator, Grid, Real, Result, Surface, Westergaard};
 use clap::{Args, ValueEnum};
 use ndarray::Array2;
@@ -32,8 +33,12 @@ pub enum Boundary {
 }
 
 impl Boundary {
-    /// The half-space under the nodes of `grid`.
+    /// The half-space under the nodes of `grid`, if the machine has the memory for a solve: five fields of `f64`, and
+    /// four times as many with a free boundary.
     pub fn half_space<T: Real>(self, grid: Grid, modulus: f64) -> Result<Box<dyn ElasticOperator<T>>> {
+        if !grid.is_shared() {
+            check_memory("a solve", grid.shape(), if self == Self::Free { 160 } else { 40 })?;
+        }
         Ok(match self {
             Self::Periodic => Box::new(Westergaard::new(grid, modulus)?),
             Self::Free => Box::new(Boussinesq::new(grid, modulus)?),

@@ -61,7 +61,7 @@ impl Case {
         let Some(branch) = report.branch else {
             return Err("--branch both: without adhesion there is but one equilibrium".into());
         };
-        let settings = Settings { branch: Some(branch.other()), ..self.settings };
+        let settings = self.settings.branch(branch.other());
         Ok(Self { settings, stability: false, leave: false, stiffness: false, ..*self })
     }
 
@@ -228,9 +228,10 @@ fn solve_nested<T: Scalar, L: AdhesionLaw<T>>(
 ) -> Outcome<(Solution<T>, Account)> {
     let clock = Instant::now();
     let half_space = |grid| case.boundary.half_space(grid, case.modulus);
-    let Nested { coarsest, closed, .. } = Nested::default();
-    let (solver, stiffness, tolerance) = (case.solver(), case.stiffness_to(), case.settings.tolerance_in::<T>());
-    let found = Nested { solver, coarse_tolerance: GridError::COARSE_TOLERANCE, coarsest, stiffness, closed }
+    let tolerance = case.settings.tolerance_in::<T>();
+    let found = Nested::with_solver(case.solver())
+        .coarse_tolerance(GridError::COARSE_TOLERANCE)
+        .stiffness(case.stiffness_to())
         .solve_observed(surface, half_space, &law, case.control, |grid, state| {
             let finest = grid.nodes() == surface.grid().nodes();
             progress.update_on(

@@ -161,12 +161,11 @@ impl Options {
         let law = adhesion.law::<T>()?;
         let mut problem = Problem::new(&surface, operator, adhesion.law::<T>()?)?;
         let mut solver = Solver { settings: self.solver.settings(), constraint: self.adhesion.wall };
-        let settings = PathSettings {
-            steps: self.steps,
-            smallest_step: self.smallest_step,
-            imbalance: self.imbalance,
-            smooth: !self.sharp,
-        };
+        let settings = PathSettings::default()
+            .steps(self.steps)
+            .smallest_step(self.smallest_step)
+            .imbalance(self.imbalance)
+            .smooth(!self.sharp);
         let comes = start.is_none() && self.solver.comes_from_afar();
         let afar = if comes { self.surface.beyond.boundary.start_afar(&surface, &loads) } else { None };
         let mut path = Path::new(&mut solver, &mut problem, loads, settings)?;

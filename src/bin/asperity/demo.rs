@@ -151,7 +151,7 @@ pub fn run(options: &Options) -> Outcome<bool> {
 /// The surface of the demo: one of a fixed seed, on any grid that resolves its waves.
 fn rough(grid: Grid) -> asperity::Result<Surface> {
     let amplitude = Amplitude::RmsHeight(RMS_HEIGHT);
-    SelfAffine { k_l: 3.0, k_r: 3.0, k_s: 40.0, amplitude, seed: 2017, ..SelfAffine::default() }.surface(grid)
+    SelfAffine::default().k_l(3.0).k_r(3.0).k_s(40.0).amplitude(amplitude).seed(2017).surface(grid)
 }
 
 fn draw_heights(grid: Grid, heights: &Array2<f64>, dpi: f64) -> asperity::Result<Picture> {

@@ -91,7 +91,6 @@ impl Journal {
         loads: Option<&[f64]>,
         force: bool,
     ) -> Outcome<(Self, Saved)> {
-        let unwritable = |path: &Path, e: io::Error| Error::file(path, format!("cannot be written: {e}"));
         match fs::metadata(path) {
             Ok(metadata) if !metadata.is_file() => {
                 return Err(Error::file(path, "is not a regular file: choose another --out").into());
@@ -99,13 +98,13 @@ impl Journal {
             Ok(_) => {}
             Err(_) => {
                 let folder = path.parent().unwrap_or(Path::new(""));
-                fs::create_dir_all(folder).map_err(|e| unwritable(folder, e))?;
+                fs::create_dir_all(folder).map_err(|e| Error::unwritable(folder, e))?;
             }
         }
         let (mut file, made) = open_locked(path)?;
         let mut begin = || -> Outcome<_> {
             let mut content = Vec::new();
-            file.read_to_end(&mut content).map_err(|e| Error::file(path, format!("cannot be read: {e}")))?;
+            file.read_to_end(&mut content).map_err(|e| Error::unreadable(path, e))?;
             // a run that is killed before it writes its first state leaves an empty file
             let new = content.is_empty() && (made || !state_path(path).exists());
             let (written, saved) = if new || force {
@@ -114,7 +113,7 @@ impl Journal {
             } else {
                 resume(path, &content, header, &identity, loads)?
             };
-            file.set_len(written.bytes).map_err(|e| unwritable(path, e))?;
+            file.set_len(written.bytes).map_err(|e| Error::unwritable(path, e))?;
             Ok((written, saved))
         };
         let (written, saved) = begin().inspect_err(|_| {
@@ -130,7 +129,7 @@ impl Journal {
         let mut text = String::new();
         // by the same handle: on some platforms a lock keeps out others of the same process, too
         let read = (&self.file).rewind().and_then(|()| (&self.file).read_to_string(&mut text));
-        read.map_err(|e| Error::file(&self.path, format!("cannot be read: {e}")))?;
+        read.map_err(|e| Error::unreadable(&self.path, e))?;
         Ok(text)
     }
 
@@ -160,7 +159,7 @@ impl Journal {
                 let _ = self.file.set_len(self.written.bytes);
             })
         };
-        write().map_err(|e| Error::file(&self.path, format!("cannot be written: {e}")))?;
+        write().map_err(|e| Error::unwritable(&self.path, e))?;
         self.written = Written {
             rows: self.written.rows + 1,
             unconverged: self.written.unconverged + usize::from(!converged),

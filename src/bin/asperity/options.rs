@@ -236,17 +236,14 @@ impl SolverOptions {
     pub fn settings(&self) -> Settings {
         let default = match self.method {
             Iteration::Default => Settings::default(),
-            Iteration::Rey2017 => Settings { criterion: Criterion::EnergyNorm, ..Settings::rey2017() },
+            Iteration::Rey2017 => Settings::rey2017().criterion(Criterion::EnergyNorm),
         };
-        Settings {
-            tolerance: self.tolerance,
-            max_iterations: self.max_iterations.unwrap_or(default.max_iterations),
-            branch: match self.branch {
+        default.tolerance(self.tolerance).max_iterations(self.max_iterations.unwrap_or(default.max_iterations)).branch(
+            match self.branch {
                 Some(Branches::Loading) => Some(Branch::Loading),
                 Some(Branches::Unloading) => Some(Branch::Unloading),
                 Some(Branches::Both) | None => None,
             },
-            ..default
-        }
+        )
     }
 }

@@ -93,14 +93,15 @@ impl OutputFile {
 
 /// Writes a text, or says where it could not be written.
 pub fn write_text(path: &Path, text: &str) -> asperity::Result<()> {
-    fs::write(path, text).map_err(|e| Error::file(path, format!("cannot be written: {e}")))
+    fs::write(path, text).map_err(|e| Error::unwritable(path, e))
 }
 
 /// The error of a hidden temporary file as that of the file in its destination `folder`.
 pub fn at_destination(error: Error, folder: &Path) -> Error {
     match error {
-        Error::File { path, reason } => {
-            Error::File { path: path.file_name().map_or_else(|| folder.to_owned(), |name| folder.join(name)), reason }
+        Error::File { path, reason, cause } => {
+            let path = path.file_name().map_or_else(|| folder.to_owned(), |name| folder.join(name));
+            Error::File { path, reason, cause }
         }
         other => other,
     }

@@ -163,7 +163,7 @@ fn solved<T: Real>(surface: &Surface, law: impl AdhesionLaw<T>, control: Control
     let default = Settings::default();
     let tolerance = default.tolerance_in::<T>();
     let tolerance = if tolerance < 1e-5 { 1e-8 } else { tolerance };
-    Solver::new(Settings { tolerance: Some(tolerance), ..default }).solve(&mut problem, control)
+    Solver::new(default.tolerance(tolerance)).solve(&mut problem, control)
 }
 
 /// Two checks of a contact: its mean pressure, and a radius of its own.
@@ -304,7 +304,7 @@ fn johnson(checks: &mut Vec<Check>) -> Outcome<()> {
 /// A rough contact with adhesion, on one thread and on all of them, but on two at least: that of one thread.
 fn rough<T: Real>(checks: &mut Vec<Check>) -> Outcome<Solution<T>> {
     let amplitude = Amplitude::RmsHeight(5e-3);
-    let spectrum = SelfAffine { k_l: 3.0, k_r: 3.0, k_s: 40.0, amplitude, seed: 2017, ..SelfAffine::default() };
+    let spectrum = SelfAffine::default().k_l(3.0).k_r(3.0).k_s(40.0).amplitude(amplitude).seed(2017);
     let surface = spectrum.surface(Grid::square(NODES, 1.0)?)?;
     let law = Exponential::new(5e-5, 1e-3)?;
     let on = |count| threads::on(count, || solved::<T>(&surface, law, Control::MeanPressure(5e-3)));

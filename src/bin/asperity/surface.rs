@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use asperity::io::check_memory;
 use asperity::io::{write_npy, write_topography};
 use asperity::{Amplitude, Grid, SelfAffine, Topography};
 use clap::{ArgGroup, Args};
@@ -113,7 +114,16 @@ pub fn run(options: &Options, scene: &Scene) -> Outcome<bool> {
     let height = options.rms_height.map(|height| Amplitude::RmsHeight(height.value));
     let slope = options.rms_slope.map(Amplitude::RmsSlope);
     let k_r = options.k_r.unwrap_or(k_l);
-    let rough = height.or(slope).map(|amplitude| SelfAffine { hurst, k_l, k_r, k_s, amplitude, random_phase, seed });
+    let rough = height.or(slope).map(|amplitude| {
+        SelfAffine::default()
+            .hurst(hurst)
+            .k_l(k_l)
+            .k_r(k_r)
+            .k_s(k_s)
+            .amplitude(amplitude)
+            .random_phase(random_phase)
+            .seed(seed)
+    });
     if rough.is_none() && options.body.form == Form::SelfAffine {
         return Err("--form self-affine lacks its roughness: give --rms-height or --rms-slope".into());
     }
@@ -131,6 +141,9 @@ pub fn run(options: &Options, scene: &Scene) -> Outcome<bool> {
     scene.check_beside(&options.out, options.force)?;
     use_threads(options.threads)?;
 
+    if rough.is_some() {
+        check_memory("a random surface", shape, 32)?;
+    }
     let roughness = rough.map(|rough| rough.surface(grid)).transpose()?;
     let surface = options.body.surface(grid, roughness)?;
     let absent = surface.absent_nodes();

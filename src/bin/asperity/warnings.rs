@@ -89,7 +89,7 @@ pub fn read_beside(table: &Path) -> Outcome<Vec<Told>> {
     match fs::read_to_string(&path) {
         Ok(text) => Ok(text.lines().filter_map(Told::parse).collect()),
         Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(Vec::new()),
-        Err(error) => Err(Error::file(&path, format!("cannot be read: {error}")).into()),
+        Err(error) => Err(Error::unreadable(&path, error).into()),
     }
 }
 

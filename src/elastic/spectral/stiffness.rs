@@ -148,7 +148,7 @@ pub(super) fn stiffness<T: Real>(grid: &Grid, symbol: &Symbol) -> Result<Columns
         Some(value) => Err(Error::Value { name: "stiffness of a wave", value, requirement: REPRESENTABLE }),
         None => Ok(modes),
     };
-    Error::agreed(grid.slab(), result)
+    grid.slab().agreed(result)
 }
 
 impl<T: Real> Stiffness<T> {

@@ -4,10 +4,10 @@ use asperity_fft::num_complex::Complex;
 use ndarray::{Array2, Zip};
 
 use super::Topography;
-use crate::error::{Error, Result};
+use crate::error::Result;
+use crate::field::all_finite;
 
 use crate::grid::Grid;
-use crate::memory::afford;
 
 impl Topography {
     /// The map on `nodes` = (Mx, My) nodes of the same sides, finer or coarser, by Fourier interpolation.
@@ -44,8 +44,8 @@ impl Topography {
     /// [`Error::Value`] if a number of nodes is zero; [`Error::Memory`] if they take more than there is;
     /// [`Error::NotFinite`] if heights are missing.
     pub fn resample(mut self, nodes: (usize, usize)) -> Result<Self> {
-        afford("a resampled map", Grid::new(nodes, (1.0, 1.0))?.slab(), 32)?;
-        Error::all_finite("heights", self.heights.view())?;
+        Grid::new(nodes, (1.0, 1.0))?.slab().afford("a resampled map", 32)?;
+        all_finite("heights", self.heights.view())?;
         // about the mean, so that a large datum costs no digits
         let mean = self.mean();
         let before = self.heights.dim();

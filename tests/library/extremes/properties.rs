@@ -70,7 +70,7 @@ fn scaled(scene: &Scene, (length, height, modulus): (f64, f64, f64)) -> Scene {
 fn solve<T: Real>(scene: &Scene, tolerance: f64) -> Option<Solved> {
     let (dense, centred) = (scene.dense(), scene.centred());
     let span = centred.iter().fold(0.0_f64, |a, b| a.max(b.abs()));
-    let settings = Settings { tolerance: Some(tolerance), ..Settings::default() };
+    let settings = Settings::default().tolerance(tolerance);
     let Solution { gap, pressure, report, .. } = Scene { settings, ..scene.clone() }.solution::<T>().unwrap();
     let surface_work = dense.work(&centred);
     let rounded = surface_work + dense.stiffest * report.mean_gap * (report.mean_gap + span);

@@ -30,7 +30,7 @@ fn solve_from<T: Real, C: ContactConstraint<T>>(
 /// There are no waves in a plane but those of rounding, to which errors must not be related.
 fn planes_stay_at_a_mean_gap_from_any_start<T: Real>() {
     // in f32 the heights of the 285 nodes are their own rounding: an error of 1.3e-3
-    let settings = Settings { tolerance: Some(if T::NAME == "f32" { 2e-3 } else { 1e-6 }), ..Settings::default() };
+    let settings = Settings::default().tolerance(if T::NAME == "f32" { 2e-3 } else { 1e-6 });
     for shape in [(285, 1), (1, 25), (6, 5)] {
         for height in [8.04e-11, 1.04, -3e5] {
             for start in [None, Some(Array2::zeros(shape)), Some(Array2::from_elem(shape, 0.3))] {
@@ -47,7 +47,7 @@ fn planes_stay_at_a_mean_gap_from_any_start<T: Real>() {
 }
 
 fn paper(tolerance: f64) -> Solver {
-    Solver::new(Settings { criterion: Criterion::EnergyNorm, tolerance: Some(tolerance), ..Settings::rey2017() })
+    Solver::new(Settings::rey2017().criterion(Criterion::EnergyNorm).tolerance(tolerance))
 }
 
 /// A step that leaves no node apart keeps the mean gap.
@@ -95,7 +95,7 @@ fn springs_and_multipliers_keep_a_mean_gap_of_zero<T: Real>() {
 
 fn springs<T: Real, C: ContactConstraint<T>>(constraint: C) {
     let wave = |i: usize, j: usize| 0.02 * (std::f64::consts::TAU * (i + 2 * j) as f64 / 16.0).cos();
-    let settings = Settings { tolerance: Some(loose::<T>()), ..Settings::default() };
+    let settings = Settings::default().tolerance(loose::<T>());
     let mut solver = Solver { settings, constraint };
     for start in [None, Some(Array2::from_shape_fn((16, 16), |(i, _)| if i % 2 == 0 { 1e-3 } else { -1e-3 }))] {
         let mut problem: Problem<T, _, Boxed<T>> = problem((16, 16), (1.0, 1.0), wave, bare());
@@ -115,7 +115,7 @@ fn a_step_under_a_light_pressure_lands_on_all_of_its_plateau<T: Real>() {
     // 1.9e4 times the modulus of one that the other tests have
     let control = Control::MeanPressure(1.064e-3 / 1.94e4);
     let tolerance = if T::NAME == "f64" { 1e-8 } else { 1e-2 };
-    let mut solver = Solver::new(Settings { tolerance: Some(tolerance), ..Settings::default() });
+    let mut solver = Solver::new(Settings::default().tolerance(tolerance));
     let report = solve_from(&mut solver, &mut problem, control, None).report;
     assert_eq!(report.status, Status::Converged, "{report:?}");
     assert_eq!(report.contact_nodes, 8);

@@ -495,7 +495,7 @@ impl<'a, T: Real> Judge<'a, T> {
                 Verdict::Unstable => {
                     need(below(margin) > 0, || format!("unstable with {value:e}, but it is a minimum"))?
                 }
-                Verdict::Undecided => {}
+                _ => {}
             }
             if scene.is_whole() && stability.verdict != Verdict::Undecided {
                 let allowed = 1e-3 * value.abs() + margin;

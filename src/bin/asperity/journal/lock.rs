@@ -16,7 +16,7 @@ pub fn open_locked(path: &Path) -> asperity::Result<(File, bool)> {
         Err(e) if e.kind() == io::ErrorKind::AlreadyExists => (options.create(true).open(path), false),
         opened => (opened, true),
     };
-    let file = opened.map_err(|e| Error::file(path, format!("cannot be written: {e}")))?;
+    let file = opened.map_err(|e| Error::unwritable(path, e))?;
     // a study has the lock of its case: a former run of that is about to end
     match if is_case() { file.lock().map_err(TryLockError::Error) } else { file.try_lock() } {
         Err(TryLockError::WouldBlock) => {

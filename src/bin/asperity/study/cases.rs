@@ -295,7 +295,7 @@ fn contents(path: &Path, files: &mut HashMap<PathBuf, Hash>) -> asperity::Result
     if let Some(&hash) = files.get(path) {
         return Ok(hash);
     }
-    let bytes = fs::read(path).map_err(|e| Error::file(path, format!("cannot be read: {e}")))?;
+    let bytes = fs::read(path).map_err(|e| Error::unreadable(path, e))?;
     let hash = Hash::NEW.of(&bytes);
     files.insert(path.to_owned(), hash);
     Ok(hash)

@@ -25,7 +25,7 @@ pub fn merge(study: &Study, folder: &Folder) -> Outcome<Merged> {
     let mut columns = Vec::new();
     for (k, case) in study.cases.iter().enumerate() {
         let path = folder.rows(case);
-        let rows = fs::read_to_string(&path).map_err(|e| Error::file(&path, format!("cannot be read: {e}")))?;
+        let rows = fs::read_to_string(&path).map_err(|e| Error::unreadable(&path, e))?;
         let mut lines = rows.lines();
         let names: Vec<String> = match study.format {
             Format::Csv => csv::names(lines.next().unwrap_or_default()),

@@ -89,7 +89,7 @@ fn checksum(of_rows: Hash, rows: &Path) -> String {
 
 /// Solves the cases with these numbers that are not done, some at a time; how many were refused.
 pub fn solve(study: &Study, folder: &Folder, chosen: &[usize], jobs: usize, printing: Printing) -> Outcome<usize> {
-    fs::create_dir_all(&folder.path).map_err(|e| Error::file(&folder.path, format!("cannot be written: {e}")))?;
+    fs::create_dir_all(&folder.path).map_err(|e| Error::unwritable(&folder.path, e))?;
     let program = env::current_exe().map_err(|e| format!("this program is not found any more: {e}"))?;
     let jobs = jobs.min(chosen.len().max(1));
     let threads = (threads::count() / jobs).max(1);
