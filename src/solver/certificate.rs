@@ -60,7 +60,7 @@ impl<T: Real, L: Real> State<'_, T, L> {
         // and so have flats that are held apart, by their mean gap or by the law itself, whose range their gaps are
         // then of
         let lifted = match self.constraint.wall() {
-            Wall::None => self.mean_gap().abs().max(self.law.range().widen()),
+            Wall::None => self.mean_gap().abs().max(self.law.hints().range.widen()),
             _ if self.tally.contact > 0.0 => 0.0,
             _ => self.mean_gap(),
         };

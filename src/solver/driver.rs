@@ -10,7 +10,7 @@ use super::report::{Iteration, Solved, Status};
 use super::start::{Begin, check_wall};
 use super::state::State;
 use super::{Branch, Method, Settings};
-use crate::adhesion::{AdhesionLaw, NoAdhesion};
+use crate::adhesion::{AdhesionLaw, Discretisation, NoAdhesion};
 use crate::constraint::{ContactConstraint, Projection, Update, Wall};
 use crate::elastic::ElasticOperator;
 use crate::error::{Error, Result};
@@ -84,7 +84,7 @@ impl<'a> Compiled for Solve<'a> {
 
 fn run<T: Real, L: Real>(operators: &mut dyn Operators<T, L>, job: Job<'_, T>) -> Result<Solved<T>> {
     let Job { law, flat, constraint, control, settings, begin, observe } = job;
-    let held = flat.window.as_ref().and_then(|window| law.in_rows_of(window.held()));
+    let held = flat.window.as_ref().and_then(|window| law.adapted(Discretisation::Rows(*window.held())));
     let law = held.as_deref().unwrap_or(law);
     Error::positive("tolerance", settings.tolerance_in::<T>())?;
     check_wall(law, constraint.wall())?;
@@ -97,7 +97,7 @@ fn run<T: Real, L: Real>(operators: &mut dyn Operators<T, L>, job: Job<'_, T>) -
     let (mut rigid, mut repelled): (_, Option<(&mut dyn ContactConstraint<T>, f64)>) = (Projection, None);
     let (first, wall): (&dyn AdhesionLaw<T>, &mut dyn ContactConstraint<T>) = match constraint.wall() {
         Wall::None if comes_from_afar => {
-            repelled = Some((&mut *constraint, law.rest().map_or(0.0, T::widen)));
+            repelled = Some((&mut *constraint, law.hints().rest.map_or(0.0, T::widen)));
             (&NoAdhesion, &mut rigid)
         }
         _ if comes_from_afar => (&NoAdhesion, constraint),

@@ -47,7 +47,7 @@ impl<T: Real, L: Real> State<'_, T, L> {
         if stiffest <= 0.0 {
             // nothing resists the load of a node alone before it touches: a step is as long as the gap
             let gap = self.tally.sum_gap / self.nodes();
-            let falls = gap > 0.0 && self.law.is_zero() && self.given > 0.0;
+            let falls = gap > 0.0 && self.law.hints().zero && self.given > 0.0;
             let contact = if falls { self.foundation().min(self.given / gap) } else { self.foundation() };
             return contact + self.load.stiffness();
         }
@@ -74,7 +74,7 @@ impl<T: Real, L: Real> State<'_, T, L> {
     fn is_settled(&self) -> bool {
         let loaded =
             self.near || self.is_gap_controlled() || (self.iterations >= UNSETTLED && self.load_error() <= LOADED);
-        loaded && (self.law.is_zero() || self.relative_error() <= SETTLED)
+        loaded && (self.law.hints().zero || self.relative_error() <= SETTLED)
     }
 
     /// Tells the coarse space where the contacts are, now and then: the nodes outside of the working set, or those that
@@ -89,7 +89,7 @@ impl<T: Real, L: Real> State<'_, T, L> {
             let touches = |_, residual| idles(residual);
             coarse.renew(iteration, &self.fields.residual, touches, (stiffness, spring), range, held);
         } else {
-            let rest = self.law.rest().unwrap_or_else(T::zero);
+            let rest = self.law.hints().rest.unwrap_or_else(T::zero);
             let touches = |node, gap| gap <= rest && window.is_none_or(|window| window.faces(node));
             coarse.renew(iteration, &self.fields.gap, touches, (stiffness, spring), range, held);
         }

@@ -164,7 +164,7 @@ impl<'a, T: Real, L: Real> State<'a, T, L> {
             start_gap: 0.0,
             detached: None,
         };
-        if uniform && state.law.is_zero() && (flat.boundary != Boundary::Periodic || state.is_hardly_pressed()) {
+        if uniform && state.law.hints().zero && (flat.boundary != Boundary::Periodic || state.is_hardly_pressed()) {
             state.start_undeformed()?;
         } else if uniform {
             state.work = state.count();

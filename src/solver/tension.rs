@@ -42,7 +42,7 @@ impl<T: Real, L: Real> State<'_, T, L> {
 
     /// The mean gap from which on the surfaces hardly attract each other.
     fn out_of_reach(&self) -> f64 {
-        self.flat.height_span + REACH * self.law.range().widen()
+        self.flat.height_span + REACH * self.law.hints().range.widen()
     }
 
     /// Whether the surfaces drift apart under a load that presses them, as rounding may make them where the load is
@@ -68,7 +68,7 @@ impl<T: Real, L: Real> State<'_, T, L> {
     pub(super) fn seek_hold(&mut self, observe: Observer<'_>) -> Result<bool> {
         let Load::Pressure(load) = self.load else { return Ok(false) };
         let (touch, rest) = (self.flat.peak, self.closest().widen());
-        let mut interval = [rest + 0.5 * touch, rest + 1.5 * touch + 0.5 * REACH * self.law.range().widen()];
+        let mut interval = [rest + 0.5 * touch, rest + 1.5 * touch + 0.5 * REACH * self.law.hints().range.widen()];
         let [mut gaps, mut held] = [[0.0; 2]; 2];
         let (mut next, mut tried) = (None, Vec::with_capacity(SECTIONS));
         for section in 0..SECTIONS {
@@ -118,7 +118,7 @@ impl<T: Real, L: Real> State<'_, T, L> {
 
     /// The gap of nodes that touch: zero at a wall, and that of rest where the law itself repels.
     fn closest(&self) -> T {
-        let rest = if self.projects() { None } else { self.law.rest() };
+        let rest = if self.projects() { None } else { self.law.hints().rest };
         rest.unwrap_or_else(T::zero)
     }
 
@@ -145,7 +145,7 @@ impl<T: Real, L: Real> State<'_, T, L> {
     /// The largest of many tractions of the law: no uniform gap holds more. A peak that is narrower than a hundredth of
     /// the range may be missed.
     fn strongest_traction(&self) -> f64 {
-        let range = self.law.range().widen();
+        let range = self.law.hints().range.widen();
         let gaps = (0..SAMPLES).map(|i| T::lit(REACH * range * i as f64 / SAMPLES as f64));
         gaps.map(|gap| self.law.traction(gap).widen()).fold(0.0, f64::max)
     }
