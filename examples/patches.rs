@@ -56,15 +56,13 @@ fn main() -> Result<()> {
     let grid = Grid::square(size, 1.0)?;
     let waves = Surface::wave_2d(grid, 5e-3, 4)?;
     let half_space = Westergaard::<f64>::new(grid, 1.0)?;
-    let nodes = |f: &dyn Fn(usize, usize) -> f64| -> Vec<f64> {
-        (0..size * size).map(|node| f(4 * (node / size) / size, 4 * (node % size) / size)).collect()
-    };
 
     println!("waves under a mean pressure of 1e-3 E*, with adhesion of a share of its strength on every other square");
     println!("share of the work   contact, %   strongest tension, E*");
     for share in [0.0, 0.5, 1.0] {
-        let shares = nodes(&|i, j| if (i + j) % 2 == 0 { 1.0 } else { share });
-        let law = Patches { law: Exponential::new(2e-5, 2e-3)?, shape: (size, size), shares };
+        let of = (0..size * size).map(|node| (4 * (node / size) / size + 4 * (node % size) / size) % 2).collect();
+        let laws = vec![Exponential::new(2e-5, 2e-3)?, Exponential::new(share * 2e-5, 2e-3)?];
+        let law = Patches { laws, shape: (size, size), of };
         check_law::<f64>(&law, 0.02)?;
         let mut problem = Problem::new(&waves, half_space.clone(), law)?;
         let solution = Solver::default().solve(&mut problem, Control::MeanPressure(1e-3))?;
@@ -73,7 +71,7 @@ fn main() -> Result<()> {
     }
 
     println!("\nthe same waves without adhesion, under a coat of 1e-3 on one half");
-    let thickness = nodes(&|i, _| if i < 2 { 1e-3 } else { 0.0 });
+    let thickness = (0..size * size).map(|node| if 4 * (node / size) / size < 2 { 1e-3 } else { 0.0 }).collect();
     let coat = Coat { thickness, stiffness: 500.0 };
     let mut problem = Problem::new(&waves, half_space, NoAdhesion)?;
     let mut solver = Solver { settings: Settings::default(), constraint: coat };

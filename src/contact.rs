@@ -6,7 +6,7 @@
 
 use ndarray::{Array2, ArrayView2, Zip};
 
-use crate::adhesion::{AdhesionLaw, noticeable};
+use crate::adhesion::{AdhesionLaw, Values, noticeable};
 use crate::elastic::Boundary;
 use crate::error::{Error, Result};
 use crate::grid::Grid;
@@ -114,13 +114,13 @@ fn attracting<T: Real>(
     slab: Slab,
     law: &impl AdhesionLaw<T>,
 ) -> Vec<bool> {
-    if law.is_zero() {
+    if law.hints().zero {
         return vec![false; gap.len()];
     }
     let least = T::lit(noticeable(law));
     let gaps: Vec<T> = gap.iter().map(|gap| gap.max(T::zero())).collect();
     let mut tractions = vec![T::zero(); gaps.len()];
-    law.tractions(slab.first_node(), &gaps, &mut tractions);
+    law.evaluate(slab.first_node(), &gaps, Values::one(1, &mut tractions));
     contact.iter().zip(tractions).map(|(&touches, traction)| !touches && traction > least).collect()
 }
 

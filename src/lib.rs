@@ -140,8 +140,8 @@ mod world;
 pub use ndarray;
 
 pub use adhesion::{
-    AdhesionLaw, CutOff, Exponential, LennardJones, MaugisDugdale, Morse, NoAdhesion, PowerLaw, Tabulated, Varying,
-    check_law,
+    AdhesionLaw, CutOff, Discretisation, Exponential, Hints, LennardJones, MaugisDugdale, Morse, NoAdhesion, PowerLaw,
+    Tabulated, Values, Varying, check_law,
 };
 pub use constraint::{ContactConstraint, NoWall, Penalty, Projection, Springs, Update, Uzawa, Wall, check_constraint};
 pub use elastic::{

@@ -2,7 +2,7 @@
 
 use std::ops::ControlFlow;
 
-use crate::adhesion::AdhesionLaw;
+use crate::adhesion::{AdhesionLaw, Discretisation};
 use crate::constraint::{ContactConstraint, Projection};
 use crate::elastic::ElasticOperator;
 use crate::error::{Error, Result};
@@ -165,11 +165,11 @@ impl<C> Nested<C> {
         let least = match control {
             Control::MeanGap(_) => PAYS.1,
             Control::Approach(_) => PAYS.0,
-            Control::MeanPressure(load) | Control::Force(load) if law.is_zero() || load >= 0.0 => PAYS.0,
-            Control::Spring { .. } if law.is_zero() => PAYS.0,
+            Control::MeanPressure(load) | Control::Force(load) if law.hints().zero || load >= 0.0 => PAYS.0,
+            Control::Spring { .. } if law.hints().zero => PAYS.0,
             _ => return false,
         };
-        let measured = surface.absent().is_none() && law.shape().is_none();
+        let measured = surface.absent().is_none() && law.hints().shape.is_none();
         let method = self.solver.settings.method == Method::Preconditioned;
         measured && method && nodes >= least && coarser(shape, self.coarsest, true).is_some()
     }
@@ -253,7 +253,7 @@ impl<C> Nested<C> {
             }
             _ => None,
         };
-        let unique = law.is_zero();
+        let unique = law.hints().zero;
         let mut problem = Problem::new(surface, half_space, law)?;
         let mut spent = part.as_ref().map_or(0, |part| part.applications);
         let wall = self.solver.constraint.wall();
@@ -303,14 +303,14 @@ impl<C> Nested<C> {
         L: AdhesionLaw<T>,
         C: ContactConstraint<T>,
     {
-        let varies = law.shape().is_some();
+        let varies = law.hints().shape.is_some();
         let rigid = self.solver.constraint.wall().is_rigid();
         let tolerance = self.coarse_tolerance.max(self.solver.settings.tolerance_in::<T>());
         let (mut levels, mut coarser): (Vec<Level>, Option<Deformed<T>>) = (Vec::new(), None);
         let mut surfaces = coarsened(surface, self.coarsest, !varies)?;
         while let Some(coarse) = surfaces.pop() {
             let ((nx, ny), (cx, cy)) = (surface.grid().shape(), coarse.grid().shape());
-            let coarse_law = law.coarsened((nx / cx, ny / cy)).unwrap_or_else(|| Box::new(law));
+            let coarse_law = law.adapted(Discretisation::Coarse(nx / cx, ny / cy)).unwrap_or_else(|| Box::new(law));
             let mut problem = Problem::new(&coarse, operator(*coarse.grid())?, coarse_law)?;
             if problem.mu_rho() > Report::RESOLVED_MU_RHO {
                 continue;

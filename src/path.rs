@@ -341,13 +341,13 @@ where
             self.failed = true;
             return Ok(None);
         }
-        let w = self.problem.law.work_of_adhesion().widen();
+        let w = self.problem.law.hints().work_of_adhesion.widen();
         let flat = self.problem.flat.work * self.problem.flat.padding;
         // where surfaces hardly touch, the energy is the small difference of sums as large as that of the surface
         // pressed flat
         let rounding = ROUNDINGS * T::epsilon().widen() * flat;
         // what the tolerance leaves in the energy of surfaces that are apart, which nothing but adhesion makes jump
-        let left = if self.problem.law.is_zero() { report.tolerance.powi(2) * flat } else { 0.0 };
+        let left = if self.problem.law.hints().zero { report.tolerance.powi(2) * flat } else { 0.0 };
         let noise = (rounding, left);
         let scale = (self.settings.imbalance, 1e-3 * w);
         let mut trial = self.state.judge(target, report, scale, noise);
@@ -360,7 +360,7 @@ where
         }
         let detached = report.status == Status::Detached;
         if self.state.mode == Mode::Pressure && (trial.jumped && !good || detached || lost) {
-            let far = 2.0 * (self.problem.flat.height_span + 10.0 * self.problem.law.range().widen());
+            let far = 2.0 * (self.problem.flat.height_span + 10.0 * self.problem.law.hints().range.widen());
             let close = self.closest(self.state.end());
             self.state.leave_pressure_control((close, far), !lost, &self.settings);
             return Ok(None);
@@ -406,7 +406,8 @@ where
         if self.solver.constraint.wall().is_rigid() {
             return 0.0;
         }
-        let [rest, range] = [law.rest().unwrap_or_else(T::zero), law.range()];
+        let hints = law.hints();
+        let (rest, range) = (hints.rest.unwrap_or_else(T::zero), hints.range);
         let bounded = law.energy(T::zero()).is_finite();
         let closer = |gap: &T| Some(if bounded { *gap - range } else { T::lit(0.5) * *gap });
         let gaps = std::iter::successors(Some(rest), closer).take(CLOSEST);

@@ -2,7 +2,7 @@
 
 use ndarray::Array2;
 
-use crate::adhesion::AdhesionLaw;
+use crate::adhesion::{AdhesionLaw, Discretisation};
 use crate::constraint::Wall;
 use crate::elastic::{Boundary, ElasticOperator};
 use crate::error::{Error, Result};
@@ -201,7 +201,7 @@ impl<T: Real> PressedFlat<T> {
         if !operator.takes_slabs() {
             slab.alone("elastic operator")?;
         }
-        if let Some(shape) = law.shape() {
+        if let Some(shape) = law.hints().shape {
             Error::shape("adhesion law that varies over the surface", shape, grid.shape())?;
         }
         let ((nx, ny), whole) = (expected.shape(), operator.grid().shape());
@@ -217,7 +217,7 @@ impl<T: Real> PressedFlat<T> {
             return Err(Error::Value { name, value, requirement: "the same as of the elastic operator's grid" });
         }
         let at_zero = [("adhesive energy", law.energy(T::zero())), ("adhesive traction", law.traction(T::zero()))];
-        let bounded = law.rest().is_none_or(|rest| rest <= T::zero());
+        let bounded = law.hints().rest.is_none_or(|rest| rest <= T::zero());
         if let Some((function, value)) = at_zero.into_iter().find(|(_, value)| bounded && !value.is_finite()) {
             return Err(Error::Law { function, gap: 0.0, value: value.widen(), expected: None });
         }
@@ -343,7 +343,7 @@ pub(crate) fn smoothed_law<'a, T: Real>(
     law: &'a dyn AdhesionLaw<T>,
 ) -> Option<Box<dyn AdhesionLaw<T> + 'a>> {
     let compliance = SMOOTHING * operator.grid().largest_spacing() / operator.modulus();
-    law.smoothed(T::lit(compliance))
+    law.adapted(Discretisation::Smooth(T::lit(compliance)))
 }
 
 impl<T: Real, O: ElasticOperator<T>, L: AdhesionLaw<T>> Problem<T, O, L> {
@@ -407,8 +407,9 @@ impl<T: Real, O: ElasticOperator<T>, L: AdhesionLaw<T>> Problem<T, O, L> {
 
 /// The measure of [`Problem::mu_rho`], for a contact modulus.
 pub(crate) fn mu_rho<T: Real>(law: &dyn AdhesionLaw<T>, grid: &Grid, modulus: f64) -> f64 {
-    let (w, range) = (law.work_of_adhesion().widen(), law.range().widen());
-    if law.is_zero() || w <= 0.0 || range <= 0.0 {
+    let hints = law.hints();
+    let (w, range) = (hints.work_of_adhesion.widen(), hints.range.widen());
+    if hints.zero || w <= 0.0 || range <= 0.0 {
         return 0.0;
     }
     (w * grid.largest_spacing() / modulus).sqrt() / range

@@ -7,7 +7,7 @@ use std::fmt;
 
 use ndarray::Array2;
 
-use crate::adhesion::AdhesionLaw;
+use crate::adhesion::{AdhesionLaw, Discretisation};
 use crate::constraint::{ContactConstraint, Projection};
 use crate::elastic::ElasticOperator;
 use crate::error::{Error, Result};
@@ -329,7 +329,7 @@ fn slopes<T: Real>(
     (grid, window): (&Grid, Option<&Window>),
 ) -> Result<Array2<T>> {
     let slab = window.map_or(grid, Window::held).slab();
-    let law_held = window.and_then(|window| law.in_rows_of(window.held()));
+    let law_held = window.and_then(|window| law.adapted(Discretisation::Rows(*window.held())));
     let local = Potential::new(law_held.as_deref().unwrap_or(law), constraint, None);
     let gap = window.map_or_else(|| gap.view().into(), |window| window.hold(gap.view()));
     let gap = gap.as_standard_layout();

@@ -138,7 +138,7 @@ where
         let solved = self.solver.run(self.problem.parts(), control, begin, &mut observe).map(Solved::with_gap);
         self.failed = solved.is_err();
         Some(solved.map(|(solution, gap)| {
-            if !self.problem.law.is_zero() {
+            if !self.problem.law.hints().zero {
                 self.history.clear();
             }
             self.history.push((control, gap));
@@ -165,7 +165,7 @@ where
         };
         let (_, before) = self.history.remove(0);
         let last = &self.history[0].1;
-        if !(steps.is_finite() && self.problem.law.is_zero() && before.dim() == last.dim()) {
+        if !(steps.is_finite() && self.problem.law.hints().zero && before.dim() == last.dim()) {
             return Some(last.clone());
         }
         let least = Potential::new(&self.problem.law, &self.solver.constraint, None).least();

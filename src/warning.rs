@@ -244,11 +244,11 @@ impl Warning {
     /// The probable mistakes in the range of `law` on a surface pressed against a body of contact `modulus` E*:
     /// [`Range`](WarningCode::Range). Nothing without adhesion.
     pub fn of_law<T: Real>(law: &impl AdhesionLaw<T>, surface: &Surface, modulus: f64) -> Vec<Self> {
-        if law.is_zero() {
+        if law.hints().zero {
             return Vec::new();
         }
         let mu_rho = mu_rho(law, surface.grid(), modulus);
-        let (range, span) = (law.range().widen(), Extremes::of(surface.whole().heights()).span());
+        let (range, span) = (law.hints().range.widen(), Extremes::of(surface.whole().heights()).span());
         let mut found = Vec::new();
         if mu_rho > RESOLVED {
             // μ_ρ goes with the root of the spacing, and with the inverse of the range
@@ -265,7 +265,7 @@ impl Warning {
             let text = text.with(message).of_severity(mu_rho / RESOLVED);
             found.push(Self { code: WarningCode::Range, text });
         }
-        if law.work_of_adhesion() > T::zero() && span > 0.0 && range > span {
+        if law.hints().work_of_adhesion > T::zero() && span > 0.0 && range > span {
             let mut text = Text::default();
             let message = format!(
                 "the range of adhesion, {}, exceeds the heights, which span {}: it then pulls on the whole surface \

@@ -1,86 +1,66 @@
-//! A law in patches: another law, of which each node has a share.
+//! A law that differs from node to node: each node has one of several laws.
 
-use asperity::{AdhesionLaw, Real};
+use asperity::{AdhesionLaw, Discretisation, Hints, Real, Values};
 
-/// Energy, traction and slope of a law times a share of its own at each node; the largest share is one.
+/// One of several laws at each node, with works of adhesion and ranges of their own.
 pub struct Patches<L> {
-    pub law: L,
+    pub laws: Vec<L>,
     pub shape: (usize, usize),
-    /// of every node, in row-major order
-    pub shares: Vec<f64>,
+    /// The law of every node, in row-major order.
+    pub of: Vec<usize>,
 }
 
 impl<L> Patches<L> {
-    fn scale<T: Real>(&self, first: usize, values: &mut [T]) {
-        let shares = &self.shares[first..];
-        values.iter_mut().zip(shares).for_each(|(value, &share)| *value *= T::lit(share));
+    /// The law of the largest work of adhesion, which answers for one gap.
+    fn strongest<T: Real>(&self) -> &L
+    where
+        L: AdhesionLaw<T>,
+    {
+        let works = self.laws.iter().map(|law| law.hints().work_of_adhesion);
+        let of = works.enumerate().fold((0, T::zero()), |a, b| if b.1 > a.1 { b } else { a }).0;
+        &self.laws[of]
     }
 }
 
 impl<T: Real, L: AdhesionLaw<T>> AdhesionLaw<T> for Patches<L> {
-    // the strongest node, for what asks for one gap alone
     fn energy(&self, gap: T) -> T {
-        self.law.energy(gap)
+        self.strongest().energy(gap)
     }
     fn traction(&self, gap: T) -> T {
-        self.law.traction(gap)
+        self.strongest().traction(gap)
     }
     fn slope(&self, gap: T) -> T {
-        self.law.slope(gap)
+        self.strongest().slope(gap)
     }
-    fn work_of_adhesion(&self) -> T {
-        self.law.work_of_adhesion()
+    fn hints(&self) -> Hints<T> {
+        let (mut hints, all) = (self.strongest().hints().with_shape(self.shape), || self.laws.iter().map(L::hints));
+        hints.concave = all().all(|one| one.concave);
+        hints.zero = all().all(|one| one.zero);
+        // they keep the surfaces apart together, or not at all
+        hints.rest = hints.rest.filter(|_| all().all(|one| one.rest == hints.rest));
+        hints
     }
-    fn range(&self) -> T {
-        self.law.range()
+    fn evaluate(&self, first: usize, gaps: &[T], mut values: Values<'_, T>) {
+        let mut start = 0;
+        for patch in self.of[first..first + gaps.len()].chunk_by(|a, b| a == b) {
+            let nodes = start..start + patch.len();
+            self.laws[patch[0]].evaluate(first + start, &gaps[nodes.clone()], values.part(nodes.clone()));
+            start = nodes.end;
+        }
     }
-    fn is_zero(&self) -> bool {
-        self.law.is_zero()
-    }
-    fn is_concave(&self) -> bool {
-        self.law.is_concave()
-    }
-    fn rest(&self) -> Option<T> {
-        // a node without a share does not repel
-        self.law.rest().filter(|_| self.shares.iter().all(|&share| share > 0.0))
-    }
-    // the nodes that it is for, here and on coarser grids; every process has all of the shares
-    fn shape(&self) -> Option<(usize, usize)> {
-        Some(self.shape)
-    }
-    fn coarsened(&self, (nx, ny): (usize, usize)) -> Option<Box<dyn AdhesionLaw<T> + '_>> {
-        let (rows, columns) = self.shape;
-        let kept = (0..rows).step_by(nx).flat_map(|ix| (0..columns).step_by(ny).map(move |iy| ix * columns + iy));
-        let shares = kept.map(|node| self.shares[node]).collect();
-        let law: &dyn AdhesionLaw<T> = &self.law;
-        Some(Box::new(Patches { law, shape: (rows.div_ceil(nx), columns.div_ceil(ny)), shares }))
-    }
-    // the jumps of the traction are largest where the law is strongest
-    fn smoothed(&self, compliance: T) -> Option<Box<dyn AdhesionLaw<T> + '_>> {
-        let law = self.law.smoothed(compliance)?;
-        Some(Box::new(Patches { law, shape: self.shape, shares: self.shares.clone() }))
-    }
-    // every node, for the solve
-    fn energies(&self, first: usize, gaps: &[T], energies: &mut [T]) {
-        self.law.energies(first, gaps, energies);
-        self.scale(first, energies);
-    }
-    fn tractions(&self, first: usize, gaps: &[T], tractions: &mut [T]) {
-        self.law.tractions(first, gaps, tractions);
-        self.scale(first, tractions);
-    }
-    fn slopes(&self, first: usize, gaps: &[T], slopes: &mut [T]) {
-        self.law.slopes(first, gaps, slopes);
-        self.scale(first, slopes);
-    }
-    fn energies_and_tractions(&self, first: usize, gaps: &[T], energies: &mut [T], tractions: &mut [T]) {
-        self.law.energies_and_tractions(first, gaps, energies, tractions);
-        self.scale(first, energies);
-        self.scale(first, tractions);
-    }
-    fn tractions_and_slopes(&self, first: usize, gaps: &[T], tractions: &mut [T], slopes: &mut [T]) {
-        self.law.tractions_and_slopes(first, gaps, tractions, slopes);
-        self.scale(first, tractions);
-        self.scale(first, slopes);
+    fn adapted(&self, to: Discretisation<T>) -> Option<Box<dyn AdhesionLaw<T> + '_>> {
+        let (mut shape, mut of) = (self.shape, self.of.clone());
+        let adapted: Vec<_> = self.laws.iter().map(|law| law.adapted(to)).collect();
+        match to {
+            Discretisation::Coarse(nx, ny) => {
+                of = of.chunks(shape.1).step_by(nx).flat_map(|row| row.iter().step_by(ny).copied()).collect();
+                shape = (shape.0.div_ceil(nx), shape.1.div_ceil(ny));
+            }
+            _ if adapted.iter().all(Option::is_none) => return None,
+            _ => {}
+        }
+        // a law that stays the same
+        let laws = adapted.into_iter().zip(&self.laws).map(|(law, same)| law.unwrap_or_else(|| Box::new(same)));
+        Some(Box::new(Patches { laws: laws.collect(), shape, of }))
     }
 }

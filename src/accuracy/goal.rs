@@ -128,7 +128,7 @@ impl<T> AccurateSolution<T> {
 
 /// Whether a surface and a law are known on finer grids.
 fn is_refinable<T: Real>(surface: &Surface, law: &dyn AdhesionLaw<T>) -> bool {
-    surface.absent().is_none() && law.shape().is_none() && surface.grid().nodes() > 1
+    surface.absent().is_none() && law.hints().shape.is_none() && surface.grid().nodes() > 1
 }
 
 impl Accuracy {

@@ -1,6 +1,6 @@
 //! A check that an adhesion law is one, for users' tests.
 
-use super::AdhesionLaw;
+use super::{AdhesionLaw, Discretisation, Hints, Values};
 use crate::derivatives::{self, GAPS, Named};
 use crate::error::{Error, Result};
 use crate::real::Real;
@@ -23,24 +23,42 @@ const PLACES: usize = 16;
 /// The width over which a smoothed traction is let fall, in ranges.
 const SMOOTHING: f64 = 0.1;
 
-/// Tells whether the functions of a law agree with one another.
+/// The stride of the coarser grid of a law that varies.
+const STRIDE: usize = 2;
+
+/// The functions that are asked for together: energies, tractions, slopes.
+const ASKED: [[bool; 3]; 6] = [
+    [true, false, false],
+    [false, true, false],
+    [false, false, true],
+    [true, true, false],
+    [false, true, true],
+    [true, true, true],
+];
+
+/// Tells whether a law keeps the contract of [`AdhesionLaw`]; call it in a test of your law.
 ///
 /// Compares, at 200 gaps between 0 (or half the gap of rest) and `largest_gap`, the traction with central differences
 /// of the energy and the slope with central differences of the traction, in the precision of the law, to a hundredth of
 /// the largest value of that function. A function may jump (as the traction of Maugis–Dugdale does at ρ): gaps beside a
-/// jump, where the differences grow as their step shrinks, are passed over. Then it holds the law to what else it says:
+/// jump, where the differences grow as their step shrinks, are passed over. Then it holds the law to its
+/// [hints](AdhesionLaw::hints), its [values](AdhesionLaw::evaluate) at many nodes and its
+/// [adaptions](AdhesionLaw::adapted):
 ///
-/// - where the traction jumps, the law has a [smoothed](AdhesionLaw::smoothed) one that does not, with the same work of
-///   adhesion, whose functions agree as well;
-/// - where the energy is [concave](AdhesionLaw::is_concave), the traction does not rise from one of the gaps to the next;
-/// - the functions of many gaps give what those of one gap do. Of a law that has a [shape](AdhesionLaw::shape) they
-///   agree with one another, node by node, and no node is stronger than the functions of one gap say.
+/// - a law that is zero has no energy, and the traction of a concave one does not rise from one of the gaps to the next;
+/// - where the traction jumps, the [smoothed](Discretisation::Smooth) law has none, but the same work of adhesion and the
+///   same shape, and its functions agree as well;
+/// - the values at many nodes are those of the functions of one gap, whichever of them are asked for together, and do
+///   not depend on where the slices end. Of a law that has a shape they agree with one another, node by node, and no
+///   node is stronger than the functions of one gap say;
+/// - a law that has a shape has a [coarser](Discretisation::Coarse) one, which has the values of every other node.
 ///
 /// # Errors
 /// [`Error::Law`] with the function, the first gap at which it is not finite or is not the derivative of the one
 /// before it, and what it should be there; [`Error::Jump`] with the gap at which the traction jumps;
 /// [`Error::Concave`] with the gap to which the traction rises; [`Error::AtNode`] with the function that differs;
-/// [`Error::Value`] if `largest_gap` is not positive and finite, or if the smoothed law has another work of adhesion.
+/// [`Error::Shape`] if an adapted law has another shape; [`Error::Value`] if `largest_gap` is not positive and finite, or
+/// if the smoothed law has another work of adhesion.
 ///
 /// ```
 /// use asperity::{Exponential, MaugisDugdale, check_law};
@@ -50,19 +68,22 @@ const SMOOTHING: f64 = 0.1;
 /// ```
 pub fn check_law<T: Real>(law: &impl AdhesionLaw<T>, largest_gap: f64) -> Result<()> {
     Error::positive("largest gap", largest_gap)?;
+    let hints = law.hints();
     // closer than half its gap of rest a law may grow without bound
-    let least = law.rest().map_or(0.0, |rest| 0.5 * rest.widen());
-    let length = law.range().widen().clamp(1e-3 * largest_gap, largest_gap);
-    let checked = Checked { law, gaps: (least, largest_gap), length };
+    let least = hints.rest.map_or(0.0, |rest| 0.5 * rest.widen());
+    let length = hints.range.widen().clamp(1e-3 * largest_gap, largest_gap);
+    let checked = Checked { law, hints, gaps: (least, largest_gap), length };
     checked.functions()?;
     checked.smoothness()?;
-    checked.concavity()?;
-    checked.nodes()
+    checked.bounds()?;
+    checked.nodes()?;
+    checked.coarseness()
 }
 
 /// A law, the gaps at which it is looked at, and the one over which it varies.
 struct Checked<'a, T> {
     law: &'a dyn AdhesionLaw<T>,
+    hints: Hints<T>,
     gaps: (f64, f64),
     length: f64,
 }
@@ -108,31 +129,40 @@ impl<T: Real> Checked<'_, T> {
         })
     }
 
+    /// Refuses another shape of an adapted law.
+    fn check_shape(&self, what: &'static str, hints: Hints<T>, expected: Option<(usize, usize)>) -> Result<()> {
+        let [found, expected] = [hints.shape, expected].map(Option::unwrap_or_default);
+        Error::shape(what, found, expected)
+    }
+
     /// Holds a law whose traction jumps to what its smoothed law has to be.
     fn smoothness(&self) -> Result<()> {
         let Some((gap, fall)) = self.jump() else { return Ok(()) };
         let jumps = Err(Error::Jump { gap, fall });
-        let compliance = SMOOTHING * self.length / self.largest();
-        let Some(smoothed) = self.law.smoothed(T::lit(compliance)) else { return jumps };
-        let smooth = Checked { law: &*smoothed, ..*self };
+        let compliance = T::lit(SMOOTHING * self.length / self.largest());
+        let Some(smoothed) = self.law.adapted(Discretisation::Smooth(compliance)) else { return jumps };
+        let smooth = Checked { law: &*smoothed, hints: smoothed.hints(), ..*self };
+        self.check_shape("smoothed adhesion law", smooth.hints, self.hints.shape)?;
         smooth.functions()?;
-        let [work, left] = [self.law, smooth.law].map(|law| law.work_of_adhesion().widen());
+        let [work, left] = [self.hints, smooth.hints].map(|hints| hints.work_of_adhesion.widen());
         let keeps = (left - work).abs() <= SHARE * work.abs();
         if !keeps {
             let requirement = "that of the law, which a smoothed one keeps";
             return Err(Error::Value { name: "work of adhesion of the smoothed law", value: left, requirement });
         }
-        if smooth.jump().is_some() { jumps } else { Ok(()) }
+        if smooth.jump().is_some() { jumps } else { smooth.nodes() }
     }
 
-    fn concavity(&self) -> Result<()> {
-        if !self.law.is_concave() {
-            return Ok(());
-        }
+    /// Holds a law to being zero or concave, if it says so.
+    fn bounds(&self) -> Result<()> {
         let gaps = (0..=GAPS).map(|i| self.gaps.1 * i as f64 / GAPS as f64);
         let tractions: Vec<_> = gaps.map(|gap| (gap, self.law.traction(T::lit(gap)).widen())).collect();
+        let attracts = tractions.iter().find(|(_, traction)| self.hints.zero && *traction != 0.0);
+        if let Some(&(gap, value)) = attracts {
+            return Err(Error::Law { function: NAMES[1], gap, value, expected: Some(0.0) });
+        }
         let rounding = ROUNDINGS * T::epsilon().widen() * self.law.traction(T::zero()).abs().widen();
-        let rises = |pair: &&[(f64, f64)]| pair[1].1 > pair[0].1 + rounding;
+        let rises = |pair: &&[(f64, f64)]| self.hints.concave && pair[1].1 > pair[0].1 + rounding;
         match tractions.windows(2).find(rises) {
             Some(&[(_, nearer), (gap, traction)]) => Err(Error::Concave { gap, traction, nearer }),
             _ => Ok(()),
@@ -141,25 +171,18 @@ impl<T: Real> Checked<'_, T> {
 
     /// Energy, traction and slope of one node.
     fn at(&self, node: usize, gap: T) -> [T; 3] {
-        let [mut energy, mut traction, mut slope] = [[T::zero()]; 3];
-        self.law.energies(node, &[gap], &mut energy);
-        self.law.tractions(node, &[gap], &mut traction);
-        self.law.slopes(node, &[gap], &mut slope);
-        [energy[0], traction[0], slope[0]]
+        let mut values = [[T::zero()]; 3];
+        for (order, value) in values.iter_mut().enumerate() {
+            self.law.evaluate(node, &[gap], Values::one(order, value));
+        }
+        values.map(|[value]| value)
     }
 
-    /// Compares the functions of many gaps with those of one, or, where they differ from node to node, with one another.
+    /// Compares the values of many nodes with those of one, or, where they differ from node to node, with one another.
     fn nodes(&self) -> Result<()> {
-        let (law, shape) = (self.law, self.law.shape());
+        let (law, shape) = (self.law, self.hints.shape);
         let nodes = shape.map_or(NODES, |(nx, ny)| nx * ny);
         let gaps: Vec<T> = (0..nodes.min(NODES)).map(|i| self.gap(i % (GAPS + 1))).collect();
-        let mut values = [(); 7].map(|()| vec![T::zero(); gaps.len()]);
-        let [e, t, s, also_e, also_t, t_again, also_s] = &mut values;
-        law.energies(0, &gaps, e);
-        law.tractions(0, &gaps, t);
-        law.slopes(0, &gaps, s);
-        law.energies_and_tractions(0, &gaps, also_e, also_t);
-        law.tractions_and_slopes(0, &gaps, t_again, also_s);
         let expected: Vec<[T; 3]> = gaps
             .iter()
             .enumerate()
@@ -168,16 +191,24 @@ impl<T: Real> Checked<'_, T> {
                 None => [law.energy(gap), law.traction(gap), law.slope(gap)],
             })
             .collect();
-        for (values, of) in values.iter().zip([0, 1, 2, 0, 1, 1, 2]) {
-            let size = expected.iter().map(|expected| expected[of].abs().widen()).fold(0.0, f64::max);
-            for (node, (value, expected)) in values.iter().zip(&expected).enumerate() {
-                let (value, expected) = (value.widen(), expected[of].widen());
-                // of the rows of another process nothing is known
-                let unknown = shape.is_some() && expected.is_nan();
-                let agrees = unknown || (value - expected).abs() <= SHARE * size;
-                if !agrees {
-                    let gap = gaps[node].widen();
-                    return Err(Error::AtNode { function: NAMES[of], node, gap, value, expected });
+        for asked in ASKED {
+            let [mut whole, mut parts] = [(); 2].map(|()| [(); 3].map(|()| vec![T::zero(); gaps.len()]));
+            law.evaluate(0, &gaps, of(&mut whole, asked));
+            let middle = gaps.len() / 3;
+            let mut values = of(&mut parts, asked);
+            law.evaluate(0, &gaps[..middle], values.part(0..middle));
+            law.evaluate(middle, &gaps[middle..], values.part(middle..gaps.len()));
+            for (order, (whole, parts)) in whole.iter().zip(&parts).enumerate().filter(|(order, _)| asked[*order]) {
+                let size = expected.iter().map(|expected| expected[order].abs().widen()).fold(0.0, f64::max);
+                for (node, (&value, &part)) in whole.iter().zip(parts).enumerate() {
+                    let [value, part, one] = [value, part, expected[node][order]].map(T::widen);
+                    // of the rows of another process nothing is known
+                    let unknown = shape.is_some() && one.is_nan();
+                    let [near, same] = [(value - one).abs() <= SHARE * size, value == part];
+                    if !(unknown || near && same) {
+                        let (gap, expected) = (gaps[node].widen(), if near { part } else { one });
+                        return Err(Error::AtNode { function: NAMES[order], node, gap, value, expected });
+                    }
                 }
             }
         }
@@ -187,7 +218,7 @@ impl<T: Real> Checked<'_, T> {
 
     /// Compares the functions of a node with one another, and with the strongest one.
     fn place(&self, node: usize) -> Result<()> {
-        let rest = self.law.rest().unwrap_or_else(T::zero);
+        let rest = self.hints.rest.unwrap_or_else(T::zero);
         let [energy, ..] = self.at(node, rest);
         if energy.is_nan() {
             return Ok(());
@@ -201,6 +232,34 @@ impl<T: Real> Checked<'_, T> {
         }
         Ok(())
     }
+
+    /// Compares a law that varies with itself on the coarser grid of every other node.
+    fn coarseness(&self) -> Result<()> {
+        let Some((nx, ny)) = self.hints.shape else { return Ok(()) };
+        let (rows, columns) = (nx.div_ceil(STRIDE), ny.div_ceil(STRIDE));
+        let coarse = self.law.adapted(Discretisation::Coarse(STRIDE, STRIDE));
+        let law = coarse.as_deref().unwrap_or(self.law);
+        let coarse = Checked { law, hints: law.hints(), ..*self };
+        self.check_shape("coarsened adhesion law", coarse.hints, Some((rows, columns)))?;
+        for node in (0..rows * columns).step_by((rows * columns).div_ceil(NODES).max(1)) {
+            let (fine, gap) = (STRIDE * (node / columns * ny + node % columns), self.gap(node % (GAPS + 1)));
+            let (found, expected) = (coarse.at(node, gap), self.at(fine, gap));
+            let differs = (0..3).find(|&order| found[order] != expected[order] && !expected[order].is_nan());
+            if let Some(order) = differs {
+                let (gap, value, expected) = (gap.widen(), found[order].widen(), expected[order].widen());
+                return Err(Error::AtNode { function: NAMES[order], node, gap, value, expected });
+            }
+        }
+        Ok(())
+    }
+}
+
+/// The slices of the functions that are asked for.
+fn of<T>(values: &mut [Vec<T>; 3], asked: [bool; 3]) -> Values<'_, T> {
+    let [energies, tractions, slopes] = values.each_mut().map(|values| Some(values.as_mut_slice()));
+    let [energies, tractions, slopes] = [(energies, asked[0]), (tractions, asked[1]), (slopes, asked[2])]
+        .map(|(values, asked)| values.filter(|_| asked));
+    Values { energies, tractions, slopes }
 }
 
 #[cfg(test)]
@@ -235,11 +294,10 @@ mod tests {
                 check_law::<f32>(&exponential, far).unwrap();
                 check_law::<f32>(&dugdale, far).unwrap();
                 for compliance in [1e-3, 0.7, 1e9] {
-                    // a reference to a law has its jumps too
-                    let reference: &dyn AdhesionLaw<f64> = &dugdale;
-                    let smoothed = reference.smoothed(compliance * range * range / w).unwrap();
+                    let compliance = Discretisation::Smooth(compliance * range * range / w);
+                    let smoothed = dugdale.adapted(compliance).unwrap();
                     check_law(&smoothed, far).unwrap();
-                    assert_eq!(smoothed.work_of_adhesion(), w);
+                    assert_eq!(smoothed.hints().work_of_adhesion, w);
                 }
             }
         }
@@ -267,11 +325,11 @@ mod tests {
     fn concave_are_the_laws_whose_traction_falls_everywhere() {
         fn concave<T: Real>(law: &dyn AdhesionLaw<T>) -> bool {
             check_law(&law, 10.0).unwrap();
-            law.is_concave()
+            law.hints().concave
         }
         let dugdale = MaugisDugdale::new(2.0, 0.5).unwrap();
         assert!(concave::<f64>(&Exponential::new(2.0, 0.5).unwrap()) && concave::<f32>(&dugdale));
-        assert!(concave(&*AdhesionLaw::<f64>::smoothed(&dugdale, 0.1).unwrap()));
+        assert!(concave(&*dugdale.adapted(Discretisation::Smooth(0.1_f64)).unwrap()));
         assert!(concave::<f64>(&PowerLaw::new(2.0, 0.5, 3.0).unwrap()));
         assert!(concave::<f64>(&Tabulated::new(&[0.0, 1.0, 3.0], &[2.0, 2.0, 0.0]).unwrap()));
         assert!(!concave::<f64>(&Tabulated::new(&[0.0, 1.0, 3.0], &[2.0, 2.5, 0.0]).unwrap()));
@@ -294,11 +352,8 @@ mod tests {
             fn slope(&self, gap: f64) -> f64 {
                 (1.0 - gap) * (-gap).exp()
             }
-            fn range(&self) -> f64 {
-                1.0
-            }
-            fn is_concave(&self) -> bool {
-                true
+            fn hints(&self) -> Hints<f64> {
+                Hints::of(self).with_range(1.0).concave()
             }
         }
         let error = check_law(&Humped, 5.0).unwrap_err();
@@ -306,71 +361,79 @@ mod tests {
         assert_eq!((gap, traction, nearer), (0.025, Humped.traction(0.025), 0.0));
     }
 
-    /// A law of Maugis and Dugdale by node, with a part of what it should say.
-    struct Part<'a> {
-        law: MaugisDugdale,
-        shares: &'a [f64],
+    /// A law that varies, with a part of what it should say.
+    struct Part<L> {
+        law: Varying<L>,
         shape: Option<(usize, usize)>,
-        smoothed: bool,
-        largest: f64,
+        adapts: bool,
+        /// the share of the strongest node that the functions of one gap have
+        share: f64,
     }
 
-    impl Part<'_> {
-        fn scale(&self, first: usize, values: &mut [f64]) {
-            values.iter_mut().zip(&self.shares[first..]).for_each(|(value, share)| *value *= share);
-        }
-    }
-
-    impl AdhesionLaw<f64> for Part<'_> {
+    impl<L: AdhesionLaw<f64>> AdhesionLaw<f64> for Part<L> {
         fn energy(&self, gap: f64) -> f64 {
-            self.largest * self.law.energy(gap)
+            self.share * self.law.energy(gap)
         }
         fn traction(&self, gap: f64) -> f64 {
-            self.largest * self.law.traction(gap)
+            self.share * self.law.traction(gap)
         }
         fn slope(&self, gap: f64) -> f64 {
-            self.largest * self.law.slope(gap)
+            self.share * self.law.slope(gap)
         }
-        fn shape(&self) -> Option<(usize, usize)> {
-            self.shape
+        fn hints(&self) -> Hints<f64> {
+            Hints { shape: self.shape, ..self.law.hints() }
         }
-        fn smoothed(&self, compliance: f64) -> Option<Box<dyn AdhesionLaw<f64> + '_>> {
-            self.smoothed.then(|| AdhesionLaw::<f64>::smoothed(&self.law, compliance)).flatten()
+        fn evaluate(&self, first: usize, gaps: &[f64], values: Values<'_, f64>) {
+            self.law.evaluate(first, gaps, values);
         }
-        fn energies(&self, first: usize, gaps: &[f64], energies: &mut [f64]) {
-            self.law.energies(first, gaps, energies);
-            self.scale(first, energies);
-        }
-        fn tractions(&self, first: usize, gaps: &[f64], tractions: &mut [f64]) {
-            self.law.tractions(first, gaps, tractions);
-            self.scale(first, tractions);
-        }
-        fn slopes(&self, first: usize, gaps: &[f64], slopes: &mut [f64]) {
-            self.law.slopes(first, gaps, slopes);
-            self.scale(first, slopes);
+        fn adapted(&self, to: Discretisation<f64>) -> Option<Box<dyn AdhesionLaw<f64> + '_>> {
+            if self.adapts { self.law.adapted(to) } else { None }
         }
     }
 
     #[test]
     fn the_checker_names_what_a_law_by_node_does_not_say() {
-        let shares: Vec<f64> = (0..40).map(|node| if node % 2 == 0 { 1.0 } else { 0.25 }).collect();
-        let whole = || {
-            let law = MaugisDugdale::new(1.0, 1.0).unwrap();
-            Part { law, shares: &shares, shape: Some((8, 5)), smoothed: true, largest: 1.0 }
-        };
-        check_law(&whole(), 3.0).unwrap();
-        let found = |part: Part<'_>| check_law(&part, 3.0).unwrap_err();
+        fn part<L: AdhesionLaw<f64>>(law: L) -> Part<L> {
+            let works = ndarray::Array2::from_shape_fn((8, 5), |(_, iy)| if iy % 2 == 0 { 1.0 } else { 0.25 });
+            let law = Varying::new(law, works.view()).unwrap();
+            Part { law, shape: Some((8, 5)), adapts: true, share: 1.0 }
+        }
+        let dugdale = || part(MaugisDugdale::new(1.0, 1.0).unwrap());
+        let exponential = || part(Exponential::new(1.0, 1.0).unwrap());
+        check_law(&dugdale(), 3.0).unwrap();
         // the edge of the adhesive zone would stay where an iteration left it
-        let Error::Jump { gap, fall } = found(Part { smoothed: false, ..whole() }) else { panic!() };
-        assert_eq!((gap, fall), (1.0, 1.0));
+        let error = check_law(&Part { adapts: false, ..dugdale() }, 3.0).unwrap_err();
+        assert!(matches!(error, Error::Jump { gap: 1.0, fall: 1.0 }), "{error}");
+        // it could not be solved on nested grids
+        let error = check_law(&Part { adapts: false, ..exponential() }, 3.0).unwrap_err();
+        assert!(matches!(error, Error::Shape { expected: (4, 3), .. }), "{error}");
         // it would be taken for the same everywhere
-        let Error::AtNode { node, value, expected, .. } = found(Part { shape: None, ..whole() }) else { panic!() };
-        assert_eq!((node, value), (1, 0.25 * expected));
-        let longer = MaugisDugdale::new(1.0, 5.0).unwrap();
-        let weaker = found(Part { law: longer, largest: 0.5, ..whole() });
+        let error = check_law(&Part { shape: None, ..exponential() }, 3.0).unwrap_err();
+        let Error::AtNode { node, value, expected, .. } = error else { panic!("{error}") };
+        assert!(node == 1 && (value / expected - 0.25).abs() < 1e-12, "{node} {value} {expected}");
+        let weaker = check_law(&Part { share: 0.5, ..exponential() }, 3.0).unwrap_err();
         assert!(matches!(weaker, Error::AtNode { node: 0, value: -1.0, expected: -0.5, .. }), "{weaker}");
-        let law = Varying::new(Morse::new(1.0, 1.0).unwrap(), ndarray::array![[0.0, 2.0], [1.0, 0.5]].view()).unwrap();
-        check_law::<f64>(&law, 5.0).unwrap();
-        check_law::<f32>(&law, 5.0).unwrap();
+    }
+
+    #[test]
+    fn the_checker_names_values_that_depend_on_where_the_slices_end() {
+        struct Counted(Exponential);
+        impl AdhesionLaw<f64> for Counted {
+            fn energy(&self, gap: f64) -> f64 {
+                self.0.energy(gap)
+            }
+            fn traction(&self, gap: f64) -> f64 {
+                self.0.traction(gap)
+            }
+            fn slope(&self, gap: f64) -> f64 {
+                self.0.slope(gap)
+            }
+            fn evaluate(&self, first: usize, gaps: &[f64], mut values: Values<'_, f64>) {
+                self.0.evaluate(first, gaps, values.reborrow());
+                values.each(|_, values| values.iter_mut().for_each(|value| *value += f64::EPSILON * gaps.len() as f64));
+            }
+        }
+        let error = check_law(&Counted(Exponential::new(1.0, 1.0).unwrap()), 3.0).unwrap_err();
+        assert!(matches!(error, Error::AtNode { node: 0, .. }), "{error}");
     }
 }

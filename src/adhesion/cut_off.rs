@@ -2,9 +2,8 @@
 
 use std::slice::from_mut;
 
-use super::AdhesionLaw;
+use super::{AdhesionLaw, Discretisation, Hints, Values};
 use crate::error::{Error, Result};
-use crate::grid::Grid;
 use crate::real::Real;
 
 /// The share of the work of adhesion by which the energy in contact may differ from it.
@@ -63,14 +62,15 @@ impl<L> CutOff<L> {
         L: AdhesionLaw<f64>,
     {
         Error::positive("cut-off distance", distance)?;
-        let start = law.rest().unwrap_or(0.0);
+        let hints = law.hints();
+        let start = hints.rest.unwrap_or(0.0);
         // numbers that were rounded on their way here
-        if distance < (start + law.range()) * (1.0 - 4.0 * f64::EPSILON) {
+        if distance < (start + hints.range) * (1.0 - 4.0 * f64::EPSILON) {
             let requirement =
                 "at least a range of the law beyond contact, or beyond its gap of rest: give a larger one";
             return Err(Error::Value { name: "cut-off distance", value: distance, requirement });
         }
-        let (energy, work) = (law.energy(start), law.work_of_adhesion());
+        let (energy, work) = (law.energy(start), hints.work_of_adhesion);
         let falls = (energy + work).abs() <= SLACK * work.abs();
         if !falls {
             return Err(Error::Value {
@@ -80,6 +80,11 @@ impl<L> CutOff<L> {
             });
         }
         Ok(Self::between(law, start, distance))
+    }
+
+    /// The law that is cut off.
+    pub fn law(&self) -> &L {
+        &self.law
     }
 
     /// The gap g_c at which the law ends.
@@ -93,7 +98,7 @@ impl<L> CutOff<L> {
     {
         let gap = T::lit(distance);
         let end = [law.energy(gap), law.traction(gap), law.slope(gap)].map(T::widen);
-        let varies = law.shape().is_some();
+        let varies = law.hints().shape.is_some();
         Self { law, start, distance, end, varies }
     }
 
@@ -156,9 +161,8 @@ impl<L> CutOff<L> {
     {
         let (gap, mut end) = ([T::lit(self.distance)], [T::zero(); 3]);
         let [energy, traction, slope] = &mut end;
-        self.law.energies(node, &gap, from_mut(energy));
-        self.law.tractions(node, &gap, from_mut(traction));
-        self.law.slopes(node, &gap, from_mut(slope));
+        let [energies, tractions, slopes] = [energy, traction, slope].map(|value| Some(from_mut(value)));
+        self.law.evaluate(node, &gap, Values { energies, tractions, slopes });
         end
     }
 }
@@ -184,55 +188,25 @@ impl<T: Real, L: AdhesionLaw<T>> AdhesionLaw<T> for CutOff<L> {
     fn slope(&self, gap: T) -> T {
         self.one(gap, self.law.slope(gap), slope)
     }
-    fn work_of_adhesion(&self) -> T {
-        self.law.work_of_adhesion()
-    }
-    fn range(&self) -> T {
-        self.law.range()
-    }
-    fn is_zero(&self) -> bool {
-        self.law.is_zero()
-    }
-    fn is_concave(&self) -> bool {
+    fn hints(&self) -> Hints<T> {
+        let hints = self.law.hints();
         // the quintic may bend the energy the other way
-        self.has_ended() && !self.varies && self.law.is_concave()
+        Hints { concave: hints.concave && self.has_ended() && !self.varies, ..hints }
     }
-    fn rest(&self) -> Option<T> {
-        self.law.rest()
+    fn evaluate(&self, first: usize, gaps: &[T], mut values: Values<'_, T>) {
+        self.law.evaluate(first, gaps, values.reborrow());
+        values.each(|order, values| match order {
+            0 => self.all(first, gaps, values, energy),
+            1 => self.all(first, gaps, values, traction),
+            _ => self.all(first, gaps, values, slope),
+        });
     }
-    fn shape(&self) -> Option<(usize, usize)> {
-        self.law.shape()
-    }
-    fn in_rows_of(&self, grid: &Grid) -> Option<Box<dyn AdhesionLaw<T> + '_>> {
-        Some(Box::new(self.with(self.law.in_rows_of(grid)?)))
-    }
-    fn coarsened(&self, stride: (usize, usize)) -> Option<Box<dyn AdhesionLaw<T> + '_>> {
-        Some(Box::new(self.with(self.law.coarsened(stride)?)))
-    }
-    fn smoothed(&self, compliance: T) -> Option<Box<dyn AdhesionLaw<T> + '_>> {
-        let law = self.law.smoothed(compliance)?;
-        Some(if self.has_ended() { law } else { Box::new(CutOff::between(law, self.start, self.distance)) })
-    }
-    fn energies(&self, first: usize, gaps: &[T], energies: &mut [T]) {
-        self.law.energies(first, gaps, energies);
-        self.all(first, gaps, energies, energy);
-    }
-    fn tractions(&self, first: usize, gaps: &[T], tractions: &mut [T]) {
-        self.law.tractions(first, gaps, tractions);
-        self.all(first, gaps, tractions, traction);
-    }
-    fn slopes(&self, first: usize, gaps: &[T], slopes: &mut [T]) {
-        self.law.slopes(first, gaps, slopes);
-        self.all(first, gaps, slopes, slope);
-    }
-    fn energies_and_tractions(&self, first: usize, gaps: &[T], energies: &mut [T], tractions: &mut [T]) {
-        self.law.energies_and_tractions(first, gaps, energies, tractions);
-        self.all(first, gaps, energies, energy);
-        self.all(first, gaps, tractions, traction);
-    }
-    fn tractions_and_slopes(&self, first: usize, gaps: &[T], tractions: &mut [T], slopes: &mut [T]) {
-        self.law.tractions_and_slopes(first, gaps, tractions, slopes);
-        self.all(first, gaps, tractions, traction);
-        self.all(first, gaps, slopes, slope);
+    fn adapted(&self, to: Discretisation<T>) -> Option<Box<dyn AdhesionLaw<T> + '_>> {
+        let law = self.law.adapted(to)?;
+        Some(match to {
+            Discretisation::Smooth(_) if self.has_ended() => law,
+            Discretisation::Smooth(_) => Box::new(CutOff::between(law, self.start, self.distance)),
+            _ => Box::new(self.with(law)),
+        })
     }
 }

@@ -1,7 +1,7 @@
 //! The exponential law: an energy −w exp(−g/ρ).
 
-use super::AdhesionLaw;
 use super::exponentials::exponentials;
+use super::{AdhesionLaw, Hints, Values};
 use crate::error::{Error, Result};
 use crate::real::Real;
 
@@ -66,35 +66,25 @@ impl<T: Real> AdhesionLaw<T> for Exponential {
         let (w, range) = self.rounded::<T>();
         -w / range / range * (-gap / range).exp()
     }
-    fn energies(&self, _: usize, gaps: &[T], energies: &mut [T]) {
+    fn hints(&self) -> Hints<T> {
+        let (w, range) = self.rounded();
+        Hints { zero: w == T::zero(), ..Hints::new(w, range).concave() }
+    }
+    fn evaluate(&self, _: usize, gaps: &[T], Values { energies, tractions, slopes }: Values<'_, T>) {
         let (w, range) = self.rounded::<T>();
-        exponentials(-w, -range.recip(), gaps, energies);
-    }
-    fn tractions(&self, _: usize, gaps: &[T], tractions: &mut [T]) {
-        let (w, range) = self.rounded::<T>();
-        exponentials(w / range, -range.recip(), gaps, tractions);
-    }
-    fn slopes(&self, _: usize, gaps: &[T], slopes: &mut [T]) {
-        let (w, range) = self.rounded::<T>();
-        exponentials(-w / range / range, -range.recip(), gaps, slopes);
-    }
-    fn energies_and_tractions(&self, first: usize, gaps: &[T], energies: &mut [T], tractions: &mut [T]) {
-        self.tractions(first, gaps, tractions);
-        let range = T::lit(self.range);
-        energies.iter_mut().zip(tractions).for_each(|(e, t)| *e = -*t * range);
-    }
-    fn tractions_and_slopes(&self, first: usize, gaps: &[T], tractions: &mut [T], slopes: &mut [T]) {
-        self.tractions(first, gaps, tractions);
-        let rate = -T::lit(self.range).recip();
-        slopes.iter_mut().zip(tractions).for_each(|(s, t)| *s = *t * rate);
-    }
-    fn range(&self) -> T {
-        T::lit(self.range)
-    }
-    fn is_concave(&self) -> bool {
-        true
-    }
-    fn is_zero(&self) -> bool {
-        T::lit(self.work_of_adhesion) == T::zero()
+        let rate = -range.recip();
+        if let Some(tractions) = tractions {
+            exponentials(w / range, rate, gaps, tractions);
+            let scale = |values: Option<&mut [T]>, by: T| {
+                values
+                    .into_iter()
+                    .for_each(|values| values.iter_mut().zip(&*tractions).for_each(|(v, t)| *v = *t * by));
+            };
+            scale(energies, -range);
+            scale(slopes, rate);
+            return;
+        }
+        energies.into_iter().for_each(|energies| exponentials(-w, rate, gaps, energies));
+        slopes.into_iter().for_each(|slopes| exponentials(-w / range / range, rate, gaps, slopes));
     }
 }

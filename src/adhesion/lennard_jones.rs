@@ -1,6 +1,6 @@
 //! The law of Lennard-Jones between two half-spaces, 9-3: it attracts at a distance and repels close by.
 
-use super::AdhesionLaw;
+use super::{AdhesionLaw, Hints};
 use crate::error::{Error, Result};
 use crate::real::Real;
 
@@ -86,13 +86,8 @@ impl<T: Real> AdhesionLaw<T> for LennardJones {
         let fourth = x * x * x * x;
         T::lit(8.0) * w / range / range * fourth * (T::lit(3.0) * fourth * x * x - T::one())
     }
-    fn work_of_adhesion(&self) -> T {
-        T::lit(self.work_of_adhesion)
-    }
-    fn range(&self) -> T {
-        T::lit(self.range)
-    }
-    fn rest(&self) -> Option<T> {
-        (!self.cut).then(|| T::lit(self.range))
+    fn hints(&self) -> Hints<T> {
+        let (w, range) = (T::lit(self.work_of_adhesion), T::lit(self.range));
+        Hints { rest: (!self.cut).then_some(range), ..Hints::new(w, range) }
     }
 }

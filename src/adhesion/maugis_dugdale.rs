@@ -1,6 +1,6 @@
 //! The law of Maugis and Dugdale: a constant traction up to a range.
 
-use super::AdhesionLaw;
+use super::{AdhesionLaw, Discretisation, Hints};
 use crate::error::{Error, Result};
 use crate::real::Real;
 
@@ -12,7 +12,7 @@ use crate::real::Real;
 ///
 /// Maugis (1992); equations (26) and (27) of Rey, Anciaux and Molinari (2017), of which (26) is misprinted.
 /// The traction jumps at g = ρ: there are many equilibria at one mean gap, and which of them a solve finds depends on
-/// its start. In the law [`smoothed`](AdhesionLaw::smoothed) the traction falls evenly between ρ − d/2 and ρ + d/2
+/// its start. In the law that is [smoothed](Discretisation::Smooth) the traction falls evenly between ρ − d/2 and ρ + d/2
 /// instead, over d = σ₀·compliance, at most 2ρ.
 ///
 /// ```
@@ -88,18 +88,14 @@ impl<T: Real> AdhesionLaw<T> for MaugisDugdale {
         let (w, range, width) = self.rounded::<T>();
         if is_falling(gap, range, width) { -w / range / width } else { T::zero() }
     }
-    fn range(&self) -> T {
-        T::lit(self.range)
+    fn hints(&self) -> Hints<T> {
+        let (w, range, _) = self.rounded::<T>();
+        Hints { zero: w == T::zero(), ..Hints::new(w, range).concave() }
     }
-    fn smoothed(&self, compliance: T) -> Option<Box<dyn AdhesionLaw<T> + '_>> {
+    fn adapted(&self, to: Discretisation<T>) -> Option<Box<dyn AdhesionLaw<T> + '_>> {
+        let Discretisation::Smooth(compliance) = to else { return None };
         let (w, range, _) = self.rounded::<T>();
         let smoothing = (w / range * compliance).min(T::lit(2.0) * range).widen();
         (smoothing > 0.0).then(|| Box::new(Self { smoothing, ..*self }) as Box<dyn AdhesionLaw<T>>)
-    }
-    fn is_concave(&self) -> bool {
-        true
-    }
-    fn is_zero(&self) -> bool {
-        T::lit(self.work_of_adhesion) == T::zero()
     }
 }

@@ -1,7 +1,7 @@
 //! The law of Morse: it attracts at a distance and repels close by, both exponentially.
 
-use super::AdhesionLaw;
 use super::exponentials::exponentials;
+use super::{AdhesionLaw, Hints, Values};
 use crate::error::{Error, Result};
 use crate::real::Real;
 
@@ -56,18 +56,6 @@ impl Morse {
     fn rounded<T: Real>(&self) -> (T, T) {
         (T::lit(self.work_of_adhesion), T::lit(self.range))
     }
-
-    /// A function of e = exp(−g/ρ) at many gaps.
-    fn each<T: Real>(&self, gaps: &[T], values: &mut [T], of: impl Fn(T) -> T) {
-        exponentials(T::one(), -T::lit(self.range).recip(), gaps, values);
-        values.iter_mut().for_each(|value| *value = of(*value));
-    }
-
-    /// Two functions of e = exp(−g/ρ) at many gaps.
-    fn both<T: Real>(&self, gaps: &[T], [values, others]: [&mut [T]; 2], of: impl Fn(T) -> [T; 2]) {
-        exponentials(T::one(), -T::lit(self.range).recip(), gaps, values);
-        values.iter_mut().zip(others).for_each(|(value, other)| [*value, *other] = of(*value));
-    }
 }
 
 /// The energy in units of w, the traction of w/ρ, and its slope of w/ρ², of e.
@@ -94,30 +82,26 @@ impl<T: Real> AdhesionLaw<T> for Morse {
         let (w, range) = self.rounded::<T>();
         w / range / range * slope((-gap / range).exp())
     }
-    fn energies(&self, _: usize, gaps: &[T], energies: &mut [T]) {
-        let (w, _) = self.rounded::<T>();
-        self.each(gaps, energies, |e| w * energy(e));
+    fn hints(&self) -> Hints<T> {
+        let (w, range) = self.rounded();
+        Hints::new(w, range).with_rest(T::zero())
     }
-    fn tractions(&self, _: usize, gaps: &[T], tractions: &mut [T]) {
+    fn evaluate(&self, _: usize, gaps: &[T], mut values: Values<'_, T>) {
         let (w, range) = self.rounded::<T>();
-        self.each(gaps, tractions, |e| w / range * traction(e));
-    }
-    fn slopes(&self, _: usize, gaps: &[T], slopes: &mut [T]) {
-        let (w, range) = self.rounded::<T>();
-        self.each(gaps, slopes, |e| w / range / range * slope(e));
-    }
-    fn energies_and_tractions(&self, _: usize, gaps: &[T], energies: &mut [T], tractions: &mut [T]) {
-        let (w, range) = self.rounded::<T>();
-        self.both(gaps, [energies, tractions], |e| [w * energy(e), w / range * traction(e)]);
-    }
-    fn tractions_and_slopes(&self, _: usize, gaps: &[T], tractions: &mut [T], slopes: &mut [T]) {
-        let (w, range) = self.rounded::<T>();
-        self.both(gaps, [tractions, slopes], |e| [w / range * traction(e), w / range / range * slope(e)]);
-    }
-    fn range(&self) -> T {
-        T::lit(self.range)
-    }
-    fn rest(&self) -> Option<T> {
-        Some(T::zero())
+        let of = |order, e| match order {
+            0 => w * energy(e),
+            1 => w / range * traction(e),
+            _ => w / range / range * slope(e),
+        };
+        let powers = |values: &mut [T]| exponentials(T::one(), -range.recip(), gaps, values);
+        let Some(tractions) = values.tractions.take() else {
+            return values.each(|order, values| {
+                powers(values);
+                values.iter_mut().for_each(|value| *value = of(order, *value));
+            });
+        };
+        powers(tractions);
+        values.each(|order, values| values.iter_mut().zip(&*tractions).for_each(|(value, &e)| *value = of(order, e)));
+        tractions.iter_mut().for_each(|value| *value = of(1, *value));
     }
 }

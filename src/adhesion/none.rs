@@ -1,13 +1,13 @@
 //! The law without adhesion.
 
-use super::AdhesionLaw;
+use super::{AdhesionLaw, Hints};
 use crate::real::Real;
 
 /// No adhesion: φ = 0. The solver does not evaluate it at all.
 ///
 /// ```
 /// use asperity::{AdhesionLaw, NoAdhesion};
-/// assert!(AdhesionLaw::<f64>::is_zero(&NoAdhesion));
+/// assert!(AdhesionLaw::<f64>::hints(&NoAdhesion).zero);
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct NoAdhesion;
@@ -22,7 +22,7 @@ impl<T: Real> AdhesionLaw<T> for NoAdhesion {
     fn slope(&self, _: T) -> T {
         T::zero()
     }
-    fn is_zero(&self) -> bool {
-        true
+    fn hints(&self) -> Hints<T> {
+        Hints { zero: true, ..Hints::of(self) }
     }
 }

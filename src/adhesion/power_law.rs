@@ -2,10 +2,9 @@
 
 use std::f64::consts::PI;
 
-use super::AdhesionLaw;
+use super::{AdhesionLaw, Hints, Values};
 use crate::error::{Error, Result};
 use crate::real::Real;
-use crate::vector::vectors;
 
 /// A power law: an energy that falls with the power n of the distance.
 ///
@@ -53,7 +52,7 @@ impl PowerLaw {
     /// ```
     /// use asperity::{AdhesionLaw, PowerLaw};
     /// let law = PowerLaw::van_der_waals(6e-20, 0.165e-9)?;
-    /// assert!((AdhesionLaw::<f64>::work_of_adhesion(&law) - 0.0585).abs() < 1e-4); // J/m²
+    /// assert!((law.work_of_adhesion() - 0.0585).abs() < 1e-4); // J/m²
     /// # Ok::<(), asperity::Error>(())
     /// ```
     ///
@@ -104,23 +103,15 @@ impl<T: Real> AdhesionLaw<T> for PowerLaw {
     fn slope(&self, gap: T) -> T {
         self.at(gap)[2]
     }
-    fn energies_and_tractions(&self, _: usize, gaps: &[T], energies: &mut [T], tractions: &mut [T]) {
-        vectors!([gaps], [energies, tractions], |i| {
-            [energies[i], tractions[i], _] = self.at(gaps[i]);
-        });
+    fn hints(&self) -> Hints<T> {
+        let w = T::lit(self.work_of_adhesion);
+        Hints { zero: w == T::zero(), ..Hints::new(w, T::lit(self.range)).concave() }
     }
-    fn tractions_and_slopes(&self, _: usize, gaps: &[T], tractions: &mut [T], slopes: &mut [T]) {
-        vectors!([gaps], [tractions, slopes], |i| {
-            [_, tractions[i], slopes[i]] = self.at(gaps[i]);
-        });
-    }
-    fn range(&self) -> T {
-        T::lit(self.range)
-    }
-    fn is_concave(&self) -> bool {
-        true
-    }
-    fn is_zero(&self) -> bool {
-        T::lit(self.work_of_adhesion) == T::zero()
+    fn evaluate(&self, _: usize, gaps: &[T], values: Values<'_, T>) {
+        values.set(
+            gaps,
+            #[inline(always)]
+            |gap| self.at(gap),
+        );
     }
 }

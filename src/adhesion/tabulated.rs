@@ -1,6 +1,6 @@
 //! A law by a table of gaps and tractions, as a force curve gives it.
 
-use super::AdhesionLaw;
+use super::{AdhesionLaw, Hints};
 use crate::error::{Error, Result};
 use crate::real::Real;
 
@@ -14,7 +14,7 @@ use crate::real::Real;
 /// use asperity::{AdhesionLaw, Tabulated, check_law};
 /// // a traction that falls evenly over 2 nm
 /// let law = Tabulated::new(&[0.0, 1e-9, 2e-9], &[50e6, 25e6, 0.0])?;
-/// assert!((AdhesionLaw::<f64>::work_of_adhesion(&law) - 0.05).abs() < 1e-15);
+/// assert!((AdhesionLaw::<f64>::hints(&law).work_of_adhesion - 0.05).abs() < 1e-15);
 /// assert_eq!(law.traction(0.5e-9), 37.5e6);
 /// check_law::<f64>(&law, 3e-9)?;
 /// # Ok::<(), asperity::Error>(())
@@ -150,11 +150,9 @@ impl<T: Real> AdhesionLaw<T> for Tabulated {
         let (Point { cubic: [_, b, c, d], .. }, x) = self.find(gap.widen());
         T::lit(b + x * (2.0 * c + x * 3.0 * d))
     }
-    fn range(&self) -> T {
-        T::lit(self.range)
-    }
-    fn is_concave(&self) -> bool {
+    fn hints(&self) -> Hints<T> {
         // between the points there are no other extremes
-        self.points.is_sorted_by(|nearer, farther| nearer.cubic[0] >= farther.cubic[0])
+        let concave = self.points.is_sorted_by(|nearer, farther| nearer.cubic[0] >= farther.cubic[0]);
+        Hints { concave, ..Hints::new(-self.energy(T::zero()), T::lit(self.range)) }
     }
 }

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use ndarray::{Array2, ArrayView2};
 
-use super::AdhesionLaw;
+use super::{AdhesionLaw, Discretisation, Hints, Values};
 use crate::error::{Error, Result};
 use crate::field::{all_finite_in, flat};
 use crate::grid::Grid;
@@ -81,8 +81,9 @@ impl<L: AdhesionLaw<f64>> Varying<L> {
             Err(Error::Value { name: "work of adhesion", value, requirement })
         });
         slab.agreed(negative)?;
-        let own = Error::positive("work of adhesion of the law that varies", law.work_of_adhesion())?;
-        if law.shape().is_some() {
+        let hints = law.hints();
+        let own = Error::positive("work of adhesion of the law that varies", hints.work_of_adhesion)?;
+        if hints.shape.is_some() {
             let requirement = "one: give the law that the varying one is made of";
             return Err(Error::Value { name: "number of works of adhesion at a node", value: 2.0, requirement });
         }
@@ -132,71 +133,41 @@ impl<T: Real, L: AdhesionLaw<T>> AdhesionLaw<T> for Varying<L> {
     fn slope(&self, gap: T) -> T {
         T::lit(self.largest) * self.law.slope(gap)
     }
-    fn work_of_adhesion(&self) -> T {
-        T::lit(self.largest) * self.law.work_of_adhesion()
+    fn hints(&self) -> Hints<T> {
+        let hints = self.law.hints();
+        let work_of_adhesion = T::lit(self.largest) * hints.work_of_adhesion;
+        // a node without a work of adhesion does not repel
+        let rest = hints.rest.filter(|_| self.repels);
+        Hints { work_of_adhesion, rest, shape: Some(self.slab.shape()), ..hints }
     }
-    fn range(&self) -> T {
-        self.law.range()
+    fn evaluate(&self, first: usize, gaps: &[T], mut values: Values<'_, T>) {
+        self.law.evaluate(first, gaps, values.reborrow());
+        values.each(|_, values| self.scale(first, values));
     }
-    fn is_concave(&self) -> bool {
-        self.law.is_concave()
-    }
-    fn rest(&self) -> Option<T> {
-        // where there is no work of adhesion nothing repels either
-        if self.repels { self.law.rest() } else { None }
-    }
-    fn is_zero(&self) -> bool {
-        self.law.is_zero()
-    }
-    fn shape(&self) -> Option<(usize, usize)> {
-        Some(self.slab.shape())
-    }
-    fn in_rows_of(&self, grid: &Grid) -> Option<Box<dyn AdhesionLaw<T> + '_>> {
-        if !self.slab.is_shared() || self.slab == grid.slab() {
-            return None;
-        }
-        let shares = Arc::new(self.slab.moved(self.shares.view().into(), &grid.slab()).into_owned());
-        let Self { largest, strongest, repels, .. } = *self;
-        let law: &dyn AdhesionLaw<T> = &self.law;
-        Some(Box::new(Varying { law, slab: grid.slab(), shares, largest, strongest, repels }))
-    }
-    fn coarsened(&self, (nx, ny): (usize, usize)) -> Option<Box<dyn AdhesionLaw<T> + '_>> {
-        let (rows, columns) = self.slab.shape();
-        let slab = self.slab.of((rows.div_ceil(nx), columns.div_ceil(ny)));
-        let rows = self.slab.rows_for(self.shares.view(), &slab, |row| [row * nx]);
-        let first = slab.rows().start;
-        let shares = Array2::from_shape_fn(slab.held(), |(ix, iy)| rows.row((first + ix) * nx)[iy * ny]);
-        let shares = Arc::new(shares);
-        let Self { largest, strongest: (ix, iy), repels, .. } = *self;
-        let law: &dyn AdhesionLaw<T> = &self.law;
-        Some(Box::new(Varying { law, slab, shares, largest, strongest: (ix / nx, iy / ny), repels }))
-    }
-    fn smoothed(&self, compliance: T) -> Option<Box<dyn AdhesionLaw<T> + '_>> {
-        // where the law is strongest its jumps are the largest
-        let law = self.law.smoothed(compliance * T::lit(self.largest))?;
+    fn adapted(&self, to: Discretisation<T>) -> Option<Box<dyn AdhesionLaw<T> + '_>> {
         let Self { slab, largest, strongest, repels, .. } = *self;
-        Some(Box::new(Varying { law, slab, shares: self.shares.clone(), largest, strongest, repels }))
-    }
-    fn energies(&self, first: usize, gaps: &[T], energies: &mut [T]) {
-        self.law.energies(first, gaps, energies);
-        self.scale(first, energies);
-    }
-    fn tractions(&self, first: usize, gaps: &[T], tractions: &mut [T]) {
-        self.law.tractions(first, gaps, tractions);
-        self.scale(first, tractions);
-    }
-    fn slopes(&self, first: usize, gaps: &[T], slopes: &mut [T]) {
-        self.law.slopes(first, gaps, slopes);
-        self.scale(first, slopes);
-    }
-    fn energies_and_tractions(&self, first: usize, gaps: &[T], energies: &mut [T], tractions: &mut [T]) {
-        self.law.energies_and_tractions(first, gaps, energies, tractions);
-        self.scale(first, energies);
-        self.scale(first, tractions);
-    }
-    fn tractions_and_slopes(&self, first: usize, gaps: &[T], tractions: &mut [T], slopes: &mut [T]) {
-        self.law.tractions_and_slopes(first, gaps, tractions, slopes);
-        self.scale(first, tractions);
-        self.scale(first, slopes);
+        let law: &dyn AdhesionLaw<T> = &self.law;
+        Some(match to {
+            Discretisation::Rows(grid) if !slab.is_shared() || slab == grid.slab() => return None,
+            Discretisation::Rows(grid) => {
+                let shares = Arc::new(slab.moved(self.shares.view().into(), &grid.slab()).into_owned());
+                Box::new(Varying { law, slab: grid.slab(), shares, largest, strongest, repels })
+            }
+            Discretisation::Coarse(nx, ny) => {
+                let (rows, columns) = slab.shape();
+                let coarse = slab.of((rows.div_ceil(nx), columns.div_ceil(ny)));
+                let rows = slab.rows_for(self.shares.view(), &coarse, |row| [row * nx]);
+                let first = coarse.rows().start;
+                let share = |(ix, iy): (usize, usize)| rows.row((first + ix) * nx)[iy * ny];
+                let shares = Arc::new(Array2::from_shape_fn(coarse.held(), share));
+                let strongest = (strongest.0 / nx, strongest.1 / ny);
+                Box::new(Varying { law, slab: coarse, shares, largest, strongest, repels })
+            }
+            Discretisation::Smooth(compliance) => {
+                // where the law is strongest its jumps are the largest
+                let law = self.law.adapted(Discretisation::Smooth(compliance * T::lit(largest)))?;
+                Box::new(Varying { law, slab, shares: self.shares.clone(), largest, strongest, repels })
+            }
+        })
     }
 }

@@ -1,6 +1,6 @@
 //! The patches of a law that varies over the surface: the nodes of each work of adhesion.
 
-use crate::adhesion::AdhesionLaw;
+use crate::adhesion::{AdhesionLaw, Values};
 use crate::real::Real;
 use crate::slab::Slab;
 
@@ -33,13 +33,13 @@ pub(super) fn patches<T: Real>(
     slab: Slab,
     nodes: impl ExactSizeIterator<Item = Option<[bool; 2]>>,
 ) -> Vec<Patch> {
-    if law.shape().is_none() {
+    if law.hints().shape.is_none() {
         return Vec::new();
     }
     // where nothing presses them, the surfaces have given all of it up
-    let gaps = vec![law.rest().unwrap_or_else(T::zero); nodes.len()];
+    let gaps = vec![law.hints().rest.unwrap_or_else(T::zero); nodes.len()];
     let mut energies = vec![T::zero(); gaps.len()];
-    law.energies(slab.first_node(), &gaps, &mut energies);
+    law.evaluate(slab.first_node(), &gaps, Values::one(0, &mut energies));
     let mut counts = Vec::new();
     for (energy, node) in energies.iter().zip(nodes) {
         let (Some([touches, attracts]), work) = (node, 0.0 - energy.widen()) else { continue };

@@ -42,8 +42,9 @@ impl Part {
     /// The part about the contact in a gap on the window or on a larger grid, of which this process has the rows of a
     /// slab, if it is a small one.
     fn of<T: Real>(window: (usize, usize), grid: &Grid, gap: &ArrayRef2<T>, law: &dyn AdhesionLaw<T>) -> Option<Self> {
-        let least = T::lit(REACH) * law.work_of_adhesion() / law.range();
-        let attracts = |gap: T| !law.is_zero() && (law.traction(gap) > least || !least.is_finite());
+        let hints = law.hints();
+        let least = T::lit(REACH) * hints.work_of_adhesion / hints.range;
+        let attracts = |gap: T| !hints.zero && (law.traction(gap) > least || !least.is_finite());
         let (mut x, mut y) = (window.0..0, window.1..0);
         for (i, row) in grid.rows().zip(gap.rows()).filter(|(i, _)| *i < window.0) {
             for (j, &gap) in row.iter().take(window.1).enumerate() {
@@ -183,7 +184,8 @@ impl<C> Nested<C> {
         C: ContactConstraint<T>,
     {
         let whole = half_space.grid();
-        let fits = half_space.boundary() != Boundary::Periodic && surface.absent().is_none() && law.shape().is_none();
+        let fits =
+            half_space.boundary() != Boundary::Periodic && surface.absent().is_none() && law.hints().shape.is_none();
         let part = if fits { Part::of(surface.grid().shape(), whole, gap, law) } else { None };
         let Some(part) = part else { return Ok(None) };
         let small = part.surface(surface)?;

@@ -97,7 +97,7 @@ impl Branch {
             Load::Pressure(_) | Load::Spring { .. } => load.pressure_at(flat.peak) >= 0.0,
         };
         let usual = if presses && !matches!(wall, Wall::Springs(_)) { Self::Loading } else { Self::Unloading };
-        Ok((!law.is_zero() && !paper).then(|| wanted.unwrap_or(usual)))
+        Ok((!law.hints().zero && !paper).then(|| wanted.unwrap_or(usual)))
     }
 }
 

@@ -60,7 +60,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         // and so have flats that are held apart, by their mean gap or by the law itself, whose range their gaps are
         // then of
         let lifted = match self.posed.constraint.wall() {
-            Wall::None => self.mean_gap().abs().max(self.posed.law.range().widen()),
+            Wall::None => self.mean_gap().abs().max(self.posed.law.hints().range.widen()),
             _ if self.sums.tally.contact > 0.0 => 0.0,
             _ => self.mean_gap(),
         };

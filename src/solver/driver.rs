@@ -9,7 +9,7 @@ use super::report::{Iteration, Solved, Status};
 use super::start::{Begin, check_wall};
 use super::state::State;
 use super::{Branch, Method, Settings};
-use crate::adhesion::{AdhesionLaw, NoAdhesion};
+use crate::adhesion::{AdhesionLaw, Discretisation, NoAdhesion};
 use crate::constraint::{ContactConstraint, Projection, Update, Wall};
 use crate::error::{Error, Result};
 use crate::problem::{Control, PressedFlat, smoothed_law};
@@ -89,7 +89,7 @@ pub(super) fn minimise<T: Real, Lo: Real>(state: &mut State<'_, T, Lo>, observe:
 /// Solves a problem: on the way from afar the wall alone, then the law without its jumps, then the law itself.
 pub(super) fn run<T: Real, Lo: Real>(operators: &mut dyn Operators<T, Lo>, job: Job<'_, T>) -> Result<Solved<T>> {
     let Job { law, flat, constraint, control, settings, begin, observe } = job;
-    let held = flat.window.as_ref().and_then(|window| law.in_rows_of(window.held()));
+    let held = flat.window.as_ref().and_then(|window| law.adapted(Discretisation::Rows(*window.held())));
     let law = held.as_deref().unwrap_or(law);
     Error::positive("tolerance", settings.tolerance_in::<T>())?;
     check_wall(law, constraint.wall())?;
@@ -107,7 +107,7 @@ pub(super) fn run<T: Real, Lo: Real>(operators: &mut dyn Operators<T, Lo>, job: 
             Wall::None if from_afar => (&mut rigid, Some(constraint)),
             _ => (constraint, None),
         };
-    let separation = repelled.as_ref().and_then(|_| law.rest()).unwrap_or_else(T::zero);
+    let separation = repelled.as_ref().and_then(|_| law.hints().rest).unwrap_or_else(T::zero);
     let (first_law, first_load): (&dyn AdhesionLaw<T>, _) =
         if from_afar { (&NoAdhesion, load.of_wall(separation.widen())) } else { (law, load) };
 

@@ -118,7 +118,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
             let share = if at_edge == 0.0 { 0.0 } else { at_edge / largest };
             report.edge_traction = Some(share);
             // of bodies that are apart it says nothing how far the last of their attraction, or rounding, reaches
-            let attract = !law.is_zero() && largest > noticeable(law);
+            let attract = !law.hints().zero && largest > noticeable(law);
             let apart = report.status == Status::Detached || report.contact_nodes == 0 && !attract;
             let touches = grid.slab().has(edge(&gap, grid).any(|gap| gap <= T::zero()));
             report.reaches_edge = !apart && (share > EDGE || touches);

@@ -4,7 +4,7 @@ use super::coarse::Coarse;
 use super::minimisation::{Goal, Left, Progress};
 use super::start::uniform_start;
 use super::state::State;
-use crate::adhesion::AdhesionLaw;
+use crate::adhesion::{AdhesionLaw, Values};
 use crate::constraint::{ContactConstraint, Update};
 use crate::error::{Error, Result};
 use crate::field::flat;
@@ -42,11 +42,8 @@ impl<'a, T: Real, Lo: Real> State<'a, T, Lo> {
                 },
             };
             let gap = gap.max(T::zero());
-            for function in ["adhesive energy", "adhesive traction"] {
-                match function {
-                    "adhesive energy" => law.energies(node, &[gap], &mut value),
-                    _ => law.tractions(node, &[gap], &mut value),
-                }
+            for (order, function) in ["adhesive energy", "adhesive traction"].into_iter().enumerate() {
+                law.evaluate(node, &[gap], Values::one(order, &mut value));
                 if !value[0].is_finite() {
                     return Err(Error::Law { function, gap: gap.widen(), value: value[0].widen(), expected: None });
                 }

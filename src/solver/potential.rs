@@ -1,7 +1,7 @@
 //! The local energy of a node, a function of its gap: the adhesion law, and the constraint where it is a term of the
 //! energy.
 
-use crate::adhesion::{AdhesionLaw, NoAdhesion};
+use crate::adhesion::{AdhesionLaw, Hints, NoAdhesion, Values};
 use crate::constraint::{ContactConstraint, Wall};
 use crate::field::{CHUNK, Nodes, Partial, Reducer};
 use crate::par::Parts;
@@ -48,6 +48,7 @@ pub(crate) fn bounded<T: Real>(least: Least<T>, gap: T, wanted: T) -> T {
 #[derive(Clone, Copy)]
 pub(crate) struct Potential<'a, T> {
     law: &'a dyn AdhesionLaw<T>,
+    hints: Hints<T>,
     /// what keeps the surfaces apart; nothing where there is no surface
     wall: Option<Wall<'a, T>>,
     /// where there is a surface; nothing if that is everywhere
@@ -68,11 +69,13 @@ impl<'a, T: Real> Potential<'a, T> {
         constraint: &'a dyn ContactConstraint<T>,
         window: Option<&'a Window>,
     ) -> Self {
-        Self { law, wall: Some(constraint.wall()), window }
+        Self { law, hints: law.hints(), wall: Some(constraint.wall()), window }
     }
 
     /// The potential of nodes that face no surface.
-    const NOTHING: Self = Self { law: &NoAdhesion, wall: None, window: None };
+    fn nothing() -> Self {
+        Self { law: &NoAdhesion, hints: AdhesionLaw::hints(&NoAdhesion), wall: None, window: None }
+    }
 
     /// Runs a pass `f(potential, first node, nodes)` over the chunks, as [`Reducer::run`]: in pieces of which all nodes
     /// face the surface, or none does. The first node is that on the surface's grid.
@@ -113,7 +116,7 @@ impl<'a, T: Real> Potential<'a, T> {
         chunk: N,
         f: &impl Fn(&Self, usize, N) -> Partial,
     ) -> Partial {
-        let whole = Self { window: None, ..*self };
+        let (whole, nothing) = (Self { window: None, ..*self }, Self::nothing());
         let (mut total, mut rest) = (Partial::NONE, Some(chunk));
         let count = rest.as_ref().map_or(0, Nodes::count);
         for (len, node) in window.pieces(first..first + count) {
@@ -121,7 +124,7 @@ impl<'a, T: Real> Potential<'a, T> {
             rest = Some(others);
             let part = match node {
                 Some(node) => f(&whole, node, piece),
-                None => f(&Self::NOTHING, first, piece),
+                None => f(&nothing, first, piece),
             };
             total = total.add(&part);
         }
@@ -130,7 +133,7 @@ impl<'a, T: Real> Potential<'a, T> {
 
     /// Whether the local energy is zero at every node.
     pub(crate) fn is_zero(&self) -> bool {
-        self.law.is_zero() && !matches!(self.wall, Some(Wall::Springs(_)))
+        self.hints.zero && !matches!(self.wall, Some(Wall::Springs(_)))
     }
 
     /// Whether the nodes face a surface.
@@ -162,7 +165,7 @@ impl<'a, T: Real> Potential<'a, T> {
     /// from where the slope of the law is that of its repulsion, and keeps below it a part of its gap, if the repulsion
     /// has no bound at zero gap. Elsewhere a gap may become negative.
     pub(crate) fn least(&self) -> Least<T> {
-        match (self.wall, self.law.rest()) {
+        match (self.wall, self.hints.rest) {
             (Some(Wall::Rigid), _) => Least { rest: T::zero(), share: T::zero(), depth: T::zero() },
             (Some(Wall::None), Some(rest)) => {
                 let bounded = self.law.energy(T::zero()).is_finite();
@@ -188,13 +191,13 @@ impl<'a, T: Real> Potential<'a, T> {
 
     /// Whether the tangent of the local energy is nowhere below it.
     pub(crate) fn is_concave(&self) -> bool {
-        self.projects() && self.law.is_concave()
+        self.projects() && self.hints.concave
     }
 
     /// The energies of the law alone, and the tractions of law and constraint, at once.
     pub(crate) fn energies_and_tractions(&self, first: usize, gaps: &[T], energies: &mut [T], tractions: &mut [T]) {
         if !matches!(self.wall, Some(Wall::Springs(_))) {
-            return self.law.energies_and_tractions(first, gaps, energies, tractions);
+            return self.law.evaluate(first, gaps, Values::energies_and_tractions(energies, tractions));
         }
         self.law(Of::Energy, first, gaps, energies);
         self.evaluate(Of::Traction, first, gaps, tractions);
@@ -203,7 +206,7 @@ impl<'a, T: Real> Potential<'a, T> {
     /// Tractions and slopes at once.
     pub(crate) fn tractions_and_slopes(&self, first: usize, gaps: &[T], tractions: &mut [T], slopes: &mut [T]) {
         if !matches!(self.wall, Some(Wall::Springs(_))) {
-            return self.law.tractions_and_slopes(first, gaps, tractions, slopes);
+            return self.law.evaluate(first, gaps, Values::tractions_and_slopes(tractions, slopes));
         }
         self.evaluate(Of::Traction, first, gaps, tractions);
         self.evaluate(Of::Slope, first, gaps, slopes);
@@ -213,18 +216,18 @@ impl<'a, T: Real> Potential<'a, T> {
     ///
     /// A law is defined for g ≥ 0; where the surfaces interpenetrate springs it goes on as its tangent at g = 0.
     pub(crate) fn law(&self, of: Of, first: usize, gaps: &[T], out: &mut [T]) {
-        if self.law.is_zero() {
+        if self.hints.zero {
             return out.fill(T::zero());
         }
         let springs = matches!(self.wall, Some(Wall::Springs(_)));
         if !springs || gaps.iter().all(|&gap| gap >= T::zero()) {
-            return evaluate(self.law, of, first, gaps, out);
+            return self.law.evaluate(first, gaps, Values::one(of as usize, out));
         }
         let (mut apart, mut at_contact) = ([T::zero(); CHUNK], [T::zero(); CHUNK]);
         let (apart, at_contact) = (&mut apart[..gaps.len()], &mut at_contact[..gaps.len()]);
-        self.law.tractions(first, apart, at_contact);
+        self.law.evaluate(first, apart, Values::one(1, at_contact));
         apart.iter_mut().zip(gaps).for_each(|(apart, &gap)| *apart = gap.max(T::zero()));
-        evaluate(self.law, of, first, apart, out);
+        self.law.evaluate(first, apart, Values::one(of as usize, out));
         let inside = out.iter_mut().zip(gaps).zip(at_contact).filter(|((_, gap), _)| **gap < T::zero());
         for ((out, &gap), &mut at_contact) in inside {
             match of {
@@ -279,14 +282,6 @@ impl<'a, T: Real> Potential<'a, T> {
         for ((contact, &gap), &p) in contact.iter_mut().zip(gaps).zip(pressures) {
             *contact = if gap <= T::zero() { (p + *contact).max(T::zero()) } else { T::zero() };
         }
-    }
-}
-
-fn evaluate<T: Real>(law: &dyn AdhesionLaw<T>, of: Of, first: usize, gaps: &[T], out: &mut [T]) {
-    match of {
-        Of::Energy => law.energies(first, gaps, out),
-        Of::Traction => law.tractions(first, gaps, out),
-        Of::Slope => law.slopes(first, gaps, out),
     }
 }
 

@@ -100,7 +100,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         if stiffest <= 0.0 {
             // nothing resists the load of a node alone before it touches: a step is as long as the gap
             let gap = self.sums.tally.sum_gap / self.posed.nodes();
-            let falls = gap > 0.0 && self.posed.law.is_zero() && self.sums.given > 0.0;
+            let falls = gap > 0.0 && self.posed.law.hints().zero && self.sums.given > 0.0;
             let contact = if falls { self.foundation().min(self.sums.given / gap) } else { self.foundation() };
             return contact + self.posed.load.stiffness();
         }
@@ -128,7 +128,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         let loaded = self.steps.near
             || self.posed.is_gap_controlled()
             || (self.counters.iterations >= UNSETTLED && self.load_error() <= LOADED);
-        loaded && (self.posed.law.is_zero() || self.relative_error() <= SETTLED)
+        loaded && (self.posed.law.hints().zero || self.relative_error() <= SETTLED)
     }
 
     /// Tells the coarse space where the contacts are, now and then: the nodes outside of the working set, or those that
@@ -145,7 +145,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
             let touches = |_, residual| idles(residual);
             coarse.renew(iteration, &self.fields.residual, touches, (stiffness, spring), range, held);
         } else {
-            let rest = self.posed.law.rest().unwrap_or_else(T::zero);
+            let rest = self.posed.law.hints().rest.unwrap_or_else(T::zero);
             let touches = |node, gap| gap <= rest && window.is_none_or(|window| window.faces(node));
             coarse.renew(iteration, &self.fields.gap, touches, (stiffness, spring), range, held);
         }

@@ -83,8 +83,8 @@ impl<T> Begin<'_, T> {
 pub(super) fn uniform_start<T: Real>(law: &dyn AdhesionLaw<T>, flat: &PressedFlat<T>, load: Load) -> f64 {
     match load {
         Load::Gap(gap) => gap,
-        _ if law.is_zero() => 2.0 * flat.rms_height,
-        _ => law.rest().map_or(0.0, T::widen),
+        _ if law.hints().zero => 2.0 * flat.rms_height,
+        _ => law.hints().rest.map_or(0.0, T::widen),
     }
 }
 
@@ -161,7 +161,7 @@ pub(crate) fn refuse_springs<T: Real>(wall: Wall<'_, T>) -> Result<()> {
 /// Refuses a law that is not made for a wall.
 pub(crate) fn check_wall<T: Real>(law: &dyn AdhesionLaw<T>, wall: Wall<'_, T>) -> Result<()> {
     let (wall, reason) = match wall {
-        Wall::None if law.rest().is_none() => (
+        Wall::None if law.hints().rest.is_none() => (
             "no wall",
             "the adhesion law does not repel at every node, so that nothing would keep the surfaces apart: choose a wall",
         ),

@@ -58,7 +58,7 @@ impl<'a, T: Real, Lo: Real> State<'a, T, Lo> {
             counters: Counters::default(),
         };
         if uniform
-            && state.posed.law.is_zero()
+            && state.posed.law.hints().zero
             && (state.posed.flat.boundary != Boundary::Periodic || state.posed.is_hardly_pressed())
         {
             state.start_undeformed()?;

@@ -35,7 +35,7 @@ const REACH: f64 = 10.0;
 impl<T: Real, Lo: Real> Posed<'_, T, Lo> {
     /// The mean gap from which on the surfaces hardly attract each other.
     fn out_of_reach(&self) -> f64 {
-        self.flat.height_span + REACH * self.law.range().widen()
+        self.flat.height_span + REACH * self.law.hints().range.widen()
     }
 
     /// Whether the load pulls by more than the law holds at its strongest on all nodes that face the surface.
@@ -46,14 +46,14 @@ impl<T: Real, Lo: Real> Posed<'_, T, Lo> {
 
     /// The gap of nodes that touch: zero at a wall, and that of rest where the law itself repels.
     fn closest(&self) -> T {
-        let rest = if self.projects() { None } else { self.law.rest() };
+        let rest = if self.projects() { None } else { self.law.hints().rest };
         rest.unwrap_or_else(T::zero)
     }
 
     /// The largest of many tractions of the law: no uniform gap holds more. A peak that is narrower than a hundredth of
     /// the range may be missed.
     fn strongest_traction(&self) -> f64 {
-        let range = self.law.range().widen();
+        let range = self.law.hints().range.widen();
         let gaps = (0..SAMPLES).map(|i| T::lit(REACH * range * i as f64 / SAMPLES as f64));
         gaps.map(|gap| self.law.traction(gap).widen()).fold(0.0, f64::max)
     }
@@ -93,7 +93,8 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
     pub(super) fn seek_hold(&mut self, observe: Observer<'_>) -> Result<bool> {
         let Load::Pressure(load) = self.posed.load else { return Ok(false) };
         let (touch, rest) = (self.posed.flat.peak, self.posed.closest().widen());
-        let mut interval = [rest + 0.5 * touch, rest + 1.5 * touch + 0.5 * REACH * self.posed.law.range().widen()];
+        let mut interval =
+            [rest + 0.5 * touch, rest + 1.5 * touch + 0.5 * REACH * self.posed.law.hints().range.widen()];
         let [mut gaps, mut held] = [[0.0; 2]; 2];
         let (mut next, mut tried) = (None, Vec::with_capacity(SECTIONS));
         for section in 0..SECTIONS {

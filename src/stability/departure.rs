@@ -77,7 +77,7 @@ impl<T: Real> Stability<T> {
         slab.agreed(Error::shape("gap", from.gap.dim(), self.mode.dim()))?;
         let largest = self.mode.iter().fold(T::zero(), |largest, value| largest.max(value.abs()));
         let largest = T::lit(slab.most(largest.widen()));
-        let amplitude = T::lit(PERTURBATION) * problem.law.range() / largest;
+        let amplitude = T::lit(PERTURBATION) * problem.law.hints().range / largest;
         if !(amplitude > T::zero() && amplitude.is_finite()) {
             return Ok(None);
         }

@@ -125,7 +125,7 @@ impl ContactStiffness {
         Error::positive("tolerance", tolerance)?;
         check_gap(problem, constraint, &solution.gap)?;
         let Problem { operator, law, flat } = problem;
-        if law.is_zero() && solution.report.contact_nodes == 0 {
+        if law.hints().zero && solution.report.contact_nodes == 0 {
             return Ok(Self {
                 pressure_per_length: 0.0,
                 force_per_length: 0.0,

@@ -166,7 +166,7 @@ impl Law {
     where
         L: AdhesionLaw<T> + AdhesionLaw<f64> + 'static,
     {
-        let works = self.shares.as_ref().map(|shares| shares * AdhesionLaw::<f64>::work_of_adhesion(&law));
+        let works = self.shares.as_ref().map(|shares| shares * AdhesionLaw::<f64>::hints(&law).work_of_adhesion);
         match (self.cut_off, works) {
             (None, None) => Box::new(law),
             (None, Some(works)) => Box::new(Varying::new(law, works.view()).unwrap()),

@@ -18,16 +18,15 @@ impl AdhesionLaw<f64> for Held {
     fn slope(&self, _: f64) -> f64 {
         0.0
     }
-    fn range(&self) -> f64 {
-        1e30
+    fn hints(&self) -> Hints<f64> {
+        Hints::of(self).with_range(1e30)
     }
-    fn energies(&self, first: usize, gaps: &[f64], energies: &mut [f64]) {
-        for ((energy, gap), traction) in energies.iter_mut().zip(gaps).zip(&self.0[first..]) {
-            *energy = traction * gap;
-        }
-    }
-    fn tractions(&self, first: usize, gaps: &[f64], tractions: &mut [f64]) {
-        tractions.copy_from_slice(&self.0[first..first + gaps.len()]);
+    fn evaluate(&self, first: usize, gaps: &[f64], values: Values<'_, f64>) {
+        values.each(|order, values| {
+            for ((value, gap), traction) in values.iter_mut().zip(gaps).zip(&self.0[first..]) {
+                *value = [traction * gap, *traction, 0.0][order];
+            }
+        });
     }
 }
 
@@ -47,7 +46,7 @@ fn by_held_tractions(
         let found = common::solve_to(&mut problem, control, settings, Start::From(&gap));
         let change = found.gap.iter().zip(&gap).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
         gap = found.gap;
-        if change < 1e-7 * law.range() {
+        if change < 1e-7 * law.hints().range {
             return gap;
         }
     }

@@ -21,14 +21,8 @@ macro_rules! either {
             fn slope(&self, gap: $float) -> $float {
                 self.$field.slope(gap)
             }
-            fn work_of_adhesion(&self) -> $float {
-                self.$field.work_of_adhesion()
-            }
-            fn range(&self) -> $float {
-                self.$field.range()
-            }
-            fn rest(&self) -> Option<$float> {
-                self.$field.rest()
+            fn hints(&self) -> Hints<$float> {
+                self.$field.hints()
             }
         }
     };
@@ -54,22 +48,20 @@ fn laws() -> [Both; 6] {
 
 /// The largest traction of a law.
 fn largest(law: &dyn AdhesionLaw<f64>) -> f64 {
-    let start = law.rest().unwrap_or(0.0);
+    let start = law.hints().rest.unwrap_or(0.0);
     (0..20_000).map(|i| law.traction(start + 1e-3 * f64::from(i) * RANGE)).fold(0.0, f64::max)
 }
 
 #[test]
 fn a_law_that_is_cut_off_keeps_its_work_its_rest_and_its_contact() {
     for Both(law, _) in laws() {
-        let start = law.rest().unwrap_or(0.0);
+        let start = law.hints().rest.unwrap_or(0.0);
         for ranges in [1.0, 1.5, 2.5, 4.0, 30.0] {
-            let end = start + ranges * law.range();
+            let end = start + ranges * law.hints().range;
             let cut = CutOff::new(&law, end).unwrap();
             check_law::<f64>(&cut, 1.5 * end).unwrap();
-            assert_eq!(
-                (cut.work_of_adhesion(), cut.range(), cut.rest()),
-                (law.work_of_adhesion(), law.range(), law.rest())
-            );
+            let scales = |hints: Hints<f64>| (hints.work_of_adhesion, hints.range, hints.rest);
+            assert_eq!(scales(cut.hints()), scales(law.hints()));
             let all = |law: &dyn AdhesionLaw<f64>, gap| [law.energy(gap), law.traction(gap), law.slope(gap)];
             // the same in contact, or where it repels
             for gap in [start, 0.9 * start] {
@@ -77,7 +69,7 @@ fn a_law_that_is_cut_off_keeps_its_work_its_rest_and_its_contact() {
             }
             assert_eq!([all(&cut, end), all(&cut, 2.0 * end)], [[0.0; 3]; 2]);
             // it gives its energy back without repelling on the way, and ends smoothly
-            let (work, range) = (law.work_of_adhesion(), law.range());
+            let (work, range) = (law.hints().work_of_adhesion, law.hints().range);
             let (near, scale) = (all(&cut, end - 1e-5 * range).map(f64::abs), work / range);
             assert!(near[0] < 1e-9 * work && near[1] < 1e-8 * scale && near[2] < 2e-3 * scale / range, "{near:?}");
             let gaps = (0..1000).map(|i| start + (end - start) * f64::from(i) / 1e3);
@@ -100,7 +92,7 @@ fn the_largest_traction_of_a_law_that_is_cut_off_is_that_of_the_page() {
         let expected = row(name);
         assert_eq!(expected.len(), 6);
         for (ranges, expected) in [1.0, 1.5, 2.0, 2.5, 3.0, 4.0].into_iter().zip(expected) {
-            let cut = CutOff::new(law, law.rest().unwrap_or(0.0) + ranges * law.range()).unwrap();
+            let cut = CutOff::new(law, law.hints().rest.unwrap_or(0.0) + ranges * law.hints().range).unwrap();
             let found = largest(&cut) / largest(law);
             // the digits that are written, and the 1.516 to 1.522 of the attractive ones
             assert!((found - expected).abs() < 0.025, "{name} {ranges} {found}");
@@ -111,10 +103,10 @@ fn the_largest_traction_of_a_law_that_is_cut_off_is_that_of_the_page() {
 #[test]
 fn single_precision_cuts_the_same_law_off() {
     for law in laws() {
-        let end = law.0.rest().unwrap_or(0.0) + 2.5 * law.0.range();
+        let end = law.0.hints().rest.unwrap_or(0.0) + 2.5 * law.0.hints().range;
         let cut = CutOff::new(law, end).unwrap();
         check_law::<f32>(&cut, 1.5 * end).unwrap();
-        let scale = AdhesionLaw::<f64>::work_of_adhesion(&cut) / AdhesionLaw::<f64>::range(&cut);
+        let scale = AdhesionLaw::<f64>::hints(&cut).work_of_adhesion / AdhesionLaw::<f64>::hints(&cut).range;
         for i in 0..100 {
             let gap = end * (0.5 + 0.01 * f64::from(i));
             let (a, b): (f64, f32) = (cut.traction(gap), cut.traction(gap as f32));
@@ -155,11 +147,8 @@ fn a_cut_off_within_the_attraction_is_refused() {
         fn slope(&self, gap: f64) -> f64 {
             -(-gap).exp()
         }
-        fn work_of_adhesion(&self) -> f64 {
-            1.0
-        }
-        fn range(&self) -> f64 {
-            1.0
+        fn hints(&self) -> Hints<f64> {
+            Hints::new(1.0, 1.0)
         }
     }
     let error = CutOff::new(Lifted, 3.0).unwrap_err();

@@ -212,17 +212,13 @@ impl AdhesionLaw<f64> for Untouched {
     fn slope(&self, gap: f64) -> f64 {
         self.energy(gap)
     }
-    fn energies(&self, _: usize, _: &[f64], _: &mut [f64]) {
+    fn evaluate(&self, _: usize, _: &[f64], _: Values<'_, f64>) {
         unreachable!()
     }
-    fn tractions(&self, _: usize, _: &[f64], _: &mut [f64]) {
-        unreachable!()
-    }
-    fn slopes(&self, _: usize, _: &[f64], _: &mut [f64]) {
-        unreachable!()
-    }
-    fn is_zero(&self) -> bool {
-        true
+    fn hints(&self) -> Hints<f64> {
+        let mut hints = Hints::new(0.0, 0.0);
+        hints.zero = true;
+        hints
     }
 }
 
@@ -448,12 +444,6 @@ fn a_solve_needs_five_fields_of_f64_and_seven_of_f32() {
 /// An exponential law whose work of adhesion is a share of its own at each node.
 struct ByNode(Exponential, Vec<f64>);
 
-impl ByNode {
-    fn scale(&self, first: usize, values: &mut [f64]) {
-        values.iter_mut().zip(&self.1[first..]).for_each(|(value, share)| *value *= share);
-    }
-}
-
 impl AdhesionLaw<f64> for ByNode {
     fn energy(&self, gap: f64) -> f64 {
         self.0.energy(gap)
@@ -464,17 +454,12 @@ impl AdhesionLaw<f64> for ByNode {
     fn slope(&self, gap: f64) -> f64 {
         self.0.slope(gap)
     }
-    fn energies(&self, first: usize, gaps: &[f64], energies: &mut [f64]) {
-        self.0.energies(first, gaps, energies);
-        self.scale(first, energies);
-    }
-    fn tractions(&self, first: usize, gaps: &[f64], tractions: &mut [f64]) {
-        self.0.tractions(first, gaps, tractions);
-        self.scale(first, tractions);
-    }
-    fn slopes(&self, first: usize, gaps: &[f64], slopes: &mut [f64]) {
-        self.0.slopes(first, gaps, slopes);
-        self.scale(first, slopes);
+    fn evaluate(&self, first: usize, gaps: &[f64], values: Values<'_, f64>) {
+        // one function after another, so that energies are not those of tractions
+        values.each(|order, values| {
+            self.0.evaluate(first, gaps, Values::one(order, values));
+            values.iter_mut().zip(&self.1[first..]).for_each(|(value, share)| *value *= share);
+        });
     }
 }
 
@@ -495,23 +480,20 @@ impl AdhesionLaw<f64> for Counting<'_> {
     fn slope(&self, gap: f64) -> f64 {
         self.law.slope(gap)
     }
-    fn is_concave(&self) -> bool {
-        self.concave
+    fn hints(&self) -> Hints<f64> {
+        let mut hints = self.law.hints();
+        hints.concave = self.concave;
+        hints
     }
-    fn smoothed(&self, compliance: f64) -> Option<Box<dyn AdhesionLaw<f64> + '_>> {
-        Some(Box::new(Counting {
-            law: self.law.smoothed(compliance)?,
-            concave: self.concave,
-            energies: AtomicUsize::new(0),
-        }))
+    fn adapted(&self, to: Discretisation<f64>) -> Option<Box<dyn AdhesionLaw<f64> + '_>> {
+        Some(Box::new(Counting { law: self.law.adapted(to)?, concave: self.concave, energies: AtomicUsize::new(0) }))
     }
-    fn energies(&self, first: usize, gaps: &[f64], energies: &mut [f64]) {
-        self.energies.fetch_add(gaps.len(), Ordering::Relaxed);
-        self.law.energies(first, gaps, energies);
-    }
-    fn energies_and_tractions(&self, first: usize, gaps: &[f64], energies: &mut [f64], tractions: &mut [f64]) {
-        self.law.energies(first, gaps, energies);
-        self.law.tractions(first, gaps, tractions);
+    fn evaluate(&self, first: usize, gaps: &[f64], values: Values<'_, f64>) {
+        if values.tractions.is_none() && values.energies.is_some() {
+            self.energies.fetch_add(gaps.len(), Ordering::Relaxed);
+        }
+        // one function after another, so that energies are not those of tractions
+        values.each(|order, values| self.law.evaluate(first, gaps, Values::one(order, values)));
     }
 }
 

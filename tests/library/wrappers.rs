@@ -1,6 +1,5 @@
-//! Laws that wrap other laws answer to every method of the trait.
+//! Every law and every wrapper of one keeps the contract of the trait, and wrappers answer to all of its methods.
 
-use std::collections::BTreeSet;
 use std::sync::{Arc, Mutex};
 
 use asperity::*;
@@ -13,155 +12,143 @@ use patches::Patches;
 
 const SHAPE: (usize, usize) = (6, 4);
 
-/// A law that says everything, and keeps the names of the methods that it was asked by.
+/// Works of adhesion that vary, up to w.
+fn works(w: f64) -> Array2<f64> {
+    Array2::from_shape_fn(SHAPE, |(ix, iy)| w * ((ix + 2 * iy) % 5) as f64 / 4.0)
+}
+
+/// A law at each node in turn.
+fn in_turn<L>(laws: Vec<L>) -> Patches<L> {
+    let of = (0..SHAPE.0 * SHAPE.1).map(|node| node / 2 % laws.len()).collect();
+    Patches { laws, shape: SHAPE, of }
+}
+
+/// A law in either precision.
+trait Both: AdhesionLaw<f64> + AdhesionLaw<f32> {}
+impl<L: AdhesionLaw<f64> + AdhesionLaw<f32>> Both for L {}
+
+/// Holds a law, what it is adapted to, and boxes and references of it to the contract.
+fn conforms(law: &dyn Both, far: f64) {
+    fn check<T: Real>(law: &dyn AdhesionLaw<T>, far: f64) {
+        check_law(&law, far).unwrap();
+        check_law(&Arc::new(law), far).unwrap();
+        let boxed: Box<dyn AdhesionLaw<T> + '_> = Box::new(law);
+        check_law(&boxed, far).unwrap();
+        let hints = boxed.hints();
+        let compliance = T::lit(0.2) * hints.range * hints.range / hints.work_of_adhesion;
+        let whole = Discretisation::Rows(Grid::new(SHAPE, (1.0, 1.0)).unwrap());
+        for to in [whole, Discretisation::Smooth(compliance), Discretisation::Coarse(1, 3)] {
+            if let Some(adapted) = boxed.adapted(to) {
+                check_law(&adapted, far).unwrap();
+            }
+        }
+    }
+    check::<f64>(&law, far);
+    check::<f32>(&law, far);
+}
+
+#[test]
+fn every_law_and_every_wrapper_keeps_the_contract() {
+    let (w, range, works) = (0.05, 2e-9, works(0.05));
+    let (far, end) = (4.0 * range, 2.5 * range);
+    conforms(&NoAdhesion, far);
+    conforms(&LennardJones::new(w, range).unwrap(), far);
+    conforms(&PowerLaw::van_der_waals(6e-20, 0.165e-9).unwrap(), far);
+    /// A law, and what can be made of it and of one with half of its work of adhesion and twice its range.
+    fn each<L: Both + Clone>(law: &L, other: &L, (far, end): (f64, f64), works: &Array2<f64>) {
+        let cut = CutOff::new(law.clone(), end).unwrap();
+        let varying = Varying::new(law.clone(), works.view()).unwrap();
+        let patches = || in_turn(vec![law.clone(), other.clone()]);
+        conforms(law, far);
+        conforms(&cut, far);
+        conforms(&varying, far);
+        conforms(&CutOff::new(varying.clone(), end).unwrap(), far);
+        conforms(&Varying::new(cut.clone(), works.view()).unwrap(), far);
+        conforms(&patches(), far);
+        conforms(&CutOff::new(patches(), end).unwrap(), far);
+        conforms(&in_turn(vec![cut]), far);
+    }
+    macro_rules! each {
+        ($make:expr) => {
+            each(&$make(w, range).unwrap(), &$make(0.5 * w, 2.0 * range).unwrap(), (far, end), &works)
+        };
+    }
+    each!(MaugisDugdale::new);
+    each!(Exponential::new);
+    each!(Morse::new);
+    each!(|w, range| LennardJones::new(w, range).map(LennardJones::cut));
+    each!(|w, range| PowerLaw::new(w, range, 2.0));
+    each!(|w, range| PowerLaw::new(w, range, 3.5));
+    each!(|w: f64, range: f64| {
+        let (gaps, tractions) = ([0.0, 0.5, 1.0, 2.5], [0.8, 1.2, 0.2, 0.0]);
+        Tabulated::new(&gaps.map(|gap| gap * range), &tractions.map(|traction| traction * w / range))
+    });
+    // a map of works cannot be given twice
+    let varying = Varying::new(MaugisDugdale::new(w, range).unwrap(), works.view()).unwrap();
+    let twice = Varying::new(CutOff::new(varying, end).unwrap(), works.view()).unwrap_err();
+    assert!(twice.to_string().contains("give the law that the varying one is made of"), "{twice}");
+}
+
+/// A law that says everything, and keeps the name of the method that it was asked by last.
 struct Spy {
-    /// nothing for a law that is the same at every node
     shape: Option<(usize, usize)>,
-    work: f64,
-    asked: Mutex<BTreeSet<&'static str>>,
+    asked: Mutex<&'static str>,
 }
 
 impl Spy {
-    fn new(shape: Option<(usize, usize)>, work: f64) -> Self {
-        Self { shape, work, asked: Mutex::default() }
-    }
-
-    fn asked(&self, name: &'static str) {
-        self.asked.lock().unwrap().insert(name);
-    }
-
-    fn other(&self, work: f64) -> Option<Box<dyn AdhesionLaw<f64> + '_>> {
-        Some(Box::new(Spy::new(self.shape, work)))
-    }
-
-    /// The values at the nodes from `first` on, of those of the strongest.
-    fn fill(&self, first: usize, gaps: &[f64], values: &mut [f64], of: impl Fn(f64) -> f64) {
-        for (node, (value, &gap)) in (first..).zip(values.iter_mut().zip(gaps)) {
-            let share = if self.shape.is_some() { 1.0 / (1 + node) as f64 } else { 1.0 };
-            *value = self.work * share * of((1.0 - gap).max(0.0));
-        }
+    fn answer<R>(&self, name: &'static str, answer: R) -> R {
+        *self.asked.lock().unwrap() = name;
+        answer
     }
 }
 
 impl AdhesionLaw<f64> for Spy {
     fn energy(&self, gap: f64) -> f64 {
-        self.asked("energy");
-        -self.work * (1.0 - gap).max(0.0).powi(3)
+        self.answer("energy", -(1.0 - gap).max(0.0).powi(3))
     }
     fn traction(&self, gap: f64) -> f64 {
-        self.asked("traction");
-        3.0 * self.work * (1.0 - gap).max(0.0).powi(2)
+        self.answer("traction", 3.0 * (1.0 - gap).max(0.0).powi(2))
     }
     fn slope(&self, gap: f64) -> f64 {
-        self.asked("slope");
-        -6.0 * self.work * (1.0 - gap).max(0.0)
+        self.answer("slope", -6.0 * (1.0 - gap).max(0.0))
     }
-    fn work_of_adhesion(&self) -> f64 {
-        self.asked("work_of_adhesion");
-        self.work
+    fn hints(&self) -> Hints<f64> {
+        let mut hints = Hints::new(1.0, 0.7).with_rest(0.0).concave();
+        (hints.zero, hints.shape) = (true, self.shape);
+        self.answer("hints", hints)
     }
-    fn range(&self) -> f64 {
-        self.asked("range");
-        0.7
+    fn evaluate(&self, first: usize, gaps: &[f64], values: Values<'_, f64>) {
+        let of = |gap: f64| [-1.0, 3.0, -6.0].map(|factor| factor * (first + 1) as f64 * (1.0 - gap).max(0.0));
+        self.answer("evaluate", values.set(gaps, of));
     }
-    fn is_zero(&self) -> bool {
-        self.asked("is_zero");
-        true
-    }
-    fn is_concave(&self) -> bool {
-        self.asked("is_concave");
-        true
-    }
-    fn rest(&self) -> Option<f64> {
-        self.asked("rest");
-        Some(0.0)
-    }
-    fn shape(&self) -> Option<(usize, usize)> {
-        self.asked("shape");
-        self.shape
-    }
-    fn in_rows_of(&self, _: &Grid) -> Option<Box<dyn AdhesionLaw<f64> + '_>> {
-        self.asked("in_rows_of");
-        self.other(3.0)
-    }
-    fn coarsened(&self, stride: (usize, usize)) -> Option<Box<dyn AdhesionLaw<f64> + '_>> {
-        self.asked("coarsened");
-        self.other((stride.0 + 10 * stride.1) as f64)
-    }
-    fn smoothed(&self, compliance: f64) -> Option<Box<dyn AdhesionLaw<f64> + '_>> {
-        self.asked("smoothed");
-        self.other(self.work * (1.0 + compliance))
-    }
-    fn energies(&self, first: usize, gaps: &[f64], energies: &mut [f64]) {
-        self.asked("energies");
-        self.fill(first, gaps, energies, |x| -x.powi(3));
-    }
-    fn tractions(&self, first: usize, gaps: &[f64], tractions: &mut [f64]) {
-        self.asked("tractions");
-        self.fill(first, gaps, tractions, |x| 3.0 * x.powi(2));
-    }
-    fn slopes(&self, first: usize, gaps: &[f64], slopes: &mut [f64]) {
-        self.asked("slopes");
-        self.fill(first, gaps, slopes, |x| -6.0 * x);
-    }
-    fn energies_and_tractions(&self, first: usize, gaps: &[f64], energies: &mut [f64], tractions: &mut [f64]) {
-        self.energies(first, gaps, energies);
-        self.tractions(first, gaps, tractions);
-        *self.asked.lock().unwrap() = BTreeSet::from(["energies_and_tractions"]);
-    }
-    fn tractions_and_slopes(&self, first: usize, gaps: &[f64], tractions: &mut [f64], slopes: &mut [f64]) {
-        self.tractions(first, gaps, tractions);
-        self.slopes(first, gaps, slopes);
-        *self.asked.lock().unwrap() = BTreeSet::from(["tractions_and_slopes"]);
+    fn adapted(&self, to: Discretisation<f64>) -> Option<Box<dyn AdhesionLaw<f64> + '_>> {
+        let shape = match to {
+            Discretisation::Coarse(nx, ny) => self.shape.map(|shape| (shape.0 / nx, shape.1 / ny)),
+            _ => self.shape,
+        };
+        self.answer("adapted", Some(Box::new(Spy { shape, asked: Mutex::default() })))
     }
 }
 
-const GAPS: [f64; 5] = [0.0, 0.2, 0.4, 0.9, 1.5];
+/// A method by its name, and its answer in words.
+type Method = (&'static str, fn(&dyn AdhesionLaw<f64>) -> String);
 
-fn nodes(of: impl Fn(&mut [f64], &mut [f64])) -> Vec<f64> {
-    let (mut a, mut b) = ([0.0; 5], [0.0; 5]);
-    of(&mut a, &mut b);
-    [a, b].concat()
-}
-
-fn energies(law: Option<Box<dyn AdhesionLaw<f64> + '_>>) -> Vec<f64> {
-    law.map_or(vec![], |law| nodes(|values, _| law.energies(2, &GAPS, values)))
-}
-
-/// A method by its name, and its answer.
-type Method = (&'static str, fn(&dyn AdhesionLaw<f64>) -> Vec<f64>);
-
-const METHODS: [Method; 17] = [
-    ("energy", |law| vec![law.energy(0.3)]),
-    ("traction", |law| vec![law.traction(0.3)]),
-    ("slope", |law| vec![law.slope(0.3)]),
-    ("work_of_adhesion", |law| vec![law.work_of_adhesion()]),
-    ("range", |law| vec![law.range()]),
-    ("is_zero", |law| vec![f64::from(law.is_zero())]),
-    ("is_concave", |law| vec![f64::from(law.is_concave())]),
-    ("rest", |law| law.rest().into_iter().collect()),
-    ("shape", |law| law.shape().into_iter().flat_map(|(nx, ny)| [nx as f64, ny as f64]).collect()),
-    ("in_rows_of", |law| energies(law.in_rows_of(&Grid::new(SHAPE, (1.0, 1.0)).unwrap()))),
-    ("coarsened", |law| energies(law.coarsened((2, 1)))),
-    ("smoothed", |law| energies(law.smoothed(0.25))),
-    ("energies", |law| nodes(|a, _| law.energies(2, &GAPS, a))),
-    ("tractions", |law| nodes(|a, _| law.tractions(2, &GAPS, a))),
-    ("slopes", |law| nodes(|a, _| law.slopes(2, &GAPS, a))),
-    ("energies_and_tractions", |law| nodes(|a, b| law.energies_and_tractions(2, &GAPS, a, b))),
-    ("tractions_and_slopes", |law| nodes(|a, b| law.tractions_and_slopes(2, &GAPS, a, b))),
+const METHODS: [Method; 6] = [
+    ("energy", |law| law.energy(0.3).to_string()),
+    ("traction", |law| law.traction(0.3).to_string()),
+    ("slope", |law| law.slope(0.3).to_string()),
+    ("hints", |law| format!("{:?}", law.hints())),
+    ("evaluate", |law| {
+        let mut values = [[0.0; 5]; 3];
+        let [energies, tractions, slopes] = values.each_mut().map(|values| Some(&mut values[..]));
+        law.evaluate(2, &[0.0, 0.2, 0.4, 0.9, 1.5], Values { energies, tractions, slopes });
+        format!("{values:?}")
+    }),
+    ("adapted", |law| {
+        let shape = |to| law.adapted(to).map(|law| law.hints().shape);
+        format!("{:?} {:?}", shape(Discretisation::Coarse(2, 1)), shape(Discretisation::Smooth(0.25)))
+    }),
 ];
-
-/// Compares the answers of a wrapper with those of the law within, but for the methods that are its own.
-#[track_caller]
-fn answers(spy: &Spy, wrapper: &dyn AdhesionLaw<f64>, own: &[&str]) {
-    for (name, answer) in METHODS.into_iter().filter(|(name, _)| !own.contains(name)) {
-        let expected = answer(spy);
-        spy.asked.lock().unwrap().clear();
-        let found = answer(wrapper);
-        assert_eq!(found, expected, "{name}");
-        assert!(spy.asked.lock().unwrap().contains(name), "{name} does not reach the law");
-    }
-}
 
 #[test]
 fn every_wrapper_answers_to_every_method() {
@@ -170,59 +157,29 @@ fn every_wrapper_answers_to_every_method() {
     let methods = body.lines().filter_map(|line| line.strip_prefix("    fn ")?.split('(').next());
     assert_eq!(methods.collect::<Vec<_>>(), METHODS.map(|(name, _)| name));
 
-    let by_node = ["shape", "in_rows_of", "coarsened"];
-    for spy in [Spy::new(None, 2.0), Spy::new(Some(SHAPE), 2.0)] {
-        answers(&spy, &&spy, &[]);
-        answers(&spy, &Box::new(&spy), &[]);
-        answers(&spy, &Arc::new(&spy), &[]);
-        // of a law that ends before it is cut off nothing changes; where its nodes differ not all of them need do so
-        let cut = CutOff::new(&spy, 1.25).unwrap();
-        let own: &[&str] = if spy.shape.is_some() { &["is_concave"] } else { &[] };
-        answers(&spy, &cut, own);
+    let answers = |spy: &Spy, wrapper: &dyn AdhesionLaw<f64>, own: &str| {
+        for (name, answer) in METHODS {
+            let expected = answer(spy);
+            *spy.asked.lock().unwrap() = "";
+            let found = answer(wrapper);
+            assert!(found == expected || own.contains(name), "{name}: {found} {expected}");
+            assert_eq!(*spy.asked.lock().unwrap(), name, "{name} does not reach the law");
+        }
+    };
+    let [uniform, spy] = [None, Some(SHAPE)].map(|shape| Spy { shape, asked: Mutex::default() });
+    for spy in [&uniform, &spy] {
+        answers(spy, &spy, "");
+        answers(spy, &Box::new(spy), "");
+        answers(spy, &Arc::new(spy), "");
     }
-    let spy = Spy::new(None, 2.0);
-    let varying = Varying::new(&spy, Array2::from_elem(SHAPE, 2.0).view()).unwrap();
-    answers(&spy, &varying, &by_node);
-    answers(&spy, &CutOff::new(&varying, 1.25).unwrap(), &["shape", "in_rows_of", "coarsened", "is_concave"]);
-    let patches = Patches { law: &spy, shape: SHAPE, shares: vec![1.0; SHAPE.0 * SHAPE.1] };
-    answers(&spy, &patches, &by_node);
-    for law in [&varying as &dyn AdhesionLaw<f64>, &patches] {
-        assert_eq!(law.shape(), Some(SHAPE));
-        assert_eq!(law.coarsened((2, 3)).unwrap().shape(), Some((3, 2)));
-    }
-}
-
-#[test]
-fn every_wrapper_of_every_law_passes_the_check() {
-    let (w, range) = (0.05, 2e-9);
-    let works = Array2::from_shape_fn(SHAPE, |(ix, iy)| w * ((ix + 2 * iy) % 5) as f64 / 4.0);
-    let dugdale = MaugisDugdale::new(w, range).unwrap();
-    let table = Tabulated::new(&[0.0, 1e-9, 2e-9, 5e-9], &[20e6, 30e6, 5e6, 0.0]).unwrap();
-    let laws: [Box<dyn AdhesionLaw<f64>>; 6] = [
-        Box::new(dugdale),
-        Box::new(Exponential::new(w, range).unwrap()),
-        Box::new(LennardJones::new(w, range).unwrap().cut()),
-        Box::new(Morse::new(w, range).unwrap()),
-        Box::new(PowerLaw::new(w, range, 2.0).unwrap()),
-        Box::new(table),
-    ];
-    for law in &laws {
-        let shares = works.iter().map(|work| work / w).collect();
-        let cut = CutOff::new(law, 2.5 * range).unwrap();
-        let varying = Varying::new(law, works.view()).unwrap();
-        let wrappers: [&dyn AdhesionLaw<f64>; 5] = [
-            &cut,
-            &varying,
-            &CutOff::new(&varying, 2.5 * range).unwrap(),
-            &Varying::new(&cut, works.view()).unwrap(),
-            &Patches { law, shape: SHAPE, shares },
-        ];
-        wrappers.iter().for_each(|wrapper| check_law(wrapper, 4.0 * range).unwrap());
-    }
-    // a map of works cannot be given twice
-    let varying = Varying::new(dugdale, works.view()).unwrap();
-    let twice = Varying::new(CutOff::new(varying, 3.0 * range).unwrap(), works.view()).unwrap_err();
-    assert!(twice.to_string().contains("give the law that the varying one is made of"), "{twice}");
+    // of a law that ends before it is cut off nothing changes; where its nodes differ not all of them need do so
+    answers(&uniform, &CutOff::new(&uniform, 1.25).unwrap(), "");
+    answers(&spy, &CutOff::new(&spy, 1.25).unwrap(), "hints");
+    // a law that varies adds its shape
+    let varying = Varying::new(&uniform, Array2::ones(SHAPE).view()).unwrap();
+    assert_eq!(varying.hints(), uniform.hints().with_shape(SHAPE));
+    let coarse = varying.adapted(Discretisation::Coarse(2, 3)).unwrap();
+    assert_eq!(coarse.hints(), uniform.hints().with_shape((3, 2)));
 }
 
 #[test]
@@ -239,5 +196,29 @@ fn a_law_that_ends_before_it_is_cut_off_solves_as_itself() {
     let exact = gap(&law);
     assert_eq!(gap(&CutOff::new(law, 4e-3).unwrap()), exact);
     assert_eq!(gap(&CutOff::new(Varying::new(law, works.view()).unwrap(), 0.01).unwrap()), exact);
-    assert_eq!(gap(&Patches { law, shape: (64, 64), shares: vec![1.0; 64 * 64] }), exact);
+    assert_eq!(gap(&Patches { laws: vec![law], shape: (64, 64), of: vec![0; 64 * 64] }), exact);
+}
+
+#[test]
+fn ranges_that_vary_are_solved_as_each_of_them_on_its_own() {
+    // ever so long along y, so that the halves meet each other by their mean displacement alone
+    let (n, settings) = (64, Settings { tolerance: Some(1e-8), ..Settings::default() });
+    let grid = Grid::new((n, n), (1.0, 32.0)).unwrap();
+    let laws = [(4e-4, 8e-3), (1e-4, 4e-3)].map(|(w, range)| Exponential::new(w, range).unwrap());
+    let patches = Patches { laws: laws.to_vec(), shape: (n, n), of: (0..n * n).map(|node| node % n / 32).collect() };
+    check_law::<f64>(&patches, 0.05).unwrap();
+    let surface = Surface::wave(grid, 0.02, 1).unwrap();
+    let mut problem = Problem::new(&surface, Westergaard::<f64>::new(grid, 1.0).unwrap(), patches).unwrap();
+    let solution = Solver::new(settings).solve(&mut problem, Control::MeanGap(0.017)).unwrap();
+    assert_eq!(solution.report.status, Status::Converged);
+    let line = Grid::line(n, 1.0).unwrap();
+    let profile = Surface::wave(line, 0.02, 1).unwrap();
+    for (column, law) in [n / 4, 3 * n / 4].into_iter().zip(laws) {
+        let slice = solution.gap.column(column);
+        let mut alone = Problem::new(&profile, Westergaard::<f64>::new(line, 1.0).unwrap(), law).unwrap();
+        let single = Solver::new(settings).solve(&mut alone, Control::MeanGap(slice.mean().unwrap())).unwrap();
+        let off = slice.iter().zip(&single.gap).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        // variations along y over 16 wave lengths change the waves along x by the square of a sixteenth
+        assert!(off < 4e-3 * 0.04, "column {column}: {off:e}");
+    }
 }

@@ -118,7 +118,7 @@ impl Works {
     fn new(grid: Grid, rows: Array2<f64>) -> asperity::Result<Self> {
         // of a law of one unit they are multiples of one
         let varying = Varying::on(&grid, MaugisDugdale::new(1.0, 1.0)?, rows.view())?;
-        let (most, strongest) = (AdhesionLaw::<f64>::work_of_adhesion(&varying), varying.strongest());
+        let (most, strongest) = (AdhesionLaw::<f64>::hints(&varying).work_of_adhesion, varying.strongest());
         Ok(Self { grid, rows, most, strongest })
     }
 

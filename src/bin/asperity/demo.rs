@@ -118,7 +118,7 @@ pub fn run(options: &Options) -> Outcome<bool> {
             let contact = pictures::draw_regions(grid, &format!("Contact {name}"), &units, &regions, dpi)?;
             contact.write(&path("contact"))?;
             let (caption, title) = (format!("mean {}", si(PRESSURE, "Pa")), format!("Pressure {name}"));
-            let pressure = pictures::pressure_to_draw(solution, AdhesionLaw::<f64>::work_of_adhesion(law) > 0.0);
+            let pressure = pictures::pressure_to_draw(solution, AdhesionLaw::<f64>::hints(law).work_of_adhesion > 0.0);
             let pressure = pictures::draw_pressure(grid, (&title, &caption), &units, pressure, None, dpi)?;
             pressure.write(&path("pressure"))?;
         }

@@ -2,8 +2,8 @@
 
 use std::path::PathBuf;
 
-use asperity::AdhesionLaw;
 use asperity::picture::{Chart, Format};
+use asperity::{AdhesionLaw, Hints};
 use clap::{Args, ValueEnum};
 
 use crate::adhesion::{AdhesionOptions, Law};
@@ -65,7 +65,7 @@ pub fn run(options: &Options, scene: &Scene) -> Outcome<bool> {
     check_apart(path, options.adhesion.law_table.as_deref())?;
     let file = OutputFile::create(path, options.force)?;
     listed.for_each(|&law| list(law));
-    let (range, rest) = (law.range(), law.rest());
+    let Hints { range, rest, .. } = law.hints();
     // from where the repulsion is as large as some attractions
     let singular = rest.is_some() && !law.energy(0.0).is_finite();
     let from = match rest {
