@@ -173,7 +173,7 @@ fn sweep(surface: &Surface, work: f64, failures: &mut usize) -> Outcome<Curve> {
 
 /// Prints the row of a solve, and counts it if it has not converged.
 fn tell(name: &str, grid: &Grid, solution: &Solution<f64>, law: &Exponential, failures: &mut usize) -> Outcome<Point> {
-    let (report, found) = (&solution.report, ContactStatistics::of(solution, grid, law)?);
+    let (report, found) = (&solution.report, ContactStatistics::of(solution, law)?);
     *failures += usize::from(report.status != Status::Converged);
     println!(
         "{name:>20} {:>5} {:>5.2} {:>9.6} {:>9.6} {:>8.4} {:>9.4} {:>8.4} {:>8} {:>5}  {}{}",
@@ -291,8 +291,8 @@ fn maps(out: &Path, file: &str, title: &str, grid: Grid, solution: &Solution<f64
     };
     map.draw(DPI)?.write(&out.join(format!("figure6-{file}.png")))?;
 
-    let found = ContactStatistics::of(solution, &grid, law)?;
-    let regions = solution.regions(&grid, law).mapv(f64::from);
+    let found = ContactStatistics::of(solution, law)?;
+    let regions = solution.regions(law)?.mapv(f64::from);
     let percent = |share: f64| format!("{:.1} %", 100.0 * share);
     let map = Map {
         title: &format!("Figure 7: {title}"),

@@ -89,6 +89,7 @@ fn run<T: Real, L: Real>(operators: &mut dyn Operators<T, L>, job: Job<'_, T>) -
     Error::positive("tolerance", settings.tolerance_in::<T>())?;
     check_wall(law, constraint.wall())?;
     let load = flat.load(control, constraint.wall())?;
+    let asked = (control, constraint.wall().name());
     let (default_start, near) = (begin.is_default(), begin.is_near());
     let branch = Branch::of_start(&begin, &settings, law, (load, constraint.wall()), flat)?;
     let comes_from_afar = default_start && branch == Some(Branch::Loading);
@@ -114,7 +115,7 @@ fn run<T: Real, L: Real>(operators: &mut dyn Operators<T, L>, job: Job<'_, T>) -
         let end = minimise(&mut state, &mut *observe)?;
         state.adhere(law, load, repelled)?;
         if let End::Gave(status @ (Status::Stopped | Status::IterationLimit)) = end {
-            return state.finish(status);
+            return state.finish(status, asked);
         }
     }
     let torn = state.is_torn();
@@ -126,7 +127,7 @@ fn run<T: Real, L: Real>(operators: &mut dyn Operators<T, L>, job: Job<'_, T>) -
         let end = minimise(&mut state, &mut *observe)?;
         state.sharpen(law)?;
         if let End::Gave(status @ (Status::Stopped | Status::IterationLimit)) = end {
-            return state.finish(status);
+            return state.finish(status, asked);
         }
     }
     // a given start is on a branch, which ends where the surfaces come apart
@@ -146,7 +147,7 @@ fn run<T: Real, L: Real>(operators: &mut dyn Operators<T, L>, job: Job<'_, T>) -
             End::Gave(status) => break status,
         }
     };
-    state.finish(status)
+    state.finish(status, asked)
 }
 
 /// Minimises the energy with the present law, control and multipliers.

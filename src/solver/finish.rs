@@ -12,7 +12,7 @@ use crate::error::Result;
 use crate::field::{Partial, read, write};
 use crate::grid::Grid;
 use crate::par::Parts;
-use crate::problem::{Load, mu_rho};
+use crate::problem::{Control, Load, mu_rho};
 use crate::real::Real;
 use crate::vector::sums;
 
@@ -20,8 +20,8 @@ use crate::vector::sums;
 const EDGE: f64 = 1e-3;
 
 impl<T: Real, L: Real> State<'_, T, L> {
-    /// The solution: the final fields, and the report on them.
-    pub(super) fn finish(mut self, status: Status) -> Result<Solved<T>> {
+    /// The solution: the final fields, and the report on them, under a control and with a wall of a name.
+    pub(super) fn finish(mut self, status: Status, (control, wall): (Control, &'static str)) -> Result<Solved<T>> {
         if self.age > 0 {
             self.refresh()?;
             self.certificate = f64::INFINITY;
@@ -77,6 +77,9 @@ impl<T: Real, L: Real> State<'_, T, L> {
             operator_applications: self.applications,
             boundary: flat.boundary.alone(),
             modulus,
+            control,
+            wall,
+            work_of_adhesion: law.work_of_adhesion().widen(),
             mean_gap: if flat.window.is_some() { total.sum[1] / facing } else { self.mean_gap() },
             mean_pressure: given * padding,
             normal_force: given * padding * flat.area,
@@ -102,28 +105,31 @@ impl<T: Real, L: Real> State<'_, T, L> {
         let Fields { gap, pressure, .. } = self.fields;
         let Some(window) = &flat.window else {
             return Ok(Solved {
-                solution: Solution { gap, pressure, contact_pressure, report },
+                solution: Solution { gap, pressure, contact_pressure, grid, report },
                 whole: None,
                 at_floor,
             });
         };
-        let whole = (grid, gap);
+        let (whole, grid) = ((grid, gap), *window.grid());
         let gap = window.crop(&whole.1, T::infinity());
         let pressure = window.crop(&pressure, T::zero());
         let contact_pressure = window.crop(&contact_pressure, T::zero());
         if flat.boundary != Boundary::Periodic {
-            let grid = window.grid();
             let [at_edge, largest] =
-                [largest(edge(&pressure, grid)), largest(pressure.iter().copied())].map(|own| grid.slab().most(own));
+                [largest(edge(&pressure, &grid)), largest(pressure.iter().copied())].map(|own| grid.slab().most(own));
             let share = if at_edge == 0.0 { 0.0 } else { at_edge / largest };
             report.edge_traction = Some(share);
             // of bodies that are apart it says nothing how far the last of their attraction, or rounding, reaches
             let attract = !law.is_zero() && largest > noticeable(law);
             let apart = report.status == Status::Detached || report.contact_nodes == 0 && !attract;
-            let touches = grid.slab().has(edge(&gap, grid).any(|gap| gap <= T::zero()));
+            let touches = grid.slab().has(edge(&gap, &grid).any(|gap| gap <= T::zero()));
             report.reaches_edge = !apart && (share > EDGE || touches);
         }
-        Ok(Solved { solution: Solution { gap, pressure, contact_pressure, report }, whole: Some(whole), at_floor })
+        Ok(Solved {
+            solution: Solution { gap, pressure, contact_pressure, grid, report },
+            whole: Some(whole),
+            at_floor,
+        })
     }
 
     /// The status, corrected by the figures of the returned fields.

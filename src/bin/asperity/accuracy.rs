@@ -1,7 +1,7 @@
 //! The accuracy that is asked for: its options, its plan, and what was reached.
 
 use asperity::accuracy::{Accuracy, GridError, Plan, Quantity, available_memory};
-use asperity::{Control, Level, Solver};
+use asperity::{Level, Report, Solver};
 use clap::{Args, ValueEnum};
 use serde_json::{Map, Value, json};
 
@@ -140,8 +140,8 @@ pub fn unknown(nodes_per_wave: f64) -> String {
 }
 
 /// The estimated errors of the finest of some grids, by quantity; `null` where one cannot be told, or is given.
-pub fn errors(levels: &[Level], nodes_per_wave: f64, mu_rho: f64, control: Control) -> Value {
-    let all = GridError::of_all(levels, control, nodes_per_wave, mu_rho);
+pub fn errors(levels: &[Level], report: &Report, nodes_per_wave: f64) -> Value {
+    let all = GridError::of_all(levels, report, nodes_per_wave);
     let told =
         |GridError { relative, order, rough, .. }| json!({ "relative": relative, "order": order, "rough": rough });
     Value::Object(
@@ -150,8 +150,8 @@ pub fn errors(levels: &[Level], nodes_per_wave: f64, mu_rho: f64, control: Contr
 }
 
 /// The estimated errors in words: that of the area, if it can be told, and those that are sure.
-pub fn told_errors(levels: &[Level], nodes_per_wave: f64, mu_rho: f64, control: Control) -> Option<String> {
-    let all = GridError::of_all(levels, control, nodes_per_wave, mu_rho).into_iter();
+pub fn told_errors(levels: &[Level], report: &Report, nodes_per_wave: f64) -> Option<String> {
+    let all = GridError::of_all(levels, report, nodes_per_wave).into_iter();
     let told = all.filter_map(|(of, error)| {
         error.filter(|error| of == Quantity::Area || !error.rough).map(|error| estimate(&error, of))
     });
