@@ -162,7 +162,7 @@ fn sweep(surface: &Surface, work: f64, failures: &mut usize) -> Outcome<Curve> {
     let (mut solver, mut points, mut shown) = (Solver::default(), Vec::new(), None);
     let name = named(work);
     for step in Sweep::new(&mut solver, &mut problem, loads.map(Control::MeanPressure)) {
-        let (_, solution) = step?;
+        let solution = step?;
         points.push(tell(&name, &grid, &solution, &law, failures)?);
         if (solution.report.mean_pressure / LOAD - 1.0).abs() < 1e-9 {
             shown = Some(solution);

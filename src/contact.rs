@@ -205,6 +205,7 @@ fn check<T: Real>(gap: ArrayView2<'_, T>, contact_pressure: ArrayView2<'_, T>, g
 /// ```
 #[non_exhaustive]
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ContactStatistics {
     /// The number of nodes in contact, by [`Solution::contact_map`].
     pub contact_nodes: usize,

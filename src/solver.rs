@@ -49,9 +49,11 @@ pub(crate) use start::{Begin, check_wall, extrapolated, refuse_springs};
 /// ```
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "kebab-case"))]
 pub enum Method {
     /// Conjugate gradients preconditioned with the compliance; the energy falls in every iteration.
     #[default]
+    #[cfg_attr(feature = "serde", serde(rename = "default"))]
     Preconditioned,
     /// Algorithm 3 of Rey, Anciaux and Molinari (2017), with its misprints corrected.
     Rey2017,
@@ -78,6 +80,7 @@ impl Method {
 /// ```
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "kebab-case"))]
 pub enum Criterion {
     /// The certified relative error in the energy norm, [`Report::relative_error`].
     #[default]
@@ -117,6 +120,7 @@ impl Criterion {
 /// assert_eq!((loose.tolerance_in::<f32>(), loose.max_iterations), (1e-3, 2000));
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(default, deny_unknown_fields))]
 pub struct Settings {
     /// The iteration.
     pub method: Method,

@@ -38,6 +38,7 @@ pub(crate) use watch::{Saddle, Watch};
 ///
 /// [`StabilityTest`] has an example.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "kebab-case"))]
 pub enum Verdict {
     /// The smallest eigenvalue is bounded below by a positive number: a strict local minimum of the energy.
     Stable,

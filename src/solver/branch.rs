@@ -41,6 +41,7 @@ const SOFT: f64 = 100.0;
 /// # Ok::<(), asperity::Error>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "kebab-case"))]
 pub enum Branch {
     /// That of surfaces which are pressed together from afar. A solve starts from the gap that the wall alone would
     /// leave, without adhesion, under the load that is given; under a tension from undeformed surfaces that touch.

@@ -29,6 +29,7 @@ use crate::real::Real;
 /// ```
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "kebab-case"))]
 pub enum Status {
     /// The criterion was met, on the fields that were returned: they are the solution to the tolerance.
     Converged,
@@ -125,6 +126,7 @@ pub struct Iteration {
 /// ```
 #[non_exhaustive]
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Report {
     /// The status: how the solve ended.
     pub status: Status,
@@ -164,7 +166,8 @@ pub struct Report {
     /// The control: the load that was held.
     pub control: Control,
     /// The wall, by the name of [`Wall::name`](crate::Wall::name).
-    pub wall: &'static str,
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "named"))]
+    pub wall: Name,
     /// The work of adhesion w of the law, the largest where it varies; zero without adhesion.
     pub work_of_adhesion: f64,
     /// The mean gap, over the nodes that are not absent.
@@ -207,7 +210,8 @@ pub struct Report {
     /// Whether μ_ρ exceeds 0.5: the answer then depends on the grid and on the start.
     pub under_resolved: bool,
     /// The precision of the fields, `"f32"` or `"f64"`.
-    pub precision: &'static str,
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "named"))]
+    pub precision: Name,
     /// The iteration that was used.
     pub method: Method,
     /// The measure that was compared with the tolerance. [`Criterion::Orthogonality`] bounds no error: a solve that
@@ -216,6 +220,17 @@ pub struct Report {
     /// The tolerance to which the solve was held, [`Settings::tolerance_in`](crate::Settings::tolerance_in) its
     /// precision.
     pub tolerance: f64,
+}
+
+/// A name that a report has; behind a word of its own, which derived data does not take for a borrowed one.
+type Name = &'static str;
+
+/// A wall or a precision from its name.
+#[cfg(feature = "serde")]
+fn named<'de, D: serde::Deserializer<'de>>(from: D) -> std::result::Result<Name, D::Error> {
+    let name: String = serde::Deserialize::deserialize(from)?;
+    let known = ["rigid", "springs", "none", f32::NAME, f64::NAME].into_iter().find(|known| *known == name);
+    known.ok_or_else(|| serde::de::Error::custom(format_args!("{name} names neither a wall nor a precision")))
 }
 
 /// The fields of a solved problem, each of the shape (Nx, Ny) of the surface, their grid, and the account of the solve,
