@@ -121,7 +121,7 @@ fn sweep<L: AdhesionLaw<f64>>(surface: &Surface, law: L) -> Result<usize> {
     let loads = (1..=8).map(|k| Control::MeanPressure(0.01 * f64::from(k)));
     let mut sum = 0;
     for step in Sweep::new(&mut solver, &mut problem, loads) {
-        sum += step?.1.report.operator_applications;
+        sum += step?.report.operator_applications;
     }
     Ok(show("rough, eight loads", Control::MeanPressure(0.08), sum, Status::Converged))
 }

@@ -162,7 +162,7 @@ fn sweep(surface: &Surface, work: f64, failures: &mut usize) -> Outcome<Curve> {
     let (mut solver, mut points, mut shown) = (Solver::default(), Vec::new(), None);
     let name = named(work);
     for step in Sweep::new(&mut solver, &mut problem, loads.map(Control::MeanPressure)) {
-        let (_, solution) = step?;
+        let solution = step?;
         points.push(tell(&name, &grid, &solution, &law, failures)?);
         if (solution.report.mean_pressure / LOAD - 1.0).abs() < 1e-9 {
             shown = Some(solution);
@@ -173,7 +173,7 @@ fn sweep(surface: &Surface, work: f64, failures: &mut usize) -> Outcome<Curve> {
 
 /// Prints the row of a solve, and counts it if it has not converged.
 fn tell(name: &str, grid: &Grid, solution: &Solution<f64>, law: &Exponential, failures: &mut usize) -> Outcome<Point> {
-    let (report, found) = (&solution.report, ContactStatistics::of(solution, grid, law)?);
+    let (report, found) = (&solution.report, ContactStatistics::of(solution, law)?);
     *failures += usize::from(report.status != Status::Converged);
     println!(
         "{name:>20} {:>5} {:>5.2} {:>9.6} {:>9.6} {:>8.4} {:>9.4} {:>8.4} {:>8} {:>5}  {}{}",
@@ -291,8 +291,8 @@ fn maps(out: &Path, file: &str, title: &str, grid: Grid, solution: &Solution<f64
     };
     map.draw(DPI)?.write(&out.join(format!("figure6-{file}.png")))?;
 
-    let found = ContactStatistics::of(solution, &grid, law)?;
-    let regions = solution.regions(&grid, law).mapv(f64::from);
+    let found = ContactStatistics::of(solution, law)?;
+    let regions = solution.regions(law)?.mapv(f64::from);
     let percent = |share: f64| format!("{:.1} %", 100.0 * share);
     let map = Map {
         title: &format!("Figure 7: {title}"),

@@ -58,7 +58,7 @@ fn main() -> Outcome<()> {
         let mut sweep = Sweep::new(&mut solver, &mut problem, loads);
         let mut points = Vec::new();
         while let Some(step) = sweep.next() {
-            let (_, solution) = step?;
+            let solution = step?;
             let stiffness = ContactStiffness::of(sweep.problem(), &solution)?.pressure_per_length;
             let report = &solution.report;
             if stiffness.is_finite() {

@@ -282,15 +282,11 @@ impl GridError {
     /// The nodes that the shortest wave of a surface needs on a grid, for the solution there to tell the error.
     pub const LEAST_NODES_PER_WAVE: f64 = 4.0;
 
-    /// The errors of all quantities that a control does not give, as [`GridError::of`] has them.
-    pub fn of_all(
-        levels: &[Level],
-        control: Control,
-        nodes_per_wave: f64,
-        mu_rho: f64,
-    ) -> [(Quantity, Option<Self>); 4] {
+    /// The errors of all quantities that the control does not give, as [`GridError::of`] has them, with the report of
+    /// the solution on the finest grid.
+    pub fn of_all(levels: &[Level], report: &Report, nodes_per_wave: f64) -> [(Quantity, Option<Self>); 4] {
         [Quantity::Area, Quantity::Gap, Quantity::Pressure, Quantity::Stiffness].map(|of| {
-            let found = of.check(control).is_ok().then(|| Self::of(levels, of, nodes_per_wave, mu_rho));
+            let found = of.check(report.control).is_ok().then(|| Self::of(levels, of, nodes_per_wave, report.mu_rho));
             (of, found.flatten())
         })
     }

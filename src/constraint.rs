@@ -103,6 +103,15 @@ pub enum Wall<'a, T> {
 }
 
 impl<T> Wall<'_, T> {
+    /// The name that reports use: `"rigid"`, `"springs"` or `"none"`.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::Rigid => "rigid",
+            Self::Springs(_) => "springs",
+            Self::None => "none",
+        }
+    }
+
     /// Whether the gap is confined to g ≥ 0.
     pub fn is_rigid(&self) -> bool {
         matches!(self, Self::Rigid)
@@ -111,11 +120,7 @@ impl<T> Wall<'_, T> {
 
 impl<T> fmt::Debug for Wall<'_, T> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Rigid => "Rigid",
-            Self::Springs(_) => "Springs",
-            Self::None => "None",
-        })
+        f.write_str(self.name())
     }
 }
 

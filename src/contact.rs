@@ -12,7 +12,7 @@ use crate::error::{Error, Result};
 use crate::grid::Grid;
 use crate::real::Real;
 use crate::slab::Slab;
-use crate::solver::{Report, Solution};
+use crate::solver::Solution;
 
 use outline::Outline;
 
@@ -60,6 +60,9 @@ impl From<Region> for f64 {
 impl<T: Real> Solution<T> {
     /// The region of each node: contact, attraction, neither, or no surface, under the law of the solution.
     ///
+    /// # Errors
+    /// [`Error::Value`] if the law has another work of adhesion than that of the solution.
+    ///
     /// ```
     /// use asperity::contact::{ContactStatistics, Region};
     /// use asperity::{Control, Exponential, Grid, Problem, Solver, Surface, Westergaard};
@@ -67,21 +70,22 @@ impl<T: Real> Solution<T> {
     /// let sphere = Surface::paraboloid(grid, 2.0)?;
     /// let mut problem = Problem::new(&sphere, Westergaard::<f64>::new(grid, 1.0)?, law)?;
     /// let solution = Solver::default().solve(&mut problem, Control::MeanGap(0.0398))?;
-    /// let attracting = solution.regions(&grid, &law).iter().filter(|region| **region == Region::Attractive).count();
-    /// let statistics = ContactStatistics::of(&solution, &grid, &law)?;
+    /// let attracting = solution.regions(&law)?.iter().filter(|region| **region == Region::Attractive).count();
+    /// let statistics = ContactStatistics::of(&solution, &law)?;
     /// assert_eq!(attracting as f64 / 4096.0, statistics.attractive_fraction);
     /// # Ok::<(), asperity::Error>(())
     /// ```
-    pub fn regions(&self, grid: &Grid, law: &impl AdhesionLaw<T>) -> Array2<Region> {
+    pub fn regions(&self, law: &impl AdhesionLaw<T>) -> Result<Array2<Region>> {
+        self.check_law(law)?;
         let contact = self.contact_map();
-        let attracts = attracting(&contact, self.gap.view(), grid.slab(), law);
+        let attracts = attracting(&contact, self.gap.view(), self.grid.slab(), law);
         let mut nodes = self.gap.iter().zip(&contact).zip(attracts);
-        Array2::from_shape_simple_fn(self.gap.dim(), || match nodes.next() {
+        Ok(Array2::from_shape_simple_fn(self.gap.dim(), || match nodes.next() {
             Some(((_, true), _)) => Region::Contact,
             Some((_, true)) => Region::Attractive,
             Some(((gap, _), _)) if gap.is_finite() => Region::Apart,
             _ => Region::Absent,
-        })
+        }))
     }
 
     /// The contact map: true at nodes without a gap (g ≤ 0) and at nodes with a contact pressure (λ > 0).
@@ -193,7 +197,7 @@ fn check<T: Real>(gap: ArrayView2<'_, T>, contact_pressure: ArrayView2<'_, T>, g
 /// let law = Exponential::new(1e-5, 2e-3)?;
 /// let mut problem = Problem::new(&surface, Westergaard::<f64>::new(grid, 1.0)?, law)?;
 /// let solution = Solver::default().solve(&mut problem, Control::MeanPressure(0.01))?;
-/// let statistics = ContactStatistics::of(&solution, &grid, &law)?;
+/// let statistics = ContactStatistics::of(&solution, &law)?;
 /// assert_eq!(statistics.cluster_sizes.len(), 8);
 /// assert!((statistics.corrected_contact_fraction / statistics.contact_fraction - 1.0).abs() < 0.1);
 /// let all = statistics.contact_fraction + statistics.attractive_fraction + statistics.apart_fraction;
@@ -202,6 +206,7 @@ fn check<T: Real>(gap: ArrayView2<'_, T>, contact_pressure: ArrayView2<'_, T>, g
 /// ```
 #[non_exhaustive]
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ContactStatistics {
     /// The number of nodes in contact, by [`Solution::contact_map`].
     pub contact_nodes: usize,
@@ -237,7 +242,7 @@ pub struct ContactStatistics {
     /// let law = Varying::new(Exponential::new(1e-4, 4e-3)?, work.view())?;
     /// let mut problem = Problem::new(&surface, Westergaard::<f64>::new(grid, 1.0)?, &law)?;
     /// let solution = Solver::default().solve(&mut problem, Control::MeanPressure(0.01))?;
-    /// let statistics = ContactStatistics::of(&solution, &grid, &law)?;
+    /// let statistics = ContactStatistics::of(&solution, &law)?;
     /// let [weak, strong] = statistics.patches[..] else { panic!("two works of adhesion") };
     /// assert!(strong.contact_fraction > weak.contact_fraction);
     /// assert_eq!((weak.area_fraction, strong.area_fraction), (0.5, 0.5));
@@ -247,22 +252,24 @@ pub struct ContactStatistics {
 }
 
 impl ContactStatistics {
-    /// The statistics of a solution on its grid, with the law with which it was found.
+    /// The statistics of a solution, with the law with which it was found.
     ///
     /// Memory per node, until it returns: ten bytes, and with adhesion two scalars.
     ///
     /// # Errors
-    /// [`Error::Shape`] if a field does not have the shape of the grid.
-    pub fn of<T: Real>(solution: &Solution<T>, grid: &Grid, law: &impl AdhesionLaw<T>) -> Result<Self> {
-        let Report { boundary, modulus, .. } = solution.report;
-        Self::of_fields(solution.gap.view(), solution.contact_pressure.view(), grid, (boundary, modulus), law)
+    /// [`Error::Value`] if the law has another work of adhesion than that of the solution; [`Error::Shape`] if a field
+    /// does not have the shape of the grid.
+    pub fn of<T: Real>(solution: &Solution<T>, law: &impl AdhesionLaw<T>) -> Result<Self> {
+        solution.check_law(law)?;
+        let Solution { gap, contact_pressure, grid, report, .. } = solution;
+        Self::of_fields(gap.view(), contact_pressure.view(), grid, (report.boundary, report.modulus), law)
     }
 
     /// The statistics of the gap and the contact pressure of a solution, as those that come from a file, on its grid,
     /// with the boundary and the contact modulus E* of the body. The gap of absent nodes is infinite.
     ///
     /// # Errors
-    /// Those of [`ContactStatistics::of`].
+    /// [`Error::Shape`] if a field does not have the shape of the grid.
     pub fn of_fields<T: Real>(
         gap: ArrayView2<'_, T>,
         contact_pressure: ArrayView2<'_, T>,

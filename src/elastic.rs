@@ -189,6 +189,7 @@ pub trait ElasticOperator<T: Real>: Send {
 /// ```
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "kebab-case"))]
 pub enum Boundary {
     /// The body and the surface repeat: the surface is on the operator's grid.
     #[default]

@@ -24,9 +24,34 @@ use crate::slab::{Rows, Slab};
 /// # Ok::<(), asperity::Error>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(try_from = "Sides", into = "Sides"))]
 pub struct Grid {
     slab: Slab,
     lengths: (f64, f64),
+}
+
+/// The numbers of a grid, as data has them.
+#[cfg(feature = "serde")]
+#[derive(serde::Serialize, serde::Deserialize)]
+struct Sides {
+    shape: (usize, usize),
+    lengths: (f64, f64),
+}
+
+#[cfg(feature = "serde")]
+impl From<Grid> for Sides {
+    fn from(grid: Grid) -> Self {
+        Self { shape: grid.shape(), lengths: grid.lengths }
+    }
+}
+
+#[cfg(feature = "serde")]
+impl TryFrom<Sides> for Grid {
+    type Error = Error;
+
+    fn try_from(Sides { shape, lengths }: Sides) -> Result<Self> {
+        Self::new(shape, lengths)
+    }
 }
 
 impl Grid {

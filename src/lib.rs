@@ -99,7 +99,8 @@
 //!
 //! `parallel` (default): threads, with the same results bit for bit. `mpi`: processes, on one machine or on many, with
 //! the same results bit for bit, the type `World`. `io`: files, the module `io`. `picture`: maps and
-//! charts, the module `picture`. `cli` (default): both, and the command-line tool. Without any of them the library
+//! charts, the module `picture`. `serde`: settings, reports, statistics and controls as data, with the names of the
+//! reports. `cli` (default): these three, and the command-line tool. Without any of them the library
 //! depends on libm, ndarray, num-traits, pulp and rustfft alone.
 #![doc = include_str!("equations.html")]
 

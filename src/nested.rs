@@ -282,7 +282,7 @@ impl<C> Nested<C> {
         }
         solved.solution.report.branch = branch;
         let stiffness = self.stiffness_of(&mut problem, &solved.solution)?;
-        let level = Level::of(&solved.solution, surface.grid())?;
+        let level = Level::of(&solved.solution)?;
         let operator_applications = level.operator_applications + spent;
         levels.push(Level { operator_applications, stiffness, ..level });
         Ok((solved, levels))
@@ -327,7 +327,7 @@ impl<C> Nested<C> {
                     if done { ControlFlow::Break(()) } else { next }
                 })?;
             let stiffness = self.stiffness_of(&mut problem, &solution)?;
-            levels.push(Level { stiffness, ..Level::of(&solution, coarse.grid())? });
+            levels.push(Level { stiffness, ..Level::of(&solution)? });
             if levels.len() == 1 && levels[0].area.contact_fraction > self.closed {
                 break;
             }

@@ -299,7 +299,7 @@ where
         self.state.begin(&solution.report);
         self.state.on_saddle = on_saddle;
         self.gaps.push(gap);
-        Ok(Some(self.step(solution, control, None)))
+        Ok(Some(self.step(solution, None)))
     }
 
     /// The first state. The default start is an equilibrium of the law itself.
@@ -391,7 +391,7 @@ where
             self.gaps.remove(0);
         }
         self.gaps.push(gap);
-        Ok(Some(self.step(solution, control, event)))
+        Ok(Some(self.step(solution, event)))
     }
 
     /// The least gaps after a step.
@@ -429,9 +429,9 @@ where
         }
     }
 
-    fn step(&self, solution: Solution<T>, control: Control, event: Option<Event>) -> PathStep<T> {
+    fn step(&self, solution: Solution<T>, event: Option<Event>) -> PathStep<T> {
         let Account { work, dissipated, imbalance, .. } = self.state.account;
-        PathStep { solution, control, leg: self.state.leg, work, dissipated, imbalance, event }
+        PathStep { solution, leg: self.state.leg, work, dissipated, imbalance, event }
     }
 }
 

@@ -45,6 +45,7 @@ const SMOOTHING: f64 = 5.0;
 /// ```
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "kebab-case"))]
 pub enum Control {
     /// The mean gap ḡ ≥ 0 is given; the external pressure follows.
     MeanGap(f64),
@@ -52,6 +53,7 @@ pub enum Control {
     /// gap follows.
     MeanPressure(f64),
     /// The normal force F = p̄·Lx·Ly is given, compression positive.
+    #[cfg_attr(feature = "serde", serde(rename = "normal-force"))]
     Force(f64),
     /// The approach δ is given: how far the bodies have moved towards each other since they would first touch
     /// undeformed. Negative before that.

@@ -79,10 +79,9 @@ pub struct ContactSearch<'a, T, O, L, C = Projection> {
 #[non_exhaustive]
 #[derive(Clone, Debug)]
 pub struct FoundContact<T> {
-    /// The state: the wanted one if it is reached.
+    /// The state: the wanted one if it is reached. Its control is a mean pressure, with adhesion a mean gap or an
+    /// approach.
     pub solution: Solution<T>,
-    /// The control under which it was found: a mean pressure, with adhesion a mean gap or an approach.
-    pub control: Control,
     /// Whether the solve has converged, and its contact fraction is the wanted one to the tolerance.
     pub reached: bool,
     /// The contact fraction next to the wanted one from below that was found, if there is any.
@@ -311,7 +310,6 @@ where
         let share = |point: Point| point.nodes as f64 / facing;
         Ok(FoundContact {
             solution,
-            control: self.axis.control(point.x),
             reached,
             below: bracket.below.map(share),
             above: bracket.above.map(share),

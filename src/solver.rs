@@ -52,9 +52,11 @@ pub(crate) use start::{Begin, check_wall, extrapolated, refuse_springs};
 /// ```
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "kebab-case"))]
 pub enum Method {
     /// Conjugate gradients preconditioned with the compliance; the energy falls in every iteration.
     #[default]
+    #[cfg_attr(feature = "serde", serde(rename = "default"))]
     Preconditioned,
     /// Algorithm 3 of Rey, Anciaux and Molinari (2017), with its misprints corrected.
     Rey2017,
@@ -81,6 +83,7 @@ impl Method {
 /// ```
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "kebab-case"))]
 pub enum Criterion {
     /// The certified relative error in the energy norm, [`Report::relative_error`].
     #[default]
@@ -121,6 +124,7 @@ impl Criterion {
 /// ```
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(default, deny_unknown_fields))]
 pub struct Settings {
     /// The iteration.
     pub method: Method,

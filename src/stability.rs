@@ -40,6 +40,7 @@ pub(crate) use watch::{Saddle, Watch};
 /// [`StabilityTest`] has an example.
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "kebab-case"))]
 pub enum Verdict {
     /// The smallest eigenvalue is bounded below by a positive number: a strict local minimum of the energy.
     Stable,
@@ -93,6 +94,7 @@ impl fmt::Display for Verdict {
 /// | `tolerance` | 3e-3 | the norm of the residual of the mode, over the larger of its eigenvalue and the softest stiffness; the eigenvalue is right to about its square. Where it is nearly zero, the iteration goes on until its sign is sure | positive |
 /// | `max_iterations` | 500 | iterations for the mode, and again for the bound, after which the verdict is open | any |
 /// | `bound` | true | whether to look for a lower bound; without one only the simple bound can show stability | |
+/// | `control` | `None`: that of the solution | the control that holds the equilibrium | |
 ///
 /// # Laws whose traction jumps
 ///
@@ -111,10 +113,9 @@ impl fmt::Display for Verdict {
 /// let mut problem = Problem::new(&flat, Westergaard::<f64>::new(grid, 1.0)?, Exponential::new(1e-3, 1e-2)?)?;
 /// // two flats at a uniform gap: πE*/L + φ''(g), which changes sign at g = ρ ln(wL/(πE*ρ²))
 /// for (gap, verdict) in [(0.011, Verdict::Unstable), (0.012, Verdict::Stable)] {
-///     let control = Control::MeanGap(gap);
-///     let solution = Solver::default().solve(&mut problem, control)?;
+///     let solution = Solver::default().solve(&mut problem, Control::MeanGap(gap))?;
 ///     let test = StabilityTest::default().tolerance(1e-3);
-///     let stability = test.run(&mut problem, control, &solution)?;
+///     let stability = test.run(&mut problem, &solution)?;
 ///     let exact = std::f64::consts::PI - 10.0 * (-gap / 1e-2_f64).exp();
 ///     assert_eq!(stability.verdict, verdict);
 ///     assert!((stability.eigenvalue - exact).abs() < 1e-5);
@@ -130,11 +131,13 @@ pub struct StabilityTest {
     pub max_iterations: usize,
     /// Whether to look for a lower bound of the eigenvalue.
     pub bound: bool,
+    /// The control that holds the equilibrium; `None` is that of the solution.
+    pub control: Option<Control>,
 }
 
 impl Default for StabilityTest {
     fn default() -> Self {
-        Self { tolerance: 3e-3, max_iterations: 500, bound: true }
+        Self { tolerance: 3e-3, max_iterations: 500, bound: true, control: None }
     }
 }
 
@@ -146,6 +149,8 @@ impl Default for StabilityTest {
 pub struct Stability<T> {
     /// The verdict.
     pub verdict: Verdict,
+    /// The control that holds the equilibrium.
+    pub control: Control,
     /// The Rayleigh quotient of the mode: no smaller than the smallest eigenvalue. Infinite where no node can move.
     pub eigenvalue: f64,
     /// The norm of the mode's residual: some eigenvalue, not necessarily the smallest, is within this distance.
@@ -171,25 +176,26 @@ pub struct Stability<T> {
 impl StabilityTest {
     setters! { tolerance: f64, max_iterations: usize, bound: bool }
 
-    /// Tests whether a solution is stable under a control, which need not be the one under which it was found.
-    /// The wall is rigid: contact is where the gap is zero. The gap may be in any memory layout.
+    /// The default test, under a control that need not be that of the solution.
+    pub fn under(control: Control) -> Self {
+        Self { control: Some(control), ..Self::default() }
+    }
+
+    /// Tests whether a solution is stable. Its wall is rigid: contact is where the gap is zero. The gap may be in any
+    /// memory layout.
     ///
     /// # Errors
-    /// [`Error::Shape`] if the solution is of another grid; [`Error::Value`] if the tolerance is not positive, or a gap
-    /// is negative: that of a solution whose wall is elastic, or that has none, for [`StabilityTest::run_with`];
-    /// [`Error::Law`] if φ'' is not finite somewhere; [`Error::Wall`] if the law has no bound at a wall.
-    pub fn run<T, O, L>(
-        &self,
-        problem: &mut Problem<T, O, L>,
-        control: Control,
-        solution: &Solution<T>,
-    ) -> Result<Stability<T>>
+    /// [`Error::Shape`] or [`Error::Value`] if the solution is of another problem, or the tolerance is not positive;
+    /// [`Error::Wall`] if its wall is not rigid, for which there is [`StabilityTest::run_with`], or the law has no bound
+    /// at a wall; [`Error::Law`] if φ'' is not finite somewhere; [`Error::Control`] for a control that the problem does
+    /// not have.
+    pub fn run<T, O, L>(&self, problem: &mut Problem<T, O, L>, solution: &Solution<T>) -> Result<Stability<T>>
     where
         T: Real,
         O: ElasticOperator<T>,
         L: AdhesionLaw<T>,
     {
-        self.run_with(problem, &Projection, control, solution)
+        self.run_with(problem, &Projection, solution)
     }
 
     /// Tests, as [`StabilityTest::run`], a solution that was found with a constraint. Where its wall has springs, as
@@ -197,13 +203,12 @@ impl StabilityTest {
     /// without a wall ([`NoWall`](crate::NoWall)) every node may move, and the slope of the law is all that holds it.
     ///
     /// # Errors
-    /// Those of [`StabilityTest::run`]; [`Error::Wall`] if the law is not made for the wall; [`Error::Law`] if the
-    /// stiffness of the springs is not finite somewhere.
+    /// Those of [`StabilityTest::run`]; [`Error::Wall`] for another wall than that of the solution, or one for which the
+    /// law is not made; [`Error::Law`] if the stiffness of the springs is not finite somewhere.
     pub fn run_with<T, O, L, C>(
         &self,
         problem: &mut Problem<T, O, L>,
         constraint: &C,
-        control: Control,
         solution: &Solution<T>,
     ) -> Result<Stability<T>>
     where
@@ -212,14 +217,16 @@ impl StabilityTest {
         L: AdhesionLaw<T>,
         C: ContactConstraint<T>,
     {
+        solution.check(problem, constraint)?;
+        let control = self.control.unwrap_or(solution.report.control);
         self.of_gap(problem, constraint, control, &solution.gap, solution.report.relative_error)
     }
 
     /// Tests, as [`StabilityTest::run_with`], the gap of a solution that was kept without the rest of it but for its
-    /// [`Report::relative_error`](crate::Report::relative_error).
+    /// [`Report::relative_error`](crate::Report::relative_error), under a control.
     ///
     /// # Errors
-    /// Those of [`StabilityTest::run_with`].
+    /// Those of [`StabilityTest::run_with`]; [`Error::Value`] for a negative gap at a rigid wall.
     ///
     /// ```
     /// use asperity::stability::{StabilityTest, Verdict};
@@ -258,18 +265,25 @@ impl StabilityTest {
         let slopes = slopes(gap, (law, constraint), (problem.operator.grid(), window))?;
         let smoothed = smoothed.is_some();
         let hessian = Hessian::new(&mut problem.operator, slopes, load);
-        let mut stability = par::within(|| self.judge(hessian, relative_error, smoothed))?;
+        let mut stability = par::within(|| self.judge(hessian, control, relative_error, smoothed))?;
         if let Some(window) = window {
             stability.mode = window.crop(&stability.mode, T::zero());
         }
         Ok(stability)
     }
 
-    fn judge<T: Real>(&self, mut hessian: Hessian<'_, T>, relative_error: f64, smoothed: bool) -> Result<Stability<T>> {
+    fn judge<T: Real>(
+        &self,
+        mut hessian: Hessian<'_, T>,
+        control: Control,
+        relative_error: f64,
+        smoothed: bool,
+    ) -> Result<Stability<T>> {
         let steepest = (-hessian.least_slope()).max(0.0);
         let simple = hessian.simple_bound();
         let stability = |verdict, pair: Eigenpair<T>, lower_bound: f64, taken: usize, more: usize| Stability {
             verdict,
+            control,
             eigenvalue: pair.value,
             residual: pair.residual,
             lower_bound,

@@ -42,8 +42,7 @@ use crate::solver::{Begin, Iteration, Potential, Solution, Solved, Solver, Start
 /// let mut solver = Solver::default();
 /// let mut contact = Vec::new();
 /// for step in Sweep::new(&mut solver, &mut problem, [1e-4, 2e-4, 4e-4].map(Control::MeanPressure)) {
-///     let (_, solution) = step?;
-///     contact.push(solution.report.contact_nodes);
+///     contact.push(step?.report.contact_nodes);
 /// }
 /// assert!(contact[0] < contact[1] && contact[1] < contact[2]);
 /// # Ok::<(), asperity::Error>(())
@@ -124,7 +123,7 @@ where
     pub fn next_observed(
         &mut self,
         mut observe: impl FnMut(&Iteration) -> ControlFlow<()> + Send,
-    ) -> Option<Result<(Control, Solution<T>)>> {
+    ) -> Option<Result<Solution<T>>> {
         if self.failed {
             return None;
         }
@@ -142,7 +141,7 @@ where
                 self.history.clear();
             }
             self.history.push((control, gap));
-            (control, solution)
+            solution
         }))
     }
 
@@ -182,7 +181,7 @@ where
     I: Iterator<Item = Control>,
     C: ContactConstraint<T>,
 {
-    type Item = Result<(Control, Solution<T>)>;
+    type Item = Result<Solution<T>>;
 
     fn next(&mut self) -> Option<Self::Item> {
         self.next_observed(|_| ControlFlow::Continue(()))

@@ -69,7 +69,7 @@ const RESOLVED: f64 = Report::RESOLVED_MU_RHO;
 /// }
 /// let mut problem = Problem::new(&surface, Westergaard::<f64>::new(grid, 1.0)?, law)?;
 /// let solution = Solver::default().solve(&mut problem, Control::MeanPressure(0.01))?;
-/// assert!(Warning::of_solution(&solution, 1.0).is_empty());
+/// assert!(Warning::of_solution(&solution).is_empty());
 /// # Ok::<(), asperity::Error>(())
 /// ```
 #[non_exhaustive]
@@ -278,9 +278,10 @@ impl Warning {
         found
     }
 
-    /// The probable mistakes in an answer, for the contact `modulus` E* with which it was found:
-    /// [`BeyondModulus`](WarningCode::BeyondModulus), and [`WindowEdge`](WarningCode::WindowEdge) with a free boundary.
-    pub fn of_solution<T: Real>(solution: &Solution<T>, modulus: f64) -> Vec<Self> {
+    /// The probable mistakes in an answer: [`BeyondModulus`](WarningCode::BeyondModulus) where the contact modulus E* is
+    /// positive, and [`WindowEdge`](WarningCode::WindowEdge) with a free boundary.
+    pub fn of_solution<T: Real>(solution: &Solution<T>) -> Vec<Self> {
+        let modulus = solution.report.modulus;
         let contiguous = solution.contact_pressure.as_standard_layout();
         let pressures = contiguous.as_slice().unwrap_or_default();
         let total = Reducer::new(Slab::whole(solution.contact_pressure.dim())).run(
@@ -296,7 +297,7 @@ impl Warning {
         let (count, greatest) = (total.sum[0], -total.min);
         let mut found = Vec::new();
         found.extend(window_edge(solution));
-        if count == 0.0 {
+        if count == 0.0 || modulus <= 0.0 {
             return found;
         }
         let mut text = Text::default();

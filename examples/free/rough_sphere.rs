@@ -91,7 +91,7 @@ fn areas(surface: &Surface, loads: &[f64]) -> Outcome<Vec<f64>> {
     let mut solver = Solver::new(Settings::default().tolerance(1e-4));
     let mut areas = Vec::new();
     for step in Sweep::new(&mut solver, &mut problem, loads.iter().copied().map(Control::Force)) {
-        let statistics = ContactStatistics::of(&step?.1, grid, &NoAdhesion)?;
+        let statistics = ContactStatistics::of(&step?, &NoAdhesion)?;
         areas.push(grid.lengths().0 * grid.lengths().1 * statistics.corrected_contact_fraction);
     }
     Ok(areas)

@@ -84,7 +84,7 @@ impl Scene {
             nested.coarsest = n;
         }
         let found = nested.solve(&surface, half_space, law, self.control)?;
-        let area = ContactArea::of_solution(&found.solution, surface.grid())?;
+        let area = ContactArea::of_solution(&found.solution)?;
         Ok((area.corrected_contact_fraction, work(&found.levels)))
     }
 
@@ -96,7 +96,7 @@ impl Scene {
         let solution = Solver::new(settings).solve(&mut problem, self.control)?;
         let stiffness =
             if stiffness { ContactStiffness::of(&mut problem, &solution)?.pressure_per_length } else { 0.0 };
-        let area = ContactArea::of_solution(&solution, surface.grid())?;
+        let area = ContactArea::of_solution(&solution)?;
         let (gap, pressure) = (solution.report.mean_gap, solution.report.mean_pressure);
         Ok(Found { area: area.corrected_contact_fraction, gap, pressure, stiffness })
     }

@@ -61,7 +61,7 @@ impl State {
         control: Control,
         law: &dyn AdhesionLaw<T>,
     ) -> Outcome<Self> {
-        let statistics = ContactStatistics::of(solution, surface.grid(), &law)?;
+        let statistics = ContactStatistics::of(solution, &law)?;
         let report = &solution.report;
         Ok(Self {
             displacement: solution.gap.mapv(Real::widen) + surface.heights(),

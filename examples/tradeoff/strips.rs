@@ -125,7 +125,7 @@ impl Scene {
             })?;
             let settings = Settings::default().tolerance(1e-8);
             let found = Nested::new(settings).solve(&surface, half_space, NoAdhesion, self.control)?.solution;
-            let area = ContactArea::of_solution(&found, &grid)?.corrected_contact_fraction;
+            let area = ContactArea::of_solution(&found)?.corrected_contact_fraction;
             Ok((area, found.report.mean_gap))
         };
         if !self.lattice {

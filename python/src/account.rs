@@ -2,7 +2,7 @@
 
 use asperity::accuracy::Quantity;
 use asperity::stability::{ContactStiffness, Stability};
-use asperity::{Control, FoundContact, Level, Real, Report, Solution, Warning};
+use asperity::{FoundContact, Level, Real, Report, Solution, Warning};
 use numpy::Element;
 use numpy::ndarray::Array2;
 
@@ -60,7 +60,6 @@ pub struct Other {
 /// The account of a solve.
 pub struct Account<T> {
     pub solution: Solution<T>,
-    pub control: Control,
     /// The search for the load, if there was one.
     pub search: Option<Search>,
     /// The nested grids, if they were used.

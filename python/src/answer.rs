@@ -23,7 +23,7 @@ pub fn answer<'py, T: Scalar>(
     let found = PyDict::new(py);
     found.set_item("report", report::of(py, &account)?)?;
     let Account { solution, sight, stability, reached, .. } = account;
-    let Solution { gap, pressure, contact_pressure, report, .. } = solution;
+    let Solution { gap, pressure, contact_pressure, grid, report, .. } = solution;
     found.set_item("tolerance", report.tolerance)?;
     let fields = [gap, pressure, contact_pressure].map(|field| field.into_pyarray(py));
     for (name, field) in ["gap", "pressure", "contact_pressure"].into_iter().zip(&fields) {
@@ -31,7 +31,7 @@ pub fn answer<'py, T: Scalar>(
         field.readwrite().make_nonwriteable();
         found.set_item(name, field)?;
     }
-    found.set_item("look", Look::at(sight, [&fields[0], &fields[1], &fields[2]]))?;
+    found.set_item("look", Look::at(sight, (grid, report), [&fields[0], &fields[1], &fields[2]]))?;
     found.set_item("mode", stability.map(|stability| stability.mode.into_pyarray(py)))?;
     // the grid of an accuracy, and what keeps it from being finer
     if let Some(Reached { heights, refinable, unaffordable, .. }) = reached {

@@ -2,8 +2,8 @@
 
 use std::sync::{Mutex, PoisonError};
 
-use asperity::Real;
 use asperity::contact::ContactStatistics;
+use asperity::{Grid, Real, Report};
 use numpy::ndarray::ArrayView2;
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
@@ -22,6 +22,8 @@ trait Looks: Send + Sync {
 
 struct Seen<T: Scalar> {
     sight: Sight<T>,
+    grid: Grid,
+    report: Report,
     estimate: Mutex<Option<Estimate>>,
     gap: Py<PyArray2<T>>,
     pressure: Py<PyArray2<T>>,
@@ -33,11 +35,15 @@ struct Seen<T: Scalar> {
 pub struct Look(Box<dyn Looks>);
 
 impl Look {
-    /// The look at gap, pressure and contact pressure.
-    pub fn at<T: Scalar>(mut sight: Sight<T>, fields: [&Bound<'_, PyArray2<T>>; 3]) -> Self {
+    /// The look at gap, pressure and contact pressure, with the grid and the report of the solution.
+    pub fn at<T: Scalar>(
+        mut sight: Sight<T>,
+        (grid, report): (Grid, Report),
+        fields: [&Bound<'_, PyArray2<T>>; 3],
+    ) -> Self {
         let estimate = Mutex::new(sight.estimate.take());
         let [gap, pressure, contact_pressure] = fields.map(|field| field.clone().unbind());
-        Self(Box::new(Seen { sight, estimate, gap, pressure, contact_pressure }))
+        Self(Box::new(Seen { sight, grid, report, estimate, gap, pressure, contact_pressure }))
     }
 }
 
@@ -51,17 +57,20 @@ impl Look {
 
 impl<T: Scalar> Looks for Seen<T> {
     fn look<'py>(&self, py: Python<'py>) -> PyResult<(Statistics<'py>, Bound<'py, PyDict>)> {
-        let Sight { law, grid, boundary, modulus, original, threads, .. } = &self.sight;
+        let (Sight { law, original, threads, .. }, report) = (&self.sight, &self.report);
         let [gap, pressure, contact_pressure] =
             [&self.gap, &self.pressure, &self.contact_pressure].map(|field| field.bind(py).readonly());
         let [gap, pressure, contact_pressure] = [&gap, &pressure, &contact_pressure].map(|field| field.as_array());
         let statistics = || match original {
-            Some(original) => original.statistics(gap, contact_pressure, *modulus, law),
-            None => ContactStatistics::of_fields(gap, contact_pressure, grid, (*boundary, *modulus), law),
+            Some(original) => original.statistics_of_fields(gap, contact_pressure, report.modulus, law),
+            None => {
+                let body = (report.boundary, report.modulus);
+                ContactStatistics::of_fields(gap, contact_pressure, &self.grid, body, law)
+            }
         };
         let errors = || {
             let mut estimate = self.estimate.lock().unwrap_or_else(PoisonError::into_inner);
-            estimate.as_mut().map(|estimate| estimate.errors(*boundary))
+            estimate.as_mut().map(|estimate| estimate.errors(report))
         };
         let all = || rayon::join(statistics, || rayon::join(|| extremes(pressure), errors));
         let pool = Pool::of(*threads)?;

@@ -165,24 +165,16 @@ impl<T: Scalar> State<T> {
     }
 
     /// The account of a solution on the grid of the surface, or on a finer one, by a solve that began at a time.
-    fn account(
-        &self,
-        solution: Solution<T>,
-        grid: Grid,
-        control: Control,
-        clock: Instant,
-    ) -> asperity::Result<Account<T>> {
+    fn account(&self, solution: Solution<T>, clock: Instant) -> asperity::Result<Account<T>> {
         let seconds = clock.elapsed().as_secs_f64();
         let mut warnings = self.warnings.clone();
-        warnings.extend(Warning::of_solution(&solution, self.modulus));
-        let original = self.original.map(|original| original.on(&grid)).transpose()?;
+        warnings.extend(Warning::of_solution(&solution));
+        let original = self.original.map(|original| original.on(&solution.grid)).transpose()?;
         let images = original.map(|original| Warning::of_images(&original, &solution)).transpose()?;
         warnings.extend(images.flatten());
         let (law, threads) = (self.law.clone(), self.threads);
-        let (boundary, modulus) = (solution.report.boundary, self.modulus);
         Ok(Account {
             solution,
-            control,
             grids: None,
             stability: None,
             stiffness: None,
@@ -194,7 +186,7 @@ impl<T: Scalar> State<T> {
             warnings,
             unit: self.unit.clone(),
             seconds,
-            sight: Sight { law, grid, boundary, modulus, original, threads, estimate: None },
+            sight: Sight { law, original, threads, estimate: None },
         })
     }
 
@@ -222,10 +214,10 @@ impl<T: Scalar> State<T> {
         let applications = found.equivalent_applications();
         let AccurateSolution { solution, surface, levels, reached, refinable, unaffordable, .. } = found;
         let stiffness = levels.last().and_then(|finest| finest.stiffness);
-        let account = self.account(solution, *surface.grid(), control, clock)?;
+        let account = self.account(solution, clock)?;
         let report = &account.solution.report;
         let nodes_per_wave = surface.nodes_per_wave(report.boundary);
-        let estimate = Some(Estimate::Found(GridError::of_all(&levels, control, nodes_per_wave, report.mu_rho)));
+        let estimate = Some(Estimate::Found(GridError::of_all(&levels, report, nodes_per_wave)));
         let grids = Some(Grids { levels, applications });
         let heights = Topography::from(surface).heights;
         let reached = Some(Reached { wanted: wanted.target, of: wanted.of, reached, refinable, unaffordable, heights });
@@ -238,10 +230,9 @@ impl<T: Scalar> State<T> {
         let settings = self.solver.settings.branch(branch.other());
         let mut solver = Solver { settings, ..self.solver.clone() };
         let problem = single(&mut self.body, &self.law, self.beyond, self.modulus)?;
-        let found = solver.solve_with(problem, account.control, Start::Default, observe)?;
-        let (distance, same) =
-            (found.distance(&account.solution, &self.grid), found.agrees_with(&account.solution, &self.grid));
-        let original = self.original.map(|original| original.on(&self.grid)).transpose()?;
+        let found = solver.solve_with(problem, account.solution.report.control, Start::Default, observe)?;
+        let (distance, same) = (found.distance(&account.solution), found.agrees_with(&account.solution));
+        let original = self.original.map(|original| original.on(&found.grid)).transpose()?;
         let part = original.map(|original| original.of_solution(&found)).transpose()?;
         let report = part.as_ref().map_or(&found.report, |part| &part.report).clone();
         Ok(Account { other: Some(Other { report, distance, same }), ..account })
@@ -271,9 +262,8 @@ impl<T: Scalar> State<T> {
         let applications = found.equivalent_applications();
         let NestedSolution { solution, levels, .. } = found;
         let stiffness = levels.last().and_then(|finest| finest.stiffness);
-        let mu_rho = solution.report.mu_rho;
-        let account = self.account(solution, self.grid, control, clock)?;
-        let estimate = Some(Estimate::Open { surface: surface.clone(), levels: levels.clone(), control, mu_rho });
+        let account = self.account(solution, clock)?;
+        let estimate = Some(Estimate::Open { surface: surface.clone(), levels: levels.clone() });
         let grids = Some(Grids { levels, applications });
         Ok(Some(Account { grids, stiffness, sight: Sight { estimate, ..account.sight }, ..account }))
     }
@@ -319,7 +309,7 @@ impl<T: Scalar> Solves for State<T> {
             }
             let clock = Instant::now();
             let problem = single(&mut self.body, &self.law, self.beyond, self.modulus)?;
-            let (mut solution, control, search) = match fraction {
+            let (mut solution, search) = match fraction {
                 Some(fraction) => {
                     let mut search = ContactSearch::new(&mut self.solver, problem)?;
                     if let Some(start) = start {
@@ -327,19 +317,19 @@ impl<T: Scalar> Solves for State<T> {
                     }
                     let found = search.at_observed(fraction, &mut *observe)?;
                     let search = Search::of(fraction, &found);
-                    (found.solution, found.control, Some(search))
+                    (found.solution, Some(search))
                 }
                 None => {
                     let from = start.as_ref().map_or(Start::Default, |gap| Start::From(gap));
-                    (self.solver.solve_with(problem, control, from, &mut *observe)?, control, None)
+                    (self.solver.solve_with(problem, control, from, &mut *observe)?, None)
                 }
             };
             let (mut departures, mut verdict) = (Vec::new(), None);
             while stability && solution.report.status != Status::Stopped {
-                let found = StabilityTest::default().run_with(problem, &self.solver.constraint, control, &solution)?;
+                let found = StabilityTest::default().run_with(problem, &self.solver.constraint, &solution)?;
                 let leaves = leave && found.verdict == Verdict::Unstable && departures.len() < MOST_DEPARTURES;
                 let left = match leaves {
-                    true => found.leave(&mut self.solver, problem, control, &solution)?,
+                    true => found.leave(&mut self.solver, problem, &solution)?,
                     false => None,
                 };
                 let Some(left) = left.filter(|left| left.energy_drop > 0.0) else {
@@ -350,7 +340,7 @@ impl<T: Scalar> Solves for State<T> {
                 solution = left.solution;
             }
             let stiffness = self.stiffness(&solution, stiffness)?;
-            let account = self.account(solution, self.grid, control, clock)?;
+            let account = self.account(solution, clock)?;
             let departures = leave.then_some(departures);
             self.with_other(Account { search, stability: verdict, stiffness, departures, ..account }, observe)
         })?;
@@ -376,7 +366,7 @@ impl<T: Scalar> Solves for State<T> {
                 }
                 let search = Some(Search::of(fraction, &found));
                 let stiffness = self.stiffness(&found.solution, stiffness)?;
-                let account = self.account(found.solution, self.grid, found.control, clock)?;
+                let account = self.account(found.solution, clock)?;
                 return Ok(Account { search, stiffness, ..account });
             }
             let history = std::mem::take(&mut self.history);
@@ -389,12 +379,12 @@ impl<T: Scalar> Solves for State<T> {
             let next = sweep.next_observed(observe);
             let history = sweep.history().to_vec();
             let Some(next) = next else { return Err(no_load()) };
-            let (control, solution) = next?;
+            let solution = next?;
             // a load that was not reached is tried again from where the ones before lead
             let stopped = solution.report.status == Status::Stopped;
             self.history = if stopped { kept } else { history };
             let stiffness = self.stiffness(&solution, stiffness)?;
-            Ok(Account { stiffness, ..self.account(solution, self.grid, control, clock)? })
+            Ok(Account { stiffness, ..self.account(solution, clock)? })
         })?;
         answer(py, found)
     }
@@ -423,7 +413,7 @@ impl<T: Scalar> Solves for State<T> {
             let Some(step) = path.next_observed(observe) else { return Ok(None) };
             let step = step?;
             self.place = Some(path.checkpoint());
-            let account = self.account(step.solution, self.grid, step.control, clock)?;
+            let account = self.account(step.solution, clock)?;
             let balance = [("work", step.work), ("dissipated", step.dissipated), ("imbalance", step.imbalance)];
             Ok(Some((account, step.leg, balance, step.event)))
         })?;

@@ -63,7 +63,7 @@ pub fn of<'py, T: Scalar>(py: Python<'py>, account: &Account<T>) -> PyResult<Bou
         "mean_pressure": report.mean_pressure,
         "normal_force": report.normal_force,
         "approach": report.approach,
-        "spring_stiffness": stiffness(account.control),
+        "spring_stiffness": stiffness(report.control),
         "carried_pressure": report.carried_pressure,
         "mean_contact_pressure": report.mean_contact_pressure,
         "contact_fraction": report.contact_fraction,
@@ -89,8 +89,8 @@ pub fn of<'py, T: Scalar>(py: Python<'py>, account: &Account<T>) -> PyResult<Bou
         "under_resolved": report.under_resolved,
         "warnings": warnings,
         "seconds": account.seconds,
-        "control": account.control.name(),
-        "control_value": account.control.value(),
+        "control": report.control.name(),
+        "control_value": report.control.value(),
     ))
 }
 

@@ -4,14 +4,14 @@ use std::sync::Arc;
 
 use asperity::accuracy::{GridError, Quantity};
 use asperity::contact::Original;
-use asperity::{AdhesionLaw, Boundary, Control, Grid, Level, Surface};
+use asperity::{AdhesionLaw, Level, Report, Surface};
 
 /// The estimated errors of the finest of nested grids, where they can be told.
 pub type Errors = [(Quantity, Option<GridError>); 4];
 
 /// The errors of nested grids, which are estimated with the first look at them.
 pub enum Estimate {
-    Open { surface: Arc<Surface>, levels: Vec<Level>, control: Control, mu_rho: f64 },
+    Open { surface: Arc<Surface>, levels: Vec<Level> },
     Found(Errors),
 }
 
@@ -22,10 +22,10 @@ impl Estimate {
     }
 
     /// The errors; the surface is not needed any more then.
-    pub fn errors(&mut self, boundary: Boundary) -> Errors {
+    pub fn errors(&mut self, report: &Report) -> Errors {
         let errors = match self {
-            Self::Open { surface, levels, control, mu_rho } => {
-                GridError::of_all(levels, *control, surface.nodes_per_wave(boundary), *mu_rho)
+            Self::Open { surface, levels } => {
+                GridError::of_all(levels, report, surface.nodes_per_wave(report.boundary))
             }
             Self::Found(errors) => *errors,
         };
@@ -37,10 +37,6 @@ impl Estimate {
 /// What a look needs beside the fields.
 pub struct Sight<T> {
     pub law: Arc<dyn AdhesionLaw<T>>,
-    pub grid: Grid,
-    pub boundary: Boundary,
-    /// The contact modulus
-    pub modulus: f64,
     /// The part that statistics are of, if they are not of the whole
     pub original: Option<Original>,
     /// The number of threads that was asked for

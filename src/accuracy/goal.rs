@@ -346,7 +346,7 @@ impl<C> Accuracy<C> {
             Solved { solution, whole, .. } =
                 self.nested.solver.run(problem.parts(), control, begin, &mut |iteration| observe(&grid, iteration))?;
             let stiffness = self.nested.stiffness_of(&mut problem, &solution)?;
-            levels.push(Level { stiffness, ..Level::of(&solution, &grid)? });
+            levels.push(Level { stiffness, ..Level::of(&solution)? });
             (surface, waves) = (fine, 2.0 * waves);
         };
         Ok(AccurateSolution { solution, surface, levels, error, reached, refinable, unaffordable })

@@ -29,6 +29,7 @@ const EDGE_EXCESS: f64 = (std::f64::consts::PI - 1.0 + std::f64::consts::LN_2) /
 /// ```
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ContactArea {
     /// The number of nodes in contact.
     pub contact_nodes: usize,
@@ -67,7 +68,7 @@ impl ContactArea {
         Ok(Self::within(map, grid, true, grid.nodes(), |along| edge_of_map(along, grid)))
     }
 
-    /// The area of a solution on its grid, within the edge that its gap and contact pressure tell. Shares are of the
+    /// The area of a solution, within the edge that its gap and contact pressure tell. Shares are of the
     /// nodes that are not [absent](crate::Surface::with_absent).
     ///
     /// ```
@@ -78,7 +79,7 @@ impl ContactArea {
     /// let sphere = Surface::paraboloid(grid, 2.0)?;
     /// let mut problem = Problem::new(&sphere, Boussinesq::<f64>::new(grid, 1.0)?, NoAdhesion)?;
     /// let solution = Solver::default().solve(&mut problem, Control::Force(1e-3))?;
-    /// let area = ContactArea::of_solution(&solution, &grid)?;
+    /// let area = ContactArea::of_solution(&solution)?;
     /// assert_eq!(area.contact_fraction, solution.report.contact_fraction);
     /// let radius = Hertz::new(2.0, 1.0)?.at_load(1e-3)?.contact_radius();
     /// let exact = std::f64::consts::PI * radius.powi(2) / 0.16;
@@ -88,8 +89,8 @@ impl ContactArea {
     ///
     /// # Errors
     /// [`Error::Shape`] if a field does not have the shape of the grid.
-    pub fn of_solution<T: Real>(solution: &Solution<T>, grid: &Grid) -> Result<Self> {
-        let Solution { gap, contact_pressure, report, .. } = solution;
+    pub fn of_solution<T: Real>(solution: &Solution<T>) -> Result<Self> {
+        let Solution { gap, contact_pressure, grid, report, .. } = solution;
         let (gap, contact_pressure) = (gap.view(), contact_pressure.view());
         check(gap, contact_pressure, grid)?;
         let map = contact_map(gap, contact_pressure);

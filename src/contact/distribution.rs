@@ -32,6 +32,7 @@ use crate::solver::Solution;
 /// ```
 #[non_exhaustive]
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct PressureDistribution {
     /// The edges of the bins, from the lowest to the highest: one more than there are bins.
     pub edges: Vec<f64>,

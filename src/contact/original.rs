@@ -120,7 +120,7 @@ impl Original {
         self.of(contact_map(gap, pressure).view())
     }
 
-    /// The solution on the original: its part of the fields, its nodes in contact, and its share of the force. Means,
+    /// The solution on the original: its grid, its part of the fields, its nodes in contact, and its share of the force. Means,
     /// fractions, extremes and energies stay those of the whole.
     ///
     /// # Errors
@@ -136,15 +136,25 @@ impl Original {
             normal_force: self.share() * solution.report.normal_force,
             ..solution.report.clone()
         };
-        Ok(Solution { gap, pressure: pressure?, contact_pressure: contact_pressure?, report })
+        Ok(Solution { gap, pressure: pressure?, contact_pressure: contact_pressure?, grid: self.grid, report })
     }
 
-    /// The statistics of the original, from the gap and the contact pressure of the whole and the contact modulus: its
-    /// clusters end at its sides, and these are no part of the perimeter, as the images go on there.
+    /// The statistics of the original, from a solution on the whole and its law: clusters end at its sides, and these
+    /// are no part of the perimeter, as the images go on there.
+    ///
+    /// # Errors
+    /// [`Error::Shape`] if the solution is not one of the whole, and those of [`ContactStatistics::of`].
+    pub fn statistics<T: Real>(&self, solution: &Solution<T>, law: &impl AdhesionLaw<T>) -> Result<ContactStatistics> {
+        solution.check_law(law)?;
+        let Solution { gap, contact_pressure, report, .. } = solution;
+        self.statistics_of_fields(gap.view(), contact_pressure.view(), report.modulus, law)
+    }
+
+    /// The same from the gap and the contact pressure of the whole, as they come from files, and the contact modulus.
     ///
     /// # Errors
     /// [`Error::Shape`] if a field does not have the shape of the whole.
-    pub fn statistics<T: Real>(
+    pub fn statistics_of_fields<T: Real>(
         &self,
         gap: ArrayView2<'_, T>,
         contact_pressure: ArrayView2<'_, T>,
@@ -196,7 +206,7 @@ mod tests {
         (pressure[[0, 1]], pressure[[2, 2]]) = (1.0, 1.0);
         let pressure = original.mirrored(&pressure).unwrap();
         let gap = pressure.mapv(|pressure| 1.0 - pressure);
-        let found = original.statistics(gap.view(), pressure.view(), 1.0, &NoAdhesion).unwrap();
+        let found = original.statistics_of_fields(gap.view(), pressure.view(), 1.0, &NoAdhesion).unwrap();
         assert_eq!((found.contact_nodes, &found.cluster_sizes[..]), (2, &[1, 1][..]));
         assert_eq!(found.contact_fraction, 2.0 / 12.0);
         // of each three sides of a cell

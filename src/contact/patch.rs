@@ -12,6 +12,7 @@ const MOST: usize = 16;
 /// [`ContactStatistics::patches`](super::ContactStatistics::patches) has an example.
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Patch {
     /// The work of adhesion of its nodes, energy per area.
     pub work_of_adhesion: f64,

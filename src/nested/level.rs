@@ -4,7 +4,6 @@
 use super::{Nested, NestedSolution};
 use crate::contact::ContactArea;
 use crate::error::Result;
-use crate::grid::Grid;
 use crate::real::Real;
 use crate::solver::{Solution, Status};
 use crate::stability::ContactStiffness;
@@ -42,11 +41,11 @@ pub struct Level {
 }
 
 impl Level {
-    /// The level of a solution on its grid.
-    pub(crate) fn of<T: Real>(solution: &Solution<T>, grid: &Grid) -> Result<Self> {
+    /// The level of a solution.
+    pub(crate) fn of<T: Real>(solution: &Solution<T>) -> Result<Self> {
         let report = &solution.report;
         Ok(Self {
-            shape: grid.shape(),
+            shape: solution.grid.shape(),
             status: report.status,
             iterations: report.iterations,
             operator_applications: report.operator_applications + 1,
@@ -55,7 +54,7 @@ impl Level {
             mean_pressure: report.mean_pressure,
             mean_contact_pressure: report.mean_contact_pressure,
             elastic_energy: report.elastic_energy,
-            area: ContactArea::of_solution(solution, grid)?,
+            area: ContactArea::of_solution(solution)?,
             stiffness: None,
         })
     }

@@ -123,7 +123,6 @@ impl Part {
 /// The solution on a part of the window.
 pub(super) struct OnPart<T> {
     part: Part,
-    grid: Grid,
     solution: Solution<T>,
     /// The operator applications, in units of one on the whole.
     pub(super) applications: usize,
@@ -145,7 +144,7 @@ impl<T: Real> OnPart<T> {
         O: ElasticOperator<T>,
         L: AdhesionLaw<T>,
     {
-        let Self { part, grid, solution: Solution { gap, pressure, .. }, .. } = self;
+        let Self { part, solution: Solution { gap, pressure, grid, .. }, .. } = self;
         let (window, to) = (problem.grid().shape(), *problem.operator.grid());
         // the displacement less the heights is K (p − K⁻¹h) and a constant
         let mut load = problem.flat.pressure.mapv(|p| -p);
@@ -196,7 +195,7 @@ impl<C> Nested<C> {
         let control = Part::control(control, surface, &small);
         let Solved { solution, .. } = self.run_to(tolerance, problem.parts(), control, start, observe)?;
         let applications = (share * (solution.report.operator_applications + 1) as f64).ceil() as usize;
-        Ok(Some(OnPart { part, grid: *small.grid(), solution, applications }))
+        Ok(Some(OnPart { part, solution, applications }))
     }
 }
 

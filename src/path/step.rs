@@ -3,7 +3,6 @@
 use ndarray::Array2;
 
 use super::Event;
-use crate::problem::Control;
 use crate::solver::Solution;
 
 /// A state on a path.
@@ -26,10 +25,8 @@ use crate::solver::Solution;
 #[non_exhaustive]
 #[derive(Clone, Debug, PartialEq)]
 pub struct PathStep<T> {
-    /// The state.
+    /// The state; its report has the control.
     pub solution: Solution<T>,
-    /// The control under which it was found.
-    pub control: Control,
     /// The leg that it is on: 0 is the start, 1 the way to the second load.
     pub leg: usize,
     /// The work done by the load since the start, −∫p̄ dḡ, and with a free boundary ∫p̄ dδ, per nominal area.

@@ -12,7 +12,6 @@ use crate::adhesion::AdhesionLaw;
 use crate::constraint::Wall;
 use crate::error::{Error, Result};
 use crate::field;
-use crate::grid::Grid;
 use crate::problem::{Load, PressedFlat};
 use crate::real::Real;
 
@@ -42,6 +41,7 @@ const SOFT: f64 = 100.0;
 /// # Ok::<(), asperity::Error>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "kebab-case"))]
 pub enum Branch {
     /// That of surfaces which are pressed together from afar. A solve starts from the gap that the wall alone would
     /// leave, without adhesion, under the load that is given; under a tension from undeformed surfaces that touch.
@@ -103,8 +103,8 @@ impl Branch {
 
 impl<T: Real> Solution<T> {
     /// The distance of two solutions of one problem under one load, relative to the displacement of the larger: that in
-    /// the energy norm, √(⟨Δu, Δp⟩/⟨u, p⟩), by which [`Report::relative_error`] is measured too. `grid` is that of the
-    /// surface.
+    /// the energy norm, √(⟨Δu, Δp⟩/⟨u, p⟩), by which [`Report::relative_error`] is measured too; infinite
+    /// between solutions on different grids.
     ///
     /// ```
     /// use asperity::{Branch, Control, Exponential, Grid, Problem, Settings, Solver, Surface, Westergaard};
@@ -116,15 +116,18 @@ impl<T: Real> Solution<T> {
     ///     solver.solve(&mut problem, Control::MeanPressure(0.01))
     /// };
     /// let [loading, unloading] = [solve(Branch::Loading)?, solve(Branch::Unloading)?];
-    /// assert!(loading.distance(&unloading, &grid) < 1e-5 && loading.agrees_with(&unloading, &grid));
+    /// assert!(loading.distance(&unloading) < 1e-5 && loading.agrees_with(&unloading));
     /// # Ok::<(), asperity::Error>(())
     /// ```
-    pub fn distance(&self, other: &Self, grid: &Grid) -> f64 {
+    pub fn distance(&self, other: &Self) -> f64 {
+        if self.grid != other.grid {
+            return f64::INFINITY;
+        }
         // absent nodes have no gap
         let change = |g: T, h: T| if g.is_finite() { g - h } else { T::zero() };
         let gaps = Zip::from(&self.gap).and(&other.gap).map_collect(|&g, &h| change(g, h));
         let pressures = &self.pressure - &other.pressure;
-        let square = field::mean_of_both(grid.slab(), gaps.view(), pressures.view(), |g, p| g.widen() * p.widen());
+        let square = field::mean_of_both(self.grid.slab(), gaps.view(), pressures.view(), |g, p| g.widen() * p.widen());
         let scale = 2.0 * self.report.elastic_energy.max(other.report.elastic_energy);
         if square == 0.0 { 0.0 } else { (square.abs() / scale).sqrt() }
     }
@@ -132,11 +135,11 @@ impl<T: Real> Solution<T> {
     /// Whether two solutions of one problem under one load are the same equilibrium, to their accuracies: with adhesion
     /// a certified error bounds the distance to the equilibrium but for a factor, that of how soft it is. Of solves that
     /// have not converged it is not said.
-    pub fn agrees_with(&self, other: &Self, grid: &Grid) -> bool {
+    pub fn agrees_with(&self, other: &Self) -> bool {
         let [a, b] = [self, other].map(|solution| solution.report.relative_error.max(solution.report.load_error));
         let found = [self, other].iter().all(|solution| solution.report.status == Status::Converged);
         // all processes that share the grid have to ask
-        let distance = self.distance(other, grid);
+        let distance = self.distance(other);
         found && distance <= SOFT * (a + b)
     }
 }

@@ -94,6 +94,7 @@ pub(super) fn run<T: Real, Lo: Real>(operators: &mut dyn Operators<T, Lo>, job: 
     Error::positive("tolerance", settings.tolerance_in::<T>())?;
     check_wall(law, constraint.wall())?;
     let load = flat.load(control, constraint.wall())?;
+    let asked = (control, constraint.wall().name());
     let branch = Branch::of_start(&begin, &settings, law, (load, constraint.wall()), flat)?;
     let (default_start, near) = (begin.is_default(), begin.is_near());
     let from_afar = default_start && branch == Some(Branch::Loading);
@@ -112,7 +113,8 @@ pub(super) fn run<T: Real, Lo: Real>(operators: &mut dyn Operators<T, Lo>, job: 
         if from_afar { (&NoAdhesion, load.of_wall(separation.widen())) } else { (law, load) };
 
     let goal = if from_afar { Goal::Wall } else { Goal::Solution };
-    let posed = Posed { operators, law: first_law, flat, constraint: wall, load: first_load, branch, settings, goal };
+    let posed =
+        Posed { operators, law: first_law, flat, constraint: wall, load: first_load, asked, branch, settings, goal };
     let mut state = State::new(posed, begin)?;
     if near {
         state.stays_near();

@@ -77,6 +77,9 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
             operator_applications: self.counters.applications,
             boundary: flat.boundary.alone(),
             modulus,
+            control: self.posed.asked.0,
+            wall: self.posed.asked.1,
+            work_of_adhesion: law.hints().work_of_adhesion.widen(),
             mean_gap: if flat.window.is_some() { total.sum[1] / facing } else { self.mean_gap() },
             mean_pressure: given * padding,
             normal_force: given * padding * flat.area,
@@ -102,28 +105,31 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         let Fields { gap, pressure, .. } = self.fields;
         let Some(window) = &flat.window else {
             return Ok(Solved {
-                solution: Solution { gap, pressure, contact_pressure, report },
+                solution: Solution { gap, pressure, contact_pressure, grid, report },
                 whole: None,
                 at_floor,
             });
         };
-        let whole = (grid, gap);
+        let (whole, grid) = ((grid, gap), *window.grid());
         let gap = window.crop(&whole.1, T::infinity());
         let pressure = window.crop(&pressure, T::zero());
         let contact_pressure = window.crop(&contact_pressure, T::zero());
         if flat.boundary != Boundary::Periodic {
-            let grid = window.grid();
             let [at_edge, largest] =
-                [largest(edge(&pressure, grid)), largest(pressure.iter().copied())].map(|own| grid.slab().most(own));
+                [largest(edge(&pressure, &grid)), largest(pressure.iter().copied())].map(|own| grid.slab().most(own));
             let share = if at_edge == 0.0 { 0.0 } else { at_edge / largest };
             report.edge_traction = Some(share);
             // of bodies that are apart it says nothing how far the last of their attraction, or rounding, reaches
             let attract = !law.hints().zero && largest > noticeable(law);
             let apart = report.status == Status::Detached || report.contact_nodes == 0 && !attract;
-            let touches = grid.slab().has(edge(&gap, grid).any(|gap| gap <= T::zero()));
+            let touches = grid.slab().has(edge(&gap, &grid).any(|gap| gap <= T::zero()));
             report.reaches_edge = !apart && (share > EDGE || touches);
         }
-        Ok(Solved { solution: Solution { gap, pressure, contact_pressure, report }, whole: Some(whole), at_floor })
+        Ok(Solved {
+            solution: Solution { gap, pressure, contact_pressure, grid, report },
+            whole: Some(whole),
+            at_floor,
+        })
     }
 
     /// The status, corrected by the figures of the returned fields.

@@ -7,7 +7,7 @@ use super::{Branch, Method, Settings};
 use crate::adhesion::AdhesionLaw;
 use crate::constraint::{ContactConstraint, Wall};
 use crate::error::{Error, Result};
-use crate::problem::{Load, PressedFlat, Window};
+use crate::problem::{Control, Load, PressedFlat, Window};
 use crate::real::Real;
 
 /// The mean pressure, over the rms pressure that presses the surface flat, up to which the gap of undeformed surfaces
@@ -21,6 +21,8 @@ pub(super) struct Posed<'a, T, Lo> {
     pub(super) flat: &'a PressedFlat<T>,
     pub(super) constraint: &'a mut dyn ContactConstraint<T>,
     pub(super) load: Load,
+    /// the control, of which the load is made, and the name of the wall
+    pub(super) asked: (Control, &'static str),
     /// the branch of equilibria on which the solve has started
     pub(super) branch: Option<Branch>,
     pub(super) settings: Settings,

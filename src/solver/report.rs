@@ -6,8 +6,12 @@ use std::fmt;
 use ndarray::{Array2, CowArray};
 
 use super::{Branch, Criterion, Method};
-use crate::elastic::Boundary;
+use crate::adhesion::AdhesionLaw;
+use crate::constraint::ContactConstraint;
+use crate::elastic::{Boundary, ElasticOperator};
+use crate::error::{Error, Result};
 use crate::grid::Grid;
+use crate::problem::{Control, Problem};
 use crate::real::Real;
 
 /// The status of a solve: how it ended, and how good its fields are.
@@ -25,6 +29,7 @@ use crate::real::Real;
 /// ```
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "kebab-case"))]
 pub enum Status {
     /// The criterion was met, on the fields that were returned: they are the solution to the tolerance.
     Converged,
@@ -121,6 +126,7 @@ pub struct Iteration {
 /// ```
 #[non_exhaustive]
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Report {
     /// The status: how the solve ended.
     pub status: Status,
@@ -157,6 +163,13 @@ pub struct Report {
     /// The contact modulus E* of the elastic body,
     /// [`ElasticOperator::modulus`](crate::ElasticOperator::modulus).
     pub modulus: f64,
+    /// The control: the load that was held.
+    pub control: Control,
+    /// The wall, by the name of [`Wall::name`](crate::Wall::name).
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "named"))]
+    pub wall: Name,
+    /// The work of adhesion w of the law, the largest where it varies; zero without adhesion.
+    pub work_of_adhesion: f64,
     /// The mean gap, over the nodes that are not absent.
     pub mean_gap: f64,
     /// The mean external pressure p̄, the force over the nominal area Lx·Ly of the surface, compression positive; under
@@ -197,7 +210,8 @@ pub struct Report {
     /// Whether μ_ρ exceeds [`Report::RESOLVED_MU_RHO`]: the answer then depends on the grid and on the start.
     pub under_resolved: bool,
     /// The precision of the fields, `"f32"` or `"f64"`.
-    pub precision: &'static str,
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "named"))]
+    pub precision: Name,
     /// The iteration that was used.
     pub method: Method,
     /// The measure that was compared with the tolerance. [`Criterion::Orthogonality`] bounds no error: a solve that
@@ -213,7 +227,24 @@ impl Report {
     pub const RESOLVED_MU_RHO: f64 = 0.5;
 }
 
-/// The fields of a solved problem, each of the shape (Nx, Ny) of the surface, and the account of the solve.
+/// A name that a report has; behind a word of its own, which derived data does not take for a borrowed one.
+type Name = &'static str;
+
+/// A wall or a precision from its name.
+#[cfg(feature = "serde")]
+fn named<'de, D: serde::Deserializer<'de>>(from: D) -> std::result::Result<Name, D::Error> {
+    let name: String = serde::Deserialize::deserialize(from)?;
+    let known = ["rigid", "springs", "none", f32::NAME, f64::NAME].into_iter().find(|known| *known == name);
+    known.ok_or_else(|| serde::de::Error::custom(format_args!("{name} names neither a wall nor a precision")))
+}
+
+/// The fields of a solved problem, each of the shape (Nx, Ny) of the surface, their grid, and the account of the solve,
+/// which has control, wall, boundary and contact modulus.
+///
+/// [`ContactStatistics`](crate::contact::ContactStatistics), [`StabilityTest`](crate::stability::StabilityTest),
+/// [`ContactStiffness`](crate::stability::ContactStiffness) and [`Warning`](crate::Warning) take them from here. The
+/// adhesion law belongs to the problem: what needs its traction takes the law, and refuses one of another work of
+/// adhesion.
 ///
 /// ```
 /// use asperity::{Control, Grid, NoAdhesion, Problem, Solver, Surface, Westergaard};
@@ -236,6 +267,8 @@ pub struct Solution<T> {
     pub pressure: Array2<T>,
     /// The contact pressure λ ≥ 0, zero wherever the gap is not.
     pub contact_pressure: Array2<T>,
+    /// The grid of the surface, and of the fields.
+    pub grid: Grid,
     /// The account.
     pub report: Report,
 }
@@ -276,13 +309,46 @@ impl<T: Clone> Solved<T> {
 impl<T: Real> Solution<T> {
     /// The solution with the whole of its fields, on the first of the processes that share the grid of the surface, and
     /// nothing on the others. All of them have to ask. The solution itself, if the grid is not shared.
-    pub fn gathered(&self, grid: &Grid) -> Option<Cow<'_, Self>> {
-        if !grid.is_shared() {
+    pub fn gathered(&self) -> Option<Cow<'_, Self>> {
+        if !self.grid.is_shared() {
             return Some(Cow::Borrowed(self));
         }
         let fields = [&self.gap, &self.pressure, &self.contact_pressure];
-        let fields = fields.map(|field| grid.gathered(field).map(CowArray::into_owned));
+        let fields = fields.map(|field| self.grid.gathered(field).map(CowArray::into_owned));
         let [Some(gap), Some(pressure), Some(contact_pressure)] = fields else { return None };
-        Some(Cow::Owned(Self { gap, pressure, contact_pressure, report: self.report.clone() }))
+        Some(Cow::Owned(Self { gap, pressure, contact_pressure, grid: self.grid.alone(), report: self.report.clone() }))
+    }
+
+    /// Refuses an adhesion law of another work of adhesion than that under which the solution was found.
+    pub(crate) fn check_law(&self, law: &dyn AdhesionLaw<T>) -> Result<()> {
+        let (value, known) = (law.hints().work_of_adhesion.widen(), self.report.work_of_adhesion);
+        if value == known || (value - known).abs() <= T::epsilon().widen().sqrt() * known.abs() {
+            return Ok(());
+        }
+        let requirement = "that of the law of the solution: give the law of its problem";
+        Err(Error::Value { name: "work of adhesion", value, requirement })
+    }
+
+    /// Refuses to take the solution for one of a problem with another grid, body, law or wall.
+    pub(crate) fn check<O, L>(&self, problem: &Problem<T, O, L>, constraint: &dyn ContactConstraint<T>) -> Result<()>
+    where
+        O: ElasticOperator<T>,
+        L: AdhesionLaw<T>,
+    {
+        let (own, grid, wall) = (self.grid.lengths(), problem.grid(), constraint.wall().name());
+        Error::shape("solution", self.grid.shape(), grid.shape())?;
+        let figures = [
+            ("side length Lx of the solution", own.0, grid.lengths().0),
+            ("side length Ly of the solution", own.1, grid.lengths().1),
+            ("contact modulus of the solution", self.report.modulus, problem.operator.modulus()),
+        ];
+        if let Some((name, value, _)) = figures.into_iter().find(|(_, found, expected)| found != expected) {
+            return Err(Error::Value { name, value, requirement: "the same as of the problem" });
+        }
+        if self.report.wall != wall {
+            let reason = "the solution was found with another wall: give the constraint of its solver";
+            return Err(Error::Wall { wall, reason });
+        }
+        self.check_law(&problem.law)
     }
 }

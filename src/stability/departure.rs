@@ -31,8 +31,8 @@ pub struct Departure<T> {
 const PERTURBATION: f64 = 0.1;
 
 impl<T: Real> Stability<T> {
-    /// Leaves an equilibrium: perturbs its gap along the mode, both ways, minimises on from there, and returns the one
-    /// that comes to the lower energy.
+    /// Leaves an equilibrium: perturbs its gap along the mode, both ways, minimises on from there under the control of
+    /// the test, and returns the one that comes to the lower energy.
     ///
     /// The perturbation changes the gap by a tenth of the range of adhesion at most. From a saddle the energy falls
     /// along the mode, and the solver never raises it again: it does not come back. From a stable equilibrium it does,
@@ -40,8 +40,8 @@ impl<T: Real> Stability<T> {
     /// contact, or without adhesion.
     ///
     /// # Errors
-    /// [`Error::Shape`] if the solution is of another grid, [`Error::Wall`] for springs, and those of
-    /// [`Solver::solve_with`].
+    /// [`Error::Shape`], [`Error::Value`] or [`Error::Wall`] if the solution is of another problem, [`Error::Wall`] for
+    /// springs, and those of [`Solver::solve_with`].
     ///
     /// ```
     /// use asperity::stability::{StabilityTest, Verdict};
@@ -49,14 +49,14 @@ impl<T: Real> Stability<T> {
     /// let grid = Grid::line(64, 1.0)?;
     /// let flat = Surface::from_fn(grid, |_, _| 0.0)?;
     /// let mut problem = Problem::new(&flat, Westergaard::<f64>::new(grid, 1.0)?, Exponential::new(1e-3, 1e-2)?)?;
-    /// let (mut solver, control) = (Solver::default(), Control::MeanGap(0.011));
-    /// let even = solver.solve(&mut problem, control)?; // a uniform gap, which does not last
-    /// let stability = StabilityTest::default().run(&mut problem, control, &even)?;
+    /// let mut solver = Solver::default();
+    /// let even = solver.solve(&mut problem, Control::MeanGap(0.011))?; // a uniform gap, which does not last
+    /// let stability = StabilityTest::default().run(&mut problem, &even)?;
     /// assert_eq!(stability.verdict, Verdict::Unstable);
     ///
-    /// let left = stability.leave(&mut solver, &mut problem, control, &even)?.expect("there is a mode");
+    /// let left = stability.leave(&mut solver, &mut problem, &even)?.expect("there is a mode");
     /// assert!(left.energy_drop > 0.0 && left.solution.report.contact_nodes > 0);
-    /// let stability = StabilityTest::default().run(&mut problem, control, &left.solution)?;
+    /// let stability = StabilityTest::default().run(&mut problem, &left.solution)?;
     /// assert_eq!(stability.verdict, Verdict::Stable);
     /// # Ok::<(), asperity::Error>(())
     /// ```
@@ -64,7 +64,6 @@ impl<T: Real> Stability<T> {
         &self,
         solver: &mut Solver<C>,
         problem: &mut Problem<T, O, L>,
-        control: Control,
         from: &Solution<T>,
     ) -> Result<Option<Departure<T>>>
     where
@@ -73,8 +72,8 @@ impl<T: Real> Stability<T> {
         C: ContactConstraint<T>,
     {
         refuse_springs(solver.constraint.wall())?;
-        let slab = problem.grid().slab();
-        slab.agreed(Error::shape("gap", from.gap.dim(), self.mode.dim()))?;
+        from.check(problem, &solver.constraint)?;
+        let (slab, control) = (from.grid.slab(), self.control);
         let largest = self.mode.iter().fold(T::zero(), |largest, value| largest.max(value.abs()));
         let largest = T::lit(slab.most(largest.widen()));
         let amplitude = T::lit(PERTURBATION) * problem.law.hints().range / largest;

@@ -73,12 +73,8 @@ pub struct EdgeError {
 impl EdgeError {
     /// The error of a solution in a periodic cell, by its tangent at a mean gap of 1 and its stiffness, pressure per
     /// length.
-    pub(super) fn of<T: Real>(
-        solution: &Solution<T>,
-        tangent: &Tangent<T>,
-        grid: &Grid,
-        (modulus, stiffness): (f64, f64),
-    ) -> Self {
+    pub(super) fn of<T: Real>(solution: &Solution<T>, tangent: &Tangent<T>, stiffness: f64) -> Self {
+        let (grid, modulus) = (&solution.grid, solution.report.modulus);
         let ((nx, ny), fields) = (grid.shape(), [&solution.gap, &solution.contact_pressure]);
         let around = |row: usize| [(row + nx - 1) % nx, (row + 1) % nx];
         let rows = |field| grid.rows_for(field, grid, around);

@@ -123,6 +123,7 @@ impl ContactStiffness {
         C: ContactConstraint<T>,
     {
         Error::positive("tolerance", tolerance)?;
+        solution.check(problem, constraint)?;
         check_gap(problem, constraint, &solution.gap)?;
         let Problem { operator, law, flat } = problem;
         if law.hints().zero && solution.report.contact_nodes == 0 {
@@ -155,8 +156,7 @@ impl ContactStiffness {
         let series = if on_grid == 0.0 { 0.0 } else { (on_grid.recip() + flat.boundary.mean_compliance()).recip() };
         let pressure_per_length = flat.padding * series;
         let force_per_length = pressure_per_length * flat.area;
-        let edge =
-            tangent.map(|tangent| EdgeError::of(solution, &tangent, operator.grid(), (operator.modulus(), on_grid)));
+        let edge = tangent.map(|tangent| EdgeError::of(solution, &tangent, on_grid));
         Ok(Self { pressure_per_length, force_per_length, relative_error, smoothed, operator_applications, edge })
     }
 }

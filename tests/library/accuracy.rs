@@ -123,7 +123,7 @@ fn the_edge_of_strips_and_lattices_is_at_few_places() {
     let area = |surface: Surface| {
         let mut problem = Problem::new(&surface, half_space(*surface.grid()).unwrap(), NoAdhesion).unwrap();
         let solution = Solver::default().solve(&mut problem, Control::MeanPressure(3e-3)).unwrap();
-        ContactArea::of_solution(&solution, surface.grid()).unwrap()
+        ContactArea::of_solution(&solution).unwrap()
     };
     // along the sides two edges of a strip; at an angle each side of the cells has its own places
     for (vector, lattice, most) in [

@@ -100,8 +100,7 @@ fn loading_finds_the_largest_equilibrium_and_unloading_the_smallest() {
             assert!(distances.iter().all(|&distance| distance < 1e-3), "{w} {pressure}: {distances:?}");
             let below = loading.gap.iter().zip(&unloading.gap).map(|(a, b)| b - a).fold(0.0, f64::max);
             assert!(below <= 1e-4 * range, "{w} {pressure}: {below:e}");
-            let (same, distance) =
-                (loading.agrees_with(&unloading, surface.grid()), loading.distance(&unloading, surface.grid()));
+            let (same, distance) = (loading.agrees_with(&unloading), loading.distance(&unloading));
             assert_eq!(same, apart(&loading.gap, &unloading.gap, range) < 1e-3, "{w} {pressure}: {distance:e}");
             let change = (energy(&loading.report) - energy(&unloading.report)).abs() / energy(&unloading.report).abs();
             assert!(!same || change < 1e-9, "{change:e}");
@@ -121,7 +120,8 @@ fn pressing_from_afar_in_small_steps_ends_on_the_branch_of_loading() {
     let far = 0.1 - surface.heights();
     let mut last = None;
     for step in Sweep::new(&mut solver, &mut problem, rising).starting_from(far) {
-        let (control, along) = step.unwrap();
+        let along = step.unwrap();
+        let control = along.report.control;
         let [loading, unloading] = both(&surface, law, control);
         assert!(apart(&along.gap, &loading.gap, 4e-3) < 1e-3, "{control:?}");
         last = Some((loading, unloading));
@@ -286,6 +286,6 @@ fn a_branch_that_is_not_found_agrees_with_none() {
         common::solve_to(&mut problem, Control::MeanPressure(-0.02), settings, Start::Default)
     });
     assert_eq!((loading.report.status, unloading.report.status), (Status::Detached, Status::Converged));
-    assert!(!loading.agrees_with(&unloading, surface.grid()) && !loading.agrees_with(&loading, surface.grid()));
+    assert!(!loading.agrees_with(&unloading) && !loading.agrees_with(&loading));
     assert_eq!((Branch::Loading.other(), Branch::Unloading.other()), (Branch::Unloading, Branch::Loading));
 }

@@ -9,6 +9,8 @@ mod architecture;
 mod branches;
 mod constraints;
 mod cut_off;
+#[cfg(feature = "serde")]
+mod data;
 mod exact;
 mod exact_solutions;
 mod extremes;

@@ -110,7 +110,7 @@ fn a_level_says_what_it_found() {
     let surface = surface(256, 1);
     let NestedSolution { solution, levels, .. } = solve::<f64>(&surface, none(), PRESSED, 1e-6);
     let (finest, report) = (levels.last().unwrap(), &solution.report);
-    let area = contact::ContactArea::of_solution(&solution, surface.grid()).unwrap();
+    let area = contact::ContactArea::of_solution(&solution).unwrap();
     assert_eq!((finest.mean_gap, finest.mean_pressure), (report.mean_gap, report.mean_pressure));
     assert_eq!((finest.elastic_energy, finest.area), (report.elastic_energy, area));
     // the shortest wave has four nodes on the finest grid, so that coarser ones agree roughly

@@ -53,7 +53,7 @@ fn flats_on_a_spring_jump_where_its_stiffness_is_that_of_the_attraction() {
     for ((step, jump), e) in jumps.into_iter().zip([0.25 * (1.0 - root), 0.25 * (1.0 + root)]) {
         let gap = -range * f64::ln(e);
         let expected = gap + law.traction(gap) / stiffness;
-        let Control::Spring { rest, .. } = step.control else { panic!() };
+        let Control::Spring { rest, .. } = step.solution.report.control else { panic!() };
         assert!((rest - expected).abs() < 3.0 * width, "{rest} {expected}");
         let energy = |g: f64| law.energy(g) + 0.5 * stiffness * (g - rest).powi(2);
         let drop = energy(jump.mean_gap.0) - energy(jump.mean_gap.1);
@@ -112,9 +112,9 @@ fn states_between_jumps_are_minima_of_the_dense_energy_and_jumps_are_where_they_
         let u: Vec<f64> = gap.iter().zip(surface.heights()).map(|(g, h)| g + h).collect();
         let r: Vec<f64> = dense.pressure(&u).iter().zip(gap).map(|(p, &g)| p + law.traction(g)).collect();
         let mean = r.iter().sum::<f64>() / r.len() as f64;
-        assert!(r.iter().all(|r| (r - mean).abs() < 1e-5), "{:?}", step.control);
+        assert!(r.iter().all(|r| (r - mean).abs() < 1e-5), "{:?}", step.solution.report.control);
         assert!((mean + report.mean_pressure).abs() < 1e-6);
-        assert_eq!(below(&dense, &law, gap, -1e-6), 0, "{:?}", step.control);
+        assert_eq!(below(&dense, &law, gap, -1e-6), 0, "{:?}", step.solution.report.control);
         if let (Some(jump), Some(before)) = (jump(step), last) {
             assert!(jump.energy_drop > 0.0);
             // the softest eigenvalue has come down to a small share of the softest stiffness
@@ -165,12 +165,12 @@ fn a_saddle_is_left_for_a_minimum_of_lower_energy() {
     let (mut solver, control) = (without_wall(1e-8), Control::MeanGap(0.014));
     let even = solver.solve(&mut problem, control).unwrap();
     let test = StabilityTest::default();
-    let saddle = test.run_with(&mut problem, &NoWall, control, &even).unwrap();
+    let saddle = test.run_with(&mut problem, &NoWall, &even).unwrap();
     assert_eq!(saddle.verdict, Verdict::Unstable);
-    let left = saddle.leave(&mut solver, &mut problem, control, &even).unwrap().unwrap();
+    let left = saddle.leave(&mut solver, &mut problem, &even).unwrap().unwrap();
     let gap = &left.solution.gap;
     assert!(left.energy_drop > 0.0 && left.solution.report.min_gap > 0.0);
-    assert_eq!(test.run_with(&mut problem, &NoWall, control, &left.solution).unwrap().verdict, Verdict::Stable);
+    assert_eq!(test.run_with(&mut problem, &NoWall, &left.solution).unwrap().verdict, Verdict::Stable);
     let dense = Dense::new((8, 8), (1.0, 1.0), 1.0);
     let energy = |gap: &Array2<f64>| {
         let g: Vec<f64> = gap.iter().copied().collect();
@@ -244,7 +244,7 @@ fn most_tension(
 ) -> f64 {
     let mut solver = without_wall(1e-5);
     let steps = Sweep::new(&mut solver, problem, loads.iter().copied());
-    let tensions = steps.map(|step| -step.unwrap().1.report.mean_pressure);
+    let tensions = steps.map(|step| -step.unwrap().report.mean_pressure);
     tensions.fold(0.0, f64::max)
 }
 

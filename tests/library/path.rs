@@ -35,7 +35,7 @@ fn follow<L: AdhesionLaw<f64>>(
     let steps: Vec<_> = path.map(Result::unwrap).collect();
     for step in &steps {
         assert_eq!(step.solution.report.status, Status::Converged, "{:?} {:?}", step.solution.report, step.event);
-        check(&step.solution, problem.law(), step.control);
+        check(&step.solution, problem.law(), step.solution.report.control);
     }
     steps
 }
@@ -130,9 +130,8 @@ fn stability_is_lost_at_a_limit_point() {
     let pull_off = steps.iter().position(|step| step.event.is_some()).unwrap();
     assert!(turn > 8 && turn + 8 < pull_off);
     for (k, step) in steps.iter().enumerate().take(pull_off) {
-        let verdict =
-            |problem: &mut _, control| StabilityTest::default().run(problem, control, &step.solution).unwrap();
-        let held = verdict(&mut problem, step.control);
+        let verdict = |problem: &mut _, control| StabilityTest::under(control).run(problem, &step.solution).unwrap();
+        let held = verdict(&mut problem, step.solution.report.control);
         assert_eq!(held.verdict, Verdict::Stable, "{k}");
         let loaded = verdict(&mut problem, Control::MeanPressure(step.solution.report.mean_pressure));
         if k.abs_diff(turn) > 4 {
@@ -143,8 +142,8 @@ fn stability_is_lost_at_a_limit_point() {
     // left alone under its load, the state just past the limit point comes apart or together
     let step = &steps[turn + 6];
     let control = Control::MeanPressure(step.solution.report.mean_pressure);
-    let saddle = StabilityTest::default().run(&mut problem, control, &step.solution).unwrap();
-    let left = saddle.leave(&mut Solver::default(), &mut problem, control, &step.solution).unwrap().unwrap();
+    let saddle = StabilityTest::under(control).run(&mut problem, &step.solution).unwrap();
+    let left = saddle.leave(&mut Solver::default(), &mut problem, &step.solution).unwrap().unwrap();
     assert!(left.energy_drop > 0.0 && left.distance > 0.0);
 }
 
@@ -212,7 +211,7 @@ fn energy_is_balanced_through_a_bifurcation() {
     let test = StabilityTest::default();
     let mut problem = two_waves(256, 0.0);
     for step in [before, after] {
-        let stability = test.run(&mut problem, step.control, &step.solution).unwrap();
+        let stability = test.run(&mut problem, &step.solution).unwrap();
         assert_eq!(stability.verdict, Verdict::Stable, "{}", stability.eigenvalue);
     }
     // the symmetry is gone

@@ -35,13 +35,12 @@ fn solve<L: AdhesionLaw<f64>>(
 /// Contact area without adhesion, from nodes and within its edge, over the loads.
 fn areas(n: usize, seed: u64, loads: &[f64]) -> Vec<[f64; 2]> {
     let mut problem = press(n, seed, NoAdhesion);
-    let grid = *problem.grid();
     let mut solver = Solver::default();
     Sweep::new(&mut solver, &mut problem, loads.iter().copied().map(Control::MeanPressure))
         .map(|step| {
-            let (_, solution) = step.unwrap();
+            let solution = step.unwrap();
             assert_eq!(solution.report.status, Status::Converged);
-            let found = ContactStatistics::of(&solution, &grid, &NoAdhesion).unwrap();
+            let found = ContactStatistics::of(&solution, &NoAdhesion).unwrap();
             [found.contact_fraction, found.corrected_contact_fraction]
         })
         .collect()

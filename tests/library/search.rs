@@ -23,7 +23,7 @@ fn search<T: Real, L: AdhesionLaw<T>>(
         let found = search.at(fraction).unwrap();
         let report = &found.solution.report;
         assert!(found.reached && is_near(report, fraction, nodes), "{fraction}: {}", report.contact_fraction);
-        check(&found.solution, search.problem().law(), found.control);
+        check(&found.solution, search.problem().law(), found.solution.report.control);
         solves += found.solves;
         applications += found.operator_applications;
     }
@@ -52,7 +52,7 @@ fn with_adhesion_a_search_follows_the_gap() {
     // as tension holds them there
     let mut solver = Solver::default();
     let found = ContactSearch::new(&mut solver, &mut problem).unwrap().at(0.02).unwrap();
-    assert!(matches!(found.control, Control::MeanGap(gap) if gap > 0.0));
+    assert!(matches!(found.solution.report.control, Control::MeanGap(gap) if gap > 0.0));
 }
 
 /// A sphere on a free half-space of n² nodes.
@@ -75,7 +75,7 @@ fn a_free_tip_has_the_contact_that_hertz_gives() {
     let mut problem = free_sphere(96, MaugisDugdale::new(2e-4, 6e-3).unwrap());
     let found = ContactSearch::new(&mut solver, &mut problem).unwrap().at(0.05).unwrap();
     assert!(found.reached && is_near(&found.solution.report, 0.05, 96 * 96), "{found:?}");
-    assert!(matches!(found.control, Control::Approach(_)));
+    assert!(matches!(found.solution.report.control, Control::Approach(_)));
 }
 
 #[test]

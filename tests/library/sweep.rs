@@ -22,25 +22,26 @@ fn evenly(from: f64, to: f64, count: usize) -> Vec<f64> {
 fn sweep<T: Real, O: ElasticOperator<T>, L: AdhesionLaw<T>>(
     problem: &mut Problem<T, O, L>,
     loads: &[Control],
-) -> Vec<(Control, Solution<T>)> {
+) -> Vec<Solution<T>> {
     let steps: Result<Vec<_>> = Sweep::new(&mut Solver::default(), problem, loads.to_vec()).collect();
     steps.unwrap()
 }
 
-fn applications<T>(steps: &[(Control, Solution<T>)]) -> usize {
-    steps.iter().map(|(_, solution)| solution.report.operator_applications).sum()
+fn applications<T>(steps: &[Solution<T>]) -> usize {
+    steps.iter().map(|solution| solution.report.operator_applications).sum()
 }
 
 /// Sweeps, compares with single solves, and returns the operator applications of both.
 #[track_caller]
 fn compare<L: AdhesionLaw<f64>>(problem: &mut Problem<f64, Westergaard<f64>, L>, loads: &[Control]) -> (usize, usize) {
     let steps = sweep(problem, loads);
-    assert_eq!(steps.iter().map(|(control, _)| *control).collect::<Vec<_>>(), loads);
+    assert_eq!(steps.iter().map(|step| step.report.control).collect::<Vec<_>>(), loads);
     let mut cold = 0;
-    for (control, found) in &steps {
-        check(found, problem.law(), *control);
+    for found in &steps {
+        let control = found.report.control;
+        check(found, problem.law(), control);
         assert_eq!(found.report.status, Status::Converged);
-        let single = Solver::default().solve(problem, *control).unwrap().report;
+        let single = Solver::default().solve(problem, control).unwrap().report;
         cold += single.operator_applications;
         assert!((found.report.mean_gap - single.mean_gap).abs() <= 1e-5 * single.mean_gap);
         assert!(found.report.contact_nodes.abs_diff(single.contact_nodes) <= 3);
@@ -117,11 +118,11 @@ fn a_free_half_space_starts_as_it_is_beyond_its_window() {
     let mut problem = Problem::new(&surface, free, NoAdhesion).unwrap();
     let loads: Vec<_> = evenly(1e-3, 1.9e-3, 10).into_iter().map(Control::Force).collect();
     let steps = sweep(&mut problem, &loads);
-    assert!(steps.iter().all(|(_, solution)| solution.report.status == Status::Converged));
+    assert!(steps.iter().all(|solution| solution.report.status == Status::Converged));
     // each from the gap on the window alone, as long as it takes there
-    let (mut solver, mut alone) = (Solver::default(), steps[0].1.report.operator_applications);
+    let (mut solver, mut alone) = (Solver::default(), steps[0].report.operator_applications);
     for (k, &load) in loads.iter().enumerate().skip(1) {
-        let start = Start::From(&steps[k - 1].1.gap);
+        let start = Start::From(&steps[k - 1].gap);
         let found = solver.solve_with(&mut problem, load, start, |_| ControlFlow::Continue(())).unwrap();
         alone += found.report.operator_applications;
     }
@@ -155,7 +156,8 @@ fn sweeps_go_through_full_contact_and_back() {
         pressures(&[0.1, 100.0, 100.0, 200.0, 0.1, 0.01, 50.0]),
         [gaps(&[0.01, 0.0]), pressures(&[0.1]), gaps(&[0.0, 0.01, 0.02]), pressures(&[100.0, 0.1])].concat(),
     ] {
-        for (control, solution) in sweep(&mut problem, &loads) {
+        for solution in sweep(&mut problem, &loads) {
+            let control = solution.report.control;
             assert_eq!(solution.report.status, Status::Converged, "{control:?}");
             let single = Solver::default().solve(&mut problem, control).unwrap().report;
             assert!((solution.report.mean_gap - single.mean_gap).abs() <= 1e-5 * single.mean_gap, "{control:?}");
@@ -170,8 +172,8 @@ fn a_sweep_with_adhesion_follows_its_branch() {
     let mut problem = sphere::<f64, _>(32, law);
     let pressed = pressures(&[1e-3, 0.0, -1e-3, -2e-2, -1e-3, 1e-3]);
     let steps = sweep(&mut problem, &pressed);
-    let status: Vec<_> = steps.iter().map(|(_, solution)| solution.report.status).collect();
-    let contact: Vec<_> = steps.iter().map(|(_, solution)| solution.report.contact_nodes).collect();
+    let status: Vec<_> = steps.iter().map(|solution| solution.report.status).collect();
+    let contact: Vec<_> = steps.iter().map(|solution| solution.report.contact_nodes).collect();
     // pulled apart by the fourth load, the surfaces do not come together again under the fifth
     assert_eq!(status[..3], [Status::Converged; 3]);
     assert_eq!(status[3..5], [Status::Detached; 2]);
@@ -190,7 +192,7 @@ fn every_constraint_can_be_swept() {
     let soft: Vec<_> = Sweep::new(&mut penalty, &mut problem, loads.clone()).map(Result::unwrap).collect();
     let hard: Vec<_> = Sweep::new(&mut uzawa, &mut problem, loads).map(Result::unwrap).collect();
     for (steps, allowed) in [(soft, 1e-2), (hard, 1e-4)] {
-        for ((_, found), (_, exact)) in steps.iter().zip(&exact) {
+        for (found, exact) in steps.iter().zip(&exact) {
             assert_eq!(found.report.status, Status::Converged);
             assert!((found.report.mean_gap / exact.report.mean_gap - 1.0).abs() < allowed);
         }

@@ -292,7 +292,7 @@ fn a_contact_pressure_above_the_modulus_is_told() {
     let mut problem = Problem::new(&surface, Westergaard::<f64>::new(grid, 2.0).unwrap(), NoAdhesion).unwrap();
     let mut found = |pressure| {
         let solution = Solver::default().solve(&mut problem, Control::MeanPressure(pressure)).unwrap();
-        Warning::of_solution(&solution, 2.0)
+        Warning::of_solution(&solution)
     };
     assert!(found(0.01).is_empty());
     let warnings = found(3.0);
@@ -312,7 +312,7 @@ fn the_contact_area_is_as_wrong_as_the_warning_says() {
         // the branch of loading is less wrong
         let mut solver = Solver::new(Settings::default().branch(Branch::Unloading));
         let solution = solver.solve(&mut problem, Control::MeanPressure(1e-3)).unwrap();
-        let area = ContactStatistics::of(&solution, &grid, &law).unwrap().corrected_contact_fraction;
+        let area = ContactStatistics::of(&solution, &law).unwrap().corrected_contact_fraction;
         (area, Warning::of_law::<f64>(&law, &surface, 1.0))
     };
     let ((fine, none), (middle, small), (coarse, large)) = (found(512), found(128), found(64));

@@ -202,7 +202,7 @@ fn a_law_that_ends_before_it_is_cut_off_solves_as_itself() {
 #[test]
 fn ranges_that_vary_are_solved_as_each_of_them_on_its_own() {
     // ever so long along y, so that the halves meet each other by their mean displacement alone
-    let (n, settings) = (64, Settings { tolerance: Some(1e-8), ..Settings::default() });
+    let (n, settings) = (64, Settings::default().tolerance(1e-8));
     let grid = Grid::new((n, n), (1.0, 32.0)).unwrap();
     let laws = [(4e-4, 8e-3), (1e-4, 4e-3)].map(|(w, range)| Exponential::new(w, range).unwrap());
     let patches = Patches { laws: laws.to_vec(), shape: (n, n), of: (0..n * n).map(|node| node % n / 32).collect() };

@@ -4,7 +4,7 @@ use std::time::Instant;
 
 use asperity::accuracy::{Accuracy, GridError, Plan, Quantity};
 use asperity::io::available_memory;
-use asperity::{Control, ElasticOperator, Level, Real, Result, Solver};
+use asperity::{ElasticOperator, Level, Real, Report, Result, Solver};
 use clap::{Args, ValueEnum};
 use ndarray::Array2;
 use serde_json::{Map, Value, json};
@@ -154,8 +154,8 @@ pub fn unknown(nodes_per_wave: f64) -> String {
 }
 
 /// The estimated errors of the finest of some grids, by quantity; `null` where one cannot be told, or is given.
-pub fn errors(levels: &[Level], nodes_per_wave: f64, mu_rho: f64, control: Control) -> Value {
-    let all = GridError::of_all(levels, control, nodes_per_wave, mu_rho);
+pub fn errors(levels: &[Level], report: &Report, nodes_per_wave: f64) -> Value {
+    let all = GridError::of_all(levels, report, nodes_per_wave);
     let told =
         |GridError { relative, order, rough, .. }| json!({ "relative": relative, "order": order, "rough": rough });
     Value::Object(
@@ -164,8 +164,8 @@ pub fn errors(levels: &[Level], nodes_per_wave: f64, mu_rho: f64, control: Contr
 }
 
 /// The estimated errors in words: that of the area, if it can be told, and those that are sure.
-pub fn told_errors(levels: &[Level], nodes_per_wave: f64, mu_rho: f64, control: Control) -> Option<String> {
-    let all = GridError::of_all(levels, control, nodes_per_wave, mu_rho).into_iter();
+pub fn told_errors(levels: &[Level], report: &Report, nodes_per_wave: f64) -> Option<String> {
+    let all = GridError::of_all(levels, report, nodes_per_wave).into_iter();
     let told = all.filter_map(|(of, error)| {
         error.filter(|error| of == Quantity::Area || !error.rough).map(|error| estimate(&error, of))
     });

@@ -8,7 +8,7 @@ use asperity::accuracy::{Accuracy, AccurateSolution, GridError};
 use asperity::contact::ContactStatistics;
 use asperity::stability::{ContactStiffness, Departure, Stability, StabilityTest, Verdict};
 use asperity::{
-    AdhesionLaw, ContactSearch, Control, FoundContact, Grid, Iteration, Level, Nested, NestedSolution, Problem, Report,
+    AdhesionLaw, ContactSearch, Control, FoundContact, Iteration, Level, Nested, NestedSolution, Problem, Report,
     Settings, Solution, Solver, Start, Surface,
 };
 use ndarray::Array2;
@@ -135,9 +135,7 @@ const MOST_DEPARTURES: usize = 10;
 /// The account of a solve, for the table and the report.
 pub struct Account {
     pub report: Report,
-    /// The load that was held.
-    pub control: Control,
-    /// The search for it, if there was one.
+    /// The search for the load, if there was one.
     pub search: Option<Search>,
     pub nodes: usize,
     /// The contact and its edge, without statistics of the attraction.
@@ -186,7 +184,7 @@ pub fn solve<T: Scalar, L: AdhesionLaw<T>>(
         progress.update(state);
         ControlFlow::Continue(())
     };
-    let (mut solution, control, search) = match case.fraction {
+    let (mut solution, search) = match case.fraction {
         Some(fraction) => {
             let mut search = ContactSearch::new(&mut solver, &mut problem)?;
             if let Start::From(gap) = start {
@@ -194,18 +192,18 @@ pub fn solve<T: Scalar, L: AdhesionLaw<T>>(
             }
             let found = search.at_observed(fraction, observe)?;
             let search = Search::of(fraction, &found);
-            (found.solution, found.control, Some(search))
+            (found.solution, Some(search))
         }
-        None => (solver.solve_with(&mut problem, case.control, start, observe)?, case.control, None),
+        None => (solver.solve_with(&mut problem, case.control, start, observe)?, None),
     };
     let mut departures = Vec::new();
     let stability = loop {
         if !case.stability {
             break None;
         }
-        let found = StabilityTest::default().run_with(&mut problem, &case.wall, control, &solution)?;
+        let found = StabilityTest::default().run_with(&mut problem, &case.wall, &solution)?;
         let leaves = case.leave && found.verdict == Verdict::Unstable && departures.len() < MOST_DEPARTURES;
-        let left = if leaves { found.leave(&mut solver, &mut problem, control, &solution)? } else { None };
+        let left = if leaves { found.leave(&mut solver, &mut problem, &solution)? } else { None };
         let Some(left) = left.filter(|left| left.energy_drop > 0.0) else {
             break Some(steadiness(found));
         };
@@ -215,7 +213,7 @@ pub fn solve<T: Scalar, L: AdhesionLaw<T>>(
     };
     let find = || ContactStiffness::of_constrained(&mut problem, &case.wall, &solution, ContactStiffness::TOLERANCE);
     let stiffness = case.stiffness.then(find).transpose()?;
-    let (solution, account) = account(solution, control, problem.law(), &grid, None, clock)?;
+    let (solution, account) = account(solution, problem.law(), None, clock)?;
     Ok((solution, Account { search, stability, stiffness, departures, ..account }))
 }
 
@@ -244,8 +242,7 @@ fn solve_nested<T: Scalar, L: AdhesionLaw<T>>(
     let applications = found.equivalent_applications();
     let NestedSolution { solution, levels, .. } = found;
     let stiffness = levels.last().and_then(|finest| finest.stiffness);
-    let (solution, account) =
-        account(solution, case.control, &law, surface.grid(), Some((levels, applications)), clock)?;
+    let (solution, account) = account(solution, &law, Some((levels, applications)), clock)?;
     let nodes_per_wave = surface.nodes_per_wave(account.report.boundary);
     Ok((solution, Account { stiffness, nodes_per_wave, ..account }))
 }
@@ -269,31 +266,27 @@ pub fn solve_to<T: Scalar, L: AdhesionLaw<T>>(
     let AccurateSolution { solution, surface, levels, error, reached, refinable, unaffordable, .. } = found;
     let stiffness = levels.last().and_then(|finest| finest.stiffness);
     let reached = Reached { accuracy: wanted.target, of: wanted.of, reached, error, unaffordable, refinable };
-    let (solution, account) =
-        account(solution, case.control, &law, surface.grid(), Some((levels, applications)), clock)?;
+    let (solution, account) = account(solution, &law, Some((levels, applications)), clock)?;
     let nodes_per_wave = surface.nodes_per_wave(account.report.boundary);
     Ok((surface, solution, Account { stiffness, nodes_per_wave, reached: Some(reached), ..account }))
 }
 
 fn account<T: Scalar>(
     solution: Solution<T>,
-    control: Control,
     law: &impl AdhesionLaw<T>,
-    grid: &Grid,
     grids: Option<(Vec<Level>, f64)>,
     clock: Instant,
 ) -> Outcome<(Solution<T>, Account)> {
     let seconds = clock.elapsed().as_secs_f64();
-    check_finite(&solution, grid)?;
+    check_finite(&solution)?;
     let least = (f64::INFINITY, f64::NEG_INFINITY);
     let pressures = solution.pressure.iter().fold(least, |(low, high), p| (low.min(p.widen()), high.max(p.widen())));
-    let pressures = grid.extremes(pressures);
+    let pressures = solution.grid.extremes(pressures);
     let account = Account {
         report: solution.report.clone(),
-        control,
         search: None,
-        nodes: grid.nodes(),
-        contact: ContactStatistics::of(&solution, grid, law)?,
+        nodes: solution.grid.nodes(),
+        contact: ContactStatistics::of(&solution, law)?,
         pressures,
         grids,
         seconds,
@@ -323,8 +316,8 @@ fn steadiness<T: Scalar>(found: Stability<T>) -> Steadiness {
 }
 
 /// Refuses fields that are not finite, as of a solve that has run away.
-pub fn check_finite<T: Scalar>(solution: &Solution<T>, grid: &Grid) -> Outcome<()> {
-    let Solution { gap, pressure, contact_pressure, report, .. } = solution;
+pub fn check_finite<T: Scalar>(solution: &Solution<T>) -> Outcome<()> {
+    let Solution { gap, pressure, contact_pressure, grid, report, .. } = solution;
     let fields = [("gap", gap), ("pressure", pressure), ("contact pressure", contact_pressure)];
     for (name, field) in fields {
         let count = grid.total(field.iter().filter(|value| !value.is_finite()).count());

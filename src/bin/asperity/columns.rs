@@ -1,8 +1,8 @@
 //! The columns that the tables of `asperity sweep` and `asperity cycle` share: the state, and how its solve ended.
 
+use asperity::Report;
 use asperity::contact::ContactStatistics;
 use asperity::stability::ContactStiffness;
-use asperity::{Control, Report};
 use serde_json::Value;
 
 use crate::case::Search;
@@ -74,8 +74,8 @@ pub fn search(found: &Search) -> impl Iterator<Item = Cell> {
 }
 
 /// The load and the state under it. Nothing in it depends on the clock.
-pub fn state(control: Control, report: &Report, statistics: &ContactStatistics) -> impl Iterator<Item = Cell> {
-    let (name, value) = name_and_value(control);
+pub fn state(report: &Report, statistics: &ContactStatistics) -> impl Iterator<Item = Cell> {
+    let (name, value) = name_and_value(report.control);
     let values: [Value; STATE.len()] = [
         name.into(),
         value.into(),

@@ -195,7 +195,8 @@ impl Options {
             let row = row(&step, &shown.report, self.direction(step.leg), &statistics, inputs);
             let checkpoint = path.checkpoint();
             let fields: Vec<_> = checkpoint.fields.iter().map(|field| field.view()).collect();
-            let (report, (_, load)) = (&shown.report, name_and_value(step.control));
+            let report = &shown.report;
+            let (_, load) = name_and_value(report.control);
             let (text, converged) = (csv::line(&row), report.status == Status::Converged);
             let row_to_keep = Row { text: &text, load, converged, fields: &fields, numbers: &checkpoint.numbers };
             table.append(&row_to_keep, &shown)?;
@@ -357,7 +358,7 @@ fn row<T>(
         ("event", step.event.as_ref().map_or(Value::Null, |event| event.name().into())),
         ("energy_drop", drop.into()),
     ];
-    let state = state(step.control, report, statistics);
+    let state = state(report, statistics);
     let cells = leg.into_iter().chain(state).chain(balance).chain(outcome(report)).chain(inputs);
     cells.map(|(name, value)| (name.to_owned(), value)).collect()
 }

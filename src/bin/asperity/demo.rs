@@ -114,7 +114,7 @@ pub fn run(options: &Options) -> Outcome<bool> {
         let none = Exponential::new(0.0, RANGE)?;
         for (name, solution, law) in [("without adhesion", &bare, &none), ("with adhesion", &sticky, &law)] {
             let path = |what: &str| path(&format!("{what}-{}", name.replace(' ', "-")));
-            let regions = solution.regions(&grid, law).mapv(f64::from);
+            let regions = solution.regions(law)?.mapv(f64::from);
             let contact = pictures::draw_regions(grid, &format!("Contact {name}"), &units, &regions, dpi)?;
             contact.write(&path("contact"))?;
             let (caption, title) = (format!("mean {}", si(PRESSURE, "Pa")), format!("Pressure {name}"));

@@ -114,11 +114,8 @@ impl Part {
     /// The statistics of the part of a solution on the whole.
     pub fn statistics<T: Real>(&self, solution: &Solution<T>, law: &impl AdhesionLaw<T>) -> Result<ContactStatistics> {
         match self.wanted() {
-            Some(original) => {
-                let (gap, pressure) = (solution.gap.view(), solution.contact_pressure.view());
-                original.statistics(gap, pressure, solution.report.modulus, law)
-            }
-            None => ContactStatistics::of(solution, &self.whole, law),
+            Some(original) => original.statistics(solution, law),
+            None => ContactStatistics::of(solution, law),
         }
     }
 

@@ -8,7 +8,7 @@ use std::path::PathBuf;
 
 use asperity::contact::PressureDistribution;
 use asperity::io::{OutputFolder, write_npz, write_vti};
-use asperity::{AdhesionLaw, Control, Grid, Solution, Status, Surface};
+use asperity::{AdhesionLaw, Control, Solution, Status, Surface};
 use clap::{ArgGroup, Args, ValueEnum};
 use ndarray::CowArray;
 use serde_json::Value;
@@ -327,8 +327,8 @@ impl Job<'_> {
             }
             (solution, account)
         };
-        let whole = if fits { solution.gathered(&grid) } else { None };
-        let look = |whole: &Cow<'_, _>| warnings.look_at(whole, self.case.modulus, &self.part);
+        let whole = if fits { solution.gathered() } else { None };
+        let look = |whole: &Cow<'_, _>| warnings.look_at(whole, &self.part);
         processes.agree(whole.as_ref().map_or(Ok(()), look))?;
         account.warnings = warnings.report();
         let law = adhesion.law()?;
@@ -355,7 +355,7 @@ impl Job<'_> {
             let Some(folder) = folder else { return Ok(()) };
             let law = whole_adhesion.as_ref().map(Adhesion::law).transpose()?;
             let whole = whole.as_deref().zip(law.as_ref());
-            let written = self.write(&folder, grid.alone(), whole, &account);
+            let written = self.write(&folder, whole, &account);
             written.map_err(|error| at_destination(error, out))?;
             Ok(folder.commit()?)
         })?;
@@ -409,7 +409,7 @@ impl Job<'_> {
         let tolerance = case.settings.tolerance_in::<T>();
         let progress = Progress::new("", tolerance, grid.nodes(), self.options.printing.without_bars());
         let (found, _) = case::solve::<T, _>(surface, adhesion.law()?, &case, None, progress)?;
-        let (distance, same) = (found.distance(solution, &grid), found.agrees_with(solution, &grid));
+        let (distance, same) = (found.distance(solution), found.agrees_with(solution));
         let report = self.part.of_solution(&found)?.report.clone();
         Ok(Other { report, distance, same })
     }
@@ -436,7 +436,6 @@ impl Job<'_> {
     fn write<T: Scalar>(
         &self,
         folder: &OutputFolder,
-        grid: Grid,
         whole: Option<(&Solution<T>, &impl AdhesionLaw<T>)>,
         account: &Account,
     ) -> asperity::Result<()> {
@@ -464,7 +463,7 @@ impl Job<'_> {
         if !self.options.no_pictures {
             let (Options { picture_format, resolution: Resolution { dpi }, .. }, units) = (self.options, &self.units);
             let [contact_name, pressure_name] = picture_format.of(PICTURES);
-            let regions = self.part.of_field(whole.regions(&grid, law))?.mapv(f64::from);
+            let regions = self.part.of_field(whole.regions(law)?)?.mapv(f64::from);
             pictures::draw_regions(shown, "Contact", units, &regions, *dpi)?.write(&path(contact_name))?;
             let pressure = pictures::pressure_to_draw(solution, self.options.adhesion.law != Law::None);
             let limits = self.options.colour_limits();

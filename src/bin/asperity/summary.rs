@@ -117,8 +117,7 @@ pub fn table(names: &[&str], solves: &[&Account], adhesive: bool, units: &Units,
     }
     if solves.iter().any(|solve| solve.grids.is_some()) {
         row("error of the grid", &|s, r| {
-            let errors =
-                |(levels, _): &(Vec<_>, _)| accuracy::told_errors(levels, s.nodes_per_wave, r.mu_rho, s.control);
+            let errors = |(levels, _): &(Vec<_>, _)| accuracy::told_errors(levels, r, s.nodes_per_wave);
             let told = || s.grids.as_ref().and_then(errors).unwrap_or_else(|| accuracy::unknown(s.nodes_per_wave));
             s.reached.as_ref().map_or_else(told, Reached::estimate)
         });

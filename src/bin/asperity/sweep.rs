@@ -178,11 +178,11 @@ impl Options {
             let name = format!("{}/{count}", k + 1);
             let step = table.observed(&name, grid.nodes(), |observe| steps.next(load, observe));
             let Some(step) = step else { break };
-            let (control, solution, searched) = step?;
+            let (solution, searched) = step?;
             table.check(&solution)?;
             let (shown, statistics) = (part.of_solution(&solution)?, part.statistics(&solution, &law)?);
             let inputs = inputs(self.problem(), part, origin.seed);
-            let mut row = row(control, &shown.report, &statistics, inputs);
+            let mut row = row(&shown.report, &statistics, inputs);
             row.extend(searched.iter().flat_map(search).map(|(name, value)| (name.to_owned(), value)));
             if self.stiffness {
                 let (problem, tolerance) = (steps.problem(), ContactStiffness::TOLERANCE);
@@ -271,8 +271,8 @@ enum Steps<'a, T: Scalar> {
     Search(ContactSearch<'a, T, Body<T>, Adhesive<T>, Wall>),
 }
 
-/// A load, the solution under it, and the search for it if there was one.
-type Step<T> = (Control, Solution<T>, Option<Search>);
+/// A solution, and the search for its load if there was one.
+type Step<T> = (Solution<T>, Option<Search>);
 
 impl<T: Scalar> Steps<'_, T> {
     /// The next solution; `load` is a contact fraction if that is searched for.
@@ -282,12 +282,10 @@ impl<T: Scalar> Steps<'_, T> {
         observe: impl FnMut(&Iteration) -> ControlFlow<()> + Send,
     ) -> Option<asperity::Result<Step<T>>> {
         match self {
-            Self::Sweep(sweep) => {
-                Some(sweep.next_observed(observe)?.map(|(control, solution)| (control, solution, None)))
-            }
+            Self::Sweep(sweep) => Some(sweep.next_observed(observe)?.map(|solution| (solution, None))),
             Self::Search(search) => Some(search.at_observed(load, observe).map(|found| {
                 let searched = Search::of(load, &found);
-                (found.control, found.solution, Some(searched))
+                (found.solution, Some(searched))
             })),
         }
     }
@@ -320,12 +318,7 @@ fn parsed(format: Format, names: &[&'static str], row: &str) -> Value {
 }
 
 /// The content of a row, by the names of the columns. Nothing in it depends on the clock.
-fn row(
-    control: Control,
-    report: &Report,
-    statistics: &ContactStatistics,
-    inputs: impl Iterator<Item = Cell>,
-) -> Map<String, Value> {
-    let cells = state(control, report, statistics).chain(outcome(report)).chain(inputs);
+fn row(report: &Report, statistics: &ContactStatistics, inputs: impl Iterator<Item = Cell>) -> Map<String, Value> {
+    let cells = state(report, statistics).chain(outcome(report)).chain(inputs);
     cells.map(|(name, value)| (name.to_owned(), value)).collect()
 }

@@ -55,7 +55,6 @@ pub struct TableOptions<'a> {
 /// All of them read the whole of the fields from which it goes on when it is opened again.
 pub struct Table<'a> {
     options: TableOptions<'a>,
-    grid: Grid,
     journal: Option<Journal>,
     /// The number of loads, where that is known before
     loads: Option<usize>,
@@ -123,16 +122,13 @@ impl<'a> Table<'a> {
         let opened = match opened {
             Some((journal, saved, warnings, made)) => {
                 let (rows, unconverged) = (journal.rows(), journal.unconverged());
-                Ok((
-                    saved,
-                    Self { options, grid, journal: Some(journal), loads: count, rows, unconverged, warnings, made },
-                ))
+                Ok((saved, Self { options, journal: Some(journal), loads: count, rows, unconverged, warnings, made }))
             }
             None => Seen::read(out).and_then(|Seen { saved, rows, unconverged }| {
                 let warnings = Warnings::none(strictness, options.units, true)?;
                 Ok((
                     saved,
-                    Self { options, grid, journal: None, loads: count, rows, unconverged, warnings, made: Vec::new() },
+                    Self { options, journal: None, loads: count, rows, unconverged, warnings, made: Vec::new() },
                 ))
             }),
         };
@@ -183,10 +179,9 @@ impl<'a> Table<'a> {
 
     /// Looks at a solution before its row is written: refuses one that ran away, and says its warnings.
     pub fn check<T: Scalar>(&mut self, solution: &Solution<T>) -> Outcome<()> {
-        check_finite(solution, &self.grid)?;
-        let TableOptions { problem, part, processes, .. } = self.options;
-        let (whole, modulus) = (solution.gathered(&self.grid), problem.surface.modulus());
-        processes.agree(whole.map_or(Ok(()), |whole| self.warnings.look_at(&whole, modulus, part)))
+        check_finite(solution)?;
+        let TableOptions { part, processes, .. } = self.options;
+        processes.agree(solution.gathered().map_or(Ok(()), |whole| self.warnings.look_at(&whole, part)))
     }
 
     /// Appends a row, with the fields of its solution on the part of the surface, if they are kept.

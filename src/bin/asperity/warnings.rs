@@ -171,8 +171,8 @@ impl Warnings {
     }
 
     /// Looks at an answer, and prints its warnings; of many answers, the worst counts.
-    pub fn look_at<T: Scalar>(&mut self, solution: &Solution<T>, modulus: f64, part: &Part) -> Outcome<()> {
-        let mut found = Warning::of_solution(solution, modulus);
+    pub fn look_at<T: Scalar>(&mut self, solution: &Solution<T>, part: &Part) -> Outcome<()> {
+        let mut found = Warning::of_solution(solution);
         found.extend(part.warning(solution)?);
         self.add(found.iter().map(|warning| Told::new(warning, &self.units)).collect())?;
         self.say()

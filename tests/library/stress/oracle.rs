@@ -486,7 +486,7 @@ impl<'a, T: Real> Judge<'a, T> {
         let loads = [(scene.control, self.held), (Control::MeanPressure(pressure), Held::Pressure(pressure))];
         let loads = &loads[..if matches!(self.held, Held::Shift(_)) { 2 } else { 1 }];
         let verdict = |&(control, held): &(Control, Held)| {
-            let test = StabilityTest::default().run_with(problem, constraint, control, self.solution);
+            let test = StabilityTest::under(control).run_with(problem, constraint, self.solution);
             let stability = test.map_err(|error| format!("no stability test: {error}"))?;
             let below = |number: f64| self.dense.below(&free, held, &slopes, number);
             let (value, bound) = (stability.eigenvalue, stability.lower_bound);

@@ -17,7 +17,7 @@ impl Options {
     /// All that one needs for understanding a run later; numbers that are not finite become null.
     pub fn report(&self, part: &Part, account: &Account, units: &Units, scene: &Scene) -> Value {
         let report = &account.report;
-        let (control, held) = name_and_value(account.control);
+        let (control, held) = name_and_value(report.control);
         let levels = account.grids.as_ref().map(|(levels, _)| levels.iter().map(level).collect::<Vec<_>>());
         let outcome = json!({
             "status": report.status.name(),
@@ -31,7 +31,7 @@ impl Options {
             "levels": levels,
             "equivalent_applications": account.grids.as_ref().map(|(_, applications)| applications),
             "grid_error": account.grids.as_ref().map(|(levels, _)| {
-                accuracy::errors(levels, account.nodes_per_wave, report.mu_rho, account.control)
+                accuracy::errors(levels, report, account.nodes_per_wave)
             }),
             "accuracy": account.reached.as_ref().map(|reached| json!({
                 "wanted": reached.accuracy,
@@ -43,7 +43,7 @@ impl Options {
             "mean_pressure": report.mean_pressure,
             "normal_force": report.normal_force,
             "approach": report.approach,
-            "spring_stiffness": spring_stiffness(account.control),
+            "spring_stiffness": spring_stiffness(report.control),
             "carried_pressure": report.carried_pressure,
             "mean_contact_pressure": report.mean_contact_pressure,
             "contact_fraction": report.contact_fraction,
