@@ -19,11 +19,10 @@ _NAMES: dict[type, str] = {
 
 def entries(law: Any, wall: str) -> dict[str, Any]:
     """The law with its parameters, where it varies, and the wall; an object of one's own goes by its class."""
-    cut_off, varies = None, isinstance(law, _asperity.Varying)
-    if varies:
+    cut_off, varies = None, False
+    while isinstance(law, (_asperity.CutOff, _asperity.Varying)):
+        cut_off, varies = getattr(law, "distance", cut_off), varies or isinstance(law, _asperity.Varying)
         law = law.law
-    if isinstance(law, _asperity.CutOff):
-        law, cut_off = law.law, law.distance
     own = not isinstance(law, _asperity.Law)
     table = isinstance(law, _asperity.Tabulated)
     return {

@@ -2,7 +2,7 @@
 
 use std::sync::{Mutex, PoisonError};
 
-use asperity::{AdhesionLaw, Error};
+use asperity::{AdhesionLaw, Error, Hints};
 use numpy::PyArray1;
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
@@ -145,7 +145,8 @@ pub fn check(object: &Bound<'_, PyAny>, largest_gap: Option<f64>) -> PyResult<()
 
 /// A gap at which most laws have decayed: ten ranges, from the gap of rest on.
 pub fn far(law: &dyn AdhesionLaw<f64>) -> f64 {
-    law.rest().unwrap_or(0.0) + 10.0 * law.range()
+    let hints = law.hints();
+    hints.rest.unwrap_or(0.0) + 10.0 * hints.range
 }
 
 impl Called {
@@ -168,10 +169,9 @@ impl AdhesionLaw<f64> for Called {
     fn slope(&self, gap: f64) -> f64 {
         self.at(Function::Slope, gap)
     }
-    fn range(&self) -> f64 {
-        self.scales.range
-    }
-    fn rest(&self) -> Option<f64> {
-        self.scales.rest
+    fn hints(&self) -> Hints<f64> {
+        let mut hints = Hints::new(self.scales.work_of_adhesion, self.scales.range);
+        hints.rest = self.scales.rest;
+        hints
     }
 }

@@ -1,6 +1,6 @@
 //! The jumps of a law of Python, and the law without them.
 
-use asperity::{AdhesionLaw, Real};
+use asperity::{AdhesionLaw, Hints, Real};
 
 use crate::table::Table;
 
@@ -50,13 +50,7 @@ impl<T: Real> AdhesionLaw<T> for Smoothed<'_> {
     fn slope(&self, gap: T) -> T {
         T::lit(self.at(gap.widen())[2])
     }
-    fn work_of_adhesion(&self) -> T {
-        self.table.work_of_adhesion()
-    }
-    fn range(&self) -> T {
-        T::lit(self.table.range())
-    }
-    fn rest(&self) -> Option<T> {
-        self.table.rest()
+    fn hints(&self) -> Hints<T> {
+        self.table.hints()
     }
 }

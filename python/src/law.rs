@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use asperity::{AdhesionLaw, Error, Grid, NoAdhesion, Real};
+use asperity::{AdhesionLaw, Discretisation, Error, Hints, NoAdhesion, Real, Values};
 use numpy::ndarray::ArrayD;
 use numpy::{PyArray1, ToPyArray};
 use pyo3::exceptions::{PyTypeError, PyValueError};
@@ -64,47 +64,14 @@ impl<T: Real> AdhesionLaw<T> for Form {
     fn slope(&self, gap: T) -> T {
         self.law().slope(gap)
     }
-    fn work_of_adhesion(&self) -> T {
-        self.law().work_of_adhesion()
+    fn hints(&self) -> Hints<T> {
+        self.law().hints()
     }
-    fn range(&self) -> T {
-        self.law().range()
+    fn evaluate(&self, first: usize, gaps: &[T], values: Values<'_, T>) {
+        self.law().evaluate(first, gaps, values);
     }
-    fn is_zero(&self) -> bool {
-        self.law::<T>().is_zero()
-    }
-    fn is_concave(&self) -> bool {
-        self.law::<T>().is_concave()
-    }
-    fn rest(&self) -> Option<T> {
-        self.law().rest()
-    }
-    fn shape(&self) -> Option<(usize, usize)> {
-        self.law::<T>().shape()
-    }
-    fn in_rows_of(&self, grid: &Grid) -> Option<Box<dyn AdhesionLaw<T> + '_>> {
-        self.law().in_rows_of(grid)
-    }
-    fn coarsened(&self, stride: (usize, usize)) -> Option<Box<dyn AdhesionLaw<T> + '_>> {
-        self.law().coarsened(stride)
-    }
-    fn smoothed(&self, compliance: T) -> Option<Box<dyn AdhesionLaw<T> + '_>> {
-        self.law().smoothed(compliance)
-    }
-    fn energies(&self, first: usize, gaps: &[T], energies: &mut [T]) {
-        self.law().energies(first, gaps, energies);
-    }
-    fn tractions(&self, first: usize, gaps: &[T], tractions: &mut [T]) {
-        self.law().tractions(first, gaps, tractions);
-    }
-    fn slopes(&self, first: usize, gaps: &[T], slopes: &mut [T]) {
-        self.law().slopes(first, gaps, slopes);
-    }
-    fn energies_and_tractions(&self, first: usize, gaps: &[T], energies: &mut [T], tractions: &mut [T]) {
-        self.law().energies_and_tractions(first, gaps, energies, tractions);
-    }
-    fn tractions_and_slopes(&self, first: usize, gaps: &[T], tractions: &mut [T], slopes: &mut [T]) {
-        self.law().tractions_and_slopes(first, gaps, tractions, slopes);
+    fn adapted(&self, to: Discretisation<T>) -> Option<Box<dyn AdhesionLaw<T> + '_>> {
+        self.law().adapted(to)
     }
 }
 
@@ -115,9 +82,13 @@ pub fn law<T: Real>(object: &Bound<'_, PyAny>) -> PyResult<Box<dyn AdhesionLaw<T
 
 /// The node at which the work of adhesion of an object is largest, if it varies.
 pub fn strongest(object: &Bound<'_, PyAny>) -> Option<(usize, usize)> {
-    match &object.cast::<Law>().ok()?.get().0 {
-        Form::Varying(law) => Some(law.strongest()),
-        _ => None,
+    let mut form = &object.cast::<Law>().ok()?.get().0;
+    loop {
+        match form {
+            Form::Varying(law) => return Some(law.strongest()),
+            Form::CutOff(law) => form = law.law(),
+            _ => return None,
+        }
     }
 }
 
@@ -130,15 +101,15 @@ pub struct Law(Form);
 impl Law {
     /// Adhesive energy φ(g) per area, of the shape of the gaps.
     fn energy<'py>(&self, py: Python<'py>, gap: Numbers<'py>) -> PyResult<Bound<'py, PyAny>> {
-        self.at(py, &gap, AdhesionLaw::energy, AdhesionLaw::energies)
+        self.at(py, &gap, 0)
     }
     /// Adhesive traction φ'(g), positive attracts, of the shape of the gaps.
     fn traction<'py>(&self, py: Python<'py>, gap: Numbers<'py>) -> PyResult<Bound<'py, PyAny>> {
-        self.at(py, &gap, AdhesionLaw::traction, AdhesionLaw::tractions)
+        self.at(py, &gap, 1)
     }
     /// Slope of the traction φ''(g), of the shape of the gaps.
     fn slope<'py>(&self, py: Python<'py>, gap: Numbers<'py>) -> PyResult<Bound<'py, PyAny>> {
-        self.at(py, &gap, AdhesionLaw::slope, AdhesionLaw::slopes)
+        self.at(py, &gap, 2)
     }
     /// The constructor's call, with its parameters by name.
     fn __repr__(law: &Bound<'_, Self>) -> PyResult<String> {
@@ -150,16 +121,12 @@ impl Law {
 }
 
 impl Law {
-    /// A function at gaps of any shape; where the work of adhesion varies, at one for each of its nodes or one for all.
-    fn at<'py>(
-        &self,
-        py: Python<'py>,
-        gap: &Numbers<'py>,
-        one: impl Fn(&Form, f64) -> f64,
-        all: impl Fn(&Form, usize, &[f64], &mut [f64]),
-    ) -> PyResult<Bound<'py, PyAny>> {
-        let Some((nx, ny)) = AdhesionLaw::<f64>::shape(&self.0) else {
-            return mapped(py, gap, |gap| one(&self.0, gap));
+    /// Energies (0), tractions (1) or slopes (2) at gaps of any shape; where the work of adhesion varies, at one for each
+    /// of its nodes or one for all.
+    fn at<'py>(&self, py: Python<'py>, gap: &Numbers<'py>, order: usize) -> PyResult<Bound<'py, PyAny>> {
+        let law: &dyn AdhesionLaw<f64> = self.0.law();
+        let Some((nx, ny)) = law.hints().shape else {
+            return mapped(py, gap, |gap| [law.energy(gap), law.traction(gap), law.slope(gap)][order]);
         };
         let gap = gap.as_array();
         let gap = if gap.len() == 1 { ArrayD::from_elem(vec![nx, ny], gap.sum()) } else { gap.to_owned() };
@@ -171,7 +138,7 @@ impl Law {
         }
         let mut values = ArrayD::zeros(gap.shape());
         let gaps: Vec<f64> = gap.iter().copied().collect();
-        all(&self.0, 0, &gaps, values.as_slice_mut().unwrap_or_default());
+        law.evaluate(0, &gaps, Values::one(order, values.as_slice_mut().unwrap_or_default()));
         returned(py, values)
     }
 }
@@ -480,11 +447,8 @@ impl CutOff {
     #[new]
     fn new(law: &Bound<'_, PyAny>, distance: f64) -> PyResult<PyClassInitializer<Self>> {
         let form = Form::of(law)?;
-        if matches!(form, Form::Varying(_) | Form::CutOff(_)) {
-            return Err(PyValueError::new_err(
-                "the law to be cut off is cut off already, or varies: give Varying(CutOff(law, distance), \
-                 work_of_adhesion)",
-            ));
+        if matches!(form, Form::CutOff(_)) {
+            return Err(PyValueError::new_err("the law is cut off already: give the law that it is made of"));
         }
         let form = asperity::CutOff::new(Box::new(form), distance).map_err(refusal)?;
         let own = Self { law: law.clone().unbind(), distance };
@@ -528,7 +492,7 @@ impl Varying {
     #[new]
     fn new(law: &Bound<'_, PyAny>, work_of_adhesion: &Bound<'_, PyAny>) -> PyResult<PyClassInitializer<Self>> {
         let form = Form::of(law)?;
-        if matches!(form, Form::Varying(_)) {
+        if AdhesionLaw::<f64>::hints(&form).shape.is_some() {
             return Err(PyValueError::new_err("the law varies already: give the law that it is made of"));
         }
         let maps = law.py().import("asperity._topography")?;

@@ -1,6 +1,6 @@
 //! The table of a law of Python: read once, before a solve, which then needs the interpreter no more.
 
-use asperity::{AdhesionLaw, Error, Real};
+use asperity::{AdhesionLaw, Discretisation, Error, Hints, Real, Values};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
@@ -264,23 +264,17 @@ impl<T: Real> AdhesionLaw<T> for Table {
     fn slope(&self, gap: T) -> T {
         T::lit(self.at(gap.widen())[2])
     }
-    fn work_of_adhesion(&self) -> T {
-        T::lit(self.work_of_adhesion)
+    fn hints(&self) -> Hints<T> {
+        let mut hints = Hints::new(T::lit(self.work_of_adhesion), T::lit(self.range));
+        hints.rest = self.rest.map(T::lit);
+        hints
     }
-    fn range(&self) -> T {
-        T::lit(self.range)
+    fn evaluate(&self, _: usize, gaps: &[T], values: Values<'_, T>) {
+        values.set(gaps, |gap| self.at(gap.widen()).map(T::lit));
     }
-    fn smoothed(&self, compliance: T) -> Option<Box<dyn AdhesionLaw<T> + '_>> {
+    fn adapted(&self, to: Discretisation<T>) -> Option<Box<dyn AdhesionLaw<T> + '_>> {
+        let Discretisation::Smooth(compliance) = to else { return None };
         let smoothed = Smoothed { table: self, compliance: compliance.widen() };
         (!self.jumps.is_empty()).then(|| Box::new(smoothed) as Box<dyn AdhesionLaw<T>>)
-    }
-    fn rest(&self) -> Option<T> {
-        self.rest.map(T::lit)
-    }
-    fn tractions_and_slopes(&self, _: usize, gaps: &[T], tractions: &mut [T], slopes: &mut [T]) {
-        for ((gap, traction), slope) in gaps.iter().zip(tractions).zip(slopes) {
-            let [_, t, s] = self.at(gap.widen());
-            (*traction, *slope) = (T::lit(t), T::lit(s));
-        }
     }
 }

@@ -86,8 +86,19 @@ LAWS = [
 
 
 @pytest.mark.parametrize("law", LAWS, ids=lambda law: type(law).__name__)
-def test_laws_of_the_library_agree_with_themselves_and_travel(law):
-    asperity.check_law(law, 0.05)
+def test_every_law_and_every_wrapper_keeps_the_contract(law):
+    works = W * np.linspace(0.1, 1.0, 20).reshape(5, 4)
+    wrappers = [law, asperity.Varying(law, works)]
+    if not isinstance(law, asperity.CutOff):
+        wrappers += [asperity.CutOff(law, 0.03), asperity.CutOff(asperity.Varying(law, works), 0.03)]
+        wrappers += [asperity.Varying(asperity.CutOff(law, 0.03), works)]
+        assert np.allclose(wrappers[-1].traction(1e-3), wrappers[-2].traction(1e-3), rtol=1e-12)
+    for wrapper in wrappers:
+        asperity.check_law(wrapper, 0.05)
+
+
+@pytest.mark.parametrize("law", LAWS, ids=lambda law: type(law).__name__)
+def test_laws_of_the_library_travel(law):
     assert isinstance(law, asperity.Law)
     other = pickle.loads(pickle.dumps(law))
     assert other == law and repr(other) == repr(law)
@@ -174,11 +185,12 @@ def test_a_work_of_adhesion_may_differ_from_node_to_node(rough):
         ((asperity.Exponential(0.0, RANGE), works), "work of adhesion of the law that varies is 0"),
         ((asperity.Exponential(1.0, RANGE), np.ones((2, 2, 2))), "works of adhesion have shape"),
         ((asperity.Varying(asperity.Exponential(1.0, RANGE), works), works), "varies already"),
+        ((asperity.CutOff(asperity.Varying(asperity.Exponential(1.0, RANGE), works), 0.1), works), "varies already"),
     ]:
         with pytest.raises(ValueError, match=message):
             asperity.Varying(*given)
-    with pytest.raises(ValueError, match="varies: give Varying"):
-        asperity.CutOff(asperity.Varying(asperity.Exponential(1.0, RANGE), works), 0.1)
+    with pytest.raises(ValueError, match="cut off already"):
+        asperity.CutOff(asperity.CutOff(asperity.Exponential(1.0, RANGE), 0.1), 0.1)
     with pytest.raises(ValueError, match="32 x 64"):
         asperity.solve(rough, law=asperity.Varying(asperity.Exponential(1.0, RANGE), works[32:]), **options)
     with pytest.raises(ValueError, match=r"gap has shape \[3\]"):
@@ -207,6 +219,9 @@ def test_a_law_that_is_cut_off_keeps_its_work_of_adhesion(rough):
         asperity.check_law(varying, 0.05)
         by_map = asperity.solve(rough, law=varying, **options)
         assert np.isclose(number.adhesive_energy, by_map.adhesive_energy, rtol=1e-6)
+        either = asperity.solve(rough, law=asperity.CutOff(asperity.Varying(kind(1.0, RANGE), works), 2.5 * RANGE), **options)
+        assert np.isclose(number.adhesive_energy, either.adhesive_energy, rtol=1e-6)
+        assert either.report["cut_off"] == 2.5 * RANGE and either.report["mu_rho_node"] == [0, 0]
     for law, distance in ((asperity.MaugisDugdale(W, RANGE), 0.9 * RANGE), (asperity.LennardJones(W, RANGE), RANGE)):
         with pytest.raises(ValueError, match="cut-off distance is .* at least a range of the law"):
             asperity.CutOff(law, distance)
