@@ -7,7 +7,6 @@
 //! | [`own_law`] | an adhesion law of your own |
 //! | [`own_operator`] | an elastic operator of your own: a layer of finite thickness |
 //! | [`own_constraint`] | a way of your own to keep the surfaces apart |
-//! | [`penalty_and_uzawa`] | the two classical ways beside projection, with figures |
 //! | [`boundary`] | a periodic cell or a free half-space, absent nodes; forces, approaches and springs |
 //! | [`branches`] | loading and unloading with adhesion: jumps, limit points, stability |
 //! | [`python`] | from Python: the package, and files |
@@ -36,7 +35,6 @@ page!(laws);
 page!(own_law);
 page!(own_operator);
 page!(own_constraint);
-page!(penalty_and_uzawa);
 page!(boundary);
 page!(branches);
 #[cfg(feature = "io")]

@@ -48,7 +48,7 @@
 //! | the whole way once, from the gap to the certificate | [`guide::tour`] |
 //! | an adhesion law of your own | [`guide::own_law`] |
 //! | an elastic body of your own: a layer of finite thickness | [`guide::own_operator`] |
-//! | a way of your own to keep the surfaces apart; penalty and Uzawa | [`guide::own_constraint`], [`guide::penalty_and_uzawa`] |
+//! | a way of your own to keep the surfaces apart | [`guide::own_constraint`] |
 //! | loading and unloading with adhesion | [`guide::branches`] |
 //! | a body that ends: free half-space, force, approach, spring, absent nodes | [`guide::boundary`] |
 //! | from Python: the package, and files | [`guide::python`] |
@@ -57,7 +57,7 @@
 //! | how the crate is built, and how its solver works | [`guide::architecture`], [`guide::driver`] |
 //! | past one machine, by MPI | [`guide::scaling`] |
 //! | how fast it is, and how far rounding lets it go | [`guide::performance`], [`guide::precision`] |
-//! | what the paper says | [`guide::paper_checked`] |
+//! | the paper's misprints; penalty and Uzawa beside projection | [`guide::paper_checked`] |
 //!
 //! # Conventions
 //!
