@@ -13,7 +13,6 @@
 //! | [`choosing`] | resolution, tolerance and precision for the accuracy you want |
 //! | [`performance`] | how fast: applications, times, memory, beside other programs |
 //! | [`scaling`] | several processes that solve one problem, by MPI: the same bits, what they send and need |
-//! | [`precision`] | how far rounding lets a solve go, and what becomes of extreme input |
 //! | [`paper_checked`] | the paper, its misprints, and its figures beside ours |
 //! | [`tool`] | the command-line tool: scenes, studies, the keys of its reports, exit codes |
 //! | [`cluster`] | job scripts for studies on many machines |
@@ -42,7 +41,6 @@ page!(python);
 page!(choosing);
 page!(performance);
 page!(scaling);
-page!(precision);
 page!(paper_checked);
 page!(tool);
 page!(cluster);

@@ -56,7 +56,7 @@
 //! | the command-line tool, its scenes and the keys of its reports; studies on clusters | [`guide::tool`], [`guide::cluster`] |
 //! | how the crate is built, and how its solver works | [`guide::architecture`], [`guide::driver`] |
 //! | past one machine, by MPI | [`guide::scaling`] |
-//! | how fast it is, and how far rounding lets it go | [`guide::performance`], [`guide::precision`] |
+//! | how fast it is, and what it needs | [`guide::performance`] |
 //! | the paper's misprints; penalty and Uzawa beside projection | [`guide::paper_checked`] |
 //!
 //! # Conventions
