@@ -12,7 +12,6 @@
 //! | [`python`] | from Python: the package, and files |
 //! | [`choosing`] | resolution, tolerance and precision for the accuracy you want |
 //! | [`performance`] | how fast: applications, times, memory, beside other programs |
-//! | [`scaling`] | several processes that solve one problem, by MPI: the same bits, what they send and need |
 //! | [`paper_checked`] | the paper, its misprints, and its figures beside ours |
 //! | [`tool`] | the command-line tool: scenes, studies, the keys of its reports, exit codes |
 //! | [`cluster`] | job scripts for studies on many machines |
@@ -40,7 +39,6 @@ page!(branches);
 page!(python);
 page!(choosing);
 page!(performance);
-page!(scaling);
 page!(paper_checked);
 page!(tool);
 page!(cluster);

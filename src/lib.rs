@@ -53,9 +53,9 @@
 //! | a body that ends: free half-space, force, approach, spring, absent nodes | [`guide::boundary`] |
 //! | from Python: the package, and files | [`guide::python`] |
 //! | resolution, tolerance and precision for the accuracy you want | [`guide::choosing`] |
-//! | the command-line tool, its scenes and the keys of its reports; studies on clusters | [`guide::tool`], [`guide::cluster`] |
+//! | the command-line tool, its scenes and the keys of its reports | [`guide::tool`] |
+//! | studies on clusters, and solves past one machine, by MPI | [`guide::cluster`] |
 //! | how the crate is built, and how its solver works | [`guide::architecture`], [`guide::driver`] |
-//! | past one machine, by MPI | [`guide::scaling`] |
 //! | how fast it is, and what it needs | [`guide::performance`] |
 //! | the paper's misprints; penalty and Uzawa beside projection | [`guide::paper_checked`] |
 //!
