@@ -1,25 +1,22 @@
-//! From the physics to the code, how to do this and that, and how the crate is built.
+//! The guide: the physics beside the code, how-tos, the tool, and the construction of the crate.
 //!
-//! | page | what for |
+//! | page | contents |
 //! |---|---|
-//! | [`tour`] | the whole way once: gap, pressure, balance, energy, adhesion, grid, certificate, each with its line of code |
+//! | [`tour`] | gap, pressure, balance, energy, adhesion, grid and certificate, each with its line of code |
 //! | [`laws`] | which adhesion law for what, laws that repel, and laws that vary over the surface |
 //! | [`own_law`] | an adhesion law of your own |
 //! | [`own_operator`] | an elastic operator of your own: a layer of finite thickness |
 //! | [`own_constraint`] | a way of your own to keep the surfaces apart |
-//! | [`penalty_and_uzawa`] | the two classical ways beside projection, with figures |
 //! | [`boundary`] | a periodic cell or a free half-space, absent nodes; forces, approaches and springs |
-//! | [`branches`] | loading and unloading with adhesion: jumps, limit points, stability |
-//! | [`python`] | from Python: the package, and files |
-//! | [`choosing`] | resolution, tolerance and precision for the accuracy you want |
-//! | [`performance`] | how fast: applications, times, memory, beside other programs |
-//! | [`scaling`] | several processes that solve one problem, by MPI: the same bits, what they send and need |
-//! | [`precision`] | how far rounding lets a solve go, and what becomes of extreme input |
-//! | [`paper_checked`] | the paper, its misprints, and its figures beside ours |
+//! | [`branches`] | loading and unloading with adhesion: jumps, limit points, loss of symmetry |
+//! | [`python`] | the Python package, and files for numpy |
+//! | [`choosing`] | grid, tolerance and precision for the accuracy you want; rounding and extreme input |
+//! | [`performance`] | the cost of a solve: applications, nested grids, time, memory, threads |
+//! | [`paper_checked`] | the paper's misprints; penalty and Uzawa beside projection |
 //! | [`tool`] | the command-line tool: scenes, studies, the keys of its reports, exit codes |
-//! | [`cluster`] | job scripts for studies on many machines |
+//! | [`cluster`] | job scripts for studies, and solves on several processes by MPI |
 //! | [`driver`] | what the solver minimises, its certificate, one iteration step by step, and every constant in it |
-//! | [`architecture`] | the layers of the crate, what may use what, and the data's way through one iteration |
+//! | [`architecture`] | the layers of the crate, the data's way, and places for new parts |
 //!
 //! The code on these pages is run by the tests.
 
@@ -36,15 +33,12 @@ page!(laws);
 page!(own_law);
 page!(own_operator);
 page!(own_constraint);
-page!(penalty_and_uzawa);
 page!(boundary);
 page!(branches);
 #[cfg(feature = "io")]
 page!(python);
 page!(choosing);
 page!(performance);
-page!(scaling);
-page!(precision);
 page!(paper_checked);
 page!(tool);
 page!(cluster);

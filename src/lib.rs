@@ -31,7 +31,7 @@
 //! let mut hertz = Problem::new(&sphere, half_space, NoAdhesion)?;
 //! let pressed = Solver::default().solve(&mut hertz, Control::MeanGap(0.0398))?;
 //! assert_eq!(pressed.report.status, Status::Converged);
-//! assert!(pressed.report.relative_error < 1e-6); // a bound, not a wish
+//! assert!(pressed.report.relative_error < 1e-6); // a proven bound
 //!
 //! let law = MaugisDugdale::new(1e-4, 2e-3)?; // work of adhesion, range
 //! let (half_space, _) = hertz.into_parts();
@@ -41,67 +41,47 @@
 //! # Ok::<(), asperity::Error>(())
 //! ```
 //!
-//! # Where to go from here
-//!
-//! | | |
-//! |---|---|
-//! | the whole way once, from the gap to the certificate | [`guide::tour`] |
-//! | an adhesion law of your own | [`guide::own_law`] |
-//! | an elastic body of your own: a layer of finite thickness | [`guide::own_operator`] |
-//! | a way of your own to keep the surfaces apart; penalty and Uzawa | [`guide::own_constraint`], [`guide::penalty_and_uzawa`] |
-//! | loading and unloading with adhesion | [`guide::branches`] |
-//! | a body that ends: free half-space, force, approach, spring, absent nodes | [`guide::boundary`] |
-//! | from Python: the package, and files | [`guide::python`] |
-//! | resolution, tolerance and precision for the accuracy you want | [`guide::choosing`] |
-//! | the command-line tool, its scenes and the keys of its reports; studies on clusters | [`guide::tool`], [`guide::cluster`] |
-//! | how the crate is built, and how its solver works | [`guide::architecture`], [`guide::driver`] |
-//! | past one machine, by MPI | [`guide::scaling`] |
-//! | how fast it is, and how far rounding lets it go | [`guide::performance`], [`guide::precision`] |
-//! | what the paper says | [`guide::paper_checked`] |
+//! The pages of the [`guide`] start with a [tour](guide::tour) from the gap to the certificate. Others are about laws,
+//! bodies and constraints of your own, boundaries, branches, accuracy, cost, Python, the tool and the solver.
 //!
 //! # Conventions
 //!
-//! Any consistent units; the answers scale with them. Fields are [`ndarray`] arrays of shape (Nx, Ny). Compression is
-//! positive. Two mean pressures exist and both are reported: the external one p̄, and the mean contact pressure ⟨λ⟩ =
-//! p̄ + ⟨φ'⟩. All is generic over `f32` and `f64`; sums accumulate in `f64`.
+//! Any consistent units will do; results are in the same ones. Fields are [`ndarray`] arrays of shape (Nx, Ny).
+//! Compression is positive. The report has two mean pressures: the external one p̄, and the mean contact pressure ⟨λ⟩ =
+//! p̄ + ⟨φ'⟩. Everything is generic over `f32` and `f64`; sums accumulate in `f64`.
 //!
-//! # What can be exchanged
+//! # Parts that can be exchanged
 //!
-//! | trait | what | implementations |
+//! | trait | meaning | implementations |
 //! |---|---|---|
 //! | [`ElasticOperator`] | pressure of a displacement | [`Westergaard`] (periodic), [`Boussinesq`] (free), [`Spectral`] (any symbol) |
-//! | [`AdhesionLaw`] | energy, traction, slope at a gap | [`NoAdhesion`], [`MaugisDugdale`], [`Exponential`] |
-//! | [`ContactConstraint`] | how g ≥ 0 is imposed | [`Projection`], [`Penalty`], [`Uzawa`] |
+//! | [`AdhesionLaw`] | energy, traction, slope at a gap | [`NoAdhesion`], [`MaugisDugdale`], [`Exponential`] and more |
+//! | [`ContactConstraint`] | the way to impose g ≥ 0 | [`Projection`], [`Penalty`], [`Uzawa`] |
 //!
-//! # More than one number, more than one load
+//! # Around a solve
 //!
-//! [`contact`] has areas, clusters and pressures of the contact of a solution; [`Sweep`] solves under a sequence of
-//! loads, each from where the last ones lead, [`ContactSearch`] finds the load of a contact fraction, and [`Nested`]
-//! solves on coarser grids first.
-//!
-//! # Measured surfaces
-//!
-//! [`Topography`] takes a measured map to a [`Surface`]: missing points, tilt, edges that do not meet, resampling.
-//! [`Warning`] says what is probably a mistake in a surface, in the adhesion on it, and in an answer.
-//!
-//! # Branches, jumps and stability
-//!
-//! With adhesion there may be several equilibria at one load, and none next to some of them at the next. [`path`]
-//! follows a branch in steps that adapt themselves, locates its jumps and keeps the balance of energy; [`stability`]
-//! tells whether an equilibrium lasts, and leaves one that does not.
-//!
-//! # Exact solutions
-//!
-//! [`exact`] has the closed forms to compare with: spheres by Hertz, JKR and Maugis, alone or among their periodic
-//! images, ellipses, cones and punches, and waves by Westergaard and Johnson.
+//! - Before it: [`Topography`] makes a [`Surface`] of a measured map with missing points, tilt, and edges that do not
+//!   meet. [`Warning`] names probable mistakes in a surface, in the adhesion on it, and in a solution.
+//! - Many loads: [`Sweep`] solves under a sequence of loads, each from the last solutions. [`ContactSearch`] finds the
+//!   load of a contact fraction. [`path`] follows a branch of equilibria with adhesion and locates its jumps.
+//! - Many grids: [`Nested`] solves on coarser grids first, and [`accuracy`] estimates and reduces the error of the grid.
+//! - After it: [`contact`] has areas, clusters and pressures of the contact, and [`stability`] tells whether an
+//!   equilibrium is stable.
+//! - To compare: [`exact`] has closed forms: spheres by Hertz, JKR and Maugis, alone or among their periodic images,
+//!   ellipses, cones and punches, and waves by Westergaard and Johnson.
 //!
 //! # Features
 //!
-//! `parallel` (default): threads, with the same results bit for bit. `mpi`: processes, on one machine or on many, with
-//! the same results bit for bit, the type `World`. `io`: files, the module `io`. `picture`: maps and
-//! charts, the module `picture`. `serde`: settings, reports, statistics and controls as data, with the names of the
-//! reports. `cli` (default): these three, and the command-line tool. Without any of them the library
-//! depends on libm, ndarray, num-traits, pulp and rustfft alone.
+//! | feature | adds |
+//! |---|---|
+//! | `parallel` (default) | threads, with the same results bit for bit |
+//! | `mpi` | processes, with the same results bit for bit: the type `World` |
+//! | `io` | files: the module `io` |
+//! | `picture` | maps and charts: the module `picture` |
+//! | `serde` | settings, reports, statistics and controls as data, with the names of the reports |
+//! | `cli` (default) | these three, and the command-line tool |
+//!
+//! Without any of them the library depends on libm, ndarray, num-traits, pulp and rustfft alone.
 #![doc = include_str!("equations.html")]
 
 pub mod accuracy;

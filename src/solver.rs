@@ -115,7 +115,7 @@ impl Criterion {
 ///
 /// `None` is the default of the criterion in the precision of the solve: [`Settings::tolerance_in`] tells it, and
 /// [`Report::tolerance`] the one that a solve was held to. A solve whose tolerance is below the
-/// [floor](crate::guide::precision) of the precision ends as [`Status::Stalled`].
+/// [floor](crate::guide::choosing#rounding-floors) of the precision ends as [`Status::Stalled`].
 ///
 /// ```
 /// use asperity::Settings;

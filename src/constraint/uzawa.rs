@@ -38,7 +38,7 @@ const STIFFEST: f64 = 10.0;
 ///
 /// Without adhesion the first term bounds the error from above, as ⟨u − u*, p − p*⟩ ≤ ⟨s, λ − λ*⟩; the second is for
 /// the mean pressure close to full contact, which hangs on the last of the mean gap. Then, and with adhesion, it is an
-/// estimate. The page [`penalty_and_uzawa`](crate::guide::penalty_and_uzawa) has figures.
+/// estimate. See the page [`paper_checked`](crate::guide::paper_checked) for what Uzawa costs.
 ///
 /// Adhesion goes on into negative gaps as [`ContactConstraint`] says. Memory per node: one scalar.
 ///

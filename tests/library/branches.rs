@@ -233,7 +233,7 @@ fn tips_under_next_to_no_load_find_the_force_that_holds_them() {
 }
 
 /// The contact under pressures and adhesions of a rough surface, by loading, in the largest equilibrium and by
-/// unloading, with the applications that they take. Prints the table of the page `branches`.
+/// unloading, with the applications that they take. Prints them as a table.
 #[test]
 fn the_branch_of_loading_is_kept_where_the_grid_resolves_the_adhesion() {
     let grid = Grid::square(64, 1.0).unwrap();

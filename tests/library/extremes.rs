@@ -39,7 +39,7 @@ fn loose<T: Real>() -> f64 {
 }
 
 /// A tolerance that either precision reaches under a light load too: in `f32` the error of the pressure that rounding
-/// leaves grows as the load falls (see the page `precision`).
+/// leaves grows as the load falls (see the page `choosing`).
 fn light<T: Real>() -> f64 {
     if T::NAME == "f32" { 1e-2 } else { 1e-6 }
 }

@@ -159,7 +159,7 @@ fn a_law_behind_a_reference_is_the_law() {
     assert_eq!(by_value, by_reference);
 }
 
-/// Errors that are reached, claimed and as they are when the gap is looked at in `f64`, for the page on precision.
+/// Errors that are reached, claimed and as they are when the gap is looked at in `f64`, for the page `choosing`.
 #[test]
 #[ignore = "prints figures: cargo test --release --test library light_loads::floors -- --ignored --nocapture"]
 fn floors() {

@@ -146,7 +146,7 @@ fn a_tolerance_below_the_floor_ends_soon_with_what_was_reached() {
 }
 
 #[test]
-#[ignore = "measures the table of the documentation's page `precision`"]
+#[ignore = "prints the floors that the page `choosing` names"]
 fn floors_against_size() {
     for n in [32, 64, 128, 256, 512, 1024] {
         for pressure in [0.01, 0.2] {

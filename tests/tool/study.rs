@@ -299,7 +299,8 @@ fn the_job_scripts_of_the_documentation_come_to_the_table() {
     bench.write("study.toml", MADE);
     let page = concat!(env!("CARGO_MANIFEST_DIR"), "/src/guide/cluster.md");
     let page = std::fs::read_to_string(page).unwrap();
-    let scripts: Vec<_> = page.split("```sh\n").skip(1).map(|rest| rest.split("```").next().unwrap()).collect();
+    let blocks = page.split("```sh\n").skip(1).map(|rest| rest.split("```").next().unwrap());
+    let scripts: Vec<_> = blocks.filter(|block| block.starts_with("#!")).collect();
     let [slices, table] = scripts[..] else { panic!("{scripts:?}") };
     let tools = std::path::Path::new(env!("CARGO_BIN_EXE_asperity")).parent().unwrap();
     let path = std::env::join_paths(
