@@ -115,7 +115,8 @@ impl Criterion {
 ///
 /// `None` is the default of the criterion in the precision of the solve: [`Settings::tolerance_in`] tells it, and
 /// [`Report::tolerance`] the one that a solve was held to. A solve whose tolerance is below the
-/// [floor](crate::guide::choosing#rounding-floors) of the precision ends as [`Status::Stalled`].
+/// [floor](crate::guide::choosing#rounding-floors) of the precision ends as [`Status::Stalled`]. With the feature `serde`
+/// settings are data, in which any of them may be left out.
 ///
 /// ```
 /// use asperity::Settings;

@@ -109,7 +109,8 @@ pub struct Iteration {
     pub smoothed: bool,
 }
 
-/// The account of a solve. Energies are per area; all numbers are in the units of the input.
+/// The account of a solve: its problem in numbers and names, its cost, and its outcome. Energies are per area; all
+/// numbers are in the units of the input. With the feature `serde` it is data; JSON has only finite numbers.
 ///
 /// ```
 /// use asperity::{AdhesionLaw, Control, Exponential, Grid, Problem, Solver, Surface, Westergaard};
