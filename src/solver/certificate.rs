@@ -123,8 +123,8 @@ impl<T: Real, L: Real> State<'_, T, L> {
         }
         let criterion = match self.settings.criterion {
             Criterion::EnergyNorm => self.relative_error(),
-            Criterion::Orthogonality if self.residual.working > self.tally.free => f64::INFINITY,
-            Criterion::Orthogonality => self.scaled_orthogonality(),
+            Criterion::Complementarity if self.residual.working > self.tally.free => f64::INFINITY,
+            Criterion::Complementarity => self.scaled_orthogonality(),
         };
         criterion <= tolerance && load_error <= tolerance
     }

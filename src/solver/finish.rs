@@ -72,7 +72,7 @@ impl<T: Real, L: Real> State<'_, T, L> {
             branch: self.branch,
             relative_error: self.relative_error(),
             load_error,
-            orthogonality: self.scaled_orthogonality(),
+            complementarity: self.scaled_orthogonality(),
             iterations: self.iterations,
             operator_applications: self.applications,
             boundary: flat.boundary.alone(),
