@@ -3,7 +3,8 @@
 //! `cargo run --release -p asperity-examples --example counts`
 
 use asperity::{
-    AdhesionLaw, Control, Grid, MaugisDugdale, NoAdhesion, Problem, Result, Settings, Solver, Surface, Westergaard,
+    AdhesionLaw, Control, Criterion, Grid, MaugisDugdale, NoAdhesion, Problem, Result, Settings, Solver, Surface,
+    Westergaard,
 };
 use clap::Parser;
 use common::arguments;
@@ -43,7 +44,9 @@ fn compare<L: AdhesionLaw<f64>>(name: &str, surface: &Surface, law: L, control: 
     let grid = *surface.grid();
     let mut problem = Problem::new(surface, Westergaard::new(grid, 1.0)?, law)?;
     let default = Solver::default().solve(&mut problem, control)?.report;
-    let paper = Solver::new(Settings::rey2017().max_iterations(5000)).solve(&mut problem, control)?.report;
+    let paper = Solver::new(Settings::rey2017().criterion(Criterion::Complementarity).max_iterations(5000))
+        .solve(&mut problem, control)?
+        .report;
     let (ours, theirs) = (default.operator_applications + 1, paper.operator_applications + 1);
     let ended = |status: asperity::Status| if status == asperity::Status::Converged { "" } else { "!" };
     println!(

@@ -99,7 +99,7 @@ pub trait ElasticOperator<T: Real>: Send {
     /// ([`ContactStatistics`](crate::contact::ContactStatistics)), which expects that stiffness grows with the wave
     /// number there.
     ///
-    /// It is the unit of [`Criterion::Orthogonality`](crate::Criterion::Orthogonality) and enters
+    /// It is the unit of [`Criterion::Complementarity`](crate::Criterion::Complementarity) and enters
     /// [`Problem::mu_rho`](crate::Problem::mu_rho); with the spacing it gives the compliance by which jumps of
     /// a law are [smoothed](crate::AdhesionLaw::smoothed); on a grid of one node, which has no wave, E*/Lx is the
     /// stiffness of the preconditioner.

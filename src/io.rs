@@ -23,7 +23,7 @@ use std::io::{self, BufRead, BufReader, Read, Seek, SeekFrom};
 use std::ops::Range;
 use std::path::Path;
 
-use ndarray::{Array2, Axis, Slice};
+use ndarray::{Array2, AsArray, Axis, Ix2, Slice};
 use ndarray_npy::WritableElement;
 
 use crate::error::{Error, Result};
@@ -118,7 +118,7 @@ fn check_room(bytes: usize) -> Parsed<()> {
 /// assert!(heights[[1, 1]].is_nan());
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-pub fn read_field(path: &Path) -> Result<Array2<f64>> {
+pub fn read_field(path: impl AsRef<Path>) -> Result<Array2<f64>> {
     read_topography(path).map(|map| map.heights)
 }
 
@@ -174,22 +174,23 @@ pub fn read_field(path: &Path) -> Result<Array2<f64>> {
 /// assert_eq!((map.lengths, map.unit.as_deref()), (Some((3e-6, 2e-6)), Some("m")));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-pub fn read_topography(path: &Path) -> Result<Topography> {
+pub fn read_topography(path: impl AsRef<Path>) -> Result<Topography> {
+    let path = path.as_ref();
     read_any(path, None).map_err(|refusal| refusal.of(path))
 }
 
 /// Reads one of the channels of a `.gwy` file, by its number or its title; otherwise as [`read_topography`].
 ///
 /// ```no_run
-/// # use std::path::Path;
-/// let retrace = asperity::io::read_channel(Path::new("scan.gwy"), "Height Retrace")?;
+/// let retrace = asperity::io::read_channel("scan.gwy", "Height Retrace")?;
 /// # Ok::<(), asperity::Error>(())
 /// ```
 ///
 /// # Errors
 ///
 /// As for [`read_topography`], and [`Error::File`] if the file has no such channel, or is of a format without channels.
-pub fn read_channel(path: &Path, channel: &str) -> Result<Topography> {
+pub fn read_channel(path: impl AsRef<Path>, channel: &str) -> Result<Topography> {
+    let path = path.as_ref();
     read_any(path, Some(channel)).map_err(|refusal| refusal.of(path))
 }
 
@@ -212,9 +213,10 @@ pub fn read_channel(path: &Path, channel: &str) -> Result<Topography> {
 ///
 /// As for [`read_topography`].
 pub fn read_rows(
-    path: &Path,
+    path: impl AsRef<Path>,
     rows: impl FnOnce((usize, usize)) -> Range<usize>,
 ) -> Result<(Topography, (usize, usize))> {
+    let path = path.as_ref();
     let is_npy = || {
         let mut start = [0; NPY.len()];
         io::Result::Ok(File::open(path)?.read_exact(&mut start).is_ok() && start == NPY)
@@ -239,7 +241,8 @@ pub fn read_rows(
 /// # Errors
 ///
 /// [`Error::File`] if the file cannot be written.
-pub fn create_npy<T: WritableElement>(path: &Path, shape: (usize, usize)) -> Result<()> {
+pub fn create_npy<T: WritableElement>(path: impl AsRef<Path>, shape: (usize, usize)) -> Result<()> {
+    let path = path.as_ref();
     let file = File::create(path).map_err(|e| Error::unwritable(path, e))?;
     ndarray_npy::write_zeroed_npy::<T, _>(&file, shape).map_err(|e| Error::unwritable(path, e))
 }
@@ -260,12 +263,14 @@ pub fn create_npy<T: WritableElement>(path: &Path, shape: (usize, usize)) -> Res
 /// # Errors
 ///
 /// [`Error::File`] if the file cannot be written, [`Error::Shape`] if the rows are not rows of that shape.
-pub fn write_npy_rows<T: WritableElement + Clone>(
-    path: &Path,
+pub fn write_npy_rows<'a, T: WritableElement + Clone + 'a>(
+    path: impl AsRef<Path>,
     shape: (usize, usize),
     first: usize,
-    rows: &Array2<T>,
+    rows: impl AsArray<'a, T, Ix2>,
 ) -> Result<()> {
+    let path = path.as_ref();
+    let rows = rows.into();
     let (count, ny) = rows.dim();
     Error::shape("rows to write", (first + count, ny), ((first + count).min(shape.0), shape.1))?;
     let mut file = OpenOptions::new().write(true).open(path).map_err(|e| Error::unwritable(path, e))?;
@@ -302,7 +307,8 @@ pub fn write_npy_rows<T: WritableElement + Clone>(
 ///
 /// [`Error::File`] if the name has another ending, heights leave the range of the format, the unit is longer than
 /// [`LONGEST_UNIT`], or the file cannot be written.
-pub fn write_topography(path: &Path, map: &Topography) -> Result<()> {
+pub fn write_topography(path: impl AsRef<Path>, map: &Topography) -> Result<()> {
+    let path = path.as_ref();
     let longest = map.unit.as_ref().map_or(0, |unit| unit.chars().count());
     match ending(path).as_str() {
         "npz" if longest > LONGEST_UNIT => {
@@ -338,8 +344,8 @@ fn ending(path: &Path) -> String {
 /// assert_eq!(read_field(&path)?, gap.mapv(f64::from));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-pub fn write_npy<T: WritableElement>(path: &Path, field: &Array2<T>) -> Result<()> {
-    ndarray_npy::write_npy(path, field).map_err(|e| Error::unwritable(path, e))
+pub fn write_npy<'a, T: WritableElement + 'a>(path: impl AsRef<Path>, field: impl AsArray<'a, T, Ix2>) -> Result<()> {
+    ndarray_npy::write_npy(&path, &field.into()).map_err(|e| Error::unwritable(path, e))
 }
 
 fn read_any(path: &Path, channel: Option<&str>) -> Parsed<Topography> {
@@ -447,7 +453,7 @@ mod tests {
     fn what_is_no_file_is_refused() {
         let folder = tempfile::tempdir().unwrap();
         assert_refused(read_field(folder.path()), &["is a folder"]);
-        assert_refused(read_field(&folder.path().join("missing.npy")), &["does not exist", "check the path"]);
+        assert_refused(read_field(folder.path().join("missing.npy")), &["does not exist", "check the path"]);
         if cfg!(unix) {
             assert_refused(read_field(Path::new("/dev/zero")), &["not a regular file"]);
         }
@@ -495,6 +501,6 @@ mod tests {
         let fortran = Array2::from_shape_fn((2, 3).f(), |(i, j)| (3 * i + j) as i16);
         write_npy(&path, &fortran).unwrap();
         assert_eq!(read_field(&path).unwrap(), fortran.mapv(f64::from));
-        assert_refused(write_npy(&folder.path().join("missing/field.npy"), &field), &["cannot be written"]);
+        assert_refused(write_npy(folder.path().join("missing/field.npy"), &field), &["cannot be written"]);
     }
 }

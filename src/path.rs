@@ -206,31 +206,31 @@ where
             Some(window) => window.place(&window.hold(mode.view()).into_owned(), T::zero()),
             None => mode.clone(),
         });
-        PathCheckpoint { numbers: self.state.numbers(), fields: self.gaps.iter().cloned().chain(mode).collect() }
+        PathCheckpoint { values: self.state.values(), fields: self.gaps.iter().cloned().chain(mode).collect() }
     }
 
     /// The path continued from the checkpoint of another one with the same problem, loads and settings.
     ///
     /// # Errors
-    /// [`Error::Shape`] if the fields are of another grid, [`Error::Value`] if the numbers are not those of a
+    /// [`Error::Shape`] if the fields are of another grid, [`Error::Value`] if the values are not those of a
     /// checkpoint.
     pub fn continuing(mut self, from: PathCheckpoint<T>) -> Result<Self> {
         let slab = self.problem.operator.grid().slab();
-        let PathCheckpoint { numbers, mut fields } = from;
+        let PathCheckpoint { values, mut fields } = from;
         for field in &mut fields {
             slab.agreed(Error::shape("field of the checkpoint", field.dim(), slab.held()))?;
             if !field.is_standard_layout() {
                 *field = field.as_standard_layout().into_owned();
             }
         }
-        let state = State::of_numbers(&numbers, State::on(&self.problem.flat)).filter(|state| {
+        let state = State::of_values(&values, State::on(&self.problem.flat)).filter(|state| {
             let gaps = state.at.len();
             state.leg < self.legs.len().max(1)
                 && state.solved != fields.is_empty()
                 && (gaps..=gaps + 1).contains(&fields.len())
         });
         let Some(state) = state else {
-            let (name, value) = ("number of numbers in the checkpoint", numbers.len() as f64);
+            let (name, value) = ("number of values in the checkpoint", values.len() as f64);
             return Err(Error::Value { name, value, requirement: "as in PathCheckpoint, with all of its fields" });
         };
         let mode = fields.drain(state.at.len()..).next();

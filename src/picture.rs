@@ -49,15 +49,15 @@ impl Format {
     ///
     /// ```
     /// use asperity::picture::Format;
-    /// assert_eq!(Format::of("loop.pdf".as_ref())?, Format::Pdf);
-    /// assert!(Format::of("loop.jpg".as_ref()).is_err());
+    /// assert_eq!(Format::of("loop.pdf")?, Format::Pdf);
+    /// assert!(Format::of("loop.jpg").is_err());
     /// # Ok::<(), asperity::Error>(())
     /// ```
     ///
     /// # Errors
     /// [`Error::File`] if the name has another ending.
-    pub fn of(path: &Path) -> Result<Self> {
-        match path.extension().map(|ending| ending.to_string_lossy().to_lowercase()).as_deref() {
+    pub fn of(path: impl AsRef<Path>) -> Result<Self> {
+        match path.as_ref().extension().map(|ending| ending.to_string_lossy().to_lowercase()).as_deref() {
             Some("png") => Ok(Self::Png),
             Some("svg") => Ok(Self::Svg),
             Some("pdf") => Ok(Self::Pdf),
@@ -82,7 +82,8 @@ impl Picture {
     ///
     /// # Errors
     /// [`Error::File`] if the name has another ending, or the file cannot be written.
-    pub fn write(&self, path: &Path) -> Result<()> {
+    pub fn write(&self, path: impl AsRef<Path>) -> Result<()> {
+        let path = path.as_ref();
         let unwritable = |e: std::io::Error| Error::unwritable(path, e);
         let bytes = match Format::of(path)? {
             Format::Png => {

@@ -78,12 +78,7 @@ impl Choice {
     }
 
     fn settings(&self, tolerance: f64) -> Settings {
-        if self.rey2017 {
-            let criterion = Settings::default().criterion;
-            Settings::rey2017().tolerance(tolerance).criterion(criterion)
-        } else {
-            Settings::default().tolerance(tolerance)
-        }
+        if self.rey2017 { Settings::rey2017().tolerance(tolerance) } else { Settings::default().tolerance(tolerance) }
     }
 }
 

@@ -4,8 +4,8 @@
 use asperity::accuracy::{Accuracy, Quantity};
 use asperity::io::{available_memory, check_memory};
 use asperity::{
-    Boussinesq, Branch, ContactConstraint, Control, Criterion, ElasticOperator, Grid, NoWall, Projection, Real,
-    Settings, Solver, Surface, Warning, WarningCode, Westergaard,
+    Boussinesq, Branch, ContactConstraint, Control, ElasticOperator, Grid, NoWall, Projection, Real, Settings, Solver,
+    Surface, Warning, WarningCode, Westergaard,
 };
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -139,7 +139,7 @@ pub fn settings(
 ) -> PyResult<Settings> {
     let default = match method {
         "default" => Settings::default(),
-        "rey2017" => Settings::rey2017().criterion(Criterion::EnergyNorm),
+        "rey2017" => Settings::rey2017(),
         other => return Err(PyValueError::new_err(format!("method is {other}: it must be default or rey2017"))),
     };
     let max_iterations = max_iterations.unwrap_or(default.max_iterations);

@@ -164,8 +164,8 @@ mod tests {
             assert!(back.heights.iter().zip(&map.heights).all(|(a, b)| a == b || a.is_nan() && b.is_nan()));
             assert_eq!(fs::read(&path).unwrap().len() % 4, 0);
         }
-        assert_refused(write_topography(&folder.path().join("map.tif"), &map), &["ending", ".gsf"]);
-        assert_refused(write_topography(&folder.path().join("none/map.gsf"), &map), &["cannot be written"]);
+        assert_refused(write_topography(folder.path().join("map.tif"), &map), &["ending", ".gsf"]);
+        assert_refused(write_topography(folder.path().join("none/map.gsf"), &map), &["cannot be written"]);
         map.heights[[0, 0]] = 1e39;
         assert_refused(write_topography(&path, &map), &["f32", ".npz"]);
     }

@@ -4,7 +4,7 @@ use std::fs::{self, File};
 use std::io::{self, BufReader, Cursor, Read, Seek, SeekFrom, Write};
 use std::path::Path;
 
-use ndarray::{Array2, arr1};
+use ndarray::{ArrayView2, arr1};
 use ndarray_npy::{NpzWriter, WritableElement, WriteNpyError, WriteNpyExt, WriteNpzError};
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, ZipArchive};
@@ -134,21 +134,25 @@ fn read_entry<T>(
 /// let folder = tempfile::tempdir()?;
 /// let grid = Grid::new((4, 3), (2.0, 3.0))?;
 /// // numpy.load("fields.npz")["gap"] has the shape (4, 3)
-/// write_npz(&folder.path().join("fields.npz"), &grid, &[("gap", &grid.sample(|x, y| x * y))])?;
+/// write_npz(folder.path().join("fields.npz"), &grid, &[("gap", grid.sample(|x, y| x * y).view())])?;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///
 /// # Errors
 ///
 /// [`Error::Shape`] if a field does not fit the grid, [`Error::File`] if the file cannot be written.
-pub fn write_npz<T: WritableElement>(path: &Path, grid: &Grid, fields: &[(&str, &Array2<T>)]) -> Result<()> {
+pub fn write_npz<T: WritableElement>(
+    path: impl AsRef<Path>,
+    grid: &Grid,
+    fields: &[(&str, ArrayView2<'_, T>)],
+) -> Result<()> {
     fields.iter().try_for_each(|(_, field)| Error::shape("field", field.dim(), grid.shape()))?;
-    write(path, fields, &Known { lengths: Some(grid.lengths()), ..Known::default() })
+    write(path.as_ref(), fields, &Known { lengths: Some(grid.lengths()), ..Known::default() })
 }
 
 /// Writes a map with what is known of it.
 pub(super) fn write_map(path: &Path, map: &Topography) -> Result<()> {
-    let heights = [("heights", &map.heights)];
+    let heights = [("heights", map.heights.view())];
     let seed = map.seed.map(|seed| seed.to_string());
     let &Topography { lengths, original, .. } = map;
     write(path, &heights, &Known { lengths, unit: map.unit.as_deref(), original, seed: seed.as_deref() })
@@ -163,7 +167,7 @@ struct Known<'a> {
     seed: Option<&'a str>,
 }
 
-fn write<T: WritableElement>(path: &Path, fields: &[(&str, &Array2<T>)], known: &Known<'_>) -> Result<()> {
+fn write<T: WritableElement>(path: &Path, fields: &[(&str, ArrayView2<'_, T>)], known: &Known<'_>) -> Result<()> {
     let bytes = archive(fields, known).map_err(|e| Error::unwritable(path, e))?;
     fs::write(path, bytes).map_err(|e| Error::unwritable(path, e))
 }
@@ -171,7 +175,7 @@ fn write<T: WritableElement>(path: &Path, fields: &[(&str, &Array2<T>)], known: 
 /// The bytes of an archive. Written straight into a file that cannot take them, the writer of the archive would say so
 /// on standard error when it is dropped.
 fn archive<T: WritableElement>(
-    fields: &[(&str, &Array2<T>)],
+    fields: &[(&str, ArrayView2<'_, T>)],
     known: &Known<'_>,
 ) -> std::result::Result<Vec<u8>, WriteNpzError> {
     let mut bytes = Vec::new();
@@ -182,7 +186,7 @@ fn archive<T: WritableElement>(
     let large = fields.iter().any(|(_, field)| field.len() >= 1 << 28);
     let options = SimpleFileOptions::default().compression_method(CompressionMethod::Stored).large_file(large);
     let mut npz = NpzWriter::new_with_options(Cursor::new(bytes), options);
-    fields.iter().try_for_each(|(name, field)| npz.add_array(*name, *field))?;
+    fields.iter().try_for_each(|(name, field)| npz.add_array(*name, field))?;
     if let Some((lx, ly)) = known.lengths {
         npz.add_array("lengths", &arr1(&[lx, ly]))?;
     }
@@ -207,7 +211,7 @@ impl WriteNpyExt for Text<'_> {
 
 #[cfg(test)]
 mod tests {
-    use ndarray::array;
+    use ndarray::{Array2, array};
     use zip::ZipWriter;
 
     use super::super::npy::tests::{f8, npy};

@@ -20,7 +20,7 @@ use crate::error::{Error, Result};
 /// let parent = tempfile::tempdir()?;
 /// let destination = parent.path().join("results");
 /// let folder = OutputFolder::create(&destination, &["gap.npy"], false)?;
-/// write_npy(&folder.path("gap.npy"), &ndarray::array![[0.0, 1.0]])?;
+/// write_npy(folder.path("gap.npy"), &ndarray::array![[0.0, 1.0]])?;
 /// assert!(!destination.exists()); // not yet
 /// folder.commit()?;
 /// assert!(destination.join("gap.npy").exists());
@@ -68,7 +68,8 @@ impl OutputFolder {
     ///
     /// [`Error::File`] if one of the files exists and `force` is not given, if one of them is a folder, if
     /// `path` or something above it is a file, and if the folder cannot be written.
-    pub fn create(path: &Path, names: &[&str], force: bool) -> Result<Self> {
+    pub fn create(path: impl AsRef<Path>, names: &[&str], force: bool) -> Result<Self> {
+        let path = path.as_ref();
         for name in names {
             refuse_existing(&path.join(name), force)?;
         }
@@ -140,7 +141,7 @@ impl OutputFolder {
     /// ```
     /// use asperity::io::OutputFolder;
     /// let parent = tempfile::tempdir()?;
-    /// let folder = OutputFolder::create(&parent.path().join("results"), &["gap.npy"], false)?;
+    /// let folder = OutputFolder::create(parent.path().join("results"), &["gap.npy"], false)?;
     /// assert!(std::fs::read_dir(parent.path())?.count() == 1);
     /// OutputFolder::abandon_all();
     /// assert!(std::fs::read_dir(parent.path())?.count() == 0);

@@ -4,7 +4,7 @@ use std::fs::File;
 use std::io::{self, BufWriter, Write};
 use std::path::Path;
 
-use ndarray::Array2;
+use ndarray::ArrayView2;
 use ndarray_npy::WritableElement;
 
 use crate::error::{Error, Result};
@@ -21,19 +21,24 @@ use crate::real::Real;
 /// use asperity::{Grid, io::write_vti};
 /// let folder = tempfile::tempdir()?;
 /// let grid = Grid::new((4, 3), (2.0, 3.0))?;
-/// write_vti(&folder.path().join("fields.vti"), &grid, &[("height", &grid.sample(|x, y| x * y))])?;
+/// write_vti(folder.path().join("fields.vti"), &grid, &[("height", grid.sample(|x, y| x * y).view())])?;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///
 /// # Errors
 ///
 /// [`Error::Shape`] if a field does not fit the grid, [`Error::File`] if the file cannot be written.
-pub fn write_vti<T: Real + WritableElement>(path: &Path, grid: &Grid, fields: &[(&str, &Array2<T>)]) -> Result<()> {
+pub fn write_vti<T: Real + WritableElement>(
+    path: impl AsRef<Path>,
+    grid: &Grid,
+    fields: &[(&str, ArrayView2<'_, T>)],
+) -> Result<()> {
+    let path = path.as_ref();
     fields.iter().try_for_each(|(_, field)| Error::shape("field", field.dim(), grid.shape()))?;
     write(path, grid, fields).map_err(|e| Error::unwritable(path, e))
 }
 
-fn write<T: Real>(path: &Path, grid: &Grid, fields: &[(&str, &Array2<T>)]) -> io::Result<()> {
+fn write<T: Real>(path: &Path, grid: &Grid, fields: &[(&str, ArrayView2<'_, T>)]) -> io::Result<()> {
     let ((nx, ny), (dx, dy), (x, y)) = (grid.shape(), grid.spacing(), (grid.x(0), grid.y(0)));
     // on a line y is nothing's coordinate
     let (dy, y) = if grid.is_line() { (dx, 0.0) } else { (dy, y) };

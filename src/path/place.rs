@@ -13,25 +13,6 @@ pub(super) enum Mode {
     Spring(f64),
 }
 
-impl Mode {
-    /// One number for the mode.
-    pub(super) fn code(self) -> f64 {
-        match self {
-            Self::Gap => 0.0,
-            Self::Pressure => 1.0,
-            Self::Spring(compliance) => -compliance,
-        }
-    }
-
-    pub(super) fn of_code(code: f64) -> Self {
-        match code {
-            0.0 => Self::Gap,
-            code if code < 0.0 => Self::Spring(-code),
-            _ => Self::Pressure,
-        }
-    }
-}
-
 /// A place: the figures of a state in the balance of energy.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Place {

@@ -8,7 +8,7 @@ use crate::elastic::Boundary;
 use crate::problem::{Control, Load, PressedFlat};
 use crate::solver::Report;
 
-mod numbers;
+mod values;
 
 /// The way of a step to the state that is taken.
 #[derive(Clone, Copy, Debug, Default)]

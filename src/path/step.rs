@@ -1,5 +1,7 @@
 //! A state on a path of equilibria, and the checkpoint from which a path goes on.
 
+use std::collections::BTreeMap;
+
 use ndarray::Array2;
 
 use super::Event;
@@ -41,8 +43,8 @@ pub struct PathStep<T> {
     pub event: Option<Event>,
 }
 
-/// All that a path needs to go on: opaque numbers, and fields on the grid of the operator. Both must come back bit
-/// for bit.
+/// All that a path needs to go on: values by their names, and fields on the grid of the operator. Both must come back
+/// bit for bit.
 ///
 /// ```
 /// use asperity::path::{Path, PathSettings};
@@ -62,8 +64,8 @@ pub struct PathStep<T> {
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct PathCheckpoint<T> {
-    /// The numbers of the path's state.
-    pub numbers: Vec<f64>,
+    /// The values of the path's state by their names, as `work` and `step`.
+    pub values: BTreeMap<String, Vec<f64>>,
     /// The last gaps, and the softest mode of the last state, where it was needed.
     pub fields: Vec<Array2<T>>,
 }

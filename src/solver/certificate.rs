@@ -100,9 +100,9 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         if pressure.abs() <= rounding { 0.0 } else { pressure.abs() / self.sums.given.abs().max(contact.abs()) }
     }
 
-    pub(super) fn scaled_orthogonality(&self) -> f64 {
+    pub(super) fn scaled_complementarity(&self) -> f64 {
         let (lx, ly) = self.posed.operators.state().grid().lengths();
-        self.sums.residual.orthogonality / (self.posed.operators.state().modulus() * (lx * ly).sqrt())
+        self.sums.residual.complementarity / (self.posed.operators.state().modulus() * (lx * ly).sqrt())
     }
 
     /// Whether the goal is reached.
@@ -123,8 +123,8 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         }
         let criterion = match self.posed.settings.criterion {
             Criterion::EnergyNorm => self.relative_error(),
-            Criterion::Orthogonality if self.sums.residual.working > self.sums.tally.free => f64::INFINITY,
-            Criterion::Orthogonality => self.scaled_orthogonality(),
+            Criterion::Complementarity if self.sums.residual.working > self.sums.tally.free => f64::INFINITY,
+            Criterion::Complementarity => self.scaled_complementarity(),
         };
         criterion <= tolerance && load_error <= tolerance
     }
@@ -171,7 +171,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         let energy = self.energy();
         let error = match self.posed.settings.method {
             Method::Preconditioned => self.relative_error().max(self.load_error()),
-            Method::Rey2017 => self.scaled_orthogonality(),
+            Method::Rey2017 => self.scaled_complementarity(),
         };
         if error < PROGRESS * self.counters.progress.best_error
             || energy < self.counters.progress.lowest_energy - self.energy_noise()

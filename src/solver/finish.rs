@@ -72,7 +72,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
             branch: self.posed.branch,
             relative_error: self.relative_error(),
             load_error,
-            orthogonality: self.scaled_orthogonality(),
+            complementarity: self.scaled_complementarity(),
             iterations: self.counters.iterations,
             operator_applications: self.counters.applications,
             boundary: flat.boundary.alone(),

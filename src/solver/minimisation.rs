@@ -132,7 +132,7 @@ pub(super) struct Residual {
     /// the number of nodes in the working set
     pub(super) working: f64,
     /// Σ|g r'|
-    pub(super) orthogonality: f64,
+    pub(super) complementarity: f64,
     /// Σ (r' − r'₀)², with r'₀ the previous content of the field, if r' was computed from gap and pressure
     pub(super) difference: f64,
 }

@@ -393,8 +393,8 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         self.steps.age += 1;
         match advanced.residual {
             None => Left::Gradient(made),
-            Some(Continued { orthogonality, working, descent, overlap, .. }) => {
-                self.sums.residual = Residual { level: 0.0, working, orthogonality, ..self.sums.residual };
+            Some(Continued { complementarity, working, descent, overlap, .. }) => {
+                self.sums.residual = Residual { level: 0.0, working, complementarity, ..self.sums.residual };
                 Left::Residual(Made { descent, overlap, ..made })
             }
         }

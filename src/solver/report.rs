@@ -153,7 +153,7 @@ pub struct Report {
     /// control.
     pub load_error: f64,
     /// The paper's criterion ε = Σ|g r'|, in units of E*·√(Lx·Ly), on the returned fields.
-    pub orthogonality: f64,
+    pub complementarity: f64,
     /// The number of steps.
     pub iterations: usize,
     /// The number of operator applications, each a forward and an inverse transform; the construction of the problem
@@ -215,7 +215,7 @@ pub struct Report {
     pub precision: Name,
     /// The iteration that was used.
     pub method: Method,
-    /// The measure that was compared with the tolerance. [`Criterion::Orthogonality`] bounds no error: a solve that
+    /// The measure that was compared with the tolerance. [`Criterion::Complementarity`] bounds no error: a solve that
     /// has converged by it may have any [`relative_error`](Self::relative_error).
     pub criterion: Criterion,
     /// The tolerance to which the solve was held, [`Settings::tolerance_in`](crate::Settings::tolerance_in) its

@@ -211,8 +211,8 @@ impl<'a, T: Real, Lo: Real> State<'a, T, Lo> {
         } else {
             passes::residual(fields, &local, Working { offset, release, level: T::lit(level) })
         };
-        let Continued { orthogonality, working, descent, overlap, sum_change } = found;
-        self.sums.residual = Residual { level, working, orthogonality, difference };
+        let Continued { complementarity, working, descent, overlap, sum_change } = found;
+        self.sums.residual = Residual { level, working, complementarity, difference };
         self.steps.momentum = made.map(|made| Made { descent, overlap, sum: sum_change, ..made });
     }
 

@@ -245,7 +245,7 @@ impl Scene {
         let tolerance = power(random, -9.0, -2.0);
         let tolerance = if precision == Precision::Single { tolerance.max(1e-5) } else { tolerance };
         let settings = match constraint {
-            Constraint::Paper => Settings::rey2017().criterion(Criterion::EnergyNorm),
+            Constraint::Paper => Settings::rey2017(),
             _ => Settings::default(),
         };
         let settings = settings.tolerance(tolerance);

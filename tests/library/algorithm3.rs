@@ -180,7 +180,7 @@ fn corrected_it_is_the_method_of_the_library() {
     for (surface, gap) in hard_cases() {
         let here = algorithm_3(&surface, &NoAdhesion, gap, PAPER, RIGHT);
         assert!(here.end == End::Converged && here.iterations < 100 && here.under_tension().0 == 0);
-        let there = library(&surface, gap, Settings::rey2017()).report;
+        let there = library(&surface, gap, Settings::rey2017().criterion(Criterion::Complementarity)).report;
         assert_eq!((there.status, there.contact_nodes), (Status::Converged, here.contact()));
         assert!(there.iterations.abs_diff(here.iterations) <= 1, "{} {}", there.iterations, here.iterations);
         assert!((there.mean_pressure + here.mean()).abs() < 1e-7 * there.mean_pressure);
@@ -252,7 +252,7 @@ fn stopped_on_epsilon_alone_it_returns_contact_under_tension() {
     let (fewer, less) = step.under_tension();
     assert!(step.end == End::Converged && (1..nodes).contains(&fewer) && less < 0.1 * tension, "{fewer} {less}");
     // I_na of the state that is returned leaves nothing
-    let solution = library(&surface, 0.5 * rms, Settings::rey2017());
+    let solution = library(&surface, 0.5 * rms, Settings::rey2017().criterion(Criterion::Complementarity));
     assert_eq!(solution.report.status, Status::Converged);
     let touching = solution.gap.iter().zip(&solution.pressure).filter(|(g, _)| **g == 0.0);
     assert!(touching.map(|(_, p)| p).all(|&p| p >= 0.0));
@@ -275,7 +275,7 @@ fn with_no_node_apart_or_one_it_divides_zero_by_zero() {
     for gap in [0.0, 1e-8] {
         // with one node apart q' is zero there, and so are both sums of τ
         assert_eq!(algorithm_3(&surface, &NoAdhesion, gap, PAPER, RIGHT).end, End::NotFinite);
-        for settings in [Settings::rey2017(), Settings::default()] {
+        for settings in [Settings::rey2017().criterion(Criterion::Complementarity), Settings::default()] {
             let report = library(&surface, gap, settings).report;
             assert_eq!(report.status, Status::Converged);
             assert_eq!(report.contact_nodes, 64 * 64 - usize::from(gap > 0.0));
@@ -320,8 +320,8 @@ fn the_floor_of_epsilon_grows_like_the_cube_of_the_nodes_along_a_side() {
     assert!((0.5e-11..3e-11).contains(&at_512), "{at_512:e}");
     // the library's is some times higher: it adds the pressures of gap and surface, each larger than their sum
     let ours = sizes.map(|(n, limit)| {
-        let settings = Settings::rey2017().tolerance(1e-30).max_iterations(limit);
-        (n, library(&sphere(n), 0.0398, settings).report.orthogonality)
+        let settings = Settings::rey2017().criterion(Criterion::Complementarity).tolerance(1e-30).max_iterations(limit);
+        (n, library(&sphere(n), 0.0398, settings).report.complementarity)
     });
     assert!((2.5..3.7).contains(&exponent(&ours)), "{ours:?}");
     assert!(ours.iter().zip(&printed).all(|(a, b)| (1.0..20.0).contains(&(a.1 / b.1))), "{ours:?} {printed:?}");
@@ -329,7 +329,8 @@ fn the_floor_of_epsilon_grows_like_the_cube_of_the_nodes_along_a_side() {
 
 #[test]
 fn at_the_floor_of_rounding_the_method_keeps_what_it_has() {
-    let solution = library(&sphere(64), 0.0398, Settings::rey2017().tolerance(1e-30));
+    let solution =
+        library(&sphere(64), 0.0398, Settings::rey2017().criterion(Criterion::Complementarity).tolerance(1e-30));
     let (points, _) = of_sphere(64, 0.0398);
     assert_eq!((solution.report.status, solution.report.contact_nodes), (Status::Stalled, points));
     assert!(solution.report.relative_error < 1e-11, "{:e}", solution.report.relative_error);

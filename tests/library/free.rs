@@ -816,7 +816,7 @@ fn what_a_boundary_does_not_have_is_refused_by_name() {
             other => panic!("{other:?}"),
         }
     }
-    let paper = &mut Solver::new(Settings::rey2017());
+    let paper = &mut Solver::new(Settings::rey2017().criterion(Criterion::Complementarity));
     assert!(matches!(paper.solve(&mut free, Control::Force(1.0)), Err(Error::Control { .. })));
     assert!(matches!(paper.solve(&mut periodic, spring(1.0, 0.0)), Err(Error::Control { .. })));
     let legs = [Control::MeanPressure(0.0)];

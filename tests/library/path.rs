@@ -439,8 +439,9 @@ fn bad_settings_and_checkpoints_are_refused() {
     let mut path = Path::new(&mut solver, &mut problem, load.clone(), good).unwrap();
     assert!(path.next().unwrap().is_ok() && path.next().is_none());
     let checkpoint = path.checkpoint();
-    let short = PathCheckpoint { numbers: checkpoint.numbers[1..].to_vec(), fields: checkpoint.fields.clone() };
-    let other = PathCheckpoint { numbers: checkpoint.numbers, fields: vec![ndarray::Array2::zeros((2, 2))] };
+    let mut short = checkpoint.clone();
+    short.values.remove("step");
+    let other = PathCheckpoint { values: checkpoint.values, fields: vec![ndarray::Array2::zeros((2, 2))] };
     let mut open =
         |from| Path::new(&mut solver, &mut problem, load.clone(), good).unwrap().continuing(from).map(|_| ());
     assert!(matches!(open(short), Err(Error::Value { .. })));

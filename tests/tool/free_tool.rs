@@ -61,7 +61,7 @@ fn a_punch_has_absent_nodes_and_its_gap_is_a_start() {
     assert_eq!(solved["warnings"], Value::Array(Vec::new()));
     // F = 2aE*δ, to the width of a node on 15
     assert!((number(&solved["normal_force"]) / (2.0 * 0.3 * 0.01) - 1.0).abs() < 0.05, "{solved}");
-    let gap = read_field(&bench.0.path().join("a/gap.npy")).unwrap();
+    let gap = read_field(bench.0.path().join("a/gap.npy")).unwrap();
     assert_eq!(gap.iter().filter(|gap| gap.is_nan()).count() as f64, absent);
     let again = bench.reported(&format!("{solve} --initial-gap a/gap.npy --out b"));
     assert!(again["iterations"].as_u64() <= solved["iterations"].as_u64(), "{again}");
@@ -142,7 +142,7 @@ fn loads_that_a_boundary_does_not_have_are_refused_on_one_line() {
 fn forms_are_tilted_and_rough() {
     let bench = Bench::new();
     bench.said("surface --form cone --angle 45 --size 8 --lengths 8 --tilt 0.5 --quiet --out cone.npy");
-    let cone = read_field(&bench.0.path().join("cone.npy")).unwrap();
+    let cone = read_field(bench.0.path().join("cone.npy")).unwrap();
     // nodes are 1 apart, and the apex is on node (4, 4)
     assert!(
         (cone[[4, 4]] - 0.0).abs() < 1e-12 && (cone[[7, 4]] + 1.5).abs() < 1e-12 && (cone[[1, 4]] + 4.5).abs() < 1e-12
@@ -152,7 +152,7 @@ fn forms_are_tilted_and_rough() {
     bench.said(&format!("surface --form wave --amplitude 0.1 --periods 2 1 {rough} --out both.npy"));
     bench.said("surface --form wave --amplitude 0.1 --periods 2 1 --size 32 --quiet --out wave.npy");
     let [rough, both, wave] =
-        ["rough.npy", "both.npy", "wave.npy"].map(|name| read_field(&bench.0.path().join(name)).unwrap());
+        ["rough.npy", "both.npy", "wave.npy"].map(|name| read_field(bench.0.path().join(name)).unwrap());
     assert!((&both - &wave - &rough).iter().all(|h| h.abs() < 1e-15));
     assert!((wave[[16, 16]] - 0.1).abs() < 1e-15);
 }

@@ -243,7 +243,7 @@ mod tool {
     pub fn bench(n: usize) -> tempfile::TempDir {
         let bench = tempfile::tempdir().unwrap();
         let surface = Surface::wave_2d(Grid::square(n, 1.0).unwrap(), 0.042, 1).unwrap();
-        write_npy(&bench.path().join("heights.npy"), surface.heights()).unwrap();
+        write_npy(bench.path().join("heights.npy"), surface.heights()).unwrap();
         bench
     }
 
@@ -519,7 +519,7 @@ mod tool {
             if results.exists() {
                 assert_eq!(names(&results), whole);
                 for name in whole.iter().filter(|name| name.ends_with(".npy")) {
-                    assert_eq!(read_field(&results.join(name)).unwrap().dim(), (128, 128));
+                    assert_eq!(read_field(results.join(name)).unwrap().dim(), (128, 128));
                 }
                 fs::remove_dir_all(results).unwrap();
                 finished += 1;

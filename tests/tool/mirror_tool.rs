@@ -21,13 +21,13 @@ fn original(field: &Array2<f64>) -> Array2<f64> {
 #[test]
 fn results_are_of_the_original_unless_the_whole_is_asked_for() {
     let bench = mirrored();
-    let map = read_topography(&bench.path("map.npz")).unwrap();
+    let map = read_topography(bench.path("map.npz")).unwrap();
     assert_eq!((map.heights.dim(), map.original, map.seed), ((64, 48), Some((32, 24)), Some(5)));
     let solve = "solve --heights map.npz --mean-pressure 0.01 --stiffness --no-pictures";
     let said = bench.said(&format!("{solve} --out part"));
     assert!(said.contains("part of the mirrored map  original, 32 x 24 of 64 x 48 nodes"), "{said}");
     assert!(bench.said(&format!("{solve} --whole --out whole")).contains("whole, 64 x 48 nodes"));
-    let gaps = ["part", "whole"].map(|folder| read_field(&bench.path(&format!("{folder}/gap.npy"))).unwrap());
+    let gaps = ["part", "whole"].map(|folder| read_field(bench.path(&format!("{folder}/gap.npy"))).unwrap());
     assert_eq!(gaps[0], original(&gaps[1]));
     let [part, whole] = ["part", "whole"].map(|folder| bench.report(folder));
     assert_eq!((part["part"].as_str(), whole["part"].as_str()), (Some("original"), Some("whole")));
@@ -82,7 +82,7 @@ fn tables_say_of_which_part_and_seed_their_rows_are() {
     let cycle = "cycle --heights map.npz --mean-pressures 0.01,0.02 --steps 4 --fields kept --force --out table.csv";
     assert_eq!(row(cycle)["part"], "original");
     let last = bench.names("kept").into_iter().rfind(|name| name.starts_with("gap-")).unwrap();
-    assert_eq!(read_field(&bench.path(&format!("kept/{last}"))).unwrap().dim(), (32, 24));
+    assert_eq!(read_field(bench.path(&format!("kept/{last}"))).unwrap().dim(), (32, 24));
     // neither is known of a map that was not mirrored, and of one that is no surface of ours
     bench.said("prepare rough.npz --quiet --out plain.npy");
     let plain = row("sweep --heights plain.npy --mean-gaps 0.02 --force --out table.csv");

@@ -43,7 +43,7 @@ fn after(said: &str, word: &str) -> f64 {
 fn a_measured_surface_goes_from_file_to_contact_map() {
     let bench = Bench::new();
     let map = measured();
-    write_topography(&bench.path("measured.gsf"), &map).unwrap();
+    write_topography(bench.path("measured.gsf"), &map).unwrap();
     let missing = map.missing();
     let solve = "--modulus 1e9 --mean-pressure 1e6 --pressure-unit Pa --out";
 
@@ -66,7 +66,7 @@ fn a_measured_surface_goes_from_file_to_contact_map() {
     let rms: Vec<f64> = said.split("rms height ").skip(1).map(|rest| after(rest, "")).collect();
     assert!(rms[0] > 2.0 * rms[1] && (rms[2] / rms[1] - 1.0).abs() < 0.1 && rms[3] == rms[2], "{said}");
 
-    let surface = read_topography(&bench.path("surface.npz")).unwrap();
+    let surface = read_topography(bench.path("surface.npz")).unwrap();
     assert_eq!((surface.heights.dim(), surface.missing(), surface.unit.as_deref()), ((122, 90), 0, Some("m")));
     let (lx, ly) = surface.lengths.unwrap();
     assert!((lx / 6.1e-6 - 1.0).abs() < 1e-12 && (ly / 4.5e-6 - 1.0).abs() < 1e-12);
@@ -95,7 +95,7 @@ fn a_measured_surface_goes_from_file_to_contact_map() {
 fn steps_have_a_fixed_order_and_are_those_of_the_library() {
     let bench = Bench::new();
     let map = measured();
-    write_topography(&bench.path("measured.npz"), &map).unwrap();
+    write_topography(bench.path("measured.npz"), &map).unwrap();
     let said = bench.said(
         "prepare measured.npz --resample 100 64 --window 0.15 --fill --detrend quadric --flip --crop 3 2 50 40 --scale 2 \
          --lengths 6.1e-6 4.5e-6 --unit m --out a.npz",
@@ -108,17 +108,17 @@ fn steps_have_a_fixed_order_and_are_those_of_the_library() {
     expected.heights.mapv_inplace(|h| 2.0 * h);
     let expected = expected.crop(3..53, 2..42).unwrap().flip().detrend(asperity::Trend::Quadric).unwrap();
     let expected = expected.fill().unwrap().window(0.15).unwrap().resample((100, 64)).unwrap();
-    assert_eq!(read_topography(&bench.path("a.npz")).unwrap(), expected);
+    assert_eq!(read_topography(bench.path("a.npz")).unwrap(), expected);
     assert!(said.contains("before 3.05 µm x 2.25 µm") && said.contains("curvatures xx"), "{said}");
 
     // nothing is done unasked, and what is left undone is said
     let said = bench.said("prepare measured.npz --out same.npz");
     assert!(said.contains("points are missing still") && said.lines().count() == 3, "{said}");
-    let (same, before) = (read_topography(&bench.path("same.npz")).unwrap(), measured());
+    let (same, before) = (read_topography(bench.path("same.npz")).unwrap(), measured());
     assert!(same.heights.iter().zip(&before.heights).all(|(a, b)| a == b || a.is_nan() && b.is_nan()));
     assert_eq!(bench.said("prepare measured.npz --fill --out heights.npy --quiet"), "");
     assert!(bench.said("prepare measured.npz --fill --out h.npy").contains("give them again by --lengths"));
-    assert_eq!(read_topography(&bench.path("heights.npy")).unwrap().lengths, None);
+    assert_eq!(read_topography(bench.path("heights.npy")).unwrap().lengths, None);
     let fit = bench.said("prepare heights.npy --detrend mean --out level.gsf");
     assert!(fit.contains("unknown side lengths") && fit.contains("removed"), "{fit}");
 }
@@ -141,7 +141,7 @@ fn scanned() -> Topography {
 fn a_scan_loses_its_code_its_offsets_and_its_spikes_step_by_step() {
     let bench = Bench::new();
     let map = scanned();
-    write_topography(&bench.path("scan.npz"), &map).unwrap();
+    write_topography(bench.path("scan.npz"), &map).unwrap();
     let steps = "--missing -9999 --align-rows median --despike --detrend 3 --fill";
     let said = bench.said(&format!("prepare scan.npz {steps} --out a.npz"));
     let order = ["read", "missing", "align-rows", "despike", "detrend", "fill", "written"];
@@ -155,12 +155,12 @@ fn a_scan_loses_its_code_its_offsets_and_its_spikes_step_by_step() {
     assert!(said.contains("polynomial of order 3 removed, heights changed by") && said.contains(" nm rms"), "{said}");
     let expected = map.declare_missing(-9999.0).align_rows(asperity::RowAlignment::Median, asperity::ScanAxis::X);
     let expected = expected.unwrap().despike(10.0).unwrap().detrend(asperity::Trend::Polynomial(3)).unwrap();
-    let prepared = read_topography(&bench.path("a.npz")).unwrap();
+    let prepared = read_topography(bench.path("a.npz")).unwrap();
     assert_eq!(prepared, expected.fill().unwrap());
     assert!(prepared.rms_height() < 0.2, "{}", prepared.rms_height());
     // its scene repeats it
     bench.said("run a.npz.scene.toml --out b.npz");
-    assert_eq!(read_topography(&bench.path("b.npz")).unwrap(), prepared);
+    assert_eq!(read_topography(bench.path("b.npz")).unwrap(), prepared);
     // other thresholds, methods and directions, each told
     let said = bench
         .said("prepare scan.npz --missing -9999 --align-rows polynomial:2 --scan-axis y --despike 1e9 --out c.npz");
@@ -184,7 +184,7 @@ fn a_scan_loses_its_code_its_offsets_and_its_spikes_step_by_step() {
 #[test]
 fn a_code_is_guessed_and_named_but_not_taken_unasked() {
     let bench = Bench::new();
-    write_topography(&bench.path("scan.npz"), &scanned()).unwrap();
+    write_topography(bench.path("scan.npz"), &scanned()).unwrap();
     let warned = |arguments: &str| {
         let output = bench.run(arguments);
         assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
@@ -196,10 +196,10 @@ fn a_code_is_guessed_and_named_but_not_taken_unasked() {
     }
     let report: serde_json::Value = serde_json::from_str(&said).unwrap();
     assert_eq!(report["warnings"][0]["code"], "missing-code");
-    assert_eq!(read_topography(&bench.path("a.npz")).unwrap(), scanned());
+    assert_eq!(read_topography(bench.path("a.npz")).unwrap(), scanned());
     assert_eq!(warned("prepare scan.npz --missing -9999 --out b.npz").0, "");
     // a map without one has no warning, holes or not
-    write_topography(&bench.path("measured.npz"), &measured()).unwrap();
+    write_topography(bench.path("measured.npz"), &measured()).unwrap();
     assert_eq!(warned("prepare measured.npz --out c.npz").0, "");
 }
 
@@ -210,7 +210,7 @@ fn a_form_is_removed_and_told_with_its_radius() {
     let rod = grid.sample(|x, y| (1e-10 - (0.6 * x - 0.8 * y).powi(2)).sqrt() + 1e-9 * (4e6 * x).sin());
     let mut map = Topography::new(rod);
     (map.lengths, map.unit) = (Some((4e-6, 3e-6)), Some("m".to_owned()));
-    write_topography(&bench.path("rod.npz"), &map).unwrap();
+    write_topography(bench.path("rod.npz"), &map).unwrap();
     let said = bench.said("prepare rod.npz --remove-form cylinder --out a.npz");
     assert!(
         (after(&said, "cylinder of radius ") / 10.0 - 1.0).abs() < 0.01 && said.contains(" µm, bulging upwards"),
@@ -218,7 +218,7 @@ fn a_form_is_removed_and_told_with_its_radius() {
     );
     // the axis is where 0.6 x = 0.8 y
     assert!((after(&said, "axis at ") - 0.6_f64.atan2(0.8).to_degrees()).abs() < 0.5, "{said}");
-    let rms = read_topography(&bench.path("a.npz")).unwrap().rms_height();
+    let rms = read_topography(bench.path("a.npz")).unwrap().rms_height();
     assert!(rms < 1e-9 && rms > 1e-10, "{rms}");
     let said = bench.said("prepare rod.npz --flip --remove-form sphere --out b.npz");
     assert!(said.contains("sphere of radius") && said.contains("bulging downwards"), "{said}");
@@ -343,7 +343,7 @@ fn all_formats_hold_the_same_fields() {
     let bench = Bench::new();
     for precision in ["f32", "f64"] {
         let heights = Array2::from_shape_fn((6, 4), |(i, j)| 0.01 * ((i * i + 2 * j) as f64).cos());
-        write_npy(&bench.path("h.npy"), &heights).unwrap();
+        write_npy(bench.path("h.npy"), &heights).unwrap();
         bench.said(&format!(
             "solve --heights h.npy --lengths 3 1 --mean-pressure 2e-3 --precision {precision} --law exponential \
              --work-of-adhesion 1e-5 --range 1e-2 --stability --format npy --format npz --format vti --no-pictures --out {precision}"
@@ -361,7 +361,7 @@ fn all_formats_hold_the_same_fields() {
         assert!(vti.ends_with(b"</AppendedData>\n</VTKFile>\n"));
         let archive = fs::read(folder.join("fields.npz")).unwrap();
         for (k, name) in ["gap", "pressure", "contact_pressure", "mode"].into_iter().enumerate() {
-            let field = read_field(&folder.join(format!("{name}.npy"))).unwrap();
+            let field = read_field(folder.join(format!("{name}.npy"))).unwrap();
             let offset = k * (8 + 24 * width);
             assert!(head.contains(&format!(r#"Name="{name}" format="appended" offset="{offset}""#)), "{head}");
             let block = &vti[start + offset..];
@@ -451,7 +451,7 @@ np.savetxt('text.txt', h, header='seven lines of four')");
         read += 1;
     }
     assert_eq!(read, 12);
-    let named = read_topography(&bench.path("named.npz")).unwrap();
+    let named = read_topography(bench.path("named.npz")).unwrap();
     assert_eq!((named.lengths, named.unit.as_deref()), (Some((7e3, 4e3)), Some("m")));
 
     // the other way, with the check that only the solution passes
@@ -488,7 +488,7 @@ fn offsets_of_lines_along_the_other_axis_are_told() {
     let image = ndarray::Array2::from_shape_fn((96, 80), |(row, column)| drift(row) + grain(row, column));
     let mut map = Topography::new(image);
     (map.lengths, map.unit) = (Some((96.0, 80.0)), Some("nm".to_owned()));
-    write_topography(&bench.path("image.npz"), &map).unwrap();
+    write_topography(bench.path("image.npz"), &map).unwrap();
     let told = |arguments: &str| {
         let output = bench.run(&format!("prepare image.npz --align-rows median --json {arguments}"));
         assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));

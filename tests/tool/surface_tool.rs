@@ -39,7 +39,7 @@ fn a_surface_is_the_librarys_and_is_measured_alike() {
         .random_phase(false)
         .seed(12);
     let surface = rough.surface(grid).unwrap();
-    assert_eq!(read_field(&bench.0.path().join("rough.npy")).unwrap(), surface.heights());
+    assert_eq!(read_field(bench.0.path().join("rough.npy")).unwrap(), surface.heights());
     let expected = surface.statistics();
     for (name, values) in [
         ("rms height", vec![1e-8]),

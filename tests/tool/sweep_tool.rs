@@ -18,7 +18,7 @@ struct Bench(TempDir);
 impl Bench {
     fn new(n: usize) -> Self {
         let bench = Self(tempfile::tempdir().unwrap());
-        write_npy(&bench.path("heights.npy"), &wavy(n)).unwrap();
+        write_npy(bench.path("heights.npy"), &wavy(n)).unwrap();
         bench
     }
 
@@ -142,7 +142,7 @@ fn a_sweep_writes_a_row_for_each_load() {
         let cells = cells.map(|cell| if cell == "null" { "" } else { cell });
         assert_eq!(cells.collect::<Vec<_>>().join(","), row);
     }
-    let state = read_field(&bench.path("sweep.jsonl.state.npz")).unwrap();
+    let state = read_field(bench.path("sweep.jsonl.state.npz")).unwrap();
     assert_eq!(state.dim(), (128, 64));
     assert!((state.sum() / 8192.0 - 0.5 * column(&table, "mean_gap")[2..].iter().sum::<f64>()).abs() < 1e-12);
 }
@@ -207,7 +207,7 @@ fn the_file_of_another_sweep_is_refused_and_kept() {
     let bench = Bench::new(32);
     let good = "--mean-pressures 2e-3,4e-3 --out sweep.csv";
     bench.sweep(good, 0);
-    write_npy(&bench.path("start.npy"), &Array2::from_elem((32, 32), 0.01)).unwrap();
+    write_npy(bench.path("start.npy"), &Array2::from_elem((32, 32), 0.01)).unwrap();
     let (before, names) = (bench.read("sweep.csv"), bench.names("."));
     for (arguments, part) in [
         (format!("{good} --modulus 2"), "modulus is 1, and not 2"),
@@ -228,9 +228,9 @@ fn the_file_of_another_sweep_is_refused_and_kept() {
     }
     let mut heights = wavy(32);
     heights[[3, 4]] += 1e-9;
-    write_npy(&bench.path("heights.npy"), &heights).unwrap();
+    write_npy(bench.path("heights.npy"), &heights).unwrap();
     bench.refuse(good, &["another file of its heights"]);
-    write_npy(&bench.path("heights.npy"), &wavy(32)).unwrap();
+    write_npy(bench.path("heights.npy"), &wavy(32)).unwrap();
     bench.sweep(good, 0);
     assert_eq!(bench.read("sweep.csv"), before);
 
@@ -308,7 +308,7 @@ fn fields_are_kept_for_every_load() {
     let names = ["contact_pressure-0001.npy", "contact_pressure-0002.npy", "gap-0001.npy", "gap-0002.npy"];
     assert_eq!(bench.names("fields")[..4], names);
     assert_eq!(bench.names("fields").len(), 6);
-    let [first, second] = [0, 1].map(|k| read_field(&bench.path("fields").join(names[2 + k])).unwrap());
+    let [first, second] = [0, 1].map(|k| read_field(bench.path("fields").join(names[2 + k])).unwrap());
     assert!((first.mean().unwrap() - 0.02).abs() < 1e-12 && (second.mean().unwrap() - 0.01).abs() < 1e-12);
     let table = bench.read("sweep.csv");
     let contact = second.iter().filter(|gap| **gap == 0.0).count() as f64 / 1024.0;
@@ -339,7 +339,7 @@ const CYCLE: &str = "--law exponential --work-of-adhesion 8e-5 --range 2e-3 --me
 fn bench_with_a_wave() -> Bench {
     let bench = Bench::new(4);
     let wave = Surface::wave(Grid::line(64, 1.0).unwrap(), 0.02, 1).unwrap();
-    write_npy(&bench.path("heights.npy"), wave.heights()).unwrap();
+    write_npy(bench.path("heights.npy"), wave.heights()).unwrap();
     bench
 }
 
@@ -397,7 +397,7 @@ fn an_interrupted_cycle_goes_on_to_the_same_file() {
 fn what_is_interrupted_on_a_free_half_space_goes_on_to_the_same_file() {
     let bench = Bench::new(4);
     let tip = Surface::paraboloid(Grid::square(32, 1.0).unwrap(), 2.0).unwrap();
-    write_npy(&bench.path("heights.npy"), tip.heights()).unwrap();
+    write_npy(bench.path("heights.npy"), tip.heights()).unwrap();
     let law = "--law exponential --work-of-adhesion 1e-4 --range 8e-3";
     for (k, (command, options)) in [
         ("sweep", "--normal-forces 1e-3:1e-2:12"),

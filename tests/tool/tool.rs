@@ -21,7 +21,7 @@ struct Bench(TempDir);
 impl Bench {
     fn new() -> Self {
         let bench = Self::empty();
-        write_npy(&bench.0.path().join("heights.npy"), &hertz(64)).unwrap();
+        write_npy(bench.0.path().join("heights.npy"), &hertz(64)).unwrap();
         bench
     }
 
@@ -328,7 +328,7 @@ fn a_given_start_saves_iterations() {
 fn nested_grids_give_the_same_and_say_what_they_took() {
     let bench = Bench::empty();
     let wavy = Surface::from_fn(Grid::square(256, 1.0).unwrap(), |x, y| 0.02 * (19.0 * x).sin() * (31.0 * y * x).cos());
-    write_npy(&bench.0.path().join("heights.npy"), wavy.unwrap().heights()).unwrap();
+    write_npy(bench.0.path().join("heights.npy"), wavy.unwrap().heights()).unwrap();
     for load in ["--mean-pressure 0.02", "--mean-gap 0.01"] {
         let single = bench.solve(&format!("{load} --no-pictures --force --nested --no-nested"), "single", 0);
         let nested = bench.solve(&format!("{load} --no-pictures --force --nested"), "nested", 0);
@@ -370,7 +370,7 @@ fn nested_grids_give_the_same_and_say_what_they_took() {
 fn lines_and_rectangles_have_sensible_lengths() {
     let (bench, hertz) = (Bench::empty(), hertz(64));
     let line = hertz.row(32).to_owned().insert_axis(ndarray::Axis(1));
-    write_npy(&bench.0.path().join("heights.npy"), &line).unwrap();
+    write_npy(bench.0.path().join("heights.npy"), &line).unwrap();
     for (arguments, lengths) in
         [("--lengths 2", json!([2.0, 0.03125])), ("--lengths 2 3", json!([2.0, 3.0])), ("", json!([1.0, 1.0]))]
     {
@@ -378,7 +378,7 @@ fn lines_and_rectangles_have_sensible_lengths() {
         assert_eq!((&report["shape"], &report["lengths"]), (&json!([64, 1]), &lengths));
     }
     assert_eq!(bench.names("line"), RESULTS);
-    write_npy(&bench.0.path().join("heights.npy"), &Array2::from_shape_fn((64, 32), |(i, j)| hertz[[i, j]])).unwrap();
+    write_npy(bench.0.path().join("heights.npy"), &Array2::from_shape_fn((64, 32), |(i, j)| hertz[[i, j]])).unwrap();
     for (arguments, lengths) in
         [("--lengths 2", json!([2.0, 1.0])), ("--lengths 2 3", json!([2.0, 3.0])), ("", json!([1.0, 1.0]))]
     {
@@ -450,7 +450,7 @@ fn bad_input_is_refused_on_one_line_and_writes_nothing() {
     missing[[3, 5]] = f64::NAN;
     missing[[7, 0]] = f64::NAN;
     for (name, field) in [("missing.npy", missing), ("small.npy", hertz(8)), ("negative.npy", hertz(64) - 1e-9)] {
-        write_npy(&bench.0.path().join(name), &field).unwrap();
+        write_npy(bench.0.path().join(name), &field).unwrap();
     }
     fs::write(bench.0.path().join("words.txt"), "one two\n").unwrap();
     let before = bench.names(".");
@@ -529,7 +529,7 @@ fn folders_that_cannot_be_written_are_refused() {
 fn threads_do_not_change_a_bit() {
     let bench = Bench::empty();
     let wavy = Surface::from_fn(Grid::square(150, 1.0).unwrap(), |x, y| 0.02 * (19.0 * x).sin() * (31.0 * y * x).cos());
-    write_npy(&bench.0.path().join("heights.npy"), wavy.unwrap().heights()).unwrap();
+    write_npy(bench.0.path().join("heights.npy"), wavy.unwrap().heights()).unwrap();
     let options = "--mean-pressure 0.02 --law exponential --work-of-adhesion 1e-4 --range 4e-3";
     for threads in [1, 2, 3] {
         let report = bench.solve(&format!("{options} --threads {threads}"), &format!("by-{threads}"), 0);

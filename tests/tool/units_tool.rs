@@ -194,7 +194,7 @@ fn maps_have_their_unit_and_come_into_the_si() {
     bench.write("heights.txt", &(0..30).map(row).collect::<Vec<_>>().join("\n"));
     let said = bench.said("prepare heights.txt --lengths 5um 4um --unit nm --mirror --out map.npz");
     assert!(said.contains("5000 nm x 4000 nm, before unknown"), "{said}");
-    let map = read_topography(&bench.path("map.npz")).unwrap();
+    let map = read_topography(bench.path("map.npz")).unwrap();
     assert_eq!((map.lengths, map.unit.as_deref()), (Some((10000.0, 8000.0)), Some("nm")));
     assert!(bench.said("stats map.npz").contains("side lengths       10000 nm x 8000 nm"));
     let solved = bench.reported("solve --heights map.npz --modulus 1GPa --mean-pressure 1MPa --no-pictures --out si");
@@ -202,7 +202,7 @@ fn maps_have_their_unit_and_come_into_the_si() {
     let mut metres = map.clone();
     metres.heights.mapv_inplace(|height| height / 1e9);
     (metres.lengths, metres.unit) = (Some((1e-5, 8e-6)), Some("m".to_owned()));
-    write_topography(&bench.path("metres.npz"), &metres).unwrap();
+    write_topography(bench.path("metres.npz"), &metres).unwrap();
     bench.said("solve --heights metres.npz --modulus 1e9 --mean-pressure 1e6 --no-pictures --quiet --out plain");
     assert!(bench.bytes("si/gap.npy") == bench.bytes("plain/gap.npy"));
     // in whatever unit the map is, if numbers have none
@@ -220,6 +220,6 @@ fn maps_have_their_unit_and_come_into_the_si() {
             .said("surface --size 16 --lengths 2um --k-s 6 --rms-height 5nm --out made.npz")
             .contains("rms height         5 nm")
     );
-    assert_eq!(read_topography(&bench.path("made.npz")).unwrap().unit.as_deref(), Some("m"));
+    assert_eq!(read_topography(bench.path("made.npz")).unwrap().unit.as_deref(), Some("m"));
     bench.refused_with("surface --size 16 --k-s 6 --rms-height 5nm --out no.npz", &["how large", "--lengths"]);
 }

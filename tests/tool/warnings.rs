@@ -12,7 +12,7 @@ fn bench() -> Bench {
     let bench = Bench::new();
     let rough = SelfAffine::default().k_l(2.0).k_r(2.0).k_s(10.0);
     let heights = rough.surface(asperity::Grid::square(32, 1.0).unwrap()).unwrap().heights().clone();
-    let write = |name: &str, heights: &Array2<f64>| write_npy(&bench.path(name), heights).unwrap();
+    let write = |name: &str, heights: &Array2<f64>| write_npy(bench.path(name), heights).unwrap();
     write("clean.npy", &heights);
     let mut tilted = heights.clone();
     tilted.indexed_iter_mut().for_each(|((i, _), h)| *h += 0.01 * i as f64);
@@ -30,7 +30,7 @@ fn bench() -> Bench {
     for (name, side) in [("small.npz", 1.0), ("large.npz", 3.0)] {
         let mut map = Topography::new(heights.clone());
         map.lengths = Some((side, side));
-        write_topography(&bench.path(name), &map).unwrap();
+        write_topography(bench.path(name), &map).unwrap();
     }
     bench
 }
@@ -199,11 +199,11 @@ fn warnings_have_the_units_of_tables() {
 #[test]
 fn a_code_for_missing_points_is_named_as_it_stands_in_the_file() {
     let bench = bench();
-    let mut map = Topography::new(read_field(&bench.path("clean.npy")).unwrap());
+    let mut map = Topography::new(read_field(bench.path("clean.npy")).unwrap());
     (map.lengths, map.unit) = (Some((1.0, 1.0)), Some("nm".to_owned()));
     for (code, count) in [(-999.0, 1), (1e30, 2)] {
         (0..count).for_each(|j| map.heights[[3, j]] = code);
-        write_topography(&bench.path("map.npz"), &map).unwrap();
+        write_topography(bench.path("map.npz"), &map).unwrap();
         for command in ["solve --no-pictures --out o --mean-pressure", "sweep --out o.csv --mean-pressures"] {
             let command = format!("{command} 1kPa --heights map.npz --modulus 1GPa --force --strict");
             let refused = bench.refused(&command);

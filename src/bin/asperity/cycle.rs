@@ -174,7 +174,7 @@ impl Options {
         drop(surface);
         if table.rows() > 0 {
             let fields = saved.fields.into_iter().map(T::field).collect();
-            path = path.continuing(PathCheckpoint { numbers: saved.numbers, fields })?;
+            path = path.continuing(PathCheckpoint { values: saved.values, fields })?;
         } else if let Some(start) = start.or(afar) {
             path = path.starting_from(T::field(start));
         }
@@ -198,7 +198,7 @@ impl Options {
             let report = &shown.report;
             let (_, load) = name_and_value(report.control);
             let (text, converged) = (csv::line(&row), report.status == Status::Converged);
-            let row_to_keep = Row { text: &text, load, converged, fields: &fields, numbers: &checkpoint.numbers };
+            let row_to_keep = Row { text: &text, load, converged, fields: &fields, values: &checkpoint.values };
             table.append(&row_to_keep, &shown)?;
             // the fields of a row stay where it or the next one has an event
             if !had_event && step.event.is_none() {

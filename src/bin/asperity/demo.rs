@@ -108,7 +108,7 @@ pub fn run(options: &Options) -> Outcome<bool> {
     let draw = || {
         let path = |what: &str| folder.path(&format!("{what}{ending}"));
         draw_heights(grid, &heights, dpi)?.write(&path("heights"))?;
-        write_npy(&folder.path("heights.npy"), &heights)?;
+        write_npy(folder.path("heights.npy"), &heights)?;
         write_text(&folder.path(scene::NAME), &scene.text(out))?;
         // a law of no work is no adhesion
         let none = Exponential::new(0.0, RANGE)?;

@@ -20,8 +20,8 @@ use ndarray_npy::WritableElement;
 use serde_json::Value;
 
 use self::lock::open_locked;
-pub use self::state::state_path;
 use self::state::{State, Written, save};
+pub use self::state::{Values, state_path};
 use crate::hash::Hash;
 use crate::identity::Identity;
 use crate::outcome::Outcome;
@@ -36,18 +36,18 @@ pub struct Journal {
     written: Written,
 }
 
-/// The fields and numbers that were saved with the last row, and from which the next one starts.
+/// The fields and values that were saved with the last row, and from which the next one starts.
 #[derive(Debug, Default)]
 pub struct Saved {
     /// The latest last
     pub fields: Vec<Array2<f64>>,
-    pub numbers: Vec<f64>,
+    pub values: Values,
 }
 
 impl Saved {
     /// Those of a state, or why it has none.
     fn of(state: State) -> Result<Self, String> {
-        Ok(Self { fields: state.read_fields()?, numbers: state.numbers })
+        Ok(Self { fields: state.read_fields()?, values: state.values })
     }
 }
 
@@ -70,13 +70,13 @@ impl Seen {
     }
 }
 
-/// A row to append, with the fields (the latest last) and numbers from which the next one starts.
+/// A row to append, with the fields (the latest last) and values from which the next one starts.
 pub struct Row<'a, T> {
     pub text: &'a str,
     pub load: f64,
     pub converged: bool,
     pub fields: &'a [ArrayView2<'a, T>],
-    pub numbers: &'a [f64],
+    pub values: &'a Values,
 }
 
 const REMEDY: &str = "choose another --out, or --force to start over";
@@ -108,7 +108,7 @@ impl Journal {
             // a run that is killed before it writes its first state leaves an empty file
             let new = content.is_empty() && (made || !state_path(path).exists());
             let (written, saved) = if new || force {
-                save(path, &identity, &Written::NOTHING, &[] as &[ArrayView2<'_, f64>], &[])?;
+                save(path, &identity, &Written::NOTHING, &[] as &[ArrayView2<'_, f64>], &Values::new())?;
                 (Written::NOTHING, Saved::default())
             } else {
                 resume(path, &content, header, &identity, loads)?
@@ -145,7 +145,7 @@ impl Journal {
 
     /// Appends a row, and saves the state.
     pub fn append<T: WritableElement + Clone>(&mut self, row: &Row<'_, T>) -> Outcome<()> {
-        let Row { text, load, converged, fields, numbers } = *row;
+        let Row { text, load, converged, fields, values } = *row;
         let header = if self.written.rows == 0 { self.header.as_str() } else { "" };
         let text = format!("{header}{text}\n");
         let mut write = || {
@@ -167,7 +167,7 @@ impl Journal {
             bytes: self.written.bytes + text.len() as u64,
             content: self.written.content.of(text.as_bytes()),
         };
-        save(&self.path, &self.identity, &self.written, fields, numbers)
+        save(&self.path, &self.identity, &self.written, fields, values)
     }
 }
 
@@ -184,7 +184,7 @@ pub fn is_whole(path: &Path) -> bool {
     kept.is_some_and(|kept| Hash::NEW.of(kept) == state.written.content) && state.read_fields().is_ok()
 }
 
-/// The part of the file that is kept, and the fields and numbers from which the run goes on.
+/// The part of the file that is kept, and the fields and values from which the run goes on.
 fn resume(
     path: &Path,
     content: &[u8],

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use asperity::io::read_field;
-use asperity::{Branch, Criterion, Error, Real, Settings, Surface};
+use asperity::{Branch, Error, Real, Settings, Surface};
 use clap::{Args, ValueEnum};
 use ndarray::Array2;
 use ndarray_npy::WritableElement;
@@ -236,7 +236,7 @@ impl SolverOptions {
     pub fn settings(&self) -> Settings {
         let default = match self.method {
             Iteration::Default => Settings::default(),
-            Iteration::Rey2017 => Settings::rey2017().criterion(Criterion::EnergyNorm),
+            Iteration::Rey2017 => Settings::rey2017(),
         };
         default.tolerance(self.tolerance).max_iterations(self.max_iterations.unwrap_or(default.max_iterations)).branch(
             match self.branch {

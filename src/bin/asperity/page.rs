@@ -182,7 +182,7 @@ fn page_of_solve(folder: &Path) -> Outcome<String> {
 /// The maps and the curve of a solve, each with its kind.
 fn maps_of_solve(folder: &Path, report: &Value, units: &Units) -> Outcome<Vec<(&'static str, String)>> {
     let [gap, pressure, contact_pressure] =
-        ["gap", "pressure", "contact_pressure"].map(|name| read_field(&folder.join(format!("{name}.npy"))));
+        ["gap", "pressure", "contact_pressure"].map(|name| read_field(folder.join(format!("{name}.npy"))));
     let (gap, pressure, contact_pressure) = (gap?, pressure?, contact_pressure?);
     let side = |k: usize| report["lengths"][k].as_f64().unwrap_or(1.0);
     let grid = Grid::new(gap.dim(), (side(0), side(1)))?;

@@ -449,7 +449,7 @@ impl Job<'_> {
         let mode =
             account.stability.as_ref().map(|stability| self.part.of_field(stability.mode.mapv(T::lit))).transpose()?;
         let named = FIELDS.into_iter().zip(fields).chain(mode.as_ref().map(|mode| (MODE, mode)));
-        let named: Vec<_> = named.map(|(name, field)| (name.trim_end_matches(".npy"), field)).collect();
+        let named: Vec<_> = named.map(|(name, field)| (name.trim_end_matches(".npy"), field.view())).collect();
         if self.options.writes(Format::Npz) {
             write_npz(&path(NPZ), &shown, &named)?;
         }

@@ -19,7 +19,7 @@ use crate::case::Search;
 use crate::columns::{Cell, INPUTS, OUTCOME, SEARCH, STATE, STIFFNESS, inputs, outcome, search, state, stiffness};
 use crate::csv;
 use crate::identity::{Identity, identity};
-use crate::journal::Row;
+use crate::journal::{Row, Values};
 use crate::options::{Given, Precision, ProblemOptions, Scalar, SolverOptions, SurfaceOptions};
 use crate::outcome::Outcome;
 use crate::pictures::PlotOptions;
@@ -155,7 +155,8 @@ impl Options {
         let mut steps = match self.fractions.values() {
             Some(_) => {
                 let gap = saved.fields.into_iter().next_back().map(T::field);
-                let search = ContactSearch::new(&mut solver, &mut problem)?.continuing(&saved.numbers, gap);
+                let points = saved.values.get("points").map_or(&[][..], Vec::as_slice);
+                let search = ContactSearch::new(&mut solver, &mut problem)?.continuing(points, gap);
                 Steps::Search(match start {
                     Some(start) if done == 0 => search.starting_from(T::field(start)),
                     _ => search,
@@ -193,10 +194,10 @@ impl Options {
                 Format::Csv => csv::line(&row),
                 Format::Jsonl => Value::Object(row).to_string(),
             };
-            let (fields, numbers) = steps.place();
+            let (fields, values) = steps.place();
             let reached = searched.as_ref().is_none_or(|searched| searched.reached);
             let converged = solution.report.status == Status::Converged;
-            let row = Row { text: &text, load, converged: converged && reached, fields: &fields, numbers: &numbers };
+            let row = Row { text: &text, load, converged: converged && reached, fields: &fields, values: &values };
             table.append(&row, &shown)?;
             self.printing.say(&format!("{:>width$}/{count}  {}", k + 1, table::brief(&shown.report, units)));
             if let Some(searched) = searched.filter(|searched| converged && !searched.reached) {
@@ -297,13 +298,13 @@ impl<T: Scalar> Steps<'_, T> {
         }
     }
 
-    /// The fields and numbers from which the next solve starts.
-    fn place(&self) -> (Vec<ArrayView2<'_, T>>, Vec<f64>) {
+    /// The fields and values from which the next solve starts.
+    fn place(&self) -> (Vec<ArrayView2<'_, T>>, Values) {
         match self {
-            Self::Sweep(sweep) => (sweep.history().iter().map(|(_, gap)| gap.view()).collect(), Vec::new()),
+            Self::Sweep(sweep) => (sweep.history().iter().map(|(_, gap)| gap.view()).collect(), Values::new()),
             Self::Search(search) => {
-                let (numbers, gap) = search.checkpoint();
-                (gap.into_iter().map(|gap| gap.view()).collect(), numbers)
+                let (points, gap) = search.checkpoint();
+                (gap.into_iter().map(|gap| gap.view()).collect(), Values::from([("points".to_owned(), points)]))
             }
         }
     }

@@ -32,7 +32,7 @@ pub(in crate::solver) struct Released {
 #[derive(Clone, Copy, Debug)]
 pub(in crate::solver) struct Continued {
     /// Σ|g r'|
-    pub(in crate::solver) orthogonality: f64,
+    pub(in crate::solver) complementarity: f64,
     /// the number of nodes in the working set
     pub(in crate::solver) working: f64,
     /// Σ r'·c, with c the field of the change
@@ -108,8 +108,8 @@ pub(in crate::solver) fn residual<T: Real, Lo: Real>(
         })
     });
     reducer.keep(|part| part.sum[0], moving);
-    let [working, orthogonality, descent, overlap, sum_change, difference, ..] = total.sum;
-    (Continued { orthogonality, working, descent, overlap, sum_change }, difference)
+    let [working, complementarity, descent, overlap, sum_change, difference, ..] = total.sum;
+    (Continued { complementarity, working, descent, overlap, sum_change }, difference)
 }
 
 /// The residual r' of a chunk, from the gradient less a constant in the same field, which release and level are less,
@@ -142,8 +142,8 @@ pub(in crate::solver) fn release<T: Real, Lo: Real>(
         release_chunk(local.touching(), working, gap, (z, change), residual)
     });
     reducer.keep(|part| part.sum[0], moving);
-    let [working, orthogonality, descent, overlap, sum_change, ..] = total.sum;
-    Continued { orthogonality, working, descent, overlap, sum_change }
+    let [working, complementarity, descent, overlap, sum_change, ..] = total.sum;
+    Continued { complementarity, working, descent, overlap, sum_change }
 }
 
 /// Σ z outside of the working set of the present residual.

@@ -254,8 +254,8 @@ pub(in crate::solver) fn advance<T: Real, Lo: Real>(
             },
         );
         reducer.keep(|part| part.min, least_r);
-        let [.., working, orthogonality, descent, overlap] = total.sum;
-        let residual = Continued { orthogonality, working, descent, overlap, sum_change: 0.0 };
+        let [.., working, complementarity, descent, overlap] = total.sum;
+        let residual = Continued { complementarity, working, descent, overlap, sum_change: 0.0 };
         return Advanced { tally: Tally::new(&total), product: total.sum[PRODUCT], residual: Some(residual) };
     }
     let total = if rest == T::zero() {

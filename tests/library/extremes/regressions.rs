@@ -47,7 +47,7 @@ fn planes_stay_at_a_mean_gap_from_any_start<T: Real>() {
 }
 
 fn paper(tolerance: f64) -> Solver {
-    Solver::new(Settings::rey2017().criterion(Criterion::EnergyNorm).tolerance(tolerance))
+    Solver::new(Settings::rey2017().tolerance(tolerance))
 }
 
 /// A step that leaves no node apart keeps the mean gap.

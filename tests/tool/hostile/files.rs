@@ -203,7 +203,7 @@ fn side_lengths_under_another_name_are_not_ignored_in_silence() {
         let given = command.starts_with("stats") || output.status.code() == Some(0);
         assert!(given && !String::from_utf8_lossy(&output.stderr).contains("not read"), "{command}: {output:?}");
     }
-    assert_eq!(read_topography(&bench.path().join("map.npz")).unwrap().unread, ["length", "x"]);
+    assert_eq!(read_topography(bench.path().join("map.npz")).unwrap().unread, ["length", "x"]);
 }
 
 #[test]

@@ -2,6 +2,7 @@
 //!
 //! The archive holds the fields from which the next row starts, one below the other, and a comment with all else.
 
+use std::collections::BTreeMap;
 use std::fs::{self, File};
 use std::io::{self, Cursor, Write};
 use std::path::{Path, PathBuf};
@@ -10,7 +11,7 @@ use asperity::Error;
 use asperity::io::read_field;
 use ndarray::{Array2, ArrayView2, Axis};
 use ndarray_npy::{WritableElement, WriteNpyExt};
-use serde_json::{Value, json};
+use serde_json::{Map, Value, json};
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, ZipArchive, ZipWriter};
 
@@ -18,6 +19,9 @@ use crate::hash::Hash;
 use crate::identity::Identity;
 use crate::outcome::Outcome;
 use crate::output::with_suffix;
+
+/// Values by their names.
+pub type Values = BTreeMap<String, Vec<f64>>;
 
 /// The content of the table that belongs to a state.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -40,8 +44,8 @@ pub struct State {
     path: PathBuf,
     pub identity: Identity,
     pub written: Written,
-    /// The numbers, beside the fields, on which the next row depends
-    pub numbers: Vec<f64>,
+    /// The values, beside the fields, on which the next row depends
+    pub values: Values,
     /// The number of fields
     fields: usize,
     /// The shape of each of them
@@ -93,12 +97,15 @@ impl State {
             content: hash("content")?,
         };
         let bits = |text: &Value| u64::from_str_radix(text.as_str()?, 16).ok();
-        let numbers = state.get("numbers")?.as_array()?.iter().map(|text| Some(f64::from_bits(bits(text)?)));
+        let number_of = |text: &Value| Some(f64::from_bits(bits(text)?));
+        let values = state.get("values")?.as_object()?.iter().map(|(name, values)| {
+            Some((name.clone(), values.as_array()?.iter().map(number_of).collect::<Option<_>>()?))
+        });
         Some(Self {
             path: path.to_owned(),
             identity: state.get("sweep")?.as_object()?.clone(),
             written,
-            numbers: numbers.collect::<Option<_>>()?,
+            values: values.collect::<Option<_>>()?,
             fields: number("gaps")?.try_into().ok()?,
             shape: (number("rows_of_gap")?.try_into().ok()?, number("columns_of_gap")?.try_into().ok()?),
         })
@@ -120,8 +127,9 @@ pub fn save<T: WritableElement + Clone>(
     identity: &Identity,
     written: &Written,
     fields: &[ArrayView2<'_, T>],
-    numbers: &[f64],
+    values: &Values,
 ) -> Outcome<()> {
+    let bits = |values: &Vec<f64>| values.iter().map(|number| format!("{:016x}", number.to_bits())).collect::<Value>();
     let (state, temporary) = (state_path(table), with_suffix(table, ".state.tmp"));
     let comment = json!({
         "rows": written.rows,
@@ -132,7 +140,7 @@ pub fn save<T: WritableElement + Clone>(
         "loads": written.loads.to_string(),
         "bytes": written.bytes,
         "content": written.content.to_string(),
-        "numbers": numbers.iter().map(|number| format!("{:016x}", number.to_bits())).collect::<Vec<_>>(),
+        "values": values.iter().map(|(name, values)| (name.clone(), bits(values))).collect::<Map<_, _>>(),
         "sweep": identity,
     })
     .to_string();

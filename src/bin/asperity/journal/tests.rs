@@ -27,7 +27,7 @@ fn sweep(path: &Path, loads: &[f64], killed: usize) -> Outcome<String> {
         gaps.drain(..gaps.len().saturating_sub(2));
         let views: Vec<_> = gaps.iter().map(|gap| gap.view()).collect();
         let text = format!("{load},{sum}");
-        journal.append(&Row { text: &text, load, converged: load != 2.0, fields: &views, numbers: &[sum] })?;
+        journal.append(&Row { text: &text, load, converged: load != 2.0, fields: &views, values: &values(&[sum]) })?;
     }
     assert_eq!(journal.unconverged(), usize::from(journal.rows() > 1));
     Ok(fs::read_to_string(path)?)
@@ -113,7 +113,7 @@ fn files_that_were_changed_are_refused_and_kept() {
         // not every byte of an archive matters
         if let Ok((journal, saved)) = open(&path, &LOADS) {
             assert_eq!((journal.rows(), journal.unconverged(), &saved.fields[1]), (3, 1, &array![[3.0], [5.0]]));
-            assert_eq!(saved.numbers, [5.0]);
+            assert_eq!(saved.values, values(&[5.0]));
         }
         assert_eq!(fs::read_to_string(&path).unwrap(), whole);
     }
@@ -135,7 +135,8 @@ fn two_sweeps_do_not_write_into_one_file() {
     }
     let gap = array![[1.0], [2.0]];
     let fields = [gap.view()];
-    let row = |text, load| Row { text, load, converged: true, fields: &fields, numbers: &[] };
+    let none = Values::new();
+    let row = |text, load| Row { text, load, converged: true, fields: &fields, values: &none };
     first.append(&row("1,0", 1.0)).unwrap();
     assert_eq!(first.text().unwrap(), "load,answer\n1,0\n");
     // what knows nothing of the lock
@@ -148,4 +149,8 @@ fn two_sweeps_do_not_write_into_one_file() {
     assert!(reason(first.append(&row("2,1", 2.0))).contains("cannot be written"));
     drop(first);
     assert_eq!(open(&path, &LOADS).unwrap().0.rows(), 0);
+}
+
+fn values(sum: &[f64]) -> Values {
+    Values::from([("sum".to_owned(), sum.to_vec())])
 }
