@@ -232,14 +232,14 @@ impl<C> Nested<C> {
             if stopped { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         };
         let (mut levels, coarser) = self.solve_coarser(surface, &mut operator, &law, control, &mut watch)?;
-        let half_space = operator(*surface.grid())?;
+        let mut half_space = operator(*surface.grid())?;
         let rigid = self.solver.constraint.wall().is_rigid();
         let prolonged = coarser.map(|coarser| coarser.prolonged(surface, half_space.grid(), rigid));
         let started = prolonged.is_some();
         let mut watch = |iteration: &Iteration| watch(surface.grid(), iteration);
         let part = match &prolonged {
             Some(gap) if rigid => {
-                self.solve_part(surface, (&half_space, &mut operator), &law, control, gap, &mut watch)?
+                self.solve_part(surface, (&mut half_space, &mut operator), &law, control, gap, &mut watch)?
             }
             _ => None,
         };

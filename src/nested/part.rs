@@ -173,7 +173,7 @@ impl<C> Nested<C> {
     pub(super) fn solve_part<T, O, L>(
         &mut self,
         surface: &Surface,
-        (half_space, operator): (&O, &mut impl FnMut(Grid) -> Result<O>),
+        (half_space, operator): (&mut O, &mut impl FnMut(Grid) -> Result<O>),
         law: &L,
         control: Control,
         gap: &Array2<T>,
@@ -186,8 +186,9 @@ impl<C> Nested<C> {
         C: ContactConstraint<T>,
     {
         let slab = half_space.grid().slab();
-        let fits =
-            half_space.boundary() != Boundary::Periodic && surface.absent().is_none() && law.hints().shape.is_none();
+        let fits = half_space.abilities().boundary != Boundary::Periodic
+            && surface.absent().is_none()
+            && law.hints().shape.is_none();
         let part = if fits { Part::of(surface.grid().shape(), slab, gap, law) } else { None };
         let Some(part) = part else { return Ok(None) };
         let small = part.surface(surface)?;

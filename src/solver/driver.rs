@@ -75,7 +75,7 @@ impl<'a> Compiled for Solve<'a> {
     }
     fn double((operator, job): Self::Input<f64>) -> Result<Solved<f64>> {
         let two = job.settings.method == Method::Preconditioned && !job.is_light() && !job.has_no_wall();
-        match operator.in_single().filter(|_| two) {
+        match operator.abilities().in_single().filter(|_| two) {
             Some(corrections) => run(&mut Two::new(operator, corrections), job),
             None => run(&mut One(operator), job),
         }

@@ -131,7 +131,7 @@ impl<'a, T: Real, L: Real> State<'a, T, L> {
             None => (Array2::from_elem(shape, T::lit(uniform_start(law, flat, load))), flat.pressure.clone()),
         };
         let preconditioned = settings.method == Method::Preconditioned;
-        let coarse = if preconditioned { Coarse::of(&*operators.corrections()) } else { None };
+        let coarse = if preconditioned { Coarse::of(operators.corrections()) } else { None };
         let mut state = Self {
             operators,
             law,
