@@ -43,7 +43,7 @@ const CARRIED: f64 = 0.5;
 /// Sizes are halved while both sides keep `coarsest` nodes. A surface with [absent nodes](Surface::with_absent) and a
 /// law that [varies](crate::Varying) are halved while the sizes are even. With adhesion only grids that resolve it
 /// ([`Problem::mu_rho`] up to 0.5) are used, as a coarser one may pin the contact on another branch. If the traction of
-/// the law jumps, the coarser grids [smooth](AdhesionLaw::smoothed) it, and so does the finest one on its way from
+/// the law jumps, the coarser grids [smooth](crate::Discretisation::Smooth) it, and so does the finest one on its way from
 /// their solution, as it does from the default start. Without a coarser grid all is as with [`Solver::solve`].
 ///
 /// The finest grid starts anew, by [`Start::Default`], where the coarsest one is nearly [`closed`](Self::closed), where
