@@ -9,8 +9,9 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Instant;
 
 use asperity::{
-    AdhesionLaw, Amplitude, CoarseSpace, Control, ElasticOperator, Exponential, Foundation, Grid, NoAdhesion,
-    Preconditioned, Problem, Real, Result, SelfAffine, Settings, Solver, Start, Surface, Westergaard,
+    Abilities, AdhesionLaw, Amplitude, CoarseSpace, Control, ElasticOperator, Exponential, Foundation, Grid,
+    NoAdhesion, Preconditioned, Problem, Real, Result, SelfAffine, Settings, Solver, Start, Surface, Waves,
+    Westergaard,
 };
 use clap::Parser;
 use common::{Outcome, arguments};
@@ -43,6 +44,23 @@ impl<T: Real> Timed<T> {
     }
 }
 
+impl<T: Real> Waves<T> for Timed<T> {
+    fn coarse_space(&mut self, dimension: usize) -> Option<CoarseSpace> {
+        self.half_space.abilities().waves?.coarse_space(dimension)
+    }
+    fn in_single(&mut self) -> Option<Box<dyn ElasticOperator<f32>>> {
+        let half_space = Westergaard::<f32>::new(*self.half_space.grid(), 1.0).ok()?;
+        let nanoseconds = Arc::clone(&self.nanoseconds);
+        Some(Box::new(Timed { half_space, nanoseconds, splits: false }))
+    }
+    fn surface_pressure(&mut self, heights: ArrayView2<'_, f64>, p: ArrayViewMut2<'_, T>) -> Result<f64> {
+        self.half_space.abilities().waves.map_or(Ok(0.0), |waves| waves.surface_pressure(heights, p))
+    }
+    fn release_memory(&mut self) {
+        self.half_space.abilities().waves.into_iter().for_each(Waves::release_memory);
+    }
+}
+
 impl<T: Real> ElasticOperator<T> for Timed<T> {
     fn grid(&self) -> &Grid {
         self.half_space.grid()
@@ -62,19 +80,11 @@ impl<T: Real> ElasticOperator<T> for Timed<T> {
     fn modulus(&self) -> f64 {
         self.half_space.modulus()
     }
-    fn surface_pressure(&mut self, heights: ArrayView2<'_, f64>, p: ArrayViewMut2<'_, T>) -> Result<f64> {
-        self.half_space.surface_pressure(heights, p)
-    }
-    fn coarse_space(&self, dimension: usize) -> Option<CoarseSpace> {
-        self.half_space.coarse_space(dimension)
-    }
-    fn in_single(&self) -> Option<Box<dyn ElasticOperator<f32>>> {
-        let half_space = self.splits.then(|| Westergaard::<f32>::new(*self.half_space.grid(), 1.0).ok())??;
-        let nanoseconds = Arc::clone(&self.nanoseconds);
-        Some(Box::new(Timed { half_space, nanoseconds, splits: false }))
-    }
-    fn release_memory(&mut self) {
-        self.half_space.release_memory();
+    fn abilities(&mut self) -> Abilities<'_, T> {
+        let mut abilities = Abilities::default();
+        abilities.single = self.splits;
+        abilities.waves = Some(self);
+        abilities
     }
     fn precondition(
         &mut self,

@@ -7,12 +7,14 @@ use crate::field;
 use crate::grid::Grid;
 use crate::real::Real;
 
+mod abilities;
 mod boussinesq;
 mod check;
 mod coarse;
 mod spectral;
 mod westergaard;
 
+pub use abilities::{Abilities, Waves};
 pub use boussinesq::Boussinesq;
 pub use check::check_operator;
 pub use coarse::CoarseSpace;
@@ -52,13 +54,6 @@ pub use westergaard::Westergaard;
 pub trait ElasticOperator<T: Real>: Send {
     /// The grid of the fields that the operator takes and returns.
     fn grid(&self) -> &Grid;
-
-    /// The boundary of the body: periodic, unless the operator says otherwise.
-    ///
-    /// An operator that wraps another one passes this on.
-    fn boundary(&self) -> Boundary {
-        Boundary::Periodic
-    }
 
     /// The elastic pressure p = K⁻¹u of a normal displacement u, both of shape (Nx, Ny). The mean of p is zero.
     ///
@@ -101,54 +96,16 @@ pub trait ElasticOperator<T: Real>: Send {
     ///
     /// It is the unit of [`Criterion::Complementarity`](crate::Criterion::Complementarity) and enters
     /// [`Problem::mu_rho`](crate::Problem::mu_rho); with the spacing it gives the compliance by which jumps of
-    /// a law are [smoothed](crate::AdhesionLaw::smoothed); on a grid of one node, which has no wave, E*/Lx is the
+    /// a law are [smoothed](crate::Discretisation::Smooth); on a grid of one node, which has no wave, E*/Lx is the
     /// stiffness of the preconditioner.
     fn modulus(&self) -> f64;
 
-    /// The elastic pressure K⁻¹h of the surface pressed flat, and the mean of h·K⁻¹h.
+    /// The boundary of the body, and whatever the operator can do beside; nothing by default.
     ///
-    /// The heights come in `f64` whatever the operator's precision, with no mean, or one not larger than their rms
-    /// value. The default rounds them first; [`Spectral`] applies itself in `f64` and rounds the pressure.
-    ///
-    /// # Errors
-    /// [`Error::Shape`] if a field does not fit the grid.
-    fn surface_pressure(&mut self, heights: ArrayView2<'_, f64>, mut pressure: ArrayViewMut2<'_, T>) -> Result<f64> {
-        let rounded = heights.mapv(T::lit);
-        self.pressure(rounded.view(), pressure.view_mut())?;
-        Ok(mean_product(self.grid(), heights, pressure.view()))
+    /// An operator that wraps another one passes these on.
+    fn abilities(&mut self) -> Abilities<'_, T> {
+        Abilities::default()
     }
-
-    /// The space of the longest waves, of about `dimension` dimensions, that the preconditioner treats with the
-    /// contacts where they are.
-    ///
-    /// The default is none: then the foundation is uniform, and a solve takes more iterations. [`Spectral`] has one; an
-    /// operator that wraps it passes this on, and [`precondition`](Self::precondition).
-    fn coarse_space(&self, dimension: usize) -> Option<CoarseSpace> {
-        let _ = dimension;
-        None
-    }
-
-    /// The operator in `f32`, for the corrections of a solve in `f64`, or none.
-    ///
-    /// With one, a solve in `f64` applies it to the changes of the gap and to the residuals, and this operator only to
-    /// the gap itself, now and then: an iteration then takes little more time than in `f32`. It must be this operator
-    /// but for rounding. The default is none: then this operator is applied to all of them. [`Spectral`] has one,
-    /// unless a stiffness leaves the range of `f32`; an operator that wraps it passes this on only if it changes
-    /// nothing.
-    fn in_single(&self) -> Option<Box<dyn ElasticOperator<f32>>> {
-        None
-    }
-
-    /// Whether the operator takes fields of the shape [`Grid::field_shape`] on a grid that several processes share.
-    ///
-    /// The default is that it does not: such a [`Problem`](crate::Problem) is refused. [`Spectral`] does.
-    fn takes_slabs(&self) -> bool {
-        false
-    }
-
-    /// Gives back the memory that is kept between two applications; the next one takes it anew. The default does
-    /// nothing.
-    fn release_memory(&mut self) {}
 
     /// Applies the preconditioner, M r.
     ///
@@ -181,7 +138,7 @@ pub trait ElasticOperator<T: Real>: Send {
 /// ```
 /// use asperity::{Boundary, Boussinesq, ElasticOperator, Grid, Westergaard};
 /// let grid = Grid::square(16, 1.0)?;
-/// assert_eq!(Westergaard::<f64>::new(grid, 1.0)?.boundary(), Boundary::Periodic);
+/// assert_eq!(Westergaard::<f64>::new(grid, 1.0)?.abilities().boundary, Boundary::Periodic);
 /// let free = Boussinesq::<f64>::new(grid, 1.0)?;
 /// assert!(matches!(free.boundary(), Boundary::Free { window, .. } if window == grid));
 /// assert_eq!((free.boundary().name(), free.grid().shape()), ("free", (32, 32)));
@@ -276,17 +233,23 @@ fn mean_product<S: Real, T: Real>(grid: &Grid, a: ArrayView2<'_, S>, b: ArrayVie
     field::mean_of_both(grid.slab(), a, b, |a: S, b: T| a.widen() * b.widen())
 }
 
-/// The methods of an operator that is another one, `$inner` of `$this`.
+/// The elastic pressure K⁻¹h of the surface pressed flat, and the mean of h·K⁻¹h; the heights have no mean, or one not
+/// larger than their rms value. An operator without waves gets them rounded.
+pub(crate) fn surface_pressure<T: Real>(
+    operator: &mut dyn ElasticOperator<T>,
+    heights: ArrayView2<'_, f64>,
+    mut pressure: ArrayViewMut2<'_, T>,
+) -> Result<f64> {
+    if let Some(waves) = operator.abilities().waves {
+        return waves.surface_pressure(heights, pressure);
+    }
+    operator.pressure(heights.mapv(T::lit).view(), pressure.view_mut())?;
+    Ok(mean_product(operator.grid(), heights, pressure.view()))
+}
+
+/// The methods of an operator that is another one, `$inner` of `$this`, with these abilities.
 macro_rules! delegate {
-    ($this:ident => $inner:expr) => {
-        fn boundary(&self) -> Boundary {
-            let $this = self;
-            $inner.boundary()
-        }
-        delegate!($this => $inner; applications);
-    };
-    // without the boundary
-    ($this:ident => $inner:expr; applications) => {
+    ($this:ident => $inner:expr, $abilities:expr) => {
         fn grid(&self) -> &Grid {
             let $this = self;
             $inner.grid()
@@ -315,9 +278,9 @@ macro_rules! delegate {
             let $this = self;
             $inner.modulus()
         }
-        fn surface_pressure(&mut self, heights: ArrayView2<'_, f64>, pressure: ArrayViewMut2<'_, T>) -> Result<f64> {
+        fn abilities(&mut self) -> Abilities<'_, T> {
             let $this = self;
-            $inner.surface_pressure(heights, pressure)
+            $abilities
         }
         fn precondition(
             &mut self,
@@ -328,30 +291,14 @@ macro_rules! delegate {
             let $this = self;
             $inner.precondition(residual, foundation, preconditioned)
         }
-        fn coarse_space(&self, dimension: usize) -> Option<CoarseSpace> {
-            let $this = self;
-            $inner.coarse_space(dimension)
-        }
-        fn in_single(&self) -> Option<Box<dyn ElasticOperator<f32>>> {
-            let $this = self;
-            $inner.in_single()
-        }
-        fn takes_slabs(&self) -> bool {
-            let $this = self;
-            $inner.takes_slabs()
-        }
-        fn release_memory(&mut self) {
-            let $this = self;
-            $inner.release_memory();
-        }
     };
 }
 use delegate;
 
 impl<T: Real, O: ElasticOperator<T> + ?Sized> ElasticOperator<T> for &mut O {
-    delegate!(this => (**this));
+    delegate!(this => (**this), (**this).abilities());
 }
 
 impl<T: Real, O: ElasticOperator<T> + ?Sized> ElasticOperator<T> for Box<O> {
-    delegate!(this => (**this));
+    delegate!(this => (**this), (**this).abilities());
 }

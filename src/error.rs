@@ -76,7 +76,7 @@ pub enum Error {
         expected: Option<f64>,
     },
     /// An adhesion law whose traction rises with the gap, though it says that its energy is
-    /// [concave](crate::AdhesionLaw::is_concave).
+    /// [concave](crate::Hints::concave).
     Concave {
         /// The gap before which the traction rises.
         gap: f64,
@@ -85,7 +85,7 @@ pub enum Error {
         /// The smaller traction at a smaller gap.
         nearer: f64,
     },
-    /// An adhesion law whose traction jumps, without a [smoothed](crate::AdhesionLaw::smoothed) law that does not.
+    /// An adhesion law whose traction jumps, without a [smoothed](crate::Discretisation::Smooth) law that does not.
     Jump {
         /// The gap at which it jumps.
         gap: f64,

@@ -126,8 +126,8 @@ pub use adhesion::{
 };
 pub use constraint::{ContactConstraint, NoWall, Penalty, Projection, Springs, Update, Uzawa, Wall, check_constraint};
 pub use elastic::{
-    Boundary, Boussinesq, CoarseSpace, ElasticOperator, Foundation, Preconditioned, Spectral, Westergaard,
-    check_operator,
+    Abilities, Boundary, Boussinesq, CoarseSpace, ElasticOperator, Foundation, Preconditioned, Spectral, Waves,
+    Westergaard, check_operator,
 };
 pub use error::{Error, ErrorKind, Result};
 pub use grid::Grid;

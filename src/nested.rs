@@ -43,7 +43,7 @@ const CARRIED: f64 = 0.5;
 /// Sizes are halved while both sides keep `coarsest` nodes. A surface with [absent nodes](Surface::with_absent) and a
 /// law that [varies](crate::Varying) are halved while the sizes are even. With adhesion only grids that resolve it
 /// ([`Problem::mu_rho`] up to 0.5) are used, as a coarser one may pin the contact on another branch. If the traction of
-/// the law jumps, the coarser grids [smooth](AdhesionLaw::smoothed) it, and so does the finest one on its way from
+/// the law jumps, the coarser grids [smooth](crate::Discretisation::Smooth) it, and so does the finest one on its way from
 /// their solution, as it does from the default start. Without a coarser grid all is as with [`Solver::solve`].
 ///
 /// The finest grid starts anew, by [`Start::Default`], where the coarsest one is nearly [`closed`](Self::closed), where
@@ -242,14 +242,14 @@ impl<C> Nested<C> {
             if stopped { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         };
         let (mut levels, coarser) = self.solve_coarser(surface, &mut operator, &law, control, &mut watch)?;
-        let half_space = operator(*surface.grid())?;
+        let mut half_space = operator(*surface.grid())?;
         let rigid = self.solver.constraint.wall().is_rigid();
         let prolonged = coarser.map(|coarser| coarser.prolonged(surface, half_space.grid(), rigid));
         let started = prolonged.is_some();
         let mut watch = |iteration: &Iteration| watch(surface.grid(), iteration);
         let part = match &prolonged {
             Some(gap) if rigid => {
-                self.solve_part(surface, (&half_space, &mut operator), &law, control, gap, &mut watch)?
+                self.solve_part(surface, (&mut half_space, &mut operator), &law, control, gap, &mut watch)?
             }
             _ => None,
         };

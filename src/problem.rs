@@ -4,7 +4,7 @@ use ndarray::Array2;
 
 use crate::adhesion::{AdhesionLaw, Discretisation};
 use crate::constraint::Wall;
-use crate::elastic::{Boundary, ElasticOperator};
+use crate::elastic::{self, Boundary, ElasticOperator};
 use crate::error::{Error, Result};
 use crate::field::{self, all_finite_in, flat};
 use crate::grid::Grid;
@@ -189,7 +189,8 @@ pub(crate) struct PressedFlat<T> {
 impl<T: Real> PressedFlat<T> {
     /// Presses the surface flat against the body of the operator, if that and the law suit it.
     fn of(surface: &Surface, operator: &mut dyn ElasticOperator<T>, law: &dyn AdhesionLaw<T>) -> Result<Self> {
-        let boundary = operator.boundary();
+        let abilities = operator.abilities();
+        let (boundary, slabs) = (abilities.boundary, abilities.slabs);
         let (grid, expected) = match boundary {
             Boundary::Periodic => (surface.grid(), *operator.grid()),
             Boundary::Free { window, .. } => (surface.grid(), window),
@@ -200,7 +201,7 @@ impl<T: Real> PressedFlat<T> {
         if grid.is_shared() != slab.is_shared() {
             return Err(Error::Shared { what: "contact", reason: one });
         }
-        if !operator.takes_slabs() {
+        if !slabs {
             slab.alone("elastic operator")?;
         }
         if let Some(shape) = law.hints().shape {
@@ -243,21 +244,21 @@ impl<T: Real> PressedFlat<T> {
         let height_span = high - low;
         // a mean beyond the heights' own size is rounded more than the peak above it may be
         let peak = if mean.abs() > height_span { (high - datum) - above } else { high - mean };
-        let mut surface_pressure = Array2::zeros(whole.grid().field_shape());
+        let mut pressure = Array2::zeros(whole.grid().field_shape());
         // a large datum would drown the heights in its rounding; a small one is not worth a copy
         let centred = (mean.abs() > rms_height).then(|| whole.heights().mapv(|h| h - mean));
         let heights = centred.as_ref().unwrap_or(whole.heights()).view();
-        let surface_work = operator.surface_pressure(heights, surface_pressure.view_mut())?.max(0.0);
+        let surface_work = elastic::surface_pressure(operator, heights, pressure.view_mut())?.max(0.0);
         drop(centred);
-        let mean_square = field::mean_over(slab, surface_pressure.view(), |p: T| p.widen().powi(2));
+        let mean_square = field::mean_over(slab, pressure.view(), |p: T| p.widen().powi(2));
         // squares may be beyond the range of finite pressures
         if !mean_square.is_finite() {
-            all_finite_in(slab, "pressure K⁻¹h of the surface pressed flat", surface_pressure.view())?;
+            all_finite_in(slab, "pressure K⁻¹h of the surface pressed flat", pressure.view())?;
         }
         let stiffness = mean_square.sqrt() / rms_height;
         let (lx, ly) = grid.lengths();
         Ok(Self {
-            pressure: surface_pressure,
+            pressure,
             work: surface_work,
             rms_height,
             stiffness,

@@ -199,7 +199,7 @@ impl Settings {
 /// lengths of the steps before. The page [`driver`](crate::guide::driver) derives all of it.
 ///
 /// In `f64` the gap, the pressure and all that is reported are in `f64`, and changes, residuals and transforms in
-/// `f32`, if the operator can be had [in single precision](crate::ElasticOperator::in_single); the certificate is that
+/// `f32`, if the operator can be had [in single precision](crate::Waves::in_single); the certificate is that
 /// of the state in `f64`.
 ///
 /// Memory per node with a [`Westergaard`](crate::Westergaard) half-space, that of the problem included: in `f64` five

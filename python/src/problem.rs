@@ -442,7 +442,7 @@ impl<T: Scalar> Solves for State<T> {
         let (beyond, grid, modulus) = (self.beyond, self.grid, self.modulus);
         let plan = || {
             let mut operator = beyond.half_space::<T>(grid, modulus)?;
-            let plan = wanted.plan(surface, &*operator, law, control)?;
+            let plan = wanted.plan(surface, &mut operator, law, control)?;
             let mut fields = [(); 2].map(|()| Array2::<T>::zeros(operator.grid().shape()));
             let [u, p] = &mut fields;
             operator.pressure(u.view(), p.view_mut())?;

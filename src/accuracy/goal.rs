@@ -183,7 +183,7 @@ impl<C> Accuracy<C> {
     pub fn plan<T: Real>(
         &self,
         surface: &Surface,
-        operator: &dyn ElasticOperator<T>,
+        operator: &mut dyn ElasticOperator<T>,
         law: &dyn AdhesionLaw<T>,
         control: Control,
     ) -> Result<Plan>
@@ -193,9 +193,10 @@ impl<C> Accuracy<C> {
         surface.grid().slab().alone("accuracy")?;
         let tolerance = self.tolerance()?;
         self.of.check(control)?;
-        let nodes_per_wave = surface.nodes_per_wave(operator.boundary());
+        let boundary = operator.abilities().boundary;
+        let nodes_per_wave = surface.nodes_per_wave(boundary);
         let refinable = is_refinable(surface, law);
-        let by_edge = self.asks_the_edge::<T>(surface) && operator.boundary() == Boundary::Periodic;
+        let by_edge = self.asks_the_edge::<T>(surface) && boundary == Boundary::Periodic;
         let mu_rho = mu_rho(law, surface.grid(), operator.modulus());
         let needed = |smaller| if refinable { self.refinements((nodes_per_wave, mu_rho), by_edge, smaller) } else { 0 };
         let refinements = needed(1.0);

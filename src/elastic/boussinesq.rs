@@ -73,13 +73,15 @@ impl<T: Real> Boussinesq<T> {
         let spectral = Spectral::of_compliance(grid, modulus, modes)?;
         Ok(Self { spectral, boundary: Boundary::Free { window, mean_compliance } })
     }
+
+    /// The free boundary, with the window on which the half-space is loaded.
+    pub fn boundary(&self) -> Boundary {
+        self.boundary
+    }
 }
 
 impl<T: Real> ElasticOperator<T> for Boussinesq<T> {
-    fn boundary(&self) -> Boundary {
-        self.boundary
-    }
-    delegate!(this => this.spectral; applications);
+    delegate!(this => this.spectral, Abilities { boundary: this.boundary, ..this.spectral.abilities() });
 }
 
 /// The nodes of the padded grid along a side of n: at least 2n − 1, even, and a product of 2, 3 and 5.

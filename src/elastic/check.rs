@@ -2,13 +2,16 @@
 
 use ndarray::Array2;
 
-use super::{ElasticOperator, Foundation, mean_product};
+use super::{Abilities, Boundary, ElasticOperator, Foundation, mean_product};
 use crate::error::{Error, Result};
 use crate::field;
 use crate::real::Real;
 
 /// Applications of the compliance, and of the stiffness, that look for the softest and for the stiffest wave.
 const POWERS: usize = 20;
+
+/// The dimension of the coarse space that is looked at.
+const DIMENSION: usize = 20;
 
 /// Tells whether an elastic operator keeps what [`ElasticOperator`] promises; call it in a test of your operator.
 ///
@@ -18,7 +21,9 @@ const POWERS: usize = 20;
 /// - the means of K⁻¹a and K a with zero, and K⁻¹(a + 1) with K⁻¹a (a rigid translation costs nothing);
 /// - K K⁻¹a with a less its mean (each other's inverse);
 /// - Rayleigh quotients of the softest and stiffest fields that twenty applications find with `stiffness_range`;
-/// - the means that `pressure_and_work` and `precondition` return with those of the fields, and ⟨a, M b⟩ with ⟨M a, b⟩.
+/// - the means that `pressure_and_work` and `precondition` return with those of the fields, and ⟨a, M b⟩ with ⟨M a, b⟩,
+///   with the coarse space of an operator that has one, too;
+/// - K⁻¹a with that of the operator in `f32`, with that of heights in `f64`, and with that after memory was given back.
 ///
 /// # Errors
 /// [`Error::Operator`] with the first property that does not hold; those of the operator itself.
@@ -82,6 +87,48 @@ pub fn check_operator<T: Real>(operator: &mut (impl ElasticOperator<T> + ?Sized)
     holds("symmetry of precondition, ⟨a, M b⟩", product(&a, &of_b), product(&of_a, &b), soft)?;
     if found.descent <= 0.0 {
         return Err(Error::Operator { property: "descent of precondition", found: found.descent, expected: 0.0 });
+    }
+
+    // the abilities
+    operator.pressure(a.view(), of_a.view_mut())?;
+    let Abilities { boundary, waves, .. } = operator.abilities();
+    if let Boundary::Free { window, mean_compliance } = boundary {
+        holds("spacing of the window over that of the grid", window.spacing().0 / grid.spacing().0, 1.0, 1e-12)?;
+        holds("sign of the mean compliance", mean_compliance.signum(), 1.0, 0.0)?;
+    }
+    let mut space = None;
+    if let Some(waves) = waves {
+        let heights = a.mapv(T::widen);
+        let work = waves.surface_pressure(heights.view(), of_b.view_mut())?;
+        holds("work of surface_pressure", work, product(&a, &of_a), stiff)?;
+        holds("pressure of surface_pressure", largest(&(&of_b - &of_a)), 0.0, 4.0 * stiff)?;
+        if let Some(mut single) = waves.in_single() {
+            let (rounded, mut found) = (a.mapv(|x| T::widen(x) as f32), Array2::zeros(shape));
+            single.pressure(rounded.view(), found.view_mut())?;
+            let difference = largest(&(found.mapv(|p: f32| T::lit(f64::from(p))) - &of_a));
+            holds("pressure in single precision", difference, 0.0, 64.0 * f64::from(f32::EPSILON) * stiffest)?;
+        }
+        space = waves.coarse_space(DIMENSION);
+        waves.release_memory();
+    }
+    operator.pressure(a.view(), of_b.view_mut())?;
+    holds("pressure after memory was given back", largest(&(&of_b - &of_a)), 0.0, 0.0)?;
+    if let Some(mut space) = space {
+        let [_, (rows, columns)] = space.blocks();
+        let blocks = (rows * columns) as f64;
+        let shares: Vec<f64> = (0..rows * columns).map(|block| (block % 2) as f64 / blocks).collect();
+        let mean_stiffness = 0.1 * foundation;
+        if space.renew(&shares, foundation, mean_stiffness, false) {
+            let mut precondition = |residual: &Array2<T>, preconditioned: &mut Array2<T>| {
+                let foundation = Foundation { stiffness: foundation, mean_stiffness, coarse: Some(&mut space) };
+                operator.precondition(residual.view(), foundation, preconditioned.view_mut())
+            };
+            let found = precondition(&a, &mut of_a)?;
+            precondition(&b, &mut of_b)?;
+            let soft = rounding * (largest(&of_a) + largest(&of_b));
+            holds("descent of precondition with a coarse space", found.descent, product(&a, &of_a), soft)?;
+            holds("symmetry of precondition with a coarse space", product(&a, &of_b), product(&of_a, &b), soft)?;
+        }
     }
 
     // the range of the stiffness: no field is softer or stiffer

@@ -35,9 +35,8 @@ const LARGEST: usize = 1 << 16;
 /// in the basis 1, √2 cos q·x, √2 sin q·x, which is orthonormal. The matrix is symmetric and positive, and decomposed
 /// by Cholesky.
 ///
-/// An operator makes it ([`ElasticOperator::coarse_space`](crate::ElasticOperator::coarse_space)), the solver tells it
-/// where the contacts are, and the operator uses it where it
-/// [preconditions](crate::ElasticOperator::precondition). One that wraps another operator passes both calls on.
+/// An operator makes it ([`Waves::coarse_space`](crate::Waves::coarse_space)), the solver tells it where the contacts
+/// are, and the operator uses it where it [preconditions](crate::ElasticOperator::precondition).
 #[derive(Clone, Debug)]
 pub struct CoarseSpace {
     /// the mean, and one wave of each pair ±q, sorted by their columns
@@ -244,7 +243,7 @@ mod tests {
     use ndarray::Array2;
 
     use super::*;
-    use crate::elastic::{ElasticOperator, Foundation, Spectral};
+    use crate::elastic::{ElasticOperator, Foundation, Spectral, Waves};
     use crate::field::{mean, mean_of_both};
     use crate::slab::Slab;
 
@@ -261,7 +260,7 @@ mod tests {
     }
 
     /// A map of some contacts, one block a node, and the space that has it.
-    fn held_where(body: &Spectral<f64>, held: bool) -> (CoarseSpace, Array2<f64>) {
+    fn held_where(body: &mut Spectral<f64>, held: bool) -> (CoarseSpace, Array2<f64>) {
         let shape = body.grid().shape();
         let contact = random(shape, 1).mapv(|x| f64::from(u8::from(x > 0.2)));
         let mut space = body.coarse_space(contact.len() * 3 / 5).unwrap();
@@ -304,7 +303,7 @@ mod tests {
     fn the_longest_waves_solve_the_galerkin_equations() {
         for shape in SHAPES {
             let mut body = body(shape);
-            let (mut space, contact) = held_where(&body, false);
+            let (mut space, contact) = held_where(&mut body, false);
             let basis = basis(&space, shape);
             assert!((shape.0 * shape.1 / 4..shape.0 * shape.1).contains(&basis.len()), "{} {shape:?}", basis.len());
             let r = random(shape, 2);
@@ -329,7 +328,7 @@ mod tests {
     fn the_preconditioner_stays_symmetric_and_positive() {
         for (shape, held) in SHAPES.into_iter().flat_map(|shape| [(shape, false), (shape, true)]) {
             let mut body = body(shape);
-            let (mut space, contact) = held_where(&body, held);
+            let (mut space, contact) = held_where(&mut body, held);
             let [a, b] = [3, 4].map(|seed| {
                 let field = random(shape, seed);
                 // under a given mean gap residuals have no mean
@@ -352,7 +351,7 @@ mod tests {
         for shape in [(256, 256), (16384, 4), (4, 16384), (4096, 16), (65536, 1)] {
             let (long, sides) = (shape.0.max(shape.1) as f64, (shape.0 as f64, shape.1 as f64));
             let grid = Grid::new(shape, (sides.0 / long, sides.1 / long)).unwrap();
-            let body = Spectral::<f64>::new(grid, 1.0, |qx, qy| 0.5 * qx.hypot(qy)).unwrap();
+            let mut body = Spectral::<f64>::new(grid, 1.0, |qx, qy| 0.5 * qx.hypot(qy)).unwrap();
             let found = body.coarse_space(40).unwrap().vector.len();
             assert!((20..=60).contains(&found), "{found} of 40 on {shape:?}");
         }
@@ -362,7 +361,7 @@ mod tests {
     fn blocks_cover_the_grid_and_resolve_the_waves() {
         let mut whole = 0;
         for shape in [(128, 128), (101, 67), (500, 1), (100, 144)] {
-            let body = body(shape);
+            let mut body = body(shape);
             let mut space = body.coarse_space(20).unwrap();
             let [block, blocks] = space.blocks();
             assert!(block.0 * blocks.0 >= shape.0 && block.1 * blocks.1 >= shape.1 && block != (1, 1));

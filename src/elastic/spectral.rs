@@ -230,6 +230,36 @@ impl<T: Real> Spectral<T> {
     }
 }
 
+impl<T: Real> Waves<T> for Spectral<T> {
+    fn surface_pressure(&mut self, heights: ArrayView2<'_, f64>, pressure: ArrayViewMut2<'_, T>) -> Result<f64> {
+        let [work, ..] = T::call::<PressFlat<'_>>((self, heights, pressure))?;
+        Ok(work / self.norm())
+    }
+
+    fn in_single(&mut self) -> Option<Box<dyn ElasticOperator<f32>>> {
+        let (stiffness, range) = match &self.stiffness {
+            Stiffness::Stored(stiffness) => {
+                check_range::<f32>(self.range.0, self.range.1).ok()?;
+                (Stiffness::Stored(stiffness.cast()), self.range)
+            }
+            Stiffness::Even(modes) => {
+                check_range::<f32>(self.range.0, self.range.1).ok()?;
+                (Stiffness::Even(Arc::clone(modes)), self.range)
+            }
+            Stiffness::HalfSpace { .. } | Stiffness::Line { .. } => half_space(&self.grid, self.modulus).ok()?,
+        };
+        Some(Box::new(self.with(stiffness, range)))
+    }
+
+    fn release_memory(&mut self) {
+        self.convolver.release_memory();
+    }
+
+    fn coarse_space(&mut self, dimension: usize) -> Option<CoarseSpace> {
+        CoarseSpace::new(&self.grid, self.convolver.layout(), &*self.symbol, dimension)
+    }
+}
+
 impl<T: Real> ElasticOperator<T> for Spectral<T> {
     fn grid(&self) -> &Grid {
         &self.grid
@@ -256,36 +286,8 @@ impl<T: Real> ElasticOperator<T> for Spectral<T> {
         self.modulus
     }
 
-    fn surface_pressure(&mut self, heights: ArrayView2<'_, f64>, pressure: ArrayViewMut2<'_, T>) -> Result<f64> {
-        let [work, ..] = T::call::<PressFlat<'_>>((self, heights, pressure))?;
-        Ok(work / self.norm())
-    }
-
-    fn in_single(&self) -> Option<Box<dyn ElasticOperator<f32>>> {
-        let (stiffness, range) = match &self.stiffness {
-            Stiffness::Stored(stiffness) => {
-                check_range::<f32>(self.range.0, self.range.1).ok()?;
-                (Stiffness::Stored(stiffness.cast()), self.range)
-            }
-            Stiffness::Even(modes) => {
-                check_range::<f32>(self.range.0, self.range.1).ok()?;
-                (Stiffness::Even(Arc::clone(modes)), self.range)
-            }
-            Stiffness::HalfSpace { .. } | Stiffness::Line { .. } => half_space(&self.grid, self.modulus).ok()?,
-        };
-        Some(Box::new(self.with(stiffness, range)))
-    }
-
-    fn takes_slabs(&self) -> bool {
-        true
-    }
-
-    fn release_memory(&mut self) {
-        self.convolver.release_memory();
-    }
-
-    fn coarse_space(&self, dimension: usize) -> Option<CoarseSpace> {
-        CoarseSpace::new(&self.grid, self.convolver.layout(), &*self.symbol, dimension)
+    fn abilities(&mut self) -> Abilities<'_, T> {
+        Abilities { slabs: true, single: true, waves: Some(self), ..Abilities::default() }
     }
 
     /// M has the symbol 1/(k + s), s the stiffness of the foundation, but for the waves of the coarse space; the

@@ -34,5 +34,5 @@ impl<T: Real> Westergaard<T> {
 }
 
 impl<T: Real> ElasticOperator<T> for Westergaard<T> {
-    delegate!(this => this.0);
+    delegate!(this => this.0, this.0.abilities());
 }

@@ -170,7 +170,7 @@ impl<C> Nested<C> {
     pub(super) fn solve_part<T, O, L>(
         &mut self,
         surface: &Surface,
-        (half_space, operator): (&O, &mut impl FnMut(Grid) -> Result<O>),
+        (half_space, operator): (&mut O, &mut impl FnMut(Grid) -> Result<O>),
         law: &L,
         control: Control,
         gap: &Array2<T>,
@@ -182,16 +182,17 @@ impl<C> Nested<C> {
         L: AdhesionLaw<T>,
         C: ContactConstraint<T>,
     {
-        let whole = half_space.grid();
-        let fits =
-            half_space.boundary() != Boundary::Periodic && surface.absent().is_none() && law.hints().shape.is_none();
-        let part = if fits { Part::of(surface.grid().shape(), whole, gap, law) } else { None };
+        let whole = *half_space.grid();
+        let fits = half_space.abilities().boundary != Boundary::Periodic
+            && surface.absent().is_none()
+            && law.hints().shape.is_none();
+        let part = if fits { Part::of(surface.grid().shape(), &whole, gap, law) } else { None };
         let Some(part) = part else { return Ok(None) };
         let small = part.surface(surface)?;
         let mut problem = Problem::new(&small, operator(*small.grid())?, law)?;
         let share = problem.operator.grid().nodes() as f64 / half_space.grid().nodes() as f64;
         let tolerance = SHARE * self.solver.settings.tolerance_in::<T>();
-        let start = Begin::At(Start::Near(part.cut(gap, whole, small.grid())));
+        let start = Begin::At(Start::Near(part.cut(gap, &whole, small.grid())));
         let control = Part::control(control, surface, &small);
         let Solved { solution, .. } = self.run_to(tolerance, problem.parts(), control, start, observe)?;
         let applications = (share * (solution.report.operator_applications + 1) as f64).ceil() as usize;

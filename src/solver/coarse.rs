@@ -52,9 +52,9 @@ pub(crate) struct Coarse {
 
 impl Coarse {
     /// The coarse space of an operator, if it has one.
-    pub(crate) fn of<T: Real>(operator: &dyn ElasticOperator<T>) -> Option<Self> {
+    pub(crate) fn of<T: Real>(operator: &mut dyn ElasticOperator<T>) -> Option<Self> {
         let (slab, nodes) = (operator.grid().slab(), operator.grid().nodes() as f64);
-        let space = operator.coarse_space((DIMENSION * nodes.cbrt()) as usize)?;
+        let space = operator.abilities().coarse_space((DIMENSION * nodes.cbrt()) as usize)?;
         let [_, blocks] = space.blocks();
         let (contact, counts) = (vec![0.0; blocks.0 * blocks.1], vec![Count::default(); blocks.0 * blocks.1]);
         Some(Self { space, slab, contact, counts, ready: false, due: 0, interval: INTERVAL })
@@ -187,8 +187,8 @@ mod tests {
     #[test]
     fn a_map_has_all_of_the_contact_and_the_symmetries_of_the_field() {
         for shape in [(256, 128), (243, 75), (211, 131), (1000, 1), (50, 2500), (1, 5000)] {
-            let operator = Westergaard::<f64>::new(Grid::new(shape, (1.0, 0.7)).unwrap(), 1.0).unwrap();
-            let mut coarse = Coarse::of(&operator).unwrap();
+            let mut operator = Westergaard::<f64>::new(Grid::new(shape, (1.0, 0.7)).unwrap(), 1.0).unwrap();
+            let mut coarse = Coarse::of(&mut operator).unwrap();
             let [block, blocks] = coarse.space.blocks();
             assert!(block != (1, 1), "{shape:?}");
             let field = Array2::from_shape_fn(shape, |(i, j)| ((i * i + 3 * j + i * j * j) % 7) as f64);
@@ -214,8 +214,8 @@ mod tests {
 
     #[test]
     fn no_contact_and_nothing_but_contact_are_no_map() {
-        let operator = Westergaard::<f64>::new(Grid::square(40, 1.0).unwrap(), 1.0).unwrap();
-        let mut coarse = Coarse::of(&operator).unwrap();
+        let mut operator = Westergaard::<f64>::new(Grid::square(40, 1.0).unwrap(), 1.0).unwrap();
+        let mut coarse = Coarse::of(&mut operator).unwrap();
         let mut field = Array2::zeros((40, 40));
         assert!(!coarse.map(&field, |_, value| value > 0.0) && !coarse.map(&field, |_, value| value == 0.0));
         field[[7, 9]] = 1.0;

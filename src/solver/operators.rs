@@ -64,7 +64,7 @@ pub(super) struct Two<'a> {
 
 impl<'a> Two<'a> {
     pub(super) fn new(state: &'a mut dyn ElasticOperator<f64>, corrections: Box<dyn ElasticOperator<f32>>) -> Self {
-        state.release_memory();
+        state.abilities().release_memory();
         Self { state, corrections }
     }
 
@@ -75,10 +75,10 @@ impl<'a> Two<'a> {
         apply: impl FnOnce(&mut dyn ElasticOperator<f64>) -> Result<R>,
     ) -> Result<R> {
         let shape = self.state.grid().field_shape();
-        self.corrections.release_memory();
+        self.corrections.abilities().release_memory();
         idle.iter_mut().for_each(|field| **field = Array2::zeros((0, 0)));
         let result = apply(self.state);
-        self.state.release_memory();
+        self.state.abilities().release_memory();
         idle.iter_mut().for_each(|field| **field = Array2::zeros(shape));
         result
     }

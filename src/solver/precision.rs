@@ -31,7 +31,7 @@ impl<'a> Compiled for Solve<'a> {
         run(&mut One(operator), job)
     }
     fn double((operator, job): Self::Input<f64>) -> Result<Solved<f64>> {
-        let corrections = if takes_coarse_corrections(&job) { operator.in_single() } else { None };
+        let corrections = if takes_coarse_corrections(&job) { operator.abilities().in_single() } else { None };
         match corrections {
             Some(corrections) => run(&mut Two::new(operator, corrections), job),
             None => run(&mut One(operator), job),

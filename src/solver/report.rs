@@ -105,7 +105,7 @@ pub struct Iteration {
     /// search of a state that holds a tension, the mean gap. The energy falls within a round.
     pub round: usize,
     /// Whether the solve is still on the way to its start, with the jumps of the law smoothed: then the energy and the
-    /// error are those of the smoothed law. See [`AdhesionLaw::smoothed`](crate::AdhesionLaw::smoothed).
+    /// error are those of the smoothed law. See [`Discretisation::Smooth`](crate::Discretisation::Smooth).
     pub smoothed: bool,
 }
 

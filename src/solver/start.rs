@@ -43,7 +43,7 @@ pub enum Start<'a, T> {
     /// [`Settings::branch`](crate::Settings::branch) names: the gap that the wall alone would leave, which is found
     /// first, within the same solve, or full contact, and at a given mean gap a uniform one. If the traction of the law
     /// jumps, as that of [`MaugisDugdale`](crate::MaugisDugdale) does, the equilibrium of the law with its jump
-    /// [smoothed](AdhesionLaw::smoothed) is found next and becomes the start, within the same solve.
+    /// [smoothed](crate::Discretisation::Smooth) is found next and becomes the start, within the same solve.
     #[default]
     Default,
     /// A gap, as that of an equilibrium at another load. With adhesion it chooses the branch of the equilibrium that is

@@ -49,7 +49,7 @@ impl<'a, T: Real, Lo: Real> State<'a, T, Lo> {
             None => (Array2::from_elem(shape, T::lit(uniform_start(*law, flat, *load))), flat.pressure.clone()),
         };
         let preconditioned = settings.method == Method::Preconditioned;
-        let coarse = if preconditioned { Coarse::of(&*operators.corrections()) } else { None };
+        let coarse = if preconditioned { Coarse::of(operators.corrections()) } else { None };
         let mut state = Self {
             posed,
             fields: Fields::new(slab, gap, pressure),

@@ -73,7 +73,7 @@ impl<'a, T: Real> Hessian<'a, T> {
     /// flat.
     pub(super) fn hold(&mut self, stiffness: f64) {
         let range = self.operator.stiffness_range();
-        let Some(mut coarse) = Coarse::of(&*self.operator) else { return };
+        let Some(mut coarse) = Coarse::of(self.operator) else { return };
         let touches = |_, slope: T| slope.is_infinite();
         coarse.renew(0, &self.slopes, touches, (stiffness, self.spring), range, self.centred);
         self.coarse = Some(coarse);

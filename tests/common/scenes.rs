@@ -425,8 +425,10 @@ impl<T: Real, O: ElasticOperator<T>> ElasticOperator<T> for Alone<O> {
     fn grid(&self) -> &Grid {
         self.0.grid()
     }
-    fn boundary(&self) -> Boundary {
-        self.0.boundary()
+    fn abilities(&mut self) -> Abilities<'_, T> {
+        let mut abilities = self.0.abilities();
+        abilities.single = false;
+        abilities
     }
     fn pressure(&mut self, displacement: ArrayView2<'_, T>, pressure: ArrayViewMut2<'_, T>) -> Result<()> {
         self.0.pressure(displacement, pressure)
@@ -439,12 +441,6 @@ impl<T: Real, O: ElasticOperator<T>> ElasticOperator<T> for Alone<O> {
     }
     fn modulus(&self) -> f64 {
         self.0.modulus()
-    }
-    fn surface_pressure(&mut self, heights: ArrayView2<'_, f64>, pressure: ArrayViewMut2<'_, T>) -> Result<f64> {
-        self.0.surface_pressure(heights, pressure)
-    }
-    fn coarse_space(&self, dimension: usize) -> Option<CoarseSpace> {
-        self.0.coarse_space(dimension)
     }
     fn precondition(
         &mut self,

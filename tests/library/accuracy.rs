@@ -274,8 +274,8 @@ fn what_cannot_be_had_is_refused_by_name() {
 
     // no grid that fits, told before: which would, and its memory
     let small = Accuracy::new(1e-6, Quantity::Area).memory(1e6);
-    let operator = half_space(*surface.grid()).unwrap();
-    let error = small.plan(&surface, &operator, &NoAdhesion, control).unwrap_err();
+    let mut operator = half_space(*surface.grid()).unwrap();
+    let error = small.plan(&surface, &mut operator, &NoAdhesion, control).unwrap_err();
     let Error::Unaffordable { shape, bytes, available, affordable, .. } = error else { panic!("{error}") };
     assert!(shape.0 >= 4096 && bytes > 1e9 && available == 1e6 && affordable > 1e-3, "{shape:?} {bytes} {affordable}");
     let text = error_text(&small, &surface);
@@ -289,21 +289,21 @@ fn what_cannot_be_had_is_refused_by_name() {
 }
 
 fn error_text(wanted: &Accuracy, surface: &Surface) -> String {
-    let operator = half_space(*surface.grid()).unwrap();
-    wanted.plan(surface, &operator, &NoAdhesion, PRESSED).unwrap_err().to_string()
+    let mut operator = half_space(*surface.grid()).unwrap();
+    wanted.plan(surface, &mut operator, &NoAdhesion, PRESSED).unwrap_err().to_string()
 }
 
 #[test]
 fn a_plan_says_the_grid_that_is_taken() {
     let (surface, wanted) = (surface(32, 1), Accuracy::new(0.02, Quantity::Area));
-    let operator = half_space(*surface.grid()).unwrap();
-    let plan = wanted.plan(&surface, &operator, &NoAdhesion, PRESSED).unwrap();
+    let mut operator = half_space(*surface.grid()).unwrap();
+    let plan = wanted.plan(&surface, &mut operator, &NoAdhesion, PRESSED).unwrap();
     assert!((3.9..5.0).contains(&plan.nodes_per_wave) && plan.tolerance == 1e-3, "{plan:?}");
     assert!([64, 128].contains(&plan.shape.0) && plan.bytes > 0.0 && plan.applications >= 40.0, "{plan:?}");
     // an adhesion that the grid does not resolve takes a finer one: μ_ρ is to be halved twice, which is 16 times as fine
-    let with = |mu_rho: f64| {
+    let mut with = |mu_rho: f64| {
         let law = Exponential::new(32.0 * (1e-3 * mu_rho).powi(2), 1e-3).unwrap();
-        wanted.plan(&surface, &operator, &law, PRESSED)
+        wanted.plan(&surface, &mut operator, &law, PRESSED)
     };
     assert_eq!(with(2.0).unwrap().shape, (512, 512));
     let error = with(1e3).unwrap_err();

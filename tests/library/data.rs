@@ -55,7 +55,7 @@ fn names_are_those_of_reports() {
     for method in [Method::Preconditioned, Method::Rey2017] {
         assert_eq!(comes_back(&method), method.name());
     }
-    for criterion in [Criterion::EnergyNorm, Criterion::Orthogonality] {
+    for criterion in [Criterion::EnergyNorm, Criterion::Complementarity] {
         assert_eq!(comes_back(&criterion), criterion.name());
     }
     for branch in [Branch::Loading, Branch::Unloading] {

@@ -473,13 +473,33 @@ fn a_clone_of_an_operator_is_the_operator_and_has_a_spectrum_of_its_own() {
 }
 
 #[test]
-fn the_checker_accepts_operators_and_names_what_is_broken() {
+fn every_operator_and_every_wrapper_keeps_the_contract() {
+    fn conforms<T: Real>(mut operator: impl ElasticOperator<T> + 'static) {
+        check_operator(&mut operator).unwrap();
+        check_operator(&mut &mut operator).unwrap();
+        if let Some(mut single) = operator.abilities().waves.and_then(Waves::in_single) {
+            check_operator(&mut single).unwrap();
+        }
+        let mut boxed: Box<dyn ElasticOperator<T>> = Box::new(operator);
+        check_operator(&mut boxed).unwrap();
+    }
+    fn all<T: Real>(grid: Grid) {
+        conforms(Westergaard::<T>::new(grid, 3.0).unwrap());
+        conforms(Spectral::<T>::isotropic(grid, 1.0, |q| 10.0 + 0.5 * q).unwrap());
+        conforms(Spectral::<T>::new(grid, 1.0, |qx, qy| 0.5 * (qx * qx + 2.0 * qy * qy).sqrt()).unwrap());
+        if let Ok(free) = Boussinesq::<T>::new(grid, 2.0) {
+            conforms(free);
+        }
+    }
     for shape in [(24, 15), (64, 1), (1, 33), (2, 2)] {
         let grid = Grid::new(shape, (1.0, 0.7)).unwrap();
-        check_operator(&mut Westergaard::<f64>::new(grid, 3.0).unwrap()).unwrap();
-        check_operator(&mut Westergaard::<f32>::new(grid, 3.0).unwrap()).unwrap();
-        check_operator(&mut Spectral::<f64>::isotropic(grid, 1.0, |q| 10.0 + 0.5 * q).unwrap()).unwrap();
+        all::<f64>(grid);
+        all::<f32>(grid);
     }
+}
+
+#[test]
+fn the_checker_names_what_is_broken() {
     let grid = Grid::new((24, 15), (1.0, 0.7)).unwrap();
     let broken = |kind| check_operator(&mut Broken(Westergaard::new(grid, 1.0).unwrap(), kind));
     broken(0).unwrap();

@@ -312,7 +312,7 @@ impl Job<'_> {
         let law = adhesion.law()?;
         let (solution, mut account) = if let Some(wanted) = &mut wanted {
             let mut operator = self.case.boundary.half_space(grid, self.case.modulus)?;
-            let plan = wanted.plan::<T>(&surface, &*operator, &law, self.case.control)?;
+            let plan = wanted.plan::<T>(&surface, &mut operator, &law, self.case.control)?;
             printing.say(&accuracy::announced(wanted, &plan, accuracy::seconds_of(&mut *operator)?));
             drop(operator);
             let (fine, solution, account) = case::solve_to(&surface, law, &self.case, wanted, progress)?;
