@@ -173,7 +173,7 @@ impl<T: Real, L: Real> State<'_, T, L> {
             Method::Preconditioned => self.relative_error().max(self.load_error()),
             Method::Rey2017 => self.scaled_orthogonality(),
         };
-        if !energy.is_finite() || self.runs_away() {
+        if !energy.is_finite() {
             return Some(Status::Stalled);
         }
         if error < PROGRESS * self.progress.best_error || energy < self.progress.lowest_energy - self.energy_noise() {

@@ -74,7 +74,6 @@ impl<'a, T: Real, L: Real> State<'a, T, L> {
         self.coarse.iter_mut().for_each(Coarse::forget);
         self.change_law(law, Goal::Solution);
         self.certificate = f64::INFINITY;
-        self.start_gap = self.mean_gap();
         self.check_start()
     }
 

@@ -78,8 +78,6 @@ pub(super) struct State<'a, T, L> {
     pub(super) age: usize,
     /// the sum of ⟨c, c⟩/N over these steps, with c their change
     pub(super) updates: f64,
-    /// the mean gap of the start
-    pub(super) start_gap: f64,
     /// the load that has pulled the surfaces apart
     pub(super) detached: Option<f64>,
 }
@@ -161,7 +159,6 @@ impl<'a, T: Real, L: Real> State<'a, T, L> {
             applications: 0,
             age: 0,
             updates: 0.0,
-            start_gap: 0.0,
             detached: None,
         };
         if uniform && state.law.is_zero() && (flat.boundary != Boundary::Periodic || state.is_hardly_pressed()) {
@@ -171,7 +168,6 @@ impl<'a, T: Real, L: Real> State<'a, T, L> {
         } else {
             state.take_pressure(None)?;
         }
-        state.start_gap = state.mean_gap();
         state.check_start()?;
         Ok(state)
     }

@@ -45,13 +45,6 @@ impl<T: Real, L: Real> State<'_, T, L> {
         self.flat.height_span + REACH * self.law.range().widen()
     }
 
-    /// Whether the surfaces drift apart under a load that presses them, as rounding may make them where the load is
-    /// less than it: the mean gap is then beyond that of the start and of every equilibrium.
-    pub(super) fn runs_away(&self) -> bool {
-        let pressed = matches!(self.load, Load::Pressure(pressure) if pressure >= 0.0);
-        pressed && self.tally.sum_gap / self.nodes() > self.start_gap + 2.0 * self.out_of_reach()
-    }
-
     /// Whether the load pulls by more than the law holds at its strongest on all nodes that face the surface.
     pub(super) fn is_torn(&self) -> bool {
         let facing = self.flat.window.as_ref().map_or(1.0, |window| window.facing() as f64 / self.nodes());
