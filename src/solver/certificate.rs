@@ -202,7 +202,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
             return Some(Status::IterationLimit);
         }
         let idle = self.counters.progress.idle.max(self.counters.progress.refuted);
-        let stalled = !self.energy().is_finite() || self.runs_away() || idle >= self.patience().1;
+        let stalled = !self.energy().is_finite() || idle >= self.patience().1;
         stalled.then_some(Status::Stalled)
     }
 

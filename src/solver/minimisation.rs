@@ -67,22 +67,11 @@ pub(super) struct Steps {
     pub(super) age: usize,
     /// the sum of ⟨c, c⟩/N over these steps, with c their change
     pub(super) updates: f64,
-    /// the mean gap of the start
-    pub(super) start_gap: f64,
 }
 
 impl Steps {
     pub(super) fn new(coarse: Option<Coarse>) -> Self {
-        Self {
-            momentum: None,
-            step_length: 1.0,
-            coarse,
-            near: false,
-            residual_norm: None,
-            age: 0,
-            updates: 0.0,
-            start_gap: 0.0,
-        }
+        Self { momentum: None, step_length: 1.0, coarse, near: false, residual_norm: None, age: 0, updates: 0.0 }
     }
 }
 

@@ -68,7 +68,6 @@ impl<'a, T: Real, Lo: Real> State<'a, T, Lo> {
         self.steps.coarse.iter_mut().for_each(Coarse::forget);
         self.change_law(law, Goal::Solution);
         self.sums.certificate = f64::INFINITY;
-        self.steps.start_gap = self.mean_gap();
         self.check_start()
     }
 

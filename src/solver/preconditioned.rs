@@ -9,9 +9,6 @@ use crate::field::{CHUNK, Partial, read, write};
 use crate::par::Parts;
 use crate::real::{Real, cast};
 
-/// The number of attempts at a descending step before the solve has stalled.
-const ATTEMPTS: usize = 24;
-
 /// The least curvature of a direction, as a share of its elastic curvature.
 const LEAST_CURVATURE: f64 = 0.05;
 
@@ -19,19 +16,8 @@ const LEAST_CURVATURE: f64 = 0.05;
 /// exactly in contact.
 const WHOLE: f64 = 0.7;
 
-/// The best length, as a share of a clipped step, below which a shorter step is tried, and the largest number of such
-/// trials.
+/// The best length, as a share of a clipped step, below which a shorter step is tried.
 const SHORT: f64 = 0.01;
-const SHORTENINGS: usize = 8;
-
-/// The least factor by which such a trial is shorter than the one before.
-const LEAST_PART: f64 = 1e-3;
-
-/// The factor by which a trial is shortened when nodes are held.
-const HELD: f64 = 0.25;
-
-/// The length below which a search has found no step.
-const VANISHING: f64 = 1e-12;
 
 /// A trial length below which a step that fails is tried anew at full length.
 const SHORTEST: f64 = 1e-2;
@@ -39,9 +25,8 @@ const SHORTEST: f64 = 1e-2;
 /// The longest step, in trial lengths: the mean gap has no elastic curvature that would limit it.
 const FARTHEST: f64 = 10.0;
 
-/// The least and largest ratio of two successive trial lengths, and the longest one.
+/// The least and largest ratio of two successive trial lengths.
 const ADAPT: (f64, f64) = (0.7, 1.3);
-const LONGEST: f64 = 4.0;
 
 /// The multiple of the last change c₀ in the next step.
 #[derive(Clone, Copy)]
@@ -136,10 +121,10 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
     }
 
     fn try_step(&mut self) -> Result<Option<Left>> {
-        let (mut centre, mut momentum) = self.direction();
-        for _ in 0..SHORTENINGS {
+        let (centre, mut momentum) = self.direction();
+        loop {
             let trial_length = self.steps.step_length;
-            let Some(trial) = self.descend(&mut centre, &mut momentum) else { return Ok(None) };
+            let Some(trial) = self.descend(centre, &mut momentum) else { return Ok(None) };
             let Fields { change, residual: response, .. } = &mut self.fields;
             let elastic = self.posed.operators.corrections().pressure_and_work(change.view(), response.view_mut())?;
             self.counters.applications += 1;
@@ -149,11 +134,9 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
             }
             // a part so short leaves the blocked nodes apart: clip a step without the last change instead, or a
             // shorter one
-            let shorten = if momentum.take().is_some() { 1.0 } else { step.length.max(LEAST_PART) };
-            self.steps.step_length = trial_length * shorten;
+            self.steps.step_length = trial_length * if momentum.take().is_some() { 1.0 } else { step.length };
             self.residual(Left::Nothing);
         }
-        Ok(None)
     }
 
     /// The mean of z over the working set, and the multiple of the last change.
@@ -176,11 +159,11 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
     /// Puts a feasible change into `change` along which the energy falls.
     ///
     /// Clipping and scaling can turn a step uphill. Then it is tried without the last change; then the nodes that
-    /// the gradient drives into contact are put there, alone; or, if there are none, nodes that the gradient releases
-    /// but the preconditioner presses are held, and the step is shortened.
-    fn descend(&mut self, centre: &mut f64, momentum: &mut Option<Momentum>) -> Option<Trial> {
-        for _ in 0..ATTEMPTS {
-            let trial = self.trial(*centre, *momentum);
+    /// the gradient drives into contact are put there, alone; or, if there are none, the step is shortened, until
+    /// nothing but rounding would be left of it.
+    fn descend(&mut self, centre: f64, momentum: &mut Option<Momentum>) -> Option<Trial> {
+        loop {
+            let trial = self.trial(centre, *momentum);
             if trial.slope < 0.0 {
                 return Some(trial);
             }
@@ -188,16 +171,13 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
                 continue;
             }
             if trial.blocked {
-                return Some(self.land(*centre, trial)).filter(|trial| trial.slope < 0.0);
+                return Some(self.land(centre, trial)).filter(|trial| trial.slope < 0.0);
             }
-            // without a wall no node is in contact for good: a step so short that none is clipped descends
-            if self.posed.projects() || !trial.clipped {
-                self.hold(*centre);
-                *centre = 0.0;
+            self.steps.step_length *= 0.5;
+            if self.steps.step_length < T::epsilon().widen() {
+                return None;
             }
-            self.steps.step_length *= HELD;
         }
-        None
     }
 
     /// The change that a step of the trial length makes, clipped; scaled, it leaves the mean gap as it is.
@@ -284,35 +264,6 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         Trial { slope, scale: 1.0, change, descent: slope, square, traction, slopes, ..trial }
     }
 
-    /// Subtracts the mean from z, and sets z to zero at nodes in contact that it would press.
-    fn hold(&mut self, centre: f64) {
-        let (centre, centred) = (Lo::lit(centre), self.posed.is_gap_controlled());
-        let local = self.posed.potential();
-        let Fields { reducer, gap, residual, preconditioned, .. } = &mut self.fields;
-        let moves = move |faces: bool, gap: T, r: Lo, z: Lo| !idles(r) && (!faces || gap > T::zero() || z < centre);
-        let fields = read(gap).zip(read(residual)).zip(read(preconditioned));
-        let total = local.run(reducer, fields, |local, _, ((gap, residual), z)| {
-            let (mut part, faces) = (Partial::NONE, local.is_surface());
-            for ((&gap, &r), &z) in gap.iter().zip(residual).zip(z) {
-                if moves(faces, gap, r, z) {
-                    part.sum[0] += (z - centre).widen();
-                    part.sum[1] += 1.0;
-                }
-            }
-            part
-        });
-        let [sum, count, ..] = total.sum;
-        let mean = Lo::lit(if centred && count > 0.0 { sum / count } else { 0.0 });
-        let fields = read(gap).zip(read(residual)).zip(write(preconditioned));
-        local.run(reducer, fields, |local, _, ((gap, residual), z)| {
-            let faces = local.is_surface();
-            for ((&gap, &r), z) in gap.iter().zip(residual).zip(z) {
-                *z = if moves(faces, gap, r, *z) { *z - centre - mean } else { Lo::zero() };
-            }
-            Partial::NONE
-        });
-    }
-
     /// The length of a step with `elastic` = ⟨c, K⁻¹c⟩; `None` if the energy rises at every length.
     fn search(&mut self, trial: &Trial, elastic: f64) -> Option<Step> {
         let (shift, nodes) = (self.offset() - self.sums.residual.level, self.posed.nodes());
@@ -361,14 +312,14 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
                     break;
                 }
                 length *= 0.5;
-                if length < VANISHING {
+                if length < T::epsilon().widen() {
                     return None;
                 }
             }
         }
         // near the solution the best lengths scatter about their mean: damp their changes
         let ratio = if self.steps.near { best.sqrt() } else { best };
-        self.steps.step_length = (self.steps.step_length * ratio.clamp(ADAPT.0, ADAPT.1)).min(LONGEST);
+        self.steps.step_length *= ratio.clamp(ADAPT.0, ADAPT.1);
         let (scale, slope, square) = (trial.scale, trial.slope, trial.square);
         (length > 0.0).then_some(Step { length, scale, slope, change, square, work, elastic, spring })
     }

@@ -67,7 +67,6 @@ impl<'a, T: Real, Lo: Real> State<'a, T, Lo> {
         } else {
             state.take_pressure(None)?;
         }
-        state.steps.start_gap = state.mean_gap();
         state.check_start()?;
         Ok(state)
     }

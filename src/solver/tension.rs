@@ -76,13 +76,6 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         pressure < 0.0 && self.sums.tally.contact == 0.0 && held <= HARDLY * -pressure
     }
 
-    /// Whether the surfaces drift apart under a load that presses them, as rounding may make them where the load is
-    /// less than it: the mean gap is then beyond that of the start and of every equilibrium.
-    pub(super) fn runs_away(&self) -> bool {
-        let pressed = matches!(self.posed.load, Load::Pressure(pressure) if pressure >= 0.0);
-        pressed && self.sums.tally.sum_gap / self.posed.nodes() > self.steps.start_gap + 2.0 * self.posed.out_of_reach()
-    }
-
     /// Looks for a state that holds more than the tensile load that is given, to go on from under the load; `false` if
     /// it finds none.
     ///
