@@ -8,10 +8,9 @@ use ndarray::{Array2, ArrayView2, Zip};
 
 use crate::adhesion::{AdhesionLaw, Values, noticeable};
 use crate::elastic::Boundary;
-use crate::error::{Error, Result};
+use crate::error::Result;
 use crate::grid::Grid;
 use crate::real::Real;
-use crate::slab::Slab;
 use crate::solver::Solution;
 
 use outline::Outline;
@@ -78,7 +77,7 @@ impl<T: Real> Solution<T> {
     pub fn regions(&self, law: &impl AdhesionLaw<T>) -> Result<Array2<Region>> {
         self.check_law(law)?;
         let contact = self.contact_map();
-        let attracts = attracting(&contact, self.gap.view(), self.grid.slab(), law);
+        let attracts = attracting(&contact, self.gap.view(), &self.grid, law);
         let mut nodes = self.gap.iter().zip(&contact).zip(attracts);
         Ok(Array2::from_shape_simple_fn(self.gap.dim(), || match nodes.next() {
             Some(((_, true), _)) => Region::Contact,
@@ -115,7 +114,7 @@ impl<T: Real> Solution<T> {
 fn attracting<T: Real>(
     contact: &Array2<bool>,
     gap: ArrayView2<'_, T>,
-    slab: Slab,
+    grid: &Grid,
     law: &impl AdhesionLaw<T>,
 ) -> Vec<bool> {
     if law.hints().zero {
@@ -124,7 +123,7 @@ fn attracting<T: Real>(
     let least = T::lit(noticeable(law));
     let gaps: Vec<T> = gap.iter().map(|gap| gap.max(T::zero())).collect();
     let mut tractions = vec![T::zero(); gaps.len()];
-    law.evaluate(slab.first_node(), &gaps, Values::one(1, &mut tractions));
+    law.evaluate(grid.first_node(), &gaps, Values::one(1, &mut tractions));
     contact.iter().zip(tractions).map(|(&touches, traction)| !touches && traction > least).collect()
 }
 
@@ -135,9 +134,8 @@ fn contact_map<T: Real>(gap: ArrayView2<'_, T>, contact_pressure: ArrayView2<'_,
 
 /// Refuses fields that do not have the shape of the grid.
 fn check<T: Real>(gap: ArrayView2<'_, T>, contact_pressure: ArrayView2<'_, T>, grid: &Grid) -> Result<()> {
-    let slab = grid.slab();
-    slab.agreed(Error::shape("gap", gap.dim(), grid.field_shape()))?;
-    slab.agreed(Error::shape("contact pressure", contact_pressure.dim(), grid.field_shape()))
+    grid.fits("gap", gap.dim())?;
+    grid.fits("contact pressure", contact_pressure.dim())
 }
 
 /// Contact statistics: the area and the clusters of contact, and the area that attracts without contact.
@@ -277,7 +275,6 @@ impl ContactStatistics {
         (boundary, modulus): (Boundary, f64),
         law: &impl AdhesionLaw<T>,
     ) -> Result<Self> {
-        let slab = grid.slab();
         check(gap, contact_pressure, grid)?;
         let contact = contact_map(gap, contact_pressure);
         let facing = grid.total(gap.iter().filter(|gap| gap.is_finite()).count());
@@ -286,7 +283,7 @@ impl ContactStatistics {
         let ContactArea { contact_nodes, contact_fraction, corrected_contact_fraction, perimeter, .. } =
             ContactArea::within_edge(&outline, facing);
         let share = |count: usize| count as f64 / facing as f64;
-        let attracts = attracting(&contact, gap, slab, law);
+        let attracts = attracting(&contact, gap, grid, law);
         let attracting = grid.total(attracts.iter().filter(|&&attracts| attracts).count());
         let nodes = gap.iter().zip(&contact).zip(&attracts);
         let nodes = nodes.map(|((gap, &touches), &attracts)| gap.is_finite().then_some([touches, attracts]));
@@ -299,7 +296,7 @@ impl ContactStatistics {
             repulsive_fraction: share(grid.total(contact_pressure.iter().filter(|&&p| p > T::zero()).count())),
             attractive_fraction: share(attracting),
             apart_fraction: share(facing - contact_nodes - attracting),
-            patches: patch::patches(law, slab, nodes),
+            patches: patch::patches(law, grid, nodes),
         })
     }
 }

@@ -3,9 +3,10 @@
 use std::f64::consts::TAU;
 use std::ops::Range;
 
-use ndarray::{Array2, ArrayRef2, CowArray, Ix2};
+use ndarray::{Array2, ArrayRef2, ArrayView2, CowArray, Ix2};
 
 use crate::error::{Error, Result};
+use crate::field::{self, Reducer, all_finite_in};
 use crate::ranks::{COUNTED, Sent};
 use crate::real::Real;
 use crate::slab::{Rows, Slab};
@@ -156,6 +157,51 @@ impl Grid {
     /// Whether something is so for one of the processes that share the grid. All of them have to ask.
     pub(crate) fn has(&self, own: bool) -> bool {
         self.slab.has(own)
+    }
+
+    /// The largest of the numbers of the processes that share the grid. All of them have to ask.
+    pub(crate) fn most(&self, own: f64) -> f64 {
+        self.slab.most(own)
+    }
+
+    /// Adds up numbers of the processes that share the grid. All of them have to ask.
+    pub(crate) fn add_up(&self, own: &mut [u64]) {
+        self.slab.add_up(own);
+    }
+
+    /// The result of this process, or the error of another one. All of them have to ask.
+    pub(crate) fn agreed<T>(&self, result: Result<T>) -> Result<T> {
+        self.slab.agreed(result)
+    }
+
+    /// Refuses a field that does not have the shape of the grid's. All processes have to ask.
+    pub(crate) fn fits(&self, name: &'static str, shape: (usize, usize)) -> Result<()> {
+        self.agreed(Error::shape(name, shape, self.field_shape()))
+    }
+
+    /// Refuses a field that is not finite somewhere. All processes have to ask.
+    pub(crate) fn finite<T: Real>(&self, name: &'static str, field: ArrayView2<'_, T>) -> Result<()> {
+        all_finite_in(self.slab, name, field)
+    }
+
+    /// The passes over fields on the grid.
+    pub(crate) fn reducer(&self) -> Reducer {
+        Reducer::new(self.slab)
+    }
+
+    /// The mean of a function of the nodes of a field, in any layout.
+    pub(crate) fn mean<T: Copy + Sync>(&self, field: ArrayView2<'_, T>, of: impl Fn(T) -> f64 + Sync + Send) -> f64 {
+        field::mean_over(self.slab, field, of)
+    }
+
+    /// The mean of a function of the nodes of two fields, in any layout.
+    pub(crate) fn mean_of_both<S: Copy + Sync, T: Copy + Sync>(
+        &self,
+        a: ArrayView2<'_, S>,
+        b: ArrayView2<'_, T>,
+        of: impl Fn(S, T) -> f64 + Sync + Send,
+    ) -> f64 {
+        field::mean_of_both(self.slab, a, b, of)
     }
 
     /// The lists of the processes that share the grid, one after the other. All of them have to ask.

@@ -215,10 +215,10 @@ where
     /// [`Error::Shape`] if the fields are of another grid, [`Error::Value`] if the values are not those of a
     /// checkpoint.
     pub fn continuing(mut self, from: PathCheckpoint<T>) -> Result<Self> {
-        let slab = self.problem.operator.grid().slab();
+        let grid = *self.problem.operator.grid();
         let PathCheckpoint { values, mut fields } = from;
         for field in &mut fields {
-            slab.agreed(Error::shape("field of the checkpoint", field.dim(), slab.held()))?;
+            grid.fits("field of the checkpoint", field.dim())?;
             if !field.is_standard_layout() {
                 *field = field.as_standard_layout().into_owned();
             }
@@ -421,7 +421,7 @@ where
             [before, last] => {
                 let steps = self.state.extrapolation(target).clamp(-FARTHEST, FARTHEST);
                 let steps = if steps.is_finite() { steps } else { 0.0 };
-                let on = (self.problem.flat.window.as_ref(), self.problem.operator.grid().slab());
+                let on = (self.problem.flat.window.as_ref(), *self.problem.operator.grid());
                 extrapolated([before, last], steps, self.least(), on)
             }
             [.., last] => last.clone(),

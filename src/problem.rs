@@ -6,7 +6,7 @@ use crate::adhesion::{AdhesionLaw, Discretisation};
 use crate::constraint::Wall;
 use crate::elastic::{self, Boundary, ElasticOperator};
 use crate::error::{Error, Result};
-use crate::field::{self, all_finite_in, flat};
+use crate::field::{all_finite_in, flat};
 use crate::grid::Grid;
 use crate::real::Real;
 use crate::surface::Surface;
@@ -250,7 +250,7 @@ impl<T: Real> PressedFlat<T> {
         let heights = centred.as_ref().unwrap_or(whole.heights()).view();
         let surface_work = elastic::surface_pressure(operator, heights, pressure.view_mut())?.max(0.0);
         drop(centred);
-        let mean_square = field::mean_over(slab, pressure.view(), |p: T| p.widen().powi(2));
+        let mean_square = operator.grid().mean(pressure.view(), |p: T| p.widen().powi(2));
         // squares may be beyond the range of finite pressures
         if !mean_square.is_finite() {
             all_finite_in(slab, "pressure K⁻¹h of the surface pressed flat", pressure.view())?;

@@ -11,7 +11,7 @@ use crate::adhesion::{AdhesionLaw, Discretisation};
 use crate::constraint::{ContactConstraint, Projection};
 use crate::elastic::ElasticOperator;
 use crate::error::{Error, Result};
-use crate::field::{CHUNK, Partial, Reducer, all_finite_in, flat, write};
+use crate::field::{CHUNK, Partial, flat, write};
 use crate::grid::Grid;
 use crate::par::{self, Parts};
 use crate::problem::{Control, Problem, Window, smoothed_law};
@@ -320,10 +320,9 @@ where
     O: ElasticOperator<T>,
     L: AdhesionLaw<T>,
 {
-    let slab = problem.grid().slab();
-    slab.agreed(Error::shape("gap", gap.dim(), slab.held()))?;
+    problem.grid().fits("gap", gap.dim())?;
     if problem.flat.window.is_none() {
-        all_finite_in(slab, "gap", gap.view())?;
+        problem.grid().finite("gap", gap.view())?;
     }
     check_wall(&problem.law, constraint.wall())?;
     let negative = gap.iter().find(|&&gap| constraint.wall().is_rigid() && gap < T::zero());
@@ -332,7 +331,7 @@ where
             "zero or positive; a solution with springs or without a wall is looked at with its constraint";
         Err(Error::Value { name: "gap", value: gap.widen(), requirement })
     });
-    slab.agreed(refused)
+    problem.grid().agreed(refused)
 }
 
 /// The second derivative of the local energy at every node of the operator's grid, and infinity where a rigid wall is
@@ -342,14 +341,14 @@ fn slopes<T: Real>(
     (law, constraint): (&dyn AdhesionLaw<T>, &dyn ContactConstraint<T>),
     (grid, window): (&Grid, Option<&Window>),
 ) -> Result<Array2<T>> {
-    let slab = window.map_or(grid, Window::held).slab();
+    let grid = window.map_or(grid, Window::held);
     let law_held = window.and_then(|window| law.adapted(Discretisation::Rows(*window.held())));
     let local = Potential::new(law_held.as_deref().unwrap_or(law), constraint, None);
     let gap = window.map_or_else(|| gap.view().into(), |window| window.hold(gap.view()));
     let gap = gap.as_standard_layout();
     let gaps = gap.as_slice().unwrap_or_default();
     let mut slopes = Array2::zeros(gap.dim());
-    let wrong = Reducer::new(slab).run(par::chunks(gaps, CHUNK).zip(write(&mut slopes)), |first, (gap, slopes)| {
+    let wrong = grid.reducer().run(par::chunks(gaps, CHUNK).zip(write(&mut slopes)), |first, (gap, slopes)| {
         let mut part = Partial::NONE;
         local.evaluate(Of::Slope, first, gap, slopes);
         for (i, (slope, &gap)) in slopes.iter_mut().zip(gap).enumerate() {
@@ -362,12 +361,12 @@ fn slopes<T: Real>(
         part
     });
     if wrong.min.is_finite() {
-        let own = (wrong.min as usize).checked_sub(slab.first_node());
+        let own = (wrong.min as usize).checked_sub(grid.first_node());
         let own = own.and_then(|node| Some((gaps.get(node)?.widen(), flat(&slopes).get(node)?.widen())));
         let refused = own.map_or(Ok(()), |(gap, value)| {
             Err(Error::Law { function: "slope of the local traction", gap, value, expected: None })
         });
-        slab.agreed(refused)?;
+        grid.agreed(refused)?;
     }
     // nothing attracts, and nothing confines, where no surface faces the half-space
     Ok(match window {

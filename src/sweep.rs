@@ -168,7 +168,7 @@ where
             return Some(last.clone());
         }
         let least = Potential::new(&self.problem.law, &self.solver.constraint, None).least();
-        let on = (self.problem.flat.window.as_ref(), self.problem.operator.grid().slab());
+        let on = (self.problem.flat.window.as_ref(), *self.problem.operator.grid());
         Some(extrapolated([&before, last], steps.clamp(-FARTHEST, FARTHEST), least, on))
     }
 }

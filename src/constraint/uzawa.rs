@@ -5,11 +5,10 @@ use ndarray::{Array2, ArrayView2};
 use super::penalty::check_stiffness;
 use super::{ContactConstraint, Springs, Update, Wall};
 use crate::error::Result;
-use crate::field::{CHUNK, Partial, Reducer, flat, read, write};
+use crate::field::{CHUNK, Partial, flat, read, write};
 use crate::grid::Grid;
 use crate::par::{self, Parts};
 use crate::real::Real;
-use crate::slab::Slab;
 
 /// The springs are made so much stiffer where more than this share of the interpenetration is left after a round.
 const STIFFEN: f64 = 4.0;
@@ -70,7 +69,7 @@ pub struct Uzawa<T> {
     /// the tolerance of the solve
     solved_to: f64,
     multipliers: Array2<T>,
-    slab: Slab,
+    grid: Option<Grid>,
     rounds: usize,
 }
 
@@ -93,7 +92,7 @@ impl<T: Real> Uzawa<T> {
             stiffest: 0.0,
             solved_to: 0.0,
             multipliers,
-            slab: Slab::whole((0, 0)),
+            grid: None,
             rounds: 0,
         })
     }
@@ -109,8 +108,8 @@ impl<T: Real> Uzawa<T> {
     }
 
     fn multiplier(&self, node: usize) -> T {
-        let own = node.checked_sub(self.slab.first_node());
-        own.and_then(|own| flat(&self.multipliers).get(own)).copied().unwrap_or_default()
+        let first = self.grid.as_ref().map_or(0, Grid::first_node);
+        node.checked_sub(first).and_then(|own| flat(&self.multipliers).get(own)).copied().unwrap_or_default()
     }
 }
 
@@ -121,7 +120,7 @@ impl<T: Real> ContactConstraint<T> for Uzawa<T> {
     fn start(&mut self, grid: &Grid, stiffest: f64, tolerance: f64) -> Result<()> {
         self.solved_to = tolerance;
         self.multipliers = Array2::zeros(grid.field_shape());
-        self.slab = grid.slab();
+        self.grid = Some(*grid);
         self.rounds = 0;
         (self.stiffness, self.off, self.stiffest) = (self.softest, f64::INFINITY, stiffest);
         if stiffest > 0.0 {
@@ -134,11 +133,11 @@ impl<T: Real> ContactConstraint<T> for Uzawa<T> {
     }
     fn update(&mut self, gap: ArrayView2<'_, T>) -> Update {
         self.rounds += 1;
-        let (slab, stiffness) = (self.slab, self.stiffness);
+        let (Some(grid), stiffness) = (self.grid, self.stiffness) else { return Update::Failed };
         let gap = gap.as_standard_layout();
         let gaps = || par::chunks(gap.as_slice().unwrap_or_default(), CHUNK);
         let next = move |multiplier: T, gap: T| (multiplier - stiffness * gap).max(T::zero());
-        let mut reducer = Reducer::new(slab);
+        let mut reducer = grid.reducer();
         let total = reducer.run(read(&self.multipliers).zip(gaps()), |_, (multipliers, gaps)| {
             let mut part = Partial::NONE;
             for (&multiplier, &gap) in multipliers.iter().zip(gaps) {
@@ -152,7 +151,7 @@ impl<T: Real> ContactConstraint<T> for Uzawa<T> {
             part
         });
         let [change, change_squared, sum, squared, ..] = total.sum;
-        let (nodes, k) = (slab.nodes() as f64, stiffness.widen());
+        let (nodes, k) = (grid.nodes() as f64, stiffness.widen());
         let off = change_squared.sqrt() / k;
         let left = (self.stiffest * off).powi(2) + self.stiffest * change * change / (nodes * k);
         // but for the rounding of their difference

@@ -7,7 +7,7 @@ use super::ContactStatistics;
 use super::outline::{Edge, Outline};
 use super::{check, contact_map};
 use crate::elastic::Boundary;
-use crate::error::{Error, Result};
+use crate::error::Result;
 use crate::grid::Grid;
 use crate::real::Real;
 use crate::solver::Solution;
@@ -63,8 +63,7 @@ impl ContactArea {
     /// # Errors
     /// [`Error::Shape`] if the map does not have the shape of the grid.
     pub fn of(map: ArrayView2<'_, bool>, grid: &Grid) -> Result<Self> {
-        let slab = grid.slab();
-        slab.agreed(Error::shape("contact map", map.dim(), grid.field_shape()))?;
+        grid.fits("contact map", map.dim())?;
         Ok(Self::within(map, grid, true, grid.nodes(), |along| edge_of_map(along, grid)))
     }
 

@@ -117,7 +117,7 @@ impl<T: Real> Outline<'_, T> {
                 excess += fixed(step.of_cell(corners, &mut places));
             }
         }
-        let places = places.total(grid.slab());
+        let places = places.total(grid);
         // sums of negative numbers wrap around as well
         let excess = grid.total(excess as usize) as i64 as f64 / CELL;
         Edge { excess, edges: places.edges(), places: places.independent() }

@@ -1,8 +1,8 @@
 //! The patches of a law that varies over the surface: the nodes of each work of adhesion.
 
 use crate::adhesion::{AdhesionLaw, Values};
+use crate::grid::Grid;
 use crate::real::Real;
-use crate::slab::Slab;
 
 /// The largest number of works of adhesion that are told apart.
 const MOST: usize = 16;
@@ -31,7 +31,7 @@ type Counts = (f64, [u64; 3]);
 /// attract, and nothing of absent ones. None if the law is the same everywhere, or of too many works of adhesion.
 pub(super) fn patches<T: Real>(
     law: &impl AdhesionLaw<T>,
-    slab: Slab,
+    grid: &Grid,
     nodes: impl ExactSizeIterator<Item = Option<[bool; 2]>>,
 ) -> Vec<Patch> {
     if law.hints().shape.is_none() {
@@ -40,7 +40,7 @@ pub(super) fn patches<T: Real>(
     // where nothing presses them, the surfaces have given all of it up
     let gaps = vec![law.hints().rest.unwrap_or_else(T::zero); nodes.len()];
     let mut energies = vec![T::zero(); gaps.len()];
-    law.evaluate(slab.first_node(), &gaps, Values::one(0, &mut energies));
+    law.evaluate(grid.first_node(), &gaps, Values::one(0, &mut energies));
     let mut counts = Vec::new();
     for (energy, node) in energies.iter().zip(nodes) {
         let (Some([touches, attracts]), work) = (node, 0.0 - energy.widen()) else { continue };
@@ -48,7 +48,7 @@ pub(super) fn patches<T: Real>(
     }
     let own = counts.iter().flat_map(|(work, [a, b, c])| [work.to_bits(), *a, *b, *c]).collect();
     counts.clear();
-    for &[work, all, touching, attracting] in slab.ranks().lists(own).as_chunks().0 {
+    for &[work, all, touching, attracting] in grid.lists(own).as_chunks().0 {
         count(&mut counts, f64::from_bits(work), [all, touching, attracting]);
     }
     if counts.len() > MOST {

@@ -1,6 +1,6 @@
 //! The places between the nodes at which the edge of a contact runs.
 
-use crate::slab::Slab;
+use crate::grid::Grid;
 
 /// The bins of a spacing, and how many of them are one bin of a coarser count.
 const BINS: usize = 64;
@@ -23,8 +23,8 @@ impl Places {
     }
 
     /// Those of all slabs of a grid.
-    pub fn total(mut self, slab: Slab) -> Self {
-        slab.add_up(&mut self.counts);
+    pub fn total(mut self, grid: &Grid) -> Self {
+        grid.add_up(&mut self.counts);
         self
     }
 

@@ -234,7 +234,7 @@ mod tests {
             assert_eq!(read(npz(method, &[("heights.npy", &heights)])).unwrap(), array![[256.0, -1.0]]);
             // All zeros compress as well as anything does.
             let zeros = npy("'<f8'", "False", "(1000, 1000)", &[0; 8_000_000]);
-            assert_eq!(read(npz(method, &[("heights.npy", &zeros)])).unwrap(), Array2::zeros((1000, 1000)));
+            assert_eq!(read(npz(method, &[("heights.npy", &zeros)])).unwrap(), Array2::<f64>::zeros((1000, 1000)));
         }
     }
 

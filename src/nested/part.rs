@@ -9,7 +9,6 @@ use crate::adhesion::AdhesionLaw;
 use crate::constraint::ContactConstraint;
 use crate::elastic::{Boundary, ElasticOperator};
 use crate::error::Result;
-use crate::field;
 use crate::grid::Grid;
 use crate::problem::{Control, Problem};
 use crate::real::Real;
@@ -154,7 +153,7 @@ impl<T: Real> OnPart<T> {
         let mut whole = Array2::zeros(load.dim());
         problem.operator.displacement(load.view(), whole.view_mut())?;
         let found = part.cut(&whole, &to, &grid);
-        let shift = field::mean_of_both(grid.slab(), gap.view(), found.view(), |gap, u| gap.widen() - u.widen());
+        let shift = grid.mean_of_both(gap.view(), found.view(), |gap, u| gap.widen() - u.widen());
         whole.mapv_inplace(|gap| gap + T::lit(shift));
         for (_, mut row) in to.rows().zip(whole.rows_mut()).filter(|(row, _)| *row < window.0) {
             row.slice_axis_mut(Axis(0), Slice::from(..window.1)).mapv_inplace(|gap| gap.max(T::zero()));

@@ -47,7 +47,7 @@ where
         control: Control,
         observe: Observer<'_>,
     ) -> Result<(Option<Solved<T>>, bool)> {
-        let slab = self.problem.grid().slab();
+        let grid = *self.problem.grid();
         let moved = self.gaps.last().map(|last| {
             let window = self.problem.flat.window.as_ref();
             let last = window.map_or(last.view().into(), |window| CowArray::from(window.crop(last, T::infinity())));
@@ -56,13 +56,13 @@ where
             moved.zip_mut_with(&last, |gap, &last| *gap = if *gap == last { T::zero() } else { *gap - last });
             moved
         });
-        let share = moved.map_or(0.0, |moved| self.watch.share(&moved, slab));
+        let share = moved.map_or(0.0, |moved| self.watch.share(&moved, &grid));
         let drawn = share.abs() > DRAWN;
         let mut gap = from.gap.clone();
         for _ in 0..SADDLES {
             let amplitude = PERTURBATION * self.problem.law.hints().range.widen();
             let least = self.least();
-            self.watch.displace((&mut gap, slab), least, amplitude, drawn.then_some(share));
+            self.watch.displace((&mut gap, &grid), least, amplitude, drawn.then_some(share));
             let left = self.solve(control, Begin::At(Start::From(&gap)), observe)?;
             if !left.is_settled() {
                 self.failed |= left.solution.report.status == Status::Stopped;

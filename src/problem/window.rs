@@ -4,8 +4,8 @@ use std::ops::Range;
 
 use ndarray::{Array2, ArrayView2, CowArray, Ix2, Zip};
 
-use crate::error::{Error, Result};
-use crate::field::{all_finite_in, flat, flat_mut};
+use crate::error::Result;
+use crate::field::{flat, flat_mut};
 use crate::grid::Grid;
 use crate::real::Real;
 use crate::surface::Surface;
@@ -182,8 +182,7 @@ impl Window {
 
     /// A gap of the surface's grid as one on that of the operator, whatever it has at absent nodes.
     pub(crate) fn start<T: Real>(&self, gap: ArrayView2<'_, T>) -> Result<Array2<T>> {
-        let slab = self.grid.slab();
-        slab.agreed(Error::shape("starting gap", gap.dim(), slab.held()))?;
+        self.grid.fits("starting gap", gap.dim())?;
         let gap = self.hold(gap);
         let gap = gap.as_standard_layout();
         let gap = gap.as_slice().unwrap_or_default();
@@ -193,7 +192,7 @@ impl Window {
             self.places().for_each(|(_, own)| flat_mut(&mut facing)[own.clone()].copy_from_slice(&gap[own]));
             facing
         };
-        all_finite_in(self.held.slab(), "starting gap", facing(T::zero()).view())?;
+        self.held.finite("starting gap", facing(T::zero()).view())?;
         Ok(self.extended(facing(T::nan()).view()))
     }
 }
@@ -255,6 +254,6 @@ mod tests {
         (field[[0, 1]], field[[2, 0]]) = (-1.0, -1.0);
         assert_eq!(cropped, field);
         field[[1, 2]] = f64::NAN;
-        assert!(matches!(window.start(field.view()), Err(Error::NotFinite { first: (1, 2), .. })));
+        assert!(matches!(window.start(field.view()), Err(crate::Error::NotFinite { first: (1, 2), .. })));
     }
 }

@@ -11,7 +11,6 @@ use super::{Method, Settings, Solution, Status};
 use crate::adhesion::AdhesionLaw;
 use crate::constraint::Wall;
 use crate::error::{Error, Result};
-use crate::field;
 use crate::problem::{Load, PressedFlat};
 use crate::real::Real;
 
@@ -127,7 +126,7 @@ impl<T: Real> Solution<T> {
         let change = |g: T, h: T| if g.is_finite() { g - h } else { T::zero() };
         let gaps = Zip::from(&self.gap).and(&other.gap).map_collect(|&g, &h| change(g, h));
         let pressures = &self.pressure - &other.pressure;
-        let square = field::mean_of_both(self.grid.slab(), gaps.view(), pressures.view(), |g, p| g.widen() * p.widen());
+        let square = self.grid.mean_of_both(gaps.view(), pressures.view(), |g, p| g.widen() * p.widen());
         let scale = 2.0 * self.report.elastic_energy.max(other.report.elastic_energy);
         if square == 0.0 { 0.0 } else { (square.abs() / scale).sqrt() }
     }

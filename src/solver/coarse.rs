@@ -6,9 +6,9 @@ use std::slice::Chunks;
 use ndarray::{Array2, ArrayView2, Axis};
 
 use crate::elastic::{CoarseSpace, ElasticOperator};
+use crate::grid::Grid;
 use crate::par::{self, Parts};
 use crate::real::Real;
-use crate::slab::Slab;
 use crate::vector::vectorised;
 
 /// The dimension of the space over the cube root of the number of nodes: then its decomposition takes 21
@@ -38,7 +38,7 @@ type Count = [u64; 4];
 #[derive(Debug)]
 pub(crate) struct Coarse {
     space: CoarseSpace,
-    slab: Slab,
+    grid: Grid,
     /// the shares of contact at the first nodes of the blocks
     contact: Vec<f64>,
     /// the contact of each block
@@ -53,11 +53,11 @@ pub(crate) struct Coarse {
 impl Coarse {
     /// The coarse space of an operator, if it has one.
     pub(crate) fn of<T: Real>(operator: &mut dyn ElasticOperator<T>) -> Option<Self> {
-        let (slab, nodes) = (operator.grid().slab(), operator.grid().nodes() as f64);
+        let (grid, nodes) = (*operator.grid(), operator.grid().nodes() as f64);
         let space = operator.abilities().coarse_space((DIMENSION * nodes.cbrt()) as usize)?;
         let [_, blocks] = space.blocks();
         let (contact, counts) = (vec![0.0; blocks.0 * blocks.1], vec![Count::default(); blocks.0 * blocks.1]);
-        Some(Self { space, slab, contact, counts, ready: false, due: 0, interval: INTERVAL })
+        Some(Self { space, grid, contact, counts, ready: false, due: 0, interval: INTERVAL })
     }
 
     /// Whether the contact map is to be taken in an iteration; the first one waits until the contacts have settled.
@@ -101,7 +101,7 @@ impl Coarse {
     /// A node counts for the first nodes of its own block and of the next one by linear interpolation: then the map has
     /// the symmetries of the surface about such nodes.
     fn map<T: Real>(&mut self, field: &Array2<T>, touches: impl Fn(usize, T) -> bool + Sync + Send) -> bool {
-        let ([block, blocks], (nx, ny)) = (self.space.blocks(), self.slab.shape());
+        let ([block, blocks], (nx, ny)) = (self.space.blocks(), self.grid.shape());
         let count = |nodes: ArrayView2<'_, T>, from: usize, node: usize, counts: &mut [Count]| {
             let nodes = nodes.to_slice().unwrap_or_default();
             for first in (0..ny).step_by(COLUMNS) {
@@ -121,7 +121,7 @@ impl Coarse {
             }
         };
         self.counts.fill(Count::default());
-        let (rows, first) = (self.slab.rows(), self.slab.first_node());
+        let (rows, first) = (self.grid.rows(), self.grid.first_node());
         // the rest of a row of blocks that begins in another slab
         let begun = rows.start % block.0;
         let (head, others) = field.view().split_at(Axis(0), ((block.0 - begun) % block.0).min(rows.len()));
@@ -132,7 +132,7 @@ impl Coarse {
         par::for_each(par::tiles(others, 0, block.0).zip(par::chunks_mut(after, blocks.1)), |i, (nodes, counts)| {
             count(nodes, 0, first + (head.nrows() + i * block.0) * ny, counts);
         });
-        self.slab.add_up(self.counts.as_flattened_mut());
+        self.grid.add_up(self.counts.as_flattened_mut());
 
         let share = (nx as f64 * ny as f64).recip();
         self.contact.fill(0.0);

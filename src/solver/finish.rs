@@ -116,13 +116,13 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         let contact_pressure = window.crop(&contact_pressure, T::zero());
         if flat.boundary != Boundary::Periodic {
             let [at_edge, largest] =
-                [largest(edge(&pressure, &grid)), largest(pressure.iter().copied())].map(|own| grid.slab().most(own));
+                [largest(edge(&pressure, &grid)), largest(pressure.iter().copied())].map(|own| grid.most(own));
             let share = if at_edge == 0.0 { 0.0 } else { at_edge / largest };
             report.edge_traction = Some(share);
             // of bodies that are apart it says nothing how far the last of their attraction, or rounding, reaches
             let attract = !law.hints().zero && largest > noticeable(law);
             let apart = report.status == Status::Detached || report.contact_nodes == 0 && !attract;
-            let touches = grid.slab().has(edge(&gap, &grid).any(|gap| gap <= T::zero()));
+            let touches = grid.has(edge(&gap, &grid).any(|gap| gap <= T::zero()));
             report.reaches_edge = !apart && (share > EDGE || touches);
         }
         Ok(Solved {

@@ -7,8 +7,8 @@
 use ndarray::Array2;
 
 use crate::field::Reducer;
+use crate::grid::Grid;
 use crate::real::Real;
-use crate::slab::Slab;
 
 mod held;
 mod residual;
@@ -45,9 +45,9 @@ pub(super) struct Fields<T, Lo> {
 
 impl<T: Real, Lo: Real> Fields<T, Lo> {
     /// The fields of a solve that starts from this gap and its pressure.
-    pub(super) fn new(slab: Slab, gap: Array2<T>, pressure: Array2<T>) -> Self {
+    pub(super) fn new(grid: &Grid, gap: Array2<T>, pressure: Array2<T>) -> Self {
         let field = || Array2::zeros(gap.dim());
-        let reducer = Reducer::new(slab);
+        let reducer = grid.reducer();
         let [residual, preconditioned, change] = std::array::from_fn(|_| field());
         let [least_r, moving] = std::array::from_fn(|_| vec![0.0; reducer.chunks()]);
         Self { gap, pressure, residual, preconditioned, change, reducer, least_r, moving }

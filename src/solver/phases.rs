@@ -26,13 +26,13 @@ impl<'a, T: Real, Lo: Real> State<'a, T, Lo> {
         if self.energy().is_finite() && self.sums.tally.sum_r.is_finite() {
             return Ok(());
         }
-        self.posed.operators.state().grid().slab().agreed(self.check_gaps())
+        self.posed.operators.state().grid().agreed(self.check_gaps())
     }
 
     fn check_gaps(&self) -> Result<()> {
         let law = self.posed.law;
         let mut value = [T::zero()];
-        let first = self.posed.operators.state().grid().slab().first_node();
+        let first = self.posed.operators.state().grid().first_node();
         for (node, gap) in (first..).zip(flat(&self.fields.gap)) {
             let node = match &self.posed.flat.window {
                 None => node,

@@ -7,11 +7,9 @@ use super::potential::{Least, bounded};
 use crate::adhesion::AdhesionLaw;
 use crate::constraint::Wall;
 use crate::error::{Error, Result};
-use crate::field;
-use crate::field::all_finite_in;
+use crate::grid::Grid;
 use crate::problem::{Load, PressedFlat, Window};
 use crate::real::Real;
-use crate::slab::Slab;
 
 /// The start of a solve: the gap from which the energy is minimised.
 ///
@@ -91,7 +89,7 @@ pub(super) fn uniform_start<T: Real>(law: &dyn AdhesionLaw<T>, flat: &PressedFla
 /// The gap that is given, if one is, as a start under a control on the operator's grid.
 pub(super) fn given_start<T: Real>(
     begin: Begin<'_, T>,
-    slab: Slab,
+    grid: &Grid,
     window: Option<&Window>,
     load: Load,
     projects: bool,
@@ -106,22 +104,22 @@ pub(super) fn given_start<T: Real>(
         Some(window) if !whole => window.start(given.view())?.into(),
         _ => given,
     };
-    slab.agreed(Error::shape("starting gap", start.dim(), slab.held()))?;
-    all_finite_in(slab, "starting gap", start.view())?;
+    grid.fits("starting gap", start.dim())?;
+    grid.finite("starting gap", start.view())?;
     let confined = |node: usize| window.is_none_or(|window| window.faces(node));
     // without places, and without an end, the pass is several times as fast
     let some = projects && start.fold(false, |some, &gap| some | (gap < T::zero()));
-    let mut nodes = start.iter().zip(slab.first_node()..);
+    let mut nodes = start.iter().zip(grid.first_node()..);
     let find = || nodes.find(|&(&gap, node)| gap < T::zero() && confined(node));
     let negative = some.then(find).flatten().map_or(Ok(()), |(gap, _)| {
         let requirement = "zero or positive at every node";
         Err(Error::Value { name: "starting gap", value: gap.widen(), requirement })
     });
-    slab.agreed(negative)?;
+    grid.agreed(negative)?;
     let mut gap = if start.is_standard_layout() { start.into_owned() } else { start.as_standard_layout().into_owned() };
     if let Load::Gap(mean) = load {
-        let present = field::mean_over(slab, gap.view(), T::widen);
-        if slab.has(gap.iter().any(|&g| g < T::zero())) {
+        let present = grid.mean(gap.view(), T::widen);
+        if grid.has(gap.iter().any(|&g| g < T::zero())) {
             // gaps of both signs may have hardly any mean
             gap.mapv_inplace(|g| g + T::lit(mean - present));
         } else if present > 0.0 {
@@ -139,10 +137,10 @@ pub(crate) fn extrapolated<T: Real>(
     [before, last]: [&Array2<T>; 2],
     steps: f64,
     least: Least<T>,
-    (window, slab): (Option<&Window>, Slab),
+    (window, grid): (Option<&Window>, Grid),
 ) -> Array2<T> {
     let (steps, mut next) = (T::lit(steps), last.clone());
-    for ((gap, &before), node) in next.iter_mut().zip(before).zip(slab.first_node()..) {
+    for ((gap, &before), node) in next.iter_mut().zip(before).zip(grid.first_node()..) {
         let wanted = *gap + steps * (*gap - before);
         let feasible = bounded(least, *gap, wanted);
         let free = wanted < feasible && window.is_some_and(|window| !window.faces(node));

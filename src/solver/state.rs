@@ -37,9 +37,9 @@ impl<'a, T: Real, Lo: Real> State<'a, T, Lo> {
         posed.prepare()?;
         let Posed { operators, law, flat, constraint, load, settings, .. } = &mut posed;
         let grid = operators.state().grid();
-        let (slab, shape) = (grid.slab(), grid.field_shape());
+        let (grid, shape) = (*grid, grid.field_shape());
         let uniform = begin.is_default();
-        let given = given_start(begin, slab, flat.window.as_ref(), *load, constraint.wall().is_rigid())?;
+        let given = given_start(begin, &grid, flat.window.as_ref(), *load, constraint.wall().is_rigid())?;
         let (gap, pressure) = match given {
             Some(gap) => {
                 let mut pressure = Array2::zeros(shape);
@@ -52,7 +52,7 @@ impl<'a, T: Real, Lo: Real> State<'a, T, Lo> {
         let coarse = if preconditioned { Coarse::of(operators.corrections()) } else { None };
         let mut state = Self {
             posed,
-            fields: Fields::new(slab, gap, pressure),
+            fields: Fields::new(&grid, gap, pressure),
             sums: Sums::default(),
             steps: Steps::new(coarse),
             counters: Counters::default(),

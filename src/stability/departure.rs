@@ -7,7 +7,6 @@ use crate::adhesion::AdhesionLaw;
 use crate::constraint::ContactConstraint;
 use crate::elastic::ElasticOperator;
 use crate::error::{Error, Result};
-use crate::field;
 use crate::problem::{Control, Problem};
 use crate::real::Real;
 use crate::solver::{Potential, Solution, Solver, Start, bounded, refuse_springs};
@@ -73,9 +72,9 @@ impl<T: Real> Stability<T> {
     {
         refuse_springs(solver.constraint.wall())?;
         from.check(problem, &solver.constraint)?;
-        let (slab, control) = (from.grid.slab(), self.control);
+        let (grid, control) = (from.grid, self.control);
         let largest = self.mode.iter().fold(T::zero(), |largest, value| largest.max(value.abs()));
-        let largest = T::lit(slab.most(largest.widen()));
+        let largest = T::lit(grid.most(largest.widen()));
         let amplitude = T::lit(PERTURBATION) * problem.law.hints().range / largest;
         if !(amplitude > T::zero() && amplitude.is_finite()) {
             return Ok(None);
@@ -110,7 +109,7 @@ impl<T: Real> Stability<T> {
             let energy_drop = energy(from) - energy(&solution);
             if best.as_ref().is_none_or(|best| energy_drop > best.energy_drop) {
                 let square = |a: T, b: T| if a == b { 0.0 } else { (a - b).widen().powi(2) };
-                let distance = field::mean_of_both(slab, solution.gap.view(), from.gap.view(), square).sqrt();
+                let distance = grid.mean_of_both(solution.gap.view(), from.gap.view(), square).sqrt();
                 best = Some(Departure { solution, energy_drop, distance, direction });
             }
         }

@@ -4,7 +4,7 @@ use ndarray::Array2;
 
 use crate::elastic::{ElasticOperator, Foundation};
 use crate::error::Result;
-use crate::field::{self, Partial, Reducer, read, write};
+use crate::field::{Partial, Reducer, read, write};
 use crate::grid::Grid;
 use crate::par::Parts;
 use crate::problem::Load;
@@ -31,7 +31,7 @@ pub(super) struct Hessian<'a, T> {
 impl<'a, T: Real> Hessian<'a, T> {
     pub(super) fn new(operator: &'a mut dyn ElasticOperator<T>, slopes: Array2<T>, load: Load) -> Self {
         let (centred, spring) = (matches!(load, Load::Gap(_)), load.stiffness());
-        let mut reducer = Reducer::new(operator.grid().slab());
+        let mut reducer = operator.grid().reducer();
         let total = reducer.run(read(&slopes), |_, slopes| {
             let mut part = Partial::NONE;
             for slope in slopes {
@@ -160,8 +160,7 @@ impl<'a, T: Real> Hessian<'a, T> {
     pub(super) fn apply(&mut self, field: &Array2<T>, image: &mut Array2<T>) -> Result<f64> {
         self.operator.pressure(field.view(), image.view_mut())?;
         self.applications += 1;
-        let slab = self.operator.grid().slab();
-        let mean = if self.spring > 0.0 { field::mean_over(slab, field.view(), T::widen) } else { 0.0 };
+        let mean = if self.spring > 0.0 { self.operator.grid().mean(field.view(), T::widen) } else { 0.0 };
         let uniform = T::lit(self.spring * mean);
         let Self { reducer, slopes, .. } = self;
         reducer.run(read(slopes).zip(read(field)).zip(write(image)), |_, ((slopes, field), image)| {
@@ -267,7 +266,7 @@ impl<'a, T: Real> Hessian<'a, T> {
 
 /// Independent normal numbers, the same for every `stream`.
 fn normal_numbers<T: Real>(grid: &Grid, stream: u32) -> Array2<T> {
-    let (first, ny) = (grid.slab().first_node(), grid.shape().1);
+    let (first, ny) = (grid.first_node(), grid.shape().1);
     Array2::from_shape_fn(grid.field_shape(), |(i, j)| {
         let node = (first + i * ny + j) as u64;
         let [a, b] = crate::surface::uniform([node as u32, (node >> 32) as u32, stream, 0], [0x5EED, 0]);

@@ -9,10 +9,9 @@ use crate::adhesion::AdhesionLaw;
 use crate::constraint::ContactConstraint;
 use crate::elastic::ElasticOperator;
 use crate::error::Result;
-use crate::field::mean_of_both;
+use crate::grid::Grid;
 use crate::problem::{Load, Window};
 use crate::real::Real;
-use crate::slab::Slab;
 use crate::solver::{Least, Potential, bounded};
 
 /// The share of a random field that is added to the mode of the last state. Without it a mode that has no share in the
@@ -107,10 +106,10 @@ impl<T: Real> Watch<T> {
     }
 
     /// The share of the mode in a change of the gap, of a slab: the cosine of the angle between them.
-    pub(crate) fn share(&self, change: &Array2<T>, slab: Slab) -> f64 {
+    pub(crate) fn share(&self, change: &Array2<T>, grid: &Grid) -> f64 {
         let Some(mode) = &self.mode else { return 0.0 };
         let product =
-            |a: &Array2<T>, b: &Array2<T>| mean_of_both(slab, a.view(), b.view(), |a, b| a.widen() * b.widen());
+            |a: &Array2<T>, b: &Array2<T>| grid.mean_of_both(a.view(), b.view(), |a, b| a.widen() * b.widen());
         let share = product(mode, change) / (product(mode, mode) * product(change, change)).sqrt();
         if share.is_finite() { share } else { 0.0 }
     }
@@ -120,16 +119,16 @@ impl<T: Real> Watch<T> {
     /// smaller than it may after a step. The gap is that of a slab.
     pub(crate) fn displace(
         &self,
-        (gap, slab): (&mut Array2<T>, Slab),
+        (gap, grid): (&mut Array2<T>, &Grid),
         least: Least<T>,
         largest: f64,
         share: Option<f64>,
     ) {
         let Some(mode) = &self.mode else { return };
         let top = mode.iter().fold(T::zero(), |top, value| top.max(value.abs()));
-        let top = T::lit(slab.most(top.widen()));
+        let top = T::lit(grid.most(top.widen()));
         let own = mode.iter().find(|value| value.abs() >= T::lit(NEARLY) * top).map_or(f64::NAN, |value| value.widen());
-        let first = slab.ranks().each(own).into_iter().find(|value| !value.is_nan());
+        let first = grid.lists(vec![own]).into_iter().find(|value| !value.is_nan());
         let sign = share.unwrap_or_else(|| -first.unwrap_or_default()).signum();
         let factor = T::lit(sign * largest) / top;
         if factor.is_finite() {

@@ -140,7 +140,7 @@ pub(in crate::solver) fn tally<T: Real, Lo: Real>(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::slab::Slab;
+    use crate::Grid;
     use crate::{NoAdhesion, Projection};
 
     /// A number of 24 bits for each node, which `f32` holds exactly.
@@ -160,7 +160,7 @@ mod tests {
         let field = |value: &dyn Fn(usize) -> i64| {
             Array2::from_shape_fn((n, n), |(i, j)| (value(n * i + j) as f64 * UNIT) as f32)
         };
-        let mut fields = Fields::<_, f32>::new(Slab::whole((n, n)), field(&gap), field(&pressure));
+        let mut fields = Fields::<_, f32>::new(&Grid::square(n, 1.0).unwrap(), field(&gap), field(&pressure));
         let nothing = Potential::new(&NoAdhesion, &Projection, None);
         let Taken { tally, gap_surface, sum_p } = tally(&mut fields, &nothing, 0.0, &field(&surface));
         let [mut free, mut sum_r, mut sum_gap, mut sum_gp, mut sum_gh, mut all] = [0_i128; 6];
