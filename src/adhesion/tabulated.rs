@@ -23,6 +23,7 @@ use crate::real::Real;
 pub struct Tabulated {
     points: Vec<Point>,
     range: f64,
+    concave: bool,
 }
 
 /// A point of the table, with the cubic up to the next one.
@@ -84,7 +85,9 @@ impl Tabulated {
         if work <= 0.0 {
             return wrong("work of adhesion of the table", work, "positive: tractions that attract are positive");
         }
-        Ok(Self { points, range: work / largest })
+        // between the points there are no other extremes
+        let concave = tractions.is_sorted_by(|nearer, farther| nearer >= farther);
+        Ok(Self { points, range: work / largest, concave })
     }
 
     /// The point before a gap, and the distance from it; the first point for a smaller gap.
@@ -151,8 +154,6 @@ impl<T: Real> AdhesionLaw<T> for Tabulated {
         T::lit(b + x * (2.0 * c + x * 3.0 * d))
     }
     fn hints(&self) -> Hints<T> {
-        // between the points there are no other extremes
-        let concave = self.points.is_sorted_by(|nearer, farther| nearer.cubic[0] >= farther.cubic[0]);
-        Hints { concave, ..Hints::new(-self.energy(T::zero()), T::lit(self.range)) }
+        Hints { concave: self.concave, ..Hints::new(-self.energy(T::zero()), T::lit(self.range)) }
     }
 }

@@ -141,7 +141,7 @@ const METHODS: [Method; 6] = [
     ("evaluate", |law| {
         let mut values = [[0.0; 5]; 3];
         let [energies, tractions, slopes] = values.each_mut().map(|values| Some(&mut values[..]));
-        law.evaluate(2, &[0.0, 0.2, 0.4, 0.9, 1.5], Values { energies, tractions, slopes });
+        law.evaluate(2, &[0.0, 0.2, 0.4, 0.7, 0.9], Values { energies, tractions, slopes });
         format!("{values:?}")
     }),
     ("adapted", |law| {

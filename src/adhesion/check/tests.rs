@@ -1,5 +1,5 @@
 use super::*;
-use crate::{Exponential, LennardJones, MaugisDugdale, Morse, PowerLaw, Tabulated, Varying};
+use crate::adhesion::{Exponential, LennardJones, MaugisDugdale, Morse, PowerLaw, Tabulated, Varying};
 
 /// An exponential of unit size with one of its functions spoiled.
 struct Spoiled(f64, f64, f64);
