@@ -219,5 +219,7 @@ fn precisions_layouts_and_jumps_of_a_law() {
     let mut other = solution;
     other.gap = ndarray::Array2::zeros((3, 3));
     let error = ContactStiffness::of(&mut double, &other);
+    assert!(matches!(error, Err(Error::Value { name: "work of adhesion", .. })), "{error:?}");
+    let error = ContactStiffness::of(&mut loose, &other);
     assert!(matches!(error, Err(Error::Shape { name: "gap", .. })), "{error:?}");
 }
