@@ -25,7 +25,7 @@ mod patch;
 mod places;
 
 pub use area::ContactArea;
-pub use clusters::{Clusters, Connectivity};
+pub use clusters::Clusters;
 pub use distribution::PressureDistribution;
 pub use original::Original;
 pub use patch::Patch;
@@ -213,8 +213,8 @@ pub struct ContactStatistics {
     /// neighbours along x of which one is in contact, Δx for neighbours along y. Beyond a free boundary nothing is in
     /// contact. On a line the number of end points.
     pub perimeter: f64,
-    /// The sizes of the clusters of contact in nodes, the largest first; neighbours along a side hang together
-    /// ([`Connectivity::Sides`]), across the periodic boundaries too.
+    /// The sizes of the clusters of contact in nodes, the largest first; neighbours along a side of their cells
+    /// hang together, across the periodic boundaries too.
     pub cluster_sizes: Vec<usize>,
     /// The share of nodes that repel each other: those with a contact pressure. Nodes may touch without one.
     pub repulsive_fraction: f64,

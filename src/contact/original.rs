@@ -2,7 +2,7 @@
 
 use ndarray::{Array2, ArrayView2, Axis, Slice};
 
-use super::{Clusters, Connectivity, ContactStatistics, contact_map};
+use super::{Clusters, ContactStatistics, contact_map};
 use crate::adhesion::AdhesionLaw;
 use crate::elastic::Boundary;
 use crate::error::{Error, Result};
@@ -157,7 +157,7 @@ impl Original {
         Ok(ContactStatistics {
             contact_nodes: number(&contact),
             perimeter: self.share() * whole.perimeter,
-            cluster_sizes: Clusters::meeting(contact.view(), Connectivity::Sides, [false; 2]).sizes,
+            cluster_sizes: Clusters::meeting(contact.view(), [false; 2]).sizes,
             ..whole
         })
     }
