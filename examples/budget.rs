@@ -8,9 +8,10 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Instant;
 
+use asperity::elastic::{CoarseSpace, Foundation, Preconditioned};
 use asperity::{
-    AdhesionLaw, Amplitude, CoarseSpace, Control, ElasticOperator, Exponential, Foundation, Grid, NoAdhesion,
-    Preconditioned, Problem, Real, Result, SelfAffine, Settings, Solver, Start, Surface, Westergaard,
+    AdhesionLaw, Amplitude, Control, ElasticOperator, Exponential, Grid, NoAdhesion, Problem, Real, Result, SelfAffine,
+    Settings, Solver, Start, Surface, Westergaard,
 };
 use clap::Parser;
 use common::{Outcome, arguments};

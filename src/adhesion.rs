@@ -43,7 +43,8 @@ const NOTICEABLE: f64 = 0.01;
 /// [`check_law`] tells whether the three functions agree with one another; call it in a test of your law.
 ///
 /// ```
-/// use asperity::{AdhesionLaw, Real, check_law};
+/// use asperity::adhesion::check_law;
+/// use asperity::{AdhesionLaw, Real};
 ///
 /// /// φ = −w (1 − g/ρ)³ for g < ρ, 0 beyond.
 /// struct Cubic<T> { w: T, rho: T }

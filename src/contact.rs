@@ -224,13 +224,14 @@ pub struct ContactStatistics {
     pub attractive_fraction: f64,
     /// The share of the other nodes, which do not notice each other.
     pub apart_fraction: f64,
-    /// The same where the law [varies](crate::Varying) over the surface, for the nodes of each work of adhesion, the
+    /// The same where the law [varies](crate::adhesion::Varying) over the surface, for the nodes of each work of adhesion, the
     /// least first; nodes are said to attract by the traction above, that of the strongest. Empty for a law that is the
     /// same everywhere, and for more than 16 works of adhesion.
     ///
     /// ```
     /// use asperity::contact::ContactStatistics;
-    /// use asperity::{Control, Exponential, Grid, Problem, Solver, Surface, Varying, Westergaard};
+    /// use asperity::adhesion::Varying;
+    /// use asperity::{Control, Exponential, Grid, Problem, Solver, Surface, Westergaard};
     /// let grid = Grid::square(64, 1.0)?;
     /// let surface = Surface::wave_2d(grid, 0.01, 2)?;
     /// let work = grid.sample(|x, _| if x < 0.0 { 1e-6 } else { 1e-4 });

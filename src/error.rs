@@ -105,7 +105,7 @@ pub enum Error {
         /// The value that agrees with the other functions of the law.
         expected: f64,
     },
-    /// An elastic operator without a property of its contract; see [`check_operator`](crate::check_operator).
+    /// An elastic operator without a property of its contract; see [`check_operator`](crate::elastic::check_operator).
     Operator {
         /// The property.
         property: &'static str,

@@ -198,7 +198,7 @@ impl Settings {
 /// Memory per node with a [`Westergaard`](crate::Westergaard) half-space, that of the problem included: in `f64` five
 /// scalars, in `f32` seven. The solution keeps three.
 /// With [`Boussinesq`](crate::Boussinesq) the grid has four times the nodes of the surface, or somewhat more.
-/// The [`CoarseSpace`](crate::CoarseSpace) adds up to 13 N^(2/3) numbers in `f64`: a fifth of a field on 512² nodes,
+/// The [`CoarseSpace`](crate::elastic::CoarseSpace) adds up to 13 N^(2/3) numbers in `f64`: a fifth of a field on 512² nodes,
 /// and 5 % on 4096².
 ///
 /// ```

@@ -134,7 +134,7 @@ struct Called {
 pub fn check(object: &Bound<'_, PyAny>, largest_gap: Option<f64>) -> PyResult<()> {
     let scales = Scales::of(&Functions::of(object)?)?;
     let called = Called { object: object.clone().unbind(), scales, raised: Mutex::new(None) };
-    let checked = asperity::check_law(&called, largest_gap.unwrap_or_else(|| far(&called)));
+    let checked = asperity::adhesion::check_law(&called, largest_gap.unwrap_or_else(|| far(&called)));
     match called.raised.into_inner().unwrap_or_else(PoisonError::into_inner) {
         Some(error) => Err(error),
         // of which the table of the law has a smoothed one

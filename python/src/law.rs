@@ -24,8 +24,8 @@ pub enum Form {
     Morse(asperity::Morse),
     PowerLaw(asperity::PowerLaw),
     Tabulated(asperity::Tabulated),
-    CutOff(asperity::CutOff<Box<Form>>),
-    Varying(asperity::Varying<Box<Form>>),
+    CutOff(asperity::adhesion::CutOff<Box<Form>>),
+    Varying(asperity::adhesion::Varying<Box<Form>>),
     /// That of an object of Python
     Table(Arc<Table>),
 }
@@ -486,7 +486,7 @@ impl CutOff {
                  work_of_adhesion)",
             ));
         }
-        let form = asperity::CutOff::new(Box::new(form), distance).map_err(refusal)?;
+        let form = asperity::adhesion::CutOff::new(Box::new(form), distance).map_err(refusal)?;
         let own = Self { law: law.clone().unbind(), distance };
         Ok(PyClassInitializer::from(Law(Form::CutOff(form))).add_subclass(own))
     }
@@ -535,7 +535,7 @@ impl Varying {
         let (works, is_line): (Field<'_>, bool) =
             maps.call_method1("array_of", (work_of_adhesion, "works of adhesion"))?.extract()?;
         let works = works.to_array()?;
-        let varying = asperity::Varying::new(Box::new(form), works.view()).map_err(refusal_of_works)?;
+        let varying = asperity::adhesion::Varying::new(Box::new(form), works.view()).map_err(refusal_of_works)?;
         let works = if is_line { works.column(0).to_owned().into_dyn() } else { works.into_dyn() };
         let own = Self { law: law.clone().unbind(), work_of_adhesion: returned(law.py(), works)?.unbind() };
         Ok(PyClassInitializer::from(Law(Form::Varying(varying))).add_subclass(own))
@@ -586,7 +586,8 @@ pub fn check_law(law: &Bound<'_, PyAny>, largest_gap: Option<f64>) -> PyResult<(
     match law.cast::<Law>() {
         Ok(law) => {
             let form = &law.get().0;
-            asperity::check_law::<f64>(form, largest_gap.unwrap_or_else(|| functions::far(form))).map_err(refusal)
+            asperity::adhesion::check_law::<f64>(form, largest_gap.unwrap_or_else(|| functions::far(form)))
+                .map_err(refusal)
         }
         Err(_) => functions::check(law, largest_gap),
     }

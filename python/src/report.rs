@@ -1,9 +1,11 @@
 //! The outcome of a solve, with the names and in the order of the tool's `report.json`.
 
+use asperity::Branch;
 use asperity::accuracy::GridError;
 use asperity::contact::{ContactStatistics, Patch};
+use asperity::nested::Level;
 use asperity::stability::Stability;
-use asperity::{Branch, Level, Warning};
+use asperity::warning::Warning;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 

@@ -3,7 +3,9 @@
 use std::path::PathBuf;
 
 use asperity::io::check_memory;
-use asperity::{Amplitude, Form, Grid, Psd, RowAlignment, ScanAxis, SelfAffine, Surface, Topography, Trend, Warning};
+use asperity::surface::{Form, Psd, RowAlignment, ScanAxis, Trend};
+use asperity::warning::Warning;
+use asperity::{Amplitude, Grid, SelfAffine, Surface, Topography};
 use numpy::{IntoPyArray, PyArray1, PyArray2};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;

@@ -43,7 +43,8 @@ const SMOOTHING: f64 = 0.1;
 /// [`Error::Value`] if `largest_gap` is not positive and finite, or if the smoothed law has another work of adhesion.
 ///
 /// ```
-/// use asperity::{Exponential, MaugisDugdale, check_law};
+/// use asperity::adhesion::check_law;
+/// use asperity::{Exponential, MaugisDugdale};
 /// check_law::<f64>(&Exponential::new(1e-4, 2e-3)?, 0.02)?;
 /// check_law::<f32>(&MaugisDugdale::new(1e-4, 2e-3)?, 0.02)?;
 /// # Ok::<(), asperity::Error>(())
@@ -206,7 +207,8 @@ impl<T: Real> Checked<'_, T> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Exponential, LennardJones, MaugisDugdale, Morse, NoAdhesion, PowerLaw, Tabulated, Varying};
+    use crate::adhesion::Varying;
+    use crate::{Exponential, LennardJones, MaugisDugdale, Morse, NoAdhesion, PowerLaw, Tabulated};
 
     /// An exponential of unit size with one of its functions spoiled.
     struct Spoiled(f64, f64, f64);

@@ -32,7 +32,8 @@ const SLACK: f64 = 1e-2;
 /// | Morse | 3.63 | 2.35 | 1.71 | 1.35 | 1.16 | 1.04 |
 ///
 /// ```
-/// use asperity::{AdhesionLaw, CutOff, PowerLaw, check_law};
+/// use asperity::adhesion::{CutOff, check_law};
+/// use asperity::{AdhesionLaw, PowerLaw};
 /// let whole = PowerLaw::van_der_waals(6e-20, 0.165e-9)?;
 /// let law = CutOff::new(whole, 5e-9)?;
 /// assert_eq!((law.traction(5e-9), law.energy(8e-9)), (0.0, 0.0));

@@ -18,7 +18,8 @@ use crate::real::Real;
 /// (2004); Greenwood, *Proc. R. Soc. A* 453 (1997), for the sphere.
 ///
 /// ```
-/// use asperity::{AdhesionLaw, LennardJones, check_law};
+/// use asperity::adhesion::check_law;
+/// use asperity::{AdhesionLaw, LennardJones};
 /// let law = LennardJones::new(0.05, 0.3e-9)?;
 /// assert_eq!(law.traction(0.3e-9), 0.0);
 /// assert!(law.traction(0.29e-9) < 0.0 && law.traction(0.31e-9) > 0.0);

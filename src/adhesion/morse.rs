@@ -18,7 +18,8 @@ use crate::real::Real;
 /// Morse, *Phys. Rev.* 34 (1929).
 ///
 /// ```
-/// use asperity::{AdhesionLaw, Morse, check_law};
+/// use asperity::adhesion::check_law;
+/// use asperity::{AdhesionLaw, Morse};
 /// let law = Morse::new(0.05, 0.5e-9)?;
 /// assert_eq!((law.energy(0.0), law.traction(0.0)), (-0.05, 0.0));
 /// assert!((law.traction(0.5e-9 * 2.0_f64.ln()) - 0.05 / (2.0 * 0.5e-9)).abs() < 1.0);

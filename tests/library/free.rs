@@ -4,9 +4,11 @@ use std::f64::consts::PI;
 use std::ops::ControlFlow;
 
 use asperity::contact::{ContactStatistics, PressureDistribution};
+use asperity::elastic::check_operator;
 use asperity::exact::{self, Cone, EllipticHertz, FlatPunch, Hertz, Sphere};
 use asperity::path::{Event, Path, PathSettings};
 use asperity::stability::{StabilityTest, Verdict};
+use asperity::warning::{Warning, WarningCode};
 use asperity::*;
 use ndarray::Array2;
 

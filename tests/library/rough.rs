@@ -3,7 +3,8 @@
 use std::f64::consts::{PI, TAU};
 
 use approx::assert_relative_eq;
-use asperity::{Amplitude, Error, Grid, Psd, SelfAffine, Spectrum, Surface, Topography};
+use asperity::surface::{Psd, Spectrum};
+use asperity::{Amplitude, Error, Grid, SelfAffine, Surface, Topography};
 
 /// A surface of which a quick test resolves all waves.
 fn short(seed: u64) -> SelfAffine {

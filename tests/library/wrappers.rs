@@ -3,6 +3,7 @@
 use std::collections::BTreeSet;
 use std::sync::{Arc, Mutex};
 
+use asperity::adhesion::{CutOff, Varying, check_law};
 use asperity::*;
 use ndarray::Array2;
 

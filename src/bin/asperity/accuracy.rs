@@ -4,7 +4,8 @@ use std::time::Instant;
 
 use asperity::accuracy::{Accuracy, GridError, Plan, Quantity};
 use asperity::io::available_memory;
-use asperity::{Control, ElasticOperator, Level, Real, Result, Solver};
+use asperity::nested::Level;
+use asperity::{Control, ElasticOperator, Real, Result, Solver};
 use clap::{Args, ValueEnum};
 use ndarray::Array2;
 use serde_json::{Map, Value, json};

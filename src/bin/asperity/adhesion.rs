@@ -3,10 +3,11 @@
 use std::fmt;
 use std::path::{Path, PathBuf};
 
+use asperity::adhesion::{CutOff, Varying};
 use asperity::io::read_field;
 use asperity::{
-    AdhesionLaw, ContactConstraint, CutOff, Error, Exponential, Grid, LennardJones, MaugisDugdale, Morse, NoAdhesion,
-    NoWall, PowerLaw, Projection, Real, Tabulated, Varying,
+    AdhesionLaw, ContactConstraint, Error, Exponential, Grid, LennardJones, MaugisDugdale, Morse, NoAdhesion, NoWall,
+    PowerLaw, Projection, Real, Tabulated,
 };
 use clap::{Args, ValueEnum};
 use ndarray::Array2;
@@ -83,7 +84,7 @@ pub enum Wall {
 }
 
 impl<T: Real> ContactConstraint<T> for Wall {
-    fn wall(&self) -> asperity::Wall<'_, T> {
+    fn wall(&self) -> asperity::constraint::Wall<'_, T> {
         match self {
             Self::Hard => Projection.wall(),
             Self::None => NoWall.wall(),

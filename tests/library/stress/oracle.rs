@@ -51,7 +51,7 @@ impl<'a, T: Real> Judge<'a, T> {
     pub fn new(
         scene: &'a Scene,
         solution: &'a Solution<T>,
-        wall: asperity::Wall<'_, T>,
+        wall: asperity::constraint::Wall<'_, T>,
         operator: &dyn ElasticOperator<T>,
     ) -> Self {
         let (dense, heights, report) = (scene.dense(), scene.centred(), &solution.report);
@@ -68,7 +68,7 @@ impl<'a, T: Real> Judge<'a, T> {
         let tractions: Vec<f64> =
             faces().map(|(&i, &g)| scene.law.share(i) * law.traction(within(g)).widen()).collect();
         let springs = match wall {
-            asperity::Wall::Springs(springs) => {
+            asperity::constraint::Wall::Springs(springs) => {
                 faces().map(|(&i, &g)| springs.traction(i, T::lit(g)).widen()).collect()
             }
             _ => vec![0.0; gap.len()],

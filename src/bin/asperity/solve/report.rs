@@ -1,7 +1,8 @@
 //! The report of a solve: what it found, by the keys of `report.json`.
 
 use asperity::contact::Patch;
-use asperity::{Branch, Control, Level};
+use asperity::nested::Level;
+use asperity::{Branch, Control};
 use serde_json::{Value, json};
 
 use super::Options;
