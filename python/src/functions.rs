@@ -143,7 +143,7 @@ pub fn check(object: &Bound<'_, PyAny>, largest_gap: Option<f64>) -> PyResult<()
     }
 }
 
-/// A gap at which most laws have decayed: ten ranges, from the gap of rest on.
+/// A gap at which most laws have decayed: ten ranges, from the equilibrium separation on.
 pub fn far(law: &dyn AdhesionLaw<f64>) -> f64 {
     law.rest().unwrap_or(0.0) + 10.0 * law.range()
 }

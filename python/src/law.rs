@@ -275,8 +275,8 @@ class! {
 class! {
     /// The law of Lennard-Jones between two half-spaces, φ'(g) = 8w/3z₀ (x³ − x⁹) with x = z₀/g.
     ///
-    /// It attracts beyond the distance of rest z₀, and repels below: for a solve with ``wall="none"``, where contact is
-    /// where it repels. For one with ``wall="hard"`` it has to be cut at z₀, from which the gap counts then.
+    /// It attracts beyond the equilibrium separation z₀, and repels below: for a solve with ``wall="none"``, where
+    /// contact is where it repels. For one with ``wall="hard"`` it has to be cut at z₀, from which the gap counts then.
     ///
     /// Parameters
     /// ----------
@@ -448,15 +448,16 @@ impl Tabulated {
 
 /// A law that ends at a gap, smoothly: zero from there on, with energy, traction and slope continuous.
 ///
-/// It keeps its work of adhesion, its gap of rest, and its traction in contact; the energy that the tail had is given
-/// back before the end.
+/// It keeps its work of adhesion, its equilibrium separation, and its traction in contact; the energy that the tail had
+/// is given back before the end.
 ///
 /// Parameters
 /// ----------
 /// law : Law or an object of your own
 ///     Law that reaches further.
 /// distance : float
-///     Gap at which it ends, a length: at least a range of the law beyond contact, or beyond its gap of rest.
+///     Gap at which it ends, a length: at least a range of the law beyond contact, or beyond its equilibrium
+///     separation.
 ///
 /// Examples
 /// --------

@@ -5,7 +5,7 @@ use super::exponentials::exponentials;
 use crate::error::{Error, Result};
 use crate::real::Real;
 
-/// The law of Morse, with the gap measured from the distance of rest.
+/// The law of Morse, with the gap measured from the equilibrium separation.
 ///
 /// ```math
 /// φ(g) = w (e² − 2e) ,   φ'(g) = 2w/ρ (e − e²) ,   φ''(g) = 2w/ρ² (2e² − e) ,   e = exp(−g/ρ)

@@ -54,18 +54,18 @@ impl<T: Real, L: Real> State<'_, T, L> {
             })
         });
         let mean_contact_pressure = total.sum[0] / self.nodes();
-        let carried_pressure = mean_contact_pressure - self.tally.traction / self.nodes();
+        let net_pressure = mean_contact_pressure - self.tally.traction / self.nodes();
         let load_error = match self.load {
             _ if self.detached.is_some() => 1.0,
             Load::Gap(_) => 0.0,
-            _ => self.load_error().max(self.share_of_load(carried_pressure - mean)),
+            _ => self.load_error().max(self.share_of_load(net_pressure - mean)),
         };
         let modulus = self.operators.state().modulus();
         let mu_rho = mu_rho(law, self.operators.state().grid(), modulus);
         let facing = flat.window.as_ref().map_or(self.nodes(), |window| window.facing() as f64);
         let (given, padding) = (self.detached.unwrap_or(mean), flat.padding);
         // the mean of the displacement is no wave
-        let of_mean = 0.5 * flat.boundary.mean_compliance() * carried_pressure.powi(2);
+        let of_mean = 0.5 * flat.boundary.mean_compliance() * net_pressure.powi(2);
         let nominal = flat.window.as_ref().map_or(self.nodes(), |window| window.grid().nodes() as f64);
         let mut report = Report {
             status: self.final_status(status, load_error),
@@ -81,7 +81,7 @@ impl<T: Real, L: Real> State<'_, T, L> {
             mean_pressure: given * padding,
             normal_force: given * padding * flat.area,
             approach: flat.approach(self.mean_gap(), mean),
-            carried_pressure: carried_pressure * padding,
+            net_pressure: net_pressure * padding,
             mean_contact_pressure: mean_contact_pressure * padding,
             contact_fraction: self.tally.contact / facing,
             contact_nodes: self.tally.contact as usize,

@@ -167,7 +167,8 @@ pub(crate) fn check_wall<T: Real>(law: &dyn AdhesionLaw<T>, wall: Wall<'_, T>) -
         ),
         Wall::Rigid | Wall::Springs(_) if !law.energy(T::zero()).is_finite() => (
             "a wall at zero gap",
-            "the adhesion law has no bound there: solve it without a wall (NoWall), or cut it at its gap of rest",
+            "the adhesion law has no bound there: solve it without a wall (NoWall), or cut it at its equilibrium \
+             separation",
         ),
         _ => return Ok(()),
     };

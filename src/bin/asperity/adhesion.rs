@@ -170,7 +170,7 @@ impl Law {
             ],
             Self::LennardJones => [
                 "traction 8W/(3 RHO) (x^3 - x^9), x = RHO/g; with --wall hard, x = RHO/(RHO + g)",
-                "--work-of-adhesion W, --range RHO, the distance of rest",
+                "--work-of-adhesion W, --range RHO, the equilibrium separation",
                 "Greenwood, Proc. R. Soc. A 453 (1997); Yu and Polycarpou, J. Tribol. 126 (2004)",
             ],
             Self::Morse => [
@@ -351,7 +351,8 @@ impl Adhesion<'_> {
         self.works.as_ref().map(|works| works.strongest)
     }
 
-    /// The same on the first of the processes that share the grid, with the whole of the map, and nothing on the others.
+    /// The same on the first of the processes that share the grid, with the whole of the map, and nothing on the
+    /// others.
     pub fn gathered(&self) -> Option<Self> {
         let works = self.works.as_ref().map(Works::gathered);
         let Self { options, law, table, .. } = self;
