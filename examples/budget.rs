@@ -8,10 +8,10 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Instant;
 
+use asperity::elastic::{Abilities, CoarseSpace, Foundation, Preconditioned, Waves};
 use asperity::{
-    Abilities, AdhesionLaw, Amplitude, CoarseSpace, Control, ElasticOperator, Exponential, Foundation, Grid,
-    NoAdhesion, Preconditioned, Problem, Real, Result, SelfAffine, Settings, Solver, Start, Surface, Waves,
-    Westergaard,
+    AdhesionLaw, Amplitude, Control, ElasticOperator, Exponential, Grid, NoAdhesion, Problem, Real, Result, SelfAffine,
+    Settings, Solver, Start, Surface, Westergaard,
 };
 use clap::Parser;
 use common::{Outcome, arguments};

@@ -2,9 +2,8 @@
 //!
 //! `cargo run --release -p asperity-examples --example own_law`
 
-use asperity::{
-    AdhesionLaw, Control, Exponential, Grid, Problem, Real, Result, Solver, Surface, Westergaard, check_law,
-};
+use asperity::adhesion::check_law;
+use asperity::{AdhesionLaw, Control, Exponential, Grid, Problem, Real, Result, Solver, Surface, Westergaard};
 
 /// φ = −w (1 − g/ρ)³ up to ρ, nothing beyond: smooth, and exactly zero at a distance.
 struct Cubic<T> {

@@ -6,9 +6,10 @@
 #[path = "patches/law.rs"]
 mod law;
 
+use asperity::adhesion::check_law;
+use asperity::constraint::{Springs, Wall};
 use asperity::{
-    ContactConstraint, Control, Exponential, Grid, NoAdhesion, Problem, Result, Settings, Solver, Springs, Surface,
-    Wall, Westergaard, check_law,
+    ContactConstraint, Control, Exponential, Grid, NoAdhesion, Problem, Result, Settings, Solver, Surface, Westergaard,
 };
 use clap::Parser;
 use common::arguments;

@@ -5,7 +5,8 @@
 use std::f64::consts::TAU;
 use std::path::PathBuf;
 
-use asperity::{Grid, Psd, SelfAffine};
+use asperity::surface::Psd;
+use asperity::{Grid, SelfAffine};
 use clap::Parser;
 use common::chart::{COLOURS, Chart, Series, Style};
 use common::{Outcome, arguments};

@@ -167,7 +167,7 @@ impl fmt::Display for Quantity {
 
 impl Surface {
     /// The number of nodes that the shortest wave of the surface has,
-    /// [`Spectrum::nodes_per_wave`](crate::Spectrum::nodes_per_wave); with a boundary that does not repeat, of the
+    /// [`Spectrum::nodes_per_wave`](crate::surface::Spectrum::nodes_per_wave); with a boundary that does not repeat, of the
     /// surface continued by its mirror images. Where several processes share the grid it is that of the whole surface,
     /// and all have to ask.
     ///

@@ -48,7 +48,8 @@ const NOTICEABLE: f64 = 0.01;
 /// [`hints`](Self::hints), [`evaluate`](Self::evaluate) and [`adapted`](Self::adapted), too.
 ///
 /// ```
-/// use asperity::{AdhesionLaw, Real, check_law};
+/// use asperity::adhesion::check_law;
+/// use asperity::{AdhesionLaw, Real};
 ///
 /// /// φ = −w (1 − g/ρ)³ for g < ρ, 0 beyond.
 /// struct Cubic<T> { w: T, rho: T }

@@ -32,9 +32,8 @@ pub use uzawa::Uzawa;
 /// outrun any springs.
 ///
 /// ```
-/// use asperity::{
-///     ContactConstraint, Control, Grid, NoAdhesion, Problem, Settings, Solver, Springs, Surface, Wall, Westergaard,
-/// };
+/// use asperity::constraint::{Springs, Wall};
+/// use asperity::{ContactConstraint, Control, Grid, NoAdhesion, Problem, Settings, Solver, Surface, Westergaard};
 /// /// A film that resists compression from a thickness of 1e-3 on.
 /// struct Film;
 /// impl ContactConstraint<f64> for Film {
@@ -86,7 +85,8 @@ pub trait ContactConstraint<T: Real>: Send + Sync {
 /// The wall that the half-space meets.
 ///
 /// ```
-/// use asperity::{ContactConstraint, Penalty, Projection, Wall};
+/// use asperity::constraint::Wall;
+/// use asperity::{ContactConstraint, Penalty, Projection};
 /// assert!(matches!(ContactConstraint::<f64>::wall(&Projection), Wall::Rigid));
 /// assert!(matches!(ContactConstraint::<f64>::wall(&Penalty::new(5000.0)?), Wall::Springs(_)));
 /// # Ok::<(), asperity::Error>(())
@@ -157,14 +157,15 @@ pub enum Update {
 /// in a test of your constraint. [`Projection`] has none and is fine.
 ///
 /// Looks at the nodes below `nodes`, seven of them at most, and at gaps between −`depth` and `depth`, as
-/// [`check_law`](crate::check_law) does.
+/// [`check_law`](crate::adhesion::check_law) does.
 ///
 /// # Errors
 /// [`Error::Law`] with the function of the springs, and the first gap at which it is not finite, or not the derivative
 /// of the one before it; [`Error::Value`] if their slope is negative somewhere, or `depth` not positive and finite.
 ///
 /// ```
-/// use asperity::{Penalty, Projection, check_constraint};
+/// use asperity::constraint::check_constraint;
+/// use asperity::{Penalty, Projection};
 /// check_constraint::<f64>(&Penalty::new(5000.0)?, 1, 1e-3)?;
 /// check_constraint::<f64>(&Projection, 1, 1e-3)?;
 /// # Ok::<(), asperity::Error>(())

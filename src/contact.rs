@@ -24,7 +24,7 @@ mod patch;
 mod places;
 
 pub use area::ContactArea;
-pub use clusters::{Clusters, Connectivity};
+pub use clusters::Clusters;
 pub use distribution::PressureDistribution;
 pub use original::Original;
 pub use patch::Patch;
@@ -216,8 +216,8 @@ pub struct ContactStatistics {
     /// neighbours along x of which one is in contact, Δx for neighbours along y. Beyond a free boundary nothing is in
     /// contact. On a line the number of end points.
     pub perimeter: f64,
-    /// The sizes of the clusters of contact in nodes, the largest first; neighbours along a side hang together
-    /// ([`Connectivity::Sides`]), across the periodic boundaries too.
+    /// The sizes of the clusters of contact in nodes, the largest first; neighbours along a side of their cells
+    /// hang together, across the periodic boundaries too.
     pub cluster_sizes: Vec<usize>,
     /// The share of nodes that repel each other: those with a contact pressure. Nodes may touch without one.
     pub repulsive_fraction: f64,
@@ -227,13 +227,14 @@ pub struct ContactStatistics {
     pub attractive_fraction: f64,
     /// The share of the other nodes, which do not notice each other.
     pub apart_fraction: f64,
-    /// The same where the law [varies](crate::Varying) over the surface, for the nodes of each work of adhesion, the
+    /// The same where the law [varies](crate::adhesion::Varying) over the surface, for the nodes of each work of adhesion, the
     /// least first; nodes are said to attract by the traction above, that of the strongest. Empty for a law that is the
     /// same everywhere, and for more than 16 works of adhesion.
     ///
     /// ```
     /// use asperity::contact::ContactStatistics;
-    /// use asperity::{Control, Exponential, Grid, Problem, Solver, Surface, Varying, Westergaard};
+    /// use asperity::adhesion::Varying;
+    /// use asperity::{Control, Exponential, Grid, Problem, Solver, Surface, Westergaard};
     /// let grid = Grid::square(64, 1.0)?;
     /// let surface = Surface::wave_2d(grid, 0.01, 2)?;
     /// let work = grid.sample(|x, _| if x < 0.0 { 1e-6 } else { 1e-4 });
@@ -292,7 +293,7 @@ impl ContactStatistics {
             contact_fraction,
             corrected_contact_fraction,
             perimeter,
-            cluster_sizes: Clusters::within(grid.whole(&contact).view(), Connectivity::Sides, boundary).sizes,
+            cluster_sizes: Clusters::within(grid.whole(&contact).view(), boundary).sizes,
             repulsive_fraction: share(grid.total(contact_pressure.iter().filter(|&&p| p > T::zero()).count())),
             attractive_fraction: share(attracting),
             apart_fraction: share(facing - contact_nodes - attracting),

@@ -76,7 +76,7 @@ pub enum Error {
         expected: Option<f64>,
     },
     /// An adhesion law whose traction rises with the gap, though it says that its energy is
-    /// [concave](crate::Hints::concave).
+    /// [concave](crate::adhesion::Hints::concave).
     Concave {
         /// The gap before which the traction rises.
         gap: f64,
@@ -85,7 +85,7 @@ pub enum Error {
         /// The smaller traction at a smaller gap.
         nearer: f64,
     },
-    /// An adhesion law whose traction jumps, without a [smoothed](crate::Discretisation::Smooth) law that does not.
+    /// An adhesion law whose traction jumps, without a [smoothed](crate::adhesion::Discretisation::Smooth) law that does not.
     Jump {
         /// The gap at which it jumps.
         gap: f64,
@@ -105,7 +105,7 @@ pub enum Error {
         /// The value that agrees with the other functions of the law.
         expected: f64,
     },
-    /// An elastic operator without a property of its contract; see [`check_operator`](crate::check_operator).
+    /// An elastic operator without a property of its contract; see [`check_operator`](crate::elastic::check_operator).
     Operator {
         /// The property.
         property: &'static str,

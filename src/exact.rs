@@ -8,7 +8,6 @@
 //! | a sphere with concentric waves | [`WavySphere`] | of no range |
 //! | a paraboloid of two curvatures | [`EllipticHertz`] | none |
 //! | a cone, a flat punch | [`Cone`], [`FlatPunch`] | none |
-//! | a uniform pressure on a square | [`square_centre`] | none |
 //! | one paraboloid among its periodic images | [`Periodic`] | all three |
 //! | a wave on a line | [`WavyLine`] | none |
 //! | | [`AdhesiveWavyLine`] | of no range |
@@ -60,7 +59,7 @@ pub use jkr::Jkr;
 pub use johnson::AdhesiveWavyLine;
 pub use maugis_dugdale::MaugisDugdale;
 pub use periodic::{C2, M1, Periodic, PeriodicContact};
-pub use punch::{FlatPunch, square_centre};
+pub use punch::FlatPunch;
 pub use sphere::Sphere;
 pub use wave::WaveContact;
 pub use wavy_sphere::WavySphere;

@@ -61,7 +61,7 @@
 //! # Around a solve
 //!
 //! - Before it: [`Topography`] makes a [`Surface`] of a measured map with missing points, tilt, and edges that do not
-//!   meet. [`Warning`] names probable mistakes in a surface, in the adhesion on it, and in a solution.
+//!   meet. [`Warning`](warning::Warning) names probable mistakes in a surface, in the adhesion on it, and in a solution.
 //! - Many loads: [`Sweep`] solves under a sequence of loads, each from the last solutions. [`ContactSearch`] finds the
 //!   load of a contact fraction. [`path`] follows a branch of equilibria with adhesion and locates its jumps.
 //! - Many grids: [`Nested`] solves on coarser grids first, and [`accuracy`] estimates and reduces the error of the grid.
@@ -85,11 +85,11 @@
 #![doc = include_str!("equations.html")]
 
 pub mod accuracy;
-mod adhesion;
-mod constraint;
+pub mod adhesion;
+pub mod constraint;
 pub mod contact;
 mod derivatives;
-mod elastic;
+pub mod elastic;
 mod error;
 pub mod exact;
 mod fft;
@@ -98,7 +98,7 @@ mod grid;
 pub mod guide;
 #[cfg(feature = "io")]
 pub mod io;
-mod nested;
+pub mod nested;
 mod par;
 pub mod path;
 #[cfg(feature = "picture")]
@@ -106,42 +106,38 @@ pub mod picture;
 mod problem;
 mod ranks;
 mod real;
-mod search;
+pub mod search;
 mod setters;
 mod slab;
 mod solver;
 pub mod stability;
-mod surface;
+pub mod surface;
 mod sweep;
 mod vector;
-mod warning;
+pub mod warning;
 #[cfg(feature = "mpi")]
 mod world;
 
 pub use ndarray;
 
-pub use adhesion::{
-    AdhesionLaw, CutOff, Discretisation, Exponential, Hints, LennardJones, MaugisDugdale, Morse, NoAdhesion, PowerLaw,
-    Tabulated, Values, Varying, check_law,
-};
-pub use constraint::{ContactConstraint, NoWall, Penalty, Projection, Springs, Update, Uzawa, Wall, check_constraint};
-pub use elastic::{
-    Abilities, Boundary, Boussinesq, CoarseSpace, ElasticOperator, Foundation, Preconditioned, Spectral, Waves,
-    Westergaard, check_operator,
-};
+#[doc(inline)]
+pub use adhesion::{AdhesionLaw, Exponential, LennardJones, MaugisDugdale, Morse, NoAdhesion, PowerLaw, Tabulated};
+#[doc(inline)]
+pub use constraint::{ContactConstraint, NoWall, Penalty, Projection, Uzawa};
+#[doc(inline)]
+pub use elastic::{Boundary, Boussinesq, ElasticOperator, Spectral, Westergaard};
 pub use error::{Error, ErrorKind, Result};
 pub use grid::Grid;
-pub use nested::{Level, Nested, NestedSolution};
+#[doc(inline)]
+pub use nested::Nested;
 pub use problem::{Control, Problem};
 pub use real::Real;
-pub use search::{ContactSearch, FoundContact};
+#[doc(inline)]
+pub use search::ContactSearch;
 pub use solver::{Branch, Criterion, Iteration, Method, Report, Settings, Solution, Solver, Start, Status};
-pub use surface::{
-    Amplitude, Fit, Form, FormFit, Psd, RowAlignment, ScanAxis, SelfAffine, Spectrum, Spikes, Surface,
-    SurfaceStatistics, Topography, Trend,
-};
+#[doc(inline)]
+pub use surface::{Amplitude, SelfAffine, Surface, Topography};
 pub use sweep::Sweep;
-pub use warning::{Warning, WarningCode};
 #[cfg(feature = "mpi")]
 pub use world::World;
 

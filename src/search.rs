@@ -13,6 +13,9 @@ use crate::problem::{Control, PressedFlat, Problem};
 use crate::real::Real;
 use crate::solver::{Begin, Branch, Iteration, Method, Solution, Solved, Solver, Start, Status};
 
+/// The relative error of the contact fraction at which a search ends.
+const TOLERANCE: f64 = 0.01;
+
 /// The most solves of a search. One that is bracketed halves its bracket at least with every other solve.
 const MOST: usize = 60;
 
@@ -38,8 +41,7 @@ const STEP: (f64, f64) = (1.4, 8.0);
 /// from its start towards the wanted fraction, and never on from a state beyond it, so that it stays on its
 /// [branch](Branch): that of loading, from less contact, if the settings name none.
 ///
-/// The fraction counts nodes. It is reached if it is within one node or 1 % ([`with_tolerance`](Self::with_tolerance))
-/// of the wanted one. Where no load has such a fraction, as the contact jumps past it, the state on the nearer side of
+/// The fraction counts nodes. It is reached if it is within one node or 1 % of the wanted one. Where no load has such a fraction, as the contact jumps past it, the state on the nearer side of
 /// the jump is returned, [`reached`](FoundContact::reached) is false, and [`below`](FoundContact::below) and
 /// [`above`](FoundContact::above) say from where to where it jumps.
 ///
@@ -66,7 +68,6 @@ pub struct ContactSearch<'a, T, O, L, C = Projection> {
     solver: &'a mut Solver<C>,
     problem: &'a mut Problem<T, O, L>,
     axis: Axis,
-    tolerance: f64,
     /// The given gap from which solves start until one of them replaces it, on the grid of the surface.
     start: Option<Array2<T>>,
     /// The gap from which they start otherwise, on the grid of the operator.
@@ -191,12 +192,7 @@ where
             return Err(Error::Control { control: "contact-fraction", reason });
         }
         let axis = Axis::of(&problem.flat, !problem.law.hints().zero)?;
-        Ok(Self { solver, problem, axis, tolerance: 0.01, start: None, gap: None, points: Vec::new() })
-    }
-
-    /// The search to a relative error of the contact fraction, or one node where that is more; 0.01 by default.
-    pub fn with_tolerance(self, tolerance: f64) -> Self {
-        Self { tolerance, ..self }
+        Ok(Self { solver, problem, axis, start: None, gap: None, points: Vec::new() })
     }
 
     /// The search with a gap of shape (Nx, Ny) as its start, in the place of the default one or of that where another
@@ -250,7 +246,7 @@ where
             let requirement = "at least one node, and less than 1";
             return Err(Error::Value { name: "contact fraction", value: fraction, requirement });
         }
-        let (goal, allowed) = (level(fraction), (self.tolerance * wanted).max(1.0));
+        let (goal, allowed) = (level(fraction), (TOLERANCE * wanted).max(1.0));
         let adhesion = !self.problem.law.hints().zero;
         let mut bracket = Bracket::default();
         let mut x = self.axis.first(fraction);

@@ -199,13 +199,13 @@ impl Settings {
 /// lengths of the steps before. The page [`driver`](crate::guide::driver) derives all of it.
 ///
 /// In `f64` the gap, the pressure and all that is reported are in `f64`, and changes, residuals and transforms in
-/// `f32`, if the operator can be had [in single precision](crate::Waves::in_single); the certificate is that
+/// `f32`, if the operator can be had [in single precision](crate::elastic::Waves::in_single); the certificate is that
 /// of the state in `f64`.
 ///
 /// Memory per node with a [`Westergaard`](crate::Westergaard) half-space, that of the problem included: in `f64` five
 /// scalars, in `f32` seven. The solution keeps three.
 /// With [`Boussinesq`](crate::Boussinesq) the grid has four times the nodes of the surface, or somewhat more.
-/// The [`CoarseSpace`](crate::CoarseSpace) adds up to 13 N^(2/3) numbers in `f64`: a fifth of a field on 512² nodes,
+/// The [`CoarseSpace`](crate::elastic::CoarseSpace) adds up to 13 N^(2/3) numbers in `f64`: a fifth of a field on 512² nodes,
 /// and 5 % on 4096².
 ///
 /// ```

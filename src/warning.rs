@@ -56,7 +56,8 @@ const RESOLVED: f64 = Report::RESOLVED_MU_RHO;
 /// a mirrored map.
 ///
 /// ```
-/// use asperity::{Control, Exponential, Grid, Problem, Solver, Surface, Warning, WarningCode, Westergaard};
+/// use asperity::warning::{Warning, WarningCode};
+/// use asperity::{Control, Exponential, Grid, Problem, Solver, Surface, Westergaard};
 /// let grid = Grid::square(64, 1.0)?;
 /// let tilted = Surface::from_fn(grid, |x, y| 0.01 * (6.0 * x).sin() * (9.0 * y).cos() + 0.05 * x)?;
 /// let codes: Vec<_> = Warning::of_surface(&tilted).iter().map(|warning| warning.code).collect();
@@ -97,7 +98,8 @@ impl Warning {
     /// three digits.
     ///
     /// ```
-    /// use asperity::{Exponential, Grid, Surface, Warning};
+    /// use asperity::warning::Warning;
+    /// use asperity::{Exponential, Grid, Surface};
     /// let surface = Surface::wave_2d(Grid::square(64, 1e-6)?, 1e-9, 2)?;
     /// let found = Warning::of_law::<f64>(&Exponential::new(1e-5, 2e-8)?, &surface, 1e9);
     /// let (nm, gpa) = (|length| format!("{} nm", 1e9 * length), |pressure| format!("{} GPa", 1e-9 * pressure));
@@ -114,7 +116,8 @@ impl Warning {
     /// far as there is one; otherwise zero.
     ///
     /// ```
-    /// use asperity::{Grid, Surface, Warning};
+    /// use asperity::warning::Warning;
+    /// use asperity::{Grid, Surface};
     /// let wave = |slope| Surface::wave(Grid::line(64, 1.0)?, slope / 6.0, 1);
     /// let severity = |surface: &Surface| Warning::of_surface(surface)[0].severity();
     /// assert!(severity(&wave(9.0)?) > severity(&wave(2.0)?));
@@ -127,7 +130,7 @@ impl Warning {
     /// A number as in messages: with three digits, below 1e-3 and from 1e5 on with an exponent.
     ///
     /// ```
-    /// use asperity::Warning;
+    /// use asperity::warning::Warning;
     /// assert_eq!([2.0, 0.01234, 1.5e-9].map(Warning::figure), ["2", "0.0123", "1.5e-9"]);
     /// ```
     pub fn figure(value: f64) -> String {
@@ -190,7 +193,8 @@ impl Warning {
     /// rms slope above 100, and [`Smooth`](WarningCode::Smooth).
     ///
     /// ```
-    /// use asperity::{Topography, Warning};
+    /// use asperity::warning::Warning;
+    /// use asperity::Topography;
     /// let mut map = Topography::new(ndarray::Array2::from_shape_fn((9, 9), |(i, j)| ((7 * i + 5 * j) as f64).sin()));
     /// map.heights.row_mut(3).fill(-99.0);
     /// let found = Warning::of_topography(&map);
@@ -211,7 +215,8 @@ impl Warning {
     /// and without a unit if the nodes are less than 1e-7 apart. E* = 1 is none, as it makes all pressures relative.
     ///
     /// ```
-    /// use asperity::{Grid, Warning, WarningCode};
+    /// use asperity::warning::{Warning, WarningCode};
+    /// use asperity::Grid;
     /// let grid = Grid::square(512, 10e-6)?;
     /// assert_eq!(Warning::of_modulus(70.0, &grid, Some("m")).map(|found| found.code), Some(WarningCode::Modulus));
     /// assert!(Warning::of_modulus(70e9, &grid, Some("m")).is_none());
@@ -228,7 +233,9 @@ impl Warning {
     /// profile of a surface nor on one that is rougher across them. Nothing where there are fewer than 64 lines.
     ///
     /// ```
-    /// use asperity::{ScanAxis, Topography, Warning};
+    /// use asperity::surface::ScanAxis;
+    /// use asperity::warning::Warning;
+    /// use asperity::Topography;
     /// // an image: rows are the scan lines, and drift moves each by some height
     /// let drift = |row: usize| ((row as f64 * 0.618).fract() - 0.5).powi(3);
     /// let grain = |row: usize, column: usize| 1e-3 * ((row * 7 + column * 13) as f64 * 0.414).fract();
@@ -318,7 +325,8 @@ impl Warning {
     ///
     /// ```
     /// use asperity::contact::Original;
-    /// use asperity::{Control, Grid, NoAdhesion, Problem, Solver, Surface, Warning, Westergaard};
+    /// use asperity::warning::Warning;
+    /// use asperity::{Control, Grid, NoAdhesion, Problem, Solver, Surface, Westergaard};
     /// let grid = Grid::square(32, 1.0)?;
     /// let sphere = Surface::paraboloid(grid, 2.0)?; // its mirror lines are between no nodes
     /// let mut problem = Problem::new(&sphere, Westergaard::<f64>::new(grid, 1.0)?, NoAdhesion)?;

@@ -1,6 +1,7 @@
 //! A law that differs from node to node: each node has one of several laws.
 
-use asperity::{AdhesionLaw, Discretisation, Hints, Real, Values};
+use asperity::adhesion::{Discretisation, Hints, Values};
+use asperity::{AdhesionLaw, Real};
 
 /// One of several laws at each node, with works of adhesion and ranges of their own.
 pub struct Patches<L> {

@@ -5,10 +5,11 @@ use std::path::Path;
 
 use asperity::accuracy::{Accuracy, GridError, Quantity};
 use asperity::contact::ContactArea;
+use asperity::nested::Level;
 use asperity::stability::ContactStiffness;
 use asperity::{
-    AdhesionLaw, Amplitude, Boundary, Control, Exponential, Grid, Level, Nested, NoAdhesion, Problem, SelfAffine,
-    Settings, Solver, Surface, Westergaard,
+    AdhesionLaw, Amplitude, Boundary, Control, Exponential, Grid, Nested, NoAdhesion, Problem, SelfAffine, Settings,
+    Solver, Surface, Westergaard,
 };
 use plotters::prelude::*;
 

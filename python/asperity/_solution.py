@@ -244,9 +244,9 @@ class Solution:
         return found
 
     @property
-    def absent_points(self) -> int:
+    def absent_nodes(self) -> int:
         """Number of absent nodes, at which nothing faces the half-space."""
-        return int(self._told["absent_points"])
+        return int(self._told["absent_nodes"])
 
     @property
     def edge_traction(self) -> float | None:
@@ -314,7 +314,7 @@ class Solution:
         rows += [
             ("contact", f"{100 * report['contact_fraction']:.4g} %"),
             ("corrected for its edge", f"{100 * report['corrected_contact_fraction']:.4g} %"),
-            ("nodes in contact", f"{report['contact_nodes']} of {self.gap.size - self.absent_points}"),
+            ("nodes in contact", f"{report['contact_nodes']} of {self.gap.size - self.absent_nodes}"),
         ]
         if self.approach is not None and self.edge_traction is not None:
             rows.append(("approach", f"{self.approach:.7g}"))

@@ -91,7 +91,7 @@ def stability(
     scene = Scene(
         solution.topography,
         None,
-        absent_missing=report["absent_points"] > 0,
+        absent_missing=report["absent_nodes"] > 0,
         law=solution.law,
         **{name: report[name] for name in ("modulus", "boundary", "wall", "precision", "method", "threads")},
         tolerance=report["tolerance"],

@@ -28,15 +28,13 @@ class Clusters(NamedTuple):
     labels: NDArray[np.int64]
 
 
-def clusters(contact: Any, *, corners: bool = False) -> Clusters:
+def clusters(contact: Any) -> Clusters:
     """Finds the clusters of a map whose opposite sides meet.
 
     Parameters
     ----------
     contact : array_like of bool, shape (Nx, Ny)
         Contact map, as that of a `Solution`.
-    corners : bool
-        Whether nodes hang together across corners, too.
 
     Returns
     -------
@@ -51,5 +49,5 @@ def clusters(contact: Any, *, corners: bool = False) -> Clusters:
     given = np.asarray(contact)
     if given.ndim not in (1, 2):
         raise ValueError(f"contact has shape {given.shape}: it must be (Nx, Ny), or (N,) on a line")
-    sizes, labels = _asperity.clusters(given.astype(bool).reshape(given.shape[0], -1), corners)
+    sizes, labels = _asperity.clusters(given.astype(bool).reshape(given.shape[0], -1))
     return Clusters(sizes, labels.reshape(given.shape))

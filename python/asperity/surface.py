@@ -144,9 +144,8 @@ def spectrum(
     lengths: float | tuple[float, float] | None = None,
     *,
     axes: str | None = None,
-    along: str = "radial",
 ) -> PowerSpectralDensity:
-    """The power spectral density.
+    """The power spectral density, averaged over directions.
 
     Parameters
     ----------
@@ -156,8 +155,6 @@ def spectrum(
         Side lengths; needed unless the heights bring them.
     axes : {"xy", "yx"}, optional
         Axes of an array, as of `asperity.solve`: "xy" by default, the first is x.
-    along : {"radial", "x", "y"}
-        Averaged over directions, or that of profiles along an axis.
 
     Returns
     -------
@@ -173,4 +170,4 @@ def spectrum(
     '0.0100'
     """
     given = taken(heights, lengths, axes)
-    return PowerSpectralDensity(*_asperity.spectrum(given.heights, sides(given), along))
+    return PowerSpectralDensity(*_asperity.spectrum(given.heights, sides(given)))

@@ -1,8 +1,11 @@
 //! The account of a solve: all that its report and the solution of Python have.
 
 use asperity::accuracy::Quantity;
+use asperity::nested::Level;
+use asperity::search::FoundContact;
 use asperity::stability::{ContactStiffness, Stability};
-use asperity::{FoundContact, Level, Real, Report, Solution, Warning};
+use asperity::warning::Warning;
+use asperity::{Real, Report, Solution};
 use numpy::Element;
 use numpy::ndarray::Array2;
 

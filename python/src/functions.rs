@@ -2,7 +2,8 @@
 
 use std::sync::{Mutex, PoisonError};
 
-use asperity::{AdhesionLaw, Error, Hints};
+use asperity::adhesion::Hints;
+use asperity::{AdhesionLaw, Error};
 use numpy::PyArray1;
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
@@ -134,7 +135,7 @@ struct Called {
 pub fn check(object: &Bound<'_, PyAny>, largest_gap: Option<f64>) -> PyResult<()> {
     let scales = Scales::of(&Functions::of(object)?)?;
     let called = Called { object: object.clone().unbind(), scales, raised: Mutex::new(None) };
-    let checked = asperity::check_law(&called, largest_gap.unwrap_or_else(|| far(&called)));
+    let checked = asperity::adhesion::check_law(&called, largest_gap.unwrap_or_else(|| far(&called)));
     match called.raised.into_inner().unwrap_or_else(PoisonError::into_inner) {
         Some(error) => Err(error),
         // of which the table of the law has a smoothed one
@@ -143,7 +144,7 @@ pub fn check(object: &Bound<'_, PyAny>, largest_gap: Option<f64>) -> PyResult<()
     }
 }
 
-/// A gap at which most laws have decayed: ten ranges, from the gap of rest on.
+/// A gap at which most laws have decayed: ten ranges, from the equilibrium separation on.
 pub fn far(law: &dyn AdhesionLaw<f64>) -> f64 {
     let hints = law.hints();
     hints.rest.unwrap_or(0.0) + 10.0 * hints.range

@@ -3,9 +3,10 @@
 
 use asperity::accuracy::{Accuracy, Quantity};
 use asperity::io::{available_memory, check_memory};
+use asperity::warning::{Warning, WarningCode};
 use asperity::{
     Boussinesq, Branch, ContactConstraint, Control, ElasticOperator, Grid, NoWall, Projection, Real, Settings, Solver,
-    Surface, Warning, WarningCode, Westergaard,
+    Surface, Westergaard,
 };
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -73,7 +74,7 @@ impl Wall {
 }
 
 impl<T: Real> ContactConstraint<T> for Wall {
-    fn wall(&self) -> asperity::Wall<'_, T> {
+    fn wall(&self) -> asperity::constraint::Wall<'_, T> {
         match self {
             Self::Hard => Projection.wall(),
             Self::None => NoWall.wall(),

@@ -1,6 +1,7 @@
 //! The jumps of a law of Python, and the law without them.
 
-use asperity::{AdhesionLaw, Hints, Real};
+use asperity::adhesion::Hints;
+use asperity::{AdhesionLaw, Real};
 
 use crate::table::Table;
 

@@ -3,7 +3,8 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use asperity::{AdhesionLaw, Discretisation, Error, Hints, NoAdhesion, Real, Values};
+use asperity::adhesion::{Discretisation, Hints, Values};
+use asperity::{AdhesionLaw, Error, NoAdhesion, Real};
 use numpy::ndarray::ArrayD;
 use numpy::{PyArray1, ToPyArray};
 use pyo3::exceptions::{PyTypeError, PyValueError};
@@ -24,8 +25,8 @@ pub enum Form {
     Morse(asperity::Morse),
     PowerLaw(asperity::PowerLaw),
     Tabulated(asperity::Tabulated),
-    CutOff(asperity::CutOff<Box<Form>>),
-    Varying(asperity::Varying<Box<Form>>),
+    CutOff(asperity::adhesion::CutOff<Box<Form>>),
+    Varying(asperity::adhesion::Varying<Box<Form>>),
     /// That of an object of Python
     Table(Arc<Table>),
 }
@@ -242,8 +243,8 @@ class! {
 class! {
     /// The law of Lennard-Jones between two half-spaces, φ'(g) = 8w/3z₀ (x³ − x⁹) with x = z₀/g.
     ///
-    /// It attracts beyond the distance of rest z₀, and repels below: for a solve with ``wall="none"``, where contact is
-    /// where it repels. For one with ``wall="hard"`` it has to be cut at z₀, from which the gap counts then.
+    /// It attracts beyond the equilibrium separation z₀, and repels below: for a solve with ``wall="none"``, where
+    /// contact is where it repels. For one with ``wall="hard"`` it has to be cut at z₀, from which the gap counts then.
     ///
     /// Parameters
     /// ----------
@@ -415,15 +416,16 @@ impl Tabulated {
 
 /// A law that ends at a gap, smoothly: zero from there on, with energy, traction and slope continuous.
 ///
-/// It keeps its work of adhesion, its gap of rest, and its traction in contact; the energy that the tail had is given
-/// back before the end.
+/// It keeps its work of adhesion, its equilibrium separation, and its traction in contact; the energy that the tail had
+/// is given back before the end.
 ///
 /// Parameters
 /// ----------
 /// law : Law or an object of your own
 ///     Law that reaches further.
 /// distance : float
-///     Gap at which it ends, a length: at least a range of the law beyond contact, or beyond its gap of rest.
+///     Gap at which it ends, a length: at least a range of the law beyond contact, or beyond its equilibrium
+///     separation.
 ///
 /// Examples
 /// --------
@@ -450,7 +452,7 @@ impl CutOff {
         if matches!(form, Form::CutOff(_)) {
             return Err(PyValueError::new_err("the law is cut off already: give the law that it is made of"));
         }
-        let form = asperity::CutOff::new(Box::new(form), distance).map_err(refusal)?;
+        let form = asperity::adhesion::CutOff::new(Box::new(form), distance).map_err(refusal)?;
         let own = Self { law: law.clone().unbind(), distance };
         Ok(PyClassInitializer::from(Law(Form::CutOff(form))).add_subclass(own))
     }
@@ -499,7 +501,7 @@ impl Varying {
         let (works, is_line): (Field<'_>, bool) =
             maps.call_method1("array_of", (work_of_adhesion, "works of adhesion"))?.extract()?;
         let works = works.to_array()?;
-        let varying = asperity::Varying::new(Box::new(form), works.view()).map_err(refusal_of_works)?;
+        let varying = asperity::adhesion::Varying::new(Box::new(form), works.view()).map_err(refusal_of_works)?;
         let works = if is_line { works.column(0).to_owned().into_dyn() } else { works.into_dyn() };
         let own = Self { law: law.clone().unbind(), work_of_adhesion: returned(law.py(), works)?.unbind() };
         Ok(PyClassInitializer::from(Law(Form::Varying(varying))).add_subclass(own))
@@ -550,7 +552,8 @@ pub fn check_law(law: &Bound<'_, PyAny>, largest_gap: Option<f64>) -> PyResult<(
     match law.cast::<Law>() {
         Ok(law) => {
             let form = &law.get().0;
-            asperity::check_law::<f64>(form, largest_gap.unwrap_or_else(|| functions::far(form))).map_err(refusal)
+            asperity::adhesion::check_law::<f64>(form, largest_gap.unwrap_or_else(|| functions::far(form)))
+                .map_err(refusal)
         }
         Err(_) => functions::check(law, largest_gap),
     }

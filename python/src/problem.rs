@@ -5,11 +5,13 @@ use std::time::Instant;
 
 use asperity::accuracy::{Accuracy, AccurateSolution, GridError, Plan};
 use asperity::contact::Original;
+use asperity::nested::NestedSolution;
 use asperity::path::{Event, Path, PathCheckpoint, PathSettings};
 use asperity::stability::{ContactStiffness, StabilityTest, Verdict};
+use asperity::warning::Warning;
 use asperity::{
-    AdhesionLaw, ContactSearch, Control, ElasticOperator, Error, Grid, Nested, NestedSolution, Real, Settings,
-    Solution, Solver, Start, Status, Surface, Sweep, Topography, Warning,
+    AdhesionLaw, ContactSearch, Control, ElasticOperator, Error, Grid, Nested, Real, Settings, Solution, Solver, Start,
+    Status, Surface, Sweep, Topography,
 };
 use numpy::IntoPyArray;
 use numpy::ndarray::Array2;

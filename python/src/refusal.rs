@@ -35,7 +35,7 @@ fn refused(error: Error, also: &str) -> PyErr {
     };
     let message = message
         .replace(
-            "solve it without a wall (NoWall), or cut it at its gap of rest",
+            "solve it without a wall (NoWall), or cut it at its equilibrium separation",
             "give wall='none', or LennardJones(..., cut=True)",
         )
         .replace("or take a free half-space", "or boundary='free'")

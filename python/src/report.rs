@@ -1,9 +1,11 @@
 //! The outcome of a solve, with the names and in the order of the tool's `report.json`.
 
+use asperity::Branch;
 use asperity::accuracy::GridError;
 use asperity::contact::{ContactStatistics, Patch};
+use asperity::nested::Level;
 use asperity::stability::Stability;
-use asperity::{Branch, Level, Warning};
+use asperity::warning::Warning;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
@@ -64,11 +66,11 @@ pub fn of<'py, T: Scalar>(py: Python<'py>, account: &Account<T>) -> PyResult<Bou
         "normal_force": report.normal_force,
         "approach": report.approach,
         "spring_stiffness": stiffness(report.control),
-        "carried_pressure": report.carried_pressure,
+        "net_pressure": report.net_pressure,
         "mean_contact_pressure": report.mean_contact_pressure,
         "contact_fraction": report.contact_fraction,
         "contact_nodes": report.contact_nodes,
-        "absent_points": report.absent_nodes,
+        "absent_nodes": report.absent_nodes,
         "edge_traction": report.edge_traction,
         "corrected_contact_fraction": py.None(),
         "perimeter": py.None(),

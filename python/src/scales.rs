@@ -1,23 +1,25 @@
-//! The scales of a law of Python: its work of adhesion, range and gap of rest, found where it does not name them.
+//! The scales of a law of Python: its work of adhesion, range and equilibrium separation, found where it does not name
+//! them.
 
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
 use crate::functions::{Function, Functions};
 
-/// The powers of two between which the gap of rest is looked for, in any unit of length, and the gaps in an octave.
+/// The powers of two between which the equilibrium separation is looked for, in any unit of length, and the gaps in an
+/// octave.
 const OCTAVES: (i32, i32) = (-50, 20);
 const GAPS: i32 = 8;
 
 /// The repulsion, in the greatest attraction, down to which a law is read, and goes on as its tangent.
 const STRONGEST: f64 = 1e9;
 
-/// The halves of octaves of the range by which it is read below its gap of rest.
+/// The halves of octaves of the range by which it is read below its equilibrium separation.
 const DEPTHS: std::ops::RangeInclusive<i32> = -8..=24;
 
 /// The scales of a law.
 pub struct Scales {
-    /// −φ in contact, or at the gap of rest.
+    /// −φ in contact, or at the equilibrium separation.
     pub work_of_adhesion: f64,
     /// The length over which the traction decays: w over the traction in contact, or over the greatest attraction of a
     /// law that does not attract there.

@@ -4,7 +4,8 @@ use std::sync::Arc;
 
 use asperity::accuracy::{GridError, Quantity};
 use asperity::contact::Original;
-use asperity::{AdhesionLaw, Level, Report, Surface};
+use asperity::nested::Level;
+use asperity::{AdhesionLaw, Report, Surface};
 
 /// The estimated errors of the finest of nested grids, where they can be told.
 pub type Errors = [(Quantity, Option<GridError>); 4];

@@ -3,7 +3,9 @@
 use std::path::PathBuf;
 
 use asperity::io::check_memory;
-use asperity::{Amplitude, Form, Grid, Psd, RowAlignment, ScanAxis, SelfAffine, Surface, Topography, Trend, Warning};
+use asperity::surface::{Form, Psd, RowAlignment, ScanAxis, Trend};
+use asperity::warning::Warning;
+use asperity::{Amplitude, Grid, SelfAffine, Surface, Topography};
 use numpy::{IntoPyArray, PyArray1, PyArray2};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -103,17 +105,11 @@ pub fn statistics(py: Python<'_>, heights: Field<'_>, lengths: Option<(f64, f64)
 /// Wave numbers, densities, numbers of waves, and the area of one wave.
 type Density<'py> = (Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<i64>>, f64);
 
-/// The power spectral density of heights: radial, or of profiles along x or y.
+/// The power spectral density of heights, averaged over directions.
 #[pyfunction]
-pub fn spectrum<'py>(py: Python<'py>, heights: Field<'_>, lengths: (f64, f64), along: &str) -> PyResult<Density<'py>> {
+pub fn spectrum<'py>(py: Python<'py>, heights: Field<'_>, lengths: (f64, f64)) -> PyResult<Density<'py>> {
     let surface = surface(heights, lengths)?;
-    let of = match along {
-        "radial" => asperity::Spectrum::radial_psd,
-        "x" => asperity::Spectrum::profile_psd_x,
-        "y" => asperity::Spectrum::profile_psd_y,
-        other => return Err(PyValueError::new_err(format!("along is {other}: it must be radial, x or y"))),
-    };
-    let Psd { wave_numbers, densities, waves, cell, .. } = apart(py, || Ok(of(&surface.spectrum())))?;
+    let Psd { wave_numbers, densities, waves, cell, .. } = apart(py, || Ok(surface.spectrum().radial_psd()))?;
     let waves: Vec<i64> = waves.into_iter().map(|count| count as i64).collect();
     Ok((wave_numbers.into_pyarray(py), densities.into_pyarray(py), waves.into_pyarray(py), cell))
 }

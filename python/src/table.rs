@@ -1,6 +1,7 @@
 //! The table of a law of Python: read once, before a solve, which then needs the interpreter no more.
 
-use asperity::{AdhesionLaw, Discretisation, Error, Hints, Real, Values};
+use asperity::adhesion::{Discretisation, Hints, Values};
+use asperity::{AdhesionLaw, Error, Real};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 

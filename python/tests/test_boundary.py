@@ -26,7 +26,7 @@ def pressed(heights, **given):
 
 def test_a_tip_under_a_force_is_that_of_hertz(tip, hertz):
     found = pressed(tip, normal_force=FORCE)
-    assert found.boundary == "free" and found.absent_points == 0
+    assert found.boundary == "free" and found.absent_nodes == 0
     # 18 nodes along the radius of the contact: of second order, 1e-4
     assert np.isclose(found.approach, hertz.approach, rtol=5e-4)
     assert np.isclose(found.normal_force, FORCE, rtol=1e-12)
@@ -63,7 +63,7 @@ def test_missing_points_may_be_absent_nodes():
     found = pressed(flat, lengths=1.0, approach=approach, absent_missing=True)
     # the edge of the punch is on the nodes to half a node: 3 %
     assert np.isclose(found.normal_force, 2 * radius * approach, rtol=0.03)
-    assert found.absent_points == outside.sum() and found.contact_fraction == 1.0
+    assert found.absent_nodes == outside.sum() and found.contact_fraction == 1.0
     assert np.isinf(found.gap[outside]).all() and not found.pressure[outside].any() and found.contact[~outside].all()
     again = pressed(np.where(outside, np.nan, 0.0), lengths=1.0, approach=approach, absent_missing=True, start=found)
     assert np.isclose(again.normal_force, found.normal_force, rtol=1e-4)

@@ -346,7 +346,7 @@ def test_the_distribution_of_the_pressure_knows_lines_and_absent_nodes():
     disc = np.where(np.hypot(x[:, None], x) < 0.3, 0.0, np.nan)
     free = {"boundary": "free", "absent_missing": True}
     punch = asperity.solve(disc, lengths=(1.0, 1.0), modulus=1.0, approach=0.01, **free)
-    assert line.gap.ndim == 1 and punch.absent_points > 0 and punch.contact_fraction == 1.0
+    assert line.gap.ndim == 1 and punch.absent_nodes > 0 and punch.contact_fraction == 1.0
     for solution in (line, punch):
         density, edges = solution.pressure_distribution()
         assert np.sum(density * np.diff(edges)) == pytest.approx(solution.contact_fraction, rel=1e-12)

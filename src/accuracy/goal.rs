@@ -86,7 +86,7 @@ pub struct Accuracy<C = Projection> {
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Plan {
-    /// The nodes of the shortest wave on the given grid, [`Spectrum::nodes_per_wave`](crate::Spectrum::nodes_per_wave).
+    /// The nodes of the shortest wave on the given grid, [`Spectrum::nodes_per_wave`](crate::surface::Spectrum::nodes_per_wave).
     pub nodes_per_wave: f64,
     /// The tolerance of the solver.
     pub tolerance: f64,
@@ -120,7 +120,7 @@ pub struct AccurateSolution<T> {
 
 impl<T> AccurateSolution<T> {
     /// All operator applications in units of one on the finest grid, as
-    /// [`NestedSolution::equivalent_applications`](crate::NestedSolution::equivalent_applications) counts them.
+    /// [`NestedSolution::equivalent_applications`](crate::nested::NestedSolution::equivalent_applications) counts them.
     pub fn equivalent_applications(&self) -> f64 {
         equivalent_applications(&self.levels)
     }

@@ -61,7 +61,8 @@ const ASKED: [[bool; 3]; 6] = [
 /// if the smoothed law has another work of adhesion.
 ///
 /// ```
-/// use asperity::{Exponential, MaugisDugdale, check_law};
+/// use asperity::adhesion::check_law;
+/// use asperity::{Exponential, MaugisDugdale};
 /// check_law::<f64>(&Exponential::new(1e-4, 2e-3)?, 0.02)?;
 /// check_law::<f32>(&MaugisDugdale::new(1e-4, 2e-3)?, 0.02)?;
 /// # Ok::<(), asperity::Error>(())

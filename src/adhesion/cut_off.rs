@@ -16,10 +16,11 @@ const SLACK: f64 = 1e-2;
 /// q(s) = s³ (a + b s + c s²) ,   q = φ , q' = φ' , q'' = φ''  at g_c
 /// ```
 ///
-/// The quintic q has nothing, no slope and no curvature at g₀, which is the gap of rest of a law that repels, and contact
-/// for all others. So the work of adhesion w stays what it is, and so do the gap of rest, the traction and its slope in
-/// contact, and all of the repulsion; the energy that the tail had is given back before g_c. A law that ends before g_c
-/// is not changed. Cut off and [`Varying`](super::Varying) may be applied in either order.
+/// The quintic q has nothing, no slope and no curvature at g₀, which is the equilibrium separation of a law that
+/// repels, and contact for all others. So the work of adhesion w stays what it is, and so do the equilibrium
+/// separation, the traction and its slope in contact, and all of the repulsion; the energy that the tail had is given
+/// back before g_c. A law that ends before g_c is not changed. Cut off and [`Varying`](super::Varying) may be applied
+/// in either order.
 ///
 /// With w kept, a law that ends early attracts more on the way. The largest traction over that of the law, by the
 /// distance from g₀ to g_c over the range ρ:
@@ -31,7 +32,8 @@ const SLACK: f64 = 1e-2;
 /// | Morse | 3.63 | 2.35 | 1.71 | 1.35 | 1.16 | 1.04 |
 ///
 /// ```
-/// use asperity::{AdhesionLaw, CutOff, PowerLaw, check_law};
+/// use asperity::adhesion::{CutOff, check_law};
+/// use asperity::{AdhesionLaw, PowerLaw};
 /// let whole = PowerLaw::van_der_waals(6e-20, 0.165e-9)?;
 /// let law = CutOff::new(whole, 5e-9)?;
 /// assert_eq!((law.traction(5e-9), law.energy(8e-9)), (0.0, 0.0));
@@ -55,8 +57,9 @@ impl<L> CutOff<L> {
     /// The law cut off at the gap g_c.
     ///
     /// # Errors
-    /// [`Error::Value`] if g_c is not finite, or less than a range ρ beyond contact or the gap of rest, where it would
-    /// cut into the attraction itself; or if the energy in contact is not −w, as of a law that does not fall to zero.
+    /// [`Error::Value`] if g_c is not finite, or less than a range ρ beyond contact or the equilibrium separation,
+    /// where it would cut into the attraction itself; or if the energy in contact is not −w, as of a law that does not
+    /// fall to zero.
     pub fn new(law: L, distance: f64) -> Result<Self>
     where
         L: AdhesionLaw<f64>,
@@ -67,7 +70,7 @@ impl<L> CutOff<L> {
         // numbers that were rounded on their way here
         if distance < (start + hints.range) * (1.0 - 4.0 * f64::EPSILON) {
             let requirement =
-                "at least a range of the law beyond contact, or beyond its gap of rest: give a larger one";
+                "at least a range of the law beyond contact, or beyond its equilibrium separation: give a larger one";
             return Err(Error::Value { name: "cut-off distance", value: distance, requirement });
         }
         let (energy, work) = (law.energy(start), hints.work_of_adhesion);

@@ -6,7 +6,7 @@ use crate::real::Real;
 /// The properties of a law that a solve asks for once, [`AdhesionLaw::hints`].
 ///
 /// ```
-/// use asperity::Hints;
+/// use asperity::adhesion::Hints;
 /// let hints = Hints::new(1e-4, 2e-3).with_rest(3e-4);
 /// assert_eq!((hints.work_of_adhesion, hints.range, hints.rest), (1e-4, 2e-3, Some(3e-4)));
 /// assert!(!hints.concave && hints.shape.is_none());

@@ -18,7 +18,8 @@ use crate::real::Real;
 /// (2004); Greenwood, *Proc. R. Soc. A* 453 (1997), for the sphere.
 ///
 /// ```
-/// use asperity::{AdhesionLaw, LennardJones, check_law};
+/// use asperity::adhesion::check_law;
+/// use asperity::{AdhesionLaw, LennardJones};
 /// let law = LennardJones::new(0.05, 0.3e-9)?;
 /// assert_eq!(law.traction(0.3e-9), 0.0);
 /// assert!(law.traction(0.29e-9) < 0.0 && law.traction(0.31e-9) > 0.0);
@@ -31,12 +32,12 @@ use crate::real::Real;
 pub struct LennardJones {
     work_of_adhesion: f64,
     range: f64,
-    /// whether the gap counts from the distance of rest, z₀
+    /// whether the gap counts from the equilibrium separation, z₀
     cut: bool,
 }
 
 impl LennardJones {
-    /// The law with work of adhesion w (energy per area) and the distance of rest z₀ (length), in either precision.
+    /// The law with work of adhesion w (energy per area) and equilibrium separation z₀ (length), in either precision.
     ///
     /// # Errors
     /// [`Error::Value`] if w or z₀ is not positive and finite.
@@ -57,7 +58,7 @@ impl LennardJones {
         self.work_of_adhesion
     }
 
-    /// The distance of rest z₀, as it was given.
+    /// The equilibrium separation z₀, as it was given.
     pub fn range(&self) -> f64 {
         self.range
     }

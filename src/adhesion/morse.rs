@@ -5,7 +5,7 @@ use super::{AdhesionLaw, Hints, Values};
 use crate::error::{Error, Result};
 use crate::real::Real;
 
-/// The law of Morse, with the gap measured from the distance of rest.
+/// The law of Morse, with the gap measured from the equilibrium separation.
 ///
 /// ```math
 /// φ(g) = w (e² − 2e) ,   φ'(g) = 2w/ρ (e − e²) ,   φ''(g) = 2w/ρ² (2e² − e) ,   e = exp(−g/ρ)
@@ -18,7 +18,8 @@ use crate::real::Real;
 /// Morse, *Phys. Rev.* 34 (1929).
 ///
 /// ```
-/// use asperity::{AdhesionLaw, Morse, check_law};
+/// use asperity::adhesion::check_law;
+/// use asperity::{AdhesionLaw, Morse};
 /// let law = Morse::new(0.05, 0.5e-9)?;
 /// assert_eq!((law.energy(0.0), law.traction(0.0)), (-0.05, 0.0));
 /// assert!((law.traction(0.5e-9 * 2.0_f64.ln()) - 0.05 / (2.0 * 0.5e-9)).abs() < 1.0);

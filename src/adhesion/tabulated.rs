@@ -11,7 +11,8 @@ use crate::real::Real;
 /// point, from which on there is no traction.
 ///
 /// ```
-/// use asperity::{AdhesionLaw, Tabulated, check_law};
+/// use asperity::adhesion::check_law;
+/// use asperity::{AdhesionLaw, Tabulated};
 /// // a traction that falls evenly over 2 nm
 /// let law = Tabulated::new(&[0.0, 1e-9, 2e-9], &[50e6, 25e6, 0.0])?;
 /// assert!((AdhesionLaw::<f64>::hints(&law).work_of_adhesion - 0.05).abs() < 1e-15);

@@ -8,7 +8,8 @@ use crate::vector::vectors;
 /// The energies, tractions and slopes that are asked of a law at some nodes, each of the length of the gaps.
 ///
 /// ```
-/// use asperity::{AdhesionLaw, Exponential, Values};
+/// use asperity::adhesion::Values;
+/// use asperity::{AdhesionLaw, Exponential};
 /// let (law, gaps) = (Exponential::new(1e-4, 2e-3)?, [0.0, 1e-3]);
 /// let (mut energies, mut tractions) = ([0.0; 2], [0.0; 2]);
 /// let values = Values { energies: Some(&mut energies), tractions: Some(&mut tractions), slopes: None };

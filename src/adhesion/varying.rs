@@ -18,7 +18,8 @@ use crate::slab::Slab;
 /// node: one `f64`, which clones share.
 ///
 /// ```
-/// use asperity::{Control, Exponential, Grid, Problem, Solver, Surface, Varying, Westergaard};
+/// use asperity::adhesion::Varying;
+/// use asperity::{Control, Exponential, Grid, Problem, Solver, Surface, Westergaard};
 /// let grid = Grid::square(64, 1.0)?;
 /// let surface = Surface::wave_2d(grid, 0.01, 2)?;
 /// // no adhesion on the left half
@@ -59,7 +60,8 @@ impl<L: AdhesionLaw<f64>> Varying<L> {
     /// this one holds, [`Grid::rows`].
     ///
     /// ```
-    /// use asperity::{Exponential, Grid, Varying};
+    /// use asperity::adhesion::Varying;
+    /// use asperity::{Exponential, Grid};
     /// let grid = Grid::square(64, 1.0)?; // or a shared one
     /// let work = grid.sample(|x, y| 1e-5 * (1.0 + (x - y).powi(2)));
     /// let law = Varying::on(&grid, Exponential::new(1e-5, 2e-3)?, work.view())?;

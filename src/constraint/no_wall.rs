@@ -7,7 +7,7 @@ use crate::real::Real;
 /// [`Morse`](crate::Morse).
 ///
 /// Every gap is feasible at which the law is finite, and contact is where the law repels: at gaps below its
-/// [`rest`](crate::Hints::rest). There the contact pressure is the repulsion.
+/// [`rest`](crate::adhesion::Hints::rest). There the contact pressure is the repulsion.
 ///
 /// ```
 /// use asperity::{Control, Grid, Morse, NoWall, Problem, Settings, Solver, Surface, Westergaard};

@@ -6,37 +6,18 @@ use ndarray::{Array2, ArrayView2};
 
 use crate::elastic::Boundary;
 
-/// The connectivity of a map: which nodes are neighbours.
+/// The pieces of a periodic map that hang together: of neighbours whose cells share a side.
 ///
 /// ```
-/// use asperity::contact::{Clusters, Connectivity};
-/// let none = [false; 3];
-/// let map = ndarray::array![[true, false, false], [false, true, false], none, none];
-/// assert_eq!(Clusters::of(map.view(), Connectivity::Sides).sizes.len(), 2);
-/// assert_eq!(Clusters::of(map.view(), Connectivity::Corners).sizes.len(), 1);
-/// ```
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Connectivity {
-    /// The four whose cells share a side.
-    #[default]
-    Sides,
-    /// These and the four whose cells share a corner.
-    Corners,
-}
-
-/// The pieces of a periodic map that hang together.
-///
-/// ```
-/// use asperity::contact::{Clusters, Connectivity};
+/// use asperity::contact::Clusters;
 /// let map = ndarray::array![
 ///     [true, false, false, true],
 ///     [false, true, false, false],
 ///     [false, false, false, false],
 /// ];
-/// let clusters = Clusters::of(map.view(), Connectivity::Sides);
+/// let clusters = Clusters::of(map.view());
 /// assert_eq!(clusters.sizes, [2, 1]); // the upper corners are neighbours across the boundary
 /// assert_eq!((clusters.labels[[0, 3]], clusters.labels[[1, 1]], clusters.labels[[2, 2]]), (1, 2, 0));
-/// assert_eq!(Clusters::of(map.view(), Connectivity::Corners).sizes, [3]);
 /// ```
 #[non_exhaustive]
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -51,33 +32,29 @@ impl Clusters {
     /// The clusters of the nodes that are `true`, on a map whose opposite sides meet.
     ///
     /// Takes a few passes over the map. Memory per node: eight bytes, those of the labels.
-    pub fn of(map: ArrayView2<'_, bool>, connectivity: Connectivity) -> Self {
-        Self::within(map, connectivity, Boundary::Periodic)
+    pub fn of(map: ArrayView2<'_, bool>) -> Self {
+        Self::within(map, Boundary::Periodic)
     }
 
     /// The clusters of the nodes that are `true`, on a map whose opposite sides meet only if the boundary is periodic;
     /// otherwise as [`Clusters::of`].
     ///
     /// ```
-    /// use asperity::contact::{Clusters, Connectivity};
+    /// use asperity::contact::Clusters;
     /// use asperity::{Boussinesq, ElasticOperator, Grid};
     /// let map = ndarray::array![[true, false, true], [false, false, false]];
     /// let free = Boussinesq::<f64>::new(Grid::new((2, 3), (2.0, 3.0))?, 1.0)?.boundary();
-    /// assert_eq!(Clusters::within(map.view(), Connectivity::Sides, free).sizes, [1, 1]);
-    /// assert_eq!(Clusters::of(map.view(), Connectivity::Sides).sizes, [2]);
+    /// assert_eq!(Clusters::within(map.view(), free).sizes, [1, 1]);
+    /// assert_eq!(Clusters::of(map.view()).sizes, [2]);
     /// # Ok::<(), asperity::Error>(())
     /// ```
-    pub fn within(map: ArrayView2<'_, bool>, connectivity: Connectivity, boundary: Boundary) -> Self {
+    pub fn within(map: ArrayView2<'_, bool>, boundary: Boundary) -> Self {
         let periodic = boundary == Boundary::Periodic;
-        Self::meeting(map, connectivity, [periodic; 2])
+        Self::meeting(map, [periodic; 2])
     }
 
     /// The clusters on a map of which opposite sides along x, and along y, meet or do not.
-    pub(super) fn meeting(
-        map: ArrayView2<'_, bool>,
-        connectivity: Connectivity,
-        [meets_x, meets_y]: [bool; 2],
-    ) -> Self {
+    pub(super) fn meeting(map: ArrayView2<'_, bool>, [meets_x, meets_y]: [bool; 2]) -> Self {
         let (nx, ny) = map.dim();
         // each node's parent, which comes before it in its tree; nodes of no cluster have none
         let mut tree: Vec<usize> = map.iter().enumerate().map(|(k, &inside)| if inside { k } else { NONE }).collect();
@@ -87,22 +64,11 @@ impl Clusters {
                 if tree[i * ny + j] == NONE {
                     continue;
                 }
-                let (left, right) = ((j + ny - 1) % ny, (j + 1) % ny);
-                let [goes_down, goes_left, goes_right] =
-                    [i + 1 < nx || meets_x, j > 0 || meets_y, j + 1 < ny || meets_y];
-                if goes_right {
-                    unite(&mut tree, i * ny + j, i * ny + right);
+                if j + 1 < ny || meets_y {
+                    unite(&mut tree, i * ny + j, i * ny + (j + 1) % ny);
                 }
-                if goes_down {
+                if i + 1 < nx || meets_x {
                     unite(&mut tree, i * ny + j, below * ny + j);
-                }
-                if connectivity == Connectivity::Corners && goes_down {
-                    if goes_left {
-                        unite(&mut tree, i * ny + j, below * ny + left);
-                    }
-                    if goes_right {
-                        unite(&mut tree, i * ny + j, below * ny + right);
-                    }
                 }
             }
         }
@@ -160,71 +126,67 @@ pub(super) mod tests {
     }
 
     #[track_caller]
-    fn check(rows: &[&str], by_sides: &[usize], by_corners: &[usize]) {
+    fn check(rows: &[&str], sizes: &[usize]) {
         let map = map(rows);
-        for (connectivity, sizes) in [(Connectivity::Sides, by_sides), (Connectivity::Corners, by_corners)] {
-            let clusters = Clusters::of(map.view(), connectivity);
-            assert_eq!(clusters.sizes, sizes, "{connectivity:?}");
-            assert!(clusters.labels.iter().zip(&map).all(|(label, inside)| (*label > 0) == *inside));
-            for (k, &size) in sizes.iter().enumerate() {
-                assert_eq!(clusters.labels.iter().filter(|label| **label == k + 1).count(), size);
-            }
+        let clusters = Clusters::of(map.view());
+        assert_eq!(clusters.sizes, sizes);
+        assert!(clusters.labels.iter().zip(&map).all(|(label, inside)| (*label > 0) == *inside));
+        for (k, &size) in sizes.iter().enumerate() {
+            assert_eq!(clusters.labels.iter().filter(|label| **label == k + 1).count(), size);
         }
     }
 
     #[test]
     fn clusters_that_can_be_counted_by_hand() {
-        check(&["....", "....", "...."], &[], &[]);
-        check(&["####", "####", "####"], &[12], &[12]);
-        check(&["#....", ".....", "..##.", "....."], &[2, 1], &[2, 1]);
-        // corners alone hang together only where they count
-        check(&[".....", ".#...", "..#..", "....."], &[1, 1], &[2]);
-        check(&[".....", "..#..", ".#...", "....."], &[1, 1], &[2]);
+        check(&["....", "....", "...."], &[]);
+        check(&["####", "####", "####"], &[12]);
+        check(&["#....", ".....", "..##.", "....."], &[2, 1]);
+        // nodes that share a corner alone
+        check(&[".....", ".#...", "..#..", "....."], &[1, 1]);
+        check(&[".....", "..#..", ".#...", "....."], &[1, 1]);
         // a ring, a spiral, and a comb whose teeth meet late
-        check(&["......", ".####.", ".#..#.", ".####.", "......"], &[10], &[10]);
-        check(&[".......", ".#####.", ".....#.", ".###.#.", ".#...#.", ".#####.", "......."], &[17], &[17]);
-        check(&["........", ".#.#.#..", ".#.#.#..", ".#####..", "........"], &[11], &[11]);
+        check(&["......", ".####.", ".#..#.", ".####.", "......"], &[10]);
+        check(&[".......", ".#####.", ".....#.", ".###.#.", ".#...#.", ".#####.", "......."], &[17]);
+        check(&["........", ".#.#.#..", ".#.#.#..", ".#####..", "........"], &[11]);
     }
 
     #[test]
     fn clusters_go_across_the_boundaries() {
-        check(&["#..#", "....", "...."], &[2], &[2]);
-        check(&["#...", "....", "#..."], &[2], &[2]);
-        check(&["#..#", "....", "#..#"], &[4], &[4]);
+        check(&["#..#", "....", "...."], &[2]);
+        check(&["#...", "....", "#..."], &[2]);
+        check(&["#..#", "....", "#..#"], &[4]);
         // diagonally across a side, and across the corner
-        check(&[".....", "#....", "....#", "....."], &[1, 1], &[2]);
-        check(&["..#..", ".....", ".....", "...#."], &[1, 1], &[2]);
-        check(&["#....", ".....", ".....", "....#"], &[1, 1], &[2]);
-        check(&["....#", ".....", ".....", "#...."], &[1, 1], &[2]);
+        check(&[".....", "#....", "....#", "....."], &[1, 1]);
+        check(&["..#..", ".....", ".....", "...#."], &[1, 1]);
+        check(&["#....", ".....", ".....", "....#"], &[1, 1]);
+        check(&["....#", ".....", ".....", "#...."], &[1, 1]);
         // a band that closes on itself, and one that winds
-        check(&["....", "####", "...."], &[4], &[4]);
-        check(&["##..", ".##.", "..##", "#..#"], &[8], &[8]);
+        check(&["....", "####", "...."], &[4]);
+        check(&["##..", ".##.", "..##", "#..#"], &[8]);
     }
 
     #[test]
     fn clusters_of_lines_and_of_a_single_node() {
-        check(&["#.##.#"], &[2, 2], &[2, 2]);
-        check(&["#", ".", "#", "#"], &[3], &[3]);
-        check(&["#"], &[1], &[1]);
-        check(&["."], &[], &[]);
-        check(&["#.", ".#"], &[1, 1], &[2]);
-        assert!(Clusters::of(Array2::default((0, 3)).view(), Connectivity::Sides).sizes.is_empty());
+        check(&["#.##.#"], &[2, 2]);
+        check(&["#", ".", "#", "#"], &[3]);
+        check(&["#"], &[1]);
+        check(&["."], &[]);
+        check(&["#.", ".#"], &[1, 1]);
+        assert!(Clusters::of(Array2::default((0, 3)).view()).sizes.is_empty());
     }
 
     #[test]
     fn clusters_do_not_depend_on_where_the_cell_begins() {
         let (nx, ny) = (23, 31);
         let hash = |i: usize, j: usize| (i * 7919 + j * 104_729 + i * j * 31) % 97;
-        let sizes = |di: usize, dj: usize, connectivity| {
+        let sizes = |di: usize, dj: usize| {
             let map = Array2::from_shape_fn((nx, ny), |(i, j)| hash((i + di) % nx, (j + dj) % ny) < 48);
-            Clusters::of(map.view(), connectivity).sizes
+            Clusters::of(map.view()).sizes
         };
-        for connectivity in [Connectivity::Sides, Connectivity::Corners] {
-            let there = sizes(0, 0, connectivity);
-            assert!(there.len() > 1);
-            for shift in [(1, 0), (0, 1), (11, 17), (22, 30)] {
-                assert_eq!(sizes(shift.0, shift.1, connectivity), there);
-            }
+        let there = sizes(0, 0);
+        assert!(there.len() > 1);
+        for shift in [(1, 0), (0, 1), (11, 17), (22, 30)] {
+            assert_eq!(sizes(shift.0, shift.1), there);
         }
     }
 }

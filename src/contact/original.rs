@@ -2,7 +2,7 @@
 
 use ndarray::{Array2, ArrayView2, Axis, Slice};
 
-use super::{Clusters, Connectivity, ContactStatistics, contact_map};
+use super::{Clusters, ContactStatistics, contact_map};
 use crate::adhesion::AdhesionLaw;
 use crate::elastic::Boundary;
 use crate::error::{Error, Result};
@@ -16,7 +16,7 @@ use crate::solver::{Report, Solution};
 /// measured is a part of it. Gaps, pressures, energies per area and shares are the same on the original as on the
 /// whole, as far as the solution has the symmetry of the surface; numbers of nodes, forces, the perimeter and clusters
 /// are not. With adhesion a symmetric state may be unstable, and contact begin on one of the images alone:
-/// [`Warning::of_images`](crate::Warning::of_images) tells.
+/// [`Warning::of_images`](crate::warning::Warning::of_images) tells.
 ///
 /// ```
 /// use asperity::contact::Original;
@@ -167,7 +167,7 @@ impl Original {
         Ok(ContactStatistics {
             contact_nodes: number(&contact),
             perimeter: self.share() * whole.perimeter,
-            cluster_sizes: Clusters::meeting(contact.view(), Connectivity::Sides, [false; 2]).sizes,
+            cluster_sizes: Clusters::meeting(contact.view(), [false; 2]).sizes,
             ..whole
         })
     }

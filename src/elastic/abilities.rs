@@ -11,7 +11,8 @@ use crate::real::Real;
 /// An operator that wraps another one returns those of that one, with changes if it changes the operator:
 ///
 /// ```
-/// use asperity::{Abilities, ElasticOperator, Real};
+/// use asperity::elastic::Abilities;
+/// use asperity::{ElasticOperator, Real};
 /// fn without_single<T: Real>(operator: &mut impl ElasticOperator<T>) -> Abilities<'_, T> {
 ///     let mut abilities = operator.abilities();
 ///     abilities.single = false;

@@ -29,7 +29,8 @@ const DIMENSION: usize = 20;
 /// [`Error::Operator`] with the first property that does not hold; those of the operator itself.
 ///
 /// ```
-/// use asperity::{Grid, Westergaard, check_operator};
+/// use asperity::elastic::check_operator;
+/// use asperity::{Grid, Westergaard};
 /// check_operator(&mut Westergaard::<f64>::new(Grid::new((24, 15), (1.0, 0.7))?, 1.0)?)?;
 /// # Ok::<(), asperity::Error>(())
 /// ```

@@ -35,7 +35,7 @@ const LARGEST: usize = 1 << 16;
 /// in the basis 1, √2 cos q·x, √2 sin q·x, which is orthonormal. The matrix is symmetric and positive, and decomposed
 /// by Cholesky.
 ///
-/// An operator makes it ([`Waves::coarse_space`](crate::Waves::coarse_space)), the solver tells it where the contacts
+/// An operator makes it ([`Waves::coarse_space`](crate::elastic::Waves::coarse_space)), the solver tells it where the contacts
 /// are, and the operator uses it where it [preconditions](crate::ElasticOperator::precondition).
 #[derive(Clone, Debug)]
 pub struct CoarseSpace {

@@ -50,13 +50,3 @@ impl FlatPunch {
         if r > self.radius { 0.0 } else { load / (2.0 * PI * self.radius * (self.radius.powi(2) - r * r).sqrt()) }
     }
 }
-
-/// The displacement in the centre of a square of side 2b under a uniform pressure p: (8/π) ln(1 + √2) p b/E*.
-///
-/// ```
-/// let u = asperity::exact::square_centre(1.0, 0.5, 1.0);
-/// assert!((u - 1.1222).abs() < 1e-4);
-/// ```
-pub fn square_centre(pressure: f64, half_side: f64, modulus: f64) -> f64 {
-    8.0 / PI * (1.0 + 2.0_f64.sqrt()).ln() * pressure * half_side / modulus
-}

@@ -54,18 +54,18 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
             })
         });
         let mean_contact_pressure = total.sum[0] / self.posed.nodes();
-        let carried_pressure = mean_contact_pressure - self.sums.tally.traction / self.posed.nodes();
+        let net_pressure = mean_contact_pressure - self.sums.tally.traction / self.posed.nodes();
         let load_error = match self.posed.load {
             _ if self.sums.detached.is_some() => 1.0,
             Load::Gap(_) => 0.0,
-            _ => self.load_error().max(self.share_of_load(carried_pressure - mean)),
+            _ => self.load_error().max(self.share_of_load(net_pressure - mean)),
         };
         let modulus = self.posed.operators.state().modulus();
         let mu_rho = mu_rho(law, self.posed.operators.state().grid(), modulus);
         let facing = flat.window.as_ref().map_or(self.posed.nodes(), |window| window.facing() as f64);
         let (given, padding) = (self.sums.detached.unwrap_or(mean), flat.padding);
         // the mean of the displacement is no wave
-        let of_mean = 0.5 * flat.boundary.mean_compliance() * carried_pressure.powi(2);
+        let of_mean = 0.5 * flat.boundary.mean_compliance() * net_pressure.powi(2);
         let nominal = flat.window.as_ref().map_or(self.posed.nodes(), |window| window.grid().nodes() as f64);
         let mut report = Report {
             status: self.final_status(status, load_error),
@@ -84,7 +84,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
             mean_pressure: given * padding,
             normal_force: given * padding * flat.area,
             approach: flat.approach(self.mean_gap(), mean),
-            carried_pressure: carried_pressure * padding,
+            net_pressure: net_pressure * padding,
             mean_contact_pressure: mean_contact_pressure * padding,
             contact_fraction: self.sums.tally.contact / facing,
             contact_nodes: self.sums.tally.contact as usize,

@@ -105,7 +105,7 @@ pub struct Iteration {
     /// search of a state that holds a tension, the mean gap. The energy falls within a round.
     pub round: usize,
     /// Whether the solve is still on the way to its start, with the jumps of the law smoothed: then the energy and the
-    /// error are those of the smoothed law. See [`Discretisation::Smooth`](crate::Discretisation::Smooth).
+    /// error are those of the smoothed law. See [`Discretisation::Smooth`](crate::adhesion::Discretisation::Smooth).
     pub smoothed: bool,
 }
 
@@ -139,10 +139,10 @@ pub struct Report {
     /// that equilibrium is stable. As long as no node is in contact, ⟨h, K⁻¹h⟩ stands for a smaller ⟨u, p⟩, which may
     /// vanish then. Without a wall ([`NoWall`](crate::NoWall)) the nodes that the law holds resist with its slope
     /// κ = max(φ'', 0), and the norm is that of K⁻¹ + κ: in the place of √⟨r', K r'⟩ there is
-    /// √⟨s r', K s r'⟩ + √⟨(1 − s)² r'²/κ⟩, which bounds the distance in it, with the share s = (1 + κ/k)⁻² of a node in
-    /// the waves, k being 0.4 times the stiffness of the shortest wave, and with r' less its mean weighted by s² where
-    /// the mean gap is given. Under the lightest loads ⟨u, p⟩ is computed as ⟨p, K p⟩, which does not cancel, and the error is
-    /// never less than the rounding of the pressure alone makes it, so that it is not understated.
+    /// √⟨s r', K s r'⟩ + √⟨(1 − s)² r'²/κ⟩, which bounds the distance in it, with the share s = (1 + κ/k)⁻² of a node
+    /// in the waves, k being 0.4 times the stiffness of the shortest wave, and with r' less its mean weighted by s²
+    /// where the mean gap is given. Under the lightest loads ⟨u, p⟩ is computed as ⟨p, K p⟩, which does not cancel, and
+    /// the error is never less than the rounding of the pressure alone makes it, so that it is not understated.
     pub relative_error: f64,
     /// The branch of equilibria on which the solve has started; nothing without adhesion, where there is but one
     /// equilibrium, from a given start, and of [`Method::Rey2017`].
@@ -166,7 +166,7 @@ pub struct Report {
     pub modulus: f64,
     /// The control: the load that was held.
     pub control: Control,
-    /// The wall, by the name of [`Wall::name`](crate::Wall::name).
+    /// The wall, by the name of [`Wall::name`](crate::constraint::Wall::name).
     #[cfg_attr(feature = "serde", serde(deserialize_with = "named"))]
     pub wall: Name,
     /// The work of adhesion w of the law, the largest where it varies; zero without adhesion.
@@ -184,7 +184,7 @@ pub struct Report {
     /// The mean pressure that the returned fields carry, ⟨λ⟩ − ⟨φ'⟩. Under pressure control the solve was asked for
     /// [`mean_pressure`](Self::mean_pressure), and where it has converged this is the same to the tolerance; of
     /// surfaces that were [`Detached`](Status::Detached) it is the remaining part of the load.
-    pub carried_pressure: f64,
+    pub net_pressure: f64,
     /// The mean contact (repulsive) pressure, the paper's q₀.
     pub mean_contact_pressure: f64,
     /// The share of nodes in contact, as [`Solution::contact_map`] says, among those that are not absent.
@@ -243,7 +243,7 @@ fn named<'de, D: serde::Deserializer<'de>>(from: D) -> std::result::Result<Name,
 /// which has control, wall, boundary and contact modulus.
 ///
 /// [`ContactStatistics`](crate::contact::ContactStatistics), [`StabilityTest`](crate::stability::StabilityTest),
-/// [`ContactStiffness`](crate::stability::ContactStiffness) and [`Warning`](crate::Warning) take them from here. The
+/// [`ContactStiffness`](crate::stability::ContactStiffness) and [`Warning`](crate::warning::Warning) take them from here. The
 /// adhesion law belongs to the problem: what needs its traction takes the law, and refuses one of another work of
 /// adhesion.
 ///

@@ -41,7 +41,7 @@ pub enum Start<'a, T> {
     /// [`Settings::branch`](crate::Settings::branch) names: the gap that the wall alone would leave, which is found
     /// first, within the same solve, or full contact, and at a given mean gap a uniform one. If the traction of the law
     /// jumps, as that of [`MaugisDugdale`](crate::MaugisDugdale) does, the equilibrium of the law with its jump
-    /// [smoothed](crate::Discretisation::Smooth) is found next and becomes the start, within the same solve.
+    /// [smoothed](crate::adhesion::Discretisation::Smooth) is found next and becomes the start, within the same solve.
     #[default]
     Default,
     /// A gap, as that of an equilibrium at another load. With adhesion it chooses the branch of the equilibrium that is
@@ -165,7 +165,8 @@ pub(crate) fn check_wall<T: Real>(law: &dyn AdhesionLaw<T>, wall: Wall<'_, T>) -
         ),
         Wall::Rigid | Wall::Springs(_) if !law.energy(T::zero()).is_finite() => (
             "a wall at zero gap",
-            "the adhesion law has no bound there: solve it without a wall (NoWall), or cut it at its gap of rest",
+            "the adhesion law has no bound there: solve it without a wall (NoWall), or cut it at its equilibrium \
+             separation",
         ),
         _ => return Ok(()),
     };

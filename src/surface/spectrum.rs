@@ -150,31 +150,6 @@ impl Spectrum {
         rings.psd(cell)
     }
 
-    /// The power spectral density of profiles along x, the mean over all of them.
-    ///
-    /// The density is C(qx) = Σ|ĥ(qx, qy)|² Lx/2π, summed over qy, a length³, so that ⟨h²⟩ = ∫C dqx from −∞ to ∞. The
-    /// first entry, at qx = 0, holds how much the mean height differs from profile to profile.
-    pub fn profile_psd_x(&self) -> Psd {
-        let mut sums = vec![0.0; self.grid.shape().0];
-        for (ky, row) in self.powers.outer_iter().enumerate() {
-            sums.iter_mut().zip(row).for_each(|(sum, power)| *sum += self.weight(ky) as f64 * power);
-        }
-        let mut rings = Rings::default();
-        for (kx, sum) in sums.iter().enumerate() {
-            rings.add(kx.min(sums.len() - kx), self.grid.wave_number_x(kx).abs(), *sum, 1);
-        }
-        rings.psd(TAU / self.grid.lengths().0)
-    }
-
-    /// The power spectral density of profiles along y, as [`profile_psd_x`](Self::profile_psd_x) along x.
-    pub fn profile_psd_y(&self) -> Psd {
-        let mut rings = Rings::default();
-        for (ky, row) in self.powers.outer_iter().enumerate() {
-            rings.add(ky, self.grid.wave_number_y(ky), row.sum(), self.weight(ky));
-        }
-        rings.psd(TAU / self.grid.lengths().1)
-    }
-
     /// The autocorrelation R(Δx) = ⟨h(x) h(x + Δx)⟩ about the mean height, of shape (Nx, Ny).
     ///
     /// The lag of an element is its coordinate on the grid: Δx = 0, where R = ⟨h²⟩, is at the node `(Nx / 2, Ny / 2)`.

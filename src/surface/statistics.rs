@@ -39,7 +39,7 @@ pub struct SurfaceStatistics {
     pub rms_curvature: f64,
     /// The same from second differences, (h(x + Δx) − 2h(x) + h(x − Δx))/Δx² and likewise along y.
     pub rms_curvature_differences: f64,
-    /// Nayak's parameter α = m₀m₄/m₂², from the spectrum; see [`Spectrum::nayak`](crate::Spectrum::nayak).
+    /// Nayak's parameter α = m₀m₄/m₂², from the spectrum; see [`Spectrum::nayak`](crate::surface::Spectrum::nayak).
     pub nayak: f64,
 }
 

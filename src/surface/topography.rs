@@ -37,7 +37,8 @@ pub use trend::{Fit, Trend};
 /// out of their sums, but for `fill`, which gives them values, and `window` and `resample`, which refuse them.
 ///
 /// ```
-/// use asperity::{Topography, Trend};
+/// use asperity::surface::Trend;
+/// use asperity::Topography;
 /// use ndarray::Array2;
 ///
 /// // tilted, with a hole

@@ -2,10 +2,10 @@
 
 use std::fmt;
 
-/// The code of a [`Warning`](crate::Warning).
+/// The code of a [`Warning`](crate::warning::Warning).
 ///
 /// ```
-/// use asperity::WarningCode;
+/// use asperity::warning::WarningCode;
 /// assert_eq!(WarningCode::OpenEdges.to_string(), "open-edges");
 /// ```
 #[non_exhaustive]

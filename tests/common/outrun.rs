@@ -1,6 +1,7 @@
 //! An exponential law that is evaluated at negative gaps, as it stands.
 
-use asperity::{AdhesionLaw, ContactConstraint, Exponential, Grid, Result, Springs, Update, Wall};
+use asperity::constraint::{Springs, Update, Wall};
+use asperity::{AdhesionLaw, ContactConstraint, Exponential, Grid, Result};
 use ndarray::ArrayView2;
 
 /// Another constraint, with what an exponential law adds to its tangent where the surfaces interpenetrate: the energy

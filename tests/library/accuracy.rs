@@ -5,6 +5,7 @@ use std::f64::consts::TAU;
 use asperity::accuracy::{Accuracy, AccurateSolution, GridError, Quantity};
 use asperity::contact::ContactArea;
 use asperity::exact::WavyLine;
+use asperity::nested::Level;
 use asperity::*;
 
 fn half_space(grid: Grid) -> Result<Westergaard<f64>> {

@@ -1,5 +1,6 @@
 //! Which equilibrium is found where adhesion has several: the largest by loading, the smallest by unloading.
 
+use asperity::adhesion::{Hints, Values};
 use asperity::*;
 use ndarray::Array2;
 

@@ -8,6 +8,7 @@ use crate::common::outrun::Outrun;
 use crate::common::scenes::{Features, Kind, Precision, Scene};
 use crate::common::{energy_norms, rough, solve, sphere};
 use approx::assert_relative_eq;
+use asperity::constraint::{Springs, Wall, check_constraint};
 use asperity::*;
 
 fn with<T: Real, C: ContactConstraint<T>, L: AdhesionLaw<T>>(

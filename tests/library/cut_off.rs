@@ -1,5 +1,6 @@
 //! Laws that end at a distance keep their work of adhesion.
 
+use asperity::adhesion::{CutOff, Hints, Varying, check_law};
 use asperity::*;
 use ndarray::Array2;
 

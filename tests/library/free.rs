@@ -4,9 +4,11 @@ use std::f64::consts::PI;
 use std::ops::ControlFlow;
 
 use asperity::contact::{ContactStatistics, PressureDistribution};
+use asperity::elastic::check_operator;
 use asperity::exact::{self, Cone, EllipticHertz, FlatPunch, Hertz, Sphere};
 use asperity::path::{Event, Path, PathSettings};
 use asperity::stability::{StabilityTest, Verdict};
+use asperity::warning::{Warning, WarningCode};
 use asperity::*;
 use ndarray::Array2;
 
@@ -116,7 +118,7 @@ fn a_uniform_pressure_on_a_square_displaces_its_centre_as_love_says() {
         let mut u = load.clone();
         operator.displacement(load.view(), u.view_mut()).unwrap();
         let centre = u[[n / 2, n / 2]] + mean_compliance * load.mean().unwrap();
-        assert!((centre / exact::square_centre(1.0, 1.0, 1.0) - 1.0).abs() < 1e-13);
+        assert!((centre / (8.0 / std::f64::consts::PI * (1.0 + 2.0_f64.sqrt()).ln()) - 1.0).abs() < 1e-13);
     }
 }
 
@@ -164,7 +166,7 @@ fn contact_without_adhesion_is_that_of_the_dense_matrix_under_every_control() {
                 assert!((report.normal_force / force - 1.0).abs() < 1e-6, "{control:?}");
                 assert!((report.approach.unwrap() / approach - 1.0).abs() < 1e-6, "{control:?}");
                 assert!((report.mean_pressure * area / force - 1.0).abs() < 1e-6);
-                assert!((report.carried_pressure / report.mean_pressure - 1.0).abs() < 1e-6);
+                assert!((report.net_pressure / report.mean_pressure - 1.0).abs() < 1e-6);
                 assert_eq!(report.absent_nodes, faces.iter().filter(|faces| !**faces).count());
                 let energy = 0.5 * cell / area
                     * love.displacement(&expected).iter().zip(&expected).map(|(u, p)| u * p).sum::<f64>();
@@ -562,10 +564,10 @@ fn a_tension_beyond_the_pull_off_detaches_and_one_below_it_holds() {
     let pull_off = -exact::MaugisDugdale::new(2.0, 1.0, work, range).unwrap().pull_off().load();
     let mut problem = problem(&sphere(32, 0.24), MaugisDugdale::new(work, range).unwrap());
     let held = solve(&mut problem, Control::Force(-0.9 * pull_off), 1e-6).report;
-    assert!(held.contact_nodes > 0 && (held.carried_pressure / held.mean_pressure - 1.0).abs() < 1e-5);
+    assert!(held.contact_nodes > 0 && (held.net_pressure / held.mean_pressure - 1.0).abs() < 1e-5);
     let lost = Solver::default().solve(&mut problem, Control::Force(-1.1 * pull_off)).unwrap().report;
     assert_eq!((lost.status, lost.contact_nodes, lost.reaches_edge), (Status::Detached, 0, false));
-    assert!((lost.normal_force / pull_off + 1.1).abs() < 1e-12 && lost.carried_pressure.abs() < 1e-3 * pull_off);
+    assert!((lost.normal_force / pull_off + 1.1).abs() < 1e-12 && lost.net_pressure.abs() < 1e-3 * pull_off);
     // a search for a hold at a few mean gaps, and none where the law itself holds less
     assert!(lost.operator_applications < 350, "{}", lost.operator_applications);
     let strongest = work / range * 0.24 * 0.24;

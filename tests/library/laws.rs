@@ -1,5 +1,6 @@
 //! Adhesion laws: those that repel by themselves, those that vary over the surface, and their costs.
 
+use asperity::adhesion::{CutOff, Hints, Values, Varying, check_law};
 use asperity::stability::{StabilityTest, Verdict};
 use asperity::*;
 use ndarray::Array2;
@@ -175,7 +176,7 @@ fn soft_walls_agree_with_a_dense_minimiser() {
             let repelled = solution.gap.iter().filter(|&&g| g < rest).count();
             assert_eq!(report.contact_nodes, repelled);
             assert_eq!(solution.contact_map().iter().filter(|&&c| c).count(), repelled);
-            assert!((report.carried_pressure - load).abs() < 1e-8);
+            assert!((report.net_pressure - load).abs() < 1e-8);
             assert!(rest == 0.0 || report.min_gap > 0.0);
             // at the same mean gap it is the same state
             let mut by_gap = without_wall(1e-9);

@@ -1,6 +1,7 @@
 //! Nested grids: they find what the finest grid alone finds, with less work, and need no more memory.
 
 use crate::common::rough;
+use asperity::nested::NestedSolution;
 use asperity::*;
 
 type Law<T> = Box<dyn AdhesionLaw<T>>;

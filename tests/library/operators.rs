@@ -6,6 +6,7 @@ mod layer;
 use std::f64::consts::{PI, TAU};
 
 use approx::assert_relative_eq;
+use asperity::elastic::{Foundation, Waves, check_operator};
 use asperity::*;
 use ndarray::{Array2, ArrayView2, ArrayViewMut2};
 use proptest::prelude::*;

@@ -3,7 +3,8 @@
 use std::f64::consts::{PI, TAU};
 
 use approx::assert_relative_eq;
-use asperity::{Amplitude, Error, Grid, Psd, SelfAffine, Spectrum, Surface, Topography};
+use asperity::surface::{Psd, Spectrum};
+use asperity::{Amplitude, Error, Grid, SelfAffine, Surface, Topography};
 
 /// A surface of which a quick test resolves all waves.
 fn short(seed: u64) -> SelfAffine {
@@ -217,7 +218,7 @@ fn amplitudes_and_heights_are_gaussian() {
     for seed in 0..200 {
         let s = short(seed).amplitude(Amplitude::RmsHeight(1.0));
         let s = s.surface(Grid::square(42, 1.0).unwrap()).unwrap();
-        let (h, side) = (s.heights()[[21, 21]], s.spectrum().profile_psd_x().total());
+        let (h, side) = (s.heights()[[21, 21]], s.spectrum().radial_psd().total());
         assert_relative_eq!(side, 1.0, max_relative = 1e-12);
         sums[0] += h / 200.0;
         sums[1] += h * h / 200.0;
@@ -355,9 +356,7 @@ fn statistics_of_waves_are_closed_sums() {
         }
         assert_relative_eq!(found.nayak, expected[0] * expected[2] / expected[1].powi(2), max_relative = 1e-9);
 
-        for psd in [spectrum.radial_psd(), spectrum.profile_psd_x(), spectrum.profile_psd_y()] {
-            assert_relative_eq!(psd.total(), sum(&|_, _| 1.0), max_relative = 1e-9);
-        }
+        assert_relative_eq!(spectrum.radial_psd().total(), sum(&|_, _| 1.0), max_relative = 1e-9);
         let autocorrelation = spectrum.autocorrelation();
         for ((i, j), r) in autocorrelation.indexed_iter() {
             let expected = sum(&|x, y| (x * grid.x(i) + y * grid.y(j)).cos());
@@ -392,13 +391,6 @@ fn densities_of_single_waves() {
     // half of the variance to each sign
     let half = 0.25 * 0.01;
     let (qx, qy) = (TAU * 4.0 / 2.0, TAU * 5.0 / 3.0);
-    for (psd, q, density) in
-        [(spectrum.profile_psd_x(), qx, half / (TAU / 2.0)), (spectrum.profile_psd_y(), qy, half / (TAU / 3.0))]
-    {
-        let at = psd.wave_numbers.iter().position(|found| (found - q).abs() < 1e-9).unwrap();
-        assert_relative_eq!(psd.densities[at], density, max_relative = 1e-12);
-        assert!(psd.densities.iter().enumerate().all(|(i, d)| i == at || *d < 1e-20));
-    }
     let radial = spectrum.radial_psd();
     let total: usize = radial.waves.iter().sum();
     assert_eq!(total, 30 * 40 - 1);
@@ -440,11 +432,7 @@ fn flat_surfaces_and_single_nodes_have_statistics() {
         assert_eq!((found.rms_slope, found.rms_slope_differences), (0.0, 0.0));
         assert_eq!((found.rms_curvature, found.rms_curvature_differences), (0.0, 0.0));
         assert!(found.nayak.is_nan() && found.skewness.is_nan() && found.kurtosis.is_nan());
-        for psd in
-            [surface.spectrum().radial_psd(), surface.spectrum().profile_psd_x(), surface.spectrum().profile_psd_y()]
-        {
-            assert_eq!(psd.total(), 0.0);
-        }
+        assert_eq!(surface.spectrum().radial_psd().total(), 0.0);
         assert!(surface.spectrum().autocorrelation().iter().all(|r| *r == 0.0));
     }
 }

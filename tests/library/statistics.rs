@@ -3,6 +3,7 @@
 use std::f64::consts::PI;
 
 use crate::common::{rough, sphere};
+use asperity::adhesion::Varying;
 use asperity::contact::{ContactArea, ContactStatistics, PressureDistribution};
 use asperity::exact::{self, Periodic};
 use asperity::*;

@@ -321,7 +321,7 @@ fn the_matrices_notice_what_is_wrong() {
         for (noticed, (_, wrong)) in noticed.iter_mut().zip(wrongs) {
             let mut solution = solution.clone();
             wrong(&mut solution);
-            let judge = Judge::new(&scene, &solution, asperity::Wall::Rigid, problem.operator());
+            let judge = Judge::new(&scene, &solution, asperity::constraint::Wall::Rigid, problem.operator());
             *noticed += usize::from(judge.all().is_err());
         }
     }

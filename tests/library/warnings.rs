@@ -1,6 +1,8 @@
 //! Tests of the warnings.
 
 use asperity::contact::ContactStatistics;
+use asperity::surface::{ScanAxis, Trend};
+use asperity::warning::{Warning, WarningCode};
 use asperity::*;
 use ndarray::Array2;
 

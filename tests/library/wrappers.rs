@@ -2,6 +2,7 @@
 
 use std::sync::{Arc, Mutex};
 
+use asperity::adhesion::{CutOff, Discretisation, Hints, Values, Varying, check_law};
 use asperity::*;
 use ndarray::Array2;
 

@@ -5,6 +5,8 @@
 use std::fmt::Debug;
 use std::ops::ControlFlow;
 
+use asperity::adhesion::Varying;
+use asperity::elastic::{Foundation, check_operator};
 use asperity::ndarray::{Array2, Axis, Slice};
 use asperity::*;
 

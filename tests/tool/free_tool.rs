@@ -35,7 +35,7 @@ fn a_sphere_under_a_force_has_the_approach_of_hertz() {
     // the next term of a sphere beyond a paraboloid is a²/4R², and the nodes are a sixth of the radius apart
     assert!((number(&solved["approach"]) / (radius * radius / 2.0) - 1.0).abs() < 0.02, "{solved}");
     assert_eq!((&solved["boundary"], &solved["control"]), (&"free".into(), &"normal-force".into()));
-    assert!(number(&solved["edge_traction"]) < 1e-3 && solved["absent_points"] == 0, "{solved}");
+    assert!(number(&solved["edge_traction"]) < 1e-3 && solved["absent_nodes"] == 0, "{solved}");
     assert!((number(&solved["normal_force"]) / 5e-3 - 1.0).abs() < 1e-9, "{solved}");
 
     // held by its approach, or by a spring, it is the same state
@@ -53,11 +53,11 @@ fn a_sphere_under_a_force_has_the_approach_of_hertz() {
 fn a_punch_has_absent_nodes_and_its_gap_is_a_start() {
     let bench = Bench::new();
     let made = bench.reported("surface --form flat-punch --radius 0.3 --size 48 --out punch.npz");
-    let absent = number(&made["absent_points"]);
+    let absent = number(&made["absent_nodes"]);
     assert!((1.0 - absent / 48.0_f64.powi(2) - PI * 0.09).abs() < 0.02, "{made}");
     let solve = "solve --heights punch.npz --boundary free --absent-missing --approach 0.01 --no-pictures";
     let solved = bench.reported(&format!("{solve} --out a"));
-    assert_eq!(number(&solved["absent_points"]), absent);
+    assert_eq!(number(&solved["absent_nodes"]), absent);
     assert_eq!(solved["warnings"], Value::Array(Vec::new()));
     // F = 2aE*δ, to the width of a node on 15
     assert!((number(&solved["normal_force"]) / (2.0 * 0.3 * 0.01) - 1.0).abs() < 0.05, "{solved}");

@@ -44,7 +44,7 @@ fn every_law_solves_and_is_in_report_and_scene() {
         assert_eq!(report["status"], "converged", "{law}");
         assert_eq!(report["law"], law.split(' ').next().unwrap());
         assert_eq!(report["wall"], if law.contains("none") { "none" } else { "hard" });
-        assert!(report["carried_pressure"].as_f64().is_some_and(|p| (p - 1e-3).abs() < 1e-6), "{law}: {report}");
+        assert!(report["net_pressure"].as_f64().is_some_and(|p| (p - 1e-3).abs() < 1e-6), "{law}: {report}");
         assert_eq!(report["mu_rho_node"].is_null(), !law.contains("map"));
         // the scene repeats it, byte for byte
         let said = bench.said(&format!("run {number}/scene.toml --out again --force --quiet"));
@@ -110,7 +110,7 @@ fn laws_that_lack_something_or_have_too_much_are_refused() {
         ),
         (
             format!("lennard-jones {w} {range} --wall none --cut-off 0.008"),
-            ["cut-off distance is 0.008", "gap of rest"],
+            ["cut-off distance is 0.008", "equilibrium separation"],
         ),
         (format!("exponential {w} {range} --wall none"), ["does not repel", "--wall hard"]),
         (format!("exponential {w} {range} --work-of-adhesion-map works.txt"), ["every node", "leave one of them out"]),

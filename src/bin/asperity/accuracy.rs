@@ -4,7 +4,8 @@ use std::time::Instant;
 
 use asperity::accuracy::{Accuracy, GridError, Plan, Quantity};
 use asperity::io::available_memory;
-use asperity::{ElasticOperator, Level, Real, Report, Result, Solver};
+use asperity::nested::Level;
+use asperity::{ElasticOperator, Real, Report, Result, Solver};
 use clap::{Args, ValueEnum};
 use ndarray::Array2;
 use serde_json::{Map, Value, json};

@@ -3,10 +3,11 @@
 use std::fmt;
 use std::path::{Path, PathBuf};
 
+use asperity::adhesion::{CutOff, Varying};
 use asperity::io::read_field;
 use asperity::{
-    AdhesionLaw, ContactConstraint, CutOff, Error, Exponential, Grid, LennardJones, MaugisDugdale, Morse, NoAdhesion,
-    NoWall, PowerLaw, Projection, Real, Tabulated, Varying,
+    AdhesionLaw, ContactConstraint, Error, Exponential, Grid, LennardJones, MaugisDugdale, Morse, NoAdhesion, NoWall,
+    PowerLaw, Projection, Real, Tabulated,
 };
 use clap::{Args, ValueEnum};
 use ndarray::Array2;
@@ -83,7 +84,7 @@ pub enum Wall {
 }
 
 impl<T: Real> ContactConstraint<T> for Wall {
-    fn wall(&self) -> asperity::Wall<'_, T> {
+    fn wall(&self) -> asperity::constraint::Wall<'_, T> {
         match self {
             Self::Hard => Projection.wall(),
             Self::None => NoWall.wall(),
@@ -169,7 +170,7 @@ impl Law {
             ],
             Self::LennardJones => [
                 "traction 8W/(3 RHO) (x^3 - x^9), x = RHO/g; with --wall hard, x = RHO/(RHO + g)",
-                "--work-of-adhesion W, --range RHO, the distance of rest",
+                "--work-of-adhesion W, --range RHO, the equilibrium separation",
                 "Greenwood, Proc. R. Soc. A 453 (1997); Yu and Polycarpou, J. Tribol. 126 (2004)",
             ],
             Self::Morse => [
@@ -350,7 +351,8 @@ impl Adhesion<'_> {
         self.works.as_ref().map(|works| works.strongest)
     }
 
-    /// The same on the first of the processes that share the grid, with the whole of the map, and nothing on the others.
+    /// The same on the first of the processes that share the grid, with the whole of the map, and nothing on the
+    /// others.
     pub fn gathered(&self) -> Option<Self> {
         let works = self.works.as_ref().map(Works::gathered);
         let Self { options, law, table, .. } = self;

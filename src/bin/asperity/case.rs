@@ -6,10 +6,11 @@ use std::time::Instant;
 
 use asperity::accuracy::{Accuracy, AccurateSolution, GridError};
 use asperity::contact::ContactStatistics;
+use asperity::nested::{Level, NestedSolution};
+use asperity::search::FoundContact;
 use asperity::stability::{ContactStiffness, Departure, Stability, StabilityTest, Verdict};
 use asperity::{
-    AdhesionLaw, ContactSearch, Control, FoundContact, Iteration, Level, Nested, NestedSolution, Problem, Report,
-    Settings, Solution, Solver, Start, Surface,
+    AdhesionLaw, ContactSearch, Control, Iteration, Nested, Problem, Report, Settings, Solution, Solver, Start, Surface,
 };
 use ndarray::Array2;
 use serde_json::Value;
@@ -99,7 +100,7 @@ pub struct Other {
     pub same: bool,
 }
 
-/// The search for the load of a contact fraction; see [`asperity::FoundContact`].
+/// The search for the load of a contact fraction; see [`asperity::search::FoundContact`].
 pub struct Search {
     pub wanted: f64,
     pub reached: bool,

@@ -27,7 +27,7 @@ pub fn identity(
         "shape": pair(grid.shape().0.to_string(), grid.shape().1.to_string()),
         "heights": field(surface.heights()),
         "lengths": pair(grid.lengths().0.to_string(), grid.lengths().1.to_string()),
-        "absent_points": surface.absent().map_or("none".to_owned(), |absent| field(&absent.mapv(f64::from))),
+        "absent_nodes": surface.absent().map_or("none".to_owned(), |absent| field(&absent.mapv(f64::from))),
         "boundary": options.beyond.boundary.to_string(),
         "modulus": options.modulus().to_string(),
         "law": adhesion.law.to_string(),

@@ -2,8 +2,9 @@
 
 use std::path::PathBuf;
 
+use asperity::AdhesionLaw;
+use asperity::adhesion::Hints;
 use asperity::picture::{Chart, Format};
-use asperity::{AdhesionLaw, Hints};
 use clap::{Args, ValueEnum};
 
 use crate::adhesion::{AdhesionOptions, Law};

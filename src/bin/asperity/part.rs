@@ -3,7 +3,8 @@
 use std::borrow::Cow;
 
 use asperity::contact::{ContactStatistics, Original};
-use asperity::{AdhesionLaw, Control, Grid, Real, Result, Solution, Warning};
+use asperity::warning::Warning;
+use asperity::{AdhesionLaw, Control, Grid, Real, Result, Solution};
 use ndarray::Array2;
 
 use crate::boundary::Boundary;

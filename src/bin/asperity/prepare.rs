@@ -2,8 +2,10 @@
 
 use std::path::{Path, PathBuf};
 
+use asperity::Topography;
 use asperity::io::{read_channel, read_topography, write_topography};
-use asperity::{Form, FormFit, RowAlignment, ScanAxis, Topography, Trend, Warning, WarningCode};
+use asperity::surface::{Form, FormFit, RowAlignment, ScanAxis, Trend};
+use asperity::warning::{Warning, WarningCode};
 use clap::{Args, ValueEnum};
 use serde_json::json;
 

@@ -3,7 +3,8 @@
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
-use asperity::{Spectrum, Surface, SurfaceStatistics, Topography};
+use asperity::surface::{Spectrum, SurfaceStatistics};
+use asperity::{Surface, Topography};
 use clap::Args;
 use serde_json::{Map, Value, json};
 

@@ -60,7 +60,7 @@ pub fn table(names: &[&str], solves: &[&Account], adhesive: bool, units: &Units,
             r.edge_traction.map_or(String::new(), |share| format!("{} %", percent(share)))
         });
     }
-    row("carried pressure", &|_, r| units.number(r.carried_pressure, PRESSURE));
+    row("net pressure", &|_, r| units.number(r.net_pressure, PRESSURE));
     row("mean contact pressure", &|_, r| units.number(r.mean_contact_pressure, PRESSURE));
     row("least pressure", &|s, _| units.number(s.pressures.0, PRESSURE));
     row("greatest pressure", &|s, _| units.number(s.pressures.1, PRESSURE));

@@ -183,7 +183,7 @@ pub fn run(options: &Options, scene: &Scene) -> Outcome<bool> {
         };
         let made = json!({
             "form": options.body.form.to_string(),
-            "absent_points": absent,
+            "absent_nodes": absent,
             "hurst": rough.map(|rough| rough.hurst),
             "k_l": rough.map(|rough| rough.k_l),
             "k_r": rough.map(|rough| rough.k_r),

@@ -134,9 +134,7 @@ pub fn dimension_of(name: &str, control: &str, on_line: bool) -> Option<Dimensio
     Some(match (name, control) {
         ("mean_gap" | "min_gap" | "approach" | "range" | "cut_off" | "lengths", _) => LENGTH,
         ("perimeter", _) if !on_line => LENGTH,
-        ("mean_pressure" | "carried_pressure" | "mean_contact_pressure" | "min_pressure" | "max_pressure", _) => {
-            PRESSURE
-        }
+        ("mean_pressure" | "net_pressure" | "mean_contact_pressure" | "min_pressure" | "max_pressure", _) => PRESSURE,
         ("modulus" | "from_pressure" | "to_pressure", _) => PRESSURE,
         ("density", _) => PER_PRESSURE,
         ("normal_force", _) => FORCE,

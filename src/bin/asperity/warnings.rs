@@ -3,7 +3,8 @@
 use std::path::{Path, PathBuf};
 use std::{fmt, fs, io};
 
-use asperity::{Error, Solution, Surface, Topography, Warning, WarningCode};
+use asperity::warning::{Warning, WarningCode};
+use asperity::{Error, Solution, Surface, Topography};
 use clap::Args;
 use serde_json::{Value, json};
 

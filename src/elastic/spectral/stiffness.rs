@@ -265,7 +265,7 @@ pub(super) fn stiffen<T: Real>(stiffness: T) -> [T; 3] {
 }
 
 /// Divides by the stiffness and `shift` times the softest, and multiplies the mean by `mean`; the sums are those of
-/// [`Preconditioned`](crate::Preconditioned).
+/// [`Preconditioned`](crate::elastic::Preconditioned).
 pub(super) fn soften<T: Real>(
     (stiffness, softest): (&Stiffness<T>, f64),
     k: usize,

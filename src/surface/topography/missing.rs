@@ -9,7 +9,7 @@ impl Topography {
     /// Takes the heights that are equal to `code`, to the rounding of `f32`, for missing: they become NaN.
     ///
     /// Instruments write a value as −9999 or 32767 where they found no height.
-    /// [`Warning::of_topography`](crate::Warning::of_topography) says which value of a map looks like one.
+    /// [`Warning::of_topography`](crate::warning::Warning::of_topography) says which value of a map looks like one.
     ///
     /// ```
     /// use asperity::Topography;

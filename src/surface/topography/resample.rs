@@ -4,6 +4,8 @@ use asperity_fft::num_complex::Complex;
 use ndarray::{Array2, Zip};
 
 use super::Topography;
+#[cfg(doc)]
+use crate::error::Error;
 use crate::error::Result;
 use crate::field::all_finite;
 

@@ -90,7 +90,8 @@ impl Topography {
     /// [`fit`](Self::fit).
     ///
     /// ```
-    /// use asperity::{Topography, Trend};
+    /// use asperity::surface::Trend;
+    /// use asperity::Topography;
     /// let heights = ndarray::Array2::from_shape_fn((9, 7), |(i, j)| 5.0 + 0.5 * i as f64 - 2.0 * j as f64);
     /// let plane = Topography::new(heights);
     /// let tilt = plane.fit(Trend::Plane)?;

@@ -1,5 +1,5 @@
-//! What a dense matrix says of a solution: its fields and figures, its certificate, its load, the equilibrium next to it
-//! and whether that is stable.
+//! What a dense matrix says of a solution: its fields and figures, its certificate, its load, the equilibrium next to
+//! it and whether that is stable.
 
 use std::result::Result;
 
@@ -51,7 +51,7 @@ impl<'a, T: Real> Judge<'a, T> {
     pub fn new(
         scene: &'a Scene,
         solution: &'a Solution<T>,
-        wall: asperity::Wall<'_, T>,
+        wall: asperity::constraint::Wall<'_, T>,
         operator: &dyn ElasticOperator<T>,
     ) -> Self {
         let (dense, heights, report) = (scene.dense(), scene.centred(), &solution.report);
@@ -68,7 +68,7 @@ impl<'a, T: Real> Judge<'a, T> {
         let tractions: Vec<f64> =
             faces().map(|(&i, &g)| scene.law.share(i) * law.traction(within(g)).widen()).collect();
         let springs = match wall {
-            asperity::Wall::Springs(springs) => {
+            asperity::constraint::Wall::Springs(springs) => {
                 faces().map(|(&i, &g)| springs.traction(i, T::lit(g)).widen()).collect()
             }
             _ => vec![0.0; gap.len()],
@@ -78,15 +78,12 @@ impl<'a, T: Real> Judge<'a, T> {
         let length = largest(&heights).max(largest(&gap));
         let rounding = ROUNDINGS
             * epsilon
-            * (nodes.sqrt() * stiffest * length
-                + report.carried_pressure.abs()
-                + largest(&tractions)
-                + largest(&springs));
+            * (nodes.sqrt() * stiffest * length + report.net_pressure.abs() + largest(&tractions) + largest(&springs));
         let noise = if softest > 0.0 { rounding / softest.sqrt() } else { 0.0 };
         // a rigid shift is no wave: its energy is not in the scale
         let padding = nodes / dense.nodes as f64;
         let of_mean = match report.boundary {
-            Boundary::Free { mean_compliance, .. } => mean_compliance * report.carried_pressure.powi(2) / padding,
+            Boundary::Free { mean_compliance, .. } => mean_compliance * report.net_pressure.powi(2) / padding,
             _ => 0.0,
         };
         let work = 2.0 * report.elastic_energy - of_mean;
@@ -188,7 +185,7 @@ impl<'a, T: Real> Judge<'a, T> {
         // without a wall the law is both
         let carried = if scene.constraint == Constraint::None { -self.mean(&self.tractions) } else { carried };
         let allowed = sums * terms + self.of_law(sums * scene.law.work / scene.law.range);
-        close("carried pressure", report.carried_pressure, carried, allowed)
+        close("net pressure", report.net_pressure, carried, allowed)
     }
 
     /// That what is held is held.
@@ -363,7 +360,7 @@ impl<'a, T: Real> Judge<'a, T> {
         let magnitude =
             self.mean(&self.contact).max(self.mean(&self.tractions.iter().map(|t| t.abs()).collect::<Vec<_>>()));
         let allowed = 1.01 * tolerance * size + ROUNDINGS * Self::epsilon() * magnitude + self.load_noise();
-        close("carried load", report.carried_pressure, report.mean_pressure, allowed)
+        close("carried load", report.net_pressure, report.mean_pressure, allowed)
     }
 
     /// The nodes that may move.
@@ -463,8 +460,8 @@ impl<'a, T: Real> Judge<'a, T> {
         if step.len() == free.len() { dense.work(&step).sqrt() } else { 0.0 }
     }
 
-    /// That the verdicts on the stability are those of the pivots of the second derivative: under the control, and under
-    /// the pressure that holds a given mean gap. Which they are.
+    /// That the verdicts on the stability are those of the pivots of the second derivative: under the control, and
+    /// under the pressure that holds a given mean gap. Which they are.
     pub fn stability<O, L, C>(&self, problem: &mut Problem<T, O, L>, constraint: &C) -> Result<Vec<Verdict>, String>
     where
         O: ElasticOperator<T>,

@@ -1,7 +1,8 @@
 //! The report of a solve: what it found, by the keys of `report.json`.
 
 use asperity::contact::Patch;
-use asperity::{Branch, Control, Level};
+use asperity::nested::Level;
+use asperity::{Branch, Control};
 use serde_json::{Value, json};
 
 use super::Options;
@@ -44,11 +45,11 @@ impl Options {
             "normal_force": report.normal_force,
             "approach": report.approach,
             "spring_stiffness": spring_stiffness(report.control),
-            "carried_pressure": report.carried_pressure,
+            "net_pressure": report.net_pressure,
             "mean_contact_pressure": report.mean_contact_pressure,
             "contact_fraction": report.contact_fraction,
             "contact_nodes": report.contact_nodes,
-            "absent_points": report.absent_nodes,
+            "absent_nodes": report.absent_nodes,
             "edge_traction": report.edge_traction,
             "corrected_contact_fraction": account.contact.corrected_contact_fraction,
             "perimeter": account.contact.perimeter,
