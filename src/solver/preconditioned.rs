@@ -19,9 +19,6 @@ const WHOLE: f64 = 0.7;
 /// The best length, as a share of a clipped step, below which a shorter step is tried.
 const SHORT: f64 = 0.01;
 
-/// A trial length below which a step that fails is tried anew at full length.
-const SHORTEST: f64 = 1e-2;
-
 /// The longest step, in trial lengths: the mean gap has no elastic curvature that would limit it.
 const FARTHEST: f64 = 10.0;
 
@@ -89,7 +86,7 @@ impl<T: Real, L: Real> State<'_, T, L> {
         if self.try_step()? {
             return Ok(true);
         }
-        if length >= SHORTEST || self.is_at_floor() {
+        if length >= 1.0 || self.is_at_floor() {
             return Ok(false);
         }
         // a step shorter than the last digit of the gaps changes nothing: begin anew at full length
