@@ -19,9 +19,6 @@ const WHOLE: f64 = 0.7;
 /// The best length, as a share of a clipped step, below which a shorter step is tried.
 const SHORT: f64 = 0.01;
 
-/// A trial length below which a step that fails is tried anew at full length.
-const SHORTEST: f64 = 1e-2;
-
 /// The longest step, in trial lengths: the mean gap has no elastic curvature that would limit it.
 const FARTHEST: f64 = 10.0;
 
@@ -88,7 +85,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         }
         let length = self.steps.step_length;
         let left = self.try_step()?;
-        if left.is_some() || length >= SHORTEST || self.is_at_floor() {
+        if left.is_some() || length >= 1.0 || self.is_at_floor() {
             return Ok(left);
         }
         // a step shorter than the last digit of the gaps changes nothing: begin anew at full length

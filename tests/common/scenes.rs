@@ -6,7 +6,7 @@ use std::f64::consts::TAU;
 use std::fmt;
 
 use asperity::adhesion::{CutOff, Varying};
-use asperity::elastic::{Abilities, CoarseSpace, Foundation, Preconditioned};
+use asperity::elastic::{Abilities, Foundation, Preconditioned};
 use asperity::*;
 use ndarray::{Array2, ArrayView2, ArrayViewMut2};
 use rand::rngs::ChaCha8Rng;

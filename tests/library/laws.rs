@@ -1,6 +1,6 @@
 //! Adhesion laws: those that repel by themselves, those that vary over the surface, and their costs.
 
-use asperity::adhesion::{CutOff, Hints, Values, Varying, check_law};
+use asperity::adhesion::{CutOff, Hints, Values, Varying};
 use asperity::stability::{StabilityTest, Verdict};
 use asperity::*;
 use ndarray::Array2;

@@ -339,6 +339,38 @@ fn random_scenes_agree_with_dense_matrices_and_end_as_they_should() {
     Account::of(0..885).check();
 }
 
+/// Scenes that a constant of the driver decides: how they end with it, and iterations that are enough. Without it they
+/// end otherwise, or take about twice as many.
+const DECIDED: &[(&str, End, &[(u64, usize)])] = &[
+    ("SHORT", End::Converged, &[(3367, 40), (3622, 30), (4822, 40)]),
+    ("FARTHEST", End::Converged, &[(658, 40), (4939, 14), (1771, 24)]),
+    ("HELD", End::Converged, &[(1232, 100), (2471, 60), (4939, 14)]),
+    ("CLOSER", End::Converged, &[(4049, 60), (4246, 100), (4424, 30)]),
+    ("HARDLY of a start", End::Converged, &[(773, 40), (802, 40), (2731, 25)]),
+    ("HARDLY of a tension", End::Converged, &[(2363, 200), (3074, 170), (4999, 90)]),
+    ("RISE", End::Detached, &[(1111, 90), (2745, 50), (3171, 70)]),
+    ("REFRESH", End::Converged, &[(1329, 200), (3282, 300), (3498, 200)]),
+    ("ROUNDINGS", End::Converged, &[(3869, 80), (4703, 60)]),
+    ("HOLD", End::Converged, &[(1585, 70), (2410, 80), (3881, 75)]),
+    ("STALL, the first", End::Converged, &[(656, 200), (1688, 190)]),
+    ("STALL, the second", End::Stalled, &[(843, 200), (2090, 220), (2548, 110)]),
+    ("CERTIFY", End::Converged, &[(1160, 20), (1337, 20), (1691, 20)]),
+    ("STALL_REY2017", End::Converged, &[(1336, 250), (2576, 400)]),
+    // the trial at full length after one that failed
+    ("preconditioned_step", End::Converged, &[(523, 200), (660, 200), (3726, 50)]),
+];
+
+#[test]
+fn a_constant_decides_scenes() {
+    for &(constant, end, scenes) in DECIDED {
+        for &(seed, enough) in scenes {
+            let judged = judge(&Scene::new(seed)).unwrap();
+            let found = (judged.end, judged.iterations);
+            assert!(found.0 == end && found.1 <= enough, "{constant}, {seed}: {found:?}");
+        }
+    }
+}
+
 #[test]
 #[ignore = "some minutes; see above"]
 fn all_scenes() {
