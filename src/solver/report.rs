@@ -162,7 +162,7 @@ pub struct Report {
     /// The boundary of the elastic body.
     pub boundary: Boundary,
     /// The contact modulus E* of the elastic body,
-    /// [`ElasticOperator::modulus`](crate::ElasticOperator::modulus).
+    /// [`ElasticOperator::modulus`].
     pub modulus: f64,
     /// The control: the load that was held.
     pub control: Control,
