@@ -192,7 +192,7 @@ impl Surface {
             Boundary::Free { .. } => mirrored(whole).map_or(0.0, |surface| surface.spectrum().nodes_per_wave()),
         };
         // the first of several processes looks at the whole for all of them
-        self.grid().slab().first(self.gathered().map_or(0.0, |whole| of(&whole)))
+        self.grid().first(self.gathered().map_or(0.0, |whole| of(&whole)))
     }
 }
 

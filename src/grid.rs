@@ -137,10 +137,11 @@ impl Grid {
     }
 
     /// The whole of a field on every process. All of them have to ask.
-    pub(crate) fn whole<'a, A: Sent>(&self, field: &'a ArrayRef2<A>) -> CowArray<'a, A, Ix2> {
-        match self.is_shared().then(|| self.slab.whole_of(field, true)).flatten() {
+    pub(crate) fn whole<'a, A: Sent>(&self, field: impl Into<CowArray<'a, A, Ix2>>) -> CowArray<'a, A, Ix2> {
+        let field = field.into();
+        match self.is_shared().then(|| self.slab.whole_of(&field, true)).flatten() {
             Some(whole) => whole.into(),
-            None => field.view().into(),
+            None => field,
         }
     }
 
@@ -157,6 +158,11 @@ impl Grid {
     /// Whether something is so for one of the processes that share the grid. All of them have to ask.
     pub(crate) fn has(&self, own: bool) -> bool {
         self.slab.has(own)
+    }
+
+    /// The number of the first of the processes that share the grid. All of them have to ask.
+    pub(crate) fn first(&self, own: f64) -> f64 {
+        self.slab.first(own)
     }
 
     /// The largest of the numbers of the processes that share the grid. All of them have to ask.

@@ -6,8 +6,6 @@ use std::f64::consts::TAU;
 use ndarray::{Array2, Axis, Slice};
 
 use crate::error::{Error, Result};
-use crate::field;
-use crate::field::all_finite_in;
 use crate::grid::Grid;
 
 mod philox;
@@ -51,8 +49,8 @@ impl Surface {
     /// # Errors
     /// [`Error::Shape`] if they do not fit the grid, [`Error::NotFinite`] with the number and place of missing points.
     pub fn new(grid: Grid, heights: Array2<f64>) -> Result<Self> {
-        grid.slab().agreed(Error::shape("heights", heights.dim(), grid.field_shape()))?;
-        all_finite_in(grid.slab(), "heights", heights.view())?;
+        grid.fits("heights", heights.dim())?;
+        grid.finite("heights", heights.view())?;
         let heights = if heights.is_standard_layout() { heights } else { heights.as_standard_layout().into_owned() };
         Ok(Self { grid, heights, absent: None })
     }
@@ -79,30 +77,26 @@ impl Surface {
     /// [`Error::Shape`] if the heights do not fit the grid, [`Error::NotFinite`] with the number and place of infinite
     /// ones, [`Error::Value`] if all nodes are absent.
     pub fn with_absent(grid: Grid, heights: Array2<f64>) -> Result<Self> {
-        let slab = grid.slab();
-        slab.agreed(Error::shape("heights", heights.dim(), grid.field_shape()))?;
+        grid.fits("heights", heights.dim())?;
         let missing = heights.iter().filter(|h| h.is_nan()).count();
         let all_missing = grid.total(missing);
         if all_missing == 0 {
             return Self::new(grid, heights);
         }
-        if slab.has(heights.iter().any(|h| h.is_infinite())) {
-            all_finite_in(slab, "heights", heights.mapv(|h| if h.is_nan() { 0.0 } else { h }).view())?;
+        if grid.has(heights.iter().any(|h| h.is_infinite())) {
+            grid.finite("heights", heights.mapv(|h| if h.is_nan() { 0.0 } else { h }).view())?;
         }
-        let absent = Array2::from_shape_vec(slab.held(), heights.iter().map(|h| h.is_nan()).collect()).ok();
+        let absent = Array2::from_shape_vec(grid.field_shape(), heights.iter().map(|h| h.is_nan()).collect()).ok();
         if all_missing == grid.nodes() {
             let requirement = "at least 1: all nodes are absent";
             return Err(Error::Value { name: "number of nodes with a surface", value: 0.0, requirement });
         }
         // holes are filled as on the whole map, by every process
-        let whole = if slab.is_shared() { slab.whole_of(&heights, true).unwrap_or_default() } else { heights };
-        let mut map = Topography::new(whole);
+        let mut map = Topography::new(grid.whole(heights).into_owned());
         map.lengths = Some(grid.lengths());
-        let mut filled = map.fill()?.heights;
-        if slab.is_shared() {
-            filled = filled.slice_axis(Axis(0), Slice::from(slab.rows())).to_owned();
-        }
-        Ok(Self { absent, ..Self::new(grid, filled)? })
+        let filled = map.fill()?.heights;
+        let held = filled.slice_axis(Axis(0), Slice::from(grid.rows())).to_owned();
+        Ok(Self { absent, ..Self::new(grid, held)? })
     }
 
     /// A surface from a function of the coordinates, `(x, y) → h`.
@@ -176,11 +170,8 @@ impl Surface {
         if !self.grid.is_shared() {
             return Some(Cow::Borrowed(self));
         }
-        let slab = self.grid.slab();
-        let heights = slab.whole_of(&self.heights, everywhere);
-        let flags = |absent: &Array2<bool>| absent.mapv(f64::from);
-        let absent = self.absent.as_ref().and_then(|absent| slab.whole_of(&flags(absent), everywhere));
-        let absent = absent.map(|flags| flags.mapv(|absent| absent > 0.0));
+        let heights = self.grid.slab().whole_of(&self.heights, everywhere);
+        let absent = self.absent.as_ref().and_then(|absent| self.grid.slab().whole_of(absent, everywhere));
         Some(Cow::Owned(Self { grid: self.grid.alone(), heights: heights?, absent }))
     }
 
@@ -204,9 +195,8 @@ impl Surface {
 
     /// A height, the first one, and how far the mean is above it: that is not rounded to the digits of a large datum.
     pub(crate) fn datum_and_mean(&self) -> [f64; 2] {
-        let slab = self.grid.slab();
-        let datum = slab.first(self.heights.first().copied().unwrap_or_default());
-        [datum, field::mean_over(slab, self.heights.view(), |h| h - datum)]
+        let datum = self.grid.first(self.heights.first().copied().unwrap_or_default());
+        [datum, self.grid.mean(self.heights.view(), |h| h - datum)]
     }
 
     /// The root mean square of the heights about their mean.
@@ -216,7 +206,7 @@ impl Surface {
 
     /// The root mean square of the heights about a datum.
     pub(crate) fn rms_about(&self, datum: f64) -> f64 {
-        field::mean_over(self.grid.slab(), self.heights.view(), |h| (h - datum).powi(2)).sqrt()
+        self.grid.mean(self.heights.view(), |h| (h - datum).powi(2)).sqrt()
     }
 }
 

@@ -161,8 +161,7 @@ pub struct Report {
     pub operator_applications: usize,
     /// The boundary of the elastic body.
     pub boundary: Boundary,
-    /// The contact modulus E* of the elastic body,
-    /// [`ElasticOperator::modulus`](crate::ElasticOperator::modulus).
+    /// The contact modulus E* of the elastic body, [`ElasticOperator::modulus`].
     pub modulus: f64,
     /// The control: the load that was held.
     pub control: Control,
@@ -343,7 +342,8 @@ impl<T: Real> Solution<T> {
             ("side length Ly of the solution", own.1, grid.lengths().1),
             ("contact modulus of the solution", self.report.modulus, problem.operator.modulus()),
         ];
-        if let Some((name, value, _)) = figures.into_iter().find(|(_, found, expected)| found != expected) {
+        let other = |(_, found, expected): &(_, f64, f64)| found.total_cmp(expected).is_ne();
+        if let Some((name, value, _)) = figures.into_iter().find(other) {
             return Err(Error::Value { name, value, requirement: "the same as of the problem" });
         }
         if self.report.wall != wall {
