@@ -266,7 +266,7 @@ fn figure5(out: &Path, surface: &Surface) -> Outcome<()> {
         unit: Some("L"),
         ..Map::new(surface.heights().view(), grid, Colouring::Sequential)
     };
-    Ok(map.draw(DPI)?.write(&out.join("figure5.png"))?)
+    Ok(map.draw(DPI)?.write(out.join("figure5.png"))?)
 }
 
 /// Figures 6 and 7 of one solution.
@@ -289,7 +289,7 @@ fn maps(out: &Path, file: &str, title: &str, grid: Grid, solution: &Solution<f64
         unit: Some("E*"),
         ..Map::new(pressure.view(), grid, Colouring::Diverging)
     };
-    map.draw(DPI)?.write(&out.join(format!("figure6-{file}.png")))?;
+    map.draw(DPI)?.write(out.join(format!("figure6-{file}.png")))?;
 
     let found = ContactStatistics::of(solution, law)?;
     let regions = solution.regions(law)?.mapv(f64::from);
@@ -304,7 +304,7 @@ fn maps(out: &Path, file: &str, title: &str, grid: Grid, solution: &Solution<f64
         length_unit: Some("L"),
         ..Map::new(regions.view(), grid, Colouring::Contact)
     };
-    Ok(map.draw(DPI)?.write(&out.join(format!("figure7-{file}.png")))?)
+    Ok(map.draw(DPI)?.write(out.join(format!("figure7-{file}.png")))?)
 }
 
 /// Which of the two loads is meant.

@@ -27,6 +27,7 @@ use ndarray::{Array2, AsArray, Axis, Ix2, Slice};
 use ndarray_npy::WritableElement;
 
 use crate::error::{Error, Result};
+use crate::slab::SMALL;
 use crate::surface::Topography;
 use gsf::{GSF, read_gsf, write_gsf};
 use gwy::{GWY, read_gwy};
@@ -95,7 +96,7 @@ fn reserve<T>(values: &mut Vec<T>, more: usize) -> Parsed<()> {
 
 /// Refuses more bytes than the machine has, or gives to this process.
 fn check_room(bytes: usize) -> Parsed<()> {
-    let given = || Vec::<u8>::new().try_reserve_exact(bytes).is_ok();
+    let given = || bytes as f64 <= SMALL || Vec::<u8>::new().try_reserve_exact(bytes).is_ok();
     if is_there(bytes as f64) && given() { Ok(()) } else { Err(Refusal::Memory(bytes)) }
 }
 

@@ -15,6 +15,9 @@ pub(crate) const CHUNK: usize = 256;
 /// Rows that are transformed together.
 pub(crate) const TILE: usize = 32;
 
+/// The memory that any program may take, in bytes: 64 MiB. Less is not asked for first.
+pub(crate) const SMALL: f64 = 67_108_864.0;
+
 /// The nodes of a band at least, and the most bands of a grid.
 const BAND: usize = CHUNK * CHUNK;
 const BANDS: usize = 1024;
@@ -143,8 +146,9 @@ impl Slab {
     pub(crate) fn afford(&self, what: &str, bytes_per_node: usize) -> Result<()> {
         let ((nx, ny), (rows, _)) = (self.shape, self.held());
         let bytes = rows as f64 * ny as f64 * bytes_per_node as f64;
-        let given = Vec::<u8>::new().try_reserve_exact(bytes as usize);
-        self.agreed(given.map_err(|_| Error::Memory { what: format!("{what} on {nx} x {ny} nodes"), bytes }))
+        let given = bytes <= SMALL || Vec::<u8>::new().try_reserve_exact(bytes as usize).is_ok();
+        let refused = || Error::Memory { what: format!("{what} on {nx} x {ny} nodes"), bytes };
+        self.agreed(given.then_some(()).ok_or_else(refused))
     }
 
     /// The rows that this process holds.

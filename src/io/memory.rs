@@ -3,9 +3,7 @@
 use std::fs;
 
 use crate::error::{Error, Result};
-
-/// The memory that any program may take, in bytes: 64 MiB.
-const SMALL: f64 = 67_108_864.0;
+use crate::slab::SMALL;
 
 /// The free memory of the machine, in bytes; infinite where the system does not tell it.
 ///

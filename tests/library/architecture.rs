@@ -15,8 +15,8 @@ fn layers() -> HashMap<String, usize> {
 /// The modules that the page says are public.
 fn public() -> Vec<String> {
     let page = include_str!("../../src/guide/architecture.md");
-    let named = page.split("has a public module:\n").nth(1).and_then(|rest| rest.lines().next()).unwrap();
-    named.trim_end_matches('.').split(", ").map(|name| name.trim_matches('`').to_owned()).collect()
+    let named = page.split("has a public module:\n").nth(1).and_then(|rest| rest.split(".\n").next()).unwrap();
+    named.split(',').map(|name| name.trim().trim_matches('`').to_owned()).collect()
 }
 
 fn sources(folder: &Path, into: &mut Vec<PathBuf>) {

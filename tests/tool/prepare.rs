@@ -323,7 +323,7 @@ fn files_of_others_have_their_heights_where_they_belong() {
         ("gwyddion.txt", 1e-9, Some((2e-6, 3e-6)), Some("m")),
         ("map.xyz", 1.0, Some((2.0, 3.0)), None),
     ] {
-        let map = read_topography(&corpus(name)).unwrap();
+        let map = read_topography(corpus(name)).unwrap();
         assert_eq!((map.heights.dim(), map.missing(), map.unit.as_deref()), ((4, 3), 1, unit), "{name}");
         assert!(map.heights.is_standard_layout());
         for ((i, j), h) in map.heights.indexed_iter() {

@@ -125,7 +125,7 @@ fn statistics_of_text_and_of_flat_maps() {
     assert!((numbers(&said, "rms slope")[0] - 0.5_f64.sqrt() * TAU / 4.0).abs() < 1e-6, "{said}");
     assert_eq!((numbers(&said, "  by differences")[0], numbers(&said, "mean height")[0]), (1.0, 0.0), "{said}");
     write_npy(
-        &bench.0.path().join("flat.npy"),
+        bench.0.path().join("flat.npy"),
         Surface::from_fn(Grid::square(4, 1.0).unwrap(), |_, _| 2.0).unwrap().heights(),
     )
     .unwrap();

@@ -56,7 +56,7 @@ impl Bench {
     }
 
     fn field(&self, out: &str, name: &str) -> Array2<f64> {
-        read_field(&self.0.path().join(out).join(name)).unwrap()
+        read_field(self.0.path().join(out).join(name)).unwrap()
     }
 
     /// The names of all files in a folder, hidden ones too.

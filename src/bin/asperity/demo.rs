@@ -107,7 +107,7 @@ pub fn run(options: &Options) -> Outcome<bool> {
     let folder = OutputFolder::create(out, &names, true)?;
     let draw = || {
         let path = |what: &str| folder.path(&format!("{what}{ending}"));
-        draw_heights(grid, &heights, dpi)?.write(&path("heights"))?;
+        draw_heights(grid, &heights, dpi)?.write(path("heights"))?;
         write_npy(folder.path("heights.npy"), &heights)?;
         write_text(&folder.path(scene::NAME), &scene.text(out))?;
         // a law of no work is no adhesion
@@ -116,11 +116,11 @@ pub fn run(options: &Options) -> Outcome<bool> {
             let path = |what: &str| path(&format!("{what}-{}", name.replace(' ', "-")));
             let regions = solution.regions(law)?.mapv(f64::from);
             let contact = pictures::draw_regions(grid, &format!("Contact {name}"), &units, &regions, dpi)?;
-            contact.write(&path("contact"))?;
+            contact.write(path("contact"))?;
             let (caption, title) = (format!("mean {}", si(PRESSURE, "Pa")), format!("Pressure {name}"));
             let pressure = pictures::pressure_to_draw(solution, AdhesionLaw::<f64>::hints(law).work_of_adhesion > 0.0);
             let pressure = pictures::draw_pressure(grid, (&title, &caption), &units, pressure, None, dpi)?;
-            pressure.write(&path("pressure"))?;
+            pressure.write(path("pressure"))?;
         }
         Ok(())
     };

@@ -451,10 +451,10 @@ impl Job<'_> {
         let named = FIELDS.into_iter().zip(fields).chain(mode.as_ref().map(|mode| (MODE, mode)));
         let named: Vec<_> = named.map(|(name, field)| (name.trim_end_matches(".npy"), field.view())).collect();
         if self.options.writes(Format::Npz) {
-            write_npz(&path(NPZ), &shown, &named)?;
+            write_npz(path(NPZ), &shown, &named)?;
         }
         if self.options.writes(Format::Vti) {
-            write_vti(&path(VTI), &shown, &named)?;
+            write_vti(path(VTI), &shown, &named)?;
         }
         if let Some(bins) = self.options.distribution {
             let found = PressureDistribution::of_contact_pressure(solution, bins)?;
@@ -464,11 +464,11 @@ impl Job<'_> {
             let (Options { picture_format, resolution: Resolution { dpi }, .. }, units) = (self.options, &self.units);
             let [contact_name, pressure_name] = picture_format.of(PICTURES);
             let regions = self.part.of_field(whole.regions(law)?)?.mapv(f64::from);
-            pictures::draw_regions(shown, "Contact", units, &regions, *dpi)?.write(&path(contact_name))?;
+            pictures::draw_regions(shown, "Contact", units, &regions, *dpi)?.write(path(contact_name))?;
             let pressure = pictures::pressure_to_draw(solution, self.options.adhesion.law != Law::None);
             let limits = self.options.colour_limits();
             let picture = pictures::draw_pressure(shown, ("Pressure", ""), units, pressure, limits, *dpi)?;
-            picture.write(&path(pressure_name))?;
+            picture.write(path(pressure_name))?;
         }
         Ok(())
     }
