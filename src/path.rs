@@ -13,15 +13,13 @@ use crate::elastic::{Boundary, ElasticOperator};
 use crate::error::{Error, Result};
 use crate::problem::{Control, Parts, Problem, smoothed_law};
 use crate::real::Real;
-use crate::solver::{
-    Begin, Iteration, Least, Observer, Potential, Solution, Solved, Solver, Start, Status, check_wall, extrapolated,
-    refuse_springs,
-};
+use crate::solver::{Begin, Iteration, Observer, Solution, Solved, Solver, Start, Status, check_wall, refuse_springs};
 use crate::stability::Watch;
 
 mod account;
 mod event;
 mod place;
+mod prediction;
 mod quadrature;
 mod saddle;
 mod settings;
@@ -80,22 +78,18 @@ pub use step::{PathCheckpoint, PathStep};
 /// With adhesion, therefore, the smallest eigenvalue of the energy's second derivative is watched, over the changes
 /// of the gap that vanish where the surfaces touch and have no mean, as in a
 /// [`StabilityTest`](crate::stability::StabilityTest) at the given mean gap. Where the softest stiffness and the least
-/// φ'' show that it is positive, that takes nothing. Elsewhere it takes some five operator applications a state: an
-/// iteration or two from the mode of the state before, to which a little of a random field (the same in every path) is
-/// added, so that no symmetry holds the mode back. A step to a saddle is taken back and halved, as one that jumps is;
-/// at [`PathSettings::smallest_step`] the state is moved along the mode by a tenth of the range of adhesion, and the
-/// minimisation goes on from there, to a state that is no saddle. Of the two ways along the mode it takes that on which
-/// the gap closes at the first of the nodes where the mode is largest.
+/// φ'' do not prove it positive, that takes some five operator applications a state. A step to a saddle is taken back
+/// and halved, as one that jumps is; at [`PathSettings::smallest_step`] the state is moved along the mode by a tenth of
+/// the range of adhesion, on the way on which the gap closes at the first of the nodes where the mode is largest, and
+/// the minimisation goes on from there, to a state that is no saddle.
 ///
 /// Its [`Event`] is a bifurcation, with the eigenvalue and the energy that it dissipates. Where the branch came to
 /// that place along the mode itself, as at a limit point, it is a jump like any other. Under a given pressure a
-/// bifurcation is met at the mean gap that belongs to it, and the path goes on at given mean gaps, as from a limit
-/// point.
+/// bifurcation is met at the mean gap that belongs to it, and the path goes on at given mean gaps.
 ///
 /// A stretch of saddles that is shorter than a step may be passed unnoticed: more [`steps`](PathSettings::steps) find
-/// shorter ones, as there are where nodes leave the contact one by one. A saddle from which no minimum was found is
-/// followed, and left at the next state from which there is one. The first state is left without an event if it is a
-/// saddle.
+/// shorter ones. A saddle from which no minimum was found is followed, and left at the next state from which there is
+/// one. The first state is left without an event if it is a saddle.
 ///
 /// # Going on
 ///
@@ -140,12 +134,6 @@ const RETRIES: usize = 3;
 
 /// The roundings that the sums of the energy may have.
 const ROUNDINGS: f64 = 8.0;
-
-/// The number of gaps at which a law without a wall is asked whether it bears a pressure.
-const CLOSEST: usize = 64;
-
-/// The farthest extrapolation of the last step, in steps.
-const FARTHEST: f64 = 2.0;
 
 impl<'a, T, O, L, C> Path<'a, T, O, L, C>
 where
@@ -392,41 +380,6 @@ where
         }
         self.gaps.push(gap);
         Ok(Some(self.step(solution, event)))
-    }
-
-    /// The least gaps after a step.
-    fn least(&self) -> Least<T> {
-        Potential::new(&self.problem.law, &self.solver.constraint, None).least()
-    }
-
-    /// The mean gap to which surfaces are pressed together where a branch under a pressure breaks off: zero at a wall,
-    /// and otherwise one at which the law alone repels flats by more than that pressure.
-    fn closest(&self, pressure: f64) -> f64 {
-        let law = &self.problem.law;
-        if self.solver.constraint.wall().is_rigid() {
-            return 0.0;
-        }
-        let hints = law.hints();
-        let (rest, range) = (hints.rest.unwrap_or_else(T::zero), hints.range);
-        let bounded = law.energy(T::zero()).is_finite();
-        let closer = |gap: &T| Some(if bounded { *gap - range } else { T::lit(0.5) * *gap });
-        let gaps = std::iter::successors(Some(rest), closer).take(CLOSEST);
-        let mut gaps = gaps.skip_while(|&gap| -law.traction(gap).widen() <= pressure);
-        gaps.next().map_or(rest.widen(), T::widen)
-    }
-
-    /// The gap at `target`, extrapolated from the last two gaps.
-    fn predict(&self, target: f64) -> Array2<T> {
-        match &self.gaps[..] {
-            [before, last] => {
-                let steps = self.state.extrapolation(target).clamp(-FARTHEST, FARTHEST);
-                let steps = if steps.is_finite() { steps } else { 0.0 };
-                let on = (self.problem.flat.window.as_ref(), *self.problem.operator.grid());
-                extrapolated([before, last], steps, self.least(), on)
-            }
-            [.., last] => last.clone(),
-            [] => Array2::zeros(self.problem.operator.grid().field_shape()),
-        }
     }
 
     fn step(&self, solution: Solution<T>, event: Option<Event>) -> PathStep<T> {

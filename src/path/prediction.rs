@@ -1,0 +1,59 @@
+//! The gap from which the next state of a path is sought.
+
+use ndarray::Array2;
+
+use super::Path;
+use crate::adhesion::AdhesionLaw;
+use crate::constraint::ContactConstraint;
+use crate::elastic::ElasticOperator;
+use crate::real::Real;
+use crate::solver::{Least, Potential, extrapolated};
+
+/// The number of gaps at which a law without a wall is asked whether it bears a pressure.
+const CLOSEST: usize = 64;
+
+/// The farthest extrapolation of the last step, in steps.
+const FARTHEST: f64 = 2.0;
+
+impl<T, O, L, C> Path<'_, T, O, L, C>
+where
+    T: Real,
+    O: ElasticOperator<T>,
+    L: AdhesionLaw<T>,
+    C: ContactConstraint<T>,
+{
+    /// The least gaps after a step.
+    pub(super) fn least(&self) -> Least<T> {
+        Potential::new(&self.problem.law, &self.solver.constraint, None).least()
+    }
+
+    /// The mean gap to which surfaces are pressed together where a branch under a pressure breaks off: zero at a wall,
+    /// and otherwise one at which the law alone repels flats by more than that pressure.
+    pub(super) fn closest(&self, pressure: f64) -> f64 {
+        let law = &self.problem.law;
+        if self.solver.constraint.wall().is_rigid() {
+            return 0.0;
+        }
+        let hints = law.hints();
+        let (rest, range) = (hints.rest.unwrap_or_else(T::zero), hints.range);
+        let bounded = law.energy(T::zero()).is_finite();
+        let closer = |gap: &T| Some(if bounded { *gap - range } else { T::lit(0.5) * *gap });
+        let gaps = std::iter::successors(Some(rest), closer).take(CLOSEST);
+        let mut gaps = gaps.skip_while(|&gap| -law.traction(gap).widen() <= pressure);
+        gaps.next().map_or(rest.widen(), T::widen)
+    }
+
+    /// The gap at `target`, extrapolated from the last two gaps.
+    pub(super) fn predict(&self, target: f64) -> Array2<T> {
+        match &self.gaps[..] {
+            [before, last] => {
+                let steps = self.state.extrapolation(target).clamp(-FARTHEST, FARTHEST);
+                let steps = if steps.is_finite() { steps } else { 0.0 };
+                let on = (self.problem.flat.window.as_ref(), *self.problem.operator.grid());
+                extrapolated([before, last], steps, self.least(), on)
+            }
+            [.., last] => last.clone(),
+            [] => Array2::zeros(self.problem.operator.grid().field_shape()),
+        }
+    }
+}

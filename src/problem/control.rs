@@ -1,0 +1,119 @@
+//! What is held fixed: the control that a user gives, and the load that it is on an operator's grid.
+
+/// The control: what is held fixed while the energy is minimised.
+///
+/// | control | periodic | free | what follows |
+/// |---|---|---|---|
+/// | [`MeanGap`](Self::MeanGap) | yes | no | the pressure |
+/// | [`MeanPressure`](Self::MeanPressure), [`Force`](Self::Force) | yes | yes | mean gap and approach |
+/// | [`Approach`](Self::Approach) | no | yes | the force |
+/// | [`Spring`](Self::Spring) | yes | yes | force and position |
+///
+/// The [`Boundary`] is that of the operator. A control that it does not have is refused, and so are mean gap and spring
+/// for a periodic surface with [absent nodes](Surface::with_absent), where the mean gap over the others is not what the
+/// load works on.
+///
+/// ```
+/// use asperity::{Control, Grid, NoAdhesion, Problem, Solver, Surface, Westergaard};
+/// let grid = Grid::square(32, 1.0)?;
+/// let surface = Surface::wave_2d(grid, 0.02, 1)?;
+/// let mut problem = Problem::new(&surface, Westergaard::<f64>::new(grid, 1.0)?, NoAdhesion)?;
+/// let by_gap = Solver::default().solve(&mut problem, Control::MeanGap(0.01))?.report;
+/// let by_pressure = Solver::default().solve(&mut problem, Control::MeanPressure(by_gap.mean_pressure))?.report;
+/// assert!((by_pressure.mean_gap / 0.01 - 1.0).abs() < 1e-5); // the same state, either way
+/// # Ok::<(), asperity::Error>(())
+/// ```
+#[non_exhaustive]
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "kebab-case"))]
+pub enum Control {
+    /// The mean gap ḡ ≥ 0 is given; the external pressure follows.
+    MeanGap(f64),
+    /// The mean external pressure p̄ is given, the force over the nominal area Lx·Ly, compression positive; the mean
+    /// gap follows.
+    MeanPressure(f64),
+    /// The normal force F = p̄·Lx·Ly is given, compression positive.
+    #[cfg_attr(feature = "serde", serde(rename = "normal-force"))]
+    Force(f64),
+    /// The approach δ is given: how far the bodies have moved towards each other since they would first touch
+    /// undeformed. Negative before that.
+    Approach(f64),
+    /// A spring in series, as the stiffness of a machine or of a cantilever, is held at its far end.
+    ///
+    /// With a free boundary F = k (rest − δ); in a periodic cell, where bodies have no approach, F = k (ḡ − rest).
+    Spring {
+        /// The stiffness k, force per length.
+        stiffness: f64,
+        /// The approach δ at which the spring is relaxed; in a periodic cell the mean gap.
+        rest: f64,
+    },
+}
+
+impl Control {
+    /// The name that the tool and `report.json` use: `"mean-gap"`, `"mean-pressure"`, `"normal-force"`, `"approach"` or
+    /// `"spring"`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::MeanGap(_) => "mean-gap",
+            Self::MeanPressure(_) => "mean-pressure",
+            Self::Force(_) => "normal-force",
+            Self::Approach(_) => "approach",
+            Self::Spring { .. } => "spring",
+        }
+    }
+
+    /// The value that is held: a length, pressure or force; of a spring its rest.
+    pub fn value(self) -> f64 {
+        match self {
+            Self::MeanGap(value) | Self::MeanPressure(value) | Self::Force(value) | Self::Approach(value) => value,
+            Self::Spring { rest, .. } => rest,
+        }
+    }
+}
+
+/// The control on the operator's grid: what its mean gap m, over all nodes, is held by.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Load {
+    /// m itself
+    Gap(f64),
+    /// the mean pressure on the operator's grid
+    Pressure(f64),
+    /// the mean pressure `stiffness`·(m − `rest`) on the operator's grid
+    Spring { stiffness: f64, rest: f64 },
+}
+
+impl Load {
+    /// The mean pressure at a mean gap; zero where that is given.
+    pub(crate) fn pressure_at(self, mean_gap: f64) -> f64 {
+        match self {
+            Self::Gap(_) => 0.0,
+            Self::Pressure(pressure) => pressure,
+            Self::Spring { stiffness, rest } => stiffness * (mean_gap - rest),
+        }
+    }
+
+    /// The load on the wall alone, of gaps that are counted from the equilibrium separation: nothing would hold a
+    /// tension.
+    pub(crate) fn of_wall(self, separation: f64) -> Self {
+        match self {
+            Self::Gap(gap) => Self::Gap((gap - separation).max(0.0)),
+            Self::Pressure(pressure) => Self::Pressure(pressure.max(0.0)),
+            Self::Spring { stiffness, rest } => Self::Spring { stiffness, rest: rest - separation },
+        }
+    }
+
+    /// The energy of the load over its pressure times the mean gap from its rest.
+    pub(crate) fn share(self) -> f64 {
+        if let Self::Spring { .. } = self { 0.5 } else { 1.0 }
+    }
+
+    /// The stiffness of the mean gap, zero without a spring.
+    pub(crate) fn stiffness(self) -> f64 {
+        if let Self::Spring { stiffness, .. } = self { stiffness } else { 0.0 }
+    }
+
+    /// The mean gap at which a spring is relaxed, zero without one.
+    pub(crate) fn rest(self) -> f64 {
+        if let Self::Spring { rest, .. } = self { rest } else { 0.0 }
+    }
+}

@@ -1,0 +1,187 @@
+//! The surface pressed flat, and the loads that a problem has.
+
+use ndarray::Array2;
+
+use super::{Control, Load, Window};
+use crate::adhesion::AdhesionLaw;
+use crate::constraint::Wall;
+use crate::elastic::{self, Boundary, ElasticOperator};
+use crate::error::{Error, Result};
+use crate::field::{all_finite_in, flat};
+use crate::real::Real;
+use crate::surface::Surface;
+use crate::vector::range;
+
+/// The surface pressed flat: the pressure K⁻¹h and the figures of h that a solve needs.
+#[derive(Clone, Debug)]
+pub(crate) struct PressedFlat<T> {
+    /// the pressure K⁻¹h
+    pub(crate) pressure: Array2<T>,
+    /// the mean of h·K⁻¹h
+    pub(crate) work: f64,
+    pub(crate) rms_height: f64,
+    /// the stiffness that the surface meets as it is pressed flat: the rms pressure over the rms height
+    pub(crate) stiffness: f64,
+    /// the highest height less the mean
+    pub(crate) peak: f64,
+    /// the highest height less the lowest
+    pub(crate) height_span: f64,
+    /// where the surface faces the body; nothing if that is everywhere
+    pub(crate) window: Option<Window>,
+    pub(crate) boundary: Boundary,
+    /// the nominal area of the surface
+    pub(crate) area: f64,
+    /// the area of the operator's grid over it
+    pub(crate) padding: f64,
+}
+
+impl<T: Real> PressedFlat<T> {
+    /// Presses the surface flat against the body of the operator, if that and the law suit it.
+    pub(super) fn of(
+        surface: &Surface,
+        operator: &mut dyn ElasticOperator<T>,
+        law: &dyn AdhesionLaw<T>,
+    ) -> Result<Self> {
+        let abilities = operator.abilities();
+        let (boundary, slabs) = (abilities.boundary, abilities.slabs);
+        let (grid, expected) = match boundary {
+            Boundary::Periodic => (surface.grid(), *operator.grid()),
+            Boundary::Free { window, .. } => (surface.grid(), window),
+        };
+        Error::shape("surface", grid.shape(), expected.shape())?;
+        let (slab, one) =
+            (operator.grid().slab(), "surface and operator have to be on one grid: make both on the shared one");
+        if grid.is_shared() != slab.is_shared() {
+            return Err(Error::Shared { what: "contact", reason: one });
+        }
+        if !slabs {
+            slab.alone("elastic operator")?;
+        }
+        if let Some(shape) = law.hints().shape {
+            Error::shape("adhesion law that varies over the surface", shape, grid.shape())?;
+        }
+        let ((nx, ny), whole) = (expected.shape(), operator.grid().shape());
+        Error::shape("grid of the operator", whole, (whole.0.max(nx), whole.1.max(ny)))?;
+        if boundary != Boundary::Periodic {
+            Error::positive("mean compliance of the half-space", boundary.mean_compliance())?;
+        }
+        if grid.lengths() != expected.lengths() {
+            let (name, value) = match grid.lengths() {
+                (lx, _) if lx != expected.lengths().0 => ("side length Lx of the surface", lx),
+                (_, ly) => ("side length Ly of the surface", ly),
+            };
+            return Err(Error::Value { name, value, requirement: "the same as of the elastic operator's grid" });
+        }
+        let at_zero = [("adhesive energy", law.energy(T::zero())), ("adhesive traction", law.traction(T::zero()))];
+        let bounded = law.hints().rest.is_none_or(|rest| rest <= T::zero());
+        if let Some((function, value)) = at_zero.into_iter().find(|(_, value)| bounded && !value.is_finite()) {
+            return Err(Error::Law { function, gap: 0.0, value: value.widen(), expected: None });
+        }
+        // gap, pressure and K⁻¹h, and in f32 the other fields of a solve
+        slab.afford("a solve", 3 * size_of::<T>() + 16)?;
+        let window = Window::new(surface, operator.grid());
+        let extended = window.as_ref().map(|window| window.extend(surface.heights().view()));
+        let padded;
+        let whole = match extended {
+            Some(heights) => {
+                padded = Surface::new(*operator.grid(), heights)?;
+                &padded
+            }
+            None => surface,
+        };
+        let [datum, above] = whole.datum_and_mean();
+        let mean = datum + above;
+        let rms_height = whole.rms_about(mean);
+        // where nothing faces the body there is no height: those that stand there do not exceed the others
+        let (low, high) = surface.grid().extremes(range(flat(surface.heights())));
+        let height_span = high - low;
+        // a mean beyond the heights' own size is rounded more than the peak above it may be
+        let peak = if mean.abs() > height_span { (high - datum) - above } else { high - mean };
+        let mut pressure = Array2::zeros(whole.grid().field_shape());
+        // a large datum would drown the heights in its rounding; a small one is not worth a copy
+        let centred = (mean.abs() > rms_height).then(|| whole.heights().mapv(|h| h - mean));
+        let heights = centred.as_ref().unwrap_or(whole.heights()).view();
+        let surface_work = elastic::surface_pressure(operator, heights, pressure.view_mut())?.max(0.0);
+        drop(centred);
+        let mean_square = operator.grid().mean(pressure.view(), |p: T| p.widen().powi(2));
+        // squares may be beyond the range of finite pressures
+        if !mean_square.is_finite() {
+            all_finite_in(slab, "pressure K⁻¹h of the surface pressed flat", pressure.view())?;
+        }
+        let stiffness = mean_square.sqrt() / rms_height;
+        let (lx, ly) = grid.lengths();
+        Ok(Self {
+            pressure,
+            work: surface_work,
+            rms_height,
+            stiffness,
+            peak,
+            height_span,
+            window,
+            boundary,
+            area: lx * ly,
+            padding: whole.grid().nodes() as f64 / grid.nodes() as f64,
+        })
+    }
+
+    /// A control on the operator's grid; refused if the problem does not have it. A mean gap may only be negative
+    /// without a wall.
+    pub(crate) fn load(&self, control: Control, wall: Wall<'_, T>) -> Result<Load> {
+        let refused = |reason| Err(Error::Control { control: control.name(), reason });
+        let name = match control {
+            Control::MeanGap(_) => "mean gap",
+            Control::MeanPressure(_) => "mean pressure",
+            Control::Force(_) => "normal force",
+            Control::Approach(_) => "approach",
+            Control::Spring { .. } => "rest of the spring",
+        };
+        let held = || Error::finite(name, control.value());
+        let (free, absent) = (self.boundary != Boundary::Periodic, self.window.is_some());
+        let on_grid = |pressure: f64| pressure / self.padding;
+        let load = match control {
+            Control::MeanGap(_) if free => {
+                return refused("a free half-space has no mean gap to be held: give a force, an approach or a spring");
+            }
+            Control::MeanGap(_) | Control::Spring { .. } if absent && !free => {
+                return refused(
+                    "the mean gap of a periodic surface with absent nodes is not what the load works on: give a \
+                     pressure or a force",
+                );
+            }
+            Control::Approach(_) if !free => {
+                return refused(
+                    "bodies in a periodic cell have no approach: give a mean gap, or take a free half-space",
+                );
+            }
+            Control::MeanGap(_) if matches!(wall, Wall::None) => Load::Gap(held()?),
+            Control::MeanGap(gap) => Load::Gap(Error::non_negative(name, gap)?),
+            Control::MeanPressure(_) => Load::Pressure(on_grid(held()?)),
+            Control::Force(_) => Load::Pressure(on_grid(held()? / self.area)),
+            Control::Approach(_) => {
+                let rest = self.peak - held()?;
+                Load::Spring { stiffness: self.boundary.mean_compliance().recip(), rest }
+            }
+            Control::Spring { stiffness, rest } => {
+                Error::positive("stiffness of the spring", stiffness)?;
+                held()?;
+                let compliance = self.padding * self.area / stiffness + self.boundary.mean_compliance();
+                Load::Spring { stiffness: compliance.recip(), rest: if free { self.peak - rest } else { rest } }
+            }
+        };
+        let values = match load {
+            Load::Gap(value) | Load::Pressure(value) => [value, 0.0],
+            Load::Spring { stiffness, rest } => [stiffness, rest],
+        };
+        if let Some(&value) = values.iter().find(|&&value| !T::lit(value).is_finite()) {
+            let requirement = "finite in the precision of the fields";
+            return Err(Error::Value { name, value, requirement });
+        }
+        Ok(load)
+    }
+
+    /// The approach of the bodies at a mean gap and a mean pressure on the operator's grid; nothing in a periodic cell.
+    pub(crate) fn approach(&self, mean_gap: f64, pressure: f64) -> Option<f64> {
+        let Boundary::Free { mean_compliance, .. } = self.boundary else { return None };
+        Some(self.peak - mean_gap + mean_compliance * pressure)
+    }
+}
