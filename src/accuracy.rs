@@ -126,8 +126,8 @@ impl Quantity {
         Some((share * difference).hypot(of_edge * edge))
     }
 
-    /// The relative error on a grid beside which there is no coarser one, with so many nodes in the shortest wave and the
-    /// errors at the edge of its area.
+    /// The relative error on a grid beside which there is no coarser one, with so many nodes in the shortest wave and
+    /// the errors at the edge of its area.
     fn by_waves(self, nodes_per_wave: f64, [places, adhesion]: [f64; 2]) -> Option<f64> {
         let error = self.expected(nodes_per_wave).hypot(2.0 * places).hypot(adhesion);
         (self == Self::Area && nodes_per_wave.is_finite() && error.is_finite()).then_some(error)
@@ -167,9 +167,9 @@ impl fmt::Display for Quantity {
 
 impl Surface {
     /// The number of nodes that the shortest wave of the surface has,
-    /// [`Spectrum::nodes_per_wave`](crate::surface::Spectrum::nodes_per_wave); with a boundary that does not repeat, of the
-    /// surface continued by its mirror images. Where several processes share the grid it is that of the whole surface,
-    /// and all have to ask.
+    /// [`Spectrum::nodes_per_wave`](crate::surface::Spectrum::nodes_per_wave); with a boundary that does not repeat, of
+    /// the surface continued by its mirror images. Where several processes share the grid it is that of the whole
+    /// surface, and all have to ask.
     ///
     /// ```
     /// use asperity::{Boundary, Boussinesq, ElasticOperator, Grid, Surface};
@@ -234,13 +234,13 @@ const ORDERS: (f64, f64) = (0.5, 3.0);
 /// where A is the area as nodes count it, and ε = A/A_c − 1; κ and κ' are the neighbours between which the edge runs
 /// ([`ContactArea::edges`]), over the nodes in contact and over those apart; M is the number of them that are
 /// independent ([`ContactArea::places`]), and n that of the nodes in the shortest wave. On a line the factors are 1 and
-/// 0.3 for the stiffness, and 1/3 and 0.02 for gap and pressure. κ and δA tell how many of the nodes are at the edge, and
-/// so the scale of all that depends on where between the nodes the edge falls; δQ alone may be small by luck.
+/// 0.3 for the stiffness, and 1/3 and 0.02 for gap and pressure. κ and δA tell how many of the nodes are at the edge,
+/// and so the scale of all that depends on where between the nodes the edge falls; δQ alone may be small by luck.
 ///
 /// The error of the corrected area falls with the second order, for which the share of δA_c is 1/3, or faster while
-/// waves have few nodes. Each place of the edge is wrong by itself, and on a rough surface these errors average. Along a
-/// strip all of the edge is between the same rows of nodes, and wrong in the same way, the more so where contacts or the
-/// gaps between them are a few nodes wide, or waves: M is 2 for a wave along a side, and some hundreds for a rough
+/// waves have few nodes. Each place of the edge is wrong by itself, and on a rough surface these errors average. Along
+/// a strip all of the edge is between the same rows of nodes, and wrong in the same way, the more so where contacts or
+/// the gaps between them are a few nodes wide, or waves: M is 2 for a wave along a side, and some hundreds for a rough
 /// surface of 128² nodes. Where the zone of the adhesion has few nodes, 1/μ_ρ², a share of ε is left. Without a coarser
 /// grid 0.3/n², which rough surfaces have, takes the place of δA_c/4, and the terms with M count twice. The factors are
 /// fitted to rough surfaces, strips and lattices, and the page [`choosing`](crate::guide::choosing) has how good the

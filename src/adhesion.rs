@@ -87,8 +87,8 @@ pub trait AdhesionLaw<T: Real>: Send + Sync {
         Hints::of(self)
     }
 
-    /// Sets the values that are asked for at the nodes from `first` on, in row-major order (node ix·Ny + iy), which have
-    /// these gaps. Nodes count on the whole grid, also where several processes share it.
+    /// Sets the values that are asked for at the nodes from `first` on, in row-major order (node ix·Ny + iy), which
+    /// have these gaps. Nodes count on the whole grid, also where several processes share it.
     ///
     /// A solve calls it for a few hundred nodes at once. By default it calls the functions of one gap. A law that
     /// varies over the surface writes it by the node, as `examples/patches/law.rs` does, has a [shape](Hints::shape),

@@ -68,9 +68,9 @@ pub trait ContactConstraint<T: Real>: Send + Sync {
         Ok(())
     }
 
-    /// Whether the constraint is met where several processes share the grid, and each has the rows that it holds: of the
-    /// springs it asks those at its own nodes, which count on the whole grid, and its gap in [`update`](Self::update) is
-    /// that of its rows. The default is that it is not: such a solve is refused.
+    /// Whether the constraint is met where several processes share the grid, and each has the rows that it holds: of
+    /// the springs it asks those at its own nodes, which count on the whole grid, and its gap in
+    /// [`update`](Self::update) is that of its rows. The default is that it is not: such a solve is refused.
     fn takes_slabs(&self) -> bool {
         false
     }

@@ -1,8 +1,8 @@
 //! The contact of a solution: its area and edge, its clusters, and the distribution of its pressure.
 //!
 //! A node is in contact as [`Solution::contact_map`] says. [`ContactStatistics`] has areas, counted and within the edge
-//! between the nodes, and the perimeter; [`Clusters`] are the pieces that hang together; [`PressureDistribution`] is the
-//! histogram of the pressure. [`Original`] is the part of a mirrored map that was measured.
+//! between the nodes, and the perimeter; [`Clusters`] are the pieces that hang together; [`PressureDistribution`] is
+//! the histogram of the pressure. [`Original`] is the part of a mirrored map that was measured.
 
 use ndarray::{Array2, ArrayView2, Zip};
 
@@ -146,8 +146,8 @@ fn check<T: Real>(gap: ArrayView2<'_, T>, contact_pressure: ArrayView2<'_, T>, g
 /// The corrected contact area is that within the edge of the contact, which contact pressure λ and gap g tell between
 /// the nodes. Inside an edge the contact pressure grows like the root of the distance from it, outside the gap like its
 /// power 3/2. While a straight edge moves across a grid from one row of nodes to the next, the pressure of the row
-/// inside rises from zero, and the gap of the row outside falls to zero, both in proportion. So the edge runs at a fixed
-/// distance from the contour on which
+/// inside rises from zero, and the gap of the row outside falls to zero, both in proportion. So the edge runs at a
+/// fixed distance from the contour on which
 ///
 /// ```math
 /// κλΔ = E* g ,   κ = 2e/π ,
@@ -169,23 +169,23 @@ fn check<T: Real>(gap: ArrayView2<'_, T>, contact_pressure: ArrayView2<'_, T>, g
 /// A = A_polygon − Δ ∫ (β − 0.0147 |sin 2θ|³) dL + 0.78 χ Δ² .
 /// ```
 ///
-/// The integral is along the polygon, at the angle θ to the axes; what β is less by for edges that are askew to the nodes
-/// was measured on plane waves in ten directions. The last term is what a curved edge adds, with the number χ of
-/// contacts less that of holes in them, by which the edge turns round; its factor is fitted to Hertz contacts. For
-/// Δx ≠ Δy length and area are taken with the spacings as units. On a line there are the ends alone, each β inside the
+/// The integral is along the polygon, at the angle θ to the axes; what β is less by for edges that are askew to the
+/// nodes was measured on plane waves in ten directions. The last term is what a curved edge adds, with the number χ of
+/// contacts less that of holes in them, by which the edge turns round; its factor is fitted to Hertz contacts. For Δx ≠
+/// Δy length and area are taken with the spacings as units. On a line there are the ends alone, each β inside the
 /// contour. Nodes at the end of a surface, beside absent ones or the end of a window, are counted as a whole, and so is
 /// full contact. Where a wall gives, as that of [`Penalty`](crate::Penalty), the gap in contact counts as well, and β
-/// falls with the cube of the share of the pressure in κλΔ − E\*g, to zero where the gap has no kink left. Where
-/// [the law alone repels](crate::NoWall) contact nodes are apart, and the more so, the nearer the edge is to the middle
+/// falls with the cube of the share of the pressure in κλΔ − E\*g, to zero where the gap has no kink left. Where [the
+/// law alone repels](crate::NoWall) contact nodes are apart, and the more so, the nearer the edge is to the middle
 /// between the nodes: they are counted. Without a modulus, that is one that is not positive, the area is that of
 /// [`ContactArea::of`].
 ///
 /// The error is of second order. Straight edges of waves of 20 to 64 nodes, in several directions, are met to 0.013
 /// spacings on the average over their places between the nodes, and of twice the nodes to 0.0065. Hertz contacts with
 /// radii of 3 to 7 nodes have a root mean square error of 0.28 % of the area, with radii of 14 to 28 nodes of 0.025 %,
-/// where counting nodes is wrong by 7.9 and 1.6 %. The page [`choosing`](crate::guide::choosing) has errors of rough surfaces. With adhesion of
-/// a range that the grid does not resolve (μ_ρ above 0.5) the fields tell less, and the area is as good as that of
-/// [`ContactArea::of`].
+/// where counting nodes is wrong by 7.9 and 1.6 %. The page [`choosing`](crate::guide::choosing) has errors of rough
+/// surfaces. With adhesion of a range that the grid does not resolve (μ_ρ above 0.5) the fields tell less, and the area
+/// is as good as that of [`ContactArea::of`].
 ///
 /// ```
 /// use asperity::contact::ContactStatistics;
@@ -227,9 +227,9 @@ pub struct ContactStatistics {
     pub attractive_fraction: f64,
     /// The share of the other nodes, which do not notice each other.
     pub apart_fraction: f64,
-    /// The same where the law [varies](crate::adhesion::Varying) over the surface, for the nodes of each work of adhesion, the
-    /// least first; nodes are said to attract by the traction above, that of the strongest. Empty for a law that is the
-    /// same everywhere, and for more than 16 works of adhesion.
+    /// The same where the law [varies](crate::adhesion::Varying) over the surface, for the nodes of each work of
+    /// adhesion, the least first; nodes are said to attract by the traction above, that of the strongest. Empty for a
+    /// law that is the same everywhere, and for more than 16 works of adhesion.
     ///
     /// ```
     /// use asperity::contact::ContactStatistics;

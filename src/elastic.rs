@@ -95,8 +95,8 @@ pub trait ElasticOperator<T: Real>: Send {
     /// number there.
     ///
     /// It is the unit of [`Criterion::Complementarity`](crate::Criterion::Complementarity) and enters
-    /// [`Problem::mu_rho`](crate::Problem::mu_rho); with the spacing it gives the compliance by which jumps of
-    /// a law are [smoothed](crate::adhesion::Discretisation::Smooth); on a grid of one node, which has no wave, E*/Lx is the
+    /// [`Problem::mu_rho`](crate::Problem::mu_rho); with the spacing it gives the compliance by which jumps of a law
+    /// are [smoothed](crate::adhesion::Discretisation::Smooth); on a grid of one node, which has no wave, E*/Lx is the
     /// stiffness of the preconditioner.
     fn modulus(&self) -> f64;
 

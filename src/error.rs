@@ -85,7 +85,8 @@ pub enum Error {
         /// The smaller traction at a smaller gap.
         nearer: f64,
     },
-    /// An adhesion law whose traction jumps, without a [smoothed](crate::adhesion::Discretisation::Smooth) law that does not.
+    /// An adhesion law whose traction jumps, without a [smoothed](crate::adhesion::Discretisation::Smooth) law that
+    /// does not.
     Jump {
         /// The gap at which it jumps.
         gap: f64,

@@ -42,10 +42,11 @@ const CARRIED: f64 = 0.5;
 /// tolerance are those of [`Solver`].
 ///
 /// Sizes are halved while both sides keep `coarsest` nodes. A surface with [absent nodes](Surface::with_absent) and a
-/// law that [varies](crate::adhesion::Varying) are halved while the sizes are even. With adhesion only grids that resolve it
-/// ([`Problem::mu_rho`] up to 0.5) are used, as a coarser one may pin the contact on another branch. If the traction of
-/// the law jumps, the coarser grids [smooth](crate::adhesion::Discretisation::Smooth) it, and so does the finest one on its way from
-/// their solution, as it does from the default start. Without a coarser grid all is as with [`Solver::solve`].
+/// law that [varies](crate::adhesion::Varying) are halved while the sizes are even. With adhesion only grids that
+/// resolve it ([`Problem::mu_rho`] up to 0.5) are used, as a coarser one may pin the contact on another branch. If the
+/// traction of the law jumps, the coarser grids [smooth](crate::adhesion::Discretisation::Smooth) it, and so does the
+/// finest one on its way from their solution, as it does from the default start. Without a coarser grid all is as with
+/// [`Solver::solve`].
 ///
 /// The finest grid starts anew, by [`Start::Default`], where the coarsest one is nearly [`closed`](Self::closed), where
 /// a coarser one does not carry its load, and where the solve from the prolonged start has come apart or stalled with
@@ -150,8 +151,8 @@ impl<C> Nested<C> {
     ///
     /// That is at a given load or approach from 256² nodes on, and at a given mean gap from 512² on, if there is a
     /// coarser grid. Not with adhesion under a tension or with a spring, where there may be several equilibria; and not
-    /// with [absent nodes](Surface::with_absent), a law that [varies](crate::adhesion::Varying), or [`Method::Rey2017`], where it
-    /// was not measured.
+    /// with [absent nodes](Surface::with_absent), a law that [varies](crate::adhesion::Varying), or
+    /// [`Method::Rey2017`], where it was not measured.
     ///
     /// ```
     /// use asperity::{Control, Grid, Nested, NoAdhesion, SelfAffine};

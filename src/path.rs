@@ -56,10 +56,9 @@ pub use step::{PathCheckpoint, PathStep};
 /// its [`Event`] says so.
 ///
 /// Where the traction of the law jumps, as that of [`MaugisDugdale`](crate::MaugisDugdale), every node that enters or
-/// leaves the adhesive zone is a small jump, and the grid holds the edge of that zone back: a hysteresis that the
-/// continuum has not. Unless [`PathSettings::smooth`] is off, the path is therefore one of the
-/// [smoothed](crate::adhesion::Discretisation::Smooth) law, of which the pull-off force converges faster; energies and errors in the
-/// reports are that law's.
+/// leaves the adhesive zone is a small jump. Unless [`PathSettings::smooth`] is off, the path is therefore one of the
+/// [smoothed](crate::adhesion::Discretisation::Smooth) law, of which the pull-off force converges faster; energies and
+/// errors in the reports are those of that law.
 ///
 /// # Limit points
 ///

@@ -41,9 +41,10 @@ const STEP: (f64, f64) = (1.4, 8.0);
 /// from its start towards the wanted fraction, and never on from a state beyond it, so that it stays on its
 /// [branch](Branch): that of loading, from less contact, if the settings name none.
 ///
-/// The fraction counts nodes. It is reached if it is within one node or 1 % of the wanted one. Where no load has such a fraction, as the contact jumps past it, the state on the nearer side of
-/// the jump is returned, [`reached`](FoundContact::reached) is false, and [`below`](FoundContact::below) and
-/// [`above`](FoundContact::above) say from where to where it jumps.
+/// The fraction counts nodes. It is reached if it is within one node or 1 % of the wanted one. Where no load has such a
+/// fraction, as the contact jumps past it, the state on the nearer side of the jump is returned,
+/// [`reached`](FoundContact::reached) is false, and [`below`](FoundContact::below) and [`above`](FoundContact::above)
+/// say from where to where it jumps.
 ///
 /// One search after the other goes on from where the last one ended.
 ///

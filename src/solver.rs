@@ -114,8 +114,8 @@ impl Criterion {
 ///
 /// `None` is the default of the criterion in the precision of the solve: [`Settings::tolerance_in`] tells it, and
 /// [`Report::tolerance`] the one that a solve was held to. A solve whose tolerance is below the
-/// [floor](crate::guide::choosing#rounding-floors) of the precision ends as [`Status::Stalled`]. With the feature `serde`
-/// settings are data, in which any of them may be left out.
+/// [floor](crate::guide::choosing#rounding-floors) of the precision ends as [`Status::Stalled`]. With the feature
+/// `serde` settings are data, in which any of them may be left out.
 ///
 /// ```
 /// use asperity::Settings;
@@ -203,10 +203,9 @@ impl Settings {
 /// of the state in `f64`.
 ///
 /// Memory per node with a [`Westergaard`](crate::Westergaard) half-space, that of the problem included: in `f64` five
-/// scalars, in `f32` seven. The solution keeps three.
-/// With [`Boussinesq`](crate::Boussinesq) the grid has four times the nodes of the surface, or somewhat more.
-/// The [`CoarseSpace`](crate::elastic::CoarseSpace) adds up to 13 N^(2/3) numbers in `f64`: a fifth of a field on 512² nodes,
-/// and 5 % on 4096².
+/// scalars, in `f32` seven. The solution keeps three. With [`Boussinesq`](crate::Boussinesq) the grid has four times
+/// the nodes of the surface, or somewhat more. The [`CoarseSpace`](crate::elastic::CoarseSpace) adds up to 13 N^(2/3)
+/// numbers in `f64`: a fifth of a field on 512² nodes, and 5 % on 4096².
 ///
 /// ```
 /// use asperity::{Control, Grid, NoAdhesion, Problem, Settings, Solver, Status, Surface, Westergaard};

@@ -101,9 +101,9 @@ impl fmt::Display for Verdict {
 /// The slope φ'' of [`MaugisDugdale`](crate::MaugisDugdale) is nothing but −σ₀ times a measure on the line g = ρ. No
 /// node lies on that line: node by node φ'' is zero, every equilibrium of the discrete energy is a strict local
 /// minimum, and is pinned by the grid. That says nothing about the continuum. So the traction is smoothed as for the
-/// [default start](crate::adhesion::Discretisation::Smooth), which spreads the measure over a few nodes, and the verdict is about that
-/// second derivative, at the given gap: an estimate for the continuum, which gets better as the grid is refined, and
-/// no statement about the discrete energy. [`Stability::smoothed`] says so.
+/// [default start](crate::adhesion::Discretisation::Smooth), which spreads the measure over a few nodes, and the
+/// verdict is about that second derivative, at the given gap: an estimate for the continuum, which gets better as the
+/// grid is refined, and no statement about the discrete energy. [`Stability::smoothed`] says so.
 ///
 /// ```
 /// use asperity::stability::{StabilityTest, Verdict};

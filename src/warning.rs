@@ -52,8 +52,8 @@ const RESOLVED: f64 = Report::RESOLVED_MU_RHO;
 ///
 /// Nothing is refused or changed; whether a warning matters is for the reader to say. Clean periodic surfaces have
 /// none. [`of_surface`](Self::of_surface) looks at the heights, [`of_modulus`](Self::of_modulus) at the unit of the
-/// contact modulus beside them, [`of_law`](Self::of_law) at the adhesion on them, all before a solve, [`of_solution`](Self::of_solution) at its answer, and [`of_images`](Self::of_images) at that on
-/// a mirrored map.
+/// contact modulus beside them, [`of_law`](Self::of_law) at the adhesion on them, all before a solve,
+/// [`of_solution`](Self::of_solution) at its answer, and [`of_images`](Self::of_images) at that on a mirrored map.
 ///
 /// ```
 /// use asperity::warning::{Warning, WarningCode};
@@ -112,8 +112,8 @@ impl Warning {
         self.text.written(|value| length(rounded(value)), |value| pressure(rounded(value)))
     }
 
-    /// How bad it is, to choose the worst among warnings of one code: the figure of the message that exceeds its limit, as
-    /// far as there is one; otherwise zero.
+    /// How bad it is, to choose the worst among warnings of one code: the figure of the message that exceeds its limit,
+    /// as far as there is one; otherwise zero.
     ///
     /// ```
     /// use asperity::warning::Warning;
@@ -211,8 +211,8 @@ impl Warning {
     }
 
     /// A contact `modulus` E* that is probably in another unit than the lengths of the `grid` ask for,
-    /// [`Modulus`](WarningCode::Modulus): below 1 kPa beside lengths in metres. These are in metres if their `unit` is m,
-    /// and without a unit if the nodes are less than 1e-7 apart. E* = 1 is none, as it makes all pressures relative.
+    /// [`Modulus`](WarningCode::Modulus): below 1 kPa beside lengths in metres. These are in metres if their `unit` is
+    /// m, and without a unit if the nodes are less than 1e-7 apart. E* = 1 is none, as it makes all pressures relative.
     ///
     /// ```
     /// use asperity::warning::{Warning, WarningCode};
@@ -285,8 +285,8 @@ impl Warning {
         found
     }
 
-    /// The probable mistakes in an answer: [`BeyondModulus`](WarningCode::BeyondModulus) where the contact modulus E* is
-    /// positive, and [`WindowEdge`](WarningCode::WindowEdge) with a free boundary.
+    /// The probable mistakes in an answer: [`BeyondModulus`](WarningCode::BeyondModulus) where the contact modulus E*
+    /// is positive, and [`WindowEdge`](WarningCode::WindowEdge) with a free boundary.
     pub fn of_solution<T: Real>(solution: &Solution<T>) -> Vec<Self> {
         let modulus = solution.report.modulus;
         let contiguous = solution.contact_pressure.as_standard_layout();

@@ -86,7 +86,8 @@ pub struct Accuracy<C = Projection> {
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Plan {
-    /// The nodes of the shortest wave on the given grid, [`Spectrum::nodes_per_wave`](crate::surface::Spectrum::nodes_per_wave).
+    /// The nodes of the shortest wave on the given grid,
+    /// [`Spectrum::nodes_per_wave`](crate::surface::Spectrum::nodes_per_wave).
     pub nodes_per_wave: f64,
     /// The tolerance of the solver.
     pub tolerance: f64,

@@ -8,7 +8,8 @@ use crate::real::Real;
 /// The functions, in the order in which each is the derivative of the one before.
 const NAMES: [&str; 3] = ["adhesive energy", "adhesive traction", "slope of the adhesive traction"];
 
-/// The share of the largest value of a function by which a value may be wrong, and by which a traction falls that jumps.
+/// The share of the largest value of a function by which a value may be wrong, and by which a traction falls that
+/// jumps.
 const SHARE: f64 = 1e-2;
 
 /// The roundings, in units of the traction in contact, by which a traction that falls may seem to rise.

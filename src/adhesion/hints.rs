@@ -39,8 +39,8 @@ impl<T: Real> Hints<T> {
     }
 
     /// The work of adhesion w = −φ(0) and the range w/φ'(0), by the functions of a law; it is ρ for an exponential and
-    /// for a constant traction. The range is zero where the law does not attract in contact: a law that attracts most at
-    /// some distance should say its own.
+    /// for a constant traction. The range is zero where the law does not attract in contact: a law that attracts most
+    /// at some distance should say its own.
     pub fn of<L: AdhesionLaw<T> + ?Sized>(law: &L) -> Self {
         let (w, traction) = (-law.energy(T::zero()), law.traction(T::zero()));
         Self::new(w, if w > T::zero() && traction > T::zero() { w / traction } else { T::zero() })

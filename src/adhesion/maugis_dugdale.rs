@@ -10,9 +10,9 @@ use crate::real::Real;
 /// φ(g) = −w max(0, 1 − g/ρ) ,   φ'(g) = w/ρ  for g < ρ,  0 beyond
 /// ```
 ///
-/// Maugis (1992); equations (26) and (27) of Rey, Anciaux and Molinari (2017), of which (26) is misprinted.
-/// The traction jumps at g = ρ: there are many equilibria at one mean gap, and which of them a solve finds depends on
-/// its start. In the law that is [smoothed](Discretisation::Smooth) the traction falls evenly between ρ − d/2 and ρ + d/2
+/// Maugis (1992); equations (26) and (27) of Rey, Anciaux and Molinari (2017), of which (26) is misprinted. The
+/// traction jumps at g = ρ: there are many equilibria at one mean gap, and which of them a solve finds depends on its
+/// start. In the law that is [smoothed](Discretisation::Smooth) the traction falls evenly between ρ − d/2 and ρ + d/2
 /// instead, over d = σ₀·compliance, at most 2ρ.
 ///
 /// ```

@@ -56,8 +56,8 @@ impl<L: AdhesionLaw<f64>> Varying<L> {
         Self::in_slab(law, works, Slab::whole(works.dim()))
     }
 
-    /// As [`Varying::new`], on a grid that several processes may share: the works of adhesion are those of the rows that
-    /// this one holds, [`Grid::rows`].
+    /// As [`Varying::new`], on a grid that several processes may share: the works of adhesion are those of the rows
+    /// that this one holds, [`Grid::rows`].
     ///
     /// ```
     /// use asperity::adhesion::Varying;

@@ -50,14 +50,15 @@ impl ContactArea {
     /// The contact area of a map of shape (Nx, Ny) on its grid, of which nothing else is known.
     ///
     /// It is corrected by Yastrebov, Anciaux and Molinari (2017), *On the accurate computation of the true contact-area
-    /// in mechanical contact of random rough surfaces*: a map of nodes counts too much along the edge of the contact, by
+    /// in mechanical contact of random rough surfaces*: a map of nodes counts too much along the edge of the contact,
+    /// by
     ///
     /// ```math
     /// A ≈ A_nodes − (π − 1 + ln 2)/24 · S Δx
     /// ```
     ///
-    /// with S the perimeter along the cells, averaged over the directions of the edge. That is 0.118 cells for each side
-    /// of a cell on the perimeter; for Δx ≠ Δy the area Δx·Δy of the cell is taken for Δx². On a line nothing is
+    /// with S the perimeter along the cells, averaged over the directions of the edge. That is 0.118 cells for each
+    /// side of a cell on the perimeter; for Δx ≠ Δy the area Δx·Δy of the cell is taken for Δx². On a line nothing is
     /// corrected. [`ContactArea::of_solution`] is several times as good.
     ///
     /// # Errors

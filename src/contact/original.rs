@@ -120,8 +120,8 @@ impl Original {
         self.of(contact_map(gap, pressure).view())
     }
 
-    /// The solution on the original: its grid, its part of the fields, its nodes in contact, and its share of the force.
-    /// Means, fractions, extremes and energies stay those of the whole.
+    /// The solution on the original: its grid, its part of the fields, its nodes in contact, and its share of the
+    /// force. Means, fractions, extremes and energies stay those of the whole.
     ///
     /// # Errors
     /// [`Error::Shape`] if the solution is not one of the whole.

@@ -13,14 +13,15 @@ use crate::real::Real;
 const SOFTNESS: f64 = 2.0 * E / PI;
 
 /// How far the edge is inside the contour, in spacings: 1/4 − (1/4π) ∫₀^π ln(k(q) / sin(q/2)) / sin²(q/2) dq, for the
-/// stiffness k of waves on the grid over E*/Δ. In a periodic cell that is |q|/2; of the free half-space, to which Love's
-/// kernel belongs, the inverse of the sum of 4 sin(q'/2)/(q'|q'|) over all q' = q + 2πm. That has nearly the same mean.
+/// stiffness k of waves on the grid over E*/Δ. In a periodic cell that is |q|/2; of the free half-space, to which
+/// Love's kernel belongs, the inverse of the sum of 4 sin(q'/2)/(q'|q'|) over all q' = q + 2πm. That has nearly the
+/// same mean.
 const SHIFT_PERIODIC: f64 = 0.190_009_285_9;
 const SHIFT_FREE: f64 = 0.174_653_2;
 
-/// How much less far an edge along the diagonals is inside the contour than one along the nodes, in spacings; in between
-/// by the third power of sin 2θ, with θ the angle to the nodes. Measured on plane waves in ten directions, in periodic
-/// cells; Hertz contacts on free half-spaces have the same.
+/// How much less far an edge along the diagonals is inside the contour than one along the nodes, in spacings; in
+/// between by the third power of sin 2θ, with θ the angle to the nodes. Measured on plane waves in ten directions, in
+/// periodic cells; Hertz contacts on free half-spaces have the same.
 const SLANT: f64 = 0.0147;
 
 /// The area that a full turn of the edge adds, in cells; fitted to Hertz contacts with radii of 3 to 40 nodes.

@@ -35,8 +35,8 @@ const LARGEST: usize = 1 << 16;
 /// in the basis 1, √2 cos q·x, √2 sin q·x, which is orthonormal. The matrix is symmetric and positive, and decomposed
 /// by Cholesky.
 ///
-/// An operator makes it ([`Waves::coarse_space`](crate::elastic::Waves::coarse_space)), the solver tells it where the contacts
-/// are, and the operator uses it where it [preconditions](crate::ElasticOperator::precondition).
+/// An operator makes it ([`Waves::coarse_space`](crate::elastic::Waves::coarse_space)), the solver tells it where the
+/// contacts are, and the operator uses it where it [preconditions](crate::ElasticOperator::precondition).
 #[derive(Clone, Debug)]
 pub struct CoarseSpace {
     /// the mean, and one wave of each pair ±q, sorted by their columns
@@ -204,7 +204,8 @@ fn block(n: usize, highest: usize) -> usize {
 /// The mean, and one wave of each pair ±q with |q| up to a radius, sorted by their columns in the half spectrum.
 fn waves(grid: &Grid, layout: Layout, symbol: &dyn Fn(f64, f64) -> f64, dimension: usize) -> Vec<Wave> {
     let ((nx, ny), (lx, ly)) = (grid.shape(), grid.lengths());
-    // the modes per area of the wave numbers, or per length: on a narrow grid, too, no waves but those along it are long
+    // the modes per area of the wave numbers, or per length: on a narrow grid, too, no waves but those along it are
+    // long
     let along = |length: f64| PI * dimension as f64 / length;
     let radius = match (nx, ny) {
         (1, _) => along(ly),

@@ -62,7 +62,8 @@ impl OutputFolder {
     /// does not write them itself; other files in the folder are left alone.
     ///
     /// If there are several names, the first one stands for the run: its file goes before any other one changes, and
-    /// comes after all of them. So a file of this name is never beside those of two runs, even if the process is killed.
+    /// comes after all of them. So a file of this name is never beside those of two runs, even if the process is
+    /// killed.
     ///
     /// # Errors
     ///

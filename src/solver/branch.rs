@@ -132,8 +132,8 @@ impl<T: Real> Solution<T> {
     }
 
     /// Whether two solutions of one problem under one load are the same equilibrium, to their accuracies: with adhesion
-    /// a certified error bounds the distance to the equilibrium but for a factor, that of how soft it is. Of solves that
-    /// have not converged it is not said.
+    /// a certified error bounds the distance to the equilibrium but for a factor, that of how soft it is. Of solves
+    /// that have not converged it is not said.
     pub fn agrees_with(&self, other: &Self) -> bool {
         let [a, b] = [self, other].map(|solution| solution.report.relative_error.max(solution.report.load_error));
         let found = [self, other].iter().all(|solution| solution.report.status == Status::Converged);

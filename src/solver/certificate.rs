@@ -129,8 +129,8 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         criterion <= tolerance && load_error <= tolerance
     }
 
-    /// Computes p = K⁻¹(g + h) from the gap, where steps had only updated it, and the certificate that the residual then
-    /// has: a solve ends only if that meets the tolerance. A start needs no such proof.
+    /// Computes p = K⁻¹(g + h) from the gap, where steps had only updated it, and the certificate that the residual
+    /// then has: a solve ends only if that meets the tolerance. A start needs no such proof.
     pub(super) fn confirm(&mut self) -> Result<()> {
         if self.steps.age == 0 || self.posed.goal != Goal::Solution {
             return Ok(());
@@ -206,8 +206,8 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         stalled.then_some(Status::Stalled)
     }
 
-    /// Whether a solve that would stall may go on with a pressure computed from the gap: once, after many updates, whose
-    /// rounding may then be most of the residual.
+    /// Whether a solve that would stall may go on with a pressure computed from the gap: once, after many updates,
+    /// whose rounding may then be most of the residual.
     pub(super) fn may_renew(&self) -> bool {
         self.steps.age > STALL_AT_FLOOR.1
             && !self.counters.progress.renewed

@@ -52,8 +52,8 @@ impl<'a, T: Real, Lo: Real> State<'a, T, Lo> {
         Ok(())
     }
 
-    /// Puts the constraint of a law that repels in the place of the wall that stood for it, as much farther apart as the
-    /// equilibrium separation of the law.
+    /// Puts the constraint of a law that repels in the place of the wall that stood for it, as much farther apart as
+    /// the equilibrium separation of the law.
     pub(super) fn stand_on(&mut self, constraint: &'a mut dyn ContactConstraint<T>, separation: T) -> Result<()> {
         self.posed.constraint = constraint;
         self.posed.prepare()?;

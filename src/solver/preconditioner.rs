@@ -116,8 +116,8 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         soft && self.sums.tally.contact == 0.0
     }
 
-    /// The mean of r over the nodes that are apart. That of p has no part in it where all are; of its rounding little is
-    /// much to a soft spring.
+    /// The mean of r over the nodes that are apart. That of p has no part in it where all are; of its rounding little
+    /// is much to a soft spring.
     pub(super) fn imbalance(&self) -> f64 {
         let balance = || self.sums.given + self.sums.tally.traction / self.posed.nodes();
         if self.hangs_on_spring() { balance() } else { self.sums.tally.sum_r / self.sums.tally.free }

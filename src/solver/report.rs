@@ -242,9 +242,9 @@ fn named<'de, D: serde::Deserializer<'de>>(from: D) -> std::result::Result<Name,
 /// which has control, wall, boundary and contact modulus.
 ///
 /// [`ContactStatistics`](crate::contact::ContactStatistics), [`StabilityTest`](crate::stability::StabilityTest),
-/// [`ContactStiffness`](crate::stability::ContactStiffness) and [`Warning`](crate::warning::Warning) take them from here. The
-/// adhesion law belongs to the problem: what needs its traction takes the law, and refuses one of another work of
-/// adhesion.
+/// [`ContactStiffness`](crate::stability::ContactStiffness) and [`Warning`](crate::warning::Warning) take them from
+/// here. The adhesion law belongs to the problem: what needs its traction takes the law, and refuses one of another
+/// work of adhesion.
 ///
 /// ```
 /// use asperity::{Control, Grid, NoAdhesion, Problem, Solver, Surface, Westergaard};

@@ -40,11 +40,10 @@ const ON_LINES: Factors = Factors { sum: STIFF, scatter: 0.5, excess: 0.0 };
 ///
 /// where R = Δ τ²/E* of the nodes in contact and R' = E* v²/(3 Δ) of those that are apart, with the spacing Δ, is that
 /// by which k jumps where the edge passes a node: so both errors have the mean zero over a step. On a line c is 1.73,
-/// of which 3 is the square, and the errors are met closely, by comparison with
-/// [Westergaard's wave](crate::exact::WavyLine). On a plane steps are less regular. There c is 1.2 for δk, which is less
-/// by 0.063 ⟨R⟩, and 1.59 for δḡ; both are fitted to rough surfaces. So is the scatter, for the case that the terms
-/// cancel: 0.6 and 0.8 times the root of the sum of their squares, and 0.5 times on a line, which is added in the root
-/// mean square.
+/// of which 3 is the square, and the errors are met closely, by comparison with [Westergaard's
+/// wave](crate::exact::WavyLine). On a plane steps are less regular. There c is 1.2 for δk, which is less by 0.063 ⟨R⟩,
+/// and 1.59 for δḡ; both are fitted to rough surfaces. So is the scatter, for the case that the terms cancel: 0.6 and
+/// 0.8 times the root of the sum of their squares, and 0.5 times on a line, which is added in the root mean square.
 ///
 /// ```
 /// use asperity::exact::WavyLine;
@@ -63,8 +62,8 @@ const ON_LINES: Factors = Factors { sum: STIFF, scatter: 0.5, excess: 0.0 };
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EdgeError {
-    /// The error of the mean gap under a given load, a length. Times the stiffness it is that of the mean pressure under
-    /// a given mean gap.
+    /// The error of the mean gap under a given load, a length. Times the stiffness it is that of the mean pressure
+    /// under a given mean gap.
     pub gap: f64,
     /// The error of the stiffness, a pressure per length.
     pub stiffness: f64,

@@ -34,16 +34,17 @@ const OPEN_END: f64 = 6.0;
 /// steps, as a grating, may have one at the edge, but has equal ones inside.
 const STANDS_OUT: f64 = 1.5;
 
-/// The fall of mean height to an edge, in the greatest difference between the means of neighbouring rows (columns), from
-/// which heights fall to the edge: a sphere is steepest there, and a wave or an asperity within the map flat.
+/// The fall of mean height to an edge, in the greatest difference between the means of neighbouring rows (columns),
+/// from which heights fall to the edge: a sphere is steepest there, and a wave or an asperity within the map flat.
 const FALLS: f64 = 0.5;
 
 /// The bend of mean height across the periodic edge, in the greatest one inside, from which the edge is a crease. The
-/// bends of a mirrored map are as great along its mirror lines inside. That of a sphere goes with the number of nodes, and
-/// is 7 on 16; that of a cone, which has an apex inside, is 4 on 32.
+/// bends of a mirrored map are as great along its mirror lines inside. That of a sphere goes with the number of nodes,
+/// and is 7 on 16; that of a cone, which has an apex inside, is 4 on 32.
 const CREASE: f64 = 4.0;
 
-/// The contact modulus in Pa below which lengths in metres have another unit of pressure beside them: that of soft gels.
+/// The contact modulus in Pa below which lengths in metres have another unit of pressure beside them: that of soft
+/// gels.
 const SOFTEST: f64 = 1e3;
 
 /// The spacing of nodes below which lengths are in metres: in millimetres it would be less than an atom.

@@ -38,8 +38,8 @@ impl Origin {
     }
 }
 
-/// The map of a file with the given `--lengths`, of which one means square cells, or those of the file, or none. Lengths
-/// that contradict the file are refused. In the SI all is in metres, and side lengths have to be known.
+/// The map of a file with the given `--lengths`, of which one means square cells, or those of the file, or none.
+/// Lengths that contradict the file are refused. In the SI all is in metres, and side lengths have to be known.
 pub fn map(path: &Path, lengths: Option<&[Quantity]>, si: bool) -> Outcome<(Topography, Origin)> {
     let (mut map, unit) = in_metres_if(si, path, read_topography(path)?)?;
     map.lengths = sides_of(path, &map, map.heights.dim(), lengths, si)?;
@@ -71,8 +71,8 @@ pub fn rows_on(option: &'static str, path: &Path, grid: &Grid) -> Outcome<Array2
     if found == expected { Ok(map.heights) } else { Err(Error::Shape { name: option, found, expected }.into()) }
 }
 
-/// The surface of a file, of which every process reads its rows, and its origin. Its missing points become absent nodes,
-/// or are refused.
+/// The surface of a file, of which every process reads its rows, and its origin. Its missing points become absent
+/// nodes, or are refused.
 pub fn shared(
     path: &Path,
     lengths: Option<&[Quantity]>,

@@ -22,8 +22,8 @@ pub fn stands(text: String) {
     *STANDING.lock().unwrap_or_else(PoisonError::into_inner) = text;
 }
 
-/// Listens for all that may end the run, each on a thread of its own. Where no thread is to be had, an interruption ends
-/// the run as it does any other program.
+/// Listens for all that may end the run, each on a thread of its own. Where no thread is to be had, an interruption
+/// ends the run as it does any other program.
 pub fn listen() {
     #[cfg(unix)]
     listen_to_signals();

@@ -107,8 +107,8 @@ pub fn chart_of_loads(rows: &[Value], units: &Units, dpi: f64) -> Result<Picture
 
 /// The chart of column `y` of a table over column `x`: a curve for each leg of a cycle, broken where the state jumps,
 /// and for each part of a sweep in which the loads rise or fall. Axes are logarithmic where the values along x span
-/// more than a decade, and are spread more evenly so; along y if that spans a decade, too. Those of a cycle are not: the
-/// area of its loop is an energy.
+/// more than a decade, and are spread more evenly so; along y if that spans a decade, too. Those of a cycle are not:
+/// the area of its loop is an energy.
 pub fn chart_of_columns(rows: &[Value], x: &str, y: &str, units: &Units, dpi: f64) -> Result<Picture> {
     let mut jumps = Vec::new();
     let curves = legs(rows).into_iter().map(|(name, rows)| {

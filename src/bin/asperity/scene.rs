@@ -127,8 +127,8 @@ impl Scene {
         text
     }
 
-    /// Refuses to replace a file at `path` that was not written as a scene, and names of files that a scene there cannot
-    /// have.
+    /// Refuses to replace a file at `path` that was not written as a scene, and names of files that a scene there
+    /// cannot have.
     pub fn check(&self, path: &Path) -> Outcome<()> {
         for entry in &self.entries {
             for value in &entry.values {

@@ -81,8 +81,8 @@ pub struct Options {
     /// Find the contact stiffness: how much the mean pressure grows with the approach, pressure per length
     #[arg(long, help_heading = "Output")]
     stiffness: bool,
-    /// Write distribution.csv: the probability density of the contact pressure over the nodes, in so many bins from 0 to
-    /// the largest; its integral is the contact fraction [default: 50 if --distribution stands alone]
+    /// Write distribution.csv: the probability density of the contact pressure over the nodes, in so many bins from 0
+    /// to the largest; its integral is the contact fraction [default: 50 if --distribution stands alone]
     #[arg(long, value_name = "BINS", num_args = 0..=1, default_missing_value = "50", help_heading = "Output")]
     #[arg(value_parser = bins, allow_negative_numbers = true)]
     distribution: Option<usize>,
@@ -431,8 +431,8 @@ impl Job<'_> {
         Ok(())
     }
 
-    /// Writes the files but for fields of which each process writes its rows; those that take the `whole` solution, with
-    /// its law, where there is one.
+    /// Writes the files but for fields of which each process writes its rows; those that take the `whole` solution,
+    /// with its law, where there is one.
     fn write<T: Scalar>(
         &self,
         folder: &OutputFolder,
