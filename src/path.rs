@@ -17,20 +17,20 @@ use crate::solver::{Begin, Iteration, Observer, Solution, Solved, Solver, Start,
 use crate::stability::Watch;
 
 mod account;
+mod course;
 mod event;
-mod place;
+mod figures;
 mod prediction;
 mod quadrature;
 mod saddle;
 mod settings;
-mod state;
 mod step;
 
 use account::Account;
+use course::{Course, Way};
 pub use event::{Event, Jump};
-use place::Mode;
+use figures::Mode;
 pub use settings::PathSettings;
-use state::{State, Way};
 pub use step::{PathCheckpoint, PathStep};
 
 /// A path of equilibria: an iterator over the states of a branch that is followed from load to load in small steps,
@@ -121,7 +121,7 @@ pub struct Path<'a, T, O, L, C = Projection> {
     legs: Vec<Control>,
     settings: PathSettings,
     start: Option<Array2<T>>,
-    state: State,
+    course: Course,
     /// the last gaps, on the grid of the operator, the latest last: at most two
     gaps: Vec<Array2<T>>,
     watch: Watch<T>,
@@ -172,8 +172,8 @@ where
             let (name, value) = ("smallest step", settings.smallest_step);
             return Err(Error::Value { name, value, requirement: "positive and below 1" });
         }
-        let (state, watch) = (State::on(&problem.flat), Watch::default());
-        Ok(Self { solver, problem, legs, settings, start: None, state, gaps: Vec::new(), watch, failed: false })
+        let (course, watch) = (Course::on(&problem.flat), Watch::default());
+        Ok(Self { solver, problem, legs, settings, start: None, course, gaps: Vec::new(), watch, failed: false })
     }
 
     /// The path with a gap of shape (Nx, Ny) as the start at the first load.
@@ -183,7 +183,7 @@ where
 
     /// Ends the present leg: the path heads for the next load from where it is, as from surfaces that have come apart.
     pub fn end_leg(&mut self) {
-        self.state.end_leg();
+        self.course.end_leg();
     }
 
     /// The present place of the path, from which [`Path::continuing`] goes on.
@@ -193,7 +193,7 @@ where
             Some(window) => window.place(&window.hold(mode.view()).into_owned(), T::zero()),
             None => mode.clone(),
         });
-        PathCheckpoint { values: self.state.values(), fields: self.gaps.iter().cloned().chain(mode).collect() }
+        PathCheckpoint { values: self.course.values(), fields: self.gaps.iter().cloned().chain(mode).collect() }
     }
 
     /// The path continued from the checkpoint of another one with the same problem, loads and settings.
@@ -210,22 +210,22 @@ where
                 *field = field.as_standard_layout().into_owned();
             }
         }
-        let state = State::of_values(&values, State::on(&self.problem.flat)).filter(|state| {
-            let gaps = state.at.len();
-            state.leg < self.legs.len().max(1)
-                && state.solved != fields.is_empty()
+        let course = Course::of_values(&values, Course::on(&self.problem.flat)).filter(|course| {
+            let gaps = course.at.len();
+            course.leg < self.legs.len().max(1)
+                && course.solved != fields.is_empty()
                 && (gaps..=gaps + 1).contains(&fields.len())
         });
-        let Some(state) = state else {
+        let Some(course) = course else {
             let (name, value) = ("number of values in the checkpoint", values.len() as f64);
             return Err(Error::Value { name, value, requirement: "as in PathCheckpoint, with all of its fields" });
         };
-        let mode = fields.drain(state.at.len()..).next();
+        let mode = fields.drain(course.at.len()..).next();
         self.watch = Watch::from_mode(match &self.problem.flat.window {
             Some(window) => mode.map(|mode| window.crop(&mode, T::zero())),
             None => mode,
         });
-        (self.state, self.gaps) = (state, fields);
+        (self.course, self.gaps) = (course, fields);
         Ok(self)
     }
 
@@ -247,15 +247,15 @@ where
     }
 
     fn advance(&mut self, observe: Observer<'_>) -> Option<Result<PathStep<T>>> {
-        if !self.state.solved {
+        if !self.course.solved {
             let control = *self.legs.first()?;
             let start = self.start.take();
             return self.begin(control, start, observe).transpose();
         }
         while !self.failed {
-            while self.state.is_at_end() {
-                let next = self.state.leg + 1;
-                self.state.enter(next, *self.legs.get(next)?, &self.settings);
+            while self.course.is_at_end() {
+                let next = self.course.leg + 1;
+                self.course.enter(next, *self.legs.get(next)?, &self.settings);
             }
             match self.attempt(observe) {
                 Ok(Some(step)) => return Some(Ok(step)),
@@ -283,8 +283,8 @@ where
             (solved, on_saddle) = left.map_or((solved, true), |left| (left, false));
         }
         let (solution, gap) = solved.with_gap();
-        self.state.begin(&solution.report);
-        self.state.on_saddle = on_saddle;
+        self.course.begin(&solution.report);
+        self.course.on_saddle = on_saddle;
         self.gaps.push(gap);
         Ok(Some(self.step(solution, None)))
     }
@@ -312,8 +312,8 @@ where
 
     /// One step; `None` if it has to be taken back and halved.
     fn attempt(&mut self, observe: Observer<'_>) -> Result<Option<PathStep<T>>> {
-        let (target, smallest) = self.state.next_target(&self.settings);
-        let control = self.state.control(target);
+        let (target, smallest) = self.course.next_target(&self.settings);
+        let control = self.course.control(target);
         let start = self.predict(target);
         let mut solved = self.solve(control, Begin::Found(start), observe)?;
         // a long way after a jump may need another run-up
@@ -337,19 +337,19 @@ where
         let left = if self.problem.law.hints().zero { report.tolerance.powi(2) * flat } else { 0.0 };
         let noise = (rounding, left);
         let scale = (self.settings.imbalance, 1e-3 * w);
-        let mut trial = self.state.judge(target, report, scale, noise);
+        let mut trial = self.course.judge(target, report, scale, noise);
         let good = trial.balanced && settled;
         let saddle = if settled && (good || smallest) { self.saddle(&solved.solution)? } else { None };
-        let lost = good && saddle.is_some() && !self.state.on_saddle;
+        let lost = good && saddle.is_some() && !self.course.on_saddle;
         if (!good || lost) && !smallest {
-            self.state.halve(&self.settings);
+            self.course.halve(&self.settings);
             return Ok(None);
         }
         let detached = report.status == Status::Detached;
-        if self.state.mode == Mode::Pressure && (trial.jumped && !good || detached || lost) {
+        if self.course.mode == Mode::Pressure && (trial.jumped && !good || detached || lost) {
             let far = 2.0 * (self.problem.flat.height_span + 10.0 * self.problem.law.hints().range.widen());
-            let close = self.closest(self.state.end());
-            self.state.leave_pressure_control((close, far), !lost, &self.settings);
+            let close = self.closest(self.course.end());
+            self.course.leave_pressure_control((close, far), !lost, &self.settings);
             return Ok(None);
         }
         let mut way = Way { jumped: trial.jumped && !good, bifurcation: None };
@@ -361,17 +361,17 @@ where
             }
             if let Some(left) = left {
                 (solved, on_saddle) = (left, false);
-                trial = self.state.judge(target, &solved.solution.report, scale, noise);
+                trial = self.course.judge(target, &solved.solution.report, scale, noise);
                 way.jumped |= trial.jumped && !trial.balanced;
                 way.bifurcation = (good && !drawn).then_some(saddle.eigenvalue);
             }
         }
         let (solution, gap) = solved.with_gap();
-        if self.state.overshoots(&solution.report, &self.settings) {
+        if self.course.overshoots(&solution.report, &self.settings) {
             return Ok(None);
         }
-        let event = self.state.accept(target, &solution.report, trial, way, &self.settings);
-        self.state.on_saddle = on_saddle;
+        let event = self.course.accept(target, &solution.report, trial, way, &self.settings);
+        self.course.on_saddle = on_saddle;
         if way.is_new() {
             self.gaps.clear();
         } else if self.gaps.len() == 2 {
@@ -382,8 +382,8 @@ where
     }
 
     fn step(&self, solution: Solution<T>, event: Option<Event>) -> PathStep<T> {
-        let Account { work, dissipated, imbalance, .. } = self.state.account;
-        PathStep { solution, leg: self.state.leg, work, dissipated, imbalance, event }
+        let Account { work, dissipated, imbalance, .. } = self.course.account;
+        PathStep { solution, leg: self.course.leg, work, dissipated, imbalance, event }
     }
 }
 

@@ -12,7 +12,7 @@ pub(super) struct Account {
 
 /// The balance of energy of a trial step.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Trial {
+pub(super) struct Balance {
     /// whether the energy changed by the work of the load
     pub(super) balanced: bool,
     /// whether it fell by more than any work of the load in such a step

@@ -47,7 +47,7 @@ where
     pub(super) fn predict(&self, target: f64) -> Array2<T> {
         match &self.gaps[..] {
             [before, last] => {
-                let steps = self.state.extrapolation(target).clamp(-FARTHEST, FARTHEST);
+                let steps = self.course.extrapolation(target).clamp(-FARTHEST, FARTHEST);
                 let steps = if steps.is_finite() { steps } else { 0.0 };
                 let on = (self.problem.flat.window.as_ref(), *self.problem.operator.grid());
                 extrapolated([before, last], steps, self.least(), on)

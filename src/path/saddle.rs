@@ -31,7 +31,7 @@ where
 {
     /// Whether a state is a saddle at its mean gap, of the law that the path follows.
     pub(super) fn saddle(&mut self, solution: &Solution<T>) -> Result<Option<Saddle>> {
-        let load = self.state.held(&self.problem.flat);
+        let load = self.course.held(&self.problem.flat);
         let Parts { operator, law, flat } = self.problem.parts();
         let smoothed = if self.settings.smooth { smoothed_law(&*operator, law) } else { None };
         let followed = smoothed.as_deref().unwrap_or(law);

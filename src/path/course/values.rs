@@ -2,16 +2,16 @@
 
 use std::collections::BTreeMap;
 
-use super::{PLACES, State};
+use super::{Course, PLACES};
 use crate::path::account::Account;
-use crate::path::place::{Mode, Place};
+use crate::path::figures::{Figures, Mode};
 
-impl State {
+impl Course {
     /// The values of the state by their names.
     pub(in crate::path) fn values(&self) -> BTreeMap<String, Vec<f64>> {
         let flag = |flag: bool| vec![f64::from(u8::from(flag))];
         let pair = |pair: Option<(f64, f64)>| pair.map_or(Vec::new(), |(a, b)| vec![a, b]);
-        let places = |places: &[Place]| {
+        let places = |places: &[Figures]| {
             places.iter().flat_map(|p| [p.position, p.rest, p.gap, p.pressure, p.energy, p.contact]).collect()
         };
         let Account { work, dissipated, imbalance, range } = self.account;
@@ -50,9 +50,9 @@ impl State {
             [a, b] => Some(Some((a, b))),
             _ => None,
         };
-        let places = |name: &str| -> Option<Vec<Place>> {
+        let places = |name: &str| -> Option<Vec<Figures>> {
             let (places, rest) = of(name)?.as_chunks();
-            let place = |&[position, rest, gap, pressure, energy, contact]: &[f64; 6]| Place {
+            let place = |&[position, rest, gap, pressure, energy, contact]: &[f64; 6]| Figures {
                 position,
                 rest,
                 gap,
@@ -102,8 +102,8 @@ mod tests {
 
     #[test]
     fn a_state_comes_back_from_its_values() {
-        let place = |x: f64| Place { position: x, rest: 2.0 * x, gap: x, pressure: -x, energy: x * x, contact: 0.5 };
-        let state = State {
+        let place = |x: f64| Figures { position: x, rest: 2.0 * x, gap: x, pressure: -x, energy: x * x, contact: 0.5 };
+        let state = Course {
             solved: true,
             leg: 2,
             mode: Mode::Spring(0.3),
@@ -119,14 +119,14 @@ mod tests {
             at: vec![place(0.3)],
         };
         let values = state.values();
-        let on = || State { free: true, area: 2.0, ..State::default() };
-        assert_eq!(State::of_values(&values, on()).unwrap(), state);
-        assert_eq!(State::of_values(&State::default().values(), State::default()).unwrap(), State::default());
+        let on = || Course { free: true, area: 2.0, ..Course::default() };
+        assert_eq!(Course::of_values(&values, on()).unwrap(), state);
+        assert_eq!(Course::of_values(&Course::default().values(), Course::default()).unwrap(), Course::default());
         for name in values.keys() {
             let (mut less, mut more) = (values.clone(), values.clone());
             less.remove(name);
             more.get_mut(name).unwrap().extend([0.5; 3]);
-            assert_eq!((State::of_values(&less, on()), State::of_values(&more, on())), (None, None), "{name}");
+            assert_eq!((Course::of_values(&less, on()), Course::of_values(&more, on())), (None, None), "{name}");
         }
     }
 }

@@ -1,7 +1,7 @@
 //! The state of a path: its leg, its last places, the length of the next step, and the account of energy.
 
-use super::account::{Account, Trial};
-use super::place::{Mode, Place};
+use super::account::{Account, Balance};
+use super::figures::{Figures, Mode};
 use super::quadrature::integral;
 use super::{Event, Jump, PathSettings};
 use crate::elastic::Boundary;
@@ -28,7 +28,7 @@ impl Way {
 
 /// The state of a path between two steps.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(super) struct State {
+pub(super) struct Course {
     pub(super) solved: bool,
     pub(super) leg: usize,
     pub(super) mode: Mode,
@@ -47,9 +47,9 @@ pub(super) struct State {
     pub(super) on_saddle: bool,
     pub(super) account: Account,
     /// the last states on the branch, the latest last: at most four
-    places: Vec<Place>,
+    places: Vec<Figures>,
     /// the states of which the gaps are kept
-    pub(super) at: Vec<Place>,
+    pub(super) at: Vec<Figures>,
 }
 
 /// The largest factor between the lengths of two steps.
@@ -61,7 +61,7 @@ const LANDING: f64 = 1e-3;
 /// The largest number of states in the quadrature.
 const PLACES: usize = 4;
 
-impl State {
+impl Course {
     /// The state of a path that has not begun.
     pub(super) fn on<T>(flat: &PressedFlat<T>) -> Self {
         Self { free: flat.boundary != Boundary::Periodic, area: flat.area, ..Self::default() }
@@ -89,12 +89,12 @@ impl State {
         }
     }
 
-    fn here(&self) -> Place {
+    fn here(&self) -> Figures {
         self.places.last().copied().unwrap_or_default()
     }
 
     pub(super) fn begin(&mut self, report: &Report) {
-        let place = Place::of(report);
+        let place = Figures::of(report);
         self.solved = true;
         self.account.range = (place.energy, place.energy);
         (self.places, self.at) = (vec![place], vec![place]);
@@ -193,8 +193,8 @@ impl State {
         report: &Report,
         (imbalance, least): (f64, f64),
         (noise, left): (f64, f64),
-    ) -> Trial {
-        let (here, next) = (self.here(), Place::of(report).held_by(self.mode));
+    ) -> Balance {
+        let (here, next) = (self.here(), Figures::of(report).held_by(self.mode));
         let ((from, before), (_, after)) = (here.slope(self.mode), next.slope(self.mode));
         let step = target - from;
         let mut points: Vec<_> = self.places.iter().map(|place| place.slope(self.mode)).collect();
@@ -208,7 +208,7 @@ impl State {
         let order = 1.0 + (points.len() - first) as f64;
         let growth = (0.5 * allowed / excess.abs()).powf(order.recip());
         let energy = next.energy - here.energy;
-        Trial {
+        Balance {
             balanced: excess.abs() <= allowed,
             jumped: -excess > allowed.max((step * (after - before)).abs()),
             work: energy - excess,
@@ -264,11 +264,11 @@ impl State {
         &mut self,
         target: f64,
         report: &Report,
-        trial: Trial,
+        trial: Balance,
         way: Way,
         settings: &PathSettings,
     ) -> Option<Event> {
-        let (here, mut next) = (self.here(), Place::of(report).held_by(self.mode));
+        let (here, mut next) = (self.here(), Figures::of(report).held_by(self.mode));
         // the held quantity is exactly the given one
         match self.mode {
             Mode::Gap if self.free => next.position = target,

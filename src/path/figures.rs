@@ -1,4 +1,4 @@
-//! A place on a path: the figures of a state in the balance of energy, and what is held there.
+//! The figures of a state in the balance of energy, and what is held there.
 
 use crate::solver::Report;
 
@@ -13,9 +13,9 @@ pub(super) enum Mode {
     Spring(f64),
 }
 
-/// A place: the figures of a state in the balance of energy.
+/// The figures of a state in the balance of energy.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(super) struct Place {
+pub(super) struct Figures {
     /// what the load works on: the mean gap, or with a free boundary minus the approach
     pub(super) position: f64,
     /// the position at which the spring is relaxed, if there is one
@@ -27,7 +27,7 @@ pub(super) struct Place {
     pub(super) contact: f64,
 }
 
-impl Place {
+impl Figures {
     pub(super) fn of(report: &Report) -> Self {
         let position = report.approach.map_or(report.mean_gap, |approach| -approach);
         Self {
