@@ -60,7 +60,7 @@ impl<T: Real> Solution<T> {
     /// The region of each node: contact, attraction, neither, or no surface, under the law of the solution.
     ///
     /// # Errors
-    /// [`Error::Value`] if the law has another work of adhesion than that of the solution.
+    /// [`Error::Value`](crate::Error::Value) if the law has another work of adhesion than that of the solution.
     ///
     /// ```
     /// use asperity::contact::{ContactStatistics, Region};
@@ -256,7 +256,7 @@ impl ContactStatistics {
     /// Memory per node, until it returns: ten bytes, and with adhesion two scalars.
     ///
     /// # Errors
-    /// [`Error::Value`] if the law has another work of adhesion than that of the solution; [`Error::Shape`] if a field
+    /// [`Error::Value`](crate::Error::Value) if the law has another work of adhesion than that of the solution; [`Error::Shape`](crate::Error::Shape) if a field
     /// does not have the shape of the grid.
     pub fn of<T: Real>(solution: &Solution<T>, law: &impl AdhesionLaw<T>) -> Result<Self> {
         solution.check_law(law)?;
@@ -268,7 +268,7 @@ impl ContactStatistics {
     /// with the boundary and the contact modulus E* of the body. The gap of absent nodes is infinite.
     ///
     /// # Errors
-    /// [`Error::Shape`] if a field does not have the shape of the grid.
+    /// [`Error::Shape`](crate::Error::Shape) if a field does not have the shape of the grid.
     pub fn of_fields<T: Real>(
         gap: ArrayView2<'_, T>,
         contact_pressure: ArrayView2<'_, T>,

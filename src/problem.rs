@@ -65,9 +65,9 @@ impl<T: Real, O: ElasticOperator<T>, L: AdhesionLaw<T>> Problem<T, O, L> {
     /// The problem of pressing `surface` against the elastic body of `operator`. Takes one operator application.
     ///
     /// # Errors
-    /// [`Error::Shape`] or [`Error::Value`] if the grids differ; [`Error::Law`] if the law is not finite at zero gap;
-    /// [`Error::NotFinite`] if K⁻¹h leaves the range of T; [`Error::Shared`] where several processes share the grid and
-    /// the operator does not take slabs, or only one of surface and operator is shared; [`Error::Memory`] if a solve
+    /// [`Error::Shape`](crate::Error::Shape) or [`Error::Value`](crate::Error::Value) if the grids differ; [`Error::Law`](crate::Error::Law) if the law is not finite at zero gap;
+    /// [`Error::NotFinite`](crate::Error::NotFinite) if K⁻¹h leaves the range of T; [`Error::Shared`](crate::Error::Shared) where several processes share the grid and
+    /// the operator does not take slabs, or only one of surface and operator is shared; [`Error::Memory`](crate::Error::Memory) if a solve
     /// takes more memory than there is.
     pub fn new(surface: &Surface, mut operator: O, law: L) -> Result<Self> {
         let flat = PressedFlat::of(surface, &mut operator, &law)?;

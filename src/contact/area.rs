@@ -62,7 +62,7 @@ impl ContactArea {
     /// corrected. [`ContactArea::of_solution`] is several times as good.
     ///
     /// # Errors
-    /// [`Error::Shape`] if the map does not have the shape of the grid.
+    /// [`Error::Shape`](crate::Error::Shape) if the map does not have the shape of the grid.
     pub fn of(map: ArrayView2<'_, bool>, grid: &Grid) -> Result<Self> {
         grid.fits("contact map", map.dim())?;
         Ok(Self::within(map, grid, true, grid.nodes(), |along| edge_of_map(along, grid)))
@@ -88,7 +88,7 @@ impl ContactArea {
     /// ```
     ///
     /// # Errors
-    /// [`Error::Shape`] if a field does not have the shape of the grid.
+    /// [`Error::Shape`](crate::Error::Shape) if a field does not have the shape of the grid.
     pub fn of_solution<T: Real>(solution: &Solution<T>) -> Result<Self> {
         let Solution { gap, contact_pressure, grid, report, .. } = solution;
         let (gap, contact_pressure) = (gap.view(), contact_pressure.view());

@@ -9,9 +9,9 @@
 /// | [`Approach`](Self::Approach) | no | yes | the force |
 /// | [`Spring`](Self::Spring) | yes | yes | force and position |
 ///
-/// The [`Boundary`] is that of the operator. A control that it does not have is refused, and so are mean gap and spring
-/// for a periodic surface with [absent nodes](Surface::with_absent), where the mean gap over the others is not what the
-/// load works on.
+/// The [`Boundary`](crate::Boundary) is that of the operator. A control that it does not have is refused, and so are
+/// mean gap and spring for a periodic surface with [absent nodes](crate::Surface::with_absent), where the mean gap over
+/// the others is not what the load works on.
 ///
 /// ```
 /// use asperity::{Control, Grid, NoAdhesion, Problem, Solver, Surface, Westergaard};

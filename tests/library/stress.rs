@@ -339,9 +339,11 @@ fn random_scenes_agree_with_dense_matrices_and_end_as_they_should() {
     Account::of(0..885).check();
 }
 
-/// Scenes that a constant of the driver decides: how they end with it, and iterations that are enough. Without it they
-/// end otherwise, or take about twice as many.
-const DECIDED: &[(&str, End, &[(u64, usize)])] = &[
+/// A constant of the driver, how scenes end that it decides, and these scenes with iterations that are enough.
+type Decided = (&'static str, End, &'static [(u64, usize)]);
+
+/// Scenes that a constant of the driver decides: without it they end otherwise, or take about twice as many iterations.
+const DECIDED: &[Decided] = &[
     ("SHORT", End::Converged, &[(3367, 40), (3622, 30), (4822, 40)]),
     ("FARTHEST", End::Converged, &[(658, 40), (4939, 14), (1771, 24)]),
     ("HELD", End::Converged, &[(1232, 100), (2471, 60), (4939, 14)]),
