@@ -77,7 +77,7 @@ impl World {
     /// # Errors
     /// That of the result, or [`Error::Elsewhere`].
     pub fn agree<T>(&self, result: Result<T>) -> Result<T> {
-        Error::agreed(Slab::new((1, 1), self.ranks), result)
+        Slab::new((1, 1), self.ranks).agreed(result)
     }
 
     /// The text of the first process. All processes have to ask.
