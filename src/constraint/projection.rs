@@ -3,9 +3,8 @@
 use super::{ContactConstraint, Wall};
 use crate::real::Real;
 
-/// The gap is confined to g ≥ 0: steps that would pass are clipped, and contact nodes under tension are released.
-///
-/// Complementarity is exact: where the contact pressure is positive the gap is zero, to the last bit.
+/// A rigid wall, g ≥ 0: steps that would pass are clipped, and contact nodes under tension are released. Where the
+/// contact pressure is positive the gap is exactly zero.
 ///
 /// ```
 /// use asperity::{Control, Grid, NoAdhesion, Problem, Solver, Surface, Westergaard};
