@@ -21,7 +21,7 @@ const HOLD: f64 = 1e-3;
 /// The share of the best error below which an error is progress.
 const PROGRESS: f64 = 0.95;
 
-/// Iterations without progress after which the direction is dropped, and the solve has stalled.
+/// Iterations without progress until the direction is dropped, and until the solve has stalled.
 const STALL: (usize, usize) = (10, 30);
 
 /// The same numbers at the floor: where the error is at most [`NEAR_FLOOR`] times that of rounding.

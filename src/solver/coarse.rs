@@ -11,8 +11,8 @@ use crate::par::{self, Parts};
 use crate::real::Real;
 use crate::vector::vectorised;
 
-/// The dimension of the space over the cube root of the number of nodes: its decomposition takes dimension³/3 = 21
-/// multiplications a node.
+/// The dimension of the space over the cube root of the number of nodes: its decomposition takes a third of the cube,
+/// 21 multiplications a node.
 const DIMENSION: f64 = 4.0;
 
 /// The stiffness of the contacts, over that which the surface meets as it is pressed flat: the best on any grid.

@@ -96,7 +96,7 @@ impl<'a, T: Real, Lo: Real> State<'a, T, Lo> {
         self.sums.tally.sum_gap / self.posed.nodes()
     }
 
-    /// The constant b in r = p + φ'(g) + b: the given mean pressure, zero under gap control, less the rounding in p's.
+    /// The constant b in r = p + φ'(g) + b: the given mean pressure, zero under gap control, less the mean of p.
     pub(super) fn offset(&self) -> f64 {
         self.sums.given - self.sums.drift
     }
