@@ -65,9 +65,8 @@ pub trait ContactConstraint<T: Real>: Send + Sync {
         Ok(())
     }
 
-    /// Whether the constraint works where processes share the grid: its springs are then asked for their own nodes, by
-    /// the numbers of the whole grid, and [`update`](Self::update) gets the gap of their rows. If not, as by default,
-    /// such a solve is refused.
+    /// Whether the constraint works where processes share the grid, with the springs of their own nodes, and
+    /// [`update`](Self::update) on their rows; if not, as by default, such a solve is refused.
     fn takes_slabs(&self) -> bool {
         false
     }
@@ -113,8 +112,7 @@ impl<T> fmt::Debug for Wall<'_, T> {
     }
 }
 
-/// Springs that resist small or negative gaps: functions of a node, ix·Ny + iy, and its gap ([`ContactConstraint`] has
-/// an example).
+/// Springs that resist small or negative gaps, as in the example of [`ContactConstraint`]; nodes are ix·Ny + iy.
 pub trait Springs<T: Real>: Sync {
     /// The energy per area.
     fn energy(&self, node: usize, gap: T) -> T;

@@ -70,8 +70,7 @@ const CARRIED: f64 = 0.5;
 pub struct Nested<C = Projection> {
     /// The solver of all grids; its tolerance is that of the finest.
     pub solver: Solver<C>,
-    /// The tolerance on the coarser grids, or that of the solver if it is larger. Default 1e-2, below the
-    /// discretisation error of a coarser grid.
+    /// The tolerance on coarser grids, or the solver's if larger. Default 1e-2, below their discretisation error.
     pub coarse_tolerance: f64,
     /// The least number of nodes along a side of a coarser grid. Default 64.
     pub coarsest: usize,
@@ -116,7 +115,6 @@ impl<C> Nested<C> {
 }
 
 impl Default for Nested {
-    /// The default settings, and projection.
     fn default() -> Self {
         Self::new(Settings::default())
     }
@@ -257,7 +255,6 @@ impl<C> Nested<C> {
         Ok((solved, levels))
     }
 
-    /// The coarser grids, and the half-space as deformed on the finest of them that carries its load.
     fn solve_coarser<T, O, L>(
         &mut self,
         surface: &Surface,
@@ -309,7 +306,7 @@ impl<C> Nested<C> {
         Ok((levels, coarser))
     }
 
-    /// Runs the solver to a tolerance that is not that of its settings.
+    /// Runs the solver to another tolerance.
     fn run_to<T: Real>(
         &mut self,
         tolerance: f64,
@@ -328,7 +325,6 @@ impl<C> Nested<C> {
         result
     }
 
-    /// The contact stiffness of a solution, if it is asked for and the solve was not stopped.
     pub(crate) fn stiffness_of<T, O, L>(
         &self,
         problem: &mut Problem<T, O, L>,

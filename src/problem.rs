@@ -16,8 +16,7 @@ pub(crate) use control::Load;
 pub(crate) use flat::PressedFlat;
 pub(crate) use window::Window;
 
-/// The compliance with which the jumps of a law are smoothed, in Δx/E*: a node alone has 1.1, the nodes along an edge
-/// 3.
+/// The compliance with which jumps of a law are smoothed, in Δx/E*: a node has 1.1, the nodes along an edge some 3.
 const SMOOTHING: f64 = 5.0;
 
 /// A contact problem: a rough surface, an elastic operator and an adhesion law.

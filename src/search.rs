@@ -19,8 +19,7 @@ const TOLERANCE: f64 = 0.01;
 /// The most solves of a search; a bracket is halved at least with every other one.
 const MOST: usize = 60;
 
-/// The width, in the logarithm of the load or relative to the approach, of a bracket in which the contact fraction
-/// jumps.
+/// The width of a bracket in which the contact jumps, in the logarithm of the load or relative to the approach.
 const WIDTH: f64 = 1e-5;
 
 /// The share of a bracket that a step leaves to both sides at least.
@@ -75,8 +74,7 @@ pub struct ContactSearch<'a, T, O, L, C = Projection> {
 #[non_exhaustive]
 #[derive(Clone, Debug)]
 pub struct FoundContact<T> {
-    /// The state: the wanted one if it is reached. Its control is a mean pressure, with adhesion a mean gap or
-    /// approach.
+    /// The state, the wanted one if reached, under a mean pressure, with adhesion a mean gap or an approach.
     pub solution: Solution<T>,
     /// Whether the solve has converged, and its contact fraction is the wanted one to the tolerance.
     pub reached: bool,
@@ -84,13 +82,12 @@ pub struct FoundContact<T> {
     pub below: Option<f64>,
     /// The contact fraction found next above the wanted one, if any.
     pub above: Option<f64>,
-    /// The number of solves.
+    /// The number of solves of the search.
     pub solves: usize,
     /// The operator applications of all of them.
     pub operator_applications: usize,
 }
 
-/// A place on the axis of a search, with the contact there.
 #[derive(Clone, Copy, Debug)]
 struct Point {
     x: f64,
@@ -103,7 +100,6 @@ fn level(fraction: f64) -> f64 {
     (-(-fraction).ln_1p()).ln()
 }
 
-/// The axis of a search, along which the contact grows.
 #[derive(Clone, Copy, Debug)]
 enum Axis {
     /// the logarithm of the mean pressure
@@ -153,7 +149,6 @@ impl Axis {
         }
     }
 
-    /// How much the level changes along the axis, roughly.
     fn slope(self, x: f64) -> f64 {
         match self {
             Self::Pressure { .. } => 1.0,
@@ -175,7 +170,7 @@ where
     L: AdhesionLaw<T>,
     C: ContactConstraint<T>,
 {
-    /// A search on a problem.
+    /// A search on a problem, from the default start.
     ///
     /// # Errors
     /// [`Error::Control`] without a wall, where nothing is in contact, and with adhesion on a periodic surface with
@@ -336,7 +331,6 @@ where
 struct Bracket {
     below: Option<Point>,
     above: Option<Point>,
-    /// the widths before
     widths: [Option<f64>; 2],
     /// How often the end was sought outside of what is known
     widened: i32,

@@ -43,7 +43,6 @@ pub use start::Start;
 pub(crate) use start::{Begin, check_wall, extrapolated, refuse_springs};
 
 /// The method of iteration, one of two.
-/// ```
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "kebab-case"))]
@@ -91,10 +90,9 @@ impl Criterion {
 
 /// The settings of a solve.
 ///
-/// The tolerance that [`Settings::tolerance_in`] tells, unless one is given, is 1e-6 in `f64` and 1e-4 in `f32`, and
-/// 1e-9 of [`Criterion::Complementarity`]. One below the [floor](crate::guide::choosing#rounding-floors) of the
-/// precision ends a solve as [`Status::Stalled`]; [`Report::tolerance`] is the one that was used. With the feature
-/// `serde` settings are data, in which any of them may be left out.
+/// The tolerance is 1e-6 in `f64`, 1e-4 in `f32`, and 1e-9 of [`Criterion::Complementarity`], unless one is given.
+/// Below the [floor](crate::guide::choosing#rounding-floors) of the precision a solve ends as [`Status::Stalled`]. With
+/// the feature `serde` settings are data, of which any may be left out.
 ///
 /// ```
 /// use asperity::Settings;
@@ -195,7 +193,6 @@ impl Solver {
 }
 
 impl Default for Solver {
-    /// The default settings, and projection.
     fn default() -> Self {
         Self::new(Settings::default())
     }
@@ -216,24 +213,7 @@ impl<C> Solver<C> {
         self.solve_with(problem, control, Start::Default, |_| ControlFlow::Continue(()))
     }
 
-    /// Solves from a start, and calls `observe` in every iteration; it may stop the solve.
-    ///
-    /// ```
-    /// use std::ops::ControlFlow;
-    /// use asperity::{Control, Grid, NoAdhesion, Problem, Solver, Start, Surface, Westergaard};
-    /// let grid = Grid::square(64, 1.0)?;
-    /// let surface = Surface::wave_2d(grid, 0.02, 1)?;
-    /// let mut problem = Problem::new(&surface, Westergaard::<f64>::new(grid, 1.0)?, NoAdhesion)?;
-    /// let mut solver = Solver::default();
-    /// let before = solver.solve(&mut problem, Control::MeanGap(0.010))?;
-    /// let mut errors = Vec::new();
-    /// solver.solve_with(&mut problem, Control::MeanGap(0.009), Start::From(&before.gap), |state| {
-    ///     errors.push(state.relative_error);
-    ///     ControlFlow::Continue(())
-    /// })?;
-    /// assert!(*errors.last().unwrap() < 1e-6);
-    /// # Ok::<(), asperity::Error>(())
-    /// ```
+    /// Solves from a start, and calls `observe` in every iteration; it may stop the solve. [`Start`] has an example.
     ///
     /// # Errors
     /// [`Error::Control`](crate::Error::Control) for a control that the boundary does not have;
@@ -258,7 +238,6 @@ impl<C> Solver<C> {
         self.run(problem.parts(), control, Begin::At(start), &mut observe).map(|solved| solved.solution)
     }
 
-    /// Solves as [`Solver::solve_with`], for the parts of a problem.
     pub(crate) fn run<T: Real>(
         &mut self,
         problem: Parts<'_, T>,

@@ -88,8 +88,7 @@ where
         self.problem
     }
 
-    /// The sweep continued with the [`Sweep::history`] of another one, bit for bit. Of more than two gaps the last
-    /// count.
+    /// The sweep continued with the last two of another one's [`Sweep::history`], bit for bit.
     pub fn continuing(self, mut history: Vec<(Control, Array2<T>)>) -> Self {
         history.drain(..history.len().saturating_sub(2));
         Self { history, ..self }

@@ -47,8 +47,7 @@ const STIFFEST: f64 = 10.0;
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Uzawa<T> {
-    /// The relative error in the energy norm that interpenetration may leave, if above the tolerance of the solve; a
-    /// thousand roundings unless changed.
+    /// The relative error that interpenetration may leave, if above the solve's tolerance; 1000 roundings by default.
     pub tolerance: f64,
     /// The rounds after which the solve ends without having converged; 100 unless changed.
     pub max_rounds: usize,

@@ -27,8 +27,8 @@ const MARGIN: (f64, usize) = (0.25, 8);
 /// The tolerance of the solution on a part of the window, as a share of that on the whole.
 const SHARE: f64 = 0.5;
 
-/// A rectangle of nodes of a window on a free half-space, about the contact and what attracts. Without pressure beyond
-/// it, its compliance is that of the whole window.
+/// A rectangle of nodes about the contact on a free half-space's window, of the same compliance if nothing else
+/// presses.
 #[derive(Clone, Debug, PartialEq)]
 struct Part {
     x: Range<usize>,

@@ -47,8 +47,7 @@ pub enum Control {
 }
 
 impl Control {
-    /// The name in the tool and `report.json`: `"mean-gap"`, `"mean-pressure"`, `"normal-force"`, `"approach"`,
-    /// `"spring"`.
+    /// The name in reports: `"mean-gap"`, `"mean-pressure"`, `"normal-force"`, `"approach"` or `"spring"`.
     pub fn name(self) -> &'static str {
         match self {
             Self::MeanGap(_) => "mean-gap",

@@ -75,8 +75,7 @@ impl Window {
         self.facing
     }
 
-    /// The pieces of some nodes of the operator's grid that all face the surface or all do not: their numbers of nodes,
-    /// and the first node on the surface's grid.
+    /// The pieces of some nodes that all face the surface or all do not: their lengths, and places on the surface.
     pub(crate) fn pieces(&self, nodes: Range<usize>) -> impl Iterator<Item = (usize, Option<usize>)> {
         let mut runs = self.runs[self.runs.partition_point(|run| run.nodes.end <= nodes.start)..].iter().peekable();
         let mut at = nodes.start;
@@ -190,8 +189,8 @@ impl Window {
     }
 }
 
-/// Calls `f(k, a, b, share)` for each unknown k of n: a and b are the known ones before and after it, cyclically, and
-/// `share` is how far it is from a to b.
+/// Calls `f(k, a, b, share)` for each unknown k of n: `share` of the way from a to b, the known ones about it,
+/// cyclically.
 fn between(known: &[usize], n: usize, mut f: impl FnMut(usize, usize, usize, f64)) {
     for (k, &a) in known.iter().enumerate() {
         let b = known[(k + 1) % known.len()];

@@ -64,8 +64,7 @@ impl Branch {
         }
     }
 
-    /// The branch of the default start; none without adhesion, and of Algorithm 3, whose start is the paper's. Where
-    /// the settings name none, [`Settings::branch`] says which.
+    /// The branch of a default start, as [`Settings::branch`] says; none without adhesion and of Algorithm 3.
     pub(crate) fn of_start<T: Real>(
         begin: &Begin<'_, T>,
         settings: &Settings,

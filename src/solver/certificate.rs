@@ -198,8 +198,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         stalled.then_some(Status::Stalled)
     }
 
-    /// Whether a solve that would stall may renew its pressure: once, after many updates, which may leave mostly
-    /// rounding.
+    /// Whether a solve that would stall may renew its pressure, once: many updates may leave mostly rounding.
     pub(super) fn may_renew(&self) -> bool {
         self.steps.age > STALL_AT_FLOOR.1
             && !self.counters.progress.renewed

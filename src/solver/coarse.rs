@@ -21,8 +21,7 @@ const STIFFNESS: f64 = 2.5;
 /// The stiffness of the mean gap without contacts, over that of the softest wave.
 const MEAN: f64 = 1e-3;
 
-/// The iterations before the first renewal of the contact map, and the ratio of successive intervals. A renewal costs
-/// some of the conjugacy of the steps.
+/// The iterations before the first renewal of the contact map, which costs conjugacy, and the ratio of later intervals.
 const INTERVAL: f64 = 2.0;
 const LONGER: f64 = 1.4;
 

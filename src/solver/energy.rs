@@ -53,8 +53,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         self.sums.work.is_doubtful(TRUSTED)
     }
 
-    /// Computes the work as ⟨p, K p⟩ if rounding may exceed `share` of it; tells whether it did, and overwrote the
-    /// corrections.
+    /// Computes the work as ⟨p, K p⟩, over the corrections, if rounding may exceed `share` of it; tells whether it did.
     pub(super) fn trust_work(&mut self, share: f64) -> Result<bool> {
         if !self.sums.work.is_doubtful(share) {
             return Ok(false);

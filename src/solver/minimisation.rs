@@ -16,13 +16,12 @@ pub(super) enum Goal {
     Solution,
 }
 
-/// The sums over the fields of the present state.
 #[derive(Debug)]
 pub(super) struct Sums {
     pub(super) tally: Tally,
     /// Σ u·p, twice the elastic energy
     pub(super) work: Work,
-    /// the mean of p, zero but for rounding
+    /// the mean of p, rounding only
     pub(super) drift: f64,
     /// the given mean pressure p̄, zero under gap control
     pub(super) given: f64,
@@ -95,7 +94,7 @@ pub(super) struct Made {
     pub(super) sum: f64,
 }
 
-/// The content of the field `residual` after a step, before r' is computed in it.
+/// The content of the field `residual` after a step.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Left {
     /// Values without use, such as K⁻¹c.
@@ -112,7 +111,6 @@ pub(super) enum Left {
 pub(super) struct Residual {
     /// the mean of r over the working set under gap control, zero under pressure control: r' = r − level
     pub(super) level: f64,
-    /// the number of nodes in the working set
     pub(super) working: f64,
     pub(super) complementarity: f64,
     /// Σ (r' − r'₀)², with r'₀ the previous content of the field, if r' was computed anew
@@ -121,9 +119,7 @@ pub(super) struct Residual {
 
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Preconditioned {
-    /// ⟨r', z⟩
     pub(super) descent: f64,
-    /// Σ z
     pub(super) sum: f64,
 }
 

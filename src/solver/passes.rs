@@ -1,8 +1,7 @@
 //! The passes over fields that make an iteration.
 //!
 //! Each does all that can be done while its nodes are in cache, as their cost is memory traffic. Law and constraint
-//! come in as a [`Potential`](super::potential::Potential), at one virtual call a chunk. A pass returns a struct of its
-//! sums.
+//! come in as a [`Potential`](super::potential::Potential), at one virtual call a chunk.
 
 use ndarray::Array2;
 

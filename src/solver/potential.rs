@@ -39,7 +39,7 @@ pub(crate) fn bounded<T: Real>(least: Least<T>, gap: T, wanted: T) -> T {
     if wanted < least { least } else { wanted }
 }
 
-/// The local energy of every node. Nodes that face no surface have none, and their gap is free: passes are
+/// The local energy of every node, zero at those that face no surface, whose gap is free: passes are
 /// [divided](Self::run).
 #[derive(Clone, Copy)]
 pub(crate) struct Potential<'a, T> {
@@ -51,7 +51,6 @@ pub(crate) struct Potential<'a, T> {
     window: Option<&'a Window>,
 }
 
-/// The order of a derivative of the energy.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Of {
     Energy,
@@ -165,7 +164,6 @@ impl<'a, T: Real> Potential<'a, T> {
         }
     }
 
-    /// The energies, tractions or slopes of law and constraint at the nodes from `first` on.
     pub(crate) fn evaluate(&self, of: Of, first: usize, gaps: &[T], out: &mut [T]) {
         self.law(of, first, gaps, out);
         let Some(Wall::Springs(springs)) = self.wall else { return };

@@ -12,8 +12,7 @@ use crate::real::{Real, cast};
 /// The least curvature of a direction, as a share of its elastic curvature.
 const LEAST_CURVATURE: f64 = 0.05;
 
-/// The least best length, as a share of a clipped step, for which the whole is taken, its clipped nodes exactly in
-/// contact.
+/// The least best length, as a share of a clipped step, for which the whole is taken, to land its clipped nodes.
 const WHOLE: f64 = 0.7;
 
 /// The best length, as a share of a clipped step, below which a shorter step is tried.
@@ -153,7 +152,6 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
     /// Puts a feasible change into `change` along which the energy falls. A step that clipping and scaling turn uphill
     /// is tried without the last change; then the blocked nodes alone are put into contact, or, without any, it is
     /// shortened down to its rounding.
-    /// nothing but rounding would be left of it.
     fn descend(&mut self, centre: f64, momentum: &mut Option<Momentum>) -> Option<Trial> {
         loop {
             let trial = self.trial(centre, *momentum);

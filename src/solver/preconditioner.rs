@@ -1,5 +1,4 @@
-//! The preconditioner, its certificate, and its foundation: the stiffness of the contacts for long waves and the mean
-//! gap.
+//! The preconditioner, its certificate, and its foundation: the stiffness of the contacts.
 
 use super::coarse::Coarse;
 use super::minimisation::Preconditioned;
@@ -16,8 +15,7 @@ const SOFTEST: f64 = 0.1;
 /// The least stiffness of the mean gap, in the same unit.
 const LEAST_MEAN: f64 = 0.01;
 
-/// The iterations from a far start under a pressure, and the load error, before the contact map is that of the
-/// solution.
+/// The iterations from a far start under a pressure, and the load error, before the contact map is settled.
 const UNSETTLED: usize = 3;
 const LOADED: f64 = 0.3;
 
@@ -77,8 +75,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         (external + self.sums.tally.traction / self.posed.nodes()).abs() / self.posed.flat.rms_height
     }
 
-    /// The stiffness of the foundation in the preconditioner: that of the contacts; on the way from a far start under a
-    /// pressure, where it is unknown, that of the softest wave.
+    /// The stiffness of the contacts in the preconditioner; from a far start under a pressure, the softest wave's.
     pub(super) fn foundation(&self) -> f64 {
         let (softest, stiffest) = self.posed.operators.state().stiffness_range();
         if stiffest <= 0.0 {

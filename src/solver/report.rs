@@ -74,28 +74,13 @@ pub struct Iteration {
     /// The number of changes of the minimised energy so far, by the law, multipliers, or the mean gap in search of a
     /// state that holds a tension. The energy falls within a round.
     pub round: usize,
-    /// Whether the law is smoothed on the way to a start
-    /// ([`Discretisation::Smooth`](crate::adhesion::Discretisation::Smooth)); then energy and error are those of that
+    /// Whether the law is still [smoothed](crate::adhesion::Discretisation::Smooth), and energy and error are of that
     /// law.
     pub smoothed: bool,
 }
 
 /// The account of a solve: its problem in numbers and names, its cost, and its outcome. Energies are per area; all
 /// numbers are in the units of the input. With the feature `serde` it is data; JSON has only finite numbers.
-///
-/// ```
-/// use asperity::{AdhesionLaw, Control, Exponential, Grid, Problem, Solver, Surface, Westergaard};
-/// let grid = Grid::square(64, 1.0)?;
-/// let law = Exponential::new(1e-5, 4e-3)?;
-/// let mut problem = Problem::new(&Surface::wave_2d(grid, 0.02, 1)?, Westergaard::<f64>::new(grid, 1.0)?, law)?;
-/// let solution = Solver::default().solve(&mut problem, Control::MeanGap(0.01))?;
-/// let report = &solution.report;
-/// // the two mean pressures differ by the adhesive traction
-/// let traction = solution.gap.iter().map(|&g| law.traction(g)).sum::<f64>() / 4096.0;
-/// assert!((report.mean_contact_pressure - report.mean_pressure - traction).abs() < 1e-4 * traction);
-/// assert!(report.elastic_energy > 0.0 && report.adhesive_energy < 0.0 && !report.under_resolved);
-/// # Ok::<(), asperity::Error>(())
-/// ```
 #[non_exhaustive]
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -112,8 +97,7 @@ pub struct Report {
     /// law holds: √⟨s r', K s r'⟩ + √⟨(1 − s)² r'²/κ⟩ takes the place of √⟨r', K r'⟩, with s = (1 + κ/k)⁻², k 0.4 times
     /// the stiffness of the shortest wave, and r' less its mean weighted by s² where the mean gap is given.
     pub relative_error: f64,
-    /// The branch on which the solve has started; nothing without adhesion, from a given start, and of
-    /// [`Method::Rey2017`].
+    /// The branch of the start; none without adhesion, from a given start, and of [`Method::Rey2017`].
     pub branch: Option<Branch>,
     /// The error of the load, relative to the larger of |p̄| and the mean contact pressure: the larger of the imbalance
     /// of the nodes apart and the difference from the load that the fields carry. One without a contact that the load
@@ -155,8 +139,7 @@ pub struct Report {
     pub contact_nodes: usize,
     /// The number of [absent nodes](crate::Surface::with_absent) of the surface.
     pub absent_nodes: usize,
-    /// The largest traction on the outermost nodes of a free boundary's window, as a share of the largest anywhere.
-    /// Nothing in a periodic cell.
+    /// The largest traction at the edge of a free boundary's window over the largest anywhere; none in a periodic cell.
     pub edge_traction: Option<f64>,
     /// Whether contact, or more than a thousandth of the largest traction, reaches the edge of a free boundary's
     /// window, which is then too small unless the body ends there. False without contact and traction above 1 % of w/ρ.
@@ -190,7 +173,6 @@ impl Report {
 /// A name that a report has; behind a word of its own, which derived data does not take for a borrowed one.
 type Name = &'static str;
 
-/// A wall or a precision from its name.
 #[cfg(feature = "serde")]
 fn named<'de, D: serde::Deserializer<'de>>(from: D) -> std::result::Result<Name, D::Error> {
     let name: String = serde::Deserialize::deserialize(from)?;

@@ -27,7 +27,10 @@ use crate::real::Real;
 /// let mut single = Problem::new(&surface, Westergaard::<f32>::new(grid, 1.0)?, NoAdhesion)?;
 /// let near = solver.solve(&mut single, control)?.gap.mapv(f64::from);
 /// let mut double = Problem::new(&surface, Westergaard::<f64>::new(grid, 1.0)?, NoAdhesion)?;
-/// let solution = solver.solve_with(&mut double, control, Start::Near(near), |_| ControlFlow::Continue(()))?;
+/// let solution = solver.solve_with(&mut double, control, Start::Near(near), |state| {
+///     println!("{} {:.1e}", state.iteration, state.relative_error);
+///     ControlFlow::Continue(())
+/// })?;
 /// assert_eq!(solution.report.status, Status::Converged);
 /// assert!(solution.report.relative_error < 1e-6);
 /// # Ok::<(), asperity::Error>(())

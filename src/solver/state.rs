@@ -101,8 +101,7 @@ impl<'a, T: Real, Lo: Real> State<'a, T, Lo> {
         self.sums.given - self.sums.drift
     }
 
-    /// Computes p = K⁻¹g + K⁻¹h and its tally anew. After a step, what it `left` of the residual is of use; returns
-    /// that.
+    /// Computes p = K⁻¹g + K⁻¹h and its tally anew; returns what the step has `left` of the residual.
     pub(super) fn refresh(&mut self, left: Left) -> Result<Left> {
         if let Load::Gap(mean) = self.posed.load {
             let (scale, present) =

@@ -27,8 +27,7 @@ const RISE: f64 = 2.0;
 /// The excess over the strongest of the sampled tractions that there may be between the samples.
 const BETWEEN: f64 = 1.1;
 
-/// The distance at which surfaces are held apart, and the largest one of a hold, in ranges of adhesion beyond the
-/// heights.
+/// The distance, in ranges of adhesion beyond the heights, at which surfaces are held apart, and the largest of a hold.
 const REACH: f64 = 10.0;
 
 impl<T: Real, Lo: Real> Posed<'_, T, Lo> {
@@ -56,8 +55,7 @@ impl<T: Real, Lo: Real> Posed<'_, T, Lo> {
         gaps.map(|gap| self.law.traction(gap).widen()).fold(0.0, f64::max)
     }
 
-    /// The load that holds a mean gap: that itself, or, with nodes that face no surface, a spring as stiff as the
-    /// stiffest wave.
+    /// The load that holds a mean gap: that, or a spring as stiff as the stiffest wave if nodes face no surface.
     fn holding(&self, gap: f64) -> Load {
         match self.flat.window {
             None => Load::Gap(gap),
@@ -114,8 +112,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         Ok(false)
     }
 
-    /// The tension at a mean gap, from the present contact or, where hardly any is held, from a uniform gap; nothing if
-    /// the solve was stopped or ran out of iterations.
+    /// The tension at a mean gap, from the contact or, if that hardly holds, a uniform gap; nothing if cut short.
     fn tension_at(&mut self, gap: f64, hardly: f64, observe: Observer<'_>) -> Result<Option<f64>> {
         // where the law itself keeps the surfaces apart, it may hold them with no node pressed
         let holds = !self.posed.projects() && self.sums.tally.traction > hardly * self.posed.nodes();

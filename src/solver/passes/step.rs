@@ -81,8 +81,7 @@ fn whole<T: Real>(scale: T, gap: T, change: T) -> T {
     if scale == T::one() { change } else { scale * (gap + change) - gap }
 }
 
-/// The change c of a node, and whether it was clipped: the gap becomes no less than zero at a wall; where the law
-/// repels, than the gap of rest, and from below it than a share of itself.
+/// The change c of a node, and whether it was clipped to the least gap after a step.
 #[inline(always)]
 fn clipped_change<T: Real>(least: Least<T>, attempt: Attempt<T>, gap: T, [r, z, change]: [T; 3]) -> (T, bool) {
     let Attempt { length, centre, keep, mean } = attempt;
