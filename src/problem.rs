@@ -102,7 +102,6 @@ impl<T: Real, O: ElasticOperator<T>, L: AdhesionLaw<T>> Problem<T, O, L> {
     }
 }
 
-/// As [`Problem::mu_rho`], for a contact modulus.
 pub(crate) fn mu_rho<T: Real>(law: &dyn AdhesionLaw<T>, grid: &Grid, modulus: f64) -> f64 {
     let hints = law.hints();
     let (w, range) = (hints.work_of_adhesion.widen(), hints.range.widen());

@@ -55,7 +55,6 @@ pub struct Uzawa<T> {
     stiffness: T,
     /// the root of Σ s² after the round before
     off: f64,
-    /// the stiffness of the shortest wave
     stiffest: f64,
     solved_to: f64,
     multipliers: Array2<T>,

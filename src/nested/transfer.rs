@@ -126,9 +126,8 @@ fn places(from: Side, to: Side) -> Vec<Place> {
 
 /// A solution on one grid as the start on another: the deformed half-space.
 pub(crate) struct Deformed<T> {
-    /// the nodes of the window
     window: (usize, usize),
-    /// of the operator
+    /// the grid of the operator
     grid: Grid,
     /// the displacement u = g + h
     displacement: Array2<f64>,

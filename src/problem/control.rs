@@ -70,6 +70,7 @@ impl Control {
 /// The control on the operator's grid: what its mean gap m, over all nodes, is held by.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Load {
+    /// m itself
     Gap(f64),
     /// the mean pressure on the operator's grid
     Pressure(f64),

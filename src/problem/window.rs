@@ -18,7 +18,7 @@ pub(crate) struct Window {
     grid: Grid,
     /// the grid of the surface in the rows of the operator's slab
     held: Grid,
-    /// of the operator
+    /// the grid of the operator
     whole: Grid,
     /// the runs of nodes that face the surface, each within a row
     runs: Vec<Run>,
@@ -115,7 +115,6 @@ impl Window {
         self.extended(self.hold(field).view())
     }
 
-    /// As [`extend`](Self::extend), of a field in the rows of the operator's slab.
     fn extended<T: Real>(&self, field: ArrayView2<'_, T>) -> Array2<T> {
         let (nx, width) = self.whole.shape();
         let mut held = Array2::from_elem((field.nrows(), width), T::nan());
@@ -145,7 +144,6 @@ impl Window {
         self.held.moved(self.cut(field, absent), &self.grid).into_owned()
     }
 
-    /// As [`crop`](Self::crop), in the rows of the operator's slab.
     pub(crate) fn cut<T: Real>(&self, field: &Array2<T>, absent: T) -> Array2<T> {
         let mut cut = Array2::from_elem(self.held.field_shape(), absent);
         for (nodes, own) in self.places() {
@@ -172,7 +170,6 @@ impl Window {
         })
     }
 
-    /// A gap of the surface's grid on that of the operator.
     pub(crate) fn start<T: Real>(&self, gap: ArrayView2<'_, T>) -> Result<Array2<T>> {
         self.grid.fits("starting gap", gap.dim())?;
         let gap = self.hold(gap);

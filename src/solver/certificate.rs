@@ -68,7 +68,6 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         (waves.max(flat), if waves >= flat { epsilon * epsilon * carried } else { 0.0 })
     }
 
-    /// Whether the residual r' is at the rounding floor.
     pub(super) fn is_at_floor(&self) -> bool {
         let (scale, rounding) = self.error_scale();
         let floor = (rounding / scale).sqrt();
@@ -188,7 +187,6 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         }
     }
 
-    /// The status of a solve that has to end without having converged.
     pub(super) fn verdict(&self) -> Option<Status> {
         if self.counters.iterations >= self.posed.settings.max_iterations {
             return Some(Status::IterationLimit);

@@ -44,7 +44,6 @@ pub(crate) struct Coarse {
 }
 
 impl Coarse {
-    /// The coarse space of an operator, if it has one.
     pub(crate) fn of<T: Real>(operator: &mut dyn ElasticOperator<T>) -> Option<Self> {
         let (grid, nodes) = (*operator.grid(), operator.grid().nodes() as f64);
         let space = operator.abilities().coarse_space((DIMENSION * nodes.cbrt()) as usize)?;

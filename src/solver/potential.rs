@@ -26,14 +26,12 @@ impl<T: Real> Least<T> {
         Self { rest: T::infinity(), share: T::zero(), depth: T::infinity() }
     }
 
-    /// The least gap after a step from this one.
     #[inline(always)]
     pub(crate) fn after(self, gap: T) -> T {
         if gap > self.rest { self.rest } else { self.share * gap - self.depth }
     }
 }
 
-/// A wanted gap, or the least one.
 pub(crate) fn bounded<T: Real>(least: Least<T>, gap: T, wanted: T) -> T {
     let least = least.after(gap);
     if wanted < least { least } else { wanted }

@@ -42,7 +42,6 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         self.certify()
     }
 
-    /// As [`precondition`](Self::precondition), whatever the method.
     pub(super) fn certify(&mut self) -> Result<()> {
         self.renew_coarse();
         let (stiffness, mean_stiffness) = (self.foundation(), self.mean_stiffness());

@@ -53,7 +53,6 @@ pub enum Start<'a, T> {
     Near(Array2<T>),
 }
 
-/// Where a solve begins.
 pub(crate) enum Begin<'a, T> {
     At(Start<'a, T>),
     On(Branch),

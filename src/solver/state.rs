@@ -70,7 +70,6 @@ impl<'a, T: Real, Lo: Real> State<'a, T, Lo> {
         Ok(state)
     }
 
-    /// Takes the gap of undeformed bodies that just touch.
     fn start_undeformed(&mut self) -> Result<()> {
         let Fields { gap, residual, preconditioned, change, .. } = &mut self.fields;
         self.posed.operators.displacement(&self.posed.flat.pressure, gap, [residual, preconditioned, change])?;
