@@ -24,8 +24,9 @@ use crate::solver::{Begin, Iteration, Potential, Solution, Solved, Solver, Start
 ///   ([`Status::Detached`](crate::Status)) stay so until they are pressed together again.
 ///
 /// A mean gap that is given scales the start, as in [`Start::From`], or is the start where no gap is left to scale.
-/// Fine steps save a third of the work without adhesion; steps by half the load or more save little.
-/// Memory: two gaps beside problem and solver, on the grid of the operator.
+/// Fine steps save a third of the work without adhesion; steps by half the load or more save little, and with adhesion
+/// under a pressure may cost more than the default start. Memory: two gaps on the
+/// grid of the operator, beside problem and solver.
 ///
 /// A solve that does not converge is no error; the next load starts from where it ended. After an error the sweep ends.
 ///

@@ -142,7 +142,7 @@ pub struct Report {
     /// The largest traction at the edge of a free boundary's window over the largest anywhere; none in a periodic cell.
     pub edge_traction: Option<f64>,
     /// Whether contact, or more than a thousandth of the largest traction, reaches the edge of a free boundary's
-    /// window, which is then too small unless the body ends there. False without contact and traction above 1 % of w/ρ.
+    /// window, which is then too small unless the body ends there. False of bodies apart, with less than 1 % of w/ρ.
     pub reaches_edge: bool,
     /// The smallest gap: zero in contact, negative only where the constraint lets the surfaces interpenetrate.
     pub min_gap: f64,
