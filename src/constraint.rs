@@ -21,15 +21,12 @@ pub use uzawa::Uzawa;
 
 /// The contact constraint, which keeps the surfaces from passing through each other.
 ///
-/// Either the gap is confined to g ≥ 0 ([`Projection`]), or any gap is feasible and the energy gains a term, node by
-/// node, that resists negative gaps ([`Penalty`]); such a term may carry multipliers, updated between solves
-/// ([`Uzawa`]). A law that repels close by needs neither ([`NoWall`]). Which nodes are in contact then says
-/// [`Solution::contact_map`](crate::Solution::contact_map).
+/// Either the gap is confined to g ≥ 0 ([`Projection`]), or any gap is feasible and the energy gains a term at each
+/// node that resists negative gaps ([`Penalty`]), perhaps with multipliers that are updated between solves ([`Uzawa`]).
+/// A law that repels close by needs neither ([`NoWall`]).
 ///
-/// An [`AdhesionLaw`](crate::AdhesionLaw) is defined for g ≥ 0. Where the surfaces interpenetrate it goes on as its
-/// tangent, φ(0) + φ'(0)g: the traction is that of contact, and springs of any stiffness bound the energy below. As
-/// these stiffen the solution tends to that of [`Projection`]. An exponential, evaluated at negative gaps, would
-/// outrun any springs.
+/// An [`AdhesionLaw`](crate::AdhesionLaw) is defined for g ≥ 0, and goes on at negative gaps as its tangent, φ(0) +
+/// φ'(0)g: springs of any stiffness then bound the energy below, which an exponential would outrun.
 ///
 /// ```
 /// use asperity::constraint::{Springs, Wall};
@@ -58,9 +55,9 @@ pub trait ContactConstraint<T: Real>: Send + Sync {
     /// The wall that keeps the surfaces apart in the present round.
     fn wall(&self) -> Wall<'_, T>;
 
-    /// Prepares for a solve on the grid of a surface, to a tolerance of its criterion. `stiffest` is the stiffness of
-    /// the shortest wave, of [`ElasticOperator::stiffness_range`](crate::ElasticOperator::stiffness_range), pressure
-    /// per length. Where several processes share the grid, this one solves for the rows [`Grid::rows`].
+    /// Prepares for a solve on a surface's grid, to a tolerance of its criterion. `stiffest` is the stiffness of the
+    /// shortest wave ([`ElasticOperator::stiffness_range`](crate::ElasticOperator::stiffness_range)), pressure per
+    /// length. Where processes share the grid, this one has the rows [`Grid::rows`].
     ///
     /// # Errors
     /// Whatever cannot be used on that grid.
@@ -68,29 +65,20 @@ pub trait ContactConstraint<T: Real>: Send + Sync {
         Ok(())
     }
 
-    /// Whether the constraint is met where several processes share the grid, and each has the rows that it holds: of
-    /// the springs it asks those at its own nodes, which count on the whole grid, and its gap in
-    /// [`update`](Self::update) is that of its rows. The default is that it is not: such a solve is refused.
+    /// Whether the constraint works where processes share the grid, with the springs of their own nodes, and
+    /// [`update`](Self::update) on their rows; if not, as by default, such a solve is refused.
     fn takes_slabs(&self) -> bool {
         false
     }
 
-    /// Called when a solve has converged: updates the multipliers, and tells whether to solve again with them. At nodes
-    /// where the surface is [absent](crate::Surface::with_absent) the gap is infinite.
+    /// Updates the multipliers when a solve has converged, and tells whether to solve again. The gap is infinite at
+    /// [absent](crate::Surface::with_absent) nodes.
     fn update(&mut self, _gap: ArrayView2<'_, T>) -> Update {
         Update::Done
     }
 }
 
 /// The wall that the half-space meets.
-///
-/// ```
-/// use asperity::constraint::Wall;
-/// use asperity::{ContactConstraint, Penalty, Projection};
-/// assert!(matches!(ContactConstraint::<f64>::wall(&Projection), Wall::Rigid));
-/// assert!(matches!(ContactConstraint::<f64>::wall(&Penalty::new(5000.0)?), Wall::Springs(_)));
-/// # Ok::<(), asperity::Error>(())
-/// ```
 #[non_exhaustive]
 #[derive(Clone, Copy)]
 pub enum Wall<'a, T> {
@@ -124,10 +112,7 @@ impl<T> fmt::Debug for Wall<'_, T> {
     }
 }
 
-/// Springs that resist small or negative gaps: three functions of a node, in row-major order (ix·Ny + iy), and its
-/// gap.
-///
-/// [`ContactConstraint`] has an example.
+/// Springs that resist small or negative gaps, as in the example of [`ContactConstraint`]; nodes are ix·Ny + iy.
 pub trait Springs<T: Real>: Sync {
     /// The energy per area.
     fn energy(&self, node: usize, gap: T) -> T;
@@ -139,29 +124,25 @@ pub trait Springs<T: Real>: Sync {
     fn slope(&self, node: usize, gap: T) -> T;
 }
 
-/// The decision of [`ContactConstraint::update`].
-///
-/// For a constraint that uses all three see [`own_constraint`](crate::guide::own_constraint).
+/// The decision of [`ContactConstraint::update`]; [`own_constraint`](crate::guide::own_constraint) uses all three.
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Update {
     /// The constraint is met: the solution stands.
     Done,
-    /// The energy has changed: go on minimising from here.
+    /// The energy has changed: minimise on from here.
     Again,
-    /// No more updates are allowed, and the constraint is not met: end without having converged.
+    /// The updates are used up, and the constraint is not met: end without having converged.
     Failed,
 }
 
-/// Tells whether the springs of a constraint are each other's derivatives, and resist more the smaller the gap; call it
-/// in a test of your constraint. [`Projection`] has none and is fine.
-///
-/// Looks at the nodes below `nodes`, seven of them at most, and at gaps between −`depth` and `depth`, as
+/// The test of a constraint of your own: whether its springs are each other's derivatives, and resist more the smaller
+/// the gap, at seven of the nodes below `nodes` at most, and at gaps between −`depth` and `depth`, as
 /// [`check_law`](crate::adhesion::check_law) does.
 ///
 /// # Errors
-/// [`Error::Law`] with the function of the springs, and the first gap at which it is not finite, or not the derivative
-/// of the one before it; [`Error::Value`] if their slope is negative somewhere, or `depth` not positive and finite.
+/// [`Error::Law`] with the function that is not finite, or not the derivative of the one before it, and the gap;
+/// [`Error::Value`] if a slope is negative, or `depth` not positive and finite.
 ///
 /// ```
 /// use asperity::constraint::check_constraint;

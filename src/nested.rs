@@ -34,33 +34,25 @@ const CARRIED: f64 = 0.5;
 
 /// Nested grids: solutions on coarser grids, each the start on the next finer one.
 ///
-/// A coarser grid has every second node of the finer one, along the sides that have more than one, and the heights of
-/// these nodes; of an odd number n of nodes it has (n + 1)/2, with heights by cubic interpolation. Its solution is
-/// prolonged by cubic interpolation of the displacement g + h. Nodes between nodes in contact are in contact; between a
-/// node in contact and one that is apart the edge of the contact is where the gaps of the next two nodes say, as gaps
-/// open with the power 3/2 of the distance to the edge. On the finest grid the iteration, the certificate and the
-/// tolerance are those of [`Solver`].
+/// A coarser grid has every second node of the finer one along each side with more than one, and their heights; of an
+/// odd number n it has (n + 1)/2, with heights by cubic interpolation. Its displacement g + h is prolonged by cubic
+/// interpolation; the edge of contact follows from the gaps of the next two nodes, which open with the power 3/2 of the
+/// distance. On the finest grid iteration, certificate and tolerance are those of [`Solver`].
 ///
-/// Sizes are halved while both sides keep `coarsest` nodes. A surface with [absent nodes](Surface::with_absent) and a
-/// law that [varies](crate::adhesion::Varying) are halved while the sizes are even. With adhesion only grids that
-/// resolve it ([`Problem::mu_rho`] up to 0.5) are used, as a coarser one may pin the contact on another branch. If the
-/// traction of the law jumps, the coarser grids [smooth](crate::adhesion::Discretisation::Smooth) it, and so does the
-/// finest one on its way from their solution, as it does from the default start. Without a coarser grid all is as with
-/// [`Solver::solve`].
+/// Sizes are halved while both sides keep `coarsest` nodes; with [absent nodes](Surface::with_absent) or a law that
+/// [varies](crate::adhesion::Varying), while they are even. With adhesion only grids that resolve it are used
+/// ([`Problem::mu_rho`] up to 0.5), as a coarser one may pin the contact on another branch. A law that jumps is
+/// [smoothed](crate::adhesion::Discretisation::Smooth) on coarser grids, and on the finest on its way from there.
 ///
-/// The finest grid starts anew, by [`Start::Default`], where the coarsest one is nearly [`closed`](Self::closed), where
-/// a coarser one does not carry its load, and where the solve from the prolonged start has come apart or stalled with
-/// an error above the coarse tolerance.
+/// The finest grid starts anew, by [`Start::Default`], where the coarsest one is nearly [`closed`](Self::closed), a
+/// coarser one does not carry its load, or the solve from the prolonged start has come apart or stalled above the
+/// coarse tolerance.
 ///
-/// On a free half-space all contact may be on a part of the window. If all that touches or noticeably attracts in the
-/// start on the finest grid, with a margin, is on half of the nodes or fewer, that part is solved first, as a window of
-/// its own, and the whole from the deformation by the pressure found there: where the part was large enough, that is
-/// the solution already, and an application certifies it.
+/// On a free half-space a part of the window that holds all contact and attraction of the start, on half of the nodes
+/// or fewer with a margin, is solved first, as a window of its own, and the whole from the deformation by its pressure.
 ///
-/// Nested grids do not always pay: [`Nested::pays`] says where they are the faster way, by measurement.
-///
-/// Memory per node of the finest grid: no more than a solve on that grid alone, five scalars in `f64` and seven in
-/// `f32` with [`Westergaard`](crate::Westergaard); the start from the coarser grid becomes one of them.
+/// [`Nested::pays`] says where nested grids are faster. Memory per node of the finest grid is that of a solve on it
+/// alone.
 ///
 /// ```
 /// use asperity::{Control, Grid, Nested, NoAdhesion, SelfAffine, Status, Westergaard};
@@ -78,33 +70,18 @@ const CARRIED: f64 = 0.5;
 pub struct Nested<C = Projection> {
     /// The solver of all grids; its tolerance is that of the finest.
     pub solver: Solver<C>,
-    /// The tolerance on the coarser grids, or that of the solver if it is larger. Default 1e-2, which is below the
-    /// discretisation error of a coarser grid.
+    /// The tolerance on coarser grids, or the solver's if larger. Default 1e-2, below their discretisation error.
     pub coarse_tolerance: f64,
     /// The least number of nodes along a side of a coarser grid. Default 64.
     pub coarsest: usize,
     /// The relative error to which the contact stiffness of each grid is found; `None`, the default, finds none.
     pub stiffness: Option<f64>,
     /// The share of contact of the coarsest grid above which only the finest one follows. Default 0.8, above which
-    /// nothing is gained: nearly all of what a start would have to tell are the heights of the finest grid. With 1 all
-    /// grids are solved, from which [`GridError`](crate::accuracy::GridError) tells the error.
+    /// nothing is gained. With 1 all grids are solved, as [`GridError`](crate::accuracy::GridError) needs.
     pub closed: f64,
 }
 
-/// The solution on the finest of nested grids.
-///
-/// ```
-/// use asperity::{Control, Grid, Nested, NoAdhesion, Surface, Westergaard};
-/// let surface = Surface::wave_2d(Grid::square(128, 1.0)?, 0.02, 2)?;
-/// let half_space = |grid| Westergaard::<f64>::new(grid, 1.0);
-/// let nested = Nested::default().solve(&surface, half_space, NoAdhesion, Control::MeanPressure(0.01))?;
-/// for level in &nested.levels {
-///     println!("{:?}: {}, {} applications", level.shape, level.status, level.operator_applications);
-/// }
-/// assert_eq!(nested.levels[0].shape, (64, 64));
-/// assert_eq!(nested.solution.gap.dim(), (128, 128));
-/// # Ok::<(), asperity::Error>(())
-/// ```
+/// The solution on the finest of nested grids, and the grids before it.
 #[non_exhaustive]
 #[derive(Clone, Debug, PartialEq)]
 pub struct NestedSolution<T> {
@@ -115,8 +92,7 @@ pub struct NestedSolution<T> {
 }
 
 impl<T> NestedSolution<T> {
-    /// All operator applications in units of one on the finest grid, those that construct the problems included: one
-    /// on a grid with a quarter of the nodes counts as a quarter.
+    /// All operator applications in units of one on the finest grid, the construction of the problems included.
     pub fn equivalent_applications(&self) -> f64 {
         equivalent_applications(&self.levels)
     }
@@ -139,29 +115,19 @@ impl<C> Nested<C> {
 }
 
 impl Default for Nested {
-    /// The default settings, and projection.
     fn default() -> Self {
         Self::new(Settings::default())
     }
 }
 
 impl<C> Nested<C> {
-    /// Whether nested grids are the faster way to the same equilibrium, by what was measured
-    /// ([`performance`](crate::guide::performance)).
+    /// Whether nested grids are the faster way to the same equilibrium, as measured
+    /// ([`performance`](crate::guide::performance)): at a given load or approach from 256² nodes on, at a given mean
+    /// gap from 512², if there is a coarser grid.
     ///
-    /// That is at a given load or approach from 256² nodes on, and at a given mean gap from 512² on, if there is a
-    /// coarser grid. Not with adhesion under a tension or with a spring, where there may be several equilibria; and not
-    /// with [absent nodes](Surface::with_absent), a law that [varies](crate::adhesion::Varying), or
-    /// [`Method::Rey2017`], where it was not measured.
-    ///
-    /// ```
-    /// use asperity::{Control, Grid, Nested, NoAdhesion, SelfAffine};
-    /// let surface = |n| SelfAffine::default().k_s(16.0).surface(Grid::square(n, 1.0)?);
-    /// let pays = |n, control| Ok::<_, asperity::Error>(Nested::default().pays::<f64>(&surface(n)?, &NoAdhesion, control));
-    /// assert!(pays(256, Control::MeanPressure(0.01))? && pays(512, Control::MeanGap(0.01))?);
-    /// assert!(!pays(256, Control::MeanGap(0.01))?);
-    /// # Ok::<(), asperity::Error>(())
-    /// ```
+    /// Not with adhesion under a tension or with a spring, where there may be several equilibria; nor with [absent
+    /// nodes](Surface::with_absent), a law that [varies](crate::adhesion::Varying), or [`Method::Rey2017`], where it
+    /// was not measured.
     pub fn pays<T: Real>(&self, surface: &Surface, law: &dyn AdhesionLaw<T>, control: Control) -> bool {
         let (shape, nodes) = (surface.grid().shape(), surface.grid().nodes());
         let least = match control {
@@ -176,9 +142,8 @@ impl<C> Nested<C> {
         measured && method && nodes >= least && coarser(shape, self.coarsest, true).is_some()
     }
 
-    /// Solves the contact of `surface` with the elastic body for which `operator` makes an operator on each grid: on
-    /// the coarser ones, the coarsest first, on that of the surface, and with a free boundary on one with the same
-    /// spacing for a part of the window.
+    /// Solves the contact of `surface` with the elastic body for which `operator` makes an operator on each grid, the
+    /// coarsest first, and with a free boundary on one of the same spacing for a part of the window.
     ///
     /// # Errors
     /// Those of `operator`, [`Problem::new`] and [`Solver::solve_with`]; [`Error::Value`] if the coarse tolerance is
@@ -199,8 +164,8 @@ impl<C> Nested<C> {
         self.solve_observed(surface, operator, law, control, |_, _| ControlFlow::Continue(()))
     }
 
-    /// Solves as [`Nested::solve`], and calls `observe` with the grid in every iteration, on a part of a window with
-    /// that of the whole. Where it stops a solve, the finer grids end with their first iteration.
+    /// Solves as [`Nested::solve`], and calls `observe` in every iteration, with the grid, or the whole one for a part.
+    /// Where it stops a solve, the finer grids end with their first iteration.
     ///
     /// # Errors
     /// Those of [`Nested::solve`].
@@ -222,7 +187,7 @@ impl<C> Nested<C> {
         Ok(NestedSolution { solution, levels })
     }
 
-    /// Solves as [`Nested::solve_observed`]; returns the gap on the grid of the operator as well.
+    /// As [`Nested::solve_observed`], with the gap on the operator's grid.
     pub(crate) fn run<T, O, L>(
         &mut self,
         surface: &Surface,
@@ -290,7 +255,6 @@ impl<C> Nested<C> {
         Ok((solved, levels))
     }
 
-    /// The coarser grids, and the half-space as deformed on the finest of them that carries its load.
     fn solve_coarser<T, O, L>(
         &mut self,
         surface: &Surface,
@@ -342,7 +306,7 @@ impl<C> Nested<C> {
         Ok((levels, coarser))
     }
 
-    /// Runs the solver to a tolerance that is not that of its settings.
+    /// Runs the solver to another tolerance.
     fn run_to<T: Real>(
         &mut self,
         tolerance: f64,
@@ -361,7 +325,6 @@ impl<C> Nested<C> {
         result
     }
 
-    /// The contact stiffness of a solution, if it is asked for and the solve was not stopped.
     pub(crate) fn stiffness_of<T, O, L>(
         &self,
         problem: &mut Problem<T, O, L>,

@@ -16,18 +16,13 @@ pub(crate) use control::Load;
 pub(crate) use flat::PressedFlat;
 pub(crate) use window::Window;
 
-/// The compliance with which the jumps of a law are smoothed, in Δx/E*. A node alone has 1.1, the nodes along an
-/// edge some 3 together.
+/// The compliance with which jumps of a law are smoothed, in Δx/E*: a node has 1.1, the nodes along an edge some 3.
 const SMOOTHING: f64 = 5.0;
 
 /// A contact problem: a rough surface, an elastic operator and an adhesion law.
 ///
-/// The surface enters only through the pressure K⁻¹h that would press it flat, which is computed here, once, in
-/// `f64`; it may be dropped afterwards. A problem can be solved many times, under any [`Control`].
-///
-/// Memory per node: one scalar, beside those of the operator. [`Problem::new`] briefly needs more, but less than a
-/// solve: for an operator of this crate one `f64` for the spectrum of the heights, and another where their mean
-/// exceeds their rms value.
+/// Only the pressure K⁻¹h that would press the surface flat is kept of it. A problem can be solved many times, under
+/// any [`Control`]. Memory per node: one scalar beside those of the operator; [`Problem::new`] needs less than a solve.
 ///
 /// ```
 /// use asperity::{Control, Grid, NoAdhesion, Problem, Solver, Surface, Westergaard};
@@ -45,7 +40,6 @@ pub struct Problem<T, O, L> {
     pub(crate) flat: PressedFlat<T>,
 }
 
-/// The parts of a problem, for a solve.
 pub(crate) struct Parts<'a, T> {
     pub(crate) operator: &'a mut dyn ElasticOperator<T>,
     pub(crate) law: &'a dyn AdhesionLaw<T>,
@@ -65,10 +59,11 @@ impl<T: Real, O: ElasticOperator<T>, L: AdhesionLaw<T>> Problem<T, O, L> {
     /// The problem of pressing `surface` against the elastic body of `operator`. Takes one operator application.
     ///
     /// # Errors
-    /// [`Error::Shape`](crate::Error::Shape) or [`Error::Value`](crate::Error::Value) if the grids differ; [`Error::Law`](crate::Error::Law) if the law is not finite at zero gap;
-    /// [`Error::NotFinite`](crate::Error::NotFinite) if K⁻¹h leaves the range of T; [`Error::Shared`](crate::Error::Shared) where several processes share the grid and
-    /// the operator does not take slabs, or only one of surface and operator is shared; [`Error::Memory`](crate::Error::Memory) if a solve
-    /// takes more memory than there is.
+    /// [`Error::Shape`](crate::Error::Shape) or [`Error::Value`](crate::Error::Value) if the grids differ;
+    /// [`Error::Law`](crate::Error::Law) if the law is not finite at zero gap;
+    /// [`Error::NotFinite`](crate::Error::NotFinite) if K⁻¹h leaves the range of T;
+    /// [`Error::Shared`](crate::Error::Shared) if only one of surface and operator is shared between processes, or the
+    /// operator does not take slabs; [`Error::Memory`](crate::Error::Memory) if there is too little for a solve.
     pub fn new(surface: &Surface, mut operator: O, law: L) -> Result<Self> {
         let flat = PressedFlat::of(surface, &mut operator, &law)?;
         Ok(Self { operator, law, flat })
@@ -90,37 +85,23 @@ impl<T: Real, O: ElasticOperator<T>, L: AdhesionLaw<T>> Problem<T, O, L> {
     }
 
     /// The operator and the law, for another problem on the same grid.
-    ///
-    /// ```
-    /// use asperity::{Control, Exponential, Grid, NoAdhesion, Problem, Solver, Surface, Westergaard};
-    /// let grid = Grid::square(64, 1.0)?;
-    /// let surface = Surface::wave_2d(grid, 0.02, 1)?;
-    /// let mut bare = Problem::new(&surface, Westergaard::<f64>::new(grid, 1.0)?, NoAdhesion)?;
-    /// let contact = Solver::default().solve(&mut bare, Control::MeanGap(0.01))?.report.contact_nodes;
-    /// let (half_space, _) = bare.into_parts();
-    /// let mut sticky = Problem::new(&surface, half_space, Exponential::new(1e-5, 4e-3)?)?;
-    /// assert!(Solver::default().solve(&mut sticky, Control::MeanGap(0.01))?.report.contact_nodes > contact);
-    /// # Ok::<(), asperity::Error>(())
-    /// ```
     pub fn into_parts(self) -> (O, L) {
         (self.operator, self.law)
     }
 
-    /// The parts of the problem, for a solve.
     pub(crate) fn parts(&mut self) -> Parts<'_, T> {
         Parts { operator: &mut self.operator, law: &self.law, flat: &self.flat }
     }
 
     /// The measure of how the grid resolves the adhesive zone, μ_ρ = √(wΔx/E*)/ρ, with the larger of Δx and Δy.
     ///
-    /// Below about 0.5 the zone is resolved. Above, contact edges are pinned to the grid, there are many equilibria,
-    /// and which one is found depends on the start. Zero without adhesion.
+    /// Below about 0.5 the zone is resolved. Above, contact edges are pinned to the grid, and the equilibrium found
+    /// depends on the start. Zero without adhesion.
     pub fn mu_rho(&self) -> f64 {
         mu_rho(&self.law, self.grid(), self.operator.modulus())
     }
 }
 
-/// The measure of [`Problem::mu_rho`], for a contact modulus.
 pub(crate) fn mu_rho<T: Real>(law: &dyn AdhesionLaw<T>, grid: &Grid, modulus: f64) -> f64 {
     let hints = law.hints();
     let (w, range) = (hints.work_of_adhesion.widen(), hints.range.widen());

@@ -16,40 +16,33 @@ use crate::solver::{Begin, Branch, Iteration, Method, Solution, Solved, Solver, 
 /// The relative error of the contact fraction at which a search ends.
 const TOLERANCE: f64 = 0.01;
 
-/// The most solves of a search. One that is bracketed halves its bracket at least with every other solve.
+/// The most solves of a search; a bracket is halved at least with every other one.
 const MOST: usize = 60;
 
-/// The width of a bracket, in the logarithm of the load or relative to the approach, in which the contact fraction
-/// jumps: where it is smooth it changes by about as much, which is far less than any tolerance of it.
+/// The width of a bracket in which the contact jumps, in the logarithm of the load or relative to the approach.
 const WIDTH: f64 = 1e-5;
 
 /// The share of a bracket that a step leaves to both sides at least.
 const MARGIN: f64 = 0.02;
 
-/// The largest step outside of a bracket, as a logarithm or relative to the approach, and the most that it grows to.
+/// The largest step outside of a bracket, in the same units, and the most that it grows to.
 const STEP: (f64, f64) = (1.4, 8.0);
 
 /// The load under which a given share of the nodes is in contact, found by solves.
 ///
-/// Without adhesion the contact grows with the load, and the search is for the mean pressure: on the logarithm of the
-/// pressure, by the secant of ln(−ln(1 − A)) over it, which is nearly straight for rough surfaces, and by a bracket as
-/// soon as there is one. It begins where Persson's theory has the fraction A, erf(p/(√2 p_rms)), with p_rms the rms
-/// pressure that presses the surface flat.
+/// Without adhesion the search is for the mean pressure, from Persson's A = erf(p/(√2 p_rms)) on, with p_rms the rms
+/// pressure that presses the surface flat: by the secant of ln(−ln(1 − A)) over ln p, nearly straight for rough
+/// surfaces, and by a bracket as soon as there is one.
 ///
-/// With adhesion surfaces may stick at any load, and the contact jumps. The search is for the mean gap then, with a
-/// free boundary for the approach, under which more states are equilibria than under a pressure. It is a path: it goes
-/// from its start towards the wanted fraction, and never on from a state beyond it, so that it stays on its
-/// [branch](Branch): that of loading, from less contact, if the settings name none.
+/// With adhesion the contact jumps, and the search is for the mean gap, with a free boundary for the approach, under
+/// which more states are equilibria. It goes from its start towards the fraction, and never on from a state beyond it,
+/// to stay on its [branch](Branch): that of loading, if the settings name none.
 ///
-/// The fraction counts nodes. It is reached if it is within one node or 1 % of the wanted one. Where no load has such a
-/// fraction, as the contact jumps past it, the state on the nearer side of the jump is returned,
-/// [`reached`](FoundContact::reached) is false, and [`below`](FoundContact::below) and [`above`](FoundContact::above)
-/// say from where to where it jumps.
+/// The fraction is reached within one node or 1 %. Where the contact jumps past it, the state on the nearer side is
+/// returned, [`reached`](FoundContact::reached) is false, and [`below`](FoundContact::below) and
+/// [`above`](FoundContact::above) are the ends of the jump. A search goes on from where the last one ended.
 ///
-/// One search after the other goes on from where the last one ended.
-///
-/// Memory: beside that of a solve the gap from which the next one starts, and the state next to the wanted one: four
-/// fields, and on a free half-space a fifth; of these two are on the grid of the operator there.
+/// Memory: four fields beside that of a solve, on a free half-space five, of which two are on the grid of the operator.
 ///
 /// ```
 /// use asperity::{ContactSearch, Grid, NoAdhesion, Problem, SelfAffine, Solver, Westergaard};
@@ -69,7 +62,7 @@ pub struct ContactSearch<'a, T, O, L, C = Projection> {
     solver: &'a mut Solver<C>,
     problem: &'a mut Problem<T, O, L>,
     axis: Axis,
-    /// The given gap from which solves start until one of them replaces it, on the grid of the surface.
+    /// The given gap from which solves start until one replaces it, on the grid of the surface.
     start: Option<Array2<T>>,
     /// The gap from which they start otherwise, on the grid of the operator.
     gap: Option<Array2<T>>,
@@ -77,26 +70,24 @@ pub struct ContactSearch<'a, T, O, L, C = Projection> {
     points: Vec<Point>,
 }
 
-/// The result of a search.
+/// The result of a search for a contact fraction.
 #[non_exhaustive]
 #[derive(Clone, Debug)]
 pub struct FoundContact<T> {
-    /// The state: the wanted one if it is reached. Its control is a mean pressure, with adhesion a mean gap or an
-    /// approach.
+    /// The state, the wanted one if reached, under a mean pressure, with adhesion a mean gap or an approach.
     pub solution: Solution<T>,
     /// Whether the solve has converged, and its contact fraction is the wanted one to the tolerance.
     pub reached: bool,
-    /// The contact fraction next to the wanted one from below that was found, if there is any.
+    /// The contact fraction found next below the wanted one, if any.
     pub below: Option<f64>,
-    /// The contact fraction next to the wanted one from above that was found, if there is any.
+    /// The contact fraction found next above the wanted one, if any.
     pub above: Option<f64>,
-    /// The number of solves.
+    /// The number of solves of the search.
     pub solves: usize,
     /// The operator applications of all of them.
     pub operator_applications: usize,
 }
 
-/// A place on the axis of a search, with the contact there.
 #[derive(Clone, Copy, Debug)]
 struct Point {
     x: f64,
@@ -109,7 +100,6 @@ fn level(fraction: f64) -> f64 {
     (-(-fraction).ln_1p()).ln()
 }
 
-/// The axis of a search, along which the contact grows.
 #[derive(Clone, Copy, Debug)]
 enum Axis {
     /// the logarithm of the mean pressure
@@ -145,7 +135,6 @@ impl Axis {
         }
     }
 
-    /// The place at which a search begins.
     fn first(self, fraction: f64) -> f64 {
         match self {
             // the inverse of Persson's error function, exact at small and at large loads
@@ -160,7 +149,6 @@ impl Axis {
         }
     }
 
-    /// How much the level changes along the axis, roughly.
     fn slope(self, x: f64) -> f64 {
         match self {
             Self::Pressure { .. } => 1.0,
@@ -169,7 +157,7 @@ impl Axis {
         }
     }
 
-    /// The length along the axis that is one in the logarithm of the load.
+    /// The length along the axis that is one in ln(load).
     fn scale(self, x: f64) -> f64 {
         if let Self::Approach { .. } = self { x.abs().max(1e-3) } else { 1.0 }
     }
@@ -182,7 +170,7 @@ where
     L: AdhesionLaw<T>,
     C: ContactConstraint<T>,
 {
-    /// A search on a problem.
+    /// A search on a problem, from the default start.
     ///
     /// # Errors
     /// [`Error::Control`] without a wall, where nothing is in contact, and with adhesion on a periodic surface with
@@ -196,26 +184,24 @@ where
         Ok(Self { solver, problem, axis, start: None, gap: None, points: Vec::new() })
     }
 
-    /// The search with a gap of shape (Nx, Ny) as its start, in the place of the default one or of that where another
-    /// search has ended.
+    /// The search from a gap of shape (Nx, Ny), in the place of the default start or the end of the last search.
     pub fn starting_from(self, gap: Array2<T>) -> Self {
         Self { start: Some(gap), ..self }
     }
 
-    /// The problem, to look at a solution with, as for its contact stiffness.
+    /// The problem.
     pub fn problem(&mut self) -> &mut Problem<T, O, L> {
         self.problem
     }
 
-    /// The place of the search: numbers, and the gap from which it goes on, on the grid of the operator. That of a free
-    /// half-space has four times the nodes; those beyond the window have the displacement in the place of a gap.
+    /// The place of the search: numbers, and the gap from which it goes on, on the grid of the operator; beyond a
+    /// window of a free half-space the gap is the displacement.
     pub fn checkpoint(&self) -> (Vec<f64>, Option<&Array2<T>>) {
         let numbers = self.points.iter().flat_map(|point| [point.x, point.level, point.nodes as f64]);
         (numbers.collect(), self.gap.as_ref())
     }
 
-    /// The search continued from the [`checkpoint`](Self::checkpoint) of another one, with a gap on the grid of the
-    /// operator: it goes on just as that one would have, bit for bit.
+    /// The search continued from the [`checkpoint`](Self::checkpoint) of another one, bit for bit.
     pub fn continuing(self, numbers: &[f64], gap: Option<Array2<T>>) -> Self {
         let point = |three: &[f64]| Point { x: three[0], level: three[1], nodes: three[2] as usize };
         Self { points: numbers.chunks_exact(3).map(point).collect(), gap, ..self }
@@ -230,8 +216,7 @@ where
         self.at_observed(fraction, |_| ControlFlow::Continue(()))
     }
 
-    /// The same with an observer of the iterations of all solves. One that breaks off ends the search, with a state
-    /// that is not the wanted one.
+    /// The same with an observer of the iterations; where it breaks off the search ends, short of the wanted state.
     ///
     /// # Errors
     /// Those of [`Self::at`].
@@ -315,8 +300,8 @@ where
         })
     }
 
-    /// The branch of equilibria on which the search begins, from its default start with adhesion: that of loading, if
-    /// the settings name none, but for the paper's method and where springs stand for the wall.
+    /// The branch of the default start with adhesion: loading, if the settings name none, but for the paper's method
+    /// and where springs stand for the wall.
     fn branch(&self) -> Option<Branch> {
         let Solver { settings, constraint } = &*self.solver;
         let begins = self.points.is_empty() && self.start.is_none() && self.gap.is_none();
@@ -325,14 +310,13 @@ where
         branch.filter(|_| begins && !self.problem.law.hints().zero)
     }
 
-    /// Keeps a result, and the one before it.
     fn remember(&mut self, point: Point) {
         self.points.retain(|known| known.x != point.x);
         self.points.push(point);
         self.points.drain(..self.points.len().saturating_sub(2));
     }
 
-    /// How much the level changes along the axis: as between the last two results, if that is credible.
+    /// How much the level changes along the axis: as between the last two results, if credible.
     fn slope(&self) -> f64 {
         let Some(last) = self.points.last() else { return 1.0 };
         let usual = self.axis.slope(last.x);
@@ -342,19 +326,17 @@ where
     }
 }
 
-/// The places between which the wanted one is.
+/// The bracket of the wanted place.
 #[derive(Clone, Copy, Debug, Default)]
 struct Bracket {
     below: Option<Point>,
     above: Option<Point>,
-    /// The widths of the brackets before
     widths: [Option<f64>; 2],
     /// How often the end was sought outside of what is known
     widened: i32,
 }
 
 impl Bracket {
-    /// Takes a result in.
     fn add(&mut self, point: Point, wanted: f64) {
         let width = self.width();
         *(if (point.nodes as f64) < wanted { &mut self.below } else { &mut self.above }) = Some(point);
@@ -371,7 +353,6 @@ impl Bracket {
         ends.is_some_and(|(below, above)| above.x - below.x <= WIDTH * axis.scale(above.x))
     }
 
-    /// The next place to look at.
     fn next(&mut self, axis: Axis, goal: f64, slope: f64) -> f64 {
         match (self.below, self.above) {
             (Some(below), Some(above)) => {

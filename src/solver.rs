@@ -43,12 +43,6 @@ pub use start::Start;
 pub(crate) use start::{Begin, check_wall, extrapolated, refuse_springs};
 
 /// The method of iteration, one of two.
-///
-/// ```
-/// use asperity::{Method, Settings};
-/// assert_eq!(Settings::rey2017().method, Method::Rey2017);
-/// assert_eq!(Method::default().name(), "default");
-/// ```
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "kebab-case"))]
@@ -72,14 +66,6 @@ impl Method {
 }
 
 /// The criterion of convergence: the measure that has to fall below the tolerance.
-///
-/// ```
-/// use asperity::{Criterion, Settings};
-/// assert_eq!(Settings::rey2017().criterion.name(), "energy-norm");
-/// // the paper's iteration with its own criterion
-/// let paper = Settings::rey2017().criterion(Criterion::Complementarity);
-/// assert_eq!(paper.tolerance_in::<f64>(), 1e-9);
-/// ```
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "kebab-case"))]
@@ -87,8 +73,8 @@ pub enum Criterion {
     /// The certified relative error in the energy norm, [`Report::relative_error`].
     #[default]
     EnergyNorm,
-    /// The criterion ε = Σ|g r'| of the paper, over the nodes and in units of E*·√(Lx·Ly). It is not a bound of an
-    /// error, and its rounding floor grows with the number of nodes.
+    /// The criterion ε = Σ|g r'| of the paper, in units of E*·√(Lx·Ly): no bound of an error; its rounding floor grows
+    /// with the number of nodes.
     Complementarity,
 }
 
@@ -104,18 +90,9 @@ impl Criterion {
 
 /// The settings of a solve.
 ///
-/// | field | default | meaning | range |
-/// |---|---|---|---|
-/// | `method` | [`Method::Preconditioned`] | the iteration | |
-/// | `criterion` | [`Criterion::EnergyNorm`] | the measure that is compared with the tolerance | |
-/// | `tolerance` | `None`: 1e-6 in `f64`, 1e-4 in `f32`; 1e-9 of [`Criterion::Complementarity`] | dimensionless; see below | positive |
-/// | `max_iterations` | 2000 | the iterations after which a solve ends without having converged | any |
-/// | `branch` | `None`: by the load | the branch of equilibria on which the default start is, with adhesion | |
-///
-/// `None` is the default of the criterion in the precision of the solve: [`Settings::tolerance_in`] tells it, and
-/// [`Report::tolerance`] the one that a solve was held to. A solve whose tolerance is below the
-/// [floor](crate::guide::choosing#rounding-floors) of the precision ends as [`Status::Stalled`]. With the feature
-/// `serde` settings are data, in which any of them may be left out.
+/// The tolerance is 1e-6 in `f64`, 1e-4 in `f32`, and 1e-9 of [`Criterion::Complementarity`], unless one is given.
+/// Below the [floor](crate::guide::choosing#rounding-floors) of the precision a solve ends as [`Status::Stalled`]. With
+/// the feature `serde` settings are data, of which any may be left out.
 ///
 /// ```
 /// use asperity::Settings;
@@ -128,16 +105,16 @@ impl Criterion {
 pub struct Settings {
     /// The iteration.
     pub method: Method,
-    /// The measure that is compared with the tolerance.
+    /// The measure that is compared with the tolerance; [`Criterion::EnergyNorm`] by default.
     pub criterion: Criterion,
-    /// The tolerance of the criterion, and under pressure control of the relative error of the load; `None` is the
-    /// default of the criterion and the precision, [`Settings::tolerance_in`].
+    /// The tolerance of the criterion, and under pressure control of the relative error of the load, positive; `None`,
+    /// the default, is [`Settings::tolerance_in`].
     pub tolerance: Option<f64>,
-    /// The number of iterations after which the solve ends without having converged.
+    /// The number of iterations after which the solve ends without having converged; 2000 by default.
     pub max_iterations: usize,
-    /// The branch of equilibria on which [`Start::Default`] is, with adhesion. `None` is the branch of loading under a
-    /// load that presses, and that of unloading under one that pulls, at a given mean gap, and where the constraint
-    /// has springs: the sign of a load is that of the pressure under which undeformed surfaces would just touch.
+    /// The branch of equilibria of [`Start::Default`] with adhesion. `None`: loading under a load that presses;
+    /// unloading under one that pulls, at a given mean gap, and with springs for a wall. A load has the sign of the
+    /// pressure under which undeformed surfaces would just touch.
     pub branch: Option<Branch>,
 }
 
@@ -154,8 +131,7 @@ impl Default for Settings {
 }
 
 impl Settings {
-    /// The paper's Algorithm 3, held to the certified error as the default method is. The paper's own criterion,
-    /// ε < 1e-9, is [`Criterion::Complementarity`].
+    /// The paper's Algorithm 3 to the certified error; its own criterion is [`Criterion::Complementarity`] < 1e-9.
     pub fn rey2017() -> Self {
         Self { method: Method::Rey2017, max_iterations: 20_000, ..Self::default() }
     }
@@ -169,12 +145,6 @@ impl Settings {
     }
 
     /// The tolerance that holds in a precision: the given one, or the default of the criterion.
-    ///
-    /// ```
-    /// use asperity::Settings;
-    /// let default = Settings::default();
-    /// assert_eq!((default.tolerance_in::<f64>(), default.tolerance_in::<f32>()), (1e-6, 1e-4));
-    /// ```
     pub fn tolerance_in<T: Real>(&self) -> f64 {
         self.tolerance.unwrap_or(match self.criterion {
             Criterion::EnergyNorm if T::NAME == f32::NAME => 1e-4,
@@ -186,26 +156,16 @@ impl Settings {
 
 /// The driver: minimises the energy of a [`Problem`] under a [`Control`].
 ///
-/// One loop serves both controls, every law, operator, way to keep the gap from becoming negative, and precision.
-/// With W the nodes that may move, r = K⁻¹(g + h) + φ'(g) (+ p̄) the gradient, and μ its mean where g > 0:
+/// One loop serves all controls, laws, operators, walls and precisions: conjugate gradients, two operator applications
+/// an iteration. The page [`driver`](crate::guide::driver) derives it.
 ///
-/// 1. residual r' = r − mean r on W = {g > 0} ∪ {g = 0, r < μ}, zero elsewhere;
-/// 2. z = M r', and the certificate ⟨r', K r'⟩ from the same transform;
-/// 3. step −τz + c·d, with d the step before and c such that the new one is conjugate to d and d's own remainder is
-///    minimised away;
-/// 4. clip it to g ≥ 0, restore the mean gap: d; K⁻¹d, exact energies along d, and the best (or the whole) of it.
+/// In `f64` changes, residuals and transforms are in `f32`, if the operator can be had
+/// [in single precision](crate::elastic::Waves::in_single); gap, pressure, certificate and report are in `f64`.
 ///
-/// That is two operator applications an iteration, whether or not anything was clipped. τ follows the best
-/// lengths of the steps before. The page [`driver`](crate::guide::driver) derives all of it.
-///
-/// In `f64` the gap, the pressure and all that is reported are in `f64`, and changes, residuals and transforms in
-/// `f32`, if the operator can be had [in single precision](crate::elastic::Waves::in_single); the certificate is that
-/// of the state in `f64`.
-///
-/// Memory per node with a [`Westergaard`](crate::Westergaard) half-space, that of the problem included: in `f64` five
-/// scalars, in `f32` seven. The solution keeps three. With [`Boussinesq`](crate::Boussinesq) the grid has four times
-/// the nodes of the surface, or somewhat more. The [`CoarseSpace`](crate::elastic::CoarseSpace) adds up to 13 N^(2/3)
-/// numbers in `f64`: a fifth of a field on 512² nodes, and 5 % on 4096².
+/// Memory per node with a [`Westergaard`](crate::Westergaard) half-space, with its problem: five scalars in `f64`,
+/// seven in `f32`; the solution keeps three. With [`Boussinesq`](crate::Boussinesq) the grid has four times the nodes,
+/// or somewhat more. The [`CoarseSpace`](crate::elastic::CoarseSpace) adds up to 13 N^(2/3) numbers in `f64`: a fifth
+/// of a field on 512² nodes.
 ///
 /// ```
 /// use asperity::{Control, Grid, NoAdhesion, Problem, Settings, Solver, Status, Surface, Westergaard};
@@ -219,7 +179,7 @@ impl Settings {
 /// ```
 #[derive(Clone, Debug)]
 pub struct Solver<C = Projection> {
-    /// The settings.
+    /// The settings of the solve.
     pub settings: Settings,
     /// The constraint that keeps the gap from becoming negative.
     pub constraint: C,
@@ -233,7 +193,6 @@ impl Solver {
 }
 
 impl Default for Solver {
-    /// The default settings, and projection.
     fn default() -> Self {
         Self::new(Settings::default())
     }
@@ -254,24 +213,7 @@ impl<C> Solver<C> {
         self.solve_with(problem, control, Start::Default, |_| ControlFlow::Continue(()))
     }
 
-    /// Solves from a start, and calls `observe` in every iteration; it may stop the solve.
-    ///
-    /// ```
-    /// use std::ops::ControlFlow;
-    /// use asperity::{Control, Grid, NoAdhesion, Problem, Solver, Start, Surface, Westergaard};
-    /// let grid = Grid::square(64, 1.0)?;
-    /// let surface = Surface::wave_2d(grid, 0.02, 1)?;
-    /// let mut problem = Problem::new(&surface, Westergaard::<f64>::new(grid, 1.0)?, NoAdhesion)?;
-    /// let mut solver = Solver::default();
-    /// let before = solver.solve(&mut problem, Control::MeanGap(0.010))?;
-    /// let mut errors = Vec::new();
-    /// solver.solve_with(&mut problem, Control::MeanGap(0.009), Start::From(&before.gap), |state| {
-    ///     errors.push(state.relative_error);
-    ///     ControlFlow::Continue(())
-    /// })?;
-    /// assert!(*errors.last().unwrap() < 1e-6);
-    /// # Ok::<(), asperity::Error>(())
-    /// ```
+    /// Solves from a start, and calls `observe` in every iteration; it may stop the solve. [`Start`] has an example.
     ///
     /// # Errors
     /// [`Error::Control`](crate::Error::Control) for a control that the boundary does not have;
@@ -279,7 +221,7 @@ impl<C> Solver<C> {
     /// without stiffness, or a tolerance that is not positive; [`Error::Shape`](crate::Error::Shape),
     /// [`Error::NotFinite`](crate::Error::NotFinite) or [`Error::Value`](crate::Error::Value) for a start that does not
     /// fit, is not finite, or is negative somewhere; [`Error::Law`](crate::Error::Law) if the law is not finite at the
-    /// start; those of the constraint. A solve that does not converge is no error: see [`Report::status`].
+    /// start; those of the constraint. Without convergence see [`Report::status`].
     pub fn solve_with<T, O, L>(
         &mut self,
         problem: &mut Problem<T, O, L>,
@@ -296,7 +238,6 @@ impl<C> Solver<C> {
         self.run(problem.parts(), control, Begin::At(start), &mut observe).map(|solved| solved.solution)
     }
 
-    /// Solves as [`Solver::solve_with`], for the parts of a problem.
     pub(crate) fn run<T: Real>(
         &mut self,
         problem: Parts<'_, T>,

@@ -12,27 +12,23 @@ use crate::problem::{Control, Problem};
 use crate::real::Real;
 use crate::solver::{Begin, Iteration, Potential, Solution, Solved, Solver, Start, extrapolated};
 
-/// Solves one problem under a sequence of loads, each from where the ones before lead: an iterator over the solutions.
+/// A sweep of one problem through a sequence of loads, each solve from where the ones before lead: an iterator over the
+/// solutions.
 ///
-/// A load is any [`Control`]. A solution comes as soon as it is found; the sweep keeps no more than two gaps, two
-/// scalars per node of the operator's grid, beside the problem and the solver. The first load starts from the solver's
-/// default start, or from [`Sweep::starting_from`]; the others
+/// The first load starts from the default start, or from [`Sweep::starting_from`]; the others
 ///
-/// - without adhesion, from the last two gaps, extrapolated linearly in the mean gap, in the approach or in the rest of
-///   a spring, or in the logarithm of the mean pressure or of the force, and clipped to g ≥ 0; the solution is unique,
-///   and the start matters only for the work;
-/// - with adhesion, or where the last two loads and this one are not of one kind, or pressures not all positive,
-///   from the last gap. So a sweep follows the branch of equilibria that its loads lead along, up to the instability
-///   at which it jumps: loading takes another one than unloading, and surfaces that were pulled apart
+/// - without adhesion, from the last two gaps, extrapolated linearly in mean gap, approach or the rest of a spring, or
+///   in the logarithm of pressure or force, and clipped to g ≥ 0;
+/// - with adhesion, or where loads are not of one kind or pressures not all positive, from the last gap: a sweep
+///   follows its branch of equilibria up to the instability at which it jumps, and surfaces that were pulled apart
 ///   ([`Status::Detached`](crate::Status)) stay so until they are pressed together again.
 ///
-/// A mean gap that is given scales the start, as in [`Start::From`]; where there is no gap left to scale, after
-/// full contact, the start is uniform. Fine steps save a third of the work without adhesion. Steps that change the
-/// load by half or more save little, and with adhesion under pressure control may take more than the default start
-/// does.
+/// A mean gap that is given scales the start, as in [`Start::From`], or is the start where no gap is left to scale.
+/// Fine steps save a third of the work without adhesion; steps by half the load or more save little, and with adhesion
+/// under a pressure may cost more than the default start. Memory: two gaps on the
+/// grid of the operator, beside problem and solver.
 ///
-/// A solve that does not converge is no error, and the next load starts from where it ended. Refused input is: it
-/// comes as an error, and the sweep ends.
+/// A solve that does not converge is no error; the next load starts from where it ended. After an error the sweep ends.
 ///
 /// ```
 /// use asperity::{Control, Grid, NoAdhesion, Problem, Solver, Surface, Sweep, Westergaard};
@@ -82,41 +78,24 @@ where
         Self { start: Some(gap), ..self }
     }
 
-    /// The loads and gaps from which the next start is made, the latest last: at most two. The gaps are on the grid of
-    /// the operator; beyond a window, where nothing faces the half-space, they go on as its displacement.
+    /// The loads and gaps of the next start, the latest last: at most two. The gaps are on the grid of the operator;
+    /// beyond a window they are the displacement.
     pub fn history(&self) -> &[(Control, Array2<T>)] {
         &self.history
     }
 
-    /// The problem, to look at a solution with, as for its contact stiffness.
+    /// The problem.
     pub fn problem(&mut self) -> &mut Problem<T, O, L> {
         self.problem
     }
 
-    /// The sweep continued after others: with the [`Sweep::history`] of another sweep it goes on just as
-    /// that one would have, bit for bit. Of more than two gaps the first ones are not used.
-    ///
-    /// ```
-    /// use asperity::{Control, Grid, NoAdhesion, Problem, Solver, Surface, Sweep, Westergaard};
-    /// let grid = Grid::square(32, 1.0)?;
-    /// let mut problem =
-    ///     Problem::new(&Surface::paraboloid(grid, 2.0)?, Westergaard::<f64>::new(grid, 1.0)?, NoAdhesion)?;
-    /// let (mut solver, loads) = (Solver::default(), [0.04, 0.039, 0.038].map(Control::MeanGap));
-    /// let all: Vec<_> = Sweep::new(&mut solver, &mut problem, loads).collect::<Result<_, _>>()?;
-    ///
-    /// let mut first = Sweep::new(&mut solver, &mut problem, loads[..2].to_vec());
-    /// while first.next().transpose()?.is_some() {}
-    /// let history = first.history().to_vec();
-    /// let mut rest = Sweep::new(&mut solver, &mut problem, loads[2..].to_vec()).continuing(history);
-    /// assert_eq!(rest.next().transpose()?.as_ref(), all.last());
-    /// # Ok::<(), asperity::Error>(())
-    /// ```
+    /// The sweep continued with the last two of another one's [`Sweep::history`], bit for bit.
     pub fn continuing(self, mut history: Vec<(Control, Array2<T>)>) -> Self {
         history.drain(..history.len().saturating_sub(2));
         Self { history, ..self }
     }
 
-    /// The next solution, as [`Iterator::next`], with an observer of the iterations, as in [`Solver::solve_with`].
+    /// The next solution, as [`Iterator::next`], with an observer as in [`Solver::solve_with`].
     ///
     /// # Errors
     /// Those of [`Solver::solve_with`]; after one there is no next load.
@@ -145,7 +124,7 @@ where
         }))
     }
 
-    /// The start under a load that the history leads to, if there is any. Of two gaps the older one is dropped.
+    /// The start under a load to which the history leads; of two gaps the older one is dropped.
     fn next_start(&mut self, control: Control) -> Option<Array2<T>> {
         let [(before, _), (last, _)] = &self.history[..] else {
             return self.history.last().map(|(_, gap)| gap.clone());

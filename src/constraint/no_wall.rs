@@ -3,11 +3,10 @@
 use super::{ContactConstraint, Wall};
 use crate::real::Real;
 
-/// No wall, for a law that repels where the surfaces come close, such as [`LennardJones`](crate::LennardJones) or
-/// [`Morse`](crate::Morse).
+/// No wall, for a law that repels close by, as [`LennardJones`](crate::LennardJones) or [`Morse`](crate::Morse).
 ///
-/// Every gap is feasible at which the law is finite, and contact is where the law repels: at gaps below its
-/// [`rest`](crate::adhesion::Hints::rest). There the contact pressure is the repulsion.
+/// Every gap at which the law is finite is feasible; contact is where the law repels, below its
+/// [`rest`](crate::adhesion::Hints::rest).
 ///
 /// ```
 /// use asperity::{Control, Grid, Morse, NoWall, Problem, Settings, Solver, Surface, Westergaard};

@@ -5,11 +5,10 @@ use crate::error::{Error, Result};
 use crate::grid::Grid;
 use crate::real::Real;
 
-/// Interpenetration is allowed, and resisted by springs of stiffness k: the energy gains ½k⟨−g⟩₊² at each node.
+/// Penalty springs of stiffness k that resist interpenetration: the energy gains ½k⟨−g⟩₊² at each node.
 ///
-/// The surfaces interpenetrate by the contact pressure over k, [`Report::min_gap`](crate::Report) says how far at
-/// worst. The larger k, the less, and the more iterations: beside [`Projection`](super::Projection) this is for
-/// comparison. Adhesion goes on into negative gaps as [`ContactConstraint`] says.
+/// The surfaces interpenetrate by the contact pressure over k, at worst by [`Report::min_gap`](crate::Report). A larger
+/// k takes more iterations; this is for comparison with [`Projection`](super::Projection).
 ///
 /// ```
 /// use asperity::{Control, Grid, NoAdhesion, Penalty, Problem, Settings, Solver, Surface, Westergaard};
@@ -27,7 +26,7 @@ pub struct Penalty {
 }
 
 impl Penalty {
-    /// Springs of stiffness k, pressure per length, in either precision; the paper's 5000 is in units of E*/L.
+    /// Springs of stiffness k, pressure per length; the paper's 5000 is in units of E*/L.
     ///
     /// # Errors
     /// [`Error::Value`] if the stiffness is not positive and finite.

@@ -3,19 +3,8 @@
 use super::{ContactConstraint, Wall};
 use crate::real::Real;
 
-/// The gap is confined to g ≥ 0: steps that would pass are clipped, and contact nodes under tension are released.
-///
-/// Complementarity is exact: where the contact pressure is positive the gap is zero, to the last bit.
-///
-/// ```
-/// use asperity::{Control, Grid, NoAdhesion, Problem, Solver, Surface, Westergaard};
-/// let grid = Grid::square(32, 1.0)?;
-/// let sphere = Surface::paraboloid(grid, 2.0)?;
-/// let mut problem = Problem::new(&sphere, Westergaard::<f64>::new(grid, 1.0)?, NoAdhesion)?;
-/// let solution = Solver::default().solve(&mut problem, Control::MeanGap(0.0398))?; // the default is projection
-/// assert!(solution.gap.iter().zip(&solution.contact_pressure).all(|(g, p)| g * p == 0.0));
-/// # Ok::<(), asperity::Error>(())
-/// ```
+/// A rigid wall, g ≥ 0: steps that would pass are clipped, and contact nodes under tension are released. Where the
+/// contact pressure is positive the gap is exactly zero.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Projection;
 

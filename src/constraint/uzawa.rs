@@ -14,32 +14,26 @@ use crate::real::Real;
 const STIFFEN: f64 = 4.0;
 const SLOW: f64 = 0.25;
 
-/// The largest stiffness of the springs in the first round, in units of that of the shortest wave: stiffer ones only
-/// cost iterations.
+/// The largest stiffness of the first springs over that of the shortest wave: stiffer ones only cost iterations.
 const STIFFEST: f64 = 10.0;
 
 /// The augmented Lagrangian of Uzawa: springs of stiffness k, and multipliers λ that take over the contact pressure
 /// from them, λ ← ⟨λ − kg⟩₊, after each round.
 ///
-/// The energy gains (⟨λ − kg⟩₊² − λ²)/2k at each node. A round leaves the solution of a contact problem whose gap is
-/// off by s = (λ − ⟨λ − kg⟩₊)/k. Springs that are soft beside the contact take off little of that in a round: where
-/// more than a quarter is left, the next round has springs four times as stiff. So the stiffness that is given is only
-/// the stiffness of the first round, and hardly matters; there it is taken to be ten times that of the shortest wave
-/// at most.
+/// The energy gains (⟨λ − kg⟩₊² − λ²)/2k at each node, and after a round the gap is off by s = (λ − ⟨λ − kg⟩₊)/k. Where
+/// more than a quarter of that is left, the next springs are four times as stiff, so the given stiffness, at most ten
+/// times that of the shortest wave, hardly matters.
 ///
-/// The rounds end when what is left can change the pressure p of the solution by no more than the tolerance, in the
-/// energy norm. With κ the stiffness of the shortest wave, Δλ the change of the multipliers, bars for means and ‖·‖
-/// for roots of mean squares that is
+/// The rounds end when the pressure p may be off by no more than the tolerance in the energy norm: with κ the stiffness
+/// of the shortest wave, Δλ the change of λ, bars for means and ‖·‖ for roots of mean squares
 ///
 /// ```math
 /// κ² ‖s‖² + κ k s̄² ≤ tolerance² ‖λ − λ̄‖² ,   s = −Δλ/k .
 /// ```
 ///
-/// Without adhesion the first term bounds the error from above, as ⟨u − u*, p − p*⟩ ≤ ⟨s, λ − λ*⟩; the second is for
-/// the mean pressure close to full contact, which hangs on the last of the mean gap. Then, and with adhesion, it is an
-/// estimate. See the page [`paper_checked`](crate::guide::paper_checked) for what Uzawa costs.
-///
-/// Adhesion goes on into negative gaps as [`ContactConstraint`] says. Memory per node: one scalar.
+/// Without adhesion the first term bounds the error, as ⟨u − u*, p − p*⟩ ≤ ⟨s, λ − λ*⟩; the second is for the mean
+/// pressure close to full contact. Then, and with adhesion, it is an estimate. The page
+/// [`paper_checked`](crate::guide::paper_checked) has the cost of Uzawa. Memory per node: one scalar.
 ///
 /// ```
 /// use asperity::{Control, Grid, NoAdhesion, Problem, Settings, Solver, Surface, Uzawa, Westergaard};
@@ -53,20 +47,15 @@ const STIFFEST: f64 = 10.0;
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Uzawa<T> {
-    /// The relative error in the energy norm that what interpenetrates may leave, where this is more than the
-    /// tolerance of the solve, which counts otherwise; a thousand times the rounding of the precision unless changed.
+    /// The relative error that interpenetration may leave, if above the solve's tolerance; 1000 roundings by default.
     pub tolerance: f64,
     /// The rounds after which the solve ends without having converged; 100 unless changed.
     pub max_rounds: usize,
-    /// the stiffness of the first round
     softest: T,
-    /// the stiffness of the present round
     stiffness: T,
-    /// by how much the gap was off after the round before, as the root of a sum of squares
+    /// the root of Σ s² after the round before
     off: f64,
-    /// the stiffness of the shortest wave
     stiffest: f64,
-    /// the tolerance of the solve
     solved_to: f64,
     multipliers: Array2<T>,
     grid: Option<Grid>,
@@ -74,7 +63,7 @@ pub struct Uzawa<T> {
 }
 
 impl<T: Real> Uzawa<T> {
-    /// Springs of stiffness k in the first round, pressure per length, and multipliers that start from zero.
+    /// Springs of stiffness k in the first round, pressure per length.
     ///
     /// # Errors
     /// [`Error::Value`](crate::Error::Value) if the stiffness is not positive and finite in the precision of T.
@@ -102,7 +91,6 @@ impl<T: Real> Uzawa<T> {
         self.rounds
     }
 
-    /// ⟨λ − kg⟩₊
     fn pressure(&self, node: usize, gap: T) -> T {
         (self.multiplier(node) - self.stiffness * gap).max(T::zero())
     }
@@ -164,7 +152,7 @@ impl<T: Real> ContactConstraint<T> for Uzawa<T> {
         if self.rounds >= self.max_rounds {
             return Update::Failed;
         }
-        // only now: the gap is in equilibrium with the springs and multipliers with which it was found
+        // only now: the gap was found with the multipliers before
         reducer.run(write(&mut self.multipliers).zip(gaps()), |_, (multipliers, gaps)| {
             multipliers.iter_mut().zip(gaps).for_each(|(multiplier, &gap)| *multiplier = next(*multiplier, gap));
             Partial::NONE

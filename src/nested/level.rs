@@ -8,21 +8,17 @@ use crate::real::Real;
 use crate::solver::{Solution, Status};
 use crate::stability::ContactStiffness;
 
-/// The cost of the solve on one of the nested grids, and what it found there.
-///
-/// The figures of a coarser grid are those of its solution to the coarse tolerance; how good it is says its relative
-/// error. [`NestedSolution`] has an example.
+/// The cost of the solve on one of the nested grids ([`NestedSolution`]), and what it found there.
 #[non_exhaustive]
 #[derive(Clone, Debug, PartialEq)]
 pub struct Level {
     /// The nodes (Nx, Ny) of the grid.
     pub shape: (usize, usize),
-    /// The status: how the solve ended.
+    /// The status of its solve.
     pub status: Status,
     /// The number of steps on the whole grid, from its last start.
     pub iterations: usize,
-    /// The number of operator applications, with the one that constructs the problem; those on a part of the window in
-    /// units of one on the whole.
+    /// The number of operator applications, with that of the problem; those on a part in units of one on the whole.
     pub operator_applications: usize,
     /// The certified relative error, [`Report::relative_error`](crate::Report::relative_error).
     pub relative_error: f64,
@@ -36,12 +32,11 @@ pub struct Level {
     pub elastic_energy: f64,
     /// The contact area, as nodes count it and corrected.
     pub area: ContactArea,
-    /// The contact stiffness, if [`Nested::stiffness`] asks for it.
+    /// The contact stiffness, by [`Nested::stiffness`].
     pub stiffness: Option<ContactStiffness>,
 }
 
 impl Level {
-    /// The level of a solution.
     pub(crate) fn of<T: Real>(solution: &Solution<T>) -> Result<Self> {
         let report = &solution.report;
         Ok(Self {

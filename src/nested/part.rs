@@ -27,10 +27,8 @@ const MARGIN: (f64, usize) = (0.25, 8);
 /// The tolerance of the solution on a part of the window, as a share of that on the whole.
 const SHARE: f64 = 0.5;
 
-/// A rectangle of nodes of a window on a free half-space, about the contact and what attracts.
-///
-/// Where nothing presses, the half-space beyond the part is as if it were absent: the compliance between nodes of the
-/// part is that of the whole window.
+/// A rectangle of nodes about the contact on a free half-space's window, of the same compliance if nothing else
+/// presses.
 #[derive(Clone, Debug, PartialEq)]
 struct Part {
     x: Range<usize>,
@@ -38,8 +36,7 @@ struct Part {
 }
 
 impl Part {
-    /// The part about the contact in a gap on the window or on a larger grid, of which this process has the rows of a
-    /// slab, if it is a small one.
+    /// The part about the contact, if it is small, in a gap on the window or a larger grid, by rows of a slab.
     fn of<T: Real>(window: (usize, usize), grid: &Grid, gap: &ArrayRef2<T>, law: &dyn AdhesionLaw<T>) -> Option<Self> {
         let hints = law.hints();
         let least = T::lit(REACH) * hints.work_of_adhesion / hints.range;
@@ -69,7 +66,6 @@ impl Part {
         (nodes <= SMALL * (window.0 * window.1) as f64).then_some(part)
     }
 
-    /// The part of a field on a grid, on the grid of the part.
     fn cut<T: Real>(&self, field: &ArrayRef2<T>, from: &Grid, to: &Grid) -> Array2<T> {
         let rows = from.rows_for(field.view(), to, |row| [self.x.start + row]);
         let cut = to.rows().flat_map(|row| {
@@ -78,7 +74,7 @@ impl Part {
         Array2::from_shape_vec(to.field_shape(), cut.collect()).unwrap_or_default()
     }
 
-    /// Calls `f` for each row of a field on a grid that is in the part, with the row of a field of the part.
+    /// Calls `f` with the rows of a field that are in the part, and those of a field of the part.
     fn meet<T: Real>(
         &self,
         (whole, to): (&mut Array2<T>, &Grid),
@@ -94,7 +90,6 @@ impl Part {
         }
     }
 
-    /// The part of a surface.
     fn surface(&self, surface: &Surface) -> Result<Surface> {
         let (dx, dy) = surface.grid().spacing();
         let lengths = (self.x.len() as f64 * dx, self.y.len() as f64 * dy);
@@ -119,25 +114,23 @@ impl Part {
     }
 }
 
-/// The solution on a part of the window.
 pub(super) struct OnPart<T> {
     part: Part,
     solution: Solution<T>,
-    /// The operator applications, in units of one on the whole.
+    /// the operator applications, in units of one on the whole
     pub(super) applications: usize,
 }
 
 impl<T: Real> OnPart<T> {
-    /// Whether the solution leads to that of the whole: contact that reaches the end of the part may go on beyond it,
-    /// and from where a solve has stalled another equilibrium may be found, unless there is but one.
+    /// Whether the solution leads to that of the whole: contact at the end of the part may go on beyond it, and a
+    /// stalled solve may lead to another equilibrium, if there are several.
     pub(super) fn leads(&self, unique: bool) -> bool {
         let report = &self.solution.report;
         let found = report.status == Status::Converged || (unique && report.status == Status::Stalled);
         found && !report.reaches_edge
     }
 
-    /// The gap of the whole, on the grid of its operator, under the pressure found on the part: with the gap found
-    /// there, and none that is negative on the window. Takes an application of the operator.
+    /// The gap of the whole under the pressure of the part, not negative on the window. Takes an operator application.
     pub(super) fn whole<O, L>(self, problem: &mut Problem<T, O, L>) -> Result<Array2<T>>
     where
         O: ElasticOperator<T>,
@@ -145,7 +138,7 @@ impl<T: Real> OnPart<T> {
     {
         let Self { part, solution: Solution { gap, pressure, grid, .. }, .. } = self;
         let (window, to) = (problem.grid().shape(), *problem.operator.grid());
-        // the displacement less the heights is K (p − K⁻¹h) and a constant
+        // displacement less heights: K (p − K⁻¹h), and a constant
         let mut load = problem.flat.pressure.mapv(|p| -p);
         part.meet((&mut load, &to), (&pressure, &grid), |load, p| {
             Zip::from(load).and(p).for_each(|load, &p| *load += p)
@@ -164,8 +157,7 @@ impl<T: Real> OnPart<T> {
 }
 
 impl<C> Nested<C> {
-    /// The solution on a small part of the window of a free half-space, if all contact is there in a gap prolonged to
-    /// the operator's grid.
+    /// The solution on a small part of a free half-space's window, if it has all contact of a prolonged gap.
     pub(super) fn solve_part<T, O, L>(
         &mut self,
         surface: &Surface,
@@ -216,7 +208,7 @@ mod tests {
         });
         let part = of((100, 80), &gap, &NoAdhesion).unwrap();
         assert_eq!(part, Part { x: 30..91, y: 18..43 });
-        // to a gap of 6, as the traction of an exponential law falls to a millionth of w/ρ at 13.8ρ
+        // the traction of an exponential law falls to a millionth of w/ρ at 13.8ρ, a gap of 6
         let part = of((100, 80), &gap, &Exponential::new(1.0, 0.5).unwrap()).unwrap();
         assert_eq!(part, Part { x: 21..100, y: 12..49 });
         // more than half of the window, or nothing

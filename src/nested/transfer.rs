@@ -1,5 +1,4 @@
-//! Heights and gaps from one grid to another: a surface on a coarser one, and the solution there as a start on the
-//! finer.
+//! Heights and gaps from one grid to another: surfaces on coarser ones, starts on finer ones.
 
 use std::iter::repeat_n;
 use std::ops::Range;
@@ -52,20 +51,17 @@ fn line<'a, T>(rows: &'a Rows<'_, T>, row: usize) -> &'a [T] {
 struct Place {
     /// The node before the one at or before the place, that node, and the two after it.
     nodes: [usize; 4],
-    /// The weights of the cubic through these.
     weights: [f64; 4],
-    /// The ratios of the gaps of two nodes beyond an edge, the farther to the nearer, from which on the place is within
-    /// the contact: for a contact before the place, and after it.
+    /// For a contact before the place, and one after it: the ratio of the gaps of the next two nodes beyond, the
+    /// farther to the nearer, from which on the place is in contact.
     edges: [f64; 2],
 }
 
 impl Place {
-    /// Whether the place is that of a node.
     fn is_node(&self) -> bool {
         self.weights[1] == 1.0
     }
 
-    /// The cubic through values at the four nodes.
     #[inline(always)]
     fn cubic(&self, value: impl Fn(usize) -> f64) -> f64 {
         match self.is_node() {
@@ -88,7 +84,6 @@ impl Place {
     }
 }
 
-/// The nodes along a side: those of the window, the first ones, and those of the operator's grid.
 #[derive(Clone, Copy)]
 struct Side {
     window: usize,
@@ -96,7 +91,6 @@ struct Side {
 }
 
 impl Side {
-    /// The sides of a window on a grid.
     fn of(window: (usize, usize), whole: (usize, usize)) -> [Self; 2] {
         [Self { window: window.0, whole: whole.0 }, Self { window: window.1, whole: whole.1 }]
     }
@@ -106,8 +100,8 @@ impl Side {
     }
 }
 
-/// The places of the nodes of one grid among those of another along a side. The windows are as long; beyond them, a
-/// node in the first half has its distance from the end of the window, and one in the second half that from its start.
+/// The places of the nodes of one grid among those of another along a side. Beyond the window, nodes in the first half
+/// keep their distance from its end, those in the second half from its start.
 fn places(from: Side, to: Side) -> Vec<Place> {
     let place = |k: usize| {
         // in nodes, times those of the window
@@ -130,11 +124,10 @@ fn places(from: Side, to: Side) -> Vec<Place> {
     (0..to.whole).map(place).collect()
 }
 
-/// A solution on one grid as the start on another one: the deformed half-space, on the grid of its operator.
+/// A solution on one grid as the start on another: the deformed half-space.
 pub(crate) struct Deformed<T> {
-    /// the nodes of the window
     window: (usize, usize),
-    /// of the operator
+    /// the grid of the operator
     grid: Grid,
     /// the displacement u = g + h
     displacement: Array2<f64>,
@@ -143,7 +136,7 @@ pub(crate) struct Deformed<T> {
 }
 
 impl<T: Real> Deformed<T> {
-    /// The half-space under a surface, from the gap, and from that on the operator's grid if it is another one.
+    /// The half-space under a surface, from the gap, and that on the operator's grid if it is another.
     pub(crate) fn of(surface: &Surface, gap: Array2<T>, whole: Option<(Grid, Array2<T>)>) -> Self {
         let (grid, mut gap) = whole.unwrap_or((*surface.grid(), gap));
         let mut displacement = gap.mapv(T::widen);
@@ -213,8 +206,7 @@ mod tests {
     #[test]
     fn an_edge_is_where_gaps_open_with_the_power_three_halves() {
         let place = &places(Side::periodic(4), Side::periodic(8))[3]; // half-way between nodes 1 and 2
-        // with the share of the ratio that is asked for, the place touches if the edge is not farther than 0.16 before
-        // it
+        // with its share of the ratio the place touches if the edge is not farther than 0.16 before it
         for edge in [1.05, 1.2, 1.3, 1.4, 1.6, 1.75, 1.95] {
             let gap = |x: f64| (x - edge).max(0.0).powf(1.5);
             assert_eq!(place.touches(|k| gap(k as f64)), edge > 1.34, "{edge}");

@@ -1,4 +1,4 @@
-//! What is held fixed: the control that a user gives, and the load that it is on an operator's grid.
+//! The control that a user gives, and the load that it is on an operator's grid.
 
 /// The control: what is held fixed while the energy is minimised.
 ///
@@ -9,9 +9,9 @@
 /// | [`Approach`](Self::Approach) | no | yes | the force |
 /// | [`Spring`](Self::Spring) | yes | yes | force and position |
 ///
-/// The [`Boundary`](crate::Boundary) is that of the operator. A control that it does not have is refused, and so are
-/// mean gap and spring for a periodic surface with [absent nodes](crate::Surface::with_absent), where the mean gap over
-/// the others is not what the load works on.
+/// The [`Boundary`](crate::Boundary) is the operator's. Other controls are refused, and mean gap and spring for a
+/// periodic surface with [absent nodes](crate::Surface::with_absent), where the load does not work on the mean gap of
+/// the others.
 ///
 /// ```
 /// use asperity::{Control, Grid, NoAdhesion, Problem, Solver, Surface, Westergaard};
@@ -29,18 +29,15 @@
 pub enum Control {
     /// The mean gap ḡ ≥ 0 is given; the external pressure follows.
     MeanGap(f64),
-    /// The mean external pressure p̄ is given, the force over the nominal area Lx·Ly, compression positive; the mean
-    /// gap follows.
+    /// The mean external pressure p̄ is given, the force over the area Lx·Ly, compression positive.
     MeanPressure(f64),
     /// The normal force F = p̄·Lx·Ly is given, compression positive.
     #[cfg_attr(feature = "serde", serde(rename = "normal-force"))]
     Force(f64),
-    /// The approach δ is given: how far the bodies have moved towards each other since they would first touch
-    /// undeformed. Negative before that.
+    /// The approach δ is given: how far the bodies have moved together since they would first touch undeformed.
     Approach(f64),
-    /// A spring in series, as the stiffness of a machine or of a cantilever, is held at its far end.
-    ///
-    /// With a free boundary F = k (rest − δ); in a periodic cell, where bodies have no approach, F = k (ḡ − rest).
+    /// A spring in series is held at its far end: with a free boundary F = k (rest − δ), in a periodic cell, which has
+    /// no approach, F = k (ḡ − rest).
     Spring {
         /// The stiffness k, force per length.
         stiffness: f64,
@@ -50,8 +47,7 @@ pub enum Control {
 }
 
 impl Control {
-    /// The name that the tool and `report.json` use: `"mean-gap"`, `"mean-pressure"`, `"normal-force"`, `"approach"` or
-    /// `"spring"`.
+    /// The name in reports: `"mean-gap"`, `"mean-pressure"`, `"normal-force"`, `"approach"` or `"spring"`.
     pub fn name(self) -> &'static str {
         match self {
             Self::MeanGap(_) => "mean-gap",
@@ -83,7 +79,7 @@ pub(crate) enum Load {
 }
 
 impl Load {
-    /// The mean pressure at a mean gap; zero where that is given.
+    /// The mean pressure at a mean gap; zero where the gap is given.
     pub(crate) fn pressure_at(self, mean_gap: f64) -> f64 {
         match self {
             Self::Gap(_) => 0.0,
@@ -92,8 +88,7 @@ impl Load {
         }
     }
 
-    /// The load on the wall alone, of gaps that are counted from the equilibrium separation: nothing would hold a
-    /// tension.
+    /// The load on the wall alone, of gaps above the equilibrium separation; a tension would have no hold.
     pub(crate) fn of_wall(self, separation: f64) -> Self {
         match self {
             Self::Gap(gap) => Self::Gap((gap - separation).max(0.0)),
@@ -107,12 +102,10 @@ impl Load {
         if let Self::Spring { .. } = self { 0.5 } else { 1.0 }
     }
 
-    /// The stiffness of the mean gap, zero without a spring.
     pub(crate) fn stiffness(self) -> f64 {
         if let Self::Spring { stiffness, .. } = self { stiffness } else { 0.0 }
     }
 
-    /// The mean gap at which a spring is relaxed, zero without one.
     pub(crate) fn rest(self) -> f64 {
         if let Self::Spring { rest, .. } = self { rest } else { 0.0 }
     }

@@ -15,18 +15,15 @@ use crate::vector::range;
 /// The surface pressed flat: the pressure K⁻¹h and the figures of h that a solve needs.
 #[derive(Clone, Debug)]
 pub(crate) struct PressedFlat<T> {
-    /// the pressure K⁻¹h
     pub(crate) pressure: Array2<T>,
     /// the mean of h·K⁻¹h
     pub(crate) work: f64,
     pub(crate) rms_height: f64,
     /// the stiffness that the surface meets as it is pressed flat: the rms pressure over the rms height
     pub(crate) stiffness: f64,
-    /// the highest height less the mean
     pub(crate) peak: f64,
-    /// the highest height less the lowest
     pub(crate) height_span: f64,
-    /// where the surface faces the body; nothing if that is everywhere
+    /// where the surface faces the body; none if everywhere
     pub(crate) window: Option<Window>,
     pub(crate) boundary: Boundary,
     /// the nominal area of the surface
@@ -124,8 +121,7 @@ impl<T: Real> PressedFlat<T> {
         })
     }
 
-    /// A control on the operator's grid; refused if the problem does not have it. A mean gap may only be negative
-    /// without a wall.
+    /// A control on the operator's grid, if the problem has it. A mean gap may only be negative without a wall.
     pub(crate) fn load(&self, control: Control, wall: Wall<'_, T>) -> Result<Load> {
         let refused = |reason| Err(Error::Control { control: control.name(), reason });
         let name = match control {
@@ -179,7 +175,7 @@ impl<T: Real> PressedFlat<T> {
         Ok(load)
     }
 
-    /// The approach of the bodies at a mean gap and a mean pressure on the operator's grid; nothing in a periodic cell.
+    /// The approach at a mean gap and a mean pressure on the operator's grid; none in a periodic cell.
     pub(crate) fn approach(&self, mean_gap: f64, pressure: f64) -> Option<f64> {
         let Boundary::Free { mean_compliance, .. } = self.boundary else { return None };
         Some(self.peak - mean_gap + mean_compliance * pressure)

@@ -1,4 +1,4 @@
-//! The window of a surface on the grid of an operator: where a surface faces the half-space, and where nothing does.
+//! The window of a surface on the grid of an operator.
 
 use std::ops::Range;
 
@@ -10,20 +10,17 @@ use crate::grid::Grid;
 use crate::real::Real;
 use crate::surface::Surface;
 
-/// The window of a surface: the nodes of the operator's grid that face it. On all others there is neither wall nor law.
-///
-/// The surface is on the first nodes along both axes; some of these may be absent. Where several processes share the
-/// grids, they may divide that of the surface otherwise than that of the operator: what is done at the nodes of the
-/// surface is done by the process that has them on the operator's grid.
+/// The nodes of the operator's grid that face a surface; the others have neither wall nor law. The surface is on the
+/// first nodes along both axes, of which some may be absent. Shared grids may be divided differently: work at the nodes
+/// of the surface is done by the process that has them on the operator's grid.
 #[derive(Clone, Debug)]
 pub(crate) struct Window {
-    /// the grid of the surface
     grid: Grid,
     /// the grid of the surface in the rows of the operator's slab
     held: Grid,
-    /// of the operator
+    /// the grid of the operator
     whole: Grid,
-    /// the runs of nodes that face the surface, within a row each, in their order
+    /// the runs of nodes that face the surface, each within a row
     runs: Vec<Run>,
     /// the number of these nodes in all slabs
     facing: usize,
@@ -66,23 +63,19 @@ impl Window {
         Some(Self { grid, held, whole: *operator, runs, facing })
     }
 
-    /// The grid of the surface.
     pub(crate) fn grid(&self) -> &Grid {
         &self.grid
     }
 
-    /// The grid of the surface in the rows of the operator's slab.
     pub(crate) fn held(&self) -> &Grid {
         &self.held
     }
 
-    /// The number of nodes that face the surface.
     pub(crate) fn facing(&self) -> usize {
         self.facing
     }
 
-    /// The pieces of some nodes of the operator's grid of which all face the surface, or none: their numbers of nodes,
-    /// and the first of them on the surface's grid, if they face it.
+    /// The pieces of some nodes that all face the surface or all do not: their lengths, and places on the surface.
     pub(crate) fn pieces(&self, nodes: Range<usize>) -> impl Iterator<Item = (usize, Option<usize>)> {
         let mut runs = self.runs[self.runs.partition_point(|run| run.nodes.end <= nodes.start)..].iter().peekable();
         let mut at = nodes.start;
@@ -116,13 +109,12 @@ impl Window {
         self.grid.moved(field, &self.held)
     }
 
-    /// A field of the surface's grid on that of the operator: what is not finite, and the nodes beyond the window, are
-    /// interpolated, linearly along the rows, and the rows that have nothing between the others; opposite sides meet.
+    /// A field of the surface's grid on that of the operator: values not finite or beyond the window are interpolated,
+    /// linearly along the rows, then between rows; opposite sides meet.
     pub(crate) fn extend<T: Real>(&self, field: ArrayView2<'_, T>) -> Array2<T> {
         self.extended(self.hold(field).view())
     }
 
-    /// As [`extend`](Self::extend), of a field in the rows of the operator's slab.
     fn extended<T: Real>(&self, field: ArrayView2<'_, T>) -> Array2<T> {
         let (nx, width) = self.whole.shape();
         let mut held = Array2::from_elem((field.nrows(), width), T::nan());
@@ -147,12 +139,11 @@ impl Window {
         extended
     }
 
-    /// A field of the operator's grid on that of the surface, with a value for the absent nodes.
+    /// A field of the operator's grid on that of the surface.
     pub(crate) fn crop<T: Real>(&self, field: &Array2<T>, absent: T) -> Array2<T> {
         self.held.moved(self.cut(field, absent), &self.grid).into_owned()
     }
 
-    /// As [`crop`](Self::crop), in the rows of the operator's slab.
     pub(crate) fn cut<T: Real>(&self, field: &Array2<T>, absent: T) -> Array2<T> {
         let mut cut = Array2::from_elem(self.held.field_shape(), absent);
         for (nodes, own) in self.places() {
@@ -161,8 +152,7 @@ impl Window {
         cut
     }
 
-    /// A field of the surface's grid, in the rows of the operator's slab, on the operator's grid, with a value for the
-    /// nodes that do not face it.
+    /// A field of the surface's grid, in the rows of the operator's slab, on the operator's grid.
     pub(crate) fn place<T: Real>(&self, field: &Array2<T>, elsewhere: T) -> Array2<T> {
         let mut placed = Array2::from_elem(self.whole.field_shape(), elsewhere);
         for (nodes, own) in self.places() {
@@ -171,7 +161,7 @@ impl Window {
         placed
     }
 
-    /// The places of the runs among the nodes that this process holds, on the operator's grid and on the surface's.
+    /// The places of this process's runs on the operator's grid and on the surface's.
     fn places(&self) -> impl Iterator<Item = (Range<usize>, Range<usize>)> {
         let [start, first] = [&self.whole, &self.held].map(Grid::first_node);
         self.runs.iter().map(move |run| {
@@ -180,13 +170,12 @@ impl Window {
         })
     }
 
-    /// A gap of the surface's grid as one on that of the operator, whatever it has at absent nodes.
     pub(crate) fn start<T: Real>(&self, gap: ArrayView2<'_, T>) -> Result<Array2<T>> {
         self.grid.fits("starting gap", gap.dim())?;
         let gap = self.hold(gap);
         let gap = gap.as_standard_layout();
         let gap = gap.as_slice().unwrap_or_default();
-        // of absent nodes one value, and then the other
+        // with one value at absent nodes, then another
         let facing = |elsewhere: T| {
             let mut facing = Array2::from_elem(self.held.field_shape(), elsewhere);
             self.places().for_each(|(_, own)| flat_mut(&mut facing)[own.clone()].copy_from_slice(&gap[own]));
@@ -197,8 +186,8 @@ impl Window {
     }
 }
 
-/// Calls `f(k, a, b, share)` for every index k of n that is not known: a and b are the known ones before and after it,
-/// where the last is followed by the first, and `share` is how far it is from a to b.
+/// Calls `f(k, a, b, share)` for each unknown k of n: `share` of the way from a to b, the known ones about it,
+/// cyclically.
 fn between(known: &[usize], n: usize, mut f: impl FnMut(usize, usize, usize, f64)) {
     for (k, &a) in known.iter().enumerate() {
         let b = known[(k + 1) % known.len()];

@@ -1,4 +1,4 @@
-//! The branch of equilibria with adhesion: that of surfaces which come together, or that of surfaces which come apart.
+//! The branch of equilibria with adhesion.
 
 use std::fmt;
 
@@ -14,17 +14,15 @@ use crate::error::{Error, Result};
 use crate::problem::{Load, PressedFlat};
 use crate::real::Real;
 
-/// The distance between two solutions of one equilibrium, over the sum of their certified errors, that there may be:
-/// the stiffness of the elastic body alone over that of the equilibrium.
+/// The distance allowed between solutions of one equilibrium, over the sum of their certified errors: the stiffness of
+/// the elastic body over that of the equilibrium.
 const SOFT: f64 = 100.0;
 
 /// The branch of equilibria on which a solve with adhesion starts.
 ///
-/// With adhesion several gaps may be in equilibrium under one load. Of a law whose traction falls with the gap one of
-/// them is the largest, at every node, and one the smallest; all others lie between. Surfaces that are pressed
-/// together from afar come to the largest, surfaces that were pressed flat before to the smallest. Where both are the
-/// same there is but one equilibrium. The page [`branches`](crate::guide::branches) says how well a solve keeps to its
-/// branch.
+/// With adhesion a load may have several equilibria. If the traction of the law falls with the gap, one has the largest
+/// gap at every node, to which surfaces pressed together from afar come, and one the smallest, to which surfaces that
+/// were pressed flat come. The page [`branches`](crate::guide::branches) says how well a solve keeps to its branch.
 ///
 /// ```
 /// use asperity::{Branch, Control, Exponential, Grid, Problem, Settings, Solver, Surface, Westergaard};
@@ -42,16 +40,15 @@ const SOFT: f64 = 100.0;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "kebab-case"))]
 pub enum Branch {
-    /// That of surfaces which are pressed together from afar. A solve starts from the gap that the wall alone would
-    /// leave, without adhesion, under the load that is given; under a tension from undeformed surfaces that touch.
+    /// That of surfaces pressed together from afar. A solve starts from the gap that the wall alone leaves under the
+    /// load, under a tension from undeformed surfaces that touch.
     Loading,
-    /// That of surfaces which were pressed flat before. A solve starts from full contact, and at a given mean gap from
-    /// a uniform gap.
+    /// That of surfaces pressed flat before. A solve starts from full contact, at a given mean gap from a uniform gap.
     Unloading,
 }
 
 impl Branch {
-    /// The name that the tool and the report use: `"loading"` or `"unloading"`.
+    /// The name in the tool and the report: `"loading"` or `"unloading"`.
     pub fn name(self) -> &'static str {
         match self {
             Self::Loading => "loading",
@@ -59,7 +56,7 @@ impl Branch {
         }
     }
 
-    /// The other one of the two branches.
+    /// The other branch.
     pub fn other(self) -> Self {
         match self {
             Self::Loading => Self::Unloading,
@@ -67,11 +64,7 @@ impl Branch {
         }
     }
 
-    /// The branch on which a solve from the default start begins; nothing where there is but one equilibrium, without
-    /// adhesion, and of Algorithm 3, whose start is the paper's.
-    ///
-    /// Where the settings name none it is loading under a load that would press undeformed surfaces which just touch,
-    /// and unloading under one that would pull them, at a given mean gap, and where springs stand for the wall.
+    /// The branch of a default start, as [`Settings::branch`] says; none without adhesion and of Algorithm 3.
     pub(crate) fn of_start<T: Real>(
         begin: &Begin<'_, T>,
         settings: &Settings,
@@ -101,23 +94,8 @@ impl Branch {
 }
 
 impl<T: Real> Solution<T> {
-    /// The distance of two solutions of one problem under one load, relative to the displacement of the larger: that in
-    /// the energy norm, √(⟨Δu, Δp⟩/⟨u, p⟩), by which [`Report::relative_error`] is measured too; infinite
-    /// between solutions on different grids.
-    ///
-    /// ```
-    /// use asperity::{Branch, Control, Exponential, Grid, Problem, Settings, Solver, Surface, Westergaard};
-    /// let grid = Grid::square(64, 1.0)?;
-    /// let surface = Surface::wave_2d(grid, 0.02, 1)?;
-    /// let mut problem = Problem::new(&surface, Westergaard::<f64>::new(grid, 1.0)?, Exponential::new(1e-5, 4e-3)?)?;
-    /// let mut solve = |branch| {
-    ///     let mut solver = Solver::new(Settings::default().branch(branch));
-    ///     solver.solve(&mut problem, Control::MeanPressure(0.01))
-    /// };
-    /// let [loading, unloading] = [solve(Branch::Loading)?, solve(Branch::Unloading)?];
-    /// assert!(loading.distance(&unloading) < 1e-5 && loading.agrees_with(&unloading));
-    /// # Ok::<(), asperity::Error>(())
-    /// ```
+    /// The distance of two solutions under one load in the energy norm, relative to the larger: √(⟨Δu, Δp⟩/⟨u, p⟩), as
+    /// [`Report::relative_error`]; infinite between different grids.
     pub fn distance(&self, other: &Self) -> f64 {
         if self.grid != other.grid {
             return f64::INFINITY;
@@ -131,9 +109,8 @@ impl<T: Real> Solution<T> {
         if square == 0.0 { 0.0 } else { (square.abs() / scale).sqrt() }
     }
 
-    /// Whether two solutions of one problem under one load are the same equilibrium, to their accuracies: with adhesion
-    /// a certified error bounds the distance to the equilibrium but for a factor, that of how soft it is. Of solves
-    /// that have not converged it is not said.
+    /// Whether two solutions under one load are the same equilibrium, to their accuracies: with adhesion a certified
+    /// error bounds the distance but for a factor, the softness of the equilibrium. False without convergence.
     pub fn agrees_with(&self, other: &Self) -> bool {
         let [a, b] = [self, other].map(|solution| solution.report.relative_error.max(solution.report.load_error));
         let found = [self, other].iter().all(|solution| solution.report.status == Status::Converged);

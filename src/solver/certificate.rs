@@ -21,7 +21,7 @@ const HOLD: f64 = 1e-3;
 /// The share of the best error below which an error is progress.
 const PROGRESS: f64 = 0.95;
 
-/// Iterations without progress after which the direction is dropped, and after which the solve has stalled.
+/// Iterations without progress until the direction is dropped, and until the solve has stalled.
 const STALL: (usize, usize) = (10, 30);
 
 /// The same numbers at the floor: where the error is at most [`NEAR_FLOOR`] times that of rounding.
@@ -46,19 +46,15 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
     }
 
     /// The scale of a certificate, the mean of u·p, and the rounding floor: the certificate of a gap with rounding as
-    /// its only error.
-    ///
-    /// The pressure is the sum of K⁻¹h and K⁻¹g, each rounded in the precision of the fields, and carries that
-    /// rounding where these nearly cancel each other. In the energy norm that is about ε²(⟨h, K⁻¹h⟩ + ½kḡ(ḡ + h_rms)),
-    /// with k the stiffness of the shortest wave, as a transform spreads the rounding of a gap evenly over all waves.
+    /// its only error, ε²(⟨h, K⁻¹h⟩ + ½kḡ(ḡ + h_rms)). The first is that of p = K⁻¹h + K⁻¹g where these cancel; the
+    /// second of the gap, as a transform spreads it evenly over all waves, k being the stiffness of the shortest.
     fn error_scale(&self) -> (f64, f64) {
         let epsilon = T::epsilon().widen();
         let apart = if self.sums.tally.contact > 0.0 { 0.0 } else { self.posed.flat.work };
         // flats that attract each other have no waves but those of rounding
         let traction = self.sums.tally.traction / self.posed.nodes();
         let (softest, stiffest) = self.posed.operators.state().stiffness_range();
-        // and so have flats that are held apart, by their mean gap or by the law itself, whose range their gaps are
-        // then of
+        // nor have flats held apart by their mean gap, or by a law with gaps of its range
         let lifted = match self.posed.constraint.wall() {
             Wall::None => self.mean_gap().abs().max(self.posed.law.hints().range.widen()),
             _ if self.sums.tally.contact > 0.0 => 0.0,
@@ -72,16 +68,13 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         (waves.max(flat), if waves >= flat { epsilon * epsilon * carried } else { 0.0 })
     }
 
-    /// Whether the residual r' is at the rounding floor, where further iterations do not reduce it.
     pub(super) fn is_at_floor(&self) -> bool {
         let (scale, rounding) = self.error_scale();
         let floor = (rounding / scale).sqrt();
         self.sums.certificate <= NEAR_FLOOR * NEAR_FLOOR * rounding && self.load_error() <= NEAR_FLOOR * floor
     }
 
-    /// The error of the load under pressure control, relative to the load.
-    ///
-    /// Without contact every node is apart, and the mean of r is the part of the load that adhesion does not hold.
+    /// The error of the load under pressure control. Without contact the mean of r is the load that adhesion lacks.
     pub(super) fn load_error(&self) -> f64 {
         match (self.posed.load, self.sums.tally.free) {
             (Load::Gap(_), _) => 0.0,
@@ -94,7 +87,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
     /// A pressure as a share of the larger of |p̄| and the mean contact pressure.
     pub(super) fn share_of_load(&self, pressure: f64) -> f64 {
         let contact = self.sums.given + self.sums.tally.traction / self.posed.nodes();
-        // a spring that is relaxed carries nothing but the rounding of its length
+        // a relaxed spring carries only the rounding of its length
         let lengths = self.mean_gap().abs() + self.posed.load.rest().abs();
         let rounding = SPRING_ROUNDINGS * T::epsilon().widen() * self.posed.load.stiffness() * lengths;
         if pressure.abs() <= rounding { 0.0 } else { pressure.abs() / self.sums.given.abs().max(contact.abs()) }
@@ -105,7 +98,6 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         self.sums.residual.complementarity / (self.posed.operators.state().modulus() * (lx * ly).sqrt())
     }
 
-    /// Whether the goal is reached.
     pub(super) fn converged(&self) -> bool {
         self.meets(self.load_error())
     }
@@ -129,8 +121,8 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         criterion <= tolerance && load_error <= tolerance
     }
 
-    /// Computes p = K⁻¹(g + h) from the gap, where steps had only updated it, and the certificate that the residual
-    /// then has: a solve ends only if that meets the tolerance. A start needs no such proof.
+    /// Computes p = K⁻¹(g + h) anew, and the certificate of its residual: a solve ends only if that meets the
+    /// tolerance. A start needs no such proof.
     pub(super) fn confirm(&mut self) -> Result<()> {
         if self.steps.age == 0 || self.posed.goal != Goal::Solution {
             return Ok(());
@@ -154,7 +146,6 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         Ok(())
     }
 
-    /// Notes that what an updated pressure claimed was no progress.
     fn note_refutation(&mut self) {
         let error = self.relative_error();
         let progress = &mut self.counters.progress;
@@ -166,7 +157,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         }
     }
 
-    /// Notes whether the last iteration has made progress, and forgets the last step after some that have not.
+    /// Notes whether the last iteration has made progress, and drops the last step after several without.
     pub(super) fn note_progress(&mut self) {
         let energy = self.energy();
         let error = match self.posed.settings.method {
@@ -187,7 +178,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         }
     }
 
-    /// The iterations without progress after which the last step is forgotten, and after which the solve has stalled.
+    /// The iterations of [`STALL`], [`STALL_AT_FLOOR`] or [`STALL_REY2017`].
     fn patience(&self) -> (usize, usize) {
         match self.posed.settings.method {
             Method::Preconditioned if self.is_at_floor() => STALL_AT_FLOOR,
@@ -196,7 +187,6 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         }
     }
 
-    /// The status of a solve that has to end without having converged.
     pub(super) fn verdict(&self) -> Option<Status> {
         if self.counters.iterations >= self.posed.settings.max_iterations {
             return Some(Status::IterationLimit);
@@ -206,15 +196,13 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         stalled.then_some(Status::Stalled)
     }
 
-    /// Whether a solve that would stall may go on with a pressure computed from the gap: once, after many updates,
-    /// whose rounding may then be most of the residual.
+    /// Whether a solve that would stall may renew its pressure, once: many updates may leave mostly rounding.
     pub(super) fn may_renew(&self) -> bool {
         self.steps.age > STALL_AT_FLOOR.1
             && !self.counters.progress.renewed
             && self.posed.settings.method == Method::Preconditioned
     }
 
-    /// Computes the pressure from the gap.
     pub(super) fn renew(&mut self) -> Result<()> {
         self.refresh(Left::Nothing)?;
         self.restart();

@@ -11,47 +11,39 @@ use crate::par::{self, Parts};
 use crate::real::Real;
 use crate::vector::vectorised;
 
-/// The dimension of the space over the cube root of the number of nodes: then its decomposition takes 21
-/// multiplications for each node, a third of the cube.
+/// The dimension of the space over the cube root of the number of nodes: its decomposition takes a third of the cube,
+/// 21 multiplications a node.
 const DIMENSION: f64 = 4.0;
 
-/// The stiffness of the contacts, over that which the surface meets as it is pressed flat: the best one does not depend
-/// on the grid.
+/// The stiffness of the contacts, over that which the surface meets as it is pressed flat: the best on any grid.
 const STIFFNESS: f64 = 2.5;
 
 /// The stiffness of the mean gap without contacts, over that of the softest wave.
 const MEAN: f64 = 1e-3;
 
-/// The iterations after which the contact map is renewed first, and the ratio of one such interval to that before. Each
-/// renewal changes the preconditioner, which costs some of the conjugacy of the steps.
+/// The iterations before the first renewal of the contact map, which costs conjugacy, and the ratio of later intervals.
 const INTERVAL: f64 = 2.0;
 const LONGER: f64 = 1.4;
 
-/// The most columns of nodes that are counted together.
 const COLUMNS: usize = 1 << 10;
 
-/// The contact of a block of nodes, in whole numbers, of which the order of a sum does not matter: the number of nodes,
-/// the sum of their places along y, and both times the place along x.
+/// The contact of a block of nodes in whole numbers, exact in any order: the number of nodes, the sum of their places
+/// along y, and both times the place along x.
 type Count = [u64; 4];
 
-/// The coarse space of a solve.
 #[derive(Debug)]
 pub(crate) struct Coarse {
     space: CoarseSpace,
     grid: Grid,
     /// the shares of contact at the first nodes of the blocks
     contact: Vec<f64>,
-    /// the contact of each block
     counts: Vec<Count>,
-    /// whether the space has a contact map
     ready: bool,
-    /// the iteration of the next renewal
     due: usize,
     interval: f64,
 }
 
 impl Coarse {
-    /// The coarse space of an operator, if it has one.
     pub(crate) fn of<T: Real>(operator: &mut dyn ElasticOperator<T>) -> Option<Self> {
         let (grid, nodes) = (*operator.grid(), operator.grid().nodes() as f64);
         let space = operator.abilities().coarse_space((DIMENSION * nodes.cbrt()) as usize)?;
@@ -60,14 +52,13 @@ impl Coarse {
         Some(Self { space, grid, contact, counts, ready: false, due: 0, interval: INTERVAL })
     }
 
-    /// Whether the contact map is to be taken in an iteration; the first one waits until the contacts have settled.
+    /// Whether the contact map is to be taken; at first only when the contacts have settled.
     pub(crate) fn is_due(&self, iteration: usize, settled: bool) -> bool {
         iteration >= self.due && (self.ready || settled)
     }
 
-    /// Takes the contact map from a field, of which the nodes in contact are told by their values. `stiffness` is
-    /// that which the surface meets as it is pressed flat, `spring` that of the spring that holds the mean gap, `range`
-    /// that of the softest and the stiffest wave; with `held` the mean gap is given.
+    /// Takes the contact map from a field. `stiffness` is that which the surface meets as it is pressed flat, `spring`
+    /// that of a spring, `range` of the softest and stiffest wave; with `held` the mean gap is given.
     pub(crate) fn renew<T: Real>(
         &mut self,
         iteration: usize,
@@ -91,15 +82,12 @@ impl Coarse {
         (self.ready, self.due, self.interval) = (false, 0, INTERVAL);
     }
 
-    /// The space, if it has a contact map.
     pub(crate) fn ready(&mut self) -> Option<&mut CoarseSpace> {
         self.ready.then_some(&mut self.space)
     }
 
-    /// Takes the contact map; returns whether some of the nodes touch, and some do not.
-    ///
-    /// A node counts for the first nodes of its own block and of the next one by linear interpolation: then the map has
-    /// the symmetries of the surface about such nodes.
+    /// Takes the contact map; returns whether some nodes touch and some do not. A node counts for its own block and the
+    /// next by linear interpolation, for a map as symmetric as the surface.
     fn map<T: Real>(&mut self, field: &Array2<T>, touches: impl Fn(usize, T) -> bool + Sync + Send) -> bool {
         let ([block, blocks], (nx, ny)) = (self.space.blocks(), self.grid.shape());
         let count = |nodes: ArrayView2<'_, T>, from: usize, node: usize, counts: &mut [Count]| {

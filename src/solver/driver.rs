@@ -1,4 +1,4 @@
-//! The order of a solve: its phases, rounds of the constraint, and the loop within each.
+//! The order of a solve: phases, rounds of the constraint, and the loop in each.
 
 use std::ops::ControlFlow;
 
@@ -15,7 +15,6 @@ use crate::error::{Error, Result};
 use crate::problem::{Control, PressedFlat, smoothed_law};
 use crate::real::Real;
 
-/// The input of a solve, but for the operator.
 pub(super) struct Job<'a, T> {
     pub(super) law: &'a dyn AdhesionLaw<T>,
     pub(super) flat: &'a PressedFlat<T>,
@@ -26,12 +25,11 @@ pub(super) struct Job<'a, T> {
     pub(super) observe: Observer<'a>,
 }
 
-/// The observer, called in every iteration, which may stop the solve.
+/// The observer of iterations, which may stop the solve.
 pub(crate) type Observer<'a> = &'a mut (dyn FnMut(&Iteration) -> ControlFlow<()> + Send);
 
 /// The end of a minimisation.
 pub(super) enum End {
-    /// The criterion is met.
     Converged,
     /// A tensile load has pulled the surfaces apart.
     Adrift,
@@ -40,7 +38,6 @@ pub(super) enum End {
 }
 
 impl End {
-    /// The status with which the solve ends, if it may not go on.
     pub(super) fn is_final(&self) -> Option<Status> {
         match *self {
             Self::Gave(status @ (Status::Stopped | Status::IterationLimit)) => Some(status),
@@ -49,7 +46,6 @@ impl End {
     }
 }
 
-/// Minimises the energy with the present law, load and multipliers.
 pub(super) fn minimise<T: Real, Lo: Real>(state: &mut State<'_, T, Lo>, observe: Observer<'_>) -> Result<End> {
     state.residual(Left::Nothing);
     loop {
@@ -86,7 +82,7 @@ pub(super) fn minimise<T: Real, Lo: Real>(state: &mut State<'_, T, Lo>, observe:
     }
 }
 
-/// Solves a problem: on the way from afar the wall alone, then the law without its jumps, then the law itself.
+/// Solves a problem: from afar with the wall alone, then with the law smoothed, then with the law itself.
 pub(super) fn run<T: Real, Lo: Real>(operators: &mut dyn Operators<T, Lo>, job: Job<'_, T>) -> Result<Solved<T>> {
     let Job { law, flat, constraint, control, settings, begin, observe } = job;
     let held = flat.window.as_ref().and_then(|window| law.adapted(Discretisation::Rows(*window.held())));

@@ -6,10 +6,10 @@ use super::work::{TRUSTED, Work};
 use crate::error::Result;
 use crate::real::Real;
 
-/// The roundings that each product and the sum of them may have.
+/// The roundings of each product and of their sum.
 const ROUNDINGS: f64 = 8.0;
 
-/// The residual below which the pressure is computed anew, in units of the rounding that its updates have left.
+/// The residual, in units of the rounding of its updates, below which the pressure is computed anew.
 const STALE: f64 = 200.0;
 
 impl<T: Real, Lo: Real> State<'_, T, Lo> {
@@ -33,11 +33,9 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         ROUNDINGS * self.rounding_of_corrections() / self.posed.nodes().sqrt()
     }
 
-    /// Whether the rounding of the corrections, which the updated pressure has gathered, is no longer small beside the
-    /// residual.
-    ///
-    /// A transform spreads the rounding of a change c evenly over all waves, and their stiffness multiplies it: in the
-    /// norm of the certificate ε √(k⟨c, c⟩), with k the stiffness of the shortest wave.
+    /// Whether the pressure has gathered rounding of the corrections beside which the residual is no longer large. A
+    /// transform spreads that of a change c evenly over all waves: in the certificate's norm it is ε √(k⟨c, c⟩), with k
+    /// the stiffness of the shortest.
     pub(super) fn has_lost_its_pressure(&self) -> bool {
         let rounding = STALE * self.rounding_of_corrections();
         self.sums.certificate
@@ -50,13 +48,12 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         Work { sum: sum_gp + gap_surface + surface, noise: self.sum_noise(surface) }
     }
 
-    /// Whether the work has become so small in the steps since its last sum that its rounding matters.
+    /// Whether rounding since its last sum matters in the work.
     pub(super) fn has_lost_its_work(&self) -> bool {
         self.sums.work.is_doubtful(TRUSTED)
     }
 
-    /// Computes the work as ⟨p, K p⟩ if rounding may exceed `share` of the present sum; tells whether it did, and has
-    /// overwritten the corrections.
+    /// Computes the work as ⟨p, K p⟩, over the corrections, if rounding may exceed `share` of it; tells whether it did.
     pub(super) fn trust_work(&mut self, share: f64) -> Result<bool> {
         if !self.sums.work.is_doubtful(share) {
             return Ok(false);
@@ -72,7 +69,6 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         Ok(true)
     }
 
-    /// The energy that is minimised, per area.
     pub(super) fn energy(&self) -> f64 {
         let of_load = match self.sums.detached {
             Some(load) => load * self.sums.tally.sum_gap,
@@ -85,7 +81,6 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         0.5 * self.mean_work() + (self.sums.tally.adhesive + self.sums.tally.penalty + of_load) / self.posed.nodes()
     }
 
-    /// The rounding of the energy, per area.
     pub(super) fn energy_noise(&self) -> f64 {
         let local = self.sums.tally.adhesive.abs()
             + self.sums.tally.penalty.abs()

@@ -1,4 +1,4 @@
-//! The end of a solve: its solution, and the report on it.
+//! The end of a solve.
 
 use ndarray::Array2;
 
@@ -20,7 +20,6 @@ use crate::vector::sums;
 const EDGE: f64 = 1e-3;
 
 impl<T: Real, Lo: Real> State<'_, T, Lo> {
-    /// The solution: the final fields, and the report on them.
     pub(super) fn finish(mut self, status: Status) -> Result<Solved<T>> {
         if self.steps.age > 0 {
             self.refresh(Left::Nothing)?;
@@ -119,7 +118,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
                 [largest(edge(&pressure, &grid)), largest(pressure.iter().copied())].map(|own| grid.most(own));
             let share = if at_edge == 0.0 { 0.0 } else { at_edge / largest };
             report.edge_traction = Some(share);
-            // of bodies that are apart it says nothing how far the last of their attraction, or rounding, reaches
+            // bodies that are apart say nothing here: only the last of their attraction, or rounding, reaches the edge
             let attract = !law.hints().zero && largest > noticeable(law);
             let apart = report.status == Status::Detached || report.contact_nodes == 0 && !attract;
             let touches = grid.has(edge(&gap, &grid).any(|gap| gap <= T::zero()));
@@ -132,15 +131,13 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         })
     }
 
-    /// The status, corrected by the figures of the returned fields.
     fn final_status(&self, status: Status, load_error: f64) -> Status {
         let good = self.meets(load_error);
         match status {
             Status::Stopped => status,
             _ if self.sums.detached.is_some() => Status::Detached,
             Status::Converged if !good => Status::Stalled,
-            // the last computation of the pressure may have reached the tolerance; rounds of a constraint end by its
-            // own word
+            // the last pressure may have met the tolerance; rounds of a constraint end by its own word
             Status::Stalled if good && self.posed.projects() => Status::Converged,
             _ => status,
         }
@@ -157,7 +154,6 @@ fn edge<T: Real>(field: &Array2<T>, grid: &Grid) -> impl Iterator<Item = T> {
     sides.flat_map(|side| side.to_vec())
 }
 
-/// The largest magnitude of some tractions.
 fn largest<T: Real>(tractions: impl Iterator<Item = T>) -> f64 {
     tractions.fold(0.0, |largest, traction| largest.max(traction.widen().abs()))
 }

@@ -1,10 +1,9 @@
-//! A minimisation: its goal, the sums of its present state, and what it carries from one step to the next.
+//! The parts of a minimisation: its goal, sums, steps and progress.
 
 use super::coarse::Coarse;
 use super::passes::Tally;
 use super::work::Work;
 
-/// The goal of a minimisation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Goal {
     /// The gap that the wall alone leaves, without adhesion: a start on the branch of loading.
@@ -17,13 +16,12 @@ pub(super) enum Goal {
     Solution,
 }
 
-/// The sums over the fields of the present state, on which the driver decides.
 #[derive(Debug)]
 pub(super) struct Sums {
     pub(super) tally: Tally,
     /// Σ u·p, twice the elastic energy
     pub(super) work: Work,
-    /// the mean of p, zero but for rounding
+    /// the mean of p, rounding only
     pub(super) drift: f64,
     /// the given mean pressure p̄, zero under gap control
     pub(super) given: f64,
@@ -50,12 +48,10 @@ impl Default for Sums {
     }
 }
 
-/// The steps: where they came from, and what the next one is made of.
 #[derive(Debug)]
 pub(super) struct Steps {
     /// the last step, if the next one may use it
     pub(super) momentum: Option<Made>,
-    /// the trial length of the next step
     pub(super) step_length: f64,
     /// the contacts in the preconditioner
     pub(super) coarse: Option<Coarse>,
@@ -75,7 +71,6 @@ impl Steps {
     }
 }
 
-/// The counters of a solve.
 #[derive(Debug, Default)]
 pub(super) struct Counters {
     pub(super) iterations: usize,
@@ -85,8 +80,7 @@ pub(super) struct Counters {
     pub(super) progress: Progress,
 }
 
-/// The last step d = `factor`·c, with c the field of the change, and the sums from which the next one is made
-/// conjugate to it.
+/// The last step d = `factor`·c, with c the field of the change, and the sums for the next one to be conjugate to it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Made {
     pub(super) factor: f64,
@@ -100,7 +94,7 @@ pub(super) struct Made {
     pub(super) sum: f64,
 }
 
-/// The content of the field `residual` after a step, before r' is computed in it.
+/// The content of the field `residual` after a step.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Left {
     /// Values without use, such as K⁻¹c.
@@ -113,36 +107,28 @@ pub(super) enum Left {
     Renewed(Made),
 }
 
-/// The residual r' of the present state.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Residual {
     /// the mean of r over the working set under gap control, zero under pressure control: r' = r − level
     pub(super) level: f64,
-    /// the number of nodes in the working set
     pub(super) working: f64,
-    /// Σ|g r'|
     pub(super) complementarity: f64,
-    /// Σ (r' − r'₀)², with r'₀ the previous content of the field, if r' was computed from gap and pressure
+    /// Σ (r' − r'₀)², with r'₀ the previous content of the field, if r' was computed anew
     pub(super) difference: f64,
 }
 
-/// Sums of the preconditioned residual z.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Preconditioned {
-    /// ⟨r', z⟩
     pub(super) descent: f64,
-    /// Σ z
     pub(super) sum: f64,
 }
 
-/// The progress of a minimisation.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Progress {
     pub(super) best_error: f64,
     pub(super) lowest_energy: f64,
-    /// iterations without progress
     pub(super) idle: usize,
-    /// the least error that a pressure computed from its gap had, after its updates had met the goal
+    /// the least error of a pressure computed from its gap after its updates had met the goal
     pub(super) least_refuted: f64,
     /// how often such an error was no progress
     pub(super) refuted: usize,

@@ -1,4 +1,4 @@
-//! The operator of a solve: in the precision of the state, and in that of its corrections.
+//! The operator of a solve in both of its precisions.
 
 use ndarray::Array2;
 
@@ -6,18 +6,17 @@ use crate::elastic::{ElasticOperator, Foundation};
 use crate::error::Result;
 use crate::real::Real;
 
-/// The operator of a solve whose state is of precision T and whose corrections are of precision Lo.
+/// The operator for a state of precision T with corrections of Lo.
 pub(super) trait Operators<T: Real, Lo: Real> {
-    /// The operator for the state.
     fn state(&self) -> &dyn ElasticOperator<T>;
 
     /// The operator for the corrections: the response to a change, the preconditioner, and its coarse space.
     fn corrections(&mut self) -> &mut dyn ElasticOperator<Lo>;
 
-    /// The pressure K⁻¹g of a gap. The memory of `idle` fields may be used; they are zero then.
+    /// The pressure K⁻¹g of a gap. The memory of `idle` fields may be used, and is zero then.
     fn pressure(&mut self, gap: &Array2<T>, pressure: &mut Array2<T>, idle: &mut [&mut Array2<Lo>]) -> Result<()>;
 
-    /// The displacement K p of a pressure. The memory of `idle` fields may be used; they are zero then.
+    /// The displacement K p of a pressure, with `idle` as above.
     fn displacement(
         &mut self,
         pressure: &Array2<T>,
@@ -25,11 +24,10 @@ pub(super) trait Operators<T: Real, Lo: Real> {
         idle: [&mut Array2<Lo>; 3],
     ) -> Result<()>;
 
-    /// The mean of p·K p. The memory of `idle` fields, of which there has to be one, may be used.
+    /// The mean of p·K p; `idle` has at least one field.
     fn work(&mut self, pressure: &Array2<T>, foundation: f64, idle: [&mut Array2<Lo>; 3]) -> Result<f64>;
 }
 
-/// One operator for both.
 pub(super) struct One<'a, T>(pub(super) &'a mut dyn ElasticOperator<T>);
 
 impl<T: Real> Operators<T, T> for One<'_, T> {
@@ -68,7 +66,7 @@ impl<'a> Two<'a> {
         Self { state, corrections }
     }
 
-    /// Applies the operator in `f64`, in the memory of that in `f32` and of fields that are idle.
+    /// Applies the operator in `f64`, in memory of that in `f32` and of idle fields.
     fn apply<R>(
         &mut self,
         idle: &mut [&mut Array2<f32>],

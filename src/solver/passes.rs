@@ -1,8 +1,7 @@
 //! The passes over fields that make an iteration.
 //!
-//! Their cost is memory traffic, so that each does all that can be done while its nodes are in cache. Law and
-//! constraint come in as a [`Potential`](super::potential::Potential), at one virtual call for a chunk of nodes. Each
-//! pass returns a struct that names its sums.
+//! Each does all that can be done while its nodes are in cache, as their cost is memory traffic. Law and constraint
+//! come in as a [`Potential`](super::potential::Potential), at one virtual call a chunk.
 
 use ndarray::Array2;
 
@@ -28,23 +27,21 @@ pub(super) struct Fields<T, Lo> {
     pub(super) gap: Array2<T>,
     /// the elastic pressure p = K⁻¹(g + h), of zero mean
     pub(super) pressure: Array2<T>,
-    /// the residual r' (negative zero marks a node outside of the working set); while a step is made, K⁻¹c of the
-    /// change c
+    /// the residual r' (negative zero: a node outside of the working set), or during a step K⁻¹c of the change c
     pub(super) residual: Array2<Lo>,
-    /// the preconditioned residual z = M r'; until it is computed, that of the previous state
+    /// the preconditioned residual z = M r', until then that of the previous state
     pub(super) preconditioned: Array2<Lo>,
-    /// the change c, a multiple of the last step; while the next step is made, its change before the scale that
-    /// restores the mean gap; the direction t of [`Method::Rey2017`](crate::Method)
+    /// the change c, a multiple of the last step, during the next one not yet scaled to the mean gap; the direction t
+    /// of [`Method::Rey2017`](crate::Method)
     pub(super) change: Array2<Lo>,
     pub(super) reducer: Reducer,
-    /// the least r in contact of each chunk, as of the present tally
+    /// the least r in contact of each chunk
     pub(super) least_r: Vec<f64>,
-    /// the number of nodes in the working set of each chunk, as of the present residual
+    /// the number of nodes in the working set of each chunk
     pub(super) moving: Vec<f64>,
 }
 
 impl<T: Real, Lo: Real> Fields<T, Lo> {
-    /// The fields of a solve that starts from this gap and its pressure.
     pub(super) fn new(grid: &Grid, gap: Array2<T>, pressure: Array2<T>) -> Self {
         let field = || Array2::zeros(gap.dim());
         let reducer = grid.reducer();
@@ -54,13 +51,11 @@ impl<T: Real, Lo: Real> Fields<T, Lo> {
     }
 }
 
-/// One if a condition holds, zero if not.
 #[inline(always)]
 fn count(condition: bool) -> f64 {
     if condition { 1.0 } else { 0.0 }
 }
 
-/// Whether a node with this residual r' is outside of the working set.
 #[inline(always)]
 pub(super) fn idles<T: Real>(residual: T) -> bool {
     (residual == T::zero()) & residual.is_sign_negative()

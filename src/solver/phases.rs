@@ -1,4 +1,4 @@
-//! The phases of a solve, each with an energy and a goal of its own: their beginnings.
+//! The beginnings of the phases of a solve, each with an energy and a goal.
 
 use super::coarse::Coarse;
 use super::minimisation::{Goal, Left, Progress};
@@ -11,17 +11,14 @@ use crate::field::flat;
 use crate::problem::Load;
 use crate::real::Real;
 
-/// The first trial length from a start near the solution. The residual r' then has short waves at the edges of
-/// contacts, for which a whole step is too long.
+/// The first trial length near the solution: r' then has short waves at contact edges, too stiff for a whole step.
 const NEAR: f64 = 0.5;
 
 impl<'a, T: Real, Lo: Real> State<'a, T, Lo> {
-    /// Treats the start as near the solution.
     pub(super) fn stays_near(&mut self) {
         (self.steps.near, self.steps.step_length) = (true, NEAR);
     }
 
-    /// Refuses a law that is not finite at the gaps of the start.
     pub(super) fn check_start(&self) -> Result<()> {
         if self.energy().is_finite() && self.sums.tally.sum_r.is_finite() {
             return Ok(());
@@ -52,8 +49,7 @@ impl<'a, T: Real, Lo: Real> State<'a, T, Lo> {
         Ok(())
     }
 
-    /// Puts the constraint of a law that repels in the place of the wall that stood for it, as much farther apart as
-    /// the equilibrium separation of the law.
+    /// Puts the constraint of a law that repels in the place of its wall, moved by the law's equilibrium separation.
     pub(super) fn stand_on(&mut self, constraint: &'a mut dyn ContactConstraint<T>, separation: T) -> Result<()> {
         self.posed.constraint = constraint;
         self.posed.prepare()?;
@@ -61,7 +57,7 @@ impl<'a, T: Real, Lo: Real> State<'a, T, Lo> {
         Ok(())
     }
 
-    /// Goes on with adhesion, under the load itself, from the gap that the wall alone leaves.
+    /// Goes on with adhesion, under the load, from the gap of the wall alone.
     pub(super) fn adhere(&mut self, law: &'a dyn AdhesionLaw<T>, load: Load) -> Result<()> {
         (self.posed.load, self.steps.step_length) = (load, 1.0);
         // the contacts of the wall alone are not those that adhesion makes
@@ -71,17 +67,16 @@ impl<'a, T: Real, Lo: Real> State<'a, T, Lo> {
         self.check_start()
     }
 
-    /// Goes on with another law, whose equilibrium is the goal.
     pub(super) fn change_law(&mut self, law: &'a dyn AdhesionLaw<T>, goal: Goal) {
         (self.posed.law, self.posed.goal) = (law, goal);
         self.restart();
     }
 
-    /// Goes on with the law itself from an equilibrium of the smoothed one.
+    /// Goes on with the law itself after the smoothed one.
     pub(super) fn sharpen(&mut self, law: &'a dyn AdhesionLaw<T>) -> Result<()> {
         self.posed.law = law;
         if self.is_adrift() {
-            // the law itself may hold a tension that the smoothed one does not
+            // the law itself may hold this tension
             self.fields.gap.fill(T::lit(uniform_start(law, self.posed.flat, self.posed.load)));
             self.refresh(Left::Nothing)?;
         }
@@ -92,7 +87,7 @@ impl<'a, T: Real, Lo: Real> State<'a, T, Lo> {
     }
 
     pub(super) fn update_constraint(&mut self) -> Update {
-        // nothing is where no surface faces the half-space
+        // no gap where no surface faces the half-space
         let gap = self.posed.flat.window.as_ref().map(|window| window.cut(&self.fields.gap, T::infinity()));
         let outer = self.posed.constraint.update(gap.as_ref().unwrap_or(&self.fields.gap).view());
         if outer == Update::Again {
@@ -101,7 +96,6 @@ impl<'a, T: Real, Lo: Real> State<'a, T, Lo> {
         outer
     }
 
-    /// Drops momentum, progress and certificate after a change of the energy or of the gap.
     pub(super) fn restart(&mut self) {
         (self.steps.momentum, self.steps.residual_norm) = (None, None);
         self.counters.progress = Progress::default();

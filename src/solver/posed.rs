@@ -1,4 +1,4 @@
-//! The problem that is posed to the driver: the energy to be minimised, and how well.
+//! The problem that is posed to the driver.
 
 use super::minimisation::Goal;
 use super::operators::Operators;
@@ -10,11 +10,11 @@ use crate::error::{Error, Result};
 use crate::problem::{Control, Load, PressedFlat, Window};
 use crate::real::Real;
 
-/// The mean pressure, over the rms pressure that presses the surface flat, up to which the gap of undeformed surfaces
-/// that touch is the better start without adhesion on a periodic grid.
+/// The mean pressure, over the rms pressure that presses the surface flat, up to which undeformed surfaces that touch
+/// are the better start without adhesion on a periodic grid.
 const HARDLY: f64 = 1e-3;
 
-/// The problem that is posed to the driver. A phase may change law, constraint, load and goal.
+/// The energy to be minimised, and how well. A phase may change law, constraint, load and goal.
 pub(super) struct Posed<'a, T, Lo> {
     pub(super) operators: &'a mut dyn Operators<T, Lo>,
     pub(super) law: &'a dyn AdhesionLaw<T>,
@@ -23,14 +23,13 @@ pub(super) struct Posed<'a, T, Lo> {
     pub(super) load: Load,
     /// the control, of which the load is made, and the name of the wall
     pub(super) asked: (Control, &'static str),
-    /// the branch of equilibria on which the solve has started
     pub(super) branch: Option<Branch>,
     pub(super) settings: Settings,
     pub(super) goal: Goal,
 }
 
 impl<'a, T: Real, Lo: Real> Posed<'a, T, Lo> {
-    /// Prepares the constraint for a solve; refused where constraint or method do not suit the grid or the load.
+    /// Prepares the constraint, and refuses what does not suit the grid, the load or the method.
     pub(super) fn prepare(&mut self) -> Result<()> {
         let (flat, operator) = (self.flat, self.operators.state());
         if !self.constraint.takes_slabs() {
@@ -47,17 +46,14 @@ impl<'a, T: Real, Lo: Real> Posed<'a, T, Lo> {
         Ok(())
     }
 
-    /// The number of nodes of the operator's grid.
     pub(super) fn nodes(&self) -> f64 {
         self.operators.state().grid().nodes() as f64
     }
 
-    /// The local energy of every node.
     pub(super) fn potential(&self) -> Potential<'_, T> {
         Potential::new(self.law, &*self.constraint, self.flat.window.as_ref())
     }
 
-    /// Whether the gap is confined to g ≥ 0.
     pub(super) fn projects(&self) -> bool {
         self.constraint.wall().is_rigid()
     }
@@ -67,12 +63,11 @@ impl<'a, T: Real, Lo: Real> Posed<'a, T, Lo> {
         matches!(self.constraint.wall(), Wall::None)
     }
 
-    /// Whether the mean gap is given.
     pub(super) fn is_gap_controlled(&self) -> bool {
         matches!(self.load, Load::Gap(_))
     }
 
-    /// Whether the load on the way to the branch of loading hardly presses the surfaces together.
+    /// Whether the load of the wall alone hardly presses the surfaces together.
     pub(super) fn is_hardly_pressed(&self) -> bool {
         let flat = self.flat.stiffness * self.flat.rms_height;
         self.branch.is_some() && matches!(self.load, Load::Pressure(pressure) if pressure <= HARDLY * flat)

@@ -1,5 +1,4 @@
-//! The local energy of a node, a function of its gap: the adhesion law, and the constraint where it is a term of the
-//! energy.
+//! The local energy of a node: the adhesion law, and the constraint where it is a term of the energy.
 
 use crate::adhesion::{AdhesionLaw, Hints, NoAdhesion, Values};
 use crate::constraint::{ContactConstraint, Wall};
@@ -8,7 +7,7 @@ use crate::par::Parts;
 use crate::problem::Window;
 use crate::real::Real;
 
-/// The share of its gap that a node keeps at least in a step, where the law has no bound at zero gap.
+/// The least share of its gap that a node keeps in a step, where the law has no bound at zero gap.
 pub(super) const CLOSER: f64 = 0.5;
 
 /// The least gap of a node after a step.
@@ -16,46 +15,40 @@ pub(super) const CLOSER: f64 = 0.5;
 pub(crate) struct Least<T> {
     /// the gap at which a node lands that comes from above it
     rest: T,
-    /// the share of its gap that a node below that keeps
+    /// the share of its gap that a node below `rest` keeps
     share: T,
     /// how much closer it may come still: zero or without bound
     pub(crate) depth: T,
 }
 
 impl<T: Real> Least<T> {
-    /// A gap of any size.
     fn unbounded() -> Self {
         Self { rest: T::infinity(), share: T::zero(), depth: T::infinity() }
     }
 
-    /// The least gap of a node that has this gap before the step.
     #[inline(always)]
     pub(crate) fn after(self, gap: T) -> T {
         if gap > self.rest { self.rest } else { self.share * gap - self.depth }
     }
 }
 
-/// A gap that is wanted in the place of another, or the least that it may become.
 pub(crate) fn bounded<T: Real>(least: Least<T>, gap: T, wanted: T) -> T {
     let least = least.after(gap);
     if wanted < least { least } else { wanted }
 }
 
-/// The local energy of every node: the adhesion law, and the constraint where it is a term of the energy.
-///
-/// Nodes that face no surface have none, and nothing confines their gap: a pass over nodes of both kinds is
+/// The local energy of every node, zero at those that face no surface, whose gap is free: passes are
 /// [divided](Self::run).
 #[derive(Clone, Copy)]
 pub(crate) struct Potential<'a, T> {
     law: &'a dyn AdhesionLaw<T>,
     hints: Hints<T>,
-    /// what keeps the surfaces apart; nothing where there is no surface
+    /// what keeps the surfaces apart; none where there is no surface
     wall: Option<Wall<'a, T>>,
-    /// where there is a surface; nothing if that is everywhere
+    /// where there is a surface; none if everywhere
     window: Option<&'a Window>,
 }
 
-/// The order of a derivative of the energy.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Of {
     Energy,
@@ -72,13 +65,12 @@ impl<'a, T: Real> Potential<'a, T> {
         Self { law, hints: law.hints(), wall: Some(constraint.wall()), window }
     }
 
-    /// The potential of nodes that face no surface.
     fn nothing() -> Self {
         Self { law: &NoAdhesion, hints: AdhesionLaw::hints(&NoAdhesion), wall: None, window: None }
     }
 
-    /// Runs a pass `f(potential, first node, nodes)` over the chunks, as [`Reducer::run`]: in pieces of which all nodes
-    /// face the surface, or none does. The first node is that on the surface's grid.
+    /// Runs a pass `f(potential, first node on the surface's grid, nodes)` over the chunks, as [`Reducer::run`], in
+    /// pieces of which all nodes face the surface, or none does.
     pub(crate) fn run<A: Parts<Part: Nodes>>(
         &self,
         reducer: &mut Reducer,
@@ -108,7 +100,6 @@ impl<'a, T: Real> Potential<'a, T> {
         }
     }
 
-    /// The result of a pass over a chunk, piece by piece.
     fn divide<N: Nodes>(
         &self,
         window: &Window,
@@ -131,12 +122,10 @@ impl<'a, T: Real> Potential<'a, T> {
         total
     }
 
-    /// Whether the local energy is zero at every node.
     pub(crate) fn is_zero(&self) -> bool {
         self.hints.zero && !matches!(self.wall, Some(Wall::Springs(_)))
     }
 
-    /// Whether the nodes face a surface.
     pub(crate) fn is_surface(&self) -> bool {
         self.wall.is_some()
     }
@@ -146,12 +135,10 @@ impl<'a, T: Real> Potential<'a, T> {
         matches!(self.wall, Some(Wall::Springs(_) | Wall::None))
     }
 
-    /// Whether the law itself keeps the surfaces apart.
     pub(crate) fn repels(&self) -> bool {
         matches!(self.wall, Some(Wall::None))
     }
 
-    /// Whether the gap is confined to g ≥ 0.
     pub(crate) fn projects(&self) -> bool {
         matches!(self.wall, Some(Wall::Rigid))
     }
@@ -161,9 +148,8 @@ impl<'a, T: Real> Potential<'a, T> {
         if self.projects() { T::zero() } else { T::neg_infinity() }
     }
 
-    /// The least gap after a step: zero at a rigid wall. Where the law itself repels, a node lands at the gap of rest,
-    /// from where the slope of the law is that of its repulsion, and keeps below it a part of its gap, if the repulsion
-    /// has no bound at zero gap. Elsewhere a gap may become negative.
+    /// The least gap after a step: zero at a rigid wall. Where the law repels, a node lands at the gap of rest, where
+    /// its repulsion begins, and keeps a part of its gap below it, if the law has no bound at zero gap.
     pub(crate) fn least(&self) -> Least<T> {
         match (self.wall, self.hints.rest) {
             (Some(Wall::Rigid), _) => Least { rest: T::zero(), share: T::zero(), depth: T::zero() },
@@ -176,7 +162,6 @@ impl<'a, T: Real> Potential<'a, T> {
         }
     }
 
-    /// The energies, tractions or slopes of law and constraint at the nodes from `first` on.
     pub(crate) fn evaluate(&self, of: Of, first: usize, gaps: &[T], out: &mut [T]) {
         self.law(of, first, gaps, out);
         let Some(Wall::Springs(springs)) = self.wall else { return };
@@ -203,7 +188,6 @@ impl<'a, T: Real> Potential<'a, T> {
         self.evaluate(Of::Traction, first, gaps, tractions);
     }
 
-    /// Tractions and slopes at once.
     pub(crate) fn tractions_and_slopes(&self, first: usize, gaps: &[T], tractions: &mut [T], slopes: &mut [T]) {
         if !matches!(self.wall, Some(Wall::Springs(_))) {
             return self.law.evaluate(first, gaps, Values::tractions_and_slopes(tractions, slopes));
@@ -212,9 +196,7 @@ impl<'a, T: Real> Potential<'a, T> {
         self.evaluate(Of::Slope, first, gaps, slopes);
     }
 
-    /// The energies, tractions or slopes of the law alone.
-    ///
-    /// A law is defined for g ≥ 0; where the surfaces interpenetrate springs it goes on as its tangent at g = 0.
+    /// Those of the law alone, which springs continue to g < 0 as its tangent at g = 0.
     pub(crate) fn law(&self, of: Of, first: usize, gaps: &[T], out: &mut [T]) {
         if self.hints.zero {
             return out.fill(T::zero());
@@ -238,7 +220,7 @@ impl<'a, T: Real> Potential<'a, T> {
         }
     }
 
-    /// The tractions of the attraction alone, of the local tractions of nodes at these gaps.
+    /// The tractions of the attraction alone.
     pub(crate) fn attractions(&self, first: usize, gaps: &[T], tractions: &[T], out: &mut [T]) {
         match self.wall {
             Some(Wall::Springs(_)) => self.law(Of::Traction, first, gaps, out),
@@ -266,7 +248,7 @@ impl<'a, T: Real> Potential<'a, T> {
         sums
     }
 
-    /// The contact pressures at nodes of these gaps and full elastic pressures.
+    /// The contact pressures at gaps and full elastic pressures.
     pub(crate) fn contact_pressures(&self, first: usize, gaps: &[T], pressures: &[T], contact: &mut [T]) {
         if let Some(Wall::Springs(springs)) = self.wall {
             let pressed = contact.iter_mut().zip(gaps).enumerate();

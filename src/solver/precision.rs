@@ -1,4 +1,4 @@
-//! The precisions of a solve: that of its state, and that of its corrections.
+//! The precisions of a solve.
 
 use std::marker::PhantomData;
 
@@ -13,8 +13,7 @@ use crate::par;
 use crate::problem::Load;
 use crate::real::{Compiled, Real};
 
-/// A mean pressure that is nothing beside the rounding of corrections in `f32`, over the rms pressure that presses the
-/// surface flat.
+/// A mean pressure below the rounding of corrections in `f32`, over the rms pressure that presses the surface flat.
 const LIGHT: f64 = 1e-8;
 
 /// Solves a problem, compiled once for each precision.
@@ -39,8 +38,8 @@ impl<'a> Compiled for Solve<'a> {
     }
 }
 
-/// Whether corrections in `f32` will do: under a light load they would not find the first contact, and the slopes of a
-/// law that keeps the surfaces apart by itself make much of their rounding.
+/// Whether corrections in `f32` will do: they miss the first contact under a light load, and the slopes of a law that
+/// keeps the surfaces apart by itself multiply their rounding.
 fn takes_coarse_corrections<T: Real>(job: &Job<'_, T>) -> bool {
     let (flat, wall) = (job.flat, job.constraint.wall());
     let light = LIGHT * flat.stiffness * flat.rms_height;

@@ -12,8 +12,7 @@ use crate::real::{Real, cast};
 /// The least curvature of a direction, as a share of its elastic curvature.
 const LEAST_CURVATURE: f64 = 0.05;
 
-/// The least best length, as a share of a clipped step, for which the whole step is taken: its clipped nodes are then
-/// exactly in contact.
+/// The least best length, as a share of a clipped step, for which the whole is taken, to land its clipped nodes.
 const WHOLE: f64 = 0.7;
 
 /// The best length, as a share of a clipped step, below which a shorter step is tried.
@@ -28,9 +27,9 @@ const ADAPT: (f64, f64) = (0.7, 1.3);
 /// The multiple of the last change c₀ in the next step.
 #[derive(Clone, Copy)]
 struct Momentum {
-    /// the multiple of c₀ that makes −z conjugate to it
+    /// the multiple that makes −z conjugate to c₀
     conjugate: f64,
-    /// the multiple of c₀ that minimises the energy along it
+    /// the multiple that minimises the energy along c₀
     remainder: f64,
     /// the mean of c₀ over the working set
     mean: f64,
@@ -70,13 +69,11 @@ struct Step {
     /// Σ d·p and ⟨d, K⁻¹d⟩
     work: f64,
     elastic: f64,
-    /// what the spring adds to that
     spring: f64,
 }
 
 impl<T: Real, Lo: Real> State<'_, T, Lo> {
-    /// A step along the projected, conjugate, preconditioned residual, and what it leaves of that; nothing if no step
-    /// lowers the energy.
+    /// A step along the projected, conjugate, preconditioned residual; nothing if no step lowers the energy.
     pub(super) fn preconditioned_step(&mut self) -> Result<Option<Left>> {
         // with the waves at rest
         let waits = self.hangs_on_spring() && self.relative_error() <= self.posed.settings.tolerance_in::<T>();
@@ -95,14 +92,14 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         self.try_step()
     }
 
-    /// A step of the mean gap alone, to which the body does not respond: its length is that of the spring, and no
-    /// rounding of a response is in it. `false` if it ends at a wall, or does not lower the energy.
+    /// A step of the mean gap alone, as long as that of the spring and without the rounding of a response. `false` if
+    /// it ends at a wall, or does not lower the energy.
     fn shift(&mut self) -> Result<bool> {
         let imbalance = self.imbalance();
         let length = std::mem::replace(&mut self.steps.step_length, 1.0);
         self.fields.preconditioned.fill(Lo::zero());
         let trial = self.trial(-imbalance / self.posed.load.stiffness(), None);
-        // in the sum of r', which is of Lo, the waves have left their rounding
+        // the sum of r', which is of Lo, has the rounding of the waves
         let slope = trial.change * imbalance;
         let trial = Trial { slope, descent: slope, ..trial };
         let step = if trial.clipped || slope >= 0.0 { None } else { self.search(&trial, 0.0) };
@@ -129,8 +126,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
             if !trial.blocked || step.length >= SHORT {
                 return Ok(Some(self.advance(&step)));
             }
-            // a part so short leaves the blocked nodes apart: clip a step without the last change instead, or a
-            // shorter one
+            // so short a part leaves the blocked nodes apart: drop the last change, or shorten the step
             self.steps.step_length = trial_length * if momentum.take().is_some() { 1.0 } else { step.length };
             self.residual(Left::Nothing);
         }
@@ -153,11 +149,9 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         (centre, momentum)
     }
 
-    /// Puts a feasible change into `change` along which the energy falls.
-    ///
-    /// Clipping and scaling can turn a step uphill. Then it is tried without the last change; then the nodes that
-    /// the gradient drives into contact are put there, alone; or, if there are none, the step is shortened, until
-    /// nothing but rounding would be left of it.
+    /// Puts a feasible change into `change` along which the energy falls. A step that clipping and scaling turn uphill
+    /// is tried without the last change; then the blocked nodes alone are put into contact, or, without any, it is
+    /// shortened down to its rounding.
     fn descend(&mut self, centre: f64, momentum: &mut Option<Momentum>) -> Option<Trial> {
         loop {
             let trial = self.trial(centre, *momentum);
@@ -177,7 +171,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         }
     }
 
-    /// The change that a step of the trial length makes, clipped; scaled, it leaves the mean gap as it is.
+    /// The clipped change of a step of the trial length; scaled, it leaves the mean gap as it is.
     fn trial(&mut self, centre: f64, momentum: Option<Momentum>) -> Trial {
         let length = self.steps.step_length;
         let (keep, mean) = momentum.map_or((0.0, 0.0), |m| (length * m.conjugate + m.remainder, m.mean));
@@ -188,7 +182,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         let tried = passes::trial(&mut self.fields, &local, attempt, surface);
         let Tried { change, clipped, blocked, descent, square, gap_descent, change_surface, gap_surface, .. } = tried;
         let Tried { traction, slope_change, slope_mixed, slope_gap, .. } = tried;
-        // the present mean, not the one that is given: a long step would multiply the rounding of their difference
+        // the given mean would let a long step multiply the rounding of their difference
         let present = self.sums.tally.sum_gap;
         let scale = if self.posed.is_gap_controlled() && clipped > 0.0 { present / (present + change) } else { 1.0 };
         let possible = scale.is_finite() && scale > 0.0;
@@ -209,7 +203,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         }
     }
 
-    /// A change that puts the blocked nodes into contact and lifts the others evenly; both lower the energy.
+    /// A change that puts the blocked nodes into contact and lifts the others; both lower the energy.
     fn land(&mut self, centre: f64, trial: Trial) -> Trial {
         let (length, centre) = (T::lit(self.steps.step_length), T::lit(centre));
         let lands =
@@ -295,7 +289,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
             true => best,
             false if local.projects() && best <= 1.0 => best,
             false if local.projects() => best.min(passes::reach(fields, &local).max(1.0)),
-            // a law without a bound at zero gap has to stay away from it
+            // the law has no bound at zero gap
             false => best.min(CLOSER * passes::reach(fields, &local)),
         };
         // the tangent of a concave energy bounds it
@@ -314,14 +308,14 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
                 }
             }
         }
-        // near the solution the best lengths scatter about their mean: damp their changes
+        // near the solution the best lengths scatter: damp their changes
         let ratio = if self.steps.near { best.sqrt() } else { best };
         self.steps.step_length *= ratio.clamp(ADAPT.0, ADAPT.1);
         let (scale, slope, square) = (trial.scale, trial.slope, trial.square);
         (length > 0.0).then_some(Step { length, scale, slope, change, square, work, elastic, spring })
     }
 
-    /// Takes a step: gap, pressure, and the tally of the new state. Returns what it leaves of the residual.
+    /// Takes a step, with the tally of the new state. Returns what it leaves of the residual.
     fn advance(&mut self, step: &Step) -> Left {
         let &Step { length, scale, slope, change, square, work, elastic, spring } = step;
         self.sums.given = self.posed.load.pressure_at((self.sums.tally.sum_gap + length * change) / self.posed.nodes());

@@ -1,5 +1,4 @@
-//! The preconditioner: its application, which gives the certificate too, and its foundation, the stiffness of the
-//! contacts for long waves and for the mean gap.
+//! The preconditioner, its certificate, and its foundation: the stiffness of the contacts.
 
 use super::coarse::Coarse;
 use super::minimisation::Preconditioned;
@@ -10,22 +9,20 @@ use crate::elastic::Foundation;
 use crate::error::Result;
 use crate::real::Real;
 
-/// The least stiffness of the contacts, as a share of the stiffness of the softest wave.
+/// The least stiffness of the contacts, as a share of that of the softest wave.
 const SOFTEST: f64 = 0.1;
 
-/// The least stiffness of the mean gap, as a share of the stiffness of the softest wave.
+/// The least stiffness of the mean gap, in the same unit.
 const LEAST_MEAN: f64 = 0.01;
 
-/// The iterations from a far start under a given pressure before the space is used, and the error of the load above
-/// which the contact map is not yet that of the solution.
+/// The iterations from a far start under a pressure, and the load error, before the contact map is settled.
 const UNSETTLED: usize = 3;
 const LOADED: f64 = 0.3;
 
-/// The relative error above which the contact map is not yet that of the solution with adhesion.
+/// The same for the relative error with adhesion.
 const SETTLED: f64 = 0.1;
 
-/// The stiffness of one node among its neighbours, over that of the stiffest wave: the reciprocal of the mean
-/// compliance of the waves of a square grid.
+/// The stiffness of one node over that of the stiffest wave: the reciprocal of a square grid's mean compliance.
 const ALONE: f64 = 0.4;
 
 /// The iterations between two certificates of [`Method::Rey2017`], which needs them for the report only.
@@ -45,7 +42,6 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         self.certify()
     }
 
-    /// As [`precondition`](Self::precondition), whatever the method.
     pub(super) fn certify(&mut self) -> Result<()> {
         self.renew_coarse();
         let (stiffness, mean_stiffness) = (self.foundation(), self.mean_stiffness());
@@ -63,7 +59,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         if let Some(held) = held {
             sum = passes::release_held(&mut self.fields, &self.posed.potential(), held);
             descent += held.descent;
-            // two loads, of which the sum is the residual: their responses add up in the energy norm
+            // loads that add up to the residual: responses add up in the energy norm
             certificate = (certificate.sqrt() + (held.beside / self.posed.nodes()).sqrt()).powi(2);
         }
         self.sums.certificate = if found.error.is_nan() { f64::INFINITY } else { certificate };
@@ -78,9 +74,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         (external + self.sums.tally.traction / self.posed.nodes()).abs() / self.posed.flat.rms_height
     }
 
-    /// The stiffness of the foundation in the preconditioner: that of the contacts, which long waves meet beside their
-    /// own. On the way from a far start under a given pressure it is not known yet, and the softest wave's stiffness
-    /// takes its place.
+    /// The stiffness of the contacts in the preconditioner; from a far start under a pressure, the softest wave's.
     pub(super) fn foundation(&self) -> f64 {
         let (softest, stiffest) = self.posed.operators.state().stiffness_range();
         if stiffest <= 0.0 {
@@ -91,14 +85,12 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         if near && contact.is_finite() { contact.clamp(SOFTEST * softest, stiffest) } else { softest }
     }
 
-    /// The stiffness of the mean gap in the preconditioner: that of the contacts, and of the spring if there is one.
-    ///
-    /// On the way from a far start, the geometric mean of the stiffness of the contacts, far too small for light
-    /// loads, and that of the softest wave.
+    /// The stiffness of the mean gap in the preconditioner: of the contacts, and of a spring. On the way from a far
+    /// start the geometric mean of that of the contacts, too small for light loads, and of the softest wave.
     pub(super) fn mean_stiffness(&self) -> f64 {
         let (softest, stiffest) = self.posed.operators.state().stiffness_range();
         if stiffest <= 0.0 {
-            // nothing resists the load of a node alone before it touches: a step is as long as the gap
+            // nothing resists before a node touches: a step is as long as the gap
             let gap = self.sums.tally.sum_gap / self.posed.nodes();
             let falls = gap > 0.0 && self.posed.law.hints().zero && self.sums.given > 0.0;
             let contact = if falls { self.foundation().min(self.sums.given / gap) } else { self.foundation() };
@@ -109,21 +101,19 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         contact + self.posed.load.stiffness()
     }
 
-    /// Whether the bodies are apart on a spring that is softer than the preconditioner takes the mean gap to be.
+    /// Whether the bodies are apart on a spring softer than the preconditioner's mean gap.
     pub(super) fn hangs_on_spring(&self) -> bool {
         let spring = self.posed.load.stiffness();
         let soft = spring > 0.0 && spring < LEAST_MEAN * self.posed.operators.state().stiffness_range().0;
         soft && self.sums.tally.contact == 0.0
     }
 
-    /// The mean of r over the nodes that are apart. That of p has no part in it where all are; of its rounding little
-    /// is much to a soft spring.
+    /// The mean of r over the nodes apart; where all are, without that of p, whose rounding is much to a soft spring.
     pub(super) fn imbalance(&self) -> f64 {
         let balance = || self.sums.given + self.sums.tally.traction / self.posed.nodes();
         if self.hangs_on_spring() { balance() } else { self.sums.tally.sum_r / self.sums.tally.free }
     }
 
-    /// Whether the contacts are where they will be, but for some nodes.
     fn is_settled(&self) -> bool {
         let loaded = self.steps.near
             || self.posed.is_gap_controlled()
@@ -131,8 +121,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         loaded && (self.posed.law.hints().zero || self.relative_error() <= SETTLED)
     }
 
-    /// Tells the coarse space where the contacts are, now and then: the nodes outside of the working set, or those that
-    /// springs hold.
+    /// Renews the contact map now and then, from the nodes outside of the working set or those that springs hold.
     pub(super) fn renew_coarse(&mut self) {
         let (settled, projects, held) = (self.is_settled(), self.posed.projects(), self.posed.is_gap_controlled());
         let (stiffness, range) = (self.posed.flat.stiffness, self.posed.operators.state().stiffness_range());

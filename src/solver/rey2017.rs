@@ -10,8 +10,7 @@ use crate::problem::Load;
 use crate::real::{Real, cast};
 
 impl<T: Real, Lo: Real> State<'_, T, Lo> {
-    /// One pass of the algorithm's loop: one operator application for the direction, and one for the new gap where
-    /// nodes were clipped or released.
+    /// One pass of the loop: an operator application for the direction, another after clipping or release.
     pub(super) fn rey2017_step(&mut self) -> Result<Option<Left>> {
         let projects = self.posed.projects();
         let apart = move |gap: T| !projects || gap > T::zero();
@@ -27,8 +26,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         let conjugate = self.steps.residual_norm.map_or(0.0, |before| norm.sum[0] / before);
         let mut slope = self.conjugate_direction(if conjugate.is_finite() { conjugate } else { 0.0 });
         if !(slope.is_finite() && slope > 0.0) && conjugate > 0.0 {
-            // uphill, or beyond all numbers: the residual's norm has jumped, as it may where rounding is all that is
-            // left of it
+            // uphill, or beyond all numbers: the norm of the residual has jumped, as rounding may let it
             slope = self.conjugate_direction(0.0);
         }
         let Fields { change, preconditioned: response, .. } = &mut self.fields;
@@ -51,10 +49,10 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         let [curvature, response, t, ..] = total.sum;
         let mean = if self.posed.is_gap_controlled() { response / self.sums.tally.free } else { 0.0 };
         let length = slope / (curvature - mean * t);
-        // a uniform direction has no curvature: the stiffness of the softest wave bounds the step of the mean
+        // a uniform direction has no curvature: the softest wave bounds the step
         let softest = self.posed.operators.state().stiffness_range().0;
         let length = if length.is_finite() && length > 0.0 { length } else { 1.0 / softest };
-        // a direction that is uniform up to rounding has a curvature of rounding only
+        // nor has one that is uniform up to rounding
         let length = length.min(1.0 / (T::epsilon().widen().sqrt() * softest));
         if !length.is_finite() {
             return Ok(None);
@@ -100,7 +98,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         Ok(Some(Left::Nothing))
     }
 
-    /// The direction t = r' + `conjugate` t where the surfaces are apart, zero elsewhere; returns ⟨r', t⟩.
+    /// The direction t = r' + `conjugate` t where the surfaces are apart; returns ⟨r', t⟩.
     fn conjugate_direction(&mut self, conjugate: f64) -> f64 {
         let projects = self.posed.projects();
         let conjugate = Lo::lit(conjugate);

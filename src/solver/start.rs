@@ -1,4 +1,4 @@
-//! The start of a solve: its gap, its law, and their checks.
+//! The start of a solve.
 
 use ndarray::{Array2, ArrayRef2, CowArray, Ix2};
 
@@ -13,9 +13,8 @@ use crate::real::Real;
 
 /// The start of a solve: the gap from which the energy is minimised.
 ///
-/// A gap has the shape (Nx, Ny) of the surface, whatever it has at absent nodes, may be an array or a view in any
-/// memory layout, and is scaled to the mean gap, if that is given. The start matters for the work, and with adhesion,
-/// where there may be several equilibria, for the answer.
+/// A gap has the shape (Nx, Ny) of the surface, with any values at absent nodes and in any memory layout, and is scaled
+/// to a mean gap that is given. The start matters for the work, and with adhesion for the equilibrium that is found.
 ///
 /// The solution in `f32` as a start near that in `f64`:
 ///
@@ -28,7 +27,10 @@ use crate::real::Real;
 /// let mut single = Problem::new(&surface, Westergaard::<f32>::new(grid, 1.0)?, NoAdhesion)?;
 /// let near = solver.solve(&mut single, control)?.gap.mapv(f64::from);
 /// let mut double = Problem::new(&surface, Westergaard::<f64>::new(grid, 1.0)?, NoAdhesion)?;
-/// let solution = solver.solve_with(&mut double, control, Start::Near(near), |_| ControlFlow::Continue(()))?;
+/// let solution = solver.solve_with(&mut double, control, Start::Near(near), |state| {
+///     println!("{} {:.1e}", state.iteration, state.relative_error);
+///     ControlFlow::Continue(())
+/// })?;
 /// assert_eq!(solution.report.status, Status::Converged);
 /// assert!(solution.report.relative_error < 1e-6);
 /// # Ok::<(), asperity::Error>(())
@@ -36,34 +38,27 @@ use crate::real::Real;
 #[non_exhaustive]
 #[derive(Clone, Debug, Default)]
 pub enum Start<'a, T> {
-    /// Without adhesion a uniform gap: the mean gap, if that is given, otherwise twice the rms height; with a free
-    /// boundary the undeformed bodies that just touch. With adhesion the start of the [`Branch`] that
-    /// [`Settings::branch`](crate::Settings::branch) names: the gap that the wall alone would leave, which is found
-    /// first, within the same solve, or full contact, and at a given mean gap a uniform one. If the traction of the law
-    /// jumps, as that of [`MaugisDugdale`](crate::MaugisDugdale) does, the equilibrium of the law with its jump
-    /// [smoothed](crate::adhesion::Discretisation::Smooth) is found next and becomes the start, within the same solve.
+    /// Without adhesion a uniform gap: the given mean gap, or twice the rms height; with a free boundary undeformed
+    /// bodies that just touch. With adhesion the start of the [`Branch`] that
+    /// [`Settings::branch`](crate::Settings::branch) names. A law that jumps, as
+    /// [`MaugisDugdale`](crate::MaugisDugdale), is [smoothed](crate::adhesion::Discretisation::Smooth) first, and the
+    /// equilibrium found then becomes the start, all within the same solve.
     #[default]
     Default,
-    /// A gap, as that of an equilibrium at another load. With adhesion it chooses the branch of the equilibrium that is
-    /// found.
+    /// A gap, as that of an equilibrium at another load. With adhesion it chooses the branch.
     From(&'a ArrayRef2<T>),
-    /// The gap of the solution of the same problem in another precision or on another grid, which is not copied.
-    ///
-    /// The error of a near start is of short waves, so that the first steps are shorter than from a gap that is given
-    /// by [`Start::From`], and the jumps of a law are smoothed on the way from it, as from the default start.
-    /// [`Nested`](crate::Nested) starts each grid so.
+    /// The gap of the solution of the same problem in another precision or on another grid, which is not copied. Its
+    /// error is of short waves: the first steps are shorter than with [`Start::From`], and the jumps of a law are
+    /// smoothed on the way. [`Nested`](crate::Nested) starts each grid so.
     Near(Array2<T>),
 }
 
-/// Where a solve begins.
 pub(crate) enum Begin<'a, T> {
     At(Start<'a, T>),
-    /// At the default start on a branch, whatever the settings say.
     On(Branch),
-    /// The gap of the solution on another grid, near as that of [`Start::Near`], but on the grid of the operator, with
-    /// the nodes that face no surface.
+    /// At the gap of another grid's solution, as [`Start::Near`], but with all nodes of the operator's grid.
     Prolonged(Array2<T>),
-    /// The gap of the solution at another load, or of that on a part of the grid, on the grid of the operator as well.
+    /// At the gap of another load or of a part, on the operator's grid.
     Found(Array2<T>),
 }
 
@@ -77,7 +72,7 @@ impl<T> Begin<'_, T> {
     }
 }
 
-/// The uniform gap from which a solve starts, if no other is given.
+/// The uniform gap of a default start.
 pub(super) fn uniform_start<T: Real>(law: &dyn AdhesionLaw<T>, flat: &PressedFlat<T>, load: Load) -> f64 {
     match load {
         Load::Gap(gap) => gap,
@@ -86,7 +81,7 @@ pub(super) fn uniform_start<T: Real>(law: &dyn AdhesionLaw<T>, flat: &PressedFla
     }
 }
 
-/// The gap that is given, if one is, as a start under a control on the operator's grid.
+/// The gap that is given, if one is, as a start under a load.
 pub(super) fn given_start<T: Real>(
     begin: Begin<'_, T>,
     grid: &Grid,
@@ -131,8 +126,7 @@ pub(super) fn given_start<T: Real>(
     Ok(Some(gap))
 }
 
-/// The gap as many steps beyond the last one of two as given, on the grid of the operator: no node that faces the
-/// surface comes closer than it may in a step.
+/// The gap so many steps beyond the last of two, on the operator's grid; nodes come no closer than they may in a step.
 pub(crate) fn extrapolated<T: Real>(
     [before, last]: [&Array2<T>; 2],
     steps: f64,

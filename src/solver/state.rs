@@ -23,7 +23,6 @@ const REFRESH: usize = 50;
 /// The relative error of the mean gap, in units of the rounding of one number, that is worth a pass.
 const SCALED: f64 = 64.0;
 
-/// The state of a solve.
 pub(super) struct State<'a, T, Lo> {
     pub(super) posed: Posed<'a, T, Lo>,
     pub(super) fields: Fields<T, Lo>,
@@ -71,7 +70,6 @@ impl<'a, T: Real, Lo: Real> State<'a, T, Lo> {
         Ok(state)
     }
 
-    /// Takes the gap of undeformed bodies that just touch: under no pressure.
     fn start_undeformed(&mut self) -> Result<()> {
         let Fields { gap, residual, preconditioned, change, .. } = &mut self.fields;
         self.posed.operators.displacement(&self.posed.flat.pressure, gap, [residual, preconditioned, change])?;
@@ -97,15 +95,12 @@ impl<'a, T: Real, Lo: Real> State<'a, T, Lo> {
         self.sums.tally.sum_gap / self.posed.nodes()
     }
 
-    /// The constant b in r = p + φ'(g) + b: the given mean pressure (zero under gap control) less the mean of p, which
-    /// is rounding and no load.
+    /// The constant b in r = p + φ'(g) + b: the given mean pressure, zero under gap control, less the mean of p.
     pub(super) fn offset(&self) -> f64 {
         self.sums.given - self.sums.drift
     }
 
-    /// Computes the pressure from the gap, p = K⁻¹g + K⁻¹h, and takes the tally anew.
-    ///
-    /// After a step its change, and what it `left` of the residual, are still of use; returns what is left of that.
+    /// Computes p = K⁻¹g + K⁻¹h and its tally anew; returns what the step has `left` of the residual.
     pub(super) fn refresh(&mut self, left: Left) -> Result<Left> {
         if let Load::Gap(mean) = self.posed.load {
             let (scale, present) =
@@ -140,7 +135,7 @@ impl<'a, T: Real, Lo: Real> State<'a, T, Lo> {
         self.take_pressure(made)
     }
 
-    /// Makes the pressure K⁻¹g of the gap that of the state, after the step that was made, and takes the tally.
+    /// Takes K⁻¹g as the pressure of the state, after the step that was made, with its tally.
     fn take_pressure(&mut self, made: Option<Made>) -> Result<Left> {
         self.counters.applications += 1;
         (self.steps.age, self.steps.updates) = (0, 0.0);
@@ -154,7 +149,7 @@ impl<'a, T: Real, Lo: Real> State<'a, T, Lo> {
         Ok(made.filter(|_| !overwritten).map_or(Left::Nothing, Left::Renewed))
     }
 
-    /// Takes the tally of the present gap and pressure; returns the elastic work ⟨u, p⟩ by its sums.
+    /// Takes the tally; returns the elastic work ⟨u, p⟩ by its sums.
     pub(super) fn count(&mut self) -> Work {
         let offset = T::lit(self.offset());
         let local = self.posed.potential();
@@ -172,13 +167,12 @@ impl<'a, T: Real, Lo: Real> State<'a, T, Lo> {
         match self.posed.load {
             Load::Pressure(_) | Load::Spring { .. } => 0.0,
             Load::Gap(_) if self.sums.tally.free > 0.0 => self.sums.tally.sum_r / self.sums.tally.free,
-            // no node is free: the least pressure that keeps them all in contact
+            // no node is free: the least pressure that keeps all in contact
             Load::Gap(_) => self.sums.tally.min_r,
         }
     }
 
-    /// r' on the working set, the nodes that are apart and those in contact under tension: made of the content that a
-    /// step has left in its field.
+    /// r' on the working set, from what a step has left in its field.
     pub(super) fn residual(&mut self, left: Left) {
         let (gradient, made) = match left {
             Left::Residual(made) => {
@@ -215,7 +209,7 @@ impl<'a, T: Real, Lo: Real> State<'a, T, Lo> {
         self.steps.momentum = made.map(|made| Made { descent, overlap, sum: sum_change, ..made });
     }
 
-    /// One step of the chosen method, with the residual of the state to which it leads; `false` if none is possible.
+    /// A step of the chosen method; `false` if none is possible.
     pub(super) fn step(&mut self) -> Result<bool> {
         let moved = match self.posed.settings.method {
             Method::Preconditioned => self.preconditioned_step()?,

@@ -14,8 +14,7 @@ use crate::vector::sums;
 /// A share of the load that, held without contact, is hardly any.
 const HARDLY: f64 = 1e-3;
 
-/// The largest number of mean gaps that are tried in search of a hold, and the share of an interval that a golden
-/// section keeps.
+/// The most mean gaps tried in search of a hold, and the share of an interval that a golden section keeps.
 const SECTIONS: usize = 12;
 const GOLDEN: f64 = 0.618;
 
@@ -28,8 +27,7 @@ const RISE: f64 = 2.0;
 /// The excess over the strongest of the sampled tractions that there may be between the samples.
 const BETWEEN: f64 = 1.1;
 
-/// The distance at which surfaces are held apart, and the largest one at which a hold is sought, in ranges of adhesion
-/// beyond the heights.
+/// The distance, in ranges of adhesion beyond the heights, at which surfaces are held apart, and the largest of a hold.
 const REACH: f64 = 10.0;
 
 impl<T: Real, Lo: Real> Posed<'_, T, Lo> {
@@ -38,7 +36,7 @@ impl<T: Real, Lo: Real> Posed<'_, T, Lo> {
         self.flat.height_span + REACH * self.law.hints().range.widen()
     }
 
-    /// Whether the load pulls by more than the law holds at its strongest on all nodes that face the surface.
+    /// Whether the load pulls by more than the law's strongest traction on all nodes that face the surface.
     pub(super) fn is_torn(&self) -> bool {
         let facing = self.flat.window.as_ref().map_or(1.0, |window| window.facing() as f64 / self.nodes());
         matches!(self.load, Load::Pressure(load) if -load > BETWEEN * facing * self.strongest_traction())
@@ -50,16 +48,14 @@ impl<T: Real, Lo: Real> Posed<'_, T, Lo> {
         rest.unwrap_or_else(T::zero)
     }
 
-    /// The largest of many tractions of the law: no uniform gap holds more. A peak that is narrower than a hundredth of
-    /// the range may be missed.
+    /// The largest of many tractions of the law, which no uniform gap exceeds; narrow peaks may be missed.
     fn strongest_traction(&self) -> f64 {
         let range = self.law.hints().range.widen();
         let gaps = (0..SAMPLES).map(|i| T::lit(REACH * range * i as f64 / SAMPLES as f64));
         gaps.map(|gap| self.law.traction(gap).widen()).fold(0.0, f64::max)
     }
 
-    /// The load that holds a mean gap: that itself, or, where some nodes face no surface, a spring as stiff as the
-    /// stiffest wave.
+    /// The load that holds a mean gap: that, or a spring as stiff as the stiffest wave if nodes face no surface.
     fn holding(&self, gap: f64) -> Load {
         match self.flat.window {
             None => Load::Gap(gap),
@@ -69,20 +65,17 @@ impl<T: Real, Lo: Real> Posed<'_, T, Lo> {
 }
 
 impl<T: Real, Lo: Real> State<'_, T, Lo> {
-    /// Whether a tensile load has pulled the surfaces apart: no contact, and hardly any traction left to hold them.
+    /// Whether a tensile load has pulled the surfaces apart: no contact, and hardly any traction.
     pub(super) fn is_adrift(&self) -> bool {
         let Load::Pressure(pressure) = self.posed.load else { return false };
         let held = self.sums.tally.traction / self.posed.nodes();
         pressure < 0.0 && self.sums.tally.contact == 0.0 && held <= HARDLY * -pressure
     }
 
-    /// Looks for a state that holds more than the tensile load that is given, to go on from under the load; `false` if
-    /// it finds none.
+    /// Looks for a state that holds more than the tensile load, to go on from under the load; `false` if it finds none.
     ///
-    /// At a given mean gap the surfaces come apart less easily than under a load. The tension that they hold grows
-    /// with the gap up to the pull-off and is lost beyond: a golden section looks for its largest value, about the gap
-    /// at which surfaces that are not deformed would touch. From a state that holds more than the load, the load lets
-    /// them close up to an equilibrium.
+    /// The tension at a given mean gap grows up to the pull-off and is lost beyond: a golden section looks for its
+    /// largest value, about the gap at which undeformed surfaces would touch.
     pub(super) fn seek_hold(&mut self, observe: Observer<'_>) -> Result<bool> {
         let Load::Pressure(load) = self.posed.load else { return Ok(false) };
         let (touch, rest) = (self.posed.flat.peak, self.posed.closest().widen());
@@ -119,8 +112,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         Ok(false)
     }
 
-    /// The tension at a given mean gap, from the present contact or, where hardly any is held, from a uniform gap;
-    /// nothing if the solve was stopped or ran out of iterations.
+    /// The tension at a mean gap, from the contact or, if that hardly holds, a uniform gap; nothing if cut short.
     fn tension_at(&mut self, gap: f64, hardly: f64, observe: Observer<'_>) -> Result<Option<f64>> {
         // where the law itself keeps the surfaces apart, it may hold them with no node pressed
         let holds = !self.posed.projects() && self.sums.tally.traction > hardly * self.posed.nodes();
@@ -134,8 +126,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         Ok(end.is_final().is_none().then(|| self.multiplier() - self.sums.given))
     }
 
-    /// Scales the gaps of the nodes that do not touch, so that the mean gap is as given; where they could not be, all
-    /// gaps become that.
+    /// Scales the gaps of nodes apart to a given mean gap, or makes all gaps that.
     fn open_to(&mut self, mean: f64) {
         let (nodes, closest) = (self.posed.nodes(), self.posed.closest());
         let Fields { reducer, gap, .. } = &mut self.fields;
@@ -154,10 +145,9 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         });
     }
 
-    /// Goes on from the present gap under another control.
     fn go_on(&mut self, load: Load, goal: Goal) -> Result<()> {
         (self.posed.load, self.posed.goal) = (load, goal);
-        // the mean of the present gap, which the refresh scales to the one that is held
+        // the refresh scales the mean of the present gap to the one that is held
         self.count();
         self.refresh(Left::Nothing)?;
         self.restart();
@@ -165,7 +155,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         Ok(())
     }
 
-    /// Holds surfaces that drift apart at a mean gap at which they do not reach each other, to let them come to rest.
+    /// Holds drifting surfaces out of each other's reach, to come to rest.
     pub(super) fn hold_apart(&mut self) {
         let far = 2.0 * self.posed.out_of_reach();
         let mean = self.sums.tally.sum_gap / self.posed.nodes();
@@ -181,9 +171,8 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
     }
 }
 
-/// The most tension that surfaces may hold about the mean gap at which they held most of those that were tried, as
-/// (gap, tension): what a concave function cannot exceed, and some more. Without bound where all held hardly any, or
-/// that gap has no neighbours.
+/// The most tension, with some margin, that a concave function through (gap, tension) pairs may have about the largest.
+/// Without bound where all held hardly any, or that gap has no neighbours.
 fn most_between(tried: &mut [(f64, f64)], hardly: f64) -> f64 {
     tried.sort_by(|a, b| a.0.total_cmp(&b.0));
     let best = (0..tried.len()).max_by(|&a, &b| tried[a].1.total_cmp(&tried[b].1)).unwrap_or_default();

@@ -1,13 +1,11 @@
 //! The elastic work ⟨u, p⟩, twice the elastic energy, which scales the certificate.
 //!
-//! With u = g + h it is ⟨g, p⟩ + ⟨g, K⁻¹h⟩ + ⟨h, K⁻¹h⟩, three sums over fields that an iteration reads anyway. Under a
-//! light load the gap is nearly the surface upside down, p nearly vanishes, and the three sums cancel: their rounding
-//! may exceed the work itself. Then one application gives ⟨p, K p⟩ instead, a sum of squares over the waves.
+//! With u = g + h it is ⟨g, p⟩ + ⟨g, K⁻¹h⟩ + ⟨h, K⁻¹h⟩, sums over fields that an iteration reads anyway. Under light
+//! loads they cancel, to less than their rounding; one application then gives ⟨p, K p⟩, a sum of squares.
 
-/// Rounding beyond this share of the work calls for the sum of squares, as long as the work is only a scale.
+/// Rounding beyond this share of the work calls for the sum of squares, if the work is only a scale.
 pub(super) const TRUSTED: f64 = 1e-3;
 
-/// The elastic work, summed over the nodes.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Work {
     pub(super) sum: f64,
@@ -16,7 +14,6 @@ pub(super) struct Work {
 }
 
 impl Work {
-    /// Whether rounding may exceed `share` of the work.
     pub(super) fn is_doubtful(self, share: f64) -> bool {
         self.noise > share * self.sum
     }

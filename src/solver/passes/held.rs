@@ -1,9 +1,8 @@
 //! The passes that fit the preconditioner to nodes which the law itself holds by its repulsion.
 //!
-//! The compliance M knows how waves answer a load, and nothing of the slopes κ = φ'' of the nodes that repel, which are
-//! often several times the stiffness of the stiffest wave. With s = 1/(1 + κ/k)² at each node, and k the stiffness of
-//! one node among its neighbours, the preconditioner is S M S + (1 − S²)/(k + κ): M itself where nothing repels, the
-//! compliance of a node alone where it is held, and in the limit of a rigid wall M between the nodes that are apart.
+//! The compliance M knows nothing of their slopes κ = φ'', often several times the stiffness of the stiffest wave. With
+//! s = 1/(1 + κ/k)² at each node, and k its stiffness among its neighbours, the preconditioner is
+//! S M S + (1 − S²)/(k + κ): M where nothing repels, the compliance of the node where it is held.
 
 use super::Fields;
 use crate::field::{CHUNK, read, write};
@@ -12,8 +11,7 @@ use crate::real::{Real, cast};
 use crate::solver::potential::{Of, Potential};
 use crate::vector::sums;
 
-/// The share s of a node in the waves, and its compliance beside them, (1 − s²)/(k + κ). No share is so small that r'
-/// could not be had back from its multiple.
+/// The share s of a node in the waves, and its compliance beside them, (1 − s²)/(k + κ). r' can be had back from s r'.
 #[inline(always)]
 fn share<T: Real>(slope: T, stiffness: T) -> (T, T) {
     let own = (stiffness + slope.max(T::zero())).recip();
@@ -27,18 +25,17 @@ fn slopes<'a, T: Real>(local: &Potential<'_, T>, first: usize, gap: &[T], buffer
     slopes
 }
 
-/// The preconditioner's picture of the nodes that are held.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::solver) struct Held {
     /// k, the stiffness of one node among its neighbours
     stiffness: f64,
-    /// the mean of r', weighted by s², where the mean gap is given: a load that does no work
+    /// the mean of r', weighted by s², where the mean gap is given
     level: f64,
     /// Σ s²
     shares: f64,
-    /// Σ (1 − s)² (r' − level)²/κ, the part of the certificate that M does not see
+    /// Σ (1 − s)² (r' − level)²/κ, the certificate beside M
     pub(in crate::solver) beside: f64,
-    /// Σ (1 − s²)(r' − level)²/(k + κ), the part of ⟨r', z⟩ that is beside the waves
+    /// Σ (1 − s²)(r' − level)²/(k + κ), of ⟨r', z⟩ beside the waves
     pub(in crate::solver) descent: f64,
 }
 

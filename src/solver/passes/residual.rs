@@ -8,7 +8,7 @@ use crate::real::{Real, cast};
 use crate::solver::potential::Potential;
 use crate::vector::sums;
 
-/// The working set: the nodes that may move, by the gradient r, and the constants of r and r'.
+/// The working set by the gradient r, and the constants of r and r'.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::solver) struct Working<T> {
     /// the constant b in r = p + φ'(g) + b
@@ -22,7 +22,6 @@ pub(in crate::solver) struct Working<T> {
 /// The sums over the contact nodes that are released.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::solver) struct Released {
-    /// the number of these nodes
     pub(in crate::solver) count: f64,
     /// Σ r over these nodes
     pub(in crate::solver) sum_r: f64,
@@ -33,7 +32,6 @@ pub(in crate::solver) struct Released {
 pub(in crate::solver) struct Continued {
     /// Σ|g r'|
     pub(in crate::solver) complementarity: f64,
-    /// the number of nodes in the working set
     pub(in crate::solver) working: f64,
     /// Σ r'·c, with c the field of the change
     pub(in crate::solver) descent: f64,
@@ -50,14 +48,13 @@ fn works<T: Real>(residual: T) -> T {
     residual + T::zero()
 }
 
-/// r' of a node, and whether it may move.
 #[inline(always)]
 fn residual_of<T: Real, Lo: Real>(touching: T, w: Working<T>, gap: T, r: T) -> (Lo, bool) {
     let may = (gap > touching) | (r < w.release);
     (if may { works(cast(r - w.level)) } else { Lo::neg_zero() }, may)
 }
 
-/// The contact nodes that are released, by the tally of the present state.
+/// The contact nodes that are released.
 pub(in crate::solver) fn released<T: Real, Lo: Real>(
     fields: &mut Fields<T, Lo>,
     local: &Potential<'_, T>,
@@ -85,7 +82,7 @@ pub(in crate::solver) fn released<T: Real, Lo: Real>(
     Released { count: total.sum[0], sum_r: total.sum[1] }
 }
 
-/// Computes r' from gap and pressure. Returns Σ (r' − r'₀)², too, with r'₀ the previous content of the field.
+/// Computes r' from gap and pressure, and Σ (r' − r'₀)², with r'₀ the previous content of the field.
 pub(in crate::solver) fn residual<T: Real, Lo: Real>(
     fields: &mut Fields<T, Lo>,
     local: &Potential<'_, T>,
@@ -112,8 +109,7 @@ pub(in crate::solver) fn residual<T: Real, Lo: Real>(
     (Continued { complementarity, working, descent, overlap, sum_change }, difference)
 }
 
-/// The residual r' of a chunk, from the gradient less a constant in the same field, which release and level are less,
-/// too.
+/// r' of a chunk from the gradient in its field; gradient, release and level are all less one constant.
 pub(super) fn release_chunk<T: Real, Lo: Real>(
     touching: T,
     working: Working<T>,
@@ -129,8 +125,7 @@ pub(super) fn release_chunk<T: Real, Lo: Real>(
     })
 }
 
-/// Computes r' from the gradient less a constant, which a step has written to the same field. Release and level are
-/// less that constant, too.
+/// r' from the gradient that a step has left in its field; gradient, release and level are all less one constant.
 pub(in crate::solver) fn release<T: Real, Lo: Real>(
     fields: &mut Fields<T, Lo>,
     local: &Potential<'_, T>,

@@ -1,4 +1,4 @@
-//! The passes of a step: its trial, its energy, and the step itself.
+//! The passes of a step.
 
 use ndarray::Array2;
 
@@ -11,7 +11,6 @@ use crate::real::{Real, cast};
 use crate::solver::potential::{Least, Of, Potential};
 use crate::vector::{sums, vectors};
 
-/// A step before it is clipped.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::solver) struct Attempt<T> {
     /// the multiple of z
@@ -24,12 +23,11 @@ pub(in crate::solver) struct Attempt<T> {
     pub(in crate::solver) mean: T,
 }
 
-/// The sums over a change c, clipped, before it is scaled to restore the mean gap.
+/// The sums over a clipped change c, before the scale that restores the mean gap.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::solver) struct Tried {
     /// Σ c
     pub(in crate::solver) change: f64,
-    /// the number of clipped nodes
     pub(in crate::solver) clipped: f64,
     /// the number of clipped nodes that the gradient drives into contact
     pub(in crate::solver) blocked: f64,
@@ -64,13 +62,13 @@ pub(in crate::solver) struct Advance<T> {
 #[derive(Clone, Copy, Debug)]
 pub(in crate::solver) struct Advanced {
     pub(in crate::solver) tally: Tally,
-    /// Σ d·(r − level), with d the step of unit length; zero where there is neither law nor springs
+    /// Σ d·(r − level), with d the step of unit length; zero without law and springs
     pub(in crate::solver) product: f64,
-    /// the sums of r', which takes the place of r, under pressure control
+    /// the sums of r', in the place of r, under pressure control
     pub(in crate::solver) residual: Option<Continued>,
 }
 
-/// The gap after a change, and exactly zero where it is no more than rounding above zero, that of the change in Lo.
+/// The gap after a change, exactly zero where it is above zero by no more than the rounding in Lo.
 #[inline(always)]
 fn moved<T: Real, Lo: Real>(projects: bool, gap: T, change: T) -> T {
     let next = gap + change;
@@ -83,8 +81,7 @@ fn whole<T: Real>(scale: T, gap: T, change: T) -> T {
     if scale == T::one() { change } else { scale * (gap + change) - gap }
 }
 
-/// The change c of a step at one node of residual r', and whether it was clipped: the gap becomes no less than zero
-/// where a wall is; where the law repels, no less than the gap of rest, and from below it than a share of what it is.
+/// The change c of a node, and whether it was clipped to the least gap after a step.
 #[inline(always)]
 fn clipped_change<T: Real>(least: Least<T>, attempt: Attempt<T>, gap: T, [r, z, change]: [T; 3]) -> (T, bool) {
     let Attempt { length, centre, keep, mean } = attempt;
@@ -95,7 +92,6 @@ fn clipped_change<T: Real>(least: Least<T>, attempt: Attempt<T>, gap: T, [r, z, 
     ((if clipped { least } else { next }) - gap, clipped)
 }
 
-/// The slot of the nodes that a wall blocks.
 const BLOCKED: usize = 2;
 
 /// Writes the clipped change c of a step; `surface` is K⁻¹h under gap control.
@@ -172,7 +168,7 @@ pub(in crate::solver) fn trial<T: Real, Lo: Real>(
     }
 }
 
-/// The largest a with g + a·c ≥ 0 wherever a surface confines the gap, for a change c that was not clipped.
+/// The largest a with g + a·c ≥ 0 at all confined nodes, for a change c that was not clipped.
 pub(in crate::solver) fn reach<T: Real, Lo: Real>(fields: &mut Fields<T, Lo>, local: &Potential<'_, T>) -> f64 {
     let Fields { reducer, gap, change, .. } = fields;
     let total = local.run(reducer, read(gap).zip(read(change)), |local, _, (gap, change)| {
@@ -187,7 +183,7 @@ pub(in crate::solver) fn reach<T: Real, Lo: Real>(fields: &mut Fields<T, Lo>, lo
     total.min
 }
 
-/// The sum of the local energy over the nodes after a step.
+/// The sum of the local energy after a step.
 pub(in crate::solver) fn energy_after<T: Real, Lo: Real>(
     fields: &mut Fields<T, Lo>,
     local: &Potential<'_, T>,

@@ -1,4 +1,4 @@
-//! The tally of a state: the sums over its nodes on which the driver decides.
+//! The tally of a state.
 
 use ndarray::Array2;
 
@@ -9,7 +9,7 @@ use crate::real::Real;
 use crate::solver::potential::{Of, Potential};
 use crate::vector::sums;
 
-/// The sums over the nodes of a state.
+/// The sums over the nodes of a state, on which the driver decides.
 #[derive(Clone, Copy, Debug, Default)]
 pub(in crate::solver) struct Tally {
     /// the number of nodes apart
@@ -31,7 +31,7 @@ pub(in crate::solver) struct Tally {
     pub(in crate::solver) penalty: f64,
 }
 
-/// The slots of a pass that makes a tally: those that law and springs fill, one more product, and Σ p.
+/// The slots of a tally: those that law and springs fill, one more product, and Σ p.
 const CONTACT: usize = 4;
 const TRACTION: usize = 5;
 const ADHESIVE: usize = 6;
@@ -45,14 +45,13 @@ impl Tally {
         Self { free, sum_r, min_r: total.min, sum_gap, sum_gp, contact, traction, adhesive, penalty }
     }
 
-    /// Adds a constant to r.
     pub(in crate::solver) fn shift(&mut self, by: f64) {
         self.sum_r += by * self.free;
         self.min_r += by;
     }
 }
 
-/// A tally that was taken of gap and pressure, with two more sums.
+/// A tally with two more sums.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::solver) struct Taken {
     pub(in crate::solver) tally: Tally,
@@ -62,7 +61,6 @@ pub(in crate::solver) struct Taken {
     pub(in crate::solver) sum_p: f64,
 }
 
-/// The local tractions of a chunk, zero without law and springs.
 pub(super) fn tractions<'a, T: Real>(
     local: &Potential<'_, T>,
     first: usize,
@@ -88,7 +86,7 @@ fn tally_of<T: Real>(touching: T, offset: T, gap: &[T], pressure: &[T], traction
     })
 }
 
-/// The tally of a chunk by its gap and pressure, which writes the local tractions where law or springs have any.
+/// As `tally_of`; writes the local tractions, if there are any.
 pub(super) fn tally_chunk<T: Real>(
     local: &Potential<'_, T>,
     offset: T,
@@ -116,7 +114,6 @@ pub(super) fn tally_chunk<T: Real>(
     part
 }
 
-/// Takes the tally of gap and pressure, with K⁻¹h of the surface.
 pub(in crate::solver) fn tally<T: Real, Lo: Real>(
     fields: &mut Fields<T, Lo>,
     local: &Potential<'_, T>,
@@ -150,8 +147,7 @@ mod tests {
         (x >> 40) as i64
     }
 
-    /// Sums over n² nodes beside those of integers. Runs of 256 chunks of 256 nodes leave less than three times 256
-    /// roundings in a sum, however many nodes there are.
+    /// Sums over n² nodes beside those of integers. Runs of 256 chunks of 256 nodes leave less than 3·256 roundings.
     fn sums_are_accurate(n: usize) {
         const UNIT: f64 = 1.0 / (1 << 24) as f64;
         let gap = |i: usize| if i.is_multiple_of(3) { 0 } else { bits(i, 1) };
