@@ -21,7 +21,7 @@ pub(super) enum Adhesion {
     },
 }
 
-/// The state of an axisymmetric contact of a paraboloid −r²/2R, its apex at r = 0, with a half-space: radius a and
+/// The state of an axisymmetric contact, of radius a, of a paraboloid −r²/2R, its apex at r = 0, with a half-space:
 ///
 /// ```math
 /// p(r) = 2E*/(πR) · √(a² − r²) + p_adh(r) ,
@@ -59,7 +59,7 @@ impl Contact {
         self.load
     }
 
-    /// The approach δ at infinity since the undeformed apex touched: negative where adhesion pulls the surface out.
+    /// The approach δ at infinity since the apex touched undeformed; negative where adhesion pulls the surface out.
     pub fn approach(&self) -> f64 {
         self.approach
     }

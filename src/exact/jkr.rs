@@ -29,7 +29,7 @@ pub struct Jkr {
 }
 
 impl Jkr {
-    /// A paraboloid of radius of curvature R on a half-space of contact modulus E*, with work of adhesion w.
+    /// A paraboloid: radius of curvature R (length), contact modulus E* (pressure), work of adhesion w (energy/area).
     ///
     /// # Errors
     /// [`Error::Value`] if one is not positive and finite.

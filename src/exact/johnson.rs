@@ -35,7 +35,8 @@ pub struct AdhesiveWavyLine {
 const MERGED: f64 = 0.6;
 
 impl AdhesiveWavyLine {
-    /// A wave of amplitude h₀ and wavelength λ on a half-space of contact modulus E*, with work of adhesion w.
+    /// A wave of amplitude h₀ and wavelength λ (lengths) on a half-space of contact modulus E* (pressure), with work
+    /// of adhesion w (energy per area).
     ///
     /// # Errors
     /// [`Error::Value`] if one is not positive and finite.

@@ -34,7 +34,8 @@ pub struct MaugisDugdale {
 }
 
 impl MaugisDugdale {
-    /// A paraboloid of radius of curvature R on a half-space of contact modulus E*; work of adhesion w, range ρ.
+    /// A paraboloid of radius of curvature R (length) on a half-space of contact modulus E* (pressure), with work of
+    /// adhesion w (energy per area) and range ρ (length).
     ///
     /// # Errors
     /// [`Error::Value`] if one is not positive and finite.

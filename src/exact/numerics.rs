@@ -23,7 +23,7 @@ pub(super) fn below(f: impl Fn(f64) -> f64, target: f64, low: f64) -> f64 {
     low + step
 }
 
-/// Where `f` is largest on [low, high], by golden sections beside the best of a scan; exact to the root of rounding.
+/// Where `f` is largest on [low, high], to the root of rounding: golden sections about the best point of a scan.
 pub(super) fn peak(f: impl Fn(f64) -> f64, low: f64, high: f64) -> f64 {
     const POINTS: usize = 512;
     const GOLDEN: f64 = 0.618_033_988_749_894_8;

@@ -60,7 +60,7 @@ impl<S: Sphere> Periodic<S> {
     pub fn at_load(&self, load: f64) -> Result<PeriodicContact> {
         Error::finite("load", load)?;
         let curvature = self.curvature(load);
-        // the images of a large tension leave a hollow
+        // the images of a large tension make the surface a hollow
         Error::positive("effective curvature under the load", curvature)?;
         self.checked("load", load, self.sphere.at_load_on(load, curvature)?)
     }

@@ -27,7 +27,7 @@ impl Body {
         PI * self.modulus * self.amplitude / self.wavelength
     }
 
-    /// The partial contact with tan(πa/λ) given, less a tension of mean `tension` that is singular at the edge.
+    /// The partial contact of given tan(πa/λ): Westergaard's, less a tension of mean `tension`, singular at the edge.
     pub(super) fn partial(&self, tangent: f64, tension: f64) -> WaveContact {
         let open = tangent.hypot(1.0).recip().powi(2); // cos²
         let s = tangent.recip().hypot(1.0).recip().powi(2);

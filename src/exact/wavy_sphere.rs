@@ -38,7 +38,8 @@ pub struct WavySphere {
 }
 
 impl WavySphere {
-    /// A sphere of radius of curvature R with a wave (A, λ) on a half-space of contact modulus E*; work of adhesion w.
+    /// A sphere of radius of curvature R (length) with a wave of amplitude A and wavelength λ (lengths) on a half-space
+    /// of contact modulus E* (pressure), with work of adhesion w (energy per area).
     ///
     /// # Errors
     /// [`Error::Value`] if one is not positive and finite; the amplitude may be zero.
