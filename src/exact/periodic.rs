@@ -208,6 +208,7 @@ impl PeriodicContact {
     ///
     /// It is [`Contact::deflection`] and the images' by Ewald's sum, as those of P and the second moment of the
     /// pressure: valid everywhere but for terms of relative order (a/L)⁴.
+    ///
     /// # Errors
     /// [`Error::Value`] if a side of the grid is not the period.
     pub fn displacement_field(&self, grid: &Grid) -> Result<Array2<f64>> {
