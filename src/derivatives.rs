@@ -3,19 +3,14 @@
 use crate::error::{Error, Result};
 use crate::real::Real;
 
-/// How many gaps are looked at.
 pub(crate) const GAPS: usize = 200;
 
-/// A function of the gap, with its name.
 pub(crate) type Named<'a> = (&'static str, &'a dyn Fn(f64) -> f64);
 
 /// Compares the second function with central differences of the first, and the third with those of the second, at gaps
-/// between `low` and `high`, in the precision T, to a hundredth of the largest value. `length` is the gap over which
-/// the functions vary. Gaps beside a jump, where differences depend on their step or side, are passed over.
-///
-/// # Errors
-/// [`Error::Law`] with the function, the first gap at which it is not finite or is not the derivative of the one before
-/// it, and the value that it should have there.
+/// from `low` to `high`, in the precision T, to a hundredth of the largest value; gaps beside a jump are passed over.
+/// `length` is the gap over which the functions vary. [`Error::Law`] has the function and the first gap at which it is
+/// not finite, or not the derivative, and what it should be there.
 pub(crate) fn check<T: Real>(functions: [Named<'_>; 3], (low, high): (f64, f64), length: f64) -> Result<()> {
     // the step that balances truncation against rounding in a central difference
     let step = length * T::epsilon().widen().cbrt();

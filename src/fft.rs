@@ -30,12 +30,10 @@ use shared::Shared;
 /// Slack after each line of a tile: with a power-of-two stride a column of the tile would fall into one cache set.
 const SLACK: usize = 8;
 
-/// The transform of a real field, laid out as a plane `(n0, n1)`, and its spectrum.
-///
-/// Two real rows ride in one complex transform. The half spectrum is stored transposed, `(n1/2 + 1, n0)`, so
-/// that a column of the field is contiguous: it is transformed, multiplied and transformed back while it is
-/// in cache. Memory: the spectrum, one field's worth and `n0` complex numbers more, and a tile per worker. Where
-/// several processes share the grid each has some of the columns, and the spectrum twice.
+/// The transform of a real field, laid out as a plane `(n0, n1)`, and its half spectrum.
+/// Two real rows ride in one complex transform. The half spectrum is transposed, `(n1/2 + 1, n0)`: a column is
+/// transformed, multiplied and transformed back while it is in cache. Memory: the spectrum, one field's worth and `n0`
+/// complex numbers more, a tile per worker, and the spectrum again where processes share the grid.
 pub(crate) struct Convolver<T: Real> {
     slab: Slab,
     layout: Layout,
@@ -51,10 +49,8 @@ pub(crate) struct Convolver<T: Real> {
     shared: Option<Shared<T>>,
 }
 
-/// The sums over the columns of the spectrum.
 pub(crate) type Sums = [f64; 3];
 
-/// The transform of a length.
 struct Plan;
 
 impl Compiled for Plan {
@@ -82,14 +78,12 @@ impl<T: Real> fmt::Debug for Convolver<T> {
 }
 
 impl<T: Real> Clone for Convolver<T> {
-    /// A convolver with the same plans, and a spectrum of its own.
     fn clone(&self) -> Self {
         Self::planned(self.slab, self.layout, self.rows.clone(), self.columns.clone())
     }
 }
 
 impl<T: Real> Convolver<T> {
-    /// Plans for fields in a slab.
     pub(crate) fn new(slab: Slab) -> Self {
         Self::with(slab, Layout::new(slab.shape()))
     }
@@ -114,7 +108,6 @@ impl<T: Real> Convolver<T> {
         Self { slab, layout, twiddles, rows, columns, spectrum, own, sums, pool, shared }
     }
 
-    /// Takes the memory of the spectrum, unless it is there.
     fn take_memory(&mut self) {
         if self.spectrum.is_empty() {
             self.spectrum = Array2::zeros(self.layout.spectrum_of(&self.slab));
@@ -127,16 +120,13 @@ impl<T: Real> Convolver<T> {
         self.shared.iter_mut().for_each(Shared::release_memory);
     }
 
-    /// The layout of the modes that `modify` gets.
     pub(crate) fn layout(&self) -> Layout {
         self.layout
     }
 
     /// Transforms `input`, hands every column of the half spectrum to `modify`, and transforms back into `output`.
-    ///
-    /// `modify` gets the column's index and its modes, unnormalised, where [`Layout::mode`] has them, and returns
-    /// numbers; their sums, in the order of the columns, are returned. The inverse is normalised: a `modify` that
-    /// changes nothing gives back the input.
+    /// `modify` gets the column's index and its modes, unnormalised, at [`Layout::mode`], and returns numbers, which
+    /// are summed in the order of the columns. The inverse is normalised.
     pub(crate) fn convolve<U: Real>(
         &mut self,
         input: ArrayView2<'_, T>,
@@ -146,8 +136,8 @@ impl<T: Real> Convolver<T> {
         self.convolve_after(input, output, 0, |_| (), |(), k, column| modify(k, column))
     }
 
-    /// Convolves as [`Convolver::convolve`], and has a look at the half spectrum before any column is modified, when
-    /// the first columns, `ahead` of them, are transformed. `modify` gets what `look` returns.
+    /// [`Convolver::convolve`] with a `look` at the half spectrum when the first `ahead` columns are transformed and
+    /// none is modified; `modify` gets what it returns.
     pub(crate) fn convolve_after<U: Real, L: Sync>(
         &mut self,
         input: ArrayView2<'_, T>,
@@ -243,7 +233,6 @@ mod tests {
         Array2::from_shape_fn(shape, |(i, j)| ((i * 37 + j * 61 + i * j * 7) % 101) as f64 / 50.0 - 1.0)
     }
 
-    /// The defining sum, for a factor that depends on the mode.
     fn oracle(x: &Array2<f64>, factor: impl Fn(usize, usize) -> f64) -> Array2<f64> {
         let (n0, n1) = x.dim();
         let turn = |a: usize, b: usize, n: usize| Complex::from_polar(1.0, TAU * ((a * b) % n) as f64 / n as f64);

@@ -9,7 +9,6 @@ use crate::real::Real;
 pub(crate) use crate::slab::CHUNK;
 use crate::slab::Slab;
 
-/// Refuses a field that holds NaN or infinities.
 pub(crate) fn all_finite<T: Real>(name: &'static str, field: ArrayView2<'_, T>) -> Result<()> {
     // without places, and without an end within a chunk, the pass is many times as fast
     let all = |values: &[T]| values.chunks(CHUNK).all(|chunk| chunk.iter().fold(true, |all, v| all & v.is_finite()));
@@ -23,7 +22,7 @@ pub(crate) fn all_finite<T: Real>(name: &'static str, field: ArrayView2<'_, T>) 
     })
 }
 
-/// Refuses a field that holds NaN or infinities in some slab: the process that has the first of them has the error.
+/// Refuses a field that is not finite in some slab: the process that has the first such node has the error.
 pub(crate) fn all_finite_in<T: Real>(slab: Slab, name: &'static str, field: ArrayView2<'_, T>) -> Result<()> {
     let mut found = all_finite(name, field);
     let mut all = [0];
@@ -37,7 +36,6 @@ pub(crate) fn all_finite_in<T: Real>(slab: Slab, name: &'static str, field: Arra
     slab.agreed(found)
 }
 
-/// The number of sums of a pass.
 pub(crate) const SUMS: usize = 13;
 
 /// The result of a pass over a chunk: sums, and a minimum.
@@ -50,7 +48,6 @@ pub(crate) struct Partial {
 impl Partial {
     pub(crate) const NONE: Self = Self { sum: [0.0; SUMS], min: f64::INFINITY };
 
-    /// The sum of some values, as the first sum.
     fn of(values: impl Iterator<Item = f64>) -> Self {
         let mut part = Self::NONE;
         part.sum[0] = values.sum();
@@ -101,8 +98,7 @@ impl<A: Nodes, B: Nodes> Nodes for (A, B) {
     }
 }
 
-/// The reducer: runs passes over fields in a slab, and adds up the results of the chunks in their order, and those of
-/// the slabs.
+/// The reducer of passes over fields in a slab: adds up the results of the chunks in their order, and those of slabs.
 #[derive(Debug)]
 pub(crate) struct Reducer {
     chunks: Vec<Partial>,
@@ -122,7 +118,6 @@ struct Others {
     all: Vec<[f64; NUMBERS]>,
 }
 
-/// The numbers of a partial result.
 const NUMBERS: usize = SUMS + 1;
 
 impl Others {
@@ -180,7 +175,6 @@ impl Reducer {
         kept.iter_mut().zip(&self.chunks).for_each(|(kept, part)| *kept = of(part));
     }
 
-    /// The number of chunks.
     pub(crate) fn chunks(&self) -> usize {
         self.chunks.len()
     }
@@ -197,7 +191,6 @@ impl Reducer {
     }
 }
 
-/// The mean of a function of the nodes of a field, in any layout.
 pub(crate) fn mean<T: Copy + Sync>(field: ArrayView2<'_, T>, of: impl Fn(T) -> f64 + Sync + Send) -> f64 {
     mean_over(Slab::whole(field.dim()), field, of)
 }
@@ -214,7 +207,6 @@ pub(crate) fn mean_over<T: Copy + Sync>(
     total.sum[0] / slab.nodes() as f64
 }
 
-/// The mean of a function of all nodes of a grid, of which two fields have those of a slab, in any layout.
 pub(crate) fn mean_of_both<S: Copy + Sync, T: Copy + Sync>(
     slab: Slab,
     a: ArrayView2<'_, S>,
@@ -228,22 +220,19 @@ pub(crate) fn mean_of_both<S: Copy + Sync, T: Copy + Sync>(
     total.sum[0] / slab.nodes() as f64
 }
 
-/// The nodes of a field that this crate made, in row-major order.
+/// The nodes of a field that this crate made, in row-major order; none in another layout.
 pub(crate) fn flat<T>(field: &Array2<T>) -> &[T] {
     field.as_slice().unwrap_or_default()
 }
 
-/// The nodes of a field that this crate made, in row-major order.
 pub(crate) fn flat_mut<T>(field: &mut Array2<T>) -> &mut [T] {
     field.as_slice_mut().unwrap_or_default()
 }
 
-/// The chunks of a field, to read.
 pub(crate) fn read<T: Sync>(field: &Array2<T>) -> impl Parts<Part = &[T]> {
     par::chunks(flat(field), CHUNK)
 }
 
-/// The chunks of a field, to write.
 pub(crate) fn write<T: Send>(field: &mut Array2<T>) -> impl Parts<Part = &mut [T]> {
     par::chunks_mut(flat_mut(field), CHUNK)
 }

@@ -11,11 +11,10 @@ use crate::ranks::{COUNTED, Sent};
 use crate::real::Real;
 use crate::slab::{Rows, Slab};
 
-/// A periodic rectangle with its nodes: Nx × Ny of them on sides Lx × Ly.
+/// A periodic rectangle of Nx × Ny nodes on sides Lx × Ly; `Ny = 1` is a line, on which Ly has no influence.
 ///
-/// Any sizes will do, odd and prime ones too; `Ny = 1` is the one-dimensional case, in which Ly has no
-/// influence. Fields on a grid have shape `(Nx, Ny)`, row-major. The origin is the node
-/// `(Nx / 2, Ny / 2)` (integer division), so that a shape centred on it has its apex on a node.
+/// Any sizes will do, odd and prime ones too. Fields have shape `(Nx, Ny)`, row-major. The origin is the node
+/// `(Nx / 2, Ny / 2)` (integer division).
 ///
 /// ```
 /// use asperity::Grid;
@@ -31,7 +30,6 @@ pub struct Grid {
     lengths: (f64, f64),
 }
 
-/// The numbers of a grid, as data has them.
 #[cfg(feature = "serde")]
 #[derive(serde::Serialize, serde::Deserialize)]
 struct Sides {
@@ -59,8 +57,7 @@ impl Grid {
     /// A grid of `shape = (Nx, Ny)` nodes on sides `lengths = (Lx, Ly)`, in any unit of length.
     ///
     /// # Errors
-    /// [`Error::Value`] if a number of nodes is zero, if fields of so many nodes have a size that no memory has, or if
-    /// a length is not positive and finite.
+    /// [`Error::Value`] if a number of nodes is zero or beyond any memory, or a length is not positive and finite.
     pub fn new(shape: (usize, usize), lengths: (f64, f64)) -> Result<Self> {
         for (name, n) in [("number of nodes Nx", shape.0), ("number of nodes Ny", shape.1)] {
             if n == 0 {
@@ -107,8 +104,7 @@ impl Grid {
         self.slab.rows()
     }
 
-    /// The shape of a field on the grid in this process: (Nx, Ny), unless several processes share the grid. Then a
-    /// field has the rows that [`Grid::rows`] names.
+    /// The shape of a field in this process: (Nx, Ny), or the rows that [`Grid::rows`] names on a shared grid.
     pub fn field_shape(&self) -> (usize, usize) {
         self.slab.held()
     }
@@ -130,8 +126,7 @@ impl Grid {
         (self.slab.least(low), self.slab.most(high))
     }
 
-    /// The whole of a field, of which each of the processes that share the grid has its rows, on the first of them, and
-    /// nothing on the others; the field itself, if the grid is not shared. All of them have to ask.
+    /// The whole of a field on the first of the processes that share the grid, nothing on the others; all have to ask.
     pub fn gathered<'a, T: Real>(&self, field: &'a ArrayRef2<T>) -> Option<CowArray<'a, T, Ix2>> {
         if self.is_shared() { self.slab.whole_of(field, false).map(CowArray::from) } else { Some(field.view().into()) }
     }
@@ -150,7 +145,6 @@ impl Grid {
         Self { slab: Slab::whole(self.shape()), ..self }
     }
 
-    /// The number of the first node that this process holds: nodes count along the rows of the whole grid.
     pub(crate) fn first_node(&self) -> usize {
         self.slab.first_node()
     }
@@ -190,17 +184,14 @@ impl Grid {
         all_finite_in(self.slab, name, field)
     }
 
-    /// The passes over fields on the grid.
     pub(crate) fn reducer(&self) -> Reducer {
         Reducer::new(self.slab)
     }
 
-    /// The mean of a function of the nodes of a field, in any layout.
     pub(crate) fn mean<T: Copy + Sync>(&self, field: ArrayView2<'_, T>, of: impl Fn(T) -> f64 + Sync + Send) -> f64 {
         field::mean_over(self.slab, field, of)
     }
 
-    /// The mean of a function of the nodes of two fields, in any layout.
     pub(crate) fn mean_of_both<S: Copy + Sync, T: Copy + Sync>(
         &self,
         a: ArrayView2<'_, S>,
@@ -230,15 +221,11 @@ impl Grid {
         self.slab.moved(field.into(), &to.slab)
     }
 
-    /// The part of the grid that this process holds.
     pub(crate) fn slab(&self) -> Slab {
         self.slab
     }
 
-    /// The grid with another division into slabs.
-    ///
-    /// # Errors
-    /// [`Error::Value`] if a process would hold more nodes than MPI counts.
+    /// The grid with another division into slabs; [`Error::Value`] if a process would hold more nodes than MPI counts.
     pub(crate) fn within(self, slab: Slab) -> Result<Self> {
         // the half spectrum has one column more
         let nodes = slab.most_rows() * (self.shape().1 + 2);
@@ -255,17 +242,10 @@ impl Grid {
     }
 
     /// The grid, shared by the processes that share the one that is to be a window on it.
-    ///
-    /// # Errors
-    /// Those of [`Grid::within`].
     pub(crate) fn shared_around(self, window: &Self) -> Result<Self> {
         self.within(window.slab.around(self.shape()))
     }
 
-    /// The grid, shared by the processes that share another one.
-    ///
-    /// # Errors
-    /// Those of [`Grid::within`].
     pub(crate) fn shared_as(self, other: &Self) -> Result<Self> {
         self.within(other.slab.of(self.shape()))
     }
@@ -310,9 +290,7 @@ impl Grid {
         coordinate(j, self.shape().1, self.lengths.1)
     }
 
-    /// The wave number along x of line `k` of a spectrum: 2πk/Lx, the upper half standing for negative ones.
-    ///
-    /// For even Nx the line `Nx / 2` is the Nyquist frequency, returned as positive.
+    /// The wave number along x of line `k` of a spectrum: 2πk/Lx, 2π(k − Nx)/Lx above the (positive) Nyquist line.
     pub fn wave_number_x(&self, k: usize) -> f64 {
         wave_number(k, self.shape().0, self.lengths.0)
     }

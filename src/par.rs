@@ -27,10 +27,8 @@ impl<W> Pool<W> {
 
 /// A sequence of parts of one field or of several, each of them the work of one thread.
 pub(crate) trait Parts: Sized + Send {
-    /// A part: of each field one.
     type Part;
 
-    /// The number of parts.
     fn count(&self) -> usize;
 
     /// The number of nodes of a part.
@@ -39,10 +37,8 @@ pub(crate) trait Parts: Sized + Send {
     /// The first `at` parts, and the others.
     fn divide(self, at: usize) -> (Self, Self);
 
-    /// Takes the first part.
     fn next(&mut self) -> Option<Self::Part>;
 
-    /// The pairs of these parts and those of another sequence.
     fn zip<B: Parts>(self, other: B) -> (Self, B) {
         (self, other)
     }
@@ -72,7 +68,6 @@ impl<A: Parts, B: Parts> Parts for (A, B) {
     }
 }
 
-/// Of each sequence one part.
 impl<A: Parts> Parts for Vec<A> {
     type Part = Vec<A::Part>;
 
@@ -119,7 +114,6 @@ impl<'a, T: Sync> Parts for Chunks<'a, T> {
     }
 }
 
-/// Runs of `size` nodes to write, the last of which may be shorter.
 pub(crate) struct ChunksMut<'a, T>(&'a mut [T], usize);
 
 impl<'a, T: Send> Parts for ChunksMut<'a, T> {
@@ -176,7 +170,6 @@ impl<'a, T: Sync> Parts for Tiles<'a, T> {
     }
 }
 
-/// Tiles of `size` rows, or of `size` columns, to write, the last of which may be narrower.
 pub(crate) struct TilesMut<'a, T>(ArrayViewMut2<'a, T>, Axis, usize);
 
 impl<'a, T: Send> Parts for TilesMut<'a, T> {
@@ -205,7 +198,6 @@ impl<'a, T: Send> Parts for TilesMut<'a, T> {
     }
 }
 
-/// The results of parts, one for each.
 struct Results<'a, R>(&'a mut [R]);
 
 impl<'a, R: Send> Parts for Results<'a, R> {
@@ -229,12 +221,10 @@ impl<'a, R: Send> Parts for Results<'a, R> {
     }
 }
 
-/// The runs of `size` nodes of a field.
 pub(crate) fn chunks<T: Sync>(field: &[T], size: usize) -> Chunks<'_, T> {
     Chunks(field, size.max(1))
 }
 
-/// The runs of `size` nodes of a field, to write.
 pub(crate) fn chunks_mut<T: Send>(field: &mut [T], size: usize) -> ChunksMut<'_, T> {
     ChunksMut(field, size.max(1))
 }
@@ -244,18 +234,15 @@ pub(crate) fn tiles<T: Sync>(field: ArrayView2<'_, T>, axis: usize, size: usize)
     Tiles(field, Axis(axis), size.max(1))
 }
 
-/// The tiles of `size` rows (axis 0) or columns (axis 1) of a field, to write.
 pub(crate) fn tiles_mut<T: Send>(field: ArrayViewMut2<'_, T>, axis: usize, size: usize) -> TilesMut<'_, T> {
     TilesMut(field, Axis(axis), size.max(1))
 }
 
-/// Runs `f(index, part)` on every part.
 pub(crate) fn for_each<P: Parts>(parts: P, f: impl Fn(usize, P::Part) + Sync) {
     let most = most(&parts);
     piece(parts, 0, most, &f);
 }
 
-/// Runs `f(index, part, result)` on every part.
 pub(crate) fn update<P: Parts, R: Send>(parts: P, results: &mut [R], f: impl Fn(usize, P::Part, &mut R) + Sync) {
     for_each((parts, Results(results)), |i, (part, result): (_, &mut R)| f(i, part, result));
 }
@@ -294,15 +281,13 @@ fn piece<P: Parts>(mut parts: P, first: usize, most: usize, f: &(impl Fn(usize, 
     }
 }
 
-/// Runs work that has many loops on one of the workers: each of its loops then starts at once, where the loop of
-/// another thread has to wake a worker and wait for it.
+/// Runs work of many loops on one of the workers, where each loop starts at once; another thread has to wake a worker.
 #[cfg(feature = "parallel")]
 pub(crate) fn within<R: Send>(work: impl FnOnce() -> R + Send) -> R {
     rayon::scope(|_| work())
 }
 
-/// Runs both, side by side if a worker has nothing to do. The types of the closures end here, so that rayon's part is
-/// compiled once.
+/// Runs both, side by side if a worker is idle. Rayon's part is compiled once, as the types of the closures end here.
 #[cfg(feature = "parallel")]
 #[inline(never)]
 fn both(a: &mut (dyn FnMut() + Send), b: &mut (dyn FnMut() + Send)) {

@@ -7,7 +7,6 @@ use asperity_fft::num_complex::{Complex32, Complex64};
 #[cfg(feature = "mpi")]
 pub(crate) use job::Job;
 
-/// The processes that share a grid, and which of them this one is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Ranks {
     rank: usize,
@@ -58,21 +57,17 @@ impl Shares {
 }
 
 impl Ranks {
-    /// One process alone.
     pub(crate) const ALONE: Self = Self { rank: 0, count: 1 };
 
-    /// One of some processes.
     #[cfg(test)]
     pub(crate) fn of(rank: usize, count: usize) -> Self {
         Self { rank, count }
     }
 
-    /// The number of this process, from zero on.
     pub(crate) fn rank(self) -> usize {
         self.rank
     }
 
-    /// The number of processes.
     pub(crate) fn count(self) -> usize {
         self.count
     }
@@ -181,26 +176,22 @@ mod job {
     pub(crate) struct Job(#[expect(dead_code, reason = "kept, as MPI ends where it is dropped")] Universe);
 
     impl Job {
-        /// Joins the job; nothing if this process has done so before, or if the MPI cannot be called from the threads
-        /// that solve.
+        /// Joins the job; nothing if this process has done so before, or if this MPI cannot be called from threads.
         pub(crate) fn start() -> Option<Self> {
             // one call at a time, from whatever thread a solve runs on
             let (universe, threading) = mpi::initialize_with_threading(Threading::Serialized)?;
             (threading >= Threading::Serialized).then_some(Self(universe))
         }
 
-        /// The processes of the job.
         pub(crate) fn ranks(&self) -> Ranks {
             let world = SimpleCommunicator::world();
             Ranks { rank: world.rank() as usize, count: world.size() as usize }
         }
 
-        /// The bytes that this process has sent to others in exchanges.
         pub(crate) fn bytes_sent(&self) -> u64 {
             BYTES.load(Ordering::Relaxed)
         }
 
-        /// Ends all processes of the job, at once.
         pub(crate) fn abort(&self) -> ! {
             SimpleCommunicator::world().abort(1)
         }

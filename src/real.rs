@@ -6,17 +6,7 @@ use num_traits::{Float, FromPrimitive, NumAssign, Signed};
 
 use crate::ranks::Sent;
 
-/// The scalar of every field: `f32` or `f64`.
-///
-/// One trait gathers what the field arithmetic and the transforms need; sums over fields accumulate in
-/// `f64` whichever it is. It cannot be implemented for other types.
-///
-/// ```
-/// use asperity::Real;
-/// fn half<T: Real>(x: T) -> T { x * T::lit(0.5) }
-/// assert_eq!(half(3.0_f32), 1.5);
-/// assert_eq!(half(3.0_f64).widen(), 1.5);
-/// ```
+/// The scalar of every field, `f32` or `f64`, and no other type; sums over fields accumulate in `f64`.
 pub trait Real:
     Float + NumAssign + FromPrimitive + Signed + Default + Debug + Display + LowerExp + Send + Sync + Sent + 'static
 {
@@ -34,15 +24,12 @@ pub trait Real:
     fn call<F: Compiled>(input: F::Input<Self>) -> F::Output<Self>;
 }
 
-/// A value in another precision.
 #[inline(always)]
 pub(crate) fn cast<S: Real, T: Real>(value: S) -> T {
     T::lit(value.widen())
 }
 
 /// A function of either precision that is compiled with this crate, and not again with each crate that calls it.
-///
-/// The compiler makes the code of a generic function where it is called. The two functions here are not generic.
 pub trait Compiled {
     /// The argument of the function.
     type Input<T: Real>;

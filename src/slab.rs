@@ -8,8 +8,7 @@ use ndarray::{Array2, ArrayRef2, ArrayView1, ArrayView2, CowArray, Ix2};
 use crate::error::{Error, Result};
 use crate::ranks::{Ranks, Sent, Shares};
 
-/// The nodes of a chunk, which are summed one after the other. The rounding of sums of sums grows with the length of a
-/// run, not with the number of nodes.
+/// The nodes of a chunk, summed one by one: rounding of sums of sums grows with the length of a run, not of the field.
 pub(crate) const CHUNK: usize = 256;
 
 /// Rows that are transformed together.
@@ -22,12 +21,9 @@ pub(crate) const SMALL: f64 = 67_108_864.0;
 const BAND: usize = CHUNK * CHUNK;
 const BANDS: usize = 1024;
 
-/// The slab of a grid that this process holds, and those of the others.
-///
-/// A slab is a number of whole bands. A band is as many rows as make whole tiles of the transform and whole chunks of
-/// the sums, whatever the number of processes. Sums are summed in each band, and then the bands in their order: so they
-/// are the same, bit for bit, however the bands are shared. Where there are more processes than bands, the last ones
-/// hold nothing.
+/// The slab of a grid that this process holds, and those of the others: whole bands, or none.
+/// A band is rows of whole tiles of the transform and whole chunks of the sums, whatever the number of processes. Sums
+/// go band by band, in their order: so they are the same, bit for bit, however the bands are shared.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Slab {
     /// of the whole grid
@@ -60,7 +56,6 @@ impl<A> Rows<'_, A> {
 }
 
 impl Slab {
-    /// The slab of one of these ranks.
     pub(crate) fn new(shape: (usize, usize), ranks: Ranks) -> Self {
         Self::of_window(shape, shape.1, ranks)
     }
@@ -80,7 +75,6 @@ impl Slab {
         Self { shape, band, bands: nx.div_ceil(band), ranks }
     }
 
-    /// The whole grid.
     pub(crate) fn whole(shape: (usize, usize)) -> Self {
         Self::new(shape, Ranks::ALONE)
     }
@@ -100,28 +94,24 @@ impl Slab {
         Self { shape, ..*self }
     }
 
-    /// The shape of the whole grid.
     pub(crate) fn shape(&self) -> (usize, usize) {
         self.shape
     }
 
-    /// The number of nodes of the whole grid.
     pub(crate) fn nodes(&self) -> usize {
         self.shape.0 * self.shape.1
     }
 
-    /// The processes that share the grid.
     pub(crate) fn ranks(&self) -> Ranks {
         self.ranks
     }
 
-    /// Whether several processes share the grid.
     pub(crate) fn is_shared(&self) -> bool {
         self.ranks.count() > 1
     }
 
-    /// The result of this process, unless one before it has an error, or it has none itself and another one has: then
-    /// that one is named. All processes of the slab have to call it.
+    /// The result of this process; where one before it has an error, or it has none itself and another has, an error
+    /// that names that one. All processes have to call it.
     pub(crate) fn agreed<T>(&self, result: Result<T>) -> Result<T> {
         if !self.is_shared() {
             return result;
@@ -139,10 +129,8 @@ impl Slab {
         if self.is_shared() { Err(Error::Shared { what, reason }) } else { Ok(()) }
     }
 
-    /// Refuses what takes more memory than this process gets for its rows.
-    ///
-    /// An allocation that fails ends the process, so that it is asked for as a whole before the first of its parts,
-    /// and given back.
+    /// Refuses what takes more memory than this process gets for its rows. It is asked for as a whole and given back,
+    /// before an allocation of a part fails and ends the process.
     pub(crate) fn afford(&self, what: &str, bytes_per_node: usize) -> Result<()> {
         let ((nx, ny), (rows, _)) = (self.shape, self.held());
         let bytes = rows as f64 * ny as f64 * bytes_per_node as f64;
@@ -156,18 +144,15 @@ impl Slab {
         self.rows_of(self.ranks.rank())
     }
 
-    /// The shape of a field in the slab.
     pub(crate) fn held(&self) -> (usize, usize) {
         (self.rows().len(), self.shape.1)
     }
 
-    /// The rows that a process holds.
     pub(crate) fn rows_of(&self, rank: usize) -> Range<usize> {
         let bands = self.bands_of(rank);
         (bands.start * self.band).min(self.shape.0)..(bands.end * self.band).min(self.shape.0)
     }
 
-    /// The most rows that a process holds.
     pub(crate) fn most_rows(&self) -> usize {
         (0..self.ranks.count()).map(|rank| self.rows_of(rank).len()).max().unwrap_or_default()
     }
@@ -183,8 +168,7 @@ impl Slab {
         self.rows().start * self.shape.1
     }
 
-    /// The rows of a field, of which `held` are those of this slab, that the rows of another slab need: `needs` tells
-    /// them for a row. All processes have to ask.
+    /// The rows of a field that the rows of another slab need, by `needs` for each row. All processes have to ask.
     pub(crate) fn rows_for<'a, A: Sent, I: IntoIterator<Item = usize>>(
         &self,
         held: impl Into<CowArray<'a, A, Ix2>>,
@@ -208,8 +192,7 @@ impl Slab {
         Rows { held, first, others: needed.swap_remove(self.ranks.rank()), fetched }
     }
 
-    /// Rows of a field of all slabs, of which `held` are those of this one: `wanted` are the rows that each process
-    /// needs, and none of its own.
+    /// Rows of a field, of which `held` are those of this slab: those `wanted` of each process, none of its own.
     fn fetch<A: Sent>(&self, held: ArrayView2<'_, A>, wanted: &[Vec<usize>]) -> Array2<A> {
         let (own, ranks) = (self.ranks.rank(), 0..self.ranks.count());
         // the rows of one process that another needs, in the order in which it needs them
@@ -278,22 +261,18 @@ impl Slab {
         whole
     }
 
-    /// The least number of all slabs.
     pub(crate) fn least(&self, own: f64) -> f64 {
         if self.is_shared() { self.ranks.each(own).into_iter().fold(f64::INFINITY, f64::min) } else { own }
     }
 
-    /// The largest number of all slabs.
     pub(crate) fn most(&self, own: f64) -> f64 {
         if self.is_shared() { self.ranks.each(own).into_iter().fold(f64::NEG_INFINITY, f64::max) } else { own }
     }
 
-    /// The number of the first slab.
     pub(crate) fn first(&self, own: f64) -> f64 {
         if self.is_shared() { self.ranks.each(own)[0] } else { own }
     }
 
-    /// Adds up numbers of all slabs.
     pub(crate) fn add_up(&self, own: &mut [u64]) {
         if self.is_shared() {
             self.ranks.add_up(own);
@@ -305,7 +284,6 @@ impl Slab {
         if self.is_shared() { self.ranks.each(u8::from(own)).contains(&1) } else { own }
     }
 
-    /// The bands that a process holds.
     pub(crate) fn bands_of(&self, rank: usize) -> Range<usize> {
         let (bands, count) = (self.bands(), self.ranks.count());
         (rank * bands).div_ceil(count)..((rank + 1) * bands).div_ceil(count)
@@ -316,12 +294,10 @@ impl Slab {
         self.bands
     }
 
-    /// The chunks of a band.
     pub(crate) fn chunks_of_a_band(&self) -> usize {
         (self.band * self.shape.1).div_ceil(CHUNK).max(1)
     }
 
-    /// The parts of a buffer with `width` numbers for each band.
     pub(crate) fn by_bands(&self, width: usize) -> Shares {
         self.shares(|rank| width * self.bands_of(rank).len())
     }

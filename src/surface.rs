@@ -23,9 +23,7 @@ pub use statistics::SurfaceStatistics;
 pub(crate) use topography::LineSteps;
 pub use topography::{Fit, Form, FormFit, RowAlignment, ScanAxis, Spikes, Topography, Trend};
 
-/// The heights of the rigid rough surface on a grid: peaks have the larger height.
-///
-/// Only heights up to a constant matter. They are kept in `f64` whatever the precision of the solve.
+/// The heights of the rigid rough surface on a grid, peaks up, in `f64`; only their differences matter.
 ///
 /// ```
 /// use asperity::{Grid, Surface};
@@ -39,7 +37,6 @@ pub use topography::{Fit, Form, FormFit, RowAlignment, ScanAxis, Spikes, Topogra
 pub struct Surface {
     grid: Grid,
     heights: Array2<f64>,
-    /// the absent nodes, if there are some
     absent: Option<Array2<bool>>,
 }
 
@@ -55,23 +52,8 @@ impl Surface {
         Ok(Self { grid, heights, absent: None })
     }
 
-    /// A surface with absent nodes, at which nothing faces the half-space: those of the heights, of shape (Nx, Ny),
-    /// that are NaN.
-    ///
-    /// An absent node neither touches nor attracts: punches of any outline, holes, points that were not measured and
-    /// are not to be filled. [`heights`](Self::heights) has there what [`Topography::fill`] makes of them, which
-    /// matters for statistics of the heights alone. Without absent nodes all is as with [`Surface::new`].
-    ///
-    /// ```
-    /// use asperity::{Boussinesq, Control, Grid, NoAdhesion, Problem, Solver, Surface};
-    /// // a flat punch of radius a, pressed in by δ: F = 2aE*δ
-    /// let (grid, a) = (Grid::square(48, 1.0)?, 0.45);
-    /// let punch = Surface::with_absent(grid, grid.sample(|x, y| if x.hypot(y) < a { 0.0 } else { f64::NAN }))?;
-    /// let mut problem = Problem::new(&punch, Boussinesq::<f64>::new(grid, 1.0)?, NoAdhesion)?;
-    /// let report = Solver::default().solve(&mut problem, Control::Approach(0.01))?.report;
-    /// assert!((report.normal_force / (2.0 * a * 0.01) - 1.0).abs() < 0.03);
-    /// # Ok::<(), asperity::Error>(())
-    /// ```
+    /// A surface with absent nodes, where heights of shape (Nx, Ny) are NaN: they neither touch nor attract.
+    /// [`heights`](Self::heights) has there what [`Topography::fill`] makes of them.
     ///
     /// # Errors
     /// [`Error::Shape`] if the heights do not fit the grid, [`Error::NotFinite`] with the number and place of infinite
@@ -102,8 +84,7 @@ impl Surface {
     /// A surface from a function of the coordinates, `(x, y) → h`.
     ///
     /// # Errors
-    /// [`Error::NotFinite`] if the function is not finite at a node, [`Error::Memory`] if the heights take more than
-    /// there is.
+    /// [`Error::NotFinite`] if the function is not finite at a node, [`Error::Memory`] if the memory does not suffice.
     pub fn from_fn(grid: Grid, height: impl Fn(f64, f64) -> f64) -> Result<Self> {
         grid.slab().afford("a surface", 8)?;
         Self::new(grid, grid.sample(height))
@@ -147,25 +128,21 @@ impl Surface {
         &self.grid
     }
 
-    /// The heights, of shape (Nx, Ny), in row-major layout; on a grid that several processes share, of the rows that
-    /// this one holds.
+    /// The heights, of shape (Nx, Ny), row-major; on a shared grid those of the rows that this process holds.
     pub fn heights(&self) -> &Array2<f64> {
         &self.heights
     }
 
-    /// The whole surface, on a grid that this process has alone: the surface itself, unless several processes share its
-    /// grid. All of these have to ask for it, and get it.
+    /// The whole surface, on a grid of this process alone. Where several processes share the grid, all have to ask.
     pub fn whole(&self) -> Cow<'_, Self> {
         self.collected(true).unwrap_or(Cow::Borrowed(self))
     }
 
-    /// The whole surface, as [`Surface::whole`], on the first of the processes that share its grid, and nothing on the
-    /// others. All of them have to ask.
+    /// [`Surface::whole`] on the first of the processes, and nothing on the others; all have to ask.
     pub fn gathered(&self) -> Option<Cow<'_, Self>> {
         self.collected(false)
     }
 
-    /// The whole surface on every process, or on the first alone.
     fn collected(&self, everywhere: bool) -> Option<Cow<'_, Self>> {
         if !self.grid.is_shared() {
             return Some(Cow::Borrowed(self));
@@ -175,8 +152,7 @@ impl Surface {
         Some(Cow::Owned(Self { grid: self.grid.alone(), heights: heights?, absent }))
     }
 
-    /// The absent nodes, at which nothing faces the half-space, of the shape of the [heights](Self::heights); nothing
-    /// if there are none.
+    /// The absent nodes, of the shape of the [heights](Self::heights); nothing if there are none.
     pub fn absent(&self) -> Option<&Array2<bool>> {
         self.absent.as_ref()
     }
@@ -204,7 +180,6 @@ impl Surface {
         self.rms_about(self.mean())
     }
 
-    /// The root mean square of the heights about a datum.
     pub(crate) fn rms_about(&self, datum: f64) -> f64 {
         self.grid.mean(self.heights.view(), |h| (h - datum).powi(2)).sqrt()
     }

@@ -5,8 +5,7 @@ use pulp::{Arch, Simd, WithSimd};
 /// The modes of a spectrum whose terms are stored before they are summed: a loop without sums vectorises.
 pub(crate) const BLOCK: usize = 64;
 
-/// The nodes whose terms `sums!` stores before they are summed: few, as each chunk clears their place first. The sums
-/// do not depend on it.
+/// The nodes whose terms `sums!` stores before it sums them: few, as each chunk clears their place. Sums are the same.
 pub(crate) const NODES: usize = 32;
 
 /// Sums that run side by side.

@@ -9,17 +9,12 @@ use crate::slab::Slab;
 
 /// The processes that `mpiexec` started (feature `mpi`), which solve one problem together.
 ///
-/// Every process runs the same program. On a grid that they [share](Self::share), a field has the rows of nodes that a
-/// process holds, [`Grid::rows`]: so have the heights of a [`Surface`](crate::Surface) and the fields of a
-/// [`Solution`](crate::Solution). All else is as in one process, where a grid is not shared: the operator knows that
-/// its grid is, and reports and errors are the same on all. All answers are the same, bit for bit, for any number of
-/// processes.
+/// All run the same program and make the same calls in the same order, with the same arguments but for the fields.
+/// On a grid that they [share](Self::share), heights and fields have the rows of a process, [`Grid::rows`]. Answers
+/// are the same, bit for bit, for any number of processes, and reports and errors on all of them. Where one refuses
+/// its part, the others have [`Error::Elsewhere`]. A panic ends the job.
 ///
-/// Every process has to make the same calls, in the same order, with the same arguments but for the fields. Where one
-/// refuses its part, the others have [`Error::Elsewhere`].
-///
-/// MPI ends where the value is dropped: keep it until the end of `main`. Where a process panics, it ends all of the
-/// job.
+/// MPI ends where the value is dropped: keep it until the end of `main`.
 ///
 /// ```no_run
 /// use asperity::{Control, Grid, NoAdhesion, Problem, SelfAffine, Solver, Westergaard, World};
@@ -62,8 +57,8 @@ impl World {
         self.ranks.count()
     }
 
-    /// A grid, shared by all processes: each holds a slab of whole rows. Slabs are of one size but for whole bands of
-    /// 65 536 nodes or somewhat more; where there are more processes than bands, the last ones hold nothing.
+    /// A grid, shared by all processes: each holds a slab of whole rows, in bands of 65 536 nodes or more, and the
+    /// last ones nothing where they are more than the bands.
     ///
     /// # Errors
     /// [`Error::Value`] if a process would hold more than 2³¹ nodes.
@@ -85,10 +80,8 @@ impl World {
         String::from_utf8_lossy(&self.ranks.first(text.as_bytes())).into_owned()
     }
 
-    /// The bytes that this process has sent to others in exchanges of fields, as those of operator applications.
-    ///
-    /// An application on Nx × Ny nodes has two exchanges, in each of which a process sends about
-    /// 16·Nx(Ny/2 + 1)/P·(1 − 1/P) bytes of `f64`, or half as many of `f32`, with P the number of processes.
+    /// The bytes that this process has sent to others in exchanges of fields: of P processes, in each of the two of an
+    /// operator application, about 16·Nx(Ny/2 + 1)/P·(1 − 1/P) in `f64`, and half of that in `f32`.
     pub fn bytes_sent(&self) -> u64 {
         self.job.bytes_sent()
     }

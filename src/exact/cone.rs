@@ -4,13 +4,11 @@ use std::f64::consts::PI;
 
 use crate::error::{Error, Result};
 
-/// The contact of a cone −m r with a half-space, without adhesion:
+/// The contact of a cone −m r with a half-space, without adhesion; Love (1939), Sneddon (1965).
 ///
 /// ```math
 /// F = ½ π E* m a² ,   δ = ½ π m a
 /// ```
-///
-/// Love (1939), Sneddon (1965).
 ///
 /// ```
 /// use asperity::exact::Cone;

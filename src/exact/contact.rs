@@ -7,7 +7,6 @@ use ndarray::Array2;
 use super::numerics::{carlson_rd, carlson_rf, sin_minus_x_cos};
 use crate::grid::Grid;
 
-/// The adhesion of the contact.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Adhesion {
     None,
@@ -15,35 +14,23 @@ pub(super) enum Adhesion {
     Crack {
         edge: f64,
     },
-    /// A constant traction σ₀ up to the radius c; `width` is √(c² − a²), which cannot be computed from c and a without
-    /// loss of digits where these are close.
+    /// A constant traction σ₀ up to the radius c; `width`, √(c² − a²), computed from c and a would lose digits.
     Dugdale {
         stress: f64,
         width: f64,
     },
 }
 
-/// An axisymmetric contact of a paraboloid −r²/2R, its apex at r = 0, with a half-space: the state that the solutions
-/// return.
-///
-/// With a the contact radius, and for r ≥ a in the gap:
+/// The state of an axisymmetric contact, of radius a, of a paraboloid −r²/2R, its apex at r = 0, with a half-space:
 ///
 /// ```math
 /// p(r) = 2E*/(πR) · √(a² − r²) + p_adh(r) ,
 /// g(r) = a/(πR) · √(r² − a²) + (r² − 2a²)/(πR) · arccos(a/r) + g_adh(r)
 /// ```
 ///
-/// with JKR's singularity or Dugdale's zone of constant traction added: equations (22), (29), (30) of Rey, Anciaux and
-/// Molinari (2017), with K_I = √(2wE*) in (29), and p = −σ₀ for a < r < c in (30). The integral in (30) is taken in
-/// closed form, in Carlson's elliptic integrals; all are evaluated without cancellation at the edge.
-///
-/// ```
-/// use asperity::exact::{Hertz, Sphere};
-/// let contact = Hertz::new(2.0, 1.0)?.at_contact_radius(0.1)?;
-/// assert_eq!((contact.pressure(0.1), contact.gap(0.05)), (0.0, 0.0));
-/// assert_eq!(contact.displacement(0.05), -0.05f64.powi(2) / 4.0); // the surface itself
-/// # Ok::<(), asperity::Error>(())
-/// ```
+/// for r ≤ a and r ≥ a, with JKR's singularity or Dugdale's constant traction added: equations (22), (29) with
+/// K_I = √(2wE*), and (30) with p = −σ₀ for a < r < c, of Rey, Anciaux and Molinari (2017), the integral in (30) in
+/// Carlson's elliptic integrals. Nothing cancels at the edge.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Contact {
     pub(super) modulus: f64,
@@ -72,8 +59,7 @@ impl Contact {
         self.load
     }
 
-    /// The approach δ: how far the paraboloid has moved towards the half-space at infinity since its apex would have
-    /// touched it undeformed. Negative where adhesion pulls the surface out.
+    /// The approach δ at infinity since the apex touched undeformed; negative where adhesion pulls the surface out.
     pub fn approach(&self) -> f64 {
         self.approach
     }
@@ -88,9 +74,7 @@ impl Contact {
         self.second_moment
     }
 
-    /// The pressure at the distance r ≥ 0 from the axis, the traction of adhesion included (p = K⁻¹u).
-    ///
-    /// JKR's falls to −∞ for r → a; at r = a and beyond it is zero.
+    /// The pressure, with the traction of adhesion, at r ≥ 0: JKR's falls to −∞ for r → a, and is zero from a on.
     pub fn pressure(&self, r: f64) -> f64 {
         let (a, c) = (self.contact_radius, self.adhesion_radius);
         let depth = ((a - r) * (a + r)).max(0.0).sqrt();
@@ -103,7 +87,7 @@ impl Contact {
         }
     }
 
-    /// The gap at the distance r ≥ 0 from the axis: zero for r ≤ a.
+    /// The gap at r ≥ 0: zero for r ≤ a.
     pub fn gap(&self, r: f64) -> f64 {
         let a = self.contact_radius;
         if r <= a {
@@ -122,15 +106,13 @@ impl Contact {
             }
     }
 
-    /// The displacement at the distance r ≥ 0 from the axis, in the datum of the surface: u = h = −r²/2R in the
-    /// contact, u = h + g beyond. It falls to −δ at infinity.
+    /// The displacement at r ≥ 0 in the datum of the surface: −r²/2R in the contact, h + g beyond, −δ at infinity.
     pub fn displacement(&self, r: f64) -> f64 {
         let a = self.contact_radius;
         if r < 2.0 * a { self.gap(r) - 0.5 * r * r * self.curvature } else { self.deflection(r) - self.approach }
     }
 
-    /// The displacement at the distance r ≥ 0 from the axis against the half-space at infinity: δ − r²/2R in the
-    /// contact, P/(πE*r) far away, accurate there too.
+    /// The displacement at r ≥ 0 against infinity: δ − r²/2R in the contact, P/(πE*r) far away, accurate there too.
     pub fn deflection(&self, r: f64) -> f64 {
         let a = self.contact_radius;
         if r <= a {
@@ -153,18 +135,16 @@ impl Contact {
         grid.sample(|x, y| self.pressure(x.hypot(y)))
     }
 
-    /// [`Contact::displacement`] at the nodes of a grid, with the axis through its origin; on a line the profile y
-    /// = 0.
+    /// [`Contact::displacement`] at the nodes of a grid, as [`Contact::pressure_field`].
     pub fn displacement_field(&self, grid: &Grid) -> Array2<f64> {
         grid.sample(|x, y| self.displacement(x.hypot(y)))
     }
 
-    /// The integral I(r) in the gap that Dugdale's traction adds for r > a, 4σ₀/(πE*)·[√(c² − a²) acos(a/r) − I(r)].
+    /// The integral I(r) in Dugdale's gap for r > a, 4σ₀/(πE*)·[√(c² − a²) acos(a/r) − I(r)].
     ///
-    /// For r < c it is c·[E(k) − E(asin(a/r), k)] with k = r/c; for r > c it is (c²/r)·∫₀^Y x² (1 + x²)^(−3/2) (κ² +
-    /// x²)^(−1/2) dx with Y² = c²/a² − 1, κ² = 1 − c²/r². These are the integral of equation (30) after the
-    /// substitutions x² = r²/t² − 1 and x² = c²/t² − 1, without the terms that cancel as a → 0; every summand of the
-    /// code is positive.
+    /// For r < c it is c·[E(k) − E(asin(a/r), k)], k = r/c; for r > c (c²/r)·∫₀^Y x² (1 + x²)^(−3/2) (κ² + x²)^(−1/2)
+    /// dx, Y² = c²/a² − 1, κ² = 1 − c²/r²: equation (30) with x² = r²/t² − 1 and x² = c²/t² − 1, less the terms that
+    /// cancel as a → 0. Every summand is positive.
     fn dugdale_integral(&self, width: f64, r: f64) -> f64 {
         let (a, c) = (self.contact_radius, self.adhesion_radius);
         // with x from 0 to X, z = 1/X², and m = 1/κ²

@@ -5,9 +5,8 @@ use std::f64::consts::PI;
 use super::numerics::{carlson_rd, carlson_rf};
 use crate::error::{Error, Result};
 
-/// Hertz's contact of a paraboloid −x²/2R₁ − y²/2R₂, R₁ ≥ R₂: an ellipse of semi-axes a along x and b along y.
-///
-/// With e² = 1 − b²/a², K and E the complete elliptic integrals of e, and p₀ = 3F/2πab:
+/// Hertz's contact of a paraboloid −x²/2R₁ − y²/2R₂, R₁ ≥ R₂: an ellipse of semi-axes a along x and b along y. With
+/// e² = 1 − b²/a², K and E the complete elliptic integrals of e, and p₀ = 3F/2πab:
 ///
 /// ```math
 /// R₁/R₂ = ((a/b)² E − K)/(K − E) ,   a b² = 3F E / (πE* (1/R₁ + 1/R₂)) ,   δ = p₀ b K/E*
@@ -17,11 +16,9 @@ use crate::error::{Error, Result};
 ///
 /// ```
 /// use asperity::exact::{EllipticHertz, Hertz, Sphere};
-/// // nearly a circle
-/// let (ellipse, circle) = (EllipticHertz::new((2.0, 2.0 - 1e-9), 1.0)?, Hertz::new(2.0, 1.0)?.at_load(1e-3)?);
-/// let contact = ellipse.at_load(1e-3)?;
+/// let circle = Hertz::new(2.0, 1.0)?.at_load(1e-3)?;
+/// let contact = EllipticHertz::new((2.0, 2.0 - 1e-9), 1.0)?.at_load(1e-3)?; // nearly a circle
 /// assert!((contact.semi_axes.0 / circle.contact_radius() - 1.0).abs() < 1e-8);
-/// assert!((contact.approach / circle.approach() - 1.0).abs() < 1e-8);
 /// # Ok::<(), asperity::Error>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]

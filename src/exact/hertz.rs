@@ -4,13 +4,11 @@ use super::contact::Contact;
 use super::sphere::{Family, Sphere, beyond_pull_off, hertz};
 use crate::error::{Error, Result};
 
-/// Hertz's contact, without adhesion:
+/// Hertz's contact, without adhesion; equation (22) of Rey, Anciaux and Molinari (2017) has the fields.
 ///
 /// ```math
 /// P = 4E*a³/(3R) ,   δ = a²/R
 /// ```
-///
-/// Equation (22) of Rey, Anciaux and Molinari (2017) has the fields.
 ///
 /// ```
 /// use asperity::exact::{Hertz, Sphere};

@@ -6,22 +6,19 @@ use super::contact::{Adhesion, Contact};
 use super::sphere::{Family, Sphere, beyond_pull_off, hertz};
 use crate::error::{Error, Result};
 
-/// The contact of Johnson, Kendall and Roberts: adhesion of no range, at the edge of the contact.
+/// The contact of Johnson, Kendall and Roberts (1971): adhesion of no range, at the edge of the contact.
 ///
 /// ```math
 /// P = 4E*a³/(3R) − √(8πwE*a³) ,   δ = a²/R − √(2πwa/E*)
 /// ```
 ///
-/// Johnson, Kendall and Roberts (1971); equation (29) of Rey, Anciaux and Molinari (2017), where K_I = √(2wE*) is
-/// misprinted, has the fields. The limit of [`MaugisDugdale`](super::MaugisDugdale) for large Tabor parameters.
+/// Equation (29) of Rey, Anciaux and Molinari (2017), where K_I = √(2wE*) is misprinted, has the fields. The limit of
+/// [`MaugisDugdale`](super::MaugisDugdale) for large Tabor parameters.
 ///
 /// ```
-/// use std::f64::consts::PI;
 /// use asperity::exact::{Jkr, Sphere};
-/// let (r, w) = (2.0, 1e-5);
-/// let pull_off = Jkr::new(r, 1.0, w)?.pull_off();
-/// assert!((-pull_off.load() / (1.5 * PI * w * r) - 1.0).abs() < 1e-14);
-/// assert!((pull_off.contact_radius().powi(3) / (9.0 * PI * w * r * r / 8.0) - 1.0).abs() < 1e-14);
+/// let pull_off = Jkr::new(2.0, 1.0, 1e-5)?.pull_off(); // radius of curvature, contact modulus, work of adhesion
+/// assert!((pull_off.load() / (-1.5 * std::f64::consts::PI * 1e-5 * 2.0) - 1.0).abs() < 1e-14);
 /// # Ok::<(), asperity::Error>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -32,8 +29,7 @@ pub struct Jkr {
 }
 
 impl Jkr {
-    /// A paraboloid of radius of curvature R (length) on a half-space of contact modulus E* (pressure), with work of
-    /// adhesion w (energy per area).
+    /// A paraboloid: radius of curvature R (length), contact modulus E* (pressure), work of adhesion w (energy/area).
     ///
     /// # Errors
     /// [`Error::Value`] if one is not positive and finite.

@@ -14,9 +14,8 @@ use crate::error::{Error, Result};
 /// p₁ = √((2E*w/λ) tan(πa/λ)) = α p* √tan(πa/λ) ,   α² = 2wλ/(π²E*h₀²)
 /// ```
 ///
-/// Johnson (1995); the fields are in [`WaveContact`]. The mean pressure has a minimum, the pull-off, and a maximum,
-/// from which the contact jumps to full; they merge at α = 4 (3/8)^(3/4) (5/8)^(5/4) = 1.065, above which a partial
-/// contact is unstable under a given pressure. Full contact, which needs a flaw to open, is not part of it.
+/// Johnson (1995). Under a given pressure it opens at the minimum of p̄ and jumps to full contact at its maximum; they
+/// merge at α = 4 (3/8)^(3/4) (5/8)^(5/4) = 1.065, above which partial contact is unstable. Full contact is left out.
 ///
 /// ```
 /// use asperity::exact::AdhesiveWavyLine;
@@ -88,7 +87,7 @@ impl AdhesiveWavyLine {
         Ok(self.at(falls_to(f, -mean_pressure, low, high)))
     }
 
-    /// The contact at the mean gap ḡ > 0 that is stable under it: of the larger half-width.
+    /// The contact at the mean gap ḡ > 0 that is stable under it, of the larger half-width.
     ///
     /// # Errors
     /// [`Error::Value`] if the gap is not positive and finite, or larger than in any contact.
@@ -103,7 +102,7 @@ impl AdhesiveWavyLine {
         Ok(self.at(falls_to(f, mean_gap, start, 300.0)))
     }
 
-    /// The partial contact of least mean pressure from which it opens: minus the pressure is the pull-off stress.
+    /// The partial contact of least mean pressure, from which it opens.
     ///
     /// # Errors
     /// [`Error::Value`] if α ≥ 1.065, where there is none.
@@ -114,7 +113,7 @@ impl AdhesiveWavyLine {
     /// The partial contact of largest mean pressure, from which it jumps to full contact.
     ///
     /// # Errors
-    /// [`Error::Value`] if α ≥ 1.065, where there is none.
+    /// As for [`pull_off`](Self::pull_off).
     pub fn jump_to_full_contact(&self) -> Result<WaveContact> {
         Ok(self.at(self.extremes()?.1))
     }
@@ -132,8 +131,7 @@ impl AdhesiveWavyLine {
         self.alpha().ln().min(0.0) - 8.0
     }
 
-    /// ln tan(πa/λ) at the minimum and at the maximum of the mean pressure: where its slope,
-    /// 4 t^(3/2)/(1 + t²)² − α over a positive factor with t the tangent, is zero.
+    /// ln tan(πa/λ) at the extremes of p̄, where 4 t^(3/2)/(1 + t²)² = α with t the tangent.
     fn extremes(&self) -> Result<(f64, f64)> {
         let alpha = self.alpha();
         let slope = |log: f64| 4.0 * (1.5 * log).exp() / (1.0 + (2.0 * log).exp()).powi(2);

@@ -7,30 +7,21 @@ use super::numerics::{below, falls_to, peak, sin_minus_x_cos};
 use super::sphere::{Family, Sphere, beyond_pull_off, hertz};
 use crate::error::{Error, Result};
 
-/// Maugis' contact: a constant traction σ₀ = w/ρ where the gap is below ρ, up to the radius c.
-///
-/// With cos θ = a/c the gap at c is ρ if
+/// Maugis' contact: a constant traction σ₀ = w/ρ where the gap is below ρ, up to the radius c. With cos θ = a/c:
 ///
 /// ```math
 /// ρ = c²/(πR) · [½ sin 2θ − θ cos 2θ] + 4σ₀c/(πE*) · [θ sin θ − 1 + cos θ] ,
-/// ```
-///
-/// which is of second degree in c: every state is explicit in θ, from large contacts (θ → 0) to a point (θ = π/2), at
-/// any Tabor parameter. Load and approach are
-///
-/// ```math
 /// P = 4E*a³/(3R) − 2σ₀c² [θ + ½ sin 2θ] ,   δ = a²/R − (2σ₀/E*) √(c² − a²) .
 /// ```
 ///
-/// Maugis (1992); equation (30) of Rey, Anciaux and Molinari (2017), whose pressure lacks the part beyond a, has the
-/// fields. Solutions without contact are not part of it.
+/// The first gives c for θ from 0 (large contacts) to π/2 (a point), at any Tabor parameter. Maugis (1992); equation
+/// (30) of Rey, Anciaux and Molinari (2017), whose pressure lacks the part beyond a, has the fields. Solutions without
+/// contact are left out.
 ///
 /// ```
-/// use std::f64::consts::PI;
 /// use asperity::exact::{MaugisDugdale, Sphere};
 /// let sphere = MaugisDugdale::new(2.0, 1.0, 1e-4, 2e-3)?;
-/// assert!((sphere.tabor_parameter() - 1.36).abs() < 5e-3);
-/// let force = -sphere.pull_off().load() / (PI * 1e-4 * 2.0);
+/// let force = -sphere.pull_off().load() / (std::f64::consts::PI * 1e-4 * 2.0);
 /// assert!(1.5 < force && force < 2.0); // between JKR and DMT
 /// # Ok::<(), asperity::Error>(())
 /// ```

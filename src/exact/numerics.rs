@@ -2,8 +2,8 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-/// Where `f`, not increasing on [low, high], passes `target`: bisection down to neighbouring numbers. It needs f(low)
-/// ≥ `target` ≥ f(high), ends after some sixty evaluations whatever `f`, and takes NaN for "below".
+/// Where `f`, not increasing on [low, high], passes `target`, f(low) ≥ `target` ≥ f(high), by bisection down to
+/// neighbouring numbers: some sixty evaluations. NaN counts as below.
 pub(super) fn falls_to(f: impl Fn(f64) -> f64, target: f64, mut low: f64, mut high: f64) -> f64 {
     loop {
         let middle = low + 0.5 * (high - low);
@@ -23,8 +23,7 @@ pub(super) fn below(f: impl Fn(f64) -> f64, target: f64, low: f64) -> f64 {
     low + step
 }
 
-/// Where `f` is largest on [low, high]: a scan, then golden sections between the neighbours of its best point. The
-/// value is exact to rounding; the place only to the square root of that, as for any maximum.
+/// Where `f` is largest on [low, high], to the root of rounding: golden sections about the best point of a scan.
 pub(super) fn peak(f: impl Fn(f64) -> f64, low: f64, high: f64) -> f64 {
     const POINTS: usize = 512;
     const GOLDEN: f64 = 0.618_033_988_749_894_8;
@@ -44,8 +43,7 @@ pub(super) fn peak(f: impl Fn(f64) -> f64, low: f64, high: f64) -> f64 {
     0.5 * (low + high)
 }
 
-/// The integral of a smooth function over [low, high], by the trapezoidal rule after the substitution tanh(½π sinh t):
-/// the error falls exponentially with the number of points.
+/// The integral of a smooth function over [low, high]: trapezoidal rule after the substitution tanh(½π sinh t).
 pub(super) fn integral(f: impl Fn(f64) -> f64, low: f64, high: f64, points: usize) -> f64 {
     /// There the weights have fallen to rounding.
     const END: f64 = 3.2;

@@ -10,37 +10,31 @@ use super::sphere::Sphere;
 use crate::error::{Error, Result};
 use crate::grid::Grid;
 
-/// The lattice constant M₁ = −4ζ(½)β(½) of the square lattice: minus the sum of 1/n over the lattice without its
-/// origin, the mean removed.
+/// The lattice constant M₁ = −4ζ(½)β(½): −Σ1/n over the square lattice without its origin, the mean removed.
 pub const M1: f64 = 3.900_264_920_001_956;
 
-/// The lattice constant c₂ = ζ(3/2)β(3/2) of the square lattice: a quarter of the sum of 1/n³ without the origin.
+/// The lattice constant c₂ = ζ(3/2)β(3/2): a quarter of the sum of 1/n³ over the square lattice without its origin.
 pub const C2: f64 = 2.258_405_420_775_237_6;
 
-/// A sphere among its periodic images on a square of side L: the images' displacement, to the second order in the
-/// distance from the axis, shifts the surface and bends it, and leaves an exact solution on a paraboloid of radius
-/// R_e.
+/// A sphere among its periodic images on a square of side L, which shift and bend the surface, to the second order in
+/// the distance from the axis: an exact solution on a paraboloid of radius R_e.
 ///
 /// ```math
 /// 1/R_e = 1/R + 2c₂P/(πE*L³) ,
 /// ḡ = −⟨h⟩ − δ(R_e) + M₁P/(πE*L) − c₂/(πE*L³) · ∫ r² p dA
 /// ```
 ///
-/// with M₁ = −4ζ(½)β(½), c₂ = ζ(3/2)β(3/2), δ the approach of the sphere, and ⟨h⟩ the mean of the heights, h = 0 at
-/// the apex: −L²/12R for the paraboloid itself, and [`Surface::mean`](crate::Surface::mean) for its nodes, which is
-/// the mean of a numerical solution. Without adhesion the integral is 2a²P/5. There is no free parameter; the images'
-/// next term, of relative order (a/L)⁵ in the shape of the surface, is neglected. Contacts with c ≤ L/3 are accepted.
+/// with M₁ = [`M1`], c₂ = [`C2`], δ the approach of the sphere, and ⟨h⟩ the mean height, h = 0 at the apex: −L²/12R,
+/// or [`Surface::mean`](crate::Surface::mean) of a numerical solution. The next term, of relative order (a/L)⁵ in the
+/// shape of the surface, is neglected. Contacts with c ≤ L/3 are accepted.
 ///
 /// ```
 /// use asperity::exact::{Hertz, Periodic};
 /// use asperity::{Grid, Surface};
-/// let grid = Grid::square(512, 1.0)?;
-/// let surface = Surface::paraboloid(grid, 2.0)?;
-/// let periodic = Periodic::new(Hertz::new(2.0, 1.0)?, 1.0)?;
-/// let state = periodic.at_mean_gap(0.0398, surface.mean())?;
+/// let mean_height = Surface::paraboloid(Grid::square(512, 1.0)?, 2.0)?.mean();
+/// let state = Periodic::new(Hertz::new(2.0, 1.0)?, 1.0)?.at_mean_gap(0.0398, mean_height)?;
 /// assert!((state.mean_pressure() - 1.8e-4).abs() < 1e-6);
-/// let u = state.displacement_field(&grid)?;
-/// assert_eq!(u[[256, 256]], 0.0); // the apex is in contact
+/// assert!((state.mean_gap(mean_height) - 0.0398).abs() < 1e-12);
 /// # Ok::<(), asperity::Error>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -66,7 +60,7 @@ impl<S: Sphere> Periodic<S> {
     pub fn at_load(&self, load: f64) -> Result<PeriodicContact> {
         Error::finite("load", load)?;
         let curvature = self.curvature(load);
-        // the images of a tension flatten the surface: to a hollow if it is large
+        // the images of a large tension make the surface a hollow
         Error::positive("effective curvature under the load", curvature)?;
         self.checked("load", load, self.sphere.at_load_on(load, curvature)?)
     }
@@ -84,13 +78,10 @@ impl<S: Sphere> Periodic<S> {
         self.checked("contact radius", radius, contact)
     }
 
-    /// The stable contact at the mean gap ḡ over heights of the mean ⟨h⟩, with h = 0 at the apex.
-    ///
-    /// The mean gap has a maximum, at which contact is lost; the solution is that of the larger contact radius.
+    /// The stable contact, of the larger radius, at the mean gap ḡ over heights of mean ⟨h⟩, h = 0 at the apex.
     ///
     /// # Errors
-    /// [`Error::Value`] if a number is not finite, the gap is larger than in any contact, or so small that the contact
-    /// is too large for the approximation.
+    /// [`Error::Value`] if a number is not finite, or the gap larger than in any contact or too small for the theory.
     pub fn at_mean_gap(&self, mean_gap: f64, mean_height: f64) -> Result<PeriodicContact> {
         Error::finite("mean gap", mean_gap)?;
         Error::finite("mean height", mean_height)?;
@@ -122,7 +113,6 @@ impl<S: Sphere> Periodic<S> {
         self.checked("period", self.length, self.at(least).contact)
     }
 
-    /// 1/R_e under a load.
     fn curvature(&self, load: f64) -> f64 {
         let (radius, modulus) = self.sphere.body();
         radius.recip() + 2.0 * C2 * load / (PI * modulus * self.length.powi(3))
@@ -136,8 +126,8 @@ impl<S: Sphere> Periodic<S> {
         PeriodicContact { contact: self.settle(|curvature| self.sphere.at(parameter, curvature)), length: self.length }
     }
 
-    /// The contact that is consistent with the curvature that its load adds: a fixed point, with an error that falls
-    /// by (8c₂/3π)(a/L)³ ≤ 0.07 in each step.
+    /// The contact consistent with the curvature that its load adds: in each step the error falls by
+    /// (8c₂/3π)(a/L)³ ≤ 0.07.
     fn settle(&self, at: impl Fn(f64) -> Contact) -> Contact {
         let mut contact = at(self.sphere.body().0.recip());
         for _ in 0..40 {
@@ -151,7 +141,7 @@ impl<S: Sphere> Periodic<S> {
         contact
     }
 
-    /// The parameters of the contacts to which the approximation applies.
+    /// The parameters to which the approximation applies.
     fn parameters(&self) -> Result<(f64, f64)> {
         let curvature = self.sphere.body().0.recip();
         let (low, mut high) = self.sphere.range();
@@ -183,18 +173,6 @@ fn too_wide(name: &'static str, value: f64) -> Error {
 }
 
 /// A contact among its periodic images, as [`Periodic`] returns it.
-///
-/// ```
-/// use asperity::exact::{Hertz, Periodic};
-/// use asperity::{Grid, Surface};
-/// let grid = Grid::square(64, 1.0)?;
-/// let mean_height = Surface::paraboloid(grid, 2.0)?.mean();
-/// let contact = Periodic::new(Hertz::new(2.0, 1.0)?, 1.0)?.at_mean_gap(0.0398, mean_height)?;
-/// assert!((contact.mean_gap(mean_height) - 0.0398).abs() < 1e-12);
-/// let pressure = contact.pressure_field(&grid)?;
-/// assert!((pressure.sum() / 4096.0 / contact.mean_pressure() - 1.0).abs() < 0.02);
-/// # Ok::<(), asperity::Error>(())
-/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PeriodicContact {
     contact: Contact,
@@ -217,8 +195,7 @@ impl PeriodicContact {
         self.level() - mean_height
     }
 
-    /// The pressure at the nodes of a grid of this period, with the axis through its origin; on a line the profile y
-    /// = 0.
+    /// The pressure at the nodes of a grid of this period, the axis through its origin; on a line the profile y = 0.
     ///
     /// # Errors
     /// [`Error::Value`] if a side of the grid is not the period.
@@ -227,12 +204,10 @@ impl PeriodicContact {
         Ok(self.contact.pressure_field(grid))
     }
 
-    /// The displacement at the nodes of a grid of this period, with the axis through its origin; on a line the profile
-    /// y = 0. The datum is u = h = 0 at the apex, so that u = h + g.
+    /// The displacement at the nodes of a grid of this period, as [`Self::pressure_field`]; u = h = 0 at the apex.
     ///
-    /// It is that of the pressure alone, [`Contact::deflection`], and of all its images, as those of a load P and of
-    /// the second moment of the pressure, by Ewald's sum: valid everywhere, but for terms of relative order (a/L)⁴. In
-    /// the contact it follows the surface, h = −r²/2R, up to the term that [`Periodic`] neglects.
+    /// It is [`Contact::deflection`] and the images' by Ewald's sum, as those of P and the second moment of the
+    /// pressure: valid everywhere but for terms of relative order (a/L)⁴.
     ///
     /// # Errors
     /// [`Error::Value`] if a side of the grid is not the period.
@@ -249,7 +224,6 @@ impl PeriodicContact {
         Ok(grid.sample(|x, y| self.contact.deflection(x.hypot(y)) + images(x, y) - apex))
     }
 
-    /// The mean displacement in the datum of the surface, ḡ + ⟨h⟩.
     fn level(&self) -> f64 {
         let Contact { modulus, load, second_moment, approach, .. } = self.contact;
         let l = self.length;
@@ -268,8 +242,8 @@ impl PeriodicContact {
     }
 }
 
-/// The sum of 1/r over the points of the unit lattice but the origin, its mean with 1/r of the origin removed, at a
-/// point of the cell; and its Laplacian. Ewald's sum with α² = π; terms below 1e-16 are left out.
+/// The sum of 1/r over the unit lattice but the origin, its mean with the origin's removed, and its Laplacian at a
+/// point of the cell: Ewald's sum with α² = π, less terms below 1e-16.
 fn images(x: f64, y: f64) -> (f64, f64) {
     const REACH: i32 = 3;
     let alpha = PI.sqrt();

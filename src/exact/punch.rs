@@ -4,13 +4,11 @@ use std::f64::consts::PI;
 
 use crate::error::{Error, Result};
 
-/// The contact of a rigid cylinder's flat end, of radius a, with a half-space, without friction or adhesion:
+/// The contact of a rigid cylinder's flat end, of radius a, without friction or adhesion; Boussinesq (1885).
 ///
 /// ```math
 /// F = 2 a E* δ ,   p(r) = F / (2πa √(a² − r²))
 /// ```
-///
-/// Boussinesq (1885).
 ///
 /// ```
 /// use asperity::exact::FlatPunch;

@@ -24,24 +24,9 @@ pub trait Family {
 
 /// A paraboloid of radius of curvature R against a half-space, alone: load P, contact radius a, approach δ.
 ///
-/// With adhesion the load has a minimum, minus the pull-off force, and the approach one at a smaller contact radius;
-/// the solutions at a given load or approach are the stable ones, of the larger radius. It is implemented by
-/// [`Hertz`], [`Jkr`] and [`MaugisDugdale`], and not meant to be elsewhere.
-///
-/// [`Hertz`]: super::Hertz
-/// [`Jkr`]: super::Jkr
-/// [`MaugisDugdale`]: super::MaugisDugdale
-///
-/// ```
-/// use asperity::exact::{Jkr, Sphere};
-/// let sphere = Jkr::new(2.0, 1.0, 1e-5)?; // radius of curvature, contact modulus, work of adhesion
-/// let unloaded = sphere.at_load(0.0)?;
-/// let a = unloaded.contact_radius();
-/// assert!((a.powi(3) / (4.5 * std::f64::consts::PI * 1e-5 * 4.0) - 1.0).abs() < 1e-12); // a³ = 9πwR²/2E*
-/// assert!((sphere.at_approach(unloaded.approach())?.contact_radius() / a - 1.0).abs() < 1e-12);
-/// assert!(sphere.at_load(-1e-3).is_err()); // beyond the pull-off
-/// # Ok::<(), asperity::Error>(())
-/// ```
+/// With adhesion the load has a minimum, minus the pull-off force, and the approach one at a smaller radius; solutions
+/// at a given load or approach are the stable ones, of the larger radius. Implemented by [`Hertz`](super::Hertz),
+/// [`Jkr`](super::Jkr) and [`MaugisDugdale`](super::MaugisDugdale), and not meant to be elsewhere.
 pub trait Sphere: Family {
     /// The contact of radius a ≥ 0.
     ///
@@ -77,7 +62,7 @@ pub trait Sphere: Family {
         Ok(self.at(falls_to(f, -approach, start, below(f, -approach, start)), curvature))
     }
 
-    /// The contact of least load: the pull-off force is minus its load. Without adhesion, no contact at no load.
+    /// The contact of least load, minus the pull-off force; without adhesion, no contact at no load.
     fn pull_off(&self) -> Contact {
         let curvature = self.body().0.recip();
         let (low, high) = self.range();
@@ -85,12 +70,10 @@ pub trait Sphere: Family {
     }
 }
 
-/// The refusal of a load beyond the pull-off.
 pub(super) fn beyond_pull_off(load: f64) -> Error {
     Error::Value { name: "load", value: load, requirement: "no tension beyond the pull-off force" }
 }
 
-/// Hertz's contact of radius a.
 pub(super) fn hertz(modulus: f64, curvature: f64, a: f64) -> Contact {
     let load = 4.0 / 3.0 * modulus * curvature * a.powi(3);
     Contact {

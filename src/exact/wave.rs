@@ -8,7 +8,6 @@ use super::numerics::entropy_gap;
 use crate::error::{Error, Result};
 use crate::grid::Grid;
 
-/// A wave h₀ cos(2πx/λ) and a half-space.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Body {
     pub(super) amplitude: f64,
@@ -24,13 +23,11 @@ impl Body {
         Ok(Self { amplitude, wavelength, modulus })
     }
 
-    /// p* = πE*h₀/λ
     pub(super) fn closing_pressure(&self) -> f64 {
         PI * self.modulus * self.amplitude / self.wavelength
     }
 
-    /// The partial contact with tan(πa/λ) given, under Westergaard's pressure less a tension of mean `tension` with a
-    /// singularity at the edge.
+    /// The partial contact of given tan(πa/λ): Westergaard's, less a tension of mean `tension`, singular at the edge.
     pub(super) fn partial(&self, tangent: f64, tension: f64) -> WaveContact {
         let open = tangent.hypot(1.0).recip().powi(2); // cos²
         let s = tangent.recip().hypot(1.0).recip().powi(2);
@@ -46,15 +43,13 @@ impl Body {
         }
     }
 
-    /// Full contact under a mean pressure.
     pub(super) fn full(&self, mean_pressure: f64) -> WaveContact {
         WaveContact { body: *self, angle: FRAC_PI_2, root_s: 1.0, tension: 0.0, mean_pressure, mean_gap: 0.0 }
     }
 }
 
-/// A contact of a wave h₀ cos(2πx/λ), a crest at x = 0, with a half-space: the state that the solutions return.
-///
-/// With a the half-width of a contact, ψ = πx/λ, ψ_a = πa/λ and s = sin²ψ_a, by Westergaard (1939) and Johnson (1995):
+/// The state of a contact of a wave h₀ cos(2πx/λ), a crest at x = 0, with a half-space: with a the half-width of a
+/// contact, ψ = πx/λ, ψ_a = πa/λ and s = sin²ψ_a, by Westergaard (1939) and Johnson (1995),
 ///
 /// ```math
 /// p = 2p* cos ψ √(s − sin²ψ) − p₁ cos ψ / √(s − sin²ψ) ,
@@ -62,15 +57,6 @@ impl Body {
 /// ```
 ///
 /// in the contacts and, with v = |sin ψ|, in the gaps between them; p* = πE*h₀/λ, and p₁ is zero without adhesion.
-///
-/// ```
-/// use asperity::exact::WavyLine;
-/// let contact = WavyLine::new(0.02, 1.0, 1.0)?.at_mean_pressure(0.02)?; // amplitude, wavelength, modulus
-/// let a = contact.half_width();
-/// assert!(contact.pressure(0.9 * a) > 0.0 && contact.gap(0.9 * a) == 0.0);
-/// assert!(contact.pressure(1.1 * a) == 0.0 && contact.gap(1.1 * a) > 0.0);
-/// # Ok::<(), asperity::Error>(())
-/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WaveContact {
     body: Body,
@@ -137,7 +123,7 @@ impl WaveContact {
         grid.sample(|x, _| self.pressure(x))
     }
 
-    /// [`WaveContact::displacement`] at the nodes of a grid, with a crest through its origin.
+    /// [`WaveContact::displacement`] at the nodes of a grid, as [`WaveContact::pressure_field`].
     pub fn displacement_field(&self, grid: &Grid) -> Array2<f64> {
         grid.sample(|x, _| self.displacement(x))
     }

@@ -5,24 +5,19 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use super::numerics::{falls_to, integral, peak};
 use crate::error::{Error, Result};
 
-/// Steps in which the branches are looked for: at least so many in a wave, and in the radius of the smallest contact
-/// that adhesion holds.
+/// The least number of steps in a wave, and in the radius of the smallest contact that adhesion holds.
 const STEPS: f64 = 16.0;
 
-/// The contact of a sphere with concentric waves, of the profile r²/2R + A (1 − cos kr), k = 2π/λ, with adhesion of no
-/// range.
+/// The contact of a sphere with concentric waves, r²/2R + A (1 − cos kr), k = 2π/λ, with adhesion of no range.
 ///
 /// ```math
 /// F = F₁(a) − √(8πwE*a³) ,   δ = δ₁(a) − √(2πwa/E*) ,
 /// F₁ = 4E*a³/3R + 2E*Ak a² ∫ sin²θ sin(ka sin θ) dθ ,   δ₁ = a²/R + Ak a ∫ sin(ka sin θ) dθ    over 0 ≤ θ ≤ π/2
 /// ```
 ///
-/// F₁ and δ₁ are load and approach of the contact without adhesion. Guduru (2007) has these integrals as Bessel and
-/// Struve functions. For A = 0 it is the contact of [`Jkr`](super::Jkr). The contact is taken to be a disc: adhesion
-/// has to close the troughs inside of it.
-///
-/// A wave makes δ fall with a in places: the contact jumps over these, and dissipates energy at each of the
-/// [`jumps`](Self::jumps).
+/// F₁ and δ₁ are those without adhesion, which Guduru (2007) has in Bessel and Struve functions. For A = 0 it is
+/// [`Jkr`](super::Jkr). The contact is taken to be a disc. Where a wave makes δ fall with a, the contact
+/// [jumps](Self::jumps), and dissipates energy.
 ///
 /// ```
 /// use asperity::exact::WavySphere;
@@ -31,7 +26,6 @@ const STEPS: f64 = 16.0;
 /// let (together, apart) = (sphere.jumps(-1e-3, far)?, sphere.jumps(far, -1e-3)?);
 /// // where it was pressed, it sticks: the last contact is larger than the first
 /// assert!(apart.last().unwrap()[0] > together[0][1]);
-/// assert_eq!((together[0][0], apart.last().unwrap()[1]), (0.0, 0.0));
 /// # Ok::<(), asperity::Error>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -85,11 +79,8 @@ impl WavySphere {
         integral(|theta| weight(theta.sin()) * (ka * theta.sin()).sin(), 0.0, FRAC_PI_2, 48 + 3 * ka.ceil() as usize)
     }
 
-    /// The jumps of the contact radius as the approach, which is given, goes from one value to another: the radius
-    /// before and after each, where 0 is no contact.
-    ///
-    /// Bodies that come together start without contact, and those that move apart from the largest contact at their
-    /// approach.
+    /// The contact radius before and after each jump, 0 without contact, as the given approach goes from one value to
+    /// another. Coming together starts without contact, moving apart from the largest contact at `from`.
     ///
     /// # Errors
     /// [`Error::Value`] if an approach is not finite.
@@ -141,8 +132,7 @@ impl WavySphere {
         falls_to(|a| -self.approach(a), -approach, low, high)
     }
 
-    /// The branches that are stable at a given approach, on which the approach grows with the contact radius: the radii
-    /// at their ends, up to those that have more than the given approach.
+    /// The radii at the ends of the branches that are stable at a given approach, up to one of more than `highest`.
     fn branches(&self, highest: f64) -> Vec<[f64; 2]> {
         let Self { radius, modulus, work_of_adhesion, amplitude, wave_number } = *self;
         let curvature = radius.recip() + amplitude * wave_number * wave_number;

@@ -10,9 +10,7 @@ use crate::field::flat_mut;
 use crate::par::{self, Parts};
 use crate::slab::Slab;
 
-/// The squared modulus of each mode of a field, the amplitude of a constant being its value.
-///
-/// In the layout of the half spectrum, `(n1/2 + 1, n0)`.
+/// The squared modulus of each mode, in the half spectrum `(n1/2 + 1, n0)`; the amplitude of a constant is its value.
 pub(crate) fn powers(field: ArrayView2<'_, f64>) -> Array2<f64> {
     let (n0, n1) = field.dim();
     let mut convolver = Convolver::with(Slab::whole((n0, n1)), Layout::plain((n0, n1)));
@@ -29,9 +27,8 @@ pub(crate) fn powers(field: ArrayView2<'_, f64>) -> Array2<f64> {
     powers
 }
 
-/// The modes of a field that is even along both axes, which are real and even: of each column of the half spectrum, in
-/// the layout of a convolver, the first half and the one in the middle. For a plane, not a line. Of the columns that
-/// this process transforms.
+/// The modes, real and even, of a plane that is even along both axes: of each column of the half spectrum that this
+/// process transforms, laid out as in a convolver, the first half and the middle one.
 pub(crate) fn even_modes(slab: Slab, field: ArrayView2<'_, f64>) -> Array2<f64> {
     let mut convolver = Convolver::new(slab);
     convolver.take_memory();
@@ -50,11 +47,10 @@ pub(crate) fn even_modes(slab: Slab, field: ArrayView2<'_, f64>) -> Array2<f64> 
     Array2::from_shape_fn((count, n0 / 2 + 1), |(k, i)| modes.own(first + k, i).re)
 }
 
-/// The field of given modes in a slab, and the sum of the values of `fill`, in order. What is at index zero along the
-/// first axis comes to the middle.
-///
-/// `fill` gets the column's index along the second axis, and zeros to overwrite by its modes along the first. Those of
-/// column 0, and of the Nyquist column, must be even with conjugation.
+/// The field of given modes in a slab, index zero along the first axis in the middle, and `fill`'s values summed in
+/// order.
+/// `fill` gets the column's index along the second axis, and zeros to overwrite by its modes along the first. Column 0
+/// and the Nyquist column must be even with conjugation.
 pub(crate) fn synthesise(
     slab: Slab,
     fill: impl Fn(usize, &mut [Complex<f64>]) -> f64 + Sync + Send,

@@ -12,7 +12,6 @@ use crate::par::{self, Pool};
 use crate::real::Real;
 use crate::slab::Slab;
 
-/// The columns of the half spectrum that this process transforms.
 pub(super) struct ColumnsOf<'a, T: Real> {
     pub(super) own: Range<usize>,
     pub(super) spectrum: &'a mut Array2<Complex<T>>,
@@ -23,13 +22,11 @@ pub(super) struct ColumnsOf<'a, T: Real> {
 }
 
 impl<T: Real> ColumnsOf<'_, T> {
-    /// Brings the columns from the processes that have their rows.
     pub(super) fn come(&mut self) {
         let spectrum = flat_mut(self.spectrum);
         self.shared.iter_mut().for_each(|shared| shared.come(spectrum));
     }
 
-    /// Sends the columns to the processes that have their rows.
     pub(super) fn go(&mut self) {
         let spectrum = flat_mut(self.spectrum);
         self.shared.iter_mut().for_each(|shared| shared.go(spectrum));
@@ -68,12 +65,10 @@ impl<T: Real> ColumnsOf<'_, T> {
         });
     }
 
-    /// The modes of the columns that are transformed.
     pub(super) fn modes(&self, slab: Slab) -> Modes<'_, T> {
         Modes::new(slab, self.n0, self.spectrum.as_slice().unwrap_or_default(), self.shared.as_ref())
     }
 
-    /// The sums over all columns, in their order.
     pub(super) fn sums(&mut self) -> Sums {
         let add = |a: Sums, b: &Sums| std::array::from_fn(|i| a[i] + b[i]);
         match &mut *self.shared {

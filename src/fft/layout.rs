@@ -15,11 +15,10 @@ const RUN: usize = 32;
 
 /// The layout of a field: the plane as which it is transformed, and the places of its modes in the half spectrum.
 ///
-/// A field in the plane keeps its shape, or has its axes exchanged where its columns do not fill a tile. A line of A·B
-/// nodes is a plane too, `(B, A)`: its node aB + b is row b, column a. Transform the rows; multiply row b of column k
-/// by the twiddle exp(−2πi bk/AB); transform the columns: column k then holds the modes k + A·i of the line. The
-/// columns k ≤ A/2 hold half of the modes, which suffice, and all transforms are short enough for the cache. A is the
-/// largest divisor up to √(AB).
+/// A plane keeps its shape, or has its axes exchanged where its columns do not fill a tile. A line of A·B nodes, A the
+/// largest divisor up to √(AB), is the plane `(B, A)`: node aB + b is row b, column a. With the rows transformed and
+/// row b of column k multiplied by exp(−2πi bk/AB), the transform of column k holds the modes k + A·i of the line.
+/// Columns k ≤ A/2 suffice, and all transforms fit the cache.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Layout {
     shape: (usize, usize),
@@ -29,7 +28,6 @@ pub(crate) struct Layout {
 }
 
 impl Layout {
-    /// The layout for the convolution of a field of the given shape.
     pub(crate) fn new(shape: (usize, usize)) -> Self {
         let (n0, n1) = shape;
         let exchanged = n0 < n1.min(TILE);
@@ -45,17 +43,14 @@ impl Layout {
         Self { shape, plane: shape, exchanged: false, folded: false }
     }
 
-    /// The shape of the fields.
     pub(super) fn shape(&self) -> (usize, usize) {
         self.shape
     }
 
-    /// The plane that is transformed.
     pub(crate) fn plane(&self) -> (usize, usize) {
         self.plane
     }
 
-    /// Whether a line is folded into the plane.
     pub(crate) fn is_folded(&self) -> bool {
         self.folded
     }
@@ -111,9 +106,8 @@ fn divisor(n: usize) -> usize {
     (1..=n.isqrt()).rev().find(|&divisor| n.is_multiple_of(divisor)).unwrap_or(1)
 }
 
-/// The twiddles exp(−2πi bk/n) of row b, column k, which multiply the half spectrum of a line.
-///
-/// The first [`RUN`] of each column and, behind them, the factors from one run to the next.
+/// The twiddles exp(−2πi bk/n) of row b, column k, for a line's half spectrum: the first [`RUN`] of each column, and
+/// behind them the factors from one run to the next.
 #[derive(Debug)]
 pub(super) struct Twiddles<T>(Array2<Complex<T>>);
 

@@ -57,7 +57,6 @@ pub(super) fn unpack<T: Real, U: Real>(tile: &[Complex<T>], mut x: ArrayViewMut2
     }
 }
 
-/// As [`pack`], column by column.
 fn pack_columns<T: Real>(x: ArrayView2<'_, T>, tile: &mut [Complex<T>]) {
     let stride = x.ncols() + SLACK;
     for (k, column) in x.columns().into_iter().enumerate() {
@@ -68,7 +67,6 @@ fn pack_columns<T: Real>(x: ArrayView2<'_, T>, tile: &mut [Complex<T>]) {
     }
 }
 
-/// As [`unpack`], column by column.
 fn unpack_columns<T: Real, U: Real>(tile: &[Complex<T>], mut x: ArrayViewMut2<'_, U>) {
     let stride = x.ncols() + SLACK;
     let part = |part: T| U::lit(part.widen());

@@ -11,17 +11,14 @@ use crate::real::{Compiled, Real};
 use crate::slab::Slab;
 
 /// The columns of a spectrum that this process transforms, where it has the rows of a slab alone.
-///
-/// The half spectrum of the slab is stored column by column, so that what another process is to get is one piece of it.
-/// From there comes one piece, too, with all of the columns and the rows of that process; a column is put together
-/// where it is transformed.
+/// The half spectrum is stored by columns: each process gets one piece of it, and sends one back, with all columns and
+/// its rows. A column is put together where it is transformed.
 pub(super) struct Shared<T> {
     slab: Slab,
     layout: Layout,
     /// what the others get of the spectrum of this slab, and what comes from them
     sent: Shares,
     received: Shares,
-    /// the pieces that come
     pieces: Vec<Complex<T>>,
     /// the sums over the columns of each process, and of all
     sums: Shares,
@@ -58,7 +55,6 @@ impl<T: Real> Shared<T> {
         }
     }
 
-    /// Brings the columns of this process from the spectra of all slabs.
     pub(super) fn come(&mut self, spectrum: &[Complex<T>]) {
         self.take_memory();
         if self.is_in_pieces() {
@@ -67,7 +63,6 @@ impl<T: Real> Shared<T> {
         }
     }
 
-    /// Sends the columns of this process to the spectra of all slabs.
     pub(super) fn go(&mut self, spectrum: &mut [Complex<T>]) {
         if self.is_in_pieces() {
             let Self { slab, sent, received, pieces, .. } = self;
@@ -94,13 +89,11 @@ impl<T: Real> Shared<T> {
         )
     }
 
-    /// The sums over the columns of all processes, of which these are those of this one.
     pub(super) fn gather(&mut self, own: &[Sums]) -> &[Sums] {
         self.slab.ranks().gather(own.as_flattened(), &self.sums, self.all.as_flattened_mut());
         &self.all
     }
 
-    /// A mode of one of the columns of this process.
     fn mode(&self, column: usize, row: usize) -> Complex<T> {
         let own = self.layout.columns_of(&self.slab);
         let rows = (0..self.slab.ranks().count()).map(|rank| self.slab.rows_of(rank)).find(|rows| rows.contains(&row));
@@ -109,7 +102,6 @@ impl<T: Real> Shared<T> {
     }
 }
 
-/// An exchange between all processes.
 struct Exchange<'a>(PhantomData<&'a ()>);
 
 impl<'a> Compiled for Exchange<'a> {
@@ -123,7 +115,6 @@ impl<'a> Compiled for Exchange<'a> {
     }
 }
 
-/// Modes of the half spectrum, in columns that are transformed.
 pub(crate) struct Modes<'a, T> {
     slab: Slab,
     n0: usize,
@@ -136,7 +127,6 @@ impl<'a, T: Real> Modes<'a, T> {
         Self { slab, n0, spectrum, shared }
     }
 
-    /// A mode of a column of this process.
     pub(super) fn own(&self, column: usize, row: usize) -> Complex<T> {
         match self.shared {
             Some(shared) if shared.is_in_pieces() => shared.mode(column, row),

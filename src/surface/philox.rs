@@ -1,8 +1,6 @@
 //! Random numbers by counter (Philox 4×32-10).
 
-/// Philox 4×32-10: four random words for each counter, without a state.
-///
-/// J. K. Salmon, M. A. Moraes, R. O. Dror, D. E. Shaw, *Parallel random numbers: as easy as 1, 2, 3*, SC '11 (2011).
+/// Philox 4×32-10 of Salmon, Moraes, Dror and Shaw (SC '11, 2011): four random words for each counter.
 pub(super) fn philox(counter: [u32; 4], key: [u32; 2]) -> [u32; 4] {
     let ([mut a, mut b, mut c, mut d], [mut k, mut l]) = (counter, key);
     for _ in 0..10 {

@@ -17,14 +17,6 @@ use crate::setters::setters;
 const SLACK: f64 = 1e-12;
 
 /// The amplitude of the roughness of a [`SelfAffine`] surface.
-///
-/// ```
-/// use asperity::{Amplitude, Grid, SelfAffine};
-/// let rough = SelfAffine::default().amplitude(Amplitude::RmsHeight(5e-9));
-/// let surface = rough.surface(Grid::square(150, 1e-6)?)?; // in m
-/// assert!((surface.rms_height() / 5e-9 - 1.0).abs() < 1e-12);
-/// # Ok::<(), asperity::Error>(())
-/// ```
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Amplitude {
@@ -44,16 +36,12 @@ pub enum Amplitude {
 /// Φ(k) = 0                       otherwise,
 /// ```
 ///
-/// and (k/k_r)^(−1−2H) in the second branch on a line, `Ny = 1`, so that its profile has the same Hurst exponent.
-/// On a rectangle the waves are the periodic ones, q = (2πm/Lx, 2πn/Ly), and k = |q| Lx/2π: k_l, k_r and k_s count
-/// periods along x, in whatever direction the wave runs.
+/// and (k/k_r)^(−1−2H) in the second branch on a line, `Ny = 1`, for the same Hurst exponent. With periodic waves
+/// q = (2πm/Lx, 2πn/Ly) and k = |q| Lx/2π, k_l, k_r and k_s count periods along x, whatever the direction. C₀ is such
+/// that the rms height or slope of the surface drawn is the given one, to rounding.
 ///
-/// The amplitude of a wave is drawn by its wave vector (m, n) and the seed, from Philox 4×32-10, whatever the grid
-/// and the number of threads. All grids of the same aspect ratio Lx/Ly that resolve k_s hence get the same surface, as
-/// a function of the coordinates x/Lx and y/Ly: nodes that two grids share get the same height to rounding. The drawn
-/// amplitudes are the same bits on every platform, the heights the same to the rounding of the transform.
-///
-/// The constant C₀ is such that the rms height or slope of the very surface drawn is the given one, to rounding.
+/// The amplitude of a wave is drawn by (m, n) and the seed, from Philox 4×32-10, with the same bits on every platform.
+/// All grids of the same Lx/Ly that resolve k_s hence have the same heights at the same x/Lx and y/Ly, to rounding.
 ///
 /// ```
 /// use asperity::{Amplitude, Grid, SelfAffine};
@@ -78,8 +66,7 @@ pub struct SelfAffine {
     pub k_s: f64,
     /// The rms height or the rms slope; positive. Default an rms slope of 0.1.
     pub amplitude: Amplitude,
-    /// Whether all waves have the modulus √Φ and only their phases are random. Otherwise (default) their complex
-    /// amplitudes are Gaussian, as those of filtered white noise.
+    /// Whether only phases are random, with moduli √Φ; otherwise (default) complex amplitudes are Gaussian.
     pub random_phase: bool,
     /// Seed of the random numbers: each makes another surface. Default 0.
     pub seed: u64,
@@ -105,9 +92,8 @@ impl SelfAffine {
     /// Draws the surface on a grid.
     ///
     /// # Errors
-    /// [`Error::Value`] if a parameter is not as its field says, or no wave of the grid is between k_l and k_s;
-    /// [`Error::Unresolved`] if the grid does not resolve k_s; [`Error::Memory`] if the transform takes more than there
-    /// is.
+    /// [`Error::Value`] if a parameter is not as its field says, or no wave is between k_l and k_s;
+    /// [`Error::Unresolved`] if the grid does not resolve k_s; [`Error::Memory`] if the memory does not suffice.
     pub fn surface(&self, grid: Grid) -> Result<Surface> {
         let band = Band::new(self, &grid)?;
         // heights, spectrum, and what is made of them
@@ -131,10 +117,7 @@ impl SelfAffine {
         Surface::new(grid, heights)
     }
 
-    /// The spectrum that is aimed at: |ĥ|² of every wave, whatever the seed.
-    ///
-    /// It is that of the surface itself if only the phases are random. Gaussian amplitudes scatter about it: |ĥ|² of
-    /// each wave has an exponential distribution.
+    /// The spectrum aimed at, about which |ĥ|² of a wave has an exponential distribution if amplitudes are Gaussian.
     ///
     /// # Errors
     /// As for [`SelfAffine::surface`].
@@ -185,7 +168,6 @@ impl SelfAffine {
     }
 }
 
-/// A periodic wave of the spectrum.
 struct Wave {
     kx: i64,
     /// the square of the wave number, in units of 2π/Lx
@@ -207,7 +189,6 @@ struct Band {
 }
 
 impl Band {
-    /// The waves on a grid that resolves them all.
     fn new(parameters: &SelfAffine, grid: &Grid) -> Result<Self> {
         let &SelfAffine { hurst, k_l, k_r, k_s, amplitude, .. } = parameters;
         if !(0.0..=1.0).contains(&hurst) {

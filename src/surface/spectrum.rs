@@ -12,30 +12,10 @@ use crate::grid::Grid;
 /// The share of the mean square slope that the waves shorter than the shortest have.
 const SHORTEST: f64 = 0.05;
 
-/// The power spectrum of a periodic surface: |ĥ(q)|² of each of its waves.
+/// The power spectrum of a periodic surface: |ĥ(q)|² of each of its waves, ĥ(q) = ⟨h e^(−iq·x)⟩ over the nodes.
 ///
-/// With ĥ(q) = ⟨h e^(−iq·x)⟩, the mean over the nodes, Parseval's theorem reads ⟨h²⟩ = Σ|ĥ|², the mean height left
-/// out. Where a direction has an even number of nodes, its shortest wave, which the nodes cannot tell from its mirror
-/// image, counts with the power that it has at the nodes.
-///
-/// ```
-/// use asperity::{Grid, Surface};
-/// let surface = Surface::wave(Grid::square(32, 1.0)?, 0.01, 3)?;
-/// let psd = surface.spectrum().radial_psd();
-/// assert!((psd.total() - 0.5e-4).abs() < 1e-18); // h₀²/2
-/// # Ok::<(), asperity::Error>(())
-/// ```
-#[derive(Clone, Debug, PartialEq)]
-pub struct Spectrum {
-    grid: Grid,
-    /// of each mode of the half spectrum, `(Ny/2 + 1, Nx)`
-    powers: Array2<f64>,
-}
-
-/// A power spectral density: of each wave, or averaged over those of like wave number.
-///
-/// Densities are over wave numbers in radians per length, over both signs. Sums reproduce the variance of the heights:
-/// [`total`](Self::total).
+/// By Parseval ⟨h²⟩ = Σ|ĥ|², the mean height left out. The shortest wave along an even number of nodes, which is its
+/// own mirror image there, counts with the power that it has at the nodes.
 ///
 /// ```
 /// use asperity::{Grid, SelfAffine};
@@ -47,6 +27,15 @@ pub struct Spectrum {
 /// assert!((psd.total() / surface.rms_height().powi(2) - 1.0).abs() < 1e-12);
 /// # Ok::<(), asperity::Error>(())
 /// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct Spectrum {
+    grid: Grid,
+    /// of each mode of the half spectrum, `(Ny/2 + 1, Nx)`
+    powers: Array2<f64>,
+}
+
+/// A power spectral density over wave numbers of both signs, in radians per length, of each wave or averaged over
+/// waves of like wave number.
 #[non_exhaustive]
 #[derive(Clone, Debug, PartialEq)]
 pub struct Psd {
@@ -83,7 +72,6 @@ impl Spectrum {
         Self { grid, powers }
     }
 
-    /// |ĥ|² in the layout of the half spectrum, `(Ny/2 + 1, Nx)`.
     #[cfg(test)]
     pub(super) fn powers(&self) -> &Array2<f64> {
         &self.powers
@@ -109,29 +97,24 @@ impl Spectrum {
         (if is_line(&self.grid) { 1.0 } else { 0.5 }) * self.mean_square(2).sqrt()
     }
 
-    /// The spectral moments m₀, m₂ and m₄ of a profile, of height, slope and curvature.
-    ///
-    /// On a line mₙ = Σ|q|ⁿ|ĥ|². On a surface they are means over profiles in all directions, m₂ = ½Σ|q|²|ĥ|² and
-    /// m₄ = ⅜Σ|q|⁴|ĥ|², as is usual for isotropic ones.
+    /// The spectral moments m₀, m₂ and m₄ of height, slope and curvature of a profile: mₙ = Σ|q|ⁿ|ĥ|² on a line, and
+    /// m₂ = ½Σ|q|²|ĥ|², m₄ = ⅜Σ|q|⁴|ĥ|², the means over profiles in all directions, on a surface.
     pub fn moments(&self) -> [f64; 3] {
         let shares = if is_line(&self.grid) { [1.0; 3] } else { [1.0, 0.5, 0.375] };
         std::array::from_fn(|n| shares[n] * self.mean_square(n as i32))
     }
 
-    /// Nayak's parameter α = m₀m₄/m₂², the width of the spectrum; not a number for a flat surface.
-    ///
-    /// One wave number alone gives 1.5 on a surface and 1 on a line, the least there is.
+    /// Nayak's parameter α = m₀m₄/m₂²: 1.5 for one wave number on a surface, 1 on a line; NaN for a flat surface.
     pub fn nayak(&self) -> f64 {
         let [m0, m2, m4] = self.moments();
         // one after the other, as the square of a moment leaves the range of the doubles first
         (m0 / m2) * (m4 / m2)
     }
 
-    /// The radially averaged power spectral density.
+    /// The radially averaged density Φ = |ĥ|² Lx·Ly/4π², a length⁴, with ⟨h²⟩ = ∫Φ dqx dqy over the whole plane.
     ///
-    /// The density of a wave is Φ = |ĥ|² Lx·Ly/4π², a length⁴, so that ⟨h²⟩ = ∫Φ dqx dqy over the whole plane. It
-    /// is averaged over rings of the width of 2π/Lx or 2π/Ly, whichever is larger, around the multiples of it; those
-    /// without any wave are left out. On a line Φ = |ĥ|² L/2π, a length³, and nothing needs averaging.
+    /// Rings are about the multiples of 2π/Lx or 2π/Ly, the larger, and as wide; empty ones are left out. On a line
+    /// Φ = |ĥ|² L/2π, a length³, of each wave.
     pub fn radial_psd(&self) -> Psd {
         let ((nx, ny), (lx, ly)) = (self.grid.shape(), self.grid.lengths());
         let (width, cell) = match (nx, ny) {
@@ -150,9 +133,8 @@ impl Spectrum {
         rings.psd(cell)
     }
 
-    /// The autocorrelation R(Δx) = ⟨h(x) h(x + Δx)⟩ about the mean height, of shape (Nx, Ny).
-    ///
-    /// The lag of an element is its coordinate on the grid: Δx = 0, where R = ⟨h²⟩, is at the node `(Nx / 2, Ny / 2)`.
+    /// The autocorrelation R(Δx) = ⟨h(x) h(x + Δx)⟩ about the mean height, of shape (Nx, Ny). The lag Δx is the
+    /// coordinate on the grid, zero at the node `(Nx / 2, Ny / 2)`.
     pub fn autocorrelation(&self) -> Array2<f64> {
         let (mut field, _) = synthesise(self.grid.slab(), |ky, column| {
             column.iter_mut().zip(self.powers.row(ky)).for_each(|(z, power)| *z = Complex::from(*power));
@@ -162,10 +144,8 @@ impl Spectrum {
         field
     }
 
-    /// The autocorrelation averaged over directions: (lag, R), up to half of the shorter side.
-    ///
-    /// It is averaged over rings of the width of the larger of Δx and Δy, around the multiples of it, and the lag is
-    /// the mean over the ring. On a line nothing needs averaging.
+    /// The autocorrelation averaged over directions, (lag, R) up to half of the shorter side: over rings about the
+    /// multiples of the larger of Δx and Δy, the lag being the mean of a ring. On a line nothing is averaged.
     pub fn radial_autocorrelation(&self) -> Vec<(f64, f64)> {
         let ((lx, ly), (nx, ny), (dx, dy)) = (self.grid.lengths(), self.grid.shape(), self.grid.spacing());
         let (end, width) = match (nx, ny) {
@@ -184,20 +164,8 @@ impl Spectrum {
         lags.into_iter().zip(means).collect()
     }
 
-    /// The number of nodes along a side, the lesser of the two, that the shortest wave has; infinite for a flat
-    /// surface.
-    ///
-    /// The shortest wave is that beyond which there is 5 % of the mean square slope: the nodes are as many as the other
-    /// waves have at least.
-    ///
-    /// ```
-    /// use asperity::{Grid, SelfAffine, Surface};
-    /// let grid = Grid::square(128, 1.0)?;
-    /// assert_eq!(Surface::wave(grid, 0.1, 4)?.spectrum().nodes_per_wave(), 32.0);
-    /// let rough = SelfAffine::default().k_s(16.0).surface(grid)?;
-    /// assert!((8.0..11.0).contains(&rough.spectrum().nodes_per_wave()));
-    /// # Ok::<(), asperity::Error>(())
-    /// ```
+    /// The number of nodes of the shortest wave, beyond which there is 5 % of the mean square slope, along the side
+    /// where it is less; infinite for a flat surface.
     pub fn nodes_per_wave(&self) -> f64 {
         let (nx, ny) = self.grid.shape();
         // the waves by the larger of their shares of the shortest wave that the grid has along the sides
@@ -222,7 +190,6 @@ impl Spectrum {
         f64::INFINITY
     }
 
-    /// The sum of |q|²ⁿ|ĥ|².
     fn mean_square(&self, n: i32) -> f64 {
         let rows = self.powers.outer_iter().enumerate().map(|(ky, row)| {
             let qy2 = self.grid.wave_number_y(ky).powi(2);
@@ -238,12 +205,10 @@ impl Spectrum {
     }
 }
 
-/// Whether the heights are those of one profile.
 pub(super) fn is_line(grid: &Grid) -> bool {
     grid.shape().0 == 1 || grid.shape().1 == 1
 }
 
-/// Sums over what falls into each of a row of bins.
 #[derive(Default)]
 struct Rings(Vec<Ring>);
 
@@ -265,7 +230,6 @@ impl Rings {
         ring.value += count as f64 * value;
     }
 
-    /// The means over each ring, divided by `cell`.
     fn psd(self, cell: f64) -> Psd {
         let rings = || self.0.iter().filter(|ring| ring.count > 0);
         let mean = |sum: f64, ring: &Ring| sum / ring.count as f64;

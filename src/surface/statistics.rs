@@ -7,15 +7,11 @@ use super::{Surface, Topography, rms_slope};
 use crate::error::Result;
 use crate::field;
 
-/// The statistics of a rough surface: [`Surface::statistics`].
+/// The statistics of a rough surface, in the unit of the heights: [`Surface::statistics`], [`Topography::statistics`].
 ///
-/// Slopes and curvatures come in two forms. The spectral ones are those of the smooth periodic surface through the
-/// nodes. The finite differences, periodic too, are what the nodes show: they are smaller, by (qΔ)²/24 of a slope and
-/// (qΔ)²/12 of a curvature along an axis for a wave number q and a spacing Δ. If the two differ much, the grid does
-/// not resolve the surface, or its edges do not meet.
-///
-/// Lengths are in the unit of the heights; [`Surface::statistics`] has an example. [`Topography::statistics`] are those
-/// of a map, whose side lengths may be unknown.
+/// Spectral slopes and curvatures are those of the smooth periodic surface through the nodes. Finite differences,
+/// periodic too, are smaller, by (qΔ)²/24 of a slope and (qΔ)²/12 of a curvature for a wave number q along an axis of
+/// spacing Δ. If the two differ much, the grid does not resolve the surface, or its edges do not meet.
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SurfaceStatistics {
@@ -44,7 +40,7 @@ pub struct SurfaceStatistics {
 }
 
 impl Surface {
-    /// Heights, slopes and curvatures in numbers.
+    /// The statistics of the surface, of the whole of it where several processes share the grid.
     ///
     /// ```
     /// use asperity::{Grid, Surface};
@@ -55,9 +51,6 @@ impl Surface {
     /// assert!((statistics.nayak - 1.0).abs() < 1e-12);
     /// # Ok::<(), asperity::Error>(())
     /// ```
-    ///
-    /// Where several processes share the grid, each of them takes the whole surface for it, as [`Surface::whole`] gives
-    /// it.
     pub fn statistics(&self) -> SurfaceStatistics {
         if self.grid.is_shared() {
             return self.whole().statistics();
@@ -83,7 +76,6 @@ impl Surface {
         }
     }
 
-    /// The rms Laplacian from differences between neighbours.
     fn rms_laplacian(&self) -> f64 {
         let ((nx, ny), (dx, dy)) = (self.grid.shape(), self.grid.spacing());
         let mut sum = 0.0;
@@ -101,18 +93,8 @@ impl Surface {
 }
 
 impl Topography {
-    /// The statistics of the map as a surface, periodic as it stands. Slopes, curvatures and Nayak's parameter, which
-    /// follow from the side lengths, are not a number where these are unknown.
-    ///
-    /// ```
-    /// use asperity::Topography;
-    /// let mut map = Topography::new(ndarray::arr2(&[[0.0, 1.0], [2.0, 1.0]]));
-    /// let found = map.statistics()?;
-    /// assert!(found.rms_slope.is_nan() && found.highest == 2.0);
-    /// map.lengths = Some((2.0, 2.0));
-    /// assert!(map.statistics()?.rms_slope > 0.0);
-    /// # Ok::<(), asperity::Error>(())
-    /// ```
+    /// The statistics of the map as a surface, periodic as it stands; slopes, curvatures and Nayak's parameter are NaN
+    /// where the side lengths are unknown.
     ///
     /// # Errors
     /// [`Error::NotFinite`](crate::Error::NotFinite) if heights are missing, [`Error::Value`](crate::Error::Value) if
