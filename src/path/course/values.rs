@@ -7,7 +7,6 @@ use crate::path::account::Account;
 use crate::path::figures::{Figures, Mode};
 
 impl Course {
-    /// The values of the state by their names.
     pub(in crate::path) fn values(&self) -> BTreeMap<String, Vec<f64>> {
         let flag = |flag: bool| vec![f64::from(u8::from(flag))];
         let pair = |pair: Option<(f64, f64)>| pair.map_or(Vec::new(), |(a, b)| vec![a, b]);
