@@ -77,24 +77,24 @@ pub use step::{PathCheckpoint, PathStep};
 /// which no minimum was found is followed, and left at the next state from which there is one. The first state is left
 /// without an event if it is a saddle.
 ///
+/// # Going on
+///
+/// A path can be interrupted, kept as a [`PathCheckpoint`], and continued, bit for bit. The page
+/// [`branches`](crate::guide::branches) has a cycle with jumps.
+///
 /// ```
-/// use asperity::path::{Event, Path, PathSettings};
-/// use asperity::{Control, Exponential, Grid, Problem, Solver, Surface, Westergaard};
-/// let grid = Grid::line(128, 1.0)?;
-/// let surface = Surface::wave(grid, 0.02, 1)?;
-/// let law = Exponential::new(2e-4, 4e-3)?;
-/// let mut problem = Problem::new(&surface, Westergaard::<f64>::new(grid, 1.0)?, law)?;
-/// // together, and apart again
-/// let legs = [0.05, 0.012, 0.05].map(Control::MeanGap);
-/// let (mut strongest, mut jumps, mut dissipated) = (0.0_f64, 0, 0.0);
-/// for step in Path::new(&mut Solver::default(), &mut problem, legs, PathSettings::default())? {
-///     let step = step?;
-///     strongest = strongest.min(step.solution.report.mean_pressure);
-///     jumps += usize::from(matches!(step.event, Some(Event::Jump(_))));
-///     dissipated = step.dissipated;
-/// }
-/// assert!(strongest < 0.0); // the pull-off stress
-/// assert!((jumps > 0) == (dissipated > 0.0));
+/// use asperity::path::{Path, PathSettings};
+/// use asperity::{Control, Grid, NoAdhesion, Problem, Solver, Surface, Westergaard};
+/// let grid = Grid::line(64, 1.0)?;
+/// let mut problem = Problem::new(&Surface::wave(grid, 0.02, 1)?, Westergaard::<f64>::new(grid, 1.0)?, NoAdhesion)?;
+/// let (mut solver, settings) = (Solver::default(), PathSettings::default().steps(4));
+/// let legs = [0.02, 0.01].map(Control::MeanGap);
+/// let whole = Path::new(&mut solver, &mut problem, legs, settings)?.collect::<Result<Vec<_>, _>>()?;
+/// let mut first = Path::new(&mut solver, &mut problem, legs, settings)?;
+/// first.next().transpose()?;
+/// let kept = first.checkpoint();
+/// let rest = Path::new(&mut solver, &mut problem, legs, settings)?.continuing(kept)?.collect::<Result<Vec<_>, _>>()?;
+/// assert_eq!(rest, whole[1..]);
 /// # Ok::<(), asperity::Error>(())
 /// ```
 #[derive(Debug)]

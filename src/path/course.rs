@@ -12,7 +12,6 @@ mod values;
 
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Way {
-    /// whether it jumped
     pub(super) jumped: bool,
     /// the eigenvalue of the saddle that was left, where a symmetry breaks
     pub(super) bifurcation: Option<f64>,

@@ -26,24 +26,7 @@ pub struct PathStep<T> {
     pub event: Option<Event>,
 }
 
-/// A checkpoint: all that a path needs to go on. Values and fields must come back bit for bit.
-///
-/// ```
-/// use asperity::path::{Path, PathSettings};
-/// use asperity::{Control, Grid, NoAdhesion, Problem, Solver, Surface, Westergaard};
-/// let grid = Grid::line(64, 1.0)?;
-/// let mut problem = Problem::new(&Surface::wave(grid, 0.02, 1)?, Westergaard::<f64>::new(grid, 1.0)?, NoAdhesion)?;
-/// let (mut solver, settings) = (Solver::default(), PathSettings::default().steps(4));
-/// let legs = [0.02, 0.01].map(Control::MeanGap);
-/// let whole = Path::new(&mut solver, &mut problem, legs, settings)?.collect::<Result<Vec<_>, _>>()?;
-///
-/// let mut first = Path::new(&mut solver, &mut problem, legs, settings)?;
-/// first.next().transpose()?;
-/// let kept = first.checkpoint();
-/// let rest = Path::new(&mut solver, &mut problem, legs, settings)?.continuing(kept)?.collect::<Result<Vec<_>, _>>()?;
-/// assert_eq!(rest, whole[1..]);
-/// # Ok::<(), asperity::Error>(())
-/// ```
+/// A checkpoint: all that a [`Path`](super::Path) needs to go on. Values and fields must come back bit for bit.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PathCheckpoint<T> {
     /// The values of the path's state by their names, as `work` and `step`.

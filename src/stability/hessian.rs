@@ -254,7 +254,6 @@ impl<'a, T: Real> Hessian<'a, T> {
     }
 }
 
-/// Independent normal numbers, the same for every `stream`.
 fn normal_numbers<T: Real>(grid: &Grid, stream: u32) -> Array2<T> {
     let (first, ny) = (grid.first_node(), grid.shape().1);
     Array2::from_shape_fn(grid.field_shape(), |(i, j)| {
