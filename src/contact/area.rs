@@ -112,8 +112,7 @@ fn edge_of_map((along_x, along_y): (usize, usize), grid: &Grid) -> Edge {
     Edge { excess, edges, places: edges as f64 }
 }
 
-/// The number of pairs of neighbours along x, and along y, of which one is on the map; across opposite sides only if
-/// it is periodic.
+/// The pairs of neighbours along x, and along y, of which one is on the map; across opposite sides if periodic.
 fn edges(map: ArrayView2<'_, bool>, grid: &Grid, periodic: bool) -> (usize, usize) {
     let (mut along_x, mut along_y) = (0, 0);
     let map = map.as_standard_layout();

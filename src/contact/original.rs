@@ -42,8 +42,7 @@ pub struct Original {
 }
 
 impl Original {
-    /// The original of `nodes` along x and y, [`Topography::original`](crate::Topography::original), on the grid
-    /// `whole`.
+    /// The original with [`Topography::original`](crate::Topography::original) nodes of a map on the grid `whole`.
     ///
     /// # Errors
     /// [`Error::Value`] for no nodes, [`Error::Shape`] for more than the map has, and [`Error::Shared`] if several

@@ -8,8 +8,7 @@ use super::places::Places;
 use crate::grid::Grid;
 use crate::real::Real;
 
-/// The gap of the next free node per pressure of the last node in contact, over Δ/E*: κ of
-/// [`ContactStatistics`](super::ContactStatistics).
+/// κ: the gap of the next free node per pressure of the last node in contact, over Δ/E*.
 const SOFTNESS: f64 = 2.0 * E / PI;
 
 /// How far the edge is inside the contour, in spacings: 1/4 − (1/4π) ∫₀^π ln(k(q) / sin(q/2)) / sin²(q/2) dq, with the
@@ -18,8 +17,7 @@ const SOFTNESS: f64 = 2.0 * E / PI;
 const SHIFT_PERIODIC: f64 = 0.190_009_285_9;
 const SHIFT_FREE: f64 = 0.174_653_2;
 
-/// How much less far an edge along the diagonals is inside the contour, in spacings: measured on plane waves in ten
-/// directions, in periodic cells; Hertz contacts on free half-spaces have the same.
+/// How much less far an edge along the diagonals is inside the contour, by plane waves and Hertz contacts.
 const SLANT: f64 = 0.0147;
 
 /// The area that a full turn of the edge adds, in cells; fitted to Hertz contacts with radii of 3 to 40 nodes.
@@ -45,7 +43,6 @@ pub(super) struct Edge {
     pub places: f64,
 }
 
-/// The step of the edge from one node to the next.
 struct Step {
     /// gap per pressure along x and y
     compliances: [f64; 2],
@@ -146,8 +143,7 @@ impl Step {
         0.5 - (place - self.shift * kink)
     }
 
-    /// The excess within the rectangle of four nodes in turn, not all of one kind, with the places on the sides of the
-    /// first.
+    /// The excess within the rectangle of four nodes, not all of one kind; the places are on the sides of the first.
     fn of_cell(&self, corners: [Node; 4], places: &mut Places) -> f64 {
         // where the surface ends there is nothing beyond its nodes
         if corners.iter().any(|corner| corner.gap.is_infinite()) {

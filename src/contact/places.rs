@@ -22,7 +22,6 @@ impl Places {
         self.counts[((place * BINS as f64) as usize).min(BINS - 1)] += 1;
     }
 
-    /// The sum over all slabs of a grid.
     pub fn total(mut self, grid: &Grid) -> Self {
         grid.add_up(&mut self.counts);
         self

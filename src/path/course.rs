@@ -23,7 +23,6 @@ impl Way {
     }
 }
 
-/// The state of a path between two steps.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Course {
     pub(super) solved: bool,
@@ -121,7 +120,6 @@ impl Course {
         self.turn(mode, end, settings);
     }
 
-    /// Heads for another end.
     fn turn(&mut self, mode: Mode, end: f64, settings: &PathSettings) {
         let here = self.here().held_by(mode);
         self.at.iter_mut().for_each(|place| *place = place.held_by(mode));

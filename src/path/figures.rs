@@ -2,7 +2,6 @@
 
 use crate::solver::Report;
 
-/// The quantity that is held in a step.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) enum Mode {
     /// the position

@@ -22,7 +22,7 @@ use super::hessian::Hessian;
 use crate::error::Result;
 use crate::real::Real;
 
-/// The least component of the start along either end, in standard deviations: the chance of less is 1e-6.
+/// The least component of the start along either end, in standard deviations: the chance of less at either is 1e-6.
 const LEAST: f64 = 6.2e-7;
 
 /// Steps after which the bound is computed again.

@@ -8,7 +8,6 @@ use crate::field::{Partial, read};
 use crate::par::Parts;
 use crate::real::Real;
 
-/// An eigenpair with its accuracy.
 pub(super) struct Eigenpair<T> {
     /// the Rayleigh quotient
     pub(super) value: f64,

@@ -166,8 +166,7 @@ impl<'a, T: Real> Hessian<'a, T> {
         Ok(self.project(image))
     }
 
-    /// The force that holds a field at zero on the contact: there a level less K⁻¹ of the field, and zero elsewhere.
-    /// Takes one operator application.
+    /// The force that holds a field at zero on the contact, a level less K⁻¹ of the field. One operator application.
     pub(super) fn reaction(&mut self, field: &Array2<T>, level: f64, reaction: &mut Array2<T>) -> Result<()> {
         self.operator.pressure(field.view(), reaction.view_mut())?;
         self.applications += 1;
@@ -181,8 +180,7 @@ impl<'a, T: Real> Hessian<'a, T> {
         Ok(())
     }
 
-    /// The compliance, as preconditioner, of an admissible field r; returns the mean of r·Kr. One operator
-    /// application.
+    /// Preconditions an admissible field r by the compliance; returns the mean of r·Kr. One operator application.
     pub(super) fn precondition(&mut self, residual: &Array2<T>, result: &mut Array2<T>) -> Result<f64> {
         let softest = self.softest();
         let coarse = self.coarse.as_mut().and_then(Coarse::ready);

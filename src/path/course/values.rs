@@ -40,7 +40,6 @@ impl Course {
         values.into_iter().map(|(name, values)| (name.to_owned(), values)).collect()
     }
 
-    /// The state of the values of another one, on the same problem as `on`.
     pub(in crate::path) fn of_values(values: &BTreeMap<String, Vec<f64>>, on: Self) -> Option<Self> {
         let of = |name: &str| values.get(name).map(Vec::as_slice);
         let one = |name: &str| if let [value] = *of(name)? { Some(value) } else { None };
