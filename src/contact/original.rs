@@ -42,7 +42,7 @@ pub struct Original {
 }
 
 impl Original {
-    /// The original with [`Topography::original`](crate::Topography::original) nodes of a map on the grid `whole`.
+    /// The original with `nodes` along x and y, see [`Topography::original`](crate::Topography::original), on `whole`.
     ///
     /// # Errors
     /// [`Error::Value`] for no nodes, [`Error::Shape`] for more than the map has, and [`Error::Shared`] if several
@@ -78,7 +78,7 @@ impl Original {
         &self.whole
     }
 
-    /// The share of the nodes.
+    /// The share of the nodes that are the original's.
     pub fn share(&self) -> f64 {
         self.grid.nodes() as f64 / self.whole.nodes() as f64
     }
