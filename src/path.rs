@@ -1,7 +1,7 @@
 //! A path of equilibria: small steps along a branch, with its jumps and bifurcations.
 //!
-//! [`Path`] is an iterator over the states of a branch; a [`PathStep`] says what happened on the way to its state, as
-//! an [`Event`]. The page [`branches`](crate::guide::branches) has loading and unloading worked out.
+//! [`Path`] is an iterator over the states of a branch. The page [`branches`](crate::guide::branches) has loading and
+//! unloading worked out.
 
 use std::ops::ControlFlow;
 
@@ -36,82 +36,65 @@ pub use step::{PathCheckpoint, PathStep};
 /// A path of equilibria: an iterator over the states of a branch that is followed from load to load in small steps,
 /// with its jumps.
 ///
-/// Each load is any [`Control`] that the problem has; the first one is where the path starts, and from each to the next
-/// leads a *leg*. Where below a mean gap is given, that is the approach with a free boundary, and with a spring its
-/// rest. A step starts from the extrapolation of the last two states, clipped to gaps that are feasible, so that it
-/// stays on the branch; its length adapts to how much the branch bends.
-///
-/// A step to a state that has not converged is taken back and halved, too, unless the residual of that state is at the
-/// floor of rounding, as it may be in `f32` in light contact: then a shorter step would bring it no closer, and the
-/// state is taken as it is, [`Stalled`](Status::Stalled).
-///
-/// The wall is that of the solver: rigid, or [none](crate::NoWall) for a law that keeps the surfaces apart by itself.
+/// Each load is any [`Control`] that the problem has; the first one is where the path starts, and from each to the
+/// next leads a *leg*. Mean gap below stands for the approach with a free boundary, and for the rest of a spring. A
+/// step starts from the extrapolation of the last two states, clipped to feasible gaps; its length adapts to how much
+/// the branch bends. A step to a state that has not converged is taken back and halved, unless its residual is at the
+/// floor of rounding, as in `f32` in light contact: then it is taken as it is, [`Stalled`](Status::Stalled). The wall
+/// is that of the solver: rigid, or [none](crate::NoWall) for a law that keeps the surfaces apart by itself.
 ///
 /// # Jumps
 ///
 /// Along a branch the energy changes by the work of the load, de = −p̄ dḡ. A step in which it falls by more has jumped
 /// to another branch, or is too long for the quadrature of the work (by up to four states, of fourth order): it is
-/// taken back and halved. When it cannot be halved any more, at [`PathSettings::smallest_step`], the missing energy is
-/// the one that the jump dissipates, if it is more than the step could do at either end's load; the step is taken, and
-/// its [`Event`] says so.
+/// taken back and halved, down to [`PathSettings::smallest_step`]. There the missing energy is what the jump
+/// dissipates, if it is more than the step could do at either end's load; the step is taken, with an [`Event`].
 ///
 /// Where the traction of the law jumps, as that of [`MaugisDugdale`](crate::MaugisDugdale), every node that enters or
-/// leaves the adhesive zone is a small jump. Unless [`PathSettings::smooth`] is off, the path is therefore one of the
-/// [smoothed](crate::adhesion::Discretisation::Smooth) law, of which the pull-off force converges faster; energies and
-/// errors in the reports are those of that law.
+/// leaves the adhesive zone is a small jump. Unless [`PathSettings::smooth`] is off, the path and its reports are
+/// therefore those of the [smoothed](crate::adhesion::Discretisation::Smooth) law, whose pull-off force converges
+/// faster.
 ///
 /// # Limit points
 ///
-/// Under a given pressure a branch ends where dp̄/dḡ = 0: the jump that is met there is not taken. The path goes on at
-/// given mean gaps, through the states that are unstable under the pressure, in the same direction, until the pressure
-/// comes to where the leg ends, or the surfaces to full contact or out of each other's reach. Under a given mean gap
-/// there are limit points too, at which it jumps.
+/// Under a given pressure a branch ends where dp̄/dḡ = 0. The path does not take the jump there, but goes on at given
+/// mean gaps in the same direction, until the pressure comes to where the leg ends, or the surfaces to full contact or
+/// out of each other's reach. At limit points under a given mean gap it jumps.
 ///
 /// # Bifurcations
 ///
-/// A branch may go on through states that are no minima. Two equal asperities approach: both jump into contact at one
-/// gap, but before that it takes less energy if one of them jumps and the other draws back. No iteration that starts
-/// from the symmetric state finds that, as its gradient is symmetric too. Every mirrored surface is of that kind, and
-/// every periodic one.
+/// A branch may go on through saddles: of two equal asperities one alone can jump into contact earlier than both, and
+/// every mirrored or periodic surface is of that kind. With adhesion, therefore, the smallest eigenvalue of the
+/// energy's second derivative is watched, as in a [`StabilityTest`](crate::stability::StabilityTest) at the given mean
+/// gap; that takes some five operator applications a state, unless the softest stiffness and the least φ'' prove it
+/// positive. A step to a saddle is taken back and halved; at [`PathSettings::smallest_step`] the state is moved along
+/// the mode by a tenth of the range of adhesion, to the side on which the gap closes at the first of the nodes where
+/// the mode is largest, and minimised to a state that is no saddle.
 ///
-/// With adhesion, therefore, the smallest eigenvalue of the energy's second derivative is watched, over the changes
-/// of the gap that vanish where the surfaces touch and have no mean, as in a
-/// [`StabilityTest`](crate::stability::StabilityTest) at the given mean gap. Where the softest stiffness and the least
-/// φ'' do not prove it positive, that takes some five operator applications a state. A step to a saddle is taken back
-/// and halved, as one that jumps is; at [`PathSettings::smallest_step`] the state is moved along the mode by a tenth of
-/// the range of adhesion, on the way on which the gap closes at the first of the nodes where the mode is largest, and
-/// the minimisation goes on from there, to a state that is no saddle.
-///
-/// Its [`Event`] is a bifurcation, with the eigenvalue and the energy that it dissipates. Where the branch came to
-/// that place along the mode itself, as at a limit point, it is a jump like any other. Under a given pressure a
-/// bifurcation is met at the mean gap that belongs to it, and the path goes on at given mean gaps.
-///
-/// A stretch of saddles that is shorter than a step may be passed unnoticed: more [`steps`](PathSettings::steps) find
-/// shorter ones. A saddle from which no minimum was found is followed, and left at the next state from which there is
-/// one. The first state is left without an event if it is a saddle.
+/// Where the branch came to that place along the mode itself, as at a limit point, the [`Event`] is a jump, and
+/// otherwise a bifurcation. Under a given pressure the path goes on from it at given mean gaps. A stretch of saddles
+/// shorter than a step may be passed unnoticed: more [`steps`](PathSettings::steps) find shorter ones. A saddle from
+/// which no minimum was found is followed, and left at the next state from which there is one. The first state is left
+/// without an event if it is a saddle.
 ///
 /// # Going on
 ///
-/// A path can be interrupted, kept as a [`PathCheckpoint`], and continued, bit for bit.
+/// A path can be interrupted, kept as a [`PathCheckpoint`], and continued, bit for bit. The page
+/// [`branches`](crate::guide::branches) has a cycle with jumps.
 ///
 /// ```
-/// use asperity::path::{Event, Path, PathSettings};
-/// use asperity::{Control, Exponential, Grid, Problem, Solver, Surface, Westergaard};
-/// let grid = Grid::line(128, 1.0)?;
-/// let surface = Surface::wave(grid, 0.02, 1)?;
-/// let law = Exponential::new(2e-4, 4e-3)?;
-/// let mut problem = Problem::new(&surface, Westergaard::<f64>::new(grid, 1.0)?, law)?;
-/// // together, and apart again
-/// let legs = [0.05, 0.012, 0.05].map(Control::MeanGap);
-/// let (mut strongest, mut jumps, mut dissipated) = (0.0_f64, 0, 0.0);
-/// for step in Path::new(&mut Solver::default(), &mut problem, legs, PathSettings::default())? {
-///     let step = step?;
-///     strongest = strongest.min(step.solution.report.mean_pressure);
-///     jumps += usize::from(matches!(step.event, Some(Event::Jump(_))));
-///     dissipated = step.dissipated;
-/// }
-/// assert!(strongest < 0.0); // the pull-off stress
-/// assert!((jumps > 0) == (dissipated > 0.0));
+/// use asperity::path::{Path, PathSettings};
+/// use asperity::{Control, Grid, NoAdhesion, Problem, Solver, Surface, Westergaard};
+/// let grid = Grid::line(64, 1.0)?;
+/// let mut problem = Problem::new(&Surface::wave(grid, 0.02, 1)?, Westergaard::<f64>::new(grid, 1.0)?, NoAdhesion)?;
+/// let (mut solver, settings) = (Solver::default(), PathSettings::default().steps(4));
+/// let legs = [0.02, 0.01].map(Control::MeanGap);
+/// let whole = Path::new(&mut solver, &mut problem, legs, settings)?.collect::<Result<Vec<_>, _>>()?;
+/// let mut first = Path::new(&mut solver, &mut problem, legs, settings)?;
+/// first.next().transpose()?;
+/// let kept = first.checkpoint();
+/// let rest = Path::new(&mut solver, &mut problem, legs, settings)?.continuing(kept)?.collect::<Result<Vec<_>, _>>()?;
+/// assert_eq!(rest, whole[1..]);
 /// # Ok::<(), asperity::Error>(())
 /// ```
 #[derive(Debug)]
@@ -122,7 +105,7 @@ pub struct Path<'a, T, O, L, C = Projection> {
     settings: PathSettings,
     start: Option<Array2<T>>,
     course: Course,
-    /// the last gaps, on the grid of the operator, the latest last: at most two
+    /// the last gaps on the grid of the operator, the latest last: at most two
     gaps: Vec<Array2<T>>,
     watch: Watch<T>,
     failed: bool,
@@ -144,8 +127,8 @@ where
     /// The path through `loads`, of which the first is the start.
     ///
     /// # Errors
-    /// [`Error::Value`] for settings that are out of range, or a load that is not finite, or a negative mean gap;
-    /// [`Error::Control`] for a load that the problem does not have, and for a periodic surface with absent nodes;
+    /// [`Error::Value`] for settings out of range, a load that is not finite, or a negative mean gap;
+    /// [`Error::Control`] for a load that the problem does not have, and a periodic surface with absent nodes;
     /// [`Error::Wall`] for springs, and for a law that is not made for the wall.
     pub fn new(
         solver: &'a mut Solver<C>,
@@ -181,7 +164,7 @@ where
         Self { start: Some(gap), ..self }
     }
 
-    /// Ends the present leg: the path heads for the next load from where it is, as from surfaces that have come apart.
+    /// Ends the present leg: the path heads for the next load from where it is.
     pub fn end_leg(&mut self) {
         self.course.end_leg();
     }
@@ -199,8 +182,7 @@ where
     /// The path continued from the checkpoint of another one with the same problem, loads and settings.
     ///
     /// # Errors
-    /// [`Error::Shape`] if the fields are of another grid, [`Error::Value`] if the values are not those of a
-    /// checkpoint.
+    /// [`Error::Shape`] if the fields are of another grid, [`Error::Value`] if the values are not a checkpoint's.
     pub fn continuing(mut self, from: PathCheckpoint<T>) -> Result<Self> {
         let grid = *self.problem.operator.grid();
         let PathCheckpoint { values, mut fields } = from;
@@ -229,8 +211,7 @@ where
         Ok(self)
     }
 
-    /// The next state, as [`Iterator::next`], with an observer of the iterations, as in [`Solver::solve_with`]. If it
-    /// stops a solve, the path ends with the state before.
+    /// The next state, with an observer of the iterations; if it stops a solve, the path ends with the state before.
     ///
     /// # Errors
     /// Those of [`Solver::solve_with`]; after one the path ends.
@@ -266,7 +247,7 @@ where
         None
     }
 
-    /// The first step; nothing if it was stopped.
+    /// The first step, unless it was stopped.
     fn begin(
         &mut self,
         control: Control,
@@ -302,7 +283,6 @@ where
         }
     }
 
-    /// A solve with the jumps of the law smoothed, if they are to be.
     fn solve(&mut self, control: Control, begin: Begin<'_, T>, observe: Observer<'_>) -> Result<Solved<T>> {
         let Parts { operator, law, flat } = self.problem.parts();
         let smoothed = if self.settings.smooth && !begin.is_default() { smoothed_law(&*operator, law) } else { None };
@@ -330,10 +310,9 @@ where
         }
         let w = self.problem.law.hints().work_of_adhesion.widen();
         let flat = self.problem.flat.work * self.problem.flat.padding;
-        // where surfaces hardly touch, the energy is the small difference of sums as large as that of the surface
-        // pressed flat
+        // where surfaces hardly touch, the energy is the small difference of sums as large as that of flat surfaces
         let rounding = ROUNDINGS * T::epsilon().widen() * flat;
-        // what the tolerance leaves in the energy of surfaces that are apart, which nothing but adhesion makes jump
+        // the tolerance's share in the energy of surfaces that are apart: only adhesion makes them jump
         let left = if self.problem.law.hints().zero { report.tolerance.powi(2) * flat } else { 0.0 };
         let noise = (rounding, left);
         let scale = (self.settings.imbalance, 1e-3 * w);

@@ -36,8 +36,6 @@ pub use stiffness::ContactStiffness;
 pub(crate) use watch::{Saddle, Watch};
 
 /// The verdict on an equilibrium: stable, unstable, or undecided.
-///
-/// [`StabilityTest`] has an example.
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "kebab-case"))]
@@ -67,10 +65,7 @@ impl fmt::Display for Verdict {
     }
 }
 
-/// The stability test of an equilibrium, by the smallest eigenvalue of the second derivative of the energy.
-///
-/// An equilibrium is a strict local minimum of the energy where the smallest eigenvalue of its second derivative is
-/// positive,
+/// The stability test of an equilibrium, by the smallest eigenvalue of the second derivative of the energy:
 ///
 /// ```math
 /// λ = min over v of  ⟨v, (K⁻¹ + φ''(g)) v⟩ / ⟨v, v⟩ ,
@@ -81,13 +76,10 @@ impl fmt::Display for Verdict {
 /// optimal conjugate gradients (Knyazev, *SIAM J. Sci. Comput.* 23 (2001)) with the compliance as preconditioner, two
 /// operator applications an iteration.
 ///
-/// The Rayleigh quotient that they end with is above the smallest eigenvalue; a larger tolerance makes it likelier
-/// that it is the second one, where the two are close or the random start has hardly any share in the first mode. If
-/// it is negative, that proves instability. If it is positive, a bound from below is wanted: the softest stiffness
-/// plus the least φ'' if that will do, and otherwise one from a Lanczos iteration on the Hessian with the found mode
-/// lifted to a larger eigenvalue, from a random start (the same in every run). Its bound holds but for a chance of one
-/// in a million over such starts, whatever the spectrum; by Temple's inequality it then bounds the smallest eigenvalue
-/// itself, and closely so where that is nearly zero: near limit points.
+/// Their Rayleigh quotient is above λ; a larger tolerance makes it likelier that it is the second eigenvalue. If it is
+/// negative, that proves instability. If it is positive, the lower bound is the softest stiffness plus the least φ''
+/// if that will do, and otherwise one from a Lanczos iteration on the Hessian with the found mode lifted, and Temple's
+/// inequality: close near limit points, and wrong for one in a million random starts (every run has the same).
 ///
 /// | field | default | meaning | range |
 /// |---|---|---|---|
@@ -96,14 +88,10 @@ impl fmt::Display for Verdict {
 /// | `bound` | true | whether to look for a lower bound; without one only the simple bound can show stability | |
 /// | `control` | `None`: that of the solution | the control that holds the equilibrium | |
 ///
-/// # Laws whose traction jumps
-///
-/// The slope φ'' of [`MaugisDugdale`](crate::MaugisDugdale) is nothing but −σ₀ times a measure on the line g = ρ. No
-/// node lies on that line: node by node φ'' is zero, every equilibrium of the discrete energy is a strict local
-/// minimum, and is pinned by the grid. That says nothing about the continuum. So the traction is smoothed as for the
-/// [default start](crate::adhesion::Discretisation::Smooth), which spreads the measure over a few nodes, and the
-/// verdict is about that second derivative, at the given gap: an estimate for the continuum, which gets better as the
-/// grid is refined, and no statement about the discrete energy. [`Stability::smoothed`] says so.
+/// The slope φ'' of a law whose traction jumps, as [`MaugisDugdale`](crate::MaugisDugdale), is a measure on a line on
+/// which no node lies: every equilibrium of the discrete energy is a minimum, pinned by the grid. Its traction is
+/// smoothed over a few nodes, as for the [default start](crate::adhesion::Discretisation::Smooth), and the verdict is
+/// an estimate for the continuum that gets better with the grid. [`Stability::smoothed`] says so.
 ///
 /// ```
 /// use asperity::stability::{StabilityTest, Verdict};
@@ -125,9 +113,9 @@ impl fmt::Display for Verdict {
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StabilityTest {
-    /// The relative residual of the mode at which the iteration ends.
+    /// The relative residual of the mode.
     pub tolerance: f64,
-    /// The iterations for the mode, and again for the bound, after which the verdict is open.
+    /// The most iterations, for the mode and again for the bound.
     pub max_iterations: usize,
     /// Whether to look for a lower bound of the eigenvalue.
     pub bound: bool,
@@ -142,8 +130,6 @@ impl Default for StabilityTest {
 }
 
 /// The stability of an equilibrium. Eigenvalues are pressures per length.
-///
-/// [`StabilityTest`] has an example.
 #[non_exhaustive]
 #[derive(Clone, Debug, PartialEq)]
 pub struct Stability<T> {
@@ -157,15 +143,14 @@ pub struct Stability<T> {
     pub residual: f64,
     /// A lower bound of the smallest eigenvalue; see [`StabilityTest`] for how sure that is.
     pub lower_bound: f64,
-    /// With a positive lower bound, the bound of the relative error in the energy norm by the certificate of the
-    /// solve: [`Report::relative_error`](crate::Report::relative_error) times 1 + max(−φ'')/(lower bound). It holds to
-    /// first order: as far as φ'' does not change between the solution and the equilibrium next to it.
+    /// With a positive lower bound, the bound of the relative error in the energy norm:
+    /// [`Report::relative_error`](crate::Report::relative_error) times 1 + max(−φ'')/(lower bound), to first order.
     pub error_bound: Option<f64>,
-    /// The mode: the change of the gap along which the energy is softest, of shape (Nx, Ny) and mean square 1. Along
-    /// it, by the amount a, the energy changes by ½·eigenvalue·a². With a free boundary or absent nodes all this is
-    /// over the operator's grid, of which the mode has the part that faces the surface.
+    /// The mode, of shape (Nx, Ny) and mean square 1: along it, by the amount a, the energy changes by
+    /// ½·eigenvalue·a². With a free boundary or absent nodes it is the part of the operator's grid that faces the
+    /// surface, and means are over all of that grid.
     pub mode: Array2<T>,
-    /// Whether the jumps of the law were smoothed: then all this is about the smoothed law.
+    /// Whether the jumps of the law were smoothed.
     pub smoothed: bool,
     /// The number of operator applications for the mode.
     pub operator_applications: usize,
@@ -181,14 +166,12 @@ impl StabilityTest {
         Self { control: Some(control), ..Self::default() }
     }
 
-    /// Tests whether a solution is stable. Its wall is rigid: contact is where the gap is zero. The gap may be in any
-    /// memory layout.
+    /// Tests a solution with a rigid wall, whose gap may be in any memory layout.
     ///
     /// # Errors
-    /// [`Error::Shape`] or [`Error::Value`] if the solution is of another problem, or the tolerance is not positive;
-    /// [`Error::Wall`] if its wall is not rigid, for which there is [`StabilityTest::run_with`], or the law has no bound
-    /// at a wall; [`Error::Law`] if φ'' is not finite somewhere; [`Error::Control`] for a control that the problem does
-    /// not have.
+    /// [`Error::Shape`] or [`Error::Value`] for a solution of another problem, or a tolerance that is not positive;
+    /// [`Error::Wall`] if its wall is not rigid, or the law has no bound at a wall; [`Error::Law`] if φ'' is not
+    /// finite somewhere; [`Error::Control`] for a control that the problem does not have.
     pub fn run<T, O, L>(&self, problem: &mut Problem<T, O, L>, solution: &Solution<T>) -> Result<Stability<T>>
     where
         T: Real,
@@ -198,13 +181,12 @@ impl StabilityTest {
         self.run_with(problem, &Projection, solution)
     }
 
-    /// Tests, as [`StabilityTest::run`], a solution that was found with a constraint. Where its wall has springs, as
-    /// that of [`Penalty`](crate::Penalty), every node may move, and their stiffness belongs to the second derivative;
-    /// without a wall ([`NoWall`](crate::NoWall)) every node may move, and the slope of the law is all that holds it.
+    /// Tests a solution that was found with a constraint. Under springs, as those of [`Penalty`](crate::Penalty), or
+    /// without a wall ([`NoWall`](crate::NoWall)) every node may move; the stiffness of springs adds to φ''.
     ///
     /// # Errors
-    /// Those of [`StabilityTest::run`]; [`Error::Wall`] for another wall than that of the solution, or one for which the
-    /// law is not made; [`Error::Law`] if the stiffness of the springs is not finite somewhere.
+    /// Those of [`StabilityTest::run`]; [`Error::Wall`] for another wall than that of the solution or the law;
+    /// [`Error::Law`] if the stiffness of the springs is not finite somewhere.
     pub fn run_with<T, O, L, C>(
         &self,
         problem: &mut Problem<T, O, L>,
@@ -222,25 +204,10 @@ impl StabilityTest {
         self.of_gap(problem, constraint, control, &solution.gap, solution.report.relative_error)
     }
 
-    /// Tests, as [`StabilityTest::run_with`], the gap of a solution that was kept without the rest of it but for its
-    /// [`Report::relative_error`](crate::Report::relative_error), under a control.
+    /// Tests a gap that was kept with its [`Report::relative_error`](crate::Report::relative_error), under a control.
     ///
     /// # Errors
     /// Those of [`StabilityTest::run_with`]; [`Error::Value`] for a negative gap at a rigid wall.
-    ///
-    /// ```
-    /// use asperity::stability::{StabilityTest, Verdict};
-    /// use asperity::{Control, Exponential, Grid, Problem, Projection, Solver, Surface, Westergaard};
-    /// let surface = Surface::wave_2d(Grid::square(32, 1.0)?, 0.02, 1)?;
-    /// let half_space = Westergaard::<f64>::new(*surface.grid(), 1.0)?;
-    /// let mut problem = Problem::new(&surface, half_space, Exponential::new(1e-5, 4e-3)?)?;
-    /// let control = Control::MeanGap(0.01);
-    /// let solution = Solver::default().solve(&mut problem, control)?;
-    /// let (gap, error) = (solution.gap, solution.report.relative_error);
-    /// let stability = StabilityTest::default().of_gap(&mut problem, &Projection, control, &gap, error)?;
-    /// assert_eq!(stability.verdict, Verdict::Stable);
-    /// # Ok::<(), asperity::Error>(())
-    /// ```
     pub fn of_gap<T, O, L, C>(
         &self,
         problem: &mut Problem<T, O, L>,
@@ -313,7 +280,6 @@ impl StabilityTest {
     }
 }
 
-/// Refuses a gap that is not one of a problem with a constraint.
 fn check_gap<T, O, L>(problem: &Problem<T, O, L>, constraint: &dyn ContactConstraint<T>, gap: &Array2<T>) -> Result<()>
 where
     T: Real,
@@ -334,8 +300,7 @@ where
     problem.grid().agreed(refused)
 }
 
-/// The second derivative of the local energy at every node of the operator's grid, and infinity where a rigid wall is
-/// touched.
+/// φ'' at every node of the operator's grid, infinite where a rigid wall is touched.
 fn slopes<T: Real>(
     gap: &Array2<T>,
     (law, constraint): (&dyn AdhesionLaw<T>, &dyn ContactConstraint<T>),

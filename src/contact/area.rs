@@ -12,8 +12,7 @@ use crate::grid::Grid;
 use crate::real::Real;
 use crate::solver::Solution;
 
-/// The excess area of a contact map per edge between a node in contact and one that is not, in cells: (π − 1 + ln
-/// 2)/24.
+/// The excess area of a contact map per edge, in cells: (π − 1 + ln 2)/24.
 const EDGE_EXCESS: f64 = (std::f64::consts::PI - 1.0 + std::f64::consts::LN_2) / 24.0;
 
 /// The contact area, and its edge; [`ContactStatistics`] says how the area of a solution is corrected.
@@ -37,29 +36,25 @@ pub struct ContactArea {
     pub contact_fraction: f64,
     /// The contact area within the edge between the nodes, as a share of the nominal area.
     pub corrected_contact_fraction: f64,
-    /// The length of the edge of the contact, as [`ContactStatistics::perimeter`].
+    /// The length of the edge, as [`ContactStatistics::perimeter`].
     pub perimeter: f64,
-    /// The number of neighbours between which the edge runs: one is in contact, and the other apart.
+    /// The number of neighbours between which the edge runs.
     pub edges: usize,
-    /// How many of the `edges` are independent: at places of their own between the nodes, as far as gaps and pressures
-    /// tell. The edge of a strip along the nodes is at the same place everywhere.
+    /// How many of the `edges` are at independent places between the nodes; 1 for a strip along the nodes.
     pub places: f64,
 }
 
 impl ContactArea {
-    /// The contact area of a map of shape (Nx, Ny) on its grid, of which nothing else is known.
-    ///
-    /// It is corrected by Yastrebov, Anciaux and Molinari (2017), *On the accurate computation of the true contact-area
-    /// in mechanical contact of random rough surfaces*: a map of nodes counts too much along the edge of the contact,
-    /// by
+    /// The contact area of a map of shape (Nx, Ny) on its grid, by Yastrebov, Anciaux and Molinari (2017), *On the
+    /// accurate computation of the true contact-area in mechanical contact of random rough surfaces*:
     ///
     /// ```math
     /// A ≈ A_nodes − (π − 1 + ln 2)/24 · S Δx
     /// ```
     ///
-    /// with S the perimeter along the cells, averaged over the directions of the edge. That is 0.118 cells for each
-    /// side of a cell on the perimeter; for Δx ≠ Δy the area Δx·Δy of the cell is taken for Δx². On a line nothing is
-    /// corrected. [`ContactArea::of_solution`] is several times as good.
+    /// with S the perimeter along the cells, averaged over the directions of the edge: 0.118 cells for each side of a
+    /// cell on it. For Δx ≠ Δy the area Δx·Δy is taken for Δx²; on a line nothing is corrected.
+    /// [`ContactArea::of_solution`] is several times as good.
     ///
     /// # Errors
     /// [`Error::Shape`](crate::Error::Shape) if the map does not have the shape of the grid.
@@ -68,24 +63,8 @@ impl ContactArea {
         Ok(Self::within(map, grid, true, grid.nodes(), |along| edge_of_map(along, grid)))
     }
 
-    /// The area of a solution, within the edge that its gap and contact pressure tell. Shares are of the
-    /// nodes that are not [absent](crate::Surface::with_absent).
-    ///
-    /// ```
-    /// use asperity::contact::ContactArea;
-    /// use asperity::exact::{Hertz, Sphere};
-    /// use asperity::{Boussinesq, Control, Grid, NoAdhesion, Problem, Solver, Surface};
-    /// let grid = Grid::square(32, 0.4)?;
-    /// let sphere = Surface::paraboloid(grid, 2.0)?;
-    /// let mut problem = Problem::new(&sphere, Boussinesq::<f64>::new(grid, 1.0)?, NoAdhesion)?;
-    /// let solution = Solver::default().solve(&mut problem, Control::Force(1e-3))?;
-    /// let area = ContactArea::of_solution(&solution)?;
-    /// assert_eq!(area.contact_fraction, solution.report.contact_fraction);
-    /// let radius = Hertz::new(2.0, 1.0)?.at_load(1e-3)?.contact_radius();
-    /// let exact = std::f64::consts::PI * radius.powi(2) / 0.16;
-    /// assert!((area.corrected_contact_fraction / exact - 1.0).abs() < 0.01);
-    /// # Ok::<(), asperity::Error>(())
-    /// ```
+    /// The area of a solution, within the edge that its gap and contact pressure tell. Shares are of the nodes that
+    /// are not [absent](crate::Surface::with_absent).
     ///
     /// # Errors
     /// [`Error::Shape`](crate::Error::Shape) if a field does not have the shape of the grid.
@@ -107,8 +86,7 @@ impl ContactArea {
         Self::within(map, grid, periodic, facing, edge)
     }
 
-    /// The area on a map, of whose nodes so many face the half-space, within an edge that may depend on its numbers of
-    /// neighbours along x and y.
+    /// The area on a map, of whose nodes so many face the half-space, with an edge by the neighbours along x and y.
     fn within(
         map: ArrayView2<'_, bool>,
         grid: &Grid,
@@ -128,15 +106,13 @@ impl ContactArea {
     }
 }
 
-/// The edge of a map of which nothing else is known, by its numbers of neighbours along x and y.
 fn edge_of_map((along_x, along_y): (usize, usize), grid: &Grid) -> Edge {
     let edges = along_x + along_y;
     let excess = if grid.is_line() { 0.0 } else { EDGE_EXCESS * edges as f64 };
     Edge { excess, edges, places: edges as f64 }
 }
 
-/// The number of pairs of neighbours along x, and along y, of which one is on the map and one is not; opposite sides
-/// are neighbours if the map is periodic, and otherwise nothing is beyond them.
+/// The pairs of neighbours along x, and along y, of which one is on the map; across opposite sides if periodic.
 fn edges(map: ArrayView2<'_, bool>, grid: &Grid, periodic: bool) -> (usize, usize) {
     let (mut along_x, mut along_y) = (0, 0);
     let map = map.as_standard_layout();
@@ -160,7 +136,6 @@ fn edges(map: ArrayView2<'_, bool>, grid: &Grid, periodic: bool) -> (usize, usiz
     (grid.total(along_x), grid.total(along_y))
 }
 
-/// The number of nodes at which two rows differ, as far as both go.
 fn differences(a: &[bool], b: &[bool]) -> usize {
     let count = |(a, b): (&[bool], &[bool])| u32::from(a.iter().zip(b).map(|(a, b)| u8::from(a != b)).sum::<u8>());
     // so many that bytes count them, which vector instructions hold most of

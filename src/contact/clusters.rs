@@ -24,30 +24,17 @@ use crate::elastic::Boundary;
 pub struct Clusters {
     /// The number of nodes of each cluster, the largest first; equal ones in row-major order.
     pub sizes: Vec<usize>,
-    /// To which cluster each node belongs: k for the k-th of the sizes, counted from 1, and 0 for none.
+    /// The cluster of each node: k for the k-th of the sizes, counted from 1, and 0 for none.
     pub labels: Array2<usize>,
 }
 
 impl Clusters {
-    /// The clusters of the nodes that are `true`, on a map whose opposite sides meet.
-    ///
-    /// Takes a few passes over the map. Memory per node: eight bytes, those of the labels.
+    /// The clusters of the nodes that are `true`, on a map whose opposite sides meet. Memory per node: eight bytes.
     pub fn of(map: ArrayView2<'_, bool>) -> Self {
         Self::within(map, Boundary::Periodic)
     }
 
-    /// The clusters of the nodes that are `true`, on a map whose opposite sides meet only if the boundary is periodic;
-    /// otherwise as [`Clusters::of`].
-    ///
-    /// ```
-    /// use asperity::contact::Clusters;
-    /// use asperity::{Boussinesq, ElasticOperator, Grid};
-    /// let map = ndarray::array![[true, false, true], [false, false, false]];
-    /// let free = Boussinesq::<f64>::new(Grid::new((2, 3), (2.0, 3.0))?, 1.0)?.boundary();
-    /// assert_eq!(Clusters::within(map.view(), free).sizes, [1, 1]);
-    /// assert_eq!(Clusters::of(map.view()).sizes, [2]);
-    /// # Ok::<(), asperity::Error>(())
-    /// ```
+    /// The clusters as [`Clusters::of`], on a map whose opposite sides meet only if the boundary is periodic.
     pub fn within(map: ArrayView2<'_, bool>, boundary: Boundary) -> Self {
         let periodic = boundary == Boundary::Periodic;
         Self::meeting(map, [periodic; 2])
@@ -94,7 +81,6 @@ impl Clusters {
     }
 }
 
-/// The parent of a node that belongs to no cluster.
 const NONE: usize = usize::MAX;
 
 /// Makes one cluster of those of two nodes, if both have one.

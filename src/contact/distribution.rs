@@ -8,15 +8,12 @@ use crate::field::all_finite;
 use crate::real::Real;
 use crate::solver::Solution;
 
-/// The distribution of the pressure over the surface: a histogram, as a probability density.
+/// The distribution of the pressure over the surface: a histogram, as a probability density, of fields of the whole
+/// surface ([`Grid::gathered`](crate::Grid::gathered) puts shared ones together).
 ///
-/// Fields are those of the whole surface, which processes that share a grid put together by
-/// [`Grid::gathered`](crate::Grid::gathered).
-///
-/// The bins are equally wide; a bin has its lower edge, the last one its upper edge too. The density of a bin is the
-/// share of the nodes, but for absent ones, whose pressure is in it, divided by its width: Σ density · width is the
-/// share of the nodes that are counted, and Σ density · pressure · width is about the mean pressure that they
-/// contribute.
+/// The bins are equally wide; a bin has its lower edge, the last one its upper edge too. The density of a bin is its
+/// share of the nodes, without absent ones, divided by its width, so Σ density · pressure · width is about the mean
+/// pressure.
 ///
 /// ```
 /// use asperity::contact::PressureDistribution;
@@ -40,12 +37,12 @@ pub struct PressureDistribution {
     pub density: Vec<f64>,
 }
 
-/// More bins than this are a slip of the pen.
+/// The most bins; more are a slip of the pen.
 const MOST_BINS: usize = 1 << 24;
 
 impl PressureDistribution {
-    /// The distribution of the contact pressure over the nodes in contact, in so many bins from zero to the largest;
-    /// its integral is the contact fraction. Without any contact pressure the bins go from 0 to 1.
+    /// The distribution of the contact pressure over the nodes in contact, in bins from zero to the largest, or to 1
+    /// without any; its integral is the contact fraction.
     ///
     /// # Errors
     /// [`Error::Value`] for no bins, or more than 2²⁴; [`Error::NotFinite`] if a pressure is not finite;
@@ -54,8 +51,7 @@ impl PressureDistribution {
         Self::of_fields(solution.gap.view(), solution.contact_pressure.view(), bins)
     }
 
-    /// The distribution of the contact pressure of fields that come from elsewhere, as from files. The gap of absent
-    /// nodes is infinite or NaN.
+    /// The distribution of the contact pressure of fields from elsewhere; the gap of absent nodes is infinite or NaN.
     ///
     /// # Errors
     /// Those of [`PressureDistribution::of_contact_pressure`].
@@ -72,13 +68,12 @@ impl PressureDistribution {
         Ok(Self::count(counted(), (0.0, if high > 0.0 { high } else { 1.0 }), bins, facing(gap)))
     }
 
-    /// The distribution of the full elastic pressure over all nodes, in so many bins from the least, which adhesion
-    /// makes negative, to the largest; its integral is one. For a uniform pressure the bins go from half of it to one
-    /// and a half times, and for none at all from −1/2 to 1/2.
+    /// The distribution of the full elastic pressure over all nodes, in bins from the least, which adhesion makes
+    /// negative, to the largest; its integral is one. For a uniform pressure p the bins go from p/2 to 3p/2, and for
+    /// none at all from −1/2 to 1/2.
     ///
     /// # Errors
-    /// [`Error::Value`] for no bins, or more than 2²⁴; [`Error::NotFinite`] if a pressure is not finite;
-    /// [`Error::Shape`] if gap and pressure differ in shape.
+    /// Those of [`PressureDistribution::of_contact_pressure`].
     pub fn of_pressure<T: Real>(solution: &Solution<T>, bins: usize) -> Result<Self> {
         let pressure = solution.pressure.view();
         checked("pressure", pressure, bins)?;
@@ -115,7 +110,6 @@ impl PressureDistribution {
     }
 }
 
-/// The number of nodes that face a surface: the gap of absent ones is infinite or NaN.
 fn facing<T: Real>(gap: ArrayView2<'_, T>) -> usize {
     gap.iter().filter(|gap| gap.is_finite()).count()
 }

@@ -12,11 +12,10 @@ use crate::solver::{Report, Solution};
 
 /// The original of a mirrored map: the nodes from the first on of which all others are mirror images.
 ///
-/// A map that [`Topography::mirror`](crate::Topography::mirror) has made periodic is solved with its images; what was
-/// measured is a part of it. Gaps, pressures, energies per area and shares are the same on the original as on the
-/// whole, as far as the solution has the symmetry of the surface; numbers of nodes, forces, the perimeter and clusters
-/// are not. With adhesion a symmetric state may be unstable, and contact begin on one of the images alone:
-/// [`Warning::of_images`](crate::warning::Warning::of_images) tells.
+/// A map that [`Topography::mirror`](crate::Topography::mirror) has made periodic is solved with its images. Gaps,
+/// pressures, energies per area and shares are the same on the original as on the whole, if the solution has the
+/// symmetry of the surface; numbers of nodes, forces, the perimeter and clusters are not. With adhesion a symmetric
+/// state may be unstable: [`Warning::of_images`](crate::warning::Warning::of_images) tells.
 ///
 /// ```
 /// use asperity::contact::Original;
@@ -43,12 +42,11 @@ pub struct Original {
 }
 
 impl Original {
-    /// The original with so many nodes along x and y, [`Topography::original`](crate::Topography::original), of a map
-    /// on the grid `whole`.
+    /// The original with `nodes` along x and y, see [`Topography::original`](crate::Topography::original), on `whole`.
     ///
     /// # Errors
-    /// [`Error::Value`] if it has no nodes, [`Error::Shape`] if it has more than the map, and [`Error::Shared`] if
-    /// several processes share the grid.
+    /// [`Error::Value`] for no nodes, [`Error::Shape`] for more than the map has, and [`Error::Shared`] if several
+    /// processes share the grid.
     pub fn new(whole: &Grid, nodes: (usize, usize)) -> Result<Self> {
         whole.slab().alone("the original of a mirrored map")?;
         let (shape, (dx, dy)) = (whole.shape(), whole.spacing());
@@ -88,18 +86,17 @@ impl Original {
     /// A field of the whole on the original.
     ///
     /// # Errors
-    /// [`Error::Shape`] if the field does not have the shape of the whole.
+    /// [`Error::Shape`] if the field is not of the whole.
     pub fn of<A: Clone>(&self, field: ArrayView2<'_, A>) -> Result<Array2<A>> {
         Error::shape("field", field.dim(), self.whole.shape())?;
         let (nx, ny) = self.grid.shape();
         Ok(field.slice_axis(Axis(0), Slice::from(..nx)).slice_axis(Axis(1), Slice::from(..ny)).to_owned())
     }
 
-    /// A field of the original, continued by its mirror images to the whole; to a node, where the map was resampled
-    /// after it was mirrored.
+    /// A field of the original, continued by its mirror images to the whole; to a node, where the map was resampled.
     ///
     /// # Errors
-    /// [`Error::Shape`] if the field does not have the shape of the original.
+    /// [`Error::Shape`] if the field is not of the original.
     pub fn mirrored<A: Clone>(&self, field: &Array2<A>) -> Result<Array2<A>> {
         Error::shape("field", field.dim(), self.grid.shape())?;
         let image = |i: usize, n: usize| {
@@ -110,18 +107,16 @@ impl Original {
         Ok(Array2::from_shape_fn(self.whole.shape(), |(i, j)| field[[image(i, nx), image(j, ny)]].clone()))
     }
 
-    /// The number of nodes of the original that are in contact, in a solution on the whole.
     pub(crate) fn contact_nodes<T: Real>(&self, solution: &Solution<T>) -> Result<usize> {
         Ok(number(&self.contact(solution.gap.view(), solution.contact_pressure.view())?))
     }
 
-    /// The nodes of the original that are in contact, by the fields of the whole.
     fn contact<T: Real>(&self, gap: ArrayView2<'_, T>, pressure: ArrayView2<'_, T>) -> Result<Array2<bool>> {
         self.of(contact_map(gap, pressure).view())
     }
 
-    /// The solution on the original: its grid, its part of the fields, its nodes in contact, and its share of the
-    /// force. Means, fractions, extremes and energies stay those of the whole.
+    /// The solution on the original: its part of the fields, its nodes in contact, and its share of the force. Means,
+    /// fractions, extremes and energies stay those of the whole.
     ///
     /// # Errors
     /// [`Error::Shape`] if the solution is not one of the whole.
@@ -139,8 +134,8 @@ impl Original {
         Ok(Solution { gap, pressure: pressure?, contact_pressure: contact_pressure?, grid: self.grid, report })
     }
 
-    /// The statistics of the original, from a solution on the whole and its law: clusters end at its sides, and these
-    /// are no part of the perimeter, as the images go on there.
+    /// The statistics of the original, from a solution on the whole and its law. Clusters end at its sides, which are
+    /// no part of the perimeter.
     ///
     /// # Errors
     /// [`Error::Shape`] if the solution is not one of the whole, and those of [`ContactStatistics::of`].
@@ -150,7 +145,7 @@ impl Original {
         self.statistics_of_fields(gap.view(), contact_pressure.view(), report.modulus, law)
     }
 
-    /// The same from the gap and the contact pressure of the whole, as they come from files, and the contact modulus.
+    /// The statistics from the gap and the contact pressure of the whole, and the contact modulus.
     ///
     /// # Errors
     /// [`Error::Shape`] if a field does not have the shape of the whole.
@@ -173,7 +168,6 @@ impl Original {
     }
 }
 
-/// The number of nodes in contact.
 fn number(contact: &Array2<bool>) -> usize {
     contact.iter().filter(|&&touches| touches).count()
 }

@@ -8,20 +8,16 @@ use super::places::Places;
 use crate::grid::Grid;
 use crate::real::Real;
 
-/// The gap of the next free node per pressure of the last node in contact, at the middle of a step of the edge, over
-/// Δ/E*: one over the geometric mean of the stiffness |q|/2 of the waves on the grid.
+/// κ: the gap of the next free node per pressure of the last node in contact, over Δ/E*.
 const SOFTNESS: f64 = 2.0 * E / PI;
 
-/// How far the edge is inside the contour, in spacings: 1/4 − (1/4π) ∫₀^π ln(k(q) / sin(q/2)) / sin²(q/2) dq, for the
-/// stiffness k of waves on the grid over E*/Δ. In a periodic cell that is |q|/2; of the free half-space, to which
-/// Love's kernel belongs, the inverse of the sum of 4 sin(q'/2)/(q'|q'|) over all q' = q + 2πm. That has nearly the
-/// same mean.
+/// How far the edge is inside the contour, in spacings: 1/4 − (1/4π) ∫₀^π ln(k(q) / sin(q/2)) / sin²(q/2) dq, with the
+/// stiffness k over E*/Δ of waves: |q|/2 in a periodic cell; for Love's kernel the inverse of the sum of 4
+/// sin(q'/2)/(q'|q'|) over all q' = q + 2πm.
 const SHIFT_PERIODIC: f64 = 0.190_009_285_9;
 const SHIFT_FREE: f64 = 0.174_653_2;
 
-/// How much less far an edge along the diagonals is inside the contour than one along the nodes, in spacings; in
-/// between by the third power of sin 2θ, with θ the angle to the nodes. Measured on plane waves in ten directions, in
-/// periodic cells; Hertz contacts on free half-spaces have the same.
+/// How much less far an edge along the diagonals is inside the contour, by plane waves and Hertz contacts.
 const SLANT: f64 = 0.0147;
 
 /// The area that a full turn of the edge adds, in cells; fitted to Hertz contacts with radii of 3 to 40 nodes.
@@ -30,7 +26,6 @@ const TURN: f64 = 0.78;
 /// A cell in the fixed-point numbers that are added up: the same sum in any order.
 const CELL: f64 = (1_u64 << 30) as f64;
 
-/// The fields of a contact, its map, and how the body is made.
 pub(super) struct Outline<'a, T> {
     pub gap: ArrayView2<'a, T>,
     pub contact_pressure: ArrayView2<'a, T>,
@@ -40,7 +35,6 @@ pub(super) struct Outline<'a, T> {
     pub modulus: f64,
 }
 
-/// The edge of a contact.
 pub(super) struct Edge {
     /// the area of the nodes in contact beyond that within the edge, in cells
     pub excess: f64,
@@ -49,7 +43,6 @@ pub(super) struct Edge {
     pub places: f64,
 }
 
-/// What the edge does from one node to the next.
 struct Step {
     /// gap per pressure along x and y
     compliances: [f64; 2],
@@ -57,7 +50,6 @@ struct Step {
     shift: f64,
 }
 
-/// What a node knows of the edge.
 #[derive(Clone, Copy)]
 struct Node {
     touches: bool,
@@ -76,14 +68,13 @@ impl Node {
 struct Cut {
     /// from the node in contact, in spacings
     place: f64,
-    /// the same by pressure and gap alone, however soft the contact is
+    /// the same by pressure and gap alone
     told: f64,
     /// the share of the kink of a hard wall
     kink: f64,
 }
 
 impl<T: Real> Outline<'_, T> {
-    /// The edge between the nodes.
     pub fn edge(&self) -> Edge {
         let Self { gap, contact_pressure, map, grid, periodic, modulus } = self;
         let ((nx, columns), next) = (grid.shape(), |row| [(row + 1) % grid.shape().0]);
@@ -130,7 +121,6 @@ fn fixed(cells: f64) -> i64 {
 }
 
 impl Step {
-    /// Where the contour cuts the side along an axis between two nodes, of which one is in contact.
     fn cut(&self, one: Node, other: Node, axis: usize) -> Cut {
         let (inside, outside) = if one.touches { (one, other) } else { (other, one) };
         let pressed = self.compliances[axis] * inside.pressure.max(0.0);
@@ -153,8 +143,7 @@ impl Step {
         0.5 - (place - self.shift * kink)
     }
 
-    /// The excess within the rectangle of four nodes, not all of one kind, which follow each other around it, with the
-    /// places on the sides that meet in the first.
+    /// The excess within the rectangle of four nodes, not all of one kind; the places are on the sides of the first.
     fn of_cell(&self, corners: [Node; 4], places: &mut Places) -> f64 {
         // where the surface ends there is nothing beyond its nodes
         if corners.iter().any(|corner| corner.gap.is_infinite()) {

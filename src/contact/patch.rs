@@ -4,12 +4,9 @@ use crate::adhesion::{AdhesionLaw, Values};
 use crate::grid::Grid;
 use crate::real::Real;
 
-/// The largest number of works of adhesion that are told apart.
 const MOST: usize = 16;
 
 /// A patch of the surface: the nodes of one work of adhesion, wherever they are.
-///
-/// [`ContactStatistics::patches`](super::ContactStatistics::patches) has an example.
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -27,8 +24,8 @@ pub struct Patch {
 /// A work of adhesion, and the nodes that have it: all, those in contact, and those that attract.
 type Counts = (f64, [u64; 3]);
 
-/// The patches, by their work of adhesion, of nodes of which is told whether they are in contact and whether they
-/// attract, and nothing of absent ones. None if the law is the same everywhere, or of too many works of adhesion.
+/// The patches by work of adhesion, from whether each node is in contact and attracts, with nothing for absent ones.
+/// `None` if the law is the same everywhere, or of more than [`MOST`] works of adhesion.
 pub(super) fn patches<T: Real>(
     law: &impl AdhesionLaw<T>,
     grid: &Grid,
@@ -65,7 +62,7 @@ pub(super) fn patches<T: Real>(
     counts.into_iter().map(patch).collect()
 }
 
-/// Adds nodes to those of their work of adhesion; of more works than are told apart only one.
+/// Adds nodes to those of their work of adhesion; beyond [`MOST`] works only one more is kept.
 fn count(counts: &mut Vec<Counts>, work: f64, nodes: [u64; 3]) {
     let at = counts.iter().position(|(other, _)| *other == work).unwrap_or(counts.len());
     if at == counts.len() {

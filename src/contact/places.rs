@@ -6,7 +6,7 @@ use crate::grid::Grid;
 const BINS: usize = 64;
 const COARSER: usize = 4;
 
-/// The numbers of neighbours between which the edge runs, by its place from one to the other.
+/// The histogram of the edge's place between neighbours.
 #[derive(Clone, Debug)]
 pub(super) struct Places {
     counts: [u64; BINS],
@@ -22,22 +22,17 @@ impl Places {
         self.counts[((place * BINS as f64) as usize).min(BINS - 1)] += 1;
     }
 
-    /// Those of all slabs of a grid.
     pub fn total(mut self, grid: &Grid) -> Self {
         grid.add_up(&mut self.counts);
         self
     }
 
-    /// The number of neighbours.
     pub fn edges(&self) -> usize {
         self.counts.iter().sum::<u64>() as usize
     }
 
-    /// The number of places that are independent, by how often two coincide: 1 for neighbours all at the same place,
-    /// and that of the neighbours where no more than by chance coincide.
-    ///
-    /// Two coincide by chance the more often the wider the bins are, and the same place is in the same bin however
-    /// narrow that is: bins of two widths tell the one from the other.
+    /// The number of independent places, by how often two coincide: 1 if all are at the same place. Chance
+    /// coincidences grow with the width of the bins, and equal places do not: bins of two widths tell them apart.
     pub fn independent(&self) -> f64 {
         let edges = self.edges() as f64;
         let square = |count: u64| (count as f64 / edges).powi(2);

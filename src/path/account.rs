@@ -1,6 +1,5 @@
 //! The account of energy along a path, and the balance of a step.
 
-/// The account of energy so far.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Account {
     pub(super) work: f64,
@@ -10,7 +9,6 @@ pub(super) struct Account {
     pub(super) range: (f64, f64),
 }
 
-/// The balance of energy of a trial step.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Balance {
     /// whether the energy changed by the work of the load

@@ -10,23 +10,19 @@ use crate::solver::Report;
 
 mod values;
 
-/// The way of a step to the state that is taken.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Way {
-    /// whether it jumped
     pub(super) jumped: bool,
     /// the eigenvalue of the saddle that was left, where a symmetry breaks
     pub(super) bifurcation: Option<f64>,
 }
 
 impl Way {
-    /// Whether it is on another branch than the state before.
     pub(super) fn is_new(&self) -> bool {
         self.jumped || self.bifurcation.is_some()
     }
 }
 
-/// The state of a path between two steps.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Course {
     pub(super) solved: bool,
@@ -35,13 +31,11 @@ pub(super) struct Course {
     /// whether the boundary is free, and the nominal area
     free: bool,
     area: f64,
-    /// where this leg, or the rest of it under another control, began and ends
+    /// where this leg, or its rest under another control, began and ends
     span: (f64, f64),
-    /// the length of the next step
     step: f64,
-    /// of the pressure at which the leg ends, if mean gaps are given on the way there: itself, and where the leg began
+    /// where the leg ends and began in pressure, if mean gaps are given on the way there
     pressures: Option<(f64, f64)>,
-    /// the limit point that was just met
     limit: Option<(f64, f64)>,
     /// whether the last state is a saddle that could not be left
     pub(super) on_saddle: bool,
@@ -52,7 +46,6 @@ pub(super) struct Course {
     pub(super) at: Vec<Figures>,
 }
 
-/// The largest factor between the lengths of two steps.
 const GROWTH: f64 = 2.0;
 
 /// The distance, as a share of the leg, to which a leg to a pressure approaches it at given mean gaps.
@@ -62,12 +55,10 @@ const LANDING: f64 = 1e-3;
 const PLACES: usize = 4;
 
 impl Course {
-    /// The state of a path that has not begun.
     pub(super) fn on<T>(flat: &PressedFlat<T>) -> Self {
         Self { free: flat.boundary != Boundary::Periodic, area: flat.area, ..Self::default() }
     }
 
-    /// The control that holds a value.
     pub(super) fn control(&self, value: f64) -> Control {
         match self.mode {
             Mode::Gap if self.free => Control::Approach(-value),
@@ -79,7 +70,7 @@ impl Course {
         }
     }
 
-    /// What the mean gap is held by where the load is a position.
+    /// What holds the mean gap where the load is a position.
     pub(super) fn held<T>(&self, flat: &PressedFlat<T>) -> Load {
         let rigid = flat.boundary.mean_compliance();
         let compliance = if let Mode::Spring(compliance) = self.mode { flat.padding * compliance } else { 0.0 };
@@ -106,18 +97,15 @@ impl Course {
         self.span.0 == self.span.1 || self.here().slope(self.mode).0 == self.span.1
     }
 
-    /// Ends the leg where the path is.
     pub(super) fn end_leg(&mut self) {
         let (x, _) = self.here().slope(self.mode);
         self.span = (x, x);
     }
 
-    /// Where the leg ends.
     pub(super) fn end(&self) -> f64 {
         self.span.1
     }
 
-    /// Begins a leg.
     pub(super) fn enter(&mut self, leg: usize, load: Control, settings: &PathSettings) {
         let (mode, end) = match load {
             Control::MeanGap(gap) => (Mode::Gap, gap),
@@ -132,7 +120,6 @@ impl Course {
         self.turn(mode, end, settings);
     }
 
-    /// Heads for another end.
     fn turn(&mut self, mode: Mode, end: f64, settings: &PathSettings) {
         let here = self.here().held_by(mode);
         self.at.iter_mut().for_each(|place| *place = place.held_by(mode));
@@ -185,8 +172,8 @@ impl Course {
         }
     }
 
-    /// The balance of a step, up to an imbalance, as a share of how much the energy has changed, which is at least
-    /// `least`; up to the noise of rounding, and in any case to what the tolerance of the solver has `left`.
+    /// The balance of a step, up to an imbalance as a share of the change of the energy (`least` at least), the noise
+    /// of rounding, and what the tolerance of the solver has `left`.
     pub(super) fn judge(
         &self,
         target: f64,
@@ -217,8 +204,8 @@ impl Course {
         }
     }
 
-    /// Goes on at given mean gaps, from a limit point or from before a bifurcation: no closer than the surfaces bear
-    /// the pressure at which the leg ends, and no farther than they reach each other.
+    /// Goes on at given mean gaps, from a limit point or before a bifurcation: between the gap at which the surfaces
+    /// bear the pressure at the leg's end and that at which they lose each other.
     pub(super) fn leave_pressure_control(
         &mut self,
         (close, far): (f64, f64),
@@ -244,8 +231,7 @@ impl Course {
         self.step = self.smallest(settings);
     }
 
-    /// Whether a step at a given mean gap goes beyond the pressure at which the leg ends: then the next one is
-    /// shorter.
+    /// Whether a step at a given mean gap passes the pressure at which the leg ends: then the next one is shorter.
     pub(super) fn overshoots(&mut self, report: &Report, settings: &PathSettings) -> bool {
         let Some((end, start)) = self.pressures else { return false };
         let (before, after) = (self.here().pressure, report.mean_pressure);
@@ -259,7 +245,6 @@ impl Course {
         !smallest
     }
 
-    /// Takes a step.
     pub(super) fn accept(
         &mut self,
         target: f64,

@@ -3,23 +3,20 @@
 use std::fmt;
 
 /// An event between two states on a path.
-///
-/// The page [`branches`](crate::guide::branches) has an example.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Event {
     /// The state jumped to another branch.
     Jump(Jump),
-    /// The branch became one of saddles, and was left along the mode that became unstable: where a symmetry breaks.
+    /// The branch became one of saddles, and was left along the unstable mode: where a symmetry breaks.
     Bifurcation {
-        /// The eigenvalue of the mode on the branch that was left, where it is negative for the first time.
+        /// The eigenvalue of the mode on the branch that was left, negative for the first time.
         eigenvalue: f64,
-        /// The jump from the last stable state to the branch that was found. Its energy drop is zero where that branch
-        /// bends off without a jump.
+        /// The jump from the last stable state to the new branch; its energy drop is zero where that bends off
+        /// smoothly.
         jump: Jump,
     },
-    /// The mean pressure is at a maximum or a minimum: from the state before this one the path goes on at given mean
-    /// gaps.
+    /// The mean pressure is at an extremum: from the state before this one the path goes on at given mean gaps.
     LimitPoint {
         /// The mean gap there.
         mean_gap: f64,
@@ -28,9 +25,7 @@ pub enum Event {
     },
 }
 
-/// A jump: where it starts, to the smallest step of the path, and where it ends.
-///
-/// The page [`branches`](crate::guide::branches) has an example.
+/// A jump, located to the smallest step of the path.
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Jump {
@@ -47,7 +42,7 @@ pub struct Jump {
 }
 
 impl Event {
-    /// The jump of a jump or of a bifurcation.
+    /// The jump of a jump or a bifurcation.
     pub fn jump(&self) -> Option<&Jump> {
         match self {
             Self::Jump(jump) | Self::Bifurcation { jump, .. } => Some(jump),

@@ -2,7 +2,6 @@
 
 use crate::solver::Report;
 
-/// The quantity that is held in a step.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) enum Mode {
     /// the position
@@ -13,7 +12,6 @@ pub(super) enum Mode {
     Spring(f64),
 }
 
-/// The figures of a state in the balance of energy.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Figures {
     /// what the load works on: the mean gap, or with a free boundary minus the approach
@@ -58,7 +56,6 @@ impl Figures {
         }
     }
 
-    /// The place with the rest of a spring that carries its pressure.
     pub(super) fn held_by(self, mode: Mode) -> Self {
         let length = if let Mode::Spring(compliance) = mode { compliance * self.pressure } else { 0.0 };
         Self { rest: self.position - length, ..self }

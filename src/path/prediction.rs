@@ -22,7 +22,6 @@ where
     L: AdhesionLaw<T>,
     C: ContactConstraint<T>,
 {
-    /// The least gaps after a step.
     pub(super) fn least(&self) -> Least<T> {
         Potential::new(&self.problem.law, &self.solver.constraint, None).least()
     }

@@ -15,8 +15,7 @@ use crate::stability::Saddle;
 /// The largest change of the gap that is made along the mode, in ranges of adhesion.
 const PERTURBATION: f64 = 0.1;
 
-/// The share of the mode in the last change of the gap above which the branch itself leads along the mode. The branch
-/// then turns back, and the state jumps; below, a symmetry breaks.
+/// The share of the mode in the last change of the gap above which the state jumps; below, a symmetry breaks.
 const DRAWN: f64 = 0.1;
 
 /// The largest number of saddles that are left one after the other at one load.
@@ -39,8 +38,8 @@ where
         self.watch.look(operator, (followed, &self.solver.constraint), gap, load)
     }
 
-    /// Goes down from a saddle along its mode, to a state that is none, if there is one; and whether the branch was
-    /// on the way along the mode itself. The path has failed where the observer stopped a solve.
+    /// Descends from a saddle along its mode to a state that is none, if there is one; and whether the branch led
+    /// along the mode itself. The path has failed where the observer stopped a solve.
     pub(super) fn leave(
         &mut self,
         from: &Solution<T>,

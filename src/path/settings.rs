@@ -11,16 +11,9 @@ use crate::setters::setters;
 /// | `smooth` | true | whether jumps of the law's traction are smoothed, by what the grid can resolve | |
 /// | `imbalance` | 1e-4 | how far the energy may be from the work done in a step, as a share of how much the energy has changed along the path (or of w/1000, if that is more) | positive |
 ///
-/// A smaller imbalance asks for a smaller tolerance of the solver too: its square must be well below.
-/// Without adhesion, what that tolerance leaves in the energy of surfaces that are apart, its square times that of the
-/// surface pressed flat, is no imbalance. What rounding does is none either: in `f32` jumps of less than a millionth of
-/// that energy are not told from it.
-///
-/// ```
-/// use asperity::path::PathSettings;
-/// let sharp = PathSettings::default().smallest_step(1e-6);
-/// assert_eq!(sharp.steps, 50);
-/// ```
+/// The square of the solver's tolerance must be well below the imbalance. Without adhesion, its square times the
+/// energy of the surface pressed flat is no imbalance between surfaces that are apart, nor is rounding: in `f32` jumps
+/// below a millionth of that energy are lost in it. [`Path`](super::Path) has an example.
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PathSettings {

@@ -8,22 +8,6 @@ use super::Event;
 use crate::solver::Solution;
 
 /// A state on a path.
-///
-/// ```
-/// use asperity::path::{Path, PathSettings};
-/// use asperity::{Control, Grid, NoAdhesion, Problem, Solver, Surface, Westergaard};
-/// let grid = Grid::line(64, 1.0)?;
-/// let mut problem = Problem::new(&Surface::wave(grid, 0.02, 1)?, Westergaard::<f64>::new(grid, 1.0)?, NoAdhesion)?;
-/// let legs = [0.02, 0.01].map(Control::MeanGap);
-/// let mut solver = Solver::default();
-/// let path = Path::new(&mut solver, &mut problem, legs, PathSettings::default())?;
-/// let path = path.collect::<Result<Vec<_>, _>>()?;
-/// let last = path.last().expect("a path has a start");
-/// // without adhesion nothing jumps, and what the load puts in is stored
-/// assert!(path.iter().all(|step| step.event.is_none()) && last.dissipated == 0.0);
-/// assert!((last.work / last.solution.report.elastic_energy - 1.0).abs() < 1e-3);
-/// # Ok::<(), asperity::Error>(())
-/// ```
 #[non_exhaustive]
 #[derive(Clone, Debug, PartialEq)]
 pub struct PathStep<T> {
@@ -33,35 +17,16 @@ pub struct PathStep<T> {
     pub leg: usize,
     /// The work done by the load since the start, −∫p̄ dḡ, and with a free boundary ∫p̄ dδ, per nominal area.
     pub work: f64,
-    /// The energy dropped in jumps since the start, per area. Over a closed cycle it is the work of adhesion that was
-    /// lost.
+    /// The energy dropped in jumps since the start, per area; over a closed cycle, the lost work of adhesion.
     pub dissipated: f64,
-    /// The imbalance of energy: the change of the energy, plus the dissipated energy, less the work. It comes from the
-    /// quadrature of the work, the solver's tolerance, and jumps smaller than the imbalance that a step may have.
+    /// The imbalance of energy: its change, plus the dissipated energy, less the work. It comes from quadrature,
+    /// tolerance, and jumps below the imbalance that a step may have.
     pub imbalance: f64,
     /// The event between the previous state and this one.
     pub event: Option<Event>,
 }
 
-/// All that a path needs to go on: values by their names, and fields on the grid of the operator. Both must come back
-/// bit for bit.
-///
-/// ```
-/// use asperity::path::{Path, PathSettings};
-/// use asperity::{Control, Grid, NoAdhesion, Problem, Solver, Surface, Westergaard};
-/// let grid = Grid::line(64, 1.0)?;
-/// let mut problem = Problem::new(&Surface::wave(grid, 0.02, 1)?, Westergaard::<f64>::new(grid, 1.0)?, NoAdhesion)?;
-/// let (mut solver, settings) = (Solver::default(), PathSettings::default().steps(4));
-/// let legs = [0.02, 0.01].map(Control::MeanGap);
-/// let whole = Path::new(&mut solver, &mut problem, legs, settings)?.collect::<Result<Vec<_>, _>>()?;
-///
-/// let mut first = Path::new(&mut solver, &mut problem, legs, settings)?;
-/// first.next().transpose()?;
-/// let kept = first.checkpoint();
-/// let rest = Path::new(&mut solver, &mut problem, legs, settings)?.continuing(kept)?.collect::<Result<Vec<_>, _>>()?;
-/// assert_eq!(rest, whole[1..]);
-/// # Ok::<(), asperity::Error>(())
-/// ```
+/// A checkpoint: all that a [`Path`](super::Path) needs to go on. Values and fields must come back bit for bit.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PathCheckpoint<T> {
     /// The values of the path's state by their names, as `work` and `step`.

@@ -1,36 +1,34 @@
 //! A lower bound of the smallest eigenvalue.
 //!
-//! Say (ρ, x) is the pair that was found, with a residual of norm r. Lifted by τ⟨x, ·⟩x, the Hessian H becomes H' =
-//! H + τ⟨x, ·⟩x, whose first eigenvalue is no larger than the second one of H. With H' ≥ b therefore b ≤ λ₂, and then
+//! The pair found is (ρ, x), with a residual of norm r. The lifted Hessian H' = H + τ⟨x, ·⟩x has a first eigenvalue no
+//! larger than the second one of H. With H' ≥ b therefore b ≤ λ₂, and then
 //!
 //! - λ₁ ≥ ρ − r²/(b − ρ) if b > ρ (Temple);
 //! - λ₁ ≥ c − τr²/(ρ − c)² for every c ≤ b, c < ρ: with v the first mode, ⟨v, x⟩ = ⟨v, residual⟩/(λ₁ − ρ) and λ₁ +
 //!   τ⟨v, x⟩² ≥ b.
 //!
-//! For b, Lanczos' iteration on M½H'M½, with the compliance M as preconditioner. Take a polynomial that is at most 1
-//! on all eigenvalues θ but those within ε of the first, relative to their spread, and as large as can be at the first
-//! (Chebyshev's); after k steps the least Ritz value is too large by no more than
+//! For b, Lanczos' iteration on M½H'M½, with the compliance M as preconditioner. By Chebyshev's polynomials the least
+//! Ritz value after k steps is too large by no more than
 //!
 //! ε + tan²∠(start, first eigenvector) · 4 ((1 − √ε)/(1 + √ε))^(2(k − 1))
 //!
-//! of the spread, for any ε, whatever the eigenvalues are (compare Kuczyński and Woźniakowski, *SIAM J. Matrix Anal.
-//! Appl.* 13 (1992)). The start is M½ times normal numbers: its component along a unit vector has a variance no less
-//! than the least eigenvalue of M, and is smaller than δ standard deviations with a probability below δ√(2/π). The
-//! same holds at the other end, which bounds the spread.
+//! of the spread, for any ε and any spectrum (compare Kuczyński and Woźniakowski, *SIAM J. Matrix Anal. Appl.* 13
+//! (1992)). The start is M½ times normal numbers: its component along a unit vector has a variance no less than the
+//! least eigenvalue of M, and is below δ standard deviations with a probability below δ√(2/π). So is that at the other
+//! end, which bounds the spread.
 
 use super::eigenpair::Eigenpair;
 use super::hessian::Hessian;
 use crate::error::Result;
 use crate::real::Real;
 
-/// The least component of the start along either end of the spectrum, in standard deviations: smaller ones have
-/// together a chance of one in a million.
+/// The least component of the start along either end, in standard deviations: the chance of less at either is 1e-6.
 const LEAST: f64 = 6.2e-7;
 
 /// Steps after which the bound is computed again.
 const EVERY: usize = 4;
 
-/// A lower bound of the smallest eigenvalue, not above zero if there is none in so many steps.
+/// A lower bound of the smallest eigenvalue, not above zero if none is found in `most` steps.
 pub(super) fn below<T: Real>(hessian: &mut Hessian<'_, T>, pair: &Eigenpair<T>, most: usize) -> Result<f64> {
     let mode = &pair.vector;
     let mut z = mode.clone();
@@ -63,7 +61,7 @@ pub(super) fn below<T: Real>(hessian: &mut Hessian<'_, T>, pair: &Eigenpair<T>, 
         }
         std::mem::swap(&mut before, &mut q);
         std::mem::swap(&mut q, &mut image);
-        // components outside of the admissible fields, from rounding, would grow
+        // components outside the admissible fields, from rounding, would grow
         hessian.project(&mut q);
         hessian.precondition(&q, &mut z)?;
         norm = hessian.product(&q, &z).max(0.0).sqrt();
@@ -94,7 +92,7 @@ fn lower_bound<T>(pair: &Eigenpair<T>, lift: f64, b: f64) -> f64 {
     shares.filter(|&c| c < value).map(lifted).fold(temple, f64::max)
 }
 
-/// The largest excess of the least Ritz value after `steps` steps, as a share of the spread of the eigenvalues.
+/// The largest excess of the least Ritz value, as a share of the spread of the eigenvalues.
 fn uncertainty(tangent: f64, steps: usize) -> f64 {
     let power = 2.0 * (steps as f64 - 1.0);
     let at = |epsilon: f64| {

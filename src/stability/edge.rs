@@ -6,16 +6,13 @@ use crate::real::Real;
 use crate::slab::Rows;
 use crate::solver::Solution;
 
-/// The local stiffness of the grid, over E*/Δ: of an edge that is parallel to an axis.
+/// The local stiffness of the grid, over E*/Δ, at an edge parallel to an axis.
 const STIFF: f64 = 1.73;
 
-/// How the sums along the edge become errors.
+/// The weights of the sum over the edge, of the root of the sum of squares, and of the release of nodes in contact.
 struct Factors {
-    /// of the sum
     sum: f64,
-    /// of the root of the sum of squares
     scatter: f64,
-    /// of what the nodes in contact release
     excess: f64,
 }
 
@@ -25,53 +22,33 @@ const ON_LINES: Factors = Factors { sum: STIFF, scatter: 0.5, excess: 0.0 };
 
 /// The estimated error that the grid leaves in a contact stiffness, and in the mean gap of the same solution.
 ///
-/// On a grid the edge of the contact moves in steps, node by node. From one step to the next the stiffness of the grid
-/// stays the same, while the true one grows: its error over the load is a sawtooth, and that of the mean gap its
-/// integral, as the slope of the gap over the load is the inverse of the stiffness. Where in a step the solution is,
-/// its fields and their change with the approach tell. With λ the contact pressure of a node on the edge and τ what it
-/// gains per approach, the node came into contact an approach of a = λ/τ ago; with g the gap of a neighbour that is
-/// apart and v what it loses per approach, that will touch in b = g/v. The step is T = a + b, of which t = a/T has
-/// passed. Means over the neighbours on the other side of the edge give each node its T and t, and means over all nodes
-/// of the grid the errors
+/// The contact edge moves node by node. From one step to the next the stiffness of the grid stays the same, while the
+/// true one grows: its error over the load is a sawtooth, and that of the mean gap its integral. A node on the edge
+/// with the contact pressure λ, which gains τ per approach, came into contact an approach of a = λ/τ ago; a neighbour
+/// with the gap g, which loses v per approach, will touch in b = g/v. The step is T = a + b, of which t = a/T has
+/// passed. Means over the neighbours across the edge give each node its T and t, and means over the nodes of the grid
 ///
 /// ```math
 /// δk = c ⟨R (1/2 − t)₊⟩ − c ⟨R' (t − 1/2)₊⟩ ,   δḡ = c ⟨(R + R') T (t(1 − t)/2 − 1/12)⟩ / 2k ,
 /// ```
 ///
-/// where R = Δ τ²/E* of the nodes in contact and R' = E* v²/(3 Δ) of those that are apart, with the spacing Δ, is that
-/// by which k jumps where the edge passes a node: so both errors have the mean zero over a step. On a line c is 1.73,
-/// of which 3 is the square, and the errors are met closely, by comparison with [Westergaard's
-/// wave](crate::exact::WavyLine). On a plane steps are less regular. There c is 1.2 for δk, which is less by 0.063 ⟨R⟩,
-/// and 1.59 for δḡ; both are fitted to rough surfaces. So is the scatter, for the case that the terms cancel: 0.6 and
-/// 0.8 times the root of the sum of their squares, and 0.5 times on a line, which is added in the root mean square.
-///
-/// ```
-/// use asperity::exact::WavyLine;
-/// use asperity::stability::ContactStiffness;
-/// use asperity::{Control, Grid, NoAdhesion, Problem, Settings, Solver, Surface, Westergaard};
-/// let grid = Grid::line(128, 1.0)?;
-/// let mut problem = Problem::new(&Surface::wave(grid, 0.02, 1)?, Westergaard::<f64>::new(grid, 1.0)?, NoAdhesion)?;
-/// let mut solver = Solver::new(Settings::default().tolerance(1e-10));
-/// let solution = solver.solve(&mut problem, Control::MeanPressure(0.02))?;
-/// let edge = ContactStiffness::of(&mut problem, &solution)?.edge.unwrap();
-/// let exact = WavyLine::new(0.02, 1.0, 1.0)?.at_mean_pressure(0.02)?.mean_gap();
-/// let error = (solution.report.mean_gap - exact).abs();
-/// assert!(edge.gap > 0.5 * error && edge.gap < 2.0 * error);
-/// # Ok::<(), asperity::Error>(())
-/// ```
+/// with R = Δ τ²/E* of nodes in contact and R' = E* v²/(3 Δ) of those apart the jump of k where the edge passes a
+/// node. On a line c is 1.73, the root of 3, and the errors are met closely, against [Westergaard's
+/// wave](crate::exact::WavyLine). On a plane c is 1.2 for δk, less 0.063 ⟨R⟩, and 1.59 for δḡ, fitted to rough
+/// surfaces. So is the scatter, added in the root mean square: 0.6 and 0.8 times the root of the sum of the squares of
+/// the terms, and 0.5 times on a line.
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EdgeError {
-    /// The error of the mean gap under a given load, a length. Times the stiffness it is that of the mean pressure
-    /// under a given mean gap.
+    /// The error of the mean gap under a given load, a length; times the stiffness that of the mean pressure under a
+    /// given mean gap.
     pub gap: f64,
     /// The error of the stiffness, a pressure per length.
     pub stiffness: f64,
 }
 
 impl EdgeError {
-    /// The error of a solution in a periodic cell, by its tangent at a mean gap of 1 and its stiffness, pressure per
-    /// length.
+    /// The error of a solution in a periodic cell, by its tangent at a mean gap of 1 and its stiffness.
     pub(super) fn of<T: Real>(solution: &Solution<T>, tangent: &Tangent<T>, stiffness: f64) -> Self {
         let (grid, modulus) = (&solution.grid, solution.report.modulus);
         let ((nx, ny), fields) = (grid.shape(), [&solution.gap, &solution.contact_pressure]);
@@ -126,7 +103,6 @@ impl EdgeError {
 }
 
 impl Factors {
-    /// The error by the sum of some terms, that of their squares, and the excess.
     fn size(&self, sum: f64, squares: f64, excess: f64) -> f64 {
         (self.sum * sum - self.excess * excess).hypot(self.scatter * squares.sqrt())
     }

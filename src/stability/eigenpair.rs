@@ -8,7 +8,6 @@ use crate::field::{Partial, read};
 use crate::par::Parts;
 use crate::real::Real;
 
-/// An eigenpair, and the accuracy to which it was found.
 pub(super) struct Eigenpair<T> {
     /// the Rayleigh quotient
     pub(super) value: f64,
@@ -20,11 +19,10 @@ pub(super) struct Eigenpair<T> {
     pub(super) vector: Array2<T>,
 }
 
-/// The largest error of the eigenvalue as a share of it, which makes its sign known. The error is at most r²/gap, with
-/// r the norm of the residual and the softest stiffness for the gap to the next eigenvalue.
+/// The largest error of the eigenvalue as a share of it, by r²/gap with the softest stiffness for the gap to the next.
 pub(super) const UNCERTAIN: f64 = 0.01;
 
-/// The least component of a vector outside of the span of the others, as a share of it; below, it counts as dependent.
+/// The least component outside the span of the other vectors, as a share; below, a vector counts as dependent.
 const DEPENDENT: f64 = 1e-10;
 
 type Matrix = [[f64; 3]; 3];
@@ -42,7 +40,6 @@ pub(super) fn lowest<T: Real>(hessian: &mut Hessian<'_, T>, tolerance: f64, most
     })
 }
 
-/// The figures of an eigenpair while it is iterated.
 pub(super) struct Found {
     pub(super) value: f64,
     pub(super) residual: f64,
@@ -50,8 +47,8 @@ pub(super) struct Found {
     pub(super) iteration: usize,
 }
 
-/// The smallest eigenvalue with its mode, from an admissible start, until `Found` is accurate enough. If `confirmed`,
-/// one more application computes the image Hx of the final mode, which the iteration only updates.
+/// The eigenpair from an admissible start, until `Found` is accurate enough. If `confirmed`, one more application
+/// computes the image Hx, which the iteration only updates.
 pub(super) fn lowest_from<T: Real>(
     hessian: &mut Hessian<'_, T>,
     mut x: Array2<T>,
@@ -76,7 +73,7 @@ pub(super) fn lowest_from<T: Real>(
             if fresh || !confirmed {
                 return Ok(Eigenpair { value, residual, noise, vector: x });
             }
-            // the image was only updated: the numbers that are reported come from an image of its own
+            // the image was only updated: the reported numbers come from a fresh one
             normalise(hessian, &mut x);
             hessian.apply(&x, &mut ax)?;
             (fresh, directions) = (true, 2);
@@ -102,9 +99,8 @@ pub(super) fn lowest_from<T: Real>(
     }
 }
 
-/// The rounding of a Rayleigh quotient.
 fn noise<T: Real>(hessian: &mut Hessian<'_, T>, image: &Array2<T>, value: f64) -> f64 {
-    // the image is the sum K⁻¹x + φ''x, of which neither term need be small
+    // the image is a sum K⁻¹x + φ''x of terms that may both be large
     let image = hessian.product(image, image).sqrt();
     8.0 * T::epsilon().widen() * (image.max(value.abs()) + 2.0 * hessian.least_slope().abs() + hessian.softest())
 }
@@ -139,7 +135,6 @@ fn products<T: Real>(hessian: &mut Hessian<'_, T>, of: [&Array2<T>; 3], images: 
 
 /// The combination of the first so many of three fields that has the least energy for its norm, of norm 1.
 fn ritz(gram: &Matrix, energy: &Matrix, directions: usize) -> [f64; 3] {
-    // an orthonormal basis of their span, as combinations of them
     let mut basis: Vec<[f64; 3]> = Vec::with_capacity(3);
     for k in 0..directions {
         let mut next = [0.0; 3];
@@ -171,7 +166,6 @@ fn ritz(gram: &Matrix, energy: &Matrix, directions: usize) -> [f64; 3] {
     if result[0] < 0.0 { result.map(|c| -c) } else { result }
 }
 
-/// aᵀ M b
 fn form(matrix: &Matrix, a: &[f64; 3], b: &[f64; 3]) -> f64 {
     matrix.iter().zip(a).map(|(row, a)| a * row.iter().zip(b).map(|(m, b)| m * b).sum::<f64>()).sum()
 }

@@ -11,14 +11,13 @@ use crate::problem::Load;
 use crate::real::Real;
 use crate::solver::Coarse;
 
-/// K⁻¹ + φ'' on fields that vanish on the contact, and have no mean if the mean gap is given; a spring adds its
-/// stiffness to the mean.
+/// K⁻¹ + φ'' on fields that vanish on the contact, and have no mean if the mean gap is given.
 pub(super) struct Hessian<'a, T> {
     operator: &'a mut dyn ElasticOperator<T>,
     /// φ'', infinite on the contact
     slopes: Array2<T>,
     centred: bool,
-    /// the stiffness of the mean, zero but for a spring
+    /// the stiffness that a spring adds to the mean, zero without one
     spring: f64,
     free: f64,
     least: f64,
@@ -44,12 +43,10 @@ impl<'a, T: Real> Hessian<'a, T> {
         Self { operator, slopes, centred, spring, free, least, reducer, coarse: None, applications: 0 }
     }
 
-    /// The shape of a field in this process.
     pub(super) fn shape(&self) -> (usize, usize) {
         self.slopes.dim()
     }
 
-    /// The number of nodes of the grid.
     pub(super) fn nodes(&self) -> f64 {
         self.operator.grid().nodes() as f64
     }
@@ -58,19 +55,16 @@ impl<'a, T: Real> Hessian<'a, T> {
         self.applications
     }
 
-    /// The dimension of the space of admissible fields.
     pub(super) fn dimension(&self) -> usize {
         let free = self.free as usize;
         if self.centred { free.saturating_sub(1) } else { free }
     }
 
-    /// The number of nodes that are not in contact.
     pub(super) fn free(&self) -> f64 {
         self.free
     }
 
-    /// Tells the preconditioner where the contacts are; `stiffness` is that which the surface meets as it is pressed
-    /// flat.
+    /// Tells the preconditioner where the contacts are, and the `stiffness` against pressing the surface flat.
     pub(super) fn hold(&mut self, stiffness: f64) {
         let range = self.operator.stiffness_range();
         let Some(mut coarse) = Coarse::of(self.operator) else { return };
@@ -79,12 +73,11 @@ impl<'a, T: Real> Hessian<'a, T> {
         self.coarse = Some(coarse);
     }
 
-    /// The least φ''.
     pub(super) fn least_slope(&self) -> f64 {
         if self.least.is_finite() { self.least } else { 0.0 }
     }
 
-    /// The stiffness of the softest wave; E*/Lx on a grid of one node, which has no wave.
+    /// The stiffness of the softest wave; E*/Lx on a grid of one node.
     pub(super) fn softest(&self) -> f64 {
         match self.operator.stiffness_range().0 {
             softest if softest > 0.0 => softest,
@@ -155,8 +148,7 @@ impl<'a, T: Real> Hessian<'a, T> {
         mean.widen()
     }
 
-    /// The image of an admissible field, made admissible; returns the mean that was taken out. Takes one operator
-    /// application.
+    /// The image of an admissible field, made admissible; returns the mean taken out. Takes one operator application.
     pub(super) fn apply(&mut self, field: &Array2<T>, image: &mut Array2<T>) -> Result<f64> {
         self.operator.pressure(field.view(), image.view_mut())?;
         self.applications += 1;
@@ -174,8 +166,7 @@ impl<'a, T: Real> Hessian<'a, T> {
         Ok(self.project(image))
     }
 
-    /// The force that holds a field at zero on the contact: a level less K⁻¹ of the field there, and zero elsewhere.
-    /// Takes one operator application.
+    /// The force that holds a field at zero on the contact, a level less K⁻¹ of the field. One operator application.
     pub(super) fn reaction(&mut self, field: &Array2<T>, level: f64, reaction: &mut Array2<T>) -> Result<()> {
         self.operator.pressure(field.view(), reaction.view_mut())?;
         self.applications += 1;
@@ -189,8 +180,7 @@ impl<'a, T: Real> Hessian<'a, T> {
         Ok(())
     }
 
-    /// The compliance, as preconditioner, of an admissible field r; returns the mean of r·Kr. Takes one operator
-    /// application.
+    /// Preconditions an admissible field r by the compliance; returns the mean of r·Kr. One operator application.
     pub(super) fn precondition(&mut self, residual: &Array2<T>, result: &mut Array2<T>) -> Result<f64> {
         let softest = self.softest();
         let coarse = self.coarse.as_mut().and_then(Coarse::ready);
@@ -201,7 +191,6 @@ impl<'a, T: Real> Hessian<'a, T> {
         Ok(found.error)
     }
 
-    /// The mean product of two fields.
     pub(super) fn product(&mut self, a: &Array2<T>, b: &Array2<T>) -> f64 {
         let total = self.reducer.run(read(a).zip(read(b)), |_, (a, b)| {
             let mut part = Partial::NONE;
@@ -253,8 +242,7 @@ impl<'a, T: Real> Hessian<'a, T> {
         field
     }
 
-    /// Normal numbers smoothed by the compliance, not admissible: the same whatever φ'' and the contact are. Takes one
-    /// operator application.
+    /// Normal numbers smoothed by the compliance, not admissible, the same for every φ'' and contact. One application.
     pub(super) fn smooth_random(&mut self, stream: u32) -> Result<Array2<T>> {
         let random = normal_numbers::<T>(self.operator.grid(), stream);
         let (softest, mut smooth) = (self.softest(), Array2::zeros(random.dim()));
@@ -264,7 +252,6 @@ impl<'a, T: Real> Hessian<'a, T> {
     }
 }
 
-/// Independent normal numbers, the same for every `stream`.
 fn normal_numbers<T: Real>(grid: &Grid, stream: u32) -> Array2<T> {
     let (first, ny) = (grid.first_node(), grid.shape().1);
     Array2::from_shape_fn(grid.field_shape(), |(i, j)| {

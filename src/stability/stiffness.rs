@@ -15,44 +15,35 @@ use crate::problem::{Load, Problem, smoothed_law};
 use crate::real::Real;
 use crate::solver::Solution;
 
-/// Iterations at most; a sane case takes some ten.
+/// The most iterations; some ten are usual.
 const MOST: usize = 500;
 
 /// The contact stiffness of an equilibrium: how much the load grows as the bodies approach each other by a length.
 ///
 /// With δ the approach, p̄ the mean pressure and F = p̄·Lx·Ly, the stiffness is k = dp̄/dδ, a pressure per length, and
-/// dF/dδ, a force per length. In a periodic cell, where bodies have no approach, it is that against the mean gap,
-/// k = −dp̄/dḡ; with a free boundary the body far away gives way, too.
-///
-/// # One linear solve
-///
-/// To first order the nodes in contact stay in contact, and the others change their gaps by v at a mean of 1, with
+/// dF/dδ, a force per length. In a periodic cell it is that against the mean gap, k = −dp̄/dḡ. To first order the
+/// nodes in contact stay in contact, and the others change their gaps by v at a mean of 1, with
 ///
 /// ```math
 /// v = 0 on the contact ,   K⁻¹v + φ''(g) v = k elsewhere ,   ⟨v⟩ = 1 ,   k = ⟨v, (K⁻¹ + φ''(g)) v⟩ .
 /// ```
 ///
-/// Without adhesion that is a flat punch with the outline of the contact, and k is the least energy of all such v: it
-/// is found by conjugate gradients from above. [`relative_error`](Self::relative_error) bounds how far it still is from
-/// the least, by ⟨r, K r⟩ ≥ ⟨v − v*, K⁻¹(v − v*)⟩ with r the residual. A contact of radius a on a free half-space has
-/// dF/dδ = 2aE* (Sneddon 1965), whatever the shape of the body. On rough surfaces the grid leaves an error of some 1 %
-/// with 8 nodes in the shortest wave, and 0.3 % with 16.
+/// Without adhesion that is a flat punch with the outline of the contact, and k is the least energy of all such v,
+/// found by conjugate gradients from above; ⟨r, K r⟩ ≥ ⟨v − v*, K⁻¹(v − v*)⟩ with the residual r bounds
+/// [`relative_error`](Self::relative_error). A contact of radius a on a free half-space has dF/dδ = 2aE* (Sneddon
+/// 1965). On rough surfaces the grid leaves some 1 % with 8 nodes in the shortest wave, and 0.3 % with 16.
 ///
-/// It is zero without contact and adhesion, and infinite where all nodes are in contact. Under adhesion it may be
-/// negative: then the equilibrium lasts only if the mean gap is held, or a stiff spring holds it.
+/// It is zero without contact and adhesion, infinite where all nodes are in contact, and under adhesion possibly
+/// negative: then the equilibrium needs a given mean gap, or a stiff spring.
 ///
-/// # Electrical and thermal conductance
-///
-/// A contact conducts as it resists (Barber, *Proc. R. Soc. A* 459, 53 (2003)): the potential in the half-space obeys
-/// the equations of the displacement, and current flows where the pressure of the punch is. Between two half-spaces of
-/// resistivities ρ₁ and ρ₂ the conductance per area is
+/// A contact conducts as it resists (Barber, *Proc. R. Soc. A* 459, 53 (2003)): between half-spaces of resistivities
+/// ρ₁ and ρ₂ (for heat, reciprocal conductivities) the conductance per area is
 ///
 /// ```math
 /// G = 2k / (E* (ρ₁ + ρ₂)) ,
 /// ```
 ///
-/// and that of a circular spot of radius a is Holm's 4a/(ρ₁ + ρ₂), with dF/dδ = 2aE* in the place of k. For heat the
-/// resistivities are the reciprocals of the thermal conductivities.
+/// and that of a circular spot of radius a Holm's 4a/(ρ₁ + ρ₂).
 ///
 /// ```
 /// use asperity::stability::ContactStiffness;
@@ -69,30 +60,29 @@ const MOST: usize = 500;
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ContactStiffness {
-    /// The stiffness k = dp̄/dδ, pressure per length. NaN where the search met a change of the gap along which the
-    /// curvature is negative: no load would follow from such an equilibrium, even if its mean gap were held.
+    /// The stiffness k = dp̄/dδ, pressure per length. NaN where the curvature is negative along some change of the
+    /// gap: such an equilibrium does not last even at a given mean gap.
     pub pressure_per_length: f64,
     /// The stiffness dF/dδ = k·Lx·Ly, force per length.
     pub force_per_length: f64,
-    /// The relative error of the linear solve: without adhesion a bound. The stiffness is too large by this much, at
-    /// most. [`ContactStiffness::of`] ends at 1e-6, and in `f32` at 1e-4.
+    /// The relative error of the linear solve, at most 1e-6 from [`ContactStiffness::of`], 1e-4 in `f32`. Without
+    /// adhesion it bounds how much too large the stiffness is.
     pub relative_error: f64,
     /// Whether the jumps of the law were smoothed, as for [`StabilityTest`](super::StabilityTest).
     pub smoothed: bool,
     /// The number of operator applications.
     pub operator_applications: usize,
-    /// The estimated error of the grid in a periodic cell. Nothing with a free boundary or absent nodes, whose errors
-    /// are others, where no node, or every one, is in contact, and where springs or a law are in the place of the wall.
+    /// The estimated error of the grid in a periodic cell. `None` with a free boundary or absent nodes, where no node
+    /// or every one is in contact, and under springs or a law in place of the wall.
     pub edge: Option<EdgeError>,
 }
 
 impl ContactStiffness {
-    /// A relative error far below that of any grid that can be afforded, in either precision.
+    /// A relative error far below that of any affordable grid, in either precision.
     pub const TOLERANCE: f64 = 1e-4;
 
-    /// The contact stiffness of a solution, whose wall is rigid. The gap may be in any memory layout.
-    ///
-    /// Memory per node: seven scalars, beside those of the problem.
+    /// The contact stiffness of a solution with a rigid wall, whose gap may be in any memory layout. Memory per node:
+    /// seven scalars.
     ///
     /// # Errors
     /// Those of [`StabilityTest::run`](super::StabilityTest::run), but for its tolerance.
@@ -165,7 +155,7 @@ impl ContactStiffness {
 struct LeastEnergy<T> {
     energy: f64,
     relative_error: f64,
-    /// That v, and its pressure; nothing where it is not wanted, or no v has a least energy.
+    /// That v, and its pressure, if wanted and v exists.
     tangent: Option<Tangent<T>>,
 }
 

@@ -4,8 +4,7 @@ use ndarray::Array2;
 
 /// The change of a solution as the mean gap opens by 1, on the grid of the operator.
 pub(super) struct Tangent<T> {
-    /// The change of the gap.
     pub(super) opening: Array2<T>,
-    /// The contact pressure that is lost.
+    /// the contact pressure that is lost
     pub(super) pressure: Array2<T>,
 }

@@ -14,8 +14,7 @@ use crate::problem::{Load, Window};
 use crate::real::Real;
 use crate::solver::{Least, Potential, bounded};
 
-/// The share of a random field that is added to the mode of the last state. Without it a mode that has no share in the
-/// start, as an antisymmetric one beside a symmetric one, would never be found.
+/// The share of a random field added to the last mode: an antisymmetric mode has no share in a symmetric start.
 const FRESH: f64 = 0.03;
 
 /// Iterations on a state at most.
@@ -24,15 +23,14 @@ const MOST: usize = 200;
 /// The relative residual to which the mode of a saddle is found.
 const SHARP: f64 = 1e-3;
 
-/// The share of its largest value that a mode has at the node by which it gets its sign.
+/// The share of its largest value that a mode has at the node that gives its sign.
 const NEARLY: f64 = 0.99;
 
-/// The watch for saddles at given mean gaps, state by state: the mode of the last state is the start for the next.
+/// The watch for saddles at given mean gaps; each search starts from the last mode.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Watch<T> {
     /// the mode that was last found, of mean square 1
     pub(crate) mode: Option<Array2<T>>,
-    /// the random field
     random: Option<Array2<T>>,
 }
 
@@ -44,15 +42,12 @@ pub(crate) struct Saddle {
 }
 
 impl<T: Real> Watch<T> {
-    /// A watch that begins with a mode.
     pub(crate) fn from_mode(mode: Option<Array2<T>>) -> Self {
         Self { mode, random: None }
     }
 
-    /// Whether an equilibrium is a saddle at its mean gap, of law and wall; with a load that is a spring, under that.
-    ///
-    /// Takes nothing if the softest stiffness and the least φ'' show that it is none, and otherwise some operator
-    /// applications: five or seven, as a rule.
+    /// Whether an equilibrium is a saddle at its mean gap, or under the spring that loads it. Costs nothing if the
+    /// softest stiffness and the least φ'' rule it out, and five or seven operator applications as a rule.
     pub(crate) fn look(
         &mut self,
         operator: &mut dyn ElasticOperator<T>,
@@ -105,7 +100,7 @@ impl<T: Real> Watch<T> {
         Ok(saddle)
     }
 
-    /// The share of the mode in a change of the gap, of a slab: the cosine of the angle between them.
+    /// The cosine of the angle between the mode and a change of the gap of a slab.
     pub(crate) fn share(&self, change: &Array2<T>, grid: &Grid) -> f64 {
         let Some(mode) = &self.mode else { return 0.0 };
         let product =
@@ -114,9 +109,8 @@ impl<T: Real> Watch<T> {
         if share.is_finite() { share } else { 0.0 }
     }
 
-    /// Adds the mode to a gap, with the largest change given: with the sign of its `share` in another change of the
-    /// gap, or so that the gap closes at the first of the nodes where the mode is as large as anywhere. No gap becomes
-    /// smaller than it may after a step. The gap is that of a slab.
+    /// Adds the mode to the gap of a slab, with the largest change given: signed as its `share` in another change, or
+    /// such that the gap closes at the first node where the mode is largest. Gaps stay above the `least`.
     pub(crate) fn displace(
         &self,
         (gap, grid): (&mut Array2<T>, &Grid),

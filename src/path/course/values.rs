@@ -7,7 +7,6 @@ use crate::path::account::Account;
 use crate::path::figures::{Figures, Mode};
 
 impl Course {
-    /// The values of the state by their names.
     pub(in crate::path) fn values(&self) -> BTreeMap<String, Vec<f64>> {
         let flag = |flag: bool| vec![f64::from(u8::from(flag))];
         let pair = |pair: Option<(f64, f64)>| pair.map_or(Vec::new(), |(a, b)| vec![a, b]);
@@ -41,7 +40,6 @@ impl Course {
         values.into_iter().map(|(name, values)| (name.to_owned(), values)).collect()
     }
 
-    /// The state of the values of another one, on the same problem as `on`.
     pub(in crate::path) fn of_values(values: &BTreeMap<String, Vec<f64>>, on: Self) -> Option<Self> {
         let of = |name: &str| values.get(name).map(Vec::as_slice);
         let one = |name: &str| if let [value] = *of(name)? { Some(value) } else { None };
