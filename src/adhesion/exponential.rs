@@ -5,13 +5,12 @@ use super::{AdhesionLaw, Hints, Values};
 use crate::error::{Error, Result};
 use crate::real::Real;
 
-/// The exponential law, φ(g) = −w exp(−g/ρ).
+/// The exponential law, of equations (37) and (38) of Rey, Anciaux and Molinari (2017), with w for their γ.
 ///
 /// ```math
 /// φ(g) = −w exp(−g/ρ) ,   φ'(g) = w/ρ exp(−g/ρ) ,   φ''(g) = −w/ρ² exp(−g/ρ)
 /// ```
 ///
-/// Equations (37) and (38) of Rey, Anciaux and Molinari (2017), with w for their γ.
 ///
 /// ```
 /// use asperity::{AdhesionLaw, Exponential};
@@ -37,12 +36,12 @@ impl Exponential {
         Ok(Self { work_of_adhesion, range })
     }
 
-    /// The work of adhesion w, as it was given.
+    /// The work of adhesion w.
     pub fn work_of_adhesion(&self) -> f64 {
         self.work_of_adhesion
     }
 
-    /// The range ρ, as it was given.
+    /// The range ρ.
     pub fn range(&self) -> f64 {
         self.range
     }

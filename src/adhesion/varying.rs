@@ -13,9 +13,8 @@ use crate::slab::Slab;
 
 /// A law whose work of adhesion differs from node to node, w(x, y): energy, traction and slope in proportion to it.
 ///
-/// Patterned, contaminated or partly wetted surfaces. The range is that of the law everywhere. What asks for one gap
-/// alone, such as the resolution measure μ_ρ, gets the answer of the strongest node, [`Varying::strongest`]. Memory per
-/// node: one `f64`, which clones share.
+/// The range is that of the law everywhere. Functions of one gap, such as the resolution measure μ_ρ, are those of the
+/// strongest node, [`Varying::strongest`]. Memory per node: one `f64`, which clones share.
 ///
 /// ```
 /// use asperity::adhesion::Varying;
@@ -47,27 +46,16 @@ pub struct Varying<L> {
 impl<L: AdhesionLaw<f64>> Varying<L> {
     /// The law with these works of adhesion at the nodes, shape (Nx, Ny), in place of its own.
     ///
-    /// Where several processes share the grid of the surface, each has all of these: [`Varying::on`] takes less memory.
+    /// Where several processes share the grid, each takes the whole map; [`Varying::on`] takes less memory.
     ///
     /// # Errors
-    /// [`Error::NotFinite`], or [`Error::Value`] if a work of adhesion is negative, if none is positive, or if the law
-    /// has none that it could be scaled from, or varies already.
+    /// [`Error::NotFinite`]; [`Error::Value`] if a work of adhesion is negative, if none is positive, or if the law has
+    /// none or varies already.
     pub fn new(law: L, works: ArrayView2<'_, f64>) -> Result<Self> {
         Self::in_slab(law, works, Slab::whole(works.dim()))
     }
 
-    /// As [`Varying::new`], on a grid that several processes may share: the works of adhesion are those of the rows
-    /// that this one holds, [`Grid::rows`].
-    ///
-    /// ```
-    /// use asperity::adhesion::Varying;
-    /// use asperity::{Exponential, Grid};
-    /// let grid = Grid::square(64, 1.0)?; // or a shared one
-    /// let work = grid.sample(|x, y| 1e-5 * (1.0 + (x - y).powi(2)));
-    /// let law = Varying::on(&grid, Exponential::new(1e-5, 2e-3)?, work.view())?;
-    /// assert_eq!(law.strongest(), (0, 63));
-    /// # Ok::<(), asperity::Error>(())
-    /// ```
+    /// As [`Varying::new`], with the works of adhesion of the rows that this process holds, [`Grid::rows`].
     ///
     /// # Errors
     /// Those of [`Varying::new`]; [`Error::Shape`] if the works of adhesion do not have the shape of the grid's fields.

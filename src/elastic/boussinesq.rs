@@ -8,11 +8,9 @@ use crate::fft::even_modes;
 use crate::par;
 use crate::slab::TILE;
 
-/// The homogeneous elastic half-space under loads on a window alone: nothing repeats, and beyond the window the surface
-/// of the half-space is free.
+/// The homogeneous elastic half-space under loads on a window alone, with a free surface beyond it.
 ///
-/// A constant pressure on each cell, of half widths a and b, displaces the surface at the distance (x, y) from its
-/// centre by
+/// A constant pressure on a cell of half widths a and b displaces the surface at the distance (x, y) from its centre by
 ///
 /// ```math
 /// K(x, y) = [f(x+a; y+b, y−b) + f(y+b; x+a, x−a) + f(x−a; y−b, y+b) + f(y−b; x−a, x+a)] / πE* ,
@@ -22,19 +20,18 @@ use crate::slab::TILE;
 /// Boussinesq (1885); Love (1929). The displacement tends to zero far away.
 ///
 /// The [`grid`](ElasticOperator::grid) of the operator has at least 2N − 1 nodes a side, the next even product of 2, 3
-/// and 5, and the compliance is that of the periodic grid on which every node has the kernel at the shorter distance:
-/// between nodes of the window it is Love's. In a [`Problem`](crate::Problem) the surface has the window's grid, as
-/// have the fields of a solution; the other nodes are its own concern.
+/// and 5, and every node of it has the kernel at the shorter distance, Love's between nodes of the window. The surface
+/// of a [`Problem`](crate::Problem) and the fields of a solution are on the window.
 ///
-/// A flat-ended body may fill the window. What is curved, or attracts the half-space from afar, should end well within
-/// it: [`Report::edge_traction`](crate::Report::edge_traction) says how far it does.
+/// A body that is curved, or attracts the half-space from afar, should end well within the window:
+/// [`Report::edge_traction`](crate::Report::edge_traction) says how far it does. A flat-ended one may fill it.
 ///
 /// Memory per node of the operator's grid: 1 scalar for the spectrum, and a quarter in `f64` for the stiffness; two
 /// fields in `f64` while it is made. A clone shares the stiffness.
 ///
 /// ```
 /// use asperity::{Boussinesq, Control, Grid, NoAdhesion, Problem, Solver, Surface};
-/// // a sphere of radius 2, pressed against a half-space of contact modulus 1 by a force: a³ = 3FR/4E*
+/// // a sphere of radius 2 on a half-space: a³ = 3FR/4E*
 /// let grid = Grid::square(64, 0.4)?;
 /// let sphere = Surface::paraboloid(grid, 2.0)?;
 /// let mut problem = Problem::new(&sphere, Boussinesq::<f64>::new(grid, 1.0)?, NoAdhesion)?;
@@ -54,8 +51,8 @@ impl<T: Real> Boussinesq<T> {
     ///
     /// # Errors
     /// [`Error::Value`] if the window has one row or column of nodes alone, if the modulus is not positive and finite,
-    /// or if a compliance leaves the range of T or is not positive, as rounding could make it on cells far from square;
-    /// [`Error::Memory`] if the kernel takes more than there is.
+    /// or if a compliance leaves the range of T or is not positive, as by rounding on cells far from square;
+    /// [`Error::Memory`] if there is too little for the kernel.
     pub fn new(window: Grid, modulus: f64) -> Result<Self> {
         Error::positive("contact modulus", modulus)?;
         let (shape, (dx, dy)) = (window.shape(), window.spacing());
@@ -111,8 +108,7 @@ fn kernel(grid: &Grid, cell: (f64, f64), modulus: f64) -> Array2<f64> {
 }
 
 /// The sum of Love's four terms at nodes of the first quadrant: in some rows, for so many columns from the first on.
-///
-/// Each term belongs to an edge of a cell, and is that of the next cell as well, with the other sign.
+/// Each term belongs to an edge of a cell, and to that of the next cell with the other sign.
 fn quadrant(rows: Range<usize>, columns: usize, (a, b): (f64, f64)) -> Array2<f64> {
     let (x, y) = (|i: usize| (2 * i + 1) as f64 * a, |j: usize| (2 * j + 1) as f64 * b);
     // the farthest corners of the cells of a row from the origin, and the terms of the edges that end there along y
@@ -149,8 +145,8 @@ fn quadrant(rows: Range<usize>, columns: usize, (a, b): (f64, f64)) -> Array2<f6
     quadrant
 }
 
-/// Love's term f(t; s, s − width) without cancellation, for an edge that begins beyond the axis, at the distance `near`
-/// from the origin, and ends at the distance `far`, or one with the axis in its middle.
+/// Love's term f(t; s, s − width) without cancellation, for an edge that begins beyond the axis and lies between the
+/// distances `near` and `far` from the origin, or one with the axis in its middle.
 fn term(t: f64, (s, width): (f64, f64), (far, near): (f64, f64)) -> f64 {
     let low = s - width;
     match low > 0.0 {

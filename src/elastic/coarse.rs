@@ -15,8 +15,8 @@ mod moments;
 use cholesky::{ROWS, decompose, dot, solve, start};
 use moments::Moments;
 
-/// Blocks of the contact map along a side, for each wave length that the shortest wave has there: a product of two
-/// waves has twice as many, and two blocks resolve one.
+/// Blocks of the contact map for each length of the shortest wave: a product of two waves has half that length, and two
+/// blocks resolve a wave.
 const BLOCKS: usize = 4;
 
 /// The most nodes of a block along a side: the sum of the places of so many has 32 bits.
@@ -24,19 +24,17 @@ const LARGEST: usize = 1 << 16;
 
 /// The longest waves of a grid on a foundation that holds the surface where it is in contact.
 ///
-/// A uniform foundation, as the rest of the preconditioner has, knows how much contact there is but not where. These
-/// waves know it. With k the stiffness of the waves, α that of the foundation, and χ(x) the share of contact near x,
-/// their response z to a load r is the Galerkin solution of
+/// A uniform foundation knows how much contact there is, these waves where it is. With k their stiffness, α that of the
+/// foundation, and χ(x) the share of contact near x, the response z to a load r is the Galerkin solution of
 ///
 /// ```math
 /// (k + α χ(x)) z = r
 /// ```
 ///
-/// in the basis 1, √2 cos q·x, √2 sin q·x, which is orthonormal. The matrix is symmetric and positive, and decomposed
-/// by Cholesky.
+/// in the orthonormal basis 1, √2 cos q·x, √2 sin q·x, by Cholesky.
 ///
 /// An operator makes it ([`Waves::coarse_space`](crate::elastic::Waves::coarse_space)), the solver tells it where the
-/// contacts are, and the operator uses it where it [preconditions](crate::ElasticOperator::precondition).
+/// contacts are, and the operator [preconditions](crate::ElasticOperator::precondition) with it.
 #[derive(Clone, Debug)]
 pub struct CoarseSpace {
     /// the mean, and one wave of each pair ±q, sorted by their columns
@@ -48,7 +46,6 @@ pub struct CoarseSpace {
     moments: Moments,
     /// the Cholesky factor, a lower triangle
     factor: Vec<f64>,
-    /// for the decomposition
     workspace: Vec<[f64; ROWS]>,
     /// the nodes that are apart, as a load, and the response to it
     apart: [Vec<f64>; 2],
@@ -56,7 +53,7 @@ pub struct CoarseSpace {
     held: bool,
     load: Vec<Complex<f64>>,
     response: Vec<Complex<f64>>,
-    /// a load, and then the response, in the real basis
+    /// load, then response, in the real basis
     vector: Vec<f64>,
 }
 
@@ -100,18 +97,17 @@ impl CoarseSpace {
         })
     }
 
-    /// The nodes of a block of the contact map along both axes, and the blocks along both axes. The last may be
-    /// smaller.
+    /// The nodes of a block of the contact map along both axes, and the blocks. The last may be smaller.
     pub(crate) fn blocks(&self) -> [(usize, usize); 2] {
         [self.block, (self.moments.points[0].len(), self.moments.points[1].len())]
     }
 
-    /// Takes the contact map: for the first node of each block, in row-major order, the nodes in contact about it, as a
-    /// share of all nodes. A node counts for the first nodes around it by linear interpolation.
+    /// Takes the contact map: for the first node of each block, in row-major order, the share of all nodes in contact
+    /// about it, each counted for the first nodes around it by linear interpolation.
     ///
-    /// `stiffness` is that of the foundation; `mean_stiffness`, which must be small beside it, keeps the mean from
-    /// being free. With `held` a response has no mean over the nodes that are apart: the mean gap is given. Returns
-    /// `false` if the matrix is not positive in its rounding.
+    /// `mean_stiffness`, which must be small beside the foundation's `stiffness`, keeps the mean from being free. With
+    /// `held` a response has no mean over the nodes that are apart: the mean gap is given. Returns `false` if the
+    /// rounded matrix is not positive.
     pub(crate) fn renew(&mut self, contact: &[f64], stiffness: f64, mean_stiffness: f64, held: bool) -> bool {
         let Self { waves, moments, factor, workspace, apart: [load, response], vector, .. } = self;
         moments.of(contact);
@@ -169,8 +165,8 @@ impl CoarseSpace {
         }
     }
 
-    /// Puts the response into a column of the half spectrum, over the response z of the uniform foundation; `sums` are
-    /// those of that column, of which the second is of r·z and the third of z.
+    /// Puts the response into a column of the half spectrum, over that of the uniform foundation, z; `sums` are those
+    /// of the column, the second of r·z and the third of z.
     pub(super) fn put<T: Real>(&self, k: usize, column: &mut [Complex<T>], sums: &mut Sums) {
         for i in self.columns.get(k).cloned().unwrap_or_default() {
             let (wave, load, response) = (self.waves[i], self.load[i], self.response[i]);
@@ -187,13 +183,13 @@ impl CoarseSpace {
         }
     }
 
-    /// The number of columns of the half spectrum, the first ones, that have waves of the space.
+    /// The number of the first columns of the half spectrum, those with waves of the space.
     pub(super) fn columns(&self) -> usize {
         self.columns.len()
     }
 }
 
-/// The nodes of a block along a side of n. It divides n unless that takes many more blocks: the map of a surface that
+/// The nodes of a block along a side of n, a divisor of n unless that takes many more blocks: the map of a surface that
 /// repeats within the cell then does so too.
 fn block(n: usize, highest: usize) -> usize {
     let most = (n / (BLOCKS * highest + 1)).clamp(1, LARGEST);
@@ -204,8 +200,7 @@ fn block(n: usize, highest: usize) -> usize {
 /// The mean, and one wave of each pair ±q with |q| up to a radius, sorted by their columns in the half spectrum.
 fn waves(grid: &Grid, layout: Layout, symbol: &dyn Fn(f64, f64) -> f64, dimension: usize) -> Vec<Wave> {
     let ((nx, ny), (lx, ly)) = (grid.shape(), grid.lengths());
-    // the modes per area of the wave numbers, or per length: on a narrow grid, too, no waves but those along it are
-    // long
+    // modes per area of the wave numbers, or per length: on a narrow grid, too, only waves along it are long
     let along = |length: f64| PI * dimension as f64 / length;
     let radius = match (nx, ny) {
         (1, _) => along(ly),

@@ -18,17 +18,16 @@ type Symbol = Arc<dyn Fn(f64, f64) -> f64 + Send + Sync>;
 
 /// An elastic operator that multiplies each wave by a factor, its stiffness k(qx, qy): p̂ = k û.
 ///
-/// A layered or an anisotropic half-space is one closure away: the page [`own_operator`](crate::guide::own_operator)
-/// has a layer of finite thickness with its limits, and treats the mean. For the homogeneous half-space,
-/// k = E*|q|/2, see [`Westergaard`].
+/// A layered or an anisotropic half-space is one closure away: see the page
+/// [`own_operator`](crate::guide::own_operator). The homogeneous half-space is [`Westergaard`].
 ///
 /// Memory per node, in units of one scalar: 1 for the spectrum, which a solve in `f64` gives back, and ½ for the
-/// stiffness, of which such a solve has one in `f32`, too; in `f32` both once more, in `f64`,
-/// while the constructor of a [`Problem`](crate::Problem) transforms the heights.
+/// stiffness, which it also has in `f32`; in `f32` both once more, in `f64`, while a [`Problem`](crate::Problem) is
+/// made.
 ///
 /// ```
 /// use asperity::{ElasticOperator, Grid, Spectral};
-/// // a layer of thickness t on a rigid, frictionless base: stiffer for long waves, the half-space for short ones
+/// // a layer of thickness t on a rigid, frictionless base
 /// let (modulus, t) = (1.0, 0.1);
 /// let layer = Spectral::<f64>::isotropic(Grid::square(32, 1.0)?, modulus, move |q| {
 ///     let x = 2.0 * q * t;
@@ -56,13 +55,13 @@ impl<T: Real> fmt::Debug for Spectral<T> {
 impl<T: Real> Spectral<T> {
     /// The operator with stiffness `symbol(qx, qy)`, pressure per length, for wave numbers in radians per length.
     ///
-    /// `modulus` is the contact modulus E* to which the operator tends for short waves; see
-    /// [`ElasticOperator::modulus`] for its uses. The symbol must be even, k(−q) = k(q), and positive; it is not asked
-    /// for q = 0. Where the Nyquist wave number has no sign, the mean of both signs is taken.
+    /// `modulus` is the contact modulus E* of short waves, [`ElasticOperator::modulus`]. The symbol must be even,
+    /// k(−q) = k(q), and positive; it is not asked for q = 0. Where the Nyquist wave number has no sign, the mean of
+    /// both signs is taken.
     ///
     /// # Errors
-    /// [`Error::Value`] if the modulus or the symbol at any mode is not positive and finite, in the precision of T;
-    /// [`Error::Memory`] if the stiffness takes more than there is.
+    /// [`Error::Value`] if the modulus or the symbol at any mode is not positive and finite in the precision of T;
+    /// [`Error::Memory`] if there is too little for the stiffness.
     pub fn new(grid: Grid, modulus: f64, symbol: impl Fn(f64, f64) -> f64 + Send + Sync + 'static) -> Result<Self> {
         Error::positive("contact modulus", modulus)?;
         grid.slab().afford("an elastic operator", size_of::<T>())?;
@@ -85,8 +84,7 @@ impl<T: Real> Spectral<T> {
     }
 
     /// The operator of a compliance that is even along both axes, without folded lines: of each column of the half
-    /// spectrum that this process transforms the first half of its modes, and the one in the middle. That of the mean,
-    /// the first one, is not used.
+    /// spectrum that this process transforms the first half of its modes, and the middle one. The mean's is not used.
     pub(super) fn of_compliance(grid: Grid, modulus: f64, mut modes: Array2<f64>) -> Result<Self> {
         Error::positive("contact modulus", modulus)?;
         let wrong = modes.iter().find(|&&compliance| !(compliance > 0.0 && compliance.is_finite()));
@@ -129,7 +127,7 @@ fn weigh(layout: Layout, column: usize, sums: Sums) -> Sums {
     sums.map(|sum| layout.weight(column) * sum)
 }
 
-/// What an application multiplies each wave by.
+/// The factor by which an application multiplies each wave.
 enum Factor<'a> {
     Stiffness,
     Compliance,
@@ -290,8 +288,7 @@ impl<T: Real> ElasticOperator<T> for Spectral<T> {
         Abilities { slabs: true, single: true, waves: Some(self), ..Abilities::default() }
     }
 
-    /// M has the symbol 1/(k + s), s the stiffness of the foundation, but for the waves of the coarse space; the
-    /// products come from the same transform.
+    /// M has the symbol 1/(k + s), but for the waves of the coarse space; the products come from the same transform.
     fn precondition(
         &mut self,
         residual: ArrayView2<'_, T>,

@@ -9,7 +9,7 @@ use asperity_fft::num_complex::Complex;
 pub(super) struct Moments {
     /// the first nodes of the blocks along both axes, as shares of the side
     pub(super) points: [Vec<f64>; 2],
-    /// the factors e^(−iqx) of these for one wave length on a side, and for the wave number in hand
+    /// their factors e^(−iqx) for one wave length on a side, and for the wave number in hand
     turns: [[Vec<Complex<f64>>; 2]; 2],
     /// the highest wave numbers
     pub(super) highest: [usize; 2],
@@ -68,7 +68,7 @@ impl Moments {
         if b < 0 { value(-a, -b).conj() } else { value(a, b) }
     }
 
-    /// The means of χ √2 cos and χ √2 sin of a wave, of which the numbers of wave lengths along both sides are given.
+    /// The means of χ √2 cos and χ √2 sin of a wave, by its numbers of wave lengths along both sides.
     pub(super) fn of_wave(&self, [a, b]: [isize; 2]) -> [f64; 2] {
         parts(self.at(a, b)).map(|part| SQRT_2 * part)
     }

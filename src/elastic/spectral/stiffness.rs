@@ -1,4 +1,4 @@
-//! The stiffness of every wave, and what an application makes of a column of the spectrum with it.
+//! The stiffness of every wave, and its application to a column of the spectrum.
 
 use std::f64::consts::PI;
 use std::sync::Arc;
@@ -19,8 +19,7 @@ use crate::vector::{BLOCK, LANES, vectorised};
 #[derive(Clone)]
 pub(super) enum Stiffness<T> {
     Stored(Columns<T>),
-    /// the half-space, `unit·√(x² + y²)`, which is faster computed than stored: the squares x² and y² in and across
-    /// columns
+    /// the half-space, `unit·√(x² + y²)`, faster computed than stored: x² and y² in and across columns
     HalfSpace {
         unit: T,
         x: Vec<T>,
@@ -31,8 +30,7 @@ pub(super) enum Stiffness<T> {
         unit: T,
         x: Vec<T>,
     },
-    /// even along both axes, in `f64` whatever the precision: of each column the first half of its modes, and the one
-    /// in the middle
+    /// even along both axes, always in `f64`: of each column the first half of its modes, and the middle one
     Even(Arc<Columns<f64>>),
 }
 
@@ -152,8 +150,8 @@ pub(super) fn stiffness<T: Real>(grid: &Grid, symbol: &Symbol) -> Result<Columns
 }
 
 impl<T: Real> Stiffness<T> {
-    /// Multiplies the modes z of column `k` of the spectrum by a function of their stiffness; the sums over the column
-    /// are those of |z|² times two more.
+    /// Multiplies the modes z of column `k` by the first function of their stiffness; returns the column's sums of |z|²
+    /// times the other two.
     pub(super) fn modify(&self, k: usize, column: &mut [Complex<T>], by: impl Fn(T) -> [T; 3]) -> Sums {
         match self {
             Self::Stored(stiffness) => {
@@ -264,7 +262,7 @@ pub(super) fn stiffen<T: Real>(stiffness: T) -> [T; 3] {
     [stiffness, stiffness, T::zero()]
 }
 
-/// Divides by the stiffness and `shift` times the softest, and multiplies the mean by `mean`; the sums are those of
+/// Divides by the stiffness plus `shift` times the softest, and multiplies the mean by `mean`; returns the sums of
 /// [`Preconditioned`](crate::elastic::Preconditioned).
 pub(super) fn soften<T: Real>(
     (stiffness, softest): (&Stiffness<T>, f64),
