@@ -22,8 +22,7 @@ type Symbol = Arc<dyn Fn(f64, f64) -> f64 + Send + Sync>;
 /// [`own_operator`](crate::guide::own_operator). The homogeneous half-space is [`Westergaard`].
 ///
 /// Memory per node, in units of one scalar: 1 for the spectrum, which a solve in `f64` gives back, and ½ for the
-/// stiffness, which it also has in `f32`; in `f32` both once more, in `f64`, while a [`Problem`](crate::Problem) is
-/// made.
+/// stiffness, ¾ in such a solve; in `f32` both once more, in `f64`, while a [`Problem`](crate::Problem) is made.
 ///
 /// ```
 /// use asperity::{ElasticOperator, Grid, Spectral};
