@@ -1,7 +1,6 @@
 //! The accuracy that is wanted: how wrong the grid is, and a solve that refines it until it is right enough.
 //!
-//! An answer has the error of the solver, which the certificate bounds, and that of the grid, which [`GridError`]
-//! estimates. [`Accuracy`] asks for a relative error of a [`Quantity`] and chooses tolerance and grid itself.
+//! [`GridError`] estimates the error of the grid, beside that of the solver; [`Accuracy`] chooses grid and tolerance.
 
 use std::fmt;
 
@@ -67,7 +66,6 @@ impl Quantity {
         Err(Error::Control { control, reason })
     }
 
-    /// The value on a level.
     fn of(self, level: &Level) -> Option<f64> {
         Some(match self {
             Self::Area => level.area.corrected_contact_fraction,
@@ -192,7 +190,6 @@ const CAUTION: f64 = 1.5;
 /// How far a coarser grid may be from half the nodes along a side, as that of an odd number is.
 const HALVED: f64 = 0.02;
 
-/// The orders of convergence that are believed.
 const ORDERS: (f64, f64) = (0.5, 3.0);
 
 /// The estimated relative error of the grid, of one quantity.
@@ -221,22 +218,10 @@ const ORDERS: (f64, f64) = (0.5, 3.0);
 /// are alike (M = 2 for a wave along a side). The factors are fitted to rough surfaces, strips and lattices; the page
 /// [`choosing`](crate::guide::choosing) has how good the estimates are on others.
 ///
-/// A grid counts if it has the same waves, the shortest ([`Surface::nodes_per_wave`]) with at least four nodes, resolves
-/// the adhesion (μ_ρ ≤ 0.5), and, if it is a coarser one, was solved to 3e-3. Sure are gap and pressure by the edge;
-/// and, with at least sixteen nodes in the shortest wave, the stiffness by the edge and, on a grid of more than one row,
-/// the area by a coarser grid. All others are [`rough`](Self::rough).
-///
-/// ```
-/// use asperity::accuracy::{GridError, Quantity};
-/// use asperity::{Boundary, Control, Grid, Nested, NoAdhesion, SelfAffine, Westergaard};
-/// let surface = SelfAffine::default().k_s(16.0).surface(Grid::square(256, 1.0)?)?;
-/// let half_space = |grid| Westergaard::<f64>::new(grid, 1.0);
-/// let mut nested = Nested::default().coarse_tolerance(1e-3);
-/// let found = nested.solve(&surface, half_space, NoAdhesion, Control::MeanPressure(2e-3))?;
-/// let error = GridError::of(&found.levels, Quantity::Area, surface.nodes_per_wave(Boundary::Periodic), 0.0).unwrap();
-/// assert!(error.relative > 2e-4 && error.relative < 1e-2);
-/// # Ok::<(), asperity::Error>(())
-/// ```
+/// A grid counts if it has the same waves, the shortest with at least four nodes ([`Surface::nodes_per_wave`]), a
+/// μ_ρ ≤ 0.5, and, if it is a coarser one, was solved to 3e-3. Sure are gap and pressure by the edge;
+/// and, with at least sixteen nodes in the shortest wave, the stiffness by the edge and, on a grid of more than one
+/// row, the area by a coarser grid. All others are [`rough`](Self::rough).
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GridError {
@@ -301,7 +286,6 @@ impl GridError {
         Some(Self { relative, order, rough: quantity != Quantity::Area || !sure || relative == 0.0 })
     }
 
-    /// The error, larger where it is rough.
     pub(crate) fn cautious(&self) -> f64 {
         if self.rough { CAUTION * self.relative } else { self.relative }
     }

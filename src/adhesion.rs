@@ -48,28 +48,16 @@ const NOTICEABLE: f64 = 0.01;
 /// [`own_law`](crate::guide::own_law) has a law in a solve.
 ///
 /// ```
+/// use asperity::AdhesionLaw;
 /// use asperity::adhesion::check_law;
-/// use asperity::{AdhesionLaw, Real};
-///
-/// /// φ = −w (1 − g/ρ)³ for g < ρ, 0 beyond.
-/// struct Cubic<T> { w: T, rho: T }
-///
-/// impl<T: Real> AdhesionLaw<T> for Cubic<T> {
-///     fn energy(&self, gap: T) -> T {
-///         let x = (T::one() - gap / self.rho).max(T::zero());
-///         -self.w * x * x * x
-///     }
-///     fn traction(&self, gap: T) -> T {
-///         let x = (T::one() - gap / self.rho).max(T::zero());
-///         T::lit(3.0) * self.w / self.rho * x * x
-///     }
-///     fn slope(&self, gap: T) -> T {
-///         let x = (T::one() - gap / self.rho).max(T::zero());
-///         T::lit(-6.0) * self.w / (self.rho * self.rho) * x
-///     }
+/// /// φ = −(1 − g)³ for g < 1, 0 beyond.
+/// struct Cubic;
+/// impl AdhesionLaw<f64> for Cubic {
+///     fn energy(&self, gap: f64) -> f64 { -(1.0 - gap).max(0.0).powi(3) }
+///     fn traction(&self, gap: f64) -> f64 { 3.0 * (1.0 - gap).max(0.0).powi(2) }
+///     fn slope(&self, gap: f64) -> f64 { -6.0 * (1.0 - gap).max(0.0) }
 /// }
-///
-/// check_law(&Cubic { w: 1e-4, rho: 2e-3 }, 1e-2)?;
+/// check_law(&Cubic, 5.0)?;
 /// # Ok::<(), asperity::Error>(())
 /// ```
 pub trait AdhesionLaw<T: Real>: Send + Sync {

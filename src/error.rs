@@ -246,7 +246,6 @@ impl Error {
         Self::File { path: path.to_owned(), reason, cause: Some(Cause(Arc::new(cause))) }
     }
 
-    /// `value`, if it is positive and finite.
     pub(crate) fn positive(name: &'static str, value: f64) -> Result<f64> {
         if value > 0.0 && value.is_finite() {
             Ok(value)
@@ -255,7 +254,6 @@ impl Error {
         }
     }
 
-    /// Passes `value` on if it is zero, or positive and finite.
     pub(crate) fn non_negative(name: &'static str, value: f64) -> Result<f64> {
         if value >= 0.0 && value.is_finite() {
             Ok(value)
@@ -264,12 +262,10 @@ impl Error {
         }
     }
 
-    /// Passes `value` on if it is finite.
     pub(crate) fn finite(name: &'static str, value: f64) -> Result<f64> {
         if value.is_finite() { Ok(value) } else { Err(Self::Value { name, value, requirement: "finite" }) }
     }
 
-    /// Refuses a field of another shape than `expected`.
     pub(crate) fn shape(name: &'static str, found: (usize, usize), expected: (usize, usize)) -> Result<()> {
         if found == expected { Ok(()) } else { Err(Self::Shape { name, found, expected }) }
     }

@@ -21,16 +21,16 @@ use crate::surface::Surface;
 const SHARE: f64 = 0.05;
 const LOOSEST: f64 = 1e-3;
 
-/// The least number of nodes along a side of a coarser grid.
+/// The least nodes along a side of a coarser grid.
 const COARSEST: usize = 16;
 
-/// The memory that a solve may take unless it is said, in bytes: 4 GiB.
+/// The memory that a solve may take by default, in bytes: 4 GiB.
 const MEMORY: f64 = 4.0 * 1_073_741_824.0;
 
 /// The numbers of 8 bytes that a solve holds for each node at most, with those of the surface and of its refinement.
 const NUMBERS: f64 = 12.0;
 
-/// The operator applications that a solve is expected to take, those on coarser grids included.
+/// The expected operator applications of a solve, those on coarser grids included.
 const APPLICATIONS: f64 = 40.0;
 
 /// The factor by which expected errors may be too large where an accuracy is refused.
@@ -47,9 +47,6 @@ const DOUBT: f64 = 3.0;
 /// The grid of the answer is that of [`AccurateSolution::surface`], never coarser than the given one. A surface with
 /// absent nodes and a law that varies from node to node are not refined.
 ///
-/// By default a solve on a refined grid takes at most 4 GiB, coarser grids have at least 16 nodes along a side, and the
-/// solver has the tolerance of [`Accuracy::tolerance`].
-///
 /// ```
 /// use asperity::accuracy::{Accuracy, Quantity};
 /// use asperity::{Control, Grid, NoAdhesion, SelfAffine, Westergaard};
@@ -59,7 +56,6 @@ const DOUBT: f64 = 3.0;
 /// let mut wanted = Accuracy::new(0.02, Quantity::Area);
 /// let found = wanted.solve(&surface, half_space, NoAdhesion, Control::MeanPressure(2e-3))?;
 /// assert!(found.reached && found.error.unwrap().relative < 0.02);
-/// assert!(found.surface.grid().shape() >= (128, 128));
 /// assert_eq!(found.solution.gap.dim(), found.surface.grid().shape());
 /// # Ok::<(), asperity::Error>(())
 /// ```
@@ -70,9 +66,9 @@ pub struct Accuracy<C = Projection> {
     pub target: f64,
     /// The quantity that has it.
     pub of: Quantity,
-    /// The bytes that a solve on a refined grid may take.
+    /// The bytes that a solve on a refined grid may take; 4 GiB by default.
     pub memory: f64,
-    /// The solver, on the given grid and coarser ones.
+    /// The solver, on the given grid and coarser ones, by default all down to 16 nodes along a side.
     pub nested: Nested<C>,
 }
 
@@ -120,7 +116,6 @@ impl<T> AccurateSolution<T> {
     }
 }
 
-/// Whether a surface and a law are known on finer grids.
 fn is_refinable<T: Real>(surface: &Surface, law: &dyn AdhesionLaw<T>) -> bool {
     surface.absent().is_none() && law.hints().shape.is_none() && surface.grid().nodes() > 1
 }

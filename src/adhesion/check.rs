@@ -14,7 +14,6 @@ const SHARE: f64 = 1e-2;
 /// The roundings, in units of the traction in contact, by which a traction that falls may seem to rise.
 const ROUNDINGS: f64 = 4.0;
 
-/// The most nodes that are asked at once.
 const NODES: usize = 1024;
 
 /// The most nodes of a law that varies whose functions are compared at many gaps.
@@ -23,10 +22,8 @@ const PLACES: usize = 16;
 /// The width over which a smoothed traction is let fall, in ranges.
 const SMOOTHING: f64 = 0.1;
 
-/// The stride of the coarser grid of a law that varies.
 const STRIDE: usize = 2;
 
-/// The functions asked for together: energies, tractions, slopes.
 const ASKED: [[bool; 3]; 6] = [
     [true, false, false],
     [false, true, false],
@@ -59,8 +56,7 @@ const ASKED: [[bool; 3]; 6] = [
 ///
 /// ```
 /// use asperity::adhesion::check_law;
-/// use asperity::{Exponential, MaugisDugdale};
-/// check_law::<f64>(&Exponential::new(1e-4, 2e-3)?, 0.02)?;
+/// use asperity::MaugisDugdale;
 /// check_law::<f32>(&MaugisDugdale::new(1e-4, 2e-3)?, 0.02)?;
 /// # Ok::<(), asperity::Error>(())
 /// ```
@@ -87,7 +83,6 @@ struct Checked<'a, T> {
 }
 
 impl<T: Real> Checked<'_, T> {
-    /// A gap of the 200 intervals between the least and the largest.
     fn gap(&self, i: usize) -> T {
         T::lit(self.gaps.0 + (self.gaps.1 - self.gaps.0) * i as f64 / GAPS as f64)
     }
@@ -102,7 +97,6 @@ impl<T: Real> Checked<'_, T> {
         derivatives::check::<T>(functions, self.gaps, self.length)
     }
 
-    /// The largest traction.
     fn largest(&self) -> f64 {
         (0..=GAPS).map(|i| self.law.traction(self.gap(i)).abs().widen()).fold(0.0, f64::max)
     }
@@ -127,7 +121,6 @@ impl<T: Real> Checked<'_, T> {
         })
     }
 
-    /// Refuses another shape of an adapted law.
     fn check_shape(&self, what: &'static str, hints: Hints<T>, expected: Option<(usize, usize)>) -> Result<()> {
         let [found, expected] = [hints.shape, expected].map(Option::unwrap_or_default);
         Error::shape(what, found, expected)
@@ -167,7 +160,6 @@ impl<T: Real> Checked<'_, T> {
         }
     }
 
-    /// Energy, traction and slope of one node.
     fn at(&self, node: usize, gap: T) -> [T; 3] {
         let mut values = [[T::zero()]; 3];
         for (order, value) in values.iter_mut().enumerate() {
@@ -252,7 +244,6 @@ impl<T: Real> Checked<'_, T> {
     }
 }
 
-/// The slices of the functions that are asked for.
 fn of<T>(values: &mut [Vec<T>; 3], asked: [bool; 3]) -> Values<'_, T> {
     let [energies, tractions, slopes] = values.each_mut().map(|values| Some(values.as_mut_slice()));
     let [energies, tractions, slopes] = [(energies, asked[0]), (tractions, asked[1]), (slopes, asked[2])]

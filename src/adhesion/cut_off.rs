@@ -46,7 +46,6 @@ pub struct CutOff<L> {
     distance: f64,
     /// energy, traction and slope at g_c, of the strongest node
     end: [f64; 3],
-    /// whether the nodes have ends of their own
     varies: bool,
 }
 
@@ -101,7 +100,6 @@ impl<L> CutOff<L> {
         Self { law, start, distance, end, varies }
     }
 
-    /// The same of this law on other nodes.
     fn with<M>(&self, law: M) -> CutOff<M> {
         let Self { start, distance, end, varies, .. } = *self;
         CutOff { law, start, distance, end, varies }
@@ -136,12 +134,10 @@ impl<L> CutOff<L> {
         }
     }
 
-    /// What is left of the value of the strongest node.
     fn one<T: Real>(&self, gap: T, value: T, of: impl Fn(T, T, [T; 3]) -> T) -> T {
         self.left(gap, value, of, || self.quintic(self.end.map(T::lit)))
     }
 
-    /// What is left of the values of the nodes from `first` on.
     fn all<T: Real>(&self, first: usize, gaps: &[T], values: &mut [T], of: impl Fn(T, T, [T; 3]) -> T)
     where
         L: AdhesionLaw<T>,
@@ -153,7 +149,6 @@ impl<L> CutOff<L> {
         }
     }
 
-    /// Energy, traction and slope of a node at g_c.
     fn end_at<T: Real>(&self, node: usize) -> [T; 3]
     where
         L: AdhesionLaw<T>,

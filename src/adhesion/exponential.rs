@@ -11,12 +11,10 @@ use crate::real::Real;
 /// φ(g) = −w exp(−g/ρ) ,   φ'(g) = w/ρ exp(−g/ρ) ,   φ''(g) = −w/ρ² exp(−g/ρ)
 /// ```
 ///
-///
 /// ```
 /// use asperity::{AdhesionLaw, Exponential};
 /// let law = Exponential::new(0.05, 2e-9)?; // 50 mJ/m² over 2 nm
-/// assert_eq!(law.energy(0.0), -0.05);
-/// assert_eq!(law.traction(0.0), law.work_of_adhesion() / law.range());
+/// assert_eq!((law.energy(0.0), law.traction(0.0)), (-0.05, 0.05 / 2e-9));
 /// # Ok::<(), asperity::Error>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -46,7 +44,6 @@ impl Exponential {
         self.range
     }
 
-    /// w and ρ, rounded to the precision of the fields.
     fn rounded<T: Real>(&self) -> (T, T) {
         (T::lit(self.work_of_adhesion), T::lit(self.range))
     }

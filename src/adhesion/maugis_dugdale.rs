@@ -49,7 +49,6 @@ impl MaugisDugdale {
         self.range
     }
 
-    /// w, ρ and d, rounded to the precision of the fields.
     fn rounded<T: Real>(&self) -> (T, T, T) {
         (T::lit(self.work_of_adhesion), T::lit(self.range), T::lit(self.smoothing))
     }

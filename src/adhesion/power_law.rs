@@ -18,7 +18,6 @@ use crate::real::Real;
 /// ```
 /// use asperity::{AdhesionLaw, PowerLaw};
 /// let law = PowerLaw::new(0.05, 2e-9, 3.0)?;
-/// assert_eq!((law.energy(0.0), law.traction(0.0)), (-0.05, 0.05 / 2e-9));
 /// assert!((law.energy(6e-9_f64) + 0.05 / 8.0).abs() < 1e-17); // twice the distance at contact, 3ρ
 /// # Ok::<(), asperity::Error>(())
 /// ```
@@ -42,9 +41,9 @@ impl PowerLaw {
     }
 
     /// The van der Waals attraction of two half-spaces, φ = −A/12π(D₀ + g)², with Hamaker's constant A (energy) and the
-    /// distance D₀ (length) between the surfaces in contact, often 0.165 nm: w = A/12πD₀², ρ = D₀/2, n = 2.
+    /// distance D₀ (length) in contact, often 0.165 nm: w = A/12πD₀², ρ = D₀/2, n = 2. Israelachvili, *Intermolecular
+    /// and Surface Forces* (2011), section 13.
     ///
-    /// Israelachvili, *Intermolecular and Surface Forces* (2011), section 13.
     ///
     /// # Errors
     /// [`Error::Value`] if A is negative, D₀ not positive, or one of them not finite.
@@ -69,7 +68,6 @@ impl PowerLaw {
         self.exponent
     }
 
-    /// Energy, traction and slope: powers of (1 + g/nρ)⁻¹.
     #[inline(always)]
     fn at<T: Real>(&self, gap: T) -> [T; 3] {
         let Self { work_of_adhesion: w, range, exponent: n } = *self;

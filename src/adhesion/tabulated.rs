@@ -29,7 +29,6 @@ pub struct Tabulated {
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Point {
     gap: f64,
-    /// the energy at the point
     energy: f64,
     /// the traction as a polynomial of the gap beyond the point
     cubic: [f64; 4],
@@ -97,7 +96,6 @@ impl Tabulated {
 }
 
 impl Point {
-    /// The integral of the traction from the point over a distance.
     fn integral(&self, x: f64) -> f64 {
         let [a, b, c, d] = self.cubic;
         x * (a + x * (b / 2.0 + x * (c / 3.0 + x * d / 4.0)))

@@ -18,16 +18,12 @@ use crate::slab::Slab;
 ///
 /// ```
 /// use asperity::adhesion::Varying;
-/// use asperity::{Control, Exponential, Grid, Problem, Solver, Surface, Westergaard};
+/// use asperity::{Exponential, Grid};
 /// let grid = Grid::square(64, 1.0)?;
-/// let surface = Surface::wave_2d(grid, 0.01, 2)?;
 /// // no adhesion on the left half
 /// let work = grid.sample(|x, _| if x < 0.0 { 0.0 } else { 1e-5 });
 /// let law = Varying::new(Exponential::new(1e-5, 2e-3)?, work.view())?;
-/// let mut problem = Problem::new(&surface, Westergaard::<f64>::new(grid, 1.0)?, law)?;
-/// let contact = Solver::default().solve(&mut problem, Control::MeanPressure(1e-3))?.contact_map();
-/// let nodes = |half: usize| contact.rows().into_iter().skip(32 * half).take(32).flatten().filter(|&&c| c).count();
-/// assert!(nodes(1) > nodes(0));
+/// assert_eq!(law.strongest(), (32, 0));
 /// # Ok::<(), asperity::Error>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
@@ -39,14 +35,12 @@ pub struct Varying<L> {
     shares: Arc<Array2<f64>>,
     largest: f64,
     strongest: (usize, usize),
-    /// whether the work of adhesion is positive at every node
     repels: bool,
 }
 
 impl<L: AdhesionLaw<f64>> Varying<L> {
     /// The law with these works of adhesion at the nodes, shape (Nx, Ny), in place of its own.
     ///
-    /// Where several processes share the grid, each takes the whole map; [`Varying::on`] takes less memory.
     ///
     /// # Errors
     /// [`Error::NotFinite`]; [`Error::Value`] if a work of adhesion is negative, if none is positive, or if the law has
@@ -55,7 +49,7 @@ impl<L: AdhesionLaw<f64>> Varying<L> {
         Self::in_slab(law, works, Slab::whole(works.dim()))
     }
 
-    /// As [`Varying::new`], with the works of adhesion of the rows that this process holds, [`Grid::rows`].
+    /// As [`Varying::new`], with the works of adhesion of the rows that this process holds, [`Grid::rows`], alone.
     ///
     /// # Errors
     /// Those of [`Varying::new`]; [`Error::Shape`] if the works of adhesion do not have the shape of the grid's fields.

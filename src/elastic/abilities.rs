@@ -8,17 +8,7 @@ use crate::real::Real;
 
 /// The abilities of an operator beside its applications, [`ElasticOperator::abilities`]; none by default.
 ///
-/// A wrapper returns those of its operator, less what it changes:
-///
-/// ```
-/// use asperity::elastic::Abilities;
-/// use asperity::{ElasticOperator, Real};
-/// fn without_single<T: Real>(operator: &mut impl ElasticOperator<T>) -> Abilities<'_, T> {
-///     let mut abilities = operator.abilities();
-///     abilities.single = false;
-///     abilities
-/// }
-/// ```
+/// A wrapper returns those of its operator, less what it changes.
 #[non_exhaustive]
 pub struct Abilities<'a, T: Real> {
     /// The boundary of the body; periodic by default.
@@ -39,17 +29,14 @@ impl<T: Real> Default for Abilities<'_, T> {
 }
 
 impl<T: Real> Abilities<'_, T> {
-    /// The space of the longest waves, of about `dimension` dimensions.
     pub(crate) fn coarse_space(self, dimension: usize) -> Option<CoarseSpace> {
         self.waves?.coarse_space(dimension)
     }
 
-    /// The operator in `f32`.
     pub(crate) fn in_single(self) -> Option<Box<dyn ElasticOperator<f32>>> {
         self.waves.filter(|_| self.single)?.in_single()
     }
 
-    /// Gives back the memory that is kept between two applications.
     pub(crate) fn release_memory(self) {
         self.waves.into_iter().for_each(Waves::release_memory);
     }

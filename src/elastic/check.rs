@@ -10,7 +10,6 @@ use crate::real::Real;
 /// Applications of the compliance, and of the stiffness, that look for the softest and for the stiffest wave.
 const POWERS: usize = 20;
 
-/// The dimension of the coarse space that is looked at.
 const DIMENSION: usize = 20;
 
 /// A check of an elastic operator against the contract of [`ElasticOperator`], for a test of yours.

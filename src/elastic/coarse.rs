@@ -39,7 +39,6 @@ const LARGEST: usize = 1 << 16;
 pub struct CoarseSpace {
     /// the mean, and one wave of each pair ±q, sorted by their columns
     waves: Vec<Wave>,
-    /// the waves in each of the first columns of the half spectrum
     columns: Vec<Range<usize>>,
     /// the nodes of a block of the contact map along both axes; the last block may have fewer
     block: (usize, usize),
@@ -57,7 +56,6 @@ pub struct CoarseSpace {
     vector: Vec<f64>,
 }
 
-/// A wave, and the place of its mode in the half spectrum.
 #[derive(Clone, Copy, Debug)]
 struct Wave {
     column: usize,
@@ -255,7 +253,6 @@ mod tests {
         Spectral::new(grid, 1.0, |qx, qy| 0.5 * (qx * qx + 2.0 * qy * qy).sqrt()).unwrap()
     }
 
-    /// A map of some contacts, one block a node, and the space that has it.
     fn held_where(body: &mut Spectral<f64>, held: bool) -> (CoarseSpace, Array2<f64>) {
         let shape = body.grid().shape();
         let contact = random(shape, 1).mapv(|x| f64::from(u8::from(x > 0.2)));
@@ -277,7 +274,6 @@ mod tests {
         z
     }
 
-    /// The waves of the space, as fields.
     fn basis(space: &CoarseSpace, shape: (usize, usize)) -> Vec<Array2<f64>> {
         let mut basis = vec![Array2::ones(shape)];
         for wave in &space.waves[1..] {

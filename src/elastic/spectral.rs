@@ -26,13 +26,9 @@ type Symbol = Arc<dyn Fn(f64, f64) -> f64 + Send + Sync>;
 ///
 /// ```
 /// use asperity::{ElasticOperator, Grid, Spectral};
-/// // a layer of thickness t on a rigid, frictionless base
-/// let (modulus, t) = (1.0, 0.1);
-/// let layer = Spectral::<f64>::isotropic(Grid::square(32, 1.0)?, modulus, move |q| {
-///     let x = 2.0 * q * t;
-///     0.5 * modulus * q * (x.sinh() + x) / (x.cosh() - 1.0)
-/// })?;
-/// assert!(layer.stiffness_range().0 > 5.0);
+/// // a half-space on springs
+/// let body = Spectral::<f64>::isotropic(Grid::square(32, 1.0)?, 1.0, |q| 10.0 + 0.5 * q)?;
+/// assert!(body.stiffness_range().0 > 10.0);
 /// # Ok::<(), asperity::Error>(())
 /// ```
 #[derive(Clone)]
@@ -74,7 +70,6 @@ impl<T: Real> Spectral<T> {
         Ok(Self { grid, modulus, symbol, stiffness, range, convolver })
     }
 
-    /// The homogeneous half-space.
     pub(super) fn half_space(grid: Grid, modulus: f64) -> Result<Self> {
         Error::positive("contact modulus", modulus)?;
         let symbol: Symbol = Arc::new(move |qx, qy| 0.5 * modulus * qx.hypot(qy));
@@ -121,12 +116,10 @@ impl<T: Real> Spectral<T> {
     }
 }
 
-/// The sums over all modes, of those over a column.
 fn weigh(layout: Layout, column: usize, sums: Sums) -> Sums {
     sums.map(|sum| layout.weight(column) * sum)
 }
 
-/// The factor by which an application multiplies each wave.
 enum Factor<'a> {
     Stiffness,
     Compliance,
@@ -147,7 +140,6 @@ impl<'a> Compiled for Apply<'a> {
     }
 }
 
-/// The pressure of heights in `f64`, which returns the sums over the modes.
 struct PressFlat<'a>(PhantomData<&'a ()>);
 
 impl<'a> Compiled for PressFlat<'a> {
@@ -206,7 +198,6 @@ impl<T: Real> Spectral<T> {
         }
     }
 
-    /// The same operator with a stiffness in another precision.
     fn with<U: Real>(&self, stiffness: Stiffness<U>, range: (f64, f64)) -> Spectral<U> {
         let (grid, modulus, symbol) = (self.grid, self.modulus, Arc::clone(&self.symbol));
         Spectral { grid, modulus, symbol, stiffness, range, convolver: Convolver::new(grid.slab()) }

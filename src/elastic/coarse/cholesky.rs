@@ -59,7 +59,6 @@ fn decomposes(matrix: &mut [f64], workspace: &mut [[f64; ROWS]]) -> bool {
     true
 }
 
-/// Solves with the factor of [`decompose`].
 pub(super) fn solve(factor: &[f64], x: &mut [f64]) {
     let row = |i: usize| &factor[start(i)..start(i + 1)];
     vectorised(
@@ -101,7 +100,6 @@ fn dots<const N: usize>(vector: &[f64], others: &[[f64; N]]) -> [f64; N] {
     sums
 }
 
-/// The product of two vectors.
 #[inline(always)]
 pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
     dots(a, b.as_chunks::<1>().0)[0]

@@ -11,9 +11,7 @@ pub(super) struct Moments {
     pub(super) points: [Vec<f64>; 2],
     /// their factors e^(−iqx) for one wave length on a side, and for the wave number in hand
     turns: [[Vec<Complex<f64>>; 2]; 2],
-    /// the highest wave numbers
     pub(super) highest: [usize; 2],
-    /// the transforms of the rows of blocks
     rows: Vec<Complex<f64>>,
     /// the moments, for all wave numbers of both signs along x and from 0 on along y
     values: Vec<Complex<f64>>,

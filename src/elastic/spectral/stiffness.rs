@@ -38,30 +38,25 @@ pub(super) enum Stiffness<T> {
 #[derive(Clone)]
 pub(super) struct Columns<T> {
     slab: Slab,
-    /// the first of these columns
     first: usize,
     modes: Array2<T>,
 }
 
 impl<T: Real> Columns<T> {
-    /// The numbers of modes `f(column, mode)`, `count` of them in each column.
     pub(super) fn new(slab: Slab, count: usize, mut f: impl FnMut(usize, usize) -> T) -> Self {
         let own = Layout::new(slab.shape()).columns_of(&slab);
         let modes = Array2::from_shape_fn((own.len(), count), |(k, i)| f(own.start + k, i));
         Self { slab, first: own.start, modes }
     }
 
-    /// Numbers of the columns that this process transforms.
     pub(super) fn of(slab: Slab, modes: Array2<T>) -> Self {
         Self { slab, first: Layout::new(slab.shape()).columns_of(&slab).start, modes }
     }
 
-    /// The numbers of a column.
     fn column(&self, k: usize) -> &[T] {
         flat(&self.modes).chunks(self.modes.ncols().max(1)).nth(k - self.first).unwrap_or_default()
     }
 
-    /// The number of a mode, if this process has it.
     pub(super) fn get(&self, [column, mode]: [usize; 2]) -> Option<T> {
         self.modes.get([column.checked_sub(self.first)?, mode]).copied()
     }
@@ -73,7 +68,6 @@ impl<T: Real> Columns<T> {
         if self.slab.nodes() > 1 { (self.slab.least(least), self.slab.most(most)) } else { (0.0, 0.0) }
     }
 
-    /// The same numbers in another precision.
     pub(super) fn cast<U: Real>(&self) -> Columns<U> {
         Columns { slab: self.slab, first: self.first, modes: self.modes.mapv(cast) }
     }
@@ -228,7 +222,6 @@ fn modify<T: Real, U: Copy>(column: &mut [Complex<T>], of: &[U], by: impl Fn(U) 
     sums
 }
 
-/// Modifies a block of a column, and adds to its sums.
 #[inline(always)]
 fn block<T: Real, U: Copy>(
     modes: &mut [Complex<T>],
