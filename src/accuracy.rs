@@ -115,8 +115,7 @@ impl Quantity {
         Some((share * difference).hypot(of_edge * edge))
     }
 
-    /// The relative error on a grid without a coarser one, with so many nodes in the shortest wave and the errors at
-    /// the edge of its area.
+    /// The relative error on a grid without a coarser one.
     fn by_waves(self, nodes_per_wave: f64, [places, adhesion]: [f64; 2]) -> Option<f64> {
         let error = self.expected(nodes_per_wave).hypot(2.0 * places).hypot(adhesion);
         (self == Self::Area && nodes_per_wave.is_finite() && error.is_finite()).then_some(error)
@@ -214,9 +213,8 @@ const ORDERS: (f64, f64) = (0.5, 3.0);
 /// δA_c/4, and the terms with M count twice.
 ///
 /// κ and δA have the scale of all that depends on where between the nodes the edge falls; δQ alone may be small by
-/// luck. Errors along the edge average on a rough surface (M of some hundreds at 128² nodes), but along a strip they
-/// are alike (M = 2 for a wave along a side). The factors are fitted to rough surfaces, strips and lattices; the page
-/// [`choosing`](crate::guide::choosing) has how good the estimates are on others.
+/// luck. The factors are fitted to rough surfaces, strips and lattices; the page [`choosing`](crate::guide::choosing)
+/// has how good the estimates are on others.
 ///
 /// A grid counts if it has the same waves, the shortest with at least four nodes ([`Surface::nodes_per_wave`]), a
 /// μ_ρ ≤ 0.5, and, if it is a coarser one, was solved to 3e-3. Sure are gap and pressure by the edge;
@@ -234,15 +232,13 @@ pub struct GridError {
 }
 
 impl GridError {
-    /// A [`Nested::coarse_tolerance`](crate::Nested::coarse_tolerance) at which coarser grids tell the error of the
-    /// finest, with something to spare.
+    /// A [`Nested::coarse_tolerance`](crate::Nested::coarse_tolerance) at which coarser grids tell the error.
     pub const COARSE_TOLERANCE: f64 = 1e-3;
 
     /// The nodes that the shortest wave needs on a grid whose solution tells the error.
     pub const LEAST_NODES_PER_WAVE: f64 = 4.0;
 
-    /// The errors, as by [`GridError::of`], of all quantities that the control does not give, with the report of the
-    /// finest grid.
+    /// The errors, as by [`GridError::of`], of all quantities that the control does not give.
     pub fn of_all(levels: &[Level], report: &Report, nodes_per_wave: f64) -> [(Quantity, Option<Self>); 4] {
         [Quantity::Area, Quantity::Gap, Quantity::Pressure, Quantity::Stiffness].map(|of| {
             let found = of.check(report.control).is_ok().then(|| Self::of(levels, of, nodes_per_wave, report.mu_rho));

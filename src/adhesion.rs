@@ -43,9 +43,8 @@ const NOTICEABLE: f64 = 0.01;
 /// constant, at large gaps. Negative gaps are asked only of a law that repels by itself ([`Hints::rest`]); where a
 /// [`ContactConstraint`](crate::ContactConstraint) lets surfaces interpenetrate, it says how the law goes on.
 ///
-/// [`check_law`] holds a law to this contract; call it in a test of yours. A law made of another one forwards
-/// [`hints`](Self::hints), [`evaluate`](Self::evaluate) and [`adapted`](Self::adapted). The page
-/// [`own_law`](crate::guide::own_law) has a law in a solve.
+/// [`check_law`] holds a law to this contract; the page [`own_law`](crate::guide::own_law) has one in a solve. A law
+/// made of another one forwards [`hints`](Self::hints), [`evaluate`](Self::evaluate) and [`adapted`](Self::adapted).
 ///
 /// ```
 /// use asperity::AdhesionLaw;
@@ -119,9 +118,8 @@ pub enum Discretisation<T> {
     /// Nodes of this compliance, length per pressure: for a law whose traction jumps. Its slopes become no steeper than
     /// one over the compliance in the place of the jumps; the functions still agree, and the work of adhesion stays.
     ///
-    /// Where the traction falls by Δ at one gap, a node with it and one without it are both in equilibrium over a range
-    /// of the gap, Δ times the compliance: the edge of the adhesive zone stays where an iteration left it. The default
-    /// start of a solve therefore comes from the smoothed law, whose equilibrium does not depend on the way there.
+    /// At a jump a node is in equilibrium on both sides, and the edge of the adhesive zone stays where an iteration
+    /// left it. The default start of a solve therefore comes from the smoothed law.
     Smooth(T),
 }
 
@@ -161,7 +159,6 @@ mod tests {
                 let found = [energies[i], tractions[i], again[i], slopes[i]].map(T::widen);
                 let expected = [law.energy(gap), law.traction(gap), law.traction(gap), law.slope(gap)].map(T::widen);
                 for ((found, expected), size) in found.into_iter().zip(expected).zip([2.0, 4.0, 4.0, 8.0]) {
-                    // of an exponential of up to one, and some products
                     let rounding = 4.0 * T::epsilon().widen() * size;
                     assert!((found - expected).abs() <= rounding, "{found} {expected} at {gap}");
                 }

@@ -29,7 +29,8 @@ pub use westergaard::Westergaard;
 /// multiplies each wave by a factor. The page [`own_operator`](crate::guide::own_operator) has a layer of finite
 /// thickness, and tells how to implement the trait for another body.
 ///
-/// Every application writes into the caller's array and, for the operators of this crate, allocates nothing.
+/// Applications write into the caller's array and, for the operators of this crate, allocate nothing.
+///
 ///
 /// ```
 /// use asperity::{ElasticOperator, Grid, Westergaard};
@@ -74,17 +75,15 @@ pub trait ElasticOperator<T: Real>: Send {
 
     /// The stiffness of the softest and of the stiffest wave on the grid, pressure per length, the mean excluded.
     ///
-    /// The softest must not be overestimated: it bounds the part of the certificate that comes from the rounding of an
-    /// updated pressure. Otherwise they scale steps, and estimates will do. Both are zero on a grid of one node.
+    /// The softest bounds the rounding of an updated pressure in the certificate, and must not be overestimated; the
+    /// stiffest may be an estimate. Both are zero on a grid of one node.
     fn stiffness_range(&self) -> (f64, f64);
 
     /// The contact modulus E* for waves as short as the grid's spacing.
     ///
     /// It tells whether adhesion is resolved ([`Problem::mu_rho`](crate::Problem::mu_rho)), where between the nodes the
-    /// edge of the contact runs ([`ContactStatistics`](crate::contact::ContactStatistics), for a stiffness that grows
-    /// with the wave number there), and by how much jumps of a law are
-    /// [smoothed](crate::adhesion::Discretisation::Smooth). It is the unit of
-    /// [`Criterion::Complementarity`](crate::Criterion::Complementarity).
+    /// edge of the contact runs ([`ContactStatistics`](crate::contact::ContactStatistics)), and how smooth jumps of a
+    /// law become; it is the unit of [`Criterion::Complementarity`](crate::Criterion::Complementarity).
     fn modulus(&self) -> f64;
 
     /// The boundary of the body, and the operator's abilities beside its applications, which a wrapper passes on.
@@ -145,7 +144,6 @@ impl Boundary {
         }
     }
 
-    /// The boundary with a grid that is the same on all processes that share it, for a report.
     pub(crate) fn alone(self) -> Self {
         match self {
             Self::Periodic => self,
@@ -204,8 +202,7 @@ fn mean_product<S: Real, T: Real>(grid: &Grid, a: ArrayView2<'_, S>, b: ArrayVie
     field::mean_of_both(grid.slab(), a, b, |a: S, b: T| a.widen() * b.widen())
 }
 
-/// The elastic pressure K⁻¹h of the surface pressed flat, and the mean of h·K⁻¹h; the heights have no mean, or one not
-/// larger than their rms value, and are rounded for an operator without waves.
+/// The elastic pressure K⁻¹h of heights, as [`Waves::surface_pressure`]; rounded for an operator without waves.
 pub(crate) fn surface_pressure<T: Real>(
     operator: &mut dyn ElasticOperator<T>,
     heights: ArrayView2<'_, f64>,

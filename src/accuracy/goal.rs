@@ -1,5 +1,3 @@
-//! A solve to an accuracy: grids that become finer until the estimated error is small enough.
-
 use std::ops::ControlFlow;
 
 use super::refine::{refined, twice};
@@ -40,9 +38,8 @@ const DOUBT: f64 = 3.0;
 ///
 /// The given grid is solved first, with coarser ones below it ([`Nested`]), and its error estimated ([`GridError`]). As
 /// long as the estimate, half as large again where it is rough, and the certified error of the solver together exceed
-/// the accuracy, or there is no estimate, the surface is put on twice as many nodes along its sides by Fourier
-/// interpolation ([`Topography::resample`](crate::Topography::resample)), with a free boundary continued by its mirror
-/// images, and solved there from the prolonged solution.
+/// the accuracy, the surface is put on twice as many nodes along its sides by Fourier interpolation
+/// ([`Topography::resample`](crate::Topography::resample); with a free boundary continued by its mirror images).
 ///
 /// The grid of the answer is that of [`AccurateSolution::surface`], never coarser than the given one. A surface with
 /// absent nodes and a law that varies from node to node are not refined.
@@ -109,8 +106,7 @@ pub struct AccurateSolution<T> {
 }
 
 impl<T> AccurateSolution<T> {
-    /// All operator applications in units of one on the finest grid, as
-    /// [`NestedSolution`](crate::nested::NestedSolution::equivalent_applications) counts them.
+    /// All operator applications, [as of nested grids](crate::nested::NestedSolution::equivalent_applications).
     pub fn equivalent_applications(&self) -> f64 {
         equivalent_applications(&self.levels)
     }
@@ -204,7 +200,6 @@ impl<C> Accuracy<C> {
         Ok(Plan { nodes_per_wave, tolerance, shape: shape(refinements), bytes: bytes(refinements), applications })
     }
 
-    /// Whether the edge of the contact on a grid tells the error there.
     fn asks_the_edge<T: Real>(&self, surface: &Surface) -> bool
     where
         C: ContactConstraint<T>,
@@ -212,8 +207,7 @@ impl<C> Accuracy<C> {
         self.of != Quantity::Area && surface.absent().is_none() && self.nested.solver.constraint.wall().is_rigid()
     }
 
-    /// The expected refinements of a grid with so many nodes in the shortest wave and this resolution measure, if
-    /// errors are smaller than expected by the factor `smaller`.
+    /// The expected refinements, if errors are smaller than expected by the factor `smaller`.
     fn refinements(&self, (nodes_per_wave, mu_rho): (f64, f64), by_edge: bool, smaller: f64) -> i32 {
         // without a coarser grid the waves tell the error of the area, and the edge that of the others
         let least = GridError::LEAST_NODES_PER_WAVE;

@@ -44,15 +44,14 @@ const ASKED: [[bool; 3]; 6] = [
 /// - a law that is zero has no traction, and that of a concave one does not rise with the gap;
 /// - where the traction jumps, the [smoothed](Discretisation::Smooth) law has none, but the same work of adhesion and
 ///   shape, and its functions agree as well;
-/// - the values at many nodes are those of the functions of one gap, whichever are asked for together and wherever the
-///   slices end; those of a law that has a shape agree with one another, and no node is stronger than those functions;
-/// - a law that has a shape has a [coarser](Discretisation::Coarse) one, with the values of every other node.
+/// - the values at many nodes are those of the functions of one gap, whichever are asked for and wherever slices end;
+/// - a law that has a shape has a [coarser](Discretisation::Coarse) one, with the values of every other node, and no
+///   node stronger than the functions of one gap.
 ///
 /// # Errors
-/// [`Error::Law`] with the function, the first gap at which it is not finite or not the derivative of the one before
-/// it, and the expected value; [`Error::Jump`]; [`Error::Concave`]; [`Error::AtNode`]; [`Error::Shape`] if an adapted
-/// law has another shape; [`Error::Value`] if `largest_gap` is not positive and finite, or if the smoothed law has
-/// another work of adhesion.
+/// [`Error::Law`] with the first gap at which a function is not finite or not the derivative of the one before;
+/// [`Error::Jump`]; [`Error::Concave`]; [`Error::AtNode`]; [`Error::Shape`] of an adapted law; [`Error::Value`] if
+/// `largest_gap` is not positive and finite, or the work of adhesion of the smoothed law is another.
 ///
 /// ```
 /// use asperity::adhesion::check_law;

@@ -1,5 +1,3 @@
-//! A law that ends at a distance, smoothly, with its work of adhesion.
-
 use std::slice::from_mut;
 
 use super::{AdhesionLaw, Discretisation, Hints, Values};

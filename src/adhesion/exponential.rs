@@ -1,5 +1,3 @@
-//! The exponential law: an energy −w exp(−g/ρ).
-
 use super::exponentials::exponentials;
 use super::{AdhesionLaw, Hints, Values};
 use crate::error::{Error, Result};

@@ -1,5 +1,3 @@
-//! The properties of a law that a solve knows beforehand.
-
 use super::AdhesionLaw;
 use crate::real::Real;
 
@@ -12,8 +10,7 @@ pub struct Hints<T> {
     /// The length ρ over which the traction decays, for the resolution measure μ_ρ. Peaks narrower than ρ/100 may be
     /// overlooked where the solver asks whether the law can hold a tensile load.
     pub range: T,
-    /// The gap of rest of a law that repels below and attracts above, and may be solved with
-    /// [`NoWall`](crate::NoWall); none for a law that only attracts.
+    /// The gap of rest of a law that repels below it, for [`NoWall`](crate::NoWall); none if it only attracts.
     pub rest: Option<T>,
     /// Whether the energy is concave: the traction nowhere rises with the gap. At a rigid wall its tangent then bounds
     /// the energy after a step, which need not be evaluated. False is safe for every law.

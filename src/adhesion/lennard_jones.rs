@@ -1,5 +1,3 @@
-//! The law of Lennard-Jones between two half-spaces, 9-3: it attracts at a distance and repels close by.
-
 use super::{AdhesionLaw, Hints};
 use crate::error::{Error, Result};
 use crate::real::Real;

@@ -1,5 +1,3 @@
-//! The law of Maugis and Dugdale: a constant traction up to a range.
-
 use super::{AdhesionLaw, Discretisation, Hints};
 use crate::error::{Error, Result};
 use crate::real::Real;

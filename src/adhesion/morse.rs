@@ -1,5 +1,3 @@
-//! The law of Morse: it attracts at a distance and repels close by, both exponentially.
-
 use super::exponentials::exponentials;
 use super::{AdhesionLaw, Hints, Values};
 use crate::error::{Error, Result};

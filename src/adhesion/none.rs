@@ -1,5 +1,3 @@
-//! The law without adhesion.
-
 use super::{AdhesionLaw, Hints};
 use crate::real::Real;
 

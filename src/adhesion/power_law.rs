@@ -1,5 +1,3 @@
-//! Power laws, of which van der Waals' attraction between two half-spaces is one.
-
 use std::f64::consts::PI;
 
 use super::{AdhesionLaw, Hints, Values};

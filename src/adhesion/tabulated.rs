@@ -1,5 +1,3 @@
-//! A law by a table of gaps and tractions, as a force curve gives it.
-
 use super::{AdhesionLaw, Hints};
 use crate::error::{Error, Result};
 use crate::real::Real;

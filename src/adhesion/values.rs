@@ -1,5 +1,3 @@
-//! The slices that a law fills for many nodes at once.
-
 use std::ops::Range;
 
 use crate::real::Real;

@@ -1,5 +1,3 @@
-//! A law whose work of adhesion varies over the surface.
-
 use std::sync::Arc;
 
 use ndarray::{Array2, ArrayView2};

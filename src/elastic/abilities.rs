@@ -1,5 +1,3 @@
-//! The abilities of an operator beside its applications.
-
 use ndarray::{ArrayView2, ArrayViewMut2};
 
 use super::{Boundary, CoarseSpace, ElasticOperator};

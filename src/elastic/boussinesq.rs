@@ -1,5 +1,3 @@
-//! The free elastic half-space, loaded on a window: Love's kernel, on a padded grid.
-
 use std::f64::consts::PI;
 use std::ops::Range;
 
@@ -20,11 +18,10 @@ use crate::slab::TILE;
 /// Boussinesq (1885); Love (1929). The displacement tends to zero far away.
 ///
 /// The [`grid`](ElasticOperator::grid) of the operator has at least 2N − 1 nodes a side, the next even product of 2, 3
-/// and 5, and every node of it has the kernel at the shorter distance, Love's between nodes of the window. The surface
-/// of a [`Problem`](crate::Problem) and the fields of a solution are on the window.
+/// and 5, each with the kernel at the shorter distance; surfaces and solutions are on the window.
 ///
-/// A body that is curved, or attracts the half-space from afar, should end well within the window:
-/// [`Report::edge_traction`](crate::Report::edge_traction) says how far it does. A flat-ended one may fill it.
+/// A curved or attracting body should end well within the window:
+/// [`Report::edge_traction`](crate::Report::edge_traction). A flat-ended one may fill it.
 ///
 /// Memory per node of the operator's grid: 1 scalar for the spectrum, and a quarter in `f64` for the stiffness; two
 /// fields in `f64` while it is made. A clone shares the stiffness.
@@ -164,7 +161,6 @@ mod tests {
         assert_eq!([2, 3, 7, 8, 12, 33, 65, 100, 512].map(padded), [4, 6, 16, 16, 24, 72, 144, 200, 1024]);
     }
 
-    /// The sum of Love's terms at a node.
     fn love((i, j): (usize, usize), cell: (f64, f64)) -> f64 {
         quadrant(i..i + 1, j + 1, cell)[[0, j]]
     }
@@ -182,7 +178,6 @@ mod tests {
 
     #[test]
     fn pieces_of_a_cell_displace_as_the_cell_does() {
-        // cells of 2a × 2b, each of nine of a third of its sides
         let (a, b) = (0.7, 0.2);
         let (whole, pieces) = (quadrant(0..50, 70, (a, b)), quadrant(0..150, 210, (a / 3.0, b / 3.0)));
         for (i, j) in [(0, 0), (0, 1), (1, 0), (1, 1), (0, 69), (49, 0), (31, 7), (32, 7), (49, 69)] {
@@ -190,7 +185,6 @@ mod tests {
             let sum: f64 = near(i).iter().flat_map(|&p| near(j).map(|q| pieces[[p, q]])).sum();
             assert!((sum / whole[[i, j]] - 1.0).abs() < 1e-12, "{i} {j}: {sum} {}", whole[[i, j]]);
         }
-        // whatever the rows that are asked for
         assert!(quadrant(17..50, 70, (a, b)).rows().into_iter().eq(whole.rows().into_iter().skip(17)));
     }
 }

@@ -1,5 +1,3 @@
-//! The coarse space of the preconditioner: the longest waves, held by the contacts where these are.
-
 use std::f64::consts::{PI, SQRT_2};
 use std::ops::Range;
 
@@ -52,7 +50,6 @@ pub struct CoarseSpace {
     held: bool,
     load: Vec<Complex<f64>>,
     response: Vec<Complex<f64>>,
-    /// load, then response, in the real basis
     vector: Vec<f64>,
 }
 
@@ -181,7 +178,6 @@ impl CoarseSpace {
         }
     }
 
-    /// The number of the first columns of the half spectrum, those with waves of the space.
     pub(super) fn columns(&self) -> usize {
         self.columns.len()
     }
@@ -267,7 +263,6 @@ mod tests {
         let mut z = r.clone();
         let foundation = Foundation { coarse: Some(space), ..Foundation::uniform(0.7, 0.9) };
         let found = body.precondition(r.view(), foundation, z.view_mut()).unwrap();
-        // the sums that come from the transform
         let product = mean_of_both(Slab::whole(r.dim()), r.view(), z.view(), |a, b| a * b);
         assert!((found.descent - product).abs() < 1e-13, "{} {product}", found.descent);
         assert!((found.mean - mean(z.view(), |z| z)).abs() < 1e-13);
@@ -308,7 +303,6 @@ mod tests {
             for wave in &basis {
                 assert!((product(wave, &image) - product(wave, &r)).abs() < 1e-12, "{shape:?}");
             }
-            // the others are those of the uniform foundation
             let mut uniform = r.clone();
             body.precondition(r.view(), Foundation::uniform(0.7, 0.9), uniform.view_mut()).unwrap();
             let waves = basis.iter().fold(uniform.clone(), |rest, wave| rest - wave * product(wave, &uniform));
@@ -359,7 +353,6 @@ mod tests {
             assert!(block.0 * blocks.0 >= shape.0 && block.1 * blocks.1 >= shape.1 && block != (1, 1));
             assert!(block.0 * (blocks.0 - 1) < shape.0 && block.1 * (blocks.1 - 1) < shape.1);
             if shape.0.is_multiple_of(block.0) && shape.1.is_multiple_of(block.1) {
-                // full contact: no moments but the mean
                 let shares = vec![1.0 / (blocks.0 * blocks.1) as f64; blocks.0 * blocks.1];
                 assert!(space.renew(&shares, STIFFNESS, 1e-3, false));
                 assert!((space.moments.at(0, 0).re - 1.0).abs() < 1e-13);

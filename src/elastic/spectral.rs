@@ -1,5 +1,3 @@
-//! Spectral operators: a stiffness for each wave, applied by Fourier transforms.
-
 use std::f64::consts::TAU;
 use std::fmt;
 use std::marker::PhantomData;
@@ -126,7 +124,6 @@ enum Factor<'a> {
     Preconditioner(Foundation<'a>),
 }
 
-/// An application, which returns the sums over the modes.
 struct Apply<'a>(PhantomData<&'a ()>);
 
 impl<'a> Compiled for Apply<'a> {
@@ -212,7 +209,6 @@ impl<T: Real> Spectral<T> {
         Ok(self.with(stiffness, self.range))
     }
 
-    /// The number of nodes squared, over which a sum over modes is a mean over nodes.
     fn norm(&self) -> f64 {
         (self.grid.nodes() as f64).powi(2)
     }

@@ -1,5 +1,3 @@
-//! The moments of a contact map, and the products of waves over the contacts.
-
 use std::f64::consts::{SQRT_2, TAU};
 
 use asperity_fft::num_complex::Complex;

@@ -15,7 +15,6 @@ use crate::real::{Real, cast};
 use crate::slab::Slab;
 use crate::vector::{BLOCK, LANES, vectorised};
 
-/// The stiffness of each mode, in the layout of the spectrum.
 #[derive(Clone)]
 pub(super) enum Stiffness<T> {
     Stored(Columns<T>),
@@ -34,7 +33,6 @@ pub(super) enum Stiffness<T> {
     Even(Arc<Columns<f64>>),
 }
 
-/// Numbers for each mode of the columns that this process transforms.
 #[derive(Clone)]
 pub(super) struct Columns<T> {
     slab: Slab,
@@ -249,7 +247,6 @@ fn block<T: Real, U: Copy>(
     }
 }
 
-/// The factors of the pressure and, for the work, of |z|².
 #[inline(always)]
 pub(super) fn stiffen<T: Real>(stiffness: T) -> [T; 3] {
     [stiffness, stiffness, T::zero()]
