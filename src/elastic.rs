@@ -32,6 +32,7 @@ pub use westergaard::Westergaard;
 /// Applications write into the caller's array and, for the operators of this crate, allocate nothing.
 ///
 ///
+///
 /// ```
 /// use asperity::{ElasticOperator, Grid, Westergaard};
 /// let grid = Grid::square(16, 1.0)?;
@@ -93,10 +94,9 @@ pub trait ElasticOperator<T: Real>: Send {
 
     /// Applies the preconditioner, M r.
     ///
-    /// M is close to (K⁻¹ + s)⁻¹, with s the stiffness of the foundation: waves longer than the distances between
-    /// contacts meet the stiffness of these. The mean has the factor 1/mean_stiffness, which may be zero, and the waves
-    /// of a coarse space have its response. M must be symmetric, and positive but for the mean. The default applies
-    /// [`displacement`](Self::displacement), and 1/mean_stiffness to the mean.
+    /// M is close to (K⁻¹ + s)⁻¹, with s the stiffness of the foundation, for the mean 1/mean_stiffness, which may be
+    /// zero, and for the waves of a coarse space its response. It must be symmetric, and positive but for the mean. The
+    /// default applies [`displacement`](Self::displacement), and 1/mean_stiffness to the mean.
     ///
     /// # Errors
     /// [`Error::Shape`] if a field does not fit the grid.
@@ -116,8 +116,7 @@ pub trait ElasticOperator<T: Real>: Send {
     }
 }
 
-/// The boundary of the elastic body: periodic, or free and loaded on a window alone, as of
-/// [`Westergaard`] and of [`Boussinesq`].
+/// The boundary of the elastic body: periodic, as of [`Westergaard`], or free, as of [`Boussinesq`].
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "kebab-case"))]

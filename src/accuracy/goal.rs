@@ -53,7 +53,6 @@ const DOUBT: f64 = 3.0;
 /// let mut wanted = Accuracy::new(0.02, Quantity::Area);
 /// let found = wanted.solve(&surface, half_space, NoAdhesion, Control::MeanPressure(2e-3))?;
 /// assert!(found.reached && found.error.unwrap().relative < 0.02);
-/// assert_eq!(found.solution.gap.dim(), found.surface.grid().shape());
 /// # Ok::<(), asperity::Error>(())
 /// ```
 #[non_exhaustive]
@@ -99,7 +98,7 @@ pub struct AccurateSolution<T> {
     pub error: Option<GridError>,
     /// Whether the estimate, with the error of the solver, meets the accuracy.
     pub reached: bool,
-    /// Whether the surface and the law are known on finer grids than the given one.
+    /// Whether the surface and the law are known on finer grids.
     pub refinable: bool,
     /// The next finer grid and its memory in bytes, if that was too much.
     pub unaffordable: Option<((usize, usize), f64)>,

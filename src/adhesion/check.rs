@@ -8,7 +8,7 @@ use crate::real::Real;
 /// The functions, in the order in which each is the derivative of the one before.
 const NAMES: [&str; 3] = ["adhesive energy", "adhesive traction", "slope of the adhesive traction"];
 
-/// The share of a function's largest value by which a value may be wrong, and by which a traction that jumps falls.
+/// The share of a function's largest value by which a value may be wrong, or a traction falls that jumps.
 const SHARE: f64 = 1e-2;
 
 /// The roundings, in units of the traction in contact, by which a traction that falls may seem to rise.
@@ -45,8 +45,8 @@ const ASKED: [[bool; 3]; 6] = [
 /// - where the traction jumps, the [smoothed](Discretisation::Smooth) law has none, but the same work of adhesion and
 ///   shape, and its functions agree as well;
 /// - the values at many nodes are those of the functions of one gap, whichever are asked for and wherever slices end;
-/// - a law that has a shape has a [coarser](Discretisation::Coarse) one, with the values of every other node, and no
-///   node stronger than the functions of one gap.
+/// - a law that has a shape has a [coarser](Discretisation::Coarse) one, with the values of every other node, and is
+///   nowhere stronger than the functions of one gap.
 ///
 /// # Errors
 /// [`Error::Law`] with the first gap at which a function is not finite or not the derivative of the one before;

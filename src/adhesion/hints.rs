@@ -7,13 +7,12 @@ use crate::real::Real;
 pub struct Hints<T> {
     /// The work of adhesion w, energy per area.
     pub work_of_adhesion: T,
-    /// The length ρ over which the traction decays, for the resolution measure μ_ρ. Peaks narrower than ρ/100 may be
-    /// overlooked where the solver asks whether the law can hold a tensile load.
+    /// The length ρ over which the traction decays, for μ_ρ; peaks narrower than ρ/100 may be overlooked.
     pub range: T,
     /// The gap of rest of a law that repels below it, for [`NoWall`](crate::NoWall); none if it only attracts.
     pub rest: Option<T>,
-    /// Whether the energy is concave: the traction nowhere rises with the gap. At a rigid wall its tangent then bounds
-    /// the energy after a step, which need not be evaluated. False is safe for every law.
+    /// Whether the energy is concave: the traction nowhere rises, and its tangent bounds the energy after a step at a
+    /// rigid wall. False is safe for every law.
     pub concave: bool,
     /// Whether the law is zero at all gaps, so that it need not be evaluated.
     pub zero: bool,

@@ -33,8 +33,7 @@ struct Point {
 }
 
 impl Tabulated {
-    /// The law through points of a gap (length), rising from zero, and a traction (pressure, positive attracts), zero
-    /// at the last.
+    /// The law through points of a gap (length), from zero on, and a traction (pressure; positive attracts), last zero.
     ///
     /// # Errors
     /// [`Error::Value`] for fewer than three points, unequal numbers of gaps and tractions, a number that is not
@@ -100,7 +99,6 @@ impl Point {
     }
 }
 
-/// The slopes of the cubic at the points: weighted harmonic means of the chords beside them, zero at extremes.
 fn slopes(x: &[f64], y: &[f64]) -> Vec<f64> {
     let widths: Vec<f64> = x.windows(2).map(|x| x[1] - x[0]).collect();
     let chords: Vec<f64> = y.windows(2).zip(&widths).map(|(y, width)| (y[1] - y[0]) / width).collect();

@@ -11,8 +11,7 @@ use crate::slab::Slab;
 
 /// A law whose work of adhesion differs from node to node, w(x, y): energy, traction and slope in proportion to it.
 ///
-/// The range is that of the law everywhere. Functions of one gap, such as the resolution measure μ_ρ, are those of the
-/// strongest node, [`Varying::strongest`]. Memory per node: one `f64`, which clones share.
+/// Functions of one gap, such as μ_ρ, are those of the strongest node. Memory per node: one `f64`, which clones share.
 ///
 /// ```
 /// use asperity::adhesion::Varying;
@@ -27,7 +26,6 @@ use crate::slab::Slab;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Varying<L> {
     law: L,
-    /// of the grid of the map
     slab: Slab,
     /// the work of adhesion at each node of the slab over that of the law
     shares: Arc<Array2<f64>>,

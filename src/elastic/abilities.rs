@@ -11,8 +11,7 @@ use crate::real::Real;
 pub struct Abilities<'a, T: Real> {
     /// The boundary of the body; periodic by default.
     pub boundary: Boundary,
-    /// Whether the operator takes fields of the shape [`Grid::field_shape`](crate::Grid::field_shape) on a grid that
-    /// several processes share. Without it such a [`Problem`](crate::Problem) is refused.
+    /// Whether the operator takes fields of [`Grid::field_shape`](crate::Grid::field_shape) on a shared grid.
     pub slabs: bool,
     /// Whether a solve in `f64` may have its corrections from the operator [in `f32`](Waves::in_single).
     pub single: bool,
@@ -48,8 +47,8 @@ pub trait Waves<T: Real> {
 
     /// The operator in `f32`, for the corrections of a solve in `f64`; none if a stiffness leaves the range of `f32`.
     ///
-    /// A solve in `f64` applies it to the changes of the gap and to the residuals, which takes little more time than in
-    /// `f32`, and the operator itself to the gap now and then. It must be the same operator but for rounding.
+    /// A solve in `f64` applies it to the changes of the gap and to the residuals, and the operator itself to the gap
+    /// now and then. It must be the same operator but for rounding.
     fn in_single(&mut self) -> Option<Box<dyn ElasticOperator<f32>>>;
 
     /// The elastic pressure K⁻¹h of heights in `f64`, and the mean of h·K⁻¹h; the heights have no mean, or one not

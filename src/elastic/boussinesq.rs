@@ -23,8 +23,7 @@ use crate::slab::TILE;
 /// A curved or attracting body should end well within the window:
 /// [`Report::edge_traction`](crate::Report::edge_traction). A flat-ended one may fill it.
 ///
-/// Memory per node of the operator's grid: 1 scalar for the spectrum, and a quarter in `f64` for the stiffness; two
-/// fields in `f64` while it is made. A clone shares the stiffness.
+/// Memory per node of the operator's grid: 1 scalar, and a quarter in `f64` that clones share; at first two in `f64`.
 ///
 /// ```
 /// use asperity::{Boussinesq, Control, Grid, NoAdhesion, Problem, Solver, Surface};
@@ -104,8 +103,7 @@ fn kernel(grid: &Grid, cell: (f64, f64), modulus: f64) -> Array2<f64> {
     kernel
 }
 
-/// The sum of Love's four terms at nodes of the first quadrant: in some rows, for so many columns from the first on.
-/// Each term belongs to an edge of a cell, and to that of the next cell with the other sign.
+/// The sum of Love's four terms in rows of the first quadrant; each is also that of the next cell, negative.
 fn quadrant(rows: Range<usize>, columns: usize, (a, b): (f64, f64)) -> Array2<f64> {
     let (x, y) = (|i: usize| (2 * i + 1) as f64 * a, |j: usize| (2 * j + 1) as f64 * b);
     // the farthest corners of the cells of a row from the origin, and the terms of the edges that end there along y

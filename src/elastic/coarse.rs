@@ -22,8 +22,8 @@ const LARGEST: usize = 1 << 16;
 
 /// The longest waves of a grid on a foundation that holds the surface where it is in contact.
 ///
-/// A uniform foundation knows how much contact there is, these waves where it is. With k their stiffness, α that of the
-/// foundation, and χ(x) the share of contact near x, the response z to a load r is the Galerkin solution of
+/// With k the stiffness of the waves, α that of the foundation, and χ(x) the share of contact near x, the response z to
+/// a load r is the Galerkin solution of
 ///
 /// ```math
 /// (k + α χ(x)) z = r
@@ -31,8 +31,8 @@ const LARGEST: usize = 1 << 16;
 ///
 /// in the orthonormal basis 1, √2 cos q·x, √2 sin q·x, by Cholesky.
 ///
-/// An operator makes it ([`Waves::coarse_space`](crate::elastic::Waves::coarse_space)), the solver tells it where the
-/// contacts are, and the operator [preconditions](crate::ElasticOperator::precondition) with it.
+/// An operator makes it ([`Waves::coarse_space`](crate::elastic::Waves::coarse_space)) and
+/// [preconditions](crate::ElasticOperator::precondition) with it; the solver tells it where the contacts are.
 #[derive(Clone, Debug)]
 pub struct CoarseSpace {
     /// the mean, and one wave of each pair ±q, sorted by their columns
@@ -41,10 +41,8 @@ pub struct CoarseSpace {
     /// the nodes of a block of the contact map along both axes; the last block may have fewer
     block: (usize, usize),
     moments: Moments,
-    /// the Cholesky factor, a lower triangle
     factor: Vec<f64>,
     workspace: Vec<[f64; ROWS]>,
-    /// the nodes that are apart, as a load, and the response to it
     apart: [Vec<f64>; 2],
     /// whether the response has no mean over the nodes that are apart
     held: bool,
