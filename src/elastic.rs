@@ -31,8 +31,6 @@ pub use westergaard::Westergaard;
 ///
 /// Applications write into the caller's array and, for the operators of this crate, allocate nothing.
 ///
-///
-///
 /// ```
 /// use asperity::{ElasticOperator, Grid, Westergaard};
 /// let grid = Grid::square(16, 1.0)?;

@@ -42,7 +42,6 @@ impl PowerLaw {
     /// distance D₀ (length) in contact, often 0.165 nm: w = A/12πD₀², ρ = D₀/2, n = 2. Israelachvili, *Intermolecular
     /// and Surface Forces* (2011), section 13.
     ///
-    ///
     /// # Errors
     /// [`Error::Value`] if A is negative, D₀ not positive, or one of them not finite.
     pub fn van_der_waals(hamaker: f64, contact_distance: f64) -> Result<Self> {

@@ -37,7 +37,6 @@ pub struct Varying<L> {
 impl<L: AdhesionLaw<f64>> Varying<L> {
     /// The law with these works of adhesion at the nodes, shape (Nx, Ny), in place of its own.
     ///
-    ///
     /// # Errors
     /// [`Error::NotFinite`]; [`Error::Value`] if a work of adhesion is negative, if none is positive, or if the law has
     /// none or varies already.
