@@ -1,8 +1,6 @@
 //! The accuracy that is wanted: how wrong the grid is, and a solve that refines it until it is right enough.
 //!
-//! An answer has two errors: that of the solver, which the certificate bounds, and that of the grid. [`GridError`]
-//! estimates the latter from the edge of the contact and from the solutions on nested grids; [`Accuracy`] asks for a
-//! relative error of a [`Quantity`] and chooses tolerance and grid itself.
+//! [`GridError`] estimates the error of the grid, beside that of the solver; [`Accuracy`] chooses grid and tolerance.
 
 use std::fmt;
 
@@ -22,14 +20,6 @@ mod refine;
 pub use goal::{Accuracy, AccurateSolution, Plan};
 
 /// The quantity of which an accuracy is asked.
-///
-/// ```
-/// use asperity::Control;
-/// use asperity::accuracy::Quantity;
-/// assert!(Quantity::Gap.check(Control::MeanPressure(0.1)).is_ok());
-/// let error = Quantity::Gap.check(Control::MeanGap(0.1)).unwrap_err();
-/// assert_eq!(error.to_string(), "accuracy of the gap: the mean gap is given: ask for that of the pressure, or of the area");
-/// ```
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Quantity {
@@ -76,7 +66,6 @@ impl Quantity {
         Err(Error::Control { control, reason })
     }
 
-    /// The value on a level.
     fn of(self, level: &Level) -> Option<f64> {
         Some(match self {
             Self::Area => level.area.corrected_contact_fraction,
@@ -126,14 +115,13 @@ impl Quantity {
         Some((share * difference).hypot(of_edge * edge))
     }
 
-    /// The relative error on a grid beside which there is no coarser one, with so many nodes in the shortest wave and
-    /// the errors at the edge of its area.
+    /// The relative error on a grid without a coarser one.
     fn by_waves(self, nodes_per_wave: f64, [places, adhesion]: [f64; 2]) -> Option<f64> {
         let error = self.expected(nodes_per_wave).hypot(2.0 * places).hypot(adhesion);
         (self == Self::Area && nodes_per_wave.is_finite() && error.is_finite()).then_some(error)
     }
 
-    /// The error that is to be expected with so many nodes in the shortest wave, by what rough surfaces had.
+    /// The expected error with so many nodes in the shortest wave, by that of rough surfaces.
     fn expected(self, nodes_per_wave: f64) -> f64 {
         let (share, order) = match self {
             Self::Area => (0.3, 2.0),
@@ -145,8 +133,7 @@ impl Quantity {
     }
 }
 
-/// The relative error of the corrected area by the places of its edge, with so many nodes in the shortest wave, and by
-/// the adhesion there.
+/// The relative errors of the corrected area by the places of its edge and by the adhesion there.
 fn at_edge(area: &ContactArea, nodes_per_wave: f64, mu_rho: f64) -> [f64; 2] {
     let (edges, nodes) = (area.edges as f64, area.contact_nodes as f64);
     let beyond = (area.contact_fraction / area.corrected_contact_fraction - 1.0).abs();
@@ -166,20 +153,9 @@ impl fmt::Display for Quantity {
 }
 
 impl Surface {
-    /// The number of nodes that the shortest wave of the surface has,
-    /// [`Spectrum::nodes_per_wave`](crate::surface::Spectrum::nodes_per_wave); with a boundary that does not repeat, of
-    /// the surface continued by its mirror images. Where several processes share the grid it is that of the whole
-    /// surface, and all have to ask.
-    ///
-    /// ```
-    /// use asperity::{Boundary, Boussinesq, ElasticOperator, Grid, Surface};
-    /// let grid = Grid::square(64, 1.0)?;
-    /// // a tilt repeats with a jump, and ends without one
-    /// let tilt = Surface::from_fn(grid, |x, _| x)?;
-    /// let free = Boussinesq::<f64>::new(grid, 1.0)?.boundary();
-    /// assert!(tilt.nodes_per_wave(Boundary::Periodic) < 3.0 && tilt.nodes_per_wave(free) > 8.0);
-    /// # Ok::<(), asperity::Error>(())
-    /// ```
+    /// The nodes of the shortest wave of the surface,
+    /// [`Spectrum::nodes_per_wave`](crate::surface::Spectrum::nodes_per_wave); with a free boundary, of the surface
+    /// continued by its mirror images. It is that of the whole surface where processes share the grid, and all ask.
     pub fn nodes_per_wave(&self, boundary: Boundary) -> f64 {
         let mirrored = |whole: &Self| {
             let mut map = Topography::new(whole.heights().clone());
@@ -213,17 +189,16 @@ const CAUTION: f64 = 1.5;
 /// How far a coarser grid may be from half the nodes along a side, as that of an odd number is.
 const HALVED: f64 = 0.02;
 
-/// The orders of convergence that are believed.
 const ORDERS: (f64, f64) = (0.5, 3.0);
 
 /// The estimated relative error of the grid, of one quantity.
 ///
-/// Where the contact stiffness k of the finest grid was found ([`Nested::stiffness`](crate::Nested::stiffness)), the
-/// errors of the mean gap, the mean pressure and the stiffness follow from its edge, [`EdgeError`], without another
-/// grid: that of the pressure under a given mean gap is k times that of the gap under a given pressure.
+/// With the contact stiffness k of the finest grid ([`Nested::stiffness`](crate::Nested::stiffness)) the errors of the
+/// mean gap, the mean pressure and the stiffness follow from its edge, [`EdgeError`]: that of the pressure under a
+/// given mean gap is k times that of the gap under a given pressure.
 ///
-/// Otherwise they follow from a coarser grid. With δQ the relative difference of a quantity Q between the grid and one
-/// of half as many nodes along its sides, the error is taken to be the root of the sum of the squares of
+/// Otherwise, with δQ the relative difference of a quantity Q to the grid of half as many nodes along its sides, the
+/// error is the root of the sum of the squares of
 ///
 /// | quantity | terms |
 /// |---|---|
@@ -234,35 +209,17 @@ const ORDERS: (f64, f64) = (0.5, 3.0);
 /// where A is the area as nodes count it, and ε = A/A_c − 1; κ and κ' are the neighbours between which the edge runs
 /// ([`ContactArea::edges`]), over the nodes in contact and over those apart; M is the number of them that are
 /// independent ([`ContactArea::places`]), and n that of the nodes in the shortest wave. On a line the factors are 1 and
-/// 0.3 for the stiffness, and 1/3 and 0.02 for gap and pressure. κ and δA tell how many of the nodes are at the edge,
-/// and so the scale of all that depends on where between the nodes the edge falls; δQ alone may be small by luck.
+/// 0.3 for the stiffness, and 1/3 and 0.02 for gap and pressure. Without a coarser grid 0.3/n² takes the place of
+/// δA_c/4, and the terms with M count twice.
 ///
-/// The error of the corrected area falls with the second order, for which the share of δA_c is 1/3, or faster while
-/// waves have few nodes. Each place of the edge is wrong by itself, and on a rough surface these errors average. Along
-/// a strip all of the edge is between the same rows of nodes, and wrong in the same way, the more so where contacts or
-/// the gaps between them are a few nodes wide, or waves: M is 2 for a wave along a side, and some hundreds for a rough
-/// surface of 128² nodes. Where the zone of the adhesion has few nodes, 1/μ_ρ², a share of ε is left. Without a coarser
-/// grid 0.3/n², which rough surfaces have, takes the place of δA_c/4, and the terms with M count twice. The factors are
-/// fitted to rough surfaces, strips and lattices, and the page [`choosing`](crate::guide::choosing) has how good the
-/// estimates are on others.
+/// κ and δA have the scale of all that depends on where between the nodes the edge falls; δQ alone may be small by
+/// luck. The factors are fitted to rough surfaces, strips and lattices; the page [`choosing`](crate::guide::choosing)
+/// has how good the estimates are on others.
 ///
-/// A grid counts if it has the same waves, the shortest of which ([`Surface::nodes_per_wave`]) with at least four
-/// nodes, resolves the adhesion (μ_ρ ≤ 0.5), and, if it is a coarser one, was solved to 3e-3. The estimates of gap and
-/// pressure by the edge are sure; those of the area, and of the stiffness by the edge, if the shortest wave has at
-/// least sixteen nodes on the finest grid, the area from a coarser grid. All others, and all on a line that are not by
-/// the edge, are [`rough`](Self::rough).
-///
-/// ```
-/// use asperity::accuracy::{GridError, Quantity};
-/// use asperity::{Boundary, Control, Grid, Nested, NoAdhesion, SelfAffine, Westergaard};
-/// let surface = SelfAffine::default().k_s(16.0).surface(Grid::square(256, 1.0)?)?;
-/// let half_space = |grid| Westergaard::<f64>::new(grid, 1.0);
-/// let mut nested = Nested::default().coarse_tolerance(1e-3);
-/// let found = nested.solve(&surface, half_space, NoAdhesion, Control::MeanPressure(2e-3))?;
-/// let error = GridError::of(&found.levels, Quantity::Area, surface.nodes_per_wave(Boundary::Periodic), 0.0).unwrap();
-/// assert!(error.relative > 2e-4 && error.relative < 1e-2);
-/// # Ok::<(), asperity::Error>(())
-/// ```
+/// A grid counts if it has the same waves, the shortest with at least four nodes ([`Surface::nodes_per_wave`]), a
+/// μ_ρ ≤ 0.5, and, if it is a coarser one, was solved to 3e-3. Sure are gap and pressure by the edge;
+/// and, with at least sixteen nodes in the shortest wave, the stiffness by the edge and, on a grid of more than one
+/// row, the area by a coarser grid. All others are [`rough`](Self::rough).
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GridError {
@@ -275,15 +232,13 @@ pub struct GridError {
 }
 
 impl GridError {
-    /// A tolerance on coarser grids ([`Nested::coarse_tolerance`](crate::Nested::coarse_tolerance)) at which they tell
-    /// the error of the finest, with something to spare.
+    /// A [`Nested::coarse_tolerance`](crate::Nested::coarse_tolerance) at which coarser grids tell the error.
     pub const COARSE_TOLERANCE: f64 = 1e-3;
 
-    /// The nodes that the shortest wave of a surface needs on a grid, for the solution there to tell the error.
+    /// The nodes that the shortest wave needs on a grid whose solution tells the error.
     pub const LEAST_NODES_PER_WAVE: f64 = 4.0;
 
-    /// The errors of all quantities that the control does not give, as [`GridError::of`] has them, with the report of
-    /// the solution on the finest grid.
+    /// The errors, as by [`GridError::of`], of all quantities that the control does not give.
     pub fn of_all(levels: &[Level], report: &Report, nodes_per_wave: f64) -> [(Quantity, Option<Self>); 4] {
         [Quantity::Area, Quantity::Gap, Quantity::Pressure, Quantity::Stiffness].map(|of| {
             let found = of.check(report.control).is_ok().then(|| Self::of(levels, of, nodes_per_wave, report.mu_rho));
@@ -291,9 +246,9 @@ impl GridError {
         })
     }
 
-    /// The error of the finest of some nested grids, the coarsest first; nothing where it cannot be told from them.
+    /// The error of the finest of some nested grids, the coarsest first; none where they do not tell it.
     ///
-    /// `nodes_per_wave` is that of the surface on the finest grid, and `mu_rho` its resolution measure of the adhesion.
+    /// `nodes_per_wave` and the resolution measure `mu_rho` are those on the finest grid.
     pub fn of(levels: &[Level], quantity: Quantity, nodes_per_wave: f64, mu_rho: f64) -> Option<Self> {
         let finest = levels.last()?;
         let resolves = |factor: f64| {
@@ -327,7 +282,6 @@ impl GridError {
         Some(Self { relative, order, rough: quantity != Quantity::Area || !sure || relative == 0.0 })
     }
 
-    /// The error, larger where it may be far off.
     pub(crate) fn cautious(&self) -> f64 {
         if self.rough { CAUTION * self.relative } else { self.relative }
     }

@@ -38,38 +38,25 @@ const NOTICEABLE: f64 = 0.01;
 
 /// An adhesion law: the energy per area by which two surfaces attract each other, a function of the gap.
 ///
-/// A law is three functions of one gap `g ≥ 0`: the energy φ(g) ≤ 0, its derivative φ'(g), the
-/// adhesive traction, positive where the surfaces attract each other, and the traction's slope φ''(g). Everything else
-/// has a default. The energy falls to zero, or to any constant, at large gaps. Negative gaps are asked only of a law
-/// that keeps the surfaces apart by itself ([`Hints::rest`]); a [`ContactConstraint`](crate::ContactConstraint) that
-/// lets the surfaces interpenetrate says how the law goes on there.
+/// A law is three functions of one gap `g ≥ 0`: the energy φ(g) ≤ 0, the adhesive traction φ'(g), positive where the
+/// surfaces attract each other, and its slope φ''(g); all else has a default. The energy falls to zero, or to any
+/// constant, at large gaps. Negative gaps are asked only of a law that repels by itself ([`Hints::rest`]); where a
+/// [`ContactConstraint`](crate::ContactConstraint) lets surfaces interpenetrate, it says how the law goes on.
 ///
-/// [`check_law`] holds a law to this contract; call it in a test of yours. A law that is made of another one forwards
-/// [`hints`](Self::hints), [`evaluate`](Self::evaluate) and [`adapted`](Self::adapted), too.
+/// [`check_law`] holds a law to this contract; the page [`own_law`](crate::guide::own_law) has one in a solve. A law
+/// made of another one forwards [`hints`](Self::hints), [`evaluate`](Self::evaluate) and [`adapted`](Self::adapted).
 ///
 /// ```
+/// use asperity::AdhesionLaw;
 /// use asperity::adhesion::check_law;
-/// use asperity::{AdhesionLaw, Real};
-///
-/// /// φ = −w (1 − g/ρ)³ for g < ρ, 0 beyond.
-/// struct Cubic<T> { w: T, rho: T }
-///
-/// impl<T: Real> AdhesionLaw<T> for Cubic<T> {
-///     fn energy(&self, gap: T) -> T {
-///         let x = (T::one() - gap / self.rho).max(T::zero());
-///         -self.w * x * x * x
-///     }
-///     fn traction(&self, gap: T) -> T {
-///         let x = (T::one() - gap / self.rho).max(T::zero());
-///         T::lit(3.0) * self.w / self.rho * x * x
-///     }
-///     fn slope(&self, gap: T) -> T {
-///         let x = (T::one() - gap / self.rho).max(T::zero());
-///         T::lit(-6.0) * self.w / (self.rho * self.rho) * x
-///     }
+/// /// φ = −(1 − g)³ for g < 1, 0 beyond.
+/// struct Cubic;
+/// impl AdhesionLaw<f64> for Cubic {
+///     fn energy(&self, gap: f64) -> f64 { -(1.0 - gap).max(0.0).powi(3) }
+///     fn traction(&self, gap: f64) -> f64 { 3.0 * (1.0 - gap).max(0.0).powi(2) }
+///     fn slope(&self, gap: f64) -> f64 { -6.0 * (1.0 - gap).max(0.0) }
 /// }
-///
-/// check_law(&Cubic { w: 1e-4, rho: 2e-3 }, 1e-2)?;
+/// check_law(&Cubic, 5.0)?;
 /// # Ok::<(), asperity::Error>(())
 /// ```
 pub trait AdhesionLaw<T: Real>: Send + Sync {
@@ -79,7 +66,7 @@ pub trait AdhesionLaw<T: Real>: Send + Sync {
     /// The adhesive traction φ'(g), force per area; positive attracts.
     fn traction(&self, gap: T) -> T;
 
-    /// The slope of the traction φ''(g), traction per length. Where the traction jumps, its slope beside the jump.
+    /// The slope of the traction φ''(g), traction per length; where the traction jumps, that beside the jump.
     fn slope(&self, gap: T) -> T;
 
     /// Work of adhesion, range, and whatever else a solve may know beforehand; by default [`Hints::of`] the functions.
@@ -87,13 +74,12 @@ pub trait AdhesionLaw<T: Real>: Send + Sync {
         Hints::of(self)
     }
 
-    /// Sets the values that are asked for at the nodes from `first` on, in row-major order (node ix·Ny + iy), which
-    /// have these gaps. Nodes count on the whole grid, also where several processes share it.
+    /// Sets the values that are asked for at the nodes from `first` on, in row-major order (node ix·Ny + iy) on the
+    /// whole grid, also where several processes share it. The default calls the functions of one gap.
     ///
-    /// A solve calls it for a few hundred nodes at once. By default it calls the functions of one gap. A law that
-    /// varies over the surface writes it by the node, as `examples/patches/law.rs` does, has a [shape](Hints::shape),
-    /// and answers to the functions of one gap for the node where it is strongest. The values must not depend on where
-    /// the slices begin and end.
+    /// A solve asks for a few hundred nodes at once; the values must not depend on where the slices begin and end. A
+    /// law that varies over the surface (as in `examples/patches/law.rs`) writes them by the node, has a
+    /// [shape](Hints::shape), and answers to the functions of one gap for its strongest node.
     fn evaluate(&self, first: usize, gaps: &[T], values: Values<'_, T>) {
         let _ = first;
         let Values { energies, tractions, slopes } = values;
@@ -125,19 +111,15 @@ pub trait AdhesionLaw<T: Real>: Send + Sync {
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug)]
 pub enum Discretisation<T> {
-    /// The rows of this grid, [`Grid::rows`]: for a law that varies over the surface and knows the nodes of some rows
-    /// alone, as a process does that shares the grid.
+    /// The rows of this grid, [`Grid::rows`]: for a law that varies and, on a shared grid, knows some rows alone.
     Rows(Grid),
-    /// The coarser grid that has every nx-th and every ny-th node: for a law that varies over the surface.
+    /// The coarser grid of every nx-th and every ny-th node: for a law that varies over the surface.
     Coarse(usize, usize),
     /// Nodes of this compliance, length per pressure: for a law whose traction jumps. Its slopes become no steeper than
-    /// one over the compliance in the place of the jumps.
+    /// one over the compliance in the place of the jumps; the functions still agree, and the work of adhesion stays.
     ///
-    /// Where the traction falls by Δ at one gap, a node with the traction and one without it are both in
-    /// equilibrium over a whole range of the gap, Δ times the node's compliance: the edge of the adhesive zone is
-    /// pinned to the nodes, and stays where an iteration happened to leave it. The default start of a solve therefore
-    /// comes from the smoothed law, of which the equilibrium does not depend on the way there. Energy, traction
-    /// and slope have to agree for the smoothed law too, and the work of adhesion stays the same.
+    /// At a jump a node is in equilibrium on both sides, and the edge of the adhesive zone stays where an iteration
+    /// left it. The default start of a solve therefore comes from the smoothed law.
     Smooth(T),
 }
 
@@ -155,8 +137,7 @@ macro_rules! forward {
 }
 forward!(&L, Box<L>, Arc<L>);
 
-/// The adhesive traction above which surfaces are said to attract each other: a share of w/ρ; zero where that has no
-/// bound.
+/// The adhesive traction above which surfaces are said to attract each other; zero where w/ρ has no bound.
 pub(crate) fn noticeable<T: Real>(law: &dyn AdhesionLaw<T>) -> f64 {
     let hints = law.hints();
     let scale = (hints.work_of_adhesion / hints.range).widen();
@@ -178,7 +159,6 @@ mod tests {
                 let found = [energies[i], tractions[i], again[i], slopes[i]].map(T::widen);
                 let expected = [law.energy(gap), law.traction(gap), law.traction(gap), law.slope(gap)].map(T::widen);
                 for ((found, expected), size) in found.into_iter().zip(expected).zip([2.0, 4.0, 4.0, 8.0]) {
-                    // of an exponential of up to one, and some products
                     let rounding = 4.0 * T::epsilon().widen() * size;
                     assert!((found - expected).abs() <= rounding, "{found} {expected} at {gap}");
                 }

@@ -23,34 +23,26 @@ pub use westergaard::Westergaard;
 
 /// The elastic operator of a half-space: the pressure p = K⁻¹u of a displacement u of its surface, and u = Kp.
 ///
-/// The operator is linear, symmetric, and positive on fields without mean. A rigid translation costs nothing, so
-/// both applications return fields of zero mean and ignore the mean of their argument. [`Westergaard`] is the
-/// homogeneous half-space under periodic loads, [`Boussinesq`] the same under loads on a window alone, [`Spectral`] is
-/// any operator that acts on each wave by a factor; implement the trait for anything else. [`grid`](Self::grid),
-/// [`pressure`](Self::pressure), [`displacement`](Self::displacement), [`stiffness_range`](Self::stiffness_range) and
-/// [`modulus`](Self::modulus) are required.
+/// The operator is linear, symmetric, and positive on fields without mean. A rigid translation costs nothing: both
+/// applications return fields of zero mean and ignore the mean of their argument. [`Westergaard`] is the homogeneous
+/// half-space under periodic loads, [`Boussinesq`] under loads on a window alone, [`Spectral`] any operator that
+/// multiplies each wave by a factor. The page [`own_operator`](crate::guide::own_operator) has a layer of finite
+/// thickness, and tells how to implement the trait for another body.
 ///
-/// Every application writes into the caller's array and, for the operators of this crate, allocates nothing.
+/// Applications write into the caller's array and, for the operators of this crate, allocate nothing.
 ///
 /// ```
-/// use asperity::{ElasticOperator, Grid, Spectral, Westergaard};
+/// use asperity::{ElasticOperator, Grid, Westergaard};
 /// let grid = Grid::square(16, 1.0)?;
-/// // chosen at run time; a box of an operator is an operator
-/// let operators: [Box<dyn ElasticOperator<f64>>; 2] = [
-///     Box::new(Westergaard::new(grid, 1.0)?),
-///     Box::new(Spectral::isotropic(grid, 1.0, |q| 10.0 + 0.5 * q)?), // on springs
-/// ];
-/// for mut operator in operators {
-///     let u = grid.sample(|x, y| (std::f64::consts::TAU * (x + 2.0 * y)).sin());
-///     let (mut p, mut again) = (u.clone(), u.clone());
-///     operator.pressure(u.view(), p.view_mut())?;
-///     operator.displacement(p.view(), again.view_mut())?;
-///     assert!(u.iter().zip(&again).all(|(a, b)| (a - b).abs() < 1e-12));
-/// }
+/// // chosen at run time
+/// let mut operator: Box<dyn ElasticOperator<f64>> = Box::new(Westergaard::<f64>::new(grid, 1.0)?);
+/// let u = grid.sample(|x, y| (std::f64::consts::TAU * (x + 2.0 * y)).sin());
+/// let (mut p, mut again) = (u.clone(), u.clone());
+/// operator.pressure(u.view(), p.view_mut())?;
+/// operator.displacement(p.view(), again.view_mut())?;
+/// assert!(u.iter().zip(&again).all(|(a, b)| (a - b).abs() < 1e-12));
 /// # Ok::<(), asperity::Error>(())
 /// ```
-///
-/// A layer of finite thickness is the worked case on the page [`own_operator`](crate::guide::own_operator).
 pub trait ElasticOperator<T: Real>: Send {
     /// The grid of the fields that the operator takes and returns.
     fn grid(&self) -> &Grid;
@@ -61,9 +53,7 @@ pub trait ElasticOperator<T: Real>: Send {
     /// [`Error::Shape`] if a field does not fit the grid.
     fn pressure(&mut self, displacement: ArrayView2<'_, T>, pressure: ArrayViewMut2<'_, T>) -> Result<()>;
 
-    /// The elastic pressure p = K⁻¹u, as [`pressure`](Self::pressure), and the mean of u·K⁻¹u.
-    ///
-    /// The default multiplies the two fields; [`Spectral`] has the mean from the transform.
+    /// The elastic pressure p = K⁻¹u, and the mean of u·K⁻¹u, by default the product of the two fields.
     ///
     /// # Errors
     /// [`Error::Shape`] if a field does not fit the grid.
@@ -84,36 +74,27 @@ pub trait ElasticOperator<T: Real>: Send {
 
     /// The stiffness of the softest and of the stiffest wave on the grid, pressure per length, the mean excluded.
     ///
-    /// The softest must not be overestimated: it bounds the part of the certificate that comes from the rounding of an
-    /// updated pressure. Otherwise they scale steps, and estimates will do. Both are zero only where there is no wave,
-    /// on a grid of one node.
+    /// The softest bounds the rounding of an updated pressure in the certificate, and must not be overestimated; the
+    /// stiffest may be an estimate. Both are zero on a grid of one node.
     fn stiffness_range(&self) -> (f64, f64);
 
-    /// The contact modulus E* that the half-space has for waves as short as the grid's spacing. It tells whether
-    /// adhesion is resolved, and where between the nodes the edge of the contact runs
-    /// ([`ContactStatistics`](crate::contact::ContactStatistics)), which expects that stiffness grows with the wave
-    /// number there.
+    /// The contact modulus E* for waves as short as the grid's spacing.
     ///
-    /// It is the unit of [`Criterion::Complementarity`](crate::Criterion::Complementarity) and enters
-    /// [`Problem::mu_rho`](crate::Problem::mu_rho); with the spacing it gives the compliance by which jumps of a law
-    /// are [smoothed](crate::adhesion::Discretisation::Smooth); on a grid of one node, which has no wave, E*/Lx is the
-    /// stiffness of the preconditioner.
+    /// It tells whether adhesion is resolved ([`Problem::mu_rho`](crate::Problem::mu_rho)), where between the nodes the
+    /// edge of the contact runs ([`ContactStatistics`](crate::contact::ContactStatistics)), and how smooth jumps of a
+    /// law become; it is the unit of [`Criterion::Complementarity`](crate::Criterion::Complementarity).
     fn modulus(&self) -> f64;
 
-    /// The boundary of the body, and whatever the operator can do beside; nothing by default.
-    ///
-    /// An operator that wraps another one passes these on.
+    /// The boundary of the body, and the operator's abilities beside its applications, which a wrapper passes on.
     fn abilities(&mut self) -> Abilities<'_, T> {
         Abilities::default()
     }
 
     /// Applies the preconditioner, M r.
     ///
-    /// M is close to (K⁻¹ + s)⁻¹, the compliance of the half-space on a foundation of stiffness s, pressure per length:
-    /// the waves that are longer than the distances between contacts meet the stiffness of the contacts. For the mean
-    /// it has the value 1/mean_stiffness, which may be zero. Waves of the coarse space, if there is one, have their
-    /// response from it. M must be symmetric, and positive but for the mean. The default applies
-    /// [`displacement`](Self::displacement), and the stiffness to the mean, and leaves the rest.
+    /// M is close to (K⁻¹ + s)⁻¹, with s the stiffness of the foundation, for the mean 1/mean_stiffness, which may be
+    /// zero, and for the waves of a coarse space its response. It must be symmetric, and positive but for the mean. The
+    /// default applies [`displacement`](Self::displacement), and 1/mean_stiffness to the mean.
     ///
     /// # Errors
     /// [`Error::Shape`] if a field does not fit the grid.
@@ -133,17 +114,7 @@ pub trait ElasticOperator<T: Real>: Send {
     }
 }
 
-/// The boundary of the elastic body: whether it repeats, or ends at nothing and is loaded on a window alone.
-///
-/// ```
-/// use asperity::{Boundary, Boussinesq, ElasticOperator, Grid, Westergaard};
-/// let grid = Grid::square(16, 1.0)?;
-/// assert_eq!(Westergaard::<f64>::new(grid, 1.0)?.abilities().boundary, Boundary::Periodic);
-/// let free = Boussinesq::<f64>::new(grid, 1.0)?;
-/// assert!(matches!(free.boundary(), Boundary::Free { window, .. } if window == grid));
-/// assert_eq!((free.boundary().name(), free.grid().shape()), ("free", (32, 32)));
-/// # Ok::<(), asperity::Error>(())
-/// ```
+/// The boundary of the elastic body: periodic, as of [`Westergaard`], or free, as of [`Boussinesq`].
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "kebab-case"))]
@@ -151,8 +122,8 @@ pub enum Boundary {
     /// The body and the surface repeat: the surface is on the operator's grid.
     #[default]
     Periodic,
-    /// Nothing repeats: the surface is on the first nodes of the operator's grid along both axes, and on the others
-    /// nothing faces the body.
+    /// Nothing repeats: the surface is on the first nodes of the operator's grid along both axes, and nothing faces the
+    /// body on the others.
     Free {
         /// The grid of the surface, with the spacing of the operator's.
         window: Grid,
@@ -170,7 +141,6 @@ impl Boundary {
         }
     }
 
-    /// The boundary as a report has it, whose grid is the same on all processes that share it.
     pub(crate) fn alone(self) -> Self {
         match self {
             Self::Periodic => self,
@@ -178,8 +148,7 @@ impl Boundary {
         }
     }
 
-    /// The mean displacement of the operator's grid over the mean pressure on it; zero in a periodic cell, where only
-    /// waves are deformations.
+    /// The mean displacement of the operator's grid over the mean pressure on it; zero in a periodic cell.
     pub(crate) fn mean_compliance(self) -> f64 {
         match self {
             Self::Periodic => 0.0,
@@ -196,8 +165,7 @@ pub struct Foundation<'a> {
     pub stiffness: f64,
     /// The stiffness for the mean; may be infinite.
     pub mean_stiffness: f64,
-    /// The longest waves and the mean, which are held where the contacts are; it takes the place of the two stiffnesses
-    /// for these.
+    /// The longest waves and the mean, held where the contacts are; for these it takes the place of the stiffnesses.
     pub coarse: Option<&'a mut CoarseSpace>,
 }
 
@@ -219,8 +187,7 @@ impl Preconditioned {
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Preconditioned {
-    /// r·Kr without the mean of r, which bounds the error (see [`Report::relative_error`](crate::Report)): it must be
-    /// that of K itself
+    /// r·Kr without the mean of r, of K itself, as it bounds the error ([`Report::relative_error`](crate::Report))
     pub error: f64,
     /// r·Mr
     pub descent: f64,
@@ -228,13 +195,11 @@ pub struct Preconditioned {
     pub mean: f64,
 }
 
-/// The mean over the nodes of a product.
 fn mean_product<S: Real, T: Real>(grid: &Grid, a: ArrayView2<'_, S>, b: ArrayView2<'_, T>) -> f64 {
     field::mean_of_both(grid.slab(), a, b, |a: S, b: T| a.widen() * b.widen())
 }
 
-/// The elastic pressure K⁻¹h of the surface pressed flat, and the mean of h·K⁻¹h; the heights have no mean, or one not
-/// larger than their rms value. An operator without waves gets them rounded.
+/// The elastic pressure K⁻¹h of heights, as [`Waves::surface_pressure`]; rounded for an operator without waves.
 pub(crate) fn surface_pressure<T: Real>(
     operator: &mut dyn ElasticOperator<T>,
     heights: ArrayView2<'_, f64>,

@@ -8,20 +8,11 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// The result of a function that can refuse its input.
-///
-/// ```
-/// fn contact_radius(load: f64) -> asperity::Result<f64> {
-///     use asperity::exact::{Hertz, Sphere};
-///     Ok(Hertz::new(2.0, 1.0)?.at_load(load)?.contact_radius())
-/// }
-/// assert!(contact_radius(1e-4).is_ok() && contact_radius(-1e-4).is_err());
-/// ```
 pub type Result<T> = std::result::Result<T, Error>;
 
-/// An input that was refused. Each variant names the value and what would have been accepted.
+/// A refused input. Each variant names the value and the accepted ones.
 ///
-/// A solve that does not converge is not an error: it returns its fields with a
-/// [`Status`](crate::Status) that says so.
+/// A solve that does not converge is not an error: it returns its fields with a [`Status`](crate::Status).
 ///
 /// ```
 /// use asperity::{Error, Grid};
@@ -63,8 +54,7 @@ pub enum Error {
         /// The value at that node.
         value: f64,
     },
-    /// A function of an adhesion law or of springs that is not finite, or not the derivative of the one before it
-    /// (energy, traction, slope of the traction).
+    /// A function of an adhesion law or of springs that is not finite, or not the derivative of the one before it.
     Law {
         /// The function.
         function: &'static str,
@@ -75,8 +65,7 @@ pub enum Error {
         /// The value that agrees with the function before; none if `value` is not finite.
         expected: Option<f64>,
     },
-    /// An adhesion law whose traction rises with the gap, though it says that its energy is
-    /// [concave](crate::adhesion::Hints::concave).
+    /// An adhesion law that is not [concave](crate::adhesion::Hints::concave), as it says: its traction rises.
     Concave {
         /// The gap before which the traction rises.
         gap: f64,
@@ -85,8 +74,7 @@ pub enum Error {
         /// The smaller traction at a smaller gap.
         nearer: f64,
     },
-    /// An adhesion law whose traction jumps, without a [smoothed](crate::adhesion::Discretisation::Smooth) law that
-    /// does not.
+    /// An adhesion law whose traction jumps, without a [smoothed](crate::adhesion::Discretisation::Smooth) law.
     Jump {
         /// The gap at which it jumps.
         gap: f64,
@@ -106,7 +94,7 @@ pub enum Error {
         /// The value that agrees with the other functions of the law.
         expected: f64,
     },
-    /// An elastic operator without a property of its contract; see [`check_operator`](crate::elastic::check_operator).
+    /// An elastic operator that fails [`check_operator`](crate::elastic::check_operator).
     Operator {
         /// The property.
         property: &'static str,
@@ -117,7 +105,7 @@ pub enum Error {
     },
     /// A control, or what is solved for under it, that the problem does not have.
     Control {
-        /// The control, by the name of [`Control::name`](crate::Control::name), or what else was asked for.
+        /// The [`Control::name`](crate::Control::name), or the name of what else was asked for.
         control: &'static str,
         /// The reason, and a remedy.
         reason: &'static str,
@@ -131,7 +119,7 @@ pub enum Error {
     },
     /// An accuracy that takes a grid that does not fit into memory.
     Unaffordable {
-        /// The quantity, by the name of [`Quantity::name`](crate::accuracy::Quantity::name).
+        /// The [`Quantity::name`](crate::accuracy::Quantity::name).
         quantity: &'static str,
         /// The accuracy that was asked for.
         accuracy: f64,
@@ -141,11 +129,10 @@ pub enum Error {
         bytes: f64,
         /// The memory that there is, in bytes.
         available: f64,
-        /// The accuracy that the finest affordable grid is likely to reach; infinite where it does not resolve the
-        /// adhesion, so that nothing is known.
+        /// The accuracy that the finest affordable grid is likely to reach; infinite without resolved adhesion.
         affordable: f64,
     },
-    /// Memory that the system does not have, or does not give to this process.
+    /// Memory that the process does not get.
     Memory {
         /// What takes it, with its number of nodes or its file.
         what: String,
@@ -156,19 +143,19 @@ pub enum Error {
     Unresolved {
         /// The wave number k_s of the shortest waves, in units of 2π/Lx.
         k_s: f64,
-        /// The wave number, in the same unit, that this grid no longer resolves.
+        /// The wave number that this grid no longer resolves, in the same unit.
         limit: f64,
         /// The grid's shape, `(Nx, Ny)`.
         shape: (usize, usize),
     },
-    /// A grid that several processes share, where that has no form.
+    /// A grid that several processes share, where that is not implemented.
     Shared {
         /// The quantity, the solve, or the part of it, that was asked for.
         what: &'static str,
         /// The reason, and a remedy.
         reason: &'static str,
     },
-    /// A refusal by another process of those that share a grid, which has the error.
+    /// A refusal by another process that shares the grid and has the error.
     Elsewhere {
         /// The number of that process, from zero on.
         rank: usize,
@@ -184,7 +171,7 @@ pub enum Error {
     },
 }
 
-/// An error that another one wraps; two are equal where their messages are.
+/// A wrapped error; two are equal where their messages are.
 #[derive(Clone, Debug)]
 pub struct Cause(Arc<dyn StdError + Send + Sync>);
 
@@ -224,11 +211,6 @@ pub enum ErrorKind {
 
 impl Error {
     /// The kind of the error.
-    ///
-    /// ```
-    /// use asperity::{ErrorKind, Grid};
-    /// assert_eq!(Grid::square(64, -1.0).unwrap_err().kind(), ErrorKind::Value);
-    /// ```
     pub fn kind(&self) -> ErrorKind {
         match self {
             Self::Value { .. } => ErrorKind::Value,
@@ -250,12 +232,12 @@ impl Error {
         Self::File { path: path.as_ref().to_owned(), reason: reason.to_string(), cause: None }
     }
 
-    /// A file that could not be read, by an error that becomes the [source](StdError::source) of this one.
+    /// A file that could not be read, with the [source](StdError::source).
     pub fn unreadable(path: impl AsRef<Path>, cause: impl StdError + Send + Sync + 'static) -> Self {
         Self::caused(path.as_ref(), format!("cannot be read: {cause}"), cause)
     }
 
-    /// A file that could not be written, by an error that becomes the [source](StdError::source) of this one.
+    /// A file that could not be written, with the [source](StdError::source).
     pub fn unwritable(path: impl AsRef<Path>, cause: impl StdError + Send + Sync + 'static) -> Self {
         Self::caused(path.as_ref(), format!("cannot be written: {cause}"), cause)
     }
@@ -264,7 +246,6 @@ impl Error {
         Self::File { path: path.to_owned(), reason, cause: Some(Cause(Arc::new(cause))) }
     }
 
-    /// Passes `value` on if it is positive and finite.
     pub(crate) fn positive(name: &'static str, value: f64) -> Result<f64> {
         if value > 0.0 && value.is_finite() {
             Ok(value)
@@ -273,7 +254,6 @@ impl Error {
         }
     }
 
-    /// Passes `value` on if it is zero, or positive and finite.
     pub(crate) fn non_negative(name: &'static str, value: f64) -> Result<f64> {
         if value >= 0.0 && value.is_finite() {
             Ok(value)
@@ -282,12 +262,10 @@ impl Error {
         }
     }
 
-    /// Passes `value` on if it is finite.
     pub(crate) fn finite(name: &'static str, value: f64) -> Result<f64> {
         if value.is_finite() { Ok(value) } else { Err(Self::Value { name, value, requirement: "finite" }) }
     }
 
-    /// Refuses a field of another shape than `expected`.
     pub(crate) fn shape(name: &'static str, found: (usize, usize), expected: (usize, usize)) -> Result<()> {
         if found == expected { Ok(()) } else { Err(Self::Shape { name, found, expected }) }
     }

@@ -1,5 +1,3 @@
-//! A solve to an accuracy: grids that become finer until the estimated error is small enough.
-
 use std::ops::ControlFlow;
 
 use super::refine::{refined, twice};
@@ -21,16 +19,16 @@ use crate::surface::Surface;
 const SHARE: f64 = 0.05;
 const LOOSEST: f64 = 1e-3;
 
-/// The least number of nodes along a side of a coarser grid.
+/// The least nodes along a side of a coarser grid.
 const COARSEST: usize = 16;
 
-/// The memory that a solve may take unless it is said, in bytes: 4 GiB.
+/// The memory that a solve may take by default, in bytes: 4 GiB.
 const MEMORY: f64 = 4.0 * 1_073_741_824.0;
 
 /// The numbers of 8 bytes that a solve holds for each node at most, with those of the surface and of its refinement.
 const NUMBERS: f64 = 12.0;
 
-/// The operator applications that a solve takes, those on coarser grids included, as they are expected.
+/// The expected operator applications of a solve, those on coarser grids included.
 const APPLICATIONS: f64 = 40.0;
 
 /// The factor by which expected errors may be too large where an accuracy is refused.
@@ -38,23 +36,13 @@ const DOUBT: f64 = 3.0;
 
 /// An accuracy that is asked for: a relative error of a quantity, from which tolerance and grid follow.
 ///
-/// The given grid is solved first, with coarser ones below it ([`Nested`]), to a tolerance of a twentieth of the
-/// accuracy, and at most 1e-3; then the error of the grid is estimated ([`GridError`]). As long as the estimate, half
-/// as large again where it is rough, and the certified error of the solver together are larger than the accuracy, or
-/// the estimate cannot be told, the surface is put on twice as many nodes along its sides by Fourier interpolation, as
-/// [`Topography::resample`](crate::Topography::resample) does, and solved there from the prolonged solution. With a
-/// free boundary it is continued by its mirror images for that.
+/// The given grid is solved first, with coarser ones below it ([`Nested`]), and its error estimated ([`GridError`]). As
+/// long as the estimate, half as large again where it is rough, and the certified error of the solver together exceed
+/// the accuracy, the surface is put on twice as many nodes along its sides by Fourier interpolation
+/// ([`Topography::resample`](crate::Topography::resample); with a free boundary continued by its mirror images).
 ///
-/// The grid of the answer is that of [`AccurateSolution::surface`]; a grid that is finer than need be stays as it is.
-/// A surface with absent nodes and a law that varies from node to node are known on their grid alone, which is not
-/// refined then.
-///
-/// | field | default | meaning |
-/// |---|---|---|
-/// | `target` | | the relative error, between 0 and 1 |
-/// | `of` | | the quantity |
-/// | `memory` | 4 GiB | the bytes that a solve on a refined grid may take |
-/// | `nested` | all coarser grids down to 16 nodes along a side | the solver; a tolerance of its settings must be as small as the one above |
+/// The grid of the answer is that of [`AccurateSolution::surface`], never coarser than the given one. A surface with
+/// absent nodes and a law that varies from node to node are not refined.
 ///
 /// ```
 /// use asperity::accuracy::{Accuracy, Quantity};
@@ -65,8 +53,6 @@ const DOUBT: f64 = 3.0;
 /// let mut wanted = Accuracy::new(0.02, Quantity::Area);
 /// let found = wanted.solve(&surface, half_space, NoAdhesion, Control::MeanPressure(2e-3))?;
 /// assert!(found.reached && found.error.unwrap().relative < 0.02);
-/// assert!(found.surface.grid().shape() >= (128, 128));
-/// assert_eq!(found.solution.gap.dim(), found.surface.grid().shape());
 /// # Ok::<(), asperity::Error>(())
 /// ```
 #[non_exhaustive]
@@ -76,18 +62,17 @@ pub struct Accuracy<C = Projection> {
     pub target: f64,
     /// The quantity that has it.
     pub of: Quantity,
-    /// The bytes that a solve on a refined grid may take.
+    /// The bytes that a solve on a refined grid may take; 4 GiB by default.
     pub memory: f64,
-    /// The solver, on the given grid and coarser ones.
+    /// The solver, on the given grid and coarser ones, by default all down to 16 nodes along a side.
     pub nested: Nested<C>,
 }
 
-/// The plan of a solve to an accuracy, from what other surfaces took: what is to be expected, and no promise.
+/// The expected cost of a solve to an accuracy, from that of other surfaces.
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Plan {
-    /// The nodes of the shortest wave on the given grid,
-    /// [`Spectrum::nodes_per_wave`](crate::surface::Spectrum::nodes_per_wave).
+    /// The [nodes of the shortest wave](crate::surface::Spectrum::nodes_per_wave) on the given grid.
     pub nodes_per_wave: f64,
     /// The tolerance of the solver.
     pub tolerance: f64,
@@ -111,29 +96,27 @@ pub struct AccurateSolution<T> {
     pub levels: Vec<Level>,
     /// The estimated error of the finest grid, if it can be told.
     pub error: Option<GridError>,
-    /// Whether the estimate, with the error of the solver, is as small as it was wanted.
+    /// Whether the estimate, with the error of the solver, meets the accuracy.
     pub reached: bool,
-    /// Whether the surface and the law are known on finer grids than the given one.
+    /// Whether the surface and the law are known on finer grids.
     pub refinable: bool,
-    /// The next finer grid, and its memory in bytes, if that was too much.
+    /// The next finer grid and its memory in bytes, if that was too much.
     pub unaffordable: Option<((usize, usize), f64)>,
 }
 
 impl<T> AccurateSolution<T> {
-    /// All operator applications in units of one on the finest grid, as
-    /// [`NestedSolution::equivalent_applications`](crate::nested::NestedSolution::equivalent_applications) counts them.
+    /// All operator applications, [as of nested grids](crate::nested::NestedSolution::equivalent_applications).
     pub fn equivalent_applications(&self) -> f64 {
         equivalent_applications(&self.levels)
     }
 }
 
-/// Whether a surface and a law are known on finer grids.
 fn is_refinable<T: Real>(surface: &Surface, law: &dyn AdhesionLaw<T>) -> bool {
     surface.absent().is_none() && law.hints().shape.is_none() && surface.grid().nodes() > 1
 }
 
 impl Accuracy {
-    /// An accuracy of a quantity, by a solver with the default settings that confines the gap by projection.
+    /// An accuracy of a quantity, by the default solver.
     pub fn new(target: f64, of: Quantity) -> Self {
         Self::with_solver(target, of, Solver::default())
     }
@@ -141,14 +124,6 @@ impl Accuracy {
 
 impl<C> Accuracy<C> {
     /// An accuracy of a quantity, by a solver with settings and a constraint of its own.
-    ///
-    /// ```
-    /// use asperity::accuracy::{Accuracy, Quantity};
-    /// use asperity::{NoWall, Settings, Solver};
-    /// let solver = Solver { settings: Settings::default().tolerance(1e-5), constraint: NoWall };
-    /// assert_eq!(Accuracy::with_solver(0.01, Quantity::Gap, solver).tolerance()?, 1e-5);
-    /// # Ok::<(), asperity::Error>(())
-    /// ```
     pub fn with_solver(target: f64, of: Quantity, solver: Solver<C>) -> Self {
         // a coarser grid that gives no start tells the error all the same
         let nested = Nested::with_solver(solver).coarsest(COARSEST).closed(1.0);
@@ -179,8 +154,8 @@ impl<C> Accuracy<C> {
     /// The plan for a surface, a law, a control, and the operator on the grid of the surface.
     ///
     /// # Errors
-    /// [`Error::Unaffordable`] if the grid that would do is far beyond the memory; [`Error::Control`] if the control
-    /// gives the quantity; those of [`Accuracy::tolerance`].
+    /// [`Error::Unaffordable`] if the grid is far beyond the memory; [`Error::Control`] if the control gives the
+    /// quantity; those of [`Accuracy::tolerance`].
     pub fn plan<T: Real>(
         &self,
         surface: &Surface,
@@ -224,7 +199,6 @@ impl<C> Accuracy<C> {
         Ok(Plan { nodes_per_wave, tolerance, shape: shape(refinements), bytes: bytes(refinements), applications })
     }
 
-    /// Whether the edge of the contact on a grid tells the error there.
     fn asks_the_edge<T: Real>(&self, surface: &Surface) -> bool
     where
         C: ContactConstraint<T>,
@@ -232,8 +206,7 @@ impl<C> Accuracy<C> {
         self.of != Quantity::Area && surface.absent().is_none() && self.nested.solver.constraint.wall().is_rigid()
     }
 
-    /// How often a grid with so many nodes in the shortest wave, and its resolution measure of the adhesion, is likely
-    /// to be refined, if errors are smaller than expected by a factor.
+    /// The expected refinements, if errors are smaller than expected by the factor `smaller`.
     fn refinements(&self, (nodes_per_wave, mu_rho): (f64, f64), by_edge: bool, smaller: f64) -> i32 {
         // without a coarser grid the waves tell the error of the area, and the edge that of the others
         let least = GridError::LEAST_NODES_PER_WAVE;
@@ -250,9 +223,7 @@ impl<C> Accuracy<C> {
         (0..40).find(enough).unwrap_or(40)
     }
 
-    /// Solves to the accuracy; `operator` makes the operator on each grid.
-    ///
-    /// A solve that does not come to the accuracy is no error: see [`AccurateSolution::reached`].
+    /// Solves to the accuracy, if it can: see [`AccurateSolution::reached`]. `operator` makes that of each grid.
     ///
     /// # Errors
     /// [`Error::Control`] if the control gives the quantity; those of [`Accuracy::tolerance`] and [`Nested::solve`].
@@ -272,7 +243,7 @@ impl<C> Accuracy<C> {
         self.solve_observed(surface, operator, law, control, |_, _| ControlFlow::Continue(()))
     }
 
-    /// Solves as [`Accuracy::solve`], and calls `observe` with the grid in every iteration. Where it stops a solve, no
+    /// Solves as [`Accuracy::solve`], and calls `observe` with the grid in every iteration; where it stops a solve, no
     /// finer grid follows.
     ///
     /// # Errors

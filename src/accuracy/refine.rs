@@ -1,11 +1,8 @@
-//! A surface on a grid of twice as many nodes along its sides.
-
 use crate::error::Result;
 use crate::grid::Grid;
 use crate::surface::{Surface, Topography};
 
-/// The surface on twice as many nodes along its sides, by Fourier interpolation: periodic as it stands, and otherwise
-/// continued by its mirror images.
+/// The surface on twice as many nodes along its sides, by Fourier interpolation; unless periodic, mirrored.
 pub(super) fn refined(surface: &Surface, periodic: bool) -> Result<Surface> {
     let shape = twice(surface.grid().shape());
     let map = Topography::from(surface.clone());

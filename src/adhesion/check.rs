@@ -8,26 +8,22 @@ use crate::real::Real;
 /// The functions, in the order in which each is the derivative of the one before.
 const NAMES: [&str; 3] = ["adhesive energy", "adhesive traction", "slope of the adhesive traction"];
 
-/// The share of the largest value of a function by which a value may be wrong, and by which a traction falls that
-/// jumps.
+/// The share of a function's largest value by which a value may be wrong, or a traction falls that jumps.
 const SHARE: f64 = 1e-2;
 
 /// The roundings, in units of the traction in contact, by which a traction that falls may seem to rise.
 const ROUNDINGS: f64 = 4.0;
 
-/// The most nodes that are asked at once.
 const NODES: usize = 1024;
 
-/// The most nodes of a law that varies whose functions are compared with one another at many gaps.
+/// The most nodes of a law that varies whose functions are compared at many gaps.
 const PLACES: usize = 16;
 
 /// The width over which a smoothed traction is let fall, in ranges.
 const SMOOTHING: f64 = 0.1;
 
-/// The stride of the coarser grid of a law that varies.
 const STRIDE: usize = 2;
 
-/// The functions that are asked for together: energies, tractions, slopes.
 const ASKED: [[bool; 3]; 6] = [
     [true, false, false],
     [false, true, false],
@@ -37,34 +33,29 @@ const ASKED: [[bool; 3]; 6] = [
     [true, true, true],
 ];
 
-/// Tells whether a law keeps the contract of [`AdhesionLaw`]; call it in a test of your law.
+/// A check of a law against the contract of [`AdhesionLaw`], for a test of yours.
 ///
 /// Compares, at 200 gaps between 0 (or half the gap of rest) and `largest_gap`, the traction with central differences
-/// of the energy and the slope with central differences of the traction, in the precision of the law, to a hundredth of
-/// the largest value of that function. A function may jump (as the traction of Maugis–Dugdale does at ρ): gaps beside a
-/// jump, where the differences grow as their step shrinks, are passed over. Then it holds the law to its
-/// [hints](AdhesionLaw::hints), its [values](AdhesionLaw::evaluate) at many nodes and its
+/// of the energy and the slope with those of the traction, in the precision of the law, to a hundredth of the largest
+/// value of that function. Gaps beside a jump, where the differences grow as their step shrinks, are passed over. It
+/// also holds the law to its [hints](AdhesionLaw::hints), [values](AdhesionLaw::evaluate) and
 /// [adaptions](AdhesionLaw::adapted):
 ///
-/// - a law that is zero has no energy, and the traction of a concave one does not rise from one of the gaps to the next;
-/// - where the traction jumps, the [smoothed](Discretisation::Smooth) law has none, but the same work of adhesion and the
-///   same shape, and its functions agree as well;
-/// - the values at many nodes are those of the functions of one gap, whichever of them are asked for together, and do
-///   not depend on where the slices end. Of a law that has a shape they agree with one another, node by node, and no
-///   node is stronger than the functions of one gap say;
-/// - a law that has a shape has a [coarser](Discretisation::Coarse) one, which has the values of every other node.
+/// - a law that is zero has no traction, and that of a concave one does not rise with the gap;
+/// - where the traction jumps, the [smoothed](Discretisation::Smooth) law has none, but the same work of adhesion and
+///   shape, and its functions agree as well;
+/// - the values at many nodes are those of the functions of one gap, whichever are asked for and wherever slices end;
+/// - a law that has a shape has a [coarser](Discretisation::Coarse) one, with the values of every other node, and is
+///   nowhere stronger than the functions of one gap.
 ///
 /// # Errors
-/// [`Error::Law`] with the function, the first gap at which it is not finite or is not the derivative of the one
-/// before it, and what it should be there; [`Error::Jump`] with the gap at which the traction jumps;
-/// [`Error::Concave`] with the gap to which the traction rises; [`Error::AtNode`] with the function that differs;
-/// [`Error::Shape`] if an adapted law has another shape; [`Error::Value`] if `largest_gap` is not positive and finite, or
-/// if the smoothed law has another work of adhesion.
+/// [`Error::Law`] with the first gap at which a function is not finite or not the derivative of the one before;
+/// [`Error::Jump`]; [`Error::Concave`]; [`Error::AtNode`]; [`Error::Shape`] of an adapted law; [`Error::Value`] if
+/// `largest_gap` is not positive and finite, or the work of adhesion of the smoothed law is another.
 ///
 /// ```
 /// use asperity::adhesion::check_law;
-/// use asperity::{Exponential, MaugisDugdale};
-/// check_law::<f64>(&Exponential::new(1e-4, 2e-3)?, 0.02)?;
+/// use asperity::MaugisDugdale;
 /// check_law::<f32>(&MaugisDugdale::new(1e-4, 2e-3)?, 0.02)?;
 /// # Ok::<(), asperity::Error>(())
 /// ```
@@ -82,7 +73,7 @@ pub fn check_law<T: Real>(law: &impl AdhesionLaw<T>, largest_gap: f64) -> Result
     checked.coarseness()
 }
 
-/// A law, the gaps at which it is looked at, and the one over which it varies.
+/// A law, the range of gaps at which it is looked at, and the length over which it varies.
 struct Checked<'a, T> {
     law: &'a dyn AdhesionLaw<T>,
     hints: Hints<T>,
@@ -91,7 +82,6 @@ struct Checked<'a, T> {
 }
 
 impl<T: Real> Checked<'_, T> {
-    /// A gap of the 200 intervals between the least and the largest.
     fn gap(&self, i: usize) -> T {
         T::lit(self.gaps.0 + (self.gaps.1 - self.gaps.0) * i as f64 / GAPS as f64)
     }
@@ -106,7 +96,6 @@ impl<T: Real> Checked<'_, T> {
         derivatives::check::<T>(functions, self.gaps, self.length)
     }
 
-    /// The largest traction.
     fn largest(&self) -> f64 {
         (0..=GAPS).map(|i| self.law.traction(self.gap(i)).abs().widen()).fold(0.0, f64::max)
     }
@@ -131,7 +120,6 @@ impl<T: Real> Checked<'_, T> {
         })
     }
 
-    /// Refuses another shape of an adapted law.
     fn check_shape(&self, what: &'static str, hints: Hints<T>, expected: Option<(usize, usize)>) -> Result<()> {
         let [found, expected] = [hints.shape, expected].map(Option::unwrap_or_default);
         Error::shape(what, found, expected)
@@ -171,7 +159,6 @@ impl<T: Real> Checked<'_, T> {
         }
     }
 
-    /// Energy, traction and slope of one node.
     fn at(&self, node: usize, gap: T) -> [T; 3] {
         let mut values = [[T::zero()]; 3];
         for (order, value) in values.iter_mut().enumerate() {
@@ -180,7 +167,7 @@ impl<T: Real> Checked<'_, T> {
         values.map(|[value]| value)
     }
 
-    /// Compares the values of many nodes with those of one, or, where they differ from node to node, with one another.
+    /// Compares the values of many nodes with those of one, or, where they differ by the node, with one another.
     fn nodes(&self) -> Result<()> {
         let (law, shape) = (self.law, self.hints.shape);
         let nodes = shape.map_or(NODES, |(nx, ny)| nx * ny);
@@ -256,7 +243,6 @@ impl<T: Real> Checked<'_, T> {
     }
 }
 
-/// The slices of the functions that are asked for.
 fn of<T>(values: &mut [Vec<T>; 3], asked: [bool; 3]) -> Values<'_, T> {
     let [energies, tractions, slopes] = values.each_mut().map(|values| Some(values.as_mut_slice()));
     let [energies, tractions, slopes] = [(energies, asked[0]), (tractions, asked[1]), (slopes, asked[2])]

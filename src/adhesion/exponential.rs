@@ -1,23 +1,18 @@
-//! The exponential law: an energy −w exp(−g/ρ).
-
 use super::exponentials::exponentials;
 use super::{AdhesionLaw, Hints, Values};
 use crate::error::{Error, Result};
 use crate::real::Real;
 
-/// The exponential law, φ(g) = −w exp(−g/ρ).
+/// The exponential law, of equations (37) and (38) of Rey, Anciaux and Molinari (2017), with w for their γ.
 ///
 /// ```math
 /// φ(g) = −w exp(−g/ρ) ,   φ'(g) = w/ρ exp(−g/ρ) ,   φ''(g) = −w/ρ² exp(−g/ρ)
 /// ```
 ///
-/// Equations (37) and (38) of Rey, Anciaux and Molinari (2017), with w for their γ.
-///
 /// ```
 /// use asperity::{AdhesionLaw, Exponential};
 /// let law = Exponential::new(0.05, 2e-9)?; // 50 mJ/m² over 2 nm
-/// assert_eq!(law.energy(0.0), -0.05);
-/// assert_eq!(law.traction(0.0), law.work_of_adhesion() / law.range());
+/// assert_eq!((law.energy(0.0), law.traction(0.0)), (-0.05, 0.05 / 2e-9));
 /// # Ok::<(), asperity::Error>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -37,17 +32,16 @@ impl Exponential {
         Ok(Self { work_of_adhesion, range })
     }
 
-    /// The work of adhesion w, as it was given.
+    /// The work of adhesion w.
     pub fn work_of_adhesion(&self) -> f64 {
         self.work_of_adhesion
     }
 
-    /// The range ρ, as it was given.
+    /// The range ρ.
     pub fn range(&self) -> f64 {
         self.range
     }
 
-    /// w and ρ, rounded to the precision of the fields.
     fn rounded<T: Real>(&self) -> (T, T) {
         (T::lit(self.work_of_adhesion), T::lit(self.range))
     }

@@ -1,30 +1,18 @@
-//! The properties of a law that a solve knows beforehand.
-
 use super::AdhesionLaw;
 use crate::real::Real;
 
 /// The properties of a law that a solve asks for once, [`AdhesionLaw::hints`].
-///
-/// ```
-/// use asperity::adhesion::Hints;
-/// let hints = Hints::new(1e-4, 2e-3).with_rest(3e-4);
-/// assert_eq!((hints.work_of_adhesion, hints.range, hints.rest), (1e-4, 2e-3, Some(3e-4)));
-/// assert!(!hints.concave && hints.shape.is_none());
-/// ```
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Hints<T> {
     /// The work of adhesion w, energy per area.
     pub work_of_adhesion: T,
-    /// The length ρ over which the traction decays, for the resolution measure μ_ρ. A peak of the traction that is
-    /// narrower than a hundredth of ρ may be overlooked where the solver asks whether the law can hold a tensile load.
+    /// The length ρ over which the traction decays, for μ_ρ; peaks narrower than ρ/100 may be overlooked.
     pub range: T,
-    /// The gap of rest of a law that keeps the surfaces apart by itself: it repels below and attracts above. Such a law
-    /// can be solved with [`NoWall`](crate::NoWall). None for a law that only attracts.
+    /// The gap of rest of a law that repels below it, for [`NoWall`](crate::NoWall); none if it only attracts.
     pub rest: Option<T>,
-    /// Whether the energy is concave at all gaps: the traction nowhere rises with the gap. At a rigid wall its tangent
-    /// then bounds the energy after a step, which need not be evaluated to know that it falls. False is safe for every
-    /// law.
+    /// Whether the energy is concave: the traction nowhere rises, and its tangent bounds the energy after a step at a
+    /// rigid wall. False is safe for every law.
     pub concave: bool,
     /// Whether the law is zero at all gaps, so that it need not be evaluated.
     pub zero: bool,
@@ -38,9 +26,8 @@ impl<T: Real> Hints<T> {
         Self { work_of_adhesion, range, rest: None, concave: false, zero: false, shape: None }
     }
 
-    /// The work of adhesion w = −φ(0) and the range w/φ'(0), by the functions of a law; it is ρ for an exponential and
-    /// for a constant traction. The range is zero where the law does not attract in contact: a law that attracts most
-    /// at some distance should say its own.
+    /// The work of adhesion w = −φ(0) and the range w/φ'(0) of a law, which is ρ for an exponential and a constant
+    /// traction. The range is zero where the law does not attract in contact: set one there.
     pub fn of<L: AdhesionLaw<T> + ?Sized>(law: &L) -> Self {
         let (w, traction) = (-law.energy(T::zero()), law.traction(T::zero()));
         Self::new(w, if w > T::zero() && traction > T::zero() { w / traction } else { T::zero() })

@@ -1,5 +1,3 @@
-//! The law of Lennard-Jones between two half-spaces, 9-3: it attracts at a distance and repels close by.
-
 use super::{AdhesionLaw, Hints};
 use crate::error::{Error, Result};
 use crate::real::Real;
@@ -10,22 +8,17 @@ use crate::real::Real;
 /// φ(g) = w (x⁸/3 − 4x²/3) ,   φ'(g) = 8w/(3z₀) (x³ − x⁹) ,   φ''(g) = 8w/z₀² (3x¹⁰ − x⁴) ,   x = z₀/g
 /// ```
 ///
-/// The surfaces attract each other beyond the distance z₀, by 1.03 w/z₀ at most, and repel each other below, without
-/// bound. The law keeps them apart by itself and is solved with [`NoWall`](crate::NoWall); contact is where it repels.
-/// [`LennardJones::cut`] leaves the repulsion to a wall at z₀, from which the gap then counts.
+/// The surfaces attract each other beyond z₀, by 1.03 w/z₀ at most, and repel each other below, without bound. The law
+/// is solved with [`NoWall`](crate::NoWall), contact being where it repels; [`LennardJones::cut`] leaves the repulsion
+/// to a wall at z₀, from which the gap then counts.
 ///
-/// Integrated over two half-spaces from the potential between two molecules: Yu and Polycarpou, *J. Tribol.* 126
-/// (2004); Greenwood, *Proc. R. Soc. A* 453 (1997), for the sphere.
+/// Yu and Polycarpou, *J. Tribol.* 126 (2004); Greenwood, *Proc. R. Soc. A* 453 (1997), for the sphere.
 ///
 /// ```
-/// use asperity::adhesion::check_law;
 /// use asperity::{AdhesionLaw, LennardJones};
 /// let law = LennardJones::new(0.05, 0.3e-9)?;
-/// assert_eq!(law.traction(0.3e-9), 0.0);
 /// assert!(law.traction(0.29e-9) < 0.0 && law.traction(0.31e-9) > 0.0);
-/// let attraction = law.cut();
-/// assert!((attraction.energy(0.0_f64) + 0.05).abs() < 1e-15);
-/// check_law::<f64>(&attraction, 3e-9)?;
+/// assert!((law.cut().energy(0.0_f64) + 0.05).abs() < 1e-15);
 /// # Ok::<(), asperity::Error>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -47,18 +40,18 @@ impl LennardJones {
         Ok(Self { work_of_adhesion, range, cut: false })
     }
 
-    /// The attraction alone, for a wall at z₀: the law as a function of the gap beyond that distance.
+    /// The attraction alone, for a wall at z₀, as a function of the gap beyond that distance.
     #[must_use]
     pub fn cut(self) -> Self {
         Self { cut: true, ..self }
     }
 
-    /// The work of adhesion w, as it was given.
+    /// The work of adhesion w.
     pub fn work_of_adhesion(&self) -> f64 {
         self.work_of_adhesion
     }
 
-    /// The equilibrium separation z₀, as it was given.
+    /// The equilibrium separation z₀.
     pub fn range(&self) -> f64 {
         self.range
     }

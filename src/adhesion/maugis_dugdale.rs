@@ -1,5 +1,3 @@
-//! The law of Maugis and Dugdale: a constant traction up to a range.
-
 use super::{AdhesionLaw, Discretisation, Hints};
 use crate::error::{Error, Result};
 use crate::real::Real;
@@ -10,10 +8,9 @@ use crate::real::Real;
 /// φ(g) = −w max(0, 1 − g/ρ) ,   φ'(g) = w/ρ  for g < ρ,  0 beyond
 /// ```
 ///
-/// Maugis (1992); equations (26) and (27) of Rey, Anciaux and Molinari (2017), of which (26) is misprinted. The
-/// traction jumps at g = ρ: there are many equilibria at one mean gap, and which of them a solve finds depends on its
-/// start. In the law that is [smoothed](Discretisation::Smooth) the traction falls evenly between ρ − d/2 and ρ + d/2
-/// instead, over d = σ₀·compliance, at most 2ρ.
+/// Maugis (1992); equations (26) and (27) of Rey, Anciaux and Molinari (2017), of which (26) is misprinted. As the
+/// traction jumps at ρ, there are many equilibria at one mean gap. In the [smoothed](Discretisation::Smooth) law it
+/// falls evenly between ρ − d/2 and ρ + d/2, d = σ₀·compliance, at most 2ρ.
 ///
 /// ```
 /// use asperity::{AdhesionLaw, MaugisDugdale};
@@ -40,17 +37,16 @@ impl MaugisDugdale {
         Ok(Self { work_of_adhesion, range, smoothing: 0.0 })
     }
 
-    /// The work of adhesion w, as it was given.
+    /// The work of adhesion w.
     pub fn work_of_adhesion(&self) -> f64 {
         self.work_of_adhesion
     }
 
-    /// The range ρ, as it was given.
+    /// The range ρ.
     pub fn range(&self) -> f64 {
         self.range
     }
 
-    /// w, ρ and d, rounded to the precision of the fields.
     fn rounded<T: Real>(&self) -> (T, T, T) {
         (T::lit(self.work_of_adhesion), T::lit(self.range), T::lit(self.smoothing))
     }

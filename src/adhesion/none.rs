@@ -1,14 +1,7 @@
-//! The law without adhesion.
-
 use super::{AdhesionLaw, Hints};
 use crate::real::Real;
 
-/// No adhesion: φ = 0. The solver does not evaluate it at all.
-///
-/// ```
-/// use asperity::{AdhesionLaw, NoAdhesion};
-/// assert!(AdhesionLaw::<f64>::hints(&NoAdhesion).zero);
-/// ```
+/// No adhesion: φ = 0, which the solver does not evaluate.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct NoAdhesion;
 

@@ -1,5 +1,3 @@
-//! The slices that a law fills for many nodes at once.
-
 use std::ops::Range;
 
 use crate::real::Real;
@@ -10,10 +8,9 @@ use crate::vector::vectors;
 /// ```
 /// use asperity::adhesion::Values;
 /// use asperity::{AdhesionLaw, Exponential};
-/// let (law, gaps) = (Exponential::new(1e-4, 2e-3)?, [0.0, 1e-3]);
 /// let (mut energies, mut tractions) = ([0.0; 2], [0.0; 2]);
 /// let values = Values { energies: Some(&mut energies), tractions: Some(&mut tractions), slopes: None };
-/// law.evaluate(0, &gaps, values);
+/// Exponential::new(1e-4, 2e-3)?.evaluate(0, &[0.0, 1e-3], values);
 /// assert_eq!((energies[0], tractions[0]), (-1e-4, 1e-4 / 2e-3));
 /// # Ok::<(), asperity::Error>(())
 /// ```
@@ -28,7 +25,7 @@ pub struct Values<'a, T> {
 }
 
 impl<'a, T: Real> Values<'a, T> {
-    /// Energies alone (0), tractions alone (1) or slopes alone (2), by the order of the derivative.
+    /// The slice of one order of the derivative: 0 energies, 1 tractions, 2 slopes.
     pub fn one(order: usize, values: &'a mut [T]) -> Self {
         let none = Self { energies: None, tractions: None, slopes: None };
         match order {
@@ -38,12 +35,10 @@ impl<'a, T: Real> Values<'a, T> {
         }
     }
 
-    /// Energies and tractions.
     pub(crate) fn energies_and_tractions(energies: &'a mut [T], tractions: &'a mut [T]) -> Self {
         Self { energies: Some(energies), tractions: Some(tractions), slopes: None }
     }
 
-    /// Tractions and slopes.
     pub(crate) fn tractions_and_slopes(tractions: &'a mut [T], slopes: &'a mut [T]) -> Self {
         Self { energies: None, tractions: Some(tractions), slopes: Some(slopes) }
     }
@@ -62,13 +57,13 @@ impl<'a, T: Real> Values<'a, T> {
         Values { energies, tractions, slopes }
     }
 
-    /// Visits each slice that is asked for with the order of its derivative: 0 energies, 1 tractions, 2 slopes.
+    /// Visits each slice that is asked for, with its order.
     pub fn each(self, mut visit: impl FnMut(usize, &mut [T])) {
         let slices = [self.energies, self.tractions, self.slopes].into_iter().enumerate();
         slices.for_each(|(order, values)| values.into_iter().for_each(|values| visit(order, values)));
     }
 
-    /// Sets the slices that are asked for by a function that has energy, traction and slope of a gap at once.
+    /// Sets the slices that are asked for by a function of the gap that returns energy, traction and slope.
     #[inline(always)]
     pub fn set(self, gaps: &[T], of: impl Fn(T) -> [T; 3] + Copy) {
         match self {

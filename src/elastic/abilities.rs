@@ -1,34 +1,21 @@
-//! The abilities of an operator beside its applications.
-
 use ndarray::{ArrayView2, ArrayViewMut2};
 
 use super::{Boundary, CoarseSpace, ElasticOperator};
 use crate::error::Result;
 use crate::real::Real;
 
-/// The abilities of an operator beside its applications, [`ElasticOperator::abilities`]; the default has none.
+/// The abilities of an operator beside its applications, [`ElasticOperator::abilities`]; none by default.
 ///
-/// An operator that wraps another one returns those of that one, with changes if it changes the operator:
-///
-/// ```
-/// use asperity::elastic::Abilities;
-/// use asperity::{ElasticOperator, Real};
-/// fn without_single<T: Real>(operator: &mut impl ElasticOperator<T>) -> Abilities<'_, T> {
-///     let mut abilities = operator.abilities();
-///     abilities.single = false;
-///     abilities
-/// }
-/// ```
+/// A wrapper returns those of its operator, less what it changes.
 #[non_exhaustive]
 pub struct Abilities<'a, T: Real> {
     /// The boundary of the body; periodic by default.
     pub boundary: Boundary,
-    /// Whether the operator takes fields of the shape [`Grid::field_shape`](crate::Grid::field_shape) on a grid that
-    /// several processes share. Without it such a [`Problem`](crate::Problem) is refused.
+    /// Whether the operator takes fields of [`Grid::field_shape`](crate::Grid::field_shape) on a shared grid.
     pub slabs: bool,
     /// Whether a solve in `f64` may have its corrections from the operator [in `f32`](Waves::in_single).
     pub single: bool,
-    /// The waves of an operator that is made of them.
+    /// The waves of a spectral operator.
     pub waves: Option<&'a mut dyn Waves<T>>,
 }
 
@@ -39,17 +26,14 @@ impl<T: Real> Default for Abilities<'_, T> {
 }
 
 impl<T: Real> Abilities<'_, T> {
-    /// The space of the longest waves, of about `dimension` dimensions.
     pub(crate) fn coarse_space(self, dimension: usize) -> Option<CoarseSpace> {
         self.waves?.coarse_space(dimension)
     }
 
-    /// The operator in `f32`.
     pub(crate) fn in_single(self) -> Option<Box<dyn ElasticOperator<f32>>> {
         self.waves.filter(|_| self.single)?.in_single()
     }
 
-    /// Gives back the memory that is kept between two applications.
     pub(crate) fn release_memory(self) {
         self.waves.into_iter().for_each(Waves::release_memory);
     }
@@ -58,21 +42,17 @@ impl<T: Real> Abilities<'_, T> {
 /// The waves of an elastic operator, as [`Spectral`](crate::Spectral) knows them.
 pub trait Waves<T: Real> {
     /// The space of the longest waves, of about `dimension` dimensions, that the preconditioner treats with the
-    /// contacts where they are.
-    ///
-    /// Without one the foundation is uniform, and a solve takes more iterations.
+    /// contacts where they are. Without one the foundation is uniform, and a solve takes more iterations.
     fn coarse_space(&mut self, dimension: usize) -> Option<CoarseSpace>;
 
     /// The operator in `f32`, for the corrections of a solve in `f64`; none if a stiffness leaves the range of `f32`.
     ///
-    /// A solve in `f64` then applies it to the changes of the gap and to the residuals, and the operator itself only to
-    /// the gap, now and then: an iteration takes little more time than in `f32`. It must be the same operator but for
-    /// rounding.
+    /// A solve in `f64` applies it to the changes of the gap and to the residuals, and the operator itself to the gap
+    /// now and then. It must be the same operator but for rounding.
     fn in_single(&mut self) -> Option<Box<dyn ElasticOperator<f32>>>;
 
-    /// The elastic pressure K⁻¹h of heights in `f64`, whatever the operator's precision, and the mean of h·K⁻¹h.
-    ///
-    /// The heights have no mean, or one not larger than their rms value.
+    /// The elastic pressure K⁻¹h of heights in `f64`, and the mean of h·K⁻¹h; the heights have no mean, or one not
+    /// larger than their rms value.
     ///
     /// # Errors
     /// [`Error::Shape`](crate::Error::Shape) if a field does not fit the grid.

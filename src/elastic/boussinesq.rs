@@ -1,5 +1,3 @@
-//! The free elastic half-space, loaded on a window: Love's kernel, on a padded grid.
-
 use std::f64::consts::PI;
 use std::ops::Range;
 
@@ -8,11 +6,9 @@ use crate::fft::even_modes;
 use crate::par;
 use crate::slab::TILE;
 
-/// The homogeneous elastic half-space under loads on a window alone: nothing repeats, and beyond the window the surface
-/// of the half-space is free.
+/// The homogeneous elastic half-space under loads on a window alone, with a free surface beyond it.
 ///
-/// A constant pressure on each cell, of half widths a and b, displaces the surface at the distance (x, y) from its
-/// centre by
+/// A constant pressure on a cell of half widths a and b displaces the surface at the distance (x, y) from its centre by
 ///
 /// ```math
 /// K(x, y) = [f(x+a; y+b, y−b) + f(y+b; x+a, x−a) + f(x−a; y−b, y+b) + f(y−b; x−a, x+a)] / πE* ,
@@ -22,19 +18,16 @@ use crate::slab::TILE;
 /// Boussinesq (1885); Love (1929). The displacement tends to zero far away.
 ///
 /// The [`grid`](ElasticOperator::grid) of the operator has at least 2N − 1 nodes a side, the next even product of 2, 3
-/// and 5, and the compliance is that of the periodic grid on which every node has the kernel at the shorter distance:
-/// between nodes of the window it is Love's. In a [`Problem`](crate::Problem) the surface has the window's grid, as
-/// have the fields of a solution; the other nodes are its own concern.
+/// and 5, each with the kernel at the shorter distance; surfaces and solutions are on the window.
 ///
-/// A flat-ended body may fill the window. What is curved, or attracts the half-space from afar, should end well within
-/// it: [`Report::edge_traction`](crate::Report::edge_traction) says how far it does.
+/// A curved or attracting body should end well within the window:
+/// [`Report::edge_traction`](crate::Report::edge_traction). A flat-ended one may fill it.
 ///
-/// Memory per node of the operator's grid: 1 scalar for the spectrum, and a quarter in `f64` for the stiffness; two
-/// fields in `f64` while it is made. A clone shares the stiffness.
+/// Memory per node of the operator's grid: 1 scalar, and a quarter in `f64` that clones share; at first two in `f64`.
 ///
 /// ```
 /// use asperity::{Boussinesq, Control, Grid, NoAdhesion, Problem, Solver, Surface};
-/// // a sphere of radius 2, pressed against a half-space of contact modulus 1 by a force: a³ = 3FR/4E*
+/// // a sphere of radius 2 on a half-space: a³ = 3FR/4E*
 /// let grid = Grid::square(64, 0.4)?;
 /// let sphere = Surface::paraboloid(grid, 2.0)?;
 /// let mut problem = Problem::new(&sphere, Boussinesq::<f64>::new(grid, 1.0)?, NoAdhesion)?;
@@ -54,8 +47,8 @@ impl<T: Real> Boussinesq<T> {
     ///
     /// # Errors
     /// [`Error::Value`] if the window has one row or column of nodes alone, if the modulus is not positive and finite,
-    /// or if a compliance leaves the range of T or is not positive, as rounding could make it on cells far from square;
-    /// [`Error::Memory`] if the kernel takes more than there is.
+    /// or if a compliance leaves the range of T or is not positive, as by rounding on cells far from square;
+    /// [`Error::Memory`] if there is too little for the kernel.
     pub fn new(window: Grid, modulus: f64) -> Result<Self> {
         Error::positive("contact modulus", modulus)?;
         let (shape, (dx, dy)) = (window.shape(), window.spacing());
@@ -110,9 +103,7 @@ fn kernel(grid: &Grid, cell: (f64, f64), modulus: f64) -> Array2<f64> {
     kernel
 }
 
-/// The sum of Love's four terms at nodes of the first quadrant: in some rows, for so many columns from the first on.
-///
-/// Each term belongs to an edge of a cell, and is that of the next cell as well, with the other sign.
+/// The sum of Love's four terms in rows of the first quadrant; each is also that of the next cell, negative.
 fn quadrant(rows: Range<usize>, columns: usize, (a, b): (f64, f64)) -> Array2<f64> {
     let (x, y) = (|i: usize| (2 * i + 1) as f64 * a, |j: usize| (2 * j + 1) as f64 * b);
     // the farthest corners of the cells of a row from the origin, and the terms of the edges that end there along y
@@ -149,8 +140,8 @@ fn quadrant(rows: Range<usize>, columns: usize, (a, b): (f64, f64)) -> Array2<f6
     quadrant
 }
 
-/// Love's term f(t; s, s − width) without cancellation, for an edge that begins beyond the axis, at the distance `near`
-/// from the origin, and ends at the distance `far`, or one with the axis in its middle.
+/// Love's term f(t; s, s − width) without cancellation, for an edge that begins beyond the axis and lies between the
+/// distances `near` and `far` from the origin, or one with the axis in its middle.
 fn term(t: f64, (s, width): (f64, f64), (far, near): (f64, f64)) -> f64 {
     let low = s - width;
     match low > 0.0 {
@@ -168,7 +159,6 @@ mod tests {
         assert_eq!([2, 3, 7, 8, 12, 33, 65, 100, 512].map(padded), [4, 6, 16, 16, 24, 72, 144, 200, 1024]);
     }
 
-    /// The sum of Love's terms at a node.
     fn love((i, j): (usize, usize), cell: (f64, f64)) -> f64 {
         quadrant(i..i + 1, j + 1, cell)[[0, j]]
     }
@@ -186,7 +176,6 @@ mod tests {
 
     #[test]
     fn pieces_of_a_cell_displace_as_the_cell_does() {
-        // cells of 2a × 2b, each of nine of a third of its sides
         let (a, b) = (0.7, 0.2);
         let (whole, pieces) = (quadrant(0..50, 70, (a, b)), quadrant(0..150, 210, (a / 3.0, b / 3.0)));
         for (i, j) in [(0, 0), (0, 1), (1, 0), (1, 1), (0, 69), (49, 0), (31, 7), (32, 7), (49, 69)] {
@@ -194,7 +183,6 @@ mod tests {
             let sum: f64 = near(i).iter().flat_map(|&p| near(j).map(|q| pieces[[p, q]])).sum();
             assert!((sum / whole[[i, j]] - 1.0).abs() < 1e-12, "{i} {j}: {sum} {}", whole[[i, j]]);
         }
-        // whatever the rows that are asked for
         assert!(quadrant(17..50, 70, (a, b)).rows().into_iter().eq(whole.rows().into_iter().skip(17)));
     }
 }

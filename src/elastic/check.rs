@@ -10,20 +10,18 @@ use crate::real::Real;
 /// Applications of the compliance, and of the stiffness, that look for the softest and for the stiffest wave.
 const POWERS: usize = 20;
 
-/// The dimension of the coarse space that is looked at.
 const DIMENSION: usize = 20;
 
-/// Tells whether an elastic operator keeps what [`ElasticOperator`] promises; call it in a test of your operator.
+/// A check of an elastic operator against the contract of [`ElasticOperator`], for a test of yours.
 ///
-/// On fields of random numbers, the same in every run, and to the rounding of the precision, it compares
+/// On random fields, the same in every run, and to the rounding of the precision, it compares
 ///
 /// - ⟨a, K⁻¹b⟩ with ⟨K⁻¹a, b⟩, and ⟨a, K b⟩ with ⟨K a, b⟩ (symmetric);
 /// - the means of K⁻¹a and K a with zero, and K⁻¹(a + 1) with K⁻¹a (a rigid translation costs nothing);
 /// - K K⁻¹a with a less its mean (each other's inverse);
 /// - Rayleigh quotients of the softest and stiffest fields that twenty applications find with `stiffness_range`;
-/// - the means that `pressure_and_work` and `precondition` return with those of the fields, and ⟨a, M b⟩ with ⟨M a, b⟩,
-///   with the coarse space of an operator that has one, too;
-/// - K⁻¹a with that of the operator in `f32`, with that of heights in `f64`, and with that after memory was given back.
+/// - the means of `pressure_and_work` and `precondition` with those of the fields, and ⟨a, M b⟩ with ⟨M a, b⟩;
+/// - K⁻¹a with that in `f32`, with that of heights in `f64`, and with that after memory was given back.
 ///
 /// # Errors
 /// [`Error::Operator`] with the first property that does not hold; those of the operator itself.
@@ -52,7 +50,6 @@ pub fn check_operator<T: Real>(operator: &mut (impl ElasticOperator<T> + ?Sized)
         false => Err(Error::Operator { property, found, expected }),
     };
 
-    // the stiffness
     operator.pressure(a.view(), of_a.view_mut())?;
     let work = operator.pressure_and_work(b.view(), of_b.view_mut())?;
     let stiff = rounding * stiffest;
@@ -64,7 +61,6 @@ pub fn check_operator<T: Real>(operator: &mut (impl ElasticOperator<T> + ?Sized)
     let difference = largest(&(&of_b - &of_a));
     holds("pressure of a rigid translation", difference, 0.0, 4.0 * stiff)?;
 
-    // the compliance, as its inverse
     let condition = stiffest / softest;
     operator.displacement(of_a.view(), of_b.view_mut())?;
     let centred = a.mapv(|x| x - T::lit(mean(&a)));
@@ -78,7 +74,6 @@ pub fn check_operator<T: Real>(operator: &mut (impl ElasticOperator<T> + ?Sized)
     holds("symmetry of the compliance, ⟨a, K b⟩", product(&a, &of_b), product(&of_a, &b), soft)?;
     let compliant = product(&a, &of_a);
 
-    // the preconditioner
     let (foundation, mean_stiffness) = (2.0 * softest, 3.0 * softest);
     let found = operator.precondition(a.view(), Foundation::uniform(foundation, mean_stiffness), of_a.view_mut())?;
     holds("error of precondition, ⟨a, K a⟩", found.error, compliant, soft)?;
@@ -90,7 +85,6 @@ pub fn check_operator<T: Real>(operator: &mut (impl ElasticOperator<T> + ?Sized)
         return Err(Error::Operator { property: "descent of precondition", found: found.descent, expected: 0.0 });
     }
 
-    // the abilities
     operator.pressure(a.view(), of_a.view_mut())?;
     let Abilities { boundary, waves, .. } = operator.abilities();
     if let Boundary::Free { window, mean_compliance } = boundary {
@@ -132,7 +126,6 @@ pub fn check_operator<T: Real>(operator: &mut (impl ElasticOperator<T> + ?Sized)
         }
     }
 
-    // the range of the stiffness: no field is softer or stiffer
     for (property, bound, inverse) in [("softest stiffness", softest, true), ("stiffest stiffness", stiffest, false)] {
         let mut x = centred.clone();
         let mut quotient = bound;

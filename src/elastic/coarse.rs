@@ -1,5 +1,3 @@
-//! The coarse space of the preconditioner: the longest waves, held by the contacts where these are.
-
 use std::f64::consts::{PI, SQRT_2};
 use std::ops::Range;
 
@@ -15,8 +13,8 @@ mod moments;
 use cholesky::{ROWS, decompose, dot, solve, start};
 use moments::Moments;
 
-/// Blocks of the contact map along a side, for each wave length that the shortest wave has there: a product of two
-/// waves has twice as many, and two blocks resolve one.
+/// Blocks of the contact map for each length of the shortest wave: a product of two waves has half that length, and two
+/// blocks resolve a wave.
 const BLOCKS: usize = 4;
 
 /// The most nodes of a block along a side: the sum of the places of so many has 32 bits.
@@ -24,43 +22,35 @@ const LARGEST: usize = 1 << 16;
 
 /// The longest waves of a grid on a foundation that holds the surface where it is in contact.
 ///
-/// A uniform foundation, as the rest of the preconditioner has, knows how much contact there is but not where. These
-/// waves know it. With k the stiffness of the waves, α that of the foundation, and χ(x) the share of contact near x,
-/// their response z to a load r is the Galerkin solution of
+/// With k the stiffness of the waves, α that of the foundation, and χ(x) the share of contact near x, the response z to
+/// a load r is the Galerkin solution of
 ///
 /// ```math
 /// (k + α χ(x)) z = r
 /// ```
 ///
-/// in the basis 1, √2 cos q·x, √2 sin q·x, which is orthonormal. The matrix is symmetric and positive, and decomposed
-/// by Cholesky.
+/// in the orthonormal basis 1, √2 cos q·x, √2 sin q·x, by Cholesky.
 ///
-/// An operator makes it ([`Waves::coarse_space`](crate::elastic::Waves::coarse_space)), the solver tells it where the
-/// contacts are, and the operator uses it where it [preconditions](crate::ElasticOperator::precondition).
+/// An operator makes it ([`Waves::coarse_space`](crate::elastic::Waves::coarse_space)) and
+/// [preconditions](crate::ElasticOperator::precondition) with it; the solver tells it where the contacts are.
 #[derive(Clone, Debug)]
 pub struct CoarseSpace {
     /// the mean, and one wave of each pair ±q, sorted by their columns
     waves: Vec<Wave>,
-    /// the waves in each of the first columns of the half spectrum
     columns: Vec<Range<usize>>,
     /// the nodes of a block of the contact map along both axes; the last block may have fewer
     block: (usize, usize),
     moments: Moments,
-    /// the Cholesky factor, a lower triangle
     factor: Vec<f64>,
-    /// for the decomposition
     workspace: Vec<[f64; ROWS]>,
-    /// the nodes that are apart, as a load, and the response to it
     apart: [Vec<f64>; 2],
     /// whether the response has no mean over the nodes that are apart
     held: bool,
     load: Vec<Complex<f64>>,
     response: Vec<Complex<f64>>,
-    /// a load, and then the response, in the real basis
     vector: Vec<f64>,
 }
 
-/// A wave, and the place of its mode in the half spectrum.
 #[derive(Clone, Copy, Debug)]
 struct Wave {
     column: usize,
@@ -100,18 +90,17 @@ impl CoarseSpace {
         })
     }
 
-    /// The nodes of a block of the contact map along both axes, and the blocks along both axes. The last may be
-    /// smaller.
+    /// The nodes of a block of the contact map along both axes, and the blocks. The last may be smaller.
     pub(crate) fn blocks(&self) -> [(usize, usize); 2] {
         [self.block, (self.moments.points[0].len(), self.moments.points[1].len())]
     }
 
-    /// Takes the contact map: for the first node of each block, in row-major order, the nodes in contact about it, as a
-    /// share of all nodes. A node counts for the first nodes around it by linear interpolation.
+    /// Takes the contact map: for the first node of each block, in row-major order, the share of all nodes in contact
+    /// about it, each counted for the first nodes around it by linear interpolation.
     ///
-    /// `stiffness` is that of the foundation; `mean_stiffness`, which must be small beside it, keeps the mean from
-    /// being free. With `held` a response has no mean over the nodes that are apart: the mean gap is given. Returns
-    /// `false` if the matrix is not positive in its rounding.
+    /// `mean_stiffness`, which must be small beside the foundation's `stiffness`, keeps the mean from being free. With
+    /// `held` a response has no mean over the nodes that are apart: the mean gap is given. Returns `false` if the
+    /// rounded matrix is not positive.
     pub(crate) fn renew(&mut self, contact: &[f64], stiffness: f64, mean_stiffness: f64, held: bool) -> bool {
         let Self { waves, moments, factor, workspace, apart: [load, response], vector, .. } = self;
         moments.of(contact);
@@ -169,8 +158,8 @@ impl CoarseSpace {
         }
     }
 
-    /// Puts the response into a column of the half spectrum, over the response z of the uniform foundation; `sums` are
-    /// those of that column, of which the second is of r·z and the third of z.
+    /// Puts the response into a column of the half spectrum, over that of the uniform foundation, z; `sums` are those
+    /// of the column, the second of r·z and the third of z.
     pub(super) fn put<T: Real>(&self, k: usize, column: &mut [Complex<T>], sums: &mut Sums) {
         for i in self.columns.get(k).cloned().unwrap_or_default() {
             let (wave, load, response) = (self.waves[i], self.load[i], self.response[i]);
@@ -187,13 +176,12 @@ impl CoarseSpace {
         }
     }
 
-    /// The number of columns of the half spectrum, the first ones, that have waves of the space.
     pub(super) fn columns(&self) -> usize {
         self.columns.len()
     }
 }
 
-/// The nodes of a block along a side of n. It divides n unless that takes many more blocks: the map of a surface that
+/// The nodes of a block along a side of n, a divisor of n unless that takes many more blocks: the map of a surface that
 /// repeats within the cell then does so too.
 fn block(n: usize, highest: usize) -> usize {
     let most = (n / (BLOCKS * highest + 1)).clamp(1, LARGEST);
@@ -204,8 +192,7 @@ fn block(n: usize, highest: usize) -> usize {
 /// The mean, and one wave of each pair ±q with |q| up to a radius, sorted by their columns in the half spectrum.
 fn waves(grid: &Grid, layout: Layout, symbol: &dyn Fn(f64, f64) -> f64, dimension: usize) -> Vec<Wave> {
     let ((nx, ny), (lx, ly)) = (grid.shape(), grid.lengths());
-    // the modes per area of the wave numbers, or per length: on a narrow grid, too, no waves but those along it are
-    // long
+    // modes per area of the wave numbers, or per length: on a narrow grid, too, only waves along it are long
     let along = |length: f64| PI * dimension as f64 / length;
     let radius = match (nx, ny) {
         (1, _) => along(ly),
@@ -260,7 +247,6 @@ mod tests {
         Spectral::new(grid, 1.0, |qx, qy| 0.5 * (qx * qx + 2.0 * qy * qy).sqrt()).unwrap()
     }
 
-    /// A map of some contacts, one block a node, and the space that has it.
     fn held_where(body: &mut Spectral<f64>, held: bool) -> (CoarseSpace, Array2<f64>) {
         let shape = body.grid().shape();
         let contact = random(shape, 1).mapv(|x| f64::from(u8::from(x > 0.2)));
@@ -275,14 +261,12 @@ mod tests {
         let mut z = r.clone();
         let foundation = Foundation { coarse: Some(space), ..Foundation::uniform(0.7, 0.9) };
         let found = body.precondition(r.view(), foundation, z.view_mut()).unwrap();
-        // the sums that come from the transform
         let product = mean_of_both(Slab::whole(r.dim()), r.view(), z.view(), |a, b| a * b);
         assert!((found.descent - product).abs() < 1e-13, "{} {product}", found.descent);
         assert!((found.mean - mean(z.view(), |z| z)).abs() < 1e-13);
         z
     }
 
-    /// The waves of the space, as fields.
     fn basis(space: &CoarseSpace, shape: (usize, usize)) -> Vec<Array2<f64>> {
         let mut basis = vec![Array2::ones(shape)];
         for wave in &space.waves[1..] {
@@ -317,7 +301,6 @@ mod tests {
             for wave in &basis {
                 assert!((product(wave, &image) - product(wave, &r)).abs() < 1e-12, "{shape:?}");
             }
-            // the others are those of the uniform foundation
             let mut uniform = r.clone();
             body.precondition(r.view(), Foundation::uniform(0.7, 0.9), uniform.view_mut()).unwrap();
             let waves = basis.iter().fold(uniform.clone(), |rest, wave| rest - wave * product(wave, &uniform));
@@ -368,7 +351,6 @@ mod tests {
             assert!(block.0 * blocks.0 >= shape.0 && block.1 * blocks.1 >= shape.1 && block != (1, 1));
             assert!(block.0 * (blocks.0 - 1) < shape.0 && block.1 * (blocks.1 - 1) < shape.1);
             if shape.0.is_multiple_of(block.0) && shape.1.is_multiple_of(block.1) {
-                // full contact: no moments but the mean
                 let shares = vec![1.0 / (blocks.0 * blocks.1) as f64; blocks.0 * blocks.1];
                 assert!(space.renew(&shares, STIFFNESS, 1e-3, false));
                 assert!((space.moments.at(0, 0).re - 1.0).abs() < 1e-13);

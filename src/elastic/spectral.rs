@@ -1,5 +1,3 @@
-//! Spectral operators: a stiffness for each wave, applied by Fourier transforms.
-
 use std::f64::consts::TAU;
 use std::fmt;
 use std::marker::PhantomData;
@@ -18,23 +16,17 @@ type Symbol = Arc<dyn Fn(f64, f64) -> f64 + Send + Sync>;
 
 /// An elastic operator that multiplies each wave by a factor, its stiffness k(qx, qy): p̂ = k û.
 ///
-/// A layered or an anisotropic half-space is one closure away: the page [`own_operator`](crate::guide::own_operator)
-/// has a layer of finite thickness with its limits, and treats the mean. For the homogeneous half-space,
-/// k = E*|q|/2, see [`Westergaard`].
+/// A layered or an anisotropic half-space is one closure away: see the page
+/// [`own_operator`](crate::guide::own_operator). The homogeneous half-space is [`Westergaard`].
 ///
 /// Memory per node, in units of one scalar: 1 for the spectrum, which a solve in `f64` gives back, and ½ for the
-/// stiffness, of which such a solve has one in `f32`, too; in `f32` both once more, in `f64`,
-/// while the constructor of a [`Problem`](crate::Problem) transforms the heights.
+/// stiffness, ¾ in such a solve; in `f32` both once more, in `f64`, while a [`Problem`](crate::Problem) is made.
 ///
 /// ```
 /// use asperity::{ElasticOperator, Grid, Spectral};
-/// // a layer of thickness t on a rigid, frictionless base: stiffer for long waves, the half-space for short ones
-/// let (modulus, t) = (1.0, 0.1);
-/// let layer = Spectral::<f64>::isotropic(Grid::square(32, 1.0)?, modulus, move |q| {
-///     let x = 2.0 * q * t;
-///     0.5 * modulus * q * (x.sinh() + x) / (x.cosh() - 1.0)
-/// })?;
-/// assert!(layer.stiffness_range().0 > 5.0);
+/// // a half-space on springs
+/// let body = Spectral::<f64>::isotropic(Grid::square(32, 1.0)?, 1.0, |q| 10.0 + 0.5 * q)?;
+/// assert!(body.stiffness_range().0 > 10.0);
 /// # Ok::<(), asperity::Error>(())
 /// ```
 #[derive(Clone)]
@@ -56,13 +48,13 @@ impl<T: Real> fmt::Debug for Spectral<T> {
 impl<T: Real> Spectral<T> {
     /// The operator with stiffness `symbol(qx, qy)`, pressure per length, for wave numbers in radians per length.
     ///
-    /// `modulus` is the contact modulus E* to which the operator tends for short waves; see
-    /// [`ElasticOperator::modulus`] for its uses. The symbol must be even, k(−q) = k(q), and positive; it is not asked
-    /// for q = 0. Where the Nyquist wave number has no sign, the mean of both signs is taken.
+    /// `modulus` is the contact modulus E* of short waves, [`ElasticOperator::modulus`]. The symbol must be even,
+    /// k(−q) = k(q), and positive; it is not asked for q = 0. Where the Nyquist wave number has no sign, the mean of
+    /// both signs is taken.
     ///
     /// # Errors
-    /// [`Error::Value`] if the modulus or the symbol at any mode is not positive and finite, in the precision of T;
-    /// [`Error::Memory`] if the stiffness takes more than there is.
+    /// [`Error::Value`] if the modulus or the symbol at any mode is not positive and finite in the precision of T;
+    /// [`Error::Memory`] if there is too little for the stiffness.
     pub fn new(grid: Grid, modulus: f64, symbol: impl Fn(f64, f64) -> f64 + Send + Sync + 'static) -> Result<Self> {
         Error::positive("contact modulus", modulus)?;
         grid.slab().afford("an elastic operator", size_of::<T>())?;
@@ -76,7 +68,6 @@ impl<T: Real> Spectral<T> {
         Ok(Self { grid, modulus, symbol, stiffness, range, convolver })
     }
 
-    /// The homogeneous half-space.
     pub(super) fn half_space(grid: Grid, modulus: f64) -> Result<Self> {
         Error::positive("contact modulus", modulus)?;
         let symbol: Symbol = Arc::new(move |qx, qy| 0.5 * modulus * qx.hypot(qy));
@@ -85,8 +76,7 @@ impl<T: Real> Spectral<T> {
     }
 
     /// The operator of a compliance that is even along both axes, without folded lines: of each column of the half
-    /// spectrum that this process transforms the first half of its modes, and the one in the middle. That of the mean,
-    /// the first one, is not used.
+    /// spectrum that this process transforms the first half of its modes, and the middle one. The mean's is not used.
     pub(super) fn of_compliance(grid: Grid, modulus: f64, mut modes: Array2<f64>) -> Result<Self> {
         Error::positive("contact modulus", modulus)?;
         let wrong = modes.iter().find(|&&compliance| !(compliance > 0.0 && compliance.is_finite()));
@@ -124,19 +114,16 @@ impl<T: Real> Spectral<T> {
     }
 }
 
-/// The sums over all modes, of those over a column.
 fn weigh(layout: Layout, column: usize, sums: Sums) -> Sums {
     sums.map(|sum| layout.weight(column) * sum)
 }
 
-/// What an application multiplies each wave by.
 enum Factor<'a> {
     Stiffness,
     Compliance,
     Preconditioner(Foundation<'a>),
 }
 
-/// An application, which returns the sums over the modes.
 struct Apply<'a>(PhantomData<&'a ()>);
 
 impl<'a> Compiled for Apply<'a> {
@@ -150,7 +137,6 @@ impl<'a> Compiled for Apply<'a> {
     }
 }
 
-/// The pressure of heights in `f64`, which returns the sums over the modes.
 struct PressFlat<'a>(PhantomData<&'a ()>);
 
 impl<'a> Compiled for PressFlat<'a> {
@@ -209,7 +195,6 @@ impl<T: Real> Spectral<T> {
         }
     }
 
-    /// The same operator with a stiffness in another precision.
     fn with<U: Real>(&self, stiffness: Stiffness<U>, range: (f64, f64)) -> Spectral<U> {
         let (grid, modulus, symbol) = (self.grid, self.modulus, Arc::clone(&self.symbol));
         Spectral { grid, modulus, symbol, stiffness, range, convolver: Convolver::new(grid.slab()) }
@@ -224,7 +209,6 @@ impl<T: Real> Spectral<T> {
         Ok(self.with(stiffness, self.range))
     }
 
-    /// The number of nodes squared, over which a sum over modes is a mean over nodes.
     fn norm(&self) -> f64 {
         (self.grid.nodes() as f64).powi(2)
     }
@@ -290,8 +274,7 @@ impl<T: Real> ElasticOperator<T> for Spectral<T> {
         Abilities { slabs: true, single: true, waves: Some(self), ..Abilities::default() }
     }
 
-    /// M has the symbol 1/(k + s), s the stiffness of the foundation, but for the waves of the coarse space; the
-    /// products come from the same transform.
+    /// M has the symbol 1/(k + s), but for the waves of the coarse space; the products come from the same transform.
     fn precondition(
         &mut self,
         residual: ArrayView2<'_, T>,

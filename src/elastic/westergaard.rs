@@ -1,14 +1,11 @@
-//! The homogeneous half-space, of stiffness E*|q|/2 for the wave vector q.
-
 use super::*;
 
 /// The homogeneous elastic half-space under periodic loads: a wave with wave number q needs p̂ = E*|q|/2 û.
 ///
 /// Westergaard (1939); Stanley and Kato (1997). E* = E/(1 − ν²) is the contact modulus, in units of pressure.
 ///
-/// Memory per node, in units of one scalar: 1, for the spectrum, which a solve in `f64` gives back; once more, in
-/// `f64`, while the constructor of a [`Problem`](crate::Problem) transforms the heights. The stiffness is computed on
-/// the way. A clone has a spectrum of its own and shares the plans of the transform.
+/// Memory per node: 1 scalar for the spectrum, which a solve in `f64` gives back; once more, in `f64`, while a
+/// [`Problem`](crate::Problem) is made.
 ///
 /// ```
 /// use asperity::{ElasticOperator, Grid, Westergaard};

@@ -112,7 +112,6 @@ impl fmt::Display for Short {
     }
 }
 
-/// An amount of memory, in bytes.
 struct Bytes(f64);
 
 impl fmt::Display for Bytes {

@@ -86,7 +86,6 @@ struct Part<L> {
     law: Varying<L>,
     shape: Option<(usize, usize)>,
     adapts: bool,
-    /// the share of the strongest node that the functions of one gap have
     share: f64,
 }
 

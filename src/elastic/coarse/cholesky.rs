@@ -1,6 +1,4 @@
-//! The decomposition of a symmetric positive matrix by Cholesky, and the solution with it.
-//!
-//! A crate for it would be the largest dependency of the library.
+//! The decomposition of a symmetric positive matrix by Cholesky; a crate for it would be our largest dependency.
 
 use crate::vector::{LANES, vectorised};
 
@@ -12,8 +10,7 @@ pub(super) fn start(row: usize) -> usize {
     row * (row + 1) / 2
 }
 
-/// Decomposes a symmetric matrix by Cholesky, in its lower triangle; `false` if it is not positive. The workspace, one
-/// array for each row, may be dirty.
+/// Decomposes a symmetric matrix in its lower triangle; `false` if it is not positive. The workspace may be dirty.
 pub(super) fn decompose(matrix: &mut [f64], workspace: &mut [[f64; ROWS]]) -> bool {
     let mut positive = false;
     vectorised(
@@ -62,7 +59,6 @@ fn decomposes(matrix: &mut [f64], workspace: &mut [[f64; ROWS]]) -> bool {
     true
 }
 
-/// Solves with the factor of [`decompose`].
 pub(super) fn solve(factor: &[f64], x: &mut [f64]) {
     let row = |i: usize| &factor[start(i)..start(i + 1)];
     vectorised(
@@ -104,7 +100,6 @@ fn dots<const N: usize>(vector: &[f64], others: &[[f64; N]]) -> [f64; N] {
     sums
 }
 
-/// The product of two vectors.
 #[inline(always)]
 pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
     dots(a, b.as_chunks::<1>().0)[0]

@@ -1,5 +1,3 @@
-//! The moments of a contact map, and the products of waves over the contacts.
-
 use std::f64::consts::{SQRT_2, TAU};
 
 use asperity_fft::num_complex::Complex;
@@ -9,11 +7,9 @@ use asperity_fft::num_complex::Complex;
 pub(super) struct Moments {
     /// the first nodes of the blocks along both axes, as shares of the side
     pub(super) points: [Vec<f64>; 2],
-    /// the factors e^(−iqx) of these for one wave length on a side, and for the wave number in hand
+    /// their factors e^(−iqx) for one wave length on a side, and for the wave number in hand
     turns: [[Vec<Complex<f64>>; 2]; 2],
-    /// the highest wave numbers
     pub(super) highest: [usize; 2],
-    /// the transforms of the rows of blocks
     rows: Vec<Complex<f64>>,
     /// the moments, for all wave numbers of both signs along x and from 0 on along y
     values: Vec<Complex<f64>>,
@@ -68,7 +64,7 @@ impl Moments {
         if b < 0 { value(-a, -b).conj() } else { value(a, b) }
     }
 
-    /// The means of χ √2 cos and χ √2 sin of a wave, of which the numbers of wave lengths along both sides are given.
+    /// The means of χ √2 cos and χ √2 sin of a wave, by its numbers of wave lengths along both sides.
     pub(super) fn of_wave(&self, [a, b]: [isize; 2]) -> [f64; 2] {
         parts(self.at(a, b)).map(|part| SQRT_2 * part)
     }

@@ -1,4 +1,4 @@
-//! The stiffness of every wave, and what an application makes of a column of the spectrum with it.
+//! The stiffness of every wave, and its application to a column of the spectrum.
 
 use std::f64::consts::PI;
 use std::sync::Arc;
@@ -15,12 +15,10 @@ use crate::real::{Real, cast};
 use crate::slab::Slab;
 use crate::vector::{BLOCK, LANES, vectorised};
 
-/// The stiffness of each mode, in the layout of the spectrum.
 #[derive(Clone)]
 pub(super) enum Stiffness<T> {
     Stored(Columns<T>),
-    /// the half-space, `unit·√(x² + y²)`, which is faster computed than stored: the squares x² and y² in and across
-    /// columns
+    /// the half-space, `unit·√(x² + y²)`, faster computed than stored: x² and y² in and across columns
     HalfSpace {
         unit: T,
         x: Vec<T>,
@@ -31,39 +29,32 @@ pub(super) enum Stiffness<T> {
         unit: T,
         x: Vec<T>,
     },
-    /// even along both axes, in `f64` whatever the precision: of each column the first half of its modes, and the one
-    /// in the middle
+    /// even along both axes, always in `f64`: of each column the first half of its modes, and the middle one
     Even(Arc<Columns<f64>>),
 }
 
-/// Numbers for each mode of the columns that this process transforms.
 #[derive(Clone)]
 pub(super) struct Columns<T> {
     slab: Slab,
-    /// the first of these columns
     first: usize,
     modes: Array2<T>,
 }
 
 impl<T: Real> Columns<T> {
-    /// The numbers of modes `f(column, mode)`, `count` of them in each column.
     pub(super) fn new(slab: Slab, count: usize, mut f: impl FnMut(usize, usize) -> T) -> Self {
         let own = Layout::new(slab.shape()).columns_of(&slab);
         let modes = Array2::from_shape_fn((own.len(), count), |(k, i)| f(own.start + k, i));
         Self { slab, first: own.start, modes }
     }
 
-    /// Numbers of the columns that this process transforms.
     pub(super) fn of(slab: Slab, modes: Array2<T>) -> Self {
         Self { slab, first: Layout::new(slab.shape()).columns_of(&slab).start, modes }
     }
 
-    /// The numbers of a column.
     fn column(&self, k: usize) -> &[T] {
         flat(&self.modes).chunks(self.modes.ncols().max(1)).nth(k - self.first).unwrap_or_default()
     }
 
-    /// The number of a mode, if this process has it.
     pub(super) fn get(&self, [column, mode]: [usize; 2]) -> Option<T> {
         self.modes.get([column.checked_sub(self.first)?, mode]).copied()
     }
@@ -75,7 +66,6 @@ impl<T: Real> Columns<T> {
         if self.slab.nodes() > 1 { (self.slab.least(least), self.slab.most(most)) } else { (0.0, 0.0) }
     }
 
-    /// The same numbers in another precision.
     pub(super) fn cast<U: Real>(&self) -> Columns<U> {
         Columns { slab: self.slab, first: self.first, modes: self.modes.mapv(cast) }
     }
@@ -152,8 +142,8 @@ pub(super) fn stiffness<T: Real>(grid: &Grid, symbol: &Symbol) -> Result<Columns
 }
 
 impl<T: Real> Stiffness<T> {
-    /// Multiplies the modes z of column `k` of the spectrum by a function of their stiffness; the sums over the column
-    /// are those of |z|² times two more.
+    /// Multiplies the modes z of column `k` by the first function of their stiffness; returns the column's sums of |z|²
+    /// times the other two.
     pub(super) fn modify(&self, k: usize, column: &mut [Complex<T>], by: impl Fn(T) -> [T; 3]) -> Sums {
         match self {
             Self::Stored(stiffness) => {
@@ -230,7 +220,6 @@ fn modify<T: Real, U: Copy>(column: &mut [Complex<T>], of: &[U], by: impl Fn(U) 
     sums
 }
 
-/// Modifies a block of a column, and adds to its sums.
 #[inline(always)]
 fn block<T: Real, U: Copy>(
     modes: &mut [Complex<T>],
@@ -258,13 +247,12 @@ fn block<T: Real, U: Copy>(
     }
 }
 
-/// The factors of the pressure and, for the work, of |z|².
 #[inline(always)]
 pub(super) fn stiffen<T: Real>(stiffness: T) -> [T; 3] {
     [stiffness, stiffness, T::zero()]
 }
 
-/// Divides by the stiffness and `shift` times the softest, and multiplies the mean by `mean`; the sums are those of
+/// Divides by the stiffness plus `shift` times the softest, and multiplies the mean by `mean`; returns the sums of
 /// [`Preconditioned`](crate::elastic::Preconditioned).
 pub(super) fn soften<T: Real>(
     (stiffness, softest): (&Stiffness<T>, f64),
