@@ -39,7 +39,7 @@ impl fmt::Display for Error {
             Self::Concave { gap, traction, nearer } => write!(
                 f,
                 "the adhesive traction rises with the gap, from {} to {} at a gap of {}: the energy is not concave, \
-                 as `is_concave` says",
+                 as its `hints` say",
                 Short(*nearer),
                 Short(*traction),
                 Short(*gap)
@@ -47,15 +47,15 @@ impl fmt::Display for Error {
             Self::Jump { gap, fall } => write!(
                 f,
                 "the adhesive traction falls by {} at a gap of {}, and the edge of the adhesive zone would stay where an \
-                 iteration left it: give the law without its jump as `smoothed`",
+                 iteration left it: give the law without its jump in `adapted`",
                 Short(*fall),
                 Short(*gap)
             ),
             Self::AtNode { function, node, gap, value, expected } => write!(
                 f,
                 "the {function} is {} at node {node} and a gap of {}, and {} by another function of the law: those of \
-                 many gaps give what those of one gap do, or the law has a `shape` and those of one gap are of its \
-                 strongest node",
+                 many gaps give what those of one gap do, or the law has a `shape` in its `hints` and those of one gap are \
+                 of its strongest node",
                 Short(*value),
                 Short(*gap),
                 Short(*expected)
