@@ -29,7 +29,7 @@ impl<T: Real> Hints<T> {
     /// The work of adhesion w = −φ(0) and the range w/φ'(0) of a law, which is ρ for an exponential and a constant
     /// traction. The range is zero where the law does not attract in contact: set one there.
     pub fn of<L: AdhesionLaw<T> + ?Sized>(law: &L) -> Self {
-        let (w, traction) = (-law.energy(T::zero()), law.traction(T::zero()));
+        let (w, traction) = (T::zero() - law.energy(T::zero()), law.traction(T::zero()));
         Self::new(w, if w > T::zero() && traction > T::zero() { w / traction } else { T::zero() })
     }
 

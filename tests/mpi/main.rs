@@ -235,13 +235,14 @@ fn free_half_spaces_are_shared<T: Bits>(world: &World, shape: (usize, usize), co
         let sphere =
             Surface::from_fn(grid, |x, y| -(x * x + y * y) / 4.0 + 1e-3 * (40.0 * x).sin() * (33.0 * y).cos())?;
         let body = Boussinesq::<T>::new(grid, 1.0)?;
-        let solution = match law {
-            Some(law) => Solver::default().solve(&mut Problem::new(&sphere, body, law)?, control)?,
-            None => Solver::default().solve(&mut Problem::new(&sphere, body, NoAdhesion)?, control)?,
+        let law: Box<dyn AdhesionLaw<T>> = match law {
+            Some(law) => Box::new(law),
+            None => Box::new(NoAdhesion),
         };
+        let solution = Solver::default().solve(&mut Problem::new(&sphere, body, &law)?, control)?;
         let half_space = |grid| Boussinesq::<T>::new(grid, 1.0);
         let nested = Nested::default().solve(&sphere, half_space, NoAdhesion, control)?;
-        let statistics = contact::ContactStatistics::of(&solution, &NoAdhesion)?;
+        let statistics = contact::ContactStatistics::of(&solution, &law)?;
         Ok::<_, Error>((solution, nested, statistics))
     };
     let alone = Grid::new(shape, (0.4, 0.4))?;
