@@ -153,7 +153,14 @@ mod job {
     /// The bytes that this process has sent to others in exchanges.
     static BYTES: AtomicU64 = AtomicU64::new(0);
 
+    /// A buffer of nothing has an address, as that which empty slices of bytes have means something else to MPI.
+    fn placed<'a, E>(buffer: &'a [E], somewhere: &'a [E]) -> &'a [E] {
+        if buffer.is_empty() { &somewhere[..0] } else { buffer }
+    }
+
     pub(super) fn gather<E: Sent>(own: &[E], shares: &Shares, all: &mut [E]) {
+        let somewhere = [E::default()];
+        let own = placed(own, &somewhere);
         let mut all = PartitionMut::new(all, &shares.counts[..], &shares.places[..]);
         SimpleCommunicator::world().all_gather_varcount_into(own, &mut all);
     }
@@ -167,7 +174,9 @@ mod job {
         let counts = sent.counts.iter().enumerate().filter(|&(to, _)| to != rank);
         let numbers: u64 = counts.map(|(_, &count)| count as u64).sum();
         BYTES.fetch_add(numbers * size_of::<E>() as u64, Ordering::Relaxed);
-        let from = Partition::new(from, &sent.counts[..], &sent.places[..]);
+        let (somewhere, mut nowhere) = ([E::default()], [E::default()]);
+        let into = if into.is_empty() { &mut nowhere[..0] } else { into };
+        let from = Partition::new(placed(from, &somewhere), &sent.counts[..], &sent.places[..]);
         let mut into = PartitionMut::new(into, &received.counts[..], &received.places[..]);
         SimpleCommunicator::world().all_to_all_varcount_into(&from, &mut into);
     }
