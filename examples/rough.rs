@@ -12,11 +12,11 @@ use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
 use asperity::contact::ContactStatistics;
-use asperity::picture::{Colouring, DPI, Map};
 use asperity::{
     Amplitude, Control, Exponential, Grid, Problem, SelfAffine, Solution, Solver, Start, Status, Surface, Sweep,
     Westergaard,
 };
+use asperity_plot::{Colouring, DPI, Map};
 use clap::Parser;
 use common::legend::legend;
 use common::{Outcome, arguments};

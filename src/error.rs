@@ -242,11 +242,16 @@ impl Error {
         Self::caused(path.as_ref(), format!("cannot be written: {cause}"), cause)
     }
 
-    pub(crate) fn caused(path: &Path, reason: String, cause: impl StdError + Send + Sync + 'static) -> Self {
+    /// A file that is of no use for `reason`, with the [source](StdError::source).
+    pub fn caused(path: &Path, reason: String, cause: impl StdError + Send + Sync + 'static) -> Self {
         Self::File { path: path.to_owned(), reason, cause: Some(Cause(Arc::new(cause))) }
     }
 
-    pub(crate) fn positive(name: &'static str, value: f64) -> Result<f64> {
+    /// The value, if it is positive and finite.
+    ///
+    /// # Errors
+    /// [`Error::Value`] with the name and the value, if it is not.
+    pub fn positive(name: &'static str, value: f64) -> Result<f64> {
         if value > 0.0 && value.is_finite() {
             Ok(value)
         } else {
@@ -254,7 +259,11 @@ impl Error {
         }
     }
 
-    pub(crate) fn non_negative(name: &'static str, value: f64) -> Result<f64> {
+    /// The value, if it is zero, or positive and finite.
+    ///
+    /// # Errors
+    /// [`Error::Value`] with the name and the value, if it is neither.
+    pub fn non_negative(name: &'static str, value: f64) -> Result<f64> {
         if value >= 0.0 && value.is_finite() {
             Ok(value)
         } else {
@@ -262,11 +271,19 @@ impl Error {
         }
     }
 
-    pub(crate) fn finite(name: &'static str, value: f64) -> Result<f64> {
+    /// The value, if it is finite.
+    ///
+    /// # Errors
+    /// [`Error::Value`] with the name and the value, if it is not.
+    pub fn finite(name: &'static str, value: f64) -> Result<f64> {
         if value.is_finite() { Ok(value) } else { Err(Self::Value { name, value, requirement: "finite" }) }
     }
 
-    pub(crate) fn shape(name: &'static str, found: (usize, usize), expected: (usize, usize)) -> Result<()> {
+    /// Refuses an array of another shape than expected.
+    ///
+    /// # Errors
+    /// [`Error::Shape`] with the name and both shapes, if they differ.
+    pub fn shape(name: &'static str, found: (usize, usize), expected: (usize, usize)) -> Result<()> {
         if found == expected { Ok(()) } else { Err(Self::Shape { name, found, expected }) }
     }
 }

@@ -76,10 +76,8 @@
 //! |---|---|
 //! | `parallel` (default) | threads, with the same results bit for bit |
 //! | `mpi` | processes, with the same results bit for bit: the type `World` |
-//! | `io` | files: the module `io` |
-//! | `picture` | maps and charts: the module `picture` |
+//! | `io` (default) | files: the module `io` |
 //! | `serde` | settings, reports, statistics and controls as data, with the names of the reports |
-//! | `cli` (default) | these three, and the command-line tool |
 //!
 //! Without any of them the library depends on libm, ndarray, num-traits, pulp and rustfft alone.
 #![doc = include_str!("equations.html")]
@@ -101,8 +99,6 @@ pub mod io;
 pub mod nested;
 mod par;
 pub mod path;
-#[cfg(feature = "picture")]
-pub mod picture;
 mod problem;
 mod ranks;
 mod real;

@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use asperity::picture::{Chart, Colouring, DPI, Format, Map, Picture};
 use asperity::{Grid, Result, Solution};
+use asperity_plot::{Chart, Colouring, DPI, Format, Map, Picture};
 use clap::{Args, ValueEnum};
 use ndarray::Array2;
 use serde_json::Value;

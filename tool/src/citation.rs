@@ -1,6 +1,6 @@
 //! How to cite the program and its method, from `CITATION.cff`.
 
-const FILE: &str = include_str!("../../../CITATION.cff");
+const FILE: &str = include_str!("../../CITATION.cff");
 
 /// The program, and the paper whose method it builds on, a text each.
 pub fn citations() -> [String; 2] {

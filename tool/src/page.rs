@@ -6,8 +6,8 @@ use std::path::{Path, PathBuf};
 
 use asperity::contact::PressureDistribution;
 use asperity::io::read_field;
-use asperity::picture::{Chart, Colouring, Map};
 use asperity::{Error, Grid};
+use asperity_plot::{Chart, Colouring, Map};
 use clap::Args;
 use ndarray::Zip;
 use serde_json::Value;

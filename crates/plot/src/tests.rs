@@ -7,7 +7,7 @@ use ndarray::Array2;
 
 use super::map::map_size;
 use super::*;
-use crate::grid::Grid;
+use asperity::Grid;
 
 /// Writes a map, and reads its width, height and pixels, and the corner and size of the plot.
 fn drawn(map: &Map<'_>, name: &str) -> (usize, usize, Vec<[u8; 3]>, [usize; 4]) {

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use asperity::AdhesionLaw;
 use asperity::adhesion::Hints;
-use asperity::picture::{Chart, Format};
+use asperity_plot::{Chart, Format};
 use clap::{Args, ValueEnum};
 
 use crate::adhesion::{AdhesionOptions, Law};

@@ -297,7 +297,7 @@ fn studies_that_cannot_be_are_refused_before_anything_is_solved() {
 fn the_job_scripts_of_the_documentation_come_to_the_table() {
     let bench = Bench::new();
     bench.write("study.toml", MADE);
-    let page = concat!(env!("CARGO_MANIFEST_DIR"), "/src/guide/cluster.md");
+    let page = concat!(env!("CARGO_MANIFEST_DIR"), "/../src/guide/cluster.md");
     let page = std::fs::read_to_string(page).unwrap();
     let blocks = page.split("```sh\n").skip(1).map(|rest| rest.split("```").next().unwrap());
     let scripts: Vec<_> = blocks.filter(|block| block.starts_with("#!")).collect();

@@ -1,7 +1,7 @@
 //! The command-line tool, end to end, with the files that it reads and the documentation that tells how to run it.
-#![cfg(feature = "cli")]
 
 mod accuracy_tool;
+mod areas;
 mod bench;
 mod branch_tool;
 

@@ -6,7 +6,7 @@ use super::frame::{
 };
 use super::scale::{Axis, Part};
 use super::shape::{Area, BLACK, Colour, Curve, GREY, HAIRLINE, Shape};
-use crate::error::Result;
+use asperity::Result;
 
 /// Curves over two axes, such as the loads on a path over its mean gaps.
 ///
@@ -14,7 +14,7 @@ use crate::error::Result;
 /// no curve has more than thirty points, each point has a dot. Units are written as those of a [`Map`](super::Map).
 ///
 /// ```
-/// use asperity::picture::{Chart, DPI};
+/// use asperity_plot::{Chart, DPI};
 /// let wave = (0..100).map(|i| (f64::from(i), (0.1 * f64::from(i)).sin())).collect();
 /// let chart = Chart { x_label: "time", y_label: "height", curves: vec![("wave", wave)], ..Chart::default() };
 /// chart.draw(DPI)?.write(&std::env::temp_dir().join("asperity-wave.svg"))?;
@@ -80,7 +80,7 @@ impl Chart<'_> {
     /// Draws the curves, for `dpi` pixels per inch: [`DPI`](super::DPI), or more.
     ///
     /// # Errors
-    /// [`Error::Value`](crate::Error::Value) if `dpi` is below 36 or above 1200.
+    /// [`Error::Value`](asperity::Error::Value) if `dpi` is below 36 or above 1200.
     pub fn draw(&self, dpi: f64) -> Result<Picture> {
         let x = self.range(|point| point.0, self.x_log, self.x_unit);
         let y = self.range(|point| point.1, self.y_log, self.y_unit);

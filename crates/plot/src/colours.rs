@@ -15,7 +15,7 @@ pub(super) const ATTRACTIVE: Colour = [107, 174, 214];
 /// Values of one sign that are all weaker than this share of the other sign's greatest are not shown.
 const NOISE: f64 = 1e-6;
 
-/// The colouring of the values of a [`Map`](crate::picture::Map).
+/// The colouring of the values of a [`Map`](crate::Map).
 ///
 /// [`Map`](super::Map) has an example.
 #[non_exhaustive]
@@ -26,7 +26,7 @@ pub enum Colouring {
     /// Zero in light grey, positive values (compression) in red, negative ones (attraction) in blue.
     ///
     /// Each sign has a scale and a colour bar of its own, so that a tension of 50 MPa is seen beside a compression of
-    /// 5 GPa; [`Map::signs`](crate::picture::Map::signs) has the names of the two. Only a
+    /// 5 GPa; [`Map::signs`](crate::Map::signs) has the names of the two. Only a
     /// sign that nowhere reaches 1e-6 of the other, mere rounding, is drawn as zero.
     ///
     /// A scale ends at the greatest magnitude, unless a few nodes reach more than twice as far as all others
@@ -34,7 +34,7 @@ pub enum Colouring {
     /// value at this end.
     Diverging,
     /// Classes of contact: black where the value is positive (contact), blue where it is negative (attractive), and
-    /// white where it is zero (apart), with a legend; [`Solution::regions`](crate::Solution::regions) has them.
+    /// white where it is zero (apart), with a legend; [`Solution::regions`](asperity::Solution::regions) has them.
     ///
     /// On a map drawn with fewer pixels than nodes, the colours are mixed by the share of each.
     Contact,

@@ -10,8 +10,8 @@ use super::frame::{
 };
 use super::scale::{Axis, Part, three_digits};
 use super::shape::{Area, BLACK, Curve, GREY, HAIRLINE, Image, Shape, WHITE};
-use crate::error::{Error, Result};
-use crate::grid::Grid;
+use asperity::Grid;
+use asperity::{Error, Result};
 
 /// The width of the colour bar, its distance from the map, and the height of its arrows.
 const BAR: f64 = 11.0;
@@ -34,7 +34,7 @@ const PIXELS: f64 = 2.0;
 /// numbers (`None`), a power of ten where they are very large or small: "gap (10⁻⁶)".
 ///
 /// ```
-/// use asperity::picture::{Colouring, DPI, Map};
+/// use asperity_plot::{Colouring, DPI, Map};
 /// use asperity::Grid;
 /// let grid = Grid::square(64, 500e-9)?;
 /// let heights = grid.sample(|x, y| 2e-9 * (2e7 * x).cos() * (2e7 * y).cos());

@@ -10,7 +10,7 @@ use tempfile::TempDir;
 const TOOL: &str = env!("CARGO_BIN_EXE_asperity");
 
 fn root() -> &'static Path {
-    Path::new(env!("CARGO_MANIFEST_DIR"))
+    Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/.."))
 }
 
 /// A folder in which the commands of one text are run, one after the other.

@@ -22,7 +22,7 @@ pub use chart::Chart;
 pub use colours::Colouring;
 pub use map::Map;
 
-use crate::error::{Error, Result};
+use asperity::{Error, Result};
 use raster::Raster;
 use shape::{Anchor, Area, BLACK, Colour, Shape, Text};
 
@@ -48,7 +48,7 @@ impl Format {
     /// The format that the ending of a name asks for.
     ///
     /// ```
-    /// use asperity::picture::Format;
+    /// use asperity_plot::Format;
     /// assert_eq!(Format::of("loop.pdf")?, Format::Pdf);
     /// assert!(Format::of("loop.jpg").is_err());
     /// # Ok::<(), asperity::Error>(())
