@@ -4,8 +4,8 @@ use asperity::accuracy::Quantity;
 use asperity::nested::Level;
 use asperity::search::FoundContact;
 use asperity::stability::{ContactStiffness, Stability};
-use asperity::warning::Warning;
 use asperity::{Real, Report, Solution};
+use asperity_maps::warning::Warning;
 use numpy::Element;
 use numpy::ndarray::Array2;
 

@@ -2,12 +2,12 @@
 //! own.
 
 use asperity::accuracy::{Accuracy, Quantity};
-use asperity::io::{available_memory, check_memory};
-use asperity::warning::{Warning, WarningCode};
 use asperity::{
     Boussinesq, Branch, ContactConstraint, Control, ElasticOperator, Grid, NoWall, Projection, Real, Settings, Solver,
     Surface, Westergaard,
 };
+use asperity_maps::io::{available_memory, check_memory};
+use asperity_maps::warning::{Warning, WarningCode};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 

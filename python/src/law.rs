@@ -402,7 +402,7 @@ impl Tabulated {
     }
 
     fn of_file(path: &Path) -> asperity::Result<PyClassInitializer<Self>> {
-        let table = asperity::io::read_field(path)?;
+        let table = asperity_maps::io::read_field(path)?;
         if table.ncols() != 2 {
             let columns = table.ncols();
             let reason = format!("has {columns} columns, not two: put a gap and a traction on each line");

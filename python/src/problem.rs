@@ -8,11 +8,12 @@ use asperity::contact::Original;
 use asperity::nested::NestedSolution;
 use asperity::path::{Event, Path, PathCheckpoint, PathSettings};
 use asperity::stability::{ContactStiffness, StabilityTest, Verdict};
-use asperity::warning::Warning;
 use asperity::{
     AdhesionLaw, ContactSearch, Control, ElasticOperator, Error, Grid, Nested, Real, Settings, Solution, Solver, Start,
-    Status, Surface, Sweep, Topography,
+    Status, Surface, Sweep,
 };
+use asperity_maps::Topography;
+use asperity_maps::warning::Warning;
 use numpy::IntoPyArray;
 use numpy::ndarray::Array2;
 use pyo3::exceptions::PyValueError;

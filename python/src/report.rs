@@ -5,7 +5,7 @@ use asperity::accuracy::GridError;
 use asperity::contact::{ContactStatistics, Patch};
 use asperity::nested::Level;
 use asperity::stability::Stability;
-use asperity::warning::Warning;
+use asperity_maps::warning::Warning;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 

@@ -3,9 +3,9 @@
 use std::time::Instant;
 
 use asperity::accuracy::{Accuracy, GridError, Plan, Quantity};
-use asperity::io::available_memory;
 use asperity::nested::Level;
 use asperity::{ElasticOperator, Real, Report, Result, Solver};
+use asperity_maps::io::available_memory;
 use clap::{Args, ValueEnum};
 use ndarray::Array2;
 use serde_json::{Map, Value, json};

@@ -4,11 +4,11 @@ use std::fmt;
 use std::path::{Path, PathBuf};
 
 use asperity::adhesion::{CutOff, Varying};
-use asperity::io::read_field;
 use asperity::{
     AdhesionLaw, ContactConstraint, Error, Exponential, Grid, LennardJones, MaugisDugdale, Morse, NoAdhesion, NoWall,
     PowerLaw, Projection, Real, Tabulated,
 };
+use asperity_maps::io::read_field;
 use clap::{Args, ValueEnum};
 use ndarray::Array2;
 

@@ -2,8 +2,8 @@
 
 use std::fmt;
 
-use asperity::io::check_memory;
 use asperity::{Boussinesq, Control, ElasticOperator, Grid, Real, Result, Surface, Westergaard};
+use asperity_maps::io::check_memory;
 use clap::{Args, ValueEnum};
 use ndarray::Array2;
 

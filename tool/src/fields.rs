@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use asperity::Grid;
-use asperity::io::{OutputFolder, create_npy, write_npy, write_npy_rows};
+use asperity_maps::io::{OutputFolder, create_npy, write_npy, write_npy_rows};
 use ndarray::Array2;
 
 use crate::options::Scalar;

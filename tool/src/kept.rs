@@ -3,8 +3,8 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use asperity::io::OutputFolder;
 use asperity::{Grid, Solution};
+use asperity_maps::io::OutputFolder;
 
 use crate::case::gap_to_write;
 use crate::fields::write_fields;

@@ -2,8 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use asperity::io::read_field;
 use asperity::{Branch, Error, Real, Settings, Surface};
+use asperity_maps::io::read_field;
 use clap::{Args, ValueEnum};
 use ndarray::Array2;
 use ndarray_npy::WritableElement;

@@ -3,8 +3,8 @@
 use std::borrow::Cow;
 
 use asperity::contact::{ContactStatistics, Original};
-use asperity::warning::Warning;
 use asperity::{AdhesionLaw, Control, Grid, Real, Result, Solution};
+use asperity_maps::warning::Warning;
 use ndarray::Array2;
 
 use crate::boundary::Boundary;

@@ -7,8 +7,8 @@ use std::borrow::Cow;
 use std::path::PathBuf;
 
 use asperity::contact::PressureDistribution;
-use asperity::io::{OutputFolder, write_npz, write_vti};
 use asperity::{AdhesionLaw, Control, Solution, Status, Surface};
+use asperity_maps::io::{OutputFolder, write_npz, write_vti};
 use clap::{ArgGroup, Args, ValueEnum};
 use ndarray::CowArray;
 use serde_json::Value;

@@ -1,6 +1,6 @@
 //! The units of the numbers that a command gives, as far as they are known.
 
-use asperity::io::LONGEST_UNIT;
+use asperity_maps::io::LONGEST_UNIT;
 use clap::Args;
 
 use crate::csv;
