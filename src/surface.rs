@@ -54,7 +54,7 @@ impl Surface {
     }
 
     /// A surface with absent nodes, where heights of shape (Nx, Ny) are NaN: they neither touch nor attract.
-    /// [`heights`](Self::heights) has there what [`fill`] makes of them.
+    /// [`heights`](Self::heights) has there what [`fill()`] makes of them.
     ///
     /// # Errors
     /// [`Error::Shape`] if the heights do not fit the grid, [`Error::NotFinite`] with the number and place of infinite

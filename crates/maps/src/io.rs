@@ -294,7 +294,8 @@ pub fn write_npy_rows<'a, T: WritableElement + Clone + 'a>(
 ///
 /// ```
 /// use asperity_maps::io::{read_topography, write_topography};
-/// use asperity::{Grid, Surface, Topography};
+/// use asperity::{Grid, Surface};
+/// use asperity_maps::Topography;
 ///
 /// let folder = tempfile::tempdir()?;
 /// let path = folder.path().join("wave.npz");

@@ -251,7 +251,7 @@ impl Topography {
     /// where the side lengths are unknown.
     ///
     /// # Errors
-    /// [`Error::NotFinite`](asperity::Error::NotFinite) if heights are missing, [`Error::Value`](asperity::Error::Value) if
+    /// [`Error::NotFinite`] if heights are missing, [`Error::Value`] if
     /// the side lengths are no lengths.
     pub fn statistics(&self) -> Result<SurfaceStatistics> {
         let mut map = self.clone();

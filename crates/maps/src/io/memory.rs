@@ -32,7 +32,8 @@ fn told(name: &str) -> Option<f64> {
 /// [`Error::Memory`].
 ///
 /// ```
-/// use asperity::{ErrorKind, io::check_memory};
+/// use asperity::ErrorKind;
+/// use asperity_maps::io::check_memory;
 /// check_memory("a solve", (512, 512), 40)?;
 /// # #[cfg(target_os = "linux")]
 /// assert_eq!(check_memory("a solve", (1 << 40, 1 << 40), 40).unwrap_err().kind(), ErrorKind::Memory);

@@ -130,7 +130,8 @@ fn read_entry<T>(
 /// `lengths`.
 ///
 /// ```
-/// use asperity::{Grid, io::write_npz};
+/// use asperity::Grid;
+/// use asperity_maps::io::write_npz;
 /// let folder = tempfile::tempdir()?;
 /// let grid = Grid::new((4, 3), (2.0, 3.0))?;
 /// // numpy.load("fields.npz")["gap"] has the shape (4, 3)

@@ -18,7 +18,8 @@ use asperity::{Error, Result};
 /// later.
 ///
 /// ```
-/// use asperity::{Grid, io::write_vti};
+/// use asperity::Grid;
+/// use asperity_maps::io::write_vti;
 /// let folder = tempfile::tempdir()?;
 /// let grid = Grid::new((4, 3), (2.0, 3.0))?;
 /// write_vti(folder.path().join("fields.vti"), &grid, &[("height", grid.sample(|x, y| x * y).view())])?;

@@ -67,8 +67,9 @@ impl Topography {
     /// By Levenberg and Marquardt's method, from the quadric.
     ///
     /// ```
-    /// use asperity::surface::Form;
-    /// use asperity::{Grid, Surface, Topography};
+    /// use asperity_maps::Form;
+    /// use asperity::{Grid, Surface};
+    /// use asperity_maps::Topography;
     /// let grid = Grid::square(32, 1.0)?;
     /// let ball = Topography::from(Surface::from_fn(grid, |x, y| (4.0 - x * x - y * y).sqrt() - 2.0)?);
     /// assert!((ball.fit_form(Form::Sphere)?.radius - 2.0).abs() < 1e-9);

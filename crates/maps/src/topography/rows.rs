@@ -37,7 +37,7 @@ impl Topography {
     /// so.
     ///
     /// ```
-    /// use asperity::surface::{RowAlignment, ScanAxis};
+    /// use asperity_maps::{RowAlignment, ScanAxis};
     /// use asperity_maps::Topography;
     /// // three lines along x, of which the second is 3 too high
     /// let map = Topography::new(ndarray::array![[0.0, 3.0, 0.0], [1.0, 4.0, 1.0], [2.0, 5.0, 2.0]]);
