@@ -20,7 +20,7 @@ use crate::slab::Slab;
 /// // no adhesion on the left half
 /// let work = grid.sample(|x, _| if x < 0.0 { 0.0 } else { 1e-5 });
 /// let law = Varying::new(Exponential::new(1e-5, 2e-3)?, work.view())?;
-/// assert_eq!(law.strongest(), (32, 0));
+/// assert_eq!(law.law().range(), 2e-3);
 /// # Ok::<(), asperity::Error>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
@@ -30,7 +30,6 @@ pub struct Varying<L> {
     /// the work of adhesion at each node of the slab over that of the law
     shares: Arc<Array2<f64>>,
     largest: f64,
-    strongest: (usize, usize),
     repels: bool,
 }
 
@@ -71,22 +70,13 @@ impl<L: AdhesionLaw<f64>> Varying<L> {
         }
         let most = slab.most(works.iter().fold(0.0, |most: f64, &work| most.max(work)));
         Error::positive("largest work of adhesion", most)?;
-        let (first, ny) = (slab.first_node(), slab.shape().1);
-        let own_strongest = works.indexed_iter().find(|&(_, &work)| work == most);
-        let node = own_strongest.map_or(f64::INFINITY, |((ix, iy), _)| (first + ix * ny + iy) as f64);
-        let node = slab.least(node) as usize;
         let shares = Arc::new(works.mapv(|work| work / own).as_standard_layout().into_owned());
         let repels = !slab.has(works.iter().any(|&work| work <= 0.0));
-        Ok(Self { law, slab, shares, largest: most / own, strongest: (node / ny, node % ny), repels })
+        Ok(Self { law, slab, shares, largest: most / own, repels })
     }
 }
 
 impl<L> Varying<L> {
-    /// The node with the largest work of adhesion, (ix, iy); the first of several.
-    pub fn strongest(&self) -> (usize, usize) {
-        self.strongest
-    }
-
     /// The law that varies.
     pub fn law(&self) -> &L {
         &self.law
@@ -124,13 +114,13 @@ impl<T: Real, L: AdhesionLaw<T>> AdhesionLaw<T> for Varying<L> {
         values.each(|_, values| self.scale(first, values));
     }
     fn adapted(&self, to: Discretisation<T>) -> Option<Box<dyn AdhesionLaw<T> + '_>> {
-        let Self { slab, largest, strongest, repels, .. } = *self;
+        let Self { slab, largest, repels, .. } = *self;
         let law: &dyn AdhesionLaw<T> = &self.law;
         Some(match to {
             Discretisation::Rows(grid) if !slab.is_shared() || slab == grid.slab() => return None,
             Discretisation::Rows(grid) => {
                 let shares = Arc::new(slab.moved(self.shares.view().into(), &grid.slab()).into_owned());
-                Box::new(Varying { law, slab: grid.slab(), shares, largest, strongest, repels })
+                Box::new(Varying { law, slab: grid.slab(), shares, largest, repels })
             }
             Discretisation::Coarse(nx, ny) => {
                 let (rows, columns) = slab.shape();
@@ -139,13 +129,12 @@ impl<T: Real, L: AdhesionLaw<T>> AdhesionLaw<T> for Varying<L> {
                 let first = coarse.rows().start;
                 let share = |(ix, iy): (usize, usize)| rows.row((first + ix) * nx)[iy * ny];
                 let shares = Arc::new(Array2::from_shape_fn(coarse.held(), share));
-                let strongest = (strongest.0 / nx, strongest.1 / ny);
-                Box::new(Varying { law, slab: coarse, shares, largest, strongest, repels })
+                Box::new(Varying { law, slab: coarse, shares, largest, repels })
             }
             Discretisation::Smooth(compliance) => {
                 // where the law is strongest its jumps are the largest
                 let law = self.law.adapted(Discretisation::Smooth(compliance * T::lit(largest)))?;
-                Box::new(Varying { law, slab, shares: self.shares.clone(), largest, strongest, repels })
+                Box::new(Varying { law, slab, shares: self.shares.clone(), largest, repels })
             }
         })
     }
