@@ -1,4 +1,4 @@
-//! The guide: the physics beside the code, how-tos, the tool, and the construction of the crate.
+//! The guide: the physics beside the code, how-tos, and the construction of the crate.
 //!
 //! | page | contents |
 //! |---|---|
@@ -9,11 +9,9 @@
 //! | [`own_constraint`] | a way of your own to keep the surfaces apart |
 //! | [`boundary`] | a periodic cell or a free half-space, absent nodes; forces, approaches and springs |
 //! | [`branches`] | loading and unloading with adhesion: jumps, limit points, loss of symmetry |
-//! | [`python`] | the Python package, and files for numpy |
 //! | [`choosing`] | grid, tolerance and precision for the accuracy you want; rounding and extreme input |
 //! | [`performance`] | the cost of a solve: applications, nested grids, time, memory, threads |
 //! | [`paper_checked`] | the paper's misprints; penalty and Uzawa beside projection |
-//! | [`tool`] | the command-line tool: scenes, studies, the keys of its reports, exit codes |
 //! | [`cluster`] | job scripts for studies, and solves on several processes by MPI |
 //! | [`driver`] | what the solver minimises, its certificate, one iteration step by step, and every constant in it |
 //! | [`architecture`] | the layers of the crate, the data's way, and places for new parts |
@@ -35,11 +33,9 @@ page!(own_operator);
 page!(own_constraint);
 page!(boundary);
 page!(branches);
-page!(python);
 page!(choosing);
 page!(performance);
 page!(paper_checked);
-page!(tool);
 page!(cluster);
 page!(driver);
 page!(architecture);

@@ -42,7 +42,7 @@
 //! ```
 //!
 //! The pages of the [`guide`] start with a [tour](guide::tour) from the gap to the certificate. Others are about laws,
-//! bodies and constraints of your own, boundaries, branches, accuracy, cost, Python, the tool and the solver.
+//! bodies and constraints of your own, boundaries, branches, accuracy, cost, clusters and the solver.
 //!
 //! # Conventions
 //!

@@ -20,7 +20,7 @@ use crate::slab::Slab;
 /// // no adhesion on the left half
 /// let work = grid.sample(|x, _| if x < 0.0 { 0.0 } else { 1e-5 });
 /// let law = Varying::new(Exponential::new(1e-5, 2e-3)?, work.view())?;
-/// assert_eq!(law.law().range(), 2e-3);
+/// assert_eq!(law.strongest(), (32, 0));
 /// # Ok::<(), asperity::Error>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
@@ -77,6 +77,15 @@ impl<L: AdhesionLaw<f64>> Varying<L> {
 }
 
 impl<L> Varying<L> {
+    /// The node with the largest work of adhesion, (ix, iy); the first of several. Where several processes share the
+    /// grid, all have to ask.
+    pub fn strongest(&self) -> (usize, usize) {
+        let own = flat(&self.shares).iter().position(|share| *share == self.largest);
+        let node = own.map_or(f64::INFINITY, |node| (self.slab.first_node() + node) as f64);
+        let (node, ny) = (self.slab.least(node) as usize, self.slab.shape().1);
+        (node / ny, node % ny)
+    }
+
     /// The law that varies.
     pub fn law(&self) -> &L {
         &self.law

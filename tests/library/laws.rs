@@ -233,6 +233,7 @@ fn flats_that_attract_in_patches_take_the_shape_of_the_closed_form() {
     let (range, mean) = (0.1, 0.02);
     let works = grid.sample(|x, _| 1e-3 * (1.0 + 0.5 * (std::f64::consts::TAU * x).cos()));
     let law = Varying::new(MaugisDugdale::new(1e-3, range).unwrap(), works.view()).unwrap();
+    assert_eq!(law.strongest(), (16, 0));
     assert!((AdhesionLaw::<f64>::hints(&law).work_of_adhesion - 1.5e-3).abs() < 1e-18);
     let mut problem = Problem::new(&flat, half_space, law).unwrap();
     let settings = Settings::default().tolerance(1e-10);

@@ -280,6 +280,7 @@ fn laws_that_vary_are_shared<T: Bits>(world: &World, shape: (usize, usize)) -> R
     let control = Control::MeanPressure(2e-3);
     let alone = Grid::new(shape, (1.0, shape.1 as f64 / shape.0 as f64))?;
     let shared = world.share(alone)?;
+    assert_eq!(law(&shared)?.strongest(), law(&alone)?.strongest());
     let found = compare::<T>(world, "varying law", alone, |grid| {
         let law = law(&grid)?;
         let mut problem = Problem::new(&rough(grid)?, Westergaard::<T>::new(grid, 1.0)?, &law)?;

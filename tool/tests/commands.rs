@@ -94,7 +94,7 @@ fn commands(text: &str) -> Vec<String> {
 /// The texts for people: the pages in Markdown and the documentation in the code, with their names.
 fn texts() -> Vec<(String, String)> {
     let (mut folders, mut files) =
-        (vec![root().join("src"), root().join("benches"), root().join("examples")], Vec::new());
+        (["src", "crates", "tool/src", "benches", "examples"].map(|folder| root().join(folder)).to_vec(), Vec::new());
     while let Some(folder) = folders.pop() {
         for entry in fs::read_dir(folder).unwrap() {
             let path = entry.unwrap().path();
@@ -103,7 +103,7 @@ fn texts() -> Vec<(String, String)> {
     }
     files.sort();
     files.insert(0, root().join("README.md"));
-    files.push(root().join("CHANGELOG.md"));
+    files.extend(["CHANGELOG.md", "tool/README.md", "tool/NUMPY.md"].map(|page| root().join(page)));
     let text = |path: PathBuf| {
         let is = |end: &str| path.extension().is_some_and(|extension| extension == end);
         let text = if is("md") || is("rs") { fs::read_to_string(&path).unwrap() } else { return None };
