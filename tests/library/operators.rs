@@ -485,7 +485,10 @@ fn every_operator_and_every_wrapper_keeps_the_contract() {
         check_operator(&mut boxed).unwrap();
     }
     fn all<T: Real>(grid: Grid) {
-        conforms(Westergaard::<T>::new(grid, 3.0).unwrap());
+        // the modulus of steel in Pa, and that of a gel in GPa
+        for modulus in [3.0, 2e11, 1e-6] {
+            conforms(Westergaard::<T>::new(grid, modulus).unwrap());
+        }
         conforms(Spectral::<T>::isotropic(grid, 1.0, |q| 10.0 + 0.5 * q).unwrap());
         conforms(Spectral::<T>::new(grid, 1.0, |qx, qy| 0.5 * (qx * qx + 2.0 * qy * qy).sqrt()).unwrap());
         if let Ok(free) = Boussinesq::<T>::new(grid, 2.0) {

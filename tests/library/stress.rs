@@ -358,6 +358,8 @@ const DECIDED: &[Decided] = &[
     ("STALL, the second", End::Stalled, &[(843, 200), (2090, 220), (2548, 110)]),
     ("CERTIFY", End::Converged, &[(1160, 20), (1337, 20), (1691, 20)]),
     ("STALL_REY2017", End::Converged, &[(1336, 250), (2576, 400)]),
+    // the proof of the end that fails
+    ("note_refutation", End::Converged, &[(7035, 40), (11144, 60), (18015, 140)]),
     // the trial at full length after one that failed
     ("preconditioned_step", End::Converged, &[(523, 200), (660, 200), (3726, 50)]),
 ];
