@@ -22,6 +22,7 @@ pub use goal::{Accuracy, AccurateSolution, Plan};
 /// The quantity of which an accuracy is asked.
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "kebab-case"))]
 pub enum Quantity {
     /// The contact area corrected for its edge,
     /// [`ContactArea::corrected_contact_fraction`](crate::contact::ContactArea::corrected_contact_fraction).

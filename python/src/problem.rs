@@ -3,7 +3,7 @@
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Instant;
 
-use asperity::accuracy::{Accuracy, AccurateSolution, GridError, Plan};
+use asperity::accuracy::{AccurateSolution, GridError, Plan};
 use asperity::contact::Original;
 use asperity::nested::NestedSolution;
 use asperity::path::{Event, Path, PathCheckpoint, PathSettings};
@@ -13,6 +13,7 @@ use asperity::{
     AdhesionLaw, ContactSearch, Control, ElasticOperator, Error, Grid, Nested, Real, Settings, Solution, Solver, Start,
     Status, Surface, Sweep, Topography,
 };
+use asperity_scene::{Branches, Goal, HalfSpace, Wall, planned, settings};
 use numpy::IntoPyArray;
 use numpy::ndarray::Array2;
 use pyo3::exceptions::PyValueError;
@@ -21,7 +22,7 @@ use pyo3::types::PyDict;
 
 use crate::account::{Account, Grids, Other, Reached, Scalar, Search};
 use crate::answer::answer;
-use crate::inputs::{Beyond, Goal, Load, Wall, accuracy, contact_fraction, control, settings};
+use crate::inputs::{Accuracy, Load, contact_fraction, control, goal, named};
 use crate::law::{law, strongest};
 use crate::numbers::Field;
 use crate::pools::Pool;
@@ -51,10 +52,8 @@ struct State<T: Real> {
     threads: Option<usize>,
     both: bool,
     nested: Option<bool>,
-    grid: Grid,
     solver: Solver<Wall>,
-    beyond: Beyond,
-    modulus: f64,
+    half_space: HalfSpace,
     strongest: Option<(usize, usize)>,
     /// the part of a mirrored surface that numbers are of, if they are not of the whole
     original: Option<Original>,
@@ -72,8 +71,7 @@ struct State<T: Real> {
 
 /// What a problem is made of beside its surface and its law.
 struct Made {
-    beyond: Beyond,
-    modulus: f64,
+    half_space: HalfSpace,
     wall: Wall,
     settings: Settings,
     /// Whether to solve on the other branch of equilibria, too.
@@ -112,7 +110,7 @@ trait Solves: Send {
         start: Option<Field<'py>>,
     ) -> PyResult<Option<Bound<'py, PyDict>>>;
     fn end_leg(&mut self);
-    fn plan(&self, py: Python<'_>, pool: &Pool, control: Control, goal: &Goal) -> PyResult<(Plan, f64)>;
+    fn plan(&self, py: Python<'_>, pool: &Pool, control: Control, goal: Goal) -> PyResult<(Plan, f64)>;
     fn stability<'py>(
         &mut self,
         py: Python<'py>,
@@ -139,11 +137,11 @@ impl<T: Scalar> State<T> {
         surface: Surface,
         law: Box<dyn AdhesionLaw<T>>,
         strongest: Option<(usize, usize)>,
-        Made { beyond, modulus, wall, settings, both, nested, threads, original, unit }: Made,
+        Made { half_space, wall, settings, both, nested, threads, original, unit }: Made,
     ) -> Self {
-        let grid = *surface.grid();
-        let mut warnings = beyond.warnings(&surface);
-        warnings.extend(Warning::of_modulus(modulus, &grid, unit.as_deref()));
+        let HalfSpace { boundary, modulus } = half_space;
+        let mut warnings = boundary.warnings(&surface);
+        warnings.extend(Warning::of_modulus(modulus, surface.grid(), unit.as_deref()));
         warnings.extend(Warning::of_law(&law, &surface, modulus));
         Self {
             body: Body::Surface(Arc::new(surface)),
@@ -151,10 +149,8 @@ impl<T: Scalar> State<T> {
             threads,
             both,
             nested,
-            grid,
             solver: Solver { settings, constraint: wall },
-            beyond,
-            modulus,
+            half_space,
             strongest,
             original,
             unit,
@@ -197,7 +193,7 @@ impl<T: Scalar> State<T> {
         if !asked || solution.report.status == Status::Stopped {
             return Ok(None);
         }
-        let problem = single(&mut self.body, &self.law, self.beyond, self.modulus)?;
+        let problem = single(&mut self.body, &self.law, self.half_space)?;
         let (wall, tolerance) = (&self.solver.constraint, ContactStiffness::TOLERANCE);
         ContactStiffness::of_constrained(problem, wall, solution, tolerance).map(Some)
     }
@@ -205,13 +201,13 @@ impl<T: Scalar> State<T> {
     /// The account of a solve to an accuracy.
     fn accurate(
         &self,
-        mut wanted: Accuracy<Wall>,
+        mut wanted: asperity::accuracy::Accuracy<Wall>,
         control: Control,
         observe: Observe<'_>,
     ) -> asperity::Result<Account<T>> {
         let Body::Surface(surface) = &self.body else { return Err(spent()) };
         let clock = Instant::now();
-        let half_space = |grid| self.beyond.half_space(grid, self.modulus);
+        let half_space = |grid| self.half_space.operator(grid);
         let found = wanted.solve_observed(surface, half_space, &self.law, control, |_, state| observe(state))?;
         let applications = found.equivalent_applications();
         let AccurateSolution { solution, surface, levels, reached, refinable, unaffordable, .. } = found;
@@ -231,7 +227,7 @@ impl<T: Scalar> State<T> {
         let Some(branch) = account.solution.report.branch.filter(|_| self.both) else { return Ok(account) };
         let settings = self.solver.settings.branch(branch.other());
         let mut solver = Solver { settings, ..self.solver.clone() };
-        let problem = single(&mut self.body, &self.law, self.beyond, self.modulus)?;
+        let problem = single(&mut self.body, &self.law, self.half_space)?;
         let found = solver.solve_with(problem, account.solution.report.control, Start::Default, observe)?;
         let (distance, same) = (found.distance(&account.solution), found.agrees_with(&account.solution));
         let original = self.original.map(|original| original.on(&found.grid)).transpose()?;
@@ -250,8 +246,8 @@ impl<T: Scalar> State<T> {
     ) -> asperity::Result<Option<Account<T>>> {
         let Body::Surface(surface) = &self.body else { return Ok(None) };
         let law = &self.law;
-        let (beyond, modulus, settings) = (self.beyond, self.modulus, self.solver.settings);
-        let half_space = |grid| beyond.half_space(grid, modulus);
+        let settings = self.solver.settings;
+        let half_space = |grid| self.half_space.operator(grid);
         let pays = || matches!(self.solver.constraint, Wall::Hard) && Nested::new(settings).pays(surface, law, control);
         if !self.nested.unwrap_or_else(|| begins && pays()) {
             return Ok(None);
@@ -275,11 +271,10 @@ impl<T: Scalar> State<T> {
 fn single<'a, T: Scalar>(
     body: &'a mut Body<T>,
     law: &Arc<dyn AdhesionLaw<T>>,
-    beyond: Beyond,
-    modulus: f64,
+    half_space: HalfSpace,
 ) -> asperity::Result<&'a mut Boxed<T>> {
     if let Body::Surface(surface) = body {
-        let half_space = beyond.half_space(*surface.grid(), modulus)?;
+        let half_space = half_space.operator(*surface.grid())?;
         if let Body::Surface(surface) = std::mem::replace(body, Body::Spent) {
             *body = Body::Problem(Box::new(asperity::Problem::new(&surface, half_space, law.clone())?));
         }
@@ -296,10 +291,7 @@ impl<T: Scalar> Solves for State<T> {
     fn solve<'py>(&mut self, py: Python<'py>, at: Run<'_>, request: Request<'py>) -> PyResult<Bound<'py, PyDict>> {
         let Request { control, fraction, start, stability, leave, stiffness, accuracy: goal } = request;
         let start = start.map(field::<T>);
-        let mut wanted = goal.map(|goal| accuracy(&goal, self.solver.clone())).transpose()?;
-        if let Some(wanted) = &mut wanted {
-            wanted.nested.stiffness = stiffness.then_some(ContactStiffness::TOLERANCE);
-        }
+        let wanted = goal.map(|goal| goal.by(self.solver.clone(), stiffness));
         let found = run(py, at.pool, at.observer, |observe: Observe<'_>| {
             if let Some(wanted) = wanted {
                 return self.accurate(wanted, control, observe);
@@ -310,7 +302,7 @@ impl<T: Scalar> Solves for State<T> {
                 return self.with_other(account, observe);
             }
             let clock = Instant::now();
-            let problem = single(&mut self.body, &self.law, self.beyond, self.modulus)?;
+            let problem = single(&mut self.body, &self.law, self.half_space)?;
             let (mut solution, search) = match fraction {
                 Some(fraction) => {
                     let mut search = ContactSearch::new(&mut self.solver, problem)?;
@@ -355,7 +347,7 @@ impl<T: Scalar> Solves for State<T> {
         let found = run(py, at.pool, at.observer, |observe: Observe<'_>| {
             let clock = Instant::now();
             if let Some(fraction) = fraction {
-                let problem = single(&mut self.body, &self.law, self.beyond, self.modulus)?;
+                let problem = single(&mut self.body, &self.law, self.half_space)?;
                 let (numbers, gap) = self.search.clone();
                 let mut search = ContactSearch::new(&mut self.solver, problem)?.continuing(&numbers, gap);
                 if let Some(start) = start {
@@ -373,7 +365,7 @@ impl<T: Scalar> Solves for State<T> {
             }
             let history = std::mem::take(&mut self.history);
             let kept = history.clone();
-            let problem = single(&mut self.body, &self.law, self.beyond, self.modulus)?;
+            let problem = single(&mut self.body, &self.law, self.half_space)?;
             let mut sweep = Sweep::new(&mut self.solver, problem, [control]).continuing(history);
             if let Some(start) = start {
                 sweep = sweep.starting_from(start);
@@ -402,7 +394,7 @@ impl<T: Scalar> Solves for State<T> {
         let start = start.map(field::<T>);
         let (found, raised) = run(py, at.pool, at.observer, |observe: Observe<'_>| -> asperity::Result<_> {
             let clock = Instant::now();
-            let problem = single(&mut self.body, &self.law, self.beyond, self.modulus)?;
+            let problem = single(&mut self.body, &self.law, self.half_space)?;
             let mut path = Path::new(&mut self.solver, problem, loads, settings)?;
             path = match (self.place.clone(), start) {
                 (Some(place), _) => path.continuing(place)?,
@@ -438,20 +430,10 @@ impl<T: Scalar> Solves for State<T> {
         self.leg_ends = true;
     }
 
-    fn plan(&self, py: Python<'_>, pool: &Pool, control: Control, goal: &Goal) -> PyResult<(Plan, f64)> {
+    fn plan(&self, py: Python<'_>, pool: &Pool, control: Control, goal: Goal) -> PyResult<(Plan, f64)> {
         let Body::Surface(surface) = &self.body else { return Err(refusal(spent())) };
-        let (wanted, law) = (accuracy(goal, self.solver.clone())?, &self.law);
-        let (beyond, grid, modulus) = (self.beyond, self.grid, self.modulus);
-        let plan = || {
-            let mut operator = beyond.half_space::<T>(grid, modulus)?;
-            let plan = wanted.plan(surface, &mut operator, law, control)?;
-            let mut fields = [(); 2].map(|()| Array2::<T>::zeros(operator.grid().shape()));
-            let [u, p] = &mut fields;
-            operator.pressure(u.view(), p.view_mut())?;
-            let clock = Instant::now();
-            operator.pressure(u.view(), p.view_mut())?;
-            Ok((plan, plan.applications * clock.elapsed().as_secs_f64()))
-        };
+        let (wanted, half_space, law) = (goal.by(self.solver.clone(), false), self.half_space, &self.law);
+        let plan = || planned(&wanted, surface, half_space, law, control);
         py.detach(|| pool.get().install(plan)).map_err(refusal)
     }
 
@@ -463,7 +445,7 @@ impl<T: Scalar> Solves for State<T> {
         (gap, relative_error): (Field<'py>, f64),
     ) -> PyResult<Bound<'py, PyDict>> {
         let gap = field::<T>(gap);
-        let problem = single(&mut self.body, &self.law, self.beyond, self.modulus).map_err(refusal)?;
+        let problem = single(&mut self.body, &self.law, self.half_space).map_err(refusal)?;
         let wall = &self.solver.constraint;
         let test = || StabilityTest::default().of_gap(problem, wall, control, &gap, relative_error);
         let found = py.detach(|| pool.get().install(test)).map_err(refusal)?;
@@ -536,12 +518,16 @@ impl Problem {
         original: Option<PyRef<'_, crate::original::Original>>,
         unit: Option<String>,
     ) -> PyResult<Self> {
-        let (settings, both) = (settings(tolerance, max_iterations, method, branch)?, branch == Some("both"));
+        let method = named("method", method, "default or rey2017")?;
+        let branches = branch.map(|name| named("branch", name, "loading, unloading or both")).transpose()?;
+        let (settings, both) =
+            (settings(method, tolerance, max_iterations, branches), branches == Some(Branches::Both));
         let pool = Pool::of(threads)?;
         let heights = heights.to_array()?;
-        let (beyond, wall) = (Beyond::of(boundary)?, Wall::of(wall)?);
+        let boundary = named("boundary", boundary, "periodic or free")?;
+        let (half_space, wall) = (HalfSpace { boundary, modulus }, named("wall", wall, "hard or none")?);
         let original = original.map(|original| original.0);
-        let made = Made { beyond, modulus, wall, settings, both, nested, threads, original, unit };
+        let made = Made { half_space, wall, settings, both, nested, threads, original, unit };
         let make = if absent_missing { Surface::with_absent } else { Surface::new };
         let surface = Grid::new(heights.dim(), lengths).and_then(|grid| make(grid, heights));
         let surface = surface.map_err(refusal_of_heights)?;
@@ -560,10 +546,10 @@ impl Problem {
 
     /// The plan of a solve to an accuracy.
     #[pyo3(signature = (load, accuracy))]
-    fn plan(&mut self, py: Python<'_>, load: Load, accuracy: Goal) -> PyResult<Planned> {
+    fn plan(&mut self, py: Python<'_>, load: Load, accuracy: Accuracy) -> PyResult<Planned> {
         let (pool, solves) = self.parts()?;
         let (Plan { nodes_per_wave, tolerance, shape, bytes, .. }, seconds) =
-            solves.plan(py, &pool, control(&load)?, &accuracy)?;
+            solves.plan(py, &pool, control(&load)?, goal(accuracy)?)?;
         Ok((nodes_per_wave, tolerance, shape, bytes, seconds))
     }
 
@@ -579,9 +565,10 @@ impl Problem {
         stability: bool,
         leave: bool,
         stiffness: bool,
-        accuracy: Option<Goal>,
+        accuracy: Option<Accuracy>,
     ) -> PyResult<Bound<'py, PyDict>> {
         let (control, fraction) = (control(&load)?, contact_fraction(&load));
+        let accuracy = accuracy.map(goal).transpose()?;
         let request = Request { control, fraction, start, stability, leave, stiffness, accuracy };
         let (pool, solves) = self.parts()?;
         solves.solve(py, Run { pool: &pool, observer: observe.as_ref() }, request)

@@ -1,21 +1,14 @@
 //! The accuracy that is asked for: its options, its plan, and what was reached.
 
-use std::time::Instant;
-
-use asperity::accuracy::{Accuracy, GridError, Plan, Quantity};
-use asperity::io::available_memory;
+use asperity::Report;
+use asperity::accuracy::{GridError, Plan, Quantity};
 use asperity::nested::Level;
-use asperity::{ElasticOperator, Real, Report, Result, Solver};
+use asperity_scene::{GIB, Goal};
 use clap::{Args, ValueEnum};
-use ndarray::Array2;
 use serde_json::{Map, Value, json};
 
-use crate::adhesion::Wall;
 use crate::allowed::positive;
 use crate::numbers::percent;
-
-/// The bytes of a GiB.
-const GIB: f64 = 1_073_741_824.0;
 
 /// The accuracy that is asked for, from which tolerance and grid follow.
 #[derive(Args)]
@@ -47,34 +40,20 @@ pub enum Of {
 }
 
 impl AccuracyOptions {
-    /// The accuracy, if one is asked for, by a solver; with the contact stiffness to a relative error, if that is
-    /// found.
-    pub fn goal(&self, solver: Solver<Wall>, stiffness: Option<f64>) -> Option<Accuracy<Wall>> {
-        let quantity = match self.accuracy_of.unwrap_or(Of::Area) {
+    /// The accuracy, if one is asked for.
+    pub fn goal(&self) -> Option<Goal> {
+        let of = match self.accuracy_of.unwrap_or(Of::Area) {
             Of::Area => Quantity::Area,
             Of::Gap => Quantity::Gap,
             Of::Pressure => Quantity::Pressure,
             Of::Stiffness => Quantity::Stiffness,
         };
-        let mut wanted = Accuracy::with_solver(self.accuracy?, quantity, solver);
-        wanted.memory = self.memory.map_or_else(available_memory, |memory| memory * GIB);
-        wanted.nested.stiffness = stiffness;
-        Some(wanted)
+        self.accuracy.map(|accuracy| Goal { accuracy, of, memory: self.memory })
     }
 }
 
-/// The seconds of an operator application.
-pub fn seconds_of<T: Real>(operator: &mut dyn ElasticOperator<T>) -> Result<f64> {
-    let mut fields = [(); 2].map(|()| Array2::<T>::zeros(operator.grid().shape()));
-    let [u, p] = &mut fields;
-    operator.pressure(u.view(), p.view_mut())?;
-    let clock = Instant::now();
-    operator.pressure(u.view(), p.view_mut())?;
-    Ok(clock.elapsed().as_secs_f64())
-}
-
-/// The plan in words, by the seconds of an operator application.
-pub fn announced<C>(wanted: &Accuracy<C>, plan: &Plan, application: f64) -> String {
+/// The plan of a goal in words, with the time in seconds.
+pub fn announced(goal: Goal, plan: &Plan, time: f64) -> String {
     let waves = if plan.nodes_per_wave.is_finite() {
         format!("the shortest wave has {:.1} nodes; ", plan.nodes_per_wave)
     } else {
@@ -82,12 +61,12 @@ pub fn announced<C>(wanted: &Accuracy<C>, plan: &Plan, application: f64) -> Stri
     };
     format!(
         "accuracy {} of the {}: {waves}likely {} x {} nodes, tolerance {:.0e}, about {}, {}",
-        wanted.target,
-        wanted.of,
+        goal.accuracy,
+        goal.of,
         plan.shape.0,
         plan.shape.1,
         plan.tolerance,
-        seconds(plan.applications * application),
+        seconds(time),
         bytes(plan.bytes)
     )
 }

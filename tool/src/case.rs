@@ -12,12 +12,11 @@ use asperity::stability::{ContactStiffness, Departure, Stability, StabilityTest,
 use asperity::{
     AdhesionLaw, ContactSearch, Control, Iteration, Nested, Problem, Report, Settings, Solution, Solver, Start, Surface,
 };
+use asperity_scene::{HalfSpace, Wall};
 use ndarray::Array2;
 use serde_json::Value;
 
 use crate::accuracy::Reached;
-use crate::adhesion::Wall;
-use crate::boundary::Boundary;
 use crate::numbers::percent;
 use crate::options::Scalar;
 use crate::outcome::Outcome;
@@ -25,8 +24,7 @@ use crate::progress::Progress;
 
 /// The case to solve: the material, the load and the settings; the surface and the law are apart.
 pub struct Case {
-    pub boundary: Boundary,
-    pub modulus: f64,
+    pub half_space: HalfSpace,
     /// The load; of no meaning where a contact fraction is wanted.
     pub control: Control,
     /// The contact fraction for which a load is to be found, if one is.
@@ -177,7 +175,7 @@ pub fn solve<T: Scalar, L: AdhesionLaw<T>>(
     }
     let clock = Instant::now();
     let grid = *surface.grid();
-    let mut problem = Problem::new(&surface, case.boundary.half_space(grid, case.modulus)?, law)?;
+    let mut problem = Problem::new(&surface, case.half_space.operator(grid)?, law)?;
     drop(surface);
     let start = start.as_ref().map_or(Start::Default, |start| Start::From(start));
     let mut solver = case.solver();
@@ -226,7 +224,7 @@ fn solve_nested<T: Scalar, L: AdhesionLaw<T>>(
     mut progress: Progress,
 ) -> Outcome<(Solution<T>, Account)> {
     let clock = Instant::now();
-    let half_space = |grid| case.boundary.half_space(grid, case.modulus);
+    let half_space = |grid| case.half_space.operator(grid);
     let tolerance = case.settings.tolerance_in::<T>();
     let found = Nested::with_solver(case.solver())
         .coarse_tolerance(GridError::COARSE_TOLERANCE)
@@ -257,7 +255,7 @@ pub fn solve_to<T: Scalar, L: AdhesionLaw<T>>(
     mut progress: Progress,
 ) -> Outcome<(Surface, Solution<T>, Account)> {
     let clock = Instant::now();
-    let half_space = |grid| case.boundary.half_space(grid, case.modulus);
+    let half_space = |grid| case.half_space.operator(grid);
     let tolerance = wanted.tolerance()?;
     let found = wanted.solve_observed(surface, half_space, &law, case.control, |grid, state| {
         progress.update_on(grid, state, tolerance);

@@ -3,7 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use asperity::io::read_field;
-use asperity::{Branch, Error, Real, Settings, Surface};
+use asperity::{Error, Method, Real, Settings, Surface};
+use asperity_scene::{Branches, HalfSpace, settings};
 use clap::{Args, ValueEnum};
 use ndarray::Array2;
 use ndarray_npy::WritableElement;
@@ -76,14 +77,6 @@ pub enum Iteration {
     Rey2017,
 }
 
-/// The branches of equilibria to solve on.
-#[derive(Clone, Copy, PartialEq, ValueEnum)]
-pub enum Branches {
-    Loading,
-    Unloading,
-    Both,
-}
-
 #[derive(Clone, Copy, PartialEq, ValueEnum)]
 pub enum Precision {
     F32,
@@ -154,6 +147,11 @@ impl SurfaceOptions {
     /// The contact modulus.
     pub fn modulus(&self) -> f64 {
         self.modulus.value
+    }
+
+    /// The half-space.
+    pub fn half_space(&self) -> HalfSpace {
+        HalfSpace { boundary: self.beyond.boundary, modulus: self.modulus() }
     }
 
     /// The pressure E* h'rms, of which a reduced pressure is a part; 1 where none is `wanted`.
@@ -234,16 +232,10 @@ impl SolverOptions {
 
     /// The settings, with the defaults of the method.
     pub fn settings(&self) -> Settings {
-        let default = match self.method {
-            Iteration::Default => Settings::default(),
-            Iteration::Rey2017 => Settings::rey2017(),
+        let method = match self.method {
+            Iteration::Default => Method::Preconditioned,
+            Iteration::Rey2017 => Method::Rey2017,
         };
-        default.tolerance(self.tolerance).max_iterations(self.max_iterations.unwrap_or(default.max_iterations)).branch(
-            match self.branch {
-                Some(Branches::Loading) => Some(Branch::Loading),
-                Some(Branches::Unloading) => Some(Branch::Unloading),
-                Some(Branches::Both) | None => None,
-            },
-        )
+        settings(method, self.tolerance, self.max_iterations, self.branch)
     }
 }

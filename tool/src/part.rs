@@ -5,9 +5,9 @@ use std::borrow::Cow;
 use asperity::contact::{ContactStatistics, Original};
 use asperity::warning::Warning;
 use asperity::{AdhesionLaw, Control, Grid, Real, Result, Solution};
+use asperity_scene::Boundary;
 use ndarray::Array2;
 
-use crate::boundary::Boundary;
 use crate::heights::Origin;
 use crate::outcome::Outcome;
 

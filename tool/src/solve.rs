@@ -9,6 +9,7 @@ use std::path::PathBuf;
 use asperity::contact::PressureDistribution;
 use asperity::io::{OutputFolder, write_npz, write_vti};
 use asperity::{AdhesionLaw, Control, Solution, Status, Surface};
+use asperity_scene::{Branches, planned};
 use clap::{ArgGroup, Args, ValueEnum};
 use ndarray::CowArray;
 use serde_json::Value;
@@ -16,11 +17,11 @@ use serde_json::Value;
 use crate::accuracy::{self, AccuracyOptions};
 use crate::adhesion::{Adhesion, AdhesionOptions, Law};
 use crate::allowed::bins;
-use crate::boundary::{LOAD, LoadOptions};
+use crate::boundary::{LOAD, LoadOptions, check_load};
 use crate::case::{self, Account, Case, Other};
 use crate::fields::write_fields;
 use crate::numbers::plain;
-use crate::options::{Branches, Given, Iteration, Precision, ProblemOptions, Scalar, SolverOptions, SurfaceOptions};
+use crate::options::{Given, Iteration, Precision, ProblemOptions, Scalar, SolverOptions, SurfaceOptions};
 use crate::outcome::Outcome;
 use crate::output::{at_destination, check_apart, output_folder, write_text};
 use crate::part::Part;
@@ -175,7 +176,7 @@ pub fn run(options: &Options, scene: &Scene, processes: &Processes) -> Outcome<b
     options.check_shared(processes)?;
     problem.adhesion.check()?;
     options.check_branches()?;
-    problem.surface.beyond.boundary.check(options.load.control(1.0))?;
+    check_load(problem.surface.beyond.boundary, options.load.control(1.0))?;
     let limits = options.colour_limits();
     if let Some((low, high)) = limits.filter(|(low, high)| low >= high) {
         return Err(format!("--colour-limits {} {}: the lower one must come first", plain(low), plain(high)).into());
@@ -253,13 +254,11 @@ impl Options {
 
     /// The case that the options choose, under a load.
     pub fn case(&self, control: Control) -> Case {
-        let SurfaceOptions { beyond, .. } = self.surface;
         let settings = self.solver.settings();
         let stability = self.stability || self.leave;
         let wall = self.adhesion.wall;
         Case {
-            boundary: beyond.boundary,
-            modulus: self.surface.modulus(),
+            half_space: self.surface.half_space(),
             control,
             fraction: self.load.contact_fraction,
             settings,
@@ -292,9 +291,9 @@ impl Job<'_> {
             self.leave_out_what_takes_whole_fields()?;
         }
         let start = start.map(T::field);
-        let mut wanted = self.options.accuracy.goal(self.case.solver(), self.case.stiffness_to());
-        let tolerance = match &wanted {
-            Some(wanted) => wanted.tolerance()?,
+        let goal = self.options.accuracy.goal();
+        let tolerance = match goal {
+            Some(goal) => goal.by(self.case.solver(), false).tolerance()?,
             None => self.case.settings.tolerance_in::<T>(),
         };
         let progress = Progress::new("", tolerance, grid.nodes(), printing.without_bars());
@@ -310,12 +309,11 @@ impl Job<'_> {
         })?;
         warnings.say()?;
         let law = adhesion.law()?;
-        let (solution, mut account) = if let Some(wanted) = &mut wanted {
-            let mut operator = self.case.boundary.half_space(grid, self.case.modulus)?;
-            let plan = wanted.plan::<T>(&surface, &mut operator, &law, self.case.control)?;
-            printing.say(&accuracy::announced(wanted, &plan, accuracy::seconds_of(&mut *operator)?));
-            drop(operator);
-            let (fine, solution, account) = case::solve_to(&surface, law, &self.case, wanted, progress)?;
+        let (solution, mut account) = if let Some(goal) = goal {
+            let mut wanted = goal.by(self.case.solver(), self.case.stiffness);
+            let (plan, time) = planned::<T>(&wanted, &surface, self.case.half_space, &law, self.case.control)?;
+            printing.say(&accuracy::announced(goal, &plan, time));
+            let (fine, solution, account) = case::solve_to(&surface, law, &self.case, &mut wanted, progress)?;
             grid = *fine.grid();
             self.part = self.part.on(grid)?;
             (solution, account)

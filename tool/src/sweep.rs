@@ -9,12 +9,13 @@ use asperity::{
     AdhesionLaw, ContactSearch, Control, ElasticOperator, Error, Iteration, Problem, Report, Solution, Solver, Status,
     Surface, Sweep,
 };
+use asperity_scene::{Boundary, Wall};
 use clap::{ArgGroup, Args, ValueEnum};
 use ndarray::{ArrayRef2, ArrayView2};
 use serde_json::{Map, Value, json};
 
-use crate::adhesion::{Adhesion, AdhesionOptions, Law, Wall};
-use crate::boundary::{Boundary, FractionsOptions, LOADS, LoadsOptions};
+use crate::adhesion::{Adhesion, AdhesionOptions, Law};
+use crate::boundary::{FractionsOptions, LOADS, LoadsOptions, check_load};
 use crate::case::Search;
 use crate::columns::{Cell, INPUTS, OUTCOME, SEARCH, STATE, STIFFNESS, inputs, outcome, search, state, stiffness};
 use crate::csv;
@@ -106,7 +107,7 @@ pub fn run(options: &Options, scene: &Scene, processes: &Processes) -> Outcome<b
     options.format()?;
     processes.first(|| options.plot.check(&options.out, options.force))?;
     options.solver.check_table()?;
-    options.surface.beyond.boundary.check(options.loads.control(0.0))?;
+    check_load(options.surface.beyond.boundary, options.loads.control(0.0))?;
     let given = options.problem().read(scene.is_si(), processes)?;
     match options.solver.precision {
         Precision::F32 => options.run::<f32>(given, scene, processes),
@@ -135,7 +136,7 @@ impl Options {
         let &Self { ref out, force, printing, strictness, .. } = self;
         let (fields, units) = (self.fields.as_deref(), &units);
         let (problem, part) = (self.problem(), &part);
-        let operator = self.surface.beyond.boundary.half_space(grid, self.surface.modulus())?;
+        let operator = self.surface.half_space().operator(grid)?;
         let nodes = *operator.grid();
         let options =
             TableOptions { problem, out, force, printing, scene, units, part, strictness, fields, processes, nodes };

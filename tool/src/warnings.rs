@@ -9,7 +9,6 @@ use clap::Args;
 use serde_json::{Value, json};
 
 use crate::adhesion::Adhesion;
-use crate::boundary::Boundary;
 use crate::heights::Origin;
 use crate::options::{ProblemOptions, Scalar};
 use crate::outcome::Outcome;
@@ -134,19 +133,12 @@ impl Warnings {
     ) -> Outcome<Self> {
         let law = adhesion.law::<T>()?;
         let mut warnings = Self::empty(strictness, units);
-        let mut found = Warning::of_surface(surface);
+        let mut found = options.surface.beyond.boundary.warnings(surface);
         let codes = codes_in_file(surface, origin);
         if !codes.is_empty() {
             // nothing else can be told of the heights
             found.retain(|warning| warning.code == WarningCode::Cells);
         }
-        // where nothing repeats, nothing has to meet, and a body that ends may be flat
-        let free = options.surface.beyond.boundary == Boundary::Free;
-        found.retain(|warning| match warning.code {
-            WarningCode::Tilt | WarningCode::OpenEdges | WarningCode::Ends => !free,
-            WarningCode::Flat => !free && surface.absent().is_none(),
-            _ => true,
-        });
         let modulus = options.surface.modulus();
         // a unit of pressure that is known says what the modulus is in
         let bare = units.pressure.is_none();
