@@ -223,6 +223,7 @@ const ORDERS: (f64, f64) = (0.5, 3.0);
 /// row, the area by a coarser grid. All others are [`rough`](Self::rough).
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct GridError {
     /// The error, relative to the value on the finest grid.
     pub relative: f64,

@@ -1,11 +1,8 @@
 //! The accuracy that is asked for: its options, its plan, and what was reached.
 
-use asperity::Report;
 use asperity::accuracy::{GridError, Plan, Quantity};
-use asperity::nested::Level;
-use asperity_scene::{GIB, Goal};
+use asperity_scene::{Account, GIB, Goal, GridErrors, Reached};
 use clap::{Args, ValueEnum};
-use serde_json::{Map, Value, json};
 
 use crate::allowed::positive;
 use crate::numbers::percent;
@@ -80,75 +77,44 @@ fn seconds(seconds: f64) -> String {
 }
 
 /// Bytes in words.
-pub fn bytes(bytes: f64) -> String {
+fn bytes(bytes: f64) -> String {
     if bytes < GIB { format!("{:.0} MiB", bytes * 1024.0 / GIB) } else { format!("{:.1} GiB", bytes / GIB) }
 }
 
-/// The result of a solve to an accuracy.
-pub struct Reached {
-    pub accuracy: f64,
-    pub of: Quantity,
-    pub reached: bool,
-    pub error: Option<GridError>,
-    /// The next finer grid, and its bytes, if that was too much.
-    pub unaffordable: Option<((usize, usize), f64)>,
-    /// Whether the surface could have been refined.
-    pub refinable: bool,
-}
-
-impl Reached {
-    /// The estimated error in words.
-    pub fn estimate(&self) -> String {
-        self.error.map_or("unknown".to_owned(), |error| estimate(&error, self.of))
-    }
-
-    /// The reason why the accuracy was not reached, with a remedy.
-    pub fn reason(&self) -> String {
-        match self.unaffordable {
-            Some(((nx, ny), size)) => {
-                format!("{nx} x {ny} nodes would be next, and take {}: raise --memory, or ask for less", bytes(size))
-            }
-            None if !self.refinable => {
-                "a single node, absent nodes, and a work of adhesion from a map are known on this grid alone: give a finer one"
-                    .to_owned()
-            }
-            None => "the solve has not converged".to_owned(),
+/// The reason why an accuracy was not reached, with a remedy.
+pub fn reason(reached: &Reached) -> String {
+    match reached.unaffordable {
+        Some(((nx, ny), size)) => {
+            format!("{nx} x {ny} nodes would be next, and take {}: raise --memory, or ask for less", bytes(size))
         }
+        None if !reached.refinable => {
+            "a single node, absent nodes, and a work of adhesion from a map are known on this grid alone: give a finer one"
+                .to_owned()
+        }
+        None => "the solve has not converged".to_owned(),
     }
 }
 
-/// An estimated error in words.
-fn estimate(error: &GridError, of: Quantity) -> String {
-    format!("{} % of the {of}{}", percent(error.relative), if error.rough { ", roughly" } else { "" })
-}
-
-/// Why no error is estimated, in words, with a remedy where the waves of the surface are the reason.
-pub fn unknown(nodes_per_wave: f64) -> String {
+/// The estimated error of the grid in words: that of the quantity that has an accuracy; or that of the area, if it can
+/// be told, and those that are sure; or why there is none, with a remedy where the waves of the surface are the reason.
+pub fn estimate(account: &Account) -> String {
+    let of_accuracy = account.accuracy.map(|reached| reached.of);
+    let counts = |of: Quantity, error: &GridError| match of_accuracy {
+        Some(wanted) => of == wanted,
+        None => of == Quantity::Area || !error.rough,
+    };
+    let told = account.grid_error.iter().flat_map(GridErrors::all).filter_map(|(of, error)| {
+        let error = error.filter(|error| counts(of, error))?;
+        Some(format!("{} % of the {of}{}", percent(error.relative), if error.rough { ", roughly" } else { "" }))
+    });
+    let words: Vec<_> = told.collect();
     let least = GridError::LEAST_NODES_PER_WAVE;
-    if nodes_per_wave >= least {
+    if !words.is_empty() {
+        return words.join(", ");
+    } else if of_accuracy.is_some() || account.nodes_per_wave >= least {
         return "unknown".to_owned();
     }
     // rounded down: 3.96 nodes are not the 4.0 that are needed
-    let has = (10.0 * nodes_per_wave).floor() / 10.0;
+    let has = (10.0 * account.nodes_per_wave).floor() / 10.0;
     format!("unknown: the shortest wave has {has:.1} nodes and needs {least}: refine the map (--accuracy)")
-}
-
-/// The estimated errors of the finest of some grids, by quantity; `null` where one cannot be told, or is given.
-pub fn errors(levels: &[Level], report: &Report, nodes_per_wave: f64) -> Value {
-    let all = GridError::of_all(levels, report, nodes_per_wave);
-    let told =
-        |GridError { relative, order, rough, .. }| json!({ "relative": relative, "order": order, "rough": rough });
-    Value::Object(
-        all.map(|(of, error)| (of.name().to_owned(), error.map(told).into())).into_iter().collect::<Map<_, _>>(),
-    )
-}
-
-/// The estimated errors in words: that of the area, if it can be told, and those that are sure.
-pub fn told_errors(levels: &[Level], report: &Report, nodes_per_wave: f64) -> Option<String> {
-    let all = GridError::of_all(levels, report, nodes_per_wave).into_iter();
-    let told = all.filter_map(|(of, error)| {
-        error.filter(|error| of == Quantity::Area || !error.rough).map(|error| estimate(&error, of))
-    });
-    let words: Vec<_> = told.collect();
-    (!words.is_empty()).then(|| words.join(", "))
 }

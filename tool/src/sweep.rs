@@ -9,14 +9,13 @@ use asperity::{
     AdhesionLaw, ContactSearch, Control, ElasticOperator, Error, Iteration, Problem, Report, Solution, Solver, Status,
     Surface, Sweep,
 };
-use asperity_scene::{Boundary, Wall};
+use asperity_scene::{Boundary, Search, Wall};
 use clap::{ArgGroup, Args, ValueEnum};
 use ndarray::{ArrayRef2, ArrayView2};
 use serde_json::{Map, Value, json};
 
 use crate::adhesion::{Adhesion, AdhesionOptions, Law};
 use crate::boundary::{FractionsOptions, LOADS, LoadsOptions, check_load};
-use crate::case::Search;
 use crate::columns::{Cell, INPUTS, OUTCOME, SEARCH, STATE, STIFFNESS, inputs, outcome, search, state, stiffness};
 use crate::csv;
 use crate::identity::{Identity, identity};
@@ -27,6 +26,7 @@ use crate::pictures::PlotOptions;
 use crate::printing::{Printing, complain, name};
 use crate::processes::Processes;
 use crate::scene::Scene;
+use crate::summary::jump;
 use crate::table::{self, Table, TableOptions};
 use crate::units::UnitOptions;
 use crate::warnings::Strictness;
@@ -202,7 +202,7 @@ impl Options {
             table.append(&row, &shown)?;
             self.printing.say(&format!("{:>width$}/{count}  {}", k + 1, table::brief(&shown.report, units)));
             if let Some(searched) = searched.filter(|searched| converged && !searched.reached) {
-                complain("warning", &format!("row {}: {}", k + 1, searched.told()));
+                complain("warning", &format!("row {}: {}", k + 1, jump(&searched)));
             }
         }
         let text = table.text()?;

@@ -39,7 +39,7 @@ impl Goal {
 ///
 /// # Errors
 /// Those of the operator and of [`Accuracy::plan`].
-pub fn planned<T: Real>(
+pub(crate) fn planned<T: Real>(
     wanted: &Accuracy<Wall>,
     surface: &Surface,
     half_space: HalfSpace,
