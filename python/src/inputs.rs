@@ -47,8 +47,3 @@ pub fn goal((accuracy, of, memory): Accuracy) -> PyResult<Goal> {
         Some(memory) => Err(PyValueError::new_err(format!("memory is {memory}: it must be positive, in GiB"))),
     }
 }
-
-/// The stiffness of a spring, if the load is one.
-pub fn stiffness(control: Control) -> Option<f64> {
-    if let Control::Spring { stiffness, .. } = control { Some(stiffness) } else { None }
-}

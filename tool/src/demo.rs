@@ -108,7 +108,7 @@ pub fn run(options: &Options) -> Outcome<bool> {
                 ControlFlow::Continue(())
             })?;
         let mut account = found.account("solve", &options.inputs(&part, &units, scene), None, Vec::new())?;
-        found.look(&mut account)?;
+        found.sight.look_at(&mut account, &found.solution)?;
         Ok((found.solution, account))
     };
     let none = Box::new(NoAdhesion);

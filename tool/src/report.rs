@@ -26,7 +26,7 @@ pub fn inputs(
     Inputs {
         heights: path(Some(&surface.heights)),
         initial_gap: path(solver.initial_gap.as_deref()),
-        part: part.name(),
+        part: part.name().map(str::to_owned),
         solved_shape: part.solved(),
         shape: part.grid().shape(),
         lengths: part.grid().lengths(),

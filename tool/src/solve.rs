@@ -337,16 +337,15 @@ impl Job<'_> {
         let whole = if fits { found.solution.gathered() } else { None };
         let look = |whole: &Cow<'_, _>| warnings.look_at(whole, &self.part);
         processes.agree(whole.as_ref().map_or(Ok(()), look))?;
-        drop(whole);
         let inputs = self.options.inputs(&self.part, &self.units, self.scene);
         let mut account = found.account("solve", &inputs, adhesion.strongest(), warnings.found().to_vec())?;
-        found.look(&mut account)?;
-        let (solution, mut mode) = (found.solution, found.mode.map(|mode| mode.mapv_into_any(T::widen)));
+        found.sight.look_at(&mut account, &found.solution)?;
+        let (solution, mut mode) = (&found.solution, found.mode.map(|mode| mode.mapv_into_any(T::widen)));
 
         let folder = processes.is_first().then(|| output_folder(out, &FILES, *force)).transpose();
         let folder = processes.agree(folder)?;
         if self.options.writes(Format::Npy) {
-            let (shown, part) = (&*self.part.of_solution(&solution)?, self.part.grid());
+            let (shown, part) = (&*self.part.of_solution(solution)?, self.part.grid());
             let gap = gap_to_write(shown);
             let fields = [&*gap, &shown.pressure, &shown.contact_pressure];
             let named: Vec<_> = FIELDS.into_iter().map(str::to_owned).zip(fields).collect();
@@ -359,7 +358,6 @@ impl Job<'_> {
         if let Some(mode) = mode.as_mut().filter(|_| fits && grid.is_shared()) {
             *mode = grid.gathered(mode).map(CowArray::into_owned).unwrap_or_default();
         }
-        let whole = if fits { solution.gathered() } else { None };
         processes.first(|| {
             let Some(folder) = folder else { return Ok(()) };
             let law = whole_adhesion.as_ref().map(Adhesion::law).transpose()?;

@@ -2,10 +2,10 @@
 
 use asperity::contact::Patch;
 use asperity::{Branch, Control, Criterion, Method, Report, Status};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-use crate::entries::{GridErrors, GridLevel, Left, OtherBranch, Reached, Search, Steadiness};
+use crate::entries::{GridErrors, GridLevel, Left, OtherBranch, Reached, Search, Steadiness, list};
 use crate::half_space::Boundary;
 use crate::told::Told;
 use crate::wall::Wall;
@@ -95,6 +95,7 @@ pub struct Account {
     /// The resolution measure μ_ρ.
     pub mu_rho: f64,
     /// The node with the largest work of adhesion, where that varies.
+    #[serde(serialize_with = "list")]
     pub mu_rho_node: Option<(usize, usize)>,
     /// Whether the grid does not resolve the adhesion.
     pub under_resolved: bool,
@@ -181,19 +182,22 @@ pub struct Inputs {
     /// The file of the gap from which the solve started, or a word for it.
     pub initial_gap: Option<String>,
     /// The part of a mirrored map that results are of.
-    pub part: Option<&'static str>,
+    pub part: Option<String>,
     /// The nodes that are solved, if results are of fewer.
+    #[serde(serialize_with = "list")]
     pub solved_shape: Option<(usize, usize)>,
     /// The nodes of the results.
+    #[serde(serialize_with = "list")]
     pub shape: (usize, usize),
     /// The side lengths of the results.
+    #[serde(serialize_with = "list")]
     pub lengths: (f64, f64),
     /// The unit of lengths, if it is known.
     pub length_unit: Option<String>,
     /// The unit of pressures, if it is known.
     pub pressure_unit: Option<String>,
     /// The quantities as they were typed, if they have units.
-    pub given: Value,
+    pub given: Option<Value>,
     /// The boundary.
     pub boundary: Boundary,
     /// The contact modulus.
@@ -216,7 +220,7 @@ pub struct Inputs {
 }
 
 /// The adhesion and the wall, by their names in every report.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Adhesion {
     /// The name of the law.
     pub law: String,

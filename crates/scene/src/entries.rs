@@ -5,7 +5,7 @@ use asperity::nested::Level;
 use asperity::search::FoundContact;
 use asperity::stability::{Stability, Verdict};
 use asperity::{Branch, Report, Status};
-use serde::Serialize;
+use serde::{Serialize, Serializer};
 
 /// The equilibrium on the other branch, and its distance.
 #[derive(Clone, Debug, Serialize)]
@@ -59,6 +59,7 @@ impl OtherBranch {
 #[derive(Clone, Debug, Serialize)]
 pub struct GridLevel {
     /// The nodes (Nx, Ny) of the grid.
+    #[serde(serialize_with = "list")]
     pub shape: (usize, usize),
     /// The status of its solve.
     pub status: Status,
@@ -213,4 +214,15 @@ pub struct Left {
     pub energy_drop: f64,
     /// The distance to the next equilibrium in the energy norm.
     pub distance: f64,
+}
+
+/// A pair, if there is one, as a list: in Python a tuple would be another value.
+pub(crate) fn list<P, T, S>(pair: &P, serializer: S) -> Result<S::Ok, S::Error>
+where
+    P: Copy + Into<Option<(T, T)>>,
+    T: Serialize,
+    S: Serializer,
+{
+    let pair: Option<(T, T)> = (*pair).into();
+    pair.map(|(first, second)| vec![first, second]).serialize(serializer)
 }

@@ -149,18 +149,18 @@ impl<T: Real> Found<T> {
         self.sight.tell(&mut account);
         Ok(account)
     }
-
-    /// The keys of the account that are found of the fields, and the statistics of the contact.
-    ///
-    /// # Errors
-    /// [`Error::Shape`](asperity::Error::Shape) if the solution is not one of the whole of an original.
-    pub fn look(&mut self, account: &mut Account) -> Result<ContactStatistics> {
-        let Solution { gap, pressure, contact_pressure, .. } = &self.solution;
-        self.sight.look(account, [gap.view(), pressure.view(), contact_pressure.view()])
-    }
 }
 
 impl<T: Real> Sight<T> {
+    /// Looks at the fields of the solution, as [`Sight::look`].
+    ///
+    /// # Errors
+    /// Those of [`Sight::look`].
+    pub fn look_at(&mut self, account: &mut Account, solution: &Solution<T>) -> Result<ContactStatistics> {
+        let Solution { gap, pressure, contact_pressure, .. } = solution;
+        self.look(account, [gap.view(), pressure.view(), contact_pressure.view()])
+    }
+
     /// Looks at gap, pressure and contact pressure: fills in the keys of the account that are found of them, and
     /// returns the statistics of the contact. All processes that share the grid have to look.
     ///
