@@ -39,22 +39,13 @@ struct State<T: Scalar> {
 /// The gap from which a solve starts, if one is given.
 pub type Begin<'py> = Option<Field<'py>>;
 
+/// The dictionary of what a solve found.
+type Answered<'py> = PyResult<Bound<'py, PyDict>>;
+
 /// What a problem does in either precision.
 pub trait Solves: Send {
-    fn solve<'py>(
-        &mut self,
-        py: Python<'py>,
-        run: Run<'_>,
-        asked: Asked,
-        start: Begin<'py>,
-    ) -> PyResult<Bound<'py, PyDict>>;
-    fn next_load<'py>(
-        &mut self,
-        py: Python<'py>,
-        run: Run<'_>,
-        asked: Asked,
-        start: Begin<'py>,
-    ) -> PyResult<Bound<'py, PyDict>>;
+    fn solve<'py>(&mut self, py: Python<'py>, run: Run<'_>, asked: Asked, start: Begin<'py>) -> Answered<'py>;
+    fn next_load<'py>(&mut self, py: Python<'py>, run: Run<'_>, asked: Asked, start: Begin<'py>) -> Answered<'py>;
     fn next_step<'py>(
         &mut self,
         py: Python<'py>,
@@ -103,13 +94,7 @@ impl<T: Scalar> State<T> {
 }
 
 impl<T: Scalar> Solves for State<T> {
-    fn solve<'py>(
-        &mut self,
-        py: Python<'py>,
-        at: Run<'_>,
-        asked: Asked,
-        start: Begin<'py>,
-    ) -> PyResult<Bound<'py, PyDict>> {
+    fn solve<'py>(&mut self, py: Python<'py>, at: Run<'_>, asked: Asked, start: Begin<'py>) -> Answered<'py> {
         let start = start.map(field::<T>);
         let found = run(py, at.pool, at.observer, |observe: Observe<'_>| {
             let found = self.posed.solve(&asked, start, &mut |_, state, _| observe(state))?;
@@ -118,13 +103,8 @@ impl<T: Scalar> Solves for State<T> {
         answer(py, self.threads, found)
     }
 
-    fn next_load<'py>(
-        &mut self,
-        py: Python<'py>,
-        at: Run<'_>,
-        Asked { control, fraction, stiffness, .. }: Asked,
-        start: Begin<'py>,
-    ) -> PyResult<Bound<'py, PyDict>> {
+    fn next_load<'py>(&mut self, py: Python<'py>, at: Run<'_>, asked: Asked, start: Begin<'py>) -> Answered<'py> {
+        let Asked { control, fraction, stiffness, .. } = asked;
         let start = start.map(field::<T>);
         let found = run(py, at.pool, at.observer, |observe: Observe<'_>| {
             let clock = Instant::now();

@@ -7,100 +7,68 @@ use asperity::stability::{Stability, Verdict};
 use asperity::{Branch, Report, Status};
 use serde::{Serialize, Serializer};
 
-/// The equilibrium on the other branch, and its distance.
-#[derive(Clone, Debug, Serialize)]
-pub struct OtherBranch {
-    /// The branch.
-    pub branch: Option<Branch>,
-    /// The status.
-    pub status: Status,
-    /// The certified relative error.
-    pub relative_error: f64,
-    /// The error of the load.
-    pub load_error: f64,
-    /// The number of operator applications.
-    pub operator_applications: usize,
-    /// The share of the nodes in contact.
-    pub contact_fraction: f64,
-    /// The mean gap.
-    pub mean_gap: f64,
-    /// The mean external pressure.
-    pub mean_pressure: f64,
-    /// The elastic energy.
-    pub elastic_energy: f64,
-    /// The adhesive energy.
-    pub adhesive_energy: f64,
-    /// The distance in the energy norm; see [`Solution::distance`](asperity::Solution::distance).
-    pub distance: f64,
-    /// Whether the equilibrium is one.
-    pub same: bool,
-}
+use crate::record::record;
 
-impl OtherBranch {
-    pub(crate) fn of(report: &Report, distance: f64, same: bool) -> Self {
-        Self {
-            branch: report.branch,
-            status: report.status,
-            relative_error: report.relative_error,
-            load_error: report.load_error,
-            operator_applications: report.operator_applications,
-            contact_fraction: report.contact_fraction,
-            mean_gap: report.mean_gap,
-            mean_pressure: report.mean_pressure,
-            elastic_energy: report.elastic_energy,
-            adhesive_energy: report.adhesive_energy,
-            distance,
-            same,
-        }
+record! {
+    /// The equilibrium on the other branch, and its distance.
+    #[derive(Clone, Debug, Serialize)]
+    OtherBranch of (report: &Report, distance: f64, same: bool) {
+        /// The branch.
+        branch: Option<Branch> = report.branch,
+        /// The status.
+        status: Status = report.status,
+        /// The certified relative error.
+        relative_error: f64 = report.relative_error,
+        /// The error of the load.
+        load_error: f64 = report.load_error,
+        /// The number of operator applications.
+        operator_applications: usize = report.operator_applications,
+        /// The share of the nodes in contact.
+        contact_fraction: f64 = report.contact_fraction,
+        /// The mean gap.
+        mean_gap: f64 = report.mean_gap,
+        /// The mean external pressure.
+        mean_pressure: f64 = report.mean_pressure,
+        /// The elastic energy.
+        elastic_energy: f64 = report.elastic_energy,
+        /// The adhesive energy.
+        adhesive_energy: f64 = report.adhesive_energy,
+        /// The distance in the energy norm; see [`Solution::distance`](asperity::Solution::distance).
+        distance: f64 = distance,
+        /// Whether the equilibrium is one.
+        same: bool = same,
     }
 }
 
-/// The cost of one of the nested grids, with that of its problem, and its results; see [`Level`].
-#[derive(Clone, Debug, Serialize)]
-pub struct GridLevel {
-    /// The nodes (Nx, Ny) of the grid.
-    #[serde(serialize_with = "list")]
-    pub shape: (usize, usize),
-    /// The status of its solve.
-    pub status: Status,
-    /// The number of steps.
-    pub iterations: usize,
-    /// The number of operator applications.
-    pub operator_applications: usize,
-    /// The certified relative error.
-    pub relative_error: f64,
-    /// The mean gap.
-    pub mean_gap: f64,
-    /// The mean external pressure.
-    pub mean_pressure: f64,
-    /// The mean contact pressure.
-    pub mean_contact_pressure: f64,
-    /// The elastic energy.
-    pub elastic_energy: f64,
-    /// The share of the nodes in contact.
-    pub contact_fraction: f64,
-    /// The contact area within its edge between the nodes.
-    pub corrected_contact_fraction: f64,
-    /// The contact stiffness, if it was asked for.
-    pub contact_stiffness: Option<f64>,
-}
-
-impl GridLevel {
-    pub(crate) fn of(level: &Level) -> Self {
-        Self {
-            shape: level.shape,
-            status: level.status,
-            iterations: level.iterations,
-            operator_applications: level.operator_applications,
-            relative_error: level.relative_error,
-            mean_gap: level.mean_gap,
-            mean_pressure: level.mean_pressure,
-            mean_contact_pressure: level.mean_contact_pressure,
-            elastic_energy: level.elastic_energy,
-            contact_fraction: level.area.contact_fraction,
-            corrected_contact_fraction: level.area.corrected_contact_fraction,
-            contact_stiffness: level.stiffness.map(|found| found.pressure_per_length),
-        }
+record! {
+    /// The cost of one of the nested grids, with that of its problem, and its results; see [`Level`].
+    #[derive(Clone, Debug, Serialize)]
+    GridLevel of (level: &Level) {
+        /// The nodes (Nx, Ny) of the grid.
+        #[serde(serialize_with = "list")]
+        shape: (usize, usize) = level.shape,
+        /// The status of its solve.
+        status: Status = level.status,
+        /// The number of steps.
+        iterations: usize = level.iterations,
+        /// The number of operator applications.
+        operator_applications: usize = level.operator_applications,
+        /// The certified relative error.
+        relative_error: f64 = level.relative_error,
+        /// The mean gap.
+        mean_gap: f64 = level.mean_gap,
+        /// The mean external pressure.
+        mean_pressure: f64 = level.mean_pressure,
+        /// The mean contact pressure.
+        mean_contact_pressure: f64 = level.mean_contact_pressure,
+        /// The elastic energy.
+        elastic_energy: f64 = level.elastic_energy,
+        /// The share of the nodes in contact.
+        contact_fraction: f64 = level.area.contact_fraction,
+        /// The contact area within its edge between the nodes.
+        corrected_contact_fraction: f64 = level.area.corrected_contact_fraction,
+        /// The contact stiffness, if it was asked for.
+        contact_stiffness: Option<f64> = level.stiffness.map(|found| found.pressure_per_length),
     }
 }
 
@@ -172,36 +140,24 @@ impl Search {
     }
 }
 
-/// The stability of an equilibrium; see [`Stability`].
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct Steadiness {
-    /// The verdict.
-    pub verdict: Verdict,
-    /// The smallest eigenvalue.
-    pub eigenvalue: f64,
-    /// The residual of its mode.
-    pub residual: f64,
-    /// A lower bound of the eigenvalue.
-    pub lower_bound: f64,
-    /// A bound of the error of the gap.
-    pub error_bound: Option<f64>,
-    /// Whether the law was smoothed.
-    pub smoothed: bool,
-    /// The number of operator applications, those for the bound included.
-    pub operator_applications: usize,
-}
-
-impl Steadiness {
-    pub(crate) fn of<T>(found: &Stability<T>) -> Self {
-        Self {
-            verdict: found.verdict,
-            eigenvalue: found.eigenvalue,
-            residual: found.residual,
-            lower_bound: found.lower_bound,
-            error_bound: found.error_bound,
-            smoothed: found.smoothed,
-            operator_applications: found.operator_applications + found.bound_applications,
-        }
+record! {
+    /// The stability of an equilibrium; see [`Stability`].
+    #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+    Steadiness of <T> (found: &Stability<T>) {
+        /// The verdict.
+        verdict: Verdict = found.verdict,
+        /// The smallest eigenvalue.
+        eigenvalue: f64 = found.eigenvalue,
+        /// The residual of its mode.
+        residual: f64 = found.residual,
+        /// A lower bound of the eigenvalue.
+        lower_bound: f64 = found.lower_bound,
+        /// A bound of the error of the gap.
+        error_bound: Option<f64> = found.error_bound,
+        /// Whether the law was smoothed.
+        smoothed: bool = found.smoothed,
+        /// The number of operator applications, those for the bound included.
+        operator_applications: usize = found.operator_applications + found.bound_applications,
     }
 }
 

@@ -12,7 +12,7 @@ use asperity::{AdhesionLaw, Grid, Real, Report, Result, Solution, Surface};
 use ndarray::{Array2, ArrayView2};
 
 use crate::account::{Account, Inputs};
-use crate::entries::{GridErrors, GridLevel, Left, OtherBranch, Reached, Search, Steadiness};
+use crate::entries::{GridErrors, Left, OtherBranch, Reached, Search, Steadiness};
 use crate::told::Told;
 
 /// The solution of a contact problem, with all that was asked for beside it.
@@ -21,8 +21,10 @@ pub struct Found<T> {
     pub solution: Solution<T>,
     /// The sight of the solution.
     pub sight: Sight<T>,
-    /// The nested grids, if they were used, and the operator applications on all of them in units of one on the finest.
-    pub grids: Option<(Vec<Level>, f64)>,
+    /// The nested grids, if they were used.
+    pub levels: Option<Vec<Level>>,
+    /// The operator applications on all of them, in units of one on the finest.
+    pub equivalent_applications: Option<f64>,
     /// The surface on the grid of the solution, if an accuracy was asked for.
     pub refined: Option<Surface>,
     /// The end of a solve to an accuracy, if one was asked for.
@@ -51,7 +53,7 @@ pub struct Sight<T> {
     /// The report on the whole.
     report: Report,
     /// The surface and the nested grids, whose errors are estimated with the first look.
-    open: Option<(Arc<Surface>, Vec<Level>)>,
+    pub(crate) open: Option<(Arc<Surface>, Vec<Level>)>,
     /// The errors that are known, and the nodes of the shortest wave.
     errors: Option<(GridErrors, f64)>,
 }
@@ -70,7 +72,8 @@ impl<T: Real> Found<T> {
         Ok(Self {
             solution,
             sight: Sight { law, original, grid, report, open: None, errors: None },
-            grids: None,
+            levels: None,
+            equivalent_applications: None,
             refined: None,
             accuracy: None,
             search: None,
@@ -83,20 +86,10 @@ impl<T: Real> Found<T> {
         })
     }
 
-    /// The same by nested grids, of a surface whose errors are estimated later.
-    pub(crate) fn nested(mut self, levels: Vec<Level>, applications: f64, surface: Arc<Surface>) -> Self {
-        self.stiffness = levels.last().and_then(|finest| finest.stiffness);
-        self.sight.open = Some((surface, levels.clone()));
-        self.grids = Some((levels, applications));
-        self
-    }
-
-    /// The same by nested grids to an accuracy, of a surface on the finest of them.
-    pub(crate) fn accurate(mut self, levels: Vec<Level>, applications: f64, surface: Surface, by: Reached) -> Self {
-        self.stiffness = levels.last().and_then(|finest| finest.stiffness);
-        self.sight.estimate(&surface, &levels);
-        self.grids = Some((levels, applications));
-        Self { refined: Some(surface), accuracy: Some(by), ..self }
+    /// The same by nested grids, with the applications on all of them.
+    pub(crate) fn by(self, levels: Vec<Level>, applications: f64) -> Self {
+        let stiffness = levels.last().and_then(|finest| finest.stiffness);
+        Self { levels: Some(levels), equivalent_applications: Some(applications), stiffness, ..self }
     }
 
     /// The probable mistakes that the solution shows.
@@ -130,22 +123,7 @@ impl<T: Real> Found<T> {
             tolerance: report.tolerance,
             ..inputs.clone()
         };
-        let (levels, applications) = self.grids.as_ref().map(|(levels, applications)| (levels, *applications)).unzip();
-        let mut account = Account {
-            levels: levels.map(|levels| levels.iter().map(GridLevel::of).collect()),
-            equivalent_applications: applications,
-            accuracy: self.accuracy,
-            search: self.search,
-            other_branch: self.other_branch.clone(),
-            stability: self.stability,
-            contact_stiffness: self.stiffness.map(|found| found.pressure_per_length),
-            normal_stiffness: self.stiffness.map(|found| share * found.force_per_length),
-            departures: self.departures.clone(),
-            mu_rho_node: strongest,
-            warnings,
-            seconds: self.seconds,
-            ..Account::of(command, report, inputs)
-        };
+        let mut account = Account::of(command, self, report, share, inputs, strongest, warnings);
         self.sight.tell(&mut account);
         Ok(account)
     }
@@ -197,7 +175,7 @@ impl<T: Real> Sight<T> {
     }
 
     /// Estimates the errors of nested grids of a surface.
-    fn estimate(&mut self, surface: &Surface, levels: &[Level]) {
+    pub(crate) fn estimate(&mut self, surface: &Surface, levels: &[Level]) {
         let nodes_per_wave = surface.nodes_per_wave(self.report.boundary);
         self.errors = Some((GridErrors::of(levels, &self.report, nodes_per_wave), nodes_per_wave));
     }

@@ -8,6 +8,7 @@ mod found;
 mod half_space;
 mod law;
 mod posed;
+mod record;
 mod settings;
 mod told;
 mod wall;

@@ -178,7 +178,9 @@ impl<T: Real> Posed<T> {
         let applications = found.equivalent_applications();
         let AccurateSolution { solution, surface, levels, reached, refinable, unaffordable, .. } = found;
         let reached = Reached { wanted: goal.accuracy, of: goal.of, reached, refinable, unaffordable };
-        Ok(self.found(solution, clock)?.accurate(levels, applications, surface, reached))
+        let mut found = self.found(solution, clock)?;
+        found.sight.estimate(&surface, &levels);
+        Ok(Found { refined: Some(surface), accuracy: Some(reached), ..found.by(levels, applications) })
     }
 
     fn on_nested_grids(&self, asked: &Asked, started: bool, observe: Observe<'_>) -> Result<Option<Found<T>>> {
@@ -206,7 +208,9 @@ impl<T: Real> Posed<T> {
             )?;
         let applications = found.equivalent_applications();
         let NestedSolution { solution, levels, .. } = found;
-        Ok(Some(self.found(solution, clock)?.nested(levels, applications, surface.clone())))
+        let mut found = self.found(solution, clock)?;
+        found.sight.open = Some((surface.clone(), levels.clone()));
+        Ok(Some(found.by(levels, applications)))
     }
 
     fn on_one_grid(&mut self, asked: &Asked, start: Option<Array2<T>>, observe: Observe<'_>) -> Result<Found<T>> {

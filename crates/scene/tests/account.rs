@@ -9,20 +9,25 @@ use asperity_scene::{Account, Adhesion, Asked, Boundary, Found, Goal, HalfSpace,
 use serde_json::{Value, json};
 
 /// The keys of a report, in their order.
-const OUTCOME: &str = "command status branch other_branch relative_error load_error criterion iterations \
-     operator_applications levels equivalent_applications grid_error accuracy search mean_gap mean_pressure normal_force \
-     approach spring_stiffness net_pressure mean_contact_pressure contact_fraction contact_nodes absent_nodes edge_traction \
-     corrected_contact_fraction perimeter repulsive_fraction attractive_fraction patches min_gap min_pressure max_pressure \
-     elastic_energy adhesive_energy stability contact_stiffness normal_stiffness departures mu_rho mu_rho_node \
-     under_resolved warnings seconds control control_value";
-const INPUTS: &str = "heights initial_gap part solved_shape shape lengths length_unit pressure_unit given boundary modulus law \
-     work_of_adhesion range exponent hamaker law_table cut_off work_of_adhesion_map wall method precision tolerance \
-     max_iterations threads version";
-const OTHER_BRANCH: &str = "branch status relative_error load_error operator_applications contact_fraction mean_gap mean_pressure \
-     elastic_energy adhesive_energy distance same";
-const LEVEL: &str = "shape status iterations operator_applications relative_error mean_gap mean_pressure mean_contact_pressure \
-     elastic_energy contact_fraction corrected_contact_fraction contact_stiffness";
-const STABILITY: &str = "verdict eigenvalue residual lower_bound error_bound smoothed operator_applications";
+const OUTCOME: &str = "\
+    command status branch other_branch relative_error load_error criterion iterations operator_applications \
+    levels equivalent_applications grid_error accuracy search mean_gap mean_pressure normal_force approach \
+    spring_stiffness net_pressure mean_contact_pressure contact_fraction contact_nodes absent_nodes \
+    edge_traction corrected_contact_fraction perimeter repulsive_fraction attractive_fraction patches min_gap \
+    min_pressure max_pressure elastic_energy adhesive_energy stability contact_stiffness normal_stiffness \
+    departures mu_rho mu_rho_node under_resolved warnings seconds control control_value";
+const INPUTS: &str = "\
+    heights initial_gap part solved_shape shape lengths length_unit pressure_unit given boundary modulus law \
+    work_of_adhesion range exponent hamaker law_table cut_off work_of_adhesion_map wall method precision \
+    tolerance max_iterations threads version";
+const OTHER_BRANCH: &str = "\
+    branch status relative_error load_error operator_applications contact_fraction mean_gap mean_pressure \
+    elastic_energy adhesive_energy distance same";
+const LEVEL: &str = "\
+    shape status iterations operator_applications relative_error mean_gap mean_pressure mean_contact_pressure \
+    elastic_energy contact_fraction corrected_contact_fraction contact_stiffness";
+const STABILITY: &str = "\
+    verdict eigenvalue residual lower_bound error_bound smoothed operator_applications";
 
 fn keys(value: &Value) -> Vec<&str> {
     value.as_object().unwrap().keys().map(String::as_str).collect()
