@@ -11,11 +11,11 @@ use std::ops::ControlFlow;
 use std::path::PathBuf;
 use std::time::Instant;
 
-use asperity::io::{read_field, write_npy};
 use asperity::{
     AdhesionLaw, Boussinesq, Control, ElasticOperator, Exponential, Grid, Nested, NoAdhesion, Problem, Real, Settings,
     Solution, Solver, Start, Surface, Westergaard,
 };
+use asperity_maps::io::{read_field, write_npy};
 use clap::{ArgGroup, Parser, ValueEnum};
 use common::arguments::{self, Precision};
 use common::{Outcome, memory};

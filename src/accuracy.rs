@@ -7,12 +7,13 @@ use std::fmt;
 use crate::contact::ContactArea;
 use crate::elastic::Boundary;
 use crate::error::{Error, Result};
+use crate::grid::Grid;
 use crate::nested::Level;
 use crate::problem::Control;
 use crate::solver::Report;
 #[cfg(doc)]
 use crate::stability::EdgeError;
-use crate::surface::{Surface, Topography};
+use crate::surface::{Surface, mirror};
 
 mod goal;
 mod refine;
@@ -159,9 +160,9 @@ impl Surface {
     /// continued by its mirror images. It is that of the whole surface where processes share the grid, and all ask.
     pub fn nodes_per_wave(&self, boundary: Boundary) -> f64 {
         let mirrored = |whole: &Self| {
-            let mut map = Topography::new(whole.heights().clone());
-            map.lengths = Some(whole.grid().lengths());
-            map.mirror().surface()
+            let (heights, (lx, ly), (nx, ny)) = (mirror(whole.heights()), whole.grid().lengths(), whole.grid().shape());
+            let (mx, my) = heights.dim();
+            Self::new(Grid::new((mx, my), (lx * (mx / nx) as f64, ly * (my / ny) as f64))?, heights)
         };
         let of = |whole: &Self| match boundary {
             Boundary::Periodic => whole.spectrum().nodes_per_wave(),

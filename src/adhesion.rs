@@ -144,6 +144,20 @@ pub(crate) fn noticeable<T: Real>(law: &dyn AdhesionLaw<T>) -> f64 {
     if scale.is_finite() { NOTICEABLE * scale } else { 0.0 }
 }
 
+/// The measure of how a grid resolves the adhesive zone on a body of contact `modulus` E*, μ_ρ = √(wΔx/E*)/ρ, with the
+/// larger of Δx and Δy.
+///
+/// Below about 0.5 the zone is resolved. Above, contact edges are pinned to the grid, and the equilibrium found
+/// depends on the start. Zero without adhesion.
+pub fn mu_rho<T: Real>(law: &dyn AdhesionLaw<T>, grid: &Grid, modulus: f64) -> f64 {
+    let hints = law.hints();
+    let (w, range) = (hints.work_of_adhesion.widen(), hints.range.widen());
+    if hints.zero || w <= 0.0 || range <= 0.0 {
+        return 0.0;
+    }
+    (w * grid.largest_spacing() / modulus).sqrt() / range
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -28,8 +28,7 @@ pub use distribution::PressureDistribution;
 pub use original::Original;
 pub use patch::Patch;
 
-/// The region of a node, by what the surfaces do to each other there. As numbers these are the classes of
-/// [`Colouring::Contact`](crate::picture::Colouring::Contact): 1, −1, 0 and NaN.
+/// The region of a node, by what the surfaces do to each other there. As numbers 1, −1, 0 and NaN.
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Region {

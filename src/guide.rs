@@ -35,7 +35,6 @@ page!(own_operator);
 page!(own_constraint);
 page!(boundary);
 page!(branches);
-#[cfg(feature = "io")]
 page!(python);
 page!(choosing);
 page!(performance);

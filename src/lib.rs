@@ -60,8 +60,8 @@
 //!
 //! # Around a solve
 //!
-//! - Before it: [`Topography`] makes a [`Surface`] of a measured map with missing points, tilt, and edges that do not
-//!   meet. [`Warning`](warning::Warning) names probable mistakes in a surface, in the adhesion on it, and in a solution.
+//! - Before it: the crate `asperity-maps` reads files of instruments, makes a [`Surface`] of a measured map with missing
+//!   points, tilt, and edges that do not meet, and names probable mistakes in heights, adhesion and a solution.
 //! - Many loads: [`Sweep`] solves under a sequence of loads, each from the last solutions. [`ContactSearch`] finds the
 //!   load of a contact fraction. [`path`] follows a branch of equilibria with adhesion and locates its jumps.
 //! - Many grids: [`Nested`] solves on coarser grids first, and [`accuracy`] estimates and reduces the error of the grid.
@@ -76,7 +76,6 @@
 //! |---|---|
 //! | `parallel` (default) | threads, with the same results bit for bit |
 //! | `mpi` | processes, with the same results bit for bit: the type `World` |
-//! | `io` (default) | files: the module `io` |
 //! | `serde` | settings, reports, statistics and controls as data, with the names of the reports |
 //!
 //! Without any of them the library depends on libm, ndarray, num-traits, pulp and rustfft alone.
@@ -94,8 +93,6 @@ mod fft;
 mod field;
 mod grid;
 pub mod guide;
-#[cfg(feature = "io")]
-pub mod io;
 pub mod nested;
 mod par;
 pub mod path;
@@ -110,7 +107,6 @@ pub mod stability;
 pub mod surface;
 mod sweep;
 mod vector;
-pub mod warning;
 #[cfg(feature = "mpi")]
 mod world;
 
@@ -132,7 +128,7 @@ pub use real::Real;
 pub use search::ContactSearch;
 pub use solver::{Branch, Criterion, Iteration, Method, Report, Settings, Solution, Solver, Start, Status};
 #[doc(inline)]
-pub use surface::{Amplitude, SelfAffine, Surface, Topography};
+pub use surface::{Amplitude, SelfAffine, Surface};
 pub use sweep::Sweep;
 #[cfg(feature = "mpi")]
 pub use world::World;

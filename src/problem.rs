@@ -1,6 +1,6 @@
 //! The contact problem: surface, elastic operator and adhesion law, and the load control.
 
-use crate::adhesion::{AdhesionLaw, Discretisation};
+use crate::adhesion::{AdhesionLaw, Discretisation, mu_rho};
 use crate::elastic::ElasticOperator;
 use crate::error::Result;
 use crate::grid::Grid;
@@ -93,20 +93,8 @@ impl<T: Real, O: ElasticOperator<T>, L: AdhesionLaw<T>> Problem<T, O, L> {
         Parts { operator: &mut self.operator, law: &self.law, flat: &self.flat }
     }
 
-    /// The measure of how the grid resolves the adhesive zone, μ_ρ = √(wΔx/E*)/ρ, with the larger of Δx and Δy.
-    ///
-    /// Below about 0.5 the zone is resolved. Above, contact edges are pinned to the grid, and the equilibrium found
-    /// depends on the start. Zero without adhesion.
+    /// The measure μ_ρ of how the grid resolves the adhesive zone: [`mu_rho`].
     pub fn mu_rho(&self) -> f64 {
         mu_rho(&self.law, self.grid(), self.operator.modulus())
     }
-}
-
-pub(crate) fn mu_rho<T: Real>(law: &dyn AdhesionLaw<T>, grid: &Grid, modulus: f64) -> f64 {
-    let hints = law.hints();
-    let (w, range) = (hints.work_of_adhesion.widen(), hints.range.widen());
-    if hints.zero || w <= 0.0 || range <= 0.0 {
-        return 0.0;
-    }
-    (w * grid.largest_spacing() / modulus).sqrt() / range
 }

@@ -8,20 +8,21 @@ use ndarray::{Array2, Axis, Slice};
 use crate::error::{Error, Result};
 use crate::grid::Grid;
 
+mod fill;
 mod philox;
+mod resample;
 mod self_affine;
 mod slope;
 mod spectrum;
 mod statistics;
-mod topography;
 
+pub use fill::fill;
 pub(crate) use philox::uniform;
+pub use resample::{mirror, resample};
 pub use self_affine::{Amplitude, SelfAffine};
-pub(crate) use slope::rms_slope;
+pub use slope::rms_slope;
 pub use spectrum::{Psd, Spectrum};
 pub use statistics::SurfaceStatistics;
-pub(crate) use topography::LineSteps;
-pub use topography::{Fit, Form, FormFit, RowAlignment, ScanAxis, Spikes, Topography, Trend};
 
 /// The heights of the rigid rough surface on a grid, peaks up, in `f64`; only their differences matter.
 ///
@@ -53,7 +54,7 @@ impl Surface {
     }
 
     /// A surface with absent nodes, where heights of shape (Nx, Ny) are NaN: they neither touch nor attract.
-    /// [`heights`](Self::heights) has there what [`Topography::fill`] makes of them.
+    /// [`heights`](Self::heights) has there what [`fill()`] makes of them.
     ///
     /// # Errors
     /// [`Error::Shape`] if the heights do not fit the grid, [`Error::NotFinite`] with the number and place of infinite
@@ -74,9 +75,7 @@ impl Surface {
             return Err(Error::Value { name: "number of nodes with a surface", value: 0.0, requirement });
         }
         // holes are filled as on the whole map, by every process
-        let mut map = Topography::new(grid.whole(heights).into_owned());
-        map.lengths = Some(grid.lengths());
-        let filled = map.fill()?.heights;
+        let filled = fill(grid.whole(heights).into_owned(), grid.spacing())?;
         let held = filled.slice_axis(Axis(0), Slice::from(grid.rows())).to_owned();
         Ok(Self { absent, ..Self::new(grid, held)? })
     }
@@ -183,6 +182,15 @@ impl Surface {
     pub(crate) fn rms_about(&self, datum: f64) -> f64 {
         self.grid.mean(self.heights.view(), |h| (h - datum).powi(2)).sqrt()
     }
+}
+
+/// The mean of the heights that are finite, about the first of them, so that a large datum costs no digits; NaN if none
+/// is.
+fn mean_of_finite(heights: &Array2<f64>) -> f64 {
+    let mut known = heights.iter().copied().filter(|h| h.is_finite());
+    let Some(datum) = known.next() else { return f64::NAN };
+    let (sum, count) = known.fold((0.0, 1.0), |(sum, count), h| (sum + (h - datum), count + 1.0));
+    datum + sum / count
 }
 
 /// Moves what is at index zero along y to the origin of the grid.

@@ -1,7 +1,8 @@
 //! The answer to a solve: the dictionary in which Python gets what was found.
 
-use asperity::warning::Warning;
-use asperity::{Real, Solution, Status, Topography};
+use asperity::{Real, Solution, Status};
+use asperity_maps::Topography;
+use asperity_maps::warning::Warning;
 use asperity_scene::{Account, Found, RanAway, Told};
 use numpy::{Element, IntoPyArray, PyArrayMethods};
 use pyo3::exceptions::PyValueError;

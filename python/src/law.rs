@@ -395,7 +395,7 @@ impl Tabulated {
 
 impl Tabulated {
     fn of_file(path: &Path) -> asperity::Result<PyClassInitializer<Self>> {
-        let table = asperity::io::read_field(path)?;
+        let table = asperity_maps::io::read_field(path)?;
         let law = Law(Form::Tabulated(asperity_scene::tabulated(path, &table)?));
         let [gaps, tractions] = [0, 1].map(|column| table.column(column).to_vec());
         let source = Some(path.to_string_lossy().into_owned());

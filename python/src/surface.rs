@@ -2,10 +2,12 @@
 
 use std::path::PathBuf;
 
-use asperity::io::check_memory;
-use asperity::surface::{Form, Psd, RowAlignment, ScanAxis, Trend};
-use asperity::warning::Warning;
-use asperity::{Amplitude, Grid, SelfAffine, Surface, Topography};
+use asperity::surface::Psd;
+use asperity::{Amplitude, Grid, SelfAffine, Surface};
+use asperity_maps::Topography;
+use asperity_maps::io::check_memory;
+use asperity_maps::warning::Warning;
+use asperity_maps::{Form, RowAlignment, ScanAxis, Trend};
 use numpy::{IntoPyArray, PyArray1, PyArray2};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -40,8 +42,8 @@ fn surface(heights: Field<'_>, lengths: (f64, f64)) -> PyResult<Surface> {
 #[pyo3(signature = (path, channel))]
 pub fn read(py: Python<'_>, path: PathBuf, channel: Option<String>) -> PyResult<Map<'_>> {
     let read = || match &channel {
-        Some(channel) => asperity::io::read_channel(&path, channel),
-        None => asperity::io::read_topography(&path),
+        Some(channel) => asperity_maps::io::read_channel(&path, channel),
+        None => asperity_maps::io::read_topography(&path),
     };
     Ok(map(py, apart(py, read)?))
 }

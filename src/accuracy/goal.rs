@@ -2,13 +2,13 @@ use std::ops::ControlFlow;
 
 use super::refine::{refined, twice};
 use super::{CAUTION, FINE, GridError, Quantity, resolves_adhesion};
-use crate::adhesion::AdhesionLaw;
+use crate::adhesion::{AdhesionLaw, mu_rho};
 use crate::constraint::{ContactConstraint, Projection};
 use crate::elastic::{Boundary, ElasticOperator};
 use crate::error::{Error, Result};
 use crate::grid::Grid;
 use crate::nested::{Deformed, Level, Nested, equivalent_applications};
-use crate::problem::{Control, Problem, mu_rho};
+use crate::problem::{Control, Problem};
 use crate::real::Real;
 use crate::setters::setters;
 use crate::solver::{Begin, Iteration, Solution, Solved, Solver, Status};
@@ -39,7 +39,7 @@ const DOUBT: f64 = 3.0;
 /// The given grid is solved first, with coarser ones below it ([`Nested`]), and its error estimated ([`GridError`]). As
 /// long as the estimate, half as large again where it is rough, and the certified error of the solver together exceed
 /// the accuracy, the surface is put on twice as many nodes along its sides by Fourier interpolation
-/// ([`Topography::resample`](crate::Topography::resample); with a free boundary continued by its mirror images).
+/// ([`resample`](crate::surface::resample); with a free boundary continued by its mirror images).
 ///
 /// The grid of the answer is that of [`AccurateSolution::surface`], never coarser than the given one. A surface with
 /// absent nodes and a law that varies from node to node are not refined.

@@ -1,19 +1,23 @@
+use ndarray::{Axis, Slice};
+
 use crate::error::Result;
 use crate::grid::Grid;
-use crate::surface::{Surface, Topography};
+use crate::surface::{Surface, mirror, resample};
 
 /// The surface on twice as many nodes along its sides, by Fourier interpolation; unless periodic, mirrored.
 pub(super) fn refined(surface: &Surface, periodic: bool) -> Result<Surface> {
     let shape = twice(surface.grid().shape());
-    let map = Topography::from(surface.clone());
     let fine = if periodic {
-        map.resample(shape)?
+        resample(surface.heights().clone(), shape)?
     } else {
-        let mirrored = map.mirror();
-        let whole = twice(mirrored.heights.dim());
-        mirrored.resample(whole)?.crop(0..shape.0, 0..shape.1)?
+        let mirrored = mirror(surface.heights());
+        let whole = twice(mirrored.dim());
+        let mut fine = resample(mirrored, whole)?;
+        fine.slice_axis_inplace(Axis(0), Slice::from(..shape.0));
+        fine.slice_axis_inplace(Axis(1), Slice::from(..shape.1));
+        fine
     };
-    Surface::new(Grid::new(shape, surface.grid().lengths())?, fine.heights)
+    Surface::new(Grid::new(shape, surface.grid().lengths())?, fine)
 }
 
 /// Twice as many nodes along both sides, or along the only one.

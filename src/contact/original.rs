@@ -12,23 +12,23 @@ use crate::solver::{Report, Solution};
 
 /// The original of a mirrored map: the nodes from the first on of which all others are mirror images.
 ///
-/// A map that [`Topography::mirror`](crate::Topography::mirror) has made periodic is solved with its images. Gaps,
+/// A map that [`mirror`](crate::surface::mirror) has made periodic is solved with its images. Gaps,
 /// pressures, energies per area and shares are the same on the original as on the whole, if the solution has the
 /// symmetry of the surface; numbers of nodes, forces, the perimeter and clusters are not. With adhesion a symmetric
-/// state may be unstable: [`Warning::of_images`](crate::warning::Warning::of_images) tells.
+/// state may be unstable: compare [`contact_nodes`](Self::contact_nodes) with its [`share`](Self::share) of all.
 ///
 /// ```
 /// use asperity::contact::Original;
-/// use asperity::{Control, Grid, NoAdhesion, Problem, SelfAffine, Solver, Topography, Westergaard};
+/// use asperity::surface::mirror;
+/// use asperity::{Control, Grid, NoAdhesion, Problem, SelfAffine, Solver, Surface, Westergaard};
 /// let rough = SelfAffine::default().k_s(8.0).surface(Grid::square(32, 1.0)?)?;
-/// let map = Topography::from(rough).crop(3..23, 5..25)?.mirror();
-/// let nodes = map.original.expect("a map that was mirrored");
-/// let surface = map.surface()?;
+/// let map = ndarray::Array2::from_shape_fn((20, 20), |(i, j)| rough.heights()[[i + 3, j + 5]]);
+/// let surface = Surface::new(Grid::square(40, 2.0)?, mirror(&map))?;
 /// let half_space = Westergaard::<f64>::new(*surface.grid(), 1.0)?;
 /// let mut problem = Problem::new(&surface, half_space, NoAdhesion)?;
 /// let whole = Solver::default().solve(&mut problem, Control::MeanPressure(0.01))?;
 ///
-/// let original = Original::new(surface.grid(), nodes)?;
+/// let original = Original::new(surface.grid(), (20, 20))?;
 /// let part = original.of_solution(&whole)?;
 /// assert_eq!((part.gap.dim(), original.grid().shape()), ((20, 20), (20, 20)));
 /// assert_eq!(4 * part.report.contact_nodes, whole.report.contact_nodes);
@@ -42,7 +42,7 @@ pub struct Original {
 }
 
 impl Original {
-    /// The original with `nodes` along x and y, see [`Topography::original`](crate::Topography::original), on `whole`.
+    /// The original with `nodes` along x and y, on `whole`.
     ///
     /// # Errors
     /// [`Error::Value`] for no nodes, [`Error::Shape`] for more than the map has, and [`Error::Shared`] if several
@@ -107,7 +107,11 @@ impl Original {
         Ok(Array2::from_shape_fn(self.whole.shape(), |(i, j)| field[[image(i, nx), image(j, ny)]].clone()))
     }
 
-    pub(crate) fn contact_nodes<T: Real>(&self, solution: &Solution<T>) -> Result<usize> {
+    /// The number of nodes in contact on the original.
+    ///
+    /// # Errors
+    /// [`Error::Shape`] if the solution is not one of the whole.
+    pub fn contact_nodes<T: Real>(&self, solution: &Solution<T>) -> Result<usize> {
         Ok(number(&self.contact(solution.gap.view(), solution.contact_pressure.view())?))
     }
 

@@ -6,13 +6,13 @@ use super::minimisation::Left;
 use super::passes::Fields;
 use super::report::{Report, Solution, Solved, Status};
 use super::state::State;
-use crate::adhesion::noticeable;
+use crate::adhesion::{mu_rho, noticeable};
 use crate::elastic::Boundary;
 use crate::error::Result;
 use crate::field::{Partial, read, write};
 use crate::grid::Grid;
 use crate::par::Parts;
-use crate::problem::{Load, mu_rho};
+use crate::problem::Load;
 use crate::real::Real;
 use crate::vector::sums;
 

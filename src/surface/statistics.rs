@@ -3,11 +3,10 @@
 use ndarray::ArrayView1;
 
 use super::spectrum::is_line;
-use super::{Surface, Topography, rms_slope};
-use crate::error::Result;
+use super::{Surface, rms_slope};
 use crate::field;
 
-/// The statistics of a rough surface, in the unit of the heights: [`Surface::statistics`], [`Topography::statistics`].
+/// The statistics of a rough surface, in the unit of the heights: [`Surface::statistics`].
 ///
 /// Spectral slopes and curvatures are those of the smooth periodic surface through the nodes. Finite differences,
 /// periodic too, are smaller, by (qΔ)²/24 of a slope and (qΔ)²/12 of a curvature for a wave number q along an axis of
@@ -89,32 +88,5 @@ impl Surface {
             sum += (0..ny).map(|j| laplacian(j).powi(2)).sum::<f64>();
         }
         (sum / self.grid.nodes() as f64).sqrt()
-    }
-}
-
-impl Topography {
-    /// The statistics of the map as a surface, periodic as it stands; slopes, curvatures and Nayak's parameter are NaN
-    /// where the side lengths are unknown.
-    ///
-    /// # Errors
-    /// [`Error::NotFinite`](crate::Error::NotFinite) if heights are missing, [`Error::Value`](crate::Error::Value) if
-    /// the side lengths are no lengths.
-    pub fn statistics(&self) -> Result<SurfaceStatistics> {
-        let mut map = self.clone();
-        let (nx, ny) = map.heights.dim();
-        map.lengths.get_or_insert((nx as f64, ny as f64));
-        let found = map.surface()?.statistics();
-        if self.lengths.is_some() {
-            return Ok(found);
-        }
-        let [rms_slope, rms_slope_differences, rms_curvature, rms_curvature_differences, nayak] = [f64::NAN; 5];
-        Ok(SurfaceStatistics {
-            rms_slope,
-            rms_slope_differences,
-            rms_curvature,
-            rms_curvature_differences,
-            nayak,
-            ..found
-        })
     }
 }

@@ -71,7 +71,6 @@ fn modules_use_only_what_stands_above_them() {
             assert!(layer(&name) <= layer(&module), "{}: {module} may not use {name}", inside.display());
             let alone = ["error", "grid", "exact"];
             assert!(module != "exact" || alone.contains(&name.as_str()), "exact may not use {name}");
-            assert!(module != "io" || layer(&name) < layer("problem"), "{module} may not use {name}");
             uses += 1;
         }
         for (foreign, home) in [("rayon::", "par"), ("mpi::", "ranks")] {

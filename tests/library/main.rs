@@ -33,5 +33,4 @@ mod statistics;
 mod stiffness;
 mod stress;
 mod sweep;
-mod warnings;
 mod wrappers;

@@ -4,10 +4,10 @@ use std::fmt;
 use std::path::PathBuf;
 
 use asperity::adhesion::{CutOff, Varying};
-use asperity::io::read_field;
 use asperity::{
     AdhesionLaw, Error, Exponential, Grid, LennardJones, MaugisDugdale, Morse, NoAdhesion, PowerLaw, Real, Tabulated,
 };
+use asperity_maps::io::read_field;
 use asperity_scene::{Wall, tabulated};
 use clap::{Args, ValueEnum};
 use ndarray::Array2;

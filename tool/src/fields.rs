@@ -3,8 +3,8 @@
 use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 
-use asperity::io::{OutputFolder, create_npy, write_npy, write_npy_rows};
 use asperity::{Grid, Solution};
+use asperity_maps::io::{OutputFolder, create_npy, write_npy, write_npy_rows};
 use asperity_scene::RanAway;
 use ndarray::Array2;
 

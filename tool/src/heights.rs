@@ -3,8 +3,9 @@
 use std::ops::Range;
 use std::path::Path;
 
-use asperity::io::{read_rows, read_topography};
-use asperity::{Error, Grid, Surface, Topography};
+use asperity::{Error, Grid, Surface};
+use asperity_maps::Topography;
+use asperity_maps::io::{read_rows, read_topography};
 use ndarray::Array2;
 
 use crate::outcome::Outcome;

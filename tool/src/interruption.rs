@@ -4,7 +4,7 @@
 use std::sync::{Mutex, PoisonError};
 use std::{env, io, process, thread};
 
-use asperity::io::OutputFolder;
+use asperity_maps::io::OutputFolder;
 
 /// What an interrupted run says of its rows.
 static STANDING: Mutex<String> = Mutex::new(String::new());

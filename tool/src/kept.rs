@@ -3,8 +3,8 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use asperity::io::OutputFolder;
 use asperity::{Grid, Solution};
+use asperity_maps::io::OutputFolder;
 
 use crate::fields::{gap_to_write, write_fields};
 use crate::options::Scalar;

@@ -2,8 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use asperity::io::read_field;
 use asperity::{Error, Method, Real, Settings, Surface};
+use asperity_maps::io::read_field;
 use asperity_scene::{Branches, HalfSpace, settings};
 use clap::{Args, ValueEnum};
 use ndarray::Array2;

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::{fs, io};
 
 use asperity::Error;
-use asperity::io::OutputFolder;
+use asperity_maps::io::OutputFolder;
 
 use crate::outcome::Outcome;
 

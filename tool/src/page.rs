@@ -5,8 +5,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use asperity::contact::PressureDistribution;
-use asperity::io::read_field;
 use asperity::{Error, Grid};
+use asperity_maps::io::read_field;
 use asperity_plot::{Chart, Colouring, Map};
 use clap::Args;
 use ndarray::Zip;

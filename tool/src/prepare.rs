@@ -2,10 +2,10 @@
 
 use std::path::{Path, PathBuf};
 
-use asperity::Topography;
-use asperity::io::{read_channel, read_topography, write_topography};
-use asperity::surface::{Form, FormFit, RowAlignment, ScanAxis, Trend};
-use asperity::warning::{Warning, WarningCode};
+use asperity_maps::Topography;
+use asperity_maps::io::{read_channel, read_topography, write_topography};
+use asperity_maps::warning::{Warning, WarningCode};
+use asperity_maps::{Form, FormFit, RowAlignment, ScanAxis, Trend};
 use asperity_scene::Told;
 use clap::{Args, ValueEnum};
 use serde_json::json;

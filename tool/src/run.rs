@@ -4,7 +4,7 @@ use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
 use asperity::Error;
-use asperity::io::read_topography;
+use asperity_maps::io::read_topography;
 use clap::{Args, Command};
 use toml::Value;
 

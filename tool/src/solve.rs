@@ -7,8 +7,8 @@ use std::ops::ControlFlow;
 use std::path::PathBuf;
 
 use asperity::contact::PressureDistribution;
-use asperity::io::{OutputFolder, write_npz, write_vti};
 use asperity::{AdhesionLaw, Control, Solution, Solver, Status, Surface};
+use asperity_maps::io::{OutputFolder, write_npz, write_vti};
 use asperity_scene::{Account, Asked, Branches, Inputs, Posed, Wall};
 use clap::{ArgGroup, Args, ValueEnum};
 use ndarray::{Array2, CowArray};

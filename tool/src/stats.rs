@@ -3,8 +3,9 @@
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
+use asperity::Surface;
 use asperity::surface::{Spectrum, SurfaceStatistics};
-use asperity::{Surface, Topography};
+use asperity_maps::Topography;
 use clap::Args;
 use serde_json::{Map, Value, json};
 

@@ -2,9 +2,10 @@
 
 use std::path::PathBuf;
 
-use asperity::io::check_memory;
-use asperity::io::{write_npy, write_topography};
-use asperity::{Amplitude, Grid, SelfAffine, Topography};
+use asperity::{Amplitude, Grid, SelfAffine};
+use asperity_maps::Topography;
+use asperity_maps::io::check_memory;
+use asperity_maps::io::{write_npy, write_topography};
 use clap::{ArgGroup, Args};
 use serde_json::json;
 

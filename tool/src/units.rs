@@ -1,7 +1,7 @@
 //! The units of the numbers that a command gives, as far as they are known.
 
-use asperity::io::LONGEST_UNIT;
-use asperity::warning::Warning;
+use asperity_maps::io::LONGEST_UNIT;
+use asperity_maps::warning::Warning;
 use asperity_scene::Told;
 use clap::Args;
 

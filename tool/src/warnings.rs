@@ -3,8 +3,9 @@
 use std::path::{Path, PathBuf};
 use std::{fs, io};
 
-use asperity::warning::{Warning, WarningCode};
-use asperity::{Error, Solution, Surface, Topography};
+use asperity::{Error, Solution, Surface};
+use asperity_maps::Topography;
+use asperity_maps::warning::{Warning, WarningCode};
 use asperity_scene::{Told, warnings_of};
 use clap::Args;
 

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use asperity::io::read_field;
+use asperity_maps::io::read_field;
 use serde_json::Value;
 
 use crate::bench::{Bench, text};

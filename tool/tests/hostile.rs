@@ -15,7 +15,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-use asperity::io::read_field;
+use asperity_maps::io::read_field;
 use rand::rngs::ChaCha8Rng;
 use rand::{RngExt, SeedableRng};
 
@@ -233,8 +233,8 @@ mod tool {
     use std::process::{Command, Output, Stdio};
     use std::thread::sleep;
 
-    use asperity::io::write_npy;
     use asperity::{Grid, Surface};
+    use asperity_maps::io::write_npy;
 
     use super::*;
 

@@ -1,6 +1,6 @@
 //! Mirrored maps: results are of the original, unless the whole is asked for.
 
-use asperity::io::{read_field, read_topography};
+use asperity_maps::io::{read_field, read_topography};
 use ndarray::{Array2, Axis, Slice};
 
 use crate::bench::Bench;

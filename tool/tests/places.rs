@@ -243,7 +243,7 @@ fn what_takes_more_memory_than_there_is_is_refused() {
     bench.write("large.txt", &"1 2 3 4 5 6 7 8\n".repeat(1_500_000));
     bench.write("large.xyz", &(0..3_000_000).map(|k| format!("{} {} 1\n", k / 1000, k % 1000)).collect::<String>());
     let map = bench.path("map.npy");
-    asperity::io::create_npy::<f64>(&map, (2048, 2048)).unwrap();
+    asperity_maps::io::create_npy::<f64>(&map, (2048, 2048)).unwrap();
     for command in ["stats", "prepare --out map.npz --mirror", "solve --mean-gap 1 --out out --heights"] {
         assert_too_large(&bench, "2000000", &format!("{command} large.npy"), &["large.npy takes 3.0 GiB of memory"]);
         assert_too_large(&bench, "160000", &format!("{command} large.txt"), &["large.txt takes 128.0 MiB of memory"]);

@@ -5,8 +5,9 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use crate::bench::{Bench, text};
-use asperity::io::{read_field, read_topography, write_npy, write_topography};
-use asperity::{Amplitude, Grid, SelfAffine, Topography};
+use asperity::{Amplitude, Grid, SelfAffine};
+use asperity_maps::Topography;
+use asperity_maps::io::{read_field, read_topography, write_npy, write_topography};
 use ndarray::Array2;
 
 fn corpus(name: &str) -> PathBuf {
@@ -106,7 +107,7 @@ fn steps_have_a_fixed_order_and_are_those_of_the_library() {
     let mut expected = map;
     expected.lengths = Some((6.1e-6, 4.5e-6));
     expected.heights.mapv_inplace(|h| 2.0 * h);
-    let expected = expected.crop(3..53, 2..42).unwrap().flip().detrend(asperity::surface::Trend::Quadric).unwrap();
+    let expected = expected.crop(3..53, 2..42).unwrap().flip().detrend(asperity_maps::Trend::Quadric).unwrap();
     let expected = expected.fill().unwrap().window(0.15).unwrap().resample((100, 64)).unwrap();
     assert_eq!(read_topography(bench.path("a.npz")).unwrap(), expected);
     assert!(said.contains("before 3.05 µm x 2.25 µm") && said.contains("curvatures xx"), "{said}");
@@ -153,10 +154,9 @@ fn a_scan_loses_its_code_its_offsets_and_its_spikes_step_by_step() {
     assert!((after(&said, "changed by ") - 0.7).abs() < 0.1, "{said}");
     assert!((after(&said, "the worst by ") - 25.0).abs() < 1.0, "{said}");
     assert!(said.contains("polynomial of order 3 removed, heights changed by") && said.contains(" nm rms"), "{said}");
-    let expected = map
-        .declare_missing(-9999.0)
-        .align_rows(asperity::surface::RowAlignment::Median, asperity::surface::ScanAxis::X);
-    let expected = expected.unwrap().despike(10.0).unwrap().detrend(asperity::surface::Trend::Polynomial(3)).unwrap();
+    let expected =
+        map.declare_missing(-9999.0).align_rows(asperity_maps::RowAlignment::Median, asperity_maps::ScanAxis::X);
+    let expected = expected.unwrap().despike(10.0).unwrap().detrend(asperity_maps::Trend::Polynomial(3)).unwrap();
     let prepared = read_topography(bench.path("a.npz")).unwrap();
     assert_eq!(prepared, expected.fill().unwrap());
     assert!(prepared.rms_height() < 0.2, "{}", prepared.rms_height());

@@ -4,8 +4,8 @@ use std::f64::consts::TAU;
 use std::fs;
 
 use crate::bench::{Bench, text};
-use asperity::io::{read_field, write_npy};
 use asperity::{Amplitude, Grid, SelfAffine, Surface};
+use asperity_maps::io::{read_field, write_npy};
 
 /// The columns of a comma-separated file, with its header.
 fn csv(bench: &Bench, name: &str) -> (String, Vec<Vec<f64>>) {

@@ -6,8 +6,8 @@ use std::process::{Child, Command, Output, Stdio};
 use std::thread::sleep;
 use std::time::Duration;
 
-use asperity::io::{read_field, write_npy};
 use asperity::{Grid, Surface};
+use asperity_maps::io::{read_field, write_npy};
 use ndarray::Array2;
 use serde_json::Value;
 use tempfile::TempDir;

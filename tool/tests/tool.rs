@@ -5,8 +5,8 @@ use std::io::{BufReader, Cursor, Write};
 use std::path::Path;
 use std::process::{Command, Output, Stdio};
 
-use asperity::io::{read_field, write_npy};
 use asperity::{Grid, Surface};
+use asperity_maps::io::{read_field, write_npy};
 use ndarray::Array2;
 use serde_json::{Value, json};
 use tempfile::TempDir;

@@ -1,6 +1,6 @@
 //! Units in what the tool prints.
 
-use asperity::io::{read_topography, write_topography};
+use asperity_maps::io::{read_topography, write_topography};
 use serde_json::Value;
 
 use crate::bench::Bench;

@@ -1,7 +1,8 @@
 //! Input and answers that are probably a mistake, end to end: what the tool says of them, and what it refuses.
 
-use asperity::io::{read_field, write_npy, write_topography};
-use asperity::{SelfAffine, Topography};
+use asperity::SelfAffine;
+use asperity_maps::Topography;
+use asperity_maps::io::{read_field, write_npy, write_topography};
 use ndarray::Array2;
 use serde_json::Value;
 

@@ -3,9 +3,9 @@
 use std::time::Instant;
 
 use asperity::accuracy::{Accuracy, Plan, Quantity};
-use asperity::io::available_memory;
 use asperity::stability::ContactStiffness;
 use asperity::{AdhesionLaw, Control, Real, Result, Solver, Surface};
+use asperity_maps::io::available_memory;
 use ndarray::Array2;
 
 use crate::half_space::HalfSpace;

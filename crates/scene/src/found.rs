@@ -7,8 +7,8 @@ use std::time::Instant;
 use asperity::contact::{ContactStatistics, Original};
 use asperity::nested::Level;
 use asperity::stability::ContactStiffness;
-use asperity::warning::Warning;
 use asperity::{AdhesionLaw, Grid, Real, Report, Result, Solution, Surface};
+use asperity_maps::warning::Warning;
 use ndarray::{Array2, ArrayView2};
 
 use crate::account::{Account, Inputs};

@@ -2,9 +2,9 @@
 
 use std::fmt;
 
-use asperity::io::check_memory;
-use asperity::warning::{Warning, WarningCode};
 use asperity::{Boussinesq, Control, ElasticOperator, Grid, Real, Result, Surface, Westergaard};
+use asperity_maps::io::check_memory;
+use asperity_maps::warning::{Warning, WarningCode};
 use ndarray::Array2;
 use serde::{Deserialize, Serialize};
 

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use asperity::warning::Warning;
+use asperity_maps::warning::Warning;
 use serde::Serialize;
 
 /// A warning in the units of a run.

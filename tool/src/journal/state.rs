@@ -8,7 +8,7 @@ use std::io::{self, Cursor, Write};
 use std::path::{Path, PathBuf};
 
 use asperity::Error;
-use asperity::io::read_field;
+use asperity_maps::io::read_field;
 use ndarray::{Array2, ArrayView2, Axis};
 use ndarray_npy::{WritableElement, WriteNpyExt};
 use serde_json::{Map, Value, json};

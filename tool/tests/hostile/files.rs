@@ -7,7 +7,7 @@ use std::process::{Child, Command, Output, Stdio};
 use std::thread::sleep;
 use std::time::Duration;
 
-use asperity::io::read_topography;
+use asperity_maps::io::read_topography;
 
 use super::tool::{GIGABYTE, assert_orderly, bench, limited, names, words};
 

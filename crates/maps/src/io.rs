@@ -1,0 +1,510 @@
+//! Reading height maps and gaps, and writing results.
+//!
+//! [`read_topography`] takes what measuring instruments, Gwyddion and numpy write: `.npy`, `.npz`, `.gwy`, `.gsf`,
+//! `.xyz` and text matrices, with side lengths and units where they are known; [`read_field`] takes the numbers alone,
+//! and [`read_channel`] one of several channels. [`write_topography`] writes maps, [`write_npz`] and [`write_vti`] all
+//! fields of a solution into one file, for numpy and for ParaView. [`OutputFolder`] collects the files of one run and
+//! shows them only once all of them are complete.
+
+mod foreign;
+mod gsf;
+mod gwy;
+mod memory;
+mod npy;
+mod npz;
+mod output;
+mod text;
+mod units;
+mod vti;
+mod xyz;
+
+use std::fs::{self, File, OpenOptions};
+use std::io::{self, BufRead, BufReader, Read, Seek, SeekFrom};
+use std::ops::Range;
+use std::path::Path;
+
+use ndarray::{Array2, AsArray, Axis, Ix2, Slice};
+use ndarray_npy::WritableElement;
+
+use crate::Topography;
+use asperity::{Error, Result};
+use gsf::{GSF, read_gsf, write_gsf};
+use gwy::{GWY, read_gwy};
+use memory::is_there;
+pub use memory::{available_memory, check_memory};
+use npy::{NPY, read_npy, read_npy_rows};
+pub use npz::write_npz;
+use npz::{ZIP, read_npz};
+pub use output::OutputFolder;
+use text::read_text;
+pub use vti::write_vti;
+use xyz::read_xyz;
+
+/// The largest number of characters of a unit in a file that is written; far more than any has.
+pub const LONGEST_UNIT: usize = 64;
+
+const TRUNCATED: &str = "ends too early: it is truncated or damaged, copy or save it again";
+const DAMAGED: &str = "is damaged: copy or save it again";
+
+/// The result of a reader.
+type Parsed<T> = std::result::Result<T, Refusal>;
+
+/// Why a file is not read.
+enum Refusal {
+    /// It is not as it should be
+    Reason(String),
+    /// The system does not read it
+    System(String, io::Error),
+    /// It takes more memory than there is, so many bytes
+    Memory(usize),
+}
+
+impl<T: Into<String>> From<T> for Refusal {
+    fn from(reason: T) -> Self {
+        Self::Reason(reason.into())
+    }
+}
+
+impl Refusal {
+    /// The error, with the path of the file.
+    fn of(self, path: &Path) -> Error {
+        match self {
+            Self::Reason(reason) => Error::file(path, reason),
+            Self::System(reason, error) => Error::caused(path, reason, error),
+            Self::Memory(bytes) => Error::Memory { what: path.display().to_string(), bytes: bytes as f64 },
+        }
+    }
+}
+
+fn refuse<T>(reason: impl Into<String>) -> Parsed<T> {
+    Err(Refusal::Reason(reason.into()))
+}
+
+/// Makes room for `more` values, as they are read.
+fn reserve<T>(values: &mut Vec<T>, more: usize) -> Parsed<()> {
+    let (needed, room) = (values.len().saturating_add(more), values.capacity());
+    if needed <= room {
+        return Ok(());
+    }
+    // in steps that double it
+    let size = needed.max(2 * room);
+    let bytes = size.saturating_mul(size_of::<T>());
+    check_room(bytes)?;
+    values.try_reserve_exact(size - values.len()).map_err(|_| Refusal::Memory(bytes))
+}
+
+/// Bytes that are not asked for before they are taken: 64 MiB.
+const SMALL: f64 = 67_108_864.0;
+
+/// Refuses more bytes than the machine has, or gives to this process.
+fn check_room(bytes: usize) -> Parsed<()> {
+    let given = || bytes as f64 <= SMALL || Vec::<u8>::new().try_reserve_exact(bytes).is_ok();
+    if is_there(bytes as f64) && given() { Ok(()) } else { Err(Refusal::Memory(bytes)) }
+}
+
+/// Reads a field, a height map or a gap, from a file of any of the formats of [`read_topography`]: its numbers alone.
+///
+/// # Errors
+///
+/// As for [`read_topography`].
+///
+/// ```
+/// use asperity_maps::io::read_field;
+///
+/// let folder = tempfile::tempdir()?;
+/// let path = folder.path().join("heights.txt");
+/// std::fs::write(&path, "# heights in micrometres\n0.1 0.3 0.2\n0.4 nan 0.1\n")?;
+///
+/// let heights = read_field(&path)?;
+/// assert_eq!(heights.dim(), (2, 3));
+/// assert_eq!(heights[[0, 1]], 0.3);
+/// assert!(heights[[1, 1]].is_nan());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn read_field(path: impl AsRef<Path>) -> Result<Array2<f64>> {
+    read_topography(path).map(|map| map.heights)
+}
+
+/// Reads a height map from a file, with side lengths and unit where it has them. The content and not the ending of the
+/// file decides on the format, but for `.xyz`.
+///
+/// - `.npy`: floating-point numbers of 4 or 8 bytes or integers of 1 to 8 bytes, in either byte order and
+///   either memory order. Integers beyond 2^53 are rounded.
+/// - `.npz`: as `.npy`, compressed or not, with exactly one array in it, or with one named `heights`. Arrays
+///   `lengths`, two numbers, `unit`, a text, and what [`write_topography`] says of mirrors and seeds are taken beside
+///   that; [`Topography::unread`] names all others.
+/// - Gwyddion's own files (`.gwy`): their only channel, or the only one with heights in a unit of length;
+///   [`read_channel`] takes any. Masks and shown corrections are left where they are; [`Topography::unread`] names the
+///   other channels.
+/// - Gwyddion Simple Field (`.gsf`): with the side lengths XReal and YReal, and units.
+/// - text: one row per line; numbers separated by white space, or by commas, or by semicolons. `#` and `%`
+///   start a comment, blank lines are skipped. Decimal commas are not understood.
+/// - Gwyddion's text export, which is a text with comments `# Width:`, `# Height:` and `# Value units:` in English.
+/// - text of which the name ends in `.xyz`: points x y z, one per line, of a regular grid parallel to the axes, in any
+///   order. Nodes without a point are missing. Rounded or noisy coordinates may be off the grid by a tenth of its
+///   spacing. All three in one unit, which the format does not tell. Nx and Ny follow from the spacings, and the side
+///   lengths are Nx Δx and Ny Δy.
+///
+/// **Orientation.** Arrays and plain texts have shape (Nx, Ny): the first index, in a text the line, runs along x.
+/// Images have lines along x, from the top to the bottom: line r of Ny in Gwyddion's three formats becomes column Ny −
+/// 1 − r of the map, so that y runs upwards and pictures of the map show what Gwyddion shows.
+///
+/// **Units.** Where the file gives units of length for both side lengths and heights, the map is in metres, whatever
+/// their prefixes. Where both are the same other unit it stays. All else that has units is refused, as are values that
+/// are no heights.
+///
+/// A one-dimensional array of n values, and a text file with a single column, give shape `(n, 1)`. NaN and
+/// infinities are read as they stand: they mark missing points, which a surface refuses later. The array is
+/// in standard layout.
+///
+/// # Errors
+///
+/// [`Error::File`] if the file cannot be read, is truncated or damaged, or holds anything but one array of
+/// real numbers with one or two dimensions and at least one value; for `.xyz`, if its points are scattered. Files of
+/// instruments, images, and other binary files are named, with a way to convert them. [`Error::Memory`] if the heights
+/// take more than there is.
+///
+/// ```
+/// use asperity_maps::io::read_topography;
+///
+/// let folder = tempfile::tempdir()?;
+/// let path = folder.path().join("exported.txt");
+/// std::fs::write(&path, "# Channel: Height\n# Width: 3 µm\n# Height: 2 µm\n# Value units: nm\n1 2 3\n4 5 6\n")?;
+///
+/// let map = read_topography(&path)?;
+/// assert_eq!(map.heights.dim(), (3, 2));
+/// assert_eq!(map.heights[[0, 1]], 1e-9); // at the left, on top
+/// assert_eq!((map.lengths, map.unit.as_deref()), (Some((3e-6, 2e-6)), Some("m")));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn read_topography(path: impl AsRef<Path>) -> Result<Topography> {
+    let path = path.as_ref();
+    read_any(path, None).map_err(|refusal| refusal.of(path))
+}
+
+/// Reads one of the channels of a `.gwy` file, by its number or its title; otherwise as [`read_topography`].
+///
+/// ```no_run
+/// let retrace = asperity_maps::io::read_channel("scan.gwy", "Height Retrace")?;
+/// # Ok::<(), asperity::Error>(())
+/// ```
+///
+/// # Errors
+///
+/// As for [`read_topography`], and [`Error::File`] if the file has no such channel, or is of a format without channels.
+pub fn read_channel(path: impl AsRef<Path>, channel: &str) -> Result<Topography> {
+    let path = path.as_ref();
+    read_any(path, Some(channel)).map_err(|refusal| refusal.of(path))
+}
+
+/// Reads the rows of a height map that `rows` chooses by its shape (Nx, Ny), and tells that shape; otherwise as
+/// [`read_topography`]. Of a `.npy` in row-major order no more is read than these rows.
+///
+/// For a grid that several processes share, of which each holds the rows [`Grid::rows`](asperity::Grid::rows).
+///
+/// ```
+/// use asperity_maps::io::{read_rows, write_npy};
+/// let folder = tempfile::tempdir()?;
+/// let path = folder.path().join("heights.npy");
+/// write_npy(&path, &ndarray::array![[1.0, 2.0], [3.0, 4.0], [5.0, 6.0]])?;
+/// let (map, shape) = read_rows(&path, |(nx, _)| 1..nx)?;
+/// assert_eq!((map.heights, shape), (ndarray::array![[3.0, 4.0], [5.0, 6.0]], (3, 2)));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+///
+/// As for [`read_topography`].
+pub fn read_rows(
+    path: impl AsRef<Path>,
+    rows: impl FnOnce((usize, usize)) -> Range<usize>,
+) -> Result<(Topography, (usize, usize))> {
+    let path = path.as_ref();
+    let is_npy = || {
+        let mut start = [0; NPY.len()];
+        io::Result::Ok(File::open(path)?.read_exact(&mut start).is_ok() && start == NPY)
+    };
+    if !fs::metadata(path).is_ok_and(|metadata| metadata.is_file()) || !is_npy().is_ok_and(|is| is) {
+        let mut map = read_topography(path)?;
+        let shape = map.heights.dim();
+        map.heights = map.heights.slice_axis(Axis(0), Slice::from(rows(shape))).to_owned();
+        return Ok((map, shape));
+    }
+    let read = || {
+        let file = File::open(path).map_err(unreadable)?;
+        let size = file.metadata().map_err(unreadable)?.len();
+        let (heights, shape) = read_npy_rows(&mut BufReader::new(file), size, rows)?;
+        Ok((Topography::new(heights), shape))
+    };
+    read().map_err(|refusal: Refusal| refusal.of(path))
+}
+
+/// Creates a `.npy` of zeros of a shape, over a file that may be there, for [`write_npy_rows`].
+///
+/// # Errors
+///
+/// [`Error::File`] if the file cannot be written.
+pub fn create_npy<T: WritableElement>(path: impl AsRef<Path>, shape: (usize, usize)) -> Result<()> {
+    let path = path.as_ref();
+    let file = File::create(path).map_err(|e| Error::unwritable(path, e))?;
+    ndarray_npy::write_zeroed_npy::<T, _>(&file, shape).map_err(|e| Error::unwritable(path, e))
+}
+
+/// Writes some rows of a field into a `.npy` that [`create_npy`] has made, from the row `first` on. Several processes
+/// may write rows into one file.
+///
+/// ```
+/// use asperity_maps::io::{create_npy, read_field, write_npy_rows};
+/// let folder = tempfile::tempdir()?;
+/// let path = folder.path().join("gap.npy");
+/// create_npy::<f64>(&path, (3, 2))?;
+/// write_npy_rows(&path, (3, 2), 1, &ndarray::array![[1.0, 2.0], [3.0, 4.0]])?;
+/// assert_eq!(read_field(&path)?, ndarray::array![[0.0, 0.0], [1.0, 2.0], [3.0, 4.0]]);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+///
+/// [`Error::File`] if the file cannot be written, [`Error::Shape`] if the rows are not rows of that shape.
+pub fn write_npy_rows<'a, T: WritableElement + Clone + 'a>(
+    path: impl AsRef<Path>,
+    shape: (usize, usize),
+    first: usize,
+    rows: impl AsArray<'a, T, Ix2>,
+) -> Result<()> {
+    let path = path.as_ref();
+    let rows = rows.into();
+    let (count, ny) = rows.dim();
+    Error::shape("rows to write", (first + count, ny), ((first + count).min(shape.0), shape.1))?;
+    let mut file = OpenOptions::new().write(true).open(path).map_err(|e| Error::unwritable(path, e))?;
+    // the numbers are all that follows the header
+    let size = file.metadata().map_err(|e| Error::unwritable(path, e))?.len();
+    let numbers = ((shape.0 - first) * ny * size_of::<T>()) as u64;
+    file.seek(SeekFrom::Start(size.saturating_sub(numbers))).map_err(|e| Error::unwritable(path, e))?;
+    let rows = rows.as_standard_layout();
+    T::write_slice(rows.as_slice().unwrap_or_default(), &mut file).map_err(|e| Error::unwritable(path, e))
+}
+
+/// Writes a map, over a file that may be there; the ending of `path` decides on the format.
+///
+/// - `.npz`: `heights`, and if they are known `lengths`, `unit`, `original` (two numbers of nodes), and `seed` (a
+///   text). Nothing is lost.
+/// - `.gsf`, for Gwyddion: the heights are rounded to `f32`.
+/// - `.npy`: the heights alone.
+///
+/// ```
+/// use asperity_maps::io::{read_topography, write_topography};
+/// use asperity::{Grid, Surface};
+/// use asperity_maps::Topography;
+///
+/// let folder = tempfile::tempdir()?;
+/// let path = folder.path().join("wave.npz");
+/// let mut wave = Topography::from(Surface::wave(Grid::new((8, 4), (2e-6, 1e-6))?, 1e-9, 1)?);
+/// (wave.unit, wave.seed) = (Some("m".into()), Some(7));
+/// let wave = wave.mirror();
+/// write_topography(&path, &wave)?;
+/// assert_eq!(read_topography(&path)?, wave);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+///
+/// [`Error::File`] if the name has another ending, heights leave the range of the format, the unit is longer than
+/// [`LONGEST_UNIT`], or the file cannot be written.
+pub fn write_topography(path: impl AsRef<Path>, map: &Topography) -> Result<()> {
+    let path = path.as_ref();
+    let longest = map.unit.as_ref().map_or(0, |unit| unit.chars().count());
+    match ending(path).as_str() {
+        "npz" if longest > LONGEST_UNIT => {
+            Err(Error::file(path, format!("has a unit of {longest} characters: give one of at most {LONGEST_UNIT}")))
+        }
+        "npy" => write_npy(path, &map.heights),
+        "npz" => npz::write_map(path, map),
+        "gsf" if map.heights.iter().any(|h| h.is_finite() && !(*h as f32).is_finite()) => {
+            Err(Error::file(path, "cannot hold such heights, its numbers are f32: choose .npz or .npy"))
+        }
+        "gsf" => write_gsf(path, map).map_err(|e| Error::unwritable(path, e)),
+        _ => Err(Error::file(path, "has no ending of a format that is written: choose .npz, .npy or .gsf")),
+    }
+}
+
+/// The ending of a name, behind its last point, in small letters.
+fn ending(path: &Path) -> String {
+    path.extension().map(|ending| ending.to_string_lossy().to_lowercase()).unwrap_or_default()
+}
+
+/// Writes a field as `.npy`, over a file that may be there.
+///
+/// # Errors
+///
+/// [`Error::File`] if the file cannot be written.
+///
+/// ```
+/// use asperity_maps::io::{read_field, write_npy};
+/// let folder = tempfile::tempdir()?;
+/// let path = folder.path().join("gap.npy");
+/// let gap = ndarray::array![[0.0_f32, 1.5]];
+/// write_npy(&path, &gap)?;
+/// assert_eq!(read_field(&path)?, gap.mapv(f64::from));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn write_npy<'a, T: WritableElement + 'a>(path: impl AsRef<Path>, field: impl AsArray<'a, T, Ix2>) -> Result<()> {
+    ndarray_npy::write_npy(&path, &field.into()).map_err(|e| Error::unwritable(path, e))
+}
+
+fn read_any(path: &Path, channel: Option<&str>) -> Parsed<Topography> {
+    // Before opening, which would wait for ever on a named pipe.
+    let metadata = fs::metadata(path).map_err(unreadable)?;
+    if !metadata.is_file() {
+        let kind = if metadata.is_dir() { "a folder" } else { "not a regular file" };
+        return refuse(format!("is {kind}: name a .npy, .npz, .gwy, .gsf, .xyz or text file"));
+    }
+    let (ending, size) = (ending(path), metadata.len());
+    let mut reader = BufReader::new(File::open(path).map_err(unreadable)?);
+    let start = reader.fill_buf().map_err(unreadable)?;
+    let map = if start.starts_with(GWY) {
+        read_gwy(&mut reader, size, channel)
+    } else if channel.is_some() {
+        refuse("has no channels, as only .gwy files do: leave the channel out")
+    } else if start.starts_with(NPY) {
+        read_npy(&mut reader, size).map(Topography::new)
+    } else if ZIP.iter().any(|magic| start.starts_with(magic)) {
+        read_npz(reader, size)
+    } else if start.starts_with(GSF) {
+        read_gsf(&mut reader, size)
+    } else if let Some(reason) = foreign::by_start(start) {
+        refuse(reason)
+    } else {
+        let binary = foreign::by_ending(start, &ending);
+        let text = if ending == "xyz" { read_xyz(reader) } else { read_text(reader) };
+        text.map_err(|refusal| binary.map_or(refusal, Refusal::Reason))
+    }?;
+    // units that are not those of the file may have made them so
+    if let Some((lx, ly)) = map.lengths.filter(|(lx, ly)| !(is_side(*lx) && is_side(*ly))) {
+        return refuse(format!(
+            "has side lengths of {lx} and {ly}, expected positive numbers: save it again with them"
+        ));
+    }
+    match &map.unit {
+        // it would reach terminals
+        Some(unit) if unit.contains(char::is_control) => {
+            refuse(format!("has the unit {}, expected a text without control characters: save it again", quoted(unit)))
+        }
+        _ => Ok(map),
+    }
+}
+
+/// Whether a length is one of a side.
+fn is_side(length: f64) -> bool {
+    length > 0.0 && length.is_finite()
+}
+
+fn unreadable(error: io::Error) -> Refusal {
+    let reason = match error.kind() {
+        io::ErrorKind::UnexpectedEof => TRUNCATED.to_owned(),
+        io::ErrorKind::NotFound => "does not exist: check the path".to_owned(),
+        _ => format!("cannot be read: {error}"),
+    };
+    Refusal::System(reason, error)
+}
+
+/// A piece of a file for a message: on one line, of a length that can be read.
+fn quoted(text: &str) -> String {
+    let mut short: String = text.chars().take(60).collect();
+    if short.len() < text.len() {
+        short.push_str("...");
+    }
+    format!("{short:?}")
+}
+
+#[cfg(test)]
+mod tests {
+    use ndarray::{ShapeBuilder, array};
+
+    use super::*;
+
+    pub(super) fn read(bytes: impl AsRef<[u8]>) -> Result<Array2<f64>> {
+        read_map(bytes, "heights").map(|map| map.heights)
+    }
+
+    pub(super) fn read_map(bytes: impl AsRef<[u8]>, name: &str) -> Result<Topography> {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join(name);
+        fs::write(&path, bytes).unwrap();
+        read_topography(&path)
+    }
+
+    /// Why it was refused, after checking that the message names the file and is a single line.
+    pub(super) fn reason(result: Result<impl std::fmt::Debug>) -> String {
+        let error = result.unwrap_err();
+        assert_eq!(error.to_string().lines().count(), 1, "{error:?}");
+        assert!(error.to_string().chars().all(|c| !c.is_control()), "{error:?}");
+        match error {
+            Error::File { reason, path, .. } if !path.as_os_str().is_empty() => reason,
+            other => panic!("{other:?}"),
+        }
+    }
+
+    #[track_caller]
+    pub(super) fn assert_refused(result: Result<impl std::fmt::Debug>, parts: &[&str]) {
+        let reason = reason(result);
+        for part in parts {
+            assert!(reason.contains(part), "{part:?} not in {reason:?}");
+        }
+    }
+
+    #[test]
+    fn what_is_no_file_is_refused() {
+        let folder = tempfile::tempdir().unwrap();
+        assert_refused(read_field(folder.path()), &["is a folder"]);
+        assert_refused(read_field(folder.path().join("missing.npy")), &["does not exist", "check the path"]);
+        if cfg!(unix) {
+            assert_refused(read_field(Path::new("/dev/zero")), &["not a regular file"]);
+        }
+    }
+
+    #[test]
+    fn sides_that_become_nothing_or_infinite_are_refused() {
+        let gsf = |side: &str| {
+            let mut file =
+                format!("Gwyddion Simple Field 1.0\nXRes=1\nYRes=1\nXReal={side}\nYReal=1\nXYUnits=pm\nZUnits=pm\n")
+                    .into_bytes();
+            file.resize((file.len() / 4 + 1) * 4 + 4, 0);
+            read_map(file, "map.gsf").map(|map| map.lengths)
+        };
+        assert_eq!(gsf("2").unwrap(), Some((2e-12, 1e-12)));
+        for side in ["0", "-1", "inf", "nan", "1e-320"] {
+            assert_refused(gsf(side), &["side lengths of", "positive"]);
+        }
+        let points = |far: &str| read_map(format!("0 0 1\n{far} 0 2\n0 1 3\n{far} 1 4\n"), "map.xyz");
+        assert_eq!(points("2").unwrap().lengths, Some((4.0, 2.0)));
+        assert_refused(points("1e308"), &["side lengths of inf", "positive"]);
+    }
+
+    #[test]
+    fn units_are_written_as_long_as_they_are_read() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("map.npz");
+        let mut map = Topography::new(array![[1.0, 2.0]]);
+        map.unit = Some("µ".repeat(LONGEST_UNIT));
+        write_topography(&path, &map).unwrap();
+        assert_eq!(read_topography(&path).unwrap(), map);
+        map.unit = Some("µ".repeat(LONGEST_UNIT + 1));
+        assert_refused(write_topography(&path, &map), &["a unit of 65 characters", "at most 64"]);
+    }
+
+    #[test]
+    fn written_npy_is_read_back() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("field.npy");
+        let field = array![[1.5, f64::INFINITY], [-0.0, 2.0], [3.0, 4.0]];
+        write_npy(&path, &field).unwrap();
+        assert_eq!(read_field(&path).unwrap(), field);
+        write_npy(&path, &field.mapv(|v| v as f32)).unwrap();
+        assert_eq!(read_field(&path).unwrap(), field);
+        let fortran = Array2::from_shape_fn((2, 3).f(), |(i, j)| (3 * i + j) as i16);
+        write_npy(&path, &fortran).unwrap();
+        assert_eq!(read_field(&path).unwrap(), fortran.mapv(f64::from));
+        assert_refused(write_npy(folder.path().join("missing/field.npy"), &field), &["cannot be written"]);
+    }
+}

@@ -1,0 +1,380 @@
+//! Height maps in Gwyddion's own files (`.gwy`).
+
+use std::collections::BTreeMap;
+use std::io::Read;
+
+use ndarray::Array2;
+
+use super::units::{in_one_unit, is_length};
+use super::{DAMAGED, Parsed, TRUNCATED, quoted, refuse, reserve, unreadable};
+use crate::Topography;
+
+pub(super) const GWY: &[u8] = b"GWYP";
+/// The most channels that a message names.
+const MOST_NAMES: usize = 10;
+
+/// Reads a channel of a Gwyddion file of `size` bytes, by its number or title; without one, the only channel, or the
+/// only one of heights.
+///
+/// Behind four letters there is one object, and in objects there are items: name, letter of the type, value. Objects
+/// and arrays have their size before them, so that those of no interest are skipped unread.
+pub(super) fn read_gwy(reader: &mut impl Read, size: u64, channel: Option<&str>) -> Parsed<Topography> {
+    let mut bytes = Vec::new();
+    reserve(&mut bytes, usize::try_from(size).unwrap_or(usize::MAX))?;
+    reader.take(size).read_to_end(&mut bytes).map_err(unreadable)?;
+    let mut start = Bytes(bytes.get(GWY.len()..).unwrap_or_default());
+    let (kind, container) = start.object()?;
+    if kind != b"GwyContainer" {
+        return refuse(format!("holds a {}, expected a GwyContainer: save it again", quoted(&text(kind))));
+    }
+
+    let mut channels = BTreeMap::<usize, Channel>::new();
+    for item in Bytes(container) {
+        let (name, value) = item?;
+        // as /0/data and /0/data/title; what is deeper, or named otherwise, is how the channel is shown
+        let name = text(name);
+        let Some((number, what)) = name.strip_prefix('/').and_then(|rest| rest.split_once('/')) else { continue };
+        let Ok(number) = number.parse() else { continue };
+        match (what, value) {
+            ("data", Value::Object(b"GwyDataField", field)) => channels.entry(number).or_default().field = Some(field),
+            ("data/title", Value::Text(title)) => channels.entry(number).or_default().title = text(title),
+            _ => {}
+        }
+    }
+    channels.retain(|_, channel| channel.field.is_some());
+    let number = chosen(&channels, channel)?;
+    let field = channels.get(&number).and_then(|channel| channel.field).ok_or(DAMAGED)?;
+    let mut map = Field::new(field)?.map()?;
+    map.unread = channels.iter().filter(|(n, _)| **n != number).map(|(n, channel)| channel.name(*n)).collect();
+    Ok(map)
+}
+
+/// The number of the channel that is asked for, or of the only one that it can be.
+fn chosen(channels: &BTreeMap<usize, Channel>, asked: Option<&str>) -> Parsed<usize> {
+    let fits: Vec<usize> = match asked {
+        Some(asked) => {
+            let number = asked.parse().ok().filter(|number| channels.contains_key(number));
+            let titled = channels.iter().filter(|(_, channel)| channel.title == asked).map(|(number, _)| *number);
+            number.map_or_else(|| titled.collect(), |number| vec![number])
+        }
+        None if channels.len() == 1 => channels.keys().copied().collect(),
+        None => channels.iter().filter(|(_, channel)| channel.is_of_heights()).map(|(number, _)| *number).collect(),
+    };
+    let names: Vec<_> = channels.iter().take(MOST_NAMES).map(|(number, channel)| channel.name(*number)).collect();
+    let more = if channels.len() > MOST_NAMES { ", ..." } else { "" };
+    let found = format!("{} channels ({}{more})", channels.len(), names.join(", "));
+    match (&fits[..], asked) {
+        (&[number], _) => Ok(number),
+        (_, None) if channels.is_empty() => refuse("holds no channel of heights: save one in it"),
+        ([], Some(asked)) => refuse(format!("holds {found}, none of which is {}: name one of these", quoted(asked))),
+        (_, Some(asked)) => refuse(format!("holds {found}, several of which are {}: give a number", quoted(asked))),
+        (_, None) => {
+            let heights = fits.len();
+            refuse(format!(
+                "holds {found}, {heights} of them of heights: choose one, by asperity prepare --channel NUMBER"
+            ))
+        }
+    }
+}
+
+/// A channel: its title, and its field.
+#[derive(Default)]
+struct Channel<'a> {
+    title: String,
+    field: Option<&'a [u8]>,
+}
+
+impl Channel<'_> {
+    /// Whether heights and sides both are in units of length.
+    fn is_of_heights(&self) -> bool {
+        let field = self.field.and_then(|field| Field::new(field).ok());
+        field.is_some_and(|field| is_length(&field.lateral) && is_length(&field.vertical))
+    }
+
+    fn name(&self, number: usize) -> String {
+        if self.title.is_empty() { number.to_string() } else { format!("{number} {}", quoted(&self.title)) }
+    }
+}
+
+/// A GwyDataField.
+#[derive(Default)]
+struct Field<'a> {
+    nodes: (i32, i32),
+    lengths: (f64, f64),
+    lateral: String,
+    vertical: String,
+    data: &'a [[u8; 8]],
+}
+
+impl<'a> Field<'a> {
+    fn new(bytes: &'a [u8]) -> Parsed<Self> {
+        // a side length that is left out is 1
+        let mut field = Self { lengths: (1.0, 1.0), ..Self::default() };
+        for item in Bytes(bytes) {
+            match item? {
+                (b"xres", Value::Whole(n)) => field.nodes.0 = n,
+                (b"yres", Value::Whole(n)) => field.nodes.1 = n,
+                (b"xreal", Value::Number(length)) => field.lengths.0 = length,
+                (b"yreal", Value::Number(length)) => field.lengths.1 = length,
+                (b"si_unit_xy", Value::Object(_, unit)) => field.lateral = unit_of(unit)?,
+                (b"si_unit_z", Value::Object(_, unit)) => field.vertical = unit_of(unit)?,
+                (b"data", Value::Numbers(data)) => field.data = data,
+                _ => {}
+            }
+        }
+        Ok(field)
+    }
+
+    fn map(&self) -> Parsed<Topography> {
+        let ((nx, ny), found) = (self.nodes, self.data.len());
+        let shape = usize::try_from(nx).ok().zip(usize::try_from(ny).ok()).filter(|(nx, ny)| *nx > 0 && *ny > 0);
+        let Some((nx, ny)) = shape.filter(|(nx, ny)| nx.checked_mul(*ny) == Some(found)) else {
+            return refuse(format!("promises {nx} x {ny} heights but has {found}: it is damaged, save it again"));
+        };
+        let mut values = Vec::new();
+        reserve(&mut values, found)?;
+        // line by line from the top: the last one has y = 0
+        let lines = || self.data.chunks_exact(nx).rev();
+        values.extend((0..nx).flat_map(|i| lines().map(move |line| f64::from_le_bytes(line[i]))));
+        let heights = Array2::from_shape_vec((nx, ny), values).map_err(|e| e.to_string())?;
+        in_one_unit(heights, Some(self.lengths), &self.lateral, &self.vertical)
+    }
+}
+
+/// The text of a GwySIUnit.
+fn unit_of(bytes: &[u8]) -> Parsed<String> {
+    for item in Bytes(bytes) {
+        if let (b"unitstr", Value::Text(unit)) = item? {
+            return Ok(text(unit));
+        }
+    }
+    Ok(String::new())
+}
+
+fn text(bytes: &[u8]) -> String {
+    String::from_utf8_lossy(bytes).into_owned()
+}
+
+/// The value of an item; only what height maps have is told apart.
+enum Value<'a> {
+    Whole(i32),
+    Number(f64),
+    Text(&'a [u8]),
+    Numbers(&'a [[u8; 8]]),
+    /// by its type and its items
+    Object(&'a [u8], &'a [u8]),
+    Other,
+}
+
+/// The items that are still to be read.
+#[derive(Clone, Copy)]
+struct Bytes<'a>(&'a [u8]);
+
+impl<'a> Bytes<'a> {
+    fn take(&mut self, count: usize) -> Parsed<&'a [u8]> {
+        let (taken, rest) = self.0.split_at_checked(count).ok_or(TRUNCATED)?;
+        self.0 = rest;
+        Ok(taken)
+    }
+
+    fn array<const N: usize>(&mut self) -> Parsed<[u8; N]> {
+        self.take(N)?.try_into().map_err(|_| DAMAGED.into())
+    }
+
+    /// A text that ends with a zero.
+    fn text(&mut self) -> Parsed<&'a [u8]> {
+        let end = self.0.iter().position(|byte| *byte == 0).ok_or(TRUNCATED)?;
+        let taken = self.take(end)?;
+        self.take(1)?;
+        Ok(taken)
+    }
+
+    fn size(&mut self) -> Parsed<usize> {
+        usize::try_from(u32::from_le_bytes(self.array()?)).map_err(|_| DAMAGED.into())
+    }
+
+    /// The type of an object, and its items.
+    fn object(&mut self) -> Parsed<(&'a [u8], &'a [u8])> {
+        let (kind, size) = (self.text()?, self.size()?);
+        Ok((kind, self.take(size)?))
+    }
+
+    fn item(&mut self) -> Parsed<(&'a [u8], Value<'a>)> {
+        let name = self.text()?;
+        let [kind] = self.array()?;
+        let value = match kind {
+            b'i' => Value::Whole(i32::from_le_bytes(self.array()?)),
+            b'd' => Value::Number(f64::from_le_bytes(self.array()?)),
+            b's' => Value::Text(self.text()?),
+            b'o' => {
+                let (kind, items) = self.object()?;
+                Value::Object(kind, items)
+            }
+            b'D' => {
+                let count = self.size()?;
+                Value::Numbers(self.take(count.checked_mul(8).ok_or(TRUNCATED)?)?.as_chunks().0)
+            }
+            b'b' | b'c' => self.skip(1)?,
+            b'q' => self.skip(8)?,
+            b'C' | b'I' | b'Q' => {
+                let width = if kind == b'C' {
+                    1
+                } else if kind == b'I' {
+                    4
+                } else {
+                    8
+                };
+                let count = self.size()?;
+                self.skip(count.checked_mul(width).ok_or(TRUNCATED)?)?
+            }
+            b'S' => {
+                for _ in 0..self.size()? {
+                    self.text()?;
+                }
+                Value::Other
+            }
+            b'O' => {
+                for _ in 0..self.size()? {
+                    self.object()?;
+                }
+                Value::Other
+            }
+            _ => return refuse(DAMAGED),
+        };
+        Ok((name, value))
+    }
+
+    fn skip(&mut self, count: usize) -> Parsed<Value<'a>> {
+        self.take(count).map(|_| Value::Other)
+    }
+}
+
+/// Its items, up to the first that cannot be read.
+impl<'a> Iterator for Bytes<'a> {
+    type Item = Parsed<(&'a [u8], Value<'a>)>;
+
+    fn next(&mut self) -> Option<Self::Item> {
+        if self.0.is_empty() {
+            return None;
+        }
+        let item = self.item();
+        if item.is_err() {
+            self.0 = &[];
+        }
+        Some(item)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use ndarray::array;
+
+    use super::super::read_channel;
+    use super::super::tests::{assert_refused, read, read_map};
+    use super::*;
+
+    fn object(kind: &str, items: &[Vec<u8>]) -> Vec<u8> {
+        let items = items.concat();
+        [kind.as_bytes(), b"\0", &(items.len() as u32).to_le_bytes(), &items].concat()
+    }
+
+    fn item(name: &str, kind: u8, value: &[u8]) -> Vec<u8> {
+        [name.as_bytes(), &[0, kind], value].concat()
+    }
+
+    fn unit(name: &str, unit: &str) -> Vec<u8> {
+        item(name, b'o', &object("GwySIUnit", &[item("unitstr", b's', &[unit.as_bytes(), b"\0"].concat())]))
+    }
+
+    /// Three by two heights, the upper line first.
+    fn field(vertical: &str) -> Vec<Vec<u8>> {
+        let data = [1.0, 2.0, 3.0, 4.0, f64::NAN, 6.0_f64];
+        vec![
+            item("xres", b'i', &3_i32.to_le_bytes()),
+            item("yres", b'i', &2_i32.to_le_bytes()),
+            item("xreal", b'd', &6.0_f64.to_le_bytes()),
+            item("yreal", b'd', &2.0_f64.to_le_bytes()),
+            unit("si_unit_xy", "µm"),
+            unit("si_unit_z", vertical),
+            item("data", b'D', &[&6_u32.to_le_bytes()[..], &data.map(f64::to_le_bytes).concat()].concat()),
+        ]
+    }
+
+    fn gwy(items: &[Vec<u8>]) -> Vec<u8> {
+        [GWY, &object("GwyContainer", items)].concat()
+    }
+
+    fn channel(number: usize, title: &str, field: &[Vec<u8>]) -> Vec<u8> {
+        let title = item(&format!("/{number}/data/title"), b's', &[title.as_bytes(), b"\0"].concat());
+        [title, item(&format!("/{number}/data"), b'o', &object("GwyDataField", field))].concat()
+    }
+
+    fn read_one(file: &[u8], name: &str) -> asperity::Result<Topography> {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("map.gwy");
+        std::fs::write(&path, file).unwrap();
+        read_channel(&path, name)
+    }
+
+    #[test]
+    fn a_channel_has_its_heights_upright_and_in_metres_among_items_of_every_type() {
+        let nested = object("GwyStringList", &[item("strings", b'S', b"\x02\0\0\0one\0two\0")]);
+        let others = [
+            item("/0/data/visible", b'b', b"\x01"),
+            item("/0/base/palette", b's', b"Gold\0"),
+            item("/filename", b'c', b"x"),
+            item("/0/q", b'q', &[0; 8]),
+            item("/0/numbers", b'C', b"\x03\0\0\0abc"),
+            item("/0/more", b'I', b"\x01\0\0\0abcd"),
+            item("/0/most", b'Q', b"\x01\0\0\0abcdefgh"),
+            item("/0/meta", b'o', &nested),
+            item("/0/select", b'O', &[b"\x02\0\0\0", &nested[..], &nested].concat()),
+            item("/0/mask", b'o', &object("GwyDataField", &field(""))),
+        ];
+        let map = read_map(gwy(&[&others[..], &[channel(0, "Height", &field("nm"))]].concat()), "a").unwrap();
+        assert_eq!((map.heights.dim(), map.missing(), map.unit.as_deref()), ((3, 2), 1, Some("m")));
+        assert_eq!(map.heights.column(1), array![1e-9, 2e-9, 3e-9]);
+        assert_eq!((map.heights[[0, 0]], map.heights[[2, 0]]), (4e-9, 6e-9));
+        assert_eq!((map.lengths, map.unread.len()), (Some((6e-6, 2e-6)), 0));
+    }
+
+    #[test]
+    fn one_of_several_channels_is_chosen_by_number_or_title() {
+        let volts = channel(3, "Error", &field("V"));
+        let file = gwy(&[channel(0, "Trace", &field("nm")), channel(1, "Retrace", &field("µm")), volts.clone()]);
+        for (name, expected) in [("0", 1e-9), ("Trace", 1e-9), ("1", 1e-6), ("Retrace", 1e-6)] {
+            assert_eq!(read_one(&file, name).unwrap().heights[[0, 1]], expected, "{name}");
+        }
+        assert_refused(read(&file), &["3 channels", "0 \"Trace\", 1 \"Retrace\"", "2 of them", "--channel"]);
+        assert_refused(read_one(&file, "Phase"), &["\"Phase\"", "0 \"Trace\""]);
+        assert_refused(read_one(&file, "3"), &["\"V\"", "channel of heights"]);
+        // the only one of heights needs no name
+        let map = read_map(gwy(&[volts.clone(), channel(7, "Height", &field("nm"))]), "a").unwrap();
+        assert_eq!((map.heights[[0, 1]], &map.unread[..]), (1e-9, &["3 \"Error\"".to_owned()][..]));
+        let same = gwy(&[channel(0, "Height", &field("nm")), channel(1, "Height", &field("nm"))]);
+        assert_refused(read_one(&same, "Height"), &["several", "give a number"]);
+        assert_refused(read(gwy(&[volts])), &["\"V\""]);
+        assert_refused(read(gwy(&[])), &["no channel of heights"]);
+        assert_refused(read_one(b"1 2\n3 4\n", "0"), &["no channels", "leave"]);
+    }
+
+    #[test]
+    fn damaged_gwy_is_refused_without_panic() {
+        let file = gwy(&[channel(0, "Height", &field("nm"))]);
+        for length in 0..file.len() {
+            assert!(read(&file[..length]).is_err(), "{length}");
+        }
+        let whole = |changed: &[Vec<u8>]| read(gwy(&[channel(0, "", changed)]));
+        let with = |name: &str, kind: u8, value: &[u8]| whole(&[field("m"), vec![item(name, kind, value)]].concat());
+        assert_refused(with("xres", b'i', &4_i32.to_le_bytes()), &["4 x 2 heights", "has 6"]);
+        assert_refused(with("xres", b'i', &(-3_i32).to_le_bytes()), &["-3 x 2 heights"]);
+        assert_refused(with("xreal", b'd', &f64::NAN.to_le_bytes()), &["side lengths of NaN", "positive"]);
+        assert_refused(with("data", b'D', b"\xff\xff\xff\xff"), &["ends too early"]);
+        assert_refused(with("data", b'S', b"\xff\xff\xff\xff"), &["ends too early"]);
+        assert_refused(with("data", b'O', b"\xff\xff\xff\xff"), &["ends too early"]);
+        assert_refused(with("data", b'?', b""), &["damaged"]);
+        assert_refused(whole(&[]), &["0 x 0 heights"]);
+        assert_refused(read([GWY, &object("GwyGraph", &[])].concat()), &["\"GwyGraph\"", "GwyContainer"]);
+        assert_refused(read(gwy(&[item("/0/data", b'o', b"GwyDataField\0\xff\xff\xff\x7f")])), &["ends too early"]);
+    }
+}

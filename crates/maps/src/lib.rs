@@ -1,0 +1,13 @@
+//! Measured height maps for the contact of rough surfaces with [`asperity`].
+//!
+//! | module | contents |
+//! |---|---|
+//! | [`io`] | files of instruments, of Gwyddion and of numpy; fields and heights written; folders of results |
+//! | the root | [`Topography`]: a map with missing points, tilt and edges, on its way to a surface |
+//! | [`warning`] | probable mistakes in heights, in the law on them, and in an answer |
+
+pub mod io;
+mod topography;
+pub mod warning;
+
+pub use topography::{Fit, Form, FormFit, RowAlignment, ScanAxis, Spikes, Topography, Trend};

@@ -1,0 +1,123 @@
+//! Scan lines of a height map, brought to one height.
+
+use ndarray::{Array1, ArrayView1, Axis};
+
+use super::{Topography, Trend, median};
+use asperity::Result;
+
+/// The direction in which an instrument scans its lines.
+#[non_exhaustive]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ScanAxis {
+    /// Lines along x, as in the images of nearly all atomic force microscopes: the nodes of a line share their y.
+    X,
+    /// Lines along y.
+    Y,
+}
+
+/// The way in which [`Topography::align_rows`] brings scan lines to one height.
+#[non_exhaustive]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum RowAlignment {
+    /// Every line has the same median.
+    Median,
+    /// The differences of each line from the one before it have the median 0: for surfaces of large features, which
+    /// medians of lines would flatten. The shifts add up along the map.
+    MedianDifference,
+    /// The least-squares polynomial of this order is taken from each line; 0 is its mean, 1 a tilt too, 2 a bow too.
+    Polynomial(usize),
+}
+
+impl Topography {
+    /// Brings scan lines to one height: the offsets from line to line that the drift of an instrument leaves.
+    ///
+    /// Each line is shifted, or with [`RowAlignment::Polynomial`] straightened, on its own, by its measured points
+    /// alone, and the mean height of the map stays. Along the line, heights keep what they were; across the lines,
+    /// slopes of the surface that a whole line shares are taken for drift and go, too. Lines that are all missing stay
+    /// so.
+    ///
+    /// ```
+    /// use asperity_maps::{RowAlignment, ScanAxis};
+    /// use asperity_maps::Topography;
+    /// // three lines along x, of which the second is 3 too high
+    /// let map = Topography::new(ndarray::array![[0.0, 3.0, 0.0], [1.0, 4.0, 1.0], [2.0, 5.0, 2.0]]);
+    /// let aligned = map.align_rows(RowAlignment::Median, ScanAxis::X)?;
+    /// assert_eq!(aligned.heights.row(0), ndarray::array![1.0, 1.0, 1.0]);
+    /// # Ok::<(), asperity::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::Value`](asperity::Error::Value) if the order of a polynomial is above [`Trend::MOST`].
+    pub fn align_rows(mut self, alignment: RowAlignment, along: ScanAxis) -> Result<Self> {
+        let (before, across) = (self.mean(), Axis(if along == ScanAxis::X { 1 } else { 0 }));
+        let mut last: Option<Array1<f64>> = None;
+        let mut drift = 0.0;
+        for mut line in self.heights.axis_iter_mut(across) {
+            match alignment {
+                RowAlignment::Median => {
+                    if let Some(level) = median(line.iter().copied()) {
+                        line.mapv_inplace(|h| h - level);
+                    }
+                }
+                RowAlignment::MedianDifference => {
+                    let measured = line.to_owned();
+                    if let Some(last) = &last {
+                        drift += median(line.iter().zip(last).map(|(h, before)| h - before)).unwrap_or(0.0);
+                    }
+                    line.mapv_inplace(|h| h - drift);
+                    if measured.iter().any(|h| h.is_finite()) {
+                        last = Some(measured);
+                    }
+                }
+                RowAlignment::Polynomial(order) => {
+                    let straight = straightened(line.view(), order)?;
+                    line.assign(&straight);
+                }
+            }
+        }
+        let shift = before - self.mean();
+        self.heights.mapv_inplace(|h| h + shift);
+        Ok(self)
+    }
+}
+
+/// The steps between the lines of a map along an axis, each from one line to the next.
+pub(crate) struct LineSteps {
+    /// The median over the lines of the step that a whole line shares, about their tilt.
+    pub shared: f64,
+    /// The median change of that from one step to the next.
+    pub change: f64,
+    /// The rms step of single nodes about that of their line, the median over the lines.
+    pub single: f64,
+}
+
+impl LineSteps {
+    /// Those of the measured points; NaN where none are.
+    pub fn of(map: &Topography, along: ScanAxis) -> Self {
+        let lines: Vec<_> = map.heights.lanes(Axis(usize::from(along == ScanAxis::Y))).into_iter().collect();
+        let step = |pair: &[ArrayView1<'_, f64>]| {
+            let steps: Vec<f64> =
+                pair[1].iter().zip(pair[0]).map(|(h, before)| h - before).filter(|step| step.is_finite()).collect();
+            let shared = median(steps.iter().copied())?;
+            let squares: f64 = steps.iter().map(|step| (step - shared).powi(2)).sum();
+            Some((shared, f64::sqrt(squares / steps.len() as f64)))
+        };
+        let (shared, single): (Vec<f64>, Vec<f64>) = lines.windows(2).filter_map(step).unzip();
+        let middle = |values: &mut dyn Iterator<Item = f64>| median(values).unwrap_or(f64::NAN);
+        let tilt = middle(&mut shared.iter().copied());
+        Self {
+            shared: middle(&mut shared.iter().map(|step| (step - tilt).abs())),
+            change: middle(&mut shared.windows(2).map(|pair| (pair[1] - pair[0]).abs())),
+            single: middle(&mut single.into_iter()),
+        }
+    }
+}
+
+/// A line less the polynomial that fits its measured points.
+fn straightened(line: ArrayView1<'_, f64>, order: usize) -> Result<Array1<f64>> {
+    let map = Topography::new(line.to_owned().insert_axis(Axis(1)));
+    if map.missing() == map.heights.len() {
+        return Ok(line.to_owned());
+    }
+    Ok(map.detrend(Trend::Polynomial(order))?.heights.remove_axis(Axis(1)))
+}

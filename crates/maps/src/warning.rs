@@ -1,0 +1,374 @@
+//! Warnings about a surface or a solution that periodicity or the grid makes doubtful.
+
+use std::fmt;
+
+use crate::topography::{ScanAxis, Topography};
+use asperity::AdhesionLaw;
+use asperity::Grid;
+use asperity::Real;
+use asperity::Result;
+use asperity::Surface;
+use asperity::adhesion::mu_rho;
+use asperity::contact::Original;
+use asperity::{Report, Solution};
+
+mod code;
+mod extremes;
+mod heights;
+mod lines;
+mod relief;
+mod spikes;
+mod text;
+
+pub use code::WarningCode;
+use extremes::Extremes;
+use heights::{cells, ends_at_edges, ends_within, missing_code, open_edges, slope, spikes, tilt};
+use relief::Relief;
+use spikes::Spikes;
+use text::Text;
+
+/// The rms slope from which a surface is steep: linear elasticity of a half-space is for small slopes, and real
+/// surfaces have up to about this. Heights in another unit than the lengths are beyond it by orders of magnitude.
+const STEEP: f64 = 0.5;
+
+/// The same of a measured map: offsets between scan lines and spikes, as far as they are left, make slopes of several
+/// tens.
+const STEEP_MAP: f64 = 100.0;
+
+/// The range of heights, as a share of the greatest magnitude, up to which a surface is flat: a few roundings of `f64`.
+const FLAT: f64 = 4.0 * f64::EPSILON;
+
+/// The difference of contact between an original and the whole with its mirror images, as a share, from which the
+/// solution has lost their symmetry: beyond what nodes at the edge of the contact make.
+const UNLIKE: f64 = 0.05;
+
+/// The resolution measure μ_ρ that the grid resolves.
+const RESOLVED: f64 = Report::RESOLVED_MU_RHO;
+
+/// A probable mistake in the input, or in an answer: a code, the number that shows it, and a remedy.
+///
+/// Nothing is refused or changed; whether a warning matters is for the reader to say. Clean periodic surfaces have
+/// none. [`of_surface`](Self::of_surface) looks at the heights, [`of_modulus`](Self::of_modulus) at the unit of the
+/// contact modulus beside them, [`of_law`](Self::of_law) at the adhesion on them, all before a solve,
+/// [`of_solution`](Self::of_solution) at its answer, and [`of_images`](Self::of_images) at that on a mirrored map.
+///
+/// ```
+/// use asperity_maps::warning::{Warning, WarningCode};
+/// use asperity::{Control, Exponential, Grid, Problem, Solver, Surface, Westergaard};
+/// let grid = Grid::square(64, 1.0)?;
+/// let tilted = Surface::from_fn(grid, |x, y| 0.01 * (6.0 * x).sin() * (9.0 * y).cos() + 0.05 * x)?;
+/// let codes: Vec<_> = Warning::of_surface(&tilted).iter().map(|warning| warning.code).collect();
+/// assert_eq!(codes, [WarningCode::Tilt, WarningCode::OpenEdges]);
+///
+/// let (surface, law) = (Surface::wave_2d(grid, 0.01, 2)?, Exponential::new(1e-5, 2e-3)?);
+/// assert!(Warning::of_surface(&surface).is_empty());
+/// for warning in Warning::of_law::<f64>(&law, &surface, 1.0) {
+///     eprintln!("{warning}"); // code: message
+/// }
+/// let mut problem = Problem::new(&surface, Westergaard::<f64>::new(grid, 1.0)?, law)?;
+/// let solution = Solver::default().solve(&mut problem, Control::MeanPressure(0.01))?;
+/// assert!(Warning::of_solution(&solution).is_empty());
+/// # Ok::<(), asperity::Error>(())
+/// ```
+#[non_exhaustive]
+#[derive(Clone, Debug, PartialEq)]
+pub struct Warning {
+    /// The code.
+    pub code: WarningCode,
+    text: Text,
+}
+
+impl fmt::Display for Warning {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}: {}", self.code, self.message())
+    }
+}
+
+impl Warning {
+    /// The message: the observation, with its number, and the remedy, on one line. Lengths and pressures are in the
+    /// units of the input.
+    pub fn message(&self) -> String {
+        self.message_with(Self::figure, Self::figure)
+    }
+
+    /// The message with lengths and pressures as these make texts of them, which may have units. They are rounded to
+    /// three digits.
+    ///
+    /// ```
+    /// use asperity_maps::warning::Warning;
+    /// use asperity::{Exponential, Grid, Surface};
+    /// let surface = Surface::wave_2d(Grid::square(64, 1e-6)?, 1e-9, 2)?;
+    /// let found = Warning::of_law::<f64>(&Exponential::new(1e-5, 2e-8)?, &surface, 1e9);
+    /// let (nm, gpa) = (|length| format!("{} nm", 1e9 * length), |pressure| format!("{} GPa", 1e-9 * pressure));
+    /// let message = found[0].message_with(nm, gpa);
+    /// assert!(message.starts_with("the range of adhesion, 20 nm, exceeds the heights, which span 2 nm"), "{message}");
+    /// # Ok::<(), asperity::Error>(())
+    /// ```
+    pub fn message_with(&self, length: impl Fn(f64) -> String, pressure: impl Fn(f64) -> String) -> String {
+        let rounded = |value: f64| format!("{value:.2e}").parse().unwrap_or(value);
+        self.text.written(|value| length(rounded(value)), |value| pressure(rounded(value)))
+    }
+
+    /// How bad it is, to choose the worst among warnings of one code: the figure of the message that exceeds its limit,
+    /// as far as there is one; otherwise zero.
+    ///
+    /// ```
+    /// use asperity_maps::warning::Warning;
+    /// use asperity::{Grid, Surface};
+    /// let wave = |slope| Surface::wave(Grid::line(64, 1.0)?, slope / 6.0, 1);
+    /// let severity = |surface: &Surface| Warning::of_surface(surface)[0].severity();
+    /// assert!(severity(&wave(9.0)?) > severity(&wave(2.0)?));
+    /// # Ok::<(), asperity::Error>(())
+    /// ```
+    pub fn severity(&self) -> f64 {
+        self.text.severity()
+    }
+
+    /// A number as in messages: with three digits, below 1e-3 and from 1e5 on with an exponent.
+    ///
+    /// ```
+    /// use asperity_maps::warning::Warning;
+    /// assert_eq!([2.0, 0.01234, 1.5e-9].map(Warning::figure), ["2", "0.0123", "1.5e-9"]);
+    /// ```
+    pub fn figure(value: f64) -> String {
+        let magnitude = value.abs();
+        let (digits, exponent) = if value == 0.0 || (1e-3..1e5).contains(&magnitude) {
+            let decimals = if value == 0.0 { 0.0 } else { (2.0 - magnitude.log10().floor()).max(0.0) };
+            (format!("{value:.*}", decimals as usize), String::new())
+        } else {
+            let text = format!("{value:.2e}");
+            match text.split_once('e') {
+                Some((digits, exponent)) => (digits.to_owned(), format!("e{exponent}")),
+                None => (text, String::new()),
+            }
+        };
+        let digits = if digits.contains('.') { digits.trim_end_matches('0').trim_end_matches('.') } else { &digits };
+        format!("{digits}{exponent}")
+    }
+
+    /// The probable mistakes in the heights: [`Tilt`](WarningCode::Tilt), [`OpenEdges`](WarningCode::OpenEdges),
+    /// [`Ends`](WarningCode::Ends), [`Steep`](WarningCode::Steep), [`Smooth`](WarningCode::Smooth),
+    /// [`Spikes`](WarningCode::Spikes), [`MissingCode`](WarningCode::MissingCode), [`Cells`](WarningCode::Cells) and
+    /// [`Flat`](WarningCode::Flat). The first three are none where the boundary is free.
+    ///
+    /// Takes a few passes over the heights. Where there are codes for missing points, the warnings that these codes
+    /// would cause are left out. Tilt and edges are looked at along sides of 16 nodes and more.
+    ///
+    /// Where several processes share the grid, each of them takes the whole surface for it, as [`Surface::whole`] gives
+    /// it.
+    pub fn of_surface(surface: &Surface) -> Vec<Self> {
+        let surface = &*surface.whole();
+        let extremes = Extremes::of(surface.heights());
+        let mut found = Vec::new();
+        found.extend(cells(surface.grid()));
+        found.extend(ends_within(surface));
+        if extremes.span() <= FLAT * extremes.low.abs().max(extremes.high.abs()) {
+            let mut text = Text::default();
+            let message = format!(
+                "all heights are {}: there is nothing that could touch first; check the file, or the map",
+                text.length(extremes.low)
+            );
+            found.push(Self { code: WarningCode::Flat, text: text.with(message) });
+            return found;
+        }
+        let codes = extremes.codes();
+        if !codes.is_empty() {
+            found.extend(codes.into_iter().map(|(value, count)| missing_code(value, count, &extremes)));
+            return found;
+        }
+        let relief = Relief::of(surface.heights(), &extremes);
+        found.extend(tilt(&relief, surface.grid()));
+        found.extend(open_edges(&relief));
+        found.extend(ends_at_edges(&relief, surface));
+        found.extend(slope(relief.rms_slope(surface.grid().spacing()), STEEP));
+        found.extend(spikes(&relief, &Spikes::of(surface.heights(), &relief)));
+        found
+    }
+
+    /// The probable mistakes in a measured map that is still to be prepared: [`MissingCode`](WarningCode::MissingCode),
+    /// and, where the side lengths are known and no such code is there, [`Steep`](WarningCode::Steep), which here is an
+    /// rms slope above 100, and [`Smooth`](WarningCode::Smooth).
+    ///
+    /// ```
+    /// use asperity_maps::warning::Warning;
+    /// use asperity_maps::Topography;
+    /// let mut map = Topography::new(ndarray::Array2::from_shape_fn((9, 9), |(i, j)| ((7 * i + 5 * j) as f64).sin()));
+    /// map.heights.row_mut(3).fill(-99.0);
+    /// let found = Warning::of_topography(&map);
+    /// assert!(found[0].message().starts_with("-99 stands at 9 nodes"));
+    /// assert!(Warning::of_topography(&map.declare_missing(-99.0)).is_empty());
+    /// ```
+    pub fn of_topography(map: &Topography) -> Vec<Self> {
+        let extremes = Extremes::of(&map.heights.as_standard_layout().into_owned());
+        let codes = extremes.codes();
+        if codes.is_empty() {
+            return map.rms_slope().and_then(|found| slope(found, STEEP_MAP)).into_iter().collect();
+        }
+        codes.into_iter().map(|(value, count)| missing_code(value, count, &extremes)).collect()
+    }
+
+    /// A contact `modulus` E* that is probably in another unit than the lengths of the `grid` ask for,
+    /// [`Modulus`](WarningCode::Modulus): below 1 kPa beside lengths in metres. These are in metres if their `unit` is
+    /// m, and without a unit if the nodes are less than 1e-7 apart. E* = 1 is none, as it makes all pressures relative.
+    ///
+    /// ```
+    /// use asperity_maps::warning::{Warning, WarningCode};
+    /// use asperity::Grid;
+    /// let grid = Grid::square(512, 10e-6)?;
+    /// assert_eq!(Warning::of_modulus(70.0, &grid, Some("m")).map(|found| found.code), Some(WarningCode::Modulus));
+    /// assert!(Warning::of_modulus(70e9, &grid, Some("m")).is_none());
+    /// assert!(Warning::of_modulus(70.0, &Grid::square(512, 10.0)?, Some("µm")).is_none());
+    /// # Ok::<(), asperity::Error>(())
+    /// ```
+    pub fn of_modulus(modulus: f64, grid: &Grid, unit: Option<&str>) -> Option<Self> {
+        heights::modulus(modulus, grid, unit)
+    }
+
+    /// A measured map whose scan lines, which are to be brought to one height, are probably not those along the given
+    /// axis: [`ScanAxis`](WarningCode::ScanAxis). Lines along the other axis are offset from one another by more than
+    /// half the rms step of their nodes, five times as irregularly as those along this one, neither as smoothly as the
+    /// profile of a surface nor on one that is rougher across them. Nothing where there are fewer than 64 lines.
+    ///
+    /// ```
+    /// use asperity_maps::ScanAxis;
+    /// use asperity_maps::warning::Warning;
+    /// use asperity_maps::Topography;
+    /// // an image: rows are the scan lines, and drift moves each by some height
+    /// let drift = |row: usize| ((row as f64 * 0.618).fract() - 0.5).powi(3);
+    /// let grain = |row: usize, column: usize| 1e-3 * ((row * 7 + column * 13) as f64 * 0.414).fract();
+    /// let image = ndarray::Array2::from_shape_fn((96, 96), |(row, column)| drift(row) + grain(row, column));
+    /// let map = Topography::new(image);
+    /// assert!(Warning::of_lines(&map, ScanAxis::X).is_some());
+    /// assert!(Warning::of_lines(&map, ScanAxis::Y).is_none());
+    /// ```
+    pub fn of_lines(map: &Topography, along: ScanAxis) -> Option<Self> {
+        lines::scan_axis(map, along)
+    }
+
+    /// The probable mistakes in the range of `law` on a surface pressed against a body of contact `modulus` E*:
+    /// [`Range`](WarningCode::Range). Nothing without adhesion.
+    pub fn of_law<T: Real>(law: &impl AdhesionLaw<T>, surface: &Surface, modulus: f64) -> Vec<Self> {
+        if law.hints().zero {
+            return Vec::new();
+        }
+        let mu_rho = mu_rho(law, surface.grid(), modulus);
+        let (range, span) = (law.hints().range.widen(), Extremes::of(surface.whole().heights()).span());
+        let mut found = Vec::new();
+        if mu_rho > RESOLVED {
+            // μ_ρ goes with the root of the spacing, and with the inverse of the range
+            let (finer, longer) = ((mu_rho / RESOLVED).powi(2).ceil(), rounded_up(range * mu_rho / RESOLVED));
+            let mut text = Text::default();
+            let message = format!(
+                "adhesion is under-resolved, mu_rho = {} exceeds {RESOLVED}: the answer depends on the grid and \
+                 on the start, the contact area is likely to be wrong {}; use a grid {finer} times finer, or a \
+                 range of at least {}",
+                Self::figure(mu_rho),
+                likely_error(mu_rho),
+                text.length(longer)
+            );
+            let text = text.with(message).of_severity(mu_rho / RESOLVED);
+            found.push(Self { code: WarningCode::Range, text });
+        }
+        if law.hints().work_of_adhesion > T::zero() && span > 0.0 && range > span {
+            let mut text = Text::default();
+            let message = format!(
+                "the range of adhesion, {}, exceeds the heights, which span {}: it then pulls on the whole surface \
+                 alike, as a pressure would; give it in the unit of the lengths",
+                text.length(range),
+                text.length(span)
+            );
+            found.push(Self { code: WarningCode::Range, text: text.with(message).of_severity(range / span) });
+        }
+        found
+    }
+
+    /// The probable mistakes in an answer: [`BeyondModulus`](WarningCode::BeyondModulus) where the contact modulus E*
+    /// is positive, and [`WindowEdge`](WarningCode::WindowEdge) with a free boundary.
+    pub fn of_solution<T: Real>(solution: &Solution<T>) -> Vec<Self> {
+        let modulus = solution.report.modulus;
+        let pressures = || solution.contact_pressure.iter().map(|pressure| pressure.widen());
+        let count = pressures().filter(|pressure| *pressure > modulus).count();
+        let greatest = pressures().fold(f64::NEG_INFINITY, f64::max);
+        let mut found = Vec::new();
+        found.extend(window_edge(solution));
+        if count == 0 || modulus <= 0.0 {
+            return found;
+        }
+        let mut text = Text::default();
+        let message = format!(
+            "the contact pressure is up to {}, {} times the contact modulus E*, and above it at {count} of {} nodes: \
+             linear elasticity does not hold there; check the modulus, the load and the unit of the lengths",
+            text.pressure(greatest),
+            Self::figure(greatest / modulus),
+            solution.contact_pressure.len()
+        );
+        let text = text.with(message).of_severity(greatest / modulus);
+        found.push(Self { code: WarningCode::BeyondModulus, text });
+        found
+    }
+
+    /// A solution on a mirrored map whose contact is not that of its mirror images, [`Images`](WarningCode::Images):
+    /// its `original` does not stand for the whole.
+    ///
+    /// ```
+    /// use asperity::contact::Original;
+    /// use asperity_maps::warning::Warning;
+    /// use asperity::{Control, Grid, NoAdhesion, Problem, Solver, Surface, Westergaard};
+    /// let grid = Grid::square(32, 1.0)?;
+    /// let sphere = Surface::paraboloid(grid, 2.0)?; // its mirror lines are between no nodes
+    /// let mut problem = Problem::new(&sphere, Westergaard::<f64>::new(grid, 1.0)?, NoAdhesion)?;
+    /// let solution = Solver::default().solve(&mut problem, Control::MeanPressure(0.001))?;
+    /// let [left, all] = [(16, 16), (32, 32)].map(|nodes| Original::new(&grid, nodes));
+    /// assert!(Warning::of_images(&left?, &solution)?.is_some());
+    /// assert!(Warning::of_images(&all?, &solution)?.is_none());
+    /// # Ok::<(), asperity::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::Shape`](asperity::Error::Shape) if the solution is not one of the whole.
+    pub fn of_images<T: Real>(original: &Original, solution: &Solution<T>) -> Result<Option<Self>> {
+        let whole = solution.report.contact_nodes as f64;
+        let part = original.contact_nodes(solution)? as f64;
+        let expected = original.share() * whole;
+        if (part - expected).abs() <= f64::max(1.0, UNLIKE * expected) {
+            return Ok(None);
+        }
+        let share = |contact: f64, grid: &Grid| 100.0 * contact / grid.nodes() as f64;
+        let message = format!(
+            "{} % of the original of this mirrored map are in contact, but {} % of the whole: the contact is not that of \
+             its mirror images, as adhesion may begin on one of them; look at the whole",
+            Self::figure(share(part, original.grid())),
+            Self::figure(share(whole, original.whole()))
+        );
+        let text = Text::default().with(message).of_severity((part - expected).abs() / expected.max(1.0));
+        Ok(Some(Self { code: WarningCode::Images, text }))
+    }
+}
+
+/// The likely error of the contact area for a resolution measure μ_ρ, from a rough surface under one pressure on
+/// coarser and coarser grids against the finest, with nodes counted and corrected by the perimeter: 0.5 % at 0.7, 1 to
+/// 2 % at 1, 13 to 20 % at 1.4, 60 % at 2, and three times too large at 2.8.
+fn likely_error(mu_rho: f64) -> &'static str {
+    match mu_rho {
+        _ if mu_rho <= 1.0 => "by some 2 %",
+        _ if mu_rho <= 1.5 => "by up to 20 %",
+        _ if mu_rho <= 2.0 => "by up to 60 %",
+        _ => "by a factor of two or more",
+    }
+}
+
+/// A positive number with three digits, no less than this one.
+fn rounded_up(value: f64) -> f64 {
+    let unit = 10_f64.powf(value.log10().floor() - 2.0);
+    (value / unit).ceil() * unit
+}
+
+fn window_edge<T: Real>(solution: &Solution<T>) -> Option<Warning> {
+    let share = solution.report.edge_traction.filter(|_| solution.report.reaches_edge)?;
+    let message = format!(
+        "contact or traction reaches the edge of the window, with {} of the largest traction: what lies beyond is not \
+         there; unless the body ends at this edge, take a larger window, or an adhesion of less range",
+        Warning::figure(share)
+    );
+    Some(Warning { code: WarningCode::WindowEdge, text: Text::default().with(message).of_severity(share) })
+}

@@ -1,0 +1,246 @@
+//! What is told of heights: tilt, edges, slopes, spikes, codes of missing points, and their cells.
+
+use super::extremes::Extremes;
+use super::relief::{Relief, Side};
+use super::spikes::Spikes;
+use super::text::Text;
+use super::{Warning, WarningCode};
+use asperity::Grid;
+use asperity::Surface;
+
+/// The drop of a plane across the map, in rms heights about the plane, from which there is a tilt: at a few per cent
+/// of contact, some two rms heights above the mean, a fifth gives one side of Gaussian heights half as much contact
+/// again as the other.
+const TILT: f64 = 0.2;
+
+/// The least difference of mean height across the periodic edge, as a share of the drop of the plane. The share is 1
+/// on a tilted map, and 0 on a long wave, which also has a plane in it.
+const TILT_AT_EDGE: f64 = 0.5;
+
+/// The difference of mean height across the periodic edge from which a tilt stands out, in the greatest difference
+/// between the means of neighbouring rows (columns): one of these exceeds the others on every surface, but not by a
+/// factor of 3.
+const TILT_STANDS_OUT: f64 = 3.0;
+
+/// The rms step across the periodic edge, in rms steps between neighbouring rows (columns) inside, from which edges
+/// do not meet: on a periodic surface the edge is a place like any other, and the mean over many nodes along it
+/// scatters little.
+const OPEN_EDGE: f64 = 3.0;
+
+/// The same on a line, where the edge is one step alone, and that of Gaussian heights reaches no 6.
+const OPEN_END: f64 = 6.0;
+
+/// The rms step across the periodic edge from which it stands out, in the greatest rms step inside: a surface of
+/// steps, as a grating, may have one at the edge, but has equal ones inside.
+const STANDS_OUT: f64 = 1.5;
+
+/// The fall of mean height to an edge, in the greatest difference between the means of neighbouring rows (columns),
+/// from which heights fall to the edge: a sphere is steepest there, and a wave or an asperity within the map flat.
+const FALLS: f64 = 0.5;
+
+/// The bend of mean height across the periodic edge, in the greatest one inside, from which the edge is a crease. The
+/// bends of a mirrored map are as great along its mirror lines inside. That of a sphere goes with the number of nodes,
+/// and is 7 on 16; that of a cone, which has an apex inside, is 4 on 32.
+const CREASE: f64 = 4.0;
+
+/// The contact modulus in Pa below which lengths in metres have another unit of pressure beside them: that of soft
+/// gels.
+const SOFTEST: f64 = 1e3;
+
+/// The spacing of nodes below which lengths are in metres: in millimetres it would be less than an atom.
+const METRES: f64 = 1e-7;
+
+/// The rms slope below which heights and lengths are in different units: the best mirrors have some 5e-8, and heights
+/// in metres beside lengths in nanometres 1e-9 at most.
+const SMOOTH: f64 = 1e-8;
+
+/// The aspect ratio of cells from which they are far from square: the longer side then resolves half as much, and
+/// side lengths may have been forgotten.
+const CELLS: f64 = 2.0;
+
+pub(super) fn cells(grid: &Grid) -> Option<Warning> {
+    let ((nx, ny), (dx, dy)) = (grid.shape(), grid.spacing());
+    let aspect = (dx / dy).max(dy / dx);
+    if nx == 1 || ny == 1 || aspect <= CELLS {
+        return None;
+    }
+    let mut text = Text::default();
+    let message = format!(
+        "cells are {} by {}, {} times as long as wide: check the side lengths, {} by {} for {nx} x {ny} \
+         nodes, or resample to square cells",
+        text.length(dx),
+        text.length(dy),
+        Warning::figure(aspect),
+        text.length(grid.lengths().0),
+        text.length(grid.lengths().1)
+    );
+    Some(Warning { code: WarningCode::Cells, text: text.with(message).of_severity(aspect) })
+}
+
+pub(super) fn missing_code(value: f64, count: usize, extremes: &Extremes) -> Warning {
+    // all digits, as the remedy needs them
+    let value = if (1e-3..1e9).contains(&value.abs()) { format!("{value}") } else { format!("{value:e}") };
+    let mut text = Text::default();
+    let message = format!(
+        "{value} stands at {count} {}, far outside of the other heights, {} to {}, as a code for missing points \
+         does: declare it missing, and fill (prepare --missing {value} --fill); nothing else can be told of the \
+         heights before",
+        if count == 1 { "node" } else { "nodes" },
+        text.length(extremes.rest.0),
+        text.length(extremes.rest.1)
+    );
+    Warning { code: WarningCode::MissingCode, text: text.with(message).of_severity(count as f64) }
+}
+
+pub(super) fn tilt(relief: &Relief, grid: &Grid) -> Option<Warning> {
+    let rms = relief.rms_about_plane();
+    let tilted = |side: &Side| {
+        let drop = side.drop.abs();
+        let missed = -side.drop.signum() * side.mean_edge;
+        let stands_out = missed > TILT_STANDS_OUT * side.greatest_mean_step;
+        side.tells() && drop > TILT * rms && missed > TILT_AT_EDGE * drop && stands_out
+    };
+    if !relief.sides.iter().any(tilted) {
+        return None;
+    }
+    let (lx, ly) = grid.lengths();
+    let [x, y] = [&relief.sides[0], &relief.sides[1]].map(|side| side.drop * relief.unit);
+    let across = (x.abs() + y.abs()) / (rms * relief.unit);
+    let mut text = Text::default();
+    let message = format!(
+        "the map is tilted by {} along x and {} along y, {} across it, {} times the rms height about that plane: \
+         remove a plane (detrend)",
+        Warning::figure(x / lx),
+        Warning::figure(y / ly),
+        text.length(x.abs() + y.abs()),
+        Warning::figure(across)
+    );
+    Some(Warning { code: WarningCode::Tilt, text: text.with(message).of_severity(across) })
+}
+
+pub(super) fn open_edges(relief: &Relief) -> Option<Warning> {
+    let factor = if relief.is_line() { OPEN_END } else { OPEN_EDGE };
+    let stands_out = |side: &Side| side.edge > STANDS_OUT * side.greatest_step;
+    let open = |side: &Side| side.tells() && side.edge > factor * side.rms_step && stands_out(side);
+    let (mut text, mut worst) = (Text::default(), 0.0);
+    let parts: Vec<_> = relief
+        .sides
+        .iter()
+        .zip(["x", "y"])
+        .filter(|(side, _)| open(side))
+        .map(|(side, name)| {
+            worst = f64::max(worst, side.edge / side.rms_step);
+            format!(
+                "{} along {name}, {} times that between neighbours inside",
+                text.length(side.edge * relief.unit),
+                Warning::figure(side.edge / side.rms_step)
+            )
+        })
+        .collect();
+    if parts.is_empty() {
+        return None;
+    }
+    let message = format!(
+        "opposite edges do not meet, the rms step across the periodic edge is {}: make the map periodic, by mirror \
+         images (mirror) or a taper (window)",
+        parts.join(", and ")
+    );
+    Some(Warning { code: WarningCode::OpenEdges, text: text.with(message).of_severity(worst) })
+}
+
+/// The highest of the heights along the edges, without those of absent nodes; −∞ if all of these are absent.
+fn highest_at_edges(surface: &Surface) -> f64 {
+    let (nx, ny) = surface.grid().shape();
+    let is_present = |node| surface.absent().is_none_or(|absent| !absent[node]);
+    let rows = [0, nx - 1].into_iter().flat_map(|i| (0..ny).map(move |j| (i, j)));
+    let edges = rows.chain((0..nx).flat_map(|i| [(i, 0), (i, ny - 1)]));
+    let heights = edges.filter(|&node| is_present(node)).map(|node| surface.heights()[node]);
+    heights.fold(f64::NEG_INFINITY, f64::max)
+}
+
+/// A body that ends before the edges.
+pub(super) fn ends_within(surface: &Surface) -> Option<Warning> {
+    let ends = surface.absent().is_some() && highest_at_edges(surface) == f64::NEG_INFINITY;
+    ends.then(|| ends_as("no node along the edges has a surface, as around a punch".to_owned(), Text::default()))
+}
+
+/// A body that falls to the edges, which are creases between it and its images.
+pub(super) fn ends_at_edges(relief: &Relief, surface: &Surface) -> Option<Warning> {
+    let falls = |side: &Side| {
+        let crease = side.falls.iter().sum::<f64>() > CREASE * side.greatest_bend;
+        side.tells() && crease && side.falls.iter().all(|fall| *fall > FALLS * side.greatest_mean_step)
+    };
+    let below = relief.mean - relief.scale.of(highest_at_edges(surface));
+    if !relief.sides.iter().all(falls) || below <= 0.0 {
+        return None;
+    }
+    let (dx, dy) = surface.grid().spacing();
+    let slope = |side: &Side, spacing: f64| side.falls.iter().sum::<f64>() * relief.unit / spacing;
+    let mut text = Text::default();
+    let seen = format!(
+        "the heights fall to all edges, {} and more below their mean, and the slope changes by {} there, as between \
+         spheres or cones side by side",
+        text.length(below * relief.unit),
+        Warning::figure(slope(&relief.sides[0], dx).max(slope(&relief.sides[1], dy)))
+    );
+    Some(ends_as(seen, text))
+}
+
+fn ends_as(seen: String, text: Text) -> Warning {
+    let message = format!(
+        "{seen}: in a periodic cell a body stands among images of itself; give it a free boundary (boundary free), or, \
+         if its roughness alone is wanted, remove its form (remove-form)"
+    );
+    Warning { code: WarningCode::Ends, text: text.with(message) }
+}
+
+pub(super) fn modulus(modulus: f64, grid: &Grid, unit: Option<&str>) -> Option<Warning> {
+    let spacing = grid.spacing().0.min(grid.spacing().1);
+    let in_metres = unit.map_or(spacing < METRES, |unit| unit == "m");
+    if modulus == 1.0 || modulus >= SOFTEST || !in_metres {
+        return None;
+    }
+    let mut text = Text::default();
+    let message = format!(
+        "the contact modulus is {}, and the lengths are in m, with nodes {} apart: beside these it is in Pa, and less \
+         than the {SOFTEST:e} Pa of soft gels; give it in Pa, as 7e10 for 70 GPa, or give all numbers a unit",
+        text.pressure(modulus),
+        text.length(spacing)
+    );
+    Some(Warning { code: WarningCode::Modulus, text: text.with(message) })
+}
+
+/// What is probably wrong with an rms slope, if more than `most` is steep.
+pub(super) fn slope(slope: f64, most: f64) -> Option<Warning> {
+    let (code, than, severity) = match slope {
+        _ if slope > most => (WarningCode::Steep, format!("more than {most}"), slope),
+        _ if slope > 0.0 && slope < SMOOTH => (WarningCode::Smooth, format!("less than {SMOOTH:e}"), slope.recip()),
+        _ => return None,
+    };
+    let message = format!(
+        "the rms slope is {}, {than}: are heights and lengths in one unit? scale the heights, or correct the side \
+         lengths",
+        Warning::figure(slope)
+    );
+    Some(Warning { code, text: Text::default().with(message).of_severity(severity) })
+}
+
+pub(super) fn spikes(relief: &Relief, spikes: &Spikes) -> Option<Warning> {
+    if spikes.count == 0 {
+        return None;
+    }
+    let farthest = spikes.farthest / relief.rms_about_plane();
+    let mut text = Text::default();
+    let message = format!(
+        "{} single {} out of all neighbours, the farthest by {}, {} times the rms height, at index [{}, {}]; the \
+         kurtosis of the heights is {} (3 if Gaussian): give such nodes the median around them (despike)",
+        spikes.count,
+        if spikes.count == 1 { "node is far" } else { "nodes are far" },
+        text.length(spikes.farthest * relief.unit),
+        Warning::figure(farthest),
+        spikes.node.0,
+        spikes.node.1,
+        Warning::figure(spikes.kurtosis)
+    );
+    Some(Warning { code: WarningCode::Spikes, text: text.with(message).of_severity(farthest) })
+}

@@ -1,0 +1,51 @@
+//! What is told of scan lines: that those along the other axis have the offsets.
+
+use super::text::Text;
+use super::{Warning, WarningCode};
+use crate::topography::{LineSteps, ScanAxis, Topography};
+
+/// Fewer lines tell nothing: a few waves of a surface with a lay are steps from line to line like any others.
+const LEAST: usize = 64;
+
+/// The change from line to line of the steps that whole lines share, in that along the other axis, from which the
+/// offsets are by far the larger: long waves, which lines share as well, change little from line to line.
+const FAR: f64 = 5.0;
+
+/// The steps that whole lines share, in the rms step of single nodes beyond them, from which the lines are offset: of
+/// long lines on isotropic heights it is a few tenths.
+const STANDS_OUT: f64 = 0.5;
+
+/// The change of the steps from one to the next, in the steps, of lines that are offset at random: √3 if the offsets
+/// are independent, √2 if the steps are. The profile of a surface changes less, and a grating of few lines much more.
+const RANDOM: std::ops::Range<f64> = 1.2..2.5;
+
+/// The rms step of single nodes across the lines over that along them up to which the surface itself has no lay.
+const ALIKE: f64 = 2.0;
+
+/// The warning that lines across the scan lines have the offsets.
+pub(super) fn scan_axis(map: &Topography, along: ScanAxis) -> Option<Warning> {
+    let (nx, ny) = map.heights.dim();
+    if nx.min(ny) < LEAST {
+        return None;
+    }
+    let (across, names) = match along {
+        ScanAxis::X => (ScanAxis::Y, ["x", "y"]),
+        ScanAxis::Y => (ScanAxis::X, ["y", "x"]),
+    };
+    let [asked, other] = [along, across].map(|axis| LineSteps::of(map, axis));
+    let offset = other.change > FAR * asked.change && other.shared > STANDS_OUT * other.single;
+    if !(offset && RANDOM.contains(&(other.change / other.shared)) && other.single <= ALIKE * asked.single) {
+        return None;
+    }
+    let mut text = Text::default();
+    let message = format!(
+        "lines along {1} are offset from one to the next by {2}, {3} times as irregularly as those along {0}, which are \
+         to be brought to one height: if the instrument scanned along {1}, choose {1} for the scan axis, or exchange \
+         the axes",
+        names[0],
+        names[1],
+        text.length(other.shared),
+        if asked.change > 0.0 { Warning::figure(other.change / asked.change) } else { "infinitely many".into() }
+    );
+    Some(Warning { code: WarningCode::ScanAxis, text: text.with(message) })
+}

@@ -1,0 +1,3 @@
+//! Measured maps, files and warnings, as users see them.
+
+mod warnings;

@@ -1,0 +1,113 @@
+//! Heights on other grids: by Fourier interpolation, and with their mirror images.
+
+use asperity_fft::num_complex::Complex;
+use ndarray::{Array2, Zip};
+
+use super::mean_of_finite;
+#[cfg(doc)]
+use crate::error::Error;
+use crate::error::Result;
+use crate::field::all_finite;
+use crate::grid::Grid;
+
+/// Heights on `nodes` = (Mx, My) nodes of the same sides, finer or coarser, by Fourier interpolation.
+///
+/// The heights are the trigonometric polynomial through the Nx × Ny nodes, of which those of the new nodes are
+/// values:
+///
+/// ```math
+/// h(x, y) = Σₖ Σₗ ĥₖₗ exp(2πi(kx/Lx + ly/Ly)) ,   |k| ≤ Nx/2 , |l| ≤ Ny/2
+/// ```
+///
+/// The shortest wave of an even number of nodes, which the nodes cannot tell from its mirror image, counts half
+/// for k = N/2 and half for k = −N/2. Node (0, 0) stays in its place; with Mx and My multiples of Nx and Ny all
+/// old nodes are among the new ones, and keep their heights. Coarser grids lose the waves that they do not
+/// resolve, which is no sampling of every second node. The mean height stays, and so do all waves that both grids
+/// resolve. The polynomial is periodic: edges that do not meet make it ring. Peaks between the nodes of a coarse grid
+/// may be higher than any node.
+///
+/// ```
+/// use asperity::surface::resample;
+/// use asperity::{Grid, Surface};
+/// let coarse = Surface::wave(Grid::new((8, 1), (1.0, 1.0))?, 0.1, 3)?;
+/// let fine = resample(coarse.heights().clone(), (32, 1))?;
+/// for (i, h) in coarse.heights().iter().enumerate() {
+///     assert!((fine[[4 * i, 0]] - h).abs() < 1e-15);
+/// }
+/// # Ok::<(), asperity::Error>(())
+/// ```
+///
+/// # Errors
+/// [`Error::Value`] if a number of nodes is zero; [`Error::Memory`] if they take more than there is;
+/// [`Error::NotFinite`] if heights are missing.
+pub fn resample(mut heights: Array2<f64>, nodes: (usize, usize)) -> Result<Array2<f64>> {
+    Grid::new(nodes, (1.0, 1.0))?.slab().afford("a resampled map", 32)?;
+    all_finite("heights", heights.view())?;
+    // about the mean, so that a large datum costs no digits
+    let mean = mean_of_finite(&heights);
+    heights.mapv_inplace(|h| h - mean);
+    let along_y = resample_rows(&heights, nodes.1);
+    let along_x = resample_rows(&along_y.reversed_axes().as_standard_layout().into_owned(), nodes.0);
+    let mut heights = along_x.reversed_axes().as_standard_layout().into_owned();
+    heights.mapv_inplace(|h| h + mean);
+    Ok(heights)
+}
+
+/// Heights and their mirror images along both axes, 2Nx × 2Ny nodes: row Nx + i is a copy of row Nx − 1 − i, and columns
+/// likewise. A single node along a side is already its own image.
+pub fn mirror(heights: &Array2<f64>) -> Array2<f64> {
+    let (nx, ny) = heights.dim();
+    let (mx, my) = (if nx == 1 { 1 } else { 2 * nx }, if ny == 1 { 1 } else { 2 * ny });
+    let image = |i: usize, n: usize| if i < n { i } else { 2 * n - 1 - i };
+    Array2::from_shape_fn((mx, my), |(i, j)| heights[[image(i, nx), image(j, ny)]])
+}
+
+/// Every row on `m` nodes. Two of them ride in one complex line: what interpolation multiplies their waves by is real.
+fn resample_rows(field: &Array2<f64>, m: usize) -> Array2<f64> {
+    let (rows, n) = field.dim();
+    if n == m {
+        return field.clone();
+    }
+    let (forward, inverse) = (asperity_fft::double(n).forward, asperity_fft::double(m).inverse);
+    let mut scratch =
+        vec![Complex::default(); forward.get_inplace_scratch_len().max(inverse.get_inplace_scratch_len())];
+    let (mut line, mut fine) = (vec![Complex::default(); n], vec![Complex::default(); m]);
+    let mut result = Array2::zeros((rows, m));
+    for first in (0..rows).step_by(2) {
+        let second = (first + 1).min(rows - 1);
+        Zip::from(&mut line[..])
+            .and(field.row(first))
+            .and(field.row(second))
+            .for_each(|z, &a, &b| *z = Complex::new(a, b));
+        forward.process_with_scratch(&mut line, &mut scratch);
+        spread(&line, &mut fine);
+        inverse.process_with_scratch(&mut fine, &mut scratch);
+        for (row, part) in [(second, 1), (first, 0)] {
+            let values = fine.iter().map(|z| if part == 0 { z.re } else { z.im } / n as f64);
+            result.row_mut(row).iter_mut().zip(values).for_each(|(h, value)| *h = value);
+        }
+    }
+    result
+}
+
+/// The modes of a line of other length: those that both resolve, with the shortest of the two shared between k and −k.
+fn spread(from: &[Complex<f64>], to: &mut [Complex<f64>]) {
+    let (n, m) = (from.len(), to.len());
+    let shorter = n.min(m);
+    to.fill(Complex::default());
+    to[0] = from[0];
+    for k in 1..shorter.div_ceil(2) {
+        to[k] = from[k];
+        to[m - k] = from[n - k];
+    }
+    if shorter.is_multiple_of(2) {
+        let k = shorter / 2;
+        if n < m {
+            to[k] = from[k].scale(0.5);
+            to[m - k] = to[k];
+        } else {
+            // the nodes cannot tell the two apart
+            to[k] = from[k] + from[n - k];
+        }
+    }
+}
