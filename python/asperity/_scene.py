@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from . import _asperity, _law, surface
+from . import _asperity, _law
 from ._accuracy import shortfall
 from ._control import Load, number
 from ._solution import Solution
@@ -65,7 +65,7 @@ class Scene:
             self.topography.unit,
             self.topography.source,
         )
-        self.boundary, self._modulus = boundary, modulus
+        self.boundary = boundary
         self._adhesion = law
         self._unloads = branch == "unloading"
         self._warned: set[str] = set()
@@ -80,10 +80,8 @@ class Scene:
         """Loads with reduced pressures as pressures, over the rms slope of the surface."""
         if loads[:1] and loads[0][0] != "reduced_pressure":
             return loads
-        if np.isnan(self.topography.heights).any():
-            raise ValueError("a reduced pressure is over the rms slope, and nodes that are absent have none: give a pressure")
-        slope = surface.statistics(self.topography).rms_slope
-        return [("mean_pressure", [ratio * (self._modulus * slope)]) for _, (ratio,) in loads]
+        full = self.problem.full_pressure()
+        return [("mean_pressure", [ratio * full]) for _, (ratio,) in loads]
 
     def start(self, start: Any, loads: list[Load]) -> NDArray[np.float64] | None:
         """The gap from which to start under the first of some loads."""

@@ -3,7 +3,7 @@
 use asperity::{Real, Solution, Status};
 use asperity_maps::Topography;
 use asperity_maps::warning::Warning;
-use asperity_scene::{Account, Found, RanAway, Told};
+use asperity_scene::{Account, Found, Told, check_finite};
 use numpy::{Element, IntoPyArray, PyArrayMethods};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -32,7 +32,7 @@ pub fn answer<'py, T: Scalar>(
     if solution.report.status != Status::Stopped {
         let other = if T::NAME == "f32" { "precision='f64'" } else { "another start" };
         let refused = |found| format!("{found}; use {other}, or units in which the numbers are moderate");
-        RanAway::check(&solution).map_err(|found| PyValueError::new_err(refused(found)))?;
+        check_finite(&solution).map_err(|found| PyValueError::new_err(refused(found)))?;
     }
     let found = PyDict::new(py);
     found.set_item("report", to_pyobject(py, &account)?)?;

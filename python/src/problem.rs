@@ -124,6 +124,12 @@ impl Problem {
         self.inputs.initial_gap = Some(word);
     }
 
+    /// The pressure of which a reduced pressure is a part.
+    fn full_pressure(&mut self, py: Python<'_>) -> PyResult<f64> {
+        let (pool, _, solves) = self.parts()?;
+        py.detach(move || pool.get().install(move || solves.full_pressure())).map_err(PyValueError::new_err)
+    }
+
     /// The plan of a solve to an accuracy.
     #[pyo3(signature = (load, accuracy))]
     fn plan(&mut self, py: Python<'_>, load: Load, accuracy: Accuracy) -> PyResult<Planned> {

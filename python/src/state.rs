@@ -54,6 +54,7 @@ pub trait Solves: Send {
         start: Begin<'py>,
     ) -> PyResult<Option<Bound<'py, PyDict>>>;
     fn end_leg(&mut self);
+    fn full_pressure(&self) -> Result<f64, String>;
     fn plan(&mut self, py: Python<'_>, pool: &Pool, control: Control, goal: Goal) -> PyResult<(Plan, f64)>;
     fn stability<'py>(
         &mut self,
@@ -189,6 +190,10 @@ impl<T: Scalar> Solves for State<T> {
 
     fn end_leg(&mut self) {
         self.leg_ends = true;
+    }
+
+    fn full_pressure(&self) -> Result<f64, String> {
+        self.posed.full_pressure()
     }
 
     fn plan(&mut self, py: Python<'_>, pool: &Pool, control: Control, goal: Goal) -> PyResult<(Plan, f64)> {

@@ -156,14 +156,7 @@ impl SurfaceOptions {
 
     /// The pressure E* h'rms, of which a reduced pressure is a part; 1 where none is `wanted`.
     pub fn full_pressure(&self, surface: &Surface, wanted: bool) -> Outcome<f64> {
-        match (wanted, surface.absent_nodes()) {
-            (false, _) => Ok(1.0),
-            (true, 0) => Ok(self.modulus() * surface.statistics().rms_slope),
-            (true, absent) => {
-                let reason = "which have no slope: give a pressure";
-                Err(format!("a reduced pressure is over the rms slope, but {absent} nodes are absent, {reason}").into())
-            }
-        }
+        if wanted { Ok(self.half_space().full_pressure(surface)?) } else { Ok(1.0) }
     }
 }
 

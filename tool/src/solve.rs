@@ -1,15 +1,16 @@
 //! `asperity solve`: the equilibrium at one load.
 
 mod distribution;
+mod problem;
 
 use std::borrow::Cow;
 use std::ops::ControlFlow;
 use std::path::PathBuf;
 
 use asperity::contact::PressureDistribution;
-use asperity::{AdhesionLaw, Control, Solution, Solver, Status, Surface};
+use asperity::{AdhesionLaw, Solution, Status};
 use asperity_maps::io::{OutputFolder, write_npz, write_vti};
-use asperity_scene::{Account, Asked, Branches, Inputs, Posed, Wall};
+use asperity_scene::{Account, Asked};
 use clap::{ArgGroup, Args, ValueEnum};
 use ndarray::{Array2, CowArray};
 use serde_json::json;
@@ -20,7 +21,7 @@ use crate::allowed::bins;
 use crate::boundary::{LOAD, LoadOptions, check_load};
 use crate::fields::{check_finite, gap_to_write, write_fields};
 use crate::numbers::plain;
-use crate::options::{Given, Iteration, Precision, ProblemOptions, Scalar, SolverOptions, SurfaceOptions};
+use crate::options::{Given, Precision, ProblemOptions, Scalar, SolverOptions, SurfaceOptions};
 use crate::outcome::Outcome;
 use crate::output::{at_destination, check_apart, output_folder, write_text};
 use crate::part::Part;
@@ -29,7 +30,6 @@ use crate::printing::{Printing, complain, name, say};
 use crate::processes::{Processes, WHOLE};
 use crate::progress::Progress;
 use crate::quantity::{PRESSURE, Quantity};
-use crate::report;
 use crate::scene::{self, Scene};
 use crate::summary::{table, warn};
 use crate::units::{UnitOptions, Units};
@@ -214,27 +214,6 @@ pub fn run(options: &Options, scene: &Scene, processes: &Processes) -> Outcome<b
 }
 
 impl Options {
-    /// Whether both branches of equilibria are asked for.
-    fn wants_both(&self) -> bool {
-        self.solver.branch == Some(Branches::Both)
-    }
-
-    /// Refuses both branches where there is nothing to be compared.
-    fn check_branches(&self) -> Outcome<()> {
-        let reason = match self {
-            _ if !self.wants_both() => return Ok(()),
-            _ if self.adhesion.law == Law::None => "without adhesion there is but one equilibrium",
-            _ if self.load.contact_fraction.is_some() => {
-                "each branch has a load of its own for a contact fraction: give a load"
-            }
-            _ if self.accuracy.accuracy.is_some() => "each branch has an accuracy of its own: give one branch",
-            _ if self.leave => "an equilibrium that is left leads off its branch: give one branch",
-            _ if self.solver.method == Iteration::Rey2017 => "rey2017 has one start: take the default method",
-            _ => return Ok(()),
-        };
-        Err(format!("--branch both: {reason}").into())
-    }
-
     /// Refuses what has no form for several processes.
     fn check_shared(&self, processes: &Processes) -> Outcome<()> {
         if self.accuracy.accuracy.is_some() { processes.alone("--accuracy") } else { Ok(()) }
@@ -250,35 +229,6 @@ impl Options {
 
     fn problem(&self) -> ProblemOptions<'_> {
         ProblemOptions { surface: &self.surface, adhesion: &self.adhesion, solver: &self.solver }
-    }
-
-    /// The solver that the options choose.
-    pub fn solver(&self) -> Solver<Wall> {
-        Solver { settings: self.solver.settings(), constraint: self.adhesion.wall }
-    }
-
-    /// The solution that the options ask for, under a load.
-    pub fn asked(&self, control: Control) -> Asked {
-        Asked {
-            fraction: self.load.contact_fraction,
-            nested: (self.nested || self.no_nested).then_some(self.nested),
-            other_branch: self.wants_both(),
-            stability: self.stability || self.leave,
-            leave: self.leave,
-            stiffness: self.stiffness,
-            goal: self.accuracy.goal(),
-            ..Asked::under(control)
-        }
-    }
-
-    /// The problem of a surface with a law.
-    pub fn posed<T: Scalar>(&self, surface: Surface, law: Box<dyn AdhesionLaw<T>>, part: &Part) -> Posed<T> {
-        Posed::new(surface, law.into(), self.surface.half_space(), self.solver(), part.wanted())
-    }
-
-    /// The inputs of the report.
-    pub fn inputs(&self, part: &Part, units: &Units, scene: &Scene) -> Inputs {
-        report::inputs(self.problem(), part, units, scene)
     }
 }
 

@@ -1,6 +1,5 @@
 //! The findings of a solve: the solution, and all that was asked for beside it.
 
-use std::fmt;
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -199,46 +198,25 @@ pub fn warnings_of<T: Real>(solution: &Solution<T>, original: Option<Original>) 
     Ok(found)
 }
 
-/// A solve that has run away: fields with values that are not finite.
-#[derive(Clone, Debug, PartialEq)]
-pub struct RanAway {
-    iterations: usize,
-    precision: &'static str,
-    field: &'static str,
-    count: usize,
-    nodes: usize,
-}
-
-impl RanAway {
-    /// Refuses a solution with fields that are not finite.
-    ///
-    /// # Errors
-    /// The first field that is not finite.
-    pub fn check<T: Real>(solution: &Solution<T>) -> std::result::Result<(), Self> {
-        let Solution { gap, pressure, contact_pressure, grid, report, .. } = solution;
-        // at absent nodes the gap is infinite
-        let fields =
-            [("gap", gap, report.absent_nodes), ("pressure", pressure, 0), ("contact pressure", contact_pressure, 0)];
-        for (name, field, absent) in fields {
-            let count = grid.total(field.iter().filter(|value| !value.is_finite()).count());
-            if count != absent {
-                let (iterations, nodes) = (report.iterations, grid.nodes());
-                return Err(Self { iterations, precision: T::NAME, field: name, count, nodes });
-            }
+/// Refuses a solution of a solve that has run away.
+///
+/// # Errors
+/// The first field that is not finite, in words to which a remedy may be added.
+pub fn check_finite<T: Real>(solution: &Solution<T>) -> std::result::Result<(), String> {
+    let Solution { gap, pressure, contact_pressure, grid, report, .. } = solution;
+    // at absent nodes the gap is infinite
+    let fields =
+        [("gap", gap, report.absent_nodes), ("pressure", pressure, 0), ("contact pressure", contact_pressure, 0)];
+    for (name, field, absent) in fields {
+        let count = grid.total(field.iter().filter(|value| !value.is_finite()).count());
+        if count != absent {
+            return Err(format!(
+                "the solve ran away: after {} iterations in {} the {name} is not finite at {count} of {} nodes",
+                report.iterations,
+                T::NAME,
+                grid.nodes()
+            ));
         }
-        Ok(())
     }
+    Ok(())
 }
-
-impl fmt::Display for RanAway {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { iterations, precision, field, count, nodes } = self;
-        write!(
-            f,
-            "the solve ran away: after {iterations} iterations in {precision} the {field} is not finite at {count} of \
-             {nodes} nodes"
-        )
-    }
-}
-
-impl std::error::Error for RanAway {}

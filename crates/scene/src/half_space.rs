@@ -1,7 +1,5 @@
 //! The elastic half-space, and its boundary.
 
-use std::fmt;
-
 use asperity::{Boussinesq, Control, ElasticOperator, Grid, Real, Result, Surface, Westergaard};
 use asperity_maps::io::check_memory;
 use asperity_maps::warning::{Warning, WarningCode};
@@ -48,15 +46,6 @@ impl Boundary {
     }
 }
 
-impl fmt::Display for Boundary {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Periodic => "periodic",
-            Self::Free => "free",
-        })
-    }
-}
-
 /// The elastic half-space.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HalfSpace {
@@ -80,5 +69,19 @@ impl HalfSpace {
             Boundary::Periodic => Box::new(Westergaard::new(grid, self.modulus)?),
             Boundary::Free => Box::new(Boussinesq::new(grid, self.modulus)?),
         })
+    }
+
+    /// The pressure E* h'rms, of which a reduced pressure is a part.
+    ///
+    /// # Errors
+    /// The reason why a surface with absent nodes has none, and a remedy.
+    pub fn full_pressure(self, surface: &Surface) -> std::result::Result<f64, String> {
+        match surface.absent_nodes() {
+            0 => Ok(self.modulus * surface.statistics().rms_slope),
+            absent => Err(format!(
+                "a reduced pressure is over the rms slope, but {absent} nodes are absent, which have no slope: give a \
+                 pressure"
+            )),
+        }
     }
 }

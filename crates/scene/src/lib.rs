@@ -16,7 +16,7 @@ mod wall;
 pub use account::{Account, Adhesion, Inputs};
 pub use accuracy::{GIB, Goal};
 pub use entries::{GridErrors, GridLevel, Left, OtherBranch, Reached, Search, Steadiness};
-pub use found::{Found, RanAway, Sight, warnings_of};
+pub use found::{Found, Sight, check_finite, warnings_of};
 pub use half_space::{Boundary, HalfSpace};
 pub use law::tabulated;
 pub use posed::{AnyProblem, Asked, Observe, Posed};

@@ -108,6 +108,15 @@ impl<T: Real> Posed<T> {
         }
     }
 
+    /// The pressure of which a reduced pressure is a part, before the first solve.
+    ///
+    /// # Errors
+    /// Those of [`HalfSpace::full_pressure`].
+    pub fn full_pressure(&self) -> std::result::Result<f64, String> {
+        let Body::Surface(surface) = &self.body else { return Err(spent().to_string()) };
+        self.half_space.full_pressure(surface)
+    }
+
     /// The plan of a solve to an accuracy, and the seconds that it is likely to take.
     ///
     /// # Errors

@@ -1,7 +1,5 @@
 //! The wall between the surfaces.
 
-use std::fmt;
-
 use asperity::{ContactConstraint, NoWall, Projection, Real};
 use serde::{Deserialize, Serialize};
 
@@ -26,14 +24,5 @@ impl<T: Real> ContactConstraint<T> for Wall {
     }
     fn takes_slabs(&self) -> bool {
         true
-    }
-}
-
-impl fmt::Display for Wall {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Hard => "hard",
-            Self::None => "none",
-        })
     }
 }

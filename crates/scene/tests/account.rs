@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use asperity::accuracy::Quantity;
 use asperity::{Control, Exponential, Grid, Method, SelfAffine, Settings, Solver};
-use asperity_scene::{Account, Adhesion, Asked, Boundary, Found, Goal, HalfSpace, Inputs, Posed, RanAway, Wall};
+use asperity_scene::{Account, Adhesion, Asked, Boundary, Found, Goal, HalfSpace, Inputs, Posed, Wall, check_finite};
 use serde_json::{Value, json};
 
 /// The keys of a report, in their order.
@@ -147,9 +147,9 @@ fn a_contact_fraction_is_searched_for_and_an_observer_ends_a_solve() {
 #[test]
 fn fields_that_are_not_finite_are_refused() {
     let (mut found, _) = solved(&Asked::under(Control::MeanPressure(0.01)));
-    RanAway::check(&found.solution).unwrap();
+    check_finite(&found.solution).unwrap();
     found.solution.pressure[(3, 4)] = f64::NAN;
-    let told = RanAway::check(&found.solution).unwrap_err().to_string();
+    let told = check_finite(&found.solution).unwrap_err();
     assert!(
         told.starts_with("the solve ran away") && told.ends_with("the pressure is not finite at 1 of 1024 nodes"),
         "{told}"
