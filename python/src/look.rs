@@ -51,13 +51,15 @@ impl<T: Scalar> Looks for Seen<T> {
     fn look<'py>(&self, py: Python<'py>) -> PyResult<(Statistics<'py>, Bound<'py, PyAny>)> {
         let fields = self.fields.each_ref().map(|field| field.bind(py).readonly());
         let fields = fields.each_ref().map(|field| field.as_array());
+        let pool = Pool::of(self.threads)?;
         let look = || {
+            // not on a thread of the pool, which may take up another look while it waits in this one
             let mut seen = self.seen.lock().unwrap_or_else(PoisonError::into_inner);
             let (sight, account) = &mut *seen;
-            sight.look(account, fields).map(|found| (found, account.clone()))
+            let found = pool.get().install(|| sight.look(account, fields))?;
+            Ok((found, account.clone()))
         };
-        let pool = Pool::of(self.threads)?;
-        let (found, account) = py.detach(|| pool.get().install(look)).map_err(refusal)?;
+        let (found, account) = py.detach(look).map_err(refusal)?;
         Ok((statistics_of(py, found), to_pyobject(py, &account)?))
     }
 }
