@@ -18,7 +18,7 @@ use crate::told::Told;
 pub struct Found<T> {
     /// The solution, on all nodes that were solved.
     pub solution: Solution<T>,
-    /// The sight of the solution.
+    /// The law and the grids of the solution, for a look at its fields.
     pub sight: Sight<T>,
     /// The nested grids, if they were used.
     pub levels: Option<Vec<Level>>,
